@@ -55,6 +55,8 @@ typedef struct Kernel {
                       ProbeAnswers *out, PathStatistics *statistics);
     void (*ask_suns)(const ProbeAim *aim, const ProbeSuns *suns, int first, int end,
                      ProbeAnswers *out, PathStatistics *statistics);
+    void (*ask_images)(const ProbeAim *aim, int first, int end, const ProbeImages *images,
+                       PathStatistics *statistics);
 } Kernel;
 
 /* isa: a name from above, or NULL for the best that this processor and program have. Fails,

@@ -157,7 +157,7 @@ void probe_ask_cells(const ProbeAim *aim, const ProbeCells *cells, int first, in
                      ProbeAnswers *out, PathStatistics *statistics)
 {
     CellSums to = {cells, out->sums};
-    PathFar  far = {out->towards, cells->asked_count, add_cell, add_escaped_cell, &to};
+    PathFar  far = {out->towards, cells->asked_count, add_cell, add_escaped_cell, NULL, &to};
     for (int path = first; path < end; path++) {
         draw_cells(aim, cells, path, out->towards);
         ask(aim, path, &far, statistics);
@@ -207,7 +207,7 @@ void probe_ask_suns(const ProbeAim *aim, const ProbeSuns *suns, int first, int e
 {
     SunSums     to = {suns, out->sums, 1 / (2 * PI_F * (1 - suns->cos_radius))};
     int         count = suns->by_mirror ? 0 : suns->count;
-    PathFar     far = {out->towards, count, add_sun, add_escaped_sun, &to};
+    PathFar     far = {out->towards, count, add_sun, add_escaped_sun, NULL, &to};
     PathContext once = *aim->context;
     ProbeAim    direct = *aim;
     once.max_bounces = 1;
@@ -216,4 +216,38 @@ void probe_ask_suns(const ProbeAim *aim, const ProbeSuns *suns, int first, int e
         if (!suns->by_mirror) draw_suns(aim, suns, path, out->towards);
         ask(&direct, path, &far, statistics);
     }
+}
+
+/* ---- mirror images ----------------------------------------------------------------------- */
+
+#define IMAGE_BOUNCES 4
+
+/* The part of the first mirror on the way; NO_ID: there is none, or something scattered. */
+static int mirror_of(const PathTale *tale)
+{
+    int part_id = NO_ID;
+    for (int i = tale->count - 1; i >= 0; i--) {
+        if (tale->step[i].event == PATH_SCATTERS) return NO_ID;
+        if (tale->step[i].event == PATH_REFLECTS) part_id = tale->step[i].part_id;
+    }
+    return part_id;
+}
+
+static void add_image(void *user, const PathTale *tale, Vec3 direction, const float *share)
+{
+    const ProbeImages *images = user;
+    int                part_id = mirror_of(tale);
+    if (part_id != NO_ID) images->found(images->user, part_id, direction, share);
+}
+
+void probe_ask_images(const ProbeAim *aim, int first, int end, const ProbeImages *images,
+                      PathStatistics *statistics)
+{
+    ProbeImages listener = *images;
+    PathFar     far = {NULL, 0, NULL, NULL, add_image, &listener};
+    PathContext once = *aim->context;
+    ProbeAim    direct = *aim;
+    once.max_bounces = IMAGE_BOUNCES;
+    direct.context = &once;
+    for (int path = first; path < end; path++) ask(&direct, path, &far, statistics);
 }

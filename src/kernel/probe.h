@@ -77,3 +77,17 @@ typedef struct ProbeSuns {
  * irradiance of 1 on a plane that faces the sun. */
 void probe_ask_suns(const ProbeAim *aim, const ProbeSuns *suns, int first, int end,
                     ProbeAnswers *out, PathStatistics *statistics);
+
+/* ---- mirror images ----------------------------------------------------------------------- */
+
+/* Is told of each way from the eye to far away that goes by smooth surfaces alone and turns
+ * back at one of them at least: the part of the first such, where it leads to (unit, world),
+ * which share of the radiance from there comes to the eye, per lane. */
+typedef struct ProbeImages {
+    void (*found)(void *user, int part_id, Vec3 direction, const float *share);
+    void  *user;
+} ProbeImages;
+
+/* HOT. Of paths [first, end) of an eye. */
+void probe_ask_images(const ProbeAim *aim, int first, int end, const ProbeImages *images,
+                      PathStatistics *statistics);

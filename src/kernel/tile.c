@@ -175,4 +175,4 @@ static void lesson_try_lights(const LessonJob *job, uint32_t cell, PathStatistic
 extern const Kernel KERNEL_NAME;
 const Kernel KERNEL_NAME = {KERNEL_ISA, tile_render, lesson_find_places, lesson_learn,
                             lesson_try_lights, probe_look, probe_hear, probe_ask_cells,
-                            probe_ask_suns};
+                            probe_ask_suns, probe_ask_images};

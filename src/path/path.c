@@ -154,9 +154,11 @@ static void tell_sky(PathWalk *walk, Spectrum *radiance)
 /* Vertices that scatter have asked for themselves. */
 static void tell_escape(const PathWalk *walk)
 {
-    if (walk->last_is_delta)
-        walk->far->add_escaped(walk->far->user, walk->ray.direction, walk->bounce,
-                               (const float *)&walk->throughput);
+    const PathFar *far = walk->far;
+    const float   *share = (const float *)&walk->throughput;
+    if (!walk->last_is_delta) return;
+    if (far->add_image) far->add_image(far->user, walk->tale, walk->ray.direction, share);
+    else far->add_escaped(far->user, walk->ray.direction, walk->bounce, share);
 }
 
 static void add_distant(PathWalk *walk)
@@ -806,9 +808,11 @@ void path_ask_far(const PathContext *context, Ray ray, const Wavelengths *wavele
                   Sampler *sampler, const PathFar *far, PathStatistics *statistics)
 {
     WalkRoom room;
+    PathTale tale = {.towards = ray.direction, .pane_id = NO_ID};
     PathWalk walk = walk_start(context, wavelengths, sampler, statistics, &room);
     walk.ray = ray;
     walk.far = far;
+    if (far->add_image) walk.tale = &tale;
     walk_path(&walk);
 }
 

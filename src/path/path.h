@@ -106,6 +106,8 @@ typedef struct PathFar {
     /* Paths that leave by a mirror or straight on, after `bounce` vertices: share of the
      * radiance from there. */
     void (*add_escaped)(void *user, Vec3 direction, int bounce, const float *share);
+    /* Of a ray: what leaves so is told here instead, with the surfaces on its way; or NULL. */
+    void (*add_image)(void *user, const PathTale *tale, Vec3 direction, const float *share);
     void *user;
 } PathFar;
 

@@ -104,6 +104,22 @@ typedef struct ReviewSweep {
     const char *table;                   /* "sweeps/NAME.csv" */
 } ReviewSweep;
 
+/* The sun as one mirror throws it into one eye, over the suns of a sweep. */
+typedef struct ReviewFalseSun {
+    const char *condition, *eye;
+    const char *mirror;        /* node and material */
+    double      share;         /* of the time (of a sweep without times: of the suns) */
+    double      minutes;       /* all headings together; NaN: the sweep has no times */
+    double      longest_minutes; /* at a stretch, under one heading; NaN likewise */
+    /* the worst of them: */
+    const char *when;          /* date, time, heading; NULL: the sweep has no times */
+    double      sun_azimuth_deg, sun_elevation_deg; /* of the vehicle */
+    double      lux;           /* at the eye, on a plane that faces the image */
+    const char *gaze;          /* where the eye looks: a symbol's name or a gaze's */
+    double      angle_deg;     /* from there to the image */
+    double      veil_cd_m2;    /* that it lays over what is looked at */
+} ReviewFalseSun;
+
 typedef struct ReviewResponse {
     const char *probe;
     long        paths;
@@ -119,6 +135,8 @@ typedef struct Review {
     int             sweep_count;
     ReviewResponse *responses;
     int             response_count;
+    ReviewFalseSun *false_suns;   /* by condition and eye, the worst first */
+    int             false_sun_count;
     const char *const *notes;     /* what a reader must know: approximations, gaps in data */
     int             note_count;
     bool            pass;         /* nothing fails; strict: nor is too close or not visible */

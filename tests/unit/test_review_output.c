@@ -151,6 +151,23 @@ static void assert_same_case(const ReviewCase *a, const ReviewCase *b)
     assert_same_lists(a, b);
 }
 
+static void assert_same_false_sun(const ReviewFalseSun *a, const ReviewFalseSun *b)
+{
+    assert_same_text(a->condition, b->condition);
+    assert_same_text(a->eye, b->eye);
+    assert_same_text(a->mirror, b->mirror);
+    assert_same_text(a->when, b->when);
+    assert_same_text(a->gaze, b->gaze);
+    assert_same(a->share, b->share);
+    assert_same(a->minutes, b->minutes);
+    assert_same(a->longest_minutes, b->longest_minutes);
+    assert_same(a->sun_azimuth_deg, b->sun_azimuth_deg);
+    assert_same(a->sun_elevation_deg, b->sun_elevation_deg);
+    assert_same(a->lux, b->lux);
+    assert_same(a->angle_deg, b->angle_deg);
+    assert_same(a->veil_cd_m2, b->veil_cd_m2);
+}
+
 static void assert_same_review(const Review *a, const Review *b)
 {
     assert_same_text(a->title, b->title);
@@ -173,6 +190,9 @@ static void assert_same_review(const Review *a, const Review *b)
         assert_same(a->sweeps[i].longest_failure_minutes, b->sweeps[i].longest_failure_minutes);
         assert_same_case(&a->sweeps[i].worst, &b->sweeps[i].worst);
     }
+    assert_int_equal(a->false_sun_count, b->false_sun_count);
+    for (int i = 0; i < a->false_sun_count; i++)
+        assert_same_false_sun(&a->false_suns[i], &b->false_suns[i]);
     for (int i = 0; i < a->response_count; i++) {
         assert_same_text(a->responses[i].probe, b->responses[i].probe);
         assert_int_equal(a->responses[i].paths, b->responses[i].paths);
@@ -294,8 +314,11 @@ TEST(every_key_is_wanted)
         count += assert_keys_are_wanted(root, json_array_get(json_object_get(c, LISTS[i]), 1));
     json_t *sweep = json_array_get(json_object_get(root, "sweeps"), 1);
     json_t *response = json_array_get(json_object_get(root, "responses"), 0);
+    json_t *image = json_array_get(json_object_get(root, "false_suns"), 0);
     count += assert_keys_are_wanted(root, sweep) + assert_keys_are_wanted(root, response);
-    assert_int_equal(count, 8 + 27 + 2 + 6 + 12 + 4 + 3 + 8 + 4);
+    count += assert_keys_are_wanted(root, image);
+    count += assert_keys_are_wanted(root, json_object_get(image, "sun"));
+    assert_int_equal(count, 9 + 27 + 2 + 6 + 12 + 4 + 3 + 8 + 4 + 12 + 2);
     json_decref(root);
 }
 
@@ -368,6 +391,30 @@ TEST(csv_says_the_same)
     assert_csv_says(&odd);
     assert_csv_says(&plain);
     assert_csv_says(&none);
+}
+
+TEST(csv_tells_every_false_sun)
+{
+    (void)state;
+    Review reviews[] = {fixture_odd_review(&arena), fixture_review(&arena)};
+    const char *cell[CSV_COLUMNS];
+    int count = 0;
+    for (int k = 0; k < 2; k++) {
+        Error err = {0};
+        const char *path = fresh_name();
+        assert_true(review_csv_write_false_suns(&reviews[k], path, &err));
+        const char *at = read_record(take(path), cell, &count);
+        for (int i = 0; i < reviews[k].false_sun_count; i++) {
+            const ReviewFalseSun *f = &reviews[k].false_suns[i];
+            at = read_record(at, cell, &count);
+            assert_true(count == 13 && !strcmp(cell[2], f->mirror));
+            assert_same(f->minutes, number_of(cell[4]));
+            assert_string_equal(cell[6], f->when ? f->when : "");
+            assert_same(f->lux, number_of(cell[9]));
+            assert_same(f->veil_cd_m2, number_of(cell[12]));
+        }
+        assert_int_equal(*at, 0);
+    }
 }
 
 /* ---- JUnit ------------------------------------------------------------------------------ */

@@ -155,6 +155,11 @@ static inline Review fixture_review(Arena *arena)
     static const char *const NOTES[] = {
         "The panel was measured up to 70°; beyond it values are extrapolated.",
         "Limits are those commonly quoted; the standard itself was not read for all of them."};
+    static ReviewFalseSun false_suns[] = {
+        {"a year", "driver", "ring (chrome)", 0.0003, 640, 4,
+         "2026-10-03 06:42 UTC, heading 90 degrees", 181.5, 12.25, 31000, "speed", 24.5, 410},
+        {"any sun", "driver", "glass Windscreen", 0.02, NAN, NAN, NULL, 170, 21, 7000, "road",
+         14, 260}};
     static ReviewResponse responses[] = {{"speed, driver: reflected", 1200000, 4200000, 0.004},
                                          {"speed, driver: veil", 400000, 310000, 0.011}};
     Review review = {.title = "Cluster and centre display",
@@ -162,6 +167,7 @@ static inline Review fixture_review(Arena *arena)
                      .cases = ARENA_NEW(arena, ReviewCase, 24), .case_count = 24,
                      .sweeps = ARENA_NEW(arena, ReviewSweep, 2), .sweep_count = 2,
                      .responses = responses, .response_count = 2,
+                     .false_suns = false_suns, .false_sun_count = 2,
                      .notes = NOTES, .note_count = 2};
     for (int i = 0; i < 24; i++)
         review.cases[i] = fixture_case(arena, &FIXTURE_LIGHTS[i % 4], EYES[i / 12],
@@ -192,6 +198,9 @@ static inline Review fixture_odd_review(Arena *arena)
     static const CaseCause  CAUSES[] = {{CHAIN, 3, NAN, NAN, NAN, NAN}, {CHAIN, 0, 1, 0, 0, 0}};
     static const CaseRemedy REMEDIES[] = {{WILD_NAME, NAN, NAN}, {"", 3, 4}};
     static ReviewResponse   responses[] = {{WILD_NAME, 0, 0, NAN}};
+    static ReviewFalseSun   false_suns[] = {
+        {WILD_NAME, WILD_NAME, WILD_NAME, NAN, NAN, NAN, NULL, 0, -1, 1e9, WILD_NAME, 0.1,
+         3e7}};
     ReviewCase wild = {.condition = WILD_NAME, .eye = WILD_NAME, .symbol = WILD_NAME,
                        .display = WILD_NAME, .ambient = AMBIENT_TWILIGHT, .has_sun = true,
                        .sun_azimuth_deg = -1e-7, .sun_elevation_deg = NAN,
@@ -213,7 +222,8 @@ static inline Review fixture_odd_review(Arena *arena)
     Review review = {.title = WILD_NAME, .profile = WILD_NAME,
                      .cases = ARENA_NEW(arena, ReviewCase, 2), .case_count = 2,
                      .sweeps = ARENA_NEW(arena, ReviewSweep, 1), .sweep_count = 1,
-                     .responses = responses, .response_count = 1, .notes = NOTES,
+                     .responses = responses, .response_count = 1,
+                     .false_suns = false_suns, .false_sun_count = 1, .notes = NOTES,
                      .note_count = 2, .is_strict = true};
     review.cases[0] = wild;
     review.cases[1] = bare;

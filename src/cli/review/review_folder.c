@@ -177,6 +177,9 @@ bool review_folder_write(const ReviewFolder *folder, ReviewOutcome *outcome, Are
     const Review *review = &outcome->review;
     return write_tables(folder, outcome, arena, err) &&
            review_csv_write(review, arena_format(arena, "%s/cases.csv", folder->name), err) &&
+           (!review->false_sun_count ||
+            review_csv_write_false_suns(
+                review, arena_format(arena, "%s/false_suns.csv", folder->name), err)) &&
            review_junit_write(review, arena_format(arena, "%s/junit.xml", folder->name), err) &&
            review_json_write(review_json(review),
                              arena_format(arena, "%s/review.json", folder->name), err) &&

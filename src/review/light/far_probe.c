@@ -58,7 +58,7 @@ static int row_of(const SkyTable *table, double elevation_deg, double *share)
 
 /* Light falls off by powers of the air mass: between two rows that both have some it is the
  * logarithm that is linear. */
-static void sky_table_sun(const SkyTable *table, double elevation_deg, float bands[LIGHT_BANDS])
+void sky_table_sun(const SkyTable *table, double elevation_deg, float bands[LIGHT_BANDS])
 {
     double share;
     int    row = row_of(table, elevation_deg, &share), next = row + (share > 0);

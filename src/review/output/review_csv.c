@@ -5,6 +5,8 @@
 
 #include "text/text.h"
 
+/* ---- cells ------------------------------------------------------------------------------- */
+
 /* RFC 4180: a cell with a comma, a quote or a line's end stands in quotes, quotes doubled. */
 static void add_text(Text *csv, const char *text)
 {
@@ -28,6 +30,8 @@ static void add_numbers(Text *csv, const double *values, int count)
 {
     for (int i = 0; i < count; i++) add_number(csv, values[i]);
 }
+
+/* ---- cases ------------------------------------------------------------------------------- */
 
 static const char HEADER[] =
     "condition,eye,symbol,display,ambient,sun_azimuth_deg,sun_elevation_deg,foreground_cd_m2,"
@@ -90,6 +94,37 @@ bool review_csv_write(const Review *review, const char *path, Error *err)
     for (int i = 0; i < review->case_count; i++) add_case(&csv, &review->cases[i], scratch);
     bool ok = text_write(&csv, path, err);
     arena_release(&scratch);
+    arena_release(&arena);
+    return ok;
+}
+
+/* ---- false suns -------------------------------------------------------------------------- */
+
+static const char FALSE_SUNS_HEADER[] =
+    "condition,eye,mirror,share,minutes,longest_minutes,when,vehicle_azimuth_deg,"
+    "sun_elevation_deg,eye_lx,gaze,angle_deg,veil_cd_m2\r\n";
+
+static void add_false_sun(Text *csv, const ReviewFalseSun *f)
+{
+    add_text(csv, f->condition);
+    add_text(csv, f->eye);
+    add_text(csv, f->mirror);
+    add_numbers(csv, (double[]){f->share, f->minutes, f->longest_minutes}, 3);
+    add_text(csv, f->when);
+    add_numbers(csv, (double[]){f->sun_azimuth_deg, f->sun_elevation_deg, f->lux}, 3);
+    add_text(csv, f->gaze);
+    add_number(csv, f->angle_deg);
+    text_format(csv, "%.6g\r\n", f->veil_cd_m2);
+}
+
+bool review_csv_write_false_suns(const Review *review, const char *path, Error *err)
+{
+    Arena arena = arena_reserve((size_t)1 << 28);
+    Text  csv = {.arena = &arena};
+    text_add(&csv, FALSE_SUNS_HEADER);
+    for (int i = 0; i < review->false_sun_count; i++)
+        add_false_sun(&csv, &review->false_suns[i]);
+    bool ok = text_write(&csv, path, err);
     arena_release(&arena);
     return ok;
 }

@@ -9,3 +9,6 @@
 #include "review/verdict.h"
 
 bool review_csv_write(const Review *review, const char *path, Error *err);
+
+/* The same of its false suns, one row a condition, eye and mirror. */
+bool review_csv_write_false_suns(const Review *review, const char *path, Error *err);

@@ -147,6 +147,27 @@ static json_t *responses_json(const Review *review)
     return list;
 }
 
+static json_t *false_suns_json(const Review *review)
+{
+    json_t *list = json_array();
+    for (int i = 0; i < review->false_sun_count; i++) {
+        const ReviewFalseSun *f = &review->false_suns[i];
+        json_t *out = json_pack("{s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "condition",
+                                text(f->condition), "eye", text(f->eye), "mirror",
+                                text(f->mirror), "share", json_figure(f->share), "minutes",
+                                json_figure(f->minutes), "longest_minutes",
+                                json_figure(f->longest_minutes), "when", text(f->when));
+        set(out, "sun", json_pack("{s:o, s:o}", "azimuth_deg", json_figure(f->sun_azimuth_deg),
+                                  "elevation_deg", json_figure(f->sun_elevation_deg)));
+        set(out, "lux", json_figure(f->lux));
+        set(out, "gaze", text(f->gaze));
+        set(out, "angle_deg", json_figure(f->angle_deg));
+        set(out, "veil_cd_m2", json_figure(f->veil_cd_m2));
+        json_array_append_new(list, out);
+    }
+    return list;
+}
+
 static json_t *cases_json(const Review *review)
 {
     json_t *list = json_array();
@@ -157,11 +178,14 @@ static json_t *cases_json(const Review *review)
 
 json_t *review_json(const Review *review)
 {
-    return json_pack("{s:b, s:b, s:o, s:o, s:o, s:o, s:o, s:o}", "pass", review->pass, "strict",
-                     review->is_strict, "title", text(review->title), "profile",
-                     text(review->profile), "cases", cases_json(review), "sweeps",
-                     sweeps_json(review), "responses", responses_json(review), "notes",
-                     json_texts(review->notes, review->note_count));
+    json_t *out = json_pack("{s:b, s:b, s:o, s:o, s:o, s:o}", "pass", review->pass, "strict",
+                            review->is_strict, "title", text(review->title), "profile",
+                            text(review->profile), "cases", cases_json(review), "sweeps",
+                            sweeps_json(review));
+    set(out, "false_suns", false_suns_json(review));
+    set(out, "responses", responses_json(review));
+    set(out, "notes", json_texts(review->notes, review->note_count));
+    return out;
 }
 
 bool review_json_write(json_t *document, const char *path, Error *err)

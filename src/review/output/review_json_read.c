@@ -304,10 +304,28 @@ static bool read_response(const JsonView *view, void *item, Error *err)
     return true;
 }
 
+static bool read_false_sun(const JsonView *view, void *item, Error *err)
+{
+    ReviewFalseSun *f = item;
+    JsonView        sun;
+    return read_text(view, "condition", &f->condition, err) &&
+           read_text(view, "eye", &f->eye, err) && read_text(view, "mirror", &f->mirror, err) &&
+           read_number(view, "share", &f->share, err) &&
+           read_number(view, "minutes", &f->minutes, err) &&
+           read_number(view, "longest_minutes", &f->longest_minutes, err) &&
+           read_text(view, "when", &f->when, err) &&
+           json_view_child(view, "sun", true, &sun, err) &&
+           read_number(&sun, "azimuth_deg", &f->sun_azimuth_deg, err) &&
+           read_number(&sun, "elevation_deg", &f->sun_elevation_deg, err) &&
+           read_number(view, "lux", &f->lux, err) && read_text(view, "gaze", &f->gaze, err) &&
+           read_number(view, "angle_deg", &f->angle_deg, err) &&
+           read_number(view, "veil_cd_m2", &f->veil_cd_m2, err);
+}
+
 static bool read_review(const JsonView *root, Review *out, Error *err)
 {
     Review review = {0};
-    void  *cases, *sweeps, *responses;
+    void  *cases, *sweeps, *responses, *false_suns;
     if (!read_flag(root, "pass", &review.pass, err) ||
         !read_flag(root, "strict", &review.is_strict, err) ||
         !read_text(root, "title", &review.title, err) ||
@@ -318,11 +336,14 @@ static bool read_review(const JsonView *root, Review *out, Error *err)
                    &review.sweep_count, err) ||
         !read_list(root, "responses", ITEM(read_response, ReviewResponse), &responses,
                    &review.response_count, err) ||
+        !read_list(root, "false_suns", ITEM(read_false_sun, ReviewFalseSun), &false_suns,
+                   &review.false_sun_count, err) ||
         !read_texts(root, "notes", &review.notes, &review.note_count, err))
         return false;
     review.cases = cases;
     review.sweeps = sweeps;
     review.responses = responses;
+    review.false_suns = false_suns;
     *out = review;
     return true;
 }

@@ -4,6 +4,7 @@
 
 #include "page/page.h"
 #include "review/output/review_decide.h"
+#include "review/output/review_false_suns.h"
 #include "review/output/review_table.h"
 #include "review/output/review_words.h"
 #include "text/escape.h"
@@ -302,6 +303,8 @@ static void add_glossary(Text *html)
                       "mirror's direction."},
         {"veil", "light from elsewhere that the eye itself scatters over what it looks at; it "
                  "grows with age."},
+        {"the sun in mirrors", "an image of the sun in something smooth. The eye sees it as "
+                               "bright as the sun itself, less what the mirror takes."},
         {"arc minute", "a sixtieth of a degree: how large something looks. A coin of 2 cm is "
                        "14 arc minutes at 5 m."},
         {"glare probability, glare rating", "how much light disturbs, by formulas that were "
@@ -327,6 +330,7 @@ static bool add_page(Text *html, const ReviewPage *page, Arena *arena, Error *er
     add_diff(html, page, arena);
     add_notes(html, page->review);
     if (!add_cases(html, page, arena, err) || !add_sweeps(html, page, arena, err)) return false;
+    review_false_suns_add(html, page->review, arena);
     add_provenance(html, page, arena);
     add_glossary(html);
     page_end(html, "review", (const char *const[]){REVIEW_SCRIPT, NULL});

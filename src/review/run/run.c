@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "review/run/cases.h"
+#include "review/run/false_sun_times.h"
 #include "review/run/frames.h"
 #include "review/output/review_decide.h"
 #include "review/request/request_check.h"
@@ -17,6 +18,11 @@ static int most_cases(const ReviewRequest *request)
 {
     return request->condition_count * request->eye_count * request->symbol_count *
            SYMBOLS_FOUND_MOST;
+}
+
+static int most_false_suns(const ReviewRequest *request)
+{
+    return request->condition_count * request->eye_count * FALSE_SUNS_TOLD;
 }
 
 /* Names of symbols that were found live in the stage's memory. */
@@ -291,7 +297,9 @@ bool review_run(const ReviewRun *run, Arena *arena, ReviewOutcome *out, Error *e
                                                    run->profile->edition),
                            .cases = ARENA_NEW(arena, ReviewCase, most),
                            .sweeps = ARENA_NEW(arena, ReviewSweep, most),
-                           .responses = ARENA_NEW(arena, ReviewResponse, most)};
+                           .responses = ARENA_NEW(arena, ReviewResponse, most),
+                           .false_suns = ARENA_NEW(arena, ReviewFalseSun,
+                                                   most_false_suns(request))};
     if (!run_conditions(run, arena, out, err)) return false;
     add_notes(request, &out->review, arena);
     review_decide(&out->review);

@@ -6,6 +6,7 @@
 #include "base/parallel.h"
 #include "base/units.h"
 #include "review/judge.h"
+#include "review/run/false_sun_times.h"
 #include "review/run/sweep_probes.h"
 
 #define SWEEP_BYTES ((size_t)1 << 36) /* address space: what is not touched costs nothing */
@@ -226,21 +227,8 @@ static bool read_worst(Telling *to, const Sight *sight, const SweepSun *sun, Rev
 /* Azimuths of a sweep's worst are the vehicle's, as those of its map are. */
 static void tell_when(const Telling *to, const SweepSun *sun, ReviewCase *c)
 {
-    const ReviewCondition *condition = to->sweep->stage->condition;
     c->sun_azimuth_deg = fmod(sun->azimuth_deg + 360, 360);
-    if (condition->kind == CONDITION_YEAR_SWEEP) {
-        SkyTime start = {.year = condition->year, .month = 1, .day = 1};
-        SkyTime when =
-            sky_time_later(start, (sun->step + 0.5) * condition->step_minutes * 60);
-        c->when = arena_format(to->arena, "%d-%02d-%02d %02d:%02d UTC, heading %g degrees",
-                               when.year, when.month, when.day, when.hour, when.minute,
-                               sun->heading_deg);
-    } else if (condition->kind == CONDITION_ROUTE) {
-        const SkyTime *when = &condition->route.points[sun->step].when;
-        c->when = arena_format(to->arena, "%d-%02d-%02d %02d:%02d, heading %.0f degrees",
-                               when->year, when->month, when->day, when->hour, when->minute,
-                               sun->heading_deg);
-    }
+    c->when = sweep_suns_when(to->sweep->stage->condition, to->suns, sun, to->arena);
 }
 
 static ReviewSweep sweep_of(const Telling *to, const Sight *sight)
@@ -334,6 +322,7 @@ static bool sweep_condition(Sweep *sweep, Arena scratch, Arena *arena, ReviewOut
     SweepSuns *suns = ARENA_NEW(arena, SweepSuns, 1);
     *suns = sweep->suns;
     Telling to = {sweep, &tools, suns, out, arena, scratch};
+    false_sun_times(sweep, scratch, arena, &out->review);
     for (int i = 0; i < sweep->sight_count; i++) {
         tell_response(sweep, &sweep->sights[i], arena, &out->review);
         if (!add_sweep(&to, &sweep->sights[i], err)) return false;

@@ -1,6 +1,7 @@
 #include "review/run/sweep_probes.h"
 
 #include "base/progress.h"
+#include "base/units.h"
 
 #define RESPONSE_PATHS 4096
 #define RESPONSE_PRECISION 0.02
@@ -179,6 +180,29 @@ void sweep_ask_probes(Sweep *sweep, Arena *arena)
             far_probe_ask(&sweep->sights[i].probe, &tools, arena);
 }
 
+/* ---- the sun in mirrors ------------------------------------------------------------------ */
+
+static bool find_false_suns(Sweep *sweep, Arena *arena, Error *err)
+{
+    const ReviewRequest *request = sweep->run->request;
+    Daylight             sky;
+    DaylightInput        clear = daylight_input_default(DAYLIGHT_CLEAR);
+    float                bands[LIGHT_BANDS];
+    clear.has_sun = clear.no_moon = true;
+    clear.sun_elevation = radians_from_degrees(FALSE_SUN_ELEVATION_DEG);
+    clear.sun_lux = -1;
+    if (!daylight_build(&clear, arena, &sky, err)) return false;
+    light_bands_sun(&sky, bands);
+    sweep->false_suns = ARENA_NEW(arena, FalseSuns, request->eye_count);
+    for (int e = 0; e < request->eye_count; e++) {
+        Vec3 from;
+        if (!stage_eye_middle(sweep->stage, &request->eyes[e], *arena, &from, err))
+            return false;
+        false_suns_find(sweep->stage, from, bands, arena, &sweep->false_suns[e]);
+    }
+    return true;
+}
+
 /* ---- all of them ------------------------------------------------------------------------- */
 
 bool sweep_make_probes(Sweep *sweep, Arena *arena, Error *err)
@@ -193,5 +217,5 @@ bool sweep_make_probes(Sweep *sweep, Arena *arena, Error *err)
     if (!sweep_light_dark(stage, 1, arena, err)) return false;
     read_own(sweep, true, *arena);
     respond_all(sweep, arena);
-    return true;
+    return find_false_suns(sweep, arena, err);
 }

@@ -5,6 +5,7 @@
  * Threads  starts its own; the same figures for any count.
  */
 #pragma once
+#include "review/light/false_suns.h"
 #include "review/run/cases.h"
 #include "review/run/job.h"
 
@@ -40,6 +41,7 @@ typedef struct Sweep {
     SweepMeter        *sensors; /* one a level of the request; those of curves are used */
     Sight             *sights;
     int                sight_count;
+    FalseSuns         *false_suns; /* one an eye */
     /* of the condition in hand: */
     SweepSuns          suns;
     SkyTable           table;

@@ -90,3 +90,18 @@ SweepSuns sweep_suns(const ReviewCondition *c, Arena *arena)
         suns.angles[i] = (SunAngles){list.list[i].azimuth_deg, list.list[i].elevation_deg};
     return suns;
 }
+
+const char *sweep_suns_when(const ReviewCondition *condition, const SweepSuns *suns,
+                            const SweepSun *sun, Arena *arena)
+{
+    if (condition->kind == CONDITION_YEAR_SWEEP) {
+        SkyTime start = {.year = condition->year, .month = 1, .day = 1};
+        SkyTime when = sky_time_later(start, (sun->step + 0.5) * suns->step_minutes * 60);
+        return arena_format(arena, "%d-%02d-%02d %02d:%02d UTC, heading %g degrees", when.year,
+                            when.month, when.day, when.hour, when.minute, sun->heading_deg);
+    }
+    if (condition->kind != CONDITION_ROUTE) return NULL;
+    const SkyTime *when = &condition->route.points[sun->step].when;
+    return arena_format(arena, "%d-%02d-%02d %02d:%02d, heading %.0f degrees", when->year,
+                        when->month, when->day, when->hour, when->minute, sun->heading_deg);
+}

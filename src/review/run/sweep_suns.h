@@ -29,3 +29,7 @@ typedef struct SweepSuns {
 /* Those that are up, and with `with_night` all. A route's places differ; the air is that of the
  * first. */
 SweepSuns sweep_suns(const ReviewCondition *condition, Arena *arena);
+
+/* Date, time and heading of one of them; NULL: a sweep without times. */
+const char *sweep_suns_when(const ReviewCondition *condition, const SweepSuns *suns,
+                            const SweepSun *sun, Arena *arena);

@@ -1,0 +1,240 @@
+#include "review/run/false_sun_times.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/units.h"
+#include "vision/disability_glare.h"
+
+#define STEP_MINUTES 1
+#define STEP_DEG 0.25
+
+/* ---- where an eye looks ------------------------------------------------------------------ */
+
+typedef struct Gaze {
+    const char *name;
+    Vec3        direction; /* unit, world */
+} Gaze;
+
+typedef struct Gazes {
+    Gaze *list;
+    int   count;
+} Gazes;
+
+static void add_symbols(const Sweep *sweep, int eye_id, Gazes *to)
+{
+    for (int i = 0; i < sweep->symbol_count; i++) {
+        const Sight *sight = &sweep->sights[eye_id * sweep->symbol_count + i];
+        Vec3 middle = symbol_middle(sight->symbol).position;
+        to->list[to->count++] = (Gaze){
+            sight->symbol->name, vec3_normalize(vec3_sub(middle, sight->from))};
+    }
+}
+
+static Gazes gazes_of(const Sweep *sweep, int eye_id, Arena *arena)
+{
+    const ReviewRequest *request = sweep->run->request;
+    Gazes gazes = {ARENA_NEW(arena, Gaze, sweep->symbol_count + request->gaze_count), 0};
+    add_symbols(sweep, eye_id, &gazes);
+    for (int i = 0; i < request->gaze_count; i++) {
+        const ReviewGaze *gaze = &request->gazes[i];
+        const double     *d = gaze->direction;
+        if (!gaze->at_symbols && gaze->for_eye[eye_id])
+            gazes.list[gazes.count++] =
+                (Gaze){gaze->name, vec3((float)d[0], (float)d[1], (float)d[2])};
+    }
+    return gazes;
+}
+
+/* ---- one sun ----------------------------------------------------------------------------- */
+
+typedef struct Veil {
+    double cd_m2, angle_deg;
+    int    gaze_id;
+} Veil;
+
+/* The worst that a source does to any gaze. */
+static Veil worst_veil(const Gazes *gazes, HumanEye whose, Vec3 seen, double lux)
+{
+    Veil worst = {0, 0, NO_ID};
+    for (int i = 0; i < gazes->count; i++) {
+        double cosine = (double)vec3_dot(gazes->list[i].direction, seen);
+        double angle = degrees_from_radians(acos(fmin(fmax(cosine, -1), 1)));
+        if (!(cosine > 0)) continue;
+        double veil = lux * cosine *
+                      disability_glare(fmax(angle, DISABILITY_GLARE_MIN_DEG), whose);
+        if (veil > worst.cd_m2) worst = (Veil){veil, angle, i};
+    }
+    return worst;
+}
+
+/* What one mirror does to one eye. */
+typedef struct Tally {
+    int    part_id;
+    double minutes, suns, longest;
+    double run;       /* minutes at a stretch so far, */
+    int    run_step;  /* up to this step */
+    double run_heading;
+    Veil   worst;
+    double lux;
+    SweepSun sun;     /* of the worst */
+} Tally;
+
+#define TALLIES 256
+
+typedef struct Tallies {
+    Tally  list[TALLIES];
+    int    count;
+    double minutes, suns; /* that were asked */
+} Tallies;
+
+static Tally *tally_of(Tallies *all, int part_id)
+{
+    for (int i = 0; i < all->count; i++)
+        if (all->list[i].part_id == part_id) return &all->list[i];
+    if (all->count == TALLIES) return NULL;
+    all->list[all->count] = (Tally){.part_id = part_id, .run_step = -2};
+    return &all->list[all->count++];
+}
+
+static void add_run(Tally *tally, const SweepSun *sun)
+{
+    bool follows = tally->run_step + 1 == sun->step && tally->run_heading == sun->heading_deg;
+    tally->run = (follows ? tally->run : 0) + sun->minutes;
+    tally->run_step = sun->step;
+    tally->run_heading = sun->heading_deg;
+    tally->longest = fmax(tally->longest, tally->run);
+}
+
+typedef struct Watch {
+    const Sweep     *sweep;
+    const FalseSuns *images;
+    Gazes            gazes;
+    HumanEye         whose;
+    Tallies         *tallies;
+} Watch;
+
+static void watch_sun(const Watch *watch, const SweepSun *sun)
+{
+    const Stage *stage = watch->sweep->stage;
+    SunAngles    angles = {sun->azimuth_deg, sun->elevation_deg};
+    float        bands[LIGHT_BANDS];
+    double       lux = 0;
+    watch->tallies->minutes += sun->minutes;
+    watch->tallies->suns++;
+    if (sun->elevation_deg < -SUN_MEAN_RADIUS_DEG) return;
+    FalseSunSight sight = false_suns_at(watch->images, stage_direction(stage, angles));
+    if (!(sight.share > 0)) return;
+    sky_table_sun(&watch->sweep->table, sun->elevation_deg, bands);
+    for (int b = 0; b < LIGHT_BANDS; b++) lux += (double)bands[b];
+    Veil   veil = worst_veil(&watch->gazes, watch->whose, sight.seen, sight.share * lux);
+    Tally *tally = veil.cd_m2 >= FALSE_SUN_VEIL_CD_M2 ? tally_of(watch->tallies, sight.part_id)
+                                                      : NULL;
+    if (!tally) return;
+    tally->minutes += sun->minutes;
+    tally->suns++;
+    add_run(tally, sun);
+    if (veil.cd_m2 <= tally->worst.cd_m2) return;
+    tally->worst = veil;
+    tally->lux = sight.share * lux;
+    tally->sun = *sun;
+}
+
+/* ---- all suns ---------------------------------------------------------------------------- */
+
+static void narrow(ReviewRange *range)
+{
+    int parts = (int)ceil(range->step / STEP_DEG);
+    if (range->count < 2 || parts < 2) return;
+    range->count = (range->count - 1) * parts + 1;
+    range->step /= parts;
+}
+
+/* The same sweep in smaller steps, of the first heading alone: the sun's way is the same. */
+static SweepSuns closer_suns(const ReviewCondition *condition, Arena *arena)
+{
+    ReviewCondition closer = *condition;
+    if (condition->kind == CONDITION_YEAR_SWEEP) {
+        closer.step_minutes = fmin(STEP_MINUTES, condition->step_minutes);
+        closer.heading_count = 1;
+    }
+    narrow(&closer.azimuth_deg);
+    narrow(&closer.elevation_deg);
+    return sweep_suns(&closer, arena);
+}
+
+static void watch_heading(const Watch *watch, const SweepSuns *suns, const double *heading_deg)
+{
+    for (int i = 0; i < suns->count; i++) {
+        SweepSun sun = suns->list[i];
+        if (heading_deg) {
+            sun.heading_deg = *heading_deg;
+            sun.azimuth_deg = fmod(sun.compass_deg - *heading_deg + 720, 360);
+        }
+        watch_sun(watch, &sun);
+    }
+}
+
+static void watch_all(const Watch *watch, const SweepSuns *suns)
+{
+    const ReviewCondition *condition = watch->sweep->stage->condition;
+    if (condition->kind != CONDITION_YEAR_SWEEP) watch_heading(watch, suns, NULL);
+    else
+        for (int h = 0; h < condition->heading_count; h++)
+            watch_heading(watch, suns, &condition->headings_deg[h]);
+}
+
+/* ---- what is told ------------------------------------------------------------------------ */
+
+static int by_veil(const void *a, const void *b)
+{
+    const Tally *x = a, *y = b;
+    if (x->worst.cd_m2 != y->worst.cd_m2) return x->worst.cd_m2 > y->worst.cd_m2 ? -1 : 1;
+    return x->part_id - y->part_id;
+}
+
+static ReviewFalseSun told(const Watch *watch, const Tally *tally, const SweepSuns *suns,
+                           Arena *arena)
+{
+    const Stage *stage = watch->sweep->stage;
+    const Part  *part = &stage->scene->parts[tally->part_id];
+    bool         timed = suns->has_time;
+    double       all = timed ? watch->tallies->minutes : watch->tallies->suns;
+    return (ReviewFalseSun){
+        .condition = stage->condition->name,
+        .mirror = arena_format(arena, "%s (%s)", part->name,
+                               stage->scene->materials[part->material_id].name),
+        .share = (timed ? tally->minutes : tally->suns) / all,
+        .minutes = timed ? tally->minutes : (double)NAN,
+        .longest_minutes = timed ? tally->longest : (double)NAN,
+        .when = sweep_suns_when(stage->condition, suns, &tally->sun, arena),
+        .sun_azimuth_deg = fmod(tally->sun.azimuth_deg + 360, 360),
+        .sun_elevation_deg = tally->sun.elevation_deg, .lux = tally->lux,
+        .gaze = arena_format(arena, "%s", watch->gazes.list[tally->worst.gaze_id].name),
+        .angle_deg = tally->worst.angle_deg, .veil_cd_m2 = tally->worst.cd_m2};
+}
+
+static void tell(const Watch *watch, const ReviewEye *eye, const SweepSuns *suns, Arena *arena,
+                 Review *out)
+{
+    Tallies *all = watch->tallies;
+    qsort(all->list, (size_t)all->count, sizeof *all->list, by_veil);
+    for (int i = 0; i < all->count && i < FALSE_SUNS_TOLD; i++) {
+        out->false_suns[out->false_sun_count] = told(watch, &all->list[i], suns, arena);
+        out->false_suns[out->false_sun_count++].eye = eye->name;
+    }
+}
+
+void false_sun_times(const Sweep *sweep, Arena scratch, Arena *arena, Review *out)
+{
+    const ReviewRequest  *request = sweep->run->request;
+    const ReviewObserver *observer = &request->observer;
+    SweepSuns suns = closer_suns(sweep->stage->condition, &scratch);
+    for (int e = 0; e < request->eye_count; e++) {
+        Arena room = scratch;
+        Watch watch = {sweep, &sweep->false_suns[e], gazes_of(sweep, e, &room),
+                       {observer->age_years, observer->pigment}, ARENA_NEW(&room, Tallies, 1)};
+        watch_all(&watch, &suns);
+        tell(&watch, &request->eyes[e], &suns, arena, out);
+    }
+}

@@ -1,0 +1,22 @@
+/* false_sun_times.h -- when in a sweep a mirror throws the sun into an eye.
+ *
+ * The sun moves its own width in two minutes: a sweep of hours would miss most of what it does
+ * in a mirror. Here it is asked for minute by minute (a route: point by point; a sweep without
+ * times: every quarter of a degree), which costs a look into a table (light/false_suns.h).
+ *
+ * What counts  images that lay a veil of FALSE_SUN_VEIL_CD_M2 at least over what the eye looks
+ *              at: the symbols, and the request's gazes.
+ * Approximate  as light/false_suns.h says; skies are clear, whatever the weather; an eye box
+ *              counts by its middle.
+ * Memory       from the arena. Threads: the same figures for any count.
+ */
+#pragma once
+#include "review/light/false_suns.h"
+#include "review/run/sweep_probes.h"
+
+#define FALSE_SUN_VEIL_CD_M2 10.0
+
+/* Adds what was found to the review, the worst mirrors of each eye: FALSE_SUNS_TOLD at most. */
+#define FALSE_SUNS_TOLD 12
+
+void false_sun_times(const Sweep *sweep, Arena scratch, Arena *arena, Review *out);

@@ -1,0 +1,152 @@
+/* When a mirror throws the sun into an eye, against the sun's way and plane geometry. */
+#include "check.h"
+
+#include "base/units.h"
+#include "review/run/false_sun_times.h"
+#include "vision/disability_glare.h"
+#include "world_fixture.h"
+
+#define SIDE_M 0.004 /* of a facet, 0.7 m away */
+#define HEADING_DEG 90
+
+static const double sun_lx = 30000; /* less than any sun above 10 degrees gives */
+
+static bool          looks[] = {true};
+static ReviewGaze    gaze = {"road", false, {0, 0, -1}, looks};
+static ReviewEye     eye = {.name = "driver", .kind = EYE_POINT};
+static const double  heading = HEADING_DEG;
+static ReviewRequest request = {.forward = {0, 0, -1}, .eyes = &eye, .eye_count = 1,
+                                .gazes = &gaze, .gaze_count = 1, .observer = {50, 0.5}};
+
+static ReviewCondition year_condition(void)
+{
+    return (ReviewCondition){.name = "a year", .kind = CONDITION_YEAR_SWEEP, .year = 2026,
+                             .where = {48.14, 11.58, 520}, .step_minutes = 60,
+                             .headings_deg = (double *)(uintptr_t)&heading, .heading_count = 1,
+                             .weather_id = NO_ID, .level_id = NO_ID, .with_id = NO_ID};
+}
+
+typedef struct Facet {
+    Vec3 at, normal, right, up; /* right, up: unit */
+} Facet;
+
+/* Throws the sun of one minute of the year, which comes from behind, into the eye. */
+static Facet facet_for(Vec3 sun)
+{
+    Vec3  at = vec3_scale(vec3_normalize(vec3(0.35f, -0.3f, -0.9f)), 0.7f);
+    Facet facet = {.at = at,
+                   .normal = vec3_normalize(vec3_sub(sun, vec3_normalize(at)))};
+    Frame frame = frame_from_z(facet.normal);
+    facet.right = frame.x;
+    facet.up = frame.y;
+    return facet;
+}
+
+/* How far from the sun's middle the facet's edge lies, degrees; below 0: the middle is in it.
+ * */
+static double degrees_outside(const Facet *facet, Vec3 sun)
+{
+    float  along = 2 * vec3_dot(sun, facet->normal);
+    Vec3   seen = vec3_neg(vec3_along(sun, facet->normal, -along));
+    seen = vec3_neg(seen); /* against the reflected light */
+    float  t = vec3_dot(facet->at, facet->normal) / vec3_dot(seen, facet->normal);
+    Vec3   apart = vec3_sub(vec3_scale(seen, t), facet->at);
+    double x = fabs((double)vec3_dot(apart, facet->right)) - SIDE_M / 2;
+    double y = fabs((double)vec3_dot(apart, facet->up)) - SIDE_M / 2;
+    if (!(t > 0)) return 180;
+    return degrees_from_radians(hypot(fmax(x, 0), fmax(y, 0)) / 0.7);
+}
+
+typedef struct Brute {
+    double certain, possible; /* minutes */
+} Brute;
+
+/* Minute by minute. */
+static Brute brute_force(const Stage *stage, const Facet *facet, const SweepSuns *suns)
+{
+    Brute out = {0, 0};
+    for (int i = 0; i < suns->count; i++) {
+        double apart = degrees_outside(facet, stage_direction(stage, suns->angles[i]));
+        out.certain += apart < SUN_MEAN_RADIUS_DEG - 0.06;
+        out.possible += apart < SUN_MEAN_RADIUS_DEG + 0.08;
+    }
+    return out;
+}
+
+static void add_facet(World *world, const Facet *facet)
+{
+    Material silver = builder_material(0.9f);
+    silver.name = "chrome";
+    silver.metallic = 1;
+    silver.roughness = 0;
+    builder_part(world->scene, silver);
+    builder_quad(world->scene, facet->at, vec3_scale(facet->right, SIDE_M / 2),
+                 vec3_scale(facet->up, SIDE_M / 2));
+    /* Far away, that the scene has a size. */
+    builder_part(world->scene, builder_material(0.2f));
+    builder_quad(world->scene, vec3(0, -100, 0), vec3(1, 0, 0), vec3(0, 0, -1));
+}
+
+/* An hour's sweep would see it once in many years. */
+TEST(a_facet_that_dazzles_for_minutes_a_year_is_found)
+{
+    (void)state;
+    World           world = world_start();
+    Arena           scratch = arena_reserve((size_t)1 << 30);
+    Error           err = {0};
+    const Kernel   *kernel;
+    ReviewCondition condition = year_condition(), minutes = condition;
+    ReviewRun       run = {.request = &request};
+    ReviewFalseSun  told[FALSE_SUNS_TOLD];
+    Review          out = {.false_suns = told};
+    Stage           stage = {.request = &request, .condition = &condition,
+                             .scene = world.scene};
+    minutes.step_minutes = 1;
+    SweepSuns suns = sweep_suns(&minutes, &scratch);
+    int       at = 0; /* 3 October, in the afternoon: ahead is east, the sun behind */
+    while (suns.list[at].step < (275 * 24 + 15) * 60 + 20) at++;
+    Facet facet = facet_for(stage_direction(&stage, suns.angles[at]));
+    add_facet(&world, &facet);
+    world_ready(&world, 16);
+    assert_true(kernel_choose(NULL, &kernel, &err));
+    stage.tools = (ReadingTools){kernel, 2};
+    stage.context = world.context;
+    Brute brute = brute_force(&stage, &facet, &suns);
+    assert_true(brute.certain >= 3 && brute.certain < 60);
+
+    float         bands[LIGHT_BANDS];
+    FalseSuns     images;
+    Sweep         sweep = {.run = &run, .stage = &stage, .false_suns = &images};
+    DaylightInput clear = daylight_input_default(DAYLIGHT_CLEAR);
+    assert_true(sky_table_build(&clear, 16, 36, &scratch, &sweep.table, &err));
+    for (int b = 0; b < LIGHT_BANDS; b++) bands[b] = 1;
+    false_suns_find(&stage, vec3(0, 0, 0), bands, &scratch, &images);
+    false_sun_times(&sweep, scratch, &world.arena, &out);
+
+    assert_int_equal(out.false_sun_count, 1);
+    if (!(told[0].minutes >= brute.certain && told[0].minutes <= brute.possible))
+        fail_msg("%g minutes of %g to %g", told[0].minutes, brute.certain, brute.possible);
+    assert_true(told[0].longest_minutes >= 2 && told[0].longest_minutes <= 8);
+    assert_string_equal(told[0].mirror, "part (chrome)");
+    assert_string_equal(told[0].gaze, "road");
+    assert_non_null(strstr(told[0].when, "UTC, heading 90 degrees"));
+    /* The sun returns to that height in spring: either day will do. */
+    assert_true(strstr(told[0].when, "2026-10-0") || strstr(told[0].when, "2026-03-") ||
+                strstr(told[0].when, "2026-09-") || strstr(told[0].when, "2026-04-"));
+    assert_near(told[0].share * suns.count, told[0].minutes, 1e-6 * suns.count);
+    double angle = degrees_from_radians(acos(0.9 / sqrt(0.35 * 0.35 + 0.3 * 0.3 + 0.9 * 0.9)));
+    assert_near(told[0].angle_deg, angle, 0.5);
+    double veil = told[0].lux * cos(radians_from_degrees(angle)) *
+                  disability_glare(angle, (HumanEye){50, 0.5});
+    assert_true(fabs(told[0].veil_cd_m2 / veil - 1) < 0.05);
+    double covered = SIDE_M * SIDE_M / 0.49 /
+                     (2 * PI * (1 - cos(radians_from_degrees(SUN_MEAN_RADIUS_DEG))));
+    assert_true(told[0].lux > 0.5 * covered * sun_lx && told[0].lux < covered * 130000);
+    arena_release(&scratch);
+    world_end(&world);
+}
+
+int main(void)
+{
+    return run_cases(NULL, NULL);
+}

@@ -1,0 +1,172 @@
+/* Where the sun has to stand for a mirror to throw it into an eye, against plane geometry. */
+#include "check.h"
+
+#include "base/units.h"
+#include "review/light/false_suns.h"
+#include "world_fixture.h"
+
+static const ReviewRequest request = {.forward = {0, 0, -1}};
+static const double radius = SUN_MEAN_RADIUS_DEG;
+
+typedef struct Found {
+    World     world;
+    FalseSuns suns;
+} Found;
+
+static Stage stage_of(const World *world)
+{
+    const Kernel *kernel;
+    Error         err = {0};
+    assert_true(kernel_choose(NULL, &kernel, &err));
+    return (Stage){.request = &request, .tools = {kernel, 2}, .scene = world->scene,
+                   .context = world->context};
+}
+
+static void search_by(Found *found, int threads, FalseSuns *out)
+{
+    float bands[LIGHT_BANDS];
+    for (int b = 0; b < LIGHT_BANDS; b++) bands[b] = 1;
+    Stage stage = stage_of(&found->world);
+    stage.tools.threads = threads;
+    false_suns_find(&stage, vec3(0, 0, 0), bands, &found->world.arena, out);
+}
+
+static void search(Found *found)
+{
+    world_ready(&found->world, 16);
+    search_by(found, 2, &found->suns);
+}
+
+/* Metal without a colour of its own, as smooth as the product has it. */
+static Material silver(float reflectance)
+{
+    Material m = builder_material(reflectance);
+    m.metallic = 1;
+    m.roughness = 0;
+    return m;
+}
+
+/* A mirror 1 m ahead of the eye, below the line of sight by `below` degrees, whose normal
+ * halves the way to a sun at elevation `sun` behind it; sides in degrees as the eye sees
+ * them. */
+static void add_facet(World *world, double below, double sun, double wide, double high)
+{
+    double b = radians_from_degrees(below), s = radians_from_degrees(sun);
+    Vec3   at = vec3(0, (float)-sin(b), (float)-cos(b));
+    Vec3   towards = vec3(0, (float)sin(s), (float)cos(s));
+    Vec3   normal = vec3_normalize(vec3_sub(towards, at));
+    Vec3   right = vec3(1, 0, 0), up = vec3_cross(normal, right);
+    float  slant = -vec3_dot(at, normal);
+    builder_part(world->scene, silver(1));
+    builder_quad(world->scene, at,
+                 vec3_scale(right, (float)tan(radians_from_degrees(wide / 2))),
+                 vec3_scale(up, (float)tan(radians_from_degrees(high / 2)) / slant));
+}
+
+static Vec3 sun_at(double elevation, double aside)
+{
+    double e = radians_from_degrees(elevation), a = radians_from_degrees(aside);
+    return vec3((float)(cos(e) * sin(a)), (float)sin(e), (float)(cos(e) * cos(a)));
+}
+
+/* A wide flat mirror shows all of the sun: its whole illuminance, less what silver takes. */
+TEST(a_wide_mirror_shows_the_whole_sun)
+{
+    (void)state;
+    Found found = {.world = world_start()};
+    add_facet(&found.world, 20, 35, 8, 8);
+    search(&found);
+    for (int i = -2; i <= 2; i++) {
+        FalseSunSight sight = false_suns_at(&found.suns, sun_at(35 + i, i));
+        if (!(fabs(sight.share - 1) < 0.03)) fail_msg("%d: share %g, wanted 1", i, sight.share);
+        assert_int_equal(sight.part_id, 0);
+        /* The higher the sun, the higher its image stands. */
+        double wanted = -sin(radians_from_degrees(20 - i));
+        if (!(fabs((double)sight.seen.y - wanted) < 0.002))
+            fail_msg("%d: seen at %g, wanted %g", i, (double)sight.seen.y, wanted);
+    }
+    assert_true(false_suns_at(&found.suns, sun_at(35 + 5, 0)).share == 0);
+    assert_true(false_suns_at(&found.suns, sun_at(-35, 0)).share == 0);
+    world_end(&found.world);
+}
+
+/* Light keeps its radiance: over all suns the shares add up to the facet's own solid angle. */
+TEST(all_suns_together_see_the_facets_solid_angle)
+{
+    (void)state;
+    Found  found = {.world = world_start()};
+    double sum = 0, wide = radians_from_degrees(3), high = radians_from_degrees(1);
+    add_facet(&found.world, 10, 50, 3, 1);
+    search(&found);
+    for (int i = 0; i < found.suns.count; i++) sum += (double)found.suns.list[i].sr;
+    if (!(fabs(sum / (wide * high) - 1) < 0.03)) fail_msg("%g of %g sr", sum, wide * high);
+    FalseSuns alone; /* one thread finds the same */
+    search_by(&found, 1, &alone);
+    assert_int_equal(alone.count, found.suns.count);
+    assert_memory_equal(alone.list, found.suns.list,
+                        (size_t)alone.count * sizeof *alone.list);
+    world_end(&found.world);
+}
+
+/* A facet of 0.4 degrees, which the sun crosses in minutes: it lights the eye from no more than
+ * the facet's size and the sun's away, and by the part of the disc that the facet covers. */
+TEST(a_small_facet_is_found_where_it_stands)
+{
+    (void)state;
+    Found  found = {.world = world_start()};
+    double side = 0.4, covered = side * side / (PI * radius * radius);
+    add_facet(&found.world, 25, 30, side, side);
+    search(&found);
+    FalseSunSight sight = false_suns_at(&found.suns, sun_at(30, 0));
+    if (!(fabs(sight.share / covered - 1) < 0.15)) /* of sixteen rays */
+        fail_msg("share %g, wanted %g", sight.share, covered);
+    double reach = radius + side * sqrt(0.5) + 0.05;
+    for (double away = -2; away <= 2; away += 0.05) {
+        double share = false_suns_at(&found.suns, sun_at(30 + away, 0)).share;
+        if (fabs(away) > reach && share > 0) fail_msg("%g degrees away: %g", away, share);
+        if (fabs(away) < side / 2 && !(share > 0)) fail_msg("%g degrees away: none", away);
+    }
+    world_end(&found.world);
+}
+
+/* Rough walls have no image, and what stands before the sun hides it. */
+TEST(walls_have_no_image_and_hide_the_sun)
+{
+    (void)state;
+    Found open = {.world = world_start()}, closed = {.world = world_start()};
+    builder_part(open.world.scene, builder_material(0.8f));
+    builder_quad(open.world.scene, vec3(0, 0, -1), vec3(1, 0, 0), vec3(0, 1, 0));
+    search(&open);
+    assert_int_equal(open.suns.count, 0);
+    add_facet(&closed.world, 20, 35, 8, 8);
+    builder_part(closed.world.scene, builder_material(0.8f));
+    builder_quad(closed.world.scene, vec3(0, 3, 4), vec3(5, 0, 0), vec3(0, 5, 0));
+    search(&closed);
+    assert_int_equal(closed.suns.count, 0);
+    world_end(&open.world);
+    world_end(&closed.world);
+}
+
+/* A thin pane in front takes its share of the light on the way to the sun, and throws an image
+ * of its own: by Fresnel's equations of both faces. */
+TEST(a_pane_throws_what_its_faces_reflect)
+{
+    (void)state;
+    Found    found = {.world = world_start()};
+    Material pane = builder_material(1);
+    double   face = 0.04, both = 2 * face / (1 + face); /* at normal incidence, n = 1.5 */
+    pane.specular = 1;
+    pane.roughness = 0;
+    pane.transmission = 1;
+    builder_part(found.world.scene, pane);
+    builder_quad(found.world.scene, vec3(0, 0, -1), vec3(0.1f, 0, 0), vec3(0, 0.1f, 0));
+    search(&found);
+    FalseSunSight sight = false_suns_at(&found.suns, sun_at(0.5, 0));
+    if (!(fabs(sight.share / both - 1) < 0.1)) fail_msg("%g, wanted %g", sight.share, both);
+    world_end(&found.world);
+}
+
+int main(void)
+{
+    return run_cases(NULL, NULL);
+}
