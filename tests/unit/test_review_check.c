@@ -199,11 +199,17 @@ TEST(a_symbol_wants_content)
 
 /* ---- a file to start from ---------------------------------------------------------------- */
 
-static bool begin(const Scene *scene, const char *output, Arena *arena, Error *err)
+static bool begin_with_root(const Scene *scene, const char *output, const char *root,
+                            Arena *arena, Error *err)
 {
     const char *scenes[] = {in_folder("b c.gltf"), in_folder("a.gltf")};
-    ReviewStart request = {scenes, 2, output};
+    ReviewStart request = {scenes, 2, output, root};
     return review_request_start(&request, scene, arena, err);
+}
+
+static bool begin(const Scene *scene, const char *output, Arena *arena, Error *err)
+{
+    return begin_with_root(scene, output, NULL, arena, err);
 }
 
 /* What is written is taken, and fits the scene. */
@@ -253,13 +259,21 @@ TEST(a_folder_beside_the_scenes_will_do)
     Problems      problems = problems_start(&arena);
     mkdir(in_folder("one"), 0700);
     mkdir(in_folder("one/two"), 0700);
-    const char *near = in_folder("one/n.json"), *far = in_folder("one/two/f.json");
+    const char *near = in_folder("one/n.json");
+    const char *far = arena_format(&arena, "%s", in_folder("one/two/f.json"));
     if (!begin(make_scene(&arena), near, &arena, &err)) fail_msg("%s", err.text);
     assert_true(review_request_read(near, NULL, &arena, &problems, &r, &err));
     assert_false(begin(make_scene(&arena), far, &arena, &err));
     assert_int_equal(err.code, ERROR_INPUT);
     assert_error_has(&err, "lies outside the parent of the new file's folder, wanted");
     assert_false(file_exists(far));
+    assert_false(begin_with_root(make_scene(&arena), far, in_folder("one"), &arena, &err));
+    assert_false(file_exists(far));
+    assert_true(begin_with_root(make_scene(&arena), far, in_folder("."), &arena, &err));
+    assert_false(review_request_read(far, NULL, &arena, &problems, &r, &err));
+    assert_true(review_request_read(far, in_folder("."), &arena, &problems, &r, &err));
+    assert_int_equal(r.scene_count, 2);
+    unlink(far);
     assert_false(begin(make_scene(&arena), in_folder("none/f.json"), &arena, &err));
     assert_error_has(&err, "its folder cannot be found");
 }

@@ -105,14 +105,13 @@ static bool print_plan(const Cli *cli, const ReviewRequest *r, Error *err)
     return true;
 }
 
-/* ---- a request to start from --------------------------------------------------------------
- * */
+/* ---- a request to start from ------------------------------------------------------------- */
 
 static bool start(const ReviewWords *words, Arena *arena, Error *err)
 {
     SceneOptions options = {.paths = words->cli.arguments,
                             .path_count = words->cli.argument_count, .root = words->root};
-    ReviewStart  asked = {options.paths, options.path_count, words->init};
+    ReviewStart  asked = {options.paths, options.path_count, words->init, words->root};
     Problems     problems = problems_start(arena);
     Scene       *scene;
     if (!scene_load(&options, arena, &problems, &scene, err)) return false;

@@ -104,9 +104,19 @@ static void add_escaped(Text *text, const char *path)
             text_format(text, "%%%02X", (unsigned)(unsigned char)*path);
 }
 
+static bool lies_in(const char *root, const char *target)
+{
+    char folder[PATH_MAX];
+    if (!root || !realpath(root, folder)) return false;
+    size_t length = strlen(folder);
+    return !strncmp(target, folder, length) &&
+           (folder[length - 1] == '/' || target[length] == '/');
+}
+
 /* The URI of a scene's file in a document in the absolute folder `from` ("/a/b/"); NULL and an
  * error when it may not be named there. */
-static const char *uri_of(const char *from, const char *file, Arena *arena, Error *err)
+static const char *uri_of(const char *from, const char *file, const char *root, Arena *arena,
+                          Error *err)
 {
     char target[PATH_MAX];
     Text text = {.arena = arena};
@@ -117,13 +127,13 @@ static const char *uri_of(const char *from, const char *file, Arena *arena, Erro
     size_t shared = common_folders(from, target);
     int    up = 0;
     for (const char *at = from + shared; *at; at++) up += *at == '/';
-    if (up > 1) {
+    if (up > 1 && !lies_in(root, target)) {
         error_at(err, ERROR_INPUT, file, "",
                  "lies outside the parent of the new file's folder, wanted the new file in the "
-                 "scene's folder or one beside it");
+                 "scene's folder or one beside it, or --root");
         return NULL;
     }
-    text_add(&text, up ? "../" : "");
+    for (; up > 0; up--) text_add(&text, "../");
     add_escaped(&text, target + shared);
     return text.data;
 }
@@ -144,7 +154,7 @@ static bool add_scenes(json_t *document, const ReviewStart *start, Arena *arena,
     json_object_set_new(document, "scene", list);
     if (!find_folder(start->output, folder, *arena, err)) return false;
     for (int i = 0; i < start->scene_count; i++) {
-        const char *uri = uri_of(folder, start->scenes[i], arena, err);
+        const char *uri = uri_of(folder, start->scenes[i], start->root, arena, err);
         if (!uri) return false;
         json_array_append_new(list, json_text(uri));
     }
@@ -204,7 +214,7 @@ static void measure_uv(const Scene *scene, const TextureSlot *slot, const Part *
             uv[2] = fmin(1, fmax(uv[2], u)), uv[3] = fmin(1, fmax(uv[3], v));
         }
     for (int i = 0; i < 2; i++) { /* inwards: what lies beside it belongs to others */
-        uv[i] = ceil(uv[i] * UV_STEPS - UV_SLACK) / UV_STEPS;
+        uv[i] = ceil(uv[i] * UV_STEPS - UV_SLACK) / UV_STEPS + 0.0; /* no -0 */
         uv[i + 2] = floor(uv[i + 2] * UV_STEPS + UV_SLACK) / UV_STEPS;
     }
 }

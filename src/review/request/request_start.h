@@ -17,6 +17,7 @@ typedef struct ReviewStart {
     const char *const *scenes; /* the scene's files, as the user named them */
     int                scene_count;
     const char        *output;
+    const char        *root; /* --root: a folder whose files may be named too; NULL: none */
 } ReviewStart;
 
 bool review_request_start(const ReviewStart *start, const Scene *scene, Arena *arena,
