@@ -78,17 +78,28 @@ static void numbers_for(PathWalk *walk, int purpose)
 
 /* ---- what a listener hears --------------------------------------------------------------- */
 
-static void tale_step(PathTale *tale, int part_id, PathEvent event)
+static void tale_step(PathTale *tale, const Surface *surface, PathEvent event)
 {
-    if (tale->count < PATH_STEPS_TOLD) tale->step[tale->count] = (PathStep){part_id, event};
+    if (tale->count < PATH_STEPS_TOLD)
+        tale->step[tale->count] =
+            (PathStep){surface->part_id, event, tale->reached_by, surface->position};
     tale->count++;
+    tale->reached_by = NO_ID;
 }
 
 static void note_step(PathWalk *walk, const Surface *surface, PathEvent event)
 {
     if (!walk->tale || surface->part_id == NO_ID) return;
-    tale_step(walk->tale, surface->part_id, event);
+    tale_step(walk->tale, surface, event);
     walk->tale->pane_id = NO_ID;
+}
+
+/* Where the light that is found next begins. */
+static void note_origin(PathWalk *walk, Vec3 from, bool is_far)
+{
+    if (!walk->tale) return;
+    walk->tale->from = from;
+    walk->tale->is_far = is_far;
 }
 
 static void tell(const PathWalk *walk, const PathTale *tale, const PathLight *light)
@@ -173,6 +184,7 @@ static void add_distant(PathWalk *walk)
                    radiance, pdf);
     radiance[LIGHTS_SUN] *= walk->sun_share;
     if (walk->arriving_sky && walk->bounce == 1) tell_sky(walk, &radiance[LIGHTS_SKY]);
+    note_origin(walk, walk->ray.direction, true);
     for (int set = LIGHTS_SUN; set <= LIGHTS_SKY; set++) {
         float weight = emission_weight(walk, (LightSet)set, pdf[set]);
         gather(walk, walk->throughput * radiance[set] * spectrum_all(weight), (LightSet)set, 0);
@@ -212,6 +224,7 @@ static void add_emitted(PathWalk *walk, const Surface *surface, const Hit *hit, 
     const Scene *scene = walk->context->scene;
     float weight = emission_weight(walk, LIGHTS_EMITTERS, emitter_pdf(walk, surface, hit));
     if (!(weight > 0)) return;
+    note_origin(walk, surface->position, false);
     if (scene->materials[surface->material_id].display_id != NO_ID &&
         spectrum_is_grey(walk->throughput)) {
         add_display_xyz(walk, surface, hit->triangle, wo, weight);
@@ -342,8 +355,12 @@ static void gather_sample(PathWalk *walk, const Surface *surface, Spectrum radia
         return;
     }
     PathTale before = *walk->tale;
-    if (surface->part_id != NO_ID) tale_step(walk->tale, surface->part_id, PATH_SCATTERS);
+    bool     is_far = !isfinite(light->distance);
+    if (surface->part_id != NO_ID) tale_step(walk->tale, surface, PATH_SCATTERS);
     else walk->tale->towards = light->wi; /* a luxmeter's own sample */
+    note_origin(walk, is_far ? light->wi
+                             : vec3_along(surface->position, light->wi, light->distance),
+                is_far);
     gather(walk, radiance, light->set, source_of(walk, light));
     *walk->tale = before;
 }
@@ -390,26 +407,32 @@ typedef struct MirrorWalk {
     const Surface    *surface;
     Vec3              wo;
     SunMirrorQuestion question;
+    int               sun_pane_id; /* between the mirror and the sun */
 } MirrorWalk;
 
-static void gather_mirrored(PathWalk *walk, const Surface *surface, const SunMirror *mirror,
+static void gather_mirrored(const MirrorWalk *asked, const SunMirror *mirror,
                             Spectrum radiance)
 {
+    PathWalk      *walk = asked->walk;
+    const Surface *surface = asked->surface;
     if (!walk->listener) {
         walk->gathered.radiance += radiance;
         return;
     }
     PathTale before = *walk->tale;
-    if (surface->part_id != NO_ID) tale_step(walk->tale, surface->part_id, PATH_SCATTERS);
+    if (surface->part_id != NO_ID) tale_step(walk->tale, surface, PATH_SCATTERS);
     else walk->tale->towards = mirror->light.wi;
-    tale_step(walk->tale, mirror->surface.part_id, PATH_REFLECTS);
+    walk->tale->reached_by = walk->tale->pane_id;
+    tale_step(walk->tale, &mirror->surface, PATH_REFLECTS);
+    walk->tale->pane_id = asked->sun_pane_id;
+    note_origin(walk, asked->question.sun.wi, true);
     gather(walk, radiance, LIGHTS_SUN, 0);
     *walk->tale = before;
 }
 
 static void add_mirrored_sun(void *user, uint32_t triangle, const ReflectionPoint *point)
 {
-    const MirrorWalk *asked = user;
+    MirrorWalk       *asked = user;
     const Surface    *surface = asked->surface;
     PathWalk *walk = asked->walk;
     SunMirror mirror;
@@ -425,8 +448,8 @@ static void add_mirrored_sun(void *user, uint32_t triangle, const ReflectionPoin
     if (spectrum_is_zero(share)) return;
     share *= visibility(walk, &mirror.surface, &asked->question.sun);
     if (spectrum_is_zero(share)) return;
-    gather_mirrored(walk, surface, &mirror,
-                    share * visibility(walk, surface, &mirror.light));
+    if (walk->tale) asked->sun_pane_id = walk->tale->pane_id;
+    gather_mirrored(asked, &mirror, share * visibility(walk, surface, &mirror.light));
 }
 
 /* u: of the sun's disc. */
@@ -436,7 +459,8 @@ static void ask_mirrors(PathWalk *walk, const Surface *surface, Vec3 wo, const f
     const PathContext *context = walk->context;
     MirrorWalk asked = {walk, surface, wo,
                         {.scene = context->scene, .tables = context->tables,
-                         .wavelengths = walk->wavelengths, .from = surface->position}};
+                         .wavelengths = walk->wavelengths, .from = surface->position},
+                        NO_ID};
     LitPoint     point = {surface->position, surface->frame.z, true}; /* from any side */
     LightSample *sun = &asked.question.sun;
     if (!lights_sample(context->lights, LIGHTS_SUN, point, u, sun)) return;
@@ -735,6 +759,7 @@ static void walk_path(PathWalk *walk)
         float distance = walk->straight;
         walk->steps++;
         surface_at(context->scene, context->tables, &hit, wo, walk->wavelengths, &surface);
+        if (walk->tale) walk->tale->reached_by = walk->tale->pane_id;
         if (split(walk, &surface, &hit, wo)) continue;
         numbers_for(walk, NUMBERS_HOLE);
         if (surface.alpha < 1 && sampler_1d(walk->sampler) >= surface.alpha) {
@@ -796,7 +821,7 @@ void path_trace_told(const PathContext *context, Ray ray, const Wavelengths *wav
                      PathStatistics *statistics)
 {
     WalkRoom room;
-    PathTale tale = {.towards = ray.direction, .pane_id = NO_ID};
+    PathTale tale = {.towards = ray.direction, .pane_id = NO_ID, .reached_by = NO_ID};
     PathWalk walk = walk_start(context, wavelengths, sampler, statistics, &room);
     walk.ray = ray;
     walk.listener = listener;
@@ -864,7 +889,7 @@ void path_illuminance_told(const PathContext *context, LitPoint point,
                            const PathListener *listener, PathStatistics *statistics)
 {
     WalkRoom room;
-    PathTale tale = {.pane_id = NO_ID};
+    PathTale tale = {.pane_id = NO_ID, .reached_by = NO_ID};
     PathWalk walk = walk_start(context, wavelengths, sampler, statistics, &room);
     walk.listener = listener;
     walk.tale = &tale;

@@ -18,6 +18,8 @@ typedef enum PathEvent { PATH_SCATTERS, PATH_REFLECTS, PATH_TRANSMITS } PathEven
 typedef struct PathStep {
     int       part_id; /* scene part */
     PathEvent event;   /* reflects: as a mirror does */
+    int       pane_id; /* part of the last pane on the way there; NO_ID: none */
+    Vec3      position; /* m, world */
 } PathStep;
 
 #define PATH_STEPS_TOLD 6
@@ -32,6 +34,10 @@ typedef struct PathTale {
     int      source_id;             /* emitters: scene part; punctual: scene light; else 0 */
     int      pane_id;               /* part of the last pane that the light passed on its way to
                                        the last step; NO_ID: none */
+    int      reached_by;            /* as pane_id, to where the path is now */
+    Vec3     from;                  /* where it began, m, world; is_far: the unit direction
+                                       towards it */
+    bool     is_far;
 } PathTale;
 
 /* Is told all light that a path finds, way by way: XYZ, cd m^-2; they add up to the result. */

@@ -9,6 +9,8 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "base/vec.h"
+
 typedef enum Verdict {
     VERDICT_PASS, VERDICT_FAIL, VERDICT_TOO_CLOSE, VERDICT_NOT_VISIBLE
 } Verdict;
@@ -40,6 +42,12 @@ typedef struct LimitVerdict {
     Verdict     verdict;
 } LimitVerdict;
 
+/* A ray of a cause, m, world: from the eye over what it meets to where the light began. */
+typedef struct CaseRay {
+    const Vec3 *points;
+    int         count;
+} CaseRay;
+
 /* A way by which light comes to the symbol: "glass Window_FL: through", ... in the order in
  * which the eye's ray meets them. */
 typedef struct CaseCause {
@@ -47,7 +55,20 @@ typedef struct CaseCause {
     int    links;
     double share;             /* of the reflected light, 0..1 */
     double cd_m2, low, high;  /* and its 95 % interval */
+    double contrast_without;  /* the case's contrast if this light were not; NaN: none */
+    const CaseRay *rays;      /* some of it, drawn with a chance that goes with their light */
+    int    ray_count;
 } CaseCause;
+
+/* How a picture shows the world: what stands at `eye` + x right + y up + z forward is, of a
+ * perspective view, at x / z of half_width and y / z of half_height from its middle; else at x
+ * and y. */
+typedef struct CaseView {
+    Vec3   eye, right, up, forward; /* m, world; unit */
+    bool   is_perspective;
+    double half_width, half_height;
+    int    width, height;           /* pixels */
+} CaseView;
 
 /* What would mend it: NaN where a figure has no meaning. */
 typedef struct CaseRemedy {
@@ -80,6 +101,7 @@ typedef struct ReviewCase {
     double  dgp, ugr;            /* discomfort of this gaze: secondary figures */
     double  visible_share;       /* of the rectangle, 0..1 */
     double  eye_failed_share;    /* of an eye box's points: those that fail; NaN: one point */
+    Vec3    eye_m;               /* where the eye was; of a box its worst point */
     double  level;               /* at which the display was set, 1: as measured */
     double  display_lux;         /* illuminance of the display's face */
     const LimitVerdict *limits;  /* all that apply */
@@ -92,6 +114,9 @@ typedef struct ReviewCase {
     const CaseRemedy *remedies;
     int     remedy_count;
     const char *frame;           /* picture's name within the folder; NULL: none was rendered */
+    const CaseView *view;        /* of the frame; NULL: not known */
+    const char *outlook;         /* picture of what the display sees from the symbol; or NULL */
+    const char *outlook_words;   /* what is in it */
 } ReviewCase;
 
 /* Of one symbol and eye over many suns. */

@@ -318,7 +318,7 @@ TEST(every_key_is_wanted)
     count += assert_keys_are_wanted(root, sweep) + assert_keys_are_wanted(root, response);
     count += assert_keys_are_wanted(root, image);
     count += assert_keys_are_wanted(root, json_object_get(image, "sun"));
-    assert_int_equal(count, 9 + 27 + 2 + 6 + 12 + 4 + 3 + 8 + 4 + 12 + 2);
+    assert_int_equal(count, 9 + 28 + 2 + 6 + 12 + 5 + 3 + 8 + 4 + 12 + 2);
     json_decref(root);
 }
 

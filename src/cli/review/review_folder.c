@@ -105,7 +105,7 @@ static void add_pictures(const ReviewFolder *folder, const Review *review, Revie
                          Arena *arena)
 {
     ReviewPicture *pictures =
-        ARENA_NEW(arena, ReviewPicture, review->case_count + review->sweep_count);
+        ARENA_NEW(arena, ReviewPicture, 2 * (review->case_count + review->sweep_count));
     for (int i = 0; i < review->case_count + review->sweep_count; i++) {
         const ReviewCase *c = i < review->case_count
                                   ? &review->cases[i]
@@ -114,7 +114,14 @@ static void add_pictures(const ReviewFolder *folder, const Review *review, Revie
         pictures[page->picture_count++] = (ReviewPicture){
             .of = c, .title = "Frame",
             .caption = "What the eye sees, exposed as a camera would",
+            .view = c->view,
             .file = arena_format(arena, "%s/%s", folder->name, c->frame)};
+        if (c->outlook)
+            pictures[page->picture_count++] = (ReviewPicture){
+                .of = c, .title = "What the display sees",
+                .caption = arena_format(arena, "Looking out from the symbol's middle, half a "
+                                               "sphere. %s", c->outlook_words),
+                .file = arena_format(arena, "%s/%s", folder->name, c->outlook)};
     }
     page->pictures = pictures;
 }

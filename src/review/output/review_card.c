@@ -7,6 +7,7 @@
 #include "base/file.h"
 #include "page/page.h"
 #include "review/output/review_bar.h"
+#include "review/output/review_rays.h"
 #include "review/output/review_words.h"
 #include "text/base64.h"
 #include "text/escape.h"
@@ -139,17 +140,33 @@ static void add_limits(Text *html, const ReviewCase *c, Arena *arena)
 
 /* ---- causes and remedies ---------------------------------------------------------------- */
 
-static void add_cause(Text *html, const CaseCause *cause, Arena *arena)
+static void add_chain(Text *html, const ReviewCard *card, int i, Arena *arena)
 {
+    bool has_rays = review_rays_has(card->of, i);
+    if (has_rays) text_format(html, "<a href=\"#%s\">", review_rays_id(card->id, i, arena));
+    escape_markup(html, words_chain(&card->of->causes[i], arena));
+    if (has_rays) text_add(html, "</a>");
+}
+
+static const char *without_words(const CaseCause *cause, Arena *arena)
+{
+    if (isnan(cause->contrast_without)) return "";
+    return arena_format(arena, "; without it %s", words_ratio(cause->contrast_without, arena));
+}
+
+static void add_cause(Text *html, const ReviewCard *card, int i, Arena *arena)
+{
+    const CaseCause *cause = &card->of->causes[i];
     text_add(html, "<li><div>");
     page_element(html, "b", words_share(cause->share, arena));
-    escape_markup(html, words_chain(cause, arena));
+    add_chain(html, card, i, arena);
     text_add(html, "</div>");
     review_bar_add_share(html, cause->share);
-    page_element(html, "small", arena_format(arena, "%s cd/m², 95 %% sure between %s and %s",
+    page_element(html, "small", arena_format(arena, "%s cd/m², 95 %% sure between %s and %s%s",
                                              words_figure(cause->cd_m2, arena),
                                              words_figure(cause->low, arena),
-                                             words_figure(cause->high, arena)));
+                                             words_figure(cause->high, arena),
+                                             without_words(cause, arena)));
     text_add(html, "</li>\n");
 }
 
@@ -160,22 +177,23 @@ static double share_left(const ReviewCase *c)
     return left;
 }
 
-static void add_cause_list(Text *html, const CaseCause *causes, int count, Arena *arena)
+static void add_cause_list(Text *html, const ReviewCard *card, int from, int to, Arena *arena)
 {
     text_add(html, "<ol class=\"causes\">\n");
-    for (int i = 0; i < count; i++) add_cause(html, &causes[i], arena);
+    for (int i = from; i < to; i++) add_cause(html, card, i, arena);
     text_add(html, "</ol>\n");
 }
 
-static void add_causes(Text *html, const ReviewCase *c, Arena *arena)
+static void add_causes(Text *html, const ReviewCard *card, Arena *arena)
 {
+    const ReviewCase *c = card->of;
     int first = c->cause_count > FIRST_CAUSES + 1 ? FIRST_CAUSES : c->cause_count;
     if (c->cause_count == 0) return;
     text_add(html, "<div><h4>Where the light that washes it out comes from</h4>\n");
-    add_cause_list(html, c->causes, first, arena);
+    add_cause_list(html, card, 0, first, arena);
     if (first < c->cause_count) {
         page_more_begin(html, arena_format(arena, "%d more ways", c->cause_count - first));
-        add_cause_list(html, c->causes + first, c->cause_count - first, arena);
+        add_cause_list(html, card, first, c->cause_count, arena);
         page_more_end(html);
     }
     if (share_left(c) >= 0.001)
@@ -228,14 +246,20 @@ static bool add_file(Text *html, const char *alt, const char *file, Arena scratc
     return true;
 }
 
-static bool add_picture(Text *html, const ReviewPicture *p, Arena scratch, Error *err)
+static bool add_picture(Text *html, const ReviewCard *card, const ReviewPicture *p,
+                        Arena scratch, Error *err)
 {
     const char *title = p->title ? p->title : "";
     text_add(html, "<figure>");
     page_element(html, "h3", title);
+    if (p->view) text_add(html, "<div class=\"shown\">");
     if (p->picture ? !page_picture(html, title, p->picture, false, scratch, err)
                    : !add_file(html, title, p->file, scratch, err))
         return false;
+    if (p->view) {
+        review_rays_add(html, card->of, card->id, &scratch);
+        text_add(html, "</div>");
+    }
     if (p->caption) page_element(html, "figcaption", p->caption);
     text_add(html, "</figure>\n");
     return true;
@@ -248,7 +272,7 @@ static bool add_pictures(Text *html, const ReviewCard *card, Arena scratch, Erro
         if (card->pictures[i].of != card->of) continue;
         if (!is_open) text_add(html, "<div class=\"figures\">\n");
         is_open = true;
-        if (!add_picture(html, &card->pictures[i], scratch, err)) return false;
+        if (!add_picture(html, card, &card->pictures[i], scratch, err)) return false;
     }
     if (is_open) text_add(html, "</div>\n");
     return true;
@@ -278,7 +302,7 @@ bool review_card_add(Text *html, const ReviewCard *card, Arena *arena, Error *er
         text_add(html, "</div>\n");
     }
     add_facts(html, card, arena);
-    add_causes(html, c, arena);
+    add_causes(html, card, arena);
     add_remedies(html, c, arena);
     text_add(html, "</div>\n");
     add_limits(html, c, arena);

@@ -13,6 +13,7 @@
 typedef struct ReviewPicture {
     const ReviewCase *of;      /* one of the review's cases, or a sweep's worst: the pointer */
     const char       *title, *caption;
+    const CaseView   *view;    /* rays are drawn over it; NULL: none */
     const Picture    *picture; /* NULL: the file */
     const char       *file;    /* PNG or JPEG by its ending; goes into the page as it stands */
 } ReviewPicture;

@@ -44,10 +44,11 @@ static json_t *causes_json(const ReviewCase *c)
     for (int i = 0; i < c->cause_count; i++) {
         const CaseCause *cause = &c->causes[i];
         json_array_append_new(
-            list, json_pack("{s:o, s:o, s:o, s:o}", "chain",
+            list, json_pack("{s:o, s:o, s:o, s:o, s:o}", "chain",
                             json_texts(cause->chain, cause->links), "share",
                             json_figure(cause->share), "cd_m2", json_figure(cause->cd_m2),
-                            "interval", pair(cause->low, cause->high)));
+                            "interval", pair(cause->low, cause->high), "contrast_without",
+                            json_figure(cause->contrast_without)));
     }
     return list;
 }
@@ -112,6 +113,7 @@ static json_t *case_json(const ReviewCase *c)
     set(out, "causes", causes_json(c));
     set(out, "remedies", remedies_json(c));
     set(out, "frame", text(c->frame));
+    set(out, "outlook", text(c->outlook));
     set(out, "when", text(c->when));
     return out;
 }

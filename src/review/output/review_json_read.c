@@ -173,7 +173,8 @@ static bool read_cause(const JsonView *view, void *item, Error *err)
     return read_texts(view, "chain", &cause->chain, &cause->links, err) &&
            read_number(view, "share", &cause->share, err) &&
            read_number(view, "cd_m2", &cause->cd_m2, err) &&
-           read_pair(view, "interval", &cause->low, &cause->high, err);
+           read_pair(view, "interval", &cause->low, &cause->high, err) &&
+           read_number(view, "contrast_without", &cause->contrast_without, err);
 }
 
 static bool read_remedy(const JsonView *view, void *item, Error *err)
@@ -214,7 +215,9 @@ static bool read_names(const JsonView *view, ReviewCase *c, Error *err)
     if (!read_text(view, "condition", &c->condition, err) ||
         !read_text(view, "eye", &c->eye, err) || !read_text(view, "symbol", &c->symbol, err) ||
         !read_text(view, "display", &c->display, err) ||
-        !read_text(view, "frame", &c->frame, err) || !read_text(view, "when", &c->when, err) ||
+        !read_text(view, "frame", &c->frame, err) ||
+        !read_text(view, "outlook", &c->outlook, err) ||
+        !read_text(view, "when", &c->when, err) ||
         !read_word(view, "ambient", ambient_names, &ambient, err))
         return false;
     c->ambient = (Ambient)ambient;

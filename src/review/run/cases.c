@@ -277,8 +277,14 @@ static bool case_of(const CaseTools *tools, const CaseAsk *ask, Arena *arena, Re
     look.eye =
         points[count > 1 ? worst_point(tools, &look, points, count, &c, *arena) : 0];
     ProbeAim aim = judge_look(tools, &look, &c, arena);
-    if (aim.target_count) case_causes(tools->stage, &aim, &c, arena);
-    case_remedies(&c, arena);
+    c.eye_m = look.eye;
+    if (aim.target_count) {
+        long     paths = tools->cause_paths ? tools->cause_paths : CAUSE_PATHS;
+        int      rays = tools->cause_rays ? tools->cause_rays : CAUSE_RAYS;
+        CauseAsk causes = {&tools->stage->tools, &aim, paths, rays, false};
+        CauseFacts facts = case_causes(&causes, &c, arena);
+        case_remedies(&facts, &c, arena);
+    }
     *out = c;
     return true;
 }

@@ -15,6 +15,8 @@ typedef struct CaseTools {
     const Profile     *profile;
     const StageSymbol *symbols;
     int                symbol_count;
+    long               cause_paths; /* by which causes are found; 0: CAUSE_PATHS */
+    int                cause_rays;  /* that are kept of each; 0: CAUSE_RAYS */
 } CaseTools;
 
 /* Paths of one reading at most: a contrast that is not sure then has a wider interval. */

@@ -1,24 +1,41 @@
-/* causes.h -- by which ways light comes to a symbol, and what would mend it.
+/* causes.h -- by which chains of objects light comes to a symbol, and what would mend it.
  *
- * A way is what the eye's ray meets behind the display, by node and material, up to CAUSE_STEPS
- * of it, the pane that the light came through, and where it began. Light that the display
- * itself emits straight to the eye is none of it.
+ * The chains are those of review/chain. Light that the display itself emits straight to the eye
+ * is none of it.
  *
  * Units    cd m^-2.
  * Memory   texts and lists live in the arena.
- * Threads  one; the same figures each time.
+ * Threads  starts its own; the same figures for any count.
  */
 #pragma once
-#include "review/light/stage.h"
+#include "review/chain/chains.h"
 #include "review/verdict.h"
 
-#define CAUSE_STEPS 3
 #define CAUSES_MOST 10
+#define CAUSE_PATHS 8192
+#define CAUSE_RAYS 4
+
+typedef struct CauseAsk {
+    const ReadingTools *tools;
+    const ProbeAim     *aim;
+    long                paths;
+    int                 rays;        /* of each cause, at most CHAIN_RAYS */
+    bool                with_direct; /* what the eye sees by itself counts, too */
+} CauseAsk;
+
+/* What the remedies need besides the case. */
+typedef struct CauseFacts {
+    double      own_cd_m2;  /* reflected light that began at the display itself */
+    ChainFigure all, mirror; /* of what these paths tell; and by the display's mirror */
+    int         part_id;    /* that the first cause comes by; NO_ID: none can be taken away */
+    double      part_cd_m2; /* all reflected light that comes by it */
+    const char *part_words; /* what to do with it */
+} CauseFacts;
 
 /* Sets the case's causes: the greatest CAUSES_MOST, and "all other ways", which add up to the
- * reflected light as these paths tell it. */
-void case_causes(const Stage *stage, const ProbeAim *aim, ReviewCase *c, Arena *arena);
+ * reflected light as these paths tell it; that light itself where the case has none yet. */
+CauseFacts case_causes(const CauseAsk *ask, ReviewCase *c, Arena *arena);
 
 /* Sets its remedies, from its figures and causes: nothing is traced. Where its limit is kept
  * there are none. */
-void case_remedies(ReviewCase *c, Arena *arena);
+void case_remedies(const CauseFacts *facts, ReviewCase *c, Arena *arena);

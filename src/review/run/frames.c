@@ -24,7 +24,7 @@ const char *file_name_of(const char *text, Arena *arena)
     return name;
 }
 
-static bool camera_of(const FrameAsk *ask, SceneCamera *out, Arena scratch, Error *err)
+bool frame_camera(const FrameAsk *ask, SceneCamera *out, Arena scratch, Error *err)
 {
     const Scene *scene = ask->stage->scene;
     int          id;
@@ -100,7 +100,7 @@ bool frame_make(const FrameAsk *ask, Arena *arena, const char **out, Error *err)
     const char   *name = arena_format(arena, "frames/%s.png", ask->name);
     const char   *png = arena_format(arena, "%s/%s", ask->folder, name);
     Arena         scratch = *arena;
-    if (!camera_of(ask, &camera, scratch, err)) return false;
+    if (!frame_camera(ask, &camera, scratch, err)) return false;
     setup.camera = camera_from_scene(&camera, options.width, options.height);
     setup.context.guide =
         train_guide(&stage->context, &setup.camera, &train, &scratch, &setup.training);

@@ -22,6 +22,9 @@ typedef struct FrameAsk {
     ProgressMode     progress;
 } FrameAsk;
 
+/* From where the frame is seen. */
+bool frame_camera(const FrameAsk *ask, SceneCamera *out, Arena scratch, Error *err);
+
 /* *out: the picture's name within the folder. */
 bool frame_make(const FrameAsk *ask, Arena *arena, const char **out, Error *err);
 

@@ -7,6 +7,7 @@
 #include "review/run/cases.h"
 #include "review/run/false_sun_times.h"
 #include "review/run/frames.h"
+#include "review/run/sights.h"
 #include "review/output/review_decide.h"
 #include "review/request/request_check.h"
 #include "review/run/sweep.h"
@@ -263,6 +264,7 @@ static bool make_frame(const ReviewRun *run, const Candidate *of, int number, Ar
              find_middle(&stage, of->of->symbol, scratch, &ask.look_at, err) &&
              frame_make(&ask, &scratch, &of->of->frame, err);
         if (ok) of->of->frame = arena_string(arena, of->of->frame, strlen(of->of->frame));
+        ok = ok && case_sights(&ask, of->of, arena, err);
         stage_close(&stage);
     }
     arena_release(&scratch);
@@ -277,8 +279,10 @@ bool review_frames(const ReviewRun *run, ReviewOutcome *outcome, Arena *arena, E
         int same = 0;
         while (same < i && !(list[same].of->frame && is_one_view(&list[same], &list[i])))
             same++;
-        if (same < i) list[i].of->frame = list[same].of->frame;
-        else if (made < run->request->frames.worst &&
+        if (same < i) {
+            list[i].of->frame = list[same].of->frame;
+            list[i].of->view = list[same].of->view;
+        } else if (made < run->request->frames.worst &&
                  !make_frame(run, &list[i], ++made, arena, err))
             return false;
     }

@@ -220,7 +220,8 @@ static bool read_worst(Telling *to, const Sight *sight, const SweepSun *sun, Rev
     for (int i = 0; i < stage.scene->display_count; i++)
         stage.scene->displays[i].level = (float)stage.scene_levels[i];
     if (!stage_light(&stage, &environment, &scratch, err)) return false;
-    CaseTools tools = {&stage, sweep->run->profile, sight->symbol, 1};
+    CaseTools tools = {.stage = &stage, .profile = sweep->run->profile,
+                       .symbols = sight->symbol, .symbol_count = 1};
     return stage_case(&tools, sight->symbol, sight->eye, to->arena, out, err);
 }
 

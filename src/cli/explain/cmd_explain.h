@@ -1,0 +1,5 @@
+/* cmd_explain.h -- the command of this folder. */
+#pragma once
+#include "cli/options/command.h"
+
+extern const Command command_explain;

@@ -1,0 +1,6 @@
+/* explain_answer.h -- what `parhelion explain` says, in words or as JSON. */
+#pragma once
+#include "cli/options/cli.h"
+#include "review/run/explain.h"
+
+bool explain_answer(const Cli *cli, const Explained *told, Arena *arena, Error *err);

@@ -1,0 +1,391 @@
+#include "review/chain/chains.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/parallel.h"
+#include "base/sampler.h"
+
+#define CHUNK 64
+#define ROUND 64          /* chunks at a time */
+#define CHUNK_ROOM 1024   /* of a chunk's table: a power of two */
+#define CHUNK_CHAINS 700  /* that are told apart in one chunk */
+#define ROOM 16384        /* of all: a power of two */
+#define CHAINS_TOLD 10000 /* that are told apart */
+
+/* ---- one chunk of paths ------------------------------------------------------------------ */
+
+typedef struct ChunkChain {
+    ChainKey key;
+    double   sum;
+    double   draw; /* the ray's: the least is kept */
+    ChainRay ray;
+    bool     is_used;
+} ChunkChain;
+
+typedef struct ChainChunk {
+    ChunkChain *table;   /* [CHUNK_ROOM] */
+    int         count;
+    double      all, mirror, own;
+    double     *by_part;
+    uint32_t    tellings;
+} ChainChunk;
+
+/* What all chunks share. */
+typedef struct ChainSearch {
+    const ChainAsk *ask;
+    const Scene    *scene;
+    const int      *alike;
+    float           far_m; /* how long a ray is drawn towards what is far off */
+    int             first; /* chunk of this round */
+    ChainChunk      *sums;  /* of the round's chunks */
+} ChainSearch;
+
+/* Who listens to a chunk. */
+typedef struct ChunkListener {
+    const ChainSearch *search;
+    ChainChunk         *sums;
+    int                chunk;
+} ChunkListener;
+
+static int told_steps(const PathTale *tale)
+{
+    return tale->count < PATH_STEPS_TOLD ? tale->count : PATH_STEPS_TOLD;
+}
+
+static int alike_or_none(const int *alike, int part_id)
+{
+    return part_id == NO_ID ? NO_ID : alike[part_id];
+}
+
+static ChainKey key_of(const int *alike, const PathTale *tale)
+{
+    ChainKey key;
+    memset(&key, 0, sizeof key);
+    for (int i = 0; i < told_steps(tale) && i < CHAIN_STEPS; i++) {
+        const PathStep *step = &tale->step[i];
+        key.link[key.count++] =
+            (ChainLink){alike[step->part_id], (int)step->event,
+                        i ? alike_or_none(alike, step->pane_id) : NO_ID};
+    }
+    key.is_longer = tale->count > key.count;
+    key.pane_id = alike_or_none(alike, tale->pane_id);
+    key.source = (int)tale->source;
+    key.source_id = tale->source == LIGHTS_EMITTERS ? alike[tale->source_id] : tale->source_id;
+    return key;
+}
+
+static uint32_t hash_key(const ChainKey *key)
+{
+    const unsigned char *bytes = (const unsigned char *)key;
+    uint32_t hash = 2166136261u;
+    for (size_t i = 0; i < sizeof *key; i++) hash = (hash ^ bytes[i]) * 16777619u;
+    return hash;
+}
+
+/* NULL: the table is full. */
+static ChunkChain *chunk_chain(ChainChunk *sums, const ChainKey *key)
+{
+    for (uint32_t i = hash_key(key);; i++) {
+        ChunkChain *chain = &sums->table[i & (CHUNK_ROOM - 1)];
+        if (chain->is_used && !memcmp(&chain->key, key, sizeof *key)) return chain;
+        if (chain->is_used) continue;
+        if (sums->count == CHUNK_CHAINS) return NULL;
+        chain->is_used = true;
+        chain->key = *key;
+        chain->draw = (double)INFINITY;
+        sums->count++;
+        return chain;
+    }
+}
+
+static ChainRay ray_of(const ChainSearch *search, const PathTale *tale)
+{
+    ChainRay ray = {.count = 0};
+    int      told = told_steps(tale);
+    ray.point[ray.count++] = search->ask->aim->eye;
+    for (int i = 0; i < told; i++) ray.point[ray.count++] = tale->step[i].position;
+    ray.is_cut = tale->count > told;
+    if (!ray.is_cut)
+        ray.point[ray.count] =
+            tale->is_far ? vec3_along(ray.point[ray.count - 1], tale->from, search->far_m)
+                         : tale->from;
+    ray.count += !ray.is_cut;
+    return ray;
+}
+
+/* Rays with a chance that goes with their light, one pass, any order: the least of
+ * -ln(u) / light (Efraimidis and Spirakis 2006). */
+static void draw_ray(const ChunkListener *to, ChunkChain *chain, const PathTale *tale, double y)
+{
+    uint32_t bits = hash_combine(hash_u32((uint32_t)to->chunk), to->sums->tellings++);
+    double   draw = -log((bits + 0.5) * 0x1p-32) / y;
+    if (!(draw < chain->draw)) return;
+    chain->draw = draw;
+    chain->ray = ray_of(to->search, tale);
+}
+
+static void add_part(const ChunkListener *to, int part_id, int *parts, int *count, double y)
+{
+    int id = alike_or_none(to->search->alike, part_id);
+    if (id == NO_ID) return;
+    for (int i = 0; i < *count; i++)
+        if (parts[i] == id) return;
+    parts[(*count)++] = id;
+    to->sums->by_part[id] += y;
+}
+
+static void add_parts(const ChunkListener *to, const PathTale *tale, double y)
+{
+    int parts[2 * PATH_STEPS_TOLD + 1], count = 0;
+    for (int i = 1; i < told_steps(tale); i++) {
+        add_part(to, tale->step[i].part_id, parts, &count, y);
+        add_part(to, tale->step[i].pane_id, parts, &count, y);
+    }
+    if (tale->count) add_part(to, tale->pane_id, parts, &count, y);
+}
+
+static int display_of(const Scene *scene, int part_id)
+{
+    return scene->materials[scene->parts[part_id].material_id].display_id;
+}
+
+static void hear(void *user, const PathTale *tale, const float xyz[3])
+{
+    const ChunkListener *to = user;
+    const Scene         *scene = to->search->scene;
+    ChainChunk           *sums = to->sums;
+    double               y = (double)xyz[1];
+    if (!(y > 0) || (tale->count == 0 && !to->search->ask->with_direct)) return;
+    ChainKey    key = key_of(to->search->alike, tale);
+    ChunkChain *chain = chunk_chain(sums, &key);
+    int         display = tale->count ? display_of(scene, tale->step[0].part_id) : NO_ID;
+    sums->all += y;
+    if (display != NO_ID && tale->step[0].event == PATH_REFLECTS) sums->mirror += y;
+    if (display != NO_ID && tale->source == LIGHTS_EMITTERS &&
+        display_of(scene, tale->source_id) == display)
+        sums->own += y;
+    add_parts(to, tale, y);
+    if (!chain) return;
+    chain->sum += y;
+    draw_ray(to, chain, tale, y);
+}
+
+static void hear_chunk(void *user, int item, int worker)
+{
+    (void)worker;
+    const ChainSearch *search = user;
+    int            chunk = search->first + item;
+    ChunkListener  to = {search, &search->sums[item], chunk};
+    PathListener   listener = {hear, &to};
+    PathStatistics statistics = {0};
+    search->ask->tools->kernel->hear(search->ask->aim, chunk * CHUNK, (chunk + 1) * CHUNK,
+                                     &listener, &statistics);
+}
+
+/* ---- all chunks -------------------------------------------------------------------------- */
+
+typedef struct FoundChain {
+    Chain  chain;
+    double draw[CHAIN_RAYS]; /* of its rays, rising */
+    double sum, squares;     /* of the chunks' means */
+    int    id;
+    bool   is_used, is_kept;
+} FoundChain;
+
+/* What a chunk gave to one chain. */
+typedef struct ChunkGift {
+    int    chain_id;
+    double mean;
+} ChunkGift;
+
+typedef struct ChunkGifts {
+    ChunkGift *list;
+    int        count;
+    double     all;
+} ChunkGifts;
+
+typedef struct FoundSums {
+    double sum, squares; /* of the chunks' means */
+} FoundSums;
+
+typedef struct FoundChains {
+    FoundChain  *table;  /* [ROOM] */
+    FoundChain **by_id;
+    int          count;
+    ChunkGifts  *gifts;  /* of each chunk */
+    FoundSums    all, mirror;
+    double       own;
+} FoundChains;
+
+static void add_mean(FoundSums *sums, double mean)
+{
+    sums->sum += mean;
+    sums->squares += mean * mean;
+}
+
+/* NULL: the table is full. */
+static FoundChain *found_chain(FoundChains *found, const ChainKey *key)
+{
+    for (uint32_t i = hash_key(key);; i++) {
+        FoundChain *f = &found->table[i & (ROOM - 1)];
+        if (f->is_used && !memcmp(&f->chain.key, key, sizeof *key)) return f;
+        if (f->is_used) continue;
+        if (found->count == CHAINS_TOLD) return NULL;
+        f->is_used = true;
+        f->chain.key = *key;
+        f->id = found->count;
+        found->by_id[found->count++] = f;
+        return f;
+    }
+}
+
+static void keep_ray(FoundChain *f, const ChunkChain *from)
+{
+    int count = f->chain.ray_count;
+    int at = count < CHAIN_RAYS ? count : CHAIN_RAYS - 1;
+    if (count == CHAIN_RAYS && !(from->draw < f->draw[at])) return;
+    for (; at > 0 && f->draw[at - 1] > from->draw; at--) {
+        f->draw[at] = f->draw[at - 1];
+        f->chain.rays[at] = f->chain.rays[at - 1];
+    }
+    f->draw[at] = from->draw;
+    f->chain.rays[at] = from->ray;
+    if (count < CHAIN_RAYS) f->chain.ray_count++;
+}
+
+static void add_chunk(FoundChains *found, const ChainChunk *sums, ChunkGifts *gifts, Arena *own)
+{
+    gifts->list = ARENA_NEW(own, ChunkGift, sums->count);
+    gifts->all = sums->all / CHUNK;
+    add_mean(&found->all, sums->all / CHUNK);
+    add_mean(&found->mirror, sums->mirror / CHUNK);
+    found->own += sums->own / CHUNK;
+    for (int i = 0; i < CHUNK_ROOM; i++) {
+        const ChunkChain *from = &sums->table[i];
+        FoundChain       *to = from->is_used ? found_chain(found, &from->key) : NULL;
+        if (!to) continue;
+        double mean = from->sum / CHUNK;
+        to->sum += mean;
+        to->squares += mean * mean;
+        keep_ray(to, from);
+        gifts->list[gifts->count++] = (ChunkGift){to->id, mean};
+    }
+}
+
+static ChainChunk *fresh_sums(int count, const Scene *scene, Arena *arena)
+{
+    ChainChunk *sums = ARENA_NEW(arena, ChainChunk, count);
+    for (int i = 0; i < count; i++) {
+        sums[i].table = ARENA_NEW(arena, ChunkChain, CHUNK_ROOM);
+        sums[i].by_part = ARENA_NEW(arena, double, scene->part_count);
+    }
+    return sums;
+}
+
+static ChainFigure figure_of(FoundSums sums, int chunks)
+{
+    double mean = sums.sum / chunks;
+    double variance = fmax(sums.squares / chunks - mean * mean, 0) / (chunks - 1);
+    return (ChainFigure){mean, sqrt(variance)};
+}
+
+/* Greatest first; of equals the one that was found first. */
+static int by_sum(const void *a, const void *b)
+{
+    const FoundChain *x = *(FoundChain *const *)a, *y = *(FoundChain *const *)b;
+    if (x->sum != y->sum) return x->sum < y->sum ? 1 : -1;
+    return (x->id > y->id) - (x->id < y->id);
+}
+
+/* What the chunks gave to chains that are not kept. */
+static ChainFigure rest_of(const FoundChains *found, int chunks)
+{
+    FoundSums rest = {0, 0};
+    for (int k = 0; k < chunks; k++) {
+        double left = found->gifts[k].all;
+        for (int i = 0; i < found->gifts[k].count; i++) {
+            const ChunkGift *gift = &found->gifts[k].list[i];
+            if (found->by_id[gift->chain_id]->is_kept) left -= gift->mean;
+        }
+        add_mean(&rest, fmax(left, 0));
+    }
+    return figure_of(rest, chunks);
+}
+
+static void keep_greatest(const FoundChains *found, int chunks, int most, Arena own,
+                          Chains *out)
+{
+    FoundChain **list = ARENA_NEW(&own, FoundChain *, found->count);
+    memcpy(list, found->by_id, (size_t)found->count * sizeof *list);
+    qsort(list, (size_t)found->count, sizeof *list, by_sum);
+    out->count = found->count < most ? found->count : most;
+    out->others = found->count - out->count;
+    for (int i = 0; i < out->count; i++) {
+        list[i]->is_kept = true;
+        out->list[i] = list[i]->chain;
+        out->list[i].figure = figure_of((FoundSums){list[i]->sum, list[i]->squares}, chunks);
+    }
+    out->rest = rest_of(found, chunks);
+}
+
+static const int *alike_parts(const Scene *scene, Arena *arena)
+{
+    int *alike = ARENA_NEW(arena, int, scene->part_count);
+    for (int i = 0; i < scene->part_count; i++) {
+        const Part *part = &scene->parts[i];
+        int first = 0;
+        while (scene->parts[first].material_id != part->material_id ||
+               strcmp(scene->parts[first].name, part->name) != 0)
+            first++;
+        alike[i] = first;
+    }
+    return alike;
+}
+
+#define FAR_LEAST 0.5f
+#define FAR_MOST 20.0f
+
+static float far_length(const Scene *scene)
+{
+    float size = vec3_length(vec3_sub(scene->bounds_max, scene->bounds_min));
+    return fminf(fmaxf(0.5f * size, FAR_LEAST), FAR_MOST);
+}
+
+/* Address space: what is not touched costs nothing. */
+#define OWN_BYTES ((size_t)1 << 32)
+
+Chains chains_find(const ChainAsk *ask, Arena *arena)
+{
+    const Scene *scene = ask->aim->context->scene;
+    int    chunks = (int)((ask->paths + CHUNK - 1) / CHUNK);
+    Arena  own = arena_reserve(OWN_BYTES);
+    Chains out = {.scene = scene, .list = ARENA_NEW(arena, Chain, ask->most),
+                  .by_part = ARENA_NEW(arena, double, scene->part_count),
+                  .alike = alike_parts(scene, arena), .paths = (long)chunks * CHUNK};
+    ChainSearch search = {.ask = ask, .scene = scene, .alike = out.alike,
+                          .far_m = far_length(scene)};
+    FoundChains found = {.table = ARENA_NEW(&own, FoundChain, ROOM),
+                   .by_id = ARENA_NEW(&own, FoundChain *, CHAINS_TOLD),
+                   .gifts = ARENA_NEW(&own, ChunkGifts, chunks)};
+    Arena rounds = arena_reserve(OWN_BYTES);
+    for (; search.first < chunks; search.first += ROUND) {
+        int   count = chunks - search.first < ROUND ? chunks - search.first : ROUND;
+        Arena room = rounds;
+        search.sums = fresh_sums(count, scene, &room);
+        parallel_for(ask->tools->threads, count, hear_chunk, &search);
+        for (int i = 0; i < count; i++) {
+            add_chunk(&found, &search.sums[i], &found.gifts[search.first + i], &own);
+            for (int p = 0; p < scene->part_count; p++)
+                out.by_part[p] += search.sums[i].by_part[p] / CHUNK / chunks;
+        }
+    }
+    out.all = figure_of(found.all, chunks);
+    out.mirror = figure_of(found.mirror, chunks);
+    out.own = found.own / chunks;
+    keep_greatest(&found, chunks, ask->most, own, &out);
+    arena_release(&rounds);
+    arena_release(&own);
+    return out;
+}

@@ -1,0 +1,80 @@
+/* chains.h -- by which chains of objects light comes to an eye from what it looks at.
+ *
+ * A chain is what the eye's ray meets, by node and material, and what each does with light: the
+ * first CHAIN_STEPS of it, the panes between, and where the light began. Parts of one node and
+ * material count as one. Light is heard path by path (path.h); the greatest chains are kept
+ * with some of their rays, all others are one figure, and they add up to what was seen.
+ *
+ * Standard errors come from means of whole chunks of paths, as a reading's do (reading.h).
+ *
+ * Units    cd m^-2; metres, world.
+ * Memory   what is kept lives in the arena.
+ * Threads  starts its own; the same figures and rays for any count.
+ */
+#pragma once
+#include "review/light/reading.h"
+
+#define CHAIN_STEPS 4
+#define CHAIN_RAYS 8
+#define CHAIN_POINTS (PATH_STEPS_TOLD + 2)
+
+typedef struct ChainLink {
+    int part_id; /* the first of those that count as one */
+    int event;   /* PathEvent */
+    int pane_id; /* of the last pane before it; NO_ID: none, and always at the first link */
+} ChainLink;
+
+/* Plain numbers, zero behind count: keys are compared as bytes. */
+typedef struct ChainKey {
+    ChainLink link[CHAIN_STEPS];
+    int count;     /* 0: the source is seen by itself */
+    int is_longer; /* there are further surfaces */
+    int pane_id;   /* the last pane before the source; NO_ID: none */
+    int source;    /* LightSet */
+    int source_id; /* as a PathTale's */
+} ChainKey;
+
+/* From the eye over the surfaces to where the light began; what comes from far off ends some
+ * way towards it. */
+typedef struct ChainRay {
+    Vec3 point[CHAIN_POINTS];
+    int  count;
+    int  is_cut; /* its further surfaces are left out */
+} ChainRay;
+
+typedef struct ChainFigure {
+    double cd_m2, sigma; /* and its standard error */
+} ChainFigure;
+
+typedef struct Chain {
+    ChainKey    key;
+    ChainFigure figure;
+    ChainRay    rays[CHAIN_RAYS]; /* drawn with a chance that goes with their light */
+    int         ray_count;        /* one of a chunk of paths at most */
+} Chain;
+
+typedef struct Chains {
+    const Scene *scene;
+    Chain      *list;   /* the greatest, greatest first */
+    int         count;
+    int         others; /* how many more there are */
+    ChainFigure rest;   /* of those */
+    ChainFigure all, mirror; /* mirror: by way of the mirror of a display that is seen first */
+    double      own;    /* cd m^-2 of `all` that began at the display that is seen first */
+    double     *by_part; /* cd m^-2 that came by each part of the scene, surface or pane, behind
+                            what is seen first; of parts that count as one at their first */
+    const int  *alike;  /* of each part: the first of those that count as one */
+    long        paths;
+} Chains;
+
+typedef struct ChainAsk {
+    const ProbeAim     *aim;         /* not a luxmeter */
+    const ReadingTools *tools;
+    long                paths;       /* at least CHAIN_PATHS_LEAST; rounded up to a chunk */
+    int                 most;        /* chains that are kept */
+    bool                with_direct; /* sources that the eye sees by themselves count, too */
+} ChainAsk;
+
+#define CHAIN_PATHS_LEAST 1024
+
+Chains chains_find(const ChainAsk *ask, Arena *arena);

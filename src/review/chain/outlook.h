@@ -1,0 +1,51 @@
+/* outlook.h -- what a surface sees from one of its points: the half space before it as a
+ * picture, and which things light it.
+ *
+ * The picture is that of a fisheye that looks out along the normal: equidistant, the normal in
+ * the middle, the surface's own plane along the rim, `up` upwards. The sun's disc is not in it,
+ * nor are lamps without a body: of those the shares tell.
+ *
+ * Units    cd m^-2, lx; pixels of the picture, row 0 at the top; unit vectors, world.
+ * Memory   what is kept lives in the arena.
+ * Threads  starts its own; the same figures for any count.
+ */
+#pragma once
+#include "review/light/reading.h"
+
+typedef struct OutlookAsk {
+    const PathContext  *context;
+    const ReadingTools *tools;
+    Vec3 point, ng; /* of the surface; ng on the side that looks */
+    Vec3 up;        /* not along ng */
+    Vec3 eye;       /* who sees the surface: its mirror image is marked; in front of it */
+} OutlookAsk;
+
+/* One thing that is seen first, by node and material, or a source, by way of a pane. */
+typedef struct OutlookShare {
+    const char *what;  /* "sky through Window_FL (glass)" */
+    double      share; /* of the illuminance of the surface */
+    double      lux;
+} OutlookShare;
+
+#define OUTLOOK_SIZE 128
+#define OUTLOOK_SHARES 8
+
+typedef struct Outlook {
+    float       *cd_m2;        /* [OUTLOOK_SIZE][OUTLOOK_SIZE]; NaN outside the circle */
+    double       lux;          /* illuminance of the surface */
+    OutlookShare shares[OUTLOOK_SHARES]; /* the greatest, greatest first */
+    int          share_count;
+    double       rest;         /* share of all others */
+    double       mirror_x, mirror_y; /* where the eye's mirror direction is */
+    const char  *mirror_what;  /* most of what is seen there, MIRROR_DEG about it */
+    double       mirror_cd_m2; /* and its mean luminance */
+    bool         has_sun;      /* the sun lights the point: */
+    double       sun_x, sun_y;
+} Outlook;
+
+#define OUTLOOK_MIRROR_DEG 5
+
+/* The world's up, or ahead where the surface lies flat. */
+Vec3 outlook_up(Vec3 ng);
+
+Outlook outlook_take(const OutlookAsk *ask, Arena *arena);

@@ -1,0 +1,22 @@
+/* ray_file.h -- the rays of a case's causes as glTF 2.0: lines that any viewer shows beside the
+ * scene, in its metres.
+ *
+ * Each cause is a mesh of its own (mode LINES), with its own colour and its chain as the node's
+ * name; `extras` of the node say its share, its cd/m^2 and the contrast without it.
+ * NAME.gltf holds its numbers itself; NAME.glb is the binary form.
+ *
+ * Memory   scratch only.
+ * Threads  no shared state.
+ * Fails    for another ending, and where the file cannot be written.
+ */
+#pragma once
+#include "base/error.h"
+#include "review/verdict.h"
+
+/* Before long work: would ray_file_write take the name? */
+bool ray_file_check(const char *path, Error *err);
+
+bool ray_file_write(const ReviewCase *c, const char *path, Error *err);
+
+/* sRGB of cause i, 0..1: told apart without colour vision by their order in lightness, too. */
+void ray_colour(int i, float srgb[3]);

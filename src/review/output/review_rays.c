@@ -1,0 +1,98 @@
+#include "review/output/review_rays.h"
+
+#include <math.h>
+
+#include "review/output/ray_file.h"
+#include "review/output/review_words.h"
+#include "text/escape.h"
+
+#define NEAR_M 0.02 /* nothing nearer to the eye is drawn */
+#define FAR_PX 20000.0
+
+/* Of a frame: x to the right, y down in pixels; z metres before the eye. */
+typedef struct SeenPoint {
+    double x, y, z;
+} SeenPoint;
+
+static SeenPoint before_eye(const CaseView *view, Vec3 p)
+{
+    Vec3 d = vec3_sub(p, view->eye);
+    return (SeenPoint){(double)vec3_dot(d, view->right), (double)vec3_dot(d, view->up),
+                       (double)vec3_dot(d, view->forward)};
+}
+
+static SeenPoint in_picture(const CaseView *view, SeenPoint p)
+{
+    double depth = view->is_perspective ? p.z : 1;
+    double x = (p.x / (depth * view->half_width) + 1) * 0.5 * view->width;
+    double y = (1 - p.y / (depth * view->half_height)) * 0.5 * view->height;
+    return (SeenPoint){fmin(fmax(x, -FAR_PX), FAR_PX), fmin(fmax(y, -FAR_PX), FAR_PX), p.z};
+}
+
+/* The point of the stretch where it comes before the eye. */
+static SeenPoint cut(SeenPoint hidden, SeenPoint shown)
+{
+    double t = (NEAR_M - shown.z) / (hidden.z - shown.z);
+    return (SeenPoint){shown.x + t * (hidden.x - shown.x), shown.y + t * (hidden.y - shown.y),
+                       NEAR_M};
+}
+
+static void add_stretch(Text *html, const CaseView *view, SeenPoint a, SeenPoint b)
+{
+    if (a.z < NEAR_M && b.z < NEAR_M) return;
+    if (a.z < NEAR_M) a = cut(a, b);
+    if (b.z < NEAR_M) b = cut(b, a);
+    SeenPoint p = in_picture(view, a), q = in_picture(view, b);
+    text_format(html, "M%.0f %.0fL%.0f %.0f", p.x, p.y, q.x, q.y);
+}
+
+/* All but the first stretch, which runs along the look. */
+static void add_ray(Text *html, const CaseView *view, const CaseRay *ray)
+{
+    for (int i = 1; i + 1 < ray->count; i++)
+        add_stretch(html, view, before_eye(view, ray->points[i]),
+                    before_eye(view, ray->points[i + 1]));
+}
+
+static void add_place(Text *html, const CaseView *view, const CaseRay *ray)
+{
+    SeenPoint p = before_eye(view, ray->points[1]);
+    if (p.z < NEAR_M) return;
+    p = in_picture(view, p);
+    text_format(html, "<circle cx=\"%.0f\" cy=\"%.0f\" r=\"%d\"/>", p.x, p.y,
+                view->width / 320 + 2);
+}
+
+bool review_rays_has(const ReviewCase *c, int i)
+{
+    return c->frame && c->view && c->causes[i].ray_count > 0;
+}
+
+const char *review_rays_id(const char *card_id, int i, Arena *arena)
+{
+    return arena_format(arena, "%s-way%d", card_id, i + 1);
+}
+
+void review_rays_add(Text *html, const ReviewCase *c, const char *card_id, Arena *arena)
+{
+    const CaseView *view = c->view;
+    text_format(html, "<svg class=\"rays\" viewBox=\"0 0 %d %d\">", view->width, view->height);
+    for (int i = 0; i < c->cause_count; i++) {
+        const CaseCause *cause = &c->causes[i];
+        float rgb[3];
+        if (!review_rays_has(c, i)) continue;
+        ray_colour(i, rgb);
+        text_format(html, "<g id=\"%s\" style=\"--ray:#%02x%02x%02x\"><title>",
+                    review_rays_id(card_id, i, arena), (int)(255 * rgb[0] + 0.5f),
+                    (int)(255 * rgb[1] + 0.5f), (int)(255 * rgb[2] + 0.5f));
+        escape_markup(html, words_chain(cause, arena));
+        text_add(html, "</title><path class=\"under\" d=\"");
+        for (int k = 0; k < cause->ray_count; k++) add_ray(html, view, &cause->rays[k]);
+        text_add(html, "\"/><path d=\"");
+        for (int k = 0; k < cause->ray_count; k++) add_ray(html, view, &cause->rays[k]);
+        text_add(html, "\"/>");
+        for (int k = 0; k < cause->ray_count; k++) add_place(html, view, &cause->rays[k]);
+        text_add(html, "</g>");
+    }
+    text_add(html, "</svg>");
+}

@@ -1,0 +1,43 @@
+/* explain.h -- why one thing looks as it does: a symbol of a review under one condition, a
+ * display, or a part of a camera's picture.
+ *
+ * What is told is a ReviewCase with its causes, by more paths than a review takes, and with
+ * more of their rays.
+ *
+ * Units    verdict.h's.
+ * Memory   what is told lives in the arena.
+ * Threads  starts its own; the same figures for any count.
+ * Fails    where a name is missing or not known: the text lists those that there are.
+ */
+#pragma once
+#include "review/chain/chains.h"
+#include "review/chain/outlook.h"
+#include "review/profile.h"
+#include "review/run/cases.h"
+
+typedef struct ExplainOptions {
+    const char *condition, *eye, *symbol; /* NULL: there is only one */
+    bool        has_sun;                  /* of a sweep: which of its suns, */
+    double      sun_deg[2];               /* azimuth of the vehicle, elevation */
+    const char *root, *isa;               /* --root, kernel.h's; or NULL */
+    int         threads;
+    long        paths;
+    bool        with_outlook;
+    const Profile *profile;               /* limits */
+    Problems      *problems;              /* warnings of the scene */
+} ExplainOptions;
+
+typedef struct Explained {
+    ReviewCase  of;       /* `symbol` NULL: no symbol; contrasts NaN: no display */
+    ChainFigure all;      /* what its causes add up to */
+    double      shown;    /* cd m^-2: of a display without a symbol what it emits, mean */
+    bool        has_outlook;
+    Outlook     outlook;
+    long        paths;
+} Explained;
+
+/* What a symbol's middle sees; the eye stands before it. */
+Outlook stage_outlook(const Stage *stage, const StageSymbol *symbol, Vec3 eye, Arena *arena);
+
+bool explain_review(const ReviewRequest *request, const ExplainOptions *options, Arena *arena,
+                    Explained *out, Error *err);

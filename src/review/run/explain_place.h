@@ -1,0 +1,23 @@
+/* explain_place.h -- the same for a display or a part of a picture, without a review.
+ *
+ * Units    explain.h's.  Memory  what is told lives in the arena.
+ * Threads  starts its own; the same figures for any count.
+ */
+#pragma once
+#include "review/run/explain.h"
+
+/* A scene that is lit, and what is looked at in it. */
+typedef struct ExplainPlace {
+    const PathContext  *context;
+    const ReadingTools *tools;
+    Vec3                eye;
+    const Vec3         *targets; /* along each of them the eye looks; a path each, and again */
+    int                 target_count;
+    long                paths;
+    bool                with_outlook;
+} ExplainPlace;
+
+/* Where at least half of the targets show a display, those of them count and the light is what
+ * it reflects, its contrast that of white and black as the display sends them; else all that
+ * comes to the eye. */
+void explain_place(const ExplainPlace *place, Arena *arena, Explained *out);
