@@ -119,6 +119,46 @@ typedef struct ReviewCase {
     const char *outlook_words;   /* what is in it */
 } ReviewCase;
 
+/* A 95 % interval. */
+typedef struct Range {
+    double low, high;
+} Range;
+
+/* Of the veil in the eye, by where its light begins: they add up to it. */
+typedef struct GazeVeil {
+    double sun, sky, lamps; /* seen straight or through glass; lamps: displays too */
+    double glints;          /* sun, lamps and displays by way of mirrors and panes alone */
+    double surfaces;        /* all else: what is lit, and the sky in mirrors */
+    double near;            /* sky and surfaces within 1 degree: what the eye looks at */
+} GazeVeil;
+
+/* What an eye sees, and what is lost to it, that looks elsewhere than at a symbol, such as at
+ * the road. */
+typedef struct GazeFinding {
+    const char *condition, *eye, *gaze;
+    double   sun_deg;        /* between the gaze and the sun, seen or not; NaN: none is up */
+    double   veil;           /* cd m^-2, that stray light lays over the gaze, in the eye */
+    Range    veil_range;
+    GazeVeil veil_parts;
+    double   cornea_lux;     /* of the pupil's plane */
+    double   through;        /* cd m^-2 along the gaze: what it looks at, as it arrives; */
+    double   mirrored;       /* what a pane before it mirrors over that */
+    Range    mirrored_range;
+    const char *mirrored_by; /* the pane that mirrors most; NULL: nothing is mirrored */
+    const char *mirrored_from; /* what most of it shows; NULL likewise */
+    /* Of a distant object's contrast: both veils add to the object and to its background alike
+     * (CIE S 017, "equivalent veiling luminance": of disability glare or of veiling
+     * reflections), so that Weber's contrast (L - B)/B keeps B/(B + veils) of itself. What is
+     * near is the background B, and no veil. NaN: no light. */
+    double   contrast_behind_glass; /* what the mirrored light leaves; 1: all */
+    double   contrast_left;         /* and the veil in the eye with it */
+    Range    contrast_range;        /* of the latter */
+    double   dgp, ugr;              /* secondary figures; ugr: NaN without a source */
+} GazeFinding;
+
+/* Contrast left of which less is told at once: half is lost. No limit. */
+#define GAZE_POOR 0.5
+
 /* Of one symbol and eye over many suns. */
 typedef struct ReviewSweep {
     const char *condition, *eye, *symbol;
@@ -158,6 +198,8 @@ typedef struct Review {
     int             case_count;
     ReviewSweep    *sweeps;
     int             sweep_count;
+    GazeFinding    *gazes;
+    int             gaze_count;
     ReviewResponse *responses;
     int             response_count;
     ReviewFalseSun *false_suns;   /* by condition and eye, the worst first */

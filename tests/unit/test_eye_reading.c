@@ -6,11 +6,11 @@
 #include "vision/disability_glare.h"
 #include "world_fixture.h"
 
-static const ReviewRequest request = {.forward = {0, 0, -1}, .observer = {50, 0.5}};
-static const HumanEye      whose = {50, 0.5};
-static const Vec3          at = {0, 0, -1}; /* looked at from the origin */
+static ReviewRequest  request = {.forward = {0, 0, -1}, .observer = {50, 0.5}};
+static const HumanEye whose = {50, 0.5};
+static const Vec3     at = {0, 0, -1}; /* looked at from the origin */
 
-static EyeReading read_eye(World *world)
+static EyeReading read_towards(World *world, Vec3 towards, int rounds)
 {
     const Kernel *kernel;
     Error         err = {0};
@@ -18,7 +18,13 @@ static EyeReading read_eye(World *world)
     world_ready(world, 16);
     Stage stage = {.request = &request, .tools = {kernel, 2}, .scene = world->scene,
                    .context = world->context};
-    return eye_read(&stage, vec3(0, 0, 0), at, world->arena);
+    EyeLook look = {vec3(0, 0, 0), towards, rounds};
+    return eye_read(&stage, &look, world->arena);
+}
+
+static EyeReading read_eye(World *world)
+{
+    return read_towards(world, at, 1);
 }
 
 /* Above the line of sight. */
@@ -71,7 +77,11 @@ TEST(a_lamp_without_a_body_veils_alike)
     world.scene->lights[world.scene->light_count++] =
         (PunctualLight){.name = "lamp", .kind = LIGHT_POINT, .position = at_angle(20),
                         .intensity = {300, 300, 300}, .level = 1};
-    assert_veil(read_eye(&world), 20, 300 * cos(radians_from_degrees(20)));
+    EyeReading found = read_eye(&world);
+    double     lux = 300 * cos(radians_from_degrees(20));
+    assert_veil(found, 20, lux);
+    assert_near(found.vertical_lx, lux, 0.01 * lux);
+    assert_near(found.parts[EYE_LAMPS], found.veil, 1e-9 * found.veil);
     world_end(&world);
 }
 
@@ -86,8 +96,39 @@ TEST(the_sun_veils_by_its_own_angle)
     double     lux = 50000 * cos(radians_from_degrees(15));
     assert_veil(found, 15, lux);
     if (!(fabs(found.vertical_lx / lux - 1) < 0.01)) fail_msg("%g lx", found.vertical_lx);
+    assert_near(found.parts[EYE_SUN], found.veil, 1e-9 * found.veil);
     assert_true(found.dgp > 0.45 && found.dgp <= 1);
     world_end(&world);
+}
+
+/* Before the eye, from in front of it to above it: it takes and mirrors a share of the sun. */
+TEST(glass_takes_what_it_mirrors_of_the_sun)
+{
+    (void)state;
+    static const double passed = 0.902528; /* of 1.52 at 45 degrees: Fresnel, both faces */
+    World    world = dark_world();
+    Material window = builder_material(1);
+    double   a = radians_from_degrees(15 + 45);
+    window.transmission = 1;
+    window.roughness = 0;
+    window.ior = 1.52f;
+    window.lets_light_through = true;
+    builder_part(world.scene, window);
+    builder_quad(world.scene, at_angle(15), vec3(1, 0, 0),
+                 vec3(0, (float)cos(a), (float)sin(a)));
+    world.scene->environment.has_sun = true;
+    world.scene->environment.sun_elevation = (float)radians_from_degrees(15);
+    world.scene->environment.sun_illuminance_lx = 90000;
+    EyeReading found = read_eye(&world);
+    assert_veil(found, 15, 90000 * passed * cos(radians_from_degrees(15)));
+    world_end(&world);
+}
+
+static void light_sky(World *world, float luminance)
+{
+    world->scene->environment.kind = ENVIRONMENT_CONSTANT;
+    world->scene->environment.luminance_cd_m2 = luminance;
+    for (int i = 0; i < 3; i++) world->scene->environment.color[i] = 1;
 }
 
 /* f L cos theta over the half space in front, by quadrature. */
@@ -96,9 +137,7 @@ TEST(a_uniform_sky_veils_by_the_integral)
     (void)state;
     World  world = dark_world();
     double sum = 0, step = 0.01;
-    world.scene->environment.kind = ENVIRONMENT_CONSTANT;
-    world.scene->environment.luminance_cd_m2 = 100;
-    for (int i = 0; i < 3; i++) world.scene->environment.color[i] = 1;
+    light_sky(&world, 100);
     for (double d = DISABILITY_GLARE_MIN_DEG + step / 2; d < 90; d += step) {
         double t = radians_from_degrees(d);
         sum += disability_glare(d, whose) * cos(t) * sin(t) * radians_from_degrees(step) *
@@ -109,6 +148,62 @@ TEST(a_uniform_sky_veils_by_the_integral)
         fail_msg("veil %g, wanted %g", found.veil, 100 * sum);
     if (!(fabs(found.vertical_lx / (100 * PI) - 1) < 0.01))
         fail_msg("%g lx", found.vertical_lx);
+    world_end(&world);
+}
+
+/* A sky, a lamp and a white floor that both light. */
+static World lit_world(void)
+{
+    World world = world_start();
+    builder_part(world.scene, builder_material(0.8f));
+    builder_quad(world.scene, vec3(0, -1, 0), vec3(3, 0, 0), vec3(0, 0, -3));
+    light_sky(&world, 100);
+    world.scene->lights[world.scene->light_count++] =
+        (PunctualLight){.name = "lamp", .kind = LIGHT_POINT, .position = at_angle(20),
+                        .intensity = {300, 300, 300}, .level = 1};
+    return world;
+}
+
+TEST(parts_of_a_veil_add_up_and_rounds_agree)
+{
+    (void)state;
+    World      world = lit_world();
+    EyeReading once = read_towards(&world, at, 1), often = read_towards(&world, at, 16);
+    double     sum = 0;
+    for (int i = 0; i < EYE_SOURCES; i++) sum += often.parts[i];
+    assert_near(sum, often.veil, 1e-9 * sum);
+    assert_true(often.parts[EYE_SKY] > 0 && often.parts[EYE_LAMPS] > 0 &&
+                often.parts[EYE_SURFACES] > 0 && often.parts[EYE_NEAR] > 0);
+    assert_true(often.parts[EYE_SUN] == 0 && often.parts[EYE_GLINTS] == 0);
+    assert_true(isnan(once.veil_sigma) && often.veil_sigma > 0);
+    assert_true(often.veil_sigma < 0.002 * often.veil);
+    assert_near(once.veil, often.veil, 5 * 4 * often.veil_sigma); /* a round's: 4 times */
+    world_end(&world);
+}
+
+TEST(an_older_eye_has_more_veil)
+{
+    (void)state;
+    World  world = lit_world();
+    double last = 0;
+    for (int age = 20; age <= 80; age += 30) {
+        request.observer.age_years = age;
+        double veil = read_eye(&world).veil;
+        assert_true(veil > 1.01 * last);
+        last = veil;
+    }
+    request.observer.age_years = 50;
+    world_end(&world);
+}
+
+TEST(eyes_look_straight_up_and_down)
+{
+    (void)state;
+    World world = lit_world();
+    for (int sign = -1; sign <= 1; sign += 2) {
+        EyeReading found = read_towards(&world, vec3(0, (float)sign, 0), 1);
+        assert_true(found.veil > 0 && found.dgp > 0);
+    }
     world_end(&world);
 }
 

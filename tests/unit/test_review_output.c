@@ -9,7 +9,6 @@
 
 #include "base/file.h"
 #include "base/file_write.h"
-#include "review/output/review_csv.h"
 #include "review/output/review_json.h"
 #include "review/output/review_json_read.h"
 #include "review/output/review_junit.h"
@@ -168,6 +167,35 @@ static void assert_same_false_sun(const ReviewFalseSun *a, const ReviewFalseSun 
     assert_same(a->veil_cd_m2, b->veil_cd_m2);
 }
 
+static void assert_same_range(Range a, Range b)
+{
+    assert_same(a.low, b.low);
+    assert_same(a.high, b.high);
+}
+
+static void assert_same_gaze(const GazeFinding *a, const GazeFinding *b)
+{
+    const double *v = &a->veil_parts.sun, *w = &b->veil_parts.sun;
+    for (size_t i = 0; i < sizeof a->veil_parts / sizeof *v; i++) assert_same(v[i], w[i]);
+    assert_same_text(a->condition, b->condition);
+    assert_same_text(a->eye, b->eye);
+    assert_same_text(a->gaze, b->gaze);
+    assert_same_text(a->mirrored_by, b->mirrored_by);
+    assert_same_text(a->mirrored_from, b->mirrored_from);
+    assert_same(a->sun_deg, b->sun_deg);
+    assert_same(a->veil, b->veil);
+    assert_same(a->cornea_lux, b->cornea_lux);
+    assert_same(a->through, b->through);
+    assert_same(a->mirrored, b->mirrored);
+    assert_same(a->contrast_behind_glass, b->contrast_behind_glass);
+    assert_same(a->contrast_left, b->contrast_left);
+    assert_same(a->dgp, b->dgp);
+    assert_same(a->ugr, b->ugr);
+    assert_same_range(a->veil_range, b->veil_range);
+    assert_same_range(a->mirrored_range, b->mirrored_range);
+    assert_same_range(a->contrast_range, b->contrast_range);
+}
+
 static void assert_same_review(const Review *a, const Review *b)
 {
     assert_same_text(a->title, b->title);
@@ -193,6 +221,8 @@ static void assert_same_review(const Review *a, const Review *b)
     assert_int_equal(a->false_sun_count, b->false_sun_count);
     for (int i = 0; i < a->false_sun_count; i++)
         assert_same_false_sun(&a->false_suns[i], &b->false_suns[i]);
+    assert_int_equal(a->gaze_count, b->gaze_count);
+    for (int i = 0; i < a->gaze_count; i++) assert_same_gaze(&a->gazes[i], &b->gazes[i]);
     for (int i = 0; i < a->response_count; i++) {
         assert_same_text(a->responses[i].probe, b->responses[i].probe);
         assert_int_equal(a->responses[i].paths, b->responses[i].paths);
@@ -315,106 +345,15 @@ TEST(every_key_is_wanted)
     json_t *sweep = json_array_get(json_object_get(root, "sweeps"), 1);
     json_t *response = json_array_get(json_object_get(root, "responses"), 0);
     json_t *image = json_array_get(json_object_get(root, "false_suns"), 0);
-    count += assert_keys_are_wanted(root, sweep) + assert_keys_are_wanted(root, response);
     count += assert_keys_are_wanted(root, image);
     count += assert_keys_are_wanted(root, json_object_get(image, "sun"));
-    assert_int_equal(count, 9 + 28 + 2 + 6 + 12 + 5 + 3 + 8 + 4 + 12 + 2);
+    json_t *gaze = json_array_get(json_object_get(root, "gazes"), 1);
+    count += assert_keys_are_wanted(root, gaze) +
+             assert_keys_are_wanted(root, json_object_get(gaze, "veil_parts_cd_m2"));
+    count += assert_keys_are_wanted(root, sweep) + assert_keys_are_wanted(root, response);
+    assert_int_equal(count, 10 + 28 + 2 + 6 + 12 + 5 + 3 + 8 + 4 + 12 + 2 +
+                                18 + 6);
     json_decref(root);
-}
-
-/* ---- CSV -------------------------------------------------------------------------------- */
-
-enum { CSV_COLUMNS = 35 };
-
-/* One record of RFC 4180 into cells; what follows it. */
-static const char *read_record(const char *at, const char *cell[CSV_COLUMNS], int *count)
-{
-    for (*count = 0;; at++) {
-        Text text = {.arena = &arena};
-        bool quoted = *at == '"';
-        text_add(&text, "");
-        for (at += quoted; quoted ? *at != '"' || at[1] == '"' : !strchr(",\r\n", *at); at++) {
-            assert_true(*at && (quoted || *at != '"'));
-            text_add_bytes(&text, at, 1);
-            at += quoted && *at == '"';
-        }
-        at += quoted;
-        assert_true(*count < CSV_COLUMNS);
-        cell[(*count)++] = text.data ? text.data : "";
-        if (*at != ',') break;
-    }
-    assert_true(at[0] == '\r' && at[1] == '\n');
-    return at + 2;
-}
-
-static double number_of(const char *cell)
-{
-    char  *end = NULL;
-    double value = strtod(cell, &end);
-    assert_true(*end == 0);
-    return *cell ? value : NAN;
-}
-
-static void assert_csv_says(const Review *review)
-{
-    Error       err = {0};
-    const char *path = fresh_name(), *header[CSV_COLUMNS], *cell[CSV_COLUMNS];
-    int         count = 0;
-    assert_true(review_csv_write(review, path, &err));
-    const char *at = read_record(take(path), header, &count);
-    assert_int_equal(count, CSV_COLUMNS);
-    assert_string_equal(header[9], "reflected_cd_m2");
-    assert_string_equal(header[13], "contrast_ratio");
-    assert_string_equal(header[24], "ugr");
-    assert_string_equal(header[25], "eye_failed_share");
-    assert_string_equal(header[31], "margin");
-    for (int i = 0; i < review->case_count; i++) {
-        const ReviewCase *c = &review->cases[i];
-        at = read_record(at, cell, &count);
-        assert_int_equal(count, CSV_COLUMNS);
-        assert_string_equal(cell[0], c->condition);
-        assert_string_equal(cell[2], c->symbol);
-        assert_same(c->luminance_cd_m2.reflected, number_of(cell[9]));
-        assert_same(c->contrast_ratio, number_of(cell[13]));
-        assert_same(c->ugr, number_of(cell[24]));
-        assert_same(c->eye_failed_share, number_of(cell[25]));
-        assert_same(c->margin, number_of(cell[31]));
-        assert_string_equal(cell[34], verdict_names[c->verdict]);
-    }
-    assert_int_equal(*at, 0);
-}
-
-TEST(csv_says_the_same)
-{
-    (void)state;
-    Review odd = fixture_odd_review(&arena), plain = fixture_review(&arena), none = {0};
-    assert_csv_says(&odd);
-    assert_csv_says(&plain);
-    assert_csv_says(&none);
-}
-
-TEST(csv_tells_every_false_sun)
-{
-    (void)state;
-    Review reviews[] = {fixture_odd_review(&arena), fixture_review(&arena)};
-    const char *cell[CSV_COLUMNS];
-    int count = 0;
-    for (int k = 0; k < 2; k++) {
-        Error err = {0};
-        const char *path = fresh_name();
-        assert_true(review_csv_write_false_suns(&reviews[k], path, &err));
-        const char *at = read_record(take(path), cell, &count);
-        for (int i = 0; i < reviews[k].false_sun_count; i++) {
-            const ReviewFalseSun *f = &reviews[k].false_suns[i];
-            at = read_record(at, cell, &count);
-            assert_true(count == 13 && !strcmp(cell[2], f->mirror));
-            assert_same(f->minutes, number_of(cell[4]));
-            assert_string_equal(cell[6], f->when ? f->when : "");
-            assert_same(f->lux, number_of(cell[9]));
-            assert_same(f->veil_cd_m2, number_of(cell[12]));
-        }
-        assert_int_equal(*at, 0);
-    }
 }
 
 /* ---- JUnit ------------------------------------------------------------------------------ */

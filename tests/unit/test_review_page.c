@@ -217,6 +217,23 @@ TEST(the_first_line_says_it_all)
     assert_int_equal(count_of(page, "not read in the standard"), 3); /* three limits */
 }
 
+TEST(the_worst_gaze_comes_first)
+{
+    (void)state;
+    Review      review = fixture_review(&arena);
+    const char *page = page_of(&(ReviewPage){.review = &review});
+    const char *worst = strstr(page, "Worst: driver, looking at road");
+    assert_non_null(strstr(page, "Looking elsewhere"));
+    assert_non_null(worst);
+    const char *share = words_share(review.gazes[1].contrast_left, &arena);
+    const char *told = strstr(worst, share);
+    assert_true(told && told < strstr(worst, "</p>"));
+    assert_true(strstr(worst, "sun 8° from the gaze") < strstr(worst, "sun 65° from the gaze"));
+    assert_non_null(strstr(worst, "mostly the sun"));
+    review.gaze_count = 0;
+    assert_null(strstr(page_of(&(ReviewPage){.review = &review}), "Looking elsewhere"));
+}
+
 TEST(what_changed_is_on_the_page)
 {
     (void)state;

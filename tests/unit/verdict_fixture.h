@@ -147,6 +147,35 @@ static inline ReviewSweep fixture_sweep(Arena *arena, const char *condition, dou
                          .table = "sweeps/any_sun_driver_speed.csv"};
 }
 
+/* By day, facing the sun and at night, the last without anything mirrored. */
+static inline void fixture_gazes(Arena *arena, Review *review)
+{
+    static const double THROUGH[] = {4200, 3900, 0.8}, MIRRORED[] = {310, 640, 0};
+    static const double SUN[] = {65, 8, 0}, REST[] = {74, 92, 0.05};
+    review->gazes = ARENA_NEW(arena, GazeFinding, 3);
+    review->gaze_count = 3;
+    for (int i = 0; i < 3; i++) {
+        GazeFinding g = {.condition = FIXTURE_LIGHTS[2 - i].name, .eye = "driver",
+                         .gaze = "road", .sun_deg = i < 2 ? SUN[i] : NAN,
+                         .veil_parts = {i == 1 ? 5100 : 0, 0.4 * REST[i], 0.1 * REST[i],
+                                        0.1 * REST[i], 0.3 * REST[i], 0.1 * REST[i]},
+                         .through = THROUGH[i], .mirrored = MIRRORED[i],
+                         .cornea_lux = 3 * THROUGH[i], .dgp = 0.2 + 0.2 * i, .ugr = 18.5};
+        g.veil = g.veil_parts.sun + REST[i];
+        g.veil_range = (Range){0.98 * g.veil, 1.02 * g.veil};
+        g.mirrored_range = (Range){0.99 * g.mirrored, 1.01 * g.mirrored};
+        if (g.mirrored > 0) {
+            g.mirrored_by = "windscreen (windscreen glass)";
+            g.mirrored_from = "dashboard pad (leather black)";
+        }
+        g.contrast_behind_glass = g.through / (g.through + g.mirrored);
+        double veils = g.mirrored + g.veil - g.veil_parts.near;
+        g.contrast_left = g.through / (g.through + veils);
+        g.contrast_range = (Range){0.99 * g.contrast_left, 1.01 * g.contrast_left};
+        review->gazes[i] = g;
+    }
+}
+
 /* Three symbols, two eyes, four lights; two sweeps. One symbol hides behind the wheel. */
 static inline Review fixture_review(Arena *arena)
 {
@@ -182,6 +211,7 @@ static inline Review fixture_review(Arena *arena)
     hidden->verdict = VERDICT_NOT_VISIBLE;
     review.sweeps[0] = fixture_sweep(arena, "any sun", NAN);
     review.sweeps[1] = fixture_sweep(arena, "a year", 85);
+    fixture_gazes(arena, &review);
     review_decide(&review);
     return review;
 }
@@ -221,9 +251,15 @@ static inline Review fixture_odd_review(Arena *arena)
                        .height_arcmin = 1.0 / 3, .jnd = 0, .visible_share = 1, .level = 1,
                        .display_lux = 0, .limit_id = -1, .margin = NAN,
                        .verdict = VERDICT_PASS};
+    static GazeFinding gazes[] = {
+        {WILD_NAME, WILD_NAME, WILD_NAME, 0, 1e-9, {NAN, 1e9}, {NAN, 0, 1e-12, -0.0, 1e9, 3},
+         NAN, 0, 1e12, {NAN, NAN}, WILD_NAME, WILD_NAME, 0, NAN, {NAN, NAN}, NAN, -INFINITY},
+        {"", NULL, "", NAN, 0, {0, 0}, {0, 0, 0, 0, 0, 0}, 0, 0, 0, {0, 0}, NULL, NULL, NAN, 0,
+         {0, 1}, 0, NAN}};
     Review review = {.title = WILD_NAME, .profile = WILD_NAME,
                      .cases = ARENA_NEW(arena, ReviewCase, 2), .case_count = 2,
                      .sweeps = ARENA_NEW(arena, ReviewSweep, 1), .sweep_count = 1,
+                     .gazes = gazes, .gaze_count = 2,
                      .responses = responses, .response_count = 1,
                      .false_suns = false_suns, .false_sun_count = 1, .notes = NOTES,
                      .note_count = 2, .is_strict = true};

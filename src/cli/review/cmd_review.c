@@ -76,10 +76,21 @@ static void print_sweep(const ReviewSweep *s)
     putchar('\n');
 }
 
+/* What takes half of what there is to be seen. */
+static void print_gaze(const GazeFinding *g)
+{
+    if (!(g->contrast_left < GAZE_POOR)) return;
+    printf("%-11s %s, %s, looking at %s: %.3g %% of a distant object's contrast left; seen "
+           "%.4g cd/m2, mirrored by glass %.4g, veil in the eye %.4g\n", "veiled",
+           g->condition, g->eye, g->gaze, 100 * g->contrast_left, g->through, g->mirrored,
+           g->veil - g->veil_parts.near);
+}
+
 static void print_review(const Review *review)
 {
     for (int i = 0; i < review->case_count; i++) print_case(&review->cases[i]);
     for (int i = 0; i < review->sweep_count; i++) print_sweep(&review->sweeps[i]);
+    for (int i = 0; i < review->gaze_count; i++) print_gaze(&review->gazes[i]);
     printf("%s\n", review->pass ? "pass" : "FAIL");
 }
 
@@ -96,12 +107,14 @@ static bool print_plan(const Cli *cli, const ReviewRequest *r, Error *err)
     for (int i = 0; i < r->condition_count; i++)
         moments += r->conditions[i].kind == CONDITION_MOMENT;
     if (cli->json)
-        return cli_print_json(json_pack("{s:i, s:i, s:i, s:i}", "eyes", r->eye_count, "symbols",
-                                        r->symbol_count, "moments", moments, "sweeps",
+        return cli_print_json(json_pack("{s:i, s:i, s:i, s:i, s:i}", "eyes", r->eye_count,
+                                        "symbols", r->symbol_count, "gazes",
+                                        review_look_count(r), "moments", moments, "sweeps",
                                         r->condition_count - moments), err);
     printf("eyes     %d\nsymbols  %d (a rectangle of text counts as one here)\n"
-           "moments  %d\nsweeps   %d\n", r->eye_count, r->symbol_count, moments,
-           r->condition_count - moments);
+           "gazes    %d (eyes that look elsewhere, in each moment)\n"
+           "moments  %d\nsweeps   %d\n", r->eye_count, r->symbol_count, review_look_count(r),
+           moments, r->condition_count - moments);
     return true;
 }
 

@@ -187,6 +187,8 @@ bool review_folder_write(const ReviewFolder *folder, ReviewOutcome *outcome, Are
            (!review->false_sun_count ||
             review_csv_write_false_suns(
                 review, arena_format(arena, "%s/false_suns.csv", folder->name), err)) &&
+           review_csv_write_gazes(review, arena_format(arena, "%s/gazes.csv", folder->name),
+                                  err) &&
            review_junit_write(review, arena_format(arena, "%s/junit.xml", folder->name), err) &&
            review_json_write(review_json(review),
                              arena_format(arena, "%s/review.json", folder->name), err) &&

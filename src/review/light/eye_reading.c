@@ -11,20 +11,29 @@
 #define PATHS 4096
 #define CHUNK 64
 #define SEED 0x7665696cu
+#define SHIFT_SEED 0x73686966u
 #define FROM_DEG DISABILITY_GLARE_MIN_DEG
 #define TO_DEG 89.9
+#define UPRIGHT 0.9999f /* of a unit direction: nearer the vertical the head has no top */
+
+/* What one path hears. The veil of lamps, displays and the sun that the eye sees by themselves
+ * is read by light samples, which find small ones too. */
+typedef struct EyePath {
+    double seen;               /* cd m^-2, without the sun's disc; */
+    double apart[EYE_SOURCES]; /* of it, what light samples do not read */
+} EyePath;
 
 /* Angles are drawn evenly in their logarithm, as f cos theta sin theta, about 1 / theta, asks;
- * Hammersley's points. */
+ * Hammersley's points, which each round but the first shifts (Cranley and Patterson 1976). */
 typedef struct EyePaths {
     const Stage *stage;
     ProbeAim     aim;
+    int          count;           /* of all rounds' paths */
     Vec3         gaze, right, up; /* unit: the head's axes */
     HumanEye     whose;
     Vec3        *targets;         /* one a path; the rest likewise: */
     double      *solid_angles;    /* sr that it stands for */
-    double      *seen;            /* cd m^-2 that it found, without the sun's disc; */
-    double      *apart;           /* of it, what light samples do not read */
+    EyePath     *found;
 } EyePaths;
 
 static Vec3 local_direction(double theta, double phi)
@@ -33,14 +42,23 @@ static Vec3 local_direction(double theta, double phi)
                 (float)cos(theta));
 }
 
+/* u, shifted round the unit circle as the round asks for that axis. */
+static double shifted(double u, int round, uint32_t axis)
+{
+    double by = hash_combine(hash_u32(SHIFT_SEED + axis), (uint32_t)round) * 0x1p-32;
+    double sum = u + (round ? by : 0);
+    return sum - floor(sum);
+}
+
 static void aim_path(EyePaths *paths, const Frame *gaze, int i)
 {
-    double range = log(TO_DEG / FROM_DEG), u = (i + 0.5) / PATHS;
+    int    round = i / PATHS, k = i % PATHS;
+    double range = log(TO_DEG / FROM_DEG), u = shifted((k + 0.5) / PATHS, round, 0);
     double theta = radians_from_degrees(FROM_DEG * exp(range * u));
-    double phi = 2 * PI * reverse_bits((uint32_t)i) * 0x1p-32;
+    double phi = 2 * PI * shifted(reverse_bits((uint32_t)k) * 0x1p-32, round, 1);
     Vec3   d = frame_to_world(gaze, local_direction(theta, phi));
     paths->targets[i] = vec3_add(paths->aim.eye, d);
-    paths->solid_angles[i] = sin(theta) * theta * range * 2 * PI / PATHS;
+    paths->solid_angles[i] = sin(theta) * theta * range * 2 * PI / paths->count;
 }
 
 static Vec3 direction_of(const EyePaths *paths, int i)
@@ -53,12 +71,18 @@ static double degrees_between(Vec3 a, Vec3 b)
     return degrees_from_radians(acos(fmin(fmax((double)vec3_dot(a, b), -1), 1)));
 }
 
-/* What one path hears. The veil of lamps, displays and the sun that the eye sees by themselves
- * is read by light samples, which find small ones too. */
-typedef struct EyePath {
-    double seen;  /* cd m^-2, without the sun's disc */
-    double apart; /* of it, what light samples do not read */
-} EyePath;
+static EyeSource source_of(const PathTale *tale)
+{
+    int  told = tale->count < PATH_STEPS_TOLD ? tale->count : PATH_STEPS_TOLD;
+    bool is_mirrored = false;
+    for (int i = 0; i < told; i++) {
+        if (tale->step[i].event == PATH_SCATTERS) return EYE_SURFACES;
+        is_mirrored |= tale->step[i].event == PATH_REFLECTS;
+    }
+    if (tale->source == LIGHTS_SKY) return is_mirrored ? EYE_SURFACES : EYE_SKY;
+    if (is_mirrored) return EYE_GLINTS;
+    return tale->source == LIGHTS_SUN ? EYE_SUN : EYE_LAMPS;
+}
 
 static void hear_path(void *user, const PathTale *tale, const float xyz[3])
 {
@@ -66,7 +90,8 @@ static void hear_path(void *user, const PathTale *tale, const float xyz[3])
     bool     is_direct = tale->count == 0;
     if (is_direct && tale->source == LIGHTS_SUN) return;
     path->seen += (double)xyz[1];
-    if (!is_direct || tale->source == LIGHTS_SKY) path->apart += (double)xyz[1];
+    if (!is_direct || tale->source == LIGHTS_SKY)
+        path->apart[source_of(tale)] += (double)xyz[1];
 }
 
 static void read_chunk(void *user, int item, int worker)
@@ -75,11 +100,8 @@ static void read_chunk(void *user, int item, int worker)
     EyePaths      *paths = user;
     PathStatistics statistics = {0};
     for (int i = item * CHUNK; i < (item + 1) * CHUNK; i++) {
-        EyePath      path = {0, 0};
-        PathListener listener = {hear_path, &path};
+        PathListener listener = {hear_path, &paths->found[i]};
         paths->stage->tools.kernel->hear(&paths->aim, i, i + 1, &listener, &statistics);
-        paths->seen[i] = path.seen;
-        paths->apart[i] = path.apart;
     }
 }
 
@@ -88,7 +110,7 @@ static void read_chunk(void *user, int item, int worker)
 /* Sums over the pupil's light samples. */
 typedef struct PupilSums {
     const EyePaths *paths;
-    double          veil, sun_lx;
+    double          sun_veil, lamp_veil, sun_lx, lamp_lx;
 } PupilSums;
 
 static double veil_of(const EyePaths *paths, Vec3 towards, double lux)
@@ -100,9 +122,11 @@ static double veil_of(const EyePaths *paths, Vec3 towards, double lux)
 static void hear_pupil(void *user, const PathTale *tale, const float xyz[3])
 {
     PupilSums *sums = user;
+    bool       is_sun = tale->source == LIGHTS_SUN;
     if (tale->count || tale->source == LIGHTS_SKY) return;
-    sums->veil += veil_of(sums->paths, tale->towards, (double)xyz[1]);
-    if (tale->source == LIGHTS_SUN) sums->sun_lx += (double)xyz[1];
+    *(is_sun ? &sums->sun_veil : &sums->lamp_veil) +=
+        veil_of(sums->paths, tale->towards, (double)xyz[1]);
+    *(is_sun ? &sums->sun_lx : &sums->lamp_lx) += (double)xyz[1];
 }
 
 typedef struct PupilWork {
@@ -122,21 +146,28 @@ static void read_pupil_chunk(void *user, int item, int worker)
                                            &listener, &statistics);
 }
 
-/* Lamps, displays and the sun's disc: light samples alone find them here. */
-static PupilSums read_pupil(const EyePaths *paths, Arena scratch)
+static void add_pupil(PupilSums *to, const PupilSums *sums)
 {
+    to->sun_veil += sums->sun_veil / PATHS;
+    to->lamp_veil += sums->lamp_veil / PATHS;
+    to->sun_lx += sums->sun_lx / PATHS;
+    to->lamp_lx += sums->lamp_lx / PATHS;
+}
+
+/* Lamps, displays and the sun's disc: light samples alone find them here. One a round. */
+static PupilSums *read_pupil(const EyePaths *paths, Arena *arena)
+{
+    int         rounds = paths->count / PATHS, chunks = paths->count / CHUNK;
+    PupilSums  *all = ARENA_NEW(arena, PupilSums, rounds);
+    Arena       scratch = *arena;
     LitPoint    pupil = {paths->aim.eye, paths->gaze, false};
     PathContext lights_only = paths->stage->context;
     PupilWork   work = {{.context = &lights_only, .meter = &pupil, .seed = SEED + 1}, paths,
-                        ARENA_NEW(&scratch, PupilSums, PATHS / CHUNK)};
-    PupilSums   all = {.paths = paths};
+                        ARENA_NEW(&scratch, PupilSums, chunks)};
     lights_only.strategy = PATH_LIGHTS_ONLY;
     lights_only.max_bounces = 1;
-    parallel_for(paths->stage->tools.threads, PATHS / CHUNK, read_pupil_chunk, &work);
-    for (int i = 0; i < PATHS / CHUNK; i++) {
-        all.veil += work.sums[i].veil / PATHS;
-        all.sun_lx += work.sums[i].sun_lx / PATHS;
-    }
+    parallel_for(paths->stage->tools.threads, chunks, read_pupil_chunk, &work);
+    for (int i = 0; i < chunks; i++) add_pupil(&all[i / (PATHS / CHUNK)], &work.sums[i]);
     return all;
 }
 
@@ -150,6 +181,7 @@ static double position_of(const EyePaths *paths, Vec3 d)
 
 typedef struct EyeSums {
     EyeReading   reading;
+    double       veils[EYE_ROUNDS_MOST]; /* of each round */
     GlareSource *sources;
     int          count;
     double       source_lx;
@@ -158,58 +190,118 @@ typedef struct EyeSums {
 static void add_source(const EyePaths *paths, Vec3 d, double luminance, double solid_angle,
                        EyeSums *sums)
 {
-    double lux = luminance * solid_angle * (double)vec3_dot(d, paths->gaze);
-    sums->reading.vertical_lx += lux;
     if (luminance <= EYE_GLARE_CD_M2) return;
-    sums->source_lx += lux;
+    sums->source_lx += luminance * solid_angle * (double)vec3_dot(d, paths->gaze);
     sums->sources[sums->count++] =
         (GlareSource){luminance, solid_angle, position_of(paths, d), 0};
 }
 
-static void add_path(const EyePaths *paths, int i, EyeSums *sums)
+/* veil: of a round by itself. */
+static void add_veil(const EyePaths *paths, int round, EyeSource source, double veil,
+                     EyeSums *sums)
 {
-    Vec3   d = direction_of(paths, i);
-    double weight = paths->solid_angles[i] * (double)vec3_dot(d, paths->gaze);
-    add_source(paths, d, paths->seen[i], paths->solid_angles[i], sums);
-    sums->reading.veil += veil_of(paths, d, paths->apart[i] * weight);
+    sums->veils[round] += veil;
+    sums->reading.parts[source] += veil * PATHS / paths->count;
 }
 
-static EyeReading sum_up(const EyePaths *paths, const PupilSums *pupil, Arena scratch)
+static EyeSource counted_as(EyeSource source, bool is_near)
 {
-    EyeSums sums = {.sources = ARENA_NEW(&scratch, GlareSource, PATHS + 1)};
-    Vec3    towards;
-    float   bands[LIGHT_BANDS];
-    for (int i = 0; i < PATHS; i++) add_path(paths, i, &sums);
-    if (pupil->sun_lx > 0 && stage_sun(paths->stage, &towards, bands)) {
-        double sine = sin(radians_from_degrees(SUN_MEAN_RADIUS_DEG)), disc = PI * sine * sine;
-        double cosine = (double)vec3_dot(towards, paths->gaze);
-        add_source(paths, towards, pupil->sun_lx / (disc * cosine), disc, &sums);
+    return is_near && (source == EYE_SKY || source == EYE_SURFACES) ? EYE_NEAR : source;
+}
+
+static void add_path(const EyePaths *paths, int i, EyeSums *sums)
+{
+    const EyePath *path = &paths->found[i];
+    Vec3   d = direction_of(paths, i);
+    bool   is_near = degrees_between(d, paths->gaze) < EYE_NEAR_DEG;
+    double weight = paths->solid_angles[i] * (double)vec3_dot(d, paths->gaze);
+    double veil = veil_of(paths, d, weight) * paths->count / PATHS;
+    add_source(paths, d, path->seen, paths->solid_angles[i], sums);
+    for (int k = 0; k < EYE_SOURCES; k++) {
+        if (!(path->apart[k] > 0)) continue;
+        sums->reading.vertical_lx += path->apart[k] * weight;
+        add_veil(paths, i / PATHS, counted_as((EyeSource)k, is_near), path->apart[k] * veil,
+                 sums);
     }
+}
+
+/* The sun's disc is a source as large as it is. */
+static void add_sun(const EyePaths *paths, double sun_lx, EyeSums *sums)
+{
+    Vec3  towards;
+    float bands[LIGHT_BANDS];
+    if (!(sun_lx > 0) || !stage_sun(paths->stage, &towards, bands)) return;
+    double sine = sin(radians_from_degrees(SUN_MEAN_RADIUS_DEG)), disc = PI * sine * sine;
+    double cosine = (double)vec3_dot(towards, paths->gaze);
+    add_source(paths, towards, sun_lx / (disc * cosine), disc, sums);
+}
+
+static void add_pupils(const EyePaths *paths, const PupilSums *pupils, EyeSums *sums)
+{
+    int    rounds = paths->count / PATHS;
+    double sun_lx = 0;
+    for (int r = 0; r < rounds; r++) {
+        add_veil(paths, r, EYE_SUN, pupils[r].sun_veil, sums);
+        add_veil(paths, r, EYE_LAMPS, pupils[r].lamp_veil, sums);
+        sums->reading.vertical_lx += (pupils[r].sun_lx + pupils[r].lamp_lx) / rounds;
+        sun_lx += pupils[r].sun_lx / rounds;
+    }
+    add_sun(paths, sun_lx, sums);
+}
+
+/* Of the mean of so many. */
+static double standard_error(const double *values, int count)
+{
+    double mean = 0, squares = 0;
+    if (count < 2) return (double)NAN;
+    for (int i = 0; i < count; i++) mean += values[i] / count;
+    for (int i = 0; i < count; i++) squares += (values[i] - mean) * (values[i] - mean);
+    return sqrt(squares / (count - 1) / count);
+}
+
+static EyeReading sum_up(const EyePaths *paths, const PupilSums *pupils, Arena scratch)
+{
+    EyeSums     sums = {.sources = ARENA_NEW(&scratch, GlareSource, paths->count + 1)};
     EyeReading *r = &sums.reading;
-    double      background = (r->vertical_lx - sums.source_lx) / PI;
-    r->veil += pupil->veil;
+    for (int i = 0; i < paths->count; i++) add_path(paths, i, &sums);
+    add_pupils(paths, pupils, &sums);
+    double background = fmax(r->vertical_lx - sums.source_lx, 0) / PI;
+    for (int k = 0; k < EYE_SOURCES; k++) r->veil += r->parts[k];
+    r->veil_sigma = standard_error(sums.veils, paths->count / PATHS);
     r->dgp = discomfort_dgp(r->vertical_lx, sums.sources, sums.count) *
              discomfort_dgp_low_light(r->vertical_lx);
     r->ugr = sums.count ? discomfort_ugr(background, sums.sources, sums.count) : (double)NAN;
     return *r;
 }
 
-EyeReading eye_read(const Stage *stage, Vec3 eye, Vec3 at, Arena scratch)
+/* The head stands upright; of an eye that looks straight up or down, as if it had bent there
+ * from looking ahead. */
+static void set_head(EyePaths *paths)
+{
+    const double *ahead = paths->stage->request->forward;
+    Vec3 forward = vec3((float)ahead[0], (float)ahead[1], (float)ahead[2]);
+    Vec3 top = vec3(0, 1, 0);
+    if (fabsf(paths->gaze.y) > UPRIGHT)
+        top = paths->gaze.y > 0 ? vec3_neg(forward) : forward;
+    paths->right = vec3_normalize(vec3_cross(paths->gaze, top));
+    paths->up = vec3_cross(paths->right, paths->gaze);
+}
+
+EyeReading eye_read(const Stage *stage, const EyeLook *look, Arena scratch)
 {
     const ReviewObserver *observer = &stage->request->observer;
-    EyePaths paths = {.stage = stage, .gaze = vec3_normalize(vec3_sub(at, eye)),
+    int      count = look->rounds * PATHS;
+    EyePaths paths = {.stage = stage, .count = count, .gaze = vec3_normalize(look->towards),
                       .whose = {observer->age_years, observer->pigment},
-                      .targets = ARENA_NEW(&scratch, Vec3, PATHS),
-                      .solid_angles = ARENA_NEW(&scratch, double, PATHS),
-                      .seen = ARENA_NEW(&scratch, double, PATHS),
-                      .apart = ARENA_NEW(&scratch, double, PATHS)};
+                      .targets = ARENA_NEW(&scratch, Vec3, count),
+                      .solid_angles = ARENA_NEW(&scratch, double, count),
+                      .found = ARENA_NEW(&scratch, EyePath, count)};
     Frame    frame = frame_from_z(paths.gaze);
-    paths.right = vec3_normalize(vec3_cross(paths.gaze, vec3(0, 1, 0)));
-    paths.up = vec3_cross(paths.right, paths.gaze);
-    paths.aim = (ProbeAim){.context = &stage->context, .eye = eye, .targets = paths.targets,
-                           .target_count = PATHS, .seed = SEED};
-    for (int i = 0; i < PATHS; i++) aim_path(&paths, &frame, i);
-    parallel_for(stage->tools.threads, PATHS / CHUNK, read_chunk, &paths);
-    PupilSums pupil = read_pupil(&paths, scratch);
-    return sum_up(&paths, &pupil, scratch);
+    set_head(&paths);
+    paths.aim = (ProbeAim){.context = &stage->context, .eye = look->eye,
+                           .targets = paths.targets, .target_count = count, .seed = SEED};
+    for (int i = 0; i < count; i++) aim_path(&paths, &frame, i);
+    parallel_for(stage->tools.threads, count / CHUNK, read_chunk, &paths);
+    PupilSums *pupils = read_pupil(&paths, &scratch);
+    return sum_up(&paths, pupils, scratch);
 }

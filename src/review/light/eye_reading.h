@@ -1,7 +1,7 @@
-/* eye_reading.h -- what stray light does to an eye that looks at a point, from all that it
- * sees, also outside any frame.
+/* eye_reading.h -- what stray light does to an eye that looks somewhere, from all that it sees,
+ * also outside any frame.
  *
- * The veil that it lays over the point: the integral of f(theta) L cos theta over the
+ * The veil that it lays over that place: the integral of f(theta) L cos theta over the
  * hemisphere in front, from 0.1 degrees on (vision/disability_glare.h, the general equation).
  * The sun, when the eye sees it straight or through windows, counts by its illuminance at its
  * own angle. Discomfort (vision/discomfort.h): what is brighter than EYE_GLARE_CD_M2 is a
@@ -17,12 +17,35 @@
 #include "review/light/stage.h"
 
 #define EYE_GLARE_CD_M2 2000.0
+#define EYE_NEAR_DEG 1.0 /* from the gaze; about the fovea, where the eye sees sharply */
+#define EYE_ROUNDS_MOST 64
+
+/* Where an eye looks from, and how surely it is to be known: rounds of 4096 paths, which differ
+ * in nothing but chance. */
+typedef struct EyeLook {
+    Vec3 eye;     /* m, world */
+    Vec3 towards; /* of any length but 0 */
+    int  rounds;  /* 1 .. EYE_ROUNDS_MOST */
+} EyeLook;
+
+/* Where light begins that the eye scatters. */
+typedef enum EyeSource {
+    EYE_SUN,      /* seen straight or through glass; so are the next two */
+    EYE_SKY,
+    EYE_LAMPS,    /* and displays */
+    EYE_GLINTS,   /* sun, lamps and displays by way of mirrors and panes alone */
+    EYE_SURFACES, /* all else: what is lit, and the sky in mirrors */
+    EYE_NEAR,     /* sky and surfaces within EYE_NEAR_DEG: what the eye looks at */
+    EYE_SOURCES
+} EyeSource;
 
 typedef struct EyeReading {
-    double veil;        /* cd m^-2 */
-    double vertical_lx; /* of the pupil's plane, all light */
-    double dgp, ugr;    /* ugr: NaN without a source */
+    double veil;               /* cd m^-2 */
+    double veil_sigma;         /* its standard error; NaN of one round */
+    double parts[EYE_SOURCES]; /* of the veil; they add up to it */
+    double vertical_lx;        /* of the pupil's plane, all light */
+    double dgp, ugr;           /* ugr: NaN without a source */
 } EyeReading;
 
-/* An eye that looks at a point; the request's observer. */
-EyeReading eye_read(const Stage *stage, Vec3 eye, Vec3 at, Arena scratch);
+/* The request's observer. */
+EyeReading eye_read(const Stage *stage, const EyeLook *look, Arena scratch);

@@ -86,16 +86,29 @@ static void add_case(Text *csv, const ReviewCase *c, Arena scratch)
     text_format(csv, "%s\r\n", verdict_names[c->verdict]);
 }
 
-bool review_csv_write(const Review *review, const char *path, Error *err)
+typedef void AddRows(Text *csv, const Review *review, Arena scratch);
+
+static bool write_table(const Review *review, const char *header, AddRows *add,
+                        const char *path, Error *err)
 {
     Arena arena = arena_reserve((size_t)1 << 30), scratch = arena_reserve((size_t)1 << 24);
     Text  csv = {.arena = &arena};
-    text_add(&csv, HEADER);
-    for (int i = 0; i < review->case_count; i++) add_case(&csv, &review->cases[i], scratch);
+    text_add(&csv, header);
+    add(&csv, review, scratch);
     bool ok = text_write(&csv, path, err);
     arena_release(&scratch);
     arena_release(&arena);
     return ok;
+}
+
+static void add_cases(Text *csv, const Review *review, Arena scratch)
+{
+    for (int i = 0; i < review->case_count; i++) add_case(csv, &review->cases[i], scratch);
+}
+
+bool review_csv_write(const Review *review, const char *path, Error *err)
+{
+    return write_table(review, HEADER, add_cases, path, err);
 }
 
 /* ---- false suns -------------------------------------------------------------------------- */
@@ -117,14 +130,51 @@ static void add_false_sun(Text *csv, const ReviewFalseSun *f)
     text_format(csv, "%.6g\r\n", f->veil_cd_m2);
 }
 
+static void add_false_suns(Text *csv, const Review *review, Arena scratch)
+{
+    (void)scratch;
+    for (int i = 0; i < review->false_sun_count; i++)
+        add_false_sun(csv, &review->false_suns[i]);
+}
+
 bool review_csv_write_false_suns(const Review *review, const char *path, Error *err)
 {
-    Arena arena = arena_reserve((size_t)1 << 28);
-    Text  csv = {.arena = &arena};
-    text_add(&csv, FALSE_SUNS_HEADER);
-    for (int i = 0; i < review->false_sun_count; i++)
-        add_false_sun(&csv, &review->false_suns[i]);
-    bool ok = text_write(&csv, path, err);
-    arena_release(&arena);
-    return ok;
+    return write_table(review, FALSE_SUNS_HEADER, add_false_suns, path, err);
+}
+
+/* ---- gazes ------------------------------------------------------------------------------ */
+
+static const char GAZE_HEADER[] =
+    "condition,eye,gaze,sun_from_gaze_deg,veil_cd_m2,veil_low,veil_high,veil_sun_cd_m2,"
+    "veil_sky_cd_m2,veil_lamps_cd_m2,veil_glints_cd_m2,veil_surfaces_cd_m2,veil_near_cd_m2,"
+    "cornea_lx,through_cd_m2,mirrored_cd_m2,mirrored_low,mirrored_high,mirrored_by,"
+    "mirrored_from,contrast_behind_glass,contrast_low,contrast_high,dgp,ugr,contrast_left\r\n";
+
+static void add_gaze(Text *csv, const GazeFinding *g)
+{
+    const GazeVeil *v = &g->veil_parts;
+    add_text(csv, g->condition);
+    add_text(csv, g->eye);
+    add_text(csv, g->gaze);
+    add_numbers(csv, (double[]){g->sun_deg, g->veil, g->veil_range.low, g->veil_range.high,
+                                v->sun, v->sky, v->lamps, v->glints, v->surfaces, v->near,
+                                g->cornea_lux, g->through, g->mirrored, g->mirrored_range.low,
+                                g->mirrored_range.high}, 15);
+    add_text(csv, g->mirrored_by);
+    add_text(csv, g->mirrored_from);
+    add_numbers(csv, (double[]){g->contrast_behind_glass, g->contrast_range.low,
+                                g->contrast_range.high, g->dgp, g->ugr}, 5);
+    if (isfinite(g->contrast_left)) text_format(csv, "%.6g", g->contrast_left);
+    text_add(csv, "\r\n");
+}
+
+static void add_gazes(Text *csv, const Review *review, Arena scratch)
+{
+    (void)scratch;
+    for (int i = 0; i < review->gaze_count; i++) add_gaze(csv, &review->gazes[i]);
+}
+
+bool review_csv_write_gazes(const Review *review, const char *path, Error *err)
+{
+    return write_table(review, GAZE_HEADER, add_gazes, path, err);
 }

@@ -136,6 +136,41 @@ static json_t *sweeps_json(const Review *review)
     return list;
 }
 
+static json_t *gaze_json(const GazeFinding *g)
+{
+    GazeVeil v = g->veil_parts;
+    json_t  *out = json_pack("{s:o, s:o, s:o, s:o}", "condition", text(g->condition), "eye",
+                            text(g->eye), "gaze", text(g->gaze), "sun_from_gaze_deg",
+                            json_figure(g->sun_deg));
+    set(out, "veil_cd_m2", json_figure(g->veil));
+    set(out, "veil_interval", pair(g->veil_range.low, g->veil_range.high));
+    set(out, "veil_parts_cd_m2",
+        json_pack("{s:o, s:o, s:o, s:o, s:o, s:o}", "sun", json_figure(v.sun), "sky",
+                  json_figure(v.sky), "lamps", json_figure(v.lamps), "glints",
+                  json_figure(v.glints), "surfaces", json_figure(v.surfaces), "near",
+                  json_figure(v.near)));
+    set(out, "cornea_lx", json_figure(g->cornea_lux));
+    set(out, "through_cd_m2", json_figure(g->through));
+    set(out, "mirrored_cd_m2", json_figure(g->mirrored));
+    set(out, "mirrored_interval", pair(g->mirrored_range.low, g->mirrored_range.high));
+    set(out, "mirrored_by", text(g->mirrored_by));
+    set(out, "mirrored_from", text(g->mirrored_from));
+    set(out, "contrast_behind_glass", json_figure(g->contrast_behind_glass));
+    set(out, "contrast_left", json_figure(g->contrast_left));
+    set(out, "contrast_interval", pair(g->contrast_range.low, g->contrast_range.high));
+    set(out, "dgp", json_figure(g->dgp));
+    set(out, "ugr", json_figure(g->ugr));
+    return out;
+}
+
+static json_t *gazes_json(const Review *review)
+{
+    json_t *list = json_array();
+    for (int i = 0; i < review->gaze_count; i++)
+        json_array_append_new(list, gaze_json(&review->gazes[i]));
+    return list;
+}
+
 static json_t *responses_json(const Review *review)
 {
     json_t *list = json_array();
@@ -180,10 +215,12 @@ static json_t *cases_json(const Review *review)
 
 json_t *review_json(const Review *review)
 {
-    json_t *out = json_pack("{s:b, s:b, s:o, s:o, s:o, s:o}", "pass", review->pass, "strict",
+    json_t *out = json_pack("{s:b, s:b, s:o, s:o}", "pass", review->pass, "strict",
                             review->is_strict, "title", text(review->title), "profile",
-                            text(review->profile), "cases", cases_json(review), "sweeps",
-                            sweeps_json(review));
+                            text(review->profile));
+    set(out, "cases", cases_json(review));
+    set(out, "sweeps", sweeps_json(review));
+    set(out, "gazes", gazes_json(review));
     set(out, "false_suns", false_suns_json(review));
     set(out, "responses", responses_json(review));
     set(out, "notes", json_texts(review->notes, review->note_count));

@@ -294,6 +294,45 @@ static bool read_sweep(const JsonView *view, void *item, Error *err)
     return true;
 }
 
+static bool read_veil_parts(const JsonView *view, GazeVeil *v, Error *err)
+{
+    JsonView from;
+    return has_key(view, "veil_parts_cd_m2", err) &&
+           json_view_child(view, "veil_parts_cd_m2", true, &from, err) &&
+           read_number(&from, "sun", &v->sun, err) &&
+           read_number(&from, "sky", &v->sky, err) &&
+           read_number(&from, "lamps", &v->lamps, err) &&
+           read_number(&from, "glints", &v->glints, err) &&
+           read_number(&from, "surfaces", &v->surfaces, err) &&
+           read_number(&from, "near", &v->near, err);
+}
+
+static bool read_range(const JsonView *view, const char *key, Range *out, Error *err)
+{
+    return read_pair(view, key, &out->low, &out->high, err);
+}
+
+static bool read_gaze(const JsonView *view, void *item, Error *err)
+{
+    GazeFinding *g = item;
+    return read_text(view, "condition", &g->condition, err) &&
+           read_text(view, "eye", &g->eye, err) && read_text(view, "gaze", &g->gaze, err) &&
+           read_number(view, "sun_from_gaze_deg", &g->sun_deg, err) &&
+           read_number(view, "veil_cd_m2", &g->veil, err) &&
+           read_range(view, "veil_interval", &g->veil_range, err) &&
+           read_veil_parts(view, &g->veil_parts, err) &&
+           read_number(view, "cornea_lx", &g->cornea_lux, err) &&
+           read_number(view, "through_cd_m2", &g->through, err) &&
+           read_number(view, "mirrored_cd_m2", &g->mirrored, err) &&
+           read_range(view, "mirrored_interval", &g->mirrored_range, err) &&
+           read_text(view, "mirrored_by", &g->mirrored_by, err) &&
+           read_text(view, "mirrored_from", &g->mirrored_from, err) &&
+           read_number(view, "contrast_behind_glass", &g->contrast_behind_glass, err) &&
+           read_number(view, "contrast_left", &g->contrast_left, err) &&
+           read_range(view, "contrast_interval", &g->contrast_range, err) &&
+           read_number(view, "dgp", &g->dgp, err) && read_number(view, "ugr", &g->ugr, err);
+}
+
 static bool read_response(const JsonView *view, void *item, Error *err)
 {
     ReviewResponse *r = item;
@@ -328,7 +367,7 @@ static bool read_false_sun(const JsonView *view, void *item, Error *err)
 static bool read_review(const JsonView *root, Review *out, Error *err)
 {
     Review review = {0};
-    void  *cases, *sweeps, *responses, *false_suns;
+    void  *cases, *sweeps, *gazes, *responses, *false_suns;
     if (!read_flag(root, "pass", &review.pass, err) ||
         !read_flag(root, "strict", &review.is_strict, err) ||
         !read_text(root, "title", &review.title, err) ||
@@ -337,6 +376,8 @@ static bool read_review(const JsonView *root, Review *out, Error *err)
                    err) ||
         !read_list(root, "sweeps", ITEM(read_sweep, ReviewSweep), &sweeps,
                    &review.sweep_count, err) ||
+        !read_list(root, "gazes", ITEM(read_gaze, GazeFinding), &gazes, &review.gaze_count,
+                   err) ||
         !read_list(root, "responses", ITEM(read_response, ReviewResponse), &responses,
                    &review.response_count, err) ||
         !read_list(root, "false_suns", ITEM(read_false_sun, ReviewFalseSun), &false_suns,
@@ -345,6 +386,7 @@ static bool read_review(const JsonView *root, Review *out, Error *err)
         return false;
     review.cases = cases;
     review.sweeps = sweeps;
+    review.gazes = gazes;
     review.responses = responses;
     review.false_suns = false_suns;
     *out = review;

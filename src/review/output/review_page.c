@@ -5,6 +5,7 @@
 #include "page/page.h"
 #include "review/output/review_decide.h"
 #include "review/output/review_false_suns.h"
+#include "review/output/review_gaze.h"
 #include "review/output/review_table.h"
 #include "review/output/review_words.h"
 #include "text/escape.h"
@@ -305,6 +306,12 @@ static void add_glossary(Text *html)
                  "grows with age."},
         {"the sun in mirrors", "an image of the sun in something smooth. The eye sees it as "
                                "bright as the sun itself, less what the mirror takes."},
+        {"contrast left", "how much of the contrast between a distant object and what is "
+                          "around it remains behind what the glass mirrors and the veil in "
+                          "the eye: all of it is 100 %."},
+        {"mirrored by glass", "the picture of the dashboard, or of what else lies there, that "
+                              "a window shows on its near side, over what is seen through it; "
+                              "the mean over two degrees about the gaze."},
         {"arc minute", "a sixtieth of a degree: how large something looks. A coin of 2 cm is "
                        "14 arc minutes at 5 m."},
         {"glare probability, glare rating", "how much light disturbs, by formulas that were "
@@ -329,7 +336,9 @@ static bool add_page(Text *html, const ReviewPage *page, Arena *arena, Error *er
     add_verdicts(html, page, arena);
     add_diff(html, page, arena);
     add_notes(html, page->review);
-    if (!add_cases(html, page, arena, err) || !add_sweeps(html, page, arena, err)) return false;
+    if (!add_cases(html, page, arena, err)) return false;
+    review_gaze_add(html, page->review, arena);
+    if (!add_sweeps(html, page, arena, err)) return false;
     review_false_suns_add(html, page->review, arena);
     add_provenance(html, page, arena);
     add_glossary(html);

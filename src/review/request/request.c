@@ -24,3 +24,12 @@ double review_range_value(const ReviewRange *range, int i)
 {
     return i == range->count - 1 ? range->last : range->first + i * range->step;
 }
+
+int review_look_count(const ReviewRequest *request)
+{
+    int count = 0;
+    for (int g = 0; g < request->gaze_count; g++)
+        for (int e = 0; e < request->eye_count; e++)
+            count += !request->gazes[g].at_symbols && request->gazes[g].for_eye[e];
+    return count;
+}

@@ -180,3 +180,6 @@ typedef struct ReviewRequest {
     ReviewInput     *inputs;     /* the file itself, routes, weathers, skies' pictures */
     int              input_count;
 } ReviewRequest;
+
+/* How many pairs there are of a gaze that does not go to symbols and an eye that looks so. */
+int review_look_count(const ReviewRequest *request);

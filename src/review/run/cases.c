@@ -39,9 +39,8 @@ bool stage_eye_middle(const Stage *stage, const ReviewEye *eye, Arena scratch, V
     return true;
 }
 
-/* The points of an eye, world; NULL: its camera is missing. */
-static Vec3 *eye_points(const Stage *stage, const ReviewEye *eye, int *count, Arena *arena,
-                        Error *err)
+Vec3 *stage_eye_points(const Stage *stage, const ReviewEye *eye, int *count, Arena *arena,
+                       Error *err)
 {
     *count = review_eye_count(eye);
     Vec3 *points = ARENA_NEW(arena, Vec3, *count);
@@ -151,7 +150,8 @@ static void set_shown(CaseLuminances *l, const SymbolEmission *emission, double 
 static void see_stray_light(const Stage *stage, const StageSymbol *symbol, Vec3 eye,
                             ReviewCase *c, Arena scratch)
 {
-    EyeReading stray = eye_read(stage, eye, symbol_middle(symbol).position, scratch);
+    EyeLook    look = {eye, vec3_sub(symbol_middle(symbol).position, eye), 1};
+    EyeReading stray = eye_read(stage, &look, scratch);
     c->luminance_cd_m2.veil = stray.veil;
     c->dgp = stray.dgp;
     c->ugr = stray.ugr;
@@ -268,7 +268,7 @@ static bool case_of(const CaseTools *tools, const CaseAsk *ask, Arena *arena, Re
                     Error *err)
 {
     int        count;
-    Vec3      *points = eye_points(tools->stage, ask->eye, &count, arena, err);
+    Vec3      *points = stage_eye_points(tools->stage, ask->eye, &count, arena, err);
     ReviewCase c = start_case(tools, ask->eye, ask->symbol);
     CaseLook   look = {.symbol = ask->symbol};
     if (!points) return false;

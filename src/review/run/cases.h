@@ -32,6 +32,10 @@ bool stage_cases(const CaseTools *tools, Arena *arena, ReviewCase *out, Error *e
 bool stage_case(const CaseTools *tools, const StageSymbol *symbol, const ReviewEye *eye,
                 Arena *arena, ReviewCase *out, Error *err);
 
+/* The points of an eye, world, as many as it has; in the arena. NULL: its camera is missing. */
+Vec3 *stage_eye_points(const Stage *stage, const ReviewEye *eye, int *count, Arena *arena,
+                       Error *err);
+
 /* The point of an eye that is one; of a box its centre. */
 bool stage_eye_middle(const Stage *stage, const ReviewEye *eye, Arena scratch, Vec3 *out,
                       Error *err);

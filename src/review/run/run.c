@@ -7,6 +7,7 @@
 #include "review/run/cases.h"
 #include "review/run/false_sun_times.h"
 #include "review/run/frames.h"
+#include "review/run/gazes.h"
 #include "review/run/sights.h"
 #include "review/output/review_decide.h"
 #include "review/request/request_check.h"
@@ -50,6 +51,8 @@ static bool run_moment(const ReviewRun *run, Stage *stage, Arena *scratch, Arena
     int count = tools.symbol_count * run->request->eye_count;
     keep_names(cases, count, arena);
     review->case_count += count;
+    if (!stage_gazes(stage, arena, review->gazes + review->gaze_count, err)) return false;
+    review->gaze_count += review_look_count(run->request);
     return true;
 }
 
@@ -158,7 +161,7 @@ static bool has_boxes(const ReviewRequest *request)
 
 static void add_notes(const ReviewRequest *request, Review *review, Arena *arena)
 {
-    const char **notes = ARENA_NEW(arena, const char *, request->gaze_count + 4);
+    const char **notes = ARENA_NEW(arena, const char *, 4);
     if (has_sweeps(request)) {
         add_note(review, &notes,
                  "Sweeps: skies are clear; light that comes by a second surface, glints by way "
@@ -166,12 +169,11 @@ static void add_notes(const ReviewRequest *request, Review *review, Arena *arena
                  "place. The worst case of each sweep is traced by itself.");
         if (has_boxes(request))
             add_note(review, &notes, "Sweeps: an eye box counts by its middle.");
-    }
-    for (int i = 0; i < request->gaze_count; i++)
-        if (!request->gazes[i].at_symbols)
+        if (review_look_count(request))
             add_note(review, &notes,
-                     arena_format(arena, "Gaze '%s': veils are read for eyes that look at the "
-                                         "symbols; this one was not.", request->gazes[i].name));
+                     "Sweeps and routes: of gazes that do not go to symbols only the sun in "
+                     "mirrors is read; all else of them is in moments.");
+    }
 }
 
 /* ---- frames of the worst ----------------------------------------------------------------- */
@@ -295,12 +297,14 @@ bool review_run(const ReviewRun *run, Arena *arena, ReviewOutcome *out, Error *e
 {
     const ReviewRequest *request = run->request;
     int most = most_cases(request);
+    int most_looks = request->condition_count * review_look_count(request);
     *out = (ReviewOutcome){.tables = ARENA_NEW(arena, SweepTable, most)};
     out->review = (Review){.title = request->title,
                            .profile = arena_format(arena, "%s, %s", run->profile->title,
                                                    run->profile->edition),
                            .cases = ARENA_NEW(arena, ReviewCase, most),
                            .sweeps = ARENA_NEW(arena, ReviewSweep, most),
+                           .gazes = ARENA_NEW(arena, GazeFinding, most_looks),
                            .responses = ARENA_NEW(arena, ReviewResponse, most),
                            .false_suns = ARENA_NEW(arena, ReviewFalseSun,
                                                    most_false_suns(request))};

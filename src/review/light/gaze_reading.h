@@ -1,0 +1,39 @@
+/* gaze_reading.h -- what lies along an eye's gaze: what it looks at, and what a pane before it
+ * mirrors over that, such as the top of the dashboard in the windscreen.
+ *
+ * Means over the cone of GAZE_CONE_DEG about the gaze, the part of the field that an eye sees
+ * sharply. A pane is what lets light through: glass. It mirrors what comes by way of a
+ * reflection at it before the gaze meets anything else than glass; all other light came through
+ * it, or there is no pane. Both add up to what a camera would see there, but for the sun's own
+ * disc: that one is no background of anything.
+ *
+ * Units        cd m^-2.
+ * Memory       scratch only. Threads: starts its own; the same figures for any count.
+ */
+#pragma once
+#include "review/light/eye_reading.h"
+
+#define GAZE_CONE_DEG EYE_NEAR_DEG /* half its width */
+
+typedef struct GazeGoal {
+    Vec3   eye;       /* m, world */
+    Vec3   towards;   /* of any length but 0 */
+    double precision; /* relative standard error of both figures, above 0, */
+    int    most;      /* unless it takes more paths than that */
+} GazeGoal;
+
+/* Where mirrored light comes from: the first surface that the pane shows, or, where it shows
+ * none, the source itself. */
+typedef struct GazeMirrored {
+    int      pane_id; /* scene part; NO_ID: nothing is mirrored */
+    int      part_id; /* scene part; NO_ID: the source, */
+    LightSet source;  /* which is this */
+} GazeMirrored;
+
+typedef struct GazeReading {
+    double       through, through_sigma;   /* sigma: standard errors */
+    double       mirrored, mirrored_sigma;
+    GazeMirrored most;                     /* most of what is mirrored */
+} GazeReading;
+
+GazeReading gaze_read(const Stage *stage, const GazeGoal *goal, Arena scratch);

@@ -1,0 +1,146 @@
+#include "review/output/review_gaze.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "page/page.h"
+#include "review/output/review_words.h"
+
+/* ---- the worst first --------------------------------------------------------------------- */
+
+/* What is not known comes last; findings alike stay as they came. */
+static int by_contrast(const void *a, const void *b)
+{
+    const GazeFinding *x = *(const GazeFinding *const *)a, *y = *(const GazeFinding *const *)b;
+    if (isnan(x->contrast_left) != isnan(y->contrast_left))
+        return isnan(x->contrast_left) ? 1 : -1;
+    if (x->contrast_left < y->contrast_left) return -1;
+    if (x->contrast_left > y->contrast_left) return 1;
+    return (x > y) - (x < y);
+}
+
+static const GazeFinding **ranked(const Review *review, Arena *arena)
+{
+    const GazeFinding **list = ARENA_NEW(arena, const GazeFinding *, review->gaze_count);
+    for (int i = 0; i < review->gaze_count; i++) list[i] = &review->gazes[i];
+    qsort(list, (size_t)review->gaze_count, sizeof *list, by_contrast);
+    return list;
+}
+
+/* ---- words ------------------------------------------------------------------------------- */
+
+static const char *of(const char *name)
+{
+    return name && name[0] ? name : "?";
+}
+
+/* Where most of the veil in the eye begins that takes of the contrast; "" without one. */
+static const char *first_part(const GazeVeil *parts)
+{
+    static const char *const WORDS[] = {"the sun", "the sky", "lamps and displays",
+                                        "glints", "lit surfaces"};
+    const double value[] = {parts->sun, parts->sky, parts->lamps, parts->glints,
+                            parts->surfaces};
+    int most = 0;
+    for (int i = 1; i < 5; i++)
+        if (value[i] > value[most]) most = i;
+    return value[most] > 0 ? WORDS[most] : "";
+}
+
+/* What is near the gaze is looked at, and no veil. */
+static double far_veil(const GazeFinding *g)
+{
+    return g->veil - g->veil_parts.near;
+}
+
+static const char *worst_words(const GazeFinding *g, Arena *arena)
+{
+    const char *place = arena_format(arena, "%s, looking at %s, %s", of(g->eye), of(g->gaze),
+                                     of(g->condition));
+    if (isnan(g->contrast_left))
+        return arena_format(arena, "%s: no light: nothing is seen, or lost.", place);
+    const char *glass =
+        g->mirrored_by ? arena_format(arena, "%s mirrors %s over it with %s cd/m²",
+                                      g->mirrored_by, of(g->mirrored_from),
+                                      words_figure(g->mirrored, arena))
+                       : "no glass mirrors anything over it";
+    return arena_format(arena, "Worst: %s. %s of a distant object's contrast is left: what is "
+                               "seen there has %s cd/m², %s, and the eye lays %s cd/m² "
+                               "over it.", place, words_share(g->contrast_left, arena),
+                        words_figure(g->through, arena), glass,
+                        words_figure(far_veil(g), arena));
+}
+
+/* ---- the table --------------------------------------------------------------------------- */
+
+static void add_small_cell(Text *html, const char *kind, const char *text, const char *small)
+{
+    text_format(html, "<td class=\"%s\">", kind);
+    page_element(html, "div", text);
+    if (small[0]) page_element(html, "small", small);
+    text_add(html, "</td>");
+}
+
+static const char *share_range(const Range *range, Arena *arena)
+{
+    if (isnan(range->low) || isnan(range->high)) return "";
+    return arena_format(arena, "%s to %s", words_share(range->low, arena),
+                        words_share(range->high, arena));
+}
+
+static void add_names(Text *html, const GazeFinding *g, Arena *arena)
+{
+    const char *sun = isnan(g->sun_deg)
+                          ? "no sun above the horizon"
+                          : arena_format(arena, "sun %.0f° from the gaze", g->sun_deg);
+    page_cell(html, "", of(g->gaze));
+    page_cell(html, "", of(g->eye));
+    add_small_cell(html, "", of(g->condition), sun);
+}
+
+static void add_row(Text *html, const GazeFinding *g, Arena *arena)
+{
+    const char *by = !g->mirrored_by ? ""
+                                     : arena_format(arena, "%s, showing %s", g->mirrored_by,
+                                                    of(g->mirrored_from));
+    const char *from = first_part(&g->veil_parts);
+    page_row_begin(html, "");
+    add_names(html, g, arena);
+    add_small_cell(html, g->contrast_left < GAZE_POOR ? "n bad" : "n",
+                   words_share(g->contrast_left, arena),
+                   share_range(&g->contrast_range, arena));
+    page_cell(html, "n", words_figure(g->through, arena));
+    add_small_cell(html, "n", words_figure(g->mirrored, arena), by);
+    add_small_cell(html, "n", words_figure(far_veil(g), arena),
+                   from[0] ? arena_format(arena, "mostly %s", from) : "");
+    page_cell(html, "n", words_figure(g->cornea_lux, arena));
+    page_cell(html, "n", words_figure(g->dgp, arena));
+    page_cell(html, "n", words_figure(g->ugr, arena));
+    page_row_end(html);
+}
+
+void review_gaze_add(Text *html, const Review *review, Arena *arena)
+{
+    static const PageColumn COLUMNS[] = {
+        {"Looking at", false, NULL}, {"Eye", false, NULL}, {"Condition", false, NULL},
+        {"Contrast left", true, "of a distant object, behind both veils; 95 % interval"},
+        {"Seen, cd/m²", true, "what lies there, as it arrives through the glass"},
+        {"Mirrored, cd/m²", true, "what the glass mirrors over it"},
+        {"Veil in the eye, cd/m²", true,
+         "light from more than 1° away that the eye scatters over it, and glare from nearer"},
+        {"Light at the eye, lx", true, "on the plane of the pupil"},
+        {"Glare probability", true, "DGP: secondary"},
+        {"Glare rating", true, "UGR: secondary"}};
+    if (review->gaze_count == 0) return;
+    const GazeFinding **list = ranked(review, arena);
+    page_element(html, "h2", "Looking elsewhere");
+    page_element(html, "p class=\"sub\"",
+                 "Two veils lie over what an eye looks at: what the glass before it mirrors, "
+                 "such as the top of the dashboard in the windscreen, and what the eye itself "
+                 "scatters. Both brighten an object and its background alike, and so take of "
+                 "its contrast. No limit is held against them.");
+    page_element(html, "p", worst_words(list[0], arena));
+    page_table_begin(html, "", "list", COLUMNS, 10);
+    for (int i = 0; i < review->gaze_count; i++) add_row(html, list[i], arena);
+    page_table_end(html);
+}

@@ -1,0 +1,11 @@
+/* review_gaze.h -- the part of a review's page about eyes that look elsewhere than at symbols:
+ * what blinds them, what the glass before them mirrors, and what is left to be seen.
+ *
+ * Memory   the arena's. Threads: pure. Fails: never.
+ */
+#pragma once
+#include "review/verdict.h"
+#include "text/text.h"
+
+/* Nothing where the review has no such gazes. */
+void review_gaze_add(Text *html, const Review *review, Arena *arena);

@@ -1,0 +1,140 @@
+#include "review/run/gazes.h"
+
+#include <math.h>
+
+#include "base/units.h"
+#include "review/light/eye_reading.h"
+#include "review/light/gaze_reading.h"
+#include "review/run/cases.h"
+
+#define ROUNDS 16
+#define ROUNDS_HALF 2.131450 /* of a 95 % interval, in standard errors of so many rounds' mean:
+                                Student's distribution, 15 degrees of freedom */
+#define PRECISION 0.01
+#define PATHS_MOST 131072
+#define COARSE_PATHS 4096 /* to find the worst of many points */
+
+/* ---- one eye's point --------------------------------------------------------------------- */
+
+static GazeGoal goal_of(Vec3 eye, const ReviewGaze *gaze, int most)
+{
+    const double *d = gaze->direction;
+    return (GazeGoal){eye, vec3((float)d[0], (float)d[1], (float)d[2]), PRECISION, most};
+}
+
+/* Light over the view, quickly. */
+static double coarse_veil(const Stage *stage, const GazeGoal *goal, Arena scratch)
+{
+    EyeLook look = {goal->eye, goal->towards, 1};
+    return eye_read(stage, &look, scratch).veil + gaze_read(stage, goal, scratch).mirrored;
+}
+
+static Vec3 worst_point(const Stage *stage, const ReviewGaze *gaze, const Vec3 *points,
+                        int count, Arena scratch)
+{
+    int    worst = 0;
+    double most = -1;
+    for (int i = 0; i < count && count > 1; i++) {
+        GazeGoal goal = goal_of(points[i], gaze, COARSE_PATHS);
+        double   veil = coarse_veil(stage, &goal, scratch);
+        if (veil > most) worst = i;
+        most = fmax(most, veil);
+    }
+    return points[worst];
+}
+
+/* ---- figures ----------------------------------------------------------------------------- */
+
+static const char *part_words(const Scene *scene, int part_id, Arena *arena)
+{
+    const Part *part = &scene->parts[part_id];
+    return arena_format(arena, "%s (%s)", part->name, scene->materials[part->material_id].name);
+}
+
+static void name_mirrored(const Stage *stage, const GazeMirrored *most, GazeFinding *out,
+                          Arena *arena)
+{
+    static const char *const SOURCES[LIGHT_SETS] = {"sun", "sky", "a display", "a lamp"};
+    if (most->pane_id == NO_ID) return;
+    out->mirrored_by = part_words(stage->scene, most->pane_id, arena);
+    out->mirrored_from = most->part_id == NO_ID
+                             ? SOURCES[most->source]
+                             : part_words(stage->scene, most->part_id, arena);
+}
+
+static Range range_of(double mean, double half)
+{
+    return (Range){fmax(mean - half, 0), mean + half};
+}
+
+/* Of through / all, all = through + veils, by its derivatives: they are read by themselves. */
+static double contrast_sigma(const GazeReading *along, double all, double veil_sigma)
+{
+    double by_veils = along->through * hypot(along->mirrored_sigma, veil_sigma);
+    return hypot((all - along->through) * along->through_sigma, by_veils) / (all * all);
+}
+
+static void set_contrasts(const GazeReading *along, double veil_half, GazeFinding *out)
+{
+    double seen = along->through + along->mirrored;
+    double all = seen + out->veil - out->veil_parts.near;
+    out->contrast_behind_glass = seen > 0 ? along->through / seen : (double)NAN;
+    out->contrast_left = all > 0 ? along->through / all : (double)NAN;
+    out->contrast_range = (Range){(double)NAN, (double)NAN};
+    if (!(all > 0)) return;
+    double half =
+        INTERVAL_SIGMAS * contrast_sigma(along, all, veil_half / INTERVAL_SIGMAS);
+    out->contrast_range = (Range){fmax(out->contrast_left - half, 0),
+                                  fmin(out->contrast_left + half, 1)};
+}
+
+static double sun_from_gaze(const Stage *stage, Vec3 gaze)
+{
+    Vec3  towards;
+    float bands[LIGHT_BANDS];
+    if (!stage_sun(stage, &towards, bands)) return (double)NAN;
+    double cosine = (double)vec3_dot(towards, vec3_normalize(gaze));
+    return degrees_from_radians(acos(fmin(fmax(cosine, -1), 1)));
+}
+
+static void read_gaze(const Stage *stage, const GazeGoal *goal, Arena *arena, GazeFinding *out)
+{
+    EyeLook     look = {goal->eye, goal->towards, ROUNDS};
+    EyeReading  eye = eye_read(stage, &look, *arena);
+    GazeReading along = gaze_read(stage, goal, *arena);
+    double      half = ROUNDS_HALF * eye.veil_sigma;
+    out->sun_deg = sun_from_gaze(stage, goal->towards);
+    out->veil = eye.veil;
+    out->veil_range = range_of(eye.veil, half);
+    out->veil_parts = (GazeVeil){eye.parts[EYE_SUN], eye.parts[EYE_SKY], eye.parts[EYE_LAMPS],
+                                 eye.parts[EYE_GLINTS], eye.parts[EYE_SURFACES],
+                                 eye.parts[EYE_NEAR]};
+    out->cornea_lux = eye.vertical_lx;
+    out->dgp = eye.dgp;
+    out->ugr = eye.ugr;
+    out->through = along.through;
+    out->mirrored = along.mirrored;
+    out->mirrored_range = range_of(along.mirrored, INTERVAL_SIGMAS * along.mirrored_sigma);
+    name_mirrored(stage, &along.most, out, arena);
+    set_contrasts(&along, half, out);
+}
+
+bool stage_gazes(const Stage *stage, Arena *arena, GazeFinding *out, Error *err)
+{
+    const ReviewRequest *request = stage->request;
+    for (int g = 0; g < request->gaze_count; g++)
+        for (int e = 0; e < request->eye_count; e++) {
+            const ReviewGaze *gaze = &request->gazes[g];
+            const ReviewEye  *eye = &request->eyes[e];
+            int count;
+            if (gaze->at_symbols || !gaze->for_eye[e]) continue;
+            Vec3 *points = stage_eye_points(stage, eye, &count, arena, err);
+            if (!points) return false;
+            GazeGoal goal = goal_of(worst_point(stage, gaze, points, count, *arena), gaze,
+                                    PATHS_MOST);
+            *out = (GazeFinding){.condition = stage->condition->name, .eye = eye->name,
+                                 .gaze = gaze->name};
+            read_gaze(stage, &goal, arena, out++);
+        }
+    return true;
+}

@@ -1,0 +1,16 @@
+/* gazes.h -- eyes that look elsewhere than at symbols, such as at the road, in a stage that is
+ * lit: what blinds them, and what the glass before them mirrors.
+ *
+ * An eye box counts by the point whose view has the most light laid over it.
+ *
+ * Units    verdict.h's.
+ * Memory   texts lie in the arena.
+ * Threads  starts its own; the same figures for any count.
+ */
+#pragma once
+#include "review/light/stage.h"
+#include "review/verdict.h"
+
+/* Fills review_look_count(request) findings, eyes fastest. Fails where an eye's camera is
+ * missing. */
+bool stage_gazes(const Stage *stage, Arena *arena, GazeFinding *out, Error *err);

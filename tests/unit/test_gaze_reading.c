@@ -1,0 +1,218 @@
+/* What an eye sees along its gaze, and what a pane mirrors over it, against closed forms. */
+#include "check.h"
+
+#include "base/units.h"
+#include "review/light/gaze_reading.h"
+#include "world_fixture.h"
+
+#define REFLECTANCE 0.2f
+#define SUN_LX 80000.0f
+#define SUN_DEG 40.0
+
+static const ReviewRequest request = {.forward = {0, 0, -1}, .observer = {50, 0.5}};
+
+static GazeReading read_gaze(World *world)
+{
+    const Kernel *kernel;
+    Error         err = {0};
+    assert_true(kernel_choose(NULL, &kernel, &err));
+    world_ready(world, 16);
+    Stage    stage = {.request = &request, .tools = {kernel, 2}, .scene = world->scene,
+                      .context = world->context};
+    GazeGoal goal = {vec3(0, 0, 0), vec3(0, 0, -2), 0.002, 1 << 17};
+    return gaze_read(&stage, &goal, world->arena);
+}
+
+static Material glass(void)
+{
+    Material glass = builder_material(1);
+    glass.transmission = 1;
+    glass.roughness = 0;
+    glass.ior = 1.52f;
+    return glass;
+}
+
+/* The sun stands to the right, so that no pane shades what is seen by way of it. */
+static World sunny_world(void)
+{
+    World world = world_start();
+    world.scene->environment.has_sun = true;
+    world.scene->environment.sun_azimuth = (float)(PI / 2);
+    world.scene->environment.sun_elevation = (float)radians_from_degrees(SUN_DEG);
+    world.scene->environment.sun_illuminance_lx = SUN_LX;
+    return world;
+}
+
+/* Part 0 of a world: below the gaze. */
+static void add_dashboard(World *world)
+{
+    builder_part(world->scene, builder_material(REFLECTANCE));
+    builder_quad(world->scene, vec3(0, -0.5f, 0), vec3(10, 0, 0), vec3(0, 0, -10));
+}
+
+static double dashboard_cd_m2(void)
+{
+    return (double)REFLECTANCE / PI * (double)SUN_LX * sin(radians_from_degrees(SUN_DEG));
+}
+
+/* A pane of half a decimetre across the gaze, 1 m away, that leans over the dashboard. */
+static void add_sheet(World *world, double degrees, double distance, bool faces_eye)
+{
+    double a = radians_from_degrees(degrees), sign = faces_eye ? 1 : -1;
+    Vec3   normal = vec3(0, (float)-sin(a), (float)cos(a));
+    Vec3   along = vec3(0, (float)(0.15 * sign * cos(a)), (float)(0.15 * sign * sin(a)));
+    builder_quad(world->scene, vec3_along(vec3(0, 0, -1), normal, (float)-distance),
+                 vec3(0.05f, 0, 0), along);
+}
+
+static void add_pane(World *world, double degrees)
+{
+    Material pane = glass();
+    pane.lets_light_through = true;
+    builder_part(world->scene, pane);
+    add_sheet(world, degrees, 0, true);
+}
+
+static void assert_mirrored(const GazeReading *found, double wanted)
+{
+    double off = fabs(found->mirrored - wanted);
+    if (!(off < fmax(0.01 * wanted, 3 * found->mirrored_sigma) && off < 0.02 * wanted))
+        fail_msg("mirrored %g +- %g, wanted %g", found->mirrored, found->mirrored_sigma,
+                 wanted);
+}
+
+TEST(a_pane_mirrors_the_dashboard_by_fresnel)
+{
+    (void)state;
+    /* Both faces and all that goes to and fro between them, each polarisation by itself. */
+    static const double degrees[] = {45, 60, 70};
+    static const double passed[] = {0.902528, 0.843471, 0.724713};
+    for (int i = 0; i < 3; i++) {
+        World world = sunny_world();
+        add_dashboard(&world);
+        add_pane(&world, degrees[i]);
+        GazeReading found = read_gaze(&world);
+        assert_mirrored(&found, (1 - passed[i]) * dashboard_cd_m2());
+        assert_true(found.through == 0);
+        assert_int_equal(found.most.pane_id, 1);
+        assert_int_equal(found.most.part_id, 0);
+        world_end(&world);
+    }
+}
+
+/* Polarisation is not followed inside a solid: (1 - R)/(1 + R) of the mean R passes. */
+TEST(a_pane_with_thickness_mirrors_by_both_faces)
+{
+    (void)state;
+    World    world = sunny_world();
+    Material pane = glass();
+    pane.is_solid = true;
+    add_dashboard(&world);
+    builder_part(world.scene, pane);
+    add_sheet(&world, 60, 0, true);
+    add_sheet(&world, 60, 0.002, false);
+    GazeReading found = read_gaze(&world);
+    assert_mirrored(&found, (1 - 0.830693) * dashboard_cd_m2());
+    assert_int_equal(found.most.pane_id, 1);
+    assert_int_equal(found.most.part_id, 0);
+    world_end(&world);
+}
+
+TEST(what_lies_behind_a_pane_comes_through_it)
+{
+    (void)state;
+    World    world = world_start();
+    Material wall = builder_material(0);
+    for (int k = 0; k < 3; k++) wall.emissive_cd_m2[k] = 500;
+    wall.is_emitter = true;
+    builder_part(world.scene, wall);
+    builder_quad(world.scene, vec3(0, 0, -3), vec3(1, 0, 0), vec3(0, 1, 0));
+    add_pane(&world, 60);
+    GazeReading found = read_gaze(&world);
+    assert_near(found.through, 500 * 0.843471, 500 * 0.843471 * 0.01);
+    assert_true(found.mirrored == 0 && found.most.pane_id == NO_ID);
+    world_end(&world);
+}
+
+/* Chrome is what the eye looks at, not something that lies before it. */
+TEST(a_mirror_is_no_pane)
+{
+    (void)state;
+    World    world = sunny_world();
+    Material chrome = builder_material(1);
+    chrome.metallic = 1;
+    chrome.roughness = 0;
+    add_dashboard(&world);
+    builder_part(world.scene, chrome);
+    add_sheet(&world, 60, 0, true);
+    GazeReading found = read_gaze(&world);
+    assert_true(found.mirrored == 0 && found.most.pane_id == NO_ID);
+    assert_near(found.through, dashboard_cd_m2(), 0.01 * dashboard_cd_m2());
+    world_end(&world);
+}
+
+/* The sun's disc within the cone is no background; all else is. */
+TEST(the_sun_itself_is_not_looked_at)
+{
+    (void)state;
+    World world = sunny_world();
+    add_dashboard(&world);
+    world.scene->environment.sun_azimuth = 0;
+    world.scene->environment.sun_elevation = (float)radians_from_degrees(0.5);
+    GazeReading found = read_gaze(&world);
+    assert_true(found.through == 0 && found.mirrored == 0);
+    world_end(&world);
+}
+
+/* ---- what a camera sees there ------------------------------------------------------------ */
+
+#define CAMERA_PATHS 60000
+
+static double camera_luminance(const World *world, double *sigma)
+{
+    PathStatistics statistics = {0};
+    double sum = 0, squares = 0, narrow = 1 - cos(radians_from_degrees(GAZE_CONE_DEG));
+    for (uint32_t i = 0; i < CAMERA_PATHS; i++) {
+        Wavelengths w;
+        PathResult  seen;
+        Sampler     sampler = sampler_start(7, 0, 0, i);
+        Vec2        place = sampler_2d(&sampler);
+        wavelengths_sample(sampler_1d(&sampler), &w);
+        double cosine = 1 - narrow * (double)place.x, sine = sqrt(1 - cosine * cosine);
+        double phi = 2 * PI * (double)place.y;
+        Vec3   d = vec3((float)(sine * cos(phi)), (float)(sine * sin(phi)), (float)-cosine);
+        path_trace(&world->context, (Ray){vec3(0, 0, 0), d, 0, INFINITY}, &w, &sampler, &seen,
+                   &statistics);
+        sum += (double)seen.xyz[1];
+        squares += (double)seen.xyz[1] * (double)seen.xyz[1];
+    }
+    double mean = sum / CAMERA_PATHS;
+    *sigma = sqrt((squares / CAMERA_PATHS - mean * mean) / CAMERA_PATHS);
+    return mean;
+}
+
+TEST(both_add_up_to_what_a_camera_sees)
+{
+    (void)state;
+    World world = sunny_world();
+    add_dashboard(&world);
+    world.scene->environment.kind = ENVIRONMENT_CONSTANT;
+    world.scene->environment.luminance_cd_m2 = 2000;
+    for (int i = 0; i < 3; i++) world.scene->environment.color[i] = 1;
+    add_pane(&world, 60);
+    add_pane(&world, 62);
+    GazeReading found = read_gaze(&world);
+    double sigma, wanted = camera_luminance(&world, &sigma);
+    double sum = found.through + found.mirrored;
+    double sure = 3 * hypot(sigma, hypot(found.through_sigma, found.mirrored_sigma));
+    if (!(fabs(sum - wanted) < sure && sure < 0.02 * wanted))
+        fail_msg("%g + %g, a camera sees %g +- %g", found.through, found.mirrored, wanted,
+                 sigma);
+    assert_true(found.through > 0 && found.mirrored > 0);
+    world_end(&world);
+}
+
+int main(void)
+{
+    return run_cases(NULL, NULL);
+}

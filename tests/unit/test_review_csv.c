@@ -1,0 +1,155 @@
+/* What spreadsheets get from a review: its cases, its gazes and its false suns, whatever the
+ * names are. */
+#include "fixture.h"
+
+#include <math.h>
+
+#include "review/output/review_csv.h"
+#include "verdict_fixture.h"
+
+static Arena arena;
+
+static const char *text_of(const char *path)
+{
+    Error     err = {0};
+    FileBytes bytes;
+    if (!file_read(path, (size_t)1 << 28, &arena, &bytes, &err)) fail_msg("%s", err.text);
+    assert_int_equal(bytes.size, strlen((const char *)bytes.data));
+    return (const char *)bytes.data;
+}
+
+static void assert_same(double a, double b)
+{
+    if (isnan(a) || isinf(a)) assert_true(isnan(b));
+    else assert_near(b, a, 1e-5 * fabs(a) + 1e-300);
+}
+
+enum { CSV_COLUMNS = 35 };
+
+/* One record of RFC 4180 into cells; what follows it. */
+static const char *read_record(const char *at, const char *cell[CSV_COLUMNS], int *count)
+{
+    for (*count = 0;; at++) {
+        Text text = {.arena = &arena};
+        bool quoted = *at == '"';
+        text_add(&text, "");
+        for (at += quoted; quoted ? *at != '"' || at[1] == '"' : !strchr(",\r\n", *at); at++) {
+            assert_true(*at && (quoted || *at != '"'));
+            text_add_bytes(&text, at, 1);
+            at += quoted && *at == '"';
+        }
+        at += quoted;
+        assert_true(*count < CSV_COLUMNS);
+        cell[(*count)++] = text.data ? text.data : "";
+        if (*at != ',') break;
+    }
+    assert_true(at[0] == '\r' && at[1] == '\n');
+    return at + 2;
+}
+
+static double number_of(const char *cell)
+{
+    char  *end = NULL;
+    double value = strtod(cell, &end);
+    assert_true(*end == 0);
+    return *cell ? value : NAN;
+}
+
+static void assert_csv_says(const Review *review)
+{
+    Error       err = {0};
+    const char *path = in_folder("t.csv"), *header[CSV_COLUMNS], *cell[CSV_COLUMNS];
+    int         count = 0;
+    assert_true(review_csv_write(review, path, &err));
+    const char *at = read_record(text_of(path), header, &count);
+    assert_int_equal(count, CSV_COLUMNS);
+    assert_string_equal(header[9], "reflected_cd_m2");
+    assert_string_equal(header[13], "contrast_ratio");
+    assert_string_equal(header[24], "ugr");
+    assert_string_equal(header[25], "eye_failed_share");
+    assert_string_equal(header[31], "margin");
+    for (int i = 0; i < review->case_count; i++) {
+        const ReviewCase *c = &review->cases[i];
+        at = read_record(at, cell, &count);
+        assert_int_equal(count, CSV_COLUMNS);
+        assert_string_equal(cell[0], c->condition);
+        assert_string_equal(cell[2], c->symbol);
+        assert_same(c->luminance_cd_m2.reflected, number_of(cell[9]));
+        assert_same(c->contrast_ratio, number_of(cell[13]));
+        assert_same(c->ugr, number_of(cell[24]));
+        assert_same(c->eye_failed_share, number_of(cell[25]));
+        assert_same(c->margin, number_of(cell[31]));
+        assert_string_equal(cell[34], verdict_names[c->verdict]);
+    }
+    assert_int_equal(*at, 0);
+}
+
+static void assert_gaze_csv_says(const Review *review)
+{
+    Error       err = {0};
+    const char *path = in_folder("t.csv"), *cell[CSV_COLUMNS];
+    int         count = 0, columns = 0;
+    assert_true(review_csv_write_gazes(review, path, &err));
+    const char *at = read_record(text_of(path), cell, &columns);
+    assert_string_equal(cell[12], "veil_near_cd_m2");
+    assert_string_equal(cell[16], "mirrored_low");
+    for (int i = 0; i < review->gaze_count; i++) {
+        const GazeFinding *g = &review->gazes[i];
+        at = read_record(at, cell, &count);
+        assert_int_equal(count, columns);
+        assert_string_equal(cell[2], g->gaze);
+        assert_same(g->veil_parts.near, number_of(cell[12]));
+        assert_same(g->mirrored_range.low, number_of(cell[16]));
+        assert_string_equal(cell[18], g->mirrored_by ? g->mirrored_by : "");
+        assert_same(g->contrast_left, number_of(cell[columns - 1]));
+    }
+    assert_int_equal(*at, 0);
+}
+
+TEST(gazes_are_a_table_too)
+{
+    (void)state;
+    Review odd = fixture_odd_review(&arena), plain = fixture_review(&arena), none = {0};
+    assert_gaze_csv_says(&odd);
+    assert_gaze_csv_says(&plain);
+    assert_gaze_csv_says(&none);
+}
+
+TEST(csv_says_the_same)
+{
+    (void)state;
+    Review odd = fixture_odd_review(&arena), plain = fixture_review(&arena), none = {0};
+    assert_csv_says(&odd);
+    assert_csv_says(&plain);
+    assert_csv_says(&none);
+}
+
+TEST(csv_tells_every_false_sun)
+{
+    (void)state;
+    Review reviews[] = {fixture_odd_review(&arena), fixture_review(&arena)};
+    const char *cell[CSV_COLUMNS];
+    int count = 0;
+    for (int k = 0; k < 2; k++) {
+        Error err = {0};
+        const char *path = in_folder("t.csv");
+        assert_true(review_csv_write_false_suns(&reviews[k], path, &err));
+        const char *at = read_record(text_of(path), cell, &count);
+        for (int i = 0; i < reviews[k].false_sun_count; i++) {
+            const ReviewFalseSun *f = &reviews[k].false_suns[i];
+            at = read_record(at, cell, &count);
+            assert_true(count == 13 && !strcmp(cell[2], f->mirror));
+            assert_same(f->minutes, number_of(cell[4]));
+            assert_string_equal(cell[6], f->when ? f->when : "");
+            assert_same(f->lux, number_of(cell[9]));
+            assert_same(f->veil_cd_m2, number_of(cell[12]));
+        }
+        assert_int_equal(*at, 0);
+    }
+}
+
+int main(void)
+{
+    arena = arena_reserve((size_t)2 << 30);
+    return run_cases(make_folder, clear_folder);
+}
