@@ -120,7 +120,8 @@ def check_frame(report, reviewer, reflected, sure):
 
 
 def check_threads(report, reviewer):
-    document = request(precision={"contrast": 0.02}, conditions=[
+    gazes = [{"at": "symbols"}, {"name": "wall", "direction": [-1, 0, -0.3]}]
+    document = request(precision={"contrast": 0.02}, gaze=gazes, conditions=[
         moment("grey", type="constant", luminance=3000), {
         "name": "suns", "sweep": {"sun": {"azimuth_deg": [0, 90, 45],
                                           "elevation_deg": [30, 30, 1]}, "sky": "sky"}}])
@@ -129,8 +130,11 @@ def check_threads(report, reviewer):
         out = f"threads{threads}"
         reviewer.review(document, out, "--threads", str(threads))
         texts.append([open(os.path.join(reviewer.folder, out, name), "rb").read()
-                      for name in ("review.json", "cases.csv")])
+                      for name in ("review.json", "cases.csv", "gazes.csv")])
     report.claim(texts[0] == texts[1], "threads change the review")
+    gazes = json.loads(texts[0][0])["gazes"]
+    report.claim(len(gazes) == 1 and gazes[0]["gaze"] == "wall", f"gazes {gazes}")
+    report.claim(0 < gazes[0]["contrast_left"] < 1, f"contrast {gazes[0]['contrast_left']}")
     index = os.path.join(reviewer.folder, "threads1", "index.html")
     with open(index, encoding="utf-8") as file:
         page = file.read()

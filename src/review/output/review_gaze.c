@@ -93,44 +93,47 @@ static void add_names(Text *html, const GazeFinding *g, Arena *arena)
     const char *sun = isnan(g->sun_deg)
                           ? "no sun above the horizon"
                           : arena_format(arena, "sun %.0f° from the gaze", g->sun_deg);
-    page_cell(html, "", of(g->gaze));
-    page_cell(html, "", of(g->eye));
+    add_small_cell(html, "", of(g->gaze), of(g->eye));
     add_small_cell(html, "", of(g->condition), sun);
+}
+
+static void add_veils(Text *html, const GazeFinding *g, Arena *arena)
+{
+    const char *from = first_part(&g->veil_parts);
+    page_cell(html, "n", words_figure(g->mirrored, arena));
+    if (g->mirrored_by) add_small_cell(html, "", g->mirrored_by, of(g->mirrored_from));
+    else page_cell(html, "", "–");
+    add_small_cell(html, "n", words_figure(far_veil(g), arena),
+                   from[0] ? arena_format(arena, "mostly %s", from) : "");
 }
 
 static void add_row(Text *html, const GazeFinding *g, Arena *arena)
 {
-    const char *by = !g->mirrored_by ? ""
-                                     : arena_format(arena, "%s, showing %s", g->mirrored_by,
-                                                    of(g->mirrored_from));
-    const char *from = first_part(&g->veil_parts);
     page_row_begin(html, "");
     add_names(html, g, arena);
     add_small_cell(html, g->contrast_left < GAZE_POOR ? "n bad" : "n",
                    words_share(g->contrast_left, arena),
                    share_range(&g->contrast_range, arena));
     page_cell(html, "n", words_figure(g->through, arena));
-    add_small_cell(html, "n", words_figure(g->mirrored, arena), by);
-    add_small_cell(html, "n", words_figure(far_veil(g), arena),
-                   from[0] ? arena_format(arena, "mostly %s", from) : "");
+    add_veils(html, g, arena);
     page_cell(html, "n", words_figure(g->cornea_lux, arena));
-    page_cell(html, "n", words_figure(g->dgp, arena));
-    page_cell(html, "n", words_figure(g->ugr, arena));
+    page_cell_format(html, "n", "%s · %s", words_figure(g->dgp, arena),
+                     words_figure(g->ugr, arena));
     page_row_end(html);
 }
 
 void review_gaze_add(Text *html, const Review *review, Arena *arena)
 {
     static const PageColumn COLUMNS[] = {
-        {"Looking at", false, NULL}, {"Eye", false, NULL}, {"Condition", false, NULL},
+        {"Looking at", false, NULL}, {"Condition", false, NULL},
         {"Contrast left", true, "of a distant object, behind both veils; 95 % interval"},
         {"Seen, cd/m²", true, "what lies there, as it arrives through the glass"},
         {"Mirrored, cd/m²", true, "what the glass mirrors over it"},
-        {"Veil in the eye, cd/m²", true,
+        {"The glass, and what it shows", false, "most of what is mirrored"},
+        {"Eye's veil, cd/m²", true,
          "light from more than 1° away that the eye scatters over it, and glare from nearer"},
-        {"Light at the eye, lx", true, "on the plane of the pupil"},
-        {"Glare probability", true, "DGP: secondary"},
-        {"Glare rating", true, "UGR: secondary"}};
+        {"At the eye, lx", true, "light on the plane of the pupil"},
+        {"DGP · UGR", true, "glare probability and rating: secondary figures"}};
     if (review->gaze_count == 0) return;
     const GazeFinding **list = ranked(review, arena);
     page_element(html, "h2", "Looking elsewhere");
@@ -140,7 +143,7 @@ void review_gaze_add(Text *html, const Review *review, Arena *arena)
                  "scatters. Both brighten an object and its background alike, and so take of "
                  "its contrast. No limit is held against them.");
     page_element(html, "p", worst_words(list[0], arena));
-    page_table_begin(html, "", "list", COLUMNS, 10);
+    page_table_begin(html, "", "list gazes", COLUMNS, 9);
     for (int i = 0; i < review->gaze_count; i++) add_row(html, list[i], arena);
     page_table_end(html);
 }
