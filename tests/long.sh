@@ -45,6 +45,7 @@ run 'a hundred kills' resume-long \
     python3 tests/hostile/resume.py --kills 100 .build/release/parhelion
 run 'parts of every kind' merge-long \
     python3 tests/image/merge.py --all .build/release/parhelion
+run 'what moves in a page' live python3 tests/page/live.py .build/release/parhelion
 run 'every fault' faults-long python3 tests/hostile/faults.py --all .build/release/parhelion
 if run_one 'build by the second compiler' build-clang build clang all; then
     run_units 'unit tests, second compiler' unit-clang .build/clang

@@ -145,7 +145,7 @@ static bool review(const ReviewWords *words, Arena *arena, Error *err)
     ReviewOutcome  outcome;
     ReviewFolder   folder = {.name = words->folder, .request = &request, .diff = words->diff,
                              .profile = words->profile, .root = words->root,
-                             .is_strict = words->is_strict};
+                             .threads = words->cli.threads, .is_strict = words->is_strict};
     if (!review_request_read(file, words->root, arena, &problems, &request, err)) return false;
     if (!profile_load(words->profile ? words->profile : request.profile, arena, &profile, err))
         return false;

@@ -11,6 +11,7 @@
 #include "cli/options/version.h"
 #include "render/render.h"
 #include "review/run/frames.h"
+#include "review/run/live.h"
 #include "review/output/review_csv.h"
 #include "review/output/review_json.h"
 #include "review/output/review_json_read.h"
@@ -112,7 +113,7 @@ static void add_pictures(const ReviewFolder *folder, const Review *review, Revie
                                   : &review->sweeps[i - review->case_count].worst;
         if (!c->frame) continue;
         pictures[page->picture_count++] = (ReviewPicture){
-            .of = c, .title = "Frame",
+            .of = c, .title = "Frame", .is_frame = true,
             .caption = "What the eye sees, exposed as a camera would",
             .view = c->view,
             .file = arena_format(arena, "%s/%s", folder->name, c->frame)};
@@ -156,6 +157,10 @@ static bool write_page(const ReviewFolder *folder, const ReviewOutcome *outcome,
     const char *command = command_of(folder, arena);
     ReviewPage page = {.review = &outcome->review, .commands = &command, .command_count = 1};
     ReviewDiff diff;
+    ReviewLive live;
+    LiveAsk    ask = {folder->request, outcome, folder->name, folder->threads};
+    if (!live_make(&ask, arena, &live, err)) return false;
+    page.live = &live;
     add_charts(folder, outcome, &page, arena);
     add_pictures(folder, &outcome->review, &page, arena);
     add_facts(folder->request, &page, arena);

@@ -15,6 +15,7 @@ typedef struct ReviewFolder {
     const ReviewRequest *request;
     const char          *diff; /* folder of an earlier review; NULL: none */
     const char          *profile, *root; /* as on the command line; NULL: not given */
+    int                  threads;
     bool                 is_strict;
     Review               before; /* what stood there */
     double               begun_s;

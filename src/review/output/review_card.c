@@ -250,7 +250,7 @@ static bool add_picture(Text *html, const ReviewCard *card, const ReviewPicture 
                         Arena scratch, Error *err)
 {
     const char *title = p->title ? p->title : "";
-    text_add(html, "<figure>");
+    text_add(html, p->is_frame ? "<figure class=\"frame\">" : "<figure>");
     page_element(html, "h3", title);
     if (p->view) text_add(html, "<div class=\"shown\">");
     if (p->picture ? !page_picture(html, title, p->picture, false, scratch, err)

@@ -16,6 +16,7 @@ typedef struct ReviewPicture {
     const CaseView   *view;    /* rays are drawn over it; NULL: none */
     const Picture    *picture; /* NULL: the file */
     const char       *file;    /* PNG or JPEG by its ending; goes into the page as it stands */
+    bool              is_frame; /* the frame itself: review_look.js shows it in its stead */
 } ReviewPicture;
 
 typedef struct ReviewCard {

@@ -17,6 +17,8 @@
 
 /* review.css and review.js beside this file; the build embeds them. */
 extern const char REVIEW_STYLE[], REVIEW_SCRIPT[];
+/* What the reader may move: review_live.css, review_live.js, review_look.js. */
+extern const char LIVE_STYLE[], LIVE_SCRIPT[], LOOK_SCRIPT[];
 
 /* ---- the line on top -------------------------------------------------------------------- */
 
@@ -100,7 +102,8 @@ static void add_head(Text *html, const ReviewPage *page, Arena *arena)
 {
     const Review *review = page->review;
     const char   *title = review->title && review->title[0] ? review->title : "Glare review";
-    page_begin(html, &(PageHead){title, REVIEW_STYLE, page->is_dark});
+    page_begin(html, &(PageHead){title, arena_format(arena, "%s%s", REVIEW_STYLE, LIVE_STYLE),
+                               page->is_dark});
     page_element(html, "p class=\"sub title\"",
                  arena_format(arena, "%s · limits: %s%s", title,
                               review->profile ? review->profile : "none",
@@ -342,7 +345,10 @@ static bool add_page(Text *html, const ReviewPage *page, Arena *arena, Error *er
     review_false_suns_add(html, page->review, arena);
     add_provenance(html, page, arena);
     add_glossary(html);
-    page_end(html, "review", (const char *const[]){REVIEW_SCRIPT, NULL});
+    if (page->live && !review_live_add(html, page->review, page->live, arena, err))
+        return false;
+    page_end(html, "review",
+             (const char *const[]){REVIEW_SCRIPT, LIVE_SCRIPT, LOOK_SCRIPT, NULL});
     return true;
 }
 

@@ -12,6 +12,7 @@
 #pragma once
 #include "review/output/review_card.h"
 #include "review/output/review_diff.h"
+#include "review/output/review_live.h"
 #include "review/output/review_map.h"
 #include "review/verdict.h"
 
@@ -33,6 +34,7 @@ typedef struct ReviewPage {
     const char *const    *commands; /* that make this page again, and look further */
     int                   command_count;
     const ReviewDiff     *diff;     /* NULL: none */
+    const ReviewLive     *live;     /* what the reader may move; NULL: nothing */
     bool                  is_dark;  /* whatever the reader has */
 } ReviewPage;
 

@@ -48,7 +48,7 @@ static RenderOptions options_of(const FrameAsk *ask)
         .crop = {0, 0, frames->width, frames->height}, .end_sample = FRAMES_SAMPLES,
         .noise = frames->noise, .max_bounces = STAGE_BOUNCES,
         .noise_area = {{0, 0, frames->width, frames->height}, FILM_ALL_PIXELS},
-        .layers = LAYER_VARIANCE | LAYER_ID | (LAYER_DISPLAYS & ~LAYER_DISPLAY_FINE),
+        .layers = LAYER_VARIANCE | LAYER_ID | LAYER_DISPLAYS,
         .threads = ask->stage->tools.threads, .progress = ask->progress};
 }
 

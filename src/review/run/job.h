@@ -28,7 +28,9 @@ typedef struct SweepTable {
     int              worst;     /* sun; -1: none */
     const SweepSuns *suns;      /* shared by the sweep's tables */
     const float     *contrast, *margin, *reflected, *mirror, *level, *lux; /* [suns->count] */
-    const unsigned char *verdict;
+    const unsigned char *verdict, *ambient;
+    double           foreground, background; /* cd m^-2, emitted at level 1 */
+    const LimitVerdict *const *asked; /* [4] the contrast limit of each ambient; NULL: none */
 } SweepTable;
 
 /* The review, and what its sweeps found of every sun. */

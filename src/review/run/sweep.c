@@ -77,7 +77,7 @@ static ReviewCase case_at(const Sweep *sweep, const Sight *sight, const FarTools
 
 typedef struct Told {
     float *contrast, *margin, *reflected, *mirror, *level, *lux;
-    unsigned char *verdict;
+    unsigned char *verdict, *ambient;
     int    worst; /* sun; -1: none */
 } Told;
 
@@ -86,6 +86,7 @@ static Told told_start(int count, Arena *arena)
     float *numbers = ARENA_NEW(arena, float, 6 * (size_t)count);
     return (Told){numbers, numbers + count, numbers + 2 * count, numbers + 3 * count,
                   numbers + 4 * count, numbers + 5 * count,
+                  ARENA_NEW(arena, unsigned char, count),
                   ARENA_NEW(arena, unsigned char, count), -1};
 }
 
@@ -123,6 +124,7 @@ static void tell_sun(const TellWork *work, int sun, Arena scratch)
     told->level[sun] = (float)c.level;
     told->lux[sun] = (float)c.display_lux;
     told->verdict[sun] = (unsigned char)c.verdict;
+    told->ambient[sun] = (unsigned char)c.ambient;
 }
 
 static void tell_chunk(void *user, int item, int worker)
@@ -246,6 +248,19 @@ static ReviewSweep sweep_of(const Telling *to, const Sight *sight)
     return sweep;
 }
 
+/* The contrast limit that is asked under each ambient. */
+static const LimitVerdict *const *limits_asked(const Telling *to, const Sight *sight)
+{
+    const LimitVerdict **asked = ARENA_NEW(to->arena, const LimitVerdict *, 4);
+    for (int ambient = 0; ambient < 4; ambient++) {
+        ReviewCase c = {.ambient = (Ambient)ambient, .visible_share = sight->seen.visible_share,
+                        .height_arcmin = sight->height_arcmin};
+        judge_case(&c, to->sweep->run->profile, to->arena);
+        asked[ambient] = c.limit_id >= 0 ? &c.limits[c.limit_id] : NULL;
+    }
+    return asked;
+}
+
 static bool add_sweep(Telling *to, const Sight *sight, Error *err)
 {
     Review     *review = &to->out->review;
@@ -261,7 +276,9 @@ static bool add_sweep(Telling *to, const Sight *sight, Error *err)
         if (told.worst >= 0) tell_when(to, &to->suns->list[told.worst], &sweep.worst);
         to->out->tables[to->out->table_count++] =
             (SweepTable){review->sweep_count, told.worst, to->suns, told.contrast, told.margin,
-                         told.reflected, told.mirror, told.level, told.lux, told.verdict};
+                         told.reflected, told.mirror, told.level, told.lux, told.verdict,
+                         told.ambient, sight->shown.foreground, sight->shown.background,
+                         limits_asked(to, sight)};
     }
     review->sweeps[review->sweep_count++] = sweep;
     return true;

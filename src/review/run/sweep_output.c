@@ -84,7 +84,7 @@ static ReviewMap grid_map(const SweepTable *table, const ReviewSweep *sweep, Are
 {
     const SweepSuns *suns = table->suns;
     MapCells  cells;
-    ReviewAxis azimuth = {suns->azimuth_deg.first, suns->azimuth_deg.step,
+    ReviewAxis azimuth = {suns->list[0].azimuth_deg, suns->azimuth_deg.step,
                           suns->azimuth_deg.count};
     ReviewAxis elevation = {suns->elevation_deg.first, suns->elevation_deg.step,
                             suns->elevation_deg.count};

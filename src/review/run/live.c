@@ -1,0 +1,194 @@
+#include "review/run/live.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/file.h"
+#include "image/exposure.h"
+#include "image/false_colour.h"
+#include "review/run/live_frame.h"
+#include "text/base64.h"
+
+#define LIVE_BYTES ((size_t)1 << 36)        /* address space: what is not touched is free */
+#define PICTURES_BYTES ((size_t)10 << 20)   /* of packed layers: more frames stay as they are */
+
+/* ---- pictures ---------------------------------------------------------------------------- */
+
+static double field_of_view(const FrameImage *frame)
+{
+    const ExrAttribute *said = frame_attribute(frame, "parhelion:yfov_deg");
+    return said && said->kind != EXR_STRING ? said->values[0] : (double)NAN;
+}
+
+static void look_at(const FrameImage *frame, LivePicture *out, Arena scratch)
+{
+    const float *rgb[3];
+    size_t       count = frame_pixel_count(frame);
+    float       *luminance = ARENA_NEW(&scratch, float, count);
+    ExposureRequest usual = {.kind = EXPOSURE_AUTO};
+    if (frame_rgb(frame, "", rgb))
+        for (size_t i = 0; i < count; i++)
+            luminance[i] = 0.2126f * rgb[0][i] + 0.7152f * rgb[1][i] + 0.0722f * rgb[2][i];
+    ScaleRange range = scale_range_of(luminance, count, true, scratch);
+    out->grey_cd_m2 = exposure_grey(usual, luminance, count, scratch);
+    out->low = (double)range.low;
+    out->high = (double)range.high;
+}
+
+static const char *pack(const LivePlanes *planes, Arena *arena, Error *err)
+{
+    const float *rgb[3] = {planes->rgb[0], planes->rgb[1], planes->rgb[2]};
+    return live_layer_pack(rgb, (size_t)planes->width * (size_t)planes->height, arena, err);
+}
+
+static bool make_layers(const LiveAsk *ask, const FrameImage *frame, LivePicture *out,
+                        Arena *arena, Error *err)
+{
+    Arena     scratch = arena_reserve(LIVE_BYTES);
+    LiveFrame split = {0};
+    double    yfov = field_of_view(frame);
+    const ReviewObserver *observer = &ask->request->observer;
+    HumanEye  eye = {observer->age_years, observer->pigment};
+    bool      ok = live_frame_split(frame, &scratch, &split, err);
+    if (ok) {
+        split.scene = live_frame_shrink(&split.scene, LIVE_WIDTH, LIVE_HEIGHT, &scratch);
+        split.displays = live_frame_shrink(&split.displays, LIVE_WIDTH, LIVE_HEIGHT, &scratch);
+        out->width = split.scene.width;
+        out->height = split.scene.height;
+        ok = (out->scene = pack(&split.scene, arena, err)) != NULL &&
+             (out->displays = pack(&split.displays, arena, err)) != NULL;
+    }
+    if (ok && yfov > 0) {
+        ok = live_frame_spread(&split.scene, yfov, eye, ask->threads, &scratch, err) &&
+             live_frame_spread(&split.displays, yfov, eye, ask->threads, &scratch, err) &&
+             (out->eye_scene = pack(&split.scene, arena, err)) != NULL &&
+             (out->eye_displays = pack(&split.displays, arena, err)) != NULL;
+        out->age_years = eye.age_years;
+        out->pigment = eye.pigment;
+    }
+    arena_release(&scratch);
+    return ok;
+}
+
+/* The frame lies beside its picture. */
+static bool make_picture(const LiveAsk *ask, const char *name, LivePicture *out, Arena *arena,
+                         Error *err)
+{
+    Arena       scratch = arena_reserve(LIVE_BYTES);
+    int         stem = (int)(path_ending(name) - name);
+    const char *path = arena_format(&scratch, "%s/%.*s.exr", ask->folder, stem, name);
+    FrameImage  frame;
+    *out = (LivePicture){.frame = name};
+    bool ok = frame_read(path, &scratch, &frame, err);
+    if (ok) {
+        look_at(&frame, out, scratch);
+        ok = make_layers(ask, &frame, out, arena, err) || error_in_file(err, path);
+    }
+    arena_release(&scratch);
+    return ok;
+}
+
+static size_t packed_size(const LivePicture *p)
+{
+    const char *layers[4] = {p->scene, p->displays, p->eye_scene, p->eye_displays};
+    size_t      size = 0;
+    for (int i = 0; i < 4; i++) size += layers[i] ? strlen(layers[i]) : 0;
+    return size;
+}
+
+static bool is_new(const LivePicture *pictures, int count, const char *frame)
+{
+    for (int i = 0; i < count; i++)
+        if (!strcmp(pictures[i].frame, frame)) return false;
+    return true;
+}
+
+static bool make_pictures(const LiveAsk *ask, Arena *arena, ReviewLive *out, Error *err)
+{
+    const Review *review = &ask->outcome->review;
+    int           most = review->case_count + review->sweep_count, made = 0;
+    size_t        size = 0;
+    LivePicture  *pictures = ARENA_NEW(arena, LivePicture, most);
+    for (int i = 0; i < most && size < PICTURES_BYTES; i++) {
+        const ReviewCase *c = i < review->case_count
+                                  ? &review->cases[i]
+                                  : &review->sweeps[i - review->case_count].worst;
+        if (!c->frame || !is_new(pictures, made, c->frame)) continue;
+        if (!make_picture(ask, c->frame, &pictures[made], arena, err)) return false;
+        size += packed_size(&pictures[made++]);
+    }
+    out->pictures = pictures;
+    out->picture_count = made;
+    return true;
+}
+
+static const char *false_colours(Arena *arena)
+{
+    unsigned char codes[256][3];
+    Text          text = {.arena = arena};
+    for (int i = 0; i < 256; i++) {
+        float srgb[3];
+        false_colour_of((float)i / 255, srgb);
+        for (int c = 0; c < 3; c++) codes[i][c] = (unsigned char)(srgb[c] * 255 + 0.5f);
+    }
+    base64_encode(&text, codes, sizeof codes);
+    return text.data;
+}
+
+/* ---- sweeps ------------------------------------------------------------------------------ */
+
+static const ReviewCondition *condition_of(const ReviewRequest *request, const char *name)
+{
+    for (int i = 0; i < request->condition_count; i++)
+        if (!strcmp(request->conditions[i].name, name)) return &request->conditions[i];
+    return NULL;
+}
+
+static const LiveSky *make_sky(const SweepSuns *suns, const ReviewCondition *condition,
+                               Arena *arena)
+{
+    LiveSun *list = ARENA_NEW(arena, LiveSun, suns->count);
+    LiveSky *sky = ARENA_NEW(arena, LiveSky, 1);
+    for (int i = 0; i < suns->count; i++) {
+        const SweepSun *sun = &suns->list[i];
+        list[i] = (LiveSun){sun->azimuth_deg, sun->elevation_deg, sun->step, sun->heading_id};
+    }
+    bool is_year = condition && condition->kind == CONDITION_YEAR_SWEEP;
+    *sky = (LiveSky){.suns = list, .count = suns->count};
+    if (is_year) {
+        sky->year = condition->year;
+        sky->step_minutes = suns->step_minutes;
+        sky->headings_deg = condition->headings_deg;
+        sky->heading_count = condition->heading_count;
+    }
+    return sky;
+}
+
+static void make_sweeps(const LiveAsk *ask, Arena *arena, ReviewLive *out)
+{
+    const ReviewOutcome *outcome = ask->outcome;
+    LiveSweep       *sweeps = ARENA_NEW(arena, LiveSweep, outcome->table_count);
+    const SweepSuns *last = NULL;
+    const LiveSky   *sky = NULL;
+    for (int i = 0; i < outcome->table_count; i++) {
+        const SweepTable *t = &outcome->tables[i];
+        const char *condition = outcome->review.sweeps[t->sweep_id].condition;
+        if (t->suns != last)
+            sky = make_sky(t->suns, condition_of(ask->request, condition), arena);
+        last = t->suns;
+        sweeps[i] = (LiveSweep){t->sweep_id, sky, t->reflected, t->mirror, t->level, t->lux,
+                                t->verdict, t->ambient, t->foreground, t->background,
+                                t->asked};
+    }
+    out->sweeps = sweeps;
+    out->sweep_count = outcome->table_count;
+}
+
+/* ---- all of it --------------------------------------------------------------------------- */
+
+bool live_make(const LiveAsk *ask, Arena *arena, ReviewLive *out, Error *err)
+{
+    *out = (ReviewLive){.colours = false_colours(arena)};
+    make_sweeps(ask, arena, out);
+    return make_pictures(ask, arena, out, err);
+}

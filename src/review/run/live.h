@@ -1,0 +1,27 @@
+/* live.h -- what the page's reader may move (review/output/review_live.h), from what a review
+ * found: the suns of its sweeps, and the frames of its worst cases as they lie in its folder.
+ *
+ * A frame is divided into what displays emit to the eye and the rest; both are made smaller
+ * (means of areas) to LIVE_WIDTH x LIVE_HEIGHT at most, and both are spread as in the
+ * observer's eye. What a display's light does in the cabin stays with the rest, at the level of
+ * the frame.
+ *
+ * Memory   what is packed lives in the arena; scratch: 150 bytes a pixel of a frame, and the
+ *          eye filter's.
+ * Threads  the eye filter's; the same bytes for any count.
+ * Fails    when a frame cannot be read, or memory is out.
+ */
+#pragma once
+#include "review/output/review_live.h"
+#include "review/run/job.h"
+
+enum { LIVE_WIDTH = 960, LIVE_HEIGHT = 540 };
+
+typedef struct LiveAsk {
+    const ReviewRequest *request;
+    const ReviewOutcome *outcome;
+    const char          *folder; /* of the frames */
+    int                  threads;
+} LiveAsk;
+
+bool live_make(const LiveAsk *ask, Arena *arena, ReviewLive *out, Error *err);

@@ -1,0 +1,186 @@
+/* What a review's page holds for its script: numbers come back as they went in, light within
+ * the stated error; a frame's two parts add up to it, smaller and in the eye as well. */
+#include "frame_fixture.h"
+
+#include <zlib.h>
+
+#include "page/page_data.h"
+#include "review/output/review_live.h"
+#include "review/run/live_frame.h"
+#include "text/base64.h"
+
+/* ---- packed numbers ---------------------------------------------------------------------- */
+
+/* As page_data.h says it, back again. */
+static uint32_t *unpacked(const char *text, size_t count, int bytes, Arena *arena)
+{
+    Error  err = {0};
+    size_t size;
+    uLong  room = (uLong)(count * (size_t)bytes);
+    unsigned char *packed = ARENA_NEW(arena, unsigned char, strlen(text));
+    unsigned char *planes = ARENA_NEW(arena, unsigned char, room);
+    uint32_t      *out = ARENA_NEW(arena, uint32_t, count);
+    assert_true(base64_decode(text, strlen(text), packed, &size, &err));
+    assert_int_equal(uncompress(planes, &room, packed, (uLong)size), Z_OK);
+    assert_int_equal(room, count * (size_t)bytes);
+    for (int plane = 0; plane < bytes; plane++) {
+        unsigned char value = 0;
+        for (size_t i = 0; i < count; i++) {
+            value = (unsigned char)(value + planes[(size_t)plane * count + i]);
+            out[i] |= (uint32_t)value << 8 * plane;
+        }
+    }
+    return out;
+}
+
+TEST(numbers_come_back)
+{
+    Arena    arena = test_arena(state);
+    uint32_t values[1000];
+    for (int bytes = 1; bytes <= 4; bytes++) {
+        Text  text = {.arena = &arena};
+        Error err = {0};
+        for (uint32_t i = 0; i < 1000; i++) values[i] = i * i * 2654435761u;
+        assert_true(page_data_add(&text, values, 1000, bytes, arena_reserve(1 << 20), &err));
+        uint32_t *back = unpacked(text.data, 1000, bytes, &arena);
+        uint32_t  mask = (uint32_t)(((uint64_t)1 << 8 * bytes) - 1);
+        for (int i = 0; i < 1000; i++) assert_int_equal(back[i], values[i] & mask);
+    }
+}
+
+/* ---- light ------------------------------------------------------------------------------- */
+
+static double luminance(double r, double g, double b)
+{
+    return 0.212639 * r + 0.715169 * g + 0.072192 * b;
+}
+
+TEST(light_comes_back)
+{
+    enum { COUNT = 3000 };
+    Arena  arena = test_arena(state);
+    Error  err = {0};
+    float *rgb[3];
+    for (int c = 0; c < 3; c++) rgb[c] = ARENA_NEW(&arena, float, COUNT);
+    for (int i = 0; i < COUNT; i++) {
+        double size = pow(10, -5 + 14.9 * i / COUNT);
+        rgb[0][i] = (float)(size * (1 + 0.5 * sin(i)));
+        rgb[1][i] = (float)(size * (1 + 0.3 * sin(2.3 * i)));
+        rgb[2][i] = (float)(size * (1 + 0.9 * sin(1.7 * i)));
+    }
+    rgb[1][COUNT - 1] = NAN;
+    rgb[0][COUNT - 2] = rgb[1][COUNT - 2] = rgb[2][COUNT - 2] = 0;
+    const float *in[3] = {rgb[0], rgb[1], rgb[2]};
+    const char  *text = live_layer_pack(in, COUNT, &arena, &err);
+    uint32_t    *codes = unpacked(text, COUNT, 4, &arena);
+    for (int i = 0; i < COUNT - 2; i++) {
+        double wanted = luminance((double)rgb[0][i], (double)rgb[1][i], (double)rgb[2][i]);
+        double found = 1e-5 * pow(1e15, ((codes[i] & 65535) - 1) / 4094.0);
+        double X = 0.412391 * (double)rgb[0][i] + 0.357584 * (double)rgb[1][i] +
+                   0.180481 * (double)rgb[2][i];
+        double Z = 0.019331 * (double)rgb[0][i] + 0.119195 * (double)rgb[1][i] +
+                   0.950532 * (double)rgb[2][i];
+        double sum = X + 15 * wanted + 3 * Z;
+        if (wanted > 1e-5) assert_true(fabs(found / wanted - 1) < LIVE_LAYER_ERROR);
+        assert_true(fabs((codes[i] >> 16 & 255) / 410.0 - 4 * X / sum) < 0.5001 / 410);
+        assert_true(fabs((codes[i] >> 24) / 410.0 - 9 * wanted / sum) < 0.5001 / 410);
+    }
+    assert_int_equal(codes[COUNT - 2], 0);
+    assert_int_equal(codes[COUNT - 1], 0);
+}
+
+/* ---- a frame's two parts ----------------------------------------------------------------- */
+
+static FrameImage display_frame(Arena *arena)
+{
+    ExrWindow  whole = {0, 0, 40, 30};
+    FrameImage frame = frame_create(40, 30, whole, 8, 0, arena);
+    for (int c = 0; c < 3; c++) {
+        float *all = frame_add_channel(&frame, (char[]){"RGB"[c], 0}, false, arena);
+        char   name[] = "display.emitted.R";
+        name[16] = "RGB"[c];
+        float *shown = frame_add_channel(&frame, name, false, arena);
+        for (int i = 0; i < 1200; i++) {
+            all[i] = (float)(100 + 7 * (i % 40) + 3 * c);
+            shown[i] = i % 40 < 20 ? 40 : NAN;
+        }
+    }
+    float *coverage = frame_add_channel(&frame, "display.coverage", false, arena);
+    for (int i = 0; i < 1200; i++) coverage[i] = i % 40 < 19 ? 1 : i % 40 == 19 ? 0.25f : 0;
+    return frame;
+}
+
+static double mean_of(const float *values, int count)
+{
+    double sum = 0;
+    for (int i = 0; i < count; i++) sum += (double)values[i];
+    return sum / count;
+}
+
+TEST(parts_add_up)
+{
+    Arena      arena = test_arena(state);
+    FrameImage frame = display_frame(&arena);
+    LiveFrame  split;
+    Error      err = {0};
+    const float *rgb[3];
+    assert_true(live_frame_split(&frame, &arena, &split, &err) && frame_rgb(&frame, "", rgb));
+    for (int c = 0; c < 3; c++)
+        for (int i = 0; i < 1200; i++) {
+            float shown = i % 40 < 19 ? 40 : i % 40 == 19 ? 10 : 0;
+            assert_true(split.displays.rgb[c][i] == shown);
+            assert_true(split.scene.rgb[c][i] + shown == rgb[c][i]);
+        }
+}
+
+TEST(a_frame_without_displays_layers_is_refused)
+{
+    Arena      arena = test_arena(state);
+    FrameImage frame = uniform_frame(4, 4, 1, &arena);
+    LiveFrame  split;
+    Error      err = {0};
+    assert_false(live_frame_split(&frame, &arena, &split, &err));
+    assert_non_null(strstr(err.text, "display.coverage"));
+}
+
+/* Smaller by whole numbers or not: the mean stays, and what is even stays even. */
+TEST(smaller_is_as_bright)
+{
+    Arena      arena = test_arena(state);
+    FrameImage frame = display_frame(&arena);
+    LiveFrame  split;
+    Error      err = {0};
+    assert_true(live_frame_split(&frame, &arena, &split, &err));
+    static const int SIZES[][4] = {{20, 15, 20, 15}, {24, 30, 24, 18}, {64, 48, 40, 30},
+                                   {7, 5, 7, 5}};
+    for (int s = 0; s < 4; s++) {
+        LivePlanes small = live_frame_shrink(&split.scene, SIZES[s][0], SIZES[s][1], &arena);
+        assert_int_equal(small.width, SIZES[s][2]);
+        assert_int_equal(small.height, SIZES[s][3]);
+        for (int c = 0; c < 3; c++)
+            assert_float_equal(mean_of(small.rgb[c], small.width * small.height),
+                               mean_of(split.scene.rgb[c], 1200), 1e-3);
+    }
+    LivePlanes half = live_frame_shrink(&split.displays, 20, 15, &arena);
+    assert_true(half.rgb[0][3] == 40 && half.rgb[0][9] == 25 && half.rgb[0][10] == 0);
+}
+
+/* An eye makes no light and loses none: a narrow view's pixels are all alike. */
+TEST(an_eye_keeps_the_light)
+{
+    Arena      arena = test_arena(state);
+    FrameImage frame = display_frame(&arena);
+    LiveFrame  split;
+    Error      err = {0};
+    assert_true(live_frame_split(&frame, &arena, &split, &err));
+    double before = mean_of(split.displays.rgb[1], 1200);
+    HumanEye eye = {70, 0.5};
+    assert_true(live_frame_spread(&split.displays, 2, eye, 2, &arena, &err));
+    assert_float_equal(mean_of(split.displays.rgb[1], 1200), before, 1e-3 * before);
+    assert_true(split.displays.rgb[1][39] > 0 && split.displays.rgb[1][10] < 40);
+}
+
+int main(void)
+{
+    return run_cases(make_arena, drop_arena);
+}
