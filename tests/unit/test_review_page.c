@@ -271,6 +271,39 @@ TEST(pictures_go_into_the_page_as_they_stand)
     remove(path);
 }
 
+/* The eye at the origin looks along -z, a right angle wide. */
+TEST(rays_of_a_cause_lie_over_its_frame)
+{
+    (void)state;
+    static const Vec3 AHEAD[] = {{0, 0, 0}, {0, 0, -1}, {0.5f, 0.25f, -1}, {1, 0, -1}};
+    static const Vec3 BEHIND[] = {{0, 0, 0}, {-0.5f, 0, -1}, {-0.5f, 0, 1}};
+    static const CaseRay  RAYS[] = {{AHEAD, 4}, {BEHIND, 3}};
+    static const CaseView VIEW = {.right = {1, 0, 0}, .up = {0, 1, 0}, .forward = {0, 0, -1},
+                                  .is_perspective = true, .half_width = 1,
+                                  .half_height = 0.5, .width = 200, .height = 100};
+    Error         err = {0};
+    Review        review = fixture_review(&arena);
+    ReviewCase   *c = &review.cases[3];
+    CaseCause     causes[2] = {c->causes[0], c->causes[1]};
+    const char   *file = fresh_name(".png");
+    ReviewPicture shown = {.of = c, .title = "frame", .file = file, .view = &VIEW};
+    ReviewPage    page = {.review = &review, .pictures = &shown, .picture_count = 1};
+    assert_true(file_write(file, "Man", 3, &err));
+    causes[0].rays = RAYS;
+    causes[0].ray_count = 2;
+    c->causes = causes;
+    c->cause_count = 2;
+    c->frame = file;
+    c->view = &VIEW;
+    const char *text = page_of(&page);
+    assert_int_equal(count_of(text, "<a href=\"#c3-way1\">"), 1);
+    assert_int_equal(count_of(text, "<g id=\"c3-way1\""), 1);
+    assert_int_equal(count_of(text, "c3-way2"), 0); /* it has no rays */
+    assert_int_equal(count_of(text, "d=\"M100 50L150 25M150 25L200 50M50 50L-2400 50\""), 2);
+    assert_int_equal(count_of(text, "<circle cx=\"50\" cy=\"50\""), 1);
+    remove(file);
+}
+
 TEST(a_page_that_cannot_be_written_is_an_error)
 {
     (void)state;

@@ -9,8 +9,8 @@
 
 #define CHUNK 64
 #define ROUND 64          /* chunks at a time */
-#define CHUNK_ROOM 1024   /* of a chunk's table: a power of two */
-#define CHUNK_CHAINS 700  /* that are told apart in one chunk */
+#define CHUNK_ROOM 512    /* of a chunk's table: a power of two */
+#define CHUNK_CHAINS 400  /* that are told apart in one chunk */
 #define ROOM 16384        /* of all: a power of two */
 #define CHAINS_TOLD 10000 /* that are told apart */
 
@@ -191,7 +191,7 @@ typedef struct FoundChain {
     double draw[CHAIN_RAYS]; /* of its rays, rising */
     double sum, squares;     /* of the chunks' means */
     int    id;
-    bool   is_used, is_kept;
+    bool   is_kept;
 } FoundChain;
 
 /* What a chunk gave to one chain. */
@@ -211,7 +211,7 @@ typedef struct FoundSums {
 } FoundSums;
 
 typedef struct FoundChains {
-    FoundChain  *table;  /* [ROOM] */
+    FoundChain **table;  /* [ROOM] */
     FoundChain **by_id;
     int          count;
     ChunkGifts  *gifts;  /* of each chunk */
@@ -226,14 +226,14 @@ static void add_mean(FoundSums *sums, double mean)
 }
 
 /* NULL: the table is full. */
-static FoundChain *found_chain(FoundChains *found, const ChainKey *key)
+static FoundChain *found_chain(FoundChains *found, const ChainKey *key, Arena *own)
 {
     for (uint32_t i = hash_key(key);; i++) {
-        FoundChain *f = &found->table[i & (ROOM - 1)];
-        if (f->is_used && !memcmp(&f->chain.key, key, sizeof *key)) return f;
-        if (f->is_used) continue;
+        FoundChain **place = &found->table[i & (ROOM - 1)], *f = *place;
+        if (f && !memcmp(&f->chain.key, key, sizeof *key)) return f;
+        if (f) continue;
         if (found->count == CHAINS_TOLD) return NULL;
-        f->is_used = true;
+        *place = f = ARENA_NEW(own, FoundChain, 1);
         f->chain.key = *key;
         f->id = found->count;
         found->by_id[found->count++] = f;
@@ -264,7 +264,7 @@ static void add_chunk(FoundChains *found, const ChainChunk *sums, ChunkGifts *gi
     found->own += sums->own / CHUNK;
     for (int i = 0; i < CHUNK_ROOM; i++) {
         const ChunkChain *from = &sums->table[i];
-        FoundChain       *to = from->is_used ? found_chain(found, &from->key) : NULL;
+        FoundChain       *to = from->is_used ? found_chain(found, &from->key, own) : NULL;
         if (!to) continue;
         double mean = from->sum / CHUNK;
         to->sum += mean;
@@ -366,9 +366,9 @@ Chains chains_find(const ChainAsk *ask, Arena *arena)
                   .alike = alike_parts(scene, arena), .paths = (long)chunks * CHUNK};
     ChainSearch search = {.ask = ask, .scene = scene, .alike = out.alike,
                           .far_m = far_length(scene)};
-    FoundChains found = {.table = ARENA_NEW(&own, FoundChain, ROOM),
-                   .by_id = ARENA_NEW(&own, FoundChain *, CHAINS_TOLD),
-                   .gifts = ARENA_NEW(&own, ChunkGifts, chunks)};
+    FoundChains found = {.table = ARENA_NEW(&own, FoundChain *, ROOM),
+                         .by_id = ARENA_NEW(&own, FoundChain *, CHAINS_TOLD),
+                         .gifts = ARENA_NEW(&own, ChunkGifts, chunks)};
     Arena rounds = arena_reserve(OWN_BYTES);
     for (; search.first < chunks; search.first += ROUND) {
         int   count = chunks - search.first < ROUND ? chunks - search.first : ROUND;

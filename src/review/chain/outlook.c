@@ -12,6 +12,7 @@
 #define PATHS 12     /* of a pixel */
 #define PASSES 4096  /* of the luxmeter that tells of sun and lamps */
 #define SEED 0x6f75746cu
+#define RIM 1.5703   /* radians: pixels on the rim look no further down */
 #define THINGS 64    /* that one row tells apart */
 #define ALL_THINGS 1024
 
@@ -48,7 +49,7 @@ static double angle_at(double x, double y)
 /* Picture x to the right as one looks out along the normal. */
 static Vec3 direction_at(const Frame *frame, double x, double y)
 {
-    double theta = angle_at(x, y), phi = atan2(0.5 * SIZE - y, x - 0.5 * SIZE);
+    double theta = fmin(angle_at(x, y), RIM), phi = atan2(0.5 * SIZE - y, x - 0.5 * SIZE);
     return frame_to_world(frame, vec3((float)(sin(theta) * cos(phi)),
                                       (float)(sin(theta) * sin(phi)), (float)cos(theta)));
 }
@@ -118,7 +119,7 @@ static void hear_pixel(void *user, const PathTale *tale, const float xyz[3])
 {
     OutlookPixel *pixel = user;
     double     y = (double)xyz[1] / PATHS;
-    if (tale->count == 0 && tale->source == LIGHTS_SUN) return;
+    if (!(y > 0) || (tale->count == 0 && tale->source == LIGHTS_SUN)) return;
     Thing  told = thing_told(tale);
     Thing *thing = thing_of(pixel->things, &told);
     pixel->cd_m2 += y;
@@ -163,7 +164,8 @@ static void hear_small(void *user, const PathTale *tale, const float xyz[3])
 {
     SmallLights *lights = user;
     double       lux = (double)xyz[1] / PASSES;
-    if (tale->count || (tale->source != LIGHTS_SUN && tale->source != LIGHTS_PUNCTUAL)) return;
+    bool         is_small = tale->source == LIGHTS_SUN || tale->source == LIGHTS_PUNCTUAL;
+    if (!(lux > 0) || tale->count || !is_small) return;
     Thing told = thing_told(tale);
     thing_of(&lights->things, &told)->lux += lux;
     if (tale->source == LIGHTS_SUN)

@@ -4,6 +4,7 @@
 
 #include "review/chain/chain_words.h"
 
+#define LEAST_PART 0.01 /* of what is reflected: a part that is worth a word */
 #define COATED 0.25 /* of a mirror's light that a usual anti-reflection coating leaves */
 
 /* ---- causes ------------------------------------------------------------------------------ */
@@ -42,20 +43,30 @@ static CaseCause all_other(const Chains *chains, const ReviewCase *c, Arena *are
     return cause;
 }
 
+/* Of surfaces or of panes the one by which most light comes. */
+static void add_part(const Chains *chains, bool of_panes, CauseFacts *facts, Arena *arena)
+{
+    const Scene *scene = chains->scene;
+    int          most = NO_ID;
+    for (int i = 0; i < scene->part_count; i++) {
+        const Material *m = &scene->materials[scene->parts[i].material_id];
+        if (m->lets_light_through != of_panes || m->display_id != NO_ID) continue;
+        if (most == NO_ID || chains->by_part[i] > chains->by_part[most]) most = i;
+    }
+    if (most == NO_ID || !(chains->by_part[most] > LEAST_PART * chains->all.cd_m2)) return;
+    const char *name = chain_part_words(scene, most, arena);
+    facts->parts[facts->part_count++] =
+        (CausePart){arena_format(arena, of_panes ? "%s covered, in black"
+                                                 : "%s black, without gloss", name),
+                    chains->by_part[most]};
+}
+
 static CauseFacts facts_of(const Chains *chains, Arena *arena)
 {
     CauseFacts facts = {.own_cd_m2 = chains->own, .all = chains->all,
-                        .mirror = chains->mirror, .part_id = NO_ID};
-    if (!chains->count) return facts;
-    const ChainKey *first = &chains->list[0].key;
-    bool is_surface = first->count > 1;
-    int  part_id = is_surface ? first->link[1].part_id : first->pane_id;
-    if (part_id == NO_ID) return facts;
-    const char *name = chain_part_words(chains->scene, part_id, arena);
-    facts.part_id = part_id;
-    facts.part_cd_m2 = chains->by_part[part_id];
-    facts.part_words = is_surface ? arena_format(arena, "%s black, without gloss", name)
-                                  : arena_format(arena, "%s covered, in black", name);
+                        .mirror = chains->mirror};
+    add_part(chains, true, &facts, arena);
+    add_part(chains, false, &facts, arena);
     return facts;
 }
 
@@ -108,7 +119,7 @@ static double brighter_for(const CaseLuminances *l, double own, double wanted)
 void case_remedies(const CauseFacts *facts, ReviewCase *c, Arena *arena)
 {
     const CaseLuminances *l = &c->luminance_cd_m2;
-    CaseRemedy *list = ARENA_NEW(arena, CaseRemedy, 3);
+    CaseRemedy *list = ARENA_NEW(arena, CaseRemedy, 4);
     if (c->limit_id < 0 || !(c->margin < 0) || !(c->visible_share > 0)) return;
     double own = fmin(facts->own_cd_m2, l->reflected);
     double wanted = c->limits[c->limit_id].value, brighter = brighter_for(l, own, wanted);
@@ -120,11 +131,12 @@ void case_remedies(const CauseFacts *facts, ReviewCase *c, Arena *arena)
         list[c->remedy_count++] = (CaseRemedy){
             "a coating that leaves a quarter of the mirror's light",
             contrast(l, 1, l->reflected - (1 - COATED) * l->mirror), c->level};
-    if (facts->part_id != NO_ID)
+    for (int i = 0; i < facts->part_count; i++) {
+        const CausePart *part = &facts->parts[i];
         list[c->remedy_count++] = (CaseRemedy){
-            arena_format(arena, "%s (%.0f %% of what is reflected comes by it)",
-                         facts->part_words,
-                         100 * fmin(facts->part_cd_m2 / l->reflected, 1)),
-            contrast(l, 1, fmax(l->reflected - facts->part_cd_m2, 0)), c->level};
+            arena_format(arena, "%s (%.0f %% of what is reflected comes by it)", part->what,
+                         100 * fmin(part->cd_m2 / l->reflected, 1)),
+            contrast(l, 1, fmax(l->reflected - part->cd_m2, 0)), c->level};
+    }
     c->remedies = list;
 }

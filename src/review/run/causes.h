@@ -23,13 +23,18 @@ typedef struct CauseAsk {
     bool                with_direct; /* what the eye sees by itself counts, too */
 } CauseAsk;
 
+/* What could be made black. */
+typedef struct CausePart {
+    const char *what;  /* to do with it */
+    double      cd_m2; /* all reflected light that comes by it */
+} CausePart;
+
 /* What the remedies need besides the case. */
 typedef struct CauseFacts {
     double      own_cd_m2;  /* reflected light that began at the display itself */
     ChainFigure all, mirror; /* of what these paths tell; and by the display's mirror */
-    int         part_id;    /* that the first cause comes by; NO_ID: none can be taken away */
-    double      part_cd_m2; /* all reflected light that comes by it */
-    const char *part_words; /* what to do with it */
+    CausePart   parts[2];    /* the surface and the pane by which most of it comes */
+    int         part_count;
 } CauseFacts;
 
 /* Sets the case's causes: the greatest CAUSES_MOST, and "all other ways", which add up to the

@@ -1,0 +1,211 @@
+"""explain.py PARHELION -- why a display looks as it does: chains of objects add up to the
+frame's layers, what they foretell comes true, and their rays are a glTF file.
+"""
+import base64
+import json
+import math
+import os
+import shutil
+import struct
+import sys
+import tempfile
+
+from exr import Frame
+from review import PANEL, Report, Reviewer, close, dashboard, moment, request
+
+REGION = (30, 16, 62, 38)
+SIZE = "96x54"
+
+
+def named_dashboard(black=None):
+    """Each wall a node and a material of its own; one of them may be black."""
+    scene = dashboard()
+    for i, node in enumerate(scene.document["nodes"]):
+        if "mesh" not in node:
+            continue
+        node["name"] = name = ("screen", "floor", "side")[i]
+        if name == "screen":
+            continue
+        material = scene.lambert(0 if name == black else 0.5)
+        scene.document["materials"][material]["name"] = name + " paint"
+        scene.document["meshes"][node["mesh"]]["primitives"][0]["material"] = material
+    return scene
+
+
+def explain(reviewer, *line):
+    done = reviewer.run("explain", *line, "--json", "--paths", "16384")
+    assert done.returncode == 0, done.stderr
+    return json.loads(done.stdout)
+
+
+def region_mean(frame, name):
+    """Mean luminance of a layer over the region, and its standard error by rows of pixels."""
+    c, width = frame.channels, 96
+    rgb = [(c[f"{name}.R"], 0.2126), (c[f"{name}.G"], 0.7152), (c[f"{name}.B"], 0.0722)]
+    values = [sum(weight * channel[y * width + x] for channel, weight in rgb)
+              for y in range(REGION[1], REGION[3]) for x in range(REGION[0], REGION[2])]
+    mean = sum(values) / len(values)
+    spread = sum((v - mean) ** 2 for v in values) / (len(values) - 1)
+    return mean, math.sqrt(spread / len(values))
+
+
+def check_frame(report, reviewer):
+    reviewer.run("render", "dash.gltf", "--environment", "constant:3000", "--size", SIZE,
+                 "--spp", "32", "--layers", "all", "-o", "frame.exr")
+    frame = Frame(os.path.join(reviewer.folder, "frame.exr"))
+    told = explain(reviewer, "dash.gltf", "--environment", "constant:3000", "--size", SIZE,
+                   "--region", ",".join(map(str, REGION)))
+    light, chains = told["luminance_cd_m2"], told["chains"]
+    added = sum(chain["cd_m2"] for chain in chains)
+    reflected, sigma = region_mean(frame, "display.reflected")
+    report.claim(close(added, light["reflected"], 1e-6), "chains do not add up")
+    report.claim(abs(added - reflected) < 3 * math.hypot(sigma, 0.002 * reflected),
+                 f"chains {added:.6g}, the layer {reflected:.6g} +- {sigma:.2g}")
+    for part in ("mirror", "scattered"):
+        wanted, sigma = region_mean(frame, "display." + part)
+        report.claim(abs(light[part] - wanted) < 3 * math.hypot(sigma, 0.003 * wanted),
+                     f"{part} {light[part]:.6g}, the layer {wanted:.6g} +- {sigma:.2g}")
+    for name in ("white", "black"):
+        wanted, _ = region_mean(frame, "display." + name)
+        report.claim(close(light[name], wanted, 0.005), f"{name} {light[name]}, {wanted}")
+    shown = (light["white"] + light["reflected"]) / (light["black"] + light["reflected"])
+    report.claim(close(told["contrast_ratio"], shown, 1e-6), "contrast of its parts")
+    first = chains[0]
+    without = ((light["white"] + light["reflected"] - first["cd_m2"]) /
+               (light["black"] + light["reflected"] - first["cd_m2"]))
+    report.claim(close(first["contrast_without"], without, 1e-6), "contrast without the first")
+    report.claim(first["interval"][0] < first["cd_m2"] < first["interval"][1], "interval")
+
+
+def check_wall(report, reviewer):
+    """Off displays: all that comes to the eye."""
+    reviewer.run("render", "dash.gltf", "--environment", "constant:3000", "--eye",
+                 "0.3,0.4,0.9", "--look-at", "0,-0.3,0.5", "--fov", "10", "--size", SIZE,
+                 "--spp", "16", "-o", "wall.exr")
+    channels = Frame(os.path.join(reviewer.folder, "wall.exr")).channels
+    wanted = sum(0.2126 * channels["R"][i] + 0.7152 * channels["G"][i] +
+                 0.0722 * channels["B"][i] for i in range(96 * 54)) / (96 * 54)
+    told = explain(reviewer, "dash.gltf", "--environment", "constant:3000", "--eye",
+                   "0.3,0.4,0.9", "--look-at", "0,-0.3,0.5", "--fov", "10", "--size", SIZE,
+                   "--region", "0,0,96,54")
+    report.claim(told["display"] is None and close(told["luminance_cd_m2"]["all"], wanted, 0.01),
+                 f"a wall: {told['luminance_cd_m2']}, the frame {wanted:.6g}")
+    report.claim(told["chains"][0]["chain"][0].startswith("floor (floor paint)"),
+                 f"the floor is {told['chains'][0]['chain']}")
+
+
+def check_remedies(report, reviewer):
+    """What is foretold of the brightness and of a black wall, made so and judged again."""
+    document = request(precision={"contrast": 0.01}, conditions=[
+        moment("bright", type="constant", luminance=30000)])
+    _, review = reviewer.review(document, "washed")
+    case = review["cases"][0]
+    remedies = {remedy["what"].split()[0]: remedy for remedy in case["remedies"]}
+    report.claim(case["verdict"] == "fail" and len(remedies) == 3, str(case["remedies"]))
+
+    def judged(what, foretold, found):
+        spread = found["contrast_interval"][1] - found["contrast_interval"][0]
+        apart = abs(found["contrast_ratio"] - foretold)
+        report.claim(apart < 0.02 * foretold or apart < 3 * spread / 3.92,
+                     f"{what}: foretold {foretold:.5g}, found {found['contrast_ratio']:.5g}")
+
+    brighter = remedies["the"]
+    document["levels"] = {"more": {"*": brighter["level"]}}
+    document["conditions"][0]["level"] = "more"
+    _, review = reviewer.review(document, "brighter")
+    judged("brighter", brighter["contrast_ratio"], review["cases"][0])
+    wall = next(name for name in remedies if name in ("floor", "side"))
+    named_dashboard(wall).write(os.path.join(reviewer.folder, "dash.gltf"))
+    del document["levels"], document["conditions"][0]["level"]
+    _, review = reviewer.review(document, "black")
+    judged("a black wall", remedies[wall]["contrast_ratio"], review["cases"][0])
+    named_dashboard().write(os.path.join(reviewer.folder, "dash.gltf"))
+
+
+def numbers_of(document, accessor, blob):
+    a = document["accessors"][accessor]
+    view = document["bufferViews"][a["bufferView"]]
+    at = view.get("byteOffset", 0) + a.get("byteOffset", 0)
+    kind, width = ("f", 3) if a["type"] == "VEC3" else ("I", 1)
+    return struct.unpack_from(f"<{a['count'] * width}{kind}", blob, at)
+
+
+def check_rays(report, reviewer):
+    told = explain(reviewer, "dash.gltf", "--environment", "constant:3000", "--display",
+                   "screen", "-o", "rays.gltf", "--outlook", "outlook.png")
+    with open(os.path.join(reviewer.folder, "rays.gltf"), encoding="utf-8") as file:
+        document = json.load(file)
+    blob = base64.b64decode(document["buffers"][0]["uri"].partition(",")[2])
+    report.claim(len(blob) == document["buffers"][0]["byteLength"], "the buffer's length")
+    drawn = [chain for chain in told["chains"] if chain["rays"]]
+    report.claim(len(drawn) == len(document["nodes"]) == len(document["meshes"]),
+                 "a mesh for each chain")
+    for chain, node in zip(drawn, document["nodes"]):
+        primitive = document["meshes"][node["mesh"]]["primitives"][0]
+        position = primitive["attributes"]["POSITION"]
+        p = numbers_of(document, position, blob)
+        ends = numbers_of(document, primitive["indices"], blob)
+        wanted = [x for ray in chain["rays"] for point in ray for x in point]
+        report.claim(primitive["mode"] == 1 and len(p) == len(wanted) and
+                     all(abs(a - b) < 1e-5 for a, b in zip(p, wanted)), "points of a chain")
+        report.claim(len(ends) == 2 * sum(len(ray) - 1 for ray in chain["rays"]) and
+                     max(ends) == len(p) // 3 - 1, "lines of a chain")
+        report.claim(all(abs(min(p[k::3]) - document["accessors"][position]["min"][k]) < 1e-6
+                         for k in range(3)), "the accessor's bounds")
+        report.claim(chain["chain"][-1] in node["name"], node["name"])
+    done = reviewer.run("check", "rays.gltf", "--json")
+    worse = [p for p in json.loads(done.stdout)["problems"] if "lines" not in p["message"]]
+    report.claim(done.returncode == 0 and not worse, f"{worse}")
+    explain(reviewer, "dash.gltf", "--environment", "constant:3000", "--display", "screen",
+            "-o", "rays.glb", "--threads", "3")
+    with open(os.path.join(reviewer.folder, "rays.glb"), "rb") as file:
+        data = file.read()
+    size = struct.unpack_from("<I", data, 12)[0]
+    report.claim(data[:4] == b"glTF" and struct.unpack_from("<II", data, 4) == (2, len(data)),
+                 "the container's head")
+    report.claim(data[28 + size:28 + size + len(blob)] == blob, "threads change the rays")
+    report.claim(json.loads(data[20:20 + size])["nodes"] == document["nodes"], "the nodes")
+    report.claim(told["outlook"] and close(sum(s["share"] for s in told["outlook"]["shares"]) +
+                                           told["outlook"]["rest"], 1, 1e-6), "the outlook")
+
+
+def check_refusals(report, reviewer):
+    reviewer.write("r.json", request(conditions=[
+        moment("grey", type="constant", luminance=1),
+        {"name": "suns", "sweep": {"sun": {"azimuth_deg": [0, 0, 1], "elevation_deg": [9, 9, 1]},
+                                   "sky": "sky"}}]))
+    for status, words, line in (
+            (2, "--display", ["dash.gltf"]),
+            (3, "scren", ["dash.gltf", "--display", "scren"]),
+            (2, "96", ["dash.gltf", "--pixel", "96,3", "--size", SIZE]),
+            (2, ".glb", ["dash.gltf", "--pixel", "9,3", "-o", "rays.obj"]),
+            (2, "--symbol", ["dash.gltf", "--pixel", "9,3", "--symbol", "bar"]),
+            (2, "'grey', 'suns'", ["r.json"]),
+            (2, "'grey', 'suns'", ["r.json", "--condition", "gray"]),
+            (2, "--sun", ["r.json", "--condition", "suns"]),
+            (2, "--sun", ["r.json", "--condition", "grey", "--sun", "3,4"]),
+            (2, "'bar'", ["r.json", "--condition", "grey", "--symbol", "baz"]),
+            (2, "'eye'", ["r.json", "--condition", "grey", "--eye", "ear"]),
+            (2, "--camera", ["r.json", "--condition", "grey", "--camera", "eye"])):
+        done = reviewer.run("explain", *line)
+        lines = done.stderr.strip().splitlines()
+        report.claim(done.returncode == status and words in done.stderr and len(lines) == 1,
+                     f"explain {' '.join(line)}: status {done.returncode}: {done.stderr}")
+
+
+def main(program):
+    report = Report()
+    with tempfile.TemporaryDirectory() as folder:
+        reviewer = Reviewer(program, folder)
+        shutil.copy(PANEL, os.path.join(folder, "ips.panel"))
+        named_dashboard().write(os.path.join(folder, "dash.gltf"))
+        check_frame(report, reviewer)
+        check_wall(report, reviewer)
+        check_rays(report, reviewer)
+        check_remedies(report, reviewer)
+        check_refusals(report, reviewer)
+    return report.finish()
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1]))
