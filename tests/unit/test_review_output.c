@@ -479,7 +479,26 @@ TEST(a_review_differs_from_itself_in_nothing)
     Review     review = fixture_review(&arena);
     ReviewDiff diff = review_diff(&review, &review, "a", "b", &arena);
     assert_int_equal(diff.case_count, review.case_count);
-    assert_int_equal(diff.count[DIFF_SAME], review.case_count + review.sweep_count);
+    assert_int_equal(diff.count[DIFF_SAME],
+                     review.case_count + review.sweep_count + review.gaze_count);
+}
+
+TEST(gazes_differ_by_the_contrast_that_is_left)
+{
+    (void)state;
+    static const DiffKind KINDS[] = {DIFF_WORSE, DIFF_SAME, DIFF_NEW, DIFF_GONE};
+    Review before = fixture_review(&arena), after = fixture_review(&arena);
+    after.gazes[0].contrast_range.high = before.gazes[0].contrast_range.low * 0.999;
+    after.gazes[1].contrast_range.high = before.gazes[1].contrast_range.low; /* they touch */
+    after.gazes[2].gaze = "mirror";
+    ReviewDiff diff = review_diff(&before, &after, "a", "b", &arena);
+    json_t    *json = review_diff_json(&diff), *gazes = json_object_get(json, "gazes");
+    assert_int_equal(diff.gaze_count, 4);
+    for (int i = 0; i < 4; i++) assert_int_equal(diff.gazes[i].kind, KINDS[i]);
+    json_t *gone = json_object_get(json_array_get(gazes, 3), "veil_cd_m2");
+    assert_close(json_real_value(json_array_get(gone, 0)), before.gazes[2].veil, 1e-12);
+    assert_true(json_is_null(json_array_get(gone, 1)));
+    json_decref(json);
 }
 
 TEST(differences_are_named_and_come_first)

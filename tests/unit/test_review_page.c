@@ -240,9 +240,12 @@ TEST(what_changed_is_on_the_page)
     Review     before = fixture_review(&arena), after = fixture_review(&arena);
     after.cases[3].contrast_ratio = 77.5;
     after.cases[3].contrast_low = after.cases[3].contrast_high = 77.5;
+    after.gazes[0].mirrored = 123;
+    after.gazes[0].contrast_range = (Range){0, 0.1};
     ReviewDiff  diff = review_diff(&before, &after, "old", "new", &arena);
     const char *page = page_of(&(ReviewPage){.review = &after, .diff = &diff});
     assert_non_null(strstr(page, "→ 77.5 : 1"));
+    assert_non_null(strstr(page, "310 → 123"));
     assert_non_null(strstr(page, "Before: old. Now: new."));
     assert_int_equal(count_of(page, "more contrast"), 1);
 }

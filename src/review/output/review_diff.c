@@ -50,6 +50,14 @@ static DiffKind sweep_change(const ReviewSweep *before, const ReviewSweep *after
     return more > LEAST_SHARE ? DIFF_WORSE : more < -LEAST_SHARE ? DIFF_BETTER : DIFF_SAME;
 }
 
+static DiffKind gaze_change(const GazeFinding *before, const GazeFinding *after)
+{
+    if (!after) return DIFF_GONE;
+    if (!before) return DIFF_NEW;
+    if (after->contrast_range.high < before->contrast_range.low) return DIFF_WORSE;
+    return after->contrast_range.low > before->contrast_range.high ? DIFF_BETTER : DIFF_SAME;
+}
+
 /* ---- what belongs together -------------------------------------------------------------- */
 
 static int find_case(const Review *review, const ReviewCase *like)
@@ -74,6 +82,17 @@ static int find_sweep(const Review *review, const ReviewSweep *like)
     return -1;
 }
 
+static const GazeFinding *find_gaze(const Review *review, const GazeFinding *like)
+{
+    for (int i = 0; i < review->gaze_count; i++) {
+        const GazeFinding *g = &review->gazes[i];
+        if (words_same(g->condition, like->condition) && words_same(g->eye, like->eye) &&
+            words_same(g->gaze, like->gaze))
+            return g;
+    }
+    return NULL;
+}
+
 static void add_case(ReviewDiff *diff, const ReviewCase *before, const ReviewCase *after)
 {
     DiffKind kind = case_change(before, after);
@@ -85,6 +104,13 @@ static void add_sweep(ReviewDiff *diff, const ReviewSweep *before, const ReviewS
 {
     DiffKind kind = sweep_change(before, after);
     diff->sweeps[diff->sweep_count++] = (SweepDiff){kind, before, after};
+    diff->count[kind]++;
+}
+
+static void add_gaze(ReviewDiff *diff, const GazeFinding *before, const GazeFinding *after)
+{
+    DiffKind kind = gaze_change(before, after);
+    diff->gazes[diff->gaze_count++] = (GazeDiff){kind, before, after};
     diff->count[kind]++;
 }
 
@@ -109,6 +135,14 @@ static void pair_sweeps(ReviewDiff *diff, const Review *before, const Review *af
             add_sweep(diff, &before->sweeps[i], NULL);
 }
 
+static void pair_gazes(ReviewDiff *diff, const Review *before, const Review *after)
+{
+    for (int i = 0; i < after->gaze_count; i++)
+        add_gaze(diff, find_gaze(before, &after->gazes[i]), &after->gazes[i]);
+    for (int i = 0; i < before->gaze_count; i++)
+        if (!find_gaze(after, &before->gazes[i])) add_gaze(diff, &before->gazes[i], NULL);
+}
+
 /* By kind; within one as they came: an insertion sort keeps that. */
 static void sort_cases(CaseDiff *list, int count)
 {
@@ -127,8 +161,10 @@ ReviewDiff review_diff(const Review *before, const Review *after, const char *be
                        .before = before, .after = after};
     diff.cases = ARENA_NEW(arena, CaseDiff, before->case_count + after->case_count);
     diff.sweeps = ARENA_NEW(arena, SweepDiff, before->sweep_count + after->sweep_count);
+    diff.gazes = ARENA_NEW(arena, GazeDiff, before->gaze_count + after->gaze_count);
     pair_cases(&diff, before, after);
     pair_sweeps(&diff, before, after);
+    pair_gazes(&diff, before, after);
     sort_cases(diff.cases, diff.case_count);
     return diff;
 }
@@ -187,6 +223,27 @@ static json_t *sweep_json(const SweepDiff *d)
     return out;
 }
 
+static json_t *two(double before, double after)
+{
+    return json_pack("[o,o]", json_figure(before), json_figure(after));
+}
+
+static json_t *gaze_json(const GazeDiff *d)
+{
+    static const GazeFinding NONE = {.contrast_left = NAN, .mirrored = NAN, .veil = NAN};
+    const GazeFinding *either = d->after ? d->after : d->before;
+    const GazeFinding *b = d->before ? d->before : &NONE, *a = d->after ? d->after : &NONE;
+    json_t *out = json_pack("{s:o, s:o, s:o, s:s}", "condition",
+                            json_text(either->condition ? either->condition : ""), "eye",
+                            json_text(either->eye ? either->eye : ""), "gaze",
+                            json_text(either->gaze ? either->gaze : ""), "change",
+                            diff_names[d->kind]);
+    json_object_set_new(out, "contrast_left", two(b->contrast_left, a->contrast_left));
+    json_object_set_new(out, "mirrored_cd_m2", two(b->mirrored, a->mirrored));
+    json_object_set_new(out, "veil_cd_m2", two(b->veil, a->veil));
+    return out;
+}
+
 static json_t *counts_json(const ReviewDiff *diff)
 {
     json_t *out = json_object();
@@ -197,13 +254,15 @@ static json_t *counts_json(const ReviewDiff *diff)
 
 json_t *review_diff_json(const ReviewDiff *diff)
 {
-    json_t *cases = json_array(), *sweeps = json_array();
+    json_t *cases = json_array(), *sweeps = json_array(), *gazes = json_array();
     for (int i = 0; i < diff->case_count; i++)
         json_array_append_new(cases, case_json(&diff->cases[i]));
     for (int i = 0; i < diff->sweep_count; i++)
         json_array_append_new(sweeps, sweep_json(&diff->sweeps[i]));
-    return json_pack("{s:o, s:o, s:[b,b], s:o, s:o, s:o}", "before",
+    for (int i = 0; i < diff->gaze_count; i++)
+        json_array_append_new(gazes, gaze_json(&diff->gazes[i]));
+    return json_pack("{s:o, s:o, s:[b,b], s:o, s:o, s:o, s:o}", "before",
                      json_text(diff->before_name), "after", json_text(diff->after_name), "pass",
                      diff->before->pass, diff->after->pass, "count", counts_json(diff),
-                     "cases", cases, "sweeps", sweeps);
+                     "cases", cases, "sweeps", sweeps, "gazes", gazes);
 }

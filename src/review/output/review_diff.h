@@ -1,6 +1,7 @@
 /* review_diff.h -- two reviews beside each other: what a change of the design did.
  *
- * Cases belong together by condition, eye and symbol; so do sweeps.
+ * Cases belong together by condition, eye and symbol; so do sweeps; gazes by condition, eye and
+ * gaze.
  *
  * Memory   lists lie in the arena and point into both reviews. Threads: pure. Fails: never.
  */
@@ -31,6 +32,11 @@ typedef struct SweepDiff {
     const ReviewSweep *before, *after;
 } SweepDiff;
 
+typedef struct GazeDiff {
+    DiffKind           kind; /* worse or better: what is left of the contrast */
+    const GazeFinding *before, *after;
+} GazeDiff;
+
 typedef struct ReviewDiff {
     const char   *before_name, *after_name; /* folders, as the user named them */
     const Review *before, *after;
@@ -38,7 +44,9 @@ typedef struct ReviewDiff {
     int           case_count;
     SweepDiff    *sweeps;
     int           sweep_count;
-    int           count[7]; /* of both, by DiffKind */
+    GazeDiff     *gazes;
+    int           gaze_count;
+    int           count[7]; /* of all, by DiffKind */
 } ReviewDiff;
 
 ReviewDiff review_diff(const Review *before, const Review *after, const char *before_name,
@@ -46,5 +54,6 @@ ReviewDiff review_diff(const Review *before, const Review *after, const char *be
 
 /* {"before", "after", "pass": [before, after], "count": {...}, "cases": [{"condition", "eye",
  * "symbol", "change", "verdict": [,], "contrast_ratio": [,], "contrast_interval": [[,],[,]],
- * "margin": [,]}], "sweeps": [...]}; null for the side that does not have it. */
+ * "margin": [,]}], "sweeps": [...], "gazes": [...]}; null for the side that does not have
+ * it. */
 json_t *review_diff_json(const ReviewDiff *diff);

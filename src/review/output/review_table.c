@@ -377,6 +377,44 @@ static void add_diff_sweeps(Text *html, const ReviewDiff *diff, Arena *arena)
     page_table_end(html);
 }
 
+static const char *figure_change(double before, double after, Arena *arena)
+{
+    return arena_format(arena, "%s → %s", words_figure(before, arena),
+                        words_figure(after, arena));
+}
+
+static void add_gaze_row(Text *html, const GazeDiff *d, Arena *arena)
+{
+    static const GazeFinding NONE = {.contrast_left = NAN, .mirrored = NAN, .veil = NAN};
+    const GazeFinding *either = d->after ? d->after : d->before;
+    const GazeFinding *b = d->before ? d->before : &NONE, *a = d->after ? d->after : &NONE;
+    page_row_begin(html, "");
+    add_kind(html, d->kind, false);
+    page_cell(html, "", either->gaze);
+    page_cell(html, "", either->condition);
+    page_cell(html, "", either->eye);
+    add_change(html, words_share(b->contrast_left, arena), words_share(a->contrast_left, arena),
+               arena);
+    page_cell(html, "n", figure_change(b->mirrored, a->mirrored, arena));
+    page_cell(html, "n", figure_change(b->veil, a->veil, arena));
+    page_row_end(html);
+}
+
+static void add_diff_gazes(Text *html, const ReviewDiff *diff, Arena *arena)
+{
+    static const PageColumn COLUMNS[] = {
+        {"Change", false, NULL}, {"Looking at", false, NULL}, {"Condition", false, NULL},
+        {"Eye", false, NULL},    {"Contrast left", true, NULL},
+        {"Mirrored by glass, cd/m²", true, NULL}, {"Veil in the eye, cd/m²", true, NULL}};
+    int changed = 0;
+    for (int i = 0; i < diff->gaze_count; i++) changed += diff->gazes[i].kind != DIFF_SAME;
+    if (!changed) return;
+    page_table_begin(html, "", "diff", COLUMNS, 7);
+    for (int i = 0; i < diff->gaze_count; i++)
+        if (diff->gazes[i].kind != DIFF_SAME) add_gaze_row(html, &diff->gazes[i], arena);
+    page_table_end(html);
+}
+
 void review_table_add_diff(Text *html, const ReviewDiff *diff, Arena *arena)
 {
     text_add(html, "<p>");
@@ -390,4 +428,5 @@ void review_table_add_diff(Text *html, const ReviewDiff *diff, Arena *arena)
     text_add(html, "</p>\n");
     add_diff_cases(html, diff, arena);
     add_diff_sweeps(html, diff, arena);
+    add_diff_gazes(html, diff, arena);
 }
