@@ -15,9 +15,8 @@ static void print_where(const ReviewCase *c)
         printf("symbol     %s on %s, seen by %s, %s\n", c->symbol, c->display, c->eye,
                c->condition);
     else if (c->display) printf("display    %s\n", c->display);
-    if (c->eye_m.x == c->eye_m.x)
-        printf("eye        %.3f, %.3f, %.3f m\n", (double)c->eye_m.x, (double)c->eye_m.y,
-               (double)c->eye_m.z);
+    printf("eye        %.3f, %.3f, %.3f m\n", (double)c->eye_m.x, (double)c->eye_m.y,
+           (double)c->eye_m.z);
 }
 
 static void print_light(const Explained *told)

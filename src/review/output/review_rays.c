@@ -7,7 +7,6 @@
 #include "text/escape.h"
 
 #define NEAR_M 0.02 /* nothing nearer to the eye is drawn */
-#define FAR_PX 20000.0
 
 /* Of a frame: x to the right, y down in pixels; z metres before the eye. */
 typedef struct SeenPoint {
@@ -26,7 +25,19 @@ static SeenPoint in_picture(const CaseView *view, SeenPoint p)
     double depth = view->is_perspective ? p.z : 1;
     double x = (p.x / (depth * view->half_width) + 1) * 0.5 * view->width;
     double y = (1 - p.y / (depth * view->half_height)) * 0.5 * view->height;
-    return (SeenPoint){fmin(fmax(x, -FAR_PX), FAR_PX), fmin(fmax(y, -FAR_PX), FAR_PX), p.z};
+    return (SeenPoint){x, y, p.z};
+}
+
+/* Of the stretch, by its shares 0..1, what lies in 0..size along one axis. */
+static void keep_within(double from, double to, double size, double kept[2])
+{
+    double step = to - from, low = -from / step, high = (size - from) / step;
+    if (fabs(step) < 1e-9) {
+        if (from < 0 || from > size) kept[1] = -1;
+        return;
+    }
+    kept[0] = fmax(kept[0], fmin(low, high));
+    kept[1] = fmin(kept[1], fmax(low, high));
 }
 
 /* The point of the stretch where it comes before the eye. */
@@ -43,7 +54,13 @@ static void add_stretch(Text *html, const CaseView *view, SeenPoint a, SeenPoint
     if (a.z < NEAR_M) a = cut(a, b);
     if (b.z < NEAR_M) b = cut(b, a);
     SeenPoint p = in_picture(view, a), q = in_picture(view, b);
-    text_format(html, "M%.0f %.0fL%.0f %.0f", p.x, p.y, q.x, q.y);
+    double    kept[2] = {0, 1};
+    keep_within(p.x, q.x, view->width, kept);
+    keep_within(p.y, q.y, view->height, kept);
+    if (!(kept[0] < kept[1])) return;
+    text_format(html, "M%.0f %.0fL%.0f %.0f", p.x + kept[0] * (q.x - p.x),
+                p.y + kept[0] * (q.y - p.y), p.x + kept[1] * (q.x - p.x),
+                p.y + kept[1] * (q.y - p.y));
 }
 
 /* All but the first stretch, which runs along the look. */
@@ -59,6 +76,7 @@ static void add_place(Text *html, const CaseView *view, const CaseRay *ray)
     SeenPoint p = before_eye(view, ray->points[1]);
     if (p.z < NEAR_M) return;
     p = in_picture(view, p);
+    if (p.x < 0 || p.x > view->width || p.y < 0 || p.y > view->height) return;
     text_format(html, "<circle cx=\"%.0f\" cy=\"%.0f\" r=\"%d\"/>", p.x, p.y,
                 view->width / 320 + 2);
 }

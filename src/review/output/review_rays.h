@@ -2,7 +2,7 @@
  * a cause, and its rays are shown. Links alone do that (:target), no script; private to the
  * output.
  *
- * Lines are cut where they leave what the eye has before it.
+ * Lines are cut at the picture's edge.
  *
  * Memory   the arena's. Threads: pure. Fails: never.
  */
