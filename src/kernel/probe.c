@@ -4,18 +4,23 @@
 #include "base/units.h"
 #include "path/path_features.h"
 
-static Ray aimed_ray(const ProbeAim *aim, int path)
+/* place: a number in [0, 1), where a pixel's path has its place in the pixel. */
+static int target_of(const ProbeAim *aim, int path, float place)
 {
-    Vec3 to = vec3_sub(aim->targets[path % aim->target_count], aim->eye);
-    return (Ray){aim->eye, vec3_normalize(to), 0, INFINITY};
+    if (!aim->is_spread) return path % aim->target_count;
+    int target = (int)(place * (float)aim->target_count);
+    return target < aim->target_count ? target : aim->target_count - 1;
 }
 
-/* The sampler of a path behind its wavelengths. */
-static Sampler path_start(const ProbeAim *aim, int path, Wavelengths *wavelengths)
+/* The sampler of a path behind its wavelengths, and where it goes. */
+static Sampler path_start(const ProbeAim *aim, int path, Wavelengths *wavelengths, Ray *ray)
 {
     Sampler sampler = sampler_start(aim->seed, 0, 0, (uint32_t)path);
-    sampler.dimension++; /* of the place in a pixel */
+    float   place = sampler_1d(&sampler);
     wavelengths_sample(sampler_1d(&sampler), wavelengths);
+    if (aim->meter) return sampler;
+    Vec3 to = vec3_sub(aim->targets[target_of(aim, path, place)], aim->eye);
+    *ray = (Ray){aim->eye, vec3_normalize(to), 0, INFINITY};
     return sampler;
 }
 
@@ -24,10 +29,11 @@ static Sampler path_start(const ProbeAim *aim, int path, Wavelengths *wavelength
 static void look(const ProbeAim *aim, int path, ProbeLook *out, PathStatistics *statistics)
 {
     Wavelengths wavelengths;
-    Sampler     sampler = path_start(aim, path, &wavelengths);
+    Ray         ray;
+    Sampler     sampler = path_start(aim, path, &wavelengths, &ray);
     PathResult  result;
     float       emitted[3];
-    path_trace(aim->context, aimed_ray(aim, path), &wavelengths, &sampler, &result, statistics);
+    path_trace(aim->context, ray, &wavelengths, &sampler, &result, statistics);
     *out = (ProbeLook){.is_found = result.hit &&
                                    path_display_emission(aim->context, &result,
                                                          &wavelengths, emitted)};
@@ -41,7 +47,8 @@ static void read_meter(const ProbeAim *aim, int path, ProbeLook *out,
                        PathStatistics *statistics)
 {
     Wavelengths wavelengths;
-    Sampler     sampler = path_start(aim, path, &wavelengths);
+    Ray         ray;
+    Sampler     sampler = path_start(aim, path, &wavelengths, &ray);
     *out = (ProbeLook){.is_found = true};
     path_illuminance(aim->context, *aim->meter, &wavelengths, &sampler, out->reflected,
                      statistics);
@@ -59,12 +66,13 @@ void probe_hear(const ProbeAim *aim, int first, int end, const PathListener *lis
 {
     for (int path = first; path < end; path++) {
         Wavelengths wavelengths;
-        Sampler     sampler = path_start(aim, path, &wavelengths);
+        Ray         ray;
+        Sampler     sampler = path_start(aim, path, &wavelengths, &ray);
         if (aim->meter)
             path_illuminance_told(aim->context, *aim->meter, &wavelengths, &sampler, listener,
                                   statistics);
         else
-            path_trace_told(aim->context, aimed_ray(aim, path), &wavelengths, &sampler,
+            path_trace_told(aim->context, ray, &wavelengths, &sampler,
                             listener, statistics);
     }
 }
@@ -74,11 +82,12 @@ void probe_hear(const ProbeAim *aim, int first, int end, const PathListener *lis
 static void ask(const ProbeAim *aim, int path, const PathFar *far, PathStatistics *statistics)
 {
     Wavelengths wavelengths;
-    Sampler     sampler = path_start(aim, path, &wavelengths);
+    Ray         ray;
+    Sampler     sampler = path_start(aim, path, &wavelengths, &ray);
     if (aim->meter)
         path_ask_far_at(aim->context, *aim->meter, &wavelengths, &sampler, far, statistics);
     else
-        path_ask_far(aim->context, aimed_ray(aim, path), &wavelengths, &sampler, far,
+        path_ask_far(aim->context, ray, &wavelengths, &sampler, far,
                      statistics);
 }
 

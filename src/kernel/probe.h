@@ -17,6 +17,7 @@ typedef struct ProbeAim {
     Vec3            eye;       /* m, world */
     const Vec3     *targets;   /* of surfaces that the eye sees */
     int             target_count;
+    bool            is_spread; /* paths take points by chance, evenly, however few they are */
     const LitPoint *meter;     /* a luxmeter instead: eye and targets do not count; or NULL */
     uint32_t        seed;
 } ProbeAim;

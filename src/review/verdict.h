@@ -99,6 +99,7 @@ typedef struct ReviewCase {
     double  visibility;          /* Michelson contrast, veil included, by the least that an eye
                                     sees of strokes that wide (Barten) */
     double  dgp, ugr;            /* discomfort of this gaze: secondary figures */
+    long    paths;               /* that what is reflected was read from */
     double  visible_share;       /* of the rectangle, 0..1 */
     double  eye_failed_share;    /* of an eye box's points: those that fail; NaN: one point */
     Vec3    eye_m;               /* where the eye was; of a box its worst point */

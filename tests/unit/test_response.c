@@ -132,7 +132,7 @@ TEST(a_response_to_a_uniform_sky_is_what_paths_find_under_it)
     ProbeAim aim = aim_of(&world);
     float    bands[LIGHT_BANDS];
     Reading  reading = read_all(&aim, world.arena);
-    Response response = respond(&aim, 4096, 2, &world.arena);
+    Response response = respond(&aim, 16384, 2, &world.arena);
     d65_bands(bands);
     double found = 1000 * uniform_reading(&response, bands);
     double sigma = hypot(reading.sigma, found * response.relative_error);
@@ -163,7 +163,7 @@ TEST(a_response_to_a_sun_is_what_paths_find_under_it)
     int   count = suns_about(suns);
     world_ready(&world, 64);
     ProbeAim  aim = aim_of(&world);
-    Response  response = respond(&aim, 4096, 2, &world.arena);
+    Response  response = respond(&aim, 32768, 2, &world.arena);
     ProbeSuns asked = {suns, count, cosf(world.scene->environment.sun_angular_radius), false};
     ResponseOptions options = {kernel(), 4, 64, 2, 0};
     const float *scattered = response_suns(&aim, &options, &asked, &world.arena);
@@ -230,7 +230,7 @@ TEST(a_response_to_a_clear_sky_is_what_paths_find_under_it)
     DaylightInput like = daylight_input_default(DAYLIGHT_CLEAR);
     like.threads = 2;
     assert_true(sky_table_build(&like, 30, 36, &world.arena, &table, &err));
-    FarTools tools = {&stage, &table, {suns, 4}, 4096, 0, 64, 0};
+    FarTools tools = {&stage, &table, {suns, 4}, 16384, 0, 64, 0};
     FarProbe probe = {.aim = aim_of(&world)};
     probe.aim.context = &stage.context;
     far_probe_respond(&probe, &tools, &world.arena);

@@ -116,7 +116,7 @@ static inline ReviewCase fixture_case(Arena *arena, const FixtureLight *light, c
         .luminance_cd_m2 = {bright, dark, reflected, light->mirror, light->scattered,
                             light->veil},
         .contrast_ratio = (bright + reflected) / (dark + reflected),
-        .height_arcmin = 11 + white_cd_m2 / 100, .jnd = 212, .visibility = 41.5,
+        .paths = 4096, .height_arcmin = 11 + white_cd_m2 / 100, .jnd = 212, .visibility = 41.5,
         .dgp = 0.21, .ugr = 17.25, .visible_share = 1, .eye_failed_share = 0.125,
         .level = light->level, .display_lux = light->lux, .limit_count = 3, .limit_id = 0,
         .cause_count = 3, .remedy_count = 2};

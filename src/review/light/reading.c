@@ -3,94 +3,117 @@
 #include <math.h>
 
 #include "base/parallel.h"
+#include "base/sampler.h"
 
-#define CHUNK 64
-#define LEAST (16 * CHUNK)
+/* Batches are alike and independent: each has a seed of its own, its samples are well spread
+ * among themselves. */
+#define BATCHES 32
+#define PIECE 64 /* paths that are looked at together */
 
-typedef struct ChunkSums {
-    double reflected, mirror;
+typedef struct Batch {
+    double reflected, mirror; /* sums */
     long   found;
-} ChunkSums;
+} Batch;
 
 typedef struct Round {
     const ProbeAim *aim;
     const Kernel   *kernel;
-    int             first; /* chunk */
-    ChunkSums      *sums;  /* of the round's chunks */
+    int             first, end; /* paths of every batch */
+    Batch          *batches;
 } Round;
 
-static void read_chunk(void *user, int item, int worker)
+static void add_looks(Batch *to, const ProbeLook *looks, int count)
+{
+    for (int i = 0; i < count; i++) {
+        to->reflected += (double)looks[i].reflected[1];
+        to->mirror += (double)looks[i].mirror[1];
+        to->found += looks[i].is_found;
+    }
+}
+
+static void read_batch(void *user, int item, int worker)
 {
     (void)worker;
     const Round   *round = user;
-    ProbeLook      looks[CHUNK];
+    ProbeLook      looks[PIECE];
     PathStatistics statistics = {0};
-    int            first = (round->first + item) * CHUNK;
-    ChunkSums     *sums = &round->sums[item];
-    round->kernel->look(round->aim, first, first + CHUNK, looks, &statistics);
-    for (int i = 0; i < CHUNK; i++) {
-        sums->reflected += (double)looks[i].reflected[1];
-        sums->mirror += (double)looks[i].mirror[1];
-        sums->found += looks[i].is_found;
+    ProbeAim       aim = *round->aim;
+    aim.seed = hash_combine(hash_u32(aim.seed), (uint32_t)item);
+    aim.is_spread = true;
+    for (int first = round->first; first < round->end; first += PIECE) {
+        int end = first + PIECE < round->end ? first + PIECE : round->end;
+        round->kernel->look(&aim, first, end, looks, &statistics);
+        add_looks(&round->batches[item], looks, end - first);
     }
 }
 
-/* Of all rounds so far. */
-typedef struct ReadingSums {
-    double reflected, mirror, squares; /* squares: of the chunks' means */
-    long   found, chunks;
-} ReadingSums;
-
-static void add_round(ReadingSums *to, const ChunkSums *sums, int chunks)
+/* Of batches with so many paths each; miss: chance that its interval may miss with. */
+static Reading reading_of(const Batch batches[BATCHES], int paths, double miss)
 {
-    for (int k = 0; k < chunks; k++) {
-        double mean = sums[k].reflected / CHUNK;
-        to->reflected += mean;
-        to->mirror += sums[k].mirror / CHUNK;
-        to->squares += mean * mean;
-        to->found += sums[k].found;
+    BatchSums sums = {0};
+    Reading   reading = {.paths = (long)paths * BATCHES};
+    double    mirror = 0, found = 0;
+    for (int i = 0; i < BATCHES; i++) {
+        batch_add(&sums, batches[i].reflected / paths);
+        mirror += batches[i].mirror;
+        found += (double)batches[i].found;
     }
-    to->chunks += chunks;
-}
-
-static Reading reading_of(const ReadingSums *sums)
-{
-    double  n = (double)sums->chunks, share = (double)sums->found / (n * CHUNK);
-    double  mean = sums->reflected / n;
-    Reading reading = {.found_share = share, .paths = sums->chunks * CHUNK};
-    if (!(share > 0)) return reading;
-    double variance = fmax(sums->squares / n - mean * mean, 0) / (n - 1);
-    reading.reflected = mean / share;
-    reading.mirror = sums->mirror / n / share;
-    reading.sigma = sqrt(variance) / share;
+    if (!(found > 0)) return reading;
+    MeanInterval interval = batch_interval(&sums, miss);
+    double   share = found / (double)reading.paths;
+    reading.found_share = share;
+    reading.reflected = sums.sum / BATCHES / share;
+    reading.mirror = mirror / found;
+    reading.sigma = batch_error(&sums) / share;
+    reading.interval = (MeanInterval){fmax(interval.low, 0) / share, interval.high / share};
     return reading;
+}
+
+static double relative_error(const Reading *reading)
+{
+    return reading->reflected > 0 ? reading->sigma / reading->reflected : 0;
 }
 
 /* By how much of itself one standard error moves what counts. */
 static double uncertainty(const Reading *reading, const ReadingGoal *goal)
 {
     double r = fmax(reading->reflected, 0);
-    if (goal->brighter <= 0 && goal->darker <= 0)
-        return r > 0 ? reading->sigma / r : 0;
+    if (goal->brighter <= 0 && goal->darker <= 0) return relative_error(reading);
     double bright = goal->brighter + r, dark = goal->darker + r;
     if (!(dark > 0)) return reading->sigma > 0 ? (double)INFINITY : 0;
     return fabs(1 / bright - 1 / dark) * reading->sigma;
 }
 
+static bool is_decided(const Reading *reading, const ReadingGoal *goal)
+{
+    const ReadingQuestion *question = goal->question;
+    return question && uncertainty(reading, goal) <= question->precision &&
+           relative_error(reading) <= question->precision &&
+           question->is_decided(question->user, reading->interval);
+}
+
+/* How many rounds a reading may take after its first. */
+static int rounds_after(long first, long most)
+{
+    int rounds = 0;
+    for (long paths = 2 * first; paths <= most; paths *= 2) rounds++;
+    return rounds;
+}
+
 Reading reading_take(const ProbeAim *aim, const ReadingGoal *goal, const ReadingTools *tools,
                      Arena scratch)
 {
-    ReadingSums sums = {0};
-    Reading     reading;
-    int         chunks = LEAST / CHUNK;
+    Batch  *batches = ARENA_NEW(&scratch, Batch, BATCHES);
+    int     least = goal->question ? READING_ASKED_LEAST : READING_LEAST;
+    int     looks = goal->question ? rounds_after(least, goal->most) : 0;
+    Round   round = {aim, tools->kernel, 0, least / BATCHES, batches};
+    Reading reading;
     do {
-        Arena room = scratch;
-        Round round = {aim, tools->kernel, (int)sums.chunks,
-                       ARENA_NEW(&room, ChunkSums, chunks)};
-        parallel_for(tools->threads, chunks, read_chunk, &round);
-        add_round(&sums, round.sums, chunks);
-        reading = reading_of(&sums);
-        chunks = (int)sums.chunks;
+        parallel_for(tools->threads, BATCHES, read_batch, &round);
+        reading = reading_of(batches, round.end, look_miss(false, looks));
+        if (is_decided(&reading, goal)) return reading;
+        round.first = round.end;
+        round.end *= 2;
     } while (uncertainty(&reading, goal) > goal->precision && 2 * reading.paths <= goal->most);
-    return reading;
+    return reading_of(batches, round.first, look_miss(true, looks));
 }

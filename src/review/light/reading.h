@@ -1,8 +1,8 @@
 /* reading.h -- what a probe reads under the light that is there.
  *
- * Paths go out in rounds, each as long as all before it, until the figure that depends on the
- * reading is sure enough. Standard errors come from means of whole chunks of paths, whose
- * samples are well spread among themselves.
+ * Paths go out in rounds, each as long as all before it, until what hangs on the reading is
+ * decided, or is sure enough. Intervals come from the means of independent batches of paths
+ * (confidence.h).
  *
  * Units    cd m^-2 (a luxmeter: lx).
  * Memory   scratch only.
@@ -11,6 +11,16 @@
 #pragma once
 #include "base/arena.h"
 #include "kernel/kernel.h"
+#include "review/light/confidence.h"
+
+/* What hangs on a reading: a verdict, say. */
+typedef struct ReadingQuestion {
+    /* Is the answer the same wherever in the interval the true reading lies? */
+    bool (*is_decided)(void *user, MeanInterval reflected);
+    void  *user;
+    double precision; /* at which a decided question may end: coarser than the goal's, and
+                         asked of the reading itself too */
+} ReadingQuestion;
 
 /* When a reading is sure enough: when one standard error moves the contrast of what is shown by
  * less than `precision` of it, or the reading itself. */
@@ -18,6 +28,7 @@ typedef struct ReadingGoal {
     double brighter, darker; /* emitted, cd m^-2; both 0: the reading itself counts */
     double precision;        /* relative, above 0 */
     long   most;             /* paths, at most */
+    const ReadingQuestion *question; /* NULL: none */
 } ReadingGoal;
 
 typedef struct ReadingTools {
@@ -26,12 +37,18 @@ typedef struct ReadingTools {
 } ReadingTools;
 
 typedef struct Reading {
-    double reflected;    /* Y; of a luxmeter the illuminance */
-    double sigma;        /* its standard error */
-    double mirror;       /* of it, by way of the display's mirror */
-    double found_share;  /* paths whose first surface was a display */
+    double reflected;      /* Y; of a luxmeter the illuminance */
+    double sigma;          /* its standard error */
+    MeanInterval interval; /* 95 %, or surer where there was a question: it holds however often
+                              that was asked */
+    double mirror;         /* of it, by way of the display's mirror */
+    double found_share;    /* paths whose first surface was a display */
     long   paths;
 } Reading;
+
+#define READING_LEAST 1024       /* paths of any reading */
+#define READING_ASKED_LEAST 4096 /* of one on which something hangs: light that only one path in
+                                    hundreds finds must have been met */
 
 Reading reading_take(const ProbeAim *aim, const ReadingGoal *goal, const ReadingTools *tools,
                      Arena scratch);

@@ -9,7 +9,10 @@
 #define WAVE 16    /* chunks that are traced before they are added, in order */
 #define PILOT 4    /* chunks that ask every triangle */
 #define NEAR 1.2f  /* widths of a triangle: what is asked for a sun; one lies within, or more */
-#define SELDOM 16  /* later ones ask what none of those found once in so many chunks */
+#define OFTEN 8    /* later ones ask a cell that those found in every so manyth chunk: as many
+                      rays go out along eight times as many paths, whose noise is greater than
+                      that of directions within a triangle */
+#define SELDOM 128 /* what none of those found */
 
 /* ---- which triangles are asked ----------------------------------------------------------- */
 
@@ -26,7 +29,8 @@ static ProbeCells cells_of_level(int level, Arena *arena)
                         .count = 2 * count};
 }
 
-/* Of a chunk: the open ones, and a few of the others for many. is_open: NULL: all. */
+/* Of a chunk: some of the open ones for all of them, a few of the others for many. Cells that
+ * follow each other are neighbours and are asked by different chunks. is_open: NULL: all. */
 static ProbeCells ask_for(const ProbeCells *cells, const bool *is_open, int chunk, Arena *arena)
 {
     ProbeCells asks = *cells;
@@ -34,10 +38,10 @@ static ProbeCells ask_for(const ProbeCells *cells, const bool *is_open, int chun
     float *weight = ARENA_NEW(arena, float, cells->count);
     asks.asked_count = 0;
     for (int cell = 0; cell < cells->count; cell++) {
-        bool open = !is_open || is_open[cell];
-        if (!open && (cell + chunk) % SELDOM) continue;
+        int every = !is_open ? 1 : is_open[cell] ? OFTEN : SELDOM;
+        if ((cell + chunk) % every) continue;
         asked[asks.asked_count] = cell;
-        weight[asks.asked_count++] = open ? 1 : SELDOM;
+        weight[asks.asked_count++] = (float)every;
     }
     asks.asked = asked;
     asks.weight = weight;

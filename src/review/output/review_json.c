@@ -96,6 +96,7 @@ static json_t *case_json(const ReviewCase *c)
                             luminance_json(c->luminance_cd_m2));
     set(out, "contrast_ratio", json_figure(c->contrast_ratio));
     set(out, "contrast_interval", pair(c->contrast_low, c->contrast_high));
+    set(out, "paths", json_integer((json_int_t)c->paths));
     set(out, "contrast_with_veil", json_figure(c->contrast_with_veil));
     set(out, "height_arcmin", json_figure(c->height_arcmin));
     set(out, "jnd", json_figure(c->jnd));

@@ -226,6 +226,9 @@ static bool read_names(const JsonView *view, ReviewCase *c, Error *err)
 
 static bool read_figures(const JsonView *view, ReviewCase *c, Error *err)
 {
+    json_int_t paths = 0;
+    if (!read_count(view, "paths", &paths, err)) return false;
+    c->paths = (long)paths;
     return read_number(view, "contrast_ratio", &c->contrast_ratio, err) &&
            read_pair(view, "contrast_interval", &c->contrast_low, &c->contrast_high, err) &&
            read_number(view, "contrast_with_veil", &c->contrast_with_veil, err) &&

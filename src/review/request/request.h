@@ -176,6 +176,7 @@ typedef struct ReviewRequest {
     ReviewWeather   *weathers;
     int              weather_count;
     double           precision_contrast; /* relative standard error wanted */
+    double           precision_clear;    /* enough where the verdict is clear; at least that */
     ReviewFrames     frames;
     ReviewInput     *inputs;     /* the file itself, routes, weathers, skies' pictures */
     int              input_count;

@@ -1,5 +1,6 @@
 #include "review/request/request_read.h"
 
+#include <math.h>
 #include <string.h>
 #define XXH_INLINE_ALL
 #include <xxhash.h>
@@ -10,6 +11,8 @@
 #include "review/request/request_levels.h"
 #include "review/request/request_symbols.h"
 #include "tinygltf/gltf_json.h"
+
+#define CLEAR_USUAL 0.05 /* precision of readings whose verdict is clear */
 
 static const char *const KEYS[] = {"title",  "scene",     "eyes",       "forward",
                                    "gaze",   "observer",  "with",       "symbols",
@@ -28,13 +31,21 @@ static bool read_title(RequestReading *reading, Error *err)
 
 static bool read_precision(RequestReading *reading, Error *err)
 {
-    static const char *const keys[] = {"contrast"};
+    static const char *const keys[] = {"contrast", "clear"};
     JsonView view;
-    reading->request->precision_contrast = 0.01;
-    return json_view_child(&reading->root, "precision", false, &view, err) &&
-           json_view_check_keys(&view, keys, COUNT_OF(keys), err) &&
-           json_view_number(&view, "contrast", 1e-4, 1, &reading->request->precision_contrast,
-                            err);
+    double  *contrast = &reading->request->precision_contrast;
+    double  *clear = &reading->request->precision_clear;
+    *contrast = 0.01;
+    *clear = (double)NAN;
+    if (!json_view_child(&reading->root, "precision", false, &view, err) ||
+        !json_view_check_keys(&view, keys, COUNT_OF(keys), err) ||
+        !json_view_number(&view, "contrast", 1e-4, 1, contrast, err) ||
+        !json_view_number(&view, "clear", 1e-4, 1, clear, err))
+        return false;
+    if (isnan(*clear)) *clear = fmax(CLEAR_USUAL, *contrast);
+    return *clear >= *contrast ||
+           field_fails(&view, "clear", err, "is %g, wanted at least 'contrast', %g", *clear,
+                       *contrast);
 }
 
 static bool read_size(const JsonView *view, ReviewFrames *frames, Error *err)

@@ -19,6 +19,7 @@
 #define SUN_PATHS SYMBOL_POINTS
 #define COARSE_PRECISION 0.05
 #define COARSE_PATHS 8192
+#define COARSE_SEED 0x626f7865u /* the worst of many is not read again from what made it so */
 
 /* ---- eyes -------------------------------------------------------------------------------- */
 
@@ -68,14 +69,13 @@ static double face_lux(const CaseTools *tools, const StageSymbol *symbol, Arena 
     return reading_take(&aim, &goal, &stage->tools, scratch).reflected;
 }
 
-/* Does most of what the display reflects come straight from the sun? Then it stands in the sun,
- * whichever part of it. */
-static bool is_in_sun(const Stage *stage, const ProbeAim *aim, double reflected, Arena scratch)
+/* What the display sends to the eye straight from the sun. */
+static double direct_sun(const Stage *stage, const ProbeAim *aim, Arena scratch)
 {
     Vec3   towards;
     float  bands[LIGHT_BANDS];
     double direct = 0;
-    if (!stage_sun(stage, &towards, bands)) return false;
+    if (!stage_sun(stage, &towards, bands)) return 0;
     float           cosine = (float)cos(radians_from_degrees(SUN_MEAN_RADIUS_DEG));
     ProbeSuns       suns = {&towards, 1, cosine, false};
     ResponseOptions options = {stage->tools.kernel, 0, SUN_PATHS, stage->tools.threads, 0};
@@ -85,6 +85,13 @@ static bool is_in_sun(const Stage *stage, const ProbeAim *aim, double reflected,
         const float *shares = response_suns(aim, &options, &suns, &room);
         direct += light_bands_sum(shares, bands);
     }
+    return direct;
+}
+
+/* Does most of what the display reflects come straight from the sun? Then it stands in the sun,
+ * whichever part of it. */
+static bool is_in_sun(double direct, double reflected)
+{
     return direct > CASE_SUNLIT * reflected;
 }
 
@@ -100,26 +107,17 @@ static Vec3 *visible_points(const SymbolSurface *surface, const bool *is_visible
     return points;
 }
 
-static void set_contrasts(ReviewCase *c, double sigma)
+static void set_contrasts(ReviewCase *c, MeanInterval reflected)
 {
     const CaseLuminances *l = &c->luminance_cd_m2;
-    double spread = INTERVAL_SIGMAS * sigma, veil = isnan(l->veil) ? 0 : l->veil;
+    double veil = isnan(l->veil) ? 0 : l->veil;
     c->contrast_ratio = luminance_contrast(l->foreground, l->background, l->reflected);
-    c->contrast_low = luminance_contrast(l->foreground, l->background, l->reflected + spread);
-    c->contrast_high =
-        luminance_contrast(l->foreground, l->background, fmax(l->reflected - spread, 0));
+    c->contrast_low = luminance_contrast(l->foreground, l->background, reflected.high);
+    c->contrast_high = luminance_contrast(l->foreground, l->background, reflected.low);
     c->contrast_with_veil =
         luminance_contrast(l->foreground, l->background, l->reflected + veil);
     c->jnd = grey_steps_between(l->foreground + l->reflected + veil,
                                 l->background + l->reflected + veil);
-}
-
-static ProbeAim aim_at(const Stage *stage, const StageSymbol *symbol, Vec3 eye,
-                       const bool *is_visible, Arena *arena)
-{
-    ProbeAim aim = {.context = &stage->context, .eye = eye, .seed = EYE_SEED};
-    aim.targets = visible_points(&symbol->surface, is_visible, &aim.target_count, arena);
-    return aim;
 }
 
 /* One point of an eye that looks at a symbol; coarse: to find the worst of many points. */
@@ -129,15 +127,62 @@ typedef struct CaseLook {
     bool               is_coarse;
 } CaseLook;
 
-static Reading read_symbol(const CaseTools *tools, const CaseLook *look, const ProbeAim *aim,
-                           const CaseLuminances *shown, Arena scratch)
+static ProbeAim aim_at(const Stage *stage, const CaseLook *look, const bool *is_visible,
+                       Arena *arena)
 {
-    double      wanted = tools->stage->request->precision_contrast;
-    ReadingGoal goal = {.brighter = fmax(shown->foreground, shown->background),
-                        .darker = fmin(shown->foreground, shown->background),
-                        .precision = look->is_coarse ? COARSE_PRECISION : wanted,
-                        .most = look->is_coarse ? COARSE_PATHS : CASE_PATHS_MOST};
-    return reading_take(aim, &goal, &tools->stage->tools, scratch);
+    ProbeAim aim = {.context = &stage->context, .eye = look->eye,
+                    .seed = look->is_coarse ? COARSE_SEED : EYE_SEED};
+    aim.targets =
+        visible_points(&look->symbol->surface, is_visible, &aim.target_count, arena);
+    return aim;
+}
+
+/* ---- until its verdict is clear ---------------------------------------------------------- */
+
+/* A case of which all but the reflected light is known. */
+typedef struct VerdictAsk {
+    const CaseTools  *tools;
+    const ReviewCase *of;
+    double            direct; /* of the reflected light, straight from the sun */
+    Arena             scratch;
+} VerdictAsk;
+
+/* Would each limit that counts say the same, wherever in the interval the light lies? */
+static bool is_verdict_clear(void *user, MeanInterval reflected)
+{
+    const VerdictAsk *ask = user;
+    Arena      room = ask->scratch;
+    ReviewCase c = *ask->of;
+    bool       in_sun = is_in_sun(ask->direct, reflected.low);
+    if (in_sun != is_in_sun(ask->direct, reflected.high)) return false;
+    c.luminance_cd_m2.reflected = 0.5 * (reflected.low + reflected.high);
+    set_contrasts(&c, reflected);
+    judge_ambient(&c, ask->tools->profile, in_sun);
+    judge_case(&c, ask->tools->profile, &room);
+    for (int i = 0; i < c.limit_count; i++) {
+        const LimitVerdict *limit = &c.limits[i];
+        bool counts = !limit->is_advice && !isnan(limit->found);
+        if (counts && limit->verdict == VERDICT_TOO_CLOSE) return false;
+    }
+    return true;
+}
+
+static Reading read_symbol(const CaseTools *tools, const CaseLook *look, const ProbeAim *aim,
+                           VerdictAsk *ask)
+{
+    const ReviewRequest  *request = tools->stage->request;
+    const CaseLuminances *shown = &ask->of->luminance_cd_m2;
+    ReadingQuestion question = {is_verdict_clear, ask, request->precision_clear};
+    ReadingGoal     goal = {.brighter = fmax(shown->foreground, shown->background),
+                            .darker = fmin(shown->foreground, shown->background),
+                            .precision = request->precision_contrast,
+                            .most = CASE_PATHS_MOST, .question = &question};
+    if (look->is_coarse) {
+        goal.precision = COARSE_PRECISION;
+        goal.most = COARSE_PATHS;
+        goal.question = NULL;
+    }
+    return reading_take(aim, &goal, &tools->stage->tools, ask->scratch);
 }
 
 /* The panel's emission dimmed by what the eye looks through. */
@@ -169,9 +214,10 @@ static double visibility_of(const ReviewCase *c, const SymbolSplit *split)
            contrast_sensitivity(1 / (2 * stroke_deg), mean, c->height_arcmin / 60);
 }
 
-/* What does not depend on the eye is set. The aim has no targets where nothing is visible. */
+/* What does not depend on the eye is set. The aim has no targets where nothing is visible;
+ * *direct: of what is reflected, straight from the sun. */
 static ProbeAim see_symbol(const CaseTools *tools, const CaseLook *look, ReviewCase *c,
-                           Arena *arena)
+                           double *direct, Arena *arena)
 {
     const Stage       *stage = tools->stage;
     const StageSymbol *symbol = look->symbol;
@@ -190,13 +236,16 @@ static ProbeAim see_symbol(const CaseTools *tools, const CaseLook *look, ReviewC
     SymbolEmission emission =
         symbol_emission(&symbol->surface, &symbol->split, c->level, eye);
     set_shown(l, &emission, seen.transmittance);
-    ProbeAim aim = aim_at(stage, symbol, eye, is_visible, arena);
-    Reading  reading = read_symbol(tools, look, &aim, l, *arena);
+    ProbeAim aim = aim_at(stage, look, is_visible, arena);
+    if (!look->is_coarse) see_stray_light(stage, symbol, eye, c, *arena);
+    *direct = direct_sun(stage, &aim, *arena);
+    VerdictAsk ask = {tools, c, *direct, *arena};
+    Reading    reading = read_symbol(tools, look, &aim, &ask);
+    c->paths = reading.paths;
     l->reflected = reading.reflected;
     l->mirror = reading.mirror;
     l->scattered = reading.reflected - reading.mirror;
-    if (!look->is_coarse) see_stray_light(stage, symbol, eye, c, *arena);
-    set_contrasts(c, reading.sigma);
+    set_contrasts(c, reading.interval);
     c->visibility = visibility_of(c, &symbol->split);
     return aim;
 }
@@ -236,10 +285,10 @@ typedef struct CaseAsk {
 static ProbeAim judge_look(const CaseTools *tools, const CaseLook *look, ReviewCase *c,
                            Arena *arena)
 {
-    ProbeAim aim = see_symbol(tools, look, c, arena);
-    bool     in_sun = aim.target_count &&
-                  is_in_sun(tools->stage, &aim, c->luminance_cd_m2.reflected, *arena);
-    judge_ambient(c, tools->profile, in_sun);
+    double   direct = 0;
+    ProbeAim aim = see_symbol(tools, look, c, &direct, arena);
+    judge_ambient(c, tools->profile,
+                  aim.target_count && is_in_sun(direct, c->luminance_cd_m2.reflected));
     judge_case(c, tools->profile, arena);
     return aim;
 }

@@ -3,9 +3,9 @@
 #include "base/progress.h"
 #include "base/units.h"
 
-#define RESPONSE_PATHS 4096
-#define RESPONSE_PRECISION 0.02
-#define METER_PATHS 1024
+#define RESPONSE_PATHS 32768
+#define RESPONSE_PRECISION 0.004
+#define METER_PATHS 8192
 #define SUN_PATHS 64      /* of the first vertex */
 #define MIRROR_PATHS 2048 /* of its mirror, which cost little */
 #define EYE_SEED 0x73776579u

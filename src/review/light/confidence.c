@@ -1,0 +1,78 @@
+#include "review/light/confidence.h"
+
+#include <math.h>
+
+#include "base/mathd.h"
+
+#define HALVINGS 60 /* of an interval of normal quantiles: as fine as doubles are */
+#define FARTHEST 38 /* standard deviations */
+
+void batch_add(BatchSums *sums, double mean)
+{
+    sums->count++;
+    sums->sum += mean;
+    sums->squares += mean * mean;
+    sums->cubes += mean * mean * mean;
+}
+
+/* About the mean, over all batches. */
+static double variance_of(const BatchSums *sums)
+{
+    double mean = sums->sum / sums->count;
+    return fmax(sums->squares / sums->count - mean * mean, 0);
+}
+
+double batch_error(const BatchSums *sums)
+{
+    return sqrt(variance_of(sums) / (sums->count - 1));
+}
+
+/* The third moment by the standard deviation's cube. */
+static double skewness_of(const BatchSums *sums)
+{
+    double n = sums->count, mean = sums->sum / n, variance = variance_of(sums);
+    if (!(variance > 0)) return 0;
+    double third = sums->cubes / n - mean * (3 * variance + mean * mean);
+    return third / (variance * sqrt(variance));
+}
+
+/* Exceeded by a normal variable, either side, with this chance. */
+static double normal_quantile(double miss)
+{
+    double low = 0, high = FARTHEST;
+    for (int i = 0; i < HALVINGS; i++) {
+        double middle = 0.5 * (low + high);
+        if (erfc_d(middle / sqrt(2)) > miss) low = middle;
+        else high = middle;
+    }
+    return low;
+}
+
+static double student_quantile(double miss, double freedom)
+{
+    double z = normal_quantile(miss), s = z * z, v = freedom;
+    return z * (1 + (s + 1) / (4 * v) + ((5 * s + 16) * s + 3) / (96 * v * v) +
+                (((3 * s + 19) * s + 17) * s - 15) / (384 * v * v * v));
+}
+
+/* What Hall's transformation makes `t` of: t + a t^2 / 3 + a^2 t^3 / 27 + a / 6 is its value,
+ * a the skewness by the root of the count. */
+static double untransformed(double value, double a)
+{
+    if (fabs(a) < 1e-6) return value;
+    return 3 / a * (cbrt(1 + a * (value - a / 6)) - 1);
+}
+
+MeanInterval batch_interval(const BatchSums *sums, double miss)
+{
+    double n = sums->count, mean = sums->sum / n, error = batch_error(sums);
+    double a = skewness_of(sums) / sqrt(n), t = student_quantile(miss, n - 1);
+    return (MeanInterval){mean - error * untransformed(t, a),
+                          mean - error * untransformed(-t, a)};
+}
+
+double look_miss(bool is_last, int before)
+{
+    if (before <= 0) return CONFIDENCE_MISS;
+    return is_last ? 0.5 * CONFIDENCE_MISS : 0.5 * CONFIDENCE_MISS / before;
+}

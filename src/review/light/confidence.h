@@ -1,0 +1,40 @@
+/* confidence.h -- where the true mean lies, from a few batches of samples whose tail is long,
+ * and when they may be looked at more than once.
+ *
+ * Light has a long tail: few paths find the sun in a mirror, and where they are missing mean
+ * and spread are both too small, so that the usual interval misses too often below. The
+ * interval here is that of Student's t after Hall's transformation, which takes the skewness of
+ * the samples out of it ("On the removal of skewness by transformation", J. R. Stat. Soc. B 54
+ * (1992) 221-228). Student's quantiles from normal ones by the series of Abramowitz and Stegun,
+ * 26.7.5.
+ *
+ * Whoever looks again and again, and stops at what pleases, is wrong more often than each
+ * interval says. Looks share the 5 % among them (Bonferroni's inequality, whatever hangs on
+ * what): half of it the last one, the other half all those before in equal parts.
+ *
+ * Threads  pure functions.
+ */
+#pragma once
+#include <stdbool.h>
+
+#define CONFIDENCE_MISS 0.05 /* chance that a 95 % interval does not hold the true value */
+
+/* Of batches' means, all of as many samples. */
+typedef struct BatchSums {
+    double count, sum, squares, cubes;
+} BatchSums;
+
+void batch_add(BatchSums *sums, double mean);
+
+/* The standard error of the mean of all; at least 2 batches. */
+double batch_error(const BatchSums *sums);
+
+typedef struct MeanInterval {
+    double low, high;
+} MeanInterval;
+
+/* Misses the true mean with this chance, both sides together. */
+MeanInterval batch_interval(const BatchSums *sums, double miss);
+
+/* The chance that a look may miss with when there are `before` others before the last. */
+double look_miss(bool is_last, int before);
