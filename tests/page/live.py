@@ -329,6 +329,17 @@ def check_page(report, page, where):
         report.claim(wide <= width, f"{wide} pixels wide on a screen of {width}")
 
 
+def check_rays(report, page, card):
+    """A cause's link shows its rays over the picture."""
+    shown = page.run(f"""(async()=>{{const link=document.querySelector('#{card} .causes a');
+        if(!link)return null;
+        link.click();
+        await new Promise(done=>setTimeout(done,100));
+        return [...document.querySelectorAll('#{card} .look-view svg.rays g')].filter(g=>
+          getComputedStyle(g).visibility==='visible').length;}})()""")
+    report.claim(shown == 1, f"{shown} causes show their rays over the picture")
+
+
 def check_paper(report, page):
     page.call("Emulation.setEmulatedMedia", media="print")
     shown = page.run("""['.live','.look','.live-sun','figure.frame'].map(s=>
@@ -374,6 +385,7 @@ def check(report, program, reviewer, folder_of_shots):
             check_value(report, look)
             check_picture(report, look)
         check_eye(report, look)
+        check_rays(report, page, cards[0][0])
         check_paper(report, page)
         check_page(report, page, address)
     check_rate(report, program, os.path.join(folder, "index.html"), cards[0][0])

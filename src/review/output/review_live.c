@@ -125,6 +125,27 @@ static bool add_numbers(const Writer *to, const char *name, const float *values,
     return add_codes(&(Writer){to->html, &scratch, to->err}, name, codes, (size_t)count, 2);
 }
 
+static const float *display_numbers(const LiveSweep *sweep, bool is_lux)
+{
+    return is_lux ? sweep->lux : sweep->level;
+}
+
+/* What belongs to a display is the same for all of its symbols and eyes: it stands in the first
+ * sweep alone, and the others say which one that is. */
+static bool add_display_numbers(const Writer *to, const LiveSweep *sweeps, int at, bool is_lux)
+{
+    const char  *name = is_lux ? "lux" : "level";
+    const float *own = display_numbers(&sweeps[at], is_lux);
+    int          count = sweeps[at].sky->count;
+    for (int i = 0; i < at; i++)
+        if (sweeps[i].sky == sweeps[at].sky &&
+            !memcmp(display_numbers(&sweeps[i], is_lux), own, (size_t)count * sizeof *own)) {
+            text_format(to->html, ",\"%s\":%d", name, i);
+            return true;
+        }
+    return add_numbers(to, name, own, count);
+}
+
 static bool add_states(const Writer *to, const LiveSweep *sweep)
 {
     Arena     scratch = *to->arena;
@@ -166,12 +187,13 @@ static void add_seen(Text *html, const LiveFound *found, const ReviewSweep *like
     text_add(html, "]");
 }
 
-static bool add_sweep(const Writer *to, const LiveFound *found, const LiveSweep *sweep,
-                      int sky_id)
+static bool add_sweep(const Writer *to, const LiveFound *found, int at, int sky_id)
 {
-    int count = sweep->sky->count;
-    text_format(to->html, "{\"id\":%d,\"sky\":%d,\"foreground\":%.9g,\"background\":%.9g,"
-                "\"limits\":[", sweep->sweep_id, sky_id, sweep->foreground, sweep->background);
+    const LiveSweep *sweeps = found->live->sweeps, *sweep = &sweeps[at];
+    int              count = sweep->sky->count;
+    text_format(to->html, "{\"id\":%d,\"sky\":%d,\"worst\":%d,\"foreground\":%.9g,"
+                "\"background\":%.9g,\"limits\":[", sweep->sweep_id, sky_id, sweep->worst,
+                sweep->foreground, sweep->background);
     for (int i = 0; i < 4; i++) {
         if (i > 0) text_add(to->html, ",");
         add_limit(to->html, sweep->asked[i]);
@@ -180,8 +202,8 @@ static bool add_sweep(const Writer *to, const LiveFound *found, const LiveSweep 
     add_seen(to->html, found, &found->review->sweeps[sweep->sweep_id]);
     if (!add_numbers(to, "reflected", sweep->reflected, count) ||
         !add_numbers(to, "mirror", sweep->mirror, count) ||
-        !add_numbers(to, "level", sweep->level, count) ||
-        !add_numbers(to, "lux", sweep->lux, count) || !add_states(to, sweep))
+        !add_display_numbers(to, sweeps, at, false) ||
+        !add_display_numbers(to, sweeps, at, true) || !add_states(to, sweep))
         return false;
     text_add(to->html, "}");
     return true;
@@ -209,7 +231,7 @@ static bool add_sweeps(const Writer *to, const LiveFound *found)
         }
         last = sweep->sky;
         if (i > 0) text_add(to->html, ",");
-        ok = ok && add_sweep(&sweep_to, found, sweep, sky_id);
+        ok = ok && add_sweep(&sweep_to, found, i, sky_id);
     }
     arena_release(&own);
     text_format(to->html, "],\n\"skies\":[%s]", skies.data ? skies.data : "");

@@ -41,6 +41,7 @@ typedef struct LiveSky {
 typedef struct LiveSweep {
     int                  sweep_id; /* of the review */
     const LiveSky       *sky;
+    int                  worst;    /* sun */
     const float         *reflected, *mirror, *level, *lux;
     const unsigned char *verdict, *ambient;
     double               foreground, background; /* emitted at level 1 */

@@ -156,7 +156,11 @@ async function sweepOf(found){
   if(!skies[found.sky])skies[found.sky]=skyOf(found.sky);
   var sky=await skies[found.sky],n=sky.count;
   var names=['reflected','mirror','level','lux'],sweep={found:found,sky:sky};
-  for(var i=0;i<4;i++)sweep[names[i]]=await t.unpackLog(found[names[i]],n);
+  for(var i=0;i<4;i++){
+    var text=found[names[i]]; /* or the number of the sweep that has the same */
+    if(typeof text==='number')text=t.data.sweeps[text][names[i]];
+    sweep[names[i]]=await t.unpackLog(text,n);
+  }
   sweep.state=await t.unpack(found.state,n,1);
   return sweep;
 }
@@ -299,22 +303,14 @@ function Panel(sweep,section,map){
   var buttons=make('div','live-buttons');
   this.controls.append(buttons);
   t.button(buttons,'Worst sun',function(){
-    panel.factor.set(0);panel.move(panel.worst());panel.painter.paint(sweep,1);});
+    panel.factor.set(0);
+    panel.painter.paint(sweep,1);
+    panel.move(sweep.found.worst);
+  });
   this.addSun();
   this.addPictures();
-  this.move(this.worst());
+  this.move(sweep.found.worst);
 }
-/* As judged: by verdict, then by margin. */
-Panel.prototype.worst=function(){
-  var RANKS=[0,3,1,2],best=0,least=null;
-  for(var i=0;i<this.sky.count;i++){
-    var one=reading(this.sweep,i,1),rank=RANKS[one.verdict];
-    var figure=isNaN(one.margin)?one.ratio:one.margin;
-    if(least&&(rank<least[0]||rank===least[0]&&figure>=least[1]))continue;
-    least=[rank,figure];best=i;
-  }
-  return best;
-};
 Panel.prototype.addAngles=function(){
   var panel=this,map=this.map,last=map.first+(map.columns-1)*map.step;
   function moved(){panel.move(nearest(panel.sky,panel.azimuth.get(),panel.elevation.get()));}

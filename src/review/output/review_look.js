@@ -56,17 +56,20 @@ function entries(of){
     of(i,value[0]);
   }
 }
-function curveTable(gain){
+function curveTable(){
   var out=new Float32Array(TABLE);
   entries(function(i,x){
-    out[i]=x>0?1.0059125/(1+0.58612272*Math.pow(x*gain,-1.2)):0;
+    out[i]=x>0?1.0059125/(1+0.58612272*Math.pow(x,-1.2)):0;
   });
   return out;
 }
+/* Codes of the display for 0 to 1 in FINE steps, from BELOW on: the outset leaves that range,
+   by less than an eighth below and a fifth above. */
+var FINE=4095,BELOW=512;
 function srgbTable(){
-  var out=new Uint8Array(4096);
-  for(var i=0;i<4096;i++){
-    var v=i/4095;
+  var out=new Uint8Array(8192);
+  for(var i=0;i<8192;i++){
+    var v=Math.min(Math.max((i-BELOW)/FINE,0),1);
     out[i]=Math.round(255*(v<=0.0031308?12.92*v:1.055*Math.pow(v,1/2.4)-0.055));
   }
   return out;
@@ -79,7 +82,7 @@ function colourTable(low,high){
   });
   return out;
 }
-var srgb=null;
+var curve=null,srgb=null;
 
 /* ---- drawing ---- */
 function Drawing(canvas,picture){
@@ -90,30 +93,25 @@ function Drawing(canvas,picture){
   this.pixels=new Uint32Array(this.image.data.buffer);
   this.sum=new Float32Array(3*picture.width);
   this.bits=new Uint32Array(this.sum.buffer);
-  this.gain=0;
 }
 Drawing.prototype.finish=function(){this.context.putImageData(this.image,0,0);};
 /* The view's curve, then the outset and the display's own. */
 Drawing.prototype.light=function(layers,share,gain){
   var a=layers[0],b=layers[1],width=this.picture.width,sum=this.sum,bits=this.bits;
   var r0=a[0],g0=a[1],b0=a[2],r1=b[0],g1=b[1],b1=b[2],pixels=this.pixels;
-  if(this.gain!==gain){this.curve=curveTable(gain);this.gain=gain;}
-  if(!srgb)srgb=srgbTable();
-  var curve=this.curve,codes=srgb,own=4095*(1+2*OUTSET+OUTSET),other=4095*OUTSET;
+  if(!curve){curve=curveTable();srgb=srgbTable();}
+  var shape=curve,codes=srgb,own=FINE*(1+3*OUTSET),other=FINE*OUTSET,more=share*gain;
   for(var start=0;start<pixels.length;start+=width){
     for(var i=start,j=0;j<3*width;i++,j+=3){
-      sum[j]=r0[i]+share*r1[i];
-      sum[j+1]=g0[i]+share*g1[i];
-      sum[j+2]=b0[i]+share*b1[i];
+      sum[j]=gain*r0[i]+more*r1[i];
+      sum[j+1]=gain*g0[i]+more*g1[i];
+      sum[j+2]=gain*b0[i]+more*b1[i];
     }
     for(i=start,j=0;j<3*width;i++,j+=3){
-      var red=curve[bits[j]>>>15],green=curve[bits[j+1]>>>15],blue=curve[bits[j+2]>>>15];
-      var all=other*(red+green+blue)-0.5;
-      var x=own*red-all,y=own*green-all,z=own*blue-all;
-      x=x<0?0:x>4095?4095:x|0;
-      y=y<0?0:y>4095?4095:y|0;
-      z=z<0?0:z>4095?4095:z|0;
-      pixels[i]=255<<24|codes[z]<<16|codes[y]<<8|codes[x];
+      var red=shape[bits[j]>>>15],green=shape[bits[j+1]>>>15],blue=shape[bits[j+2]>>>15];
+      var from=BELOW+0.5-other*(red+green+blue);
+      pixels[i]=255<<24|codes[own*blue+from|0]<<16|codes[own*green+from|0]<<8|
+        codes[own*red+from|0];
     }
   }
   this.finish();
@@ -138,9 +136,9 @@ function scaleOf(picture){
   box.append(bar);
   var span=Math.log(picture.high/picture.low);
   for(var decade=-6;decade<=9;decade++){
-    var value=Math.pow(10,decade),place=Math.log(value/picture.low)/span;
+    var value=+('1e'+decade),place=Math.log(value/picture.low)/span;
     if(place<-1e-6||place>1+1e-6)continue;
-    var tick=make('span',place<0.05?'first':place>0.95?'last':'',t.figure(value));
+    var tick=make('span',place<0.05?'first':place>0.95?'last':'',String(value));
     tick.style.left=100*place+'%';
     box.append(tick);
   }
@@ -170,7 +168,8 @@ Look.prototype.build=function(){
   this.read.setAttribute('aria-live','polite');
   this.scale=scaleOf(this.picture);
   this.scale.hidden=true;
-  left.append(this.view,this.read,this.scale);
+  left.append(make('h3','',this.frame.querySelector('h3').textContent),this.view,this.read,
+    this.scale);
   this.addControls(right);
   this.answer=t.answer();
   right.append(this.answer);
@@ -178,11 +177,23 @@ Look.prototype.build=function(){
   this.frame.closest('.figures').insertAdjacentElement('beforebegin',box);
   this.drawing=new Drawing(this.canvas,this.picture);
   this.frame.classList.add('looked');
+  this.takeRays();
   ['pointermove','pointerdown'].forEach(function(name){
     look.canvas.addEventListener(name,function(event){look.point(event);});
   });
   this.canvas.addEventListener('pointerleave',function(){look.setAt(null);});
   this.canvas.addEventListener('keydown',function(event){look.key(event);});
+};
+/* Rays that are drawn over the frame lie over this picture now; on paper over the frame. */
+Look.prototype.takeRays=function(){
+  var rays=this.frame.querySelector('svg.rays'),home=rays&&rays.parentElement,view=this.view;
+  if(!rays)return;
+  function take(){view.append(rays);}
+  var hash=location.hash;
+  take();
+  if(/^#[\w-]+$/.test(hash)&&rays.querySelector(hash))location.replace(hash);
+  window.addEventListener('beforeprint',function(){home.append(rays);});
+  window.addEventListener('afterprint',take);
 };
 function check(into,title,isOn,changed){
   var label=make('label','tick'),input=make('input');
