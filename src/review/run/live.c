@@ -176,9 +176,9 @@ static void make_sweeps(const LiveAsk *ask, Arena *arena, ReviewLive *out)
         if (t->suns != last)
             sky = make_sky(t->suns, condition_of(ask->request, condition), arena);
         last = t->suns;
-        sweeps[i] = (LiveSweep){t->sweep_id, sky, t->worst, t->reflected, t->mirror, t->level, t->lux,
-                                t->verdict, t->ambient, t->foreground, t->background,
-                                t->asked};
+        sweeps[i] = (LiveSweep){t->sweep_id, sky, t->worst, t->reflected, t->mirror, t->level,
+                                t->lux, t->verdict, t->ambient, t->foreground,
+                                t->background, t->asked};
     }
     out->sweeps = sweeps;
     out->sweep_count = outcome->table_count;
