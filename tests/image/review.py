@@ -119,6 +119,28 @@ def check_frame(report, reviewer, reflected, sure):
                  "the frame's mirror and scattered do not add up")
 
 
+def check_pictures(report, reviewer):
+    """Two symbols of one view: both cards show its pictures, which stand in the page once."""
+    document = request(conditions=[moment("grey", type="constant", luminance=3000)], symbols={
+        "bar": {"display": "screen", "uv": [0.1, 0.1, 0.9, 0.9]},
+        "edge": {"display": "screen", "uv": [0.2, 0.1, 0.8, 0.9]}},
+        frames={"size": [64, 36], "noise": 0.5, "worst": 2})
+    _, review = reviewer.review(document, "pictures")
+    frames = {case["frame"] for case in review["cases"]}
+    name = frames.pop()
+    report.claim(not frames and name.endswith(".png"), "one view has two frames")
+    for end in (".png", "-luminance.png", "-contrast.png", ".exr"):
+        path = os.path.join(reviewer.folder, "pictures", name[:-4] + end)
+        report.claim(os.path.isfile(path), f"no {path}")
+    index = os.path.join(reviewer.folder, "pictures", "index.html")
+    with open(index, encoding="utf-8") as file:
+        page = file.read()
+    cards = [page.count("<h3>" + title) for title in ("Frame<", "Luminance<", "Contrast map<")]
+    found = [page.count(words) for words in ("<image id=", "<use href=")]
+    report.claim(cards == [2, 2, 2] and found == [3, 3],
+                 f"pictures on the page: {cards}, {found}")
+
+
 def check_threads(report, reviewer):
     gazes = [{"at": "symbols"}, {"name": "wall", "direction": [-1, 0, -0.3]}]
     document = request(precision={"contrast": 0.02}, gaze=gazes, conditions=[
@@ -205,6 +227,7 @@ def main(program):
         shutil.copy(PANEL, os.path.join(folder, "ips.panel"))
         dashboard().write(os.path.join(folder, "dash.gltf"))
         check_frame(report, reviewer, *check_figures(report, reviewer))
+        check_pictures(report, reviewer)
         check_threads(report, reviewer)
         check_diff(report, reviewer)
         check_start(report, reviewer)

@@ -307,6 +307,27 @@ TEST(rays_of_a_cause_lie_over_its_frame)
     remove(file);
 }
 
+TEST(a_picture_of_several_cards_stands_once)
+{
+    (void)state;
+    Error         err = {0};
+    Review        review = fixture_review(&arena);
+    const char   *file = fresh_name(".png");
+    Picture       picture = picture_create(3, 2, &arena);
+    ReviewPicture shown[] = {
+        {.of = &review.cases[0], .title = "frame", .file = file, .id = "p0"},
+        {.of = &review.sweeps[1].worst, .title = "frame", .file = file, .id = "p0",
+         .is_again = true}};
+    assert_true(picture_write(file, &picture, (PictureFile){.bits = 8}, arena, &err));
+    const char *text = page_of(&(ReviewPage){.review = &review, .pictures = shown,
+                                             .picture_count = 2});
+    assert_int_equal(count_of(text, "data:image/png;base64,"), 1);
+    assert_int_equal(count_of(text, "<svg viewBox=\"0 0 3 2\" role=\"img\""), 2);
+    assert_int_equal(count_of(text, "<image id=\"p0\" width=\"3\" height=\"2\""), 1);
+    assert_non_null(strstr(strstr(text, "id=\"s1\""), "<use href=\"#p0\"/>"));
+    remove(file);
+}
+
 TEST(a_page_that_cannot_be_written_is_an_error)
 {
     (void)state;

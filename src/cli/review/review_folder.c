@@ -13,6 +13,7 @@
 #include "review/run/frames.h"
 #include "review/run/live.h"
 #include "review/output/review_csv.h"
+#include "review/output/review_decide.h"
 #include "review/output/review_json.h"
 #include "review/output/review_json_read.h"
 #include "review/output/review_junit.h"
@@ -102,29 +103,72 @@ static void add_charts(const ReviewFolder *folder, const ReviewOutcome *outcome,
 
 /* ---- the page ---------------------------------------------------------------------------- */
 
+/* What a frame's pictures are, for a reader. */
+static const struct {
+    const char *title, *caption;
+} VIEWS[] = {
+    [FRAME_PICTURE] = {"Frame", "What the eye sees, exposed as a camera would"},
+    [FRAME_LUMINANCE] = {"Luminance", "How bright everything is, as colours on a scale of the "
+                                      "frame's own"},
+    [FRAME_CONTRAST] = {"Contrast map", "Full white over full black at each pixel of a "
+                                        "display, what it reflects added to both; a symbol's "
+                                        "own colours have less. All frames have this scale"},
+};
+
+/* The pictures that a page has room for. */
+typedef struct PictureList {
+    ReviewPicture *at;
+    int            count;
+} PictureList;
+
+/* One that several cards show stands in the page once. */
+static void add_picture(PictureList *list, ReviewPicture picture, Arena *arena)
+{
+    for (int i = 0; i < list->count && !picture.is_again; i++)
+        if (!strcmp(list->at[i].file, picture.file)) {
+            if (!list->at[i].id) list->at[i].id = arena_format(arena, "p%d", i);
+            picture.id = list->at[i].id;
+            picture.is_again = true;
+        }
+    list->at[list->count++] = picture;
+}
+
+static void add_case_pictures(const ReviewFolder *folder, const ReviewCase *c,
+                              PictureList *list, Arena *arena)
+{
+    if (!c->frame) return;
+    for (FrameView view = FRAME_PICTURE; view < FRAME_VIEWS; view++) {
+        ReviewPicture picture = {.of = c, .title = VIEWS[view].title,
+                                 .caption = VIEWS[view].caption,
+                                 .is_frame = view == FRAME_PICTURE,
+                                 .view = view == FRAME_PICTURE ? c->view : NULL,
+                                 .file = arena_format(arena, "%s/%s", folder->name,
+                                                      frame_view(c->frame, view, arena))};
+        add_picture(list, picture, arena);
+    }
+    if (!c->outlook) return;
+    ReviewPicture outlook = {
+        .of = c, .title = "What the display sees",
+        .caption = arena_format(arena, "Looking out from the symbol's middle, half a sphere. "
+                                       "%s", c->outlook_words),
+        .file = arena_format(arena, "%s/%s", folder->name, c->outlook)};
+    add_picture(list, outlook, arena);
+}
+
+/* In the page's order: cases by rank, then sweeps. */
 static void add_pictures(const ReviewFolder *folder, const Review *review, ReviewPage *page,
                          Arena *arena)
 {
-    ReviewPicture *pictures =
-        ARENA_NEW(arena, ReviewPicture, 2 * (review->case_count + review->sweep_count));
-    for (int i = 0; i < review->case_count + review->sweep_count; i++) {
-        const ReviewCase *c = i < review->case_count
-                                  ? &review->cases[i]
-                                  : &review->sweeps[i - review->case_count].worst;
-        if (!c->frame) continue;
-        pictures[page->picture_count++] = (ReviewPicture){
-            .of = c, .title = "Frame", .is_frame = true,
-            .caption = "What the eye sees, exposed as a camera would",
-            .view = c->view,
-            .file = arena_format(arena, "%s/%s", folder->name, c->frame)};
-        if (c->outlook)
-            pictures[page->picture_count++] = (ReviewPicture){
-                .of = c, .title = "What the display sees",
-                .caption = arena_format(arena, "Looking out from the symbol's middle, half a "
-                                               "sphere. %s", c->outlook_words),
-                .file = arena_format(arena, "%s/%s", folder->name, c->outlook)};
-    }
-    page->pictures = pictures;
+    int                all = review->case_count + review->sweep_count;
+    const ReviewCase **ranked = review_rank(review, arena);
+    PictureList        list = {ARENA_NEW(arena, ReviewPicture, all * (FRAME_VIEWS + 1)), 0};
+    for (int i = 0; i < all; i++)
+        if (review_card_id(review, ranked[i], arena)[0] == 'c')
+            add_case_pictures(folder, ranked[i], &list, arena);
+    for (int i = 0; i < review->sweep_count; i++)
+        add_case_pictures(folder, &review->sweeps[i].worst, &list, arena);
+    page->pictures = list.at;
+    page->picture_count = list.count;
 }
 
 static void add_facts(const ReviewRequest *request, ReviewPage *page, Arena *arena)

@@ -5,6 +5,7 @@
 #include <strings.h>
 
 #include "base/file.h"
+#include "image/plain_png.h"
 #include "page/page.h"
 #include "review/output/review_bar.h"
 #include "review/output/review_rays.h"
@@ -229,20 +230,50 @@ static void add_remedies(Text *html, const ReviewCase *c, Arena *arena)
 
 /* ---- pictures --------------------------------------------------------------------------- */
 
+static void add_data(Text *html, const FileBytes *bytes, const char *kind)
+{
+    text_format(html, "\"data:image/%s;base64,", kind);
+    base64_encode(html, bytes->data, bytes->size);
+    text_add(html, "\"");
+}
+
+/* An <img> cannot be shown again elsewhere: what several cards show is an image of an SVG. */
+static void add_shared(Text *html, const ReviewPicture *p, const PlainPng *png)
+{
+    FileBytes bytes = {png->bytes, png->size};
+    text_format(html, "<svg viewBox=\"0 0 %d %d\" role=\"img\" aria-label=\"", png->width,
+                png->height);
+    escape_markup(html, p->title ? p->title : "");
+    if (p->is_again) {
+        text_format(html, "\"><use href=\"#%s\"/></svg>", p->id);
+        return;
+    }
+    text_format(html, "\"><image id=\"%s\" width=\"%d\" height=\"%d\" href=", p->id,
+                png->width, png->height);
+    add_data(html, &bytes, "png");
+    text_add(html, "/></svg>");
+}
+
 /* The bytes of a picture's file, as they stand. */
-static bool add_file(Text *html, const char *alt, const char *file, Arena scratch, Error *err)
+static bool add_file(Text *html, const ReviewPicture *p, Arena scratch, Error *err)
 {
     FileBytes   bytes;
-    const char *ending = path_ending(file);
+    PlainPng    png;
+    const char *ending = path_ending(p->file);
     bool        is_png = !strcasecmp(ending, ".png");
     if (!is_png && strcasecmp(ending, ".jpg") != 0 && strcasecmp(ending, ".jpeg") != 0)
-        return error_at(err, ERROR_INPUT, file, "", "wanted a picture ending in .png or .jpg");
-    if (!file_read(file, PICTURE_BYTES_MAX, &scratch, &bytes, err)) return false;
+        return error_at(err, ERROR_INPUT, p->file, "",
+                        "wanted a picture ending in .png or .jpg");
+    if (!file_read(p->file, PICTURE_BYTES_MAX, &scratch, &bytes, err)) return false;
+    if (p->id && is_png && plain_png_open(bytes.data, bytes.size, &png)) {
+        add_shared(html, p, &png);
+        return true;
+    }
     text_add(html, "<img alt=\"");
-    escape_markup(html, alt);
-    text_format(html, "\" src=\"data:image/%s;base64,", is_png ? "png" : "jpeg");
-    base64_encode(html, bytes.data, bytes.size);
-    text_add(html, "\">");
+    escape_markup(html, p->title ? p->title : "");
+    text_add(html, "\" src=");
+    add_data(html, &bytes, is_png ? "png" : "jpeg");
+    text_add(html, ">");
     return true;
 }
 
@@ -254,7 +285,7 @@ static bool add_picture(Text *html, const ReviewCard *card, const ReviewPicture 
     page_element(html, "h3", title);
     if (p->view) text_add(html, "<div class=\"shown\">");
     if (p->picture ? !page_picture(html, title, p->picture, false, scratch, err)
-                   : !add_file(html, title, p->file, scratch, err))
+                   : !add_file(html, p, scratch, err))
         return false;
     if (p->view) {
         review_rays_add(html, card->of, card->id, &scratch);

@@ -17,6 +17,8 @@ typedef struct ReviewPicture {
     const Picture    *picture; /* NULL: the file */
     const char       *file;    /* PNG or JPEG by its ending; goes into the page as it stands */
     bool              is_frame; /* the frame itself: review_look.js shows it in its stead */
+    const char       *id;      /* of a file that several cards show: it stands in the first */
+    bool              is_again; /* of them, and this is another; NULL: one card shows it */
 } ReviewPicture;
 
 typedef struct ReviewCard {

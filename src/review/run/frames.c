@@ -71,21 +71,35 @@ static void set_words(FrameImage *frame, const FrameAsk *ask, const SceneCamera 
     frame_set_whole(frame, "parhelion:unbiased", 1, arena);
 }
 
-/* What is written of a frame. */
-typedef struct FrameMade {
-    const SceneCamera  *camera;
-    const RenderResult *result;
-    const char         *png;
-} FrameMade;
+const char *frame_view(const char *frame, FrameView view, Arena *arena)
+{
+    static const char *const ENDS[] = {"", "-luminance", "-contrast"};
+    int before_ending = (int)(path_ending(frame) - frame);
+    return arena_format(arena, "%.*s%s.png", before_ending, frame, ENDS[view]);
+}
 
-static bool write_frame(const FrameAsk *ask, const FrameMade *made, Arena scratch, Error *err)
+/* All frames have one scale of contrast, so that they can be compared. */
+static bool write_views(const FrameImage *frame, const char *exr, Arena scratch, Error *err)
+{
+    const DevelopOptions looks[] = {
+        [FRAME_PICTURE] = {.own_config = true, .frame_name = exr},
+        [FRAME_LUMINANCE] = {.false_colour = true, .frame_name = exr},
+        [FRAME_CONTRAST] = {.layer = "display.contrast", .frame_name = exr,
+                            .range = {1, FRAMES_CONTRAST}}};
+    for (FrameView view = FRAME_PICTURE; view < FRAME_VIEWS; view++)
+        if (!develop_frame(frame, &looks[view], frame_view(exr, view, &scratch), scratch, NULL,
+                           err))
+            return false;
+    return true;
+}
+
+static bool write_frame(const FrameAsk *ask, const SceneCamera *camera,
+                        const RenderResult *result, Arena scratch, Error *err)
 {
     const char *exr = arena_format(&scratch, "%s/frames/%s.exr", ask->folder, ask->name);
-    FrameImage  frame = film_to_frame(made->result->film, WORDS, &scratch);
-    set_words(&frame, ask, made->camera, made->result, &scratch);
-    DevelopOptions look = {.own_config = true, .frame_name = exr};
-    return frame_write(exr, &frame, err) &&
-           develop_frame(&frame, &look, made->png, scratch, NULL, err);
+    FrameImage  frame = film_to_frame(result->film, WORDS, &scratch);
+    set_words(&frame, ask, camera, result, &scratch);
+    return frame_write(exr, &frame, err) && write_views(&frame, exr, scratch, err);
 }
 
 bool frame_make(const FrameAsk *ask, Arena *arena, const char **out, Error *err)
@@ -98,7 +112,6 @@ bool frame_make(const FrameAsk *ask, Arena *arena, const char **out, Error *err)
     SceneCamera   camera;
     RenderResult  result;
     const char   *name = arena_format(arena, "frames/%s.png", ask->name);
-    const char   *png = arena_format(arena, "%s/%s", ask->folder, name);
     Arena         scratch = *arena;
     if (!frame_camera(ask, &camera, scratch, err)) return false;
     setup.camera = camera_from_scene(&camera, options.width, options.height);
@@ -108,8 +121,7 @@ bool frame_make(const FrameAsk *ask, Arena *arena, const char **out, Error *err)
     if (result.stopped_by)
         return error_set(err, (ErrorCode)(128 + result.stopped_by),
                          "stopped while a frame was made; all but frames is written");
-    FrameMade made = {&camera, &result, png};
-    if (!write_frame(ask, &made, scratch, err)) return false;
+    if (!write_frame(ask, &camera, &result, scratch, err)) return false;
     *out = name;
     return true;
 }

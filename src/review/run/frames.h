@@ -1,7 +1,9 @@
 /* frames.h -- pictures of a stage: what an eye sees under a condition.
  *
- * Frames go to FOLDER/frames: NAME.exr in cd m^-2 with the layers of displays, and NAME.png
- * developed. A frame ends at the request's noise or at FRAMES_SAMPLES.
+ * Frames go to FOLDER/frames: NAME.exr in cd m^-2 with the layers of displays, NAME.png
+ * developed, and in false colours NAME-luminance.png and NAME-contrast.png: what contrast full
+ * white would have with full black at each pixel of a display. A frame ends at the request's
+ * noise or at FRAMES_SAMPLES.
  *
  * Memory   scratch only; names live in the arena.
  * Threads  starts its own; the same frames for any count.
@@ -12,6 +14,14 @@
 #include "review/light/stage.h"
 
 #define FRAMES_SAMPLES 256
+#define FRAMES_CONTRAST 100 /* : 1, where the scale of contrasts ends */
+
+typedef enum FrameView {
+    FRAME_PICTURE, FRAME_LUMINANCE, FRAME_CONTRAST, FRAME_VIEWS
+} FrameView;
+
+/* The picture's name, from that of any other of the frame's files. */
+const char *frame_view(const char *frame, FrameView view, Arena *arena);
 
 typedef struct FrameAsk {
     const Stage     *stage;
