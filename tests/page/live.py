@@ -28,6 +28,8 @@ LAYER_ERROR = 0.0043  # as review_live.h says
 
 def document():
     return request(
+        symbols={"bar": {"display": "screen", "uv": [0.1, 0.1, 0.9, 0.9]},
+                 "end": {"display": "screen", "uv": [0.5, 0.1, 0.9, 0.9]}},
         precision={"contrast": 0.02}, frames={"size": [96, 54], "noise": 1, "worst": 2},
         levels={"dim": {"*": 0.05}, "auto": {
             "sensor": {"position_m": [0, 0.1, 0.3], "normal": [0, 1, 0]},
@@ -356,7 +358,7 @@ def shots(program, address, folder):
             for i in range(page.run("document.querySelectorAll('.area,figure.frame').length")):
                 page.run(f"document.querySelectorAll('.area,figure.frame')[{i}]"
                          ".scrollIntoView();new Promise(done=>setTimeout(done,500))")
-            page.wait("document.querySelectorAll('.live').length==2")
+            page.wait("document.querySelectorAll('.live').length==4")
             page.wait("document.querySelectorAll('.look canvas[data-drawn]').length>1")
             page.shot(os.path.join(folder, f"live_{name}.png"), whole=True)
             if name == "light":
@@ -374,7 +376,8 @@ def check(report, program, reviewer, folder_of_shots):
     cards = [(card, case) for card, case in cards if case.get("frame")]
     report.claim(len(cards) >= 2, f"{len(cards)} cases have frames")
     with browser.Browser(program, address) as page:
-        suns, year = (Sweep(page, folder, review, i) for i in range(2))
+        # the second of two symbols: what belongs to its display stands with the first
+        suns, year = (Sweep(page, folder, review, i) for i in (1, 3))
         check_year(report, year)
         suns.find(".area", ".scrollIntoView({block:'center'})")
         check_drag(report, suns)

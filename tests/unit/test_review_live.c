@@ -2,12 +2,14 @@
  * the stated error; a frame's two parts add up to it, smaller and in the eye as well. */
 #include "frame_fixture.h"
 
+#include <jansson.h>
 #include <zlib.h>
 
 #include "page/page_data.h"
 #include "review/output/review_live.h"
 #include "review/run/live_frame.h"
 #include "text/base64.h"
+#include "verdict_fixture.h"
 
 /* ---- packed numbers ---------------------------------------------------------------------- */
 
@@ -46,6 +48,107 @@ TEST(numbers_come_back)
         uint32_t  mask = (uint32_t)(((uint64_t)1 << 8 * bytes) - 1);
         for (int i = 0; i < 1000; i++) assert_int_equal(back[i], values[i] & mask);
     }
+}
+
+/* ---- sweeps ------------------------------------------------------------------------------ */
+
+enum { SUNS = 200 };
+
+static float *some_numbers(double low, double high, double turn, Arena *arena)
+{
+    float *out = ARENA_NEW(arena, float, SUNS);
+    for (int i = 0; i < SUNS; i++)
+        out[i] = (float)(low * pow(high / low, 0.5 + 0.5 * sin(turn * i)));
+    out[7] = 0;
+    return out;
+}
+
+/* What stands in the page of a review with live sweeps. */
+static json_t *live_block(const Review *review, const ReviewLive *live, Arena *arena)
+{
+    Text  html = {.arena = arena};
+    Error err = {0};
+    Arena scratch = arena_reserve((size_t)1 << 30);
+    assert_true(review_live_add(&html, review, live, &scratch, &err));
+    const char *start = strchr(html.data, '{'), *end = strstr(html.data, "</script>");
+    assert_true(start && end);
+    json_error_t error;
+    json_t      *block = json_loadb(start, (size_t)(end - start), 0, &error);
+    if (!block) fail_msg("%s", error.text);
+    arena_release(&scratch);
+    return block;
+}
+
+static void assert_numbers(const json_t *sweep, const char *name, const float *wanted,
+                           Arena *arena)
+{
+    const uint32_t *codes =
+        unpacked(json_string_value(json_object_get(sweep, name)), SUNS, 2, arena);
+    for (int i = 0; i < SUNS; i++) {
+        double found = codes[i] ? 1e-6 * pow(1e15, (codes[i] - 1) / 65534.0) : 0;
+        assert_true(fabs(found - (double)wanted[i]) <= 3e-4 * (double)wanted[i]);
+    }
+}
+
+TEST(suns_come_back)
+{
+    Arena   arena = test_arena(state);
+    Review  review = fixture_review(&arena);
+    LiveSun suns[SUNS];
+    unsigned char verdict[SUNS], ambient[SUNS];
+    const LimitVerdict *asked[4] = {&review.cases[0].limits[0], NULL, NULL, NULL};
+    for (int i = 0; i < SUNS; i++) {
+        suns[i] = (LiveSun){-100 + 1.7 * i, -0.5 + 0.3 * i, 400 * i, i % 8};
+        verdict[i] = (unsigned char)(i % 4);
+        ambient[i] = (unsigned char)(i / 4 % 4);
+    }
+    double    headings[8] = {0, 45, 90, 135, 180, 225, 270, 315};
+    LiveSky   sky = {suns, SUNS, 2026, 60, headings, 8};
+    LiveSweep sweeps[2] = {{0, &sky, 3, some_numbers(1, 1e4, 0.3, &arena),
+                            some_numbers(1e-5, 1e4, 0.2, &arena),
+                            some_numbers(0.02, 1, 0.1, &arena),
+                            some_numbers(1, 1e5, 0.7, &arena), verdict, ambient, 800, NAN,
+                            asked}};
+    sweeps[1] = sweeps[0];
+    sweeps[1].sweep_id = 1;
+    sweeps[1].lux = some_numbers(1, 1e5, 0.71, &arena);
+    ReviewLive live = {.sweeps = sweeps, .sweep_count = 2, .colours = ""};
+    json_t    *block = live_block(&review, &live, &arena);
+    json_t    *first = json_array_get(json_object_get(block, "sweeps"), 0);
+    json_t    *second = json_array_get(json_object_get(block, "sweeps"), 1);
+    json_t    *places = json_array_get(json_object_get(block, "skies"), 0);
+    assert_int_equal(json_array_size(json_object_get(block, "skies")), 1);
+    assert_numbers(first, "reflected", sweeps[0].reflected, &arena);
+    assert_numbers(first, "mirror", sweeps[0].mirror, &arena);
+    assert_numbers(first, "level", sweeps[0].level, &arena);
+    assert_numbers(second, "lux", sweeps[1].lux, &arena);
+    assert_int_equal(json_integer_value(json_object_get(second, "level")), 0);
+    assert_true(json_is_integer(json_object_get(second, "level")));
+    assert_true(json_is_null(json_object_get(first, "background")));
+    assert_int_equal(json_integer_value(json_object_get(first, "worst")), 3);
+    uint32_t *azimuth = unpacked(json_string_value(json_object_get(places, "azimuth")), SUNS, 2,
+                                 &arena);
+    uint32_t *step = unpacked(json_string_value(json_object_get(places, "step")), SUNS, 4,
+                              &arena);
+    uint32_t *state_of = unpacked(json_string_value(json_object_get(first, "state")), SUNS, 1,
+                                  &arena);
+    for (int i = 0; i < SUNS; i++) {
+        double turned = fmod(suns[i].azimuth_deg + 360, 360);
+        assert_true(fabs(azimuth[i] / 100.0 - turned) <= 0.00501);
+        assert_int_equal(step[i], 400 * i);
+        assert_int_equal(state_of[i], verdict[i] | ambient[i] << 2);
+    }
+    json_decref(block);
+}
+
+TEST(nothing_to_move_is_nothing_in_the_page)
+{
+    Arena      arena = test_arena(state);
+    Review     review = fixture_review(&arena);
+    ReviewLive live = {.colours = ""};
+    Text       html = {.arena = &arena};
+    Error      err = {0};
+    assert_true(review_live_add(&html, &review, &live, &arena, &err) && html.size == 0);
 }
 
 /* ---- light ------------------------------------------------------------------------------- */

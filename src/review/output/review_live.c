@@ -78,6 +78,13 @@ typedef struct LiveFound {
     const ReviewLive *live;
 } LiveFound;
 
+/* What is no number is null. */
+static void add_figure(Text *html, const char *name, double value)
+{
+    if (isfinite(value)) text_format(html, ",\"%s\":%.9g", name, value);
+    else text_format(html, ",\"%s\":null", name);
+}
+
 static bool add_codes(const Writer *to, const char *name, const uint32_t *codes, size_t count,
                       int bytes)
 {
@@ -191,9 +198,11 @@ static bool add_sweep(const Writer *to, const LiveFound *found, int at, int sky_
 {
     const LiveSweep *sweeps = found->live->sweeps, *sweep = &sweeps[at];
     int              count = sweep->sky->count;
-    text_format(to->html, "{\"id\":%d,\"sky\":%d,\"worst\":%d,\"foreground\":%.9g,"
-                "\"background\":%.9g,\"limits\":[", sweep->sweep_id, sky_id, sweep->worst,
-                sweep->foreground, sweep->background);
+    text_format(to->html, "{\"id\":%d,\"sky\":%d,\"worst\":%d", sweep->sweep_id, sky_id,
+                sweep->worst);
+    add_figure(to->html, "foreground", sweep->foreground);
+    add_figure(to->html, "background", sweep->background);
+    text_add(to->html, ",\"limits\":[");
     for (int i = 0; i < 4; i++) {
         if (i > 0) text_add(to->html, ",");
         add_limit(to->html, sweep->asked[i]);
@@ -260,10 +269,13 @@ static void add_case(Text *html, const Review *review, const ReviewCase *c, int 
                      Arena *arena)
 {
     const CaseLuminances *l = &c->luminance_cd_m2;
-    text_format(html, "{\"card\":\"%s\",\"picture\":%d,\"level\":%.9g,\"foreground\":%.9g,"
-                "\"background\":%.9g,\"reflected\":%.9g,\"verdict\":%d,\"limit\":",
-                review_card_id(review, c, arena), picture, c->level, l->foreground,
-                l->background, l->reflected, (int)c->verdict);
+    text_format(html, "{\"card\":\"%s\",\"picture\":%d,\"verdict\":%d",
+                review_card_id(review, c, arena), picture, (int)c->verdict);
+    add_figure(html, "level", c->level);
+    add_figure(html, "foreground", l->foreground);
+    add_figure(html, "background", l->background);
+    add_figure(html, "reflected", l->reflected);
+    text_add(html, ",\"limit\":");
     add_limit(html, c->limit_id >= 0 ? &c->limits[c->limit_id] : NULL);
     text_add(html, "}");
 }
