@@ -50,6 +50,8 @@ if run_one 'release build, warnings are errors' build-release build release all;
     run 'a glare review' review python3 tests/image/review.py .build/release/parhelion
     run 'why a display looks so' explain python3 tests/image/explain.py \
         .build/release/parhelion
+    run 'people in the seats' occupants \
+        python3 tests/image/occupants.py .build/release/parhelion
     run 'luminaires as lamps' lamps python3 tests/image/lamps.py .build/release/parhelion
     run 'pictures as light' hdri python3 tests/image/hdri.py .build/release/parhelion
     run 'same bits, any threads' bits python3 tests/image/bits.py .build/release/parhelion
