@@ -18,7 +18,7 @@ static EyeReading read_towards(World *world, Vec3 towards, int rounds)
     world_ready(world, 16);
     Stage stage = {.request = &request, .tools = {kernel, 2}, .scene = world->scene,
                    .context = world->context};
-    EyeLook look = {vec3(0, 0, 0), towards, rounds};
+    EyeLook look = {vec3(0, 0, 0), towards, rounds, NULL};
     return eye_read(&stage, &look, world->arena);
 }
 
@@ -121,6 +121,43 @@ TEST(glass_takes_what_it_mirrors_of_the_sun)
     world.scene->environment.sun_illuminance_lx = 90000;
     EyeReading found = read_eye(&world);
     assert_veil(found, 15, 90000 * passed * cos(radians_from_degrees(15)));
+    world_end(&world);
+}
+
+/* A mirror of a metre, 2 m away, shows the sun that stands behind the eye at 20 degrees from
+ * the gaze; paths would find it by luck. Some 22 rays look into the disc, one more or less. */
+TEST(an_image_of_the_sun_veils_by_its_illuminance)
+{
+    (void)state;
+    const Kernel *kernel;
+    Error     err = {0};
+    FalseSuns images;
+    float     bands[LIGHT_BANDS];
+    Vec3      towards, d = at_angle(20);
+    World     world = dark_world();
+    Material  chrome = builder_material(0.8f);
+    chrome.metallic = 1;
+    chrome.roughness = 0;
+    builder_part(world.scene, chrome);
+    builder_quad(world.scene, vec3_scale(d, 2), vec3(0.5f, 0, 0), vec3(0, 0.5f, 0));
+    world.scene->environment.has_sun = true;
+    world.scene->environment.sun_azimuth = (float)PI;
+    world.scene->environment.sun_elevation = (float)radians_from_degrees(20);
+    world.scene->environment.sun_illuminance_lx = 60000;
+    assert_true(kernel_choose(NULL, &kernel, &err));
+    world_ready(&world, 16);
+    Stage stage = {.request = &request, .tools = {kernel, 2}, .scene = world.scene,
+                   .context = world.context};
+    assert_true(stage_sun(&stage, &towards, bands));
+    false_suns_find(&stage, vec3(0, 0, 0), bands, &world.arena, &images);
+    EyeLook    look = {vec3(0, 0, 0), at, 4, &images};
+    EyeReading found = eye_read(&stage, &look, world.arena);
+    double     lux = 0.8 * 60000 * cos(radians_from_degrees(20));
+    double     wanted = lux * disability_glare(20, whose);
+    assert_near(found.parts[EYE_GLINTS], wanted, wanted / 22);
+    assert_near(found.veil, wanted, wanted / 22);
+    assert_near(found.vertical_lx, lux, lux / 22);
+    assert_true(found.veil_sigma > 0 && found.veil_sigma < 0.3 * wanted);
     world_end(&world);
 }
 

@@ -20,7 +20,8 @@
  * is read by light samples, which find small ones too. */
 typedef struct EyePath {
     double seen;               /* cd m^-2, without the sun's disc; */
-    double apart[EYE_SOURCES]; /* of it, what light samples do not read */
+    double apart[EYE_SOURCES]; /* of it, what light samples do not read; */
+    double images;             /* and of the glints the sun's */
 } EyePath;
 
 /* Angles are drawn evenly in their logarithm, as f cos theta sin theta, about 1 / theta, asks;
@@ -34,6 +35,7 @@ typedef struct EyePaths {
     Vec3        *targets;         /* one a path; the rest likewise: */
     double      *solid_angles;    /* sr that it stands for */
     EyePath     *found;
+    const FalseSuns *images;
 } EyePaths;
 
 static Vec3 local_direction(double theta, double phi)
@@ -92,6 +94,8 @@ static void hear_path(void *user, const PathTale *tale, const float xyz[3])
     path->seen += (double)xyz[1];
     if (!is_direct || tale->source == LIGHTS_SKY)
         path->apart[source_of(tale)] += (double)xyz[1];
+    if (tale->source == LIGHTS_SUN && source_of(tale) == EYE_GLINTS)
+        path->images += (double)xyz[1];
 }
 
 static void read_chunk(void *user, int item, int worker)
@@ -182,6 +186,7 @@ static double position_of(const EyePaths *paths, Vec3 d)
 typedef struct EyeSums {
     EyeReading   reading;
     double       veils[EYE_ROUNDS_MOST]; /* of each round */
+    double       image_variance;
     GlareSource *sources;
     int          count;
     double       source_lx;
@@ -204,6 +209,14 @@ static void add_veil(const EyePaths *paths, int round, EyeSource source, double 
     sums->reading.parts[source] += veil * PATHS / paths->count;
 }
 
+/* Within the field in which images were looked for? */
+static bool has_images(const EyePaths *paths, Vec3 d)
+{
+    const double *to = paths->stage->request->forward;
+    Vec3 ahead = vec3((float)to[0], (float)to[1], (float)to[2]);
+    return paths->images && degrees_between(d, ahead) < FALSE_SUN_FIELD_DEG;
+}
+
 static EyeSource counted_as(EyeSource source, bool is_near)
 {
     return is_near && (source == EYE_SKY || source == EYE_SURFACES) ? EYE_NEAR : source;
@@ -218,11 +231,43 @@ static void add_path(const EyePaths *paths, int i, EyeSums *sums)
     double veil = veil_of(paths, d, weight) * paths->count / PATHS;
     add_source(paths, d, path->seen, paths->solid_angles[i], sums);
     for (int k = 0; k < EYE_SOURCES; k++) {
-        if (!(path->apart[k] > 0)) continue;
-        sums->reading.vertical_lx += path->apart[k] * weight;
-        add_veil(paths, i / PATHS, counted_as((EyeSource)k, is_near), path->apart[k] * veil,
-                 sums);
+        double left = path->apart[k];
+        if (k == EYE_GLINTS && has_images(paths, d)) left -= path->images;
+        if (!(left > 0)) continue;
+        sums->reading.vertical_lx += left * weight;
+        add_veil(paths, i / PATHS, counted_as((EyeSource)k, is_near), left * veil, sums);
     }
+}
+
+/* Images of the sun. */
+typedef struct ImageWork {
+    const EyePaths *paths;
+    EyeSums        *sums;
+    double          luminance; /* cd m^-2, of the sun */
+} ImageWork;
+
+static void add_image(void *user, const FalseSun *image, double share)
+{
+    const ImageWork *work = user;
+    EyeSums         *sums = work->sums;
+    double cosine = (double)vec3_dot(image->seen, work->paths->gaze);
+    if (!(cosine > 0)) return;
+    double lux = work->luminance * share * (double)image->sr * cosine;
+    double veil = veil_of(work->paths, image->seen, lux);
+    sums->reading.vertical_lx += lux;
+    sums->reading.parts[EYE_GLINTS] += veil;
+    sums->image_variance += veil * veil; /* as if each ray had come by chance */
+}
+
+static void add_images(const EyePaths *paths, EyeSums *sums)
+{
+    ImageWork work = {paths, sums, 0};
+    Vec3      towards;
+    float     bands[LIGHT_BANDS];
+    double    disc = 2 * PI * (1 - cos(radians_from_degrees(SUN_MEAN_RADIUS_DEG)));
+    if (!paths->images || !stage_sun(paths->stage, &towards, bands)) return;
+    for (int b = 0; b < LIGHT_BANDS; b++) work.luminance += (double)bands[b] / disc;
+    false_suns_each(paths->images, towards, add_image, &work);
 }
 
 /* The sun's disc is a source as large as it is. */
@@ -265,9 +310,11 @@ static EyeReading sum_up(const EyePaths *paths, const PupilSums *pupils, Arena s
     EyeReading *r = &sums.reading;
     for (int i = 0; i < paths->count; i++) add_path(paths, i, &sums);
     add_pupils(paths, pupils, &sums);
+    add_images(paths, &sums);
     double background = fmax(r->vertical_lx - sums.source_lx, 0) / PI;
     for (int k = 0; k < EYE_SOURCES; k++) r->veil += r->parts[k];
-    r->veil_sigma = standard_error(sums.veils, paths->count / PATHS);
+    r->veil_sigma = hypot(standard_error(sums.veils, paths->count / PATHS),
+                          sqrt(sums.image_variance));
     r->dgp = discomfort_dgp(r->vertical_lx, sums.sources, sums.count) *
              discomfort_dgp_low_light(r->vertical_lx);
     r->ugr = sums.count ? discomfort_ugr(background, sums.sources, sums.count) : (double)NAN;
@@ -293,6 +340,7 @@ EyeReading eye_read(const Stage *stage, const EyeLook *look, Arena scratch)
     int      count = look->rounds * PATHS;
     EyePaths paths = {.stage = stage, .count = count, .gaze = vec3_normalize(look->towards),
                       .whose = {observer->age_years, observer->pigment},
+                      .images = look->images,
                       .targets = ARENA_NEW(&scratch, Vec3, count),
                       .solid_angles = ARENA_NEW(&scratch, double, count),
                       .found = ARENA_NEW(&scratch, EyePath, count)};

@@ -8,13 +8,15 @@
  * source. Both figures are secondary ones, fitted to rooms; nothing is decided by them.
  *
  * Lamps, displays and the sun that the eye sees by themselves are read by light samples, lamps
- * without a body too; all else by paths that are drawn as the veil weighs them.
+ * without a body too; all else by paths that are drawn as the veil weighs them. Images of the
+ * sun in mirrors are small and bright, so that these paths find them by luck alone: who has
+ * looked for them (false_suns.h) names them, and paths then count only those beyond that field.
  *
  * Units        cd m^-2, lx.
  * Memory       scratch only. Threads: starts its own; the same figures for any count.
  */
 #pragma once
-#include "review/light/stage.h"
+#include "review/light/false_suns.h"
 
 #define EYE_GLARE_CD_M2 2000.0
 #define EYE_NEAR_DEG 1.0 /* from the gaze; about the fovea, where the eye sees sharply */
@@ -26,6 +28,7 @@ typedef struct EyeLook {
     Vec3 eye;     /* m, world */
     Vec3 towards; /* of any length but 0 */
     int  rounds;  /* 1 .. EYE_ROUNDS_MOST */
+    const FalseSuns *images; /* from there; NULL: nobody looked */
 } EyeLook;
 
 /* Where light begins that the eye scatters. */

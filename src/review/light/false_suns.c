@@ -207,12 +207,11 @@ typedef struct ImageSums {
     double     sr;
 } ImageSums;
 
-/* share: of the ray that lies in the disc. */
-static void add_false_sun(ImageSums *sums, const FalseSun *image, double share)
+static void add_false_sun(void *user, const FalseSun *image, double share)
 {
-    int    i = 0;
-    double sr = share * (double)image->sr;
-    if (!(sr > 0)) return;
+    ImageSums *sums = user;
+    int        i = 0;
+    double     sr = share * (double)image->sr;
     while (i < sums->count && sums->mirror[i].part_id != image->part_id) i++;
     sums->sr += sr;
     if (i == MIRRORS_TOLD) return;
@@ -231,15 +230,22 @@ static double share_in_disc(Vec3 ray, Vec3 towards)
     return fmin(fmax(inside, 0), 1);
 }
 
-static void add_row(const FalseSuns *suns, Vec3 towards, int row, int columns,
-                    ImageSums *sums)
+/* Who is told of a sun's images. */
+typedef struct SunTold {
+    Vec3          towards;
+    FalseSunTold *told;
+    void         *user;
+} SunTold;
+
+static void tell_row(const FalseSuns *suns, int row, int columns, const SunTold *to)
 {
-    int middle = column_of(towards);
+    int middle = column_of(to->towards);
     for (int k = -columns; k <= columns; k++) {
         int cell = row * CELL_COLUMNS + (middle + k + CELL_COLUMNS) % CELL_COLUMNS;
-        for (int i = suns->first[cell]; i < suns->first[cell + 1]; i++)
-            add_false_sun(sums, &suns->list[i],
-                          share_in_disc(suns->list[i].sun, towards));
+        for (int i = suns->first[cell]; i < suns->first[cell + 1]; i++) {
+            double share = share_in_disc(suns->list[i].sun, to->towards);
+            if (share > 0) to->told(to->user, &suns->list[i], share);
+        }
     }
 }
 
@@ -251,12 +257,19 @@ static int columns_about(Vec3 towards)
     return (int)fmin(ceil(columns / fmax(sine, 1e-3)) + 1, CELL_COLUMNS / 2 - 1);
 }
 
+void false_suns_each(const FalseSuns *suns, Vec3 towards, FalseSunTold *told, void *user)
+{
+    SunTold to = {towards, told, user};
+    int     row = row_of(towards), columns = columns_about(towards);
+    for (int r = row - 1; r <= row + 1; r++)
+        if (r >= 0 && r < CELL_ROWS) tell_row(suns, r, columns, &to);
+}
+
 FalseSunSight false_suns_at(const FalseSuns *suns, Vec3 towards)
 {
     ImageSums sums = {.count = 0};
-    int     row = row_of(towards), columns = columns_about(towards), most = 0;
-    for (int r = row - 1; r <= row + 1; r++)
-        if (r >= 0 && r < CELL_ROWS) add_row(suns, towards, r, columns, &sums);
+    int       most = 0;
+    false_suns_each(suns, towards, add_false_sun, &sums);
     if (!(sums.sr > 0)) return (FalseSunSight){0, NO_ID, vec3(0, 0, 0)};
     for (int i = 1; i < sums.count; i++)
         if (sums.mirror[i].sr > sums.mirror[most].sr) most = i;

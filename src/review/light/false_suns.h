@@ -39,6 +39,13 @@ typedef struct FalseSuns {
 void false_suns_find(const Stage *stage, Vec3 eye, const float bands[LIGHT_BANDS],
                      Arena *arena, FalseSuns *out);
 
+/* Is told of a ray that leaves to the sun: `share` of it leaves to the disc, its rim's by a
+ * part. */
+typedef void FalseSunTold(void *user, const FalseSun *image, double share);
+
+/* towards: the sun, unit, world. */
+void false_suns_each(const FalseSuns *suns, Vec3 towards, FalseSunTold *told, void *user);
+
 /* All images of one sun. */
 typedef struct FalseSunSight {
     double share;   /* of the sun's illuminance that comes to the eye, on a plane that faces the

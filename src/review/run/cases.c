@@ -195,7 +195,7 @@ static void set_shown(CaseLuminances *l, const SymbolEmission *emission, double 
 static void see_stray_light(const Stage *stage, const StageSymbol *symbol, Vec3 eye,
                             ReviewCase *c, Arena scratch)
 {
-    EyeLook    look = {eye, vec3_sub(symbol_middle(symbol).position, eye), 1};
+    EyeLook    look = {eye, vec3_sub(symbol_middle(symbol).position, eye), 1, NULL};
     EyeReading stray = eye_read(stage, &look, scratch);
     c->luminance_cd_m2.veil = stray.veil;
     c->dgp = stray.dgp;

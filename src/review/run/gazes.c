@@ -11,6 +11,7 @@
 #define ROUNDS_HALF 2.131450 /* of a 95 % interval, in standard errors of so many rounds' mean:
                                 Student's distribution, 15 degrees of freedom */
 #define PRECISION 0.01
+#define EYE_BYTES ((size_t)1 << 34) /* of address space */
 #define PATHS_MOST 131072
 #define COARSE_PATHS 4096 /* to find the worst of many points */
 
@@ -25,7 +26,7 @@ static GazeGoal goal_of(Vec3 eye, const ReviewGaze *gaze, int most)
 /* Light over the view, quickly. */
 static double coarse_veil(const Stage *stage, const GazeGoal *goal, Arena scratch)
 {
-    EyeLook look = {goal->eye, goal->towards, 1};
+    EyeLook look = {goal->eye, goal->towards, 1, NULL};
     return eye_read(stage, &look, scratch).veil + gaze_read(stage, goal, scratch).mirrored;
 }
 
@@ -97,10 +98,26 @@ static double sun_from_gaze(const Stage *stage, Vec3 gaze)
     return degrees_from_radians(acos(fmin(fmax(cosine, -1), 1)));
 }
 
+/* The sun in mirrors is looked for, if there is a sun. */
+static EyeReading read_eye(const Stage *stage, const GazeGoal *goal)
+{
+    EyeLook   look = {goal->eye, goal->towards, ROUNDS, NULL};
+    Arena     scratch = arena_reserve(EYE_BYTES);
+    FalseSuns images;
+    Vec3      towards;
+    float     bands[LIGHT_BANDS];
+    if (stage_sun(stage, &towards, bands)) {
+        false_suns_find(stage, goal->eye, bands, &scratch, &images);
+        look.images = &images;
+    }
+    EyeReading eye = eye_read(stage, &look, scratch);
+    arena_release(&scratch);
+    return eye;
+}
+
 static void read_gaze(const Stage *stage, const GazeGoal *goal, Arena *arena, GazeFinding *out)
 {
-    EyeLook     look = {goal->eye, goal->towards, ROUNDS};
-    EyeReading  eye = eye_read(stage, &look, *arena);
+    EyeReading  eye = read_eye(stage, goal);
     GazeReading along = gaze_read(stage, goal, *arena);
     double      half = ROUNDS_HALF * eye.veil_sigma;
     out->sun_deg = sun_from_gaze(stage, goal->towards);
