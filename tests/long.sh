@@ -35,6 +35,8 @@ run_one 'release build' build-release build release all || finish
 run_beams
 run 'all closed forms in frames' image-long \
     python3 tests/image/run.py --all .build/release/parhelion
+run 'a glare review, thirty hours of weather' review-long \
+    python3 tests/image/review.py --all .build/release/parhelion
 run 'daylight through a roof, every point' roof-long \
     python3 tests/image/roof.py .build/release/parhelion --all
 run 'what is learnt moves no mean' guided-long \

@@ -197,8 +197,8 @@ static void light_floor(Daylight *out, const Curve *irradiance)
 static void finish_shape(Daylight *out, const Curve *irradiance)
 {
     DaylightMetrics *f = &out->metrics;
-    double integral = sky_shape_integral(&out->shape, PI / 2 - out->sun_elevation,
-                                         INTEGRAL_STEPS);
+    int    steps = out->input.integral_steps ? out->input.integral_steps : INTEGRAL_STEPS;
+    double integral = sky_shape_integral(&out->shape, PI / 2 - out->sun_elevation, steps);
     out->shape_scale = (float)(f->diffuse_horizontal_lx / integral);
     f->zenith_cd_m2 = (double)daylight_luminance(out, (float)(PI / 2), 0);
     set_sun(out, irradiance);

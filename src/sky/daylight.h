@@ -46,6 +46,8 @@ typedef struct DaylightInput {
     FloorKind floor;
     double   cloud_top_m;
     bool     no_moon;            /* clear: as if there were none */
+    int      integral_steps;     /* CIE, Perez: of the quadrature; 0: 1000, which takes 0.1 s
+                                    (its error by steps: sky_shape_integral) */
     int      threads;
 } DaylightInput;
 

@@ -1,8 +1,10 @@
-"""review.py PARHELION -- a glare review says what its scene is: its figures hang together and
-are those of a frame, a sweep's suns are those of moments, and nothing depends on the threads.
+"""review.py [--all] PARHELION -- a glare review says what its scene is: its figures hang
+together and are those of a frame, a sweep's suns and a weather file's hours are those of
+moments, and nothing depends on the threads. --all: of thirty hours.
 """
 import csv
 import json
+import math
 import os
 import random
 import re
@@ -203,6 +205,67 @@ def check_suns(report, reviewer):
                      f"sun {sun}: {found:.5g} in the sweep, {wanted:.5g} by itself")
 
 
+EPW = "".join(f"{line}\n" for line in (
+    "LOCATION,Testville,-,NLD,Data,0,48.14,11.58,1.0,520", "DESIGN CONDITIONS,0",
+    "TYPICAL/EXTREME PERIODS,0", "GROUND TEMPERATURES,0", "HOLIDAYS/DAYLIGHT SAVINGS,No,0,0,0",
+    "COMMENTS 1,none", "COMMENTS 2,none", "DATA PERIODS,1,1,Data,Sunday, 1/ 1,12/31"))
+
+
+def weather_hours(count):
+    """Hours of a year in its order: month, day, label, W/m2 direct and diffuse, heading."""
+    draw = random.Random(9)
+    hours = []
+    for i in range(count):
+        cloud = draw.random()
+        hours.append((1 + 12 * i // count, 1 + i % 28, 11 + i % 4,
+                      round(max(0, 900 * (1 - 1.5 * cloud))), round(60 + 250 * cloud),
+                      draw.randrange(360)))
+    return hours
+
+
+def weather_row(month, day, label, direct, diffuse, _):
+    return (f"2011,{month},{day},{label},60,x,20,12,79,100100,0,1415,288,0,{direct},{diffuse},"
+            "0,0,0,0\n")
+
+
+def check_weather(report, reviewer, count):
+    """Hours of a weather file along a route, and each as a moment of its own, traced in full:
+    the same within three standard errors (of paths and response) or 2 %. The file has no other
+    hours; each instant lies half an hour before its label."""
+    hours = weather_hours(count)
+    times = [f"2026-{h[0]:02}-{h[1]:02}T{h[2] - 1:02}:30:00+01:00" for h in hours]
+    with open(os.path.join(reviewer.folder, "w.epw"), "w", encoding="utf-8") as file:
+        file.write(EPW + "".join(weather_row(*hour) for hour in hours))
+    with open(os.path.join(reviewer.folder, "w.csv"), "w", encoding="utf-8") as file:
+        file.write("time,lat,lon,altitude_m,heading\n" + "".join(
+            f"{time},48.14,11.58,520,{hour[5]}\n" for time, hour in zip(times, hours)))
+    document = request(precision={"contrast": 0.01}, conditions=[
+        {"name": "drive", "route": "w.csv", "weather": "w.epw"}] + [
+        {**moment(time, type="perez", direct_normal_w_m2=hour[3], when=time,
+                  diffuse_horizontal_w_m2=hour[4], where=[48.14, 11.58, 520]),
+         "heading_deg": hour[5]} for time, hour in zip(times, hours)])
+    _, review = reviewer.review(document, "weather")
+    with open(os.path.join(reviewer.folder, "weather", review["sweeps"][0]["table"]),
+              encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    report.claim(len(rows) == count == len(review["cases"]), f"{len(rows)} hours")
+    for row, case, hour in zip(rows, review["cases"], hours):
+        found, wanted = float(row["reflected_cd_m2"]), case["luminance_cd_m2"]["reflected"]
+        low, high = case["contrast_interval"]
+        sigma = math.hypot((high - low) / 4 / case["contrast_ratio"],
+                           review["responses"][0]["relative_error"])
+        report.claim(close(found, wanted, max(0.02, 3 * sigma)),
+                     f"hour {hour}: {found:.5g} in the sweep, {wanted:.5g} by itself "
+                     f"({found / wanted - 1:+.4f}, sigma {sigma:.4f})")
+    worst = review["sweeps"][0]["worst"]
+    place = [case["contrast_ratio"] for case in review["cases"]].index(
+        min(case["contrast_ratio"] for case in review["cases"]))
+    report.claim(close(worst["contrast_ratio"], review["cases"][place]["contrast_ratio"], 0.03)
+                 and times[place][:10] in worst["when"] and
+                 f"{hours[place][3]} W/m2 direct, {hours[place][4]} diffuse" in worst["when"],
+                 f"worst {worst['when']}, the moments' {times[place]}")
+
+
 def check_refusals(report, reviewer):
     for document, words in (
             (request(conditions=[moment("x", type="constant", luminance=1)],
@@ -220,7 +283,7 @@ def check_refusals(report, reviewer):
                      f"status {done.returncode}: {done.stderr}")
 
 
-def main(program):
+def main(program, whole):
     report = Report()
     with tempfile.TemporaryDirectory() as folder:
         reviewer = Reviewer(program, folder)
@@ -232,9 +295,10 @@ def main(program):
         check_diff(report, reviewer)
         check_start(report, reviewer)
         check_suns(report, reviewer)
+        check_weather(report, reviewer, 30 if whole else 3)
         check_refusals(report, reviewer)
     return report.finish()
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1]))
+    sys.exit(main(sys.argv[-1], "--all" in sys.argv))

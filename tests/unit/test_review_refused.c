@@ -2,21 +2,11 @@
  * found, what was wanted. */
 #include "review_fixture.h"
 
-#define EPW_HEADER                                                                             \
-    "LOCATION,Testville,-,NLD,Data,062400,52.30,4.77,1.0,-2.0\n"                               \
-    "DATA PERIODS,1,1,Data,Sunday, 1/ 1,12/31\n"
-
 static int start(void **state)
 {
     if (make_folder(state)) return -1;
     review_files();
-    write_text(in_folder("short.epw"),
-               EPW_HEADER
-               "1995,6,21,12,60,x,20.1,11.8,79,100100,0,1415,288,500,410.5,210,0,0,0,0\n");
-    write_text(in_folder("gap.epw"),
-               EPW_HEADER
-               "1995,6,21,12,60,x,20.1,11.8,79,100100,0,1415,288,500,410.5,210,0,0,0,0\n"
-               "1995,6,21,13,60,x,21.1,11.8,79,100100,0,1415,288,500,9999,9999,0,0,0,0\n");
+    write_text(in_folder("empty.epw"), "");
     write_text(in_folder("bad.csv"), "time,lat\n");
     return 0;
 }
@@ -321,15 +311,13 @@ TEST(sweeps_are_checked)
 
 /* ---- weather ----------------------------------------------------------------------------- */
 
-TEST(weather_files_are_whole_years)
+TEST(a_weather_file_is_there)
 {
     static const Wrong wrong[] = {
         {"'weather':'clear','night'", "'weather':'none.epw','night'",
          "/conditions/4/sweep/weather", "none.epw', which cannot be read"},
-        {"'weather':'clear','night'", "'weather':'short.epw','night'", "",
-         "has 1 rows, wanted the 8760 of a year"},
-        {"'weather':'clear','night'", "'weather':'gap.epw','night'", "line 4",
-         "has no direct or no diffuse radiation, as 1 of 2 rows, wanted a year without gaps"},
+        {"'weather':'clear','night'", "'weather':'empty.epw','night'", "",
+         "is empty, wanted an EPW weather file"},
     };
     CHECK_ALL(wrong);
 }

@@ -164,7 +164,11 @@ void far_probe_ask(FarProbe *probe, const FarTools *tools, Arena *arena)
                                0};
     ProbeSuns suns = {.towards = sun_directions(tools, arena), .count = tools->suns.count,
                       .cos_radius = (float)cos(radians_from_degrees(SUN_MEAN_RADIUS_DEG))};
-    sum_skies(probe, tools, arena);
+    if (tools->hours)
+        probe->sky = hour_skies_read(tools->hours, &probe->response, suns.towards, suns.count,
+                                     with->threads, arena);
+    else
+        sum_skies(probe, tools, arena);
     probe->scattered = response_suns(&probe->aim, &options, &suns, arena);
     suns.by_mirror = true;
     options.paths = tools->mirror_paths;
@@ -185,14 +189,26 @@ static double sky_reading(const FarProbe *probe, const SkyTable *table, SunAngle
            share * (high[a] + along * (high[b] - high[a]));
 }
 
+static void sun_bands(const FarTools *tools, int sun, float bands[LIGHT_BANDS])
+{
+    const HourSkies *hours = tools->hours;
+    if (!hours) {
+        sky_table_sun(tools->table, tools->suns.angles[sun].elevation_deg, bands);
+        return;
+    }
+    for (int b = 0; b < LIGHT_BANDS; b++)
+        bands[b] = hours->of_sun[sun] < 0 ? 0 : hours->list[hours->of_sun[sun]].sun_bands[b];
+}
+
 FarReading far_probe_read(const FarProbe *probe, const FarTools *tools, int sun)
 {
     SunAngles  angles = tools->suns.angles[sun];
-    FarReading reading = {.sky = sky_reading(probe, tools->table, angles)};
+    FarReading reading = {.sky = tools->hours ? probe->sky[sun]
+                                              : sky_reading(probe, tools->table, angles)};
     float      bands[LIGHT_BANDS];
     size_t     at = (size_t)sun * LIGHT_BANDS;
     double     heading = degrees_from_radians((double)tools->stage->scene->environment.heading);
-    sky_table_sun(tools->table, angles.elevation_deg, bands);
+    sun_bands(tools, sun, bands);
     angles.azimuth_deg += heading;
     if (angles.elevation_deg < -SUN_MEAN_RADIUS_DEG) return reading;
     reading.mirror = probe->mirror ? light_bands_sum(probe->mirror + at, bands) : 0;

@@ -1,8 +1,10 @@
-/* far_probe.h -- a probe's readings for many suns in clear skies, without a path for each.
+/* far_probe.h -- a probe's readings for many suns, in clear skies or those of a weather file,
+ * without a path for each.
  *
- * A response (response.h) is traced once. Skies of a table of the sun's elevations are summed
- * over it for every azimuth of the sun; what lies between is interpolated. The first vertex's
- * answer to the sun itself is asked for each of the suns.
+ * A response (response.h) is traced once. Clear skies of a table of the sun's elevations are
+ * summed over it for every azimuth of the sun; what lies between is interpolated. Skies of a
+ * weather file are summed one by one (hour_sky.h). The first vertex's answer to the sun itself
+ * is asked for each of the suns.
  *
  * Frame    azimuths of the vehicle: 0 ahead, 90 right; elevations apparent; degrees.
  * Units    cd m^-2 (a luxmeter: lx).
@@ -11,7 +13,7 @@
  * Threads  starts its own; the same numbers for any count.
  */
 #pragma once
-#include "review/light/response.h"
+#include "review/light/hour_sky.h"
 #include "review/light/stage.h"
 
 /* ---- skies ------------------------------------------------------------------------------- */
@@ -39,7 +41,7 @@ typedef struct FarProbe {
     ProbeAim     aim;
     Response     response;
     const float *scattered, *mirror; /* of the first vertex: [sun][band], by lx */
-    double      *sky;                /* [elevation of the table][SKY_AZIMUTHS] */
+    double      *sky;  /* [elevation of the table][SKY_AZIMUTHS]; by hours [sun] */
 } FarProbe;
 
 typedef struct FarSuns {
@@ -55,6 +57,7 @@ typedef struct FarTools {
     double          precision;   /* and when it ends before */
     int             sun_paths;   /* of the first vertex; and of its mirror: */
     int             mirror_paths; /* 0: it has none */
+    const HourSkies *hours;     /* of a weather file: the table is not used; or NULL */
 } FarTools;
 
 /* probe->aim is set: its response is made, for any table and suns. */

@@ -6,7 +6,6 @@
 #include "base/units.h"
 
 #define OFFSETS 4 /* in a band */
-#define RINGS 8   /* of the disc, of equal area */
 
 static void add_bands(const Wavelengths *w, Spectrum radiance, double weight,
                       float bands[LIGHT_BANDS])
@@ -33,19 +32,23 @@ void light_bands_sky(const Daylight *daylight, float elevation, float azimuth,
     }
 }
 
+void light_bands_curve(const Curve *curve, float bands[LIGHT_BANDS])
+{
+    memset(bands, 0, LIGHT_BANDS * sizeof *bands);
+    for (int k = 0; k < OFFSETS; k++) {
+        Wavelengths w = wavelengths_of(k);
+        add_bands(&w, curve_lookup(curve, &w), 1.0 / OFFSETS, bands);
+    }
+}
+
+/* The limb darkens around the disc's own mean, which so is all that counts. */
 void light_bands_sun(const Daylight *daylight, float bands[LIGHT_BANDS])
 {
     memset(bands, 0, LIGHT_BANDS * sizeof *bands);
     if (!daylight->has_sun) return;
-    double sine = sin(daylight->sun_radius), projected = PI * sine * sine;
-    for (int k = 0; k < OFFSETS; k++) {
-        Wavelengths w = wavelengths_of(k);
-        for (int ring = 0; ring < RINGS; ring++) {
-            float share = sqrtf(((float)ring + 0.5f) / RINGS);
-            add_bands(&w, daylight_sun(daylight, share, &w), projected / (OFFSETS * RINGS),
-                      bands);
-        }
-    }
+    double sine = sin(daylight->sun_radius);
+    light_bands_curve(&daylight->sun_mean, bands);
+    for (int b = 0; b < LIGHT_BANDS; b++) bands[b] *= (float)(PI * sine * sine);
 }
 
 double light_bands_sum(const float shares[LIGHT_BANDS], const float bands[LIGHT_BANDS])

@@ -15,6 +15,9 @@
 void light_bands_sky(const Daylight *daylight, float elevation, float azimuth,
                      float bands[LIGHT_BANDS]);
 
+/* Of a spectral radiance as a curve. */
+void light_bands_curve(const Curve *curve, float bands[LIGHT_BANDS]);
+
 /* What a response's shares make of a light: their sum over bands. */
 double light_bands_sum(const float shares[LIGHT_BANDS], const float bands[LIGHT_BANDS]);
 

@@ -125,7 +125,7 @@ typedef struct ReviewCondition {
     bool         with_night;     /* hours without sun count too */
 } ReviewCondition;
 
-/* A weather file of a whole year, every hour with its light, and which instants it means. */
+/* A weather file, which may have gaps, and which instants it means. */
 typedef struct ReviewWeather {
     const char  *path;
     Weather      weather;

@@ -1,7 +1,8 @@
 /* request_weather.h -- the "weather" of a route or a year: clear, or a file of every hour.
  *
- * Fails    as request_read.h; a weather file that has gaps or no whole year with its own name
- *          and line.
+ * Gaps in a file are the sweep's question, which knows the hours that count.
+ *
+ * Fails    as request_read.h; a weather file with its own name and line.
  */
 #pragma once
 #include "review/request/request_reading.h"

@@ -12,6 +12,7 @@
 #include "review/output/review_decide.h"
 #include "review/request/request_check.h"
 #include "review/run/sweep.h"
+#include "review/run/sweep_weather.h"
 
 /* The most address space that a stage takes; what is not touched costs nothing. */
 #define STAGE_BYTES ((size_t)1 << 36)
@@ -161,12 +162,13 @@ static bool has_boxes(const ReviewRequest *request)
 
 static void add_notes(const ReviewRequest *request, Review *review, Arena *arena)
 {
-    const char **notes = ARENA_NEW(arena, const char *, 4);
+    const char **notes = ARENA_NEW(arena, const char *, request->weather_count + 4);
     if (has_sweeps(request)) {
         add_note(review, &notes,
-                 "Sweeps: skies are clear; light that comes by a second surface, glints by way "
-                 "of chrome or glass among it, is a mean over about 3 degrees of the sun's "
-                 "place. The worst case of each sweep is traced by itself.");
+                 "Sweeps: skies are clear, or those of a weather file where one is named; "
+                 "light that comes by a second surface, glints by way of chrome or glass "
+                 "among it, is a mean over about 3 degrees of the sun's place. The worst case "
+                 "of each sweep is traced by itself.");
         if (has_boxes(request))
             add_note(review, &notes, "Sweeps: an eye box counts by its middle.");
         if (review_look_count(request))
@@ -174,6 +176,8 @@ static void add_notes(const ReviewRequest *request, Review *review, Arena *arena
                      "Sweeps and routes: of gazes that do not go to symbols only the sun in "
                      "mirrors is read; all else of them is in moments.");
     }
+    for (int i = 0; i < request->weather_count; i++)
+        add_note(review, &notes, sweep_weather_note(&request->weathers[i], arena));
 }
 
 /* ---- frames of the worst ----------------------------------------------------------------- */

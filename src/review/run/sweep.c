@@ -8,6 +8,7 @@
 #include "review/judge.h"
 #include "review/run/false_sun_times.h"
 #include "review/run/sweep_probes.h"
+#include "review/run/sweep_weather.h"
 
 #define SWEEP_BYTES ((size_t)1 << 36) /* address space: what is not touched costs nothing */
 
@@ -185,11 +186,24 @@ static double longest_failure(const SweepSuns *suns, const Told *told, Arena scr
 
 /* ---- the worst, read again as a moment --------------------------------------------------- */
 
+/* Of a weather file: none when it is dark. */
+static void set_weather(const Stage *stage, const SweepSun *sun, Environment *environment)
+{
+    bool is_lit = sweep_weather_light(stage->request, stage->condition, sun,
+                                      &environment->daylight);
+    environment->kind = is_lit ? ENVIRONMENT_PEREZ : ENVIRONMENT_NONE;
+}
+
 Environment sweep_environment(const Stage *stage, const SweepSun *sun)
 {
     const double *forward = stage->request->forward;
     Environment   environment = {
-        .forward = vec3((float)forward[0], (float)forward[1], (float)forward[2])};
+        .forward = vec3((float)forward[0], (float)forward[1], (float)forward[2]),
+        .heading = (float)radians_from_degrees(sun->heading_deg)};
+    if (stage->condition->weather_id != NO_ID) {
+        set_weather(stage, sun, &environment);
+        return environment;
+    }
     environment.kind = ENVIRONMENT_SKY;
     environment.daylight = air_of(stage->condition);
     environment.daylight.has_time = false;
@@ -198,7 +212,6 @@ Environment sweep_environment(const Stage *stage, const SweepSun *sun)
     environment.sun_elevation = (float)radians_from_degrees(sun->elevation_deg);
     environment.sun_illuminance_lx = -1;
     environment.sun_angular_radius = (float)radians_from_degrees(SUN_MEAN_RADIUS_DEG);
-    environment.heading = (float)radians_from_degrees(sun->heading_deg);
     return environment;
 }
 
@@ -230,8 +243,14 @@ static bool read_worst(Telling *to, const Sight *sight, const SweepSun *sun, Rev
 /* Azimuths of a sweep's worst are the vehicle's, as those of its map are. */
 static void tell_when(const Telling *to, const SweepSun *sun, ReviewCase *c)
 {
+    const ReviewCondition *condition = to->sweep->stage->condition;
+    const char *when = sweep_suns_when(condition, to->suns, sun, to->arena);
     c->sun_azimuth_deg = fmod(sun->azimuth_deg + 360, 360);
-    c->when = sweep_suns_when(to->sweep->stage->condition, to->suns, sun, to->arena);
+    c->when = condition->weather_id == NO_ID
+                  ? when
+                  : arena_format(to->arena, "%s, %s", when,
+                                 sweep_weather_text(to->sweep->run->request, condition, sun,
+                                                    to->arena));
 }
 
 static ReviewSweep sweep_of(const Telling *to, const Sight *sight)
@@ -300,14 +319,19 @@ static void tell_response(const Sweep *sweep, const Sight *sight, Arena *arena, 
 
 static bool make_skies(Sweep *sweep, Arena *scratch, Error *err)
 {
+    const Stage *stage = sweep->stage;
     double low = 90, high = -90;
+    sweep->has_hours = stage->condition->weather_id != NO_ID;
+    if (sweep->has_hours &&
+        !sweep_weather_skies(stage, &sweep->suns, scratch, &sweep->hours, err))
+        return false;
     for (int i = 0; i < sweep->suns.count; i++) {
         low = fmin(low, sweep->suns.list[i].elevation_deg);
         high = fmax(high, sweep->suns.list[i].elevation_deg);
     }
-    DaylightInput like = air_of(sweep->stage->condition);
+    DaylightInput like = air_of(stage->condition);
     like.has_time = false;
-    like.threads = sweep->stage->tools.threads;
+    like.threads = stage->tools.threads;
     return sky_table_build(&like, low, high, scratch, &sweep->table, err);
 }
 
@@ -315,13 +339,12 @@ bool sweep_check(const ReviewRequest *request, int condition_id, Arena scratch, 
 {
     const ReviewCondition *condition = &request->conditions[condition_id];
     const char *place = arena_format(&scratch, "/conditions/%d", condition_id);
-    if (condition->weather_id != NO_ID)
+    SweepSuns suns = sweep_suns(condition, &scratch);
+    if (!suns.count)
         return error_at(err, ERROR_INPUT, request->file, place,
-                        "a sweep under the skies of a weather file is not supported: wanted "
-                        "\"weather\": \"clear\"");
-    return sweep_suns(condition, &scratch).count > 0 ||
-           error_at(err, ERROR_INPUT, request->file, place,
-                    "the sun is never up: wanted a time or a place with some");
+                        "the sun is never up: wanted a time or a place with some");
+    return condition->weather_id == NO_ID ||
+           sweep_weather_check(request, condition, &suns, scratch, err);
 }
 
 static bool sweep_condition(Sweep *sweep, Arena scratch, Arena *arena, ReviewOutcome *out,

@@ -6,8 +6,8 @@
  * moment, with all paths, so that what is told of it is not the response's.
  *
  * Approximate  an eye box counts by its middle; glints by way of a mirror that is no display
- *              are spread over the width of a response's triangle; skies between two elevations
- *              of the table are interpolated.
+ *              are spread over the width of a response's triangle; clear skies between two
+ *              elevations of the table are interpolated.
  * Memory       what is told lives in the arena; the rest is given back.
  * Threads      starts its own; the same figures for any count.
  */
@@ -18,7 +18,7 @@
 /* Can the condition be swept? To be asked before long work; the error names its place. */
 bool sweep_check(const ReviewRequest *request, int condition_id, Arena scratch, Error *err);
 
-/* The clear sky of the stage's sweep under one of its suns. */
+/* The clear sky of the stage's sweep under one of its suns, or that of its weather file. */
 Environment sweep_environment(const Stage *stage, const SweepSun *sun);
 
 /* Sweeps of one scene: the same files, contents and polarities, so that responses serve all. */

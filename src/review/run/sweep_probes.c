@@ -164,6 +164,7 @@ static void respond_all(Sweep *sweep, Arena *arena)
 FarTools sweep_tools(const Sweep *sweep)
 {
     return (FarTools){.stage = sweep->stage, .table = &sweep->table,
+                      .hours = sweep->has_hours ? &sweep->hours : NULL,
                       .suns = {sweep->suns.angles, sweep->suns.count},
                       .sun_paths = SUN_PATHS, .mirror_paths = MIRROR_PATHS};
 }

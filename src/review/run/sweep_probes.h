@@ -45,6 +45,8 @@ typedef struct Sweep {
     /* of the condition in hand: */
     SweepSuns          suns;
     SkyTable           table;
+    HourSkies          hours;
+    bool               has_hours; /* of a weather file: probes do not use the table */
     const ReviewLevel *level;   /* NULL: the scene's */
     SweepMeter        *sensor;  /* of the level; NULL: it is fixed */
 } Sweep;

@@ -6,6 +6,13 @@
 
 #define LOWEST_DEG (-12) /* what the table of skies reaches */
 
+SkyTime sweep_time(const ReviewCondition *condition, double step_minutes, int step)
+{
+    SkyTime start = {.year = condition->year, .month = 1, .day = 1};
+    if (condition->kind == CONDITION_ROUTE) return condition->route.points[step].when;
+    return sky_time_later(start, (step + 0.5) * step_minutes * 60);
+}
+
 typedef struct SunList {
     SweepSun *list;
     int       count;
@@ -94,14 +101,10 @@ SweepSuns sweep_suns(const ReviewCondition *c, Arena *arena)
 const char *sweep_suns_when(const ReviewCondition *condition, const SweepSuns *suns,
                             const SweepSun *sun, Arena *arena)
 {
-    if (condition->kind == CONDITION_YEAR_SWEEP) {
-        SkyTime start = {.year = condition->year, .month = 1, .day = 1};
-        SkyTime when = sky_time_later(start, (sun->step + 0.5) * suns->step_minutes * 60);
-        return arena_format(arena, "%d-%02d-%02d %02d:%02d UTC, heading %g degrees", when.year,
-                            when.month, when.day, when.hour, when.minute, sun->heading_deg);
-    }
-    if (condition->kind != CONDITION_ROUTE) return NULL;
-    const SkyTime *when = &condition->route.points[sun->step].when;
-    return arena_format(arena, "%d-%02d-%02d %02d:%02d, heading %.0f degrees", when->year,
-                        when->month, when->day, when->hour, when->minute, sun->heading_deg);
+    bool is_year = condition->kind == CONDITION_YEAR_SWEEP;
+    if (!is_year && condition->kind != CONDITION_ROUTE) return NULL;
+    SkyTime when = sweep_time(condition, suns->step_minutes, sun->step);
+    return arena_format(arena, "%d-%02d-%02d %02d:%02d%s, heading %g degrees", when.year,
+                        when.month, when.day, when.hour, when.minute, is_year ? " UTC" : "",
+                        is_year ? sun->heading_deg : round(sun->heading_deg));
 }

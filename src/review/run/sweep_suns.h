@@ -26,6 +26,9 @@ typedef struct SweepSuns {
                                                    then of the next */
 } SweepSuns;
 
+/* Of a step of a year (UTC; the condition's steps or others) or a route: when it is. */
+SkyTime sweep_time(const ReviewCondition *condition, double step_minutes, int step);
+
 /* Those that are up, and with `with_night` all. A route's places differ; the air is that of the
  * first. */
 SweepSuns sweep_suns(const ReviewCondition *condition, Arena *arena);

@@ -1,0 +1,178 @@
+#include "review/run/sweep_weather.h"
+
+#include <math.h>
+
+#define LOWEST_SUN_DEG (-4.0) /* of Perez's skies (sky/daylight.h) */
+#define HIGH_SUN_DEG 10.0     /* half an hour beside a row's instant it may have set */
+
+/* ---- a step's row ------------------------------------------------------------------------ */
+
+typedef enum HourState {
+    HOUR_LIT, HOUR_DARK,
+    /* gaps: */
+    HOUR_WITHOUT_ROW, HOUR_WITHOUT_VALUES, HOUR_WITHOUT_LIGHT, HOUR_WITHOUT_SKY
+} HourState;
+
+static const ReviewWeather *weather_of(const ReviewRequest *request,
+                                       const ReviewCondition *condition)
+{
+    return &request->weathers[condition->weather_id];
+}
+
+static SkyTime step_time(const ReviewCondition *condition, const SweepSun *sun)
+{
+    return sweep_time(condition, condition->step_minutes, sun->step);
+}
+
+static const WeatherHour *row_of(const ReviewWeather *weather, const SkyTime *when)
+{
+    double apart_min;
+    return weather_clock_row(&weather->weather, &weather->clock, when, &apart_min);
+}
+
+static HourState state_of(const WeatherHour *row, double elevation_deg)
+{
+    if (!row) return HOUR_WITHOUT_ROW;
+    if (!row->has_light) return HOUR_WITHOUT_VALUES;
+    if (elevation_deg <= LOWEST_SUN_DEG) return HOUR_DARK;
+    if (row->diffuse_horizontal_w_m2 > 0) return HOUR_LIT;
+    if (row->direct_normal_w_m2 > 0) return HOUR_WITHOUT_SKY;
+    return elevation_deg > HIGH_SUN_DEG ? HOUR_WITHOUT_LIGHT : HOUR_DARK;
+}
+
+bool sweep_weather_light(const ReviewRequest *request, const ReviewCondition *condition,
+                         const SweepSun *sun, DaylightInput *out)
+{
+    SkyTime when = step_time(condition, sun);
+    const WeatherHour *row = row_of(weather_of(request, condition), &when);
+    if (state_of(row, sun->elevation_deg) != HOUR_LIT) return false;
+    *out = daylight_input_default(DAYLIGHT_PEREZ);
+    out->has_time = true;
+    out->when = when;
+    out->where = condition->kind == CONDITION_ROUTE ? condition->route.points[sun->step].where
+                                                    : condition->where;
+    out->direct_w_m2 = row->direct_normal_w_m2;
+    out->diffuse_w_m2 = row->diffuse_horizontal_w_m2;
+    return true;
+}
+
+const char *sweep_weather_text(const ReviewRequest *request, const ReviewCondition *condition,
+                               const SweepSun *sun, Arena *arena)
+{
+    DaylightInput light;
+    if (!sweep_weather_light(request, condition, sun, &light))
+        return "dark by the weather file";
+    return arena_format(arena, "%g W/m2 direct, %g diffuse", light.direct_w_m2,
+                        light.diffuse_w_m2);
+}
+
+/* ---- gaps -------------------------------------------------------------------------------- */
+
+static bool is_new_step(const SweepSuns *suns, int i)
+{
+    return !i || suns->list[i].step != suns->list[i - 1].step;
+}
+
+typedef struct Gaps {
+    int                steps, count;
+    HourState          state; /* of the first one: */
+    const WeatherHour *row;
+    const SweepSun    *sun;
+} Gaps;
+
+static Gaps find_gaps(const ReviewRequest *request, const ReviewCondition *condition,
+                      const SweepSuns *suns)
+{
+    Gaps gaps = {0};
+    for (int i = 0; i < suns->count; i++) {
+        const SweepSun *sun = &suns->list[i];
+        if (!is_new_step(suns, i)) continue;
+        SkyTime when = step_time(condition, sun);
+        const WeatherHour *row = row_of(weather_of(request, condition), &when);
+        HourState state = state_of(row, sun->elevation_deg);
+        gaps.steps++;
+        if (state < HOUR_WITHOUT_ROW) continue;
+        if (!gaps.count++) gaps.state = state, gaps.row = row, gaps.sun = sun;
+    }
+    return gaps;
+}
+
+static const char *gap_text(const Gaps *gaps, Arena *arena)
+{
+    switch (gaps->state) {
+    case HOUR_WITHOUT_VALUES: return "has no direct or no diffuse radiation";
+    case HOUR_WITHOUT_SKY:
+        return arena_format(arena, "has %g W/m2 of direct light and no diffuse",
+                            gaps->row->direct_normal_w_m2);
+    case HOUR_WITHOUT_LIGHT:
+        return arena_format(arena, "is dark while the sun stands %.0f degrees high",
+                            gaps->sun->elevation_deg);
+    default: return "has no row within half an hour";
+    }
+}
+
+bool sweep_weather_check(const ReviewRequest *request, const ReviewCondition *condition,
+                         const SweepSuns *suns, Arena scratch, Error *err)
+{
+    Gaps gaps = find_gaps(request, condition, suns);
+    if (!gaps.count) return true;
+    SkyTime     when = step_time(condition, gaps.sun);
+    const char *place = gaps.row ? arena_format(&scratch, "line %d", gaps.row->line) : "";
+    const char *zone = condition->kind == CONDITION_YEAR_SWEEP ? " UTC" : "";
+    return error_at(err, ERROR_INPUT, weather_of(request, condition)->path, place,
+                    "%s, where '%.60s' needs one (%d-%02d-%02d %02d:%02d%s, %d of its %d steps "
+                    "alike); wanted direct and diffuse light for each",
+                    gap_text(&gaps, &scratch), condition->name, when.year, when.month, when.day,
+                    when.hour, when.minute, zone, gaps.count, gaps.steps);
+}
+
+/* ---- skies ------------------------------------------------------------------------------- */
+
+static bool no_sky(const Stage *stage, const SkyTime *when, Arena scratch, Error *err)
+{
+    const ReviewWeather *weather = weather_of(stage->request, stage->condition);
+    const WeatherHour   *row = row_of(weather, when);
+    return error_at(err, ERROR_INPUT, weather->path,
+                    arena_format(&scratch, "line %d", row->line), "%s",
+                    arena_format(&scratch, "%s", err->text));
+}
+
+bool sweep_weather_skies(const Stage *stage, const SweepSuns *suns, Arena *arena,
+                         HourSkies *out, Error *err)
+{
+    int  *of_sun = ARENA_NEW(arena, int, suns->count), count = 0, failed;
+    Arena scratch = arena_reserve(sizeof(DaylightInput) * ((size_t)suns->count + 1));
+    DaylightInput *inputs = ARENA_NEW(&scratch, DaylightInput, suns->count);
+    for (int i = 0; i < suns->count; i++) {
+        const SweepSun *sun = &suns->list[i];
+        if (!is_new_step(suns, i)) of_sun[i] = of_sun[i - 1];
+        else if (sweep_weather_light(stage->request, stage->condition, sun, &inputs[count]))
+            of_sun[i] = count++;
+        else
+            of_sun[i] = NO_ID;
+    }
+    out->of_sun = of_sun;
+    HourInputs hours = {inputs, count};
+    bool ok = hour_skies_build(&hours, stage->tools.threads, arena, &out->list, &failed, err) ||
+              no_sky(stage, &inputs[failed].when, *arena, err);
+    arena_release(&scratch);
+    return ok;
+}
+
+/* ---- telling ----------------------------------------------------------------------------- */
+
+const char *sweep_weather_note(const ReviewWeather *weather, Arena *arena)
+{
+    const WeatherClock *clock = &weather->clock;
+    const char *fit = "whether its light fits the sun is not known";
+    if (clock->rows && clock->closes)
+        fit = arena_format(arena, "there its light fits the sun to %.1f of %.0f W/m2",
+                           clock->closure_w_m2, clock->mean_global_w_m2);
+    else if (clock->rows)
+        fit = arena_format(arena, "its light fits the sun at no instant (%.1f of %.0f W/m2 at "
+                           "best), directions may be wrong", clock->best_closure_w_m2,
+                           clock->mean_global_w_m2);
+    return arena_format(arena, "Weather: %s (%s); its rows are taken %+.2f h from their labels "
+                        "(%s), %s.", weather->path, weather->weather.city, clock->offset_h,
+                        weather_clock_source_text(clock->source), fit);
+}

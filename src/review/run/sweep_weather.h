@@ -1,0 +1,30 @@
+/* sweep_weather.h -- the hours of a weather file that a sweep stands under.
+ *
+ * Each step takes the row whose instant is nearest (weather_clock.h), with the sun where it
+ * stands at the step: steps shorter than the file's share its rows. Where a row has no light
+ * the step is dark; so is one whose sun stands lower than any Perez sky (-4 degrees).
+ *
+ * Memory   from the arena.
+ * Threads  sweep_weather_skies starts its own; the same skies for any count.
+ * Fails    on gaps: with the weather file, its line, the step that wants it, and how many do.
+ */
+#pragma once
+#include "review/run/sweep_suns.h"
+
+/* The light of one of a sweep's suns, as DAYLIGHT_PEREZ; false: it is dark. After the check. */
+bool sweep_weather_light(const ReviewRequest *request, const ReviewCondition *condition,
+                         const SweepSun *sun, DaylightInput *out);
+
+/* What the file says of it: "512 W/m2 direct, 81 diffuse". */
+const char *sweep_weather_text(const ReviewRequest *request, const ReviewCondition *condition,
+                               const SweepSun *sun, Arena *arena);
+
+/* Has every step its row, with light in it where the sun is high? */
+bool sweep_weather_check(const ReviewRequest *request, const ReviewCondition *condition,
+                         const SweepSuns *suns, Arena scratch, Error *err);
+
+bool sweep_weather_skies(const Stage *stage, const SweepSuns *suns, Arena *arena,
+                         HourSkies *out, Error *err);
+
+/* What a reader must know of a file: where its rows' instants lie, and how well that fits. */
+const char *sweep_weather_note(const ReviewWeather *weather, Arena *arena);

@@ -1,0 +1,152 @@
+/* Sweeps under a weather file: each step takes its row, and gaps are told. */
+#include "check.h"
+
+#include "review/run/sweep_weather.h"
+
+#define DAY 24
+
+/* 21 June of another year, UTC: sun from 5 to 19 h; each row tells its label. */
+typedef struct Fixture {
+    WeatherHour     hours[DAY];
+    ReviewWeather   weather;
+    RoutePoint      points[4 * DAY];
+    ReviewRequest   request;
+    ReviewCondition condition;
+    Arena           arena;
+} Fixture;
+
+static bool is_day(int label)
+{
+    return label > 5 && label < 20;
+}
+
+/* A drive through the day, `steps` points an hour. */
+static Fixture *drive(int steps)
+{
+    static Fixture f;
+    f = (Fixture){.arena = arena_reserve((size_t)1 << 24)};
+    for (int i = 0; i < DAY; i++)
+        f.hours[i] = (WeatherHour){.line = 9 + i, .year = 1999, .month = 6, .day = 21,
+                                   .label_h = i + 1, .has_light = true,
+                                   .direct_normal_w_m2 = is_day(i + 1) ? 100 + i + 1 : 0,
+                                   .diffuse_horizontal_w_m2 = is_day(i + 1) ? 50 + i + 1 : 0};
+    f.weather = (ReviewWeather){.path = "w.epw",
+                                .weather = {.file = "w.epw", .city = "Here", .rows_per_hour = 1,
+                                            .hour = f.hours, .count = DAY},
+                                .clock = {.offset_h = -0.5}};
+    for (int i = 0; i < steps * DAY; i++)
+        f.points[i] = (RoutePoint){.when = {2026, 6, 21, i / steps,
+                                            (i % steps + 0.5) * 60 / steps, 0, 0},
+                                   .where = {50, 0, 0}};
+    f.request = (ReviewRequest){.weathers = &f.weather, .weather_count = 1};
+    f.condition = (ReviewCondition){.name = "drive", .kind = CONDITION_ROUTE,
+                                    .route = {"r", f.points, steps * DAY}};
+    return &f;
+}
+
+TEST(each_step_has_the_light_of_its_row)
+{
+    (void)state;
+    for (int steps = 1; steps <= 4; steps += 3) {
+        Fixture  *f = drive(steps);
+        Error     err;
+        SweepSuns suns = sweep_suns(&f->condition, &f->arena);
+        assert_true(suns.count > 15 * steps);
+        assert_true(sweep_weather_check(&f->request, &f->condition, &suns, f->arena, &err));
+        for (int i = 0; i < suns.count; i++) {
+            const SweepSun *sun = &suns.list[i];
+            DaylightInput   light;
+            int  label = sun->step / steps + 1;
+            bool is_lit = sweep_weather_light(&f->request, &f->condition, sun, &light);
+            assert_int_equal(is_lit, is_day(label));
+            if (!is_lit) continue;
+            assert_near(light.direct_w_m2, 100 + label, 1e-12);
+            assert_near(light.diffuse_w_m2, 50 + label, 1e-12);
+            assert_true(light.kind == DAYLIGHT_PEREZ && light.has_time && !light.has_sun &&
+                        light.when.year == 2026 && light.when.hour == label - 1);
+        }
+        arena_release(&f->arena);
+    }
+}
+
+/* All headings of an hour share its sky; dark ones have none. */
+TEST(skies_are_made_once_an_hour)
+{
+    (void)state;
+    Fixture  *f = drive(1);
+    Error     err = {0};
+    double    headings[3] = {0, 10, 200};
+    HourSkies skies;
+    f->condition = (ReviewCondition){.name = "year", .kind = CONDITION_YEAR_SWEEP, .year = 2026,
+                                     .where = {50, 0, 0}, .step_minutes = 60,
+                                     .headings_deg = headings, .heading_count = 3};
+    Stage     stage = {.request = &f->request, .condition = &f->condition, .tools.threads = 2};
+    SweepSuns suns = sweep_suns(&f->condition, &f->arena), day = suns;
+    while (day.list->step < 171 * 24) day.list++;
+    day.count = 3 * 15;
+    if (!sweep_weather_skies(&stage, &day, &f->arena, &skies, &err)) fail_msg("%s", err.text);
+    for (int i = 0; i < day.count; i++) {
+        int label = day.list[i].step - 171 * 24 + 1;
+        assert_int_equal(skies.of_sun[i] >= 0, is_day(label));
+        assert_int_equal(skies.of_sun[i], skies.of_sun[i - i % 3]);
+        if (i >= 3 && skies.of_sun[i] >= 0) assert_true(skies.of_sun[i] >= skies.of_sun[i - 3]);
+    }
+    arena_release(&f->arena);
+}
+
+typedef void Harm(Fixture *f);
+
+static void lose_a_row(Fixture *f) { f->hours[11] = f->hours[10]; }
+static void lose_values(Fixture *f) { f->hours[11].has_light = false; }
+static void lose_diffuse(Fixture *f) { f->hours[11].diffuse_horizontal_w_m2 = 0; }
+static void lose_noon(Fixture *f)
+{
+    for (int i = 11; i < 13; i++)
+        f->hours[i].direct_normal_w_m2 = f->hours[i].diffuse_horizontal_w_m2 = 0;
+}
+
+TEST(gaps_by_day_are_told)
+{
+    (void)state;
+    static const struct {
+        Harm       *harm;
+        const char *path, *words;
+    } wrong[] = {
+        {lose_a_row, "", "has no row within half an hour, where 'drive' needs one "
+                         "(2026-06-21 11:30, 1 of its 16 steps alike)"},
+        {lose_values, "line 20", "has no direct or no diffuse radiation, where 'drive' needs"},
+        {lose_diffuse, "line 20", "has 112 W/m2 of direct light and no diffuse, where"},
+        {lose_noon, "line 20", "is dark while the sun stands 63 degrees high, where 'drive' "
+                               "needs one (2026-06-21 11:30, 2 of its"},
+    };
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        Fixture *f = drive(1);
+        Error    err = {0};
+        wrong[i].harm(f);
+        SweepSuns suns = sweep_suns(&f->condition, &f->arena);
+        assert_false(sweep_weather_check(&f->request, &f->condition, &suns, f->arena, &err));
+        if (!strstr(err.text, wrong[i].words) || strcmp(err.path, wrong[i].path))
+            fail_msg("%s: %s", err.path, err.text);
+        arena_release(&f->arena);
+    }
+}
+
+TEST(gaps_by_night_matter_to_none)
+{
+    (void)state;
+    Fixture *f = drive(1);
+    Error    err;
+    f->hours[0].has_light = f->hours[23].has_light = false;
+    SweepSuns suns = sweep_suns(&f->condition, &f->arena);
+    assert_true(sweep_weather_check(&f->request, &f->condition, &suns, f->arena, &err));
+    f->condition.with_night = true;
+    for (int i = 0; i < DAY; i++) f->points[i].where.latitude_deg = 62; /* no deep night */
+    suns = sweep_suns(&f->condition, &f->arena);
+    assert_false(sweep_weather_check(&f->request, &f->condition, &suns, f->arena, &err));
+    arena_release(&f->arena);
+}
+
+int main(void)
+{
+    return run_cases(NULL, NULL);
+}
