@@ -190,6 +190,7 @@ typedef struct FoundChain {
     Chain  chain;
     double draw[CHAIN_RAYS]; /* of its rays, rising */
     double sum, squares;     /* of the chunks' means */
+    double sure;             /* its mean less one standard error: one lucky path has 0 */
     int    id;
     bool   is_kept;
 } FoundChain;
@@ -292,11 +293,22 @@ static ChainFigure figure_of(FoundSums sums, int chunks)
 }
 
 /* Greatest first; of equals the one that was found first. */
+static int compare(double x, double y, const FoundChain *a, const FoundChain *b)
+{
+    if (x != y) return x < y ? 1 : -1;
+    return (a->id > b->id) - (a->id < b->id);
+}
+
 static int by_sum(const void *a, const void *b)
 {
     const FoundChain *x = *(FoundChain *const *)a, *y = *(FoundChain *const *)b;
-    if (x->sum != y->sum) return x->sum < y->sum ? 1 : -1;
-    return (x->id > y->id) - (x->id < y->id);
+    return compare(x->sum, y->sum, x, y);
+}
+
+static int by_sureness(const void *a, const void *b)
+{
+    const FoundChain *x = *(FoundChain *const *)a, *y = *(FoundChain *const *)b;
+    return compare(x->sure, y->sure, x, y);
 }
 
 /* What the chunks gave to chains that are not kept. */
@@ -318,14 +330,19 @@ static void keep_greatest(const FoundChains *found, int chunks, int most, Arena 
                           Chains *out)
 {
     FoundChain **list = ARENA_NEW(&own, FoundChain *, found->count);
-    memcpy(list, found->by_id, (size_t)found->count * sizeof *list);
-    qsort(list, (size_t)found->count, sizeof *list, by_sum);
+    for (int i = 0; i < found->count; i++) {
+        list[i] = found->by_id[i];
+        list[i]->chain.figure =
+            figure_of((FoundSums){list[i]->sum, list[i]->squares}, chunks);
+        list[i]->sure = list[i]->chain.figure.cd_m2 - list[i]->chain.figure.sigma;
+    }
+    qsort(list, (size_t)found->count, sizeof *list, by_sureness);
     out->count = found->count < most ? found->count : most;
     out->others = found->count - out->count;
+    qsort(list, (size_t)out->count, sizeof *list, by_sum);
     for (int i = 0; i < out->count; i++) {
         list[i]->is_kept = true;
         out->list[i] = list[i]->chain;
-        out->list[i].figure = figure_of((FoundSums){list[i]->sum, list[i]->squares}, chunks);
     }
     out->rest = rest_of(found, chunks);
 }
