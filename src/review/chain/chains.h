@@ -3,9 +3,9 @@
  * A chain is what the eye's ray meets, by node and material, and what each does with light: the
  * first CHAIN_STEPS of it, the panes between, and where the light began. Parts of one node and
  * material count as one. Light is heard path by path (path.h); the greatest chains are kept
- * with some of their rays, all others are one figure, and they add up to what was seen. Greatest
- * are those that are so for sure: by their figure less one standard error, so that a lucky path
- * is no cause.
+ * with some of their rays, all others are one figure, and they add up to what was seen. Those
+ * count as greatest that are so for sure: by their figure less one standard error, so that a
+ * lucky path is no cause.
  *
  * Standard errors come from means of whole chunks of paths, as a reading's do (reading.h).
  *
