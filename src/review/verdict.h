@@ -92,7 +92,7 @@ typedef struct ReviewCase {
     double  sun_azimuth_deg, sun_elevation_deg; /* of a sweep's worst: of the vehicle */
     CaseLuminances luminance_cd_m2;
     double  contrast_ratio;      /* (brighter + reflected) / (darker + reflected) */
-    double  contrast_low, contrast_high; /* 95 %: sampling, and the panel's stated error */
+    double  contrast_low, contrast_high; /* 95 % or surer, of sampling alone */
     double  contrast_with_veil;
     double  height_arcmin;       /* the foreground's extent along the content's v */
     double  jnd;                 /* steps of DICOM's GSDF between the two, veil included */

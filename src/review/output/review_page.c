@@ -297,9 +297,9 @@ static void add_glossary(Text *html)
                      "the display reflects. 1 : 1 is nothing to see."},
         {"limit, margin", "what a standard wants at least, and how far the contrast is above "
                           "or below it in percent of the limit."},
-        {"95 % interval", "the calculation is made of random samples and the panel was "
-                          "measured with an error: the true value lies in the interval with "
-                          "95 % certainty."},
+        {"95 % interval", "the calculation is made of random samples: with 95 % certainty, or "
+                          "more, the interval holds what endless samples would give. What "
+                          "the panel was measured with is not in it."},
         {"too close to call", "the limit lies inside that interval."},
         {"not visible", "something stands in the way, such as the rim of the wheel."},
         {"reflected as in a mirror", "a picture of what stands opposite: sky, seat, shirt."},

@@ -195,7 +195,7 @@ void review_table_add_list(Text *html, const Review *review, Arena *arena)
         {"Eye", false, NULL},
         {"Contrast", true, "how many times brighter the bright part is than the dark part, "
                            "reflections included"},
-        {"95 % interval", true, "the true contrast lies in it with 95 % certainty"},
+        {"95 % interval", true, "holds what endless samples would give, with 95 % certainty"},
         {"Wanted", true, "the limit of the profile"},
         {"Margin", true, "how far above or below the limit"},
         {"half ← limit → twice", false, NULL}};
