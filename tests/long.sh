@@ -45,6 +45,8 @@ run 'false alarms and power of compare' compare-power \
     python3 tests/bench/compare_power.py .build/release/parhelion .build/release/bench_statistic
 run 'a hundred kills' resume-long \
     python3 tests/hostile/resume.py --kills 100 .build/release/parhelion
+run 'reviews killed, stopped and starved' review-resume-long \
+    python3 tests/hostile/review_resume.py --all --kills 40 .build/release/parhelion
 run 'parts of every kind' merge-long \
     python3 tests/image/merge.py --all .build/release/parhelion
 run 'what moves in a page' live python3 tests/page/live.py .build/release/parhelion

@@ -33,6 +33,8 @@ if run_one 'release build, warnings are errors' build-release build release all;
     start 'same bits, any parts' merge python3 tests/image/merge.py .build/release/parhelion
     start 'same bits, killed and resumed' resume \
         python3 tests/hostile/resume.py .build/release/parhelion
+    start 'same review, killed and resumed' review-resume \
+        python3 tests/hostile/review_resume.py .build/release/parhelion
     start 'same bytes, any names' names python3 tests/image/names.py .build/release/parhelion
     gather
     run 'closed forms in frames' image python3 tests/image/run.py .build/release/parhelion

@@ -1,7 +1,7 @@
 # Writes the C file OUTPUT with a number that changes with everything that decides a pixel:
 # cmake -DROOT=... -DOUTPUT=... -P hash_sources.cmake
-set(folders base text spectrum hemisphere sky image panel scene bvh light camera path film kernel
-  render)
+set(folders base text spectrum hemisphere sky image panel scene bvh light mirror guide camera path film
+  kernel render vision review/light)
 set(patterns ${ROOT}/shaders/*.[ch] ${ROOT}/third_party/*/*.[ch]pp ${ROOT}/third_party/*/*.h)
 foreach(folder ${folders})
   list(APPEND patterns ${ROOT}/src/${folder}/*.[ch])

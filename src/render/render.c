@@ -209,6 +209,22 @@ static void render_film(const RenderSetup *setup, const RenderOptions *options, 
     *result = run.result;
 }
 
+bool render_write_checkpoint(const CheckpointName *name, const RenderOptions *options,
+                             const RenderResult *so_far, Arena scratch, Error *err)
+{
+    const PathStatistics *cost = &so_far->statistics;
+    uint32_t   first = options->first_sample;
+    Checkpoint what = {.path = name->path, .identity = name->identity,
+                       .done = film_part_of(so_far->film, first, first + so_far->samples),
+                       .seconds = so_far->seconds, .has_features = so_far->has_features};
+    what.done.asked_end = options->end_sample;
+    what.done.paths = cost->samples;
+    what.done.camera_rays = cost->camera_rays;
+    what.done.bounce_rays = cost->bounce_rays;
+    what.done.shadow_rays = cost->shadow_rays;
+    return checkpoint_write(&what, so_far->film, scratch, err);
+}
+
 /* ---- before the first pass --------------------------------------------------------------- */
 
 static bool read_field(RenderSetup *setup, const char *path, Arena *arena, Error *err)

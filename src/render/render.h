@@ -92,6 +92,15 @@ bool render_prepare(const Scene *scene, const SceneCamera *camera, const RenderO
 bool render_prepared(const RenderSetup *setup, const RenderOptions *options, Arena *arena,
                      RenderResult *out, Error *err);
 
+/* Where a checkpoint is kept, and what decides its samples (identity.h). */
+typedef struct CheckpointName {
+    const char *path, *identity;
+} CheckpointName;
+
+/* Keeps what is done so far, in place of what was kept before. */
+bool render_write_checkpoint(const CheckpointName *name, const RenderOptions *options,
+                             const RenderResult *so_far, Arena scratch, Error *err);
+
 void render_setup_end(RenderSetup *setup);
 
 /* Samples a pixel of the pass that begins after `done` samples, for so many pixels; where no

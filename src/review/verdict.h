@@ -188,8 +188,9 @@ typedef struct ReviewFalseSun {
 
 typedef struct ReviewResponse {
     const char *probe;
+    const char *file;  /* "responses/NAME.response", or where it is kept else; NULL: not told */
     long        paths;
-    size_t      bytes;
+    size_t      bytes; /* of the file */
     double      relative_error;
 } ReviewResponse;
 

@@ -5,7 +5,7 @@
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
-#include "cli/render/render_identity.h"
+#include "render/identity.h"
 #include "film/film_frame.h"
 #include "film/film_merge.h"
 #include "harness.h"
@@ -74,8 +74,8 @@ void fuzz_checkpoint(const uint8_t *data, size_t size, Arena *arena)
         fuzz_claim_refusal(&err);
         return;
     }
-    render_identity_difference(found.identity, "version\t1\nseed\t9\n", arena);
-    render_identity_difference("version\t1\nseed\t9\n", found.identity, arena);
+    identity_difference(found.identity, "version\t1\nseed\t9\n", arena);
+    identity_difference("version\t1\nseed\t9\n", found.identity, arena);
     if (!checkpoint_fits(&found, &found.done, &err)) fuzz_claim_refusal(&err);
     Film *film = film_of(&found.done, arena);
     if (!film) return;

@@ -3,6 +3,7 @@
 #include "fixture.h"
 
 #include "cli/render/render_identity.h"
+#include "render/identity.h"
 #include "cli/render/render_resume.h"
 
 /* ---- what is in it ----------------------------------------------------------------------- */
@@ -137,7 +138,7 @@ TEST(what_decides_a_sample_is_in_it_and_nothing_else)
         changes[i].make(&other);
         const char *wanted = changes[i].difference;
         const char *here = identity_of(&other, arena);
-        const char *found = render_identity_difference(there, here, arena);
+        const char *found = identity_difference(there, here, arena);
         if (!wanted != !found || (wanted && strncmp(found, wanted, strlen(wanted)) != 0))
             fail_msg("change %zu: \"%s\", wanted \"%s\"", i, found ? found : "none",
                      wanted ? wanted : "none");
@@ -177,7 +178,7 @@ TEST(the_first_line_that_differs_is_named)
     };
     Arena *arena = *state;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        const char *text = render_identity_difference(cases[i].there, cases[i].here, arena);
+        const char *text = identity_difference(cases[i].there, cases[i].here, arena);
         if (!text != !cases[i].text || (text && strcmp(text, cases[i].text) != 0))
             fail_msg("case %zu: \"%s\"", i, text ? text : "none");
     }

@@ -60,7 +60,7 @@ static ProbeAim aim_of(const World *world)
 static Reading read_all(const ProbeAim *aim, Arena scratch)
 {
     ReadingGoal  goal = {.precision = 0.01, .most = 1 << 16};
-    ReadingTools tools = {kernel(), 2};
+    ReadingTools tools = {.kernel = kernel(), .threads = 2};
     return reading_take(aim, &goal, &tools, scratch);
 }
 

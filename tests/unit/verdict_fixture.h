@@ -190,8 +190,9 @@ static inline Review fixture_review(Arena *arena)
          "2026-10-03 06:42 UTC, heading 90 degrees", 181.5, 12.25, 31000, "speed", 24.5, 410},
         {"any sun", "driver", "glass Windscreen", 0.02, NAN, NAN, NULL, 170, 21, 7000, "road",
          14, 260}};
-    static ReviewResponse responses[] = {{"speed, driver: reflected", 1200000, 4200000, 0.004},
-                                         {"speed, driver: veil", 400000, 310000, 0.011}};
+    static ReviewResponse responses[] = {{"speed, driver: reflected", "responses/a.response",
+                                          1200000, 4200000, 0.004},
+                                         {"speed, driver: veil", NULL, 400000, 310000, 0.011}};
     Review review = {.title = "Cluster and centre display",
                      .profile = "ISO 15008: in-vehicle visual presentation, third edition",
                      .cases = ARENA_NEW(arena, ReviewCase, 24), .case_count = 24,
@@ -229,7 +230,7 @@ static inline Review fixture_odd_review(Arena *arena)
     static const CaseCause  CAUSES[] = {{CHAIN, 3, NAN, NAN, NAN, NAN, NAN, NULL, 0},
                                        {CHAIN, 0, 1, 0, 0, 0, 1, NULL, 0}};
     static const CaseRemedy REMEDIES[] = {{WILD_NAME, NAN, NAN}, {"", 3, 4}};
-    static ReviewResponse   responses[] = {{WILD_NAME, 0, 0, NAN}};
+    static ReviewResponse   responses[] = {{WILD_NAME, WILD_NAME, 0, 0, NAN}};
     static ReviewFalseSun   false_suns[] = {
         {WILD_NAME, WILD_NAME, WILD_NAME, NAN, NAN, NAN, NULL, 0, -1, 1e9, WILD_NAME, 0.1,
          3e7}};

@@ -14,7 +14,7 @@
 #include "cli/render/command_line.h"
 #include "cli/render/frame_outcome.h"
 #include "cli/render/render_commands.h"
-#include "cli/render/render_identity.h"
+#include "render/identity.h"
 #include "film/film_frame.h"
 #include "film/film_merge.h"
 #include "text/json_text.h"
@@ -118,7 +118,7 @@ static bool check_identity(MergeRun *work, const FilmPart *part, const FilmPart 
         return error_set(err, ERROR_INPUT, "does not say what it was rendered from "
                                            "(parhelion:identity is missing)");
     if (!work->identity) work->identity = arena_string(work->arena, identity, strlen(identity));
-    const char *difference = render_identity_difference(work->identity, identity, work->arena);
+    const char *difference = identity_difference(work->identity, identity, work->arena);
     if (difference)
         return error_set(err, ERROR_INPUT,
                          "is of another frame than %s: %s — merge parts of one scene, camera, "

@@ -24,7 +24,3 @@
  * command line changed already. */
 const char *render_identity(const RenderRequest *request, const Scene *scene,
                             const SceneCamera *camera, const Kernel *kernel, Arena *arena);
-
-/* The first line that differs, as a phrase for an error ("seed: 1 there, 2 here"; "none" where
- * one of them has no such line); NULL when the texts are the same. */
-const char *render_identity_difference(const char *there, const char *here, Arena *arena);

@@ -5,7 +5,7 @@
 
 #include "base/file.h"
 #include "base/file_write.h"
-#include "cli/render/render_identity.h"
+#include "render/identity.h"
 
 /* Hours of rendering must not end at a checkpoint that cannot be written, and a slip of the
  * fingers must not replace a scene by one. */
@@ -38,7 +38,7 @@ static bool open_and_check(const RenderRequest *request, const char *identity, A
                                    .end_sample = options->end_sample};
     Checkpoint           found;
     if (!checkpoint_open(request->checkpoint, arena, &found, err)) return false;
-    const char *difference = render_identity_difference(found.identity, identity, arena);
+    const char *difference = identity_difference(found.identity, identity, arena);
     if (difference)
         return error_at(err, ERROR_INPUT, request->checkpoint, "",
                         "is of another render: %s — leave out --resume to begin anew",
@@ -81,17 +81,8 @@ bool render_find_checkpoint(const RenderRequest *request, const char *identity, 
 bool render_keep_checkpoint(const RenderRequest *request, const char *identity,
                             const RenderResult *so_far, Arena scratch, Error *err)
 {
-    const PathStatistics *cost = &so_far->statistics;
-    uint32_t   first = request->render.first_sample;
-    Checkpoint what = {.path = request->checkpoint, .identity = identity,
-                       .done = film_part_of(so_far->film, first, first + so_far->samples),
-                       .seconds = so_far->seconds, .has_features = so_far->has_features};
-    what.done.asked_end = request->render.end_sample;
-    what.done.paths = cost->samples;
-    what.done.camera_rays = cost->camera_rays;
-    what.done.bounce_rays = cost->bounce_rays;
-    what.done.shadow_rays = cost->shadow_rays;
-    return checkpoint_write(&what, so_far->film, scratch, err);
+    const CheckpointName name = {request->checkpoint, identity};
+    return render_write_checkpoint(&name, &request->render, so_far, scratch, err);
 }
 
 void render_remove_checkpoint(const RenderRequest *request)

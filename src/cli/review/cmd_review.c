@@ -5,9 +5,11 @@
 #include <string.h>
 
 #include "base/count.h"
+#include "base/file.h"
 #include "cli/options/answer.h"
 #include "cli/options/cli.h"
 #include "cli/review/review_folder.h"
+#include "render/signals.h"
 #include "review/output/review_decide.h"
 #include "review/output/review_json.h"
 #include "review/request/request_start.h"
@@ -16,7 +18,7 @@
 #include "scene/load/scene_load.h"
 
 typedef struct ReviewWords {
-    const char *folder, *profile, *root, *isa, *diff, *init;
+    const char *folder, *profile, *root, *isa, *diff, *init, *responses;
     bool        is_strict, dry_run;
     Cli         cli;
 } ReviewWords;
@@ -34,6 +36,9 @@ static bool parse(int argc, char **argv, Arena *arena, ReviewWords *out, Error *
          &out->is_strict},
         {"--diff", OPTION_TEXT, "DIR", "an earlier review to hold this one against",
          &out->diff},
+        {"--responses", OPTION_TEXT, "DIR",
+         "where responses are kept and found (default: responses in the review's folder)",
+         &out->responses},
         {"--root", OPTION_TEXT, "DIR", ROOT_HELP, &out->root},
         {"--isa", OPTION_TEXT, "NAME", "sse2, avx2, avx512 (default: the processor's best)",
          &out->isa},
@@ -101,20 +106,49 @@ static bool answer(const Cli *cli, const Review *review, Error *err)
     return true;
 }
 
-static bool print_plan(const Cli *cli, const ReviewRequest *r, Error *err)
+/* ---- what would be traced ---------------------------------------------------------------- */
+
+static bool print_plan(const Cli *cli, const ReviewRequest *r, const ReviewPlan *plan,
+                       Error *err)
 {
     int moments = 0;
     for (int i = 0; i < r->condition_count; i++)
         moments += r->conditions[i].kind == CONDITION_MOMENT;
     if (cli->json)
-        return cli_print_json(json_pack("{s:i, s:i, s:i, s:i, s:i}", "eyes", r->eye_count,
-                                        "symbols", r->symbol_count, "gazes",
+        return cli_print_json(json_pack("{s:i, s:i, s:i, s:i, s:i, s:i, s:i}", "eyes",
+                                        r->eye_count, "symbols", r->symbol_count, "gazes",
                                         review_look_count(r), "moments", moments, "sweeps",
-                                        r->condition_count - moments), err);
-    printf("eyes     %d\nsymbols  %d (a rectangle of text counts as one here)\n"
-           "gazes    %d (eyes that look elsewhere, in each moment)\n"
-           "moments  %d\nsweeps   %d\n", r->eye_count, r->symbol_count, review_look_count(r),
-           moments, r->condition_count - moments);
+                                        r->condition_count - moments, "responses",
+                                        plan->responses, "responses_reused",
+                                        plan->responses_kept), err);
+    printf("eyes      %d\nsymbols   %d (a rectangle of text counts as one here)\n"
+           "gazes     %d (eyes that look elsewhere, in each moment)\n"
+           "moments   %d\nsweeps    %d\nresponses %d (%d of them there already)\n",
+           r->eye_count, r->symbol_count, review_look_count(r), moments,
+           r->condition_count - moments, plan->responses, plan->responses_kept);
+    return true;
+}
+
+/* Of a review that was stopped. */
+static void print_unfinished(const ReviewFolder *folder, Arena *arena)
+{
+    const char *journal = arena_format(arena, "%s/unfinished/journal", folder->target);
+    if (file_exists(journal))
+        printf("%s/unfinished holds what is done of a review that was stopped: it goes on "
+               "there\n", folder->target);
+}
+
+static bool plan(const ReviewWords *words, ReviewFolder *folder, ReviewRun *run, Arena *arena,
+                 Error *err)
+{
+    ReviewPlan found;
+    if (folder->target || folder->responses) review_folder_responses(folder, arena);
+    run->responses = folder->responses;
+    run->responses_shown = "";
+    if (!review_plan(run, &found, err)) return false;
+    cli_print_warnings(run->problems);
+    if (!print_plan(&words->cli, run->request, &found, err)) return false;
+    if (folder->target && !words->cli.json) print_unfinished(folder, arena);
     return true;
 }
 
@@ -136,43 +170,85 @@ static bool start(const ReviewWords *words, Arena *arena, Error *err)
 
 /* ---- the command ------------------------------------------------------------------------- */
 
+/* The line may be longer than an error's text. */
+static void tell_stopped(const ReviewFolder *folder, Error *err, Arena *arena)
+{
+    const char *name = err->code == ERROR_INTERRUPTED ? "INT"
+                       : err->code == ERROR_HUNG_UP   ? "HUP" : "TERM";
+    fprintf(stderr,
+            "parhelion: %s: stopped by %s; what is done is kept in %s — the same command goes "
+            "on: %s\n",
+            folder->target, name, folder->draft.unfinished,
+            review_folder_command(folder, arena));
+    err->text[0] = '\0';
+}
+
+static void tell_kept(const ReviewFolder *folder, Error *err)
+{
+    const Error before = *err;
+    if (err->code == ERROR_OUTPUT && journal_count(folder->draft.journal))
+        error_at(err, before.code, before.file, before.path,
+                 "%.900s — what is done is kept: the same command goes on", before.text);
+}
+
+/* Frames take long: all else is safe before, and names them after. */
+static bool make_all(ReviewRun *run, ReviewFolder *folder, ReviewOutcome *outcome, Arena *arena,
+                     Error *err)
+{
+    bool is_run = review_run(run, arena, outcome, err);
+    cli_print_warnings(run->problems);
+    if (!is_run) return false;
+    outcome->review.is_strict = folder->is_strict;
+    review_decide(&outcome->review);
+    return review_folder_write(folder, outcome, arena, err) &&
+           (run->request->frames.worst == 0 ||
+            (review_frames(run, outcome, arena, err) &&
+             review_folder_write(folder, outcome, arena, err)));
+}
+
+static bool make(const ReviewWords *words, ReviewFolder *folder, ReviewRun *run, Arena *arena,
+                 Error *err)
+{
+    ReviewOutcome outcome;
+    signals_watch();
+    if (!review_folder_open(folder, arena, run->problems, err)) return false;
+    run->folder = folder->name;
+    run->unfinished = folder->draft.unfinished;
+    run->responses = folder->responses;
+    run->responses_shown = folder->responses_shown;
+    run->journal = folder->draft.journal;
+    if (!make_all(run, folder, &outcome, arena, err)) {
+        if (err->code > 128) tell_stopped(folder, err, arena);
+        else tell_kept(folder, err);
+        review_folder_close(folder);
+        return false;
+    }
+    review_folder_finish(folder);
+    if (!answer(&words->cli, &outcome.review, err)) return false;
+    if (outcome.review.pass) return true;
+    *err = (Error){.code = ERROR_DIFFERENT};
+    return false;
+}
+
 static bool review(const ReviewWords *words, Arena *arena, Error *err)
 {
     const char    *file = words->cli.arguments[0];
     Problems       problems = problems_start(arena);
     ReviewRequest  request;
     const Profile *profile;
-    ReviewOutcome  outcome;
-    ReviewFolder   folder = {.name = words->folder, .request = &request, .diff = words->diff,
+    ReviewFolder   folder = {.target = words->folder, .request = &request, .diff = words->diff,
                              .profile = words->profile, .root = words->root,
-                             .threads = words->cli.threads, .is_strict = words->is_strict};
+                             .responses = words->responses, .threads = words->cli.threads,
+                             .is_strict = words->is_strict};
     if (!review_request_read(file, words->root, arena, &problems, &request, err)) return false;
     if (!profile_load(words->profile ? words->profile : request.profile, arena, &profile, err))
         return false;
     if (!review_check(&request, *arena, err)) return false;
-    if (words->dry_run) return print_plan(&words->cli, &request, err);
-    if (!review_folder_open(&folder, arena, err)) return false;
     ReviewRun run = {.request = &request, .profile = profile, .root = words->root,
                      .threads = words->cli.threads, .isa = words->isa,
-                     .progress = words->cli.progress, .folder = words->folder,
-                     .problems = &problems};
-    if (!review_run(&run, arena, &outcome, err)) {
-        review_folder_discard(&folder);
-        return false;
-    }
-    cli_print_warnings(&problems);
-    outcome.review.is_strict = words->is_strict;
-    review_decide(&outcome.review);
-    /* Frames take long: all else is safe before, and names them after. */
-    if (!review_folder_write(&folder, &outcome, arena, err) ||
-        (request.frames.worst > 0 &&
-         (!review_frames(&run, &outcome, arena, err) ||
-          !review_folder_write(&folder, &outcome, arena, err))) ||
-        !answer(&words->cli, &outcome.review, err))
-        return false;
-    if (outcome.review.pass) return true;
-    *err = (Error){.code = ERROR_DIFFERENT};
-    return false;
+                     .progress = words->cli.progress, .problems = &problems};
+    return words->dry_run ? plan(words, &folder, &run, arena, err)
+                          : make(words, &folder, &run, arena, err);
 }
 
 static bool run(int argc, char **argv, Arena *arena, Error *err)

@@ -1,11 +1,8 @@
 #include "cli/review/review_folder.h"
 
-#include <errno.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
-#include "base/file_write.h"
 #include "base/machine.h"
 #include "base/progress.h"
 #include "cli/options/version.h"
@@ -20,22 +17,7 @@
 
 #define MAP_STEP_DEG 5
 
-/* ---- folders ----------------------------------------------------------------------------- */
-
-static bool make_folder(ReviewFolder *folder, const char *path, Error *err)
-{
-    struct stat there;
-    if (!stat(path, &there) && S_ISDIR(there.st_mode)) return true;
-    if (mkdir(path, 0777))
-        return error_at(err, ERROR_OUTPUT, path, "", "%s: wanted a folder", strerror(errno));
-    folder->made[folder->made_count++] = path;
-    return true;
-}
-
-void review_folder_discard(const ReviewFolder *folder)
-{
-    for (int i = folder->made_count - 1; i >= 0; i--) rmdir(folder->made[i]);
-}
+/* ---- before the work ------------------------------------------------------------------*/
 
 static bool read_earlier(ReviewFolder *folder, Arena *arena, Error *err)
 {
@@ -44,17 +26,43 @@ static bool read_earlier(ReviewFolder *folder, Arena *arena, Error *err)
                             &folder->before, err);
 }
 
-bool review_folder_open(ReviewFolder *folder, Arena *arena, Error *err)
+void review_folder_responses(ReviewFolder *folder, Arena *arena)
+{
+    folder->has_own_responses = !folder->responses;
+    folder->responses_shown = folder->responses ? folder->responses : "responses";
+    if (!folder->responses)
+        folder->responses = arena_format(arena, "%s/responses", folder->target);
+}
+
+/* Responses outlive the review: their folder is no draft. */
+static bool open_responses(ReviewFolder *folder, Arena *arena, Error *err)
+{
+    review_folder_responses(folder, arena);
+    return folder_make(folder->responses, err);
+}
+
+bool review_folder_open(ReviewFolder *folder, Arena *arena, Problems *problems, Error *err)
 {
     folder->begun_s = monotonic_seconds();
-    if (!read_earlier(folder, arena, err)) return false;
-    if (make_folder(folder, folder->name, err) &&
-        make_folder(folder, arena_format(arena, "%s/sweeps", folder->name), err) &&
-        make_folder(folder, arena_format(arena, "%s/frames", folder->name), err) &&
-        file_check_writable(arena_format(arena, "%s/review.json", folder->name), err))
-        return true;
-    review_folder_discard(folder);
+    if (!read_earlier(folder, arena, err) ||
+        !review_draft_open(folder->target, arena, problems, &folder->draft, err))
+        return false;
+    folder->name = folder->draft.folder;
+    if (open_responses(folder, arena, err)) return true;
+    review_folder_close(folder);
     return false;
+}
+
+void review_folder_close(ReviewFolder *folder)
+{
+    if (folder->has_own_responses) rmdir(folder->responses);
+    review_draft_close(&folder->draft);
+}
+
+void review_folder_finish(ReviewFolder *folder)
+{
+    if (folder->has_own_responses) rmdir(folder->responses);
+    review_draft_finish(&folder->draft);
 }
 
 /* ---- sweeps ------------------------------------------------------------------------------ */
@@ -184,21 +192,24 @@ static void add_facts(const ReviewRequest *request, ReviewPage *page, Arena *are
     page->facts = facts;
 }
 
-static const char *command_of(const ReviewFolder *folder, Arena *arena)
+const char *review_folder_command(const ReviewFolder *folder, Arena *arena)
 {
     const char *profile =
         folder->profile ? arena_format(arena, " --profile %s", folder->profile) : "";
     const char *diff = folder->diff ? arena_format(arena, " --diff %s", folder->diff) : "";
     const char *root = folder->root ? arena_format(arena, " --root %s", folder->root) : "";
-    return arena_format(arena, "parhelion review %s -o %s%s%s%s%s", folder->request->file,
-                        folder->name, profile, root, diff,
+    const char *responses = folder->has_own_responses
+                                ? ""
+                                : arena_format(arena, " --responses %s", folder->responses);
+    return arena_format(arena, "parhelion review %s -o %s%s%s%s%s%s", folder->request->file,
+                        folder->target, profile, root, diff, responses,
                         folder->is_strict ? " --strict" : "");
 }
 
 static bool write_page(const ReviewFolder *folder, const ReviewOutcome *outcome, Arena *arena,
                        Error *err)
 {
-    const char *command = command_of(folder, arena);
+    const char *command = review_folder_command(folder, arena);
     ReviewPage page = {.review = &outcome->review, .commands = &command, .command_count = 1};
     ReviewDiff diff;
     ReviewLive live;
@@ -209,7 +220,7 @@ static bool write_page(const ReviewFolder *folder, const ReviewOutcome *outcome,
     add_pictures(folder, &outcome->review, &page, arena);
     add_facts(folder->request, &page, arena);
     if (folder->diff) {
-        diff = review_diff(&folder->before, &outcome->review, folder->diff, folder->name,
+        diff = review_diff(&folder->before, &outcome->review, folder->diff, folder->target,
                            arena);
         page.diff = &diff;
         if (!review_json_write(review_diff_json(&diff),
@@ -219,11 +230,13 @@ static bool write_page(const ReviewFolder *folder, const ReviewOutcome *outcome,
     return review_page_write(&page, arena_format(arena, "%s/index.html", folder->name), err);
 }
 
-static bool write_run(const ReviewFolder *folder, Arena *arena, Error *err)
+static bool write_run(const ReviewFolder *folder, const ReviewOutcome *outcome, Arena *arena,
+                      Error *err)
 {
-    json_t *run = json_pack("{s:f, s:f, s:s}", "seconds",
+    json_t *run = json_pack("{s:f, s:f, s:s, s:i}", "seconds",
                             monotonic_seconds() - folder->begun_s, "peak_memory_bytes",
-                            machine_peak_bytes(), "version", PARHELION_VERSION);
+                            machine_peak_bytes(), "version", PARHELION_VERSION,
+                            "responses_reused", outcome->responses_kept);
     return review_json_write(run, arena_format(arena, "%s/run.json", folder->name), err);
 }
 
@@ -241,5 +254,6 @@ bool review_folder_write(const ReviewFolder *folder, ReviewOutcome *outcome, Are
            review_junit_write(review, arena_format(arena, "%s/junit.xml", folder->name), err) &&
            review_json_write(review_json(review),
                              arena_format(arena, "%s/review.json", folder->name), err) &&
-           write_page(folder, outcome, arena, err) && write_run(folder, arena, err);
+           write_page(folder, outcome, arena, err) && write_run(folder, outcome, arena, err) &&
+           review_draft_publish(&folder->draft, review, *arena, err);
 }

@@ -1,36 +1,52 @@
 /* review_folder.h -- the folder of a review: page, documents, tables, pictures.
  *
  * index.html, review.json, cases.csv, junit.xml; sweeps/NAME.csv; frames/NAME.exr and .png;
- * run.json with what may differ from run to run; diff.json beside an earlier review.
+ * responses/NAME.response; run.json with what may differ from run to run; diff.json beside an
+ * earlier review; unfinished/ (review_draft.h) until all is there.
  *
  * Memory   from the arena.
  * Threads  one at a time.
  * Fails    with the file or folder that cannot be written.
  */
 #pragma once
+#include "cli/review/review_draft.h"
 #include "review/run/sweep_output.h"
 
 typedef struct ReviewFolder {
-    const char          *name;
+    const char          *target; /* as on the command line */
     const ReviewRequest *request;
     const char          *diff; /* folder of an earlier review; NULL: none */
     const char          *profile, *root; /* as on the command line; NULL: not given */
+    const char          *responses; /* the same, then where they are */
     int                  threads;
     bool                 is_strict;
     Review               before; /* what stood there */
     double               begun_s;
-    const char          *made[3]; /* folders that were not there */
-    int                  made_count;
+    /* since it is open: */
+    ReviewDraft          draft;
+    const char          *name; /* where its files are written: the draft's folder */
+    const char          *responses_shown;   /* as review.json names the folder */
+    bool                 has_own_responses; /* DIR/responses */
 } ReviewFolder;
+
+/* Sets where responses are. */
+void review_folder_responses(ReviewFolder *folder, Arena *arena);
 
 /* Before the work: makes it and what is in it, sees that it can be written, and reads the
  * earlier review, which may lie in the same folder. What it made is gone again when it fails.
  */
-bool review_folder_open(ReviewFolder *folder, Arena *arena, Error *err);
+bool review_folder_open(ReviewFolder *folder, Arena *arena, Problems *problems, Error *err);
 
-/* After a failure: the folders that were made, as far as they are empty. */
-void review_folder_discard(const ReviewFolder *folder);
+/* After a failure: what was found is kept; the folders that were made go as far as they are
+ * empty. */
+void review_folder_close(ReviewFolder *folder);
 
-/* Sets the tables' names in the sweeps. */
+/* The review is whole: nothing is left to go on with. */
+void review_folder_finish(ReviewFolder *folder);
+
+/* The command that makes it. */
+const char *review_folder_command(const ReviewFolder *folder, Arena *arena);
+
+/* All files take the places of an earlier review's. Sets the tables' names in the sweeps. */
 bool review_folder_write(const ReviewFolder *folder, ReviewOutcome *outcome, Arena *arena,
                          Error *err);

@@ -2,8 +2,10 @@
 
 #include <math.h>
 
+#include "base/count.h"
 #include "base/parallel.h"
 #include "base/units.h"
+#include "review/light/question.h"
 #include "vision/disability_glare.h"
 #include "vision/discomfort.h"
 #include "vision/position_index.h"
@@ -334,7 +336,7 @@ static void set_head(EyePaths *paths)
     paths->up = vec3_cross(paths->right, paths->gaze);
 }
 
-EyeReading eye_read(const Stage *stage, const EyeLook *look, Arena scratch)
+static EyeReading read_eye(const Stage *stage, const EyeLook *look, Arena scratch)
 {
     const ReviewObserver *observer = &stage->request->observer;
     int      count = look->rounds * PATHS;
@@ -352,4 +354,24 @@ EyeReading eye_read(const Stage *stage, const EyeLook *look, Arena scratch)
     parallel_for(stage->tools.threads, count / CHUNK, read_chunk, &paths);
     PupilSums *pupils = read_pupil(&paths, &scratch);
     return sum_up(&paths, pupils, scratch);
+}
+
+EyeReading eye_read(const Stage *stage, const EyeLook *look, Arena scratch)
+{
+    const ReadingTools   *tools = &stage->tools;
+    const ReviewObserver *observer = &stage->request->observer;
+    const double         *ahead = stage->request->forward;
+    EyeReading reading;
+    if (!tools->journal) return read_eye(stage, look, scratch);
+    ProbeAim   aim = {.context = &stage->context, .eye = look->eye, .targets = &look->towards,
+                      .target_count = 1, .seed = SEED};
+    double     numbers[] = {observer->age_years, observer->pigment, look->rounds, ahead[0],
+                            ahead[1], ahead[2]};
+    Question   question = {.base = tools->base, .kind = "eye", .numbers = numbers,
+                           .number_count = COUNT_OF(numbers)};
+    JournalKey key = question_key(&question, &aim, scratch);
+    if (journal_find(tools->journal, key, &reading, sizeof reading)) return reading;
+    reading = read_eye(stage, look, scratch);
+    journal_add(tools->journal, key, &reading, sizeof reading);
+    return reading;
 }

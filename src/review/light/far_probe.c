@@ -5,6 +5,7 @@
 #include "base/count.h"
 #include "base/parallel.h"
 #include "base/units.h"
+#include "review/light/question.h"
 
 
 /* ---- skies ------------------------------------------------------------------------------- */
@@ -157,6 +158,26 @@ void far_probe_respond(FarProbe *probe, const FarTools *tools, Arena *arena)
     response_trace(&probe->aim, &options, arena, &probe->response);
 }
 
+static const float *ask_suns(const FarProbe *probe, const ReadingTools *with,
+                             const ResponseOptions *options, const ProbeSuns *suns,
+                             Arena *arena)
+{
+    if (!with->journal) return response_suns(&probe->aim, options, suns, arena);
+    double   numbers[] = {options->paths, (double)suns->cos_radius, suns->by_mirror};
+    Question question = {.base = with->base, .kind = "suns", .numbers = numbers,
+                         .number_count = COUNT_OF(numbers), .towards = suns->towards,
+                         .towards_count = suns->count};
+    JournalKey key = question_key(&question, &probe->aim, *arena);
+    Arena    before = *arena;
+    size_t   bytes = (size_t)suns->count * RESPONSE_BANDS * sizeof(float);
+    float   *kept = ARENA_NEW(arena, float, (size_t)suns->count * RESPONSE_BANDS);
+    if (journal_find(with->journal, key, kept, bytes)) return kept;
+    *arena = before;
+    const float *found = response_suns(&probe->aim, options, suns, arena);
+    journal_add(with->journal, key, found, bytes);
+    return found;
+}
+
 void far_probe_ask(FarProbe *probe, const FarTools *tools, Arena *arena)
 {
     const ReadingTools *with = &tools->stage->tools;
@@ -169,11 +190,11 @@ void far_probe_ask(FarProbe *probe, const FarTools *tools, Arena *arena)
                                      with->threads, arena);
     else
         sum_skies(probe, tools, arena);
-    probe->scattered = response_suns(&probe->aim, &options, &suns, arena);
+    probe->scattered = ask_suns(probe, with, &options, &suns, arena);
     suns.by_mirror = true;
     options.paths = tools->mirror_paths;
     probe->mirror =
-        tools->mirror_paths ? response_suns(&probe->aim, &options, &suns, arena) : NULL;
+        tools->mirror_paths ? ask_suns(probe, with, &options, &suns, arena) : NULL;
 }
 
 static double sky_reading(const FarProbe *probe, const SkyTable *table, SunAngles sun)

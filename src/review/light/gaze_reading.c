@@ -2,8 +2,10 @@
 
 #include <math.h>
 
+#include "base/count.h"
 #include "base/parallel.h"
 #include "base/units.h"
+#include "review/light/question.h"
 
 #define CHUNK 64
 #define LEAST (32 * CHUNK)
@@ -190,7 +192,7 @@ static GazeMirrored find_mirrored(const Stage *stage, const ProbeAim *aim, Arena
                           shown < parts ? LIGHTS_SUN : (LightSet)(shown - parts)};
 }
 
-GazeReading gaze_read(const Stage *stage, const GazeGoal *goal, Arena scratch)
+static GazeReading read_gaze(const Stage *stage, const GazeGoal *goal, Arena scratch)
 {
     GazeReading out = {.most = {NO_ID, NO_ID, LIGHTS_SUN}};
     Vec3       *targets = ARENA_NEW(&scratch, Vec3, TARGETS);
@@ -200,4 +202,21 @@ GazeReading gaze_read(const Stage *stage, const GazeGoal *goal, Arena scratch)
     read_cone(stage, goal, &aim, &out, scratch);
     if (out.mirrored > 0) out.most = find_mirrored(stage, &aim, scratch);
     return out;
+}
+
+GazeReading gaze_read(const Stage *stage, const GazeGoal *goal, Arena scratch)
+{
+    const ReadingTools *tools = &stage->tools;
+    GazeReading reading;
+    if (!tools->journal) return read_gaze(stage, goal, scratch);
+    ProbeAim   aim = {.context = &stage->context, .eye = goal->eye, .targets = &goal->towards,
+                      .target_count = 1, .seed = SEED};
+    double     numbers[] = {goal->precision, goal->most};
+    Question   question = {.base = tools->base, .kind = "gaze", .numbers = numbers,
+                           .number_count = COUNT_OF(numbers)};
+    JournalKey key = question_key(&question, &aim, scratch);
+    if (journal_find(tools->journal, key, &reading, sizeof reading)) return reading;
+    reading = read_gaze(stage, goal, scratch);
+    journal_add(tools->journal, key, &reading, sizeof reading);
+    return reading;
 }

@@ -2,8 +2,10 @@
 
 #include <math.h>
 
+#include "base/count.h"
 #include "base/parallel.h"
 #include "base/sampler.h"
+#include "review/light/question.h"
 
 /* Batches are alike and independent: each has a seed of its own, its samples are well spread
  * among themselves. */
@@ -100,8 +102,8 @@ static int rounds_after(long first, long most)
     return rounds;
 }
 
-Reading reading_take(const ProbeAim *aim, const ReadingGoal *goal, const ReadingTools *tools,
-                     Arena scratch)
+static Reading take(const ProbeAim *aim, const ReadingGoal *goal, const ReadingTools *tools,
+                    Arena scratch)
 {
     Batch  *batches = ARENA_NEW(&scratch, Batch, BATCHES);
     int     least = goal->question ? READING_ASKED_LEAST : READING_LEAST;
@@ -116,4 +118,27 @@ Reading reading_take(const ProbeAim *aim, const ReadingGoal *goal, const Reading
         round.end *= 2;
     } while (uncertainty(&reading, goal) > goal->precision && 2 * reading.paths <= goal->most);
     return reading_of(batches, round.first, look_miss(true, looks));
+}
+
+static JournalKey key_of(const ProbeAim *aim, const ReadingGoal *goal,
+                         const ReadingTools *tools, Arena scratch)
+{
+    const ReadingQuestion *asked = goal->question;
+    double   numbers[] = {goal->brighter, goal->darker, goal->precision, (double)goal->most,
+                          asked ? asked->precision : 0};
+    Question question = {.base = tools->base, .kind = asked ? asked->name : "reading",
+                         .numbers = numbers, .number_count = COUNT_OF(numbers)};
+    return question_key(&question, aim, scratch);
+}
+
+Reading reading_take(const ProbeAim *aim, const ReadingGoal *goal, const ReadingTools *tools,
+                     Arena scratch)
+{
+    Reading reading;
+    if (!tools->journal) return take(aim, goal, tools, scratch);
+    JournalKey key = key_of(aim, goal, tools, scratch);
+    if (journal_find(tools->journal, key, &reading, sizeof reading)) return reading;
+    reading = take(aim, goal, tools, scratch);
+    journal_add(tools->journal, key, &reading, sizeof reading);
+    return reading;
 }

@@ -11,6 +11,7 @@
 #pragma once
 #include "base/arena.h"
 #include "kernel/kernel.h"
+#include "review/keep/journal.h"
 #include "review/light/confidence.h"
 
 /* What hangs on a reading: a verdict, say. */
@@ -20,6 +21,8 @@ typedef struct ReadingQuestion {
     void  *user;
     double precision; /* at which a decided question may end: coarser than the goal's, and
                          asked of the reading itself too */
+    const char *name; /* besides the reading, all that decides the answer: readings that are
+                         kept are known by it */
 } ReadingQuestion;
 
 /* When a reading is sure enough: when one standard error moves the contrast of what is shown by
@@ -34,6 +37,8 @@ typedef struct ReadingGoal {
 typedef struct ReadingTools {
     const Kernel *kernel;
     int           threads;
+    Journal      *journal; /* of readings that were taken before; NULL: none is kept */
+    JournalKey    base;    /* of the journal's keys: program, scene, request (question.h) */
 } ReadingTools;
 
 typedef struct Reading {

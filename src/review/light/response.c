@@ -140,31 +140,37 @@ static double relative_error(const Trace *trace)
     return mean > 0 ? sqrt(variance) / mean : 0;
 }
 
-void response_trace(const ProbeAim *aim, const ResponseOptions *options, Arena *arena,
-                    Response *out)
+float *response_empty(int level, Arena *arena, Response *out)
 {
-    int chunks = options->paths / RESPONSE_CHUNK;
-    out->cells = cells_of_level(options->level, arena);
+    *out = (Response){.cells = cells_of_level(level, arena)};
     float *shares = ARENA_NEW(arena, float, table_size(&out->cells));
     Vec3  *centers = ARENA_NEW(arena, Vec3, out->cells.count);
     for (int i = 0; i < out->cells.count; i++)
         centers[i] = probe_cell_center(&out->cells, i);
+    out->centers = centers;
+    out->first = shares;
+    out->rest = shares + table_size(&out->cells) / PROBE_ORDERS;
+    return shares;
+}
+
+void response_trace(const ProbeAim *aim, const ResponseOptions *options, Arena *arena,
+                    Response *out)
+{
+    int chunks = options->paths / RESPONSE_CHUNK;
+    float *shares = response_empty(options->level, arena, out);
     Arena  scratch = *arena;
     Trace  trace = trace_start(aim, options, &out->cells, &scratch);
     int    pilot = chunks < PILOT ? chunks : PILOT;
     trace_wave(&trace, &out->cells, NULL, pilot, scratch);
-    const bool *is_open = open_cells(&out->cells, centers, trace.sums, &scratch);
+    const bool *is_open = open_cells(&out->cells, out->centers, trace.sums, &scratch);
     while (trace.first_chunk < chunks &&
            (trace.first_chunk <= PILOT || relative_error(&trace) > options->precision)) {
         int left = chunks - trace.first_chunk;
         trace_wave(&trace, &out->cells, is_open, left < WAVE ? left : WAVE, scratch);
     }
-    out->centers = centers;
     out->paths = trace.first_chunk * RESPONSE_CHUNK;
     for (size_t i = 0; i < table_size(&out->cells); i++)
         shares[i] = (float)(trace.sums[i] / out->paths);
-    out->first = shares;
-    out->rest = shares + table_size(&out->cells) / PROBE_ORDERS;
     out->relative_error = relative_error(&trace);
 }
 

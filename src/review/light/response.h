@@ -40,6 +40,10 @@ typedef struct Response {
     double relative_error; /* standard error of the reading under a uniform white sky */
 } Response;
 
+/* A response of which nothing is known but its triangles. Its shares, all 0: first, then rest.
+ */
+float *response_empty(int level, Arena *arena, Response *out);
+
 void response_trace(const ProbeAim *aim, const ResponseOptions *options, Arena *arena,
                     Response *out);
 

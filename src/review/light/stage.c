@@ -4,6 +4,8 @@
 #include <string.h>
 
 #include "base/units.h"
+#include "render/identity.h"
+#include "review/light/question.h"
 #include "scene/load/scene_load.h"
 
 #define SENSOR_PRECISION 0.01
@@ -55,12 +57,27 @@ static SceneOverride *all_contents(const StageOptions *options, int *count, Aren
     return contents;
 }
 
+/* Of the stage's scene; for keys of all files, the request's own, too. */
+static void identify(Stage *stage, const SceneOptions *options, Arena *arena)
+{
+    const ReviewRequest *request = stage->request;
+    Text own = {.arena = arena}, all = {.arena = arena};
+    identity_add_program(&own, stage->tools.kernel);
+    identity_add_scene(&own, options, stage->scene);
+    text_add(&all, own.data);
+    for (int i = 0; i < request->input_count; i++)
+        identity_line(&all, "request", "%016llx", (unsigned long long)request->inputs[i].hash);
+    stage->identity = own.data;
+    stage->tools.base = question_base(all.data);
+}
+
 bool stage_open(const StageOptions *options, Arena *arena, Problems *problems, Stage *out,
                 Error *err)
 {
     SceneOptions scene = {.root = options->root};
     *out = (Stage){.request = options->request, .condition = options->condition,
-                   .tools.threads = options->threads, .sensor_lux = (double)NAN};
+                   .tools = {.threads = options->threads, .journal = options->journal},
+                   .sensor_lux = (double)NAN};
     scene.paths = all_paths(options, &scene.path_count, arena);
     scene.contents = all_contents(options, &scene.content_count, arena);
     if (!kernel_choose(options->isa, &out->tools.kernel, err)) return false;
@@ -72,6 +89,7 @@ bool stage_open(const StageOptions *options, Arena *arena, Problems *problems, S
     out->scene_levels = ARENA_NEW(arena, double, out->scene->display_count);
     for (int i = 0; i < out->scene->display_count; i++)
         out->scene_levels[i] = (double)out->scene->displays[i].level;
+    identify(out, &scene, arena);
     return true;
 }
 

@@ -23,6 +23,7 @@ typedef struct Stage {
     PathContext  context;
     double       sensor_lux;   /* NaN: no level follows the light */
     double      *scene_levels; /* of the displays, before the condition's */
+    const char  *identity;     /* program and scene (render/identity.h), not its light */
 } Stage;
 
 typedef struct StageOptions {
@@ -31,6 +32,7 @@ typedef struct StageOptions {
     const char            *root;      /* --root, or NULL */
     int                    threads;
     const char            *isa;       /* kernel.h's; NULL: the best */
+    Journal               *journal;   /* of readings; NULL: none is kept */
 } StageOptions;
 
 /* The scene with the condition's files, contents and occupants, in the dark. Warnings go to

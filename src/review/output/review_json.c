@@ -178,7 +178,8 @@ static json_t *responses_json(const Review *review)
     for (int i = 0; i < review->response_count; i++) {
         const ReviewResponse *r = &review->responses[i];
         json_array_append_new(
-            list, json_pack("{s:o, s:I, s:I, s:o}", "probe", text(r->probe), "paths",
+            list, json_pack("{s:o, s:o, s:I, s:I, s:o}", "probe", text(r->probe), "file",
+                            text(r->file), "paths",
                             (json_int_t)r->paths, "bytes", (json_int_t)r->bytes,
                             "relative_error", json_figure(r->relative_error)));
     }

@@ -340,7 +340,8 @@ static bool read_response(const JsonView *view, void *item, Error *err)
 {
     ReviewResponse *r = item;
     json_int_t      paths = 0, bytes = 0;
-    if (!read_text(view, "probe", &r->probe, err) || !read_count(view, "paths", &paths, err) ||
+    if (!read_text(view, "probe", &r->probe, err) || !read_text(view, "file", &r->file, err) ||
+        !read_count(view, "paths", &paths, err) ||
         !read_count(view, "bytes", &bytes, err) ||
         !read_number(view, "relative_error", &r->relative_error, err))
         return false;

@@ -9,6 +9,8 @@
 #include "review/output/review_decide.h"
 #include "review/request/request_check.h"
 #include "review/run/causes.h"
+#include "review/run/go_on.h"
+#include "text/text.h"
 #include "vision/contrast_sensitivity.h"
 #include "vision/grey_steps.h"
 
@@ -167,12 +169,36 @@ static bool is_verdict_clear(void *user, MeanInterval reflected)
     return true;
 }
 
+/* All that decides whether it is, besides the light: whose case it is, and the limits. */
+static const char *name_of(const VerdictAsk *ask, Arena *arena)
+{
+    const Profile *profile = ask->tools->profile;
+    Text           text = {.arena = arena};
+    text_format(&text, "verdict\n%s\n%s\n%s\n", ask->of->condition, ask->of->eye,
+                ask->of->symbol);
+    text_format(&text, "%d %.17g %.17g\n", profile->uses_veil, profile->night_below_lx,
+                profile->twilight_below_lx);
+    for (int i = 0; i < profile->limit_count; i++) {
+        const ProfileLimit *limit = &profile->limits[i];
+        const LimitSlope   *slope = &limit->slope;
+        text_format(&text, "%d %d %d %.17g", (int)limit->kind, limit->is_upper,
+                    limit->is_advice, limit->value);
+        for (int k = 0; k < AMBIENT_COUNT; k++) text_format(&text, " %d", limit->ambients[k]);
+        if (slope->has_slope)
+            text_format(&text, " %.17g %.17g %.17g %.17g", slope->per_arcmin,
+                        slope->reference_arcmin, slope->from_arcmin, slope->to_arcmin);
+        text_add(&text, "\n");
+    }
+    return text.data;
+}
+
 static Reading read_symbol(const CaseTools *tools, const CaseLook *look, const ProbeAim *aim,
                            VerdictAsk *ask)
 {
     const ReviewRequest  *request = tools->stage->request;
     const CaseLuminances *shown = &ask->of->luminance_cd_m2;
-    ReadingQuestion question = {is_verdict_clear, ask, request->precision_clear};
+    ReadingQuestion question = {is_verdict_clear, ask, request->precision_clear,
+                                name_of(ask, &ask->scratch)};
     ReadingGoal     goal = {.brighter = fmax(shown->foreground, shown->background),
                             .darker = fmin(shown->foreground, shown->background),
                             .precision = request->precision_contrast,
@@ -320,7 +346,7 @@ static bool case_of(const CaseTools *tools, const CaseAsk *ask, Arena *arena, Re
     Vec3      *points = stage_eye_points(tools->stage, ask->eye, &count, arena, err);
     ReviewCase c = start_case(tools, ask->eye, ask->symbol);
     CaseLook   look = {.symbol = ask->symbol};
-    if (!points) return false;
+    if (!points || !review_goes_on(tools->stage->tools.journal, err)) return false;
     c.display_lux = ask->face_lux;
     c.eye_failed_share = (double)NAN;
     look.eye =

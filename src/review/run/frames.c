@@ -5,9 +5,12 @@
 #include "base/units.h"
 #include "film/film_frame.h"
 #include "image/develop.h"
+#include "render/identity.h"
 #include "render/render.h"
 #include "render/train.h"
 #include "review/run/cases.h"
+#include "review/run/frame_kept.h"
+#include "review/run/go_on.h"
 #include "review/request/request_check.h"
 
 #define YFOV_DEG 35 /* of an eye that is no camera */
@@ -93,35 +96,87 @@ static bool write_views(const FrameImage *frame, const char *exr, Arena scratch,
     return true;
 }
 
+static const char *exr_of(const FrameAsk *ask, Arena *arena)
+{
+    return arena_format(arena, "%s/frames/%s.exr", ask->folder, ask->name);
+}
+
 static bool write_frame(const FrameAsk *ask, const SceneCamera *camera,
                         const RenderResult *result, Arena scratch, Error *err)
 {
-    const char *exr = arena_format(&scratch, "%s/frames/%s.exr", ask->folder, ask->name);
+    const char *exr = exr_of(ask, &scratch);
     FrameImage  frame = film_to_frame(result->film, WORDS, &scratch);
     set_words(&frame, ask, camera, result, &scratch);
     return frame_write(exr, &frame, err) && write_views(&frame, exr, scratch, err);
 }
 
+/* ---- of all that decides it -------------------------------------------------------------- */
+
+static const char *identity_of(const FrameAsk *ask, const SceneCamera *camera,
+                               const RenderOptions *options, Arena *arena)
+{
+    const Scene *scene = ask->stage->scene;
+    Text text = {.arena = arena};
+    JournalKey base = ask->stage->tools.base; /* pictures of skies, too */
+    text_add(&text, ask->stage->identity);
+    identity_line(&text, "files", "%016llx%016llx", (unsigned long long)base.high,
+                  (unsigned long long)base.low);
+    identity_line(&text, "name", "%s", ask->name);
+    identity_line(&text, "condition", "%s", ask->stage->condition->name);
+    identity_line(&text, "review", "%s", ask->stage->request->file);
+    identity_line(&text, "size", "%dx%d", options->width, options->height);
+    identity_line(&text, "layers", "%u", options->layers);
+    identity_line(&text, "samples", "%u", options->end_sample);
+    identity_number(&text, "noise", options->noise);
+    identity_line(&text, "eye", "%s", ask->eye->name);
+    for (int i = 0; i < scene->display_count; i++)
+        identity_float(&text, arena_format(arena, "level %d", i), scene->displays[i].level);
+    identity_add_environment(&text, scene);
+    identity_add_camera(&text, camera);
+    return text.data;
+}
+
+/* ---- making it --------------------------------------------------------------------------- */
+
+static bool render(const FrameAsk *ask, FrameKept *kept, const SceneCamera *camera,
+                   RenderOptions *options, RenderResult *result, Error *err)
+{
+    const Stage *stage = ask->stage;
+    RenderSetup  setup = {.kernel = stage->tools.kernel, .bvh = stage->bvh,
+                          .context = stage->context};
+    TrainOptions train = {stage->tools.kernel, options->threads};
+    Arena       *arena = kept->arena;
+    if (!frame_kept_begin(kept, options, err)) return false;
+    setup.camera = camera_from_scene(camera, options->width, options->height);
+    setup.context.guide =
+        train_guide(&stage->context, &setup.camera, &train, arena, &setup.training);
+    if (!review_goes_on(stage->tools.journal, err) ||
+        !render_prepared(&setup, options, arena, result, err))
+        return false;
+    if (!result->stopped_by) return true;
+    return frame_kept_pause(kept, result, err) &&
+           error_set(err, (ErrorCode)(128 + result->stopped_by), "stopped");
+}
+
 bool frame_make(const FrameAsk *ask, Arena *arena, const char **out, Error *err)
 {
-    const Stage  *stage = ask->stage;
     RenderOptions options = options_of(ask);
-    RenderSetup   setup = {.kernel = stage->tools.kernel, .bvh = stage->bvh,
-                           .context = stage->context};
-    TrainOptions  train = {stage->tools.kernel, options.threads};
     SceneCamera   camera;
     RenderResult  result;
     const char   *name = arena_format(arena, "frames/%s.png", ask->name);
+    const char   *exr = exr_of(ask, arena);
     Arena         scratch = *arena;
     if (!frame_camera(ask, &camera, scratch, err)) return false;
-    setup.camera = camera_from_scene(&camera, options.width, options.height);
-    setup.context.guide =
-        train_guide(&stage->context, &setup.camera, &train, &scratch, &setup.training);
-    if (!render_prepared(&setup, &options, &scratch, &result, err)) return false;
-    if (result.stopped_by)
-        return error_set(err, (ErrorCode)(128 + result.stopped_by),
-                         "stopped while a frame was made; all but frames is written");
-    if (!write_frame(ask, &camera, &result, scratch, err)) return false;
+    FrameKept kept = {.journal = ask->stage->tools.journal, .unfinished = ask->unfinished,
+                      .identity = identity_of(ask, &camera, &options, &scratch),
+                      .arena = &scratch};
+    kept.files[kept.file_count++] = exr;
+    for (FrameView view = FRAME_PICTURE; view < FRAME_VIEWS; view++)
+        kept.files[kept.file_count++] = frame_view(exr, view, &scratch);
+    if (!frame_kept_is_whole(&kept) &&
+        (!render(ask, &kept, &camera, &options, &result, err) ||
+         !write_frame(ask, &camera, &result, scratch, err) || !frame_kept_end(&kept, err)))
+        return false;
     *out = name;
     return true;
 }

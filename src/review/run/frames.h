@@ -3,11 +3,13 @@
  * Frames go to FOLDER/frames: NAME.exr in cd m^-2 with the layers of displays, NAME.png
  * developed, and in false colours NAME-luminance.png and NAME-contrast.png: what contrast full
  * white would have with full black at each pixel of a display. A frame ends at the request's
- * noise or at FRAMES_SAMPLES.
+ * noise or at FRAMES_SAMPLES. What was done before a kill is not done again: a frame that is
+ * whole is kept as it is, one that was begun goes on from its checkpoint, to the same bytes.
  *
  * Memory   scratch only; names live in the arena.
  * Threads  starts its own; the same frames for any count.
- * Fails    when a file cannot be written; nothing half-written is left.
+ * Fails    when a file cannot be written, and nothing half-written is left; when the user asks
+ *          to stop, after a checkpoint.
  */
 #pragma once
 #include "base/progress.h"
@@ -28,6 +30,7 @@ typedef struct FrameAsk {
     const ReviewEye *eye;
     Vec3             look_at; /* m, world: of an eye that is no camera */
     const char      *folder;
+    const char      *unfinished; /* folder of its checkpoint */
     const char      *name;    /* without an ending */
     ProgressMode     progress;
 } FrameAsk;

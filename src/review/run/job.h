@@ -6,6 +6,7 @@
 #pragma once
 #include "base/problems.h"
 #include "base/progress.h"
+#include "review/keep/journal.h"
 #include "review/profile.h"
 #include "review/request/request.h"
 #include "review/run/sweep_suns.h"
@@ -18,7 +19,11 @@ typedef struct ReviewRun {
     int                  threads;
     const char          *isa;      /* kernel.h's; NULL: the best */
     ProgressMode         progress;
-    const char          *folder;   /* of the frames, which is there */
+    const char          *folder;   /* of the frames, which is there; */
+    const char          *unfinished; /* of checkpoints, */
+    const char          *responses;  /* and of responses: as it is opened (plan: NULL: none), */
+    const char          *responses_shown; /* and as the review names it */
+    Journal             *journal;  /* of readings that were taken before */
     Problems            *problems; /* warnings of scenes, once each */
 } ReviewRun;
 
@@ -38,4 +43,5 @@ typedef struct ReviewOutcome {
     Review      review;
     SweepTable *tables;
     int         table_count;
+    int         responses_kept; /* of its responses: those that were not traced */
 } ReviewOutcome;

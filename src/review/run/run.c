@@ -8,10 +8,12 @@
 #include "review/run/false_sun_times.h"
 #include "review/run/frames.h"
 #include "review/run/gazes.h"
+#include "review/run/go_on.h"
 #include "review/run/sights.h"
 #include "review/output/review_decide.h"
 #include "review/request/request_check.h"
 #include "review/run/sweep.h"
+#include "review/run/sweep_probes.h"
 #include "review/run/sweep_weather.h"
 
 /* The most address space that a stage takes; what is not touched costs nothing. */
@@ -26,6 +28,13 @@ static int most_cases(const ReviewRequest *request)
 static int most_false_suns(const ReviewRequest *request)
 {
     return request->condition_count * request->eye_count * FALSE_SUNS_TOLD;
+}
+
+/* A response for each sight, face and sensor of a condition. */
+static int most_responses(const ReviewRequest *request)
+{
+    int faces = request->symbol_count * SYMBOLS_FOUND_MOST;
+    return most_cases(request) + request->condition_count * (faces + request->level_count);
 }
 
 /* Names of symbols that were found live in the stage's memory. */
@@ -103,7 +112,8 @@ bool review_check(const ReviewRequest *request, Arena scratch, Error *err)
 static bool run_condition(const ReviewRun *run, const ReviewCondition *condition,
                           const SweepGroup *group, Arena *arena, ReviewOutcome *out, Error *err)
 {
-    StageOptions options = {run->request, condition, run->root, run->threads, run->isa};
+    StageOptions options = {run->request, condition, run->root, run->threads, run->isa,
+                            run->journal};
     Arena scratch = arena_reserve(STAGE_BYTES);
     Stage stage;
     bool  ok = stage_open(&options, &scratch, run->problems, &stage, err);
@@ -128,6 +138,7 @@ static bool run_conditions(const ReviewRun *run, Arena *arena, ReviewOutcome *ou
         const ReviewCondition *condition = &request->conditions[i];
         SweepGroup group = {NULL, 0};
         if (is_done[i]) continue;
+        if (!review_goes_on(run->journal, err)) return false;
         bool is_moment = condition->kind == CONDITION_MOMENT;
         if (!is_moment) group = group_of(request, i, is_done, arena);
         if (!run_condition(run, condition, is_moment ? NULL : &group, arena, out, err))
@@ -136,6 +147,45 @@ static bool run_conditions(const ReviewRun *run, Arena *arena, ReviewOutcome *ou
     }
     progress_end(&progress, request->condition_count);
     return true;
+}
+
+/* ---- what is there ----------------------------------------------------------------------- */
+
+static bool plan_group(const ReviewRun *run, const SweepGroup *group, ReviewPlan *plan,
+                       Error *err)
+{
+    StageOptions options = {run->request, group->conditions[0], run->root, run->threads,
+                            run->isa, NULL};
+    Arena scratch = arena_reserve(STAGE_BYTES);
+    Stage stage;
+    bool  ok = stage_open(&options, &scratch, run->problems, &stage, err);
+    if (ok) {
+        Sweep sweep = {.run = run, .stage = &stage};
+        ok = (review_request_check(run->request, stage.scene, run->problems) ||
+              problems_verdict(run->problems, err)) &&
+             sweep_place_probes(&sweep, &scratch, err);
+        plan->responses += sweep.ask_count;
+        for (int i = 0; i < sweep.ask_count; i++)
+            plan->responses_kept += sweep.asks[i].is_kept;
+        stage_close(&stage);
+    }
+    arena_release(&scratch);
+    return ok;
+}
+
+bool review_plan(const ReviewRun *run, ReviewPlan *out, Error *err)
+{
+    const ReviewRequest *request = run->request;
+    Arena own = arena_reserve(1 << 20);
+    bool *is_done = ARENA_NEW(&own, bool, request->condition_count), ok = true;
+    *out = (ReviewPlan){0, 0};
+    for (int i = 0; ok && i < request->condition_count; i++) {
+        if (is_done[i] || request->conditions[i].kind == CONDITION_MOMENT) continue;
+        SweepGroup group = group_of(request, i, is_done, &own);
+        ok = plan_group(run, &group, out, err);
+    }
+    arena_release(&own);
+    return ok;
 }
 
 /* ---- what a reader must know ------------------------------------------------------------- */
@@ -251,7 +301,7 @@ static bool make_frame(const ReviewRun *run, const Candidate *of, int number, Ar
                        Error *err)
 {
     const ReviewCondition *c = condition_named(run->request, of->of->condition);
-    StageOptions options = {run->request, c, run->root, run->threads, run->isa};
+    StageOptions options = {run->request, c, run->root, run->threads, run->isa, run->journal};
     Problems     told_before = problems_start(arena);
     Environment  sky;
     Arena scratch = arena_reserve(STAGE_BYTES);
@@ -262,7 +312,7 @@ static bool make_frame(const ReviewRun *run, const Candidate *of, int number, Ar
         if (table) sky = sweep_environment(&stage, &table->suns->list[table->worst]);
         else if (c->has_environment) sky = c->environment;
         FrameAsk ask = {&stage, eye_named(run->request, of->of->eye),
-                        vec3(0, 0, 0), run->folder,
+                        vec3(0, 0, 0), run->folder, run->unfinished,
                         file_name_of(arena_format(arena, "%d-%s-%s", number, of->of->condition,
                                                   of->of->eye), arena), run->progress};
         bool has_sky = of->table || c->has_environment;
@@ -289,7 +339,8 @@ bool review_frames(const ReviewRun *run, ReviewOutcome *outcome, Arena *arena, E
             list[i].of->frame = list[same].of->frame;
             list[i].of->view = list[same].of->view;
         } else if (made < run->request->frames.worst &&
-                 !make_frame(run, &list[i], ++made, arena, err))
+                 (!review_goes_on(run->journal, err) ||
+                  !make_frame(run, &list[i], ++made, arena, err)))
             return false;
     }
     return true;
@@ -309,7 +360,8 @@ bool review_run(const ReviewRun *run, Arena *arena, ReviewOutcome *out, Error *e
                            .cases = ARENA_NEW(arena, ReviewCase, most),
                            .sweeps = ARENA_NEW(arena, ReviewSweep, most),
                            .gazes = ARENA_NEW(arena, GazeFinding, most_looks),
-                           .responses = ARENA_NEW(arena, ReviewResponse, most),
+                           .responses = ARENA_NEW(arena, ReviewResponse,
+                                                  most_responses(request)),
                            .false_suns = ARENA_NEW(arena, ReviewFalseSun,
                                                    most_false_suns(request))};
     if (!run_conditions(run, arena, out, err)) return false;

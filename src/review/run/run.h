@@ -9,6 +9,13 @@
 
 bool review_run(const ReviewRun *run, Arena *arena, ReviewOutcome *out, Error *err);
 
+/* What is there already of the work that is asked. */
+typedef struct ReviewPlan {
+    int responses, responses_kept; /* of sweeps; those in the run's folder */
+} ReviewPlan;
+
+bool review_plan(const ReviewRun *run, ReviewPlan *out, Error *err);
+
 /* Before long work: whether all conditions are such as can be reviewed. */
 bool review_check(const ReviewRequest *request, Arena scratch, Error *err);
 

@@ -7,6 +7,7 @@
 #include "base/units.h"
 #include "review/judge.h"
 #include "review/run/false_sun_times.h"
+#include "review/run/go_on.h"
 #include "review/run/sweep_probes.h"
 #include "review/run/sweep_weather.h"
 
@@ -305,16 +306,18 @@ static bool add_sweep(Telling *to, const Sight *sight, Error *err)
 
 /* ---- all of it --------------------------------------------------------------------------- */
 
-static void tell_response(const Sweep *sweep, const Sight *sight, Arena *arena, Review *out)
+static void tell_responses(const Sweep *sweep, Arena *arena, ReviewOutcome *out)
 {
-    if (!sight->probe.aim.target_count) return;
-    const Response *response = &sight->probe.response;
-    out->responses[out->response_count++] = (ReviewResponse){
-        arena_format(arena, "%s, %s, %s", sweep->stage->condition->name, sight->eye->name,
-                     sight->symbol->name),
-        response->paths,
-        2 * (size_t)response->cells.count * LIGHT_BANDS * sizeof(float),
-        response->relative_error};
+    Review *review = &out->review;
+    for (int i = 0; i < sweep->ask_count; i++) {
+        const ResponseAsk *ask = &sweep->asks[i];
+        const Response    *response = &ask->probe->response;
+        review->responses[review->response_count++] = (ReviewResponse){
+            arena_string(arena, ask->name, strlen(ask->name)),
+            arena_string(arena, ask->shown, strlen(ask->shown)), response->paths,
+            ask->file.bytes, response->relative_error};
+        out->responses_kept += ask->is_kept;
+    }
 }
 
 static bool make_skies(Sweep *sweep, Arena *scratch, Error *err)
@@ -365,8 +368,9 @@ static bool sweep_condition(Sweep *sweep, Arena scratch, Arena *arena, ReviewOut
     Telling to = {sweep, &tools, suns, out, arena, scratch};
     false_sun_times(sweep, scratch, arena, &out->review);
     for (int i = 0; i < sweep->sight_count; i++) {
-        tell_response(sweep, &sweep->sights[i], arena, &out->review);
-        if (!add_sweep(&to, &sweep->sights[i], err)) return false;
+        if (!review_goes_on(sweep->run->journal, err) ||
+            !add_sweep(&to, &sweep->sights[i], err))
+            return false;
     }
     return true;
 }
@@ -375,6 +379,7 @@ static bool sweep_all(Sweep *sweep, const SweepGroup *group, Arena *scratch, Are
                       ReviewOutcome *out, Error *err)
 {
     if (!sweep_make_probes(sweep, scratch, err)) return false;
+    tell_responses(sweep, arena, out);
     for (int i = 0; i < group->count; i++) {
         Arena room = *scratch;
         sweep->stage->condition = group->conditions[i];

@@ -1,6 +1,5 @@
 #include "review/run/sweep_probes.h"
 
-#include "base/progress.h"
 #include "base/units.h"
 
 #define RESPONSE_PATHS 32768
@@ -30,18 +29,6 @@ bool sweep_light_dark(Stage *stage, float level, Arena *arena, Error *err)
     stage->context =
         path_context_build(stage->scene, stage->bvh, lights, STAGE_BOUNCES, arena);
     return true;
-}
-
-static bool gives_light(const Lights *lights)
-{
-    return lights_has(lights, LIGHTS_EMITTERS) || lights_has(lights, LIGHTS_PUNCTUAL);
-}
-
-static double own_reading(const Stage *stage, const ProbeAim *aim, Arena scratch)
-{
-    ReadingGoal goal = {.precision = 0.02, .most = 8192};
-    if (!gives_light(stage->context.lights)) return 0;
-    return reading_take(aim, &goal, &stage->tools, scratch).reflected;
 }
 
 /* ---- making them ------------------------------------------------------------------------- */
@@ -106,59 +93,37 @@ static bool place_sights(Sweep *sweep, Arena *arena, Error *err)
     return true;
 }
 
-static void read_own_lux(const Stage *stage, SweepMeter *meter, bool displays, Arena scratch)
+/* ---- what is asked of them --------------------------------------------------------------- */
+
+static void ask_meter(Sweep *sweep, SweepMeter *meter, const char *name)
 {
-    ProbeAim aim = {.context = &stage->context, .meter = &meter->head, .seed = METER_SEED};
-    double   own = own_reading(stage, &aim, scratch);
-    if (displays) meter->own.displays = own - meter->own.lamps;
-    else meter->own.lamps = own;
+    meter->probe.aim = (ProbeAim){.context = &sweep->stage->context, .meter = &meter->head,
+                                  .seed = METER_SEED};
+    sweep->asks[sweep->ask_count++] =
+        (ResponseAsk){.name = name, .probe = &meter->probe, .own = &meter->own,
+                      .paths = METER_PATHS, .precision = RESPONSE_PRECISION};
 }
 
-static void read_own(Sweep *sweep, bool displays, Arena scratch)
+static void list_asks(Sweep *sweep, Arena *arena)
 {
-    const Stage *stage = sweep->stage;
+    const ReviewRequest *request = sweep->run->request;
+    sweep->asks = ARENA_NEW(arena, ResponseAsk,
+                            sweep->symbol_count + request->level_count + sweep->sight_count);
+    for (int i = 0; i < sweep->symbol_count; i++)
+        ask_meter(sweep, &sweep->faces[i],
+                  arena_format(arena, "face of %s", sweep->symbols[i].name));
+    for (int i = 0; i < request->level_count; i++)
+        if (request->levels[i].is_curve)
+            ask_meter(sweep, &sweep->sensors[i],
+                      arena_format(arena, "sensor of %s", request->levels[i].name));
     for (int i = 0; i < sweep->sight_count; i++) {
         Sight *sight = &sweep->sights[i];
         if (!sight->probe.aim.target_count) continue;
-        double own = own_reading(stage, &sight->probe.aim, scratch);
-        if (displays) sight->own.displays = own - sight->own.lamps;
-        else sight->own.lamps = own;
+        sweep->asks[sweep->ask_count++] = (ResponseAsk){
+            .name = arena_format(arena, "%s, %s", sight->eye->name, sight->symbol->name),
+            .probe = &sight->probe, .own = &sight->own, .paths = RESPONSE_PATHS,
+            .precision = RESPONSE_PRECISION};
     }
-    for (int i = 0; i < sweep->symbol_count; i++)
-        read_own_lux(stage, &sweep->faces[i], displays, scratch);
-    for (int i = 0; i < sweep->run->request->level_count; i++)
-        if (sweep->run->request->levels[i].is_curve)
-            read_own_lux(stage, &sweep->sensors[i], displays, scratch);
-}
-
-/* ---- tracing them ------------------------------------------------------------------------ */
-
-static void respond_meter(SweepMeter *meter, FarTools tools, Arena *arena)
-{
-    tools.paths = METER_PATHS;
-    meter->probe.aim = (ProbeAim){.context = &tools.stage->context, .meter = &meter->head,
-                                  .seed = METER_SEED};
-    far_probe_respond(&meter->probe, &tools, arena);
-}
-
-/* Once, for all conditions. */
-static void respond_all(Sweep *sweep, Arena *arena)
-{
-    const ReviewRequest *request = sweep->run->request;
-    FarTools tools = {.stage = sweep->stage, .paths = RESPONSE_PATHS,
-                      .precision = RESPONSE_PRECISION};
-    Progress progress = progress_start(sweep->run->progress, "responses", "probes",
-                                       sweep->sight_count);
-    for (int i = 0; i < sweep->symbol_count; i++)
-        respond_meter(&sweep->faces[i], tools, arena);
-    for (int i = 0; i < request->level_count; i++)
-        if (request->levels[i].is_curve) respond_meter(&sweep->sensors[i], tools, arena);
-    for (int i = 0; i < sweep->sight_count; i++) {
-        Sight *sight = &sweep->sights[i];
-        if (sight->probe.aim.target_count) far_probe_respond(&sight->probe, &tools, arena);
-        progress_update(&progress, i + 1);
-    }
-    progress_end(&progress, sweep->sight_count);
 }
 
 FarTools sweep_tools(const Sweep *sweep)
@@ -206,7 +171,7 @@ static bool find_false_suns(Sweep *sweep, Arena *arena, Error *err)
 
 /* ---- all of them ------------------------------------------------------------------------- */
 
-bool sweep_make_probes(Sweep *sweep, Arena *arena, Error *err)
+bool sweep_place_probes(Sweep *sweep, Arena *arena, Error *err)
 {
     Stage *stage = sweep->stage;
     if (!sweep_light_dark(stage, 0, arena, err) ||
@@ -214,9 +179,18 @@ bool sweep_make_probes(Sweep *sweep, Arena *arena, Error *err)
         return false;
     place_meters(sweep, arena);
     if (!place_sights(sweep, arena, err)) return false;
-    read_own(sweep, false, *arena);
-    if (!sweep_light_dark(stage, 1, arena, err)) return false;
-    read_own(sweep, true, *arena);
-    respond_all(sweep, arena);
-    return find_false_suns(sweep, arena, err);
+    list_asks(sweep, arena);
+    responses_find(sweep->run, stage, sweep->asks, sweep->ask_count, arena);
+    return true;
+}
+
+bool sweep_make_probes(Sweep *sweep, Arena *arena, Error *err)
+{
+    Stage *stage = sweep->stage;
+    return sweep_place_probes(sweep, arena, err) &&
+           responses_read_own(stage, sweep->asks, sweep->ask_count, false, *arena, err) &&
+           sweep_light_dark(stage, 1, arena, err) &&
+           responses_read_own(stage, sweep->asks, sweep->ask_count, true, *arena, err) &&
+           responses_trace(sweep->run, stage, sweep->asks, sweep->ask_count, arena, err) &&
+           find_false_suns(sweep, arena, err);
 }

@@ -7,12 +7,7 @@
 #pragma once
 #include "review/light/false_suns.h"
 #include "review/run/cases.h"
-#include "review/run/job.h"
-
-/* What displays and lamps of the scene give, whatever the sky. */
-typedef struct OwnLight {
-    double lamps, displays; /* at level 1 */
-} OwnLight;
+#include "review/run/sweep_responses.h"
 
 typedef struct SweepMeter {
     LitPoint head;
@@ -42,6 +37,8 @@ typedef struct Sweep {
     Sight             *sights;
     int                sight_count;
     FalseSuns         *false_suns; /* one an eye */
+    ResponseAsk       *asks;    /* of all of them that are used */
+    int                ask_count;
     /* of the condition in hand: */
     SweepSuns          suns;
     SkyTable           table;
@@ -54,7 +51,10 @@ typedef struct Sweep {
 /* The scene without sky and sun, its displays at one level. */
 bool sweep_light_dark(Stage *stage, float level, Arena *arena, Error *err);
 
-/* Probes of the scene, in the dark but for its own light, and their responses. */
+/* Probes of the scene, and those of their responses that are kept. */
+bool sweep_place_probes(Sweep *sweep, Arena *arena, Error *err);
+
+/* The same with all responses, in the dark but for the scene's own light. */
 bool sweep_make_probes(Sweep *sweep, Arena *arena, Error *err);
 
 /* For the suns of a condition. */

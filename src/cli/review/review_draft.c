@@ -1,0 +1,221 @@
+#include "cli/review/review_draft.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "base/count.h"
+#include "base/file.h"
+#include "base/file_write.h"
+#include "review/output/review_json_read.h"
+
+/* ---- folders ----------------------------------------------------------------------------- */
+
+bool folder_make(const char *path, Error *err)
+{
+    struct stat there;
+    if (!stat(path, &there) && S_ISDIR(there.st_mode)) return true;
+    return mkdir(path, 0777) == 0 ||
+           error_at(err, ERROR_OUTPUT, path, "", "%s: wanted a folder", strerror(errno));
+}
+
+static const char *const parts[] = {"", "/sweeps", "/frames"};
+
+static bool make_parts(const char *folder, Arena scratch, Error *err)
+{
+    for (int i = 0; i < COUNT_OF(parts); i++)
+        if (!folder_make(arena_format(&scratch, "%s%s", folder, parts[i]), err)) return false;
+    return true;
+}
+
+/* As far as they are empty. */
+static void remove_parts(const char *folder, Arena scratch)
+{
+    for (int i = COUNT_OF(parts) - 1; i >= 0; i--)
+        rmdir(arena_format(&scratch, "%s%s", folder, parts[i]));
+}
+
+void review_draft_close(ReviewDraft *draft)
+{
+    journal_close(draft->journal);
+    remove_parts(draft->folder, *draft->arena);
+    rmdir(draft->unfinished);
+    remove_parts(draft->target, *draft->arena);
+}
+
+/* The journal comes first: it knows of another review that is at work here. */
+bool review_draft_open(const char *target, Arena *arena, Problems *problems, ReviewDraft *out,
+                       Error *err)
+{
+    ReviewDraft draft = {.arena = arena, .target = target,
+                         .unfinished = arena_format(arena, "%s/unfinished", target)};
+    const char *journal = arena_format(arena, "%s/journal", draft.unfinished);
+    draft.folder = arena_format(arena, "%s/new", draft.unfinished);
+    if (!folder_make(target, err) || !folder_make(draft.unfinished, err) ||
+        !journal_open(journal, arena, problems, &draft.journal, err)) {
+        rmdir(draft.unfinished);
+        rmdir(target);
+        return false;
+    }
+    if (make_parts(target, *arena, err) && make_parts(draft.folder, *arena, err) &&
+        file_check_writable(arena_format(arena, "%s/review.json", target), err)) {
+        *out = draft;
+        return true;
+    }
+    review_draft_close(&draft);
+    return false;
+}
+
+/* ---- files of a draft -------------------------------------------------------------------- */
+
+typedef struct DraftFiles {
+    Arena       *arena;
+    const char **names; /* within the folder: "index.html", "sweeps/a.csv" */
+    int          count, room;
+} DraftFiles;
+
+static void add_name(DraftFiles *files, const char *name)
+{
+    if (files->count == files->room) {
+        files->names = ARENA_GROW(files->arena, const char *, files->names, files->count,
+                                  2 * files->room + 16);
+        files->room = 2 * files->room + 16;
+    }
+    files->names[files->count++] = name;
+}
+
+/* Those of its folders, too. prefix: "" or "sweeps/". */
+static void list_files(DraftFiles *files, const char *folder, const char *prefix)
+{
+    DIR *open = opendir(arena_format(files->arena, "%s/%s", folder, prefix));
+    if (!open) return;
+    for (struct dirent *entry; (entry = readdir(open));) {
+        struct stat info;
+        const char *name = arena_format(files->arena, "%s%s", prefix, entry->d_name);
+        if (!strcmp(entry->d_name, ".") || !strcmp(entry->d_name, "..") ||
+            lstat(arena_format(files->arena, "%s/%s", folder, name), &info) != 0)
+            continue;
+        if (!S_ISDIR(info.st_mode)) add_name(files, name);
+        else if (!*prefix)
+            list_files(files, folder, arena_format(files->arena, "%s/", name));
+    }
+    closedir(open);
+}
+
+static bool has_ending(const char *name, const char *ending)
+{
+    return !strcmp(path_ending(name), ending);
+}
+
+/* What a writer that was killed left behind. */
+static bool is_leftover(const char *name)
+{
+    return has_ending(name, ".part") || has_ending(name, ".parhelion-part");
+}
+
+static bool starts_with(const char *text, const char *start)
+{
+    return !strncmp(text, start, strlen(start));
+}
+
+/* ---- what a review names ----------------------------------------------------------------- */
+
+/* A frame is told of by its picture: NAME.png stands for NAME.exr and NAME-outlook.png, too. */
+static bool is_of_frame(const char *name, const char *frame)
+{
+    size_t length = frame ? (size_t)(path_ending(frame) - frame) : 0;
+    return frame && !strncmp(name, frame, length) &&
+           (name[length] == '.' || name[length] == '-');
+}
+
+static bool is_named(const Review *review, const char *name)
+{
+    for (int i = 0; i < review->case_count; i++)
+        if (is_of_frame(name, review->cases[i].frame)) return true;
+    for (int i = 0; i < review->sweep_count; i++) {
+        const ReviewSweep *sweep = &review->sweeps[i];
+        if (is_of_frame(name, sweep->worst.frame) ||
+            (sweep->table && !strcmp(name, sweep->table)))
+            return true;
+    }
+    return false;
+}
+
+/* ---- taking their places ----------------------------------------------------------------- */
+
+static bool move(const ReviewDraft *draft, const char *name, Arena scratch, Error *err)
+{
+    const char *from = arena_format(&scratch, "%s/%s", draft->folder, name);
+    const char *to = arena_format(&scratch, "%s/%s", draft->target, name);
+    const char *slash = strrchr(name, '/');
+    if (slash && !folder_make(arena_format(&scratch, "%s/%.*s", draft->target,
+                                           (int)(slash - name), name), err))
+        return false;
+    return rename(from, to) == 0 ||
+           error_at(err, ERROR_OUTPUT, to, "", "cannot be written: %s", strerror(errno));
+}
+
+static bool is_among(const DraftFiles *files, const char *name)
+{
+    for (int i = 0; i < files->count; i++)
+        if (!strcmp(files->names[i], name)) return true;
+    return false;
+}
+
+/* Of the earlier review, if one stands there: tables and frames that it names, and what not
+ * every review has. A damaged one names nothing. */
+static void remove_earlier(const ReviewDraft *draft, const Review *review,
+                           const DraftFiles *published)
+{
+    static const char *const seldom[] = {"diff.json", "false_suns.csv", "gazes.csv"};
+    Arena       scratch = *published->arena;
+    DraftFiles  files = {.arena = &scratch};
+    Review      earlier;
+    Error       err;
+    const char *old = arena_format(&scratch, "%s/review.json", draft->target);
+    if (!file_exists(old) || !review_json_read(old, &scratch, &earlier, &err)) return;
+    for (int i = 0; i < COUNT_OF(seldom); i++)
+        if (!is_among(published, seldom[i]))
+            unlink(arena_format(&scratch, "%s/%s", draft->target, seldom[i]));
+    list_files(&files, draft->target, "sweeps/");
+    list_files(&files, draft->target, "frames/");
+    for (int i = 0; i < files.count; i++)
+        if (is_named(&earlier, files.names[i]) && !is_named(review, files.names[i]))
+            unlink(arena_format(&scratch, "%s/%s", draft->target, files.names[i]));
+}
+
+bool review_draft_publish(const ReviewDraft *draft, const Review *review, Arena scratch,
+                          Error *err)
+{
+    DraftFiles files = {.arena = &scratch};
+    list_files(&files, draft->folder, "");
+    for (int i = 0; i < files.count; i++) {
+        const char *name = files.names[i];
+        if (!strcmp(name, "review.json") || is_leftover(name) ||
+            (starts_with(name, "frames/") && !is_named(review, name)))
+            continue;
+        if (!move(draft, name, scratch, err)) return false;
+    }
+    remove_earlier(draft, review, &files);
+    return move(draft, "review.json", scratch, err);
+}
+
+void review_draft_finish(ReviewDraft *draft)
+{
+    Arena      scratch = *draft->arena;
+    DraftFiles files = {.arena = &scratch};
+    list_files(&files, draft->unfinished, "new/sweeps/");
+    list_files(&files, draft->unfinished, "new/frames/");
+    list_files(&files, draft->unfinished, "new/");
+    list_files(&files, draft->unfinished, "");
+    for (int i = 0; i < files.count; i++) {
+        const char *name = files.names[i];
+        if (starts_with(name, "new/") || has_ending(name, ".checkpoint") || is_leftover(name))
+            unlink(arena_format(&scratch, "%s/%s", draft->unfinished, name));
+    }
+    unlink(arena_format(&scratch, "%s/journal", draft->unfinished));
+    review_draft_close(draft);
+}

@@ -1,0 +1,46 @@
+/* journal.h -- answers that were found, on the disk as soon as they are: who asks again, after
+ * a kill, is told at once.
+ *
+ * An answer is a row of bytes under a key, which is a hash of everything that decides it. So
+ * work that is done once more from the beginning costs nothing up to where it was.
+ *
+ * File     all numbers little endian:
+ *            a head                 magic, byte order, version
+ *            one entry an answer    key, 16 bytes; size, 8; XXH3 of both and of the answer, 8;
+ *                                   the answer
+ *          Entries are added at the end. One that was cut off by a kill, or damaged, ends what
+ *          counts: it and all behind it are dropped when the file is opened.
+ * Memory   an index in the arena; answers are read when they are asked for.
+ * Threads  one at a time. Two processes never have one file: the second is refused.
+ * Fails    as said. What cannot be written (a full disk) is remembered and told by journal_ok;
+ *          the file keeps what it had.
+ */
+#pragma once
+#include <stdint.h>
+
+#include "base/problems.h"
+
+typedef struct JournalKey {
+    uint64_t low, high;
+} JournalKey;
+
+typedef struct Journal Journal;
+
+/* Opens the file, or makes it. What was dropped is a warning. To be closed. */
+bool journal_open(const char *path, Arena *arena, Problems *problems, Journal **out,
+                  Error *err);
+
+/* False: there is no answer of that size under the key. A NULL journal knows none. */
+bool journal_find(const Journal *journal, JournalKey key, void *answer, size_t size);
+
+/* Keeps it; of a key that is there already the first answer counts. NULL is fine. */
+void journal_add(Journal *journal, JournalKey key, const void *answer, size_t size);
+
+/* False: something could not be written, and *err says what. NULL is fine. */
+bool journal_ok(const Journal *journal, Error *err);
+
+/* How many answers there are. NULL: 0. */
+int journal_count(const Journal *journal);
+
+/* A file without answers is removed. NULL is fine. */
+void journal_close(Journal *journal);

@@ -1,0 +1,28 @@
+/* question.h -- what a probe is asked, as the key of its answer (review/keep/journal.h).
+ *
+ * Everything that decides the answer is in it: the program, the scene's files, its light as it
+ * is now, where the probe is and looks, and what is asked.
+ *
+ * Threads  pure functions.
+ */
+#pragma once
+#include "kernel/kernel.h"
+#include "review/keep/journal.h"
+
+/* The files of a scene and a request, and the program that reads them. */
+JournalKey question_base(const char *identity);
+
+/* What is asked, besides: its kind and numbers. */
+typedef struct Question {
+    JournalKey    base;
+    const char   *kind;
+    const double *numbers;
+    int           number_count;
+    const Vec3   *towards; /* directions */
+    int           towards_count;
+} Question;
+
+JournalKey question_key(const Question *question, const ProbeAim *aim, Arena scratch);
+
+/* Where the probe is and looks, as a hash. */
+uint64_t question_aim(const ProbeAim *aim);

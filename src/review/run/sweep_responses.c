@@ -1,0 +1,121 @@
+#include "review/run/sweep_responses.h"
+
+#include <string.h>
+#define XXH_INLINE_ALL
+#include <xxhash.h>
+
+#include "base/file.h"
+#include "render/identity.h"
+#include "review/light/question.h"
+#include "review/run/frames.h"
+#include "review/run/go_on.h"
+
+#define OWN_PRECISION 0.02
+#define OWN_PATHS 8192
+
+/* ---- files ------------------------------------------------------------------------------- */
+
+static void add_meter(Text *text, const LitPoint *meter)
+{
+    identity_vector(text, "meter", meter->position);
+    identity_vector(text, "meter's normal", meter->ns);
+    identity_line(text, "meter's sides", "%d", 1 + meter->both_sides);
+}
+
+static void add_eye(Text *text, const ProbeAim *aim)
+{
+    identity_vector(text, "eye", aim->eye);
+    identity_line(text, "looks at", "%d points, %016llx", aim->target_count,
+                  (unsigned long long)question_aim(aim));
+}
+
+/* Everything that decides the response and what the probe reads of the scene's own light. */
+static const char *identity_of(const Stage *stage, const ResponseAsk *ask, Arena *arena)
+{
+    const ProbeAim *aim = &ask->probe->aim;
+    Text text = {.arena = arena};
+    text_add(&text, stage->identity);
+    if (aim->meter) add_meter(&text, aim->meter);
+    else add_eye(&text, aim);
+    identity_line(&text, "seed", "%u", aim->seed);
+    identity_line(&text, "level of triangles", "%d", RESPONSE_LEVEL);
+    identity_line(&text, "paths", "%d", ask->paths);
+    identity_number(&text, "precision", ask->precision);
+    return text.data;
+}
+
+static void name_file(const ReviewRun *run, const Stage *stage, ResponseAsk *ask, Arena *arena)
+{
+    const char *identity = identity_of(stage, ask, arena);
+    uint64_t    hash = XXH3_64bits(identity, strlen(identity));
+    const char *name = arena_format(arena, "%.80s-%016llx.response",
+                                    file_name_of(ask->name, arena), (unsigned long long)hash);
+    ask->file = (ResponseFile){.path = arena_format(arena, "%s/%s", run->responses, name),
+                               .identity = identity};
+    ask->shown = arena_format(arena, "%s/%s", run->responses_shown, name);
+}
+
+void responses_find(const ReviewRun *run, const Stage *stage, ResponseAsk *asks, int count,
+                    Arena *arena)
+{
+    for (int i = 0; i < count; i++) {
+        Error err;
+        if (!run->responses) continue;
+        name_file(run, stage, &asks[i], arena);
+        if (!file_exists(asks[i].file.path)) continue;
+        asks[i].is_kept = response_read(&asks[i].file, arena, &asks[i].probe->response,
+                                        asks[i].own, &err);
+        if (asks[i].is_kept) continue;
+        problems_add(run->problems, SEVERITY_WARNING, err.file, err.path,
+                     "%s — it is traced again", err.text);
+    }
+}
+
+/* ---- the scene's own light --------------------------------------------------------------- */
+
+static bool gives_light(const Lights *lights)
+{
+    return lights_has(lights, LIGHTS_EMITTERS) || lights_has(lights, LIGHTS_PUNCTUAL);
+}
+
+static double own_reading(const Stage *stage, const ProbeAim *aim, Arena scratch)
+{
+    ReadingGoal goal = {.precision = OWN_PRECISION, .most = OWN_PATHS};
+    if (!gives_light(stage->context.lights)) return 0;
+    return reading_take(aim, &goal, &stage->tools, scratch).reflected;
+}
+
+bool responses_read_own(const Stage *stage, const ResponseAsk *asks, int count, bool displays,
+                        Arena scratch, Error *err)
+{
+    for (int i = 0; i < count; i++) {
+        if (asks[i].is_kept) continue;
+        if (!review_goes_on(stage->tools.journal, err)) return false;
+        double own = own_reading(stage, &asks[i].probe->aim, scratch);
+        if (displays) asks[i].own->displays = own - asks[i].own->lamps;
+        else asks[i].own->lamps = own;
+    }
+    return true;
+}
+
+/* ---- tracing ----------------------------------------------------------------------------- */
+
+bool responses_trace(const ReviewRun *run, const Stage *stage, ResponseAsk *asks, int count,
+                     Arena *arena, Error *err)
+{
+    FarTools tools = {.stage = stage};
+    Progress progress = progress_start(run->progress, "responses", "probes", count);
+    for (int i = 0; i < count; i++) {
+        ResponseAsk *ask = &asks[i];
+        if (ask->is_kept) continue;
+        if (!review_goes_on(stage->tools.journal, err)) return false;
+        tools.paths = ask->paths;
+        tools.precision = ask->precision;
+        far_probe_respond(ask->probe, &tools, arena);
+        if (!response_write(&ask->file, &ask->probe->response, ask->own, *arena, err))
+            return false;
+        progress_update(&progress, i + 1);
+    }
+    progress_end(&progress, count);
+    return true;
+}

@@ -1,0 +1,169 @@
+/* What a journal was told it tells, after any kill; what is cut off or damaged ends it, and all
+ * before that counts. */
+#include "fixture.h"
+
+#include <sys/stat.h>
+
+#include "review/keep/journal.h"
+
+enum { ANSWERS = 12, MOST = 40 };
+
+static char folder[FOLDER_BYTES], file[FOLDER_BYTES + 16];
+
+static int make_all(void **state)
+{
+    if (!folder_create(folder)) return 1;
+    snprintf(file, sizeof file, "%s/journal", folder);
+    return make_arena(state);
+}
+
+static int drop_all(void **state)
+{
+    return folder_destroy(folder) | drop_arena(state);
+}
+
+static JournalKey key_of(int i)
+{
+    return (JournalKey){(uint64_t)i * 0x9E3779B97F4A7C15u, (uint64_t)i};
+}
+
+static size_t size_of(int i)
+{
+    return (size_t)(i * 7 % MOST);
+}
+
+static void answer_of(int i, unsigned char answer[MOST])
+{
+    for (int k = 0; k < MOST; k++) answer[k] = (unsigned char)(31 * i + k);
+}
+
+static Journal *open_journal(Arena *arena, int *warnings)
+{
+    Problems problems = problems_start(arena);
+    Journal *journal;
+    Error    err;
+    if (!journal_open(file, arena, &problems, &journal, &err)) fail_msg("%s", err.text);
+    *warnings = problems.count;
+    return journal;
+}
+
+static void fill(Arena *arena)
+{
+    int      warnings;
+    unsigned char answer[MOST];
+    unlink(file);
+    Journal *journal = open_journal(arena, &warnings);
+    for (int i = 1; i <= ANSWERS; i++) {
+        answer_of(i, answer);
+        journal_add(journal, key_of(i), answer, size_of(i));
+    }
+    assert_int_equal(journal_count(journal), ANSWERS);
+    journal_close(journal);
+}
+
+/* How many of the first answers are there; none behind them may be. */
+static int count_known(const Journal *journal)
+{
+    int known = 0;
+    for (int i = 1; i <= ANSWERS; i++) {
+        unsigned char found[MOST], wanted[MOST];
+        answer_of(i, wanted);
+        if (!journal_find(journal, key_of(i), found, size_of(i))) continue;
+        assert_int_equal(known, i - 1);
+        assert_memory_equal(found, wanted, size_of(i));
+        known = i;
+    }
+    assert_int_equal(known, journal_count(journal));
+    return known;
+}
+
+TEST(what_was_kept_is_found_again)
+{
+    Arena arena = test_arena(state);
+    int   warnings;
+    unsigned char other[MOST] = {0};
+    fill(&arena);
+    Journal *journal = open_journal(&arena, &warnings);
+    assert_int_equal(warnings, 0);
+    assert_int_equal(count_known(journal), ANSWERS);
+    assert_false(journal_find(journal, key_of(3), other, size_of(3) + 1));
+    assert_false(journal_find(journal, key_of(ANSWERS + 1), other, 1));
+    journal_add(journal, key_of(3), other, size_of(3)); /* the first counts */
+    assert_int_equal(count_known(journal), ANSWERS);
+    for (int i = 100; i < 3000; i++) journal_add(journal, key_of(i), &i, sizeof i);
+    for (int i = 100, k; i < 3000; i++)
+        assert_true(journal_find(journal, key_of(i), &k, sizeof k) && k == i);
+    journal_close(journal);
+}
+
+TEST(cut_off_anywhere_it_goes_on)
+{
+    Arena     arena = test_arena(state);
+    FileBytes bytes;
+    Error     err;
+    int       warnings, last = -1;
+    fill(&arena);
+    assert_true(file_read(file, 1 << 20, &arena, &bytes, &err));
+    for (size_t size = 0; size <= bytes.size; size++) {
+        Arena room = arena;
+        write_bytes(file, bytes.data, size);
+        Journal *journal = open_journal(&room, &warnings);
+        int known = count_known(journal);
+        assert_true(known >= last);
+        last = known;
+        unsigned char answer[MOST];
+        for (int i = known + 1; i <= ANSWERS; i++) {
+            answer_of(i, answer);
+            journal_add(journal, key_of(i), answer, size_of(i));
+        }
+        journal_close(journal);
+        FileBytes again;
+        assert_true(file_read(file, 1 << 20, &room, &again, &err));
+        assert_int_equal(again.size, bytes.size);
+        assert_memory_equal(again.data, bytes.data, bytes.size);
+    }
+    assert_int_equal(last, ANSWERS);
+}
+
+TEST(a_damaged_byte_is_told_and_nothing_wrong_is_found)
+{
+    Arena     arena = test_arena(state);
+    FileBytes bytes;
+    Error     err;
+    fill(&arena);
+    assert_true(file_read(file, 1 << 20, &arena, &bytes, &err));
+    unsigned char *damaged = ARENA_NEW(&arena, unsigned char, bytes.size);
+    for (size_t at = 0; at < bytes.size; at++) {
+        Arena room = arena;
+        int   warnings;
+        memcpy(damaged, bytes.data, bytes.size);
+        damaged[at] ^= 0x10;
+        write_bytes(file, damaged, bytes.size);
+        Journal *journal = open_journal(&room, &warnings);
+        assert_int_equal(warnings, 1);
+        assert_true(count_known(journal) < ANSWERS);
+        journal_close(journal);
+    }
+}
+
+TEST(two_at_once_are_refused_and_an_empty_one_leaves_nothing)
+{
+    Arena    arena = test_arena(state);
+    Problems problems = problems_start(&arena);
+    Journal *second;
+    Error    err;
+    int      warnings;
+    unlink(file);
+    Journal *journal = open_journal(&arena, &warnings);
+    assert_false(journal_open(file, &arena, &problems, &second, &err));
+    assert_int_equal(err.code, ERROR_OUTPUT);
+    assert_string_equal(err.file, file);
+    assert_true(strstr(err.text, "another review is at work in this folder"));
+    journal_close(journal);
+    assert_false(file_exists(file));
+}
+
+int main(void)
+{
+    return run_cases(make_all, drop_all);
+}

@@ -1,0 +1,136 @@
+/* A response that was read is the one that was written, bit for bit; whatever is not whole, or
+ * of another question, is refused in one line that names the file. */
+#include "fixture.h"
+
+#include <sys/stat.h>
+
+#include "review/light/response_file.h"
+
+enum { LEVEL = 0 };
+
+static const char identity[] = "version\t1\neye\t0 1 2\nseed\t9\n";
+static char       folder[FOLDER_BYTES], path[FOLDER_BYTES + 16];
+
+static int make_all(void **state)
+{
+    if (!folder_create(folder)) return 1;
+    snprintf(path, sizeof path, "%s/a.response", folder);
+    return make_arena(state);
+}
+
+static int drop_all(void **state)
+{
+    return folder_destroy(folder) | drop_arena(state);
+}
+
+/* Half the triangles are empty, and one holds nothing but a negative zero. */
+static Response make_response(Arena *arena)
+{
+    Response response;
+    float   *shares = response_empty(LEVEL, arena, &response);
+    int      cells = response.cells.count;
+    for (int i = 0; i < PROBE_ORDERS * cells * RESPONSE_BANDS; i++)
+        if (i / RESPONSE_BANDS % 2) shares[i] = 1.0f / (float)(i + 3);
+    shares[0] = -0.0f;
+    response.paths = 640;
+    response.relative_error = 0.0123;
+    return response;
+}
+
+static void assert_same_responses(const Response *a, const Response *b)
+{
+    size_t bytes = (size_t)a->cells.count * RESPONSE_BANDS * sizeof(float);
+    assert_int_equal(a->cells.count, b->cells.count);
+    assert_int_equal(a->cells.level, b->cells.level);
+    assert_int_equal(a->paths, b->paths);
+    assert_memory_equal(&a->relative_error, &b->relative_error, sizeof(double));
+    assert_memory_equal(a->first, b->first, bytes);
+    assert_memory_equal(a->rest, b->rest, bytes);
+    assert_memory_equal(a->centers, b->centers, (size_t)a->cells.count * sizeof *a->centers);
+}
+
+static const OwnLight light = {0.25, 1.5};
+
+static FileBytes write_one(Arena *arena)
+{
+    Response     response = make_response(arena);
+    ResponseFile file = {.path = path, .identity = identity};
+    FileBytes    bytes;
+    Error        err;
+    if (!response_write(&file, &response, &light, *arena, &err)) fail_msg("%s", err.text);
+    assert_true(file_read(path, 1 << 24, arena, &bytes, &err));
+    assert_int_equal(bytes.size, file.bytes);
+    return bytes;
+}
+
+static void assert_refused(const char *as, Arena arena, Error *err)
+{
+    ResponseFile file = {.path = path, .identity = as};
+    Response     response = {.paths = 7};
+    OwnLight     own = {1, 2};
+    assert_false(response_read(&file, &arena, &response, &own, err));
+    assert_int_equal(err->code, ERROR_INPUT);
+    assert_string_equal(err->file, path);
+    assert_true(response.paths == 7 && own.lamps == 1);
+}
+
+TEST(what_was_written_is_read)
+{
+    Arena        arena = test_arena(state);
+    ResponseFile file = {.path = path, .identity = identity};
+    Response     found, wanted = make_response(&arena);
+    OwnLight     own;
+    Error        err;
+    FileBytes    bytes = write_one(&arena);
+    if (!response_read(&file, &arena, &found, &own, &err)) fail_msg("%s", err.text);
+    assert_same_responses(&found, &wanted);
+    assert_memory_equal(&own, &light, sizeof own);
+    assert_int_equal(file.bytes, bytes.size);
+    size_t whole = PROBE_ORDERS * (size_t)wanted.cells.count * RESPONSE_BANDS * sizeof(float);
+    assert_true(bytes.size < whole); /* empty triangles take no room */
+}
+
+TEST(every_beginning_is_refused)
+{
+    Arena     arena = test_arena(state);
+    FileBytes bytes = write_one(&arena);
+    Error     err;
+    for (size_t size = 0; size < bytes.size; size++) {
+        write_bytes(path, bytes.data, size);
+        assert_refused(identity, arena, &err);
+        assert_true(strstr(err.text, size < 8 ? "is not a response" : "is cut off"));
+    }
+}
+
+TEST(every_damaged_byte_is_refused)
+{
+    Arena     arena = test_arena(state);
+    FileBytes bytes = write_one(&arena);
+    unsigned char *damaged = ARENA_NEW(&arena, unsigned char, bytes.size + 1);
+    Error     err;
+    for (size_t at = 0; at < bytes.size; at++) {
+        memcpy(damaged, bytes.data, bytes.size);
+        damaged[at] ^= 1;
+        write_bytes(path, damaged, bytes.size);
+        assert_refused(identity, arena, &err);
+    }
+    memcpy(damaged, bytes.data, bytes.size);
+    write_bytes(path, damaged, bytes.size + 1);
+    assert_refused(identity, arena, &err);
+    assert_true(strstr(err.text, "is damaged: has "));
+}
+
+TEST(another_question_is_told_by_what_differs)
+{
+    Arena arena = test_arena(state);
+    Error err;
+    write_one(&arena);
+    assert_refused("version\t1\neye\t0 1 3\nseed\t9\n", arena, &err);
+    assert_string_equal(err.text,
+                        "is the response of something else: eye: 0 1 2 there, 0 1 3 here");
+}
+
+int main(void)
+{
+    return run_cases(make_all, drop_all);
+}
