@@ -139,7 +139,8 @@ static void add_daylight(Text *text, const DaylightInput *daylight)
         {"sky lux", daylight->diffuse_lux}, {"direct W/m2", daylight->direct_w_m2},
         {"diffuse W/m2", daylight->diffuse_w_m2}, {"turbidity", daylight->turbidity},
         {"visibility km", daylight->visibility_km}, {"ozone atm-cm", daylight->ozone_atm_cm},
-        {"water cm", daylight->water_cm}, {"albedo", daylight->albedo}};
+        {"water cm", daylight->water_cm}, {"albedo", daylight->albedo},
+        {"quadrature steps", daylight->integral_steps}};
     for (int i = 0; i < COUNT_OF(numbers); i++)
         identity_number(text, numbers[i].name, numbers[i].value);
     identity_line(text, "moon", "%s", daylight->no_moon ? "left out" : "in its place");

@@ -81,7 +81,7 @@ static void measure(const Probing *p, Arena arena)
     for (int k = 0; k < 3; k++) {
         char            what[32];
         double          limit = limits[k] * truth;
-        ReadingQuestion question = {is_clear_of, &limit, CLEAR};
+        ReadingQuestion question = {is_clear_of, &limit, CLEAR, "limit"};
         goal = (ReadingGoal){.precision = TOLERANCE, .most = 1 << 18, .question = &question};
         snprintf(what, sizeof what, "limit at %g", limits[k]);
         list = readings(p, &goal, (uint32_t)(k + 2) << 20, &arena);

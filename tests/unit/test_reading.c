@@ -80,7 +80,7 @@ static bool is_clear_of(void *user, MeanInterval in)
 /* limit: by the converged reading. */
 static Reading read_against(const World *world, uint32_t seed, double limit)
 {
-    ReadingQuestion question = {is_clear_of, &limit, 0.05};
+    ReadingQuestion question = {is_clear_of, &limit, 0.05, "limit"};
     ReadingGoal     goal = {.precision = 0.001, .most = 1 << 18, .question = &question};
     return read_ball(world, seed, &goal);
 }

@@ -366,7 +366,7 @@ EyeReading eye_read(const Stage *stage, const EyeLook *look, Arena scratch)
     ProbeAim   aim = {.context = &stage->context, .eye = look->eye, .targets = &look->towards,
                       .target_count = 1, .seed = SEED};
     double     numbers[] = {observer->age_years, observer->pigment, look->rounds, ahead[0],
-                            ahead[1], ahead[2]};
+                            ahead[1], ahead[2], look->images ? look->images->count : -1};
     Question   question = {.base = tools->base, .kind = "eye", .numbers = numbers,
                            .number_count = COUNT_OF(numbers)};
     JournalKey key = question_key(&question, &aim, scratch);

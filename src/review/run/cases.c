@@ -9,7 +9,7 @@
 #include "review/output/review_decide.h"
 #include "review/request/request_check.h"
 #include "review/run/causes.h"
-#include "review/run/go_on.h"
+#include "review/keep/go_on.h"
 #include "text/text.h"
 #include "vision/contrast_sensitivity.h"
 #include "vision/grey_steps.h"

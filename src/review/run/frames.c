@@ -10,7 +10,7 @@
 #include "render/train.h"
 #include "review/run/cases.h"
 #include "review/run/frame_kept.h"
-#include "review/run/go_on.h"
+#include "review/keep/go_on.h"
 #include "review/request/request_check.h"
 
 #define YFOV_DEG 35 /* of an eye that is no camera */

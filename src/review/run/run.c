@@ -8,7 +8,7 @@
 #include "review/run/false_sun_times.h"
 #include "review/run/frames.h"
 #include "review/run/gazes.h"
-#include "review/run/go_on.h"
+#include "review/keep/go_on.h"
 #include "review/run/sights.h"
 #include "review/output/review_decide.h"
 #include "review/request/request_check.h"

@@ -7,7 +7,7 @@
 #include "base/units.h"
 #include "review/judge.h"
 #include "review/run/false_sun_times.h"
-#include "review/run/go_on.h"
+#include "review/keep/go_on.h"
 #include "review/run/sweep_probes.h"
 #include "review/run/sweep_weather.h"
 

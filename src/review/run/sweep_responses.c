@@ -8,7 +8,7 @@
 #include "render/identity.h"
 #include "review/light/question.h"
 #include "review/run/frames.h"
-#include "review/run/go_on.h"
+#include "review/keep/go_on.h"
 
 #define OWN_PRECISION 0.02
 #define OWN_PATHS 8192

@@ -1,4 +1,4 @@
-#include "review/run/go_on.h"
+#include "review/keep/go_on.h"
 
 #include "render/signals.h"
 
