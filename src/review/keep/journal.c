@@ -45,6 +45,12 @@ struct Journal {
     Error         failure;
 };
 
+JournalKey journal_key(const char *text)
+{
+    XXH128_hash_t hash = XXH3_128bits(text, strlen(text));
+    return (JournalKey){hash.low64, hash.high64};
+}
+
 /* ---- the index --------------------------------------------------------------------------- */
 
 /* Its own, or the free one where it would be. */

@@ -24,6 +24,9 @@ typedef struct JournalKey {
     uint64_t low, high;
 } JournalKey;
 
+/* Of a text that says all that decides the answer. */
+JournalKey journal_key(const char *text);
+
 typedef struct Journal Journal;
 
 /* Opens the file, or makes it. What was dropped is a warning. To be closed. */

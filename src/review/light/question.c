@@ -11,11 +11,6 @@ static JournalKey key_of(XXH128_hash_t hash)
     return (JournalKey){hash.low64, hash.high64};
 }
 
-JournalKey question_base(const char *identity)
-{
-    return key_of(XXH3_128bits(identity, strlen(identity)));
-}
-
 static void add_floats(XXH3_state_t *state, Vec3 v)
 {
     const float values[3] = {v.x, v.y, v.z};

@@ -9,12 +9,9 @@
 #include "kernel/kernel.h"
 #include "review/keep/journal.h"
 
-/* The files of a scene and a request, and the program that reads them. */
-JournalKey question_base(const char *identity);
-
 /* What is asked, besides: its kind and numbers. */
 typedef struct Question {
-    JournalKey    base;
+    JournalKey    base; /* of the program, the files of the scene and the request */
     const char   *kind;
     const double *numbers;
     int           number_count;

@@ -68,7 +68,7 @@ static void identify(Stage *stage, const SceneOptions *options, Arena *arena)
     for (int i = 0; i < request->input_count; i++)
         identity_line(&all, "request", "%016llx", (unsigned long long)request->inputs[i].hash);
     stage->identity = own.data;
-    stage->tools.base = question_base(all.data);
+    stage->tools.base = journal_key(all.data);
 }
 
 bool stage_open(const StageOptions *options, Arena *arena, Problems *problems, Stage *out,

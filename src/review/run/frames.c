@@ -9,7 +9,7 @@
 #include "render/render.h"
 #include "render/train.h"
 #include "review/run/cases.h"
-#include "review/run/frame_kept.h"
+#include "review/keep/frame_kept.h"
 #include "review/keep/go_on.h"
 #include "review/request/request_check.h"
 

@@ -1,4 +1,4 @@
-#include "review/run/frame_kept.h"
+#include "review/keep/frame_kept.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -7,7 +7,6 @@
 
 #include "base/file.h"
 #include "base/file_write.h"
-#include "review/light/question.h"
 
 #define FILE_BYTES_MOST ((size_t)1 << 32)
 #define CHECKPOINT_S 20 /* between two */
@@ -36,7 +35,7 @@ static bool hash_files(const FrameKept *kept, uint64_t out[FRAME_FILES_MOST])
 
 static JournalKey key_of(const FrameKept *kept)
 {
-    return question_base(arena_format(kept->arena, "frame\n%016llx", (unsigned long long)
+    return journal_key(arena_format(kept->arena, "frame\n%016llx", (unsigned long long)
                                       XXH3_64bits(kept->identity, strlen(kept->identity))));
 }
 
