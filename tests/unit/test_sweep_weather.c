@@ -1,6 +1,7 @@
 /* Sweeps under a weather file: each step takes its row, and gaps are told. */
 #include "check.h"
 
+#include "review/run/sweep.h"
 #include "review/run/sweep_weather.h"
 
 #define DAY 24
@@ -91,6 +92,26 @@ TEST(skies_are_made_once_an_hour)
         assert_int_equal(skies.of_sun[i], skies.of_sun[i - i % 3]);
         if (i >= 3 && skies.of_sun[i] >= 0) assert_true(skies.of_sun[i] >= skies.of_sun[i - 3]);
     }
+    arena_release(&f->arena);
+}
+
+/* What is traced in full: the hour's own sky, nothing in a dark one, and a clear sky for a sun
+ * that belongs to no hour. */
+TEST(a_sun_is_traced_under_its_hour)
+{
+    (void)state;
+    Fixture *f = drive(1);
+    Stage    stage = {.request = &f->request, .condition = &f->condition};
+    SweepSun noon = {.elevation_deg = 60, .heading_deg = 90, .step = 11};
+    SweepSun dusk = {.elevation_deg = 2, .step = 20}, any = {.elevation_deg = 30, .step = -1};
+    f->request.forward[2] = -1;
+    Environment sky = sweep_environment(&stage, &noon);
+    assert_int_equal(sky.kind, ENVIRONMENT_PEREZ);
+    assert_false(sky.has_sun);
+    assert_near(sky.daylight.direct_w_m2, 112, 1e-12);
+    assert_near(sky.heading, 1.5707963, 1e-6);
+    assert_int_equal(sweep_environment(&stage, &dusk).kind, ENVIRONMENT_NONE);
+    assert_int_equal(sweep_environment(&stage, &any).kind, ENVIRONMENT_SKY);
     arena_release(&f->arena);
 }
 

@@ -114,7 +114,7 @@ static bool light_stage(Stage *stage, const ExplainOptions *options, Arena *scra
         return stage_light(stage, condition->has_environment ? &condition->environment : NULL,
                            scratch, err);
     SweepSun    sun = {.azimuth_deg = options->sun_deg[0], .compass_deg = options->sun_deg[0],
-                       .elevation_deg = options->sun_deg[1]};
+                       .elevation_deg = options->sun_deg[1], .step = -1};
     Environment sky = sweep_environment(stage, &sun);
     return stage_light(stage, &sky, scratch, err);
 }

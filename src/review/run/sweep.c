@@ -201,7 +201,7 @@ Environment sweep_environment(const Stage *stage, const SweepSun *sun)
     Environment   environment = {
         .forward = vec3((float)forward[0], (float)forward[1], (float)forward[2]),
         .heading = (float)radians_from_degrees(sun->heading_deg)};
-    if (stage->condition->weather_id != NO_ID) {
+    if (stage->condition->weather_id != NO_ID && sun->step >= 0) {
         set_weather(stage, sun, &environment);
         return environment;
     }

@@ -18,7 +18,8 @@
 /* Can the condition be swept? To be asked before long work; the error names its place. */
 bool sweep_check(const ReviewRequest *request, int condition_id, Arena scratch, Error *err);
 
-/* The clear sky of the stage's sweep under one of its suns, or that of its weather file. */
+/* The clear sky of the stage's sweep under one of its suns; that of its weather file, where the
+ * sun has a step. */
 Environment sweep_environment(const Stage *stage, const SweepSun *sun);
 
 /* Sweeps of one scene: the same files, contents and polarities, so that responses serve all. */
