@@ -103,7 +103,7 @@ TEST(suns_come_back)
         ambient[i] = (unsigned char)(i / 4 % 4);
     }
     double    headings[8] = {0, 45, 90, 135, 180, 225, 270, 315};
-    LiveSky   sky = {suns, SUNS, 2026, 60, headings, 8};
+    LiveSky   sky = {suns, SUNS, false, 2026, 60, headings, 8};
     LiveSweep sweeps[2] = {{0, &sky, 3, some_numbers(1, 1e4, 0.3, &arena),
                             some_numbers(1e-5, 1e4, 0.2, &arena),
                             some_numbers(0.02, 1, 0.1, &arena),

@@ -108,8 +108,9 @@ static bool add_sky(const Writer *to, const LiveSky *sky)
         codes[3 * count + i] = (uint32_t)sun->heading_id;
     }
     Writer own = {to->html, &scratch, to->err};
-    text_format(to->html, "{\"count\":%d,\"year\":%d,\"minutes\":%.9g,\"headings\":[",
-                sky->count, sky->year, sky->step_minutes);
+    text_format(to->html, "{\"count\":%d,\"route\":%s,\"year\":%d,\"minutes\":%.9g,",
+                sky->count, sky->is_route ? "true" : "false", sky->year, sky->step_minutes);
+    text_add(to->html, "\"headings\":[");
     for (int i = 0; i < sky->heading_count; i++)
         text_format(to->html, i ? ",%.9g" : "%.9g", sky->headings_deg[i]);
     text_add(to->html, "]");

@@ -31,6 +31,7 @@ typedef struct LiveSun {
 typedef struct LiveSky {
     const LiveSun *suns;
     int            count;
+    bool           is_route;     /* in its order of time */
     int            year;         /* 0: its suns have no date */
     double         step_minutes; /* of a year, from 1 January 0:00 UTC on */
     const double  *headings_deg;

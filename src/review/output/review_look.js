@@ -218,6 +218,8 @@ Look.prototype.addControls=function(into){
   this.colours=check(ticks,'False colours',false,changed);
   if(this.picture.layers[2])
     this.eye=check(ticks,'Spread as in an eye of '+this.picture.age+' years',false,changed);
+  if(this.eye)this.eye.parentElement.title='of what lies in the frame: a sun outside it adds '+
+    'nothing';
   box.append(ticks);
   t.button(box,'As it was',function(){
     look.exposure.set(0);look.brightness.set(0);

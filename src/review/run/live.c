@@ -154,7 +154,8 @@ static const LiveSky *make_sky(const SweepSuns *suns, const ReviewCondition *con
         list[i] = (LiveSun){sun->azimuth_deg, sun->elevation_deg, sun->step, sun->heading_id};
     }
     bool is_year = condition && condition->kind == CONDITION_YEAR_SWEEP;
-    *sky = (LiveSky){.suns = list, .count = suns->count};
+    *sky = (LiveSky){.suns = list, .count = suns->count,
+                     .is_route = condition && condition->kind == CONDITION_ROUTE};
     if (is_year) {
         sky->year = condition->year;
         sky->step_minutes = suns->step_minutes;

@@ -6,7 +6,7 @@
  * observer's eye. What a display's light does in the cabin stays with the rest, at the level of
  * the frame.
  *
- * Memory   what is packed lives in the arena; scratch: 150 bytes a pixel of a frame, and the
+ * Memory   what is packed lives in the arena; scratch: a frame with all its channels, and the
  *          eye filter's.
  * Threads  the eye filter's; the same bytes for any count.
  * Fails    when a frame cannot be read, or memory is out.
