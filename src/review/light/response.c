@@ -229,8 +229,10 @@ const float *response_suns(const ProbeAim *aim, const ResponseOptions *options,
     float *shares = ARENA_NEW(arena, float, size);
     Arena  scratch = *arena;
     int    pieces = options->threads;
+    ProbeAim spread = *aim; /* few paths see all of what is looked at, too */
+    spread.is_spread = true;
     double *sums = ARENA_NEW(&scratch, double, size);
-    SunTrace trace = {aim, options, suns,
+    SunTrace trace = {&spread, options, suns,
                       ARENA_NEW(&scratch, float, size * (size_t)pieces),
                       ARENA_NEW(&scratch, Vec3, (size_t)suns->count * (size_t)pieces), 0,
                       options->paths};

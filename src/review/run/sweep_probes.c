@@ -5,7 +5,8 @@
 #define RESPONSE_PATHS 32768
 #define RESPONSE_PRECISION 0.004
 #define METER_PATHS 8192
-#define SUN_PATHS 64      /* of the first vertex */
+#define SUN_PATHS SYMBOL_POINTS /* of the first vertex: a lobe is narrower than a symbol */
+#define METER_SUN_PATHS 64
 #define MIRROR_PATHS 2048 /* of its mirror, which cost little */
 #define EYE_SEED 0x73776579u
 #define METER_SEED 0x73776d65u
@@ -138,6 +139,7 @@ void sweep_ask_probes(Sweep *sweep, Arena *arena)
 {
     FarTools tools = sweep_tools(sweep), of_meters = tools;
     of_meters.mirror_paths = 0;
+    of_meters.sun_paths = METER_SUN_PATHS;
     for (int i = 0; i < sweep->symbol_count; i++)
         far_probe_ask(&sweep->faces[i].probe, &of_meters, arena);
     if (sweep->sensor) far_probe_ask(&sweep->sensor->probe, &of_meters, arena);
