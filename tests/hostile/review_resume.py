@@ -245,6 +245,7 @@ def check_full_disk(work, wanted):
                       "sweeps/1-other-suns-eye-bar.csv" in names and
                       "sweeps/1-suns-eye-bar.csv" not in names, f"{done.stderr}, {names}")
     work.report.claim(not os.path.exists(work.path("out", "unfinished")), "is left unfinished")
+    work.ask(document("suns"))
 
 
 def main():
