@@ -30,8 +30,7 @@ static ProbeCells cells_of_level(int level, Arena *arena)
 }
 
 /* Of a chunk: some of the open ones for all of them, a few of the others for many. Cells that
- * follow each other are neighbours and are asked by different chunks; later by others again,
- * since chunks come back to the same points of a symbol. is_open: NULL: all. */
+ * follow each other are neighbours and are asked by different chunks. is_open: NULL: all. */
 static ProbeCells ask_for(const ProbeCells *cells, const bool *is_open, int chunk, Arena *arena)
 {
     ProbeCells asks = *cells;
@@ -40,7 +39,7 @@ static ProbeCells ask_for(const ProbeCells *cells, const bool *is_open, int chun
     asks.asked_count = 0;
     for (int cell = 0; cell < cells->count; cell++) {
         int every = !is_open ? 1 : is_open[cell] ? OFTEN : SELDOM;
-        if ((cell + chunk + chunk / every) % every) continue;
+        if ((cell + chunk) % every) continue;
         asked[asks.asked_count] = cell;
         weight[asks.asked_count++] = (float)every;
     }
