@@ -99,7 +99,7 @@ static void measure(const Probing *p, Arena arena)
 static void measure_moment(const ReviewRequest *request, const ReviewCondition *c, int runs,
                            Problems *problems)
 {
-    StageOptions options = {request, c, NULL, 1, NULL};
+    StageOptions options = {.request = request, .condition = c, .threads = 1};
     Arena        arena = arena_reserve((size_t)1 << 34);
     Stage        stage;
     StageSymbol *symbols;

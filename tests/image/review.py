@@ -205,6 +205,38 @@ def check_suns(report, reviewer):
                      f"sun {sun}: {found:.5g} in the sweep, {wanted:.5g} by itself")
 
 
+def read_table(reviewer, out, review):
+    with open(os.path.join(reviewer.folder, out, review["sweeps"][0]["table"]),
+              encoding="utf-8") as file:
+        return [(float(r["sun_azimuth_deg"]), float(r["sun_elevation_deg"]),
+                 float(r["reflected_cd_m2"])) for r in csv.DictReader(file)]
+
+
+def check_worst(report, reviewer):
+    """What a sweep of four degrees calls its worst sun, beside all suns a tenth of a degree
+    apart: the eye sees the sun's image in the middle of the display."""
+    def sweep(name, azimuth, elevation):
+        document = request(
+            eyes={"low": {"position_m": [0.1, -0.2, 0.8]}}, precision={"contrast": 0.05},
+            symbols={"bar": {"display": "screen", "uv": [0.3, 0.4, 0.4, 0.6]}},
+            conditions=[{"name": "suns", "sweep": {
+                "sun": {"azimuth_deg": azimuth, "elevation_deg": elevation}, "sky": "sky"}}])
+        _, review = reviewer.review(document, name)
+        return review["sweeps"][0]["worst"]["sun"], read_table(reviewer, name, review)
+    sun, coarse = sweep("coarse", [162, 202, 4], [3, 27, 4])
+    at = [sun["azimuth_deg"], sun["elevation_deg"]]
+    _, fine = sweep("fine", [round(at[0] - 2, 2), round(at[0] + 2, 2), 0.1],
+                    [round(at[1] - 2, 2), round(at[1] + 2, 2), 0.1])
+    most = max(reflected for _, _, reflected in fine)
+    found = min(fine, key=lambda row: math.hypot(row[0] - at[0], row[1] - at[1]))
+    report.claim(max(row[2] for row in coarse) < 0.5 * most, "four degrees were enough")
+    report.claim(close(found[2], most, 0.01),
+                 f"worst at {at}: {found[2]:.5g} cd/m2, nearby {most:.5g}")
+    near = min(math.hypot(a - at[0], e - at[1]) for a, e, reflected in fine
+               if reflected > 0.999 * most)
+    report.claim(near <= 0.1 + 0.08, f"the worst lies {near:.2f} degrees away")
+
+
 EPW = "".join(f"{line}\n" for line in (
     "LOCATION,Testville,-,NLD,Data,0,48.14,11.58,1.0,520", "DESIGN CONDITIONS,0",
     "TYPICAL/EXTREME PERIODS,0", "GROUND TEMPERATURES,0", "HOLIDAYS/DAYLIGHT SAVINGS,No,0,0,0",
@@ -297,6 +329,7 @@ def main(program, whole):
         check_suns(report, reviewer)
         if whole:
             check_weather(report, reviewer, 30)
+            check_worst(report, reviewer)
         check_refusals(report, reviewer)
     return report.finish()
 

@@ -163,7 +163,7 @@ TEST(a_response_to_a_sun_is_what_paths_find_under_it)
     int   count = suns_about(suns);
     world_ready(&world, 64);
     ProbeAim  aim = aim_of(&world);
-    Response  response = respond(&aim, 32768, 2, &world.arena);
+    Response  response = respond(&aim, 65536, 2, &world.arena);
     ProbeSuns asked = {suns, count, cosf(world.scene->environment.sun_angular_radius), false};
     ResponseOptions options = {kernel(), 4, 64, 2, 0};
     const float *scattered = response_suns(&aim, &options, &asked, &world.arena);

@@ -1,6 +1,7 @@
 /* Suns of a sweep: where each stands, and how much of the time it means. */
 #include "check.h"
 
+#include "base/units.h"
 #include "review/run/sweep_suns.h"
 
 static SweepSuns suns_of(ReviewCondition condition, Arena *arena)
@@ -52,6 +53,54 @@ TEST(a_grid_of_suns_is_the_vehicles)
         assert_near(suns.list[i].azimuth_deg, 10 * (i % 36) - 90, 1e-9);
         assert_near(suns.angles[i].elevation_deg, 5 + 20 * (i / 36), 1e-9);
     }
+    arena_release(&arena);
+}
+
+/* Closer about one of them, as far as its neighbours and a tenth of a degree apart. */
+TEST(suns_about_one_are_a_tenth_of_a_degree_apart)
+{
+    (void)state;
+    Arena  arena = arena_reserve((size_t)1 << 28);
+    double heading = 90;
+    ReviewCondition year = {.kind = CONDITION_YEAR_SWEEP, .year = 2026, .weather_id = NO_ID,
+                            .where = {48.14, 11.58, 520}, .step_minutes = 60,
+                            .headings_deg = &heading, .heading_count = 1};
+    ReviewCondition grid = {.kind = CONDITION_SUN_SWEEP, .azimuth_deg = {0, 350, 10, 36},
+                            .elevation_deg = {5, 45, 20, 3}, .has_heading = true,
+                            .heading_deg = 90, .weather_id = NO_ID};
+    SweepSuns suns = suns_of(year, &arena);
+    int       at = 2000; /* high up: neighbours are up too */
+    while (suns.list[at].elevation_deg < 50) at++;
+    SweepSun  one = suns.list[at];
+    SweepSuns about = sweep_suns_about(&year, &one, 0, &arena);
+    int       middle = about.count / 2;
+    assert_near(about.list[middle].azimuth_deg, one.azimuth_deg, 1e-9);
+    assert_near(about.list[0].azimuth_deg, suns.list[at - 1].azimuth_deg, 1e-6);
+    assert_near(about.list[about.count - 1].azimuth_deg, suns.list[at + 1].azimuth_deg, 1e-6);
+    for (int i = 1; i < about.count; i++) {
+        const SweepSun *a = &about.list[i - 1], *b = &about.list[i];
+        double east = (b->compass_deg - a->compass_deg) *
+                      cos(radians_from_degrees(a->elevation_deg));
+        assert_true(hypot(east, b->elevation_deg - a->elevation_deg) < 0.11);
+    }
+    assert_non_null(strstr(sweep_suns_when(&year, &suns, &about.list[0], &arena), ":30 UTC"));
+    assert_int_equal(sweep_suns_about(&year, &one, 1, &arena).count, 1);
+    one = suns_of(grid, &arena).list[40];
+    double reach = 20;
+    for (int round = 0; round < 2; round++) {
+        about = sweep_suns_about(&grid, &one, round, &arena);
+        double low = INFINITY, high = -INFINITY, least = INFINITY;
+        for (int i = 0; i < about.count; i++) {
+            double apart = fabs(about.list[i].elevation_deg - one.elevation_deg);
+            low = fmin(low, about.list[i].elevation_deg);
+            high = fmax(high, about.list[i].elevation_deg);
+            if (apart > 1e-9) least = fmin(least, apart);
+        }
+        assert_near(high - low, 2 * reach, 1e-9);
+        assert_near(least, round ? 0.1 : 4, 1e-9);
+        reach = least;
+    }
+    assert_int_equal(sweep_suns_about(&grid, &one, 2, &arena).count, 1);
     arena_release(&arena);
 }
 

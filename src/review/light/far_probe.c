@@ -178,23 +178,29 @@ static const float *ask_suns(const FarProbe *probe, const ReadingTools *with,
     return found;
 }
 
-void far_probe_ask(FarProbe *probe, const FarTools *tools, Arena *arena)
+void far_probe_ask_suns(FarProbe *probe, const FarTools *tools, Arena *arena)
 {
     const ReadingTools *with = &tools->stage->tools;
     ResponseOptions options = {with->kernel, RESPONSE_LEVEL, tools->sun_paths, with->threads,
                                0};
     ProbeSuns suns = {.towards = sun_directions(tools, arena), .count = tools->suns.count,
                       .cos_radius = (float)cos(radians_from_degrees(SUN_MEAN_RADIUS_DEG))};
-    if (tools->hours)
-        probe->sky = hour_skies_read(tools->hours, &probe->response, suns.towards, suns.count,
-                                     with->threads, arena);
-    else
-        sum_skies(probe, tools, arena);
     probe->scattered = ask_suns(probe, with, &options, &suns, arena);
     suns.by_mirror = true;
     options.paths = tools->mirror_paths;
     probe->mirror =
         tools->mirror_paths ? ask_suns(probe, with, &options, &suns, arena) : NULL;
+}
+
+void far_probe_ask(FarProbe *probe, const FarTools *tools, Arena *arena)
+{
+    if (tools->hours)
+        probe->sky = hour_skies_read(tools->hours, &probe->response,
+                                     sun_directions(tools, arena), tools->suns.count,
+                                     tools->stage->tools.threads, arena);
+    else
+        sum_skies(probe, tools, arena);
+    far_probe_ask_suns(probe, tools, arena);
 }
 
 static double sky_reading(const FarProbe *probe, const SkyTable *table, SunAngles sun)

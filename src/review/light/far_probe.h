@@ -66,6 +66,9 @@ void far_probe_respond(FarProbe *probe, const FarTools *tools, Arena *arena);
 /* After that: the rest, for the tools' own. */
 void far_probe_ask(FarProbe *probe, const FarTools *tools, Arena *arena);
 
+/* A probe that was asked, for other suns of the same clear skies. */
+void far_probe_ask_suns(FarProbe *probe, const FarTools *tools, Arena *arena);
+
 typedef struct FarReading {
     double sky, sun_first, sun_rest; /* they add up */
     double mirror;                   /* of sun_first */

@@ -5,13 +5,14 @@
 
 #include "base/parallel.h"
 #include "base/units.h"
+#include "review/light/light_bands.h"
 
 #define WAVE 16    /* chunks that are traced before they are added, in order */
 #define PILOT 4    /* chunks that ask every triangle */
 #define NEAR 1.2f  /* widths of a triangle: what is asked for a sun; one lies within, or more */
-#define OFTEN 8    /* later ones ask a cell that those found in every so manyth chunk: as many
-                      rays go out along eight times as many paths, whose noise is greater than
-                      that of directions within a triangle */
+#define OFTEN 16   /* later ones ask a cell that those found in every so manyth chunk: as many
+                      rays go out along so many times as many paths, whose noise is greater
+                      than that of directions within a triangle */
 #define SELDOM 128 /* what none of those found */
 
 /* ---- which triangles are asked ----------------------------------------------------------- */
@@ -30,7 +31,8 @@ static ProbeCells cells_of_level(int level, Arena *arena)
 }
 
 /* Of a chunk: some of the open ones for all of them, a few of the others for many. Cells that
- * follow each other are neighbours and are asked by different chunks. is_open: NULL: all. */
+ * follow each other are neighbours and are asked by different chunks; later by others again,
+ * since chunks come back to the same points of a symbol. is_open: NULL: all. */
 static ProbeCells ask_for(const ProbeCells *cells, const bool *is_open, int chunk, Arena *arena)
 {
     ProbeCells asks = *cells;
@@ -39,7 +41,7 @@ static ProbeCells ask_for(const ProbeCells *cells, const bool *is_open, int chun
     asks.asked_count = 0;
     for (int cell = 0; cell < cells->count; cell++) {
         int every = !is_open ? 1 : is_open[cell] ? OFTEN : SELDOM;
-        if ((cell + chunk) % every) continue;
+        if ((cell + chunk + chunk / every) % every) continue;
         asked[asks.asked_count] = cell;
         weight[asks.asked_count++] = (float)every;
     }
@@ -176,21 +178,64 @@ void response_trace(const ProbeAim *aim, const ResponseOptions *options, Arena *
 
 /* ---- reading ----------------------------------------------------------------------------- */
 
+/* Sums of a plane that is fitted to what cells about a direction send, by weight: value and
+ * slopes. Without slopes a direction that lies to one side of its cells would read what those
+ * send. */
+typedef struct PlaneFit {
+    double moment[3][3], sum[3]; /* of 1, x, y; of these times the value */
+    double least, most;
+} PlaneFit;
+
+static void fit_add(PlaneFit *fit, double weight, const double at[3], double value)
+{
+    for (int i = 0; i < 3; i++) {
+        for (int j = 0; j < 3; j++) fit->moment[i][j] += weight * at[i] * at[j];
+        fit->sum[i] += weight * at[i] * value;
+    }
+    fit->least = fmin(fit->least, value);
+    fit->most = fmax(fit->most, value);
+}
+
+static double minor(const PlaneFit *fit, int i, int j)
+{
+    const double (*m)[3] = fit->moment;
+    int a = (i + 1) % 3, b = (i + 2) % 3, c = (j + 1) % 3, d = (j + 2) % 3;
+    return m[a][c] * m[b][d] - m[a][d] * m[b][c];
+}
+
+/* Where x and y are 0, by Cramer's rule, and no more than any cell sends. The mean where cells
+ * lie too oddly for slopes. */
+static double fit_value(const PlaneFit *fit)
+{
+    double all = 0, value = 0;
+    double spread = fit->moment[0][0] * (fit->moment[1][1] + fit->moment[2][2]);
+    for (int i = 0; i < 3; i++) {
+        all += minor(fit, i, 0) * fit->moment[i][0];
+        value += minor(fit, i, 0) * fit->sum[i];
+    }
+    if (!(all > 1e-3 * spread * (fit->moment[1][1] + fit->moment[2][2])))
+        return fit->sum[0] / fit->moment[0][0];
+    return fmin(fmax(value / all, fit->least), fit->most);
+}
+
 double response_sun(const Response *response, Vec3 towards, const float bands[RESPONSE_BANDS])
 {
     const ProbeCells *cells = &response->cells;
-    float  width = NEAR * sqrtf(4 * PI_F / (float)cells->count), near = cosf(width);
-    double sum = 0, area = 0;
+    Frame    frame = frame_from_z(towards);
+    float    width = NEAR * sqrtf(4 * PI_F / (float)cells->count), near = cosf(width);
+    PlaneFit fit = {.least = INFINITY, .most = -INFINITY};
     for (int cell = 0; cell < cells->count; cell++) {
-        float cosine = vec3_dot(towards, response->centers[cell]);
+        Vec3  center = response->centers[cell];
+        float cosine = vec3_dot(towards, center);
         if (cosine <= near) continue;
         double weight = 1 - (double)(acosf(fminf(cosine, 1)) / width);
+        double area = (double)cells->samplers[cell % (cells->count / 2)].area;
+        double at[3] = {1, (double)vec3_dot(frame.x, center),
+                        (double)vec3_dot(frame.y, center)};
         const float *share = response->rest + (size_t)cell * RESPONSE_BANDS;
-        for (int b = 0; b < RESPONSE_BANDS; b++)
-            sum += weight * (double)share[b] * (double)bands[b];
-        area += weight * (double)cells->samplers[cell % (cells->count / 2)].area;
+        fit_add(&fit, weight * area, at, light_bands_sum(share, bands) / area);
     }
-    return sum / area;
+    return fit_value(&fit);
 }
 
 /* ---- suns -------------------------------------------------------------------------------- */

@@ -31,6 +31,7 @@ typedef struct ReviewRun {
 typedef struct SweepTable {
     int              sweep_id;  /* of the review */
     int              worst;     /* sun; -1: none */
+    SweepSun         worst_sun; /* where near that one it is worst */
     const SweepSuns *suns;      /* shared by the sweep's tables */
     const float     *contrast, *margin, *reflected, *mirror, *level, *lux; /* [suns->count] */
     const unsigned char *verdict, *ambient;

@@ -309,7 +309,7 @@ static bool make_frame(const ReviewRun *run, const Candidate *of, int number, Ar
     bool  ok = stage_open(&options, &scratch, &told_before, &stage, err);
     if (ok) {
         const SweepTable *table = of->table;
-        if (table) sky = sweep_environment(&stage, &table->suns->list[table->worst]);
+        if (table) sky = sweep_environment(&stage, &table->worst_sun);
         else if (c->has_environment) sky = c->environment;
         FrameAsk ask = {&stage, eye_named(run->request, of->of->eye),
                         vec3(0, 0, 0), run->folder, run->unfinished,

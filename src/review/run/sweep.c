@@ -226,6 +226,40 @@ typedef struct Telling {
     Arena            scratch;
 } Telling;
 
+/* By the probes, for other suns. */
+static int worst_of(const Telling *to, const Sight *sight, const SweepSuns *suns, Arena scratch)
+{
+    Sweep      sweep = *to->sweep;
+    FarTools   tools = *to->tools, of_meters;
+    SweepMeter face = *sight->face, sensor;
+    Sight      seen = *sight;
+    sweep.suns = *suns;
+    tools.suns = (FarSuns){suns->angles, suns->count};
+    of_meters = tools;
+    of_meters.mirror_paths = 0;
+    far_probe_ask_suns(&seen.probe, &tools, &scratch);
+    far_probe_ask_suns(&face.probe, &of_meters, &scratch);
+    seen.face = &face;
+    if (sweep.sensor) {
+        sensor = *sweep.sensor;
+        far_probe_ask_suns(&sensor.probe, &of_meters, &scratch);
+        sweep.sensor = &sensor;
+    }
+    return tell(&sweep, &seen, &tools, &scratch).worst;
+}
+
+/* Where about a sun it is worst. */
+static SweepSun refine(const Telling *to, const Sight *sight, SweepSun sun)
+{
+    for (int round = 0;; round++) {
+        Arena     scratch = to->scratch;
+        SweepSuns near =
+            sweep_suns_about(to->sweep->stage->condition, &sun, round, &scratch);
+        if (near.count < 2) return sun;
+        sun = near.list[worst_of(to, sight, &near, scratch)];
+    }
+}
+
 static bool read_worst(Telling *to, const Sight *sight, const SweepSun *sun, ReviewCase *out,
                        Error *err)
 {
@@ -289,16 +323,18 @@ static bool add_sweep(Telling *to, const Sight *sight, Error *err)
         Told told = tell(to->sweep, sight, to->tools, to->arena);
         sweep.failed_share = failed_share(to->suns, &told);
         sweep.longest_failure_minutes = longest_failure(to->suns, &told, to->scratch);
-        if (told.worst >= 0 &&
-            !read_worst(to, sight, &to->suns->list[told.worst], &sweep.worst, err))
-            return false;
+        SweepSun worst = {0};
+        if (told.worst >= 0) {
+            worst = refine(to, sight, to->suns->list[told.worst]);
+            if (!read_worst(to, sight, &worst, &sweep.worst, err)) return false;
+            tell_when(to, &worst, &sweep.worst);
+        }
         sweep.worst.symbol = sweep.symbol;
-        if (told.worst >= 0) tell_when(to, &to->suns->list[told.worst], &sweep.worst);
         to->out->tables[to->out->table_count++] =
-            (SweepTable){review->sweep_count, told.worst, to->suns, told.contrast, told.margin,
-                         told.reflected, told.mirror, told.level, told.lux, told.verdict,
-                         told.ambient, sight->shown.foreground, sight->shown.background,
-                         limits_asked(to, sight)};
+            (SweepTable){review->sweep_count, told.worst, worst, to->suns, told.contrast,
+                         told.margin, told.reflected, told.mirror, told.level, told.lux,
+                         told.verdict, told.ambient, sight->shown.foreground,
+                         sight->shown.background, limits_asked(to, sight)};
     }
     review->sweeps[review->sweep_count++] = sweep;
     return true;

@@ -2,9 +2,9 @@
 
 #include "base/units.h"
 
-#define RESPONSE_PATHS 32768
+#define RESPONSE_PATHS 65536
 #define RESPONSE_PRECISION 0.004
-#define METER_PATHS 8192
+#define METER_PATHS 16384
 #define SUN_PATHS SYMBOL_POINTS /* of the first vertex: a lobe is narrower than a symbol */
 #define METER_SUN_PATHS 64
 #define MIRROR_PATHS 2048 /* of its mirror, which cost little */

@@ -6,10 +6,10 @@
 
 #define LOWEST_DEG (-12) /* what the table of skies reaches */
 
-SkyTime sweep_time(const ReviewCondition *condition, double step_minutes, int step)
+SkyTime sweep_time(const ReviewCondition *condition, double step_minutes, double step)
 {
     SkyTime start = {.year = condition->year, .month = 1, .day = 1};
-    if (condition->kind == CONDITION_ROUTE) return condition->route.points[step].when;
+    if (condition->kind == CONDITION_ROUTE) return condition->route.points[(int)step].when;
     return sky_time_later(start, (step + 0.5) * step_minutes * 60);
 }
 
@@ -75,6 +75,15 @@ static void grid_suns(const ReviewCondition *c, SunList *to)
                 .elevation_deg = review_range_value(&c->elevation_deg, e), .step = -1};
 }
 
+static SweepSuns suns_of(const SunList *list, Arena *arena)
+{
+    SweepSuns suns = {.list = list->list, .count = list->count,
+                      .angles = ARENA_NEW(arena, SunAngles, list->count)};
+    for (int i = 0; i < list->count; i++)
+        suns.angles[i] = (SunAngles){list->list[i].azimuth_deg, list->list[i].elevation_deg};
+    return suns;
+}
+
 static int most_suns(const ReviewCondition *c)
 {
     if (c->kind == CONDITION_ROUTE) return c->route.count;
@@ -88,22 +97,82 @@ SweepSuns sweep_suns(const ReviewCondition *c, Arena *arena)
     if (c->kind == CONDITION_ROUTE) route_suns(c, &list);
     else if (c->kind == CONDITION_SUN_SWEEP) grid_suns(c, &list);
     else year_suns(c, &list);
-    SweepSuns suns = {.list = list.list, .count = list.count,
-                      .angles = ARENA_NEW(arena, SunAngles, list.count),
-                      .has_time = c->kind != CONDITION_SUN_SWEEP,
-                      .step_minutes = c->step_minutes, .azimuth_deg = c->azimuth_deg,
-                      .elevation_deg = c->elevation_deg};
-    for (int i = 0; i < list.count; i++)
-        suns.angles[i] = (SunAngles){list.list[i].azimuth_deg, list.list[i].elevation_deg};
+    SweepSuns suns = suns_of(&list, arena);
+    suns.has_time = c->kind != CONDITION_SUN_SWEEP;
+    suns.step_minutes = c->step_minutes;
+    suns.azimuth_deg = c->azimuth_deg;
+    suns.elevation_deg = c->elevation_deg;
     return suns;
 }
+
+/* ---- closer ones ------------------------------------------------------------------------- */
+
+#define DEG_A_MINUTE 0.25
+#define COARSE_PARTS 5 /* of a step, in the first round over a grid */
+
+static double within(double value, const ReviewRange *range)
+{
+    return fmin(fmax(value, range->first), range->last);
+}
+
+/* From a step before to a step after. */
+static void grid_about(const ReviewCondition *c, const SweepSun *sun, int round, SunList *to,
+                       Arena *arena)
+{
+    double step = fmax(c->azimuth_deg.step, c->elevation_deg.step);
+    double reach = round ? step / COARSE_PARTS : step;
+    double close = round ? SWEEP_CLOSE_DEG : step / COARSE_PARTS;
+    int    parts = (int)ceil(reach / close);
+    to->list = ARENA_NEW(arena, SweepSun, (2 * parts + 1) * (2 * parts + 1));
+    for (int e = -parts; e <= parts; e++)
+        for (int a = -parts; a <= parts; a++) {
+            SweepSun near = *sun;
+            near.elevation_deg =
+                within(sun->elevation_deg + e * reach / parts, &c->elevation_deg);
+            near.compass_deg = within(sun->compass_deg + a * reach / parts, &c->azimuth_deg);
+            near.azimuth_deg = near.compass_deg - near.heading_deg;
+            to->list[to->count++] = near;
+        }
+}
+
+/* From the middle of the step before to that of the one after. */
+static void year_about(const ReviewCondition *c, const SweepSun *sun, SunList *to, Arena *arena)
+{
+    SkyTime start = {.year = c->year, .month = 1, .day = 1};
+    double  first = sky_julian_day(&start);
+    double  middle = (sun->step + 0.5) * c->step_minutes;
+    int     parts = (int)ceil(c->step_minutes * DEG_A_MINUTE / SWEEP_CLOSE_DEG);
+    to->list = ARENA_NEW(arena, SweepSun, 2 * parts + 1);
+    for (int i = -parts; i <= parts; i++) {
+        SweepSun near = *sun;
+        near.later_minutes = i * c->step_minutes / parts;
+        add_sun(to, sun_at(first + (middle + near.later_minutes) / 1440, &c->where), near);
+    }
+}
+
+SweepSuns sweep_suns_about(const ReviewCondition *c, const SweepSun *sun, int round,
+                           Arena *arena)
+{
+    SunList list = {.with_night = c->with_night};
+    if (c->kind == CONDITION_SUN_SWEEP && round < 2) grid_about(c, sun, round, &list, arena);
+    if (c->kind == CONDITION_YEAR_SWEEP && c->weather_id == NO_ID && round < 1)
+        year_about(c, sun, &list, arena);
+    if (!list.count) {
+        list.list = ARENA_NEW(arena, SweepSun, 1);
+        list.list[list.count++] = *sun;
+    }
+    return suns_of(&list, arena);
+}
+
+/* ---- words ------------------------------------------------------------------------------- */
 
 const char *sweep_suns_when(const ReviewCondition *condition, const SweepSuns *suns,
                             const SweepSun *sun, Arena *arena)
 {
     bool is_year = condition->kind == CONDITION_YEAR_SWEEP;
     if (!is_year && condition->kind != CONDITION_ROUTE) return NULL;
-    SkyTime when = sweep_time(condition, suns->step_minutes, sun->step);
+    double  later = is_year ? sun->later_minutes / suns->step_minutes : 0;
+    SkyTime when = sweep_time(condition, suns->step_minutes, sun->step + later);
     return arena_format(arena, "%d-%02d-%02d %02d:%02d%s, heading %g degrees", when.year,
                         when.month, when.day, when.hour, when.minute, is_year ? " UTC" : "",
                         is_year ? sun->heading_deg : round(sun->heading_deg));

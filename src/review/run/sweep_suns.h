@@ -14,6 +14,7 @@ typedef struct SweepSun {
     double minutes;      /* that it stands for; sun sweep: 0 */
     int    step;         /* of time: year, route; -1 */
     int    heading_id;   /* year; 0 */
+    double later_minutes; /* than the middle of its step */
 } SweepSun;
 
 typedef struct SweepSuns {
@@ -27,11 +28,18 @@ typedef struct SweepSuns {
 } SweepSuns;
 
 /* Of a step of a year (UTC; the condition's steps or others) or a route: when it is. */
-SkyTime sweep_time(const ReviewCondition *condition, double step_minutes, int step);
+SkyTime sweep_time(const ReviewCondition *condition, double step_minutes, double step);
 
 /* Those that are up, and with `with_night` all. A route's places differ; the air is that of the
  * first. */
 SweepSuns sweep_suns(const ReviewCondition *condition, Arena *arena);
+
+/* Suns about one of them, closer than the sweep's own: SWEEP_CLOSE_DEG apart and as far as its
+ * neighbours, in rounds about what the round before found (a sweep over the sun: two; a year:
+ * one, along the sun's way). One sun, `sun` itself: there is no closer round. */
+#define SWEEP_CLOSE_DEG 0.1
+SweepSuns sweep_suns_about(const ReviewCondition *condition, const SweepSun *sun, int round,
+                           Arena *arena);
 
 /* Date, time and heading of one of them; NULL: a sweep without times. */
 const char *sweep_suns_when(const ReviewCondition *condition, const SweepSuns *suns,
