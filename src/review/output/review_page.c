@@ -38,6 +38,7 @@ static void add_why(Text *html, const ReviewPage *page, const ReviewCase *c, Are
 {
     const char *sun = words_sun(c, directions_of(page, c, arena), arena);
     text_add(html, " <span class=\"why\">");
+    if (c->when) escape_markup(html, arena_format(arena, "When: %s. ", c->when));
     escape_markup(html, arena_format(arena, "Light: %s%s%s.", words_ambient(c->ambient),
                                      c->has_sun ? ", " : "", c->has_sun ? sun : ""));
     if (c->cause_count > 0)

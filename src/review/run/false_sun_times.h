@@ -15,6 +15,8 @@
 #include "review/run/sweep_probes.h"
 
 #define FALSE_SUN_VEIL_CD_M2 10.0
+#define FALSE_SUN_NEAR_DEG 1.0 /* nearer to the gaze it is looked at: it veils as if it stood
+                                  there */
 
 /* Adds what was found to the review, the worst mirrors of each eye: FALSE_SUNS_TOLD at most. */
 #define FALSE_SUNS_TOLD 12

@@ -403,11 +403,15 @@ static bool sweep_condition(Sweep *sweep, Arena scratch, Arena *arena, ReviewOut
     *suns = sweep->suns;
     Telling to = {sweep, &tools, suns, out, arena, scratch};
     false_sun_times(sweep, scratch, arena, &out->review);
+    Progress progress = progress_start(sweep->run->progress, "verdicts", "sights",
+                                       sweep->sight_count);
     for (int i = 0; i < sweep->sight_count; i++) {
         if (!review_goes_on(sweep->run->journal, err) ||
             !add_sweep(&to, &sweep->sights[i], err))
             return false;
+        progress_update(&progress, i + 1);
     }
+    progress_end(&progress, sweep->sight_count);
     return true;
 }
 

@@ -143,9 +143,14 @@ void sweep_ask_probes(Sweep *sweep, Arena *arena)
     for (int i = 0; i < sweep->symbol_count; i++)
         far_probe_ask(&sweep->faces[i].probe, &of_meters, arena);
     if (sweep->sensor) far_probe_ask(&sweep->sensor->probe, &of_meters, arena);
-    for (int i = 0; i < sweep->sight_count; i++)
+    Progress progress = progress_start(sweep->run->progress, "suns", "sights",
+                                       sweep->sight_count);
+    for (int i = 0; i < sweep->sight_count; i++) {
         if (sweep->sights[i].probe.aim.target_count)
             far_probe_ask(&sweep->sights[i].probe, &tools, arena);
+        progress_update(&progress, i + 1);
+    }
+    progress_end(&progress, sweep->sight_count);
 }
 
 /* ---- the sun in mirrors ------------------------------------------------------------------ */
