@@ -1,10 +1,12 @@
 #!/bin/sh
 # long.sh -- what takes too long for run.sh: every closed form, two hundred pairs of frames of
 # other noise, a hundred kills, every fault, thousands of broken models and panels under the
-# address sanitizer, five minutes of fuzzing, and the second compiler.
+# address sanitizer, five minutes of fuzzing, and the second compiler. Stopped, it goes on where
+# it was: a step that passed on the same files is not run again.
 cd "$(dirname "$0")/.." || exit 1
 sh third_party/install.sh --tests || exit 1
 . tests/steps.sh
+keep_steps
 
 # build_native: the second compiler, every instruction that this machine has
 build_native()

@@ -39,16 +39,45 @@ report()
     grep -h '^skipped' "$log" | head -n 5 | sed 's/^/    /' || true
 }
 
+# keep_steps: from here on a step that passed on these very files is not run again: its line of
+# then is printed instead. For runs of hours; what a step was run on is told by the sum of all
+# files, so that a change of one byte runs every step again.
+sum=
+keep_steps()
+{
+    sum=$(find CMakeLists.txt CMakePresets.json src shaders scenes assets tests third_party \
+        README.md CONTRIBUTING.md -type f ! -name '*.pyc' -print0 | LC_ALL=C sort -z |
+        xargs -0 sha256sum | sha256sum | cut -d ' ' -f 1)
+}
+
+# was_kept NAME: reports the step whose log is $log as it passed before; false if it did not
+was_kept()
+{
+    [ -n "$sum" ] && [ -f "$log.kept" ] || return 1
+    read -r of seconds passed skipped <"$log.kept"
+    [ "$of" = "$sum" ] || return 1
+    report "$1" 0 "kept, $seconds" "$passed" 0 "$skipped"
+}
+
+# keep_step STATUS SECONDS PASSED FAILED SKIPPED: of the step whose log is $log
+keep_step()
+{
+    [ -n "$sum" ] && [ "$1" = 0 ] && [ "$4" = 0 ] || return 0
+    echo "$sum $2 $3 $5" >"$log.kept"
+}
+
 # run NAME LOG COMMAND...: a step that counts its own claims
 run()
 {
     name=$1 log=$logs/$2.log start=$(date +%s)
     shift 2
+    was_kept "$name" && return
     "$@" >"$log" 2>&1
     status=$?
     # shellcheck disable=SC2046
-    set -- $(counts "$log")
-    report "$name" $status $(($(date +%s) - start)) "${1:-0}" "${2:-0}" "${3:-0}"
+    set -- $status $(($(date +%s) - start)) $(counts "$log")
+    report "$name" "$1" "$2" "${3:-0}" "${4:-0}" "${5:-0}"
+    keep_step "$1" "$2" "${3:-0}" "${4:-0}" "${5:-0}"
     return $status
 }
 
@@ -97,12 +126,14 @@ run_units()
 {
     name=$1 log=$logs/$2.log start=$(date +%s) folder=$3
     shift 3
+    was_kept "$name" && return
     ctest --test-dir "$folder" -j "$(nproc)" -V --timeout 300 --no-tests=error "$@" \
         >"$log" 2>&1
     status=$?
     # shellcheck disable=SC2046
-    set -- $(unit_counts "$log")
-    report "$name" $status $(($(date +%s) - start)) "$1" "$2" "$3"
+    set -- $status $(($(date +%s) - start)) $(unit_counts "$log")
+    report "$name" "$@"
+    keep_step "$@"
     return $status
 }
 

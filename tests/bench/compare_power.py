@@ -1,4 +1,4 @@
-"""compare_power.py [--pairs N] [--frames N] [--only TEXT] [--climb SAMPLES] [--threads N]
+"""compare_power.py [--pairs N] [--frames N] [--only TEXT] [--climb SAMPLES] [--together N]
 PARHELION BENCH_STATISTIC -- the statistical test of two frames on frames of this program: false
 alarms over N pairs of seeds, and how often it finds 1 % more light in a display's reflection,
 the sun 0.3 degrees higher, and a missing lamp. Scenes: the car at noon and at night, the flight
@@ -8,9 +8,11 @@ Every pair of the false alarms has two seeds of its own, a quarter of them frame
 sample counts. A change is counted over all pairs of N frames before and N after it (10: 100
 pairs), each with a seed of its own; share_found says what that is worth. Claims: false alarms
 of a level of 1 % (five of 200), and no change missed in more than one of a hundred pairs.
---climb: where more are missed, again with twice the samples, up to so many.
+--climb: where more are missed, again with twice the samples, up to so many. --together: frames
+made at a time, one thread each: much of a small frame's time is its start.
 """
 import argparse
+import concurrent.futures
 import json
 import math
 import os
@@ -95,9 +97,9 @@ def without_node(name):
 # ---- the program ----------------------------------------------------------------------------
 
 class Program:
-    def __init__(self, program, judge, folder, threads):
+    def __init__(self, program, judge, folder, together):
         self.program, self.judge = os.path.abspath(program), os.path.abspath(judge)
-        self.folder, self.threads = folder, threads
+        self.folder, self.pool = folder, concurrent.futures.ThreadPoolExecutor(together)
 
     def run(self, *arguments):
         done = subprocess.run([self.program, *map(str, arguments)], capture_output=True,
@@ -108,8 +110,8 @@ class Program:
     def render(self, view, seed, samples=None):
         out = in_folder(self.folder, f"{view.name.replace(' ', '_')}-{seed}.exr")
         self.run("render", *view.files, "-o", out, "--seed", seed, "--spp",
-                 samples or view.samples, "--layers", LAYERS, "--quiet", "--threads",
-                 self.threads, *view.options)
+                 samples or view.samples, "--layers", LAYERS, "--quiet", "--threads", 1,
+                 *view.options)
         return out
 
     def compare(self, reference, test):
@@ -209,15 +211,23 @@ def allowed(tests, share=0.01):
         count += 1
 
 
+def judge_pair(program, view, k, samples):
+    """Two frames of one view, of seeds 2 k and 2 k + 1."""
+    pair = program.render(view, 2 * k), program.render(view, 2 * k + 1, samples)
+    found = program.compare(*pair)
+    program.forget(*pair)
+    return found
+
+
 def measure_alarms(program, report, pairs):
     views = [view for view, weight in quiet_views(program.folder) for _ in range(weight)]
-    alarms, counts = [], {}
+    alarms, counts, judged = [], {}, []
     for k in range(pairs):
         view = views[k % len(views)]
         more = view.samples * 2 if k // len(views) % 4 == 3 else view.samples
-        pair = program.render(view, 2 * k), program.render(view, 2 * k + 1, more)
-        found = program.compare(*pair)
-        program.forget(*pair)
+        judged.append((k, view, program.pool.submit(judge_pair, program, view, k, more)))
+    for k, view, pair in judged:
+        found = pair.result()
         counts.setdefault(view.name, []).append(found["p"])
         if found["verdict"] == "different":
             alarms.append(f"{view.name}, seeds {2 * k} and {2 * k + 1}: {found['reason']}")
@@ -255,8 +265,10 @@ def sure_share(count):
 
 def judge_change(program, before, after, frames, samples):
     """Every frame before against every frame after: rows of answers."""
-    firsts = [program.render(before, 5000 + k, samples) for k in range(frames)]
-    seconds = [program.render(after, 9000 + k, samples) for k in range(frames)]
+    asked = ([(before, 5000 + k) for k in range(frames)]
+             + [(after, 9000 + k) for k in range(frames)])
+    made = list(program.pool.map(lambda frame: program.render(*frame, samples), asked))
+    firsts, seconds = made[:frames], made[frames:]
     table = [[program.compare(first, second) for second in seconds] for first in firsts]
     program.forget(*firsts, *seconds)
     return table
@@ -297,13 +309,13 @@ def main():
     parser.add_argument("--frames", type=int, default=10)
     parser.add_argument("--only", default="")
     parser.add_argument("--climb", type=int, default=0)
-    parser.add_argument("--threads", type=int, default=2)
+    parser.add_argument("--together", type=int, default=os.cpu_count())
     parser.add_argument("program")
     parser.add_argument("judge", help="bench_statistic")
     options = parser.parse_args()
     report = Report()
     with tempfile.TemporaryDirectory() as folder:
-        program = Program(options.program, options.judge, folder, options.threads)
+        program = Program(options.program, options.judge, folder, options.together)
         program.panels()
         write_room(in_folder(folder, "room.gltf"))
         if options.pairs:
