@@ -83,6 +83,15 @@ bool file_read_start(const char *path, size_t max_bytes, Arena *arena, FileBytes
                                        out, err);
 }
 
+bool file_text(const char *path, const FileBytes *bytes, const char **out, Error *err)
+{
+    const char *text = (const char *)bytes->data;
+    if (memchr(text, 0, bytes->size))
+        return error_at(err, ERROR_INPUT, path, "", "has zero bytes, wanted text in UTF-8");
+    *out = text + (strncmp(text, "\xEF\xBB\xBF", 3) ? 0 : 3);
+    return true;
+}
+
 bool file_exists(const char *path)
 {
     return access(path, R_OK) == 0;

@@ -26,6 +26,10 @@ bool file_read(const char *path, size_t max_bytes, Arena *arena, FileBytes *out,
 bool file_read_start(const char *path, size_t max_bytes, Arena *arena, FileBytes *out,
                      Error *err);
 
+/* The bytes as text: behind the byte order mark that spreadsheets like to write. Zero bytes, as
+ * UTF-16 has them, would end it early: an ERROR_INPUT that names `path`. */
+bool file_text(const char *path, const FileBytes *bytes, const char **out, Error *err);
+
 /* True when something that can be opened for reading stands there. */
 bool file_exists(const char *path);
 

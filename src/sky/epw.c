@@ -141,13 +141,15 @@ static bool read_header(char *field[], int count, Weather *out)
 
 bool weather_read(const char *file, Arena *arena, Weather *out, Error *err)
 {
-    FileBytes bytes;
-    char     *field[FIELDS_MAX];
-    int       count;
-    bool      in_data = false;
-    if (!file_read(file, WEATHER_BYTES, arena, &bytes, err)) return false;
-    char     *text = arena_string(arena, (const char *)bytes.data, bytes.size);
-    EpwReader reader = {file, text, 0, arena};
+    FileBytes   bytes;
+    const char *text;
+    char       *field[FIELDS_MAX];
+    int         count;
+    bool        in_data = false;
+    if (!file_read(file, WEATHER_BYTES, arena, &bytes, err) ||
+        !file_text(file, &bytes, &text, err))
+        return false;
+    EpwReader reader = {file, arena_string(arena, text, strlen(text)), 0, arena};
     Weather   weather = {.file = file, .rows_per_hour = 1};
     if (!next_line(&reader, field, &count))
         return error_at(err, ERROR_INPUT, file, "", "is empty, wanted an EPW weather file");

@@ -76,20 +76,21 @@ static bool fill_headings(const RoutePoints *points, Error *err)
 
 /* ---- reading ----------------------------------------------------------------------------- */
 
-static bool is_xml(const FileBytes *bytes)
+static bool is_xml(const char *text)
 {
-    const char *text = (const char *)bytes->data;
-    if (!strncmp(text, "\xEF\xBB\xBF", 3)) text += 3;
     return text[strspn(text, " \t\r\n")] == '<';
 }
 
 bool route_read(const char *file, Arena *arena, Route *out, Error *err)
 {
     FileBytes   bytes;
+    const char *text;
     RoutePoints points = {.file = arena_string(arena, file, strlen(file)), .arena = arena};
-    if (!file_read(file, ROUTE_BYTES_MAX, arena, &bytes, err)) return false;
-    bool ok = is_xml(&bytes) ? route_gpx_read(&bytes, &points, err)
-                             : route_csv_read(&bytes, &points, err);
+    if (!file_read(file, ROUTE_BYTES_MAX, arena, &bytes, err) ||
+        !file_text(points.file, &bytes, &text, err))
+        return false;
+    bool ok = is_xml(text) ? route_gpx_read(text, &points, err)
+                           : route_csv_read(text, &points, err);
     if (!ok || !fill_headings(&points, err)) return false;
     *out = (Route){points.file, points.list, points.count};
     return true;

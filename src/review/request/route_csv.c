@@ -118,16 +118,9 @@ static bool read_row(CsvRoute *in, char *line, Error *err)
                             err);
 }
 
-/* A byte order mark, which spreadsheets like to write, is no part of the first name. */
-static char *skip_mark(char *text)
+bool route_csv_read(const char *text, RoutePoints *points, Error *err)
 {
-    return !strncmp(text, "\xEF\xBB\xBF", 3) ? text + 3 : text;
-}
-
-bool route_csv_read(const FileBytes *bytes, RoutePoints *points, Error *err)
-{
-    char    *text = arena_string(points->arena, (const char *)bytes->data, bytes->size);
-    CsvRoute in = {.points = points, .next = skip_mark(text)};
+    CsvRoute in = {.points = points, .next = arena_string(points->arena, text, strlen(text))};
     if (!read_header(&in, err)) return false;
     for (char *line = next_line(&in); line; line = next_line(&in))
         if (!read_row(&in, line, err)) return false;

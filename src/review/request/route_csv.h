@@ -5,7 +5,6 @@
  * Threads  no shared state. Fails: as route_points.h.
  */
 #pragma once
-#include "base/file.h"
 #include "review/request/route_points.h"
 
-bool route_csv_read(const FileBytes *bytes, RoutePoints *points, Error *err);
+bool route_csv_read(const char *text, RoutePoints *points, Error *err);

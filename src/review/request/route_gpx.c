@@ -80,17 +80,15 @@ static bool read_document(const GpxReader *reader, xmlDoc *document, Error *err)
 
 /* ---- opening ----------------------------------------------------------------------------- */
 
-/* Text in UTF-8 without a document type: nothing can be fetched, and nothing expands. */
-static bool check_bytes(const FileBytes *bytes, const char *file, Error *err)
+/* Without a document type nothing can be fetched, and nothing expands. */
+static bool check_type(const char *text, const char *file, Error *err)
 {
-    if (memchr(bytes->data, 0, bytes->size))
-        return error_at(err, ERROR_INPUT, file, "", "has zero bytes, wanted XML in UTF-8");
-    return !strstr((const char *)bytes->data, "<!DOCTYPE") ||
+    return !strstr(text, "<!DOCTYPE") ||
            error_at(err, ERROR_INPUT, file, "",
                     "has a document type (<!DOCTYPE), which is not taken");
 }
 
-static xmlDoc *parse(const FileBytes *bytes, const char *file, Error *err)
+static xmlDoc *parse(const char *text, const char *file, Error *err)
 {
     int options = XML_PARSE_NONET | XML_PARSE_NOERROR | XML_PARSE_NOWARNING | XML_PARSE_HUGE |
                   XML_PARSE_NOCDATA | XML_PARSE_BIG_LINES;
@@ -99,24 +97,24 @@ static xmlDoc *parse(const FileBytes *bytes, const char *file, Error *err)
         error_at(err, ERROR_MEMORY, file, "", "out of memory");
         return NULL;
     }
-    xmlDoc *document = xmlCtxtReadMemory(context, (const char *)bytes->data, (int)bytes->size,
-                                         file, "UTF-8", options);
+    xmlDoc *document = xmlCtxtReadMemory(context, text, (int)strlen(text), file, "UTF-8",
+                                         options);
     const xmlError *problem = xmlCtxtGetLastError(context);
     if (!document) {
-        const char *text = problem && problem->message ? problem->message : "is not XML";
+        const char *why = problem && problem->message ? problem->message : "is not XML";
         char        place[32] = "";
         if (problem && problem->line) snprintf(place, sizeof place, "line %d", problem->line);
         error_at(err, ERROR_INPUT, file, place, "is no sound XML: %.*s, wanted a GPX file",
-                 (int)strcspn(text, "\r\n"), text);
+                 (int)strcspn(why, "\r\n"), why);
     }
     xmlFreeParserCtxt(context);
     return document;
 }
 
-bool route_gpx_read(const FileBytes *bytes, RoutePoints *points, Error *err)
+bool route_gpx_read(const char *text, RoutePoints *points, Error *err)
 {
-    if (!check_bytes(bytes, points->file, err)) return false;
-    xmlDoc *document = parse(bytes, points->file, err);
+    if (!check_type(text, points->file, err)) return false;
+    xmlDoc *document = parse(text, points->file, err);
     if (!document) return false;
     GpxReader reader = {points, arena_reserve(ROUTE_BYTES_MAX)};
     bool      ok = read_document(&reader, document, err);

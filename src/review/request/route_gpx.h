@@ -6,7 +6,6 @@
  * Fails    as route_points.h; no network, no document type, no entities.
  */
 #pragma once
-#include "base/file.h"
 #include "review/request/route_points.h"
 
-bool route_gpx_read(const FileBytes *bytes, RoutePoints *points, Error *err);
+bool route_gpx_read(const char *text, RoutePoints *points, Error *err);
