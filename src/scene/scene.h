@@ -220,6 +220,7 @@ typedef struct Scene {
 typedef struct SceneOverride {
     const char *material; /* a material's name */
     const char *value;    /* a path, or a number's text */
+    const char *said;     /* what messages call it; NULL: by its option */
 } SceneOverride;
 
 typedef struct SceneOptions {

@@ -50,10 +50,15 @@ static SceneOverride *all_contents(const StageOptions *options, int *count, Aren
         for (int k = 0; k < *count; k++)
             is_said |= !strcmp(contents[k].material, symbol->display);
         if (symbol->content && is_material(symbol->display) && !is_said)
-            contents[(*count)++] = (SceneOverride){symbol->display, symbol->content};
+            contents[(*count)++] = (SceneOverride){
+                symbol->display, symbol->content,
+                arena_format(arena, "%s: /symbols/%s", request->file, symbol->name)};
     }
     for (int k = 0; k < own; k++)
-        contents[(*count)++] = (SceneOverride){c->contents[k].display, c->contents[k].path};
+        contents[(*count)++] = (SceneOverride){
+            c->contents[k].display, c->contents[k].path,
+            arena_format(arena, "%s: /conditions/%d/contents/%s", request->file,
+                         (int)(c - request->conditions), c->contents[k].display)};
     return contents;
 }
 

@@ -101,23 +101,24 @@ static int make_display(Loader *load, int material_id)
                        "--panel", "");
 }
 
-typedef void ApplyOverride(Loader *load, int display_id, const char *value);
+typedef void ApplyOverride(Loader *load, int display_id, const char *option,
+                           const char *value);
 
-static void set_panel(Loader *load, int display_id, const char *value)
+static void set_panel(Loader *load, int display_id, const char *option, const char *value)
 {
     Display *display = list_item(&load->displays, display_id);
     display->panel_path = kept(load, value);
     *(DisplayPlace *)list_item(&load->display_places, display_id) =
-        (DisplayPlace){"--panel", ""};
+        (DisplayPlace){option, ""};
 }
 
-static void set_content(Loader *load, int display_id, const char *value)
+static void set_content(Loader *load, int display_id, const char *option, const char *value)
 {
     Error err;
     Image image;
     Display *display = list_item(&load->displays, display_id);
     if (!load_image(load, value, &image, &err)) {
-        option_error(load, "--content", "%.300s: %.600s", value, err.text);
+        option_error(load, option, "%.300s: %.600s", value, err.text);
         return;
     }
     Texture texture = {.wrap_u = WRAP_CLAMP, .wrap_v = WRAP_CLAMP, .nearest = true};
@@ -129,12 +130,12 @@ static void set_content(Loader *load, int display_id, const char *value)
     display->content.texture_id = texture_add(load, texture);
 }
 
-static void set_level(Loader *load, int display_id, const char *value)
+static void set_level(Loader *load, int display_id, const char *option, const char *value)
 {
     char *end;
     double percent = strtod(value, &end);
     if (end == value || (*end && strcmp(end, "%") != 0) || !(percent >= 0 && percent <= 1e6)) {
-        option_error(load, "--display-level",
+        option_error(load, option,
                      "\"%.100s\" is no percentage; a number from 0 up is "
                      "wanted%s",
                      value, "");
@@ -166,7 +167,7 @@ static void apply_to(Loader *load, const Overrides *overrides, int material_id,
     if (overrides->set != set_panel && material->display_id == NO_ID)
         report_not_display(load, overrides->option, material->name);
     else
-        overrides->set(load, make_display(load, material_id), value);
+        overrides->set(load, make_display(load, material_id), overrides->option, value);
 }
 
 static void apply_by_name(Loader *load, const Overrides *overrides, const SceneOverride *one)
@@ -195,8 +196,10 @@ static bool is_material(const Loader *load, const char *name)
 /* A material whose own name begins with "node:" is still found by it. */
 static void apply(Loader *load, Overrides overrides)
 {
+    const char *option = overrides.option;
     for (int i = 0; i < overrides.count; i++) {
         const SceneOverride *one = &overrides.list[i];
+        overrides.option = one->said ? one->said : option;
         if (!wearer_is_named(one->material) || is_material(load, one->material)) {
             apply_by_name(load, &overrides, one);
             continue;
