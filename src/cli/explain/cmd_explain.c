@@ -69,21 +69,36 @@ static bool read_scene(ExplainWords *words, Arena *arena, Error *err)
                          "what of the scene is to be explained?");
     if (words->has_uv && !scene->display)
         return error_set(err, ERROR_USAGE, "--uv: of which --display?");
+    if (!(scene->uv[0] < scene->uv[2] && scene->uv[1] < scene->uv[3]))
+        return error_set(err, ERROR_USAGE, "--uv: wanted L < R and T < B");
     if (words->has_pixel)
         for (int i = 0; i < 4; i++) scene->region[i] = words->pixel[i % 2] + (int)(i / 2);
     return (scene->display || check_region(words, err)) && read_eye(words, err) &&
            scene_options_read(&words->scene_words, &words->cli, arena, &scene->scene, err);
 }
 
-/* Options that a review says itself. */
+/* An option that a review says itself; NULL: none is there. */
+static const char *option_of_scene(const ExplainWords *words)
+{
+    const CameraChoice *camera = &words->scene.camera;
+    EnvironmentChange   no_sun = words->scene.environment;
+    no_sun.sun = NULL;
+    const struct {
+        bool        is_given;
+        const char *option;
+    } options[] = {
+        {camera->name != NULL, "--camera"}, {words->scene.display != NULL, "--display"},
+        {words->has_uv, "--uv"}, {words->has_pixel, "--pixel"},
+        {words->has_region, "--region"}, {words->has_size, "--size"},
+        {camera->has_look_at, "--look-at"}, {camera->has_fov, "--fov"}};
+    for (int i = 0; i < COUNT_OF(options); i++)
+        if (options[i].is_given) return options[i].option;
+    return scene_options_given(&words->scene_words, &no_sun);
+}
+
 static bool check_review(const ExplainWords *words, Error *err)
 {
-    EnvironmentChange no_sun = words->scene.environment;
-    no_sun.sun = NULL;
-    const char *of_scene = scene_options_given(&words->scene_words, &no_sun);
-    if (!of_scene && words->scene.camera.name) of_scene = "--camera";
-    if (!of_scene && words->scene.display) of_scene = "--display";
-    if (!of_scene && (words->has_pixel || words->has_region)) of_scene = "--pixel, --region";
+    const char *of_scene = option_of_scene(words);
     if (of_scene)
         return error_set(err, ERROR_USAGE, "%s: a review says that itself; --condition, --eye "
                          "and --symbol choose from it", of_scene);
@@ -117,7 +132,8 @@ static bool parse(int argc, char **argv, Arena *arena, ExplainWords *out, Error 
          out->pixel, .low = 0, .high = 65535, .count = 2, .given = &out->has_pixel},
         {"--region", OPTION_NUMBERS, "X0,Y0,X1,Y1", "pixels, half-open, from the top left",
          scene->region, .low = 0, .high = 65536, .count = 4, .given = &out->has_region},
-        {"--size", OPTION_SIZE, "WxH", "of that picture (default 1280x720)", scene->size},
+        {"--size", OPTION_SIZE, "WxH", "of that picture (default 1280x720)", scene->size,
+         .given = &out->has_size},
         {"--camera", OPTION_TEXT, "NAME|INDEX", "node's or camera's name, or place (default 0)",
          &scene->camera.name},
         {"--look-at", OPTION_NUMBERS, "X,Y,Z", "with --eye: the middle of the picture",
@@ -151,6 +167,15 @@ static bool parse(int argc, char **argv, Arena *arena, ExplainWords *out, Error 
 
 /* ---- the answer -------------------------------------------------------------------------- */
 
+/* As far as a sweep's may go. */
+static bool read_sun(const char *text, double out_deg[2], Error *err)
+{
+    return (cli_numbers(text, 2, out_deg) && fabs(out_deg[0]) <= 720 && out_deg[1] >= -18 &&
+            out_deg[1] <= 90) ||
+           error_set(err, ERROR_USAGE, "--sun %s: wanted AZ,EL in degrees, the azimuth of "
+                     "the vehicle: 0 ahead, 90 right; the elevation from -18 to 90", text);
+}
+
 static bool review_question(const ExplainWords *words, Arena *arena, Explained *out,
                             Error *err)
 {
@@ -162,19 +187,18 @@ static bool review_question(const ExplainWords *words, Arena *arena, Explained *
                                .isa = scene->isa, .threads = scene->threads,
                                .paths = scene->paths, .with_outlook = scene->with_outlook,
                                .problems = scene->problems};
-    if (sun && !cli_numbers(sun, 2, options.sun_deg))
-        return error_set(err, ERROR_USAGE, "--sun %s: wanted AZ,EL in degrees, the azimuth of "
-                         "the vehicle: 0 ahead, 90 right", sun);
+    if (sun && !read_sun(sun, options.sun_deg, err)) return false;
     return review_request_read(words->cli.arguments[0], root, arena, scene->problems, &request,
                                err) &&
-           profile_load(request.profile, arena, &options.profile, err) &&
+           (profile_load(request.profile, arena, &options.profile, err) ||
+            error_in_file(err, request.file)) &&
            explain_review(&request, &options, arena, out, err);
 }
 
 static bool write_outlook(const ExplainWords *words, const Explained *told, Arena *arena,
                           Error *err)
 {
-    if (!words->outlook || !told->has_outlook) return true;
+    if (!words->outlook) return true;
     PictureFile file = {.bits = 8, .is_srgb = true,
                         .description = outlook_words(&told->outlook, arena)};
     Picture     picture = outlook_picture(&told->outlook, arena);
@@ -193,6 +217,9 @@ static bool run(int argc, char **argv, Arena *arena, Error *err)
               ? review_question(&words, arena, &told, err)
               : explain_scene(&words.scene, arena, &told, err)))
         return false;
+    if (words.outlook && !told.has_outlook)
+        return error_set(err, ERROR_INPUT, "--outlook %s: the eye meets no surface there, "
+                         "wanted one to look out from", words.outlook);
     cli_print_warnings(&problems);
     return (!words.rays || ray_file_write(&told.of, words.rays, err)) &&
            write_outlook(&words, &told, arena, err) &&
