@@ -29,7 +29,8 @@ static bool parse(int argc, char **argv, Arena *arena, ReviewWords *out, Error *
         {"-o", OPTION_TEXT, "DIR", "where everything is written", &out->folder},
         {"--init", OPTION_TEXT, "REVIEW.json", "writes a request to start from, for the scene",
          &out->init},
-        {"--dry-run", OPTION_FLAG, NULL, "says what would be traced, and stops", &out->dry_run},
+        {"--dry-run", OPTION_FLAG, NULL, "checks all, says what would be traced, and stops",
+         &out->dry_run},
         {"--profile", OPTION_TEXT, "NAME|FILE.json", "limits instead of the request's",
          &out->profile},
         {"--strict", OPTION_FLAG, NULL, "too close to call and not visible fail, too",
@@ -242,7 +243,7 @@ static bool review(const ReviewWords *words, Arena *arena, Error *err)
                              .is_strict = words->is_strict};
     if (!review_request_read(file, words->root, arena, &problems, &request, err)) return false;
     if (!profile_load(words->profile ? words->profile : request.profile, arena, &profile, err))
-        return false;
+        return words->profile ? false : error_in_file(err, request.file);
     if (!review_check(&request, *arena, err)) return false;
     ReviewRun run = {.request = &request, .profile = profile, .root = words->root,
                      .threads = words->cli.threads, .isa = words->isa,

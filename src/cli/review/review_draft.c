@@ -46,6 +46,18 @@ void review_draft_close(ReviewDraft *draft)
     remove_parts(draft->target, *draft->arena);
 }
 
+/* Known before the work: a file that cannot take its place would end the review half moved. */
+static bool check_files(const char *target, Arena scratch, Error *err)
+{
+    static const char *const files[] = {"review.json", "index.html",     "cases.csv",
+                                        "gazes.csv",   "false_suns.csv", "junit.xml",
+                                        "diff.json",   "run.json"};
+    for (int i = 0; i < COUNT_OF(files); i++)
+        if (!file_check_writable(arena_format(&scratch, "%s/%s", target, files[i]), err))
+            return false;
+    return true;
+}
+
 /* The journal comes first: it knows of another review that is at work here. */
 bool review_draft_open(const char *target, Arena *arena, Problems *problems, ReviewDraft *out,
                        Error *err)
@@ -61,7 +73,7 @@ bool review_draft_open(const char *target, Arena *arena, Problems *problems, Rev
         return false;
     }
     if (make_parts(target, *arena, err) && make_parts(draft.folder, *arena, err) &&
-        file_check_writable(arena_format(arena, "%s/review.json", target), err)) {
+        check_files(target, *arena, err)) {
         *out = draft;
         return true;
     }

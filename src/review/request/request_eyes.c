@@ -168,9 +168,9 @@ static bool read_direction(const JsonView *view, ReviewGaze *gaze, Error *err)
         return error_at(err, ERROR_INPUT, view->file, view->path,
                         "has %s, wanted one of 'at' and 'direction'",
                         has_direction ? "both" : "neither");
-    if (!has_direction) gaze->name = targets[0];
-    return has_direction ? field_name(view, "name", &gaze->name, err)
-                         : json_view_text(view, "name", &gaze->name, err);
+    gaze->name = targets[0];
+    return (!has_direction && !json_object_get(view->object, "name")) ||
+           field_name(view, "name", &gaze->name, err);
 }
 
 static bool read_gaze(RequestReading *reading, int i, Error *err)

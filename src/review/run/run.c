@@ -151,19 +151,33 @@ static bool run_conditions(const ReviewRun *run, Arena *arena, ReviewOutcome *ou
 
 /* ---- what is there ----------------------------------------------------------------------- */
 
-static bool plan_group(const ReviewRun *run, const SweepGroup *group, ReviewPlan *plan,
-                       Error *err)
+/* All moments, or all sweeps, of one scene: they ask for the same. */
+static void mark_scene(const ReviewRequest *request, int first, bool *is_done)
 {
-    StageOptions options = {run->request, group->conditions[0], run->root, run->threads,
-                            run->isa, NULL};
+    const ReviewCondition *c = request->conditions;
+    bool is_moment = c[first].kind == CONDITION_MOMENT;
+    for (int i = first; i < request->condition_count; i++)
+        is_done[i] |= (c[i].kind == CONDITION_MOMENT) == is_moment &&
+                      same_scene(request, &c[first], &c[i]);
+}
+
+/* A moment has symbols, but asks for no response. */
+static bool plan_condition(const ReviewRun *run, const ReviewCondition *condition,
+                           ReviewPlan *plan, Error *err)
+{
+    StageOptions options = {run->request, condition, run->root, run->threads, run->isa, NULL};
     Arena scratch = arena_reserve(STAGE_BYTES);
     Stage stage;
     bool  ok = stage_open(&options, &scratch, run->problems, &stage, err);
     if (ok) {
-        Sweep sweep = {.run = run, .stage = &stage};
+        Sweep        sweep = {.run = run, .stage = &stage};
+        StageSymbol *symbols;
+        int          count;
         ok = (review_request_check(run->request, stage.scene, run->problems) ||
               problems_verdict(run->problems, err)) &&
-             sweep_place_probes(&sweep, &scratch, err);
+             (condition->kind == CONDITION_MOMENT
+                  ? stage_symbols(&stage, &scratch, &symbols, &count, err)
+                  : sweep_place_probes(&sweep, &scratch, err));
         plan->responses += sweep.ask_count;
         for (int i = 0; i < sweep.ask_count; i++)
             plan->responses_kept += sweep.asks[i].is_kept;
@@ -180,9 +194,9 @@ bool review_plan(const ReviewRun *run, ReviewPlan *out, Error *err)
     bool *is_done = ARENA_NEW(&own, bool, request->condition_count), ok = true;
     *out = (ReviewPlan){0, 0};
     for (int i = 0; ok && i < request->condition_count; i++) {
-        if (is_done[i] || request->conditions[i].kind == CONDITION_MOMENT) continue;
-        SweepGroup group = group_of(request, i, is_done, &own);
-        ok = plan_group(run, &group, out, err);
+        if (is_done[i]) continue;
+        mark_scene(request, i, is_done);
+        ok = plan_condition(run, &request->conditions[i], out, err);
     }
     arena_release(&own);
     return ok;

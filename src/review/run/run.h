@@ -9,7 +9,8 @@
 
 bool review_run(const ReviewRun *run, Arena *arena, ReviewOutcome *out, Error *err);
 
-/* What is there already of the work that is asked. */
+/* What is there already of the work that is asked. Every scene is loaded, and its symbols are
+ * found, so that what would end the review later is told now. */
 typedef struct ReviewPlan {
     int responses, responses_kept; /* of sweeps; those in the run's folder */
 } ReviewPlan;
