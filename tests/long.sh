@@ -47,6 +47,8 @@ run 'false alarms and power of compare' compare-power \
     python3 tests/bench/compare_power.py .build/release/parhelion .build/release/bench_statistic
 run 'a hundred kills' resume-long \
     python3 tests/hostile/resume.py --kills 100 .build/release/parhelion
+run 'reviews that ask wrongly, each way' review-request-long \
+    python3 tests/hostile/review_request.py --all .build/release/parhelion
 run 'reviews killed, stopped and starved' review-resume-long \
     python3 tests/hostile/review_resume.py --all --kills 40 .build/release/parhelion
 run 'parts of every kind' merge-long \

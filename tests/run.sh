@@ -27,6 +27,8 @@ if run_one 'release build, warnings are errors' build-release build release all;
         python3 tests/hostile/faults.py .build/release/parhelion
     start "glTF's faults by their codes" gltf-codes \
         python3 tests/hostile/gltf_codes.py .build/release/parhelion
+    start 'reviews that ask wrongly' review-request \
+        python3 tests/hostile/review_request.py .build/release/parhelion
     start 'panel commands' panel-commands \
         python3 tests/hostile/panel_commands.py .build/release/parhelion
     gather

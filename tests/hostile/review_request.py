@@ -1,0 +1,332 @@
+"""review_request.py [--all] PARHELION -- every key of REVIEW.json with values that it cannot
+have: of another kind, no number, negative, zero, huge, empty, too short, too long, an unknown
+key beside it. The schema says which are wrong; those are refused in one line that names the
+place, and what the schema takes is taken or refused so. Without --all every ninth of them. Then
+the files that a request names, what `explain` is asked, and what is in the output's way.
+"""
+import concurrent.futures
+import copy
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+
+ROOT = os.path.realpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."))
+sys.path[:0] = [os.path.join(ROOT, "tests", "structure"), os.path.join(ROOT, "tests", "image")]
+from gltf import Scene, png  # noqa: E402
+from report import Report  # noqa: E402
+from review import EPW, PANEL, dashboard, weather_row  # noqa: E402
+from schemas import load, with_references  # noqa: E402
+
+TIMEOUT_S = 60
+MARK = "written as it stands"
+NO_JSON = ("NaN", "Infinity", "-Infinity", "1e999", "-1e999", "01", "'text'")
+OTHER_KINDS = (None, True, "", "no such word", -1, 0, 0.5, 1e300, -1e300, [], {}, [[]], [None],
+               {"no such key": 1}, "x" * 5000, "line\nfeed\u001b[31m")
+PLACE = re.compile(r"\((/.*)\)$|: (/[^:]*): ")
+
+# Says all that one can say: check_whole sees to that.
+GOOD = {
+    "title": "all of it", "scene": ["dash.gltf"], "forward": [0, 0, -2],
+    "eyes": {"driver": {"camera": "eye"}, "first": {"camera": 0},
+             "tall": {"position_m": [0.1, 0.2, 0.8]},
+             "box": {"centre_m": [0, 0.15, 0.8], "half_size_m": [0.1, 0.1, 0],
+                     "grid": [2, 3, 1]}},
+    "observer": {"age_years": 60, "pigment": 1},
+    "gaze": [{"at": "symbols", "name": "here", "eyes": ["driver"]},
+             {"name": "road", "direction": [0, 0, -4], "eyes": ["tall", "driver"]}],
+    "with": {"somebody": ["person.gltf"]},
+    "symbols": {"bar": {"display": "screen", "content": "letters.png",
+                        "uv": [0.1, 0.1, 0.9, 0.9], "polarity": "light-on-dark"},
+                "drawn": {"display": "screen", "mask": "letters.png"},
+                "text": {"display": "node:node 0", "uv": [0, 0, 1, 1], "find": "text"}},
+    "profile": "iso-15008",
+    "levels": {"night": {"*": 0.04, "screen": 0.1},
+               "auto": {"sensor": {"position_m": [0, 0.2, 0.2], "normal": [0, 3, 4]},
+                        "table_lx": [[0, 0.02], [100, 0.1], [10000, 1]]}},
+    "precision": {"contrast": 0.02, "clear": 0.05},
+    "frames": {"size": [64, 36], "noise": 0.1, "worst": 2},
+    "conditions": [
+        {"name": "noon", "level": "auto", "with": "somebody", "polarity": "light-on-dark",
+         "contents": {"screen": "letters.png"},
+         "environment": {"type": "constant", "luminance": 3000}},
+        {"name": "night", "lights": ["lamp.gltf"], "level": "night", "heading_deg": -20,
+         "polarity": {"bar": "light-on-dark"}},
+        {"name": "drive", "route": "r.csv", "when": "2026-02-28T12:59:59+01:00",
+         "weather": "clear"},
+        {"name": "suns", "sweep": {"sun": {"azimuth_deg": [0, 360, 90],
+                                           "elevation_deg": [5, 5, 1]}, "sky": "sky"}},
+        {"name": "year", "sweep": {"year": 2026, "where": [48, 11, 520], "step_minutes": 720,
+                                   "headings_deg": [0, 90], "weather": "clear",
+                                   "night": True}}]}
+
+
+def is_of_letter(x, y):
+    """HHHH, 12 pixels tall."""
+    column = (x - 16) % 12
+    return 16 <= x < 64 and 18 <= y < 30 and (column in (0, 1, 6, 7) or
+                                             (y in (23, 24) and column < 8))
+
+
+def write_files(folder):
+    """What the good document names."""
+    def path(name):
+        return os.path.join(folder, name)
+    shutil.copy(PANEL, path("ips.panel"))
+    dashboard().write(path("dash.gltf"))
+    for name in ("person.gltf", "lamp.gltf"):
+        scene = Scene()
+        scene.quad(scene.lambert(0.5), [2, 0, 0], [0.1, 0, 0], [0, 0.1, 0])
+        scene.write(path(name))
+    with open(path("letters.png"), "wb") as file:
+        file.write(png(80, 48, [[255 * is_of_letter(x, y) for x in range(80) for _ in range(3)]
+                                for y in range(48)]))
+    with open(path("r.csv"), "w", encoding="utf-8") as file:
+        file.write("time,lat,lon\n2026-06-21T08:30:00Z,48,11\n2026-06-21T08:31:00Z,48,11.1\n")
+
+
+def places(node, at=()):
+    """The ways to every value of a document."""
+    items = enumerate(node) if isinstance(node, list) else \
+        node.items() if isinstance(node, dict) else ()
+    for key, value in items:
+        yield at + (key,)
+        yield from places(value, at + (key,))
+
+
+def value_at(document, place):
+    for key in place:
+        document = document[key]
+    return document
+
+
+def changed(place, value):
+    document = copy.deepcopy(GOOD)
+    value_at(document, place[:-1])[place[-1]] = value
+    return document
+
+
+def without(place):
+    document = copy.deepcopy(GOOD)
+    del value_at(document, place[:-1])[place[-1]]
+    return document
+
+
+def neighbours(value):
+    """The same but for what stands in it."""
+    if isinstance(value, list):
+        yield value[:-1]
+        yield value + value[-1:]
+        yield value + [None]
+    if isinstance(value, dict):
+        yield {**value, "no such key": 1}
+
+
+def text_of(place):
+    return "/" + "/".join(map(str, place))
+
+
+def trials():
+    """(place, document as text, the document or None where it is no JSON)."""
+    for place in places(GOOD):
+        kept = value_at(GOOD, place)
+        documents = [changed(place, value) for value in (*OTHER_KINDS, *neighbours(kept))
+                     if value != kept or type(value) is not type(kept)]
+        for document in (*documents, without(place)):
+            yield place, json.dumps(document), document
+        if not isinstance(kept, (dict, list)):
+            text = json.dumps(changed(place, MARK))
+            for word in NO_JSON:
+                yield place, text.replace(f'"{MARK}"', word), None
+
+
+def is_near(told, place):
+    """The place itself, what is in it, or what it is in."""
+    return told == text_of(place[:-1]) or (told + "/").startswith(text_of(place) + "/")
+
+
+class Requests:
+    def __init__(self, program, folder):
+        self.program, self.folder = os.path.abspath(program), folder
+
+    def path(self, *names):
+        return os.path.join(self.folder, *names)
+
+    def run(self, *words):
+        done = subprocess.run([self.program, *words, "--quiet"], cwd=self.folder,
+                              capture_output=True, timeout=TIMEOUT_S)
+        return done.returncode, done.stderr.decode("utf-8", "replace")
+
+    def ask(self, number, text, *options):
+        name = f"{number}.json"
+        with open(self.path(name), "w", encoding="utf-8") as file:
+            file.write(text)
+        answer = self.run("review", name, *(options or ("--dry-run",)))
+        os.remove(self.path(name))
+        return answer
+
+
+def is_refusal(status, said, wanted=3):
+    return status == wanted and said.count("\n") == 1 and said.startswith("parhelion: ")
+
+
+def fault_of(status, said, trial, validator):
+    """What is wrong with the program's answer; None: nothing."""
+    place, _, document = trial
+    takes = document is not None and validator.is_valid(document)
+    if takes and status == 0 and not said:
+        return None
+    if not is_refusal(status, said):
+        return f"status {status}"
+    if document is None:
+        return None if "not valid JSON" in said else "takes what is no JSON"
+    told = PLACE.search(said)
+    if takes or not told:
+        named = told or "symbol '" in said or "there is no profile" in said or \
+            f"key '{place[0]}' is missing" in said
+        return None if named else "names no place"
+    return None if is_near((told[1] or told[2]), place) else f"names {(told[1] or told[2])}"
+
+
+def check_keys(report, requests, step):
+    try:
+        import jsonschema
+    except ImportError:
+        report.skip("reviews against their schema: python3-jsonschema is not installed")
+        return
+    schema = with_references(load(os.path.join(ROOT, "assets/schemas/review.schema.json")))
+    validator = jsonschema.validators.validator_for(schema)(schema)
+    chosen = list(trials())[::step]
+    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+        answers = pool.map(requests.ask, range(len(chosen)), [text for _, text, _ in chosen])
+        for number, (trial, answer) in enumerate(zip(chosen, answers)):
+            fault = fault_of(*answer, trial, validator)
+            report.claim(not fault, f"{text_of(trial[0])}, trial {number} of {step}: {fault}: "
+                                    f"{answer[1][:300]}")
+
+
+def check_whole(report, requests):
+    """The good request is taken, and says all keys of the schema."""
+    status, said = requests.ask("good", json.dumps(GOOD))
+    report.claim(status == 0 and not said, f"the good request: status {status}: {said}")
+    said_keys = {key for place in places(GOOD) for key in place if isinstance(key, str)}
+    schema = load(os.path.join(ROOT, "assets/schemas/review.schema.json"))
+    missing = set(keys_of(schema)) - said_keys
+    report.claim(not missing, f"the good request does not say {sorted(missing)}")
+
+
+def keys_of(schema):
+    if isinstance(schema, list):
+        for item in schema:
+            yield from keys_of(item)
+    elif isinstance(schema, dict):
+        yield from schema.get("properties", {})
+        for value in schema.values():
+            yield from keys_of(value)
+
+
+# ---- files that it names -----------------------------------------------------------------
+
+HEAD = "time,lat,lon\n"
+POINTS = "2026-06-21T10:30:00Z,48,11\n2026-06-21T11:30:00Z,48,11.1\n"
+HOURS = "".join(weather_row(6, 21, hour, 500, 100, 0) for hour in range(10, 15))
+MARKED = b"\xef\xbb\xbf"
+ROUTES = ((HEAD + POINTS, None), (MARKED + (HEAD + POINTS).encode(), None),
+          ("", "is empty"), (HEAD, "no points"),
+          ((HEAD + POINTS).encode("utf-16"), "zero bytes"),
+          ((HEAD + POINTS).replace("11.1", "11.\0001"), "zero bytes"),
+          ((HEAD + POINTS)[:-6], "line 3"), (HEAD + POINTS.replace("48", "nan"), "line 2"),
+          (HEAD + POINTS.replace("48", "90.5"), "line 2"),
+          (HEAD + POINTS.replace("10:30", "12:30"), "do not fall"))
+WEATHERS = ((EPW + HOURS, None), (MARKED + (EPW + HOURS).encode(), None),
+            ((EPW + HOURS).replace("\n", "\r\n"), None), ("", "is empty"), (EPW, "no hours"),
+            ((EPW + HOURS).encode("utf-16"), "zero bytes"), (EPW[:40], "line 1"),
+            (EPW + HOURS.replace(",500,", ",nan,"), "line 9"),
+            (EPW + HOURS.replace(",500,", ",9999,"), "no direct or no diffuse"),
+            (EPW + HOURS.replace(",12,60", ",9,60").replace(",13,60", ",9,60"), "has no row"),
+            (EPW + HOURS[:-40], "fields"))
+
+
+def check_files(report, requests):
+    """One file is wrong at a time; told is which."""
+    condition = {"name": "drive", "route": "route.csv", "weather": "weather.epw"}
+    text = json.dumps({**GOOD, "conditions": [condition]})
+    good = {"route.csv": ROUTES[0][0], "weather.epw": WEATHERS[0][0]}
+    for name, table in (("route.csv", ROUTES), ("weather.epw", WEATHERS)):
+        for number, (contents, words) in enumerate(table):
+            for file_name, kept in {**good, name: contents}.items():
+                kept = kept if isinstance(kept, bytes) else kept.encode()
+                with open(requests.path(file_name), "wb") as file:
+                    file.write(kept)
+            status, said = requests.ask("files", text)
+            holds = not said and status == 0 if words is None else \
+                is_refusal(status, said) and name in said and words in said
+            report.claim(holds, f"{name} {number}: status {status}, wanted {words}: {said}")
+
+
+# ---- beside the request ------------------------------------------------------------------
+
+SCENE = ("dash.gltf", "--environment", "constant:300", "--paths", "1024")
+EXPLAIN = ((2, "good.json", "--uv", "0,0,1,1"), (2, "good.json", "--size", "10x10"),
+           (2, "good.json", "--fov", "20"), (2, "good.json", "--look-at", "0,0,0"),
+           (2, "good.json", "--pixel", "1,1"), (2, "good.json", "--condition", "none"),
+           (2, "good.json", "--condition", "suns", "--symbol", "bar", "--sun", "0,95"),
+           (2, "good.json", "--condition", "suns", "--symbol", "bar", "--sun", "nan,5"),
+           (2, *SCENE, "--display", "screen", "--uv", "0.9,0,0.1,1"),
+           (2, *SCENE, "--pixel", "1280,0"), (3, *SCENE, "--display", "none"),
+           (3, *SCENE, "--pixel", "0,0", "--eye", "0,0,1", "--look-at", "0,0,9", "--outlook",
+            "sky.png", "-o", "sky.gltf"))
+
+
+def check_explain(report, requests):
+    with open(requests.path("good.json"), "w", encoding="utf-8") as file:
+        json.dump(GOOD, file)
+    for wanted, *words in EXPLAIN:
+        status, said = requests.run("explain", *words)
+        report.claim(is_refusal(status, said, wanted), f"explain {words}: {status}: {said}")
+    left = [name for name in ("sky.png", "sky.gltf") if os.path.exists(requests.path(name))]
+    report.claim(not left, f"a refused question left {left}")
+
+
+def check_moments(report, requests):
+    """A dry run looks into the scenes of moments, too."""
+    for symbol, words in (({"display": "none", "content": "letters.png"}, "/symbols/bar"),
+                          ({"display": "none"}, "/symbols/bar/display"),
+                          ({"display": "screen", "content": "r.csv"}, "/symbols/bar")):
+        document = {**GOOD, "symbols": {"bar": {**symbol, "uv": [0, 0, 1, 1]}},
+                    "conditions": [{"name": "noon"}]}
+        status, said = requests.ask("moment", json.dumps(document))
+        report.claim(is_refusal(status, said) and words in said and "moment.json" in said,
+                     f"{symbol}: status {status}: {said}")
+
+
+def check_output(report, requests):
+    """What cannot be written over is told before any work, and nothing stands beside it."""
+    for name in ("review.json", "index.html", "run.json", "cases.csv"):
+        os.makedirs(requests.path("out", name))
+        status, said = requests.ask("blocked", json.dumps(GOOD), "-o", "out")
+        report.claim(is_refusal(status, said, 4) and name in said and
+                     os.listdir(requests.path("out")) == [name],
+                     f"{name} is a folder: status {status}: {said}")
+        shutil.rmtree(requests.path("out"))
+
+
+def main(program, step):
+    report = Report()
+    with tempfile.TemporaryDirectory() as folder:
+        requests = Requests(program, folder)
+        write_files(folder)
+        check_whole(report, requests)
+        check_keys(report, requests, step)
+        check_files(report, requests)
+        check_explain(report, requests)
+        check_moments(report, requests)
+        check_output(report, requests)
+    report.finish()
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[-1], 1 if "--all" in sys.argv else 9))
