@@ -8,18 +8,13 @@
 
 enum { ANSWERS = 12, MOST = 40 };
 
-static char folder[FOLDER_BYTES], file[FOLDER_BYTES + 16];
+static char file[2 * FOLDER_BYTES];
 
-static int make_all(void **state)
+static int start(void **state)
 {
-    if (!folder_create(folder)) return 1;
-    snprintf(file, sizeof file, "%s/journal", folder);
-    return make_arena(state);
-}
-
-static int drop_all(void **state)
-{
-    return folder_destroy(folder) | drop_arena(state);
+    if (make_folder(state)) return -1;
+    snprintf(file, sizeof file, "%s", in_folder("journal"));
+    return 0;
 }
 
 static JournalKey key_of(int i)
@@ -165,5 +160,5 @@ TEST(two_at_once_are_refused_and_an_empty_one_leaves_nothing)
 
 int main(void)
 {
-    return run_cases(make_all, drop_all);
+    return run_cases(start, clear_folder);
 }

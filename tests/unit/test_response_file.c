@@ -9,18 +9,13 @@
 enum { LEVEL = 0 };
 
 static const char identity[] = "version\t1\neye\t0 1 2\nseed\t9\n";
-static char       folder[FOLDER_BYTES], path[FOLDER_BYTES + 16];
+static char       path[2 * FOLDER_BYTES];
 
-static int make_all(void **state)
+static int start(void **state)
 {
-    if (!folder_create(folder)) return 1;
-    snprintf(path, sizeof path, "%s/a.response", folder);
-    return make_arena(state);
-}
-
-static int drop_all(void **state)
-{
-    return folder_destroy(folder) | drop_arena(state);
+    if (make_folder(state)) return -1;
+    snprintf(path, sizeof path, "%s", in_folder("a.response"));
+    return 0;
 }
 
 /* Half the triangles are empty, and one holds nothing but a negative zero. */
@@ -132,5 +127,5 @@ TEST(another_question_is_told_by_what_differs)
 
 int main(void)
 {
-    return run_cases(make_all, drop_all);
+    return run_cases(start, clear_folder);
 }
