@@ -9,6 +9,7 @@ import copy
 import json
 import os
 import re
+import resource
 import shutil
 import subprocess
 import sys
@@ -314,6 +315,17 @@ def check_output(report, requests):
         shutil.rmtree(requests.path("out"))
 
 
+def check_full(report, requests):
+    """A disk without room for one byte is left as it was."""
+    done = subprocess.run([requests.program, "review", "good.json", "-o", "out", "--quiet"],
+                          cwd=requests.folder, capture_output=True, text=True,
+                          timeout=TIMEOUT_S, preexec_fn=lambda: resource.setrlimit(
+                              resource.RLIMIT_FSIZE, (0, 0)))
+    report.claim(is_refusal(done.returncode, done.stderr, 4) and
+                 not os.path.exists(requests.path("out")),
+                 f"no room at all: status {done.returncode}: {done.stderr}")
+
+
 def main(program, step):
     report = Report()
     with tempfile.TemporaryDirectory() as folder:
@@ -325,6 +337,7 @@ def main(program, step):
         check_explain(report, requests)
         check_moments(report, requests)
         check_output(report, requests)
+        check_full(report, requests)
     report.finish()
 
 

@@ -221,12 +221,15 @@ bool journal_open(const char *path, Arena *arena, Problems *problems, Journal **
     grow(journal);
     journal->file = open(path, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
     if (journal->file < 0) return refuse(journal, "created", errno, err);
-    if (!lock(journal, err) || !take_file(journal, problems, err)) {
-        close(journal->file);
-        return false;
+    bool is_ours = lock(journal, err);
+    if (is_ours && take_file(journal, problems, err)) {
+        *out = journal;
+        return true;
     }
-    *out = journal;
-    return true;
+    struct stat info;
+    if (is_ours && fstat(journal->file, &info) == 0 && info.st_size == 0) unlink(path);
+    close(journal->file);
+    return false;
 }
 
 /* ---- asking ------------------------------------------------------------------------------ */
