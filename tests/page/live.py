@@ -56,6 +56,8 @@ class Sweep:
                   encoding="utf-8") as file:
             self.rows = list(csv.DictReader(file))
         self.section = f"document.getElementById('s{number}').closest('section')"
+        page.run(f"for(let e={self.section};e;e=e.parentElement)"
+                 "if(e.tagName==='DETAILS')e.open=true")
         page.run(f"{self.section}.querySelector('.area').scrollIntoView({{block:'center'}})")
         page.wait(f"!!{self.section}.querySelector('.live-sun')")
 

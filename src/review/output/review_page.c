@@ -13,6 +13,7 @@
 #define PAGE_BYTES ((size_t)4 << 30) /* of address space, for the text */
 #define WORDS_BYTES ((size_t)1 << 30)
 #define OPEN_CARDS 4
+#define OPEN_SWEEPS 2
 #define OPEN_ROWS 12
 
 /* review.css and review.js beside this file; the build embeds them. */
@@ -206,26 +207,72 @@ static bool add_sweep_figures(Text *html, const ReviewPage *page, const ReviewSw
     return true;
 }
 
+static void add_sweep_line(Text *html, const ReviewSweep *s, bool is_open, Arena *arena)
+{
+    Verdict     verdict = sweep_verdict(s);
+    const char *often = s->failed_share > 0
+                            ? arena_format(arena, "%s of the time",
+                                           words_share(s->failed_share, arena))
+                            : "never fails";
+    text_format(html, "<details class=\"case %s\"%s><summary><span class=\"chip %s\">%s</span> ",
+                words_class(verdict), is_open ? " open" : "", words_class(verdict),
+                words_verdict(verdict));
+    page_element(html, "b", s->symbol ? s->symbol : "?");
+    page_element(html, "span class=\"where\"",
+                 arena_format(arena, "seen by %s: %s", s->eye ? s->eye : "?",
+                              s->condition ? s->condition : "?"));
+    text_format(html, "<span class=\"ratio\">%s, at worst %s</span></summary>\n", often,
+                words_ratio(s->worst.contrast_ratio, arena));
+}
+
+static bool add_sweep(Text *html, const ReviewPage *page, const ReviewSweep *s, bool is_open,
+                      Arena *arena, Error *err)
+{
+    add_sweep_line(html, s, is_open, arena);
+    text_add(html, "<section>");
+    add_sweep_keys(html, s, arena);
+    if (!add_sweep_figures(html, page, s, arena, err)) return false;
+    page_element(html, "h4", "At its worst");
+    if (!add_card(html, page, &s->worst, sweep_verdict(s) != VERDICT_PASS, arena, err))
+        return false;
+    if (s->table)
+        page_element(html, "p class=\"sub\"",
+                     arena_format(arena, "All of it as a table: %s", s->table));
+    text_add(html, "</section></details>\n");
+    return true;
+}
+
+/* NULL: the case is no sweep's worst. */
+static const ReviewSweep *sweep_with_worst(const Review *review, const ReviewCase *c)
+{
+    for (int i = 0; i < review->sweep_count; i++)
+        if (c == &review->sweeps[i].worst) return &review->sweeps[i];
+    return NULL;
+}
+
 static bool add_sweeps(Text *html, const ReviewPage *page, Arena *arena, Error *err)
 {
-    const Review *review = page->review;
-    if (review->sweep_count > 0) page_element(html, "h2", "Every sun, every hour");
-    for (int i = 0; i < review->sweep_count; i++) {
-        const ReviewSweep *s = &review->sweeps[i];
-        text_add(html, "<section>");
-        page_element(html, "h3 class=\"of\"",
-                     arena_format(arena, "%s, seen by %s: %s", s->symbol ? s->symbol : "?",
-                                  s->eye ? s->eye : "?", s->condition ? s->condition : "?"));
-        add_sweep_keys(html, s, arena);
-        if (!add_sweep_figures(html, page, s, arena, err)) return false;
-        page_element(html, "h4", "At its worst");
-        if (!add_card(html, page, &s->worst, sweep_verdict(s) != VERDICT_PASS, arena, err))
-            return false;
-        if (s->table)
-            page_element(html, "p class=\"sub\"",
-                         arena_format(arena, "All of it as a table: %s", s->table));
-        text_add(html, "</section>\n");
+    const Review      *review = page->review;
+    const ReviewCase **ranked = review_rank(review, arena);
+    int                shown = 0, passing = 0;
+    if (review->sweep_count == 0) return true;
+    page_element(html, "h2", "Every sun, every hour");
+    page_element(html, "p class=\"sub\"", "How often each symbol fails, and the least contrast "
+                 "that was found.");
+    review_table_add_sweeps(html, review, arena);
+    for (int i = 0; i < review->sweep_count; i++)
+        passing += sweep_verdict(&review->sweeps[i]) == VERDICT_PASS;
+    for (int i = 0; i < review->case_count + review->sweep_count; i++) {
+        const ReviewSweep *s = sweep_with_worst(review, ranked[i]);
+        if (!s) continue;
+        if (shown > 0 && shown == review->sweep_count - passing)
+            page_more_begin(html, arena_format(arena, "%d that pass%s", passing,
+                                               passing == 1 ? "es" : ""));
+        bool is_open = shown < (sweep_verdict(s) == VERDICT_PASS ? 1 : OPEN_SWEEPS);
+        shown++;
+        if (!add_sweep(html, page, s, is_open, arena, err)) return false;
     }
+    if (passing > 0 && passing < review->sweep_count) page_more_end(html);
     return true;
 }
 

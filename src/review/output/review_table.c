@@ -149,6 +149,79 @@ void review_table_add_matrix(Text *html, const Review *review, Arena *arena)
     text_add(html, "</div>\n");
 }
 
+/* ---- sweeps at a glance ----------------------------------------------------------------- */
+
+static const ReviewSweep *sweep_of(const Review *review, const char *condition,
+                                   const char *symbol, const char *eye)
+{
+    for (int i = 0; i < review->sweep_count; i++) {
+        const ReviewSweep *s = &review->sweeps[i];
+        if (words_same(s->condition, condition) && words_same(s->symbol, symbol) &&
+            words_same(s->eye, eye))
+            return s;
+    }
+    return NULL;
+}
+
+static void add_sweep_cell(Text *html, const Review *review, const ReviewSweep *s,
+                           Arena *arena)
+{
+    if (!s) {
+        page_cell(html, "none", "–");
+        return;
+    }
+    Verdict             verdict = sweep_verdict(s);
+    const LimitVerdict *limit = shown_limit(&s->worst);
+    text_format(html, "<td class=\"%s\"><a href=\"#%s\"><b>%s %s</b>", words_class(verdict),
+                review_card_id(review, &s->worst, arena), mark_of(verdict),
+                s->failed_share > 0 ? words_share(s->failed_share, arena) : "never");
+    page_element(html, "small",
+                 arena_format(arena, "%s%s%s", words_ratio(s->worst.contrast_ratio, arena),
+                              limit ? limit->is_upper ? " · ≤ " : " · ≥ " : "",
+                              limit ? words_limit(limit, arena) : ""));
+    text_add(html, "</a></td>");
+}
+
+static void add_sweep_matrix(Text *html, const Review *review, const char *condition,
+                             Arena *arena)
+{
+    MatrixNames symbols = {ARENA_NEW(arena, const char *, review->sweep_count), 0};
+    MatrixNames eyes = {ARENA_NEW(arena, const char *, review->sweep_count), 0};
+    for (int i = 0; i < review->sweep_count; i++) {
+        if (!words_same(review->sweeps[i].condition, condition)) continue;
+        add_name(&symbols, review->sweeps[i].symbol);
+        add_name(&eyes, review->sweeps[i].eye);
+    }
+    if (eyes.count > MATRIX_COLUMNS || symbols.count > MATRIX_ROWS) return;
+    PageColumn columns[MATRIX_COLUMNS + 1] = {{"symbol", false, NULL}};
+    for (int i = 0; i < eyes.count; i++)
+        columns[i + 1] = (PageColumn){eyes.list[i], false, NULL};
+    text_add(html, "<div>");
+    page_table_begin(html, condition, "matrix", columns, eyes.count + 1);
+    for (int row = 0; row < symbols.count; row++) {
+        page_row_begin(html, "");
+        page_cell(html, "", symbols.list[row]);
+        for (int i = 0; i < eyes.count; i++)
+            add_sweep_cell(html, review,
+                           sweep_of(review, condition, symbols.list[row], eyes.list[i]),
+                           arena);
+        page_row_end(html);
+    }
+    page_table_end(html);
+    text_add(html, "</div>\n");
+}
+
+void review_table_add_sweeps(Text *html, const Review *review, Arena *arena)
+{
+    MatrixNames conditions = {ARENA_NEW(arena, const char *, review->sweep_count), 0};
+    for (int i = 0; i < review->sweep_count; i++)
+        add_name(&conditions, review->sweeps[i].condition);
+    text_add(html, "<div class=\"eyes\">\n");
+    for (int i = 0; i < conditions.count; i++)
+        add_sweep_matrix(html, review, conditions.list[i], arena);
+    text_add(html, "</div>\n");
+}
+
 /* ---- the list --------------------------------------------------------------------------- */
 
 static void add_limit_cells(Text *html, const ReviewCase *c, Arena *arena)

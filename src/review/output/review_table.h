@@ -12,6 +12,9 @@
 /* For every eye: symbols by conditions, at a glance. An eye with too many has none. */
 void review_table_add_matrix(Text *html, const Review *review, Arena *arena);
 
+/* For every sweep: how often each symbol fails each eye, and the least contrast. */
+void review_table_add_sweeps(Text *html, const Review *review, Arena *arena);
+
 /* Every case and every sweep's worst with its figures, worst first. */
 void review_table_add_list(Text *html, const Review *review, Arena *arena);
 
