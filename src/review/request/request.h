@@ -177,6 +177,8 @@ typedef struct ReviewRequest {
     int              weather_count;
     double           precision_contrast; /* relative standard error wanted */
     double           precision_clear;    /* enough where the verdict is clear; at least that */
+    int              precision_paths;    /* of one reading at most: what is not sure then has a
+                                            wider interval */
     ReviewFrames     frames;
     ReviewInput     *inputs;     /* the file itself, routes, weathers, skies' pictures */
     int              input_count;

@@ -12,6 +12,7 @@
 #include "review/request/request_symbols.h"
 #include "tinygltf/gltf_json.h"
 
+#define PATHS_USUAL 262144
 #define CLEAR_USUAL 0.05 /* precision of readings whose verdict is clear */
 
 static const char *const KEYS[] = {"title",  "scene",     "eyes",       "forward",
@@ -31,16 +32,19 @@ static bool read_title(RequestReading *reading, Error *err)
 
 static bool read_precision(RequestReading *reading, Error *err)
 {
-    static const char *const keys[] = {"contrast", "clear"};
+    static const char *const keys[] = {"contrast", "clear", "paths"};
     JsonView view;
+    int     *paths = &reading->request->precision_paths;
     double  *contrast = &reading->request->precision_contrast;
     double  *clear = &reading->request->precision_clear;
     *contrast = 0.01;
     *clear = (double)NAN;
+    *paths = PATHS_USUAL;
     if (!json_view_child(&reading->root, "precision", false, &view, err) ||
         !json_view_check_keys(&view, keys, COUNT_OF(keys), err) ||
-        !json_view_number(&view, "contrast", 1e-4, 1, contrast, err) ||
-        !json_view_number(&view, "clear", 1e-4, 1, clear, err))
+        !json_view_number(&view, "contrast", 1e-6, 1, contrast, err) ||
+        !json_view_number(&view, "clear", 1e-6, 1, clear, err) ||
+        !field_integer(&view, "paths", (FieldBounds){8192, 1 << 30}, paths, err))
         return false;
     if (isnan(*clear)) *clear = fmax(CLEAR_USUAL, *contrast);
     return *clear >= *contrast ||

@@ -202,7 +202,7 @@ static Reading read_symbol(const CaseTools *tools, const CaseLook *look, const P
     ReadingGoal     goal = {.brighter = fmax(shown->foreground, shown->background),
                             .darker = fmin(shown->foreground, shown->background),
                             .precision = request->precision_contrast,
-                            .most = CASE_PATHS_MOST, .question = &question};
+                            .most = request->precision_paths, .question = &question};
     if (look->is_coarse) {
         goal.precision = COARSE_PRECISION;
         goal.most = COARSE_PATHS;

@@ -19,9 +19,6 @@ typedef struct CaseTools {
     int                cause_rays;  /* that are kept of each; 0: CAUSE_RAYS */
 } CaseTools;
 
-/* Paths of one reading at most: a contrast that is not sure then has a wider interval. */
-#define CASE_PATHS_MOST 262144
-
 /* Share of what a display reflects from which on its light is that of direct sun. */
 #define CASE_SUNLIT 0.5
 
