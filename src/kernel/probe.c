@@ -1,25 +1,35 @@
 #include "kernel/probe.h"
 
+#include "base/mathd.h"
 #include "base/mathf.h"
 #include "base/units.h"
 #include "path/path_features.h"
 
-/* place: a number in [0, 1), where a pixel's path has its place in the pixel. */
-static int target_of(const ProbeAim *aim, int path, float place)
+/* place: two numbers in [0, 1), where a pixel's path has its place in the pixel. What chooses
+ * the target leaves a number that is as even. */
+static Vec3 target_of(const ProbeAim *aim, int path, Vec2 place)
 {
-    if (!aim->is_spread) return path % aim->target_count;
-    int target = (int)(place * (float)aim->target_count);
-    return target < aim->target_count ? target : aim->target_count - 1;
+    int   target = path % aim->target_count;
+    float along = place.x;
+    if (aim->is_spread) {
+        float scaled = place.x * (float)aim->target_count;
+        target = (int)scaled < aim->target_count ? (int)scaled : aim->target_count - 1;
+        along = scaled - (float)target;
+    }
+    if (!aim->patches) return aim->targets[target];
+    const ProbePatch *patch = &aim->patches[target];
+    return vec3_add(aim->targets[target], vec3_add(vec3_scale(patch->along, along - 0.5f),
+                                                   vec3_scale(patch->down, place.y - 0.5f)));
 }
 
 /* The sampler of a path behind its wavelengths, and where it goes. */
 static Sampler path_start(const ProbeAim *aim, int path, Wavelengths *wavelengths, Ray *ray)
 {
     Sampler sampler = sampler_start(aim->seed, 0, 0, (uint32_t)path);
-    float   place = sampler_1d(&sampler);
+    Vec2    place = sampler_2d(&sampler);
     wavelengths_sample(sampler_1d(&sampler), wavelengths);
     if (aim->meter) return sampler;
-    Vec3 to = vec3_sub(aim->targets[target_of(aim, path, place)], aim->eye);
+    Vec3 to = vec3_sub(target_of(aim, path, place), aim->eye);
     *ray = (Ray){aim->eye, vec3_normalize(to), 0, INFINITY};
     return sampler;
 }
@@ -166,7 +176,8 @@ void probe_ask_cells(const ProbeAim *aim, const ProbeCells *cells, int first, in
                      ProbeAnswers *out, PathStatistics *statistics)
 {
     CellSums to = {cells, out->sums};
-    PathFar  far = {out->towards, cells->asked_count, add_cell, add_escaped_cell, NULL, &to};
+    PathFar  far = {out->towards, cells->asked_count, add_cell, add_escaped_cell, NULL, &to,
+                    false};
     for (int path = first; path < end; path++) {
         draw_cells(aim, cells, path, out->towards);
         ask(aim, path, &far, statistics);
@@ -177,6 +188,8 @@ void probe_ask_cells(const ProbeAim *aim, const ProbeCells *cells, int first, in
 
 typedef struct SunSums {
     const ProbeSuns *suns;
+    float            chord2; /* squared distance of unit vectors one radius apart: cosines of
+                                such angles have no digits left */
     float           *sums;
     float            per_sr; /* one over the disc's solid angle */
 } SunSums;
@@ -187,23 +200,41 @@ static void add_sun(void *user, int i, int bounce, const float *share)
     if (bounce == 0) add_lanes(to->sums + (size_t)i * SPECTRUM_LANES, 1, share);
 }
 
+/* The first sun whose y is at least that; count: none. */
+static int first_sun_from(const ProbeSuns *suns, float y)
+{
+    int low = 0, high = suns->count;
+    while (low < high) {
+        int middle = low + (high - low) / 2;
+        if (suns->towards[middle].y < y) low = middle + 1;
+        else high = middle;
+    }
+    return low;
+}
+
 /* By way of the first surface's mirror into each disc that the direction meets. */
 static void add_escaped_sun(void *user, Vec3 direction, int bounce, const float *share)
 {
-    const SunSums *to = user;
-    if (bounce != 1 || !to->suns->by_mirror) return;
-    for (int i = 0; i < to->suns->count; i++)
-        if (vec3_dot(direction, to->suns->towards[i]) >= to->suns->cos_radius)
+    const SunSums   *to = user;
+    const ProbeSuns *suns = to->suns;
+    if (bounce != 1 || !suns->by_mirror) return;
+    float reach = sqrtf(to->chord2);
+    int   i = first_sun_from(suns, direction.y - reach);
+    for (; i < suns->count && suns->towards[i].y <= direction.y + reach; i++) {
+        Vec3 apart = vec3_sub(direction, suns->towards[i]);
+        if (vec3_dot(apart, apart) <= to->chord2)
             add_lanes(to->sums + (size_t)i * SPECTRUM_LANES, to->per_sr, share);
+    }
 }
 
 /* A place in the disc, the same in all of them: uniform over its solid angle. */
-static void draw_suns(const ProbeAim *aim, const ProbeSuns *suns, int path, Vec3 *towards)
+static void draw_suns(const ProbeAim *aim, const SunSums *to, int path, Vec3 *towards)
 {
+    const ProbeSuns *suns = to->suns;
     Sampler sampler = sampler_start(aim->seed + 2, 0, 0, (uint32_t)path);
     Vec2    u = sampler_2d(&sampler);
-    float   cosine = 1 - u.x * (1 - suns->cos_radius);
-    float   sine = sqrtf(fmaxf(1 - cosine * cosine, 0)), s, c;
+    float   below = u.x * 0.5f * to->chord2; /* 1 less the cosine */
+    float   cosine = 1 - below, sine = sqrtf(below * (2 - below)), s, c;
     sincos_turns(u.y, &s, &c);
     for (int i = 0; i < suns->count; i++) {
         Frame frame = frame_from_z(suns->towards[i]);
@@ -214,15 +245,18 @@ static void draw_suns(const ProbeAim *aim, const ProbeSuns *suns, int path, Vec3
 void probe_ask_suns(const ProbeAim *aim, const ProbeSuns *suns, int first, int end,
                     ProbeAnswers *out, PathStatistics *statistics)
 {
-    SunSums     to = {suns, out->sums, 1 / (2 * PI_F * (1 - suns->cos_radius))};
+    double      half = sin_d((double)suns->radius / 2);
+    float       chord2 = (float)(4 * half * half);
+    SunSums     to = {suns, chord2, out->sums, 1 / (PI_F * chord2)};
     int         count = suns->by_mirror ? 0 : suns->count;
-    PathFar     far = {out->towards, count, add_sun, add_escaped_sun, NULL, &to};
+    PathFar     far = {out->towards, count, add_sun, add_escaped_sun, NULL, &to,
+                       suns->by_mirror};
     PathContext once = *aim->context;
     ProbeAim    direct = *aim;
     once.max_bounces = 1;
     direct.context = &once;
     for (int path = first; path < end; path++) {
-        if (!suns->by_mirror) draw_suns(aim, suns, path, out->towards);
+        if (!suns->by_mirror) draw_suns(aim, &to, path, out->towards);
         ask(&direct, path, &far, statistics);
     }
 }
@@ -253,7 +287,7 @@ void probe_ask_images(const ProbeAim *aim, int first, int end, const ProbeImages
                       PathStatistics *statistics)
 {
     ProbeImages listener = *images;
-    PathFar     far = {NULL, 0, NULL, NULL, add_image, &listener};
+    PathFar     far = {NULL, 0, NULL, NULL, add_image, &listener, false};
     PathContext once = *aim->context;
     ProbeAim    direct = *aim;
     once.max_bounces = IMAGE_BOUNCES;

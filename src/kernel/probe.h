@@ -11,12 +11,19 @@
 #include "hemisphere/geodesic.h"
 #include "path/path.h"
 
+/* Edges of a parallelogram, m. */
+typedef struct ProbePatch {
+    Vec3 along, down;
+} ProbePatch;
+
 /* An eye and the points that it looks at, one path each; more paths than points begin again. */
 typedef struct ProbeAim {
     const PathContext *context;
     Vec3            eye;       /* m, world */
     const Vec3     *targets;   /* of surfaces that the eye sees */
     int             target_count;
+    const ProbePatch *patches; /* of which targets are the middles: paths go anywhere within;
+                                  NULL: to the targets themselves */
     bool            is_spread; /* paths take points by chance, evenly, however few they are */
     const LitPoint *meter;     /* a luxmeter instead: eye and targets do not count; or NULL */
     uint32_t        seed;
@@ -68,9 +75,9 @@ void probe_ask_cells(const ProbeAim *aim, const ProbeCells *cells, int first, in
 
 /* Discs of one size in the sky. */
 typedef struct ProbeSuns {
-    const Vec3 *towards; /* unit, world: their centres */
+    const Vec3 *towards; /* unit, world: their centres; by_mirror: their y rises */
     int   count;
-    float cos_radius;    /* below 1 */
+    float radius;        /* radians, above 0 */
     bool  by_mirror;     /* what the first vertex's mirror sends is asked, else what scatters */
 } ProbeSuns;
 

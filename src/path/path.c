@@ -574,13 +574,16 @@ static Spectrum sun_share(const PathWalk *walk, const Surface *surface, Vec3 wo,
     return sun_mirror_share(&surface->bsdf, frame_to_local(&surface->frame, wo), next);
 }
 
+static bool is_display(const Scene *scene, const Surface *surface)
+{
+    return surface->material_id != NO_ID &&
+           scene->materials[surface->material_id].display_id != NO_ID;
+}
+
 /* At the first surface: what comes from now on came by way of a display's mirror. */
 static void note_mirror(PathWalk *walk, const Surface *surface, const BsdfSample *next)
 {
-    const Scene *scene = walk->context->scene;
-    if (!walk->first || !next->is_delta || surface->material_id == NO_ID ||
-        scene->materials[surface->material_id].display_id == NO_ID)
-        return;
+    if (!walk->first || !next->is_delta || !is_display(walk->context->scene, surface)) return;
     walk->by_mirror = true;
     walk->before_mirror = walk->gathered;
 }
@@ -618,15 +621,30 @@ static void keep_lead(PathWalk *walk)
     walk->spare = last;
 }
 
+/* The way by a first display's mirror, of which nothing is left to chance; false: that is not
+ * what is asked. */
+static bool take_mirror(const PathWalk *walk, const Surface *surface, Vec3 local_wo,
+                        BsdfSample *next)
+{
+    if (!walk->far || !walk->far->is_of_mirror || walk->bounce ||
+        !is_display(walk->context->scene, surface))
+        return false;
+    *next = (BsdfSample){.wi = vec3(-local_wo.x, -local_wo.y, local_wo.z), .pdf = 1,
+                         .weight = bsdf_mirror(&surface->bsdf, local_wo), .is_delta = true};
+    return true;
+}
+
 /* Chooses where the path goes from the surface, by the spare lead. Windows can be passed after
  * the last bounce. */
 static Step scatter(PathWalk *walk, const Surface *surface, Vec3 wo)
 {
     float u[4];
+    Vec3  local_wo = frame_to_local(&surface->frame, wo);
     BsdfSample next;
     numbers_for(walk, NUMBERS_SCATTER);
     sampler_4d(walk->sampler, u);
-    if (!lead_sample(walk->spare, surface, frame_to_local(&surface->frame, wo), u, &next))
+    if (!take_mirror(walk, surface, local_wo, &next) &&
+        !lead_sample(walk->spare, surface, local_wo, u, &next))
         return STEP_ENDED;
     walk->throughput *= next.weight;
     if (spectrum_is_zero(walk->throughput)) return STEP_ENDED;

@@ -115,6 +115,7 @@ typedef struct PathFar {
     /* Of a ray: what leaves so is told here instead, with the surfaces on its way; or NULL. */
     void (*add_image)(void *user, const PathTale *tale, Vec3 direction, const float *share);
     void *user;
+    bool  is_of_mirror; /* where a display comes first, its mirror alone is followed */
 } PathFar;
 
 /* Follows a path and asks; no light of the scene counts. */

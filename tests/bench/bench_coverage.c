@@ -113,12 +113,10 @@ static void measure_moment(const ReviewRequest *request, const ReviewCondition *
         stop(&err);
     const SymbolSurface *surface = &symbols[0].surface;
     bool *is_visible = ARENA_NEW(&arena, bool, surface->point_count);
-    Vec3 *targets = ARENA_NEW(&arena, Vec3, surface->point_count);
-    Probing p = {&stage, {.context = &stage.context, .eye = eye, .targets = targets}, runs,
+    Probing p = {&stage, {.context = &stage.context, .eye = eye}, runs,
                  arena_reserve((size_t)1 << 28)};
     symbol_visibility(surface, &stage.context, eye, is_visible);
-    for (int i = 0; i < surface->point_count; i++)
-        if (is_visible[i]) targets[p.aim.target_count++] = surface->points[i].position;
+    symbol_aim(surface, is_visible, &arena, &p.aim);
     if (p.aim.target_count) measure(&p, arena);
     arena_release(&p.scratch);
     stage_close(&stage);

@@ -2,6 +2,7 @@
 #include "check.h"
 
 #include "base/units.h"
+#include "panel/query/panel_reflection.h"
 #include "review/light/far_probe.h"
 #include "review/light/light_bands.h"
 #include "world_fixture.h"
@@ -14,27 +15,35 @@ static const Kernel *kernel(void)
     return chosen;
 }
 
-/* A display that looks along +z into a white niche, open to the sky above and on the right. */
-static World niche(void)
+/* A display that looks along +z, 0.4 m wide, 0.2 m high. */
+static void add_display(World *world)
 {
-    World world = world_start();
-    Scene *scene = world.scene;
-    Error  err = {0};
-    Material wall = builder_material(0.5f), display = builder_material(0);
-    builder_part(scene, wall);
-    builder_quad(scene, vec3(0, -0.3f, 0.5f), vec3(0.6f, 0, 0), vec3(0, 0, -0.6f));
-    builder_quad(scene, vec3(-0.6f, 0, 0.5f), vec3(0, 0, -0.6f), vec3(0, 0.3f, 0));
-    builder_quad(scene, vec3(0, 0, 1.1f), vec3(-0.6f, 0, 0), vec3(0, 0.3f, 0));
+    Scene   *scene = world->scene;
+    Error    err = {0};
+    Material display = builder_material(0);
     display.display_id = 0;
     display.is_emitter = true;
     int material_id = builder_part(scene, display);
     builder_quad(scene, vec3(0, 0, 0), vec3(0.2f, 0, 0), vec3(0, 0.1f, 0));
-    if (!panel_open(PROJECT_DIR "/assets/panels/ips_cluster.panel", &world.arena, &world.panel,
-                    &err))
+    if (!panel_open(PROJECT_DIR "/assets/panels/ips_cluster.panel", &world->arena,
+                    &world->panel, &err))
         fail_msg("%s", err.text);
     scene->displays[scene->display_count++] =
-        (Display){.name = "display", .panel = world.panel, .material_id = material_id,
+        (Display){.name = "display", .panel = world->panel, .material_id = material_id,
                   .level = 0, .content = builder_no_texture()};
+}
+
+/* It stands in a white niche, open to the sky above and on the right. */
+static World niche(void)
+{
+    World world = world_start();
+    Scene *scene = world.scene;
+    Material wall = builder_material(0.5f);
+    builder_part(scene, wall);
+    builder_quad(scene, vec3(0, -0.3f, 0.5f), vec3(0.6f, 0, 0), vec3(0, 0, -0.6f));
+    builder_quad(scene, vec3(-0.6f, 0, 0.5f), vec3(0, 0, -0.6f), vec3(0, 0.3f, 0));
+    builder_quad(scene, vec3(0, 0, 1.1f), vec3(-0.6f, 0, 0), vec3(0, 0.3f, 0));
+    add_display(&world);
     return world;
 }
 
@@ -116,7 +125,7 @@ TEST(a_luxmeter_in_the_open_responds_with_pi)
     d65_bands(bands);
     assert_near(uniform_reading(&response, bands), PI, 0.01);
     Vec3 sun = vec3_normalize(vec3(1, 1, 0));
-    ProbeSuns suns = {&sun, 1, 0.99999f, false};
+    ProbeSuns suns = {&sun, 1, 0.00465f, false};
     ResponseOptions options = {kernel(), 4, 16, 1, 0};
     const float *shares = response_suns(&aim, &options, &suns, &world.arena);
     for (int b = 0; b < LIGHT_BANDS; b++) assert_near(shares[b], sqrt(0.5), 2e-3);
@@ -164,7 +173,7 @@ TEST(a_response_to_a_sun_is_what_paths_find_under_it)
     world_ready(&world, 64);
     ProbeAim  aim = aim_of(&world);
     Response  response = respond(&aim, 65536, 2, &world.arena);
-    ProbeSuns asked = {suns, count, cosf(world.scene->environment.sun_angular_radius), false};
+    ProbeSuns asked = {suns, count, world.scene->environment.sun_angular_radius, false};
     ResponseOptions options = {kernel(), 4, 64, 2, 0};
     const float *scattered = response_suns(&aim, &options, &asked, &world.arena);
     double squares = 0;
@@ -203,6 +212,73 @@ TEST(a_response_to_a_sun_is_what_paths_find_under_it)
     /* means over a triangle's width move what enters by edges */
     double rms = sqrt(squares / judged);
     if (!(judged > 12 && rms < 0.05)) fail_msg("%d suns, rms %g", judged, rms);
+    world_end(&world);
+}
+
+/* ---- the sun in the display itself ------------------------------------------------------- */
+
+#define TILES 16 /* of the display, a side */
+
+/* The whole display, in tiles. */
+static void tile_display(Vec3 middles[TILES * TILES], ProbePatch patches[TILES * TILES])
+{
+    Vec3 along = vec3(0.4f / TILES, 0, 0), down = vec3(0, -0.2f / TILES, 0);
+    for (int i = 0; i < TILES * TILES; i++) {
+        float x = ((float)(i % TILES) + 0.5f) / TILES, y = ((float)(i / TILES) + 0.5f) / TILES;
+        middles[i] = vec3(0.4f * x - 0.2f, 0.2f * y - 0.1f, 0);
+        patches[i] = (ProbePatch){along, down};
+    }
+}
+
+/* Sum over bands of the mirror's reflectance. */
+static double mirror_sum(const Panel *panel, float cosine)
+{
+    double sum = 0;
+    for (int k = 0; k < 64; k++) {
+        Wavelengths w;
+        wavelengths_sample(((float)k + 0.5f) / 64, &w);
+        sum += (double)spectrum_sum(panel_mirror(panel, cosine, &w)) / 64;
+    }
+    return sum;
+}
+
+/* A disc of solid angle W at an angle whose cosine is c covers W d^2 / c of the display at the
+ * distance d, where the eye sees 1 / W of a unit irradiance, less what the mirror takes:
+ * anywhere, also between the tiles' middles, which lie further apart than the disc is wide. */
+TEST(a_sun_in_a_display_is_as_bright_as_its_mirror_says)
+{
+    (void)state;
+    enum { SUNS = 24 };
+    World world = world_start();
+    Vec3  middles[TILES * TILES], suns[SUNS], at[SUNS];
+    ProbePatch patches[TILES * TILES];
+    add_display(&world);
+    world_ready(&world, 64);
+    tile_display(middles, patches);
+    for (int i = 0; i < SUNS; i++) {
+        at[i] = vec3(0.03f * (float)(i % 6) - 0.07f, 0.04f * (float)(i / 6) - 0.06f, 0);
+        Vec3 to = vec3_normalize(vec3_sub(at[i], eye));
+        suns[i] = vec3(to.x, to.y, -to.z);
+    }
+    float     radius = 0.0046504f;
+    ProbeAim  aim = {.context = &world.context, .eye = eye, .targets = middles,
+                     .patches = patches, .target_count = TILES * TILES, .seed = 7};
+    ProbeSuns asked = {suns, SUNS, radius, true};
+    ResponseOptions options = {kernel(), 4, response_mirror_paths(&aim, radius), 2, 0};
+    const float    *shares = response_suns(&aim, &options, &asked, &world.arena);
+    double          squares = 0;
+    for (int i = 0; i < SUNS; i++) {
+        double sum = 0, distance = (double)vec3_length(vec3_sub(at[i], eye));
+        double c = (double)eye.z / distance;
+        for (int b = 0; b < LIGHT_BANDS; b++) sum += (double)shares[i * LIGHT_BANDS + b];
+        double wanted =
+            mirror_sum(world.panel, (float)c) * distance * distance / (c * 0.4 * 0.2);
+        squares += (sum / wanted - 1) * (sum / wanted - 1);
+        if (!(fabs(sum / wanted - 1) < 0.025))
+            fail_msg("sun %d: %g, wanted %g", i, sum, wanted);
+    }
+    double rms = sqrt(squares / SUNS);
+    if (!(rms < 0.01)) fail_msg("rms %g", rms);
     world_end(&world);
 }
 

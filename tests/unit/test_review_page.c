@@ -194,8 +194,23 @@ TEST(a_page_holds_every_case)
     const char *page = page_of(&(ReviewPage){.review = &many});
     assert_well_formed(page);
     assert_self_contained(page);
-    assert_int_equal(count_of(page, "<details class=\"case "), CASES + many.sweep_count);
+    /* a sweep has a line of its own, and the card of its worst within */
+    assert_int_equal(count_of(page, "<details class=\"case "), CASES + 2 * many.sweep_count);
     assert_true(strlen(page) < 2000000);
+}
+
+/* Behind a table that leads to each. What fails is open, what passes lies in a fold. */
+TEST(sweeps_that_fail_come_first)
+{
+    (void)state;
+    Review review = fixture_review(&arena);
+    review.sweeps[0].failed_share = 0;
+    review.sweeps[0].worst.verdict = VERDICT_PASS;
+    const char *page = page_of(&(ReviewPage){.review = &review});
+    const char *link = strstr(strstr(page, "Every sun, every hour"), "<a href=\"#s0\"");
+    const char *fails = strstr(link, " open><summary><span class=\"chip bad\">");
+    const char *fold = strstr(fails, "1 that passes");
+    assert_true(strstr(fails, " id=\"s1\"") < fold && strstr(page, " id=\"s0\"") > fold);
 }
 
 /* Top: the answer, the worst symbol, when, why; the limit that nobody read is marked. */

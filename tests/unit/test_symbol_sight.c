@@ -77,6 +77,29 @@ TEST(points_lie_where_the_content_is_shown)
     world_end(&world);
 }
 
+/* Every cell of 64 x 64 is the patch of one point, which lies in it. */
+TEST(patches_make_up_the_rectangle)
+{
+    World world = flat_world(*state);
+    const double uv[4] = {0.25, 0.5, 0.5, 1};
+    SymbolSurface surface = first_part(&world, uv);
+    char          seen[POINTS] = {0};
+    for (int i = 0; i < surface.point_count; i++) {
+        SymbolPatch patch = symbol_patch(&surface, i);
+        Vec3        off = vec3_sub(surface.points[i].position, patch.middle);
+        assert_near(patch.along.x, 0.1 / 64, 1e-7);
+        assert_near(patch.down.y, -0.1 / 64, 1e-7);
+        assert_near(patch.along.y, 0, 1e-7);
+        assert_near(patch.down.x, 0, 1e-7);
+        assert_true(fabsf(off.x) <= 0.051f / 64 && fabsf(off.y) <= 0.051f / 64);
+        int column = (int)((patch.middle.x + 0.1f) / 0.1f * 64);
+        int row = (int)(-patch.middle.y / 0.1f * 64);
+        assert_true(column >= 0 && column < 64 && row >= 0 && row < 64);
+        assert_int_equal(seen[row * 64 + column]++, 0);
+    }
+    world_end(&world);
+}
+
 /* The texture's transform: the content's right half alone, upside down. */
 TEST(a_texture_transform_moves_the_symbol)
 {

@@ -4,53 +4,46 @@
 #include "cli/render/render_setup.h"
 #include "review/request/request_check.h"
 #include "review/run/explain_place.h"
+#include "review/run/symbols.h"
 #include "scene/load/scene_load.h"
 
 #define BOUNCES 64
 #define SIDE 32 /* of the raster of a region */
 
-/* What is looked at: points along the looks. */
-typedef struct Looks {
-    Vec3  eye;
-    Vec3 *targets;
-    int   count;
-} Looks;
-
-static Looks looks_of_region(const SceneQuestion *question, const SceneCamera *camera,
-                             Arena *arena)
+/* Points along the looks of a raster. */
+static void aim_at_region(const SceneQuestion *question, const SceneCamera *camera,
+                          Arena *arena, ProbeAim *aim)
 {
     const double *r = question->region;
     Camera seen = camera_from_scene(camera, question->size[0], question->size[1]);
-    Looks  out = {camera->world_from_camera.origin, ARENA_NEW(arena, Vec3, SIDE * SIDE),
-                  SIDE * SIDE};
+    Vec3  *targets = ARENA_NEW(arena, Vec3, SIDE * SIDE);
     for (int i = 0; i < SIDE * SIDE; i++) {
         double u = (i + 0.5) / (SIDE * SIDE), v = reverse_bits((uint32_t)i) * 0x1p-32;
         Ray    ray = camera_ray(&seen, (float)(r[0] + u * (r[2] - r[0])),
                                 (float)(r[1] + (v + 0.5 / (SIDE * SIDE)) * (r[3] - r[1])));
-        out.targets[i] = vec3_add(out.eye, ray.direction);
+        targets[i] = vec3_add(aim->eye, ray.direction);
     }
-    return out;
+    aim->targets = targets;
+    aim->target_count = SIDE * SIDE;
 }
 
-static bool looks_of_display(const SceneQuestion *question, const PathContext *context,
-                             const SceneCamera *camera, Arena *arena, Looks *out, Error *err)
+static bool aim_at_display(const SceneQuestion *question, Arena *arena, ProbeAim *aim,
+                           Error *err)
 {
+    const Scene  *scene = aim->context->scene;
     const double *uv = question->uv;
     ReviewDisplay display;
     SymbolSurface surface;
-    *out = (Looks){camera->world_from_camera.origin, NULL, 0};
-    if (!review_display_find(context->scene, question->display, arena, &display, err))
+    if (!review_display_find(scene, question->display, arena, &display, err))
         return error_prefix(err, "--display %s", question->display);
-    SymbolPlace place = {.scene = context->scene, .display = &display,
+    SymbolPlace place = {.scene = scene, .display = &display,
                          .uv = {uv[0], uv[1], uv[2], uv[3]}, .point_count = SYMBOL_POINTS};
     if (!symbol_surface_build(&place, arena, &surface, err))
         return error_prefix(err, "--display %s", question->display);
     bool *is_visible = ARENA_NEW(arena, bool, surface.point_count);
-    out->targets = ARENA_NEW(arena, Vec3, surface.point_count);
-    symbol_visibility(&surface, context, out->eye, is_visible);
-    for (int i = 0; i < surface.point_count; i++)
-        if (is_visible[i]) out->targets[out->count++] = surface.points[i].position;
-    return out->count > 0 ||
+    symbol_visibility(&surface, aim->context, aim->eye, is_visible);
+    symbol_aim(&surface, is_visible, arena, aim);
+    return aim->target_count > 0 ||
            error_set(err, ERROR_USAGE, "--display %s: the eye sees nothing of it",
                      question->display);
 }
@@ -59,14 +52,13 @@ static bool explain_lit(const SceneQuestion *question, const PathContext *contex
                         const ReadingTools *tools, Arena *arena, Explained *out, Error *err)
 {
     SceneCamera camera;
-    Looks       looks;
     if (!render_choose_camera(context->scene, &question->camera, question->problems, &camera,
                               err))
         return false;
-    if (!question->display) looks = looks_of_region(question, &camera, arena);
-    else if (!looks_of_display(question, context, &camera, arena, &looks, err)) return false;
-    ExplainPlace place = {context, tools, looks.eye, looks.targets, looks.count,
-                          question->paths, question->with_outlook};
+    ProbeAim aim = {.context = context, .eye = camera.world_from_camera.origin};
+    if (!question->display) aim_at_region(question, &camera, arena, &aim);
+    else if (!aim_at_display(question, arena, &aim, err)) return false;
+    ExplainPlace place = {tools, aim, question->paths, question->with_outlook};
     explain_place(&place, arena, out);
     return true;
 }

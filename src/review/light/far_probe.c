@@ -163,7 +163,7 @@ static const float *ask_suns(const FarProbe *probe, const ReadingTools *with,
                              Arena *arena)
 {
     if (!with->journal) return response_suns(&probe->aim, options, suns, arena);
-    double   numbers[] = {options->paths, (double)suns->cos_radius, suns->by_mirror};
+    double   numbers[] = {options->paths, (double)suns->radius, suns->by_mirror};
     Question question = {.base = with->base, .kind = "suns", .numbers = numbers,
                          .number_count = COUNT_OF(numbers), .towards = suns->towards,
                          .towards_count = suns->count};
@@ -184,12 +184,12 @@ void far_probe_ask_suns(FarProbe *probe, const FarTools *tools, Arena *arena)
     ResponseOptions options = {with->kernel, RESPONSE_LEVEL, tools->sun_paths, with->threads,
                                0};
     ProbeSuns suns = {.towards = sun_directions(tools, arena), .count = tools->suns.count,
-                      .cos_radius = (float)cos(radians_from_degrees(SUN_MEAN_RADIUS_DEG))};
+                      .radius = (float)radians_from_degrees(SUN_MEAN_RADIUS_DEG)};
     probe->scattered = ask_suns(probe, with, &options, &suns, arena);
     suns.by_mirror = true;
-    options.paths = tools->mirror_paths;
+    options.paths = response_mirror_paths(&probe->aim, suns.radius);
     probe->mirror =
-        tools->mirror_paths ? ask_suns(probe, with, &options, &suns, arena) : NULL;
+        tools->has_mirror ? ask_suns(probe, with, &options, &suns, arena) : NULL;
 }
 
 void far_probe_ask(FarProbe *probe, const FarTools *tools, Arena *arena)

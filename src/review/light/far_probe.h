@@ -55,8 +55,8 @@ typedef struct FarTools {
     FarSuns         suns;
     int             paths;       /* of the response, at most, */
     double          precision;   /* and when it ends before */
-    int             sun_paths;   /* of the first vertex; and of its mirror: */
-    int             mirror_paths; /* 0: it has none */
+    int             sun_paths;   /* of the first vertex */
+    bool            has_mirror;  /* it may be one: that is asked by paths of its own */
     const HourSkies *hours;     /* of a weather file: the table is not used; or NULL */
 } FarTools;
 

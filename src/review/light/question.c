@@ -34,6 +34,9 @@ static void add_aim(XXH3_state_t *state, const ProbeAim *aim)
     add_floats(state, aim->eye);
     add_count(state, aim->target_count);
     XXH3_128bits_update(state, aim->targets, (size_t)aim->target_count * sizeof *aim->targets);
+    if (aim->patches)
+        XXH3_128bits_update(state, aim->patches,
+                            (size_t)aim->target_count * sizeof *aim->patches);
 }
 
 uint64_t question_aim(const ProbeAim *aim)

@@ -1,6 +1,7 @@
 #include "review/light/response.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/parallel.h"
@@ -240,7 +241,9 @@ double response_sun(const Response *response, Vec3 towards, const float bands[RE
 
 /* ---- suns -------------------------------------------------------------------------------- */
 
-#define SUN_CHUNK 4 /* paths of one piece of work: pieces are added in order */
+/* Paths of one piece of work: pieces are added in order. By mirror a path reaches few suns. */
+#define SUN_CHUNK 4
+#define MIRROR_CHUNK 1024
 
 typedef struct SunTrace {
     const ProbeAim        *aim;
@@ -249,6 +252,7 @@ typedef struct SunTrace {
     float *tables;
     Vec3  *towards;
     int    first, paths; /* of the pieces in hand */
+    int    chunk;
 } SunTrace;
 
 static void trace_suns(void *user, int item, int worker)
@@ -258,7 +262,7 @@ static void trace_suns(void *user, int item, int worker)
     PathStatistics statistics = {0};
     size_t count = (size_t)trace->suns->count;
     float *table = trace->tables + (size_t)item * count * RESPONSE_BANDS;
-    int    first = trace->first + item * SUN_CHUNK, end = first + SUN_CHUNK;
+    int    first = trace->first + item * trace->chunk, end = first + trace->chunk;
     memset(table, 0, count * RESPONSE_BANDS * sizeof(float));
     ProbeAnswers answers = {table, trace->towards + (size_t)item * count};
     trace->options->kernel->ask_suns(trace->aim, trace->suns, first,
@@ -266,28 +270,85 @@ static void trace_suns(void *user, int item, int worker)
                                      &statistics);
 }
 
+#define MIRROR_HITS 1024.0 /* of the sun's image, which paths meet evenly: 0.6 % */
+#define MIRROR_PATHS_LEAST 4096.0
+#define MIRROR_PATHS_MOST 4194304.0
+
+/* As the eye sees the patches, so large is the part of the sky in them: a flat mirror keeps
+ * solid angles. */
+int response_mirror_paths(const ProbeAim *aim, float radius)
+{
+    double seen = 0, sun = (double)(PI_F * radius * radius);
+    for (int i = 0; i < aim->target_count && aim->patches; i++) {
+        Vec3  to = vec3_sub(aim->targets[i], aim->eye);
+        Vec3  area = vec3_cross(aim->patches[i].along, aim->patches[i].down);
+        float squared = vec3_dot(to, to);
+        seen += (double)(fabsf(vec3_dot(area, to)) / (squared * sqrtf(squared)));
+    }
+    return (int)fmin(fmax(MIRROR_HITS * seen / sun, MIRROR_PATHS_LEAST), MIRROR_PATHS_MOST);
+}
+
+typedef struct SunHeight {
+    float y;
+    int   sun;
+} SunHeight;
+
+static int compare_heights(const void *a, const void *b)
+{
+    const SunHeight *left = a, *right = b;
+    if (left->y != right->y) return left->y < right->y ? -1 : 1;
+    return (left->sun > right->sun) - (left->sun < right->sun);
+}
+
+/* order[i]: which sun is the i-th from below. */
+static int *rising_order(const ProbeSuns *suns, Arena *arena)
+{
+    int       *order = ARENA_NEW(arena, int, suns->count);
+    Arena      scratch = *arena;
+    SunHeight *heights = ARENA_NEW(&scratch, SunHeight, suns->count);
+    for (int i = 0; i < suns->count; i++) heights[i] = (SunHeight){suns->towards[i].y, i};
+    qsort(heights, (size_t)suns->count, sizeof *heights, compare_heights);
+    for (int i = 0; i < suns->count; i++) order[i] = heights[i].sun;
+    return order;
+}
+
+/* sums: [sun][band] over all paths. */
+static void sum_suns(SunTrace *trace, double *sums)
+{
+    int    pieces = trace->options->threads;
+    size_t size = (size_t)trace->suns->count * RESPONSE_BANDS;
+    for (; trace->first < trace->paths; trace->first += pieces * trace->chunk) {
+        int left = (trace->paths - trace->first + trace->chunk - 1) / trace->chunk;
+        int now = left < pieces ? left : pieces;
+        parallel_for(trace->options->threads, now, trace_suns, trace);
+        for (int k = 0; k < now; k++)
+            for (size_t i = 0; i < size; i++)
+                sums[i] += (double)trace->tables[(size_t)k * size + i];
+    }
+}
+
 const float *response_suns(const ProbeAim *aim, const ResponseOptions *options,
                            const ProbeSuns *suns, Arena *arena)
 {
-    size_t size = (size_t)suns->count * RESPONSE_BANDS;
-    float *shares = ARENA_NEW(arena, float, size);
-    Arena  scratch = *arena;
-    int    pieces = options->threads;
-    ProbeAim spread = *aim; /* few paths see all of what is looked at, too */
+    size_t    count = (size_t)suns->count, pieces = (size_t)options->threads;
+    float    *shares = ARENA_NEW(arena, float, count * RESPONSE_BANDS);
+    Arena     scratch = *arena;
+    ProbeAim  spread = *aim; /* few paths see all of what is looked at, too */
+    ProbeSuns rising = *suns;
+    int      *order = rising_order(suns, &scratch);
+    Vec3     *towards = ARENA_NEW(&scratch, Vec3, count);
+    double   *sums = ARENA_NEW(&scratch, double, count * RESPONSE_BANDS);
+    for (size_t i = 0; i < count; i++) towards[i] = suns->towards[order[i]];
+    rising.towards = towards;
     spread.is_spread = true;
-    double *sums = ARENA_NEW(&scratch, double, size);
-    SunTrace trace = {&spread, options, suns,
-                      ARENA_NEW(&scratch, float, size * (size_t)pieces),
-                      ARENA_NEW(&scratch, Vec3, (size_t)suns->count * (size_t)pieces), 0,
-                      options->paths};
-    for (; trace.first < options->paths; trace.first += pieces * SUN_CHUNK) {
-        int left = (options->paths - trace.first + SUN_CHUNK - 1) / SUN_CHUNK;
-        int now = left < pieces ? left : pieces;
-        parallel_for(options->threads, now, trace_suns, &trace);
-        for (int k = 0; k < now; k++)
-            for (size_t i = 0; i < size; i++)
-                sums[i] += (double)trace.tables[(size_t)k * size + i];
-    }
-    for (size_t i = 0; i < size; i++) shares[i] = (float)(sums[i] / options->paths);
+    SunTrace trace = {&spread, options, &rising,
+                      ARENA_NEW(&scratch, float, count * RESPONSE_BANDS * pieces),
+                      ARENA_NEW(&scratch, Vec3, count * pieces), 0, options->paths,
+                      suns->by_mirror ? MIRROR_CHUNK : SUN_CHUNK};
+    sum_suns(&trace, sums);
+    for (size_t i = 0; i < count; i++)
+        for (int b = 0; b < RESPONSE_BANDS; b++)
+            shares[(size_t)order[i] * RESPONSE_BANDS + (size_t)b] =
+                (float)(sums[i * RESPONSE_BANDS + (size_t)b] / options->paths);
     return shares;
 }

@@ -51,6 +51,10 @@ void response_trace(const ProbeAim *aim, const ResponseOptions *options, Arena *
  * irradiance has these band illuminances (light_bands.h), lx: cd m^-2, or lx. */
 double response_sun(const Response *response, Vec3 towards, const float bands[RESPONSE_BANDS]);
 
+/* Paths that tell what an aim's mirror sends of a sun of that radius (radians) within 1 %,
+ * wherever in its patches the sun's image lies. */
+int response_mirror_paths(const ProbeAim *aim, float radius);
+
 /* Shares of the first vertex for suns, exact but for the mean over options' paths: [sun][band],
  * from the arena. */
 const float *response_suns(const ProbeAim *aim, const ResponseOptions *options,

@@ -214,8 +214,8 @@ static void add_sweep_line(Text *html, const ReviewSweep *s, bool is_open, Arena
                             ? arena_format(arena, "%s of the time",
                                            words_share(s->failed_share, arena))
                             : "never fails";
-    text_format(html, "<details class=\"case %s\"%s><summary><span class=\"chip %s\">%s</span> ",
-                words_class(verdict), is_open ? " open" : "", words_class(verdict),
+    text_format(html, "<details class=\"case %s\"%s><summary><span class=\"chip %s\">%s"
+                "</span> ", words_class(verdict), is_open ? " open" : "", words_class(verdict),
                 words_verdict(verdict));
     page_element(html, "b", s->symbol ? s->symbol : "?");
     page_element(html, "span class=\"where\"",

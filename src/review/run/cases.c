@@ -78,12 +78,13 @@ static double direct_sun(const Stage *stage, const ProbeAim *aim, Arena scratch)
     float  bands[LIGHT_BANDS];
     double direct = 0;
     if (!stage_sun(stage, &towards, bands)) return 0;
-    float           cosine = (float)cos(radians_from_degrees(SUN_MEAN_RADIUS_DEG));
-    ProbeSuns       suns = {&towards, 1, cosine, false};
+    float           radius = (float)radians_from_degrees(SUN_MEAN_RADIUS_DEG);
+    ProbeSuns       suns = {&towards, 1, radius, false};
     ResponseOptions options = {stage->tools.kernel, 0, SUN_PATHS, stage->tools.threads, 0};
     for (int by_mirror = 0; by_mirror < 2; by_mirror++) {
         Arena room = scratch;
         suns.by_mirror = by_mirror;
+        if (by_mirror) options.paths = response_mirror_paths(aim, radius);
         const float *shares = response_suns(aim, &options, &suns, &room);
         direct += light_bands_sum(shares, bands);
     }
@@ -98,16 +99,6 @@ static bool is_in_sun(double direct, double reflected)
 }
 
 /* ---- one case ---------------------------------------------------------------------------- */
-
-static Vec3 *visible_points(const SymbolSurface *surface, const bool *is_visible, int *count,
-                            Arena *arena)
-{
-    Vec3 *points = ARENA_NEW(arena, Vec3, surface->point_count);
-    *count = 0;
-    for (int i = 0; i < surface->point_count; i++)
-        if (is_visible[i]) points[(*count)++] = surface->points[i].position;
-    return points;
-}
 
 static void set_contrasts(ReviewCase *c, MeanInterval reflected)
 {
@@ -134,8 +125,7 @@ static ProbeAim aim_at(const Stage *stage, const CaseLook *look, const bool *is_
 {
     ProbeAim aim = {.context = &stage->context, .eye = look->eye,
                     .seed = look->is_coarse ? COARSE_SEED : EYE_SEED};
-    aim.targets =
-        visible_points(&look->symbol->surface, is_visible, &aim.target_count, arena);
+    symbol_aim(&look->symbol->surface, is_visible, arena, &aim);
     return aim;
 }
 

@@ -11,27 +11,34 @@
 
 /* ---- what is there ----------------------------------------------------------------------- */
 
-/* Which of the targets show a display. */
-static Vec3 *of_displays(const ExplainPlace *place, const ProbeAim *aim, int *count,
-                         Arena *arena)
+/* Leaves the targets that show a display, if at least half of them do. */
+static bool aim_at_displays(const ExplainPlace *place, ProbeAim *aim, Arena *arena)
 {
-    Vec3 *out = ARENA_NEW(arena, Vec3, place->target_count);
-    *count = 0;
-    for (int i = 0; i < place->target_count; i++) {
+    const ProbeAim *all = &place->aim;
+    Vec3       *targets = ARENA_NEW(arena, Vec3, all->target_count);
+    ProbePatch *patches = all->patches ? ARENA_NEW(arena, ProbePatch, all->target_count) : NULL;
+    int         count = 0;
+    for (int i = 0; i < all->target_count; i++) {
         ProbeLook      look;
         PathStatistics statistics = {0};
         place->tools->kernel->look(aim, i, i + 1, &look, &statistics);
-        if (look.is_found) out[(*count)++] = place->targets[i];
+        if (!look.is_found) continue;
+        if (patches) patches[count] = all->patches[i];
+        targets[count++] = all->targets[i];
     }
-    return out;
+    if (count == 0 || 2 * count < all->target_count) return false;
+    aim->targets = targets;
+    aim->patches = patches;
+    aim->target_count = count;
+    return true;
 }
 
 /* The first surface along the look that is no pane, or NO_ID; of a display its face. */
 static bool meet(const ExplainPlace *place, Vec3 target, bool wants_display, Hit *hit)
 {
-    const Scene *scene = place->context->scene;
-    Ray ray = {place->eye, vec3_normalize(vec3_sub(target, place->eye)), 0, INFINITY};
-    for (int i = 0; i < PANES && bvh_intersect(place->context->bvh, ray, 0, hit); i++) {
+    const Scene *scene = place->aim.context->scene;
+    Ray ray = {place->aim.eye, vec3_normalize(vec3_sub(target, place->aim.eye)), 0, INFINITY};
+    for (int i = 0; i < PANES && bvh_intersect(place->aim.context->bvh, ray, 0, hit); i++) {
         const Part     *part = &scene->parts[scene->triangles[hit->triangle].part_id];
         const Material *m = &scene->materials[part->material_id];
         if (wants_display ? m->display_id != NO_ID : !m->lets_light_through) return true;
@@ -44,7 +51,7 @@ static bool meet(const ExplainPlace *place, Vec3 target, bool wants_display, Hit
 static bool add_sent(const ExplainPlace *place, Vec3 target, double sent[3], int *display_id)
 {
     static const float codes[2][3] = {{255, 255, 255}, {0, 0, 0}};
-    const Scene *scene = place->context->scene;
+    const Scene *scene = place->aim.context->scene;
     Hit   hit;
     float xyz[3];
     if (!meet(place, target, true, &hit)) return false;
@@ -53,7 +60,7 @@ static bool add_sent(const ExplainPlace *place, Vec3 target, double sent[3], int
     *display_id = scene->materials[part->material_id].display_id;
     const Display *display = &scene->displays[*display_id];
     Frame frame = display_frame(scene, display, hit.triangle, &point);
-    Vec3  wo = vec3_normalize(vec3_sub(place->eye, point.position));
+    Vec3  wo = vec3_normalize(vec3_sub(place->aim.eye, point.position));
     for (int k = 0; k < 2; k++) {
         panel_emission_xyz(display->panel, frame_to_local(&frame, wo), codes[k], xyz);
         sent[k] += (double)(xyz[1] * display->level);
@@ -65,7 +72,7 @@ static bool add_sent(const ExplainPlace *place, Vec3 target, double sent[3], int
 
 static void set_sent(const ExplainPlace *place, const ProbeAim *aim, Explained *out)
 {
-    const Scene *scene = place->context->scene;
+    const Scene *scene = place->aim.context->scene;
     double sent[3] = {0, 0, 0};
     int    count = 0, display_id = NO_ID;
     for (int i = 0; i < aim->target_count; i++)
@@ -81,14 +88,14 @@ static void set_sent(const ExplainPlace *place, const ProbeAim *aim, Explained *
 static void set_outlook(const ExplainPlace *place, const ProbeAim *aim, bool is_display,
                         Arena *arena, Explained *out)
 {
-    const Scene *scene = place->context->scene;
+    const Scene *scene = place->aim.context->scene;
     Hit   hit;
     if (!meet(place, aim->targets[aim->target_count / 2], is_display, &hit)) return;
     TrianglePoint point = triangle_point(scene, hit.triangle, hit.u, hit.v);
-    Vec3       to_eye = vec3_sub(place->eye, point.position);
+    Vec3       to_eye = vec3_sub(place->aim.eye, point.position);
     Vec3       ng = vec3_dot(to_eye, point.ng) < 0 ? vec3_neg(point.ng) : point.ng;
-    OutlookAsk ask = {place->context, place->tools, point.position, ng, outlook_up(ng),
-                      place->eye};
+    OutlookAsk ask = {place->aim.context, place->tools, point.position, ng, outlook_up(ng),
+                      place->aim.eye};
     out->has_outlook = true;
     out->outlook = outlook_take(&ask, arena);
 }
@@ -108,21 +115,15 @@ static void set_contrasts(double sigma, ReviewCase *c)
 void explain_place(const ExplainPlace *place, Arena *arena, Explained *out)
 {
     const double nan = (double)NAN;
-    ProbeAim aim = {.context = place->context, .eye = place->eye, .targets = place->targets,
-                    .target_count = place->target_count, .seed = SEED};
-    int      shown;
-    Vec3    *displays = of_displays(place, &aim, &shown, arena);
-    bool     is_display = shown > 0 && 2 * shown >= place->target_count;
+    ProbeAim aim = place->aim;
+    aim.seed = SEED;
+    bool is_display = aim_at_displays(place, &aim, arena);
     *out = (Explained){.shown = nan, .paths = place->paths};
     ReviewCase *c = &out->of;
     *c = (ReviewCase){.luminance_cd_m2 = {nan, nan, nan, nan, nan, nan}, .contrast_ratio = nan,
                       .contrast_low = nan, .contrast_high = nan, .limit_id = -1, .level = nan,
-                      .eye_m = place->eye, .visible_share = 1};
-    if (is_display) {
-        aim.targets = displays;
-        aim.target_count = shown;
-        set_sent(place, &aim, out);
-    }
+                      .eye_m = place->aim.eye, .visible_share = 1};
+    if (is_display) set_sent(place, &aim, out);
     CauseAsk   ask = {place->tools, &aim, place->paths, CHAIN_RAYS, !is_display};
     CauseFacts facts = case_causes(&ask, c, arena);
     out->all = facts.all;

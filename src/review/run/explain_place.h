@@ -8,11 +8,8 @@
 
 /* A scene that is lit, and what is looked at in it. */
 typedef struct ExplainPlace {
-    const PathContext  *context;
     const ReadingTools *tools;
-    Vec3                eye;
-    const Vec3         *targets; /* along each of them the eye looks; a path each, and again */
-    int                 target_count;
+    ProbeAim            aim; /* along its targets the eye looks; a path each, and again */
     long                paths;
     bool                with_outlook;
 } ExplainPlace;

@@ -236,7 +236,7 @@ static int worst_of(const Telling *to, const Sight *sight, const SweepSuns *suns
     sweep.suns = *suns;
     tools.suns = (FarSuns){suns->angles, suns->count};
     of_meters = tools;
-    of_meters.mirror_paths = 0;
+    of_meters.has_mirror = false;
     far_probe_ask_suns(&seen.probe, &tools, &scratch);
     far_probe_ask_suns(&face.probe, &of_meters, &scratch);
     seen.face = &face;

@@ -7,7 +7,6 @@
 #define METER_PATHS 16384
 #define SUN_PATHS SYMBOL_POINTS /* of the first vertex: a lobe is narrower than a symbol */
 #define METER_SUN_PATHS 64
-#define MIRROR_PATHS 2048 /* of its mirror, which cost little */
 #define EYE_SEED 0x73776579u
 #define METER_SEED 0x73776d65u
 
@@ -62,18 +61,15 @@ static void aim_sight(Sweep *sweep, Sight *sight, Arena *arena)
     const Stage         *stage = sweep->stage;
     const SymbolSurface *surface = &sight->symbol->surface;
     bool *is_visible = ARENA_NEW(arena, bool, surface->point_count);
-    Vec3 *targets = ARENA_NEW(arena, Vec3, surface->point_count);
-    int   count = 0;
     sight->seen = symbol_visibility(surface, &stage->context, sight->from, is_visible);
-    for (int i = 0; i < surface->point_count; i++)
-        if (is_visible[i]) targets[count++] = surface->points[i].position;
     SymbolEmission shown =
         symbol_emission(surface, &sight->symbol->split, 1, sight->from);
     sight->shown.foreground = shown.foreground_xyz[1] * sight->seen.transmittance;
     sight->shown.background = shown.background_xyz[1] * sight->seen.transmittance;
     sight->height_arcmin = symbol_height_arcmin(surface, sight->symbol->split.box, sight->from);
-    sight->probe.aim = (ProbeAim){.context = &stage->context, .eye = sight->from,
-                                  .targets = targets, .target_count = count, .seed = EYE_SEED};
+    sight->probe.aim =
+        (ProbeAim){.context = &stage->context, .eye = sight->from, .seed = EYE_SEED};
+    symbol_aim(surface, is_visible, arena, &sight->probe.aim);
 }
 
 static bool place_sights(Sweep *sweep, Arena *arena, Error *err)
@@ -132,13 +128,13 @@ FarTools sweep_tools(const Sweep *sweep)
     return (FarTools){.stage = sweep->stage, .table = &sweep->table,
                       .hours = sweep->has_hours ? &sweep->hours : NULL,
                       .suns = {sweep->suns.angles, sweep->suns.count},
-                      .sun_paths = SUN_PATHS, .mirror_paths = MIRROR_PATHS};
+                      .sun_paths = SUN_PATHS, .has_mirror = true};
 }
 
 void sweep_ask_probes(Sweep *sweep, Arena *arena)
 {
     FarTools tools = sweep_tools(sweep), of_meters = tools;
-    of_meters.mirror_paths = 0;
+    of_meters.has_mirror = false;
     of_meters.sun_paths = METER_SUN_PATHS;
     for (int i = 0; i < sweep->symbol_count; i++)
         far_probe_ask(&sweep->faces[i].probe, &of_meters, arena);

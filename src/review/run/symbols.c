@@ -93,6 +93,22 @@ SymbolPoint symbol_middle(const StageSymbol *symbol)
     return is_shown ? point : symbol->surface.points[0];
 }
 
+void symbol_aim(const SymbolSurface *surface, const bool *is_visible, Arena *arena,
+                ProbeAim *aim)
+{
+    Vec3       *targets = ARENA_NEW(arena, Vec3, surface->point_count);
+    ProbePatch *patches = ARENA_NEW(arena, ProbePatch, surface->point_count);
+    aim->targets = targets;
+    aim->patches = patches;
+    aim->target_count = 0;
+    for (int i = 0; i < surface->point_count; i++) {
+        if (!is_visible[i]) continue;
+        SymbolPatch patch = symbol_patch(surface, i);
+        targets[aim->target_count] = patch.middle;
+        patches[aim->target_count++] = (ProbePatch){patch.along, patch.down};
+    }
+}
+
 bool stage_symbols(const Stage *stage, Arena *arena, StageSymbol **out, int *count, Error *err)
 {
     int        most = stage->request->symbol_count * SYMBOLS_FOUND_MOST;

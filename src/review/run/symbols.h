@@ -24,5 +24,9 @@ typedef struct StageSymbol {
 /* The middle of its rectangle; where no triangle shows that, the surface's first point. */
 SymbolPoint symbol_middle(const StageSymbol *symbol);
 
+/* Aims a probe at what is visible (symbol_visibility): targets and patches, from the arena. */
+void symbol_aim(const SymbolSurface *surface, const bool *is_visible, Arena *arena,
+                ProbeAim *aim);
+
 /* Fails with the request's file and the symbol's place in it. */
 bool stage_symbols(const Stage *stage, Arena *arena, StageSymbol **out, int *count, Error *err);

@@ -150,6 +150,30 @@ static bool place_points(SymbolSurface *surface, Error *err)
     return true;
 }
 
+/* Of 2^n points in Hammersley's order every cell of a grid of so many has one. */
+SymbolPatch symbol_patch(const SymbolSurface *surface, int point)
+{
+    const double *box = surface->uv;
+    int columns = 1, count = surface->point_count;
+    while (4 * columns * columns <= count) columns *= 2;
+    int         rows = count / columns;
+    double      uv[2], step[2] = {(box[2] - box[0]) / columns, (box[3] - box[1]) / rows};
+    SymbolPoint first, along, down;
+    SymbolPatch none = {.middle = surface->points[point].position};
+    place_of(surface, point, uv);
+    double column = floor(fmin((uv[0] - box[0]) / step[0], columns - 1));
+    double row = floor((uv[1] - box[1]) / step[1]);
+    double left = box[0] + column * step[0], top = box[1] + row * step[1];
+    if (count & (count - 1) ||
+        !symbol_surface_at(surface, (double[2]){left, top}, &first) ||
+        !symbol_surface_at(surface, (double[2]){left + step[0], top}, &along) ||
+        !symbol_surface_at(surface, (double[2]){left, top + step[1]}, &down))
+        return none;
+    return (SymbolPatch){vec3_scale(vec3_add(along.position, down.position), 0.5f),
+                         vec3_sub(along.position, first.position),
+                         vec3_sub(down.position, first.position)};
+}
+
 static bool corners_are_there(const SymbolSurface *surface, Error *err)
 {
     for (int k = 0; k < 4; k++) {

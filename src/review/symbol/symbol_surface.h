@@ -55,6 +55,15 @@ typedef struct SymbolSurface {
 bool symbol_surface_build(const SymbolPlace *place, Arena *arena, SymbolSurface *out,
                           Error *err);
 
+/* What a point stands for: a part of the rectangle that no other's overlaps, all of them
+ * together the rectangle. */
+typedef struct SymbolPatch {
+    Vec3 middle, along, down; /* m; the last two are edges: 0 where the display shows some of it
+                                 nowhere, and for counts that are no power of two */
+} SymbolPatch;
+
+SymbolPatch symbol_patch(const SymbolSurface *surface, int point);
+
 /* The point of the surface that shows uv, its area_m2 left 0; false: none of its triangles
  * does. */
 bool symbol_surface_at(const SymbolSurface *surface, const double uv[2], SymbolPoint *out);
