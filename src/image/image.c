@@ -58,6 +58,19 @@ static bool is_damaged(const unsigned char *type, size_t length)
     return isupper(type[0]) && crc32(0, type, (uInt)(length + 4)) != u32_at(type + 4 + length);
 }
 
+/* The first part is a head that PNG allows (ISO/IEC 15948, 11.2.2): a size, and a depth that
+ * its kind of colour may have. */
+static bool is_png_head(const unsigned char *part)
+{
+    static const unsigned char depths[] = {1 | 2 | 4 | 8 | 16, 0, 8 | 16, 1 | 2 | 4 | 8,
+                                           8 | 16, 0, 8 | 16};
+    const unsigned char *head = part + 8;
+    unsigned depth = head[8], colour = head[9];
+    return u32_at(part) == 13 && !memcmp(part + 4, "IHDR", 4) && u32_at(head) &&
+           u32_at(head + 4) && colour < sizeof depths && (depths[colour] & depth) &&
+           !(depth & (depth - 1)) && !head[10] && !head[11] && head[12] < 2;
+}
+
 /* The library stops at the last row, so that a picture cut behind it would pass as whole; and
  * what it finds damaged it tells stderr as well. */
 static bool check_png(const unsigned char *bytes, size_t size, Error *err)
@@ -69,6 +82,9 @@ static bool check_png(const unsigned char *bytes, size_t size, Error *err)
         if (is_damaged(type, length))
             return error_set(err, ERROR_INPUT,
                              "damaged png picture: wrong checksum of the part at byte %zu", at);
+        if (at == 8 && (size < 33 || !is_png_head(bytes + at)))
+            return error_set(err, ERROR_INPUT, "damaged png picture: its head has no size, or "
+                             "a depth or way of packing that PNG does not have");
         if (!memcmp(type, "IEND", 4)) return true;
         at += 12 + length;
     }

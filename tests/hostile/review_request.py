@@ -11,9 +11,11 @@ import os
 import re
 import resource
 import shutil
+import struct
 import subprocess
 import sys
 import tempfile
+import zlib
 
 ROOT = os.path.realpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."))
 sys.path[:0] = [os.path.join(ROOT, "tests", "structure"), os.path.join(ROOT, "tests", "image")]
@@ -268,6 +270,21 @@ def check_files(report, requests):
             report.claim(holds, f"{name} {number}: status {status}, wanted {words}: {said}")
 
 
+def check_pictures(report, requests):
+    """Heads that PNG does not have: the library that reads pictures would say it twice."""
+    whole = png(60, 30, [[0] * 180] * 30)
+    text = json.dumps({**GOOD, "conditions": [{"name": "noon"}],
+                       "symbols": {"drawn": {"display": "screen", "mask": "head.png"}}})
+    for head in ((0, 0, 8, 2, 0, 0, 0), (60, 0, 8, 2, 0, 0, 0), (60, 30, 3, 2, 0, 0, 0),
+                 (60, 30, 8, 5, 0, 0, 0), (60, 30, 8, 2, 1, 0, 0), (60, 30, 8, 2, 0, 0, 2)):
+        part = b"IHDR" + struct.pack(">IIBBBBB", *head)
+        with open(requests.path("head.png"), "wb") as file:
+            file.write(whole[:12] + part + struct.pack(">I", zlib.crc32(part)) + whole[33:])
+        status, said = requests.ask("pictures", text)
+        report.claim(is_refusal(status, said) and "head.png" in said and "its head" in said,
+                     f"{head}: status {status}: {said}")
+
+
 # ---- beside the request ------------------------------------------------------------------
 
 SCENE = ("dash.gltf", "--environment", "constant:300", "--paths", "1024")
@@ -334,6 +351,7 @@ def main(program, step):
         check_whole(report, requests)
         check_keys(report, requests, step)
         check_files(report, requests)
+        check_pictures(report, requests)
         check_explain(report, requests)
         check_moments(report, requests)
         check_output(report, requests)
