@@ -45,16 +45,15 @@ run 'what is learnt moves no mean' guided-long \
     python3 tests/image/guided.py .build/release/parhelion
 run 'false alarms and power of compare' compare-power \
     python3 tests/bench/compare_power.py .build/release/parhelion .build/release/bench_statistic
-run 'a hundred kills' resume-long \
+start 'a hundred kills' resume-long \
     python3 tests/hostile/resume.py --kills 100 .build/release/parhelion
-run 'reviews that ask wrongly, each way' review-request-long \
-    python3 tests/hostile/review_request.py --all .build/release/parhelion
+start 'parts of every kind' merge-long \
+    python3 tests/image/merge.py --all .build/release/parhelion
+start 'every fault' faults-long python3 tests/hostile/faults.py --all .build/release/parhelion
+gather
 run 'reviews killed, stopped and starved' review-resume-long \
     python3 tests/hostile/review_resume.py --all --kills 40 .build/release/parhelion
-run 'parts of every kind' merge-long \
-    python3 tests/image/merge.py --all .build/release/parhelion
 run 'what moves in a page' live python3 tests/page/live.py .build/release/parhelion
-run 'every fault' faults-long python3 tests/hostile/faults.py --all .build/release/parhelion
 if run_one 'build by the second compiler' build-clang build clang all; then
     run_units 'unit tests, second compiler' unit-clang .build/clang
     run 'same bits from both compilers' bits-clang \
@@ -69,11 +68,12 @@ fi
 if run_one 'build with address sanitizer' build-asan build asan all; then
     export UBSAN_OPTIONS=print_stacktrace=1
     run_units 'unit tests, address sanitizer' unit-asan .build/asan --timeout 3600
+    start 'thousands of broken models' hostile-long \
+        python3 tests/hostile/run.py --all .build/asan/parhelion
     run_mutations
+    gather
     run 'every fault, address sanitizer' faults-asan \
         python3 tests/hostile/faults.py --all .build/asan/parhelion
-    run 'thousands of broken models' hostile-long \
-        python3 tests/hostile/run.py --all .build/asan/parhelion
 fi
 if run_one 'build for fuzzing' build-fuzz build fuzz fuzz; then
     run 'five minutes of fuzzing' fuzz python3 tests/fuzz/run.py .build/fuzz

@@ -86,8 +86,9 @@ run()
 started=
 start()
 {
-    name=$1 beside=$2
+    name=$1 beside=$2 log=$logs/$2.log
     shift 2
+    was_kept "$name" && return
     printf '%s' "$name" >"$logs/$beside.name"
     ( begun=$(date +%s)
       "$@" >"$logs/$beside.log" 2>&1
@@ -102,8 +103,9 @@ gather()
         log=$logs/$beside.log
         read -r status seconds <"$logs/$beside.end"
         # shellcheck disable=SC2046
-        set -- $(counts "$log")
-        report "$(cat "$logs/$beside.name")" "$status" "$seconds" "${1:-0}" "${2:-0}" "${3:-0}"
+        set -- "$status" "$seconds" $(counts "$log")
+        report "$(cat "$logs/$beside.name")" "$1" "$2" "${3:-0}" "${4:-0}" "${5:-0}"
+        keep_step "$1" "$2" "${3:-0}" "${4:-0}" "${5:-0}"
     done
     started=
 }
