@@ -50,7 +50,7 @@ GOOD = {
     "levels": {"night": {"*": 0.04, "screen": 0.1},
                "auto": {"sensor": {"position_m": [0, 0.2, 0.2], "normal": [0, 3, 4]},
                         "table_lx": [[0, 0.02], [100, 0.1], [10000, 1]]}},
-    "precision": {"contrast": 0.02, "clear": 0.05},
+    "precision": {"contrast": 0.02, "clear": 0.05, "paths": 65536},
     "frames": {"size": [64, 36], "noise": 0.1, "worst": 2},
     "conditions": [
         {"name": "noon", "level": "auto", "with": "somebody", "polarity": "light-on-dark",
@@ -146,9 +146,13 @@ def trials():
                 yield place, text.replace(f'"{MARK}"', word), None
 
 
-def is_near(told, place):
-    """The place itself, what is in it, or what it is in."""
-    return told == text_of(place[:-1]) or (told + "/").startswith(text_of(place) + "/")
+def is_near(told, place, document):
+    """The place itself, what is in it, or what it is in; what was taken away may be missed by
+    those beside it."""
+    parent = text_of(place[:-1])
+    is_gone = place[-1:] not in places(value_at(document, place[:-1]))
+    return told == parent or (told + "/").startswith(text_of(place) + "/") or \
+        (is_gone and told.startswith(parent + "/"))
 
 
 class Requests:
@@ -191,7 +195,8 @@ def fault_of(status, said, trial, validator):
         named = told or "symbol '" in said or "there is no profile" in said or \
             f"key '{place[0]}' is missing" in said
         return None if named else "names no place"
-    return None if is_near((told[1] or told[2]), place) else f"names {(told[1] or told[2])}"
+    where = told[1] or told[2]
+    return None if is_near(where, place, document) else f"names {where}"
 
 
 def check_keys(report, requests, step):
