@@ -69,13 +69,26 @@ static Vec3 sun_at(double elevation, double aside)
     return vec3((float)(cos(e) * sin(a)), (float)sin(e), (float)(cos(e) * cos(a)));
 }
 
+/* Columns of the table meet there: a disc that lies about the zenith, or beside it, is whole. */
+static void assert_whole_about_zenith(const FalseSuns *suns)
+{
+    for (double away = 0; away < 0.6; away += 0.05)
+        for (int aside = 0; aside < 360; aside += 45) {
+            double share = false_suns_at(suns, sun_at(90 - away, aside)).share;
+            if (!(fabs(share - 1) < 0.03))
+                fail_msg("%g away, %d aside: share %g, wanted 1", away, aside, share);
+        }
+}
+
 /* A wide flat mirror shows all of the sun: its whole illuminance, less what silver takes. */
 TEST(a_wide_mirror_shows_the_whole_sun)
 {
     (void)state;
     Found found = {.world = world_start()};
     add_facet(&found.world, 20, 35, 8, 8);
+    add_facet(&found.world, 45, 90, 8, 8);
     search(&found);
+    assert_whole_about_zenith(&found.suns);
     for (int i = -2; i <= 2; i++) {
         FalseSunSight sight = false_suns_at(&found.suns, sun_at(35 + i, i));
         if (!(fabs(sight.share - 1) < 0.03)) fail_msg("%d: share %g, wanted 1", i, sight.share);

@@ -239,9 +239,10 @@ typedef struct SunTold {
 
 static void tell_row(const FalseSuns *suns, int row, int columns, const SunTold *to)
 {
-    int middle = column_of(to->towards);
-    for (int k = -columns; k <= columns; k++) {
-        int cell = row * CELL_COLUMNS + (middle + k + CELL_COLUMNS) % CELL_COLUMNS;
+    int middle = column_of(to->towards), count = 2 * columns + 1;
+    for (int k = 0; k < count && k < CELL_COLUMNS; k++) {
+        int column = (middle - columns + k + CELL_COLUMNS) % CELL_COLUMNS;
+        int cell = row * CELL_COLUMNS + column;
         for (int i = suns->first[cell]; i < suns->first[cell + 1]; i++) {
             double share = share_in_disc(suns->list[i].sun, to->towards);
             if (share > 0) to->told(to->user, &suns->list[i], share);
@@ -249,12 +250,13 @@ static void tell_row(const FalseSuns *suns, int row, int columns, const SunTold 
     }
 }
 
-/* How many columns to each side a disc may reach into, in the rows about its own. */
+/* How many columns to each side a disc may reach into; all, when it covers the vertical. */
 static int columns_about(Vec3 towards)
 {
     double sine = sqrt((double)(towards.x * towards.x + towards.z * towards.z));
-    double reach = SUN_MEAN_RADIUS_DEG + FALSE_SUN_STEP_DEG, columns = reach / CELL_DEG;
-    return (int)fmin(ceil(columns / fmax(sine, 1e-3)) + 1, CELL_COLUMNS / 2 - 1);
+    double reach = sin(radians_from_degrees(SUN_MEAN_RADIUS_DEG + FALSE_SUN_STEP_DEG));
+    if (sine <= reach) return CELL_COLUMNS / 2;
+    return (int)ceil(degrees_from_radians(asin(reach / sine)) / CELL_DEG);
 }
 
 void false_suns_each(const FalseSuns *suns, Vec3 towards, FalseSunTold *told, void *user)

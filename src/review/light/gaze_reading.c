@@ -59,9 +59,12 @@ static int mirroring_step(const Scene *scene, const PathTale *tale)
     return mirrors ? i : NO_ID;
 }
 
+/* Straight, or through panes with a thickness. */
 static bool is_suns_disc(const PathTale *tale)
 {
-    return tale->count == 0 && tale->source == LIGHTS_SUN;
+    for (int i = 0; i < steps_told(tale); i++)
+        if (tale->step[i].event != PATH_TRANSMITS) return false;
+    return tale->source == LIGHTS_SUN;
 }
 
 /* Sums over a chunk of paths. */
