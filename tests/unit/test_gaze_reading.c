@@ -73,6 +73,15 @@ static void add_pane(World *world, double degrees)
     add_sheet(world, degrees, 0, true);
 }
 
+static void add_solid_pane(World *world)
+{
+    Material pane = glass();
+    pane.is_solid = true;
+    builder_part(world->scene, pane);
+    add_sheet(world, 60, 0, true);
+    add_sheet(world, 60, 0.002, false);
+}
+
 static void assert_mirrored(const GazeReading *found, double wanted)
 {
     double off = fabs(found->mirrored - wanted);
@@ -104,13 +113,9 @@ TEST(a_pane_mirrors_the_dashboard_by_fresnel)
 TEST(a_pane_with_thickness_mirrors_by_both_faces)
 {
     (void)state;
-    World    world = sunny_world();
-    Material pane = glass();
-    pane.is_solid = true;
+    World world = sunny_world();
     add_dashboard(&world);
-    builder_part(world.scene, pane);
-    add_sheet(&world, 60, 0, true);
-    add_sheet(&world, 60, 0.002, false);
+    add_solid_pane(&world);
     GazeReading found = read_gaze(&world);
     assert_mirrored(&found, (1 - 0.830693) * dashboard_cd_m2());
     assert_int_equal(found.most.pane_id, 1);
@@ -162,6 +167,23 @@ TEST(the_sun_itself_is_not_looked_at)
     GazeReading found = read_gaze(&world);
     assert_true(found.through == 0 && found.mirrored == 0);
     world_end(&world);
+}
+
+/* Nor through a windscreen, with a thickness or without. */
+TEST(the_sun_behind_a_pane_is_not_looked_at)
+{
+    (void)state;
+    for (int is_solid = 0; is_solid < 2; is_solid++) {
+        World world = sunny_world();
+        world.scene->environment.sun_azimuth = 0;
+        world.scene->environment.sun_elevation = (float)radians_from_degrees(0.5);
+        if (is_solid) add_solid_pane(&world);
+        else add_pane(&world, 60);
+        GazeReading found = read_gaze(&world);
+        if (!(found.through == 0))
+            fail_msg("%s: %g cd/m2", is_solid ? "solid" : "thin", found.through);
+        world_end(&world);
+    }
 }
 
 /* ---- what a camera sees there ------------------------------------------------------------ */
