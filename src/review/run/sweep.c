@@ -267,12 +267,15 @@ static bool read_worst(Telling *to, const Sight *sight, const SweepSun *sun, Rev
     Arena        scratch = to->scratch;
     Stage        stage = *sweep->stage;
     Environment  environment = sweep_environment(sweep->stage, sun);
+    Environment  dark = stage.scene->environment;
     for (int i = 0; i < stage.scene->display_count; i++)
         stage.scene->displays[i].level = (float)stage.scene_levels[i];
-    if (!stage_light(&stage, &environment, &scratch, err)) return false;
     CaseTools tools = {.stage = &stage, .profile = sweep->run->profile,
                        .symbols = sight->symbol, .symbol_count = 1};
-    return stage_case(&tools, sight->symbol, sight->eye, to->arena, out, err);
+    bool ok = stage_light(&stage, &environment, &scratch, err) &&
+              stage_case(&tools, sight->symbol, sight->eye, to->arena, out, err);
+    stage.scene->environment = dark; /* as the next sight is asked */
+    return ok;
 }
 
 /* Azimuths of a sweep's worst are the vehicle's, as those of its map are. */
@@ -340,6 +343,14 @@ static bool add_sweep(Telling *to, const Sight *sight, Error *err)
     return true;
 }
 
+/* What the suns give of a sight is forgotten when it is told. */
+static bool tell_sight(const Telling *to, const Sight *sight, Error *err)
+{
+    Telling with = *to;
+    Sight   asked = sweep_ask_sight(to->sweep, sight, &with.scratch);
+    return add_sweep(&with, &asked, err);
+}
+
 /* ---- all of it --------------------------------------------------------------------------- */
 
 static void tell_responses(const Sweep *sweep, Arena *arena, ReviewOutcome *out)
@@ -397,7 +408,7 @@ static bool sweep_condition(Sweep *sweep, Arena scratch, Arena *arena, ReviewOut
     sweep->sensor =
         has_level && sweep->level->is_curve ? &sweep->sensors[condition->level_id] : NULL;
     if (!make_skies(sweep, &scratch, err)) return false;
-    sweep_ask_probes(sweep, &scratch);
+    sweep_ask_meters(sweep, &scratch);
     FarTools   tools = sweep_tools(sweep);
     SweepSuns *suns = ARENA_NEW(arena, SweepSuns, 1);
     *suns = sweep->suns;
@@ -407,7 +418,7 @@ static bool sweep_condition(Sweep *sweep, Arena scratch, Arena *arena, ReviewOut
                                        sweep->sight_count);
     for (int i = 0; i < sweep->sight_count; i++) {
         if (!review_goes_on(sweep->run->journal, err) ||
-            !add_sweep(&to, &sweep->sights[i], err))
+            !tell_sight(&to, &sweep->sights[i], err))
             return false;
         progress_update(&progress, i + 1);
     }

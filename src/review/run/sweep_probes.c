@@ -131,25 +131,27 @@ FarTools sweep_tools(const Sweep *sweep)
                       .sun_paths = SUN_PATHS, .has_mirror = true};
 }
 
-void sweep_ask_probes(Sweep *sweep, Arena *arena)
+void sweep_ask_meters(Sweep *sweep, Arena *arena)
 {
-    FarTools tools = sweep_tools(sweep), of_meters = tools;
-    of_meters.has_mirror = false;
-    of_meters.sun_paths = METER_SUN_PATHS;
+    FarTools tools = sweep_tools(sweep);
+    tools.has_mirror = false;
+    tools.sun_paths = METER_SUN_PATHS;
     for (int i = 0; i < sweep->symbol_count; i++)
-        far_probe_ask(&sweep->faces[i].probe, &of_meters, arena);
-    if (sweep->sensor) far_probe_ask(&sweep->sensor->probe, &of_meters, arena);
-    Progress progress = progress_start(sweep->run->progress, "suns", "sights",
-                                       sweep->sight_count);
-    for (int i = 0; i < sweep->sight_count; i++) {
-        if (sweep->sights[i].probe.aim.target_count)
-            far_probe_ask(&sweep->sights[i].probe, &tools, arena);
-        progress_update(&progress, i + 1);
-    }
-    progress_end(&progress, sweep->sight_count);
+        far_probe_ask(&sweep->faces[i].probe, &tools, arena);
+    if (sweep->sensor) far_probe_ask(&sweep->sensor->probe, &tools, arena);
+}
+
+Sight sweep_ask_sight(const Sweep *sweep, const Sight *sight, Arena *arena)
+{
+    FarTools tools = sweep_tools(sweep);
+    Sight    asked = *sight;
+    if (asked.probe.aim.target_count) far_probe_ask(&asked.probe, &tools, arena);
+    return asked;
 }
 
 /* ---- the sun in mirrors ------------------------------------------------------------------ */
+
+#define SUN_ELEVATION_DEG 30 /* mirrors take colours as those of this sun are */
 
 static bool find_false_suns(Sweep *sweep, Arena *arena, Error *err)
 {

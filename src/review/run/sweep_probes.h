@@ -57,8 +57,11 @@ bool sweep_place_probes(Sweep *sweep, Arena *arena, Error *err);
 /* The same with all responses, in the dark but for the scene's own light. */
 bool sweep_make_probes(Sweep *sweep, Arena *arena, Error *err);
 
-/* For the suns of a condition. */
-void sweep_ask_probes(Sweep *sweep, Arena *arena);
+/* The meters, for the suns of a condition. */
+void sweep_ask_meters(Sweep *sweep, Arena *arena);
+
+/* One sight, for these suns: some 150 bytes a sun, so that they are asked one by one. */
+Sight sweep_ask_sight(const Sweep *sweep, const Sight *sight, Arena *arena);
 
 /* Of which they read these. */
 FarTools sweep_tools(const Sweep *sweep);
