@@ -131,9 +131,9 @@ TEST(an_image_of_the_sun_veils_by_its_illuminance)
     (void)state;
     const Kernel *kernel;
     Error     err = {0};
-    FalseSuns images;
     float     bands[LIGHT_BANDS];
     Vec3      towards, d = at_angle(20);
+    FalseSunRays rays;
     World     world = dark_world();
     Material  chrome = builder_material(0.8f);
     chrome.metallic = 1;
@@ -149,7 +149,8 @@ TEST(an_image_of_the_sun_veils_by_its_illuminance)
     Stage stage = {.request = &request, .tools = {kernel, 2}, .scene = world.scene,
                    .context = world.context};
     assert_true(stage_sun(&stage, &towards, bands));
-    false_suns_find(&stage, vec3(0, 0, 0), bands, &world.arena, &images);
+    false_suns_search(&stage, vec3(0, 0, 0), &world.arena, &rays);
+    FalseSuns  images = false_suns_of(&rays, bands, &world.arena);
     EyeLook    look = {vec3(0, 0, 0), at, 4, &images};
     EyeReading found = eye_read(&stage, &look, world.arena);
     double     lux = 0.8 * 60000 * cos(radians_from_degrees(20));

@@ -115,12 +115,14 @@ TEST(a_facet_that_dazzles_for_minutes_a_year_is_found)
     assert_true(brute.certain >= 3 && brute.certain < 60);
 
     float         bands[LIGHT_BANDS];
+    FalseSunRays  rays;
     FalseSuns     images;
     Sweep         sweep = {.run = &run, .stage = &stage, .false_suns = &images};
     DaylightInput clear = daylight_input_default(DAYLIGHT_CLEAR);
     assert_true(sky_table_build(&clear, 16, 36, &scratch, &sweep.table, &err));
     for (int b = 0; b < LIGHT_BANDS; b++) bands[b] = 1;
-    false_suns_find(&stage, vec3(0, 0, 0), bands, &scratch, &images);
+    false_suns_search(&stage, vec3(0, 0, 0), &scratch, &rays);
+    images = false_suns_of(&rays, bands, &scratch);
     false_sun_times(&sweep, scratch, &world.arena, &out);
 
     assert_int_equal(out.false_sun_count, 1);

@@ -2,7 +2,7 @@
 #include "check.h"
 
 #include "base/units.h"
-#include "review/light/false_suns.h"
+#include "review/light/sun_searches.h"
 #include "world_fixture.h"
 
 static const ReviewRequest request = {.forward = {0, 0, -1}};
@@ -22,19 +22,22 @@ static Stage stage_of(const World *world)
                    .context = world->context};
 }
 
-static void search_by(Found *found, int threads, FalseSuns *out)
+/* Under suns that have [from, end) of the bands alone, evenly. */
+static FalseSuns under(const FalseSunRays *rays, int from, int end, Arena *arena)
 {
     float bands[LIGHT_BANDS];
-    for (int b = 0; b < LIGHT_BANDS; b++) bands[b] = 1;
-    Stage stage = stage_of(&found->world);
-    stage.tools.threads = threads;
-    false_suns_find(&stage, vec3(0, 0, 0), bands, &found->world.arena, out);
+    for (int b = 0; b < LIGHT_BANDS; b++) bands[b] = b >= from && b < end ? 2 : 0;
+    return false_suns_of(rays, bands, arena);
 }
 
 static void search(Found *found)
 {
+    FalseSunRays rays;
+    Arena       *arena = &found->world.arena;
     world_ready(&found->world, 16);
-    search_by(found, 2, &found->suns);
+    Stage stage = stage_of(&found->world);
+    false_suns_search(&stage, vec3(0, 0, 0), arena, &rays);
+    found->suns = under(&rays, 0, LIGHT_BANDS, arena);
 }
 
 /* Metal without a colour of its own, as smooth as the product has it. */
@@ -69,7 +72,7 @@ static Vec3 sun_at(double elevation, double aside)
     return vec3((float)(cos(e) * sin(a)), (float)sin(e), (float)(cos(e) * cos(a)));
 }
 
-/* Columns of the table meet there: a disc that lies about the zenith, or beside it, is whole. */
+/* Columns of the table meet there: a disc about the zenith, or beside it, is whole. */
 static void assert_whole_about_zenith(const FalseSuns *suns)
 {
     for (double away = 0; away < 0.6; away += 0.05)
@@ -103,22 +106,54 @@ TEST(a_wide_mirror_shows_the_whole_sun)
     world_end(&found.world);
 }
 
-/* Light keeps its radiance: over all suns the shares add up to the facet's own solid angle. */
+static double all_sr(const FalseSuns *suns, int part_id)
+{
+    double sum = 0;
+    for (int i = 0; i < suns->count; i++)
+        if (suns->list[i].part_id == part_id) sum += (double)suns->list[i].sr;
+    return sum;
+}
+
+/* What is found is kept by scene and eye, and is the same by any number of threads. */
+static const FalseSunRays *ask_twice(SunSearches *kept, const World *world)
+{
+    Vec3  eye = vec3(0, 0, 0);
+    Stage stage = stage_of(world), other = stage;
+    stage.identity = "a scene";
+    other.identity = "another";
+    other.tools.threads = 1;
+    const FalseSunRays *rays = sun_searches_ask(kept, &stage, eye);
+    const FalseSunRays *again = sun_searches_ask(kept, &other, eye);
+    assert_true(rays != again && rays->count == again->count && rays->count > 0);
+    assert_memory_equal(rays->list, again->list, (size_t)rays->count * sizeof *rays->list);
+    assert_ptr_equal(sun_searches_ask(kept, &stage, eye), rays);
+    assert_ptr_equal(sun_searches_ask(kept, &other, eye), again);
+    return rays;
+}
+
+/* Light keeps its radiance: over all suns the shares add up to the facet's own solid angle. A
+ * sun of two colours gets from a blue mirror what either gets. */
 TEST(all_suns_together_see_the_facets_solid_angle)
 {
     (void)state;
-    Found  found = {.world = world_start()};
-    double sum = 0, wide = radians_from_degrees(3), high = radians_from_degrees(1);
-    add_facet(&found.world, 10, 50, 3, 1);
-    search(&found);
-    for (int i = 0; i < found.suns.count; i++) sum += (double)found.suns.list[i].sr;
+    World       world = world_start();
+    SunSearches kept = sun_searches_start();
+    double      wide = radians_from_degrees(3), high = radians_from_degrees(1);
+    add_facet(&world, 10, 50, 3, 1);
+    add_facet(&world, 40, 50, 3, 1);
+    world.scene->materials[1].base_color[0] = 0.3f;
+    for (int c = 1; c < 3; c++) world.scene->materials[1].base_color[c] = 1;
+    world_ready(&world, 16);
+    const FalseSunRays *rays = ask_twice(&kept, &world);
+    FalseSuns white = under(rays, 0, LIGHT_BANDS, &world.arena);
+    FalseSuns blue = under(rays, 0, LIGHT_BANDS / 2, &world.arena);
+    FalseSuns red = under(rays, LIGHT_BANDS / 2, LIGHT_BANDS, &world.arena);
+    double    sum = all_sr(&white, 0), by_blue = all_sr(&blue, 1), by_red = all_sr(&red, 1);
     if (!(fabs(sum / (wide * high) - 1) < 0.03)) fail_msg("%g of %g sr", sum, wide * high);
-    FalseSuns alone; /* one thread finds the same */
-    search_by(&found, 1, &alone);
-    assert_int_equal(alone.count, found.suns.count);
-    assert_memory_equal(alone.list, found.suns.list,
-                        (size_t)alone.count * sizeof *alone.list);
-    world_end(&found.world);
+    assert_close(by_blue + by_red, 2 * all_sr(&white, 1), 1e-6);
+    if (!(by_red < 0.8 * by_blue)) fail_msg("%g of red, %g of blue light", by_red, by_blue);
+    sun_searches_end(&kept);
+    world_end(&world);
 }
 
 /* A facet of 0.4 degrees, which the sun crosses in minutes: it lights the eye from no more than

@@ -1,7 +1,7 @@
 #include "review/light/false_suns.h"
 
 #include <math.h>
-#include <stdlib.h>
+#include <string.h>
 
 #include "base/parallel.h"
 #include "base/units.h"
@@ -28,8 +28,7 @@ typedef struct ImageSearch {
     const Stage *stage;
     Vec3         eye;
     Frame        ahead;              /* z: straight ahead */
-    float        by_lane[LIGHT_BANDS]; /* share of the sun's luminance */
-    Arena       *found;              /* FalseSun by FalseSun, one a ring */
+    Arena       *found;              /* FalseSunRay by FalseSunRay, one a ring */
 } ImageSearch;
 
 /* One direction at work. */
@@ -43,13 +42,15 @@ typedef struct SearchRay {
 
 static void add_image(void *user, int part_id, Vec3 direction, const float *share)
 {
-    SearchRay *ray = user;
-    double     left = 0;
-    for (int b = 0; b < LIGHT_BANDS; b++)
-        left += (double)(share[b] * ray->search->by_lane[b]);
+    SearchRay   *ray = user;
+    float        left = 0;
+    FalseSunRay *found;
+    for (int b = 0; b < LIGHT_BANDS; b++) left += share[b];
     if (!(left > 0)) return;
-    *ARENA_NEW(ray->found, FalseSun, 1) =
-        (FalseSun){direction, ray->seen, (float)(left * ray->sr), part_id};
+    found = ARENA_NEW(ray->found, FalseSunRay, 1);
+    *found = (FalseSunRay){.sun = direction, .seen = ray->seen, .sr = (float)ray->sr,
+                           .part_id = part_id};
+    memcpy(found->share, share, sizeof found->share);
     ray->count++;
 }
 
@@ -102,7 +103,7 @@ static int rays_wanted(int found)
 
 static void search_block(const SearchBlock *block)
 {
-    FalseSun *begin = ARENA_NEW(block->found, FalseSun, 0);
+    FalseSunRay *begin = ARENA_NEW(block->found, FalseSunRay, 0);
     int count = search_rays(block, 0, 1), rays = rays_wanted(count);
     if (rays > 1) count += search_rays(block, 1, rays);
     for (int i = 0; i < count; i++) begin[i].sr /= (float)rays;
@@ -147,48 +148,60 @@ static int cell_of(Vec3 d)
 
 static int count_of(const Arena *found)
 {
-    return (int)((size_t)(found->next - found->begin) / sizeof(FalseSun));
+    return (int)((size_t)(found->next - found->begin) / sizeof(FalseSunRay));
 }
 
 /* Counting sort: within a cell in the order of the rings. */
-static void put_in_order(const Arena *found, Arena *arena, FalseSuns *out)
+static void put_in_order(const Arena *found, Arena *arena, FalseSunRays *out)
 {
     int *first = ARENA_NEW(arena, int, CELL_ROWS * CELL_COLUMNS + 1), total = 0;
     for (int ring = 0; ring < RINGS; ring++) {
-        const FalseSun *list = (const FalseSun *)(const void *)found[ring].begin;
+        const FalseSunRay *list = (const FalseSunRay *)(const void *)found[ring].begin;
         for (int i = 0; i < count_of(&found[ring]); i++) first[cell_of(list[i].sun) + 1]++;
         total += count_of(&found[ring]);
     }
     for (int cell = 0; cell < CELL_ROWS * CELL_COLUMNS; cell++) first[cell + 1] += first[cell];
-    FalseSun *ordered = ARENA_NEW(arena, FalseSun, total);
-    Arena     scratch = *arena;
-    int      *next = ARENA_NEW(&scratch, int, CELL_ROWS * CELL_COLUMNS);
+    FalseSunRay *ordered = ARENA_NEW(arena, FalseSunRay, total);
+    Arena        scratch = *arena;
+    int         *next = ARENA_NEW(&scratch, int, CELL_ROWS * CELL_COLUMNS);
     for (int ring = 0; ring < RINGS; ring++) {
-        const FalseSun *list = (const FalseSun *)(const void *)found[ring].begin;
+        const FalseSunRay *list = (const FalseSunRay *)(const void *)found[ring].begin;
         for (int i = 0; i < count_of(&found[ring]); i++) {
             int cell = cell_of(list[i].sun);
             ordered[first[cell] + next[cell]++] = list[i];
         }
     }
-    *out = (FalseSuns){ordered, first, total};
+    *out = (FalseSunRays){ordered, first, total};
 }
 
 #define RING_BYTES ((size_t)1 << 28) /* address space: what is not touched costs nothing */
 
-void false_suns_find(const Stage *stage, Vec3 eye, const float bands[LIGHT_BANDS],
-                     Arena *arena, FalseSuns *out)
+void false_suns_search(const Stage *stage, Vec3 eye, Arena *arena, FalseSunRays *out)
 {
     const double *to = stage->request->forward;
     Arena  found[RINGS];
     ImageSearch search = {.stage = stage, .eye = eye, .found = found,
                      .ahead = frame_from_z(vec3((float)to[0], (float)to[1], (float)to[2]))};
-    float  all = 0;
-    for (int b = 0; b < LIGHT_BANDS; b++) all += bands[b];
-    for (int b = 0; b < LIGHT_BANDS; b++) search.by_lane[b] = bands[b] / all;
     for (int ring = 0; ring < RINGS; ring++) found[ring] = arena_reserve(RING_BYTES);
     parallel_for(stage->tools.threads, RINGS, search_ring, &search);
     put_in_order(found, arena, out);
     for (int ring = 0; ring < RINGS; ring++) arena_release(&found[ring]);
+}
+
+/* ---- suns of one spectrum ---------------------------------------------------------------- */
+
+FalseSuns false_suns_of(const FalseSunRays *rays, const float bands[LIGHT_BANDS], Arena *arena)
+{
+    FalseSun *list = ARENA_NEW(arena, FalseSun, rays->count);
+    double    all = 0;
+    for (int b = 0; b < LIGHT_BANDS; b++) all += (double)bands[b];
+    for (int i = 0; i < rays->count; i++) {
+        const FalseSunRay *ray = &rays->list[i];
+        double left = light_bands_sum(ray->share, bands) / all;
+        list[i] = (FalseSun){ray->sun, ray->seen, (float)(left * (double)ray->sr),
+                             ray->part_id};
+    }
+    return (FalseSuns){list, rays->first, rays->count};
 }
 
 /* ---- one sun ----------------------------------------------------------------------------- */

@@ -8,36 +8,52 @@
  *
  * Field        whatever lies within FALSE_SUN_FIELD_DEG of straight ahead.
  * Approximate  a mirror narrower than FALSE_SUN_STEP_DEG, as the eye sees it, may be missed; of
- *              glass that mirrors little the illuminance is known within some 10 %. Mirrors
- *              take colours as those of the sun at FALSE_SUN_ELEVATION_DEG are.
+ *              glass that mirrors little the illuminance is known within some 10 %.
  * Not told     rough mirrors (satin), and what a display's haze spreads: they have no image.
- * Memory       40 bytes a ray that leaves by a mirror: some 20 MB in a car. Threads: starts its
- *              own; the same figures for any count.
+ * Memory       96 bytes a ray that leaves by a mirror, and 32 a spectrum: 35,000 rays of the
+ *              driver of scenes/car_dashboard.gltf, 3.4 and 1.1 MB.
+ * Threads      a search starts its own; the same figures for any count.
  */
 #pragma once
 #include "review/light/stage.h"
 
 #define FALSE_SUN_STEP_DEG 0.1
 #define FALSE_SUN_FIELD_DEG 100
-#define FALSE_SUN_ELEVATION_DEG 30
 
 /* One ray. */
-typedef struct FalseSun {
+typedef struct FalseSunRay {
     Vec3  sun;     /* unit, world: where the sun's point stands */
     Vec3  seen;    /* unit, world: where the eye sees it */
-    float sr;      /* of the field of view, times what is left of the light */
+    float share[LIGHT_BANDS]; /* of the radiance that mirror and panes leave */
+    float sr;      /* of the field of view */
     int   part_id; /* the first mirror's */
+} FalseSunRay;
+
+/* What an eye sees of a scene, whatever sun stands in its sky. */
+typedef struct FalseSunRays {
+    const FalseSunRay *list;  /* by cells of the sun's direction */
+    const int         *first; /* [cell]; and one more: the end */
+    int                count;
+} FalseSunRays;
+
+/* The stage may be dark: no light of it counts. */
+void false_suns_search(const Stage *stage, Vec3 eye, Arena *arena, FalseSunRays *out);
+
+/* A ray under suns of one spectrum. */
+typedef struct FalseSun {
+    Vec3  sun, seen; /* the ray's */
+    float sr;        /* of the field of view, times what is left of the light */
+    int   part_id;
 } FalseSun;
 
 typedef struct FalseSuns {
-    const FalseSun *list;  /* by cells of the sun's direction */
-    const int      *first; /* [cell]; and one more: the end */
+    const FalseSun *list;
+    const int      *first; /* the rays' */
     int             count;
 } FalseSuns;
 
-/* The stage may be dark: no light of it counts. `bands`: of the sun (light_bands.h). */
-void false_suns_find(const Stage *stage, Vec3 eye, const float bands[LIGHT_BANDS],
-                     Arena *arena, FalseSuns *out);
+/* `bands`: of the sun (light_bands.h). The rays must outlive what comes of them. */
+FalseSuns false_suns_of(const FalseSunRays *rays, const float bands[LIGHT_BANDS], Arena *arena);
 
 /* Is told of a ray that leaves to the sun: `share` of it leaves to the disc, its rim's by a
  * part. */

@@ -99,7 +99,7 @@ static double sun_from_gaze(const Stage *stage, Vec3 gaze)
 }
 
 /* The sun in mirrors is looked for, if there is a sun. */
-static EyeReading read_eye(const Stage *stage, const GazeGoal *goal)
+static EyeReading read_eye(const Stage *stage, SunSearches *searches, const GazeGoal *goal)
 {
     EyeLook   look = {goal->eye, goal->towards, ROUNDS, NULL};
     Arena     scratch = arena_reserve(EYE_BYTES);
@@ -107,7 +107,7 @@ static EyeReading read_eye(const Stage *stage, const GazeGoal *goal)
     Vec3      towards;
     float     bands[LIGHT_BANDS];
     if (stage_sun(stage, &towards, bands)) {
-        false_suns_find(stage, goal->eye, bands, &scratch, &images);
+        images = false_suns_of(sun_searches_ask(searches, stage, goal->eye), bands, &scratch);
         look.images = &images;
     }
     EyeReading eye = eye_read(stage, &look, scratch);
@@ -115,9 +115,10 @@ static EyeReading read_eye(const Stage *stage, const GazeGoal *goal)
     return eye;
 }
 
-static void read_gaze(const Stage *stage, const GazeGoal *goal, Arena *arena, GazeFinding *out)
+static void read_gaze(const Stage *stage, SunSearches *searches, const GazeGoal *goal,
+                      Arena *arena, GazeFinding *out)
 {
-    EyeReading  eye = read_eye(stage, goal);
+    EyeReading  eye = read_eye(stage, searches, goal);
     GazeReading along = gaze_read(stage, goal, *arena);
     double      half = ROUNDS_HALF * eye.veil_sigma;
     out->sun_deg = sun_from_gaze(stage, goal->towards);
@@ -136,7 +137,8 @@ static void read_gaze(const Stage *stage, const GazeGoal *goal, Arena *arena, Ga
     set_contrasts(&along, half, out);
 }
 
-bool stage_gazes(const Stage *stage, Arena *arena, GazeFinding *out, Error *err)
+bool stage_gazes(const Stage *stage, SunSearches *searches, Arena *arena, GazeFinding *out,
+                 Error *err)
 {
     const ReviewRequest *request = stage->request;
     for (int g = 0; g < request->gaze_count; g++)
@@ -151,7 +153,7 @@ bool stage_gazes(const Stage *stage, Arena *arena, GazeFinding *out, Error *err)
                                     PATHS_MOST);
             *out = (GazeFinding){.condition = stage->condition->name, .eye = eye->name,
                                  .gaze = gaze->name};
-            read_gaze(stage, &goal, arena, out++);
+            read_gaze(stage, searches, &goal, arena, out++);
         }
     return true;
 }

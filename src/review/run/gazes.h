@@ -8,9 +8,10 @@
  * Threads  starts its own; the same figures for any count.
  */
 #pragma once
-#include "review/light/stage.h"
+#include "review/light/sun_searches.h"
 #include "review/verdict.h"
 
 /* Fills review_look_count(request) findings, eyes fastest. Fails where an eye's camera is
  * missing. */
-bool stage_gazes(const Stage *stage, Arena *arena, GazeFinding *out, Error *err);
+bool stage_gazes(const Stage *stage, SunSearches *searches, Arena *arena, GazeFinding *out,
+                 Error *err);

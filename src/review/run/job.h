@@ -7,6 +7,7 @@
 #include "base/problems.h"
 #include "base/progress.h"
 #include "review/keep/journal.h"
+#include "review/light/sun_searches.h"
 #include "review/profile.h"
 #include "review/request/request.h"
 #include "review/run/sweep_suns.h"
@@ -25,6 +26,7 @@ typedef struct ReviewRun {
     const char          *responses_shown; /* and as the review names it */
     Journal             *journal;  /* of readings that were taken before */
     Problems            *problems; /* warnings of scenes, once each */
+    SunSearches         *sun_searches; /* review_run's own */
 } ReviewRun;
 
 /* What a sweep found of each of its suns: one symbol, one eye. */

@@ -61,7 +61,8 @@ static bool run_moment(const ReviewRun *run, Stage *stage, Arena *scratch, Arena
     int count = tools.symbol_count * run->request->eye_count;
     keep_names(cases, count, arena);
     review->case_count += count;
-    if (!stage_gazes(stage, arena, review->gazes + review->gaze_count, err)) return false;
+    GazeFinding *gazes = review->gazes + review->gaze_count;
+    if (!stage_gazes(stage, run->sun_searches, arena, gazes, err)) return false;
     review->gaze_count += review_look_count(run->request);
     return true;
 }
@@ -378,7 +379,12 @@ bool review_run(const ReviewRun *run, Arena *arena, ReviewOutcome *out, Error *e
                                                   most_responses(request)),
                            .false_suns = ARENA_NEW(arena, ReviewFalseSun,
                                                    most_false_suns(request))};
-    if (!run_conditions(run, arena, out, err)) return false;
+    SunSearches searches = sun_searches_start();
+    ReviewRun   with = *run;
+    with.sun_searches = &searches;
+    bool ok = run_conditions(&with, arena, out, err);
+    sun_searches_end(&searches);
+    if (!ok) return false;
     add_notes(request, &out->review, arena);
     review_decide(&out->review);
     return true;

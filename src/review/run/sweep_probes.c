@@ -160,7 +160,7 @@ static bool find_false_suns(Sweep *sweep, Arena *arena, Error *err)
     DaylightInput        clear = daylight_input_default(DAYLIGHT_CLEAR);
     float                bands[LIGHT_BANDS];
     clear.has_sun = clear.no_moon = true;
-    clear.sun_elevation = radians_from_degrees(FALSE_SUN_ELEVATION_DEG);
+    clear.sun_elevation = radians_from_degrees(SUN_ELEVATION_DEG);
     clear.sun_lux = -1;
     if (!daylight_build(&clear, arena, &sky, err)) return false;
     light_bands_sun(&sky, bands);
@@ -169,7 +169,9 @@ static bool find_false_suns(Sweep *sweep, Arena *arena, Error *err)
         Vec3 from;
         if (!stage_eye_middle(sweep->stage, &request->eyes[e], *arena, &from, err))
             return false;
-        false_suns_find(sweep->stage, from, bands, arena, &sweep->false_suns[e]);
+        const FalseSunRays *rays =
+            sun_searches_ask(sweep->run->sun_searches, sweep->stage, from);
+        sweep->false_suns[e] = false_suns_of(rays, bands, arena);
     }
     return true;
 }
