@@ -339,8 +339,9 @@ TEST_WITH(overrides_reach_displays_by_the_material_s_name, maker_reset, NULL)
     (void)state;
     static const float UPRIGHT[6] = {0, 1, 1, 1, 0, 0};
     const SceneOverride levels[] = {
-        {"cluster", "30"}, {"dash", "30"}, {"trim", "5"}, {"cluster", "dim"}};
-    const SceneOverride panels[] = {{"trim", "other.panel"}};
+        {"cluster", "30", NULL}, {"dash", "30", NULL}, {"trim", "5", NULL},
+        {"cluster", "dim", NULL}};
+    const SceneOverride panels[] = {{"trim", "other.panel", NULL}};
     Found found = survey_display(
         UPRIGHT, &(SceneOptions){
                      .levels = levels, .level_count = 4, .panels = panels, .panel_count = 1});
@@ -390,8 +391,9 @@ static int parts_wearing(const Scene *scene, const char *name)
 TEST_WITH(a_screen_is_named_by_its_node_where_two_share_a_material, maker_reset, NULL)
 {
     (void)state;
-    const SceneOverride panels[] = {{"node:left", "a.panel"}, {"node:right", "b.panel"}};
-    const SceneOverride levels[] = {{"node:right", "30"}};
+    const SceneOverride panels[] = {{"node:left", "a.panel", NULL},
+                                    {"node:right", "b.panel", NULL}};
+    const SceneOverride levels[] = {{"node:right", "30", NULL}};
     Found found = survey_shared(&(SceneOptions){
         .panels = panels, .panel_count = 2, .levels = levels, .level_count = 1});
     const Scene *scene = found.scene;
@@ -410,7 +412,8 @@ TEST_WITH(a_screen_is_named_by_its_node_where_two_share_a_material, maker_reset,
 TEST_WITH(a_shared_display_is_split_by_what_one_node_shows, maker_reset, NULL)
 {
     (void)state;
-    const SceneOverride panels[] = {{"glass", "a.panel"}}, levels[] = {{"node:left", "50"}};
+    const SceneOverride panels[] = {{"glass", "a.panel", NULL}};
+    const SceneOverride levels[] = {{"node:left", "50", NULL}};
     Found found = survey_shared(&(SceneOptions){
         .panels = panels, .panel_count = 1, .levels = levels, .level_count = 1});
     assert_int_equal(found.scene->display_count, 2);
@@ -434,12 +437,12 @@ TEST_WITH(what_a_node_s_name_leaves_open_is_told, maker_reset, NULL)
         {"node:twin", "several nodes are named \"twin\"; mesh:NAME"},
     };
     for (size_t i = 0; i < sizeof CASES / sizeof *CASES; i++) {
-        const SceneOverride panels[] = {{CASES[i].word, "a.panel"}};
+        const SceneOverride panels[] = {{CASES[i].word, "a.panel", NULL}};
         Found found = survey_shared(&(SceneOptions){.panels = panels, .panel_count = 1});
         if (!maker_find(&found, "", CASES[i].text)) fail_msg("%s", CASES[i].text);
         assert_int_equal(found.scene->display_count, 0);
     }
-    const SceneOverride panels[] = {{"mesh:sheet", "a.panel"}};
+    const SceneOverride panels[] = {{"mesh:sheet", "a.panel", NULL}};
     Found found = survey_shared(&(SceneOptions){.panels = panels, .panel_count = 1});
     assert_int_equal(parts_wearing(found.scene, "sheet"), 4);
     assert_int_equal(parts_wearing(found.scene, "glass"), 1);
