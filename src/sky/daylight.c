@@ -70,6 +70,11 @@ static void place_sun(Daylight *out)
     f->air_mass = f->sun_zenith_deg < 90 ? air_mass(f->sun_zenith_deg) : 0;
 }
 
+double daylight_air_mass(double elevation_deg)
+{
+    return air_mass(90 - elevation_deg);
+}
+
 double daylight_sun_clearance_deg(const DaylightInput *input)
 {
     Daylight probe = {.input = *input};

@@ -89,6 +89,10 @@ bool daylight_build(const DaylightInput *input, Arena *arena, Daylight *out, Err
  * below 0 the sun is down. */
 double daylight_sun_clearance_deg(const DaylightInput *input);
 
+/* Air along a ray from above over that straight up, for an apparent elevation of 0..90 degrees
+ * (Kasten and Young 1989): by it light falls off. */
+double daylight_air_mass(double elevation_deg);
+
 /* Sky or floor. elevation and azimuth in radians. */
 Spectrum daylight_radiance(const Daylight *daylight, float elevation, float azimuth,
                            const Wavelengths *wavelengths);

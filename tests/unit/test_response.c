@@ -1,6 +1,7 @@
 /* Probes and their responses: light adds up, however it is asked. */
 #include "check.h"
 
+#include "base/count.h"
 #include "base/units.h"
 #include "panel/query/panel_reflection.h"
 #include "review/light/far_probe.h"
@@ -329,6 +330,38 @@ TEST(a_response_to_a_clear_sky_is_what_paths_find_under_it)
 }
 
 /* Wherever the sun stands a triangle is near: no direction reads nothing. */
+/* Also between its elevations; below 2 degrees light changes faster. */
+TEST(the_sun_of_a_sky_table_is_the_atmospheres)
+{
+    (void)state;
+    static const double BETWEEN[] = {0.3, 0.75, 1.2, 1.7,  2.2,  3.5, 4.5,
+                                     6.8, 9,    11.5, 14.5, 18,  33};
+    Arena         arena = arena_reserve((size_t)1 << 30);
+    DaylightInput like = daylight_input_default(DAYLIGHT_CLEAR);
+    SkyTable      table;
+    Error         err = {0};
+    assert_true(sky_table_build(&like, 0, 90, &arena, &table, &err));
+    for (size_t i = 0; i < COUNT_OF(BETWEEN); i++) {
+        DaylightInput input = like;
+        Daylight      sky;
+        float         bands[LIGHT_BANDS], wanted[LIGHT_BANDS];
+        double        sum = 0, off = 0;
+        input.has_sun = input.no_moon = true;
+        input.sun_elevation = radians_from_degrees(BETWEEN[i]);
+        input.sun_lux = -1;
+        assert_true(daylight_build(&input, &arena, &sky, &err));
+        light_bands_sun(&sky, wanted);
+        sky_table_sun(&table, BETWEEN[i], bands);
+        for (int b = 0; b < LIGHT_BANDS; b++) {
+            sum += (double)wanted[b];
+            off += (double)(bands[b] - wanted[b]);
+        }
+        if (!(fabs(off) < (BETWEEN[i] < 2 ? 0.03 * sum + 1 : 0.01 * sum)))
+            fail_msg("%g degrees: %g lx, %+g", BETWEEN[i], sum, off);
+    }
+    arena_release(&arena);
+}
+
 TEST(an_even_response_is_the_same_for_suns_anywhere)
 {
     (void)state;

@@ -7,13 +7,12 @@
 #include "base/units.h"
 #include "review/light/question.h"
 
-
 /* ---- skies ------------------------------------------------------------------------------- */
 
 /* Close where the air mass changes fast. */
-static const double elevations[] = {-12, -9, -6, -4, -2, -1, 0,  0.5, 1,  2,  3,  4,
-                                    6,   8,  10, 13, 16, 20, 25, 30,  36, 42, 48, 54,
-                                    60,  66, 72, 78, 84, 90};
+static const double elevations[] = {-12, -9, -6, -4, -2, -1, 0,  0.5, 1,  1.5, 2,
+                                    2.5, 3,  4,  5,  6,  8,  10, 13,  16, 20,  25,
+                                    30,  36, 42, 48, 54, 60, 66, 72,  78, 84,  90};
 
 /* Those from the last at or below `low` to the first at or above `high`. */
 static int elevations_within(double low, double high, int *first)
@@ -57,12 +56,22 @@ static int row_of(const SkyTable *table, double elevation_deg, double *share)
     return row;
 }
 
+/* How far an elevation lies from row to next by the air that the sun's light passes. */
+static double share_by_air(const SkyTable *table, int row, double elevation_deg)
+{
+    double low = daylight_air_mass(table->elevation_deg[row]);
+    double high = daylight_air_mass(table->elevation_deg[row + 1]);
+    return fmin(fmax((daylight_air_mass(elevation_deg) - low) / (high - low), 0), 1);
+}
+
 /* Light falls off by powers of the air mass: between two rows that both have some it is the
  * logarithm that is linear. */
 void sky_table_sun(const SkyTable *table, double elevation_deg, float bands[LIGHT_BANDS])
 {
     double share;
     int    row = row_of(table, elevation_deg, &share), next = row + (share > 0);
+    if (share > 0 && table->elevation_deg[row] >= 0)
+        share = share_by_air(table, row, elevation_deg);
     for (int b = 0; b < LIGHT_BANDS; b++) {
         double low = (double)table->sun_bands[row][b], high = (double)table->sun_bands[next][b];
         bands[b] = low > 0 && high > 0 ? (float)(low * pow(high / low, share))

@@ -32,7 +32,8 @@ typedef struct SkyTable {
 bool sky_table_build(const DaylightInput *like, double low_deg, double high_deg, Arena *arena,
                      SkyTable *out, Error *err);
 
-/* What the sun's bands give at an elevation within the table's, lx. */
+/* What the sun's bands give at an elevation within the table's, lx: within 1 % from 2 degrees
+ * on, 3 % or 1 lx below. */
 void sky_table_sun(const SkyTable *table, double elevation_deg, float bands[LIGHT_BANDS]);
 
 /* ---- probes ------------------------------------------------------------------------------ */
