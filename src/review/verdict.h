@@ -164,7 +164,7 @@ typedef struct GazeFinding {
 typedef struct ReviewSweep {
     const char *condition, *eye, *symbol;
     long        cases;
-    double      failed_share;            /* weighted by time */
+    double      failed_share;            /* weighted by time, as suns/failures.h counts it */
     double      longest_failure_minutes; /* at a stretch; NaN: the sweep has no times */
     ReviewCase  worst;
     const char *table;                   /* "sweeps/NAME.csv" */

@@ -2,7 +2,7 @@
 #include "check.h"
 
 #include "base/units.h"
-#include "review/run/sweep_suns.h"
+#include "review/suns/sweep_suns.h"
 
 static SweepSuns suns_of(ReviewCondition condition, Arena *arena)
 {

@@ -10,7 +10,7 @@
 #include "review/light/sun_searches.h"
 #include "review/profile.h"
 #include "review/request/request.h"
-#include "review/run/sweep_suns.h"
+#include "review/suns/sweep_suns.h"
 #include "review/verdict.h"
 
 typedef struct ReviewRun {

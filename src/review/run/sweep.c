@@ -6,6 +6,7 @@
 #include "base/parallel.h"
 #include "base/units.h"
 #include "review/judge.h"
+#include "review/suns/failures.h"
 #include "review/run/false_sun_times.h"
 #include "review/keep/go_on.h"
 #include "review/run/sweep_probes.h"
@@ -152,37 +153,24 @@ static Told tell(const Sweep *sweep, const Sight *sight, const FarTools *tools, 
     return told;
 }
 
-/* Time that failed over all time; without times every sun counts alike. */
-static double failed_share(const SweepSuns *suns, const Told *told)
+/* By its figure, and for sure. */
+static StepState state_of(const Told *told, int sun)
 {
-    double failed = 0, all = 0;
-    for (int i = 0; i < suns->count; i++) {
-        double weight = suns->has_time ? suns->list[i].minutes : 1;
-        all += weight;
-        if (told->verdict[i] == VERDICT_FAIL) failed += weight;
-    }
-    return all > 0 ? failed / all : 0;
+    if (told->verdict[sun] == VERDICT_FAIL) return STEP_FAILS_SURELY;
+    return told->margin[sun] < 0 ? STEP_FAILS : STEP_PASSES;
 }
 
-/* At a stretch, under one heading: steps that follow each other without a gap. */
-static double longest_failure(const SweepSuns *suns, const Told *told, Arena scratch)
+static void tell_states(const Told *told, int count, unsigned char *states)
 {
-    double longest = 0;
-    int    headings = 1;
-    if (!suns->has_time) return (double)NAN;
-    for (int i = 0; i < suns->count; i++)
-        if (suns->list[i].heading_id >= headings) headings = suns->list[i].heading_id + 1;
-    double *run = ARENA_NEW(&scratch, double, headings);
-    int    *last = ARENA_NEW(&scratch, int, headings);
-    for (int i = 0; i < suns->count; i++) {
-        const SweepSun *sun = &suns->list[i];
-        int h = sun->heading_id;
-        bool follows = last[h] == sun->step && run[h] > 0;
-        run[h] = told->verdict[i] != VERDICT_FAIL ? 0 : (follows ? run[h] : 0) + sun->minutes;
-        last[h] = sun->step + 1;
-        longest = fmax(longest, run[h]);
-    }
-    return longest;
+    for (int i = 0; i < count; i++) states[i] = (unsigned char)state_of(told, i);
+}
+
+/* Of a sweep without times: every sun counts alike. */
+static double failed_share(const SweepSuns *suns, const Told *told)
+{
+    double failed = 0;
+    for (int i = 0; i < suns->count; i++) failed += told->verdict[i] == VERDICT_FAIL;
+    return failed / suns->count;
 }
 
 /* ---- the worst, read again as a moment --------------------------------------------------- */
@@ -227,7 +215,8 @@ typedef struct Telling {
 } Telling;
 
 /* By the probes, for other suns. */
-static int worst_of(const Telling *to, const Sight *sight, const SweepSuns *suns, Arena scratch)
+static Told tell_others(const Telling *to, const Sight *sight, const SweepSuns *suns,
+                        Arena *scratch)
 {
     Sweep      sweep = *to->sweep;
     FarTools   tools = *to->tools, of_meters;
@@ -237,15 +226,15 @@ static int worst_of(const Telling *to, const Sight *sight, const SweepSuns *suns
     tools.suns = (FarSuns){suns->angles, suns->count};
     of_meters = tools;
     of_meters.has_mirror = false;
-    far_probe_ask_suns(&seen.probe, &tools, &scratch);
-    far_probe_ask_suns(&face.probe, &of_meters, &scratch);
+    far_probe_ask_suns(&seen.probe, &tools, scratch);
+    far_probe_ask_suns(&face.probe, &of_meters, scratch);
     seen.face = &face;
     if (sweep.sensor) {
         sensor = *sweep.sensor;
-        far_probe_ask_suns(&sensor.probe, &of_meters, &scratch);
+        far_probe_ask_suns(&sensor.probe, &of_meters, scratch);
         sweep.sensor = &sensor;
     }
-    return tell(&sweep, &seen, &tools, &scratch).worst;
+    return tell(&sweep, &seen, &tools, scratch);
 }
 
 /* Where about a sun it is worst. */
@@ -256,8 +245,43 @@ static SweepSun refine(const Telling *to, const Sight *sight, SweepSun sun)
         SweepSuns near =
             sweep_suns_about(to->sweep->stage->condition, &sun, round, &scratch);
         if (near.count < 2) return sun;
-        sun = near.list[worst_of(to, sight, &near, scratch)];
+        sun = near.list[tell_others(to, sight, &near, &scratch).worst];
     }
+}
+
+/* Who is asked between steps. */
+typedef struct Between {
+    const Telling *to;
+    const Sight   *sight;
+} Between;
+
+static void states_between(void *user, const SweepSuns *suns, unsigned char *states,
+                           Arena scratch)
+{
+    const Between *between = user;
+    Told told = tell_others(between->to, between->sight, suns, &scratch);
+    tell_states(&told, suns->count, states);
+}
+
+/* The skies of a weather file stand for their steps alone, a route's points for themselves. */
+static void set_failures(const Telling *to, const Sight *sight, const Told *told,
+                         ReviewSweep *out)
+{
+    const ReviewCondition *condition = to->sweep->stage->condition;
+    bool       is_steady = condition->kind == CONDITION_YEAR_SWEEP && !to->sweep->has_hours;
+    Between    between = {to, sight};
+    FailureAsk ask = {states_between, &between};
+    Arena      scratch = to->scratch;
+    if (!to->suns->has_time) {
+        out->failed_share = failed_share(to->suns, told);
+        return;
+    }
+    unsigned char *states = ARENA_NEW(&scratch, unsigned char, to->suns->count);
+    tell_states(told, to->suns->count, states);
+    Failures found = sweep_failures(condition, to->suns, states, is_steady ? &ask : NULL,
+                                    scratch);
+    out->failed_share = found.share;
+    out->longest_failure_minutes = found.longest_minutes;
 }
 
 static bool read_worst(Telling *to, const Sight *sight, const SweepSun *sun, ReviewCase *out,
@@ -324,8 +348,7 @@ static bool add_sweep(Telling *to, const Sight *sight, Error *err)
     ReviewSweep sweep = sweep_of(to, sight);
     if (sight->probe.aim.target_count) {
         Told told = tell(to->sweep, sight, to->tools, to->arena);
-        sweep.failed_share = failed_share(to->suns, &told);
-        sweep.longest_failure_minutes = longest_failure(to->suns, &told, to->scratch);
+        set_failures(to, sight, &told, &sweep);
         SweepSun worst = {0};
         if (told.worst >= 0) {
             worst = refine(to, sight, to->suns->list[told.worst]);

@@ -9,7 +9,7 @@
  * Fails    on gaps: with the weather file, its line, the step that wants it, and how many do.
  */
 #pragma once
-#include "review/run/sweep_suns.h"
+#include "review/suns/sweep_suns.h"
 
 /* The light of one of a sweep's suns, as DAYLIGHT_PEREZ; false: it is dark. After the check. */
 bool sweep_weather_light(const ReviewRequest *request, const ReviewCondition *condition,

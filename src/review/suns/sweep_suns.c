@@ -1,4 +1,4 @@
-#include "review/run/sweep_suns.h"
+#include "review/suns/sweep_suns.h"
 
 #include <math.h>
 
@@ -29,12 +29,17 @@ static SunAngles sun_at(double julian_day, const SkyPlace *place)
     return (SunAngles){sun.azimuth_deg, sun.elevation_deg + lifted};
 }
 
+static void place_sun(SweepSun *sun, SunAngles at)
+{
+    sun->compass_deg = at.azimuth_deg;
+    sun->elevation_deg = at.elevation_deg;
+    sun->azimuth_deg = fmod(at.azimuth_deg - sun->heading_deg + 720, 360);
+}
+
 static void add_sun(SunList *to, SunAngles at, SweepSun sun)
 {
     if (at.elevation_deg < (to->with_night ? LOWEST_DEG : 0)) return;
-    sun.compass_deg = at.azimuth_deg;
-    sun.elevation_deg = at.elevation_deg;
-    sun.azimuth_deg = fmod(at.azimuth_deg - sun.heading_deg + 720, 360);
+    place_sun(&sun, at);
     to->list[to->count++] = sun;
 }
 
@@ -162,6 +167,17 @@ SweepSuns sweep_suns_about(const ReviewCondition *c, const SweepSun *sun, int ro
         list.list[list.count++] = *sun;
     }
     return suns_of(&list, arena);
+}
+
+SweepSuns sweep_suns_later(const ReviewCondition *c, SweepSun *list, int count, Arena *arena)
+{
+    SkyTime start = {.year = c->year, .month = 1, .day = 1};
+    double  first = sky_julian_day(&start);
+    for (int i = 0; i < count; i++) {
+        double minutes = (list[i].step + 0.5) * c->step_minutes + list[i].later_minutes;
+        place_sun(&list[i], sun_at(first + minutes / 1440, &c->where));
+    }
+    return suns_of(&(SunList){.list = list, .count = count}, arena);
 }
 
 /* ---- words ------------------------------------------------------------------------------- */

@@ -41,6 +41,11 @@ SweepSuns sweep_suns(const ReviewCondition *condition, Arena *arena);
 SweepSuns sweep_suns_about(const ReviewCondition *condition, const SweepSun *sun, int round,
                            Arena *arena);
 
+/* Of a year: where suns stand `later_minutes` after their steps' middles, also when they are
+ * down then; the places in `list` are set, which lives as long as what is returned. */
+SweepSuns sweep_suns_later(const ReviewCondition *condition, SweepSun *list, int count,
+                           Arena *arena);
+
 /* Date, time and heading of one of them; NULL: a sweep without times. */
 const char *sweep_suns_when(const ReviewCondition *condition, const SweepSuns *suns,
                             const SweepSun *sun, Arena *arena);

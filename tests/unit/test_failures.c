@@ -1,0 +1,106 @@
+/* For how long a sweep fails, between its steps. */
+#include "check.h"
+
+#include "review/suns/failures.h"
+
+#define DAY 1440.0
+
+/* Fails every day for some minutes; where they begin moves on by `drift` a day, within an hour.
+ * is_sure: for sure, else by the figure only. */
+typedef struct Daily {
+    double from, minutes, drift, step_minutes;
+    bool   is_sure;
+} Daily;
+
+static StepState state_at(const Daily *daily, const SweepSun *sun)
+{
+    double time = (sun->step + 0.5) * daily->step_minutes + sun->later_minutes;
+    double day = floor(time / DAY), since = daily->from + 60 * fmod(daily->drift * day, 1);
+    double minute = time - day * DAY;
+    if (minute < since || minute >= since + daily->minutes) return STEP_PASSES;
+    return daily->is_sure ? STEP_FAILS_SURELY : STEP_FAILS;
+}
+
+static void tell(void *user, const SweepSuns *suns, unsigned char *states, Arena scratch)
+{
+    (void)scratch;
+    for (int i = 0; i < suns->count; i++)
+        states[i] = (unsigned char)state_at(user, &suns->list[i]);
+}
+
+/* Minutes of a year with two headings, and the longest of its failures. */
+static Failures failures_of(Daily daily, bool with_ask)
+{
+    Arena  arena = arena_reserve((size_t)1 << 28);
+    double headings[] = {0, 90};
+    ReviewCondition year = {.kind = CONDITION_YEAR_SWEEP, .year = 2026, .weather_id = NO_ID,
+                            .where = {48.14, 11.58, 520}, .headings_deg = headings,
+                            .heading_count = 2, .step_minutes = daily.step_minutes};
+    SweepSuns      suns = sweep_suns(&year, &arena);
+    unsigned char *states = ARENA_NEW(&arena, unsigned char, suns.count);
+    FailureAsk     ask = {tell, &daily};
+    tell(&daily, &suns, states, arena);
+    Failures found = sweep_failures(&year, &suns, states, with_ask ? &ask : NULL, arena);
+    found.share *= suns.count * daily.step_minutes / 2; /* minutes of one heading */
+    arena_release(&arena);
+    return found;
+}
+
+TEST(hours_find_the_minutes_of_a_failure)
+{
+    (void)state;
+    for (double minutes = 75; minutes < 240; minutes += 41) {
+        Failures found = failures_of((Daily){557, minutes, 0.618, 60, true}, true);
+        assert_near(found.share, 365 * minutes, 365);
+        assert_near(found.longest_minutes, minutes, 1);
+    }
+}
+
+/* Shorter than a step: few are met, and count for those that are not. */
+TEST(failures_between_steps_are_counted_by_those_that_are_met)
+{
+    (void)state;
+    for (double minutes = 5; minutes < 60; minutes += 15) {
+        Failures found = failures_of((Daily){600, minutes, 0.61803398875, 60, true}, true);
+        assert_near(found.share, 365 * minutes, 0.03 * 365 * minutes);
+        assert_near(found.longest_minutes, minutes, 1);
+    }
+}
+
+TEST(steps_are_whole_where_nobody_is_asked)
+{
+    (void)state;
+    Failures found = failures_of((Daily){600, 180, 0, 60, true}, false);
+    assert_near(found.share, 365 * 180, 1e-6);
+    assert_near(found.longest_minutes, 180, 1e-9);
+}
+
+TEST(what_fails_by_its_figure_alone_does_not_count)
+{
+    (void)state;
+    Failures found = failures_of((Daily){600, 180, 0.3, 60, false}, true);
+    assert_near(found.share, 0, 0);
+    assert_near(found.longest_minutes, 0, 0);
+}
+
+/* Four points, of which the middle two fail: each stands for the time to the next. */
+TEST(a_route_fails_for_the_time_of_its_points)
+{
+    (void)state;
+    Arena     arena = arena_reserve((size_t)1 << 20);
+    SweepSun  list[4];
+    const double minutes[] = {4, 7, 2, 0};
+    const unsigned char states[] = {STEP_PASSES, STEP_FAILS_SURELY, STEP_FAILS, STEP_PASSES};
+    ReviewCondition route = {.kind = CONDITION_ROUTE};
+    for (int i = 0; i < 4; i++) list[i] = (SweepSun){.minutes = minutes[i], .step = i};
+    SweepSuns suns = {.list = list, .count = 4, .has_time = true};
+    Failures  found = sweep_failures(&route, &suns, states, NULL, arena);
+    assert_near(found.share, 9.0 / 13, 1e-12);
+    assert_near(found.longest_minutes, 9, 1e-12);
+    arena_release(&arena);
+}
+
+int main(void)
+{
+    return run_cases(NULL, NULL);
+}
