@@ -35,15 +35,15 @@ def bars(inside, outside):
                          for _ in range(3)] for y in range(30)])
 
 
-def niche():
-    """A display between white walls, open above, behind and to the right; the eye is below it
-    and sees the sky in it."""
+def niche(half=HALF):
+    """A display of half such a size between white walls, open above, behind and to the right;
+    the eye is below it and sees the sky in it."""
     scene = Scene()
     screen = scene.material("screen", extensions={"PARHELION_display": {
         "panel": "ips.panel", "content": {"index": scene.image("image/png", bars(255, 0))},
         "level": 1}})
     wall = scene.lambert(0.5)
-    scene.quad(screen, [-HALF[0], -HALF[1], 0], [2 * HALF[0], 0, 0], [0, 2 * HALF[1], 0])
+    scene.quad(screen, [-half[0], -half[1], 0], [2 * half[0], 0, 0], [0, 2 * half[1], 0])
     scene.quad(wall, [-0.6, -0.3, 1.2], [1.2, 0, 0], [0, 0, -1.3])
     scene.quad(wall, [-0.6, -0.3, 1.2], [0, 0, -1.3], [0, 0.8, 0])
     scene.view("eye", EYE, [-x for x in EYE], 8)
