@@ -15,7 +15,7 @@ import subprocess
 import sys
 import tempfile
 
-from recombination import PANEL, niche, request
+from recombination import PANEL, PRECISION, niche, request
 
 HALF = [0.03, 0.015]  # of the display, m
 LIMIT = 3
@@ -73,7 +73,7 @@ def main(program, bench, every="1", paths="64", *headings):
         niche(HALF).write(os.path.join(folder, "niche.gltf"))
         write(folder, "one.json", PROFILE)
         for heading in [float(h) for h in headings] or [90.0]:
-            document = request([year(step, heading) for step in STEPS])
+            document = request([year(step, heading) for step in STEPS], PRECISION["any"])
             document.update(profile="./one.json", levels={"1": {"*": 1}})
             write(folder, "r.json", document)
             run([os.path.abspath(program), "review", "r.json", "-o", "out", "--quiet"], folder)
