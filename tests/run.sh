@@ -39,29 +39,34 @@ if run_one 'release build, warnings are errors' build-release build release all;
         python3 tests/hostile/review_resume.py .build/release/parhelion
     start 'same bytes, any names' names python3 tests/image/names.py .build/release/parhelion
     gather
-    run 'closed forms in frames' image python3 tests/image/run.py .build/release/parhelion
-    run 'displays against their panels' display \
+    start 'closed forms in frames' image python3 tests/image/run.py .build/release/parhelion
+    start 'displays against their panels' display \
         python3 tests/image/display.py .build/release/parhelion
-    run 'displays the right way round' marked \
+    start 'displays the right way round' marked \
         python3 tests/image/marked.py .build/release/parhelion
-    run 'displays under sun and sky' reflection \
+    gather
+    start 'displays under sun and sky' reflection \
         python3 tests/image/reflection.py .build/release/parhelion
-    run 'legibility in frames' legibility \
+    start 'legibility in frames' legibility \
         python3 tests/image/legibility.py .build/release/parhelion
-    run 'daylight through a roof' roof python3 tests/image/roof.py .build/release/parhelion
-    run 'a luxmeter under every light' luxmeter \
+    start 'daylight through a roof' roof python3 tests/image/roof.py .build/release/parhelion
+    start 'a luxmeter under every light' luxmeter \
         python3 tests/image/luxmeter.py .build/release/parhelion
-    run 'a glare review' review python3 tests/image/review.py .build/release/parhelion
-    run 'why a display looks so' explain python3 tests/image/explain.py \
-        .build/release/parhelion
-    run 'people in the seats' occupants \
-        python3 tests/image/occupants.py .build/release/parhelion
-    run 'luminaires as lamps' lamps python3 tests/image/lamps.py .build/release/parhelion
-    run 'pictures as light' hdri python3 tests/image/hdri.py .build/release/parhelion
-    run 'same bits, any threads' bits python3 tests/image/bits.py .build/release/parhelion
-    run 'README and guides as written' guides \
+    gather
+    start 'a glare review' review python3 tests/image/review.py .build/release/parhelion
+    start 'README and guides as written' guides \
         python3 tests/image/guides.py .build/release/parhelion
-    run 'golden frames' golden python3 tests/image/golden.py .build/release/parhelion
+    gather
+    start 'why a display looks so' explain python3 tests/image/explain.py \
+        .build/release/parhelion
+    start 'people in the seats' occupants \
+        python3 tests/image/occupants.py .build/release/parhelion
+    start 'luminaires as lamps' lamps python3 tests/image/lamps.py .build/release/parhelion
+    start 'pictures as light' hdri python3 tests/image/hdri.py .build/release/parhelion
+    gather
+    start 'same bits, any threads' bits python3 tests/image/bits.py .build/release/parhelion
+    start 'golden frames' golden python3 tests/image/golden.py .build/release/parhelion
+    gather
 fi
 if run_one 'build with address sanitizer' build-asan build asan all; then
     export UBSAN_OPTIONS=print_stacktrace=1
