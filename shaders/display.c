@@ -90,6 +90,12 @@ static Spectrum model_albedo(const void *parameters, Vec3 wo)
            spectrum_all(panel_haze_albedo(display->panel, wo.z));
 }
 
+Spectrum display_lambertian_share(const DisplaySurface *display, Spectrum f, Vec3 wi)
+{
+    Spectrum lambertian = panel_lambertian_at(display->panel, f, wi, &display->lanes);
+    return lambertian / spectrum_max(f, spectrum_all(1e-30f));
+}
+
 const BsdfModel display_model = {.eval = model_eval, .reaches = model_reaches,
                                  .sample = model_sample, .mirror = model_mirror,
                                  .scatters = model_scatters, .albedo = model_albedo};

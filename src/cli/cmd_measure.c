@@ -110,6 +110,7 @@ static void print_display(const FrameMeasurement *m)
     print_figure("  Michelson", m->michelson, "");
     printf("  white %.6g, black %.6g, reflected %.6g cd/m2", m->white, m->black, m->reflected);
     if (!isnan(m->mirror)) printf(": %.6g by the mirror", m->mirror);
+    if (!isnan(m->lambertian)) printf(", %.6g lambertian", m->lambertian);
     putchar('\n');
     if (!m->has_errors) return;
     printf("  shown %.6g cd/m2; what is seen is off by\n", m->shown);
@@ -184,6 +185,8 @@ static json_t *json_contrast(const FrameMeasurement *m)
                             (json_int_t)m->display_pixels);
     json_object_set_new(out, "mirror_cd_m2", number(m->mirror));
     json_object_set_new(out, "scattered_cd_m2", number(m->reflected - m->mirror));
+    json_object_set_new(out, "haze_cd_m2", number(m->reflected - m->mirror - m->lambertian));
+    json_object_set_new(out, "lambertian_cd_m2", number(m->lambertian));
     set_figure(out, "weber", "weber_interval", m->weber);
     set_figure(out, "michelson", "michelson_interval", m->michelson);
     if (!m->has_errors) return out;

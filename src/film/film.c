@@ -116,6 +116,7 @@ static bool display_in_range(const Film *film, const FilmSample *sample)
            (film->first[SUMS_BLACK] < 0 || in_range(sample->black, 3)) &&
            (film->first[SUMS_FINE] < 0 || in_range(sample->fine, 3)) &&
            (film->first[SUMS_MIRROR] < 0 || in_range(sample->mirror, 3)) &&
+           (film->first[SUMS_LAMBERTIAN] < 0 || in_range(sample->lambertian, 3)) &&
            (film->first[SUMS_DIRECTION] < 0 ||
             (fabsf(sample->theta) <= 4 && fabsf(sample->phi) <= 8));
 }
@@ -133,6 +134,7 @@ static void add_display(const Film *film, PixelSums *sums, const FilmSample *sam
     add_layer(film, sums, SUMS_BLACK, sample->black);
     add_layer(film, sums, SUMS_FINE, sample->fine);
     add_layer(film, sums, SUMS_MIRROR, sample->mirror);
+    add_layer(film, sums, SUMS_LAMBERTIAN, sample->lambertian);
     if (film->first[SUMS_REFLECTED] >= 0)
         for (int i = 0; i < 3; i++)
             sums->layers[film->first[SUMS_REFLECTED] + i] +=

@@ -1,6 +1,7 @@
 #include "film/film_frame.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "base/mathf.h"
 #include "base/units.h"
@@ -113,14 +114,30 @@ static void read_contrast(const Film *film, const PixelSums *sums, float v[3])
     v[0] = (white[1] + reflected[1]) / (black[1] + reflected[1]);
 }
 
+static void take_sums(const Film *film, const PixelSums *sums, LayerSums layer, Fixed left[3])
+{
+    for (int i = 0; i < 3; i++) left[i] -= sums->layers[film->first[layer] + i];
+}
+
 /* What is not by way of the mirror. */
 static void read_scattered(const Film *film, const PixelSums *sums, float v[3])
 {
-    const Fixed *reflected = sums->layers + film->first[SUMS_REFLECTED];
-    const Fixed *mirror = sums->layers + film->first[SUMS_MIRROR];
     Fixed left[3];
     float xyz[3];
-    for (int i = 0; i < 3; i++) left[i] = reflected[i] - mirror[i];
+    memcpy(left, sums->layers + film->first[SUMS_REFLECTED], sizeof left);
+    take_sums(film, sums, SUMS_MIRROR, left);
+    mean_of(left, 3, sums->display_hits, xyz);
+    rgb_from_xyz(xyz, v);
+}
+
+/* And of that, what is not the panel's lambertian part. */
+static void read_haze(const Film *film, const PixelSums *sums, float v[3])
+{
+    Fixed left[3];
+    float xyz[3];
+    memcpy(left, sums->layers + film->first[SUMS_REFLECTED], sizeof left);
+    take_sums(film, sums, SUMS_MIRROR, left);
+    take_sums(film, sums, SUMS_LAMBERTIAN, left);
     mean_of(left, 3, sums->display_hits, xyz);
     rgb_from_xyz(xyz, v);
 }
@@ -188,6 +205,8 @@ static const struct {
     {LAYER_DISPLAY_REFLECTED, "display.reflected", "RGB", NULL, SUMS_REFLECTED},
     {LAYER_DISPLAY_MIRROR, "display.mirror", "RGB", NULL, SUMS_MIRROR},
     {LAYER_DISPLAY_SCATTERED, "display.scattered", "RGB", read_scattered, 0},
+    {LAYER_DISPLAY_HAZE, "display.haze", "RGB", read_haze, 0},
+    {LAYER_DISPLAY_LAMBERTIAN, "display.lambertian", "RGB", NULL, SUMS_LAMBERTIAN},
     {LAYER_DISPLAY_WHITE, "display.white", "RGB", NULL, SUMS_WHITE},
     {LAYER_DISPLAY_BLACK, "display.black", "RGB", NULL, SUMS_BLACK},
     {LAYER_DISPLAY_FINE, "display.fine", "RGB", NULL, SUMS_FINE},

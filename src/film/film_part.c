@@ -48,6 +48,7 @@ static const struct {
     [SUMS_REFLECTED] = {"reflected", "XYZ"}, [SUMS_WHITE] = {"white", "XYZ"},
     [SUMS_BLACK] = {"black", "XYZ"},        [SUMS_DIRECTION] = {"direction", "XYZ"},
     [SUMS_FINE] = {"fine", "XYZ"},           [SUMS_MIRROR] = {"mirror", "XYZ"},
+    [SUMS_LAMBERTIAN] = {"lambertian", "XYZ"},
 };
 
 #define SUM_NAMES (sizeof sum_names / sizeof *sum_names)
@@ -55,7 +56,7 @@ static const struct {
 _Static_assert(SUM_NAMES * sizeof(Fixed) == offsetof(PixelSums, samples) &&
                    SUM_NAMES * sizeof(Fixed) + COUNT_NAMES * 4 == sizeof(PixelSums),
                "a new member of PixelSums has no name here, and is not added in film_add.c");
-_Static_assert(SUMS_MIRROR + 1 == SUMS_COUNT, "a new sum has no name here");
+_Static_assert(SUMS_LAMBERTIAN + 1 == SUMS_COUNT, "a new sum has no name here");
 
 typedef struct NameList {
     const char **names;

@@ -20,7 +20,8 @@ typedef struct FilmSample {
     int   part_id;         /* scene part, -1 where nothing was hit */
     int   display_id;      /* scene display, -1 off displays; else: */
     float emitted[3];      /* XYZ, cd m^-2: what the panel itself sends to the eye */
-    float mirror[3];       /* XYZ, cd m^-2: what came by way of the panel's mirror */
+    float mirror[3];       /* XYZ, cd m^-2: what came by way of the panel's mirror, */
+    float lambertian[3];   /* and what its lambertian part scattered */
     float white[3], black[3]; /* XYZ it would send for full white and for black */
     float theta, phi;      /* radians, display frame, phi in [0, 2 pi) */
     float fine[3];         /* XYZ, cd m^-2: what displays send to the whole pixel, from more
@@ -47,9 +48,13 @@ typedef enum FilmLayer {
     LAYER_DISPLAY_FINE = 1 << 16,
     LAYER_DISPLAY_MIRROR = 1 << 17,
     LAYER_DISPLAY_SCATTERED = 1 << 18,
-    LAYER_ALL = (1 << 19) - 1,
+    LAYER_DISPLAY_HAZE = 1 << 19,
+    LAYER_DISPLAY_LAMBERTIAN = 1 << 20,
+    LAYER_ALL = (1 << 21) - 1,
     LAYER_DISPLAYS = ((LAYER_HALVES - 1) & ~(LAYER_DISPLAY_EMITTED - 1)) | LAYER_DISPLAY_FINE |
-                     LAYER_DISPLAY_MIRROR | LAYER_DISPLAY_SCATTERED,
+                     LAYER_DISPLAY_MIRROR | LAYER_DISPLAY_SCATTERED | LAYER_DISPLAY_HAZE |
+                     LAYER_DISPLAY_LAMBERTIAN,
+    LAYER_NEEDS_LAMBERTIAN = LAYER_DISPLAY_HAZE | LAYER_DISPLAY_LAMBERTIAN,
     LAYER_FEATURES = LAYER_ALL & ~(LAYER_XYZ | LAYER_VARIANCE | LAYER_SAMPLES | LAYER_HALVES)
 } FilmLayer; /* LAYER_FEATURES: those that need the members from `hit` on */
 

@@ -23,6 +23,8 @@
  *   light.NAME.{R,G,B}                    cd m^-2
  *   display.{emitted,reflected,white,black,fine}.{R,G,B}   cd m^-2, NaN off displays;
  *                                         what the panes before them let through
+ *   display.{mirror,scattered}.{R,G,B}    the two parts of the reflected;
+ *   display.{haze,lambertian}.{R,G,B}     the two parts of the scattered
  *   display.theta  display.phi            degrees, NaN off displays
  *   display.contrast                      (white + reflected) / (black + reflected), NaN off
  *   display.{weber,michelson,luminance_error,colour_error} follow from these: legibility.h

@@ -15,16 +15,16 @@ typedef struct Sums {
     double rgb[3], variance[3]; /* of the channels */
     double luminance_variance;
     DisplayLight light; /* of displays */
-    double mirror, display_variance[3], reflected_variance;
+    double mirror, lambertian, display_variance[3], reflected_variance;
     long   pixels, display_pixels, nonfinite;
     double least, greatest;
 } Sums;
 
 /* The planes that are looked at; has_... tells which the frame has. */
 typedef struct RegionPlanes {
-    LayerView    light, variance, white, black, reflected, shown, mirror;
+    LayerView    light, variance, white, black, reflected, shown, mirror, lambertian;
     const float *display_id; /* NULL: every pixel is wanted */
-    bool has_variance, has_display, has_shown, has_mirror;
+    bool has_variance, has_display, has_shown, has_mirror, has_lambertian;
 } RegionPlanes;
 
 static void xyz_at(const LayerView *view, size_t i, double xyz[3])
@@ -86,6 +86,7 @@ static bool find_planes(const FrameImage *frame, Arena *arena, RegionPlanes *out
                        raw_layer(frame, "display.reflected", arena, &out->reflected);
     out->has_shown = raw_layer(frame, "display.emitted", arena, &out->shown);
     out->has_mirror = raw_layer(frame, "display.mirror", arena, &out->mirror);
+    out->has_lambertian = raw_layer(frame, "display.lambertian", arena, &out->lambertian);
     return true;
 }
 
@@ -129,6 +130,7 @@ static void add_display(const RegionPlanes *planes, size_t i, double variance, S
             sums->display_variance[c] += (double)planes->variance.planes[c][i];
     }
     if (planes->has_mirror) sums->mirror += luminance_at(&planes->mirror, i);
+    if (planes->has_lambertian) sums->lambertian += luminance_at(&planes->lambertian, i);
     sums->reflected_variance += variance;
     sums->display_pixels++;
 }
@@ -247,6 +249,7 @@ static void measure_display(const RegionPlanes *planes, const Sums *sums,
     out->black = light.black;
     out->reflected = light.reflected[1];
     out->mirror = planes->has_mirror ? sums->mirror / n : (double)NAN;
+    out->lambertian = planes->has_lambertian ? sums->lambertian / n : (double)NAN;
     out->has_errors = planes->has_shown;
     measure_ratios(&light, sqrt(sums->reflected_variance) / n, out);
     if (out->has_errors) measure_errors(&light, sums, out);

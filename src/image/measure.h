@@ -31,6 +31,7 @@ typedef struct FrameMeasurement {
     long     display_pixels;
     double   white, black, reflected; /* means over the display's pixels, cd m^-2 */
     double   mirror;   /* of the reflected, by way of the panel's mirror; NaN: not known */
+    double   lambertian; /* and what its lambertian part scattered; NaN: not known */
     Measured contrast, weber, michelson; /* of these means, as legibility.h defines them */
     bool     has_errors; /* what the display shows is in the frame: */
     double   shown;      /* cd m^-2 */

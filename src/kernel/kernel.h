@@ -19,7 +19,8 @@ typedef struct TileJob {
     const Camera      *camera;
     Film    *film;
     bool     with_features; /* fill the layers of the first surface, not only the colour */
-    bool     with_fine;     /* and display.fine, which takes more camera rays */
+    bool     with_fine;     /* and display.fine, which takes more camera rays; */
+    bool     with_lambertian; /* display.lambertian */
     uint32_t seed;
     uint32_t first_sample, end_sample; /* half-open */
 } TileJob;

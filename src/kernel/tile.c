@@ -89,10 +89,12 @@ static void tile_sample(const TileJob *job, int x, int y, uint32_t index, FilmSa
     PathResult  result;
     wavelengths_sample(sampler_1d(&sampler), &wavelengths);
     Ray ray = camera_ray(job->camera, (float)x + at.x, (float)y + at.y);
-    path_trace(job->context, ray, &wavelengths, &sampler, &result, statistics);
+    (job->with_lambertian ? path_trace_apart : path_trace)(job->context, ray, &wavelengths,
+                                                           &sampler, &result, statistics);
     *out = (FilmSample){.sample_index = index, .part_id = -1, .display_id = -1};
     copy3(out->xyz, result.xyz);
     copy3(out->mirror, result.mirror);
+    copy3(out->lambertian, result.lambertian);
     if (job->with_features && result.hit) add_features(job, &result, &wavelengths, out);
     if (job->with_fine && out->display_id >= 0)
         add_fine(job, x, y, &wavelengths, out, statistics);

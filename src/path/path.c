@@ -30,6 +30,13 @@ enum {
 #define NUMBERS_FIRST 2 /* before them: the place in the pixel, the wavelengths */
 #define STEPS_FAR 4096  /* more than a path meets */
 
+/* What a display that the eye sees scatters by its lambertian part: */
+typedef struct LambertianPart {
+    PathLight found;  /* of the light samples there */
+    PathLight before; /* what the path had found in all when it went on from there, */
+    Spectrum  share;  /* and how much counts of what it finds since, per lane */
+} LambertianPart;
+
 /* One path on its way. */
 typedef struct PathWalk {
     const PathContext *context;
@@ -42,6 +49,7 @@ typedef struct PathWalk {
     PathResult *first;   /* waits for the first surface; NULL: recorded, or nobody asks */
     bool      by_mirror; /* the path goes on from the mirror of a display that the eye sees: */
     PathLight before_mirror; /* what it had found till then */
+    LambertianPart *lambertian; /* NULL: nobody asks */
     float    straight;   /* m since the last scattering vertex (windows do not scatter) */
     LitPoint last;       /* that vertex */
     int      last_part_id;
@@ -118,6 +126,54 @@ static void gather(PathWalk *walk, Spectrum radiance, LightSet set, int source_i
     walk->tale->source = set;
     walk->tale->source_id = source_id;
     tell(walk, walk->tale, &light);
+}
+
+/* ---- a display's lambertian part --------------------------------------------------------- */
+
+/* Is this what is asked about? */
+static bool tells_lambertian(const PathWalk *walk, const Surface *surface)
+{
+    return walk->lambertian && walk->first && surface->bsdf.kind == BSDF_DISPLAY;
+}
+
+/* Of what a display scatters from local_wi. */
+static Spectrum lambertian_share(const Surface *surface, Vec3 local_wo, Vec3 local_wi)
+{
+    float    pdf;
+    Spectrum f = bsdf_eval(&surface->bsdf, local_wo, local_wi, &pdf);
+    return display_lambertian_share(&surface->bsdf.display, f, local_wi);
+}
+
+/* Light from wi, which the surface scatters, has been gathered. Asks for local directions once
+ * more: paths of which nobody asks this shall carry nothing for it. */
+static void note_sample(PathWalk *walk, const Surface *surface, Vec3 wo, Vec3 wi,
+                        Spectrum radiance)
+{
+    walk->lambertian->found.radiance +=
+        radiance * lambertian_share(surface, frame_to_local(&surface->frame, wo),
+                                    frame_to_local(&surface->frame, wi));
+}
+
+/* The path goes on from there. */
+static void note_way(PathWalk *walk, const Surface *surface, Vec3 local_wo,
+                     const BsdfSample *next)
+{
+    walk->lambertian->before = walk->gathered;
+    if (next->is_delta) walk->lambertian->share = spectrum_all(0);
+    else walk->lambertian->share = lambertian_share(surface, local_wo, next->wi);
+}
+
+/* What measured XYZ come by a display on which nothing depends on wavelength: one lane's share
+ * is all lanes'. */
+static void tell_lambertian(const PathWalk *walk, float xyz[3])
+{
+    const LambertianPart *part = walk->lambertian;
+    PathLight light = walk->gathered;
+    path_light_take(&light, &part->before);
+    light.radiance *= part->share;
+    for (int i = 0; i < 3; i++) light.xyz[i] *= part->share[0];
+    path_light_add(&light, &part->found);
+    path_light_to_xyz(&light, walk->wavelengths, xyz);
 }
 
 /* ---- weights ---------------------------------------------------------------------------- */
@@ -397,6 +453,8 @@ static void add_light_sample(PathWalk *walk, const Surface *surface, Vec3 wo, co
         share *= spectrum_all(mis_weight(light.pdf * set_prob,
                                          lead_pdf(lead, light.wi, bsdf_pdf)));
     gather_sample(walk, surface, share * passed, &light);
+    if (tells_lambertian(walk, surface))
+        note_sample(walk, surface, wo, light.wi, share * passed);
 }
 
 /* ---- the sun by way of one mirror ------------------------------------------------------- */
@@ -449,7 +507,10 @@ static void add_mirrored_sun(void *user, uint32_t triangle, const ReflectionPoin
     share *= visibility(walk, &mirror.surface, &asked->question.sun);
     if (spectrum_is_zero(share)) return;
     if (walk->tale) asked->sun_pane_id = walk->tale->pane_id;
-    gather_mirrored(asked, &mirror, share * visibility(walk, surface, &mirror.light));
+    share *= visibility(walk, surface, &mirror.light);
+    gather_mirrored(asked, &mirror, share);
+    if (tells_lambertian(walk, surface))
+        note_sample(walk, surface, asked->wo, mirror.light.wi, share);
 }
 
 /* u: of the sun's disc. */
@@ -654,6 +715,7 @@ static Step scatter(PathWalk *walk, const Surface *surface, Vec3 wo)
     }
     if (walk->bounce >= walk->context->max_bounces) return STEP_ENDED;
     keep_lead(walk);
+    if (tells_lambertian(walk, surface)) note_way(walk, surface, local_wo, &next);
     return turn(walk, surface, wo, &next);
 }
 
@@ -819,19 +881,35 @@ static PathWalk walk_start(const PathContext *context, const Wavelengths *wavele
                   .medium_id = NO_ID, .stack = &room->stack};
 }
 
+static void trace(PathWalk *walk, Ray ray, PathResult *out)
+{
+    *out = (PathResult){.hit = false};
+    walk->ray = ray;
+    walk->first = out;
+    walk_path(walk);
+    path_light_to_xyz(&walk->gathered, walk->wavelengths, out->xyz);
+    if (walk->lambertian) tell_lambertian(walk, out->lambertian);
+    if (!walk->by_mirror) return;
+    path_light_take(&walk->gathered, &walk->before_mirror);
+    path_light_to_xyz(&walk->gathered, walk->wavelengths, out->mirror);
+}
+
 void path_trace(const PathContext *context, Ray ray, const Wavelengths *wavelengths,
                 Sampler *sampler, PathResult *out, PathStatistics *statistics)
 {
     WalkRoom room;
     PathWalk walk = walk_start(context, wavelengths, sampler, statistics, &room);
-    *out = (PathResult){.hit = false};
-    walk.ray = ray;
-    walk.first = out;
-    walk_path(&walk);
-    path_light_to_xyz(&walk.gathered, wavelengths, out->xyz);
-    if (!walk.by_mirror) return;
-    path_light_take(&walk.gathered, &walk.before_mirror);
-    path_light_to_xyz(&walk.gathered, wavelengths, out->mirror);
+    trace(&walk, ray, out);
+}
+
+void path_trace_apart(const PathContext *context, Ray ray, const Wavelengths *wavelengths,
+                      Sampler *sampler, PathResult *out, PathStatistics *statistics)
+{
+    WalkRoom       room;
+    LambertianPart part = {.share = spectrum_all(0)};
+    PathWalk walk = walk_start(context, wavelengths, sampler, statistics, &room);
+    walk.lambertian = &part;
+    trace(&walk, ray, out);
 }
 
 void path_trace_told(const PathContext *context, Ray ray, const Wavelengths *wavelengths,

@@ -61,6 +61,8 @@ typedef struct PathResult {
     Spectrum through;   /* share per lane of what it sends that the panes before it let pass */
     float    mirror[3]; /* of xyz: what came by way of that surface's mirror, if it is a
                            display; else 0 */
+    float    lambertian[3]; /* of xyz: what that display scattered by its lambertian part, if
+                               path_trace_apart was asked; else 0 */
 } PathResult;
 
 /* As path_trace, for a listener. */
@@ -76,6 +78,11 @@ void path_illuminance_told(const PathContext *context, LitPoint point,
 /* Radiance along `ray` at the given wavelengths, as tristimulus values. */
 void path_trace(const PathContext *context, Ray ray, const Wavelengths *wavelengths,
                 Sampler *sampler, PathResult *out, PathStatistics *statistics);
+
+/* As path_trace, the same bits; and tells of a display that the eye sees its lambertian part
+ * from the haze. */
+void path_trace_apart(const PathContext *context, Ray ray, const Wavelengths *wavelengths,
+                      Sampler *sampler, PathResult *out, PathStatistics *statistics);
 
 #define PATH_PLACES_MAX 8
 

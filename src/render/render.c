@@ -197,6 +197,7 @@ static void render_film(const RenderSetup *setup, const RenderOptions *options, 
                         .film = result->film,
                         .with_features = result->has_features,
                         .with_fine = (options->layers & LAYER_DISPLAY_FINE) != 0,
+                        .with_lambertian = (options->layers & LAYER_NEEDS_LAMBERTIAN) != 0,
                         .seed = options->seed};
     run.counts = ARENA_NEW(arena, WorkerCounts, options->threads);
     run.progress = progress_start(options->progress, "render", "samples",

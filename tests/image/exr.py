@@ -58,6 +58,12 @@ class Frame:
                 channel[start:start + self.width] = array.array(channel.typecode, values)
                 position += size
 
+    def mean_of(self, layer):
+        """Mean luminance of a layer R, G, B over the whole frame, cd/m2."""
+        weights = {"R": 0.2126, "G": 0.7152, "B": 0.0722}
+        return sum(weight * sum(self.channels[f"{layer}.{name}"])
+                   for name, weight in weights.items()) / len(self.channels["R"])
+
     def mean_luminance(self, region=None):
         """Mean of 0.2126 R + 0.7152 G + 0.0722 B in a region, cd/m2, and the standard
         deviation of that mean by the layer `variance`, its channels taken as moving together

@@ -1,6 +1,6 @@
 """legibility.py PARHELION -- what a frame says of how well its displays can be read: a panel
-known in closed form in the dark, under a uniform sky, with the sun, and behind a pane; contrast
-within 0.5 %.
+known in closed form in the dark, under a uniform sky, with the sun, behind a pane and by the
+light of walls; contrast within 0.5 %. The panel has no haze, and the frame says so.
 """
 import json
 import math
@@ -55,7 +55,7 @@ class Eye:
         assert done.returncode == 0, done.stderr
         return done.stdout
 
-    def scene(self, environment=None, pane=None):
+    def scene(self, environment=None, pane=None, walls=None):
         """A display that faces up, its left half black, its right half grey."""
         scene = Scene()
         halves = scene.image("image/png", png(2, 1, [[0, 0, 0, GREY, GREY, GREY]]))
@@ -66,6 +66,9 @@ class Eye:
             scene.environment(**environment)
         if pane:
             scene.quad(scene.window(1.5, pane), [-1, 0.3, 1], [2, 0, 0], [0, 0, -2])
+        if walls:
+            scene.box_inside(scene.lambert(walls), [-1, -0.5, -1], [1, 1, 1])
+            scene.facing_quad(scene.emitter(3000), [0.5, 0.99, 0], [0, -1, 0], 0.3)
         scene.probe("eye", [0.2, 0.5, 0], [-0.2, -0.5, 0], 0.15, up=[0, 0, -1])
         scene.write(os.path.join(self.folder, "scene.gltf"))
 
@@ -120,11 +123,21 @@ def check_order(report, channels):
     report.claim(all(w >= s * 0.999999 and s >= b * 0.999999
                      for w, s, b in zip(white, shown, black)),
                  "content is not between black and white")
-    parts = ("emitted", "mirror", "scattered")
-    for c in "RGB":
-        sums = [sum(channels[f"display.{part}.{c}"][i] for part in parts) for i in pixels]
-        report.claim(all(close(s, channels[c][i], 1e-5) for s, i in zip(sums, pixels)),
-                     f"{c}: emitted, mirror and scattered are not what is seen")
+    for parts in (("emitted", "mirror", "scattered"),
+                  ("emitted", "mirror", "haze", "lambertian")):
+        for c in "RGB":
+            sums = [sum(channels[f"display.{part}.{c}"][i] for part in parts) for i in pixels]
+            report.claim(all(close(s, channels[c][i], 1e-5) for s, i in zip(sums, pixels)),
+                         f"{c}: {', '.join(parts)} are not what is seen")
+
+
+def check_floor(report, channels, what):
+    """The face is fitted within 2 %: haze is what that leaves."""
+    pixels = whole(channels)
+    haze, floor = (mean(luminances(channels, "display." + name, pixels))
+                   for name in ("haze", "lambertian"))
+    report.claim(floor > 0 and -1e-6 * floor <= haze < 0.02 * floor,
+                 f"{what}: {haze:.4g} cd/m2 of haze and {floor:.4g} of a lambertian face")
 
 
 def check_sky(report, eye):
@@ -149,6 +162,19 @@ def check_sky(report, eye):
         pixel = mean([channels["display.contrast"][i] for i in whole(channels)])
         report.claim(close(pixel, wanted, 0.005), f"contrast of pixels {pixel}")
         check_order(report, channels)
+        check_floor(report, channels, environment["type"])
+
+
+def check_walls(report, eye):
+    """Light of a lamp, and more of it by way of white walls: the face has no haze in either."""
+    seen = []
+    for walls in (0.001, 0.8):
+        eye.scene(walls=walls)
+        channels = eye.frame("--spp", "64")
+        check_order(report, channels)
+        check_floor(report, channels, f"walls of {walls}")
+        seen.append(mean(luminances(channels, "display.lambertian", whole(channels))))
+    report.claim(seen[1] > 1.5 * seen[0], f"the walls add nothing: {seen}")
 
 
 def slab(cosine, ior=1.5):
@@ -187,6 +213,7 @@ def main(program):
         check_dark(report, eye)
         check_sky(report, eye)
         check_pane(report, eye)
+        check_walls(report, eye)
     return report.finish()
 
 

@@ -1,5 +1,6 @@
 """reflection.py [PANEL...] PARHELION -- a dark display under the sun alone, and under a uniform
-sky alone, shows the integral of its BRDF as `panel eval` tells it: luminance within 0.5 %.
+sky alone, shows the integral of its BRDF as `panel eval` tells it: luminance and its
+lambertian part within 0.5 %.
 
 The luminous mean over wavelengths is that of D65 (assets/spectra); the sun's own spectrum is
 near enough for a BRDF that changes slowly with wavelength.
@@ -64,8 +65,8 @@ class Panel:
     def __init__(self, program, path, folder):
         self.program, self.path, self.folder, self.weights = program, path, folder, None
 
-    def ask(self, eye, lights):
-        """[(brdf, mirror)] for one eye and many directions of light."""
+    def ask(self, eye, lights, names=("brdf_sr", "lambertian_sr")):
+        """[(brdf, its lambertian part)] for one eye and many directions of light."""
         rows = os.path.join(self.folder, "rows.csv")
         theta, phi = angles(eye)
         with open(rows, "w", encoding="utf-8") as file:
@@ -76,8 +77,7 @@ class Panel:
                                rows, "--json"], check=True, capture_output=True, text=True)
         answers = json.loads(done.stdout)
         self.weights = self.weights or luminous_weights(answers[0]["wavelengths_nm"])
-        return [(dot(self.weights, a["brdf_sr"]), dot(self.weights, a["mirror"]))
-                for a in answers]
+        return [[dot(self.weights, a[name]) for name in names] for a in answers]
 
 
 def disc(centre, rings=6):
@@ -102,7 +102,8 @@ def disc_share(ring, rings):
 def under_sun(panel, eye, sun):
     points = disc(sun)
     values = panel.ask(eye, points)
-    return LUX * sum(f * p[2] for (f, _), p in zip(values, points)) / len(points)
+    return [LUX * sum(v[i] * p[2] for v, p in zip(values, points)) / len(points)
+            for i in (0, 1)]
 
 
 def under_sky(panel, eye, steps=90, turns=72):
@@ -124,8 +125,9 @@ def under_sky(panel, eye, steps=90, turns=72):
                 lights.append(light)
                 shares.append(solid * light[2])
     values = panel.ask(eye, lights)
-    total = sum(f * share for (f, _), share in zip(values, shares))
-    return SKY_CD_M2 * (total + panel.ask(eye, [mirror])[0][1])
+    total, lambertian = (sum(v[i] * share for v, share in zip(values, shares)) for i in (0, 1))
+    total += panel.ask(eye, [mirror], ["mirror"])[0][0]
+    return SKY_CD_M2 * total, SKY_CD_M2 * lambertian
 
 
 def scene_of(panel_path, environment, eyes):
@@ -137,6 +139,15 @@ def scene_of(panel_path, environment, eyes):
     for i, eye in enumerate(eyes):
         scene.probe(f"eye{i}", [0.05 * k for k in eye], [-k for k in eye], 0.001)
     return scene
+
+
+def lambertian_shown(program, path, camera, folder):
+    """Luminance of the layer: few samples do."""
+    out = os.path.join(folder, "parts.exr")
+    subprocess.run([program, "render", path, "-o", out, "--camera", camera, "--size", "16x16",
+                    "--spp", "16", "--max-bounces", "1", "--layers", "display.lambertian",
+                    "--quiet"], check=True, capture_output=True, text=True)
+    return Frame(out).mean_of("display.lambertian")
 
 
 def shown(program, path, camera, folder):
@@ -168,20 +179,32 @@ def claim(report, what, value, expected):
         print(f"passed {text}")
 
 
+def claim_lambertian(report, what, found, expected):
+    text = (f"{what}: {found:.6g} cd/m2 lambertian, {expected:.6g} by `panel eval` "
+            f"({100 * (found / expected - 1):+.2g} %)")
+    if report.claim(abs(found - expected) <= WITHIN * expected, text):
+        print(f"passed {text}")
+
+
 def check_panel(report, program, path, folder):
     panel, name = Panel(program, path, folder), os.path.basename(path)
     shutil.copy(path, folder)  # a scene reads only what lies in or beside its folder
     scene_path = os.path.join(folder, "scene.gltf")
     eyes = [direction(*eye) for eye in EYES]
+
+    def check(i, light, expected):
+        what = f"{name} from {EYES[i]} under {light}"
+        claim(report, what, shown(program, scene_path, f"eye{i}", folder), expected[0])
+        if i % 2 == 0:
+            claim_lambertian(report, what, lambertian_shown(program, scene_path, f"eye{i}",
+                                                            folder), expected[1])
     for i, (eye, sun_angles) in enumerate(zip(eyes, SUNS)):
         sun = direction(*sun_angles)
         scene_of(name, sun_environment(sun), eyes).write(scene_path)
-        claim(report, f"{name} from {EYES[i]} under the sun at {sun_angles}",
-              shown(program, scene_path, f"eye{i}", folder), under_sun(panel, eye, sun))
+        check(i, f"the sun at {sun_angles}", under_sun(panel, eye, sun))
     scene_of(name, {"type": "constant", "luminance": SKY_CD_M2}, eyes).write(scene_path)
     for i, eye in enumerate(eyes):
-        claim(report, f"{name} from {EYES[i]} under a uniform sky",
-              shown(program, scene_path, f"eye{i}", folder), under_sky(panel, eye))
+        check(i, "a uniform sky", under_sky(panel, eye))
 
 
 if __name__ == "__main__":

@@ -359,7 +359,7 @@ TEST(a_frame_has_the_channels_asked_for_and_no_others)
     film = film_create(WIDTH, HEIGHT, whole, LAYER_ALL, &arena);
     frame = film_to_frame(film, 0, &arena);
     assert_int_equal(frame.channel_count,
-                     3 + 3 + 1 + 3 + 3 + 3 + 2 + 2 + 3 + 3 + 1 + 6 * 3 + 2 + 1 + 3 + 1);
+                     3 + 3 + 1 + 3 + 3 + 3 + 2 + 2 + 3 + 3 + 1 + 8 * 3 + 2 + 1 + 3 + 1);
 }
 
 /* 80 samples in blocks of 16, the second and fourth of which are odd: 32 against 48. */
@@ -470,28 +470,31 @@ TEST(contrast_is_the_ratio_of_mean_luminances_with_the_reflection)
     assert_true(at(&frame, "id.display", 0) == 1);
 }
 
-TEST(mirror_and_scattered_make_up_the_reflected)
+TEST(mirror_haze_and_lambertian_make_up_the_reflected)
 {
     Arena      arena = test_arena(state);
-    unsigned   parts = LAYER_DISPLAY_MIRROR | LAYER_DISPLAY_SCATTERED;
+    unsigned   parts = LAYER_DISPLAY_MIRROR | LAYER_DISPLAY_SCATTERED | LAYER_NEEDS_LAMBERTIAN;
     Film      *film = film_create(WIDTH, HEIGHT, whole, parts, &arena);
     FilmSample s = display_sample(0, 0.5f, 1);
     for (uint32_t k = 0; k < 2; k++) {
         s.sample_index = k;
         for (int i = 0; i < 3; i++) {
             s.mirror[i] = (float)k * 7;
+            s.lambertian[i] = k ? 0.5f : 3.5f;
             s.xyz[i] = s.emitted[i] + 10;
         }
         film_add_sample(film, 0, 0, &s);
     }
     FrameImage frame = film_to_frame(film, 0, &arena);
-    const char *const layers[] = {"display.mirror", "display.scattered"};
-    for (int l = 0; l < 2; l++) {
+    const char *const layers[] = {"display.mirror", "display.scattered", "display.haze",
+                                  "display.lambertian"};
+    const double wanted[] = {3.5, 6.5, 4.5, 2};
+    for (int l = 0; l < 4; l++) {
         float rgb[3], xyz[3];
         for (int i = 0; i < 3; i++)
             rgb[i] = (float)at(&frame, arena_format(&arena, "%s.%c", layers[l], "RGB"[i]), 0);
         xyz_from_rgb(rgb, xyz);
-        for (int i = 0; i < 3; i++) assert_close(xyz[i], l ? 6.5 : 3.5, 1e-5);
+        for (int i = 0; i < 3; i++) assert_close(xyz[i], wanted[l], 1e-5);
         assert_true(isnan(at(&frame, arena_format(&arena, "%s.G", layers[l]), 1)));
     }
 }

@@ -92,6 +92,7 @@ TEST(a_display_has_its_contrast)
     add_layer(&frame, "display.reflected", 20, &arena);
     add_layer(&frame, "display.emitted", 80, &arena);
     add_layer(&frame, "display.mirror", 5, &arena);
+    add_layer(&frame, "display.lambertian", 9, &arena);
     float *id = frame_add_channel(&frame, "id.display", true, &arena);
     for (int i = 0; i < 100; i++) id[i] = i < 50 ? 1 : i < 60 ? 0 : -1;
     frame_set_string(&frame, "parhelion:display.0", "centre", &arena);
@@ -107,6 +108,7 @@ TEST(a_display_has_its_contrast)
     assert_close(m.michelson.half_width, 1.959964 * 2 * 399.6 / (440.4 * 440.4) * 2 / sqrt(50),
                  1e-3);
     assert_close(m.mirror, 5, 1e-5);
+    assert_close(m.lambertian, 9, 1e-5);
     assert_true(m.has_errors);
     assert_close(m.shown, 80, 1e-5);
     assert_close(m.luminance_error.value, 0.25, 1e-5);

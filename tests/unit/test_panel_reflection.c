@@ -345,6 +345,88 @@ TEST(a_lobe_becomes_the_mirror_only_when_asked)
     fixture_end(&f.fit);
 }
 
+/* ---- the lambertian part ----------------------------------------------------------------- */
+
+#define FLOOR 0.002 /* sr^-1, of hazy */
+static Spectrum lambertian(const Panel *panel, Vec3 wo, Vec3 wi, const Wavelengths *w)
+{
+    PanelLanes lanes;
+    panel_lanes(panel, w, &lanes);
+    return panel_lambertian_at(panel, panel_brdf_at(panel, wo, wi, &lanes), wi, &lanes);
+}
+
+static double floor_at(const Panel *panel, Vec3 wo, Vec3 wi)
+{
+    Wavelengths w = even_wavelengths(400, 20);
+    return (double)lambertian(panel, wo, wi, &w)[8];
+}
+
+TEST(the_lambertian_part_is_a_share_of_the_whole)
+{
+    (void)state;
+    Wavelengths w = even_wavelengths(395, 21);
+    for (double incidence = 0; incidence < 90; incidence += 7.3)
+        for (double theta = 0; theta < 90; theta += 11)
+            for (double phi = 0; phi < 360; phi += 40) {
+                Vec3     wo = direction_deg(theta, phi), wi = direction_deg(incidence, 180);
+                Spectrum f = panel_brdf(shared.fit.panel, wo, wi, &w);
+                Spectrum l = lambertian(shared.fit.panel, wo, wi, &w);
+                for (int k = 0; k < SPECTRUM_LANES; k++)
+                    assert_true(l[k] > 0 && l[k] <= f[k]);
+            }
+    assert_true(floor_at(shared.fit.panel, direction_deg(95, 0), direction_deg(5, 0)) == 0);
+    assert_true(floor_at(shared.fit.panel, direction_deg(5, 0), direction_deg(95, 0)) == 0);
+}
+
+/* Above it by the haze that is left far from the mirror direction, 3e-4 at most here. */
+TEST(the_lambertian_part_is_the_floor_below_the_haze)
+{
+    (void)state;
+    for (double incidence = 0; incidence <= 65; incidence += 2.5) {
+        Vec3   wi = direction_deg(incidence, 180);
+        double mirror = floor_at(shared.fit.panel, direction_deg(incidence, 0), wi);
+        assert_true(mirror > 0.98 * FLOOR && mirror < 1.15 * FLOOR);
+        for (double phi = 0; phi < 360; phi += 60) /* alike to all sides */
+            assert_close(floor_at(shared.fit.panel, direction_deg(20, phi), wi), mirror, 0.025);
+    }
+}
+
+TEST(beyond_the_measured_incidences_the_floor_follows_the_light_that_enters)
+{
+    (void)state;
+    Vec3   wo = direction_deg(10, 0);
+    double last = floor_at(shared.fit.panel, wo, direction_deg(65, 180));
+    assert_close(floor_at(shared.fit.panel, wo, direction_deg(65.01, 180)), last, 0.01);
+    for (double theta = 68; theta <= 88; theta += 4) {
+        double entering = (1 - fresnel(cos(radians_from_degrees(theta)))) /
+                          (1 - fresnel(cos(radians_from_degrees(65))));
+        assert_close(floor_at(shared.fit.panel, wo, direction_deg(theta, 180)), last * entering,
+                     0.02);
+    }
+}
+
+static double matt(double theta_i, double phi_i, double theta, double phi, double nm)
+{
+    (void)theta_i, (void)phi_i, (void)theta, (void)phi;
+    return 0.003 * nm / 550;
+}
+
+TEST(a_face_alike_to_all_sides_has_no_haze)
+{
+    (void)state;
+    Wavelengths w = even_wavelengths(400, 20);
+    Fitted f = fit_surface(matt, (Grid){.wavelengths = 4, .azimuths = 4, .incidences = 3},
+                           quick());
+    for (double turn = 0; turn < 360; turn += 51)
+        for (double incidence = 3; incidence < 35; incidence += 9) {
+            Vec3     wo = direction_deg(30, 2 * turn), wi = direction_deg(incidence, turn);
+            Spectrum all = panel_brdf(f.fit.panel, wo, wi, &w);
+            Spectrum part = lambertian(f.fit.panel, wo, wi, &w);
+            for (int k = 0; k < 4; k++) assert_close(part[k], all[k], 0.021);
+        }
+    fixture_end(&f.fit);
+}
+
 /* ---- azimuths of the light --------------------------------------------------------------- */
 
 TEST(a_brushed_surface_is_told_between_azimuths)

@@ -59,10 +59,14 @@ void panel_ask_reflection(const Panel *panel, const PanelQuestion *q, PanelRefle
         int last = out->count - 1;
         for (int i = 0; i < SPECTRUM_LANES; i++)
             wavelengths.nm[i] = out->nm[first + i < last ? first + i : last];
-        Spectrum f = panel_brdf(panel, wo, wi, &wavelengths);
-        Spectrum r = panel_mirror(panel, wi.z, &wavelengths);
+        PanelLanes lanes;
+        panel_lanes(panel, &wavelengths, &lanes);
+        Spectrum f = panel_brdf_at(panel, wo, wi, &lanes);
+        Spectrum l = panel_lambertian_at(panel, f, wi, &lanes);
+        Spectrum r = panel_mirror_at(panel, wi.z, &lanes);
         for (int i = 0; i < SPECTRUM_LANES && first + i <= last; i++) {
             out->brdf[first + i] = f[i];
+            out->lambertian[first + i] = l[i];
             out->mirror[first + i] = r[i];
         }
     }
@@ -87,17 +91,19 @@ static json_t *emission_json(const Panel *panel, const PanelQuestion *q)
 static json_t *reflection_json(const Panel *panel, const PanelQuestion *q)
 {
     json_t *nm = json_array(), *brdf = json_array(), *mirror = json_array();
+    json_t *lambertian = json_array();
     PanelReflected r;
     panel_ask_reflection(panel, q, &r);
     for (int i = 0; i < r.count; i++) {
         json_array_append_new(nm, json_real((double)r.nm[i]));
         json_array_append_new(brdf, json_real((double)r.brdf[i]));
+        json_array_append_new(lambertian, json_real((double)r.lambertian[i]));
         json_array_append_new(mirror, json_real((double)r.mirror[i]));
     }
-    return json_pack("{s:f, s:f, s:f, s:f, s:o, s:o, s:o, s:b}", "incidence_deg", q->incidence,
-        "incidence_phi_deg", q->incidence_phi, "theta_deg", q->theta, "phi_deg", q->phi,
-        "wavelengths_nm", nm, "brdf_sr", brdf, "mirror", mirror,
-        "extrapolated", (int)!r.is_measured);
+    return json_pack("{s:f, s:f, s:f, s:f, s:o, s:o, s:o, s:o, s:b}", "incidence_deg",
+        q->incidence, "incidence_phi_deg", q->incidence_phi, "theta_deg", q->theta, "phi_deg",
+        q->phi, "wavelengths_nm", nm, "brdf_sr", brdf, "lambertian_sr", lambertian, "mirror",
+        mirror, "extrapolated", (int)!r.is_measured);
 }
 
 json_t *panel_answer_json(const Panel *panel, const PanelQuestion *q)

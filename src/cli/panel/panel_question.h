@@ -24,6 +24,7 @@ typedef struct PanelReflected {
     int   count;
     float nm[PANEL_INFO_WAVELENGTHS_MAX];
     float brdf[PANEL_INFO_WAVELENGTHS_MAX], mirror[PANEL_INFO_WAVELENGTHS_MAX];
+    float lambertian[PANEL_INFO_WAVELENGTHS_MAX]; /* of brdf */
     bool  is_measured;
 } PanelReflected;
 

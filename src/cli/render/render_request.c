@@ -40,7 +40,8 @@ static const struct {
     {"display.theta", LAYER_DISPLAY_ANGLES}, {"display.phi", LAYER_DISPLAY_ANGLES},
     {"display.contrast", LAYER_DISPLAY_CONTRAST}, {"display.fine", LAYER_DISPLAY_FINE},
     {"display.coverage", LAYER_DISPLAY_FINE}, {"display.mirror", LAYER_DISPLAY_MIRROR},
-    {"display.scattered", LAYER_DISPLAY_SCATTERED},
+    {"display.scattered", LAYER_DISPLAY_SCATTERED}, {"display.haze", LAYER_DISPLAY_HAZE},
+    {"display.lambertian", LAYER_DISPLAY_LAMBERTIAN},
 };
 
 #define LAYER_NAME_COUNT COUNT_OF(layer_names)

@@ -308,6 +308,7 @@ static PanelReflection *expand(const PanelReflectionStored *s, const ReflectionL
     find_cubics(r);
     expand_surface(surface, r);
     r->mean = expand_rows(r, from->mean, r->tables, s->mean_scale, arena);
+    r->lambertian_log = expand_rows(r, from->lambertian, r->tables, s->mean_scale, arena);
     float *lambertian = expand_rows(r, from->lambertian, r->tables, s->mean_scale, arena);
     exponentiate(lambertian, r, r->tables);
     r->lambertian = lambertian;

@@ -75,7 +75,8 @@ typedef struct PanelReflection {
     const float *mean;    /* [tables][wavelengths] */
     const float *basis;   /* [coefficients][wavelengths] */
     const float *loading; /* [tables][components][coefficients] */
-    const float *lambertian; /* [tables][wavelengths], sr^-1 */
+    const float *lambertian; /* [tables][wavelengths], sr^-1; */
+    const float *lambertian_log; /* and its logarithm, for what lies between tables */
     const float *lobe;    /* [tables][wavelengths], ln (R / F) */
     const float *lobe_sigma; /* [tables], radians */
     const float *held;    /* [nodes][wavelengths] */

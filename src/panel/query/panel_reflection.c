@@ -429,6 +429,23 @@ static Spectrum brdf_beyond(const Panel *panel, const PanelPair *pair, float lig
     return haze * held_factor(panel, pair->theta, lanes);
 }
 
+/* ---- the lambertian part ---------------------------------------------------------------- */
+
+/* As brdf_beyond has it. */
+static Spectrum lambertian_beyond(const Panel *panel, float theta, float cos_theta, float light,
+                                  const PanelLanes *lanes)
+{
+    const PanelReflection *r = panel->reflection;
+    float    sine, cosine, n = r->refractive_index;
+    TableMix mix = table_mix(r, r->last_theta, light);
+    int      row = mix.side[0].term[0].table * (int)r->padded_wavelengths;
+    sincos_turns(r->last_theta * (0.5f / PI_F), &sine, &cosine);
+    float entering = (1 - fresnel_unpolarised(cos_theta, n)) /
+                     (1 - fresnel_unpolarised(cosine, n));
+    return spread(r->lambertian + row, lanes) * spectrum_all(entering) *
+           held_factor(panel, theta, lanes);
+}
+
 /* ---- the queries ------------------------------------------------------------------------ */
 
 static void find_lanes(const Panel *panel, const Wavelengths *wavelengths, PanelLanes *lanes)
@@ -493,6 +510,19 @@ Spectrum panel_brdf(const Panel *panel, Vec3 wo, Vec3 wi, const Wavelengths *wav
     if (!panel->reflection || !(wo.z > 0) || !(wi.z > 0)) return spectrum_all(0);
     panel_lanes(panel, wavelengths, &lanes);
     return panel_brdf_at(panel, wo, wi, &lanes);
+}
+
+Spectrum panel_lambertian_at(const Panel *panel, Spectrum brdf, Vec3 wi,
+                             const PanelLanes *lanes)
+{
+    const PanelReflection *r = panel->reflection;
+    if (!r || !(wi.z > 0)) return spectrum_all(0);
+    float theta = panel_polar_angle(wi), light = r->azimuths > 1 ? atan2_f(wi.y, wi.x) : 0;
+    if (theta > r->last_theta)
+        return spectrum_min(brdf, lambertian_beyond(panel, theta, wi.z, light, lanes));
+    TableMix mix = table_mix(r, theta, light);
+    return spectrum_min(brdf,
+                        spectrum_exp(mixed_at_lanes(r, &mix, r->lambertian_log, lanes)));
 }
 
 Spectrum panel_mirror_at(const Panel *panel, float cos_theta, const PanelLanes *lanes)
