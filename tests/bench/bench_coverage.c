@@ -109,6 +109,7 @@ static void measure_moment(const ReviewRequest *request, const ReviewCondition *
     if (!stage_open(&options, &arena, problems, &stage, &err) ||
         !stage_light(&stage, c->has_environment ? &c->environment : NULL, &arena, &err) ||
         !stage_symbols(&stage, &arena, &symbols, &count, &err) ||
+        !stage_learn(&stage, symbols, count, &arena, &err) ||
         !stage_eye_middle(&stage, &request->eyes[0], arena, &eye, &err))
         stop(&err);
     const SymbolSurface *surface = &symbols[0].surface;

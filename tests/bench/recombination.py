@@ -140,7 +140,7 @@ def main(program, cases=30):
         niche().write(os.path.join(folder, "niche.gltf"))
         with open(os.path.join(folder, "inverse.png"), "wb") as file:
             file.write(bars(0, 255))
-        for kind in ("aimed",):
+        for kind in PRECISION:
             compare(program, folder, asked, kind, rng)
 
 

@@ -4,6 +4,7 @@
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
+#include "guide/guide_file.h"
 #include "render/identity.h"
 
 static JournalKey key_of(XXH128_hash_t hash)
@@ -58,7 +59,7 @@ static void add_light(XXH3_state_t *state, const PathContext *context, Arena scr
         XXH3_128bits_update(state, &scene->displays[i].level, sizeof(float));
     add_count(state, context->max_bounces);
     add_count(state, (int64_t)context->strategy);
-    add_count(state, context->guide != NULL);
+    add_count(state, context->guide ? (int64_t)guide_hash(context->guide) : 0);
 }
 
 JournalKey question_key(const Question *question, const ProbeAim *aim, Arena scratch)

@@ -3,13 +3,15 @@
 #include <math.h>
 
 #include "base/units.h"
+#include "camera/camera.h"
+#include "render/train.h"
 #include "review/judge.h"
-#include "review/light/response.h"
+#include "review/keep/go_on.h"
 #include "review/light/eye_reading.h"
+#include "review/light/response.h"
 #include "review/output/review_decide.h"
 #include "review/request/request_check.h"
 #include "review/run/causes.h"
-#include "review/keep/go_on.h"
 #include "text/text.h"
 #include "vision/contrast_sensitivity.h"
 #include "vision/grey_steps.h"
@@ -353,6 +355,31 @@ static bool case_of(const CaseTools *tools, const CaseAsk *ask, Arena *arena, Re
     *out = c;
     return true;
 }
+
+/* ---- before all cases -------------------------------------------------------------------- */
+
+/* What a lesson looks at: a picture about the symbols. */
+#define LESSON_WIDTH 480
+#define LESSON_HEIGHT 270
+#define LESSON_DEG 60.0
+
+bool stage_learn(Stage *stage, const StageSymbol *symbols, int count, Arena *arena, Error *err)
+{
+    Vec3 eye, sum = vec3(0, 0, 0);
+    if (!stage_eye_middle(stage, &stage->request->eyes[0], *arena, &eye, err)) return false;
+    for (int i = 0; i < count; i++) sum = vec3_add(sum, symbol_middle(&symbols[i]).position);
+    Vec3 towards = vec3_sub(vec3_scale(sum, 1 / (float)count), eye);
+    if (!(vec3_dot(towards, towards) > 0)) return true;
+    SceneCamera    look = camera_look_at(eye, vec3_add(eye, towards),
+                                         (float)radians_from_degrees(LESSON_DEG));
+    Camera         camera = camera_from_scene(&look, LESSON_WIDTH, LESSON_HEIGHT);
+    TrainOptions   train = {stage->tools.kernel, stage->tools.threads};
+    PathStatistics cost;
+    stage->context.guide = train_guide(&stage->context, &camera, &train, arena, &cost);
+    return true;
+}
+
+/* ---- all cases --------------------------------------------------------------------------- */
 
 bool stage_case(const CaseTools *tools, const StageSymbol *symbol, const ReviewEye *eye,
                 Arena *arena, ReviewCase *out, Error *err)

@@ -22,6 +22,11 @@ typedef struct CaseTools {
 /* Share of what a display reflects from which on its light is that of direct sun. */
 #define CASE_SUNLIT 0.5
 
+/* Teaches the stage's paths, once it is lit, from where light comes to what the first eye sees
+ * of the symbols: lamps that few of them would find otherwise, at night above all. The guide
+ * comes from the arena. */
+bool stage_learn(Stage *stage, const StageSymbol *symbols, int count, Arena *arena, Error *err);
+
 /* symbol_count * eye_count cases, symbols fastest. Fails where an eye's camera is missing. */
 bool stage_cases(const CaseTools *tools, Arena *arena, ReviewCase *out, Error *err);
 

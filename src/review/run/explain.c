@@ -130,6 +130,8 @@ static bool explain_on(Stage *stage, const ExplainOptions *options, Arena *scrat
                        .cause_paths = options->paths, .cause_rays = CHAIN_RAYS};
     if (!light_stage(stage, options, scratch, err) ||
         !stage_symbols(stage, scratch, &symbols, &tools.symbol_count, err) ||
+        (stage->condition->kind == CONDITION_MOMENT &&
+         !stage_learn(stage, symbols, tools.symbol_count, scratch, err)) ||
         !find_symbol(symbols, tools.symbol_count, options->symbol, &symbol, *scratch, err) ||
         !find_eye(stage->request, options->eye, &eye, *scratch, err))
         return false;

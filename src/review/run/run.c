@@ -53,7 +53,8 @@ static bool run_moment(const ReviewRun *run, Stage *stage, Arena *scratch, Arena
     StageSymbol *symbols;
     const Environment *sky = condition->has_environment ? &condition->environment : NULL;
     if (!stage_light(stage, sky, scratch, err) ||
-        !stage_symbols(stage, scratch, &symbols, &tools.symbol_count, err))
+        !stage_symbols(stage, scratch, &symbols, &tools.symbol_count, err) ||
+        !stage_learn(stage, symbols, tools.symbol_count, scratch, err))
         return false;
     tools.symbols = symbols;
     ReviewCase *cases = review->cases + review->case_count;
