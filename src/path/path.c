@@ -239,6 +239,8 @@ static void add_distant(PathWalk *walk)
     lights_distant(walk->context->lights, walk->ray.direction, walk->last.ns, walk->wavelengths,
                    radiance, pdf);
     radiance[LIGHTS_SUN] *= walk->sun_share;
+    if (walk->context->without_mirrored_sun && walk->by_mirror && walk->bounce == 1)
+        radiance[LIGHTS_SUN] = spectrum_all(0);
     if (walk->arriving_sky && walk->bounce == 1) tell_sky(walk, &radiance[LIGHTS_SKY]);
     note_origin(walk, walk->ray.direction, true);
     for (int set = LIGHTS_SUN; set <= LIGHTS_SKY; set++) {

@@ -23,4 +23,6 @@ typedef struct PathContext {
     int                  max_bounces; /* 0: emission only, 1: plus direct light */
     PathStrategy         strategy;
     const LightGuide    *guide; /* leads wide scattering; NULL: the surfaces alone decide */
+    bool without_mirrored_sun; /* the sun in the mirror of a display that the eye sees is left
+                                  out: who asks knows it */
 } PathContext;

@@ -165,6 +165,21 @@ static int suns_about(Vec3 *suns)
     return count;
 }
 
+/* Nothing else shines. */
+static void set_sun(World *world, Vec3 towards)
+{
+    Environment *sky = &world->scene->environment;
+    Lights      *lights;
+    Error        err = {0};
+    sky->has_sun = true;
+    sky->sun_azimuth = atan2f(towards.x, -towards.z);
+    sky->sun_elevation = asinf(towards.y);
+    sky->sun_illuminance_lx = 10000;
+    assert_true(lights_build(world->scene, &world->arena, &lights, &err));
+    world->context =
+        path_context_build(world->scene, world->bvh, lights, 64, &world->arena);
+}
+
 TEST(a_response_to_a_sun_is_what_paths_find_under_it)
 {
     (void)state;
@@ -180,19 +195,10 @@ TEST(a_response_to_a_sun_is_what_paths_find_under_it)
     double squares = 0;
     int    judged = 0;
     for (int i = 0; i < count; i++) {
-        Environment *sky = &world.scene->environment;
-        Lights      *lights;
-        Error        err = {0};
-        Vec3         towards;
-        float        bands[LIGHT_BANDS];
-        Stage        stage = {.scene = world.scene};
-        sky->has_sun = true;
-        sky->sun_azimuth = atan2f(suns[i].x, -suns[i].z);
-        sky->sun_elevation = asinf(suns[i].y);
-        sky->sun_illuminance_lx = 10000;
-        assert_true(lights_build(world.scene, &world.arena, &lights, &err));
-        world.context =
-            path_context_build(world.scene, world.bvh, lights, 64, &world.arena);
+        Vec3  towards;
+        float bands[LIGHT_BANDS];
+        Stage stage = {.scene = world.scene};
+        set_sun(&world, suns[i]);
         stage.context = world.context;
         assert_true(stage_sun(&stage, &towards, bands));
         assert_true(vec3_dot(towards, suns[i]) > 0.99999f);
@@ -279,6 +285,45 @@ TEST(a_sun_in_a_display_is_as_bright_as_its_mirror_says)
     }
     double rms = sqrt(squares / SUNS);
     if (!(rms < 0.01)) fail_msg("rms %g", rms);
+    world_end(&world);
+}
+
+/* The sun in a tile of 20 x 10 mm: by luck, and as what is known of it beside all else. */
+TEST(a_reading_knows_of_the_sun_in_a_display)
+{
+    (void)state;
+    World      world = world_start();
+    Vec3       at = vec3(0.02f, 0.01f, 0), to = vec3_normalize(vec3_sub(at, eye)), towards;
+    ProbePatch patch = {vec3(0.02f, 0, 0), vec3(0, -0.01f, 0)};
+    float      bands[LIGHT_BANDS];
+    add_display(&world);
+    world_ready(&world, 64);
+    set_sun(&world, vec3(to.x, to.y, -to.z));
+    Stage     stage = {.scene = world.scene, .context = world.context};
+    ProbeAim  aim = {.context = &world.context, .eye = eye, .targets = &at, .patches = &patch,
+                     .target_count = 1, .seed = 7};
+    assert_true(stage_sun(&stage, &towards, bands));
+    float           radius = world.scene->environment.sun_angular_radius;
+    ProbeSuns       asked = {&towards, 1, radius, true};
+    ResponseOptions options = {kernel(), 4, response_mirror_paths(&aim, radius), 2, 0};
+    double known = light_bands_sum(response_suns(&aim, &options, &asked, &world.arena), bands);
+    PathContext  without = world.context;
+    ProbeAim     rest = aim;
+    ReadingGoal  all = {.precision = 0.02, .most = 1 << 18};
+    ReadingGoal  less = {.precision = 0.02, .most = 1 << 12, .known = known};
+    ReadingTools tools = {.kernel = kernel(), .threads = 2};
+    without.without_mirrored_sun = true;
+    rest.context = &without;
+    Reading by_luck = reading_take(&aim, &all, &tools, world.arena);
+    Reading knowing = reading_take(&rest, &less, &tools, world.arena);
+    double  off = knowing.reflected - by_luck.reflected;
+    assert_true(known > 0.5 * by_luck.reflected);
+    if (!(fabs(off) < 3.5 * hypot(by_luck.sigma, knowing.sigma)))
+        fail_msg("%g +- %g, by luck %g +- %g", knowing.reflected, knowing.sigma,
+                 by_luck.reflected, by_luck.sigma);
+    assert_true(knowing.sigma < by_luck.sigma && 32 * knowing.paths < by_luck.paths);
+    assert_true(knowing.interval.low < knowing.reflected &&
+                knowing.reflected < knowing.interval.high);
     world_end(&world);
 }
 

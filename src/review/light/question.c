@@ -59,6 +59,7 @@ static void add_light(XXH3_state_t *state, const PathContext *context, Arena scr
         XXH3_128bits_update(state, &scene->displays[i].level, sizeof(float));
     add_count(state, context->max_bounces);
     add_count(state, (int64_t)context->strategy);
+    add_count(state, context->without_mirrored_sun);
     add_count(state, context->guide ? (int64_t)guide_hash(context->guide) : 0);
 }
 

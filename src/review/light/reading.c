@@ -6,6 +6,7 @@
 #include "base/parallel.h"
 #include "base/sampler.h"
 #include "review/light/question.h"
+#include "review/light/response.h"
 
 /* Batches are alike and independent: each has a seed of its own, its samples are well spread
  * among themselves. */
@@ -49,8 +50,18 @@ static void read_batch(void *user, int item, int worker)
     }
 }
 
+static void add_known(double known, Reading *to)
+{
+    double error = RESPONSE_MIRROR_ERROR * known;
+    to->reflected += known;
+    to->mirror += known;
+    to->sigma = hypot(to->sigma, error);
+    to->interval.low += known - 2 * error;
+    to->interval.high += known + 2 * error;
+}
+
 /* Of batches with so many paths each; miss: chance that its interval may miss with. */
-static Reading reading_of(const Batch batches[BATCHES], int paths, double miss)
+static Reading reading_of(const Batch batches[BATCHES], int paths, double known, double miss)
 {
     BatchSums sums = {0};
     Reading   reading = {.paths = (long)paths * BATCHES};
@@ -68,6 +79,7 @@ static Reading reading_of(const Batch batches[BATCHES], int paths, double miss)
     reading.mirror = mirror / found;
     reading.sigma = batch_error(&sums) / share;
     reading.interval = (MeanInterval){fmax(interval.low, 0) / share, interval.high / share};
+    add_known(known, &reading);
     return reading;
 }
 
@@ -112,12 +124,12 @@ static Reading take(const ProbeAim *aim, const ReadingGoal *goal, const ReadingT
     Reading reading;
     do {
         parallel_for(tools->threads, BATCHES, read_batch, &round);
-        reading = reading_of(batches, round.end, look_miss(false, looks));
+        reading = reading_of(batches, round.end, goal->known, look_miss(false, looks));
         if (is_decided(&reading, goal)) return reading;
         round.first = round.end;
         round.end *= 2;
     } while (uncertainty(&reading, goal) > goal->precision && 2 * reading.paths <= goal->most);
-    return reading_of(batches, round.first, look_miss(true, looks));
+    return reading_of(batches, round.first, goal->known, look_miss(true, looks));
 }
 
 static JournalKey key_of(const ProbeAim *aim, const ReadingGoal *goal,
@@ -125,7 +137,7 @@ static JournalKey key_of(const ProbeAim *aim, const ReadingGoal *goal,
 {
     const ReadingQuestion *asked = goal->question;
     double   numbers[] = {goal->brighter, goal->darker, goal->precision, (double)goal->most,
-                          asked ? asked->precision : 0};
+                          goal->known, asked ? asked->precision : 0};
     Question question = {.base = tools->base, .kind = asked ? asked->name : "reading",
                          .numbers = numbers, .number_count = COUNT_OF(numbers)};
     return question_key(&question, aim, scratch);

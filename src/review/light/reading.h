@@ -31,6 +31,9 @@ typedef struct ReadingGoal {
     double brighter, darker; /* emitted, cd m^-2; both 0: the reading itself counts */
     double precision;        /* relative, above 0 */
     long   most;             /* paths, at most */
+    double known;            /* of the reading, by the display's mirror: paths leave it out
+                                (path_context.h); it is added, with the error of
+                                response_mirror_paths */
     const ReadingQuestion *question; /* NULL: none */
 } ReadingGoal;
 

@@ -53,6 +53,7 @@ double response_sun(const Response *response, Vec3 towards, const float bands[RE
 
 /* Paths that tell what an aim's mirror sends of a sun of that radius (radians) within 1 %,
  * wherever in its patches the sun's image lies. */
+#define RESPONSE_MIRROR_ERROR 0.01
 int response_mirror_paths(const ProbeAim *aim, float radius);
 
 /* Shares of the first vertex for suns, exact but for the mean over options' paths: [sun][band],

@@ -211,9 +211,8 @@ static void add_sweep_line(Text *html, const ReviewSweep *s, bool is_open, Arena
 {
     Verdict     verdict = sweep_verdict(s);
     const char *often = s->failed_share > 0
-                            ? arena_format(arena, "%s of the time",
-                                           words_share(s->failed_share, arena))
-                            : "never fails";
+                            ? arena_format(arena, "%s of the time", words_often(s, arena))
+                            : words_often(s, arena);
     text_format(html, "<details class=\"case %s\"%s><summary><span class=\"chip %s\">%s"
                 "</span> ", words_class(verdict), is_open ? " open" : "", words_class(verdict),
                 words_verdict(verdict));
@@ -221,7 +220,7 @@ static void add_sweep_line(Text *html, const ReviewSweep *s, bool is_open, Arena
     page_element(html, "span class=\"where\"",
                  arena_format(arena, "seen by %s: %s", s->eye ? s->eye : "?",
                               s->condition ? s->condition : "?"));
-    text_format(html, "<span class=\"ratio\">%s, at worst %s</span></summary>\n", often,
+    text_format(html, "<span class=\"ratio\">%s · worst %s</span></summary>\n", often,
                 words_ratio(s->worst.contrast_ratio, arena));
 }
 

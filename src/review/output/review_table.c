@@ -174,7 +174,7 @@ static void add_sweep_cell(Text *html, const Review *review, const ReviewSweep *
     const LimitVerdict *limit = shown_limit(&s->worst);
     text_format(html, "<td class=\"%s\"><a href=\"#%s\"><b>%s %s</b>", words_class(verdict),
                 review_card_id(review, &s->worst, arena), mark_of(verdict),
-                s->failed_share > 0 ? words_share(s->failed_share, arena) : "never");
+                words_often(s, arena));
     page_element(html, "small",
                  arena_format(arena, "%s%s%s", words_ratio(s->worst.contrast_ratio, arena),
                               limit ? limit->is_upper ? " · ≤ " : " · ≥ " : "",

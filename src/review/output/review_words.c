@@ -103,6 +103,13 @@ const char *words_verdict(Verdict verdict)
     return WORDS[verdict];
 }
 
+const char *words_often(const ReviewSweep *sweep, Arena *arena)
+{
+    static const char *const NAMES[4] = {"never", "at worst", "too close", "not visible"};
+    return sweep->failed_share > 0 ? words_share(sweep->failed_share, arena)
+                                   : NAMES[sweep->worst.verdict];
+}
+
 const char *words_class(Verdict verdict)
 {
     static const char *const CLASSES[4] = {"good", "bad", "close", "hidden"};

@@ -73,13 +73,17 @@ static double face_lux(const CaseTools *tools, const StageSymbol *symbol, Arena 
     return reading_take(&aim, &goal, &stage->tools, scratch).reflected;
 }
 
-/* What the display sends to the eye straight from the sun. */
-static double direct_sun(const Stage *stage, const ProbeAim *aim, Arena scratch)
+/* What the display sends to the eye straight from the sun, cd m^-2. */
+typedef struct DirectSun {
+    double scattered, mirror;
+} DirectSun;
+
+static DirectSun direct_sun(const Stage *stage, const ProbeAim *aim, Arena scratch)
 {
-    Vec3   towards;
-    float  bands[LIGHT_BANDS];
-    double direct = 0;
-    if (!stage_sun(stage, &towards, bands)) return 0;
+    Vec3      towards;
+    float     bands[LIGHT_BANDS];
+    DirectSun direct = {0, 0};
+    if (!stage_sun(stage, &towards, bands)) return direct;
     float           radius = (float)radians_from_degrees(SUN_MEAN_RADIUS_DEG);
     ProbeSuns       suns = {&towards, 1, radius, false};
     ResponseOptions options = {stage->tools.kernel, 0, SUN_PATHS, stage->tools.threads, 0};
@@ -88,16 +92,16 @@ static double direct_sun(const Stage *stage, const ProbeAim *aim, Arena scratch)
         suns.by_mirror = by_mirror;
         if (by_mirror) options.paths = response_mirror_paths(aim, radius);
         const float *shares = response_suns(aim, &options, &suns, &room);
-        direct += light_bands_sum(shares, bands);
+        *(by_mirror ? &direct.mirror : &direct.scattered) = light_bands_sum(shares, bands);
     }
     return direct;
 }
 
 /* Does most of what the display reflects come straight from the sun? Then it stands in the sun,
  * whichever part of it. */
-static bool is_in_sun(double direct, double reflected)
+static bool is_in_sun(DirectSun direct, double reflected)
 {
-    return direct > CASE_SUNLIT * reflected;
+    return direct.scattered + direct.mirror > CASE_SUNLIT * reflected;
 }
 
 /* ---- one case ---------------------------------------------------------------------------- */
@@ -137,7 +141,7 @@ static ProbeAim aim_at(const Stage *stage, const CaseLook *look, const bool *is_
 typedef struct VerdictAsk {
     const CaseTools  *tools;
     const ReviewCase *of;
-    double            direct; /* of the reflected light, straight from the sun */
+    DirectSun         direct; /* of the reflected light */
     Arena             scratch;
 } VerdictAsk;
 
@@ -184,9 +188,12 @@ static const char *name_of(const VerdictAsk *ask, Arena *arena)
     return text.data;
 }
 
+/* The sun's image in a display is so small that few paths meet it: it is known by itself. */
 static Reading read_symbol(const CaseTools *tools, const CaseLook *look, const ProbeAim *aim,
                            VerdictAsk *ask)
 {
+    PathContext without = *aim->context;
+    ProbeAim    rest = *aim;
     const ReviewRequest  *request = tools->stage->request;
     const CaseLuminances *shown = &ask->of->luminance_cd_m2;
     ReadingQuestion question = {is_verdict_clear, ask, request->precision_clear,
@@ -194,13 +201,16 @@ static Reading read_symbol(const CaseTools *tools, const CaseLook *look, const P
     ReadingGoal     goal = {.brighter = fmax(shown->foreground, shown->background),
                             .darker = fmin(shown->foreground, shown->background),
                             .precision = request->precision_contrast,
-                            .most = request->precision_paths, .question = &question};
+                            .most = request->precision_paths, .known = ask->direct.mirror,
+                            .question = &question};
+    without.without_mirrored_sun = ask->direct.mirror > 0;
+    rest.context = &without;
     if (look->is_coarse) {
         goal.precision = COARSE_PRECISION;
         goal.most = COARSE_PATHS;
         goal.question = NULL;
     }
-    return reading_take(aim, &goal, &tools->stage->tools, ask->scratch);
+    return reading_take(&rest, &goal, &tools->stage->tools, ask->scratch);
 }
 
 /* The panel's emission dimmed by what the eye looks through. */
@@ -233,9 +243,9 @@ static double visibility_of(const ReviewCase *c, const SymbolSplit *split)
 }
 
 /* What does not depend on the eye is set. The aim has no targets where nothing is visible;
- * *direct: of what is reflected, straight from the sun. */
+ * *direct: of what is reflected. */
 static ProbeAim see_symbol(const CaseTools *tools, const CaseLook *look, ReviewCase *c,
-                           double *direct, Arena *arena)
+                           DirectSun *direct, Arena *arena)
 {
     const Stage       *stage = tools->stage;
     const StageSymbol *symbol = look->symbol;
@@ -303,7 +313,7 @@ typedef struct CaseAsk {
 static ProbeAim judge_look(const CaseTools *tools, const CaseLook *look, ReviewCase *c,
                            Arena *arena)
 {
-    double   direct = 0;
+    DirectSun direct = {0, 0};
     ProbeAim aim = see_symbol(tools, look, c, &direct, arena);
     judge_ambient(c, tools->profile,
                   aim.target_count && is_in_sun(direct, c->luminance_cd_m2.reflected));
