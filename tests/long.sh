@@ -50,6 +50,8 @@ start 'a hundred kills' resume-long \
 start 'parts of every kind' merge-long \
     python3 tests/image/merge.py --all .build/release/parhelion
 start 'every fault' faults-long python3 tests/hostile/faults.py --all .build/release/parhelion
+start 'every key of a review' review-request-long \
+    python3 tests/hostile/review_request.py --all .build/release/parhelion
 gather
 run 'reviews killed, stopped and starved' review-resume-long \
     python3 tests/hostile/review_resume.py --all --kills 40 .build/release/parhelion
