@@ -211,6 +211,9 @@ TEST(sweeps_that_fail_come_first)
     const char *fails = strstr(link, " open><summary><span class=\"chip bad\">");
     const char *fold = strstr(fails, "1 that passes");
     assert_true(strstr(fails, " id=\"s1\"") < fold && strstr(page, " id=\"s0\"") > fold);
+    review.sweeps[1].failed_share = 0; /* an eye box: its middle never fails */
+    assert_string_equal(words_often(&review.sweeps[0], &arena), "never");
+    assert_string_equal(words_often(&review.sweeps[1], &arena), "at worst");
 }
 
 /* Top: the answer, the worst symbol, when, why; the limit that nobody read is marked. */

@@ -285,6 +285,28 @@ TEST(a_plate_hides_the_share_that_it_covers)
     }
 }
 
+/* An edge goes through the middle of a column of patches: they are points, all others whole. */
+TEST(a_patch_that_is_covered_in_part_is_a_point)
+{
+    World world = flat_world(*state);
+    bool *is_visible = ARENA_NEW(&world.arena, bool, POINTS);
+    int   whole = 0, points = 0;
+    add_plate(&world, builder_material(0.5f), 0.4 * 20.5 / 64 - 0.2);
+    seen_from(&world, EYE, is_visible);
+    SymbolSurface surface = first_part(&world, ALL);
+    for (int i = 0; i < POINTS; i++) {
+        if (!is_visible[i]) continue;
+        SymbolPatch patch = symbol_patch_seen(&surface, i, &world.context, EYE);
+        bool is_cut = surface.points[i].uv.x < 21.0f / 64;
+        assert_near(patch.along.x, is_cut ? 0 : 0.4 / 64, 1e-6);
+        assert_near(patch.down.y, is_cut ? 0 : -0.2 / 64, 1e-6);
+        (*(is_cut ? &points : &whole))++;
+    }
+    assert_int_equal(whole, 43 * 64);
+    assert_true(points > 16 && points < 48); /* half of those of the column */
+    world_end(&world);
+}
+
 /* 0.05 mm over the display, 1 m from the eye. */
 TEST(a_bezel_that_lies_on_the_display_hides_it)
 {

@@ -52,7 +52,8 @@ void response_trace(const ProbeAim *aim, const ResponseOptions *options, Arena *
 double response_sun(const Response *response, Vec3 towards, const float bands[RESPONSE_BANDS]);
 
 /* Paths that tell what an aim's mirror sends of a sun of that radius (radians) within 1 %,
- * wherever in its patches the sun's image lies. */
+ * wherever in its patches the sun's image lies; of patches that fill more than 0.3 sr, and of a
+ * convex display, less closely. A target without a patch is in the image or not. */
 #define RESPONSE_MIRROR_ERROR 0.01
 int response_mirror_paths(const ProbeAim *aim, float radius);
 

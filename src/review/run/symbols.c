@@ -103,7 +103,7 @@ void symbol_aim(const SymbolSurface *surface, const bool *is_visible, Arena *are
     aim->target_count = 0;
     for (int i = 0; i < surface->point_count; i++) {
         if (!is_visible[i]) continue;
-        SymbolPatch patch = symbol_patch(surface, i);
+        SymbolPatch patch = symbol_patch_seen(surface, i, aim->context, aim->eye);
         targets[aim->target_count] = patch.middle;
         patches[aim->target_count++] = (ProbePatch){patch.along, patch.down};
     }

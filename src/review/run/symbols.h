@@ -24,7 +24,8 @@ typedef struct StageSymbol {
 /* The middle of its rectangle; where no triangle shows that, the surface's first point. */
 SymbolPoint symbol_middle(const StageSymbol *symbol);
 
-/* Aims a probe at what is visible (symbol_visibility): targets and patches, from the arena. */
+/* Aims a probe, whose context and eye are set, at what is visible (symbol_visibility): targets
+ * and patches, from the arena. */
 void symbol_aim(const SymbolSurface *surface, const bool *is_visible, Arena *arena,
                 ProbeAim *aim);
 

@@ -100,6 +100,33 @@ SymbolVisibility symbol_visibility(const SymbolSurface *surface, const PathConte
     return (SymbolVisibility){seen / surface->area_m2, passed / seen};
 }
 
+#define INSET 0.01 /* of a patch: the rim of a display may lie on its own corners */
+
+static bool sees_corners(const SymbolSurface *surface, const double box[4],
+                         const PathContext *context, Vec3 eye)
+{
+    Wavelengths wavelengths;
+    wavelengths_sample(0.5f, &wavelengths);
+    for (int k = 0; k < 4; k++) {
+        double u = k & 1 ? 1 - INSET : INSET, v = k & 2 ? 1 - INSET : INSET;
+        double uv[2] = {box[0] + u * (box[2] - box[0]), box[1] + v * (box[3] - box[1])};
+        SymbolPoint corner;
+        if (!symbol_surface_at(surface, uv, &corner) ||
+            !(passed_from(&corner, context, &wavelengths, eye) > 0))
+            return false;
+    }
+    return true;
+}
+
+SymbolPatch symbol_patch_seen(const SymbolSurface *surface, int point,
+                              const PathContext *context, Vec3 eye)
+{
+    double box[4];
+    if (symbol_patch_box(surface, point, box) && sees_corners(surface, box, context, eye))
+        return symbol_patch(surface, point);
+    return (SymbolPatch){.middle = surface->points[point].position};
+}
+
 /* ---- light ------------------------------------------------------------------------------- */
 
 /* What the pixel sends to the eye; false: it turns its back. */

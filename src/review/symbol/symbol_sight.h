@@ -25,6 +25,11 @@ typedef struct SymbolVisibility {
 SymbolVisibility symbol_visibility(const SymbolSurface *surface, const PathContext *context,
                                    Vec3 eye, bool *is_visible);
 
+/* Of a visible point its patch, when the eye sees the corners of that, too; else the point by
+ * itself: paths to a patch that something covers in part would tell of what covers it. */
+SymbolPatch symbol_patch_seen(const SymbolSurface *surface, int point,
+                              const PathContext *context, Vec3 eye);
+
 /* XYZ that the display sends towards the eye: means of light (not of codes) over the pixels of
  * a class; edges are in neither. Pixels that turn their back to the eye are left out; NaN: all
  * of them do. What stands between is not asked. */

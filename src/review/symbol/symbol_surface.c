@@ -151,24 +151,30 @@ static bool place_points(SymbolSurface *surface, Error *err)
 }
 
 /* Of 2^n points in Hammersley's order every cell of a grid of so many has one. */
-SymbolPatch symbol_patch(const SymbolSurface *surface, int point)
+bool symbol_patch_box(const SymbolSurface *surface, int point, double uv[4])
 {
     const double *box = surface->uv;
     int columns = 1, count = surface->point_count;
+    if (count & (count - 1)) return false;
     while (4 * columns * columns <= count) columns *= 2;
-    int         rows = count / columns;
-    double      uv[2], step[2] = {(box[2] - box[0]) / columns, (box[3] - box[1]) / rows};
+    double at[2], step[2] = {(box[2] - box[0]) / columns, (box[3] - box[1]) * columns / count};
+    place_of(surface, point, at);
+    uv[0] = box[0] + floor(fmin((at[0] - box[0]) / step[0], columns - 1)) * step[0];
+    uv[1] = box[1] + floor((at[1] - box[1]) / step[1]) * step[1];
+    uv[2] = uv[0] + step[0];
+    uv[3] = uv[1] + step[1];
+    return true;
+}
+
+SymbolPatch symbol_patch(const SymbolSurface *surface, int point)
+{
+    double      uv[4];
     SymbolPoint first, along, down;
-    SymbolPatch none = {.middle = surface->points[point].position};
-    place_of(surface, point, uv);
-    double column = floor(fmin((uv[0] - box[0]) / step[0], columns - 1));
-    double row = floor((uv[1] - box[1]) / step[1]);
-    double left = box[0] + column * step[0], top = box[1] + row * step[1];
-    if (count & (count - 1) ||
-        !symbol_surface_at(surface, (double[2]){left, top}, &first) ||
-        !symbol_surface_at(surface, (double[2]){left + step[0], top}, &along) ||
-        !symbol_surface_at(surface, (double[2]){left, top + step[1]}, &down))
-        return none;
+    if (!symbol_patch_box(surface, point, uv) ||
+        !symbol_surface_at(surface, (double[2]){uv[0], uv[1]}, &first) ||
+        !symbol_surface_at(surface, (double[2]){uv[2], uv[1]}, &along) ||
+        !symbol_surface_at(surface, (double[2]){uv[0], uv[3]}, &down))
+        return (SymbolPatch){.middle = surface->points[point].position};
     return (SymbolPatch){vec3_scale(vec3_add(along.position, down.position), 0.5f),
                          vec3_sub(along.position, first.position),
                          vec3_sub(down.position, first.position)};

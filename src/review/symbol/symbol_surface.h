@@ -62,6 +62,9 @@ typedef struct SymbolPatch {
                                  nowhere, and for counts that are no power of two */
 } SymbolPatch;
 
+/* Its left, top, right and bottom in uv; false: the count is no power of two. */
+bool symbol_patch_box(const SymbolSurface *surface, int point, double uv[4]);
+
 SymbolPatch symbol_patch(const SymbolSurface *surface, int point);
 
 /* The point of the surface that shows uv, its area_m2 left 0; false: none of its triangles
