@@ -38,6 +38,8 @@ if run_one 'release build, warnings are errors' build-release build release all;
     start 'same review, killed and resumed' review-resume \
         python3 tests/hostile/review_resume.py .build/release/parhelion
     start 'same bytes, any names' names python3 tests/image/names.py .build/release/parhelion
+    start 'variants and animations' states \
+        python3 tests/image/states.py .build/release/parhelion
     gather
     start 'closed forms in frames' image python3 tests/image/run.py .build/release/parhelion
     start 'displays against their panels' display \

@@ -194,6 +194,15 @@ static void print_cameras(const Scene *scene)
                scene->display_count ? "the displays are" : "the scene is framed whole,");
 }
 
+static void print_states(const Scene *scene)
+{
+    for (int i = 0; i < scene->variant_count; i++)
+        printf("variant      %s\n", scene->variants[i]);
+    for (int i = 0; i < scene->animation_count; i++)
+        printf("animation    %s: %g s\n", scene->animations[i].name,
+               scene->animations[i].end_s);
+}
+
 static void print_size(const Scene *scene)
 {
     const Vec3 low = scene->bounds_min, high = scene->bounds_max;
@@ -226,6 +235,7 @@ static void print_report(const Scene *scene, const Problems *problems)
     print_lights(scene);
     print_environment(&scene->environment);
     print_cameras(scene);
+    print_states(scene);
     if (scene->extension_count) printf("extensions  ");
     for (int i = 0; i < scene->extension_count; i++) printf(" %s", scene->extensions[i]);
     if (scene->extension_count) printf("\n");
@@ -343,6 +353,16 @@ static json_t *json_cameras(const Scene *scene)
     return list;
 }
 
+static json_t *json_animations(const Scene *scene)
+{
+    json_t *list = json_array();
+    for (int i = 0; i < scene->animation_count; i++)
+        json_array_append_new(list, json_pack("{s:o, s:f}", "name",
+                                              json_text(scene->animations[i].name), "end_s",
+                                              scene->animations[i].end_s));
+    return list;
+}
+
 static bool print_json(const Scene *scene, const Problems *problems, Arena *arena, Error *err)
 {
     json_t *list = cli_json_problems(problems, SEVERITY_ERROR);
@@ -356,6 +376,9 @@ static bool print_json(const Scene *scene, const Problems *problems, Arena *aren
         "materials", scene->material_count, "textures", scene->texture_count, "triangles",
         (json_int_t)scene->triangle_count, "extensions",
         json_texts(scene->extensions, scene->extension_count));
+    json_object_set_new(answer, "variants",
+                        json_texts(scene->variants, scene->variant_count));
+    json_object_set_new(answer, "animations", json_animations(scene));
     json_object_set_new(answer, "material_list", material_list_json(scene, arena));
     return cli_print_json(answer, err);
 }
@@ -373,6 +396,7 @@ static bool run_check(int argc, char **argv, Arena *arena, Error *err)
          "which materials there are, on which nodes, how large, and which look like screens",
          &materials},
         LAMP_OPTIONS(&words),
+        STATE_OPTIONS(&words.state),
     };
     const CliCommand command = {
         "check", "what is in a scene, and everything that is wrong with it",

@@ -199,11 +199,24 @@ void identity_add_program(Text *text, const Kernel *kernel)
     identity_line(text, "ray tracer", "%s", bvh_library());
 }
 
+/* Only what is chosen, so that the identities of other frames stay what they were. */
+static void add_state(Text *text, const SceneState *state)
+{
+    for (int i = 0; i < state->variant_count; i++)
+        identity_line(text, arena_format(text->arena, "variant %d", i), "%s",
+                      state->variants[i]);
+    if (state->has_time) identity_number(text, "time s", state->time_s);
+    for (int i = 0; i < state->animation_count; i++)
+        identity_line(text, arena_format(text->arena, "animation %d", i), "%s",
+                      state->animations[i]);
+}
+
 void identity_add_scene(Text *text, const SceneOptions *options, const Scene *scene)
 {
     add_files(text, scene);
     add_displays(text, options, scene);
     add_luminaires(text, scene);
+    add_state(text, &options->state);
 }
 
 /* ---- comparing --------------------------------------------------------------------------- */

@@ -2,7 +2,7 @@
  *
  * Filled by scene_load (load/scene_load.h), checked once, then const. Elements refer to each
  * other by id; NO_ID is "none". Everything is in world space (metres, +Y up): node trees are
- * flattened, skins and morph targets are at rest pose.
+ * flattened, skins, morph targets and animations as SceneState says, at rest without it.
  *
  * Memory   everything lives in the arena given to scene_load, and dies with it; the panels are
  *          closed by scene_close.
@@ -161,6 +161,12 @@ typedef struct EnvironmentWeather {
     WeatherClock clock;
 } EnvironmentWeather;
 
+/* An animation of a file, whether it is played or not. */
+typedef struct SceneAnimation {
+    const char *name;  /* "animation N" where the file has none */
+    double      end_s; /* of its last key frame */
+} SceneAnimation;
+
 #define SUN_MEAN_RADIUS_DEG 0.26645 /* half the sun's mean angular diameter */
 
 /* PARHELION_environment. Angles in radians here. */
@@ -212,17 +218,31 @@ typedef struct Scene {
     int       input_count;
     const char **extensions; /* every extensionsUsed, sorted, once each */
     int       extension_count;
+    const char **variants; /* names of KHR_materials_variants, of all files, in their order */
+    int       variant_count;
+    SceneAnimation *animations;
+    int       animation_count;
     int       ignored_occlusion_count; /* materials whose occlusion texture is ignored, since
                                           occlusion is what tracing itself finds */
 } Scene;
 
-/* Which files make the scene, and what the command line overrides. */
 typedef struct SceneOverride {
     const char *material; /* a material's name */
     const char *value;    /* a path, or a number's text */
     const char *said;     /* what messages call it; NULL: by its option */
 } SceneOverride;
 
+/* Which of the things that its files can be a scene is. */
+typedef struct SceneState {
+    const char *const *variants; /* --variant NAME: at most one of a file */
+    int variant_count;
+    bool   has_time; /* --time; without it nothing is animated: the pose at rest */
+    double time_s;   /* since the animations' start */
+    const char *const *animations; /* --animation NAME; none: all there are */
+    int animation_count;
+} SceneState;
+
+/* Which files make the scene, and what the command line overrides. */
 typedef struct SceneOptions {
     const char *const *paths; /* .gltf or .glb; the first holds the dashboard */
     int path_count;
@@ -240,6 +260,7 @@ typedef struct SceneOptions {
     int light_level_count;
     const SceneOverride *light_ccts; /* --light-cct NODE=KELVIN, * for all */
     int light_cct_count;
+    SceneState state;
 } SceneOptions;
 
 /* Corner 0..2 of a triangle, m. */

@@ -82,7 +82,9 @@ static const char *option_of_scene(const ExplainWords *words)
 {
     const CameraChoice *camera = &words->scene.camera;
     EnvironmentChange   no_sun = words->scene.environment;
+    SceneWords          no_state = words->scene_words;
     no_sun.sun = NULL;
+    no_state.state = (StateWords){.has_time = false};
     const struct {
         bool        is_given;
         const char *option;
@@ -93,18 +95,19 @@ static const char *option_of_scene(const ExplainWords *words)
         {camera->has_look_at, "--look-at"}, {camera->has_fov, "--fov"}};
     for (int i = 0; i < COUNT_OF(options); i++)
         if (options[i].is_given) return options[i].option;
-    return scene_options_given(&words->scene_words, &no_sun);
+    return scene_options_given(&no_state, &no_sun);
 }
 
-static bool check_review(const ExplainWords *words, Error *err)
+static bool check_review(ExplainWords *words, Error *err)
 {
     const char *of_scene = option_of_scene(words);
     if (of_scene)
         return error_set(err, ERROR_USAGE, "%s: a review says that itself; --condition, --eye "
                          "and --symbol choose from it", of_scene);
-    return words->cli.argument_count == 1 ||
-           error_set(err, ERROR_USAGE, "%s: one review at a time is explained",
-                     words->cli.arguments[1]);
+    if (words->cli.argument_count > 1)
+        return error_set(err, ERROR_USAGE, "%s: one review at a time is explained",
+                         words->cli.arguments[1]);
+    return state_options_read(&words->scene_words.state, &words->scene.scene.state, err);
 }
 
 static bool check_outputs(const ExplainWords *words, Error *err)
@@ -184,6 +187,7 @@ static bool review_question(const ExplainWords *words, Arena *arena, Explained *
     ReviewRequest   request;
     ExplainOptions  options = {.condition = words->condition, .eye = words->eye,
                                .symbol = words->symbol, .has_sun = sun != NULL, .root = root,
+                               .state = scene->scene.state,
                                .isa = scene->isa, .threads = scene->threads,
                                .paths = scene->paths, .with_outlook = scene->with_outlook,
                                .problems = scene->problems};

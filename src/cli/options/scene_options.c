@@ -29,6 +29,7 @@ bool scene_options_read(const SceneWords *words, const Cli *cli, Arena *arena,
     options->light_level_count = words->light_levels.count;
     options->light_cct_count = words->light_ccts.count;
     return reference_check_root(options->root, err) &&
+           state_options_read(&words->state, &options->state, err) &&
            parse_overrides("--content", &words->contents, arena, &options->contents, err) &&
            parse_overrides("--panel", &words->panels, arena, &options->panels, err) &&
            parse_overrides("--display-level", &words->levels, arena, &options->levels, err) &&
@@ -85,7 +86,8 @@ const char *scene_options_given(const SceneWords *words, const EnvironmentChange
         {change->has_visibility, "--visibility"}, {words->contents.count > 0, "--content"},
         {words->panels.count > 0, "--panel"}, {words->levels.count > 0, "--display-level"},
         {words->lights.count > 0, "--light"}, {words->light_levels.count > 0, "--light-level"},
-        {words->light_ccts.count > 0, "--light-cct"}};
+        {words->light_ccts.count > 0, "--light-cct"},
+        {words->state.variants.count > 0, "--variant"}, {words->state.has_time, "--time"}};
     for (int i = 0; i < COUNT_OF(all); i++)
         if (all[i].is_given) return all[i].name;
     return NULL;

@@ -7,10 +7,12 @@
 #pragma once
 #include "cli/options/cli.h"
 #include "cli/options/environment_options.h"
+#include "cli/options/state_options.h"
 
 /* As typed, NAME=VALUE each. */
 typedef struct SceneWords {
     CliTexts contents, panels, levels, lights, light_levels, light_ccts;
+    StateWords state;
 } SceneWords;
 
 /* Rows of an option table: luminaire files as lamps. */
@@ -31,6 +33,7 @@ typedef struct SceneWords {
     {"--display-level", OPTION_TEXTS, "MATERIAL|*=PERCENT",                                    \
      "how bright a display is set (*: all)", &(words)->levels},                                \
     LAMP_OPTIONS(words),                                                                       \
+    STATE_OPTIONS(&(words)->state),                                                            \
     {"--root", OPTION_TEXT, "DIR", ROOT_HELP, &(options)->root}
 
 /* The words, and cli's arguments as the scene's files, become options. */

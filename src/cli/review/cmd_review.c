@@ -8,6 +8,7 @@
 #include "base/file.h"
 #include "cli/options/answer.h"
 #include "cli/options/cli.h"
+#include "cli/options/state_options.h"
 #include "cli/review/review_folder.h"
 #include "render/signals.h"
 #include "review/output/review_decide.h"
@@ -20,6 +21,8 @@
 typedef struct ReviewWords {
     const char *folder, *profile, *root, *isa, *diff, *init, *responses;
     bool        is_strict, dry_run;
+    StateWords  state_words;
+    SceneState  state;
     Cli         cli;
 } ReviewWords;
 
@@ -40,6 +43,7 @@ static bool parse(int argc, char **argv, Arena *arena, ReviewWords *out, Error *
         {"--responses", OPTION_TEXT, "DIR",
          "where responses are kept and found (default: responses in the review's folder)",
          &out->responses},
+        STATE_OPTIONS(&out->state_words),
         {"--root", OPTION_TEXT, "DIR", ROOT_HELP, &out->root},
         {"--isa", OPTION_TEXT, "NAME", "sse2, avx2, avx512 (default: the processor's best)",
          &out->isa},
@@ -50,7 +54,9 @@ static bool parse(int argc, char **argv, Arena *arena, ReviewWords *out, Error *
         "parhelion review scenes/car_dashboard.review.json -o review",
         options, COUNT_OF(options), 1, -1};
     if (!cli_parse(&command, argc, argv, arena, &out->cli, err)) return false;
-    if (out->cli.help_shown || out->init) return true;
+    if (out->cli.help_shown) return true;
+    if (!state_options_read(&out->state_words, &out->state, err)) return false;
+    if (out->init) return true;
     if (out->cli.argument_count > 1)
         return error_set(err, ERROR_USAGE, "%s: one request at a time is reviewed",
                          out->cli.arguments[1]);
@@ -158,7 +164,8 @@ static bool plan(const ReviewWords *words, ReviewFolder *folder, ReviewRun *run,
 static bool start(const ReviewWords *words, Arena *arena, Error *err)
 {
     SceneOptions options = {.paths = words->cli.arguments,
-                            .path_count = words->cli.argument_count, .root = words->root};
+                            .path_count = words->cli.argument_count, .root = words->root,
+                            .state = words->state};
     ReviewStart  asked = {options.paths, options.path_count, words->init, words->root};
     Problems     problems = problems_start(arena);
     Scene       *scene;
@@ -239,13 +246,15 @@ static bool review(const ReviewWords *words, Arena *arena, Error *err)
     const Profile *profile;
     ReviewFolder   folder = {.target = words->folder, .request = &request, .diff = words->diff,
                              .profile = words->profile, .root = words->root,
-                             .responses = words->responses, .threads = words->cli.threads,
+                             .state = words->state, .responses = words->responses,
+                             .threads = words->cli.threads,
                              .is_strict = words->is_strict};
     if (!review_request_read(file, words->root, arena, &problems, &request, err)) return false;
     if (!profile_load(words->profile ? words->profile : request.profile, arena, &profile, err))
         return words->profile ? false : error_in_file(err, request.file);
     if (!review_check(&request, *arena, err)) return false;
     ReviewRun run = {.request = &request, .profile = profile, .root = words->root,
+                     .state = words->state,
                      .threads = words->cli.threads, .isa = words->isa,
                      .progress = words->cli.progress, .problems = &problems};
     return words->dry_run ? plan(words, &folder, &run, arena, err)

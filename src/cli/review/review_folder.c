@@ -5,6 +5,7 @@
 
 #include "base/machine.h"
 #include "base/progress.h"
+#include "cli/options/state_options.h"
 #include "cli/options/version.h"
 #include "render/render.h"
 #include "review/run/frames.h"
@@ -198,11 +199,12 @@ const char *review_folder_command(const ReviewFolder *folder, Arena *arena)
         folder->profile ? arena_format(arena, " --profile %s", folder->profile) : "";
     const char *diff = folder->diff ? arena_format(arena, " --diff %s", folder->diff) : "";
     const char *root = folder->root ? arena_format(arena, " --root %s", folder->root) : "";
+    const char *state = state_options_text(&folder->state, arena);
     const char *responses = folder->has_own_responses
                                 ? ""
                                 : arena_format(arena, " --responses %s", folder->responses);
-    return arena_format(arena, "parhelion review %s -o %s%s%s%s%s%s", folder->request->file,
-                        folder->target, profile, root, diff, responses,
+    return arena_format(arena, "parhelion review %s -o %s%s%s%s%s%s%s", folder->request->file,
+                        folder->target, profile, root, state, diff, responses,
                         folder->is_strict ? " --strict" : "");
 }
 

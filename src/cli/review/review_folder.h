@@ -17,6 +17,7 @@ typedef struct ReviewFolder {
     const ReviewRequest *request;
     const char          *diff; /* folder of an earlier review; NULL: none */
     const char          *profile, *root; /* as on the command line; NULL: not given */
+    SceneState           state;          /* the same */
     const char          *responses; /* the same, then where they are */
     int                  threads;
     bool                 is_strict;

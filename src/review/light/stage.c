@@ -79,7 +79,7 @@ static void identify(Stage *stage, const SceneOptions *options, Arena *arena)
 bool stage_open(const StageOptions *options, Arena *arena, Problems *problems, Stage *out,
                 Error *err)
 {
-    SceneOptions scene = {.root = options->root};
+    SceneOptions scene = {.root = options->root, .state = options->state};
     *out = (Stage){.request = options->request, .condition = options->condition,
                    .tools = {.threads = options->threads, .journal = options->journal},
                    .sensor_lux = (double)NAN};

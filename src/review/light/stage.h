@@ -30,6 +30,7 @@ typedef struct StageOptions {
     const ReviewRequest   *request;
     const ReviewCondition *condition; /* NULL: the request's own files, no light but theirs */
     const char            *root;      /* --root, or NULL */
+    SceneState             state;     /* scene.h's */
     int                    threads;
     const char            *isa;       /* kernel.h's; NULL: the best */
     Journal               *journal;   /* of readings; NULL: none is kept */

@@ -146,7 +146,8 @@ bool explain_review(const ReviewRequest *request, const ExplainOptions *options,
                     Explained *out, Error *err)
 {
     StageOptions stage_options = {.request = request, .root = options->root,
-                                  .threads = options->threads, .isa = options->isa};
+                                  .state = options->state, .threads = options->threads,
+                                  .isa = options->isa};
     Stage stage;
     *out = (Explained){.has_outlook = false};
     if (!find_condition(request, options, &stage_options.condition, *arena, err)) return false;

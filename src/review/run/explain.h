@@ -20,6 +20,7 @@ typedef struct ExplainOptions {
     bool        has_sun;                  /* of a sweep: which of its suns, */
     double      sun_deg[2];               /* azimuth of the vehicle, elevation */
     const char *root, *isa;               /* --root, kernel.h's; or NULL */
+    SceneState  state;                    /* scene.h's */
     int         threads;
     long        paths;
     bool        with_outlook;

@@ -17,6 +17,7 @@ typedef struct ReviewRun {
     const ReviewRequest *request;
     const Profile       *profile;
     const char          *root;     /* --root, or NULL */
+    SceneState           state;    /* scene.h's */
     int                  threads;
     const char          *isa;      /* kernel.h's; NULL: the best */
     ProgressMode         progress;

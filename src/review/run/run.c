@@ -114,8 +114,8 @@ bool review_check(const ReviewRequest *request, Arena scratch, Error *err)
 static bool run_condition(const ReviewRun *run, const ReviewCondition *condition,
                           const SweepGroup *group, Arena *arena, ReviewOutcome *out, Error *err)
 {
-    StageOptions options = {run->request, condition, run->root, run->threads, run->isa,
-                            run->journal};
+    StageOptions options = {run->request, condition, run->root,   run->state,
+                            run->threads, run->isa,  run->journal};
     Arena scratch = arena_reserve(STAGE_BYTES);
     Stage stage;
     bool  ok = stage_open(&options, &scratch, run->problems, &stage, err);
@@ -167,7 +167,8 @@ static void mark_scene(const ReviewRequest *request, int first, bool *is_done)
 static bool plan_condition(const ReviewRun *run, const ReviewCondition *condition,
                            ReviewPlan *plan, Error *err)
 {
-    StageOptions options = {run->request, condition, run->root, run->threads, run->isa, NULL};
+    StageOptions options = {run->request, condition, run->root, run->state,
+                            run->threads, run->isa,  NULL};
     Arena scratch = arena_reserve(STAGE_BYTES);
     Stage stage;
     bool  ok = stage_open(&options, &scratch, run->problems, &stage, err);
@@ -317,7 +318,8 @@ static bool make_frame(const ReviewRun *run, const Candidate *of, int number, Ar
                        Error *err)
 {
     const ReviewCondition *c = condition_named(run->request, of->of->condition);
-    StageOptions options = {run->request, c, run->root, run->threads, run->isa, run->journal};
+    StageOptions options = {run->request, c,        run->root,   run->state,
+                            run->threads, run->isa, run->journal};
     Problems     told_before = problems_start(arena);
     Environment  sky;
     Arena scratch = arena_reserve(STAGE_BYTES);

@@ -1,18 +1,25 @@
-/* Animations are skipped, but a report of a file says what is wrong in them too. */
+/* At rest faults of animations only warn; when they are played (--time), those fail that leave
+ * open where something stands. */
 #include "scene/check/check_animation.h"
 
 #include <string.h>
 
-/* What a channel of this path is made of, and how many outputs a key frame has. */
+#include "scene/gltf/animation_target.h"
+
+#define BYTE_CODE 5121
+#define FLOAT_CODE 5126
+
+/* What a channel of this path is made of. */
 typedef struct ChannelPath {
-    const char *name, *type;
+    const char *type;
     bool may_be_integer; /* normalised */
 } ChannelPath;
 
-static const ChannelPath PATHS[] = {{"translation", "VEC3", false},
-                                    {"rotation", "VEC4", true},
-                                    {"scale", "VEC3", false},
-                                    {"weights", "SCALAR", true}};
+static const ChannelPath PATHS[MOVES_COUNT] = {[MOVES_TRANSLATION] = {"VEC3", false},
+                                               [MOVES_ROTATION] = {"VEC4", true},
+                                               [MOVES_SCALE] = {"VEC3", false},
+                                               [MOVES_WEIGHTS] = {"SCALAR", true},
+                                               [MOVES_VISIBLE] = {"SCALAR", false}};
 
 static const GltfValue *accessor_of(const DocumentCheck *check, const GltfValue *sampler,
                                     const char *name)
@@ -37,8 +44,8 @@ static void check_sampler(const DocumentCheck *check, const GltfValue *sampler)
     if (input && (!tree_member(input, "min") || !tree_member(input, "max")))
         check_warns(check, sampler, "the accessor of the times has no min and max");
     if (input && (strcmp(tree_text(input, "type", ""), "SCALAR") != 0 ||
-                  tree_int(input, "componentType", 0) != 5126))
-        check_warns(check, sampler, "the times are no SCALAR floats");
+                  tree_int(input, "componentType", 0) != FLOAT_CODE))
+        check_fails(check, sampler, "the times are no SCALAR floats");
     if (input && is_cubic && tree_number(input, "count", 2) < 2)
         check_warns(check, sampler, "a cubic spline has %g key frame, at least 2 are wanted",
                     tree_number(input, "count", 2));
@@ -51,62 +58,101 @@ static int morph_targets(const DocumentCheck *check, const GltfValue *node)
     return tree_count(tree_item(tree_member(mesh, "primitives"), 0), "targets");
 }
 
+/* KHR_animation_pointer allows every type of component, and asks for bytes where something is
+ * shown or not; glTF itself floats, or integers that are normalised. */
+static bool is_component(const GltfValue *output, AnimationPath path, bool is_pointed)
+{
+    int code = tree_int(output, "componentType", FLOAT_CODE);
+    bool is_normalized = tree_boolean(output, "normalized", false);
+    if (path == MOVES_VISIBLE) return code == BYTE_CODE && !is_normalized;
+    return code == FLOAT_CODE || is_pointed || (PATHS[path].may_be_integer && is_normalized);
+}
+
+/* values: how many a key frame has; 0: it matters not. */
 static void check_output(const DocumentCheck *check, const GltfValue *channel,
-                         const GltfValue *sampler, const ChannelPath *path, int values)
+                         const GltfValue *sampler, AnimationPath path, int values)
 {
     const GltfValue *input = accessor_of(check, sampler, "input");
     const GltfValue *output = accessor_of(check, sampler, "output");
-    int component = tree_int(output, "componentType", 5126);
-    bool is_cubic = strcmp(tree_text(sampler, "interpolation", "LINEAR"), "CUBICSPLINE") == 0;
+    const char *how = tree_text(sampler, "interpolation", "LINEAR");
+    const char *name = animation_path_names[path], *type = PATHS[path].type;
+    bool is_cubic = strcmp(how, "CUBICSPLINE") == 0;
+    bool is_pointed = tree_extension(tree_member(channel, "target"), "KHR_animation_pointer");
     if (!input || !output) return;
-    if (strcmp(tree_text(output, "type", ""), path->type) != 0 ||
-        (component != 5126 &&
-         !(path->may_be_integer && tree_boolean(output, "normalized", false))))
-        check_warns(check, channel,
-                    "the values of a %s are %s of component type %d, %s is wanted", path->name,
-                    tree_text(output, "type", "?"), component, path->type);
+    if (strcmp(tree_text(output, "type", ""), type) != 0 ||
+        !is_component(output, path, is_pointed))
+        check_fails(check, channel,
+                    "the values of a %s are %s of component type %d, %s is wanted", name,
+                    tree_text(output, "type", "?"),
+                    tree_int(output, "componentType", FLOAT_CODE), type);
+    if (path == MOVES_VISIBLE && strcmp(how, "STEP") != 0)
+        check_fails(check, channel, "the interpolation of visible is %.20s, STEP is wanted",
+                    how);
     double wanted = tree_number(input, "count", 0) * (is_cubic ? 3 : 1) * values;
     if (values && tree_number(output, "count", 0) != wanted)
-        check_warns(check, channel, "%g values for %g key frames, %g are wanted",
+        check_fails(check, channel, "%g values for %g key frames, %g are wanted",
                     tree_number(output, "count", 0), tree_number(input, "count", 0), wanted);
+}
+
+/* What is not played is told by name; where the file requires that it is, it is refused. */
+static void check_unplayed(const DocumentCheck *check, const GltfValue *channel)
+{
+    const GltfValue *root = check->file->root;
+    const GltfValue *target = tree_member(channel, "target");
+    bool is_pointed = tree_extension(target, "KHR_animation_pointer");
+    if (!check->file->load->options->state.has_time) return;
+    if (tree_member(target, "node") && !is_pointed &&
+        !tree_element(root, "nodes", tree_int(target, "node", NO_ID)))
+        return; /* reported by the table */
+    const GltfValue *required = tree_member(root, "extensionsRequired");
+    DocumentCheck milder = {check->file, SEVERITY_WARNING};
+    for (int i = 0; is_pointed && required && i < required->count; i++)
+        if (strcmp(required->items[i].text, "KHR_animation_pointer") == 0)
+            milder.severity = check->severity;
+    check_fails(&milder, channel,
+                "moves \"%.100s\", which is not played: only nodes, their morph weights and "
+                "their visibility are",
+                animation_target_text(channel));
 }
 
 static void check_channel(const DocumentCheck *check, const GltfValue *animation,
                           const GltfValue *channel)
 {
+    AnimationTarget moved;
     const GltfValue *target = tree_member(channel, "target");
-    const GltfValue *node =
-        tree_element(check->file->root, "nodes", tree_int(target, "node", NO_ID));
     const GltfValue *sampler =
         tree_item(tree_member(animation, "samplers"), tree_int(channel, "sampler", NO_ID));
-    const char *name = tree_text(target, "path", "");
-    bool is_weights = strcmp(name, "weights") == 0;
     if (!sampler) {
-        check_warns(check, channel, "refers to no sampler of the animation");
+        check_fails(check, channel, "refers to no sampler of the animation");
         return;
     }
-    if (!is_weights && tree_member(node, "matrix"))
-        check_warns(check, target, "moves a node that has a matrix");
+    if (!animation_target(check->file->root, channel, &moved)) {
+        check_unplayed(check, channel);
+        return;
+    }
+    const GltfValue *node = tree_element(check->file->root, "nodes", moved.node);
+    if (moved.path <= MOVES_SCALE && tree_member(node, "matrix"))
+        check_fails(check, target, "moves a node that has a matrix");
     int targets = morph_targets(check, node);
-    if (is_weights && node && !targets)
+    if (moved.path == MOVES_WEIGHTS && !targets)
         check_warns(check, target, "moves morph weights of a node without morph targets");
-    for (int i = 0; i < 4; i++)
-        if (strcmp(PATHS[i].name, name) == 0)
-            check_output(check, channel, sampler, &PATHS[i], is_weights ? targets : 1);
+    check_output(check, channel, sampler, moved.path,
+                 moved.path == MOVES_WEIGHTS ? targets : 1);
 }
 
 /* glTF 2.0, 3.11: a property of a node moves in one way at most. */
 static void check_targets(const DocumentCheck *check, const GltfValue *channels)
 {
+    const GltfValue *root = check->file->root;
+    AnimationTarget own, other;
     for (int i = 1; channels && i < channels->count; i++) {
-        const GltfValue *own = tree_member(&channels->items[i], "target");
-        int node = tree_int(own, "node", NO_ID);
-        for (int k = 0; k < i && node != NO_ID; k++) {
-            const GltfValue *other = tree_member(&channels->items[k], "target");
-            if (tree_int(other, "node", NO_ID) != node ||
-                strcmp(tree_text(other, "path", ""), tree_text(own, "path", "")) != 0)
+        if (!animation_target(root, &channels->items[i], &own)) continue;
+        for (int k = 0; k < i; k++) {
+            if (!animation_target(root, &channels->items[k], &other) ||
+                other.node != own.node || other.path != own.path)
                 continue;
-            check_warns(check, own, "moves what channel %d moves", k);
+            check_fails(check, tree_member(&channels->items[i], "target"),
+                        "moves what channel %d moves", k);
             break;
         }
     }

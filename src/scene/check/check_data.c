@@ -1,11 +1,13 @@
 /* The bytes behind the accessors: finite, within their bounds, indices that exist. */
 #include "scene/check/check_data.h"
 
+#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "scene/check/check_vertices.h"
 #include "scene/gltf/accessor.h"
+#include "scene/gltf/animation_target.h"
 #include "scene/gltf/document.h"
 
 /* ---- numbers --------------------------------------------------------------------------- */
@@ -194,21 +196,35 @@ static bool is_unit(const float q[4])
     return fabsf(sqrtf(square) - 1) <= 0.00788f;
 }
 
+/* A fault that leaves open where something stands, when animations are played. */
+static void report_played(GltfFile *file, const GltfValue *at, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+static void report_played(GltfFile *file, const GltfValue *at, const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    bool is_played = file->load->options->state.has_time;
+    file_report(file, is_played ? SEVERITY_ERROR : SEVERITY_WARNING, at, format, args);
+    va_end(args);
+}
+
 static void check_turns(GltfFile *file, const GltfValue *animation, const GltfValue *channel)
 {
-    const GltfValue *target = tree_member(channel, "target");
+    AnimationTarget moved;
     const GltfValue *sampler =
         tree_item(tree_member(animation, "samplers"), tree_int(channel, "sampler", NO_ID));
     int id = tree_int(sampler, "output", NO_ID);
     bool is_cubic = strcmp(tree_text(sampler, "interpolation", "LINEAR"), "CUBICSPLINE") == 0;
     const GltfAccessor *accessor = accessor_get(file, id);
     if (!accessor || accessor->component_count != 4 ||
-        strcmp(tree_text(target, "path", ""), "rotation") != 0)
+        !animation_target(file->root, channel, &moved) || moved.path != MOVES_ROTATION)
         return;
     const float *q = accessor_floats(file, id);
     for (size_t i = is_cubic; i < accessor->count; i += is_cubic ? 3 : 1)
         if (!is_unit(q + 4 * i)) {
-            file_warning(file, channel, "quaternion %zu of the rotation is not of length 1", i);
+            report_played(file, channel, "quaternion %zu of the rotation is not of length 1",
+                          i);
             return;
         }
 }
@@ -221,12 +237,11 @@ static void check_times(GltfFile *file, const GltfValue *sampler)
     if (!accessor || accessor->component_count != 1) return;
     const float *times = accessor_floats(file, id);
     for (size_t i = 0; i < accessor->count; i++) {
-        if (times[i] >= (i ? nextafterf(times[i - 1], INFINITY) : 0)) continue;
-        if (i)
-            file_warning(file, sampler, "time %zu is %g after %g; times that rise are wanted",
-                         i, (double)times[i], (double)times[i - 1]);
-        else
+        if (i == 0 && times[0] < 0)
             file_warning(file, sampler, "time 0 is %g, at least 0 is wanted", (double)times[0]);
+        if (i == 0 || times[i] > times[i - 1]) continue;
+        report_played(file, sampler, "time %zu is %g after %g; times that rise are wanted", i,
+                      (double)times[i], (double)times[i - 1]);
         return;
     }
 }

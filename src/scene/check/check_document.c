@@ -70,6 +70,21 @@ static void check_pointer(const DocumentCheck *check, const GltfValue *pointer)
     }
 }
 
+/* Of two variants with one name only the first can be asked for. */
+void check_variant_names(const DocumentCheck *check, const GltfValue *extension)
+{
+    const GltfValue *variants = tree_member(extension, "variants");
+    for (int i = 1; i < tree_count(extension, "variants"); i++) {
+        const GltfValue *own = tree_member(tree_item(variants, i), "name");
+        for (int k = 0; own && k < i; k++) {
+            if (strcmp(tree_text(tree_item(variants, k), "name", ""), own->text) != 0) continue;
+            check_warns(check, own, "is \"%.80s\", as variant %d is called already",
+                        own->text, k);
+            break;
+        }
+    }
+}
+
 /* Whether another mapping before `mapping` names the variant. */
 static bool is_mapped_before(const GltfValue *mappings, int mapping, double variant)
 {

@@ -9,5 +9,6 @@ void check_camera(const DocumentCheck *check, const GltfValue *camera);
 void check_light(const DocumentCheck *check, const GltfValue *light);
 void check_display(const DocumentCheck *check, const GltfValue *display);
 void check_environment(const DocumentCheck *check, const GltfValue *environment);
+void check_variant_names(const DocumentCheck *check, const GltfValue *extension);
 void check_variants(const DocumentCheck *check, const GltfValue *extension);
 void check_animation_pointer(const DocumentCheck *check, const GltfValue *extension);

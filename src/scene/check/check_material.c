@@ -4,6 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "scene/gltf/variant.h"
+
 /* ---- textures: the picture's type is the one that stands there ------------------------- */
 
 static void check_source(const DocumentCheck *check, const GltfValue *holder, const char *types)
@@ -130,7 +132,7 @@ void check_material_fits(const DocumentCheck *check, const GltfValue *primitive)
 {
     const GltfValue *attributes = tree_member(primitive, "attributes");
     const GltfValue *material =
-        tree_element(check->file->root, "materials", tree_int(primitive, "material", NO_ID));
+        tree_element(check->file->root, "materials", variant_material(check->file, primitive));
     if (!material || !attributes) return;
     char unnamed[32];
     snprintf(unnamed, sizeof unnamed, "material %d", material->index);

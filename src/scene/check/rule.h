@@ -32,7 +32,8 @@ enum {
     RULE_WARNS = 8,      /* this member and what is below it only warn */
     RULE_HAS_RANGE = 16, /* min and max hold; otherwise any number will do */
     RULE_FROM_MIN = 32,  /* min holds, there is no max */
-    RULE_CLOSED = 64     /* no extension adds words to this list */
+    RULE_CLOSED = 64,    /* no extension adds words to this list */
+    RULE_WARNS_AT_REST = 128 /* RULE_WARNS, unless animations are played (--time) */
 };
 
 typedef struct Rule {

@@ -189,7 +189,9 @@ static void check_map(const DocumentCheck *check, const GltfValue *value, const 
 static void check_value(const DocumentCheck *check, const GltfValue *value, const Rule *rule)
 {
     DocumentCheck inner = *check;
-    if (rule->flags & RULE_WARNS) inner.severity = SEVERITY_WARNING;
+    bool is_at_rest = !check->file->load->options->state.has_time;
+    if (rule->flags & RULE_WARNS || (rule->flags & RULE_WARNS_AT_REST && is_at_rest))
+        inner.severity = SEVERITY_WARNING;
     switch (rule->kind) {
     case RULE_NUMBER:
     case RULE_INTEGER: check_number(&inner, value, rule); break;

@@ -219,7 +219,7 @@ static const Rule MATERIAL[] = {
 static const Schema SCHEMA_MATERIAL = {"material", MATERIAL, COUNT_OF(MATERIAL), false,
                                        check_material};
 
-/* ---- animations: skipped, so that faults in them only warn ----------------------------- */
+/* ---- animations: at rest they are skipped, so that faults in them only warn ------------- */
 
 static const Rule TARGET[] = {
     {.name = "node", .kind = RULE_INDEX, .of = "nodes"},
@@ -238,7 +238,8 @@ static const Schema SCHEMA_CHANNEL = {"animation.channel", CHANNEL, COUNT_OF(CHA
 
 static const Rule ANIMATION_SAMPLER[] = {
     {.name = "input", .kind = RULE_INDEX, .flags = RULE_REQUIRED, .of = "accessors"},
-    {.name = "interpolation", .kind = RULE_CHOICE, .of = "LINEAR|STEP|CUBICSPLINE"},
+    {.name = "interpolation", .kind = RULE_CHOICE, .flags = RULE_CLOSED,
+     .of = "LINEAR|STEP|CUBICSPLINE"},
     {.name = "output", .kind = RULE_INDEX, .flags = RULE_REQUIRED, .of = "accessors"},
 };
 static const Schema SCHEMA_ANIMATION_SAMPLER = {"animation.sampler", ANIMATION_SAMPLER,
@@ -267,7 +268,7 @@ static const Rule ROOT[] = {
     {.name = "extensionsUsed", .kind = RULE_TEXTS},
     {.name = "extensionsRequired", .kind = RULE_TEXTS, .needs = "extensionsUsed"},
     {.name = "accessors", .kind = RULE_OBJECTS, .schema = &SCHEMA_ACCESSOR},
-    {.name = "animations", .kind = RULE_OBJECTS, .flags = RULE_WARNS,
+    {.name = "animations", .kind = RULE_OBJECTS, .flags = RULE_WARNS_AT_REST,
      .schema = &SCHEMA_ANIMATION},
     {.name = "asset", .kind = RULE_OBJECT, .flags = RULE_REQUIRED, .schema = &SCHEMA_ASSET},
     {.name = "buffers", .kind = RULE_OBJECTS, .schema = &SCHEMA_BUFFER},

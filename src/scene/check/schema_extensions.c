@@ -201,7 +201,7 @@ static const Rule VARIANTS[] = {{.name = "variants",
                                  .flags = RULE_REQUIRED,
                                  .schema = &SCHEMA_VARIANT}};
 static const Schema SCHEMA_VARIANTS = {"KHR_materials_variants", VARIANTS, COUNT_OF(VARIANTS),
-                                       false, NULL};
+                                       false, check_variant_names};
 
 static const Rule MAPPING[] = {
     {.name = "variants", .kind = RULE_INDICES, .flags = RULE_REQUIRED,
@@ -301,6 +301,9 @@ static const ExtensionRule EXTENSIONS[] = {
     {"KHR_materials_unlit", "material", &SCHEMA_UNLIT},
     {"KHR_texture_transform", "textureInfo", &SCHEMA_TEXTURE_TRANSFORM},
     {"KHR_node_visibility", "node", &SCHEMA_VISIBILITY},
+    {"KHR_animation_pointer", "animation.channel.target", &SCHEMA_POINTER},
+    {"KHR_materials_variants", "document", &SCHEMA_VARIANTS},
+    {"KHR_materials_variants", "mesh.primitive", &SCHEMA_MAPPINGS},
     {"PARHELION_display", "material", &SCHEMA_DISPLAY},
     {"PARHELION_environment", "scene", &SCHEMA_ENVIRONMENT},
     {"PARHELION_spectrum", "material", &SCHEMA_SPECTRUM},
@@ -312,9 +315,6 @@ static const ExtensionRule EXTENSIONS[] = {
     {"KHR_materials_dispersion", "material", &SCHEMA_DISPERSION},
     {"KHR_materials_diffuse_transmission", "material", &SCHEMA_DIFFUSE_TRANSMISSION},
     {"KHR_materials_pbrSpecularGlossiness", "material", &SCHEMA_GLOSSINESS},
-    {"KHR_materials_variants", "document", &SCHEMA_VARIANTS},
-    {"KHR_materials_variants", "mesh.primitive", &SCHEMA_MAPPINGS},
-    {"KHR_animation_pointer", "animation.channel.target", &SCHEMA_POINTER},
     {"EXT_texture_webp", "texture", &SCHEMA_WEBP},
     {"KHR_texture_basisu", "texture", &SCHEMA_BASISU},
 };

@@ -54,6 +54,14 @@ const GltfAccessor *accessor_get(const GltfFile *file, int accessor)
     return exists ? &file->data.accessors[accessor] : NULL;
 }
 
+bool accessor_has_bytes(const GltfFile *file, const GltfAccessor *accessor)
+{
+    const bool is_sparse = accessor->sparse_count > 0;
+    return (accessor->buffer_view < 0 || document_view(file, accessor->buffer_view).data) &&
+           (!is_sparse || (document_view(file, accessor->sparse_index_view).data &&
+                           document_view(file, accessor->sparse_value_view).data));
+}
+
 static uint32_t integer_at(const unsigned char *bytes, int component_type)
 {
     switch (component_type) {

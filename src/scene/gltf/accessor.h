@@ -8,6 +8,10 @@
 /* NULL: there is no such accessor. */
 const GltfAccessor *accessor_get(const GltfFile *file, int accessor);
 
+/* False: its buffer, or that of its sparse values, is not there; its numbers are zeros then. An
+ * accessor without a buffer view needs no bytes. */
+bool accessor_has_bytes(const GltfFile *file, const GltfAccessor *accessor);
+
 /* Bytes of one element, columns of matrices padded to four bytes. */
 size_t accessor_element_size(const GltfAccessor *accessor);
 /* The same without the padding behind the last column, which a buffer need not have. */

@@ -41,6 +41,8 @@ typedef struct Loader {
     ItemList input_hashes;   /* uint64_t */
     ItemList extensions;     /* const char * */
     ItemList node_names;     /* const char *, of nodes that are shown */
+    ItemList variants;       /* const char *, of all files */
+    ItemList animations;     /* SceneAnimation, of all files */
     struct LuminaireDraft *luminaires; /* one a --light (load/luminaire.c) */
     size_t vertex_total;
     int ignored_occlusion_count;
@@ -56,6 +58,8 @@ typedef struct GltfFile {
     FileBytes bin;      /* its BIN chunk; data NULL without one */
     FileBytes *buffers; /* data NULL: could not be had */
     GltfData data;
+    int variant_id;            /* of KHR_materials_variants, that is worn; NO_ID: none */
+    struct NodePose *poses;    /* one a node (load/pose.h); NULL: at rest */
     Transform *world_from_node;
     struct LightProfile *profiles; /* of EXT_lights_ies, one a list item (load/profiles.c) */
     int material_base, texture_base;     /* first id of this file's */

@@ -8,6 +8,7 @@
 #include "scene/gltf/document.h"
 #include "scene/load/environment.h"
 #include "scene/load/luminaire.h"
+#include "scene/load/pose.h"
 #include "scene/load/primitive.h"
 
 /* ---- transforms ------------------------------------------------------------------------ */
@@ -31,13 +32,17 @@ static Transform from_trs(const float t[3], const float q[4], const float s[3])
                        vec3(t[0], t[1], t[2])};
 }
 
-static Transform parent_from_node(const GltfValue *node)
+/* pose: what animations say; NULL: at rest. */
+static Transform parent_from_node(const GltfValue *node, const NodePose *pose)
 {
     float matrix[16], t[3] = {0, 0, 0}, q[4] = {0, 0, 0, 1}, s[3] = {1, 1, 1};
     if (tree_floats(node, "matrix", 16, matrix)) return from_matrix(matrix);
     tree_floats(node, "translation", 3, t);
     tree_floats(node, "rotation", 4, q);
     tree_floats(node, "scale", 3, s);
+    if (pose)
+        return from_trs(pose->translation ? pose->translation : t,
+                        pose->rotation ? pose->rotation : q, pose->scale ? pose->scale : s);
     return from_trs(t, q, s);
 }
 
@@ -46,6 +51,7 @@ static Transform parent_from_node(const GltfValue *node)
 /* Parents before children, siblings in the file's order, below the nodes of `roots` (an array
  * of node indices). The check has made sure that this is a tree. */
 typedef struct NodeOrder {
+    const NodePose *poses; /* NULL: at rest */
     int *nodes;
     int *stack;
     bool *is_seen;
@@ -54,15 +60,18 @@ typedef struct NodeOrder {
 } NodeOrder;
 
 /* KHR_node_visibility: the node and everything below it. */
-static bool is_hidden(const GltfValue *node)
+static bool is_hidden(const NodeOrder *order, const GltfValue *node)
 {
+    const NodePose *pose = order->poses ? &order->poses[node->index] : NULL;
+    if (pose && pose->visible) return pose->visible[0] == 0;
     return !tree_boolean(tree_extension(node, "KHR_node_visibility"), "visible", true);
 }
 
 static NodeOrder order_start(GltfFile *file, int node_count)
 {
     Arena *scratch = &file->load->scratch;
-    return (NodeOrder){ARENA_NEW(scratch, int, node_count),
+    return (NodeOrder){file->poses,
+                       ARENA_NEW(scratch, int, node_count),
                        ARENA_NEW(scratch, int, node_count),
                        ARENA_NEW(scratch, bool, node_count),
                        0,
@@ -79,7 +88,7 @@ static void order_below(NodeOrder *order, const GltfValue *nodes, int root)
     while (depth) {
         int node = order->stack[--depth];
         const GltfValue *children = tree_member(&nodes->items[node], "children");
-        if (order->skips_hidden && is_hidden(&nodes->items[node])) continue;
+        if (order->skips_hidden && is_hidden(order, &nodes->items[node])) continue;
         order->nodes[order->count++] = node;
         for (int i = children ? children->count : 0; i-- > 0;) {
             int child = (int)children->items[i].number;
@@ -112,7 +121,8 @@ static void place_nodes(GltfFile *file, const GltfValue *nodes, const int *paren
         if (parent[i] == NO_ID) order_below(&order, nodes, i);
     for (int i = 0; i < order.count; i++) {
         int node = order.nodes[i];
-        Transform local = parent_from_node(&nodes->items[node]);
+        Transform local = parent_from_node(&nodes->items[node],
+                                           file->poses ? &file->poses[node] : NULL);
         file->world_from_node[node] =
             parent[node] == NO_ID
                 ? local
@@ -214,10 +224,10 @@ static void build_environment(GltfFile *file)
 static void warn_of_skipped(GltfFile *file)
 {
     int animations = tree_count(file->root, "animations");
-    if (animations)
+    if (animations && !file->load->options->state.has_time)
         file_warning(file, tree_member(file->root, "animations"),
-                     "%d animation%s skipped: the pose at rest is shown", animations,
-                     animations == 1 ? "" : "s");
+                     "%d animation%s skipped: the pose at rest is shown (--time plays them)",
+                     animations, animations == 1 ? "" : "s");
     if (file->skipped_count)
         file_warning(file, tree_member(file->root, "meshes"),
                      "%d primitive%s of points or lines skipped: only triangles are shown",

@@ -5,6 +5,7 @@
 #include <strings.h>
 
 #include "scene/gltf/document.h"
+#include "scene/gltf/variant.h"
 #include "text/uri.h"
 
 /* ---- which images do the materials show? ----------------------------------------------- */
@@ -26,7 +27,7 @@ static void mark_shown(const GltfFile *file, bool *is_used, int count, Arena scr
     for (int m = 0; m < tree_count(file->root, "meshes"); m++) {
         const GltfValue *list = tree_member(&meshes->items[m], "primitives");
         for (int p = 0; p < tree_count(&meshes->items[m], "primitives"); p++) {
-            int id = tree_int(&list->items[p], "material", NO_ID);
+            int id = variant_material(file, &list->items[p]);
             const GltfValue *material = tree_item(materials, id);
             if (!material || is_marked[id]) continue;
             is_marked[id] = true;

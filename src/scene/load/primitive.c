@@ -5,26 +5,34 @@
 
 #include "scene/gltf/accessor.h"
 #include "scene/gltf/document.h"
+#include "scene/gltf/variant.h"
 #include "scene/load/material.h"
 #include "scene/load/part_draft.h"
+#include "scene/load/pose.h"
 #include "scene/load/texture_slot.h"
 
-/* ---- morph targets: the rest pose is base + sum of weight * displacement --------------- */
+/* ---- morph targets: base + sum of weight * displacement -------------------------------- */
 
-static const GltfValue *rest_weights(const GltfValue *node, const GltfValue *mesh)
+/* An animation's, else the node's, else the mesh's; NULL: none, all are 0. */
+static const float *morph_weights(GltfFile *file, const GltfValue *node, const GltfValue *mesh)
 {
     const GltfValue *own = tree_member(node, "weights");
-    return own ? own : tree_member(mesh, "weights");
+    const GltfValue *list = own ? own : tree_member(mesh, "weights");
+    if (file->poses && file->poses[node->index].weights)
+        return file->poses[node->index].weights;
+    if (!list) return NULL;
+    float *weights = ARENA_NEW(&file->load->scratch, float, list->count);
+    for (int i = 0; i < list->count; i++) weights[i] = (float)list->items[i].number;
+    return weights;
 }
 
 /* Adds one attribute's displacements; a tangent's have three components, its sign stays. */
-static void morph(GltfFile *file, const GltfValue *primitive, const GltfValue *weights,
+static void morph(GltfFile *file, const GltfValue *primitive, const float *weights,
                   const char *name, float *values, int components)
 {
     const GltfValue *targets = tree_member(primitive, "targets");
-    for (int t = 0; targets && t < targets->count; t++) {
-        const GltfValue *weight = tree_item(weights, t);
-        float w = weight ? (float)weight->number : 0;
+    for (int t = 0; weights && targets && t < targets->count; t++) {
+        float w = weights[t];
         int accessor = tree_int(&targets->items[t], name, NO_ID);
         if (w == 0 || accessor < 0) continue;
         const GltfAccessor *a = accessor_get(file, accessor);
@@ -37,7 +45,7 @@ static void morph(GltfFile *file, const GltfValue *primitive, const GltfValue *w
     }
 }
 
-static float *attribute(GltfFile *file, const GltfValue *primitive, const GltfValue *weights,
+static float *attribute(GltfFile *file, const GltfValue *primitive, const float *weights,
                         const char *name)
 {
     int accessor = tree_int(tree_member(primitive, "attributes"), name, NO_ID);
@@ -55,7 +63,7 @@ static bool wants_tangents(const Material *material)
 }
 
 static VertexColor *read_colors(GltfFile *file, const GltfValue *primitive,
-                                const GltfValue *weights)
+                                const float *weights)
 {
     int accessor = tree_int(tree_member(primitive, "attributes"), "COLOR_0", NO_ID);
     const float *values = attribute(file, primitive, weights, "COLOR_0");
@@ -73,9 +81,8 @@ static VertexColor *read_colors(GltfFile *file, const GltfValue *primitive,
 }
 
 /* Decoded and morphed, still in the mesh's own frame; what nobody will ask for stays away. */
-static void read_attributes(GltfFile *file, const GltfValue *primitive,
-                            const GltfValue *weights, const bool uses_set[SCENE_UV_SETS],
-                            PartDraft *draft)
+static void read_attributes(GltfFile *file, const GltfValue *primitive, const float *weights,
+                            const bool uses_set[SCENE_UV_SETS], PartDraft *draft)
 {
     Loader *load = file->load;
     Part   *part = &draft->part;
@@ -93,7 +100,7 @@ static void read_attributes(GltfFile *file, const GltfValue *primitive,
     part->colors = read_colors(file, primitive, weights);
 }
 
-/* ---- skins at rest: a vertex goes where its joints put it ------------------------------ */
+/* ---- skins: a vertex goes where its joints put it -------------------------------------- */
 
 typedef struct Skin {
     Transform *world_from_bind; /* one a joint */
@@ -309,9 +316,7 @@ static void finish_shading(PartDraft *draft, const Material *material, Arena *sc
 static bool has_bytes(GltfFile *file, const GltfValue *primitive, const GltfValue *at)
 {
     const GltfAccessor *accessor = accessor_get(file, tree_whole(at, NO_ID));
-    if (!accessor || accessor->buffer_view < 0 ||
-        document_view(file, accessor->buffer_view).data)
-        return true;
+    if (!accessor || accessor_has_bytes(file, accessor)) return true;
     file_error(file, primitive, "the bytes of %s are missing: their buffer is not there",
                at->key);
     return false;
@@ -323,6 +328,11 @@ static bool has_all_bytes(GltfFile *file, const GltfValue *primitive)
     if (!has_bytes(file, primitive, tree_member(primitive, "indices"))) return false;
     for (int i = 0; i < tree_count(primitive, "attributes"); i++)
         if (!has_bytes(file, primitive, &attributes->items[i])) return false;
+    for (int t = 0; t < tree_count(primitive, "targets"); t++) {
+        const GltfValue *target = tree_item(tree_member(primitive, "targets"), t);
+        for (int i = 0; i < target->count; i++)
+            if (!has_bytes(file, primitive, &target->items[i])) return false;
+    }
     return true;
 }
 
@@ -344,7 +354,7 @@ static bool build_draft(GltfFile *file, const GltfValue *node, const Transform *
     const Material *material = list_item(&load->materials, draft->part.material_id);
     bool uses_set[SCENE_UV_SETS];
     texture_slots_used(load, material, uses_set);
-    read_attributes(file, primitive, rest_weights(node, mesh), uses_set, draft);
+    read_attributes(file, primitive, morph_weights(file, node, mesh), uses_set, draft);
     Skin skin = read_skin(file, node, primitive);
     bool is_mirrored = place_vertices(draft, &skin, world);
     if (!has_finite_vertices(file, primitive, draft)) return false;
@@ -359,7 +369,7 @@ void primitive_build(GltfFile *file, const GltfValue *node, const Transform *wor
 {
     Loader *load = file->load;
     int mode = tree_int(primitive, "mode", MODE_TRIANGLES);
-    int material = tree_int(primitive, "material", NO_ID);
+    int material = variant_material(file, primitive);
     const GltfAccessor *position =
         accessor_get(file, tree_int(tree_member(primitive, "attributes"), "POSITION", NO_ID));
     bool is_solid = mode >= MODE_TRIANGLES && mode <= MODE_FAN;

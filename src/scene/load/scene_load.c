@@ -15,12 +15,14 @@
 #include "scene/gltf/list.h"
 #include "scene/gltf/loader.h"
 #include "scene/gltf/tree.h"
+#include "scene/gltf/variant.h"
 #include "scene/load/display.h"
 #include "scene/load/graph.h"
 #include "scene/load/image.h"
 #include "scene/load/luminaire.h"
 #include "scene/load/material.h"
 #include "scene/load/part_draft.h"
+#include "scene/load/pose.h"
 #include "scene/load/profiles.h"
 
 /* ---- materials that say BLEND or MASK but are opaque everywhere ------------------------ */
@@ -192,6 +194,10 @@ static Scene *assemble(Loader *load)
                      .input_count = load->inputs.count,
                      .extensions = list_copy(&load->extensions, arena),
                      .extension_count = load->extensions.count,
+                     .variants = list_copy(&load->variants, arena),
+                     .variant_count = load->variants.count,
+                     .animations = list_copy(&load->animations, arena),
+                     .animation_count = load->animations.count,
                      .environment = load->environment,
                      .ignored_occlusion_count = load->ignored_occlusion_count};
     join_parts(load, scene);
@@ -240,6 +246,7 @@ static void load_file(Loader *load, const char *path)
     *file = (GltfFile){.load = load, .path = arena_string(load->arena, path, strlen(path))};
     if (!document_read(file)) return;
     note_extensions(file);
+    variant_choose(file);
     check_structure(file);
     if (problems->error_count > before || !read_data(file)) return;
     check_data(file);
@@ -247,6 +254,7 @@ static void load_file(Loader *load, const char *path)
     images_load(file);
     profiles_load(file);
     materials_build(file);
+    pose_build(file);
     graph_build(file);
 }
 
@@ -272,7 +280,9 @@ static Loader loader_start(const SceneOptions *options, Arena *arena, Problems *
                     .inputs = list_of(sizeof(const char *)),
                     .input_hashes = list_of(sizeof(uint64_t)),
                     .extensions = list_of(sizeof(const char *)),
-                    .node_names = list_of(sizeof(const char *))};
+                    .node_names = list_of(sizeof(const char *)),
+                    .variants = list_of(sizeof(const char *)),
+                    .animations = list_of(sizeof(SceneAnimation))};
 }
 
 Scene *scene_survey(const SceneOptions *options, Arena *arena, Problems *problems)
@@ -280,6 +290,7 @@ Scene *scene_survey(const SceneOptions *options, Arena *arena, Problems *problem
     Loader load = loader_start(options, arena, problems);
     luminaires_start(&load);
     for (int i = 0; i < options->path_count; i++) load_file(&load, options->paths[i]);
+    pose_report_missing(&load);
     luminaires_finish(&load);
     displays_override(&load);
     displays_finish(&load);
