@@ -8,6 +8,7 @@
 #include "base/file.h"
 #include "image/colour.h"
 #include "image/plain_png.h"
+#include "image/webp.h"
 #include "openexr/exr_file.h"
 #include "openimageio/image_file.h"
 
@@ -256,6 +257,20 @@ static bool decode_plain(const Encoded *file, Arena *arena, Image *out)
     return true;
 }
 
+static bool decode_webp(const Encoded *file, Arena *arena, Image *out, Error *err)
+{
+    int width, height;
+    if (!webp_size(file->bytes, file->size, &width, &height, err) ||
+        !check_size(width, height, 4, 0, arena, err))
+        return false;
+    Arena    kept = *arena;
+    uint8_t *pixels = arena_alloc(&kept, 4, 16, (size_t)width * (size_t)height);
+    if (!webp_read(file->bytes, file->size, pixels, err)) return false;
+    *arena = kept;
+    *out = (Image){width, height, IMAGE_RGBA8, pixels};
+    return true;
+}
+
 /* ---- OpenEXR ------------------------------------------------------------------------- */
 
 enum { RED, GREEN, BLUE, ALPHA };
@@ -362,6 +377,7 @@ static bool decode(const Encoded *file, Arena *arena, Image *out, Error *err)
 {
     ExrReader *reader;
     if (decode_plain(file, arena, out)) return true;
+    if (strcmp(file->format, "webp") == 0) return decode_webp(file, arena, out, err);
     if (strcmp(file->format, "openexr") != 0) return decode_other(file, arena, out, err);
     if (!exr_reader_create(file->name, file->bytes, file->size, &reader, err)) return false;
     bool ok = decode_exr(reader, arena, out, err);

@@ -30,7 +30,6 @@ REFUSED = {
     "assimp/IncorrectVertexArrays/Cube.gltf": "bytes",
     "assimp/MissingBin/BoxTextured.gltf": "BoxTextured0.bin",
     "assimp/TestNoRootNode/NoScene.gltf": "scenes",
-    "compressed/pirate_meshopt.glb": "EXT_meshopt_compression",
 }
 
 

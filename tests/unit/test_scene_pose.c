@@ -451,7 +451,8 @@ static const char *write_variants(const char *names)
         STANDING.triangle, 36,
         arena_format(&maker.arena,
                      "'bufferViews':[{'buffer':0,'byteLength':36}],"
-                     "'accessors':[{'bufferView':0,'componentType':5126,'count':3,'type':'VEC3'}],"
+                     "'accessors':[{'bufferView':0,'componentType':5126,'count':3,"
+                     "'type':'VEC3'}],"
                      "'extensionsUsed':['KHR_materials_variants'],"
                      "'extensionsRequired':['KHR_materials_variants'],"
                      "'extensions':{'KHR_materials_variants':{'variants':[%s]}},"

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "scene/gltf/accessor.h"
+#include "scene/gltf/document.h"
 
 /* Numbers here are below 2^53 each (the tables say so), so that sums of doubles are exact. */
 
@@ -33,7 +34,9 @@ void check_buffer_view(const DocumentCheck *check, const GltfValue *view)
         check_fails(check, view, "takes bytes %.15g to %.15g of a buffer of %.15g bytes",
                     offset, offset + length, whole);
     bool has_chunk = buffer && buffer->index == 0 && check->file->bin.data;
-    if (buffer && !tree_member(buffer, "uri") && !has_chunk && !check->file->is_binary)
+    bool is_packed = tree_extension(view, MESHOPT_EXTENSION) != NULL;
+    if (buffer && !tree_member(buffer, "uri") && !has_chunk && !check->file->is_binary &&
+        !is_packed)
         check_warns(check, view, "its buffer has no \"uri\", so there are no bytes to read");
     check_stride(check, view, stride, length);
 }

@@ -153,7 +153,7 @@ static const Schema SCHEMA_CAMERA = {"camera", CAMERA, COUNT_OF(CAMERA), false, 
 
 static const Rule IMAGE[] = {
     {.name = "uri", .kind = RULE_TEXT},
-    {.name = "mimeType", .kind = RULE_CHOICE, .of = "image/jpeg|image/png"},
+    {.name = "mimeType", .kind = RULE_CHOICE, .of = "image/jpeg|image/png|image/webp"},
     {.name = "bufferView", .kind = RULE_INDEX, .of = "bufferViews", .needs = "mimeType"},
 };
 static const Schema SCHEMA_IMAGE = {"image", IMAGE, COUNT_OF(IMAGE), false, check_image};

@@ -5,7 +5,9 @@
 
 #include "base/count.h"
 #include "scene/check/check_document.h"
+#include "scene/check/check_packed.h"
 #include "scene/check/schema_core.h"
+#include "scene/gltf/document.h"
 
 /* ---- lights ---------------------------------------------------------------------------- */
 
@@ -301,6 +303,9 @@ static const ExtensionRule EXTENSIONS[] = {
     {"KHR_materials_unlit", "material", &SCHEMA_UNLIT},
     {"KHR_texture_transform", "textureInfo", &SCHEMA_TEXTURE_TRANSFORM},
     {"KHR_node_visibility", "node", &SCHEMA_VISIBILITY},
+    {"EXT_texture_webp", "texture", &SCHEMA_WEBP},
+    {MESHOPT_EXTENSION, "bufferView", &SCHEMA_MESHOPT},
+    {MESHOPT_EXTENSION, "buffer", &SCHEMA_MESHOPT_BUFFER},
     {"KHR_animation_pointer", "animation.channel.target", &SCHEMA_POINTER},
     {"KHR_materials_variants", "document", &SCHEMA_VARIANTS},
     {"KHR_materials_variants", "mesh.primitive", &SCHEMA_MAPPINGS},
@@ -315,7 +320,6 @@ static const ExtensionRule EXTENSIONS[] = {
     {"KHR_materials_dispersion", "material", &SCHEMA_DISPERSION},
     {"KHR_materials_diffuse_transmission", "material", &SCHEMA_DIFFUSE_TRANSMISSION},
     {"KHR_materials_pbrSpecularGlossiness", "material", &SCHEMA_GLOSSINESS},
-    {"EXT_texture_webp", "texture", &SCHEMA_WEBP},
     {"KHR_texture_basisu", "texture", &SCHEMA_BASISU},
 };
 

@@ -237,6 +237,12 @@ static void check_buffer_type(GltfFile *file, const GltfValue *uri, const char *
                      type);
 }
 
+/* Of bytes for readers that cannot unpack (EXT_meshopt_compression). */
+static bool is_fallback(const GltfValue *buffer)
+{
+    return tree_boolean(tree_extension(buffer, MESHOPT_EXTENSION), "fallback", false);
+}
+
 static bool buffer_bytes(GltfFile *file, const GltfValue *buffer, FileBytes *out)
 {
     Error err;
@@ -244,6 +250,7 @@ static bool buffer_bytes(GltfFile *file, const GltfValue *buffer, FileBytes *out
     Arena *scratch = &file->load->scratch;
     const GltfValue *uri = tree_member(buffer, "uri");
     if (uri && uri->kind != GLTF_STRING) return false; /* reported by the check */
+    if (is_fallback(buffer)) return false;             /* nobody reads it */
     if (!uri) {
         *out = buffer->index == 0 ? file->bin : (FileBytes){0};
         if (file->is_binary && buffer->index == 0 && !out->data)
@@ -292,8 +299,5 @@ void document_load_buffers(GltfFile *file)
 
 FileBytes document_view(const GltfFile *file, int view)
 {
-    const GltfBufferView *v = &file->data.views[view];
-    FileBytes bytes = file->buffers[v->buffer];
-    if (!bytes.data) return bytes;
-    return (FileBytes){bytes.data + v->offset, v->length};
+    return file->views[view];
 }

@@ -6,6 +6,8 @@
 #pragma once
 #include "scene/gltf/loader.h"
 
+#define MESHOPT_EXTENSION "EXT_meshopt_compression" /* packed views (gltf/buffer_view.h) */
+
 /* A fault or warning at a place of the document (NULL: the file as a whole). */
 void file_error(GltfFile *file, const GltfValue *at, const char *format, ...)
     __attribute__((format(printf, 3, 4)));

@@ -58,6 +58,7 @@ typedef struct GltfFile {
     FileBytes bin;      /* its BIN chunk; data NULL without one */
     FileBytes *buffers; /* data NULL: could not be had */
     GltfData data;
+    FileBytes *views; /* of each of data's, unpacked; data NULL: could not be had */
     int variant_id;            /* of KHR_materials_variants, that is worn; NO_ID: none */
     struct NodePose *poses;    /* one a node (load/pose.h); NULL: at rest */
     Transform *world_from_node;

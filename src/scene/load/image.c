@@ -10,6 +10,12 @@
 
 /* ---- which images do the materials show? ----------------------------------------------- */
 
+int texture_source(const GltfValue *texture)
+{
+    const GltfValue *webp = tree_extension(texture, "EXT_texture_webp");
+    return tree_int(webp, "source", tree_int(texture, "source", NO_ID));
+}
+
 /* Marks the textures that any textureInfo below `value` names. */
 static void mark_textures(const GltfValue *value, bool *is_used, int count)
 {
@@ -36,18 +42,27 @@ static void mark_shown(const GltfFile *file, bool *is_used, int count, Arena scr
     }
 }
 
-static bool *used_images(GltfFile *file, const GltfValue *textures, int image_count)
+/* How an image is used. */
+typedef struct ImageUse {
+    bool is_shown;  /* by a material that something wears */
+    bool is_webp;   /* by EXT_texture_webp */
+} ImageUse;
+
+static ImageUse *image_uses(GltfFile *file, const GltfValue *textures, int image_count)
 {
     Arena *scratch = &file->load->scratch;
     int count = textures ? textures->count : 0;
-    bool *texture_used = ARENA_NEW(scratch, bool, count);
-    bool *image_used = ARENA_NEW(scratch, bool, image_count);
-    mark_shown(file, texture_used, count, *scratch);
+    bool *is_shown = ARENA_NEW(scratch, bool, count);
+    ImageUse *uses = ARENA_NEW(scratch, ImageUse, image_count);
+    mark_shown(file, is_shown, count, *scratch);
     for (int i = 0; i < count; i++) {
-        int source = tree_int(&textures->items[i], "source", NO_ID);
-        if (texture_used[i] && source >= 0 && source < image_count) image_used[source] = true;
+        const GltfValue *texture = &textures->items[i];
+        int source = texture_source(texture);
+        if (source < 0 || source >= image_count) continue;
+        uses[source].is_shown |= is_shown[i];
+        uses[source].is_webp |= tree_extension(texture, "EXT_texture_webp") != NULL;
     }
-    return image_used;
+    return uses;
 }
 
 /* ---- bytes ----------------------------------------------------------------------------- */
@@ -66,11 +81,14 @@ static const char *sniffed_type(FileBytes bytes)
 
 /* What the bytes are against what the file says they are. Only PNG and JPEG are core glTF. */
 static void check_type(GltfFile *file, const GltfValue *image, const char *declared,
-                       FileBytes bytes)
+                       FileBytes bytes, bool is_webp)
 {
     const char *found = sniffed_type(bytes);
     if (declared[0] && found[0] && strcasecmp(declared, found) != 0)
         file_warning(file, image, "the bytes are %s, the file says %.60s", found, declared);
+    if (is_webp && found[0] && strcmp(found, "image/webp") != 0)
+        file_warning(file, image, "the bytes are %s, EXT_texture_webp wants image/webp", found);
+    if (is_webp && strcmp(found, "image/webp") == 0) return;
     if (found[0] && strcmp(found, "image/png") != 0 && strcmp(found, "image/jpeg") != 0)
         file_warning(file, image, "%s needs an extension; image/png or image/jpeg is wanted",
                      found);
@@ -107,13 +125,14 @@ static bool image_bytes(GltfFile *file, const GltfValue *image, FileBytes *bytes
     return false;
 }
 
-static void load_one_image(GltfFile *file, const GltfValue *image, bool is_used, Image *out)
+static void load_one_image(GltfFile *file, const GltfValue *image, ImageUse use, Image *out)
 {
     Error err;
     FileBytes bytes;
     const char *name, *declared;
+    bool is_used = use.is_shown;
     if (!image_bytes(file, image, &bytes, &name, &declared, is_used)) return;
-    check_type(file, image, declared, bytes);
+    check_type(file, image, declared, bytes, use.is_webp);
     if (image_read_memory(bytes.data, bytes.size, name, file->load->arena, out, &err)) return;
     *out = (Image){0};
     if (is_used)
@@ -141,15 +160,15 @@ void images_load(GltfFile *file)
     const GltfValue *textures = tree_member(file->root, "textures");
     int image_count = images ? images->count : 0;
     Image *decoded = ARENA_NEW(&file->load->scratch, Image, image_count);
-    bool *is_used = used_images(file, textures, image_count);
+    const ImageUse *uses = image_uses(file, textures, image_count);
     for (int i = 0; i < image_count; i++)
-        load_one_image(file, &images->items[i], is_used[i], &decoded[i]);
+        load_one_image(file, &images->items[i], uses[i], &decoded[i]);
     file->texture_base = file->load->textures.count;
     for (int i = 0; textures && i < textures->count; i++) {
         const GltfValue *texture = &textures->items[i];
         const GltfValue *sampler =
             tree_element(file->root, "samplers", tree_int(texture, "sampler", NO_ID));
-        int source = tree_int(texture, "source", NO_ID);
+        int source = texture_source(texture);
         texture_add(
             file->load,
             (Texture){

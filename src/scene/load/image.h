@@ -6,6 +6,10 @@
 /* The textures of the file, in its order; an image that no material shows may be broken. */
 void images_load(GltfFile *file);
 
+/* The image that a texture of the document shows: EXT_texture_webp's before its own, which is
+ * for readers without the extension; NO_ID: none that is read. */
+int texture_source(const GltfValue *texture);
+
 /* The texture's id. */
 int texture_add(Loader *load, Texture texture);
 

@@ -11,6 +11,7 @@
 #include "scene/check/schema.h"
 #include "scene/check/schema_core.h"
 #include "scene/check/schema_extensions.h"
+#include "scene/gltf/buffer_view.h"
 #include "scene/gltf/document.h"
 #include "scene/gltf/list.h"
 #include "scene/gltf/loader.h"
@@ -249,6 +250,8 @@ static void load_file(Loader *load, const char *path)
     variant_choose(file);
     check_structure(file);
     if (problems->error_count > before || !read_data(file)) return;
+    buffer_views_build(file);
+    if (problems->error_count > before) return;
     check_data(file);
     if (problems->error_count > before) return;
     images_load(file);

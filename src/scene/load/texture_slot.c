@@ -4,6 +4,7 @@
 
 #include "base/mathd.h"
 #include "scene/gltf/document.h"
+#include "scene/load/image.h"
 
 TextureSlot texture_slot_none(void)
 {
@@ -36,8 +37,14 @@ TextureSlot texture_slot(GltfFile *file, const GltfValue *info)
     if (transform) apply_transform(transform, &slot);
     const Texture *texture = list_item(&file->load->textures, slot.texture_id);
     if (texture->image.width > 0) return slot;
-    if (!tree_member(tree_element(file->root, "textures", index), "source"))
-        file_warning(file, info, "texture %d has no PNG or JPEG source: it is left out", index);
+    const GltfValue *own = tree_element(file->root, "textures", index);
+    bool is_ktx2 = tree_extension(own, "KHR_texture_basisu") != NULL;
+    if (texture_source(own) == NO_ID)
+        file_warning(file, info,
+                     is_ktx2 ? "texture %d has a KTX2 picture alone (KHR_texture_basisu), "
+                               "which is not read: it is left out"
+                             : "texture %d has no PNG, JPEG or WebP source: it is left out",
+                     index);
     return texture_slot_none();
 }
 
