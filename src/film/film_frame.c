@@ -254,3 +254,18 @@ FrameImage film_to_frame(const Film *film, int attribute_room, Arena *arena)
         fill(&to, add_named(&to, "display.coverage", NULL, false), read_coverage);
     return frame;
 }
+
+size_t film_frame_bytes_most(const Film *film)
+{
+    FilmRect crop = film->crop;
+    size_t   pixels = (size_t)(crop.x1 - crop.x0) * (size_t)(crop.y1 - crop.y0);
+    return pixels * CHANNELS_MAX * sizeof(float) + ((size_t)1 << 20);
+}
+
+void film_add_error(const Film *film, FrameImage *frame, Arena *arena)
+{
+    float *error = frame_add_channel(frame, "error.Y", false, arena);
+    for (int y = film->crop.y0; y < film->crop.y1; y++)
+        for (int x = film->crop.x0; x < film->crop.x1; x++)
+            *error++ = (float)film_pixel(film, x, y).sigma_y;
+}

@@ -25,3 +25,10 @@
  *       root mean square is 0 to 6 % too large at 32 samples, 12 % at 256 (that of `variance`
  *       7 to 29 %). NaN below 24 samples: the smaller half has 8 of them there. */
 FrameImage film_to_frame(const Film *film, int attribute_room, Arena *arena);
+
+/* Bytes that the frame of a film takes at most, whatever its layers. */
+size_t film_frame_bytes_most(const Film *film);
+
+/* Adds the channel error.Y to a film's frame: the standard error of each pixel's luminance, as
+ * film_pixel has it (sigma_y), cd m^-2; NaN below two samples. */
+void film_add_error(const Film *film, FrameImage *frame, Arena *arena);

@@ -29,6 +29,8 @@
  *   display.contrast                      (white + reflected) / (black + reflected), NaN off
  *   display.{weber,michelson,luminance_error,colour_error} follow from these: legibility.h
  *   display.coverage                      share of the pixel's samples that saw a display
+ *   error.Y                               standard error of the luminance, cd/m2: of a frame
+ *                                         that is watched (src/live); files have none
  * Attributes that give the numbers of id.* their names (strings):
  *   "parhelion:part.N"     name of part N
  *   "parhelion:display.N"  name of display N (its material)

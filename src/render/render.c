@@ -51,6 +51,7 @@ static uint32_t end_of_pass(uint32_t done, double wanted, uint32_t most, size_t 
 /* ---- one pass ---------------------------------------------------------------------------- */
 
 typedef struct RenderPass {
+    const RenderOptions *options;
     const Kernel  *kernel;
     const TileJob *job;
     FilmRect       crop;
@@ -67,7 +68,9 @@ static void render_one_tile(void *context, int item, int worker)
     uint64_t paths = pixel_count(rect) *
                      (uint64_t)(pass->job->end_sample - pass->job->first_sample);
     uint64_t done = atomic_fetch_add(&pass->paths_done, paths) + paths;
-    if (worker == 0) progress_update(pass->progress, (double)done);
+    if (worker != 0) return;
+    progress_update(pass->progress, (double)done);
+    if (pass->options->tile_ended) pass->options->tile_ended(pass->options->user);
 }
 
 static PathStatistics with_earlier(PathStatistics sum, const Checkpoint *resume)
@@ -143,13 +146,23 @@ static void keep_checkpoint(Run *run)
     run->checkpoint_s = monotonic_seconds();
 }
 
+/* The last pass is left to the caller, too. */
+static void show_pass(Run *run)
+{
+    const RenderOptions *options = run->options;
+    if (!options->pass_ended || run->result.complete || run->result.stopped_by) return;
+    finish_result(run);
+    options->pass_ended(options->user, &run->result, &run->progress);
+}
+
 static void run_passes(Run *run)
 {
     const RenderOptions *options = run->options;
     uint32_t total = options->end_sample - options->first_sample;
     size_t   pixels = pixel_count(options->crop);
-    RenderPass pass = {.kernel = run->result.kernel, .job = &run->job, .crop = options->crop,
-                       .counts = run->counts, .progress = &run->progress};
+    RenderPass pass = {.options = options, .kernel = run->result.kernel, .job = &run->job,
+                       .crop = options->crop, .counts = run->counts,
+                       .progress = &run->progress};
     atomic_store(&pass.paths_done, (uint64_t)run->result.samples * pixels);
     if (run->result.samples)
         run->result.complete = noise_reached(run) || run->result.samples == total;
@@ -165,6 +178,7 @@ static void run_passes(Run *run)
         run->result.stopped_by = signals_stop_requested();
         take_snapshot(run);
         keep_checkpoint(run);
+        show_pass(run);
     }
     progress_end(&run->progress, (double)atomic_load(&pass.paths_done));
     finish_result(run);
