@@ -11,7 +11,7 @@ run 'the module is the file' modules python3 tests/structure/modules.py
 run 'sizes and contents of the sources' source python3 tests/structure/source.py
 run 'the README names what is there' readme python3 tests/structure/readme.py
 run 'pages and comments point to what is there' pointers python3 tests/structure/pointers.py
-run 'no shell, no network, no mapped file' calls python3 tests/structure/calls.py
+run 'no shell, one socket, no mapped file' calls python3 tests/structure/calls.py
 
 if run_one 'release build, warnings are errors' build-release build release all; then
     run 'scenes, sets and their schemas' schemas \
@@ -35,6 +35,8 @@ if run_one 'release build, warnings are errors' build-release build release all;
     start 'same bits, any parts' merge python3 tests/image/merge.py .build/release/parhelion
     start 'same bits, killed and resumed' resume \
         python3 tests/hostile/resume.py .build/release/parhelion
+    start 'a render that is watched' live-view \
+        python3 tests/hostile/live_view.py .build/release/parhelion
     start 'same review, killed and resumed' review-resume \
         python3 tests/hostile/review_resume.py .build/release/parhelion
     start 'same bytes, any names' names python3 tests/image/names.py .build/release/parhelion

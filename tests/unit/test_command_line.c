@@ -27,14 +27,15 @@ TEST(idle_words_are_left_out_on_request)
 {
     char *words[] = {"render", "a b.gltf", "--threads", "3", "--quiet", "--progress=none",
                      "--spp", "8", "-o", "f.exr", "--png=f.png", "--exposure", "auto",
-                     "--checkpoint", "x y", "--resume", "--", "--quiet"};
+                     "--checkpoint", "x y", "--resume", "--tev", "[::1]:5", "--live=l.exr",
+                     "--", "--quiet"};
     Arena arena = test_arena(state);
     assert_string_equal(command_line_join(COUNT_OF(words), words, false, &arena),
                         "parhelion render 'a b.gltf' --spp 8 -- --quiet");
     assert_string_equal(command_line_join(COUNT_OF(words), words, true, &arena),
                         "parhelion render 'a b.gltf' --threads 3 --quiet --progress=none "
                         "--spp 8 -o f.exr --png=f.png --exposure auto --checkpoint 'x y' "
-                        "--resume -- --quiet");
+                        "--resume --tev '[::1]:5' --live=l.exr -- --quiet");
 }
 
 TEST(a_part_s_line_becomes_the_whole_s)

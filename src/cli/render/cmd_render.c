@@ -12,6 +12,7 @@
 #include "cli/render/render_answer.h"
 #include "cli/render/render_commands.h"
 #include "cli/render/render_identity.h"
+#include "cli/render/render_live.h"
 #include "cli/render/render_resume.h"
 #include "cli/render/render_setup.h"
 #include "scene/load/scene_load.h"
@@ -25,6 +26,7 @@ typedef struct RenderRun {
     SceneCamera   camera;
     RenderSetup   setup;
     const char   *identity;
+    RenderLive    live;
 } RenderRun;
 
 /* ---- before ------------------------------------------------------------------------------ */
@@ -53,6 +55,8 @@ static bool check_outputs(const RenderRequest *request, Error *err)
 {
     if (request->output && !file_check_writable(request->output, err)) return false;
     if (!render_check_checkpoint(request, err)) return false;
+    if (request->live && !request->replays && !file_check_writable(request->live, err))
+        return false;
     return !request->png || file_check_writable(request->png, err);
 }
 
@@ -130,6 +134,14 @@ static void warn(RenderRun *work, const char *text)
     problems_add(&work->problems, SEVERITY_WARNING, "", "", "%s", text);
 }
 
+/* What the render goes on without. */
+static void warn_of(RenderRun *work, const Error *err)
+{
+    char line[2048];
+    error_line(err, line, (int)sizeof line);
+    warn(work, arena_string(work->arena, line, strlen(line)));
+}
+
 static void warn_of_dropped(RenderRun *work, const RenderResult *result)
 {
     FilmDropped dropped = film_dropped(result->film);
@@ -185,6 +197,60 @@ static void keep_checkpoint_meanwhile(void *user, const RenderResult *so_far)
     keep_checkpoint(user, so_far);
 }
 
+/* ---- who watches ------------------------------------------------------------------------- */
+
+/* It has no sums, also of a part: they would be out of date before anybody merges them. */
+static bool write_live_file(RenderRun *work, const RenderResult *so_far, Error *err)
+{
+    Arena         scratch = *work->arena;
+    double        begun_s = monotonic_seconds();
+    RenderRequest request = work->request;
+    RenderResult  result = *so_far;
+    request.is_part = false;
+    result.error = film_relative_error(so_far->film);
+    FrameImage frame = render_make_frame(&request, work->scene, &work->camera, &result,
+                                         &scratch);
+    return render_live_write(&work->live, &frame, begun_s, err);
+}
+
+static void show_pass(void *user, const RenderResult *so_far, const Progress *shown)
+{
+    RenderRun *work = user;
+    Error      err;
+    if (!render_live_show(&work->live, so_far->film, *work->arena, &err)) {
+        progress_clear(shown);
+        warn_of(work, &err);
+    }
+    if (render_live_wants_file(&work->live) && !write_live_file(work, so_far, &err)) {
+        progress_clear(shown);
+        warn_of(work, &err);
+    }
+}
+
+static void show_on(void *user)
+{
+    RenderRun *work = user;
+    render_live_push(&work->live);
+}
+
+/* The file is a copy of the frame in the end, but for a part's sums. */
+static void show_end(RenderRun *work, const RenderResult *result)
+{
+    Error err;
+    if (work->live.has_file && !write_live_file(work, result, &err)) warn_of(work, &err);
+    if (!render_live_finish(&work->live, result->film, *work->arena, &err))
+        warn_of(work, &err);
+}
+
+static void find_viewer(RenderRun *work)
+{
+    RenderOptions *options = &work->request.render;
+    Error          err;
+    if (!render_live_open(&work->live, &work->request, &err)) warn_of(work, &err);
+    options->pass_ended = work->live.has_file || work->live.has_viewer ? show_pass : NULL;
+    options->tile_ended = work->live.has_viewer ? show_on : NULL;
+}
+
 /* The partial frame is written and the answer given: only the line, which may be longer than
  * an error's text, and the status are left. */
 static bool report_interruption(const RenderRun *work, const RenderResult *result, bool is_kept,
@@ -232,8 +298,10 @@ static bool hand_over(RenderRun *work, const RenderResult *result, Error *err)
     bool is_kept = !result->complete && keep_checkpoint(work, result);
     if (!write_frame(work, result, err)) return false;
     if (result->complete) render_remove_checkpoint(&work->request);
+    show_end(work, result);
     if (work->request.png && !develop(work, result, err)) return false;
-    if (!render_print_answer(&work->request, result, &work->problems, err)) return false;
+    if (!render_print_answer(&work->request, result, render_live_seconds(&work->live),
+                             &work->problems, err)) return false;
     return result->complete || report_interruption(work, result, is_kept, err);
 }
 
@@ -245,9 +313,12 @@ static bool run(RenderRun *work, Error *err)
     options->checkpoint = work->request.keeps_checkpoints ? keep_checkpoint_meanwhile : NULL;
     options->user = work;
     if (!check_memory(options, err) || !check_outputs(&work->request, err) ||
-        !check_look(&work->request, *work->arena, err) || !load(work, err) ||
-        !render_prepare(work->scene, &work->camera, options, work->arena, &work->setup, err))
+        !check_look(&work->request, *work->arena, err) || !load(work, err))
         return false;
+    find_viewer(work);
+    if (!render_prepare(work->scene, &work->camera, options, work->arena, &work->setup, err))
+        return false;
+    render_live_find_displays(&work->live, work->scene, &work->setup.camera, work->arena);
     bool done = identify(work, err) &&
                 render_prepared(&work->setup, options, work->arena, &result, err);
     render_setup_end(&work->setup);
@@ -259,6 +330,7 @@ static bool run_render(int argc, char **argv, Arena *arena, Error *err)
     RenderRun  work = {.arena = arena};
     bool  done = render_request_parse(argc, argv, arena, &work.request, err) &&
                 (work.request.cli.help_shown || run(&work, err));
+    render_live_close(&work.live);
     scene_close(work.scene);
     return done;
 }

@@ -29,7 +29,8 @@ static int idle_words(const char *word)
         bool        has_value;
     } idle[] = {{"-o", true}, {"--png", true}, {"--false-colour", true}, {"--threads", true},
                 {"--json", false}, {"--quiet", false}, {"--progress", true},
-                {"--checkpoint", true}, {"--checkpoint-interval", true}, {"--resume", false}};
+                {"--checkpoint", true}, {"--checkpoint-interval", true}, {"--resume", false},
+                {"--tev", true}, {"--live", true}};
     DevelopOptions look;
     const Option   looks[] = {LOOK_OPTIONS(&look)};
     for (int i = 0; i < COUNT_OF(idle); i++)

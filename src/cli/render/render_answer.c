@@ -218,10 +218,13 @@ static void print_line(const RenderRequest *request, const RenderResult *result)
 }
 
 bool render_print_answer(const RenderRequest *request, const RenderResult *result,
-                         const Problems *problems, Error *err)
+                         double live_s, const Problems *problems, Error *err)
 {
-    if (request->cli.json)
-        return cli_print_json(answer_document(request, result, problems), err);
+    if (request->cli.json) {
+        json_t *answer = answer_document(request, result, problems);
+        json_object_set_new(answer, "live_seconds", json_real(live_s));
+        return cli_print_json(answer, err);
+    }
     print_line(request, result);
     return true;
 }

@@ -11,9 +11,9 @@ FrameImage render_make_frame(const RenderRequest *request, const Scene *scene,
                              const SceneCamera *camera, const RenderResult *result,
                              Arena *arena);
 
-/* The command's answer on stdout. */
+/* The command's answer on stdout. live_s: seconds that showing the frame meanwhile took. */
 bool render_print_answer(const RenderRequest *request, const RenderResult *result,
-                         const Problems *problems, Error *err);
+                         double live_s, const Problems *problems, Error *err);
 
 /* The value of the one sample that was replayed, on stdout. */
 bool render_print_replay(const RenderRequest *request, const Scene *scene,

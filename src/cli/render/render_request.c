@@ -153,6 +153,24 @@ static bool ends_with(const char *text, const char *ending)
     return length > tail && !strcmp(text + length - tail, ending);
 }
 
+/* A file of its own: the others are kept until the render has ended well. */
+static bool check_live(const RenderRequest *request, Error *err)
+{
+    const struct {
+        const char *path, *what;
+    } others[] = {{request->output, "the result"}, {request->png, "the picture"},
+                  {request->checkpoint, "the checkpoint"},
+                  {request->render.field, "what is learnt"}};
+    if (!request->live) return true;
+    for (int i = 0; i < COUNT_OF(others); i++)
+        if (others[i].path && !strcmp(others[i].path, request->live))
+            return error_set(err, ERROR_USAGE, "--live %s: %s is to stand there",
+                             request->live, others[i].what);
+    return ends_with(request->live, ".exr") ||
+           error_set(err, ERROR_USAGE, "--live %s: wanted a name that ends in .exr",
+                     request->live);
+}
+
 /* ---- all of them ------------------------------------------------------------------------- */
 
 static bool check_outputs(const RenderRequest *request, Error *err)
@@ -168,7 +186,7 @@ static bool check_outputs(const RenderRequest *request, Error *err)
     if (!ends_with(request->output, ".exr"))
         return error_set(err, ERROR_USAGE, "-o %s: wanted a name that ends in .exr",
                          request->output);
-    return true;
+    return check_live(request, err);
 }
 
 static bool check_render(const RenderWords *typed, Arena *arena, RenderRequest *request,
@@ -198,6 +216,8 @@ static bool check_render(const RenderWords *typed, Arena *arena, RenderRequest *
         !noise_goal_parse(typed->noise, options->crop, arena, &request->noise, err))
         return false;
     if (typed->has_replay && !parse_replay(typed->replay, options, err)) return false;
+    if (request->tev && !viewer_address_parse(request->tev, &request->viewer, err))
+        return error_prefix(err, "--tev %.80s", request->tev);
     request->replays = typed->has_replay;
     request->is_part = typed->samples || typed->has_crop;
     return true;
@@ -236,6 +256,14 @@ static const char *resume_line(int argc, char **argv, bool resumes, Arena *arena
     {"--resume", OPTION_FLAG, NULL,                                                            \
      "go on from the checkpoint, to the same frame bit for bit; without one begin",            \
      &(request)->resumes}
+
+#define LIVE_OPTIONS(request)                                                                  \
+    {"--tev", OPTION_TEXT, "HOST[:PORT]",                                                      \
+     "show the frame meanwhile in a viewer that speaks tev's packets (default port 14158)",    \
+     &(request)->tev},                                                                         \
+    {"--live", OPTION_TEXT, "FILE.exr",                                                        \
+     "the frame so far, for any viewer: written anew about every ten seconds",                 \
+     &(request)->live}
 
 #define GUIDING_OPTIONS(request)                                                               \
     {"--no-guiding", OPTION_FLAG, NULL,                                                        \
@@ -284,6 +312,7 @@ static bool parse_line(int argc, char **argv, Arena *arena, RenderWords *typed,
         {"--isa", OPTION_TEXT, "NAME", "sse2, avx2, avx512 (default: the processor's best)",
          &request->render.isa},
         CHECKPOINT_OPTIONS(request, typed),
+        LIVE_OPTIONS(request),
         {"--replay", OPTION_NUMBERS, "X,Y,SAMPLE", "one sample of one pixel, printed",
          typed->replay, .count = 3, .given = &typed->has_replay},
     };

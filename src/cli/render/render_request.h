@@ -8,6 +8,7 @@
 #include "cli/options/scene_options.h"
 #include "cli/render/noise_goal.h"
 #include "image/develop.h"
+#include "live/viewer_address.h"
 #include "render/render.h"
 #include "scene/scene.h"
 
@@ -17,6 +18,9 @@ typedef struct RenderRequest {
     const char   *output; /* NULL only when replaying */
     const char   *png;    /* NULL: none */
     DevelopOptions look;  /* of the png */
+    const char   *tev;    /* who is shown the frame meanwhile, as typed; NULL: nobody */
+    ViewerAddress viewer; /* the same, taken apart */
+    const char   *live;   /* the file that has the frame so far; NULL: none */
     CameraChoice  camera;
     EnvironmentChange environment;
     RenderOptions render;

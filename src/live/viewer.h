@@ -1,0 +1,52 @@
+/* viewer.h -- somebody who watches a frame while it is made, elsewhere or on this machine.
+ *
+ * A viewer must never cost a render more than moments: what it does not take at once waits, and
+ * while it waits no newer frame is offered. Waiting happens when it is opened and at the end
+ * alone, VIEWER_PATIENCE_S together; one that takes nothing for that long meanwhile is lost.
+ *
+ * Memory   what waits to be taken is on the heap, as much as one frame has; viewer_close
+ *          releases it.
+ * Threads  one at a time.
+ * Fails    once: viewer_check tells why the viewer is lost, and everything is idle from then.
+ */
+#pragma once
+#include "live/tev_packets.h"
+#include "live/viewer_address.h"
+
+#define VIEWER_PATIENCE_S 3.0
+
+typedef struct Viewer {
+    const char *image;      /* what it calls the frame */
+    int         handle;     /* -1: closed */
+    double      patience_s; /* that is left for waiting */
+    double      moved_s;    /* when it last took bytes, monotonic */
+    char       *queue;      /* NULL before the first frame */
+    size_t      size;       /* of the queue */
+    size_t      sent;       /* of its size */
+    Error       loss;       /* why it is lost, until that is told */
+    bool        is_lost;
+} Viewer;
+
+/* False: nobody is there; nothing to be closed. image must outlive it. */
+bool viewer_open(const ViewerAddress *address, const char *image, Viewer *out, Error *err);
+
+/* Whether all that it was offered is taken, so that it may be offered more. */
+bool viewer_is_ready(const Viewer *viewer);
+
+/* To a viewer that is ready. All frames have the same windows and channels. The first one makes
+ * the image, with its boxes. */
+void viewer_offer(Viewer *viewer, const FrameImage *frame, const TevBox *boxes, int box_count);
+
+/* Sends as much as is taken at once: milliseconds at most. */
+void viewer_push(Viewer *viewer);
+
+/* Sends the rest, with the patience that is left. */
+void viewer_finish(Viewer *viewer);
+
+/* False with the reason, once, when it is lost. */
+bool viewer_check(Viewer *viewer, Error *err);
+
+/* Gives it up; viewer->loss says why. */
+void viewer_lose(Viewer *viewer);
+
+void viewer_close(Viewer *viewer);
