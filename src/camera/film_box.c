@@ -58,16 +58,12 @@ static FilmBox cut_to_frame(const Camera *camera, FilmBox box)
                      fminf(box.y1, (float)camera->height)};
 }
 
-bool film_box_of_display(const Camera *camera, const Scene *scene, int display_id,
-                         FilmBox *out)
+bool film_box_of_part(const Camera *camera, const Scene *scene, int part_id, FilmBox *out)
 {
-    FilmBox box = {INFINITY, INFINITY, -INFINITY, -INFINITY};
-    for (int i = 0; i < scene->part_count; i++) {
-        const Part *part = &scene->parts[i];
-        if (scene->materials[part->material_id].display_id != display_id) continue;
-        for (uint32_t t = 0; t < part->triangle_count; t++)
-            add_triangle(camera, scene, part->first_triangle + t, &box);
-    }
+    const Part *part = &scene->parts[part_id];
+    FilmBox     box = {INFINITY, INFINITY, -INFINITY, -INFINITY};
+    for (uint32_t t = 0; t < part->triangle_count; t++)
+        add_triangle(camera, scene, part->first_triangle + t, &box);
     box = cut_to_frame(camera, box);
     if (!(box.x0 < box.x1 && box.y0 < box.y1)) return false;
     *out = box;

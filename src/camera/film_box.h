@@ -1,4 +1,4 @@
-/* film_box.h -- where on the film a display is seen.
+/* film_box.h -- where on the film a part of the scene is seen, such as a display.
  *
  * Units    pixels of the whole frame, from its upper left corner.
  * Threads  no shared state.  Fails  never.
@@ -10,7 +10,6 @@ typedef struct FilmBox {
     float x0, y0, x1, y1;
 } FilmBox;
 
-/* The smallest box around all of the display that faces the camera and lies within the frame;
- * false where nothing does. What stands before the display is not looked for. */
-bool film_box_of_display(const Camera *camera, const Scene *scene, int display_id,
-                         FilmBox *out);
+/* The smallest box around all of the part that faces the camera, within the frame; false where
+ * nothing does. What stands before it is not looked for. */
+bool film_box_of_part(const Camera *camera, const Scene *scene, int part_id, FilmBox *out);

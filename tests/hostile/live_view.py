@@ -26,27 +26,30 @@ DEFAULT_PORT = 14158
 CREATE, UPDATE, DRAW = 4, 6, 8
 STROKE_COLOR, STROKE, BEGIN, RECTANGLE = 4, 5, 6, 18
 LUMINANCE = {"R": 0.2126, "G": 0.7152, "B": 0.0722}
+SCREENS = ((-1.0, -0.1), (0.0, 0.9))  # from where to where, m
 EYE, HALF_HEIGHT = [0.3, 1.0, 1.5], 0.577350269  # the tangent of 30 degrees
 
 
 def write_scene(path):
-    """A room with a screen on its far wall, and one that shows its back."""
+    """A room with two screens of one display, and one that shows its back."""
     scene = Scene()
     scene.box_inside(scene.lambert(0.7), [-2, 0, -2], [2, 2.5, 2])
     scene.facing_quad(scene.emitter(500), [0, 2.49, 0], [0, -1, 0], 0.8)
-    scene.quad(scene.material("screen", pbrMetallicRoughness={"metallicFactor": 0}),
-               [-1, 0.5, -1.9], [2, 0, 0], [0, 1.5, 0])
+    screen = scene.material("screen", pbrMetallicRoughness={"metallicFactor": 0})
+    for x, _ in SCREENS:
+        scene.quad(screen, [x, 0.5, -1.9], [0.9, 0, 0], [0, 1.5, 0])
     scene.quad(scene.material("away", pbrMetallicRoughness={"metallicFactor": 0}),
                [-1.2, 0.5, -1.5], [-0.4, 0, 0], [0, 0.4, 0])
     scene.view("eye", EYE, [0, 0, -1], 60)
     scene.write(path)
 
 
-def screen_box(width, height):
-    """The near screen's, by similar triangles from the eye: x, y, width, height."""
+def screen_boxes(width, height):
+    """By similar triangles from the eye, and cut by the frame: x, y, width, height."""
     scale = height / 2 / (HALF_HEIGHT * (EYE[2] + 1.9))
-    return (width / 2 + scale * (-1 - EYE[0]), height / 2 - scale * (2 - EYE[1]), 2 * scale,
-            1.5 * scale)
+    for left, right in SCREENS:
+        x0, x1 = (min(max(width / 2 + scale * (x - EYE[0]), 0), width) for x in (left, right))
+        yield x0, height / 2 - scale * (2 - EYE[1]), x1 - x0, 1.5 * scale
 
 
 # ---- the packets, from their definition ----------------------------------------------------
@@ -270,9 +273,10 @@ def check_packets(work, frame, size, *options, of_halves=False, host="127.0.0.1"
     claim_picture(work.report, canvas, picture, what)
     work.report.claim(canvas.kinds[0] == CREATE and canvas.kinds.count(CREATE) == 1 and
                       canvas.kinds.count(DRAW) == 1, f"{what}: packets {canvas.kinds}")
-    wanted = screen_box(*size)
-    work.report.claim(len(canvas.boxes) == 1 and
-                      max(abs(a - b) for a, b in zip(canvas.boxes[0], wanted)) < 1e-3,
+    wanted = list(screen_boxes(*size))
+    work.report.claim(len(canvas.boxes) == len(wanted) and
+                      max(abs(a - b) for shown, box in zip(canvas.boxes, wanted)
+                          for a, b in zip(shown, box)) < 1e-3,
                       f"{what}: boxes {canvas.boxes}, wanted {wanted}")
     if "variance.R" in picture.channels and picture.box == (0, 0, *size):
         claim_error(work.report, canvas, picture, of_halves, what)

@@ -1,16 +1,15 @@
-/* Boxes around displays on the film, against the camera's own rays. */
+/* Boxes around parts of a scene on the film, against the camera's own rays. */
 #include "check.h"
 
 #include "camera/film_box.h"
 
 #define PIXELS 1e-3 /* that floats may be off by */
 
-/* A display of two triangles, with its front where they run counter-clockwise. */
+/* A part of two triangles, with its front where they run counter-clockwise. */
 typedef struct BoxScene {
     Vec3     corners[4];
     Triangle triangles[2];
     Part     part;
-    Material material;
     Scene    scene;
 } BoxScene;
 
@@ -20,11 +19,9 @@ static const Scene *scene_of(BoxScene *all, const Vec3 corners[4])
     all->triangles[0] = (Triangle){{0, 1, 2}, 0};
     all->triangles[1] = (Triangle){{0, 2, 3}, 0};
     all->part = (Part){.triangle_count = 2};
-    all->material = (Material){.display_id = 0};
     all->scene = (Scene){.positions = all->corners, .vertex_count = 4,
                          .triangles = all->triangles, .triangle_count = 2,
-                         .parts = &all->part, .part_count = 1, .materials = &all->material,
-                         .material_count = 1, .display_count = 1};
+                         .parts = &all->part, .part_count = 1};
     return &all->scene;
 }
 
@@ -69,12 +66,12 @@ TEST(a_box_ends_where_the_camera_sees_the_corners)
         Vec3     corners[4];
         FilmBox  box;
         quad_at(&camera, wanted, corners);
-        assert_true(film_box_of_display(&camera, scene_of(&all, corners), 0, &box));
+        assert_true(film_box_of_part(&camera, scene_of(&all, corners), 0, &box));
         assert_box(box, wanted);
     }
 }
 
-TEST(a_back_and_another_display_have_no_box)
+TEST(a_back_has_no_box)
 {
     (void)state;
     for (int is_perspective = 0; is_perspective < 2; is_perspective++) {
@@ -83,10 +80,8 @@ TEST(a_back_and_another_display_have_no_box)
         Vec3     corners[4];
         FilmBox  box;
         quad_at(&camera, (FilmBox){40, 25, 250, 180}, corners);
-        const Scene *scene = scene_of(&all, corners);
-        assert_false(film_box_of_display(&camera, scene, 1, &box));
         Vec3 turned[4] = {corners[3], corners[2], corners[1], corners[0]};
-        assert_false(film_box_of_display(&camera, scene_of(&all, turned), 0, &box));
+        assert_false(film_box_of_part(&camera, scene_of(&all, turned), 0, &box));
     }
 }
 
@@ -98,10 +93,10 @@ TEST(a_box_ends_with_the_frame)
     FilmBox  box;
     (void)state;
     quad_at(&camera, (FilmBox){-90, 100, 100, 500}, corners);
-    assert_true(film_box_of_display(&camera, scene_of(&all, corners), 0, &box));
+    assert_true(film_box_of_part(&camera, scene_of(&all, corners), 0, &box));
     assert_box(box, (FilmBox){0, 100, 100, 200});
     quad_at(&camera, (FilmBox){330, 20, 400, 90}, corners);
-    assert_false(film_box_of_display(&camera, scene_of(&all, corners), 0, &box));
+    assert_false(film_box_of_part(&camera, scene_of(&all, corners), 0, &box));
 }
 
 /* A floor from before the eye to behind it, seen from above: a box without what is behind would
@@ -115,20 +110,20 @@ TEST(what_reaches_behind_the_eye_reaches_the_edge_of_the_frame)
     const Vec3  floor[4] = {{-1, 0, 5}, {1, 0, 5}, {1, 0, -4}, {-1, 0, -4}};
     const Vec3  behind[4] = {{-1, 0, 5}, {1, 0, 5}, {1, 0, 2}, {-1, 0, 2}};
     (void)state;
-    assert_true(film_box_of_display(&camera, scene_of(&all, floor), 0, &box));
+    assert_true(film_box_of_part(&camera, scene_of(&all, floor), 0, &box));
     double horizon = 100 + 100 / tan(0.45) / 4; /* 1 m below the eye, 4 m away */
     assert_near(box.y0, horizon, 10 * PIXELS);
     assert_near(box.y1, 200, PIXELS);
     assert_near(box.x0, 0, PIXELS);
     assert_near(box.x1, 320, PIXELS);
-    assert_false(film_box_of_display(&camera, scene_of(&all, behind), 0, &box));
+    assert_false(film_box_of_part(&camera, scene_of(&all, behind), 0, &box));
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_box_ends_where_the_camera_sees_the_corners),
-        cmocka_unit_test(a_back_and_another_display_have_no_box),
+        cmocka_unit_test(a_back_has_no_box),
         cmocka_unit_test(a_box_ends_with_the_frame),
         cmocka_unit_test(what_reaches_behind_the_eye_reaches_the_edge_of_the_frame),
     };

@@ -33,13 +33,19 @@ double render_live_seconds(const RenderLive *live)
 
 /* ---- the viewer -------------------------------------------------------------------------- */
 
+static bool is_display(const Scene *scene, int part_id)
+{
+    return scene->materials[scene->parts[part_id].material_id].display_id != NO_ID;
+}
+
+/* A box each for screens that share a display. */
 void render_live_find_displays(RenderLive *live, const Scene *scene, const Camera *camera,
                                Arena *arena)
 {
     FilmBox box;
-    live->boxes = ARENA_NEW(arena, TevBox, scene->display_count);
-    for (int i = 0; i < scene->display_count; i++)
-        if (film_box_of_display(camera, scene, i, &box))
+    live->boxes = ARENA_NEW(arena, TevBox, scene->part_count);
+    for (int i = 0; i < scene->part_count; i++)
+        if (is_display(scene, i) && film_box_of_part(camera, scene, i, &box))
             live->boxes[live->box_count++] =
                 (TevBox){box.x0, box.y0, box.x1 - box.x0, box.y1 - box.y0};
 }
