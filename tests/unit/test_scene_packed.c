@@ -350,8 +350,10 @@ static Found survey_texture(const char *texture, const char *required)
         bytes.data, bytes.size,
         arena_format(&maker.arena,
                      "'bufferViews':[{'buffer':0,'byteLength':36},"
-                     "{'buffer':0,'byteOffset':48,'byteLength':62}],'accessors':[{'bufferView':0,'componentType':5126,"
-                     "'count':3,'type':'VEC3'}],'images':[{'bufferView':0,'mimeType':'image/png'},"
+                     "{'buffer':0,'byteOffset':48,'byteLength':62}],"
+                     "'accessors':[{'bufferView':0,'componentType':5126,"
+                     "'count':3,'type':'VEC3'}],"
+                     "'images':[{'bufferView':0,'mimeType':'image/png'},"
                      "{'bufferView':1,'mimeType':'image/webp'}],'textures':[{%s}],'materials':["
                      "{'pbrMetallicRoughness':{'baseColorTexture':{'index':0}}}],'meshes':["
                      "{'primitives':[{'attributes':{'POSITION':0},'material':0}]}],'scene':0,"

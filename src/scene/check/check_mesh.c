@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "scene/check/check_material.h"
+#include "scene/gltf/document.h"
 
 /* What an attribute may be made of. Component types as bits: 1 << (code - 5120). */
 typedef struct Format {
@@ -54,14 +55,6 @@ static const GltfValue *accessor_of(const DocumentCheck *check, const GltfValue 
     return tree_element(check->file->root, "accessors", tree_whole(reference, NO_ID));
 }
 
-static bool is_quantized(const DocumentCheck *check)
-{
-    const GltfValue *used = tree_member(check->file->root, "extensionsUsed");
-    for (int i = 0; used && i < used->count; i++)
-        if (strcmp(used->items[i].text, "KHR_mesh_quantization") == 0) return true;
-    return false;
-}
-
 static bool is_type(const char *types, const char *type)
 {
     return strcmp(types, type) == 0 ||
@@ -86,7 +79,8 @@ static void check_format(const DocumentCheck *check, const GltfValue *attribute,
             check_warns(check, attribute, "attributes cannot be of 32-bit integers");
         return;
     }
-    unsigned allowed = is_quantized(check) ? format->quantized : format->components;
+    bool     is_quantized = document_uses(check->file, "KHR_mesh_quantization");
+    unsigned allowed = is_quantized ? format->quantized : format->components;
     const char *types = is_target && format->types[3] == '4' ? "VEC3" : format->types;
     if (is_target) allowed |= BYTE | SHORT;
     if (!is_type(types, type) || !(bit & allowed))

@@ -80,3 +80,40 @@ const Schema SCHEMA_MESHOPT = {MESHOPT_EXTENSION, MESHOPT, COUNT_OF(MESHOPT), fa
 static const Rule MESHOPT_BUFFER[] = {{.name = "fallback", .kind = RULE_BOOLEAN}};
 const Schema SCHEMA_MESHOPT_BUFFER = {MESHOPT_EXTENSION, MESHOPT_BUFFER,
                                       COUNT_OF(MESHOPT_BUFFER), false, NULL};
+
+/* ---- KHR_draco_mesh_compression ---------------------------------------------------------- */
+
+static void check_ids(const DocumentCheck *check, const GltfValue *ids, const GltfValue *own)
+{
+    for (int i = 0; i < ids->count; i++) {
+        const GltfValue *id = &ids->items[i];
+        if (!tree_is_integer(id) || id->number < 0 || id->number > 4294967295.0)
+            check_fails(check, id, "the id of an attribute is wanted, 0 to 4294967295");
+        if (!tree_member(own, id->key))
+            check_fails(check, id, "the primitive has no %.60s", id->key);
+    }
+}
+
+static void check_draco(const DocumentCheck *check, const GltfValue *packed)
+{
+    const GltfValue *primitive = packed->parent->parent;
+    const GltfValue *ids = tree_member(packed, "attributes");
+    const GltfValue *mode = tree_member(primitive, "mode");
+    double code = tree_number(primitive, "mode", 4);
+    if (ids && ids->kind == GLTF_OBJECT)
+        check_ids(check, ids, tree_member(primitive, "attributes"));
+    else if (ids)
+        check_fails(check, ids, "an object of attributes is wanted");
+    if (ids && !tree_member(ids, "POSITION"))
+        check_fails(check, ids, "\"POSITION\" is missing");
+    if (code != 4 && code != 5)
+        check_fails(check, mode, "is %g, packed meshes are of mode 4 or 5", code);
+    if (!tree_member(primitive, "indices"))
+        check_fails(check, primitive, "\"indices\" is missing, which packed meshes have");
+}
+
+static const Rule DRACO[] = {
+    {.name = "bufferView", .kind = RULE_INDEX, .flags = RULE_REQUIRED, .of = "bufferViews"},
+    {.name = "attributes", .kind = RULE_ANY, .flags = RULE_REQUIRED},
+};
+const Schema SCHEMA_DRACO = {DRACO_EXTENSION, DRACO, COUNT_OF(DRACO), false, check_draco};

@@ -3,3 +3,4 @@
 #include "scene/check/rule.h"
 
 extern const Schema SCHEMA_MESHOPT, SCHEMA_MESHOPT_BUFFER; /* EXT_meshopt_compression */
+extern const Schema SCHEMA_DRACO; /* KHR_draco_mesh_compression */

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "scene/check/schema_extensions.h"
+#include "scene/gltf/document.h"
 #include "text/nearest_word.h"
 
 #define MEMBERS_MAX 64 /* of one object that are compared with an unknown one */
@@ -244,21 +245,13 @@ static void check_unknown(const DocumentCheck *check, const GltfValue *member,
                     hint);
 }
 
-static bool is_declared(const GltfFile *file, const char *extension)
-{
-    const GltfValue *used = tree_member(file->root, "extensionsUsed");
-    for (int i = 0; used && used->kind == GLTF_ARRAY && i < used->count; i++)
-        if (strcmp(used->items[i].text, extension) == 0) return true;
-    return false;
-}
-
 static void check_extension(const DocumentCheck *check, const GltfValue *extension,
                             const char *host)
 {
     bool is_known = false;
     DocumentCheck inner = *check;
     const ExtensionRule *rule = extension_rule(extension->key, host, &is_known);
-    if (!is_declared(check->file, extension->key))
+    if (!document_uses(check->file, extension->key))
         check_warns(check, extension, "%s is used but not listed in extensionsUsed",
                     extension->key);
     if (extension->kind != GLTF_OBJECT) {

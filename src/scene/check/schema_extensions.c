@@ -304,6 +304,7 @@ static const ExtensionRule EXTENSIONS[] = {
     {"KHR_texture_transform", "textureInfo", &SCHEMA_TEXTURE_TRANSFORM},
     {"KHR_node_visibility", "node", &SCHEMA_VISIBILITY},
     {"EXT_texture_webp", "texture", &SCHEMA_WEBP},
+    {DRACO_EXTENSION, "mesh.primitive", &SCHEMA_DRACO},
     {MESHOPT_EXTENSION, "bufferView", &SCHEMA_MESHOPT},
     {MESHOPT_EXTENSION, "buffer", &SCHEMA_MESHOPT_BUFFER},
     {"KHR_animation_pointer", "animation.channel.target", &SCHEMA_POINTER},

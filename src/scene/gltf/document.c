@@ -237,6 +237,14 @@ static void check_buffer_type(GltfFile *file, const GltfValue *uri, const char *
                      type);
 }
 
+bool document_uses(const GltfFile *file, const char *extension)
+{
+    const GltfValue *used = tree_member(file->root, "extensionsUsed");
+    for (int i = 0; used && used->kind == GLTF_ARRAY && i < used->count; i++)
+        if (strcmp(used->items[i].text, extension) == 0) return true;
+    return false;
+}
+
 /* Of bytes for readers that cannot unpack (EXT_meshopt_compression). */
 static bool is_fallback(const GltfValue *buffer)
 {

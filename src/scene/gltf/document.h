@@ -7,6 +7,7 @@
 #include "scene/gltf/loader.h"
 
 #define MESHOPT_EXTENSION "EXT_meshopt_compression" /* packed views (gltf/buffer_view.h) */
+#define DRACO_EXTENSION "KHR_draco_mesh_compression" /* packed meshes (gltf/packed_mesh.h) */
 
 /* A fault or warning at a place of the document (NULL: the file as a whole). */
 void file_error(GltfFile *file, const GltfValue *at, const char *format, ...)
@@ -21,6 +22,9 @@ bool load_read(Loader *load, const char *path, Arena *arena, FileBytes *out, Err
 
 /* Reads and parses a .gltf or .glb. False when there is no document to check. */
 bool document_read(GltfFile *file);
+
+/* Whether extensionsUsed lists the extension. The document need not have been checked. */
+bool document_uses(const GltfFile *file, const char *extension);
 
 /* Fills file->buffers; what is missing or short is reported. */
 void document_load_buffers(GltfFile *file);

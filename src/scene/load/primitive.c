@@ -242,10 +242,18 @@ static bool has_area(Vec3 a, Vec3 b, Vec3 c)
     return x * x + y * y + z * z > 1e-24 * edges;
 }
 
+/* Packed corners are those of triangles, whatever the mode. */
+static int mode_of(const GltfValue *primitive)
+{
+    return tree_extension(primitive, DRACO_EXTENSION)
+               ? MODE_TRIANGLES
+               : tree_int(primitive, "mode", MODE_TRIANGLES);
+}
+
 static void list_triangles(GltfFile *file, const GltfValue *primitive, bool is_mirrored,
                            PartDraft *draft)
 {
-    int mode = tree_int(primitive, "mode", MODE_TRIANGLES);
+    int mode = mode_of(primitive);
     int accessor = tree_int(primitive, "indices", NO_ID);
     size_t count = accessor >= 0 ? accessor_get(file, accessor)->count : draft->vertex_count;
     const uint32_t *indices = accessor >= 0 ? accessor_integers(file, accessor) : NULL;
@@ -368,7 +376,7 @@ void primitive_build(GltfFile *file, const GltfValue *node, const Transform *wor
                      const GltfValue *mesh, const GltfValue *primitive)
 {
     Loader *load = file->load;
-    int mode = tree_int(primitive, "mode", MODE_TRIANGLES);
+    int mode = mode_of(primitive);
     int material = variant_material(file, primitive);
     const GltfAccessor *position =
         accessor_get(file, tree_int(tree_member(primitive, "attributes"), "POSITION", NO_ID));

@@ -15,6 +15,7 @@
 #include "scene/gltf/document.h"
 #include "scene/gltf/list.h"
 #include "scene/gltf/loader.h"
+#include "scene/gltf/packed_mesh.h"
 #include "scene/gltf/tree.h"
 #include "scene/gltf/variant.h"
 #include "scene/load/display.h"
@@ -251,6 +252,7 @@ static void load_file(Loader *load, const char *path)
     check_structure(file);
     if (problems->error_count > before || !read_data(file)) return;
     buffer_views_build(file);
+    if (problems->error_count == before) packed_meshes_build(file);
     if (problems->error_count > before) return;
     check_data(file);
     if (problems->error_count > before) return;
