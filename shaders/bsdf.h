@@ -12,6 +12,7 @@
 #include "shaders/bsdf_model.h"
 #include "shaders/dielectric.h"
 #include "shaders/display.h"
+#include "shaders/glazing.h"
 #include "shaders/metallic_roughness.h"
 
 /* Every model once: MODEL(KIND, name, Parameters) makes the kind BSDF_KIND, the member `name`
@@ -19,6 +20,7 @@
 #define BSDF_MODELS(MODEL)                                                                     \
     MODEL(METALLIC_ROUGHNESS, metallic_roughness, MetallicRoughness)                           \
     MODEL(THIN_WINDOW, thin_window, ThinWindow)                                                \
+    MODEL(GLAZED_WINDOW, glazed_window, GlazedWindow)                                          \
     MODEL(DIELECTRIC, dielectric, Dielectric)                                                  \
     MODEL(DISPLAY, display, DisplaySurface)
 

@@ -15,6 +15,8 @@ typedef struct BsdfSample {
     Spectrum weight;   /* eval * |cos wi| / pdf */
     float    pdf;      /* sr^-1 of eval's part; probability of the choice when is_delta */
     bool     is_delta; /* light sampling can never produce this direction */
+    float    along;    /* m: the light comes from so far along the surface, where wi leans to
+                          (images of a pane's far face); else 0 */
     bool     passes;   /* went straight through (wi = -wo): shadow rays pass here too, so it is
                           no scattering event for multiple importance sampling */
 } BsdfSample;

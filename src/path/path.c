@@ -11,6 +11,7 @@
 #define ROULETTE_GENEROSITY 1.7f
 #define SHEET_SHARE 0.5f /* of the samples that follow what a thin sheet itself shows */
 #define SPLITS 2         /* thin sheets along a camera ray that are followed both ways */
+#define OFF_PANE 0.05f   /* of an image's shift: so far along its way its ray starts */
 #define ARRIVING_PDF 1.0f /* sr^-1, with which a guide that has learnt finds light, about */
 
 #define PASSES_MAX 512 /* windows and holes along one path: more is a closed loop of rounding */
@@ -588,6 +589,30 @@ static void add_light_samples(PathWalk *walk, const Surface *surface, Vec3 wo,
 
 /* ---- the walk --------------------------------------------------------------------------- */
 
+static bool is_glazed(const Surface *surface)
+{
+    return surface->bsdf.kind == BSDF_GLAZED_WINDOW;
+}
+
+/* Along the surface from where it was met, towards wi, by so much: images of a pane's far face
+ * start there, and what is seen through a pane goes on there. A pane may be curved: the ray
+ * starts a little along its way. */
+static Vec3 beside(const Surface *surface, Vec3 wi, float along)
+{
+    Vec3 n = surface->frame.z;
+    Vec3 towards = vec3_normalize(vec3_along(wi, n, -vec3_dot(wi, n)));
+    Vec3 place = vec3_along(surface->position, towards, along);
+    return ray_offset_origin(vec3_along(place, wi, OFF_PANE * fabsf(along)), surface->ng, wi);
+}
+
+/* Only what the eye itself sees through a pane is moved: no light sample has asked for it. */
+static Vec3 behind_pane(const PathWalk *walk, const Surface *surface)
+{
+    Vec3  way = walk->ray.direction;
+    float cosine = fabsf(vec3_dot(surface->frame.z, way));
+    return beside(surface, way, glazing_shift(surface->bsdf.glazed_window.pane, cosine));
+}
+
 /* Goes straight on behind the surface, a hole or a window: to what else lies there; then past
  * it, from where an opaque surface in the same plane is still met. */
 static void go_on_behind(PathWalk *walk, const Surface *surface)
@@ -600,6 +625,8 @@ static void go_on_behind(PathWalk *walk, const Surface *surface)
         walk->stack->count ? 2 * ray_offset_step(surface->position) / fmaxf(cosine, 1e-6f) : 0;
     Vec3 side = walk->stack->count ? vec3_neg(direction) : direction;
     walk->ray = (Ray){ray_offset_origin(surface->position, ng, side), direction, 0, INFINITY};
+    if (is_glazed(surface) && !walk->bounce && !walk->stack->count)
+        walk->ray.origin = behind_pane(walk, surface);
 }
 
 /* Beer's law inside a solid: the material's colour is what is left after its distance. */
@@ -671,8 +698,9 @@ static Step turn(PathWalk *walk, const Surface *surface, Vec3 wo, const BsdfSamp
     sheets_none(walk->stack);
     note_mirror(walk, surface, next);
     walk->bounce++;
-    walk->ray = (Ray){ray_offset_origin(surface->position, surface->ng, wi), vec3_normalize(wi),
-                      0, INFINITY};
+    walk->ray = (Ray){next->along == 0 ? ray_offset_origin(surface->position, surface->ng, wi)
+                                       : beside(surface, wi, next->along),
+                      vec3_normalize(wi), 0, INFINITY};
     return roulette(walk) ? STEP_SCATTERED : STEP_ENDED;
 }
 
@@ -771,6 +799,14 @@ static Step shade(PathWalk *walk, const Surface *surface, const Hit *hit, Vec3 w
     return scatter(walk, surface, wo);
 }
 
+/* The images of a pane and its haze. */
+static Step show_pane(PathWalk *walk, const Surface *surface, const Hit *hit, Vec3 wo)
+{
+    Surface pane = *surface;
+    pane.bsdf.glazed_window.shows_itself = true;
+    return shade(walk, &pane, hit, wo);
+}
+
 static Step reflect_window(PathWalk *walk, const Surface *surface, Vec3 wo)
 {
     Vec3 local_wo = frame_to_local(&surface->frame, wo);
@@ -801,8 +837,9 @@ static void add_sheet(PathWalk *walk, const Surface *surface, const Hit *hit, Ve
         tale = *walk->tale;
         sheet.tale = &tale;
     }
-    Step step = surface->alpha < 1 ? shade(&sheet, surface, hit, wo)
-                                   : reflect_window(&sheet, surface, wo);
+    Step step = surface->alpha < 1    ? shade(&sheet, surface, hit, wo)
+                : is_glazed(surface) ? show_pane(&sheet, surface, hit, wo)
+                                     : reflect_window(&sheet, surface, wo);
     if (step != STEP_ENDED) walk_path(&sheet);
     path_light_add(&walk->gathered, &sheet.gathered);
 }
@@ -813,15 +850,15 @@ static void add_sheet(PathWalk *walk, const Surface *surface, const Hit *hit, Ve
 static bool split(PathWalk *walk, const Surface *surface, const Hit *hit, Vec3 wo)
 {
     bool is_hole = surface->alpha > 0 && surface->alpha < 1;
-    bool is_window = surface->alpha >= 1 && surface->bsdf.kind == BSDF_THIN_WINDOW;
+    bool is_window = surface->alpha >= 1 &&
+                     (surface->bsdf.kind == BSDF_THIN_WINDOW || is_glazed(surface));
     if (walk->bounce || !walk->splits_left || !(is_hole || is_window)) return false;
     walk->splits_left--;
     numbers_for(walk, NUMBERS_SPLIT);
     if (sampler_1d(walk->sampler) < SHEET_SHARE) add_sheet(walk, surface, hit, wo);
     walk->throughput *=
         is_hole ? spectrum_all(1 - surface->alpha)
-                : thin_window_transmittance(&surface->bsdf.thin_window,
-                                            vec3_dot(surface->frame.z, wo));
+                : bsdf_pass(&surface->bsdf, frame_to_local(&surface->frame, wo));
     go_on_behind(walk, surface);
     return true;
 }

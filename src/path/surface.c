@@ -119,6 +119,24 @@ static Vec3 oriented_normal(Vec3 ns, Vec3 side, Vec3 above)
                : vec3_normalize(vec3_along(ns, above, LOWEST_COSINE * 2 - cosine));
 }
 
+/* The direction in the triangle's plane, world and unit, in which set 0's u or v grows; 0 where
+ * the texture coordinates tell none. */
+static Vec3 texture_axis(const Scene *scene, uint32_t triangle, bool is_v)
+{
+    Vec2 uv[3];
+    Vec3 p[3];
+    for (int i = 0; i < 3; i++) {
+        uv[i] = scene_corner_uv(scene, triangle, i, 0);
+        p[i] = scene_corner(scene, triangle, i);
+    }
+    Vec2  d1 = {uv[1].x - uv[0].x, uv[1].y - uv[0].y};
+    Vec2  d2 = {uv[2].x - uv[0].x, uv[2].y - uv[0].y};
+    float first = is_v ? -d2.x : d2.y, second = is_v ? d1.x : -d1.y;
+    Vec3  along = vec3_along(vec3_scale(vec3_sub(p[1], p[0]), first), vec3_sub(p[2], p[0]),
+                             second);
+    return vec3_normalize(d1.x * d2.y < d2.x * d1.y ? vec3_neg(along) : along);
+}
+
 /* ---- models ----------------------------------------------------------------------------- */
 
 typedef struct Site {
@@ -190,6 +208,23 @@ static void set_metallic_roughness(const Site *site, Surface *surface)
     set_coat(site, surface, model);
 }
 
+static void set_glazing(const Site *site, Surface *surface)
+{
+    const Glazing *pane = &site->scene->glazings[site->material->glazing_id];
+    GlazedWindow  *model = &surface->bsdf.glazed_window;
+    surface->bsdf.kind = BSDF_GLAZED_WINDOW;
+    *model = (GlazedWindow){.pane = pane,
+                            .absorbance = curve_lookup(&pane->absorbance, site->wavelengths),
+                            .front_is_up = vec3_dot(surface->frame.z, surface->ng) > 0};
+    for (int i = 0; i < 2; i++) {
+        if (pane->wedge[i] == 0) continue;
+        Vec3 axis = texture_axis(site->scene, site->hit->triangle, i == 1);
+        Vec3 local = frame_to_local(&surface->frame, axis);
+        model->slope[0] += pane->wedge[i] * local.x;
+        model->slope[1] += pane->wedge[i] * local.y;
+    }
+}
+
 static void set_bsdf(const Site *site, Surface *surface)
 {
     const Material *m = site->material;
@@ -248,6 +283,8 @@ void surface_at(const Scene *scene, const SurfaceTables *tables, const Hit *hit,
         set_display(&site, wo, out);
     } else if (m->unlit) {
         out->bsdf.kind = BSDF_BLACK;
+    } else if (m->glazing_id != NO_ID) {
+        set_glazing(&site, out);
     } else {
         read_site(&site, &out->point, texel);
         set_bsdf(&site, out);

@@ -20,6 +20,7 @@
 #include "sky/daylight.h"
 #include "sky/weather_clock.h"
 #include "spectrum/curve.h"
+#include "spectrum/glazing.h"
 #include "spectrum/intensity_web.h"
 #include "spectrum/luminous_opening.h"
 
@@ -94,6 +95,7 @@ typedef struct Material {
     float attenuation_color[3]; /* after attenuation_distance_m (infinite: none) */
     float attenuation_distance_m;
     int   display_id;          /* NO_ID unless PARHELION_display */
+    int   glazing_id;          /* NO_ID unless PARHELION_glazing */
     int   base_color_curve_id, specular_curve_id, transmission_curve_id, emission_curve_id;
     bool  is_emitter;          /* some of its surface may emit */
     bool  lets_light_through;  /* alpha below 1 or a thin window: shadow rays must ask */
@@ -205,6 +207,8 @@ typedef struct Scene {
     int       texture_count;
     Display  *displays;
     int       display_count;
+    Glazing  *glazings;
+    int       glazing_count;
     PunctualLight *lights;
     int       light_count;
     SceneCamera *cameras; /* in scene order of their nodes */

@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "base/arena.h"
-#include "base/sampler.h"
 #include "base/units.h"
 #include "panel/query/panel_open.h"
 #include "shaders/bsdf.h"
@@ -123,6 +122,20 @@ static void add_dielectric(const char *name, float ior, float alpha)
                                     .width = width};
 }
 
+static GlazedWindow *add_glazing(const char *name, float through, float haze, float width)
+{
+    Glazing *pane = ARENA_NEW(&arena, Glazing, 1);
+    *pane = (Glazing){.layers = {{0.0021f, 1.52f}, {0.00076f, 1.485f}, {0.0021f, 1.6f}},
+                      .layer_count = 3, .absorbing_ior = 1.52f, .wedge_ior = 1.485f,
+                      .haze_share = haze, .haze_width = width};
+    Model *model = &models[model_count++];
+    *model = (Model){.name = name, .bsdf.kind = BSDF_GLAZED_WINDOW, .both_sides = true,
+                     .lossless = through >= 1 && haze <= 0, .width = haze > 0 ? width : 1};
+    model->bsdf.glazed_window =
+        (GlazedWindow){.pane = pane, .absorbance = spectrum_all(-logf(through))};
+    return &model->bsdf.glazed_window;
+}
+
 static void add_glass(void)
 {
     models[model_count++] = (Model){.name = "windscreen", .bsdf.kind = BSDF_THIN_WINDOW,
@@ -130,6 +143,10 @@ static void add_glass(void)
     models[model_count++] = (Model){.name = "clear window", .bsdf.kind = BSDF_THIN_WINDOW,
         .bsdf.thin_window = {spectrum_all(1), 1.52f}, .both_sides = true, .lossless = true,
         .width = 1};
+    add_glazing("laminated", 0.8f, 0, 0)->front_is_up = true;
+    add_glazing("clear laminated", 1, 0, 0);
+    add_glazing("dirty", 0.9f, 0.3f, 0.4f);
+    add_glazing("dusty with a wedge", 0.9f, 0.02f, 0.05f)->slope[1] = 3e-4f;
     add_dielectric("smooth glass", 1.5f, 0);
     add_dielectric("nearly smooth glass", 1.5f, 0.02f);
     add_dielectric("frosted glass", 1.5f, 0.3f);
@@ -172,14 +189,6 @@ static void for_all(void (*law)(const Model *, Vec3))
             law(&models[m], wo);
             if (models[m].both_sides) law(&models[m], vec3(wo.x, wo.y, -wo.z));
         }
-}
-
-static void draw(Sampler *sampler, float u[3])
-{
-    Vec2 a = sampler_2d(sampler);
-    u[0] = a.x;
-    u[1] = a.y;
-    u[2] = sampler_1d(sampler);
 }
 
 /* ---- sampling matches its density ---------------------------------------------------- */
@@ -434,14 +443,6 @@ TEST(albedo_is_a_fair_estimate)
 
 /* ---- reciprocity --------------------------------------------------------------------- */
 
-static Vec3 random_direction(Sampler *sampler)
-{
-    Vec2  u = sampler_2d(sampler);
-    float z = 2 * u.x - 1, r = safe_sqrtf(1 - z * z), sine, cosine;
-    sincos_turns(u.y, &sine, &cosine);
-    return vec3(r * cosine, r * sine, z);
-}
-
 static Vec3 turned_over(Vec3 w)
 {
     return vec3(w.x, w.y, -w.z);
@@ -456,7 +457,8 @@ static void check_reciprocity(const Model *model, Vec3 wo, Vec3 wi)
     float pdf, ior = crosses && is_solid ? model->bsdf.dielectric.ior : 1;
     float scale = wo.z > 0 ? ior * ior : 1 / (ior * ior);
     double tolerance = is_solid || model->width < 0.05f ? 1e-3 : 1e-4; /* rounding */
-    if (turn && model->bsdf.metallic_roughness.clearcoat > 0)
+    if (turn && model->bsdf.kind == BSDF_METALLIC_ROUGHNESS &&
+        model->bsdf.metallic_roughness.clearcoat > 0)
         return; /* its coat is on one side */
     Spectrum a = bsdf_eval(&model->bsdf, wo, wi, &pdf);
     Spectrum b =

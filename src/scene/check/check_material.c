@@ -74,6 +74,37 @@ static void check_alone(const DocumentCheck *check, const GltfValue *material)
     }
 }
 
+static bool is_share(const GltfValue *value)
+{
+    return value->kind == GLTF_NUMBER && value->number >= 0 && value->number <= 1;
+}
+
+void check_glazing_layer(const DocumentCheck *check, const GltfValue *layer)
+{
+    const GltfValue *transmission = tree_member(layer, "transmission");
+    bool is_file = transmission && transmission->kind == GLTF_STRING && transmission->text[0];
+    if (transmission && !is_file && !is_share(transmission))
+        check_fails(check, transmission,
+                    "a number from 0 to 1, or the name of a CSV file of nm,value is wanted");
+    if (tree_number(layer, "wedge_rad", 0) > 0 && !tree_member(layer, "wedge_toward"))
+        check_fails(check, layer,
+                    "a wedge without \"wedge_toward\": +u, -u, +v or -v is wanted");
+}
+
+void check_glazing(const DocumentCheck *check, const GltfValue *glazing)
+{
+    const GltfValue *layers = tree_member(glazing, "layers");
+    const GltfValue *material = glazing->parent ? glazing->parent->parent : NULL;
+    int wedges = 0;
+    for (int i = 0; layers && layers->kind == GLTF_ARRAY && i < layers->count; i++) {
+        wedges += tree_number(&layers->items[i], "wedge_rad", 0) > 0;
+        if (wedges == 2)
+            check_fails(check, &layers->items[i], "a second wedge; one layer may have one");
+    }
+    if (tree_extension(material, "PARHELION_display"))
+        check_fails(check, glazing, "stands beside PARHELION_display: a pane is no display");
+}
+
 void check_material(const DocumentCheck *check, const GltfValue *material)
 {
     const GltfValue *mode = tree_member(material, "alphaMode");
@@ -118,6 +149,16 @@ static int missing_set(const GltfValue *value, const GltfValue *attributes)
     return NO_ID;
 }
 
+/* A wedge's direction is told by texture coordinates. */
+static bool has_wedge(const GltfValue *material)
+{
+    const GltfValue *layers =
+        tree_member(tree_extension(material, "PARHELION_glazing"), "layers");
+    for (int i = 0; layers && layers->kind == GLTF_ARRAY && i < layers->count; i++)
+        if (tree_number(&layers->items[i], "wedge_rad", 0) > 0) return true;
+    return false;
+}
+
 /* Grooves and normal maps turn with the surface; only a normal map says how to find that. */
 static bool lacks_tangents(const GltfValue *material, const GltfValue *attributes)
 {
@@ -144,6 +185,11 @@ void check_material_fits(const DocumentCheck *check, const GltfValue *primitive)
                     "the material \"%.80s\" needs TEXCOORD_%d, which is not there: (0, 0) is "
                     "taken",
                     name, set);
+    if (has_wedge(material) && !tree_member(attributes, "TEXCOORD_0"))
+        check_fails(check, primitive,
+                    "the wedge of \"%.80s\" needs TEXCOORD_0, which is not there: it tells "
+                    "where u and v grow",
+                    name);
     if (lacks_tangents(material, attributes))
         check_warns(check, primitive,
                     "the material \"%.80s\" needs tangents: there is neither TANGENT nor a "

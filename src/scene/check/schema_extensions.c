@@ -5,6 +5,7 @@
 
 #include "base/count.h"
 #include "scene/check/check_document.h"
+#include "scene/check/check_material.h"
 #include "scene/check/check_packed.h"
 #include "scene/check/schema_core.h"
 #include "scene/gltf/document.h"
@@ -287,6 +288,34 @@ static const Rule SPECTRUM[] = {{.name = "baseColor", .kind = RULE_TEXT},
 static const Schema SCHEMA_SPECTRUM = {"PARHELION_spectrum", SPECTRUM, COUNT_OF(SPECTRUM), true,
                                        NULL};
 
+static const Rule LAYER[] = {
+    {.name = "thickness_m", .kind = RULE_NUMBER,
+     .flags = RULE_REQUIRED | RULE_HAS_RANGE | RULE_ABOVE_MIN, .max = 0.1},
+    {.name = "ior", .kind = RULE_NUMBER, .flags = RULE_REQUIRED | RULE_HAS_RANGE, .min = 1,
+     .max = 4},
+    {.name = "transmission", .kind = RULE_ANY},
+    {.name = "wedge_rad", .kind = RULE_NUMBER, .flags = RULE_HAS_RANGE, .max = 0.01},
+    {.name = "wedge_toward", .kind = RULE_CHOICE, .flags = RULE_CLOSED, .of = "+u|-u|+v|-v",
+     .needs = "wedge_rad"},
+};
+static const Schema SCHEMA_LAYER = {"layer", LAYER, COUNT_OF(LAYER), true,
+                                    check_glazing_layer};
+
+static const Rule HAZE[] = {
+    {.name = "share", .kind = RULE_NUMBER, .flags = RULE_REQUIRED | RULE_HAS_RANGE, .max = 1},
+    {.name = "width_deg", .kind = RULE_NUMBER, .flags = RULE_REQUIRED | RULE_HAS_RANGE,
+     .min = 0.1, .max = 60},
+};
+static const Schema SCHEMA_HAZE = {"haze", HAZE, COUNT_OF(HAZE), true, NULL};
+
+static const Rule GLAZING[] = {
+    {.name = "layers", .kind = RULE_OBJECTS, .flags = RULE_REQUIRED, .schema = &SCHEMA_LAYER,
+     .least = 1, .most = GLAZING_LAYERS_MAX},
+    {.name = "haze", .kind = RULE_OBJECT, .schema = &SCHEMA_HAZE},
+};
+static const Schema SCHEMA_GLAZING = {"PARHELION_glazing", GLAZING, COUNT_OF(GLAZING), true,
+                                      check_glazing};
+
 /* ---- where they stand ------------------------------------------------------------------ */
 
 static const ExtensionRule EXTENSIONS[] = {
@@ -313,6 +342,7 @@ static const ExtensionRule EXTENSIONS[] = {
     {"PARHELION_display", "material", &SCHEMA_DISPLAY},
     {"PARHELION_environment", "scene", &SCHEMA_ENVIRONMENT},
     {"PARHELION_spectrum", "material", &SCHEMA_SPECTRUM},
+    {"PARHELION_glazing", "material", &SCHEMA_GLAZING},
     {"KHR_mesh_quantization", "", NULL}, /* it only widens what accessors may hold */
     /* Known, so that a wrong place or value can be told, but not honoured: */
     {"KHR_materials_anisotropy", "material", &SCHEMA_ANISOTROPY},

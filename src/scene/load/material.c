@@ -4,6 +4,7 @@
 
 #include "scene/gltf/document.h"
 #include "scene/load/display.h"
+#include "scene/load/glazing.h"
 #include "scene/load/texture_slot.h"
 #include "spectrum/photometry.h"
 
@@ -35,6 +36,7 @@ static Material default_material(const char *name)
                       .attenuation_color = {1, 1, 1},
                       .attenuation_distance_m = INFINITY,
                       .display_id = NO_ID,
+                      .glazing_id = NO_ID,
                       .base_color_curve_id = NO_ID,
                       .specular_curve_id = NO_ID,
                       .transmission_curve_id = NO_ID,
@@ -184,6 +186,7 @@ static void build_material(GltfFile *file, const GltfValue *value)
     read_core(file, value, &m);
     read_extensions(file, value, &m);
     read_spectra(file, tree_extension(value, "PARHELION_spectrum"), &m);
+    glazing_build(file, tree_extension(value, "PARHELION_glazing"), &m);
     add_material(load, m, (int[SCENE_UV_SETS]){0, 1});
     if (display) display_build(file, display, id);
     Material *added = list_item(&load->materials, id);

@@ -1,0 +1,282 @@
+/* glazed_window -- windscreens and other panes of several layers (PARHELION_glazing).
+ *
+ * Modelled as one sheet; what the pane's thickness does to light is worked out here:
+ *
+ *   image   of the face that is met: Fresnel's share of the light
+ *   ghost   of the far face: light that went through the pane twice. It stands beside the
+ *           image, by 2 d tan t' along the pane (t' the angle in the glass), and is turned by
+ *           the wedge; so are the weaker ones of light that went to and fro more often
+ *   pass    straight through; seen through the pane the world stands a little aside
+ *   haze    what dirt and scratches scatter forward: a lobe about the straight way
+ *
+ *   layers       thickness (m), index of refraction, share of the light that a layer lets
+ *                through along the normal. Float glass 1.52, PVB 1.485; 2.1 + 0.76 + 2.1 mm is
+ *   usual wedge        radians, towards +u, -u, +v or -v: the pane grows thicker that way.
+ *                Windscreens for head-up displays have 0.2 to 0.7 mrad towards their upper edge
+ *   haze share   clean 0.001 to 0.005, dusty 0.02, dirty 0.05; width 1 to 30 degrees
+ *
+ * Exact for both polarisations, whose means are taken at the end: a face reflects r, the body
+ * lets t through at this angle, and R = r1 + (1 - r1)^2 t^2 r2 / (1 - r1 r2 t^2),
+ * T = (1 - r1) (1 - r2) t / (1 - r1 r2 t^2). A ghost of order k has
+ * (1 - r1)^2 t^2k r2^k r1^(k-1); orders below 1e-4 in all come with the last one above it.
+ * The haze is a function of how far the direction's part along the pane moves, b:
+ * share min(T(in), T(out)) w^2 / (pi (w^2 + b^2)^2), w the width's sine: half of the lobe lies
+ * within w, the same both ways; what would leave below the pane's plane is lost.
+ *
+ * Not modelled: what the layers reflect to each other (0.01 %), images by dirt, the ghost of
+ * what is seen through the pane, polarisation carried on to the next surface. Light samples
+ * pass straight; only what the eye sees through a pane is moved aside.
+ *
+ * Sources  Born and Wolf, "Principles of Optics", 1.5.2 (faces); Harvey 1976 and Stover,
+ *          "Optical Scattering", for lobes that keep their shape over direction cosines.
+ */
+#include "shaders/glazing.h"
+
+#include "base/mathf.h"
+#include "base/units.h"
+#include "spectrum/fresnel.h"
+
+#define ORDERS_MAX 16
+#define LEFT_OVER 1e-4f    /* of the light: weaker images are not told apart */
+#define LEAST_COSINE 1e-4f /* met flatter, a pane is a mirror */
+
+/* One polarisation: what the near and the far face reflect. */
+typedef struct Faces {
+    float near_one, far_one;
+} Faces;
+
+/* The pane as one direction meets it. */
+typedef struct Meeting {
+    Faces    s, p;
+    Spectrum through;           /* the body, once */
+    Spectrum reflected, passed; /* by all of it */
+} Meeting;
+
+/* Of the refracted direction. */
+static float cosine_inside(float cosine, float ior)
+{
+    return safe_sqrtf(1 - (1 - cosine * cosine) / (ior * ior));
+}
+
+static Spectrum faces_reflect(Faces f, Spectrum t2)
+{
+    float let_in = (1 - f.near_one) * (1 - f.near_one);
+    return spectrum_all(f.near_one) +
+           t2 * spectrum_all(let_in * f.far_one) /
+               (spectrum_all(1) - t2 * spectrum_all(f.near_one * f.far_one));
+}
+
+static Spectrum faces_pass(Faces f, Spectrum t)
+{
+    return t * spectrum_all((1 - f.near_one) * (1 - f.far_one)) /
+           (spectrum_all(1) - t * t * spectrum_all(f.near_one * f.far_one));
+}
+
+static Meeting meet(const GlazedWindow *window, Vec3 wo)
+{
+    const Glazing *pane = window->pane;
+    float cosine = clampf(fabsf(wo.z), LEAST_COSINE, 1);
+    bool  is_front = (wo.z > 0) == window->front_is_up;
+    float first = pane->layers[0].ior, last = pane->layers[pane->layer_count - 1].ior;
+    Fresnel near = fresnel_dielectric(cosine, is_front ? first : last, NULL);
+    Fresnel far = fresnel_dielectric(cosine, is_front ? last : first, NULL);
+    float   slant = cosine_inside(cosine, pane->absorbing_ior);
+    Faces   s = {near.s, far.s}, p = {near.p, far.p};
+    Spectrum t = spectrum_exp(window->absorbance * spectrum_all(-1 / slant)), t2 = t * t;
+    Spectrum half = spectrum_all(0.5f);
+    return (Meeting){s, p, t, half * (faces_reflect(s, t2) + faces_reflect(p, t2)),
+                     half * (faces_pass(s, t) + faces_pass(p, t))};
+}
+
+/* Of the light of one order its successor has as much: r1 r2 t^2. */
+static float order_of_faces(Faces f, int order)
+{
+    if (!order) return f.near_one;
+    float share = (1 - f.near_one) * (1 - f.near_one) * f.far_one;
+    for (int i = 1; i < order; i++) share *= f.near_one * f.far_one;
+    return share;
+}
+
+static Spectrum order_share(const Meeting *m, int order)
+{
+    Spectrum t2 = spectrum_all(1);
+    for (int i = 0; i < order; i++) t2 *= m->through * m->through;
+    return t2 *
+           spectrum_all(0.5f * (order_of_faces(m->s, order) + order_of_faces(m->p, order)));
+}
+
+/* ---- images ------------------------------------------------------------------------------ */
+
+/* 2 d tan t' of all layers: how far along the pane light comes out that went to and fro once.
+ * */
+static float ghost_shift(const Glazing *pane, float cosine)
+{
+    float sine = safe_sqrtf(1 - cosine * cosine), sum = 0;
+    for (int i = 0; i < pane->layer_count; i++) {
+        const GlazingLayer *layer = &pane->layers[i];
+        sum += layer->thickness_m * sine / (layer->ior * cosine_inside(cosine, layer->ior));
+    }
+    return 2 * sum;
+}
+
+float glazing_shift(const Glazing *pane, float cosine)
+{
+    float thickness = 0;
+    for (int i = 0; i < pane->layer_count; i++) thickness += pane->layers[i].thickness_m;
+    cosine = fmaxf(cosine, LEAST_COSINE);
+    float straight = thickness * safe_sqrtf(1 - cosine * cosine) / cosine;
+    return 0.5f * ghost_shift(pane, cosine) - straight;
+}
+
+/* The direction of an image: in the wedge's layer the light meets the far face, leaning by the
+ * slope, `order` times. wo.z > 0. False: it does not come out again. */
+static bool image_direction(const GlazedWindow *window, Vec3 wo, int order, Vec3 *wi)
+{
+    *wi = vec3(-wo.x, -wo.y, wo.z);
+    if (!order || (window->slope[0] == 0 && window->slope[1] == 0)) return true;
+    float n = window->pane->wedge_ior;
+    Vec3  far = vec3_normalize(vec3(window->slope[0], window->slope[1], 1));
+    Vec3  way = vec3(-wo.x / n, -wo.y / n, -cosine_inside(wo.z, n));
+    for (int i = 0; i < order; i++) {
+        if (i) way.z = -way.z;
+        way = vec3_along(way, far, -2 * vec3_dot(way, far));
+    }
+    float x = n * way.x, y = n * way.y, z2 = 1 - x * x - y * y;
+    if (!(z2 > 0 && way.z > 0)) return false;
+    *wi = vec3(x, y, sqrtf(z2));
+    return true;
+}
+
+/* u: in [0, the mean of all images' light); sum: of what may be chosen. */
+static bool sample_image(const GlazedWindow *window, const Meeting *m, Vec3 wo, float u,
+                         float sum, BsdfSample *sample)
+{
+    int      order = 0;
+    Spectrum share = order_share(m, 0), rest = m->reflected - share;
+    while (u >= spectrum_mean(share) && spectrum_mean(rest) > LEFT_OVER && order < ORDERS_MAX) {
+        u -= spectrum_mean(share);
+        share = order_share(m, ++order);
+        rest -= share;
+    }
+    if (!(spectrum_mean(rest) > LEFT_OVER) || order == ORDERS_MAX) share += rest;
+    float prob = spectrum_mean(share) / sum;
+    Vec3  up = vec3(wo.x, wo.y, fabsf(wo.z)), wi;
+    if (!(prob > 0) || !image_direction(window, up, order, &wi)) return false;
+    if (wo.z < 0) wi.z = -wi.z;
+    *sample = (BsdfSample){.wi = wi, .pdf = prob, .is_delta = true,
+                           .weight = share / spectrum_all(prob),
+                           .along = (float)order * ghost_shift(window->pane, up.z)};
+    return true;
+}
+
+/* ---- haze -------------------------------------------------------------------------------- */
+
+/* sr^-1 of a solid angle's part along the pane: its integral over all b is 1. */
+static float haze_lobe(float width, float b2)
+{
+    float w2 = width * width, sum = w2 + b2;
+    return w2 / (PI_F * sum * sum);
+}
+
+static float haze_at(const GlazedWindow *window, Vec3 wo, Vec3 wi)
+{
+    float x = wo.x + wi.x, y = wo.y + wi.y;
+    return haze_lobe(window->pane->haze_width, x * x + y * y);
+}
+
+/* The light that each choice stands for, mean over the lanes. */
+typedef struct PaneChoices {
+    float image, haze, pass, sum;
+} PaneChoices;
+
+static PaneChoices choices_of(const GlazedWindow *window, const Meeting *m)
+{
+    float       through = spectrum_mean(m->passed), share = window->pane->haze_share;
+    PaneChoices c = {.image = spectrum_mean(m->reflected), .haze = share * through};
+    c.pass = window->shows_itself ? 0 : through - c.haze;
+    c.sum = c.image + c.haze + c.pass;
+    return c;
+}
+
+static bool window_reaches(const void *parameters, Vec3 wo, Vec3 wi)
+{
+    const GlazedWindow *window = parameters;
+    return window->pane->haze_share > 0 && wo.z * wi.z < 0;
+}
+
+static Spectrum window_eval(const void *parameters, Vec3 wo, Vec3 wi, float *pdf)
+{
+    const GlazedWindow *window = parameters;
+    *pdf = 0;
+    if (!window_reaches(parameters, wo, wi)) return spectrum_all(0);
+    Meeting     out = meet(window, wo), in = meet(window, wi);
+    PaneChoices c = choices_of(window, &out);
+    float       lobe = haze_at(window, wo, wi);
+    if (c.sum > 0) *pdf = c.haze / c.sum * lobe * fabsf(wi.z);
+    return spectrum_min(out.passed, in.passed) *
+           spectrum_all(window->pane->haze_share * lobe);
+}
+
+static bool sample_haze(const GlazedWindow *window, Vec3 wo, const float u[3],
+                        BsdfSample *sample)
+{
+    float sine, cosine;
+    sincos_turns(u[1], &sine, &cosine);
+    float b = window->pane->haze_width * sqrtf(u[0] / (1 - u[0]));
+    float x = b * cosine - wo.x, y = b * sine - wo.y, z2 = 1 - x * x - y * y;
+    if (!(z2 > 0)) return false;
+    Vec3     wi = vec3(x, y, wo.z > 0 ? -sqrtf(z2) : sqrtf(z2));
+    float    pdf;
+    Spectrum f = window_eval(window, wo, wi, &pdf);
+    if (!(pdf > 0)) return false;
+    *sample = (BsdfSample){.wi = wi, .pdf = pdf,
+                           .weight = f * spectrum_all(fabsf(wi.z) / pdf)};
+    return true;
+}
+
+/* ---- the model --------------------------------------------------------------------------- */
+
+static bool window_sample(const void *parameters, Vec3 wo, const float u[3], BsdfSample *sample)
+{
+    const GlazedWindow *window = parameters;
+    Meeting     m = meet(window, wo);
+    PaneChoices c = choices_of(window, &m);
+    float       place = u[2] * c.sum;
+    if (!(c.sum > 0)) return false;
+    if (place < c.image) return sample_image(window, &m, wo, place, c.sum, sample);
+    if (place < c.image + c.haze || !(c.pass > 0)) return sample_haze(window, wo, u, sample);
+    Spectrum clear = m.passed * spectrum_all(1 - window->pane->haze_share);
+    *sample = (BsdfSample){.wi = vec3_neg(wo), .pdf = c.pass / c.sum, .is_delta = true,
+                           .passes = true, .weight = clear * spectrum_all(c.sum / c.pass)};
+    return true;
+}
+
+static Spectrum window_pass(const void *parameters, Vec3 wo)
+{
+    const GlazedWindow *window = parameters;
+    Meeting m = meet(window, wo);
+    return m.passed * spectrum_all(1 - window->pane->haze_share);
+}
+
+static Spectrum window_mirror(const void *parameters, Vec3 wo)
+{
+    Meeting m = meet(parameters, wo);
+    return m.reflected;
+}
+
+static bool window_scatters(const void *parameters)
+{
+    const GlazedWindow *window = parameters;
+    return window->pane->haze_share > 0;
+}
+
+static Spectrum window_albedo(const void *parameters, Vec3 wo)
+{
+    Meeting m = meet(parameters, wo);
+    return m.reflected + m.passed;
+}
+
+const BsdfModel glazed_window_model = {.eval = window_eval, .reaches = window_reaches,
+                                       .sample = window_sample, .pass = window_pass,
+                                       .mirror = window_mirror, .scatters = window_scatters,
+                                       .albedo = window_albedo};

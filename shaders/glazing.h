@@ -1,0 +1,21 @@
+/* glazing.h -- a laminated pane: two mirror images, light straight through, dirt.
+ *
+ * The user page is on top of glazing.c. Frame and units: bsdf.h.
+ */
+#pragma once
+#include "shaders/bsdf_model.h"
+#include "spectrum/glazing.h"
+
+typedef struct GlazedWindow {
+    const Glazing *pane;
+    Spectrum absorbance;   /* the pane's, of the path's wavelengths */
+    float    slope[2];     /* the wedge's: growth of the thickness along x and y */
+    bool     front_is_up;  /* +z is the front's side */
+    bool     shows_itself; /* bsdf_sample leaves out what passes: that is followed by itself */
+} GlazedWindow;
+
+extern const BsdfModel glazed_window_model;
+
+/* HOT. By how far a ray that passes is moved along the pane, in the direction in which it goes
+ * along it, m (below 0: back). cosine: of its angle to the normal, (0, 1]. */
+float glazing_shift(const Glazing *pane, float cosine);

@@ -1,0 +1,285 @@
+"""glazing.py PARHELION -- a laminated pane against closed forms: what passes and what it
+mirrors at six angles, where its ghost stands, how bright it is and which wedge takes it away,
+what dirt on it shows under the sun; and what is no pane.
+"""
+import json
+import math
+import os
+import subprocess
+import sys
+import tempfile
+
+from exr import Frame
+from gltf import Scene
+
+ROOT = os.path.realpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."))
+sys.path.insert(0, os.path.join(ROOT, "tests", "structure"))
+from report import Report  # noqa: E402
+
+THICKNESS, INDEX = 0.00496, 1.52
+LUMINANCE = 1000
+
+
+# ---- closed forms --------------------------------------------------------------------------
+
+def faces(angle, index=INDEX):
+    """One face's reflectance, s and p (Born and Wolf, 1.5.2)."""
+    out, inside = math.cos(angle), math.sqrt(1 - (math.sin(angle) / index) ** 2)
+    return [((a - b) / (a + b)) ** 2 for a, b in ((out, index * inside), (index * out, inside))]
+
+
+def body(angle, along_normal):
+    """What a body of this transmittance lets through at the angle."""
+    return along_normal ** (1 / math.sqrt(1 - (math.sin(angle) / INDEX) ** 2))
+
+
+def passed(angle, through=1.0):
+    t = body(angle, through)
+    return sum((1 - r) ** 2 * t / (1 - r * r * t * t) for r in faces(angle)) / 2
+
+
+def mirrored(angle, through=1.0):
+    t2 = body(angle, through) ** 2
+    return sum(r + (1 - r) ** 2 * t2 * r / (1 - r * r * t2) for r in faces(angle)) / 2
+
+
+def shift(angle):
+    """Between the rays of image and ghost: d sin 2t / sqrt(n^2 - sin^2 t)."""
+    return THICKNESS * math.sin(2 * angle) / math.sqrt(INDEX ** 2 - math.sin(angle) ** 2)
+
+
+def wedge(angle, distance):
+    """Takes the ghost away of what is this far from the pane: both rays meet there, wherever
+    the eye is, when the second one is turned by s over that distance."""
+    return (shift(angle) * math.cos(angle) /
+            (2 * distance * math.sqrt(INDEX ** 2 - math.sin(angle) ** 2)))
+
+
+# ---- scenes --------------------------------------------------------------------------------
+
+def pane(layers, haze=None):
+    extension = {"layers": layers}
+    if haze:
+        extension["haze"] = {"share": haze[0], "width_deg": haze[1]}
+    return {"PARHELION_glazing": extension}
+
+
+def laminate(through=1.0, wedge_rad=0.0, towards="+u"):
+    """Three layers of one index: 2.1, 0.76 and 2.1 mm."""
+    layers = [{"thickness_m": d, "ior": INDEX} for d in (0.0021, 0.00076, 0.0021)]
+    layers[0]["transmission"] = layers[2]["transmission"] = math.sqrt(through)
+    if wedge_rad:
+        layers[1].update(wedge_rad=wedge_rad, wedge_toward=towards)
+    return layers
+
+
+class Eye:
+    def __init__(self, program, folder):
+        self.program, self.folder = os.path.abspath(program), folder
+
+    def luminance(self, scene, *options):
+        scene.write(os.path.join(self.folder, "scene.gltf"))
+        done = subprocess.run([self.program, "render", "scene.gltf", "-o", "frame.exr",
+                               *options, "--quiet"], cwd=self.folder, capture_output=True,
+                              text=True, check=False)
+        assert done.returncode == 0, done.stderr
+        frame = Frame(os.path.join(self.folder, "frame.exr"))
+        rgb = [frame.channels[c] for c in "RGB"]
+        return frame, [0.2126 * r + 0.7152 * g + 0.0722 * b for r, g, b in zip(*rgb)]
+
+    def mean(self, scene, spp):
+        _, values = self.luminance(scene, "--size", "8x8", "--spp", str(spp))
+        return sum(values) / len(values)
+
+
+def slanted(angle, extension, below=0, above=0):
+    """A pane at y = 0, its front up, seen from above at the angle; under and over it glow."""
+    scene = Scene()
+    glass = scene.material("pane", extension, doubleSided=True)
+    scene.facing_quad(glass, [0, 0, 0], [0, 1, 0], 2)
+    if below:
+        scene.facing_quad(scene.emitter(below), [0, -1, 0], [0, 1, 0], 40)
+    if above:
+        scene.facing_quad(scene.emitter(above), [0, 3, 0], [0, -1, 0], 80)
+    way = [math.sin(angle), -math.cos(angle), 0]
+    scene.probe("eye", [-x for x in way], way, 0.01)
+    return scene
+
+
+def check_shares(report, eye):
+    for degrees in (0, 45, 56.66, 62, 65, 70):
+        angle = math.radians(degrees)
+        for through in (1.0, 0.75):
+            extension = pane(laminate(through))
+            found = eye.mean(slanted(angle, extension, below=LUMINANCE), 4) / LUMINANCE
+            report.claim(abs(found - passed(angle, through)) < 0.001,
+                         f"{degrees} degrees, {through}: lets through {found:.5f}, wanted "
+                         f"{passed(angle, through):.5f}")
+            found = eye.mean(slanted(angle, extension, above=LUMINANCE), 256) / LUMINANCE
+            wanted = mirrored(angle, through)
+            report.claim(abs(found / wanted - 1) < 0.01,
+                         f"{degrees} degrees, {through}: mirrors {found:.5f}, wanted "
+                         f"{wanted:.5f}")
+
+
+# ---- the ghost -----------------------------------------------------------------------------
+
+NEAR, FAR = 0.8, 1.7  # m from the pane to the eye and to a bright line
+FIELD = 40            # minutes of arc across the images
+FINE = (480, 0.0002, 64)       # rows, the line's width in m, samples: for places,
+STRONG = (120, 0.0018, 8192)  # and for how bright an image is
+
+
+def bright_line(angle, extension, width):
+    """An eye on the side of -x and a line on that of +x, both `angle` off the normal."""
+    scene = Scene()
+    glass = scene.material("pane", extension, doubleSided=True)
+    scene.quad(glass, [-1, 0, 1], [2, 0, 0], [0, 0, -2])  # u grows along x
+    out = [math.sin(angle), math.cos(angle), 0]
+    across = [-math.cos(angle), math.sin(angle), 0]
+    scene.facing_quad(scene.emitter(1e6), [FAR * x for x in out], [-x for x in out], 0.2, width,
+                      up=across)
+    way = [math.sin(angle), -math.cos(angle), 0]
+    scene.view("eye", [-NEAR * x for x in way], way, FIELD / 60, up=[math.cos(angle),
+                                                                    math.sin(angle), 0])
+    return scene
+
+
+def images(eye, angle, extension, how=FINE):
+    """(minutes of arc, light) of the images from the brightest on; up is towards +x."""
+    count, width, spp = how
+    frame, values = eye.luminance(bright_line(angle, extension, width), "--size", f"8x{count}",
+                                  "--spp", str(spp))
+    rows = [sum(values[y * frame.width:(y + 1) * frame.width]) for y in range(count)]
+    found, least = [], 1e-3 * max(rows)
+    y = 0
+    while y < count:
+        if rows[y] <= least:
+            y += 1
+            continue
+        end = y
+        while end < count and rows[end] > least:
+            end += 1
+        light = sum(rows[y:end])
+        place = sum(rows[i] * (i + 0.5) for i in range(y, end)) / light
+        found.append(((count / 2 - place) * FIELD / count, light))
+        y = end
+    return sorted(found, key=lambda image: -image[1])
+
+
+def check_ghost(report, eye):
+    distance = NEAR + FAR
+    for degrees in (45, 60, 62, 70):
+        angle, through = math.radians(degrees), 0.9
+        (first, _), (second, _), *_ = images(eye, angle, pane(laminate(through)))
+        wanted = math.degrees(shift(angle) / distance) * 60
+        report.claim(abs(abs(second - first) / wanted - 1) < 0.02,
+                     f"{degrees} degrees: the ghost stands {second - first:.3f} minutes beside "
+                     f"the image, wanted {wanted:.3f}")
+        check_wedge(report, eye, angle, wanted)
+        if degrees not in (45, 70):
+            continue
+        (_, bright), (_, faint), *_ = images(eye, angle, pane(laminate(through)), STRONG)
+        ratio = (sum((1 - r) ** 2 * body(angle, through) ** 2 * r for r in faces(angle)) /
+                 sum(faces(angle)))
+        report.claim(abs(faint / bright / ratio - 1) < 0.01,
+                     f"{degrees} degrees: the ghost has {faint / bright:.5f} of the image's "
+                     f"light, wanted {ratio:.5f}")
+
+
+def check_wedge(report, eye, angle, apart):
+    """Thicker towards the eye it takes the ghost away, thicker towards the line it doubles."""
+    alpha = wedge(angle, FAR)
+    degrees = round(math.degrees(angle))
+    left = images(eye, angle, pane(laminate(1, alpha, "-u")))
+    spread = max(place for place, _ in left[:2]) - min(place for place, _ in left[:2])
+    report.claim(spread < 0.2, f"{degrees} degrees: a wedge of {1e3 * alpha:.3f} mrad leaves "
+                               f"{spread:.3f} minutes")
+    first, second = images(eye, angle, pane(laminate(1, alpha, "+u")))[:2]
+    found = abs(first[0] - second[0])
+    report.claim(abs(found / (2 * apart) - 1) < 0.02,
+                 f"{degrees} degrees: turned round it makes {found:.3f} minutes, wanted "
+                 f"{2 * apart:.3f}")
+
+
+# ---- dirt ----------------------------------------------------------------------------------
+
+def check_haze(report, eye):
+    """The sun 40 degrees off the normal beyond the pane, eyes at several angles below it."""
+    share, width, lux, sun = 0.03, 12, 80000, math.radians(40)
+    for degrees in (-40, -20, 0, 30, 60):
+        angle = math.radians(degrees)
+        scene = Scene()
+        glass = scene.material("pane", pane(laminate(0.8), (share, width)), doubleSided=True)
+        scene.facing_quad(glass, [0, 0, 0], [0, 1, 0], 2)
+        scene.light("directional", lux, direction=[math.sin(sun), -math.cos(sun), 0])
+        way = [math.sin(angle), math.cos(angle), 0]
+        scene.probe("eye", [-x for x in way], way, 0.01)
+        found = eye.mean(scene, 64)
+        moved, w = math.sin(angle) - math.sin(sun) * -1, math.sin(math.radians(width))
+        lobe = w * w / (math.pi * (w * w + moved * moved) ** 2)
+        wanted = (lux * math.cos(sun) * share * lobe *
+                  min(passed(sun, 0.8), passed(abs(angle), 0.8)))
+        report.claim(abs(found / wanted - 1) < 0.01,
+                     f"dirt from {degrees} degrees: {found:.2f} cd/m2, wanted {wanted:.2f}")
+
+
+# ---- what is no pane -----------------------------------------------------------------------
+
+FAULTS = [
+    ({}, "layers"), ({"layers": []}, "layers"),
+    ({"layers": [{"thickness_m": 0, "ior": 1.5}]}, "thickness_m"),
+    ({"layers": [{"thickness_m": 0.002}]}, "ior"),
+    ({"layers": [{"thickness_m": 0.002, "ior": 0.9}]}, "ior"),
+    ({"layers": [{"thickness_m": 0.002, "ior": 1.5, "transmission": 1.2}]}, "transmission"),
+    ({"layers": [{"thickness_m": 0.002, "ior": 1.5, "transmission": True}]}, "transmission"),
+    ({"layers": [{"thickness_m": 0.002, "ior": 1.5, "transmission": "no.csv"}]}, "no.csv"),
+    ({"layers": [{"thickness_m": 0.002, "ior": 1.5, "transmission": "bad.csv"}]}, "bad.csv"),
+    ({"layers": [{"thickness_m": 0.002, "ior": 1.5, "wedge_rad": 0.001}]}, "wedge_toward"),
+    ({"layers": [{"thickness_m": 0.002, "ior": 1.5, "wedge_rad": 0.001, "wedge_toward": "up"}]},
+     "wedge_toward"),
+    ({"layers": [{"thickness_m": 0.002, "ior": 1.5, "wedge_rad": 1, "wedge_toward": "+u"}]},
+     "wedge_rad"),
+    ({"layers": [{"thickness_m": 0.002, "ior": 1.5, "wedge_rad": 1e-3, "wedge_toward": "+u"}] *
+      2}, "second wedge"),
+    ({"layers": [{"thickness_m": 0.002, "ior": 1.5, "tint": 1}]}, "tint"),
+    ({"layers": [{"thickness_m": 0.002, "ior": 1.5}] * 9}, "layers"),
+    ({"layers": [{"thickness_m": 0.002, "ior": 1.5}], "haze": {"share": 2, "width_deg": 2}},
+     "share"),
+    ({"layers": [{"thickness_m": 0.002, "ior": 1.5}], "haze": {"share": 0.1}}, "width_deg"),
+    ({"layers": [{"thickness_m": 0.002, "ior": 1.5}], "haze": {"share": 0.1, "width_deg": 0}},
+     "width_deg"),
+    ({"layers": [{"thickness_m": 0.002, "ior": 1.5}], "coating_inside": {}}, "coating_inside"),
+]
+
+
+def check_faults(report, program, folder):
+    path = os.path.join(folder, "fault.gltf")
+    with open(os.path.join(folder, "bad.csv"), "w", encoding="utf-8") as file:
+        file.write("nm,value\n400,0.5\n700,1.5\n")
+    for extension, word in FAULTS:
+        scene = Scene()
+        scene.facing_quad(scene.material("pane", {"PARHELION_glazing": extension}), [0, 0, 0],
+                          [0, 1, 0], 1)
+        scene.write(path)
+        done = subprocess.run([program, "check", path, "--json"], capture_output=True,
+                              text=True, check=False)
+        report.claim(done.returncode == 3 and word in done.stdout + done.stderr,
+                     f"{json.dumps(extension)} ends with {done.returncode}: "
+                     f"{(done.stdout + done.stderr).strip()[:200]}")
+
+
+def main():
+    program = os.path.abspath(sys.argv[-1])
+    report = Report()
+    with tempfile.TemporaryDirectory() as folder:
+        eye = Eye(program, folder)
+        check_shares(report, eye)
+        check_ghost(report, eye)
+        check_haze(report, eye)
+        check_faults(report, program, folder)
+    return report.finish()
+
+
+if __name__ == "__main__":
+    sys.exit(main())
