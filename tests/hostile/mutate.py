@@ -6,6 +6,7 @@ import struct
 import sys
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "image"))
+import packed  # noqa: E402
 from gltf import Scene, png  # noqa: E402
 
 
@@ -22,6 +23,9 @@ def sound_scene():
             "KHR_materials_ior": {"ior": 1.4}, "KHR_materials_specular": {"specularFactor": 1}})
     scene.quad(material, [-1, 0, -2], [2, 0, 0], [0, 2, 0])
     scene.quad(scene.window(1.5), [-1, 0, -1], [2, 0, 0], [0, 2, 0])
+    packed.add_packed_mesh(scene, material)
+    packed.add_moving_sheet(scene, material, scene.material("webp", emissiveFactor=[1, 1, 1],
+                            emissiveTexture={"index": packed.add_webp(scene)}))
     scene.facing_quad(scene.emitter(100), [0, 3, 0], [0, -1, 0], 1)
     scene.light("spot", 10, [0, 2, 0], [0, -1, 0.5], color=[1, 0.5, 0.5])
     scene.environment(type="constant", luminance=10, sun={

@@ -158,6 +158,18 @@ def check_mutations(report, program, folder, count):
         name = os.path.basename(path)
         if claim_sound(report, name, check, render) and check[0] == 3:
             claim_refusal(report, name, check, render)
+    check_played(report, program, paths)
+
+
+def check_played(report, program, paths):
+    """The same while they move, and as a variant."""
+    words = ("check", "--json", "--time", "0.4", "--variant", "b")
+    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+        outcomes = list(pool.map(lambda path: run(program, *words, path), paths))
+    for path, outcome in zip(paths, outcomes):
+        report.claim(is_sound(outcome), f"{os.path.basename(path)}: {' '.join(words)} ends with "
+                     f"{outcome[0]} {outcome[2].strip().splitlines()[:3]}")
+    report.claim(outcomes[0][0] == 0, f"the sound one is refused: {outcomes[0][1][:600]}")
 
 
 def main():
