@@ -16,6 +16,8 @@ run 'no shell, one socket, no mapped file' calls python3 tests/structure/calls.p
 if run_one 'release build, warnings are errors' build-release build release all; then
     run 'scenes, sets and their schemas' schemas \
         python3 tests/structure/schemas.py .build/release/parhelion
+    run 'extensions as the guide says' extensions \
+        python3 tests/structure/extensions.py .build/release/parhelion
     run 'libraries keep no state' globals sh tests/structure/globals.sh .build/release
     run 'kernels keep their vectors' kernels python3 tests/structure/kernels.py .build/release
     run 'no function that differs by CPU' libm sh tests/structure/libm.sh .build/release

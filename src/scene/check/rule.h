@@ -59,6 +59,6 @@ typedef struct Schema {
 /* An extension on one kind of object. */
 typedef struct ExtensionRule {
     const char *name;
-    const char *host;     /* the name of the schema it may stand on */
+    const char *host;     /* the name of the schema it may stand on; NULL: any */
     const Schema *schema; /* NULL: its content is not looked into */
 } ExtensionRule;

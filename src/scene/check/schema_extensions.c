@@ -343,6 +343,10 @@ static const ExtensionRule EXTENSIONS[] = {
     {"PARHELION_environment", "scene", &SCHEMA_ENVIRONMENT},
     {"PARHELION_spectrum", "material", &SCHEMA_SPECTRUM},
     {"PARHELION_glazing", "material", &SCHEMA_GLAZING},
+    /* Of no picture: who made it, what a hand may do with a node. */
+    {"KHR_xmp_json_ld", NULL, NULL},
+    {"KHR_node_selectability", NULL, NULL},
+    {"KHR_node_hoverability", NULL, NULL},
     {"KHR_mesh_quantization", "", NULL}, /* it only widens what accessors may hold */
     /* Known, so that a wrong place or value can be told, but not honoured: */
     {"KHR_materials_anisotropy", "material", &SCHEMA_ANISOTROPY},
@@ -360,7 +364,8 @@ const ExtensionRule *extension_rule(const char *name, const char *host, bool *is
     for (int i = 0; i < COUNT_OF(EXTENSIONS); i++) {
         if (strcmp(EXTENSIONS[i].name, name) != 0) continue;
         *is_known = true;
-        if (strcmp(EXTENSIONS[i].host, host) == 0) found = &EXTENSIONS[i];
+        if (!EXTENSIONS[i].host || strcmp(EXTENSIONS[i].host, host) == 0)
+            found = &EXTENSIONS[i];
     }
     return found;
 }
