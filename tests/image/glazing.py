@@ -224,6 +224,20 @@ def check_haze(report, eye):
                      f"dirt from {degrees} degrees: {found:.2f} cd/m2, wanted {wanted:.2f}")
 
 
+def check_furnace(report, eye):
+    """A clear dirty pane in a sky of one luminance is not seen, but for what its lobe loses
+    beyond the horizon: of b from B on w^2 / (w^2 + B^2), B the least way to the unit circle."""
+    for degrees, share, width in ((0, 0.3, 3), (40, 0.5, 5), (60, 0.02, 20)):
+        angle, w = math.radians(degrees), math.sin(math.radians(width))
+        scene = slanted(angle, pane(laminate(1), (share, width)))
+        scene.environment(type="constant", luminance=LUMINANCE)
+        found = eye.mean(scene, 1024) / LUMINANCE
+        lost = share * w * w / (w * w + (1 - math.sin(angle)) ** 2)
+        report.claim(1 - lost - 0.003 < found < 1.003,
+                     f"{degrees} degrees, {share} of dirt: {found:.5f} of the sky's light, "
+                     f"wanted 1 and at most {lost:.5f} less")
+
+
 # ---- what is no pane -----------------------------------------------------------------------
 
 FAULTS = [
@@ -269,6 +283,22 @@ def check_faults(report, program, folder):
                      f"{(done.stdout + done.stderr).strip()[:200]}")
 
 
+def check_hidden(report, program, folder):
+    """What a pane's material has besides, and is not seen, is told; and the frame is made."""
+    path = os.path.join(folder, "hidden.gltf")
+    for name in ("KHR_materials_volume", "KHR_materials_clearcoat"):
+        scene = Scene()
+        scene.facing_quad(scene.material("pane", {**pane(laminate()), name: {},
+                                                  "KHR_materials_transmission": {}}),
+                          [0, 0, 0], [0, 1, 0], 1)
+        scene.write(path)
+        done = subprocess.run([program, "check", path], capture_output=True, text=True,
+                              check=False)
+        said = done.stdout + done.stderr
+        report.claim(done.returncode == 0 and "is not seen: PARHELION_glazing" in said and
+                     f"extensions/{name})" in said, f"{name}: {said}")
+
+
 def main():
     program = os.path.abspath(sys.argv[-1])
     report = Report()
@@ -277,7 +307,9 @@ def main():
         check_shares(report, eye)
         check_ghost(report, eye)
         check_haze(report, eye)
+        check_furnace(report, eye)
         check_faults(report, program, folder)
+        check_hidden(report, program, folder)
     return report.finish()
 
 

@@ -91,6 +91,17 @@ void check_glazing_layer(const DocumentCheck *check, const GltfValue *layer)
                     "a wedge without \"wedge_toward\": +u, -u, +v or -v is wanted");
 }
 
+/* What other viewers do not need beside a pane, and is not seen here. */
+static void check_beside_glazing(const DocumentCheck *check, const GltfValue *material)
+{
+    static const char *const HIDDEN[] = {"KHR_materials_volume", "KHR_materials_clearcoat"};
+    const GltfValue *hidden = tree_member(material, "normalTexture");
+    for (int i = 0; i <= 2; i++) {
+        if (hidden) check_warns(check, hidden, "is not seen: PARHELION_glazing stands for it");
+        hidden = i < 2 ? tree_extension(material, HIDDEN[i]) : NULL;
+    }
+}
+
 void check_glazing(const DocumentCheck *check, const GltfValue *glazing)
 {
     const GltfValue *layers = tree_member(glazing, "layers");
@@ -103,6 +114,7 @@ void check_glazing(const DocumentCheck *check, const GltfValue *glazing)
     }
     if (tree_extension(material, "PARHELION_display"))
         check_fails(check, glazing, "stands beside PARHELION_display: a pane is no display");
+    check_beside_glazing(check, material);
 }
 
 void check_material(const DocumentCheck *check, const GltfValue *material)
