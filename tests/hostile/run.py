@@ -167,8 +167,8 @@ def check_played(report, program, paths):
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         outcomes = list(pool.map(lambda path: run(program, *words, path), paths))
     for path, outcome in zip(paths, outcomes):
-        report.claim(is_sound(outcome), f"{os.path.basename(path)}: {' '.join(words)} ends with "
-                     f"{outcome[0]} {outcome[2].strip().splitlines()[:3]}")
+        report.claim(is_sound(outcome), f"{os.path.basename(path)}: {' '.join(words)} ends "
+                     f"with {outcome[0]} {outcome[2].strip().splitlines()[:3]}")
     report.claim(outcomes[0][0] == 0, f"the sound one is refused: {outcomes[0][1][:600]}")
 
 

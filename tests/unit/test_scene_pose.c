@@ -438,6 +438,56 @@ TEST_WITH(a_skin_at_bind_pose_changes_nothing_and_joints_take_along, maker_reset
     assert_corner(moved, 2, (double[]){0, 2.5, 0});
 }
 
+/* ---- instances --------------------------------------------------------------------------- */
+
+static const char *write_instances(const void *data, size_t size, const char *more)
+{
+    return maker_gltf(
+        data, size,
+        arena_format(&maker.arena,
+                     "'bufferViews':[{'buffer':0,'byteLength':36},"
+                     "{'buffer':0,'byteOffset':36,'byteLength':80}],"
+                     "'accessors':[{'bufferView':0,'componentType':5126,'count':3,"
+                     "'type':'VEC3'},"
+                     "{'bufferView':1,'componentType':5126,'count':2,'type':'VEC3'},"
+                     "{'bufferView':1,'byteOffset':24,'componentType':5126,'count':2,"
+                     "'type':'VEC4'},{'bufferView':1,'byteOffset':56,'componentType':5126,"
+                     "'count':2,'type':'VEC3'},{'componentType':5126,'count':3,'type':'VEC3'}],"
+                     "'meshes':[{'primitives':[{'attributes':{'POSITION':0}}]}]," SCENE
+                     "'nodes':[{'mesh':0,'translation':[0,0,9],'extensions':{"
+                     "'EXT_mesh_gpu_instancing':{'attributes':{%s}}}}],"
+                     "'extensionsUsed':['EXT_mesh_gpu_instancing'],"
+                     "'extensionsRequired':['EXT_mesh_gpu_instancing']", more));
+}
+
+TEST_WITH(instances_stand_in_their_places_below_the_node, maker_reset, NULL)
+{
+    (void)state;
+    const float half = sqrtf(0.5f);
+    struct {
+        float triangle[9], moves[6], turns[8], scales[6];
+    } data = {{0, 0, 0, 1, 0, 0, 0, 1, 0},
+              {1, 2, 3, 4, 5, 6},
+              {0, 0, 0, 1, 0, 0, half, half}, /* the second: a right angle about z */
+              {2, 1, 1, 1, 3, 1}};
+    Found found = maker_survey_file(write_instances(
+        &data, sizeof data, "'TRANSLATION':1,'ROTATION':2,'SCALE':3,'_ID':1"));
+    assert_int_equal(found.problems.error_count, 0);
+    assert_int_equal(found.scene->part_count, 2);
+    assert_corner(found.scene, 1, (double[]){3, 2, 12});
+    assert_near(scene_corner(found.scene, 1, 1).x, 4, 1e-5);
+    assert_near(scene_corner(found.scene, 1, 1).y, 6, 1e-5);
+    assert_near(scene_corner(found.scene, 1, 2).x, 1, 1e-5);
+    Found turned = maker_survey_file(write_instances(&data, sizeof data, "'ROTATION':2"));
+    assert_int_equal(turned.scene->part_count, 2);
+    assert_near(scene_corner(turned.scene, 1, 1).y, 1, 1e-6);
+    Found wrong = maker_survey_file(write_instances(&data, sizeof data,
+                                                    "'TRANSLATION':2,'SCALE':4"));
+    assert_int_equal(wrong.problems.error_count, 2);
+    const char *place = "/nodes/0/extensions/EXT_mesh_gpu_instancing/attributes/SCALE";
+    assert_non_null(maker_find(&wrong, place, "SCALE has 3 elements, others have 2"));
+}
+
 /* ---- variants ---------------------------------------------------------------------------- */
 
 #define PLAIN "{'attributes':{'POSITION':0},'material':2}"

@@ -106,6 +106,55 @@ void check_node(const DocumentCheck *check, const GltfValue *node)
         check_warns(check, node, "its mesh names joints, but there is no skin: it is not bent");
 }
 
+/* ---- EXT_mesh_gpu_instancing ------------------------------------------------------------- */
+
+typedef struct InstanceAttribute {
+    const char *name, *type;
+    bool may_be_integer; /* signed and normalised */
+} InstanceAttribute;
+
+static const InstanceAttribute INSTANCE_ATTRIBUTES[] = {
+    {"TRANSLATION", "VEC3", false}, {"ROTATION", "VEC4", true}, {"SCALE", "VEC3", false}};
+
+static void check_instance_format(const DocumentCheck *check, const GltfValue *at,
+                                  const InstanceAttribute *wanted)
+{
+    const GltfValue *accessor =
+        tree_element(check->file->root, "accessors", tree_whole(at, NO_ID));
+    const char *type = tree_text(accessor, "type", "");
+    int code = tree_int(accessor, "componentType", 0);
+    bool is_integer = (code == 5120 || code == 5122) && wanted->may_be_integer &&
+                      tree_boolean(accessor, "normalized", false);
+    if (accessor && (strcmp(type, wanted->type) != 0 || (code != 5126 && !is_integer)))
+        check_fails(check, at, "%s is %s of component type %d, %s of floats is wanted",
+                    at->key, type, code, wanted->type);
+}
+
+void check_instancing(const DocumentCheck *check, const GltfValue *extension)
+{
+    const GltfValue *attributes = tree_member(extension, "attributes");
+    const GltfValue *node = extension->parent->parent;
+    double count = -1;
+    if (tree_member(node, "skin"))
+        check_fails(check, extension, "the node has a skin, which stands where its joints do");
+    for (int i = 0; i < tree_count(extension, "attributes"); i++) {
+        const GltfValue *at = &attributes->items[i];
+        const GltfValue *accessor =
+            tree_element(check->file->root, "accessors", tree_whole(at, NO_ID));
+        double own = tree_number(accessor, "count", count);
+        if (count >= 0 && own != count)
+            check_fails(check, at, "%.60s has %.0f elements, others have %.0f", at->key, own,
+                        count);
+        count = own;
+        for (int k = 0; k < 3; k++)
+            if (strcmp(INSTANCE_ATTRIBUTES[k].name, at->key ? at->key : "") == 0)
+                check_instance_format(check, at, &INSTANCE_ATTRIBUTES[k]);
+    }
+    if (count > LOAD_MAX_INSTANCES)
+        check_fails(check, attributes, "are %.0f instances, at most %d are read", count,
+                    LOAD_MAX_INSTANCES);
+}
+
 void check_mesh(const DocumentCheck *check, const GltfValue *mesh)
 {
     const GltfValue *primitives = tree_member(mesh, "primitives");

@@ -5,6 +5,7 @@
 
 #include "base/count.h"
 #include "scene/check/check_document.h"
+#include "scene/check/check_graph.h"
 #include "scene/check/check_material.h"
 #include "scene/check/check_packed.h"
 #include "scene/check/schema_core.h"
@@ -316,6 +317,11 @@ static const Rule GLAZING[] = {
 static const Schema SCHEMA_GLAZING = {"PARHELION_glazing", GLAZING, COUNT_OF(GLAZING), true,
                                       check_glazing};
 
+static const Rule INSTANCING[] = {
+    {.name = "attributes", .kind = RULE_MAP, .flags = RULE_REQUIRED, .of = "accessors"}};
+static const Schema SCHEMA_INSTANCING = {INSTANCING_EXTENSION, INSTANCING,
+                                         COUNT_OF(INSTANCING), false, check_instancing};
+
 /* ---- where they stand ------------------------------------------------------------------ */
 
 static const ExtensionRule EXTENSIONS[] = {
@@ -333,6 +339,7 @@ static const ExtensionRule EXTENSIONS[] = {
     {"KHR_texture_transform", "textureInfo", &SCHEMA_TEXTURE_TRANSFORM},
     {"KHR_node_visibility", "node", &SCHEMA_VISIBILITY},
     {"EXT_texture_webp", "texture", &SCHEMA_WEBP},
+    {INSTANCING_EXTENSION, "node", &SCHEMA_INSTANCING},
     {DRACO_EXTENSION, "mesh.primitive", &SCHEMA_DRACO},
     {MESHOPT_EXTENSION, "bufferView", &SCHEMA_MESHOPT},
     {MESHOPT_EXTENSION, "buffer", &SCHEMA_MESHOPT_BUFFER},

@@ -7,6 +7,7 @@
 #include "scene/gltf/loader.h"
 
 #define MESHOPT_EXTENSION "EXT_meshopt_compression" /* packed views (gltf/buffer_view.h) */
+#define INSTANCING_EXTENSION "EXT_mesh_gpu_instancing" /* meshes in many places */
 #define DRACO_EXTENSION "KHR_draco_mesh_compression" /* packed meshes (gltf/packed_mesh.h) */
 
 /* A fault or warning at a place of the document (NULL: the file as a whole). */

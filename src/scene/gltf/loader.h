@@ -18,6 +18,7 @@
 #define LOAD_MAX_JSON_BYTES ((size_t)1 << 30)
 #define LOAD_MAX_ELEMENTS ((size_t)1 << 27)       /* of one accessor, and vertices in all */
 #define LOAD_SCRATCH_BYTES ((size_t)64 << 30)     /* address space; pages come when touched */
+#define LOAD_MAX_INSTANCES (1 << 20)              /* of one node */
 #define LOAD_MAX_EMPTY_ELEMENTS ((size_t)1 << 22) /* of an accessor without bytes behind it */
 
 /* Where a display was described, and where its panel's name stands ("--panel" for the command

@@ -7,7 +7,9 @@
 #include "base/units.h"
 #include "scene/gltf/document.h"
 #include "scene/load/environment.h"
+#include "scene/load/instances.h"
 #include "scene/load/luminaire.h"
+#include "scene/load/node_transform.h"
 #include "scene/load/pose.h"
 #include "scene/load/primitive.h"
 
@@ -19,19 +21,6 @@ static Transform from_matrix(const float m[16])
                        vec3(m[12], m[13], m[14])};
 }
 
-/* T R S; q = (x, y, z, w) is a unit quaternion to within rounding: it is normalised here. */
-static Transform from_trs(const float t[3], const float q[4], const float s[3])
-{
-    float n = sqrtf(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
-    float k = n > 0 ? 1 / n : 0;
-    float x = q[0] * k, y = q[1] * k, z = q[2] * k, w = n > 0 ? q[3] * k : 1.0f;
-    Vec3 a = vec3(1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y));
-    Vec3 b = vec3(2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x));
-    Vec3 c = vec3(2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y));
-    return (Transform){vec3_scale(a, s[0]), vec3_scale(b, s[1]), vec3_scale(c, s[2]),
-                       vec3(t[0], t[1], t[2])};
-}
-
 /* pose: what animations say; NULL: at rest. */
 static Transform parent_from_node(const GltfValue *node, const NodePose *pose)
 {
@@ -41,9 +30,10 @@ static Transform parent_from_node(const GltfValue *node, const NodePose *pose)
     tree_floats(node, "rotation", 4, q);
     tree_floats(node, "scale", 3, s);
     if (pose)
-        return from_trs(pose->translation ? pose->translation : t,
-                        pose->rotation ? pose->rotation : q, pose->scale ? pose->scale : s);
-    return from_trs(t, q, s);
+        return transform_from_trs(pose->translation ? pose->translation : t,
+                                  pose->rotation ? pose->rotation : q,
+                                  pose->scale ? pose->scale : s);
+    return transform_from_trs(t, q, s);
 }
 
 /* ---- the order of nodes ---------------------------------------------------------------- */
@@ -209,8 +199,12 @@ static void add_mesh(GltfFile *file, const GltfValue *node, const Transform *wor
 {
     const GltfValue *mesh = tree_element(file->root, "meshes", tree_int(node, "mesh", NO_ID));
     const GltfValue *primitives = tree_member(mesh, "primitives");
-    for (int i = 0; primitives && i < primitives->count; i++)
-        primitive_build(file, node, world, mesh, &primitives->items[i]);
+    if (!primitives) return;
+    Instances instances = instances_of(file, node, world);
+    for (int k = 0; k < instances.count; k++)
+        for (int i = 0; i < primitives->count; i++)
+            primitive_build(file, node, &instances.world_from_mesh[k], mesh,
+                            &primitives->items[i]);
 }
 
 static void build_environment(GltfFile *file)
