@@ -13,7 +13,9 @@ static double spent_after(double share, double pass_s, double cost_s, int passes
     for (int i = 0; i < passes; i++) {
         now_s += pass_s;
         if (!time_share_allows(&time, now_s)) continue;
-        time_share_spend(&time, cost_s);
+        time_share_begin(&time);
+        time_share_spend(&time, 0.3 * cost_s); /* made, and sent */
+        time_share_spend(&time, 0.7 * cost_s);
         now_s += cost_s;
     }
     return time.spent_s / (now_s - time.begun_s);
@@ -35,7 +37,10 @@ TEST(the_first_is_shown_at_once_and_dear_ones_are_waited_for)
     TimeShare time = {.share = 0.01, .begun_s = 50};
     (void)state;
     assert_true(time_share_allows(&time, 50));
-    time_share_spend(&time, 2);
+    time_share_begin(&time);
+    time_share_spend(&time, 0.5);
+    time_share_spend(&time, 1.5);
+    time_share_begin(&time);
     time_share_spend(&time, 1);
     assert_false(time_share_allows(&time, 50 + 499.9)); /* 3 s are spent, the next may take 2 */
     assert_true(time_share_allows(&time, 50 + 500.1));

@@ -90,6 +90,7 @@ bool render_live_show(RenderLive *live, const Film *film, Arena scratch, Error *
     double begun_s = monotonic_seconds();
     if (!live->has_viewer) return true;
     if (viewer_is_ready(&live->viewer) && time_share_allows(&live->viewer_time, begun_s)) {
+        time_share_begin(&live->viewer_time);
         offer(live, film, scratch);
         spend(&live->viewer_time, begun_s);
     }
@@ -101,7 +102,7 @@ void render_live_push(RenderLive *live)
     if (!live->has_viewer || viewer_is_ready(&live->viewer)) return;
     double begun_s = monotonic_seconds();
     viewer_push(&live->viewer);
-    live->viewer_time.spent_s += monotonic_seconds() - begun_s;
+    spend(&live->viewer_time, begun_s);
 }
 
 bool render_live_finish(RenderLive *live, const Film *film, Arena scratch, Error *err)
@@ -128,6 +129,7 @@ bool render_live_wants_file(const RenderLive *live)
 bool render_live_write(RenderLive *live, const FrameImage *frame, double begun_s, Error *err)
 {
     live->has_file = frame_write(live->request->live, frame, err);
+    time_share_begin(&live->file_time);
     spend(&live->file_time, begun_s);
     live->file_written_s = monotonic_seconds();
     return live->has_file ||
