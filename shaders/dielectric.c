@@ -4,6 +4,7 @@
  * thickness. Light passes straight (shadow rays pass too), and a mirror image shows on it.
  *   ior    1 and up, glTF's default 1.5; window glass 1.52
  *   tint   0..1 a wavelength; green-tinted laminated glass about 0.85 at 550 nm
+ *   coating  a stack of thin layers on one face or both (PARHELION_coating)
  * Per polarisation R = 2r/(1+r) and T = (1-r)/(1+r) with r one face's exact Fresnel
  * reflectance, both averaged over the polarisations: all reflections between the faces are in
  * it, interference is not. The tint multiplies T once and does not act on R.
@@ -12,13 +13,18 @@
  *   ior    above 0, inside against outside; acrylic 1.49, polycarbonate 1.585, water 1.33
  *   tint   0..1 a wavelength, of transmitted light at each crossing; default 1
  *   alpha  0..1 GGX; below 0.001 smooth; frosted covers about 0.1 to 0.3
+ *   coating  a stack of thin layers on the boundary (PARHELION_coating)
  * Exact unpolarised Fresnel reflectance; rough boundaries after Walter et al. 2007 with
  * height-correlated shadowing. Radiance grows by (n_eye side / n_light side)^2 on crossing
  * (light is squeezed into a narrower cone); a path in and out of a solid has 1 in all.
  *
- * Not modelled: dispersion, polarisation carried from one surface to the next, interference
- * coatings, light that rough facets pass to one another (a rough solid loses up to a third at
- * alpha 1).
+ * A coating interferes with itself (spectrum/thin_film.h), the two faces of a sheet do not. Its
+ * R and T at every angle and wavelength stand in for Fresnel's; what is neither, it absorbs.
+ * Typical: MgF2 on glass reflects 1.3 % a face, four layers 0.1 %, silver between two oxides
+ * 19 % and absorbs 4 %.
+ *
+ * Not modelled: dispersion, polarisation carried from one surface to the next, light that rough
+ * facets pass to one another (a rough solid loses up to a third at alpha 1).
  */
 #include "shaders/dielectric.h"
 
@@ -32,34 +38,57 @@ static Fresnel window_face(const ThinWindow *window, float cosine)
 
 Spectrum thin_window_reflectance(const ThinWindow *window, float cosine)
 {
+    if (window->reflectance)
+        return coating_at(window->reflectance, window->wavelengths, clampf(cosine, 0, 1));
     return spectrum_all(fresnel_slab(window_face(window, cosine)));
 }
 
 Spectrum thin_window_transmittance(const ThinWindow *window, float cosine)
 {
+    if (window->transmittance)
+        return window->tint *
+               coating_at(window->transmittance, window->wavelengths, clampf(cosine, 0, 1));
     return window->tint * spectrum_all(1 - fresnel_slab(window_face(window, cosine)));
+}
+
+static bool straight_on(Vec3 wo, float prob, Spectrum weight, BsdfSample *sample)
+{
+    *sample = (BsdfSample){.wi = vec3_neg(wo), .pdf = prob, .is_delta = true, .passes = true,
+                           .weight = weight};
+    return true;
+}
+
+static bool mirrored(Vec3 wo, float prob, Spectrum weight, BsdfSample *sample)
+{
+    *sample = (BsdfSample){.wi = vec3(-wo.x, -wo.y, wo.z), .pdf = prob, .is_delta = true,
+                           .weight = weight};
+    return true;
+}
+
+static bool coated_window_sample(const ThinWindow *window, Vec3 wo, float u, BsdfSample *sample)
+{
+    Spectrum reflected = thin_window_reflectance(window, fabsf(wo.z));
+    Spectrum through = thin_window_transmittance(window, fabsf(wo.z));
+    float    share = spectrum_mean(reflected), all = share + spectrum_mean(through);
+    if (!(all > 0)) return false;
+    float prob = share / all;
+    if (u < prob) return mirrored(wo, prob, reflected / spectrum_all(prob), sample);
+    return prob < 1 && straight_on(wo, 1 - prob, through / spectrum_all(1 - prob), sample);
 }
 
 static bool window_sample(const void *parameters, Vec3 wo, const float u[3], BsdfSample *sample)
 {
     const ThinWindow *window = parameters;
+    if (window->reflectance) return coated_window_sample(window, wo, u[2], sample);
     float cosine = fabsf(wo.z);
     float reflected = fresnel_slab(window_face(window, cosine));
     float through = (1 - reflected) * spectrum_mean(window->tint);
     if (!(reflected + through > 0)) return false;
     float prob = reflected / (reflected + through);
-    if (u[2] < prob) {
-        *sample = (BsdfSample){.wi = vec3(-wo.x, -wo.y, wo.z), .pdf = prob, .is_delta = true,
-                               .weight = spectrum_all(reflected / prob)};
-        return true;
-    }
+    if (u[2] < prob) return mirrored(wo, prob, spectrum_all(reflected / prob), sample);
     if (!(through > 0)) return false;
-    *sample = (BsdfSample){.wi = vec3_neg(wo),
-                           .pdf = 1 - prob,
-                           .is_delta = true,
-                           .passes = true,
-                           .weight = window->tint * spectrum_all((1 - reflected) / (1 - prob))};
-    return true;
+    return straight_on(wo, 1 - prob, window->tint * spectrum_all((1 - reflected) / (1 - prob)),
+                       sample);
 }
 
 static Spectrum window_pass(const void *parameters, Vec3 wo)
@@ -102,25 +131,60 @@ static bool is_delta(const Dielectric *d)
     return is_smooth(d->alpha) || fabsf(d->ior - 1) < 1e-4f;
 }
 
-static float face_reflectance(float cosine, float eta, float *behind)
+/* A facet as light from wo finds it. */
+typedef struct FacetShares {
+    Spectrum reflected, through; /* the tint left out */
+    float    prob;               /* of choosing to reflect: its share of the mean light */
+    float    behind;             /* cosine of the refracted direction, 0: there is none */
+} FacetShares;
+
+static float reflect_prob(float reflected, float through)
 {
-    return fresnel_mean(fresnel_dielectric(cosine, eta, behind));
+    return reflected + through > 0 ? reflected / (reflected + through) : 0;
 }
 
-/* What the mean light of the boundary's transmitted part is worth in choosing it. */
-static float reflect_prob(const Dielectric *d, float reflectance)
+/* Tables run over the cosine in the medium of the smaller index. */
+static void read_coating(const Dielectric *d, const Side *s, float cosine, FacetShares *out)
 {
-    float through = (1 - reflectance) * spectrum_mean(d->tint);
-    return reflectance + through > 0 ? reflectance / (reflectance + through) : 0;
+    const CoatingTables *tables = d->coating;
+    bool  is_denser_behind = s->eta >= 1;
+    float beyond = (1 - cosine * cosine) / (s->eta * s->eta) - 1;
+    if (beyond >= 0 && !is_denser_behind) {
+        float falls = sqrtf(beyond);
+        out->reflected = coating_at(tables->total, d->wavelengths,
+                                    falls / (falls + cosine / s->eta));
+        out->through = spectrum_all(0);
+        return;
+    }
+    float rarer = is_denser_behind ? cosine : out->behind;
+    const CoatingTable *mirror = s->turned ? tables->back : tables->front;
+    out->reflected = coating_at(mirror, d->wavelengths, rarer);
+    out->through = coating_at(tables->through, d->wavelengths, rarer);
+}
+
+static FacetShares facet_shares(const Dielectric *d, const Side *s, float cosine)
+{
+    FacetShares shares;
+    float f = fresnel_mean(fresnel_dielectric(cosine, s->eta, &shares.behind));
+    if (d->coating) {
+        read_coating(d, s, fminf(cosine, 1), &shares);
+        shares.prob = reflect_prob(spectrum_mean(shares.reflected),
+                                   spectrum_mean(shares.through * d->tint));
+        return shares;
+    }
+    shares.reflected = spectrum_all(f);
+    shares.through = spectrum_all(1 - f);
+    shares.prob = reflect_prob(f, (1 - f) * spectrum_mean(d->tint));
+    return shares;
 }
 
 static Spectrum eval_reflected(const Dielectric *d, const Side *s, float *pdf)
 {
     Vec3  half = vec3_normalize(vec3_add(s->wo, s->wi));
     float cosine = vec3_dot(s->wo, half);
-    float f = face_reflectance(cosine, s->eta, NULL);
-    *pdf = reflect_prob(d, f) * ggx_visible_pdf(s->wo, half, d->alpha) / (4 * cosine);
-    return spectrum_all(f * ggx_reflection(s->wo, s->wi, half, d->alpha));
+    FacetShares f = facet_shares(d, s, cosine);
+    *pdf = f.prob * ggx_visible_pdf(s->wo, half, d->alpha) / (4 * cosine);
+    return f.reflected * spectrum_all(ggx_reflection(s->wo, s->wi, half, d->alpha));
 }
 
 /* Walter 2007, equations 16, 17 and 21 for wo + eta wi along the facet's normal, with the
@@ -132,15 +196,14 @@ static Spectrum eval_transmitted(const Dielectric *d, const Side *s, float *pdf)
     float out = vec3_dot(s->wo, half), in = vec3_dot(s->wi, half);
     *pdf = 0;
     if (!(out > 0 && in < 0)) return spectrum_all(0);
-    float f = face_reflectance(out, s->eta, NULL);
     float root = out + s->eta * in;
     float spread = -in / (root * root);
     if (!(spread <= 3e38f)) return spectrum_all(0);
-    *pdf = (1 - reflect_prob(d, f)) * ggx_visible_pdf(s->wo, half, d->alpha) * s->eta * s->eta *
-           spread;
+    FacetShares f = facet_shares(d, s, out);
+    *pdf = (1 - f.prob) * ggx_visible_pdf(s->wo, half, d->alpha) * s->eta * s->eta * spread;
     /* ggx_reflection is D G2 / (4 zo zi). */
-    float lobe = 4 * ggx_reflection(s->wo, s->wi, half, d->alpha);
-    return d->tint * spectrum_all((1 - f) * lobe * out * spread);
+    Spectrum lobe = spectrum_all(4 * ggx_reflection(s->wo, s->wi, half, d->alpha));
+    return d->tint * (f.through * lobe * spectrum_all(out) * spectrum_all(spread));
 }
 
 static Spectrum solid_eval(const void *parameters, Vec3 wo, Vec3 wi, float *pdf)
@@ -163,12 +226,14 @@ static Vec3 turn_back(const Side *s, Vec3 wi)
     return s->turned ? vec3(wi.x, wi.y, -wi.z) : wi;
 }
 
-static void smooth_part(const Dielectric *d, const Side *s, bool reflects, float f, float prob,
-                        BsdfSample *sample)
+static void smooth_part(const Dielectric *d, const Side *s, bool reflects,
+                        const FacetShares *f, BsdfSample *sample)
 {
-    float share = reflects ? f / prob : (1 - f) / (prob * s->eta * s->eta);
+    float    prob = reflects ? f->prob : 1 - f->prob;
+    Spectrum share = reflects ? f->reflected / spectrum_all(prob) :
+                                f->through / spectrum_all(prob * s->eta * s->eta);
     *sample = (BsdfSample){.wi = turn_back(s, s->wi), .pdf = prob, .is_delta = true,
-                           .weight = spectrum_all(share)};
+                           .weight = share};
     if (!reflects) sample->weight *= d->tint;
 }
 
@@ -179,17 +244,16 @@ static bool solid_sample(const void *parameters, Vec3 wo, const float u[3], Bsdf
     Side  s = side_of(d, wo, wo);
     bool  smooth = is_delta(d);
     Vec3  half = smooth ? vec3(0, 0, 1) : ggx_sample_visible(s.wo, d->alpha, u[0], u[1]);
-    float cosine = vec3_dot(s.wo, half), behind;
+    float cosine = vec3_dot(s.wo, half);
     if (!(cosine > 0)) return false;
-    float f = face_reflectance(cosine, s.eta, &behind);
-    float prob = reflect_prob(d, f);
-    bool  reflects = u[2] < prob;
-    if (!reflects && !(f < 1 && prob < 1)) return false;
+    FacetShares f = facet_shares(d, &s, cosine);
+    bool reflects = u[2] < f.prob;
+    if (!reflects && !(f.behind > 0 && f.prob < 1)) return false;
     s.wi = reflects ? vec3_sub(vec3_scale(half, 2 * cosine), s.wo) :
-                      vec3_normalize(refract(s.wo, half, s.eta, cosine, behind));
+                      vec3_normalize(refract(s.wo, half, s.eta, cosine, f.behind));
     if (!(reflects ? s.wi.z > 0 : s.wi.z < 0)) return false;
     if (smooth) {
-        smooth_part(d, &s, reflects, f, reflects ? prob : 1 - prob, sample);
+        smooth_part(d, &s, reflects, &f, sample);
         return true;
     }
     float    pdf;
@@ -210,14 +274,16 @@ static Spectrum solid_mirror(const void *parameters, Vec3 wo)
     const Dielectric *d = parameters;
     if (!is_delta(d) || wo.z == 0) return spectrum_all(0);
     Side s = side_of(d, wo, wo);
-    return spectrum_all(face_reflectance(s.wo.z, s.eta, NULL));
+    return facet_shares(d, &s, s.wo.z).reflected;
 }
 
 static Spectrum solid_albedo(const void *parameters, Vec3 wo)
 {
-    (void)parameters;
-    (void)wo;
-    return spectrum_all(1);
+    const Dielectric *d = parameters;
+    if (!d->coating || wo.z == 0) return spectrum_all(1);
+    Side        s = side_of(d, wo, wo);
+    FacetShares f = facet_shares(d, &s, s.wo.z);
+    return f.reflected + f.through;
 }
 
 const BsdfModel dielectric_model = {.eval = solid_eval, .sample = solid_sample,

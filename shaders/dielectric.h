@@ -4,11 +4,15 @@
  */
 #pragma once
 #include "shaders/bsdf_model.h"
+#include "shaders/coating.h"
 
 /* A smooth sheet with two parallel faces: a mirror image, and light straight through. */
 typedef struct ThinWindow {
     Spectrum tint; /* [0, 1]: what the sheet's body lets through, at this angle */
     float    ior;  /* 1 or more */
+    /* Of a coated sheet, seen from wo's side; NULL: bare. The tint multiplies. */
+    const CoatingTable *reflectance, *transmittance;
+    const Wavelengths  *wavelengths; /* NULL where it is bare */
 } ThinWindow;
 
 Spectrum thin_window_reflectance(const ThinWindow *window, float cosine);
@@ -20,6 +24,8 @@ typedef struct Dielectric {
     Spectrum tint;  /* [0, 1]: of transmitted light, at each crossing */
     float    ior;   /* of the solid against its surroundings, > 0; 0: reflects everything */
     float    alpha; /* GGX, [0, 1]; below SMOOTH_ALPHA smooth */
+    const CoatingTables *coating;     /* of that boundary; NULL: bare */
+    const Wavelengths   *wavelengths; /* NULL where it is bare */
 } Dielectric;
 
 extern const BsdfModel dielectric_model;

@@ -6,6 +6,9 @@
  *   mirror  unscattered part of gloss glass, R(theta, lambda): a perfect mirror image
  *   haze    scattered part around the mirror direction, from the panel's tables, with the
  *           lambertian part below it
+ *   cover   a coating on the cover glass (PARHELION_coating): the mirror times what the coating
+ *           makes of bare glass, at every angle and wavelength. Haze and emission stay as
+ *           measured: that the coating lets some per cent more through is not counted
  *
  * Typical: bare gloss glass mirrors 4.5 % at normal incidence, with an anti-reflection coating
  * 0.3 to 1 %; an anti-glare surface scatters some 3 to 5 % into haze a few degrees wide.
@@ -17,10 +20,20 @@
 #include "panel/query/panel_sampling.h"
 #include "shaders/display.h"
 
+/* A coating that mirrors more than glass leaves the haze its light. */
+static Spectrum mirror_at(const DisplaySurface *display, float cosine)
+{
+    Spectrum mirror = panel_mirror_at(display->panel, cosine, &display->lanes);
+    if (!display->cover) return mirror;
+    Spectrum rest = spectrum_all(1 - panel_haze_albedo(display->panel, cosine));
+    Spectrum coated = mirror * coating_at(display->cover, display->wavelengths, cosine);
+    return spectrum_min(coated, spectrum_max(mirror, rest));
+}
+
 /* The chance of taking the mirror: its share of all reflected light. */
 static float mirror_prob(const DisplaySurface *display, Vec3 wo, Spectrum *mirror)
 {
-    *mirror = panel_mirror_at(display->panel, wo.z, &display->lanes);
+    *mirror = mirror_at(display, wo.z);
     float mean = spectrum_mean(*mirror);
     float haze = panel_haze_albedo(display->panel, wo.z);
     return mean + haze > 0 ? mean / (mean + haze) : 0;
@@ -73,7 +86,7 @@ static Spectrum model_mirror(const void *parameters, Vec3 wo)
 {
     const DisplaySurface *display = parameters;
     if (!reflects(display, wo)) return spectrum_all(0);
-    return panel_mirror_at(display->panel, wo.z, &display->lanes);
+    return mirror_at(display, wo.z);
 }
 
 static bool model_scatters(const void *parameters)
@@ -86,7 +99,7 @@ static Spectrum model_albedo(const void *parameters, Vec3 wo)
 {
     const DisplaySurface *display = parameters;
     if (!reflects(display, wo)) return spectrum_all(0);
-    return panel_mirror_at(display->panel, wo.z, &display->lanes) +
+    return mirror_at(display, wo.z) +
            spectrum_all(panel_haze_albedo(display->panel, wo.z));
 }
 

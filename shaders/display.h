@@ -5,11 +5,14 @@
 #pragma once
 #include "panel/query/panel_reflection.h"
 #include "shaders/bsdf_model.h"
+#include "shaders/coating.h"
 #include "spectrum/wavelengths.h"
 
 typedef struct DisplaySurface {
     const Panel *panel;
     PanelLanes   lanes; /* its reflection at the path's wavelengths */
+    const CoatingTable *cover;       /* factor of its mirror (coating_of_cover); NULL: 1 */
+    const Wavelengths  *wavelengths; /* NULL where cover is */
 } DisplaySurface;
 
 extern const BsdfModel display_model;

@@ -31,7 +31,8 @@ bool energy_lobe_point(float ior, float cosine, float alpha, int point, EnergyLo
     Vec3  half = vec3_normalize(vec3_add(wo, wi));
     float weight = 2 * rest * ggx_reflection(wo, wi, half, alpha) * wi.z /
                    ggx_reflection_pdf(wo, half, alpha);
-    *out = (EnergyLobe){wi.z, weight, fresnel_shape(ior, vec3_dot(wo, half))};
+    float facet = vec3_dot(wo, half);
+    *out = (EnergyLobe){wi.z, weight, fresnel_shape(ior, facet), facet};
     return true;
 }
 

@@ -60,6 +60,7 @@ typedef struct EnergyLobe {
     float cosine; /* of where the light goes */
     float weight; /* share of the light, times ENERGY_LOBE_POINTS */
     float shape;  /* of the Fresnel curve there */
+    float facet;  /* cosine to the facet that sends it there */
 } EnergyLobe;
 
 /* point: 0 to ENERGY_LOBE_POINTS - 1. False: its light is lost. */

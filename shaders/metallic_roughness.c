@@ -12,6 +12,8 @@
  *   specular_color    0 and up, default 1            tints it at normal incidence
  *   transmission      0..1, default 0                share of the non-metal: a thin sheet
  *   clearcoat, clearcoat_alpha, clearcoat_normal     a lacquer of index 1.5; default none
+ *   coating           a stack of thin layers (PARHELION_coating) or a metal of measured n, k
+ *                     (PARHELION_spectrum): its own reflectance at every angle and wavelength
  *
  * Typical: matt dashboard plastic base 0.04, alpha 0.3; glossy black base 0.02, alpha 0.01;
  * leather base 0.1, alpha 0.25; satin aluminium metallic 1, base 0.9, alpha 0.1; piano
@@ -29,12 +31,14 @@
  * it by coat.h, the Lambert base is coupled to both boundaries at once. A white metal or
  * plastic under any coat returns what it gets, to 85 degrees within 0.1 % (plastic) and 0.2 %
  * (metal); of a coloured base each further turn takes its albedo. All of it is reciprocal.
+ * A coating's reflectance (coating.h) stands in for Fresnel's and Schlick's curves in all of
+ * this; with it, metals follow the exact curve of their n, k. What it absorbs is lost.
  *
  * Not modelled: polarisation, anisotropic brushing, sheen of velvet, subsurface spread,
  * coloured absorption along a slanted path in the coat, turns of light between a coat and the
  * mirror of a non-metal (its few per cent go to the Lambert base) or a sheet, and between a
- * base and a coat whose normal is tilted, the exact conductor curve (Schlick is within some per
- * cent of it).
+ * base and a coat whose normal is tilted; of a metal without n, k the exact curve (Schlick is
+ * within some per cent of it).
  */
 #include "shaders/metallic_roughness.h"
 
@@ -70,6 +74,7 @@ typedef struct View {
     float    coat;   /* the coat's albedo towards wo, times its share */
     Through  through; /* the coat, and of it all: */
     CoatMean coat_mean;
+    Spectrum coated;  /* what a coated face sends back towards wo; undefined without one */
     Choices  choices;
 } View;
 
@@ -119,10 +124,72 @@ static inline Spectrum let_in(const Boundary *b, Energy e)
     return spectrum_all(1) - b->f0 * spectrum_all(e.all) - b->rise * spectrum_all(e.shape);
 }
 
+/* ---- coatings: tables in place of the curves ------------------------------------------- */
+
+static const CoatingTables *coated_metal(const MetallicRoughness *m)
+{
+    return m->coating ? m->coating->metal : NULL;
+}
+
+static const CoatingTables *coated_face(const MetallicRoughness *m)
+{
+    return m->coating ? m->coating->face : NULL;
+}
+
+static const CoatingTables *coated_sheet(const MetallicRoughness *m)
+{
+    return m->coating ? m->coating->sheet : NULL;
+}
+
+static Spectrum sheet_at(const MetallicRoughness *m, float cosine)
+{
+    const CoatingTables *sheet = m->coating->sheet;
+    return coating_at(m->seen_from_back ? sheet->back : sheet->front, m->wavelengths, cosine);
+}
+
+/* What a coated face sends back in all. */
+static Spectrum coated_energy(const MetallicRoughness *m, float cosine)
+{
+    const CoatingTables *face = m->coating->face;
+    Spectrum all = is_smooth(m->alpha) ?
+                       coating_at(face->front, m->wavelengths, cosine) :
+                       coating_energy_at(face->energy, m->wavelengths, cosine, m->alpha);
+    return all * spectrum_all(m->specular);
+}
+
+static Spectrum coated_facet(const MetallicRoughness *m, float cosine)
+{
+    Spectrum sum = spectrum_all(0);
+    if (coated_face(m))
+        sum = coating_at(m->coating->face->front, m->wavelengths, cosine) *
+              spectrum_all(m->specular * (1 - m->transmission));
+    if (m->transmission > 0) sum += sheet_at(m, cosine) * spectrum_all(m->transmission);
+    return sum * spectrum_all(1 - m->metallic);
+}
+
+/* Lambert under a coated face, as diffuse_eval. */
+static Spectrum under_coating(const View *view, float cosine, float share)
+{
+    const MetallicRoughness *m = view->m;
+    Spectrum one = spectrum_all(1), in = coated_energy(m, cosine);
+    Spectrum mean = coating_energy_average(m->coating->face->energy, m->wavelengths, m->alpha);
+    mean = one - mean * spectrum_all(m->specular);
+    return m->base_color * (one - view->coated) * (one - in) * spectrum_all(share * INV_PI_F) /
+           spectrum_max(mean, spectrum_all(1e-3f));
+}
+
+/* ---- facets ----------------------------------------------------------------------------- */
+
+static bool has_coated_nonmetal(const MetallicRoughness *m)
+{
+    return coated_face(m) || coated_sheet(m);
+}
+
 /* Reflectance of a facet met at `cosine`, of the non-metal's share, sheet or solid. */
 static Spectrum facet_of_nonmetal(const MetallicRoughness *m, const Boundary *b, float cosine)
 {
     if (!(m->metallic < 1)) return spectrum_all(0);
+    if (has_coated_nonmetal(m)) return coated_facet(m, cosine);
     Spectrum face = boundary_reflectance(m, b, cosine);
     if (m->transmission > 0)
         face += (sheet_reflectance(face) - face) * spectrum_all(m->transmission);
@@ -132,24 +199,31 @@ static Spectrum facet_of_nonmetal(const MetallicRoughness *m, const Boundary *b,
 static Spectrum facet_of_metal(const MetallicRoughness *m, float cosine)
 {
     if (!(m->metallic > 0)) return spectrum_all(0);
+    if (coated_metal(m))
+        return coating_at(m->coating->metal->front, m->wavelengths, cosine) *
+               spectrum_all(m->metallic);
     return fresnel_schlick(m->base_color, cosine) * spectrum_all(m->metallic);
 }
 
 /* What the sheet's share lets through a facet met at `cosine`. */
 static Spectrum pane_transmittance(const MetallicRoughness *m, const Boundary *b, float cosine)
 {
+    if (coated_sheet(m))
+        return coating_at(m->coating->sheet->through, m->wavelengths, cosine) * m->base_color *
+               spectrum_all((1 - m->metallic) * m->transmission);
     Spectrum face = boundary_reflectance(m, b, cosine);
     return (spectrum_all(1) - sheet_reflectance(face)) * m->base_color *
            spectrum_all((1 - m->metallic) * m->transmission);
 }
 
 /* Lambert under the boundary: base / pi * in(wo) in(wi) / mean of in (Kelemen 2001). */
-static Spectrum diffuse_eval(const View *view, Energy in)
+static Spectrum diffuse_eval(const View *view, float cosine, Energy in)
 {
     const MetallicRoughness *m = view->m;
     const Boundary *b = &view->boundary;
     float share = (1 - m->metallic) * (1 - m->transmission);
     if (!(share > 0)) return spectrum_all(0);
+    if (coated_face(m)) return under_coating(view, cosine, share);
     Spectrum mean = let_in(b, energy_average(m->energy, m->alpha));
     return m->base_color * let_in(b, view->energy) * let_in(b, in) *
            spectrum_all(share * INV_PI_F) / spectrum_max(mean, spectrum_all(1e-3f));
@@ -168,6 +242,7 @@ static float rebound_lobe(const View *view, Energy in)
  * the hemisphere is f0 + (1 - f0) / 21. */
 static Spectrum metal_mean(const MetallicRoughness *m)
 {
+    if (coated_metal(m)) return curve_lookup(&m->coating->metal->front_mean, m->wavelengths);
     return m->base_color + (spectrum_all(1) - m->base_color) * spectrum_all(1.0f / 21);
 }
 
@@ -182,8 +257,17 @@ static Spectrum metal_rebound(const MetallicRoughness *m)
 static Spectrum pane_mean(const View *view)
 {
     const Boundary *b = &view->boundary;
+    if (coated_sheet(view->m)) /* of either side: they differ by what the coating absorbs */
+        return curve_lookup(&view->m->coating->sheet->front_mean, view->m->wavelengths);
     float shape = energy_average(view->m->energy, 0).shape;
     return sheet_reflectance(b->f0 + b->rise * spectrum_all(shape));
+}
+
+static Spectrum pane_mean_through(const View *view)
+{
+    const MetallicRoughness *m = view->m;
+    if (coated_sheet(m)) return curve_lookup(&m->coating->sheet->through_mean, m->wavelengths);
+    return spectrum_all(1) - pane_mean(view);
 }
 
 static float clear_share(const MetallicRoughness *m)
@@ -310,11 +394,42 @@ static float coat_eval(const MetallicRoughness *m, Vec3 wo, Vec3 wi, float *pdf)
            ggx_reflection(out, in, half, m->clearcoat_alpha);
 }
 
+static Choices scaled_to_one(Choices c)
+{
+    float sum = c.coat + c.mirror + c.diffuse + c.through;
+    float scale = sum > 0 ? 1 / sum : 0;
+    return (Choices){c.coat * scale, c.mirror * scale, c.diffuse * scale, c.through * scale};
+}
+
+/* Mean shares of light for choosing, where a part is coated. */
+static Choices choose_coated(const View *view, float coat)
+{
+    const MetallicRoughness *m = view->m;
+    float z = view->wo.z, lost = 1 - view->energy.all, under = 1 - coat;
+    float clear = (1 - m->metallic) * m->transmission, solid = 1 - m->metallic - clear;
+    float base = spectrum_mean(m->base_color);
+    float facets = spectrum_mean(facet_of_nonmetal(m, &view->boundary, z));
+    float metal = m->metallic > 0 ? spectrum_mean(facet_of_metal(m, z)) : 0;
+    float through = clear > 0 ? spectrum_mean(pane_transmittance(m, &view->boundary, z)) : 0;
+    float face = coated_face(m) ? spectrum_mean(view->coated) :
+                 spectrum_mean(spectrum_all(1) - let_in(&view->boundary, view->energy));
+    return scaled_to_one((Choices){
+        .coat = coat,
+        .mirror = under * (facets + metal),
+        .diffuse = under * (base * solid * (1 - face) +
+                            lost * (metal * metal + facets * clear)),
+        .through = under * through});
+}
+
 /* Probabilities follow the lanes' mean albedo of each part, so that none is ever starved. */
 static inline Choices choose(const View *view)
 {
     const MetallicRoughness *m = view->m;
     Energy e = view->energy;
+    if (m->coating) {
+        float above = vec3_dot(m->clearcoat_normal, view->wo);
+        return choose_coated(view, above > 0 ? view->coat : 0);
+    }
     float  base = spectrum_mean(m->base_color);
     float  f0 = spectrum_mean(view->boundary.f0);
     float face = f0 * e.all + (m->specular - f0) * e.shape;
@@ -330,9 +445,7 @@ static inline Choices choose(const View *view)
                             clear * sheet * (1 - e.all)),
         .through = under * base * clear * (1 - sheet),
     };
-    float sum = c.coat + c.mirror + c.diffuse + c.through;
-    float scale = sum > 0 ? 1 / sum : 0;
-    return (Choices){c.coat * scale, c.mirror * scale, c.diffuse * scale, c.through * scale};
+    return scaled_to_one(c);
 }
 
 static inline View view_from(const MetallicRoughness *m, Vec3 wo)
@@ -347,6 +460,7 @@ static inline View view_from(const MetallicRoughness *m, Vec3 wo)
         view.through = coat_through(m, wo);
         view.coat_mean = coat_mean(m->coat, m->alpha, m->clearcoat_alpha);
     }
+    if (coated_face(m)) view.coated = coated_energy(m, wo.z);
     view.choices = choose(&view);
     return view;
 }
@@ -387,7 +501,7 @@ static Spectrum base_above(const View *view, Vec3 wi, float *pdf)
     bool     has_coat = m->clearcoat > 0;
     Through  below;
     Energy   in = energy_directional(m->energy, wi.z, m->alpha);
-    Spectrum sum = diffuse_eval(view, in) + rebound_above(view, in);
+    Spectrum sum = diffuse_eval(view, wi.z, in) + rebound_above(view, in);
     *pdf = view->choices.diffuse * wi.z * INV_PI_F;
     if (has_coat) {
         below = coat_through(m, wi);
@@ -415,7 +529,7 @@ static Spectrum base_below(const View *view, Vec3 wi, float *pdf)
     float  all = view->energy.all, lobe = ggx_reflection_pdf(view->wo, half, m->alpha);
     *pdf = view->choices.through * (all * lobe + (1 - all) * up.z * INV_PI_F);
     Spectrum straight = pane_transmittance(m, &view->boundary, vec3_dot(view->wo, half));
-    Spectrum spread = (spectrum_all(1) - pane_mean(view)) * m->base_color *
+    Spectrum spread = pane_mean_through(view) * m->base_color *
                       spectrum_all((1 - m->metallic) * m->transmission);
     return straight * spectrum_all(ggx_reflection(view->wo, up, half, m->alpha)) +
            spread * spectrum_all(rebound_lobe(view, in));
@@ -584,35 +698,64 @@ static bool model_scatters(const void *parameters)
     return has_base || has_coat || !is_smooth(m->alpha);
 }
 
+/* f0 of the non-metal and of the metal, and what the face sends back in all. */
+static void lobe_shares(const View *view, float *nonmetal, float *metal, float *face)
+{
+    const MetallicRoughness *m = view->m;
+    Energy e = view->energy;
+    *metal = spectrum_mean(m->base_color);
+    *nonmetal = spectrum_mean(view->boundary.f0);
+    *face = *nonmetal * e.all + (m->specular - *nonmetal) * e.shape;
+    if (coated_metal(m))
+        *metal = spectrum_mean(coating_at(m->coating->metal->front, m->wavelengths, 1));
+    if (!coated_face(m)) return;
+    *nonmetal = m->specular *
+                spectrum_mean(coating_at(m->coating->face->front, m->wavelengths, 1));
+    *face = spectrum_mean(view->coated);
+}
+
 /* A rough coat is left out: it is rare. */
 static void model_lobes(const void *parameters, Vec3 wo, BsdfLobes *lobes)
 {
     const MetallicRoughness *m = parameters;
     if (!(wo.z > 0)) return;
     View  view = view_from(m, wo);
-    float base = spectrum_mean(m->base_color), f0 = spectrum_mean(view.boundary.f0);
-    float solid = 1 - m->metallic, under = 1 - view.coat;
-    float face = f0 * view.energy.all + (m->specular - f0) * view.energy.shape;
+    float base = spectrum_mean(m->base_color), solid = 1 - m->metallic, under = 1 - view.coat;
+    float f0, metal, face;
+    lobe_shares(&view, &f0, &metal, &face);
     lobes->prob = view.choices.diffuse;
     lobes->diffuse = under * solid * (1 - m->transmission) * (1 - face) * base;
     if (m->alpha < WIDE_ALPHA) return;
     lobes->prob += view.choices.mirror;
-    lobes->f0 = under * (solid * f0 + m->metallic * base);
+    lobes->f0 = under * (solid * f0 + m->metallic * metal);
     lobes->f90 = under * (solid * m->specular + m->metallic);
     lobes->alpha = m->alpha;
+}
+
+/* The base's albedo by its shares: opaque, sheet, metal. */
+static void albedo_parts(const MetallicRoughness *m, Vec3 wo, Spectrum *solid, Spectrum *clear,
+                         Spectrum *metal)
+{
+    Energy   e = energy_directional(m->energy, wo.z, m->alpha);
+    Boundary b = boundary_of(m);
+    Spectrum one = spectrum_all(1), in = let_in(&b, e), base = m->base_color;
+    Spectrum sheet = sheet_reflectance(one - in);
+    *clear = sheet + (one - sheet) * base;
+    if (coated_sheet(m))
+        *clear = sheet_at(m, wo.z) +
+                 coating_at(m->coating->sheet->through, m->wavelengths, wo.z) * base;
+    if (coated_face(m)) in = one - coated_energy(m, wo.z);
+    *solid = (one - in) + in * base;
+    *metal = base + (one - base) * spectrum_all(e.shape);
+    if (coated_metal(m)) *metal = coating_at(m->coating->metal->front, m->wavelengths, wo.z);
 }
 
 static Spectrum model_albedo(const void *parameters, Vec3 wo)
 {
     const MetallicRoughness *m = parameters;
     if (!(wo.z > 0)) return spectrum_all(0);
-    Energy   e = energy_directional(m->energy, wo.z, m->alpha);
-    Boundary b = boundary_of(m);
-    Spectrum one = spectrum_all(1), in = let_in(&b, e), base = m->base_color;
-    Spectrum sheet = sheet_reflectance(one - in);
-    Spectrum clear = sheet + (one - sheet) * base;
-    Spectrum solid = (one - in) + in * base;
-    Spectrum metal = base + (one - base) * spectrum_all(e.shape);
+    Spectrum solid, clear, metal;
+    albedo_parts(m, wo, &solid, &clear, &metal);
     Spectrum dielectric = solid + (clear - solid) * spectrum_all(m->transmission);
     Spectrum mixed = dielectric + (metal - dielectric) * spectrum_all(m->metallic);
     if (!(m->clearcoat > 0)) return mixed;

@@ -5,6 +5,7 @@
 #pragma once
 #include "shaders/bsdf_model.h"
 #include "shaders/coat.h"
+#include "shaders/coating.h"
 
 #define CLEARCOAT_IOR 1.5f /* glTF's */
 
@@ -22,6 +23,9 @@ typedef struct MetallicRoughness {
     const EnergyTable *energy;           /* of the material's index of refraction */
     const EnergyTable *clearcoat_energy; /* of CLEARCOAT_IOR; NULL: clearcoat is 0 */
     const CoatTable   *coat;             /* of both; likewise */
+    const SurfaceCoating *coating;       /* what reflects in place of the colours; NULL: none */
+    const Wavelengths    *wavelengths;   /* NULL where coating is */
+    bool  seen_from_back;                /* of a coated sheet */
 } MetallicRoughness;
 
 /* glTF's default material, but for energy, which the caller owns: white metal, alpha 1. */

@@ -1,6 +1,7 @@
 #include "path/surface.h"
 
 #include "light/coverage.h"
+#include "path/surface_coatings.h"
 #include "shaders/common_tables.h"
 #include "shaders/index_tables.h"
 #include "shaders/microfacet.h"
@@ -12,6 +13,7 @@ struct SurfaceTables {
     const EnergyTable **of_material; /* of each material's index of refraction */
     const EnergyTable  *of_coat;
     const CoatTable   **on_material; /* of a coat on each material; NULL: it has none */
+    const SurfaceCoating *const *coatings; /* of each material; NULL: none has one */
 };
 
 /* Materials of one index of refraction share a table. */
@@ -33,6 +35,7 @@ const SurfaceTables *surface_tables_build(const Scene *scene, Arena *arena)
     tables->of_material = ARENA_NEW(arena, const EnergyTable *, scene->material_count + 1);
     tables->on_material = ARENA_NEW(arena, const CoatTable *, scene->material_count + 1);
     tables->of_coat = &common_energy_table;
+    tables->coatings = surface_coatings_build(scene, arena);
     for (int i = 0; i < scene->material_count; i++) {
         float ior = scene->materials[i].ior;
         const EnergyTable *table = NULL;
@@ -187,6 +190,17 @@ static void set_coat(const Site *site, const Surface *surface, MetallicRoughness
     if (model->clearcoat_normal.z < LOWEST_COSINE) model->clearcoat_normal = vec3(0, 0, 1);
 }
 
+static const SurfaceCoating *coating_of(const Site *site, int material_id)
+{
+    return site->tables->coatings ? site->tables->coatings[material_id] : NULL;
+}
+
+/* The eye is on the side that the front of the surface faces. */
+static bool is_front(const Surface *surface)
+{
+    return vec3_dot(surface->frame.z, surface->ng) > 0;
+}
+
 static void set_metallic_roughness(const Site *site, Surface *surface)
 {
     static const float white[3] = {1, 1, 1};
@@ -206,6 +220,35 @@ static void set_metallic_roughness(const Site *site, Surface *surface)
                                             m->specular_color, coloured ? texel : white,
                                             site->wavelengths);
     set_coat(site, surface, model);
+    model->coating = coating_of(site, surface->material_id);
+    if (!model->coating) return;
+    model->wavelengths = site->wavelengths;
+    model->seen_from_back = !is_front(surface);
+}
+
+static void set_solid(const Site *site, Surface *surface)
+{
+    const Material *m = site->material;
+    const SurfaceCoating *coating = coating_of(site, surface->material_id);
+    Dielectric *solid = &surface->bsdf.dielectric;
+    surface->bsdf.kind = BSDF_DIELECTRIC;
+    *solid = (Dielectric){.tint = tint_of(site), .ior = m->ior, .alpha = site->alpha};
+    if (!coating) return;
+    solid->ior = (float)((double)m->ior / m->coating->outside);
+    solid->coating = coating->solid;
+    solid->wavelengths = site->wavelengths;
+}
+
+static void set_window(const Site *site, Surface *surface)
+{
+    const SurfaceCoating *coating = coating_of(site, surface->material_id);
+    ThinWindow *window = &surface->bsdf.thin_window;
+    surface->bsdf.kind = BSDF_THIN_WINDOW;
+    *window = (ThinWindow){.tint = tint_of(site), .ior = site->material->ior};
+    if (!coating) return;
+    window->reflectance = is_front(surface) ? coating->sheet->front : coating->sheet->back;
+    window->transmittance = coating->sheet->through;
+    window->wavelengths = site->wavelengths;
 }
 
 static void set_glazing(const Site *site, Surface *surface)
@@ -228,14 +271,11 @@ static void set_glazing(const Site *site, Surface *surface)
 static void set_bsdf(const Site *site, Surface *surface)
 {
     const Material *m = site->material;
-    Bsdf *bsdf = &surface->bsdf;
     if (m->is_solid && m->transmission > 0) {
-        bsdf->kind = BSDF_DIELECTRIC;
-        bsdf->dielectric = (Dielectric){tint_of(site), m->ior, site->alpha};
+        set_solid(site, surface);
     } else if (site->transmission >= 1 && site->metallic <= 0 && is_smooth(site->alpha) &&
                m->clearcoat <= 0) {
-        bsdf->kind = BSDF_THIN_WINDOW;
-        bsdf->thin_window = (ThinWindow){tint_of(site), m->ior};
+        set_window(site, surface);
     } else {
         set_metallic_roughness(site, surface);
     }
@@ -254,6 +294,9 @@ static void set_display(const Site *site, Vec3 wo, Surface *surface)
     surface->bsdf.kind = BSDF_DISPLAY;
     surface->bsdf.display.panel = display->panel;
     panel_lanes(display->panel, site->wavelengths, &surface->bsdf.display.lanes);
+    const SurfaceCoating *coating = coating_of(site, surface->material_id);
+    surface->bsdf.display.cover = coating ? coating->cover->front : NULL;
+    surface->bsdf.display.wavelengths = site->wavelengths;
 }
 
 void surface_at(const Scene *scene, const SurfaceTables *tables, const Hit *hit, Vec3 wo,

@@ -23,6 +23,7 @@
 #include "spectrum/glazing.h"
 #include "spectrum/intensity_web.h"
 #include "spectrum/luminous_opening.h"
+#include "spectrum/thin_film.h"
 
 #define NO_ID (-1)
 #define SCENE_UV_SETS 2 /* of a part; those that its material uses are mapped to these */
@@ -97,6 +98,8 @@ typedef struct Material {
     int   display_id;          /* NO_ID unless PARHELION_display */
     int   glazing_id;          /* NO_ID unless PARHELION_glazing */
     int   base_color_curve_id, specular_curve_id, transmission_curve_id, emission_curve_id;
+    const LayerStack *coating; /* PARHELION_coating; NULL: none */
+    const OpticalConstants *conductor; /* of the metal share; NULL: by its base colour */
     bool  is_emitter;          /* some of its surface may emit */
     bool  lets_light_through;  /* alpha below 1 or a thin window: shadow rays must ask */
 } Material;

@@ -24,9 +24,11 @@ void curve_from_points(const double *nm, const double *value, int count, Curve *
     }
 }
 
+#define COLUMNS_MAX 2 /* beside the wavelength */
+
 typedef struct Points {
-    double nm[MAX_POINTS], value[MAX_POINTS];
-    int    count;
+    double nm[MAX_POINTS], value[COLUMNS_MAX][MAX_POINTS];
+    int    count, columns;
 } Points;
 
 /* Nothing but white space from here on? */
@@ -36,26 +38,42 @@ static bool is_blank(const char *text)
     return *text == '\0';
 }
 
-/* Two numbers, with a comma, semicolon or white space between. */
-static bool parse_row(const char *line, double *nm, double *value)
+/* The wavelength and `columns` numbers, with a comma, semicolon or white space between. */
+static bool parse_row(const char *line, int columns, double number[1 + COLUMNS_MAX])
 {
-    char *end, *last;
-    *nm = strtod(line, &end);
-    if (end == line) return false;
-    while (*end == ' ' || *end == '\t') end++;
-    if (*end == ',' || *end == ';') end++;
-    *value = strtod(end, &last);
-    return last != end && is_blank(last);
+    for (int i = 0; i <= columns; i++) {
+        char *end;
+        number[i] = strtod(line, &end);
+        if (end == line) return false;
+        while (*end == ' ' || *end == '\t') end++;
+        if (i < columns && (*end == ',' || *end == ';')) end++;
+        line = end;
+    }
+    return is_blank(line);
 }
 
-static bool add_row(Points *points, const char *path, const char *place, double nm,
-                    double value, Error *err)
+static bool check_values(const Points *points, const char *path, const char *place,
+                         const double *number, Error *err)
 {
-    int n = points->count;
-    if (!(nm > 0 && nm < 1e6) || !(fabs(value) <= VALUE_MAX))
-        return error_at(err, ERROR_INPUT, path, place,
+    double nm = number[0], n = number[1], k = number[2];
+    if (points->columns == 1)
+        return nm > 0 && nm < 1e6 && fabs(n) <= VALUE_MAX ? true :
+               error_at(err, ERROR_INPUT, path, place,
                         "wavelength %g nm with value %g: wanted finite numbers, nm above 0, "
-                        "up to %g", nm, value, VALUE_MAX);
+                        "up to %g", nm, n, VALUE_MAX);
+    bool is_index = n >= 0 && n <= INDEX_MAX && k >= 0 && k <= INDEX_MAX && n + k > 0;
+    return nm > 0 && nm < 1e6 && is_index ? true :
+           error_at(err, ERROR_INPUT, path, place,
+                    "wavelength %g nm with n %g and k %g: wanted nm above 0, n and k from 0 to "
+                    "%g, not both 0", nm, n, k, INDEX_MAX);
+}
+
+static bool add_row(Points *points, const char *path, const char *place, const double *number,
+                    Error *err)
+{
+    int    n = points->count;
+    double nm = number[0];
+    if (!check_values(points, path, place, number, err)) return false;
     if (n && !(nm > points->nm[n - 1]))
         return error_at(err, ERROR_INPUT, path, place,
                         "wavelength %g nm after %g nm: wanted rising wavelengths", nm,
@@ -63,7 +81,7 @@ static bool add_row(Points *points, const char *path, const char *place, double 
     if (n == MAX_POINTS)
         return error_at(err, ERROR_INPUT, path, place, "more than %d rows", MAX_POINTS);
     points->nm[n] = nm;
-    points->value[n] = value;
+    for (int i = 0; i < points->columns; i++) points->value[i][n] = number[1 + i];
     points->count++;
     return true;
 }
@@ -81,33 +99,48 @@ static bool read_points(const char *text, const char *path, Points *points, Erro
 {
     char line[512], place[32];
     bool may_be_header = true;
-    for (int number = 1; *text; number++) {
-        double nm, value;
+    const char *names = points->columns == 1 ? "two numbers: nm,value" :
+                                               "three numbers: nm,n,k";
+    for (int row = 1; *text; row++) {
+        double number[1 + COLUMNS_MAX] = {0};
         text = next_line(text, line, sizeof line);
         if (line[0] == '#' || is_blank(line)) continue;
-        snprintf(place, sizeof place, "line %d", number);
-        if (parse_row(line, &nm, &value)) {
-            if (!add_row(points, path, place, nm, value, err)) return false;
+        snprintf(place, sizeof place, "line %d", row);
+        if (parse_row(line, points->columns, number)) {
+            if (!add_row(points, path, place, number, err)) return false;
         } else if (!may_be_header) {
             line[strcspn(line, "\r\n")] = '\0';
-            return error_at(err, ERROR_INPUT, path, place,
-                            "found \"%.60s\", wanted two numbers: nm,value", line);
+            return error_at(err, ERROR_INPUT, path, place, "found \"%.60s\", wanted %s", line,
+                            names);
         }
         may_be_header = false;
     }
     if (!points->count)
-        return error_at(err, ERROR_INPUT, path, NULL, "no rows of nm,value");
+        return error_at(err, ERROR_INPUT, path, NULL, "no rows of %s", strstr(names, "nm"));
     return true;
+}
+
+static bool parse_columns(const char *text, const char *path, int columns,
+                          Curve *const out[COLUMNS_MAX], Error *err)
+{
+    Points *points = calloc(1, sizeof *points);
+    if (!points) return error_at(err, ERROR_MEMORY, path, NULL, "no memory to read it");
+    points->columns = columns;
+    bool ok = read_points(text, path, points, err);
+    for (int i = 0; ok && i < columns; i++)
+        curve_from_points(points->nm, points->value[i], points->count, out[i]);
+    free(points);
+    return ok;
 }
 
 bool curve_parse(const char *text, const char *path, Curve *out, Error *err)
 {
-    Points *points = calloc(1, sizeof *points);
-    bool    ok = points ? read_points(text, path, points, err) :
-                          error_at(err, ERROR_MEMORY, path, NULL, "no memory to read it");
-    if (ok) curve_from_points(points->nm, points->value, points->count, out);
-    free(points);
-    return ok;
+    return parse_columns(text, path, 1, (Curve *const[COLUMNS_MAX]){out}, err);
+}
+
+bool curve_parse_index(const char *text, const char *path, Curve *n, Curve *k, Error *err)
+{
+    return parse_columns(text, path, 2, (Curve *const[COLUMNS_MAX]){n, k}, err);
 }
 
 Spectrum curve_lookup(const Curve *curve, const Wavelengths *wavelengths)

@@ -26,5 +26,10 @@ void curve_from_points(const double *nm, const double *value, int count, Curve *
  * the file, for messages. */
 bool curve_parse(const char *text, const char *path, Curve *out, Error *err);
 
+#define INDEX_MAX 100.0
+
+/* The same of a refractive index n + ik, rows `nm,n,k`; both 0 to INDEX_MAX, never both 0. */
+bool curve_parse_index(const char *text, const char *path, Curve *n, Curve *k, Error *err);
+
 /* Value of every lane's wavelength. */
 Spectrum curve_lookup(const Curve *curve, const Wavelengths *wavelengths);

@@ -70,7 +70,8 @@ static void make_model(int model, const EnergyTable *energy, Bsdf *bsdf)
     m->clearcoat = model == 2;
     m->clearcoat_alpha = 0.01f;
     if (model == 3)
-        *bsdf = (Bsdf){.kind = BSDF_DIELECTRIC, .dielectric = {spectrum_all(1), 1.5f, 0.2f}};
+        *bsdf = (Bsdf){.kind = BSDF_DIELECTRIC,
+                       .dielectric = {.tint = spectrum_all(1), .ior = 1.5f, .alpha = 0.2f}};
 }
 
 static Vec3 upper_direction(Vec2 u)

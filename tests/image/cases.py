@@ -6,6 +6,7 @@ must show. A Lambertian surface of reflectance RHO under E lux shows RHO E / pi.
 import math
 from dataclasses import dataclass, field
 
+import layers
 from gltf import Scene, png, radiance_picture
 
 RHO = 0.5
@@ -459,6 +460,54 @@ def picture():
 ANGLES = (0, 15, 30, 45, 60, 70, 75, 80, 85)
 
 
+def quarter_wave(scene, transmission, colour):
+    """Glass with a quarter wave of n 1.38 (layers.py)."""
+    return scene.material(
+        pbrMetallicRoughness={"baseColorFactor": [colour] * 3 + [1], "metallicFactor": 0,
+                              "roughnessFactor": 0}, doubleSided=True,
+        extensions={"KHR_materials_transmission": {"transmissionFactor": transmission},
+                    "KHR_materials_ior": {"ior": layers.GLASS},
+                    "PARHELION_coating": {"layers": [{"n": layers.FILM, "k": 0,
+                                                      "thickness_nm": layers.FILM_NM}]}})
+
+
+def coated_glass(degrees):
+    """Black glass with a quarter wave on it, in a uniform environment."""
+    scene = Scene()
+    scene.quad(quarter_wave(scene, 0, 0), [-50, 0, 50], [100, 0, 0], [0, 0, -100])
+    scene.environment(type="constant", luminance=100)
+    look_from(scene, "face", [0, 0, 0], tilted(degrees), distance=1)
+    reflectance = layers.coated_face(math.cos(math.radians(degrees)))
+    return Case(f"coated black glass at {degrees} degrees", scene,
+                [Claim("face", 100 * reflectance)])
+
+
+def coated_window(degrees):
+    """A lamp behind a pane with a quarter wave on both faces."""
+    scene = Scene()
+    scene.quad(quarter_wave(scene, 1, 1), [-50, 0, 50], [100, 0, 0], [0, 0, -100])
+    direction = tilted(degrees)
+    scene.facing_quad(scene.emitter(100), [-5 * x for x in direction], direction, 0.5)
+    look_from(scene, "through", [0, 0, 0], direction, distance=1)
+    transmittance = layers.coated_pane(math.cos(math.radians(degrees)))
+    return Case(f"a lamp behind a coated pane at {degrees} degrees", scene,
+                [Claim("through", 100 * transmittance)], samples=1024)
+
+
+def measured_metal(degrees):
+    """A metal of n + ik = 1.0 + 6.7i, about aluminium's at 555 nm, in a uniform environment."""
+    scene = Scene()
+    scene.files["metal.csv"] = b"nm,n,k\n360,1.0,6.7\n830,1.0,6.7\n"
+    bright = scene.material(pbrMetallicRoughness={"metallicFactor": 1, "roughnessFactor": 0},
+                            extensions={"PARHELION_spectrum": {"conductor": "metal.csv"}})
+    scene.quad(bright, [-50, 0, 50], [100, 0, 0], [0, 0, -100])
+    scene.environment(type="constant", luminance=100)
+    look_from(scene, "metal", [0, 0, 0], tilted(degrees), distance=1)
+    reflectance = layers.metal(math.cos(math.radians(degrees)), 1.0 + 6.7j)
+    return Case(f"a measured metal at {degrees} degrees", scene,
+                [Claim("metal", 100 * reflectance)])
+
+
 def all_cases():
     cases = [furnace_sphere(), furnace_bright(), furnace_outside(), cube(0.5), cube(0.9),
              cube(0.05, False), cube(0.95, False), flux(), point_light(),
@@ -471,6 +520,9 @@ def all_cases():
     cases += [mirror_direction(angle) for angle in ANGLES[1:]]
     cases += [window(angle, False) for angle in ANGLES[:-1]]
     cases += [window(angle, True) for angle in ANGLES[:-1]]
+    cases += [coated_glass(angle) for angle in (0, 45, 70)]
+    cases += [coated_window(angle) for angle in (0, 60)]
+    cases += [measured_metal(angle) for angle in (0, 60, 80)]
     cases += [solid_slab(angle) for angle in (0, 45, 70)]
     cases += [light_through_window(angle) for angle in ANGLES[:-1]]
     return cases

@@ -46,7 +46,7 @@ TEST(glass_reflects_as_fresnel_says)
         const FresnelRow *row = &FRESNEL_TABLE[i];
         float      cosine = (float)cos(radians_from_degrees(row->deg)), behind;
         Fresnel    face = fresnel_dielectric(cosine, 1.52f, &behind);
-        ThinWindow pane = {spectrum_all(1), 1.52f};
+        ThinWindow pane = {.tint = spectrum_all(1), .ior = 1.52f};
         assert_near(face.s, row->s, 2e-6);
         assert_near(face.p, row->p, 2e-6);
         assert_near(fresnel_mean(face), row->mean, 2e-6);
@@ -134,7 +134,8 @@ TEST(plain_plastic_mirrors_by_the_exact_curve)
 TEST(crossing_a_solid_twice_restores_radiance)
 {
     (void)state;
-    Bsdf glass_face = {.kind = BSDF_DIELECTRIC, .dielectric = {spectrum_all(1), 1.5f, 0}};
+    Bsdf glass_face = {.kind = BSDF_DIELECTRIC,
+                       .dielectric = {.tint = spectrum_all(1), .ior = 1.5f}};
     Vec3 wo = vec3(0.6f, 0, 0.8f), inside = vec3(-0.4f, 0, -sqrtf(1 - 0.16f));
     Vec3 back = vec3_neg(inside);
     float    f = fresnel_mean(fresnel_dielectric(0.8f, 1.5f, NULL));

@@ -1,4 +1,6 @@
 /* Laws that every surface model obeys; a model added to make_models inherits them all. */
+#include "chart_fixture.h"
+#include "layer_fixture.h"
 #include "shader_fixture.h"
 
 #include <string.h>
@@ -7,9 +9,10 @@
 #include "base/units.h"
 #include "panel/query/panel_open.h"
 #include "shaders/bsdf.h"
+#include "shaders/coating_tables.h"
 #include "shaders/microfacet.h"
 
-#define MAX_MODELS 64
+#define MAX_MODELS 80
 
 typedef struct Model {
     const char *name;
@@ -117,7 +120,8 @@ static void add_dielectric(const char *name, float ior, float alpha)
 {
     float width = alpha < SMOOTH_ALPHA ? 1 : 0.5f * alpha * fabsf(ior - 1) + 1e-4f;
     models[model_count++] = (Model){.name = name, .bsdf.kind = BSDF_DIELECTRIC,
-                                    .bsdf.dielectric = {spectrum_all(1), ior, alpha},
+                                    .bsdf.dielectric = {.tint = spectrum_all(1), .ior = ior,
+                                                        .alpha = alpha},
                                     .lossless = alpha < 0.06f, .both_sides = true,
                                     .width = width};
 }
@@ -139,9 +143,7 @@ static GlazedWindow *add_glazing(const char *name, float through, float haze, fl
 static void add_glass(void)
 {
     models[model_count++] = (Model){.name = "windscreen", .bsdf.kind = BSDF_THIN_WINDOW,
-        .bsdf.thin_window = {ramp(0.6f, 0.9f), 1.52f}, .both_sides = true, .width = 1};
-    models[model_count++] = (Model){.name = "clear window", .bsdf.kind = BSDF_THIN_WINDOW,
-        .bsdf.thin_window = {spectrum_all(1), 1.52f}, .both_sides = true, .lossless = true,
+        .bsdf.thin_window = {.tint = ramp(0.6f, 0.9f), .ior = 1.52f}, .both_sides = true,
         .width = 1};
     add_glazing("laminated", 0.8f, 0, 0)->front_is_up = true;
     add_glazing("clear laminated", 1, 0, 0);
@@ -154,6 +156,67 @@ static void add_glass(void)
     add_dielectric("bubble", 0.75f, 0.1f);
     add_dielectric("no boundary", 1, 0.05f);
     models[model_count++] = (Model){.name = "black", .bsdf.kind = BSDF_BLACK, .width = 1};
+}
+
+/* ---- coated ---------------------------------------------------------------------------- */
+
+static Wavelengths wavelengths;
+static SurfaceCoating mirror_metal, silver_metal, plastic, frosted;
+
+static MetallicRoughness *add_coated(const char *name, float metallic, float alpha,
+                                     bool lossless, const SurfaceCoating *coating)
+{
+    MetallicRoughness *m = add_model(name, metallic, alpha, lossless);
+    m->coating = coating;
+    m->wavelengths = &wavelengths;
+    return m;
+}
+
+static void add_coated_solid(const char *name, float alpha, bool lossless,
+                             const CoatingTables *tables)
+{
+    add_dielectric(name, 1.52f, alpha);
+    Model *model = &models[model_count - 1];
+    model->lossless = lossless;
+    model->bsdf.dielectric.coating = tables;
+    model->bsdf.dielectric.wavelengths = &wavelengths;
+}
+
+static void add_coated_window(const char *name, bool lossless, const CoatingTables *sheet)
+{
+    models[model_count++] = (Model){.name = name, .bsdf.kind = BSDF_THIN_WINDOW,
+        .bsdf.thin_window = {.tint = spectrum_all(1), .ior = 1.52f, .reflectance = sheet->front,
+                             .transmittance = sheet->through, .wavelengths = &wavelengths},
+        .both_sides = true, .lossless = lossless, .width = 1};
+}
+
+static void add_coated_surfaces(void)
+{
+    const LayerStack *four = stack_four(&arena), *silver = stack_silver(&arena);
+    const OpticalConstants *ideal = constants_of(0, 4, &arena);
+    const OpticalConstants *real = constants_of(0.06, 3.6, &arena);
+    wavelengths_sample(0.3f, &wavelengths);
+    mirror_metal.metal = coating_of_metal(four, ideal, &arena);
+    silver_metal.metal = coating_of_metal(NULL, real, &arena);
+    plastic.metal = mirror_metal.metal;
+    plastic.face = coating_of_face(four, 1.5, &arena);
+    frosted.sheet = coating_of_sheet(four, 1.52, &arena);
+    add_coated("ideal metal, coated, alpha 0.5", 1, 0.5f, true, &mirror_metal);
+    add_coated("ideal metal, coated, alpha 0.05", 1, 0.05f, true, &mirror_metal);
+    add_coated("smooth silver", 1, 0, false, &silver_metal);
+    add_coated("silver under lacquer", 1, 0.2f, false, &silver_metal)->clearcoat = 1;
+    add_coated("coated plastic, alpha 0.3", 0, 0.3f, true, &plastic);
+    add_coated("coated plastic, alpha 0.02", 0, 0.02f, true, &plastic);
+    add_coated("coated smooth plastic", 0, 0, true, &plastic);
+    add_coated("coated half metal", 0.5f, 0.2f, true, &plastic);
+    add_coated("coated frosted sheet", 0, 0.3f, true, &frosted)->transmission = 1;
+    add_coated("coated smooth sheet, mixed", 0.3f, 0, false, &frosted)->transmission = 1;
+    add_coated_solid("coated glass", 0, true, coating_of_solid(four, 1.52, &arena));
+    add_coated_solid("coated frosted glass", 0.3f, false, coating_of_solid(four, 1.52, &arena));
+    add_coated_solid("silvered frosted glass", 0.1f, false,
+                     coating_of_solid(silver, 1.52, &arena));
+    add_coated_window("coated window", true, coating_of_sheet(four, 1.52, &arena));
+    add_coated_window("silvered window", false, coating_of_sheet(silver, 1.52, &arena));
 }
 
 static int make_models(void **state)
@@ -170,6 +233,7 @@ static int make_models(void **state)
     add_panes();
     add_lacquers();
     add_glass();
+    add_coated_surfaces();
     return 0;
 }
 
@@ -193,16 +257,7 @@ static void for_all(void (*law)(const Model *, Vec3))
 
 /* ---- sampling matches its density ---------------------------------------------------- */
 
-#define RINGS 12
-#define SECTORS 8
-#define CELLS (2 * RINGS * SECTORS)
 #define SAMPLES 20000
-
-/* Polar coordinates around the direction where a lobe is expected, rings closing in on it. */
-typedef struct Chart {
-    Frame frame;
-    float width;
-} Chart;
 
 static Chart chart_for(const Model *model, Vec3 wo, bool same_side)
 {
@@ -213,29 +268,6 @@ static Chart chart_for(const Model *model, Vec3 wo, bool same_side)
         centre = vec3_normalize(vec3(x, y, wo.z > 0 ? -z : z));
     }
     return (Chart){frame_from_z(centre), model->width * fabsf(wo.z)}; /* lobes grow slender */
-}
-
-/* Ring coordinate in [0, 1] of the angle to the centre: even in log(1 + (angle/width)^2). */
-static double ring_of(const Chart *chart, double angle)
-{
-    double w = (double)chart->width;
-    return log1p(angle * angle / (w * w)) / log1p(PI * PI / (w * w));
-}
-
-static double angle_of(const Chart *chart, double ring)
-{
-    double w = (double)chart->width;
-    return w * sqrt(expm1(ring * log1p(PI * PI / (w * w))));
-}
-
-static int cell_of(const Chart *chart, Vec3 wi)
-{
-    Vec3   local = frame_to_local(&chart->frame, wi);
-    double side = sqrt((double)local.x * (double)local.x + (double)local.y * (double)local.y);
-    double ring = ring_of(chart, atan2(side, (double)local.z)) * RINGS;
-    double turn = (atan2((double)local.y, (double)local.x) / (2 * PI) + 0.5) * SECTORS;
-    int r = ring < RINGS ? (int)ring : RINGS - 1, s = turn < SECTORS ? (int)turn : SECTORS - 1;
-    return r * SECTORS + s;
 }
 
 /* Integral of the pdf over one cell of the chart, on one side of the surface. */
@@ -266,32 +298,6 @@ static double integrate_cell(const Model *model, Vec3 wo, const Chart *chart, in
         }
     }
     return sum;
-}
-
-/* Standard normal deviate of a chi-square sum (Wilson and Hilferty 1931). */
-static double deviate(double chi2, int degrees)
-{
-    double v = 2.0 / (9.0 * degrees);
-    return (cbrt(chi2 / degrees) - (1 - v)) / sqrt(v);
-}
-
-/* Cells of fewer than 8 expected samples are put together. The quadrature's own error (the
- * horizon cuts through cells) counts as 2 % of a cell. */
-static double chi_square(const double *expected, const double *found, int count, int *degrees)
-{
-    double chi2 = 0, e = 0, f = 0;
-    *degrees = -1;
-    for (int i = 0; i < count; i++) {
-        e += expected[i];
-        f += found[i];
-        if (e < 8 && i < count - 1) continue;
-        if (e < 8 && f < 30) break;
-        double spread = e + 4e-4 * e * e + 1e-9;
-        chi2 += (f - e) * (f - e) / spread;
-        *degrees += 1;
-        e = f = 0;
-    }
-    return chi2;
 }
 
 static void samples_follow_pdf(const Model *model, Vec3 wo)
@@ -553,8 +559,6 @@ TEST(shipped_displays_obey_the_same_laws)
     (void)state;
     static const char *const names[] = {"ips_cluster", "oled_centre"};
     int         found = 0;
-    Wavelengths wavelengths;
-    wavelengths_sample(0.3f, &wavelengths);
     for (int i = 0; i < 2; i++) {
         char   path[1024];
         Panel *panel;
@@ -570,6 +574,14 @@ TEST(shipped_displays_obey_the_same_laws)
         for (int k = 0; k < EYE_COUNT; k++) {
             sample_agrees(&model, eye(k));
             mirror_is_where_it_belongs(&model, eye(k));
+            energy_holds(&model, eye(k));
+            albedo_is_near(&model, eye(k));
+        }
+        model.bsdf.display.cover =
+            coating_of_cover(stack_silver(&arena), 1.5, &arena)->front;
+        model.bsdf.display.wavelengths = &wavelengths;
+        for (int k = 0; k < EYE_COUNT; k++) {
+            sample_agrees(&model, eye(k));
             energy_holds(&model, eye(k));
             albedo_is_near(&model, eye(k));
         }

@@ -353,6 +353,37 @@ TEST(a_bad_curve_file_is_refused_with_its_line)
     assert_non_null(strstr(err.text, "cannot be opened: No such file"));
 }
 
+TEST(a_file_of_indices_has_three_columns_and_is_refused_with_its_line)
+{
+    (void)state;
+    static Curve n, k;
+    Error        err;
+    assert_true(curve_parse_index("nm,n,k\n400,0.5,2\n500 1 4\n", "metal.csv", &n, &k, &err));
+    assert_close(n.value[450 - 360], 0.75, 1e-6);
+    assert_close(k.value[450 - 360], 3, 1e-6);
+    assert_close(k.value[CURVE_COUNT - 1], 4, 1e-6);
+    const struct {
+        const char *text, *message;
+    } cases[] = {
+        {"nm,n,k\n", "no rows of nm,n,k"},
+        {"nm,n,k\n400,1\n", "line 2: found \"400,1\", wanted three numbers: nm,n,k"},
+        {"400,1,0,2\n500,1,0,2\n", "line 2: found \"500,1,0,2\", wanted three numbers"},
+        {"400,-1,2\n", "line 1: wavelength 400 nm with n -1 and k 2: wanted nm above 0, n"},
+        {"400,1,-2\n", "with n 1 and k -2"},
+        {"400,0,0\n", "not both 0"},
+        {"400,101,0\n", "from 0 to 100"},
+        {"400,1,nan\n", "line 1: wavelength 400 nm with n 1 and k nan"},
+        {"500,1,0\n400,1,0\n", "line 2: wavelength 400 nm after 500 nm"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char line[2048];
+        assert_false(curve_parse_index(cases[i].text, "metal.csv", &n, &k, &err));
+        error_line(&err, line, sizeof line);
+        if (!strstr(line, cases[i].message) || strncmp(line, "metal.csv", 9) != 0)
+            fail_msg("\"%s\" does not name the file and say \"%s\"", line, cases[i].message);
+    }
+}
+
 TEST(lane_operations_agree_with_loops)
 {
     (void)state;

@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "scene/check/check_coating.h"
 #include "scene/gltf/variant.h"
 
 /* ---- textures: the picture's type is the one that stands there ------------------------- */
@@ -126,6 +127,7 @@ void check_material(const DocumentCheck *check, const GltfValue *material)
     check_emission(check, material);
     check_volume(check, material);
     check_alone(check, material);
+    check_coated_material(check, material);
 }
 
 /* ---- what a material needs of its primitives ------------------------------------------- */

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/count.h"
+#include "scene/check/check_coating.h"
 #include "scene/check/check_document.h"
 #include "scene/check/check_graph.h"
 #include "scene/check/check_material.h"
@@ -285,6 +286,7 @@ static const Schema SCHEMA_ENVIRONMENT = {"PARHELION_environment", ENVIRONMENT,
 static const Rule SPECTRUM[] = {{.name = "baseColor", .kind = RULE_TEXT},
                                 {.name = "transmission", .kind = RULE_TEXT},
                                 {.name = "specular", .kind = RULE_TEXT},
+                                {.name = "conductor", .kind = RULE_TEXT},
                                 {.name = "emission", .kind = RULE_TEXT}};
 static const Schema SCHEMA_SPECTRUM = {"PARHELION_spectrum", SPECTRUM, COUNT_OF(SPECTRUM), true,
                                        NULL};
@@ -322,6 +324,25 @@ static const Rule INSTANCING[] = {
 static const Schema SCHEMA_INSTANCING = {INSTANCING_EXTENSION, INSTANCING,
                                          COUNT_OF(INSTANCING), false, check_instancing};
 
+static const Rule THIN_LAYER[] = {
+    {.name = "n", .kind = RULE_ANY, .flags = RULE_REQUIRED},
+    {.name = "k", .kind = RULE_ANY},
+    {.name = "thickness_nm", .kind = RULE_NUMBER, .flags = RULE_REQUIRED | RULE_HAS_RANGE,
+     .max = 1e6},
+};
+static const Schema SCHEMA_THIN_LAYER = {"layer", THIN_LAYER, COUNT_OF(THIN_LAYER), true,
+                                         check_layer};
+
+static const Rule COATING[] = {
+    {.name = "layers", .kind = RULE_OBJECTS, .flags = RULE_MAY_BE_EMPTY,
+     .schema = &SCHEMA_THIN_LAYER},
+    {.name = "stack", .kind = RULE_TEXT},
+    {.name = "outside", .kind = RULE_NUMBER, .flags = RULE_HAS_RANGE, .min = 1, .max = 10},
+    {.name = "faces", .kind = RULE_CHOICE, .flags = RULE_CLOSED, .of = "both|front|back"},
+};
+static const Schema SCHEMA_COATING = {"PARHELION_coating", COATING, COUNT_OF(COATING), true,
+                                      check_coating};
+
 /* ---- where they stand ------------------------------------------------------------------ */
 
 static const ExtensionRule EXTENSIONS[] = {
@@ -350,6 +371,7 @@ static const ExtensionRule EXTENSIONS[] = {
     {"PARHELION_environment", "scene", &SCHEMA_ENVIRONMENT},
     {"PARHELION_spectrum", "material", &SCHEMA_SPECTRUM},
     {"PARHELION_glazing", "material", &SCHEMA_GLAZING},
+    {"PARHELION_coating", "material", &SCHEMA_COATING},
     /* Of no picture: who made it, what a hand may do with a node. */
     {"KHR_xmp_json_ld", NULL, NULL},
     {"KHR_node_selectability", NULL, NULL},

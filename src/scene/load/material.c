@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "scene/gltf/document.h"
+#include "scene/load/coating.h"
 #include "scene/load/display.h"
 #include "scene/load/glazing.h"
 #include "scene/load/texture_slot.h"
@@ -148,6 +149,7 @@ static void read_spectra(GltfFile *file, const GltfValue *spectrum, Material *m)
     m->transmission_curve_id = read_curve(file, tree_member(spectrum, "transmission"));
     m->specular_curve_id = read_curve(file, tree_member(spectrum, "specular"));
     m->emission_curve_id = read_curve(file, tree_member(spectrum, "emission"));
+    m->conductor = coating_read_index(file, tree_member(spectrum, "conductor"));
     if (m->emission_curve_id != NO_ID)
         make_unit_luminance(file, tree_member(spectrum, "emission"), m->emission_curve_id);
 }
@@ -187,6 +189,7 @@ static void build_material(GltfFile *file, const GltfValue *value)
     read_extensions(file, value, &m);
     read_spectra(file, tree_extension(value, "PARHELION_spectrum"), &m);
     glazing_build(file, tree_extension(value, "PARHELION_glazing"), &m);
+    m.coating = coating_read(file, tree_extension(value, "PARHELION_coating"));
     add_material(load, m, (int[SCENE_UV_SETS]){0, 1});
     if (display) display_build(file, display, id);
     Material *added = list_item(&load->materials, id);

@@ -1,0 +1,29 @@
+/* coating_tables.h -- makes the tables of coated boundaries (coating.h) of their layers.
+ *
+ * Light is taken as unpolarised at each boundary; a sheet's two faces are added up for each
+ * polarisation by itself, without interference between them.
+ *
+ * stack: NULL is a bare boundary in air. ior: absolute index of glass or plastic, 1 or more.
+ * Memory   from the arena (coating.h).  Threads  any.  Fails  never. A table takes some tens of
+ *          milliseconds, energies a fifth of a second.
+ */
+#pragma once
+#include "shaders/coating.h"
+#include "spectrum/thin_film.h"
+
+/* The boundary of a closed solid. */
+const CoatingTables *coating_of_solid(const LayerStack *stack, double ior, Arena *arena);
+
+/* A sheet in the medium outside, its glass clear; stack->faces say which carry it. */
+const CoatingTables *coating_of_sheet(const LayerStack *stack, double ior, Arena *arena);
+
+/* A metal seen from outside: front alone. */
+const CoatingTables *coating_of_metal(const LayerStack *stack, const OpticalConstants *metal,
+                                      Arena *arena);
+
+/* The boundary of an opaque body seen from outside: front alone, with its energies. */
+const CoatingTables *coating_of_face(const LayerStack *stack, double ior, Arena *arena);
+
+/* By how much a coating on a display's cover changes the reflectance of its bare glass: front
+ * alone, and no share of light: it may be above 1. */
+const CoatingTables *coating_of_cover(const LayerStack *stack, double ior, Arena *arena);

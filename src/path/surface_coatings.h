@@ -1,0 +1,11 @@
+/* surface_coatings.h -- the tables of a scene's coated materials and measured metals.
+ *
+ * Memory   from the arena, one set of tables for materials that are coated alike.
+ * Threads  const once built.  Fails  never.
+ */
+#pragma once
+#include "scene/scene.h"
+#include "shaders/coating.h"
+
+/* One a material; NULL: neither coated nor of a measured metal. NULL in all: no material is. */
+const SurfaceCoating *const *surface_coatings_build(const Scene *scene, Arena *arena);

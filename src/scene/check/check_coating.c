@@ -1,0 +1,89 @@
+#include "scene/check/check_coating.h"
+
+#include "scene/scene.h"
+
+/* ---- layers ----------------------------------------------------------------------------- */
+
+/* A number from 0 to 100, or the name of a file of rows nm,n,k. */
+static bool check_index_value(const DocumentCheck *check, const GltfValue *value)
+{
+    if (!value || value->kind == GLTF_STRING) return true;
+    if (value->kind != GLTF_NUMBER)
+        check_fails(check, value, "is neither a number nor the name of a file of rows nm,n,k");
+    else if (!(value->number >= 0 && value->number <= INDEX_MAX))
+        check_fails(check, value,
+                    "is %.9g, a number from 0 to %g or the name of a file of rows nm,n,k is "
+                    "wanted", value->number, INDEX_MAX);
+    else
+        return true;
+    return false;
+}
+
+void check_layer(const DocumentCheck *check, const GltfValue *layer)
+{
+    const GltfValue *n = tree_member(layer, "n"), *k = tree_member(layer, "k");
+    bool ok = check_index_value(check, n) && check_index_value(check, k);
+    bool is_dark = (k && k->kind == GLTF_STRING) || tree_number(layer, "k", 0) > 0;
+    if (ok && n && n->kind == GLTF_NUMBER && n->number == 0 && !is_dark)
+        check_fails(check, n, "is 0 and so is k: one of them above 0 is wanted");
+}
+
+void check_coating(const DocumentCheck *check, const GltfValue *coating)
+{
+    const GltfValue *layers = tree_member(coating, "layers");
+    const GltfValue *stack = tree_member(coating, "stack");
+    if (!layers && !stack)
+        check_fails(check, coating, "holds neither \"layers\" nor \"stack\", one is wanted");
+    if (layers && stack)
+        check_fails(check, stack, "stands beside \"layers\", one of them is wanted");
+    if (layers && layers->kind == GLTF_ARRAY && layers->count > THIN_LAYERS_MAX)
+        check_fails(check, layers, "has %d layers, up to %d are wanted", layers->count,
+                    THIN_LAYERS_MAX);
+}
+
+/* ---- materials that wear them ----------------------------------------------------------- */
+
+static bool is_solid(const GltfValue *material)
+{
+    const GltfValue *volume = tree_extension(material, "KHR_materials_volume");
+    const GltfValue *clear = tree_extension(material, "KHR_materials_transmission");
+    return tree_number(volume, "thicknessFactor", 0) > 0 &&
+           tree_number(clear, "transmissionFactor", 0) > 0;
+}
+
+static void check_body(const DocumentCheck *check, const GltfValue *material,
+                       const GltfValue *coating, bool has_conductor)
+{
+    const GltfValue *pbr = tree_member(material, "pbrMetallicRoughness");
+    const GltfValue *coat = tree_extension(material, "KHR_materials_clearcoat");
+    double metallic = tree_number(pbr, "metallicFactor", 1);
+    if (metallic > 0 && !has_conductor && !is_solid(material))
+        check_fails(check, coating,
+                    "lies on a metal (metallicFactor %.9g) whose n and k are not known: a "
+                    "PARHELION_spectrum with \"conductor\", or metallicFactor 0, is wanted",
+                    metallic);
+    if (tree_number(coat, "clearcoatFactor", 0) > 0)
+        check_fails(check, coating,
+                    "stands beside KHR_materials_clearcoat, one of them is wanted");
+}
+
+void check_coated_material(const DocumentCheck *check, const GltfValue *material)
+{
+    const GltfValue *coating = tree_extension(material, "PARHELION_coating");
+    const GltfValue *ior = tree_extension(material, "KHR_materials_ior");
+    const GltfValue *conductor =
+        tree_member(tree_extension(material, "PARHELION_spectrum"), "conductor");
+    const GltfValue *pbr = tree_member(material, "pbrMetallicRoughness");
+    if (conductor && tree_number(pbr, "metallicFactor", 1) <= 0)
+        check_warns(check, conductor, "has no effect: metallicFactor is 0");
+    if (!coating) return;
+    if (tree_extension(material, "KHR_materials_unlit"))
+        check_warns(check, coating, "has no effect beside KHR_materials_unlit");
+    if (tree_extension(material, "PARHELION_glazing"))
+        check_fails(check, coating, "stands beside PARHELION_glazing, one of them is wanted");
+    if (ior && tree_number(ior, "ior", 1.5) == 0)
+        check_fails(check, coating, "lies on a body of infinite index (ior 0): a number of at "
+                                    "least 1 is wanted there");
+    if (!tree_extension(material, "PARHELION_display"))
+        check_body(check, material, coating, conductor != NULL);
+}
