@@ -145,6 +145,9 @@ static void add_glass(void)
     models[model_count++] = (Model){.name = "windscreen", .bsdf.kind = BSDF_THIN_WINDOW,
         .bsdf.thin_window = {.tint = ramp(0.6f, 0.9f), .ior = 1.52f}, .both_sides = true,
         .width = 1};
+    models[model_count++] = (Model){.name = "clear window", .bsdf.kind = BSDF_THIN_WINDOW,
+        .bsdf.thin_window = {.tint = spectrum_all(1), .ior = 1.52f}, .both_sides = true,
+        .lossless = true, .width = 1};
     add_glazing("laminated", 0.8f, 0, 0)->front_is_up = true;
     add_glazing("clear laminated", 1, 0, 0);
     add_glazing("dirty", 0.9f, 0.3f, 0.4f);
@@ -185,8 +188,8 @@ static void add_coated_solid(const char *name, float alpha, bool lossless,
 static void add_coated_window(const char *name, bool lossless, const CoatingTables *sheet)
 {
     models[model_count++] = (Model){.name = name, .bsdf.kind = BSDF_THIN_WINDOW,
-        .bsdf.thin_window = {.tint = spectrum_all(1), .ior = 1.52f, .reflectance = sheet->front,
-                             .transmittance = sheet->through, .wavelengths = &wavelengths},
+        .bsdf.thin_window = {spectrum_all(1), 1.52f, sheet->front, sheet->through,
+                             &wavelengths},
         .both_sides = true, .lossless = lossless, .width = 1};
 }
 
@@ -207,14 +210,12 @@ static void add_coated_surfaces(void)
     add_coated("silver under lacquer", 1, 0.2f, false, &silver_metal)->clearcoat = 1;
     add_coated("coated plastic, alpha 0.3", 0, 0.3f, true, &plastic);
     add_coated("coated plastic, alpha 0.02", 0, 0.02f, true, &plastic);
-    add_coated("coated smooth plastic", 0, 0, true, &plastic);
     add_coated("coated half metal", 0.5f, 0.2f, true, &plastic);
     add_coated("coated frosted sheet", 0, 0.3f, true, &frosted)->transmission = 1;
     add_coated("coated smooth sheet, mixed", 0.3f, 0, false, &frosted)->transmission = 1;
     add_coated_solid("coated glass", 0, true, coating_of_solid(four, 1.52, &arena));
     add_coated_solid("coated frosted glass", 0.3f, false, coating_of_solid(four, 1.52, &arena));
-    add_coated_solid("silvered frosted glass", 0.1f, false,
-                     coating_of_solid(silver, 1.52, &arena));
+    add_coated_solid("silvered glass", 0.1f, false, coating_of_solid(silver, 1.52, &arena));
     add_coated_window("coated window", true, coating_of_sheet(four, 1.52, &arena));
     add_coated_window("silvered window", false, coating_of_sheet(silver, 1.52, &arena));
 }
