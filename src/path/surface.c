@@ -253,7 +253,7 @@ static void set_window(const Site *site, Surface *surface)
 
 static void set_glazing(const Site *site, Surface *surface)
 {
-    const Glazing *pane = &site->scene->glazings[site->material->glazing_id];
+    const Glazing *pane = site->material->glazing;
     GlazedWindow  *model = &surface->bsdf.glazed_window;
     surface->bsdf.kind = BSDF_GLAZED_WINDOW;
     *model = (GlazedWindow){.pane = pane,
@@ -326,7 +326,7 @@ void surface_at(const Scene *scene, const SurfaceTables *tables, const Hit *hit,
         set_display(&site, wo, out);
     } else if (m->unlit) {
         out->bsdf.kind = BSDF_BLACK;
-    } else if (m->glazing_id != NO_ID) {
+    } else if (m->glazing) {
         set_glazing(&site, out);
     } else {
         read_site(&site, &out->point, texel);

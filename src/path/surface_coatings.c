@@ -15,7 +15,7 @@ static CoatingNeeds needs_of(const Material *m)
     bool has_nonmetal = m->metallic < 1 || m->metallic_roughness_texture.texture_id != NO_ID;
     bool has_opaque = m->transmission < 1 || m->transmission_texture.texture_id != NO_ID;
     bool is_coated = m->coating != NULL;
-    if (m->unlit || m->glazing_id != NO_ID || (!is_coated && !m->conductor)) return needs;
+    if (m->unlit || m->glazing || (!is_coated && !m->conductor)) return needs;
     needs.cover = is_coated && m->display_id != NO_ID;
     if (m->display_id != NO_ID) return needs;
     needs.solid = is_coated && m->is_solid && m->transmission > 0;

@@ -63,6 +63,11 @@ typedef struct TextureSlot {
     float uv_from_uv[6]; /* KHR_texture_transform: u' = a u + b v + c, v' = d u + e v + f */
 } TextureSlot;
 
+/* The most that a scene may have shine on it: above it samples would overflow. */
+#define SCENE_MOST_CD_M2 1e12
+#define SCENE_MOST_LX 1e9
+#define SCENE_MOST_W_M2 1e7
+
 typedef enum AlphaMode { ALPHA_OPAQUE, ALPHA_MASK, ALPHA_BLEND } AlphaMode;
 
 typedef struct Material {
@@ -96,7 +101,7 @@ typedef struct Material {
     float attenuation_color[3]; /* after attenuation_distance_m (infinite: none) */
     float attenuation_distance_m;
     int   display_id;          /* NO_ID unless PARHELION_display */
-    int   glazing_id;          /* NO_ID unless PARHELION_glazing */
+    const Glazing *glazing;    /* NULL unless PARHELION_glazing */
     int   base_color_curve_id, specular_curve_id, transmission_curve_id, emission_curve_id;
     const LayerStack *coating; /* PARHELION_coating; NULL: none */
     const OpticalConstants *conductor; /* of the metal share; NULL: by its base colour */
@@ -210,8 +215,6 @@ typedef struct Scene {
     int       texture_count;
     Display  *displays;
     int       display_count;
-    Glazing  *glazings;
-    int       glazing_count;
     PunctualLight *lights;
     int       light_count;
     SceneCamera *cameras; /* in scene order of their nodes */

@@ -58,7 +58,16 @@ TEST(values_of_the_surroundings_are_checked)
          "--sun AZ,EL"},
         {{.environment = "constant:-1"},
          "--environment constant:-1: wanted a luminance in cd/m2, "
-         "at least 0"},
+         "0 to 1e+12"},
+        {{.environment = "constant:1e40"},
+         "--environment constant:1e40: wanted a luminance in cd/m2, "
+         "0 to 1e+12"},
+        {{.environment = "cie:5:1e30"},
+         "--environment cie:5:1e30: wanted cie:N or cie:N:LUX with N 1 to 15 (16: the "
+         "traditional overcast sky) and LUX up to 1e+09"},
+        {{.environment = "perez:800,1e50"},
+         "--environment perez:800,1e50: wanted perez:DIRECT,DIFFUSE, normal and horizontal "
+         "irradiance in W/m2, up to 1e+07"},
         {{.environment = "black"}, "--environment black: wanted sky:clear, cie:N[:LUX], "
          "perez:DIRECT,DIFFUSE, hdri:FILE or constant:CD_M2"},
         {{.has_hdri_lux = true, .hdri_lux = 9},
@@ -69,7 +78,10 @@ TEST(values_of_the_surroundings_are_checked)
          "AZ,EL,LUX"},
         {{.sun = "1,95,1000"},
          "--sun 1,95,1000: wanted auto, off, or AZ,EL,LUX with AZ -360 to 360 and "
-         "EL -90 to 90 degrees and LUX at least 0"},
+         "EL -90 to 90 degrees and LUX 0 to 1e+09"},
+        {{.sun = "200,45,8e94"},
+         "--sun 200,45,8e94: wanted auto, off, or AZ,EL,LUX with AZ -360 to 360 and "
+         "EL -90 to 90 degrees and LUX 0 to 1e+09"},
         {{.has_forward = true, .forward = {0, 1, 0}},
          "--forward 0,1,0: wanted a vector that is "
          "not vertical"},

@@ -346,8 +346,8 @@ TEST(a_response_to_a_clear_sky_is_what_paths_find_under_it)
     SkyTable table;
     Error    err = {0};
     world_ready(&world, 64);
-    Stage stage = {.request = &request, .tools = {kernel(), 2}, .scene = world.scene,
-                   .context = world.context};
+    Stage stage = {.request = &request, .tools = {.kernel = kernel(), .threads = 2},
+                   .scene = world.scene, .context = world.context};
     DaylightInput like = daylight_input_default(DAYLIGHT_CLEAR);
     like.threads = 2;
     assert_true(sky_table_build(&like, 30, 36, &world.arena, &table, &err));

@@ -44,10 +44,10 @@ static void add_input(Change *change, const char *path, uint64_t hash)
 static bool set_constant(Change *change, const char *text, Error *err)
 {
     double luminance;
-    if (!cli_numbers(text, 1, &luminance) || luminance < 0)
+    if (!cli_numbers(text, 1, &luminance) || luminance < 0 || luminance > SCENE_MOST_CD_M2)
         return error_set(err, ERROR_USAGE,
-                         "--environment constant:%s: wanted a luminance in cd/m2, at least 0",
-                         text);
+                         "--environment constant:%s: wanted a luminance in cd/m2, 0 to %g",
+                         text, SCENE_MOST_CD_M2);
     change->environment->kind = ENVIRONMENT_CONSTANT;
     change->environment->luminance_cd_m2 = (float)luminance;
     for (int i = 0; i < 3; i++) change->environment->color[i] = 1;
@@ -102,11 +102,11 @@ static bool set_cie(Change *change, const char *text, Error *err)
     if (cli_numbers(copy, 2, number)) has_lux = number[1] >= 0;
     else if (colon || !cli_numbers(copy, 1, number)) number[0] = 0;
     if (!(number[0] >= 1 && number[0] <= 16 && floor(number[0]) == number[0]) ||
-        (colon && !has_lux))
+        (colon && !has_lux) || number[1] > SCENE_MOST_LX)
         return error_set(err, ERROR_USAGE,
                          "--environment cie:%s: wanted cie:N or cie:N:LUX with N "
-                         "1 to 15 (16: the traditional overcast sky)",
-                         text);
+                         "1 to 15 (16: the traditional overcast sky) and LUX up to %g",
+                         text, SCENE_MOST_LX);
     bool was_cie = change->environment->kind == ENVIRONMENT_CIE;
     become(change, ENVIRONMENT_CIE, DAYLIGHT_CIE);
     change->environment->daylight.cie_type = (int)number[0];
@@ -125,11 +125,12 @@ static bool set_cie(Change *change, const char *text, Error *err)
 static bool set_perez(Change *change, const char *text, Error *err)
 {
     double w_m2[2];
-    if (!cli_numbers(text, 2, w_m2) || w_m2[0] < 0 || !(w_m2[1] > 0))
+    if (!cli_numbers(text, 2, w_m2) || w_m2[0] < 0 || !(w_m2[1] > 0) ||
+        fmax(w_m2[0], w_m2[1]) > SCENE_MOST_W_M2)
         return error_set(err, ERROR_USAGE,
                          "--environment perez:%s: wanted perez:DIRECT,DIFFUSE, "
-                         "normal and horizontal irradiance in W/m2",
-                         text);
+                         "normal and horizontal irradiance in W/m2, up to %g",
+                         text, SCENE_MOST_W_M2);
     become(change, ENVIRONMENT_PEREZ, DAYLIGHT_PEREZ);
     change->environment->daylight.direct_w_m2 = w_m2[0];
     change->environment->daylight.diffuse_w_m2 = w_m2[1];
@@ -294,12 +295,12 @@ static bool set_sun(Change *change, const char *text, Error *err)
     }
     bool has_lux = cli_numbers(text, 3, sun);
     if ((!has_lux && !cli_numbers(text, 2, sun)) || fabs(sun[0]) > 360 || fabs(sun[1]) > 90 ||
-        (has_lux && sun[2] < 0))
+        (has_lux && (sun[2] < 0 || sun[2] > SCENE_MOST_LX)))
         return error_set(
             err, ERROR_USAGE,
             "--sun %s: wanted auto, off, or AZ,EL,LUX with AZ -360 to 360 and EL -90 "
-            "to 90 degrees and LUX at least 0",
-            text);
+            "to 90 degrees and LUX 0 to %g",
+            text, SCENE_MOST_LX);
     if (!has_lux && !environment->has_sun && !is_model)
         return error_set(
             err, ERROR_USAGE,

@@ -33,7 +33,8 @@ enum {
     RULE_HAS_RANGE = 16, /* min and max hold; otherwise any number will do */
     RULE_FROM_MIN = 32,  /* min holds, there is no max */
     RULE_CLOSED = 64,    /* no extension adds words to this list */
-    RULE_WARNS_AT_REST = 128 /* RULE_WARNS, unless animations are played (--time) */
+    RULE_WARNS_AT_REST = 128, /* RULE_WARNS, unless animations are played (--time) */
+    RULE_ANY_SIZE = 256 /* beyond floats, too: other numbers are held to them */
 };
 
 typedef struct Rule {

@@ -1,5 +1,7 @@
 #include "scene/check/schema.h"
 
+#include <float.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -38,8 +40,15 @@ static bool has_range(const Rule *rule)
     return rule->flags & (RULE_HAS_RANGE | RULE_FROM_MIN);
 }
 
+/* A scene's numbers are kept as floats. */
+static bool is_too_large(const Rule *rule, double number)
+{
+    return fabs(number) > (double)FLT_MAX && !(rule->flags & RULE_ANY_SIZE);
+}
+
 static bool in_range(const Rule *rule, double number)
 {
+    if (is_too_large(rule, number)) return false;
     if (!has_range(rule)) return true;
     if (rule->flags & RULE_ABOVE_MIN ? !(number > rule->min) : !(number >= rule->min))
         return false;
@@ -53,7 +62,9 @@ static void check_number(const DocumentCheck *check, const GltfValue *value, con
     const char *noun = is_integer ? "an integer" : "a number";
     char wanted[128];
     if (is_kind && in_range(rule, value->number)) return;
-    if (!has_range(rule))
+    if (is_kind && is_too_large(rule, value->number) && !(rule->flags & RULE_HAS_RANGE))
+        snprintf(wanted, sizeof wanted, "%s within 3.4e38, as far as floats go,", noun);
+    else if (!has_range(rule))
         snprintf(wanted, sizeof wanted, "%s", noun);
     else if (rule->flags & RULE_FROM_MIN)
         snprintf(wanted, sizeof wanted, "%s %s %.16g", noun,

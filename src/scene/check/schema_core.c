@@ -68,8 +68,8 @@ static const Rule ACCESSOR[] = {
      .max = LOAD_MAX_ELEMENTS},
     {.name = "type", .kind = RULE_CHOICE, .flags = RULE_REQUIRED,
      .of = "SCALAR|VEC2|VEC3|VEC4|MAT2|MAT3|MAT4"},
-    {.name = "max", .kind = RULE_NUMBERS, .least = 1, .most = 16},
-    {.name = "min", .kind = RULE_NUMBERS, .least = 1, .most = 16},
+    {.name = "max", .kind = RULE_NUMBERS, .flags = RULE_ANY_SIZE, .least = 1, .most = 16},
+    {.name = "min", .kind = RULE_NUMBERS, .flags = RULE_ANY_SIZE, .least = 1, .most = 16},
     {.name = "sparse", .kind = RULE_OBJECT, .schema = &SCHEMA_SPARSE},
 };
 static const Schema SCHEMA_ACCESSOR = {"accessor", ACCESSOR, COUNT_OF(ACCESSOR), false,

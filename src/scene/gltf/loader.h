@@ -36,7 +36,7 @@ typedef struct Loader {
     ItemList parts;     /* PartDraft */
     ItemList materials; /* Material */
     ItemList material_uv_sets; /* int[2] a material: the TEXCOORD_n of Part.uv */
-    ItemList textures, displays, glazings, lights, cameras, curves;
+    ItemList textures, displays, lights, cameras, curves;
     ItemList display_places; /* DisplayPlace, one a display */
     ItemList inputs;         /* const char * */
     ItemList input_hashes;   /* uint64_t */

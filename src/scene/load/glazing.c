@@ -83,13 +83,13 @@ static void read_layers(GltfFile *file, const GltfValue *layers, Glazing *pane)
     pane->absorbing_ior = absorbed > 0 ? (float)(weighed / absorbed) : pane->layers[0].ior;
 }
 
-static void become_pane(Material *m, int glazing_id, float ior)
+static void become_pane(Material *m, const Glazing *pane)
 {
-    m->glazing_id = glazing_id;
+    m->glazing = pane;
     m->transmission = 1;
     m->roughness = m->metallic = m->clearcoat = 0;
     m->is_solid = false;
-    m->ior = ior;
+    m->ior = pane->layers[0].ior;
     m->normal_texture = texture_slot_none();
 }
 
@@ -98,12 +98,11 @@ void glazing_build(GltfFile *file, const GltfValue *glazing, Material *material)
     const GltfValue *layers = tree_member(glazing, "layers");
     const GltfValue *haze = tree_member(glazing, "haze");
     if (!layers || layers->count < 1 || layers->count > GLAZING_LAYERS_MAX) return;
-    Loader  *load = file->load;
-    Glazing *pane = list_add(&load->glazings, &load->scratch);
+    Glazing *pane = ARENA_NEW(file->load->arena, Glazing, 1);
     *pane = (Glazing){.wedge_ior = 1};
     read_layers(file, layers, pane);
     pane->haze_share = tree_float(haze, "share", 0);
     pane->haze_width =
         (float)sin_d(radians_from_degrees(tree_number(haze, "width_deg", 0)));
-    become_pane(material, load->glazings.count - 1, pane->layers[0].ior);
+    become_pane(material, pane);
 }

@@ -37,7 +37,6 @@ static Material default_material(const char *name)
                       .attenuation_color = {1, 1, 1},
                       .attenuation_distance_m = INFINITY,
                       .display_id = NO_ID,
-                      .glazing_id = NO_ID,
                       .base_color_curve_id = NO_ID,
                       .specular_curve_id = NO_ID,
                       .transmission_curve_id = NO_ID,
