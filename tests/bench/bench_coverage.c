@@ -24,7 +24,7 @@ typedef struct Probing {
     Arena        scratch;
 } Probing;
 
-static void stop(const Error *err)
+static _Noreturn void stop(const Error *err)
 {
     fprintf(stderr, "%s: %s\n", err->path, err->text);
     exit(2);

@@ -55,7 +55,7 @@ typedef struct Brute {
     Arena        rooms[PARALLEL_THREADS_MAX];
 } Brute;
 
-static void stop(const Error *err)
+static _Noreturn void stop(const Error *err)
 {
     fprintf(stderr, "%s: %s\n", err->path, err->text);
     exit(2);

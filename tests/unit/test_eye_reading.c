@@ -16,8 +16,8 @@ static EyeReading read_towards(World *world, Vec3 towards, int rounds)
     Error         err = {0};
     assert_true(kernel_choose(NULL, &kernel, &err));
     if (!world->bvh) world_ready(world, 16); /* a test may look twice */
-    Stage stage = {.request = &request, .tools = {kernel, 2}, .scene = world->scene,
-                   .context = world->context};
+    Stage stage = {.request = &request, .tools = {.kernel = kernel, .threads = 2},
+                   .scene = world->scene, .context = world->context};
     EyeLook look = {vec3(0, 0, 0), towards, rounds, NULL};
     return eye_read(&stage, &look, world->arena);
 }
@@ -146,8 +146,8 @@ TEST(an_image_of_the_sun_veils_by_its_illuminance)
     world.scene->environment.sun_illuminance_lx = 60000;
     assert_true(kernel_choose(NULL, &kernel, &err));
     world_ready(&world, 16);
-    Stage stage = {.request = &request, .tools = {kernel, 2}, .scene = world.scene,
-                   .context = world.context};
+    Stage stage = {.request = &request, .tools = {.kernel = kernel, .threads = 2},
+                   .scene = world.scene, .context = world.context};
     assert_true(stage_sun(&stage, &towards, bands));
     false_suns_search(&stage, vec3(0, 0, 0), &world.arena, &rays);
     FalseSuns  images = false_suns_of(&rays, bands, &world.arena);

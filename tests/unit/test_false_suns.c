@@ -18,8 +18,8 @@ static Stage stage_of(const World *world)
     const Kernel *kernel;
     Error         err = {0};
     assert_true(kernel_choose(NULL, &kernel, &err));
-    return (Stage){.request = &request, .tools = {kernel, 2}, .scene = world->scene,
-                   .context = world->context};
+    return (Stage){.request = &request, .tools = {.kernel = kernel, .threads = 2},
+                   .scene = world->scene, .context = world->context};
 }
 
 /* Under suns that have [from, end) of the bands alone, evenly. */

@@ -33,7 +33,7 @@ static void fill(Subject *s)
         .inputs = {"a/scene.gltf", "panels/ips.panel"},
         .hashes = {1, 2},
         .display = {.name = "cluster", .panel_path = "panels/ips.panel", .level = 1},
-        .content = {"cluster", "map.png"}};
+        .content = {.material = "cluster", .value = "map.png"}};
     s->request.scene.contents = &s->content;
     s->request.scene.content_count = 1;
     s->texture.image = (Image){1, 1, IMAGE_RGBA8, s->pixels};

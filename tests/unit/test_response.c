@@ -351,7 +351,7 @@ TEST(a_response_to_a_clear_sky_is_what_paths_find_under_it)
     DaylightInput like = daylight_input_default(DAYLIGHT_CLEAR);
     like.threads = 2;
     assert_true(sky_table_build(&like, 30, 36, &world.arena, &table, &err));
-    FarTools tools = {&stage, &table, {suns, 4}, 16384, 0, 64, 0, NULL};
+    FarTools tools = {&stage, &table, {suns, 4}, 16384, 0, 64, false, NULL};
     FarProbe probe = {.aim = aim_of(&world)};
     probe.aim.context = &stage.context;
     far_probe_respond(&probe, &tools, &world.arena);
