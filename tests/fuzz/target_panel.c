@@ -6,6 +6,7 @@
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
+#include "base/units.h"
 #include "harness.h"
 #include "panel/query/panel_emission.h"
 #include "panel/query/panel_file.h"
@@ -69,6 +70,9 @@ void fuzz_panel(const uint8_t *data, size_t size, Arena *arena)
         claim_reflection(panel, wo, direction(1.4f - 0.4f * (float)i, (float)i), &w);
         if (i < 3) panel_info_levels(panel, i, number);
     }
+    PanelPolarisation polarised = panel_polarisation(panel);
+    fuzz_claim(polarised.degree >= 0 && polarised.degree <= 1 && polarised.azimuth >= 0 &&
+                   polarised.azimuth < PI_F, "the polarisation is one");
     panel_info_wavelengths(panel, nm);
     panel_info_incidences(panel, number);
     panel_info_azimuths(panel, number);

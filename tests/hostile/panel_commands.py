@@ -148,6 +148,32 @@ def check_export(report, commands, panel):
     report.claim(abs(a / b - 1) < 0.04, f"fitted again, {a} cd/m2 became {b}")
 
 
+def check_polarisation(report, commands, panel):
+    """What a manifest says of the light's polarisation is shown and exported."""
+    with open(commands.file("set", "MANIFEST.json")) as file:
+        manifest = json.load(file)
+    del manifest["reflection"]
+    wanted = manifest["polarisation"] = {"degree": 0.98, "azimuth_deg": 135}
+    path, panel = commands.file("set", "POLARISED.json"), panel + ".polarised"
+    with open(path, "w") as out:
+        json.dump(manifest, out)
+    commands.text("fit", path, "-o", panel, "--quiet")
+    found = json.loads(commands.text("info", panel, "--json"))["display"].get("polarisation")
+    report.claim(found == wanted, f"info says {found}")
+    report.claim("polarised  98 %, linearly, along azimuth 135 degrees"
+                 in commands.text("info", panel), "info as text says nothing of polarisation")
+    commands.text("export", panel, "-o", commands.file("polarised"), "--theta-step", "20",
+                  "--phi-step", "60", "--quiet")
+    with open(commands.file("polarised", "MANIFEST.json")) as file:
+        found = json.load(file).get("polarisation")
+    report.claim(found == wanted, f"export says {found}")
+    manifest["polarisation"] = {"degree": 2, "azimuth_deg": 0}
+    with open(path, "w") as out:
+        json.dump(manifest, out)
+    fails(report, commands.run("fit", path, "-o", panel, "--quiet"), 3, "POLARISED.json",
+          "/polarisation/degree", "0 to 1")
+
+
 def lambertian_set(commands, name, reflectance):
     """A reflection alone, the same at every angle."""
     folder = commands.file(name)
@@ -330,7 +356,7 @@ def main():
             check_other_build(report, commands, Commands(options.against, folder))
             report.finish()
         panel = commands.make("small.panel")
-        for check in (check_grids, check_batch, check_export, check_verdict,
+        for check in (check_grids, check_batch, check_export, check_polarisation, check_verdict,
                       check_display, check_plot_numbers):
             try:
                 check(report, commands, panel)

@@ -91,7 +91,12 @@ WRONG_MANIFESTS = [("emission/black", None), ("emission/red", {}), ("emission/re
                    ("emission/purple", "a.csv"),
                    ("reflection/files", "brdf/i10.csv"), ("reflection/incidence_deg", [95]),
                    ("reflection/wavelengths_nm", None), ("reflection/incidence_phi_deg", [0]),
-                   ("instrument_fwhm_deg", 40), ("pannel", "x")]
+                   ("instrument_fwhm_deg", 40), ("pannel", "x"), ("polarisation", 0.5),
+                   ("polarisation", {"degree": 1.5, "azimuth_deg": 0}),
+                   ("polarisation", {"degree": "1", "azimuth_deg": 0}),
+                   ("polarisation", {"degree": 1, "azimuth_deg": 400}),
+                   ("polarisation", {"degree": 1}), ("polarisation", {"azimuth_deg": 1}),
+                   ("polarisation", {"degree": 1, "azimuth_deg": 0, "circular": 1})]
 WRONG_PROFILES = [("title", None), ("title", ""), ("limit", []), ("veil", "yes"),
                   ("ambient", None), ("ambient/night_below_lx", -1),
                   ("ambient/dusk_below_lx", 3), ("limits", None), ("limits", {}),

@@ -49,6 +49,10 @@ static Fixture folder; /* files and what is made of them */
     "\"incidence_phi_deg\": [0, 90, 180, 270],"                                                \
     "\"files\": \"brdf/i{incidence}_a{azimuth}.csv\"}}"
 
+#define POLARISED                                                                              \
+    "{\"emission\": {\"white\": \"emission/black.csv\"},"                                    \
+    "\"polarisation\": {\"degree\": 0.9, \"azimuth_deg\": 45}}"
+
 #define BRUSHED                                                                                \
     "{\"panel\": \"grain\", \"reflection\": {\"wavelengths_nm\": [550],"                       \
     "\"incidence_deg\": [20, 50], \"incidence_phi_deg\": [0, 90, 180, 270],"                   \
@@ -67,6 +71,7 @@ static Kind kinds[] = {
     {"haar", NULL, FIT_HAAR, 0, NULL},
     {"white only", "{\"emission\": {\"white\": \"emission/black.csv\"}}", FIT_VERTEX, 0,
      NULL},
+    {"polarised", POLARISED, FIT_VERTEX, 0, NULL},
     {"reflection only", ONLY_REFLECTION, FIT_VERTEX, 0, NULL},
     {"one table", ONE_TABLE, FIT_VERTEX, 0, NULL}, /* opening makes its sampling */
     {"beam", "{\"emission\": {\"white\": \"emission/beam.csv\"}}", FIT_VERTEX, 0, NULL},
@@ -195,6 +200,8 @@ static void ask_everything(const Panel *panel)
         panel_emission_xyz(panel, wo, rgb, xyz);
         panel_emission_spectrum(panel, wi, rgb, &w);
         panel_mean_luminance(panel, rgb);
+        PanelPolarisation p = panel_polarisation(panel);
+        assert_true(p.degree >= 0 && p.degree <= 1 && p.azimuth >= 0 && p.azimuth < PI_F);
         panel_brdf(panel, wo, wi, &w);
         panel_mirror(panel, wo.z, &w);
         panel_haze_albedo(panel, wi.z);

@@ -1,6 +1,7 @@
 /* Files of a laboratory: what is wrong with recipes, manifests and tables is named; every
  * layout says the same. */
 #include "panel_fixture.h"
+#include "base/file.h"
 #include "panel/query/panel_emission.h"
 #include "panel/query/panel_open.h"
 
@@ -96,6 +97,9 @@ TEST(rows_at_the_normal_are_averaged_and_equal_doubles_pass)
     assert_close(sum, 101, 1e-4);
 }
 
+#define POLARISED(text)                                                                        \
+    "{\"emission\": {\"white\": \"good.csv\"}, \"polarisation\": " text "}"
+
 TEST(manifests_name_the_key)
 {
     (void)state;
@@ -121,6 +125,19 @@ TEST(manifests_name_the_key)
          {"/emission/red/256", "no grey level", "up to 255"}},
         {"{\"emission\": {\"black\": \"good.csv\", \"red\": {\"128\": \"good.csv\", \"128.0\": "
          "\"good.csv\"}}}", {"same grey level", "", ""}},
+        {POLARISED("3"), {"/polarisation", "is a number", "wanted an object"}},
+        {POLARISED("{\"degree\": 1}"), {"/polarisation", "'azimuth_deg' is missing", ""}},
+        {POLARISED("{\"azimuth_deg\": 1}"), {"/polarisation", "'degree' is missing", ""}},
+        {POLARISED("{\"degree\": 1.01, \"azimuth_deg\": 0}"),
+         {"/polarisation/degree", "1.01", "0 to 1"}},
+        {POLARISED("{\"degree\": \"1\", \"azimuth_deg\": 0}"),
+         {"/polarisation/degree", "is a text", "wanted a number"}},
+        {POLARISED("{\"degree\": 1, \"azimuth_deg\": 361}"),
+         {"/polarisation/azimuth_deg", "361", "-360 to 360"}},
+        {POLARISED("{\"degree\": 1, \"azimuth\": 45}"),
+         {"/polarisation/azimuth", "unknown key", "'azimuth_deg'"}},
+        {"{\"polarisation\": {\"degree\": 1, \"azimuth_deg\": 45}, \"reflection\": {}}",
+         {"/polarisation", "no 'emission'", ""}},
         {"{\"a\": 1,\n \"a\": 2}", {"MANIFEST.json: line 2", "not valid JSON", "duplicate"}},
         {"[1]", {"MANIFEST.json", "is an array", "wanted an object"}},
     };
@@ -129,6 +146,51 @@ TEST(manifests_name_the_key)
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         Error err = bad_file("MANIFEST.json", cases[i].text);
         expect_line(&err, cases[i].parts, 3);
+    }
+}
+
+/* A white-only panel of this polarisation, and the bytes of its file. */
+static Panel *polarised_panel(const char *manifest, FileBytes *bytes)
+{
+    Error        err = {0};
+    FitOptions   options = fit_options_default();
+    json_t      *report = NULL;
+    Panel       *panel = NULL;
+    Measurement *set = ARENA_NEW(&folder.arena, Measurement, 1);
+    const char  *path = fixture_file(&folder, "MANIFEST.json", manifest);
+    if (!measurement_read(path, &folder.arena, set, &err) ||
+        !panel_fit(set, &options, folder.panel_path, &folder.arena, &report, &err) ||
+        !file_read(folder.panel_path, (size_t)1 << 30, &folder.arena, bytes, &err) ||
+        !panel_open(folder.panel_path, &folder.arena, &panel, &err))
+        fail_msg("%s: %s", err.path, err.text);
+    json_decref(report);
+    return panel;
+}
+
+TEST(polarisation_is_kept_and_costs_nothing_where_there_is_none)
+{
+    (void)state;
+    static const struct { const char *text; float degree, azimuth_deg; } cases[] = {
+        {POLARISED("{\"degree\": 0.995, \"azimuth_deg\": 45}"), 0.995f, 45},
+        {POLARISED("{\"degree\": 1, \"azimuth_deg\": -60}"), 1, 120},
+        {POLARISED("{\"degree\": 0.25, \"azimuth_deg\": 360}"), 0.25f, 0},
+        {POLARISED("{\"degree\": 0, \"azimuth_deg\": 45}"), 0, 0},
+    };
+    FileBytes none, some;
+    fixture_file(&folder, "good.csv", "theta,phi,X,Y,Z\n0,0,95,100,108\n50,0,60,70,75\n");
+    Panel *plain = polarised_panel("{\"emission\": {\"white\": \"good.csv\"}}", &none);
+    assert_true(panel_polarisation(plain).degree == 0);
+    panel_close(plain);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        Panel *panel = polarised_panel(cases[i].text, &some);
+        PanelPolarisation p = panel_polarisation(panel);
+        assert_true(p.degree == cases[i].degree);
+        assert_close(1 + (double)p.azimuth,
+                     1 + radians_from_degrees((double)cases[i].azimuth_deg), 1e-6);
+        if (p.degree > 0) assert_true(some.size > none.size && some.size <= none.size + 32);
+        else assert_int_equal(some.size, none.size);
+        if (p.degree == 0) assert_memory_equal(some.data, none.data, none.size);
+        panel_close(panel);
     }
 }
 

@@ -152,6 +152,17 @@ static json_t *cones(const Panel *panel, ConeQuestion ask)
     return list;
 }
 
+/* Absent: unpolarised, or nobody said. */
+static void add_polarisation(const Panel *panel, json_t *out)
+{
+    PanelPolarisation p = panel_polarisation(panel);
+    double degree = round((double)p.degree * 1e6) / 1e6;
+    double azimuth = round(degrees_from_radians((double)p.azimuth) * 1e4) / 1e4;
+    if (p.degree > 0)
+        json_object_set_new(out, "polarisation", json_pack("{s:f, s:f}", "degree", degree,
+                                                           "azimuth_deg", azimuth));
+}
+
 static void add_emission(const Panel *panel, const json_t *report, json_t *out)
 {
     const json_t *emission = json_object_get(report, "emission");
@@ -169,6 +180,7 @@ static void add_emission(const Panel *panel, const json_t *report, json_t *out)
         json_object_set_new(out, "gamma", json_pack("[o, o, o]", gamma_of(panel, 0),
                                                     gamma_of(panel, 1), gamma_of(panel, 2)));
     }
+    add_polarisation(panel, out);
     json_object_set_new(out, "half_luminance_deg", cones(panel, (ConeQuestion){false, 0.5}));
     if (black > 0)
         json_object_set_new(out, "contrast_10_deg", cones(panel, (ConeQuestion){true, 10}));
@@ -263,6 +275,13 @@ static void print_gamut(const json_t *facts)
                item(gamma, 2));
 }
 
+static void print_polarisation(const json_t *polarisation)
+{
+    if (!polarisation) return;
+    printf("polarised  %.4g %%, linearly, along azimuth %.6g degrees\n",
+           100 * number(polarisation, "degree"), number(polarisation, "azimuth_deg"));
+}
+
 static void print_reflection(const json_t *facts)
 {
     if (!json_object_get(facts, "mirror_reflectance")) return;
@@ -287,6 +306,7 @@ void panel_facts_print(const json_t *report)
         else printf("contrast %.4g : 1\n", number(facts, "contrast"));
     }
     print_gamut(facts);
+    print_polarisation(json_object_get(facts, "polarisation"));
     print_cone(facts, "half_luminance_deg", "half white");
     print_cone(facts, "contrast_10_deg", "10 : 1    ");
     print_reflection(facts);

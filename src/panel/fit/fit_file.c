@@ -1,4 +1,5 @@
 /* Layout: panel_file.h. */
+#include "base/units.h"
 #include "hemisphere/tree/tree_open.h"
 #include "panel/fit/fit_file.h"
 
@@ -61,6 +62,16 @@ static void write_emission(FitWriter *writer, const FitParts *parts)
     write_section(writer, PANEL_PRIMARIES, 0, &primaries, 1);
 }
 
+/* Left out of light that is not polarised. An angle that rounds up to pi is 0. */
+static void write_polarised(FitWriter *writer, const Measurement *set)
+{
+    PanelPolarisedStored stored = {(float)set->polarisation_degree,
+                                   (float)set->polarisation_azimuth};
+    FitPiece piece = {&stored, sizeof stored};
+    if (stored.azimuth >= PI_F) stored.azimuth = 0;
+    if (stored.degree > 0) write_section(writer, PANEL_POLARISED, 0, &piece, 1);
+}
+
 /* A section of what goes without saying is left out. */
 static bool has_surface(const ReflectionResult *r)
 {
@@ -106,6 +117,7 @@ void *fit_file_bytes(const FitParts *parts, const char *meta, Arena *arena, size
     if (parts->tables) write_section(&writer, PANEL_REPORT_TABLES, 0, &tables, 1);
     if (parts->emission) write_emission(&writer, parts);
     if (parts->reflection) write_reflection(&writer, parts->reflection);
+    if (parts->emission) write_polarised(&writer, parts->set);
     bool has_frame = parts->reflection && parts->reflection->surface.frame;
     return finish(&writer, has_frame ? PANEL_VERSION : PANEL_VERSION_PLAIN, size);
 }

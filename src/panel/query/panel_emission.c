@@ -108,6 +108,11 @@ Spectrum panel_emission_spectrum(const Panel *panel, Vec3 direction, const float
     return sum;
 }
 
+PanelPolarisation panel_polarisation(const Panel *panel)
+{
+    return panel->polarisation;
+}
+
 /* ---- mean ------------------------------------------------------------------------------ */
 
 /* At any code, by the same curve between whole codes. */

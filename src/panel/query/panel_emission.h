@@ -20,6 +20,9 @@ bool panel_emission_xyz(const Panel *panel, Vec3 direction, const float rgb[3], 
 Spectrum panel_emission_spectrum(const Panel *panel, Vec3 direction, const float rgb[3],
                                  const Wavelengths *wavelengths);
 
+/* Of the emitted light, at every angle, code and wavelength. */
+PanelPolarisation panel_polarisation(const Panel *panel);
+
 /* Luminance in cd m^-2 averaged over the hemisphere with the cosine (luminous exitance / pi),
  * for codes rgb: what light sampling needs to weigh displays against other lights. */
 float panel_mean_luminance(const Panel *panel, const float rgb[3]);

@@ -38,7 +38,8 @@ typedef enum PanelSectionKind {
     PANEL_REFLECTION_TREE = 6,
     PANEL_SAMPLING = 7,          /* a sampling tree, PanelSampling's counts and thetas */
     PANEL_REPORT_TABLES = 8,   /* panel_report.h: the tables of the report, then the total */
-    PANEL_SURFACE = 9          /* PanelSurfaceStored: how the reflection is read */
+    PANEL_SURFACE = 9,         /* PanelSurfaceStored: how the reflection is read */
+    PANEL_POLARISED = 10       /* PanelPolarisedStored: of the emission; absent: unpolarised */
 } PanelSectionKind;
 
 typedef struct PanelSection {
@@ -129,6 +130,13 @@ typedef struct PanelSurfaceStored {
     float   refractive_index; /* of slopes beyond, where there is no mirror part */
     float   mirror_index;     /* of the mirror part beyond; 0: a straight line over F */
 } PanelSurfaceStored;
+
+/* PANEL_POLARISED: the linearly polarised share of the emitted light, above 0 to 1, and the
+ * direction in which it swings, radians, [0, pi): 0 right, pi/2 up as someone facing the
+ * display sees it. Readers that know nothing of it take the light as unpolarised. */
+typedef struct PanelPolarisedStored {
+    float degree, azimuth;
+} PanelPolarisedStored;
 
 #define PANEL_TABLES_MAX 1152 /* incidences times azimuths */
 #define PANEL_AZIMUTHS_MAX 72

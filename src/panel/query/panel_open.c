@@ -1,7 +1,10 @@
 /* Opening a panel file: reading it, and checking everything that a query relies on. */
 #include "panel/query/panel_open.h"
 
+#include <string.h>
+
 #include "base/file.h"
+#include "base/units.h"
 #include "panel/query/panel_open_emission.h"
 #include "panel/query/panel_open_reflection.h"
 #include "panel/query/sampling_make.h"
@@ -42,6 +45,26 @@ static bool check_version(const PanelBytes *bytes, const PanelHeader *header,
                     "panel again", header->version, wanted);
 }
 
+/* The angle is held in its range: what is stored rounds to float. */
+static bool open_polarised(const PanelBytes *bytes, Panel *panel)
+{
+    PanelBytes at;
+    bool       found;
+    PanelPolarisedStored stored;
+    if (!panel_find_section(bytes, PANEL_POLARISED, 0, &at, &found)) return false;
+    if (!found) return true;
+    if (at.size != sizeof stored)
+        return panel_refuse(bytes, "polarisation", "has a wrong number of bytes");
+    memcpy(&stored, at.data, sizeof stored);
+    if (!(stored.degree > 0 && stored.degree <= 1) ||
+        !(stored.azimuth >= 0 && stored.azimuth < PI_F))
+        return panel_refuse(bytes, "polarisation", "a number is out of range");
+    if (!panel->emission)
+        return panel_refuse(bytes, "polarisation", "stands without an emission");
+    panel->polarisation = (PanelPolarisation){stored.degree, stored.azimuth};
+    return true;
+}
+
 bool panel_from_bytes(const void *data, size_t size, const char *name, Arena *arena,
                       Panel **out, Error *err)
 {
@@ -62,7 +85,7 @@ bool panel_from_bytes(const void *data, size_t size, const char *name, Arena *ar
     panel->figures_size = figures.size;
     if (!panel_open_emission(&bytes, geodesic, arena, panel) ||
         !panel_open_reflection(&bytes, geodesic, arena, panel) ||
-        !check_version(&bytes, &header, panel))
+        !open_polarised(&bytes, panel) || !check_version(&bytes, &header, panel))
         return false;
     if (!panel->emission && !panel->reflection)
         return panel_refuse(&bytes, "table of contents", "neither emits nor reflects");

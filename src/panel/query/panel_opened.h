@@ -108,6 +108,7 @@ struct Panel {
     const PanelEmission *emission; /* NULL: emits nothing */
     Tree         emission_tree;
     const PanelPrimaries *primaries; /* with emission */
+    PanelPolarisation polarisation;  /* of the emission */
     const PanelReflection *reflection; /* NULL: reflects nothing */
     Tree         reflection_tree;
     PanelSampling sampling;

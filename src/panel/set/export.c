@@ -241,6 +241,16 @@ static bool write_all_brdf(Export *export, json_t *manifest)
 
 /* ---- the set --------------------------------------------------------------------------- */
 
+static void add_polarisation(const Panel *panel, json_t *manifest)
+{
+    PanelPolarisation p = panel_polarisation(panel);
+    double degree = round((double)p.degree * 1e6) / 1e6;
+    if (p.degree > 0)
+        json_object_set_new(manifest, "polarisation",
+                            json_pack("{s:f, s:f}", "degree", degree, "azimuth_deg",
+                                      tidy_degrees((double)p.azimuth)));
+}
+
 /* What the panel's report says of where it comes from. */
 static bool add_names(Export *export, const char *name, json_t *manifest)
 {
@@ -275,6 +285,7 @@ static int count_tables(const Panel *panel)
 static bool write_set(Export *export, const char *name)
 {
     json_t *manifest = json_object();
+    add_polarisation(export->panel, manifest);
     bool ok = add_names(export, name, manifest) &&
               (!panel_info_emits(export->panel) || write_all_emission(export, manifest)) &&
               (!panel_reflects(export->panel) || write_all_brdf(export, manifest)) &&

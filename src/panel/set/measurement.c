@@ -418,10 +418,34 @@ static bool read_reflection(const JsonView *root, Measurement *out, Error *err)
     return read_azimuths(&view, pattern, out, err) && read_slices(&view, pattern, out, err);
 }
 
+/* Of the emitted light; absent: unpolarised. */
+static bool read_polarisation(const JsonView *root, Measurement *out, Error *err)
+{
+    static const char *const keys[] = {"degree", "azimuth_deg"};
+    JsonView view;
+    double   azimuth = 0;
+    if (!json_view_child(root, "polarisation", false, &view, err)) return false;
+    if (!view.object) return true;
+    if (!json_view_check_keys(&view, keys, COUNT(keys), err) ||
+        !json_view_number(&view, "degree", 0, 1, &out->polarisation_degree, err) ||
+        !json_view_number(&view, "azimuth_deg", -360, 360, &azimuth, err))
+        return false;
+    for (int i = 0; i < COUNT(keys); i++)
+        if (!json_object_get(view.object, keys[i]))
+            return error_at(err, ERROR_INPUT, view.file, view.path, "key '%s' is missing",
+                            keys[i]);
+    if (!json_object_get(root->object, "emission"))
+        return error_at(err, ERROR_INPUT, view.file, view.path, "says how the emitted light is "
+                        "polarised, but the set has no 'emission'");
+    azimuth = fmod(azimuth, 180);
+    out->polarisation_azimuth = radians_from_degrees(azimuth < 0 ? azimuth + 180 : azimuth);
+    return true;
+}
+
 static bool read_members(const JsonView *root, Measurement *out, Error *err)
 {
     static const char *const keys[] = {"panel", "instrument", "note", "pixels", "size_mm",
-        "instrument_fwhm_deg", "emission", "primaries", "reflection"};
+        "instrument_fwhm_deg", "emission", "primaries", "reflection", "polarisation"};
     int         two = 2;
     const char *primaries = NULL;
     bool ok = json_view_check_keys(root, keys, COUNT(keys), err) &&
@@ -435,7 +459,8 @@ static bool read_members(const JsonView *root, Measurement *out, Error *err)
                            out->size_mm, &two, err) &&
         json_view_number(root, "instrument_fwhm_deg", 0.05, 15, &out->instrument_fwhm_deg,
                          err) &&
-        read_emission(root, out, err) && read_reflection(root, out, err);
+        read_polarisation(root, out, err) && read_emission(root, out, err) &&
+        read_reflection(root, out, err);
     if (!ok || !primaries) return ok;
     return json_view_file(root, "primaries", primaries, &primaries, err) &&
            read_spectra(primaries, root->arena, out, err);
