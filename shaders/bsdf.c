@@ -69,3 +69,9 @@ Spectrum bsdf_albedo(const Bsdf *bsdf, Vec3 wo)
     const BsdfModel *model = models[bsdf->kind];
     return model->albedo ? model->albedo(parameters_of(bsdf), wo) : spectrum_all(0);
 }
+
+bool bsdf_polarise(const Bsdf *bsdf, Vec3 wo, const BsdfSample *way, BsdfPolarisation *out)
+{
+    const BsdfModel *model = models[bsdf->kind];
+    return model->polarise && model->polarise(parameters_of(bsdf), wo, way, out);
+}

@@ -66,6 +66,10 @@ bool bsdf_scatters(const Bsdf *bsdf);
 /* The wide lobes on wo's side. */
 BsdfLobes bsdf_lobes(const Bsdf *bsdf, Vec3 wo);
 
+/* What scattering from way->wi to wo does to polarised light; of `way` wi, is_delta, passes and
+ * along are looked at. False: what leaves is unpolarised, whatever came. */
+bool bsdf_polarise(const Bsdf *bsdf, Vec3 wo, const BsdfSample *way, BsdfPolarisation *out);
+
 /* Directional-hemispherical reflectance plus transmittance, estimated: for the albedo layer
  * and for roulette, not for transport. */
 Spectrum bsdf_albedo(const Bsdf *bsdf, Vec3 wo);

@@ -21,6 +21,14 @@ typedef struct BsdfSample {
                           no scattering event for multiple importance sampling */
 } BsdfSample;
 
+/* What scattering does to polarised light, over what it does to unpolarised light, per lane:
+ * [1 d 0 0; d k 0 0; 0 0 c -t; 0 0 t c] in the axes of polarisation.h. */
+typedef struct BsdfPolarisation {
+    Spectrum difference; /* d, of light across and along the plane; [-1, 1] */
+    Spectrum kept;       /* k, share of what is scattered that the boundary sends; [0, 1] */
+    Spectrum along, turned; /* c, t */
+} BsdfPolarisation;
+
 /* What a surface scatters over more than some ten degrees, about: for choosing where to look
  * for light, not for transport. */
 typedef struct BsdfLobes {
@@ -40,4 +48,7 @@ typedef struct BsdfModel {
     bool     (*scatters)(const void *parameters);
     void     (*lobes)(const void *parameters, Vec3 wo, BsdfLobes *lobes);
     Spectrum (*albedo)(const void *parameters, Vec3 wo);
+    /* way: wi, is_delta, passes and along are told. False or NULL: all becomes unpolarised. */
+    bool     (*polarise)(const void *parameters, Vec3 wo, const BsdfSample *way,
+                         BsdfPolarisation *out);
 } BsdfModel;

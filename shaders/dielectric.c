@@ -30,6 +30,7 @@
 
 #include "spectrum/fresnel.h"
 #include "shaders/microfacet.h"
+#include "shaders/polarisation.h"
 
 static Fresnel window_face(const ThinWindow *window, float cosine)
 {
@@ -107,8 +108,18 @@ static Spectrum window_albedo(const void *parameters, Vec3 wo)
            thin_window_transmittance(parameters, fabsf(wo.z));
 }
 
+static bool window_polarise(const void *parameters, Vec3 wo, const BsdfSample *way,
+                            BsdfPolarisation *out)
+{
+    const ThinWindow *window = parameters;
+    Waves face = waves_reflected(clampf(fabsf(wo.z), 0, 1), window->ior);
+    *out = polarised_by(way->passes ? waves_sheet_through(face) : waves_sheet_reflected(face));
+    return true;
+}
+
 const BsdfModel thin_window_model = {.sample = window_sample, .pass = window_pass,
-                                     .mirror = window_mirror, .albedo = window_albedo};
+                                     .mirror = window_mirror, .albedo = window_albedo,
+                                     .polarise = window_polarise};
 
 /* Directions as seen from wo's side: z > 0 is that side; eta is the other side's index over
  * this side's. */
@@ -286,6 +297,27 @@ static Spectrum solid_albedo(const void *parameters, Vec3 wo)
     return f.reflected + f.through;
 }
 
+/* The cosine to the facet that light met on its way from s->wi to s->wo. */
+static float met_at(const Dielectric *d, const Side *s)
+{
+    if (is_delta(d)) return s->wo.z;
+    Vec3  half = vec3_normalize(vec3_along(s->wo, s->wi, s->wi.z > 0 ? 1 : s->eta));
+    return fminf(fabsf(vec3_dot(s->wo, half)), 1);
+}
+
+static bool solid_polarise(const void *parameters, Vec3 wo, const BsdfSample *way,
+                           BsdfPolarisation *out)
+{
+    const Dielectric *d = parameters;
+    if (wo.z == 0) return false;
+    Side  s = side_of(d, wo, way->wi);
+    float cosine = met_at(d, &s);
+    *out = polarised_by(s.wi.z > 0 ? waves_reflected(cosine, s.eta)
+                                   : waves_through(cosine, s.eta));
+    return true;
+}
+
 const BsdfModel dielectric_model = {.eval = solid_eval, .sample = solid_sample,
                                     .mirror = solid_mirror,
-                                    .scatters = solid_scatters, .albedo = solid_albedo};
+                                    .scatters = solid_scatters, .albedo = solid_albedo,
+                                    .polarise = solid_polarise};

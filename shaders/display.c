@@ -19,6 +19,9 @@
  */
 #include "panel/query/panel_sampling.h"
 #include "shaders/display.h"
+#include "shaders/polarisation.h"
+
+#define COVER_IOR 1.5f /* how polarised the mirror is, no more */
 
 /* A coating that mirrors more than glass leaves the haze its light. */
 static Spectrum mirror_at(const DisplaySurface *display, float cosine)
@@ -109,6 +112,17 @@ Spectrum display_lambertian_share(const DisplaySurface *display, Spectrum f, Vec
     return lambertian / spectrum_max(f, spectrum_all(1e-30f));
 }
 
+/* A cover's glass; haze is scattered more than once. */
+static bool model_polarise(const void *parameters, Vec3 wo, const BsdfSample *way,
+                           BsdfPolarisation *out)
+{
+    (void)parameters;
+    if (!way->is_delta) return false;
+    *out = polarised_by(waves_reflected(clampf(wo.z, 0, 1), COVER_IOR));
+    return true;
+}
+
 const BsdfModel display_model = {.eval = model_eval, .reaches = model_reaches,
                                  .sample = model_sample, .mirror = model_mirror,
-                                 .scatters = model_scatters, .albedo = model_albedo};
+                                 .scatters = model_scatters, .albedo = model_albedo,
+                                 .polarise = model_polarise};

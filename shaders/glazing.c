@@ -34,6 +34,7 @@
 
 #include "base/mathf.h"
 #include "base/units.h"
+#include "shaders/polarisation.h"
 #include "spectrum/fresnel.h"
 
 #define ORDERS_MAX 16
@@ -276,7 +277,67 @@ static Spectrum window_albedo(const void *parameters, Vec3 wo)
     return m.reflected + m.passed;
 }
 
+/* ---- polarisation ------------------------------------------------------------------------ */
+
+/* What order this image is of. */
+static int order_at(const GlazedWindow *window, float cosine, float along)
+{
+    float shift = ghost_shift(window->pane, cosine);
+    return shift > 0 ? (int)(along / shift + 0.5f) : 0;
+}
+
+/* Both faces as one direction meets them: near, far. */
+static void face_waves(const GlazedWindow *window, Vec3 wo, Waves face[2])
+{
+    const Glazing *pane = window->pane;
+    float cosine = clampf(fabsf(wo.z), LEAST_COSINE, 1);
+    bool  is_front = (wo.z > 0) == window->front_is_up;
+    float ior[2] = {pane->layers[0].ior, pane->layers[pane->layer_count - 1].ior};
+    for (int i = 0; i < 2; i++) face[i] = waves_reflected(cosine, ior[i != !is_front]);
+}
+
+static Waves image_waves(const Waves face[2], int order)
+{
+    Waves near = face[0], far = face[1];
+    if (!order) return near;
+    float lets_s = 1 - near.s, lets_p = 1 - near.p;
+    Waves w = {lets_s * lets_s * far.s, lets_p * lets_p * far.p, lets_s * lets_p * far.along, 0};
+    for (int i = 1; i < order; i++) {
+        w.s *= near.s * far.s;
+        w.p *= near.p * far.p;
+        w.along *= near.along * far.along;
+    }
+    return w;
+}
+
+static BsdfPolarisation pass_polarisation(const GlazedWindow *window, Vec3 wo,
+                                          const Waves face[2])
+{
+    Meeting  m = meet(window, wo);
+    Spectrum s = faces_pass(m.s, m.through), p = faces_pass(m.p, m.through);
+    float    lets = (1 - face[0].s) * (1 - face[0].p) * (1 - face[1].s) * (1 - face[1].p);
+    Spectrum along = m.through * spectrum_all(sqrtf(lets)) /
+                     (spectrum_all(1) -
+                      m.through * m.through * spectrum_all(face[0].along * face[1].along));
+    PolarisedParts parts = {s + p, s - p, along + along, spectrum_all(0)};
+    return polarised_of(&parts, s + p);
+}
+
+static bool window_polarise(const void *parameters, Vec3 wo, const BsdfSample *way,
+                            BsdfPolarisation *out)
+{
+    const GlazedWindow *window = parameters;
+    Waves face[2];
+    if (!way->is_delta) return false;
+    face_waves(window, wo, face);
+    *out = way->passes ? pass_polarisation(window, wo, face)
+                       : polarised_by(image_waves(face, order_at(window, fabsf(wo.z),
+                                                                 way->along)));
+    return true;
+}
+
 const BsdfModel glazed_window_model = {.eval = window_eval, .reaches = window_reaches,
                                        .sample = window_sample, .pass = window_pass,
                                        .mirror = window_mirror, .scatters = window_scatters,
-                                       .albedo = window_albedo};
+                                       .albedo = window_albedo,
+                                       .polarise = window_polarise};

@@ -189,6 +189,8 @@ void film_add_sample(Film *film, int x, int y, const FilmSample *sample)
         for (int i = 0; i < 3; i++) sums->odd_xyz[i] += fixed_from_float(sample->xyz[i]);
         sums->odd_samples++;
     }
+    if (film->first[SUMS_STOKES] >= 0 && in_range(sample->stokes, 3))
+        add_layer(film, sums, SUMS_STOKES, sample->stokes);
     if (sample->hit) add_features(film, sums, sample);
 }
 

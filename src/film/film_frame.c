@@ -185,6 +185,19 @@ static void read_part_id(const Film *film, const PixelSums *sums, float v[3])
     v[0] = (float)sums->part_id;
 }
 
+static void read_stokes(const Film *film, const PixelSums *sums, float v[3])
+{
+    mean_of(sums->layers + film->first[SUMS_STOKES], 3, sums->samples, v);
+    if (!sums->samples) v[0] = v[1] = v[2] = 0;
+}
+
+static void read_luminance(const Film *film, const PixelSums *sums, float v[3])
+{
+    float xyz[3];
+    read_xyz(film, sums, xyz);
+    v[0] = xyz[1];
+}
+
 /* ---- the frame --------------------------------------------------------------------------- */
 
 static const struct {
@@ -232,6 +245,14 @@ static LayerPlanes add_named(const ChannelFill *to, const char *first, const cha
     return planes;
 }
 
+static void add_stokes(const ChannelFill *to)
+{
+    fill(to, add_named(to, "stokes.S0", NULL, false), read_luminance);
+    LayerPlanes planes = add_named(to, "stokes.S1", "stokes.S2", false);
+    planes.of[2] = frame_add_channel(to->frame, "stokes.S3", false, to->arena);
+    fill(to, planes, read_stokes);
+}
+
 FrameImage film_to_frame(const Film *film, int attribute_room, Arena *arena)
 {
     ExrWindow  data = {film->crop.x0, film->crop.y0, film->crop.x1, film->crop.y1};
@@ -252,6 +273,7 @@ FrameImage film_to_frame(const Film *film, int attribute_room, Arena *arena)
         fill(&to, add_named(&to, "display.contrast", NULL, false), read_contrast);
     if (film->layers & LAYER_DISPLAY_FINE)
         fill(&to, add_named(&to, "display.coverage", NULL, false), read_coverage);
+    if (film->layers & LAYER_STOKES) add_stokes(&to);
     return frame;
 }
 

@@ -49,6 +49,7 @@ static const struct {
     [SUMS_BLACK] = {"black", "XYZ"},        [SUMS_DIRECTION] = {"direction", "XYZ"},
     [SUMS_FINE] = {"fine", "XYZ"},           [SUMS_MIRROR] = {"mirror", "XYZ"},
     [SUMS_LAMBERTIAN] = {"lambertian", "XYZ"},
+    [SUMS_STOKES] = {"stokes", "123"},
 };
 
 #define SUM_NAMES (sizeof sum_names / sizeof *sum_names)
@@ -56,7 +57,7 @@ static const struct {
 _Static_assert(SUM_NAMES * sizeof(Fixed) == offsetof(PixelSums, samples) &&
                    SUM_NAMES * sizeof(Fixed) + COUNT_NAMES * 4 == sizeof(PixelSums),
                "a new member of PixelSums has no name here, and is not added in film_add.c");
-_Static_assert(SUMS_LAMBERTIAN + 1 == SUMS_COUNT, "a new sum has no name here");
+_Static_assert(SUMS_STOKES + 1 == SUMS_COUNT, "a new sum has no name here");
 
 typedef struct NameList {
     const char **names;
@@ -268,7 +269,7 @@ static bool describe(FilmPartReader *from, const ExrWords *found, Arena scratch,
     const char         *checksum = frame_string(&words, "parhelion:checksum");
     unsigned long long  wanted;
     FilmPart           *part = &from->part;
-    if (!layers || layers->kind != EXR_INT || ((unsigned)layers->values[0] & ~LAYER_ALL))
+    if (!layers || layers->kind != EXR_INT || ((unsigned)layers->values[0] & ~(unsigned)LAYER_EVERY))
         return damaged("parhelion:layers", err);
     if (!checksum || sscanf(checksum, "%16llx", &wanted) != 1)
         return damaged("parhelion:checksum", err);

@@ -11,6 +11,7 @@
 typedef struct FilmSample {
     uint32_t sample_index; /* of the pixel: settles which id is shown, and the replay hint */
     float xyz[3];          /* cd m^-2 */
+    float stokes[3];       /* S1, S2, S3 of its luminance, cd m^-2 (path/polarised.h) */
     bool  hit;             /* the camera ray met a surface; else depth .. uv are unset */
     float depth;           /* m, along the ray */
     float position[3];     /* m, world */
@@ -50,7 +51,9 @@ typedef enum FilmLayer {
     LAYER_DISPLAY_SCATTERED = 1 << 18,
     LAYER_DISPLAY_HAZE = 1 << 19,
     LAYER_DISPLAY_LAMBERTIAN = 1 << 20,
-    LAYER_ALL = (1 << 21) - 1,
+    LAYER_ALL = (1 << 21) - 1, /* but for those that not every render can have: */
+    LAYER_STOKES = 1 << 22,
+    LAYER_EVERY = LAYER_ALL | LAYER_STOKES,
     LAYER_DISPLAYS = ((LAYER_HALVES - 1) & ~(LAYER_DISPLAY_EMITTED - 1)) | LAYER_DISPLAY_FINE |
                      LAYER_DISPLAY_MIRROR | LAYER_DISPLAY_SCATTERED | LAYER_DISPLAY_HAZE |
                      LAYER_DISPLAY_LAMBERTIAN,

@@ -22,6 +22,7 @@ static const struct {
     [SUMS_FINE] = {LAYER_DISPLAY_FINE, 3},
     [SUMS_MIRROR] = {LAYER_DISPLAY_MIRROR | LAYER_DISPLAY_SCATTERED | LAYER_DISPLAY_HAZE, 3},
     [SUMS_LAMBERTIAN] = {LAYER_NEEDS_LAMBERTIAN, 3},
+    [SUMS_STOKES] = {LAYER_STOKES, 3},
 };
 
 unsigned layer_sums_users(LayerSums sums)

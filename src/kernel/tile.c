@@ -93,6 +93,7 @@ static void tile_sample(const TileJob *job, int x, int y, uint32_t index, FilmSa
                                                            &sampler, &result, statistics);
     *out = (FilmSample){.sample_index = index, .part_id = -1, .display_id = -1};
     copy3(out->xyz, result.xyz);
+    copy3(out->stokes, result.stokes);
     copy3(out->mirror, result.mirror);
     copy3(out->lambertian, result.lambertian);
     if (job->with_features && result.hit) add_features(job, &result, &wavelengths, out);

@@ -155,6 +155,25 @@ bool triangle_emits_to(const Scene *scene, uint32_t triangle, const TrianglePoin
     return material->is_emitter && (front || !back_is_dark);
 }
 
+bool triangle_polarisation(const Scene *scene, uint32_t triangle, const TrianglePoint *point,
+                           Vec3 direction, Vec3 *axis, float *degree)
+{
+    int display_id = scene->materials[scene_part(scene, triangle)->material_id].display_id;
+    if (display_id == NO_ID) return false;
+    const Display    *display = &scene->displays[display_id];
+    PanelPolarisation light = panel_polarisation(display->panel);
+    if (!(light.degree > 0)) return false;
+    float sine, cosine;
+    sincos_turns(light.azimuth * (0.5f * INV_PI_F), &sine, &cosine);
+    Frame frame = display_frame(scene, display, triangle, point);
+    Vec3  absorbs = frame_to_world(&frame, vec3(-sine, cosine, 0));
+    Vec3  lets = vec3_cross(absorbs, direction);
+    if (!(vec3_dot(lets, lets) > 1e-12f)) return false;
+    *axis = vec3_normalize(lets);
+    *degree = light.degree;
+    return true;
+}
+
 Spectrum triangle_emission(const Scene *scene, uint32_t triangle, const TrianglePoint *point,
                            Vec3 direction, const Wavelengths *wavelengths)
 {

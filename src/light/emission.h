@@ -47,6 +47,12 @@ void emitted_rgb(const Scene *scene, const Material *material, const TrianglePoi
 bool triangle_emits_to(const Scene *scene, uint32_t triangle, const TrianglePoint *point,
                        Vec3 direction);
 
+/* Is what leaves the point along `direction` (unit, world) partly polarised? *degree: how far,
+ * (0, 1]; *axis: unit, across the direction, along which the field swings. Of a display that
+ * says so: its polariser takes what swings along its absorption axis, seen from there. */
+bool triangle_polarisation(const Scene *scene, uint32_t triangle, const TrianglePoint *point,
+                           Vec3 direction, Vec3 *axis, float *degree);
+
 /* Spectral radiance that leaves the point along `direction` (unit, world). */
 Spectrum triangle_emission(const Scene *scene, uint32_t triangle, const TrianglePoint *point,
                            Vec3 direction, const Wavelengths *wavelengths);

@@ -159,6 +159,18 @@ void lights_sky_towards(const Lights *lights, Vec3 direction, Vec3 ns, LightSamp
     take_sky(&sky, sample);
 }
 
+bool lights_sky_polarisation(const Lights *lights, Vec3 direction,
+                             const Wavelengths *wavelengths, Vec3 *axis, Spectrum *degree)
+{
+    const Sky *sky = &lights->sky;
+    Vec3       across = vec3_cross(direction, sky->sun_direction);
+    if (!sky->model || !sky->has_sun || sky->is_moon || !(vec3_dot(across, across) > 1e-10f))
+        return false;
+    *axis = vec3_normalize(across);
+    *degree = sky_model_polarisation(sky->model, direction, wavelengths);
+    return true;
+}
+
 Spectrum lights_radiance(const Lights *lights, const LightSample *sample,
                          const Wavelengths *wavelengths)
 {

@@ -77,6 +77,11 @@ Spectrum lights_radiance(const Lights *lights, const LightSample *sample,
 void lights_distant(const Lights *lights, Vec3 direction, Vec3 ns,
                     const Wavelengths *wavelengths, Spectrum radiance[2], float pdf[2]);
 
+/* Is the sky's light from a direction polarised? *degree: how far, [0, 1]; *axis: unit, along
+ * which the field swings: across the plane of the direction and the sun (daylight.h). */
+bool lights_sky_polarisation(const Lights *lights, Vec3 direction,
+                             const Wavelengths *wavelengths, Vec3 *axis, Spectrum *degree);
+
 /* pdf, sr^-1, with which LIGHTS_EMITTERS chooses the point that a ray in `direction` from the
  * lit point `from` hit, at distance hit->t from there; ng: the triangle's normal. */
 float lights_emitter_pdf(const Lights *lights, const LitPoint *from, const Hit *hit,

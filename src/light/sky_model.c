@@ -120,6 +120,11 @@ static float azimuth_turns(const SkyModel *model, Vec3 d)
     return turns < 1 ? turns : 0;
 }
 
+static float elevation_of(Vec3 d)
+{
+    return atan2_f(d.y, safe_sqrtf(d.x * d.x + d.z * d.z));
+}
+
 static float pdf_at(const SkyModel *model, float turns, float height)
 {
     int column = (int)(turns * SKY_MODEL_COLUMNS);
@@ -137,9 +142,15 @@ Spectrum sky_model_seen(const SkyModel *model, Vec3 direction, const Wavelengths
 {
     float turns = azimuth_turns(model, direction);
     *pdf = pdf_at(model, turns, direction.y);
-    float across = safe_sqrtf(direction.x * direction.x + direction.z * direction.z);
-    return daylight_radiance(model->daylight, atan2_f(direction.y, across), 2 * PI_F * turns,
+    return daylight_radiance(model->daylight, elevation_of(direction), 2 * PI_F * turns,
                              wavelengths);
+}
+
+Spectrum sky_model_polarisation(const SkyModel *model, Vec3 direction,
+                                const Wavelengths *wavelengths)
+{
+    return daylight_polarisation(model->daylight, elevation_of(direction),
+                                 2 * PI_F * azimuth_turns(model, direction), wavelengths);
 }
 
 Vec3 sky_model_sample(const SkyModel *model, float u0, float u1)

@@ -27,5 +27,10 @@ float    sky_model_pdf(const SkyModel *model, Vec3 direction);
 Spectrum sky_model_seen(const SkyModel *model, Vec3 direction, const Wavelengths *wavelengths,
                         float *pdf);
 
+/* HOT. How far the light from a direction is linearly polarised, across the plane of it and the
+ * sun; [0, 1]. */
+Spectrum sky_model_polarisation(const SkyModel *model, Vec3 direction,
+                                const Wavelengths *wavelengths);
+
 /* HOT. */
 Vec3 sky_model_sample(const SkyModel *model, float u0, float u1);

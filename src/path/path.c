@@ -3,6 +3,7 @@
 #include "base/units.h"
 #include "path/lead.h"
 #include "path/path_light.h"
+#include "path/polarised.h"
 #include "path/sheets.h"
 #include "path/sun_mirror.h"
 #include "spectrum/photometry.h"
@@ -38,6 +39,14 @@ typedef struct LambertianPart {
     Spectrum  share;  /* and how much counts of what it finds since, per lane */
 } LambertianPart;
 
+#define RECENT 16 /* hits that a shadow ray remembers */
+
+/* Sheets that a shadow ray passed, the nearest first; of more than there is room for some. */
+typedef struct Panes {
+    int count;
+    Hit hit[RECENT];
+} Panes;
+
 /* One path on its way. */
 typedef struct PathWalk {
     const PathContext *context;
@@ -70,12 +79,17 @@ typedef struct PathWalk {
     const PathFar *far;   /* the path asks instead of being lit; or NULL */
     const PathListener *listener; /* NULL: nobody is told */
     PathTale *tale;       /* for it, of the path so far */
+    Panes     *panes;     /* the last shadow ray's go here; NULL: nobody asks */
+    Polarised *polarised; /* how light must be polarised to count; NULL: all the same */
+    float    *stokes;     /* what analysers find goes here; NULL: nobody asks */
 } PathWalk;
 
 /* What a walk needs room for besides. */
 typedef struct WalkRoom {
     SheetStack stack;
     Lead       leads[2];
+    Polarised  polarised;
+    Panes      panes;
 } WalkRoom;
 
 /* The next numbers asked for are those of this purpose, at the surface met last. */
@@ -127,6 +141,105 @@ static void gather(PathWalk *walk, Spectrum radiance, LightSet set, int source_i
     walk->tale->source = set;
     walk->tale->source_id = source_id;
     tell(walk, walk->tale, &light);
+}
+
+/* ---- polarised light --------------------------------------------------------------------- */
+
+/* Into the path's throughput. */
+static void take_polarised(PathWalk *walk)
+{
+    walk->throughput *= polarised_take(walk->polarised);
+}
+
+static void turn_polarised(PathWalk *walk, const Surface *surface, Vec3 wo,
+                           const BsdfSample *way)
+{
+    if (!walk->polarised) return;
+    polarised_turn(walk->polarised, surface, wo, way);
+    take_polarised(walk);
+}
+
+/* Through a window. */
+static void pass_polarised(PathWalk *walk, const Surface *surface, Vec3 wo)
+{
+    polarised_pass(walk->polarised, surface, wo);
+    take_polarised(walk);
+}
+
+/* The stretch to what gives light, along `direction`. */
+static void pass_panes(const PathWalk *walk, const Panes *panes, Vec3 direction,
+                       Polarised *light)
+{
+    const PathContext *context = walk->context;
+    for (int i = 0; i < panes->count; i++) {
+        Surface pane;
+        Vec3    wo = vec3_neg(direction);
+        surface_at(context->scene, context->tables, &panes->hit[i], wo, walk->wavelengths,
+                   &pane);
+        polarised_pass(light, &pane, wo);
+    }
+}
+
+static void add_stokes(PathWalk *walk, Spectrum radiance, Vec3 way, const PolarisedLight *from)
+{
+    for (int i = 1; i < walk->polarised->row_count; i++) {
+        float xyz[3] = {0};
+        spectrum_add_xyz(walk->wavelengths,
+                         radiance * polarised_seen(walk->polarised, i, way, from), xyz);
+        walk->stokes[i - 1] += xyz[1];
+    }
+}
+
+/* What of found light counts, that travels along `way`; from NULL: it is unpolarised. */
+static Spectrum counted(PathWalk *walk, Spectrum radiance, Vec3 way, const PolarisedLight *from)
+{
+    if (!walk->polarised) return radiance;
+    radiance *= walk->polarised->share;
+    if (walk->stokes) add_stokes(walk, radiance, way, from);
+    return radiance * polarised_seen(walk->polarised, 0, way, from);
+}
+
+/* Of sun or sky, from `towards`. */
+static Spectrum count_distant(PathWalk *walk, Spectrum radiance, LightSet set, Vec3 towards)
+{
+    PolarisedLight sky;
+    if (!walk->polarised) return radiance;
+    bool is_some = set == LIGHTS_SKY &&
+                   lights_sky_polarisation(walk->context->lights, towards, walk->wavelengths,
+                                           &sky.axis, &sky.degree);
+    return counted(walk, radiance, vec3_neg(towards), is_some ? &sky : NULL);
+}
+
+/* What leaves a triangle's point along `way` (unit); NULL: it is unpolarised. */
+static const PolarisedLight *emitter_light(const PathWalk *walk, uint32_t triangle,
+                                           const TrianglePoint *point, Vec3 way,
+                                           PolarisedLight *out)
+{
+    float degree;
+    if (!triangle_polarisation(walk->context->scene, triangle, point, way, &out->axis, &degree))
+        return NULL;
+    out->degree = spectrum_all(degree);
+    return out;
+}
+
+static Spectrum count_emitter(PathWalk *walk, Spectrum radiance, uint32_t triangle,
+                              const TrianglePoint *point, Vec3 way)
+{
+    PolarisedLight room;
+    if (!walk->polarised) return radiance;
+    return counted(walk, radiance, way, emitter_light(walk, triangle, point, way, &room));
+}
+
+/* By how much a display's XYZ count, all lanes being the same; found: their luminance. */
+static float count_display(PathWalk *walk, float found, uint32_t triangle,
+                           const TrianglePoint *point, Vec3 way)
+{
+    PolarisedLight        room;
+    const Polarised      *light = walk->polarised;
+    const PolarisedLight *from = emitter_light(walk, triangle, point, way, &room);
+    for (int i = 1; walk->stokes && i < light->row_count; i++)
+        walk->stokes[i - 1] += found * polarised_seen(light, i, way, from)[0];
+    return polarised_seen(light, 0, way, from)[0];
 }
 
 /* ---- a display's lambertian part --------------------------------------------------------- */
@@ -245,8 +358,10 @@ static void add_distant(PathWalk *walk)
     if (walk->arriving_sky && walk->bounce == 1) tell_sky(walk, &radiance[LIGHTS_SKY]);
     note_origin(walk, walk->ray.direction, true);
     for (int set = LIGHTS_SUN; set <= LIGHTS_SKY; set++) {
-        float weight = emission_weight(walk, (LightSet)set, pdf[set]);
-        gather(walk, walk->throughput * radiance[set] * spectrum_all(weight), (LightSet)set, 0);
+        float    weight = emission_weight(walk, (LightSet)set, pdf[set]);
+        Spectrum found = walk->throughput * radiance[set] * spectrum_all(weight);
+        gather(walk, count_distant(walk, found, (LightSet)set, walk->ray.direction),
+               (LightSet)set, 0);
     }
 }
 
@@ -254,13 +369,17 @@ static void add_distant(PathWalk *walk)
 static void add_display_xyz(PathWalk *walk, const Surface *surface, uint32_t triangle, Vec3 wo,
                             float weight)
 {
+
     const Scene *scene = walk->context->scene;
     int          display_id = scene->materials[surface->material_id].display_id;
     float        xyz[3];
     display_emission_xyz(scene, &scene->displays[display_id], triangle, &surface->point, wo,
                          xyz);
     PathLight light = {.radiance = spectrum_all(0)};
-    for (int i = 0; i < 3; i++) light.xyz[i] = walk->throughput[0] * weight * xyz[i];
+    float     share = walk->throughput[0] * weight;
+    if (walk->polarised)
+        share *= count_display(walk, share * xyz[1], triangle, &surface->point, wo);
+    for (int i = 0; i < 3; i++) light.xyz[i] = share * xyz[i];
     path_light_add(&walk->gathered, &light);
     if (!walk->listener) return;
     walk->tale->source = LIGHTS_EMITTERS;
@@ -289,15 +408,14 @@ static void add_emitted(PathWalk *walk, const Surface *surface, const Hit *hit, 
         add_display_xyz(walk, surface, hit->triangle, wo, weight);
         return;
     }
-    gather(walk, walk->throughput * spectrum_all(weight) *
-                     triangle_emission(scene, hit->triangle, &surface->point, wo,
-                                       walk->wavelengths),
-           LIGHTS_EMITTERS, surface->part_id);
+    Spectrum sent = walk->throughput * spectrum_all(weight) *
+                    triangle_emission(scene, hit->triangle, &surface->point, wo,
+                                      walk->wavelengths);
+    gather(walk, count_emitter(walk, sent, hit->triangle, &surface->point, wo), LIGHTS_EMITTERS,
+           surface->part_id);
 }
 
 /* ---- light samples ---------------------------------------------------------------------- */
-
-#define RECENT 16 /* hits that a shadow ray remembers */
 
 typedef struct ShadowQuestion {
     const PathWalk    *walk;
@@ -346,6 +464,18 @@ static bool passes_before_emitter(void *user, const Hit *hit)
     return !is_over || passes(user, hit);
 }
 
+/* In the order in which the ray met them. */
+static void keep_panes(const ShadowQuestion *question, Panes *out)
+{
+    out->count = question->hit_count < RECENT ? question->hit_count : RECENT;
+    for (int i = 0; i < out->count; i++) {
+        int k = i;
+        for (; k > 0 && out->hit[k - 1].t > question->recent[i].t; k--)
+            out->hit[k] = out->hit[k - 1];
+        out->hit[k] = question->recent[i];
+    }
+}
+
 /* Share of the light sample that arrives at the surface. */
 static Spectrum visibility(PathWalk *walk, const Surface *surface, const LightSample *light)
 {
@@ -371,6 +501,7 @@ static Spectrum visibility(PathWalk *walk, const Surface *surface, const LightSa
         bvh_ask_sheets(bvh, (Ray){origin, light->wi, end, 2 * light->distance - end},
                        passes_before_emitter, &question);
     }
+    if (walk->panes) keep_panes(&question, walk->panes);
     return question.passed;
 }
 
@@ -424,8 +555,50 @@ static void gather_sample(PathWalk *walk, const Surface *surface, Spectrum radia
     *walk->tale = before;
 }
 
+/* A sample's way is gone once more, for what surface and panes do to polarised light. */
+static Spectrum count_sample(PathWalk *walk, const Surface *surface, Vec3 wo,
+                             Spectrum radiance, const LightSample *light)
+{
+    Polarised  room = *walk->polarised, *own = walk->polarised;
+    BsdfSample way = {.wi = frame_to_local(&surface->frame, light->wi)};
+    polarised_turn(&room, surface, wo, &way);
+    pass_panes(walk, walk->panes, light->wi, &room);
+    walk->polarised = &room;
+    radiance = light->set == LIGHTS_EMITTERS
+                   ? count_emitter(walk, radiance, light->triangle, &light->point,
+                                   vec3_neg(light->wi))
+                   : count_distant(walk, radiance, light->set, light->wi);
+    walk->polarised = own;
+    return radiance;
+}
+
 /* Most samples end in shadow: what the light sends and how the surface scatters it is asked
- * once the ray has arrived. */
+ * once the ray has arrived. prob: of having asked. */
+static void add_arriving(PathWalk *walk, const Surface *surface, Vec3 wo, const Lead *lead,
+                         LightSample *light, float prob)
+{
+    const PathContext *context = walk->context;
+    Spectrum passed = visibility(walk, surface, light);
+    if (spectrum_is_zero(passed)) return;
+    Vec3 local_wi = frame_to_local(&surface->frame, light->wi);
+    Vec3 local_wo = frame_to_local(&surface->frame, wo);
+    lead_weigh_light(lead, context->lights, lit_point(walk, surface), light);
+    float    bsdf_pdf;
+    Spectrum f = bsdf_eval(&surface->bsdf, local_wo, local_wi, &bsdf_pdf);
+    if (light->set == LIGHTS_SUN && mirror_was_asked(walk, surface, wo, true))
+        f = sun_mirror_left(&surface->bsdf, local_wo, local_wi, f);
+    Spectrum share = walk->throughput * f *
+                     lights_radiance(context->lights, light, walk->wavelengths) *
+                     spectrum_all(fabsf(local_wi.z) / (light->pdf * prob));
+    if (!light->is_delta && context->strategy == PATH_MIS)
+        share *= spectrum_all(mis_weight(light->pdf * prob,
+                                         lead_pdf(lead, light->wi, bsdf_pdf)));
+    share *= passed;
+    if (walk->polarised) share = count_sample(walk, surface, wo, share, light);
+    gather_sample(walk, surface, share, light);
+    if (tells_lambertian(walk, surface)) note_sample(walk, surface, wo, light->wi, share);
+}
+
 static void add_light_sample(PathWalk *walk, const Surface *surface, Vec3 wo, const Lead *lead,
                              LightSet set)
 {
@@ -442,22 +615,7 @@ static void add_light_sample(PathWalk *walk, const Surface *surface, Vec3 wo, co
     Vec3 local_wo = frame_to_local(&surface->frame, wo);
     if (!sides_agree(surface, local_wi, light.wi, local_wo, wo)) return;
     if (!bsdf_reaches(&surface->bsdf, local_wo, local_wi)) return;
-    Spectrum passed = visibility(walk, surface, &light);
-    if (spectrum_is_zero(passed)) return;
-    lead_weigh_light(lead, context->lights, point, &light);
-    float    bsdf_pdf;
-    Spectrum f = bsdf_eval(&surface->bsdf, local_wo, local_wi, &bsdf_pdf);
-    if (set == LIGHTS_SUN && mirror_was_asked(walk, surface, wo, true))
-        f = sun_mirror_left(&surface->bsdf, local_wo, local_wi, f);
-    Spectrum share = walk->throughput * f *
-                     lights_radiance(context->lights, &light, walk->wavelengths) *
-                     spectrum_all(fabsf(local_wi.z) / (light.pdf * set_prob));
-    if (!light.is_delta && context->strategy == PATH_MIS)
-        share *= spectrum_all(mis_weight(light.pdf * set_prob,
-                                         lead_pdf(lead, light.wi, bsdf_pdf)));
-    gather_sample(walk, surface, share * passed, &light);
-    if (tells_lambertian(walk, surface))
-        note_sample(walk, surface, wo, light.wi, share * passed);
+    add_arriving(walk, surface, wo, lead, &light, set_prob);
 }
 
 /* ---- the sun by way of one mirror ------------------------------------------------------- */
@@ -491,6 +649,27 @@ static void gather_mirrored(const MirrorWalk *asked, const SunMirror *mirror,
     *walk->tale = before;
 }
 
+/* Surface, panes, mirror, panes. The sun's light is unpolarised. */
+static Spectrum count_mirrored(const MirrorWalk *asked, const SunMirror *mirror,
+                               const Panes *beyond, Spectrum found)
+{
+    PathWalk      *walk = asked->walk;
+    const Surface *by = &mirror->surface;
+    Vec3           wo = vec3_neg(mirror->light.wi), to_sun = asked->question.sun.wi;
+    BsdfSample     out = {.wi = frame_to_local(&asked->surface->frame, mirror->light.wi)};
+    BsdfSample     way = {.wi = frame_to_local(&by->frame, to_sun),
+                          .is_delta = !asked->question.is_rough};
+    Polarised      room = *walk->polarised, *own = walk->polarised;
+    polarised_turn(&room, asked->surface, asked->wo, &out);
+    pass_panes(walk, walk->panes, mirror->light.wi, &room);
+    polarised_turn(&room, by, wo, &way);
+    pass_panes(walk, beyond, to_sun, &room);
+    walk->polarised = &room;
+    found = counted(walk, found, vec3_neg(to_sun), NULL);
+    walk->polarised = own;
+    return found;
+}
+
 static void add_mirrored_sun(void *user, uint32_t triangle, const ReflectionPoint *point)
 {
     MirrorWalk       *asked = user;
@@ -510,7 +689,11 @@ static void add_mirrored_sun(void *user, uint32_t triangle, const ReflectionPoin
     share *= visibility(walk, &mirror.surface, &asked->question.sun);
     if (spectrum_is_zero(share)) return;
     if (walk->tale) asked->sun_pane_id = walk->tale->pane_id;
+    Panes beyond;
+    if (walk->panes) beyond = *walk->panes;
     share *= visibility(walk, surface, &mirror.light);
+    if (walk->polarised && !spectrum_is_zero(share))
+        share = count_mirrored(asked, &mirror, &beyond, share);
     gather_mirrored(asked, &mirror, share);
     if (tells_lambertian(walk, surface))
         note_sample(walk, surface, asked->wo, mirror.light.wi, share);
@@ -738,6 +921,7 @@ static Step scatter(PathWalk *walk, const Surface *surface, Vec3 wo)
         !lead_sample(walk->spare, surface, local_wo, u, &next))
         return STEP_ENDED;
     walk->throughput *= next.weight;
+    turn_polarised(walk, surface, wo, &next);
     if (spectrum_is_zero(walk->throughput)) return STEP_ENDED;
     if (next.passes) {
         go_on_behind(walk, surface);
@@ -814,6 +998,7 @@ static Step reflect_window(PathWalk *walk, const Surface *surface, Vec3 wo)
                          .pdf = 1};
     if (walk->bounce >= walk->context->max_bounces) return STEP_ENDED;
     walk->throughput *= thin_window_reflectance(&surface->bsdf.thin_window, local_wo.z);
+    turn_polarised(walk, surface, wo, &mirror);
     return turn(walk, surface, wo, &mirror);
 }
 
@@ -825,6 +1010,7 @@ static void add_sheet(PathWalk *walk, const Surface *surface, const Hit *hit, Ve
     PathWalk   sheet = *walk;
     SheetStack rest;
     PathTale   tale;
+    Polarised  polarised;
     if (walk->stack->count) rest = *walk->stack;
     else sheets_none(&rest);
     sheet.stack = &rest;
@@ -836,6 +1022,10 @@ static void add_sheet(PathWalk *walk, const Surface *surface, const Hit *hit, Ve
     if (walk->tale) {
         tale = *walk->tale;
         sheet.tale = &tale;
+    }
+    if (walk->polarised) {
+        polarised = *walk->polarised;
+        sheet.polarised = &polarised;
     }
     Step step = surface->alpha < 1    ? shade(&sheet, surface, hit, wo)
                 : is_glazed(surface) ? show_pane(&sheet, surface, hit, wo)
@@ -859,8 +1049,19 @@ static bool split(PathWalk *walk, const Surface *surface, const Hit *hit, Vec3 w
     walk->throughput *=
         is_hole ? spectrum_all(1 - surface->alpha)
                 : bsdf_pass(&surface->bsdf, frame_to_local(&surface->frame, wo));
+    if (is_window && walk->polarised) pass_polarised(walk, surface, wo);
     go_on_behind(walk, surface);
     return true;
+}
+
+/* What counts of light that a surface sends to the eye itself. */
+static Spectrum through_to(PathWalk *walk, const Surface *surface, const Hit *hit, Vec3 wo)
+{
+    PolarisedLight room;
+    if (!walk->polarised) return walk->throughput;
+    const PolarisedLight *from =
+        emitter_light(walk, hit->triangle, &surface->point, wo, &room);
+    return walk->throughput * polarised_seen(walk->polarised, 0, wo, from);
 }
 
 /* The loop: what is hit, what it emits, what the lights send it, where the path goes on. */
@@ -885,7 +1086,7 @@ static void walk_path(PathWalk *walk)
             go_on_behind(walk, &surface);
             continue;
         }
-        if (walk->first) walk->first->through = walk->throughput;
+        if (walk->first) walk->first->through = through_to(walk, &surface, &hit, wo);
         Step step = shade(walk, &surface, &hit, wo);
         if (step != STEP_PASSED) record_first(walk, &hit, distance, wo);
         if (step == STEP_ENDED) return;
@@ -920,13 +1121,33 @@ static PathWalk walk_start(const PathContext *context, const Wavelengths *wavele
                   .medium_id = NO_ID, .stack = &room->stack};
 }
 
-static void trace(PathWalk *walk, Ray ray, PathResult *out)
+/* The camera's ray carries how light must be polarised to count. */
+static void put_eye(PathWalk *walk, Vec3 direction, PathResult *out, WalkRoom *room)
+{
+    const PolarisedEye *eye = walk->context->eye;
+    if (!eye) return;
+    walk->polarised = &room->polarised;
+    walk->panes = &room->panes;
+    polarised_start(eye, direction, walk->polarised);
+    take_polarised(walk);
+    if (eye->with_stokes) walk->stokes = out->stokes;
+}
+
+/* The analysers found S0 too. */
+static void stokes_of_analysers(PathResult *out)
+{
+    for (int i = 0; i < 3; i++) out->stokes[i] -= out->xyz[1];
+}
+
+static void trace(PathWalk *walk, Ray ray, PathResult *out, WalkRoom *room)
 {
     *out = (PathResult){.hit = false};
     walk->ray = ray;
     walk->first = out;
+    put_eye(walk, ray.direction, out, room);
     walk_path(walk);
     path_light_to_xyz(&walk->gathered, walk->wavelengths, out->xyz);
+    if (walk->stokes) stokes_of_analysers(out);
     if (walk->lambertian) tell_lambertian(walk, out->lambertian);
     if (!walk->by_mirror) return;
     path_light_take(&walk->gathered, &walk->before_mirror);
@@ -938,7 +1159,7 @@ void path_trace(const PathContext *context, Ray ray, const Wavelengths *waveleng
 {
     WalkRoom room;
     PathWalk walk = walk_start(context, wavelengths, sampler, statistics, &room);
-    trace(&walk, ray, out);
+    trace(&walk, ray, out, &room);
 }
 
 void path_trace_apart(const PathContext *context, Ray ray, const Wavelengths *wavelengths,
@@ -948,7 +1169,7 @@ void path_trace_apart(const PathContext *context, Ray ray, const Wavelengths *wa
     LambertianPart part = {.share = spectrum_all(0)};
     PathWalk walk = walk_start(context, wavelengths, sampler, statistics, &room);
     walk.lambertian = &part;
-    trace(&walk, ray, out);
+    trace(&walk, ray, out, &room);
 }
 
 void path_trace_told(const PathContext *context, Ray ray, const Wavelengths *wavelengths,

@@ -61,6 +61,7 @@ typedef struct PathResult {
     Spectrum through;   /* share per lane of what it sends that the panes before it let pass */
     float    mirror[3]; /* of xyz: what came by way of that surface's mirror, if it is a
                            display; else 0 */
+    float    stokes[3]; /* S1, S2, S3, luminances, cd m^-2, where the context's eye asks */
     float    lambertian[3]; /* of xyz: what that display scattered by its lambertian part, if
                                path_trace_apart was asked; else 0 */
 } PathResult;

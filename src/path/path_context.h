@@ -8,6 +8,7 @@
 #include "light/light.h"
 #include "path/light_selection.h"
 #include "path/mirror_beams.h"
+#include "path/polarised.h"
 #include "path/surface.h"
 
 /* Which estimators reach the light; all three agree in the mean (a test). */
@@ -25,4 +26,5 @@ typedef struct PathContext {
     const LightGuide    *guide; /* leads wide scattering; NULL: the surfaces alone decide */
     bool without_mirrored_sun; /* the sun in the mirror of a display that the eye sees is left
                                   out: who asks knows it */
+    const PolarisedEye *eye; /* rays from it carry how light is polarised; NULL: unpolarised */
 } PathContext;

@@ -270,6 +270,17 @@ static bool find_field(RenderSetup *setup, const RenderOptions *options, Arena *
     return true;
 }
 
+static const PolarisedEye *place_eye(const PolarisedEye *eye, const Camera *camera,
+                                     Arena *arena)
+{
+    if (!eye) return NULL;
+    PolarisedEye *placed = ARENA_NEW(arena, PolarisedEye, 1);
+    *placed = *eye;
+    placed->right = camera->world_from_camera.x;
+    placed->forward = vec3_neg(camera->world_from_camera.z);
+    return placed;
+}
+
 bool render_prepare(const Scene *scene, const SceneCamera *camera, const RenderOptions *options,
                     Arena *arena, RenderSetup *out, Error *err)
 {
@@ -282,6 +293,7 @@ bool render_prepare(const Scene *scene, const SceneCamera *camera, const RenderO
     setup.context = path_context_build(scene, setup.bvh, lights, options->max_bounces, arena);
     if (options->no_mirrors) setup.context.beams.mirrors = NULL;
     setup.camera = camera_from_scene(camera, options->width, options->height);
+    setup.context.eye = place_eye(options->eye, &setup.camera, arena);
     setup.build_seconds = monotonic_seconds() - begun_s;
     setup.build_peak_bytes = machine_peak_bytes();
     if (!options->no_guiding && !find_field(&setup, options, arena, err)) {

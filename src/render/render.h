@@ -34,6 +34,8 @@ typedef struct RenderOptions {
     const char *field;         /* what was learnt: read from this file if it is there, else kept
                                   there; NULL: neither */
     int      max_bounces;      /* 0: emission only, 1: plus direct light */
+    const PolarisedEye *eye;   /* how light is polarised counts for it (its directions are the
+                                  camera's, whatever stands there); NULL: unpolarised */
     bool     no_mirrors;       /* sunlight by way of mirrors is left to chance */
     unsigned layers;           /* FilmLayer bits */
     int      threads;          /* at least 1 */

@@ -364,7 +364,13 @@ bool atmosphere_build(const AtmosphereInput *input, Arena *arena, Atmosphere *ou
     return true;
 }
 
-Spectrum atmosphere_radiance(const Atmosphere *a, float elevation, float azimuth)
+/* What the tables hold for a direction, and its cosine to the sun. */
+typedef struct SkyParts {
+    Spectrum molecules, aerosol, rest;
+    float    cosine;
+} SkyParts;
+
+static SkyParts look_up(const Atmosphere *a, float elevation, float azimuth)
 {
     bool  below = (double)elevation < a->horizon;
     float horizon = (float)a->horizon, reach = below ? -PI_F / 2 - horizon : PI_F / 2 - horizon;
@@ -389,8 +395,23 @@ Spectrum atmosphere_radiance(const Atmosphere *a, float elevation, float azimuth
     sincos_turns((float)a->input.sun_elevation * (0.5f * INV_PI_F), &s[1], &c[1]);
     sincos_turns(azimuth * (0.5f * INV_PI_F), &s[2], &c[2]);
     float cosine = s[0] * s[1] + c[0] * c[1] * c[2];
-    return sum + molecules * spectrum_all(air_phase_molecules(cosine)) +
-           aerosol * spectrum_all(air_phase_aerosol(cosine));
+    return (SkyParts){molecules, aerosol, sum, cosine};
+}
+
+Spectrum atmosphere_radiance(const Atmosphere *a, float elevation, float azimuth)
+{
+    SkyParts at = look_up(a, elevation, azimuth);
+    return at.rest + at.molecules * spectrum_all(air_phase_molecules(at.cosine)) +
+           at.aerosol * spectrum_all(air_phase_aerosol(at.cosine));
+}
+
+/* The phase function is (1 + cos^2) times a constant; of it is polarised what (1 - cos^2) is. */
+Spectrum atmosphere_polarised(const Atmosphere *a, float elevation, float azimuth)
+{
+    SkyParts at = look_up(a, elevation, azimuth);
+    float    square = fminf(at.cosine * at.cosine, 1);
+    return at.molecules *
+           spectrum_all(air_phase_molecules(at.cosine) * (1 - square) / (1 + square));
 }
 
 Spectrum atmosphere_diffuse(const Atmosphere *a)

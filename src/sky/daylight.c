@@ -450,6 +450,14 @@ Spectrum daylight_radiance(const Daylight *out, float elevation, float azimuth,
     return value + night_radiance(out->night, elevation, azimuth, wavelengths);
 }
 
+Spectrum daylight_polarisation(const Daylight *out, float elevation, float azimuth,
+                               const Wavelengths *wavelengths)
+{
+    if (out->input.kind != DAYLIGHT_CLEAR || out->night) return spectrum_all(0);
+    return lit_air_polarisation(&out->sunlight, elevation, azimuth - (float)out->sun_azimuth,
+                                wavelengths);
+}
+
 Spectrum daylight_sun(const Daylight *out, float share, const Wavelengths *wavelengths)
 {
     return sun_limb_shade(out->limb, share, wavelengths) *

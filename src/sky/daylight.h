@@ -97,6 +97,11 @@ double daylight_air_mass(double elevation_deg);
 Spectrum daylight_radiance(const Daylight *daylight, float elevation, float azimuth,
                            const Wavelengths *wavelengths);
 
+/* HOT. How far that is linearly polarised, across the plane of sun and direction, [0, 1]: the
+ * clear atmosphere's by day (atmosphere_polarised). Shapes and nights say nothing: 0. */
+Spectrum daylight_polarisation(const Daylight *daylight, float elevation, float azimuth,
+                               const Wavelengths *wavelengths);
+
 /* Its luminance, cd m^-2. */
 float daylight_luminance(const Daylight *daylight, float elevation, float azimuth);
 

@@ -56,14 +56,32 @@ bool lit_air_build(const AtmosphereInput *input, const Curve *beam, Arena *arena
     return true;
 }
 
-Spectrum lit_air_radiance(const LitAir *air, float elevation, float azimuth,
-                          const Wavelengths *wavelengths)
+/* From the lanes of air.h to those of a path. */
+static Spectrum between_nodes(const LitAir *air, Spectrum at, const Wavelengths *wavelengths)
 {
-    Spectrum at = atmosphere_radiance(&air->atmosphere, elevation, azimuth), value;
+    Spectrum value;
     for (int i = 0; i < SPECTRUM_LANES; i++) {
         float nm = wavelengths->nm[i];
         int   k = air->node[(int)clampf(nm - CURVE_FIRST_NM, 0, CURVE_COUNT - 1)];
         value[i] = lerpf(at[k], at[k + 1], node_share(k, nm));
     }
-    return value * curve_lookup(&air->beam, wavelengths);
+    return value;
+}
+
+Spectrum lit_air_radiance(const LitAir *air, float elevation, float azimuth,
+                          const Wavelengths *wavelengths)
+{
+    Spectrum at = atmosphere_radiance(&air->atmosphere, elevation, azimuth);
+    return between_nodes(air, at, wavelengths) * curve_lookup(&air->beam, wavelengths);
+}
+
+Spectrum lit_air_polarisation(const LitAir *air, float elevation, float azimuth,
+                              const Wavelengths *wavelengths)
+{
+    Spectrum all = atmosphere_radiance(&air->atmosphere, elevation, azimuth);
+    Spectrum part = atmosphere_polarised(&air->atmosphere, elevation, azimuth);
+    return spectrum_clamp(between_nodes(air, part, wavelengths) /
+                              spectrum_max(between_nodes(air, all, wavelengths),
+                                           spectrum_all(1e-30f)),
+                          0, 1);
 }

@@ -22,6 +22,10 @@ bool lit_air_build(const AtmosphereInput *input, const Curve *beam, Arena *arena
 Spectrum lit_air_radiance(const LitAir *air, float elevation, float azimuth,
                           const Wavelengths *wavelengths);
 
+/* HOT. How far that is linearly polarised, [0, 1] (atmosphere_polarised). */
+Spectrum lit_air_polarisation(const LitAir *air, float elevation, float azimuth,
+                              const Wavelengths *wavelengths);
+
 /* Of a relative quantity at the lanes of air.h: its spectrum at every nm, and its luminance
  * (illuminance, where it is an irradiance). */
 void   lit_air_curve(const LitAir *air, Spectrum relative, Curve *out);

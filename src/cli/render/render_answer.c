@@ -64,6 +64,20 @@ static void set_names(FrameImage *frame, const Scene *scene, unsigned layers, Ar
                          scene->displays[i].name, arena);
 }
 
+/* What is approximate stands with the frame. */
+static void set_eye(FrameImage *frame, const PolarisedEye *eye, Arena *arena)
+{
+    frame_set_string(frame, "parhelion:polarised",
+                     "by glass, covers and plastic (bare ones' Fresnel), displays that say so "
+                     "and the clear sky by day; metals as perfect mirrors; haze and matt "
+                     "surfaces depolarise", arena);
+    if (!eye->has_glasses) return;
+    frame_set_string(frame, "parhelion:sunglasses",
+                     arena_format(arena, "axis right %.6g, up %.6g; across it %.6g",
+                                  (double)eye->axis[0], (double)eye->axis[1],
+                                  (double)eye->blocks), arena);
+}
+
 static void set_sampling(FrameImage *frame, const RenderRequest *request,
                          const RenderResult *result, Arena *arena)
 {
@@ -78,6 +92,7 @@ static void set_sampling(FrameImage *frame, const RenderRequest *request,
     frame_set_string(frame, "parhelion:seed", arena_format(arena, "%u", options->seed), arena);
     frame_set_whole(frame, "parhelion:maxBounces", options->max_bounces, arena);
     frame_set_whole(frame, "parhelion:unbiased", 1, arena);
+    if (options->eye) set_eye(frame, options->eye, arena);
     if (result->field_hash)
         frame_set_string(frame, "parhelion:field",
                          arena_format(arena, "%016llx", (unsigned long long)result->field_hash),

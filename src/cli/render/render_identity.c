@@ -2,6 +2,14 @@
 
 #include "render/identity.h"
 
+static void add_eye(Text *text, const PolarisedEye *eye)
+{
+    identity_line(text, "polarised", "yes");
+    if (!eye->has_glasses) return;
+    identity_line(text, "sunglasses", "%.9g %.9g %.9g", (double)eye->axis[0],
+                  (double)eye->axis[1], (double)eye->blocks);
+}
+
 const char *render_identity(const RenderRequest *request, const Scene *scene,
                             const SceneCamera *camera, const Kernel *kernel, Arena *arena)
 {
@@ -13,6 +21,7 @@ const char *render_identity(const RenderRequest *request, const Scene *scene,
     identity_line(&text, "max bounces", "%d", options->max_bounces);
     identity_line(&text, "sun in mirrors", "%s",
                   options->no_mirrors ? "by chance" : "asked for");
+    if (options->eye) add_eye(&text, options->eye);
     identity_line(&text, "layers", "%s", render_layer_list(options->layers, arena));
     identity_add_scene(&text, &request->scene, scene);
     identity_add_environment(&text, scene);

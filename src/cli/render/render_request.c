@@ -7,6 +7,7 @@
 
 #include "cli/options/look_options.h"
 #include "cli/render/command_line.h"
+#include "cli/render/polarised_options.h"
 #include "text/nearest_word.h"
 
 #define DEFAULT_WIDTH 1280
@@ -22,6 +23,7 @@ typedef struct RenderWords {
     long        spp, max_bounces, seed;
     double      crop[4], replay[3];
     SceneWords  scene;
+    PolarisedWords polarised;
     bool        has_spp, has_crop, has_replay, has_interval;
 } RenderWords;
 
@@ -41,7 +43,7 @@ static const struct {
     {"display.contrast", LAYER_DISPLAY_CONTRAST}, {"display.fine", LAYER_DISPLAY_FINE},
     {"display.coverage", LAYER_DISPLAY_FINE}, {"display.mirror", LAYER_DISPLAY_MIRROR},
     {"display.scattered", LAYER_DISPLAY_SCATTERED}, {"display.haze", LAYER_DISPLAY_HAZE},
-    {"display.lambertian", LAYER_DISPLAY_LAMBERTIAN},
+    {"display.lambertian", LAYER_DISPLAY_LAMBERTIAN}, {"stokes", LAYER_STOKES},
 };
 
 #define LAYER_NAME_COUNT COUNT_OF(layer_names)
@@ -215,6 +217,9 @@ static bool check_render(const RenderWords *typed, Arena *arena, RenderRequest *
     if (typed->noise &&
         !noise_goal_parse(typed->noise, options->crop, arena, &request->noise, err))
         return false;
+    if (!polarised_options_read(&typed->polarised, (options->layers & LAYER_ALL) == LAYER_ALL,
+                                &options->layers, arena, &options->eye, err))
+        return false;
     if (typed->has_replay && !parse_replay(typed->replay, options, err)) return false;
     if (request->tev && !viewer_address_parse(request->tev, &request->viewer, err))
         return error_prefix(err, "--tev %.80s", request->tev);
@@ -299,6 +304,7 @@ static bool parse_line(int argc, char **argv, Arena *arena, RenderWords *typed,
         {"--no-mirrors", OPTION_FLAG, NULL,
          "leave the sun's reflections on other surfaces to chance (slow; to compare)",
          &request->render.no_mirrors},
+        POLARISED_OPTIONS(&typed->polarised),
         {"--seed", OPTION_INTEGER, "N", "another set of random numbers (default 0)",
          &typed->seed, .low = 0, .high = 4294967295.0},
         GUIDING_OPTIONS(request),

@@ -1,0 +1,100 @@
+/* polarisation.h -- what a boundary does to polarised light.
+ *
+ * Axes     of light that comes along wi and leaves along wo: x across the plane of both (where
+ *          they lie in one line: across it and the normal), y = (where the light goes) cross x.
+ *          x is the same before and after. Of Stokes' S1 light along x is positive, of S2 light
+ *          half-way from x to y, of S3 light that turns clockwise for who looks against it.
+ * Matrix   Mueller's, over its first element: [1 d 0 0; d k 0 0; 0 0 c -t; 0 0 t c].
+ * Sources  Born and Wolf, "Principles of Optics", 1.5.2 to 1.5.4 (fields as e^(ikx - iwt));
+ *          Chipman, Lam, Young, "Polarized Light and Optical Systems", 2018, chapter 6.
+ * Threads  pure functions.
+ */
+#pragma once
+#include "shaders/bsdf_model.h"
+#include "spectrum/fresnel.h"
+
+#pragma GCC diagnostic push /* inline: no vector goes from one file to another */
+#pragma GCC diagnostic ignored "-Wpsabi"
+
+/* For light polarised across (s) and along (p) the plane of incidence, shares in [0, 1]; and the
+ * mean over all fields of a_s times the conjugate of a_p, a the amplitudes: what S2 and S3
+ * become. */
+typedef struct Waves {
+    float s, p;
+    float along, turned; /* its real and imaginary part */
+} Waves;
+
+/* A boundary of real index; eta, cosine as of fresnel_dielectric. Under total reflection both
+ * waves come back whole and out of step. */
+static inline Waves waves_reflected(float cosine, float eta)
+{
+    float   behind;
+    Fresnel face = fresnel_dielectric(cosine, eta, &behind);
+    float   sine2 = (1 - cosine * cosine) / (eta * eta);
+    if (sine2 < 1 || !(cosine > 0)) {
+        float s = (cosine - eta * behind) / (cosine + eta * behind);
+        float p = (eta * cosine - behind) / (eta * cosine + behind);
+        return (Waves){face.s, face.p, cosine > 0 ? s * p : 1, 0};
+    }
+    /* s = (a - ib) / (a + ib), p = (c - id) / (c + id): s p* = z / conj(z), z as below. */
+    float falls = sqrtf(sine2 - 1), a = cosine, b = eta * falls, c = eta * cosine, d = falls;
+    float real = a * c + b * d, imaginary = a * d - b * c;
+    float size2 = real * real + imaginary * imaginary;
+    return (Waves){1, 1, (real * real - imaginary * imaginary) / size2,
+                   2 * real * imaginary / size2};
+}
+
+static inline Waves waves_through(float cosine, float eta)
+{
+    Fresnel face = fresnel_dielectric(cosine, eta, NULL);
+    return (Waves){1 - face.s, 1 - face.p, sqrtf((1 - face.s) * (1 - face.p)), 0};
+}
+
+/* Of a sheet with two equal faces, all orders: their fields add up by their shares. */
+static inline Waves waves_sheet_reflected(Waves face)
+{
+    float lets = (1 - face.s) * (1 - face.p);
+    float again = lets > 0 ? lets / (1 - face.along * face.along) : 0;
+    return (Waves){2 * face.s / (1 + face.s), 2 * face.p / (1 + face.p),
+                   face.along * (1 + again), 0};
+}
+
+static inline Waves waves_sheet_through(Waves face)
+{
+    float lets = (1 - face.s) * (1 - face.p);
+    if (!(lets > 0)) return (Waves){0, 0, 0, 0};
+    return (Waves){(1 - face.s) / (1 + face.s), (1 - face.p) / (1 + face.p),
+                   lets / (1 - face.along * face.along), 0};
+}
+
+/* Parts of what a surface scatters, each by its own matrix, added up; what no part speaks for
+ * loses its polarisation. Begins as {0}. */
+typedef struct PolarisedParts {
+    Spectrum share, difference, along, turned;
+} PolarisedParts;
+
+static inline void polarised_add(PolarisedParts *sum, Waves w, Spectrum share)
+{
+    float mean = 0.5f * (w.s + w.p), scale = mean > 0 ? 1 / mean : 0;
+    sum->share += share;
+    sum->difference += share * spectrum_all(0.5f * (w.s - w.p) * scale);
+    sum->along += share * spectrum_all(w.along * scale);
+    sum->turned += share * spectrum_all(w.turned * scale);
+}
+
+/* all: what the surface scatters there in all, polarised or not. */
+static inline BsdfPolarisation polarised_of(const PolarisedParts *sum, Spectrum all)
+{
+    Spectrum over = spectrum_all(1) / spectrum_max(all, spectrum_all(1e-30f));
+    return (BsdfPolarisation){sum->difference * over, sum->share * over, sum->along * over,
+                              sum->turned * over};
+}
+
+static inline BsdfPolarisation polarised_by(Waves w)
+{
+    PolarisedParts one = {spectrum_all(0), spectrum_all(0), spectrum_all(0), spectrum_all(0)};
+    polarised_add(&one, w, spectrum_all(1));
+    return polarised_of(&one, spectrum_all(1));
+}
+
+#pragma GCC diagnostic pop
