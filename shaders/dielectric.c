@@ -23,7 +23,10 @@
  * Typical: MgF2 on glass reflects 1.3 % a face, four layers 0.1 %, silver between two oxides
  * 19 % and absorbs 4 %.
  *
- * Not modelled: dispersion, polarisation carried from one surface to the next, light that rough
+ * Polarised light is followed exactly where glass is bare; coated glass is taken as bare for
+ * how it polarises.
+ *
+ * Not modelled: dispersion, light that rough
  * facets pass to one another (a rough solid loses up to a third at alpha 1).
  */
 #include "shaders/dielectric.h"

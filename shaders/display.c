@@ -14,7 +14,8 @@
  * 0.3 to 1 %; an anti-glare surface scatters some 3 to 5 % into haze a few degrees wide.
  *
  * The tables, their interpolation and their sampling are src/panel's. A panel without
- * reflection data reflects nothing. Not modelled: polarisation, anisotropic sparkle, the change
+ * reflection data reflects nothing. The mirror polarises as bare glass of index 1.5 does; haze
+ * and lambertian part send unpolarised light on. Not modelled: anisotropic sparkle, the change
  * of haze with the display's content.
  */
 #include "panel/query/panel_sampling.h"

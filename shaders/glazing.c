@@ -24,7 +24,7 @@
  * within w, the same both ways; what would leave below the pane's plane is lost.
  *
  * Not modelled: what the layers reflect to each other (0.01 %), images by dirt, the ghost of
- * what is seen through the pane, polarisation carried on to the next surface. Light samples
+ * what is seen through the pane; its haze sends unpolarised light on. Light samples
  * pass straight; only what the eye sees through a pane is moved aside.
  *
  * Sources  Born and Wolf, "Principles of Optics", 1.5.2 (faces); Harvey 1976 and Stover,
@@ -301,7 +301,8 @@ static Waves image_waves(const Waves face[2], int order)
     Waves near = face[0], far = face[1];
     if (!order) return near;
     float lets_s = 1 - near.s, lets_p = 1 - near.p;
-    Waves w = {lets_s * lets_s * far.s, lets_p * lets_p * far.p, lets_s * lets_p * far.along, 0};
+    Waves w = {lets_s * lets_s * far.s, lets_p * lets_p * far.p, lets_s * lets_p * far.along,
+               0};
     for (int i = 1; i < order; i++) {
         w.s *= near.s * far.s;
         w.p *= near.p * far.p;

@@ -34,7 +34,10 @@
  * A coating's reflectance (coating.h) stands in for Fresnel's and Schlick's curves in all of
  * this; with it, metals follow the exact curve of their n, k. What it absorbs is lost.
  *
- * Not modelled: polarisation, anisotropic brushing, sheen of velvet, subsurface spread,
+ * Polarised light is followed by facets, coat and sheet as bare glass of their index has it; a
+ * metal is taken for a perfect mirror; what the base and further facets send is unpolarised.
+ *
+ * Not modelled: anisotropic brushing, sheen of velvet, subsurface spread,
  * coloured absorption along a slanted path in the coat, turns of light between a coat and the
  * mirror of a non-metal (its few per cent go to the Lambert base) or a sheet, and between a
  * base and a coat whose normal is tilted; of a metal without n, k the exact curve (Schlick is
@@ -779,7 +782,8 @@ static void add_facets(const View *view, float cosine, Spectrum all, PolarisedPa
     Spectrum share = all / spectrum_max(nonmetal + metal, spectrum_all(1e-30f));
     if (m->metallic > 0) polarised_add(parts, mirror, share * metal);
     if (!(m->metallic < 1)) return;
-    Waves face = m->energy->ior >= 1 ? waves_reflected(fminf(cosine, 1), m->energy->ior) : mirror;
+    float ior = m->energy->ior;
+    Waves face = ior >= 1 ? waves_reflected(fminf(cosine, 1), ior) : mirror;
     Waves sheet = waves_sheet_reflected(face);
     float opaque = (1 - m->transmission) * (face.s + face.p);
     float clear = m->transmission * (sheet.s + sheet.p), both = opaque + clear;

@@ -16,8 +16,8 @@
 #pragma GCC diagnostic push /* inline: no vector goes from one file to another */
 #pragma GCC diagnostic ignored "-Wpsabi"
 
-/* For light polarised across (s) and along (p) the plane of incidence, shares in [0, 1]; and the
- * mean over all fields of a_s times the conjugate of a_p, a the amplitudes: what S2 and S3
+/* For light polarised across (s) and along (p) the plane of incidence, shares in [0, 1]; and
+ * the mean over all fields of a_s times the conjugate of a_p, a the amplitudes: what S2 and S3
  * become. */
 typedef struct Waves {
     float s, p;

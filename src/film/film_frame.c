@@ -191,6 +191,15 @@ static void read_stokes(const Film *film, const PixelSums *sums, float v[3])
     if (!sums->samples) v[0] = v[1] = v[2] = 0;
 }
 
+/* Noise adds to it: S1, S2 and S3 are squared. */
+static void read_degree(const Film *film, const PixelSums *sums, float v[3])
+{
+    float xyz[3], s[3];
+    read_xyz(film, sums, xyz);
+    read_stokes(film, sums, s);
+    v[0] = xyz[1] > 0 ? sqrtf(s[0] * s[0] + s[1] * s[1] + s[2] * s[2]) / xyz[1] : NAN;
+}
+
 static void read_luminance(const Film *film, const PixelSums *sums, float v[3])
 {
     float xyz[3];
@@ -251,6 +260,7 @@ static void add_stokes(const ChannelFill *to)
     LayerPlanes planes = add_named(to, "stokes.S1", "stokes.S2", false);
     planes.of[2] = frame_add_channel(to->frame, "stokes.S3", false, to->arena);
     fill(to, planes, read_stokes);
+    fill(to, add_named(to, "stokes.degree", NULL, false), read_degree);
 }
 
 FrameImage film_to_frame(const Film *film, int attribute_room, Arena *arena)

@@ -20,7 +20,8 @@
  *       times coverage is the same as fine, but from these samples alone. Coverage is 0 where
  *       fine is NaN;
  *   stokes.S0 .. S3   mean over all samples of the luminance and of its other Stokes
- *       parameters, in the camera's axes (path/polarised.h): S1 > 0 horizontal;
+ *       parameters, in the camera's axes (path/polarised.h): S1 > 0 horizontal; stokes.degree
+ *       is the polarised share of these means, NaN where it is dark;
  *   halves   the weighted difference of two interleaved halves of the samples: its square has
  *       the expectation of the variance of the pixel's mean, if the halves are independent.
  *       Sobol points' halves fill each other's gaps: measured between frames of two seeds, its

@@ -269,7 +269,8 @@ static bool describe(FilmPartReader *from, const ExrWords *found, Arena scratch,
     const char         *checksum = frame_string(&words, "parhelion:checksum");
     unsigned long long  wanted;
     FilmPart           *part = &from->part;
-    if (!layers || layers->kind != EXR_INT || ((unsigned)layers->values[0] & ~(unsigned)LAYER_EVERY))
+    if (!layers || layers->kind != EXR_INT ||
+        ((unsigned)layers->values[0] & ~(unsigned)LAYER_EVERY))
         return damaged("parhelion:layers", err);
     if (!checksum || sscanf(checksum, "%16llx", &wanted) != 1)
         return damaged("parhelion:checksum", err);

@@ -21,9 +21,10 @@
  *                                         mean over pixels (film.h)
  *   samples.N                             whole number
  *   light.NAME.{R,G,B}                    cd m^-2
- *   stokes.{S0,S1,S2,S3}                  cd m^-2, of the luminance: S1 > 0 swings horizontally,
- *                                         S2 > 0 from lower left to upper right as the camera
- *                                         sees it, S3 > 0 turns clockwise
+ *   stokes.{S0,S1,S2,S3}                  cd m^-2, of the luminance, as the camera sees it:
+ *                                         S1 > 0 swings horizontally, S2 > 0 from lower left
+ *                                         to upper right, S3 > 0 turns clockwise
+ *   stokes.degree                         sqrt(S1^2 + S2^2 + S3^2) / S0, NaN in the dark
  *   display.{emitted,reflected,white,black,fine}.{R,G,B}   cd m^-2, NaN off displays;
  *                                         what the panes before them let through
  *   display.{mirror,scattered}.{R,G,B}    the two parts of the reflected;

@@ -67,6 +67,11 @@ static const KnownLayer KNOWN[] = {
     {"display.phi", "", SHOW_NUMBER, "deg", false},
     {"display.contrast", "", SHOW_NUMBER, ": 1", true},
     {"display.coverage", "", SHOW_NUMBER, "of the samples", false},
+    {"stokes.S0", "", SHOW_NUMBER, "cd/m^2", true},
+    {"stokes.S1", "", SHOW_NUMBER, "cd/m^2", false},
+    {"stokes.S2", "", SHOW_NUMBER, "cd/m^2", false},
+    {"stokes.S3", "", SHOW_NUMBER, "cd/m^2", false},
+    {"stokes.degree", "", SHOW_NUMBER, "polarised", false},
     {"id.part", "", SHOW_ID, "", false},
     {"id.display", "", SHOW_ID, "", false},
 };
@@ -233,7 +238,8 @@ bool layer_view_find(const FrameImage *frame, const char *layer, Arena *arena, L
     long long width = (long long)w.x1 - w.x0, height = (long long)w.y1 - w.y0;
     LayerView view = {.show = SHOW_LIGHT, .unit = ""};
     if (!layer) layer = "";
-    view.has_gaps = !strncmp(layer, "display.", 8) || !strncmp(layer, "halves", 6);
+    view.has_gaps = !strncmp(layer, "display.", 8) || !strncmp(layer, "halves", 6) ||
+                    !strncmp(layer, "stokes.", 7);
     if (!find_layer(frame, layer, &view) && !find_derived(frame, layer, &view, arena, err))
         return false;
     if (width < 1 || height < 1 || width * height > MAX_PIXELS || width > 65536)

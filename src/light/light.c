@@ -163,9 +163,9 @@ bool lights_sky_polarisation(const Lights *lights, Vec3 direction,
                              const Wavelengths *wavelengths, Vec3 *axis, Spectrum *degree)
 {
     const Sky *sky = &lights->sky;
-    Vec3       across = vec3_cross(direction, sky->sun_direction);
-    if (!sky->model || !sky->has_sun || sky->is_moon || !(vec3_dot(across, across) > 1e-10f))
-        return false;
+    if (!sky->model || !sky->model->is_polarised) return false;
+    Vec3 across = vec3_cross(direction, sky->model->sun);
+    if (!(vec3_dot(across, across) > 1e-10f)) return false;
     *axis = vec3_normalize(across);
     *degree = sky_model_polarisation(sky->model, direction, wavelengths);
     return true;

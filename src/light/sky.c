@@ -8,13 +8,6 @@
 
 /* ---- the sun ---------------------------------------------------------------------------- */
 
-static Vec3 direction_of(float scene_azimuth, float elevation)
-{
-    double c = cos_d((double)elevation);
-    return vec3((float)(c * sin_d((double)scene_azimuth)), (float)sin_d((double)elevation),
-                (float)(-c * cos_d((double)scene_azimuth)));
-}
-
 /* A black body scaled to a luminance of 1 cd m^-2. */
 static void black_body_curve(double kelvin, Curve *out)
 {
@@ -29,7 +22,7 @@ static void place_sun(Sky *sky, double radius, float scene_azimuth, float elevat
 {
     double half = sin_d(radius / 2);
     sky->has_sun = true;
-    sky->sun_direction = vec3_normalize(direction_of(scene_azimuth, elevation));
+    sky->sun_direction = vec3_normalize(sky_model_direction(scene_azimuth, elevation));
     sky->sun_radius = (float)radius;
     sky->sun_chord2 = (float)(4 * half * half);
     sky->sun_solid_angle = (float)(4 * PI * half * half);
@@ -47,7 +40,8 @@ static void build_sun(const Environment *environment, float turn, Sky *sky)
 
 static void place_moon(Sky *sky, const Night *night, float turn)
 {
-    Vec3 sun = direction_of((float)night->sun_azimuth - turn, (float)night->sun_elevation);
+    Vec3 sun = sky_model_direction((float)night->sun_azimuth - turn,
+                                   (float)night->sun_elevation);
     place_sun(sky, night->moon_radius, (float)night->moon_azimuth - turn,
               (float)night->moon_elevation);
     float along = vec3_dot(sun, sky->sun_direction);

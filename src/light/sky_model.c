@@ -6,6 +6,13 @@
 
 #define ROWS (2 * SKY_MODEL_ROWS)
 
+Vec3 sky_model_direction(float scene_azimuth, float elevation)
+{
+    double c = cos_d((double)elevation);
+    return vec3((float)(c * sin_d((double)scene_azimuth)), (float)sin_d((double)elevation),
+                (float)(-c * cos_d((double)scene_azimuth)));
+}
+
 /* ---- building --------------------------------------------------------------------------- */
 
 /* Elevations rise from the nadir to the horizon to the zenith, closest at the horizon. */
@@ -83,6 +90,11 @@ bool sky_model_build(const Environment *environment, float turn, Arena *arena,
     if (!daylight_build(&input, arena, daylight, err)) return false;
     model->daylight = daylight;
     model->turn = turn;
+    model->is_polarised = input.kind == DAYLIGHT_CLEAR;
+    if (model->is_polarised)
+        model->sun = sky_model_direction(
+            (float)daylight->sun_azimuth - turn,
+            (float)daylight->sunlight.atmosphere.input.sun_elevation);
     place_edges(model, daylight->horizon);
     parallel_for(input.threads, ROWS, fill_row, model);
     sum_rows(model);

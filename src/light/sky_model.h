@@ -14,10 +14,15 @@
 typedef struct SkyModel {
     const Daylight *daylight;
     float turn;                                  /* compass azimuth of the scene's -Z */
+    bool  is_polarised; /* it is the clear atmosphere: */
+    Vec3  sun;          /* unit, scene: from where it is lit, up or down */
     float edge[2 * SKY_MODEL_ROWS + 1];          /* sines of elevations, rising */
     float row_cdf[2 * SKY_MODEL_ROWS + 1];       /* 0 to 1 */
     float cdf[2 * SKY_MODEL_ROWS][SKY_MODEL_COLUMNS + 1];
 } SkyModel;
+
+/* Unit; azimuth from the scene's -Z over +X, both in radians. */
+Vec3 sky_model_direction(float scene_azimuth, float elevation);
 
 bool sky_model_build(const Environment *environment, float turn, Arena *arena,
                      const SkyModel **out, Error *err);

@@ -1,6 +1,6 @@
 #include "path/polarised.h"
 
-#define NO_PLANE 1e-10f /* squared sine: below, all axes are the same */
+#define NO_PLANE 1e-6f /* squared sine: below, s and p differ by no more */
 #define LEAST 1e-12f
 
 static void turn_row(PolarisedRow *row, float cosine2, float sine2)
@@ -126,6 +126,8 @@ void polarised_turn(Polarised *light, const Surface *surface, Vec3 wo, const Bsd
     }
     if (axis_across(wo, wi, &axis) || axis_across(wo, surface->frame.z, &axis))
         turn_axis(light, axis, wo);
+    else
+        light->axis = vec3_normalize(vec3_along(light->axis, wi, -vec3_dot(light->axis, wi)));
     apply(light, &matrix);
 }
 

@@ -57,5 +57,5 @@ void polarised_pass(Polarised *light, const Surface *surface, Vec3 wo);
 Spectrum polarised_take(Polarised *light);
 
 /* HOT. By how much more than unpolarised light this counts, that travels along `way` (unit,
- * world), for one of the rows; for analysers over the eye's own path. from NULL: unpolarised. */
+ * world), for one of the rows; for analysers over the eye's own path. NULL: unpolarised. */
 Spectrum polarised_seen(const Polarised *light, int row, Vec3 way, const PolarisedLight *from);

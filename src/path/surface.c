@@ -344,18 +344,13 @@ void surface_white(const SurfaceTables *tables, Vec3 position, Vec3 normal, Surf
     out->bsdf.metallic_roughness.specular = 0;
 }
 
-Spectrum surface_lets(const Surface *surface, Vec3 wo)
-{
-    if (surface->alpha <= 0) return spectrum_all(1);
-    Spectrum through = bsdf_pass(&surface->bsdf, frame_to_local(&surface->frame, wo));
-    return spectrum_all(1 - surface->alpha) + spectrum_all(surface->alpha) * through;
-}
-
 Spectrum surface_pass(const Scene *scene, const SurfaceTables *tables, const Hit *hit,
                       Vec3 direction, const Wavelengths *wavelengths)
 {
     Surface surface;
     Vec3    wo = vec3_neg(direction);
     surface_at(scene, tables, hit, wo, wavelengths, &surface);
-    return surface_lets(&surface, wo);
+    if (surface.alpha <= 0) return spectrum_all(1);
+    Spectrum through = bsdf_pass(&surface.bsdf, frame_to_local(&surface.frame, wo));
+    return spectrum_all(1 - surface.alpha) + spectrum_all(surface.alpha) * through;
 }

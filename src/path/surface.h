@@ -34,9 +34,6 @@ void surface_at(const Scene *scene, const SurfaceTables *tables, const Hit *hit,
 /* A white Lambert point that faces `normal` (unit, world): a luxmeter's head. */
 void surface_white(const SurfaceTables *tables, Vec3 position, Vec3 normal, Surface *out);
 
-/* What share of light passes a surface straight on to wo, per lane: holes and thin windows. */
-Spectrum surface_lets(const Surface *surface, Vec3 wo);
-
 /* What share of light passes the triangle straight on, per lane: holes and thin windows. */
 Spectrum surface_pass(const Scene *scene, const SurfaceTables *tables, const Hit *hit,
                       Vec3 direction, const Wavelengths *wavelengths);

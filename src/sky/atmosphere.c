@@ -405,7 +405,7 @@ Spectrum atmosphere_radiance(const Atmosphere *a, float elevation, float azimuth
            at.aerosol * spectrum_all(air_phase_aerosol(at.cosine));
 }
 
-/* The phase function is (1 + cos^2) times a constant; of it is polarised what (1 - cos^2) is. */
+/* The phase function is (1 + cos^2) times a constant; of it (1 - cos^2) is polarised. */
 Spectrum atmosphere_polarised(const Atmosphere *a, float elevation, float azimuth)
 {
     SkyParts at = look_up(a, elevation, azimuth);

@@ -60,7 +60,7 @@ Spectrum atmosphere_radiance(const Atmosphere *atmosphere, float elevation, floa
 
 /* Of that radiance the part that is linearly polarised, across the plane of sun and direction:
  * light that molecules scattered once, sin^2 / (1 + cos^2) of it for the angle to the sun
- * (Rayleigh). What aerosol scatters, and light scattered more often, is taken as unpolarised. */
+ * (Rayleigh). What aerosol scatters, and light scattered more often, counts as unpolarised. */
 Spectrum atmosphere_polarised(const Atmosphere *atmosphere, float elevation, float azimuth);
 
 /* Irradiance on a horizontal plane from the sky above the horizontal, relative. */

@@ -453,9 +453,13 @@ Spectrum daylight_radiance(const Daylight *out, float elevation, float azimuth,
 Spectrum daylight_polarisation(const Daylight *out, float elevation, float azimuth,
                                const Wavelengths *wavelengths)
 {
-    if (out->input.kind != DAYLIGHT_CLEAR || out->night) return spectrum_all(0);
-    return lit_air_polarisation(&out->sunlight, elevation, azimuth - (float)out->sun_azimuth,
-                                wavelengths);
+    float from_sun = azimuth - (float)out->sun_azimuth;
+    if (out->input.kind != DAYLIGHT_CLEAR) return spectrum_all(0);
+    Spectrum degree = lit_air_polarisation(&out->sunlight, elevation, from_sun, wavelengths);
+    if (!out->night) return degree;
+    Spectrum lit = lit_air_radiance(&out->sunlight, elevation, from_sun, wavelengths);
+    Spectrum all = lit + night_radiance(out->night, elevation, azimuth, wavelengths);
+    return degree * lit / spectrum_max(all, spectrum_all(1e-30f));
 }
 
 Spectrum daylight_sun(const Daylight *out, float share, const Wavelengths *wavelengths)

@@ -5,6 +5,7 @@
 #include "base/mathf.h"
 #include "base/sampler.h"
 #include "base/vec.h"
+#include "shaders/bsdf_model.h"
 #include "spectrum/spectrum.h"
 
 /* Linear from the first lane to the last. */
@@ -41,4 +42,19 @@ static inline Vec3 random_direction(Sampler *sampler)
     float z = 2 * u.x - 1, r = safe_sqrtf(1 - z * z), sine, cosine;
     sincos_turns(u.y, &sine, &cosine);
     return vec3(r * cosine, r * sine, z);
+}
+
+/* |S'| <= S0' of wholly polarised light, in every lane. */
+static inline void stokes_law(const char *name, const BsdfPolarisation *m, Vec3 stokes)
+{
+    for (int i = 0; i < SPECTRUM_LANES; i++) {
+        double d = (double)m->difference[i], k = (double)m->kept[i];
+        double c = (double)m->along[i], t = (double)m->turned[i];
+        double x = (double)stokes.x, y = (double)stokes.y, z = (double)stokes.z;
+        double out[4] = {1 + d * x, d + k * x, c * y - t * z, t * y + c * z};
+        double size = sqrt(out[1] * out[1] + out[2] * out[2] + out[3] * out[3]);
+        if (!(k >= 0 && k <= 1 + 1e-5 && size <= out[0] + 2e-5))
+            fail_msg("%s: polarised light of %g becomes %g, of it polarised %g", name,
+                     1.0, out[0], size);
+    }
 }

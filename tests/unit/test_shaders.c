@@ -31,7 +31,6 @@ static const CoatTable   *lacquer;
 static MetallicRoughness *add_model(const char *name, float metallic, float alpha,
                                     bool lossless)
 {
-    assert_true(model_count < MAX_MODELS);
     Model *model = &models[model_count++];
     *model = (Model){.name = name, .bsdf.kind = BSDF_METALLIC_ROUGHNESS, .lossless = lossless,
                      .width = alpha < SMOOTH_ALPHA ? 1 : alpha};
@@ -350,11 +349,14 @@ static void sample_agrees(const Model *model, Vec3 wo)
         Sampler    sampler = sampler_start(3, 1, 2, i);
         BsdfSample s;
         float      u[3], pdf;
+        BsdfPolarisation matrix;
         draw(&sampler, u);
         if (!bsdf_sample(&model->bsdf, wo, u, &s)) continue;
         assert_close(vec3_length(s.wi), 1, 1e-5);
         assert_true(s.pdf > 0 && spectrum_is_finite(s.weight));
         for (int k = 0; k < SPECTRUM_LANES; k++) assert_true(s.weight[k] >= 0);
+        if (bsdf_polarise(&model->bsdf, wo, &s, &matrix))
+            stokes_law(model->name, &matrix, random_direction(&sampler));
         if (s.is_delta) {
             assert_true(s.pdf <= 1);
             if (s.passes) assert_near(vec3_length(vec3_add(s.wi, wo)), 0, 1e-6);

@@ -28,8 +28,8 @@ static bool read_sunglasses(const char *text, PolarisedEye *eye, Error *err)
                              extinction >= 1));
     if (!is_read)
         return error_set(err, ERROR_USAGE,
-                         "--sunglasses %.80s: wanted DEG or DEG:EXTINCTION, degrees from -%d to "
-                         "%d and a ratio of at least 1",
+                         "--sunglasses %.80s: wanted DEG or DEG:EXTINCTION, degrees from -%d "
+                         "to %d and a ratio of at least 1",
                          text, MOST_DEGREES, MOST_DEGREES);
     double angle = radians_from_degrees(degrees);
     eye->has_glasses = true;
@@ -48,8 +48,8 @@ bool polarised_options_read(const PolarisedWords *words, bool wants_all, unsigne
     *out = NULL;
     if (words->sunglasses && !read_sunglasses(words->sunglasses, eye, err)) return false;
     if (!words->is_polarised && !words->sunglasses)
-        return !asks || error_set(err, ERROR_USAGE, "--layers stokes: how light is polarised is "
-                                                    "followed with --polarised alone");
+        return !asks || error_set(err, ERROR_USAGE, "--layers stokes: how light is polarised "
+                                                    "is followed with --polarised alone");
     if (asks && eye->has_glasses)
         return error_set(err, ERROR_USAGE, "--layers stokes is of light before it meets "
                                            "--sunglasses — leave one of them out");
