@@ -13,6 +13,9 @@
  * Typical: bare gloss glass mirrors 4.5 % at normal incidence, with an anti-reflection coating
  * 0.3 to 1 %; an anti-glare surface scatters some 3 to 5 % into haze a few degrees wide.
  *
+ * A panel that was measured at several spots is the mixture of those around a place, in haze,
+ * mirror and the density of directions.
+ *
  * The tables, their interpolation and their sampling are src/panel's. A panel without
  * reflection data reflects nothing. The mirror polarises as bare glass of index 1.5 does; haze
  * and lambertian part send unpolarised light on. Not modelled: anisotropic sparkle, the change
@@ -24,12 +27,49 @@
 
 #define COVER_IOR 1.5f /* how polarised the mirror is, no more */
 
+/* ---- one panel, or the mixture of several ------------------------------------------------ */
+
+static Spectrum brdf_of(const DisplaySurface *display, Vec3 wo, Vec3 wi)
+{
+    if (display->mix.count)
+        return panel_mix_brdf(&display->mix, wo, wi, display->wavelengths);
+    return panel_brdf_at(display->panel, wo, wi, &display->lanes);
+}
+
+static Spectrum bare_mirror_of(const DisplaySurface *display, float cosine)
+{
+    if (display->mix.count)
+        return panel_mix_mirror(&display->mix, cosine, display->wavelengths);
+    return panel_mirror_at(display->panel, cosine, &display->lanes);
+}
+
+static float haze_albedo_of(const DisplaySurface *display, float cosine)
+{
+    if (display->mix.count) return panel_mix_haze_albedo(&display->mix, cosine);
+    return panel_haze_albedo(display->panel, cosine);
+}
+
+static float pdf_of(const DisplaySurface *display, Vec3 wo, Vec3 wi)
+{
+    if (display->mix.count) return panel_mix_pdf(&display->mix, wo, wi);
+    return panel_pdf(display->panel, wo, wi);
+}
+
+static bool sample_of(const DisplaySurface *display, Vec3 wo, const float u[3], Vec3 *wi,
+                      float *pdf)
+{
+    if (display->mix.count) return panel_mix_sample(&display->mix, wo, u, wi, pdf);
+    return panel_sample(display->panel, wo, u, wi, pdf);
+}
+
+/* ---- the model --------------------------------------------------------------------------- */
+
 /* A coating that mirrors more than glass leaves the haze its light. */
 static Spectrum mirror_at(const DisplaySurface *display, float cosine)
 {
-    Spectrum mirror = panel_mirror_at(display->panel, cosine, &display->lanes);
+    Spectrum mirror = bare_mirror_of(display, cosine);
     if (!display->cover) return mirror;
-    Spectrum rest = spectrum_all(1 - panel_haze_albedo(display->panel, cosine));
+    Spectrum rest = spectrum_all(1 - haze_albedo_of(display, cosine));
     Spectrum coated = mirror * coating_at(display->cover, display->wavelengths, cosine);
     return spectrum_min(coated, spectrum_max(mirror, rest));
 }
@@ -39,7 +79,7 @@ static float mirror_prob(const DisplaySurface *display, Vec3 wo, Spectrum *mirro
 {
     *mirror = mirror_at(display, wo.z);
     float mean = spectrum_mean(*mirror);
-    float haze = panel_haze_albedo(display->panel, wo.z);
+    float haze = haze_albedo_of(display, wo.z);
     return mean + haze > 0 ? mean / (mean + haze) : 0;
 }
 
@@ -60,8 +100,8 @@ static Spectrum model_eval(const void *parameters, Vec3 wo, Vec3 wi, float *pdf)
     if (!model_reaches(parameters, wo, wi)) return spectrum_all(0);
     Spectrum mirror;
     float    prob = mirror_prob(display, wo, &mirror);
-    *pdf = (1 - prob) * panel_pdf(display->panel, wo, wi);
-    return panel_brdf_at(display->panel, wo, wi, &display->lanes);
+    *pdf = (1 - prob) * pdf_of(display, wo, wi);
+    return brdf_of(display, wo, wi);
 }
 
 static bool model_sample(const void *parameters, Vec3 wo, const float u[3], BsdfSample *sample)
@@ -78,10 +118,10 @@ static bool model_sample(const void *parameters, Vec3 wo, const float u[3], Bsdf
     float rest[3] = {u[0], u[1], clampf((u[2] - prob) / (1 - prob), 0, 0x1.fffffep-1f)};
     Vec3  wi;
     float pdf;
-    if (!panel_sample(display->panel, wo, rest, &wi, &pdf) || !(wi.z > 0)) return false;
+    if (!sample_of(display, wo, rest, &wi, &pdf) || !(wi.z > 0)) return false;
     pdf *= 1 - prob;
     if (!(pdf > 0)) return false;
-    Spectrum f = panel_brdf_at(display->panel, wo, wi, &display->lanes);
+    Spectrum f = brdf_of(display, wo, wi);
     *sample = (BsdfSample){.wi = wi, .weight = f * spectrum_all(wi.z / pdf), .pdf = pdf};
     return true;
 }
@@ -104,12 +144,14 @@ static Spectrum model_albedo(const void *parameters, Vec3 wo)
     const DisplaySurface *display = parameters;
     if (!reflects(display, wo)) return spectrum_all(0);
     return mirror_at(display, wo.z) +
-           spectrum_all(panel_haze_albedo(display->panel, wo.z));
+           spectrum_all(haze_albedo_of(display, wo.z));
 }
 
 Spectrum display_lambertian_share(const DisplaySurface *display, Spectrum f, Vec3 wi)
 {
-    Spectrum lambertian = panel_lambertian_at(display->panel, f, wi, &display->lanes);
+    Spectrum lambertian = display->mix.count
+        ? panel_mix_lambertian(&display->mix, f, wi, display->wavelengths)
+        : panel_lambertian_at(display->panel, f, wi, &display->lanes);
     return lambertian / spectrum_max(f, spectrum_all(1e-30f));
 }
 

@@ -3,6 +3,7 @@
  * The user page is on top of display.c. Frame: the display's own (panel.h). Units: bsdf.h.
  */
 #pragma once
+#include "panel/query/panel_place.h"
 #include "panel/query/panel_reflection.h"
 #include "shaders/bsdf_model.h"
 #include "shaders/coating.h"
@@ -11,8 +12,10 @@
 typedef struct DisplaySurface {
     const Panel *panel;
     PanelLanes   lanes; /* its reflection at the path's wavelengths */
+    PanelMix     mix;   /* several panels instead of the one, whose lanes are not used then;
+                           count 0: none */
     const CoatingTable *cover;       /* factor of its mirror (coating_of_cover); NULL: 1 */
-    const Wavelengths  *wavelengths; /* NULL where cover is */
+    const Wavelengths  *wavelengths; /* NULL where cover is, and without a mix */
 } DisplaySurface;
 
 extern const BsdfModel display_model;

@@ -1,6 +1,7 @@
 #include "light/emission.h"
 
 #include "panel/query/panel_emission.h"
+#include "panel/query/panel_place.h"
 #include "spectrum/photometry.h"
 
 #include "base/units.h"
@@ -110,13 +111,43 @@ void emitted_rgb(const Scene *scene, const Material *material, const TrianglePoi
     for (int i = 0; i < 3; i++) rgb[i] *= texel[i];
 }
 
+void display_place(const Display *display, const TrianglePoint *point, float place[2])
+{
+    const float *m = display->place_from_uv;
+    Vec2 uv = slot_uv(&display->content, point);
+    place[0] = m[0] * uv.x + m[1];
+    place[1] = m[2] * uv.y + m[3];
+}
+
+void display_panel_xyz(const Display *display, const TrianglePoint *point, Vec3 local,
+                       const float codes[3], float xyz[3])
+{
+    float place[2];
+    if (!panel_varies(display->panel)) {
+        panel_emission_xyz(display->panel, local, codes, xyz);
+        return;
+    }
+    display_place(display, point, place);
+    panel_place_emission_xyz(display->panel, place, local, codes, xyz);
+}
+
+Spectrum display_panel_spectrum(const Display *display, const TrianglePoint *point, Vec3 local,
+                                const float codes[3], const Wavelengths *wavelengths)
+{
+    float place[2];
+    if (!panel_varies(display->panel))
+        return panel_emission_spectrum(display->panel, local, codes, wavelengths);
+    display_place(display, point, place);
+    return panel_place_emission_spectrum(display->panel, place, local, codes, wavelengths);
+}
+
 void display_emission_xyz(const Scene *scene, const Display *display, uint32_t triangle,
                           const TrianglePoint *point, Vec3 direction, float xyz[3])
 {
     float codes[3];
     Frame frame = display_frame(scene, display, triangle, point);
     display_codes(scene, display, point, codes);
-    panel_emission_xyz(display->panel, frame_to_local(&frame, direction), codes, xyz);
+    display_panel_xyz(display, point, frame_to_local(&frame, direction), codes, xyz);
     for (int i = 0; i < 3; i++) xyz[i] *= display->level;
 }
 
@@ -127,8 +158,8 @@ static Spectrum display_emission(const Scene *scene, const Display *display, uin
     float codes[3];
     Frame frame = display_frame(scene, display, triangle, point);
     display_codes(scene, display, point, codes);
-    return panel_emission_spectrum(display->panel, frame_to_local(&frame, direction), codes,
-                                   wavelengths) *
+    return display_panel_spectrum(display, point, frame_to_local(&frame, direction), codes,
+                                  wavelengths) *
            spectrum_all(display->level);
 }
 

@@ -29,6 +29,16 @@ Vec2 slot_corner_uv(const Scene *scene, const TextureSlot *slot, uint32_t triang
 Frame display_frame(const Scene *scene, const Display *display, uint32_t triangle,
                     const TrianglePoint *point);
 
+/* Where on the panel's active area the point is (panel_place.h); of a panel that varies. */
+void display_place(const Display *display, const TrianglePoint *point, float place[2]);
+
+/* What the display's panel sends there along `local`, a direction of display_frame, for codes;
+ * its level is not in it. XYZ, cd m^-2, or spectral radiance. */
+void display_panel_xyz(const Display *display, const TrianglePoint *point, Vec3 local,
+                       const float codes[3], float xyz[3]);
+Spectrum display_panel_spectrum(const Display *display, const TrianglePoint *point, Vec3 local,
+                                const float codes[3], const Wavelengths *wavelengths);
+
 /* Codes, 0..255, that the display shows at the point; white where it has no content. */
 void display_codes(const Scene *scene, const Display *display, const TrianglePoint *point,
                    float codes[3]);

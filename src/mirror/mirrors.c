@@ -2,7 +2,7 @@
 
 #include "base/mathf.h"
 #include "base/units.h"
-#include "panel/query/panel_reflection.h"
+#include "panel/query/panel_place.h"
 #include "shaders/microfacet.h"
 
 #define STACK 64          /* the tree halves: no scene is as deep */
@@ -27,18 +27,10 @@ static bool has_smooth_coat(const Material *m)
     return m->clearcoat > 0 && is_smooth_everywhere(m->clearcoat_roughness);
 }
 
-/* Is there an image in a display's glass, of light that falls straight on it? */
-static bool has_mirror(const Panel *panel)
-{
-    Wavelengths wavelengths;
-    wavelengths_sample(0.5f, &wavelengths);
-    return panel_reflects(panel) && !spectrum_is_zero(panel_mirror(panel, 1, &wavelengths));
-}
-
 bool mirrors_can_be(const Scene *scene, const Material *m)
 {
     if (m->unlit) return false;
-    if (m->display_id != NO_ID) return has_mirror(scene->displays[m->display_id].panel);
+    if (m->display_id != NO_ID) return panel_has_mirror(scene->displays[m->display_id].panel);
     bool is_bent = m->normal_texture.texture_id != NO_ID ||
                    (m->clearcoat > 0 && m->clearcoat_normal_texture.texture_id != NO_ID);
     return !is_bent && (has_smooth_base(m) || has_smooth_coat(m));

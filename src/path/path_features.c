@@ -1,4 +1,3 @@
-#include "panel/query/panel_emission.h"
 #include "path/path_features.h"
 
 #include "base/units.h"
@@ -15,6 +14,7 @@ static void albedo_rgb(Spectrum albedo, const Wavelengths *wavelengths, float rg
 /* A display, as a path comes upon it. */
 typedef struct SeenDisplay {
     const Display     *display;
+    const TrianglePoint *point;
     Vec3               direction; /* to the eye, in the display's frame */
     const PathResult  *path;
     const Wavelengths *wavelengths;
@@ -27,22 +27,23 @@ static SeenDisplay view_of(const PathContext *context, const PathResult *path,
     const Display *display =
         &scene->displays[scene->materials[surface->material_id].display_id];
     Frame frame = display_frame(scene, display, path->first.triangle, &surface->point);
-    return (SeenDisplay){display, frame_to_local(&frame, vec3_neg(path->direction)), path,
-                         wavelengths};
+    return (SeenDisplay){display, &surface->point,
+                         frame_to_local(&frame, vec3_neg(path->direction)), path, wavelengths};
 }
 
 /* What it sends to the eye for these codes: the very sum that the path adds. */
 static void emission_seen(const SeenDisplay *view, const float codes[3], float xyz[3])
 {
-    const Panel *panel = view->display->panel;
-    Spectrum     through = view->path->through;
+    const Display *display = view->display;
+    Spectrum       through = view->path->through;
     if (spectrum_is_grey(through)) {
-        panel_emission_xyz(panel, view->direction, codes, xyz);
-        for (int i = 0; i < 3; i++) xyz[i] = through[0] * (xyz[i] * view->display->level);
+        display_panel_xyz(display, view->point, view->direction, codes, xyz);
+        for (int i = 0; i < 3; i++) xyz[i] = through[0] * (xyz[i] * display->level);
         return;
     }
-    Spectrum sent = panel_emission_spectrum(panel, view->direction, codes, view->wavelengths) *
-                    spectrum_all(view->display->level);
+    Spectrum sent = display_panel_spectrum(display, view->point, view->direction, codes,
+                                           view->wavelengths) *
+                    spectrum_all(display->level);
     for (int i = 0; i < 3; i++) xyz[i] = 0;
     spectrum_add_xyz(view->wavelengths, through * sent, xyz);
 }

@@ -281,6 +281,23 @@ static void set_bsdf(const Site *site, Surface *surface)
     }
 }
 
+/* One panel, or what several make at a place. */
+static void set_display_panel(const Site *site, const Display *display,
+                              const TrianglePoint *point, DisplaySurface *out)
+{
+    out->panel = display->panel;
+    out->mix.count = 0;
+    if (panel_varies(display->panel)) {
+        float place[2];
+        display_place(display, point, place);
+        out->mix = panel_place_reflection(display->panel, place);
+        out->panel = out->mix.panel[0];
+        if (out->mix.count > 1) return;
+        out->mix.count = 0;
+    }
+    panel_lanes(out->panel, site->wavelengths, &out->lanes);
+}
+
 static void set_display(const Site *site, Vec3 wo, Surface *surface)
 {
     const Display *display = &site->scene->displays[site->material->display_id];
@@ -292,8 +309,7 @@ static void set_display(const Site *site, Vec3 wo, Surface *surface)
     turned.ns = surface->frame.z;
     surface->frame = display_frame(site->scene, display, site->hit->triangle, &turned);
     surface->bsdf.kind = BSDF_DISPLAY;
-    surface->bsdf.display.panel = display->panel;
-    panel_lanes(display->panel, site->wavelengths, &surface->bsdf.display.lanes);
+    set_display_panel(site, display, &surface->point, &surface->bsdf.display);
     const SurfaceCoating *coating = coating_of(site, surface->material_id);
     surface->bsdf.display.cover = coating ? coating->cover->front : NULL;
     surface->bsdf.display.wavelengths = site->wavelengths;

@@ -116,6 +116,8 @@ typedef struct Display {
     int   material_id;
     TextureSlot content;    /* NO_ID: full white is shown, said in a warning */
     float level;            /* multiplies all emission, >= 0 */
+    float place_from_uv[4]; /* of a panel that varies: a place of its active area
+                               (panel_place.h) is {u [0] + [1], v [2] + [3]} of the content's */
 } Display;
 
 typedef enum LightKind {

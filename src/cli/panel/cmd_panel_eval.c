@@ -37,7 +37,7 @@ static bool fill_question(const CsvTable *csv, int row, Arena *arena, PanelQuest
         if (!to)
             return error_at(err, ERROR_INPUT, csv->file, "header line",
                             "column '%s' is unknown, wanted theta, phi, r, g, b, incidence, "
-                            "incidence_phi or wavelength", csv->name[c]);
+                            "incidence_phi, wavelength, u or v", csv->name[c]);
         *to = (double)csv->cell[(size_t)row * (size_t)csv->columns + (size_t)c];
     }
     if (panel_question_check(q, err)) return true;
@@ -148,8 +148,8 @@ static bool check_request(const EvalRequest *request, const Cli *cli, Error *err
 static bool run_eval(int argc, char **argv, Arena *arena, Error *err)
 {
     Cli     cli;
-    EvalRequest r = {.question = {.rgb = {255, 255, 255}, .incidence_phi = 180}, .quantity = 1,
-                     .level = -1};
+    EvalRequest r = {.question = {.rgb = {255, 255, 255}, .incidence_phi = 180, .at = {-1, -1}},
+                     .quantity = 1, .level = -1};
     PanelQuestion *q = &r.question;
     const Option   options[] = {
         {"--theta", OPTION_NUMBER, "DEG", "angle from the normal, degrees", &q->theta, 0, 90, 0,
@@ -165,6 +165,9 @@ static bool run_eval(int argc, char **argv, Arena *arena, Error *err)
         {"--incidence-phi", OPTION_NUMBER, "DEG",
          "azimuth of the light, degrees (default 180: the mirror direction is at phi 0)",
          &q->incidence_phi, -360, 360, .given = NULL},
+        {"--at", OPTION_NUMBERS, "U,V",
+         "place on the active area, 0 to 1 from its upper left corner, right and down (default: "
+         "the panel's own tables)", q->at, 0, 1, 2, .given = NULL},
         {"--wavelength", OPTION_NUMBER, "NM",
          "one wavelength, nm, instead of all measured ones", &q->wavelength_nm, 360, 830,
          .given = NULL},

@@ -60,6 +60,7 @@ static bool run_simulate(int argc, char **argv, Arena *arena, Error *err)
     const char *folder = NULL;
     double      at[5];
     int         noise = 0, grid[2] = {0, 0};
+    double      place[2] = {0.5, 0.5};
     bool        wants_truth = false, has_grid = false;
     const Option options[] = {
         {"-o", OPTION_TEXT, "DIR", "folder for MANIFEST.json and its tables", &folder,
@@ -67,6 +68,9 @@ static bool run_simulate(int argc, char **argv, Arena *arena, Error *err)
         {"--truth", OPTION_NUMBERS, "THETA,PHI,R,G,B",
          "print the recipe's exact value instead: degrees and codes", at, -360, 360, 5,
          &wants_truth},
+        {"--at", OPTION_NUMBERS, "U,V",
+         "of --truth: place on the active area, 0 to 1 from its upper left corner, right and "
+         "down (default 0.5,0.5)", place, 0, 1, 2, .given = NULL},
         {"--noise", OPTION_CHOICE, "recipe|off", "the instrument's noise (default recipe)",
          &noise, .given = NULL},
         {"--grid", OPTION_SIZE, "RINGSxAZIMUTHS",
@@ -85,7 +89,10 @@ static bool run_simulate(int argc, char **argv, Arena *arena, Error *err)
     bool ok = synthetic_panel_read(cli.arguments[0], arena, &panel, err);
     if (ok && noise) switch_noise_off(&panel.instrument);
     if (ok && has_grid) ok = set_grid(&panel.instrument, grid, err);
-    if (ok && wants_truth) ok = print_closed_form(&panel, at, err);
+    if (ok && wants_truth) {
+        SyntheticPanel local = closed_form_at(&panel, place);
+        ok = print_closed_form(&local, at, err);
+    }
     if (ok && folder) ok = simulate_measurement(&panel, folder, cli.progress, err);
     return ok;
 }

@@ -6,6 +6,7 @@
 
 #include "base/units.h"
 #include "panel/query/panel_emission.h"
+#include "panel/query/panel_place.h"
 #include "panel/query/panel_reflection.h"
 
 /* Unit vector of a direction in degrees. */
@@ -20,10 +21,15 @@ double *panel_question_member(PanelQuestion *q, const char *name)
     struct { const char *name; double *to; } members[] = {
         {"theta", &q->theta}, {"phi", &q->phi}, {"r", &q->rgb[0]}, {"g", &q->rgb[1]},
         {"b", &q->rgb[2]}, {"incidence", &q->incidence}, {"incidence_phi", &q->incidence_phi},
-        {"wavelength", &q->wavelength_nm}};
+        {"wavelength", &q->wavelength_nm}, {"u", &q->at[0]}, {"v", &q->at[1]}};
     for (int i = 0; i < COUNT_OF(members); i++)
         if (!strcmp(members[i].name, name)) return members[i].to;
     return NULL;
+}
+
+static bool is_anywhere(const PanelQuestion *q)
+{
+    return q->at[0] < 0 && q->at[1] < 0;
 }
 
 bool panel_question_check(const PanelQuestion *q, Error *err)
@@ -36,19 +42,36 @@ bool panel_question_check(const PanelQuestion *q, Error *err)
     for (int i = 0; i < 3; i++)
         if (!(q->rgb[i] >= 0 && q->rgb[i] <= 255))
             return error_set(err, ERROR_USAGE, "a code is %g, wanted 0 to 255", q->rgb[i]);
+    if (is_anywhere(q)) return true;
+    for (int k = 0; k < 2; k++)
+        if (!(q->at[k] >= 0 && q->at[k] <= 1))
+            return error_set(err, ERROR_USAGE, "%s is %g, wanted 0 to 1, with the other one",
+                             k ? "v" : "u", q->at[k]);
     return true;
 }
 
 bool panel_ask_emission(const Panel *panel, const PanelQuestion *q, float xyz[3])
 {
     float rgb[3] = {(float)q->rgb[0], (float)q->rgb[1], (float)q->rgb[2]};
-    return panel_emission_xyz(panel, panel_direction(q->theta, q->phi), rgb, xyz);
+    float at[2] = {(float)q->at[0], (float)q->at[1]};
+    Vec3  direction = panel_direction(q->theta, q->phi);
+    return is_anywhere(q) ? panel_emission_xyz(panel, direction, rgb, xyz)
+                          : panel_place_emission_xyz(panel, at, direction, rgb, xyz);
+}
+
+/* At the place that is asked for. */
+static PanelMix panel_asked(const Panel *panel, const PanelQuestion *q)
+{
+    float at[2] = {(float)q->at[0], (float)q->at[1]};
+    if (!is_anywhere(q)) return panel_place_reflection(panel, at);
+    return (PanelMix){.count = 1, .panel = {panel}, .weight = {1}};
 }
 
 void panel_ask_reflection(const Panel *panel, const PanelQuestion *q, PanelReflected *out)
 {
     Vec3 wo = panel_direction(q->theta, q->phi);
     Vec3 wi = panel_direction(q->incidence, q->incidence_phi);
+    PanelMix mix = panel_asked(panel, q);
     out->count = panel_info_wavelengths(panel, out->nm);
     if (q->wavelength_nm > 0) {
         out->nm[0] = (float)q->wavelength_nm;
@@ -59,19 +82,19 @@ void panel_ask_reflection(const Panel *panel, const PanelQuestion *q, PanelRefle
         int last = out->count - 1;
         for (int i = 0; i < SPECTRUM_LANES; i++)
             wavelengths.nm[i] = out->nm[first + i < last ? first + i : last];
-        PanelLanes lanes;
-        panel_lanes(panel, &wavelengths, &lanes);
-        Spectrum f = panel_brdf_at(panel, wo, wi, &lanes);
-        Spectrum l = panel_lambertian_at(panel, f, wi, &lanes);
-        Spectrum r = panel_mirror_at(panel, wi.z, &lanes);
+        Spectrum f = panel_mix_brdf(&mix, wo, wi, &wavelengths);
+        Spectrum l = panel_mix_lambertian(&mix, f, wi, &wavelengths);
+        Spectrum r = panel_mix_mirror(&mix, wi.z, &wavelengths);
         for (int i = 0; i < SPECTRUM_LANES && first + i <= last; i++) {
             out->brdf[first + i] = f[i];
             out->lambertian[first + i] = l[i];
             out->mirror[first + i] = r[i];
         }
     }
-    out->is_measured = panel_info_brdf_is_measured(panel, radians_from_degrees(q->incidence),
-                                                   radians_from_degrees(q->theta));
+    out->is_measured = true;
+    for (int i = 0; i < mix.count; i++)
+        out->is_measured &= panel_info_brdf_is_measured(mix.panel[i],
+            radians_from_degrees(q->incidence), radians_from_degrees(q->theta));
 }
 
 /* ---- JSON ------------------------------------------------------------------------------ */
@@ -108,7 +131,10 @@ static json_t *reflection_json(const Panel *panel, const PanelQuestion *q)
 
 json_t *panel_answer_json(const Panel *panel, const PanelQuestion *q)
 {
-    return q->is_brdf ? reflection_json(panel, q) : emission_json(panel, q);
+    json_t *out = q->is_brdf ? reflection_json(panel, q) : emission_json(panel, q);
+    if (!is_anywhere(q))
+        json_object_set_new(out, "position", json_pack("[f, f]", q->at[0], q->at[1]));
+    return out;
 }
 
 /* ---- text ------------------------------------------------------------------------------ */

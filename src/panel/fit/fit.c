@@ -53,7 +53,8 @@ static void *reported_bytes(const FitParts *parts, json_t *document, Arena *aren
     for (int pass = 0; pass < 2 && text; pass++) {
         whole.tables_size = panel_report_pack_tables(rows, arena, &whole.tables);
         bytes = fit_file_bytes(&whole, text, arena, size);
-        fit_table_set_file_size(json_object_get(document, "total"), *size);
+        fit_table_set_file_size(json_object_get(document, "total"),
+                                *size - (parts->places ? fit_places_bytes(parts->places) : 0));
     }
     free(text);
     json_decref(rows);
@@ -69,25 +70,39 @@ static bool refuse(const json_t *report, const char *path, Error *err)
                     "be usable: %s; --force writes it all the same", reason ? reason : "");
 }
 
+/* A file's bytes, to be; what messages call it. */
+typedef struct FitTarget {
+    const char *path;
+    const void *bytes;
+    size_t      size;
+} FitTarget;
+
+static Panel *opened(const FitParts *parts, const char *path, Arena *arena, size_t *size,
+                     Error *err)
+{
+    Panel *panel;
+    void  *bytes = fit_file_bytes(parts, "{}", arena, size);
+    return panel_from_bytes(bytes, *size, path, arena, &panel, err) ? panel : NULL;
+}
+
 /* Errors are measured on the file's own bytes. A report comes also of what is not written for
  * being not usable. */
-static bool finish_file(const FitParts *parts, const char *path, Arena *arena, json_t **report,
-                        Error *err)
+static bool finish_bytes(const FitParts *parts, FitTarget *out, Arena *arena, json_t **report,
+                         Error *err)
 {
     size_t size;
-    Panel *panel;
-    void  *bytes = fit_file_bytes(parts, "{}", arena, &size);
-    if (!panel_from_bytes(bytes, size, path, arena, &panel, err)) return false;
+    Panel *panel = opened(parts, out->path, arena, &size, err);
+    if (!panel) return false;
+    if (parts->places) size -= fit_places_bytes(parts->places);
     json_t *document = fit_report_measure(parts, panel, size);
-    bytes = reported_bytes(parts, document, arena, &size);
-    if (!bytes) error_set(err, ERROR_MEMORY, "the report does not fit into memory");
-    bool is_refused = bytes && !parts->options->force &&
+    out->bytes = reported_bytes(parts, document, arena, &out->size);
+    if (!out->bytes) error_set(err, ERROR_MEMORY, "the report does not fit into memory");
+    bool is_refused = out->bytes && !parts->options->force &&
                       fit_judge_grade(document) == JUDGE_UNUSABLE;
-    if (is_refused) refuse(document, path, err);
-    bool ok = bytes && !is_refused && file_write(path, bytes, size, err);
-    if (ok || is_refused) *report = document;
+    if (is_refused) refuse(document, out->path, err);
+    if (out->bytes) *report = document;
     else json_decref(document);
-    return ok;
+    return out->bytes && !is_refused;
 }
 
 /* The sampling, a section of the file or the promise that opening makes it, follows from what
@@ -96,10 +111,9 @@ static bool sample_reflection(const FitParts *parts, ReflectionResult *reflectio
                               Error *err)
 {
     size_t size;
-    Panel *panel;
     SamplingSection made = {.bytes = ""};
-    void  *bytes = fit_file_bytes(parts, "{}", arena, &size);
-    if (!panel_from_bytes(bytes, size, "panel", arena, &panel, err)) return false;
+    Panel *panel = opened(parts, "panel", arena, &size, err);
+    if (!panel) return false;
     if (!panel_makes_sampling(panel->reflection) && !sampling_make(panel, arena, &made, err))
         return false;
     reflection->sampling = made.bytes;
@@ -107,33 +121,134 @@ static bool sample_reflection(const FitParts *parts, ReflectionResult *reflectio
     return true;
 }
 
+/* ---- the steps --------------------------------------------------------------------------- */
+
+#define STEPS 4 /* of a panel */
+
+/* What a fit of one panel or of several has at hand. */
+typedef struct FitRun {
+    const FitOptions *options;
+    const char       *path; /* of the file to be */
+    Arena            *arena;
+    Progress          progress;
+    int               steps; /* done */
+    Error            *err;
+} FitRun;
+
+static void step(FitRun *run)
+{
+    progress_update(&run->progress, ++run->steps);
+}
+
+/* Everything of a panel but its report and its places. */
+static bool fit_parts(FitRun *run, const Measurement *set, FitParts *parts)
+{
+    Arena            *arena = run->arena;
+    EmissionResult   *emission = ARENA_NEW(arena, EmissionResult, 1);
+    ReflectionResult *reflection = ARENA_NEW(arena, ReflectionResult, 1);
+    FitNotes         *notes = ARENA_NEW(arena, FitNotes, 1);
+    *notes = (FitNotes){.arena = arena};
+    *parts = (FitParts){.set = set, .options = run->options, .notes = notes};
+    note_limits(set, notes);
+    if (set->primary[0].level_count) {
+        parts->emission = emission;
+        if (!emission_fit(set, run->options, arena, notes, emission, run->err)) return false;
+    }
+    step(run);
+    if (parts->emission)
+        parts->primaries = emission_spectra_write(set, notes, arena, &parts->primaries_size);
+    step(run);
+    if (set->incidence_count) {
+        parts->reflection = reflection;
+        if (!reflection_fit(set, run->options, arena, notes, reflection, run->err) ||
+            !sample_reflection(parts, reflection, arena, run->err))
+            return false;
+    }
+    step(run);
+    return true;
+}
+
+/* ---- spots ------------------------------------------------------------------------------- */
+
+/* What the whole file's report says of a spot's panel. */
+static json_t *spot_report(const MeasuredSpot *spot, const json_t *report, size_t bytes)
+{
+    const json_t *total = json_object_get(report, "total");
+    return json_pack("{s:[f,f], s:b, s:b, s:I, s:O, s:O}", "position", spot->at[0],
+                     spot->at[1], "emission", (int)spot->has_emission, "reflection",
+                     (int)spot->has_reflection, "bytes", (json_int_t)bytes, "max_error",
+                     json_object_get(total, "max_error"), "verdict",
+                     json_object_get(report, "verdict"));
+}
+
+static bool fit_spot(FitRun *run, const Measurement *whole, FitPlaces *places, int k,
+                     json_t *list)
+{
+    FitParts  parts;
+    FitTarget target = {.path = run->path};
+    json_t   *report = NULL;
+    const MeasuredSpot *spot = &whole->spot[places->spot_of_panel[k]];
+    bool ok = fit_parts(run, &places->of_panel[k], &parts) &&
+              finish_bytes(&parts, &target, run->arena, &report, run->err);
+    if (ok) {
+        places->bytes[k] = target.bytes;
+        places->sizes[k] = target.size;
+        json_array_append_new(list, spot_report(spot, report, target.size));
+    }
+    json_decref(report);
+    step(run);
+    return ok || error_prefix(run->err, "the spot at %g, %g", spot->at[0], spot->at[1]);
+}
+
+static bool fit_spots(FitRun *run, const Measurement *whole, FitPlaces *places, json_t *list)
+{
+    for (int k = 0; k < places->panels; k++)
+        if (!fit_spot(run, whole, places, k, list)) return false;
+    return true;
+}
+
+static bool add_map(FitRun *run, const Measurement *set, const FitParts *parts,
+                    FitPlaces *places)
+{
+    size_t size;
+    if (!set->map) return true;
+    const Panel *panel = opened(parts, run->path, run->arena, &size, run->err);
+    return panel && fit_places_add_map(set, panel, run->arena, places, run->err);
+}
+
+/* ---- all --------------------------------------------------------------------------------- */
+
+static bool fit_whole(FitRun *run, const Measurement *set, FitPlaces *places, json_t **report)
+{
+    FitParts  parts;
+    FitTarget target = {.path = run->path};
+    json_t   *spots = json_array();
+    if (!fit_spots(run, set, places, spots) || !fit_parts(run, &places->own, &parts)) {
+        json_decref(spots);
+        return false;
+    }
+    parts.places = places;
+    parts.spots = spots;
+    bool ok = add_map(run, set, &parts, places) &&
+              finish_bytes(&parts, &target, run->arena, report, run->err) &&
+              file_write(run->path, target.bytes, target.size, run->err);
+    json_decref(spots);
+    if (!ok && *report && run->err->code != ERROR_DIFFERENT) {
+        json_decref(*report);
+        *report = NULL;
+    }
+    return ok;
+}
+
 bool panel_fit(const Measurement *measurement, const FitOptions *options, const char *path,
                Arena *arena, json_t **report, Error *err)
 {
-    FitNotes          notes = {.arena = arena};
-    EmissionResult   *emission = ARENA_NEW(arena, EmissionResult, 1);
-    ReflectionResult *reflection = ARENA_NEW(arena, ReflectionResult, 1);
-    FitParts          parts = {.set = measurement, .options = options, .notes = &notes};
-    Progress          progress = progress_start(options->progress, "fit", "steps", 4);
+    FitRun    run = {.options = options, .path = path, .arena = arena, .err = err};
+    FitPlaces places;
     if (!file_check_writable(path, err)) return false; /* a fit takes a while */
-    note_limits(measurement, &notes);
-    if (measurement->primary[0].level_count) {
-        parts.emission = emission;
-        if (!emission_fit(measurement, options, arena, &notes, emission, err)) return false;
-    }
-    progress_update(&progress, 1);
-    if (parts.emission)
-        parts.primaries = emission_spectra_write(measurement, &notes, arena,
-                                                 &parts.primaries_size);
-    progress_update(&progress, 2);
-    if (measurement->incidence_count) {
-        parts.reflection = reflection;
-        if (!reflection_fit(measurement, options, arena, &notes, reflection, err) ||
-            !sample_reflection(&parts, reflection, arena, err))
-            return false;
-    }
-    progress_update(&progress, 3);
-    bool ok = finish_file(&parts, path, arena, report, err);
-    progress_end(&progress, 4);
-    return ok;
+    fit_places_plan(measurement, arena, &places);
+    run.progress = progress_start(options->progress, "fit", "steps", STEPS * (1 + places.panels));
+    if (!fit_whole(&run, measurement, &places, report)) return false;
+    progress_end(&run.progress, STEPS * (1 + places.panels));
+    return true;
 }

@@ -90,6 +90,21 @@ static void write_reflection(FitWriter *writer, const ReflectionResult *r)
     if (has_surface(r)) write_section(writer, PANEL_SURFACE, 0, &surface, 1);
 }
 
+static void write_places(FitWriter *writer, const FitPlaces *places)
+{
+    PanelSpotsHead head = {(uint16_t)places->spots, (uint16_t)places->panels,
+                           {places->own_at[0], places->own_at[1]}};
+    FitPiece spots[2] = {{&head, sizeof head},
+                         {places->spot, (size_t)places->spots * sizeof *places->spot}};
+    FitPiece map = {places->map, places->map_size};
+    write_section(writer, PANEL_SPOTS, 0, spots, 2);
+    for (int k = 0; k < places->panels; k++) {
+        FitPiece file = {places->bytes[k], places->sizes[k]};
+        write_section(writer, PANEL_SPOT_FILE, (uint32_t)k + 1, &file, 1);
+    }
+    if (places->map) write_section(writer, PANEL_MAP, 0, &map, 1);
+}
+
 /* Header and table of contents in front of the sections. */
 static void *finish(FitWriter *writer, uint32_t version, size_t *size)
 {
@@ -119,5 +134,8 @@ void *fit_file_bytes(const FitParts *parts, const char *meta, Arena *arena, size
     if (parts->reflection) write_reflection(&writer, parts->reflection);
     if (parts->emission) write_polarised(&writer, parts->set);
     bool has_frame = parts->reflection && parts->reflection->surface.frame;
-    return finish(&writer, has_frame ? PANEL_VERSION : PANEL_VERSION_PLAIN, size);
+    bool has_places = parts->places && fit_places_are_there(parts->places);
+    if (has_places) write_places(&writer, parts->places);
+    return finish(&writer, has_places  ? PANEL_VERSION_PLACES
+                           : has_frame ? PANEL_VERSION : PANEL_VERSION_PLAIN, size);
 }

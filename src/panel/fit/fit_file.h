@@ -3,7 +3,10 @@
  * Memory   the arena's. Threads: one at a time. Fails: never.
  */
 #pragma once
+#include <jansson.h>
+
 #include "panel/fit/emission/emission_fit.h"
+#include "panel/fit/fit_places.h"
 #include "panel/fit/reflection/reflection_fit.h"
 
 typedef struct FitParts {
@@ -14,6 +17,8 @@ typedef struct FitParts {
     size_t                  primaries_size;
     const ReflectionResult *reflection; /* NULL: none */
     FitNotes               *notes;
+    const FitPlaces        *places; /* NULL: one panel everywhere */
+    const json_t           *spots;  /* what the report says of its panels; NULL: nothing */
     const void             *tables; /* of the report, packed (panel_report.h); NULL: not yet */
     size_t                  tables_size;
 } FitParts;

@@ -224,6 +224,8 @@ json_t *fit_report_measure(const FitParts *parts, const Panel *panel, size_t fil
         fit_report_reflection_tables(parts, panel, tables, &total, &all.reflection);
         fit_report_reflection(parts, panel, out);
     }
+    if (json_array_size(parts->spots))
+        json_object_set(out, "spots", (json_t *)parts->spots);
     json_object_set_new(out, "tables", tables);
     json_object_set_new(out, "total", fit_table_json(&total));
     json_object_set_new(out, "notes", notes_json(parts->notes));

@@ -3,10 +3,10 @@
 
 #include <string.h>
 
-#include "panel/query/panel_components.h"
+#include "panel/query/panel_sources.h"
 #include "panel/query/spectral_warp.h"
 
-static bool is_measured(const Panel *panel, Vec3 direction)
+bool panel_emission_is_measured(const Panel *panel, Vec3 direction)
 {
     return direction.z >= panel->emission->cone_cos - 1e-6f;
 }
@@ -38,35 +38,38 @@ static PanelFloat4 primary_logs(const PanelEmission *e, int primary, float code,
     return low + (high - low) * ((log_f(code) - e->log_code[whole]) / span);
 }
 
-#define DARK (-1e4f) /* a logarithm of nothing */
-
-/* ln X, Y, Z of the four sources of light: red, green, blue (DARK at code 0) and black. */
-static void source_logs(const Panel *panel, Vec3 direction, const float rgb[3],
-                        PanelFloat4 logs[4])
+void panel_source_logs(const Panel *panel, Vec3 direction, const float rgb[3],
+                       PanelFloat4 logs[4])
 {
     const PanelEmission *e = panel->emission;
     float components[PANEL_COMPONENTS_MAX];
     float fall = panel_components(panel, direction, components);
-    for (int s = 0; s < 4; s++) logs[s] = (PanelFloat4){DARK, DARK, DARK, DARK};
+    for (int s = 0; s < 4; s++) logs[s] = (PanelFloat4){0} + PANEL_DARK;
     for (int p = 0; p < 3; p++)
         if (rgb[p] > 0) logs[p] = fall + primary_logs(e, p, rgb[p], components);
     if (e->has_black) logs[3] = fall + row_logs(e->black_rows, components, e->components);
 }
 
-bool panel_emission_xyz(const Panel *panel, Vec3 direction, const float rgb[3], float xyz[3])
+void panel_sources_xyz(const PanelFloat4 logs[4], float xyz[3])
 {
-    PanelFloat4 logs[4];
+    PanelFloat4 light[4];
     Spectrum    all;
-    xyz[0] = xyz[1] = xyz[2] = 0;
-    if (!panel->emission || !(direction.z > 0)) return false;
-    source_logs(panel, direction, rgb, logs);
     memcpy(&all, logs, sizeof all);
     /* e^80 cd m^-2 is more than any display sends: a forged file stays finite. */
     all = spectrum_exp(spectrum_min(all, spectrum_all(80)));
-    memcpy(logs, &all, sizeof all);
-    PanelFloat4 sum = (logs[0] + logs[1]) + (logs[2] + logs[3]);
+    memcpy(light, &all, sizeof all);
+    PanelFloat4 sum = (light[0] + light[1]) + (light[2] + light[3]);
     for (int j = 0; j < 3; j++) xyz[j] = sum[j];
-    return is_measured(panel, direction);
+}
+
+bool panel_emission_xyz(const Panel *panel, Vec3 direction, const float rgb[3], float xyz[3])
+{
+    PanelFloat4 logs[4];
+    xyz[0] = xyz[1] = xyz[2] = 0;
+    if (!panel->emission || !(direction.z > 0)) return false;
+    panel_source_logs(panel, direction, rgb, logs);
+    panel_sources_xyz(logs, xyz);
+    return panel_emission_is_measured(panel, direction);
 }
 
 /* ---- spectra --------------------------------------------------------------------------- */
@@ -86,17 +89,14 @@ static Spectrum spectrum_of(const float *spectrum, const Wavelengths *wavelength
 
 /* S = T exp(c0 + c1 t + c2 t^2) Y, t = (lambda - 560 nm) / 180 nm; strictly positive where T
  * is (spectral_warp.h). */
-Spectrum panel_emission_spectrum(const Panel *panel, Vec3 direction, const float rgb[3],
-                                 const Wavelengths *wavelengths)
+Spectrum panel_sources_spectrum(const Panel *panel, const PanelFloat4 source[4],
+                                const Wavelengths *wavelengths)
 {
-    PanelFloat4 source[4];
-    Spectrum    sum = spectrum_all(0);
-    if (!panel->emission || !(direction.z > 0)) return sum;
-    source_logs(panel, direction, rgb, source);
+    Spectrum sum = spectrum_all(0);
     Spectrum t = (wavelengths->nm - spectrum_all(560)) * spectrum_all(1.0f / 180);
     for (int s = 0; s < 4; s++) {
         float c[3], logs[3] = {source[s][0], source[s][1], source[s][2]};
-        if (logs[1] <= DARK) continue;
+        if (logs[1] <= PANEL_DARK) continue;
         spectral_warp_at(&panel->primaries->warp[s], logs, c);
         Spectrum exponent = (spectrum_all(c[2]) * t + spectrum_all(c[1])) * t +
                             spectrum_all(c[0] + logs[1]);
@@ -106,6 +106,15 @@ Spectrum panel_emission_spectrum(const Panel *panel, Vec3 direction, const float
         sum += spectrum_of(panel->primaries->spectrum[s], wavelengths) * spectrum_exp(exponent);
     }
     return sum;
+}
+
+Spectrum panel_emission_spectrum(const Panel *panel, Vec3 direction, const float rgb[3],
+                                 const Wavelengths *wavelengths)
+{
+    PanelFloat4 source[4];
+    if (!panel->emission || !(direction.z > 0)) return spectrum_all(0);
+    panel_source_logs(panel, direction, rgb, source);
+    return panel_sources_spectrum(panel, source, wavelengths);
 }
 
 PanelPolarisation panel_polarisation(const Panel *panel)

@@ -12,6 +12,7 @@ _Static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "files are queried in 
 
 #define PANEL_MAGIC "PHPANEL\n"
 #define PANEL_VERSION 4u /* of files that a reader of version 3 would misread */
+#define PANEL_VERSION_PLACES 5u /* of files with several spots or a map: one of 4 would too */
 #define PANEL_VERSION_PLAIN 3u /* of all others, so that it can read them */
 #define PANEL_ALIGN 8 /* of sections, bytes */
 #define PANEL_SECTIONS_MAX 64
@@ -39,7 +40,10 @@ typedef enum PanelSectionKind {
     PANEL_SAMPLING = 7,          /* a sampling tree, PanelSampling's counts and thetas */
     PANEL_REPORT_TABLES = 8,   /* panel_report.h: the tables of the report, then the total */
     PANEL_SURFACE = 9,         /* PanelSurfaceStored: how the reflection is read */
-    PANEL_POLARISED = 10       /* PanelPolarisedStored: of the emission; absent: unpolarised */
+    PANEL_POLARISED = 10,      /* PanelPolarisedStored: of the emission; absent: unpolarised */
+    PANEL_SPOTS = 11,          /* PanelSpotsHead and what follows it; absent: one everywhere */
+    PANEL_SPOT_FILE = 12,      /* index 1 on: a panel file of its own, of one spot */
+    PANEL_MAP = 13             /* PanelMapHead and what follows it */
 } PanelSectionKind;
 
 typedef struct PanelSection {
@@ -137,6 +141,35 @@ typedef struct PanelSurfaceStored {
 typedef struct PanelPolarisedStored {
     float degree, azimuth;
 } PanelPolarisedStored;
+
+/* A display that is not the same everywhere. Panel 0 is what the file holds itself, panel k the
+ * file in section PANEL_SPOT_FILE of index k; spots say which of them was measured there, and
+ * between spots the panels count as spot_ground.h says. Places are of the active area, as
+ * there.
+ *
+ * Section   PanelSpotsHead | PanelSpotStored[spots]. Without spots the file's own panel is
+ *           everywhere, and PANEL_MAP is there. */
+typedef struct PanelSpotsHead {
+    uint16_t spots, panels; /* panels: besides the file's own */
+    float    own_at[2];     /* where the file's own was measured */
+} PanelSpotsHead;
+
+typedef struct PanelSpotStored {
+    float    at[2];
+    uint16_t emission, reflection; /* panel */
+} PanelSpotStored;
+
+/* Relative XYZ of the white and of the black pattern over the active area.
+ *
+ * Section   PanelMapHead | for each channel of white, then of black, uint16
+ *           value[height][width], times its scale; the first row at the top. One channel: X, Y
+ *           and Z alike. No channel of black: as white. */
+typedef struct PanelMapHead {
+    uint16_t width, height;
+    uint8_t  white_channels, black_channels, reserved[2]; /* 1 or 3; 0, 1 or 3; 0 */
+    float    scale[6]; /* of white's channels, then black's; behind them 0 */
+} PanelMapHead;
+#define PANEL_MAP_SIDE_MAX 8192
 
 #define PANEL_TABLES_MAX 1152 /* incidences times azimuths */
 #define PANEL_AZIMUTHS_MAX 72

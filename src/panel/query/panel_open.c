@@ -6,6 +6,7 @@
 #include "base/file.h"
 #include "base/units.h"
 #include "panel/query/panel_open_emission.h"
+#include "panel/query/panel_open_places.h"
 #include "panel/query/panel_open_reflection.h"
 #include "panel/query/sampling_make.h"
 
@@ -38,7 +39,8 @@ static bool check_version(const PanelBytes *bytes, const PanelHeader *header,
                           const Panel *panel)
 {
     bool     has_frame = panel->reflection && panel->reflection->frame != PANEL_FRAME_SPECULAR;
-    uint32_t wanted = has_frame ? PANEL_VERSION : PANEL_VERSION_PLAIN;
+    uint32_t wanted = panel->places ? PANEL_VERSION_PLACES
+                      : has_frame   ? PANEL_VERSION : PANEL_VERSION_PLAIN;
     if (header->version == wanted) return true;
     return error_at(bytes->err, ERROR_INPUT, bytes->name, "header",
                     "has version %u, wanted %u for what the file holds; it is damaged: fit the "
@@ -65,30 +67,82 @@ static bool open_polarised(const PanelBytes *bytes, Panel *panel)
     return true;
 }
 
-bool panel_from_bytes(const void *data, size_t size, const char *name, Arena *arena,
-                      Panel **out, Error *err)
+/* All of a file but its places and the warps. */
+static bool open_one(const PanelBytes *bytes, Arena *arena, PanelHeader *header, Panel **out)
 {
-    PanelBytes  bytes = {data, size, name, err}, meta, figures = {0};
-    PanelHeader header;
-    int         level;
-    bool        has_figures;
-    if (!panel_check_header(&bytes, &header) || !finest_level(&bytes, &level) ||
-        !panel_need_section(&bytes, PANEL_META, 0, &meta) ||
-        !panel_find_section(&bytes, PANEL_REPORT_TABLES, 0, &figures, &has_figures))
+    PanelBytes meta, figures = {0};
+    int        level;
+    bool       has_figures;
+    if (!panel_check_header(bytes, header) || !finest_level(bytes, &level) ||
+        !panel_need_section(bytes, PANEL_META, 0, &meta) ||
+        !panel_find_section(bytes, PANEL_REPORT_TABLES, 0, &figures, &has_figures))
         return false;
     const Geodesic *geodesic = geodesic_create(level, arena);
     Panel *panel = ARENA_NEW(arena, Panel, 1);
-    panel->size = size;
+    panel->size = bytes->size;
     panel->meta = (const char *)meta.data;
     panel->meta_size = meta.size;
     panel->figures = has_figures ? figures.data : NULL;
     panel->figures_size = figures.size;
-    if (!panel_open_emission(&bytes, geodesic, arena, panel) ||
-        !panel_open_reflection(&bytes, geodesic, arena, panel) ||
-        !open_polarised(&bytes, panel) || !check_version(&bytes, &header, panel))
+    if (!panel_open_emission(bytes, geodesic, arena, panel) ||
+        !panel_open_reflection(bytes, geodesic, arena, panel) ||
+        !open_polarised(bytes, panel))
         return false;
     if (!panel->emission && !panel->reflection)
-        return panel_refuse(&bytes, "table of contents", "neither emits nor reflects");
+        return panel_refuse(bytes, "table of contents", "neither emits nor reflects");
+    *out = panel;
+    return true;
+}
+
+static bool check_sampling(const PanelBytes *bytes, const Panel *panel)
+{
+    return !panel->reflection || panel->sampling.incidences ||
+           panel_refuse(bytes, "table of contents",
+                        "a reflection stands without its sampling tree");
+}
+
+/* A spot's panel is a file in the file, of one place. */
+static bool open_spot(const PanelBytes *bytes, int index, Arena *arena, const Panel **out)
+{
+    PanelBytes  at, inner;
+    PanelHeader header;
+    Panel      *panel;
+    bool        has_spots, has_map;
+    if (!panel_need_section(bytes, PANEL_SPOT_FILE, (uint32_t)index, &at)) return false;
+    if (!open_one(&at, arena, &header, &panel) || !check_version(&at, &header, panel) ||
+        !check_sampling(&at, panel) ||
+        !panel_find_section(&at, PANEL_SPOTS, 0, &inner, &has_spots) ||
+        !panel_find_section(&at, PANEL_MAP, 0, &inner, &has_map))
+        return error_prefix(bytes->err, "a spot's own file") && false;
+    if (has_spots || has_map)
+        return panel_refuse(bytes, "spots", "a spot's own file has places again");
+    *out = panel;
+    return true;
+}
+
+static bool open_places(const PanelBytes *bytes, Arena *arena, Panel *panel)
+{
+    PanelPlaces *places;
+    if (!panel_read_places(bytes, arena, &places)) return false;
+    if (!places) return true;
+    places->panel[0] = panel;
+    for (int k = 1; k < places->panels; k++)
+        if (!open_spot(bytes, k, arena, &places->panel[k])) return false;
+    if (!panel_finish_places(bytes, arena, places)) return false;
+    for (int k = 1; k < places->panels; k++) panel_open_warps((Panel *)places->panel[k]);
+    panel->places = places;
+    return true;
+}
+
+bool panel_from_bytes(const void *data, size_t size, const char *name, Arena *arena,
+                      Panel **out, Error *err)
+{
+    PanelBytes  bytes = {data, size, name, err};
+    PanelHeader header;
+    Panel      *panel;
+    if (!open_one(&bytes, arena, &header, &panel) || !open_places(&bytes, arena, panel) ||
+        !check_version(&bytes, &header, panel))
+        return false;
     panel_open_warps(panel);
     *out = panel;
     return true;
@@ -98,10 +152,9 @@ bool panel_open_memory(const void *data, size_t size, const char *name, Arena *a
                        Panel **out, Error *err)
 {
     Panel *panel;
-    if (!panel_from_bytes(data, size, name, arena, &panel, err)) return false;
-    if (panel->reflection && !panel->sampling.incidences)
-        return panel_refuse(&(PanelBytes){data, size, name, err}, "table of contents",
-                            "a reflection stands without its sampling tree");
+    if (!panel_from_bytes(data, size, name, arena, &panel, err) ||
+        !check_sampling(&(PanelBytes){data, size, name, err}, panel))
+        return false;
     *out = panel;
     return true;
 }

@@ -14,6 +14,7 @@
 #include "panel/query/panel_beam.h"
 #include "panel/query/panel_file.h"
 #include "panel/query/panel_spline.h"
+#include "panel/query/spot_ground.h"
 #include "panel/query/spectral_warp.h"
 #include "spectrum/spectral_table.h"
 
@@ -93,6 +94,28 @@ typedef struct PanelSampling {
     const float *theta;      /* radians, rising */
 } PanelSampling;
 
+/* The uniformity map as it stands in the file. */
+typedef struct PanelMap {
+    int             width, height;
+    const uint16_t *value[2][3]; /* white, black; X, Y, Z: may be the same */
+    float           scale[2][3];
+    bool            has_black;
+} PanelMap;
+
+/* What a panel is by place (PANEL_SPOTS). */
+typedef struct PanelPlaces {
+    int              panels; /* [0] is the file's own */
+    const Panel    **panel;
+    const float    (*measured_at)[2]; /* of each panel */
+    int              spots; /* 0: panel 0 is everywhere */
+    SpotGround       ground;
+    const uint16_t  *emission, *reflection; /* panel of each spot */
+    const PanelMap  *map; /* NULL: none */
+    /* Of each panel, what the map says where it was measured, and its black over its white
+     * along the normal; X, Y, Z. */
+    const float    (*white)[3], (*black)[3], (*dark)[3];
+} PanelPlaces;
+
 static inline bool panel_makes_sampling(const PanelReflection *reflection)
 {
     return reflection->tables == 1;
@@ -112,6 +135,7 @@ struct Panel {
     const PanelReflection *reflection; /* NULL: reflects nothing */
     Tree         reflection_tree;
     PanelSampling sampling;
+    const PanelPlaces *places; /* NULL: the same everywhere */
     int16_t      wavelength_index[SPECTRAL_COUNT]; /* interval that begins at or below a nm */
     float        wavelength_scale[PANEL_WAVELENGTHS_MAX]; /* 1 / interval's width */
 };

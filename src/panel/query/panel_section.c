@@ -25,11 +25,11 @@ bool panel_check_header(const PanelBytes *bytes, PanelHeader *header)
         return error_at(bytes->err, ERROR_INPUT, bytes->name, "",
                         "is no panel file, wanted one that `panel fit` wrote");
     memcpy(header, bytes->data, sizeof *header);
-    if ((header->version != PANEL_VERSION && header->version != PANEL_VERSION_PLAIN) ||
+    if (header->version < PANEL_VERSION_PLAIN || header->version > PANEL_VERSION_PLACES ||
         header->flags)
         return error_at(bytes->err, ERROR_INPUT, bytes->name, "header",
-                        "has version %u, wanted %u or %u: fit the panel again", header->version,
-                        PANEL_VERSION_PLAIN, PANEL_VERSION);
+                        "has version %u, wanted %u to %u: fit the panel again", header->version,
+                        PANEL_VERSION_PLAIN, PANEL_VERSION_PLACES);
     if (header->size != bytes->size)
         return error_at(bytes->err, ERROR_INPUT, bytes->name, "header",
                         "has %zu bytes, wanted %llu: the file is cut or grown", bytes->size,

@@ -35,6 +35,22 @@ static double angular_falloff(const SyntheticPanel *panel, const double angles[2
     return pow_d(c > 0 ? c : 0, power) * through * (1 + lobe);
 }
 
+SyntheticPanel closed_form_at(const SyntheticPanel *panel, const double place[2])
+{
+    const SyntheticPlaces *p = &panel->places;
+    SyntheticPanel out = *panel;
+    double x = place[0] - 0.5, y = place[1] - 0.5;
+    double wave = cos_d(2 * PI * p->mura_cycles[0] * x) * cos_d(2 * PI * p->mura_cycles[1] * y);
+    double even = (1 + p->slope[0] * x + p->slope[1] * y) * (1 + p->mura * wave);
+    double tint[3] = {1 + p->tint * x, 1, 1 - p->tint * x};
+    for (int k = 0; k < 3; k++)
+        for (int j = 0; j < 3; j++) out.emission.primary[k].white_xyz[j] *= even * tint[j];
+    out.emission.black_cd_m2 *= even * (1 + p->clouding * 16 * x * x * y * y);
+    out.emission.lobe_gain *= 1 + p->lobe_slope * x;
+    out.reflection.haze_share *= 1 + p->haze_slope * x;
+    return out;
+}
+
 void closed_form_emission_xyz(const SyntheticPanel *panel, int primary, double code,
                               const double angles[2], double xyz[3])
 {

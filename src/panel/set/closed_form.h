@@ -7,6 +7,9 @@
 #pragma once
 #include "panel/set/synthetic_panel.h"
 
+/* The panel as it is at a place {u, v}, for all that follows. */
+SyntheticPanel closed_form_at(const SyntheticPanel *panel, const double place[2]);
+
 /* E_p: what level `code` of primary 0..2 adds to the black pattern. */
 void closed_form_emission_xyz(const SyntheticPanel *panel, int primary, double code,
                               const double angles[2], double xyz[3]);

@@ -7,8 +7,8 @@
 
 #include "base/file.h"
 #include "base/units.h"
+#include "panel/set/primary_spectra.h"
 #include "panel/set/white_split.h"
-#include "text/csv_table.h"
 #include "text/json_view.h"
 #include "text/nearest_word.h"
 
@@ -124,6 +124,9 @@ static bool check_full_level(const Measurement *set, const LevelTable *levels, E
 bool measurement_read_levels(Measurement *set, const char *file, Arena *arena, Error *err)
 {
     LevelTable *levels = ARENA_NEW(arena, LevelTable, 1);
+    if (set->spot_count)
+        return error_at(err, ERROR_INPUT, set->file, "/spots", "has spots, each with tables of "
+                        "its own: name '%s' as 'levels' in the emission of each", file);
     if (!set->is_white_only)
         return error_at(err, ERROR_INPUT, set->file, "", "has no white table alone, so that "
                         "the level table '%s' has nothing to give levels to: %s", file,
@@ -159,7 +162,8 @@ static bool read_emission(const JsonView *root, Measurement *out, Error *err)
 {
     static const char *const keys[] = {"black", "red", "green", "blue", "white", "levels"};
     JsonView view;
-    bool needed = !json_object_get(root->object, "reflection");
+    bool needed = !json_object_get(root->object, "reflection") &&
+                  !json_object_get(root->object, "spots");
     if (!json_view_child(root, "emission", needed, &view, err)) return false;
     if (!view.object) return true; /* a surface that only reflects */
     if (!json_view_check_keys(&view, keys, COUNT(keys), err)) return false;
@@ -174,76 +178,6 @@ static bool read_emission(const JsonView *root, Measurement *out, Error *err)
     out->has_black = true;
     for (int p = 0; p < 3; p++)
         if (!read_primary(&view, p, &out->primary[p], err)) return false;
-    return true;
-}
-
-/* ---- spectra --------------------------------------------------------------------------- */
-
-/* Linear between measured wavelengths, zero outside them. */
-static void resample_spectrum(const CsvTable *csv, int nm_column, int column, float *out)
-{
-    size_t width = (size_t)csv->columns;
-    int    last = 0;
-    for (int i = 0; i < SPECTRAL_COUNT; i++) {
-        float nm = (float)(SPECTRAL_FIRST_NM + i);
-        while (last + 2 < csv->rows &&
-               csv->cell[(size_t)(last + 1) * width + (size_t)nm_column] <= nm)
-            last++;
-        const float *a = csv->cell + (size_t)last * width;
-        const float *b = csv->rows > 1 ? a + width : a;
-        float t = b[nm_column] > a[nm_column] ? (nm - a[nm_column]) /
-                                                (b[nm_column] - a[nm_column]) : 0;
-        float value = a[column] + (b[column] - a[column]) * t;
-        out[i] = t >= 0 && t <= 1 && value > 0 ? value : 0;
-    }
-}
-
-static bool check_spectra(const CsvTable *csv, int nm_column, Arena *arena, Error *err)
-{
-    for (int i = 0; i < csv->rows; i++) {
-        const float *row = csv->cell + (size_t)i * (size_t)csv->columns;
-        if (i && !(row[nm_column] > row[nm_column - csv->columns]))
-            return error_at(err, ERROR_INPUT, csv->file, csv_table_place(csv, i, arena),
-                            "wavelength %g follows %g, wanted rising wavelengths",
-                            (double)row[nm_column], (double)row[nm_column - csv->columns]);
-    }
-    return true;
-}
-
-static bool spectrum_has_light(const float *spectrum)
-{
-    for (int i = 0; i < SPECTRAL_COUNT; i++)
-        if (spectrum[i] > 0 && spectral_table[i].y > 0) return true;
-    return false;
-}
-
-static bool read_spectra(const char *file, Arena *arena, Measurement *out, Error *err)
-{
-    static const char *const known[] = {"nm", "red", "green", "blue", "black"};
-    CsvTable csv;
-    if (!csv_table_read(file, arena, &csv, err)) return false;
-    for (int c = 0; c < csv.columns; c++) {
-        bool found = false;
-        for (int i = 0; i < COUNT(known); i++) found |= !strcmp(csv.name[c], known[i]);
-        if (!found)
-            return error_at(err, ERROR_INPUT, file, "header line",
-                            "column '%s' is unknown; the nearest known one is '%s'",
-                            csv.name[c], nearest_word(csv.name[c], known, COUNT(known)));
-    }
-    int nm = csv_table_column(&csv, "nm");
-    for (int i = 0; i < 4; i++)
-        if (csv_table_column(&csv, known[i]) < 0)
-            return error_at(err, ERROR_INPUT, file, "header line", "has no column '%s'",
-                            known[i]);
-    if (!check_spectra(&csv, nm, arena, err)) return false;
-    for (int p = 0; p < 3; p++) {
-        resample_spectrum(&csv, nm, csv_table_column(&csv, primary_names[p]),
-                          out->spectrum[p]);
-        if (!spectrum_has_light(out->spectrum[p]))
-            return error_at(err, ERROR_INPUT, file, "", "column '%s' holds no light between "
-                            "360 and 830 nm", primary_names[p]);
-    }
-    out->has_spectra = true;
     return true;
 }
 
@@ -418,6 +352,135 @@ static bool read_reflection(const JsonView *root, Measurement *out, Error *err)
     return read_azimuths(&view, pattern, out, err) && read_slices(&view, pattern, out, err);
 }
 
+/* ---- spots ------------------------------------------------------------------------------- */
+
+static bool missing_position(const JsonView *view, Error *err)
+{
+    bool has_both = json_object_get(view->object, "position") != NULL;
+    return error_at(err, ERROR_INPUT, view->file, view->path, has_both
+        ? "has both 'position' and 'position_mm', wanted one of them"
+        : "key 'position' is missing (or 'position_mm')");
+}
+
+/* From the upper left corner of the active area, right and down; shares of its size. */
+static bool read_position(const JsonView *view, const double size_mm[2], double at[2],
+                          Error *err)
+{
+    int         count = 0;
+    bool        is_mm = json_object_get(view->object, "position_mm") != NULL;
+    const char *key = is_mm ? "position_mm" : "position";
+    if (is_mm == (json_object_get(view->object, "position") != NULL))
+        return missing_position(view, err);
+    if (is_mm && !(size_mm[0] > 0 && size_mm[1] > 0))
+        return error_at(err, ERROR_INPUT, view->file, json_view_path(view, key),
+                        "is there, but the manifest has no 'size_mm'");
+    if (!json_view_numbers(view, key, (JsonRange){0, is_mm ? 1e5 : 1, 2}, at, &count, err))
+        return false;
+    if (count != 2)
+        return error_at(err, ERROR_INPUT, view->file, json_view_path(view, key),
+                        "holds one number, wanted two: to the right and down");
+    for (int k = 0; k < 2 && is_mm; k++) {
+        if (at[k] > size_mm[k])
+            return error_at(err, ERROR_INPUT, view->file, json_view_path(view, key),
+                            "is %g, wanted 0 to %g mm, the active area", at[k], size_mm[k]);
+        at[k] /= size_mm[k];
+    }
+    return true;
+}
+
+static bool has_part(const JsonView *view, const char *key)
+{
+    return json_object_get(view->object, key) != NULL;
+}
+
+/* A spot with what the manifest has for it. */
+static bool read_spot(const JsonView *root, const JsonView *view, const Measurement *whole,
+                      MeasuredSpot *out, Error *err)
+{
+    static const char *const keys[] = {"position", "position_mm", "emission", "reflection"};
+    if (!json_view_check_keys(view, keys, COUNT(keys), err) ||
+        !read_position(view, whole->size_mm, out->at, err))
+        return false;
+    out->has_emission = has_part(view, "emission");
+    out->has_reflection = has_part(view, "reflection");
+    if (!out->has_emission && !out->has_reflection)
+        return error_at(err, ERROR_INPUT, view->file, view->path,
+                        "has neither 'emission' nor 'reflection'");
+    for (int k = 0; k < 2; k++) {
+        const char *key = k ? "reflection" : "emission";
+        bool is_elsewhere = k ? whole->spots_reflect : whole->spots_emit;
+        if (!has_part(view, key) && is_elsewhere && !has_part(root, key))
+            return error_at(err, ERROR_INPUT, view->file, view->path, "has no '%s' as other "
+                            "spots have, and the manifest has none that would serve", key);
+    }
+    out->set = ARENA_NEW(view->arena, Measurement, 1);
+    *out->set = (Measurement){.file = whole->file, .panel = whole->panel,
+        .instrument = whole->instrument, .note = "", .pixels = {whole->pixels[0],
+        whole->pixels[1]}, .size_mm = {whole->size_mm[0], whole->size_mm[1]},
+        .instrument_fwhm_deg = whole->instrument_fwhm_deg};
+    return read_emission(view, out->set, err) && read_reflection(view, out->set, err);
+}
+
+static bool check_apart(const JsonView *view, const MeasuredSpot *spot, int index, Error *err)
+{
+    for (int k = 0; k < index; k++)
+        if ((float)spot[k].at[0] == (float)spot[index].at[0] &&
+            (float)spot[k].at[1] == (float)spot[index].at[1])
+            return error_at(err, ERROR_INPUT, view->file, view->path,
+                            "is at the same place as spot %d: %g, %g", k, spot[k].at[0],
+                            spot[k].at[1]);
+    return true;
+}
+
+static bool read_spots(const JsonView *root, Measurement *out, Error *err)
+{
+    json_t *list = json_object_get(root->object, "spots"), *spot;
+    size_t  i, count = json_array_size(list);
+    if (!list) return true;
+    if (!json_is_array(list)) return json_view_wrong_kind(root, "spots", list, "a list", err);
+    if (count < 1 || count > MEASUREMENT_SPOTS_MAX)
+        return error_at(err, ERROR_INPUT, root->file, json_view_path(root, "spots"),
+                        "holds %zu spots, wanted 1 to %d", count, MEASUREMENT_SPOTS_MAX);
+    out->spot = ARENA_NEW(root->arena, MeasuredSpot, count);
+    json_array_foreach(list, i, spot) {
+        out->spots_emit |= json_object_get(spot, "emission") != NULL;
+        out->spots_reflect |= json_object_get(spot, "reflection") != NULL;
+    }
+    json_array_foreach(list, i, spot) {
+        JsonView view = *root;
+        view.object = spot;
+        view.path = arena_format(root->arena, "%s/spots/%zu", root->path, i);
+        if (!json_is_object(spot))
+            return error_at(err, ERROR_INPUT, view.file, view.path, "wanted an object");
+        if (!read_spot(root, &view, out, &out->spot[i], err) ||
+            !check_apart(&view, out->spot, (int)i, err))
+            return false;
+    }
+    out->spot_count = (int)count;
+    return true;
+}
+
+/* Spots have the spectra of the one panel. */
+static void share_spectra(Measurement *out)
+{
+    for (int i = 0; i < out->spot_count && out->has_spectra; i++) {
+        out->spot[i].set->has_spectra = true;
+        memcpy(out->spot[i].set->spectrum, out->spectrum, sizeof out->spectrum);
+    }
+}
+
+static bool read_map(const JsonView *root, Measurement *out, Error *err)
+{
+    JsonView view;
+    if (!json_view_child(root, "uniformity", false, &view, err)) return false;
+    if (view.object && !json_object_get(root->object, "emission") && !out->spots_emit)
+        return error_at(err, ERROR_INPUT, view.file, view.path, "says how even the emission "
+                        "is, but the set has none");
+    return uniformity_map_read(&view, out->size_mm, &out->map, err);
+}
+
+/* ---- all --------------------------------------------------------------------------------- */
+
 /* Of the emitted light; absent: unpolarised. */
 static bool read_polarisation(const JsonView *root, Measurement *out, Error *err)
 {
@@ -434,7 +497,7 @@ static bool read_polarisation(const JsonView *root, Measurement *out, Error *err
         if (!json_object_get(view.object, keys[i]))
             return error_at(err, ERROR_INPUT, view.file, view.path, "key '%s' is missing",
                             keys[i]);
-    if (!json_object_get(root->object, "emission"))
+    if (!json_object_get(root->object, "emission") && !out->spots_emit)
         return error_at(err, ERROR_INPUT, view.file, view.path, "says how the emitted light is "
                         "polarised, but the set has no 'emission'");
     azimuth = fmod(azimuth, 180);
@@ -445,7 +508,8 @@ static bool read_polarisation(const JsonView *root, Measurement *out, Error *err
 static bool read_members(const JsonView *root, Measurement *out, Error *err)
 {
     static const char *const keys[] = {"panel", "instrument", "note", "pixels", "size_mm",
-        "instrument_fwhm_deg", "emission", "primaries", "reflection", "polarisation"};
+        "instrument_fwhm_deg", "emission", "primaries", "reflection", "polarisation",
+        "spots", "uniformity"};
     int         two = 2;
     const char *primaries = NULL;
     bool ok = json_view_check_keys(root, keys, COUNT(keys), err) &&
@@ -459,11 +523,14 @@ static bool read_members(const JsonView *root, Measurement *out, Error *err)
                            out->size_mm, &two, err) &&
         json_view_number(root, "instrument_fwhm_deg", 0.05, 15, &out->instrument_fwhm_deg,
                          err) &&
-        read_polarisation(root, out, err) && read_emission(root, out, err) &&
-        read_reflection(root, out, err);
+        read_emission(root, out, err) && read_reflection(root, out, err) &&
+        read_spots(root, out, err) && read_polarisation(root, out, err) &&
+        read_map(root, out, err);
     if (!ok || !primaries) return ok;
-    return json_view_file(root, "primaries", primaries, &primaries, err) &&
-           read_spectra(primaries, root->arena, out, err);
+    out->has_spectra = json_view_file(root, "primaries", primaries, &primaries, err) &&
+                       primary_spectra_read(primaries, root->arena, out->spectrum, err);
+    share_spectra(out);
+    return out->has_spectra;
 }
 
 /* A lone CSV: white only. */

@@ -10,11 +10,13 @@
 #include "panel/set/angle_table.h"
 #include "panel/set/level_table.h"
 #include "panel/set/measured_primary.h"
+#include "panel/set/uniformity_map.h"
 #include "spectrum/spectral_table.h"
 
 #define MEASUREMENT_INCIDENCES_MAX 32
 #define MEASUREMENT_WAVELENGTHS_MAX 256
 #define MEASUREMENT_AZIMUTHS_MAX 72
+#define MEASUREMENT_SPOTS_MAX 49
 #define MEASUREMENT_TABLES_MAX 1152 /* of reflection: incidences times azimuths */
 
 typedef struct Measurement {
@@ -40,7 +42,19 @@ typedef struct Measurement {
     int         azimuth_count; /* of the light; 1: isotropic, symmetric in phi */
     double      azimuth[MEASUREMENT_AZIMUTHS_MAX]; /* radians, rising, [0, 2 pi) */
     AngleTable *brdf; /* azimuth * incidence_count + incidence; channels: wavelengths */
+    int         spot_count; /* 0: what stands above was measured at one place */
+    struct MeasuredSpot *spot;
+    bool        spots_emit, spots_reflect; /* some of them */
+    const UniformityMap *map; /* NULL: none */
 } Measurement;
+
+/* What was measured at a place of the active area. What a spot leaves out, the set's own tables
+ * say there; they are there then. */
+typedef struct MeasuredSpot {
+    double       at[2]; /* u from 0 at the left to 1 at the right, v from 0 at the top to 1 */
+    bool         has_emission, has_reflection;
+    Measurement *set;   /* its tables; names, sizes and spectra are the whole set's */
+} MeasuredSpot;
 
 /* Reads MANIFEST.json and every table it names; a path that ends in .csv is one white-only
  * table (theta, phi and X, Y, Z or Y, x, y). Tables lie below the parent of the manifest's

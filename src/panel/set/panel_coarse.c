@@ -150,7 +150,7 @@ static void compare_reflection(const Panel *panel, int level, Arena scratch, Dif
     out->largest *= weight_growth(r);
 }
 
-void panel_coarsen(Panel *panel, int level, Arena scratch, PanelCoarse *out)
+static void coarsen_one(Panel *panel, int level, Arena scratch, PanelCoarse *out)
 {
     Tree       *emission = &panel->emission_tree, *reflection = &panel->reflection_tree;
     Differences found;
@@ -166,5 +166,24 @@ void panel_coarsen(Panel *panel, int level, Arena scratch, PanelCoarse *out)
         out->reflection_max = relative(found.largest);
         out->reflection_rms = rms(&found);
         reflection->level = clamped(reflection, level);
+    }
+}
+
+static void keep_worst(const PanelCoarse *one, PanelCoarse *out)
+{
+    out->emission_max = fmax(out->emission_max, one->emission_max);
+    out->emission_rms = fmax(out->emission_rms, one->emission_rms);
+    out->reflection_max = fmax(out->reflection_max, one->reflection_max);
+    out->reflection_rms = fmax(out->reflection_rms, one->reflection_rms);
+}
+
+void panel_coarsen(Panel *panel, int level, Arena scratch, PanelCoarse *out)
+{
+    const PanelPlaces *places = panel->places;
+    coarsen_one(panel, level, scratch, out);
+    for (int k = 1; places && k < places->panels; k++) {
+        PanelCoarse one;
+        coarsen_one((Panel *)places->panel[k], level, scratch, &one);
+        keep_worst(&one, out);
     }
 }

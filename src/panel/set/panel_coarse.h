@@ -28,5 +28,6 @@ typedef struct PanelCoarse {
  * of each is the nearest one in its own. */
 void panel_coarse_range(const Panel *panel, int *least, int *most);
 
-/* From now on all queries of values read the trees down to `level`, which is in the range. */
+/* From now on all queries of values read the trees down to `level`, which is in the range; of
+ * several spots too, and then the differences are the worst of theirs. */
 void panel_coarsen(Panel *panel, int level, Arena scratch, PanelCoarse *out);

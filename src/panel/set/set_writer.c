@@ -51,6 +51,18 @@ static bool make_folder(SetWriter *writer, const char *path)
     return true;
 }
 
+/* All folders of a name beside the manifest, the outer ones first. */
+static bool make_folders(SetWriter *writer, const char *path, const char *name)
+{
+    size_t before = strlen(path) - strlen(name);
+    if (!make_folder(writer, writer->manifest)) return false;
+    for (size_t i = 0; name[i]; i++)
+        if (name[i] == '/' &&
+            !make_folder(writer, arena_string(&writer->arena, path, before + i + 2)))
+            return false;
+    return true;
+}
+
 /* The file's place in the list, a new one at its end; NULL when it may not be replaced. */
 static SetFile *find_file(SetWriter *writer, const char *path)
 {
@@ -69,7 +81,7 @@ static SetFile *find_file(SetWriter *writer, const char *path)
 bool set_writer_add(SetWriter *writer, const char *name, const Text *text)
 {
     const char *path = path_beside(writer->manifest, name, &writer->arena);
-    if (!make_folder(writer, writer->manifest) || !make_folder(writer, path)) return false;
+    if (!make_folders(writer, path, name)) return false;
     SetFile *file = find_file(writer, path);
     if (!file) return false;
     FILE *stream = fopen(file->temporary, "wb");

@@ -27,7 +27,7 @@ typedef struct SetWriter {
  * outlive the writer. After a failure there is nothing to close. */
 bool set_writer_open(const char *manifest, SetWriter *out, Error *err);
 
-/* name: as the manifest names it, "emission/black.csv". Its folder and the manifest's are made
+/* name: as the manifest names it, "emission/black.csv". Its folders and the manifest's are made
  * when absent; a name that was added already is written again. */
 bool set_writer_add(SetWriter *writer, const char *name, const Text *text);
 

@@ -14,7 +14,8 @@
 static const char *const primary_names[3] = {"red", "green", "blue"};
 
 typedef struct Instrument {
-    const SyntheticPanel *panel;
+    const SyntheticPanel *panel; /* where it measures */
+    const char *prefix;          /* of its tables' names: "", "spot_1/" */
     SetWriter writer;
     Progress  progress;
     int       tables_done;
@@ -77,8 +78,10 @@ static bool write_emission(Instrument *instrument, int primary, double level)
                                            (uint32_t)(3 * i + j)));
         text_add(&text, "\n");
     }
-    const char *name = primary < 0 ? "emission/black.csv"
-        : arena_format(&arena, "emission/%s_%03g.csv", primary_names[primary], level);
+    const char *name = primary < 0
+        ? arena_format(&arena, "%semission/black.csv", instrument->prefix)
+        : arena_format(&arena, "%semission/%s_%03g.csv", instrument->prefix,
+                       primary_names[primary], level);
     return write_table(instrument, name, &text);
 }
 
@@ -128,7 +131,8 @@ static bool write_brdf(Instrument *instrument, double incidence_deg)
         add_brdf_row(instrument, &text, radians_from_degrees(incidence_deg), degrees,
                      (uint32_t)i);
     }
-    const char *name = arena_format(&arena, "brdf/i%.10g.csv", incidence_deg);
+    const char *name = arena_format(&arena, "%sbrdf/i%.10g.csv", instrument->prefix,
+                                    incidence_deg);
     return write_table(instrument, name, &text);
 }
 
@@ -167,18 +171,143 @@ static void add_list(Text *text, const char *key, const double *value, int count
     text_add(text, "]");
 }
 
-static void add_emission(Text *text, const SyntheticEmission *emission)
+static void add_emission(Text *text, const SyntheticEmission *emission, const char *prefix)
 {
-    text_add(text, "  \"emission\": {\n    \"black\": \"emission/black.csv\"");
+    text_format(text, "\"emission\": {\n    \"black\": \"%semission/black.csv\"", prefix);
     for (int p = 0; p < 3; p++) {
         text_format(text, ",\n    \"%s\": {", primary_names[p]);
         for (int i = 0; i < emission->level_count; i++)
-            text_format(text, "%s\"%g\": \"emission/%s_%03g.csv\"", i ? ", " : "",
-                     emission->level[i], primary_names[p], emission->level[i]);
+            text_format(text, "%s\"%g\": \"%semission/%s_%03g.csv\"", i ? ", " : "",
+                     emission->level[i], prefix, primary_names[p], emission->level[i]);
         text_add(text, "}");
     }
-    text_add(text, "\n  },\n");
+    text_add(text, "\n  }");
 }
+
+static void add_reflection(Text *text, const SyntheticReflection *reflection,
+                           const char *prefix)
+{
+    text_add(text, ",\n  \"reflection\": {");
+    add_list(text, "wavelengths_nm", reflection->wavelength_nm, reflection->wavelength_count);
+    text_add(text, ",\n    ");
+    add_list(text, "incidence_deg", reflection->incidence_deg, reflection->incidence_count);
+    text_format(text, ",\n    \"files\": \"%sbrdf/i{incidence}.csv\"}", prefix);
+}
+
+/* ---- places ------------------------------------------------------------------------------ */
+
+static bool reflects_by_place(const SyntheticPanel *panel)
+{
+    return panel->reflection.exists && panel->places.spots && panel->places.haze_slope != 0;
+}
+
+static const char *spot_prefix(int spot, Arena *arena)
+{
+    return arena_format(arena, "spot_%d/", spot + 1);
+}
+
+static void add_spots(Text *text, const SyntheticPanel *panel)
+{
+    const SyntheticPlaces *places = &panel->places;
+    text_add(text, "  \"spots\": [");
+    for (int i = 0; i < places->spots; i++) {
+        const char *prefix = spot_prefix(i, text->arena);
+        text_format(text, "%s\n  {\"position\": [%.10g, %.10g],\n   ", i ? "," : "",
+                    places->u[i], places->v[i]);
+        add_emission(text, &panel->emission, prefix);
+        if (reflects_by_place(panel)) add_reflection(text, &panel->reflection, prefix);
+        text_add(text, "}");
+    }
+    text_add(text, "],\n");
+}
+
+static void add_uniformity(Text *text, const SyntheticPlaces *places)
+{
+    text_add(text, ",\n  \"uniformity\": {\"file\": \"uniformity.csv\"");
+    if (places->bend != 0)
+        text_format(text, ", \"bend_deg\": %.10g", degrees_from_radians(places->bend));
+    text_add(text, "}");
+}
+
+/* White and black of one pixel, as the camera sees them from far before the middle. */
+static void add_pixel(Instrument *instrument, Text *text, int column, int row)
+{
+    const SyntheticPanel *panel = instrument->panel;
+    const int     *map = panel->places.map;
+    double         place[2] = {(column + 0.5) / map[0], (row + 0.5) / map[1]}, xyz[2][3];
+    double         turn = panel->places.bend * (place[0] - 0.5);
+    double         angles[2] = {fabs(turn), turn < 0 ? PI : 0};
+    SyntheticPanel local = closed_form_at(panel, place);
+    closed_form_black_xyz(&local, angles, xyz[1]);
+    for (int j = 0; j < 3; j++) xyz[0][j] = xyz[1][j];
+    for (int p = 0; p < 3; p++) {
+        double add[3];
+        closed_form_emission_xyz(&local, p, 255, angles, add);
+        for (int j = 0; j < 3; j++) xyz[0][j] += add[j];
+    }
+    text_format(text, "%d,%d", column, row);
+    for (int k = 0; k < 6; k++) {
+        uint32_t index = 6 * (uint32_t)(row * map[0] + column) + (uint32_t)k;
+        double value = noisy(instrument, xyz[k / 3][k % 3], panel->instrument.noise_cd_m2,
+                             index);
+        text_format(text, ",%.6g", fmax(0, value));
+    }
+    text_add(text, "\n");
+}
+
+static bool write_map(Instrument *instrument)
+{
+    const int *map = instrument->panel->places.map;
+    Arena      arena = instrument->scratch;
+    Text       text = {.arena = &arena};
+    text_add(&text, "column,row,X,Y,Z,black_X,black_Y,black_Z\n");
+    for (int row = 0; row < map[1]; row++)
+        for (int column = 0; column < map[0]; column++)
+            add_pixel(instrument, &text, column, row);
+    return write_table(instrument, "uniformity.csv", &text);
+}
+
+static bool write_all_brdf(Instrument *instrument)
+{
+    const SyntheticReflection *r = &instrument->panel->reflection;
+    bool ok = true;
+    for (int i = 0; i < r->incidence_count && ok && r->exists; i++)
+        ok = write_brdf(instrument, r->incidence_deg[i]);
+    return ok;
+}
+
+/* Every table: of the middle, or of all spots. */
+static bool write_places(Instrument *instrument)
+{
+    const SyntheticPanel *panel = instrument->panel;
+    const SyntheticPlaces *places = &panel->places;
+    Arena *arena = &instrument->writer.arena;
+    double middle[2] = {0.5, 0.5};
+    bool   ok = true;
+    for (int i = 0; i < (places->spots ? places->spots : 1) && ok; i++) {
+        double at[2] = {places->u[i], places->v[i]};
+        SyntheticPanel local = closed_form_at(panel, places->spots ? at : middle);
+        instrument->panel = &local;
+        if (places->spots) instrument->prefix = spot_prefix(i, arena);
+        ok = write_all_emission(instrument) &&
+             (!reflects_by_place(panel) || write_all_brdf(instrument));
+        instrument->panel = panel;
+        instrument->prefix = "";
+    }
+    return ok && (reflects_by_place(panel) || write_all_brdf(instrument)) &&
+           (!places->map[0] || write_map(instrument));
+}
+
+static int count_tables(const SyntheticPanel *panel)
+{
+    const SyntheticPlaces *places = &panel->places;
+    int spots = places->spots ? places->spots : 1;
+    int slices = panel->reflection.exists ? panel->reflection.incidence_count : 0;
+    return spots * (1 + 3 * panel->emission.level_count) +
+           (reflects_by_place(panel) ? spots : 1) * slices + (places->map[0] > 0);
+}
+
+/* ---- the set ----------------------------------------------------------------------------- */
 
 static bool write_manifest(Instrument *instrument)
 {
@@ -195,17 +324,17 @@ static bool write_manifest(Instrument *instrument)
     text_add(&text, ",\n  ");
     add_list(&text, "size_mm", panel->size_mm, 2);
     text_add(&text, ",\n");
-    add_emission(&text, &panel->emission);
-    text_add(&text, "  \"primaries\": \"primaries.csv\"");
-    if (panel->reflection.exists) {
-        text_add(&text, ",\n  \"reflection\": {");
-        add_list(&text, "wavelengths_nm", panel->reflection.wavelength_nm,
-                 panel->reflection.wavelength_count);
-        text_add(&text, ",\n    ");
-        add_list(&text, "incidence_deg", panel->reflection.incidence_deg,
-                 panel->reflection.incidence_count);
-        text_add(&text, ",\n    \"files\": \"brdf/i{incidence}.csv\"}");
+    if (panel->places.spots) {
+        add_spots(&text, panel);
+    } else {
+        text_add(&text, "  ");
+        add_emission(&text, &panel->emission, "");
+        text_add(&text, ",\n");
     }
+    text_add(&text, "  \"primaries\": \"primaries.csv\"");
+    if (panel->reflection.exists && !reflects_by_place(panel))
+        add_reflection(&text, &panel->reflection, "");
+    if (panel->places.map[0]) add_uniformity(&text, &panel->places);
     text_add(&text, "\n}\n");
     return set_writer_add(&instrument->writer, "MANIFEST.json", &text);
 }
@@ -213,20 +342,15 @@ static bool write_manifest(Instrument *instrument)
 bool simulate_measurement(const SyntheticPanel *panel, const char *folder, ProgressMode mode,
                           Error *err)
 {
-    const SyntheticReflection *r = &panel->reflection;
-    int        slices = r->exists ? r->incidence_count : 0;
-    int        tables = 1 + 3 * panel->emission.level_count + slices;
-    Instrument instrument = {.panel = panel};
+    Instrument instrument = {.panel = panel, .prefix = ""};
     Arena      arena = arena_reserve((size_t)16 << 30);
     bool       ok = set_writer_open(arena_format(&arena, "%s/MANIFEST.json", folder),
                                     &instrument.writer, err);
     if (ok) {
-        instrument.progress = progress_start(mode, "simulate", "tables", tables);
+        instrument.progress = progress_start(mode, "simulate", "tables", count_tables(panel));
         instrument.scratch = arena;
-        ok = write_all_emission(&instrument);
-        for (int i = 0; i < slices && ok; i++)
-            ok = write_brdf(&instrument, r->incidence_deg[i]);
-        ok = ok && write_spectra(&instrument) && write_manifest(&instrument);
+        ok = write_places(&instrument) && write_spectra(&instrument) &&
+             write_manifest(&instrument);
         ok = set_writer_close(&instrument.writer, ok);
         progress_end(&instrument.progress, instrument.tables_done);
     }

@@ -193,10 +193,61 @@ static bool read_instrument(const JsonView *root, SyntheticInstrument *out, Erro
         json_view_number(&view, "seed", 0, 4294967295.0, &out->seed, err);
 }
 
+static bool read_spots(const JsonView *view, SyntheticPlaces *out, Error *err)
+{
+    JsonRange range = {0, 1, SYNTHETIC_SPOTS_MAX};
+    int       rows = 0;
+    if (!json_view_numbers(view, "u", range, out->u, &out->spots, err) ||
+        !json_view_numbers(view, "v", range, out->v, &rows, err))
+        return false;
+    if (rows != out->spots)
+        return error_at(err, ERROR_INPUT, view->file, view->path, "u and v have %d and %d "
+                        "values, wanted equal: one pair a spot", out->spots, rows);
+    for (int i = 0; i < rows; i++)
+        for (int k = 0; k < i; k++)
+            if (out->u[i] == out->u[k] && out->v[i] == out->v[k])
+                return error_at(err, ERROR_INPUT, view->file, view->path,
+                                "spots %d and %d are at one place", k, i);
+    return true;
+}
+
+static bool read_places(const JsonView *root, SyntheticPlaces *out, Error *err)
+{
+    static const char *const keys[] = {"u", "v", "map", "slope", "mura", "mura_cycles", "tint",
+        "clouding", "lobe_slope", "haze_slope", "bend_deg"};
+    JsonView view;
+    int      two = 2, sides = 0;
+    double   map[2] = {0, 0}, bend = 0;
+    if (!json_view_child(root, "places", false, &view, err)) return false;
+    if (!view.object) return true;
+    bool ok = json_view_check_keys(&view, keys, COUNT(keys), err) &&
+        read_spots(&view, out, err) &&
+        json_view_numbers(&view, "map", (JsonRange){1, 2048, 2}, map, &sides, err) &&
+        json_view_numbers(&view, "slope", (JsonRange){-0.9, 0.9, 2}, out->slope, &two, err) &&
+        json_view_number(&view, "mura", -0.5, 0.5, &out->mura, err) &&
+        json_view_numbers(&view, "mura_cycles", (JsonRange){0, 100, 2}, out->mura_cycles, &two,
+                          err) &&
+        json_view_number(&view, "tint", -0.5, 0.5, &out->tint, err) &&
+        json_view_number(&view, "clouding", 0, 100, &out->clouding, err) &&
+        json_view_number(&view, "lobe_slope", -1.9, 1.9, &out->lobe_slope, err) &&
+        json_view_number(&view, "haze_slope", -1.9, 1.9, &out->haze_slope, err) &&
+        json_view_number(&view, "bend_deg", -150, 150, &bend, err);
+    if (!ok) return false;
+    if (sides == 1)
+        return error_at(err, ERROR_INPUT, view.file, json_view_path(&view, "map"),
+                        "holds one number, wanted width and height in pixels");
+    if (!sides && !out->spots)
+        return error_at(err, ERROR_INPUT, view.file, view.path,
+                        "has neither spots ('u' and 'v') nor a 'map'");
+    for (int k = 0; k < 2; k++) out->map[k] = (int)map[k];
+    out->bend = radians_from_degrees(bend);
+    return true;
+}
+
 static bool read_members(const JsonView *root, SyntheticPanel *out, Error *err)
 {
     static const char *const keys[] = {"panel", "note", "pixels", "size_mm",
-        "refractive_index", "emission", "reflection", "instrument"};
+        "refractive_index", "emission", "reflection", "instrument", "places"};
     int two = 2;
     return json_view_check_keys(root, keys, COUNT(keys), err) &&
            json_view_text(root, "panel", &out->name, err) &&
@@ -208,7 +259,8 @@ static bool read_members(const JsonView *root, SyntheticPanel *out, Error *err)
            json_view_number(root, "refractive_index", 1, 3, &out->refractive_index, err) &&
            read_emission(root, &out->emission, err) &&
            read_reflection(root, &out->reflection, err) &&
-           read_instrument(root, &out->instrument, err);
+           read_instrument(root, &out->instrument, err) &&
+           read_places(root, &out->places, err);
 }
 
 bool synthetic_panel_read(const char *file, Arena *arena, SyntheticPanel *out, Error *err)

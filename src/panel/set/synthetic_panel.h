@@ -24,6 +24,17 @@
  *   mirror = (1 - share) R(theta)                      (the delta part)
  *   lambertian = rho / pi (1 - F(theta_i)) (1 - F(theta_o))
  * Reciprocal, and never more than R + rho.
+ *
+ * Places (u from 0 at the left to 1 at the right, v from 0 at the top to 1 at the bottom; x = u
+ * - 1/2, y = v - 1/2): a backlight that is not even, its mura, and a bend.
+ *   even  = (1 + slope_u x + slope_v y) (1 + mura cos(2 pi cycles_u x) cos(2 pi cycles_v y))
+ *   W_pj is multiplied by even tint_j, tint = (1 + tint x, 1, 1 - tint x)
+ *   B    by even (1 + clouding (4 x y)^2), and its colour is white's there
+ *   gain by 1 + lobe_slope x, share by 1 + haze_slope x
+ * A bend turns the local normal from -bend/2 at the left edge to bend/2 at the right one about
+ * the vertical axis; all angles count from the local normal, and the instrument is set square
+ * on every spot. The camera that makes the map stands far before the middle and sees each
+ * place under the angle of its bend.
  */
 #pragma once
 #include "base/arena.h"
@@ -33,6 +44,7 @@
 #define SYNTHETIC_LEVELS_MAX 32
 #define SYNTHETIC_INCIDENCES_MAX 24
 #define SYNTHETIC_WAVELENGTHS_MAX 128
+#define SYNTHETIC_SPOTS_MAX 49
 
 typedef struct SyntheticPrimary {
     double luminance_cd_m2; /* of this primary alone at level 255 on the axis */
@@ -72,6 +84,14 @@ typedef struct SyntheticInstrument {
     double seed;
 } SyntheticInstrument;
 
+typedef struct SyntheticPlaces {
+    int    spots; /* 0: one measurement, of the middle */
+    double u[SYNTHETIC_SPOTS_MAX], v[SYNTHETIC_SPOTS_MAX];
+    int    map[2]; /* pixels; 0: no map */
+    double slope[2], mura, mura_cycles[2], tint, clouding, lobe_slope, haze_slope;
+    double bend; /* radians; above 0: concave */
+} SyntheticPlaces;
+
 typedef struct SyntheticPanel {
     const char *name, *note;
     double pixels[2], size_mm[2];
@@ -79,6 +99,7 @@ typedef struct SyntheticPanel {
     SyntheticEmission   emission;
     SyntheticReflection reflection;
     SyntheticInstrument instrument;
+    SyntheticPlaces     places; /* all 0: the same everywhere */
 } SyntheticPanel;
 
 /* Reads and checks a *.recipe.json; unknown keys are errors. Texts live in the arena. */

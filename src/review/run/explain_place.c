@@ -3,7 +3,6 @@
 #include <math.h>
 
 #include "light/emission.h"
-#include "panel/query/panel_emission.h"
 #include "review/run/causes.h"
 
 #define SEED 0x6578706cu
@@ -62,7 +61,7 @@ static bool add_sent(const ExplainPlace *place, Vec3 target, double sent[3], int
     Frame frame = display_frame(scene, display, hit.triangle, &point);
     Vec3  wo = vec3_normalize(vec3_sub(place->aim.eye, point.position));
     for (int k = 0; k < 2; k++) {
-        panel_emission_xyz(display->panel, frame_to_local(&frame, wo), codes[k], xyz);
+        display_panel_xyz(display, &point, frame_to_local(&frame, wo), codes[k], xyz);
         sent[k] += (double)(xyz[1] * display->level);
     }
     display_emission_xyz(scene, display, hit.triangle, &point, wo, xyz);

@@ -5,7 +5,6 @@
 #include "base/mathd.h"
 #include "base/units.h"
 #include "light/emission.h"
-#include "panel/query/panel_emission.h"
 
 #define COLUMNS 9
 #define MOST_PIXELS 20000
@@ -146,7 +145,7 @@ static bool add_pixel(const SymbolSurface *surface, const ContentLight *light, s
     TrianglePoint point = triangle_point(scene, at.triangle, at.u, at.v);
     Frame frame = display_frame(scene, display, at.triangle, &point);
     content_codes(light->content, x, y, codes);
-    panel_emission_xyz(display->panel, frame_to_local(&frame, to_eye), codes, xyz);
+    display_panel_xyz(display, &point, frame_to_local(&frame, to_eye), codes, xyz);
     for (int k = 0; k < 3; k++) sum[k] += (double)xyz[k];
     return true;
 }

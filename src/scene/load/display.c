@@ -1,6 +1,8 @@
 #include "panel/query/panel_open.h"
+#include "panel/query/panel_place.h"
 #include "scene/load/display.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -281,12 +283,33 @@ static void check_coordinates(Loader *load, const PartDraft *draft)
                    display->name, counts[0]);
 }
 
+/* The active area of a panel that is not the same everywhere is what the content's coordinates
+ * cover on all that wears the display. */
+static void find_place(Loader *load, int id)
+{
+    Display *display = list_item(&load->displays, id);
+    float    box[4] = {INFINITY, -INFINITY, INFINITY, -INFINITY};
+    if (!display->panel || !panel_varies(display->panel)) return;
+    for (int i = 0; i < load->parts.count; i++) {
+        const PartDraft *draft = list_item(&load->parts, i);
+        if (draft->part.material_id == display->material_id)
+            draft_slot_box(draft, &display->content, box);
+    }
+    for (int k = 0; k < 2; k++) {
+        float low = box[2 * k], size = box[2 * k + 1] - low;
+        bool  is_area = size > 0 && size < INFINITY; /* else an error is told elsewhere */
+        display->place_from_uv[2 * k] = is_area ? 1 / size : 0;
+        display->place_from_uv[2 * k + 1] = is_area ? -low / size : 0.5f;
+    }
+}
+
 void displays_finish(Loader *load)
 {
     for (int i = 0; i < load->displays.count; i++) {
         open_panel(load, i);
         check_content(load, i);
     }
+    for (int i = 0; i < load->displays.count; i++) find_place(load, i);
     for (int i = 0; i < load->parts.count; i++)
         check_coordinates(load, list_item(&load->parts, i));
 }

@@ -103,6 +103,16 @@ static Vec2 slot_coordinates(const TextureSlot *slot, Vec2 uv)
     return (Vec2){m[0] * uv.x + m[1] * uv.y + m[2], m[3] * uv.x + m[4] * uv.y + m[5]};
 }
 
+void draft_slot_box(const PartDraft *draft, const TextureSlot *slot, float box[4])
+{
+    const Vec2 *uv = draft->part.uv[slot->uv_set];
+    for (uint32_t i = 0; uv && i < 3 * draft->triangle_count; i++) {
+        Vec2 at = slot_coordinates(slot, uv[draft->indices[i]]);
+        box[0] = fminf(box[0], at.x), box[1] = fmaxf(box[1], at.x);
+        box[2] = fminf(box[2], at.y), box[3] = fmaxf(box[3], at.y);
+    }
+}
+
 /* P = P0 + u dP/du + v dP/dv on the triangle; right x up = -dP/du x dP/dv since v runs down,
  * so the determinant of the coordinates is negative where the picture is not mirrored. */
 int draft_triangle_tangent(const PartDraft *draft, uint32_t triangle, const TextureSlot *slot,

@@ -30,6 +30,9 @@ void draft_any_tangents(PartDraft *draft, Arena *scratch);
 int draft_triangle_tangent(const PartDraft *draft, uint32_t triangle, const TextureSlot *slot,
                            Vec3 *tangent);
 
+/* Widens {least u, most u, least v, most v} by the slot's coordinates of all corners. */
+void draft_slot_box(const PartDraft *draft, const TextureSlot *slot, float box[4]);
+
 /* Moves the attributes to `arena` for good, positions and indices to `begun`, which is what
  * `scratch` was before the draft; everything else behind it is gone. */
 void draft_keep(PartDraft *draft, Arena *arena, Arena begun, Arena *scratch);

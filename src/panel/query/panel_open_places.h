@@ -1,0 +1,16 @@
+/* panel_open_places.h -- what a panel file says of places, checked and made ready for queries.
+ * Private to src/panel.
+ *
+ * Memory   the arena's. Fails: in bytes->err (panel_section.h).
+ */
+#pragma once
+#include "panel/query/panel_opened.h"
+#include "panel/query/panel_section.h"
+
+/* The spots and the map; *out NULL: the file has neither. The panels of the spots are still to
+ * be opened: panel [0] is the file's own. */
+bool panel_read_places(const PanelBytes *bytes, Arena *arena, PanelPlaces **out);
+
+/* Once all panels are opened: that every spot has what the file has, and what the map says of
+ * each panel. The ranges of their primaries' warps grow by the map's colours. */
+bool panel_finish_places(const PanelBytes *bytes, Arena *arena, PanelPlaces *places);

@@ -1,0 +1,78 @@
+#include "panel/set/primary_spectra.h"
+
+#include <string.h>
+
+#include "text/csv_table.h"
+#include "text/nearest_word.h"
+
+#define COUNT(list) ((int)(sizeof(list) / sizeof *(list)))
+
+static const char *const primary_names[3] = {"red", "green", "blue"};
+
+/* Linear between measured wavelengths, zero outside them. */
+static void resample_spectrum(const CsvTable *csv, int nm_column, int column, float *out)
+{
+    size_t width = (size_t)csv->columns;
+    int    last = 0;
+    for (int i = 0; i < SPECTRAL_COUNT; i++) {
+        float nm = (float)(SPECTRAL_FIRST_NM + i);
+        while (last + 2 < csv->rows &&
+               csv->cell[(size_t)(last + 1) * width + (size_t)nm_column] <= nm)
+            last++;
+        const float *a = csv->cell + (size_t)last * width;
+        const float *b = csv->rows > 1 ? a + width : a;
+        float t = b[nm_column] > a[nm_column] ? (nm - a[nm_column]) /
+                                                (b[nm_column] - a[nm_column]) : 0;
+        float value = a[column] + (b[column] - a[column]) * t;
+        out[i] = t >= 0 && t <= 1 && value > 0 ? value : 0;
+    }
+}
+
+static bool check_spectra(const CsvTable *csv, int nm_column, Arena *arena, Error *err)
+{
+    for (int i = 0; i < csv->rows; i++) {
+        const float *row = csv->cell + (size_t)i * (size_t)csv->columns;
+        if (i && !(row[nm_column] > row[nm_column - csv->columns]))
+            return error_at(err, ERROR_INPUT, csv->file, csv_table_place(csv, i, arena),
+                            "wavelength %g follows %g, wanted rising wavelengths",
+                            (double)row[nm_column], (double)row[nm_column - csv->columns]);
+    }
+    return true;
+}
+
+static bool spectrum_has_light(const float *spectrum)
+{
+    for (int i = 0; i < SPECTRAL_COUNT; i++)
+        if (spectrum[i] > 0 && spectral_table[i].y > 0) return true;
+    return false;
+}
+
+bool primary_spectra_read(const char *file, Arena *arena, float spectrum[3][SPECTRAL_COUNT],
+                          Error *err)
+{
+    static const char *const known[] = {"nm", "red", "green", "blue", "black"};
+    CsvTable csv;
+    if (!csv_table_read(file, arena, &csv, err)) return false;
+    for (int c = 0; c < csv.columns; c++) {
+        bool found = false;
+        for (int i = 0; i < COUNT(known); i++) found |= !strcmp(csv.name[c], known[i]);
+        if (!found)
+            return error_at(err, ERROR_INPUT, file, "header line",
+                            "column '%s' is unknown; the nearest known one is '%s'",
+                            csv.name[c], nearest_word(csv.name[c], known, COUNT(known)));
+    }
+    int nm = csv_table_column(&csv, "nm");
+    for (int i = 0; i < 4; i++)
+        if (csv_table_column(&csv, known[i]) < 0)
+            return error_at(err, ERROR_INPUT, file, "header line", "has no column '%s'",
+                            known[i]);
+    if (!check_spectra(&csv, nm, arena, err)) return false;
+    for (int p = 0; p < 3; p++) {
+        resample_spectrum(&csv, nm, csv_table_column(&csv, primary_names[p]),
+                          spectrum[p]);
+        if (!spectrum_has_light(spectrum[p]))
+            return error_at(err, ERROR_INPUT, file, "", "column '%s' holds no light between "
+                            "360 and 830 nm", primary_names[p]);
+    }
+    return true;
+}

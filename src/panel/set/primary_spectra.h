@@ -1,0 +1,14 @@
+/* primary_spectra.h -- the relative spectra of a display's primaries from a table.
+ *
+ * Units    nm; values relative. Memory: the arena's. Threads: any number.
+ * Fails    with the file, its line, what was found and what was wanted.
+ */
+#pragma once
+#include "base/arena.h"
+#include "base/error.h"
+#include "spectrum/spectral_table.h"
+
+/* Columns nm, red, green, blue and maybe black: linear between the measured wavelengths, 0
+ * outside; every nm from SPECTRAL_FIRST_NM. */
+bool primary_spectra_read(const char *file, Arena *arena, float spectrum[3][SPECTRAL_COUNT],
+                          Error *err);

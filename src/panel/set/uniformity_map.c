@@ -1,0 +1,319 @@
+#include "panel/set/uniformity_map.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/count.h"
+#include "base/file.h"
+#include "base/units.h"
+#include "image/image.h"
+#include "openexr/exr_file.h"
+#include "text/csv_table.h"
+
+/* Planes as a file has them; channels 0: it says nothing of them. */
+typedef struct MapPlanes {
+    int    channels; /* 1 or 3 */
+    float *value[3];
+} MapPlanes;
+
+/* What one file says. */
+typedef struct MapFile {
+    const char *path;
+    int         width, height;
+    MapPlanes   white, black;
+} MapFile;
+
+static const char *const axes[3] = {"X", "Y", "Z"};
+
+static bool check_size(MapFile *file, long width, long height, Error *err)
+{
+    if (width < 1 || height < 1 || width > UNIFORMITY_SIDE_MAX ||
+        height > UNIFORMITY_SIDE_MAX || width * height > UNIFORMITY_PIXELS_MAX)
+        return error_at(err, ERROR_INPUT, file->path, "", "has %ld x %ld pixels, wanted at "
+                        "most %d a side and %d in all", width, height, UNIFORMITY_SIDE_MAX,
+                        UNIFORMITY_PIXELS_MAX);
+    file->width = (int)width;
+    file->height = (int)height;
+    return true;
+}
+
+static size_t pixels_of(const MapFile *file)
+{
+    return (size_t)file->width * (size_t)file->height;
+}
+
+/* X, Y and Z, or Y alone: how many there are of the names that begin so. */
+static bool count_channels(const MapFile *file, const char *begin, const bool has[3],
+                           int *channels, Error *err)
+{
+    *channels = has[0] && has[1] && has[2] ? 3 : has[1] && !has[0] && !has[2] ? 1 : 0;
+    if (*channels || !(has[0] || has[1] || has[2])) return true;
+    return error_at(err, ERROR_INPUT, file->path, "", "has only some of %sX, %sY and %sZ, "
+                    "wanted all three or %sY alone", begin, begin, begin, begin);
+}
+
+/* ---- OpenEXR ----------------------------------------------------------------------------- */
+
+static int exr_channel(const ExrPicture *picture, const char *begin, const char *axis)
+{
+    char name[32];
+    snprintf(name, sizeof name, "%s%s", begin, axis);
+    for (int i = 0; i < picture->channel_count; i++)
+        if (!strcmp(picture->channels[i].name, name)) return i;
+    return -1;
+}
+
+static bool exr_planes(const MapFile *file, const ExrPicture *picture, const char *begin,
+                       Arena *arena, MapPlanes *out, float **planes, Error *err)
+{
+    bool has[3];
+    for (int j = 0; j < 3; j++) has[j] = exr_channel(picture, begin, axes[j]) >= 0;
+    if (!count_channels(file, begin, has, &out->channels, err)) return false;
+    for (int k = 0; k < out->channels; k++) {
+        int at = exr_channel(picture, begin, axes[out->channels == 3 ? k : 1]);
+        planes[at] = out->value[k] = ARENA_NEW(arena, float, pixels_of(file));
+    }
+    return true;
+}
+
+static bool read_exr(MapFile *file, Arena *arena, Error *err)
+{
+    ExrReader *reader;
+    if (!exr_reader_open(file->path, &reader, err)) return error_in_file(err, file->path);
+    const ExrPicture *picture = exr_reader_picture(reader);
+    const ExrWindow  *data = &picture->data;
+    float **planes = ARENA_NEW(arena, float *, picture->channel_count);
+    bool ok = check_size(file, data->x1 - data->x0, data->y1 - data->y0, err) &&
+              exr_planes(file, picture, "", arena, &file->white, planes, err) &&
+              exr_planes(file, picture, "black.", arena, &file->black, planes, err);
+    if (ok && !exr_reader_read(reader, planes, err)) ok = error_in_file(err, file->path);
+    exr_reader_destroy(reader);
+    return ok;
+}
+
+/* ---- text -------------------------------------------------------------------------------- */
+
+static int csv_channel(const CsvTable *csv, const char *begin, const char *axis)
+{
+    char name[32];
+    snprintf(name, sizeof name, "%s%s", begin, axis);
+    return csv_table_column(csv, name);
+}
+
+static bool csv_planes(const MapFile *file, const CsvTable *csv, const char *begin,
+                       Arena *arena, MapPlanes *out, Error *err)
+{
+    bool has[3];
+    for (int j = 0; j < 3; j++) has[j] = csv_channel(csv, begin, axes[j]) >= 0;
+    if (!count_channels(file, begin, has, &out->channels, err)) return false;
+    for (int k = 0; k < out->channels; k++)
+        out->value[k] = ARENA_NEW(arena, float, pixels_of(file));
+    return true;
+}
+
+static bool csv_index(const CsvTable *csv, int row, int column, Arena *arena, int *out,
+                      Error *err)
+{
+    float value = csv->cell[(size_t)row * (size_t)csv->columns + (size_t)column];
+    *out = value >= 0 && value < UNIFORMITY_SIDE_MAX ? (int)value : -1;
+    if (*out >= 0 && (float)*out == value) return true;
+    return error_at(err, ERROR_INPUT, csv->file, csv_table_place(csv, row, arena),
+                    "%s is %g, wanted a whole number from 0 to %d", csv->name[column],
+                    (double)value, UNIFORMITY_SIDE_MAX - 1);
+}
+
+/* Where every row stands; every pixel must be there once. */
+static bool csv_places(MapFile *file, const CsvTable *csv, Arena *arena, size_t **out,
+                       Error *err)
+{
+    int at[2] = {csv_table_column(csv, "column"), csv_table_column(csv, "row")};
+    int most[2] = {0, 0}, (*place)[2] = arena_alloc(arena, sizeof *place, sizeof(int),
+                                                    (size_t)csv->rows);
+    if (at[0] < 0 || at[1] < 0)
+        return error_at(err, ERROR_INPUT, csv->file, "header line", "has no column '%s'",
+                        at[0] < 0 ? "column" : "row");
+    for (int i = 0; i < csv->rows; i++)
+        for (int k = 0; k < 2; k++) {
+            if (!csv_index(csv, i, at[k], arena, &place[i][k], err)) return false;
+            if (place[i][k] > most[k]) most[k] = place[i][k];
+        }
+    if (!check_size(file, most[0] + 1, most[1] + 1, err)) return false;
+    bool *is_there = ARENA_NEW(arena, bool, pixels_of(file));
+    *out = ARENA_NEW(arena, size_t, csv->rows);
+    for (int i = 0; i < csv->rows; i++) {
+        size_t pixel = (size_t)place[i][1] * (size_t)file->width + (size_t)place[i][0];
+        if (is_there[pixel])
+            return error_at(err, ERROR_INPUT, csv->file, csv_table_place(csv, i, arena),
+                            "pixel %d,%d is there twice", place[i][0], place[i][1]);
+        is_there[pixel] = true;
+        (*out)[i] = pixel;
+    }
+    if ((size_t)csv->rows == pixels_of(file)) return true;
+    return error_at(err, ERROR_INPUT, csv->file, "", "has %d pixels of %d x %d, wanted all of "
+                    "them", csv->rows, file->width, file->height);
+}
+
+static void csv_fill(const CsvTable *csv, const size_t *pixel, const char *begin,
+                     const MapPlanes *to)
+{
+    for (int k = 0; k < to->channels; k++) {
+        int column = csv_channel(csv, begin, axes[to->channels == 3 ? k : 1]);
+        for (int i = 0; i < csv->rows; i++)
+            to->value[k][pixel[i]] =
+                csv->cell[(size_t)i * (size_t)csv->columns + (size_t)column];
+    }
+}
+
+static bool read_csv(MapFile *file, Arena *arena, Error *err)
+{
+    CsvTable csv;
+    size_t  *pixel = NULL;
+    if (!csv_table_read(file->path, arena, &csv, err) ||
+        !csv_places(file, &csv, arena, &pixel, err) ||
+        !csv_planes(file, &csv, "", arena, &file->white, err) ||
+        !csv_planes(file, &csv, "black_", arena, &file->black, err))
+        return false;
+    csv_fill(&csv, pixel, "", &file->white);
+    csv_fill(&csv, pixel, "black_", &file->black);
+    return true;
+}
+
+/* ---- pictures ---------------------------------------------------------------------------- */
+
+static bool read_picture(MapFile *file, Arena *arena, Error *err)
+{
+    Image image;
+    if (!image_read(file->path, arena, &image, err)) return error_in_file(err, file->path);
+    if (image.format != IMAGE_RGBA16)
+        return error_at(err, ERROR_INPUT, file->path, "", "has %s, wanted 16 bits a channel",
+                        image.format == IMAGE_RGBA8 ? "8 bits a channel, whose steps show"
+                                                    : "floating-point numbers");
+    if (!check_size(file, image.width, image.height, err)) return false;
+    const uint16_t *code = image.pixels;
+    file->white.channels = 3;
+    for (int j = 0; j < 3; j++) {
+        float *plane = file->white.value[j] = ARENA_NEW(arena, float, pixels_of(file));
+        for (size_t i = 0; i < pixels_of(file); i++) plane[i] = code[4 * i + (size_t)j];
+    }
+    return true;
+}
+
+/* ---- any file ---------------------------------------------------------------------------- */
+
+static bool check_values(const MapFile *file, const MapPlanes *planes, const char *name,
+                         Error *err)
+{
+    for (int k = 0; k < planes->channels; k++) {
+        const char *axis = axes[planes->channels == 3 ? k : 1];
+        float most = 0;
+        for (size_t i = 0; i < pixels_of(file); i++) {
+            float value = planes->value[k][i];
+            char  place[64];
+            if (value > most) most = value;
+            if (value >= 0 && value < 1e9f) continue;
+            snprintf(place, sizeof place, "pixel %d,%d", (int)(i % (size_t)file->width),
+                     (int)(i / (size_t)file->width));
+            return error_at(err, ERROR_INPUT, file->path, place, "%s's %s is %g, wanted a "
+                            "number from 0 up", name, axis, (double)value);
+        }
+        if (!(most > 0))
+            return error_at(err, ERROR_INPUT, file->path, "", "%s's %s is 0 everywhere", name,
+                            axis);
+    }
+    return true;
+}
+
+/* Grey: one plane says all. */
+static void fold_grey(const MapFile *file, MapPlanes *planes)
+{
+    size_t bytes = pixels_of(file) * sizeof(float);
+    if (planes->channels == 3 && !memcmp(planes->value[0], planes->value[1], bytes) &&
+        !memcmp(planes->value[0], planes->value[2], bytes))
+        planes->channels = 1;
+}
+
+static bool read_file(MapFile *file, Arena *arena, Error *err)
+{
+    const char *ending = path_ending(file->path);
+    bool        is_exr = !strcmp(ending, ".exr"), is_csv = !strcmp(ending, ".csv");
+    bool ok = is_exr   ? read_exr(file, arena, err)
+              : is_csv ? read_csv(file, arena, err) : read_picture(file, arena, err);
+    if (!ok) return false;
+    if (!file->white.channels)
+        return error_at(err, ERROR_INPUT, file->path, "", "has no %s Y, wanted X, Y and Z, or "
+                        "Y", is_exr ? "channel" : "column");
+    if (!check_values(file, &file->white, "white", err) ||
+        !check_values(file, &file->black, "black", err))
+        return false;
+    fold_grey(file, &file->white);
+    fold_grey(file, &file->black);
+    return true;
+}
+
+/* ---- the key ----------------------------------------------------------------------------- */
+
+static bool read_named(const JsonView *view, const char *key, MapFile *out, Error *err)
+{
+    const char *name = NULL;
+    *out = (MapFile){0};
+    if (!json_view_text(view, key, &name, err)) return false;
+    if (!name) return true;
+    return json_view_file(view, key, name, &out->path, err) &&
+           read_file(out, view->arena, err);
+}
+
+static bool join_black(const JsonView *view, MapFile *white, const MapFile *black, Error *err)
+{
+    if (!black->path) return true;
+    if (white->black.channels)
+        return error_at(err, ERROR_INPUT, view->file, json_view_path(view, "black"),
+                        "names a file, but '%s' holds black too: wanted one of them",
+                        white->path);
+    if (black->width != white->width || black->height != white->height)
+        return error_at(err, ERROR_INPUT, black->path, "", "has %d x %d pixels, wanted %d x %d "
+                        "as in '%s'", black->width, black->height, white->width, white->height,
+                        white->path);
+    white->black = black->white; /* in a file of its own it has no other name */
+    return true;
+}
+
+static bool read_camera(const JsonView *view, const double size_mm[2], UniformityMap *map,
+                        Error *err)
+{
+    double bend = 0;
+    if (!json_view_number(view, "camera_mm", 10, 1e6, &map->camera_mm, err) ||
+        !json_view_number(view, "bend_deg", -170, 170, &bend, err))
+        return false;
+    map->bend = radians_from_degrees(bend);
+    map->is_seen = map->camera_mm > 0 || bend != 0;
+    if (map->camera_mm > 0 && !(size_mm[0] > 0))
+        return error_at(err, ERROR_INPUT, view->file, json_view_path(view, "camera_mm"),
+                        "is there, but the manifest has no 'size_mm' to compare it with");
+    return true;
+}
+
+bool uniformity_map_read(const JsonView *view, const double size_mm[2],
+                         const UniformityMap **out, Error *err)
+{
+    static const char *const keys[] = {"file", "black", "camera_mm", "bend_deg"};
+    MapFile white, black;
+    if (!view->object) return true;
+    if (!json_view_check_keys(view, keys, COUNT_OF(keys), err)) return false;
+    if (!json_object_get(view->object, "file"))
+        return error_at(err, ERROR_INPUT, view->file, view->path, "key 'file' is missing");
+    UniformityMap *map = ARENA_NEW(view->arena, UniformityMap, 1);
+    if (!read_named(view, "file", &white, err) || !read_named(view, "black", &black, err) ||
+        !join_black(view, &white, &black, err) || !read_camera(view, size_mm, map, err))
+        return false;
+    map->file = white.path;
+    map->width = white.width;
+    map->height = white.height;
+    map->white_channels = white.white.channels;
+    map->black_channels = white.black.channels;
+    int planes = 0;
+    for (int k = 0; k < white.white.channels; k++) map->value[planes++] = white.white.value[k];
+    for (int k = 0; k < white.black.channels; k++) map->value[planes++] = white.black.value[k];
+    *out = map;
+    return true;
+}
