@@ -1,6 +1,6 @@
 /* coating.h -- what a coated boundary reflects and lets through, interpolated.
  *
- * Shares of unpolarised light in [0, 1] over angle and wavelength (360 to 830 nm, 1 nm),
+ * Shares of light (unpolarised but for panes) in [0, 1] over angle and wavelength (360 to 830 nm, 1 nm),
  * made of a stack of layers by coating_tables.h. Within 3e-4 of the stack's own shares for
  * coatings of some layers; where a stack of microns has a step of a few nm, within 2e-2.
  *
@@ -43,11 +43,18 @@ typedef struct CoatingTables {
     Curve front_mean, through_mean; /* over the hemisphere, weighted by the cosine */
 } CoatingTables;
 
+/* The two faces of a pane, of which one at least is coated: front is what each reflects from
+ * the air, back from the glass, over the cosine in the air. */
+typedef struct PaneCoating {
+    const CoatingTables *face[2][2]; /* the front's, the back's; of light s and p */
+} PaneCoating;
+
 /* What a material's coating is to each share of it; NULL: that share is bare, or is none. */
 typedef struct SurfaceCoating {
     const CoatingTables *metal, *face, *sheet; /* face: of opaque plastic and glass */
     const CoatingTables *solid; /* the boundary of a closed solid */
     const CoatingTables *cover; /* of a display */
+    const PaneCoating   *pane;  /* of a laminated one */
 } SurfaceCoating;
 
 /* cosine in [0, 1]. */

@@ -145,6 +145,27 @@ static CoatingRow sheet_row(const CoatedBody *body, int nm, double cosine)
                         .through = unpolarised(in_s.through, in_p.through)};
 }
 
+/* A face of a pane for one polarisation. At grazing incidence nothing gets in or out. */
+static CoatingRow pane_row(const CoatedBody *body, int nm, double cosine, bool is_p)
+{
+    SheetFace s, p;
+    ThinMedia media = media_at(body, body->stack, nm);
+    if (!(cosine > 0)) return (CoatingRow){.front = 1, .back = 1};
+    sheet_face(&media, cosine, cosine_behind(cosine, body->ior), &s, &p);
+    SheetFace one = is_p ? p : s;
+    return (CoatingRow){one.outer, one.inner, one.through};
+}
+
+static CoatingRow pane_row_s(const CoatedBody *body, int nm, double cosine)
+{
+    return pane_row(body, nm, cosine, false);
+}
+
+static CoatingRow pane_row_p(const CoatedBody *body, int nm, double cosine)
+{
+    return pane_row(body, nm, cosine, true);
+}
+
 /* ---- tables ----------------------------------------------------------------------------- */
 
 /* 2 * integral over dcos of (piecewise linear in t) cos with cos = t^2: exact, by the integrals
@@ -275,6 +296,18 @@ const CoatingTables *coating_of_metal(const LayerStack *stack, const OpticalCons
 const CoatingTables *coating_of_cover(const LayerStack *stack, double ior, Arena *arena)
 {
     return tables_of(&(CoatedBody){.stack = stack, .ior = ior}, cover_row, 1, arena);
+}
+
+const PaneCoating *coating_of_pane(const Glazing *pane, Arena *arena)
+{
+    PaneCoating *out = ARENA_NEW(arena, PaneCoating, 1);
+    for (int i = 0; i < 2; i++) {
+        const GlazingLayer *layer = &pane->layers[i ? pane->layer_count - 1 : 0];
+        CoatedBody body = {.stack = pane->coating[i], .ior = (double)layer->ior};
+        out->face[i][0] = tables_of(&body, pane_row_s, KINDS, arena);
+        out->face[i][1] = tables_of(&body, pane_row_p, KINDS, arena);
+    }
+    return out;
 }
 
 /* ---- energies --------------------------------------------------------------------------- */

@@ -9,7 +9,7 @@
  */
 #pragma once
 #include "shaders/coating.h"
-#include "spectrum/thin_film.h"
+#include "spectrum/glazing.h"
 
 /* The boundary of a closed solid. */
 const CoatingTables *coating_of_solid(const LayerStack *stack, double ior, Arena *arena);
@@ -27,3 +27,7 @@ const CoatingTables *coating_of_face(const LayerStack *stack, double ior, Arena 
 /* By how much a coating on a display's cover changes the reflectance of its bare glass: front
  * alone, and no share of light: it may be above 1. */
 const CoatingTables *coating_of_cover(const LayerStack *stack, double ior, Arena *arena);
+
+/* The faces of a laminated pane in air (Glazing: its outermost layers, its coatings, NULL where
+ * a face is bare), for both polarisations. */
+const PaneCoating *coating_of_pane(const Glazing *pane, Arena *arena);

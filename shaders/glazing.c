@@ -14,11 +14,17 @@
  *   usual wedge        radians, towards +u, -u, +v or -v: the pane grows thicker that way.
  *                Windscreens for head-up displays have 0.2 to 0.7 mrad towards their upper edge
  *   haze share   clean 0.001 to 0.005, dusty 0.02, dirty 0.05; width 1 to 30 degrees
+ *   coatings     stacks of thin layers (coating.h) on the outside, the first layer's face and
+ *                the triangles' front, and on the inside, the last layer's face and their back:
+ *                a film against heat or reflections, a reflecting one for a head-up display
  *
  * Exact for both polarisations, whose means are taken at the end: a face reflects r, the body
  * lets t through at this angle, and R = r1 + (1 - r1)^2 t^2 r2 / (1 - r1 r2 t^2),
  * T = (1 - r1) (1 - r2) t / (1 - r1 r2 t^2). A ghost of order k has
  * (1 - r1)^2 t^2k r2^k r1^(k-1); orders below 1e-4 in all come with the last one above it.
+ * A coated face reflects r from the air and r' from the glass and lets c through; what is
+ * neither it absorbs: R = r1 + c1^2 t^2 r2' / (1 - r1' r2' t^2), T = c1 c2 t / (1 - r1' r2' t^2)
+ * and a ghost c1^2 t^2k r2'^k r1'^(k-1), for each polarisation and wavelength.
  * The haze is a function of how far the direction's part along the pane moves, b:
  * share min(T(in), T(out)) w^2 / (pi (w^2 + b^2)^2), w the width's sine: half of the lobe lies
  * within w, the same both ways; what would leave below the pane's plane is lost.
@@ -46,11 +52,19 @@ typedef struct Faces {
     float near_one, far_one;
 } Faces;
 
+/* The images of a coated pane for one polarisation: of the face that is met, of the far face,
+ * and how much of one ghost the next one has. */
+typedef struct CoatedImages {
+    Spectrum first, ghost, next;
+} CoatedImages;
+
 /* The pane as one direction meets it. */
 typedef struct Meeting {
-    Faces    s, p;
+    Faces    s, p;              /* where it is bare */
     Spectrum through;           /* the body, once */
     Spectrum reflected, passed; /* by all of it */
+    bool     is_coated;
+    CoatedImages coated[2];     /* undefined where it is bare */
 } Meeting;
 
 /* Of the refracted direction. */
@@ -73,20 +87,55 @@ static Spectrum faces_pass(Faces f, Spectrum t)
            (spectrum_all(1) - t * t * spectrum_all(f.near_one * f.far_one));
 }
 
+/* One polarisation of a coated pane; returns what it reflects in all. */
+static Spectrum meet_coated(const GlazedWindow *window, float cosine, bool is_front, bool is_p,
+                            Meeting *m)
+{
+    const Wavelengths   *w = window->wavelengths;
+    const CoatingTables *near = window->coating->face[!is_front][is_p];
+    const CoatingTables *far = window->coating->face[is_front][is_p];
+    CoatedImages *images = &m->coated[is_p];
+    Spectrum in = coating_at(near->through, w, cosine), t = m->through;
+    Spectrum back = coating_at(far->back, w, cosine);
+    images->first = coating_at(near->front, w, cosine);
+    images->ghost = in * in * t * t * back;
+    images->next = coating_at(near->back, w, cosine) * back * t * t;
+    Spectrum once = spectrum_all(1) / (spectrum_all(1) - images->next);
+    m->passed += spectrum_all(0.5f) * in * coating_at(far->through, w, cosine) * t * once;
+    return images->first + images->ghost * once;
+}
+
+static void meet_coated_faces(const GlazedWindow *window, float cosine, bool is_front,
+                              Meeting *m)
+{
+    m->is_coated = true;
+    m->passed = spectrum_all(0);
+    Spectrum s = meet_coated(window, cosine, is_front, false, m);
+    m->reflected = spectrum_all(0.5f) * (s + meet_coated(window, cosine, is_front, true, m));
+}
+
 static Meeting meet(const GlazedWindow *window, Vec3 wo)
 {
     const Glazing *pane = window->pane;
+    Meeting m;
     float cosine = clampf(fabsf(wo.z), LEAST_COSINE, 1);
     bool  is_front = (wo.z > 0) == window->front_is_up;
+    float slant = cosine_inside(cosine, pane->absorbing_ior);
+    m.through = spectrum_exp(window->absorbance * spectrum_all(-1 / slant));
+    if (window->coating) {
+        meet_coated_faces(window, cosine, is_front, &m);
+        return m;
+    }
     float first = pane->layers[0].ior, last = pane->layers[pane->layer_count - 1].ior;
     Fresnel near = fresnel_dielectric(cosine, is_front ? first : last, NULL);
     Fresnel far = fresnel_dielectric(cosine, is_front ? last : first, NULL);
-    float   slant = cosine_inside(cosine, pane->absorbing_ior);
-    Faces   s = {near.s, far.s}, p = {near.p, far.p};
-    Spectrum t = spectrum_exp(window->absorbance * spectrum_all(-1 / slant)), t2 = t * t;
-    Spectrum half = spectrum_all(0.5f);
-    return (Meeting){s, p, t, half * (faces_reflect(s, t2) + faces_reflect(p, t2)),
-                     half * (faces_pass(s, t) + faces_pass(p, t))};
+    Spectrum t = m.through, t2 = t * t, half = spectrum_all(0.5f);
+    m.is_coated = false;
+    m.s = (Faces){near.s, far.s};
+    m.p = (Faces){near.p, far.p};
+    m.reflected = half * (faces_reflect(m.s, t2) + faces_reflect(m.p, t2));
+    m.passed = half * (faces_pass(m.s, t) + faces_pass(m.p, t));
+    return m;
 }
 
 /* Of the light of one order its successor has as much: r1 r2 t^2. */
@@ -98,8 +147,19 @@ static float order_of_faces(Faces f, int order)
     return share;
 }
 
+static Spectrum coated_order(const CoatedImages *images, int order)
+{
+    if (!order) return images->first;
+    Spectrum share = images->ghost;
+    for (int i = 1; i < order; i++) share *= images->next;
+    return share;
+}
+
 static Spectrum order_share(const Meeting *m, int order)
 {
+    if (m->is_coated)
+        return spectrum_all(0.5f) * (coated_order(&m->coated[0], order) +
+                                     coated_order(&m->coated[1], order));
     Spectrum t2 = spectrum_all(1);
     for (int i = 0; i < order; i++) t2 *= m->through * m->through;
     return t2 *

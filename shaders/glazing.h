@@ -4,6 +4,7 @@
  */
 #pragma once
 #include "shaders/bsdf_model.h"
+#include "shaders/coating.h"
 #include "spectrum/glazing.h"
 
 typedef struct GlazedWindow {
@@ -12,6 +13,8 @@ typedef struct GlazedWindow {
     float    slope[2];     /* the wedge's: growth of the thickness along x and y */
     bool     front_is_up;  /* +z is the front's side */
     bool     shows_itself; /* bsdf_sample leaves out what passes: that is followed by itself */
+    const PaneCoating *coating;     /* of its faces; NULL: both are bare */
+    const Wavelengths *wavelengths; /* NULL where they are bare */
 } GlazedWindow;
 
 extern const BsdfModel glazed_window_model;

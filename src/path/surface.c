@@ -259,6 +259,11 @@ static void set_glazing(const Site *site, Surface *surface)
     *model = (GlazedWindow){.pane = pane,
                             .absorbance = curve_lookup(&pane->absorbance, site->wavelengths),
                             .front_is_up = vec3_dot(surface->frame.z, surface->ng) > 0};
+    const SurfaceCoating *coating = coating_of(site, surface->material_id);
+    if (coating) {
+        model->coating = coating->pane;
+        model->wavelengths = site->wavelengths;
+    }
     for (int i = 0; i < 2; i++) {
         if (pane->wedge[i] == 0) continue;
         Vec3 axis = texture_axis(site->scene, site->hit->triangle, i == 1);

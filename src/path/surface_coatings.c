@@ -6,15 +6,16 @@
 
 /* Which tables a material asks for: its factors, and textures that may lower them. */
 typedef struct CoatingNeeds {
-    bool metal, face, sheet, solid, cover;
+    bool metal, face, sheet, solid, cover, pane;
 } CoatingNeeds;
 
 static CoatingNeeds needs_of(const Material *m)
 {
-    CoatingNeeds needs = {false, false, false, false, false};
+    CoatingNeeds needs = {false, false, false, false, false, false};
     bool has_nonmetal = m->metallic < 1 || m->metallic_roughness_texture.texture_id != NO_ID;
     bool has_opaque = m->transmission < 1 || m->transmission_texture.texture_id != NO_ID;
     bool is_coated = m->coating != NULL;
+    needs.pane = m->glazing && (m->glazing->coating[0] || m->glazing->coating[1]);
     if (m->unlit || m->glazing || (!is_coated && !m->conductor)) return needs;
     needs.cover = is_coated && m->display_id != NO_ID;
     if (m->display_id != NO_ID) return needs;
@@ -28,7 +29,7 @@ static CoatingNeeds needs_of(const Material *m)
 
 static bool needs_any(CoatingNeeds n)
 {
-    return n.metal || n.face || n.sheet || n.solid || n.cover;
+    return n.metal || n.face || n.sheet || n.solid || n.cover || n.pane;
 }
 
 static bool same_stack(const LayerStack *a, const LayerStack *b)
@@ -46,7 +47,7 @@ static bool same_metal(const OpticalConstants *a, const OpticalConstants *b)
 static bool is_alike(const Material *a, const Material *b)
 {
     CoatingNeeds x = needs_of(a), y = needs_of(b);
-    return memcmp(&x, &y, sizeof x) == 0 && a->ior == b->ior &&
+    return !x.pane && memcmp(&x, &y, sizeof x) == 0 && a->ior == b->ior &&
            same_stack(a->coating, b->coating) && same_metal(a->conductor, b->conductor);
 }
 
@@ -58,6 +59,7 @@ static const SurfaceCoating *tables_for(const Material *m, CoatingNeeds needs, A
     if (needs.face) out->face = coating_of_face(m->coating, ior, arena);
     if (needs.sheet) out->sheet = coating_of_sheet(m->coating, ior, arena);
     if (needs.solid) out->solid = coating_of_solid(m->coating, ior, arena);
+    if (needs.pane) out->pane = coating_of_pane(m->glazing, arena);
     if (needs.cover) out->cover = coating_of_cover(m->coating, ior, arena);
     return out;
 }

@@ -29,6 +29,7 @@ void curve_from_points(const double *nm, const double *value, int count, Curve *
 typedef struct Points {
     double nm[MAX_POINTS], value[COLUMNS_MAX][MAX_POINTS];
     int    count, columns;
+    CurveRange range; /* of one column */
 } Points;
 
 /* Nothing but white space from here on? */
@@ -52,15 +53,26 @@ static bool parse_row(const char *line, int columns, double number[1 + COLUMNS_M
     return is_blank(line);
 }
 
+static bool check_value(const Points *points, const char *path, const char *place,
+                        const double *number, Error *err)
+{
+    double nm = number[0], value = number[1];
+    if (!(nm > 0 && nm < 1e6 && fabs(value) <= VALUE_MAX))
+        return error_at(err, ERROR_INPUT, path, place,
+                        "wavelength %g nm with value %g: wanted finite numbers, nm above 0, "
+                        "up to %g", nm, value, VALUE_MAX);
+    bool is_low = points->range != CURVE_NUMBERS && value < 0;
+    bool is_high = points->range == CURVE_SHARES && value > 1;
+    return !is_low && !is_high ? true :
+           error_at(err, ERROR_INPUT, path, place, "holds %.9g; %s is wanted", value,
+                    points->range == CURVE_SHARES ? "0 to 1" : "0 or more");
+}
+
 static bool check_values(const Points *points, const char *path, const char *place,
                          const double *number, Error *err)
 {
     double nm = number[0], n = number[1], k = number[2];
-    if (points->columns == 1)
-        return nm > 0 && nm < 1e6 && fabs(n) <= VALUE_MAX ? true :
-               error_at(err, ERROR_INPUT, path, place,
-                        "wavelength %g nm with value %g: wanted finite numbers, nm above 0, "
-                        "up to %g", nm, n, VALUE_MAX);
+    if (points->columns == 1) return check_value(points, path, place, number, err);
     bool is_index = n >= 0 && n <= INDEX_MAX && k >= 0 && k <= INDEX_MAX && n + k > 0;
     return nm > 0 && nm < 1e6 && is_index ? true :
            error_at(err, ERROR_INPUT, path, place,
@@ -120,27 +132,33 @@ static bool read_points(const char *text, const char *path, Points *points, Erro
     return true;
 }
 
-static bool parse_columns(const char *text, const char *path, int columns,
-                          Curve *const out[COLUMNS_MAX], Error *err)
+static bool no_memory(const char *path, Error *err)
+{
+    return error_at(err, ERROR_MEMORY, path, NULL, "no memory to read it");
+}
+
+bool curve_parse(const char *text, const char *path, CurveRange range, Curve *out, Error *err)
 {
     Points *points = calloc(1, sizeof *points);
-    if (!points) return error_at(err, ERROR_MEMORY, path, NULL, "no memory to read it");
-    points->columns = columns;
+    if (!points) return no_memory(path, err);
+    points->columns = 1;
+    points->range = range;
     bool ok = read_points(text, path, points, err);
-    for (int i = 0; ok && i < columns; i++)
-        curve_from_points(points->nm, points->value[i], points->count, out[i]);
+    if (ok) curve_from_points(points->nm, points->value[0], points->count, out);
     free(points);
     return ok;
 }
 
-bool curve_parse(const char *text, const char *path, Curve *out, Error *err)
-{
-    return parse_columns(text, path, 1, (Curve *const[COLUMNS_MAX]){out}, err);
-}
-
 bool curve_parse_index(const char *text, const char *path, Curve *n, Curve *k, Error *err)
 {
-    return parse_columns(text, path, 2, (Curve *const[COLUMNS_MAX]){n, k}, err);
+    Points *points = calloc(1, sizeof *points);
+    if (!points) return no_memory(path, err);
+    points->columns = 2;
+    bool ok = read_points(text, path, points, err);
+    if (ok) curve_from_points(points->nm, points->value[0], points->count, n);
+    if (ok) curve_from_points(points->nm, points->value[1], points->count, k);
+    free(points);
+    return ok;
 }
 
 Spectrum curve_lookup(const Curve *curve, const Wavelengths *wavelengths)

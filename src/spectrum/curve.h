@@ -22,9 +22,16 @@ void curve_from_points(const double *nm, const double *value, int count, Curve *
 
 #define CURVE_FILE_BYTES_MAX ((size_t)16 << 20)
 
+/* What a curve's values may be. */
+typedef enum CurveRange {
+    CURVE_NUMBERS, /* any */
+    CURVE_AMOUNTS, /* 0 and up */
+    CURVE_SHARES   /* 0 to 1 */
+} CurveRange;
+
 /* A CSV of `nm,value` rows (header line and # comments allowed) in memory, terminated; path: of
- * the file, for messages. */
-bool curve_parse(const char *text, const char *path, Curve *out, Error *err);
+ * the file, for messages, which name the line of a value that is out of range. */
+bool curve_parse(const char *text, const char *path, CurveRange range, Curve *out, Error *err);
 
 #define INDEX_MAX 100.0
 

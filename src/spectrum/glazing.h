@@ -7,7 +7,7 @@
  * Threads  constant once loaded.
  */
 #pragma once
-#include "spectrum/curve.h"
+#include "spectrum/thin_film.h"
 
 #define GLAZING_LAYERS_MAX 8
 
@@ -26,4 +26,6 @@ typedef struct Glazing {
     float wedge_ior;     /* of the layer that has the wedge */
     float haze_share;    /* of the light that passes: scattered forward */
     float haze_width;    /* sine of the angle to the straight way within which half of it is */
+    const LayerStack *coating[2]; /* on the face of the first layer (outside: the front of the
+                                   * triangles), of the last (inside); in air; NULL: bare */
 } Glazing;

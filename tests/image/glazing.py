@@ -1,7 +1,8 @@
 """glazing.py PARHELION -- a laminated pane against closed forms: what passes and what it
 mirrors at six angles, where its ghost stands, how bright it is and which wedge takes it away,
-what dirt on it shows under the sun; and what is no pane.
+what dirt on it shows under the sun, what coated faces do to all of it; and what is no pane.
 """
+import cmath
 import json
 import math
 import os
@@ -9,6 +10,7 @@ import subprocess
 import sys
 import tempfile
 
+import layers
 from exr import Frame
 from gltf import Scene
 
@@ -92,11 +94,12 @@ class Eye:
         return sum(values) / len(values)
 
 
-def slanted(angle, extension, below=0, above=0):
-    """A pane at y = 0, its front up, seen from above at the angle; under and over it glow."""
+def slanted(angle, extension, below=0, above=0, front=1):
+    """A pane at y = 0, its front up (-1: down), seen from above at the angle; under and over it
+    glow."""
     scene = Scene()
     glass = scene.material("pane", extension, doubleSided=True)
-    scene.facing_quad(glass, [0, 0, 0], [0, 1, 0], 2)
+    scene.facing_quad(glass, [0, 0, 0], [0, front, 0], 2)
     if below:
         scene.facing_quad(scene.emitter(below), [0, -1, 0], [0, 1, 0], 40)
     if above:
@@ -120,6 +123,111 @@ def check_shares(report, eye):
             report.claim(abs(found / wanted - 1) < 0.01,
                          f"{degrees} degrees, {through}: mirrors {found:.5f}, wanted "
                          f"{wanted:.5f}")
+
+
+# ---- coated faces --------------------------------------------------------------------------
+
+FILMS = {"clear": (1.38 + 0j, 99.6), "dark": (2.5 + 2.5j, 9.0)}  # n + ik, nm
+
+
+class Face:
+    """A face for one polarisation: what it reflects from the air and from the glass, and what
+    passes (Born and Wolf 1.6.2, the characteristic matrix; fields e^(-iwt))."""
+
+    def __init__(self, film, cosine, nm, is_p):
+        index, depth = FILMS[film] if film else (1 + 0j, 0)
+        media = [cmath.sqrt(n * n - 1 + cosine * cosine) for n in (1, index, INDEX)]
+        sides = [n * n / z if is_p else z for n, z in zip((1, index, INDEX), media)]
+        turn = 2 * math.pi * media[1] * depth / nm
+        self.outer, self.through = self.shares(sides, turn)
+        self.inner, _ = self.shares(sides[::-1], turn)
+
+    @staticmethod
+    def shares(sides, turn):
+        front, film, behind = sides
+        electric = cmath.cos(turn) - 1j * behind / film * cmath.sin(turn)
+        magnetic = behind * cmath.cos(turn) - 1j * film * cmath.sin(turn)
+        whole = front * electric + magnetic
+        return (abs((front * electric - magnetic) / whole) ** 2,
+                4 * front.real * behind.real / abs(whole) ** 2)
+
+
+def coated_pane(angle, near, far, through):
+    """What a pane with these films reflects and lets through, in white light."""
+    cosine, t = math.cos(angle), body(angle, through)
+
+    def share(which):
+        def of(nm, is_p):
+            a, b = Face(near, cosine, nm, is_p), Face(far, cosine, nm, is_p)
+            turns = 1 - a.inner * b.inner * t * t
+            return (a.outer + a.through ** 2 * t * t * b.inner / turns,
+                    a.through * b.through * t / turns)[which]
+        return layers.white(of)
+    return share(0), share(1)
+
+
+def coated(outside, inside, through):
+    extension = pane(laminate(through))
+    for name, film in (("coating_outside", outside), ("coating_inside", inside)):
+        if film:
+            index, depth = FILMS[film]
+            extension["PARHELION_glazing"][name] = {"layers": [
+                {"n": index.real, "k": index.imag, "thickness_nm": depth}]}
+    return extension
+
+
+def check_coated(report, eye):
+    """From both sides; the dark film looks unlike from glass and air."""
+    cases = [(0, "clear", None, 1), (30, None, "dark", 1), (45, "clear", "dark", 1),
+             (45, "clear", "dark", -1), (60, "dark", None, -1), (70, "clear", "clear", 1),
+             (70, "dark", "clear", -1)]
+    for degrees, outside, inside, front in cases:
+        angle, through = math.radians(degrees), 0.85
+        near, far = (outside, inside) if front > 0 else (inside, outside)
+        mirror, straight = coated_pane(angle, near, far, through)
+        extension = coated(outside, inside, through)
+        name = f"{degrees} degrees, outside {outside}, inside {inside}, front {front}"
+        scene = slanted(angle, extension, below=LUMINANCE, front=front)
+        found = eye.mean(scene, 64) / LUMINANCE
+        report.claim(abs(found - straight) < 0.001,
+                     f"{name}: lets through {found:.5f}, wanted {straight:.5f}")
+        scene = slanted(angle, extension, above=LUMINANCE, front=front)
+        found = eye.mean(scene, 256) / LUMINANCE
+        report.claim(abs(found - mirror) < 0.01 * mirror + 2e-4,
+                     f"{name}: mirrors {found:.5f}, wanted {mirror:.5f}")
+        check_coated_sun(report, eye, (angle, extension, front), straight, name)
+
+
+def check_coated_sun(report, eye, coated_at, straight, name):
+    """Shadow rays: a parallel lamp through the pane onto a white floor."""
+    angle, extension, front = coated_at
+    lux, scene = 10000, Scene()
+    glass = scene.material("pane", extension, doubleSided=True)
+    scene.facing_quad(glass, [0, 1, 0], [0, front, 0], 20)
+    scene.quad(scene.lambert(0.01), [-1, 0, 1], [2, 0, 0], [0, 0, -2])
+    scene.light("directional", lux, direction=[math.sin(angle), -math.cos(angle), 0])
+    scene.probe("eye", [-0.3, 0.5, 0], [0.6, -0.8, 0], 0.01)
+    found = eye.mean(scene, 16)
+    wanted = lux * math.cos(angle) * straight * 0.01 / math.pi
+    report.claim(abs(found / wanted - 1) < 0.003,
+                 f"{name}: sunlit floor behind {found:.3f} cd/m2, wanted {wanted:.3f}")
+
+
+def check_coated_ghost(report, eye):
+    """The ghost of a pane whose inner face reflects: three quarters of the image."""
+    angle, film = math.radians(45), "dark"
+    found = images(eye, angle, coated(None, film, 1), STRONG)
+    (_, bright), (_, faint), *_ = found
+    cosine = math.cos(angle)
+
+    def ghost(nm, is_p):
+        near, far = Face(None, cosine, nm, is_p), Face(film, cosine, nm, is_p)
+        return near.through ** 2 * far.inner
+    wanted = layers.white(ghost) / layers.white(
+        lambda nm, is_p: Face(None, cosine, nm, is_p).outer)
+    report.claim(abs(faint / bright / wanted - 1) < 0.01,
+                 f"a dark film inside: the ghost has {faint / bright:.4f} of the image's light, "
+                 f"wanted {wanted:.4f}")
 
 
 # ---- the ghost -----------------------------------------------------------------------------
@@ -248,7 +356,10 @@ FAULTS = [
     ({"layers": [{"thickness_m": 0.002, "ior": 1.5, "transmission": 1.2}]}, "transmission"),
     ({"layers": [{"thickness_m": 0.002, "ior": 1.5, "transmission": True}]}, "transmission"),
     ({"layers": [{"thickness_m": 0.002, "ior": 1.5, "transmission": "no.csv"}]}, "no.csv"),
-    ({"layers": [{"thickness_m": 0.002, "ior": 1.5, "transmission": "bad.csv"}]}, "bad.csv"),
+    ({"layers": [{"thickness_m": 0.002, "ior": 1.5, "transmission": "bad.csv"}]},
+     "line 3: holds 1.5; 0 to 1 is wanted"),
+    ({"layers": [{"thickness_m": 0.002, "ior": 1.5, "transmission": "under.csv"}]},
+     "line 2: holds -0.1; 0 to 1 is wanted"),
     ({"layers": [{"thickness_m": 0.002, "ior": 1.5, "wedge_rad": 0.001}]}, "wedge_toward"),
     ({"layers": [{"thickness_m": 0.002, "ior": 1.5, "wedge_rad": 0.001, "wedge_toward": "up"}]},
      "wedge_toward"),
@@ -263,7 +374,20 @@ FAULTS = [
     ({"layers": [{"thickness_m": 0.002, "ior": 1.5}], "haze": {"share": 0.1}}, "width_deg"),
     ({"layers": [{"thickness_m": 0.002, "ior": 1.5}], "haze": {"share": 0.1, "width_deg": 0}},
      "width_deg"),
-    ({"layers": [{"thickness_m": 0.002, "ior": 1.5}], "coating_inside": {}}, "coating_inside"),
+    ({"layers": [{"thickness_m": 0.002, "ior": 1.5}], "coating_inside": {}},
+     "coating_inside"),
+    ({"layers": [{"thickness_m": 0.002, "ior": 1.5}], "coating_inside": []}, "coating_inside"),
+    ({"layers": [{"thickness_m": 0.002, "ior": 1.5}], "coating_outside": {"stack": "mgf"}},
+     "did you mean mgf2"),
+    ({"layers": [{"thickness_m": 0.002, "ior": 1.5}],
+      "coating_outside": {"stack": "mgf2", "faces": "front"}}, "is one face"),
+    ({"layers": [{"thickness_m": 0.002, "ior": 1.5}],
+      "coating_inside": {"stack": "mgf2", "outside": 1.33}}, "a pane stands in air"),
+    ({"layers": [{"thickness_m": 0.002, "ior": 1.5}],
+      "coating_inside": {"layers": [{"n": 1.38}]}}, "thickness_nm"),
+    ({"layers": [{"thickness_m": 0.002, "ior": 1.5}],
+      "coating_outside": {"layers": [{"n": "no.csv", "thickness_nm": 10}]}}, "no.csv"),
+    ({"layers": [{"thickness_m": 0.002, "ior": 1.5}], "haze": "dirt.panel"}, "haze"),
 ]
 
 
@@ -271,6 +395,8 @@ def check_faults(report, program, folder):
     path = os.path.join(folder, "fault.gltf")
     with open(os.path.join(folder, "bad.csv"), "w", encoding="utf-8") as file:
         file.write("nm,value\n400,0.5\n700,1.5\n")
+    with open(os.path.join(folder, "under.csv"), "w", encoding="utf-8") as file:
+        file.write("nm,value\n400,-0.1\n")
     for extension, word in FAULTS:
         scene = Scene()
         scene.facing_quad(scene.material("pane", {"PARHELION_glazing": extension}), [0, 0, 0],
@@ -281,6 +407,22 @@ def check_faults(report, program, folder):
         report.claim(done.returncode == 3 and word in done.stdout + done.stderr,
                      f"{json.dumps(extension)} ends with {done.returncode}: "
                      f"{(done.stdout + done.stderr).strip()[:200]}")
+
+
+def check_excluded(report, program, folder):
+    """What cannot stand beside a pane is refused."""
+    path = os.path.join(folder, "beside.gltf")
+    for name, body, said in (("KHR_materials_unlit", {}, "a pane does not shine"),
+                             ("PARHELION_coating", {"stack": "mgf2"}, "one of them is wanted"),
+                             ("PARHELION_display", {"panel": "a.panel"}, "a pane is no display")):
+        scene = Scene()
+        scene.facing_quad(scene.material("pane", {**pane(laminate()), name: body}), [0, 0, 0],
+                          [0, 1, 0], 1)
+        scene.write(path)
+        done = subprocess.run([program, "check", path], capture_output=True, text=True,
+                              check=False)
+        report.claim(done.returncode == 3 and said in done.stdout + done.stderr,
+                     f"{name}: {done.returncode}, {done.stdout + done.stderr}")
 
 
 def check_hidden(report, program, folder):
@@ -305,10 +447,13 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         eye = Eye(program, folder)
         check_shares(report, eye)
+        check_coated(report, eye)
         check_ghost(report, eye)
+        check_coated_ghost(report, eye)
         check_haze(report, eye)
         check_furnace(report, eye)
         check_faults(report, program, folder)
+        check_excluded(report, program, folder)
         check_hidden(report, program, folder)
     return report.finish()
 

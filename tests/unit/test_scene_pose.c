@@ -488,6 +488,26 @@ TEST_WITH(instances_stand_in_their_places_below_the_node, maker_reset, NULL)
     assert_non_null(maker_find(&wrong, place, "SCALE has 3 elements, others have 2"));
 }
 
+TEST_WITH(turns_of_instances_that_are_none_are_named, maker_reset, NULL)
+{
+    (void)state;
+    struct {
+        float triangle[9], moves[6], turns[8], scales[6];
+    } data = {{0, 0, 0, 1, 0, 0, 0, 1, 0}, {0}, {0, 0, 0, 1, 0, 0, 0.7f, 0.7f}, {0}};
+    const char *place = "/nodes/0/extensions/EXT_mesh_gpu_instancing/attributes/ROTATION";
+    Found wrong = maker_survey_file(write_instances(&data, sizeof data, "'ROTATION':2"));
+    assert_int_equal(wrong.problems.error_count, 1);
+    assert_non_null(maker_find(&wrong, place, "the turn of instance 1 is (0, 0, 0.7, 0.7); a "
+                                              "quaternion of length 1 is wanted"));
+    data.turns[6] = 0.7072f; /* rounded: as far as signed bytes are */
+    data.turns[7] = 0.7125f;
+    Found rounded = maker_survey_file(write_instances(&data, sizeof data, "'ROTATION':2"));
+    assert_int_equal(rounded.problems.error_count, 0);
+    data.turns[3] = 0;
+    Found none = maker_survey_file(write_instances(&data, sizeof data, "'ROTATION':2"));
+    assert_non_null(maker_find(&none, place, "the turn of instance 0 is (0, 0, 0, 0)"));
+}
+
 /* ---- variants ---------------------------------------------------------------------------- */
 
 #define PLAIN "{'attributes':{'POSITION':0},'material':2}"

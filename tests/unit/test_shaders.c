@@ -192,6 +192,18 @@ static void add_coated_window(const char *name, bool lossless, const CoatingTabl
         .both_sides = true, .lossless = lossless, .width = 1};
 }
 
+static void add_coated_pane(const char *name, const LayerStack *outside,
+                            const LayerStack *inside, float haze)
+{
+    GlazedWindow *window = add_glazing(name, 1, haze, 0.4f);
+    Glazing       pane = *window->pane;
+    pane.coating[0] = outside;
+    pane.coating[1] = inside;
+    models[model_count - 1].lossless = !inside && haze <= 0;
+    window->coating = coating_of_pane(&pane, &arena);
+    window->wavelengths = &wavelengths;
+}
+
 static void add_coated_surfaces(void)
 {
     const LayerStack *four = stack_four(&arena), *silver = stack_silver(&arena);
@@ -217,6 +229,8 @@ static void add_coated_surfaces(void)
     add_coated_solid("silvered glass", 0.1f, false, coating_of_solid(silver, 1.52, &arena));
     add_coated_window("coated window", true, coating_of_sheet(four, 1.52, &arena));
     add_coated_window("silvered window", false, coating_of_sheet(silver, 1.52, &arena));
+    add_coated_pane("laminated, coated outside", four, NULL, 0);
+    add_coated_pane("dirty, silver inside", NULL, silver, 0.3f);
 }
 
 static int make_models(void **state)

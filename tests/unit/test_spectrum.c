@@ -301,7 +301,7 @@ static bool curve_read(const char *path, Curve *out, Error *err)
     FileBytes bytes;
     Arena     arena = arena_reserve(1 << 20);
     bool      ok = file_read(path, 1 << 16, &arena, &bytes, err) &&
-              curve_parse((const char *)bytes.data, path, out, err);
+              curve_parse((const char *)bytes.data, path, CURVE_NUMBERS, out, err);
     arena_release(&arena);
     return ok;
 }
@@ -351,6 +351,25 @@ TEST(a_bad_curve_file_is_refused_with_its_line)
     Error err;
     assert_false(curve_read("/nowhere/glass.csv", &(Curve){0}, &err));
     assert_non_null(strstr(err.text, "cannot be opened: No such file"));
+}
+
+TEST(a_value_out_of_range_is_refused_with_its_line)
+{
+    (void)state;
+    static Curve curve;
+    Error        err;
+    char         line[2048];
+    const char  *text = "nm,value\n400,0.5\n500,1.25\n600,-0.1\n";
+    static const char *const MESSAGES[] = {
+        [CURVE_AMOUNTS] = "x.csv: line 4: holds -0.1; 0 or more is wanted",
+        [CURVE_SHARES] = "x.csv: line 3: holds 1.25; 0 to 1 is wanted"};
+    assert_true(curve_parse(text, "x.csv", CURVE_NUMBERS, &curve, &err));
+    for (int range = CURVE_AMOUNTS; range <= CURVE_SHARES; range++) {
+        assert_false(curve_parse(text, "x.csv", (CurveRange)range, &curve, &err));
+        error_line(&err, line, sizeof line);
+        assert_string_equal(line, MESSAGES[range]);
+    }
+    assert_true(curve_parse("400,0\n500,1\n", "x.csv", CURVE_SHARES, &curve, &err));
 }
 
 TEST(a_file_of_indices_has_three_columns_and_is_refused_with_its_line)

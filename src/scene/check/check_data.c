@@ -261,8 +261,29 @@ static void check_animation_data(GltfFile *file, const GltfValue *animation)
     }
 }
 
+/* Places that no turn tells are not guessed. */
+static void check_instances(GltfFile *file, const GltfValue *node)
+{
+    const GltfValue *turns = tree_member(
+        tree_member(tree_extension(node, INSTANCING_EXTENSION), "attributes"), "ROTATION");
+    int id = tree_whole(turns, NO_ID);
+    const GltfAccessor *accessor = accessor_get(file, id);
+    if (!accessor || accessor->component_count != 4 || !accessor_has_bytes(file, accessor))
+        return;
+    const float *q = accessor_floats(file, id);
+    for (size_t i = 0; i < accessor->count; i++, q += 4)
+        if (!is_unit(q)) {
+            file_error(file, turns,
+                       "the turn of instance %zu is (%g, %g, %g, %g); a quaternion of length "
+                       "1 is wanted",
+                       i, (double)q[0], (double)q[1], (double)q[2], (double)q[3]);
+            return;
+        }
+}
+
 static void check_matrices(GltfFile *file)
 {
+    const GltfValue *nodes = tree_member(file->root, "nodes");
     const GltfValue *skins = tree_member(file->root, "skins");
     const GltfValue *animations = tree_member(file->root, "animations");
     Arena saved = file->load->scratch;
@@ -270,6 +291,10 @@ static void check_matrices(GltfFile *file)
     file->load->scratch = saved;
     for (int a = 0; animations && a < animations->count; a++)
         check_animation_data(file, &animations->items[a]);
+    for (int i = 0; nodes && i < nodes->count; i++) {
+        check_instances(file, &nodes->items[i]);
+        file->load->scratch = saved;
+    }
 }
 
 void check_data(GltfFile *file)

@@ -103,6 +103,18 @@ static void check_beside_glazing(const DocumentCheck *check, const GltfValue *ma
     }
 }
 
+/* A pane's face says by its name which it is, and stands in air. */
+static void check_face_coating(const DocumentCheck *check, const GltfValue *coating)
+{
+    const GltfValue *faces = tree_member(coating, "faces");
+    double outside = tree_number(coating, "outside", 1);
+    if (faces)
+        check_fails(check, faces, "has no meaning here: \"%s\" is one face", coating->key);
+    if (outside > 1)
+        check_fails(check, tree_member(coating, "outside"),
+                    "is %.9g, 1 is wanted: a pane stands in air", outside);
+}
+
 void check_glazing(const DocumentCheck *check, const GltfValue *glazing)
 {
     const GltfValue *layers = tree_member(glazing, "layers");
@@ -115,6 +127,11 @@ void check_glazing(const DocumentCheck *check, const GltfValue *glazing)
     }
     if (tree_extension(material, "PARHELION_display"))
         check_fails(check, glazing, "stands beside PARHELION_display: a pane is no display");
+    if (tree_extension(material, "KHR_materials_unlit"))
+        check_fails(check, glazing,
+                    "stands beside KHR_materials_unlit: a pane does not shine");
+    check_face_coating(check, tree_member(glazing, "coating_outside"));
+    check_face_coating(check, tree_member(glazing, "coating_inside"));
     check_beside_glazing(check, material);
 }
 

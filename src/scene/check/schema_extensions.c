@@ -296,6 +296,25 @@ static const Rule SPECTRUM[] = {{.name = "baseColor", .kind = RULE_TEXT},
 static const Schema SCHEMA_SPECTRUM = {"PARHELION_spectrum", SPECTRUM, COUNT_OF(SPECTRUM), true,
                                        NULL};
 
+static const Rule THIN_LAYER[] = {
+    {.name = "n", .kind = RULE_ANY, .flags = RULE_REQUIRED},
+    {.name = "k", .kind = RULE_ANY},
+    {.name = "thickness_nm", .kind = RULE_NUMBER, .flags = RULE_REQUIRED | RULE_HAS_RANGE,
+     .max = 1e6},
+};
+static const Schema SCHEMA_THIN_LAYER = {"layer", THIN_LAYER, COUNT_OF(THIN_LAYER), true,
+                                         check_layer};
+
+static const Rule COATING[] = {
+    {.name = "layers", .kind = RULE_OBJECTS, .flags = RULE_MAY_BE_EMPTY,
+     .schema = &SCHEMA_THIN_LAYER},
+    {.name = "stack", .kind = RULE_TEXT},
+    {.name = "outside", .kind = RULE_NUMBER, .flags = RULE_HAS_RANGE, .min = 1, .max = 10},
+    {.name = "faces", .kind = RULE_CHOICE, .flags = RULE_CLOSED, .of = "both|front|back"},
+};
+static const Schema SCHEMA_COATING = {"PARHELION_coating", COATING, COUNT_OF(COATING), true,
+                                      check_coating};
+
 static const Rule LAYER[] = {
     {.name = "thickness_m", .kind = RULE_NUMBER,
      .flags = RULE_REQUIRED | RULE_HAS_RANGE | RULE_ABOVE_MIN, .max = 0.1},
@@ -320,6 +339,8 @@ static const Rule GLAZING[] = {
     {.name = "layers", .kind = RULE_OBJECTS, .flags = RULE_REQUIRED, .schema = &SCHEMA_LAYER,
      .least = 1, .most = GLAZING_LAYERS_MAX},
     {.name = "haze", .kind = RULE_OBJECT, .schema = &SCHEMA_HAZE},
+    {.name = "coating_outside", .kind = RULE_OBJECT, .schema = &SCHEMA_COATING},
+    {.name = "coating_inside", .kind = RULE_OBJECT, .schema = &SCHEMA_COATING},
 };
 static const Schema SCHEMA_GLAZING = {"PARHELION_glazing", GLAZING, COUNT_OF(GLAZING), true,
                                       check_glazing};
@@ -328,25 +349,6 @@ static const Rule INSTANCING[] = {
     {.name = "attributes", .kind = RULE_MAP, .flags = RULE_REQUIRED, .of = "accessors"}};
 static const Schema SCHEMA_INSTANCING = {INSTANCING_EXTENSION, INSTANCING,
                                          COUNT_OF(INSTANCING), false, check_instancing};
-
-static const Rule THIN_LAYER[] = {
-    {.name = "n", .kind = RULE_ANY, .flags = RULE_REQUIRED},
-    {.name = "k", .kind = RULE_ANY},
-    {.name = "thickness_nm", .kind = RULE_NUMBER, .flags = RULE_REQUIRED | RULE_HAS_RANGE,
-     .max = 1e6},
-};
-static const Schema SCHEMA_THIN_LAYER = {"layer", THIN_LAYER, COUNT_OF(THIN_LAYER), true,
-                                         check_layer};
-
-static const Rule COATING[] = {
-    {.name = "layers", .kind = RULE_OBJECTS, .flags = RULE_MAY_BE_EMPTY,
-     .schema = &SCHEMA_THIN_LAYER},
-    {.name = "stack", .kind = RULE_TEXT},
-    {.name = "outside", .kind = RULE_NUMBER, .flags = RULE_HAS_RANGE, .min = 1, .max = 10},
-    {.name = "faces", .kind = RULE_CHOICE, .flags = RULE_CLOSED, .of = "both|front|back"},
-};
-static const Schema SCHEMA_COATING = {"PARHELION_coating", COATING, COUNT_OF(COATING), true,
-                                      check_coating};
 
 /* ---- where they stand ------------------------------------------------------------------ */
 

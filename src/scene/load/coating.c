@@ -4,31 +4,10 @@
 
 #include "scene/gltf/document.h"
 #include "scene/load/coating_library.h"
+#include "scene/load/curve_file.h"
 #include "text/nearest_word.h"
 
 /* ---- optical constants ------------------------------------------------------------------ */
-
-static bool parse_index(const char *text, const char *path, OpticalConstants *out, Error *err)
-{
-    return curve_parse_index(text, path, &out->n, &out->k, err);
-}
-
-const OpticalConstants *coating_read_index(GltfFile *file, const GltfValue *uri)
-{
-    Error       err;
-    FileBytes   bytes;
-    const char *path;
-    Loader     *load = file->load;
-    if (!uri || !document_resolve(file, uri, &path)) return NULL;
-    OpticalConstants *out = ARENA_NEW(load->arena, OpticalConstants, 1);
-    if (load_read(load, path, &load->scratch, &bytes, &err) &&
-        parse_index((const char *)bytes.data, path, out, &err))
-        return out;
-    char line[1024];
-    error_line(&err, line, sizeof line);
-    file_error(file, uri, "%s", line);
-    return NULL;
-}
 
 static const char *text_named(const CoatingText *table, int count, const char *name)
 {
@@ -54,10 +33,10 @@ typedef struct LayerSource {
 static const OpticalConstants *index_of(const LayerSource *source, const GltfValue *named)
 {
     Error err;
-    if (!source->is_library) return coating_read_index(source->file, named);
+    if (!source->is_library) return curve_file_index(source->file, named);
     OpticalConstants *out = ARENA_NEW(source->file->load->arena, OpticalConstants, 1);
     const char *text = text_named(coating_index_table, coating_index_count, named->text);
-    return text && parse_index(text, named->text, out, &err) ? out : NULL;
+    return text && curve_parse_index(text, named->text, &out->n, &out->k, &err) ? out : NULL;
 }
 
 /* "n" and "k" are numbers or files; a file for n holds k as well. */

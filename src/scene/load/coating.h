@@ -1,4 +1,4 @@
-/* coating.h -- a material's thin layers, and the optical constants of its metal.
+/* coating.h -- a material's thin layers.
  *
  * Memory   in the loader's arena.
  * Fails    into the loader's problems, with the place in the file.
@@ -6,8 +6,6 @@
 #pragma once
 #include "scene/gltf/loader.h"
 
-/* Of a PARHELION_coating that the check has found well formed; NULL: none, or reported. */
+/* Of a PARHELION_coating, or the coating of a pane's face, that the check has found well formed;
+ * NULL: none, or reported. */
 const LayerStack *coating_read(GltfFile *file, const GltfValue *extension);
-
-/* A URI of a file of rows nm,n,k; NULL: none, or reported. */
-const OpticalConstants *coating_read_index(GltfFile *file, const GltfValue *uri);

@@ -4,43 +4,20 @@
 
 #include "base/mathd.h"
 #include "base/units.h"
-#include "scene/gltf/document.h"
+#include "scene/load/coating.h"
+#include "scene/load/curve_file.h"
 #include "scene/load/texture_slot.h"
 
 #define LEAST_TRANSMITTANCE 1e-12 /* black: its logarithm is still a number */
-
-/* A curve of values in [0, 1]; false: reported. */
-static bool read_curve(GltfFile *file, const GltfValue *uri, Curve *curve)
-{
-    Error       err;
-    FileBytes   bytes;
-    const char *path;
-    Loader     *load = file->load;
-    if (!document_resolve(file, uri, &path)) return false;
-    if (!load_read(load, path, &load->scratch, &bytes, &err) ||
-        !curve_parse((const char *)bytes.data, path, curve, &err)) {
-        char line[1024];
-        error_line(&err, line, sizeof line);
-        file_error(file, uri, "%s", line);
-        return false;
-    }
-    for (int i = 0; i < CURVE_COUNT; i++) {
-        if (curve->value[i] >= 0 && curve->value[i] <= 1) continue;
-        file_error(file, uri,
-                   "%s has %g at %d nm; 0 to 1 is wanted: the share of the light that the "
-                   "layer lets through",
-                   path, (double)curve->value[i], CURVE_FIRST_NM + i);
-        return false;
-    }
-    return true;
-}
 
 /* What one layer lets through, as a curve; without a word of it all. */
 static void read_transmission(GltfFile *file, const GltfValue *layer, Curve *out)
 {
     const GltfValue *value = tree_member(layer, "transmission");
     float constant = value && value->kind == GLTF_NUMBER ? (float)value->number : 1;
-    if (value && value->kind == GLTF_STRING && read_curve(file, value, out)) return;
+    if (value && value->kind == GLTF_STRING &&
+        curve_file_read(file, value, CURVE_SHARES, out))
+        return;
     for (int i = 0; i < CURVE_COUNT; i++) out->value[i] = constant;
 }
 
@@ -104,5 +81,7 @@ void glazing_build(GltfFile *file, const GltfValue *glazing, Material *material)
     pane->haze_share = tree_float(haze, "share", 0);
     pane->haze_width =
         (float)sin_d(radians_from_degrees(tree_number(haze, "width_deg", 0)));
+    pane->coating[0] = coating_read(file, tree_member(glazing, "coating_outside"));
+    pane->coating[1] = coating_read(file, tree_member(glazing, "coating_inside"));
     become_pane(material, pane);
 }

@@ -4,6 +4,7 @@
 
 #include "scene/gltf/document.h"
 #include "scene/load/coating.h"
+#include "scene/load/curve_file.h"
 #include "scene/load/display.h"
 #include "scene/load/glazing.h"
 #include "scene/load/texture_slot.h"
@@ -112,21 +113,13 @@ static void read_extensions(GltfFile *file, const GltfValue *value, Material *m)
     read_volume(tree_extension(value, "KHR_materials_volume"), m);
 }
 
-static int read_curve(GltfFile *file, const GltfValue *uri)
+static int read_curve(GltfFile *file, const GltfValue *uri, CurveRange range)
 {
-    Error err;
-    FileBytes bytes;
-    const char *path;
     Loader *load = file->load;
-    if (!uri || !document_resolve(file, uri, &path)) return NO_ID;
-    Curve *curve = list_add(&load->curves, &load->scratch);
-    if (load_read(load, path, &load->scratch, &bytes, &err) &&
-        curve_parse((const char *)bytes.data, path, curve, &err))
-        return load->curves.count - 1;
-    char line[1024];
-    error_line(&err, line, sizeof line);
-    file_error(file, uri, "%s", line);
-    return NO_ID;
+    Curve   curve;
+    if (!uri || !curve_file_read(file, uri, range, &curve)) return NO_ID;
+    *(Curve *)list_add(&load->curves, &load->scratch) = curve;
+    return load->curves.count - 1;
 }
 
 /* An emission spectrum tells the colour; emissiveFactor and its strength tell how much. */
@@ -144,11 +137,13 @@ static void make_unit_luminance(GltfFile *file, const GltfValue *at, int curve_i
 
 static void read_spectra(GltfFile *file, const GltfValue *spectrum, Material *m)
 {
-    m->base_color_curve_id = read_curve(file, tree_member(spectrum, "baseColor"));
-    m->transmission_curve_id = read_curve(file, tree_member(spectrum, "transmission"));
-    m->specular_curve_id = read_curve(file, tree_member(spectrum, "specular"));
-    m->emission_curve_id = read_curve(file, tree_member(spectrum, "emission"));
-    m->conductor = coating_read_index(file, tree_member(spectrum, "conductor"));
+    m->base_color_curve_id =
+        read_curve(file, tree_member(spectrum, "baseColor"), CURVE_SHARES);
+    m->transmission_curve_id =
+        read_curve(file, tree_member(spectrum, "transmission"), CURVE_SHARES);
+    m->specular_curve_id = read_curve(file, tree_member(spectrum, "specular"), CURVE_AMOUNTS);
+    m->emission_curve_id = read_curve(file, tree_member(spectrum, "emission"), CURVE_AMOUNTS);
+    m->conductor = curve_file_index(file, tree_member(spectrum, "conductor"));
     if (m->emission_curve_id != NO_ID)
         make_unit_luminance(file, tree_member(spectrum, "emission"), m->emission_curve_id);
 }
