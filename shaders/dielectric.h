@@ -25,7 +25,11 @@ typedef struct Dielectric {
     float    ior;   /* of the solid against its surroundings, > 0; 0: reflects everything */
     float    alpha; /* GGX, [0, 1]; below SMOOTH_ALPHA smooth */
     const CoatingTables *coating;     /* of that boundary; NULL: bare */
-    const Wavelengths   *wavelengths; /* NULL where it is bare */
+    const Wavelengths   *wavelengths; /* NULL where it is bare and of one index */
+    const Curve         *index;       /* by wavelength, 1 or more, in place of ior; NULL: it is
+                                         the same for all. Without a coating */
+    const Spectrum      *light;       /* of a path that is split: what its lanes still count,
+                                         >= 0; chance follows it. NULL: all alike */
 } Dielectric;
 
 extern const BsdfModel dielectric_model;

@@ -23,8 +23,8 @@
  * T = (1 - r1) (1 - r2) t / (1 - r1 r2 t^2). A ghost of order k has
  * (1 - r1)^2 t^2k r2^k r1^(k-1); orders below 1e-4 in all come with the last one above it.
  * A coated face reflects r from the air and r' from the glass and lets c through; what is
- * neither it absorbs: R = r1 + c1^2 t^2 r2' / (1 - r1' r2' t^2), T = c1 c2 t / (1 - r1' r2' t^2)
- * and a ghost c1^2 t^2k r2'^k r1'^(k-1), for each polarisation and wavelength.
+ * neither it absorbs. With q = r1' r2' t^2 it is R = r1 + c1^2 t^2 r2' / (1 - q), T = c1 c2 t /
+ * (1 - q) and a ghost c1^2 t^2k r2'^k r1'^(k-1), for each polarisation and wavelength.
  * The haze is a function of how far the direction's part along the pane moves, b:
  * share min(T(in), T(out)) w^2 / (pi (w^2 + b^2)^2), w the width's sine: half of the lobe lies
  * within w, the same both ways; what would leave below the pane's plane is lost.

@@ -24,13 +24,14 @@ typedef struct Waves {
     float along, turned; /* its real and imaginary part */
 } Waves;
 
-/* A boundary of real index; eta, cosine as of fresnel_dielectric. Under total reflection both
+/* A boundary of real index; eta, cosine as of fresnel_dielectric; 0: a perfect mirror. Under total reflection both
  * waves come back whole and out of step. */
 static inline Waves waves_reflected(float cosine, float eta)
 {
     float   behind;
     Fresnel face = fresnel_dielectric(cosine, eta, &behind);
-    float   sine2 = (1 - cosine * cosine) / (eta * eta);
+    if (!(eta > 0)) return (Waves){1, 1, -1, 0};
+    float sine2 = (1 - cosine * cosine) / (eta * eta);
     if (sine2 < 1 || !(cosine > 0)) {
         float s = (cosine - eta * behind) / (cosine + eta * behind);
         float p = (eta * cosine - behind) / (eta * cosine + behind);

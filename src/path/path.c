@@ -1079,6 +1079,8 @@ static void walk_path(PathWalk *walk)
         float distance = walk->straight;
         walk->steps++;
         surface_at(context->scene, context->tables, &hit, wo, walk->wavelengths, &surface);
+        if (surface.bsdf.kind == BSDF_DIELECTRIC)
+            surface.bsdf.dielectric.light = &walk->throughput;
         if (walk->tale) walk->tale->reached_by = walk->tale->pane_id;
         if (split(walk, &surface, &hit, wo)) continue;
         numbers_for(walk, NUMBERS_HOLE);

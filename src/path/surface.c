@@ -233,6 +233,8 @@ static void set_solid(const Site *site, Surface *surface)
     Dielectric *solid = &surface->bsdf.dielectric;
     surface->bsdf.kind = BSDF_DIELECTRIC;
     *solid = (Dielectric){.tint = tint_of(site), .ior = m->ior, .alpha = site->alpha};
+    solid->index = m->index;
+    solid->wavelengths = m->index ? site->wavelengths : NULL;
     if (!coating) return;
     solid->ior = (float)((double)m->ior / m->coating->outside);
     solid->coating = coating->solid;

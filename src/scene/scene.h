@@ -105,6 +105,7 @@ typedef struct Material {
     int   base_color_curve_id, specular_curve_id, transmission_curve_id, emission_curve_id;
     const LayerStack *coating; /* PARHELION_coating; NULL: none */
     const OpticalConstants *conductor; /* of the metal share; NULL: by its base colour */
+    const Curve *index;        /* of a solid, in place of ior; NULL: ior at all wavelengths */
     bool  is_emitter;          /* some of its surface may emit */
     bool  lets_light_through;  /* alpha below 1 or a thin window: shadow rays must ask */
 } Material;

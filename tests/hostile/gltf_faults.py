@@ -133,7 +133,7 @@ def ranges():
 
 
 # What is not shown.
-SKIPPED = ("anisotropy", "iridescence", "sheen", "dispersion", "diffuse_transmission",
+SKIPPED = ("anisotropy", "iridescence", "sheen", "diffuse_transmission",
            "pbrSpecularGlossiness", "animations")
 
 SCHEMA += [("VALUE_NOT_IN_RANGE" + "~" * any(word in place for word in SKIPPED), "is wanted",
@@ -175,6 +175,7 @@ SEMANTIC = [
      put(CHANNELS + "3/target/path", "scale")),
     ("KHR_LIGHTS_PUNCTUAL_LIGHT_SPOT_ANGLES", "not below the outer one",
      put(LIGHT + "spot/innerConeAngle", 0.8)),
+    ("KHR_MATERIALS_DISPERSION_NO_VOLUME", "spreads nothing", drop(EXTENSION + "volume")),
     ("KHR_MATERIALS_EMISSIVE_STRENGTH_ZERO_FACTOR", "strengthens nothing",
      drop(MATERIAL + "emissiveFactor")),
     ("KHR_MATERIALS_VOLUME_NO_TRANSMISSION", "no light enters",

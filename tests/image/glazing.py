@@ -226,8 +226,8 @@ def check_coated_ghost(report, eye):
     wanted = layers.white(ghost) / layers.white(
         lambda nm, is_p: Face(None, cosine, nm, is_p).outer)
     report.claim(abs(faint / bright / wanted - 1) < 0.01,
-                 f"a dark film inside: the ghost has {faint / bright:.4f} of the image's light, "
-                 f"wanted {wanted:.4f}")
+                 f"a dark film inside: the ghost has {faint / bright:.4f} of the image's "
+                 f"light, wanted {wanted:.4f}")
 
 
 # ---- the ghost -----------------------------------------------------------------------------
@@ -414,7 +414,8 @@ def check_excluded(report, program, folder):
     path = os.path.join(folder, "beside.gltf")
     for name, body, said in (("KHR_materials_unlit", {}, "a pane does not shine"),
                              ("PARHELION_coating", {"stack": "mgf2"}, "one of them is wanted"),
-                             ("PARHELION_display", {"panel": "a.panel"}, "a pane is no display")):
+                             ("PARHELION_display", {"panel": "a.panel"},
+                              "a pane is no display")):
         scene = Scene()
         scene.facing_quad(scene.material("pane", {**pane(laminate()), name: body}), [0, 0, 0],
                           [0, 1, 0], 1)

@@ -43,7 +43,7 @@ void check_coating(const DocumentCheck *check, const GltfValue *coating)
 
 /* ---- materials that wear them ----------------------------------------------------------- */
 
-static bool is_solid(const GltfValue *material)
+bool material_is_clear_solid(const GltfValue *material)
 {
     const GltfValue *volume = tree_extension(material, "KHR_materials_volume");
     const GltfValue *clear = tree_extension(material, "KHR_materials_transmission");
@@ -57,7 +57,7 @@ static void check_body(const DocumentCheck *check, const GltfValue *material,
     const GltfValue *pbr = tree_member(material, "pbrMetallicRoughness");
     const GltfValue *coat = tree_extension(material, "KHR_materials_clearcoat");
     double metallic = tree_number(pbr, "metallicFactor", 1);
-    if (metallic > 0 && !has_conductor && !is_solid(material))
+    if (metallic > 0 && !has_conductor && !material_is_clear_solid(material))
         check_fails(check, coating,
                     "lies on a metal (metallicFactor %.9g) whose n and k are not known: a "
                     "PARHELION_spectrum with \"conductor\", or metallicFactor 0, is wanted",
@@ -74,6 +74,10 @@ void check_coated_material(const DocumentCheck *check, const GltfValue *material
     const GltfValue *conductor =
         tree_member(tree_extension(material, "PARHELION_spectrum"), "conductor");
     const GltfValue *pbr = tree_member(material, "pbrMetallicRoughness");
+    const GltfValue *measured =
+        tree_member(tree_member(tree_extension(material, "OpenMaterial_material_parameters"),
+                                "physical_properties"), "refractive_index_uri");
+    bool is_known = conductor || (measured && measured->text[0]);
     if (conductor && tree_number(pbr, "metallicFactor", 1) <= 0)
         check_warns(check, conductor, "has no effect: metallicFactor is 0");
     if (!coating) return;
@@ -85,5 +89,5 @@ void check_coated_material(const DocumentCheck *check, const GltfValue *material
         check_fails(check, coating, "lies on a body of infinite index (ior 0): a number of at "
                                     "least 1 is wanted there");
     if (!tree_extension(material, "PARHELION_display"))
-        check_body(check, material, coating, conductor != NULL);
+        check_body(check, material, coating, is_known);
 }

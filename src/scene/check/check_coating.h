@@ -5,5 +5,8 @@
 void check_layer(const DocumentCheck *check, const GltfValue *layer);
 void check_coating(const DocumentCheck *check, const GltfValue *coating);
 
+/* Refracts: KHR_materials_volume with a thickness, and KHR_materials_transmission. */
+bool material_is_clear_solid(const GltfValue *material);
+
 /* Whether a coating or a conductor fits the material that has it. */
 void check_coated_material(const DocumentCheck *check, const GltfValue *material);

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "scene/check/check_coating.h"
+#include "scene/check/check_index.h"
 #include "scene/gltf/variant.h"
 
 /* ---- textures: the picture's type is the one that stands there ------------------------- */
@@ -145,6 +146,7 @@ void check_material(const DocumentCheck *check, const GltfValue *material)
     check_volume(check, material);
     check_alone(check, material);
     check_coated_material(check, material);
+    check_index(check, material);
 }
 
 /* ---- what a material needs of its primitives ------------------------------------------- */

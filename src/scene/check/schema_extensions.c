@@ -363,6 +363,7 @@ static const ExtensionRule EXTENSIONS[] = {
     {"KHR_materials_transmission", "material", &SCHEMA_TRANSMISSION},
     {"KHR_materials_clearcoat", "material", &SCHEMA_CLEARCOAT},
     {"KHR_materials_volume", "material", &SCHEMA_VOLUME},
+    {"KHR_materials_dispersion", "material", &SCHEMA_DISPERSION},
     {"KHR_materials_unlit", "material", &SCHEMA_UNLIT},
     {"KHR_texture_transform", "textureInfo", &SCHEMA_TEXTURE_TRANSFORM},
     {"KHR_node_visibility", "node", &SCHEMA_VISIBILITY},
@@ -379,6 +380,8 @@ static const ExtensionRule EXTENSIONS[] = {
     {"PARHELION_spectrum", "material", &SCHEMA_SPECTRUM},
     {"PARHELION_glazing", "material", &SCHEMA_GLAZING},
     {"PARHELION_coating", "material", &SCHEMA_COATING},
+    {"OpenMaterial_material_parameters", "material", NULL}, /* check_index.c looks into it */
+    {"OpenMaterial_asset_info", NULL, NULL},
     /* Of no picture: who made it, what a hand may do with a node. */
     {"KHR_xmp_json_ld", NULL, NULL},
     {"KHR_node_selectability", NULL, NULL},
@@ -388,7 +391,6 @@ static const ExtensionRule EXTENSIONS[] = {
     {"KHR_materials_anisotropy", "material", &SCHEMA_ANISOTROPY},
     {"KHR_materials_iridescence", "material", &SCHEMA_IRIDESCENCE},
     {"KHR_materials_sheen", "material", &SCHEMA_SHEEN},
-    {"KHR_materials_dispersion", "material", &SCHEMA_DISPERSION},
     {"KHR_materials_diffuse_transmission", "material", &SCHEMA_DIFFUSE_TRANSMISSION},
     {"KHR_materials_pbrSpecularGlossiness", "material", &SCHEMA_GLOSSINESS},
     {"KHR_texture_basisu", "texture", &SCHEMA_BASISU},

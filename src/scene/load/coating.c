@@ -4,7 +4,7 @@
 
 #include "scene/gltf/document.h"
 #include "scene/load/coating_library.h"
-#include "scene/load/curve_file.h"
+#include "scene/optics/curve_file.h"
 #include "text/nearest_word.h"
 
 /* ---- optical constants ------------------------------------------------------------------ */

@@ -6,6 +6,6 @@
 #pragma once
 #include "scene/gltf/loader.h"
 
-/* Of a PARHELION_coating, or the coating of a pane's face, that the check has found well formed;
- * NULL: none, or reported. */
+/* Of a PARHELION_coating, or the coating of a pane's face, that the check has found well
+ * formed; NULL: none, or reported. */
 const LayerStack *coating_read(GltfFile *file, const GltfValue *extension);

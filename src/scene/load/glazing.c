@@ -5,7 +5,7 @@
 #include "base/mathd.h"
 #include "base/units.h"
 #include "scene/load/coating.h"
-#include "scene/load/curve_file.h"
+#include "scene/optics/curve_file.h"
 #include "scene/load/texture_slot.h"
 
 #define LEAST_TRANSMITTANCE 1e-12 /* black: its logarithm is still a number */

@@ -4,9 +4,10 @@
 
 #include "scene/gltf/document.h"
 #include "scene/load/coating.h"
-#include "scene/load/curve_file.h"
+#include "scene/optics/curve_file.h"
 #include "scene/load/display.h"
 #include "scene/load/glazing.h"
+#include "scene/optics/measured_index.h"
 #include "scene/load/texture_slot.h"
 #include "spectrum/photometry.h"
 
@@ -182,6 +183,7 @@ static void build_material(GltfFile *file, const GltfValue *value)
     read_core(file, value, &m);
     read_extensions(file, value, &m);
     read_spectra(file, tree_extension(value, "PARHELION_spectrum"), &m);
+    measured_index_build(file, value, &m);
     glazing_build(file, tree_extension(value, "PARHELION_glazing"), &m);
     m.coating = coating_read(file, tree_extension(value, "PARHELION_coating"));
     add_material(load, m, (int[SCENE_UV_SETS]){0, 1});

@@ -1,4 +1,4 @@
-#include "scene/load/curve_file.h"
+#include "scene/optics/curve_file.h"
 
 #include "scene/gltf/document.h"
 

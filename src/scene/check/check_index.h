@@ -1,0 +1,6 @@
+/* check_index.h -- what tables cannot say about indices of refraction by wavelength. */
+#pragma once
+#include "scene/check/check.h"
+
+/* Whether dispersion, or a measured index, fits the material that has it. */
+void check_index(const DocumentCheck *check, const GltfValue *material);

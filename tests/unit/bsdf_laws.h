@@ -1,0 +1,309 @@
+/* bsdf_laws.h -- laws that every surface model obeys: a test that includes it fills `models`
+ * before the first case, and its models inherit them all.
+ */
+#pragma once
+#include "chart_fixture.h"
+#include "shader_fixture.h"
+
+#include <string.h>
+
+#include "base/units.h"
+#include "shaders/bsdf.h"
+
+#define MAX_MODELS 80
+
+typedef struct Model {
+    const char *name;
+    Bsdf        bsdf;
+    bool        lossless;  /* sends back all it gets, within the tables' error */
+    bool        both_sides; /* the eye may be below */
+    float       width;     /* of its narrowest lobe, radians: where to look closely */
+} Model;
+
+static Model models[MAX_MODELS];
+static int   model_count;
+
+/* Calls `law` for every model and eye, on the far side too where there is one. */
+static void for_all(void (*law)(const Model *, Vec3))
+{
+    for (int m = 0; m < model_count; m++)
+        for (int i = 0; i < EYE_COUNT; i++) {
+            Vec3 wo = eye(i);
+            law(&models[m], wo);
+            if (models[m].both_sides) law(&models[m], vec3(wo.x, wo.y, -wo.z));
+        }
+}
+
+/* ---- sampling matches its density ---------------------------------------------------- */
+
+#define SAMPLES 20000
+
+static Chart chart_for(const Model *model, Vec3 wo, bool same_side)
+{
+    Vec3 centre = vec3(-wo.x, -wo.y, same_side ? wo.z : -wo.z);
+    if (model->bsdf.kind == BSDF_DIELECTRIC && !same_side) {
+        float eta = wo.z > 0 ? model->bsdf.dielectric.ior : 1 / model->bsdf.dielectric.ior;
+        float x = -wo.x / eta, y = -wo.y / eta, z = safe_sqrtf(1 - x * x - y * y);
+        centre = vec3_normalize(vec3(x, y, wo.z > 0 ? -z : z));
+    }
+    return (Chart){frame_from_z(centre), model->width * fabsf(wo.z)}; /* lobes grow slender */
+}
+
+/* Integral of the pdf over one cell of the chart, on one side of the surface. */
+static double integrate_cell(const Model *model, Vec3 wo, const Chart *chart, int cell,
+                             bool same_side)
+{
+    double sum = 0;
+    int    ring = cell / SECTORS, sector = cell % SECTORS;
+    int    turns = model->width < 0.03f ? 72 : 36;
+    int fine = fabsf(wo.z) < 0.1f || model->width < 0.03f
+                   ? 40
+                   : 16; /* the horizon cuts narrow lobes */
+    double before = angle_of(chart, (double)ring / RINGS);
+    for (int i = 0; i < fine; i++) {
+        double after = angle_of(chart, (ring + (i + 1.0) / fine) / RINGS);
+        double angle = 0.5 * (before + after);
+        double area = (cos(before) - cos(after)) * 2 * PI / SECTORS / turns;
+        before = after;
+        for (int k = 0; k < turns; k++) {
+            double turn = ((sector + (k + 0.5) / turns) / SECTORS - 0.5) * 2 * PI;
+            Vec3 local = vec3((float)(sin(angle) * cos(turn)), (float)(sin(angle) * sin(turn)),
+                              (float)cos(angle));
+            Vec3   wi = frame_to_world(&chart->frame, local);
+            if ((wi.z * wo.z > 0) != same_side) continue;
+            float pdf;
+            bsdf_eval(&model->bsdf, wo, wi, &pdf);
+            sum += (double)pdf * area;
+        }
+    }
+    return sum;
+}
+
+static void samples_follow_pdf(const Model *model, Vec3 wo)
+{
+    if (fabsf(wo.z) < 0.1f && model->width < 0.03f) return; /* a needle no chart resolves */
+    static double expected[CELLS], found[CELLS + 1];
+    memset(found, 0, sizeof found);
+    Chart  charts[2] = {chart_for(model, wo, true), chart_for(model, wo, false)};
+    double total = 0;
+    for (int i = 0; i < CELLS; i++) {
+        bool same = i < CELLS / 2;
+        double part = integrate_cell(model, wo, &charts[!same], i % (CELLS / 2), same);
+        total += part;
+        expected[i] = part * SAMPLES;
+    }
+    if (!(total <= 1.01))
+        fail_msg("%s, cos %g: pdf integrates to %g", model->name, (double)wo.z, total);
+    for (uint32_t i = 0; i < SAMPLES; i++) {
+        Sampler    sampler = sampler_start(11, (int)(i * 7919u), (int)(wo.z * 1000), i);
+        BsdfSample sample;
+        float      u[3];
+        draw(&sampler, u);
+        bool whole = !bsdf_sample(&model->bsdf, wo, u, &sample) || sample.is_delta;
+        bool same = !whole && sample.wi.z * wo.z > 0;
+        int  cell = whole ? CELLS : (same ? 0 : CELLS / 2) + cell_of(&charts[!same], sample.wi);
+        found[cell]++;
+    }
+    int    degrees; /* what is left over are the delta parts and lost light */
+    double chi2 = chi_square(expected, found, CELLS, &degrees);
+    if (!(fabs(found[CELLS] / SAMPLES - (1 - total)) < 0.01))
+        fail_msg("%s, cos %g: %g of the samples are lost, the pdf leaves %g", model->name,
+                 (double)wo.z, found[CELLS] / SAMPLES, 1 - total);
+    if (degrees > 0 && !(deviate(chi2, degrees) < 4.5))
+        fail_msg("%s, cos %g: chi-square %g with %d degrees (pdf integrates to %g)",
+                 model->name, (double)wo.z, chi2, degrees, total);
+}
+
+TEST(samples_are_distributed_as_their_pdf_says)
+{
+    (void)state;
+    for_all(samples_follow_pdf);
+}
+
+/* ---- a sample agrees with eval ------------------------------------------------------- */
+
+static void sample_agrees(const Model *model, Vec3 wo)
+{
+    for (uint32_t i = 0; i < 400; i++) {
+        Sampler    sampler = sampler_start(3, 1, 2, i);
+        BsdfSample s;
+        float      u[3], pdf;
+        BsdfPolarisation matrix;
+        draw(&sampler, u);
+        if (!bsdf_sample(&model->bsdf, wo, u, &s)) continue;
+        assert_close(vec3_length(s.wi), 1, 1e-5);
+        assert_true(s.pdf > 0 && spectrum_is_finite(s.weight));
+        for (int k = 0; k < SPECTRUM_LANES; k++) assert_true(s.weight[k] >= 0);
+        if (bsdf_polarise(&model->bsdf, wo, &s, &matrix))
+            stokes_law(model->name, &matrix, random_direction(&sampler));
+        if (s.is_delta) {
+            assert_true(s.pdf <= 1);
+            if (s.passes) assert_near(vec3_length(vec3_add(s.wi, wo)), 0, 1e-6);
+            continue;
+        }
+        assert_true(bsdf_scatters(&model->bsdf) && !s.passes);
+        Spectrum f = bsdf_eval(&model->bsdf, wo, s.wi, &pdf);
+        assert_close(pdf, s.pdf, 2e-3);
+        for (int k = 0; k < SPECTRUM_LANES; k++) {
+            double cosine = fabs((double)s.wi.z);
+            assert_near(s.weight[k], (double)f[k] * cosine / (double)pdf,
+                        4e-3 * (double)s.weight[k] + 1e-6);
+        }
+    }
+}
+
+TEST(weight_is_eval_times_cosine_over_pdf)
+{
+    (void)state;
+    for_all(sample_agrees);
+}
+
+TEST(what_does_not_scatter_or_reach_evaluates_to_nothing)
+{
+    (void)state;
+    for (int m = 0; m < model_count; m++)
+        for (int i = 0; i < EYE_COUNT; i++)
+            for (int k = 0; k < EYE_COUNT; k++) {
+                const Bsdf *bsdf = &models[m].bsdf;
+                float pdf = -1;
+                Vec3  wi = eye(k);
+                for (int side = 0; side < 2; side++, wi.z = -wi.z) {
+                    if (bsdf_scatters(bsdf) && bsdf_reaches(bsdf, eye(i), wi)) continue;
+                    assert_true(spectrum_is_zero(bsdf_eval(bsdf, eye(i), wi, &pdf)));
+                    assert_true(pdf == 0);
+                }
+            }
+}
+
+/* ---- energy -------------------------------------------------------------------------- */
+
+/* By how much radiance grows on the way to wo through the boundary: as the index squared. */
+static Spectrum squeeze(const Model *model, Vec3 wo)
+{
+    const Dielectric *d = &model->bsdf.dielectric;
+    if (model->bsdf.kind != BSDF_DIELECTRIC) return spectrum_all(1);
+    Spectrum n = d->index ? curve_lookup(d->index, d->wavelengths) : spectrum_all(d->ior);
+    return wo.z > 0 ? n * n : spectrum_all(1) / (n * n);
+}
+
+/* Light sent to wo under a uniform surround of 1. Refracted radiance is counted as flux. */
+static Spectrum furnace(const Model *model, Vec3 wo, uint32_t count)
+{
+    Spectrum sum = spectrum_all(0);
+    for (uint32_t i = 0; i < count; i++) {
+        Sampler    sampler = sampler_start(5, 8, 13, i);
+        BsdfSample s;
+        float      u[3];
+        draw(&sampler, u);
+        if (!bsdf_sample(&model->bsdf, wo, u, &s)) continue;
+        if (s.wi.z * wo.z < 0) s.weight *= squeeze(model, wo);
+        sum += s.weight;
+    }
+    return sum / spectrum_all((float)count);
+}
+
+static void energy_holds(const Model *model, Vec3 wo)
+{
+    Spectrum sent = furnace(model, wo, 16384);
+    for (int k = 0; k < SPECTRUM_LANES; k += 5) {
+        if (!(sent[k] <= 1.004f))
+            fail_msg("%s, cos %g: sends back %g", model->name, (double)wo.z, (double)sent[k]);
+        if (model->lossless && !(sent[k] >= (model->both_sides ? 0.9f : 0.98f)))
+            fail_msg("%s, cos %g: loses light, %g", model->name, (double)wo.z, (double)sent[k]);
+    }
+}
+
+TEST(no_surface_sends_back_more_than_it_gets)
+{
+    (void)state;
+    for_all(energy_holds);
+}
+
+static void albedo_is_near(const Model *model, Vec3 wo)
+{
+    bool tilted =
+        strstr(model->name, "tilted") != NULL; /* loses light, by how much is not told */
+    if (model->bsdf.kind == BSDF_DIELECTRIC || tilted) return;
+    Spectrum sent = furnace(model, wo, 4096), told = bsdf_albedo(&model->bsdf, wo);
+    for (int k = 0; k < SPECTRUM_LANES; k += 5)
+        if (!(fabsf(sent[k] - told[k]) < 0.12f))
+            fail_msg("%s, cos %g: albedo %g, furnace %g", model->name, (double)wo.z,
+                     (double)told[k], (double)sent[k]);
+}
+
+TEST(albedo_is_a_fair_estimate)
+{
+    (void)state;
+    for_all(albedo_is_near);
+}
+
+/* ---- reciprocity --------------------------------------------------------------------- */
+
+static Vec3 turned_over(Vec3 w)
+{
+    return vec3(w.x, w.y, -w.z);
+}
+
+/* f(wo, wi) against f(wi, wo). Frames of one-sided models are always turned to the eye; a
+ * solid's transmitted radiance scales with the square of the index on the light's side. */
+static void check_reciprocity(const Model *model, Vec3 wo, Vec3 wi)
+{
+    bool  is_solid = model->bsdf.kind == BSDF_DIELECTRIC;
+    bool  crosses = wo.z * wi.z < 0, turn = crosses && !is_solid;
+    float pdf;
+    Spectrum scale = crosses && is_solid ? squeeze(model, wo) : spectrum_all(1);
+    double tolerance = is_solid || model->width < 0.05f ? 1e-3 : 1e-4; /* rounding */
+    if (turn && model->bsdf.kind == BSDF_METALLIC_ROUGHNESS &&
+        model->bsdf.metallic_roughness.clearcoat > 0)
+        return; /* its coat is on one side */
+    Spectrum a = bsdf_eval(&model->bsdf, wo, wi, &pdf);
+    Spectrum b =
+        bsdf_eval(&model->bsdf, turn ? turned_over(wi) : wi, turn ? turned_over(wo) : wo, &pdf);
+    for (int k = 0; k < SPECTRUM_LANES; k += 3) {
+        double forth = (double)(a[k] * scale[k]), back = (double)b[k];
+        if (!(fabs(forth - back) <= tolerance * (forth + back) + (is_solid ? 1e-5 : 1e-6)))
+            fail_msg("%s: f(%g,%g,%g / %g,%g,%g) is %g and %g back", model->name, (double)wo.x,
+                     (double)wo.y, (double)wo.z, (double)wi.x, (double)wi.y, (double)wi.z,
+                     forth, back);
+    }
+}
+
+TEST(light_goes_back_the_way_it_came)
+{
+    (void)state;
+    for (int m = 0; m < model_count; m++)
+        for (uint32_t i = 0; i < 2000; i++) {
+            Sampler sampler = sampler_start(17, m, 0, i);
+            Vec3    wo = random_direction(&sampler), wi = random_direction(&sampler);
+            if (!models[m].both_sides) wo.z = fabsf(wo.z);
+            if (fabsf(wo.z) < 1e-3f || fabsf(wi.z) < 1e-3f) continue;
+            check_reciprocity(&models[m], wo, wi);
+        }
+}
+
+/* ---- smooth parts --------------------------------------------------------------------- */
+
+TEST(what_passes_a_pane_is_what_shadow_rays_see)
+{
+    (void)state;
+    int panes = 0;
+    for (int m = 0; m < model_count; m++)
+        for (int i = 0; i < EYE_COUNT; i++) {
+            Vec3     wo = eye(i);
+            Spectrum pass = bsdf_pass(&models[m].bsdf, wo);
+            Spectrum sampled = spectrum_all(0);
+            for (int k = 0; k < 4000; k++) {
+                float      pick = ((float)k + 0.5f) / 4000; /* whichever number chooses */
+                float      u[3] = {pick, 0.5f, pick};
+                BsdfSample s;
+                if (bsdf_sample(&models[m].bsdf, wo, u, &s) && s.passes) {
+                    sampled = s.weight * spectrum_all(s.pdf);
+                    break;
+                }
+            }
+            panes += !spectrum_is_zero(pass);
+            for (int k = 0; k < SPECTRUM_LANES; k++)
+                assert_near(sampled[k], pass[k], 1e-5 * (double)pass[k] + 2e-4);
+        }
+    assert_true(panes >= 3 * EYE_COUNT);
+}

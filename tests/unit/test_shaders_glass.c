@@ -1,0 +1,135 @@
+/* Glass and clear plastic among the models that obey all laws. */
+#include "bsdf_laws.h"
+#include "layer_fixture.h"
+
+#include "base/arena.h"
+#include "shaders/coating_tables.h"
+#include "shaders/microfacet.h"
+#include "spectrum/dispersion.h"
+
+static Arena       arena;
+static Wavelengths wavelengths;
+
+static void add_dielectric(const char *name, float ior, float alpha)
+{
+    float width = alpha < SMOOTH_ALPHA ? 1 : 0.5f * alpha * fabsf(ior - 1) + 1e-4f;
+    models[model_count++] = (Model){.name = name, .bsdf.kind = BSDF_DIELECTRIC,
+                                    .bsdf.dielectric = {.tint = spectrum_all(1), .ior = ior,
+                                                        .alpha = alpha},
+                                    .lossless = alpha < 0.06f, .both_sides = true,
+                                    .width = width};
+}
+
+static GlazedWindow *add_glazing(const char *name, float through, float haze, float width)
+{
+    Glazing *pane = ARENA_NEW(&arena, Glazing, 1);
+    *pane = (Glazing){.layers = {{0.0021f, 1.52f}, {0.00076f, 1.485f}, {0.0021f, 1.6f}},
+                      .layer_count = 3, .absorbing_ior = 1.52f, .wedge_ior = 1.485f,
+                      .haze_share = haze, .haze_width = width};
+    Model *model = &models[model_count++];
+    *model = (Model){.name = name, .bsdf.kind = BSDF_GLAZED_WINDOW, .both_sides = true,
+                     .lossless = through >= 1 && haze <= 0, .width = haze > 0 ? width : 1};
+    model->bsdf.glazed_window =
+        (GlazedWindow){.pane = pane, .absorbance = spectrum_all(-logf(through))};
+    return &model->bsdf.glazed_window;
+}
+
+static void add_glass(void)
+{
+    models[model_count++] = (Model){.name = "windscreen", .bsdf.kind = BSDF_THIN_WINDOW,
+        .bsdf.thin_window = {.tint = ramp(0.6f, 0.9f), .ior = 1.52f}, .both_sides = true,
+        .width = 1};
+    models[model_count++] = (Model){.name = "clear window", .bsdf.kind = BSDF_THIN_WINDOW,
+        .bsdf.thin_window = {.tint = spectrum_all(1), .ior = 1.52f}, .both_sides = true,
+        .lossless = true, .width = 1};
+    add_glazing("laminated", 0.8f, 0, 0)->front_is_up = true;
+    add_glazing("clear laminated", 1, 0, 0);
+    add_glazing("dirty", 0.9f, 0.3f, 0.4f);
+    add_glazing("dusty with a wedge", 0.9f, 0.02f, 0.05f)->slope[1] = 3e-4f;
+    add_dielectric("smooth glass", 1.5f, 0);
+    add_dielectric("nearly smooth glass", 1.5f, 0.02f);
+    add_dielectric("frosted glass", 1.5f, 0.3f);
+    add_dielectric("very rough water", 1.33f, 0.8f);
+    add_dielectric("bubble", 0.75f, 0.1f);
+    add_dielectric("no boundary", 1, 0.05f);
+    models[model_count++] = (Model){.name = "black", .bsdf.kind = BSDF_BLACK, .width = 1};
+}
+
+static void add_coated_solid(const char *name, float alpha, bool lossless,
+                             const CoatingTables *tables)
+{
+    add_dielectric(name, 1.52f, alpha);
+    Model *model = &models[model_count - 1];
+    model->lossless = lossless;
+    model->bsdf.dielectric.coating = tables;
+    model->bsdf.dielectric.wavelengths = &wavelengths;
+}
+
+static void add_coated_window(const char *name, bool lossless, const CoatingTables *sheet)
+{
+    models[model_count++] = (Model){.name = name, .bsdf.kind = BSDF_THIN_WINDOW,
+        .bsdf.thin_window = {spectrum_all(1), 1.52f, sheet->front, sheet->through,
+                             &wavelengths},
+        .both_sides = true, .lossless = lossless, .width = 1};
+}
+
+static void add_coated_pane(const char *name, const LayerStack *outside,
+                            const LayerStack *inside, float haze)
+{
+    GlazedWindow *window = add_glazing(name, 1, haze, 0.4f);
+    Glazing       pane = *window->pane;
+    pane.coating[0] = outside;
+    pane.coating[1] = inside;
+    models[model_count - 1].lossless = !inside && haze <= 0;
+    window->coating = coating_of_pane(&pane, &arena);
+    window->wavelengths = &wavelengths;
+}
+
+static void add_coated_glass(void)
+{
+    const LayerStack *four = stack_four(&arena), *silver = stack_silver(&arena);
+    add_coated_solid("coated glass", 0, true, coating_of_solid(four, 1.52, &arena));
+    add_coated_solid("coated frosted glass", 0.3f, false, coating_of_solid(four, 1.52, &arena));
+    add_coated_solid("silvered glass", 0.1f, false, coating_of_solid(silver, 1.52, &arena));
+    add_coated_window("coated window", true, coating_of_sheet(four, 1.52, &arena));
+    add_coated_window("silvered window", false, coating_of_sheet(silver, 1.52, &arena));
+    add_coated_pane("laminated, coated outside", four, NULL, 0);
+    add_coated_pane("dirty, silver inside", NULL, silver, 0.3f);
+}
+
+/* Of twice the dispersion of glTF's strongest: heavy flint has half of it. */
+static void add_dispersive(const char *name, float alpha)
+{
+    Curve *index = ARENA_NEW(&arena, Curve, 1);
+    for (int i = 0; i < CURVE_COUNT; i++)
+        index->value[i] = (float)dispersion_index(1.6, 2, CURVE_FIRST_NM + i);
+    add_dielectric(name, 1.6f, alpha);
+    models[model_count - 1].bsdf.dielectric.index = index;
+    models[model_count - 1].bsdf.dielectric.wavelengths = &wavelengths;
+}
+
+static int make_models(void **state)
+{
+    (void)state;
+    arena = arena_reserve((size_t)1 << 30);
+    wavelengths_sample(0.3f, &wavelengths);
+    add_glass();
+    add_coated_glass();
+    add_dispersive("smooth flint", 0);
+    add_dispersive("satin flint", 0.1f);
+    add_dispersive("frosted flint", 0.3f);
+    models[model_count - 1].bsdf.dielectric.tint = ramp(0.2f, 0.9f);
+    return 0;
+}
+
+static int drop_models(void **state)
+{
+    (void)state;
+    arena_release(&arena);
+    return 0;
+}
+
+int main(void)
+{
+    return run_cases(make_models, drop_models);
+}
