@@ -35,6 +35,7 @@ if run_one 'release build, warnings are errors' build-release build release all;
         python3 tests/hostile/panel_commands.py .build/release/parhelion
     gather
     start 'same bits, any parts' merge python3 tests/image/merge.py .build/release/parhelion
+    start 'groups of lights' lights python3 tests/image/lights.py .build/release/parhelion
     start 'same bits, killed and resumed' resume \
         python3 tests/hostile/resume.py .build/release/parhelion
     start 'a render that is watched' live-view \

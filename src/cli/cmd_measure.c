@@ -140,6 +140,13 @@ static void print_text(const FrameMeasurement *m)
         printf("%-12s missing: no layer variance (--layers variance)\n", "intervals");
 }
 
+static void print_lights(const LightShares *lights)
+{
+    for (int i = 0; i < lights->count; i++)
+        printf("%-12s %.6g cd/m2 (%.1f %%) of %s\n", i ? "" : "by light",
+               lights->list[i].cd_m2, 100 * lights->list[i].share, lights->list[i].name);
+}
+
 /* ---- as JSON ----------------------------------------------------------------------------- */
 
 static json_t *interval(Measured figure)
@@ -214,7 +221,22 @@ static json_t *json_content(const ContentContrast *c)
     return out;
 }
 
-static bool print_json(const MeasureWords *typed, const FrameMeasurement *m, Error *err)
+static json_t *json_lights(const LightShares *lights)
+{
+    json_t *out = json_array();
+    for (int i = 0; i < lights->count; i++) {
+        const LightShare *light = &lights->list[i];
+        json_array_append_new(out, json_pack("{s:o, s:o, s:o, s:o}", "name",
+                                             json_text(light->name), "layer",
+                                             json_text(light->layer), "cd_m2",
+                                             number(light->cd_m2), "share",
+                                             number(light->share)));
+    }
+    return out;
+}
+
+static bool print_json(const MeasureWords *typed, const FrameMeasurement *m,
+                       const LightShares *lights, Error *err)
 {
     const MeasureRequest *r = &typed->request;
     json_t *answer = json_pack(
@@ -229,6 +251,7 @@ static bool print_json(const MeasureWords *typed, const FrameMeasurement *m, Err
     set_pair(answer, "uv_interval", interval(m->u), interval(m->v));
     json_object_set_new(answer, "contrast", json_contrast(m));
     if (m->has_content) json_object_set_new(answer, "content", json_content(&m->content));
+    if (lights->count) json_object_set_new(answer, "lights", json_lights(lights));
     json_object_set_new(answer, "missing_layers", missing(m));
     if (r->display) json_object_set_new(answer, "display", json_text(r->display));
     if (r->has_region)
@@ -245,8 +268,10 @@ static bool measure(const MeasureWords *typed, Arena *arena, Error *err)
         return measure_illuminance(&typed->cli, &typed->luxmeter, arena, err);
     if (!frame_read(typed->request.frame_name, arena, &frame, err)) return false;
     if (!measure_frame(&frame, &typed->request, *arena, &measured, err)) return false;
-    if (typed->cli.json) return print_json(typed, &measured, err);
+    LightShares lights = measure_lights(&frame, &typed->request, arena);
+    if (typed->cli.json) return print_json(typed, &measured, &lights, err);
     print_text(&measured);
+    print_lights(&lights);
     return true;
 }
 

@@ -10,9 +10,9 @@
 
 /* ---- layout ------------------------------------------------------------------------------ */
 
-static size_t pixel_bytes(unsigned layers)
+static size_t pixel_bytes(unsigned layers, int light_count)
 {
-    size_t numbers = 0;
+    size_t numbers = layers & LAYER_LIGHT ? 3 * (size_t)light_count : 0;
     for (int i = 0; i < SUMS_COUNT; i++)
         if (layers & layer_sums_users(i)) numbers += (size_t)layer_sums_size(i);
     return sizeof(PixelSums) + numbers * sizeof(Fixed);
@@ -23,12 +23,13 @@ static size_t pixel_count(FilmRect crop)
     return (size_t)(crop.x1 - crop.x0) * (size_t)(crop.y1 - crop.y0);
 }
 
-size_t film_bytes(FilmRect crop, unsigned layers)
+size_t film_bytes(FilmRect crop, unsigned layers, int light_count)
 {
-    return sizeof(Film) + pixel_count(crop) * pixel_bytes(layers);
+    return sizeof(Film) + pixel_count(crop) * pixel_bytes(layers, light_count);
 }
 
-Film *film_create(int width, int height, FilmRect crop, unsigned layers, Arena *arena)
+Film *film_create(int width, int height, FilmRect crop, unsigned layers,
+                  const FilmLights *lights, Arena *arena)
 {
     assert(crop.x0 >= 0 && crop.x0 < crop.x1 && crop.x1 <= width);
     assert(crop.y0 >= 0 && crop.y0 < crop.y1 && crop.y1 <= height);
@@ -37,13 +38,16 @@ Film *film_create(int width, int height, FilmRect crop, unsigned layers, Arena *
     film->height = height;
     film->crop = crop;
     film->layers = layers;
-    film->stride = pixel_bytes(layers);
+    if (lights && (layers & LAYER_LIGHT)) film->lights = *lights;
+    assert(film->lights.count <= FILM_LIGHTS_MAX);
+    film->stride = pixel_bytes(layers, film->lights.count);
     int next = 0;
     for (int i = 0; i < SUMS_COUNT; i++) {
         bool is_kept = (layers & layer_sums_users(i)) != 0;
         film->first[i] = is_kept ? next : -1;
         if (is_kept) next += layer_sums_size(i);
     }
+    film->first_light = next;
     film->pixels = arena_alloc(arena, film->stride, _Alignof(PixelSums), pixel_count(crop));
     pthread_mutex_init(&film->lock, NULL);
     for (int y = crop.y0; y < crop.y1; y++)
@@ -174,6 +178,44 @@ static void add_features(const Film *film, PixelSums *sums, const FilmSample *sa
     add_layer(film, sums, SUMS_UV, sample->uv);
 }
 
+/* ---- groups of lights -------------------------------------------------------------------- */
+
+static bool lights_in_range(const FilmSample *sample)
+{
+    for (int i = 0; i < sample->light_count; i++)
+        if (!in_range(sample->lights[i].xyz, 3)) return false;
+    return true;
+}
+
+static const FilmLight *brightest_light(const FilmSample *sample)
+{
+    const FilmLight *most = sample->lights;
+    for (int i = 1; i < sample->light_count; i++)
+        if (sample->lights[i].xyz[1] > most->xyz[1]) most = &sample->lights[i];
+    return most;
+}
+
+/* The brightest one has what the others leave of the sample: they add up to it. Where one of
+ * them is out of range it has all. */
+static void add_lights(const Film *film, PixelSums *sums, const FilmSample *sample)
+{
+    const FilmLight *most = brightest_light(sample);
+    bool             is_good = lights_in_range(sample);
+    Fixed            left[3];
+    for (int i = 0; i < 3; i++) left[i] = fixed_from_float(sample->xyz[i]);
+    for (int k = 0; k < sample->light_count && is_good; k++) {
+        const FilmLight *light = &sample->lights[k];
+        Fixed           *to = sums->layers + film->first_light + 3 * light->group;
+        for (int i = 0; i < 3 && light != most; i++) {
+            Fixed steps = fixed_from_float(light->xyz[i]);
+            to[i] += steps;
+            left[i] -= steps;
+        }
+    }
+    Fixed *to = sums->layers + film->first_light + 3 * most->group;
+    for (int i = 0; i < 3; i++) to[i] += left[i];
+}
+
 void film_add_sample(Film *film, int x, int y, const FilmSample *sample)
 {
     if (!in_range(sample->xyz, 3)) {
@@ -191,6 +233,7 @@ void film_add_sample(Film *film, int x, int y, const FilmSample *sample)
     }
     if (film->first[SUMS_STOKES] >= 0 && in_range(sample->stokes, 3))
         add_layer(film, sums, SUMS_STOKES, sample->stokes);
+    if (sample->light_count && film->lights.count) add_lights(film, sums, sample);
     if (sample->hit) add_features(film, sums, sample);
 }
 

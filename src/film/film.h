@@ -10,8 +10,10 @@
  *            them stay below 2^126 steps in either. Relative to the square a step is 2^-29 or
  *            less for 1e-5 cd m^-2 and more.
  *          A pixel takes at most FILM_SAMPLES_MAX samples; an assertion guards it.
+ * Lights   groups of LAYER_LIGHT add up to XYZ to the step: what rounding leaves of a sample
+ *          (some 1e-7 of it) goes to its brightest group.
  * Memory   everything comes from `arena`; nothing to free. 224 bytes a pixel, and 48 for each
- *          three-component layer.
+ *          three-component layer and group of lights.
  * Threads  tiles of different pixels may be filled at the same time; one pixel belongs to one
  *          thread at a time. Reading needs all writers to be done.
  * Fails    never; a sample that is not finite or beyond 2^47 is counted and dropped.
@@ -21,11 +23,13 @@
 #include "film/film_sample.h"
 
 /* width, height: the whole frame, at least 1; crop: the part that is kept, not empty and
- * inside the frame; layers: a set of FilmLayer bits. */
-Film *film_create(int width, int height, FilmRect crop, unsigned layers, Arena *arena);
+ * inside the frame; layers: a set of FilmLayer bits; lights: the groups of LAYER_LIGHT, whose
+ * names must live as long as the film; NULL: none. */
+Film *film_create(int width, int height, FilmRect crop, unsigned layers,
+                  const FilmLights *lights, Arena *arena);
 
-/* Bytes that film_create will take. */
-size_t film_bytes(FilmRect crop, unsigned layers);
+/* Bytes that film_create will take with so many groups of lights. */
+size_t film_bytes(FilmRect crop, unsigned layers, int light_count);
 
 /* x, y: pixel inside the crop. Members that no layer asks for need not be set, but display_id
  * is always looked at when hit is true. */

@@ -8,7 +8,7 @@
 #include "film/pixels.h"
 #include "spectrum/photometry.h"
 
-#define CHANNELS_MAX 64
+#define CHANNELS_MAX 64 /* besides those of lights */
 
 /* One pass over the pixels fills the channels of one layer. */
 typedef struct ChannelFill {
@@ -263,10 +263,33 @@ static void add_stokes(const ChannelFill *to)
     fill(to, add_named(to, "stokes.degree", NULL, false), read_degree);
 }
 
+/* Each of R, G, B is rounded once: what groups add up to is the frame's but for that. */
+static void add_light(const ChannelFill *to, int group)
+{
+    const Film *film = to->film;
+    const char *name = arena_format(to->arena, "light.%s", film->lights.names[group]);
+    LayerPlanes planes = add_planes(to, name, "RGB");
+    size_t      index = 0;
+    for (int y = film->crop.y0; y < film->crop.y1; y++)
+        for (int x = film->crop.x0; x < film->crop.x1; x++, index++) {
+            const PixelSums *sums = film_sums(film, x, y);
+            float            xyz[3], rgb[3];
+            mean_of(sums->layers + film->first_light + 3 * group, 3, sums->samples, xyz);
+            if (!sums->samples) xyz[0] = xyz[1] = xyz[2] = 0;
+            rgb_from_xyz(xyz, rgb);
+            for (int i = 0; i < 3; i++) planes.of[i][index] = rgb[i];
+        }
+}
+
+static int channels_most(const Film *film)
+{
+    return CHANNELS_MAX + 3 * film->lights.count;
+}
+
 FrameImage film_to_frame(const Film *film, int attribute_room, Arena *arena)
 {
     ExrWindow  data = {film->crop.x0, film->crop.y0, film->crop.x1, film->crop.y1};
-    FrameImage frame = frame_create(film->width, film->height, data, CHANNELS_MAX,
+    FrameImage frame = frame_create(film->width, film->height, data, channels_most(film),
                                     attribute_room, arena);
     ChannelFill    to = {film, &frame, arena};
     fill(&to, add_planes(&to, "", "RGB"), read_rgb);
@@ -284,6 +307,7 @@ FrameImage film_to_frame(const Film *film, int attribute_room, Arena *arena)
     if (film->layers & LAYER_DISPLAY_FINE)
         fill(&to, add_named(&to, "display.coverage", NULL, false), read_coverage);
     if (film->layers & LAYER_STOKES) add_stokes(&to);
+    for (int i = 0; i < film->lights.count; i++) add_light(&to, i);
     return frame;
 }
 
@@ -291,7 +315,7 @@ size_t film_frame_bytes_most(const Film *film)
 {
     FilmRect crop = film->crop;
     size_t   pixels = (size_t)(crop.x1 - crop.x0) * (size_t)(crop.y1 - crop.y0);
-    return pixels * CHANNELS_MAX * sizeof(float) + ((size_t)1 << 20);
+    return pixels * (size_t)channels_most(film) * sizeof(float) + ((size_t)1 << 20);
 }
 
 void film_add_error(const Film *film, FrameImage *frame, Arena *arena)

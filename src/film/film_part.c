@@ -25,7 +25,7 @@ uint64_t film_part_volume(const FilmPart *part)
 FilmPart film_part_of(const Film *film, uint32_t first_sample, uint32_t end_sample)
 {
     return (FilmPart){.name = "", .width = film->width, .height = film->height,
-                      .crop = film->crop, .layers = film->layers,
+                      .crop = film->crop, .layers = film->layers, .lights = film->lights,
                       .first_sample = first_sample, .end_sample = end_sample,
                       .asked_end = end_sample, .dropped = film->dropped};
 }
@@ -77,9 +77,11 @@ static void add_sum(NameList *list, const char *name)
 }
 
 /* As the words of a pixel follow each other; how many makes no difference to the room. */
-static ExrWords name_words(unsigned layers, Arena *arena)
+static ExrWords name_words(const FilmPart *part, Arena *arena)
 {
-    size_t   most = 4 * (SUM_NAMES + 3 * SUMS_COUNT) + COUNT_NAMES;
+    unsigned layers = part->layers;
+    size_t   sums = SUM_NAMES + 3 * SUMS_COUNT + 3 * (size_t)part->lights.count;
+    size_t   most = 4 * sums + COUNT_NAMES;
     NameList list = {ARENA_NEW(arena, const char *, most), 0, arena};
     for (size_t i = 0; i < SUM_NAMES; i++) add_sum(&list, sum_names[i]);
     for (size_t i = 0; i < COUNT_NAMES; i++) add_name(&list, count_names[i]);
@@ -87,6 +89,8 @@ static ExrWords name_words(unsigned layers, Arena *arena)
         for (int k = 0; (layers & layer_sums_users(i)) && k < layer_sums_size(i); k++)
             add_sum(&list, arena_format(arena, "%s.%c", layer_names[i].name,
                                         layer_names[i].letters[k]));
+    for (int i = 0; i < 3 * part->lights.count; i++)
+        add_sum(&list, arena_format(arena, "light.%d.%c", i / 3, "XYZ"[i % 3]));
     return (ExrWords){.name = PART_NAME, .count = list.count, .names = list.names};
 }
 
@@ -124,11 +128,28 @@ static const char *cost_text(const FilmPart *part, Arena *arena)
                         (unsigned long long)part->shadow_rays);
 }
 
-enum { TEXT_LAYOUT, TEXT_SAMPLES, TEXT_ASKED, TEXT_DROPPED, TEXT_COST, TEXT_COUNT };
+/* A line each. */
+static const char *lights_text(const FilmLights *lights, Arena *arena)
+{
+    const char *text = "";
+    for (int i = 0; i < lights->count; i++)
+        text = arena_format(arena, "%s%s\n", text, lights->names[i]);
+    return text;
+}
+
+enum {
+    TEXT_LAYOUT, TEXT_SAMPLES, TEXT_ASKED, TEXT_DROPPED, TEXT_COST, TEXT_LIGHTS, TEXT_COUNT
+};
 
 static const char *const text_names[TEXT_COUNT] = {
     "parhelion:sums", "parhelion:samples", "parhelion:askedSamples", "parhelion:dropped",
-    "parhelion:cost"};
+    "parhelion:cost", "parhelion:lights"};
+
+/* Only a part with LAYER_LIGHT has the last. */
+static int text_count(const FilmPart *part)
+{
+    return part->layers & LAYER_LIGHT ? TEXT_COUNT : TEXT_LIGHTS;
+}
 
 static void make_texts(const FilmPart *part, const char *texts[TEXT_COUNT], Arena *arena)
 {
@@ -137,6 +158,7 @@ static void make_texts(const FilmPart *part, const char *texts[TEXT_COUNT], Aren
     texts[TEXT_ASKED] = range_text(part->first_sample, part->asked_end, arena);
     texts[TEXT_DROPPED] = dropped_text(&part->dropped, arena);
     texts[TEXT_COST] = cost_text(part, arena);
+    texts[TEXT_LIGHTS] = lights_text(&part->lights, arena);
 }
 
 /* ---- the checksum ------------------------------------------------------------------------ */
@@ -145,7 +167,7 @@ static void make_texts(const FilmPart *part, const char *texts[TEXT_COUNT], Aren
 static uint64_t checksum_of_texts(const FilmPart *part, const char *const texts[TEXT_COUNT])
 {
     uint64_t checksum = part->layers;
-    for (int i = 0; i < TEXT_COUNT; i++)
+    for (int i = 0; i < text_count(part); i++)
         checksum = XXH3_64bits_withSeed(texts[i], strlen(texts[i]), checksum);
     return checksum;
 }
@@ -171,19 +193,20 @@ void film_part_attach(FrameImage *frame, const Film *film, const FilmPart *part,
     ExrWords     *words = ARENA_NEW(arena, ExrWords, 1);
     ExrAttribute *attributes = ARENA_NEW(arena, ExrAttribute, TEXT_COUNT + 2);
     const char   *texts[TEXT_COUNT];
+    int           count = text_count(part);
     make_texts(part, texts, arena);
-    for (int i = 0; i < TEXT_COUNT; i++)
+    for (int i = 0; i < count; i++)
         attributes[i] = (ExrAttribute){text_names[i], EXR_STRING, texts[i], {0}};
     uint64_t checksum = checksum_of_texts(part, texts) +
                         checksum_of_rows(film->pixels, row_bytes(part, film->stride),
                                          part->crop.y0, part->crop.y1 - part->crop.y0);
-    attributes[TEXT_COUNT] = (ExrAttribute){"parhelion:layers", EXR_INT, "", {part->layers}};
-    attributes[TEXT_COUNT + 1] = (ExrAttribute){
+    attributes[count] = (ExrAttribute){"parhelion:layers", EXR_INT, "", {part->layers}};
+    attributes[count + 1] = (ExrAttribute){
         "parhelion:checksum", EXR_STRING,
         arena_format(arena, "%016llx", (unsigned long long)checksum), {0}};
-    *words = name_words(part->layers, arena);
+    *words = name_words(part, arena);
     words->values = film->pixels;
-    words->attribute_count = TEXT_COUNT + 2;
+    words->attribute_count = count + 2;
     words->attributes = attributes;
     assert((size_t)words->count * 4 == film->stride);
     frame->words = words;
@@ -226,6 +249,31 @@ static bool read_cost(const char *text, FilmPart *part)
     return true;
 }
 
+#define LIGHT_BYTES_MAX 96 /* of a name */
+
+static bool is_there(const char *name, const FilmLights *lights)
+{
+    for (int i = 0; i < lights->count; i++)
+        if (!strcmp(name, lights->names[i])) return true;
+    return false;
+}
+
+/* The lines of the text. */
+static bool read_lights(const char *text, Arena *arena, FilmLights *out)
+{
+    const char **names = ARENA_NEW(arena, const char *, FILM_LIGHTS_MAX);
+    *out = (FilmLights){0, names};
+    for (size_t length; *text; text += length + (text[length] == '\n')) {
+        length = strcspn(text, "\n");
+        const char *name = arena_string(arena, text, length);
+        if (out->count == FILM_LIGHTS_MAX || !length || length > LIGHT_BYTES_MAX ||
+            is_there(name, out))
+            return false;
+        names[out->count++] = name;
+    }
+    return true;
+}
+
 static bool damaged(const char *what, Error *err)
 {
     return error_set(err, ERROR_INPUT, "damaged sums: %s cannot be read", what);
@@ -237,7 +285,7 @@ static bool read_texts(const FrameImage *words, FilmPart *part, uint64_t *checks
 {
     const char *texts[TEXT_COUNT], *again[TEXT_COUNT];
     uint32_t    asked_first;
-    for (int i = 0; i < TEXT_COUNT; i++) {
+    for (int i = 0; i < text_count(part); i++) {
         texts[i] = frame_string(words, text_names[i]);
         if (!texts[i]) return damaged(text_names[i], err);
     }
@@ -254,13 +302,13 @@ static bool read_texts(const FrameImage *words, FilmPart *part, uint64_t *checks
         return damaged(text_names[TEXT_DROPPED], err);
     if (!read_cost(texts[TEXT_COST], part)) return damaged(text_names[TEXT_COST], err);
     make_texts(part, again, &scratch);
-    for (int i = 0; i < TEXT_COUNT; i++)
+    for (int i = 0; i < text_count(part); i++)
         if (strcmp(texts[i], again[i]) != 0) return damaged(text_names[i], err);
     *checksum = checksum_of_texts(part, texts);
     return true;
 }
 
-static bool describe(FilmPartReader *from, const ExrWords *found, Arena scratch, Error *err)
+static bool describe(FilmPartReader *from, const ExrWords *found, Arena *arena, Error *err)
 {
     const ExrPicture *picture = exr_reader_picture(from->file);
     const FrameImage  words = {.attribute_count = found->attribute_count,
@@ -283,7 +331,11 @@ static bool describe(FilmPartReader *from, const ExrWords *found, Arena scratch,
     part->crop = (FilmRect){picture->data.x0, picture->data.y0, picture->data.x1,
                             picture->data.y1};
     part->layers = (unsigned)layers->values[0];
-    int words_wanted = name_words(part->layers, &scratch).count;
+    const char *lights = frame_string(&words, text_names[TEXT_LIGHTS]);
+    if ((part->layers & LAYER_LIGHT) && (!lights || !read_lights(lights, arena, &part->lights)))
+        return damaged(text_names[TEXT_LIGHTS], err);
+    Arena scratch = *arena;
+    int   words_wanted = name_words(part, &scratch).count;
     if (words_wanted != found->count)
         return error_set(err, ERROR_INPUT,
                          "damaged sums: %d words a pixel, its layers have %d", found->count,
@@ -293,19 +345,17 @@ static bool describe(FilmPartReader *from, const ExrWords *found, Arena scratch,
     return read_texts(&words, part, &from->checksum, scratch, err);
 }
 
-bool film_part_open(const char *path, FilmPartReader *out, Error *err)
+bool film_part_open(const char *path, Arena *arena, FilmPartReader *out, Error *err)
 {
     FilmPartReader  from = {.part.name = path};
     const ExrWords *found = NULL;
     if (!exr_reader_open(path, &from.file, err)) return false;
-    Arena scratch = arena_reserve((size_t)1 << 24);
-    bool  done = exr_reader_words(from.file, PART_NAME, &found, err) &&
-                (found ? describe(&from, found, scratch, err)
+    bool done = exr_reader_words(from.file, PART_NAME, &found, err) &&
+                (found ? describe(&from, found, arena, err)
                        : error_set(err, ERROR_INPUT,
                                    "carries no sums, only means: it cannot be merged — wanted "
                                    "a frame of `render --samples A:B` or `render --crop`, or "
                                    "of `merge --part`"));
-    arena_release(&scratch);
     if (done) *out = from;
     else exr_reader_destroy(from.file);
     return done;
@@ -329,7 +379,7 @@ bool film_part_add_band(FilmPartReader *from, Film *to, Arena scratch, Error *er
     if (rows < CHUNK_ROWS) rows = CHUNK_ROWS;
     if (rows > left) rows = left;
     FilmRect rect = {part->crop.x0, from->next_y, part->crop.x1, from->next_y + rows};
-    ExrWords words = name_words(part->layers, &scratch);
+    ExrWords words = name_words(part, &scratch);
     char    *values = arena_alloc(&scratch, row, _Alignof(PixelSums), (size_t)rows);
     assert(part->layers == to->layers);
     if (!exr_reader_read_words(from->file, &words, rect.y0, rect.y1, values, err) ||

@@ -15,11 +15,13 @@
  *            depth.Z position.{X,Y,Z} normal.{X,Y,Z} albedo.{R,G,B} uv.{U,V}
  *            emitted reflected white black .{X,Y,Z}, direction.{X,Y,Z}    displays
  *            fine.{X,Y,Z}                    displays
+ *            light.N.{X,Y,Z}                 group N of lights
  *          and words that are one channel each: samples, hits, displayHits, odd.samples, the
  *          lowest sample index that hit a part, or saw a display, and which (4294967295: none):
  *          part.sample, part.id, display.sample, display.id.
  *          Attributes say the sizes of the steps, the layers, the samples' range, what was
- *          dropped, what it cost, and a checksum of all of it.
+ *          dropped, what it cost, and a checksum of all of it; with groups of lights also their
+ *          names, a line each.
  * Memory   the arena's; reading takes bands of rows, not the whole part.
  * Threads  one part belongs to one thread at a time.
  * Fails    with the reason; the file is the caller's to name.
@@ -33,6 +35,7 @@ typedef struct FilmPart {
     int         width, height; /* of the whole frame */
     FilmRect    crop;
     unsigned    layers;
+    FilmLights  lights;
     uint32_t    first_sample, end_sample; /* half-open: what every pixel of the crop has had */
     uint32_t    asked_end;  /* where the run was to end: above end_sample when it was stopped */
     FilmDropped dropped;
@@ -59,8 +62,9 @@ typedef struct FilmPartReader {
     int        next_y; /* the row that comes next; part.crop.y1: all is read */
 } FilmPartReader;
 
-/* Refuses frames that carry no sums, and sums that this program does not know. */
-bool film_part_open(const char *path, FilmPartReader *out, Error *err);
+/* Refuses frames that carry no sums, and sums that this program does not know. The names of
+ * lights are the arena's. */
+bool film_part_open(const char *path, Arena *arena, FilmPartReader *out, Error *err);
 
 /* Adds the next band of rows to a film of the same layers whose crop holds the part's. With the
  * last band come the dropped samples and the look at the checksum: until then, and after a

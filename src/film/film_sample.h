@@ -5,6 +5,13 @@
 
 #define FILM_SAMPLES_MAX 0x7fffffffu
 #define FILM_DROPPED_KEPT 8
+#define FILM_LIGHTS_MAX 256
+
+/* What one group of lights gave to a sample. */
+typedef struct FilmLight {
+    int   group; /* index into the film's */
+    float xyz[3]; /* cd m^-2 */
+} FilmLight;
 
 /* What one sample of one pixel saw. Everything that belongs to a display is of the FIRST
  * surface the camera ray met (windows passed straight through do not count). */
@@ -27,6 +34,8 @@ typedef struct FilmSample {
     float theta, phi;      /* radians, display frame, phi in [0, 2 pi) */
     float fine[3];         /* XYZ, cd m^-2: what displays send to the whole pixel, from more
                               camera rays than this one; 0 where those see none */
+    const FilmLight *lights; /* what makes up xyz, but for rounding; no group twice; */
+    int   light_count;       /* groups that are not there gave nothing */
 } FilmSample;
 
 typedef enum FilmLayer {
@@ -51,19 +60,27 @@ typedef enum FilmLayer {
     LAYER_DISPLAY_SCATTERED = 1 << 18,
     LAYER_DISPLAY_HAZE = 1 << 19,
     LAYER_DISPLAY_LAMBERTIAN = 1 << 20,
-    LAYER_ALL = (1 << 21) - 1, /* but for those that not every render can have: */
+    LAYER_LIGHT = 1 << 21,
+    LAYER_ALL = (1 << 22) - 1, /* but for one that not every render can have: */
     LAYER_STOKES = 1 << 22,
     LAYER_EVERY = LAYER_ALL | LAYER_STOKES,
     LAYER_DISPLAYS = ((LAYER_HALVES - 1) & ~(LAYER_DISPLAY_EMITTED - 1)) | LAYER_DISPLAY_FINE |
                      LAYER_DISPLAY_MIRROR | LAYER_DISPLAY_SCATTERED | LAYER_DISPLAY_HAZE |
                      LAYER_DISPLAY_LAMBERTIAN,
     LAYER_NEEDS_LAMBERTIAN = LAYER_DISPLAY_HAZE | LAYER_DISPLAY_LAMBERTIAN,
-    LAYER_FEATURES = LAYER_ALL & ~(LAYER_XYZ | LAYER_VARIANCE | LAYER_SAMPLES | LAYER_HALVES)
+    LAYER_FEATURES = LAYER_ALL & ~(LAYER_XYZ | LAYER_VARIANCE | LAYER_SAMPLES | LAYER_HALVES |
+                                   LAYER_LIGHT)
 } FilmLayer; /* LAYER_FEATURES: those that need the members from `hit` on */
 
 typedef struct FilmRect {
     int x0, y0, x1, y1; /* half-open, pixels of the whole frame */
 } FilmRect;
+
+/* The groups of lights that LAYER_LIGHT keeps apart, by the names of their layers. */
+typedef struct FilmLights {
+    int count; /* at most FILM_LIGHTS_MAX */
+    const char *const *names; /* no two the same */
+} FilmLights;
 
 typedef struct Film Film; /* opaque: the accumulators are private to src/film */
 

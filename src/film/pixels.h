@@ -1,7 +1,8 @@
 /* pixels.h -- how the film keeps a pixel; private to src/film.
  *
  * A pixel is a fixed part and then the sums of the layers that are kept, in the order of
- * LayerSums. All sums are two's complement integers that count steps: see film.h for ranges.
+ * LayerSums, and then XYZ of each group of lights. All sums are two's complement integers that
+ * count steps: see film.h for ranges.
  */
 #pragma once
 #include <pthread.h>
@@ -49,6 +50,8 @@ struct Film {
     FilmRect crop;
     unsigned layers;
     int      first[SUMS_COUNT]; /* index into PixelSums.layers, -1: not kept */
+    FilmLights lights;          /* none without LAYER_LIGHT */
+    int      first_light;       /* where those of the first group stand */
     size_t   stride;            /* bytes a pixel */
     char    *pixels;
     pthread_mutex_t lock;       /* guards dropped: taken only when a sample is lost */

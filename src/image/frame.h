@@ -20,7 +20,8 @@
  *                                         square is the variance of the pixel's mean in the
  *                                         mean over pixels (film.h)
  *   samples.N                             whole number
- *   light.NAME.{R,G,B}                    cd m^-2
+ *   light.NAME.{R,G,B}                    cd m^-2, what one group of lights gives; the groups
+ *                                         add up to R, G, B (film_frame.h)
  *   stokes.{S0,S1,S2,S3}                  cd m^-2, of the luminance, as the camera sees it:
  *                                         S1 > 0 swings horizontally, S2 > 0 from lower left
  *                                         to upper right, S3 > 0 turns clockwise
@@ -38,6 +39,7 @@
  * Attributes that give the numbers of id.* their names (strings):
  *   "parhelion:part.N"     name of part N
  *   "parhelion:display.N"  name of display N (its material)
+ *   "parhelion:light.NAME" what the scene calls the group of lights NAME
  * A frame of some samples or pixels, that can be merged with others, has a second part in its
  * file for `words` (film/film_part.h says what they are); readers take the first and leave
  * `words` NULL.

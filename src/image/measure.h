@@ -42,3 +42,23 @@ typedef struct FrameMeasurement {
 
 bool measure_frame(const FrameImage *frame, const MeasureRequest *request, Arena scratch,
                    FrameMeasurement *out, Error *err);
+
+/* ---- groups of lights -------------------------------------------------------------------- */
+
+/* What one of them gives to a part of a frame. */
+typedef struct LightShare {
+    const char *layer; /* "light.sun" */
+    const char *name;  /* as its scene has it */
+    double cd_m2;      /* mean luminance over the pixels */
+    double share;      /* of all light there; 0 where there is none */
+} LightShare;
+
+typedef struct LightShares {
+    LightShare *list; /* the brightest first */
+    int         count; /* 0: the frame has no layers of lights */
+} LightShares;
+
+/* Of a request that measure_frame answers, over the pixels that it takes. The list and its
+ * names live in the arena. */
+LightShares measure_lights(const FrameImage *frame, const MeasureRequest *request,
+                           Arena *arena);

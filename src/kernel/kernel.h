@@ -10,6 +10,7 @@
 #include "film/film.h"
 #include "guide/guide_training.h"
 #include "kernel/probe.h"
+#include "light/light_groups.h"
 #include "path/cell_lights.h"
 #include "path/path.h"
 
@@ -21,6 +22,7 @@ typedef struct TileJob {
     bool     with_features; /* fill the layers of the first surface, not only the colour */
     bool     with_fine;     /* and display.fine, which takes more camera rays; */
     bool     with_lambertian; /* display.lambertian */
+    const LightGroups *lights; /* the film's groups of lights; NULL: it keeps none apart */
     uint32_t seed;
     uint32_t first_sample, end_sample; /* half-open */
 } TileJob;

@@ -80,17 +80,72 @@ static void add_fine(const TileJob *job, int x, int y, const Wavelengths *wavele
     for (int i = 0; i < 3; i++) out->fine[i] /= (float)count;
 }
 
-static void tile_sample(const TileJob *job, int x, int y, uint32_t index, FilmSample *out,
-                        PathStatistics *statistics)
+/* ---- groups of lights -------------------------------------------------------------------- */
+
+/* What they give to one sample. */
+typedef struct LightSums {
+    const LightGroups *groups;
+    int       count;
+    FilmLight found[FILM_LIGHTS_MAX];
+    int       place[FILM_LIGHTS_MAX]; /* of a group among those found; -1: not yet */
+} LightSums;
+
+static void lights_start(const LightGroups *groups, LightSums *sums)
 {
+    sums->groups = groups;
+    sums->count = 0;
+    for (int i = 0; groups && i < groups->count; i++) sums->place[i] = -1;
+}
+
+static void lights_clear(LightSums *sums)
+{
+    for (int i = 0; i < sums->count; i++) sums->place[sums->found[i].group] = -1;
+    sums->count = 0;
+}
+
+static void lights_hear(void *user, const PathTale *tale, const float xyz[3])
+{
+    LightSums *sums = user;
+    int        group = light_group_of(sums->groups, tale->source, tale->source_id);
+    int       *place = &sums->place[group];
+    if (*place < 0) {
+        *place = sums->count++;
+        sums->found[*place] = (FilmLight){group, {0, 0, 0}};
+    }
+    for (int i = 0; i < 3; i++) sums->found[*place].xyz[i] += xyz[i];
+}
+
+/* ---- tiles ------------------------------------------------------------------------------- */
+
+/* One thread's work on a tile. */
+typedef struct TileWork {
+    const TileJob  *job;
+    PathStatistics *statistics;
+    LightSums       lights;
+} TileWork;
+
+static void trace(TileWork *work, Ray ray, const Wavelengths *wavelengths, Sampler *sampler,
+                  PathResult *out)
+{
+    const TileJob     *job = work->job;
+    const PathListener listener = {.hear = lights_hear, .user = &work->lights};
+    const PathApart    apart = {out, job->with_lambertian, job->lights ? &listener : NULL};
+    if (apart.with_lambertian || apart.listener)
+        path_trace_apart(job->context, ray, wavelengths, sampler, &apart, work->statistics);
+    else
+        path_trace(job->context, ray, wavelengths, sampler, out, work->statistics);
+}
+
+static void tile_sample(TileWork *work, int x, int y, uint32_t index, FilmSample *out)
+{
+    const TileJob *job = work->job;
     Sampler sampler = sampler_start(job->seed, x, y, index);
     Vec2    at = sampler_2d(&sampler); /* the filter is a box of one pixel */
     Wavelengths wavelengths;
     PathResult  result;
     wavelengths_sample(sampler_1d(&sampler), &wavelengths);
     Ray ray = camera_ray(job->camera, (float)x + at.x, (float)y + at.y);
-    (job->with_lambertian ? path_trace_apart : path_trace)(job->context, ray, &wavelengths,
-                                                           &sampler, &result, statistics);
+    trace(work, ray, &wavelengths, &sampler, &result);
     *out = (FilmSample){.sample_index = index, .part_id = -1, .display_id = -1};
     copy3(out->xyz, result.xyz);
     copy3(out->stokes, result.stokes);
@@ -98,17 +153,24 @@ static void tile_sample(const TileJob *job, int x, int y, uint32_t index, FilmSa
     copy3(out->lambertian, result.lambertian);
     if (job->with_features && result.hit) add_features(job, &result, &wavelengths, out);
     if (job->with_fine && out->display_id >= 0)
-        add_fine(job, x, y, &wavelengths, out, statistics);
+        add_fine(job, x, y, &wavelengths, out, work->statistics);
 }
 
 static void tile_render(const TileJob *job, FilmRect rect, PathStatistics *statistics)
 {
+    TileWork work;
+    work.job = job;
+    work.statistics = statistics;
+    lights_start(job->lights, &work.lights);
     for (int y = rect.y0; y < rect.y1; y++)
         for (int x = rect.x0; x < rect.x1; x++)
             for (uint32_t index = job->first_sample; index < job->end_sample; index++) {
                 FilmSample sample;
-                tile_sample(job, x, y, index, &sample, statistics);
+                tile_sample(&work, x, y, index, &sample);
+                sample.lights = work.lights.found;
+                sample.light_count = work.lights.count;
                 film_add_sample(job->film, x, y, &sample);
+                lights_clear(&work.lights);
             }
 }
 

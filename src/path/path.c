@@ -140,6 +140,7 @@ static void gather(PathWalk *walk, Spectrum radiance, LightSet set, int source_i
     PathLight light = {.radiance = radiance};
     walk->tale->source = set;
     walk->tale->source_id = source_id;
+    walk->tale->lanes = (const float *)&light.radiance;
     tell(walk, walk->tale, &light);
 }
 
@@ -382,8 +383,15 @@ static void add_display_xyz(PathWalk *walk, const Surface *surface, uint32_t tri
     for (int i = 0; i < 3; i++) light.xyz[i] = share * xyz[i];
     path_light_add(&walk->gathered, &light);
     if (!walk->listener) return;
+    Spectrum lanes;
     walk->tale->source = LIGHTS_EMITTERS;
     walk->tale->source_id = surface->part_id;
+    walk->tale->lanes = NULL;
+    if (walk->listener->with_lanes) {
+        lanes = walk->throughput * spectrum_all(weight) *
+                triangle_emission(scene, triangle, &surface->point, wo, walk->wavelengths);
+        walk->tale->lanes = (const float *)&lanes;
+    }
     tell(walk, walk->tale, &light);
 }
 
@@ -1164,14 +1172,25 @@ void path_trace(const PathContext *context, Ray ray, const Wavelengths *waveleng
     trace(&walk, ray, out, &room);
 }
 
+static PathTale tale_start(const Wavelengths *wavelengths)
+{
+    return (PathTale){.pane_id = NO_ID, .reached_by = NO_ID, .wavelengths = wavelengths};
+}
+
 void path_trace_apart(const PathContext *context, Ray ray, const Wavelengths *wavelengths,
-                      Sampler *sampler, PathResult *out, PathStatistics *statistics)
+                      Sampler *sampler, const PathApart *apart, PathStatistics *statistics)
 {
     WalkRoom       room;
     LambertianPart part = {.share = spectrum_all(0)};
-    PathWalk walk = walk_start(context, wavelengths, sampler, statistics, &room);
-    walk.lambertian = &part;
-    trace(&walk, ray, out, &room);
+    PathTale       tale = tale_start(wavelengths);
+    PathWalk       walk = walk_start(context, wavelengths, sampler, statistics, &room);
+    if (apart->with_lambertian) walk.lambertian = &part;
+    if (apart->listener) {
+        tale.towards = ray.direction;
+        walk.listener = apart->listener;
+        walk.tale = &tale;
+    }
+    trace(&walk, ray, apart->result, &room);
 }
 
 void path_trace_told(const PathContext *context, Ray ray, const Wavelengths *wavelengths,
@@ -1179,8 +1198,9 @@ void path_trace_told(const PathContext *context, Ray ray, const Wavelengths *wav
                      PathStatistics *statistics)
 {
     WalkRoom room;
-    PathTale tale = {.towards = ray.direction, .pane_id = NO_ID, .reached_by = NO_ID};
+    PathTale tale = tale_start(wavelengths);
     PathWalk walk = walk_start(context, wavelengths, sampler, statistics, &room);
+    tale.towards = ray.direction;
     walk.ray = ray;
     walk.listener = listener;
     walk.tale = &tale;
@@ -1247,7 +1267,7 @@ void path_illuminance_told(const PathContext *context, LitPoint point,
                            const PathListener *listener, PathStatistics *statistics)
 {
     WalkRoom room;
-    PathTale tale = {.pane_id = NO_ID, .reached_by = NO_ID};
+    PathTale tale = tale_start(wavelengths);
     PathWalk walk = walk_start(context, wavelengths, sampler, statistics, &room);
     walk.listener = listener;
     walk.tale = &tale;

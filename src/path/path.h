@@ -38,12 +38,16 @@ typedef struct PathTale {
     Vec3     from;                  /* where it began, m, world; is_far: the unit direction
                                        towards it */
     bool     is_far;
+    const float       *lanes;       /* its radiance, W m^-2 sr^-1 nm^-1 per lane; of a display
+                                       that is seen by its measured XYZ NULL, unless wanted */
+    const Wavelengths *wavelengths; /* of the lanes */
 } PathTale;
 
 /* Is told all light that a path finds, way by way: XYZ, cd m^-2; they add up to the result. */
 typedef struct PathListener {
     void (*hear)(void *user, const PathTale *tale, const float xyz[3]);
     void  *user;
+    bool   with_lanes; /* displays' lanes are wanted, too */
 } PathListener;
 
 /* Counts of one thread; add them up. */
@@ -80,10 +84,16 @@ void path_illuminance_told(const PathContext *context, LitPoint point,
 void path_trace(const PathContext *context, Ray ray, const Wavelengths *wavelengths,
                 Sampler *sampler, PathResult *out, PathStatistics *statistics);
 
-/* As path_trace, the same bits; and tells of a display that the eye sees its lambertian part
- * from the haze. */
+/* What is told of a path besides. */
+typedef struct PathApart {
+    PathResult         *result;
+    bool                with_lambertian; /* of a display that the eye sees, from the haze */
+    const PathListener *listener;        /* NULL: nobody */
+} PathApart;
+
+/* As path_trace, the same bits; and tells what is asked. */
 void path_trace_apart(const PathContext *context, Ray ray, const Wavelengths *wavelengths,
-                      Sampler *sampler, PathResult *out, PathStatistics *statistics);
+                      Sampler *sampler, const PathApart *apart, PathStatistics *statistics);
 
 #define PATH_PLACES_MAX 8
 

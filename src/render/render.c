@@ -188,9 +188,11 @@ static void run_passes(Run *run)
 static bool make_film(const RenderOptions *options, Arena *arena, RenderResult *result,
                       Error *err)
 {
-    const Checkpoint *resume = options->resume;
+    const Checkpoint  *resume = options->resume;
+    const LightGroups *groups = options->lights;
+    const FilmLights   lights = {groups ? groups->count : 0, groups ? groups->names : NULL};
     result->film = film_create(options->width, options->height, options->crop, options->layers,
-                               arena);
+                               &lights, arena);
     result->has_features = (options->layers & LAYER_FEATURES) ||
                            (options->noise > 0 &&
                             options->noise_area.display != FILM_ALL_PIXELS) ||
@@ -212,6 +214,7 @@ static void render_film(const RenderSetup *setup, const RenderOptions *options, 
                         .with_features = result->has_features,
                         .with_fine = (options->layers & LAYER_DISPLAY_FINE) != 0,
                         .with_lambertian = (options->layers & LAYER_NEEDS_LAMBERTIAN) != 0,
+                        .lights = options->layers & LAYER_LIGHT ? options->lights : NULL,
                         .seed = options->seed};
     run.counts = ARENA_NEW(arena, WorkerCounts, options->threads);
     run.progress = progress_start(options->progress, "render", "samples",

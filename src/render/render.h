@@ -37,7 +37,8 @@ typedef struct RenderOptions {
     const PolarisedEye *eye;   /* how light is polarised counts for it (its directions are the
                                   camera's, whatever stands there); NULL: unpolarised */
     bool     no_mirrors;       /* sunlight by way of mirrors is left to chance */
-    unsigned layers;           /* FilmLayer bits */
+    unsigned layers;           /* FilmLayer bits; */
+    const LightGroups *lights; /* of LAYER_LIGHT; NULL: none */
     int      threads;          /* at least 1 */
     const char *isa;           /* kernel.h's names; NULL: the best there is */
     ProgressMode progress;

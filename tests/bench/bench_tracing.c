@@ -39,7 +39,7 @@ static double render_once(const Bench *bench, Arena scratch, PathStatistics *sta
 {
     FilmRect whole = {0, 0, WIDTH, HEIGHT};
     TileJob  job = {.context = &bench->context, .camera = &bench->camera,
-                    .film = film_create(WIDTH, HEIGHT, whole, 0, &scratch), .seed = 1,
+                    .film = film_create(WIDTH, HEIGHT, whole, 0, NULL, &scratch), .seed = 1,
                     .first_sample = 0, .end_sample = SAMPLES};
     double begun = thread_seconds();
     bench->kernel->render(&job, whole, statistics);

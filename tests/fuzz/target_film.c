@@ -20,8 +20,9 @@ static Film *film_of(const FilmPart *part, Arena *arena)
                    part->crop.y0 < part->crop.y1 && part->crop.y1 <= part->height,
                "a film's crop lies in the frame");
     fuzz_claim(part->first_sample <= part->end_sample, "samples are a range");
-    if (film_bytes(part->crop, part->layers) > FILM_BYTES_MAX) return NULL;
-    return film_create(part->width, part->height, part->crop, part->layers, arena);
+    if (film_bytes(part->crop, part->layers, part->lights.count) > FILM_BYTES_MAX) return NULL;
+    return film_create(part->width, part->height, part->crop, part->layers, &part->lights,
+                       arena);
 }
 
 static void claim_film(const Film *film, const FilmPart *part, Arena *arena)
@@ -90,7 +91,7 @@ void fuzz_part(const uint8_t *data, size_t size, Arena *arena)
     Error          err = {0};
     FilmPartReader from;
     const char    *path = fuzz_file("part.exr", data, size, arena);
-    if (!film_part_open(path, &from, &err)) {
+    if (!film_part_open(path, arena, &from, &err)) {
         fuzz_claim_refusal(&err);
         return;
     }

@@ -23,6 +23,10 @@ static int make_checkpoint_path(void **state)
 
 /* ---- films ------------------------------------------------------------------------------- */
 
+static const char *const group_names[] = {"sun", "lamp", "sky"};
+static const FilmLights  groups = {3, group_names};
+static const FilmLight   one_light[] = {{1, {1, 1, 1}}};
+
 /* Small and huge, negative ones too, and some that are dropped. */
 static FilmSample sample_of(int x, int y, uint32_t index)
 {
@@ -34,6 +38,8 @@ static FilmSample sample_of(int x, int y, uint32_t index)
         s.position[i] = random_unit(&random) - 0.5f;
     }
     if (random_unit(&random) < 0.02f) s.xyz[1] = NAN;
+    s.lights = one_light;
+    s.light_count = 1;
     s.part_id = (int)(4 * random_unit(&random));
     s.display_id = (int)(3 * random_unit(&random)) - 1;
     return s;
@@ -41,7 +47,7 @@ static FilmSample sample_of(int x, int y, uint32_t index)
 
 static Film *make_film(unsigned layers, Arena *arena)
 {
-    Film *film = film_create(WIDTH, HEIGHT, crop, layers, arena);
+    Film *film = film_create(WIDTH, HEIGHT, crop, layers, &groups, arena);
     for (int y = crop.y0; y < crop.y1; y++)
         for (int x = crop.x0; x < crop.x1; x++)
             for (uint32_t i = FIRST; i < FIRST + SAMPLES; i++) {
@@ -72,7 +78,7 @@ TEST(packed_rows_hold_every_bit)
     for (int i = 0; i < 2; i++) {
         unsigned layers = i ? LAYER_ALL : 0;
         Film    *film = make_film(layers, arena);
-        Film    *again = film_create(WIDTH, HEIGHT, crop, layers, arena);
+        Film    *again = film_create(WIDTH, HEIGHT, crop, layers, &groups, arena);
         unsigned char *row = ARENA_NEW(arena, unsigned char, film_packed_bytes_max(film));
         size_t bytes = 0;
         PixelSums *sums = film_sums(film, 2, 3);
@@ -96,7 +102,8 @@ TEST(rows_that_no_film_packs_are_refused)
 {
     Arena *arena = *state;
     Error  err;
-    Film  *film = make_film(0, arena), *to = film_create(WIDTH, HEIGHT, crop, 0, arena);
+    Film  *film = make_film(0, arena);
+    Film  *to = film_create(WIDTH, HEIGHT, crop, 0, &groups, arena);
     size_t max = film_packed_bytes_max(film);
     unsigned char *row = ARENA_NEW(arena, unsigned char, max);
     size_t size = film_pack_row(film, 3, row);
@@ -155,7 +162,7 @@ TEST(what_is_kept_comes_back)
     assert_memory_equal(&found.done.dropped, &what.done.dropped, sizeof what.done.dropped);
     assert_true(found.done.paths == 1 && found.done.camera_rays == 2 &&
                 found.done.bounce_rays == 3 && found.done.shadow_rays == 4);
-    Film *again = film_create(WIDTH, HEIGHT, crop, LAYER_ALL, arena);
+    Film *again = film_create(WIDTH, HEIGHT, crop, LAYER_ALL, &groups, arena);
     assert_true(checkpoint_load(&found, again, *arena, &err));
     assert_same_films(film, again);
 }
@@ -209,7 +216,7 @@ static void put_file(const unsigned char *bytes, size_t size, bool with_checksum
 static bool goes_on(Arena scratch, Error *err)
 {
     Checkpoint found;
-    Film      *film = film_create(WIDTH, HEIGHT, crop, 0, &scratch);
+    Film      *film = film_create(WIDTH, HEIGHT, crop, 0, &groups, &scratch);
     bool       done = checkpoint_open(path, &scratch, &found, err) &&
                 checkpoint_load(&found, film, scratch, err);
     if (!done) {

@@ -71,7 +71,7 @@ TEST(any_order_of_adding_gives_the_same_bits)
     FilmSample samples[COUNT];
     uint32_t   random = 1;
     for (uint32_t i = 0; i < COUNT; i++) samples[i] = random_sample(&random, i);
-    Film *rising = film_create(WIDTH, HEIGHT, whole, LAYER_ALL, &arena);
+    Film *rising = film_create(WIDTH, HEIGHT, whole, LAYER_ALL, NULL, &arena);
     for (int i = 0; i < COUNT; i++) film_add_sample(rising, 1, 1, &samples[i]);
     FrameImage expected = film_to_frame(rising, 0, &arena);
     for (int order = 0; order < 20; order++) {
@@ -81,7 +81,7 @@ TEST(any_order_of_adding_gives_the_same_bits)
             samples[i] = samples[other];
             samples[other] = kept;
         }
-        Film *shuffled = film_create(WIDTH, HEIGHT, whole, LAYER_ALL, &arena);
+        Film *shuffled = film_create(WIDTH, HEIGHT, whole, LAYER_ALL, NULL, &arena);
         for (int i = 0; i < COUNT; i++) film_add_sample(shuffled, 1, 1, &samples[i]);
         FrameImage found = film_to_frame(shuffled, 0, &arena);
         assert_same_frames(&expected, &found);
@@ -94,7 +94,7 @@ TEST(the_mean_is_that_of_long_doubles)
     Arena    arena = test_arena(state);
     uint32_t random = 7;
     for (size_t k = 0; k < sizeof scales / sizeof *scales; k++) {
-        Film       *film = film_create(WIDTH, HEIGHT, whole, 0, &arena);
+        Film       *film = film_create(WIDTH, HEIGHT, whole, 0, NULL, &arena);
         long double sum[3] = {0};
         int         count = 20000;
         for (int n = 0; n < count; n++) {
@@ -114,7 +114,7 @@ TEST(the_mean_is_that_of_long_doubles)
 TEST(a_millionth_candela_survives_beside_a_tera_candela)
 {
     Arena arena = test_arena(state);
-    Film *film = film_create(WIDTH, HEIGHT, whole, 0, &arena);
+    Film *film = film_create(WIDTH, HEIGHT, whole, 0, NULL, &arena);
     add_grey(film, 0, 0, 0, 1e12f);
     add_grey(film, 0, 0, 1, 1e-6f);
     add_grey(film, 0, 0, 2, -1e12f);
@@ -129,7 +129,7 @@ TEST(the_largest_sums_do_not_overflow)
     static const float sizes[] = {0x1p47f, 0x1.3p16f, 0x1.ep16f};
     Arena arena = test_arena(state);
     for (size_t k = 0; k < sizeof worst / sizeof *worst * 3; k++) {
-        Film      *film = film_create(WIDTH, HEIGHT, whole, 0, &arena);
+        Film      *film = film_create(WIDTH, HEIGHT, whole, 0, NULL, &arena);
         FilmSample s = {.display_id = -1};
         for (int i = 0; i < 3; i++) s.xyz[i] = sizes[k % 3] * worst[k / 3][i];
         film_add_sample(film, 0, 0, &s);
@@ -148,7 +148,7 @@ TEST(the_largest_sums_do_not_overflow)
 TEST(losses_are_counted_and_the_smallest_kept_in_any_order)
 {
     Arena arena = test_arena(state);
-    Film *film = film_create(WIDTH, HEIGHT, whole, 0, &arena);
+    Film *film = film_create(WIDTH, HEIGHT, whole, 0, NULL, &arena);
     static const float bad[] = {NAN, INFINITY, -INFINITY, 0x1.8p47f};
     for (int i = 0; i < 40; i++) {
         uint32_t index = (uint32_t)(i * 23 % 40);
@@ -175,7 +175,7 @@ TEST(variance_has_its_closed_form_at_every_scale)
     static const float scales[] = {1e-5f, 1, 1e4f, 1e9f, 1e13f};
     Arena arena = test_arena(state);
     for (size_t k = 0; k < sizeof scales / sizeof *scales; k++) {
-        Film *film = film_create(WIDTH, HEIGHT, whole, 0, &arena);
+        Film *film = film_create(WIDTH, HEIGHT, whole, 0, NULL, &arena);
         float low = scales[k], high = 3 * scales[k], xyz[3] = {1, 1, 1}, rgb[3];
         int   n = 1000;
         for (int i = 0; i < n; i++) add_grey(film, 0, 0, (uint32_t)i, i % 2 ? low : high);
@@ -191,7 +191,7 @@ TEST(variance_has_its_closed_form_at_every_scale)
 TEST(variance_spans_both_windows_of_squares)
 {
     Arena  arena = test_arena(state);
-    Film  *film = film_create(WIDTH, HEIGHT, whole, 0, &arena);
+    Film  *film = film_create(WIDTH, HEIGHT, whole, 0, NULL, &arena);
     float  values[] = {1, 100, 8000, 200000, 1e6f};
     double sum = 0, squares = 0;
     float  xyz[3] = {1, 1, 1}, rgb[3];
@@ -209,7 +209,7 @@ TEST(variance_spans_both_windows_of_squares)
 TEST(variance_needs_two_samples)
 {
     Arena arena = test_arena(state);
-    Film *film = film_create(WIDTH, HEIGHT, whole, 0, &arena);
+    Film *film = film_create(WIDTH, HEIGHT, whole, 0, NULL, &arena);
     assert_true(isnan(film_pixel(film, 0, 0).variance_rgb[0]));
     add_grey(film, 0, 0, 0, 1);
     assert_true(isnan(film_pixel(film, 0, 0).variance_rgb[0]));
@@ -231,7 +231,7 @@ TEST(relative_error_is_the_mean_of_sigma_over_luminance)
     for (int c = 0; c < 3; c++) {
         Arena    arena = arena_reserve(1 << 23);
         FilmRect square = {0, 0, SIDE, SIDE};
-        Film    *film = film_create(SIDE, SIDE, square, 0, &arena);
+        Film    *film = film_create(SIDE, SIDE, square, 0, NULL, &arena);
         assert_close(film_relative_error(film).frame, 1, 1e-15);
         for (int p = 0; p < SIDE * SIDE; p++)
             for (uint32_t i = 0; i < counts[c]; i++)
@@ -252,7 +252,7 @@ TEST(relative_error_is_the_mean_of_sigma_over_luminance)
 TEST(relative_error_knows_that_even_samples_are_better)
 {
     Arena arena = test_arena(state);
-    Film *film = film_create(WIDTH, HEIGHT, whole, 0, &arena);
+    Film *film = film_create(WIDTH, HEIGHT, whole, 0, NULL, &arena);
     for (int p = 0; p < WIDTH * HEIGHT; p++)
         for (uint32_t i = 0; i < 64; i++)
             add_grey(film, p % WIDTH, p / WIDTH, i, i % 2 ? 1.0f : 3.0f);
@@ -264,7 +264,7 @@ TEST(relative_error_knows_that_even_samples_are_better)
 TEST(relative_error_judges_shadows_against_half_the_key)
 {
     Arena  arena = test_arena(state);
-    Film  *film = film_create(WIDTH, HEIGHT, whole, 0, &arena);
+    Film  *film = film_create(WIDTH, HEIGHT, whole, 0, NULL, &arena);
     double key = pow(100, 5.0 / 6);
     for (uint32_t i = 0; i < 26; i++)
         for (int p = 0; p < WIDTH * HEIGHT; p++)
@@ -277,7 +277,7 @@ TEST(relative_error_of_displays_counts_their_pixels_only)
     enum { SIDE = 100 };
     Arena    arena = test_arena(state);
     FilmRect square = {0, 0, SIDE, SIDE};
-    Film    *film = film_create(SIDE, SIDE, square, 0, &arena);
+    Film    *film = film_create(SIDE, SIDE, square, 0, NULL, &arena);
     for (int p = 0; p < SIDE * SIDE; p++)
         for (uint32_t i = 0; i < 64; i++) {
             bool       display = p % SIDE < SIDE / 2;
@@ -309,7 +309,7 @@ TEST(the_worst_pixels_come_in_order)
 {
     Arena     arena = test_arena(state);
     FilmRect  crop = {2, 1, 6, 4};
-    Film     *film = film_create(8, 5, crop, 0, &arena);
+    Film     *film = film_create(8, 5, crop, 0, NULL, &arena);
     FilmWorst worst[20];
     for (uint32_t i = 0; i < 26; i++)
         for (int p = 0; p < 12; p++)
@@ -349,14 +349,14 @@ static FilmSample display_sample(uint32_t index, float theta, float phi)
 TEST(a_frame_has_the_channels_asked_for_and_no_others)
 {
     Arena      arena = test_arena(state);
-    Film      *film = film_create(WIDTH, HEIGHT, whole, LAYER_DEPTH | LAYER_ID, &arena);
+    Film      *film = film_create(WIDTH, HEIGHT, whole, LAYER_DEPTH | LAYER_ID, NULL, &arena);
     FrameImage frame = film_to_frame(film, 0, &arena);
     assert_int_equal(frame.channel_count, 6);
     assert_non_null(frame_channel(&frame, "depth.Z"));
     assert_non_null(frame_channel(&frame, "id.part"));
     assert_non_null(frame_channel(&frame, "id.display"));
     assert_null(frame_channel(&frame, "xyz.X"));
-    film = film_create(WIDTH, HEIGHT, whole, LAYER_ALL, &arena);
+    film = film_create(WIDTH, HEIGHT, whole, LAYER_ALL, NULL, &arena);
     frame = film_to_frame(film, 0, &arena);
     assert_int_equal(frame.channel_count,
                      3 + 3 + 1 + 3 + 3 + 3 + 2 + 2 + 3 + 3 + 1 + 8 * 3 + 2 + 1 + 3 + 1);
@@ -366,7 +366,7 @@ TEST(a_frame_has_the_channels_asked_for_and_no_others)
 TEST(halves_are_the_difference_of_interleaved_blocks)
 {
     Arena arena = test_arena(state);
-    Film *film = film_create(WIDTH, HEIGHT, whole, LAYER_HALVES, &arena);
+    Film *film = film_create(WIDTH, HEIGHT, whole, LAYER_HALVES, NULL, &arena);
     for (uint32_t i = 80; i-- > 0;) add_grey(film, 0, 0, i, i / 16 % 2 ? 9.0f : 4.0f);
     for (uint32_t i = 0; i < 23; i++) add_grey(film, 1, 0, i, 4); /* the odd half is short */
     for (uint32_t i = 0; i < 24; i++) add_grey(film, 0, 1, i, i / 16 % 2 ? 9.0f : 4.0f);
@@ -389,7 +389,7 @@ TEST(halves_squared_are_the_variance_of_independent_samples)
     Arena    arena = test_arena(state);
     FilmRect square = {0, 0, SIDE, SIDE};
     Film    *film =
-        film_create(SIDE, SIDE, square, LAYER_HALVES | LAYER_VARIANCE, &arena);
+        film_create(SIDE, SIDE, square, LAYER_HALVES | LAYER_VARIANCE, NULL, &arena);
     for (int p = 0; p < SIDE * SIDE; p++)
         for (uint32_t i = 0; i < 80; i++) add_grey(film, p % SIDE, p / SIDE, i, coin(p, i, 1));
     FrameImage frame = film_to_frame(film, 0, &arena);
@@ -404,7 +404,7 @@ TEST(halves_squared_are_the_variance_of_independent_samples)
 TEST(layers_are_means_over_the_samples_that_hit)
 {
     Arena      arena = test_arena(state);
-    Film      *film = film_create(WIDTH, HEIGHT, whole, LAYER_ALL, &arena);
+    Film      *film = film_create(WIDTH, HEIGHT, whole, LAYER_ALL, NULL, &arena);
     FilmSample near_hit = {.sample_index = 5, .hit = true, .depth = 1, .position = {1, 2, 3},
                            .normal = {0, 1, 0}, .albedo = {1, 0, 0}, .uv = {0.25f, 0},
                            .part_id = 7, .display_id = -1};
@@ -435,7 +435,7 @@ TEST(layers_are_means_over_the_samples_that_hit)
 TEST(features_that_are_not_finite_leave_the_light_alone)
 {
     Arena      arena = test_arena(state);
-    Film      *film = film_create(WIDTH, HEIGHT, whole, LAYER_ALL, &arena);
+    Film      *film = film_create(WIDTH, HEIGHT, whole, LAYER_ALL, NULL, &arena);
     FilmSample s = {
         .xyz = {4, 4, 4}, .hit = true, .depth = NAN, .part_id = 1, .display_id = -1};
     film_add_sample(film, 0, 0, &s);
@@ -449,7 +449,7 @@ TEST(features_that_are_not_finite_leave_the_light_alone)
 TEST(contrast_is_the_ratio_of_mean_luminances_with_the_reflection)
 {
     Arena      arena = test_arena(state);
-    Film      *film = film_create(WIDTH, HEIGHT, whole, LAYER_ALL, &arena);
+    Film      *film = film_create(WIDTH, HEIGHT, whole, LAYER_ALL, NULL, &arena);
     FilmSample s = display_sample(0, 0.5f, 1);
     film_add_sample(film, 0, 0, &s);
     s.xyz[1] = 100; /* the mean reflects 10 in Y */
@@ -474,7 +474,7 @@ TEST(mirror_haze_and_lambertian_make_up_the_reflected)
 {
     Arena      arena = test_arena(state);
     unsigned   parts = LAYER_DISPLAY_MIRROR | LAYER_DISPLAY_SCATTERED | LAYER_NEEDS_LAMBERTIAN;
-    Film      *film = film_create(WIDTH, HEIGHT, whole, parts, &arena);
+    Film      *film = film_create(WIDTH, HEIGHT, whole, parts, NULL, &arena);
     FilmSample s = display_sample(0, 0.5f, 1);
     for (uint32_t k = 0; k < 2; k++) {
         s.sample_index = k;
@@ -502,7 +502,7 @@ TEST(mirror_haze_and_lambertian_make_up_the_reflected)
 TEST(fine_emission_is_a_mean_over_the_samples_that_saw_a_display)
 {
     Arena      arena = test_arena(state);
-    Film      *film = film_create(WIDTH, HEIGHT, whole, LAYER_DISPLAY_FINE, &arena);
+    Film      *film = film_create(WIDTH, HEIGHT, whole, LAYER_DISPLAY_FINE, NULL, &arena);
     FilmSample on = display_sample(0, 0.3f, 0), off = {.sample_index = 3, .display_id = -1};
     float      rgb[3], xyz[3];
     for (uint32_t k = 0; k < 3; k++) {
@@ -525,7 +525,7 @@ TEST(fine_emission_is_a_mean_over_the_samples_that_saw_a_display)
 TEST(phi_is_averaged_as_a_direction)
 {
     Arena      arena = test_arena(state);
-    Film      *film = film_create(WIDTH, HEIGHT, whole, LAYER_DISPLAY_ANGLES, &arena);
+    Film      *film = film_create(WIDTH, HEIGHT, whole, LAYER_DISPLAY_ANGLES, NULL, &arena);
     float      turn = (float)(2 * PI);
     FilmSample before = display_sample(0, 0.3f, turn - 0.02f);
     FilmSample after = display_sample(1, 0.3f, 0.04f);
@@ -538,7 +538,7 @@ TEST(phi_is_averaged_as_a_direction)
 TEST(a_pixel_half_on_a_display_reports_the_display_half)
 {
     Arena      arena = test_arena(state);
-    Film      *film = film_create(WIDTH, HEIGHT, whole, LAYER_ALL, &arena);
+    Film      *film = film_create(WIDTH, HEIGHT, whole, LAYER_ALL, NULL, &arena);
     FilmSample on = display_sample(1, 0.1f, 0), off = {.xyz = {9, 9, 9}, .hit = true,
                                                        .depth = 4, .display_id = -1};
     film_add_sample(film, 0, 0, &on);
@@ -552,7 +552,7 @@ TEST(a_crop_is_the_data_window)
 {
     Arena      arena = test_arena(state);
     FilmRect   crop = {1, 1, 3, 2};
-    Film      *film = film_create(WIDTH, HEIGHT, crop, LAYER_XYZ, &arena);
+    Film      *film = film_create(WIDTH, HEIGHT, crop, LAYER_XYZ, NULL, &arena);
     add_grey(film, 2, 1, 0, 8);
     FrameImage frame = film_to_frame(film, 0, &arena);
     assert_int_equal(frame.data.x0, 1);
@@ -568,9 +568,9 @@ TEST(film_bytes_is_what_a_film_takes)
     (void)state;
     for (unsigned layers = 0; layers <= LAYER_ALL; layers += 193) {
         Arena arena = arena_reserve(1 << 20);
-        film_create(WIDTH, HEIGHT, whole, layers, &arena);
-        assert_in_range(arena.next - arena.begin, film_bytes(whole, layers),
-                        film_bytes(whole, layers) + 32);
+        film_create(WIDTH, HEIGHT, whole, layers, NULL, &arena);
+        assert_in_range(arena.next - arena.begin, film_bytes(whole, layers, 0),
+                        film_bytes(whole, layers, 0) + 32);
         arena_release(&arena);
     }
 }

@@ -20,6 +20,9 @@ static int make_part_path(void **state)
 
 /* ---- films ------------------------------------------------------------------------------- */
 
+static const char *const group_names[] = {"sun", "lamp", "sky"};
+static const FilmLights  groups = {3, group_names};
+
 static int random_below(uint32_t *state, int end)
 {
     return (int)(random_unit(state) * (float)end) % end;
@@ -51,14 +54,28 @@ static FilmSample sample_of(int x, int y, uint32_t index)
     return s;
 }
 
+/* Shares of it by any number of groups, one sign each; what is left over is rounding's. */
+static void light(FilmSample *s, FilmLight lights[3], uint32_t *random)
+{
+    s->lights = lights;
+    s->light_count = random_below(random, 4);
+    for (int k = 0; k < s->light_count; k++) {
+        lights[k].group = (k + (int)s->sample_index) % 3;
+        for (int i = 0; i < 3; i++) lights[k].xyz[i] = s->xyz[i] / (float)s->light_count;
+    }
+}
+
 static Film *make_film(FilmRect crop, uint32_t first, uint32_t end, unsigned layers,
                        Arena *arena)
 {
-    Film *film = film_create(WIDTH, HEIGHT, crop, layers, arena);
+    Film *film = film_create(WIDTH, HEIGHT, crop, layers, &groups, arena);
     for (int y = crop.y0; y < crop.y1; y++)
         for (int x = crop.x0; x < crop.x1; x++)
             for (uint32_t i = first; i < end; i++) {
                 FilmSample sample = sample_of(x, y, i);
+                uint32_t   random = hash_combine(i, (uint32_t)(y * WIDTH + x));
+                FilmLight  lights[3];
+                light(&sample, lights, &random);
                 film_add_sample(film, x, y, &sample);
             }
     return film;
@@ -107,7 +124,7 @@ TEST(parts_in_any_split_and_order_make_the_same_bits)
         Arena scratch = arena;
         Cut   cuts[27];
         int   count = cut_up(cuts, &random);
-        Film *sum = film_create(WIDTH, HEIGHT, whole, LAYER_ALL, &scratch);
+        Film *sum = film_create(WIDTH, HEIGHT, whole, LAYER_ALL, &groups, &scratch);
         for (int i = 0; i < count; i++) {
             Film *part = make_film(cuts[i].crop, cuts[i].first, cuts[i].end, LAYER_ALL,
                                    &scratch);
@@ -153,7 +170,7 @@ static bool read_part(Film *to, FilmPart *part, Arena scratch, Error *err)
 {
     FilmPartReader from;
     bool           ok = true;
-    if (!film_part_open(path, &from, err)) return false;
+    if (!film_part_open(path, &scratch, &from, err)) return false;
     if (from.part.layers != to->layers || from.part.crop.x1 > WIDTH ||
         from.part.crop.y1 > HEIGHT)
         ok = error_set(err, ERROR_INPUT, "not the part that was written");
@@ -171,7 +188,8 @@ TEST(files_carry_every_bit)
     Arena arena = test_arena(state);
     for (int i = 0; i < 9; i++) {
         Film    *film = make_film(crops[i % 3], 3, SAMPLES, layers[i / 3], &arena);
-        Film    *back = film_create(WIDTH, HEIGHT, crops[i % 3], layers[i / 3], &arena);
+        Film    *back =
+            film_create(WIDTH, HEIGHT, crops[i % 3], layers[i / 3], &groups, &arena);
         FilmPart part = film_part_of(film, 3, SAMPLES), found;
         Error    err = {0};
         part.asked_end = 99;
@@ -184,6 +202,10 @@ TEST(files_carry_every_bit)
         assert_same_films(back, film);
         assert_string_equal(found.name, path);
         found.name = part.name;
+        assert_int_equal(found.lights.count, layers[i / 3] & LAYER_LIGHT ? 3 : 0);
+        for (int k = 0; k < found.lights.count; k++)
+            assert_string_equal(found.lights.names[k], group_names[k]);
+        found.lights = part.lights;
         assert_memory_equal(&found, &part, sizeof part);
     }
 }
@@ -194,8 +216,8 @@ TEST(long_parts_are_read_in_bands)
     enum { WIDE = 5000, HIGH = 64 };
     Arena    arena = test_arena(state);
     FilmRect all = {0, 0, WIDE, HIGH};
-    Film    *film = film_create(WIDE, HIGH, all, 0, &arena);
-    Film    *back = film_create(WIDE, HIGH, all, 0, &arena);
+    Film    *film = film_create(WIDE, HIGH, all, 0, &groups, &arena);
+    Film    *back = film_create(WIDE, HIGH, all, 0, &groups, &arena);
     for (int p = 0; p < WIDE * HIGH; p += 97) {
         FilmSample sample = sample_of(p % WIDTH, p % HEIGHT, 0);
         film_add_sample(film, p % WIDE, p / WIDE, &sample);
@@ -205,7 +227,7 @@ TEST(long_parts_are_read_in_bands)
     Error          err = {0};
     int            bands = 0;
     write_part(film, &part, arena);
-    assert_true(film_part_open(path, &from, &err));
+    assert_true(film_part_open(path, &arena, &from, &err));
     for (; from.next_y < HIGH; bands++)
         if (!film_part_add_band(&from, back, arena, &err)) fail_msg("%s", err.text);
     film_part_close(&from);
@@ -223,7 +245,7 @@ TEST(words_have_the_names_that_the_header_says)
                                       3 << 16, 0, 0, 5 << 16};
     static const FilmRect one = {0, 0, 1, 1};
     Arena      arena = test_arena(state);
-    Film      *film = film_create(1, 1, one, LAYER_ALL, &arena);
+    Film      *film = film_create(1, 1, one, LAYER_ALL, &groups, &arena);
     FilmSample sample = {.sample_index = 16, .xyz = {2, 1, -1}, .hit = true, .depth = 3,
                          .uv = {0, 5}, .part_id = 4, .display_id = -1};
     film_add_sample(film, 0, 0, &sample);
@@ -250,11 +272,11 @@ typedef struct Written {
     FileBytes bytes;
 } Written;
 
-static Written write_small(Arena *arena)
+static Written write_small(unsigned layers, Arena *arena)
 {
     static const FilmRect crop = {2, 3, 6, 20};
     Error   err = {0};
-    Written w = {.film = make_film(crop, 0, 4, LAYER_DEPTH, arena)};
+    Written w = {.film = make_film(crop, 0, 4, layers, arena)};
     w.part = film_part_of(w.film, 0, 4);
     write_part(w.film, &w.part, *arena);
     assert_true(file_read(path, 1 << 24, arena, &w.bytes, &err));
@@ -272,14 +294,14 @@ static void patch(size_t at, const void *bytes, size_t size)
 TEST(a_flipped_bit_is_refused_or_changes_nothing)
 {
     Arena    arena = test_arena(state);
-    Written  w = write_small(&arena);
+    Written  w = write_small(LAYER_DEPTH, &arena);
     uint32_t random = 5;
     int      refused = 0;
     for (int i = 0; i < 1500; i++) {
         Arena    scratch = arena;
         Error    err = {0};
         FilmPart found;
-        Film    *back = film_create(WIDTH, HEIGHT, whole, LAYER_DEPTH, &scratch);
+        Film    *back = film_create(WIDTH, HEIGHT, whole, LAYER_DEPTH, &groups, &scratch);
         size_t   at = (size_t)random_below(&random, (int)w.bytes.size);
         unsigned char flipped = w.bytes.data[at] ^ (unsigned char)(1u << (i & 7));
         patch(at, &flipped, 1);
@@ -287,7 +309,7 @@ TEST(a_flipped_bit_is_refused_or_changes_nothing)
             refused++;
             assert_true(err.text[0] && !strchr(err.text, '\n'));
         } else {
-            Film *sum = film_create(WIDTH, HEIGHT, whole, LAYER_DEPTH, &scratch);
+            Film *sum = film_create(WIDTH, HEIGHT, whole, LAYER_DEPTH, &groups, &scratch);
             film_add_pixels(sum, w.film->crop, w.film->pixels, 4, &err);
             film_add_dropped(sum, &w.film->dropped);
             assert_same_films(back, sum);
@@ -303,12 +325,12 @@ TEST(a_flipped_bit_is_refused_or_changes_nothing)
 TEST(every_prefix_is_refused)
 {
     Arena   arena = test_arena(state);
-    Written w = write_small(&arena);
+    Written w = write_small(LAYER_DEPTH, &arena);
     for (size_t size = w.bytes.size; size > 100; size -= size < 4000 ? 7 : 101) {
         Arena    scratch = arena;
         Error    err = {0};
         FilmPart found;
-        Film    *back = film_create(WIDTH, HEIGHT, whole, LAYER_DEPTH, &scratch);
+        Film    *back = film_create(WIDTH, HEIGHT, whole, LAYER_DEPTH, &groups, &scratch);
         assert_int_equal(truncate(path, (off_t)(size - 1)), 0);
         if (read_part(back, &found, scratch, &err))
             fail_msg("%zu of %zu bytes were accepted", size - 1, w.bytes.size);
@@ -325,7 +347,7 @@ static void assert_refused(const Written *w, const char *from, const char *to,
     size_t      before = (size_t)(words - (const char *)w->bytes.data);
     const char *place = memmem(words, w->bytes.size - before, from, length);
     Arena       scratch = arena_reserve(1 << 22);
-    Film       *back = film_create(WIDTH, HEIGHT, whole, LAYER_DEPTH, &scratch);
+    Film       *back = film_create(WIDTH, HEIGHT, whole, w->part.layers, &groups, &scratch);
     Error       err = {0};
     FilmPart    found;
     if (!place || strlen(to) != length) fail_msg("no place for %s", to);
@@ -340,7 +362,7 @@ static void assert_refused(const Written *w, const char *from, const char *to,
 TEST(what_is_said_of_the_sums_must_hold)
 {
     Arena   arena = test_arena(state);
-    Written w = write_small(&arena);
+    Written w = write_small(LAYER_DEPTH, &arena);
     assert_refused(&w, "0:4", "0:3", "damaged sums: parhelion:askedSamples cannot be read");
     assert_refused(&w, "0:4", "0:5", "damaged sums: their checksum is ");
     assert_refused(&w, "parhelion:askedSamples", "parhelion:askedSomples",
@@ -356,12 +378,29 @@ TEST(what_is_said_of_the_sums_must_hold)
                    "damaged sums: parhelion:layers cannot be read");
 }
 
+TEST(names_of_lights_must_be_such_as_a_film_has)
+{
+    Arena   arena = test_arena(state);
+    Written w = write_small(LAYER_LIGHT, &arena);
+    static const char *const bad[] = {"\nun\nlamp\nsky\n", "sky\nlamp\nsky\n",
+                                      "sun\nlamp\nsky!"};
+    for (int i = 0; i < 3; i++)
+        assert_refused(&w, "sun\nlamp\nsky\n", bad[i],
+                       "damaged sums: parhelion:lights cannot be read");
+    assert_refused(&w, "sun\nlamp\nsky\n", "sun\nlamq\nsky\n",
+                   "damaged sums: their checksum is ");
+    assert_refused(&w, "sun\nlamp\nsky\n", "sun\nl\nmp\nsky\n",
+                   "damaged sums: 92 words a pixel, its layers have 104");
+    assert_refused(&w, "parhelion:lights", "parhelion:lyghts",
+                   "damaged sums: parhelion:lights cannot be read");
+}
+
 TEST(the_checksum_knows_in_which_row_a_sum_stands)
 {
     Arena       arena = test_arena(state);
     const char *checksums[2];
     for (int y = 0; y < 2; y++) {
-        Film      *film = film_create(WIDTH, HEIGHT, whole, 0, &arena);
+        Film      *film = film_create(WIDTH, HEIGHT, whole, 0, &groups, &arena);
         FilmSample sample = sample_of(0, 0, 0);
         film_add_sample(film, 0, y, &sample);
         FilmPart   part = film_part_of(film, 0, 1);
@@ -377,7 +416,7 @@ TEST(the_checksum_knows_in_which_row_a_sum_stands)
 TEST(another_set_of_layers_does_not_fit_the_words)
 {
     Arena    arena = test_arena(state);
-    Film    *film = film_create(WIDTH, HEIGHT, whole, LAYER_DEPTH, &arena);
+    Film    *film = film_create(WIDTH, HEIGHT, whole, LAYER_DEPTH, &groups, &arena);
     FilmPart part = film_part_of(film, 0, 1), found;
     FrameImage frame = film_to_frame(film, 0, &arena);
     Error    err = {0};
@@ -397,7 +436,7 @@ TEST(another_set_of_layers_does_not_fit_the_words)
 TEST(sums_that_no_samples_make_are_refused)
 {
     Arena arena = test_arena(state);
-    Film *sum = film_create(WIDTH, HEIGHT, whole, LAYER_UV, &arena);
+    Film *sum = film_create(WIDTH, HEIGHT, whole, LAYER_UV, &groups, &arena);
     for (int i = 0; i < 7; i++) {
         Film      *film = make_film(whole, 0, 3, LAYER_UV, &arena);
         PixelSums *pixel = film_sums(film, 4, 5);

@@ -191,7 +191,7 @@ TEST(another_version_is_refused_by_name)
     Arena     *arena = *state;
     Error      err = {0};
     const char *path = in_folder("a.checkpoint");
-    Film      *film = film_create(2, 1, (FilmRect){0, 0, 2, 1}, 0, arena);
+    Film      *film = film_create(2, 1, (FilmRect){0, 0, 2, 1}, 0, NULL, arena);
     FilmSample sample = {.xyz = {1, 1, 1}};
     film_add_sample(film, 0, 0, &sample);
     film_add_sample(film, 1, 0, &sample);

@@ -471,7 +471,7 @@ TEST(what_a_listener_hears_adds_up_to_the_light)
     world_ready(&world, 64);
     ProbeAim       aim = aim_of(&world);
     Heard          heard = {0};
-    PathListener   listener = {hear, &heard};
+    PathListener   listener = {.hear = hear, .user = &heard};
     PathStatistics statistics = {0};
     ProbeLook      looks[256];
     double         seen = 0;

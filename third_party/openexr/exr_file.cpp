@@ -313,7 +313,7 @@ static bool describe_words(ExrReader *reader, int part, Error *err)
                       && channel.ySampling == 1;
         reader->word_names.push_back(c.name());
     }
-    if (!holds_words || reader->word_names.size() > EXR_MAX_CHANNELS)
+    if (!holds_words || reader->word_names.size() > EXR_MAX_WORDS)
         return error_set(err, ERROR_INPUT,
                          "its part \"%s\" does not hold 32-bit words of the picture's pixels",
                          header.name().c_str());

@@ -65,7 +65,8 @@ typedef struct ExrPicture {
 } ExrPicture;
 
 /* Whole-file limits, refused before memory is taken for pixels. */
-enum { EXR_MAX_SIDE = 65536, EXR_MAX_PIXELS = 1 << 28, EXR_MAX_CHANNELS = 1024 };
+enum { EXR_MAX_SIDE = 65536, EXR_MAX_PIXELS = 1 << 28, EXR_MAX_CHANNELS = 1024,
+       EXR_MAX_WORDS = 4096 };
 
 typedef struct ExrReader ExrReader; /* owns C++ objects */
 

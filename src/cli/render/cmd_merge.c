@@ -111,6 +111,14 @@ static void copy_attributes(FrameImage *common, const ExrPicture *picture, Arena
             set_attribute(common, &picture->attributes[i], arena);
 }
 
+static bool same_lights(const FilmLights *a, const FilmLights *b)
+{
+    if (a->count != b->count) return false;
+    for (int i = 0; i < a->count; i++)
+        if (strcmp(a->names[i], b->names[i]) != 0) return false;
+    return true;
+}
+
 static bool check_identity(MergeRun *work, const FilmPart *part, const FilmPart *first,
                            const char *identity, Error *err)
 {
@@ -131,13 +139,15 @@ static bool check_identity(MergeRun *work, const FilmPart *part, const FilmPart 
                          "and %x",
                          part->width, part->height, part->layers, first->name, first->width,
                          first->height, first->layers);
-    return true;
+    return same_lights(&part->lights, &first->lights) ||
+           error_set(err, ERROR_INPUT, "damaged sums: of other groups of lights than %s",
+                     first->name);
 }
 
 static bool look_at(MergeRun *work, int i, Error *err)
 {
     FilmPartReader from;
-    if (!film_part_open(work->cli.arguments[i], &from, err)) return false;
+    if (!film_part_open(work->cli.arguments[i], work->arena, &from, err)) return false;
     const ExrPicture *picture = exr_reader_picture(from.file);
     const char *line = frame_string(picture, "parhelion:commandLine");
     work->parts[i] = from.part;
@@ -165,7 +175,7 @@ static bool look_at_all(MergeRun *work, Error *err)
 static bool check_memory(const MergeRun *work, Error *err)
 {
     const FilmPart *whole = &work->whole;
-    double wanted = (double)film_bytes(whole->crop, whole->layers);
+    double wanted = (double)film_bytes(whole->crop, whole->layers, whole->lights.count);
     double memory = (double)machine_memory_bytes();
     if (wanted < memory) return true;
     return error_set(err, ERROR_MEMORY,
@@ -177,7 +187,8 @@ static bool check_memory(const MergeRun *work, Error *err)
 
 static bool same_part(const FilmPart *a, const FilmPart *b)
 {
-    return a->layers == b->layers && a->first_sample == b->first_sample &&
+    return a->layers == b->layers && same_lights(&a->lights, &b->lights) &&
+           a->first_sample == b->first_sample &&
            a->end_sample == b->end_sample && !memcmp(&a->crop, &b->crop, sizeof a->crop);
 }
 
@@ -190,7 +201,7 @@ static double pixels_in(FilmRect rect)
 static bool add_part(MergeRun *work, int i, Progress *progress, double *done, Error *err)
 {
     FilmPartReader from;
-    if (!film_part_open(work->cli.arguments[i], &from, err)) return false;
+    if (!film_part_open(work->cli.arguments[i], work->arena, &from, err)) return false;
     const FilmRect *crop = &from.part.crop;
     bool ok = same_part(&from.part, &work->parts[i]) ||
               error_set(err, ERROR_INPUT, "has changed while it was merged");
@@ -209,7 +220,7 @@ static bool add_all(MergeRun *work, Error *err)
     const FilmPart *whole = &work->whole;
     double          total = 0, done = 0;
     work->film = film_create(whole->width, whole->height, whole->crop, whole->layers,
-                             work->arena);
+                             &whole->lights, work->arena);
     for (int i = 0; i < work->cli.argument_count; i++) total += pixels_in(work->parts[i].crop);
     Progress progress = progress_start(work->cli.progress, "merge", "pixels", total);
     for (int i = 0; i < work->cli.argument_count; i++)

@@ -25,6 +25,7 @@ typedef struct RenderRun {
     Scene        *scene;
     SceneCamera   camera;
     RenderSetup   setup;
+    LightGroups   lights;
     const char   *identity;
     RenderLive    live;
 } RenderRun;
@@ -36,7 +37,8 @@ static bool check_memory(const RenderOptions *options, Error *err)
 {
     FilmRect crop = options->crop;
     double   pixels = (double)options->width * (double)options->height;
-    double   wanted = (double)film_bytes(crop, options->layers);
+    int      lights = options->lights ? options->lights->count : 0;
+    double   wanted = (double)film_bytes(crop, options->layers, lights);
     double   memory = (double)machine_memory_bytes();
     if (pixels > EXR_MAX_PIXELS)
         return error_set(err, ERROR_USAGE,
@@ -48,6 +50,26 @@ static bool check_memory(const RenderOptions *options, Error *err)
         "the film of %dx%d pixels needs %.1f GB, there are %.1f GB — use --crop or "
         "fewer --layers",
         crop.x1 - crop.x0, crop.y1 - crop.y0, wanted / 1e9, memory / 1e9);
+}
+
+/* The groups of lights, once the scene is known: each is a layer. */
+static bool find_lights(RenderRun *work, Error *err)
+{
+    RenderOptions *options = &work->request.render;
+    int            told = work->problems.count;
+    if (!(options->layers & LAYER_LIGHT) || work->request.replays) return true;
+    work->lights = light_groups_build(work->scene, work->setup.context.lights, work->arena,
+                                      &work->problems);
+    for (; told < work->problems.count; told++)
+        fprintf(stderr, "parhelion: warning: %s\n", work->problems.list[told].message);
+    if (work->lights.count > FILM_LIGHTS_MAX)
+        return error_set(err, ERROR_USAGE,
+                         "--layers light: the lights of the scene have %d names, at most %d "
+                         "can be told apart — leave out `light`, or give lamps that belong "
+                         "together one name",
+                         work->lights.count, FILM_LIGHTS_MAX);
+    options->lights = &work->lights;
+    return check_memory(options, err);
 }
 
 /* Hours of rendering must not end at a folder that cannot be written. */
@@ -319,7 +341,7 @@ static bool run(RenderRun *work, Error *err)
     if (!render_prepare(work->scene, &work->camera, options, work->arena, &work->setup, err))
         return false;
     render_live_find_displays(&work->live, work->scene, &work->setup.camera, work->arena);
-    bool done = identify(work, err) &&
+    bool done = find_lights(work, err) && identify(work, err) &&
                 render_prepared(&work->setup, options, work->arena, &result, err);
     render_setup_end(&work->setup);
     return done && hand_over(work, &result, err);

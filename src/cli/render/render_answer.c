@@ -78,6 +78,14 @@ static void set_eye(FrameImage *frame, const PolarisedEye *eye, Arena *arena)
                                   (double)eye->blocks), arena);
 }
 
+/* And the names of layers for those of lights. */
+static void set_lights(FrameImage *frame, const LightGroups *lights, Arena *arena)
+{
+    for (int i = 0; lights && i < lights->count; i++)
+        frame_set_string(frame, arena_format(arena, "parhelion:light.%s", lights->names[i]),
+                         lights->said[i], arena);
+}
+
 static void set_sampling(FrameImage *frame, const RenderRequest *request,
                          const RenderResult *result, Arena *arena)
 {
@@ -118,7 +126,7 @@ FrameImage render_make_frame(const RenderRequest *request, const Scene *scene,
                              const SceneCamera *camera, const RenderResult *result,
                              Arena *arena)
 {
-    int        room = 32 + scene->part_count + scene->display_count;
+    int        room = 32 + scene->part_count + scene->display_count + FILM_LIGHTS_MAX;
     FrameImage frame = film_to_frame(result->film, room, arena);
     frame_set_string(&frame, "software", "parhelion " PARHELION_VERSION, arena);
     frame_set_string(&frame, "parhelion:commandLine", request->command_line, arena);
@@ -131,6 +139,7 @@ FrameImage render_make_frame(const RenderRequest *request, const Scene *scene,
     set_sampling(&frame, request, result, arena);
     set_camera(&frame, camera, arena);
     set_names(&frame, scene, request->render.layers, arena);
+    set_lights(&frame, request->render.lights, arena);
     if (request->is_part) attach_sums(&frame, &request->render, result, arena);
     return frame;
 }

@@ -178,7 +178,7 @@ static void hear_chunk(void *user, int item, int worker)
     const ChainSearch *search = user;
     int            chunk = search->first + item;
     ChunkListener  to = {search, &search->sums[item], chunk};
-    PathListener   listener = {hear, &to};
+    PathListener   listener = {.hear = hear, .user = &to};
     PathStatistics statistics = {0};
     search->ask->tools->kernel->hear(search->ask->aim, chunk * CHUNK, (chunk + 1) * CHUNK,
                                      &listener, &statistics);

@@ -139,7 +139,7 @@ static void see_pixel(const OutlookWork *work, int column, int row)
     OutlookPixel sums = {.things = &work->rows[row],
                          .lux_per_cd_m2 = pixel_sr(theta) * cos(theta),
                          .is_mirrored = degrees_from_radians(apart) <= OUTLOOK_MIRROR_DEG};
-    PathListener   listener = {hear_pixel, &sums};
+    PathListener   listener = {.hear = hear_pixel, .user = &sums};
     PathStatistics statistics = {0};
     work->ask->tools->kernel->hear(&work->aim, first, first + PATHS, &listener, &statistics);
     *out = (float)sums.cd_m2;
@@ -178,7 +178,7 @@ static SmallLights small_lights(const OutlookAsk *ask, Vec3 from, Arena *arena)
     PathContext    lights_only = *ask->context;
     ProbeAim       aim = {.context = &lights_only, .meter = &head, .seed = SEED + 1};
     SmallLights    out = {.things = {ARENA_NEW(arena, Thing, THINGS), 0, THINGS}};
-    PathListener   listener = {hear_small, &out};
+    PathListener   listener = {.hear = hear_small, .user = &out};
     PathStatistics statistics = {0};
     lights_only.strategy = PATH_LIGHTS_ONLY;
     lights_only.max_bounces = 1;

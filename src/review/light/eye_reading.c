@@ -106,7 +106,7 @@ static void read_chunk(void *user, int item, int worker)
     EyePaths      *paths = user;
     PathStatistics statistics = {0};
     for (int i = item * CHUNK; i < (item + 1) * CHUNK; i++) {
-        PathListener listener = {hear_path, &paths->found[i]};
+        PathListener listener = {.hear = hear_path, .user = &paths->found[i]};
         paths->stage->tools.kernel->hear(&paths->aim, i, i + 1, &listener, &statistics);
     }
 }
@@ -146,7 +146,7 @@ static void read_pupil_chunk(void *user, int item, int worker)
     (void)worker;
     PupilWork     *work = user;
     PathStatistics statistics = {0};
-    PathListener   listener = {hear_pupil, &work->sums[item]};
+    PathListener   listener = {.hear = hear_pupil, .user = &work->sums[item]};
     work->sums[item] = (PupilSums){.paths = work->paths};
     work->paths->stage->tools.kernel->hear(&work->aim, item * CHUNK, (item + 1) * CHUNK,
                                            &listener, &statistics);

@@ -96,7 +96,7 @@ static void read_chunk(void *user, int item, int worker)
     const GazeRound *round = user;
     PathStatistics   statistics = {0};
     GazeChunk       *chunk = &round->chunks[item];
-    PathListener     listener = {hear, chunk};
+    PathListener     listener = {.hear = hear, .user = chunk};
     int              first = (round->first + item) * CHUNK;
     *chunk = (GazeChunk){.scene = round->stage->scene};
     round->stage->tools.kernel->hear(&round->aim, first, first + CHUNK, &listener, &statistics);
@@ -187,7 +187,7 @@ static GazeMirrored find_mirrored(const Stage *stage, const ProbeAim *aim, Arena
     int            parts = stage->scene->part_count;
     GazeTally      tally = {stage->scene, ARENA_NEW(&scratch, double, parts),
                             ARENA_NEW(&scratch, double, parts + LIGHT_SETS)};
-    PathListener   listener = {hear_place, &tally};
+    PathListener   listener = {.hear = hear_place, .user = &tally};
     PathStatistics statistics = {0};
     stage->tools.kernel->hear(aim, 0, LEAST, &listener, &statistics);
     int shown = greatest(tally.shown, parts + LIGHT_SETS);
