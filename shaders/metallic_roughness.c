@@ -11,6 +11,9 @@
  *   specular          0..1, default 1                weakens the non-metal's reflection
  *   specular_color    0 and up, default 1            tints it at normal incidence
  *   transmission      0..1, default 0                share of the non-metal: a thin sheet
+ *   across            0..1, default 0                share of the base's light that leaves on
+ *                                                    the other side, of albedo across_color:
+ *                                                    paper 0.4, a lampshade or leaf 0.5
  *   clearcoat, clearcoat_alpha, clearcoat_normal     a lacquer of index 1.5; default none
  *   coating           a stack of thin layers (PARHELION_coating) or a metal of measured n, k
  *                     (PARHELION_spectrum): its own reflectance at every angle and wavelength
@@ -31,6 +34,10 @@
  * it by coat.h, the Lambert base is coupled to both boundaries at once. A white metal or
  * plastic under any coat returns what it gets, to 85 degrees within 0.1 % (plastic) and 0.2 %
  * (metal); of a coloured base each further turn takes its albedo. All of it is reciprocal.
+ * Light that goes across is Lambert's on the other side, coupled to the boundaries of both as
+ * the base is to one: f = across color / pi * in(wo) in(wi) / mean of in. Boundary and coat lie
+ * on either side alike, so white paper, lacquered or not, returns what it gets; it passes
+ * nothing straight.
  * A coating's reflectance (coating.h) stands in for Fresnel's and Schlick's curves in all of
  * this; with it, metals follow the exact curve of their n, k. What it absorbs is lost.
  *
@@ -60,7 +67,7 @@ typedef struct Boundary {
 
 /* Probabilities of the choices for one wo; they sum to one unless all are 0. */
 typedef struct Choices {
-    float coat, mirror, diffuse, through;
+    float coat, mirror, diffuse, through, across;
 } Choices;
 
 /* What the coat does to light along one direction. */
@@ -128,6 +135,24 @@ static inline Spectrum let_in(const Boundary *b, Energy e)
     return spectrum_all(1) - b->f0 * spectrum_all(e.all) - b->rise * spectrum_all(e.shape);
 }
 
+/* ---- the Lambert base: back, or across to the other side -------------------------------- */
+
+static inline Spectrum lambert_back(const MetallicRoughness *m)
+{
+    return m->across > 0 ? m->base_color * spectrum_all(1 - m->across) : m->base_color;
+}
+
+static Spectrum lambert_across(const MetallicRoughness *m)
+{
+    return spectrum_from_rgb(m->wavelengths, m->across_color) * spectrum_all(m->across);
+}
+
+/* Of both. */
+static inline Spectrum lambert_albedo(const MetallicRoughness *m)
+{
+    return m->across > 0 ? lambert_back(m) + lambert_across(m) : m->base_color;
+}
+
 /* ---- coatings: tables in place of the curves ------------------------------------------- */
 
 static const CoatingTables *coated_metal(const MetallicRoughness *m)
@@ -172,13 +197,13 @@ static Spectrum coated_facet(const MetallicRoughness *m, float cosine)
 }
 
 /* Lambert under a coated face, as diffuse_eval. */
-static Spectrum under_coating(const View *view, float cosine, float share)
+static Spectrum under_coating(const View *view, Spectrum albedo, float cosine, float share)
 {
     const MetallicRoughness *m = view->m;
     Spectrum one = spectrum_all(1), in = coated_energy(m, cosine);
     Spectrum mean = coating_energy_average(m->coating->face->energy, m->wavelengths, m->alpha);
     mean = one - mean * spectrum_all(m->specular);
-    return m->base_color * (one - view->coated) * (one - in) * spectrum_all(share * INV_PI_F) /
+    return albedo * (one - view->coated) * (one - in) * spectrum_all(share * INV_PI_F) /
            spectrum_max(mean, spectrum_all(1e-3f));
 }
 
@@ -220,16 +245,16 @@ static Spectrum pane_transmittance(const MetallicRoughness *m, const Boundary *b
            spectrum_all((1 - m->metallic) * m->transmission);
 }
 
-/* Lambert under the boundary: base / pi * in(wo) in(wi) / mean of in (Kelemen 2001). */
-static Spectrum diffuse_eval(const View *view, float cosine, Energy in)
+/* Lambert under the boundary: albedo / pi * in(wo) in(wi) / mean of in (Kelemen 2001). */
+static Spectrum diffuse_eval(const View *view, Spectrum albedo, float cosine, Energy in)
 {
     const MetallicRoughness *m = view->m;
     const Boundary *b = &view->boundary;
     float share = (1 - m->metallic) * (1 - m->transmission);
     if (!(share > 0)) return spectrum_all(0);
-    if (coated_face(m)) return under_coating(view, cosine, share);
+    if (coated_face(m)) return under_coating(view, albedo, cosine, share);
     Spectrum mean = let_in(b, energy_average(m->energy, m->alpha));
-    return m->base_color * let_in(b, view->energy) * let_in(b, in) *
+    return albedo * let_in(b, view->energy) * let_in(b, in) *
            spectrum_all(share * INV_PI_F) / spectrum_max(mean, spectrum_all(1e-3f));
 }
 
@@ -337,7 +362,8 @@ static inline Spectrum let_in_coated(const Boundary *b, Energy e, const Through 
            spectrum_all(t->open);
 }
 
-static Spectrum coated_diffuse(const View *view, Energy in, const Through *below)
+static Spectrum coated_diffuse(const View *view, Spectrum albedo, Energy in,
+                               const Through *below)
 {
     const MetallicRoughness *m = view->m;
     const Boundary *b = &view->boundary;
@@ -346,7 +372,7 @@ static Spectrum coated_diffuse(const View *view, Energy in, const Through *below
     Spectrum mean = spectrum_all(view->coat_mean.open) -
                     b->f0 * spectrum_all(view->coat_mean.all) -
                     b->rise * spectrum_all(view->coat_mean.shape);
-    return m->base_color * coat_turns(view->coat_mean.open, m->base_color) *
+    return albedo * coat_turns(view->coat_mean.open, lambert_albedo(m)) *
            let_in_coated(b, view->energy, &view->through) * let_in_coated(b, in, below) *
            spectrum_all(share * INV_PI_F) / spectrum_max(mean, spectrum_all(1e-3f));
 }
@@ -400,9 +426,10 @@ static float coat_eval(const MetallicRoughness *m, Vec3 wo, Vec3 wi, float *pdf)
 
 static Choices scaled_to_one(Choices c)
 {
-    float sum = c.coat + c.mirror + c.diffuse + c.through;
+    float sum = c.coat + c.mirror + c.diffuse + c.through + c.across;
     float scale = sum > 0 ? 1 / sum : 0;
-    return (Choices){c.coat * scale, c.mirror * scale, c.diffuse * scale, c.through * scale};
+    return (Choices){c.coat * scale, c.mirror * scale, c.diffuse * scale, c.through * scale,
+                     c.across * scale};
 }
 
 /* Mean shares of light for choosing, where a part is coated. */
@@ -411,7 +438,7 @@ static Choices choose_coated(const View *view, float coat)
     const MetallicRoughness *m = view->m;
     float z = view->wo.z, lost = 1 - view->energy.all, under = 1 - coat;
     float clear = (1 - m->metallic) * m->transmission, solid = 1 - m->metallic - clear;
-    float base = spectrum_mean(m->base_color);
+    float base = spectrum_mean(lambert_back(m));
     float facets = spectrum_mean(facet_of_nonmetal(m, &view->boundary, z));
     float metal = m->metallic > 0 ? spectrum_mean(facet_of_metal(m, z)) : 0;
     float through = clear > 0 ? spectrum_mean(pane_transmittance(m, &view->boundary, z)) : 0;
@@ -422,7 +449,9 @@ static Choices choose_coated(const View *view, float coat)
         .mirror = under * (facets + metal),
         .diffuse = under * (base * solid * (1 - face) +
                             lost * (metal * metal + facets * clear)),
-        .through = under * through});
+        .through = under * through,
+        .across = m->across > 0 ?
+                      under * solid * (1 - face) * spectrum_mean(lambert_across(m)) : 0});
 }
 
 /* Probabilities follow the lanes' mean albedo of each part, so that none is ever starved. */
@@ -445,10 +474,14 @@ static inline Choices choose(const View *view)
     Choices c = {
         .coat = coat,
         .mirror = under * (solid * face + clear * sheet + m->metallic * metal),
-        .diffuse = under * (base * (solid * (1 - face) + m->metallic * base * (1 - e.all)) +
+        .diffuse = under * (base * (solid * (1 - m->across) * (1 - face) +
+                                    m->metallic * base * (1 - e.all)) +
                             clear * sheet * (1 - e.all)),
         .through = under * base * clear * (1 - sheet),
+        .across = 0,
     };
+    if (m->across > 0)
+        c.across = under * solid * (1 - face) * spectrum_mean(lambert_across(m));
     return scaled_to_one(c);
 }
 
@@ -505,11 +538,12 @@ static Spectrum base_above(const View *view, Vec3 wi, float *pdf)
     bool     has_coat = m->clearcoat > 0;
     Through  below;
     Energy   in = energy_directional(m->energy, wi.z, m->alpha);
-    Spectrum sum = diffuse_eval(view, wi.z, in) + rebound_above(view, in);
+    Spectrum lambert = lambert_back(m);
+    Spectrum sum = diffuse_eval(view, lambert, wi.z, in) + rebound_above(view, in);
     *pdf = view->choices.diffuse * wi.z * INV_PI_F;
     if (has_coat) {
         below = coat_through(m, wi);
-        sum = covered(m, sum, coated_diffuse(view, in, &below) +
+        sum = covered(m, sum, coated_diffuse(view, lambert, in, &below) +
                                   coated_rebound(view, in, &below));
     }
     if (!is_smooth(m->alpha)) {
@@ -539,13 +573,27 @@ static Spectrum base_below(const View *view, Vec3 wi, float *pdf)
            spread * spectrum_all(rebound_lobe(view, in));
 }
 
+/* Lambert's light from the other side; adds its part of the pdf. */
+static Spectrum base_across(const View *view, Vec3 wi, float *pdf)
+{
+    const MetallicRoughness *m = view->m;
+    Vec3     up = vec3(wi.x, wi.y, -wi.z);
+    Energy   in = energy_directional(m->energy, up.z, m->alpha);
+    Spectrum lambert = lambert_across(m), sum = diffuse_eval(view, lambert, up.z, in);
+    *pdf += view->choices.across * up.z * INV_PI_F;
+    if (!(m->clearcoat > 0)) return sum;
+    Through below = coat_through(m, up);
+    return covered(m, sum, coated_diffuse(view, lambert, in, &below));
+}
+
 static Spectrum eval_view(const View *view, Vec3 wi, float *pdf)
 {
     const MetallicRoughness *m = view->m;
     Spectrum f = wi.z > 0 ? base_above(view, wi, pdf) : base_below(view, wi, pdf);
-    if (!(m->clearcoat > 0)) return f;
-    if (wi.z < 0) f *= spectrum_all((1 - view->coat) * (1 - coat_albedo(m, wi)));
-    if (!is_smooth(m->clearcoat_alpha)) {
+    if (m->clearcoat > 0 && wi.z < 0)
+        f *= spectrum_all((1 - view->coat) * (1 - coat_albedo(m, wi)));
+    if (m->across > 0 && wi.z < 0) f += base_across(view, wi, pdf);
+    if (m->clearcoat > 0 && !is_smooth(m->clearcoat_alpha)) {
         float coat_pdf;
         f += spectrum_all(coat_eval(m, view->wo, wi, &coat_pdf));
         *pdf += view->choices.coat * coat_pdf;
@@ -556,7 +604,7 @@ static Spectrum eval_view(const View *view, Vec3 wi, float *pdf)
 static bool model_reaches(const void *parameters, Vec3 wo, Vec3 wi)
 {
     const MetallicRoughness *m = parameters;
-    bool lets_through = m->transmission > 0 && !is_smooth(m->alpha);
+    bool lets_through = (m->transmission > 0 && !is_smooth(m->alpha)) || m->across > 0;
     return wo.z > 0 && (wi.z > 0 || (wi.z < 0 && lets_through));
 }
 
@@ -635,13 +683,21 @@ static Spectrum model_pass(const void *parameters, Vec3 wo)
     return pane_transmittance(m, &b, wo.z) * spectrum_all(coat * coat);
 }
 
-typedef enum Part { PART_COAT, PART_MIRROR, PART_DIFFUSE, PART_THROUGH, PART_NONE } Part;
+typedef enum Part {
+    PART_COAT,
+    PART_MIRROR,
+    PART_DIFFUSE,
+    PART_THROUGH,
+    PART_ACROSS,
+    PART_NONE
+} Part;
 
 /* Which part u falls on; it becomes the place inside that part: directions of every part then
  * are spread as well as their share of u is. */
 static Part choose_part(const Choices *choices, float *u)
 {
-    const float prob[] = {choices->coat, choices->mirror, choices->diffuse, choices->through};
+    const float prob[] = {choices->coat, choices->mirror, choices->diffuse, choices->through,
+                          choices->across};
     for (int part = 0; part < PART_NONE; part++) {
         if (*u < prob[part]) {
             *u = fminf(*u / prob[part], 0x1.fffffep-1f);
@@ -650,6 +706,11 @@ static Part choose_part(const Choices *choices, float *u)
         *u -= prob[part];
     }
     return PART_NONE;
+}
+
+static Vec3 turned_over(Vec3 w)
+{
+    return vec3(w.x, w.y, -w.z);
 }
 
 /* A direction by the rough coat, the rough mirror, the Lambert base or the rough sheet. */
@@ -664,10 +725,11 @@ static Vec3 sample_rough(const View *view, Part part, const float u[3])
     }
     if (part == PART_MIRROR) return ggx_sample_reflection(view->wo, m->alpha, u[0], u[1]);
     if (part == PART_DIFFUSE) return microfacet_cosine(u[0], u[1]);
+    if (part == PART_ACROSS) return turned_over(microfacet_cosine(u[0], u[1]));
     bool by_facet = u[2] < view->energy.all;
     Vec3 up = by_facet ? ggx_sample_reflection(view->wo, m->alpha, u[0], u[1])
                        : microfacet_cosine(u[0], u[1]);
-    return vec3(up.x, up.y, -up.z);
+    return turned_over(up);
 }
 
 static bool model_sample(const void *parameters, Vec3 wo, const float u[3], BsdfSample *sample)
@@ -686,7 +748,7 @@ static bool model_sample(const void *parameters, Vec3 wo, const float u[3], Bsdf
         return sample->passes = true;
     }
     Vec3 wi = sample_rough(&view, part, v);
-    if (!(part == PART_THROUGH ? wi.z < 0 : wi.z > 0)) return false;
+    if (!(part == PART_THROUGH || part == PART_ACROSS ? wi.z < 0 : wi.z > 0)) return false;
     float    pdf;
     Spectrum f = eval_view(&view, wi, &pdf);
     if (!(pdf > 0)) return false;
@@ -718,11 +780,12 @@ static void lobe_shares(const View *view, float *nonmetal, float *metal, float *
     *face = spectrum_mean(view->coated);
 }
 
-/* A rough coat is left out: it is rare. */
+/* A rough coat is left out: it is rare. Where light crosses nothing is said: lobes are on wo's
+ * side, and light from behind would be left to few samples. */
 static void model_lobes(const void *parameters, Vec3 wo, BsdfLobes *lobes)
 {
     const MetallicRoughness *m = parameters;
-    if (!(wo.z > 0)) return;
+    if (!(wo.z > 0) || m->across > 0) return;
     View  view = view_from(m, wo);
     float base = spectrum_mean(m->base_color), solid = 1 - m->metallic, under = 1 - view.coat;
     float f0, metal, face;
@@ -749,7 +812,7 @@ static void albedo_parts(const MetallicRoughness *m, Vec3 wo, Spectrum *solid, S
         *clear = sheet_at(m, wo.z) +
                  coating_at(m->coating->sheet->through, m->wavelengths, wo.z) * base;
     if (coated_face(m)) in = one - coated_energy(m, wo.z);
-    *solid = (one - in) + in * base;
+    *solid = (one - in) + in * lambert_albedo(m);
     *metal = base + (one - base) * spectrum_all(e.shape);
     if (coated_metal(m)) *metal = coating_at(m->coating->metal->front, m->wavelengths, wo.z);
 }

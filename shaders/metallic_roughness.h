@@ -24,8 +24,10 @@ typedef struct MetallicRoughness {
     const EnergyTable *clearcoat_energy; /* of CLEARCOAT_IOR; NULL: clearcoat is 0 */
     const CoatTable   *coat;             /* of both; likewise */
     const SurfaceCoating *coating;       /* what reflects in place of the colours; NULL: none */
-    const Wavelengths    *wavelengths;   /* NULL where coating is */
+    const Wavelengths    *wavelengths;   /* NULL where coating is and across is 0 */
     bool  seen_from_back;                /* of a coated sheet */
+    float across;          /* [0, 1]: share of diffuse light that leaves on the other side */
+    float across_color[3]; /* its albedo, linear Rec.709, [0, 1]; wants wavelengths */
 } MetallicRoughness;
 
 /* glTF's default material, but for energy, which the caller owns: white metal, alpha 1. */

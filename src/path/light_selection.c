@@ -88,7 +88,7 @@ static void weigh_part(const Scene *scene, const Bvh *bvh, const Lights *lights,
         for (int side = 0; side < 2 && lights_has(lights, (LightSet)set); side++)
             lx[side][set] =
                 side_illuminance(scene, bvh, lights, (LightSet)set, part_id, side);
-    for (int set = 0; set < LIGHT_SETS && material->transmission > 0; set++)
+    for (int set = 0; set < LIGHT_SETS && material_sends_through(material); set++)
         lx[0][set] = lx[1][set] = lx[0][set] + lx[1][set];
     for (int side = 0; side < 2; side++) {
         share_out(lights, lx[side], prob[side]);

@@ -199,7 +199,7 @@ static void measure_sides(const Scene *scene, BeamSide *sides)
 {
     for (int id = 0; id < scene->part_count; id++) {
         const Part *part = &scene->parts[id];
-        bool  is_sheet = scene->materials[part->material_id].transmission > 0;
+        bool  is_sheet = material_sends_through(&scene->materials[part->material_id]);
         float edge = fmaxf(longest_edge(scene, part) / CUBES, LEAST_EDGE_M);
         for (int k = 0; k < 2; k++)
             sides[2 * id + k] = (BeamSide){.row = (uint32_t)(2 * id + (is_sheet ? 0 : k)),

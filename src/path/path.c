@@ -319,7 +319,7 @@ static LitPoint lit_point(const PathWalk *walk, const Surface *surface)
                             ? NULL
                             : &walk->context->scene->materials[surface->material_id];
     return (LitPoint){surface->position, surface->frame.z,
-                      m && (m->is_solid || m->transmission > 0)};
+                      m && (m->is_solid || material_sends_through(m))};
 }
 
 /* ---- emitted light ---------------------------------------------------------------------- */
@@ -869,6 +869,17 @@ static void note_mirror(PathWalk *walk, const Surface *surface, const BsdfSample
     walk->before_mirror = walk->gathered;
 }
 
+/* The path goes on, towards wi, on the other side of the surface: of a solid that is inside or
+ * outside. */
+static void cross(PathWalk *walk, const Surface *surface, Vec3 local_wi, Vec3 wi)
+{
+    bool refracts = surface->bsdf.kind == BSDF_DIELECTRIC;
+    bool is_inside = refracts ? local_wi.z < 0 : vec3_dot(wi, surface->ng) < 0;
+    const Material *m = &walk->context->scene->materials[surface->material_id];
+    if (refracts || material_is_translucent_solid(m))
+        walk->medium_id = is_inside ? surface->material_id : NO_ID;
+}
+
 /* Turns the path into direction next->wi (local) at a scattering vertex. */
 static Step turn(PathWalk *walk, const Surface *surface, Vec3 wo, const BsdfSample *next)
 {
@@ -876,8 +887,7 @@ static Step turn(PathWalk *walk, const Surface *surface, Vec3 wo, const BsdfSamp
     Vec3 local_wo = frame_to_local(&surface->frame, wo);
     if (!sides_agree(surface, next->wi, wi, local_wo, wo)) return STEP_ENDED;
     walk->sun_share = sun_share(walk, surface, wo, next);
-    if (surface->bsdf.kind == BSDF_DIELECTRIC && next->wi.z * local_wo.z < 0)
-        walk->medium_id = next->wi.z < 0 ? surface->material_id : NO_ID;
+    if (next->wi.z * local_wo.z < 0) cross(walk, surface, next->wi, wi);
     note_step(walk, surface,
               !next->is_delta ? PATH_SCATTERS
                               : next->wi.z * local_wo.z > 0 ? PATH_REFLECTS : PATH_TRANSMITS);

@@ -190,6 +190,21 @@ static void set_coat(const Site *site, const Surface *surface, MetallicRoughness
     if (model->clearcoat_normal.z < LOWEST_COSINE) model->clearcoat_normal = vec3(0, 0, 1);
 }
 
+static void set_across(const Site *site, const Surface *surface, MetallicRoughness *model)
+{
+    static const float white[4] = {1, 1, 1, 1};
+    const Material *m = site->material;
+    float texel[4];
+    bool  coloured = read_colour(site->scene, &m->diffuse_transmission_color_texture,
+                                 &surface->point, texel);
+    model->across = scaled(site->scene, m->diffuse_transmission,
+                           &m->diffuse_transmission_texture, &surface->point, 3);
+    model->wavelengths = site->wavelengths;
+    for (int i = 0; i < 3; i++)
+        model->across_color[i] =
+            m->diffuse_transmission_color[i] * (coloured ? texel[i] : white[i]);
+}
+
 static const SurfaceCoating *coating_of(const Site *site, int material_id)
 {
     return site->tables->coatings ? site->tables->coatings[material_id] : NULL;
@@ -220,6 +235,7 @@ static void set_metallic_roughness(const Site *site, Surface *surface)
                                             m->specular_color, coloured ? texel : white,
                                             site->wavelengths);
     set_coat(site, surface, model);
+    if (m->diffuse_transmission > 0) set_across(site, surface, model);
     model->coating = coating_of(site, surface->material_id);
     if (!model->coating) return;
     model->wavelengths = site->wavelengths;
@@ -337,7 +353,8 @@ void surface_at(const Scene *scene, const SurfaceTables *tables, const Hit *hit,
     out->emits = triangle_emits_to(scene, hit->triangle, &out->point, wo);
     coverage_texel(scene, m, hit, &out->point, texel);
     out->alpha = coverage_alpha(m, texel[3]);
-    Vec3 side = vec3_dot(out->ng, wo) < 0 && !m->is_solid ? vec3_neg(out->ng) : out->ng;
+    bool keeps_outside = m->is_solid && !material_is_translucent_solid(m);
+    Vec3 side = vec3_dot(out->ng, wo) < 0 && !keeps_outside ? vec3_neg(out->ng) : out->ng;
     Vec3 eye = vec3_dot(side, wo) < 0 ? vec3_neg(wo) : wo;
     Vec3 ns = m->display_id != NO_ID /* a panel was measured with what its surface is */
                   ? out->point.ns

@@ -18,7 +18,7 @@ const SurfaceTables *surface_tables_build(const Scene *scene, Arena *arena);
 typedef struct Surface {
     Vec3  position;    /* m, world */
     Vec3  ng;          /* unit geometric normal of the front */
-    Frame frame;       /* shading frame; for all but solids turned to wo's side */
+    Frame frame;       /* shading frame; for all but solids that refract turned to wo's side */
     int   part_id, material_id;
     uint32_t triangle; /* undefined where part_id is NO_ID */
     float alpha;       /* 1: all there; below: light passes this point as if it were a hole */

@@ -91,13 +91,18 @@ typedef struct Material {
     TextureSlot specular_color_texture;
     float transmission;
     TextureSlot transmission_texture; /* R */
+    float diffuse_transmission;
+    TextureSlot diffuse_transmission_texture; /* A */
+    float diffuse_transmission_color[3];
+    TextureSlot diffuse_transmission_color_texture;
     float clearcoat;
     TextureSlot clearcoat_texture; /* R */
     float clearcoat_roughness;
     TextureSlot clearcoat_roughness_texture; /* G */
     TextureSlot clearcoat_normal_texture;
     float clearcoat_normal_scale;
-    bool  is_solid;            /* KHR_materials_volume with thickness > 0: refracts */
+    bool  is_solid;            /* KHR_materials_volume with thickness > 0: refracts where there
+                                  is transmission, or light goes in and out diffusely */
     float attenuation_color[3]; /* after attenuation_distance_m (infinite: none) */
     float attenuation_distance_m;
     int   display_id;          /* NO_ID unless PARHELION_display */
@@ -275,6 +280,18 @@ typedef struct SceneOptions {
     int light_cct_count;
     SceneState state;
 } SceneOptions;
+
+/* Light on one side is seen from the other. */
+static inline bool material_sends_through(const Material *m)
+{
+    return m->transmission > 0 || m->diffuse_transmission > 0;
+}
+
+/* A solid that light enters diffusely. */
+static inline bool material_is_translucent_solid(const Material *m)
+{
+    return m->is_solid && m->diffuse_transmission > 0 && !(m->transmission > 0);
+}
 
 /* Corner 0..2 of a triangle, m. */
 static inline Vec3 scene_corner(const Scene *scene, uint32_t triangle, int corner)

@@ -133,7 +133,7 @@ def ranges():
 
 
 # What is not shown.
-SKIPPED = ("anisotropy", "iridescence", "sheen", "diffuse_transmission",
+SKIPPED = ("anisotropy", "iridescence", "sheen",
            "pbrSpecularGlossiness", "animations")
 
 SCHEMA += [("VALUE_NOT_IN_RANGE" + "~" * any(word in place for word in SKIPPED), "is wanted",

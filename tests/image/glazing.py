@@ -429,7 +429,8 @@ def check_excluded(report, program, folder):
 def check_hidden(report, program, folder):
     """What a pane's material has besides, and is not seen, is told; and the frame is made."""
     path = os.path.join(folder, "hidden.gltf")
-    for name in ("KHR_materials_volume", "KHR_materials_clearcoat"):
+    for name in ("KHR_materials_volume", "KHR_materials_clearcoat",
+                 "KHR_materials_diffuse_transmission"):
         scene = Scene()
         scene.facing_quad(scene.material("pane", {**pane(laminate()), name: {},
                                                   "KHR_materials_transmission": {}}),

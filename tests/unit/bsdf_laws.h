@@ -254,7 +254,8 @@ static void check_reciprocity(const Model *model, Vec3 wo, Vec3 wi)
     Spectrum scale = crosses && is_solid ? squeeze(model, wo) : spectrum_all(1);
     double tolerance = is_solid || model->width < 0.05f ? 1e-3 : 1e-4; /* rounding */
     if (turn && model->bsdf.kind == BSDF_METALLIC_ROUGHNESS &&
-        model->bsdf.metallic_roughness.clearcoat > 0)
+        model->bsdf.metallic_roughness.clearcoat > 0 &&
+        model->bsdf.metallic_roughness.transmission > 0)
         return; /* its coat is on one side */
     Spectrum a = bsdf_eval(&model->bsdf, wo, wi, &pdf);
     Spectrum b =

@@ -12,6 +12,7 @@
 static Arena arena;
 static const EnergyTable *glass, *diamond, *perfect, *nothing;
 static const CoatTable   *lacquer;
+static Wavelengths wavelengths;
 
 static MetallicRoughness *add_model(const char *name, float metallic, float alpha,
                                     bool lossless)
@@ -71,6 +72,38 @@ static void add_panes(void)
     m->clearcoat_alpha = 0.05f;
 }
 
+/* White in all: what does not go back goes across. */
+static MetallicRoughness *add_translucent(const char *name, float alpha, float across,
+                                          bool lossless)
+{
+    MetallicRoughness *m = add_model(name, 0, alpha, lossless);
+    m->across = across;
+    m->across_color[0] = m->across_color[1] = m->across_color[2] = 1;
+    m->wavelengths = &wavelengths;
+    return m;
+}
+
+static void add_translucents(void)
+{
+    add_translucent("white paper", 1, 0.4f, true)->specular = 0;
+    add_translucent("opal plastic, alpha 0.3", 0.3f, 0.5f, true);
+    add_translucent("smooth opal plastic", 0, 1, true);
+    add_translucent("opal under lacquer", 0.3f, 0.5f, true)->clearcoat = 1;
+    MetallicRoughness *m = add_translucent("opal under rough lacquer", 0.5f, 0.7f, true);
+    m->clearcoat = 0.6f;
+    m->clearcoat_alpha = 0.3f;
+    models[model_count - 1].width = 0.3f;
+    m = add_translucent("leaf", 0.2f, 0.6f, false);
+    m->base_color = ramp(0.02f, 0.2f);
+    m->across_color[0] = 0.1f;
+    m->across_color[2] = 0;
+    m = add_translucent("leaf and frosted sheet and metal", 0.3f, 0.6f, false);
+    m->metallic = 0.2f;
+    m->transmission = 0.4f;
+    m->clearcoat = 0.3f;
+    m->across_color[1] = 0.5f;
+}
+
 static void add_lacquers(void)
 {
     MetallicRoughness *m = add_model("piano lacquer", 0, 0.5f, false);
@@ -102,7 +135,6 @@ static void add_lacquers(void)
 
 /* ---- coated ---------------------------------------------------------------------------- */
 
-static Wavelengths wavelengths;
 static SurfaceCoating mirror_metal, silver_metal, plastic, frosted;
 
 static MetallicRoughness *add_coated(const char *name, float metallic, float alpha,
@@ -119,7 +151,6 @@ static void add_coated_surfaces(void)
     const LayerStack *four = stack_four(&arena);
     const OpticalConstants *ideal = constants_of(0, 4, &arena);
     const OpticalConstants *real = constants_of(0.06, 3.6, &arena);
-    wavelengths_sample(0.3f, &wavelengths);
     mirror_metal.metal = coating_of_metal(four, ideal, &arena);
     silver_metal.metal = coating_of_metal(NULL, real, &arena);
     plastic.metal = mirror_metal.metal;
@@ -132,6 +163,9 @@ static void add_coated_surfaces(void)
     add_coated("coated plastic, alpha 0.3", 0, 0.3f, true, &plastic);
     add_coated("coated plastic, alpha 0.02", 0, 0.02f, true, &plastic);
     add_coated("coated half metal", 0.5f, 0.2f, true, &plastic);
+    MetallicRoughness *opal = add_coated("coated opal plastic", 0, 0.3f, true, &plastic);
+    opal->across = 0.5f;
+    opal->across_color[0] = opal->across_color[1] = opal->across_color[2] = 1;
     add_coated("coated frosted sheet", 0, 0.3f, true, &frosted)->transmission = 1;
     add_coated("coated smooth sheet, mixed", 0.3f, 0, false, &frosted)->transmission = 1;
 }
@@ -147,7 +181,9 @@ static int make_models(void **state)
     lacquer = coat_table_build(glass, glass, &arena);
     add_plastics();
     add_metals();
+    wavelengths_sample(0.3f, &wavelengths);
     add_panes();
+    add_translucents();
     add_lacquers();
     add_coated_surfaces();
     return 0;

@@ -60,6 +60,16 @@ static void check_volume(const DocumentCheck *check, const GltfValue *material)
         check_warns(check, volume, "no light enters it: KHR_materials_transmission is missing");
 }
 
+/* What refracts scatters nothing at its boundary. */
+static void check_diffuse_transmission(const DocumentCheck *check, const GltfValue *material)
+{
+    const GltfValue *across = tree_extension(material, "KHR_materials_diffuse_transmission");
+    if (tree_number(across, "diffuseTransmissionFactor", 0) > 0 &&
+        material_is_clear_solid(material))
+        check_warns(check, across, "is not seen: KHR_materials_transmission makes the solid "
+                                   "clear");
+}
+
 /* Two answers to what the surface is: one of them is not seen. */
 static void check_alone(const DocumentCheck *check, const GltfValue *material)
 {
@@ -96,11 +106,12 @@ void check_glazing_layer(const DocumentCheck *check, const GltfValue *layer)
 /* What other viewers do not need beside a pane, and is not seen here. */
 static void check_beside_glazing(const DocumentCheck *check, const GltfValue *material)
 {
-    static const char *const HIDDEN[] = {"KHR_materials_volume", "KHR_materials_clearcoat"};
+    static const char *const HIDDEN[] = {"KHR_materials_volume", "KHR_materials_clearcoat",
+                                         "KHR_materials_diffuse_transmission"};
     const GltfValue *hidden = tree_member(material, "normalTexture");
-    for (int i = 0; i <= 2; i++) {
+    for (int i = 0; i <= 3; i++) {
         if (hidden) check_warns(check, hidden, "is not seen: PARHELION_glazing stands for it");
-        hidden = i < 2 ? tree_extension(material, HIDDEN[i]) : NULL;
+        hidden = i < 3 ? tree_extension(material, HIDDEN[i]) : NULL;
     }
 }
 
@@ -144,6 +155,7 @@ void check_material(const DocumentCheck *check, const GltfValue *material)
                     "has no meaning with the alpha mode \"%.20s\"", mode->text);
     check_emission(check, material);
     check_volume(check, material);
+    check_diffuse_transmission(check, material);
     check_alone(check, material);
     check_coated_material(check, material);
     check_index(check, material);

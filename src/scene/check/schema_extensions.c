@@ -364,6 +364,7 @@ static const ExtensionRule EXTENSIONS[] = {
     {"KHR_materials_clearcoat", "material", &SCHEMA_CLEARCOAT},
     {"KHR_materials_volume", "material", &SCHEMA_VOLUME},
     {"KHR_materials_dispersion", "material", &SCHEMA_DISPERSION},
+    {"KHR_materials_diffuse_transmission", "material", &SCHEMA_DIFFUSE_TRANSMISSION},
     {"KHR_materials_unlit", "material", &SCHEMA_UNLIT},
     {"KHR_texture_transform", "textureInfo", &SCHEMA_TEXTURE_TRANSFORM},
     {"KHR_node_visibility", "node", &SCHEMA_VISIBILITY},
@@ -391,7 +392,6 @@ static const ExtensionRule EXTENSIONS[] = {
     {"KHR_materials_anisotropy", "material", &SCHEMA_ANISOTROPY},
     {"KHR_materials_iridescence", "material", &SCHEMA_IRIDESCENCE},
     {"KHR_materials_sheen", "material", &SCHEMA_SHEEN},
-    {"KHR_materials_diffuse_transmission", "material", &SCHEMA_DIFFUSE_TRANSMISSION},
     {"KHR_materials_pbrSpecularGlossiness", "material", &SCHEMA_GLOSSINESS},
     {"KHR_texture_basisu", "texture", &SCHEMA_BASISU},
 };

@@ -64,7 +64,7 @@ static void become_pane(Material *m, const Glazing *pane)
 {
     m->glazing = pane;
     m->transmission = 1;
-    m->roughness = m->metallic = m->clearcoat = 0;
+    m->roughness = m->metallic = m->clearcoat = m->diffuse_transmission = 0;
     m->is_solid = false;
     m->ior = pane->layers[0].ior;
     m->normal_texture = texture_slot_none();

@@ -27,6 +27,9 @@ static Material default_material(const char *name)
                       .specular_texture = none,
                       .specular_color_texture = none,
                       .transmission_texture = none,
+                      .diffuse_transmission_texture = none,
+                      .diffuse_transmission_color_texture = none,
+                      .diffuse_transmission_color = {1, 1, 1},
                       .clearcoat_texture = none,
                       .clearcoat_roughness_texture = none,
                       .clearcoat_normal_texture = none,
@@ -86,6 +89,16 @@ static void read_clearcoat(GltfFile *file, const GltfValue *coat, Material *m)
     m->clearcoat_normal_scale = tree_float(normal, "scale", 1);
 }
 
+static void read_diffuse_transmission(GltfFile *file, const GltfValue *across, Material *m)
+{
+    m->diffuse_transmission = tree_float(across, "diffuseTransmissionFactor", 0);
+    m->diffuse_transmission_texture =
+        texture_slot(file, tree_member(across, "diffuseTransmissionTexture"));
+    tree_floats(across, "diffuseTransmissionColorFactor", 3, m->diffuse_transmission_color);
+    m->diffuse_transmission_color_texture =
+        texture_slot(file, tree_member(across, "diffuseTransmissionColorTexture"));
+}
+
 static void read_volume(const GltfValue *volume, Material *m)
 {
     m->is_solid = tree_float(volume, "thicknessFactor", 0) > 0;
@@ -110,6 +123,8 @@ static void read_extensions(GltfFile *file, const GltfValue *value, Material *m)
     m->transmission = tree_float(transmission, "transmissionFactor", 0);
     m->transmission_texture =
         texture_slot(file, tree_member(transmission, "transmissionTexture"));
+    read_diffuse_transmission(
+        file, tree_extension(value, "KHR_materials_diffuse_transmission"), m);
     read_clearcoat(file, tree_extension(value, "KHR_materials_clearcoat"), m);
     read_volume(tree_extension(value, "KHR_materials_volume"), m);
 }

@@ -50,7 +50,7 @@ TextureSlot texture_slot(GltfFile *file, const GltfValue *info)
 
 /* ---- which uv sets does a material need? ----------------------------------------------- */
 
-#define MATERIAL_SLOTS 10
+#define MATERIAL_SLOTS 12
 
 /* All slots of a material but a display's content. */
 static void slots_of(Material *m, TextureSlot *slots[MATERIAL_SLOTS])
@@ -59,7 +59,9 @@ static void slots_of(Material *m, TextureSlot *slots[MATERIAL_SLOTS])
                           &m->normal_texture, &m->emissive_texture, &m->specular_texture,
                           &m->specular_color_texture, &m->transmission_texture,
                           &m->clearcoat_texture, &m->clearcoat_roughness_texture,
-                          &m->clearcoat_normal_texture};
+                          &m->clearcoat_normal_texture,
+                          &m->diffuse_transmission_texture,
+                          &m->diffuse_transmission_color_texture};
     memcpy(slots, all, sizeof all);
 }
 
