@@ -53,9 +53,9 @@ typedef struct Faces {
 } Faces;
 
 /* The images of a coated pane for one polarisation: of the face that is met, of the far face,
- * and how much of one ghost the next one has. */
+ * and how much of one ghost the next one has; and what passes. */
 typedef struct CoatedImages {
-    Spectrum first, ghost, next;
+    Spectrum first, ghost, next, passed;
 } CoatedImages;
 
 /* The pane as one direction meets it. */
@@ -101,7 +101,8 @@ static Spectrum meet_coated(const GlazedWindow *window, float cosine, bool is_fr
     images->ghost = in * in * t * t * back;
     images->next = coating_at(near->back, w, cosine) * back * t * t;
     Spectrum once = spectrum_all(1) / (spectrum_all(1) - images->next);
-    m->passed += spectrum_all(0.5f) * in * coating_at(far->through, w, cosine) * t * once;
+    images->passed = in * coating_at(far->through, w, cosine) * t * once;
+    m->passed += spectrum_all(0.5f) * images->passed;
     return images->first + images->ghost * once;
 }
 
@@ -371,15 +372,22 @@ static Waves image_waves(const Waves face[2], int order)
     return w;
 }
 
-static BsdfPolarisation pass_polarisation(const GlazedWindow *window, Vec3 wo,
-                                          const Waves face[2])
+/* Coated faces are exact in s and p; out of step by as much as bare ones. */
+static BsdfPolarisation coated_polarisation(Spectrum s, Spectrum p, Waves bare)
 {
-    Meeting  m = meet(window, wo);
-    Spectrum s = faces_pass(m.s, m.through), p = faces_pass(m.p, m.through);
+    float    size = sqrtf(bare.s * bare.p), step = size > 0 ? bare.along / size : 0;
+    Spectrum along = spectrum_all(0);
+    for (int i = 0; i < SPECTRUM_LANES; i++) along[i] = 2 * step * sqrtf(s[i] * p[i]);
+    PolarisedParts parts = {s + p, s - p, along, spectrum_all(0)};
+    return polarised_of(&parts, s + p);
+}
+
+static BsdfPolarisation pass_polarisation(const Meeting *m, const Waves face[2])
+{
+    Spectrum t = m->through, s = faces_pass(m->s, t), p = faces_pass(m->p, t);
     float    lets = (1 - face[0].s) * (1 - face[0].p) * (1 - face[1].s) * (1 - face[1].p);
-    Spectrum along = m.through * spectrum_all(sqrtf(lets)) /
-                     (spectrum_all(1) -
-                      m.through * m.through * spectrum_all(face[0].along * face[1].along));
+    Spectrum along = t * spectrum_all(sqrtf(lets)) /
+                     (spectrum_all(1) - t * t * spectrum_all(face[0].along * face[1].along));
     PolarisedParts parts = {s + p, s - p, along + along, spectrum_all(0)};
     return polarised_of(&parts, s + p);
 }
@@ -390,10 +398,17 @@ static bool window_polarise(const void *parameters, Vec3 wo, const BsdfSample *w
     const GlazedWindow *window = parameters;
     Waves face[2];
     if (!way->is_delta) return false;
+    Meeting m = meet(window, wo);
+    int     order = order_at(window, fabsf(wo.z), way->along);
     face_waves(window, wo, face);
-    *out = way->passes ? pass_polarisation(window, wo, face)
-                       : polarised_by(image_waves(face, order_at(window, fabsf(wo.z),
-                                                                 way->along)));
+    Waves image = image_waves(face, order);
+    if (!m.is_coated)
+        *out = way->passes ? pass_polarisation(&m, face) : polarised_by(image);
+    else if (way->passes)
+        *out = coated_polarisation(m.coated[0].passed, m.coated[1].passed, (Waves){1, 1, 1, 0});
+    else
+        *out = coated_polarisation(coated_order(&m.coated[0], order),
+                                   coated_order(&m.coated[1], order), image);
     return true;
 }
 

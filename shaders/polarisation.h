@@ -24,8 +24,8 @@ typedef struct Waves {
     float along, turned; /* its real and imaginary part */
 } Waves;
 
-/* A boundary of real index; eta, cosine as of fresnel_dielectric; 0: a perfect mirror. Under total reflection both
- * waves come back whole and out of step. */
+/* A boundary of real index; eta, cosine as of fresnel_dielectric; eta 0: a perfect mirror.
+ * Under total reflection both waves come back whole and out of step. */
 static inline Waves waves_reflected(float cosine, float eta)
 {
     float   behind;
