@@ -50,12 +50,20 @@ typedef struct PaneCoating {
     const CoatingTables *face[2][2]; /* the front's, the back's; of light s and p */
 } PaneCoating;
 
+/* What a boundary reflects of light s and p, seen from outside, and what becomes of its phases
+ * (Waves of polarisation.h). */
+typedef struct CoatingWaves {
+    const CoatingTable *s, *p, *along, *turned;
+} CoatingWaves;
+
 /* What a material's coating is to each share of it; NULL: that share is bare, or is none. */
 typedef struct SurfaceCoating {
     const CoatingTables *metal, *face, *sheet; /* face: of opaque plastic and glass */
     const CoatingTables *solid; /* the boundary of a closed solid */
     const CoatingTables *cover; /* of a display */
     const PaneCoating   *pane;  /* of a laminated one */
+    const CoatingWaves  *metal_waves, *glass_waves; /* of metal; of face or cover; NULL: nobody
+                                                       asks how light is polarised */
 } SurfaceCoating;
 
 /* cosine in [0, 1]. */

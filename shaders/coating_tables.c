@@ -59,6 +59,19 @@ static CoatingRow front_row(const CoatedBody *body, int nm, double cosine)
     return (CoatingRow){.front = unpolarised(at.reflect_s, at.reflect_p)};
 }
 
+static CoatingRow wave_row(const CoatedBody *body, int nm, double cosine)
+{
+    ThinMedia  media = media_at(body, body->stack, nm);
+    ThinShares at = thin_film_at(&media, cosine);
+    return (CoatingRow){at.reflect_s, at.reflect_p, at.reflect_along};
+}
+
+static CoatingRow turned_row(const CoatedBody *body, int nm, double cosine)
+{
+    ThinMedia media = media_at(body, body->stack, nm);
+    return (CoatingRow){.front = thin_film_at(&media, cosine).reflect_turned};
+}
+
 static CoatingRow cover_row(const CoatedBody *body, int nm, double cosine)
 {
     ThinMedia  coated = media_at(body, body->stack, nm), bare = media_at(body, NULL, nm);
@@ -296,6 +309,17 @@ const CoatingTables *coating_of_metal(const LayerStack *stack, const OpticalCons
 const CoatingTables *coating_of_cover(const LayerStack *stack, double ior, Arena *arena)
 {
     return tables_of(&(CoatedBody){.stack = stack, .ior = ior}, cover_row, 1, arena);
+}
+
+const CoatingWaves *coating_waves(const LayerStack *stack, double ior,
+                                  const OpticalConstants *metal, Arena *arena)
+{
+    CoatedBody     body = {.stack = stack, .metal = metal, .ior = ior};
+    CoatingWaves  *out = ARENA_NEW(arena, CoatingWaves, 1);
+    const CoatingTables *tables = tables_of(&body, wave_row, KINDS, arena);
+    *out = (CoatingWaves){tables->front, tables->back, tables->through,
+                          tables_of(&body, turned_row, 1, arena)->front};
+    return out;
 }
 
 const PaneCoating *coating_of_pane(const Glazing *pane, Arena *arena)

@@ -24,6 +24,10 @@ const CoatingTables *coating_of_metal(const LayerStack *stack, const OpticalCons
 /* The boundary of an opaque body seen from outside: front alone, with its energies. */
 const CoatingTables *coating_of_face(const LayerStack *stack, double ior, Arena *arena);
 
+/* The boundary of a metal or, where that is NULL, of a body of index ior, for polarised light. */
+const CoatingWaves *coating_waves(const LayerStack *stack, double ior,
+                                  const OpticalConstants *metal, Arena *arena);
+
 /* By how much a coating on a display's cover changes the reflectance of its bare glass: front
  * alone, and no share of light: it may be above 1. */
 const CoatingTables *coating_of_cover(const LayerStack *stack, double ior, Arena *arena);

@@ -17,15 +17,15 @@
  * mirror and the density of directions.
  *
  * The tables, their interpolation and their sampling are src/panel's. A panel without
- * reflection data reflects nothing. The mirror polarises as bare glass of index 1.5 does; haze
- * and lambertian part send unpolarised light on. Not modelled: anisotropic sparkle, the change
+ * reflection data reflects nothing. The mirror polarises as its cover does, glass of index 1.5,
+ * bare or coated; haze and lambertian part send unpolarised light on. Not modelled: anisotropic sparkle, the change
  * of haze with the display's content.
  */
 #include "panel/query/panel_sampling.h"
 #include "shaders/display.h"
 #include "shaders/polarisation.h"
 
-#define COVER_IOR 1.5f /* how polarised the mirror is, no more */
+#define COVER_IOR 1.5f
 
 /* ---- one panel, or the mixture of several ------------------------------------------------ */
 
@@ -159,9 +159,16 @@ Spectrum display_lambertian_share(const DisplaySurface *display, Spectrum f, Vec
 static bool model_polarise(const void *parameters, Vec3 wo, const BsdfSample *way,
                            BsdfPolarisation *out)
 {
-    (void)parameters;
+    const DisplaySurface *display = parameters;
+    float cosine = clampf(wo.z, 0, 1);
     if (!way->is_delta) return false;
-    *out = polarised_by(waves_reflected(clampf(wo.z, 0, 1), COVER_IOR));
+    if (!display->waves) {
+        *out = polarised_by(waves_reflected(cosine, COVER_IOR));
+        return true;
+    }
+    PolarisedParts one = {spectrum_all(0), spectrum_all(0), spectrum_all(0), spectrum_all(0)};
+    polarised_add_coated(&one, display->waves, display->wavelengths, cosine, spectrum_all(1));
+    *out = polarised_of(&one, spectrum_all(1));
     return true;
 }
 

@@ -15,6 +15,7 @@ typedef struct DisplaySurface {
     PanelMix     mix;   /* several panels instead of the one, whose lanes are not used then;
                            count 0: none */
     const CoatingTable *cover;       /* factor of its mirror (coating_of_cover); NULL: 1 */
+    const CoatingWaves *waves;       /* of the coated cover; NULL: as bare glass */
     const Wavelengths  *wavelengths; /* NULL where cover is, and without a mix */
 } DisplaySurface;
 

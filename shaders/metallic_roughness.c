@@ -41,8 +41,9 @@
  * A coating's reflectance (coating.h) stands in for Fresnel's and Schlick's curves in all of
  * this; with it, metals follow the exact curve of their n, k. What it absorbs is lost.
  *
- * Polarised light is followed by facets, coat and sheet as bare glass of their index has it; a
- * metal is taken for a perfect mirror; what the base and further facets send is unpolarised.
+ * Polarised light is followed by facets and coat as glass of their index has it, by a metal of
+ * n, k and by a coated face as their waves add up; another metal is taken for a perfect mirror,
+ * a coated sheet for a bare one; what the base and further facets send is unpolarised.
  *
  * Not modelled: anisotropic brushing, sheen of velvet, subsurface spread,
  * coloured absorption along a slanted path in the coat, turns of light between a coat and the
@@ -835,7 +836,8 @@ static Spectrum model_albedo(const void *parameters, Vec3 wo)
 
 /* ---- polarisation ------------------------------------------------------------------------ */
 
-/* The base's facets, met at `cosine`, send so much. A metal is taken for a perfect mirror. */
+/* The base's facets, met at `cosine`, send so much. A metal without
+ * n, k is taken for a perfect mirror. */
 static void add_facets(const View *view, float cosine, Spectrum all, PolarisedParts *parts)
 {
     static const Waves mirror = {1, 1, -1, 0};
@@ -843,8 +845,18 @@ static void add_facets(const View *view, float cosine, Spectrum all, PolarisedPa
     Spectrum nonmetal = facet_of_nonmetal(m, &view->boundary, cosine);
     Spectrum metal = facet_of_metal(m, cosine);
     Spectrum share = all / spectrum_max(nonmetal + metal, spectrum_all(1e-30f));
-    if (m->metallic > 0) polarised_add(parts, mirror, share * metal);
+    const SurfaceCoating *coating = m->coating;
+    if (m->metallic > 0 && coating && coating->metal_waves)
+        polarised_add_coated(parts, coating->metal_waves, m->wavelengths, fminf(cosine, 1),
+                             share * metal);
+    else if (m->metallic > 0)
+        polarised_add(parts, mirror, share * metal);
     if (!(m->metallic < 1)) return;
+    if (coating && coating->glass_waves && !(m->transmission > 0)) {
+        polarised_add_coated(parts, coating->glass_waves, m->wavelengths, fminf(cosine, 1),
+                             share * nonmetal);
+        return;
+    }
     float ior = m->energy->ior;
     Waves face = ior >= 1 ? waves_reflected(fminf(cosine, 1), ior) : mirror;
     Waves sheet = waves_sheet_reflected(face);

@@ -11,6 +11,7 @@
  */
 #pragma once
 #include "shaders/bsdf_model.h"
+#include "shaders/coating.h"
 #include "spectrum/fresnel.h"
 
 #pragma GCC diagnostic push /* inline: no vector goes from one file to another */
@@ -81,6 +82,20 @@ static inline void polarised_add(PolarisedParts *sum, Waves w, Spectrum share)
     sum->difference += share * spectrum_all(0.5f * (w.s - w.p) * scale);
     sum->along += share * spectrum_all(w.along * scale);
     sum->turned += share * spectrum_all(w.turned * scale);
+}
+
+/* The same of a coated boundary or a metal, met at `cosine`. */
+static inline void polarised_add_coated(PolarisedParts *sum, const CoatingWaves *waves,
+                                        const Wavelengths *wavelengths, float cosine,
+                                        Spectrum share)
+{
+    Spectrum s = coating_at(waves->s, wavelengths, cosine);
+    Spectrum p = coating_at(waves->p, wavelengths, cosine), half = spectrum_all(0.5f);
+    Spectrum per = share / spectrum_max(half * (s + p), spectrum_all(1e-30f));
+    sum->share += share;
+    sum->difference += per * half * (s - p);
+    sum->along += per * coating_at(waves->along, wavelengths, cosine);
+    sum->turned += per * coating_at(waves->turned, wavelengths, cosine);
 }
 
 /* all: what the surface scatters there in all, polarised or not. */

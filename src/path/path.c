@@ -1116,7 +1116,7 @@ static void walk_path(PathWalk *walk)
 PathContext path_context_build(const Scene *scene, const Bvh *bvh, const Lights *lights,
                                int max_bounces, Arena *arena)
 {
-    const SurfaceTables *tables = surface_tables_build(scene, arena);
+    const SurfaceTables *tables = surface_tables_build(scene, false, arena);
     LightSelection       selection = light_selection_build(scene, bvh, lights, arena);
     const BeamTools      tools = {scene, bvh, lights, tables};
     return (PathContext){.scene = scene, .bvh = bvh, .lights = lights, .tables = tables,

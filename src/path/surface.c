@@ -29,13 +29,13 @@ static const CoatTable *coat_on(const Scene *scene, int material_id,
     return coat_table_build(tables->of_material[material_id], tables->of_coat, arena);
 }
 
-const SurfaceTables *surface_tables_build(const Scene *scene, Arena *arena)
+const SurfaceTables *surface_tables_build(const Scene *scene, bool is_polarised, Arena *arena)
 {
     SurfaceTables *tables = ARENA_NEW(arena, SurfaceTables, 1);
     tables->of_material = ARENA_NEW(arena, const EnergyTable *, scene->material_count + 1);
     tables->on_material = ARENA_NEW(arena, const CoatTable *, scene->material_count + 1);
     tables->of_coat = &common_energy_table;
-    tables->coatings = surface_coatings_build(scene, arena);
+    tables->coatings = surface_coatings_build(scene, is_polarised, arena);
     for (int i = 0; i < scene->material_count; i++) {
         float ior = scene->materials[i].ior;
         const EnergyTable *table = NULL;
@@ -335,6 +335,7 @@ static void set_display(const Site *site, Vec3 wo, Surface *surface)
     set_display_panel(site, display, &surface->point, &surface->bsdf.display);
     const SurfaceCoating *coating = coating_of(site, surface->material_id);
     surface->bsdf.display.cover = coating ? coating->cover->front : NULL;
+    surface->bsdf.display.waves = coating ? coating->glass_waves : NULL;
     surface->bsdf.display.wavelengths = site->wavelengths;
 }
 

@@ -12,8 +12,9 @@
 /* Energy tables of the scene's indices of refraction. */
 typedef struct SurfaceTables SurfaceTables;
 
-/* Everything comes from the arena. */
-const SurfaceTables *surface_tables_build(const Scene *scene, Arena *arena);
+/* is_polarised: also what polarised light asks of coatings and metals. Everything comes from
+ * the arena. */
+const SurfaceTables *surface_tables_build(const Scene *scene, bool is_polarised, Arena *arena);
 
 typedef struct Surface {
     Vec3  position;    /* m, world */

@@ -51,7 +51,15 @@ static bool is_alike(const Material *a, const Material *b)
            same_stack(a->coating, b->coating) && same_metal(a->conductor, b->conductor);
 }
 
-static const SurfaceCoating *tables_for(const Material *m, CoatingNeeds needs, Arena *arena)
+static void add_waves(const Material *m, CoatingNeeds needs, SurfaceCoating *out, Arena *arena)
+{
+    double ior = (double)m->ior;
+    if (needs.metal) out->metal_waves = coating_waves(m->coating, 0, m->conductor, arena);
+    if (needs.face || needs.cover)
+        out->glass_waves = coating_waves(m->coating, ior, NULL, arena);
+}
+
+static SurfaceCoating *tables_for(const Material *m, CoatingNeeds needs, Arena *arena)
 {
     SurfaceCoating *out = ARENA_NEW(arena, SurfaceCoating, 1);
     double ior = (double)m->ior;
@@ -64,7 +72,8 @@ static const SurfaceCoating *tables_for(const Material *m, CoatingNeeds needs, A
     return out;
 }
 
-const SurfaceCoating *const *surface_coatings_build(const Scene *scene, Arena *arena)
+const SurfaceCoating *const *surface_coatings_build(const Scene *scene, bool is_polarised,
+                                                    Arena *arena)
 {
     const SurfaceCoating **list = NULL;
     const Material *m = scene->materials;
@@ -74,7 +83,10 @@ const SurfaceCoating *const *surface_coatings_build(const Scene *scene, Arena *a
         if (!list) list = ARENA_NEW(arena, const SurfaceCoating *, scene->material_count);
         for (int j = 0; j < i && !list[i]; j++)
             if (list[j] && is_alike(&m[j], &m[i])) list[i] = list[j];
-        if (!list[i]) list[i] = tables_for(&m[i], needs, arena);
+        if (list[i]) continue;
+        SurfaceCoating *own = tables_for(&m[i], needs, arena);
+        if (is_polarised) add_waves(&m[i], needs, own, arena);
+        list[i] = own;
     }
     return list;
 }

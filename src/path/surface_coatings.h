@@ -8,4 +8,5 @@
 #include "shaders/coating.h"
 
 /* One a material; NULL: neither coated nor of a measured metal. NULL in all: no material is. */
-const SurfaceCoating *const *surface_coatings_build(const Scene *scene, Arena *arena);
+const SurfaceCoating *const *surface_coatings_build(const Scene *scene, bool is_polarised,
+                                                    Arena *arena);

@@ -105,23 +105,30 @@ static double flux(const Wave *wave, bool is_p)
     return creal(is_p ? quotient(wave->square, wave->normal) : wave->normal);
 }
 
-static void shares_of(const Wave *wave, int count, bool is_p, double *reflect, double *through)
+static double complex shares_of(const Wave *wave, int count, bool is_p, double *reflect,
+                                double *through)
 {
     Amplitudes a = add_up(wave, count, is_p);
     *reflect = fmin(square_of(a.reflected), 1);
     *through = square_of(a.through) * flux(&wave[count - 1], is_p) / flux(&wave[0], is_p);
+    return a.reflected;
 }
 
 ThinShares thin_film_at(const ThinMedia *media, double cosine)
 {
     Wave       wave[THIN_LAYERS_MAX + 2];
-    ThinShares shares = {1, 1, 0, 0};
+    ThinShares shares = {.reflect_s = 1, .reflect_p = 1, .reflect_along = 1};
     double     index = media->medium[0].n, along2 = index * index * (1 - cosine * cosine);
     if (!(cosine > 0)) return shares;
     for (int i = 0; i < media->count; i++)
         wave[i] = wave_in(&media->medium[i], along2, media->nm);
     wave[0].normal = index * cosine;
-    shares_of(wave, media->count, false, &shares.reflect_s, &shares.through_s);
-    shares_of(wave, media->count, true, &shares.reflect_p, &shares.through_p);
+    double complex s =
+        shares_of(wave, media->count, false, &shares.reflect_s, &shares.through_s);
+    double complex p =
+        shares_of(wave, media->count, true, &shares.reflect_p, &shares.through_p);
+    double complex both = -s * conj(p); /* along the boundary p's axis turns round */
+    shares.reflect_along = creal(both);
+    shares.reflect_turned = cimag(both);
     return shares;
 }

@@ -49,8 +49,11 @@ typedef struct ThinMedia {
     int        count; /* at least 2 */
 } ThinMedia;
 
+/* reflect_along + i reflect_turned is a_s times the conjugate of a_p, a the amplitudes of the
+ * reflected waves over those of the coming one, each across its own way: a_p = way cross s. */
 typedef struct ThinShares {
     double reflect_s, reflect_p, through_s, through_p;
+    double reflect_along, reflect_turned;
 } ThinShares;
 
 /* The stack on a body of index n + ik at one wavelength, 360 to 830 nm; stack NULL: bare, in

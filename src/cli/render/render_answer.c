@@ -68,9 +68,9 @@ static void set_names(FrameImage *frame, const Scene *scene, unsigned layers, Ar
 static void set_eye(FrameImage *frame, const PolarisedEye *eye, Arena *arena)
 {
     frame_set_string(frame, "parhelion:polarised",
-                     "by glass, covers and plastic (bare ones' Fresnel), displays that say so "
-                     "and the clear sky by day; metals as perfect mirrors; haze and matt "
-                     "surfaces depolarise", arena);
+                     "by glass, covers, gloss and metals of n, k, displays that say so and the "
+                     "clear sky; other metals as perfect mirrors, coated sheets and solids as "
+                     "bare ones; haze and matt surfaces depolarise", arena);
     if (!eye->has_glasses) return;
     frame_set_string(frame, "parhelion:sunglasses",
                      arena_format(arena, "axis right %.6g, up %.6g; across it %.6g",
