@@ -211,6 +211,79 @@ def check_display_in_pane(report, eye):
                      f"wanted {wanted:.5f}")
 
 
+# ---- metals and coatings --------------------------------------------------------------------
+
+METAL = 1.4 + 7.5j
+LAYER, NM = 1.38, 99.6  # MgF2, thick a quarter of 550 nm
+
+
+def metal_waves(angle, index):
+    """Amplitudes s and p of a bare metal (Born and Wolf, 14.2); p across its own way."""
+    inside = (1 - (math.sin(angle) / index) ** 2) ** 0.5
+    return ((math.cos(angle) - index * inside) / (math.cos(angle) + index * inside),
+            (index * math.cos(angle) - inside) / (index * math.cos(angle) + inside))
+
+
+def check_metal(report, eye):
+    """A display mirrored in a metal becomes elliptic: S2 and S3 of a field at 30 degrees."""
+    for degrees in (30, 60, 80):
+        angle = math.radians(degrees)
+        scene = slanted(angle, {"PARHELION_spectrum": {"conductor": "metal.csv"}}, display=True)
+        scene.document["materials"][0]["pbrMetallicRoughness"]["metallicFactor"] = 1
+        scene.files["metal.csv"] = (f"nm,n,k\n360,{METAL.real},{METAL.imag}\n"
+                                    f"830,{METAL.real},{METAL.imag}\n").encode()
+        stokes = eye.stokes(scene)
+        s, p = metal_waves(angle, METAL)
+        rs, rp, both = abs(s) ** 2, abs(p) ** 2, s * p.conjugate()
+        turn = math.radians(2 * AZIMUTH)
+        # the display's u lies along s, its up across the ray: S1, S2 of its light about s
+        light = DEGREE * math.cos(turn), DEGREE * math.sin(turn)
+        mean_of, half = (rs + rp) / 2, (rs - rp) / 2
+        out = [mean_of + half * light[0], half + mean_of * light[0], both.real * light[1],
+               both.imag * light[1]]
+        for i in (1, 2, 3):
+            found, wanted = stokes[i] / stokes[0], out[i] / out[0]
+            # the eye's right may be -s and the mirrored up may be down: signs of S2, S3
+            sign = 1 if i == 1 else math.copysign(1, stokes[2] * out[2])
+            report.claim(abs(found - sign * wanted) < 2e-3,
+                         f"S{i} of a display in a metal at {degrees}: {found:.5f}, wanted "
+                         f"{sign * wanted:.5f}")
+
+
+def check_coated_cover(report, eye):
+    """A quarter wave on the face of black plastic, at its own wavelength and around it: the
+    mean over the luminance is near that at 555 nm where the coating is."""
+    angle = math.radians(60)
+    scene = slanted(angle, {"PARHELION_coating": {"layers": [
+        {"n": LAYER, "k": 0, "thickness_nm": NM}]}, "KHR_materials_ior": {"ior": INDEX}},
+                    above=LUMINANCE)
+    scene.document["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"] = [0, 0, 0, 1]
+    stokes = eye.stokes(scene, spp=64)
+    top = bottom = 0
+    for nm in range(480, 640, 5):  # a bell for the eye's sensitivity
+        s, p = (abs(r) ** 2 for r in film_waves(angle, nm))
+        weight = math.exp(-0.5 * ((nm - 557) / 42) ** 2)
+        top += weight * (s - p)
+        bottom += weight * (s + p)
+    found = stokes[1] / stokes[0]
+    report.claim(abs(found - top / bottom) < 0.01,
+                 f"a coated face at 60: S1 {found:.4f}, wanted about {top / bottom:.4f}")
+
+
+def film_waves(angle, nm):
+    """Airy's sum over one layer, s and p."""
+    cosines = [math.sqrt(1 - (math.sin(angle) / n) ** 2) for n in (1, LAYER, INDEX)]
+    n = (1, LAYER, INDEX)
+    phase = 4 * math.pi * LAYER * NM * cosines[1] / nm
+    turn = complex(math.cos(phase), math.sin(phase))
+    out = []
+    for is_p in (False, True):
+        u = [c / i if is_p else c * i for c, i in zip(cosines, n)]
+        r = [(u[i] - u[i + 1]) / (u[i] + u[i + 1]) for i in (0, 1)]
+        out.append((r[0] + r[1] * turn) / (1 + r[0] * r[1] * turn))
+    return out
+
+
 # ---- unpolarised light ---------------------------------------------------------------------
 
 def room():
@@ -336,6 +409,8 @@ def main():
         check_stokes_of_display(report, eye)
         check_panes(report, eye)
         check_display_in_pane(report, eye)
+        check_metal(report, eye)
+        check_coated_cover(report, eye)
         check_unpolarised(report, eye)
         check_sky(report, eye)
         check_parts(report, program, folder)
