@@ -74,6 +74,7 @@ if run_one 'release build, warnings are errors' build-release build release all;
         .build/release/parhelion
     start 'people in the seats' occupants \
         python3 tests/image/occupants.py .build/release/parhelion
+    start 'what one pixel sees' probe python3 tests/image/probe.py .build/release/parhelion
     start 'luminaires as lamps' lamps python3 tests/image/lamps.py .build/release/parhelion
     start 'pictures as light' hdri python3 tests/image/hdri.py .build/release/parhelion
     gather

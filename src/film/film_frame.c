@@ -263,7 +263,7 @@ static void add_stokes(const ChannelFill *to)
     fill(to, add_named(to, "stokes.degree", NULL, false), read_degree);
 }
 
-/* Each of R, G, B is rounded once: what groups add up to is the frame's but for that. */
+/* Of samples that had none of it too: a mean over all, as the frame's own. */
 static void add_light(const ChannelFill *to, int group)
 {
     const Film *film = to->film;

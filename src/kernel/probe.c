@@ -25,10 +25,16 @@ static Vec3 target_of(const ProbeAim *aim, int path, Vec2 place)
 /* The sampler of a path behind its wavelengths, and where it goes. */
 static Sampler path_start(const ProbeAim *aim, int path, Wavelengths *wavelengths, Ray *ray)
 {
-    Sampler sampler = sampler_start(aim->seed, 0, 0, (uint32_t)path);
+    const ProbePixel *pixel = aim->pixel;
+    int     x = pixel ? pixel->x : 0, y = pixel ? pixel->y : 0;
+    Sampler sampler = sampler_start(aim->seed, x, y, (uint32_t)path);
     Vec2    place = sampler_2d(&sampler);
     wavelengths_sample(sampler_1d(&sampler), wavelengths);
     if (aim->meter) return sampler;
+    if (pixel) {
+        *ray = camera_ray(pixel->camera, (float)x + place.x, (float)y + place.y);
+        return sampler;
+    }
     Vec3 to = vec3_sub(target_of(aim, path, place), aim->eye);
     *ray = (Ray){aim->eye, vec3_normalize(to), 0, INFINITY};
     return sampler;

@@ -8,6 +8,7 @@
  * Threads  const jobs; each call writes where its caller says.
  */
 #pragma once
+#include "camera/camera.h"
 #include "hemisphere/geodesic.h"
 #include "path/path.h"
 
@@ -15,6 +16,12 @@
 typedef struct ProbePatch {
     Vec3 along, down;
 } ProbePatch;
+
+/* A pixel of a frame: path i is its sample i, with the frame's seed. */
+typedef struct ProbePixel {
+    const Camera *camera;
+    int           x, y;
+} ProbePixel;
 
 /* An eye and the points that it looks at, one path each; more paths than points begin again. */
 typedef struct ProbeAim {
@@ -26,6 +33,7 @@ typedef struct ProbeAim {
                                   NULL: to the targets themselves */
     bool            is_spread; /* paths take points by chance, evenly, however few they are */
     const LitPoint *meter;     /* a luxmeter instead: eye and targets do not count; or NULL */
+    const ProbePixel *pixel;   /* a frame's pixel instead of targets; or NULL */
     uint32_t        seed;
 } ProbeAim;
 

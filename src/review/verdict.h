@@ -58,6 +58,8 @@ typedef struct CaseCause {
     double contrast_without;  /* the case's contrast if this light were not; NaN: none */
     const CaseRay *rays;      /* some of it, drawn with a chance that goes with their light */
     int    ray_count;
+    int    light;             /* its rays have the colour of light 1, 2, ...; 0: one of their
+                                 own */
 } CaseCause;
 
 /* How a picture shows the world: what stands at `eye` + x right + y up + z forward is, of a

@@ -19,7 +19,7 @@ from report import Report  # noqa: E402
 
 SIZE = 48, 28
 SPP, SEEDS = 16, 8
-SUN = {"azimuth_deg": 200, "elevation_deg": 35, "illuminance_lx": 20000}
+SUN = {"azimuth_deg": 100, "elevation_deg": 35, "illuminance_lx": 20000}
 LUMINANCE = (0.2126390, 0.7151687, 0.0721923)
 # layer -> what is left on in the scene that has it alone
 ALONE = {"sun": "sun", "sky": "sky", "map_lamp": "map lamp", "dome": "dome", "strip": "strip",
@@ -35,12 +35,9 @@ def room(path, on):
     scene = Scene()
     strength = 400 if on("strip") else 0
     scene.box_inside(scene.lambert(0.6), [-2, 0, -2], [2, 2.5, 2.5])
-    scene.document["meshes"].pop(3)  # the wall to the right is open
-    scene.document["nodes"].pop(3)
-    scene.document["scenes"][0]["nodes"].pop(3)
-    for node in scene.document["nodes"][3:]:
-        node["mesh"] -= 1
-    scene.document["scenes"][0]["nodes"] = list(range(len(scene.document["nodes"])))
+    for key in ("meshes", "nodes"):
+        scene.document[key].pop()  # the wall to the right is open
+    scene.document["scenes"][0]["nodes"].pop()
     scene.facing_quad(scene.window(1.52), [1.99, 1.2, 0], [-1, 0, 0], 4, 2.5)
     scene.sphere(scene.metal(0.9), [-0.7, 0.6, -0.9], 0.5, rings=12)
     scene.facing_quad(scene.material(

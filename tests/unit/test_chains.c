@@ -79,7 +79,7 @@ static Chains find(World *world, uint32_t seed, long paths, int threads)
 {
     ReadingTools tools = tools_of(threads);
     ProbeAim     aim = aim_of(world, seed);
-    ChainAsk     ask = {&aim, &tools, paths, MOST, false};
+    ChainAsk     ask = {.aim = &aim, .tools = &tools, .paths = paths, .most = MOST};
     return chains_find(&ask, &world->arena);
 }
 

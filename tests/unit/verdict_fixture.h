@@ -227,8 +227,8 @@ static inline Review fixture_odd_review(Arena *arena)
          NAN, VERDICT_TOO_CLOSE},
         {WILD_NAME, "glare", WILD_NAME, WILD_NAME, 0.1, true, true, true, 1e-9, 1e-10, 1e12,
          1e8 - 1, VERDICT_PASS}};
-    static const CaseCause  CAUSES[] = {{CHAIN, 3, NAN, NAN, NAN, NAN, NAN, NULL, 0},
-                                       {CHAIN, 0, 1, 0, 0, 0, 1, NULL, 0}};
+    static const CaseCause  CAUSES[] = {{CHAIN, 3, NAN, NAN, NAN, NAN, NAN, NULL, 0, 0},
+                                       {CHAIN, 0, 1, 0, 0, 0, 1, NULL, 0, 3}};
     static const CaseRemedy REMEDIES[] = {{WILD_NAME, NAN, NAN}, {"", 3, 4}};
     static ReviewResponse   responses[] = {{WILD_NAME, WILD_NAME, 0, 0, NAN}};
     static ReviewFalseSun   false_suns[] = {

@@ -7,7 +7,6 @@
 #include "base/parallel.h"
 #include "base/sampler.h"
 
-#define CHUNK 64
 #define ROUND 64          /* chunks at a time */
 #define CHUNK_ROOM 512    /* of a chunk's table: a power of two */
 #define CHUNK_CHAINS 400  /* that are told apart in one chunk */
@@ -59,15 +58,17 @@ static int alike_or_none(const int *alike, int part_id)
     return part_id == NO_ID ? NO_ID : alike[part_id];
 }
 
-static ChainKey key_of(const int *alike, const PathTale *tale)
+static ChainKey key_of(const ChainSearch *search, const PathTale *tale)
 {
+    const int *alike = search->alike;
+    bool       tells_first = search->ask->with_first_pane;
     ChainKey key;
     memset(&key, 0, sizeof key);
     for (int i = 0; i < told_steps(tale) && i < CHAIN_STEPS; i++) {
         const PathStep *step = &tale->step[i];
         key.link[key.count++] =
             (ChainLink){alike[step->part_id], (int)step->event,
-                        i ? alike_or_none(alike, step->pane_id) : NO_ID};
+                        i || tells_first ? alike_or_none(alike, step->pane_id) : NO_ID};
     }
     key.is_longer = tale->count > key.count;
     key.pane_id = alike_or_none(alike, tale->pane_id);
@@ -158,7 +159,7 @@ static void hear(void *user, const PathTale *tale, const float xyz[3])
     ChainChunk           *sums = to->sums;
     double               y = (double)xyz[1];
     if (!(y > 0) || (tale->count == 0 && !to->search->ask->with_direct)) return;
-    ChainKey    key = key_of(to->search->alike, tale);
+    ChainKey    key = key_of(to->search, tale);
     ChunkChain *chain = chunk_chain(sums, &key);
     int         display = tale->count ? display_of(scene, tale->step[0].part_id) : NO_ID;
     sums->all += y;
@@ -180,8 +181,8 @@ static void hear_chunk(void *user, int item, int worker)
     ChunkListener  to = {search, &search->sums[item], chunk};
     PathListener   listener = {.hear = hear, .user = &to};
     PathStatistics statistics = {0};
-    search->ask->tools->kernel->hear(search->ask->aim, chunk * CHUNK, (chunk + 1) * CHUNK,
-                                     &listener, &statistics);
+    search->ask->tools->kernel->hear(search->ask->aim, chunk * CHAIN_CHUNK,
+                                     (chunk + 1) * CHAIN_CHUNK, &listener, &statistics);
 }
 
 /* ---- all chunks -------------------------------------------------------------------------- */
@@ -259,15 +260,15 @@ static void keep_ray(FoundChain *f, const ChunkChain *from)
 static void add_chunk(FoundChains *found, const ChainChunk *sums, ChunkGifts *gifts, Arena *own)
 {
     gifts->list = ARENA_NEW(own, ChunkGift, sums->count);
-    gifts->all = sums->all / CHUNK;
-    add_mean(&found->all, sums->all / CHUNK);
-    add_mean(&found->mirror, sums->mirror / CHUNK);
-    found->own += sums->own / CHUNK;
+    gifts->all = sums->all / CHAIN_CHUNK;
+    add_mean(&found->all, sums->all / CHAIN_CHUNK);
+    add_mean(&found->mirror, sums->mirror / CHAIN_CHUNK);
+    found->own += sums->own / CHAIN_CHUNK;
     for (int i = 0; i < CHUNK_ROOM; i++) {
         const ChunkChain *from = &sums->table[i];
         FoundChain       *to = from->is_used ? found_chain(found, &from->key, own) : NULL;
         if (!to) continue;
-        double mean = from->sum / CHUNK;
+        double mean = from->sum / CHAIN_CHUNK;
         to->sum += mean;
         to->squares += mean * mean;
         keep_ray(to, from);
@@ -376,11 +377,11 @@ static float far_length(const Scene *scene)
 Chains chains_find(const ChainAsk *ask, Arena *arena)
 {
     const Scene *scene = ask->aim->context->scene;
-    int    chunks = (int)((ask->paths + CHUNK - 1) / CHUNK);
+    int    chunks = (int)((ask->paths + CHAIN_CHUNK - 1) / CHAIN_CHUNK);
     Arena  own = arena_reserve(OWN_BYTES);
     Chains out = {.scene = scene, .list = ARENA_NEW(arena, Chain, ask->most),
                   .by_part = ARENA_NEW(arena, double, scene->part_count),
-                  .alike = alike_parts(scene, arena), .paths = (long)chunks * CHUNK};
+                  .alike = alike_parts(scene, arena), .paths = (long)chunks * CHAIN_CHUNK};
     ChainSearch search = {.ask = ask, .scene = scene, .alike = out.alike,
                           .far_m = far_length(scene)};
     FoundChains found = {.table = ARENA_NEW(&own, FoundChain *, ROOM),
@@ -395,7 +396,7 @@ Chains chains_find(const ChainAsk *ask, Arena *arena)
         for (int i = 0; i < count; i++) {
             add_chunk(&found, &search.sums[i], &found.gifts[search.first + i], &own);
             for (int p = 0; p < scene->part_count; p++)
-                out.by_part[p] += search.sums[i].by_part[p] / CHUNK / chunks;
+                out.by_part[p] += search.sums[i].by_part[p] / CHAIN_CHUNK / chunks;
         }
     }
     out.all = figure_of(found.all, chunks);

@@ -16,6 +16,7 @@
 #pragma once
 #include "review/light/reading.h"
 
+#define CHAIN_CHUNK 64 /* paths of a chunk */
 #define CHAIN_STEPS 4
 #define CHAIN_RAYS 8
 #define CHAIN_POINTS (PATH_STEPS_TOLD + 2)
@@ -23,7 +24,7 @@
 typedef struct ChainLink {
     int part_id; /* the first of those that count as one */
     int event;   /* PathEvent */
-    int pane_id; /* of the last pane before it; NO_ID: none, and always at the first link */
+    int pane_id; /* of the last pane before it; NO_ID: none; at the first link only if asked */
 } ChainLink;
 
 /* Plain numbers, zero behind count: keys are compared as bytes. */
@@ -75,6 +76,7 @@ typedef struct ChainAsk {
     long                paths;       /* at least CHAIN_PATHS_LEAST; rounded up to a chunk */
     int                 most;        /* chains that are kept */
     bool                with_direct; /* sources that the eye sees by themselves count, too */
+    bool                with_first_pane; /* the eye looks through a pane: that is told */
 } ChainAsk;
 
 #define CHAIN_PATHS_LEAST 1024

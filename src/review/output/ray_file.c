@@ -134,7 +134,7 @@ static void add_mesh(const RayDocument *to, const CaseCause *cause, const RayNum
     json_array_append_new(to->meshes, json_pack(
         "{s:o, s:[{s:{s:i}, s:i, s:i, s:i}]}", "name", json_text(name), "primitives",
         "attributes", "POSITION", 2 * id, "indices", 2 * id + 1, "material", id, "mode", 1));
-    json_array_append_new(to->materials, material(id));
+    json_array_append_new(to->materials, material(cause->light ? cause->light - 1 : id));
     json_array_append_new(to->nodes, json_pack(
         "{s:o, s:i, s:{s:o, s:o, s:o}}", "name", json_text(name), "mesh", id, "extras", "share",
         figure(cause->share), "cd_m2", figure(cause->cd_m2), "contrast_without",

@@ -1,8 +1,9 @@
 /* ray_file.h -- the rays of a case's causes as glTF 2.0: lines that any viewer shows beside the
  * scene, in its metres.
  *
- * Each cause is a mesh of its own (mode LINES), with its own colour and its chain as the node's
- * name; `extras` of the node say its share, its cd/m^2 and the contrast without it.
+ * Each cause is a mesh of its own (mode LINES), with its own colour, or its light's, and its
+ * chain as the node's name; `extras` of the node say its share, its cd/m^2 and the contrast
+ * without it.
  * NAME.gltf holds its numbers itself; NAME.glb is the binary form.
  *
  * Memory   scratch only.

@@ -81,7 +81,8 @@ CauseFacts case_causes(const CauseAsk *ask, ReviewCase *c, Arena *arena)
 {
     CaseCause *causes = ARENA_NEW(arena, CaseCause, CAUSES_MOST + 1);
     Arena    scratch = arena_reserve((size_t)1 << 28);
-    ChainAsk chain_ask = {ask->aim, ask->tools, ask->paths, CAUSES_MOST, ask->with_direct};
+    ChainAsk chain_ask = {.aim = ask->aim, .tools = ask->tools, .paths = ask->paths,
+                          .most = CAUSES_MOST, .with_direct = ask->with_direct};
     Chains   chains = chains_find(&chain_ask, &scratch);
     if (isnan(c->luminance_cd_m2.reflected)) set_luminances(&chains, &c->luminance_cd_m2);
     for (int i = 0; i < chains.count; i++) {

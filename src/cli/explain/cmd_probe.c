@@ -1,0 +1,157 @@
+/* parhelion probe: what one pixel sees, bounce by bounce, and its spectrum. */
+#include <math.h>
+
+#include "base/count.h"
+#include "base/file_write.h"
+#include "cli/explain/cmd_explain.h"
+#include "cli/explain/probe_answer.h"
+#include "cli/options/answer.h"
+#include "cli/options/camera_options.h"
+#include "cli/options/scene_options.h"
+#include "cli/render/render_setup.h"
+#include "render/render.h"
+#include "review/output/ray_file.h"
+#include "scene/load/scene_load.h"
+
+#define SPP 4096
+#define WAYS 10
+#define BOUNCES 64
+
+typedef struct ProbeWords {
+    RenderOptions     render;
+    CameraChoice      camera;
+    SceneOptions      scene;
+    SceneWords        scene_words;
+    EnvironmentChange environment;
+    const char *rays;
+    double      pixel[2];
+    int         size[2];
+    long        spp, ways, seed, max_bounces;
+    bool        has_pixel;
+    Cli         cli;
+} ProbeWords;
+
+/* ---- the command line -------------------------------------------------------------------- */
+
+static bool check_pixel(const ProbeWords *words, Error *err)
+{
+    const double *p = words->pixel;
+    if (!words->has_pixel)
+        return error_set(err, ERROR_USAGE, "no pixel — add --pixel X,Y");
+    return (p[0] == floor(p[0]) && p[1] == floor(p[1]) && p[0] >= 0 && p[1] >= 0 &&
+            p[0] < words->size[0] && p[1] < words->size[1]) ||
+           error_set(err, ERROR_USAGE,
+                     "--pixel %g,%g: is no pixel of a picture of %dx%d, whose first is 0,0 at "
+                     "the top left",
+                     p[0], p[1], words->size[0], words->size[1]);
+}
+
+static bool check(ProbeWords *words, Arena *arena, Error *err)
+{
+    RenderOptions *render = &words->render;
+    if (!check_pixel(words, err)) return false;
+    if (render->field && render->no_guiding)
+        return error_set(err, ERROR_USAGE, "--field %s keeps what is learnt — leave out "
+                                           "--no-guiding", render->field);
+    render->width = words->size[0];
+    render->height = words->size[1];
+    render->seed = (uint32_t)words->seed;
+    render->max_bounces = (int)words->max_bounces;
+    render->threads = words->cli.threads;
+    render->progress = words->cli.progress;
+    return scene_options_read(&words->scene_words, &words->cli, arena, &words->scene, err) &&
+           (!words->rays ||
+            (ray_file_check(words->rays, err) && file_check_writable(words->rays, err)));
+}
+
+static bool parse(int argc, char **argv, Arena *arena, ProbeWords *out, Error *err)
+{
+    const Option options[] = {
+        {"--pixel", OPTION_NUMBERS, "X,Y", "of the camera's picture, 0,0 at the top left",
+         out->pixel, .low = -1e9, .high = 1e9, .count = 2, .given = &out->has_pixel},
+        {"--size", OPTION_SIZE, "WxH", "of that picture (default 1280x720)", out->size},
+        CAMERA_OPTIONS(&out->camera),
+        {"--spp", OPTION_INTEGER, "N",
+         "paths, rounded up to whole chunks of 64 (default 4096)", &out->spp,
+         .low = 2 * CHAIN_CHUNK, .high = 1 << 24},
+        {"--seed", OPTION_INTEGER, "N", "another set of random numbers (default 0)",
+         &out->seed, .low = 0, .high = 4294967295.0},
+        {"--max-bounces", OPTION_INTEGER, "N",
+         "0 emission only, 1 adds direct light (default 64)", &out->max_bounces, .low = 0,
+         .high = 100000},
+        {"--ways", OPTION_INTEGER, "N", "that are told by themselves, at most (default 10)",
+         &out->ways, .low = 1, .high = 1000},
+        {"--gltf", OPTION_TEXT, "FILE.gltf|.glb",
+         "the ways as lines in the colours of their lights, to be opened beside the scene",
+         &out->rays},
+        {"--no-mirrors", OPTION_FLAG, NULL, "leave the sun's reflections to chance",
+         &out->render.no_mirrors},
+        {"--no-guiding", OPTION_FLAG, NULL, "do not learn first where light comes from",
+         &out->render.no_guiding},
+        {"--field", OPTION_TEXT, "FILE",
+         "what is learnt: taken from this file if it is there, else kept there",
+         &out->render.field},
+        {"--isa", OPTION_TEXT, "NAME", "sse2, avx2, avx512 (default: the processor's best)",
+         &out->render.isa},
+        SCENE_OPTIONS(&out->scene_words, &out->scene, &out->environment),
+    };
+    const CliCommand command = {
+        "probe", "what one pixel sees, bounce by bounce, and its spectrum",
+        "SCENE.gltf|.glb [LIGHTS.gltf|.glb ...] --pixel X,Y",
+        "parhelion probe scenes/car_dashboard.gltf scenes/noon.gltf --pixel 640,400 "
+        "--gltf ways.gltf",
+        options, COUNT_OF(options), 1, -1};
+    if (!cli_parse(&command, argc, argv, arena, &out->cli, err)) return false;
+    return out->cli.help_shown || check(out, arena, err);
+}
+
+/* ---- the pixel --------------------------------------------------------------------------- */
+
+/* The samples are those that a render of the same options takes. */
+static void look(const ProbeWords *words, const RenderSetup *setup, Arena *arena, Probed *out)
+{
+    const ProbePixel   pixel = {&setup->camera, (int)words->pixel[0], (int)words->pixel[1]};
+    const ReadingTools tools = {.kernel = setup->kernel, .threads = words->cli.threads};
+    float    x = (float)pixel.x + 0.5f, y = (float)pixel.y + 0.5f;
+    ProbeAim aim = {.context = &setup->context, .eye = camera_ray(&setup->camera, x, y).origin,
+                    .pixel = &pixel, .seed = words->render.seed};
+    ChainAsk ask = {&aim, &tools, words->spp, (int)words->ways, true, true};
+    *out = (Probed){.pixel = {pixel.x, pixel.y}, .size = {words->size[0], words->size[1]},
+                    .eye = aim.eye, .chains = chains_find(&ask, arena),
+                    .light = pixel_light_find(&ask)};
+}
+
+static bool probe(const ProbeWords *words, const Scene *scene, Problems *problems,
+                  Arena *arena, Error *err)
+{
+    SceneCamera camera;
+    RenderSetup setup;
+    Probed      found;
+    if (!render_choose_camera(scene, &words->camera, problems, &camera, err)) return false;
+    render_tell_of_darkness(scene, problems);
+    cli_print_warnings(problems);
+    if (!render_prepare(scene, &camera, &words->render, arena, &setup, err)) return false;
+    look(words, &setup, arena, &found);
+    found.groups = light_groups_build(scene, setup.context.lights, arena, problems);
+    render_setup_end(&setup);
+    return (!words->rays || probe_write_rays(&found, words->rays, arena, err)) &&
+           probe_answer(&words->cli, &found, arena, err);
+}
+
+static bool run(int argc, char **argv, Arena *arena, Error *err)
+{
+    Problems   problems = problems_start(arena);
+    Scene     *scene = NULL;
+    ProbeWords words = {.size = {1280, 720}, .spp = SPP, .ways = WAYS,
+                        .max_bounces = BOUNCES};
+    if (!parse(argc, argv, arena, &words, err)) return false;
+    if (words.cli.help_shown) return true;
+    bool ok = scene_options_load(&words.scene, &words.environment, arena, &problems, &scene,
+                                 err) &&
+              probe(&words, scene, &problems, arena, err);
+    scene_close(scene);
+    return ok;
+}
+
+const Command command_probe = {
+    "probe", "what one pixel sees, bounce by bounce, and its spectrum", run, NULL, 0};
