@@ -12,6 +12,7 @@
 #include "panel/query/panel_file.h"
 #include "panel/query/panel_info.h"
 #include "panel/query/panel_open.h"
+#include "panel/query/panel_place.h"
 #include "panel/query/panel_reflection.h"
 #include "panel/query/panel_sampling.h"
 
@@ -36,6 +37,11 @@ static void claim_emission(const Panel *panel, Vec3 wo, const Wavelengths *w)
     Spectrum spectrum = panel_emission_spectrum(panel, wo, rgb, w);
     fuzz_claim(all_in((const float *)&spectrum, SPECTRUM_LANES, -1e30f), "so is its spectrum");
     fuzz_claim(panel_mean_luminance(panel, rgb) >= 0, "the mean is not negative");
+    const float place[2] = {wo.x, 0.5f + wo.y};
+    panel_place_emission_xyz(panel, place, wo, rgb, xyz);
+    fuzz_claim(all_in(xyz, 3, 0), "nor is it at a place");
+    spectrum = panel_place_emission_spectrum(panel, place, wo, rgb, w);
+    fuzz_claim(all_in((const float *)&spectrum, SPECTRUM_LANES, -1e30f), "so is that there");
 }
 
 static void claim_reflection(const Panel *panel, Vec3 wo, Vec3 wi, const Wavelengths *w)
@@ -47,6 +53,11 @@ static void claim_reflection(const Panel *panel, Vec3 wo, Vec3 wi, const Wavelen
                    all_in((const float *)&mirror, SPECTRUM_LANES, 0),
                "reflection is finite and not negative");
     fuzz_claim(panel_pdf(panel, wo, wi) >= 0, "a density is not negative");
+    const float place[2] = {wo.x, 0.5f + wo.y};
+    PanelMix    mix = panel_place_reflection(panel, place);
+    brdf = panel_mix_brdf(&mix, wo, wi, w);
+    fuzz_claim(all_in((const float *)&brdf, SPECTRUM_LANES, 0) &&
+                   panel_mix_pdf(&mix, wo, wi) >= 0, "nor is it at a place");
     if (!panel_sample(panel, wo, u, &wi, &pdf)) return;
     fuzz_claim(pdf > 0 && isfinite(pdf), "a chosen direction has a density");
     fuzz_claim(fabsf(vec3_dot(wi, wi) - 1) < 1e-3f, "and unit length");

@@ -4,7 +4,7 @@
  * PARHELION_BEAMS in the environment: all of them; tests/long.sh asks for that. */
 #include "panel_fixture.h"
 
-#include "panel/query/panel_beam.h"
+#include "panel/shape/panel_beam.h"
 #include "panel/query/panel_components.h"
 #include "panel/query/panel_emission.h"
 #include "panel/query/panel_file.h"

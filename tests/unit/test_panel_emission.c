@@ -4,12 +4,12 @@
 #include "panel/query/panel_components.h"
 #include "panel/query/panel_emission.h"
 #include "panel/query/panel_file.h"
-#include "panel/query/panel_levels.h"
+#include "panel/shape/panel_levels.h"
 #include "panel/query/panel_open.h"
 #include "panel/query/panel_opened.h"
 #include "panel/query/panel_reflection.h"
 #include "panel/query/panel_report.h"
-#include "panel/query/panel_spline.h"
+#include "panel/shape/panel_spline.h"
 
 #define COARSE "\"theta_step_deg\": 4, \"phi_step_deg\": 10"
 #define CHECK_EMISSION "\"gamma\": 2.2, \"gamma_drop\": 0.2, \"cosine_power\": [1.1, 1.6],"  \

@@ -17,6 +17,7 @@
 #include "panel/query/panel_file.h"
 #include "panel/query/panel_info.h"
 #include "panel/query/panel_open.h"
+#include "panel/query/panel_place.h"
 #include "panel/query/panel_reflection.h"
 #include "panel/query/panel_sampling.h"
 
@@ -53,6 +54,18 @@ static Fixture folder; /* files and what is made of them */
     "{\"emission\": {\"white\": \"emission/black.csv\"},"                                    \
     "\"polarisation\": {\"degree\": 0.9, \"azimuth_deg\": 45}}"
 
+#define SPOTS                                                                                  \
+    "{\"emission\": {\"white\": \"emission/black.csv\"}, \"reflection\": {"                  \
+    "\"wavelengths_nm\": [450, 550, 650], \"incidence_deg\": [20],"                            \
+    "\"files\": \"brdf/i{incidence}.csv\"}, \"spots\": ["                                    \
+    "{\"position\": [0, 0.5], \"emission\": {\"white\": \"emission/red_255.csv\"}},"         \
+    "{\"position\": [0.9, 0.2], \"reflection\": {\"wavelengths_nm\": [450, 550, 650],"         \
+    "\"incidence_deg\": [50], \"files\": \"brdf/i{incidence}.csv\"}},"                         \
+    "{\"position\": [0.4, 1], \"emission\": {\"white\": \"emission/blue_255.csv\"}}]}"
+#define MAPPED                                                                                 \
+    "{\"emission\": {\"white\": \"emission/black.csv\"}, \"uniformity\": {"                  \
+    "\"file\": \"map.csv\"}}"
+
 #define BRUSHED                                                                                \
     "{\"panel\": \"grain\", \"reflection\": {\"wavelengths_nm\": [550],"                       \
     "\"incidence_deg\": [20, 50], \"incidence_phi_deg\": [0, 90, 180, 270],"                   \
@@ -72,6 +85,8 @@ static Kind kinds[] = {
     {"white only", "{\"emission\": {\"white\": \"emission/black.csv\"}}", FIT_VERTEX, 0,
      NULL},
     {"polarised", POLARISED, FIT_VERTEX, 0, NULL},
+    {"spots", SPOTS, FIT_VERTEX, 0, NULL},
+    {"map", MAPPED, FIT_VERTEX, 0, NULL},
     {"reflection only", ONLY_REFLECTION, FIT_VERTEX, 0, NULL},
     {"one table", ONE_TABLE, FIT_VERTEX, 0, NULL}, /* opening makes its sampling */
     {"beam", "{\"emission\": {\"white\": \"emission/beam.csv\"}}", FIT_VERTEX, 0, NULL},
@@ -139,6 +154,16 @@ static void write_grain(void)
         }
 }
 
+static void write_map(void)
+{
+    char   text[4096];
+    size_t n = (size_t)snprintf(text, sizeof text, "column,row,X,Y,Z,black_Y\n");
+    for (int i = 0; i < 12; i++)
+        n += (size_t)snprintf(text + n, sizeof text - n, "%d,%d,%d,%d,%d,%g\n", i % 4, i / 4,
+                              9 + i, 11 + i, 30 - i, 0.1 * (i + 1));
+    fixture_file(&folder, "map.csv", text);
+}
+
 static const char *manifest_of(const Kind *kind)
 {
     if (kind->manifest) return fixture_file(&folder, "OTHER.json", kind->manifest);
@@ -180,6 +205,7 @@ static int start(void **state)
     write_beam();
     assert_int_equal(mkdir(fixture_path(&folder, "grain"), 0700), 0);
     write_grain();
+    write_map();
     for (int i = 0; i < KIND_COUNT; i++) fit_kind(&kinds[i]);
     return 0;
 }
@@ -207,6 +233,12 @@ static void ask_everything(const Panel *panel)
         panel_haze_albedo(panel, wi.z);
         panel_pdf(panel, wo, wi);
         panel_sample(panel, wo, u, &wi, &pdf);
+        float    place[2] = {0.4f * (float)i, 1 - 0.3f * (float)i};
+        PanelMix mix = panel_place_reflection(panel, place);
+        panel_place_emission_xyz(panel, place, wo, rgb, xyz);
+        panel_place_emission_spectrum(panel, place, wi, rgb, &w);
+        panel_mix_brdf(&mix, wo, wi, &w);
+        panel_mix_sample(&mix, wo, u, &wi, &pdf);
         if (i < 3) panel_info_levels(panel, i, number);
     }
     panel_info_wavelengths(panel, nm);
@@ -243,9 +275,13 @@ TEST(files_keep_the_version_that_older_programs_read)
     (void)state;
     for (int k = 0; k < KIND_COUNT; k++) {
         PanelHeader header;
-        bool        is_surface = !strcmp(kinds[k].name, "surface");
+        const char *name = kinds[k].name;
+        bool        has_places = !strcmp(name, "spots") || !strcmp(name, "map");
+        uint32_t    wanted = has_places                 ? PANEL_VERSION_PLACES
+                             : !strcmp(name, "surface") ? PANEL_VERSION
+                                                        : PANEL_VERSION_PLAIN;
         memcpy(&header, kinds[k].bytes, sizeof header);
-        if (header.version != (is_surface ? PANEL_VERSION : PANEL_VERSION_PLAIN))
+        if (header.version != wanted)
             fail_msg("%s: version %u", kinds[k].name, header.version);
     }
 }

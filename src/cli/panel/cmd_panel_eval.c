@@ -166,8 +166,8 @@ static bool run_eval(int argc, char **argv, Arena *arena, Error *err)
          "azimuth of the light, degrees (default 180: the mirror direction is at phi 0)",
          &q->incidence_phi, -360, 360, .given = NULL},
         {"--at", OPTION_NUMBERS, "U,V",
-         "place on the active area, 0 to 1 from its upper left corner, right and down (default: "
-         "the panel's own tables)", q->at, 0, 1, 2, .given = NULL},
+         "place on the active area, 0 to 1 from its upper left corner, right and down "
+         "(default: the panel's own tables)", q->at, 0, 1, 2, .given = NULL},
         {"--wavelength", OPTION_NUMBER, "NM",
          "one wavelength, nm, instead of all measured ones", &q->wavelength_nm, 360, 830,
          .given = NULL},

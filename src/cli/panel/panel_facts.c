@@ -7,7 +7,9 @@
 
 #include "base/units.h"
 #include "panel/query/panel_emission.h"
+#include "panel/query/panel_evenness.h"
 #include "panel/query/panel_info.h"
+#include "panel/query/panel_place.h"
 #include "panel/query/panel_reflection.h"
 #include "spectrum/photometry.h"
 
@@ -225,9 +227,43 @@ static void add_reflection(const Panel *panel, json_t *out)
     add_haze(panel, &w, out);
 }
 
+/* ---- places ------------------------------------------------------------------------------ */
+
+static json_t *evenness_json(const Panel *panel, const float rgb[3])
+{
+    PanelEvenness e = panel_evenness(panel, rgb);
+    json_t *nine = json_array();
+    for (int i = 0; i < PANEL_NINE; i++) json_array_append_new(nine, json_real(e.nine[i]));
+    return json_pack("{s:o, s:f, s:f, s:f, s:f, s:f, s:f, s:f, s:f}", "nine_cd_m2", nine,
+                     "nine_least", e.nine_least, "nine_most", e.nine_most, "nine_mean",
+                     e.nine_mean, "nine_non_uniformity",
+                     panel_non_uniformity(e.nine_least, e.nine_most), "least", e.least, "most",
+                     e.most, "mean", e.mean, "non_uniformity",
+                     panel_non_uniformity(e.least, e.most));
+}
+
+static void add_places(const Panel *panel, json_t *out)
+{
+    float   place[PANEL_EVENNESS_SPOTS][2];
+    int     map[2], spots = panel_spots(panel, place, map);
+    json_t *list = json_array();
+    for (int i = 0; i < spots; i++)
+        json_array_append_new(list, json_pack("[f, f]", (double)place[i][0],
+                                              (double)place[i][1]));
+    json_t *places = json_pack("{s:o}", "spots", list);
+    if (map[0]) json_object_set_new(places, "map", json_pack("[i, i]", map[0], map[1]));
+    if (panel_info_emits(panel)) {
+        json_object_set_new(places, "white", evenness_json(panel, WHITE));
+        if (luminance(panel, BLACK, 0, 0) > 0)
+            json_object_set_new(places, "black", evenness_json(panel, BLACK));
+    }
+    json_object_set_new(out, "places", places);
+}
+
 void panel_facts_add(const Panel *panel, json_t *report)
 {
     json_t *out = json_object();
+    if (panel_varies(panel)) add_places(panel, out);
     if (panel_info_emits(panel)) add_emission(panel, report, out);
     if (panel_reflects(panel)) add_reflection(panel, out);
     json_object_set_new(report, "display", out);
@@ -295,6 +331,36 @@ static void print_reflection(const json_t *facts)
     printf("\n");
 }
 
+static void print_evenness(const char *label, const json_t *e)
+{
+    if (!e) return;
+    printf("%-10s nine points %.4g to %.4g cd/m2, mean %.4g, non-uniformity %.3g %%; anywhere "
+           "%.4g to %.4g, mean %.4g\n", label, number(e, "nine_least"), number(e, "nine_most"),
+           number(e, "nine_mean"), 100 * number(e, "nine_non_uniformity"), number(e, "least"),
+           number(e, "most"), number(e, "mean"));
+}
+
+static void print_places(const json_t *facts, const json_t *report)
+{
+    const json_t *places = json_object_get(facts, "places"), *spot;
+    const json_t *spots = json_object_get(places, "spots");
+    const json_t *map = json_object_get(places, "map");
+    size_t        i;
+    if (!places) return;
+    if (map) printf("uniformity map of %.0f x %.0f pixels\n", item(map, 0), item(map, 1));
+    json_array_foreach((json_t *)spots, i, spot)
+        printf("%s%.4g,%.4g", i ? "; " : "spots at   ", item(spot, 0), item(spot, 1));
+    if (json_array_size(spots)) printf(" (right, down; of the active area)\n");
+    print_evenness("white", json_object_get(places, "white"));
+    print_evenness("black", json_object_get(places, "black"));
+    json_array_foreach(json_object_get(report, "spots"), i, spot) {
+        const json_t *at = json_object_get(spot, "position");
+        printf("spot       %.4g,%.4g: %.0f bytes, largest error %.2g%%, %s\n", item(at, 0),
+               item(at, 1), number(spot, "bytes"), 100 * number(spot, "max_error"),
+               json_string_value(json_object_get(spot, "verdict")));
+    }
+}
+
 void panel_facts_print(const json_t *report)
 {
     const json_t *facts = json_object_get(report, "display");
@@ -310,4 +376,5 @@ void panel_facts_print(const json_t *report)
     print_cone(facts, "half_luminance_deg", "half white");
     print_cone(facts, "contrast_10_deg", "10 : 1    ");
     print_reflection(facts);
+    print_places(facts, report);
 }

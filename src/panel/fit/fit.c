@@ -247,8 +247,9 @@ bool panel_fit(const Measurement *measurement, const FitOptions *options, const 
     FitPlaces places;
     if (!file_check_writable(path, err)) return false; /* a fit takes a while */
     fit_places_plan(measurement, arena, &places);
-    run.progress = progress_start(options->progress, "fit", "steps", STEPS * (1 + places.panels));
+    int steps = STEPS * (1 + places.panels);
+    run.progress = progress_start(options->progress, "fit", "steps", steps);
     if (!fit_whole(&run, measurement, &places, report)) return false;
-    progress_end(&run.progress, STEPS * (1 + places.panels));
+    progress_end(&run.progress, steps);
     return true;
 }

@@ -149,8 +149,8 @@ static bool straighten_pixel(const Measurement *set, const Panel *panel, const M
     double factor[2][3];
     if (!(direction.z > 0) || !view_factors(panel, at, direction, false, factor[0]) ||
         !view_factors(panel, at, direction, true, factor[1]))
-        return error_at(err, ERROR_INPUT, set->file, "/uniformity", "pixel %d,%d cannot be seen "
-                        "from where the camera stands", x, y);
+        return error_at(err, ERROR_INPUT, set->file, "/uniformity", "pixel %d,%d cannot be "
+                        "seen from where the camera stands", x, y);
     for (int k = 0; k < planes; k++)
         plane[k].value[i] /= factor[plane[k].is_black][plane[k].axis];
     return true;
@@ -211,8 +211,8 @@ static bool check_references(const Measurement *set, const FitPlaces *places,
             at = spot;
         }
         if (!is_lit_at(set->map, plane, planes, at))
-            return error_at(err, ERROR_INPUT, set->map->file, "", "is dark at %g, %g, where the "
-                            "emission was measured: nothing can be relative to it",
+            return error_at(err, ERROR_INPUT, set->map->file, "", "is dark at %g, %g, where "
+                            "the emission was measured: nothing can be relative to it",
                             (double)at[0], (double)at[1]);
     }
     return true;

@@ -9,7 +9,7 @@
 #include "hemisphere/tree/tree_query.h"
 #include "panel/query/panel_components.h"
 #include "panel/query/panel_emission.h"
-#include "panel/query/panel_levels.h"
+#include "panel/shape/panel_levels.h"
 
 _Static_assert(sizeof(PanelEmissionHead) == 20, "the file's layout");
 _Static_assert(sizeof(PanelPrimariesHead) == 24, "the file's layout");

@@ -29,7 +29,8 @@ static bool place_panels(const PanelBytes *bytes, PanelPlaces *places, float (*a
     return true;
 }
 
-static bool check_spots(const PanelBytes *bytes, const float (*at)[2], const PanelPlaces *places)
+static bool check_spots(const PanelBytes *bytes, const float (*at)[2],
+                        const PanelPlaces *places)
 {
     for (int i = 0; i < places->spots; i++) {
         if (!is_place(at[i])) return panel_refuse(bytes, "spots", "a place is out of range");
@@ -172,7 +173,8 @@ static void find_dark(const Panel *panel, float dark[3])
 
 static bool find_references(const PanelBytes *bytes, Arena *arena, PanelPlaces *places)
 {
-    float (*values)[3] = arena_alloc(arena, sizeof *values, _Alignof(float), 3 * places->panels);
+    size_t panels = (size_t)places->panels;
+    float (*values)[3] = arena_alloc(arena, sizeof *values, _Alignof(float), 3 * panels);
     float (*white)[3] = values, (*black)[3] = values + places->panels;
     float (*dark)[3] = black + places->panels;
     for (int k = 0; k < places->panels; k++) {

@@ -11,11 +11,11 @@
 #include "hemisphere/surface_frame.h"
 #include "hemisphere/tree.h"
 #include "panel/query/panel.h"
-#include "panel/query/panel_beam.h"
+#include "panel/shape/panel_beam.h"
 #include "panel/query/panel_file.h"
-#include "panel/query/panel_spline.h"
-#include "panel/query/spot_ground.h"
-#include "panel/query/spectral_warp.h"
+#include "panel/shape/panel_spline.h"
+#include "panel/shape/spot_ground.h"
+#include "panel/shape/spectral_warp.h"
 #include "spectrum/spectral_table.h"
 
 #define PANEL_ANGLES 181 /* nodes of tables over theta: 0, 0.5, ... 90 degrees */

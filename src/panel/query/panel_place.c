@@ -130,7 +130,7 @@ bool panel_place_emission_xyz(const Panel *panel, const float place[2], Vec3 dir
         place_logs(places, mix.panel[i], place, logs);
         panel_sources_xyz(logs, add);
         for (int j = 0; j < 3; j++) xyz[j] += mix.weight[i] * add[j];
-        is_measured &= panel_emission_is_measured(one, direction);
+        is_measured &= panel_sources_are_measured(one, direction);
     }
     return is_measured;
 }

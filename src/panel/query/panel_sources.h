@@ -19,4 +19,4 @@ Spectrum panel_sources_spectrum(const Panel *panel, const PanelFloat4 logs[4],
                                 const Wavelengths *wavelengths);
 
 /* Within the measured cone? */
-bool panel_emission_is_measured(const Panel *panel, Vec3 direction);
+bool panel_sources_are_measured(const Panel *panel, Vec3 direction);

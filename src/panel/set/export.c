@@ -10,6 +10,7 @@
 #include "base/mathd.h"
 #include "base/units.h"
 #include "panel/query/panel_emission.h"
+#include "panel/query/panel_opened.h"
 #include "panel/query/panel_reflection.h"
 #include "panel/query/panel_report.h"
 #include "panel/set/polar_grid.h"
@@ -22,6 +23,7 @@ static const char *const primary_names[3] = {"red", "green", "blue"};
 
 typedef struct Export {
     const Panel         *panel;
+    const char          *prefix;        /* of its tables' names: "", "spot_1/" */
     const ExportOptions *options;
     SetWriter           *writer;        /* NULL: one table alone */
     bool                 is_white_only; /* fitted to a white table, without levels */
@@ -52,6 +54,12 @@ static bool write_table(Export *export, const char *name, const Text *text)
                              : text_write(text, name, export->err);
     progress_update(&export->progress, ++export->done);
     return ok;
+}
+
+/* A table's name beside the manifest. */
+static const char *named(Export *export, const char *name)
+{
+    return arena_format(&export->scratch, "%s%s", export->prefix, name);
 }
 
 /* ---- emission -------------------------------------------------------------------------- */
@@ -96,11 +104,13 @@ static bool write_all_emission(Export *export, json_t *manifest)
     json_t *emission = json_object();
     json_object_set_new(manifest, "emission", emission);
     if (export->is_white_only) {
-        json_object_set_new(emission, "white", json_string("emission/white.csv"));
-        return write_emission(export, (double[]){255, 255, 255}, "emission/white.csv");
+        const char *name = named(export, "emission/white.csv");
+        json_object_set_new(emission, "white", json_string(name));
+        return write_emission(export, (double[]){255, 255, 255}, name);
     }
-    json_object_set_new(emission, "black", json_string("emission/black.csv"));
-    bool ok = write_emission(export, (double[]){0, 0, 0}, "emission/black.csv");
+    const char *black = named(export, "emission/black.csv");
+    json_object_set_new(emission, "black", json_string(black));
+    bool ok = write_emission(export, (double[]){0, 0, 0}, black);
     for (int p = 0; p < 3 && ok; p++) {
         double  code[PANEL_INFO_LEVELS_MAX];
         json_t *levels = json_object();
@@ -108,8 +118,9 @@ static bool write_all_emission(Export *export, json_t *manifest)
         json_object_set_new(emission, primary_names[p], levels);
         for (int i = 0; i < count && ok; i++) {
             double rgb[3] = {0, 0, 0};
-            char   file[64], level[32];
-            snprintf(file, sizeof file, "emission/%s_%03g.csv", primary_names[p], code[i]);
+            char   table[64], level[32];
+            snprintf(table, sizeof table, "emission/%s_%03g.csv", primary_names[p], code[i]);
+            const char *file = named(export, table);
             snprintf(level, sizeof level, "%.10g", code[i]);
             rgb[p] = code[i];
             json_object_set_new(levels, level, json_string(file));
@@ -225,8 +236,8 @@ static bool write_all_brdf(Export *export, json_t *manifest)
     json_object_set_new(reflection, "incidence_deg", incidences);
     if (phis > 1) json_object_set(reflection, "incidence_phi_deg", azimuths);
     json_decref(azimuths);
-    json_object_set_new(reflection, "files", json_string(phis > 1
-        ? "brdf/i{incidence}_a{azimuth}.csv" : "brdf/i{incidence}.csv"));
+    json_object_set_new(reflection, "files", json_string(named(export, phis > 1
+        ? "brdf/i{incidence}_a{azimuth}.csv" : "brdf/i{incidence}.csv")));
     json_object_set_new(manifest, "reflection", reflection);
     if (fwhm > 0) json_object_set_new(manifest, "instrument_fwhm_deg", json_real(fwhm));
     for (int i = 0; i < thetas * phis && ok; i++) {
@@ -234,7 +245,7 @@ static bool write_all_brdf(Export *export, json_t *manifest)
         char  azimuth[32] = "", file[80];
         if (phis > 1) snprintf(azimuth, sizeof azimuth, "_a%.10g", light.phi_deg);
         snprintf(file, sizeof file, "brdf/i%.10g%s.csv", light.theta_deg, azimuth);
-        ok = write_brdf(export, &light, fwhm, file);
+        ok = write_brdf(export, &light, fwhm, named(export, file));
     }
     return ok;
 }
@@ -257,9 +268,6 @@ static bool add_names(Export *export, const char *name, json_t *manifest)
     static const char *const keys[] = {"panel", "instrument", "pixels", "size_mm"};
     json_t *report = NULL;
     if (!panel_report(export->panel, &report, export->err)) return false;
-    const json_t *emission = json_object_get(report, "emission");
-    export->is_white_only = json_is_true(json_object_get(emission, "white_only")) &&
-                            !json_is_true(json_object_get(emission, "levels_measured"));
     for (size_t i = 0; i < sizeof keys / sizeof *keys; i++) {
         json_t *value = json_object_get(report, keys[i]);
         bool    has_size = json_number_value(json_array_get(value, 0)) > 0;
@@ -273,22 +281,130 @@ static bool add_names(Export *export, const char *name, json_t *manifest)
     return true;
 }
 
+/* ---- places ------------------------------------------------------------------------------ */
+
+static bool is_white_only(const Panel *panel, bool *out, Error *err)
+{
+    json_t *report = NULL;
+    if (!panel_report(panel, &report, err)) return false;
+    const json_t *emission = json_object_get(report, "emission");
+    *out = json_is_true(json_object_get(emission, "white_only")) &&
+           !json_is_true(json_object_get(emission, "levels_measured"));
+    json_decref(report);
+    return true;
+}
+
+/* A panel's tables, named in an object of the manifest. */
+static bool write_parts(Export *export, bool emits, bool reflects, json_t *to)
+{
+    return (!emits || write_all_emission(export, to)) &&
+           (!reflects || write_all_brdf(export, to));
+}
+
+/* What belongs to the whole set though a spot's tables brought it. */
+static void lift(json_t *spot, const char *key, json_t *manifest)
+{
+    json_t *value = json_object_get(spot, key);
+    if (value) json_object_set(manifest, key, value);
+    json_object_del(spot, key);
+}
+
+/* Was it measured at this spot, or does the file's own panel only serve there? */
+static bool is_at_spot(const PanelPlaces *places, int spot, int panel)
+{
+    return panel > 0 || (places->ground.at[spot][0] == places->measured_at[0][0] &&
+                         places->ground.at[spot][1] == places->measured_at[0][1]);
+}
+
+static bool write_spot(Export *export, const Panel *whole, int spot, json_t *manifest)
+{
+    const PanelPlaces *places = whole->places;
+    const float *at = places->ground.at[spot];
+    int     panel[2] = {places->emission[spot], places->reflection[spot]};
+    json_t *list = json_object_get(manifest, "spots");
+    json_t *one = json_pack("{s:[f,f]}", "position", round((double)at[0] * 1e7) / 1e7,
+                            round((double)at[1] * 1e7) / 1e7);
+    bool    is_there = false, ok = true;
+    for (int k = 0; k < 2 && ok; k++) {
+        export->panel = places->panel[panel[k]];
+        bool has = k ? panel_reflects(export->panel) : panel_info_emits(export->panel);
+        bool is_own = is_at_spot(places, spot, panel[k]) || (k && !is_there);
+        if (!has || !is_own) continue;
+        is_there = true;
+        export->prefix = arena_format(&export->scratch, "spot_%d/", spot + 1);
+        ok = is_white_only(export->panel, &export->is_white_only, export->err) &&
+             write_parts(export, !k, k, one);
+    }
+    lift(one, "primaries", manifest);
+    lift(one, "instrument_fwhm_deg", manifest);
+    json_array_append_new(list, one);
+    export->panel = whole;
+    export->prefix = "";
+    return ok;
+}
+
+/* Does the file's own panel serve at a spot where it was not measured? */
+static bool serves_elsewhere(const PanelPlaces *places, const uint16_t *panel)
+{
+    for (int i = 0; i < places->spots; i++)
+        if (!is_at_spot(places, i, panel[i])) return true;
+    return !places->spots;
+}
+
+static bool write_map(Export *export, json_t *manifest)
+{
+    const PanelMap *map = export->panel->places->map;
+    Arena           arena = export->scratch;
+    Text            text = {.arena = &arena};
+    if (!map) return true;
+    text_format(&text, "# relative; the first row is the top\ncolumn,row,X,Y,Z%s\n",
+                map->has_black ? ",black_X,black_Y,black_Z" : "");
+    for (int i = 0; i < map->width * map->height; i++) {
+        text_format(&text, "%d,%d", i % map->width, i / map->width);
+        for (int k = 0; k < (map->has_black ? 6 : 3); k++)
+            text_format(&text, ",%.7g", (double)map->scale[k / 3][k % 3] *
+                                            (double)map->value[k / 3][k % 3][i]);
+        text_add(&text, "\n");
+    }
+    json_object_set_new(manifest, "uniformity", json_pack("{s:s}", "file", "uniformity.csv"));
+    return write_table(export, "uniformity.csv", &text);
+}
+
+static bool write_places(Export *export, json_t *manifest)
+{
+    const Panel       *panel = export->panel;
+    const PanelPlaces *places = panel->places;
+    bool emits = panel_info_emits(panel), reflects = panel_reflects(panel), ok;
+    ok = write_parts(export, emits && serves_elsewhere(places, places->emission),
+                     reflects && serves_elsewhere(places, places->reflection), manifest);
+    if (places->spots) json_object_set_new(manifest, "spots", json_array());
+    for (int i = 0; i < places->spots && ok; i++) ok = write_spot(export, panel, i, manifest);
+    return ok && write_map(export, manifest);
+}
+
+/* ---- the whole set ----------------------------------------------------------------------- */
+
 static int count_tables(const Panel *panel)
 {
     double number[PANEL_INFO_INCIDENCES_MAX], phi[PANEL_INFO_AZIMUTHS_MAX];
     int    count = 1 + panel_info_incidences(panel, number) * panel_info_azimuths(panel, phi);
     if (panel_info_emits(panel)) count += 2;
     for (int p = 0; p < 3; p++) count += panel_info_levels(panel, p, number);
+    for (int k = 1; panel->places && k < panel->places->panels; k++)
+        count += count_tables(panel->places->panel[k]);
     return count;
 }
 
 static bool write_set(Export *export, const char *name)
 {
     json_t *manifest = json_object();
-    add_polarisation(export->panel, manifest);
+    const Panel *panel = export->panel;
+    add_polarisation(panel, manifest);
     bool ok = add_names(export, name, manifest) &&
-              (!panel_info_emits(export->panel) || write_all_emission(export, manifest)) &&
-              (!panel_reflects(export->panel) || write_all_brdf(export, manifest)) &&
+              is_white_only(panel, &export->is_white_only, export->err) &&
+              (panel->places ? write_places(export, manifest)
+                             : write_parts(export, panel_info_emits(panel),
+                                           panel_reflects(panel), manifest)) &&
               set_writer_add_manifest(export->writer, manifest, 9);
     json_decref(manifest);
     progress_update(&export->progress, ++export->done);
@@ -319,7 +435,7 @@ bool panel_export(const Panel *panel, const char *name, const ExportOptions *opt
     bool ok = set_writer_open(arena_format(&arena, "%.*s/MANIFEST.json", (int)length, folder),
                               &writer, err);
     if (ok) {
-        Export export = {.panel = panel, .options = options, .writer = &writer,
+        Export export = {.panel = panel, .prefix = "", .options = options, .writer = &writer,
                          .scratch = arena, .err = err,
                          .progress = progress_start(options->progress, "export", "tables",
                                                     count_tables(panel))};
@@ -366,7 +482,7 @@ bool panel_export_table(const Panel *panel, const char *table, const ExportOptio
 {
     double rgb[3];
     Light  light;
-    Export export = {.panel = panel, .options = options,
+    Export export = {.panel = panel, .prefix = "", .options = options,
                      .scratch = arena_reserve((size_t)16 << 30), .err = err,
                      .progress = progress_start(options->progress, "export", "tables", 1)};
     bool   emits = panel_info_emits(panel), ok;

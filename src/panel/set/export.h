@@ -1,7 +1,8 @@
 /* export.h -- a panel's tables written back as a measurement set.
  *
  * MANIFEST.json, emission/ at every stored level and black, primaries.csv, brdf/ at the
- * measured incidences and wavelengths; `panel fit` reads it again. The numbers are what the
+ * measured incidences and wavelengths; of several spots in a folder for each, spot_1/ and on;
+ * a uniformity map as uniformity.csv; `panel fit` reads it again. The numbers are what the
  * panel answers, so within its stated bound of what was measured. The mirror part, a delta,
  * is drawn as an instrument of a stated width sees it; the manifest declares that width, and a
  * fit takes it out again.

@@ -3,7 +3,7 @@
 #include <math.h>
 
 #include "base/mathd.h"
-#include "panel/query/panel_levels.h"
+#include "panel/shape/panel_levels.h"
 
 #define LEVEL_STEP (1.0 / 256) /* of levels in a panel file */
 #define LEVEL_POWER 2.2f       /* of a single level, as in a panel file */

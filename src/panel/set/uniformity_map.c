@@ -64,15 +64,23 @@ static int exr_channel(const ExrPicture *picture, const char *begin, const char 
     return -1;
 }
 
-static bool exr_planes(const MapFile *file, const ExrPicture *picture, const char *begin,
-                       Arena *arena, MapPlanes *out, float **planes, Error *err)
+/* A picture, and where the planes of its channels go. */
+typedef struct MapPicture {
+    const ExrPicture *picture;
+    float           **plane; /* NULL: not read */
+    Arena            *arena;
+} MapPicture;
+
+static bool exr_planes(const MapFile *file, const MapPicture *exr, const char *begin,
+                       MapPlanes *out, Error *err)
 {
+    const ExrPicture *picture = exr->picture;
     bool has[3];
     for (int j = 0; j < 3; j++) has[j] = exr_channel(picture, begin, axes[j]) >= 0;
     if (!count_channels(file, begin, has, &out->channels, err)) return false;
     for (int k = 0; k < out->channels; k++) {
         int at = exr_channel(picture, begin, axes[out->channels == 3 ? k : 1]);
-        planes[at] = out->value[k] = ARENA_NEW(arena, float, pixels_of(file));
+        exr->plane[at] = out->value[k] = ARENA_NEW(exr->arena, float, pixels_of(file));
     }
     return true;
 }
@@ -83,11 +91,11 @@ static bool read_exr(MapFile *file, Arena *arena, Error *err)
     if (!exr_reader_open(file->path, &reader, err)) return error_in_file(err, file->path);
     const ExrPicture *picture = exr_reader_picture(reader);
     const ExrWindow  *data = &picture->data;
-    float **planes = ARENA_NEW(arena, float *, picture->channel_count);
+    MapPicture exr = {picture, ARENA_NEW(arena, float *, picture->channel_count), arena};
     bool ok = check_size(file, data->x1 - data->x0, data->y1 - data->y0, err) &&
-              exr_planes(file, picture, "", arena, &file->white, planes, err) &&
-              exr_planes(file, picture, "black.", arena, &file->black, planes, err);
-    if (ok && !exr_reader_read(reader, planes, err)) ok = error_in_file(err, file->path);
+              exr_planes(file, &exr, "", &file->white, err) &&
+              exr_planes(file, &exr, "black.", &file->black, err);
+    if (ok && !exr_reader_read(reader, exr.plane, err)) ok = error_in_file(err, file->path);
     exr_reader_destroy(reader);
     return ok;
 }

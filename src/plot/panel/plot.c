@@ -10,6 +10,7 @@
 #include "plot/panel/curve_charts.h"
 #include "plot/panel/emission_charts.h"
 #include "plot/panel/fit_charts.h"
+#include "plot/panel/place_charts.h"
 #include "plot/panel/reflection_charts.h"
 #include "plot/panel/sheet.h"
 
@@ -26,6 +27,7 @@ PanelChartList *plot_charts(const PlotData *data, PlotKind kind, Arena *arena)
     if (is_among(kind, PLOT_CHROMATICITY, PLOT_SPECTRA)) colour_charts_add(list, data);
     if (is_among(kind, PLOT_BRDF, PLOT_MIRROR)) reflection_charts_add(list, data);
     if (is_among(kind, PLOT_FIT, PLOT_FIT)) fit_charts_add(list, data);
+    if (is_among(kind, PLOT_UNIFORMITY, PLOT_UNIFORMITY)) place_charts_add(list, data);
     return list;
 }
 
@@ -71,6 +73,9 @@ static bool say_nothing_to_draw(const PlotData *s, PlotKind kind, Error *err)
     if (kind < PLOT_BRDF && !s->emits)
         return error_at(err, ERROR_INPUT, file, "", "has no emission data, wanted for --kind "
                         "%s; the panel only reflects", name);
+    if (kind == PLOT_UNIFORMITY)
+        return error_at(err, ERROR_INPUT, file, "", "is the same everywhere: its set had "
+                        "neither 'spots' nor 'uniformity'");
     if (kind == PLOT_CONTRAST)
         return error_at(err, ERROR_INPUT, file, "", "its black emits nothing, so there is no "
                         "contrast ratio to draw in the dark; --ambient LUX draws one in the "

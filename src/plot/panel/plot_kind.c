@@ -4,6 +4,6 @@ const char *plot_kind_name(PlotKind kind)
 {
     static const char *const NAMES[] = {"all", "luminance", "contrast", "colour-shift",
         "grey-levels", "sections", "chromaticity", "spectra", "brdf", "brdf-spectrum",
-        "brdf-map", "mirror", "fit"};
+        "brdf-map", "mirror", "fit", "uniformity"};
     return NAMES[kind];
 }

@@ -6,8 +6,8 @@
 #pragma once
 #include "base/vec.h"
 #include "panel/fit/emission/emission_rank.h"
-#include "panel/query/panel_beam.h"
-#include "panel/query/panel_spline.h"
+#include "panel/shape/panel_beam.h"
+#include "panel/shape/panel_spline.h"
 
 /* A beam as stored, and as it will be read again. */
 typedef struct EmissionBeam {

@@ -9,7 +9,7 @@
 #include "base/units.h"
 #include "panel/fit/common/least_squares.h"
 #include "panel/query/panel_components.h"
-#include "panel/query/panel_spline.h"
+#include "panel/shape/panel_spline.h"
 
 #define UNKNOWNS_MAX (PANEL_SPLINE_TERMS_MAX * PANEL_SPLINE_NUMBERS)
 #define TAPS_MAX (5 * PANEL_SPLINE_TERMS_MAX)

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "panel/query/panel_file.h"
-#include "panel/query/spectral_warp.h"
+#include "panel/shape/spectral_warp.h"
 
 #define STEPS 6
 

@@ -18,7 +18,7 @@
 #include "panel/fit/emission/emission_edges.h"
 #include "panel/fit/emission/emission_smooth.h"
 #include "panel/fit/emission/emission_values.h"
-#include "panel/query/panel_beam.h"
+#include "panel/shape/panel_beam.h"
 
 #define LEVEL_MOST 9
 #define ROUNDS 10

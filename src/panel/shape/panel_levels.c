@@ -1,4 +1,4 @@
-#include "panel/query/panel_levels.h"
+#include "panel/shape/panel_levels.h"
 
 /* d slope / d steepness of the intervals before and behind a node, at the mean curve. */
 typedef struct SlopeParts {

@@ -1,4 +1,4 @@
-#include "panel/query/panel_spline.h"
+#include "panel/shape/panel_spline.h"
 
 #include <math.h>
 #include <string.h>

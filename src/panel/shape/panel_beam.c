@@ -1,5 +1,5 @@
 /* Narrow beams of an emission as they are stored. */
-#include "panel/query/panel_beam.h"
+#include "panel/shape/panel_beam.h"
 
 #include <math.h>
 #include <string.h>

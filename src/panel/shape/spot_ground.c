@@ -1,5 +1,5 @@
 /* HOT: which measured places count at a place. No allocation and no libm in queries. */
-#include "panel/query/spot_ground.h"
+#include "panel/shape/spot_ground.h"
 
 #include <math.h>
 #include <string.h>

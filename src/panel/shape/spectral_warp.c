@@ -1,4 +1,4 @@
-#include "panel/query/spectral_warp.h"
+#include "panel/shape/spectral_warp.h"
 
 #include <math.h>
 #include <stdlib.h>
