@@ -24,7 +24,7 @@ const CoatingTables *coating_of_metal(const LayerStack *stack, const OpticalCons
 /* The boundary of an opaque body seen from outside: front alone, with its energies. */
 const CoatingTables *coating_of_face(const LayerStack *stack, double ior, Arena *arena);
 
-/* The boundary of a metal or, where that is NULL, of a body of index ior, for polarised light. */
+/* The boundary of a metal or, where that is NULL, of a body of index ior: polarised light. */
 const CoatingWaves *coating_waves(const LayerStack *stack, double ior,
                                   const OpticalConstants *metal, Arena *arena);
 

@@ -18,8 +18,8 @@
  *
  * The tables, their interpolation and their sampling are src/panel's. A panel without
  * reflection data reflects nothing. The mirror polarises as its cover does, glass of index 1.5,
- * bare or coated; haze and lambertian part send unpolarised light on. Not modelled: anisotropic sparkle, the change
- * of haze with the display's content.
+ * bare or coated; haze and lambertian part send unpolarised light on. Not modelled: anisotropic
+ * sparkle, the change of haze with the display's content.
  */
 #include "panel/query/panel_sampling.h"
 #include "shaders/display.h"
