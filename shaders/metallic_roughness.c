@@ -7,6 +7,8 @@
  *   metallic          0..1, default 1                0 plastic, 1 metal
  *   alpha             0..1, default 1                glTF's roughness squared; a perfect mirror
  *                                                    below 0.001
+ *   alpha_along       0..1, default none             brushed: alpha along the frame's x, then
+ *                                                    `alpha` is across it (KHR_..._anisotropy)
  *   energy->ior       1..2.5, glTF's default 1.5     of the non-metal; 0: reflects everything
  *   specular          0..1, default 1                weakens the non-metal's reflection
  *   specular_color    0 and up, default 1            tints it at normal incidence
@@ -38,6 +40,9 @@
  * the base is to one: f = across color / pi * in(wo) in(wi) / mean of in. Boundary and coat lie
  * on either side alike, so white paper, lacquered or not, returns what it gets; it passes
  * nothing straight.
+ * A brushed base has two alphas (brushed.h); what its facets send back in all is told by
+ * lobe_facets.h, so a white one, metal or plastic, returns what it gets within 0.2 % to 85
+ * degrees too. Under a coat it is within 2 %: the coat's tables know even bases alone.
  * A coating's reflectance (coating.h) stands in for Fresnel's and Schlick's curves in all of
  * this; with it, metals follow the exact curve of their n, k. What it absorbs is lost.
  *
@@ -45,7 +50,7 @@
  * n, k and by a coated face as their waves add up; another metal is taken for a perfect mirror,
  * a coated sheet for a bare one; what the base and further facets send is unpolarised.
  *
- * Not modelled: anisotropic brushing, sheen of velvet, subsurface spread,
+ * Not modelled: sheen of velvet, subsurface spread,
  * coloured absorption along a slanted path in the coat, turns of light between a coat and the
  * mirror of a non-metal (its few per cent go to the Lambert base) or a sheet, and between a
  * base and a coat whose normal is tilted; of a metal without n, k the exact curve (Schlick is
@@ -55,7 +60,8 @@
 
 #include "base/units.h"
 #include "spectrum/fresnel.h"
-#include "shaders/microfacet.h"
+#include "shaders/brushed.h"
+#include "shaders/lobe_facets.h"
 #include "shaders/polarisation.h"
 
 #define WIDE_ALPHA 0.15f  /* lobes of more than about ten degrees */
@@ -154,6 +160,90 @@ static inline Spectrum lambert_albedo(const MetallicRoughness *m)
     return m->across > 0 ? lambert_back(m) + lambert_across(m) : m->base_color;
 }
 
+/* ---- brushed: facets that lean further along x than along y ---------------------------- */
+
+static inline bool is_brushed(const MetallicRoughness *m)
+{
+    return m->alpha_along > 0;
+}
+
+static inline Vec2 alphas(const MetallicRoughness *m)
+{
+    return (Vec2){m->alpha_along, m->alpha};
+}
+
+static Energy energy_of_facets(const MetallicRoughness *m, const LobeFacets *facets)
+{
+    Energy e = {0, 0};
+    for (int i = 0; i < LOBE_FACETS; i++) {
+        e.all += facets->weight[i];
+        e.shape += facets->weight[i] * fresnel_shape(m->energy->ior, facet_cosine[i]);
+    }
+    return (Energy){clampf(e.all, 0, 1), clampf(e.shape, 0, 1)};
+}
+
+static Energy brushed_energy(const MetallicRoughness *m, Vec3 w)
+{
+    LobeFacets facets = lobe_facets(&common_facet_table, w, alphas(m));
+    return energy_of_facets(m, &facets);
+}
+
+static Energy brushed_average(const MetallicRoughness *m)
+{
+    LobeFacets facets = mean_facets(&common_facet_table, alphas(m));
+    return energy_of_facets(m, &facets);
+}
+
+/* What the base's facets send back along a direction above it, and on average. */
+static inline Energy base_energy(const MetallicRoughness *m, Vec3 w)
+{
+    return is_brushed(m) ? brushed_energy(m, w) : energy_directional(m->energy, w.z, m->alpha);
+}
+
+static inline Energy base_average(const MetallicRoughness *m)
+{
+    return is_brushed(m) ? brushed_average(m) : energy_average(m->energy, m->alpha);
+}
+
+/* The roughness of an even surface whose facets send back as much on average. */
+static float even_alpha(const MetallicRoughness *m)
+{
+    if (!is_brushed(m)) return m->alpha;
+    float wanted = brushed_average(m).all, low = SMOOTH_ALPHA, high = 1;
+    for (int step = 0; step < 12; step++) {
+        float middle = 0.5f * (low + high);
+        if (energy_average(m->energy, middle).all > wanted) low = middle;
+        else high = middle;
+    }
+    return low;
+}
+
+/* The roughness along a direction's own azimuth. */
+static float own_alpha(const MetallicRoughness *m, Vec3 w)
+{
+    if (!is_brushed(m)) return m->alpha;
+    float x = m->alpha_along * w.x, y = m->alpha * w.y, side2 = w.x * w.x + w.y * w.y;
+    return side2 > 1e-12f ? sqrtf((x * x + y * y) / side2) : m->alpha;
+}
+
+static inline float base_lobe(const MetallicRoughness *m, Vec3 wo, Vec3 wi, Vec3 half)
+{
+    return is_brushed(m) ? brushed_reflection(wo, wi, half, alphas(m)) :
+                           ggx_reflection(wo, wi, half, m->alpha);
+}
+
+static inline float base_lobe_pdf(const MetallicRoughness *m, Vec3 wo, Vec3 half)
+{
+    return is_brushed(m) ? brushed_reflection_pdf(wo, half, alphas(m)) :
+                           ggx_reflection_pdf(wo, half, m->alpha);
+}
+
+static inline Vec3 base_sample(const MetallicRoughness *m, Vec3 wo, float u0, float u1)
+{
+    return is_brushed(m) ? brushed_sample_reflection(wo, alphas(m), u0, u1) :
+                           ggx_sample_reflection(wo, m->alpha, u0, u1);
+}
+
 /* ---- coatings: tables in place of the curves ------------------------------------------- */
 
 static const CoatingTables *coated_metal(const MetallicRoughness *m)
@@ -177,14 +267,32 @@ static Spectrum sheet_at(const MetallicRoughness *m, float cosine)
     return coating_at(m->seen_from_back ? sheet->back : sheet->front, m->wavelengths, cosine);
 }
 
+static Spectrum coated_facets(const MetallicRoughness *m, LobeFacets facets)
+{
+    Spectrum all = spectrum_all(0);
+    for (int i = 0; i < LOBE_FACETS; i++)
+        all += coating_at(m->coating->face->front, m->wavelengths, facet_cosine[i]) *
+               spectrum_all(facets.weight[i]);
+    return spectrum_clamp(all, 0, 1);
+}
+
 /* What a coated face sends back in all. */
-static Spectrum coated_energy(const MetallicRoughness *m, float cosine)
+static Spectrum coated_energy(const MetallicRoughness *m, Vec3 w)
 {
     const CoatingTables *face = m->coating->face;
-    Spectrum all = is_smooth(m->alpha) ?
-                       coating_at(face->front, m->wavelengths, cosine) :
-                       coating_energy_at(face->energy, m->wavelengths, cosine, m->alpha);
+    Spectrum all = is_brushed(m) ?
+                       coated_facets(m, lobe_facets(&common_facet_table, w, alphas(m))) :
+                   is_smooth(m->alpha) ?
+                       coating_at(face->front, m->wavelengths, w.z) :
+                       coating_energy_at(face->energy, m->wavelengths, w.z, m->alpha);
     return all * spectrum_all(m->specular);
+}
+
+static Spectrum coated_average(const MetallicRoughness *m)
+{
+    if (is_brushed(m))
+        return coated_facets(m, mean_facets(&common_facet_table, alphas(m)));
+    return coating_energy_average(m->coating->face->energy, m->wavelengths, m->alpha);
 }
 
 static Spectrum coated_facet(const MetallicRoughness *m, float cosine)
@@ -198,12 +306,11 @@ static Spectrum coated_facet(const MetallicRoughness *m, float cosine)
 }
 
 /* Lambert under a coated face, as diffuse_eval. */
-static Spectrum under_coating(const View *view, Spectrum albedo, float cosine, float share)
+static Spectrum under_coating(const View *view, Spectrum albedo, Vec3 wi, float share)
 {
     const MetallicRoughness *m = view->m;
-    Spectrum one = spectrum_all(1), in = coated_energy(m, cosine);
-    Spectrum mean = coating_energy_average(m->coating->face->energy, m->wavelengths, m->alpha);
-    mean = one - mean * spectrum_all(m->specular);
+    Spectrum one = spectrum_all(1), in = coated_energy(m, wi);
+    Spectrum mean = one - coated_average(m) * spectrum_all(m->specular);
     return albedo * (one - view->coated) * (one - in) * spectrum_all(share * INV_PI_F) /
            spectrum_max(mean, spectrum_all(1e-3f));
 }
@@ -247,14 +354,14 @@ static Spectrum pane_transmittance(const MetallicRoughness *m, const Boundary *b
 }
 
 /* Lambert under the boundary: albedo / pi * in(wo) in(wi) / mean of in (Kelemen 2001). */
-static Spectrum diffuse_eval(const View *view, Spectrum albedo, float cosine, Energy in)
+static Spectrum diffuse_eval(const View *view, Spectrum albedo, Vec3 wi, Energy in)
 {
     const MetallicRoughness *m = view->m;
     const Boundary *b = &view->boundary;
     float share = (1 - m->metallic) * (1 - m->transmission);
     if (!(share > 0)) return spectrum_all(0);
-    if (coated_face(m)) return under_coating(view, albedo, cosine, share);
-    Spectrum mean = let_in(b, energy_average(m->energy, m->alpha));
+    if (coated_face(m)) return under_coating(view, albedo, wi, share);
+    Spectrum mean = let_in(b, base_average(m));
     return albedo * let_in(b, view->energy) * let_in(b, in) *
            spectrum_all(share * INV_PI_F) / spectrum_max(mean, spectrum_all(1e-3f));
 }
@@ -263,7 +370,7 @@ static Spectrum diffuse_eval(const View *view, Spectrum albedo, float cosine, En
  * the missing albedo on both sides (Kulla and Conty 2017): sr^-1, for reflectance 1. */
 static float rebound_lobe(const View *view, Energy in)
 {
-    float missing = 1 - energy_average(view->m->energy, view->m->alpha).all;
+    float missing = 1 - base_average(view->m).all;
     if (!(missing > 1e-6f)) return 0;
     return (1 - view->energy.all) * (1 - in.all) / missing * INV_PI_F;
 }
@@ -278,7 +385,7 @@ static Spectrum metal_mean(const MetallicRoughness *m)
 
 static Spectrum metal_rebound(const MetallicRoughness *m)
 {
-    float    mean = energy_average(m->energy, m->alpha).all;
+    float    mean = base_average(m).all;
     Spectrum one = spectrum_all(1), f = metal_mean(m);
     return f * f * spectrum_all(mean * m->metallic) / (one - f * spectrum_all(1 - mean));
 }
@@ -330,12 +437,64 @@ static float coat_albedo(const MetallicRoughness *m, Vec3 w)
            coat_reflectance(m->clearcoat_energy, coat_cosine(m, w), m->clearcoat_alpha);
 }
 
+static float ratio_of(float a, float b)
+{
+    return b > 1e-6f ? a / b : 1;
+}
+
+static CoatShare own_share(const MetallicRoughness *m, Vec3 w)
+{
+    return coat_share(m->coat, coat_cosine(m, w), own_alpha(m, w), m->clearcoat_alpha);
+}
+
+/* Mean of own_share's boost over the lobe of light from w, by a lattice of its facets. */
+static float mean_boost(const MetallicRoughness *m, Vec3 w)
+{
+    enum { POINTS = 16 };
+    float all = 0, sum = 0;
+    for (int i = 0; i < POINTS; i++) {
+        float turn = ((float)i + 0.5f) / POINTS, height = 0.618034f * ((float)i + 0.5f);
+        Vec3  wi = base_sample(m, w, turn, height - (float)(int)height);
+        if (!(wi.z > 0)) continue;
+        Vec3  half = vec3_normalize(vec3_add(w, wi));
+        float share = base_lobe(m, w, wi, half) * wi.z / base_lobe_pdf(m, w, half);
+        all += share;
+        sum += share * own_share(m, wi).boost;
+    }
+    return all > 0 ? sum / all : 0;
+}
+
+/* On a brushed base: the shares of an even one as rough as it is along the direction's azimuth,
+ * scaled to what the brushed one sends back; the boost by one more round of coat.h's scaling,
+ * over the brushed lobe. */
+static CoatShare brushed_share(const MetallicRoughness *m, Vec3 w, float open)
+{
+    CoatShare share = own_share(m, w);
+    Energy    brushed = brushed_energy(m, w);
+    Energy    even = energy_directional(m->energy, w.z, own_alpha(m, w));
+    float     mean = mean_boost(m, w);
+    share.all *= ratio_of(brushed.all, even.all);
+    share.shape *= ratio_of(brushed.shape, even.shape);
+    if (mean > 0) share.boost = fminf(sqrtf(share.boost * open / mean), 1);
+    return share;
+}
+
+static CoatMean base_coat_mean(const MetallicRoughness *m)
+{
+    CoatMean mean = coat_mean(m->coat, even_alpha(m), m->clearcoat_alpha);
+    if (is_brushed(m))
+        mean.shape *= ratio_of(brushed_average(m).shape,
+                               energy_average(m->energy, even_alpha(m)).shape);
+    return mean;
+}
+
 /* A tilted coat's turns are left out: the table knows no tilt. */
 static Through coat_through(const MetallicRoughness *m, Vec3 w)
 {
     float   cosine = coat_cosine(m, w);
-    Through t = {1 - coat_reflectance(m->clearcoat_energy, cosine, m->clearcoat_alpha),
-                 coat_share(m->coat, cosine, m->alpha, m->clearcoat_alpha)};
+    Through t = {.open = 1 - coat_reflectance(m->clearcoat_energy, cosine, m->clearcoat_alpha)};
+    t.share = is_brushed(m) ? brushed_share(m, w, t.open) :
+                              coat_share(m->coat, cosine, m->alpha, m->clearcoat_alpha);
     if (m->clearcoat_normal.z < COAT_UPRIGHT) t.share.boost = t.open;
     return t;
 }
@@ -492,13 +651,13 @@ static inline View view_from(const MetallicRoughness *m, Vec3 wo)
     view.m = m;
     view.wo = wo;
     view.boundary = boundary_of(m);
-    view.energy = energy_directional(m->energy, wo.z, m->alpha);
+    view.energy = base_energy(m, wo);
     view.coat = coat_albedo(m, wo);
     if (m->clearcoat > 0) {
         view.through = coat_through(m, wo);
-        view.coat_mean = coat_mean(m->coat, m->alpha, m->clearcoat_alpha);
+        view.coat_mean = base_coat_mean(m);
     }
-    if (coated_face(m)) view.coated = coated_energy(m, wo.z);
+    if (coated_face(m)) view.coated = coated_energy(m, wo);
     view.choices = choose(&view);
     return view;
 }
@@ -529,7 +688,7 @@ static Spectrum facet_lobe(const View *view, Vec3 wi, const Through *below)
     Spectrum facet = facet_below(view, vec3_dot(view->wo, half), NULL);
     if (m->clearcoat > 0)
         facet = covered(m, facet, facet_below(view, vec3_dot(view->wo, half), below));
-    return facet * spectrum_all(ggx_reflection(view->wo, wi, half, m->alpha));
+    return facet * spectrum_all(base_lobe(m, view->wo, wi, half));
 }
 
 /* The base seen from above: rough mirror, Lambert, rebound; and its part of the pdf. */
@@ -538,9 +697,9 @@ static Spectrum base_above(const View *view, Vec3 wi, float *pdf)
     const MetallicRoughness *m = view->m;
     bool     has_coat = m->clearcoat > 0;
     Through  below;
-    Energy   in = energy_directional(m->energy, wi.z, m->alpha);
+    Energy   in = base_energy(m, wi);
     Spectrum lambert = lambert_back(m);
-    Spectrum sum = diffuse_eval(view, lambert, wi.z, in) + rebound_above(view, in);
+    Spectrum sum = diffuse_eval(view, lambert, wi, in) + rebound_above(view, in);
     *pdf = view->choices.diffuse * wi.z * INV_PI_F;
     if (has_coat) {
         below = coat_through(m, wi);
@@ -550,7 +709,7 @@ static Spectrum base_above(const View *view, Vec3 wi, float *pdf)
     if (!is_smooth(m->alpha)) {
         Vec3 half = vec3_normalize(vec3_add(view->wo, wi));
         sum += facet_lobe(view, wi, &below);
-        *pdf += view->choices.mirror * ggx_reflection_pdf(view->wo, half, m->alpha);
+        *pdf += view->choices.mirror * base_lobe_pdf(m, view->wo, half);
     }
     return sum;
 }
@@ -564,13 +723,13 @@ static Spectrum base_below(const View *view, Vec3 wi, float *pdf)
     if (is_smooth(m->alpha) || !(m->transmission > 0)) return spectrum_all(0);
     Vec3   up = vec3(wi.x, wi.y, -wi.z);
     Vec3   half = vec3_normalize(vec3_add(view->wo, up));
-    Energy in = energy_directional(m->energy, up.z, m->alpha);
-    float  all = view->energy.all, lobe = ggx_reflection_pdf(view->wo, half, m->alpha);
+    Energy in = base_energy(m, up);
+    float  all = view->energy.all, lobe = base_lobe_pdf(m, view->wo, half);
     *pdf = view->choices.through * (all * lobe + (1 - all) * up.z * INV_PI_F);
     Spectrum straight = pane_transmittance(m, &view->boundary, vec3_dot(view->wo, half));
     Spectrum spread = pane_mean_through(view) * m->base_color *
                       spectrum_all((1 - m->metallic) * m->transmission);
-    return straight * spectrum_all(ggx_reflection(view->wo, up, half, m->alpha)) +
+    return straight * spectrum_all(base_lobe(m, view->wo, up, half)) +
            spread * spectrum_all(rebound_lobe(view, in));
 }
 
@@ -579,8 +738,8 @@ static Spectrum base_across(const View *view, Vec3 wi, float *pdf)
 {
     const MetallicRoughness *m = view->m;
     Vec3     up = vec3(wi.x, wi.y, -wi.z);
-    Energy   in = energy_directional(m->energy, up.z, m->alpha);
-    Spectrum lambert = lambert_across(m), sum = diffuse_eval(view, lambert, up.z, in);
+    Energy   in = base_energy(m, up);
+    Spectrum lambert = lambert_across(m), sum = diffuse_eval(view, lambert, up, in);
     *pdf += view->choices.across * up.z * INV_PI_F;
     if (!(m->clearcoat > 0)) return sum;
     Through below = coat_through(m, up);
@@ -668,7 +827,7 @@ static Spectrum model_glint(const void *parameters, Vec3 wo, Vec3 wi)
 {
     const MetallicRoughness *m = parameters;
     Through below;
-    bool    is_glint = !is_smooth(m->alpha) && m->alpha <= GLINT_ALPHA;
+    bool    is_glint = !is_smooth(m->alpha) && m->alpha <= GLINT_ALPHA && !is_brushed(m);
     if (!(wo.z > 0 && wi.z > 0 && is_glint)) return spectrum_all(0);
     View view = view_from(m, wo);
     if (m->clearcoat > 0) below = coat_through(m, wi);
@@ -724,11 +883,11 @@ static Vec3 sample_rough(const View *view, Part part, const float u[3])
         return frame_to_world(&frame,
                               ggx_sample_reflection(out, m->clearcoat_alpha, u[0], u[1]));
     }
-    if (part == PART_MIRROR) return ggx_sample_reflection(view->wo, m->alpha, u[0], u[1]);
+    if (part == PART_MIRROR) return base_sample(m, view->wo, u[0], u[1]);
     if (part == PART_DIFFUSE) return microfacet_cosine(u[0], u[1]);
     if (part == PART_ACROSS) return turned_over(microfacet_cosine(u[0], u[1]));
     bool by_facet = u[2] < view->energy.all;
-    Vec3 up = by_facet ? ggx_sample_reflection(view->wo, m->alpha, u[0], u[1])
+    Vec3 up = by_facet ? base_sample(m, view->wo, u[0], u[1])
                        : microfacet_cosine(u[0], u[1]);
     return turned_over(up);
 }
@@ -793,18 +952,19 @@ static void model_lobes(const void *parameters, Vec3 wo, BsdfLobes *lobes)
     lobe_shares(&view, &f0, &metal, &face);
     lobes->prob = view.choices.diffuse;
     lobes->diffuse = under * solid * (1 - m->transmission) * (1 - face) * base;
-    if (m->alpha < WIDE_ALPHA) return;
+    float alpha = is_brushed(m) ? sqrtf(m->alpha_along * m->alpha) : m->alpha;
+    if (alpha < WIDE_ALPHA) return;
     lobes->prob += view.choices.mirror;
     lobes->f0 = under * (solid * f0 + m->metallic * metal);
     lobes->f90 = under * (solid * m->specular + m->metallic);
-    lobes->alpha = m->alpha;
+    lobes->alpha = alpha;
 }
 
 /* The base's albedo by its shares: opaque, sheet, metal. */
 static void albedo_parts(const MetallicRoughness *m, Vec3 wo, Spectrum *solid, Spectrum *clear,
                          Spectrum *metal)
 {
-    Energy   e = energy_directional(m->energy, wo.z, m->alpha);
+    Energy   e = base_energy(m, wo);
     Boundary b = boundary_of(m);
     Spectrum one = spectrum_all(1), in = let_in(&b, e), base = m->base_color;
     Spectrum sheet = sheet_reflectance(one - in);
@@ -812,7 +972,7 @@ static void albedo_parts(const MetallicRoughness *m, Vec3 wo, Spectrum *solid, S
     if (coated_sheet(m))
         *clear = sheet_at(m, wo.z) +
                  coating_at(m->coating->sheet->through, m->wavelengths, wo.z) * base;
-    if (coated_face(m)) in = one - coated_energy(m, wo.z);
+    if (coated_face(m)) in = one - coated_energy(m, wo);
     *solid = (one - in) + in * lambert_albedo(m);
     *metal = base + (one - base) * spectrum_all(e.shape);
     if (coated_metal(m)) *metal = coating_at(m->coating->metal->front, m->wavelengths, wo.z);
@@ -828,7 +988,7 @@ static Spectrum model_albedo(const void *parameters, Vec3 wo)
     Spectrum mixed = dielectric + (metal - dielectric) * spectrum_all(m->metallic);
     if (!(m->clearcoat > 0)) return mixed;
     float    own = coat_albedo(m, wo) / m->clearcoat;
-    float    open = coat_mean(m->coat, m->alpha, m->clearcoat_alpha).open;
+    float    open = base_coat_mean(m).open;
     Spectrum coated = spectrum_all(own) + mixed * coat_turns(open, mixed) *
                       spectrum_all(1 - own);
     return covered(m, mixed, coated);

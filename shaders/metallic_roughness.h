@@ -15,6 +15,8 @@ typedef struct MetallicRoughness {
     Spectrum specular_color;   /* >= 0: multiplies the dielectric's F0 */
     float    metallic;         /* [0, 1] */
     float    alpha;            /* GGX, [0, 1]; below SMOOTH_ALPHA a perfect mirror */
+    float    alpha_along;      /* brushed: GGX along the frame's x, in [SMOOTH_ALPHA, 1]; then
+                                  alpha is that along y, in the same range. 0: alpha */
     float    specular;         /* [0, 1]: strength of the dielectric's reflection */
     float    transmission;     /* [0, 1]: share of the non-metal that is a thin clear sheet */
     float    clearcoat;        /* [0, 1]: share that carries a lacquer of CLEARCOAT_IOR */

@@ -1,9 +1,10 @@
-/* make_tables FILE -- writes, as C, the tables that common_tables.h and index_tables.h promise.
- * The build runs it once; every number is written exactly. */
+/* make_tables FILE -- writes, as C, the tables that common_tables.h, index_tables.h and
+ * lobe_facets.h promise. The build runs it once; every number is written exactly. */
 #include <stdio.h>
 
 #include "shaders/common_tables.h"
 #include "shaders/index_tables.h"
+#include "shaders/lobe_facets_build.h"
 #include "shaders/metallic_roughness.h"
 
 /* The program's usual ones stand here themselves: water 1.333, paint and lining 1.45, glTF's
@@ -58,9 +59,12 @@ int main(int count, char **names)
     const EnergyTable *energy = energy_table_build(CLEARCOAT_IOR, &arena);
     const CoatTable   *coat = coat_table_build(energy, energy, &arena);
     fprintf(file, "#include \"shaders/common_tables.h\"\n"
-                  "#include \"shaders/index_tables.h\"\n");
+                  "#include \"shaders/index_tables.h\"\n"
+                  "#include \"shaders/lobe_facets.h\"\n");
     write_table(file, "EnergyTable common_energy_table", energy, sizeof *energy);
     write_table(file, "CoatTable common_coat_table", coat, sizeof *coat);
+    write_table(file, "FacetTable common_facet_table", facet_table_build(&arena),
+                sizeof(FacetTable));
     write_shapes(file, &arena);
     arena_release(&arena);
     return fclose(file) == 0 ? 0 : 1;

@@ -19,7 +19,8 @@ static bool has_smooth_base(const Material *m)
 {
     if (m->is_solid && m->transmission > 0)
         return is_smooth_everywhere(m->roughness) && fabsf(m->ior - 1) > 1e-4f;
-    return is_smooth_everywhere(m->roughness) && (m->metallic > 0 || m->specular > 0);
+    return is_smooth_everywhere(m->roughness) && !m->brushing &&
+           (m->metallic > 0 || m->specular > 0);
 }
 
 static bool has_smooth_coat(const Material *m)
@@ -41,7 +42,7 @@ float mirrors_rough_alpha(const Material *m)
     float alpha = m->roughness * m->roughness;
     bool  reflects = m->metallic > 0 || m->specular > 0;
     bool  is_plain = m->normal_texture.texture_id == NO_ID && m->display_id == NO_ID &&
-                    !m->unlit && !(m->is_solid && m->transmission > 0);
+                    !m->unlit && !m->brushing && !(m->is_solid && m->transmission > 0);
     return reflects && is_plain && !is_smooth(alpha) && alpha <= GLINT_ALPHA ? alpha : 0;
 }
 

@@ -89,22 +89,33 @@ static Spectrum colour_spectrum(const Scene *scene, int curve_id, const float fa
 
 /* ---- shading normals -------------------------------------------------------------------- */
 
+/* The tangent of the vertices across a normal there, and the sense of the bitangent; false:
+ * they tell none. */
+static bool tangent_at(const Scene *scene, const Hit *hit, Vec3 n, Vec3 *along, float *side)
+{
+    const Tangent *tangents = scene_part(scene, hit->triangle)->tangents;
+    const float weight[3] = {1 - hit->u - hit->v, hit->u, hit->v};
+    if (!tangents) return false;
+    *along = vec3(0, 0, 0);
+    *side = 0;
+    for (int k = 0; k < 3; k++) {
+        const Tangent *corner = &tangents[scene_corner_place(scene, hit->triangle, k)];
+        *along = vec3_along(*along, corner->along, weight[k]);
+        *side += weight[k] * corner->side;
+    }
+    *along = vec3_normalize(vec3_along(*along, n, -vec3_dot(*along, n)));
+    return vec3_dot(*along, *along) > 0.5f;
+}
+
 /* The normal that a normal map gives, in the tangent frame of the vertices. */
 static Vec3 mapped_normal(const Scene *scene, const TextureSlot *slot, float scale,
                           const Hit *hit, const TrianglePoint *point)
 {
-    float texel[4], side = 0;
-    const Tangent *tangents = scene_part(scene, hit->triangle)->tangents;
-    if (!tangents || !read_data(scene, slot, point, texel)) return point->ns;
-    const float weight[3] = {1 - hit->u - hit->v, hit->u, hit->v};
-    Vec3 n = point->ns, along = vec3(0, 0, 0);
-    for (int k = 0; k < 3; k++) {
-        const Tangent *corner = &tangents[scene_corner_place(scene, hit->triangle, k)];
-        along = vec3_along(along, corner->along, weight[k]);
-        side += weight[k] * corner->side;
-    }
-    along = vec3_normalize(vec3_along(along, n, -vec3_dot(along, n)));
-    if (!(vec3_dot(along, along) > 0.5f)) return n;
+    float texel[4], side;
+    Vec3  n = point->ns, along;
+    if (slot->texture_id == NO_ID || !tangent_at(scene, hit, n, &along, &side) ||
+        !read_data(scene, slot, point, texel))
+        return n;
     Vec3 across = vec3_scale(vec3_cross(n, along), side < 0 ? -1.0f : 1.0f);
     Vec3 bent = vec3_along(vec3_scale(along, scale * (2 * texel[0] - 1)), across,
                            scale * (2 * texel[1] - 1));
@@ -205,6 +216,27 @@ static void set_across(const Site *site, const Surface *surface, MetallicRoughne
             m->diffuse_transmission_color[i] * (coloured ? texel[i] : white[i]);
 }
 
+/* Turns the surface's frame until x lies along the brushing. The facets that lie across it are
+ * the base's own; no brushed surface is a perfect mirror across its grooves. */
+static void set_brushing(const Site *site, Surface *surface, MetallicRoughness *model)
+{
+    const Brushing *b = site->material->brushing;
+    float texel[4] = {1, 0.5f, 1, 1}, side;
+    Vec3  tangent, n = surface->point.ns;
+    read_data(site->scene, &b->texture, &surface->point, texel);
+    float x = 2 * texel[0] - 1, y = 2 * texel[1] - 1, strength = b->strength * texel[2];
+    float along = x * b->cosine - y * b->sine, across = x * b->sine + y * b->cosine;
+    if (!(strength > 0) || !tangent_at(site->scene, site->hit, n, &tangent, &side)) return;
+    Vec3 bitangent = vec3_scale(vec3_cross(n, tangent), side < 0 ? -1.0f : 1.0f);
+    Vec3 z = surface->frame.z;
+    Vec3 turned = vec3_along(vec3_scale(tangent, along), bitangent, across);
+    turned = vec3_normalize(vec3_along(turned, z, -vec3_dot(turned, z)));
+    if (!(vec3_dot(turned, turned) > 0.5f)) return;
+    surface->frame = (Frame){turned, vec3_cross(z, turned), z};
+    model->alpha = fmaxf(model->alpha, SMOOTH_ALPHA);
+    model->alpha_along = lerpf(model->alpha, 1, strength * strength);
+}
+
 static const SurfaceCoating *coating_of(const Site *site, int material_id)
 {
     return site->tables->coatings ? site->tables->coatings[material_id] : NULL;
@@ -234,6 +266,7 @@ static void set_metallic_roughness(const Site *site, Surface *surface)
     model->specular_color = colour_spectrum(site->scene, m->specular_curve_id,
                                             m->specular_color, coloured ? texel : white,
                                             site->wavelengths);
+    if (m->brushing) set_brushing(site, surface, model);
     set_coat(site, surface, model);
     if (m->diffuse_transmission > 0) set_across(site, surface, model);
     model->coating = coating_of(site, surface->material_id);
@@ -297,7 +330,7 @@ static void set_bsdf(const Site *site, Surface *surface)
     if (m->is_solid && m->transmission > 0) {
         set_solid(site, surface);
     } else if (site->transmission >= 1 && site->metallic <= 0 && is_smooth(site->alpha) &&
-               m->clearcoat <= 0) {
+               m->clearcoat <= 0 && !m->brushing) {
         set_window(site, surface);
     } else {
         set_metallic_roughness(site, surface);

@@ -51,7 +51,7 @@ typedef struct Part {
     uint32_t first_vertex;
     /* Of its vertices, from first_vertex on: what nobody would ask for is NULL. */
     Vec3        *normals;  /* unit, world; outside kept outside under mirroring. NULL: flat */
-    Tangent     *tangents; /* of the file, or of the normal map's coordinates */
+    Tangent     *tangents; /* of the file, or of a texture's coordinates */
     Vec2        *uv[SCENE_UV_SETS]; /* NULL: all zero */
     VertexColor *colors;   /* NULL: white */
 } Part;
@@ -69,6 +69,13 @@ typedef struct TextureSlot {
 #define SCENE_MOST_W_M2 1e7
 
 typedef enum AlphaMode { ALPHA_OPAQUE, ALPHA_MASK, ALPHA_BLEND } AlphaMode;
+
+/* KHR_materials_anisotropy: rougher along a direction of the tangent frame than across it. */
+typedef struct Brushing {
+    float strength;     /* (0, 1] */
+    float cosine, sine; /* of the direction's turn from the tangent */
+    TextureSlot texture; /* RG direction, B strength */
+} Brushing;
 
 typedef struct Material {
     const char *name; /* "material N" where the file has none */
@@ -105,6 +112,7 @@ typedef struct Material {
                                   is transmission, or light goes in and out diffusely */
     float attenuation_color[3]; /* after attenuation_distance_m (infinite: none) */
     float attenuation_distance_m;
+    Brushing *brushing;        /* NULL: none */
     int   display_id;          /* NO_ID unless PARHELION_display */
     const Glazing *glazing;    /* NULL unless PARHELION_glazing */
     int   base_color_curve_id, specular_curve_id, transmission_curve_id, emission_curve_id;

@@ -170,6 +170,7 @@ static void add_coated_surfaces(void)
     add_coated("coated smooth sheet, mixed", 0.3f, 0, false, &frosted)->transmission = 1;
 }
 
+#include "khr_models.h"
 static int make_models(void **state)
 {
     (void)state;
@@ -186,6 +187,7 @@ static int make_models(void **state)
     add_translucents();
     add_lacquers();
     add_coated_surfaces();
+    add_brushed();
     return 0;
 }
 
@@ -270,7 +272,6 @@ TEST(shipped_displays_obey_the_same_laws)
     }
     if (!found) skip();
 }
-
 int main(void)
 {
     return run_cases(make_models, drop_models);

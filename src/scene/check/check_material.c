@@ -205,13 +205,25 @@ static bool has_wedge(const GltfValue *material)
 }
 
 /* Grooves and normal maps turn with the surface; only a normal map says how to find that. */
-static bool lacks_tangents(const GltfValue *material, const GltfValue *attributes)
+static void check_tangents(const DocumentCheck *check, const GltfValue *primitive,
+                           const GltfValue *material, const char *name)
 {
+    const GltfValue *attributes = tree_member(primitive, "attributes");
     const GltfValue *coat = tree_extension(material, "KHR_materials_clearcoat");
-    bool needs = tree_extension(material, "KHR_materials_anisotropy") ||
-                 tree_member(coat, "clearcoatNormalTexture");
-    bool has = tree_member(attributes, "TANGENT") && tree_member(attributes, "NORMAL");
-    return needs && !has && !tree_member(material, "normalTexture");
+    const GltfValue *brushed = tree_extension(material, "KHR_materials_anisotropy");
+    char uv[24];
+    if (!brushed && !tree_member(coat, "clearcoatNormalTexture")) return;
+    if (tree_member(attributes, "TANGENT") && tree_member(attributes, "NORMAL")) return;
+    if (tree_member(material, "normalTexture")) return;
+    const GltfValue *info = tree_member(brushed, "anisotropyTexture");
+    snprintf(uv, sizeof uv, "TEXCOORD_%d", info ? texcoord_of(info) : 0);
+    check_warns(check, primitive,
+                "the material \"%.80s\" needs tangents: there is neither TANGENT nor a normal "
+                "map to find them by%s",
+                name,
+                !brushed                       ? "" :
+                tree_member(attributes, uv)    ? ", its texture's coordinates are taken" :
+                                                 " nor texture coordinates, it is not brushed");
 }
 
 void check_material_fits(const DocumentCheck *check, const GltfValue *primitive)
@@ -235,9 +247,5 @@ void check_material_fits(const DocumentCheck *check, const GltfValue *primitive)
                     "the wedge of \"%.80s\" needs TEXCOORD_0, which is not there: it tells "
                     "where u and v grow",
                     name);
-    if (lacks_tangents(material, attributes))
-        check_warns(check, primitive,
-                    "the material \"%.80s\" needs tangents: there is neither TANGENT nor a "
-                    "normal map to find them by",
-                    name);
+    check_tangents(check, primitive, material, name);
 }

@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "base/mathd.h"
 #include "scene/gltf/document.h"
 #include "scene/load/coating.h"
 #include "scene/optics/curve_file.h"
@@ -99,6 +100,17 @@ static void read_diffuse_transmission(GltfFile *file, const GltfValue *across, M
         texture_slot(file, tree_member(across, "diffuseTransmissionColorTexture"));
 }
 
+static void read_anisotropy(GltfFile *file, const GltfValue *anisotropy, Material *m)
+{
+    float strength = tree_float(anisotropy, "anisotropyStrength", 0);
+    float turn = tree_float(anisotropy, "anisotropyRotation", 0);
+    if (!(strength > 0)) return;
+    m->brushing = ARENA_NEW(file->load->arena, Brushing, 1);
+    *m->brushing = (Brushing){
+        .strength = strength, .cosine = cos_of(turn), .sine = sin_of(turn),
+        .texture = texture_slot(file, tree_member(anisotropy, "anisotropyTexture"))};
+}
+
 static void read_volume(const GltfValue *volume, Material *m)
 {
     m->is_solid = tree_float(volume, "thicknessFactor", 0) > 0;
@@ -127,6 +139,7 @@ static void read_extensions(GltfFile *file, const GltfValue *value, Material *m)
         file, tree_extension(value, "KHR_materials_diffuse_transmission"), m);
     read_clearcoat(file, tree_extension(value, "KHR_materials_clearcoat"), m);
     read_volume(tree_extension(value, "KHR_materials_volume"), m);
+    read_anisotropy(file, tree_extension(value, "KHR_materials_anisotropy"), m);
 }
 
 static int read_curve(GltfFile *file, const GltfValue *uri, CurveRange range)

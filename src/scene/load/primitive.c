@@ -56,10 +56,15 @@ static float *attribute(GltfFile *file, const GltfValue *primitive, const float 
     return values;
 }
 
-static bool wants_tangents(const Material *material)
+static bool has_normal_map(const Material *material)
 {
     return material->normal_texture.texture_id != NO_ID ||
            material->clearcoat_normal_texture.texture_id != NO_ID;
+}
+
+static bool wants_tangents(const Material *material)
+{
+    return has_normal_map(material) || material->brushing;
 }
 
 static VertexColor *read_colors(GltfFile *file, const GltfValue *primitive,
@@ -312,10 +317,11 @@ static void finish_shading(PartDraft *draft, const Material *material, Arena *sc
     const TextureSlot *slot = &material->normal_texture;
     if (!wants_tangents(material) || draft->part.tangents) return;
     if (slot->texture_id == NO_ID) slot = &material->clearcoat_normal_texture;
+    if (slot->texture_id == NO_ID) slot = &material->brushing->texture;
     if (!draft->part.normals) draft_flat_normals(draft, scratch);
     if (draft->part.uv[slot->uv_set])
         draft_tangents(draft, slot, scratch);
-    else
+    else if (has_normal_map(material))
         draft_any_tangents(draft, scratch);
 }
 

@@ -50,18 +50,18 @@ TextureSlot texture_slot(GltfFile *file, const GltfValue *info)
 
 /* ---- which uv sets does a material need? ----------------------------------------------- */
 
-#define MATERIAL_SLOTS 12
+#define MATERIAL_SLOTS 13
 
-/* All slots of a material but a display's content. */
+/* All slots of a material but a display's content; NULL: it has none such. */
 static void slots_of(Material *m, TextureSlot *slots[MATERIAL_SLOTS])
 {
     TextureSlot *all[] = {&m->base_color_texture, &m->metallic_roughness_texture,
                           &m->normal_texture, &m->emissive_texture, &m->specular_texture,
                           &m->specular_color_texture, &m->transmission_texture,
                           &m->clearcoat_texture, &m->clearcoat_roughness_texture,
-                          &m->clearcoat_normal_texture,
-                          &m->diffuse_transmission_texture,
-                          &m->diffuse_transmission_color_texture};
+                          &m->clearcoat_normal_texture, &m->diffuse_transmission_texture,
+                          &m->diffuse_transmission_color_texture,
+                          m->brushing ? &m->brushing->texture : NULL};
     memcpy(slots, all, sizeof all);
 }
 
@@ -119,7 +119,8 @@ void texture_slots_used(const Loader *load, const Material *material,
     slots_of(&copy, slots);
     uses_set[0] = true;
     uses_set[1] = false;
-    for (int i = 0; i < MATERIAL_SLOTS; i++) uses_set[1] |= slots[i]->uv_set == 1;
+    for (int i = 0; i < MATERIAL_SLOTS; i++)
+        uses_set[1] |= slots[i] && slots[i]->uv_set == 1;
     if (material->display_id == NO_ID) return;
     const Display *display = list_item(&load->displays, material->display_id);
     uses_set[1] |= display->content.uv_set == 1;

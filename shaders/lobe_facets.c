@@ -1,0 +1,85 @@
+#include "shaders/lobe_facets.h"
+
+#include "shaders/energy.h"
+#include "shaders/microfacet.h"
+
+const float facet_cosine[LOBE_FACETS] = {0.00960736f, 0.08426519f, 0.22221488f, 0.40245484f,
+                                         0.59754516f, 0.77778512f, 0.91573481f, 0.99039264f};
+
+/* ---- the axes of the table -------------------------------------------------------------- */
+
+/* Of alphas far below 1 only ratios matter: of the two, and of the cosine to the alpha along
+ * the direction's own azimuth (Heitz 2014: G depends on nothing else), `own` below. So the
+ * axes are the fourth roots of the greater alpha and of the ratio; the root of own from the
+ * lesser (0) to the greater (1); and facet_axis. */
+typedef struct FacetKnot {
+    int   first;
+    float share[4];
+} FacetKnot;
+
+typedef struct FacetPlace {
+    FacetKnot alpha, ratio, azimuth, cosine;
+} FacetPlace;
+
+/* Lagrange's cubic through four neighbours. */
+static FacetKnot knot_of(float share, int count)
+{
+    float place = clampf(share, 0, 1) * (float)(count - 1);
+    int   first = (int)place - 1;
+    if (first < 0) first = 0;
+    if (first > count - 4) first = count - 4;
+    float a = place - (float)first, b = a - 1, c = a - 2, d = a - 3;
+    return (FacetKnot){first, {b * c * d * (-1.0f / 6), a * c * d * 0.5f, a * b * d * -0.5f,
+                               a * b * c * (1.0f / 6)}};
+}
+
+static FacetKnot root_knot(float value, int count)
+{
+    return knot_of((sqrtf(sqrtf(value)) - FACET_LEAST) / (1 - FACET_LEAST), count);
+}
+
+static FacetPlace place_of(Vec3 w, Vec2 alpha)
+{
+    FacetPlace place;
+    float      x = alpha.x * w.x, y = alpha.y * w.y, side2 = w.x * w.x + w.y * w.y;
+    float      high = fmaxf(alpha.x, alpha.y), low = fminf(alpha.x, alpha.y);
+    float      own = side2 > 1e-12f ? sqrtf((x * x + y * y) / side2) : high;
+    float      turn = high > low ? safe_sqrtf((own - low) / (high - low)) : 0;
+    place.alpha = root_knot(high, FACET_ALPHAS);
+    place.ratio = root_knot(low / high, FACET_RATIOS);
+    place.azimuth = knot_of(turn, FACET_AZIMUTHS);
+    place.cosine = knot_of(facet_axis(w.z, own), FACET_COSINES);
+    return place;
+}
+
+/* ---- looking up ------------------------------------------------------------------------- */
+
+static void add_facets(LobeFacets *sum, const LobeFacets *row, float share)
+{
+    for (int i = 0; i < LOBE_FACETS; i++) sum->weight[i] += share * row->weight[i];
+}
+
+LobeFacets lobe_facets(const FacetTable *table, Vec3 w, Vec2 alpha)
+{
+    FacetPlace p = place_of(w, alpha);
+    LobeFacets sum = {{0}};
+    for (int i = 0; i < 64; i++) {
+        int   a = i & 3, r = i >> 2 & 3, t = i >> 4;
+        float share = p.alpha.share[a] * p.ratio.share[r] * p.azimuth.share[t];
+        const LobeFacets *row = &table->lobe[p.alpha.first + a][p.ratio.first + r]
+                                            [p.azimuth.first + t][p.cosine.first];
+        for (int c = 0; c < 4; c++) add_facets(&sum, &row[c], share * p.cosine.share[c]);
+    }
+    return sum;
+}
+
+LobeFacets mean_facets(const FacetTable *table, Vec2 alpha)
+{
+    LobeFacets sum = {{0}};
+    float      high = fmaxf(alpha.x, alpha.y), low = fminf(alpha.x, alpha.y);
+    FacetKnot  a = root_knot(high, MEAN_ALPHAS), r = root_knot(low / high, MEAN_RATIOS);
+    for (int i = 0; i < 16; i++)
+        add_facets(&sum, &table->mean[a.first + (i & 3)][r.first + (i >> 2)],
+                   a.share[i & 3] * r.share[i >> 2]);
+    return sum;
+}
