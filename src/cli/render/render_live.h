@@ -2,8 +2,10 @@
  * keeps it in a file. Neither changes the frame, and a render never ends because of them.
  *
  * Time     between passes and tiles; how often, follows from what it took so far: a viewer gets
- *          a hundredth of the time, half of it for the first and the last frame, which cannot
- *          be put off; the file is written at most every ten seconds and gets a twentieth.
+ *          half a hundredth of the time besides the first and the last frame, which cannot be
+ *          put off: of renders of minutes they take as much again, of those of seconds with
+ *          many layers three hundredths. The file is written at most every ten seconds and
+ *          gets a twentieth.
  *          viewer.h says how long a viewer may hold up the ends of a render.
  * Memory   scratch; and the viewer's queue until render_live_close.
  * Threads  the one that called render_prepared.
