@@ -423,6 +423,30 @@ static void add_emitted(PathWalk *walk, const Surface *surface, const Hit *hit, 
            surface->part_id);
 }
 
+/* ---- solids -------------------------------------------------------------------------------- */
+
+/* Beer's law inside a solid: the material's colour is what is left after its distance. */
+static void absorb(const PathWalk *walk, int medium_id, float distance, Spectrum *light)
+{
+    const Material *m = &walk->context->scene->materials[medium_id];
+    if (!isfinite(m->attenuation_distance_m)) return;
+    Spectrum left = spectrum_from_rgb(walk->wavelengths, m->attenuation_color);
+    for (int i = 0; i < SPECTRUM_LANES; i++)
+        (*light)[i] *= pow_f(left[i], distance / m->attenuation_distance_m);
+}
+
+/* A translucent solid takes its part of what a lamp inside sends to its boundary. */
+static void absorb_sample(const PathWalk *walk, const Surface *surface,
+                          const LightSample *light, Spectrum *passed)
+{
+    if (surface->bsdf.kind != BSDF_METALLIC_ROUGHNESS ||
+        !(surface->bsdf.metallic_roughness.across > 0) || !isfinite(light->distance))
+        return;
+    const Material *m = &walk->context->scene->materials[surface->material_id];
+    if (material_is_translucent_solid(m) && vec3_dot(light->wi, surface->ng) < 0)
+        absorb(walk, surface->material_id, light->distance, passed);
+}
+
 /* ---- light samples ---------------------------------------------------------------------- */
 
 typedef struct ShadowQuestion {
@@ -588,6 +612,7 @@ static void add_arriving(PathWalk *walk, const Surface *surface, Vec3 wo, const 
     const PathContext *context = walk->context;
     Spectrum passed = visibility(walk, surface, light);
     if (spectrum_is_zero(passed)) return;
+    absorb_sample(walk, surface, light, &passed);
     Vec3 local_wi = frame_to_local(&surface->frame, light->wi);
     Vec3 local_wo = frame_to_local(&surface->frame, wo);
     lead_weigh_light(lead, context->lights, lit_point(walk, surface), light);
@@ -820,16 +845,6 @@ static void go_on_behind(PathWalk *walk, const Surface *surface)
         walk->ray.origin = behind_pane(walk, surface);
 }
 
-/* Beer's law inside a solid: the material's colour is what is left after its distance. */
-static void absorb(PathWalk *walk, float distance)
-{
-    const Material *m = &walk->context->scene->materials[walk->medium_id];
-    if (!isfinite(m->attenuation_distance_m)) return;
-    Spectrum left = spectrum_from_rgb(walk->wavelengths, m->attenuation_color);
-    for (int i = 0; i < SPECTRUM_LANES; i++)
-        walk->throughput[i] *= pow_f(left[i], distance / m->attenuation_distance_m);
-}
-
 /* Ends dim paths; what survives is made stronger, so that the mean stays (Arvo and Kirk 1990).
  * The square root spares the light that reaches shadows by way of dark leather. Measured over
  * both cockpits, a guided path is worth more than that: what it finds costs little beside the
@@ -963,7 +978,7 @@ static bool next_hit(PathWalk *walk, Hit *hit)
     *(walk->bounce ? &walk->statistics->bounce_rays : &walk->statistics->camera_rays) += 1;
     if (!bvh_intersect(context->bvh, walk->ray, walk->sheets_from, hit)) return false;
     walk->straight += hit->t;
-    if (walk->medium_id != NO_ID) absorb(walk, hit->t);
+    if (walk->medium_id != NO_ID) absorb(walk, walk->medium_id, hit->t, &walk->throughput);
     sheets_none(stack);
     if (!bvh_has_sheets(context->bvh) || hit->t < walk->sheets_from) return true;
     sheets_at(context->scene, context->bvh, hit, walk->ray.direction, stack);

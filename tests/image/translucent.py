@@ -159,6 +159,35 @@ def check_solid(report, eye):
                  f"an opal ball shows {found:.5f} of the sky, wanted {wanted:.5f}")
 
 
+def check_lamp_inside(report, eye):
+    """Through the wall of that ball goes what a lamp in its middle sends there: by the light
+    sample and by chance, less what the way absorbs."""
+    radius, r, a = 0.8, 0.2, math.log(2)
+    for name in ("point", "ball"):
+        scene = Scene()
+        opal = scene.material("opal", {
+            **across(1, (1, 1, 1)), "KHR_materials_specular": {"specularFactor": 0},
+            "KHR_materials_volume": {"thicknessFactor": 1, "attenuationDistance": 1,
+                                     "attenuationColor": [0.5] * 3}},
+            pbrMetallicRoughness={"metallicFactor": 0})
+        scene.sphere(opal, [0, 0, 0], radius, rings=64)
+        if name == "point":
+            scene.light("point", 1000, position=[0, 0, 0])
+            wanted = 1000 * math.exp(-a * radius) / radius ** 2
+        else:
+            scene.sphere(scene.emitter(10000), [0, 0, 0], r, rings=64)
+            edge, wanted, count = r / radius, 0, 2000
+            for i in range(count):  # over the sine's square: cos sin d angle = d sin^2 / 2
+                s2 = edge ** 2 * (i + 0.5) / count
+                way = radius * math.sqrt(1 - s2) - math.sqrt(r * r - radius ** 2 * s2)
+                wanted += math.pi * 10000 * math.exp(-a * way) * edge ** 2 / count
+        scene.probe("eye", [0, 0, 3], [0, 0, -1], 0.3)
+        found = eye.luminance(scene, 256, "--max-bounces", "2")
+        report.claim(abs(found * math.pi / wanted - 1) < 0.005,
+                     f"a {name} in an opal ball: {found:.3f} cd/m2, wanted "
+                     f"{wanted / math.pi:.3f}")
+
+
 # ---- textures ------------------------------------------------------------------------------
 
 def linear(code):
@@ -249,6 +278,7 @@ def main():
         check_sky(report, eye)
         check_furnace(report, eye)
         check_solid(report, eye)
+        check_lamp_inside(report, eye)
         check_textures(report, eye)
         check_faults(report, program, folder)
     return report.finish()
