@@ -423,7 +423,7 @@ static void add_emitted(PathWalk *walk, const Surface *surface, const Hit *hit, 
            surface->part_id);
 }
 
-/* ---- solids -------------------------------------------------------------------------------- */
+/* ---- solids ----------------------------------------------------------------------------- */
 
 /* Beer's law inside a solid: the material's colour is what is left after its distance. */
 static void absorb(const PathWalk *walk, int medium_id, float distance, Spectrum *light)
