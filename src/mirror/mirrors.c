@@ -149,19 +149,20 @@ static void ask_patch(const MirrorPatch *patch, const Asking *asking)
     }
 }
 
-void mirrors_find(const Mirrors *mirrors, const MirrorQuery *query, MirrorFound *found,
-                  void *user)
+uint32_t mirrors_find(const Mirrors *mirrors, const MirrorQuery *query, MirrorFound *found,
+                      void *user)
 {
-    uint32_t stack[STACK], depth = 1;
+    uint32_t stack[STACK], depth = 1, taken = 0;
     Asking   asking = {.query = query, .found = found, .user = user};
     stack[0] = mirrors->roots[mirror_root(query->part_id, query->is_rough)];
-    if (stack[0] == MIRROR_NO_TREE) return;
+    if (stack[0] == MIRROR_NO_TREE) return 0;
     if (query->is_rough) {
         asking.lean = sqrtf(query->u.x / (1 - query->u.x));
         sincos_turns(query->u.y, &asking.direction.y, &asking.direction.x);
     }
     while (depth) {
         const MirrorNode *node = &mirrors->nodes[stack[--depth]];
+        taken++;
         if (!may_reflect(node, &asking)) continue;
         if (node->children) {
             stack[depth++] = node->children + 1;
@@ -170,4 +171,5 @@ void mirrors_find(const Mirrors *mirrors, const MirrorQuery *query, MirrorFound 
             ask_patch(&mirrors->patches[node->patch], &asking);
         }
     }
+    return taken;
 }

@@ -35,6 +35,7 @@ typedef struct MirrorQuery {
 typedef void MirrorFound(void *user, uint32_t triangle, const ReflectionPoint *point);
 
 /* All points of the part's mirrors that turn light from `towards` to the point, in an order
- * that the scene alone decides. What stands between is not asked. */
-void mirrors_find(const Mirrors *mirrors, const MirrorQuery *query, MirrorFound *found,
-                  void *user);
+ * that the scene alone decides. What stands between is not asked. Returns how many nodes of
+ * the tree it took. */
+uint32_t mirrors_find(const Mirrors *mirrors, const MirrorQuery *query, MirrorFound *found,
+                      void *user);
