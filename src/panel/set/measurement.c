@@ -432,6 +432,16 @@ static bool check_apart(const JsonView *view, const MeasuredSpot *spot, int inde
     return true;
 }
 
+/* Does any of the manifest's spots have this part? */
+static bool spots_have(const JsonView *root, const char *key)
+{
+    size_t  i;
+    json_t *spot;
+    json_array_foreach(json_object_get(root->object, "spots"), i, spot)
+        if (json_object_get(spot, key)) return true;
+    return false;
+}
+
 static bool read_spots(const JsonView *root, Measurement *out, Error *err)
 {
     json_t *list = json_object_get(root->object, "spots"), *spot;
@@ -442,10 +452,8 @@ static bool read_spots(const JsonView *root, Measurement *out, Error *err)
         return error_at(err, ERROR_INPUT, root->file, json_view_path(root, "spots"),
                         "holds %zu spots, wanted 1 to %d", count, MEASUREMENT_SPOTS_MAX);
     out->spot = ARENA_NEW(root->arena, MeasuredSpot, count);
-    json_array_foreach(list, i, spot) {
-        out->spots_emit |= json_object_get(spot, "emission") != NULL;
-        out->spots_reflect |= json_object_get(spot, "reflection") != NULL;
-    }
+    out->spots_emit = spots_have(root, "emission");
+    out->spots_reflect = spots_have(root, "reflection");
     json_array_foreach(list, i, spot) {
         JsonView view = *root;
         view.object = spot;
@@ -497,7 +505,7 @@ static bool read_polarisation(const JsonView *root, Measurement *out, Error *err
         if (!json_object_get(view.object, keys[i]))
             return error_at(err, ERROR_INPUT, view.file, view.path, "key '%s' is missing",
                             keys[i]);
-    if (!json_object_get(root->object, "emission") && !out->spots_emit)
+    if (!json_object_get(root->object, "emission") && !spots_have(root, "emission"))
         return error_at(err, ERROR_INPUT, view.file, view.path, "says how the emitted light is "
                         "polarised, but the set has no 'emission'");
     azimuth = fmod(azimuth, 180);
@@ -523,8 +531,8 @@ static bool read_members(const JsonView *root, Measurement *out, Error *err)
                            out->size_mm, &two, err) &&
         json_view_number(root, "instrument_fwhm_deg", 0.05, 15, &out->instrument_fwhm_deg,
                          err) &&
-        read_emission(root, out, err) && read_reflection(root, out, err) &&
-        read_spots(root, out, err) && read_polarisation(root, out, err) &&
+        read_polarisation(root, out, err) && read_emission(root, out, err) &&
+        read_reflection(root, out, err) && read_spots(root, out, err) &&
         read_map(root, out, err);
     if (!ok || !primaries) return ok;
     out->has_spectra = json_view_file(root, "primaries", primaries, &primaries, err) &&
