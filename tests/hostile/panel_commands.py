@@ -174,6 +174,79 @@ def check_polarisation(report, commands, panel):
           "/polarisation/degree", "0 to 1")
 
 
+def write_json(path, document):
+    with open(path, "w") as out:
+        json.dump(document, out)
+    return path
+
+
+def check_places(report, commands, panel):
+    """A simulated display that is not even: fitted, asked by place, shown, drawn, exported; and
+    what a damaged one says."""
+    with open(RECIPE) as file:
+        recipe = json.load(file)
+    recipe["emission"]["levels"] = [255]
+    del recipe["reflection"]
+    recipe["places"] = {"u": [0.1, 0.9, 0.1, 0.9], "v": [0.1, 0.1, 0.9, 0.9],
+                        "map": [64, 32], "mura": 0.05, "mura_cycles": [2, 1],
+                        "slope": [0.3, -0.2], "clouding": 0.5}
+    source = write_json(commands.file("places.json"), recipe)
+    folder, path = commands.file("places"), panel + ".places"
+    commands.text("simulate", source, "-o", folder, "--noise", "off", "--grid", "22x36",
+                  "--quiet")
+    commands.text("fit", os.path.join(folder, "MANIFEST.json"), "-o", path, "--quiet")
+    for at in ("0.31,0.79", "0.5,0.5", "0.02,0.95"):
+        ask = ("--at", at, "--json")
+        found = json.loads(commands.text("eval", path, "--theta", "30", "--phi", "50", "--rgb",
+                                         "255,255,255", *ask))
+        truth = json.loads(commands.text("simulate", source, "--truth", "30,50,255,255,255",
+                                         *ask))
+        report.claim(found["position"] == [float(x) for x in at.split(",")] and all(
+            abs(a / b - 1) < 0.006 for a, b in zip(found["XYZ"], truth["XYZ"])),
+            f"at {at}: {found['XYZ']}, truth {truth['XYZ']}")
+    info = json.loads(commands.text("info", path, "--json"))
+    places = info["display"]["places"]
+    report.claim([[round(x, 6) for x in spot] for spot in places["spots"]] ==
+                 [[0.1, 0.1], [0.9, 0.1], [0.1, 0.9], [0.9, 0.9]]
+                 and places["map"] == [64, 32] and len(info["spots"]) == 3
+                 and len(places["white"]["nine_cd_m2"]) == 9
+                 and 0.1 < places["white"]["nine_non_uniformity"] < 0.5,
+                 f"info says {places}")
+    report.claim("non-uniformity" in commands.text("info", path), "info as text has no figures")
+    for name in ("u.svg", "u.png"):
+        drawn = json.loads(commands.text("plot", path, "--kind", "uniformity", "-o",
+                                         commands.file(name), "--json"))
+        report.claim(drawn["picture"]["figures"] == 3, f"{name} has {drawn}")
+    fails(report, commands.run("plot", panel, "--kind", "uniformity", "-o",
+                               commands.file("none.svg")), 3, "the same everywhere")
+    fails(report, commands.run("eval", path, "--theta", "0", "--rgb", "1,1,1", "--at", "0,2"),
+          2, "--at")
+    commands.text("export", path, "-o", commands.file("places_out"), "--theta-step", "8",
+                  "--phi-step", "20", "--quiet")
+    report.claim(sorted(os.listdir(commands.file("places_out"))) == [
+        "MANIFEST.json", "primaries.csv", "spot_1", "spot_2", "spot_3", "spot_4",
+        "uniformity.csv"], "the export of places")
+    manifest = os.path.join(folder, "MANIFEST.json")
+    with open(manifest) as file:
+        good = json.load(file)
+    for key, value, words in ((("spots", 1, "position"), [0.1, 0.1], ("/spots/1", "spot 0")),
+                              (("spots", 1, "position"), [0, 1.1], ("/position", "1.1")),
+                              (("spots", 2, "emission"), None, ("/spots/2", "emission")),
+                              (("uniformity", "file"), "gone.exr", ("gone.exr",)),
+                              (("uniformity", "black"), "uniformity.csv", ("black",))):
+        document = json.loads(json.dumps(good))
+        inner = document
+        for name in key[:-1]:
+            inner = inner[name]
+        inner[key[-1]] = value
+        if value is None:
+            del inner[key[-1]]
+        write_json(manifest, document)
+        fails(report, commands.run("fit", manifest, "-o", commands.file("no.panel"), "--quiet"),
+              3, *words)
+    report.claim(not os.path.exists(commands.file("no.panel")), "a refused set left a panel")
+
+
 def lambertian_set(commands, name, reflectance):
     """A reflection alone, the same at every angle."""
     folder = commands.file(name)
@@ -356,8 +429,8 @@ def main():
             check_other_build(report, commands, Commands(options.against, folder))
             report.finish()
         panel = commands.make("small.panel")
-        for check in (check_grids, check_batch, check_export, check_polarisation, check_verdict,
-                      check_display, check_plot_numbers):
+        for check in (check_grids, check_batch, check_export, check_places,
+                      check_polarisation, check_verdict, check_display, check_plot_numbers):
             try:
                 check(report, commands, panel)
             except (ValueError, KeyError, IndexError) as error:

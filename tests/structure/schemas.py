@@ -82,7 +82,10 @@ DECLARATION = {"delimiter": "semicolon", "decimal": "comma", "azimuth_zero": "to
 WRONG_RECIPES = [("emission/red/peaks_nm", []), ("emission/red/peaks_nm", None),
                  ("emission/green", None), ("emission/gama", 2.2), ("emission/gamma", 9),
                  ("instrument/theta_step_deg", 20), ("reflection/haze_share", 1.5),
-                 ("emission/levels", [300]), ("panel", 7), ("emission", None)]
+                 ("emission/levels", [300]), ("panel", 7), ("emission", None),
+                 ("places", {}), ("places", {"u": [0.5]}), ("places", {"u": [2], "v": [0]}),
+                 ("places", {"map": [4]}), ("places", {"map": [4, 4], "bend_deg": 160}),
+                 ("places", {"map": [4, 4], "murra": 1})]
 WRONG_DECLARATIONS = [("delimiter", "pipe"), ("azimuth_zero", "north"), ("azimut_zero", "top"),
                       ("level_max", 0), ("skip", "log_*"), ("isotropic", "yes"),
                       ("symmetry", "round"), ("wavelength_nm", 200), ("levels", 7)]
@@ -96,7 +99,19 @@ WRONG_MANIFESTS = [("emission/black", None), ("emission/red", {}), ("emission/re
                    ("polarisation", {"degree": "1", "azimuth_deg": 0}),
                    ("polarisation", {"degree": 1, "azimuth_deg": 400}),
                    ("polarisation", {"degree": 1}), ("polarisation", {"azimuth_deg": 1}),
-                   ("polarisation", {"degree": 1, "azimuth_deg": 0, "circular": 1})]
+                   ("polarisation", {"degree": 1, "azimuth_deg": 0, "circular": 1}),
+                   ("spots", []), ("spots", {}), ("spots", [{"position": [0, 0]}]),
+                   ("spots", [{"emission": {"white": "emission/black.csv"}}]),
+                   ("spots", [{"position": [0, 1.5],
+                               "emission": {"white": "emission/black.csv"}}]),
+                   ("spots", [{"position": [0], "emission": {"white": "emission/black.csv"}}]),
+                   ("spots", [{"position": [0, 0], "emission": {}}]),
+                   ("spots", [{"position": [0, 0], "place": 1,
+                               "emission": {"white": "emission/black.csv"}}]),
+                   ("uniformity", {}), ("uniformity", "map.csv"), ("uniformity", {"file": 3}),
+                   ("uniformity", {"file": "map.csv", "bend_deg": 180}),
+                   ("uniformity", {"file": "map.csv", "camera_mm": 1}),
+                   ("uniformity", {"file": "map.csv", "white": "map.csv"})]
 WRONG_PROFILES = [("title", None), ("title", ""), ("limit", []), ("veil", "yes"),
                   ("ambient", None), ("ambient/night_below_lx", -1),
                   ("ambient/dusk_below_lx", 3), ("limits", None), ("limits", {}),
