@@ -172,14 +172,25 @@ static int make_planes(const UniformityMap *map, Arena *arena, MapPlane plane[6]
     return count;
 }
 
-static float pack_plane(const double *value, size_t pixels, uint16_t *out)
+static double most_of(const double *value, size_t pixels)
 {
     double most = 0;
     for (size_t i = 0; i < pixels; i++) most = fmax(most, value[i]);
-    float scale = (float)(most / 65535);
+    return most;
+}
+
+/* Only ratios count: the largest number of white, and of black, becomes 1. */
+static float pack_plane(const MapPlane *plane, int planes, int index, size_t pixels,
+                        uint16_t *out)
+{
+    const double *value = plane[index].value;
+    double most = most_of(value, pixels), whole = 0;
+    for (int k = 0; k < planes; k++)
+        if (plane[k].is_black == plane[index].is_black)
+            whole = fmax(whole, most_of(plane[k].value, pixels));
     for (size_t i = 0; i < pixels; i++)
-        out[i] = (uint16_t)fmin(65535, floor(value[i] / (double)scale + 0.5));
-    return scale;
+        out[i] = (uint16_t)fmin(65535, floor(65535 * (value[i] / most) + 0.5));
+    return (float)(most / whole / 65535);
 }
 
 static bool is_lit_at(const UniformityMap *map, const MapPlane *plane, int planes,
@@ -234,8 +245,12 @@ bool fit_places_add_map(const Measurement *set, const Panel *panel, Arena *arena
                            .white_channels = (uint8_t)map->white_channels,
                            .black_channels = (uint8_t)map->black_channels};
     uint16_t      *values = (uint16_t *)(void *)(bytes + sizeof head);
-    for (int k = 0; k < planes; k++)
-        head.scale[k] = pack_plane(plane[k].value, pixels, values + (size_t)k * pixels);
+    for (int k = 0; k < planes; k++) {
+        head.scale[k] = pack_plane(plane, planes, k, pixels, values + (size_t)k * pixels);
+        if (!(head.scale[k] > PANEL_MAP_LEAST_SCALE))
+            return error_at(err, ERROR_INPUT, map->file, "", "has next to no %c beside its "
+                            "other channels", "XYZ"[plane[k].axis]);
+    }
     memcpy(bytes, &head, sizeof head);
     places->map = bytes;
     places->map_size = size;

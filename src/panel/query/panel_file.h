@@ -170,6 +170,7 @@ typedef struct PanelMapHead {
     float    scale[6]; /* of white's channels, then black's; behind them 0 */
 } PanelMapHead;
 #define PANEL_MAP_SIDE_MAX 8192
+#define PANEL_MAP_LEAST_SCALE 1e-20f
 
 #define PANEL_TABLES_MAX 1152 /* incidences times azimuths */
 #define PANEL_AZIMUTHS_MAX 72

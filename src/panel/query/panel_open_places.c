@@ -98,7 +98,7 @@ static bool check_map(const PanelBytes *bytes, const PanelMapHead *head, size_t 
         (black != 0 && black != 1 && black != 3))
         return panel_refuse(bytes, "map", "a number is out of range");
     for (int i = 0; i < white + black; i++)
-        if (!(head->scale[i] > 0 && head->scale[i] < 1e12f))
+        if (!(head->scale[i] > PANEL_MAP_LEAST_SCALE && head->scale[i] <= 1))
             return panel_refuse(bytes, "map", "a scale is out of range");
     size_t values = (size_t)head->width * head->height * (size_t)(white + black);
     return size == sizeof *head + values * sizeof(uint16_t) ||
