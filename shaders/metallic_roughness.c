@@ -17,6 +17,8 @@
  *                                                    the other side, of albedo across_color:
  *                                                    paper 0.4, a lampshade or leaf 0.5
  *   clearcoat, clearcoat_alpha, clearcoat_normal     a lacquer of index 1.5; default none
+ *   film              a clear film of some 100 nm on the share `share` of metal and non-metal
+ *                     (KHR_materials_iridescence)
  *   coating           a stack of thin layers (PARHELION_coating) or a metal of measured n, k
  *                     (PARHELION_spectrum): its own reflectance at every angle and wavelength
  *
@@ -45,6 +47,12 @@
  * degrees too. Under a coat it is within 2 %: the coat's tables know even bases alone.
  * A coating's reflectance (coating.h) stands in for Fresnel's and Schlick's curves in all of
  * this; with it, metals follow the exact curve of their n, k. What it absorbs is lost.
+ *
+ * A film (clear_film.h) does so at each wavelength, on a body that absorbs nothing and has the
+ * base's reflectance at normal incidence: of the non-metal exact, of a metal approximate unless
+ * its n, k are given. Energies of rough filmed faces are told by lobe_facets.h, to 0.2 %; under
+ * a coat the film's curve is taken for even over what the coat holds back, and white plastic is
+ * within 1.5 %.
  *
  * Polarised light is followed by facets and coat as glass of their index has it, by a metal of
  * n, k and by a coated face as their waves add up; another metal is taken for a perfect mirror,
@@ -94,6 +102,7 @@ typedef struct View {
     CoatMean coat_mean;
     Spectrum coated;  /* what a coated face sends back towards wo; undefined without one */
     Choices  choices;
+    Spectrum film[LOBE_FACETS]; /* faces' reflectance at facet_cosine; undefined without one */
 } View;
 
 MetallicRoughness metallic_roughness_default(const EnergyTable *energy)
@@ -125,10 +134,46 @@ static float fresnel_shape(float ior, float cosine)
     return (fresnel_unpolarised(cosine, ior) - f0) / (1 - f0);
 }
 
+static inline bool has_film(const MetallicRoughness *m)
+{
+    return m->film.share > 0;
+}
+
+/* The bare and the filmed reflectance by the film's share. */
+static Spectrum mix_film(const MetallicRoughness *m, Spectrum bare, Spectrum filmed)
+{
+    return bare + (filmed - bare) * spectrum_all(m->film.share);
+}
+
+static Spectrum filmed_face(const MetallicRoughness *m, Spectrum bare, float cosine)
+{
+    float    f0 = m->energy->ior >= 1 ? fresnel_normal(m->energy->ior) : 1.0f;
+    Spectrum tinted = spectrum_min(m->specular_color * spectrum_all(f0), spectrum_all(1));
+    Spectrum n = clear_film_body(tinted);
+    Spectrum film = clear_film_at(&m->film, m->wavelengths, cosine, n, spectrum_all(0));
+    return mix_film(m, bare, film * spectrum_all(m->specular));
+}
+
+static Spectrum filmed_metal(const MetallicRoughness *m, Spectrum bare, float cosine)
+{
+    const OpticalConstants *metal = m->film.metal;
+    Spectrum n, k = spectrum_all(0);
+    if (metal) k = curve_lookup(&metal->k, m->wavelengths);
+    n = metal ? curve_lookup(&metal->n, m->wavelengths) : clear_film_body(m->base_color);
+    return mix_film(m, bare, clear_film_at(&m->film, m->wavelengths, cosine, n, k));
+}
+
+static inline Spectrum bare_reflectance(const MetallicRoughness *m, const Boundary *b,
+                                        float cosine)
+{
+    return b->f0 + b->rise * spectrum_all(fresnel_shape(m->energy->ior, cosine));
+}
+
 static inline Spectrum boundary_reflectance(const MetallicRoughness *m, const Boundary *b,
                                             float cosine)
 {
-    return b->f0 + b->rise * spectrum_all(fresnel_shape(m->energy->ior, cosine));
+    Spectrum bare = bare_reflectance(m, b, cosine);
+    return has_film(m) ? filmed_face(m, bare, cosine) : bare;
 }
 
 static inline Spectrum sheet_reflectance(Spectrum face)
@@ -305,6 +350,45 @@ static Spectrum coated_facet(const MetallicRoughness *m, float cosine)
     return sum * spectrum_all(1 - m->metallic);
 }
 
+/* ---- films: each facet's curve is asked where lobe_facets.h says ------------------------ */
+
+static Spectrum sum_of_facets(const Spectrum at[LOBE_FACETS], LobeFacets facets)
+{
+    Spectrum sum = spectrum_all(0);
+    for (int i = 0; i < LOBE_FACETS; i++) sum += at[i] * spectrum_all(facets.weight[i]);
+    return spectrum_clamp(sum, 0, 1);
+}
+
+static Vec2 facet_alphas(const MetallicRoughness *m)
+{
+    return is_brushed(m) ? alphas(m) : (Vec2){m->alpha, m->alpha};
+}
+
+/* What a filmed face sends back in all. */
+static Spectrum filmed_energy(const View *view, Vec3 w)
+{
+    const MetallicRoughness *m = view->m;
+    if (is_smooth(m->alpha)) return boundary_reflectance(m, &view->boundary, w.z);
+    return sum_of_facets(view->film, lobe_facets(&common_facet_table, w, facet_alphas(m)));
+}
+
+/* Of light from everywhere; a smooth face's is that of its narrowest lobe. */
+static Spectrum filmed_average(const View *view, float alpha)
+{
+    Vec2 both = facet_alphas(view->m);
+    if (is_smooth(alpha)) both = (Vec2){SMOOTH_ALPHA, SMOOTH_ALPHA};
+    return sum_of_facets(view->film, mean_facets(&common_facet_table, both));
+}
+
+/* Lambert under a filmed face, as diffuse_eval. */
+static Spectrum under_film(const View *view, Spectrum albedo, Vec3 wi, float share)
+{
+    const MetallicRoughness *m = view->m;
+    Spectrum one = spectrum_all(1), mean = one - filmed_average(view, m->alpha);
+    return albedo * (one - view->coated) * (one - filmed_energy(view, wi)) *
+           spectrum_all(share * INV_PI_F) / spectrum_max(mean, spectrum_all(1e-3f));
+}
+
 /* Lambert under a coated face, as diffuse_eval. */
 static Spectrum under_coating(const View *view, Spectrum albedo, Vec3 wi, float share)
 {
@@ -333,13 +417,18 @@ static Spectrum facet_of_nonmetal(const MetallicRoughness *m, const Boundary *b,
     return face * spectrum_all(1 - m->metallic);
 }
 
+static Spectrum metal_at(const MetallicRoughness *m, float cosine)
+{
+    Spectrum bare = coated_metal(m) ?
+                        coating_at(m->coating->metal->front, m->wavelengths, cosine) :
+                        fresnel_schlick(m->base_color, cosine);
+    return has_film(m) ? filmed_metal(m, bare, cosine) : bare;
+}
+
 static Spectrum facet_of_metal(const MetallicRoughness *m, float cosine)
 {
     if (!(m->metallic > 0)) return spectrum_all(0);
-    if (coated_metal(m))
-        return coating_at(m->coating->metal->front, m->wavelengths, cosine) *
-               spectrum_all(m->metallic);
-    return fresnel_schlick(m->base_color, cosine) * spectrum_all(m->metallic);
+    return metal_at(m, cosine) * spectrum_all(m->metallic);
 }
 
 /* What the sheet's share lets through a facet met at `cosine`. */
@@ -361,6 +450,7 @@ static Spectrum diffuse_eval(const View *view, Spectrum albedo, Vec3 wi, Energy 
     float share = (1 - m->metallic) * (1 - m->transmission);
     if (!(share > 0)) return spectrum_all(0);
     if (coated_face(m)) return under_coating(view, albedo, wi, share);
+    if (has_film(m)) return under_film(view, albedo, wi, share);
     Spectrum mean = let_in(b, base_average(m));
     return albedo * let_in(b, view->energy) * let_in(b, in) *
            spectrum_all(share * INV_PI_F) / spectrum_max(mean, spectrum_all(1e-3f));
@@ -375,10 +465,19 @@ static float rebound_lobe(const View *view, Energy in)
     return (1 - view->energy.all) * (1 - in.all) / missing * INV_PI_F;
 }
 
+static Spectrum filmed_metal_mean(const MetallicRoughness *m)
+{
+    Spectrum at[LOBE_FACETS];
+    for (int i = 0; i < LOBE_FACETS; i++) at[i] = metal_at(m, facet_cosine[i]);
+    return sum_of_facets(at, mean_facets(&common_facet_table,
+                                         (Vec2){SMOOTH_ALPHA, SMOOTH_ALPHA}));
+}
+
 /* Of a metal every further bounce takes its mean reflectance; the mean of Schlick's curve over
  * the hemisphere is f0 + (1 - f0) / 21. */
 static Spectrum metal_mean(const MetallicRoughness *m)
 {
+    if (has_film(m)) return filmed_metal_mean(m);
     if (coated_metal(m)) return curve_lookup(&m->coating->metal->front_mean, m->wavelengths);
     return m->base_color + (spectrum_all(1) - m->base_color) * spectrum_all(1.0f / 21);
 }
@@ -396,6 +495,7 @@ static Spectrum pane_mean(const View *view)
     const Boundary *b = &view->boundary;
     if (coated_sheet(view->m)) /* of either side: they differ by what the coating absorbs */
         return curve_lookup(&view->m->coating->sheet->front_mean, view->m->wavelengths);
+    if (has_film(view->m)) return sheet_reflectance(filmed_average(view, 0));
     float shape = energy_average(view->m->energy, 0).shape;
     return sheet_reflectance(b->f0 + b->rise * spectrum_all(shape));
 }
@@ -522,13 +622,48 @@ static inline Spectrum let_in_coated(const Boundary *b, Energy e, const Through 
            spectrum_all(t->open);
 }
 
-static Spectrum coated_diffuse(const View *view, Spectrum albedo, Energy in,
+/* Of a film the curve is taken for even over what the coat holds back. */
+static Spectrum film_let_out(Spectrum energy, Energy e, const Through *t)
+{
+    float out = e.all > 0 ? 1 - t->share.all / e.all : 1;
+    return (spectrum_all(1) - energy * spectrum_all(out)) * spectrum_all(t->open);
+}
+
+static Spectrum film_enters(const View *view, Vec3 w)
+{
+    Through t = coat_through(view->m, w);
+    return film_let_out(filmed_energy(view, w), base_energy(view->m, w), &t);
+}
+
+/* Mean over the hemisphere, weighted by the cosine, by the values at facet_cosine. */
+static Spectrum film_enters_on_average(const View *view)
+{
+    LobeFacets even = mean_facets(&common_facet_table, (Vec2){SMOOTH_ALPHA, SMOOTH_ALPHA});
+    Spectrum   sum = spectrum_all(0);
+    for (int i = 0; i < LOBE_FACETS; i++) {
+        float z = facet_cosine[i], side = safe_sqrtf(0.5f * (1 - z * z));
+        sum += film_enters(view, vec3(side, side, z)) * spectrum_all(even.weight[i]);
+    }
+    return sum;
+}
+
+static Spectrum coated_under_film(const View *view, Vec3 wi, Energy in, const Through *below)
+{
+    return film_let_out(view->coated, view->energy, &view->through) *
+           film_let_out(filmed_energy(view, wi), in, below) /
+           spectrum_max(film_enters_on_average(view), spectrum_all(1e-3f));
+}
+
+static Spectrum coated_diffuse(const View *view, Spectrum albedo, Vec3 wi, Energy in,
                                const Through *below)
 {
     const MetallicRoughness *m = view->m;
     const Boundary *b = &view->boundary;
     float    share = (1 - m->metallic) * (1 - m->transmission);
     if (!(share > 0)) return spectrum_all(0);
+    if (has_film(m))
+        return albedo * coat_turns(view->coat_mean.open, lambert_albedo(m)) *
+               coated_under_film(view, wi, in, below) * spectrum_all(share * INV_PI_F);
     Spectrum mean = spectrum_all(view->coat_mean.open) -
                     b->f0 * spectrum_all(view->coat_mean.all) -
                     b->rise * spectrum_all(view->coat_mean.shape);
@@ -602,7 +737,7 @@ static Choices choose_coated(const View *view, float coat)
     float facets = spectrum_mean(facet_of_nonmetal(m, &view->boundary, z));
     float metal = m->metallic > 0 ? spectrum_mean(facet_of_metal(m, z)) : 0;
     float through = clear > 0 ? spectrum_mean(pane_transmittance(m, &view->boundary, z)) : 0;
-    float face = coated_face(m) ? spectrum_mean(view->coated) :
+    float face = coated_face(m) || has_film(m) ? spectrum_mean(view->coated) :
                  spectrum_mean(spectrum_all(1) - let_in(&view->boundary, view->energy));
     return scaled_to_one((Choices){
         .coat = coat,
@@ -619,7 +754,7 @@ static inline Choices choose(const View *view)
 {
     const MetallicRoughness *m = view->m;
     Energy e = view->energy;
-    if (m->coating) {
+    if (m->coating || has_film(m)) {
         float above = vec3_dot(m->clearcoat_normal, view->wo);
         return choose_coated(view, above > 0 ? view->coat : 0);
     }
@@ -645,6 +780,15 @@ static inline Choices choose(const View *view)
     return scaled_to_one(c);
 }
 
+static void set_film(View *view)
+{
+    view->coated = spectrum_all(0);
+    if (!(view->m->metallic < 1)) return;
+    for (int i = 0; i < LOBE_FACETS; i++)
+        view->film[i] = boundary_reflectance(view->m, &view->boundary, facet_cosine[i]);
+    view->coated = filmed_energy(view, view->wo);
+}
+
 static inline View view_from(const MetallicRoughness *m, Vec3 wo)
 {
     View view;
@@ -658,6 +802,7 @@ static inline View view_from(const MetallicRoughness *m, Vec3 wo)
         view.coat_mean = base_coat_mean(m);
     }
     if (coated_face(m)) view.coated = coated_energy(m, wo);
+    if (has_film(m)) set_film(&view);
     view.choices = choose(&view);
     return view;
 }
@@ -703,7 +848,7 @@ static Spectrum base_above(const View *view, Vec3 wi, float *pdf)
     *pdf = view->choices.diffuse * wi.z * INV_PI_F;
     if (has_coat) {
         below = coat_through(m, wi);
-        sum = covered(m, sum, coated_diffuse(view, lambert, in, &below) +
+        sum = covered(m, sum, coated_diffuse(view, lambert, wi, in, &below) +
                                   coated_rebound(view, in, &below));
     }
     if (!is_smooth(m->alpha)) {
@@ -743,7 +888,7 @@ static Spectrum base_across(const View *view, Vec3 wi, float *pdf)
     *pdf += view->choices.across * up.z * INV_PI_F;
     if (!(m->clearcoat > 0)) return sum;
     Through below = coat_through(m, up);
-    return covered(m, sum, coated_diffuse(view, lambert, in, &below));
+    return covered(m, sum, coated_diffuse(view, lambert, up, in, &below));
 }
 
 static Spectrum eval_view(const View *view, Vec3 wi, float *pdf)
@@ -973,9 +1118,15 @@ static void albedo_parts(const MetallicRoughness *m, Vec3 wo, Spectrum *solid, S
         *clear = sheet_at(m, wo.z) +
                  coating_at(m->coating->sheet->through, m->wavelengths, wo.z) * base;
     if (coated_face(m)) in = one - coated_energy(m, wo);
+    if (has_film(m)) {
+        View view = view_from(m, wo);
+        in = one - view.coated;
+        sheet = sheet_reflectance(view.coated);
+        *clear = sheet + (one - sheet) * base;
+    }
     *solid = (one - in) + in * lambert_albedo(m);
     *metal = base + (one - base) * spectrum_all(e.shape);
-    if (coated_metal(m)) *metal = coating_at(m->coating->metal->front, m->wavelengths, wo.z);
+    if (coated_metal(m) || has_film(m)) *metal = metal_at(m, wo.z);
 }
 
 static Spectrum model_albedo(const void *parameters, Vec3 wo)

@@ -6,6 +6,7 @@
 #include "shaders/bsdf_model.h"
 #include "shaders/coat.h"
 #include "shaders/coating.h"
+#include "shaders/clear_film.h"
 
 #define CLEARCOAT_IOR 1.5f /* glTF's */
 
@@ -26,7 +27,8 @@ typedef struct MetallicRoughness {
     const EnergyTable *clearcoat_energy; /* of CLEARCOAT_IOR; NULL: clearcoat is 0 */
     const CoatTable   *coat;             /* of both; likewise */
     const SurfaceCoating *coating;       /* what reflects in place of the colours; NULL: none */
-    const Wavelengths    *wavelengths;   /* NULL where coating is and across is 0 */
+    const Wavelengths    *wavelengths;   /* NULL where coating is, without film and across */
+    ThinFilm film;        /* where coating does not tell; share 0: none */
     bool  seen_from_back;                /* of a coated sheet */
     float across;          /* [0, 1]: share of diffuse light that leaves on the other side */
     float across_color[3]; /* its albedo, linear Rec.709, [0, 1]; wants wavelengths */

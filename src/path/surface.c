@@ -248,6 +248,22 @@ static bool is_front(const Surface *surface)
     return vec3_dot(surface->frame.z, surface->ng) > 0;
 }
 
+/* A coating stands in for the film. */
+static void set_film(const Site *site, const Surface *surface, MetallicRoughness *model)
+{
+    const Iridescence *film = site->material->iridescence;
+    const TrianglePoint *point = &surface->point;
+    float texel[4] = {1, 1, 1, 1}, thickness_nm;
+    if (site->material->coating) return;
+    read_data(site->scene, &film->thickness_texture, point, texel);
+    thickness_nm = lerpf(film->least_nm, film->most_nm, texel[1]);
+    if (!(thickness_nm > 0)) return;
+    float share = scaled(site->scene, film->share, &film->texture, point, 0);
+    model->film = (ThinFilm){.share = share, .ior = film->ior, .thickness_nm = thickness_nm,
+                             .metal = site->material->conductor};
+    model->wavelengths = site->wavelengths;
+}
+
 static void set_metallic_roughness(const Site *site, Surface *surface)
 {
     static const float white[3] = {1, 1, 1};
@@ -267,6 +283,7 @@ static void set_metallic_roughness(const Site *site, Surface *surface)
                                             m->specular_color, coloured ? texel : white,
                                             site->wavelengths);
     if (m->brushing) set_brushing(site, surface, model);
+    if (m->iridescence) set_film(site, surface, model);
     set_coat(site, surface, model);
     if (m->diffuse_transmission > 0) set_across(site, surface, model);
     model->coating = coating_of(site, surface->material_id);
@@ -330,7 +347,7 @@ static void set_bsdf(const Site *site, Surface *surface)
     if (m->is_solid && m->transmission > 0) {
         set_solid(site, surface);
     } else if (site->transmission >= 1 && site->metallic <= 0 && is_smooth(site->alpha) &&
-               m->clearcoat <= 0 && !m->brushing) {
+               m->clearcoat <= 0 && !m->brushing && !m->iridescence) {
         set_window(site, surface);
     } else {
         set_metallic_roughness(site, surface);

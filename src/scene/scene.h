@@ -77,6 +77,15 @@ typedef struct Brushing {
     TextureSlot texture; /* RG direction, B strength */
 } Brushing;
 
+/* KHR_materials_iridescence: a thin clear film. */
+typedef struct Iridescence {
+    float share; /* (0, 1] */
+    float ior;   /* 1 or more */
+    float least_nm, most_nm;   /* most_nm where there is no texture of the thickness */
+    TextureSlot texture;       /* R: share */
+    TextureSlot thickness_texture; /* G: from least_nm to most_nm */
+} Iridescence;
+
 typedef struct Material {
     const char *name; /* "material N" where the file has none */
     float base_color[4];
@@ -113,6 +122,7 @@ typedef struct Material {
     float attenuation_color[3]; /* after attenuation_distance_m (infinite: none) */
     float attenuation_distance_m;
     Brushing *brushing;        /* NULL: none */
+    Iridescence *iridescence;  /* NULL: none */
     int   display_id;          /* NO_ID unless PARHELION_display */
     const Glazing *glazing;    /* NULL unless PARHELION_glazing */
     int   base_color_curve_id, specular_curve_id, transmission_curve_id, emission_curve_id;

@@ -133,7 +133,7 @@ def ranges():
 
 
 # What is not shown.
-SKIPPED = ("iridescence", "sheen",
+SKIPPED = ("sheen",
            "pbrSpecularGlossiness", "animations")
 
 SCHEMA += [("VALUE_NOT_IN_RANGE" + "~" * any(word in place for word in SKIPPED), "is wanted",

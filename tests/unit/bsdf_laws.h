@@ -10,7 +10,7 @@
 #include "base/units.h"
 #include "shaders/bsdf.h"
 
-#define MAX_MODELS 80
+#define MAX_MODELS 120
 
 typedef struct Model {
     const char *name;

@@ -53,6 +53,69 @@ TEST_WITH(without_strength_nothing_is_brushed, maker_reset, NULL)
     assert_null(load_material("KHR_materials_ior", "")->brushing);
 }
 
+#define IRIDESCENCE "KHR_materials_iridescence"
+
+TEST_WITH(a_film_has_the_defaults_of_its_extension, maker_reset, NULL)
+{
+    (void)state;
+    const Iridescence *film =
+        load_material(IRIDESCENCE, "'iridescenceFactor':0.5")->iridescence;
+    assert_near(film->share, 0.5, 0);
+    assert_close(film->ior, 1.3, 1e-6);
+    assert_near(film->least_nm, 100, 0);
+    assert_near(film->most_nm, 400, 0);
+    assert_int_equal(film->texture.texture_id, NO_ID);
+    assert_int_equal(film->thickness_texture.texture_id, NO_ID);
+    assert_null(load_material(IRIDESCENCE, "'iridescenceIor':2")->iridescence);
+}
+
+TEST_WITH(every_member_of_a_film_arrives, maker_reset, NULL)
+{
+    (void)state;
+    const Iridescence *film =
+        load_material(IRIDESCENCE, "'iridescenceFactor':1,'iridescenceIor':1.75,"
+                                   "'iridescenceThicknessMinimum':50,"
+                                   "'iridescenceThicknessMaximum':900,"
+                                   "'iridescenceTexture':" TURNED)->iridescence;
+    assert_near(film->ior, 1.75, 0);
+    assert_near(film->least_nm, 50, 0);
+    assert_near(film->most_nm, 900, 0);
+    assert_transformed(&film->texture);
+    film = load_material(IRIDESCENCE, "'iridescenceFactor':1,"
+                                      "'iridescenceThicknessTexture':" TURNED)->iridescence;
+    assert_transformed(&film->thickness_texture);
+}
+
+/* What is not shown beside something else is told once, by what hides it. */
+static const struct {
+    const char *extensions, *place, *text;
+} HIDDEN[] = {
+    {"'KHR_materials_iridescence':{'iridescenceFactor':1},'KHR_materials_unlit':{}",
+     "KHR_materials_iridescence", "has no effect beside KHR_materials_unlit"},
+    {"'KHR_materials_iridescence':{'iridescenceFactor':1},"
+     "'KHR_materials_transmission':{'transmissionFactor':1},"
+     "'KHR_materials_volume':{'thicknessFactor':1}",
+     "KHR_materials_iridescence", "closed solid, on which films are not shown"},
+    {"'KHR_materials_anisotropy':{'anisotropyStrength':1},'KHR_materials_unlit':{}",
+     "KHR_materials_anisotropy", "has no effect beside KHR_materials_unlit"},
+    {"'KHR_materials_anisotropy':{'anisotropyStrength':1},"
+     "'KHR_materials_transmission':{'transmissionFactor':1},"
+     "'KHR_materials_volume':{'thicknessFactor':1}",
+     "KHR_materials_anisotropy", "closed solid, whose boundary is not brushed"},
+};
+
+TEST_WITH(what_has_no_effect_is_told, maker_reset, NULL)
+{
+    (void)state;
+    for (size_t i = 0; i < sizeof HIDDEN / sizeof *HIDDEN; i++) {
+        char text[1024], place[128];
+        snprintf(text, sizeof text, "'materials':[{'extensions':{%s}}]", HIDDEN[i].extensions);
+        snprintf(place, sizeof place, "/materials/0/extensions/%s", HIDDEN[i].place);
+        Found found = maker_survey_file(maker_gltf(NULL, 0, text));
+        assert_non_null(maker_find(&found, place, HIDDEN[i].text));
+    }
+}
+
 int main(void)
 {
     return run_cases(maker_start, maker_end);

@@ -2,7 +2,6 @@
 #include "bsdf_laws.h"
 #include "layer_fixture.h"
 
-#include "base/arena.h"
 #include "base/units.h"
 #include "panel/query/panel_open.h"
 #include "shaders/bsdf.h"
@@ -188,6 +187,7 @@ static int make_models(void **state)
     add_lacquers();
     add_coated_surfaces();
     add_brushed();
+    add_films();
     return 0;
 }
 

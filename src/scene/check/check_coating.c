@@ -1,5 +1,6 @@
 #include "scene/check/check_coating.h"
 
+#include "base/count.h"
 #include "scene/scene.h"
 
 /* ---- layers ----------------------------------------------------------------------------- */
@@ -67,6 +68,36 @@ static void check_body(const DocumentCheck *check, const GltfValue *material,
                     "stands beside KHR_materials_clearcoat, one of them is wanted");
 }
 
+/* Which of what lies on a material is not shown beside something else. */
+static void check_film(const DocumentCheck *check, const GltfValue *material)
+{
+    static const char *const stronger[] = {"PARHELION_coating", "PARHELION_glazing",
+                                           "PARHELION_display", "KHR_materials_unlit"};
+    const GltfValue *film = tree_extension(material, "KHR_materials_iridescence");
+    if (!film || !(tree_number(film, "iridescenceFactor", 0) > 0)) return;
+    for (int i = 0; i < COUNT_OF(stronger); i++)
+        if (tree_extension(material, stronger[i]))
+            check_warns(check, film, "has no effect beside %s", stronger[i]);
+    if (material_is_clear_solid(material))
+        check_warns(check, film, "has no effect: KHR_materials_volume makes the material a "
+                                 "closed solid, on which films are not shown");
+}
+
+/* Brushing is of what reflects as metal or plastic does. */
+static void check_brushing(const DocumentCheck *check, const GltfValue *material)
+{
+    static const char *const stronger[] = {"PARHELION_glazing", "PARHELION_display",
+                                           "KHR_materials_unlit"};
+    const GltfValue *brushed = tree_extension(material, "KHR_materials_anisotropy");
+    if (!brushed || !(tree_number(brushed, "anisotropyStrength", 0) > 0)) return;
+    for (int i = 0; i < COUNT_OF(stronger); i++)
+        if (tree_extension(material, stronger[i]))
+            check_warns(check, brushed, "has no effect beside %s", stronger[i]);
+    if (material_is_clear_solid(material))
+        check_warns(check, brushed, "has no effect: KHR_materials_volume makes the material a "
+                                    "closed solid, whose boundary is not brushed");
+}
+
 void check_coated_material(const DocumentCheck *check, const GltfValue *material)
 {
     const GltfValue *coating = tree_extension(material, "PARHELION_coating");
@@ -80,6 +111,8 @@ void check_coated_material(const DocumentCheck *check, const GltfValue *material
     bool is_known = conductor || (measured && measured->text[0]);
     if (conductor && tree_number(pbr, "metallicFactor", 1) <= 0)
         check_warns(check, conductor, "has no effect: metallicFactor is 0");
+    check_film(check, material);
+    check_brushing(check, material);
     if (!coating) return;
     if (tree_extension(material, "KHR_materials_unlit"))
         check_warns(check, coating, "has no effect beside KHR_materials_unlit");

@@ -366,6 +366,7 @@ static const ExtensionRule EXTENSIONS[] = {
     {"KHR_materials_dispersion", "material", &SCHEMA_DISPERSION},
     {"KHR_materials_diffuse_transmission", "material", &SCHEMA_DIFFUSE_TRANSMISSION},
     {"KHR_materials_unlit", "material", &SCHEMA_UNLIT},
+    {"KHR_materials_iridescence", "material", &SCHEMA_IRIDESCENCE},
     {"KHR_materials_anisotropy", "material", &SCHEMA_ANISOTROPY},
     {"KHR_texture_transform", "textureInfo", &SCHEMA_TEXTURE_TRANSFORM},
     {"KHR_node_visibility", "node", &SCHEMA_VISIBILITY},
@@ -390,7 +391,6 @@ static const ExtensionRule EXTENSIONS[] = {
     {"KHR_node_hoverability", NULL, NULL},
     {"KHR_mesh_quantization", "", NULL}, /* it only widens what accessors may hold */
     /* Known, so that a wrong place or value can be told, but not honoured: */
-    {"KHR_materials_iridescence", "material", &SCHEMA_IRIDESCENCE},
     {"KHR_materials_sheen", "material", &SCHEMA_SHEEN},
     {"KHR_materials_pbrSpecularGlossiness", "material", &SCHEMA_GLOSSINESS},
     {"KHR_texture_basisu", "texture", &SCHEMA_BASISU},

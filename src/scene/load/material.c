@@ -111,6 +111,21 @@ static void read_anisotropy(GltfFile *file, const GltfValue *anisotropy, Materia
         .texture = texture_slot(file, tree_member(anisotropy, "anisotropyTexture"))};
 }
 
+static void read_iridescence(GltfFile *file, const GltfValue *film, Material *m)
+{
+    float share = tree_float(film, "iridescenceFactor", 0);
+    if (!(share > 0)) return;
+    m->iridescence = ARENA_NEW(file->load->arena, Iridescence, 1);
+    *m->iridescence = (Iridescence){
+        .share = share,
+        .ior = tree_float(film, "iridescenceIor", 1.3f),
+        .least_nm = tree_float(film, "iridescenceThicknessMinimum", 100),
+        .most_nm = tree_float(film, "iridescenceThicknessMaximum", 400),
+        .texture = texture_slot(file, tree_member(film, "iridescenceTexture")),
+        .thickness_texture =
+            texture_slot(file, tree_member(film, "iridescenceThicknessTexture"))};
+}
+
 static void read_volume(const GltfValue *volume, Material *m)
 {
     m->is_solid = tree_float(volume, "thicknessFactor", 0) > 0;
@@ -139,6 +154,7 @@ static void read_extensions(GltfFile *file, const GltfValue *value, Material *m)
         file, tree_extension(value, "KHR_materials_diffuse_transmission"), m);
     read_clearcoat(file, tree_extension(value, "KHR_materials_clearcoat"), m);
     read_volume(tree_extension(value, "KHR_materials_volume"), m);
+    read_iridescence(file, tree_extension(value, "KHR_materials_iridescence"), m);
     read_anisotropy(file, tree_extension(value, "KHR_materials_anisotropy"), m);
 }
 

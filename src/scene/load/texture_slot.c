@@ -50,7 +50,7 @@ TextureSlot texture_slot(GltfFile *file, const GltfValue *info)
 
 /* ---- which uv sets does a material need? ----------------------------------------------- */
 
-#define MATERIAL_SLOTS 13
+#define MATERIAL_SLOTS 15
 
 /* All slots of a material but a display's content; NULL: it has none such. */
 static void slots_of(Material *m, TextureSlot *slots[MATERIAL_SLOTS])
@@ -61,7 +61,9 @@ static void slots_of(Material *m, TextureSlot *slots[MATERIAL_SLOTS])
                           &m->clearcoat_texture, &m->clearcoat_roughness_texture,
                           &m->clearcoat_normal_texture, &m->diffuse_transmission_texture,
                           &m->diffuse_transmission_color_texture,
-                          m->brushing ? &m->brushing->texture : NULL};
+                          m->brushing ? &m->brushing->texture : NULL,
+                          m->iridescence ? &m->iridescence->texture : NULL,
+                          m->iridescence ? &m->iridescence->thickness_texture : NULL};
     memcpy(slots, all, sizeof all);
 }
 

@@ -1,0 +1,26 @@
+/* clear_film.h -- one thin clear film on a body, at all lanes of a path: what soap, oxides and
+ * pearl paints do (KHR_materials_iridescence).
+ *
+ * Airy's sum of all waves in the film for both polarisations, unpolarised on average; air in
+ * front. The same as spectrum/thin_film.h's of one layer, in single precision.
+ * Units    thickness and wavelengths in nm; indices n + ik as thin_film.h. Shares in [0, 1].
+ * Source   Born and Wolf, "Principles of Optics", 7.6.1 (Airy), 14.4 (on bodies that absorb).
+ * Threads  pure functions.  Fails  never.
+ */
+#pragma once
+#include "spectrum/thin_film.h"
+#include "spectrum/wavelengths.h"
+
+typedef struct ThinFilm {
+    float share; /* of the surface that carries it, [0, 1]; 0: there is none */
+    float ior;   /* 1 or more */
+    float thickness_nm; /* > 0 */
+    const OpticalConstants *metal; /* under it; NULL: by the reflectance */
+} ThinFilm;
+
+/* Index of a body that absorbs nothing and reflects so much at normal incidence, [0, 1]. */
+Spectrum clear_film_body(Spectrum reflectance);
+
+/* n, k: of the body. cosine: outside, [0, 1]. */
+Spectrum clear_film_at(const ThinFilm *film, const Wavelengths *wavelengths, float cosine,
+                       Spectrum n, Spectrum k);
