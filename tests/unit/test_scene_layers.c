@@ -116,6 +116,34 @@ TEST_WITH(what_has_no_effect_is_told, maker_reset, NULL)
     }
 }
 
+/* A triangle, and whether it has texture coordinates. */
+static Found survey_brushed(const char *attributes)
+{
+    static const float points[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+    char text[1024];
+    snprintf(text, sizeof text,
+             "'bufferViews':[{'buffer':0,'byteLength':36}],'accessors':[{'bufferView':0,"
+             "'componentType':5126,'count':3,'type':'VEC3','min':[0,0,0],'max':[1,1,0]},"
+             "{'bufferView':0,'componentType':5126,'count':3,'type':'VEC2'}],"
+             "'materials':[{'extensions':{'" ANISOTROPY "':{'anisotropyStrength':1}}}],"
+             "'meshes':[{'primitives':[{'attributes':{'POSITION':0%s},'material':0}]}],"
+             "'scenes':[{'nodes':[0]}],'nodes':[{'mesh':0}]",
+             attributes);
+    return maker_survey_file(maker_gltf(points, sizeof points, text));
+}
+
+TEST_WITH(brushing_without_tangents_tells_what_is_taken, maker_reset, NULL)
+{
+    (void)state;
+    const char *place = "/meshes/0/primitives/0";
+    Found found = survey_brushed(",'TEXCOORD_0':1");
+    assert_non_null(maker_find(&found, place, "its texture's coordinates are taken"));
+    assert_non_null(found.scene->parts[0].tangents);
+    found = survey_brushed("");
+    assert_non_null(maker_find(&found, place, "nor texture coordinates, it is not brushed"));
+    assert_null(found.scene->parts[0].tangents);
+}
+
 int main(void)
 {
     return run_cases(maker_start, maker_end);
