@@ -335,9 +335,6 @@ static bool write_manifest(Instrument *instrument)
     if (panel->reflection.exists && !reflects_by_place(panel))
         add_reflection(&text, &panel->reflection, "");
     if (panel->places.map[0]) add_uniformity(&text, &panel->places);
-    if (panel->polarisation_degree > 0)
-        text_format(&text, ",\n  \"polarisation\": {\"degree\": %.9g, \"azimuth_deg\": %.9g}",
-                    panel->polarisation_degree, panel->polarisation_azimuth_deg);
     text_add(&text, "\n}\n");
     return set_writer_add(&instrument->writer, "MANIFEST.json", &text);
 }

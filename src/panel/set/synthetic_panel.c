@@ -244,21 +244,10 @@ static bool read_places(const JsonView *root, SyntheticPlaces *out, Error *err)
     return true;
 }
 
-static bool read_polarisation(const JsonView *root, SyntheticPanel *out, Error *err)
-{
-    static const char *const keys[] = {"degree", "azimuth_deg"};
-    JsonView view;
-    return json_view_child(root, "polarisation", false, &view, err) &&
-           json_view_check_keys(&view, keys, COUNT(keys), err) &&
-           json_view_number(&view, "degree", 0, 1, &out->polarisation_degree, err) &&
-           json_view_number(&view, "azimuth_deg", -360, 360, &out->polarisation_azimuth_deg,
-                            err);
-}
-
 static bool read_members(const JsonView *root, SyntheticPanel *out, Error *err)
 {
     static const char *const keys[] = {"panel", "note", "pixels", "size_mm",
-        "refractive_index", "emission", "reflection", "instrument", "places", "polarisation"};
+        "refractive_index", "emission", "reflection", "instrument", "places"};
     int two = 2;
     return json_view_check_keys(root, keys, COUNT(keys), err) &&
            json_view_text(root, "panel", &out->name, err) &&
@@ -268,7 +257,7 @@ static bool read_members(const JsonView *root, SyntheticPanel *out, Error *err)
            json_view_numbers(root, "size_mm", (JsonRange){1, 1e5, 2},
                            out->size_mm, &two, err) &&
            json_view_number(root, "refractive_index", 1, 3, &out->refractive_index, err) &&
-           read_polarisation(root, out, err) && read_emission(root, &out->emission, err) &&
+           read_emission(root, &out->emission, err) &&
            read_reflection(root, &out->reflection, err) &&
            read_instrument(root, &out->instrument, err) &&
            read_places(root, &out->places, err);

@@ -96,7 +96,6 @@ typedef struct SyntheticPanel {
     const char *name, *note;
     double pixels[2], size_mm[2];
     double refractive_index;
-    double polarisation_degree, polarisation_azimuth_deg; /* of its emission, as in a set */
     SyntheticEmission   emission;
     SyntheticReflection reflection;
     SyntheticInstrument instrument;
