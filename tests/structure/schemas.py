@@ -73,7 +73,8 @@ def check_can_fail(report, known):
 SPECTRUM = {"peaks_nm": [550], "fwhm_nm": [30], "weights": [1]}
 RECIPE = {"emission": {"red": SPECTRUM, "green": SPECTRUM, "blue": SPECTRUM, "levels": [255]},
           "reflection": {"incidence_deg": [30], "wavelengths_nm": [550], "floor_albedo": 0.05},
-          "instrument": {"theta_step_deg": 10, "phi_step_deg": 30}}
+          "instrument": {"theta_step_deg": 10, "phi_step_deg": 30},
+          "polarisation": {"degree": 0.98, "azimuth_deg": -30}}
 DECLARATION = {"delimiter": "semicolon", "decimal": "comma", "azimuth_zero": "top",
                "azimuth_sense": "cw", "mask": [-999], "level_max": 255, "skip": ["log_*"],
                "columns": ["theta", "phi", "X", "Y", "Z"], "roles": {"m01*.txt": "black"},
@@ -85,7 +86,10 @@ WRONG_RECIPES = [("emission/red/peaks_nm", []), ("emission/red/peaks_nm", None),
                  ("emission/levels", [300]), ("panel", 7), ("emission", None),
                  ("places", {}), ("places", {"u": [0.5]}), ("places", {"u": [2], "v": [0]}),
                  ("places", {"map": [4]}), ("places", {"map": [4, 4], "bend_deg": 160}),
-                 ("places", {"map": [4, 4], "murra": 1})]
+                 ("places", {"map": [4, 4], "murra": 1}),
+                 ("polarisation", 45), ("polarisation/degree", None),
+                 ("polarisation/azimuth_deg", None), ("polarisation/degree", -0.1),
+                 ("polarisation/azimuth_deg", 361), ("polarisation/azimuth", 1)]
 WRONG_DECLARATIONS = [("delimiter", "pipe"), ("azimuth_zero", "north"), ("azimut_zero", "top"),
                       ("level_max", 0), ("skip", "log_*"), ("isotropic", "yes"),
                       ("symmetry", "round"), ("wavelength_nm", 200), ("levels", 7)]
@@ -198,7 +202,10 @@ def check_formats(report, program, folder, schema_of):
         return
     # The set of the last good recipe lies where the manifests are looked for.
     refuses(program, ("panel", "simulate", "DOCUMENT", "-o", "FOLDER"), folder, RECIPE)
-    check_format(report, sets, load(os.path.join(folder, "MANIFEST.json")), WRONG_MANIFESTS,
+    manifest = load(os.path.join(folder, "MANIFEST.json"))
+    report.claim(manifest["polarisation"] == RECIPE["polarisation"],
+                 "the manifest does not say the recipe's polarisation")
+    check_format(report, sets, manifest, WRONG_MANIFESTS,
                  trying("panel", "fit", "DOCUMENT", "-o", "FOLDER/a.panel"))
     with open(os.path.join(folder, "m01.txt"), "w", encoding="utf-8") as file:
         file.write("0;0;1,5;2;1\n5;0;1;2,5;1\n5;90;1;2;1\n5;180;1;2;1\n5;270;1;2,5;1\n")

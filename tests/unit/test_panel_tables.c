@@ -194,6 +194,12 @@ TEST(polarisation_is_kept_and_costs_nothing_where_there_is_none)
     }
 }
 
+#define PRIMARY "{\"peaks_nm\": [600], \"fwhm_nm\": [20], \"weights\": [1]}"
+#define PRIMARIES                                                                              \
+    "{\"red\": " PRIMARY ", \"green\": " PRIMARY ", \"blue\": " PRIMARY "}"
+#define RECIPE(polarisation)                                                                   \
+    "{\"emission\": " PRIMARIES ", \"polarisation\": " polarisation "}"
+
 TEST(recipes_name_the_key)
 {
     (void)state;
@@ -206,6 +212,14 @@ TEST(recipes_name_the_key)
          "\"weights\": [1]}}}",
          {"/emission/red", "2, 1 and 1 values, wanted equal"}},
         {"{}", {"recipe.json", "key 'emission' is missing"}},
+        {RECIPE("45"), {"/polarisation", "wanted an object"}},
+        {RECIPE("{\"degree\": 1}"), {"/polarisation", "'azimuth_deg' is missing"}},
+        {RECIPE("{\"azimuth_deg\": 1}"), {"/polarisation", "'degree' is missing"}},
+        {RECIPE("{\"degree\": 1.5, \"azimuth_deg\": 1}"),
+         {"/polarisation/degree", "wanted a number from 0 to 1"}},
+        {RECIPE("{\"degree\": 1, \"azimuth_deg\": 361}"),
+         {"/polarisation/azimuth_deg", "wanted a number from -360 to 360"}},
+        {RECIPE("{\"degree\": 1, \"angle\": 3}"), {"/polarisation/angle", "unknown key"}},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         Error       err = {0};

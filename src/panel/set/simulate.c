@@ -332,6 +332,9 @@ static bool write_manifest(Instrument *instrument)
         text_add(&text, ",\n");
     }
     text_add(&text, "  \"primaries\": \"primaries.csv\"");
+    if (panel->polarisation.degree > 0)
+        text_format(&text, ",\n  \"polarisation\": {\"degree\": %.10g, \"azimuth_deg\": %.10g}",
+                    panel->polarisation.degree, panel->polarisation.azimuth_deg);
     if (panel->reflection.exists && !reflects_by_place(panel))
         add_reflection(&text, &panel->reflection, "");
     if (panel->places.map[0]) add_uniformity(&text, &panel->places);
