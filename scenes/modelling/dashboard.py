@@ -6,6 +6,7 @@ from mathutils import Matrix, Vector
 
 from shapes import (
     box,
+    cut,
     frame_matrix,
     frame_ring,
     grid,
@@ -95,8 +96,20 @@ def along(profile_point, x_range, count, lift=0.0):
     )
 
 
+# The head-up display's opening: columns (x) and points of the profile (y) of the pad's mesh.
+PAD_POINTS, PAD_STEP = 40, 0.02
+WELL_COLUMNS, WELL_POINTS = (15, 25), (6, 9)
+WELL_BOX = ((-0.480, -0.225), (0.860, 1.158), 0.870)  # x, y and floor of the dark box below
+
+
 def pad():
-    sweep("dashboard pad", PAD, (-HALF_WIDTH, HALF_WIDTH), "leather black", 40, 0.02, True)
+    span = (-HALF_WIDTH, HALF_WIDTH)
+    item = sweep("dashboard pad", PAD, span, "leather black", PAD_POINTS, PAD_STEP, True)
+    faces = [
+        i * (PAD_POINTS - 1) + j for i in range(*WELL_COLUMNS) for j in range(*WELL_POINTS)
+    ]
+    cut(item, faces)
+    well()
     curve = spline(PAD, 400)
     for label, target in (("rear", 0.776), ("front", 0.764)):
         k = np.argmin(abs(curve[:, 0] - target) + 10 * (curve[:, 1] < 1.04))
@@ -113,6 +126,30 @@ def pad():
     airbag_seam()
     defroster()
     pad_speaker()
+
+
+def well():
+    """A dark box for the optics of model_hud.py, and a frame round its opening."""
+    (x0, x1), (y0, y1), floor = WELL_BOX
+    around = [(x0, y0), (x1, y0), (x1, y1), (x0, y1)]
+    line = [
+        (a[0] + (b[0] - a[0]) * t, a[1] + (b[1] - a[1]) * t)
+        for a, b in zip(around, around[1:] + around[:1])
+        for t in np.linspace(0, 1, 7)[:-1]
+    ]
+    top = [(x, y, pad_height(x, y) - 0.0015) for x, y in line]
+    walls = grid("head-up well", [[(x, y, floor) for x, y in line], top], "gap", closed=True)
+    bottom = mesh("floor", [(x, y, floor) for x, y in around], [(0, 1, 2, 3)], "gap")
+    joined("head-up well", [walls, bottom])
+    xs = np.linspace(-HALF_WIDTH, HALF_WIDTH, int(2 * HALF_WIDTH / PAD_STEP) + 1)
+    xs = xs[WELL_COLUMNS[0] : WELL_COLUMNS[1] + 1]
+    first, last = (
+        np.array([section(PAD, x, PAD_POINTS)[k] for x in xs]) for k in WELL_POINTS
+    )
+    rows = slice(WELL_POINTS[0], WELL_POINTS[1] + 1)
+    sides = [section(PAD, x, PAD_POINTS)[rows] for x in (xs[-1], xs[0])]
+    path = np.concatenate([first, sides[0][1:-1], last[::-1], sides[1][::-1][1:-1]])
+    tube("head-up frame", path, 0.0028, "plastic dark", 8, True)
 
 
 def pad_height(x, y):
@@ -267,7 +304,9 @@ def binnacle():
     ]
     shell = np.array(outside + lip)
     smooth = np.stack([spline(shell[:, k], 40) for k in range(shell.shape[1])], axis=1)
-    grid("binnacle hood", smooth, "leather black", flip=True)
+    hood = grid("binnacle hood", smooth, "leather black", flip=True)
+    hidden = np.argmax(smooth[:, :, 1].max(1) < 1.045)  # rings under the pad, in the well's way
+    cut(hood, range(hidden * (smooth.shape[1] - 1)))
     grid("binnacle inside", np.array(lip[-1:] + inside), "plastic dark", flip=True)
     hood_seam(outside)
     ring = hood_ring(0.698, 0.728, 0.1862, 1.1262, 0.9566)

@@ -1,6 +1,6 @@
 """The flight deck's materials, beside the car's: painted metal panels, moulded plastics, an
 anti-glare coaming, engraved legends that glow faintly, glass of the windscreens."""
-from materials import MATERIALS, TILE, grey, surface
+from materials import MATERIALS, TILE, grey, layer, surface
 
 TILE.update(
     {
@@ -10,6 +10,20 @@ TILE.update(
         "deck seat": 0.05,
         "deck carpet": 0.10,
     }
+)
+
+# A heated windscreen, front outside: a glass ply, the film of indium tin oxide that warms it,
+# urethane, and two glass plies with PVB that carry the pressure. 23 mm in all.
+HEATED = dict(
+    layers=[
+        layer(3.0, 1.52, transmission=0.985),
+        layer(0.0003, 1.9, transmission=0.90),
+        layer(2.5, 1.49, transmission=0.99),
+        layer(8.0, 1.52, transmission=0.965),
+        layer(1.9, 1.485, transmission=0.99),
+        layer(8.0, 1.52, transmission=0.965),
+    ],
+    haze=dict(share=0.003, width_deg=2.0),
 )
 
 DECK = {
@@ -49,7 +63,9 @@ DECK = {
     "lit cyan": surface((0.03, 0.09, 0.11), 0.5, emission=((0.20, 0.85, 1.0), 7.0)),
     "lit white": surface((0.40, 0.40, 0.40), 0.5, emission=((1.0, 0.93, 0.82), 5.0)),
     # glass and skin
-    "cockpit glass": surface((0.84, 0.87, 0.85), 0.0, glass=True, ior=1.52),
+    "cockpit glass": surface(
+        (0.79, 0.82, 0.80), 0.0, glass=True, ior=1.52, glazing=HEATED
+    ),
     "compass glass": surface((0.93, 0.93, 0.93), 0.0, glass=True, ior=1.5),
     "seal": grey(0.020, 0.70),
     "skin": surface((0.075, 0.078, 0.080), 0.55, ior=1.45),

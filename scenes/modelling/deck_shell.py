@@ -169,9 +169,10 @@ def trim(kit, hole, plane):
 
 
 def pane(kit, hole, plane, label):
+    """One sheet; its front is outside."""
     points = hole.mean(0) + (hole - hole.mean(0)) * 0.985
     flat = place(np.column_stack([points, np.full(len(points), -DEEP - 0.0005)]), plane)
-    mesh(f"pane {label}", flat, [list(range(len(points)))], "cockpit glass")
+    mesh(f"pane {label}", flat, [list(range(len(points)))[::-1]], "cockpit glass")
 
 
 def post(name, i, side, radius, material, squash):

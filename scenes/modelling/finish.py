@@ -24,7 +24,7 @@ def scale_coordinates(item):
 
 def needs_coordinates(item):
     entry = MATERIALS[item.data.materials[0].name]
-    return bool(item.get("keep_uv") or "texture" in entry or "normal" in entry)
+    return bool(item.get("keep_uv") or {"texture", "normal", "glazing"} & set(entry))
 
 
 def finish_meshes():
@@ -123,6 +123,8 @@ def material_json(name, textures, used):
         }
     if entry.get("glass"):
         extensions["KHR_materials_transmission"] = {"transmissionFactor": 1.0}
+    if "glazing" in entry:
+        extensions["PARHELION_glazing"] = entry["glazing"]
     if "emission" in entry:
         color, strength = entry["emission"]
         out["emissiveFactor"] = list(color)

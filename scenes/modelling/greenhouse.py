@@ -16,6 +16,7 @@ from shapes import (
     spline,
     tube,
 )
+from windscreen import screen
 
 SIDES = (("left", -1), ("right", 1))
 
@@ -23,18 +24,10 @@ SIDES = (("left", -1), ("right", 1))
 # ---- windscreen --------------------------------------------------------------------------
 
 
-def screen(u, v, inward=0.0):
-    """Windscreen at u (-1 left .. 1 right), v (0 foot .. 1 header); inward shifts it inside."""
-    u, v = np.broadcast_arrays(np.asarray(u, float), np.asarray(v, float))
-    foot = np.stack([0.735 * u, 1.340 - 0.230 * u**2, 1.005 + 0.045 * u**2], -1)
-    head = np.stack([0.575 * u, 0.440 - 0.120 * u**2, 1.480 - 0.035 * u**2], -1)
-    bulge = (0.026 * 4 * v * (1 - v) - inward)[..., None] * np.array([0.0, 0.46, 0.89])
-    return foot * (1 - v)[..., None] + head * v[..., None] + bulge
-
-
-def screen_grid(name, us, vs, material, inward):
+def screen_grid(name, us, vs, material, inward, flip=False):
+    """Fronts look into the car; flip turns them."""
     u, v = np.meshgrid(us, vs)
-    return grid(name, screen(u, v, inward), material)
+    return grid(name, screen(u, v, inward), material, flip=flip)
 
 
 def windscreen():
@@ -44,6 +37,7 @@ def windscreen():
         np.linspace(-0.03, 1.03, 33),
         "windscreen glass",
         0.0,
+        flip=True,
     )
     us, vs = np.linspace(-1.02, 1.02, 49), np.linspace(-0.03, 1.03, 33)
     bands = {

@@ -34,6 +34,25 @@ def grey(value, roughness, metallic=0.0, **extra):
     return surface((value, value, value), roughness, metallic, **extra)
 
 
+def layer(millimetres, ior, **more):
+    """One layer of a laminated pane."""
+    return dict(thickness_m=round(millimetres * 1e-3, 10), ior=ior, **more)
+
+
+WEDGE = 0.00053  # rad; hud_optics.py asks for it
+# Two sheets of light green glass and PVB, growing thicker towards the roof (glTF's -v) for the
+# head-up display of model_hud.py: its figure. Front outside.
+GREEN = "../assets/spectra/glass_green.csv"
+WINDSCREEN = dict(
+    layers=[
+        layer(2.1, 1.52, transmission=GREEN),
+        layer(0.76, 1.485, wedge_rad=WEDGE, wedge_toward="-v"),
+        layer(2.1, 1.52, transmission=GREEN),
+    ],
+    haze=dict(share=0.004, width_deg=2.5),
+)
+
+
 MATERIALS = {
     # cabin, soft
     "leather black": surface(
@@ -75,7 +94,9 @@ MATERIALS = {
     "symbol red": surface((0.55, 0.03, 0.02), 0.5),
     "mirror silver": grey(0.90, 0.02, 1.0),
     # glass and body
-    "windscreen glass": surface((0.86, 0.885, 0.875), 0.0, glass=True, ior=1.52),
+    "windscreen glass": surface(
+        (0.82, 0.86, 0.84), 0.0, glass=True, ior=1.52, glazing=WINDSCREEN
+    ),
     "roof glass": surface((0.30, 0.32, 0.31), 0.0, glass=True, ior=1.52),
     "side glass": surface((0.82, 0.85, 0.84), 0.0, glass=True, ior=1.52),
     "frit": grey(0.012, 0.6),

@@ -6,6 +6,7 @@ each material's tile. A face's front is where its corners run counter-clockwise.
 """
 import math
 
+import bmesh
 import bpy
 import numpy as np
 from mathutils import Matrix, Vector
@@ -103,6 +104,16 @@ def grid(name, points, material, closed=False, flip=False):
             faces.append([a * columns + b % columns for a, b in corners])
             uvs.extend((u[b], v[a]) for a, b in corners)
     return mesh(name, p.reshape(-1, 3), faces, material, uvs)
+
+
+def cut(item, faces):
+    """Takes faces, by their numbers, out of an object."""
+    work = bmesh.new()
+    work.from_mesh(item.data)
+    work.faces.ensure_lookup_table()
+    bmesh.ops.delete(work, geom=[work.faces[i] for i in faces], context="FACES")
+    work.to_mesh(item.data)
+    work.free()
 
 
 def tube_points(path, radius, sides=10, closed=False, squash=1.0, up=(0, 0, 1)):
