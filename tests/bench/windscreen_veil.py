@@ -122,8 +122,8 @@ def veil(program, reflectance, dirt, sun_lx):
         target = ",".join(str(a + b) for a, b in zip(EYE, GAZE))
         seen = json.loads(answer(
             program, "probe", car, "--environment", "sky:clear", "--sun",
-            f"0,{ELEVATION_DEG},{sun_lx}", "--eye", ",".join(map(str, EYE)), "--look-at", target,
-            "--fov", "1", "--size", "1x1", "--pixel", "0,0", "--spp", "65536", "--ways", "200",
+            f"0,{ELEVATION_DEG},{sun_lx}", "--eye", ",".join(map(str, EYE)), "--look-at",
+            target, "--fov", "1", "--size", "1x1", "--pixel", "0,0", "--spp", "65536", "--ways", "200",
             "--json"))
     total = {"mirror": 0, "scatters": 0, "sun": 0}
     for way in seen["ways"]:
@@ -145,7 +145,7 @@ def main():
             total, seen = veil(program, reflectance, dirt, sun_lx)
             mirror, haze = total["mirror"], total["scatters"]
             print(f"{name}, {100 * reflectance:.0f} %: {mirror:.0f} cd/m2 mirrored, by hand "
-                  f"{by_hand(reflectance):.0f}; {haze:.0f} scattered, of it the sun's own light "
+                  f"{by_hand(reflectance):.0f}; {haze:.0f} scattered, of it the sun's own "
                   f"{total['sun']:.0f}{scattered}; together {mirror + haze:.0f} of "
                   f"{seen['luminance_cd_m2']:.0f}, all known to "
                   f"{seen['standard_error_cd_m2']:.0f}", flush=True)
