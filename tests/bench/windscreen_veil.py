@@ -123,8 +123,8 @@ def veil(program, reflectance, dirt, sun_lx):
         seen = json.loads(answer(
             program, "probe", car, "--environment", "sky:clear", "--sun",
             f"0,{ELEVATION_DEG},{sun_lx}", "--eye", ",".join(map(str, EYE)), "--look-at",
-            target, "--fov", "1", "--size", "1x1", "--pixel", "0,0", "--spp", "65536", "--ways", "200",
-            "--json"))
+            target, "--fov", "1", "--size", "1x1", "--pixel", "0,0", "--spp", "65536",
+            "--ways", "200", "--json"))
     total = {"mirror": 0, "scatters": 0, "sun": 0}
     for way in seen["ways"]:
         first = way["bounces"][0] if way["bounces"] else {}
