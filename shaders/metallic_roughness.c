@@ -19,6 +19,8 @@
  *   clearcoat, clearcoat_alpha, clearcoat_normal     a lacquer of index 1.5; default none
  *   film              a clear film of some 100 nm on the share `share` of metal and non-metal
  *                     (KHR_materials_iridescence)
+ *   sheen_color, sheen_alpha    fibres of cloth that stand up (KHR_materials_sheen), under the
+ *                     coat; default none. Alcantara 0.1..0.3, alpha 0.1; velvet 0.8, alpha 0.3
  *   coating           a stack of thin layers (PARHELION_coating) or a metal of measured n, k
  *                     (PARHELION_spectrum): its own reflectance at every angle and wavelength
  *
@@ -54,15 +56,23 @@
  * a coat the film's curve is taken for even over what the coat holds back, and white plastic is
  * within 1.5 %.
  *
+ * Sheen (sheen.h) lies on all but the coat, on both sides of a sheet alike. With E its albedo
+ * and c the greatest of its colour, facets beneath are scaled by 1 - c max(E(wo), E(wi)), and
+ * the Lambert base is coupled to sheen and boundary at once: each direction enters with what
+ * neither the sheen nor the facets send, as does the light that facets hide. So white plastic,
+ * metal or paper under white sheen returns what it gets, to 85 degrees within 0.2 % at every
+ * roughness, and it is reciprocal. A coloured sheen takes from all beneath what its strongest
+ * primary reflects (the extension's rule). Under a coat what that holds back of the fibres' own
+ * light is lost: of white to 4 % at 60 degrees and 11 % at 85.
+ *
  * Polarised light is followed by facets and coat as glass of their index has it, by a metal of
  * n, k and by a coated face as their waves add up; another metal is taken for a perfect mirror,
  * a coated sheet for a bare one; what the base and further facets send is unpolarised.
  *
- * Not modelled: sheen of velvet, subsurface spread,
- * coloured absorption along a slanted path in the coat, turns of light between a coat and the
- * mirror of a non-metal (its few per cent go to the Lambert base) or a sheet, and between a
- * base and a coat whose normal is tilted; of a metal without n, k the exact curve (Schlick is
- * within some per cent of it).
+ * Not modelled: subsurface spread, coloured absorption along a slanted path in the coat, turns
+ * of light between a coat and the mirror of a non-metal (its few per cent go to the Lambert
+ * base) or a sheet, and between a base and a coat whose normal is tilted; of a metal without
+ * n, k the exact curve (Schlick is within some per cent of it).
  */
 #include "shaders/metallic_roughness.h"
 
@@ -71,6 +81,7 @@
 #include "shaders/brushed.h"
 #include "shaders/lobe_facets.h"
 #include "shaders/polarisation.h"
+#include "shaders/sheen.h"
 
 #define WIDE_ALPHA 0.15f  /* lobes of more than about ten degrees */
 #define COAT_UPRIGHT 0.9999f /* z of a coat's normal that is not tilted */
@@ -82,7 +93,7 @@ typedef struct Boundary {
 
 /* Probabilities of the choices for one wo; they sum to one unless all are 0. */
 typedef struct Choices {
-    float coat, mirror, diffuse, through, across;
+    float coat, mirror, diffuse, through, across, sheen;
 } Choices;
 
 /* What the coat does to light along one direction. */
@@ -103,6 +114,7 @@ typedef struct View {
     Spectrum coated;  /* what a coated face sends back towards wo; undefined without one */
     Choices  choices;
     Spectrum film[LOBE_FACETS]; /* faces' reflectance at facet_cosine; undefined without one */
+    SheenShare sheen, sheen_mean; /* towards wo; undefined without one */
 } View;
 
 MetallicRoughness metallic_roughness_default(const EnergyTable *energy)
@@ -458,12 +470,122 @@ static Spectrum diffuse_eval(const View *view, Spectrum albedo, Vec3 wi, Energy 
 
 /* Light that one facet hides from the eye meets others and comes out in the end, spread like
  * the missing albedo on both sides (Kulla and Conty 2017): sr^-1, for reflectance 1. */
-static float rebound_lobe(const View *view, Energy in)
+static float bare_rebound_lobe(const View *view, Energy in)
 {
     float missing = 1 - base_average(view->m).all;
     if (!(missing > 1e-6f)) return 0;
     return (1 - view->energy.all) * (1 - in.all) / missing * INV_PI_F;
 }
+
+/* ---- sheen: fibres over all of this, under the coat ------------------------------------- */
+
+static inline float sheen_most(const MetallicRoughness *m)
+{
+    return fmaxf(fmaxf(m->sheen_color[0], m->sheen_color[1]), m->sheen_color[2]);
+}
+
+static inline bool has_sheen(const MetallicRoughness *m)
+{
+    return sheen_most(m) > 0;
+}
+
+/* No lane takes more than what lies beneath is made to miss. */
+static Spectrum sheen_tint(const MetallicRoughness *m)
+{
+    Spectrum tint = spectrum_from_rgb(m->wavelengths, m->sheen_color);
+    return spectrum_clamp(tint, 0, sheen_most(m));
+}
+
+static SheenShare sheen_towards(const MetallicRoughness *m, Vec3 w)
+{
+    return sheen_share(&common_sheen_table, fabsf(w.z), m->sheen_alpha, own_alpha(m, w));
+}
+
+/* Share of light along these two that a facet beneath keeps. */
+static float sheen_leaves(const View *view, Vec3 wi)
+{
+    const MetallicRoughness *m = view->m;
+    float in = sheen_albedo(&common_sheen_table, fabsf(wi.z), m->sheen_alpha);
+    return 1 - sheen_most(m) * fmaxf(view->sheen.albedo, in);
+}
+
+/* What facets send of light from a direction, or in the mean, through the sheen. */
+static Energy through_sheen(const MetallicRoughness *m, Energy e, SheenShare share)
+{
+    float most = sheen_most(m);
+    return (Energy){e.all * (1 - most * share.all), e.shape * (1 - most * share.shape)};
+}
+
+/* Neither in the sheen nor back from facets: what comes to the Lambert base. reflected: what a
+ * coated or filmed face sends in all, without the sheen. */
+static Spectrum enters_below_sheen(const View *view, Spectrum reflected, Energy e,
+                                   SheenShare share)
+{
+    const MetallicRoughness *m = view->m;
+    float    most = sheen_most(m);
+    Spectrum in = let_in(&view->boundary, through_sheen(m, e, share));
+    if (coated_face(m) || has_film(m))
+        in = spectrum_all(1) - reflected * spectrum_all(1 - most * share.all);
+    return spectrum_clamp(in - spectrum_all(most * share.albedo), 0, 1);
+}
+
+static Spectrum enters_along(const View *view, Vec3 w)
+{
+    const MetallicRoughness *m = view->m;
+    Spectrum reflected = coated_face(m) ? coated_energy(m, w) :
+                         has_film(m)    ? filmed_energy(view, w) :
+                                          spectrum_all(0);
+    return enters_below_sheen(view, reflected, base_energy(m, w), sheen_towards(m, w));
+}
+
+static Spectrum enters_on_average(const View *view)
+{
+    const MetallicRoughness *m = view->m;
+    Spectrum reflected = coated_face(m) ? coated_average(m) * spectrum_all(m->specular) :
+                         has_film(m)    ? filmed_average(view, m->alpha) :
+                                          spectrum_all(0);
+    return enters_below_sheen(view, reflected, base_average(m), view->sheen_mean);
+}
+
+/* As diffuse_eval, coupled to sheen and boundary at once. */
+static Spectrum diffuse_below_sheen(const View *view, Spectrum albedo, Vec3 wi)
+{
+    const MetallicRoughness *m = view->m;
+    float share = (1 - m->metallic) * (1 - m->transmission);
+    if (!(share > 0)) return spectrum_all(0);
+    return albedo * enters_below_sheen(view, view->coated, view->energy, view->sheen) *
+           enters_along(view, wi) * spectrum_all(share * INV_PI_F) /
+           spectrum_max(enters_on_average(view), spectrum_all(1e-3f));
+}
+
+/* Of the light that gets past the sheen, what facets hide. */
+static float hidden_below_sheen(const MetallicRoughness *m, Energy e, SheenShare share)
+{
+    return fmaxf(1 - sheen_most(m) * share.albedo - through_sheen(m, e, share).all, 0);
+}
+
+static float rebound_below_sheen(const View *view, Vec3 wi, Energy in)
+{
+    const MetallicRoughness *m = view->m;
+    float missing = hidden_below_sheen(m, base_average(m), view->sheen_mean);
+    if (!(missing > 1e-6f)) return 0;
+    return hidden_below_sheen(m, view->energy, view->sheen) *
+           hidden_below_sheen(m, in, sheen_towards(m, wi)) / missing * INV_PI_F;
+}
+
+static float rebound_lobe(const View *view, Vec3 wi, Energy in)
+{
+    return has_sheen(view->m) ? rebound_below_sheen(view, wi, in) :
+                                bare_rebound_lobe(view, in);
+}
+
+/* The light of both directions that a smooth mirror or a sheet keeps below the sheen. */
+static Spectrum sheen_over(const View *view, Vec3 wi, Spectrum below)
+{
+    return has_sheen(view->m) ? below * spectrum_all(sheen_leaves(view, wi)) : below;
+}
+
+/* ---- what comes back from the base ------------------------------------------------------ */
 
 static Spectrum filmed_metal_mean(const MetallicRoughness *m)
 {
@@ -512,12 +634,12 @@ static float clear_share(const MetallicRoughness *m)
     return (1 - m->metallic) * m->transmission;
 }
 
-static Spectrum rebound_above(const View *view, Energy in)
+static Spectrum rebound_above(const View *view, Vec3 wi, Energy in)
 {
     const MetallicRoughness *m = view->m;
     Spectrum sum = spectrum_all(0);
     float    clear = clear_share(m);
-    float    lobe = m->metallic > 0 || clear > 0 ? rebound_lobe(view, in) : 0;
+    float    lobe = m->metallic > 0 || clear > 0 ? rebound_lobe(view, wi, in) : 0;
     if (!(lobe > 0)) return sum;
     if (m->metallic > 0) sum = metal_rebound(m);
     if (clear > 0) sum += pane_mean(view) * spectrum_all(clear);
@@ -681,7 +803,7 @@ static Spectrum coated_rebound(const View *view, Energy in, const Through *below
     if (m->metallic > 0 && missing > 1e-6f)
         sum = metal_rebound(m) * coat_turns(view->coat_mean.open, metal_mean(m)) *
               spectrum_all((1 - view->energy.all) * (1 - in.all) / missing * INV_PI_F);
-    if (clear > 0) sum += pane_mean(view) * spectrum_all(clear * rebound_lobe(view, in));
+    if (clear > 0) sum += pane_mean(view) * spectrum_all(clear * bare_rebound_lobe(view, in));
     return sum * spectrum_all(both);
 }
 
@@ -721,10 +843,23 @@ static float coat_eval(const MetallicRoughness *m, Vec3 wo, Vec3 wi, float *pdf)
 
 static Choices scaled_to_one(Choices c)
 {
-    float sum = c.coat + c.mirror + c.diffuse + c.through + c.across;
+    float sum = c.coat + c.mirror + c.diffuse + c.through + c.across + c.sheen;
     float scale = sum > 0 ? 1 / sum : 0;
     return (Choices){c.coat * scale, c.mirror * scale, c.diffuse * scale, c.through * scale,
-                     c.across * scale};
+                     c.across * scale, c.sheen * scale};
+}
+
+static Choices beside_sheen(const View *view, Choices c)
+{
+    const MetallicRoughness *m = view->m;
+    float left = 1 - sheen_most(m) * view->sheen.albedo;
+    return (Choices){.coat = c.coat,
+                     .mirror = c.mirror * left,
+                     .diffuse = c.diffuse * left,
+                     .through = c.through * left,
+                     .across = c.across * left,
+                     .sheen = (1 - c.coat) * view->sheen.albedo *
+                              spectrum_mean(sheen_tint(m))};
 }
 
 /* Mean shares of light for choosing, where a part is coated. */
@@ -739,14 +874,14 @@ static Choices choose_coated(const View *view, float coat)
     float through = clear > 0 ? spectrum_mean(pane_transmittance(m, &view->boundary, z)) : 0;
     float face = coated_face(m) || has_film(m) ? spectrum_mean(view->coated) :
                  spectrum_mean(spectrum_all(1) - let_in(&view->boundary, view->energy));
-    return scaled_to_one((Choices){
+    return (Choices){
         .coat = coat,
         .mirror = under * (facets + metal),
         .diffuse = under * (base * solid * (1 - face) +
                             lost * (metal * metal + facets * clear)),
         .through = under * through,
         .across = m->across > 0 ?
-                      under * solid * (1 - face) * spectrum_mean(lambert_across(m)) : 0});
+                      under * solid * (1 - face) * spectrum_mean(lambert_across(m)) : 0};
 }
 
 /* Probabilities follow the lanes' mean albedo of each part, so that none is ever starved. */
@@ -777,7 +912,7 @@ static inline Choices choose(const View *view)
     };
     if (m->across > 0)
         c.across = under * solid * (1 - face) * spectrum_mean(lambert_across(m));
-    return scaled_to_one(c);
+    return c;
 }
 
 static void set_film(View *view)
@@ -803,8 +938,22 @@ static inline View view_from(const MetallicRoughness *m, Vec3 wo)
     }
     if (coated_face(m)) view.coated = coated_energy(m, wo);
     if (has_film(m)) set_film(&view);
-    view.choices = choose(&view);
+    Choices choices = choose(&view);
+    if (has_sheen(m)) {
+        view.sheen = sheen_towards(m, wo);
+        view.sheen_mean = sheen_mean(&common_sheen_table, m->sheen_alpha, even_alpha(m));
+        choices = beside_sheen(&view, choices);
+    }
+    view.choices = scaled_to_one(choices);
     return view;
+}
+
+/* As coat_on_metal, of fibres and of a metal beneath them: never more than what enters along
+ * either direction. */
+static Spectrum coat_on_sheen(const View *view, Spectrum albedo, float open)
+{
+    return coat_turns(view->coat_mean.open, albedo) *
+           spectrum_all(fminf(open, view->through.open));
 }
 
 /* A facet of the base met at `cosine`, as the light of both directions finds it: below NULL: no
@@ -815,7 +964,9 @@ static Spectrum facet_below(const View *view, float cosine, const Through *below
     Spectrum nonmetal = facet_of_nonmetal(m, &view->boundary, cosine);
     Spectrum metal = facet_of_metal(m, cosine);
     if (!below) return nonmetal + metal;
-    if (m->metallic > 0) metal *= coat_on_metal(m, &view->through, below);
+    if (m->metallic > 0)
+        metal *= has_sheen(m) ? coat_on_sheen(view, metal_mean(m), below->open) :
+                                coat_on_metal(m, &view->through, below);
     return nonmetal * spectrum_all(view->through.open * below->open) + metal;
 }
 
@@ -833,24 +984,79 @@ static Spectrum facet_lobe(const View *view, Vec3 wi, const Through *below)
     Spectrum facet = facet_below(view, vec3_dot(view->wo, half), NULL);
     if (m->clearcoat > 0)
         facet = covered(m, facet, facet_below(view, vec3_dot(view->wo, half), below));
-    return facet * spectrum_all(base_lobe(m, view->wo, wi, half));
+    return sheen_over(view, wi, facet) * spectrum_all(base_lobe(m, view->wo, wi, half));
+}
+
+static Spectrum hidden_along(const View *view, Vec3 w)
+{
+    const MetallicRoughness *m = view->m;
+    return spectrum_all(hidden_below_sheen(m, base_energy(m, w), sheen_towards(m, w)));
+}
+
+/* By values at facet_cosine, over the hemisphere: the mean of what the coat lets pass to a
+ * part that light enters along w by so much. */
+static Spectrum open_to(const View *view, Spectrum (*enters)(const View *view, Vec3 w))
+{
+    const MetallicRoughness *m = view->m;
+    LobeFacets even = mean_facets(&common_facet_table, (Vec2){SMOOTH_ALPHA, SMOOTH_ALPHA});
+    Spectrum   through = spectrum_all(0), all = spectrum_all(0);
+    for (int i = 0; i < LOBE_FACETS; i++) {
+        float    z = facet_cosine[i], side = safe_sqrtf(0.5f * (1 - z * z));
+        float    held = coat_reflectance(m->clearcoat_energy, z, m->clearcoat_alpha);
+        Spectrum in = enters(view, vec3(side, side, z)) * spectrum_all(even.weight[i]);
+        through += in * spectrum_all(1 - held);
+        all += in;
+    }
+    return spectrum_max(through, spectrum_all(1e-3f)) / spectrum_max(all, spectrum_all(1e-3f));
+}
+
+/* A part that is coupled to what enters it along both directions, below the coat. */
+static Spectrum coat_on_part(const View *view, Spectrum part, float open,
+                             Spectrum (*enters)(const View *view, Vec3 w))
+{
+    if (spectrum_is_zero(part)) return part;
+    return part * coat_turns(view->coat_mean.open, lambert_albedo(view->m)) *
+           spectrum_all(view->through.open * open) / open_to(view, enters);
+}
+
+/* Fibres, Lambert and rebound; adds the fibres' part of the pdf. */
+static Spectrum sheen_and_below(const View *view, Vec3 wi, Energy in, float *pdf)
+{
+    const MetallicRoughness *m = view->m;
+    float    lobe = sheen_lobe(&common_sheen_table, view->wo, wi, m->sheen_alpha);
+    Spectrum fibres = sheen_tint(m) * spectrum_all(lobe);
+    Spectrum rebound = rebound_above(view, wi, in);
+    Spectrum base = diffuse_below_sheen(view, lambert_back(m), wi);
+    Spectrum sum = fibres + rebound + base;
+    *pdf += view->choices.sheen * (0.5f * INV_PI_F);
+    if (!(m->clearcoat > 0)) return sum;
+    float open = coat_through(m, wi).open;
+    fibres *= coat_on_sheen(view, lambert_albedo(m), open);
+    return covered(m, sum, fibres + coat_on_part(view, rebound, open, hidden_along) +
+                               coat_on_part(view, base, open, enters_along));
+}
+
+/* Lambert and rebound where there is no sheen. below: of wi; undefined without a coat. */
+static Spectrum spread_by_base(const View *view, Vec3 wi, Energy in, const Through *below)
+{
+    const MetallicRoughness *m = view->m;
+    Spectrum lambert = lambert_back(m);
+    Spectrum sum = diffuse_eval(view, lambert, wi, in) + rebound_above(view, wi, in);
+    if (!(m->clearcoat > 0)) return sum;
+    return covered(m, sum, coated_diffuse(view, lambert, wi, in, below) +
+                               coated_rebound(view, in, below));
 }
 
 /* The base seen from above: rough mirror, Lambert, rebound; and its part of the pdf. */
 static Spectrum base_above(const View *view, Vec3 wi, float *pdf)
 {
     const MetallicRoughness *m = view->m;
-    bool     has_coat = m->clearcoat > 0;
     Through  below;
     Energy   in = base_energy(m, wi);
-    Spectrum lambert = lambert_back(m);
-    Spectrum sum = diffuse_eval(view, lambert, wi, in) + rebound_above(view, in);
     *pdf = view->choices.diffuse * wi.z * INV_PI_F;
-    if (has_coat) {
-        below = coat_through(m, wi);
-        sum = covered(m, sum, coated_diffuse(view, lambert, wi, in, &below) +
-                                  coated_rebound(view, in, &below));
-    }
+    if (m->clearcoat > 0) below = coat_through(m, wi);
+    Spectrum sum = has_sheen(m) ? sheen_and_below(view, wi, in, pdf) :
+                                  spread_by_base(view, wi, in, &below);
     if (!is_smooth(m->alpha)) {
         Vec3 half = vec3_normalize(vec3_add(view->wo, wi));
         sum += facet_lobe(view, wi, &below);
@@ -874,8 +1080,8 @@ static Spectrum base_below(const View *view, Vec3 wi, float *pdf)
     Spectrum straight = pane_transmittance(m, &view->boundary, vec3_dot(view->wo, half));
     Spectrum spread = pane_mean_through(view) * m->base_color *
                       spectrum_all((1 - m->metallic) * m->transmission);
-    return straight * spectrum_all(base_lobe(m, view->wo, up, half)) +
-           spread * spectrum_all(rebound_lobe(view, in));
+    return sheen_over(view, up, straight) * spectrum_all(base_lobe(m, view->wo, up, half)) +
+           spread * spectrum_all(rebound_lobe(view, up, in));
 }
 
 /* Lambert's light from the other side; adds its part of the pdf. */
@@ -884,10 +1090,14 @@ static Spectrum base_across(const View *view, Vec3 wi, float *pdf)
     const MetallicRoughness *m = view->m;
     Vec3     up = vec3(wi.x, wi.y, -wi.z);
     Energy   in = base_energy(m, up);
-    Spectrum lambert = lambert_across(m), sum = diffuse_eval(view, lambert, up, in);
+    Spectrum lambert = lambert_across(m);
+    Spectrum sum = has_sheen(m) ? diffuse_below_sheen(view, lambert, up) :
+                                  diffuse_eval(view, lambert, up, in);
     *pdf += view->choices.across * up.z * INV_PI_F;
     if (!(m->clearcoat > 0)) return sum;
     Through below = coat_through(m, up);
+    if (has_sheen(m))
+        return covered(m, sum, coat_on_part(view, sum, below.open, enters_along));
     return covered(m, sum, coated_diffuse(view, lambert, up, in, &below));
 }
 
@@ -945,9 +1155,9 @@ static bool sample_smooth_coat(const View *view, BsdfSample *sample)
 static Spectrum smooth_base(const View *view, Vec3 wi)
 {
     Spectrum bare = facet_below(view, wi.z, NULL);
-    if (!(view->m->clearcoat > 0)) return bare;
+    if (!(view->m->clearcoat > 0)) return sheen_over(view, wi, bare);
     Through below = coat_through(view->m, wi);
-    return covered(view->m, bare, facet_below(view, wi.z, &below));
+    return sheen_over(view, wi, covered(view->m, bare, facet_below(view, wi.z, &below)));
 }
 
 static bool sample_smooth_base(const View *view, BsdfSample *sample)
@@ -985,6 +1195,9 @@ static Spectrum model_pass(const void *parameters, Vec3 wo)
     if (!is_smooth(m->alpha) || !(m->transmission > 0) || !(wo.z > 0)) return spectrum_all(0);
     Boundary b = boundary_of(m);
     float    coat = 1 - coat_albedo(m, wo);
+    if (has_sheen(m))
+        coat *= sqrtf(1 - sheen_most(m) * sheen_albedo(&common_sheen_table, wo.z,
+                                                       m->sheen_alpha));
     return pane_transmittance(m, &b, wo.z) * spectrum_all(coat * coat);
 }
 
@@ -994,6 +1207,7 @@ typedef enum Part {
     PART_DIFFUSE,
     PART_THROUGH,
     PART_ACROSS,
+    PART_SHEEN,
     PART_NONE
 } Part;
 
@@ -1002,7 +1216,7 @@ typedef enum Part {
 static Part choose_part(const Choices *choices, float *u)
 {
     const float prob[] = {choices->coat, choices->mirror, choices->diffuse, choices->through,
-                          choices->across};
+                          choices->across, choices->sheen};
     for (int part = 0; part < PART_NONE; part++) {
         if (*u < prob[part]) {
             *u = fminf(*u / prob[part], 0x1.fffffep-1f);
@@ -1013,12 +1227,19 @@ static Part choose_part(const Choices *choices, float *u)
     return PART_NONE;
 }
 
+static Vec3 anywhere_above(float u0, float u1)
+{
+    float sine, cosine, side = safe_sqrtf(1 - u1 * u1);
+    sincos_turns(u0, &sine, &cosine);
+    return vec3(side * cosine, side * sine, u1);
+}
+
 static Vec3 turned_over(Vec3 w)
 {
     return vec3(w.x, w.y, -w.z);
 }
 
-/* A direction by the rough coat, the rough mirror, the Lambert base or the rough sheet. */
+/* A direction by the rough coat, the rough mirror, the Lambert base, fibres or rough sheet. */
 static Vec3 sample_rough(const View *view, Part part, const float u[3])
 {
     const MetallicRoughness *m = view->m;
@@ -1030,6 +1251,7 @@ static Vec3 sample_rough(const View *view, Part part, const float u[3])
     }
     if (part == PART_MIRROR) return base_sample(m, view->wo, u[0], u[1]);
     if (part == PART_DIFFUSE) return microfacet_cosine(u[0], u[1]);
+    if (part == PART_SHEEN) return anywhere_above(u[0], u[1]);
     if (part == PART_ACROSS) return turned_over(microfacet_cosine(u[0], u[1]));
     bool by_facet = u[2] < view->energy.all;
     Vec3 up = by_facet ? base_sample(m, view->wo, u[0], u[1])
@@ -1066,7 +1288,7 @@ static bool model_scatters(const void *parameters)
     const MetallicRoughness *m = parameters;
     bool has_base = (1 - m->metallic) * (1 - m->transmission) > 0;
     bool has_coat = m->clearcoat > 0 && !is_smooth(m->clearcoat_alpha);
-    return has_base || has_coat || !is_smooth(m->alpha);
+    return has_base || has_coat || !is_smooth(m->alpha) || has_sheen(m);
 }
 
 /* f0 of the non-metal and of the metal, and what the face sends back in all. */
@@ -1097,6 +1319,12 @@ static void model_lobes(const void *parameters, Vec3 wo, BsdfLobes *lobes)
     lobe_shares(&view, &f0, &metal, &face);
     lobes->prob = view.choices.diffuse;
     lobes->diffuse = under * solid * (1 - m->transmission) * (1 - face) * base;
+    if (has_sheen(m)) { /* fibres spread it as widely */
+        float left = 1 - sheen_most(m) * view.sheen.albedo;
+        lobes->prob += view.choices.sheen;
+        lobes->diffuse = lobes->diffuse * left +
+                         under * view.sheen.albedo * spectrum_mean(sheen_tint(m));
+    }
     float alpha = is_brushed(m) ? sqrtf(m->alpha_along * m->alpha) : m->alpha;
     if (alpha < WIDE_ALPHA) return;
     lobes->prob += view.choices.mirror;
@@ -1137,6 +1365,11 @@ static Spectrum model_albedo(const void *parameters, Vec3 wo)
     albedo_parts(m, wo, &solid, &clear, &metal);
     Spectrum dielectric = solid + (clear - solid) * spectrum_all(m->transmission);
     Spectrum mixed = dielectric + (metal - dielectric) * spectrum_all(m->metallic);
+    if (has_sheen(m)) {
+        float own = sheen_albedo(&common_sheen_table, wo.z, m->sheen_alpha);
+        mixed = sheen_tint(m) * spectrum_all(own) +
+                mixed * spectrum_all(1 - sheen_most(m) * own);
+    }
     if (!(m->clearcoat > 0)) return mixed;
     float    own = coat_albedo(m, wo) / m->clearcoat;
     float    open = base_coat_mean(m).open;

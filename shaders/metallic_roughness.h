@@ -27,11 +27,14 @@ typedef struct MetallicRoughness {
     const EnergyTable *clearcoat_energy; /* of CLEARCOAT_IOR; NULL: clearcoat is 0 */
     const CoatTable   *coat;             /* of both; likewise */
     const SurfaceCoating *coating;       /* what reflects in place of the colours; NULL: none */
-    const Wavelengths    *wavelengths;   /* NULL where coating is, without film and across */
+    const Wavelengths    *wavelengths;   /* NULL where coating is, without film, across and
+                                             sheen */
     ThinFilm film;        /* where coating does not tell; share 0: none */
     bool  seen_from_back;                /* of a coated sheet */
     float across;          /* [0, 1]: share of diffuse light that leaves on the other side */
     float across_color[3]; /* its albedo, linear Rec.709, [0, 1]; wants wavelengths */
+    float sheen_color[3];  /* linear Rec.709, [0, 1]; 0: no sheen. Wants wavelengths */
+    float sheen_alpha;     /* [SHEEN_LEAST_ALPHA, 1] where there is a sheen */
 } MetallicRoughness;
 
 /* glTF's default material, but for energy, which the caller owns: white metal, alpha 1. */

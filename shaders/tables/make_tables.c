@@ -1,11 +1,12 @@
-/* make_tables FILE -- writes, as C, the tables that common_tables.h, index_tables.h and
- * lobe_facets.h promise. The build runs it once; every number is written exactly. */
+/* make_tables FILE -- writes, as C, the tables that common_tables.h, index_tables.h,
+ * lobe_facets.h and sheen.h promise. The build runs it once; each number is written exactly. */
 #include <stdio.h>
 
 #include "shaders/common_tables.h"
 #include "shaders/index_tables.h"
 #include "shaders/lobe_facets_build.h"
 #include "shaders/metallic_roughness.h"
+#include "shaders/sheen_build.h"
 
 /* The program's usual ones stand here themselves: water 1.333, paint and lining 1.45, glTF's
  * default 1.5, window glass 1.52. */
@@ -60,11 +61,14 @@ int main(int count, char **names)
     const CoatTable   *coat = coat_table_build(energy, energy, &arena);
     fprintf(file, "#include \"shaders/common_tables.h\"\n"
                   "#include \"shaders/index_tables.h\"\n"
-                  "#include \"shaders/lobe_facets.h\"\n");
+                  "#include \"shaders/lobe_facets.h\"\n"
+                  "#include \"shaders/sheen.h\"\n");
     write_table(file, "EnergyTable common_energy_table", energy, sizeof *energy);
     write_table(file, "CoatTable common_coat_table", coat, sizeof *coat);
     write_table(file, "FacetTable common_facet_table", facet_table_build(&arena),
                 sizeof(FacetTable));
+    write_table(file, "SheenTable common_sheen_table", sheen_table_build(energy, &arena),
+                sizeof(SheenTable));
     write_shapes(file, &arena);
     arena_release(&arena);
     return fclose(file) == 0 ? 0 : 1;

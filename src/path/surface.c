@@ -5,6 +5,7 @@
 #include "shaders/common_tables.h"
 #include "shaders/index_tables.h"
 #include "shaders/microfacet.h"
+#include "shaders/sheen.h"
 
 /* A shading normal is bent until the eye is above its plane by this much. */
 #define LOWEST_COSINE 1e-3f
@@ -264,6 +265,19 @@ static void set_film(const Site *site, const Surface *surface, MetallicRoughness
     model->wavelengths = site->wavelengths;
 }
 
+static void set_sheen(const Site *site, const Surface *surface, MetallicRoughness *model)
+{
+    const SheenLayer *sheen = site->material->sheen;
+    const TrianglePoint *point = &surface->point;
+    float texel[4] = {1, 1, 1, 1};
+    read_colour(site->scene, &sheen->color_texture, point, texel);
+    for (int i = 0; i < 3; i++) model->sheen_color[i] = sheen->color[i] * texel[i];
+    float roughness =
+        scaled(site->scene, sheen->roughness, &sheen->roughness_texture, point, 3);
+    model->sheen_alpha = fmaxf(roughness * roughness, SHEEN_LEAST_ALPHA);
+    model->wavelengths = site->wavelengths;
+}
+
 static void set_metallic_roughness(const Site *site, Surface *surface)
 {
     static const float white[3] = {1, 1, 1};
@@ -284,6 +298,7 @@ static void set_metallic_roughness(const Site *site, Surface *surface)
                                             site->wavelengths);
     if (m->brushing) set_brushing(site, surface, model);
     if (m->iridescence) set_film(site, surface, model);
+    if (m->sheen) set_sheen(site, surface, model);
     set_coat(site, surface, model);
     if (m->diffuse_transmission > 0) set_across(site, surface, model);
     model->coating = coating_of(site, surface->material_id);
@@ -347,7 +362,7 @@ static void set_bsdf(const Site *site, Surface *surface)
     if (m->is_solid && m->transmission > 0) {
         set_solid(site, surface);
     } else if (site->transmission >= 1 && site->metallic <= 0 && is_smooth(site->alpha) &&
-               m->clearcoat <= 0 && !m->brushing && !m->iridescence) {
+               m->clearcoat <= 0 && !m->brushing && !m->iridescence && !m->sheen) {
         set_window(site, surface);
     } else {
         set_metallic_roughness(site, surface);

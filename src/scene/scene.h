@@ -86,6 +86,13 @@ typedef struct Iridescence {
     TextureSlot thickness_texture; /* G: from least_nm to most_nm */
 } Iridescence;
 
+/* KHR_materials_sheen: fibres of cloth. */
+typedef struct SheenLayer {
+    float color[3];  /* linear Rec.709, [0, 1], not all 0 */
+    float roughness; /* [0, 1] */
+    TextureSlot color_texture, roughness_texture; /* RGB; A */
+} SheenLayer;
+
 typedef struct Material {
     const char *name; /* "material N" where the file has none */
     float base_color[4];
@@ -123,6 +130,7 @@ typedef struct Material {
     float attenuation_distance_m;
     Brushing *brushing;        /* NULL: none */
     Iridescence *iridescence;  /* NULL: none */
+    SheenLayer *sheen;         /* NULL: none */
     int   display_id;          /* NO_ID unless PARHELION_display */
     const Glazing *glazing;    /* NULL unless PARHELION_glazing */
     int   base_color_curve_id, specular_curve_id, transmission_curve_id, emission_curve_id;

@@ -133,8 +133,7 @@ def ranges():
 
 
 # What is not shown.
-SKIPPED = ("sheen",
-           "pbrSpecularGlossiness", "animations")
+SKIPPED = ("pbrSpecularGlossiness", "animations")
 
 SCHEMA += [("VALUE_NOT_IN_RANGE" + "~" * any(word in place for word in SKIPPED), "is wanted",
             put(place, value)) for place, values in ranges() for value in values]

@@ -43,3 +43,39 @@ static void add_films(void)
     add_filmed("brushed filmed plastic", 0, 0.1f, true)->alpha_along = 0.5f;
     add_filmed("filmed plastic under lacquer", 0, 0.3f, true)->clearcoat = 1;
 }
+
+static MetallicRoughness *add_sheen(const char *name, float metallic, float alpha,
+                                    float roughness, bool lossless)
+{
+    MetallicRoughness *m = add_model(name, metallic, alpha, lossless);
+    m->sheen_color[0] = m->sheen_color[1] = m->sheen_color[2] = 1;
+    m->sheen_alpha = roughness * roughness;
+    m->wavelengths = &wavelengths;
+    return m;
+}
+
+static void add_cloths(void)
+{
+    add_sheen("white cloth, sheen 1", 0, 1, 1, true);
+    add_sheen("white cloth, sheen 0.5", 0, 0.5f, 0.5f, true);
+    add_sheen("white cloth, sheen 0.2", 0, 0.3f, 0.2f, true)->specular = 0;
+    add_sheen("white cloth, sheen 0.07", 0, 0.8f, 0.07f, true);
+    add_sheen("white metal, sheen 0.4", 1, 0.2f, 0.4f, true);
+    add_sheen("smooth gold, sheen 0.6", 1, 0, 0.6f, false)->base_color = ramp(0.3f, 0.97f);
+    add_sheen("smooth plastic, sheen 0.3", 0, 0, 0.3f, true);
+    add_sheen("frosted sheet, sheen 0.7", 0, 0.3f, 0.7f, true)->transmission = 1;
+    add_sheen("smooth sheet, sheen 0.7", 0, 0, 0.7f, true)->transmission = 0.8f;
+    add_sheen("brushed plastic, sheen 0.7", 0, 0.1f, 0.7f, true)->alpha_along = 0.5f;
+    add_sheen("cloth under lacquer, sheen 0.7", 0, 0.5f, 0.7f, false)->clearcoat = 1;
+    MetallicRoughness *m = add_sheen("curtain, sheen 0.5", 0, 0.6f, 0.5f, true);
+    m->across = 0.4f;
+    m->across_color[0] = m->across_color[1] = m->across_color[2] = 1;
+    m = add_sheen("filmed half metal, sheen 0.6", 0.5f, 0.2f, 0.6f, true);
+    m->film = (ThinFilm){.share = 0.5f, .ior = 1.8f, .thickness_nm = 350};
+    m = add_sheen("red sheen on a dark cloth", 0.2f, 0.6f, 0.3f, false);
+    m->base_color = ramp(0.02f, 0.1f);
+    m->sheen_color[1] = 0.1f;
+    m->sheen_color[2] = 0;
+    m = add_sheen("coated plastic, sheen 0.5", 0, 0.3f, 0.5f, true);
+    m->coating = &plastic;
+}

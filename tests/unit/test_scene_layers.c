@@ -1,4 +1,4 @@
-/* Brushed metal, thin films: every member of these extensions arrives. */
+/* Brushed metal, thin films, sheen: every member of these extensions arrives. */
 #include "check.h"
 #include "base/units.h"
 #include "gltf_maker.h"
@@ -86,10 +86,77 @@ TEST_WITH(every_member_of_a_film_arrives, maker_reset, NULL)
     assert_transformed(&film->thickness_texture);
 }
 
+#define SHEEN "KHR_materials_sheen"
+
+TEST_WITH(sheen_has_the_defaults_of_its_extension, maker_reset, NULL)
+{
+    (void)state;
+    const SheenLayer *sheen = load_material(SHEEN, "'sheenColorFactor':[0,0.5,0]")->sheen;
+    assert_near(sheen->color[1], 0.5, 0);
+    assert_near(sheen->roughness, 0, 0);
+    assert_int_equal(sheen->color_texture.texture_id, NO_ID);
+    assert_int_equal(sheen->roughness_texture.texture_id, NO_ID);
+    assert_null(load_material(SHEEN, "'sheenRoughnessFactor':0.5")->sheen);
+    assert_null(load_material(SHEEN, "'sheenColorFactor':[0,0,0]")->sheen);
+}
+
+TEST_WITH(every_member_of_sheen_arrives, maker_reset, NULL)
+{
+    (void)state;
+    const SheenLayer *sheen =
+        load_material(SHEEN, "'sheenColorFactor':[0.25,0.5,1],'sheenRoughnessFactor':0.75,"
+                             "'sheenColorTexture':" TURNED)->sheen;
+    assert_near(sheen->color[0], 0.25, 0);
+    assert_near(sheen->color[2], 1, 0);
+    assert_near(sheen->roughness, 0.75, 0);
+    assert_transformed(&sheen->color_texture);
+    assert_int_equal(sheen->roughness_texture.texture_id, NO_ID);
+    sheen = load_material(SHEEN, "'sheenColorFactor':[1,1,1],"
+                                 "'sheenRoughnessTexture':" TURNED)->sheen;
+    assert_transformed(&sheen->roughness_texture);
+}
+
+static const struct {
+    const char *members, *place, *text;
+} WRONG_SHEEN[] = {
+    {"'sheenColorFactor':0.5", "/sheenColorFactor", "array"},
+    {"'sheenColorFactor':[1,1]", "/sheenColorFactor", "3"},
+    {"'sheenColorFactor':[1,'1',1]", "/sheenColorFactor/1", "number"},
+    {"'sheenColorFactor':[1,1,1.5]", "/sheenColorFactor/2", "1.5"},
+    {"'sheenColorFactor':[-0.5,1,1]", "/sheenColorFactor/0", "-0.5"},
+    {"'sheenRoughnessFactor':'1'", "/sheenRoughnessFactor", "number"},
+    {"'sheenRoughnessFactor':1.25", "/sheenRoughnessFactor", "1.25"},
+    {"'sheenRoughnessFactor':-1", "/sheenRoughnessFactor", "-1"},
+    {"'sheenColorTexture':1", "/sheenColorTexture", "object"},
+    {"'sheenRoughnessTexture':{}", "/sheenRoughnessTexture", "index"},
+};
+
+TEST_WITH(each_wrong_member_of_sheen_is_told, maker_reset, NULL)
+{
+    (void)state;
+    for (size_t i = 0; i < sizeof WRONG_SHEEN / sizeof *WRONG_SHEEN; i++) {
+        char text[1024], place[128];
+        snprintf(text, sizeof text,
+                 "'extensionsUsed':['" SHEEN "'],'materials':[{'extensions':{'" SHEEN
+                 "':{%s}}}]", WRONG_SHEEN[i].members);
+        snprintf(place, sizeof place, "/materials/0/extensions/" SHEEN "%s",
+                 WRONG_SHEEN[i].place);
+        Found found = maker_survey_file(maker_gltf(NULL, 0, text));
+        if (!maker_find(&found, place, WRONG_SHEEN[i].text))
+            fail_msg("%s is not told as \"%s\"", place, WRONG_SHEEN[i].text);
+    }
+}
+
 /* What is not shown beside something else is told once, by what hides it. */
 static const struct {
     const char *extensions, *place, *text;
 } HIDDEN[] = {
+    {"'KHR_materials_sheen':{'sheenColorFactor':[0,0,1]},'KHR_materials_unlit':{}",
+     "KHR_materials_sheen", "has no effect beside KHR_materials_unlit"},
+    {"'KHR_materials_sheen':{'sheenColorFactor':[1,0,0]},"
+     "'KHR_materials_transmission':{'transmissionFactor':1},"
+     "'KHR_materials_volume':{'thicknessFactor':1}",
+     "KHR_materials_sheen", "closed solid, on which sheen is not shown"},
     {"'KHR_materials_iridescence':{'iridescenceFactor':1},'KHR_materials_unlit':{}",
      "KHR_materials_iridescence", "has no effect beside KHR_materials_unlit"},
     {"'KHR_materials_iridescence':{'iridescenceFactor':1},"

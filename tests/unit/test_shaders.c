@@ -188,6 +188,7 @@ static int make_models(void **state)
     add_coated_surfaces();
     add_brushed();
     add_films();
+    add_cloths();
     return 0;
 }
 

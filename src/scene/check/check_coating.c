@@ -98,6 +98,23 @@ static void check_brushing(const DocumentCheck *check, const GltfValue *material
                                     "closed solid, whose boundary is not brushed");
 }
 
+static void check_sheen(const DocumentCheck *check, const GltfValue *material)
+{
+    static const char *const stronger[] = {"PARHELION_glazing", "PARHELION_display",
+                                           "KHR_materials_unlit"};
+    const GltfValue *sheen = tree_extension(material, "KHR_materials_sheen");
+    const GltfValue *color = tree_member(sheen, "sheenColorFactor");
+    bool is_seen = false;
+    for (int i = 0; color && i < color->count; i++) is_seen |= color->items[i].number > 0;
+    if (!is_seen) return;
+    for (int i = 0; i < COUNT_OF(stronger); i++)
+        if (tree_extension(material, stronger[i]))
+            check_warns(check, sheen, "has no effect beside %s", stronger[i]);
+    if (material_is_clear_solid(material))
+        check_warns(check, sheen, "has no effect: KHR_materials_volume makes the material a "
+                                  "closed solid, on which sheen is not shown");
+}
+
 void check_coated_material(const DocumentCheck *check, const GltfValue *material)
 {
     const GltfValue *coating = tree_extension(material, "PARHELION_coating");
@@ -113,6 +130,7 @@ void check_coated_material(const DocumentCheck *check, const GltfValue *material
         check_warns(check, conductor, "has no effect: metallicFactor is 0");
     check_film(check, material);
     check_brushing(check, material);
+    check_sheen(check, material);
     if (!coating) return;
     if (tree_extension(material, "KHR_materials_unlit"))
         check_warns(check, coating, "has no effect beside KHR_materials_unlit");

@@ -368,6 +368,7 @@ static const ExtensionRule EXTENSIONS[] = {
     {"KHR_materials_unlit", "material", &SCHEMA_UNLIT},
     {"KHR_materials_iridescence", "material", &SCHEMA_IRIDESCENCE},
     {"KHR_materials_anisotropy", "material", &SCHEMA_ANISOTROPY},
+    {"KHR_materials_sheen", "material", &SCHEMA_SHEEN},
     {"KHR_texture_transform", "textureInfo", &SCHEMA_TEXTURE_TRANSFORM},
     {"KHR_node_visibility", "node", &SCHEMA_VISIBILITY},
     {"EXT_texture_webp", "texture", &SCHEMA_WEBP},
@@ -391,7 +392,6 @@ static const ExtensionRule EXTENSIONS[] = {
     {"KHR_node_hoverability", NULL, NULL},
     {"KHR_mesh_quantization", "", NULL}, /* it only widens what accessors may hold */
     /* Known, so that a wrong place or value can be told, but not honoured: */
-    {"KHR_materials_sheen", "material", &SCHEMA_SHEEN},
     {"KHR_materials_pbrSpecularGlossiness", "material", &SCHEMA_GLOSSINESS},
     {"KHR_texture_basisu", "texture", &SCHEMA_BASISU},
 };

@@ -12,6 +12,11 @@
 #include "scene/load/texture_slot.h"
 #include "spectrum/photometry.h"
 
+static bool any_positive(const float rgb[3])
+{
+    return rgb[0] > 0 || rgb[1] > 0 || rgb[2] > 0;
+}
+
 /* ---- core ------------------------------------------------------------------------------ */
 
 static Material default_material(const char *name)
@@ -126,6 +131,17 @@ static void read_iridescence(GltfFile *file, const GltfValue *film, Material *m)
             texture_slot(file, tree_member(film, "iridescenceThicknessTexture"))};
 }
 
+static void read_sheen(GltfFile *file, const GltfValue *sheen, Material *m)
+{
+    SheenLayer layer = {.roughness = tree_float(sheen, "sheenRoughnessFactor", 0)};
+    tree_floats(sheen, "sheenColorFactor", 3, layer.color);
+    if (!any_positive(layer.color)) return;
+    layer.color_texture = texture_slot(file, tree_member(sheen, "sheenColorTexture"));
+    layer.roughness_texture = texture_slot(file, tree_member(sheen, "sheenRoughnessTexture"));
+    m->sheen = ARENA_NEW(file->load->arena, SheenLayer, 1);
+    *m->sheen = layer;
+}
+
 static void read_volume(const GltfValue *volume, Material *m)
 {
     m->is_solid = tree_float(volume, "thicknessFactor", 0) > 0;
@@ -156,6 +172,7 @@ static void read_extensions(GltfFile *file, const GltfValue *value, Material *m)
     read_volume(tree_extension(value, "KHR_materials_volume"), m);
     read_iridescence(file, tree_extension(value, "KHR_materials_iridescence"), m);
     read_anisotropy(file, tree_extension(value, "KHR_materials_anisotropy"), m);
+    read_sheen(file, tree_extension(value, "KHR_materials_sheen"), m);
 }
 
 static int read_curve(GltfFile *file, const GltfValue *uri, CurveRange range)
@@ -194,11 +211,6 @@ static void read_spectra(GltfFile *file, const GltfValue *spectrum, Material *m)
 }
 
 /* ---- all of them ----------------------------------------------------------------------- */
-
-static bool any_positive(const float rgb[3])
-{
-    return rgb[0] > 0 || rgb[1] > 0 || rgb[2] > 0;
-}
 
 void material_derive_flags(Material *m)
 {

@@ -50,7 +50,7 @@ TextureSlot texture_slot(GltfFile *file, const GltfValue *info)
 
 /* ---- which uv sets does a material need? ----------------------------------------------- */
 
-#define MATERIAL_SLOTS 15
+#define MATERIAL_SLOTS 17
 
 /* All slots of a material but a display's content; NULL: it has none such. */
 static void slots_of(Material *m, TextureSlot *slots[MATERIAL_SLOTS])
@@ -63,7 +63,9 @@ static void slots_of(Material *m, TextureSlot *slots[MATERIAL_SLOTS])
                           &m->diffuse_transmission_color_texture,
                           m->brushing ? &m->brushing->texture : NULL,
                           m->iridescence ? &m->iridescence->texture : NULL,
-                          m->iridescence ? &m->iridescence->thickness_texture : NULL};
+                          m->iridescence ? &m->iridescence->thickness_texture : NULL,
+                          m->sheen ? &m->sheen->color_texture : NULL,
+                          m->sheen ? &m->sheen->roughness_texture : NULL};
     memcpy(slots, all, sizeof all);
 }
 

@@ -1,0 +1,11 @@
+/* sheen_build.h -- how sheen.h's table is made (tables/make_tables.c).
+ *
+ * energy: of the boundary whose facets lie beneath. The table is the caller's arena's; making
+ * it takes some 4 seconds.
+ * Threads  pure.  Fails  never.
+ */
+#pragma once
+#include "shaders/energy.h"
+#include "shaders/sheen.h"
+
+const SheenTable *sheen_table_build(const EnergyTable *energy, Arena *arena);
