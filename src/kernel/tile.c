@@ -103,10 +103,12 @@ static void lights_clear(LightSums *sums)
     sums->count = 0;
 }
 
+/* What leaves the scene is told of the sun and of the sky, also where there is none: nothing. */
 static void lights_hear(void *user, const PathTale *tale, const float xyz[3])
 {
     LightSums *sums = user;
     int        group = light_group_of(sums->groups, tale->source, tale->source_id);
+    if (group == NO_ID) return;
     int       *place = &sums->place[group];
     if (*place < 0) {
         *place = sums->count++;

@@ -27,7 +27,8 @@ typedef struct LightGroups {
 LightGroups light_groups_build(const Scene *scene, const Lights *lights, Arena *arena,
                                Problems *problems);
 
-/* source_id: of emitters the scene's part, of punctual lights which. */
+/* source_id: of emitters the scene's part, of punctual lights which. NO_ID: there is no such
+ * light. */
 static inline int light_group_of(const LightGroups *groups, LightSet set, int source_id)
 {
     if (set == LIGHTS_SUN) return groups->sun;
