@@ -17,6 +17,17 @@ typedef struct Hit {
     uint32_t triangle; /* index into Scene.triangles */
 } Hit;
 
+/* What a frame's pixel covers around a ray, as a cone: its width across the ray, m, is `width`
+ * at the ray's origin and grows by `spread` a metre. Both 0: the ray is of no frame. */
+typedef struct RayCone {
+    float width, spread;
+} RayCone;
+
+static inline float ray_cone_width(RayCone cone, float distance)
+{
+    return cone.width + cone.spread * distance;
+}
+
 /* How far a ray starts off the surface that it leaves, m: 2^-17 of the largest coordinate, ten
  * times the rounding of a point computed from barycentric weights. */
 static inline float ray_offset_step(Vec3 position)

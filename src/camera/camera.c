@@ -35,6 +35,12 @@ Ray camera_ray(const Camera *camera, float x, float y)
     return (Ray){transform_point(world, vec3(right, up, 0)), vec3_neg(world->z), 0, INFINITY};
 }
 
+RayCone camera_cone(const Camera *camera)
+{
+    float pixel = 2 * camera->half_height / (float)camera->height;
+    return camera->is_perspective ? (RayCone){0, pixel} : (RayCone){pixel, 0};
+}
+
 SceneCamera camera_look_at(Vec3 eye, Vec3 target, float yfov)
 {
     Vec3 z = vec3_normalize(vec3_sub(eye, target)); /* from the scene to the camera */

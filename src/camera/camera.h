@@ -20,6 +20,9 @@ Camera camera_from_scene(const SceneCamera *camera, int width, int height);
 /* x, y: film position in pixels, 0 <= x <= width. The direction has unit length. */
 Ray camera_ray(const Camera *camera, float x, float y);
 
+/* Of a ray through the middle of the frame; others' pixels are a little narrower. */
+RayCone camera_cone(const Camera *camera);
+
 /* A camera at `eye` that looks at `target`, both in the scene's metres, +Y up (-Z where it
  * looks along Y); yfov: radians, full vertical angle. The two points must differ. */
 SceneCamera camera_look_at(Vec3 eye, Vec3 target, float yfov);

@@ -1,6 +1,7 @@
 #include "path/path.h"
 
 #include "base/units.h"
+#include "light/subpixels.h"
 #include "path/lead.h"
 #include "path/path_light.h"
 #include "path/polarised.h"
@@ -366,16 +367,46 @@ static void add_distant(PathWalk *walk)
     }
 }
 
+/* Is this a display with sub-pixels, seen by the eye itself, straight or through panes? What
+ * mirrors and other surfaces see is its even light. */
+static bool comes_close(const PathWalk *walk, const Surface *surface, uint32_t triangle,
+                        Vec3 wo, CloseView *out)
+{
+    const Scene *scene = walk->context->scene;
+    int          display_id = scene->materials[surface->material_id].display_id;
+    if (walk->bounce || display_id == NO_ID || !scene->displays[display_id].subpixels)
+        return false;
+    const Display *display = &scene->displays[display_id];
+    Frame          frame = display_frame(scene, display, triangle, &surface->point);
+    *out = (CloseView){.scene = scene, .display = display, .point = &surface->point,
+                       .triangle = triangle, .local = frame_to_local(&frame, wo),
+                       .width = ray_cone_width(walk->context->cone, walk->straight)};
+    return true;
+}
+
+static Spectrum emission_seen(const PathWalk *walk, const Surface *surface, uint32_t triangle,
+                              Vec3 wo)
+{
+    CloseView close;
+    if (comes_close(walk, surface, triangle, wo, &close))
+        return subpixels_spectrum(&close, walk->wavelengths);
+    return triangle_emission(walk->context->scene, triangle, &surface->point, wo,
+                             walk->wavelengths);
+}
+
 /* A display seen along a path on which nothing depended on wavelength: its measured XYZ. */
 static void add_display_xyz(PathWalk *walk, const Surface *surface, uint32_t triangle, Vec3 wo,
                             float weight)
 {
-
     const Scene *scene = walk->context->scene;
     int          display_id = scene->materials[surface->material_id].display_id;
     float        xyz[3];
-    display_emission_xyz(scene, &scene->displays[display_id], triangle, &surface->point, wo,
-                         xyz);
+    CloseView    close;
+    if (comes_close(walk, surface, triangle, wo, &close))
+        subpixels_xyz(&close, xyz);
+    else
+        display_emission_xyz(scene, &scene->displays[display_id], triangle, &surface->point, wo,
+                             xyz);
     PathLight light = {.radiance = spectrum_all(0)};
     float     share = walk->throughput[0] * weight;
     if (walk->polarised)
@@ -389,7 +420,7 @@ static void add_display_xyz(PathWalk *walk, const Surface *surface, uint32_t tri
     walk->tale->lanes = NULL;
     if (walk->listener->with_lanes) {
         lanes = walk->throughput * spectrum_all(weight) *
-                triangle_emission(scene, triangle, &surface->point, wo, walk->wavelengths);
+                emission_seen(walk, surface, triangle, wo);
         walk->tale->lanes = (const float *)&lanes;
     }
     tell(walk, walk->tale, &light);
@@ -417,8 +448,7 @@ static void add_emitted(PathWalk *walk, const Surface *surface, const Hit *hit, 
         return;
     }
     Spectrum sent = walk->throughput * spectrum_all(weight) *
-                    triangle_emission(scene, hit->triangle, &surface->point, wo,
-                                      walk->wavelengths);
+                    emission_seen(walk, surface, hit->triangle, wo);
     gather(walk, count_emitter(walk, sent, hit->triangle, &surface->point, wo), LIGHTS_EMITTERS,
            surface->part_id);
 }

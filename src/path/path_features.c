@@ -1,6 +1,7 @@
 #include "path/path_features.h"
 
 #include "base/units.h"
+#include "light/subpixels.h"
 #include "spectrum/photometry.h"
 
 /* Reflectance under D65 as linear Rec.709: the mean over paths is exact. */
@@ -48,10 +49,32 @@ static void emission_seen(const SeenDisplay *view, const float codes[3], float x
     spectrum_add_xyz(view->wavelengths, through * sent, xyz);
 }
 
+/* Its sub-pixels, for an eye that is close. */
+static void subpixels_of_content(const PathContext *context, const SeenDisplay *view,
+                                 float xyz[3])
+{
+    SubpixelMix mix;
+    CloseView   close = {.scene = context->scene, .display = view->display,
+                         .point = view->point, .triangle = view->path->first.triangle,
+                         .local = view->direction,
+                         .width = ray_cone_width(context->cone, view->path->first.t)};
+    subpixels_seen(&close, &mix);
+    for (int j = 0; j < 3; j++) xyz[j] = 0;
+    for (int i = 0; i < mix.count; i++) {
+        float one[3];
+        emission_seen(view, mix.codes[i], one);
+        for (int j = 0; j < 3; j++) xyz[j] += mix.weight[i] * one[j];
+    }
+}
+
 static void content_seen(const PathContext *context, const SeenDisplay *view,
                          const Surface *surface, float xyz[3])
 {
     float codes[3];
+    if (view->display->subpixels) {
+        subpixels_of_content(context, view, xyz);
+        return;
+    }
     display_codes(context->scene, view->display, &surface->point, codes);
     emission_seen(view, codes, xyz);
 }

@@ -148,6 +148,7 @@ static bool render(const FrameAsk *ask, FrameKept *kept, const SceneCamera *came
     Arena       *arena = kept->arena;
     if (!frame_kept_begin(kept, options, err)) return false;
     setup.camera = camera_from_scene(camera, options->width, options->height);
+    setup.context.cone = camera_cone(&setup.camera);
     setup.context.guide =
         train_guide(&stage->context, &setup.camera, &train, arena, &setup.training);
     if (!review_goes_on(stage->tools.journal, err) ||

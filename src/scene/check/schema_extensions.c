@@ -231,10 +231,30 @@ static const Schema SCHEMA_VISIBILITY = {"KHR_node_visibility", VISIBILITY,
 
 /* ---- ours (formats: files that users write) -------------------------------------------- */
 
+static void check_subpixels(const DocumentCheck *check, const GltfValue *subpixels)
+{
+    const GltfValue *columns = tree_member(subpixels, "columns");
+    const GltfValue *rows = tree_member(subpixels, "rows");
+    if (!columns != !rows)
+        check_fails(check, columns ? columns : rows, "is there without \"%s\"",
+                    columns ? "rows" : "columns");
+}
+
+static const Rule SUBPIXELS[] = {
+    {.name = "layout", .kind = RULE_CHOICE, .flags = RULE_REQUIRED | RULE_CLOSED,
+     .of = "stripe|pentile"},
+    {.name = "fill", .kind = RULE_NUMBER, .flags = RULE_HAS_RANGE, .min = 0.01, .max = 1},
+    {.name = "columns", .kind = RULE_INTEGER, .flags = RULE_HAS_RANGE, .min = 1, .max = 65536},
+    {.name = "rows", .kind = RULE_INTEGER, .flags = RULE_HAS_RANGE, .min = 1, .max = 65536},
+};
+static const Schema SCHEMA_SUBPIXELS = {"subpixels", SUBPIXELS, COUNT_OF(SUBPIXELS), true,
+                                        check_subpixels};
+
 static const Rule DISPLAY[] = {
     {.name = "panel", .kind = RULE_TEXT},
     {.name = "content", .kind = RULE_OBJECT, .schema = &SCHEMA_TEXTURE_INFO},
     {.name = "level", .kind = RULE_NUMBER, .flags = RULE_FROM_MIN},
+    {.name = "subpixels", .kind = RULE_OBJECT, .schema = &SCHEMA_SUBPIXELS},
 };
 static const Schema SCHEMA_DISPLAY = {"PARHELION_display", DISPLAY, COUNT_OF(DISPLAY), true,
                                       check_display};

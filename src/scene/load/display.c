@@ -28,6 +28,17 @@ static int add_display(Loader *load, Display display, const char *file, const ch
     return material->display_id = load->displays.count - 1;
 }
 
+static const Subpixels *subpixels_build(Loader *load, const GltfValue *given)
+{
+    if (!given) return NULL;
+    bool       is_stripe = strcmp(tree_text(given, "layout", ""), "stripe") == 0;
+    Subpixels *out = ARENA_NEW(load->arena, Subpixels, 1);
+    *out = (Subpixels){.layout = is_stripe ? SUBPIXELS_STRIPE : SUBPIXELS_PENTILE,
+                       .fill = tree_float(given, "fill", 1),
+                       .pixels = {tree_int(given, "columns", 0), tree_int(given, "rows", 0)}};
+    return out;
+}
+
 void display_build(GltfFile *file, const GltfValue *extension, int material_id)
 {
     Loader *load = file->load;
@@ -42,7 +53,9 @@ void display_build(GltfFile *file, const GltfValue *extension, int material_id)
                           .material_id = material_id,
                           .panel_path = kept(load, path),
                           .content = texture_slot(file, tree_member(extension, "content")),
-                          .level = tree_float(extension, "level", 1)},
+                          .level = tree_float(extension, "level", 1),
+                          .subpixels = subpixels_build(load, tree_member(extension,
+                                                                         "subpixels"))},
                 file->path, pointer);
 }
 
@@ -259,6 +272,27 @@ static void check_content(Loader *load, int id)
                      "display \"%s\" has no content: it shows full white", display->name);
 }
 
+/* Where their number is not given, a pixel of the content is one of the display's. */
+static void count_pixels(Loader *load, int id)
+{
+    Display *display = list_item(&load->displays, id);
+    const DisplayPlace *place = list_item(&load->display_places, id);
+    if (!display->subpixels || display->subpixels->pixels[0]) return;
+    if (display->content.texture_id == NO_ID) {
+        problems_add(load->problems, SEVERITY_ERROR, place->file, place->pointer,
+                     "display \"%s\": its \"subpixels\" need \"columns\" and \"rows\" where "
+                     "no content tells them",
+                     display->name);
+        return;
+    }
+    const Texture *texture = list_item(&load->textures, display->content.texture_id);
+    Subpixels     *counted = ARENA_NEW(load->arena, Subpixels, 1);
+    *counted = *display->subpixels;
+    counted->pixels[0] = texture->image.width;
+    counted->pixels[1] = texture->image.height;
+    display->subpixels = counted;
+}
+
 /* The content's coordinates fix the panel's right and up, so they must not be mirrored. */
 static void check_coordinates(Loader *load, const PartDraft *draft)
 {
@@ -308,6 +342,7 @@ void displays_finish(Loader *load)
     for (int i = 0; i < load->displays.count; i++) {
         open_panel(load, i);
         check_content(load, i);
+        count_pixels(load, i);
     }
     for (int i = 0; i < load->displays.count; i++) find_place(load, i);
     for (int i = 0; i < load->parts.count; i++)
