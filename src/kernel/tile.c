@@ -103,7 +103,7 @@ static void lights_clear(LightSums *sums)
     sums->count = 0;
 }
 
-/* What leaves the scene is told of the sun and of the sky, also where there is none: nothing. */
+/* What leaves the scene is told of sun and sky, also where there is none: it is nothing. */
 static void lights_hear(void *user, const PathTale *tale, const float xyz[3])
 {
     LightSums *sums = user;
