@@ -39,7 +39,7 @@ UNKNOWN_NAMES = (
      "There are cluster, centre;"),
     ((*RENDER, "--display-level", "gap=5"), 3, "is no display", "cluster, centre"),
     ((*RENDER, "--panel", "clustr=a.panel"), 3, "did you mean cluster?",
-     'There are cluster, centre, "leather black", thread'),
+     'There are cluster, centre, "leather black", '),
     ((*RENDER, "--camera", "driver"), 2, "driver-eye", "passenger-eye", "outside"),
     ((*RENDER, "--layers", "depht"), 2, "did you mean depth?", "all", "xyz",
      "display.contrast"),
