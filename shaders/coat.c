@@ -21,9 +21,7 @@ float coat_reflectance(const EnergyTable *coat, float cosine, float coat_alpha)
 
 static float alpha_of_row(int row)
 {
-    if (row == 0) return 0;
-    float octave = (float)(1 << row / COAT_PER_OCTAVE) * 0x1p-10f;
-    return octave * (1 + (float)(row % COAT_PER_OCTAVE) / COAT_PER_OCTAVE);
+    return row > 0 ? energy_alpha_of_row(row, COAT_PER_OCTAVE) : 0;
 }
 
 static float cosine_of(int node)

@@ -336,12 +336,6 @@ const PaneCoating *coating_of_pane(const Glazing *pane, Arena *arena)
 
 /* ---- energies --------------------------------------------------------------------------- */
 
-static float alpha_of_row(int row)
-{
-    float octave = (float)(1 << row / COATING_PER_OCTAVE) * 0x1p-10f;
-    return octave * (1 + (float)(row % COATING_PER_OCTAVE) / COATING_PER_OCTAVE);
-}
-
 /* How much of the light along a direction meets facets at the cosine of each row of a table. */
 static void facet_weights(float cosine, float alpha, int count, double *weight)
 {
@@ -375,7 +369,7 @@ static void energy_rows(const CoatingTable *front, int alpha_row, int count, Cur
             row[c] = front->row[c * (front->count - 1) / (count - 1)];
             continue;
         }
-        facet_weights((float)cosine, alpha_of_row(alpha_row), front->count, weight);
+        facet_weights((float)cosine, energy_alpha_of_row(alpha_row, COATING_PER_OCTAVE), front->count, weight);
         energy_row(front, weight, &row[c]);
     }
 }

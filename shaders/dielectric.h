@@ -5,6 +5,7 @@
 #pragma once
 #include "shaders/bsdf_model.h"
 #include "shaders/coating.h"
+#include "shaders/solid_energy.h"
 
 /* A smooth sheet with two parallel faces: a mirror image, and light straight through. */
 typedef struct ThinWindow {
@@ -28,6 +29,9 @@ typedef struct Dielectric {
     const Wavelengths   *wavelengths; /* NULL where it is bare and of one index */
     const Curve         *index;       /* by wavelength, 1 or more, in place of ior; NULL: it is
                                          the same for all. Without a coating */
+    /* What rough facets pass to one another, of that ior; where the index differs by wavelength
+     * of its least and its greatest. NULL: it is lost (a smooth boundary has none). */
+    const SolidEnergy   *energy, *energy_most;
     const Spectrum      *light;       /* of a path that is split: what its lanes still count,
                                          >= 0; chance follows it. NULL: all alike */
 } Dielectric;

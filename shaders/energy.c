@@ -66,13 +66,6 @@ static Energy average_of(const Energy *row)
     return (Energy){(float)all, (float)shape};
 }
 
-/* Row 0 stands for every smooth boundary: it has no facets that hide one another. */
-static float alpha_of_row(int row)
-{
-    float octave = (float)(1 << row / ENERGY_PER_OCTAVE) * 0x1p-10f;
-    return octave * (1 + (float)(row % ENERGY_PER_OCTAVE) / ENERGY_PER_OCTAVE);
-}
-
 const EnergyTable *energy_table_build(float ior, Arena *arena)
 {
     EnergyTable *table = ARENA_NEW(arena, EnergyTable, 1);
@@ -81,7 +74,9 @@ const EnergyTable *energy_table_build(float ior, Arena *arena)
         for (int c = 0; c < ENERGY_COSINES; c++) {
             float t = (float)c / (ENERGY_COSINES - 1);
             float cosine = c > 0 ? t * t : 1e-5f;
-            table->directional[a][c] = a > 0 ? integrate(ior, cosine, alpha_of_row(a)) :
+            float alpha = energy_alpha_of_row(a, ENERGY_PER_OCTAVE);
+            /* Row 0, the smooth boundaries, has no facets that hide one another. */
+            table->directional[a][c] = a > 0 ? integrate(ior, cosine, alpha) :
                                        (Energy){1, fresnel_shape(ior, cosine)};
         }
         table->average[a] = average_of(table->directional[a]);

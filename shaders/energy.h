@@ -53,6 +53,13 @@ EnergyKnot energy_cosine_knot(float cosine);
 /* Row 0 is every smooth boundary; rows stand per_octave to an octave of alpha. */
 EnergyKnot energy_alpha_knot(float alpha, int per_octave);
 
+/* The alpha of a row; of row 0, which is every smooth boundary, nearly none. */
+static inline float energy_alpha_of_row(int row, int per_octave)
+{
+    float octave = (float)(1 << row / per_octave) * 0x1p-10f;
+    return octave * (1 + (float)(row % per_octave) / (float)per_octave);
+}
+
 #define ENERGY_LOBE_POINTS 768
 
 /* One of the points of an integral over the lobe of reflectance 1 about a direction. */

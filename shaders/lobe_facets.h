@@ -41,6 +41,18 @@ extern const FacetTable common_facet_table;
 /* At which R is asked: 1/2 - 1/2 cos((k + 1/2) pi / LOBE_FACETS). */
 extern const float facet_cosine[LOBE_FACETS];
 
+/* Lagrange's polynomials of the facets' cosines at one. */
+static inline void facet_polynomials(double x, double value[LOBE_FACETS])
+{
+    for (int i = 0; i < LOBE_FACETS; i++) {
+        value[i] = 1;
+        for (int j = 0; j < LOBE_FACETS; j++) {
+            double here = (double)facet_cosine[i], other = (double)facet_cosine[j];
+            if (j != i) value[i] *= (x - other) / (here - other);
+        }
+    }
+}
+
 /* Where a cosine stands on the table's axis, 0 to 1; own: the alpha along the direction's own
  * azimuth. Half of the axis is for cosines about that alpha. */
 static inline float facet_axis(float cosine, float own)

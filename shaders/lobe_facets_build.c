@@ -15,18 +15,6 @@
 
 /* ---- lobes ------------------------------------------------------------------------------- */
 
-/* Lagrange's polynomials of the facets' cosines at one. */
-static void lagrange(double x, double value[LOBE_FACETS])
-{
-    for (int i = 0; i < LOBE_FACETS; i++) {
-        value[i] = 1;
-        for (int j = 0; j < LOBE_FACETS; j++) {
-            double here = (double)facet_cosine[i], other = (double)facet_cosine[j];
-            if (j != i) value[i] *= (x - other) / (here - other);
-        }
-    }
-}
-
 static LobeFacets facets_of_lobe(Vec3 wo, Vec2 alpha)
 {
     LobeFacets out;
@@ -40,7 +28,7 @@ static LobeFacets facets_of_lobe(Vec3 wo, Vec2 alpha)
         Vec3  half = vec3_normalize(vec3_add(wo, wi));
         float weight = 2 * rest * brushed_reflection(wo, wi, half, alpha) * wi.z /
                        brushed_reflection_pdf(wo, half, alpha);
-        lagrange((double)vec3_dot(wo, half), at);
+        facet_polynomials((double)vec3_dot(wo, half), at);
         for (int k = 0; k < LOBE_FACETS; k++) sum[k] += (double)weight / POINTS * at[k];
     }
     for (int k = 0; k < LOBE_FACETS; k++) out.weight[k] = (float)sum[k];

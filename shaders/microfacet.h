@@ -42,6 +42,13 @@ float ggx_visible_pdf(Vec3 wo, Vec3 normal, float alpha);
 Vec3  ggx_sample_reflection(Vec3 wo, float alpha, float u0, float u1);
 float ggx_reflection_pdf(Vec3 wo, Vec3 half, float alpha);
 
+/* Where a facet, met at `cosine`, refracts light from wo; eta: the other side's index over this
+ * one's; behind: the cosine on the other side (fresnel.h). Walter 2007, equation 40. */
+static inline Vec3 refracted(Vec3 wo, Vec3 half, float eta, float cosine, float behind)
+{
+    return vec3_sub(vec3_scale(half, cosine / eta - behind), vec3_scale(wo, 1 / eta));
+}
+
 /* Of a Lambert surface: density z / pi. u in [0,1)^2. */
 static inline Vec3 microfacet_cosine(float u0, float u1)
 {

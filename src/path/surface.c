@@ -10,12 +10,45 @@
 /* A shading normal is bent until the eye is above its plane by this much. */
 #define LOWEST_COSINE 1e-3f
 
+/* Of a rough solid: of its index, where that differs by wavelength of the least and the most. */
+typedef struct SolidTables {
+    const SolidEnergy *least, *most; /* NULL: smooth; of one index */
+} SolidTables;
+
 struct SurfaceTables {
     const EnergyTable **of_material; /* of each material's index of refraction */
     const EnergyTable  *of_coat;
     const CoatTable   **on_material; /* of a coat on each material; NULL: it has none */
     const SurfaceCoating *const *coatings; /* of each material; NULL: none has one */
+    const SolidTables *solids;             /* of each material */
 };
+
+static bool is_rough_solid(const Material *m)
+{
+    return m->is_solid && m->transmission > 0 && !is_smooth(m->roughness * m->roughness);
+}
+
+/* Seen by the solid's surroundings: a coating may stand in another medium than air. */
+static float index_of(const Material *m, float absolute)
+{
+    return m->coating ? (float)((double)absolute / m->coating->outside) : absolute;
+}
+
+static SolidTables solid_tables(const Material *m, Arena *arena)
+{
+    bool  is_even = m->metallic_roughness_texture.texture_id == NO_ID;
+    float most = m->roughness * m->roughness, least = is_even ? most : 0;
+    float low = m->index ? m->index->value[0] : m->ior, high = low;
+    if (!is_rough_solid(m)) return (SolidTables){NULL, NULL};
+    for (int i = 0; i < CURVE_COUNT && m->index; i++) {
+        low = fminf(low, m->index->value[i]);
+        high = fmaxf(high, m->index->value[i]);
+    }
+    bool is_coated = m->coating != NULL;
+    return (SolidTables){
+        solid_energy_build(index_of(m, low), least, most, is_coated, arena),
+        low < high ? solid_energy_build(high, least, most, false, arena) : NULL};
+}
 
 /* Materials of one index of refraction share a table. */
 static const CoatTable *coat_on(const Scene *scene, int material_id,
@@ -35,7 +68,9 @@ const SurfaceTables *surface_tables_build(const Scene *scene, bool is_polarised,
     SurfaceTables *tables = ARENA_NEW(arena, SurfaceTables, 1);
     tables->of_material = ARENA_NEW(arena, const EnergyTable *, scene->material_count + 1);
     tables->on_material = ARENA_NEW(arena, const CoatTable *, scene->material_count + 1);
+    SolidTables *solids = ARENA_NEW(arena, SolidTables, scene->material_count + 1);
     tables->of_coat = &common_energy_table;
+    tables->solids = solids;
     tables->coatings = surface_coatings_build(scene, is_polarised, arena);
     for (int i = 0; i < scene->material_count; i++) {
         float ior = scene->materials[i].ior;
@@ -44,6 +79,7 @@ const SurfaceTables *surface_tables_build(const Scene *scene, bool is_polarised,
             if (scene->materials[j].ior == ior) table = tables->of_material[j];
         tables->of_material[i] = table ? table : energy_table_of(ior, arena);
         tables->on_material[i] = coat_on(scene, i, tables, arena);
+        solids[i] = solid_tables(&scene->materials[i], arena);
     }
     return tables;
 }
@@ -314,6 +350,8 @@ static void set_solid(const Site *site, Surface *surface)
     Dielectric *solid = &surface->bsdf.dielectric;
     surface->bsdf.kind = BSDF_DIELECTRIC;
     *solid = (Dielectric){.tint = tint_of(site), .ior = m->ior, .alpha = site->alpha};
+    solid->energy = site->tables->solids[surface->material_id].least;
+    solid->energy_most = site->tables->solids[surface->material_id].most;
     solid->index = m->index;
     solid->wavelengths = m->index ? site->wavelengths : NULL;
     if (!coating) return;

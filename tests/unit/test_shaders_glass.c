@@ -16,8 +16,18 @@ static void add_dielectric(const char *name, float ior, float alpha)
     models[model_count++] = (Model){.name = name, .bsdf.kind = BSDF_DIELECTRIC,
                                     .bsdf.dielectric = {.tint = spectrum_all(1), .ior = ior,
                                                         .alpha = alpha},
-                                    .lossless = alpha < 0.06f, .both_sides = true,
-                                    .width = width};
+                                    .lossless = true, .both_sides = true, .width = width};
+    if (alpha >= SMOOTH_ALPHA)
+        models[model_count - 1].bsdf.dielectric.energy =
+            solid_energy_build(ior, alpha, alpha, false, &arena);
+}
+
+/* Of single facets alone, which lose light. */
+static void add_bare_facets(const char *name, float ior, float alpha)
+{
+    add_dielectric(name, ior, alpha);
+    models[model_count - 1].bsdf.dielectric.energy = NULL;
+    models[model_count - 1].lossless = false;
 }
 
 static GlazedWindow *add_glazing(const char *name, float through, float haze, float width)
@@ -51,6 +61,8 @@ static void add_glass(void)
     add_dielectric("frosted glass", 1.5f, 0.3f);
     add_dielectric("very rough water", 1.33f, 0.8f);
     add_dielectric("bubble", 0.75f, 0.1f);
+    add_dielectric("rough diamond", 2.42f, 1);
+    add_bare_facets("single facets", 1.5f, 0.5f);
     add_dielectric("no boundary", 1, 0.05f);
     models[model_count++] = (Model){.name = "black", .bsdf.kind = BSDF_BLACK, .width = 1};
 }
@@ -61,6 +73,9 @@ static void add_coated_solid(const char *name, float alpha, bool lossless,
     add_dielectric(name, 1.52f, alpha);
     Model *model = &models[model_count - 1];
     model->lossless = lossless;
+    if (alpha > 0)
+        model->bsdf.dielectric.energy =
+            solid_energy_build(1.52f, alpha, alpha, true, &arena);
     model->bsdf.dielectric.coating = tables;
     model->bsdf.dielectric.wavelengths = &wavelengths;
 }
@@ -89,7 +104,8 @@ static void add_coated_glass(void)
 {
     const LayerStack *four = stack_four(&arena), *silver = stack_silver(&arena);
     add_coated_solid("coated glass", 0, true, coating_of_solid(four, 1.52, &arena));
-    add_coated_solid("coated frosted glass", 0.3f, false, coating_of_solid(four, 1.52, &arena));
+    add_coated_solid("coated frosted glass", 0.3f, true, coating_of_solid(four, 1.52, &arena));
+    add_coated_solid("coated rough glass", 0.9f, true, coating_of_solid(four, 1.52, &arena));
     add_coated_solid("silvered glass", 0.1f, false, coating_of_solid(silver, 1.52, &arena));
     add_coated_window("coated window", true, coating_of_sheet(four, 1.52, &arena));
     add_coated_window("silvered window", false, coating_of_sheet(silver, 1.52, &arena));
@@ -104,8 +120,12 @@ static void add_dispersive(const char *name, float alpha)
     for (int i = 0; i < CURVE_COUNT; i++)
         index->value[i] = (float)dispersion_index(1.6, 2, CURVE_FIRST_NM + i);
     add_dielectric(name, 1.6f, alpha);
-    models[model_count - 1].bsdf.dielectric.index = index;
-    models[model_count - 1].bsdf.dielectric.wavelengths = &wavelengths;
+    Dielectric *d = &models[model_count - 1].bsdf.dielectric;
+    d->index = index;
+    d->wavelengths = &wavelengths;
+    if (alpha < SMOOTH_ALPHA) return;
+    d->energy = solid_energy_build(index->value[CURVE_COUNT - 1], alpha, alpha, false, &arena);
+    d->energy_most = solid_energy_build(index->value[0], alpha, alpha, false, &arena);
 }
 
 static int make_models(void **state)
@@ -119,6 +139,7 @@ static int make_models(void **state)
     add_dispersive("satin flint", 0.1f);
     add_dispersive("frosted flint", 0.3f);
     models[model_count - 1].bsdf.dielectric.tint = ramp(0.2f, 0.9f);
+    models[model_count - 1].lossless = false;
     return 0;
 }
 
