@@ -127,9 +127,9 @@ def ranges():
     yield from ((place, (-0.001, 1.001)) for place in share)
     yield from ((place, (-1,)) for place in least_zero)
     yield from ((place, (0, -1)) for place in above_zero)
-    yield from (("nodes/4/rotation/3", (1.5, -1.5)), (ior, (0.5, -1)),
+    yield from (("nodes/4/rotation/3", (1.5, -1.5)), (ior, (0.5, -1, 2e5)),
                 ("bufferViews/0/byteStride", (0, 256)), (LIGHT + "spot/outerConeAngle", (2,)),
-                (EXTENSION + "iridescence/iridescenceIor", (0.9,)))
+                (EXTENSION + "iridescence/iridescenceIor", (0.9, 2e5)))
 
 
 # What is not shown.

@@ -119,14 +119,17 @@ static const Rule VOLUME[] = {
 static const Schema SCHEMA_VOLUME = {"KHR_materials_volume", VOLUME, COUNT_OF(VOLUME), false,
                                      NULL};
 
+/* What is larger is told from an infinite one no more in single precision. */
+#define IOR_MAX 1e5
+
 static const Rule IOR[] = {{.name = "ior", .kind = RULE_NUMBER, .flags = RULE_FROM_MIN}};
 static void check_ior(const DocumentCheck *check, const GltfValue *extension)
 {
     double ior = tree_number(extension, "ior", 1.5);
-    if (ior > 0 && ior < 1)
+    if ((ior > 0 && ior < 1) || ior > IOR_MAX)
         check_fails(check, tree_member(extension, "ior"),
-                    "is %.9g, 0 (which means infinite) or a number of at least 1 is wanted",
-                    ior);
+                    "is %.9g, 0 (which means infinite) or a number from 1 to %.9g is wanted",
+                    ior, IOR_MAX);
 }
 static const Schema SCHEMA_IOR = {"KHR_materials_ior", IOR, COUNT_OF(IOR), false, check_ior};
 
@@ -149,7 +152,8 @@ static const Schema SCHEMA_ANISOTROPY = {"KHR_materials_anisotropy", ANISOTROPY,
 static const Rule IRIDESCENCE[] = {
     UNIT_NUMBER("iridescenceFactor"),
     TEXTURE("iridescenceTexture"),
-    {.name = "iridescenceIor", .kind = RULE_NUMBER, .flags = RULE_FROM_MIN, .min = 1},
+    {.name = "iridescenceIor", .kind = RULE_NUMBER, .flags = RULE_HAS_RANGE, .min = 1,
+     .max = IOR_MAX},
     {.name = "iridescenceThicknessMinimum", .kind = RULE_NUMBER, .flags = RULE_FROM_MIN},
     {.name = "iridescenceThicknessMaximum", .kind = RULE_NUMBER, .flags = RULE_FROM_MIN},
     TEXTURE("iridescenceThicknessTexture"),
