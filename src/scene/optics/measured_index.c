@@ -178,10 +178,10 @@ void measured_index_build(GltfFile *file, const GltfValue *material, Material *o
                                 "physical_properties"), "refractive_index_uri");
     double dispersion =
         tree_number(tree_extension(material, "KHR_materials_dispersion"), "dispersion", 0);
-    const OpticalConstants *table = NULL;
-    if (uri && uri->text[0]) table = read_table(file, uri);
+    bool is_measured = uri && uri->text[0];
+    const OpticalConstants *table = is_measured ? read_table(file, uri) : NULL;
     if (table) wear_table(file, uri, table, out);
-    else spread(file, dispersion, out);
+    if (!is_measured) spread(file, dispersion, out); /* else check_index.c tells of it */
     if (out->index && is_constant(out->index)) out->index = NULL;
     if (!(out->is_solid && out->transmission > 0)) out->index = NULL;
 }
