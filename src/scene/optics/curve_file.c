@@ -1,5 +1,6 @@
 #include "scene/optics/curve_file.h"
 
+#include "base/file.h"
 #include "scene/gltf/document.h"
 
 static void report(GltfFile *file, const GltfValue *uri, const Error *err)
@@ -20,12 +21,11 @@ static bool read_text(GltfFile *file, const GltfValue *uri, CurveText *out)
     FileBytes bytes;
     Loader   *load = file->load;
     if (!document_resolve(file, uri, &out->path)) return false;
-    if (!load_read(load, out->path, &load->scratch, &bytes, &err)) {
-        report(file, uri, &err);
-        return false;
-    }
-    out->text = (const char *)bytes.data;
-    return true;
+    if (load_read(load, out->path, &load->scratch, &bytes, &err) &&
+        file_text(out->path, &bytes, &out->text, &err))
+        return true;
+    report(file, uri, &err);
+    return false;
 }
 
 bool curve_file_read(GltfFile *file, const GltfValue *uri, CurveRange range, Curve *out)
