@@ -97,6 +97,12 @@ bool file_exists(const char *path)
     return access(path, R_OK) == 0;
 }
 
+bool file_is_same(const char *a, const char *b)
+{
+    struct stat x, y;
+    return !stat(a, &x) && !stat(b, &y) && x.st_dev == y.st_dev && x.st_ino == y.st_ino;
+}
+
 /* ---- names ----------------------------------------------------------------------------- */
 
 const char *path_name(const char *path)

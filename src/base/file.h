@@ -33,6 +33,9 @@ bool file_text(const char *path, const FileBytes *bytes, const char **out, Error
 /* True when something that can be opened for reading stands there. */
 bool file_exists(const char *path);
 
+/* True when both names lead to one file that is there. */
+bool file_is_same(const char *a, const char *b);
+
 /* ---- names ----------------------------------------------------------------------------- */
 
 /* `relative` as seen from the folder of the file `beside`; an absolute path stays itself. */

@@ -11,6 +11,7 @@
 #include "base/file_write.h"
 #include "cli/explain/explain_answer.h"
 #include "cli/explain/explain_scene.h"
+#include "cli/explain/ray_option.h"
 #include "cli/options/answer.h"
 #include "review/chain/outlook_picture.h"
 #include "review/output/ray_file.h"
@@ -112,8 +113,7 @@ static bool check_review(ExplainWords *words, Error *err)
 
 static bool check_outputs(const ExplainWords *words, Error *err)
 {
-    return (!words->rays ||
-            (ray_file_check(words->rays, err) && file_check_writable(words->rays, err))) &&
+    return ray_option_check(words->rays, &words->cli, err) &&
            (!words->outlook || (picture_check_name(words->outlook, 8, err) &&
                                 file_check_writable(words->outlook, err)));
 }

@@ -2,15 +2,15 @@
 #include <math.h>
 
 #include "base/count.h"
-#include "base/file_write.h"
 #include "cli/explain/cmd_explain.h"
 #include "cli/explain/probe_answer.h"
+#include "cli/explain/ray_option.h"
 #include "cli/options/answer.h"
 #include "cli/options/camera_options.h"
 #include "cli/options/scene_options.h"
+#include "cli/render/guiding_options.h"
 #include "cli/render/render_setup.h"
 #include "render/render.h"
-#include "review/output/ray_file.h"
 #include "scene/load/scene_load.h"
 
 #define SPP 4096
@@ -50,9 +50,7 @@ static bool check(ProbeWords *words, Arena *arena, Error *err)
 {
     RenderOptions *render = &words->render;
     if (!check_pixel(words, err)) return false;
-    if (render->field && render->no_guiding)
-        return error_set(err, ERROR_USAGE, "--field %s keeps what is learnt — leave out "
-                                           "--no-guiding", render->field);
+    if (!guiding_options_check(render, err)) return false;
     render->width = words->size[0];
     render->height = words->size[1];
     render->seed = (uint32_t)words->seed;
@@ -60,8 +58,7 @@ static bool check(ProbeWords *words, Arena *arena, Error *err)
     render->threads = words->cli.threads;
     render->progress = words->cli.progress;
     return scene_options_read(&words->scene_words, &words->cli, arena, &words->scene, err) &&
-           (!words->rays ||
-            (ray_file_check(words->rays, err) && file_check_writable(words->rays, err)));
+           ray_option_check(words->rays, &words->cli, err);
 }
 
 static bool parse(int argc, char **argv, Arena *arena, ProbeWords *out, Error *err)
@@ -73,7 +70,7 @@ static bool parse(int argc, char **argv, Arena *arena, ProbeWords *out, Error *e
         CAMERA_OPTIONS(&out->camera),
         {"--spp", OPTION_INTEGER, "N",
          "paths, rounded up to whole chunks of 64 (default 4096)", &out->spp,
-         .low = 2 * CHAIN_CHUNK, .high = 1 << 24},
+         .low = CHAIN_PATHS_LEAST, .high = 1 << 24},
         {"--seed", OPTION_INTEGER, "N", "another set of random numbers (default 0)",
          &out->seed, .low = 0, .high = 4294967295.0},
         {"--max-bounces", OPTION_INTEGER, "N",
@@ -86,11 +83,7 @@ static bool parse(int argc, char **argv, Arena *arena, ProbeWords *out, Error *e
          &out->rays},
         {"--no-mirrors", OPTION_FLAG, NULL, "leave the sun's reflections to chance",
          &out->render.no_mirrors},
-        {"--no-guiding", OPTION_FLAG, NULL, "do not learn first where light comes from",
-         &out->render.no_guiding},
-        {"--field", OPTION_TEXT, "FILE",
-         "what is learnt: taken from this file if it is there, else kept there",
-         &out->render.field},
+        GUIDING_OPTIONS(&out->render),
         {"--isa", OPTION_TEXT, "NAME", "sse2, avx2, avx512 (default: the processor's best)",
          &out->render.isa},
         SCENE_OPTIONS(&out->scene_words, &out->scene, &out->environment),
@@ -121,6 +114,20 @@ static void look(const ProbeWords *words, const RenderSetup *setup, Arena *arena
                     .light = pixel_light_find(&ask)};
 }
 
+/* A sum that has met one number that is none is none. */
+static bool check_light(const Probed *found, Error *err)
+{
+    double sum = 0;
+    for (int i = 0; i < 3; i++) sum += found->light.xyz[i].mean + found->light.xyz[i].sigma;
+    for (int i = 0; i < PIXEL_BANDS; i++)
+        sum += found->light.radiance[i].mean + found->light.radiance[i].sigma;
+    return isfinite(sum) ||
+           error_set(err, ERROR_INPUT,
+                     "pixel %d,%d: its light is not finite: a light of the scene, or what a "
+                     "material makes of it, has no measure",
+                     found->pixel[0], found->pixel[1]);
+}
+
 static bool probe(const ProbeWords *words, const Scene *scene, Problems *problems,
                   Arena *arena, Error *err)
 {
@@ -134,7 +141,8 @@ static bool probe(const ProbeWords *words, const Scene *scene, Problems *problem
     look(words, &setup, arena, &found);
     found.groups = light_groups_build(scene, setup.context.lights, arena, problems);
     render_setup_end(&setup);
-    return (!words->rays || probe_write_rays(&found, words->rays, arena, err)) &&
+    return check_light(&found, err) &&
+           (!words->rays || probe_write_rays(&found, words->rays, arena, err)) &&
            probe_answer(&words->cli, &found, arena, err);
 }
 

@@ -7,6 +7,7 @@
 
 #include "cli/options/look_options.h"
 #include "cli/render/command_line.h"
+#include "cli/render/guiding_options.h"
 #include "cli/render/polarised_options.h"
 #include "text/nearest_word.h"
 
@@ -202,9 +203,7 @@ static bool check_render(const RenderWords *typed, Arena *arena, RenderRequest *
     options->end_sample = (uint32_t)typed->spp;
     options->max_bounces = (int)typed->max_bounces;
     options->seed = (uint32_t)typed->seed;
-    if (options->field && options->no_guiding)
-        return error_set(err, ERROR_USAGE, "--field %s keeps what is learnt — leave out "
-                                           "--no-guiding", options->field);
+    if (!guiding_options_check(options, err)) return false;
     options->threads = request->cli.threads;
     options->progress = request->cli.progress;
     if (typed->has_spp && typed->samples)
@@ -271,14 +270,6 @@ static const char *resume_line(int argc, char **argv, bool resumes, Arena *arena
      "the frame so far, for any viewer: written anew about every ten seconds",                 \
      &(request)->live}
 
-#define GUIDING_OPTIONS(request)                                                               \
-    {"--no-guiding", OPTION_FLAG, NULL,                                                        \
-     "do not learn first where light comes from: the plain estimator, of more noise",          \
-     &(request)->render.no_guiding},                                                           \
-    {"--field", OPTION_TEXT, "FILE",                                                           \
-     "what is learnt: taken from this file if it is there, else kept there",                   \
-     &(request)->render.field}
-
 static bool parse_line(int argc, char **argv, Arena *arena, RenderWords *typed,
                        RenderRequest *request, Error *err)
 {
@@ -308,7 +299,7 @@ static bool parse_line(int argc, char **argv, Arena *arena, RenderWords *typed,
         POLARISED_OPTIONS(&typed->polarised),
         {"--seed", OPTION_INTEGER, "N", "another set of random numbers (default 0)",
          &typed->seed, .low = 0, .high = 4294967295.0},
-        GUIDING_OPTIONS(request),
+        GUIDING_OPTIONS(&request->render),
         {"--crop", OPTION_NUMBERS, "X0,Y0,X1,Y1", "only these pixels, half-open, from top left",
          typed->crop, .count = 4, .given = &typed->has_crop},
         {"--samples", OPTION_TEXT, "A:B", "only these sample indices, half-open",

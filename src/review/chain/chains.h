@@ -79,6 +79,6 @@ typedef struct ChainAsk {
     bool                with_first_pane; /* the eye looks through a pane: that is told */
 } ChainAsk;
 
-#define CHAIN_PATHS_LEAST 1024
+#define CHAIN_PATHS_LEAST (2 * CHAIN_CHUNK) /* an error takes two chunks */
 
 Chains chains_find(const ChainAsk *ask, Arena *arena);
