@@ -403,10 +403,17 @@ static const char *layer_of(const char *channel, Arena *arena)
     return arena_string(arena, channel, length - tail);
 }
 
+/* What is no number comes last. */
+static double rank_of(const LightShare *light)
+{
+    return isnan(light->cd_m2) ? -(double)INFINITY : light->cd_m2;
+}
+
 static int compare_shares(const void *a, const void *b)
 {
     const LightShare *x = a, *y = b;
-    if (x->cd_m2 != y->cd_m2) return x->cd_m2 < y->cd_m2 ? 1 : -1;
+    double first = rank_of(x), second = rank_of(y);
+    if (first != second) return first < second ? 1 : -1;
     return strcmp(x->layer, y->layer);
 }
 
