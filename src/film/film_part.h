@@ -14,7 +14,8 @@
  *            odd.{X,Y,Z}                     of the samples in every second block
  *            depth.Z position.{X,Y,Z} normal.{X,Y,Z} albedo.{R,G,B} uv.{U,V}
  *            emitted reflected white black .{X,Y,Z}, direction.{X,Y,Z}    displays
- *            fine.{X,Y,Z}                    displays
+ *            fine mirror lambertian .{X,Y,Z}    displays
+ *            stokes.{1,2,3}                  of the samples
  *            light.N.{X,Y,Z}                 group N of lights
  *          and words that are one channel each: samples, hits, displayHits, odd.samples, the
  *          lowest sample index that hit a part, or saw a display, and which (4294967295: none):
