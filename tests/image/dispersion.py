@@ -10,7 +10,7 @@ import sys
 import tempfile
 
 import layers
-from exr import Frame
+from eye import Eye
 from gltf import Scene, cross, dot, unit
 
 ROOT = os.path.realpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."))
@@ -106,22 +106,6 @@ def room_glass():
         {"temperature": 500, "n": [[5e-7, 2.3]], "k": [[5e-7, 0]]}])
 
 
-class Eye:
-    def __init__(self, program, folder):
-        self.program, self.folder = os.path.abspath(program), folder
-
-    def luminance(self, scene, *options):
-        scene.write(os.path.join(self.folder, "scene.gltf"))
-        done = subprocess.run([self.program, "render", "scene.gltf", "-o", "frame.exr",
-                               "--size", "8x8", *options, "--quiet"], cwd=self.folder,
-                              capture_output=True, text=True, check=False)
-        assert done.returncode == 0, done.stderr
-        frame = Frame(os.path.join(self.folder, "frame.exr"))
-        values = [0.2126 * r + 0.7152 * g + 0.0722 * b
-                  for r, g, b in zip(*(frame.channels[c] for c in "RGB"))]
-        return sum(values) / len(values)
-
-
 def prism_scene(extensions, edge):
     """The prism, a screen that shines above the edge, and an eye that is one ray."""
     scene = Scene()
@@ -152,8 +136,8 @@ def check_prism(report, eye):
         edge = landing(nm)[0]
         wanted = beyond(edge)
         for name, extensions in (("Cauchy", CAUCHY), ("measured", MEASURED)):
-            found = eye.luminance(prism_scene(extensions, edge), "--spp", "2048",
-                                  "--max-bounces", "2") / LUMINANCE
+            found = eye.mean(prism_scene(extensions, edge), 2048, "--max-bounces",
+                             "2") / LUMINANCE
             report.claim(abs(found - wanted) < 0.01 * wanted,
                          f"{name}: {found:.5f} of the light lands beyond {nm} nm, wanted "
                          f"{wanted:.5f}")
@@ -169,7 +153,7 @@ def check_furnace(report, eye):
         scene.files["glass_ior.gltf"] = room_glass()
         scene.environment(type="constant", luminance=LUMINANCE)
         scene.probe("eye", [-0.8, 0.6, 0], [0.8, -0.6, 0], 0.1)
-        found = eye.luminance(scene, "--spp", "4096", "--max-bounces", "64") / LUMINANCE
+        found = eye.mean(scene, 4096, "--max-bounces", "64") / LUMINANCE
         report.claim(abs(found - 1) < 0.002, f"{name}: a slab in a furnace shows {found:.5f}")
 
 
@@ -185,10 +169,25 @@ def check_metal(report, eye):
             [{"temperature": 293, "n": [[4e-7, n], [8e-7, n]], "k": [[5e-7, k]]}])
         way = [math.sin(angle), -math.cos(angle), 0]
         scene.probe("eye", [-x for x in way], way, 0.01)
-        found = eye.luminance(scene, "--spp", "16") / LUMINANCE
+        found = eye.mean(scene, 16) / LUMINANCE
         wanted = layers.metal(math.cos(angle), complex(n, k))
         report.claim(abs(found - wanted) < 1e-3, f"a measured metal at {degrees} degrees "
                                                  f"reflects {found:.5f}, wanted {wanted:.5f}")
+
+
+RADAR = index_file([{"temperature": 300, "n": [[3.9e-3, 2.5]], "k": [[3.9e-3, 0.1]]}])
+
+
+def check_unused(report, eye):
+    """A file that says nothing of visible light leaves the index as it was; so does a
+    dispersion beside it, which is told not to be used."""
+    edge, found = landing(550.5)[0], []
+    for extensions in ({}, MEASURED, {**MEASURED, **CAUCHY}):
+        scene = prism_scene(extensions, edge)
+        if extensions:
+            scene.files["glass_ior.gltf"] = RADAR
+        found.append(eye.mean(scene, 64, "--max-bounces", "2"))
+    report.claim(found[0] == found[1] == found[2] > 0, f"a file of radar waves alone: {found}")
 
 
 # ---- what is none --------------------------------------------------------------------------
@@ -251,8 +250,7 @@ def check_company(report, program, folder):
     coat = {"PARHELION_coating": {"stack": "mgf2"}}
     glass = {"glass_ior.gltf": index_file([GOOD])}
     thin = {k: v for k, v in prism_glass(**CAUCHY).items() if k != "KHR_materials_volume"}
-    radar = {"glass_ior.gltf": index_file([{"temperature": 300, "n": [[3.9e-3, 2.5]],
-                                            "k": [[3.9e-3, 0.1]]}])}
+    radar = {"glass_ior.gltf": RADAR}
     metal = {**MEASURED, "PARHELION_spectrum": {"conductor": "metal.csv"}}
     tables = {**glass, "metal.csv": b"400,1,6\n700,1,6\n"}
     for wanted, said, extensions, files, metallic in (
@@ -276,6 +274,7 @@ def main():
         check_prism(report, eye)
         check_furnace(report, eye)
         check_metal(report, eye)
+        check_unused(report, eye)
         check_faults(report, program, folder)
         check_company(report, program, folder)
     return report.finish()

@@ -11,7 +11,7 @@ import sys
 import tempfile
 
 import layers
-from exr import Frame
+from eye import Eye, luminances
 from gltf import Scene
 
 ROOT = os.path.realpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."))
@@ -75,25 +75,6 @@ def laminate(through=1.0, wedge_rad=0.0, towards="+u"):
     return layers
 
 
-class Eye:
-    def __init__(self, program, folder):
-        self.program, self.folder = os.path.abspath(program), folder
-
-    def luminance(self, scene, *options):
-        scene.write(os.path.join(self.folder, "scene.gltf"))
-        done = subprocess.run([self.program, "render", "scene.gltf", "-o", "frame.exr",
-                               *options, "--quiet"], cwd=self.folder, capture_output=True,
-                              text=True, check=False)
-        assert done.returncode == 0, done.stderr
-        frame = Frame(os.path.join(self.folder, "frame.exr"))
-        rgb = [frame.channels[c] for c in "RGB"]
-        return frame, [0.2126 * r + 0.7152 * g + 0.0722 * b for r, g, b in zip(*rgb)]
-
-    def mean(self, scene, spp):
-        _, values = self.luminance(scene, "--size", "8x8", "--spp", str(spp))
-        return sum(values) / len(values)
-
-
 def slanted(angle, extension, below=0, above=0, front=1):
     """A pane at y = 0, its front up (-1: down), seen from above at the angle; under and over it
     glow."""
@@ -123,6 +104,18 @@ def check_shares(report, eye):
             report.claim(abs(found / wanted - 1) < 0.01,
                          f"{degrees} degrees, {through}: mirrors {found:.5f}, wanted "
                          f"{wanted:.5f}")
+
+
+def check_curve_file(report, eye):
+    """The byte order mark of a spreadsheet's CSV does not make its first row a header."""
+    found = []
+    for name, data in (("plain.csv", b"400,0\n700,1\n"),
+                       ("marked.csv", b"\xef\xbb\xbf400,0\n700,1\n")):
+        layers_of = [{"thickness_m": THICKNESS, "ior": INDEX, "transmission": name}]
+        scene = slanted(0, pane(layers_of), below=LUMINANCE)
+        scene.files[name] = data
+        found.append(eye.mean(scene, 4))
+    report.claim(found[0] == found[1] < 0.7 * LUMINANCE, f"a curve and a marked one: {found}")
 
 
 # ---- coated faces --------------------------------------------------------------------------
@@ -256,8 +249,9 @@ def bright_line(angle, extension, width):
 def images(eye, angle, extension, how=FINE):
     """(minutes of arc, light) of the images from the brightest on; up is towards +x."""
     count, width, spp = how
-    frame, values = eye.luminance(bright_line(angle, extension, width), "--size", f"8x{count}",
-                                  "--spp", str(spp))
+    frame = eye.frame(bright_line(angle, extension, width), "--size", f"8x{count}", "--spp",
+                      str(spp))
+    values = luminances(frame)
     rows = [sum(values[y * frame.width:(y + 1) * frame.width]) for y in range(count)]
     found, least = [], 1e-3 * max(rows)
     y = 0
@@ -360,6 +354,8 @@ FAULTS = [
      "line 3: holds 1.5; 0 to 1 is wanted"),
     ({"layers": [{"thickness_m": 0.002, "ior": 1.5, "transmission": "under.csv"}]},
      "line 2: holds -0.1; 0 to 1 is wanted"),
+    ({"layers": [{"thickness_m": 0.002, "ior": 1.5, "transmission": "wide.csv"}]},
+     "wide.csv: has zero bytes, wanted text in UTF-8"),
     ({"layers": [{"thickness_m": 0.002, "ior": 1.5, "wedge_rad": 0.001}]}, "wedge_toward"),
     ({"layers": [{"thickness_m": 0.002, "ior": 1.5, "wedge_rad": 0.001, "wedge_toward": "up"}]},
      "wedge_toward"),
@@ -397,6 +393,8 @@ def check_faults(report, program, folder):
         file.write("nm,value\n400,0.5\n700,1.5\n")
     with open(os.path.join(folder, "under.csv"), "w", encoding="utf-8") as file:
         file.write("nm,value\n400,-0.1\n")
+    with open(os.path.join(folder, "wide.csv"), "w", encoding="utf-16") as file:
+        file.write("nm,value\n400,0.5\n")
     for extension, word in FAULTS:
         scene = Scene()
         scene.facing_quad(scene.material("pane", {"PARHELION_glazing": extension}), [0, 0, 0],
@@ -449,6 +447,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         eye = Eye(program, folder)
         check_shares(report, eye)
+        check_curve_file(report, eye)
         check_coated(report, eye)
         check_ghost(report, eye)
         check_coated_ghost(report, eye)

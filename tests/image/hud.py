@@ -11,6 +11,7 @@ import sys
 import tempfile
 
 from exr import Frame
+from eye import luminances, mean
 from gltf import png
 
 ROOT = os.path.realpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."))
@@ -110,15 +111,6 @@ class Eye:
             cwd=self.folder, capture_output=True, text=True, check=False)
         assert done.returncode == 0, done.stderr
         return Frame(os.path.join(self.folder, "frame.exr"))
-
-
-def luminances(frame):
-    rgb = [frame.channels[c] for c in "RGB"]
-    return [0.2126 * r + 0.7152 * g + 0.0722 * b for r, g, b in zip(*rgb)]
-
-
-def mean(values):
-    return sum(values) / len(values)
 
 
 # ---- where it stands -----------------------------------------------------------------------

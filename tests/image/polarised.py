@@ -11,6 +11,7 @@ import sys
 import tempfile
 
 from exr import Frame
+from eye import Eye, mean
 from gltf import Scene, along, cross, dot, png, unit
 from panel_checks import direction
 
@@ -24,36 +25,15 @@ INDEX, LUMINANCE = 1.52, 1000
 
 # ---- frames --------------------------------------------------------------------------------
 
-class Eye:
-    def __init__(self, program, folder):
-        self.program, self.folder = program, folder
-
-    def render(self, scene, *options, name="frame"):
-        scene.write(os.path.join(self.folder, "scene.gltf"))
-        out = os.path.join(self.folder, name + ".exr")
-        done = subprocess.run([self.program, "render", "scene.gltf", "-o", out, *options,
-                               "--quiet"], cwd=self.folder, capture_output=True, text=True,
-                              check=False)
-        assert done.returncode == 0, done.stderr
-        return Frame(out)
-
+class PolarisedEye(Eye):
     def seen(self, scene, *options, spp=16):
-        frame = self.render(scene, "--size", "8x8", "--spp", str(spp), *options)
-        return mean_luminance(frame)
+        return self.mean(scene, spp, *options)
 
     def stokes(self, scene, *options, spp=16):
         """S0 .. S3, means of the frame."""
-        frame = self.render(scene, "--size", "8x8", "--spp", str(spp), "--polarised",
-                            "--layers", "stokes", *options)
+        frame = self.frame(scene, "--size", "8x8", "--spp", str(spp), "--polarised",
+                           "--layers", "stokes", *options)
         return [mean(frame.channels[f"stokes.S{i}"]) for i in range(4)]
-
-
-def mean(values):
-    return sum(values) / len(values)
-
-
-def mean_luminance(frame):
-    return dot([0.2126, 0.7152, 0.0722], [mean(frame.channels[c]) for c in "RGB"])
 
 
 def make_panel(program, folder):
@@ -300,7 +280,7 @@ def room():
 
 def check_unpolarised(report, eye):
     options = "--size", "32x32", "--spp", "16", "--max-bounces", "2", "--no-guiding"
-    frames = [eye.render(room(), *options, *more) for more in ((), ("--polarised",))]
+    frames = [eye.frame(room(), *options, *more) for more in ((), ("--polarised",))]
     worst = max(abs(a - b) / max(a, 1e-3) for c in "RGB"
                 for a, b in zip(frames[0].channels[c], frames[1].channels[c]))
     report.claim(worst < 1e-6, f"unpolarised light: frames differ by {worst:.2g}")
@@ -404,7 +384,7 @@ def main():
     report = Report()
     with tempfile.TemporaryDirectory() as folder:
         make_panel(program, folder)
-        eye = Eye(program, folder)
+        eye = PolarisedEye(program, folder)
         check_malus(report, eye)
         check_stokes_of_display(report, eye)
         check_panes(report, eye)

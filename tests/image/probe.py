@@ -4,14 +4,13 @@ lights they are its layers, the spectrum is the one that shines; lines of glTF, 
 import json
 import math
 import os
-import subprocess
 import sys
 import tempfile
 
 from exr import Frame
 from gltf import Scene
 from layers import table
-from lights import ALONE, LUMINANCE, room
+from lights import ALONE, LUMINANCE, Program, room
 
 ROOT = os.path.realpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."))
 sys.path.insert(0, os.path.join(ROOT, "tests", "structure"))
@@ -22,14 +21,7 @@ PIXELS = {"floor": (24, 25), "ball": (17, 17), "window": (43, 14), "display": (2
 K_M, BANDS = 683.002, range(360, 830, 10)
 
 
-class Program:
-    def __init__(self, path, folder):
-        self.path, self.folder = path, folder
-
-    def run(self, *words):
-        return subprocess.run([self.path, *words], capture_output=True, text=True,
-                              cwd=self.folder)
-
+class Prober(Program):
     def probe(self, scene, pixel, *options):
         done = self.run("probe", scene, "--pixel", "{},{}".format(*pixel), "--json", "--size",
                         "{}x{}".format(*SIZE), "--quiet", *options)
@@ -199,6 +191,32 @@ def check_words(report, program):
     report.claim(data["ways"] == [] and data["luminance_cd_m2"] == 0, f"{data}")
 
 
+def check_harm(report, program):
+    """What is read is not written over, and what has no measure is no answer."""
+    with open(os.path.join(program.folder, "white.gltf"), "rb") as file:
+        before = file.read()
+    os.symlink("white.gltf", os.path.join(program.folder, "other.gltf"))
+    line = ("--pixel", "20,10", "--size", "48x28", "--spp", "128", "--quiet")
+    for words in (("probe", "white.gltf", *line, "--gltf", "white.gltf"),
+                  ("probe", "room.gltf", "white.gltf", *line, "--gltf", "other.gltf"),
+                  ("explain", "white.gltf", *line[:4], "-o", "./white.gltf")):
+        done = program.run(*words)
+        with open(os.path.join(program.folder, "white.gltf"), "rb") as file:
+            report.claim(file.read() == before, f"{words}: the scene is gone")
+        report.claim(done.returncode == 2 and len(done.stderr.splitlines()) == 1 and
+                     "white.gltf: is read" in done.stderr.replace("other", "white"),
+                     f"{words}: {done.returncode} {done.stderr}")
+    emitter(os.path.join(program.folder, "blinding.gltf"), 3e38)
+    for more in ((), ("--json",), ("--gltf", "ways.glb")):
+        if os.path.exists(os.path.join(program.folder, "ways.glb")):
+            os.remove(os.path.join(program.folder, "ways.glb"))
+        done = program.run("probe", "blinding.gltf", *line, *more)
+        report.claim(done.returncode == 3 and done.stderr.count("\n") == 1 and
+                     "pixel 20,10: its light is not finite" in done.stderr and
+                     not os.path.exists(os.path.join(program.folder, "ways.glb")),
+                     f"{more}: {done.returncode} {done.stderr}")
+
+
 def check_errors(report, program):
     for options, wanted in (
             ((), "no pixel — add --pixel X,Y"),
@@ -224,7 +242,7 @@ def check_errors(report, program):
 def main():
     report = Report()
     with tempfile.TemporaryDirectory() as folder:
-        program = Program(os.path.abspath(sys.argv[-1]), folder)
+        program = Prober(os.path.abspath(sys.argv[-1]), folder)
         room(os.path.join(folder, "room.gltf"), lambda what: True)
         told = {what: check_pixel(report, program, what, pixel)
                 for what, pixel in PIXELS.items()}
@@ -234,6 +252,7 @@ def main():
         check_white(report, program)
         check_lines(report, program)
         check_words(report, program)
+        check_harm(report, program)
         check_errors(report, program)
     report.finish()
 

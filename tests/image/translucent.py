@@ -10,7 +10,7 @@ import sys
 import tempfile
 import zlib
 
-from exr import Frame
+from eye import Eye, mean
 from gltf import Scene, png
 
 ROOT = os.path.realpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."))
@@ -19,24 +19,6 @@ from report import Report  # noqa: E402
 
 BACK, ACROSS, SHARE = 0.6, 0.8, 0.35  # albedos of both ways, and how much goes across
 NAME = "KHR_materials_diffuse_transmission"
-
-
-class Eye:
-    def __init__(self, program, folder):
-        self.program, self.folder = os.path.abspath(program), folder
-
-    def rgb(self, scene, spp, *options):
-        scene.write(os.path.join(self.folder, "scene.gltf"))
-        done = subprocess.run([self.program, "render", "scene.gltf", "-o", "frame.exr",
-                               "--size", "8x8", "--spp", str(spp), *options, "--quiet"],
-                              cwd=self.folder, capture_output=True, text=True, check=False)
-        assert done.returncode == 0, done.stderr
-        frame = Frame(os.path.join(self.folder, "frame.exr"))
-        return [sum(frame.channels[c]) / len(frame.channels[c]) for c in "RGB"]
-
-    def luminance(self, scene, spp, *options):
-        r, g, b = self.rgb(scene, spp, *options)
-        return 0.2126 * r + 0.7152 * g + 0.0722 * b
 
 
 def across(factor=SHARE, color=(ACROSS,) * 3, **more):
@@ -96,7 +78,7 @@ def check_lamps(report, eye):
                 look(scene, from_above)
                 if is_turned:
                     scene.document["nodes"][0]["rotation"] = [1, 0, 0, 0]  # its back is up
-                found = eye.luminance(scene, 64, "--max-bounces", "1")
+                found = eye.mean(scene, 64, "--max-bounces", "1")
                 wanted = lx * share / math.pi
                 report.claim(abs(found / wanted - 1) < 0.01,
                              f"{name} {'behind' if from_above else 'before'} the sheet: "
@@ -112,7 +94,7 @@ def check_sky(report, eye):
         scene.environment(type="constant", luminance=900)
         height = 0.4 if from_above else -0.4
         scene.probe("eye", [-0.2, height, 0], [0.2, -height, 0], 0.01)
-        found = eye.luminance(scene, 256, "--max-bounces", "1")
+        found = eye.mean(scene, 256, "--max-bounces", "1")
         report.claim(abs(found / (900 * share) - 1) < 0.01,
                      f"sky, eye {'above' if from_above else 'below'}: {found:.3f} cd/m2, "
                      f"wanted {900 * share:.3f}")
@@ -134,7 +116,7 @@ def check_furnace(report, eye):
                 sheet(scene, extensions, roughness, 1, 1)
                 look(scene, degrees=degrees)
                 scene.environment(type="constant", luminance=1000)
-                found = eye.luminance(scene, 1024) / 1000
+                found = eye.mean(scene, 1024) / 1000
                 report.claim(abs(found - 1) < 0.002,
                              f"roughness {roughness}, coat {coat}, {degrees} degrees: a "
                              f"furnace shows {found:.5f}")
@@ -152,7 +134,7 @@ def check_solid(report, eye):
     scene.sphere(opal, [0, 0, 0], 0.8, rings=48)
     scene.environment(type="constant", luminance=1000)
     scene.probe("eye", [0, 0, 3], [0, 0, -1], 0.5)
-    found = eye.luminance(scene, 1024, "--max-bounces", "4") / 1000
+    found = eye.mean(scene, 1024, "--max-bounces", "4") / 1000
     x = 1.6 * math.log(2)
     wanted = 2 * (1 - (1 + x) * math.exp(-x)) / x ** 2
     report.claim(abs(found / wanted - 1) < 0.005,
@@ -182,7 +164,7 @@ def check_lamp_inside(report, eye):
                 way = radius * math.sqrt(1 - s2) - math.sqrt(r * r - radius ** 2 * s2)
                 wanted += math.pi * 10000 * math.exp(-a * way) * edge ** 2 / count
         scene.probe("eye", [0, 0, 3], [0, 0, -1], 0.3)
-        found = eye.luminance(scene, 256, "--max-bounces", "2")
+        found = eye.mean(scene, 256, "--max-bounces", "2")
         report.claim(abs(found * math.pi / wanted - 1) < 0.005,
                      f"a {name} in an opal ball: {found:.3f} cd/m2, wanted "
                      f"{wanted / math.pi:.3f}")
@@ -210,7 +192,8 @@ def check_textures(report, eye):
                                                              "extensions": other}))
         scene.light("directional", 1000, direction=[0, 1, 0])
         look(scene)
-        found = eye.rgb(scene, 1024, "--max-bounces", "1")
+        frame = eye.frame(scene, "--size", "8x8", "--spp", "1024", "--max-bounces", "1")
+        found = [mean(frame.channels[c]) for c in "RGB"]
         rgb = (188, 120, 60) if u else (60, 188, 120)
         wanted = [1000 / math.pi * 0.9 * (0.8 if u else 0.2) * f * linear(c)
                   for f, c in zip((1, 0.5, 1), rgb)]
