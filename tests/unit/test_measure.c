@@ -141,6 +141,23 @@ TEST(what_cannot_be_measured_is_told)
     assert_error_has(&err, "no pixel to measure on display cluster");
 }
 
+/* The brightest first, whatever order they stand in; those without a measure behind them. */
+TEST(lights_are_told_by_their_brightness)
+{
+    static const char *const names[] = {"light.a", "light.b", "light.c", "light.d", "light.e"};
+    const float light[] = {10, NAN, 30, NAN, 20};
+    static const char *const wanted[] = {"light.c", "light.e", "light.a", "light.b", "light.d"};
+    Arena          arena = test_arena(state);
+    FrameImage     frame = uniform_frame(4, 4, 60, &arena);
+    MeasureRequest all = {.frame_name = "f.exr"};
+    for (int i = 0; i < 5; i++) add_layer(&frame, names[i], light[i], &arena);
+    LightShares shares = measure_lights(&frame, &all, &arena);
+    assert_int_equal(shares.count, 5);
+    for (int i = 0; i < 5; i++) assert_string_equal(shares.list[i].layer, wanted[i]);
+    assert_close(shares.list[0].share, 0.5, 1e-5);
+    assert_true(isnan(shares.list[3].cd_m2));
+}
+
 int main(void)
 {
     return run_cases(make_arena, drop_arena);
