@@ -71,6 +71,10 @@ static bool parse(int argc, char **argv, Arena *arena, MeasureWords *out, Error 
 
 static void print_figure(const char *name, Measured figure, const char *unit)
 {
+    if (isnan(figure.value)) {
+        printf("%-12s undefined: there is no light\n", name);
+        return;
+    }
     if (isnan(figure.half_width)) printf("%-12s %.6g%s\n", name, figure.value, unit);
     else printf("%-12s %.6g +- %.2g%s\n", name, figure.value, figure.half_width, unit);
 }

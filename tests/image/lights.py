@@ -185,6 +185,16 @@ def check_figures(report, program):
     report.claim(done.returncode == 0, done.stderr)
 
 
+def check_dark(report, program):
+    """No light is no colour, and no group's."""
+    lamps(os.path.join(program.folder, "dark.gltf"), [])
+    program.render("dark.gltf", "dark.exr", "--spp", "1", "--layers", "light")
+    text = program.run("measure", "dark.exr").stdout
+    report.claim("luminance    0 cd/m2" in text and " -nan" not in text and
+                 text.count("undefined: there is no light") == 4 and "by light" not in text,
+                 text)
+
+
 def lamps(path, names):
     scene = Scene()
     scene.facing_quad(scene.lambert(0.5), [0, 0, 0], [0, 0, 1], 2)
@@ -233,6 +243,7 @@ def main():
         check_parts(report, program)
         check_figures(report, program)
         check_names(report, program)
+        check_dark(report, program)
     report.finish()
 
 
