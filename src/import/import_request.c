@@ -145,13 +145,11 @@ static bool read_symmetry(const JsonView *root, ImportSymmetry *out, Error *err)
 
 static bool read_others(const JsonView *root, ImportRequest *request, Error *err)
 {
-    int two = 2;
     bool ok = read_roles(root, &request->text, err) && read_skip(root, &request->skip, err) &&
               json_view_text(root, "format", &request->options.format, err) &&
               json_view_number(root, "wavelength_nm", 360, 830, &request->options.wavelength_nm,
                                err) &&
-              json_view_numbers(root, "area_mm", (JsonRange){1e-3, 1e6, 2},
-                                request->options.area_mm, &two, err) &&
+              json_view_pair(root, "area_mm", 1e-3, 1e6, request->options.area_mm, err) &&
               json_view_text(root, "panel", &request->panel, err) &&
               json_view_text(root, "instrument", &request->instrument, err) &&
               json_view_text(root, "primaries", &request->primaries, err) &&

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/file.h"
+#include "text/nearest_word.h"
 
 #define FILE_BYTES_MAX ((size_t)4 << 30)
 
@@ -152,6 +153,20 @@ int csv_table_column(const CsvTable *table, const char *name)
     for (int c = 0; c < table->columns; c++)
         if (!strcmp(table->name[c], name)) return c;
     return -1;
+}
+
+bool csv_table_check_columns(const CsvTable *table, const char *const *known, int count,
+                             Error *err)
+{
+    for (int c = 0; c < table->columns; c++) {
+        bool found = false;
+        for (int i = 0; i < count && !found; i++) found = !strcmp(table->name[c], known[i]);
+        if (!found)
+            return error_at(err, ERROR_INPUT, table->file, "header line",
+                            "column '%s' is unknown; the nearest known one is '%s'",
+                            table->name[c], nearest_word(table->name[c], known, count));
+    }
+    return true;
 }
 
 const char *csv_table_place(const CsvTable *table, int row, Arena *arena)

@@ -28,5 +28,9 @@ bool csv_table_read(const char *file, Arena *arena, CsvTable *out, Error *err);
 /* The column of that name (exact), or -1. */
 int csv_table_column(const CsvTable *table, const char *name);
 
+/* Refuses a column that is not among the known ones. */
+bool csv_table_check_columns(const CsvTable *table, const char *const *known, int count,
+                             Error *err);
+
 /* "line 12" in the arena: the place of a row for error_at. */
 const char *csv_table_place(const CsvTable *table, int row, Arena *arena);

@@ -412,6 +412,7 @@ LAB_TEST(a_declaration_files_mistakes_are_named)
         {"{\"mask\": [{}]}", "wanted texts or numbers"},
         {"{\"delimiter\": null}", "wanted a text or a number"},
         {"{\"area_mm\": [0, 1]}", "area_mm"},
+        {"{\"area_mm\": [10]}", "has 1 values, wanted 2"},
         {"{", ""}, {"[]", ""}, {"", ""}};
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         char line[2048];

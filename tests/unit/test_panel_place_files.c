@@ -38,12 +38,40 @@ static void write_tables(void)
     fixture_file(&folder, "hole.csv", "column,row,Y\n0,0,1\n1,0,0\n2,0,1\n");
     fixture_file(&folder, "xy.csv", "column,row,X,Y\n0,0,1,1\n");
     fixture_file(&folder, "both.csv", "column,row,Y,black_Y\n0,0,1,1\n");
-    fixture_file(&folder, "none.csv", "column,row,L\n0,0,1\n");
+    fixture_file(&folder, "none.csv", "column,row\n0,0\n");
+    fixture_file(&folder, "other.csv", "column,row,Y,Black_Y\n0,0,1,1\n");
+    fixture_file(&folder, "most.csv", "column,row,Y\n0,0,2e9\n");
     fixture_file(&folder, "rows.csv", "row,Y\n0,1\n");
     fixture_file(&folder, "one.csv", "column,row,Y\n0,0,1\n");
     fixture_file(&folder, "no.exr", "not a picture");
     fixture_file(&folder, "no.png", "not a picture");
 }
+
+/* 3 x 2 pixels of X, Y, Z and black's Y, in steps of a 16-bit picture. */
+static const float seen[4][6] = {
+    {0.5f, 0.6f, 0.7f, 0.8f, 0.9f, 1},     {1, 0.9f, 0.8f, 0.7f, 0.6f, 0.5f},
+    {0.25f, 0.5f, 0.75f, 1, 0.75f, 0.5f},  {0.1f, 0.2f, 0.1f, 0.2f, 0.1f, 0.4f}};
+
+static void write_exr(const char *name, const char *const names[4])
+{
+    ExrChannel channel[4];
+    float      plane[4][6];
+    ExrBytes  *encoded;
+    Error      err = {0};
+    size_t     size;
+    for (int k = 0; k < 4; k++) {
+        memcpy(plane[k], seen[k], sizeof plane[k]);
+        channel[k] = (ExrChannel){.name = names[k], .values = plane[k]};
+    }
+    ExrPicture picture = {.display = {0, 0, 3, 2}, .data = {0, 0, 3, 2}, .channel_count = 4,
+                          .channels = channel};
+    if (!exr_encode(&picture, &encoded, &err)) fail_msg("%s", err.text);
+    const void *bytes = exr_bytes(encoded, &size);
+    if (!file_write(fixture_path(&folder, name), bytes, size, &err)) fail_msg("%s", err.text);
+    exr_bytes_destroy(encoded);
+}
+
+/* Planes first to first + 2 as red, green, blue. */
 
 #define WHITE(file) "\"emission\": {\"white\": \"" file "\"}"
 #define SPOT(at, file) "{\"position\": [" at "], " WHITE(file) "}"
@@ -82,7 +110,7 @@ TEST(what_is_wrong_with_places_is_named)
         {"{\"spots\": [{\"position\": [0.5, 0.5]}]}",
          {"/spots/0", "neither 'emission' nor 'reflection'", ""}},
         {"{\"spots\": [{\"position\": [0.5]," WHITE("a.csv") "}]}",
-         {"/spots/0/position", "one number", "two"}},
+         {"/spots/0/position", "1 values", "wanted 2"}},
         {"{\"spots\": [{\"position\": 0.5," WHITE("a.csv") "}]}",
          {"/spots/0/position", "is a number", ""}},
         {"{\"spots\": [" SPOT("0.5, 1.2", "a.csv") "]}",
@@ -117,12 +145,18 @@ TEST(what_is_wrong_with_places_is_named)
         {MAP("\"file\": \"half.csv\""), {"half.csv", "3 pixels of 2 x 2", "all"}},
         {MAP("\"file\": \"twice.csv\""), {"twice.csv: line 3", "0,0", "twice"}},
         {MAP("\"file\": \"broken.csv\""), {"broken.csv: line 2", "column is 0.5", "whole"}},
-        {MAP("\"file\": \"negative.csv\""), {"negative.csv: pixel 1,0", "-0.5", "from 0 up"}},
+        {MAP("\"file\": \"negative.csv\""), {"negative.csv: pixel 1,0", "-0.5", "from 0 to 1e+09"}},
+        {MAP("\"file\": \"most.csv\""), {"most.csv: pixel 0,0", "2e+09", "from 0 to 1e+09"}},
         {MAP("\"file\": \"nan.csv\""), {"nan.csv: line 3", "nan", ""}},
         {MAP("\"file\": \"dark.csv\""), {"dark.csv", "white's Y is 0 everywhere", ""}},
         {MAP("\"file\": \"hole.csv\""), {"hole.csv", "dark at 0.5, 0.5", ""}},
         {MAP("\"file\": \"xy.csv\""), {"xy.csv", "only some of X, Y and Z", ""}},
         {MAP("\"file\": \"none.csv\""), {"none.csv", "has no column Y", ""}},
+        {MAP("\"file\": \"rgb.exr\""), {"rgb.exr", "has no channel Y", ""}},
+        {MAP("\"file\": \"other.csv\""),
+         {"other.csv", "column 'Black_Y' is unknown", "'black_Y'"}},
+        {MAP("\"file\": \"map.csv\", \"black\": \"both.csv\""),
+         {"both.csv", "named as \"black\"", "alone"}},
         {MAP("\"file\": \"rows.csv\""), {"rows.csv", "no column 'column'", ""}},
         {MAP("\"file\": \"map.csv\", \"black\": \"one.csv\""),
          {"one.csv", "1 x 1 pixels", "2 x 2"}},
@@ -134,8 +168,14 @@ TEST(what_is_wrong_with_places_is_named)
          {"/uniformity/camera_mm", "no 'size_mm'", ""}},
         {"{\"polarisation\": {\"degree\": 1, \"azimuth_deg\": 0}, \"spots\": [{\"position\": "
          "[0, 0], " REFLECTION "}]}", {"/polarisation", "no 'emission'", ""}},
+        {"{" REFLECTION ", \"polarisation\": {\"degree\": 1, \"azimuth_deg\": 0}}",
+         {"/polarisation", "no 'emission'", ""}},
+        {"{\"polarisation\": {\"degree\": 1, \"azimuth_deg\": 0}, \"spots\": {}}",
+         {"/spots", "is an object", "a list"}},
+        {"{\"size_mm\": [100], " WHITE("a.csv") "}", {"/size_mm", "1 values", "wanted 2"}},
     };
     write_tables();
+    write_exr("rgb.exr", (const char *const[4]){"R", "G", "B", "A"});
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         Error     err;
         Panel    *panel;
@@ -227,32 +267,6 @@ TEST(a_map_counts_relative_to_where_the_panel_was_measured)
     panel_close(panel);
 }
 
-/* 3 x 2 pixels of X, Y, Z and black's Y, in steps of a 16-bit picture. */
-static const float seen[4][6] = {
-    {0.5f, 0.6f, 0.7f, 0.8f, 0.9f, 1},     {1, 0.9f, 0.8f, 0.7f, 0.6f, 0.5f},
-    {0.25f, 0.5f, 0.75f, 1, 0.75f, 0.5f},  {0.1f, 0.2f, 0.1f, 0.2f, 0.1f, 0.4f}};
-
-static void write_exr(const char *name)
-{
-    static const char *const names[4] = {"X", "Y", "Z", "black.Y"};
-    ExrChannel channel[4];
-    float      plane[4][6];
-    ExrBytes  *encoded;
-    Error      err = {0};
-    size_t     size;
-    for (int k = 0; k < 4; k++) {
-        memcpy(plane[k], seen[k], sizeof plane[k]);
-        channel[k] = (ExrChannel){.name = names[k], .values = plane[k]};
-    }
-    ExrPicture picture = {.display = {0, 0, 3, 2}, .data = {0, 0, 3, 2}, .channel_count = 4,
-                          .channels = channel};
-    if (!exr_encode(&picture, &encoded, &err)) fail_msg("%s", err.text);
-    const void *bytes = exr_bytes(encoded, &size);
-    if (!file_write(fixture_path(&folder, name), bytes, size, &err)) fail_msg("%s", err.text);
-    exr_bytes_destroy(encoded);
-}
-
-/* Planes first to first + 2 as red, green, blue. */
 static void write_png(const char *name, int first, int step, int bits)
 {
     Error   err = {0};
@@ -281,7 +295,7 @@ TEST(a_map_is_the_same_in_every_format)
                               i / 3, (double)seen[0][i], (double)seen[1][i],
                               (double)seen[2][i], (double)seen[3][i]);
     fixture_file(&folder, "m.csv", text);
-    write_exr("m.exr");
+    write_exr("m.exr", (const char *const[4]){"X", "Y", "Z", "black.Y"});
     write_png("m.png", 0, 1, 16);
     write_png("k.png", 3, 0, 16);
     write_png("bad.png", 0, 1, 8);

@@ -136,8 +136,6 @@ TEST(manifests_name_the_key)
          {"/polarisation/azimuth_deg", "361", "-360 to 360"}},
         {POLARISED("{\"degree\": 1, \"azimuth\": 45}"),
          {"/polarisation/azimuth", "unknown key", "'azimuth_deg'"}},
-        {"{\"polarisation\": {\"degree\": 1, \"azimuth_deg\": 45}, \"reflection\": {}}",
-         {"/polarisation", "no 'emission'", ""}},
         {"{\"a\": 1,\n \"a\": 2}", {"MANIFEST.json: line 2", "not valid JSON", "duplicate"}},
         {"[1]", {"MANIFEST.json", "is an array", "wanted an object"}},
     };
@@ -200,6 +198,8 @@ TEST(polarisation_is_kept_and_costs_nothing_where_there_is_none)
 #define RECIPE(polarisation)                                                                   \
     "{\"emission\": " PRIMARIES ", \"polarisation\": " polarisation "}"
 
+#define PLACES(keys) "{\"emission\": " PRIMARIES ", \"places\": {" keys "}}"
+
 TEST(recipes_name_the_key)
 {
     (void)state;
@@ -212,6 +212,13 @@ TEST(recipes_name_the_key)
          "\"weights\": [1]}}}",
          {"/emission/red", "2, 1 and 1 values, wanted equal"}},
         {"{}", {"recipe.json", "key 'emission' is missing"}},
+        {"{\"size_mm\": [100], \"emission\": " PRIMARIES "}", {"/size_mm", "wanted 2"}},
+        {PLACES("\"u\": [0.5]"), {"/places", "1 and 0 values, wanted equal"}},
+        {PLACES("\"map\": [4]"), {"/places/map", "has 1 values, wanted 2"}},
+        {PLACES("\"map\": [4, 2.5]"), {"/places/map", "is 2.5, wanted whole pixels"}},
+        {"{\"emission\": " PRIMARIES ", \"reflection\": {\"haze_share\": 0.8}, "
+         "\"places\": {\"map\": [4, 4], \"haze_slope\": -0.6}}",
+         {"/places/haze_slope", "haze_share 0.8 would be 1.04, wanted at most 1"}},
         {RECIPE("45"), {"/polarisation", "wanted an object"}},
         {RECIPE("{\"degree\": 1}"), {"/polarisation", "'azimuth_deg' is missing"}},
         {RECIPE("{\"azimuth_deg\": 1}"), {"/polarisation", "'degree' is missing"}},

@@ -366,7 +366,6 @@ static bool missing_position(const JsonView *view, Error *err)
 static bool read_position(const JsonView *view, const double size_mm[2], double at[2],
                           Error *err)
 {
-    int         count = 0;
     bool        is_mm = json_object_get(view->object, "position_mm") != NULL;
     const char *key = is_mm ? "position_mm" : "position";
     if (is_mm == (json_object_get(view->object, "position") != NULL))
@@ -374,11 +373,7 @@ static bool read_position(const JsonView *view, const double size_mm[2], double 
     if (is_mm && !(size_mm[0] > 0 && size_mm[1] > 0))
         return error_at(err, ERROR_INPUT, view->file, json_view_path(view, key),
                         "is there, but the manifest has no 'size_mm'");
-    if (!json_view_numbers(view, key, (JsonRange){0, is_mm ? 1e5 : 1, 2}, at, &count, err))
-        return false;
-    if (count != 2)
-        return error_at(err, ERROR_INPUT, view->file, json_view_path(view, key),
-                        "holds one number, wanted two: to the right and down");
+    if (!json_view_pair(view, key, 0, is_mm ? 1e5 : 1, at, err)) return false;
     for (int k = 0; k < 2 && is_mm; k++) {
         if (at[k] > size_mm[k])
             return error_at(err, ERROR_INPUT, view->file, json_view_path(view, key),
@@ -505,7 +500,7 @@ static bool read_polarisation(const JsonView *root, Measurement *out, Error *err
         if (!json_object_get(view.object, keys[i]))
             return error_at(err, ERROR_INPUT, view.file, view.path, "key '%s' is missing",
                             keys[i]);
-    if (!json_object_get(root->object, "emission") && !spots_have(root, "emission"))
+    if (!json_object_get(root->object, "emission") && !out->spots_emit)
         return error_at(err, ERROR_INPUT, view.file, view.path, "says how the emitted light is "
                         "polarised, but the set has no 'emission'");
     azimuth = fmod(azimuth, 180);
@@ -518,22 +513,19 @@ static bool read_members(const JsonView *root, Measurement *out, Error *err)
     static const char *const keys[] = {"panel", "instrument", "note", "pixels", "size_mm",
         "instrument_fwhm_deg", "emission", "primaries", "reflection", "polarisation",
         "spots", "uniformity"};
-    int         two = 2;
     const char *primaries = NULL;
     bool ok = json_view_check_keys(root, keys, COUNT(keys), err) &&
         json_view_text(root, "panel", &out->panel, err) &&
         json_view_text(root, "instrument", &out->instrument, err) &&
         json_view_text(root, "note", &out->note, err) &&
         json_view_text(root, "primaries", &primaries, err) &&
-        json_view_numbers(root, "pixels", (JsonRange){1, 65536, 2},
-                           out->pixels, &two, err) &&
-        json_view_numbers(root, "size_mm", (JsonRange){1, 1e5, 2},
-                           out->size_mm, &two, err) &&
+        json_view_pair(root, "pixels", 1, 65536, out->pixels, err) &&
+        json_view_pair(root, "size_mm", 1, 1e5, out->size_mm, err) &&
         json_view_number(root, "instrument_fwhm_deg", 0.05, 15, &out->instrument_fwhm_deg,
                          err) &&
-        read_polarisation(root, out, err) && read_emission(root, out, err) &&
-        read_reflection(root, out, err) && read_spots(root, out, err) &&
-        read_map(root, out, err);
+        read_emission(root, out, err) && read_reflection(root, out, err) &&
+        read_spots(root, out, err) && read_map(root, out, err) &&
+        read_polarisation(root, out, err);
     if (!ok || !primaries) return ok;
     out->has_spectra = json_view_file(root, "primaries", primaries, &primaries, err) &&
                        primary_spectra_read(primaries, root->arena, out->spectrum, err);

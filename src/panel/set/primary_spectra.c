@@ -1,9 +1,6 @@
 #include "panel/set/primary_spectra.h"
 
-#include <string.h>
-
 #include "text/csv_table.h"
-#include "text/nearest_word.h"
 
 #define COUNT(list) ((int)(sizeof(list) / sizeof *(list)))
 
@@ -53,14 +50,7 @@ bool primary_spectra_read(const char *file, Arena *arena, float spectrum[3][SPEC
     static const char *const known[] = {"nm", "red", "green", "blue", "black"};
     CsvTable csv;
     if (!csv_table_read(file, arena, &csv, err)) return false;
-    for (int c = 0; c < csv.columns; c++) {
-        bool found = false;
-        for (int i = 0; i < COUNT(known); i++) found |= !strcmp(csv.name[c], known[i]);
-        if (!found)
-            return error_at(err, ERROR_INPUT, file, "header line",
-                            "column '%s' is unknown; the nearest known one is '%s'",
-                            csv.name[c], nearest_word(csv.name[c], known, COUNT(known)));
-    }
+    if (!csv_table_check_columns(&csv, known, COUNT(known), err)) return false;
     int nm = csv_table_column(&csv, "nm");
     for (int i = 0; i < 4; i++)
         if (csv_table_column(&csv, known[i]) < 0)

@@ -1,5 +1,7 @@
 #include "panel/set/synthetic_panel.h"
 
+#include <math.h>
+
 #include "base/mathd.h"
 #include "base/units.h"
 #include "text/json_view.h"
@@ -216,13 +218,13 @@ static bool read_places(const JsonView *root, SyntheticPlaces *out, Error *err)
     static const char *const keys[] = {"u", "v", "map", "slope", "mura", "mura_cycles", "tint",
         "clouding", "lobe_slope", "haze_slope", "bend_deg"};
     JsonView view;
-    int      two = 2, sides = 0;
+    int      two = 2;
     double   map[2] = {0, 0}, bend = 0;
     if (!json_view_child(root, "places", false, &view, err)) return false;
     if (!view.object) return true;
     bool ok = json_view_check_keys(&view, keys, COUNT(keys), err) &&
         read_spots(&view, out, err) &&
-        json_view_numbers(&view, "map", (JsonRange){1, 2048, 2}, map, &sides, err) &&
+        json_view_pair(&view, "map", 1, 2048, map, err) &&
         json_view_numbers(&view, "slope", (JsonRange){-0.9, 0.9, 2}, out->slope, &two, err) &&
         json_view_number(&view, "mura", -0.5, 0.5, &out->mura, err) &&
         json_view_numbers(&view, "mura_cycles", (JsonRange){0, 100, 2}, out->mura_cycles, &two,
@@ -233,15 +235,27 @@ static bool read_places(const JsonView *root, SyntheticPlaces *out, Error *err)
         json_view_number(&view, "haze_slope", -1.9, 1.9, &out->haze_slope, err) &&
         json_view_number(&view, "bend_deg", -150, 150, &bend, err);
     if (!ok) return false;
-    if (sides == 1)
-        return error_at(err, ERROR_INPUT, view.file, json_view_path(&view, "map"),
-                        "holds one number, wanted width and height in pixels");
-    if (!sides && !out->spots)
+    if (!(map[0] > 0) && !out->spots)
         return error_at(err, ERROR_INPUT, view.file, view.path,
                         "has neither spots ('u' and 'v') nor a 'map'");
-    for (int k = 0; k < 2; k++) out->map[k] = (int)map[k];
+    for (int k = 0; k < 2; k++) {
+        out->map[k] = (int)map[k];
+        if ((double)out->map[k] != map[k])
+            return error_at(err, ERROR_INPUT, view.file, json_view_path(&view, "map"),
+                            "is %g, wanted whole pixels", map[k]);
+    }
     out->bend = radians_from_degrees(bend);
     return true;
+}
+
+/* At the edges the haze has the most: no more than all of what is reflected. */
+static bool check_haze(const JsonView *root, const SyntheticPanel *panel, Error *err)
+{
+    double most = panel->reflection.haze_share * (1 + 0.5 * fabs(panel->places.haze_slope));
+    if (!panel->reflection.exists || most <= 1) return true;
+    return error_at(err, ERROR_INPUT, root->file, "/places/haze_slope", "is %g: at an edge "
+                    "haze_share %g would be %g, wanted at most 1", panel->places.haze_slope,
+                    panel->reflection.haze_share, most);
 }
 
 static bool read_polarisation(const JsonView *root, SyntheticPolarisation *out, Error *err)
@@ -266,19 +280,16 @@ static bool read_members(const JsonView *root, SyntheticPanel *out, Error *err)
     static const char *const keys[] = {"panel", "note", "pixels", "size_mm",
         "refractive_index", "emission", "reflection", "instrument", "places",
         "polarisation"};
-    int two = 2;
     return json_view_check_keys(root, keys, COUNT(keys), err) &&
            json_view_text(root, "panel", &out->name, err) &&
            json_view_text(root, "note", &out->note, err) &&
-           json_view_numbers(root, "pixels", (JsonRange){1, 65536, 2},
-                           out->pixels, &two, err) &&
-           json_view_numbers(root, "size_mm", (JsonRange){1, 1e5, 2},
-                           out->size_mm, &two, err) &&
+           json_view_pair(root, "pixels", 1, 65536, out->pixels, err) &&
+           json_view_pair(root, "size_mm", 1, 1e5, out->size_mm, err) &&
            json_view_number(root, "refractive_index", 1, 3, &out->refractive_index, err) &&
            read_emission(root, &out->emission, err) &&
            read_reflection(root, &out->reflection, err) &&
            read_instrument(root, &out->instrument, err) &&
-           read_places(root, &out->places, err) &&
+           read_places(root, &out->places, err) && check_haze(root, out, err) &&
            read_polarisation(root, &out->polarisation, err);
 }
 

@@ -30,7 +30,7 @@
  *   even  = (1 + slope_u x + slope_v y) (1 + mura cos(2 pi cycles_u x) cos(2 pi cycles_v y))
  *   W_pj is multiplied by even tint_j, tint = (1 + tint x, 1, 1 - tint x)
  *   B    by even (1 + clouding (4 x y)^2), and its colour is white's there
- *   gain by 1 + lobe_slope x, share by 1 + haze_slope x
+ *   gain by 1 + lobe_slope x, share by 1 + haze_slope x (at most 1 at both edges)
  * A bend turns the local normal from -bend/2 at the left edge to bend/2 at the right one about
  * the vertical axis; all angles count from the local normal, and the instrument is set square
  * on every spot. The camera that makes the map stands far before the middle and sees each

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+#include <strings.h>
 
 #include "base/count.h"
 #include "base/file.h"
@@ -23,6 +24,8 @@ typedef struct MapFile {
     int         width, height;
     MapPlanes   white, black;
 } MapFile;
+
+#define VALUE_MOST 1e9f
 
 static const char *const axes[3] = {"X", "Y", "Z"};
 
@@ -95,7 +98,7 @@ static bool read_exr(MapFile *file, Arena *arena, Error *err)
     bool ok = check_size(file, data->x1 - data->x0, data->y1 - data->y0, err) &&
               exr_planes(file, &exr, "", &file->white, err) &&
               exr_planes(file, &exr, "black.", &file->black, err);
-    if (ok && !exr_reader_read(reader, exr.plane, err)) ok = error_in_file(err, file->path);
+    if (ok && file->white.channels && !exr_reader_read(reader, exr.plane, err)) ok = error_in_file(err, file->path);
     exr_reader_destroy(reader);
     return ok;
 }
@@ -175,9 +178,12 @@ static void csv_fill(const CsvTable *csv, const size_t *pixel, const char *begin
 
 static bool read_csv(MapFile *file, Arena *arena, Error *err)
 {
+    static const char *const known[] = {"column", "row", "X", "Y", "Z", "black_X", "black_Y",
+                                        "black_Z"};
     CsvTable csv;
     size_t  *pixel = NULL;
     if (!csv_table_read(file->path, arena, &csv, err) ||
+        !csv_table_check_columns(&csv, known, COUNT_OF(known), err) ||
         !csv_places(file, &csv, arena, &pixel, err) ||
         !csv_planes(file, &csv, "", arena, &file->white, err) ||
         !csv_planes(file, &csv, "black_", arena, &file->black, err))
@@ -219,11 +225,12 @@ static bool check_values(const MapFile *file, const MapPlanes *planes, const cha
             float value = planes->value[k][i];
             char  place[64];
             if (value > most) most = value;
-            if (value >= 0 && value < 1e9f) continue;
+            if (value >= 0 && value <= VALUE_MOST) continue;
             snprintf(place, sizeof place, "pixel %d,%d", (int)(i % (size_t)file->width),
                      (int)(i / (size_t)file->width));
             return error_at(err, ERROR_INPUT, file->path, place, "%s's %s is %g, wanted a "
-                            "number from 0 up", name, axis, (double)value);
+                            "number from 0 to %g", name, axis, (double)value,
+                            (double)VALUE_MOST);
         }
         if (!(most > 0))
             return error_at(err, ERROR_INPUT, file->path, "", "%s's %s is 0 everywhere", name,
@@ -244,7 +251,7 @@ static void fold_grey(const MapFile *file, MapPlanes *planes)
 static bool read_file(MapFile *file, Arena *arena, Error *err)
 {
     const char *ending = path_ending(file->path);
-    bool        is_exr = !strcmp(ending, ".exr"), is_csv = !strcmp(ending, ".csv");
+    bool is_exr = !strcasecmp(ending, ".exr"), is_csv = !strcasecmp(ending, ".csv");
     bool ok = is_exr   ? read_exr(file, arena, err)
               : is_csv ? read_csv(file, arena, err) : read_picture(file, arena, err);
     if (!ok) return false;
@@ -278,6 +285,9 @@ static bool join_black(const JsonView *view, MapFile *white, const MapFile *blac
         return error_at(err, ERROR_INPUT, view->file, json_view_path(view, "black"),
                         "names a file, but '%s' holds black too: wanted one of them",
                         white->path);
+    if (black->black.channels)
+        return error_at(err, ERROR_INPUT, black->path, "", "is named as \"black\" and has "
+                        "channels of black beside its own, wanted X, Y and Z, or Y, alone");
     if (black->width != white->width || black->height != white->height)
         return error_at(err, ERROR_INPUT, black->path, "", "has %d x %d pixels, wanted %d x %d "
                         "as in '%s'", black->width, black->height, white->width, white->height,
