@@ -221,6 +221,12 @@ def check_places(report, commands, panel):
                                commands.file("none.svg")), 3, "the same everywhere")
     fails(report, commands.run("eval", path, "--theta", "0", "--rgb", "1,1,1", "--at", "0,2"),
           2, "--at")
+    with open(commands.file("batch.csv"), "w") as out:
+        out.write("theta,phi,r,g,b,u,v\n0,0,1,1,1,-0.5,-0.5\n")
+    fails(report, commands.run("eval", path, "--batch", commands.file("batch.csv")), 3,
+          "batch.csv", "u is -0.5")
+    fails(report, commands.run("simulate", source, "-o", commands.file("at"), "--at", "0,0"),
+          2, "--at", "--truth")
     commands.text("export", path, "-o", commands.file("places_out"), "--theta-step", "8",
                   "--phi-step", "20", "--quiet")
     report.claim(sorted(os.listdir(commands.file("places_out"))) == [

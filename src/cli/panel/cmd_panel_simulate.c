@@ -61,7 +61,7 @@ static bool run_simulate(int argc, char **argv, Arena *arena, Error *err)
     double      at[5];
     int         noise = 0, grid[2] = {0, 0};
     double      place[2] = {0.5, 0.5};
-    bool        wants_truth = false, has_grid = false;
+    bool        wants_truth = false, has_grid = false, has_place = false;
     const Option options[] = {
         {"-o", OPTION_TEXT, "DIR", "folder for MANIFEST.json and its tables", &folder,
          .given = NULL},
@@ -70,7 +70,7 @@ static bool run_simulate(int argc, char **argv, Arena *arena, Error *err)
          &wants_truth},
         {"--at", OPTION_NUMBERS, "U,V",
          "of --truth: place on the active area, 0 to 1 from its upper left corner, right and "
-         "down (default 0.5,0.5)", place, 0, 1, 2, .given = NULL},
+         "down (default 0.5,0.5)", place, 0, 1, 2, &has_place},
         {"--noise", OPTION_CHOICE, "recipe|off", "the instrument's noise (default recipe)",
          &noise, .given = NULL},
         {"--grid", OPTION_SIZE, "RINGSxAZIMUTHS",
@@ -86,6 +86,8 @@ static bool run_simulate(int argc, char **argv, Arena *arena, Error *err)
     if (cli.help_shown) return true;
     if (!folder && !wants_truth)
         return error_set(err, ERROR_USAGE, "panel simulate wants -o DIR");
+    if (has_place && !wants_truth)
+        return error_set(err, ERROR_USAGE, "--at is of --truth, wanted with it");
     bool ok = synthetic_panel_read(cli.arguments[0], arena, &panel, err);
     if (ok && noise) switch_noise_off(&panel.instrument);
     if (ok && has_grid) ok = set_grid(&panel.instrument, grid, err);

@@ -29,7 +29,7 @@ double *panel_question_member(PanelQuestion *q, const char *name)
 
 static bool is_anywhere(const PanelQuestion *q)
 {
-    return q->at[0] < 0 && q->at[1] < 0;
+    return isnan(q->at[0]) && isnan(q->at[1]);
 }
 
 bool panel_question_check(const PanelQuestion *q, Error *err)

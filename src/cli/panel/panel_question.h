@@ -17,7 +17,7 @@ typedef struct PanelQuestion {
     double incidence, incidence_phi;
     bool   is_brdf;
     double wavelength_nm; /* 0: all measured ones */
-    double at[2];         /* place (panel_place.h); below 0: the file's own panel, wherever */
+    double at[2];         /* place (panel_place.h); NaN: the file's own panel, wherever */
 } PanelQuestion;
 
 /* A reflection's answer. */

@@ -136,6 +136,7 @@ typedef struct MapPlane {
     bool   is_black;
     int    axis; /* X, Y, Z */
     double *value;
+    double  most; /* of the values, once they are straight */
 } MapPlane;
 
 static bool straighten_pixel(const Measurement *set, const Panel *panel, const MapPlane *plane,
@@ -166,7 +167,7 @@ static int make_planes(const UniformityMap *map, Arena *arena, MapPlane plane[6]
         bool is_black = k >= white;
         int  channels = is_black ? map->black_channels : white;
         plane[k] = (MapPlane){is_black, channels == 3 ? k - is_black * white : 1,
-                              ARENA_NEW(arena, double, pixels)};
+                              ARENA_NEW(arena, double, pixels), 0};
         for (size_t i = 0; i < pixels; i++) plane[k].value[i] = (double)map->value[k][i];
     }
     return count;
@@ -184,10 +185,9 @@ static float pack_plane(const MapPlane *plane, int planes, int index, size_t pix
                         uint16_t *out)
 {
     const double *value = plane[index].value;
-    double most = most_of(value, pixels), whole = 0;
+    double most = plane[index].most, whole = 0;
     for (int k = 0; k < planes; k++)
-        if (plane[k].is_black == plane[index].is_black)
-            whole = fmax(whole, most_of(plane[k].value, pixels));
+        if (plane[k].is_black == plane[index].is_black) whole = fmax(whole, plane[k].most);
     for (size_t i = 0; i < pixels; i++)
         out[i] = (uint16_t)fmin(65535, floor(65535 * (value[i] / most) + 0.5));
     return (float)(most / whole / 65535);
@@ -199,10 +199,8 @@ static bool is_lit_at(const UniformityMap *map, const MapPlane *plane, int plane
     int x = (int)fminf(at[0] * (float)map->width, (float)(map->width - 1));
     int y = (int)fminf(at[1] * (float)map->height, (float)(map->height - 1));
     for (int k = 0; k < planes; k++) {
-        double most = 0, value = plane[k].value[(size_t)y * (size_t)map->width + (size_t)x];
-        for (size_t i = 0; i < (size_t)map->width * (size_t)map->height; i++)
-            most = fmax(most, plane[k].value[i]);
-        if (!(value > 1e-4 * most)) return false;
+        double value = plane[k].value[(size_t)y * (size_t)map->width + (size_t)x];
+        if (!(value > 1e-4 * plane[k].most)) return false;
     }
     return true;
 }
@@ -238,6 +236,7 @@ bool fit_places_add_map(const Measurement *set, const Panel *panel, Arena *arena
     int      planes = make_planes(map, arena, plane);
     for (size_t i = 0; i < pixels && map->is_seen; i++)
         if (!straighten_pixel(set, panel, plane, planes, i, err)) return false;
+    for (int k = 0; k < planes; k++) plane[k].most = most_of(plane[k].value, pixels);
     if (!check_references(set, places, plane, planes, err)) return false;
     size_t         size = sizeof(PanelMapHead) + (size_t)planes * pixels * sizeof(uint16_t);
     unsigned char *bytes = arena_alloc(arena, 1, 64, size);
