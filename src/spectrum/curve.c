@@ -106,6 +106,21 @@ static const char *next_line(const char *text, char *line, size_t size)
     return text + length + (text[length] == '\n');
 }
 
+/* Wavelengths in um or m, or of a range nobody sees, would say the same everywhere. */
+static bool check_visible(const Points *points, const char *path, Error *err)
+{
+    double first = points->nm[0], last = points->nm[points->count - 1];
+    return (first <= CURVE_LAST_NM && last >= CURVE_FIRST_NM) ||
+           error_at(err, ERROR_INPUT, path, NULL, "holds wavelengths from %g to %g nm, none "
+                    "from %d to %d is among them", first, last, CURVE_FIRST_NM, CURVE_LAST_NM);
+}
+
+/* Numbers that are too few or too many are no names of columns. */
+static bool is_header(const char *line)
+{
+    return !strchr("+-.0123456789", line[strspn(line, " \t")]);
+}
+
 /* One line may be a header: the first that is neither blank nor a comment. */
 static bool read_points(const char *text, const char *path, Points *points, Error *err)
 {
@@ -113,6 +128,7 @@ static bool read_points(const char *text, const char *path, Points *points, Erro
     bool may_be_header = true;
     const char *names = points->columns == 1 ? "two numbers: nm,value" :
                                                "three numbers: nm,n,k";
+    if (strncmp(text, "\xef\xbb\xbf", 3) == 0) text += 3; /* an editor's mark of UTF-8 */
     for (int row = 1; *text; row++) {
         double number[1 + COLUMNS_MAX] = {0};
         text = next_line(text, line, sizeof line);
@@ -120,7 +136,7 @@ static bool read_points(const char *text, const char *path, Points *points, Erro
         snprintf(place, sizeof place, "line %d", row);
         if (parse_row(line, points->columns, number)) {
             if (!add_row(points, path, place, number, err)) return false;
-        } else if (!may_be_header) {
+        } else if (!may_be_header || !is_header(line)) {
             line[strcspn(line, "\r\n")] = '\0';
             return error_at(err, ERROR_INPUT, path, place, "found \"%.60s\", wanted %s", line,
                             names);
@@ -129,7 +145,7 @@ static bool read_points(const char *text, const char *path, Points *points, Erro
     }
     if (!points->count)
         return error_at(err, ERROR_INPUT, path, NULL, "no rows of %s", strstr(names, "nm"));
-    return true;
+    return check_visible(points, path, err);
 }
 
 static bool no_memory(const char *path, Error *err)

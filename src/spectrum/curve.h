@@ -30,7 +30,8 @@ typedef enum CurveRange {
 } CurveRange;
 
 /* A CSV of `nm,value` rows (header line and # comments allowed) in memory, terminated; path: of
- * the file, for messages, which name the line of a value that is out of range. */
+ * the file, for messages, which name the line of a value that is out of range. Without any
+ * wavelength from CURVE_FIRST_NM to CURVE_LAST_NM it is refused. */
 bool curve_parse(const char *text, const char *path, CurveRange range, Curve *out, Error *err);
 
 #define INDEX_MAX 100.0

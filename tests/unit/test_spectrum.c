@@ -312,7 +312,7 @@ TEST(a_curve_file_may_have_comments_and_a_header)
     static Curve curve;
     Error        err;
     const char  *path = in_folder("curve.csv");
-    write_text(path, "# glass\nnm,transmittance\n\n400,0.5\r\n500 ; 0.75\n600\t0.25");
+    write_text(path, "\xef\xbb\xbf# glass\nnm,transmittance\n\n400,0.5\r\n500 ; 0.75\n600\t0.25");
     assert_true(curve_read(path, &curve, &err));
     remove(path);
     assert_close(curve.value[0], 0.5, 1e-6);
@@ -331,6 +331,10 @@ TEST(a_bad_curve_file_is_refused_with_its_line)
         {"nm,value\n400,1\n400,2\n", "line 3: wavelength 400 nm after 400 nm: wanted rising"},
         {"nm,value\nfour,1\n", "line 2: found \"four,1\", wanted two numbers: nm,value"},
         {"400,1\n500\n", "line 2: found \"500\", wanted two numbers"},
+        {"400,1,\n500,1\n", "line 1: found \"400,1,\", wanted two numbers"},
+        {" 400\n500,1\n", "line 1: found \" 400\", wanted two numbers"},
+        {"0.4,1\n0.7,2\n", "wavelengths from 0.4 to 0.7 nm, none from 360 to 830"},
+        {"900,1\n1e3,2\n", "wavelengths from 900 to 1000 nm, none from 360 to 830"},
         {"400,nan\n", "line 1: wavelength 400 nm with value nan: wanted finite numbers"},
         {"-5,1\n", "line 1: wavelength -5 nm with value 1: wanted finite numbers, nm above 0"},
         {"400,1e31\n", "value 1e+31: wanted finite numbers, nm above 0, up to 1e+30"},
@@ -386,7 +390,7 @@ TEST(a_file_of_indices_has_three_columns_and_is_refused_with_its_line)
     } cases[] = {
         {"nm,n,k\n", "no rows of nm,n,k"},
         {"nm,n,k\n400,1\n", "line 2: found \"400,1\", wanted three numbers: nm,n,k"},
-        {"400,1,0,2\n500,1,0,2\n", "line 2: found \"500,1,0,2\", wanted three numbers"},
+        {"400,1,0,2\n500,1,0,2\n", "line 1: found \"400,1,0,2\", wanted three numbers"},
         {"400,-1,2\n", "line 1: wavelength 400 nm with n -1 and k 2: wanted nm above 0, n"},
         {"400,1,-2\n", "with n 1 and k -2"},
         {"400,0,0\n", "not both 0"},
