@@ -207,6 +207,7 @@ FILES = [
     (index_file([{**GOOD, "n": [[0, 1.5]]}]), "/data/0/n/0: a pair"),
     (index_file([{**GOOD, "k": [[4e-7, -1]]}]), "/data/0/k/0: a pair"),
     (index_file([{**GOOD, "n": [[4e-7, 1.5], [4e-7, 1.5]]}]), "/data/0/n/1: wavelengths that"),
+    (index_file([{**GOOD, "n": [[4e-7, 0]]}]), "/data/0: n and k are both 0"),
     (index_file([{**GOOD, "n": [[4e-7, 0.5]]}]), "n is 0.5 at 360 nm: a metal's"),
 ]
 MEMBERS = [

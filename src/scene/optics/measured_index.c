@@ -112,6 +112,15 @@ static bool parse_table(IndexFile *from, const GltfValue **root)
     return false;
 }
 
+/* No body has neither. */
+static void check_sum(IndexFile *from, const GltfValue *data, const OpticalConstants *table)
+{
+    for (int i = 0; i < CURVE_COUNT && from->ok; i++)
+        if (!(table->n.value[i] + table->k.value[i] > 0))
+            fails(from, data, "n and k are both 0 at a visible wavelength, one above 0 is "
+                              "wanted");
+}
+
 /* NULL: reported, or it says nothing of visible light. */
 static const OpticalConstants *read_table(GltfFile *file, const GltfValue *uri)
 {
@@ -124,6 +133,7 @@ static const OpticalConstants *read_table(GltfFile *file, const GltfValue *uri)
     OpticalConstants *out = ARENA_NEW(file->load->arena, OpticalConstants, 1);
     bool is_visible = read_curve(&from, n, &out->n);
     is_visible = read_curve(&from, k, &out->k) && is_visible;
+    if (is_visible) check_sum(&from, data, out);
     if (!from.ok) return NULL;
     if (is_visible) return out;
     file_warning(file, uri, "%s holds no wavelength from %d to %d nm: it is not used",
