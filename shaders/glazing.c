@@ -100,7 +100,9 @@ static Spectrum meet_coated(const GlazedWindow *window, float cosine, bool is_fr
     images->first = coating_at(near->front, w, cosine);
     images->ghost = in * in * t * t * back;
     images->next = coating_at(near->back, w, cosine) * back * t * t;
-    Spectrum once = spectrum_all(1) / (spectrum_all(1) - images->next);
+    /* Between two perfect mirrors nothing gets in: 0, and not 0 / 0. */
+    Spectrum once = spectrum_all(1) / spectrum_max(spectrum_all(1) - images->next,
+                                                   spectrum_all(1e-6f));
     images->passed = in * coating_at(far->through, w, cosine) * t * once;
     m->passed += spectrum_all(0.5f) * images->passed;
     return images->first + images->ghost * once;

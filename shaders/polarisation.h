@@ -42,6 +42,7 @@ static inline Waves waves_reflected(float cosine, float eta)
     float falls = sqrtf(sine2 - 1), a = cosine, b = eta * falls, c = eta * cosine, d = falls;
     float real = a * c + b * d, imaginary = a * d - b * c;
     float size2 = real * real + imaginary * imaginary;
+    if (!(size2 > 0)) return (Waves){1, 1, 1, 0};
     return (Waves){1, 1, (real * real - imaginary * imaginary) / size2,
                    2 * real * imaginary / size2};
 }

@@ -4,6 +4,7 @@
 
 #include <complex.h>
 
+#include "base/count.h"
 #include "base/units.h"
 #include "path/polarised.h"
 #include "shaders/polarisation.h"
@@ -55,6 +56,23 @@ TEST(total_reflection_puts_the_waves_out_of_step)
             fail_msg("%d degrees: out of step by %.5f, wanted %.5f", degrees, found, wanted);
         assert_true(fabs((double)(w.along * w.along + w.turned * w.turned) - 1) < 1e-5);
     }
+}
+
+/* As grazing as floats go, at every index: shares, and numbers. */
+TEST(waves_at_the_horizon_are_numbers)
+{
+    (void)state;
+    const float all[] = {0, 0.5f, 0.999999f, 1, 1.000001f, 1.5f, 2.5f};
+    for (int i = 0; i < COUNT_OF(all); i++)
+        for (float cosine = 1; cosine > 1e-30f; cosine *= 0.7f) {
+            Waves face = waves_reflected(cosine, all[i]);
+            Waves three[3] = {face, waves_sheet_reflected(face), waves_sheet_through(face)};
+            for (int k = 0; k < 3; k++) {
+                assert_true(three[k].s >= 0 && three[k].s <= 1 && three[k].p >= 0 &&
+                            three[k].p <= 1 && fabsf(three[k].turned) <= 1);
+                assert_true(three[k].along >= -1.00001f && three[k].along <= 1.00001f);
+            }
+        }
 }
 
 /* R = 2r / (1 + r) of each, at 1.52. */

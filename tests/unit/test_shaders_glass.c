@@ -103,6 +103,7 @@ static void add_coated_pane(const char *name, const LayerStack *outside,
 static void add_coated_glass(void)
 {
     const LayerStack *four = stack_four(&arena), *silver = stack_silver(&arena);
+    const LayerStack *mirror = stack_of(1, (ThinMedium[]){{0, 100, 2000}}, &arena);
     add_coated_solid("coated glass", 0, true, coating_of_solid(four, 1.52, &arena));
     add_coated_solid("coated frosted glass", 0.3f, true, coating_of_solid(four, 1.52, &arena));
     add_coated_solid("coated rough glass", 0.9f, true, coating_of_solid(four, 1.52, &arena));
@@ -111,6 +112,7 @@ static void add_coated_glass(void)
     add_coated_window("silvered window", false, coating_of_sheet(silver, 1.52, &arena));
     add_coated_pane("laminated, coated outside", four, NULL, 0);
     add_coated_pane("dirty, silver inside", NULL, silver, 0.3f);
+    add_coated_pane("laminated, between mirrors", mirror, mirror, 0);
 }
 
 /* Of twice the dispersion of glTF's strongest: heavy flint has half of it. */
