@@ -117,33 +117,40 @@ TEST_WITH(every_member_of_sheen_arrives, maker_reset, NULL)
 }
 
 static const struct {
-    const char *members, *place, *text;
-} WRONG_SHEEN[] = {
-    {"'sheenColorFactor':0.5", "/sheenColorFactor", "array"},
-    {"'sheenColorFactor':[1,1]", "/sheenColorFactor", "3"},
-    {"'sheenColorFactor':[1,'1',1]", "/sheenColorFactor/1", "number"},
-    {"'sheenColorFactor':[1,1,1.5]", "/sheenColorFactor/2", "1.5"},
-    {"'sheenColorFactor':[-0.5,1,1]", "/sheenColorFactor/0", "-0.5"},
-    {"'sheenRoughnessFactor':'1'", "/sheenRoughnessFactor", "number"},
-    {"'sheenRoughnessFactor':1.25", "/sheenRoughnessFactor", "1.25"},
-    {"'sheenRoughnessFactor':-1", "/sheenRoughnessFactor", "-1"},
-    {"'sheenColorTexture':1", "/sheenColorTexture", "object"},
-    {"'sheenRoughnessTexture':{}", "/sheenRoughnessTexture", "index"},
+    const char *extension, *members, *place, *text;
+} WRONG[] = {
+    {SHEEN, "'sheenColorFactor':0.5", "/sheenColorFactor", "array"},
+    {SHEEN, "'sheenColorFactor':[1,1]", "/sheenColorFactor", "3"},
+    {SHEEN, "'sheenColorFactor':[1,'1',1]", "/sheenColorFactor/1", "number"},
+    {SHEEN, "'sheenColorFactor':[1,1,1.5]", "/sheenColorFactor/2", "1.5"},
+    {SHEEN, "'sheenColorFactor':[-0.5,1,1]", "/sheenColorFactor/0", "-0.5"},
+    {SHEEN, "'sheenRoughnessFactor':'1'", "/sheenRoughnessFactor", "number"},
+    {SHEEN, "'sheenRoughnessFactor':1.25", "/sheenRoughnessFactor", "1.25"},
+    {SHEEN, "'sheenRoughnessFactor':-1", "/sheenRoughnessFactor", "-1"},
+    {SHEEN, "'sheenColorTexture':1", "/sheenColorTexture", "object"},
+    {SHEEN, "'sheenRoughnessTexture':{}", "/sheenRoughnessTexture", "index"},
+    {IRIDESCENCE, "'iridescenceIor':100001", "/iridescenceIor", "1 to 100000"},
+    {IRIDESCENCE, "'iridescenceThicknessMaximum':1e7", "/iridescenceThicknessMaximum",
+     "0 to 1000000"},
+    {IRIDESCENCE, "'iridescenceThicknessMinimum':1e7", "/iridescenceThicknessMinimum",
+     "0 to 1000000"},
+    {"KHR_materials_ior", "'ior':100001", "/ior", "from 1 to 100000"},
+    {"KHR_materials_ior", "'ior':0.5", "/ior", "0 (which means infinite)"},
 };
 
-TEST_WITH(each_wrong_member_of_sheen_is_told, maker_reset, NULL)
+TEST_WITH(each_wrong_member_is_told, maker_reset, NULL)
 {
     (void)state;
-    for (size_t i = 0; i < sizeof WRONG_SHEEN / sizeof *WRONG_SHEEN; i++) {
+    for (size_t i = 0; i < sizeof WRONG / sizeof *WRONG; i++) {
         char text[1024], place[128];
         snprintf(text, sizeof text,
-                 "'extensionsUsed':['" SHEEN "'],'materials':[{'extensions':{'" SHEEN
-                 "':{%s}}}]", WRONG_SHEEN[i].members);
-        snprintf(place, sizeof place, "/materials/0/extensions/" SHEEN "%s",
-                 WRONG_SHEEN[i].place);
+                 "'extensionsUsed':['%s'],'materials':[{'extensions':{'%s':{%s}}}]",
+                 WRONG[i].extension, WRONG[i].extension, WRONG[i].members);
+        snprintf(place, sizeof place, "/materials/0/extensions/%s%s", WRONG[i].extension,
+                 WRONG[i].place);
         Found found = maker_survey_file(maker_gltf(NULL, 0, text));
-        if (!maker_find(&found, place, WRONG_SHEEN[i].text))
-            fail_msg("%s is not told as \"%s\"", place, WRONG_SHEEN[i].text);
+        if (!maker_find(&found, place, WRONG[i].text))
+            fail_msg("%s is not told as \"%s\"", place, WRONG[i].text);
     }
 }
 

@@ -154,8 +154,10 @@ static const Rule IRIDESCENCE[] = {
     TEXTURE("iridescenceTexture"),
     {.name = "iridescenceIor", .kind = RULE_NUMBER, .flags = RULE_HAS_RANGE, .min = 1,
      .max = IOR_MAX},
-    {.name = "iridescenceThicknessMinimum", .kind = RULE_NUMBER, .flags = RULE_FROM_MIN},
-    {.name = "iridescenceThicknessMaximum", .kind = RULE_NUMBER, .flags = RULE_FROM_MIN},
+    {.name = "iridescenceThicknessMinimum", .kind = RULE_NUMBER, .flags = RULE_HAS_RANGE,
+     .max = 1e6},
+    {.name = "iridescenceThicknessMaximum", .kind = RULE_NUMBER, .flags = RULE_HAS_RANGE,
+     .max = 1e6},
     TEXTURE("iridescenceThicknessTexture"),
 };
 static const Schema SCHEMA_IRIDESCENCE = {"KHR_materials_iridescence", IRIDESCENCE,
