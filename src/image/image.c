@@ -118,11 +118,70 @@ static bool check_dpx(const unsigned char *bytes, size_t size, Error *err)
                      "the file has %zu", user, size);
 }
 
+/* A TIFF or, with wider numbers, a BigTIFF. */
+typedef struct Tiff {
+    const unsigned char *bytes;
+    size_t size;
+    bool   is_big_endian, is_wide;
+} Tiff;
+
+/* What is not there is 0. */
+static uint64_t tiff_number(const Tiff *tiff, uint64_t at, unsigned width)
+{
+    uint64_t value = 0;
+    if (at > tiff->size || tiff->size - at < width) return 0;
+    for (unsigned i = 0; i < width; i++)
+        value = value << 8 | tiff->bytes[at + (tiff->is_big_endian ? i : width - 1 - i)];
+    return value;
+}
+
+/* The numbers of one entry of the first directory; count 0: it has none. */
+typedef struct TiffList {
+    uint64_t at, count;
+    unsigned width;
+} TiffList;
+
+static TiffList tiff_list(const Tiff *tiff, unsigned tag)
+{
+    unsigned wide = tiff->is_wide ? 8 : 4, head = tiff->is_wide ? 8 : 2;
+    uint64_t at = tiff_number(tiff, wide, wide), entries = tiff_number(tiff, at, head);
+    at += head;
+    for (uint64_t i = 0; i < entries && at < tiff->size; i++, at += 4 + 2 * wide) {
+        if (tiff_number(tiff, at, 2) != tag) continue;
+        uint64_t type = tiff_number(tiff, at + 2, 2), value = at + 4 + wide;
+        TiffList out = {value, tiff_number(tiff, at + 4, wide),
+                        type == 3 ? 2 : type == 16 ? 8 : 4};
+        if (out.count * out.width > wide) out.at = tiff_number(tiff, value, wide);
+        return out;
+    }
+    return (TiffList){0, 0, 0};
+}
+
+/* The library takes strips and tiles behind the end of the bytes for black (TIFF 6.0, sections
+ * 2, 8 and 15). */
+static bool check_tiff(const unsigned char *bytes, size_t size, Error *err)
+{
+    static const unsigned tags[2][2] = {{273, 279}, {324, 325}}; /* where, how many bytes */
+    const Tiff tiff = {bytes, size, bytes[0] == 'M', bytes[2] == '+' || bytes[3] == '+'};
+    for (int k = 0; k < 2; k++) {
+        TiffList where = tiff_list(&tiff, tags[k][0]), length = tiff_list(&tiff, tags[k][1]);
+        for (uint64_t i = 0; i < where.count && i < length.count && i < size; i++) {
+            uint64_t from = tiff_number(&tiff, where.at + i * where.width, where.width);
+            uint64_t part = tiff_number(&tiff, length.at + i * length.width, length.width);
+            if (from > size || part > size - from)
+                return error_set(err, ERROR_INPUT,
+                                 "damaged tiff picture: cut off, pixels are missing");
+        }
+    }
+    return true;
+}
+
 /* What the libraries let pass. */
 static bool check_whole(const char *format, const void *bytes, size_t size, Error *err)
 {
     if (!strcmp(format, "png")) return check_png(bytes, size, err);
     if (!strcmp(format, "dpx")) return check_dpx(bytes, size, err);
+    if (!strcmp(format, "tiff")) return check_tiff(bytes, size, err);
     return strcmp(format, "jpeg") != 0 || check_jpeg(bytes, size, err);
 }
 

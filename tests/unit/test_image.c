@@ -256,6 +256,61 @@ TEST(refuses_every_prefix_of_other_formats)
     }
 }
 
+static void put_reversed(Bytes *b, uint64_t value, unsigned width, bool is_big_endian)
+{
+    for (unsigned i = 0; i < width; i++) {
+        unsigned      shift = 8 * (is_big_endian ? width - 1 - i : i);
+        unsigned char byte = (unsigned char)(value >> shift);
+        put(b, &byte, 1);
+    }
+}
+
+/* 2 x 2 pixels of 16-bit grey, not packed, the directory in front of them; wide: BigTIFF. */
+static const Bytes *make_tiff(bool is_big_endian, bool is_wide)
+{
+    static Bytes out;
+    static const unsigned entries[][3] = {{256, 3, 2}, {257, 3, 2}, {258, 3, 16}, {259, 3, 1},
+                                          {262, 3, 1}, {273, 4, 0}, {277, 3, 1}, {278, 3, 2},
+                                          {279, 4, 8}};
+    unsigned count = sizeof entries / sizeof *entries, wide = is_wide ? 8 : 4;
+    unsigned head = is_wide ? 16 : 8, before = is_wide ? 8 : 2;
+    unsigned pixels = head + before + count * (4 + 2 * wide) + wide;
+    out.size = 0;
+    put(&out, is_big_endian ? "MM" : "II", 2);
+    put_reversed(&out, is_wide ? 43 : 42, 2, is_big_endian);
+    if (is_wide) put_reversed(&out, 8, 2, is_big_endian);
+    if (is_wide) put_reversed(&out, 0, 2, is_big_endian);
+    put_reversed(&out, head, wide, is_big_endian);
+    put_reversed(&out, count, before, is_big_endian);
+    for (unsigned i = 0; i < count; i++) {
+        unsigned width = entries[i][1] == 3 ? 2 : 4;
+        put_reversed(&out, entries[i][0], 2, is_big_endian);
+        put_reversed(&out, entries[i][1], 2, is_big_endian);
+        put_reversed(&out, 1, wide, is_big_endian);
+        put_reversed(&out, entries[i][0] == 273 ? pixels : entries[i][2], width, is_big_endian);
+        put_reversed(&out, 0, wide - width, is_big_endian);
+    }
+    put_reversed(&out, 0, wide, is_big_endian);
+    for (unsigned i = 0; i < 4; i++) put_reversed(&out, 1000 * (i + 1), 2, is_big_endian);
+    return &out;
+}
+
+TEST(refuses_every_prefix_of_a_tiff_whose_pixels_are_last)
+{
+    Arena arena = test_arena(state);
+    for (int kind = 0; kind < 4; kind++) {
+        const Bytes *tiff = make_tiff(kind & 1, kind & 2);
+        Image image;
+        Error err = {0};
+        if (!image_read_memory(tiff->data, tiff->size, "a.tif", &arena, &image, &err))
+            fail_msg("%s", err.text);
+        assert_int_equal(((const uint16_t *)image.pixels)[4 * 3 + 1], 4000);
+        for (size_t size = 0; size < tiff->size; size++)
+            assert_false(image_read_memory(tiff->data, size, "a.tif", &arena, &image, &err));
+        assert_error_has(&err, "damaged tiff picture: cut off, pixels are missing");
+    }
+}
+
 TEST(names_what_cannot_be_read)
 {
     Arena arena = test_arena(state);
