@@ -7,6 +7,7 @@ import csv
 import json
 import math
 import os
+import pty
 import subprocess
 import sys
 import tempfile
@@ -33,6 +34,16 @@ class Commands:
     def run(self, *arguments):
         return subprocess.run([self.path, "panel", *arguments], capture_output=True, text=True,
                               timeout=600)
+
+    def on_terminal(self, *arguments):
+        """What stands on stderr where that is a terminal."""
+        mine, theirs = pty.openpty()
+        subprocess.run([self.path, "panel", *arguments], stdout=subprocess.DEVNULL,
+                       stderr=theirs, timeout=600, check=False)
+        os.close(theirs)
+        shown = os.read(mine, 1 << 16).decode()
+        os.close(mine)
+        return shown
 
     def text(self, *arguments):
         done = self.run(*arguments)
@@ -287,6 +298,8 @@ def check_verdict(report, commands, panel):
     report.claim(done.returncode == 1 and document["verdict"] == "not usable"
                  and len(done.stderr.splitlines()) == 1 and not os.path.exists(path),
                  f"--json of what is refused: {done.returncode}, {done.stderr}")
+    shown = commands.on_terminal("fit", wrong, "-o", path, "--progress", "bar")
+    report.claim("#" in shown and "\rparhelion: " in shown, f"a terminal shows {shown!r}")
     text = commands.text("fit", wrong, "-o", path, "--quiet", "--force")
     report.claim("verdict    not usable" in text, f"--force prints {text[:300]}")
     kept = json.loads(commands.text("info", path, "--json"))

@@ -249,7 +249,8 @@ bool panel_fit(const Measurement *measurement, const FitOptions *options, const 
     fit_places_plan(measurement, arena, &places);
     int steps = STEPS * (1 + places.panels);
     run.progress = progress_start(options->progress, "fit", "steps", steps);
-    if (!fit_whole(&run, measurement, &places, report)) return false;
-    progress_end(&run.progress, steps);
-    return true;
+    bool ok = fit_whole(&run, measurement, &places, report);
+    if (ok) progress_end(&run.progress, steps);
+    else progress_clear(&run.progress);
+    return ok;
 }
