@@ -141,15 +141,6 @@ typedef struct Material {
     bool  lets_light_through;  /* alpha below 1 or a thin window: shadow rays must ask */
 } Material;
 
-typedef enum SubpixelLayout { SUBPIXELS_STRIPE, SUBPIXELS_PENTILE } SubpixelLayout;
-
-/* How a display's pixels are divided (light/subpixels.h). */
-typedef struct Subpixels {
-    SubpixelLayout layout;
-    float fill;      /* share of the area that emits, (0, 1] */
-    int   pixels[2]; /* columns and rows over the content's U and V from 0 to 1 */
-} Subpixels;
-
 typedef struct Display {
     const char *name;       /* the material's */
     const char *panel_path; /* resolved path */
@@ -159,7 +150,8 @@ typedef struct Display {
     float level;            /* multiplies all emission, >= 0 */
     float place_from_uv[4]; /* of a panel that varies: a place of its active area
                                (panel_place.h) is {u [0] + [1], v [2] + [3]} of the content's */
-    const Subpixels *subpixels; /* NULL: none, its light is even */
+    const Subpixels *subpixels; /* its pixels are the columns and rows over the content's U and
+                                   V from 0 to 1; NULL: none, its light is even */
 } Display;
 
 typedef enum LightKind {

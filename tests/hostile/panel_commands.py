@@ -159,30 +159,39 @@ def check_export(report, commands, panel):
     report.claim(abs(a / b - 1) < 0.04, f"fitted again, {a} cd/m2 became {b}")
 
 
-def check_polarisation(report, commands, panel):
-    """What a manifest says of the light's polarisation is shown and exported."""
+def check_traits(report, commands, panel):
+    """What a manifest says of polarisation and sub-pixels is shown and exported."""
     with open(commands.file("set", "MANIFEST.json")) as file:
         manifest = json.load(file)
     del manifest["reflection"]
-    wanted = manifest["polarisation"] = {"degree": 0.98, "azimuth_deg": 135}
-    path, panel = commands.file("set", "POLARISED.json"), panel + ".polarised"
-    with open(path, "w") as out:
-        json.dump(manifest, out)
+    wanted = {"polarisation": {"degree": 0.98, "azimuth_deg": 135},
+              "subpixels": {"layout": "pentile", "fill": 0.6}}
+    manifest.update(wanted)
+    path, panel = commands.file("set", "TRAITS.json"), panel + ".traits"
+    write_json(path, manifest)
     commands.text("fit", path, "-o", panel, "--quiet")
-    found = json.loads(commands.text("info", panel, "--json"))["display"].get("polarisation")
-    report.claim(found == wanted, f"info says {found}")
-    report.claim("polarised  98 %, linearly, along azimuth 135 degrees"
-                 in commands.text("info", panel), "info as text says nothing of polarisation")
-    commands.text("export", panel, "-o", commands.file("polarised"), "--theta-step", "20",
+    facts = json.loads(commands.text("info", panel, "--json"))["display"]
+    columns, rows = manifest["pixels"]
+    report.claim(facts.get("polarisation") == wanted["polarisation"]
+                 and facts.get("subpixels") == {**wanted["subpixels"], "columns": columns,
+                                                "rows": rows}, f"info says {facts}")
+    text = commands.text("info", panel)
+    for line in ("polarised  98 %, linearly, along azimuth 135 degrees",
+                 f"sub-pixels pentile, 60 % of the area shines, {columns:g} x {rows:g} pixels"):
+        report.claim(line in text, f"info as text does not say: {line}")
+    commands.text("export", panel, "-o", commands.file("traits"), "--theta-step", "20",
                   "--phi-step", "60", "--quiet")
-    with open(commands.file("polarised", "MANIFEST.json")) as file:
-        found = json.load(file).get("polarisation")
-    report.claim(found == wanted, f"export says {found}")
-    manifest["polarisation"] = {"degree": 2, "azimuth_deg": 0}
-    with open(path, "w") as out:
-        json.dump(manifest, out)
-    fails(report, commands.run("fit", path, "-o", panel, "--quiet"), 3, "POLARISED.json",
-          "/polarisation/degree", "0 to 1")
+    with open(commands.file("traits", "MANIFEST.json")) as file:
+        exported = json.load(file)
+    wanted["pixels"] = manifest["pixels"]
+    for key, value in wanted.items():
+        report.claim(exported.get(key) == value, f"export says {exported.get(key)} of {key}")
+    for key, wrong, place, words in (
+            ("polarisation", {"degree": 2, "azimuth_deg": 0}, "/polarisation/degree", "0 to 1"),
+            ("subpixels", {"layout": "delta"}, "/subpixels/layout", '"stripe" or "pentile"')):
+        write_json(path, {**manifest, key: wrong})
+        fails(report, commands.run("fit", path, "-o", panel, "--quiet"), 3, "TRAITS.json", place,
+              words)
 
 
 def write_json(path, document):
@@ -449,7 +458,7 @@ def main():
             report.finish()
         panel = commands.make("small.panel")
         for check in (check_grids, check_batch, check_export, check_places,
-                      check_polarisation, check_verdict, check_display, check_plot_numbers):
+                      check_traits, check_verdict, check_display, check_plot_numbers):
             try:
                 check(report, commands, panel)
             except (ValueError, KeyError, IndexError) as error:

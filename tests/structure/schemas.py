@@ -74,7 +74,14 @@ SPECTRUM = {"peaks_nm": [550], "fwhm_nm": [30], "weights": [1]}
 RECIPE = {"emission": {"red": SPECTRUM, "green": SPECTRUM, "blue": SPECTRUM, "levels": [255]},
           "reflection": {"incidence_deg": [30], "wavelengths_nm": [550], "floor_albedo": 0.05},
           "instrument": {"theta_step_deg": 10, "phi_step_deg": 30},
-          "polarisation": {"degree": 0.98, "azimuth_deg": -30}}
+          "polarisation": {"degree": 0.98, "azimuth_deg": -30},
+          "subpixels": {"layout": "pentile", "fill": 0.6}}
+WRONG_SUBPIXELS = [("subpixels", "stripe"), ("subpixels", {}), ("subpixels", {"fill": 0.5}),
+                   ("subpixels/layout", "none"), ("subpixels/layout", 1),
+                   ("subpixels/fill", 0), ("subpixels/fill", "all"), ("subpixels/columns", 9),
+                   ("subpixels", {"layout": "stripe", "columns": 9.5, "rows": 4}),
+                   ("subpixels", {"layout": "stripe", "columns": 0, "rows": 4}),
+                   ("subpixels", {"layout": "stripe", "shape": "round"})]
 DECLARATION = {"delimiter": "semicolon", "decimal": "comma", "azimuth_zero": "top",
                "azimuth_sense": "cw", "mask": [-999], "level_max": 255, "skip": ["log_*"],
                "columns": ["theta", "phi", "X", "Y", "Z"], "roles": {"m01*.txt": "black"},
@@ -89,7 +96,8 @@ WRONG_RECIPES = [("emission/red/peaks_nm", []), ("emission/red/peaks_nm", None),
                  ("places", {"map": [4, 4], "murra": 1}),
                  ("polarisation", 45), ("polarisation/degree", None),
                  ("polarisation/azimuth_deg", None), ("polarisation/degree", -0.1),
-                 ("polarisation/azimuth_deg", 361), ("polarisation/azimuth", 1)]
+                 ("polarisation/azimuth_deg", 361), ("polarisation/azimuth", 1),
+                 *WRONG_SUBPIXELS]
 WRONG_DECLARATIONS = [("delimiter", "pipe"), ("azimuth_zero", "north"), ("azimut_zero", "top"),
                       ("level_max", 0), ("skip", "log_*"), ("isotropic", "yes"),
                       ("symmetry", "round"), ("wavelength_nm", 200), ("levels", 7)]
@@ -115,7 +123,8 @@ WRONG_MANIFESTS = [("emission/black", None), ("emission/red", {}), ("emission/re
                    ("uniformity", {}), ("uniformity", "map.csv"), ("uniformity", {"file": 3}),
                    ("uniformity", {"file": "map.csv", "bend_deg": 180}),
                    ("uniformity", {"file": "map.csv", "camera_mm": 1}),
-                   ("uniformity", {"file": "map.csv", "white": "map.csv"})]
+                   ("uniformity", {"file": "map.csv", "white": "map.csv"}),
+                   ("pixels", [9.5, 4]), *WRONG_SUBPIXELS]
 WRONG_PROFILES = [("title", None), ("title", ""), ("limit", []), ("veil", "yes"),
                   ("ambient", None), ("ambient/night_below_lx", -1),
                   ("ambient/dusk_below_lx", 3), ("limits", None), ("limits", {}),
@@ -203,8 +212,8 @@ def check_formats(report, program, folder, schema_of):
     # The set of the last good recipe lies where the manifests are looked for.
     refuses(program, ("panel", "simulate", "DOCUMENT", "-o", "FOLDER"), folder, RECIPE)
     manifest = load(os.path.join(folder, "MANIFEST.json"))
-    report.claim(manifest["polarisation"] == RECIPE["polarisation"],
-                 "the manifest does not say the recipe's polarisation")
+    for key in ("polarisation", "subpixels"):
+        report.claim(manifest[key] == RECIPE[key], f"the manifest does not say the recipe's {key}")
     check_format(report, sets, manifest, WRONG_MANIFESTS,
                  trying("panel", "fit", "DOCUMENT", "-o", "FOLDER/a.panel"))
     with open(os.path.join(folder, "m01.txt"), "w", encoding="utf-8") as file:

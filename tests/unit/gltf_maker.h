@@ -145,3 +145,28 @@ static inline const Problem *maker_find(const Found *found, const char *place, c
     }
     return NULL;
 }
+
+/* Members of a document, and what is to be said of them. */
+typedef struct FaultCase {
+    const char *members, *place, *text;
+} FaultCase;
+
+static inline void maker_expect_fault(const FaultCase *fault, const void *bytes, size_t size)
+{
+    Found found = maker_survey_file(maker_gltf(bytes, size, fault->members));
+    if (maker_find(&found, fault->place, fault->text)) return;
+    for (int i = 0; i < found.problems.count; i++)
+        print_message("    %s: %s\n", found.problems.list[i].path,
+                      found.problems.list[i].message);
+    fail_msg("no problem at %s says \"%s\" for %s", fault->place, fault->text, fault->members);
+}
+
+/* Each begins with all the memory and all the names. */
+static inline void maker_expect_faults(const FaultCase *faults, int count, const void *bytes,
+                                       size_t size)
+{
+    for (int i = 0; i < count; i++) {
+        maker_reset(NULL);
+        maker_expect_fault(&faults[i], bytes, size);
+    }
+}

@@ -100,6 +100,12 @@ TEST(rows_at_the_normal_are_averaged_and_equal_doubles_pass)
 #define POLARISED(text)                                                                        \
     "{\"emission\": {\"white\": \"good.csv\"}, \"polarisation\": " text "}"
 
+#define DIVIDED(text)                                                                          \
+    "{\"emission\": {\"white\": \"good.csv\"}, \"subpixels\": " text "}"
+#define DIVIDED_OF(pixels, text)                                                               \
+    "{\"emission\": {\"white\": \"good.csv\"}, \"pixels\": " pixels ", \"subpixels\": " text "}"
+#define STRIPE_OF(members) "{\"layout\": \"stripe\", " members "}"
+
 TEST(manifests_name_the_key)
 {
     (void)state;
@@ -136,6 +142,34 @@ TEST(manifests_name_the_key)
          {"/polarisation/azimuth_deg", "361", "-360 to 360"}},
         {POLARISED("{\"degree\": 1, \"azimuth\": 45}"),
          {"/polarisation/azimuth", "unknown key", "'azimuth_deg'"}},
+        {"{\"polarisation\": {\"degree\": 1, \"azimuth_deg\": 45}, \"reflection\": {}}",
+         {"/polarisation", "no 'emission'", ""}},
+        {DIVIDED("\"stripe\""), {"/subpixels", "is a text", "wanted an object"}},
+        {DIVIDED("{}"), {"/subpixels", "'layout' is missing", ""}},
+        {DIVIDED("{\"layout\": 3}"), {"/subpixels/layout", "is a number", "a text"}},
+        {DIVIDED("{\"layout\": \"delta\"}"),
+         {"/subpixels/layout", "is \"delta\"", "wanted \"stripe\" or \"pentile\""}},
+        {DIVIDED("{\"layout\": \"none\"}"), {"/subpixels/layout", "is \"none\"", "wanted"}},
+        {DIVIDED(STRIPE_OF("\"fill\": 0")), {"/subpixels/fill", "0", "0.01 to 1"}},
+        {DIVIDED(STRIPE_OF("\"fill\": 1.5")), {"/subpixels/fill", "1.5", "0.01 to 1"}},
+        {DIVIDED(STRIPE_OF("\"fill\": \"all\"")), {"/subpixels/fill", "is a text", "a number"}},
+        {DIVIDED(STRIPE_OF("\"fil\": 1")), {"/subpixels/fil", "unknown key", "'fill'"}},
+        {DIVIDED(STRIPE_OF("\"columns\": 9")), {"/subpixels/columns", "without 'rows'", ""}},
+        {DIVIDED(STRIPE_OF("\"rows\": 9")), {"/subpixels/rows", "without 'columns'", ""}},
+        {DIVIDED(STRIPE_OF("\"columns\": 9.5, \"rows\": 4")),
+         {"/subpixels/columns", "is 9.5", "a whole number"}},
+        {DIVIDED(STRIPE_OF("\"columns\": 9, \"rows\": 0")),
+         {"/subpixels/rows", "0", "1 to 65536"}},
+        {DIVIDED(STRIPE_OF("\"columns\": 9, \"rows\": [4]")),
+         {"/subpixels/rows", "is an array", "a number"}},
+        {DIVIDED_OF("[9, 5]", STRIPE_OF("\"columns\": 9, \"rows\": 4")),
+         {"/subpixels/rows", "is 4", "'pixels' says 5"}},
+        {DIVIDED_OF("[9.5, 5]", "{\"layout\": \"stripe\"}"),
+         {"/pixels", "holds 9.5", "whole numbers"}},
+        {DIVIDED_OF("[9]", "{\"layout\": \"stripe\"}"),
+         {"/pixels", "has 1 values", "wanted 2"}},
+        {"{\"subpixels\": {\"layout\": \"stripe\"}, \"reflection\": {}}",
+         {"/subpixels", "no 'emission'", ""}},
         {"{\"a\": 1,\n \"a\": 2}", {"MANIFEST.json: line 2", "not valid JSON", "duplicate"}},
         {"[1]", {"MANIFEST.json", "is an array", "wanted an object"}},
     };
@@ -147,8 +181,8 @@ TEST(manifests_name_the_key)
     }
 }
 
-/* A white-only panel of this polarisation, and the bytes of its file. */
-static Panel *polarised_panel(const char *manifest, FileBytes *bytes)
+/* The panel of a manifest, and the bytes of its file. */
+static Panel *fitted(const char *manifest, FileBytes *bytes)
 {
     Error        err = {0};
     FitOptions   options = fit_options_default();
@@ -176,11 +210,11 @@ TEST(polarisation_is_kept_and_costs_nothing_where_there_is_none)
     };
     FileBytes none, some;
     fixture_file(&folder, "good.csv", "theta,phi,X,Y,Z\n0,0,95,100,108\n50,0,60,70,75\n");
-    Panel *plain = polarised_panel("{\"emission\": {\"white\": \"good.csv\"}}", &none);
+    Panel *plain = fitted("{\"emission\": {\"white\": \"good.csv\"}}", &none);
     assert_true(panel_polarisation(plain).degree == 0);
     panel_close(plain);
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        Panel *panel = polarised_panel(cases[i].text, &some);
+        Panel *panel = fitted(cases[i].text, &some);
         PanelPolarisation p = panel_polarisation(panel);
         assert_true(p.degree == cases[i].degree);
         assert_close(1 + (double)p.azimuth,
@@ -192,11 +226,40 @@ TEST(polarisation_is_kept_and_costs_nothing_where_there_is_none)
     }
 }
 
+/* "pixels" may be told as columns and rows. */
+TEST(sub_pixels_are_kept_with_the_displays_pixels)
+{
+    (void)state;
+    static const struct { const char *text; Subpixels wanted; } cases[] = {
+        {DIVIDED("{\"layout\": \"stripe\"}"), {SUBPIXELS_STRIPE, 1, {0, 0}}},
+        {DIVIDED_OF("[1920, 720]", "{\"layout\": \"pentile\", \"fill\": 0.25}"),
+         {SUBPIXELS_PENTILE, 0.25f, {1920, 720}}},
+        {DIVIDED(STRIPE_OF("\"fill\": 0.01, \"columns\": 65536, \"rows\": 1")),
+         {SUBPIXELS_STRIPE, 0.01f, {65536, 1}}},
+        {DIVIDED_OF("[7, 8]", STRIPE_OF("\"fill\": 0.6, \"columns\": 7, \"rows\": 8")),
+         {SUBPIXELS_STRIPE, 0.6f, {7, 8}}},
+    };
+    FileBytes none, some;
+    fixture_file(&folder, "good.csv", "theta,phi,X,Y,Z\n0,0,95,100,108\n50,0,60,70,75\n");
+    Panel *plain = fitted("{\"emission\": {\"white\": \"good.csv\"}}", &none);
+    assert_int_equal(panel_subpixels(plain).layout, SUBPIXELS_NONE);
+    panel_close(plain);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        Panel    *panel = fitted(cases[i].text, &some);
+        Subpixels found = panel_subpixels(panel);
+        assert_memory_equal(&found, &cases[i].wanted, sizeof found);
+        assert_true(some.size > none.size);
+        if (!i) assert_int_equal(some.size, none.size + 32); /* place and section */
+        panel_close(panel);
+    }
+}
+
 #define PRIMARY "{\"peaks_nm\": [600], \"fwhm_nm\": [20], \"weights\": [1]}"
 #define PRIMARIES                                                                              \
     "{\"red\": " PRIMARY ", \"green\": " PRIMARY ", \"blue\": " PRIMARY "}"
 #define RECIPE(polarisation)                                                                   \
     "{\"emission\": " PRIMARIES ", \"polarisation\": " polarisation "}"
+#define DIVIDED_RECIPE(text) "{\"emission\": " PRIMARIES ", " text "}"
 
 #define PLACES(keys) "{\"emission\": " PRIMARIES ", \"places\": {" keys "}}"
 
@@ -227,6 +290,12 @@ TEST(recipes_name_the_key)
         {RECIPE("{\"degree\": 1, \"azimuth_deg\": 361}"),
          {"/polarisation/azimuth_deg", "wanted a number from -360 to 360"}},
         {RECIPE("{\"degree\": 1, \"angle\": 3}"), {"/polarisation/angle", "unknown key"}},
+        {DIVIDED_RECIPE("\"subpixels\": 3"), {"/subpixels", "wanted an object"}},
+        {DIVIDED_RECIPE("\"subpixels\": {\"layout\": \"bayer\"}"),
+         {"/subpixels/layout", "is \"bayer\", wanted \"stripe\" or \"pentile\""}},
+        {DIVIDED_RECIPE("\"pixels\": [800, 480], \"subpixels\": "
+                        STRIPE_OF("\"columns\": 8, \"rows\": 480")),
+         {"/subpixels/columns", "is 8, but 'pixels' says 800"}},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         Error       err = {0};

@@ -186,7 +186,7 @@ TEST(from_far_the_light_is_even_to_the_bit)
 {
     (void)state;
     const float pixel = SIZE_M / SIDE;
-    for (int layout = 0; layout < 2; layout++) {
+    for (int layout = SUBPIXELS_STRIPE; layout <= SUBPIXELS_PENTILE; layout++) {
         Shown shown;
         show(&shown, (SubpixelLayout)layout, 0.5f, true);
         for (int i = 0; i < 400; i++) {
@@ -373,7 +373,7 @@ TEST(frames_of_no_distance_show_moire)
     (void)state;
     static Pixels frame, plain;
     static const double covered[] = {0.27, 0.351, 0.394, 0.453, 0.49, 0.62, 0.953, 1.26};
-    for (int layout = 0; layout < 2; layout++) {
+    for (int layout = SUBPIXELS_STRIPE; layout <= SUBPIXELS_PENTILE; layout++) {
         Shown shown;
         show(&shown, (SubpixelLayout)layout, 0.6f, false);
         shown.subpixels.pixels[0] = shown.subpixels.pixels[1] = 64;

@@ -11,6 +11,7 @@
 #include "panel/query/panel_info.h"
 #include "panel/query/panel_place.h"
 #include "panel/query/panel_reflection.h"
+#include "panel/set/display_traits.h"
 #include "spectrum/photometry.h"
 
 static const float WHITE[3] = {255, 255, 255}, BLACK[3] = {0, 0, 0};
@@ -165,6 +166,19 @@ static void add_polarisation(const Panel *panel, json_t *out)
                                                            "azimuth_deg", azimuth));
 }
 
+/* Absent: nobody said. */
+static void add_subpixels(const Panel *panel, json_t *out)
+{
+    Subpixels told = panel_subpixels(panel);
+    if (told.layout == SUBPIXELS_NONE) return;
+    json_t *list = json_pack("{s:s, s:f}", "layout", display_traits_layout(told.layout), "fill",
+                             round((double)told.fill * 1e6) / 1e6);
+    if (told.pixels[0])
+        json_object_update_new(list, json_pack("{s:i, s:i}", "columns", told.pixels[0], "rows",
+                                               told.pixels[1]));
+    json_object_set_new(out, "subpixels", list);
+}
+
 static void add_emission(const Panel *panel, const json_t *report, json_t *out)
 {
     const json_t *emission = json_object_get(report, "emission");
@@ -183,6 +197,7 @@ static void add_emission(const Panel *panel, const json_t *report, json_t *out)
                                                     gamma_of(panel, 1), gamma_of(panel, 2)));
     }
     add_polarisation(panel, out);
+    add_subpixels(panel, out);
     json_object_set_new(out, "half_luminance_deg", cones(panel, (ConeQuestion){false, 0.5}));
     if (black > 0)
         json_object_set_new(out, "contrast_10_deg", cones(panel, (ConeQuestion){true, 10}));
@@ -318,6 +333,16 @@ static void print_polarisation(const json_t *polarisation)
            100 * number(polarisation, "degree"), number(polarisation, "azimuth_deg"));
 }
 
+static void print_subpixels(const json_t *told)
+{
+    if (!told) return;
+    printf("sub-pixels %s, %.4g %% of the area shines",
+           json_string_value(json_object_get(told, "layout")), 100 * number(told, "fill"));
+    if (json_object_get(told, "columns"))
+        printf(", %.0f x %.0f pixels", number(told, "columns"), number(told, "rows"));
+    printf("\n");
+}
+
 static void print_reflection(const json_t *facts)
 {
     if (!json_object_get(facts, "mirror_reflectance")) return;
@@ -373,6 +398,7 @@ void panel_facts_print(const json_t *report)
     }
     print_gamut(facts);
     print_polarisation(json_object_get(facts, "polarisation"));
+    print_subpixels(json_object_get(facts, "subpixels"));
     print_cone(facts, "half_luminance_deg", "half white");
     print_cone(facts, "contrast_10_deg", "10 : 1    ");
     print_reflection(facts);

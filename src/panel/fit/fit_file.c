@@ -1,9 +1,11 @@
 /* Layout: panel_file.h. */
-#include "base/units.h"
-#include "hemisphere/tree/tree_open.h"
 #include "panel/fit/fit_file.h"
 
+#include <math.h>
 #include <string.h>
+
+#include "base/units.h"
+#include "hemisphere/tree/tree_open.h"
 
 #define XXH_INLINE_ALL
 #include <xxhash.h>
@@ -63,13 +65,24 @@ static void write_emission(FitWriter *writer, const FitParts *parts)
 }
 
 /* Left out of light that is not polarised. An angle that rounds up to pi is 0. */
-static void write_polarised(FitWriter *writer, const Measurement *set)
+static void write_polarised(FitWriter *writer, const DisplayTraits *traits)
 {
-    PanelPolarisedStored stored = {(float)set->polarisation_degree,
-                                   (float)set->polarisation_azimuth};
+    double azimuth_deg = fmod(traits->polarisation_azimuth_deg, 180);
+    double azimuth = radians_from_degrees(azimuth_deg < 0 ? azimuth_deg + 180 : azimuth_deg);
+    PanelPolarisedStored stored = {(float)traits->polarisation_degree, (float)azimuth};
     FitPiece piece = {&stored, sizeof stored};
     if (stored.azimuth >= PI_F) stored.azimuth = 0;
     if (stored.degree > 0) write_section(writer, PANEL_POLARISED, 0, &piece, 1);
+}
+
+static void write_subpixels(FitWriter *writer, const Measurement *set)
+{
+    const Subpixels     *told = &set->traits.subpixels;
+    PanelSubpixelsStored stored = {.layout = (uint8_t)told->layout, .fill = told->fill,
+                                   .pixels = {(uint32_t)set->pixels[0],
+                                              (uint32_t)set->pixels[1]}};
+    FitPiece piece = {&stored, sizeof stored};
+    if (told->layout != SUBPIXELS_NONE) write_section(writer, PANEL_SUBPIXELS, 0, &piece, 1);
 }
 
 /* A section of what goes without saying is left out. */
@@ -132,10 +145,11 @@ void *fit_file_bytes(const FitParts *parts, const char *meta, Arena *arena, size
     if (parts->tables) write_section(&writer, PANEL_REPORT_TABLES, 0, &tables, 1);
     if (parts->emission) write_emission(&writer, parts);
     if (parts->reflection) write_reflection(&writer, parts->reflection);
-    if (parts->emission) write_polarised(&writer, parts->set);
+    if (parts->emission) write_polarised(&writer, &parts->set->traits);
     bool has_frame = parts->reflection && parts->reflection->surface.frame;
     bool has_places = parts->places && fit_places_are_there(parts->places);
     if (has_places) write_places(&writer, parts->places);
+    if (parts->emission) write_subpixels(&writer, parts->set);
     return finish(&writer, has_places  ? PANEL_VERSION_PLACES
                            : has_frame ? PANEL_VERSION : PANEL_VERSION_PLAIN, size);
 }

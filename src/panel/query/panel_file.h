@@ -43,7 +43,8 @@ typedef enum PanelSectionKind {
     PANEL_POLARISED = 10,      /* PanelPolarisedStored: of the emission; absent: unpolarised */
     PANEL_SPOTS = 11,          /* PanelSpotsHead and what follows it; absent: one everywhere */
     PANEL_SPOT_FILE = 12,      /* index 1 on: a panel file of its own, of one spot */
-    PANEL_MAP = 13             /* PanelMapHead and what follows it */
+    PANEL_MAP = 13,            /* PanelMapHead and what follows it */
+    PANEL_SUBPIXELS = 14       /* PanelSubpixelsStored; absent: the light is even */
 } PanelSectionKind;
 
 typedef struct PanelSection {
@@ -141,6 +142,16 @@ typedef struct PanelSurfaceStored {
 typedef struct PanelPolarisedStored {
     float degree, azimuth;
 } PanelPolarisedStored;
+
+/* PANEL_SUBPIXELS: how each pixel is divided. Readers that know nothing of it show even light,
+ * which has the same mean. */
+typedef struct PanelSubpixelsStored {
+    uint8_t  layout, reserved[3]; /* SubpixelLayout, 1 or 2; 0 */
+    float    fill;                /* share of the area that emits, PANEL_LEAST_FILL to 1 */
+    uint32_t pixels[2];           /* columns and rows; both 0: not known */
+} PanelSubpixelsStored;
+#define PANEL_LEAST_FILL 0.01f
+#define PANEL_PIXELS_MAX 65536
 
 /* A display that is not the same everywhere. Panel 0 is what the file holds itself, panel k the
  * file in section PANEL_SPOT_FILE of index k; spots say which of them was measured there, and

@@ -132,6 +132,7 @@ struct Panel {
     Tree         emission_tree;
     const PanelPrimaries *primaries; /* with emission */
     PanelPolarisation polarisation;  /* of the emission */
+    Subpixels    subpixels;          /* the same */
     const PanelReflection *reflection; /* NULL: reflects nothing */
     Tree         reflection_tree;
     PanelSampling sampling;

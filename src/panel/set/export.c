@@ -13,6 +13,7 @@
 #include "panel/query/panel_opened.h"
 #include "panel/query/panel_reflection.h"
 #include "panel/query/panel_report.h"
+#include "panel/set/display_traits.h"
 #include "panel/set/polar_grid.h"
 #include "panel/set/set_writer.h"
 #include "spectrum/spectral_table.h"
@@ -262,6 +263,16 @@ static void add_polarisation(const Panel *panel, json_t *manifest)
                                       tidy_degrees((double)p.azimuth)));
 }
 
+/* The pixels' number is among the names. */
+static void add_subpixels(const Panel *panel, json_t *manifest)
+{
+    Subpixels told = panel_subpixels(panel);
+    if (told.layout == SUBPIXELS_NONE) return;
+    json_object_set_new(manifest, "subpixels",
+                        json_pack("{s:s, s:f}", "layout", display_traits_layout(told.layout),
+                                  "fill", round((double)told.fill * 1e6) / 1e6));
+}
+
 /* What the panel's report says of where it comes from. */
 static bool add_names(Export *export, const char *name, json_t *manifest)
 {
@@ -400,6 +411,7 @@ static bool write_set(Export *export, const char *name)
     json_t *manifest = json_object();
     const Panel *panel = export->panel;
     add_polarisation(panel, manifest);
+    add_subpixels(panel, manifest);
     bool ok = add_names(export, name, manifest) &&
               is_white_only(panel, &export->is_white_only, export->err) &&
               (panel->places ? write_places(export, manifest)

@@ -484,35 +484,21 @@ static bool read_map(const JsonView *root, Measurement *out, Error *err)
 
 /* ---- all --------------------------------------------------------------------------------- */
 
-/* Of the emitted light; absent: unpolarised. */
-static bool read_polarisation(const JsonView *root, Measurement *out, Error *err)
+/* Read before the tables, which take a while. */
+static bool read_traits(const JsonView *root, Measurement *out, Error *err)
 {
-    static const char *const keys[] = {"degree", "azimuth_deg"};
-    JsonView view;
-    double   azimuth = 0;
-    if (!json_view_child(root, "polarisation", false, &view, err)) return false;
-    if (!view.object) return true;
-    if (!json_view_check_keys(&view, keys, COUNT(keys), err) ||
-        !json_view_number(&view, "degree", 0, 1, &out->polarisation_degree, err) ||
-        !json_view_number(&view, "azimuth_deg", -360, 360, &azimuth, err))
-        return false;
-    for (int i = 0; i < COUNT(keys); i++)
-        if (!json_object_get(view.object, keys[i]))
-            return error_at(err, ERROR_INPUT, view.file, view.path, "key '%s' is missing",
-                            keys[i]);
-    if (!json_object_get(root->object, "emission") && !out->spots_emit)
-        return error_at(err, ERROR_INPUT, view.file, view.path, "says how the emitted light is "
-                        "polarised, but the set has no 'emission'");
-    azimuth = fmod(azimuth, 180);
-    out->polarisation_azimuth = radians_from_degrees(azimuth < 0 ? azimuth + 180 : azimuth);
-    return true;
+    const char *key = display_traits_key(root);
+    if (!display_traits_read(root, out->pixels, &out->traits, err)) return false;
+    if (!key || has_part(root, "emission") || spots_have(root, "emission")) return true;
+    return error_at(err, ERROR_INPUT, root->file, json_view_path(root, key),
+                    "tells of the emitted light, but the set has no 'emission'");
 }
 
 static bool read_members(const JsonView *root, Measurement *out, Error *err)
 {
     static const char *const keys[] = {"panel", "instrument", "note", "pixels", "size_mm",
         "instrument_fwhm_deg", "emission", "primaries", "reflection", "polarisation",
-        "spots", "uniformity"};
+        "subpixels", "spots", "uniformity"};
     const char *primaries = NULL;
     bool ok = json_view_check_keys(root, keys, COUNT(keys), err) &&
         json_view_text(root, "panel", &out->panel, err) &&
@@ -523,9 +509,9 @@ static bool read_members(const JsonView *root, Measurement *out, Error *err)
         json_view_pair(root, "size_mm", 1, 1e5, out->size_mm, err) &&
         json_view_number(root, "instrument_fwhm_deg", 0.05, 15, &out->instrument_fwhm_deg,
                          err) &&
-        read_emission(root, out, err) && read_reflection(root, out, err) &&
-        read_spots(root, out, err) && read_map(root, out, err) &&
-        read_polarisation(root, out, err);
+        read_traits(root, out, err) && read_emission(root, out, err) &&
+        read_reflection(root, out, err) && read_spots(root, out, err) &&
+        read_map(root, out, err);
     if (!ok || !primaries) return ok;
     out->has_spectra = json_view_file(root, "primaries", primaries, &primaries, err) &&
                        primary_spectra_read(primaries, root->arena, out->spectrum, err);

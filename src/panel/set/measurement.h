@@ -8,6 +8,7 @@
  */
 #pragma once
 #include "panel/set/angle_table.h"
+#include "panel/set/display_traits.h"
 #include "panel/set/level_table.h"
 #include "panel/set/measured_primary.h"
 #include "panel/set/uniformity_map.h"
@@ -24,8 +25,7 @@ typedef struct Measurement {
     const char *panel, *instrument, *note;
     double      pixels[2], size_mm[2];
     double      instrument_fwhm_deg; /* width of its own response; 0: not declared */
-    double      polarisation_degree;  /* of the emitted light, linear; 0 to 1 */
-    double      polarisation_azimuth; /* radians, [0, pi) */
+    DisplayTraits traits;       /* of the emission */
     double      white_miss;     /* 0: Rec.709 carries every colour; else the share of the
                                    brightest one that it cannot */
     bool        is_white_only;  /* primary tables are the split of a white table */

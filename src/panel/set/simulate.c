@@ -309,6 +309,18 @@ static int count_tables(const SyntheticPanel *panel)
 
 /* ---- the set ----------------------------------------------------------------------------- */
 
+/* In the words of the recipe; the pixels' number stands under "pixels". */
+static void add_traits(Text *text, const DisplayTraits *traits)
+{
+    if (traits->polarisation_degree > 0)
+        text_format(text, ",\n  \"polarisation\": {\"degree\": %.10g, \"azimuth_deg\": %.10g}",
+                    traits->polarisation_degree, traits->polarisation_azimuth_deg);
+    if (traits->subpixels.layout != SUBPIXELS_NONE)
+        text_format(text, ",\n  \"subpixels\": {\"layout\": \"%s\", \"fill\": %.7g}",
+                    display_traits_layout(traits->subpixels.layout),
+                    (double)traits->subpixels.fill);
+}
+
 static bool write_manifest(Instrument *instrument)
 {
     const SyntheticPanel *panel = instrument->panel;
@@ -332,9 +344,7 @@ static bool write_manifest(Instrument *instrument)
         text_add(&text, ",\n");
     }
     text_add(&text, "  \"primaries\": \"primaries.csv\"");
-    if (panel->polarisation.degree > 0)
-        text_format(&text, ",\n  \"polarisation\": {\"degree\": %.10g, \"azimuth_deg\": %.10g}",
-                    panel->polarisation.degree, panel->polarisation.azimuth_deg);
+    add_traits(&text, &panel->traits);
     if (panel->reflection.exists && !reflects_by_place(panel))
         add_reflection(&text, &panel->reflection, "");
     if (panel->places.map[0]) add_uniformity(&text, &panel->places);

@@ -258,28 +258,11 @@ static bool check_haze(const JsonView *root, const SyntheticPanel *panel, Error 
                     panel->reflection.haze_share, most);
 }
 
-static bool read_polarisation(const JsonView *root, SyntheticPolarisation *out, Error *err)
-{
-    static const char *const keys[] = {"degree", "azimuth_deg"};
-    JsonView view;
-    if (!json_view_child(root, "polarisation", false, &view, err)) return false;
-    if (!view.object) return true;
-    if (!json_view_check_keys(&view, keys, COUNT(keys), err) ||
-        !json_view_number(&view, "degree", 0, 1, &out->degree, err) ||
-        !json_view_number(&view, "azimuth_deg", -360, 360, &out->azimuth_deg, err))
-        return false;
-    for (int i = 0; i < COUNT(keys); i++)
-        if (!json_object_get(view.object, keys[i]))
-            return error_at(err, ERROR_INPUT, view.file, view.path, "key '%s' is missing",
-                            keys[i]);
-    return true;
-}
-
 static bool read_members(const JsonView *root, SyntheticPanel *out, Error *err)
 {
     static const char *const keys[] = {"panel", "note", "pixels", "size_mm",
         "refractive_index", "emission", "reflection", "instrument", "places",
-        "polarisation"};
+        "polarisation", "subpixels"};
     return json_view_check_keys(root, keys, COUNT(keys), err) &&
            json_view_text(root, "panel", &out->name, err) &&
            json_view_text(root, "note", &out->note, err) &&
@@ -290,7 +273,7 @@ static bool read_members(const JsonView *root, SyntheticPanel *out, Error *err)
            read_reflection(root, &out->reflection, err) &&
            read_instrument(root, &out->instrument, err) &&
            read_places(root, &out->places, err) && check_haze(root, out, err) &&
-           read_polarisation(root, &out->polarisation, err);
+           display_traits_read(root, out->pixels, &out->traits, err);
 }
 
 bool synthetic_panel_read(const char *file, Arena *arena, SyntheticPanel *out, Error *err)

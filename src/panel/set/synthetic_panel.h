@@ -39,6 +39,7 @@
 #pragma once
 #include "base/arena.h"
 #include "base/error.h"
+#include "panel/set/display_traits.h"
 
 #define SYNTHETIC_PEAKS_MAX 8
 #define SYNTHETIC_LEVELS_MAX 32
@@ -84,11 +85,6 @@ typedef struct SyntheticInstrument {
     double seed;
 } SyntheticInstrument;
 
-/* Of the emitted light, the same at every angle and place: no formula above depends on it. */
-typedef struct SyntheticPolarisation {
-    double degree, azimuth_deg; /* as the manifest says them; degree 0: unpolarised */
-} SyntheticPolarisation;
-
 typedef struct SyntheticPlaces {
     int    spots; /* 0: one measurement, of the middle */
     double u[SYNTHETIC_SPOTS_MAX], v[SYNTHETIC_SPOTS_MAX];
@@ -105,7 +101,7 @@ typedef struct SyntheticPanel {
     SyntheticReflection reflection;
     SyntheticInstrument instrument;
     SyntheticPlaces     places; /* all 0: the same everywhere */
-    SyntheticPolarisation polarisation;
+    DisplayTraits       traits; /* no formula above depends on them */
 } SyntheticPanel;
 
 /* Reads and checks a *.recipe.json; unknown keys are errors. Texts live in the arena. */

@@ -244,11 +244,17 @@ static void check_subpixels(const DocumentCheck *check, const GltfValue *subpixe
     if (!columns != !rows)
         check_fails(check, columns ? columns : rows, "is there without \"%s\"",
                     columns ? "rows" : "columns");
+    if (strcmp(tree_text(subpixels, "layout", ""), "none") != 0) return;
+    static const char *const beside[] = {"fill", "columns", "rows"};
+    for (int i = 0; i < COUNT_OF(beside); i++) {
+        const GltfValue *member = tree_member(subpixels, beside[i]);
+        if (member) check_fails(check, member, "is there beside the layout \"none\"");
+    }
 }
 
 static const Rule SUBPIXELS[] = {
     {.name = "layout", .kind = RULE_CHOICE, .flags = RULE_REQUIRED | RULE_CLOSED,
-     .of = "stripe|pentile"},
+     .of = "stripe|pentile|none"},
     {.name = "fill", .kind = RULE_NUMBER, .flags = RULE_HAS_RANGE, .min = 0.01, .max = 1},
     {.name = "columns", .kind = RULE_INTEGER, .flags = RULE_HAS_RANGE, .min = 1, .max = 65536},
     {.name = "rows", .kind = RULE_INTEGER, .flags = RULE_HAS_RANGE, .min = 1, .max = 65536},

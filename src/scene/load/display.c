@@ -1,5 +1,3 @@
-#include "panel/query/panel_open.h"
-#include "panel/query/panel_place.h"
 #include "scene/load/display.h"
 
 #include <math.h>
@@ -7,6 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "panel/query/panel_emission.h"
+#include "panel/query/panel_open.h"
+#include "panel/query/panel_place.h"
 #include "scene/gltf/document.h"
 #include "scene/load/image.h"
 #include "scene/load/part_draft.h"
@@ -28,12 +29,19 @@ static int add_display(Loader *load, Display display, const char *file, const ch
     return material->display_id = load->displays.count - 1;
 }
 
+static SubpixelLayout layout_of(const GltfValue *given)
+{
+    const char *word = tree_text(given, "layout", "");
+    if (strcmp(word, "stripe") == 0) return SUBPIXELS_STRIPE;
+    return strcmp(word, "pentile") == 0 ? SUBPIXELS_PENTILE : SUBPIXELS_NONE;
+}
+
+/* NULL: the scene says nothing, the panel decides (displays_finish). */
 static const Subpixels *subpixels_build(Loader *load, const GltfValue *given)
 {
     if (!given) return NULL;
-    bool       is_stripe = strcmp(tree_text(given, "layout", ""), "stripe") == 0;
     Subpixels *out = ARENA_NEW(load->arena, Subpixels, 1);
-    *out = (Subpixels){.layout = is_stripe ? SUBPIXELS_STRIPE : SUBPIXELS_PENTILE,
+    *out = (Subpixels){.layout = layout_of(given),
                        .fill = tree_float(given, "fill", 1),
                        .pixels = {tree_int(given, "columns", 0), tree_int(given, "rows", 0)}};
     return out;
@@ -272,6 +280,19 @@ static void check_content(Loader *load, int id)
                      "display \"%s\" has no content: it shows full white", display->name);
 }
 
+/* The scene's own word holds, else the panel's. */
+static void choose_subpixels(Loader *load, int id)
+{
+    Display *display = list_item(&load->displays, id);
+    if (!display->subpixels && display->panel) {
+        Subpixels *told = ARENA_NEW(load->arena, Subpixels, 1);
+        *told = panel_subpixels(display->panel);
+        display->subpixels = told;
+    }
+    if (display->subpixels && display->subpixels->layout == SUBPIXELS_NONE)
+        display->subpixels = NULL;
+}
+
 /* Where their number is not given, a pixel of the content is one of the display's. */
 static void count_pixels(Loader *load, int id)
 {
@@ -281,7 +302,7 @@ static void count_pixels(Loader *load, int id)
     if (display->content.texture_id == NO_ID) {
         problems_add(load->problems, SEVERITY_ERROR, place->file, place->pointer,
                      "display \"%s\": its \"subpixels\" need \"columns\" and \"rows\" where "
-                     "no content tells them",
+                     "neither panel nor content tells them",
                      display->name);
         return;
     }
@@ -342,6 +363,7 @@ void displays_finish(Loader *load)
     for (int i = 0; i < load->displays.count; i++) {
         open_panel(load, i);
         check_content(load, i);
+        choose_subpixels(load, i);
         count_pixels(load, i);
     }
     for (int i = 0; i < load->displays.count; i++) find_place(load, i);
