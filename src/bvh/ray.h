@@ -23,11 +23,6 @@ typedef struct RayCone {
     float width, spread;
 } RayCone;
 
-static inline float ray_cone_width(RayCone cone, float distance)
-{
-    return cone.width + cone.spread * distance;
-}
-
 /* How far a ray starts off the surface that it leaves, m: 2^-17 of the largest coordinate, ten
  * times the rounding of a point computed from barycentric weights. */
 static inline float ray_offset_step(Vec3 position)

@@ -100,18 +100,29 @@ static bool content_lengths(const CloseView *view, float length[2])
     return det > 0;
 }
 
+/* Display pixels from one frame pixel to the next along axis k of the display: what lies across
+ * the ray is moved along it to the surface. */
+static float pixels_covered(const CloseView *view, const float length[2], int k)
+{
+    float slope = (k ? view->local.y : view->local.x) / view->local.z, squares = 0;
+    for (int i = 0; i < 2; i++) {
+        Vec3  across = view->across[i];
+        float moved = (k ? across.y : across.x) - slope * across.z;
+        squares += moved * moved;
+    }
+    return sqrtf(squares) * (float)view->display->subpixels->pixels[k] / length[k];
+}
+
 /* How much of the light is even: by the display pixels that a frame's pixel covers along the
- * rows or the columns, whichever are more. Its cone meets the surface slantwise. */
+ * rows or the columns, whichever are more. */
 static float even_share(const CloseView *view)
 {
-    float length[2], covered = 0, slope[2] = {view->local.x, view->local.y};
-    if (!(view->width > 0) || !(view->local.z > 0) || !content_lengths(view, length)) return 1;
-    for (int k = 0; k < 2; k++) {
-        float tangent = slope[k] / view->local.z;
-        float pixels = (float)view->display->subpixels->pixels[k] / length[k];
-        covered = fmaxf(covered, view->width * sqrtf(1 + tangent * tangent) * pixels);
-    }
-    float share = (covered - SUBPIXELS_WHOLE) / (SUBPIXELS_GONE - SUBPIXELS_WHOLE);
+    float length[2];
+    if (!(view->local.z > 0) || !content_lengths(view, length)) return 1;
+    float columns = pixels_covered(view, length, 0), rows = pixels_covered(view, length, 1);
+    if (!(columns + rows > 0)) return 1; /* NaN too */
+    float share =
+        (fmaxf(columns, rows) - SUBPIXELS_WHOLE) / (SUBPIXELS_GONE - SUBPIXELS_WHOLE);
     return share < 1 ? fmaxf(share, 0) : 1;
 }
 

@@ -33,7 +33,9 @@ typedef struct CloseView {
     const TrianglePoint *point;
     uint32_t             triangle;
     Vec3                 local; /* to the eye: unit, display_frame's */
-    float                width; /* m: a frame's pixel there, across the ray */
+    Vec3                 across[2]; /* local, m: what lies between two neighbouring pixels of the
+                                       frame, in two directions; along the ray nothing counts.
+                                       0: it is no frame's ray, NaN: not known */
 } CloseView;
 
 /* Codes and how much each counts; weights add up to one and may be negative, the sum of

@@ -2,6 +2,7 @@
 
 #include "base/units.h"
 #include "light/subpixels.h"
+#include "path/footprint.h"
 #include "path/lead.h"
 #include "path/path_light.h"
 #include "path/polarised.h"
@@ -83,6 +84,7 @@ typedef struct PathWalk {
     Panes     *panes;     /* the last shadow ray's go here; NULL: nobody asks */
     Polarised *polarised; /* how light must be polarised to count; NULL: all the same */
     float    *stokes;     /* what analysers find goes here; NULL: nobody asks */
+    Footprint *footprint; /* what a frame's pixel covers; NULL: not known, or nobody asks */
 } PathWalk;
 
 /* What a walk needs room for besides. */
@@ -91,6 +93,7 @@ typedef struct WalkRoom {
     Lead       leads[2];
     Polarised  polarised;
     Panes      panes;
+    Footprint  footprint;
 } WalkRoom;
 
 /* The next numbers asked for are those of this purpose, at the surface met last. */
@@ -367,20 +370,20 @@ static void add_distant(PathWalk *walk)
     }
 }
 
-/* Is this a display with sub-pixels, seen by the eye itself, straight or through panes? What
- * mirrors and other surfaces see is its even light. */
+/* Is this a display with sub-pixels, seen by the eye itself, straight, in mirrors or through
+ * clear glass? What surfaces that scatter see is its even light. */
 static bool comes_close(const PathWalk *walk, const Surface *surface, uint32_t triangle,
                         Vec3 wo, CloseView *out)
 {
     const Scene *scene = walk->context->scene;
     int          display_id = scene->materials[surface->material_id].display_id;
-    if (walk->bounce || display_id == NO_ID || !scene->displays[display_id].subpixels)
+    if (!walk->footprint || display_id == NO_ID || !scene->displays[display_id].subpixels)
         return false;
     const Display *display = &scene->displays[display_id];
     Frame          frame = display_frame(scene, display, triangle, &surface->point);
     *out = (CloseView){.scene = scene, .display = display, .point = &surface->point,
-                       .triangle = triangle, .local = frame_to_local(&frame, wo),
-                       .width = ray_cone_width(walk->context->cone, walk->straight)};
+                       .triangle = triangle, .local = frame_to_local(&frame, wo)};
+    footprint_across(walk->footprint, walk->straight, &frame, out->across);
     return true;
 }
 
@@ -936,6 +939,9 @@ static Step turn(PathWalk *walk, const Surface *surface, Vec3 wo, const BsdfSamp
     note_step(walk, surface,
               !next->is_delta ? PATH_SCATTERS
                               : next->wi.z * local_wo.z > 0 ? PATH_REFLECTS : PATH_TRANSMITS);
+    if (walk->footprint && !footprint_turn(walk->footprint, walk->context->scene, surface, wo,
+                                           next, walk->straight))
+        walk->footprint = NULL;
     walk->last = lit_point(walk, surface);
     walk->last_part_id = surface->part_id;
     walk->last_pdf = next->pdf;
@@ -1074,6 +1080,7 @@ static void add_sheet(PathWalk *walk, const Surface *surface, const Hit *hit, Ve
     SheetStack rest;
     PathTale   tale;
     Polarised  polarised;
+    Footprint  footprint;
     if (walk->stack->count) rest = *walk->stack;
     else sheets_none(&rest);
     sheet.stack = &rest;
@@ -1089,6 +1096,10 @@ static void add_sheet(PathWalk *walk, const Surface *surface, const Hit *hit, Ve
     if (walk->polarised) {
         polarised = *walk->polarised;
         sheet.polarised = &polarised;
+    }
+    if (walk->footprint) {
+        footprint = *walk->footprint;
+        sheet.footprint = &footprint;
     }
     Step step = surface->alpha < 1    ? shade(&sheet, surface, hit, wo)
                 : is_glazed(surface) ? show_pane(&sheet, surface, hit, wo)
@@ -1158,6 +1169,13 @@ static void walk_path(PathWalk *walk)
     }
 }
 
+static bool has_subpixels(const Scene *scene)
+{
+    for (int i = 0; i < scene->display_count; i++)
+        if (scene->displays[i].subpixels) return true;
+    return false;
+}
+
 PathContext path_context_build(const Scene *scene, const Bvh *bvh, const Lights *lights,
                                int max_bounces, Arena *arena)
 {
@@ -1167,6 +1185,7 @@ PathContext path_context_build(const Scene *scene, const Bvh *bvh, const Lights 
     return (PathContext){.scene = scene, .bvh = bvh, .lights = lights, .tables = tables,
                          .selection = selection,
                          .beams = mirror_beams_build(&tools, &selection, arena),
+                         .has_subpixels = has_subpixels(scene),
                          .max_bounces = max_bounces, .strategy = PATH_MIS};
 }
 
@@ -1198,6 +1217,15 @@ static void put_eye(PathWalk *walk, Vec3 direction, PathResult *out, WalkRoom *r
     if (eye->with_stokes) walk->stokes = out->stokes;
 }
 
+/* The rays of a frame carry what its pixels cover, where a display wants to know. */
+static void put_footprint(PathWalk *walk, Vec3 direction, WalkRoom *room)
+{
+    const PathContext *context = walk->context;
+    if (!context->has_subpixels || !(context->cone.width + context->cone.spread > 0)) return;
+    walk->footprint = &room->footprint;
+    room->footprint = footprint_of_cone(context->cone, direction);
+}
+
 /* The analysers found S0 too. */
 static void stokes_of_analysers(PathResult *out)
 {
@@ -1210,6 +1238,7 @@ static void trace(PathWalk *walk, Ray ray, PathResult *out, WalkRoom *room)
     walk->ray = ray;
     walk->first = out;
     put_eye(walk, ray.direction, out, room);
+    put_footprint(walk, ray.direction, room);
     walk_path(walk);
     path_light_to_xyz(&walk->gathered, walk->wavelengths, out->xyz);
     if (walk->stokes) stokes_of_analysers(out);
@@ -1259,6 +1288,7 @@ void path_trace_told(const PathContext *context, Ray ray, const Wavelengths *wav
     walk.ray = ray;
     walk.listener = listener;
     walk.tale = &tale;
+    put_footprint(&walk, ray.direction, &room);
     walk_path(&walk);
 }
 

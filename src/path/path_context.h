@@ -26,6 +26,7 @@ typedef struct PathContext {
     const LightGuide    *guide; /* leads wide scattering; NULL: the surfaces alone decide */
     bool without_mirrored_sun; /* the sun in the mirror of a display that the eye sees is left
                                   out: who asks knows it */
+    bool    has_subpixels; /* some display: the frame's rays carry what its pixels cover */
     RayCone cone; /* of the frame whose rays these are: displays with sub-pixels show them to a
                      ray of a frame that sees them large enough */
     const PolarisedEye *eye; /* rays from it carry how light is polarised; NULL: unpolarised */

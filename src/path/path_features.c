@@ -2,6 +2,7 @@
 
 #include "base/units.h"
 #include "light/subpixels.h"
+#include "path/footprint.h"
 #include "spectrum/photometry.h"
 
 /* Reflectance under D65 as linear Rec.709: the mean over paths is exact. */
@@ -16,7 +17,8 @@ static void albedo_rgb(Spectrum albedo, const Wavelengths *wavelengths, float rg
 typedef struct SeenDisplay {
     const Display     *display;
     const TrianglePoint *point;
-    Vec3               direction; /* to the eye, in the display's frame */
+    Frame              frame;     /* the display's */
+    Vec3               direction; /* to the eye, in it */
     const PathResult  *path;
     const Wavelengths *wavelengths;
 } SeenDisplay;
@@ -28,7 +30,7 @@ static SeenDisplay view_of(const PathContext *context, const PathResult *path,
     const Display *display =
         &scene->displays[scene->materials[surface->material_id].display_id];
     Frame frame = display_frame(scene, display, path->first.triangle, &surface->point);
-    return (SeenDisplay){display, &surface->point,
+    return (SeenDisplay){display, &surface->point, frame,
                          frame_to_local(&frame, vec3_neg(path->direction)), path, wavelengths};
 }
 
@@ -56,8 +58,9 @@ static void subpixels_of_content(const PathContext *context, const SeenDisplay *
     SubpixelMix mix;
     CloseView   close = {.scene = context->scene, .display = view->display,
                          .point = view->point, .triangle = view->path->first.triangle,
-                         .local = view->direction,
-                         .width = ray_cone_width(context->cone, view->path->first.t)};
+                         .local = view->direction};
+    Footprint   footprint = footprint_of_cone(context->cone, view->path->direction);
+    footprint_across(&footprint, view->path->first.t, &view->frame, close.across);
     subpixels_seen(&close, &mix);
     for (int j = 0; j < 3; j++) xyz[j] = 0;
     for (int i = 0; i < mix.count; i++) {

@@ -56,6 +56,14 @@ static void show(Shown *shown, SubpixelLayout layout, float fill, bool has_conte
     shown->display->content.texture_id = 0;
 }
 
+/* A frame's pixel that is so wide, about the view's direction. */
+static void widen(CloseView *view, float width)
+{
+    Frame frame = frame_from_z(view->local);
+    view->across[0] = vec3_scale(frame.x, width);
+    view->across[1] = vec3_scale(frame.y, width);
+}
+
 /* At (x, y), in pixels from the upper left. */
 static CloseView view_at(const Shown *shown, TrianglePoint *point, double x, double y,
                          float width)
@@ -64,8 +72,10 @@ static CloseView view_at(const Shown *shown, TrianglePoint *point, double x, dou
     *point = triangle_point(shown->scene, 0, 0, 0);
     point->uv[0] = (Vec2){s, t};
     point->position = vec3((s - 0.5f) * SIZE_M, (0.5f - t) * SIZE_M, 0);
-    return (CloseView){.scene = shown->scene, .display = shown->display, .point = point,
-                       .local = direction_deg(20, 30), .width = width};
+    CloseView view = {.scene = shown->scene, .display = shown->display, .point = point,
+                      .local = direction_deg(20, 30)};
+    widen(&view, width);
+    return view;
 }
 
 /* Of points between which no edge of an open area passes exactly through one. */
@@ -198,7 +208,7 @@ TEST(from_far_the_light_is_even_to_the_bit)
             display_emission_xyz(shown.scene, shown.display, 0, &point, direction, even);
             subpixels_xyz(&view, found);
             assert_memory_equal(found, even, sizeof even);
-            view.width = 0; /* of no frame */
+            widen(&view, i % 2 ? 0 : NAN); /* of no frame; not known */
             subpixels_xyz(&view, found);
             assert_memory_equal(found, even, sizeof even);
             wavelengths_sample((float)i / 400, &w);
@@ -277,22 +287,31 @@ static double difference(const float a[3], const float b[3])
 /* ANYWHERE: as if no frame's pixel were too wide for it. */
 typedef enum Layout { WITHOUT_LAYOUT, WITH_LAYOUT, LAYOUT_ANYWHERE } Layout;
 
-/* What a camera sees that has SIDE-th parts of the display, so many, from edge to edge;
- * emission only. */
-static void take_frame(Shown *shown, double parts, Layout layout, Pixels *out)
+/* Where the camera stands, and where to it looks. */
+typedef struct Stand {
+    Vec3   eye, target;
+    double way;     /* m to the display */
+    int    bounces; /* mirrors on the way */
+} Stand;
+
+/* What a camera sees that has SIDE-th parts of the display, so many, from edge to edge where it
+ * looks upright; emission only. By a mirror the samples are the mirror image's. */
+static void take_frame_at(Shown *shown, const Stand *stand, double parts, Layout layout,
+                          Pixels *out)
 {
     Error    err = {0};
     Bvh     *bvh;
     Lights  *lights;
     Arena    arena = arena_reserve((size_t)1 << 30);
-    SceneCamera at = camera_look_at(vec3(0, 0, 0.03f), vec3(0, 0, 0),
-                                    (float)(2 * atan(parts * SIZE_M / SIDE / 2 / 0.03)));
+    SceneCamera at = camera_look_at(stand->eye, stand->target,
+                                    (float)(2 * atan(parts * SIZE_M / SIDE / 2 / stand->way)));
     Camera   camera = camera_from_scene(&at, FRAME, FRAME);
     shown->display->subpixels = layout == WITHOUT_LAYOUT ? NULL : &shown->subpixels;
     if (!bvh_create(shown->scene, 1, NULL, &bvh, &err) ||
         !lights_build(shown->scene, &arena, &lights, &err))
         fail_msg("%s", err.text);
-    PathContext context = path_context_build(shown->scene, bvh, lights, 0, &arena);
+    PathContext context =
+        path_context_build(shown->scene, bvh, lights, stand->bounces, &arena);
     context.cone = camera_cone(&camera);
     if (layout == LAYOUT_ANYWHERE) context.cone.spread *= 1e-3f;
     memset(out, 0, sizeof *out);
@@ -302,19 +321,29 @@ static void take_frame(Shown *shown, double parts, Layout layout, Pixels *out)
         Wavelengths    w;
         PathResult     result;
         float          emitted[3];
-        Sampler sampler =
-            sampler_start(3, pixel % FRAME, pixel / FRAME, (uint32_t)(i % SAMPLES));
+        int     column = stand->bounces ? FRAME - 1 - pixel % FRAME : pixel % FRAME;
+        Sampler sampler = sampler_start(3, column, pixel / FRAME, (uint32_t)(i % SAMPLES));
         Vec2    in = sampler_2d(&sampler);
+        if (stand->bounces) in.x = 1 - in.x;
         wavelengths_sample(sampler_1d(&sampler), &w);
         Ray ray = camera_ray(&camera, (float)(pixel % FRAME) + in.x,
                              (float)(pixel / FRAME) + in.y);
         path_trace(&context, ray, &w, &sampler, &result, &statistics);
-        assert_true(result.hit && path_display_emission(&context, &result, &w, emitted));
-        assert_true(difference(emitted, result.xyz) <= 1e-4 * (double)result.xyz[1]);
+        assert_true(result.hit);
+        if (!stand->bounces) {
+            assert_true(path_display_emission(&context, &result, &w, emitted));
+            assert_true(difference(emitted, result.xyz) <= 1e-4 * (double)result.xyz[1]);
+        }
         for (int k = 0; k < 3; k++) out->xyz[pixel][k] += (double)result.xyz[k] / SAMPLES;
     }
     bvh_destroy(bvh);
     arena_release(&arena);
+}
+
+static void take_frame(Shown *shown, double parts, Layout layout, Pixels *out)
+{
+    take_frame_at(shown, &(Stand){vec3(0, 0, 0.03f), vec3(0, 0, 0), 0.03, 0}, parts, layout,
+                  out);
 }
 
 /* The middle of a frame's pixel that lies in the middle of a stripe. */
@@ -345,8 +374,9 @@ TEST(a_frame_from_close_shows_red_green_and_blue_from_left_to_right)
 }
 
 /* How much the light of red differs over the frame, when what repeats within about seven pixels
- * is smoothed away (by a raised cosine): of the mean, root mean square. */
-static double unrest(const Pixels *frame)
+ * is smoothed away (by a raised cosine): of the mean, root mean square. Light that is not even
+ * by itself is told by a plain frame; NULL: it is. */
+static double unrest(const Pixels *frame, const Pixels *plain)
 {
     enum { WINDOW = 16 };
     double sum = 0, squares = 0;
@@ -355,10 +385,10 @@ static double unrest(const Pixels *frame)
         for (int x = 0; x + WINDOW <= FRAME; x += 2, count++) {
             double mean = 0;
             for (int i = 0; i < WINDOW * WINDOW; i++) {
+                int    at = (y + i / WINDOW) * FRAME + x + i % WINDOW;
                 double across = 1 - cos(2 * PI * (i % WINDOW + 0.5) / WINDOW);
                 double down = 1 - cos(2 * PI * (i / WINDOW + 0.5) / WINDOW);
-                mean += across * down *
-                        frame->xyz[(y + i / WINDOW) * FRAME + x + i % WINDOW][0];
+                mean += across * down * frame->xyz[at][0] / (plain ? plain->xyz[at][0] : 1);
             }
             sum += mean;
             squares += mean * mean;
@@ -380,7 +410,7 @@ TEST(frames_of_no_distance_show_moire)
         for (int i = 0; i < COUNT_OF(covered); i++) {
             double parts = covered[i] * FRAME * SIDE / 64;
             take_frame(&shown, parts, WITH_LAYOUT, &frame);
-            double found = unrest(&frame);
+            double found = unrest(&frame, NULL);
             print_message("layout %d, %.3f pixels in one of the frame: %.2g\n", layout,
                           covered[i], found);
             assert_true(found < 0.01);
@@ -389,8 +419,101 @@ TEST(frames_of_no_distance_show_moire)
             assert_memory_equal(&frame, &plain, sizeof frame);
         }
         take_frame(&shown, 0.93 * FRAME * SIDE / 64, LAYOUT_ANYWHERE, &frame);
-        print_message("layout %d without the fade: %.2g\n", layout, unrest(&frame));
-        assert_true(unrest(&frame) > 0.015);
+        print_message("layout %d without the fade: %.2g\n", layout, unrest(&frame, NULL));
+        assert_true(unrest(&frame, NULL) > 0.015);
+        arena_release(&shown.arena);
+    }
+}
+
+/* ---- in mirrors --------------------------------------------------------------------------- */
+
+#define MIRROR_X 0.02f
+#define MIRROR_Z (0.03f - 0.03f * 15 / 35) /* where the camera below looks at it */
+
+/* A perfect mirror beside the display, that faces -x; as a ball of this radius mirrors (above 0:
+ * convex; INFINITY: flat). */
+static void add_mirror(Shown *shown, double radius)
+{
+    Scene   *scene = shown->scene;
+    Material metal = builder_material(1);
+    metal.metallic = 1;
+    metal.roughness = 0;
+    builder_part(scene, metal);
+    uint32_t first = scene->vertex_count;
+    builder_quad(scene, vec3(MIRROR_X, 0, MIRROR_Z), vec3(0, 0, 0.01f), vec3(0, 0.01f, 0));
+    for (uint32_t i = first; i < scene->vertex_count; i++) {
+        Vec3 p = vec3(0, scene->positions[i].y, scene->positions[i].z - MIRROR_Z);
+        scene->parts[0].normals[i] =
+            vec3_normalize(vec3_along(vec3(-1, 0, 0), p, (float)(1 / radius)));
+    }
+}
+
+/* Towards the display's image, and the same without the mirror. */
+static const Stand by_mirror = {{0.005f, 0, 0.03f}, {2 * MIRROR_X, 0, 0}, 0.0461, 1};
+static const Stand unfolded = {{2 * MIRROR_X - 0.005f, 0, 0.03f}, {0, 0, 0}, 0.0461, 0};
+
+/* In a flat mirror all is as from the camera's image, right and left changed. */
+TEST(a_mirror_shows_what_its_image_of_the_camera_sees)
+{
+    (void)state;
+    static Pixels mirrored, direct;
+    static const double parts[] = {2, 4, 0.2 * FRAME};
+    for (int i = 0; i < COUNT_OF(parts); i++) {
+        Shown  shown;
+        double sum[2] = {0}, most = 0, off = 0;
+        show(&shown, i % 2 ? SUBPIXELS_PENTILE : SUBPIXELS_STRIPE, 0.6f, false);
+        if (i == 2) shown.subpixels.pixels[0] = shown.subpixels.pixels[1] = 64;
+        double seen = i == 2 ? parts[i] * SIDE / 64 : parts[i];
+        take_frame_at(&shown, &unfolded, seen, WITH_LAYOUT, &direct);
+        add_mirror(&shown, INFINITY);
+        take_frame_at(&shown, &by_mirror, seen, WITH_LAYOUT, &mirrored);
+        for (int k = 0; k < FRAME * FRAME; k++) {
+            double a = mirrored.xyz[k / FRAME * FRAME + FRAME - 1 - k % FRAME][0];
+            double b = direct.xyz[k][0];
+            sum[0] += a;
+            sum[1] += b;
+            most = fmax(most, b);
+            off += fabs(a - b);
+        }
+        print_message("%.3g display pixels: off by %.2g, the mean by %.2g\n", parts[i],
+                      off / sum[1], sum[0] / sum[1] - 1);
+        assert_close(sum[0], sum[1], 1e-3);
+        assert_true(off < 0.05 * sum[1]); /* edges within the rounding of a ray's origin */
+        assert_true(most > 1.1 * sum[1] / FRAME / FRAME);
+        arena_release(&shown.arena);
+    }
+}
+
+/* The image of a display in a ball shrinks: of frames that show it the smaller the more of its
+ * pixels lie in one of the frame's. */
+TEST(mirrors_that_shrink_a_display_show_no_moire_either)
+{
+    (void)state;
+    static Pixels frame, plain;
+    static const double covered[] = {0.113, 0.121, 0.131, 0.141, 0.151, 0.2, 0.3};
+    const double radius = 0.03; /* three times as many columns in a pixel as upright and flat */
+    for (int layout = SUBPIXELS_STRIPE; layout <= SUBPIXELS_PENTILE; layout++) {
+        Shown shown;
+        int   alike = 0, others = 0;
+        show(&shown, (SubpixelLayout)layout, 0.6f, false);
+        shown.subpixels.pixels[0] = shown.subpixels.pixels[1] = 64;
+        add_mirror(&shown, radius);
+        for (int i = 0; i < COUNT_OF(covered); i++) {
+            double parts = covered[i] * FRAME * SIDE / 64;
+            take_frame_at(&shown, &by_mirror, parts, WITH_LAYOUT, &frame);
+            take_frame_at(&shown, &by_mirror, parts, WITHOUT_LAYOUT, &plain);
+            double found = unrest(&frame, &plain);
+            bool   is_plain = memcmp(&frame, &plain, sizeof frame) == 0;
+            print_message("layout %d, %.3f: %.2g%s\n", layout, covered[i], found,
+                          is_plain ? ", as without" : "");
+            assert_true(found < 0.01);
+            alike += is_plain;
+            others += !is_plain;
+        }
+        assert_true(alike && others);
+        take_frame_at(&shown, &by_mirror, 0.3 * FRAME * SIDE / 64, LAYOUT_ANYWHERE, &frame);
+        print_message("layout %d without the fade: %.2g\n", layout, unrest(&frame, &plain));
+        assert_true(unrest(&frame, &plain) > 0.01);
         arena_release(&shown.arena);
     }
 }
