@@ -31,16 +31,35 @@ static float cap_bound(Vec3 wo, Vec2 alpha)
     return (1 - a2) * s2 / (s2 + a2 * wo.z * wo.z);
 }
 
-/* Stretched to alpha 1 a facet is half-way between wo and a point of the cap. */
-Vec3 brushed_sample_reflection(Vec3 wo, Vec2 alpha, float u0, float u1)
+/* Stretched to alpha 1 a facet is half-way between the eye and a point of the cap, which
+ * reaches down to -bound. */
+static Vec3 facet_of_cap(Vec3 eye, float bound, Vec2 alpha, const float u[2])
 {
     float sine, cosine;
+    float z = (1 - u[1]) * (1 + bound) - bound, radius = safe_sqrtf(1 - z * z);
+    sincos_turns(u[0], &sine, &cosine);
+    Vec3 sum = vec3_add(eye, vec3(radius * cosine, radius * sine, z));
+    return vec3_normalize(stretched(vec3(sum.x, sum.y, sum.z > 0 ? sum.z : 0), alpha));
+}
+
+Vec3 brushed_sample_visible(Vec3 wo, Vec2 alpha, float u0, float u1)
+{
+    Vec3 eye = vec3_normalize(stretched(wo, alpha));
+    return facet_of_cap(eye, eye.z, alpha, (const float[]){u0, u1});
+}
+
+float brushed_visible_pdf(Vec3 wo, Vec3 normal, Vec2 alpha)
+{
+    float cosine = vec3_dot(wo, normal);
+    if (!(cosine > 0)) return 0;
+    return 2 * density(normal, alpha) * cosine / (wo.z + vec3_length(stretched(wo, alpha)));
+}
+
+Vec3 brushed_sample_reflection(Vec3 wo, Vec2 alpha, float u0, float u1)
+{
     Vec3  eye = vec3_normalize(stretched(wo, alpha));
     float bound = cap_bound(wo, alpha) * eye.z;
-    float z = (1 - u1) * (1 + bound) - bound, radius = safe_sqrtf(1 - z * z);
-    sincos_turns(u0, &sine, &cosine);
-    Vec3 sum = vec3_add(eye, vec3(radius * cosine, radius * sine, z));
-    Vec3 half = vec3_normalize(stretched(vec3(sum.x, sum.y, sum.z > 0 ? sum.z : 0), alpha));
+    Vec3  half = facet_of_cap(eye, bound, alpha, (const float[]){u0, u1});
     return vec3_sub(vec3_scale(half, 2 * vec3_dot(wo, half)), wo);
 }
 

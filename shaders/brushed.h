@@ -12,6 +12,10 @@
 /* D G2 / (4 |wo.z| |wi.z|), as ggx_reflection. */
 float brushed_reflection(Vec3 wo, Vec3 wi, Vec3 half, Vec2 alpha);
 
+/* As ggx_sample_visible and ggx_visible_pdf. */
+Vec3  brushed_sample_visible(Vec3 wo, Vec2 alpha, float u0, float u1);
+float brushed_visible_pdf(Vec3 wo, Vec3 normal, Vec2 alpha);
+
 /* As ggx_sample_reflection and ggx_reflection_pdf. */
 Vec3  brushed_sample_reflection(Vec3 wo, Vec2 alpha, float u0, float u1);
 float brushed_reflection_pdf(Vec3 wo, Vec3 half, Vec2 alpha);

@@ -72,3 +72,58 @@ Spectrum clear_film_at(const ThinFilm *film, const Wavelengths *wavelengths, flo
     Spectrum     p = airy(outer_p, amplitude(film_p, body_p), turn);
     return spectrum_clamp((s + p) * spectrum_all(0.5f), 0, 1);
 }
+
+/* ---- on clear bodies -------------------------------------------------------------------- */
+
+/* All amplitudes are real: a at the film's face to the air, b at that to the body. With c the
+ * cosine of the phase of one turn in the film R = (a^2 + b^2 + 2 a b c) / (1 + a^2 b^2 +
+ * 2 a b c), which is the same if a and b change places and signs: seen from the body. */
+typedef struct FilmFaces {
+    float squares[2], product[2]; /* a^2 + b^2, a b; of light s and p */
+    float path_nm;                /* of one turn */
+} FilmFaces;
+
+static FilmFaces film_faces(const ThinFilm *film, const FilmCrossing *ray)
+{
+    FilmFaces faces;
+    float n2 = film->ior, air = ray->in_air, body = ray->in_body, n = ray->n;
+    float in_film = safe_sqrtf(1 - (1 - air * air) / (n2 * n2)), along = n2 * in_film;
+    const float a[2] = {(air - along) / (air + along),
+                        (n2 * air - in_film) / (n2 * air + in_film)};
+    const float b[2] = {(along - n * body) / (along + n * body),
+                        (n * in_film - n2 * body) / (n * in_film + n2 * body)};
+    for (int i = 0; i < 2; i++) {
+        faces.squares[i] = a[i] * a[i] + b[i] * b[i];
+        faces.product[i] = a[i] * b[i];
+    }
+    faces.path_nm = 2 * along * film->thickness_nm;
+    return faces;
+}
+
+static float faces_reflect(const FilmFaces *faces, float nm)
+{
+    float sine, cosine, sum = 0;
+    sincos_turns(faces->path_nm / nm, &sine, &cosine);
+    for (int i = 0; i < 2; i++) {
+        float ab = faces->product[i], turn = 2 * ab * cosine;
+        sum += (faces->squares[i] + turn) / fmaxf(1 + ab * ab + turn, 1e-30f);
+    }
+    return clampf(0.5f * sum, 0, 1);
+}
+
+float clear_film_lane(const ThinFilm *film, float nm, const FilmCrossing *ray)
+{
+    if (!(ray->in_air > 0 && ray->in_body > 0)) return 1;
+    FilmFaces faces = film_faces(film, ray);
+    return faces_reflect(&faces, nm);
+}
+
+Spectrum clear_film_between(const ThinFilm *film, const Wavelengths *wavelengths,
+                            const FilmCrossing *ray)
+{
+    Spectrum r = spectrum_all(1);
+    if (!(ray->in_air > 0 && ray->in_body > 0)) return r;
+    FilmFaces faces = film_faces(film, ray);
+    for (int i = 0; i < SPECTRUM_LANES; i++) r[i] = faces_reflect(&faces, wavelengths->nm[i]);
+    return r;
+}

@@ -13,7 +13,11 @@
  *   ior    above 0, inside against outside; acrylic 1.49, polycarbonate 1.585, water 1.33
  *   tint   0..1 a wavelength, of transmitted light at each crossing; default 1
  *   alpha  0..1 GGX; below 0.001 smooth; frosted covers about 0.1 to 0.3
+ *   alpha_along  0.001..1, default none: brushed; alpha along the frame's x, then `alpha` is
+ *          across it (KHR_materials_anisotropy)
  *   coating  a stack of thin layers on the boundary (PARHELION_coating)
+ *   film   a clear film of some 100 nm on the share `share` of it (KHR_materials_iridescence):
+ *          soap 1.33, iridescent glass 1.8 to 2.4
  *   index    ior by wavelength (dispersion): crown glass 1.522 at 486 nm, 1.514 at 656 nm;
  *            flint and diamond spread white light two and three times as far
  * Exact unpolarised Fresnel reflectance; rough boundaries after Walter et al. 2007 with
@@ -25,6 +29,11 @@
  * Typical: MgF2 on glass reflects 1.3 % a face, four layers 0.1 %, silver between two oxides
  * 19 % and absorbs 4 %.
  *
+ * A film (clear_film.h) takes nothing: what it does not reflect goes through, as much from
+ * inside as from outside along one ray, and total reflection stays total. It is exact at every
+ * wavelength and angle, also on facets and on glass that parts light. A soap bubble is a solid
+ * of index 1 with a film of 1.33.
+ *
  * Where the index differs by wavelength each lane is a boundary of its own. One lane is drawn,
  * by what the lanes still count, and is asked where it goes. A mirror sends all of them there.
  * Refraction sends each elsewhere: a smooth boundary goes on with the drawn one alone, divided
@@ -32,18 +41,20 @@
  * sent there, by the balance heuristic over them (Veach 1997, 9.2.2): eval over the mean
  * density.
  *
- * Polarised light is followed exactly where glass is bare; coated glass is taken as bare for
- * how it polarises, and glass that parts light as of one index.
+ * Polarised light is followed exactly where glass is bare; coated and filmed glass is taken as
+ * bare for how it polarises, and glass that parts light as of one index.
  *
  * What rough facets pass to one another comes out of the boundary without a direction of its
  * own, on both sides (solid_energy.h): a clear solid of any roughness returns what it gets,
- * within 0.2 %. Without that it would lose up to a third at alpha 1.
+ * within 0.2 % (brushed: TODO). Without that it would lose up to a third at alpha 1.
+ *
+ * Not modelled: sheen. A boundary between equal indices, filmed or not, is smooth.
  */
 #include "shaders/dielectric.h"
 
-#include "spectrum/fresnel.h"
-#include "shaders/microfacet.h"
 #include "base/units.h"
+#include "spectrum/fresnel.h"
+#include "shaders/brushed.h"
 #include "shaders/polarisation.h"
 
 static Fresnel window_face(const ThinWindow *window, float cosine)
@@ -156,6 +167,38 @@ static bool is_delta(const Dielectric *d)
     return is_smooth(d->alpha) || fabsf(d->ior - 1) < 1e-4f;
 }
 
+/* ---- facets: even, or brushed -------------------------------------------------------- */
+
+static inline bool is_brushed(const Dielectric *d)
+{
+    return d->alpha_along > 0;
+}
+
+static inline Vec2 alphas(const Dielectric *d)
+{
+    return (Vec2){d->alpha_along, d->alpha};
+}
+
+static inline float facets_send(const Dielectric *d, const Side *s, Vec3 half)
+{
+    return is_brushed(d) ? brushed_reflection(s->wo, s->wi, half, alphas(d)) :
+                           ggx_reflection(s->wo, s->wi, half, d->alpha);
+}
+
+static inline float facet_pdf(const Dielectric *d, Vec3 wo, Vec3 half)
+{
+    return is_brushed(d) ? brushed_visible_pdf(wo, half, alphas(d)) :
+                           ggx_visible_pdf(wo, half, d->alpha);
+}
+
+static inline Vec3 sample_facet(const Dielectric *d, Vec3 wo, const float u[3])
+{
+    return is_brushed(d) ? brushed_sample_visible(wo, alphas(d), u[0], u[1]) :
+                           ggx_sample_visible(wo, d->alpha, u[0], u[1]);
+}
+
+/* ---- what one facet reflects ----------------------------------------------------------- */
+
 /* A facet as light from wo finds it. */
 typedef struct FacetShares {
     Spectrum reflected, through; /* the tint left out */
@@ -187,12 +230,36 @@ static void read_coating(const Dielectric *d, const Side *s, float cosine, Facet
     out->through = coating_at(tables->through, d->wavelengths, rarer);
 }
 
+static inline bool has_film(const Dielectric *d)
+{
+    return d->film.share > 0;
+}
+
+/* cosine: to the facet on wo's side; behind: of the refracted direction. */
+static FilmCrossing film_crossing(const Side *s, float cosine, float behind)
+{
+    return s->turned ? (FilmCrossing){behind, cosine, 1 / s->eta} :
+                       (FilmCrossing){cosine, behind, s->eta};
+}
+
+/* bare: what the facet reflects without the film; out->behind is set. */
+static void read_film(const Dielectric *d, const Side *s, float cosine, float bare,
+                      FacetShares *out)
+{
+    FilmCrossing ray = film_crossing(s, cosine, out->behind);
+    Spectrum     one = spectrum_all(1), plain = spectrum_all(bare);
+    Spectrum     filmed = clear_film_between(&d->film, d->wavelengths, &ray);
+    out->reflected = plain + (filmed - plain) * spectrum_all(d->film.share);
+    out->through = one - out->reflected;
+}
+
 static FacetShares facet_shares(const Dielectric *d, const Side *s, float cosine)
 {
     FacetShares shares;
     float f = fresnel_mean(fresnel_dielectric(cosine, s->eta, &shares.behind));
-    if (d->coating) {
-        read_coating(d, s, fminf(cosine, 1), &shares);
+    if (d->coating || has_film(d)) {
+        if (d->coating) read_coating(d, s, fminf(cosine, 1), &shares);
+        else read_film(d, s, cosine, f, &shares);
         shares.prob = reflect_prob(spectrum_mean(shares.reflected),
                                    spectrum_mean(shares.through * d->tint));
         return shares;
@@ -208,8 +275,8 @@ static Spectrum eval_reflected(const Dielectric *d, const Side *s, float *pdf)
     Vec3  half = vec3_normalize(vec3_add(s->wo, s->wi));
     float cosine = vec3_dot(s->wo, half);
     FacetShares f = facet_shares(d, s, cosine);
-    *pdf = f.prob * ggx_visible_pdf(s->wo, half, d->alpha) / (4 * cosine);
-    return f.reflected * spectrum_all(ggx_reflection(s->wo, s->wi, half, d->alpha));
+    *pdf = f.prob * facet_pdf(d, s->wo, half) / (4 * cosine);
+    return f.reflected * spectrum_all(facets_send(d, s, half));
 }
 
 /* Walter 2007, equations 16, 17 and 21 for wo + eta wi along the facet's normal, with the
@@ -225,9 +292,9 @@ static Spectrum eval_transmitted(const Dielectric *d, const Side *s, float *pdf)
     float spread = -in / (root * root);
     if (!(spread <= 3e38f)) return spectrum_all(0);
     FacetShares f = facet_shares(d, s, out);
-    *pdf = (1 - f.prob) * ggx_visible_pdf(s->wo, half, d->alpha) * s->eta * s->eta * spread;
-    /* ggx_reflection is D G2 / (4 zo zi). */
-    Spectrum lobe = spectrum_all(4 * ggx_reflection(s->wo, s->wi, half, d->alpha));
+    *pdf = (1 - f.prob) * facet_pdf(d, s->wo, half) * s->eta * s->eta * spread;
+    /* facets_send is D G2 / (4 zo zi). */
+    Spectrum lobe = spectrum_all(4 * facets_send(d, s, half));
     return d->tint * (f.through * lobe * spectrum_all(out) * spectrum_all(spread));
 }
 
@@ -263,6 +330,17 @@ static float lane_reflects(float mirror, float tint)
     return reflect_prob(mirror, (1 - mirror) * tint);
 }
 
+/* What a facet reflects of one lane, at that lane's s->eta. */
+static float lane_mirror(const Dielectric *d, const Side *s, int lane, float cosine,
+                         float *behind)
+{
+    float f = fresnel_mean(fresnel_dielectric(cosine, s->eta, behind));
+    if (!has_film(d)) return f;
+    FilmCrossing ray = film_crossing(s, cosine, *behind);
+    float filmed = clear_film_lane(&d->film, d->wavelengths->nm[lane], &ray);
+    return f + (filmed - f) * d->film.share;
+}
+
 /* cosine: to the facet. */
 static void meet_lanes(const Dielectric *d, const Side *s, float cosine, LaneFacets *out)
 {
@@ -270,8 +348,10 @@ static void meet_lanes(const Dielectric *d, const Side *s, float cosine, LaneFac
     out->chance = d->light ? *d->light / spectrum_all(spectrum_sum(*d->light)) :
                              spectrum_all(1.0f / SPECTRUM_LANES);
     out->eta = s->turned ? spectrum_all(1) / n : n;
+    Side own = *s;
     for (int i = 0; i < SPECTRUM_LANES; i++) {
-        float f = fresnel_mean(fresnel_dielectric(cosine, out->eta[i], &out->behind[i]));
+        own.eta = out->eta[i];
+        float f = lane_mirror(d, &own, i, cosine, &out->behind[i]);
         out->mirror[i] = f;
         out->reflects[i] = lane_reflects(f, d->tint[i]);
     }
@@ -292,20 +372,19 @@ static int lane_at(Spectrum strips, float *place)
 }
 
 /* One lane's facet, refracting: f, and the density if that lane is drawn (eval_transmitted). */
-static float lane_transmitted(const Side *s, float alpha, float tint, float *pdf)
+static float lane_transmitted(const Dielectric *d, const Side *s, int lane, float *pdf)
 {
     Vec3 half = vec3_normalize(vec3_along(s->wo, s->wi, s->eta));
     if (half.z < 0) half = vec3_neg(half);
-    float out = vec3_dot(s->wo, half), in = vec3_dot(s->wi, half);
+    float out = vec3_dot(s->wo, half), in = vec3_dot(s->wi, half), behind;
     *pdf = 0;
     if (!(out > 0 && in < 0)) return 0;
     float root = out + s->eta * in;
     float spread = -in / (root * root);
     if (!(spread <= 3e38f)) return 0;
-    float f = fresnel_unpolarised(out, s->eta);
-    *pdf = (1 - lane_reflects(f, tint)) * ggx_visible_pdf(s->wo, half, alpha) * s->eta *
-           s->eta * spread;
-    return tint * (1 - f) * 4 * ggx_reflection(s->wo, s->wi, half, alpha) * out * spread;
+    float f = lane_mirror(d, s, lane, out, &behind), tint = d->tint[lane];
+    *pdf = (1 - lane_reflects(f, tint)) * facet_pdf(d, s->wo, half) * s->eta * s->eta * spread;
+    return tint * (1 - f) * 4 * facets_send(d, s, half) * out * spread;
 }
 
 static Spectrum split_eval(const Dielectric *d, Side s, float *pdf)
@@ -315,9 +394,9 @@ static Spectrum split_eval(const Dielectric *d, Side s, float *pdf)
         Vec3  half = vec3_normalize(vec3_add(s.wo, s.wi));
         float cosine = vec3_dot(s.wo, half);
         meet_lanes(d, &s, cosine, &lanes);
-        *pdf = spectrum_sum(lanes.chance * lanes.reflects) *
-               ggx_visible_pdf(s.wo, half, d->alpha) / (4 * cosine);
-        return lanes.mirror * spectrum_all(ggx_reflection(s.wo, s.wi, half, d->alpha));
+        *pdf = spectrum_sum(lanes.chance * lanes.reflects) * facet_pdf(d, s.wo, half) /
+               (4 * cosine);
+        return lanes.mirror * spectrum_all(facets_send(d, &s, half));
     }
     Spectrum value;
     meet_lanes(d, &s, s.wo.z, &lanes);
@@ -325,7 +404,7 @@ static Spectrum split_eval(const Dielectric *d, Side s, float *pdf)
     for (int i = 0; i < SPECTRUM_LANES; i++) {
         float own;
         s.eta = lanes.eta[i];
-        value[i] = lane_transmitted(&s, d->alpha, d->tint[i], &own);
+        value[i] = lane_transmitted(d, &s, i, &own);
         *pdf += lanes.chance[i] * own;
     }
     return value;
@@ -392,12 +471,18 @@ static Spectrum over(Spectrum a, Spectrum b)
     return quotient;
 }
 
-/* Of one index. */
+/* Brushed facets are taken for even ones of their mean roughness. */
+static float lost_alpha(const Dielectric *d)
+{
+    return is_brushed(d) ? sqrtf(d->alpha * d->alpha_along) : d->alpha;
+}
+
+/* Of bare facets. */
 static void lost_lanes(const Dielectric *d, bool is_inside, float cosine, Lost *lost,
                        Spectrum *flux)
 {
-    SolidLoss loss = solid_loss(d->energy, is_inside, cosine, d->alpha);
-    SolidLoss most = d->index ? solid_loss(d->energy_most, is_inside, cosine, d->alpha) : loss;
+    SolidLoss loss = solid_loss(d->energy, is_inside, cosine, lost_alpha(d));
+    SolidLoss most = d->index ? solid_loss(d->energy_most, is_inside, cosine, lost_alpha(d)) : loss;
     Spectrum  t = spectrum_all(0);
     if (d->index)
         t = (curve_lookup(d->index, d->wavelengths) - spectrum_all(d->energy->ior)) /
@@ -444,9 +529,9 @@ static Spectrum changed(const FacetChange *by, LostFacets facets)
 
 static Spectrum changed_mean(const Dielectric *d, bool is_inside, const FacetChange *by)
 {
-    SolidLoss bare = solid_loss(d->energy, is_inside, 1, d->alpha);
+    SolidLoss bare = solid_loss(d->energy, is_inside, 1, lost_alpha(d));
     Spectrum  mean = spectrum_all(bare.mean) +
-                     changed(by, solid_mean_facets(d->energy, is_inside, d->alpha));
+                     changed(by, solid_mean_facets(d->energy, is_inside, lost_alpha(d)));
     return spectrum_max(mean, spectrum_all(0));
 }
 
@@ -456,7 +541,7 @@ static void change_lost(const Dielectric *d, bool is_inside, float cosine, Lost 
 {
     FacetChange here = change_of(d, is_inside), beyond = change_of(d, !is_inside);
     Spectrum    other = changed_mean(d, !is_inside, &beyond);
-    LostFacets  facets = solid_lost_facets(d->energy, is_inside, cosine, d->alpha);
+    LostFacets  facets = solid_lost_facets(d->energy, is_inside, cosine, lost_alpha(d));
     lost->share = spectrum_clamp(lost->share + changed(&here, facets), 0, 1);
     lost->mean = changed_mean(d, is_inside, &here);
     Spectrum ior2 = spectrum_all(d->ior * d->ior);
@@ -470,7 +555,7 @@ static Lost lost_on(const Dielectric *d, bool is_inside, float cosine)
     Lost     lost;
     Spectrum flux, n = d->index ? curve_lookup(d->index, d->wavelengths) : spectrum_all(d->ior);
     lost_lanes(d, is_inside, cosine, &lost, &flux);
-    if (d->coating) change_lost(d, is_inside, cosine, &lost, &flux);
+    if (d->coating || has_film(d)) change_lost(d, is_inside, cosine, &lost, &flux);
     lost.across = over(is_inside ? over(flux, n * n) : flux, lost.mean);
     return lost;
 }
@@ -560,7 +645,7 @@ static bool smooth_sample(const Dielectric *d, Side *s, float u, BsdfSample *sam
 /* What a facet of a rough boundary does, u[2] its choice: of one index, or of a lane. */
 static bool facet_sample(const Dielectric *d, Side *s, const float u[3])
 {
-    Vec3  half = ggx_sample_visible(s->wo, d->alpha, u[0], u[1]);
+    Vec3  half = sample_facet(d, s->wo, u);
     float cosine = vec3_dot(s->wo, half), behind, eta = s->eta;
     bool  reflects;
     if (!(cosine > 0)) return false;

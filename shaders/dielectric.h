@@ -4,6 +4,7 @@
  */
 #pragma once
 #include "shaders/bsdf_model.h"
+#include "shaders/clear_film.h"
 #include "shaders/coating.h"
 #include "shaders/solid_energy.h"
 
@@ -25,8 +26,11 @@ typedef struct Dielectric {
     Spectrum tint;  /* [0, 1]: of transmitted light, at each crossing */
     float    ior;   /* of the solid against its surroundings, > 0; 0: reflects everything */
     float    alpha; /* GGX, [0, 1]; below SMOOTH_ALPHA smooth */
+    float    alpha_along; /* brushed: GGX along the frame's x, in [SMOOTH_ALPHA, 1]; then alpha
+                             is that along y, in the same range. 0: alpha */
     const CoatingTables *coating;     /* of that boundary; NULL: bare */
-    const Wavelengths   *wavelengths; /* NULL where it is bare and of one index */
+    ThinFilm film;  /* in air, without a coating; its metal is not looked at. Share 0: none */
+    const Wavelengths   *wavelengths; /* NULL where there is no coating, film or index */
     const Curve         *index;       /* by wavelength, 1 or more, in place of ior; NULL: it is
                                          the same for all. Without a coating */
     /* What rough facets pass to one another, of that ior; where the index differs by wavelength

@@ -62,6 +62,7 @@ if run_one 'release build, warnings are errors' build-release build release all;
     start 'paper and opal' translucent python3 tests/image/translucent.py \
         .build/release/parhelion
     start 'prisms' dispersion python3 tests/image/dispersion.py .build/release/parhelion
+    start 'films on glass' films python3 tests/image/films.py .build/release/parhelion
     start 'a head-up display' hud python3 tests/image/hud.py .build/release/parhelion
     start 'daylight through a roof' roof python3 tests/image/roof.py .build/release/parhelion
     start 'a luxmeter under every light' luxmeter \

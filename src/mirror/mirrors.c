@@ -17,10 +17,10 @@ static bool is_smooth_everywhere(float roughness)
 
 static bool has_smooth_base(const Material *m)
 {
+    if (!is_smooth_everywhere(m->roughness) || m->brushing) return false;
     if (m->is_solid && m->transmission > 0)
-        return is_smooth_everywhere(m->roughness) && fabsf(m->ior - 1) > 1e-4f;
-    return is_smooth_everywhere(m->roughness) && !m->brushing &&
-           (m->metallic > 0 || m->specular > 0);
+        return fabsf(m->ior - 1) > 1e-4f || m->iridescence;
+    return m->metallic > 0 || m->specular > 0;
 }
 
 static bool has_smooth_coat(const Material *m)

@@ -25,7 +25,8 @@ struct SurfaceTables {
 
 static bool is_rough_solid(const Material *m)
 {
-    return m->is_solid && m->transmission > 0 && !is_smooth(m->roughness * m->roughness);
+    bool is_rough = m->brushing || !is_smooth(m->roughness * m->roughness);
+    return m->is_solid && m->transmission > 0 && is_rough;
 }
 
 /* Seen by the solid's surroundings: a coating may stand in another medium than air. */
@@ -40,11 +41,12 @@ static SolidTables solid_tables(const Material *m, Arena *arena)
     float most = m->roughness * m->roughness, least = is_even ? most : 0;
     float low = m->index ? m->index->value[0] : m->ior, high = low;
     if (!is_rough_solid(m)) return (SolidTables){NULL, NULL};
+    if (m->brushing) most = 1;
     for (int i = 0; i < CURVE_COUNT && m->index; i++) {
         low = fminf(low, m->index->value[i]);
         high = fmaxf(high, m->index->value[i]);
     }
-    bool is_coated = m->coating != NULL;
+    bool is_coated = m->coating || m->iridescence;
     return (SolidTables){
         solid_energy_build(index_of(m, low), least, most, is_coated, arena),
         low < high ? solid_energy_build(high, least, most, false, arena) : NULL};
@@ -255,7 +257,7 @@ static void set_across(const Site *site, const Surface *surface, MetallicRoughne
 
 /* Turns the surface's frame until x lies along the brushing. The facets that lie across it are
  * the base's own; no brushed surface is a perfect mirror across its grooves. */
-static void set_brushing(const Site *site, Surface *surface, MetallicRoughness *model)
+static void set_brushing(const Site *site, Surface *surface, float *alpha, float *alpha_along)
 {
     const Brushing *b = site->material->brushing;
     float texel[4] = {1, 0.5f, 1, 1}, side;
@@ -270,8 +272,8 @@ static void set_brushing(const Site *site, Surface *surface, MetallicRoughness *
     turned = vec3_normalize(vec3_along(turned, z, -vec3_dot(turned, z)));
     if (!(vec3_dot(turned, turned) > 0.5f)) return;
     surface->frame = (Frame){turned, vec3_cross(z, turned), z};
-    model->alpha = fmaxf(model->alpha, SMOOTH_ALPHA);
-    model->alpha_along = lerpf(model->alpha, 1, strength * strength);
+    *alpha = fmaxf(*alpha, SMOOTH_ALPHA);
+    *alpha_along = lerpf(*alpha, 1, strength * strength);
 }
 
 static const SurfaceCoating *coating_of(const Site *site, int material_id)
@@ -285,20 +287,20 @@ static bool is_front(const Surface *surface)
     return vec3_dot(surface->frame.z, surface->ng) > 0;
 }
 
-/* A coating stands in for the film. */
-static void set_film(const Site *site, const Surface *surface, MetallicRoughness *model)
+/* A coating stands in for the film: then false, as where there is no film. */
+static bool read_film(const Site *site, const Surface *surface, ThinFilm *out)
 {
     const Iridescence *film = site->material->iridescence;
     const TrianglePoint *point = &surface->point;
     float texel[4] = {1, 1, 1, 1}, thickness_nm;
-    if (site->material->coating) return;
+    if (!film || site->material->coating) return false;
     read_data(site->scene, &film->thickness_texture, point, texel);
     thickness_nm = lerpf(film->least_nm, film->most_nm, texel[1]);
-    if (!(thickness_nm > 0)) return;
+    if (!(thickness_nm > 0)) return false;
     float share = scaled(site->scene, film->share, &film->texture, point, 0);
-    model->film = (ThinFilm){.share = share, .ior = film->ior, .thickness_nm = thickness_nm,
-                             .metal = site->material->conductor};
-    model->wavelengths = site->wavelengths;
+    *out = (ThinFilm){.share = share, .ior = film->ior, .thickness_nm = thickness_nm,
+                      .metal = site->material->conductor};
+    return true;
 }
 
 static void set_sheen(const Site *site, const Surface *surface, MetallicRoughness *model)
@@ -332,8 +334,8 @@ static void set_metallic_roughness(const Site *site, Surface *surface)
     model->specular_color = colour_spectrum(site->scene, m->specular_curve_id,
                                             m->specular_color, coloured ? texel : white,
                                             site->wavelengths);
-    if (m->brushing) set_brushing(site, surface, model);
-    if (m->iridescence) set_film(site, surface, model);
+    if (m->brushing) set_brushing(site, surface, &model->alpha, &model->alpha_along);
+    if (read_film(site, surface, &model->film)) model->wavelengths = site->wavelengths;
     if (m->sheen) set_sheen(site, surface, model);
     set_coat(site, surface, model);
     if (m->diffuse_transmission > 0) set_across(site, surface, model);
@@ -353,7 +355,9 @@ static void set_solid(const Site *site, Surface *surface)
     solid->energy = site->tables->solids[surface->material_id].least;
     solid->energy_most = site->tables->solids[surface->material_id].most;
     solid->index = m->index;
-    solid->wavelengths = m->index ? site->wavelengths : NULL;
+    if (m->brushing) set_brushing(site, surface, &solid->alpha, &solid->alpha_along);
+    bool has_film = read_film(site, surface, &solid->film);
+    solid->wavelengths = m->index || has_film ? site->wavelengths : NULL;
     if (!coating) return;
     solid->ior = (float)((double)m->ior / m->coating->outside);
     solid->coating = coating->solid;

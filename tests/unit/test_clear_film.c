@@ -1,4 +1,5 @@
-/* Thin films on plastic and metal: Airy's closed form, the transfer matrix, energy. */
+/* Thin films on plastic, metal and clear solids: Airy's closed form, the transfer matrix, total
+ * reflection, energy. */
 #include "furnace_fixture.h"
 
 #include "shaders/common_tables.h"
@@ -106,6 +107,142 @@ TEST(under_a_lacquer_it_stays_nearly_white)
     (void)state;
     check_films(0, 1, 1.5e-2);
     check_films(1, 1, 3e-3);
+}
+
+/* ---- on clear solids -------------------------------------------------------------------- */
+
+static Bsdf filmed_solid(float n, ThinFilm film)
+{
+    return (Bsdf){.kind = BSDF_DIELECTRIC,
+                  .dielectric = {.tint = spectrum_all(1), .ior = n, .film = film,
+                                 .wavelengths = &wavelengths}};
+}
+
+static Vec3 at_cosine(double cosine)
+{
+    return vec3((float)sqrt(1 - cosine * cosine), 0, (float)cosine);
+}
+
+/* From both sides, also beyond the critical angle, where all of it comes back. */
+TEST(a_clear_solid_reflects_by_the_transfer_matrix)
+{
+    (void)state;
+    static const double bodies[] = {1, 1.2, 1.33, 1.5, 2.4};
+    int total = 0;
+    for (int i = 0; i < 5 * 40 * 3; i++) {
+        double body = bodies[i % 5], cosine = (i / 15 + 0.5) / 40;
+        int    lane = i / 5 % 3 * 7;
+        double ior = i % 2 ? 1.3 : 2.1, thickness = 100 + 40 * (i % 17);
+        ThinFilm  film = {.share = 1, .ior = (float)ior, .thickness_nm = (float)thickness};
+        ThinMedia media = {.nm = (double)wavelengths.nm[lane], .count = 3,
+                           .medium = {{1, 0, 0}, {(double)film.ior, 0, thickness},
+                                      {(double)(float)body, 0, 0}}};
+        Bsdf bsdf = filmed_solid((float)body, film);
+        for (int side = 1; side >= -1; side -= 2) {
+            Vec3 wo = at_cosine(cosine);
+            if (side < 0) thin_film_reverse(&media);
+            ThinShares at = thin_film_at(&media, (double)wo.z);
+            double     wanted = 0.5 * (at.reflect_s + at.reflect_p);
+            wo.z *= (float)side;
+            Spectrum r = bsdf_mirror(&bsdf, wo);
+            total += r[lane] == 1;
+            if (!(fabs((double)r[lane] - wanted) < 1e-4))
+                fail_msg("body %g, film %g of %g nm, cos %g: %g, wanted %g", body, ior,
+                         thickness, cosine * side, (double)r[lane], wanted);
+        }
+    }
+    assert_true(total > 60);
+}
+
+/* Whichever way it goes, along conjugate angles: to the last digits. */
+TEST(a_film_reflects_as_much_from_within)
+{
+    (void)state;
+    Bsdf bsdf = filmed_solid(1.5f, (ThinFilm){.share = 0.7f, .ior = 1.9f, .thickness_nm = 520});
+    for (int i = 1; i <= 90; i++) {
+        double   outside = i / 90.0, inside = sqrt(1 - (1 - outside * outside) / (1.5 * 1.5));
+        Vec3     within = at_cosine(inside);
+        Spectrum front = bsdf_mirror(&bsdf, at_cosine(outside));
+        Spectrum back = bsdf_mirror(&bsdf, vec3(within.x, 0, -within.z));
+        for (int k = 0; k < SPECTRUM_LANES; k++)
+            assert_near(front[k], back[k], 2e-4 * (double)front[k] + 1e-6);
+    }
+}
+
+/* Sampled over the choice: what comes back is the mirror's, the rest goes on, in every lane. */
+static void check_shares(const Bsdf *bsdf, Vec3 wo, const Spectrum *index)
+{
+    enum { COUNT = 4096 };
+    Spectrum back = spectrum_all(0), on = spectrum_all(0), mirror = bsdf_mirror(bsdf, wo);
+    Spectrum squeezed = *index * *index;
+    if (wo.z < 0) squeezed = spectrum_all(1) / squeezed;
+    for (int i = 0; i < COUNT; i++) {
+        BsdfSample s;
+        float      u[3] = {0, 0, ((float)i + 0.5f) / COUNT};
+        if (!bsdf_sample(bsdf, wo, u, &s)) continue;
+        if (s.wi.z * wo.z > 0) back += s.weight;
+        else on += s.weight * squeezed;
+    }
+    for (int k = 0; k < SPECTRUM_LANES; k++) {
+        double sent = (double)back[k] / COUNT, passed = (double)on[k] / COUNT;
+        assert_near(sent, mirror[k], 4e-3);
+        assert_near(sent + passed, 1, 1e-2);
+    }
+}
+
+TEST(what_a_film_does_not_reflect_goes_through)
+{
+    (void)state;
+    Curve index;
+    ThinFilm film = {.share = 1, .ior = 2, .thickness_nm = 300};
+    for (int i = 0; i < CURVE_COUNT; i++) index.value[i] = 1.5f + 1e-3f * (float)(i % 200);
+    for (int i = 0; i < 40; i++) {
+        Bsdf     bsdf = filmed_solid(1.5f, film);
+        Spectrum n = spectrum_all(1.5f);
+        Vec3     wo = at_cosine((i % 20 + 0.5) / 20);
+        if (i >= 20) wo.z = -wo.z;
+        check_shares(&bsdf, wo, &n);
+        bsdf.dielectric.index = &index;
+        n = curve_lookup(&index, &wavelengths);
+        check_shares(&bsdf, wo, &n);
+    }
+}
+
+/* Of a glass that parts light each lane has the film on its own index. */
+TEST(each_lane_of_a_prism_has_its_own_film)
+{
+    (void)state;
+    Curve index;
+    for (int i = 0; i < CURVE_COUNT; i++) index.value[i] = 1.8f - 6e-4f * (float)i;
+    for (int i = 0; i < 80; i++) {
+        Bsdf bsdf = filmed_solid(1.5f, (ThinFilm){.share = 0.8f, .ior = 1.4f,
+                                                  .thickness_nm = 260});
+        Bsdf prism = bsdf;
+        Vec3 wo = at_cosine((i % 40 + 0.5) / 40);
+        if (i >= 40) wo.z = -wo.z;
+        prism.dielectric.index = &index;
+        Spectrum n = curve_lookup(&index, &wavelengths), r = bsdf_mirror(&prism, wo);
+        for (int k = 0; k < SPECTRUM_LANES; k++) {
+            bsdf.dielectric.ior = n[k];
+            assert_near(r[k], bsdf_mirror(&bsdf, wo)[k], 1e-5);
+        }
+    }
+}
+
+TEST(a_share_of_the_film_leaves_the_rest_bare)
+{
+    (void)state;
+    ThinFilm film = {.share = 1, .ior = 1.7f, .thickness_nm = 280};
+    Bsdf     all = filmed_solid(1.5f, film), bare = all, some = all;
+    bare.dielectric.film.share = 0;
+    some.dielectric.film.share = 0.3f;
+    for (int i = 1; i < 20; i++) {
+        Vec3     wo = at_cosine(i / 20.0);
+        Spectrum a = bsdf_mirror(&all, wo), b = bsdf_mirror(&bare, wo);
+        Spectrum mixed = bsdf_mirror(&some, wo);
+        for (int k = 0; k < SPECTRUM_LANES; k++)
+            assert_near(mixed[k], 0.3 * (double)a[k] + 0.7 * (double)b[k], 1e-6);
+    }
 }
 
 int main(void)

@@ -126,8 +126,48 @@ static void add_dispersive(const char *name, float alpha)
     d->index = index;
     d->wavelengths = &wavelengths;
     if (alpha < SMOOTH_ALPHA) return;
-    d->energy = solid_energy_build(index->value[CURVE_COUNT - 1], alpha, alpha, false, &arena);
+    d->energy = solid_energy_build(index->value[CURVE_COUNT - 1], alpha, alpha, true, &arena);
     d->energy_most = solid_energy_build(index->value[0], alpha, alpha, false, &arena);
+}
+
+static Dielectric *add_filmed(const char *name, float ior, float alpha)
+{
+    add_dielectric(name, ior, alpha);
+    Dielectric *d = &models[model_count - 1].bsdf.dielectric;
+    d->film = (ThinFilm){.share = 1, .ior = 1.8f, .thickness_nm = 350};
+    if (d->energy) d->energy = solid_energy_build(ior, alpha, alpha, true, &arena);
+    d->wavelengths = &wavelengths;
+    return d;
+}
+
+static void add_films(void)
+{
+    add_filmed("smooth filmed glass", 1.5f, 0);
+    add_filmed("smooth filmed water", 1.33f, 0)->film.ior = 2.4f;
+    add_filmed("nearly smooth filmed glass", 1.5f, 0.02f)->film.thickness_nm = 120;
+    add_filmed("frosted filmed glass", 1.5f, 0.3f);
+    add_filmed("very rough half filmed glass", 1.7f, 0.8f)->film.share = 0.5f;
+    add_filmed("thickly filmed glass", 1.5f, 0.1f)->film.thickness_nm = 2500;
+    add_filmed("film round nothing", 1, 0.05f)->film.ior = 1.33f;
+    Dielectric *d = add_filmed("tinted filmed glass", 1.5f, 0.2f);
+    d->tint = ramp(0.2f, 0.9f);
+    models[model_count - 1].lossless = false;
+    add_dispersive("smooth filmed flint", 0);
+    models[model_count - 1].bsdf.dielectric.film = d->film;
+    add_dispersive("frosted filmed flint", 0.3f);
+    models[model_count - 1].bsdf.dielectric.film = d->film;
+}
+
+static void add_brushed(void)
+{
+    add_dielectric("brushed glass", 1.5f, 0.1f);
+    models[model_count - 1].bsdf.dielectric.alpha_along = 0.5f;
+    add_dielectric("glass brushed across x", 1.5f, 0.6f);
+    models[model_count - 1].bsdf.dielectric.alpha_along = 0.1f;
+    models[model_count - 1].width = 0.05f;
+    add_filmed("brushed filmed glass", 1.5f, 0.2f)->alpha_along = 0.6f;
+    add_dispersive("brushed flint", 0.1f);
+    models[model_count - 1].bsdf.dielectric.alpha_along = 0.4f;
 }
 
 static int make_models(void **state)
@@ -142,6 +182,8 @@ static int make_models(void **state)
     add_dispersive("frosted flint", 0.3f);
     models[model_count - 1].bsdf.dielectric.tint = ramp(0.2f, 0.9f);
     models[model_count - 1].lossless = false;
+    add_films();
+    add_brushed();
     return 0;
 }
 

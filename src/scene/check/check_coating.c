@@ -68,19 +68,15 @@ static void check_body(const DocumentCheck *check, const GltfValue *material,
                     "stands beside KHR_materials_clearcoat, one of them is wanted");
 }
 
-/* A layer that is there is not seen beside what is another surface altogether, nor on a solid
- * that refracts; on_solid: why. */
+/* A layer that is there is not seen beside what is another surface altogether. */
 static void check_seen(const DocumentCheck *check, const GltfValue *material,
-                       const GltfValue *layer, const char *on_solid)
+                       const GltfValue *layer)
 {
     static const char *const stronger[] = {"PARHELION_glazing", "PARHELION_display",
                                            "KHR_materials_unlit"};
     for (int i = 0; i < COUNT_OF(stronger); i++)
         if (tree_extension(material, stronger[i]))
             check_warns(check, layer, "has no effect beside %s", stronger[i]);
-    if (material_is_clear_solid(material))
-        check_warns(check, layer, "has no effect: KHR_materials_volume makes the material a "
-                                  "closed solid, %s", on_solid);
 }
 
 static void check_film(const DocumentCheck *check, const GltfValue *material)
@@ -89,15 +85,14 @@ static void check_film(const DocumentCheck *check, const GltfValue *material)
     if (!(tree_number(film, "iridescenceFactor", 0) > 0)) return;
     if (tree_extension(material, "PARHELION_coating"))
         check_warns(check, film, "has no effect beside PARHELION_coating");
-    check_seen(check, material, film, "on which films are not shown");
+    check_seen(check, material, film);
 }
 
-/* Brushing is of what reflects as metal or plastic does. */
 static void check_brushing(const DocumentCheck *check, const GltfValue *material)
 {
     const GltfValue *brushed = tree_extension(material, "KHR_materials_anisotropy");
     if (tree_number(brushed, "anisotropyStrength", 0) > 0)
-        check_seen(check, material, brushed, "whose boundary is not brushed");
+        check_seen(check, material, brushed);
 }
 
 static void check_sheen(const DocumentCheck *check, const GltfValue *material)
@@ -106,7 +101,7 @@ static void check_sheen(const DocumentCheck *check, const GltfValue *material)
     const GltfValue *color = tree_member(sheen, "sheenColorFactor");
     bool is_seen = false;
     for (int i = 0; color && i < color->count; i++) is_seen |= color->items[i].number > 0;
-    if (is_seen) check_seen(check, material, sheen, "on which sheen is not shown");
+    if (is_seen) check_seen(check, material, sheen);
 }
 
 void check_coated_material(const DocumentCheck *check, const GltfValue *material)

@@ -6,6 +6,7 @@
 
 #include "scene/check/check_coating.h"
 #include "scene/check/check_index.h"
+#include "scene/check/check_solid.h"
 #include "scene/gltf/variant.h"
 
 /* ---- textures: the picture's type is the one that stands there ------------------------- */
@@ -58,16 +59,6 @@ static void check_volume(const DocumentCheck *check, const GltfValue *material)
     const GltfValue *volume = tree_extension(material, "KHR_materials_volume");
     if (volume && !has_extension(material, WAYS_IN, 2))
         check_warns(check, volume, "no light enters it: KHR_materials_transmission is missing");
-}
-
-/* What refracts scatters nothing at its boundary. */
-static void check_diffuse_transmission(const DocumentCheck *check, const GltfValue *material)
-{
-    const GltfValue *across = tree_extension(material, "KHR_materials_diffuse_transmission");
-    if (tree_number(across, "diffuseTransmissionFactor", 0) > 0 &&
-        material_is_clear_solid(material))
-        check_warns(check, across, "is not seen: KHR_materials_transmission makes the solid "
-                                   "clear");
 }
 
 /* Two answers to what the surface is: one of them is not seen. */
@@ -155,7 +146,7 @@ void check_material(const DocumentCheck *check, const GltfValue *material)
                     "has no meaning with the alpha mode \"%.20s\"", mode->text);
     check_emission(check, material);
     check_volume(check, material);
-    check_diffuse_transmission(check, material);
+    check_clear_solid(check, material);
     check_alone(check, material);
     check_coated_material(check, material);
     check_index(check, material);
