@@ -15,7 +15,6 @@ typedef struct ThinFilm {
     float share; /* of the surface that carries it, [0, 1]; 0: there is none */
     float ior;   /* 1 or more */
     float thickness_nm; /* > 0 */
-    const OpticalConstants *metal; /* under it; NULL: by the reflectance */
 } ThinFilm;
 
 /* Index of a body that absorbs nothing and reflects so much at normal incidence, [0, 1]. */

@@ -330,15 +330,23 @@ static float lane_reflects(float mirror, float tint)
     return reflect_prob(mirror, (1 - mirror) * tint);
 }
 
-/* What a facet reflects of one lane, at that lane's s->eta. */
-static float lane_mirror(const Dielectric *d, const Side *s, int lane, float cosine,
-                         float *behind)
+/* What a filmed facet reflects of one lane, at that lane's s->eta. */
+static float filmed_lane(const Dielectric *d, const Side *s, int lane, float cosine)
 {
-    float f = fresnel_mean(fresnel_dielectric(cosine, s->eta, behind));
-    if (!has_film(d)) return f;
-    FilmCrossing ray = film_crossing(s, cosine, *behind);
+    float behind, bare = fresnel_mean(fresnel_dielectric(cosine, s->eta, &behind));
+    FilmCrossing ray = film_crossing(s, cosine, behind);
     float filmed = clear_film_lane(&d->film, d->wavelengths->nm[lane], &ray);
-    return f + (filmed - f) * d->film.share;
+    return bare + (filmed - bare) * d->film.share;
+}
+
+/* The film's shares in place of the bare ones. */
+static void film_lanes(const Dielectric *d, Side s, float cosine, LaneFacets *lanes)
+{
+    for (int i = 0; i < SPECTRUM_LANES; i++) {
+        s.eta = lanes->eta[i];
+        lanes->mirror[i] = filmed_lane(d, &s, i, cosine);
+        lanes->reflects[i] = lane_reflects(lanes->mirror[i], d->tint[i]);
+    }
 }
 
 /* cosine: to the facet. */
@@ -348,13 +356,12 @@ static void meet_lanes(const Dielectric *d, const Side *s, float cosine, LaneFac
     out->chance = d->light ? *d->light / spectrum_all(spectrum_sum(*d->light)) :
                              spectrum_all(1.0f / SPECTRUM_LANES);
     out->eta = s->turned ? spectrum_all(1) / n : n;
-    Side own = *s;
     for (int i = 0; i < SPECTRUM_LANES; i++) {
-        own.eta = out->eta[i];
-        float f = lane_mirror(d, &own, i, cosine, &out->behind[i]);
+        float f = fresnel_mean(fresnel_dielectric(cosine, out->eta[i], &out->behind[i]));
         out->mirror[i] = f;
         out->reflects[i] = lane_reflects(f, d->tint[i]);
     }
+    if (has_film(d)) film_lanes(d, *s, cosine, out);
 }
 
 /* Which lane's strip of [0, the sum) the place lies on; it becomes the place in the strip. */
@@ -376,13 +383,14 @@ static float lane_transmitted(const Dielectric *d, const Side *s, int lane, floa
 {
     Vec3 half = vec3_normalize(vec3_along(s->wo, s->wi, s->eta));
     if (half.z < 0) half = vec3_neg(half);
-    float out = vec3_dot(s->wo, half), in = vec3_dot(s->wi, half), behind;
+    float out = vec3_dot(s->wo, half), in = vec3_dot(s->wi, half);
     *pdf = 0;
     if (!(out > 0 && in < 0)) return 0;
     float root = out + s->eta * in;
     float spread = -in / (root * root);
     if (!(spread <= 3e38f)) return 0;
-    float f = lane_mirror(d, s, lane, out, &behind), tint = d->tint[lane];
+    float tint = d->tint[lane];
+    float f = has_film(d) ? filmed_lane(d, s, lane, out) : fresnel_unpolarised(out, s->eta);
     *pdf = (1 - lane_reflects(f, tint)) * facet_pdf(d, s->wo, half) * s->eta * s->eta * spread;
     return tint * (1 - f) * 4 * facets_send(d, s, half) * out * spread;
 }

@@ -28,8 +28,8 @@ typedef struct Dielectric {
     float    alpha; /* GGX, [0, 1]; below SMOOTH_ALPHA smooth */
     float    alpha_along; /* brushed: GGX along the frame's x, in [SMOOTH_ALPHA, 1]; then alpha
                              is that along y, in the same range. 0: alpha */
+    ThinFilm film;  /* in air, without a coating; share 0: none */
     const CoatingTables *coating;     /* of that boundary; NULL: bare */
-    ThinFilm film;  /* in air, without a coating; its metal is not looked at. Share 0: none */
     const Wavelengths   *wavelengths; /* NULL where there is no coating, film or index */
     const Curve         *index;       /* by wavelength, 1 or more, in place of ior; NULL: it is
                                          the same for all. Without a coating */

@@ -168,7 +168,7 @@ static Spectrum filmed_face(const MetallicRoughness *m, Spectrum bare, float cos
 
 static Spectrum filmed_metal(const MetallicRoughness *m, Spectrum bare, float cosine)
 {
-    const OpticalConstants *metal = m->film.metal;
+    const OpticalConstants *metal = m->film_metal;
     Spectrum n, k = spectrum_all(0);
     if (metal) k = curve_lookup(&metal->k, m->wavelengths);
     n = metal ? curve_lookup(&metal->n, m->wavelengths) : clear_film_body(m->base_color);

@@ -29,6 +29,7 @@ typedef struct MetallicRoughness {
     const SurfaceCoating *coating;       /* what reflects in place of the colours; NULL: none */
     const Wavelengths    *wavelengths;   /* NULL where coating is, without film, across and
                                              sheen */
+    const OpticalConstants *film_metal; /* under a film; NULL: by the colour */
     ThinFilm film;        /* where coating does not tell; share 0: none */
     bool  seen_from_back;                /* of a coated sheet */
     float across;          /* [0, 1]: share of diffuse light that leaves on the other side */

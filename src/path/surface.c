@@ -257,15 +257,15 @@ static void set_across(const Site *site, const Surface *surface, MetallicRoughne
 
 /* Turns the surface's frame until x lies along the brushing. The facets that lie across it are
  * the base's own; no brushed surface is a perfect mirror across its grooves. */
-static void set_brushing(const Site *site, Surface *surface, float *alpha, float *alpha_along)
+static void set_brushing(const Scene *scene, const Hit *hit, const Brushing *b,
+                         Surface *surface, float *alpha, float *alpha_along)
 {
-    const Brushing *b = site->material->brushing;
     float texel[4] = {1, 0.5f, 1, 1}, side;
     Vec3  tangent, n = surface->point.ns;
-    read_data(site->scene, &b->texture, &surface->point, texel);
+    read_data(scene, &b->texture, &surface->point, texel);
     float x = 2 * texel[0] - 1, y = 2 * texel[1] - 1, strength = b->strength * texel[2];
     float along = x * b->cosine - y * b->sine, across = x * b->sine + y * b->cosine;
-    if (!(strength > 0) || !tangent_at(site->scene, site->hit, n, &tangent, &side)) return;
+    if (!(strength > 0) || !tangent_at(scene, hit, n, &tangent, &side)) return;
     Vec3 bitangent = vec3_scale(vec3_cross(n, tangent), side < 0 ? -1.0f : 1.0f);
     Vec3 z = surface->frame.z;
     Vec3 turned = vec3_along(vec3_scale(tangent, along), bitangent, across);
@@ -288,18 +288,17 @@ static bool is_front(const Surface *surface)
 }
 
 /* A coating stands in for the film: then false, as where there is no film. */
-static bool read_film(const Site *site, const Surface *surface, ThinFilm *out)
+static bool read_film(const Scene *scene, const Material *m, const TrianglePoint *point,
+                      ThinFilm *out)
 {
-    const Iridescence *film = site->material->iridescence;
-    const TrianglePoint *point = &surface->point;
+    const Iridescence *film = m->iridescence;
     float texel[4] = {1, 1, 1, 1}, thickness_nm;
-    if (!film || site->material->coating) return false;
-    read_data(site->scene, &film->thickness_texture, point, texel);
+    if (m->coating) return false;
+    read_data(scene, &film->thickness_texture, point, texel);
     thickness_nm = lerpf(film->least_nm, film->most_nm, texel[1]);
     if (!(thickness_nm > 0)) return false;
-    float share = scaled(site->scene, film->share, &film->texture, point, 0);
-    *out = (ThinFilm){.share = share, .ior = film->ior, .thickness_nm = thickness_nm,
-                      .metal = site->material->conductor};
+    float share = scaled(scene, film->share, &film->texture, point, 0);
+    *out = (ThinFilm){.share = share, .ior = film->ior, .thickness_nm = thickness_nm};
     return true;
 }
 
@@ -334,8 +333,13 @@ static void set_metallic_roughness(const Site *site, Surface *surface)
     model->specular_color = colour_spectrum(site->scene, m->specular_curve_id,
                                             m->specular_color, coloured ? texel : white,
                                             site->wavelengths);
-    if (m->brushing) set_brushing(site, surface, &model->alpha, &model->alpha_along);
-    if (read_film(site, surface, &model->film)) model->wavelengths = site->wavelengths;
+    if (m->brushing)
+        set_brushing(site->scene, site->hit, m->brushing, surface, &model->alpha,
+                     &model->alpha_along);
+    if (m->iridescence && read_film(site->scene, m, point, &model->film)) {
+        model->film_metal = m->conductor;
+        model->wavelengths = site->wavelengths;
+    }
     if (m->sheen) set_sheen(site, surface, model);
     set_coat(site, surface, model);
     if (m->diffuse_transmission > 0) set_across(site, surface, model);
@@ -355,9 +359,12 @@ static void set_solid(const Site *site, Surface *surface)
     solid->energy = site->tables->solids[surface->material_id].least;
     solid->energy_most = site->tables->solids[surface->material_id].most;
     solid->index = m->index;
-    if (m->brushing) set_brushing(site, surface, &solid->alpha, &solid->alpha_along);
-    bool has_film = read_film(site, surface, &solid->film);
-    solid->wavelengths = m->index || has_film ? site->wavelengths : NULL;
+    solid->wavelengths = m->index ? site->wavelengths : NULL;
+    if (m->brushing)
+        set_brushing(site->scene, site->hit, m->brushing, surface, &solid->alpha,
+                     &solid->alpha_along);
+    if (m->iridescence && read_film(site->scene, m, &surface->point, &solid->film))
+        solid->wavelengths = site->wavelengths;
     if (!coating) return;
     solid->ior = (float)((double)m->ior / m->coating->outside);
     solid->coating = coating->solid;

@@ -1,5 +1,6 @@
-"""films.py PARHELION -- thin films on solids of glass (KHR_materials_iridescence) against Airy's
-closed form: what one face reflects, what a slab lets through, its textures, the sun by way of it.
+"""films.py PARHELION -- thin films on solids of glass (KHR_materials_iridescence) against
+Airy's closed form: what one face reflects, what a slab lets through, its textures, the sun by
+way of it.
 """
 import cmath
 import math

@@ -1,5 +1,5 @@
-/* Solids of glass with a thin film, or brushed, in a scene: nobody sees them in a furnace, light
- * samples and chance find the same light, and a brushed face blurs along its brushing. */
+/* Solids of glass with a thin film, or brushed, in a scene: nobody sees them in a furnace,
+ * light samples and chance find the same light, and a brushed face blurs along its brushing. */
 #include "check.h"
 
 #include "world_fixture.h"
@@ -85,7 +85,8 @@ TEST(a_filmed_ball_is_not_seen_in_a_furnace)
         builder_sphere(world.scene, vec3(0, 0, 0), 1, 48, 0);
         set_sky(&world, 1000);
         world_ready(&world, BOUNCES);
-        Mean seen = look(&world, vec3(0.5f, 0.3f, 3), vec3(0.5f, 0.3f, 0), i % 2 ? 200000 : 40000);
+        Mean seen = look(&world, vec3(0.5f, 0.3f, 3), vec3(0.5f, 0.3f, 0),
+                         i % 2 ? 200000 : 40000);
         if (!(fabs(seen.value - 1000) < 3.5 * seen.sigma + 0.5 && seen.sigma < 2))
             fail_msg("ball %d: %g +- %g", i, seen.value, seen.sigma);
         world_end(&world);
