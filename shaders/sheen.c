@@ -130,3 +130,16 @@ SheenShare sheen_mean(const SheenTable *table, float alpha, float base)
     float albedo = lerpf(table->mean_albedo[r.low], table->mean_albedo[r.low + 1], r.t);
     return (SheenShare){albedo, mean.all, mean.shape};
 }
+
+static float open_at(const float rows[SHEEN_BASES][SHEEN_WIDE], EnergyKnot k, EnergyKnot c)
+{
+    const float *low = rows[k.low] + c.low, *high = low + SHEEN_WIDE;
+    return lerpf(lerpf(low[0], low[1], c.t), lerpf(high[0], high[1], c.t), k.t);
+}
+
+float sheen_open(const SheenTable *table, float cosine, float alpha, float coat_alpha)
+{
+    EnergyKnot r = roughness_knot(alpha, SHEEN_BROAD), k = base_knot(coat_alpha);
+    EnergyKnot c = cosine_knot(cosine, SHEEN_WIDE);
+    return lerpf(open_at(table->open[r.low], k, c), open_at(table->open[r.low + 1], k, c), r.t);
+}

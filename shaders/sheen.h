@@ -19,7 +19,7 @@
  * Source   Estevez and Kulla 2017, "Production Friendly Microfacet Sheen BRDF"; the
  *          extension's text.
  * Errors   albedo 1e-3 of the integral.
- * Memory   100 KiB, made with the program (tables/make_tables.c).
+ * Memory   150 KiB, made with the program (tables/make_tables.c).
  * Threads  pure functions.  Fails  never.
  */
 #pragma once
@@ -49,6 +49,7 @@ typedef struct SheenTable {
     float       mean_albedo[SHEEN_BROAD];
     SheenExcess mean[SHEEN_BROAD][SHEEN_BASES];
     SheenExcess excess[SHEEN_BROAD][SHEEN_BASES][SHEEN_WIDE];
+    float       open[SHEEN_BROAD][SHEEN_BASES][SHEEN_WIDE]; /* by the coat's alpha */
 } SheenTable;
 
 extern const SheenTable common_sheen_table;
@@ -66,3 +67,7 @@ SheenShare sheen_share(const SheenTable *table, float cosine, float alpha, float
 /* Over the hemisphere, weighted by the cosine: of the albedo, and of all and shape by the light
  * that the facets send. */
 SheenShare sheen_mean(const SheenTable *table, float alpha, float base);
+
+/* What a lacquer (coat.h) over them lets out of the light that fibres send, of that which comes
+ * along a direction. */
+float sheen_open(const SheenTable *table, float cosine, float alpha, float coat_alpha);

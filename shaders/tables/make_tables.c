@@ -4,9 +4,9 @@
 
 #include "shaders/common_tables.h"
 #include "shaders/index_tables.h"
-#include "shaders/lobe_facets_build.h"
+#include "shaders/tables/lobe_facets_build.h"
 #include "shaders/metallic_roughness.h"
-#include "shaders/sheen_build.h"
+#include "shaders/tables/sheen_build.h"
 
 /* The program's usual ones stand here themselves: water 1.333, paint and lining 1.45, glTF's
  * default 1.5, window glass 1.52. */

@@ -1,4 +1,4 @@
-#include "shaders/lobe_facets_build.h"
+#include "shaders/tables/lobe_facets_build.h"
 
 #include <stddef.h>
 

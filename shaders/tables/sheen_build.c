@@ -1,6 +1,7 @@
-#include "shaders/sheen_build.h"
+#include "shaders/tables/sheen_build.h"
 
 #include "base/units.h"
+#include "shaders/coat.h"
 
 #define HEIGHTS 160 /* of directions, evenly in sqrt(cosine) */
 #define TURNS 48    /* over half a turn */
@@ -25,22 +26,52 @@ static float cosine_of(int column, int count)
     return column > 0 ? root * root : 1e-6f;
 }
 
-/* Light is thickest where it leaves on the near side: turns stand closer there. Without a table
- * it is not bounded. */
-static float integrate(const SheenTable *table, float cosine, float alpha)
+static float height_root(int height)
 {
-    Vec3   wo = vec3(safe_sqrtf(1 - cosine * cosine), 0, cosine);
-    double sum = 0;
+    return ((float)height + 0.5f) / HEIGHTS;
+}
+
+/* What is sent to each height. Light is thickest where it leaves on the near side: turns stand
+ * closer there. Without a table it is not bounded. */
+static void integrate_heights(const SheenTable *table, float cosine, float alpha,
+                              double sent[HEIGHTS])
+{
+    Vec3 wo = vec3(safe_sqrtf(1 - cosine * cosine), 0, cosine);
     for (int i = 0; i < HEIGHTS * TURNS; i++) {
-        float  root = ((float)(i / TURNS) + 0.5f) / HEIGHTS, z = root * root, x, y;
+        float  root = height_root(i / TURNS), z = root * root, x, y;
         float  side = safe_sqrtf(1 - z * z), turn = ((float)(i % TURNS) + 0.5f) / TURNS;
         sincos_turns(0.5f * turn * turn, &y, &x);
         double area = 2 * (double)root * 2 * PI * 2 * (double)turn / (HEIGHTS * TURNS);
         Vec3   wi = vec3(side * x, side * y, z);
-        sum += area * (double)z * (double)(table ? sheen_lobe(table, wo, wi, alpha) :
-                                                   sheen_lobe_full(wo, wi, alpha));
+        if (i % TURNS == 0) sent[i / TURNS] = 0;
+        sent[i / TURNS] += area * (double)z *
+                           (double)(table ? sheen_lobe(table, wo, wi, alpha) :
+                                            sheen_lobe_full(wo, wi, alpha));
     }
+}
+
+static float integrate(const SheenTable *table, float cosine, float alpha)
+{
+    double sent[HEIGHTS], sum = 0;
+    integrate_heights(table, cosine, alpha, sent);
+    for (int i = 0; i < HEIGHTS; i++) sum += sent[i];
     return (float)sum;
+}
+
+/* Under coats of every alpha. */
+static void fill_open(const EnergyTable *coat, int row, int column, SheenTable *table)
+{
+    double sent[HEIGHTS];
+    integrate_heights(table, cosine_of(column, SHEEN_WIDE), alpha_of(row, SHEEN_BROAD), sent);
+    for (int k = 0; k < SHEEN_BASES; k++) {
+        double all = 0, out = 0;
+        for (int i = 0; i < HEIGHTS; i++) {
+            float root = height_root(i);
+            all += sent[i];
+            out += sent[i] * (double)(1 - coat_reflectance(coat, root * root, base_of(k)));
+        }
+        table->open[row][k][column] = (float)(out / fmax(all, 1e-30));
+    }
 }
 
 /* Over the facets' lobe about one direction. */
@@ -102,6 +133,8 @@ const SheenTable *sheen_table_build(const EnergyTable *energy, Arena *arena)
 {
     SheenTable *table = ARENA_NEW(arena, SheenTable, 1);
     fill_albedos(table);
+    for (int i = 0; i < SHEEN_BROAD * SHEEN_WIDE; i++)
+        fill_open(energy, i / SHEEN_WIDE, i % SHEEN_WIDE, table);
     for (int r = 0; r < SHEEN_BROAD; r++)
         for (int b = 0; b < SHEEN_BASES; b++)
             for (int c = 0; c < SHEEN_WIDE; c++)

@@ -1,7 +1,7 @@
 /* sheen_build.h -- how sheen.h's table is made (tables/make_tables.c).
  *
- * energy: of the boundary whose facets lie beneath. The table is the caller's arena's; making
- * it takes some 4 seconds.
+ * energy: of the boundary whose facets lie beneath, and of the coat above. The table is the
+ * caller's arena's; making it takes some 4 seconds.
  * Threads  pure.  Fails  never.
  */
 #pragma once
