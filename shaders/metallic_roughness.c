@@ -40,21 +40,25 @@
  * it by coat.h, the Lambert base is coupled to both boundaries at once. A white metal or
  * plastic under any coat returns what it gets, to 85 degrees within 0.1 % (plastic) and 0.2 %
  * (metal); of a coloured base each further turn takes its albedo. All of it is reciprocal.
+ * What coat.h's tables do not know, brushed, filmed and coated faces and sheen, sends out
+ * through the coat what covered_lobe.h integrates on the spot; all else of the light that the
+ * coat let in is the Lambert base's or the rebound's, coupled symmetrically. Facets of a metal
+ * then have the turns of a mirror at the lower of both directions, fibres and facets of a
+ * non-metal what the coat lets pass each way. White ones under any coat, also all together,
+ * return what they get within 0.2 % to 85 degrees.
  * Light that goes across is Lambert's on the other side, coupled to the boundaries of both as
  * the base is to one: f = across color / pi * in(wo) in(wi) / mean of in. Boundary and coat lie
  * on either side alike, so white paper, lacquered or not, returns what it gets; it passes
  * nothing straight.
  * A brushed base has two alphas (brushed.h); what its facets send back in all is told by
  * lobe_facets.h, so a white one, metal or plastic, returns what it gets within 0.2 % to 85
- * degrees too. Under a coat it is within 2 %: the coat's tables know even bases alone.
+ * degrees too.
  * A coating's reflectance (coating.h) stands in for Fresnel's and Schlick's curves in all of
  * this; with it, metals follow the exact curve of their n, k. What it absorbs is lost.
  *
  * A film (clear_film.h) does so at each wavelength, on a body that absorbs nothing and has the
  * base's reflectance at normal incidence: of the non-metal exact, of a metal approximate unless
- * its n, k are given. Energies of rough filmed faces are told by lobe_facets.h, to 0.2 %; under
- * a coat the film's curve is taken for even over what the coat holds back, and white plastic is
- * within 1.5 %.
+ * its n, k are given. Energies of rough filmed faces are told by lobe_facets.h, to 0.2 %.
  *
  * Sheen (sheen.h) lies on all but the coat, on both sides of a sheet alike. With E its albedo
  * and c the greatest of its colour, facets beneath are scaled by 1 - c max(E(wo), E(wi)), and
@@ -62,8 +66,7 @@
  * neither the sheen nor the facets send, as does the light that facets hide. So white plastic,
  * metal or paper under white sheen returns what it gets, to 85 degrees within 0.2 % at every
  * roughness, and it is reciprocal. A coloured sheen takes from all beneath what its strongest
- * primary reflects (the extension's rule). Under a coat what that holds back of the fibres' own
- * light is lost: of white to 4 % at 60 degrees and 11 % at 85.
+ * primary reflects (the extension's rule).
  *
  * Polarised light is followed by facets and coat as glass of their index has it, by a metal of
  * n, k and by a coated face as their waves add up; another metal is taken for a perfect mirror,
@@ -79,6 +82,7 @@
 #include "base/units.h"
 #include "spectrum/fresnel.h"
 #include "shaders/brushed.h"
+#include "shaders/covered_lobe.h"
 #include "shaders/lobe_facets.h"
 #include "shaders/polarisation.h"
 #include "shaders/sheen.h"
@@ -102,6 +106,20 @@ typedef struct Through {
     CoatShare share;
 } Through;
 
+/* What neither fibres nor facets of a white base send out through the coat: the Lambert base's
+ * or, of a metal, the rebound's. */
+typedef struct Leftover {
+    Spectrum base;
+    float    metal;
+} Leftover;
+
+/* A coat over what coat.h's tables do not know. */
+typedef struct Covered {
+    Cover    cover;
+    Spectrum face[LOBE_FACETS]; /* of the non-metal, at facet_cosine */
+    Leftover     rest, mean;        /* towards wo; over the hemisphere */
+} Covered;
+
 /* The material as one eye sees it: what eval and sample need of wo. */
 typedef struct View {
     const MetallicRoughness *m;
@@ -115,6 +133,7 @@ typedef struct View {
     Choices  choices;
     Spectrum film[LOBE_FACETS]; /* faces' reflectance at facet_cosine; undefined without one */
     SheenShare sheen, sheen_mean; /* towards wo; undefined without one */
+    Covered    covered; /* undefined where !is_covered(m) */
 } View;
 
 MetallicRoughness metallic_roughness_default(const EnergyTable *energy)
@@ -659,55 +678,16 @@ static float coat_albedo(const MetallicRoughness *m, Vec3 w)
            coat_reflectance(m->clearcoat_energy, coat_cosine(m, w), m->clearcoat_alpha);
 }
 
-static float ratio_of(float a, float b)
+static float coat_open(const MetallicRoughness *m, Vec3 w)
 {
-    return b > 1e-6f ? a / b : 1;
+    return 1 - coat_reflectance(m->clearcoat_energy, coat_cosine(m, w), m->clearcoat_alpha);
 }
 
-static CoatShare own_share(const MetallicRoughness *m, Vec3 w)
+/* Is there a coat, over what coat.h's tables do not know? */
+static inline bool is_covered(const MetallicRoughness *m)
 {
-    return coat_share(m->coat, coat_cosine(m, w), own_alpha(m, w), m->clearcoat_alpha);
-}
-
-/* Mean of own_share's boost over the lobe of light from w, by a lattice of its facets. */
-static float mean_boost(const MetallicRoughness *m, Vec3 w)
-{
-    enum { POINTS = 16 };
-    float all = 0, sum = 0;
-    for (int i = 0; i < POINTS; i++) {
-        float turn = ((float)i + 0.5f) / POINTS, height = 0.618034f * ((float)i + 0.5f);
-        Vec3  wi = base_sample(m, w, turn, height - (float)(int)height);
-        if (!(wi.z > 0)) continue;
-        Vec3  half = vec3_normalize(vec3_add(w, wi));
-        float share = base_lobe(m, w, wi, half) * wi.z / base_lobe_pdf(m, w, half);
-        all += share;
-        sum += share * own_share(m, wi).boost;
-    }
-    return all > 0 ? sum / all : 0;
-}
-
-/* On a brushed base: the shares of an even one as rough as it is along the direction's azimuth,
- * scaled to what the brushed one sends back; the boost by one more round of coat.h's scaling,
- * over the brushed lobe. */
-static CoatShare brushed_share(const MetallicRoughness *m, Vec3 w, float open)
-{
-    CoatShare share = own_share(m, w);
-    Energy    brushed = brushed_energy(m, w);
-    Energy    even = energy_directional(m->energy, w.z, own_alpha(m, w));
-    float     mean = mean_boost(m, w);
-    share.all *= ratio_of(brushed.all, even.all);
-    share.shape *= ratio_of(brushed.shape, even.shape);
-    if (mean > 0) share.boost = fminf(sqrtf(share.boost * open / mean), 1);
-    return share;
-}
-
-static CoatMean base_coat_mean(const MetallicRoughness *m)
-{
-    CoatMean mean = coat_mean(m->coat, even_alpha(m), m->clearcoat_alpha);
-    if (is_brushed(m))
-        mean.shape *= ratio_of(brushed_average(m).shape,
-                               energy_average(m->energy, even_alpha(m)).shape);
-    return mean;
+    return m->clearcoat > 0 &&
+           (is_brushed(m) || has_film(m) || has_sheen(m) || coated_face(m));
 }
 
 /* A tilted coat's turns are left out: the table knows no tilt. */
@@ -715,8 +695,7 @@ static Through coat_through(const MetallicRoughness *m, Vec3 w)
 {
     float   cosine = coat_cosine(m, w);
     Through t = {.open = 1 - coat_reflectance(m->clearcoat_energy, cosine, m->clearcoat_alpha)};
-    t.share = is_brushed(m) ? brushed_share(m, w, t.open) :
-                              coat_share(m->coat, cosine, m->alpha, m->clearcoat_alpha);
+    t.share = coat_share(m->coat, cosine, m->alpha, m->clearcoat_alpha);
     if (m->clearcoat_normal.z < COAT_UPRIGHT) t.share.boost = t.open;
     return t;
 }
@@ -744,48 +723,13 @@ static inline Spectrum let_in_coated(const Boundary *b, Energy e, const Through 
            spectrum_all(t->open);
 }
 
-/* Of a film the curve is taken for even over what the coat holds back. */
-static Spectrum film_let_out(Spectrum energy, Energy e, const Through *t)
-{
-    float out = e.all > 0 ? 1 - t->share.all / e.all : 1;
-    return (spectrum_all(1) - energy * spectrum_all(out)) * spectrum_all(t->open);
-}
-
-static Spectrum film_enters(const View *view, Vec3 w)
-{
-    Through t = coat_through(view->m, w);
-    return film_let_out(filmed_energy(view, w), base_energy(view->m, w), &t);
-}
-
-/* Mean over the hemisphere, weighted by the cosine, by the values at facet_cosine. */
-static Spectrum film_enters_on_average(const View *view)
-{
-    LobeFacets even = mean_facets(&common_facet_table, (Vec2){SMOOTH_ALPHA, SMOOTH_ALPHA});
-    Spectrum   sum = spectrum_all(0);
-    for (int i = 0; i < LOBE_FACETS; i++) {
-        float z = facet_cosine[i], side = safe_sqrtf(0.5f * (1 - z * z));
-        sum += film_enters(view, vec3(side, side, z)) * spectrum_all(even.weight[i]);
-    }
-    return sum;
-}
-
-static Spectrum coated_under_film(const View *view, Vec3 wi, Energy in, const Through *below)
-{
-    return film_let_out(view->coated, view->energy, &view->through) *
-           film_let_out(filmed_energy(view, wi), in, below) /
-           spectrum_max(film_enters_on_average(view), spectrum_all(1e-3f));
-}
-
-static Spectrum coated_diffuse(const View *view, Spectrum albedo, Vec3 wi, Energy in,
+static Spectrum coated_diffuse(const View *view, Spectrum albedo, Energy in,
                                const Through *below)
 {
     const MetallicRoughness *m = view->m;
     const Boundary *b = &view->boundary;
     float    share = (1 - m->metallic) * (1 - m->transmission);
     if (!(share > 0)) return spectrum_all(0);
-    if (has_film(m))
-        return albedo * coat_turns(view->coat_mean.open, lambert_albedo(m)) *
-               coated_under_film(view, wi, in, below) * spectrum_all(share * INV_PI_F);
     Spectrum mean = spectrum_all(view->coat_mean.open) -
                     b->f0 * spectrum_all(view->coat_mean.all) -
                     b->rise * spectrum_all(view->coat_mean.shape);
@@ -805,6 +749,137 @@ static Spectrum coated_rebound(const View *view, Energy in, const Through *below
               spectrum_all((1 - view->energy.all) * (1 - in.all) / missing * INV_PI_F);
     if (clear > 0) sum += pane_mean(view) * spectrum_all(clear * bare_rebound_lobe(view, in));
     return sum * spectrum_all(both);
+}
+
+/* ---- a coat over brushed, filmed, coated and woven bases --------------------------------- */
+
+/* What fibres send out of the light that the coat let in along w. */
+static float open_fibres(const MetallicRoughness *m, float cosine)
+{
+    if (!has_sheen(m)) return 0;
+    return sheen_most(m) * sheen_albedo(&common_sheen_table, cosine, m->sheen_alpha) *
+           sheen_open(&common_sheen_table, cosine, m->sheen_alpha, m->clearcoat_alpha);
+}
+
+static float kept_by_sheen(const MetallicRoughness *m, float cosine)
+{
+    if (!has_sheen(m)) return 1;
+    return 1 - sheen_most(m) * sheen_albedo(&common_sheen_table, cosine, m->sheen_alpha);
+}
+
+static Spectrum face_at(const View *view, float cosine)
+{
+    const MetallicRoughness *m = view->m;
+    if (coated_face(m))
+        return coating_at(m->coating->face->front, m->wavelengths, cosine) *
+               spectrum_all(m->specular);
+    return boundary_reflectance(m, &view->boundary, cosine);
+}
+
+static Spectrum sent_by_face(const Covered *covered, const LobeFacets *facets)
+{
+    Spectrum sum = spectrum_all(0);
+    for (int i = 0; i < LOBE_FACETS; i++)
+        sum += covered->face[i] * spectrum_all(facets->weight[i]);
+    return sum;
+}
+
+static Leftover rest_along(const View *view, Vec3 w)
+{
+    const MetallicRoughness *m = view->m;
+    const Covered *covered = &view->covered;
+    float    open = coat_open(m, w), kept = kept_by_sheen(m, w.z);
+    float    above = 1 - open_fibres(m, w.z);
+    Spectrum face;
+    if (is_smooth(m->alpha)) {
+        face = face_at(view, w.z) * spectrum_all(open * kept);
+        return (Leftover){(spectrum_all(above) - face) * spectrum_all(open),
+                          open * (above - kept)};
+    }
+    CoveredLobe lobe = covered_lobe(&covered->cover, w);
+    face = sent_by_face(covered, &lobe.facets);
+    return (Leftover){spectrum_max(spectrum_all(above) - face, spectrum_all(0)) *
+                      spectrum_all(open),
+                  open * (above - kept) + lobe.lost};
+}
+
+static void set_cover(const MetallicRoughness *m, Cover *cover)
+{
+    cover->normal = m->clearcoat_normal;
+    cover->has_sheen = has_sheen(m);
+    cover->alpha = is_smooth(m->alpha) ? (Vec2){SMOOTH_ALPHA, SMOOTH_ALPHA} : facet_alphas(m);
+    for (int i = 0; i < ENERGY_COSINES; i++) {
+        float root = (float)i / (ENERGY_COSINES - 1), cosine = fmaxf(root * root, 1e-5f);
+        cover->open[i] =
+            1 - coat_reflectance(m->clearcoat_energy, cosine, m->clearcoat_alpha);
+        if (cover->has_sheen) cover->kept[i] = kept_by_sheen(m, cosine);
+    }
+}
+
+/* Over the hemisphere, weighted by the cosine, by the trapezoid rule: what fibres take of the
+ * light that the coat let in, and what they send out through it. */
+static void mean_of_fibres(const MetallicRoughness *m, const Cover *cover, float *taken,
+                           float *sent)
+{
+    *taken = *sent = 0;
+    if (!has_sheen(m)) return;
+    for (int i = 0; i < ENERGY_COSINES; i++) {
+        float root = (float)i / (ENERGY_COSINES - 1), cosine = fmaxf(root * root, 1e-5f);
+        float open = 4 * root * root * root * cover->open[i] / (ENERGY_COSINES - 1);
+        if (i == ENERGY_COSINES - 1) open *= 0.5f;
+        *taken += open * (1 - cover->kept[i]);
+        *sent += open * open_fibres(m, cosine);
+    }
+}
+
+static void set_covered(View *view)
+{
+    const MetallicRoughness *m = view->m;
+    Covered *covered = &view->covered;
+    float    taken, sent;
+    set_cover(m, &covered->cover);
+    mean_of_fibres(m, &covered->cover, &taken, &sent);
+    for (int i = 0; i < LOBE_FACETS; i++)
+        covered->face[i] =
+            m->metallic < 1 ? face_at(view, facet_cosine[i]) : spectrum_all(0);
+    CoveredLobe mean = covered_mean(&covered->cover);
+    covered->mean.base = spectrum_max(spectrum_all(view->coat_mean.open - sent) -
+                                          sent_by_face(covered, &mean.facets),
+                                      spectrum_all(1e-3f));
+    covered->mean.metal = taken - sent + (is_smooth(m->alpha) ? 0 : mean.lost);
+    covered->rest = rest_along(view, view->wo);
+}
+
+/* A mirror of reflectance r under a coat that lets pass t: t t (1 + r (1 - t) + ...). A rough
+ * lobe has the lesser t of its two directions: so it never sends out more than came in along
+ * either. */
+static Spectrum coat_on_mirror(Spectrum r, float t)
+{
+    return spectrum_all(t * t) / (spectrum_all(1) - r * spectrum_all(1 - t));
+}
+
+static Spectrum covered_lambert(const View *view, Spectrum albedo, const Leftover *in)
+{
+    const MetallicRoughness *m = view->m;
+    float share = (1 - m->metallic) * (1 - m->transmission);
+    return albedo * coat_turns(view->coat_mean.open, lambert_albedo(m)) *
+           view->covered.rest.base * in->base * spectrum_all(share * INV_PI_F) /
+           view->covered.mean.base;
+}
+
+static Spectrum covered_rebound(const View *view, Vec3 wi, Energy e, const Leftover *in)
+{
+    const MetallicRoughness *m = view->m;
+    const Covered *c = &view->covered;
+    float    clear = clear_share(m);
+    Spectrum sum = spectrum_all(0);
+    if (m->metallic > 0 && c->mean.metal > 1e-6f)
+        sum = metal_rebound(m) * coat_turns(view->coat_mean.open, metal_mean(m)) *
+              spectrum_all(c->rest.metal * in->metal / c->mean.metal * INV_PI_F);
+    if (clear > 0)
+        sum += pane_mean(view) * spectrum_all(clear * rebound_lobe(view, wi, e) *
+                                              view->through.open * coat_open(m, wi));
+    return sum;
 }
 
 /* With a tilted normal the coat's own cosines differ from the surface's: dividing by the larger
@@ -934,7 +1009,7 @@ static inline View view_from(const MetallicRoughness *m, Vec3 wo)
     view.coat = coat_albedo(m, wo);
     if (m->clearcoat > 0) {
         view.through = coat_through(m, wo);
-        view.coat_mean = base_coat_mean(m);
+        view.coat_mean = coat_mean(m->coat, m->alpha, m->clearcoat_alpha);
     }
     if (coated_face(m)) view.coated = coated_energy(m, wo);
     if (has_film(m)) set_film(&view);
@@ -945,15 +1020,8 @@ static inline View view_from(const MetallicRoughness *m, Vec3 wo)
         choices = beside_sheen(&view, choices);
     }
     view.choices = scaled_to_one(choices);
+    if (is_covered(m)) set_covered(&view);
     return view;
-}
-
-/* As coat_on_metal, of fibres and of a metal beneath them: never more than what enters along
- * either direction. */
-static Spectrum coat_on_sheen(const View *view, Spectrum albedo, float open)
-{
-    return coat_turns(view->coat_mean.open, albedo) *
-           spectrum_all(fminf(open, view->through.open));
 }
 
 /* A facet of the base met at `cosine`, as the light of both directions finds it: below NULL: no
@@ -965,8 +1033,9 @@ static Spectrum facet_below(const View *view, float cosine, const Through *below
     Spectrum metal = facet_of_metal(m, cosine);
     if (!below) return nonmetal + metal;
     if (m->metallic > 0)
-        metal *= has_sheen(m) ? coat_on_sheen(view, metal_mean(m), below->open) :
-                                coat_on_metal(m, &view->through, below);
+        metal *= is_covered(m) ?
+                     coat_on_mirror(metal_mean(m), fminf(view->through.open, below->open)) :
+                     coat_on_metal(m, &view->through, below);
     return nonmetal * spectrum_all(view->through.open * below->open) + metal;
 }
 
@@ -987,63 +1056,43 @@ static Spectrum facet_lobe(const View *view, Vec3 wi, const Through *below)
     return sheen_over(view, wi, facet) * spectrum_all(base_lobe(m, view->wo, wi, half));
 }
 
-static Spectrum hidden_along(const View *view, Vec3 w)
+static Spectrum fibres_towards(const View *view, Vec3 wi)
 {
     const MetallicRoughness *m = view->m;
-    return spectrum_all(hidden_below_sheen(m, base_energy(m, w), sheen_towards(m, w)));
+    float lobe = sheen_lobe(&common_sheen_table, view->wo, wi, m->sheen_alpha);
+    return sheen_tint(m) * spectrum_all(lobe);
 }
 
-/* By values at facet_cosine, over the hemisphere: the mean of what the coat lets pass to a
- * part that light enters along w by so much. */
-static Spectrum open_to(const View *view, Spectrum (*enters)(const View *view, Vec3 w))
+/* Fibres, Lambert and rebound, without a coat. */
+static Spectrum sheen_and_below(const View *view, Vec3 wi, Energy in)
+{
+    return fibres_towards(view, wi) + rebound_above(view, wi, in) +
+           diffuse_below_sheen(view, lambert_back(view->m), wi);
+}
+
+/* The same, and of bases without sheen, under a coat. */
+static Spectrum covered_above(const View *view, Vec3 wi, Energy e)
 {
     const MetallicRoughness *m = view->m;
-    LobeFacets even = mean_facets(&common_facet_table, (Vec2){SMOOTH_ALPHA, SMOOTH_ALPHA});
-    Spectrum   through = spectrum_all(0), all = spectrum_all(0);
-    for (int i = 0; i < LOBE_FACETS; i++) {
-        float    z = facet_cosine[i], side = safe_sqrtf(0.5f * (1 - z * z));
-        float    held = coat_reflectance(m->clearcoat_energy, z, m->clearcoat_alpha);
-        Spectrum in = enters(view, vec3(side, side, z)) * spectrum_all(even.weight[i]);
-        through += in * spectrum_all(1 - held);
-        all += in;
-    }
-    return spectrum_max(through, spectrum_all(1e-3f)) / spectrum_max(all, spectrum_all(1e-3f));
+    Leftover     in = rest_along(view, wi);
+    Spectrum sum = covered_lambert(view, lambert_back(m), &in) +
+                   covered_rebound(view, wi, e, &in);
+    if (has_sheen(m))
+        sum += fibres_towards(view, wi) * spectrum_all(view->through.open * coat_open(m, wi));
+    return sum;
 }
 
-/* A part that is coupled to what enters it along both directions, below the coat. */
-static Spectrum coat_on_part(const View *view, Spectrum part, float open,
-                             Spectrum (*enters)(const View *view, Vec3 w))
-{
-    if (spectrum_is_zero(part)) return part;
-    return part * coat_turns(view->coat_mean.open, lambert_albedo(view->m)) *
-           spectrum_all(view->through.open * open) / open_to(view, enters);
-}
-
-/* Fibres, Lambert and rebound; adds the fibres' part of the pdf. */
-static Spectrum sheen_and_below(const View *view, Vec3 wi, Energy in, float *pdf)
-{
-    const MetallicRoughness *m = view->m;
-    float    lobe = sheen_lobe(&common_sheen_table, view->wo, wi, m->sheen_alpha);
-    Spectrum fibres = sheen_tint(m) * spectrum_all(lobe);
-    Spectrum rebound = rebound_above(view, wi, in);
-    Spectrum base = diffuse_below_sheen(view, lambert_back(m), wi);
-    Spectrum sum = fibres + rebound + base;
-    *pdf += view->choices.sheen * (0.5f * INV_PI_F);
-    if (!(m->clearcoat > 0)) return sum;
-    float open = coat_through(m, wi).open;
-    fibres *= coat_on_sheen(view, lambert_albedo(m), open);
-    return covered(m, sum, fibres + coat_on_part(view, rebound, open, hidden_along) +
-                               coat_on_part(view, base, open, enters_along));
-}
-
-/* Lambert and rebound where there is no sheen. below: of wi; undefined without a coat. */
+/* All but facets. below: of wi; undefined without a coat. */
 static Spectrum spread_by_base(const View *view, Vec3 wi, Energy in, const Through *below)
 {
     const MetallicRoughness *m = view->m;
     Spectrum lambert = lambert_back(m);
-    Spectrum sum = diffuse_eval(view, lambert, wi, in) + rebound_above(view, wi, in);
+    Spectrum sum = has_sheen(m) ? sheen_and_below(view, wi, in) :
+                                  diffuse_eval(view, lambert, wi, in) +
+                                      rebound_above(view, wi, in);
     if (!(m->clearcoat > 0)) return sum;
-    return covered(m, sum, coated_diffuse(view, lambert, wi, in, below) +
+    if (is_covered(m)) return covered(m, sum, covered_above(view, wi, in));
+    return covered(m, sum, coated_diffuse(view, lambert, in, below) +
                                coated_rebound(view, in, below));
 }
 
@@ -1055,8 +1104,8 @@ static Spectrum base_above(const View *view, Vec3 wi, float *pdf)
     Energy   in = base_energy(m, wi);
     *pdf = view->choices.diffuse * wi.z * INV_PI_F;
     if (m->clearcoat > 0) below = coat_through(m, wi);
-    Spectrum sum = has_sheen(m) ? sheen_and_below(view, wi, in, pdf) :
-                                  spread_by_base(view, wi, in, &below);
+    if (has_sheen(m)) *pdf += view->choices.sheen * (0.5f * INV_PI_F);
+    Spectrum sum = spread_by_base(view, wi, in, &below);
     if (!is_smooth(m->alpha)) {
         Vec3 half = vec3_normalize(vec3_add(view->wo, wi));
         sum += facet_lobe(view, wi, &below);
@@ -1095,10 +1144,12 @@ static Spectrum base_across(const View *view, Vec3 wi, float *pdf)
                                   diffuse_eval(view, lambert, up, in);
     *pdf += view->choices.across * up.z * INV_PI_F;
     if (!(m->clearcoat > 0)) return sum;
+    if (is_covered(m)) {
+        Leftover rest = rest_along(view, up);
+        return covered(m, sum, covered_lambert(view, lambert, &rest));
+    }
     Through below = coat_through(m, up);
-    if (has_sheen(m))
-        return covered(m, sum, coat_on_part(view, sum, below.open, enters_along));
-    return covered(m, sum, coated_diffuse(view, lambert, up, in, &below));
+    return covered(m, sum, coated_diffuse(view, lambert, in, &below));
 }
 
 static Spectrum eval_view(const View *view, Vec3 wi, float *pdf)
@@ -1372,7 +1423,7 @@ static Spectrum model_albedo(const void *parameters, Vec3 wo)
     }
     if (!(m->clearcoat > 0)) return mixed;
     float    own = coat_albedo(m, wo) / m->clearcoat;
-    float    open = base_coat_mean(m).open;
+    float    open = coat_mean(m->coat, m->alpha, m->clearcoat_alpha).open;
     Spectrum coated = spectrum_all(own) + mixed * coat_turns(open, mixed) *
                       spectrum_all(1 - own);
     return covered(m, mixed, coated);

@@ -5,6 +5,13 @@
 #include "base/units.h"
 #include "shaders/bsdf.h"
 
+/* Points a side: of narrow lobes under a coat, which no two directions of a lobe pass alike, 48
+ * tell some 0.3 % amiss by themselves. */
+static inline int furnace_side(const MetallicRoughness *m)
+{
+    return m->clearcoat > 0 && m->alpha > 0 && m->alpha < 0.03f ? 144 : 48;
+}
+
 /* The samples run evenly, by a lattice, through u0 (the choices, and in each the turn) and
  * through sqrt(1 - u1) (facets that graze or lose their light crowd where u1 nears 1). */
 static inline double furnace_of(const MetallicRoughness *m, double theta_deg, double phi_deg,

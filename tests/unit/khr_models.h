@@ -14,7 +14,7 @@ static void add_brushed(void)
     m = add_model("brushed frosted sheet", 0, 0.1f, true);
     m->alpha_along = 0.3f;
     m->transmission = 1;
-    m = add_model("brushed half metal under lacquer", 0.5f, 0.1f, false);
+    m = add_model("brushed half metal under lacquer", 0.5f, 0.1f, true);
     m->alpha_along = 0.5f;
     m->clearcoat = 1;
     m = add_coated("coated brushed half metal", 0.5f, 0.1f, true, &plastic);
@@ -66,10 +66,23 @@ static void add_cloths(void)
     add_sheen("frosted sheet, sheen 0.7", 0, 0.3f, 0.7f, true)->transmission = 1;
     add_sheen("smooth sheet, sheen 0.7", 0, 0, 0.7f, true)->transmission = 0.8f;
     add_sheen("brushed plastic, sheen 0.7", 0, 0.1f, 0.7f, true)->alpha_along = 0.5f;
-    add_sheen("cloth under lacquer, sheen 0.7", 0, 0.5f, 0.7f, false)->clearcoat = 1;
-    MetallicRoughness *m = add_sheen("curtain, sheen 0.5", 0, 0.6f, 0.5f, true);
+    add_sheen("cloth under lacquer, sheen 0.7", 0, 0.5f, 0.7f, true)->clearcoat = 1;
+    MetallicRoughness *m = add_sheen("brushed filmed half metal, sheen 0.4, under lacquer",
+                                     0.5f, 0.2f, 0.4f, true);
+    m->alpha_along = 0.4f;
+    m->film = (ThinFilm){.share = 1, .ior = 1.8f, .thickness_nm = 350};
+    m->clearcoat = 0.7f;
+    m->clearcoat_alpha = 0.2f;
+    m = add_sheen("curtain, sheen 0.5", 0, 0.6f, 0.5f, true);
     m->across = 0.4f;
     m->across_color[0] = m->across_color[1] = m->across_color[2] = 1;
+    m = add_sheen("brushed curtain under tilted lacquer", 0.2f, 0.3f, 0.5f, false);
+    m->base_color = ramp(0.2f, 0.9f);
+    m->alpha_along = 0.6f;
+    m->across = 0.4f;
+    m->across_color[0] = 1;
+    m->clearcoat = 1;
+    m->clearcoat_normal = vec3_normalize(vec3(0.3f, -0.2f, 1));
     m = add_sheen("filmed half metal, sheen 0.6", 0.5f, 0.2f, 0.6f, true);
     m->film = (ThinFilm){.share = 0.5f, .ior = 1.8f, .thickness_nm = 350};
     m = add_sheen("red sheen on a dark cloth", 0.2f, 0.6f, 0.3f, false);

@@ -1,19 +1,23 @@
 /* Clear coat: what it holds back from the base comes out in the end. */
 #include "furnace_fixture.h"
+#include "layer_fixture.h"
 
+#include "shaders/coating_tables.h"
 #include "shaders/common_tables.h"
 #include "spectrum/fresnel.h"
 
 static Arena arena;
 static const EnergyTable *glass;
 static const CoatTable   *lacquer;
+static Wavelengths        wavelengths;
 
 static int make_tables(void **state)
 {
     (void)state;
-    arena = arena_reserve((size_t)1 << 28);
+    arena = arena_reserve((size_t)1 << 30);
     glass = energy_table_build(1.5f, &arena);
     lacquer = coat_table_build(glass, glass, &arena);
+    wavelengths_sample(0.4f, &wavelengths);
     return 0;
 }
 
@@ -73,6 +77,47 @@ TEST(a_coat_keeps_it_white_between_its_tables_rows)
         if (!(fabs(coated - 1) <= 2e-3))
             fail_msg("metal %g, alpha %g under a coat of %g, %g deg: %g", (double)m.metallic,
                      (double)m.alpha, (double)m.clearcoat_alpha, theta_deg, coated);
+    }
+}
+
+/* Brushing, sheen and film or coating under it, by three bits of `layers`. */
+static MetallicRoughness layered(int layers, float metallic, float alpha,
+                                 const SurfaceCoating *coating)
+{
+    MetallicRoughness m = metallic_roughness_default(glass);
+    m.metallic = metallic;
+    m.alpha = alpha;
+    m.clearcoat = 1;
+    m.clearcoat_energy = glass;
+    m.coat = lacquer;
+    m.wavelengths = &wavelengths;
+    if (layers & 1) m.alpha_along = 0.5f * (1 + alpha);
+    if (layers & 2) m.sheen_color[0] = m.sheen_color[1] = m.sheen_color[2] = 1;
+    if (layers & 2) m.sheen_alpha = 0.16f;
+    if (layers & 4 && metallic > 0)
+        m.film = (ThinFilm){.share = 1, .ior = 1.8f, .thickness_nm = 350};
+    else if (layers & 4)
+        m.coating = coating;
+    return m;
+}
+
+TEST(it_stays_white_over_all_layers_together)
+{
+    (void)state;
+    static const float  coats[] = {0, 0.1f, 0.5f}, alphas[] = {0.02f, 0.15f, 0.6f};
+    static const double thetas_deg[] = {20, 60, 75, 85};
+    const SurfaceCoating four = {.face = coating_of_face(stack_four(&arena), 1.5, &arena)};
+    for (int i = 0; i < 36; i++) {
+        int   layers = i % 8 ? i % 8 : 7;
+        float metallic = 0.5f * (float)(i % 3);
+        MetallicRoughness m = layered(layers, metallic, alphas[i / 3 % 3], &four);
+        m.clearcoat_alpha = coats[i / 9 % 3];
+        double theta_deg = thetas_deg[i % 4];
+        double sent = furnace_of(&m, theta_deg, 40 * i, furnace_side(&m));
+        if (!(fabs(sent - 1) <= 2e-3))
+            fail_msg("layers %d, metal %g, alpha %g under a coat of %g, %g deg: %g", layers,
+                     (double)metallic, (double)m.alpha, (double)m.clearcoat_alpha, theta_deg,
+                     sent);
     }
 }
 
