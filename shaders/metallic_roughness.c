@@ -999,29 +999,35 @@ static void set_film(View *view)
     view->coated = filmed_energy(view, view->wo);
 }
 
-static inline View view_from(const MetallicRoughness *m, Vec3 wo)
+/* Layers that a surface does not have leave their members as they were. */
+static void set_layers(View *view)
 {
-    View view;
-    view.m = m;
-    view.wo = wo;
-    view.boundary = boundary_of(m);
-    view.energy = base_energy(m, wo);
-    view.coat = coat_albedo(m, wo);
+    const MetallicRoughness *m = view->m;
     if (m->clearcoat > 0) {
-        view.through = coat_through(m, wo);
-        view.coat_mean = coat_mean(m->coat, m->alpha, m->clearcoat_alpha);
+        view->through = coat_through(m, view->wo);
+        view->coat_mean = coat_mean(m->coat, m->alpha, m->clearcoat_alpha);
     }
-    if (coated_face(m)) view.coated = coated_energy(m, wo);
-    if (has_film(m)) set_film(&view);
-    Choices choices = choose(&view);
+    if (coated_face(m)) view->coated = coated_energy(m, view->wo);
+    if (has_film(m)) set_film(view);
+}
+
+/* Filled where it stands: it is large, and a plain surface needs little of it. */
+static inline void set_view(View *view, const MetallicRoughness *m, Vec3 wo)
+{
+    view->m = m;
+    view->wo = wo;
+    view->boundary = boundary_of(m);
+    view->energy = base_energy(m, wo);
+    view->coat = coat_albedo(m, wo);
+    set_layers(view);
+    Choices choices = choose(view);
     if (has_sheen(m)) {
-        view.sheen = sheen_towards(m, wo);
-        view.sheen_mean = sheen_mean(&common_sheen_table, m->sheen_alpha, even_alpha(m));
-        choices = beside_sheen(&view, choices);
+        view->sheen = sheen_towards(m, wo);
+        view->sheen_mean = sheen_mean(&common_sheen_table, m->sheen_alpha, even_alpha(m));
+        choices = beside_sheen(view, choices);
     }
-    view.choices = scaled_to_one(choices);
-    if (is_covered(m)) set_covered(&view);
-    return view;
+    view->choices = scaled_to_one(choices);
+    if (is_covered(m)) set_covered(view);
 }
 
 /* A facet of the base met at `cosine`, as the light of both directions finds it: below NULL: no
@@ -1179,7 +1185,8 @@ static Spectrum model_eval(const void *parameters, Vec3 wo, Vec3 wi, float *pdf)
     const MetallicRoughness *m = parameters;
     *pdf = 0;
     if (!model_reaches(parameters, wo, wi)) return spectrum_all(0);
-    View view = view_from(m, wo);
+    View view;
+    set_view(&view, m, wo);
     return eval_view(&view, wi, pdf);
 }
 
@@ -1225,7 +1232,8 @@ static Spectrum model_mirror(const void *parameters, Vec3 wo)
     if (!(wo.z > 0)) return spectrum_all(0);
     Spectrum by_coat = spectrum_all(coat > 0 ? coat * coat_facet(wo.z) : 0);
     if (!is_smooth(m->alpha)) return by_coat;
-    View view = view_from(m, wo);
+    View view;
+    set_view(&view, m, wo);
     return by_coat + smooth_base(&view, vec3(-wo.x, -wo.y, wo.z));
 }
 
@@ -1235,7 +1243,8 @@ static Spectrum model_glint(const void *parameters, Vec3 wo, Vec3 wi)
     Through below;
     bool    is_glint = !is_smooth(m->alpha) && m->alpha <= GLINT_ALPHA && !is_brushed(m);
     if (!(wo.z > 0 && wi.z > 0 && is_glint)) return spectrum_all(0);
-    View view = view_from(m, wo);
+    View view;
+    set_view(&view, m, wo);
     if (m->clearcoat > 0) below = coat_through(m, wi);
     return facet_lobe(&view, wi, &below);
 }
@@ -1314,7 +1323,8 @@ static bool model_sample(const void *parameters, Vec3 wo, const float u[3], Bsdf
 {
     const MetallicRoughness *m = parameters;
     if (!(wo.z > 0)) return false;
-    View  view = view_from(m, wo);
+    View view;
+    set_view(&view, m, wo);
     float v[3] = {u[0], u[1], u[2]};
     Part  part = choose_part(&view.choices, &v[0]);
     if (part == PART_NONE) return false;
@@ -1364,7 +1374,8 @@ static void model_lobes(const void *parameters, Vec3 wo, BsdfLobes *lobes)
 {
     const MetallicRoughness *m = parameters;
     if (!(wo.z > 0) || m->across > 0) return;
-    View  view = view_from(m, wo);
+    View view;
+    set_view(&view, m, wo);
     float base = spectrum_mean(m->base_color), solid = 1 - m->metallic, under = 1 - view.coat;
     float f0, metal, face;
     lobe_shares(&view, &f0, &metal, &face);
@@ -1398,7 +1409,8 @@ static void albedo_parts(const MetallicRoughness *m, Vec3 wo, Spectrum *solid, S
                  coating_at(m->coating->sheet->through, m->wavelengths, wo.z) * base;
     if (coated_face(m)) in = one - coated_energy(m, wo);
     if (has_film(m)) {
-        View view = view_from(m, wo);
+        View view;
+        set_view(&view, m, wo);
         in = one - view.coated;
         sheet = sheet_reflectance(view.coated);
         *clear = sheet + (one - sheet) * base;
@@ -1512,7 +1524,8 @@ static bool model_polarise(const void *parameters, Vec3 wo, const BsdfSample *wa
     PolarisedParts parts = {spectrum_all(0), spectrum_all(0), spectrum_all(0), spectrum_all(0)};
     if (!(wo.z > 0)) return false;
     if (way->passes || way->wi.z < 0) return polarise_through(m, wo, out);
-    View view = view_from(m, wo);
+    View view;
+    set_view(&view, m, wo);
     if (way->is_delta) {
         polarise_smooth(&view, way->wi, &parts);
         *out = polarised_of(&parts, parts.share);
