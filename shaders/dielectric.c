@@ -479,6 +479,11 @@ static Spectrum over(Spectrum a, Spectrum b)
     return quotient;
 }
 
+static Spectrum indices(const Dielectric *d)
+{
+    return d->index ? curve_lookup(d->index, d->wavelengths) : spectrum_all(d->ior);
+}
+
 /* Brushed facets are taken for even ones of their mean roughness. */
 static float lost_alpha(const Dielectric *d)
 {
@@ -493,7 +498,7 @@ static void lost_lanes(const Dielectric *d, bool is_inside, float cosine, Lost *
     SolidLoss most = d->index ? solid_loss(d->energy_most, is_inside, cosine, lost_alpha(d)) : loss;
     Spectrum  t = spectrum_all(0);
     if (d->index)
-        t = (curve_lookup(d->index, d->wavelengths) - spectrum_all(d->energy->ior)) /
+        t = (indices(d) - spectrum_all(d->energy->ior)) /
             spectrum_all(d->energy_most->ior - d->energy->ior);
     lost->share = spectrum_all(loss.lost) + t * spectrum_all(most.lost - loss.lost);
     lost->mean = spectrum_all(loss.mean) + t * spectrum_all(most.mean - loss.mean);
@@ -506,23 +511,43 @@ typedef struct FacetChange {
     Spectrum passes; /* what all let through, over what bare ones do */
 } FacetChange;
 
+/* Where a facet is met that the light in the rarer medium meets at x. */
+static float met_from(float x, float eta)
+{
+    return eta >= 1 ? x : sqrtf(1 - (1 - x * x) * eta * eta);
+}
+
+/* Of glass that parts light, by its film. */
+static void change_lanes(const Dielectric *d, const Side *s, float x, FacetShares *out,
+                         Spectrum *bare)
+{
+    Spectrum n = indices(d);
+    Side     own = *s;
+    for (int i = 0; i < SPECTRUM_LANES; i++) {
+        own.eta = s->turned ? 1 / n[i] : n[i];
+        float cosine = met_from(x, own.eta);
+        out->reflected[i] = filmed_lane(d, &own, i, cosine);
+        (*bare)[i] = fresnel_unpolarised(cosine, own.eta);
+    }
+    out->through = spectrum_all(1) - out->reflected;
+}
+
 static FacetChange change_of(const Dielectric *d, bool is_inside)
 {
     Side        s = side_of(d, vec3(0, 0, is_inside ? -1 : 1), vec3(0, 0, 1));
     FacetChange change;
-    Spectrum    sum = spectrum_all(0);
-    float       bare = 0;
+    Spectrum    passes = spectrum_all(0), plain = passes, one = spectrum_all(1);
     for (int k = 0; k < LOBE_FACETS; k++) {
-        float x = facet_cosine[k], sine2 = (1 - x * x) * s.eta * s.eta;
-        float cosine = s.eta >= 1 ? x : sqrtf(1 - sine2);
-        float mirror = fresnel_unpolarised(cosine, s.eta);
+        float       cosine = met_from(facet_cosine[k], s.eta);
+        Spectrum    bare = spectrum_all(fresnel_unpolarised(cosine, s.eta));
         FacetShares shares = facet_shares(d, &s, cosine);
-        change.reflected[k] = shares.reflected - spectrum_all(mirror);
-        change.through[k] = shares.through - spectrum_all(1 - mirror);
-        sum += shares.through * spectrum_all(x);
-        bare += (1 - mirror) * x;
+        if (d->index) change_lanes(d, &s, facet_cosine[k], &shares, &bare);
+        change.reflected[k] = shares.reflected - bare;
+        change.through[k] = shares.through - (one - bare);
+        passes += shares.through * spectrum_all(facet_cosine[k]);
+        plain += (one - bare) * spectrum_all(facet_cosine[k]);
     }
-    change.passes = sum / spectrum_all(bare);
+    change.passes = passes / plain;
     return change;
 }
 
@@ -552,16 +577,16 @@ static void change_lost(const Dielectric *d, bool is_inside, float cosine, Lost 
     LostFacets  facets = solid_lost_facets(d->energy, is_inside, cosine, lost_alpha(d));
     lost->share = spectrum_clamp(lost->share + changed(&here, facets), 0, 1);
     lost->mean = changed_mean(d, is_inside, &here);
-    Spectrum ior2 = spectrum_all(d->ior * d->ior);
-    Spectrum outside = is_inside ? other : lost->mean, inside = is_inside ? lost->mean : other;
-    *flux = spectrum_min(*flux * here.passes, spectrum_min(outside, inside * ior2));
+    Spectrum n = indices(d), outside = is_inside ? other : lost->mean;
+    Spectrum inside = is_inside ? lost->mean : other;
+    *flux = spectrum_min(*flux * here.passes, spectrum_min(outside, inside * n * n));
 }
 
 /* cosine: to the normal, on the side inside the solid or outside. */
 static Lost lost_on(const Dielectric *d, bool is_inside, float cosine)
 {
     Lost     lost;
-    Spectrum flux, n = d->index ? curve_lookup(d->index, d->wavelengths) : spectrum_all(d->ior);
+    Spectrum flux, n = indices(d);
     lost_lanes(d, is_inside, cosine, &lost, &flux);
     if (d->coating || has_film(d)) change_lost(d, is_inside, cosine, &lost, &flux);
     lost.across = over(is_inside ? over(flux, n * n) : flux, lost.mean);
@@ -590,12 +615,8 @@ static void add_lost(const Dielectric *d, const Side *s, Spectrum *value, float 
     LostChance chance = lost_chance(d, &from);
     Spectrum way = goes_across ? from.across * d->tint : spectrum_all(1) - from.across;
     Spectrum spread = over(from.share * way * to.share, to.mean) * spectrum_all(INV_PI_F);
-    if (goes_across && d->index) {
-        Spectrum n = curve_lookup(d->index, d->wavelengths);
-        spread = s->turned ? spread * n * n : over(spread, n * n);
-    } else if (goes_across) {
-        spread = over(spread, spectrum_all(s->eta * s->eta));
-    }
+    Spectrum n = indices(d), n2 = n * n;
+    if (goes_across) spread = s->turned ? spread * n2 : over(spread, n2);
     *value += spread;
     *pdf = lerpf(*pdf, (goes_across ? chance.across : 1 - chance.across) * fabsf(s->wi.z) *
                            INV_PI_F, chance.any);
