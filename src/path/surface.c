@@ -383,6 +383,34 @@ static void set_window(const Site *site, Surface *surface)
     window->wavelengths = site->wavelengths;
 }
 
+/* How the shading normal grows along the frame's x and y: over a triangle both it, but for its
+ * length, and the place are linear. A flat pane's stays exactly 0. */
+static void set_bend(const Site *site, const Surface *surface, GlazedWindow *model)
+{
+    const Scene *scene = site->scene;
+    const Vec3  *normals = scene_part(scene, site->hit->triangle)->normals;
+    const Frame *frame = &surface->frame;
+    Vec3 p[3], n[3];
+    if (!normals) return;
+    for (int i = 0; i < 3; i++) {
+        p[i] = scene_corner(scene, site->hit->triangle, i);
+        n[i] = normals[scene_corner_place(scene, site->hit->triangle, i)];
+    }
+    Vec3  n1 = vec3_sub(n[1], n[0]), n2 = vec3_sub(n[2], n[0]);
+    Vec3  p1 = vec3_sub(p[1], p[0]), p2 = vec3_sub(p[2], p[0]), across = vec3_cross(p1, p2);
+    Vec3  sum = vec3_along(vec3_along(n[0], n1, site->hit->u), n2, site->hit->v);
+    float over = vec3_dot(across, across) * vec3_dot(sum, frame->z);
+    if (over == 0) return;
+    for (int i = 0; i < 2; i++) {
+        Vec3  axis = i ? frame->y : frame->x;
+        float u = vec3_dot(vec3_cross(axis, p2), across);
+        float v = vec3_dot(vec3_cross(p1, axis), across);
+        Vec3  growth = vec3_along(vec3_scale(n1, u / over), n2, v / over);
+        model->bend[i][0] = vec3_dot(growth, frame->x);
+        model->bend[i][1] = vec3_dot(growth, frame->y);
+    }
+}
+
 static void set_glazing(const Site *site, Surface *surface)
 {
     const Glazing *pane = site->material->glazing;
@@ -396,6 +424,7 @@ static void set_glazing(const Site *site, Surface *surface)
         model->coating = coating->pane;
         model->wavelengths = site->wavelengths;
     }
+    set_bend(site, surface, model);
     for (int i = 0; i < 2; i++) {
         if (pane->wedge[i] == 0) continue;
         Vec3 axis = texture_axis(site->scene, site->hit->triangle, i == 1);

@@ -56,6 +56,10 @@ static void add_glass(void)
     add_glazing("clear laminated", 1, 0, 0);
     add_glazing("dirty", 0.9f, 0.3f, 0.4f);
     add_glazing("dusty with a wedge", 0.9f, 0.02f, 0.05f)->slope[1] = 3e-4f;
+    GlazedWindow *curved = add_glazing("curved laminated", 1, 0, 0);
+    curved->bend[0][0] = 0.4f;
+    curved->bend[0][1] = curved->bend[1][0] = -0.2f;
+    curved->slope[0] = -2e-4f;
     add_dielectric("smooth glass", 1.5f, 0);
     add_dielectric("nearly smooth glass", 1.5f, 0.02f);
     add_dielectric("frosted glass", 1.5f, 0.3f);
