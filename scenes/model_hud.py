@@ -115,11 +115,12 @@ def report(optics):
         moved.append(60 * (optics.on_picture(eye, unit(target - eye)) - seen) / per_degree)
     moved = np.hypot(*np.moveaxis(np.array(moved), -1, 0))
     image, glass = optics.ghost(), optics.wedge()
+    beside, _ = optics.ghost(glass)
     print(f"angle at the windscreen {optics.incidence:.2f} degrees; s on the picture "
           f"{optics.s_azimuth:.2f} degrees; swimming of the picture: middle "
           f"{moved[:, 1, 2].max():.2f}, median {np.median(moved):.1f}, at the corners "
           f"{moved.max():.1f} minutes; ghost without a wedge {image[0]:.2f}, {image[1]:.2f} "
-          f"minutes; wedge {1e3 * glass:.3f} mrad")
+          f"minutes; wedge {1e3 * glass:.3f} mrad, which leaves {beside:.2f} minutes sideways")
 
 
 def main():

@@ -45,6 +45,13 @@ def mirrored(way, normal):
     return way - 2 * dot(way, normal) * normal
 
 
+def refracted(way, normal, eta):
+    """eta: the index of refraction before the face over that behind it."""
+    cosine = dot(way, normal)
+    inside = np.sqrt(1 - eta**2 * (1 - cosine**2))
+    return eta * way + (np.copysign(inside, cosine) - eta * cosine) * normal
+
+
 def meet(surface, origin, way, start):
     """(a, b) where rays meet surface(a, b), by Newton's method from `start`."""
     origin, way = np.broadcast_arrays(np.asarray(origin, float), np.asarray(way, float))
@@ -120,36 +127,38 @@ class Optics:
 
     def _on_picture_plane(self, eye, way, ghost=None):
         """Where a sight from the eye ends. ghost: a wedge, rad, for the image of the glass's
-        far face; the pane is taken as flat where it is met, as the renderer takes it."""
+        far face."""
         u, v = meet(self.surface, eye, way, self.start)
-        glass, normal = self.surface(u, v), -self.normal(u, v)
-        back = mirrored(way, normal)
+        glass, back = self.surface(u, v), mirrored(way, self.normal(u, v))
         if ghost is not None:
-            glass = glass + self._beside(back, normal)
-            back = self._turned(u, v, way, normal, ghost)
+            glass, back = self._by_far_face(u, v, way, ghost)
         a, b = meet(self.mirror, glass, back, (u, v))
         last = mirrored(back, self.mirror_normal(a, b))
         point = self.mirror(a, b)
         return point + last * (dot(self.picture - point, self.facing) / dot(last, self.facing))
 
-    @staticmethod
-    def _beside(back, normal):
-        """By how far a ghost's ray leaves the glass beside the image's: 2 d tan t' a layer."""
-        cosine = dot(back, normal)
-        flat = back - cosine * normal
-        sine2 = 1 - cosine**2
-        return flat * sum(2 * d / np.sqrt(n * n - sine2) for d, n in GLASS)
+    def _by_far_face(self, u, v, way, wedge):
+        """(place, direction) of a sight that went through the glass to its far face and back,
+        refracted by each layer's face on its way. Faces are parallel to the inner one; the
+        middle layer grows thicker towards the roof, from its thickness at (u, v)."""
+        h = 1e-4
+        rise = (self.surface(u, v + h) - self.surface(u, v - h)) / (2 * h)  # m for v of 1
+        place, index = self.surface(u, v), [1.0] + [n for _, n in GLASS]
+        for face in (0, 1, 2, 3, 2, 1, 0):
+            depth, grows = sum(d for d, _ in GLASS[:face]), wedge if face > 1 else 0.0
 
-    def _turned(self, u, v, way, normal, wedge):
-        """A ghost's direction: glass that grows thicker towards the roof mirrors behind."""
-        h, n = 1e-4, GLASS[1][1]
-        up = unit(self.surface(u, v + h) - self.surface(u, v - h))
-        far = unit(normal + wedge * up)
-        flat = way - dot(way, normal) * normal
-        inside = flat / n - normal * np.sqrt(1 - dot(flat, flat) / n**2)
-        inside = mirrored(inside, far)
-        flat = n * (inside - dot(inside, normal) * normal)
-        return flat + normal * np.sqrt(1 - dot(flat, flat))
+            def surface(a, b, depth=depth, grows=grows * np.linalg.norm(rise, axis=-1)):
+                return (self.surface(a, b) +
+                        (depth + grows * (b - v))[..., None] * self.normal(a, b))
+            a, b = meet(surface, place, way, (u, v))
+            place, normal = surface(a, b), unit(self.normal(a, b) - grows * unit(rise))
+            if face == 3:
+                way = mirrored(way, normal)
+            else:
+                inwards = dot(way, normal) > 0
+                before, after = index[face:face + 2]
+                way = refracted(way, normal, np.where(inwards, before / after, after / before))
+        return place, way
 
     def on_picture(self, eye, way, ghost=None):
         """(right, up) in metres on the picture of what an eye sees in a direction."""

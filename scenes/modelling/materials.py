@@ -39,7 +39,7 @@ def layer(millimetres, ior, **more):
     return dict(thickness_m=round(millimetres * 1e-3, 10), ior=ior, **more)
 
 
-WEDGE = 0.00053  # rad; hud_optics.py asks for it
+WEDGE = 0.00041  # rad; hud_optics.py asks for it
 # Two sheets of light green glass and PVB, growing thicker towards the roof (glTF's -v) for the
 # head-up display of model_hud.py: its figure. Front outside.
 GREEN = "../assets/spectra/glass_green.csv"
