@@ -374,13 +374,16 @@ static void energy_rows(const CoatingTable *front, int alpha_row, int count, Cur
     }
 }
 
-static const CoatingEnergy *energy_of(const CoatingTable *front, Arena *arena)
+static const CoatingEnergy *energy_of(const CoatingTable *front, AlphaSpan alphas,
+                                      Arena *arena)
 {
+    int first = energy_alpha_knot(alphas.least, COATING_PER_OCTAVE).low;
+    int last = energy_alpha_knot(alphas.most, COATING_PER_OCTAVE).low + 1;
     int count = front->count < COATING_ENERGY_COSINES_MAX ? front->count :
                                                             COATING_ENERGY_COSINES_MAX;
     CoatingEnergy *energy = ARENA_NEW(arena, CoatingEnergy, 1);
     Curve         *row = ARENA_NEW(arena, Curve, COATING_ALPHAS * count);
-    for (int a = 0; a < COATING_ALPHAS; a++) {
+    for (int a = first; a <= last; a++) {
         energy_rows(front, a, count, row + a * count);
         mean_of(row + a * count, count, &energy->average[a]);
     }
@@ -389,10 +392,11 @@ static const CoatingEnergy *energy_of(const CoatingTable *front, Arena *arena)
     return energy;
 }
 
-const CoatingTables *coating_of_face(const LayerStack *stack, double ior, Arena *arena)
+const CoatingTables *coating_of_face(const LayerStack *stack, double ior, AlphaSpan alphas,
+                                     Arena *arena)
 {
     CoatingTables *out =
         tables_of(&(CoatedBody){.stack = stack, .ior = ior}, front_row, 1, arena);
-    out->energy = energy_of(out->front, arena);
+    out->energy = energy_of(out->front, alphas, arena);
     return out;
 }

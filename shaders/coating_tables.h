@@ -5,7 +5,7 @@
  *
  * stack: NULL is a bare boundary in air. ior: absolute index of glass or plastic, 1 or more.
  * Memory   from the arena (coating.h).  Threads  any.  Fails  never. A table takes some tens of
- *          milliseconds, energies a fifth of a second.
+ *          milliseconds, energies of every alpha a fifth of a second.
  */
 #pragma once
 #include "shaders/coating.h"
@@ -21,8 +21,17 @@ const CoatingTables *coating_of_sheet(const LayerStack *stack, double ior, Arena
 const CoatingTables *coating_of_metal(const LayerStack *stack, const OpticalConstants *metal,
                                       Arena *arena);
 
-/* The boundary of an opaque body seen from outside: front alone, with its energies. */
-const CoatingTables *coating_of_face(const LayerStack *stack, double ior, Arena *arena);
+/* The alphas that a boundary is asked for, in [0, 1]. */
+typedef struct AlphaSpan {
+    float least, most;
+} AlphaSpan;
+
+#define ALPHA_ALL (AlphaSpan){0, 1}
+
+/* The boundary of an opaque body seen from outside: front alone, with its energies of `alphas`;
+ * of others they are 0 and must not be asked for. */
+const CoatingTables *coating_of_face(const LayerStack *stack, double ior, AlphaSpan alphas,
+                                     Arena *arena);
 
 /* The boundary of a metal or, where that is NULL, of a body of index ior: polarised light. */
 const CoatingWaves *coating_waves(const LayerStack *stack, double ior,

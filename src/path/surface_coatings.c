@@ -44,9 +44,19 @@ static bool same_metal(const OpticalConstants *a, const OpticalConstants *b)
     return a == b || (a && b && memcmp(a, b, sizeof *a) == 0);
 }
 
+/* A texture scales the roughness by any share. */
+static AlphaSpan alphas_of(const Material *m)
+{
+    float most = m->roughness * m->roughness;
+    bool  varies = m->metallic_roughness_texture.texture_id != NO_ID;
+    return (AlphaSpan){varies ? 0 : most, most};
+}
+
 static bool is_alike(const Material *a, const Material *b)
 {
     CoatingNeeds x = needs_of(a), y = needs_of(b);
+    AlphaSpan v = alphas_of(a), w = alphas_of(b);
+    if (x.face && (v.least != w.least || v.most != w.most)) return false;
     return !x.pane && memcmp(&x, &y, sizeof x) == 0 && a->ior == b->ior &&
            same_stack(a->coating, b->coating) && same_metal(a->conductor, b->conductor);
 }
@@ -64,7 +74,7 @@ static SurfaceCoating *tables_for(const Material *m, CoatingNeeds needs, Arena *
     SurfaceCoating *out = ARENA_NEW(arena, SurfaceCoating, 1);
     double ior = (double)m->ior;
     if (needs.metal) out->metal = coating_of_metal(m->coating, m->conductor, arena);
-    if (needs.face) out->face = coating_of_face(m->coating, ior, arena);
+    if (needs.face) out->face = coating_of_face(m->coating, ior, alphas_of(m), arena);
     if (needs.sheet) out->sheet = coating_of_sheet(m->coating, ior, arena);
     if (needs.solid) out->solid = coating_of_solid(m->coating, ior, arena);
     if (needs.pane) out->pane = coating_of_pane(m->glazing, arena);

@@ -298,7 +298,7 @@ TEST(coated_white_keeps_the_furnace_white)
     const OpticalConstants *ideal = constants_of(0, 4, &arena);
     for (int i = 0; i < 3; i++) {
         SurfaceCoating coating = {.metal = coating_of_metal(stacks[i], ideal, &arena)};
-        if (i < 2) coating.face = coating_of_face(stacks[i], 1.5, &arena);
+        if (i < 2) coating.face = coating_of_face(stacks[i], 1.5, ALPHA_ALL, &arena);
         for (int a = 0; a < 8; a++)
             for (int metallic = i == 2; metallic < 2; metallic++) {
                 bool is_narrow = alphas[a] > 0 && alphas[a] < 0.03f;
@@ -306,6 +306,27 @@ TEST(coated_white_keeps_the_furnace_white)
                 check_furnace(&bsdf, metallic ? "metal" : "plastic", alphas[a],
                               is_narrow ? 144 : 48);
             }
+    }
+}
+
+TEST(energies_of_few_alphas_are_those_of_all)
+{
+    (void)state;
+    static const AlphaSpan spans[] = {{0, 0}, {0.055f, 0.055f}, {0.1f, 0.4f}, {1, 1}};
+    const LayerStack *four = stack_four(&arena);
+    const CoatingEnergy *all = coating_of_face(four, 1.5, ALPHA_ALL, &arena)->energy;
+    for (int i = 0; i < 4; i++) {
+        const CoatingEnergy *few = coating_of_face(four, 1.5, spans[i], &arena)->energy;
+        for (int k = 0; k < 21; k++) {
+            float alpha = lerpf(spans[i].least, spans[i].most, (float)k / 20);
+            float cosine = (float)k / 20;
+            Spectrum a = coating_energy_at(all, &wavelengths, cosine, alpha);
+            Spectrum b = coating_energy_at(few, &wavelengths, cosine, alpha);
+            assert_memory_equal(&a, &b, sizeof a);
+            a = coating_energy_average(all, &wavelengths, alpha);
+            b = coating_energy_average(few, &wavelengths, alpha);
+            assert_memory_equal(&a, &b, sizeof a);
+        }
     }
 }
 

@@ -153,7 +153,7 @@ static void add_coated_surfaces(void)
     mirror_metal.metal = coating_of_metal(four, ideal, &arena);
     silver_metal.metal = coating_of_metal(NULL, real, &arena);
     plastic.metal = mirror_metal.metal;
-    plastic.face = coating_of_face(four, 1.5, &arena);
+    plastic.face = coating_of_face(four, 1.5, ALPHA_ALL, &arena);
     frosted.sheet = coating_of_sheet(four, 1.52, &arena);
     add_coated("ideal metal, coated, alpha 0.5", 1, 0.5f, true, &mirror_metal);
     add_coated("ideal metal, coated, alpha 0.05", 1, 0.05f, true, &mirror_metal);
