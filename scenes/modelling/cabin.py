@@ -62,7 +62,7 @@ def doors():
             rows = np.array([door_profile(points, y, sign, count) for y in ys])
             grid(f"door {part} {side}", rows, material, flip=(sign < 0))
         strip = [door_profile([(0.7385, 0.910), (0.7380, 0.9095)], y, sign, 2)[0] for y in ys]
-        tube(f"door strip {side}", strip, 0.0045, "satin chrome", 8)
+        tube(f"door strip {side}", strip, 0.0045, "brushed aluminium", 10)
         seam = np.array([(sign * 0.7455, y, 1.0405) for y in np.linspace(1.0, 0.15, 90)])
         stitches(f"door seam {side}", seam, np.tile((-0.3 * sign, 0, 1), (90, 1)), "thread")
         door_fittings(side, sign)
@@ -183,7 +183,7 @@ def console():
         outline,
         round_section(0.005, 0.006, 10),
         deck @ Matrix.Translation((0, 0, 0.002)),
-        "satin chrome",
+        "brushed aluminium",
     )
     selector()
     cup_holders()
@@ -229,7 +229,7 @@ def selector():
         "start button",
         [(0.017, -0.004), (0.017, 0.003), (0.0155, 0.0045), (0.0145, 0.0035), (0.0005, 0.003)],
         start,
-        "satin chrome",
+        "cross-brushed aluminium",
         40,
     )
     for i in range(3):
@@ -250,7 +250,7 @@ def cup_holders():
                 (0.0365, -0.001),
             ],
             at,
-            "satin chrome",
+            "cross-brushed aluminium",
             48,
         )
         lathe(f"cup holder {i}", [(0.037, 0.0006), (0.0005, 0.0006)], at, "gap", 32)

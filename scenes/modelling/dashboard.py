@@ -217,7 +217,11 @@ def trim_band():
         ("lower", (0.7490, 0.9195), 0.0042),
     ):
         tube(
-            f"trim strip {name}", along(point, (-0.748, 0.748), 90), radius, "satin chrome", 10
+            f"trim strip {name}",
+            along(point, (-0.748, 0.748), 90),
+            radius,
+            "brushed aluminium",
+            12,
         )
     tube(
         "ambient light guide",
@@ -343,7 +347,7 @@ def cluster():
         rounded_rectangle(0.322, 0.142, 0.022),
         0.012,
         front,
-        "cover glass",
+        "cover glass etched",
         0.001,
     )
     display_quad("cluster", CLUSTER_SIZE, CLUSTER_FRAME)
@@ -367,7 +371,11 @@ def centre_display():
     plate("centre display glass", outline, 0.0035, glass, "cover glass", 0.0011, 3)
     rim = CENTRE_FRAME @ Matrix.Translation((0, 0, -0.0055))
     frame_ring(
-        "centre display rim", outline, round_section(0.0030, 0.0080, 12), rim, "satin chrome"
+        "centre display rim",
+        outline,
+        round_section(0.0030, 0.0080, 12),
+        rim,
+        "brushed aluminium",
     )
     back = CENTRE_FRAME @ Matrix.Translation((0, 0, -0.0035))
     plate(
@@ -479,7 +487,11 @@ def centre_stack():
     holed_plate("centre stack fascia", outline, inner, stack_face((0, 0, 0.0035)))
     edge = stack_face((0, 0, -0.004))
     frame_ring(
-        "centre stack trim", outline, round_section(0.0045, 0.012, 12), edge, "satin chrome"
+        "centre stack trim",
+        outline,
+        round_section(0.0045, 0.012, 12),
+        edge,
+        "brushed aluminium",
     )
     block = frame_matrix((CENTRE_X, 0.79, 0.85), (1, 0, 0), (0, 0.2, 1))
     box("centre stack body", (0.35, 0.125, 0.10), block, "plastic dark", 0.006)
@@ -569,7 +581,7 @@ def knob(name, matrix, radius, height):
         rings.append(
             np.column_stack([k * np.cos(a), k * np.sin(a), np.full(sides, h * height)])
         )
-    grid(name, place(np.array(rings), matrix), "satin chrome", closed=True)
+    grid(name, place(np.array(rings), matrix), "cross-brushed aluminium", closed=True)
     lathe(
         f"{name} cap",
         [

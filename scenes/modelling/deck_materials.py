@@ -1,6 +1,14 @@
 """The flight deck's materials, beside the car's: painted metal panels, moulded plastics, an
 anti-glare coaming, engraved legends that glow faintly, glass of the windscreens."""
-from materials import MATERIALS, TILE, grey, layer, surface
+from materials import (
+    ALUMINIUM,
+    GROOVES_ALONG_U,
+    MATERIALS,
+    TILE,
+    grey,
+    layer,
+    surface,
+)
 
 TILE.update(
     {
@@ -50,7 +58,9 @@ DECK = {
     "window black": grey(0.014, 0.16, ior=1.5),
     "fastener": surface((0.30, 0.30, 0.305), 0.42, 0.8),
     "steel": surface((0.60, 0.60, 0.61), 0.30, 1.0),
-    "lever": surface((0.66, 0.665, 0.67), 0.34, 1.0),
+    "lever": surface(
+        (0.912, 0.914, 0.920), 0.28, 1.0, conductor=ALUMINIUM, brushed=GROOVES_ALONG_U
+    ),
     "guard red": surface((0.42, 0.028, 0.022), 0.42, ior=1.5),
     "paper": grey(0.58, 0.85),
     "ink": grey(0.035, 0.8),

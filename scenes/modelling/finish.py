@@ -6,6 +6,7 @@ import bpy
 
 from materials import MATERIALS, TILE
 from shapes import apply_modifiers, box_project
+from tangents import add_tangents
 
 GENERATOR = "model_car.py of Parhelion, with Blender's glTF exporter"
 LINEAR_REPEAT = {"magFilter": 9729, "minFilter": 9987, "wrapS": 10497, "wrapT": 10497}
@@ -24,7 +25,7 @@ def scale_coordinates(item):
 
 def needs_coordinates(item):
     entry = MATERIALS[item.data.materials[0].name]
-    return bool(item.get("keep_uv") or {"texture", "normal", "glazing"} & set(entry))
+    return bool(item.get("keep_uv") or {"texture", "normal", "glazing", "brushed"} & set(entry))
 
 
 def finish_meshes():
@@ -121,6 +122,24 @@ def material_json(name, textures, used):
             "clearcoatFactor": factor,
             "clearcoatRoughnessFactor": roughness,
         }
+    if "specular" in entry:
+        extensions["KHR_materials_specular"] = {"specularFactor": entry["specular"]}
+    if "sheen" in entry:
+        color, roughness = entry["sheen"]
+        extensions["KHR_materials_sheen"] = {
+            "sheenColorFactor": list(color),
+            "sheenRoughnessFactor": roughness,
+        }
+    if "conductor" in entry:
+        extensions["PARHELION_spectrum"] = {"conductor": entry["conductor"]}
+    if "brushed" in entry:
+        strength, rotation = entry["brushed"]
+        extensions["KHR_materials_anisotropy"] = {
+            "anisotropyStrength": strength,
+            "anisotropyRotation": rotation,
+        }
+    if "coating" in entry:
+        extensions["PARHELION_coating"] = entry["coating"]
     if entry.get("glass"):
         extensions["KHR_materials_transmission"] = {"transmissionFactor": 1.0}
     if "glazing" in entry:
@@ -170,6 +189,7 @@ def patch(path, environment=None, used=()):
         gltf["extensionsUsed"] = sorted(used)
     gltf.pop("extensionsRequired", None)
     round_numbers(gltf)
+    add_tangents(gltf, path, {name for name, m in MATERIALS.items() if "brushed" in m})
     with open(path, "w", encoding="utf-8") as file:
         json.dump(gltf, file, indent=1, ensure_ascii=False)
         file.write("\n")

@@ -3,6 +3,8 @@
 Colours are linear Rec.709 reflectances. TILE says how many metres one tile of a material's
 textures covers.
 """
+import math
+
 TILE = {
     "leather black": 0.10,
     "leather cognac": 0.10,
@@ -53,6 +55,16 @@ WINDSCREEN = dict(
 )
 
 
+# A sol of silica: one quarter wave of n 1.44 at 550 nm.
+SILICA = dict(layers=[dict(n=1.44, thickness_nm=95.5)])
+ALUMINIUM = "../assets/coatings/aluminium.csv"
+CHROMIUM = "../assets/coatings/chromium.csv"
+# KHR_materials_anisotropy of belt-brushed metal: strength, and the turn from u of the direction
+# in which highlights grow, which is across the grooves. Tubes have v along them, turned parts u
+# around them, flat ones u to the right.
+GROOVES_ALONG_V, GROOVES_ALONG_U = (0.65, 0.0), (0.65, round(math.pi / 2, 7))
+
+
 MATERIALS = {
     # cabin, soft
     "leather black": surface(
@@ -72,7 +84,9 @@ MATERIALS = {
     "pillar fabric": surface(
         (1, 1, 1), 0.95, texture="fabric_color", normal=("fabric_normal", 0.7)
     ),
-    "alcantara grey": surface((1, 1, 1), 1.0, texture="suede_color"),
+    "alcantara grey": surface(
+        (1, 1, 1), 1.0, texture="suede_color", sheen=((0.12, 0.12, 0.12), 0.4)
+    ),
     "speaker cloth": surface((0.024, 0.024, 0.025), 0.7, normal=("perforated_normal", 1.0)),
     "carpet": surface((0.030, 0.030, 0.032), 1.0, normal=("fabric_normal", 1.0)),
     # cabin, hard
@@ -81,14 +95,23 @@ MATERIALS = {
     ),
     "plastic dark": surface((0.028, 0.028, 0.030), 0.42, ior=1.5),
     "gap": grey(0.010, 0.9),
-    "piano black": grey(0.012, 0.30, clearcoat=(1.0, 0.03)),
-    "cover glass": grey(0.008, 0.06, ior=1.52),
+    # a black pigment in the lacquer: between the two nothing reflects
+    "piano black": grey(0.003, 0.9, specular=0.0, clearcoat=(1.0, 0.03)),
+    # the panes around the displays' pictures, black behind, coated as the panels were measured:
+    # 1.5 % of a mirror at the normal, and 2.4 %, etched
+    "cover glass": grey(0.004, 0.03, ior=1.52, coating=dict(stack="mgf2")),
+    "cover glass etched": grey(0.004, 0.235, ior=1.52, coating=SILICA),
     "walnut open pore": surface(
         (1, 1, 1), 0.42, texture="wood_color", normal=("wood_normal", 0.6)
     ),
-    "satin chrome": surface((0.70, 0.70, 0.71), 0.32, 1.0),
-    "bright chrome": surface((0.74, 0.74, 0.75), 0.24, 1.0),
-    "brushed aluminium": surface((0.78, 0.785, 0.79), 0.32, 1.0),
+    "satin chrome": surface((0.56, 0.555, 0.555), 0.30, 1.0, conductor=CHROMIUM),
+    "bright chrome": surface((0.56, 0.555, 0.555), 0.16, 1.0, conductor=CHROMIUM),
+    "brushed aluminium": surface(
+        (0.912, 0.914, 0.920), 0.26, 1.0, conductor=ALUMINIUM, brushed=GROOVES_ALONG_V
+    ),
+    "cross-brushed aluminium": surface(
+        (0.912, 0.914, 0.920), 0.26, 1.0, conductor=ALUMINIUM, brushed=GROOVES_ALONG_U
+    ),
     "button": surface((0.034, 0.034, 0.036), 0.45),
     "symbol white": grey(0.72, 0.6),
     "symbol red": surface((0.55, 0.03, 0.02), 0.5),

@@ -143,7 +143,7 @@ def spokes():
         np.array([(-0.019, -0.040), (0.019, -0.040), (0.024, 0.036), (-0.024, 0.036)]),
         0.004,
         slot,
-        "satin chrome",
+        "cross-brushed aluminium",
         0.0015,
         3,
     )
@@ -172,7 +172,7 @@ def switch_pod(side, sign):
         outline,
         round_section(0.0032, 0.005, 10),
         at @ Matrix.Translation((0, 0, -0.0008)),
-        "satin chrome",
+        "bright chrome",
     )
     keys = []
     for x, y, w, h in (
@@ -217,7 +217,7 @@ def switch_pod(side, sign):
             (0.0004, 0.0052),
         ],
         roller,
-        "satin chrome",
+        "cross-brushed aluminium",
         28,
     )
 
@@ -233,7 +233,7 @@ def paddle(side, sign):
         rounded_rectangle(0.030, 0.070, 0.010, 6),
         0.004,
         at,
-        "satin chrome",
+        "cross-brushed aluminium",
         0.0015,
         3,
     )
