@@ -105,7 +105,7 @@ MATERIALS = {
         (1, 1, 1), 0.42, texture="wood_color", normal=("wood_normal", 0.6)
     ),
     "satin chrome": surface((0.56, 0.555, 0.555), 0.30, 1.0, conductor=CHROMIUM),
-    "bright chrome": surface((0.56, 0.555, 0.555), 0.16, 1.0, conductor=CHROMIUM),
+    "bright chrome": surface((0.56, 0.555, 0.555), 0.20, 1.0, conductor=CHROMIUM),
     "brushed aluminium": surface(
         (0.912, 0.914, 0.920), 0.26, 1.0, conductor=ALUMINIUM, brushed=GROOVES_ALONG_V
     ),
