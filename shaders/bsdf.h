@@ -11,6 +11,7 @@
 #pragma once
 #include "shaders/bsdf_model.h"
 #include "shaders/dielectric.h"
+#include "shaders/thin_window.h"
 #include "shaders/display.h"
 #include "shaders/glazing.h"
 #include "shaders/metallic_roughness.h"

@@ -9,7 +9,7 @@
  * Threads  const once built.
  */
 #pragma once
-#include "shaders/energy.h"
+#include "shaders/facets/energy.h"
 #include "spectrum/curve.h"
 
 typedef struct CoatingTable {

@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-#include "shaders/microfacet.h"
+#include "shaders/facets/microfacet.h"
 #include "spectrum/spectrum.h"
 
 /* Points of a lobe, and of all lobes; they are followed a vector of 16 at a time, in a Spectrum

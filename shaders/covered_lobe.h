@@ -16,8 +16,8 @@
 #pragma once
 #include <stdbool.h>
 
-#include "shaders/energy.h"
-#include "shaders/lobe_facets.h"
+#include "shaders/facets/energy.h"
+#include "shaders/facets/lobe_facets.h"
 
 /* What lies over the facets, by the cosine (energy_cosine_knot). */
 typedef struct Cover {

@@ -1,4 +1,4 @@
-/* dielectric.h -- clear glass: a thin window, and the boundary of a solid.
+/* dielectric.h -- clear glass and plastic: the boundary of a solid.
  *
  * The user page is on top of dielectric.c. Frame and units: bsdf.h.
  */
@@ -6,20 +6,7 @@
 #include "shaders/bsdf_model.h"
 #include "shaders/clear_film.h"
 #include "shaders/coating.h"
-#include "shaders/solid_energy.h"
-
-/* A smooth sheet with two parallel faces: a mirror image, and light straight through. */
-typedef struct ThinWindow {
-    Spectrum tint; /* [0, 1]: what the sheet's body lets through, at this angle */
-    float    ior;  /* 1 or more */
-    /* Of a coated sheet, seen from wo's side; NULL: bare. The tint multiplies. */
-    const CoatingTable *reflectance, *transmittance;
-    const Wavelengths  *wavelengths; /* NULL where it is bare */
-} ThinWindow;
-
-Spectrum thin_window_reflectance(const ThinWindow *window, float cosine);
-Spectrum thin_window_transmittance(const ThinWindow *window, float cosine); /* tint included */
-extern const BsdfModel thin_window_model;
+#include "shaders/facets/solid_energy.h"
 
 /* Where a solid ends. The frame's +z is the outside: wo.z < 0 is an eye inside the solid. */
 typedef struct Dielectric {

@@ -81,9 +81,9 @@
 
 #include "base/units.h"
 #include "spectrum/fresnel.h"
-#include "shaders/brushed.h"
+#include "shaders/facets/brushed.h"
 #include "shaders/covered_lobe.h"
-#include "shaders/lobe_facets.h"
+#include "shaders/facets/lobe_facets.h"
 #include "shaders/polarisation.h"
 #include "shaders/sheen.h"
 

@@ -4,7 +4,7 @@
  */
 #pragma once
 #include "shaders/bsdf_model.h"
-#include "shaders/coat.h"
+#include "shaders/facets/coat.h"
 #include "shaders/coating.h"
 #include "shaders/clear_film.h"
 

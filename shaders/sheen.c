@@ -1,7 +1,7 @@
 #include "shaders/sheen.h"
 
 #include "base/units.h"
-#include "shaders/energy.h"
+#include "shaders/facets/energy.h"
 
 /* The fit of Estevez and Kulla for alpha 1 and 0; between them it goes by (1 - alpha)^2. */
 static const float FIT[5][2] = {{21.5473f, 25.3245f}, {3.82987f, 3.32435f},

@@ -2,7 +2,7 @@
 
 #include <stddef.h>
 
-#include "shaders/brushed.h"
+#include "shaders/facets/brushed.h"
 
 /* Points of the midpoint rule over the unit square of facets; as energy.c they crowd where the
  * facets lie that send light below the horizon. */

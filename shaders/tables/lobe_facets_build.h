@@ -5,6 +5,6 @@
  */
 #pragma once
 #include "base/arena.h"
-#include "shaders/lobe_facets.h"
+#include "shaders/facets/lobe_facets.h"
 
 const FacetTable *facet_table_build(Arena *arena);

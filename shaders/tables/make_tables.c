@@ -2,8 +2,8 @@
  * lobe_facets.h and sheen.h promise. The build runs it once; each number is written exactly. */
 #include <stdio.h>
 
-#include "shaders/common_tables.h"
-#include "shaders/index_tables.h"
+#include "shaders/facets/common_tables.h"
+#include "shaders/facets/index_tables.h"
 #include "shaders/tables/lobe_facets_build.h"
 #include "shaders/metallic_roughness.h"
 #include "shaders/tables/sheen_build.h"
@@ -59,9 +59,9 @@ int main(int count, char **names)
     Arena              arena = arena_reserve((size_t)1 << 28);
     const EnergyTable *energy = energy_table_build(CLEARCOAT_IOR, &arena);
     const CoatTable   *coat = coat_table_build(energy, energy, &arena);
-    fprintf(file, "#include \"shaders/common_tables.h\"\n"
-                  "#include \"shaders/index_tables.h\"\n"
-                  "#include \"shaders/lobe_facets.h\"\n"
+    fprintf(file, "#include \"shaders/facets/common_tables.h\"\n"
+                  "#include \"shaders/facets/index_tables.h\"\n"
+                  "#include \"shaders/facets/lobe_facets.h\"\n"
                   "#include \"shaders/sheen.h\"\n");
     write_table(file, "EnergyTable common_energy_table", energy, sizeof *energy);
     write_table(file, "CoatTable common_coat_table", coat, sizeof *coat);

@@ -1,7 +1,7 @@
 #include "shaders/tables/sheen_build.h"
 
 #include "base/units.h"
-#include "shaders/coat.h"
+#include "shaders/facets/coat.h"
 
 #define HEIGHTS 160 /* of directions, evenly in sqrt(cosine) */
 #define TURNS 48    /* over half a turn */

@@ -5,7 +5,7 @@
  * Threads  pure.  Fails  never.
  */
 #pragma once
-#include "shaders/energy.h"
+#include "shaders/facets/energy.h"
 #include "shaders/sheen.h"
 
 const SheenTable *sheen_table_build(const EnergyTable *energy, Arena *arena);

@@ -3,7 +3,7 @@
 #include "base/mathf.h"
 #include "base/units.h"
 #include "panel/query/panel_place.h"
-#include "shaders/microfacet.h"
+#include "shaders/facets/microfacet.h"
 
 #define STACK 64          /* the tree halves: no scene is as deep */
 

@@ -4,7 +4,7 @@
 
 #include "base/mathf.h"
 #include "mirror/mirrors_build.h"
-#include "shaders/microfacet.h"
+#include "shaders/facets/microfacet.h"
 #include "spectrum/photometry.h"
 
 #define LEAST_RAYS 8       /* to every mirror, and by its area in all of theirs */

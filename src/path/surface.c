@@ -2,9 +2,9 @@
 
 #include "light/coverage.h"
 #include "path/surface_coatings.h"
-#include "shaders/common_tables.h"
-#include "shaders/index_tables.h"
-#include "shaders/microfacet.h"
+#include "shaders/facets/common_tables.h"
+#include "shaders/facets/index_tables.h"
+#include "shaders/facets/microfacet.h"
 #include "shaders/sheen.h"
 
 /* A shading normal is bent until the eye is above its plane by this much. */

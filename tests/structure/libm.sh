@@ -11,7 +11,7 @@ for name in base text spectrum hemisphere hemisphere_vertex hemisphere_tree \
     hemisphere_sampling sky image panel_query panel_set panel_fit_common \
     panel_fit_emission panel_fit_reflection panel_fit import_set vision review \
     review_request review_symbol import_text import_scatter import_luminaire import scene bvh \
-    light camera path film kernel render shaders; do
+    light camera path film kernel render shaders_facets shaders; do
     library=$build/lib$name.a
     [ -e "$library" ] || { echo "FAILED no $library"; failed=$((failed + 1)); continue; }
     # The pictures that people look at are developed elsewhere: exposure and false colours.

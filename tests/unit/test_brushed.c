@@ -2,8 +2,8 @@
 #include "furnace_fixture.h"
 
 #include "base/units.h"
-#include "shaders/brushed.h"
-#include "shaders/common_tables.h"
+#include "shaders/facets/brushed.h"
+#include "shaders/facets/common_tables.h"
 
 /* ---- the lobe --------------------------------------------------------------------------- */
 

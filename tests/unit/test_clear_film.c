@@ -2,7 +2,7 @@
  * reflection, energy. */
 #include "furnace_fixture.h"
 
-#include "shaders/common_tables.h"
+#include "shaders/facets/common_tables.h"
 
 static Wavelengths wavelengths;
 

@@ -3,7 +3,7 @@
 #include "layer_fixture.h"
 
 #include "shaders/coating_tables.h"
-#include "shaders/common_tables.h"
+#include "shaders/facets/common_tables.h"
 #include "spectrum/fresnel.h"
 
 static Arena arena;
@@ -106,7 +106,8 @@ TEST(it_stays_white_over_all_layers_together)
     (void)state;
     static const float  coats[] = {0, 0.1f, 0.5f}, alphas[] = {0.02f, 0.15f, 0.6f};
     static const double thetas_deg[] = {20, 60, 75, 85};
-    const SurfaceCoating four = {.face = coating_of_face(stack_four(&arena), 1.5, &arena)};
+    const SurfaceCoating four = {.face = coating_of_face(stack_four(&arena), 1.5, ALPHA_ALL,
+                                                            &arena)};
     for (int i = 0; i < 36; i++) {
         int   layers = i % 8 ? i % 8 : 7;
         float metallic = 0.5f * (float)(i % 3);

@@ -7,7 +7,7 @@
 #include "base/units.h"
 #include "shaders/bsdf.h"
 #include "shaders/coating_tables.h"
-#include "shaders/common_tables.h"
+#include "shaders/facets/common_tables.h"
 #include "spectrum/fresnel.h"
 
 static Arena       arena;

@@ -1,8 +1,8 @@
 /* Tables of any index of refraction against those that are computed in full. */
 #include "check.h"
 
-#include "shaders/common_tables.h"
-#include "shaders/index_tables.h"
+#include "shaders/facets/common_tables.h"
+#include "shaders/facets/index_tables.h"
 
 static Arena arena;
 

@@ -6,7 +6,7 @@
 #include "base/units.h"
 #include "shaders/bsdf.h"
 #include "spectrum/fresnel.h"
-#include "shaders/microfacet.h"
+#include "shaders/facets/microfacet.h"
 
 static Arena arena;
 static const EnergyTable *glass;

@@ -6,7 +6,7 @@
 #include "panel/query/panel_open.h"
 #include "shaders/bsdf.h"
 #include "shaders/coating_tables.h"
-#include "shaders/microfacet.h"
+#include "shaders/facets/microfacet.h"
 
 static Arena arena;
 static const EnergyTable *glass, *diamond, *perfect, *nothing;

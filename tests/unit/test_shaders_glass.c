@@ -4,7 +4,7 @@
 
 #include "base/arena.h"
 #include "shaders/coating_tables.h"
-#include "shaders/microfacet.h"
+#include "shaders/facets/microfacet.h"
 #include "spectrum/dispersion.h"
 
 static Arena       arena;

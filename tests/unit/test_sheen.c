@@ -1,7 +1,7 @@
 /* Sheen: the extension's formula, its albedo, and what cloth under it returns. */
 #include "furnace_fixture.h"
 
-#include "shaders/common_tables.h"
+#include "shaders/facets/common_tables.h"
 #include "shaders/sheen.h"
 
 static Wavelengths wavelengths;

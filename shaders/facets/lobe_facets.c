@@ -1,7 +1,7 @@
-#include "shaders/lobe_facets.h"
+#include "shaders/facets/lobe_facets.h"
 
-#include "shaders/energy.h"
-#include "shaders/microfacet.h"
+#include "shaders/facets/energy.h"
+#include "shaders/facets/microfacet.h"
 
 const float facet_cosine[LOBE_FACETS] = {0.00960736f, 0.08426519f, 0.22221488f, 0.40245484f,
                                          0.59754516f, 0.77778512f, 0.91573481f, 0.99039264f};

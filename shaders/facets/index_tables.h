@@ -9,7 +9,7 @@
  * Fails    never.
  */
 #pragma once
-#include "shaders/energy.h"
+#include "shaders/facets/energy.h"
 
 #define INDEX_NODES 15
 

@@ -1,6 +1,6 @@
-#include "shaders/index_tables.h"
+#include "shaders/facets/index_tables.h"
 
-#include "shaders/common_tables.h"
+#include "shaders/facets/common_tables.h"
 
 #define STENCIL 4
 

@@ -1,7 +1,7 @@
-#include "shaders/energy.h"
+#include "shaders/facets/energy.h"
 
 #include "spectrum/fresnel.h"
-#include "shaders/microfacet.h"
+#include "shaders/facets/microfacet.h"
 
 /* Points of the midpoint rule over the unit square of facets; half the turn is enough. They
  * crowd where u1 nears 1: the facets that send light below the horizon lie there. */

@@ -5,7 +5,7 @@
  * give them, and stand in it as constants.
  */
 #pragma once
-#include "shaders/coat.h"
+#include "shaders/facets/coat.h"
 
 extern const EnergyTable common_energy_table; /* of CLEARCOAT_IOR */
 extern const CoatTable   common_coat_table;   /* of a lacquer on a base of that index */

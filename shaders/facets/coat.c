@@ -1,8 +1,8 @@
-#include "shaders/coat.h"
+#include "shaders/facets/coat.h"
 
 #include <string.h>
 
-#include "shaders/microfacet.h"
+#include "shaders/facets/microfacet.h"
 #include "spectrum/fresnel.h"
 
 #define ROUNDS 24 /* of the scaling; it converges by about a digit in three */

@@ -12,8 +12,8 @@
  * Fails    never. A row of one alpha takes some milliseconds, all of them a third of a second.
  */
 #pragma once
-#include "shaders/energy.h"
-#include "shaders/lobe_facets.h"
+#include "shaders/facets/energy.h"
+#include "shaders/facets/lobe_facets.h"
 
 /* A reflectance other than bare glass's enters as the polynomial through its values at
  * facet_cosine (lobe_facets.h), cosines in the medium of the smaller index. Per unit of a
@@ -41,15 +41,15 @@ const SolidEnergy *solid_energy_build(float ior, float least, float most, bool h
                                       Arena *arena);
 
 /* Of one side at one alpha. */
-typedef struct SolidLoss {
+typedef struct SolidLost {
     float lost; /* of light from that cosine, [0, 1] */
     float mean; /* 0: nothing is lost */
     float flux; /* what goes across from outside, times that side's mean */
-} SolidLoss;
+} SolidLost;
 
 /* The facets of that loss and of its mean. The table must have them. */
 LostFacets solid_lost_facets(const SolidEnergy *energy, bool is_inside, float cosine,
                              float alpha);
 LostFacets solid_mean_facets(const SolidEnergy *energy, bool is_inside, float alpha);
 
-SolidLoss solid_loss(const SolidEnergy *energy, bool is_inside, float cosine, float alpha);
+SolidLost solid_lost(const SolidEnergy *energy, bool is_inside, float cosine, float alpha);

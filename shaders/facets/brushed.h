@@ -7,7 +7,7 @@
  * Threads  pure functions.
  */
 #pragma once
-#include "shaders/microfacet.h"
+#include "shaders/facets/microfacet.h"
 
 /* D G2 / (4 |wo.z| |wi.z|), as ggx_reflection. */
 float brushed_reflection(Vec3 wo, Vec3 wi, Vec3 half, Vec2 alpha);

@@ -13,7 +13,7 @@
  * Threads  const once built.
  */
 #pragma once
-#include "shaders/energy.h"
+#include "shaders/facets/energy.h"
 #include "spectrum/spectrum.h"
 
 #define COAT_PER_OCTAVE 3 /* rows of alpha; octaves and cosines are energy.h's */

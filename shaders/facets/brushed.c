@@ -1,4 +1,4 @@
-#include "shaders/brushed.h"
+#include "shaders/facets/brushed.h"
 
 #include "base/units.h"
 

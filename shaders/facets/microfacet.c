@@ -1,4 +1,4 @@
-#include "shaders/microfacet.h"
+#include "shaders/facets/microfacet.h"
 
 #include "base/units.h"
 

@@ -1,6 +1,6 @@
-#include "shaders/solid_energy.h"
+#include "shaders/facets/solid_energy.h"
 
-#include "shaders/microfacet.h"
+#include "shaders/facets/microfacet.h"
 #include "spectrum/fresnel.h"
 
 /* A Fibonacci lattice over the unit square of visible facets; half the turn is enough. Heights
@@ -147,13 +147,13 @@ static const SolidSide *side_of(const SolidEnergy *energy, bool is_inside)
     return is_inside ? &energy->inside : &energy->outside;
 }
 
-SolidLoss solid_loss(const SolidEnergy *energy, bool is_inside, float cosine, float alpha)
+SolidLost solid_lost(const SolidEnergy *energy, bool is_inside, float cosine, float alpha)
 {
     const SolidSide *side = side_of(energy, is_inside);
     EnergyKnot   a = energy_alpha_knot(alpha, ENERGY_PER_OCTAVE);
     EnergyKnot   c = energy_cosine_knot(cosine);
     const float *below = side->lost[a.low] + c.low, *above = below + ENERGY_COSINES;
-    return (SolidLoss){lerpf(lerpf(below[0], below[1], c.t), lerpf(above[0], above[1], c.t),
+    return (SolidLost){lerpf(lerpf(below[0], below[1], c.t), lerpf(above[0], above[1], c.t),
                              a.t),
                        lerpf(side->mean[a.low], side->mean[a.low + 1], a.t),
                        lerpf(energy->flux[a.low], energy->flux[a.low + 1], a.t)};

@@ -1,0 +1,172 @@
+#include "shaders/solid_loss.h"
+
+#include "base/units.h"
+#include "spectrum/fresnel.h"
+#include "shaders/facets/microfacet.h"
+
+typedef struct Lost {
+    Spectrum share; /* of light from a direction */
+    Spectrum mean, across;
+} Lost;
+
+static Spectrum over(Spectrum a, Spectrum b)
+{
+    Spectrum quotient;
+    for (int i = 0; i < SPECTRUM_LANES; i++) quotient[i] = b[i] > 0 ? a[i] / b[i] : 0;
+    return quotient;
+}
+
+static Spectrum indices(const Dielectric *d)
+{
+    return d->index ? curve_lookup(d->index, d->wavelengths) : spectrum_all(d->ior);
+}
+
+/* Brushed facets are taken for even ones of their mean roughness. */
+static float lost_alpha(const Dielectric *d)
+{
+    return solid_is_brushed(d) ? sqrtf(d->alpha * d->alpha_along) : d->alpha;
+}
+
+/* Of bare facets. */
+static void lost_lanes(const Dielectric *d, bool is_inside, float cosine, Lost *lost,
+                       Spectrum *flux)
+{
+    SolidLost loss = solid_lost(d->energy, is_inside, cosine, lost_alpha(d));
+    SolidLost most = d->index ? solid_lost(d->energy_most, is_inside, cosine, lost_alpha(d)) : loss;
+    Spectrum  t = spectrum_all(0);
+    if (d->index)
+        t = (indices(d) - spectrum_all(d->energy->ior)) /
+            spectrum_all(d->energy_most->ior - d->energy->ior);
+    lost->share = spectrum_all(loss.lost) + t * spectrum_all(most.lost - loss.lost);
+    lost->mean = spectrum_all(loss.mean) + t * spectrum_all(most.mean - loss.mean);
+    *flux = spectrum_all(loss.flux) + t * spectrum_all(most.flux - loss.flux);
+}
+
+/* By how much facets at facet_cosine differ from bare ones, seen from one side. */
+typedef struct FacetChange {
+    Spectrum reflected[LOBE_FACETS], through[LOBE_FACETS];
+    Spectrum passes; /* what all let through, over what bare ones do */
+} FacetChange;
+
+/* Where a facet is met that the light in the rarer medium meets at x. */
+static float met_from(float x, float eta)
+{
+    return eta >= 1 ? x : sqrtf(1 - (1 - x * x) * eta * eta);
+}
+
+/* Of glass that parts light, by its film. */
+static void change_lanes(const Dielectric *d, const SolidRay *s, float x, FacetShares *out,
+                         Spectrum *bare)
+{
+    Spectrum n = indices(d);
+    SolidRay     own = *s;
+    for (int i = 0; i < SPECTRUM_LANES; i++) {
+        own.eta = s->turned ? 1 / n[i] : n[i];
+        float cosine = met_from(x, own.eta);
+        out->reflected[i] = solid_filmed_lane(d, &own, i, cosine);
+        (*bare)[i] = fresnel_unpolarised(cosine, own.eta);
+    }
+    out->through = spectrum_all(1) - out->reflected;
+}
+
+static FacetChange change_of(const Dielectric *d, bool is_inside)
+{
+    SolidRay        s = solid_ray(d, vec3(0, 0, is_inside ? -1 : 1), vec3(0, 0, 1));
+    FacetChange change;
+    Spectrum    passes = spectrum_all(0), plain = passes, one = spectrum_all(1);
+    for (int k = 0; k < LOBE_FACETS; k++) {
+        float       cosine = met_from(facet_cosine[k], s.eta);
+        Spectrum    bare = spectrum_all(fresnel_unpolarised(cosine, s.eta));
+        FacetShares shares = solid_facet(d, &s, cosine);
+        if (d->index) change_lanes(d, &s, facet_cosine[k], &shares, &bare);
+        change.reflected[k] = shares.reflected - bare;
+        change.through[k] = shares.through - (one - bare);
+        passes += shares.through * spectrum_all(facet_cosine[k]);
+        plain += (one - bare) * spectrum_all(facet_cosine[k]);
+    }
+    change.passes = passes / plain;
+    return change;
+}
+
+static Spectrum changed(const FacetChange *by, LostFacets facets)
+{
+    Spectrum sum = spectrum_all(0);
+    for (int k = 0; k < LOBE_FACETS; k++)
+        sum += by->reflected[k] * spectrum_all(facets.reflected[k]) +
+               by->through[k] * spectrum_all(facets.through[k]);
+    return sum;
+}
+
+static Spectrum changed_mean(const Dielectric *d, bool is_inside, const FacetChange *by)
+{
+    SolidLost bare = solid_lost(d->energy, is_inside, 1, lost_alpha(d));
+    Spectrum  mean = spectrum_all(bare.mean) +
+                     changed(by, solid_mean_facets(d->energy, is_inside, lost_alpha(d)));
+    return spectrum_max(mean, spectrum_all(0));
+}
+
+/* Of a boundary that is not bare. Neither side can let more across than it loses. */
+static void change_lost(const Dielectric *d, bool is_inside, float cosine, Lost *lost,
+                        Spectrum *flux)
+{
+    FacetChange here = change_of(d, is_inside), beyond = change_of(d, !is_inside);
+    Spectrum    other = changed_mean(d, !is_inside, &beyond);
+    LostFacets  facets = solid_lost_facets(d->energy, is_inside, cosine, lost_alpha(d));
+    lost->share = spectrum_clamp(lost->share + changed(&here, facets), 0, 1);
+    lost->mean = changed_mean(d, is_inside, &here);
+    Spectrum n = indices(d), outside = is_inside ? other : lost->mean;
+    Spectrum inside = is_inside ? lost->mean : other;
+    *flux = spectrum_min(*flux * here.passes, spectrum_min(outside, inside * n * n));
+}
+
+/* cosine: to the normal, on the side inside the solid or outside. */
+static Lost lost_on(const Dielectric *d, bool is_inside, float cosine)
+{
+    Lost     lost;
+    Spectrum flux, n = indices(d);
+    lost_lanes(d, is_inside, cosine, &lost, &flux);
+    if (d->coating || solid_has_film(d)) change_lost(d, is_inside, cosine, &lost, &flux);
+    lost.across = over(is_inside ? over(flux, n * n) : flux, lost.mean);
+    return lost;
+}
+
+/* What of it is chosen, and of that what goes across. */
+typedef struct LostChance {
+    float any, across;
+} LostChance;
+
+static LostChance lost_chance(const Dielectric *d, const Lost *lost)
+{
+    float across = spectrum_mean(lost->across * d->tint);
+    float back = spectrum_mean(spectrum_all(1) - lost->across);
+    if (!(across + back > 0)) return (LostChance){0, 0};
+    return (LostChance){spectrum_mean(lost->share), across / (across + back)};
+}
+
+void solid_loss_add(const Dielectric *d, const SolidRay *s, Spectrum *value, float *pdf)
+{
+    bool goes_across = s->wi.z < 0;
+    Lost from = lost_on(d, s->turned, s->wo.z);
+    Lost to = lost_on(d, s->turned != goes_across, fabsf(s->wi.z));
+    LostChance chance = lost_chance(d, &from);
+    Spectrum way = goes_across ? from.across * d->tint : spectrum_all(1) - from.across;
+    Spectrum spread = over(from.share * way * to.share, to.mean) * spectrum_all(INV_PI_F);
+    Spectrum n = indices(d), n2 = n * n;
+    if (goes_across) spread = s->turned ? spread * n2 : over(spread, n2);
+    *value += spread;
+    *pdf = lerpf(*pdf, (goes_across ? chance.across : 1 - chance.across) * fabsf(s->wi.z) *
+                           INV_PI_F, chance.any);
+}
+
+bool solid_loss_sample(const Dielectric *d, SolidRay *s, float u[3])
+{
+    Lost       lost = lost_on(d, s->turned, s->wo.z);
+    LostChance chance = lost_chance(d, &lost);
+    if (u[2] >= chance.any) {
+        u[2] = fminf((u[2] - chance.any) / (1 - chance.any), 0x1.fffffep-1f);
+        return false;
+    }
+    s->wi = microfacet_cosine(u[0], u[1]);
+    if (u[2] < chance.any * chance.across) s->wi.z = -s->wi.z;
+    return true;
+}
