@@ -312,7 +312,8 @@ TEST(a_curve_file_may_have_comments_and_a_header)
     static Curve curve;
     Error        err;
     const char  *path = in_folder("curve.csv");
-    write_text(path, "\xef\xbb\xbf# glass\nnm,transmittance\n\n400,0.5\r\n500 ; 0.75\n600\t0.25");
+    write_text(path, "\xef\xbb\xbf# glass\nnm,transmittance\n\n400,0.5\r\n500 ; 0.75\n"
+                     "600\t0.25");
     assert_true(curve_read(path, &curve, &err));
     remove(path);
     assert_close(curve.value[0], 0.5, 1e-6);

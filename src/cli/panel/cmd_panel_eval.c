@@ -148,8 +148,8 @@ static bool check_request(const EvalRequest *request, const Cli *cli, Error *err
 static bool run_eval(int argc, char **argv, Arena *arena, Error *err)
 {
     Cli     cli;
-    EvalRequest r = {.question = {.rgb = {255, 255, 255}, .incidence_phi = 180, .at = {NAN, NAN}},
-                     .quantity = 1, .level = -1};
+    EvalRequest r = {.question = {.rgb = {255, 255, 255}, .incidence_phi = 180,
+                                  .at = {NAN, NAN}}, .quantity = 1, .level = -1};
     PanelQuestion *q = &r.question;
     const Option   options[] = {
         {"--theta", OPTION_NUMBER, "DEG", "angle from the normal, degrees", &q->theta, 0, 90, 0,

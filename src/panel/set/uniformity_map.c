@@ -98,7 +98,8 @@ static bool read_exr(MapFile *file, Arena *arena, Error *err)
     bool ok = check_size(file, data->x1 - data->x0, data->y1 - data->y0, err) &&
               exr_planes(file, &exr, "", &file->white, err) &&
               exr_planes(file, &exr, "black.", &file->black, err);
-    if (ok && file->white.channels && !exr_reader_read(reader, exr.plane, err)) ok = error_in_file(err, file->path);
+    if (ok && file->white.channels && !exr_reader_read(reader, exr.plane, err))
+        ok = error_in_file(err, file->path);
     exr_reader_destroy(reader);
     return ok;
 }
