@@ -58,6 +58,7 @@ if run_one 'release build, warnings are errors' build-release build release all;
         python3 tests/image/legibility.py .build/release/parhelion
     start 'laminated panes' glazing python3 tests/image/glazing.py .build/release/parhelion
     start 'curved panes' curved python3 tests/image/curved_pane.py .build/release/parhelion
+    start 'sub-pixels' subpixels python3 tests/image/subpixels.py .build/release/parhelion
     start 'polarised light' polarised \
         python3 tests/image/polarised.py .build/release/parhelion
     start 'paper and opal' translucent python3 tests/image/translucent.py \

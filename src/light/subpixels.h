@@ -1,4 +1,5 @@
-/* subpixels.h -- a display's sub-pixels, as an eye sees them that comes close.
+/* subpixels.h -- a display's sub-pixels, as an eye sees them that comes close: the scene's, or
+ * the panel's where the scene says nothing.
  *
  * Stripe   red, green and blue stand side by side, left to right as someone facing the display
  *          sees them, in a third of the pixel each; the open areas are alike in shape.
@@ -33,7 +34,7 @@ typedef struct CloseView {
     const TrianglePoint *point;
     uint32_t             triangle;
     Vec3                 local; /* to the eye: unit, display_frame's */
-    Vec3                 across[2]; /* local, m: what lies between two neighbouring pixels of the
+    Vec3                 across[2]; /* local, m: what lies between neighbouring pixels of the
                                        frame, in two directions; along the ray nothing counts.
                                        0: it is no frame's ray, NaN: not known */
 } CloseView;

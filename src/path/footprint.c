@@ -4,10 +4,10 @@
 /* A shading normal that was bent towards the eye says nothing of those beside it. */
 #define LEAST_AGREEMENT 0.9999f
 
-Footprint footprint_of_cone(RayCone cone, Vec3 direction)
+RayFootprint footprint_of_cone(RayCone cone, Vec3 direction)
 {
     Frame     frame = frame_from_z(direction);
-    Footprint out;
+    RayFootprint out;
     for (int i = 0; i < 2; i++) {
         Vec3 axis = i ? frame.y : frame.x;
         out.place[i] = vec3_scale(axis, cone.width);
@@ -16,7 +16,7 @@ Footprint footprint_of_cone(RayCone cone, Vec3 direction)
     return out;
 }
 
-void footprint_across(const Footprint *footprint, float distance, const Frame *frame,
+void footprint_across(const RayFootprint *footprint, float distance, const Frame *frame,
                       Vec3 across[2])
 {
     for (int i = 0; i < 2; i++)
@@ -27,12 +27,12 @@ void footprint_across(const Footprint *footprint, float distance, const Frame *f
 /* ---- a surface's normals ----------------------------------------------------------------- */
 
 /* A triangle's edges from corner 0, and its normal, as long as twice the area. */
-typedef struct Edges {
+typedef struct CornerEdges {
     Vec3 e1, e2, n;
-} Edges;
+} CornerEdges;
 
 /* Barycentric weights of corners 1 and 2 of a vector in the plane. */
-static Vec2 weights_of(const Edges *edges, Vec3 along)
+static Vec2 weights_of(const CornerEdges *edges, Vec3 along)
 {
     float square = vec3_dot(edges->n, edges->n);
     return (Vec2){vec3_dot(vec3_cross(along, edges->e2), edges->n) / square,
@@ -57,7 +57,7 @@ static void normal_changes(const Scene *scene, const Surface *surface, const Vec
     Vec3  grows[2] = {vec3_sub(normals[scene_corner_place(scene, t, 1)], first),
                       vec3_sub(normals[scene_corner_place(scene, t, 2)], first)};
     Vec3  p = scene_corner(scene, t, 0), ns = surface->point.ns;
-    Edges edges = {vec3_sub(scene_corner(scene, t, 1), p),
+    CornerEdges edges = {vec3_sub(scene_corner(scene, t, 1), p),
                    vec3_sub(scene_corner(scene, t, 2), p), vec3(0, 0, 0)};
     edges.n = vec3_cross(edges.e1, edges.e2);
     Vec2  at = weights_of(&edges, vec3_sub(surface->position, p));
@@ -72,13 +72,13 @@ static void normal_changes(const Scene *scene, const Surface *surface, const Vec
 /* ---- what turns a ray -------------------------------------------------------------------- */
 
 /* A boundary that a ray meets along d; n faces it. */
-typedef struct Boundary {
+typedef struct MetBoundary {
     Vec3  d, n;
     float cosine; /* d . n, below 0 */
-} Boundary;
+} MetBoundary;
 
 /* r = d - 2 (d . n) n */
-static Vec3 mirrored_change(const Boundary *b, Vec3 way, Vec3 normal)
+static Vec3 mirrored_change(const MetBoundary *b, Vec3 way, Vec3 normal)
 {
     float turned = vec3_dot(way, b->n) + vec3_dot(b->d, normal);
     return vec3_along(vec3_along(way, normal, -2 * b->cosine), b->n, -2 * turned);
@@ -86,7 +86,7 @@ static Vec3 mirrored_change(const Boundary *b, Vec3 way, Vec3 normal)
 
 /* t = eta d - mu n with mu = eta (d . n) - (t . n), eta the index before over that behind. NaN
  * where the mean index would reflect all, and a wavelength's own does not. */
-static Vec3 refracted_change(const Boundary *b, float eta, Vec3 way, Vec3 normal)
+static Vec3 refracted_change(const MetBoundary *b, float eta, Vec3 way, Vec3 normal)
 {
     float behind = -sqrtf(1 - eta * eta * (1 - b->cosine * b->cosine));
     float mu = eta * b->cosine - behind;
@@ -112,16 +112,16 @@ static float index_ratio(const Surface *surface, Vec3 wo)
     return vec3_dot(wo, surface->frame.z) > 0 ? 1 / ior : ior;
 }
 
-bool footprint_turn(Footprint *footprint, const Scene *scene, const Surface *surface, Vec3 wo,
-                    const BsdfSample *next, float distance)
+bool footprint_turn(RayFootprint *footprint, const Scene *scene, const Surface *surface,
+                    Vec3 wo, const BsdfSample *next, float distance)
 {
-    Boundary b = {vec3_neg(wo), surface->frame.z, -vec3_dot(wo, surface->frame.z)};
+    MetBoundary b = {vec3_neg(wo), surface->frame.z, -vec3_dot(wo, surface->frame.z)};
     Vec3     changes[2];
     bool     is_mirrored = next->wi.z * -b.cosine > 0;
     float    sign = vec3_dot(b.n, surface->point.ns) < 0 ? -1.0f : 1.0f;
     if (!next->is_delta || !has_smooth_normals(scene, surface)) return false;
     if (b.cosine > 0) {
-        b = (Boundary){b.d, vec3_neg(b.n), -b.cosine};
+        b = (MetBoundary){b.d, vec3_neg(b.n), -b.cosine};
         sign = -sign;
     }
     for (int i = 0; i < 2; i++) { /* along the ray to the triangle's plane */

@@ -5,8 +5,8 @@
  * right angles. Exact to first order, curved boundaries included: there the normal changes over
  * a triangle as that between its corners' does.
  *
- * Left out: what the thickness of a pane moves an image by (it is the same for all rays nearby),
- * and of glass that parts light how far its index differs from the mean one.
+ * Left out: what the thickness of a pane moves an image by (as good as the same for all rays
+ * nearby), and of glass that parts light how far its index differs from the mean one.
  *
  * Frame    world, m.
  * Threads  plain values. HOT: no allocation, no libm.
@@ -14,20 +14,20 @@
 #pragma once
 #include "path/surface.h"
 
-typedef struct Footprint {
+typedef struct RayFootprint {
     Vec3 place[2]; /* m, at the ray's origin; what lies along the ray does not count */
     Vec3 way[2];   /* of the unit direction, across it */
-} Footprint;
+} RayFootprint;
 
 /* Of a camera's ray. */
-Footprint footprint_of_cone(RayCone cone, Vec3 direction);
+RayFootprint footprint_of_cone(RayCone cone, Vec3 direction);
 
 /* The place's changes at so many m along the ray, in the axes of a frame. */
-void footprint_across(const Footprint *footprint, float distance, const Frame *frame,
+void footprint_across(const RayFootprint *footprint, float distance, const Frame *frame,
                       Vec3 across[2]);
 
 /* At a surface that the ray meets after `distance` m, coming from wo, and leaves by `next`
  * (local). False: it scatters there, or a texture bends its normal, and nothing is known any
  * more. */
-bool footprint_turn(Footprint *footprint, const Scene *scene, const Surface *surface, Vec3 wo,
-                    const BsdfSample *next, float distance);
+bool footprint_turn(RayFootprint *footprint, const Scene *scene, const Surface *surface,
+                    Vec3 wo, const BsdfSample *next, float distance);

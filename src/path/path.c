@@ -84,7 +84,7 @@ typedef struct PathWalk {
     Panes     *panes;     /* the last shadow ray's go here; NULL: nobody asks */
     Polarised *polarised; /* how light must be polarised to count; NULL: all the same */
     float    *stokes;     /* what analysers find goes here; NULL: nobody asks */
-    Footprint *footprint; /* what a frame's pixel covers; NULL: not known, or nobody asks */
+    RayFootprint *footprint; /* what a frame's pixel covers; NULL: not known or not asked */
 } PathWalk;
 
 /* What a walk needs room for besides. */
@@ -93,7 +93,7 @@ typedef struct WalkRoom {
     Lead       leads[2];
     Polarised  polarised;
     Panes      panes;
-    Footprint  footprint;
+    RayFootprint footprint;
 } WalkRoom;
 
 /* The next numbers asked for are those of this purpose, at the surface met last. */
@@ -1080,7 +1080,7 @@ static void add_sheet(PathWalk *walk, const Surface *surface, const Hit *hit, Ve
     SheetStack rest;
     PathTale   tale;
     Polarised  polarised;
-    Footprint  footprint;
+    RayFootprint footprint;
     if (walk->stack->count) rest = *walk->stack;
     else sheets_none(&rest);
     sheet.stack = &rest;

@@ -59,7 +59,7 @@ static void subpixels_of_content(const PathContext *context, const SeenDisplay *
     CloseView   close = {.scene = context->scene, .display = view->display,
                          .point = view->point, .triangle = view->path->first.triangle,
                          .local = view->direction};
-    Footprint   footprint = footprint_of_cone(context->cone, view->path->direction);
+    RayFootprint footprint = footprint_of_cone(context->cone, view->path->direction);
     footprint_across(&footprint, view->path->first.t, &view->frame, close.across);
     subpixels_seen(&close, &mix);
     for (int j = 0; j < 3; j++) xyz[j] = 0;

@@ -190,8 +190,8 @@ def check_traits(report, commands, panel):
             ("polarisation", {"degree": 2, "azimuth_deg": 0}, "/polarisation/degree", "0 to 1"),
             ("subpixels", {"layout": "delta"}, "/subpixels/layout", '"stripe" or "pentile"')):
         write_json(path, {**manifest, key: wrong})
-        fails(report, commands.run("fit", path, "-o", panel, "--quiet"), 3, "TRAITS.json", place,
-              words)
+        fails(report, commands.run("fit", path, "-o", panel, "--quiet"), 3, "TRAITS.json",
+              place, words)
 
 
 def write_json(path, document):

@@ -213,7 +213,8 @@ def check_formats(report, program, folder, schema_of):
     refuses(program, ("panel", "simulate", "DOCUMENT", "-o", "FOLDER"), folder, RECIPE)
     manifest = load(os.path.join(folder, "MANIFEST.json"))
     for key in ("polarisation", "subpixels"):
-        report.claim(manifest[key] == RECIPE[key], f"the manifest does not say the recipe's {key}")
+        report.claim(manifest[key] == RECIPE[key],
+                     f"the manifest does not say the recipe's {key}")
     check_format(report, sets, manifest, WRONG_MANIFESTS,
                  trying("panel", "fit", "DOCUMENT", "-o", "FOLDER/a.panel"))
     with open(os.path.join(folder, "m01.txt"), "w", encoding="utf-8") as file:

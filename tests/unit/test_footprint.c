@@ -1,5 +1,5 @@
-/* What a frame's pixel covers behind mirrors and glass: against rays beside it, and closed forms
- * of optics. */
+/* What a frame's pixel covers behind mirrors and glass: against rays beside it, and closed
+ * forms of optics. */
 #include "check.h"
 
 #include "base/count.h"
@@ -7,7 +7,7 @@
 #include "path/footprint.h"
 #include "scene_builder.h"
 
-/* ---- rays in doubles ---------------------------------------------------------------------- */
+/* ---- rays in doubles --------------------------------------------------------------------- */
 
 typedef struct Ray3 {
     double at[3], way[3];
@@ -54,7 +54,7 @@ static void turn3(const Bent *bent, double eta, Ray3 *ray)
                               : ray->way[k] - 2 * c * n[k];
 }
 
-/* ---- the same by footprints --------------------------------------------------------------- */
+/* ---- the same by footprints -------------------------------------------------------------- */
 
 static Arena arena;
 
@@ -79,7 +79,7 @@ static Scene *scene_of(const Bent *bent, bool is_glass)
 
 /* The ray's turn at the scene's triangle, `distance` m behind its origin. */
 static bool turn(const Scene *scene, const Ray3 *before, const Ray3 *behind, double distance,
-                 Footprint *footprint)
+                 RayFootprint *footprint)
 {
     static Wavelengths w;
     Vec3    wo = vec3(-(float)before->way[0], -(float)before->way[1], -(float)before->way[2]);
@@ -103,10 +103,16 @@ static double between(uint64_t *state, double low, double high)
     return low + (high - low) * next_number(state);
 }
 
+static Vec3 across_randomly(const Frame *frame, uint64_t *state)
+{
+    float x = (float)between(state, -1, 1), y = (float)between(state, -1, 1);
+    return frame_to_world(frame, vec3(x, y, 0));
+}
+
 #define STEP 2e-3 /* of the rays beside, in units of the footprint */
 
 /* Place and way of the ray that is `side` steps beside, before the surface. */
-static Ray3 beside(const Ray3 *ray, const Footprint *footprint, int i, double side)
+static Ray3 beside(const Ray3 *ray, const RayFootprint *footprint, int i, double side)
 {
     Ray3   out = *ray;
     double place[3], way[3];
@@ -142,14 +148,12 @@ TEST(rays_beside_go_where_the_footprint_says)
         ray.way[2] = up; /* the solid lies below */
         normalize3(ray.way);
         for (int k = 0; k < 3; k++) ray.at[k] -= distance * ray.way[k];
-        Footprint footprint;
+        RayFootprint footprint;
         Frame     frame = frame_from_z(vec3((float)ray.way[0], (float)ray.way[1],
                                             (float)ray.way[2]));
         for (int i = 0; i < 2; i++) {
-            footprint.place[i] = frame_to_world(&frame, vec3((float)between(&random, -1, 1),
-                                                             (float)between(&random, -1, 1), 0));
-            footprint.way[i] = frame_to_world(&frame, vec3((float)between(&random, -1, 1),
-                                                           (float)between(&random, -1, 1), 0));
+            footprint.place[i] = across_randomly(&frame, &random);
+            footprint.way[i] = across_randomly(&frame, &random);
         }
         Ray3 middle = ray, sides[2][2];
         for (int i = 0; i < 4; i++) {
@@ -179,17 +183,17 @@ TEST(rays_beside_go_where_the_footprint_says)
     assert_true(worst < 1e-4);
 }
 
-/* ---- closed forms ------------------------------------------------------------------------- */
+/* ---- closed forms ------------------------------------------------------------------------ */
 
 static const Bent flat = {{{0, 0, 1}, {0, 0, 1}, {0, 0, 1}}};
 
-static Footprint camera_at(const Ray3 *ray, RayCone cone)
+static RayFootprint camera_at(const Ray3 *ray, RayCone cone)
 {
     return footprint_of_cone(cone, vec3((float)ray->way[0], (float)ray->way[1],
                                         (float)ray->way[2]));
 }
 
-static void assert_width(const Footprint *footprint, const Ray3 *ray, double distance,
+static void assert_width(const RayFootprint *footprint, const Ray3 *ray, double distance,
                          double wanted)
 {
     Vec3  across[2];
@@ -208,7 +212,7 @@ TEST(behind_flat_mirrors_a_pixel_covers_what_the_whole_way_says)
     for (int i = 0; i < 8; i++) {
         double    theta = 0.19 * i;
         Ray3      ray = {{0.3, 0.3, 0}, {sin(theta), 0, -cos(theta)}}, behind = ray;
-        Footprint footprint = camera_at(&ray, (RayCone){0.001f, 0.01f});
+        RayFootprint footprint = camera_at(&ray, (RayCone){0.001f, 0.01f});
         turn3(&flat, 0, &behind);
         assert_true(turn(scene_of(&flat, false), &ray, &behind, 0.7, &footprint));
         assert_width(&footprint, &behind, 0.9, 0.001 + 0.01 * (0.7 + 0.9));
@@ -220,7 +224,7 @@ TEST(a_thick_cover_brings_what_lies_behind_nearer)
 {
     (void)state;
     Ray3      down = {{0.3, 0.3, 0}, {0, 0, -1}};
-    Footprint footprint = camera_at(&down, (RayCone){0, 0.02f});
+    RayFootprint footprint = camera_at(&down, (RayCone){0, 0.02f});
     Scene    *glass = scene_of(&flat, true);
     assert_true(turn(glass, &down, &down, 0.5, &footprint));
     Ray3 up = {{0.3, 0.3, 0}, {0, 0, 1}}; /* leaves it at the same face, turned about */
@@ -246,7 +250,7 @@ TEST(a_concave_mirror_has_two_foci)
         }
         /* At corner 0, nearly: there the mirror lies in the plane. */
         Ray3      ray = {{1e-4, 1e-4, 0}, {sin(theta), 0, -cos(theta)}}, behind = ray;
-        Footprint footprint = camera_at(&ray, (RayCone){1, 0});
+        RayFootprint footprint = camera_at(&ray, (RayCone){1, 0});
         turn3(&sphere, 0, &behind);
         assert_true(turn(scene_of(&sphere, false), &ray, &behind, 2, &footprint));
         Frame  axes = {vec3(0, 0, 0), vec3(0, 1, 0), vec3(0, 0, 0)};
@@ -265,7 +269,7 @@ TEST(a_concave_mirror_has_two_foci)
     }
 }
 
-/* ---- what ends it ------------------------------------------------------------------------- */
+/* ---- what ends it ------------------------------------------------------------------------ */
 
 TEST(nothing_is_known_behind_what_scatters_or_has_a_normal_map)
 {
@@ -273,7 +277,7 @@ TEST(nothing_is_known_behind_what_scatters_or_has_a_normal_map)
     Scene     *scene = scene_of(&flat, false);
     const Vec3 up = vec3(0, 0, 1);
     Ray3       down = {{0.3, 0.3, 0}, {0, 0, -1}}, back = {{0.3, 0.3, 0}, {0, 0, 1}};
-    Footprint  footprint = camera_at(&down, (RayCone){0, 0.02f});
+    RayFootprint  footprint = camera_at(&down, (RayCone){0, 0.02f});
     assert_true(turn(scene, &down, &back, 1, &footprint));
     Surface    surface = {.frame = frame_from_z(up), .ng = up, .position = vec3(0.3f, 0.3f, 0),
                           .point.ns = up};

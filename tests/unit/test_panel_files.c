@@ -6,15 +6,12 @@
  * PARHELION_MUTATIONS in the environment: how many mutations; tests/long.sh asks for 100,000.
  */
 #include "panel_fixture.h"
+#include "panel_bytes.h"
 
 #include <sys/stat.h>
 #include <sys/wait.h>
 
-#define XXH_INLINE_ALL
-#include <xxhash.h>
-
 #include "panel/query/panel_emission.h"
-#include "panel/query/panel_file.h"
 #include "panel/query/panel_info.h"
 #include "panel/query/panel_open.h"
 #include "panel/query/panel_place.h"
@@ -233,10 +230,7 @@ static void ask_everything(const Panel *panel)
         panel_mean_luminance(panel, rgb);
         PanelPolarisation p = panel_polarisation(panel);
         assert_true(p.degree >= 0 && p.degree <= 1 && p.azimuth >= 0 && p.azimuth < PI_F);
-        Subpixels divided = panel_subpixels(panel);
-        assert_true(divided.layout == SUBPIXELS_NONE ||
-                    (divided.fill > 0 && divided.fill <= 1 && divided.pixels[0] >= 0 &&
-                     !divided.pixels[0] == !divided.pixels[1]));
+        assert_true(panel_subpixels(panel).layout <= SUBPIXELS_PENTILE);
         panel_brdf(panel, wo, wi, &w);
         panel_mirror(panel, wo.z, &w);
         panel_haze_albedo(panel, wi.z);
@@ -253,14 +247,6 @@ static void ask_everything(const Panel *panel)
     panel_info_wavelengths(panel, nm);
     panel_info_incidences(panel, number);
     panel_info_azimuths(panel, phi);
-}
-
-static void repair_checksum(unsigned char *bytes, size_t size)
-{
-    size_t from = offsetof(PanelHeader, size);
-    if (size <= sizeof(PanelHeader)) return;
-    uint64_t checksum = XXH3_64bits(bytes + from, size - from);
-    memcpy(bytes + offsetof(PanelHeader, checksum), &checksum, sizeof checksum);
 }
 
 /* Opens and asks; true when it was accepted. Refusals must have a text and the file's name. */
@@ -451,68 +437,6 @@ TEST(spliced_panels_lead_nobody_astray)
 /* ---- other files ------------------------------------------------------------------------- */
 
 /* The whole line of a failure holds the parts. */
-/* ---- sub-pixels -------------------------------------------------------------------------- */
-
-/* A copy of the panel that has some, and where its table of contents names a kind. */
-static unsigned char *copy_of_divided(size_t *size, PanelSectionKind kind, PanelSection **found)
-{
-    int k = 0;
-    while (strcmp(kinds[k].name, "divided")) k++;
-    unsigned char *copy = malloc(*size = kinds[k].size);
-    memcpy(copy, kinds[k].bytes, kinds[k].size);
-    *found = (PanelSection *)(copy + sizeof(PanelHeader));
-    while ((*found)->kind != kind) ++*found;
-    return copy;
-}
-
-/* Why such a copy, its checksum made to fit, is refused; NULL: it is not. Releases it. */
-static const char *refusal_of(unsigned char *copy, size_t size, Subpixels *found)
-{
-    static Error err;
-    Arena  scratch = folder.arena;
-    Panel *panel;
-    repair_checksum(copy, size);
-    bool is_opened = panel_from_bytes(copy, size, "x.panel", &scratch, &panel, &err);
-    if (is_opened) *found = panel_subpixels(panel);
-    free(copy);
-    return is_opened ? NULL : err.text;
-}
-
-/* Every byte of the section, at values that matter: what is accepted is what stands there. */
-TEST(sub_pixels_are_in_range_or_refused)
-{
-    (void)state;
-    static const unsigned char values[] = {0, 1, 2, 3, 0x3c, 0x3f, 0x7f, 0x80, 0xbf, 0xff};
-    int    refused = 0, accepted = 0;
-    size_t size;
-    PanelSection *toc;
-    Subpixels     found;
-    for (int i = 0; i < (int)(sizeof(PanelSubpixelsStored) * sizeof values); i++) {
-        PanelSubpixelsStored stored;
-        unsigned char *copy = copy_of_divided(&size, PANEL_SUBPIXELS, &toc);
-        copy[toc->offset + (size_t)i / sizeof values] = values[(size_t)i % sizeof values];
-        memcpy(&stored, copy + toc->offset, sizeof stored);
-        const char *text = refusal_of(copy, size, &found);
-        bool in_range = (stored.layout == 1 || stored.layout == 2) && stored.fill >= 0.01f &&
-                        stored.fill <= 1 && !stored.reserved[0] && !stored.reserved[1] &&
-                        !stored.reserved[2];
-        for (int k = 0; k < 2; k++)
-            in_range = in_range && stored.pixels[k] >= 1 && stored.pixels[k] <= 65536;
-        assert_int_equal(text == NULL, in_range);
-        refused += text != NULL;
-        accepted += in_range;
-        if (text) assert_non_null(strstr(text, "out of range"));
-        else assert_int_equal(found.pixels[0], (int)stored.pixels[0]);
-    }
-    assert_true(refused > 80 && accepted > 20);
-    unsigned char *copy = copy_of_divided(&size, PANEL_SUBPIXELS, &toc);
-    toc->size = 12;
-    assert_non_null(strstr(refusal_of(copy, size, &found), "a wrong number of bytes"));
-    copy = copy_of_divided(&size, PANEL_EMISSION, &toc);
-    toc->kind = 999;
-    assert_non_null(strstr(refusal_of(copy, size, &found), "stand without an emission"));
-}
-
 static void expect_line(const Error *err, const char *part, const char *other)
 {
     char line[2048];

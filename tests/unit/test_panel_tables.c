@@ -1,6 +1,7 @@
 /* Files of a laboratory: what is wrong with recipes, manifests and tables is named; every
  * layout says the same. */
 #include "panel_fixture.h"
+#include "panel_bytes.h"
 #include "base/file.h"
 #include "panel/query/panel_emission.h"
 #include "panel/query/panel_open.h"
@@ -252,6 +253,64 @@ TEST(sub_pixels_are_kept_with_the_displays_pixels)
         if (!i) assert_int_equal(some.size, none.size + 32); /* place and section */
         panel_close(panel);
     }
+}
+
+/* A copy of a panel that has some, and where its table of contents names a kind. */
+static unsigned char *divided_copy(const FileBytes *bytes, PanelSectionKind kind,
+                                   PanelSection **found)
+{
+    unsigned char *copy = malloc(bytes->size);
+    memcpy(copy, bytes->data, bytes->size);
+    *found = (PanelSection *)(copy + sizeof(PanelHeader));
+    while ((*found)->kind != kind) ++*found;
+    return copy;
+}
+
+/* Why such a copy, its checksum made to fit, is refused; NULL: it is not. Releases it. */
+static const char *refusal_of(unsigned char *copy, size_t size, Subpixels *found)
+{
+    static Error err;
+    Arena  scratch = folder.arena;
+    Panel *panel;
+    repair_checksum(copy, size);
+    bool is_opened = panel_from_bytes(copy, size, "x.panel", &scratch, &panel, &err);
+    if (is_opened) *found = panel_subpixels(panel);
+    free(copy);
+    return is_opened ? NULL : err.text;
+}
+
+/* Every byte of the section, at values that matter: what is accepted is what stands there. */
+TEST(sub_pixels_of_a_file_are_in_range_or_refused)
+{
+    (void)state;
+    static const unsigned char values[] = {0, 1, 2, 3, 0x3c, 0x3f, 0x7f, 0x80, 0xbf, 0xff};
+    int           accepted = 0, count = (int)(sizeof(PanelSubpixelsStored) * sizeof values);
+    PanelSection *toc;
+    Subpixels     found;
+    FileBytes     bytes;
+    fixture_file(&folder, "good.csv", "theta,phi,X,Y,Z\n0,0,95,100,108\n50,0,60,70,75\n");
+    panel_close(fitted(DIVIDED_OF("[1920, 720]", "{\"layout\": \"pentile\"}"), &bytes));
+    for (int i = 0; i < count; i++) {
+        PanelSubpixelsStored stored;
+        unsigned char *copy = divided_copy(&bytes, PANEL_SUBPIXELS, &toc);
+        copy[toc->offset + (size_t)i / sizeof values] = values[(size_t)i % sizeof values];
+        memcpy(&stored, copy + toc->offset, sizeof stored);
+        const char *text = refusal_of(copy, bytes.size, &found);
+        bool in_range = (stored.layout == 1 || stored.layout == 2) && stored.fill >= 0.01f &&
+                        stored.fill <= 1 && !memcmp(stored.reserved, "\0\0", 3) &&
+                        stored.pixels[0] - 1 < 65536 && stored.pixels[1] - 1 < 65536;
+        assert_int_equal(text == NULL, in_range);
+        accepted += in_range;
+        if (text) assert_non_null(strstr(text, "out of range"));
+        else assert_int_equal(found.pixels[0], (int)stored.pixels[0]);
+    }
+    assert_true(accepted > 20 && count - accepted > 80);
+    unsigned char *copy = divided_copy(&bytes, PANEL_SUBPIXELS, &toc);
+    toc->size = 12;
+    assert_non_null(strstr(refusal_of(copy, bytes.size, &found), "a wrong number of bytes"));
+    copy = divided_copy(&bytes, PANEL_EMISSION, &toc);
+    toc->kind = 999;
+    assert_non_null(strstr(refusal_of(copy, bytes.size, &found), "stand without an emission"));
 }
 
 #define PRIMARY "{\"peaks_nm\": [600], \"fwhm_nm\": [20], \"weights\": [1]}"

@@ -425,13 +425,13 @@ TEST(frames_of_no_distance_show_moire)
     }
 }
 
-/* ---- in mirrors --------------------------------------------------------------------------- */
+/* ---- in mirrors -------------------------------------------------------------------------- */
 
 #define MIRROR_X 0.02f
 #define MIRROR_Z (0.03f - 0.03f * 15 / 35) /* where the camera below looks at it */
 
-/* A perfect mirror beside the display, that faces -x; as a ball of this radius mirrors (above 0:
- * convex; INFINITY: flat). */
+/* A perfect mirror beside the display, that faces -x; as a ball of this radius mirrors (above
+ * 0: convex; INFINITY: flat). */
 static void add_mirror(Shown *shown, double radius)
 {
     Scene   *scene = shown->scene;
