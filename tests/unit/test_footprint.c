@@ -1,6 +1,6 @@
 /* What a frame's pixel covers behind mirrors and glass: against rays beside it, and closed
  * forms of optics. */
-#include "check.h"
+#include "fixture.h"
 
 #include "base/count.h"
 #include "base/units.h"
@@ -56,7 +56,7 @@ static void turn3(const Bent *bent, double eta, Ray3 *ray)
 
 /* ---- the same by footprints -------------------------------------------------------------- */
 
-static Arena arena;
+static Arena arena; /* the test's */
 
 /* A scene of the one triangle. */
 static Scene *scene_of(const Bent *bent, bool is_glass)
@@ -129,7 +129,7 @@ static Ray3 beside(const Ray3 *ray, const RayFootprint *footprint, int i, double
 /* Bent mirrors and glass, from either side: the rays beside, followed for a metre more. */
 TEST(rays_beside_go_where_the_footprint_says)
 {
-    (void)state;
+    arena = test_arena(state);
     uint64_t random = 7;
     double   worst = 0;
     for (int run = 0; run < 3000; run++) {
@@ -208,7 +208,7 @@ static void assert_width(const RayFootprint *footprint, const Ray3 *ray, double 
 
 TEST(behind_flat_mirrors_a_pixel_covers_what_the_whole_way_says)
 {
-    (void)state;
+    arena = test_arena(state);
     for (int i = 0; i < 8; i++) {
         double    theta = 0.19 * i;
         Ray3      ray = {{0.3, 0.3, 0}, {sin(theta), 0, -cos(theta)}}, behind = ray;
@@ -222,7 +222,7 @@ TEST(behind_flat_mirrors_a_pixel_covers_what_the_whole_way_says)
 /* Seen upright, glass counts by its thickness over the index. */
 TEST(a_thick_cover_brings_what_lies_behind_nearer)
 {
-    (void)state;
+    arena = test_arena(state);
     Ray3      down = {{0.3, 0.3, 0}, {0, 0, -1}};
     RayFootprint footprint = camera_at(&down, (RayCone){0, 0.02f});
     Scene    *glass = scene_of(&flat, true);
@@ -238,7 +238,7 @@ TEST(a_thick_cover_brings_what_lies_behind_nearer)
  * after R cos(theta) / 2 in the plane of incidence, after R / (2 cos(theta)) across it. */
 TEST(a_concave_mirror_has_two_foci)
 {
-    (void)state;
+    arena = test_arena(state);
     const double radius = 40;
     for (int i = 0; i < 7; i++) {
         double theta = 0.2 * i;
@@ -273,7 +273,7 @@ TEST(a_concave_mirror_has_two_foci)
 
 TEST(nothing_is_known_behind_what_scatters_or_has_a_normal_map)
 {
-    (void)state;
+    arena = test_arena(state);
     Scene     *scene = scene_of(&flat, false);
     const Vec3 up = vec3(0, 0, 1);
     Ray3       down = {{0.3, 0.3, 0}, {0, 0, -1}}, back = {{0.3, 0.3, 0}, {0, 0, 1}};
@@ -293,21 +293,7 @@ TEST(nothing_is_known_behind_what_scatters_or_has_a_normal_map)
     assert_true(footprint_turn(&footprint, scene, &surface, up, &rough, 1));
 }
 
-static int start(void **state)
-{
-    (void)state;
-    arena = arena_reserve((size_t)8 << 30);
-    return 0;
-}
-
-static int end(void **state)
-{
-    (void)state;
-    arena_release(&arena);
-    return 0;
-}
-
 int main(void)
 {
-    return run_cases(start, end);
+    return run_cases(make_arena, drop_arena);
 }
