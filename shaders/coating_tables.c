@@ -369,7 +369,8 @@ static void energy_rows(const CoatingTable *front, int alpha_row, int count, Cur
             row[c] = front->row[c * (front->count - 1) / (count - 1)];
             continue;
         }
-        facet_weights((float)cosine, energy_alpha_of_row(alpha_row, COATING_PER_OCTAVE), front->count, weight);
+        float alpha = energy_alpha_of_row(alpha_row, COATING_PER_OCTAVE);
+        facet_weights((float)cosine, alpha, front->count, weight);
         energy_row(front, weight, &row[c]);
     }
 }

@@ -31,8 +31,9 @@ static float lost_alpha(const Dielectric *d)
 static void lost_lanes(const Dielectric *d, bool is_inside, float cosine, Lost *lost,
                        Spectrum *flux)
 {
-    SolidLost loss = solid_lost(d->energy, is_inside, cosine, lost_alpha(d));
-    SolidLost most = d->index ? solid_lost(d->energy_most, is_inside, cosine, lost_alpha(d)) : loss;
+    float     alpha = lost_alpha(d);
+    SolidLost loss = solid_lost(d->energy, is_inside, cosine, alpha), most = loss;
+    if (d->index) most = solid_lost(d->energy_most, is_inside, cosine, alpha);
     Spectrum  t = spectrum_all(0);
     if (d->index)
         t = (indices(d) - spectrum_all(d->energy->ior)) /

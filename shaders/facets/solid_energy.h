@@ -31,7 +31,7 @@ typedef struct SolidSide {
 
 typedef struct SolidEnergy {
     float     ior;                 /* of the solid against its surroundings */
-    float     flux[ENERGY_ALPHAS]; /* mean times the share of the lost that goes across, outside */
+    float     flux[ENERGY_ALPHAS]; /* outside: mean times the share that goes across */
     SolidSide outside, inside;
 } SolidEnergy;
 

@@ -10,7 +10,7 @@
 /* A shading normal is bent until the eye is above its plane by this much. */
 #define LOWEST_COSINE 1e-3f
 
-/* Of a rough solid: of its index, where that differs by wavelength of the least and the most. */
+/* A rough solid's: of its index; where that differs by wavelength of the least and the most. */
 typedef struct SolidTables {
     const SolidEnergy *least, *most; /* NULL: smooth; of one index */
 } SolidTables;

@@ -204,7 +204,7 @@ static Spectrum furnace(const Model *model, Vec3 wo, uint32_t count)
 
 static void energy_holds(const Model *model, Vec3 wo)
 {
-    Spectrum sent = furnace(model, wo, 262144);
+    Spectrum sent = furnace(model, wo, 16384);
     for (int k = 0; k < SPECTRUM_LANES; k += 5) {
         if (!(sent[k] <= 1.004f))
             fail_msg("%s, cos %g: sends back %g", model->name, (double)wo.z, (double)sent[k]);

@@ -119,12 +119,12 @@ static void add_coated_glass(void)
     add_coated_pane("laminated, between mirrors", mirror, mirror, 0);
 }
 
-/* Of twice the dispersion of glTF's strongest: heavy flint has half of it. */
-static void add_dispersive(const char *name, float alpha)
+/* strength: 1 is glTF's strongest dispersion, of heavy flint; 2 twice that. */
+static void add_dispersive(const char *name, float alpha, double strength)
 {
     Curve *index = ARENA_NEW(&arena, Curve, 1);
     for (int i = 0; i < CURVE_COUNT; i++)
-        index->value[i] = (float)dispersion_index(1.6, 2, CURVE_FIRST_NM + i);
+        index->value[i] = (float)dispersion_index(1.6, strength, CURVE_FIRST_NM + i);
     add_dielectric(name, 1.6f, alpha);
     Dielectric *d = &models[model_count - 1].bsdf.dielectric;
     d->index = index;
@@ -156,9 +156,9 @@ static void add_films(void)
     Dielectric *d = add_filmed("tinted filmed glass", 1.5f, 0.2f);
     d->tint = ramp(0.2f, 0.9f);
     models[model_count - 1].lossless = false;
-    add_dispersive("smooth filmed flint", 0);
+    add_dispersive("smooth filmed flint", 0, 2);
     models[model_count - 1].bsdf.dielectric.film = d->film;
-    add_dispersive("frosted filmed flint", 0.3f);
+    add_dispersive("frosted filmed flint", 0.3f, 1);
     models[model_count - 1].bsdf.dielectric.film = d->film;
 }
 
@@ -170,7 +170,7 @@ static void add_brushed(void)
     models[model_count - 1].bsdf.dielectric.alpha_along = 0.1f;
     models[model_count - 1].width = 0.05f;
     add_filmed("brushed filmed glass", 1.5f, 0.2f)->alpha_along = 0.6f;
-    add_dispersive("brushed flint", 0.1f);
+    add_dispersive("brushed flint", 0.1f, 2);
     models[model_count - 1].bsdf.dielectric.alpha_along = 0.4f;
 }
 
@@ -181,9 +181,9 @@ static int make_models(void **state)
     wavelengths_sample(0.3f, &wavelengths);
     add_glass();
     add_coated_glass();
-    add_dispersive("smooth flint", 0);
-    add_dispersive("satin flint", 0.1f);
-    add_dispersive("frosted flint", 0.3f);
+    add_dispersive("smooth flint", 0, 2);
+    add_dispersive("satin flint", 0.1f, 2);
+    add_dispersive("frosted flint", 0.3f, 2);
     models[model_count - 1].bsdf.dielectric.tint = ramp(0.2f, 0.9f);
     models[model_count - 1].lossless = false;
     add_films();

@@ -52,8 +52,8 @@ static void check_shares(const DocumentCheck *check, const GltfValue *material)
     double through = tree_number(clear, "transmissionFactor", 0);
     if (metal > 0)
         check_warns(check, metallic ? metallic : pbr ? pbr : material,
-                    "is %.9g of metal%s: KHR_materials_volume makes the material a closed solid, "
-                    "which is clear as a whole; metallicFactor 0 is wanted", metal,
+                    "is %.9g of metal%s: KHR_materials_volume makes the material a closed "
+                    "solid, which is clear as a whole; metallicFactor 0 is wanted", metal,
                     metallic ? "" : " (metallicFactor's default)");
     if (through < 1)
         check_warns(check, tree_member(clear, "transmissionFactor"),
