@@ -5,6 +5,7 @@
 #include "base/arena.h"
 #include "shaders/coating_tables.h"
 #include "shaders/facets/microfacet.h"
+#include "shaders/solid_facet.h"
 #include "spectrum/dispersion.h"
 
 static Arena       arena;
@@ -162,16 +163,26 @@ static void add_films(void)
     models[model_count - 1].bsdf.dielectric.film = d->film;
 }
 
-static void add_brushed(void)
+static void add_brushed(const char *name, Dielectric *d, float along)
 {
-    add_dielectric("brushed glass", 1.5f, 0.1f);
-    models[model_count - 1].bsdf.dielectric.alpha_along = 0.5f;
-    add_dielectric("glass brushed across x", 1.5f, 0.6f);
-    models[model_count - 1].bsdf.dielectric.alpha_along = 0.1f;
-    models[model_count - 1].width = 0.05f;
-    add_filmed("brushed filmed glass", 1.5f, 0.2f)->alpha_along = 0.6f;
+    d->alpha_along = along;
+    d->energy = solid_energy_build(1.5f, 0.05f, 1, solid_has_film(d), &arena);
+    models[model_count - 1].name = name;
+    models[model_count - 1].lossless = false;
+    models[model_count - 1].width = fminf(models[model_count - 1].width, 0.05f);
+}
+
+static void add_brushed_solids(void)
+{
+    add_dielectric("", 1.5f, 0.1f);
+    add_brushed("brushed glass", &models[model_count - 1].bsdf.dielectric, 0.5f);
+    add_dielectric("", 1.5f, 0.6f);
+    add_brushed("glass brushed across x", &models[model_count - 1].bsdf.dielectric, 0.1f);
+    add_brushed("brushed filmed glass", add_filmed("", 1.5f, 0.2f), 0.6f);
     add_dispersive("brushed flint", 0.1f, 2);
     models[model_count - 1].bsdf.dielectric.alpha_along = 0.4f;
+    models[model_count - 1].bsdf.dielectric.energy = NULL;
+    models[model_count - 1].lossless = false;
 }
 
 static int make_models(void **state)
@@ -187,7 +198,7 @@ static int make_models(void **state)
     models[model_count - 1].bsdf.dielectric.tint = ramp(0.2f, 0.9f);
     models[model_count - 1].lossless = false;
     add_films();
-    add_brushed();
+    add_brushed_solids();
     return 0;
 }
 
