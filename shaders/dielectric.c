@@ -37,8 +37,7 @@
  * What rough facets pass to one another comes out of the boundary without a direction of its
  * own, on both sides (solid_energy.h): a clear solid of any roughness returns what it gets,
  * within 0.2 %, coated or filmed as well; one that parts light within 0.6 %. Without that it
- * would lose up to a third at alpha 1. Brushed facets are taken for even ones of their mean
- * roughness in this, which is as much as 13 % too little at grazing directions inside.
+ * would lose up to a third at alpha 1. Brushed facets do lose it.
  *
  * Not modelled: sheen. A boundary between equal indices, filmed or not, is smooth.
  */

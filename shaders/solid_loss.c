@@ -21,17 +21,11 @@ static Spectrum indices(const Dielectric *d)
     return d->index ? curve_lookup(d->index, d->wavelengths) : spectrum_all(d->ior);
 }
 
-/* Brushed facets are taken for even ones of their mean roughness. */
-static float lost_alpha(const Dielectric *d)
-{
-    return solid_is_brushed(d) ? sqrtf(d->alpha * d->alpha_along) : d->alpha;
-}
-
 /* Of bare facets. */
 static void lost_lanes(const Dielectric *d, bool is_inside, float cosine, Lost *lost,
                        Spectrum *flux)
 {
-    float     alpha = lost_alpha(d);
+    float     alpha = d->alpha;
     SolidLost loss = solid_lost(d->energy, is_inside, cosine, alpha), most = loss;
     if (d->index) most = solid_lost(d->energy_most, is_inside, cosine, alpha);
     Spectrum  t = spectrum_all(0);
@@ -60,7 +54,7 @@ static void change_lanes(const Dielectric *d, const SolidRay *s, float x, FacetS
                          Spectrum *bare)
 {
     Spectrum n = indices(d);
-    SolidRay     own = *s;
+    SolidRay own = *s;
     for (int i = 0; i < SPECTRUM_LANES; i++) {
         own.eta = s->turned ? 1 / n[i] : n[i];
         float cosine = met_from(x, own.eta);
@@ -70,23 +64,21 @@ static void change_lanes(const Dielectric *d, const SolidRay *s, float x, FacetS
     out->through = spectrum_all(1) - out->reflected;
 }
 
-static FacetChange change_of(const Dielectric *d, bool is_inside)
+static void change_of(const Dielectric *d, bool is_inside, FacetChange *out)
 {
-    SolidRay        s = solid_ray(d, vec3(0, 0, is_inside ? -1 : 1), vec3(0, 0, 1));
-    FacetChange change;
+    SolidRay    s = solid_ray(d, vec3(0, 0, is_inside ? -1 : 1), vec3(0, 0, 1));
     Spectrum    passes = spectrum_all(0), plain = passes, one = spectrum_all(1);
     for (int k = 0; k < LOBE_FACETS; k++) {
         float       cosine = met_from(facet_cosine[k], s.eta);
         Spectrum    bare = spectrum_all(fresnel_unpolarised(cosine, s.eta));
         FacetShares shares = solid_facet(d, &s, cosine);
         if (d->index) change_lanes(d, &s, facet_cosine[k], &shares, &bare);
-        change.reflected[k] = shares.reflected - bare;
-        change.through[k] = shares.through - (one - bare);
+        out->reflected[k] = shares.reflected - bare;
+        out->through[k] = shares.through - (one - bare);
         passes += shares.through * spectrum_all(facet_cosine[k]);
         plain += (one - bare) * spectrum_all(facet_cosine[k]);
     }
-    change.passes = passes / plain;
-    return change;
+    out->passes = passes / plain;
 }
 
 static Spectrum changed(const FacetChange *by, LostFacets facets)
@@ -100,33 +92,47 @@ static Spectrum changed(const FacetChange *by, LostFacets facets)
 
 static Spectrum changed_mean(const Dielectric *d, bool is_inside, const FacetChange *by)
 {
-    SolidLost bare = solid_lost(d->energy, is_inside, 1, lost_alpha(d));
+    SolidLost bare = solid_lost(d->energy, is_inside, 1, d->alpha);
     Spectrum  mean = spectrum_all(bare.mean) +
-                     changed(by, solid_mean_facets(d->energy, is_inside, lost_alpha(d)));
+                     changed(by, solid_mean_facets(d->energy, is_inside, d->alpha));
     return spectrum_max(mean, spectrum_all(0));
 }
 
-/* Of a boundary that is not bare. Neither side can let more across than it loses. */
-static void change_lost(const Dielectric *d, bool is_inside, float cosine, Lost *lost,
-                        Spectrum *flux)
+/* Both sides' of a boundary that is not bare: outside, inside. */
+typedef struct Changes {
+    FacetChange side[2];
+} Changes;
+
+/* A film changes both alike: along one ray it reflects as much from either side. NULL: bare. */
+static const Changes *changes_of(const Dielectric *d, Changes *space)
 {
-    FacetChange here = change_of(d, is_inside), beyond = change_of(d, !is_inside);
-    Spectrum    other = changed_mean(d, !is_inside, &beyond);
-    LostFacets  facets = solid_lost_facets(d->energy, is_inside, cosine, lost_alpha(d));
-    lost->share = spectrum_clamp(lost->share + changed(&here, facets), 0, 1);
-    lost->mean = changed_mean(d, is_inside, &here);
-    Spectrum n = indices(d), outside = is_inside ? other : lost->mean;
-    Spectrum inside = is_inside ? lost->mean : other;
-    *flux = spectrum_min(*flux * here.passes, spectrum_min(outside, inside * n * n));
+    if (!d->coating && !solid_has_film(d)) return NULL;
+    change_of(d, false, &space->side[0]);
+    if (d->coating) change_of(d, true, &space->side[1]);
+    else space->side[1] = space->side[0];
+    return space;
+}
+
+/* Neither side can let more across than it loses. */
+static void change_lost(const Dielectric *d, bool is_inside, float cosine,
+                        const Changes *changes, Lost *lost, Spectrum *flux)
+{
+    const FacetChange *here = &changes->side[is_inside];
+    Spectrum   other = changed_mean(d, !is_inside, &changes->side[!is_inside]), n = indices(d);
+    LostFacets facets = solid_lost_facets(d->energy, is_inside, cosine, d->alpha);
+    lost->share = spectrum_clamp(lost->share + changed(here, facets), 0, 1);
+    lost->mean = changed_mean(d, is_inside, here);
+    Spectrum outside = is_inside ? other : lost->mean, inside = is_inside ? lost->mean : other;
+    *flux = spectrum_min(*flux * here->passes, spectrum_min(outside, inside * n * n));
 }
 
 /* cosine: to the normal, on the side inside the solid or outside. */
-static Lost lost_on(const Dielectric *d, bool is_inside, float cosine)
+static Lost lost_on(const Dielectric *d, bool is_inside, float cosine, const Changes *changes)
 {
     Lost     lost;
     Spectrum flux, n = indices(d);
     lost_lanes(d, is_inside, cosine, &lost, &flux);
-    if (d->coating || solid_has_film(d)) change_lost(d, is_inside, cosine, &lost, &flux);
+    if (changes) change_lost(d, is_inside, cosine, changes, &lost, &flux);
     lost.across = over(is_inside ? over(flux, n * n) : flux, lost.mean);
     return lost;
 }
@@ -147,8 +153,10 @@ static LostChance lost_chance(const Dielectric *d, const Lost *lost)
 void solid_loss_add(const Dielectric *d, const SolidRay *s, Spectrum *value, float *pdf)
 {
     bool goes_across = s->wi.z < 0;
-    Lost from = lost_on(d, s->turned, s->wo.z);
-    Lost to = lost_on(d, s->turned != goes_across, fabsf(s->wi.z));
+    Changes space;
+    const Changes *changes = changes_of(d, &space);
+    Lost from = lost_on(d, s->turned, s->wo.z, changes);
+    Lost to = lost_on(d, s->turned != goes_across, fabsf(s->wi.z), changes);
     LostChance chance = lost_chance(d, &from);
     Spectrum way = goes_across ? from.across * d->tint : spectrum_all(1) - from.across;
     Spectrum spread = over(from.share * way * to.share, to.mean) * spectrum_all(INV_PI_F);
@@ -161,7 +169,8 @@ void solid_loss_add(const Dielectric *d, const SolidRay *s, Spectrum *value, flo
 
 bool solid_loss_sample(const Dielectric *d, SolidRay *s, float u[3])
 {
-    Lost       lost = lost_on(d, s->turned, s->wo.z);
+    Changes    space;
+    Lost       lost = lost_on(d, s->turned, s->wo.z, changes_of(d, &space));
     LostChance chance = lost_chance(d, &lost);
     if (u[2] >= chance.any) {
         u[2] = fminf((u[2] - chance.any) / (1 - chance.any), 0x1.fffffep-1f);

@@ -25,8 +25,7 @@ struct SurfaceTables {
 
 static bool is_rough_solid(const Material *m)
 {
-    bool is_rough = m->brushing || !is_smooth(m->roughness * m->roughness);
-    return m->is_solid && m->transmission > 0 && is_rough;
+    return m->is_solid && m->transmission > 0 && !is_smooth(m->roughness * m->roughness);
 }
 
 /* Seen by the solid's surroundings: a coating may stand in another medium than air. */
@@ -40,8 +39,7 @@ static SolidTables solid_tables(const Material *m, Arena *arena)
     bool  is_even = m->metallic_roughness_texture.texture_id == NO_ID;
     float most = m->roughness * m->roughness, least = is_even ? most : 0;
     float low = m->index ? m->index->value[0] : m->ior, high = low;
-    if (!is_rough_solid(m)) return (SolidTables){NULL, NULL};
-    if (m->brushing) most = 1;
+    if (!is_rough_solid(m) || m->brushing) return (SolidTables){NULL, NULL};
     for (int i = 0; i < CURVE_COUNT && m->index; i++) {
         low = fminf(low, m->index->value[i]);
         high = fmaxf(high, m->index->value[i]);

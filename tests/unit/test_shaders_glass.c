@@ -5,7 +5,6 @@
 #include "base/arena.h"
 #include "shaders/coating_tables.h"
 #include "shaders/facets/microfacet.h"
-#include "shaders/solid_facet.h"
 #include "spectrum/dispersion.h"
 
 static Arena       arena;
@@ -166,7 +165,7 @@ static void add_films(void)
 static void add_brushed(const char *name, Dielectric *d, float along)
 {
     d->alpha_along = along;
-    d->energy = solid_energy_build(1.5f, 0.05f, 1, solid_has_film(d), &arena);
+    d->energy = NULL;
     models[model_count - 1].name = name;
     models[model_count - 1].lossless = false;
     models[model_count - 1].width = fminf(models[model_count - 1].width, 0.05f);

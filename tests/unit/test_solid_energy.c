@@ -142,19 +142,6 @@ TEST(hardly_those_that_part_light)
     }
 }
 
-/* Brushed facets are taken for even ones of their mean roughness. */
-TEST(brushed_ones_are_somewhat_near)
-{
-    static const float along[] = {0.3f, 0.6f, 1};
-    (void)state;
-    for (int i = 0; i < 3; i++) {
-        float alpha = 0.5f * along[i];
-        Bsdf  bsdf = boundary(1.5f, alpha, solid_energy_build(1.5f, alpha, 1, false, &arena));
-        bsdf.dielectric.alpha_along = along[i];
-        check_both_sides("brushed", &bsdf, 0.13);
-    }
-}
-
 int main(void)
 {
     return run_cases(reserve, release);
