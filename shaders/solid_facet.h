@@ -21,7 +21,8 @@ typedef struct Dielectric {
     const Curve         *index;       /* by wavelength, 1 or more, in place of ior; NULL: it is
                                          the same for all. Without a coating */
     /* What rough facets pass to one another, of that ior; where the index differs by wavelength
-     * of its least and its greatest. NULL: it is lost, as brushed facets do (a smooth boundary has none). */
+     * of its least and its greatest. NULL: it is lost, as of brushed facets; a smooth boundary
+     * has none. */
     const SolidEnergy   *energy, *energy_most;
     const Spectrum      *light;       /* of a path that is split: what its lanes still count,
                                          >= 0; chance follows it. NULL: all alike */
