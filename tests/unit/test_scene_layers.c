@@ -188,11 +188,67 @@ TEST_WITH(solids_of_glass_are_filmed_and_brushed_without_a_word, maker_reset, NU
     Found found = maker_survey_file(maker_gltf(
         NULL, 0,
         "'extensionsUsed':['" IRIDESCENCE "','" ANISOTROPY "','KHR_materials_transmission',"
-        "'KHR_materials_volume'],'materials':[{'extensions':{'" IRIDESCENCE
-        "':{'iridescenceFactor':1},'" ANISOTROPY "':{'anisotropyStrength':1},"
+        "'KHR_materials_volume'],'materials':[{'pbrMetallicRoughness':{'metallicFactor':0},"
+        "'extensions':{'" IRIDESCENCE "':{'iridescenceFactor':1},'" ANISOTROPY "':{'anisotropyStrength':1},"
         "'KHR_materials_transmission':{'transmissionFactor':1},"
         "'KHR_materials_volume':{'thicknessFactor':1}}}]"));
     assert_int_equal(found.problems.count, 0);
+}
+
+/* Beside a clear solid: what is asked for, where it stands, and what is said of it. */
+static const struct {
+    const char *core, *extension, *members, *place, *text;
+} NOT_ON_SOLIDS[] = {
+    {"'metallicFactor':0", SHEEN, "'sheenColorFactor':[0,0.5,0]", "/extensions/" SHEEN,
+     "sheen is not shown"},
+    {"'metallicFactor':0", "KHR_materials_clearcoat", "'clearcoatFactor':0.5",
+     "/extensions/KHR_materials_clearcoat", "no coat is shown"},
+    {"'metallicFactor':0", "KHR_materials_specular", "'specularFactor':0.5",
+     "/extensions/KHR_materials_specular", "as its index says"},
+    {"'metallicFactor':0", "KHR_materials_specular", "'specularColorFactor':[1,0.5,1]",
+     "/extensions/KHR_materials_specular", "as its index says"},
+    {"'metallicFactor':0", "KHR_materials_diffuse_transmission",
+     "'diffuseTransmissionFactor':0.5", "/extensions/KHR_materials_diffuse_transmission",
+     "makes the solid clear"},
+    {"'metallicFactor':0.5", "KHR_materials_ior", "'ior':1.5",
+     "/pbrMetallicRoughness/metallicFactor", "is 0.5 of metal"},
+    {"'roughnessFactor':0.5", "KHR_materials_ior", "'ior':1.5", "/pbrMetallicRoughness",
+     "is 1 of metal (metallicFactor's default)"},
+};
+
+TEST_WITH(what_clear_solids_do_not_show_is_told, maker_reset, NULL)
+{
+    (void)state;
+    for (size_t i = 0; i < sizeof NOT_ON_SOLIDS / sizeof *NOT_ON_SOLIDS; i++) {
+        char text[1024], place[128];
+        snprintf(text, sizeof text,
+                 "'extensionsUsed':['%s','KHR_materials_transmission','KHR_materials_volume'],"
+                 "'materials':[{'pbrMetallicRoughness':{%s},'extensions':{'%s':{%s},"
+                 "'KHR_materials_transmission':{'transmissionFactor':1},"
+                 "'KHR_materials_volume':{'thicknessFactor':1}}}]",
+                 NOT_ON_SOLIDS[i].extension, NOT_ON_SOLIDS[i].core, NOT_ON_SOLIDS[i].extension,
+                 NOT_ON_SOLIDS[i].members);
+        snprintf(place, sizeof place, "/materials/0%s", NOT_ON_SOLIDS[i].place);
+        Found found = maker_survey_file(maker_gltf(NULL, 0, text));
+        assert_int_equal(found.problems.count, 1);
+        if (!maker_find(&found, place, NOT_ON_SOLIDS[i].text))
+            fail_msg("%s is not told as \"%s\"", place, NOT_ON_SOLIDS[i].text);
+    }
+}
+
+TEST_WITH(a_solid_that_is_half_clear_is_told, maker_reset, NULL)
+{
+    (void)state;
+    Found found = maker_survey_file(maker_gltf(
+        NULL, 0,
+        "'extensionsUsed':['KHR_materials_transmission','KHR_materials_volume'],"
+        "'materials':[{'pbrMetallicRoughness':{'metallicFactor':0},'extensions':{"
+        "'KHR_materials_transmission':{'transmissionFactor':0.5},"
+        "'KHR_materials_volume':{'thicknessFactor':1}}}]"));
+    assert_int_equal(found.problems.count, 1);
+    assert_true(maker_find(&found, "/materials/0/extensions/KHR_materials_transmission"
+                                   "/transmissionFactor",
+                           "transmissionFactor 1 is wanted"));
 }
 
 /* A triangle, and whether it has texture coordinates. */

@@ -484,14 +484,19 @@ static bool read_map(const JsonView *root, Measurement *out, Error *err)
 
 /* ---- all --------------------------------------------------------------------------------- */
 
-/* Read before the tables, which take a while. */
-static bool read_traits(const JsonView *root, Measurement *out, Error *err)
+static bool check_traits(const JsonView *root, const Measurement *out, Error *err)
 {
     const char *key = display_traits_key(root);
-    if (!display_traits_read(root, out->pixels, &out->traits, err)) return false;
-    if (!key || has_part(root, "emission") || spots_have(root, "emission")) return true;
+    if (!key || has_part(root, "emission") || out->spots_emit) return true;
     return error_at(err, ERROR_INPUT, root->file, json_view_path(root, key),
                     "tells of the emitted light, but the set has no 'emission'");
+}
+
+/* Read before the tables, which take a while; that spots emit is known after them. */
+static bool read_traits(const JsonView *root, Measurement *out, Error *err)
+{
+    return display_traits_read(root, out->pixels, &out->traits, err) &&
+           (has_part(root, "spots") || check_traits(root, out, err));
 }
 
 static bool read_members(const JsonView *root, Measurement *out, Error *err)
@@ -511,6 +516,7 @@ static bool read_members(const JsonView *root, Measurement *out, Error *err)
                          err) &&
         read_traits(root, out, err) && read_emission(root, out, err) &&
         read_reflection(root, out, err) && read_spots(root, out, err) &&
+         check_traits(root, out, err) &&
         read_map(root, out, err);
     if (!ok || !primaries) return ok;
     out->has_spectra = json_view_file(root, "primaries", primaries, &primaries, err) &&
