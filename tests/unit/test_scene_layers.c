@@ -188,8 +188,10 @@ TEST_WITH(solids_of_glass_are_filmed_and_brushed_without_a_word, maker_reset, NU
     Found found = maker_survey_file(maker_gltf(
         NULL, 0,
         "'extensionsUsed':['" IRIDESCENCE "','" ANISOTROPY "','KHR_materials_transmission',"
-        "'KHR_materials_volume'],'materials':[{'pbrMetallicRoughness':{'metallicFactor':0},"
-        "'extensions':{'" IRIDESCENCE "':{'iridescenceFactor':1},'" ANISOTROPY "':{'anisotropyStrength':1},"
+        "'KHR_materials_volume'],"
+        "'materials':[{'pbrMetallicRoughness':{'metallicFactor':0},"
+        "'extensions':{'" IRIDESCENCE "':{'iridescenceFactor':1},'"
+        ANISOTROPY "':{'anisotropyStrength':1},"
         "'KHR_materials_transmission':{'transmissionFactor':1},"
         "'KHR_materials_volume':{'thicknessFactor':1}}}]"));
     assert_int_equal(found.problems.count, 0);
