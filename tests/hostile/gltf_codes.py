@@ -89,7 +89,8 @@ class Trial:
         [(status, self.usual)] = check(program, [self.write(valid_model())])
         self.whole = status == 0 and all(
             any(word in p[1] for word in ("is not supported", "animation skipped",
-                                          "makes the solid clear", "has no effect"))
+                                          "makes the solid clear", "has no effect",
+                                          "clear as a whole"))
             for p in self.usual)
 
     def write(self, model):

@@ -9,7 +9,8 @@ import os
 import sys
 import tempfile
 
-from glazing import INDEX, ROOT, THICKNESS, Eye, faces, laminate, pane
+from eye import Eye, luminances
+from glazing import INDEX, ROOT, THICKNESS, faces, laminate, pane
 from gltf import Scene, along, cross, dot, sub, unit
 
 sys.path.insert(0, os.path.join(ROOT, "tests", "structure"))
@@ -191,8 +192,7 @@ def spots(values, least):
 def look(eye, sight, scene, field):
     """Luminances of a frame whose half is `field`, a tangent."""
     scene.view("eye", sight.eye, sight.way, math.degrees(2 * math.atan(field)), up=sight.up)
-    _, values = eye.luminance(scene, "--size", f"{SIDE}x{SIDE}", "--spp", str(SPP))
-    return values
+    return luminances(eye.frame(scene, "--size", f"{SIDE}x{SIDE}", "--spp", str(SPP)))
 
 
 def minutes(tangent):
