@@ -59,7 +59,8 @@ static inline void fixture_folder(Fixture *fixture)
     memset(fixture, 0, sizeof *fixture);
     fixture->arena = arena_reserve((size_t)64 << 30);
     assert_true(folder_create(fixture->folder));
-    snprintf(fixture->panel_path, sizeof fixture->panel_path, "%s/test.panel", fixture->folder);
+    snprintf(fixture->panel_path, sizeof fixture->panel_path, "%s",
+             fixture_path(fixture, "test.panel"));
 }
 
 /* Recipe text to its files in the fixture's folder; the path of their manifest. */
