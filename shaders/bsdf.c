@@ -12,6 +12,12 @@ static inline const void *parameters_of(const Bsdf *bsdf)
     return &bsdf->metallic_roughness;
 }
 
+void bsdf_look(Bsdf *bsdf, Vec3 wo, BsdfRoom *room)
+{
+    const BsdfModel *model = models[bsdf->kind];
+    if (model->look) model->look(&bsdf->metallic_roughness, wo, room);
+}
+
 Spectrum bsdf_eval(const Bsdf *bsdf, Vec3 wo, Vec3 wi, float *pdf)
 {
     const BsdfModel *model = models[bsdf->kind];

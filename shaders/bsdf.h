@@ -15,6 +15,7 @@
 #include "shaders/display.h"
 #include "shaders/glazing.h"
 #include "shaders/metallic_roughness.h"
+#include "shaders/metallic_view.h"
 
 /* Every model once: MODEL(KIND, name, Parameters) makes the kind BSDF_KIND, the member `name`
  * of Bsdf, and the row of bsdf.c's table for `name_model`, which the model's file defines. */
@@ -39,6 +40,16 @@ typedef struct Bsdf {
         BSDF_MODELS(BSDF_MEMBER)
     };
 } Bsdf;
+
+/* What one eye sees of a surface; its members are undefined until bsdf_look. */
+typedef union BsdfRoom {
+    MetallicView metallic_roughness;
+} BsdfRoom;
+
+/* For whoever asks several questions about one wo: from then on they take less work. Their
+ * answers, and those about other directions, are what they were. The room must outlive them,
+ * and the surface must not change before the next look. */
+void bsdf_look(Bsdf *bsdf, Vec3 wo, BsdfRoom *room);
 
 /* BSDF without its delta parts; *pdf: with which density bsdf_sample would choose wi through
  * its non-delta parts (including the probability of choosing them). */

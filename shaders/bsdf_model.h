@@ -39,6 +39,8 @@ typedef struct BsdfLobes {
 } BsdfLobes;
 
 typedef struct BsdfModel {
+    /* room: the model's own member of BsdfRoom. NULL: nothing is kept. */
+    void     (*look)(void *parameters, Vec3 wo, void *room);
     Spectrum (*eval)(const void *parameters, Vec3 wo, Vec3 wi, float *pdf);
     bool     (*reaches)(const void *parameters, Vec3 wo, Vec3 wi); /* NULL: may, everywhere */
     bool     (*sample)(const void *parameters, Vec3 wo, const float u[3], BsdfSample *sample);

@@ -82,59 +82,11 @@
 #include "base/units.h"
 #include "spectrum/fresnel.h"
 #include "shaders/facets/brushed.h"
-#include "shaders/covered_lobe.h"
-#include "shaders/facets/lobe_facets.h"
+#include "shaders/metallic_view.h"
 #include "shaders/polarisation.h"
-#include "shaders/sheen.h"
 
 #define WIDE_ALPHA 0.15f  /* lobes of more than about ten degrees */
 #define COAT_UPRIGHT 0.9999f /* z of a coat's normal that is not tilted */
-
-/* The non-metal's reflectance is f0 + rise * shape(angle). */
-typedef struct Boundary {
-    Spectrum f0, rise;
-} Boundary;
-
-/* Probabilities of the choices for one wo; they sum to one unless all are 0. */
-typedef struct Choices {
-    float coat, mirror, diffuse, through, across, sheen;
-} Choices;
-
-/* What the coat does to light along one direction. */
-typedef struct Through {
-    float     open; /* share that its boundary lets pass */
-    CoatShare share;
-} Through;
-
-/* What neither fibres nor facets of a white base send out through the coat: the Lambert base's
- * or, of a metal, the rebound's. */
-typedef struct Leftover {
-    Spectrum base;
-    float    metal;
-} Leftover;
-
-/* A coat over what coat.h's tables do not know. */
-typedef struct Covered {
-    Cover    cover;
-    Spectrum face[LOBE_FACETS]; /* of the non-metal, at facet_cosine */
-    Leftover     rest, mean;        /* towards wo; over the hemisphere */
-} Covered;
-
-/* The material as one eye sees it: what eval and sample need of wo. */
-typedef struct View {
-    const MetallicRoughness *m;
-    Vec3     wo;
-    Boundary boundary;
-    Energy   energy; /* of the base towards wo */
-    float    coat;   /* the coat's albedo towards wo, times its share */
-    Through  through; /* the coat, and of it all: */
-    CoatMean coat_mean;
-    Spectrum coated;  /* what a coated face sends back towards wo; undefined without one */
-    Choices  choices;
-    Spectrum film[LOBE_FACETS]; /* faces' reflectance at facet_cosine; undefined without one */
-    SheenShare sheen, sheen_mean; /* towards wo; undefined without one */
-    Covered    covered; /* undefined where !is_covered(m) */
-} View;
 
 MetallicRoughness metallic_roughness_default(const EnergyTable *energy)
 {
@@ -147,11 +99,11 @@ MetallicRoughness metallic_roughness_default(const EnergyTable *energy)
                                .energy = energy};
 }
 
-static inline Boundary boundary_of(const MetallicRoughness *m)
+static inline MetallicFace boundary_of(const MetallicRoughness *m)
 {
     float    f0 = m->energy->ior >= 1 ? fresnel_normal(m->energy->ior) : 1.0f;
     Spectrum tinted = m->specular_color * spectrum_all(f0);
-    Boundary b;
+    MetallicFace b;
     b.f0 = spectrum_min(tinted, spectrum_all(1)) * spectrum_all(m->specular);
     b.rise = spectrum_all(m->specular) - b.f0;
     return b;
@@ -194,13 +146,13 @@ static Spectrum filmed_metal(const MetallicRoughness *m, Spectrum bare, float co
     return mix_film(m, bare, clear_film_at(&m->film, m->wavelengths, cosine, n, k));
 }
 
-static inline Spectrum bare_reflectance(const MetallicRoughness *m, const Boundary *b,
+static inline Spectrum bare_reflectance(const MetallicRoughness *m, const MetallicFace *b,
                                         float cosine)
 {
     return b->f0 + b->rise * spectrum_all(fresnel_shape(m->energy->ior, cosine));
 }
 
-static inline Spectrum boundary_reflectance(const MetallicRoughness *m, const Boundary *b,
+static inline Spectrum boundary_reflectance(const MetallicRoughness *m, const MetallicFace *b,
                                             float cosine)
 {
     Spectrum bare = bare_reflectance(m, b, cosine);
@@ -213,7 +165,7 @@ static inline Spectrum sheet_reflectance(Spectrum face)
 }
 
 /* Share of the base's light that a boundary lets pass, for an energy of the table. */
-static inline Spectrum let_in(const Boundary *b, Energy e)
+static inline Spectrum let_in(const MetallicFace *b, Energy e)
 {
     return spectrum_all(1) - b->f0 * spectrum_all(e.all) - b->rise * spectrum_all(e.shape);
 }
@@ -396,7 +348,7 @@ static Vec2 facet_alphas(const MetallicRoughness *m)
 }
 
 /* What a filmed face sends back in all. */
-static Spectrum filmed_energy(const View *view, Vec3 w)
+static Spectrum filmed_energy(const MetallicView *view, Vec3 w)
 {
     const MetallicRoughness *m = view->m;
     if (is_smooth(m->alpha)) return boundary_reflectance(m, &view->boundary, w.z);
@@ -404,30 +356,11 @@ static Spectrum filmed_energy(const View *view, Vec3 w)
 }
 
 /* Of light from everywhere; a smooth face's is that of its narrowest lobe. */
-static Spectrum filmed_average(const View *view, float alpha)
+static Spectrum filmed_average(const MetallicView *view, float alpha)
 {
     Vec2 both = facet_alphas(view->m);
     if (is_smooth(alpha)) both = (Vec2){SMOOTH_ALPHA, SMOOTH_ALPHA};
     return sum_of_facets(view->film, mean_facets(&common_facet_table, both));
-}
-
-/* Lambert under a filmed face, as diffuse_eval. */
-static Spectrum under_film(const View *view, Spectrum albedo, Vec3 wi, float share)
-{
-    const MetallicRoughness *m = view->m;
-    Spectrum one = spectrum_all(1), mean = one - filmed_average(view, m->alpha);
-    return albedo * (one - view->coated) * (one - filmed_energy(view, wi)) *
-           spectrum_all(share * INV_PI_F) / spectrum_max(mean, spectrum_all(1e-3f));
-}
-
-/* Lambert under a coated face, as diffuse_eval. */
-static Spectrum under_coating(const View *view, Spectrum albedo, Vec3 wi, float share)
-{
-    const MetallicRoughness *m = view->m;
-    Spectrum one = spectrum_all(1), in = coated_energy(m, wi);
-    Spectrum mean = one - coated_average(m) * spectrum_all(m->specular);
-    return albedo * (one - view->coated) * (one - in) * spectrum_all(share * INV_PI_F) /
-           spectrum_max(mean, spectrum_all(1e-3f));
 }
 
 /* ---- facets ----------------------------------------------------------------------------- */
@@ -438,7 +371,8 @@ static bool has_coated_nonmetal(const MetallicRoughness *m)
 }
 
 /* Reflectance of a facet met at `cosine`, of the non-metal's share, sheet or solid. */
-static Spectrum facet_of_nonmetal(const MetallicRoughness *m, const Boundary *b, float cosine)
+static Spectrum facet_of_nonmetal(const MetallicRoughness *m, const MetallicFace *b,
+                                  float cosine)
 {
     if (!(m->metallic < 1)) return spectrum_all(0);
     if (has_coated_nonmetal(m)) return coated_facet(m, cosine);
@@ -463,7 +397,8 @@ static Spectrum facet_of_metal(const MetallicRoughness *m, float cosine)
 }
 
 /* What the sheet's share lets through a facet met at `cosine`. */
-static Spectrum pane_transmittance(const MetallicRoughness *m, const Boundary *b, float cosine)
+static Spectrum pane_transmittance(const MetallicRoughness *m, const MetallicFace *b,
+                                   float cosine)
 {
     if (coated_sheet(m))
         return coating_at(m->coating->sheet->through, m->wavelengths, cosine) * m->base_color *
@@ -473,23 +408,9 @@ static Spectrum pane_transmittance(const MetallicRoughness *m, const Boundary *b
            spectrum_all((1 - m->metallic) * m->transmission);
 }
 
-/* Lambert under the boundary: albedo / pi * in(wo) in(wi) / mean of in (Kelemen 2001). */
-static Spectrum diffuse_eval(const View *view, Spectrum albedo, Vec3 wi, Energy in)
-{
-    const MetallicRoughness *m = view->m;
-    const Boundary *b = &view->boundary;
-    float share = (1 - m->metallic) * (1 - m->transmission);
-    if (!(share > 0)) return spectrum_all(0);
-    if (coated_face(m)) return under_coating(view, albedo, wi, share);
-    if (has_film(m)) return under_film(view, albedo, wi, share);
-    Spectrum mean = let_in(b, base_average(m));
-    return albedo * let_in(b, view->energy) * let_in(b, in) *
-           spectrum_all(share * INV_PI_F) / spectrum_max(mean, spectrum_all(1e-3f));
-}
-
 /* Light that one facet hides from the eye meets others and comes out in the end, spread like
  * the missing albedo on both sides (Kulla and Conty 2017): sr^-1, for reflectance 1. */
-static float bare_rebound_lobe(const View *view, Energy in)
+static float bare_rebound_lobe(const MetallicView *view, Energy in)
 {
     float missing = 1 - base_average(view->m).all;
     if (!(missing > 1e-6f)) return 0;
@@ -503,9 +424,10 @@ static inline float sheen_most(const MetallicRoughness *m)
     return fmaxf(fmaxf(m->sheen_color[0], m->sheen_color[1]), m->sheen_color[2]);
 }
 
+/* No colour is below 0. */
 static inline bool has_sheen(const MetallicRoughness *m)
 {
-    return sheen_most(m) > 0;
+    return m->sheen_color[0] + m->sheen_color[1] + m->sheen_color[2] > 0;
 }
 
 /* No lane takes more than what lies beneath is made to miss. */
@@ -521,7 +443,7 @@ static SheenShare sheen_towards(const MetallicRoughness *m, Vec3 w)
 }
 
 /* Share of light along these two that a facet beneath keeps. */
-static float sheen_leaves(const View *view, Vec3 wi)
+static float sheen_leaves(const MetallicView *view, Vec3 wi)
 {
     const MetallicRoughness *m = view->m;
     float in = sheen_albedo(&common_sheen_table, fabsf(wi.z), m->sheen_alpha);
@@ -537,7 +459,7 @@ static Energy through_sheen(const MetallicRoughness *m, Energy e, SheenShare sha
 
 /* Neither in the sheen nor back from facets: what comes to the Lambert base. reflected: what a
  * coated or filmed face sends in all, without the sheen. */
-static Spectrum enters_below_sheen(const View *view, Spectrum reflected, Energy e,
+static Spectrum enters_below_sheen(const MetallicView *view, Spectrum reflected, Energy e,
                                    SheenShare share)
 {
     const MetallicRoughness *m = view->m;
@@ -548,33 +470,75 @@ static Spectrum enters_below_sheen(const View *view, Spectrum reflected, Energy 
     return spectrum_clamp(in - spectrum_all(most * share.albedo), 0, 1);
 }
 
-static Spectrum enters_along(const View *view, Vec3 w)
+/* Is what lets light into the Lambert base more than a bare boundary? */
+static inline bool has_layers(const MetallicRoughness *m)
 {
-    const MetallicRoughness *m = view->m;
-    Spectrum reflected = coated_face(m) ? coated_energy(m, w) :
-                         has_film(m)    ? filmed_energy(view, w) :
-                                          spectrum_all(0);
-    return enters_below_sheen(view, reflected, base_energy(m, w), sheen_towards(m, w));
+    return m->coating || has_film(m) || has_sheen(m);
 }
 
-static Spectrum enters_on_average(const View *view)
+/* reflected: what a coated or filmed face sends back in all. */
+static Spectrum enters_layers(const MetallicView *view, Spectrum reflected, Energy e,
+                              const SheenShare *sheen)
+{
+    const MetallicRoughness *m = view->m;
+    if (has_sheen(m)) return enters_below_sheen(view, reflected, e, *sheen);
+    if (coated_face(m) || has_film(m)) return spectrum_all(1) - reflected;
+    return let_in(&view->boundary, e);
+}
+
+static Spectrum enters_layers_along(const MetallicView *view, Vec3 w, Energy e)
+{
+    const MetallicRoughness *m = view->m;
+    SheenShare sheen;
+    Spectrum   reflected = coated_face(m) ? coated_energy(m, w) :
+                           has_film(m)    ? filmed_energy(view, w) :
+                                            spectrum_all(0);
+    if (has_sheen(m)) sheen = sheen_towards(m, w);
+    return enters_layers(view, reflected, e, &sheen);
+}
+
+static Spectrum enters_layers_on_average(const MetallicView *view)
 {
     const MetallicRoughness *m = view->m;
     Spectrum reflected = coated_face(m) ? coated_average(m) * spectrum_all(m->specular) :
                          has_film(m)    ? filmed_average(view, m->alpha) :
                                           spectrum_all(0);
-    return enters_below_sheen(view, reflected, base_average(m), view->sheen_mean);
+    return enters_layers(view, reflected, base_average(m), &view->sheen_mean);
 }
 
-/* As diffuse_eval, coupled to sheen and boundary at once. */
-static Spectrum diffuse_below_sheen(const View *view, Spectrum albedo, Vec3 wi)
+/* Share of the light from w that comes to the Lambert base where no coat lies; e: of facets. */
+static inline Spectrum enters(const MetallicView *view, Vec3 w, Energy e)
+{
+    return has_layers(view->m) ? enters_layers_along(view, w, e) : let_in(&view->boundary, e);
+}
+
+static inline bool has_lambert(const MetallicRoughness *m)
+{
+    return (1 - m->metallic) * (1 - m->transmission) > 0;
+}
+
+/* The part of diffuse_eval that wo tells. */
+static Spectrum lambert_towards(const MetallicView *view)
 {
     const MetallicRoughness *m = view->m;
-    float share = (1 - m->metallic) * (1 - m->transmission);
-    if (!(share > 0)) return spectrum_all(0);
-    return albedo * enters_below_sheen(view, view->coated, view->energy, view->sheen) *
-           enters_along(view, wi) * spectrum_all(share * INV_PI_F) /
-           spectrum_max(enters_on_average(view), spectrum_all(1e-3f));
+    Spectrum share = spectrum_all((1 - m->metallic) * (1 - m->transmission) * INV_PI_F);
+    Spectrum in, mean;
+    if (has_layers(m)) {
+        in = enters_layers(view, view->coated, view->energy, &view->sheen);
+        mean = enters_layers_on_average(view);
+    } else {
+        in = let_in(&view->boundary, view->energy);
+        mean = let_in(&view->boundary, base_average(m));
+    }
+    return in * share / spectrum_max(mean, spectrum_all(1e-3f));
+}
+
+/* Lambert under boundary and sheen: albedo / pi * in(wo) in(wi) / mean of in (Kelemen 2001). */
+static inline Spectrum diffuse_eval(const MetallicView *view, Spectrum albedo, Vec3 wi,
+                                    Energy in)
+{
+    if (!has_lambert(view->m)) return spectrum_all(0);
+    return albedo * view->lambert * enters(view, wi, in);
 }
 
 /* Of the light that gets past the sheen, what facets hide. */
@@ -583,7 +547,7 @@ static float hidden_below_sheen(const MetallicRoughness *m, Energy e, SheenShare
     return fmaxf(1 - sheen_most(m) * share.albedo - through_sheen(m, e, share).all, 0);
 }
 
-static float rebound_below_sheen(const View *view, Vec3 wi, Energy in)
+static float rebound_below_sheen(const MetallicView *view, Vec3 wi, Energy in)
 {
     const MetallicRoughness *m = view->m;
     float missing = hidden_below_sheen(m, base_average(m), view->sheen_mean);
@@ -592,14 +556,14 @@ static float rebound_below_sheen(const View *view, Vec3 wi, Energy in)
            hidden_below_sheen(m, in, sheen_towards(m, wi)) / missing * INV_PI_F;
 }
 
-static float rebound_lobe(const View *view, Vec3 wi, Energy in)
+static float rebound_lobe(const MetallicView *view, Vec3 wi, Energy in)
 {
     return has_sheen(view->m) ? rebound_below_sheen(view, wi, in) :
                                 bare_rebound_lobe(view, in);
 }
 
 /* The light of both directions that a smooth mirror or a sheet keeps below the sheen. */
-static Spectrum sheen_over(const View *view, Vec3 wi, Spectrum below)
+static inline Spectrum sheen_over(const MetallicView *view, Vec3 wi, Spectrum below)
 {
     return has_sheen(view->m) ? below * spectrum_all(sheen_leaves(view, wi)) : below;
 }
@@ -631,9 +595,9 @@ static Spectrum metal_rebound(const MetallicRoughness *m)
 }
 
 /* A sheet parts it by its mean reflectance over the hemisphere. */
-static Spectrum pane_mean(const View *view)
+static Spectrum pane_mean(const MetallicView *view)
 {
-    const Boundary *b = &view->boundary;
+    const MetallicFace *b = &view->boundary;
     if (coated_sheet(view->m)) /* of either side: they differ by what the coating absorbs */
         return curve_lookup(&view->m->coating->sheet->front_mean, view->m->wavelengths);
     if (has_film(view->m)) return sheet_reflectance(filmed_average(view, 0));
@@ -641,7 +605,7 @@ static Spectrum pane_mean(const View *view)
     return sheet_reflectance(b->f0 + b->rise * spectrum_all(shape));
 }
 
-static Spectrum pane_mean_through(const View *view)
+static Spectrum pane_mean_through(const MetallicView *view)
 {
     const MetallicRoughness *m = view->m;
     if (coated_sheet(m)) return curve_lookup(&m->coating->sheet->through_mean, m->wavelengths);
@@ -653,12 +617,18 @@ static float clear_share(const MetallicRoughness *m)
     return (1 - m->metallic) * m->transmission;
 }
 
-static Spectrum rebound_above(const View *view, Vec3 wi, Energy in)
+/* Of metals and sheets: the non-metal's is the Lambert base's. */
+static inline bool has_rebound(const MetallicRoughness *m)
+{
+    return m->metallic > 0 || m->transmission > 0;
+}
+
+static Spectrum rebound_above(const MetallicView *view, Vec3 wi, Energy in)
 {
     const MetallicRoughness *m = view->m;
     Spectrum sum = spectrum_all(0);
     float    clear = clear_share(m);
-    float    lobe = m->metallic > 0 || clear > 0 ? rebound_lobe(view, wi, in) : 0;
+    float    lobe = rebound_lobe(view, wi, in);
     if (!(lobe > 0)) return sum;
     if (m->metallic > 0) sum = metal_rebound(m);
     if (clear > 0) sum += pane_mean(view) * spectrum_all(clear);
@@ -691,10 +661,11 @@ static inline bool is_covered(const MetallicRoughness *m)
 }
 
 /* A tilted coat's turns are left out: the table knows no tilt. */
-static Through coat_through(const MetallicRoughness *m, Vec3 w)
+static ThroughCoat coat_through(const MetallicRoughness *m, Vec3 w)
 {
-    float   cosine = coat_cosine(m, w);
-    Through t = {.open = 1 - coat_reflectance(m->clearcoat_energy, cosine, m->clearcoat_alpha)};
+    float       cosine = coat_cosine(m, w);
+    ThroughCoat t;
+    t.open = 1 - coat_reflectance(m->clearcoat_energy, cosine, m->clearcoat_alpha);
     t.share = coat_share(m->coat, cosine, m->alpha, m->clearcoat_alpha);
     if (m->clearcoat_normal.z < COAT_UPRIGHT) t.share.boost = t.open;
     return t;
@@ -702,7 +673,8 @@ static Through coat_through(const MetallicRoughness *m, Vec3 w)
 
 /* Of the light that goes in and out along these, with p = (t / u)^2 the share that a lobe's
  * light gets out with each time and r the base's albedo: t t / sqrt of both 1 - r (1 - p). */
-static Spectrum coat_on_metal(const MetallicRoughness *m, const Through *out, const Through *in)
+static Spectrum coat_on_metal(const MetallicRoughness *m, const ThroughCoat *out,
+                              const ThroughCoat *in)
 {
     Spectrum r = metal_mean(m), one = spectrum_all(1), product;
     float    stays[2], t[2] = {out->open, in->open}, u[2] = {out->share.boost, in->share.boost};
@@ -717,17 +689,17 @@ static Spectrum coat_on_metal(const MetallicRoughness *m, const Through *out, co
 }
 
 /* What both boundaries let into the Lambert base. */
-static inline Spectrum let_in_coated(const Boundary *b, Energy e, const Through *t)
+static inline Spectrum let_in_coated(const MetallicFace *b, Energy e, const ThroughCoat *t)
 {
     return let_in(b, (Energy){e.all - t->share.all, e.shape - t->share.shape}) *
            spectrum_all(t->open);
 }
 
-static Spectrum coated_diffuse(const View *view, Spectrum albedo, Energy in,
-                               const Through *below)
+static Spectrum coated_diffuse(const MetallicView *view, Spectrum albedo, Energy in,
+                               const ThroughCoat *below)
 {
     const MetallicRoughness *m = view->m;
-    const Boundary *b = &view->boundary;
+    const MetallicFace *b = &view->boundary;
     float    share = (1 - m->metallic) * (1 - m->transmission);
     if (!(share > 0)) return spectrum_all(0);
     Spectrum mean = spectrum_all(view->coat_mean.open) -
@@ -738,7 +710,7 @@ static Spectrum coated_diffuse(const View *view, Spectrum albedo, Energy in,
            spectrum_all(share * INV_PI_F) / spectrum_max(mean, spectrum_all(1e-3f));
 }
 
-static Spectrum coated_rebound(const View *view, Energy in, const Through *below)
+static Spectrum coated_rebound(const MetallicView *view, Energy in, const ThroughCoat *below)
 {
     const MetallicRoughness *m = view->m;
     float    both = view->through.open * below->open, clear = clear_share(m);
@@ -767,7 +739,7 @@ static float kept_by_sheen(const MetallicRoughness *m, float cosine)
     return 1 - sheen_most(m) * sheen_albedo(&common_sheen_table, cosine, m->sheen_alpha);
 }
 
-static Spectrum face_at(const View *view, float cosine)
+static Spectrum face_at(const MetallicView *view, float cosine)
 {
     const MetallicRoughness *m = view->m;
     if (coated_face(m))
@@ -776,7 +748,7 @@ static Spectrum face_at(const View *view, float cosine)
     return boundary_reflectance(m, &view->boundary, cosine);
 }
 
-static Spectrum sent_by_face(const Covered *covered, const LobeFacets *facets)
+static Spectrum sent_by_face(const CoveredBase *covered, const LobeFacets *facets)
 {
     Spectrum sum = spectrum_all(0);
     for (int i = 0; i < LOBE_FACETS; i++)
@@ -784,21 +756,21 @@ static Spectrum sent_by_face(const Covered *covered, const LobeFacets *facets)
     return sum;
 }
 
-static Leftover rest_along(const View *view, Vec3 w)
+static CoveredRest rest_along(const MetallicView *view, Vec3 w)
 {
     const MetallicRoughness *m = view->m;
-    const Covered *covered = &view->covered;
+    const CoveredBase *covered = &view->covered;
     float    open = coat_open(m, w), kept = kept_by_sheen(m, w.z);
     float    above = 1 - open_fibres(m, w.z);
     Spectrum face;
     if (is_smooth(m->alpha)) {
         face = face_at(view, w.z) * spectrum_all(open * kept);
-        return (Leftover){(spectrum_all(above) - face) * spectrum_all(open),
+        return (CoveredRest){(spectrum_all(above) - face) * spectrum_all(open),
                           open * (above - kept)};
     }
     CoveredLobe lobe = covered_lobe(&covered->cover, w);
     face = sent_by_face(covered, &lobe.facets);
-    return (Leftover){spectrum_max(spectrum_all(above) - face, spectrum_all(0)) *
+    return (CoveredRest){spectrum_max(spectrum_all(above) - face, spectrum_all(0)) *
                       spectrum_all(open),
                   open * (above - kept) + lobe.lost};
 }
@@ -832,10 +804,10 @@ static void mean_of_fibres(const MetallicRoughness *m, const Cover *cover, float
     }
 }
 
-static void set_covered(View *view)
+static void set_covered(MetallicView *view)
 {
     const MetallicRoughness *m = view->m;
-    Covered *covered = &view->covered;
+    CoveredBase *covered = &view->covered;
     float    taken, sent;
     set_cover(m, &covered->cover);
     mean_of_fibres(m, &covered->cover, &taken, &sent);
@@ -858,7 +830,8 @@ static Spectrum coat_on_mirror(Spectrum r, float t)
     return spectrum_all(t * t) / (spectrum_all(1) - r * spectrum_all(1 - t));
 }
 
-static Spectrum covered_lambert(const View *view, Spectrum albedo, const Leftover *in)
+static Spectrum covered_lambert(const MetallicView *view, Spectrum albedo,
+                                const CoveredRest *in)
 {
     const MetallicRoughness *m = view->m;
     float share = (1 - m->metallic) * (1 - m->transmission);
@@ -867,10 +840,11 @@ static Spectrum covered_lambert(const View *view, Spectrum albedo, const Leftove
            view->covered.mean.base;
 }
 
-static Spectrum covered_rebound(const View *view, Vec3 wi, Energy e, const Leftover *in)
+static Spectrum covered_rebound(const MetallicView *view, Vec3 wi, Energy e,
+                                const CoveredRest *in)
 {
     const MetallicRoughness *m = view->m;
-    const Covered *c = &view->covered;
+    const CoveredBase *c = &view->covered;
     float    clear = clear_share(m);
     Spectrum sum = spectrum_all(0);
     if (m->metallic > 0 && c->mean.metal > 1e-6f)
@@ -916,19 +890,19 @@ static float coat_eval(const MetallicRoughness *m, Vec3 wo, Vec3 wi, float *pdf)
            ggx_reflection(out, in, half, m->clearcoat_alpha);
 }
 
-static Choices scaled_to_one(Choices c)
+static MetallicChoices scaled_to_one(MetallicChoices c)
 {
     float sum = c.coat + c.mirror + c.diffuse + c.through + c.across + c.sheen;
     float scale = sum > 0 ? 1 / sum : 0;
-    return (Choices){c.coat * scale, c.mirror * scale, c.diffuse * scale, c.through * scale,
-                     c.across * scale, c.sheen * scale};
+    return (MetallicChoices){c.coat * scale,    c.mirror * scale, c.diffuse * scale,
+                             c.through * scale, c.across * scale, c.sheen * scale};
 }
 
-static Choices beside_sheen(const View *view, Choices c)
+static MetallicChoices beside_sheen(const MetallicView *view, MetallicChoices c)
 {
     const MetallicRoughness *m = view->m;
     float left = 1 - sheen_most(m) * view->sheen.albedo;
-    return (Choices){.coat = c.coat,
+    return (MetallicChoices){.coat = c.coat,
                      .mirror = c.mirror * left,
                      .diffuse = c.diffuse * left,
                      .through = c.through * left,
@@ -938,7 +912,7 @@ static Choices beside_sheen(const View *view, Choices c)
 }
 
 /* Mean shares of light for choosing, where a part is coated. */
-static Choices choose_coated(const View *view, float coat)
+static MetallicChoices choose_coated(const MetallicView *view, float coat)
 {
     const MetallicRoughness *m = view->m;
     float z = view->wo.z, lost = 1 - view->energy.all, under = 1 - coat;
@@ -949,7 +923,7 @@ static Choices choose_coated(const View *view, float coat)
     float through = clear > 0 ? spectrum_mean(pane_transmittance(m, &view->boundary, z)) : 0;
     float face = coated_face(m) || has_film(m) ? spectrum_mean(view->coated) :
                  spectrum_mean(spectrum_all(1) - let_in(&view->boundary, view->energy));
-    return (Choices){
+    return (MetallicChoices){
         .coat = coat,
         .mirror = under * (facets + metal),
         .diffuse = under * (base * solid * (1 - face) +
@@ -960,7 +934,7 @@ static Choices choose_coated(const View *view, float coat)
 }
 
 /* Probabilities follow the lanes' mean albedo of each part, so that none is ever starved. */
-static inline Choices choose(const View *view)
+static inline MetallicChoices choose(const MetallicView *view)
 {
     const MetallicRoughness *m = view->m;
     Energy e = view->energy;
@@ -976,7 +950,7 @@ static inline Choices choose(const View *view)
     float clear = (1 - m->metallic) * m->transmission, solid = 1 - m->metallic - clear;
     float coat = vec3_dot(m->clearcoat_normal, view->wo) > 0 ? view->coat : 0;
     float under = 1 - coat;
-    Choices c = {
+    MetallicChoices c = {
         .coat = coat,
         .mirror = under * (solid * face + clear * sheet + m->metallic * metal),
         .diffuse = under * (base * (solid * (1 - m->across) * (1 - face) +
@@ -990,7 +964,7 @@ static inline Choices choose(const View *view)
     return c;
 }
 
-static void set_film(View *view)
+static void set_film(MetallicView *view)
 {
     view->coated = spectrum_all(0);
     if (!(view->m->metallic < 1)) return;
@@ -1000,7 +974,7 @@ static void set_film(View *view)
 }
 
 /* Layers that a surface does not have leave their members as they were. */
-static void set_layers(View *view)
+static void set_layers(MetallicView *view)
 {
     const MetallicRoughness *m = view->m;
     if (m->clearcoat > 0) {
@@ -1012,7 +986,7 @@ static void set_layers(View *view)
 }
 
 /* Filled where it stands: it is large, and a plain surface needs little of it. */
-static inline void set_view(View *view, const MetallicRoughness *m, Vec3 wo)
+static inline void set_view(MetallicView *view, const MetallicRoughness *m, Vec3 wo)
 {
     view->m = m;
     view->wo = wo;
@@ -1020,19 +994,42 @@ static inline void set_view(View *view, const MetallicRoughness *m, Vec3 wo)
     view->energy = base_energy(m, wo);
     view->coat = coat_albedo(m, wo);
     set_layers(view);
-    Choices choices = choose(view);
+    MetallicChoices choices = choose(view);
     if (has_sheen(m)) {
         view->sheen = sheen_towards(m, wo);
         view->sheen_mean = sheen_mean(&common_sheen_table, m->sheen_alpha, even_alpha(m));
         choices = beside_sheen(view, choices);
     }
     view->choices = scaled_to_one(choices);
+    if (has_lambert(m)) view->lambert = lambert_towards(view);
     if (is_covered(m)) set_covered(view);
+}
+
+static void model_look(void *parameters, Vec3 wo, void *room)
+{
+    MetallicRoughness *m = parameters;
+    MetallicView *view = room;
+    m->seen = NULL;
+    if (!(wo.z > 0)) return;
+    set_view(view, m, wo);
+    m->seen = view;
+}
+
+/* What was kept, if it is of this eye; else what is made now. A copy of the material may still
+ * point at what was kept for the first. */
+static inline const MetallicView *view_towards(const MetallicRoughness *m, Vec3 wo,
+                                               MetallicView *own)
+{
+    const MetallicView *seen = m->seen;
+    if (seen && seen->m == m && seen->wo.x == wo.x && seen->wo.y == wo.y && seen->wo.z == wo.z)
+        return seen;
+    set_view(own, m, wo);
+    return own;
 }
 
 /* A facet of the base met at `cosine`, as the light of both directions finds it: below NULL: no
  * coat lies on it. */
-static Spectrum facet_below(const View *view, float cosine, const Through *below)
+static Spectrum facet_below(const MetallicView *view, float cosine, const ThroughCoat *below)
 {
     const MetallicRoughness *m = view->m;
     Spectrum nonmetal = facet_of_nonmetal(m, &view->boundary, cosine);
@@ -1052,7 +1049,7 @@ static Spectrum covered(const MetallicRoughness *m, Spectrum bare, Spectrum coat
 }
 
 /* The base's facets, below the coat where it is (below: of wi). */
-static Spectrum facet_lobe(const View *view, Vec3 wi, const Through *below)
+static Spectrum facet_lobe(const MetallicView *view, Vec3 wi, const ThroughCoat *below)
 {
     const MetallicRoughness *m = view->m;
     Vec3     half = vec3_normalize(vec3_add(view->wo, wi));
@@ -1062,25 +1059,18 @@ static Spectrum facet_lobe(const View *view, Vec3 wi, const Through *below)
     return sheen_over(view, wi, facet) * spectrum_all(base_lobe(m, view->wo, wi, half));
 }
 
-static Spectrum fibres_towards(const View *view, Vec3 wi)
+static Spectrum fibres_towards(const MetallicView *view, Vec3 wi)
 {
     const MetallicRoughness *m = view->m;
     float lobe = sheen_lobe(&common_sheen_table, view->wo, wi, m->sheen_alpha);
     return sheen_tint(m) * spectrum_all(lobe);
 }
 
-/* Fibres, Lambert and rebound, without a coat. */
-static Spectrum sheen_and_below(const View *view, Vec3 wi, Energy in)
-{
-    return fibres_towards(view, wi) + rebound_above(view, wi, in) +
-           diffuse_below_sheen(view, lambert_back(view->m), wi);
-}
-
-/* The same, and of bases without sheen, under a coat. */
-static Spectrum covered_above(const View *view, Vec3 wi, Energy e)
+/* Lambert, rebound and fibres under a coat. */
+static Spectrum covered_above(const MetallicView *view, Vec3 wi, Energy e)
 {
     const MetallicRoughness *m = view->m;
-    Leftover     in = rest_along(view, wi);
+    CoveredRest     in = rest_along(view, wi);
     Spectrum sum = covered_lambert(view, lambert_back(m), &in) +
                    covered_rebound(view, wi, e, &in);
     if (has_sheen(m))
@@ -1089,13 +1079,14 @@ static Spectrum covered_above(const View *view, Vec3 wi, Energy e)
 }
 
 /* All but facets. below: of wi; undefined without a coat. */
-static Spectrum spread_by_base(const View *view, Vec3 wi, Energy in, const Through *below)
+static Spectrum spread_by_base(const MetallicView *view, Vec3 wi, Energy in,
+                               const ThroughCoat *below)
 {
     const MetallicRoughness *m = view->m;
     Spectrum lambert = lambert_back(m);
-    Spectrum sum = has_sheen(m) ? sheen_and_below(view, wi, in) :
-                                  diffuse_eval(view, lambert, wi, in) +
-                                      rebound_above(view, wi, in);
+    Spectrum sum = diffuse_eval(view, lambert, wi, in);
+    if (has_rebound(m)) sum += rebound_above(view, wi, in);
+    if (has_sheen(m)) sum += fibres_towards(view, wi);
     if (!(m->clearcoat > 0)) return sum;
     if (is_covered(m)) return covered(m, sum, covered_above(view, wi, in));
     return covered(m, sum, coated_diffuse(view, lambert, in, below) +
@@ -1103,10 +1094,10 @@ static Spectrum spread_by_base(const View *view, Vec3 wi, Energy in, const Throu
 }
 
 /* The base seen from above: rough mirror, Lambert, rebound; and its part of the pdf. */
-static Spectrum base_above(const View *view, Vec3 wi, float *pdf)
+static Spectrum base_above(const MetallicView *view, Vec3 wi, float *pdf)
 {
     const MetallicRoughness *m = view->m;
-    Through  below;
+    ThroughCoat  below;
     Energy   in = base_energy(m, wi);
     *pdf = view->choices.diffuse * wi.z * INV_PI_F;
     if (m->clearcoat > 0) below = coat_through(m, wi);
@@ -1122,7 +1113,7 @@ static Spectrum base_above(const View *view, Vec3 wi, float *pdf)
 
 /* A rough sheet sends on what a mirror would send back, turned over to the other side, and its
  * part of the rebound. */
-static Spectrum base_below(const View *view, Vec3 wi, float *pdf)
+static Spectrum base_below(const MetallicView *view, Vec3 wi, float *pdf)
 {
     const MetallicRoughness *m = view->m;
     *pdf = 0;
@@ -1140,25 +1131,24 @@ static Spectrum base_below(const View *view, Vec3 wi, float *pdf)
 }
 
 /* Lambert's light from the other side; adds its part of the pdf. */
-static Spectrum base_across(const View *view, Vec3 wi, float *pdf)
+static Spectrum base_across(const MetallicView *view, Vec3 wi, float *pdf)
 {
     const MetallicRoughness *m = view->m;
     Vec3     up = vec3(wi.x, wi.y, -wi.z);
     Energy   in = base_energy(m, up);
     Spectrum lambert = lambert_across(m);
-    Spectrum sum = has_sheen(m) ? diffuse_below_sheen(view, lambert, up) :
-                                  diffuse_eval(view, lambert, up, in);
+    Spectrum sum = diffuse_eval(view, lambert, up, in);
     *pdf += view->choices.across * up.z * INV_PI_F;
     if (!(m->clearcoat > 0)) return sum;
     if (is_covered(m)) {
-        Leftover rest = rest_along(view, up);
+        CoveredRest rest = rest_along(view, up);
         return covered(m, sum, covered_lambert(view, lambert, &rest));
     }
-    Through below = coat_through(m, up);
+    ThroughCoat below = coat_through(m, up);
     return covered(m, sum, coated_diffuse(view, lambert, in, &below));
 }
 
-static Spectrum eval_view(const View *view, Vec3 wi, float *pdf)
+static Spectrum eval_view(const MetallicView *view, Vec3 wi, float *pdf)
 {
     const MetallicRoughness *m = view->m;
     Spectrum f = wi.z > 0 ? base_above(view, wi, pdf) : base_below(view, wi, pdf);
@@ -1185,9 +1175,9 @@ static Spectrum model_eval(const void *parameters, Vec3 wo, Vec3 wi, float *pdf)
     const MetallicRoughness *m = parameters;
     *pdf = 0;
     if (!model_reaches(parameters, wo, wi)) return spectrum_all(0);
-    View view;
-    set_view(&view, m, wo);
-    return eval_view(&view, wi, pdf);
+    MetallicView own;
+    const MetallicView *view = view_towards(m, wo, &own);
+    return eval_view(view, wi, pdf);
 }
 
 static bool sample_smooth(BsdfSample *sample, Vec3 wi, Spectrum value, float prob)
@@ -1198,7 +1188,7 @@ static bool sample_smooth(BsdfSample *sample, Vec3 wi, Spectrum value, float pro
 }
 
 /* The smooth coat's mirror image, about the coat's own normal. */
-static bool sample_smooth_coat(const View *view, BsdfSample *sample)
+static bool sample_smooth_coat(const MetallicView *view, BsdfSample *sample)
 {
     const MetallicRoughness *m = view->m;
     Vec3  wo = view->wo;
@@ -1210,15 +1200,15 @@ static bool sample_smooth_coat(const View *view, BsdfSample *sample)
     return sample_smooth(sample, wi, spectrum_all(value * wi.z / cosine), view->choices.coat);
 }
 
-static Spectrum smooth_base(const View *view, Vec3 wi)
+static Spectrum smooth_base(const MetallicView *view, Vec3 wi)
 {
     Spectrum bare = facet_below(view, wi.z, NULL);
     if (!(view->m->clearcoat > 0)) return sheen_over(view, wi, bare);
-    Through below = coat_through(view->m, wi);
+    ThroughCoat below = coat_through(view->m, wi);
     return sheen_over(view, wi, covered(view->m, bare, facet_below(view, wi.z, &below)));
 }
 
-static bool sample_smooth_base(const View *view, BsdfSample *sample)
+static bool sample_smooth_base(const MetallicView *view, BsdfSample *sample)
 {
     Vec3 wi = vec3(-view->wo.x, -view->wo.y, view->wo.z);
     return sample_smooth(sample, wi, smooth_base(view, wi), view->choices.mirror);
@@ -1232,28 +1222,28 @@ static Spectrum model_mirror(const void *parameters, Vec3 wo)
     if (!(wo.z > 0)) return spectrum_all(0);
     Spectrum by_coat = spectrum_all(coat > 0 ? coat * coat_facet(wo.z) : 0);
     if (!is_smooth(m->alpha)) return by_coat;
-    View view;
-    set_view(&view, m, wo);
-    return by_coat + smooth_base(&view, vec3(-wo.x, -wo.y, wo.z));
+    MetallicView own;
+    const MetallicView *view = view_towards(m, wo, &own);
+    return by_coat + smooth_base(view, vec3(-wo.x, -wo.y, wo.z));
 }
 
 static Spectrum model_glint(const void *parameters, Vec3 wo, Vec3 wi)
 {
     const MetallicRoughness *m = parameters;
-    Through below;
+    ThroughCoat below;
     bool    is_glint = !is_smooth(m->alpha) && m->alpha <= GLINT_ALPHA && !is_brushed(m);
     if (!(wo.z > 0 && wi.z > 0 && is_glint)) return spectrum_all(0);
-    View view;
-    set_view(&view, m, wo);
+    MetallicView own;
+    const MetallicView *view = view_towards(m, wo, &own);
     if (m->clearcoat > 0) below = coat_through(m, wi);
-    return facet_lobe(&view, wi, &below);
+    return facet_lobe(view, wi, &below);
 }
 
 static Spectrum model_pass(const void *parameters, Vec3 wo)
 {
     const MetallicRoughness *m = parameters;
     if (!is_smooth(m->alpha) || !(m->transmission > 0) || !(wo.z > 0)) return spectrum_all(0);
-    Boundary b = boundary_of(m);
+    MetallicFace b = boundary_of(m);
     float    coat = 1 - coat_albedo(m, wo);
     if (has_sheen(m))
         coat *= sqrtf(1 - sheen_most(m) * sheen_albedo(&common_sheen_table, wo.z,
@@ -1273,7 +1263,7 @@ typedef enum Part {
 
 /* Which part u falls on; it becomes the place inside that part: directions of every part then
  * are spread as well as their share of u is. */
-static Part choose_part(const Choices *choices, float *u)
+static Part choose_part(const MetallicChoices *choices, float *u)
 {
     const float prob[] = {choices->coat, choices->mirror, choices->diffuse, choices->through,
                           choices->across, choices->sheen};
@@ -1300,7 +1290,7 @@ static Vec3 turned_over(Vec3 w)
 }
 
 /* A direction by the rough coat, the rough mirror, the Lambert base, fibres or rough sheet. */
-static Vec3 sample_rough(const View *view, Part part, const float u[3])
+static Vec3 sample_rough(const MetallicView *view, Part part, const float u[3])
 {
     const MetallicRoughness *m = view->m;
     if (part == PART_COAT) {
@@ -1323,22 +1313,22 @@ static bool model_sample(const void *parameters, Vec3 wo, const float u[3], Bsdf
 {
     const MetallicRoughness *m = parameters;
     if (!(wo.z > 0)) return false;
-    View view;
-    set_view(&view, m, wo);
+    MetallicView own;
+    const MetallicView *view = view_towards(m, wo, &own);
     float v[3] = {u[0], u[1], u[2]};
-    Part  part = choose_part(&view.choices, &v[0]);
+    Part  part = choose_part(&view->choices, &v[0]);
     if (part == PART_NONE) return false;
     if (part == PART_COAT && is_smooth(m->clearcoat_alpha))
-        return sample_smooth_coat(&view, sample);
-    if (part == PART_MIRROR && is_smooth(m->alpha)) return sample_smooth_base(&view, sample);
+        return sample_smooth_coat(view, sample);
+    if (part == PART_MIRROR && is_smooth(m->alpha)) return sample_smooth_base(view, sample);
     if (part == PART_THROUGH && is_smooth(m->alpha)) {
-        sample_smooth(sample, vec3_neg(wo), model_pass(m, wo), view.choices.through);
+        sample_smooth(sample, vec3_neg(wo), model_pass(m, wo), view->choices.through);
         return sample->passes = true;
     }
-    Vec3 wi = sample_rough(&view, part, v);
+    Vec3 wi = sample_rough(view, part, v);
     if (!(part == PART_THROUGH || part == PART_ACROSS ? wi.z < 0 : wi.z > 0)) return false;
     float    pdf;
-    Spectrum f = eval_view(&view, wi, &pdf);
+    Spectrum f = eval_view(view, wi, &pdf);
     if (!(pdf > 0)) return false;
     *sample = (BsdfSample){.wi = wi, .weight = f * spectrum_all(fabsf(wi.z) / pdf), .pdf = pdf};
     return true;
@@ -1353,7 +1343,7 @@ static bool model_scatters(const void *parameters)
 }
 
 /* f0 of the non-metal and of the metal, and what the face sends back in all. */
-static void lobe_shares(const View *view, float *nonmetal, float *metal, float *face)
+static void lobe_shares(const MetallicView *view, float *nonmetal, float *metal, float *face)
 {
     const MetallicRoughness *m = view->m;
     Energy e = view->energy;
@@ -1374,22 +1364,22 @@ static void model_lobes(const void *parameters, Vec3 wo, BsdfLobes *lobes)
 {
     const MetallicRoughness *m = parameters;
     if (!(wo.z > 0) || m->across > 0) return;
-    View view;
-    set_view(&view, m, wo);
-    float base = spectrum_mean(m->base_color), solid = 1 - m->metallic, under = 1 - view.coat;
+    MetallicView own;
+    const MetallicView *view = view_towards(m, wo, &own);
+    float base = spectrum_mean(m->base_color), solid = 1 - m->metallic, under = 1 - view->coat;
     float f0, metal, face;
-    lobe_shares(&view, &f0, &metal, &face);
-    lobes->prob = view.choices.diffuse;
+    lobe_shares(view, &f0, &metal, &face);
+    lobes->prob = view->choices.diffuse;
     lobes->diffuse = under * solid * (1 - m->transmission) * (1 - face) * base;
     if (has_sheen(m)) { /* fibres spread it as widely */
-        float left = 1 - sheen_most(m) * view.sheen.albedo;
-        lobes->prob += view.choices.sheen;
+        float left = 1 - sheen_most(m) * view->sheen.albedo;
+        lobes->prob += view->choices.sheen;
         lobes->diffuse = lobes->diffuse * left +
-                         under * view.sheen.albedo * spectrum_mean(sheen_tint(m));
+                         under * view->sheen.albedo * spectrum_mean(sheen_tint(m));
     }
     float alpha = is_brushed(m) ? sqrtf(m->alpha_along * m->alpha) : m->alpha;
     if (alpha < WIDE_ALPHA) return;
-    lobes->prob += view.choices.mirror;
+    lobes->prob += view->choices.mirror;
     lobes->f0 = under * (solid * f0 + m->metallic * metal);
     lobes->f90 = under * (solid * m->specular + m->metallic);
     lobes->alpha = alpha;
@@ -1400,7 +1390,7 @@ static void albedo_parts(const MetallicRoughness *m, Vec3 wo, Spectrum *solid, S
                          Spectrum *metal)
 {
     Energy   e = base_energy(m, wo);
-    Boundary b = boundary_of(m);
+    MetallicFace b = boundary_of(m);
     Spectrum one = spectrum_all(1), in = let_in(&b, e), base = m->base_color;
     Spectrum sheet = sheet_reflectance(one - in);
     *clear = sheet + (one - sheet) * base;
@@ -1409,10 +1399,10 @@ static void albedo_parts(const MetallicRoughness *m, Vec3 wo, Spectrum *solid, S
                  coating_at(m->coating->sheet->through, m->wavelengths, wo.z) * base;
     if (coated_face(m)) in = one - coated_energy(m, wo);
     if (has_film(m)) {
-        View view;
-        set_view(&view, m, wo);
-        in = one - view.coated;
-        sheet = sheet_reflectance(view.coated);
+        MetallicView own;
+        const MetallicView *view = view_towards(m, wo, &own);
+        in = one - view->coated;
+        sheet = sheet_reflectance(view->coated);
         *clear = sheet + (one - sheet) * base;
     }
     *solid = (one - in) + in * lambert_albedo(m);
@@ -1445,7 +1435,8 @@ static Spectrum model_albedo(const void *parameters, Vec3 wo)
 
 /* The base's facets, met at `cosine`, send so much. A metal without
  * n, k is taken for a perfect mirror. */
-static void add_facets(const View *view, float cosine, Spectrum all, PolarisedParts *parts)
+static void add_facets(const MetallicView *view, float cosine, Spectrum all,
+                       PolarisedParts *parts)
 {
     static const Waves mirror = {1, 1, -1, 0};
     const MetallicRoughness *m = view->m;
@@ -1481,7 +1472,7 @@ static bool is_near(Vec3 a, Vec3 b)
 }
 
 /* The images that a smooth coat and a smooth base send along this way. */
-static void polarise_smooth(const View *view, Vec3 wi, PolarisedParts *parts)
+static void polarise_smooth(const MetallicView *view, Vec3 wi, PolarisedParts *parts)
 {
     const MetallicRoughness *m = view->m;
     float cosine = vec3_dot(m->clearcoat_normal, view->wo);
@@ -1494,12 +1485,12 @@ static void polarise_smooth(const View *view, Vec3 wi, PolarisedParts *parts)
         add_facets(view, view->wo.z, smooth_base(view, wi), parts);
 }
 
-static void polarise_rough(const View *view, Vec3 wi, PolarisedParts *parts)
+static void polarise_rough(const MetallicView *view, Vec3 wi, PolarisedParts *parts)
 {
     const MetallicRoughness *m = view->m;
     Vec3    half = vec3_normalize(vec3_add(view->wo, wi));
     float   pdf, cosine = fminf(fabsf(vec3_dot(view->wo, half)), 1);
-    Through below;
+    ThroughCoat below;
     if (!is_smooth(m->alpha)) {
         if (m->clearcoat > 0) below = coat_through(m, wi);
         add_facets(view, cosine, facet_lobe(view, wi, &below), parts);
@@ -1524,15 +1515,15 @@ static bool model_polarise(const void *parameters, Vec3 wo, const BsdfSample *wa
     PolarisedParts parts = {spectrum_all(0), spectrum_all(0), spectrum_all(0), spectrum_all(0)};
     if (!(wo.z > 0)) return false;
     if (way->passes || way->wi.z < 0) return polarise_through(m, wo, out);
-    View view;
-    set_view(&view, m, wo);
+    MetallicView own;
+    const MetallicView *view = view_towards(m, wo, &own);
     if (way->is_delta) {
-        polarise_smooth(&view, way->wi, &parts);
+        polarise_smooth(view, way->wi, &parts);
         *out = polarised_of(&parts, parts.share);
     } else {
         float pdf;
-        polarise_rough(&view, way->wi, &parts);
-        *out = polarised_of(&parts, eval_view(&view, way->wi, &pdf));
+        polarise_rough(view, way->wi, &parts);
+        *out = polarised_of(&parts, eval_view(view, way->wi, &pdf));
     }
     return true;
 }
@@ -1542,5 +1533,5 @@ const BsdfModel metallic_roughness_model = {.eval = model_eval,
                                             .pass = model_pass, .mirror = model_mirror,
                                             .glint = model_glint,
                                             .scatters = model_scatters, .lobes = model_lobes,
-                                            .albedo = model_albedo,
+                                            .albedo = model_albedo, .look = model_look,
                                             .polarise = model_polarise};

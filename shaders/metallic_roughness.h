@@ -10,6 +10,8 @@
 
 #define CLEARCOAT_IOR 1.5f /* glTF's */
 
+struct MetallicView; /* metallic_view.h */
+
 /* All members are set by whoever builds it; metallic_roughness_default() is a start. */
 typedef struct MetallicRoughness {
     Spectrum base_color;       /* [0, 1]: albedo; of metals, reflectance at normal incidence */
@@ -36,6 +38,7 @@ typedef struct MetallicRoughness {
     float across_color[3]; /* its albedo, linear Rec.709, [0, 1]; wants wavelengths */
     float sheen_color[3];  /* linear Rec.709, [0, 1]; 0: no sheen. Wants wavelengths */
     float sheen_alpha;     /* [SHEEN_LEAST_ALPHA, 1] where there is a sheen */
+    const struct MetallicView *seen; /* by bsdf_look; else NULL */
 } MetallicRoughness;
 
 /* glTF's default material, but for energy, which the caller owns: white metal, alpha 1. */

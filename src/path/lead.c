@@ -42,7 +42,7 @@ void lead_at(const PathContext *context, const Surface *surface, Vec3 wo, int bo
     lead->lamps.count = 0;
     ask_as_side(context, surface, wo, bounce, lead);
     if (!guide || bounce >= context->max_bounces) return;
-    BsdfLobes lobes = bsdf_lobes(&surface->bsdf, frame_to_local(&surface->frame, wo));
+    BsdfLobes lobes = bsdf_lobes(&surface->bsdf, surface->local_wo);
     lead->often = 1; /* what guided paths meet is bright */
     if (!(lobes.prob > 0)) return;
     GuideSurface seen = {surface->frame.z, wo, lobes.diffuse, lobes.f0, lobes.f90, lobes.alpha};
@@ -104,10 +104,10 @@ float lead_pdf(const Lead *lead, Vec3 wi, float bsdf_pdf)
 }
 
 /* The surface's own choice. A mirror's is no density: it becomes rarer by the guide's share. */
-static bool sample_surface(const Lead *lead, const Surface *surface, Vec3 local_wo,
-                           const float u[3], BsdfSample *next)
+static bool sample_surface(const Lead *lead, const Surface *surface, const float u[3],
+                           BsdfSample *next)
 {
-    if (!bsdf_sample(&surface->bsdf, local_wo, u, next)) return false;
+    if (!bsdf_sample(&surface->bsdf, surface->local_wo, u, next)) return false;
     if (!(lead->mix > 0)) return true;
     if (next->is_delta || next->passes) {
         next->weight /= spectrum_all(1 - lead->mix);
@@ -119,16 +119,15 @@ static bool sample_surface(const Lead *lead, const Surface *surface, Vec3 local_
     return true;
 }
 
-bool lead_sample(const Lead *lead, const Surface *surface, Vec3 local_wo, const float u[3],
-                 BsdfSample *next)
+bool lead_sample(const Lead *lead, const Surface *surface, const float u[3], BsdfSample *next)
 {
     float v[3] = {u[0], u[1], u[2]};
-    if (!unit_choose(&v[0], lead->mix)) return sample_surface(lead, surface, local_wo, v, next);
+    if (!unit_choose(&v[0], lead->mix)) return sample_surface(lead, surface, v, next);
     Vec3  wi = guide_sample(&lead->view.towards[GUIDE_LIGHT], v[0], v[1]);
     float bsdf_pdf;
     *next = (BsdfSample){.wi = frame_to_local(&surface->frame, wi)};
     if (!(next->wi.z > 0)) return false;
-    Spectrum f = bsdf_eval(&surface->bsdf, local_wo, next->wi, &bsdf_pdf);
+    Spectrum f = bsdf_eval(&surface->bsdf, surface->local_wo, next->wi, &bsdf_pdf);
     next->pdf = lead_pdf(lead, wi, bsdf_pdf);
     next->weight = f * spectrum_all(next->wi.z / next->pdf);
     return next->pdf > 0;

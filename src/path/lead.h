@@ -52,6 +52,5 @@ float lead_sky_pdf(const Lead *lead, Vec3 wi, float own);
 /* HOT. Density of choosing wi (world) where the surface alone would with bsdf_pdf, sr^-1. */
 float lead_pdf(const Lead *lead, Vec3 wi, float bsdf_pdf);
 
-/* HOT. A direction, local as local_wo; u in [0, 1)^3. False: absorbed. */
-bool lead_sample(const Lead *lead, const Surface *surface, Vec3 local_wo, const float u[3],
-                 BsdfSample *next);
+/* HOT. A direction in the surface's frame; u in [0, 1)^3. False: absorbed. */
+bool lead_sample(const Lead *lead, const Surface *surface, const float u[3], BsdfSample *next);

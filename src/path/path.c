@@ -256,30 +256,26 @@ static bool tells_lambertian(const PathWalk *walk, const Surface *surface)
 }
 
 /* Of what a display scatters from local_wi. */
-static Spectrum lambertian_share(const Surface *surface, Vec3 local_wo, Vec3 local_wi)
+static Spectrum lambertian_share(const Surface *surface, Vec3 local_wi)
 {
     float    pdf;
-    Spectrum f = bsdf_eval(&surface->bsdf, local_wo, local_wi, &pdf);
+    Spectrum f = bsdf_eval(&surface->bsdf, surface->local_wo, local_wi, &pdf);
     return display_lambertian_share(&surface->bsdf.display, f, local_wi);
 }
 
-/* Light from wi, which the surface scatters, has been gathered. Asks for local directions once
- * more: paths of which nobody asks this shall carry nothing for it. */
-static void note_sample(PathWalk *walk, const Surface *surface, Vec3 wo, Vec3 wi,
+/* Light from local_wi, which the surface scatters, has been gathered. */
+static void note_sample(PathWalk *walk, const Surface *surface, Vec3 local_wi,
                         Spectrum radiance)
 {
-    walk->lambertian->found.radiance +=
-        radiance * lambertian_share(surface, frame_to_local(&surface->frame, wo),
-                                    frame_to_local(&surface->frame, wi));
+    walk->lambertian->found.radiance += radiance * lambertian_share(surface, local_wi);
 }
 
 /* The path goes on from there. */
-static void note_way(PathWalk *walk, const Surface *surface, Vec3 local_wo,
-                     const BsdfSample *next)
+static void note_way(PathWalk *walk, const Surface *surface, const BsdfSample *next)
 {
     walk->lambertian->before = walk->gathered;
     if (next->is_delta) walk->lambertian->share = spectrum_all(0);
-    else walk->lambertian->share = lambertian_share(surface, local_wo, next->wi);
+    else walk->lambertian->share = lambertian_share(surface, next->wi);
 }
 
 /* What measured XYZ come by a display on which nothing depends on wavelength: one lane's share
@@ -572,9 +568,9 @@ static Spectrum visibility(PathWalk *walk, const Surface *surface, const LightSa
 
 /* A direction must lie on the same side of the triangle as of the shading normal's plane, or
  * light would leak through the surface. */
-static bool sides_agree(const Surface *surface, Vec3 local_wi, Vec3 wi, Vec3 local_wo, Vec3 wo)
+static bool sides_agree(const Surface *surface, Vec3 local_wi, Vec3 wi, Vec3 wo)
 {
-    return (local_wi.z * local_wo.z > 0) ==
+    return (local_wi.z * surface->local_wo.z > 0) ==
            (vec3_dot(wi, surface->ng) * vec3_dot(wo, surface->ng) > 0);
 }
 
@@ -637,17 +633,25 @@ static Spectrum count_sample(PathWalk *walk, const Surface *surface, Vec3 wo,
     return radiance;
 }
 
+/* A light was asked for from a surface, with this probability. */
+typedef struct LightAsked {
+    LightSample light;
+    Vec3        local_wi;
+    float       prob;
+} LightAsked;
+
 /* Most samples end in shadow: what the light sends and how the surface scatters it is asked
- * once the ray has arrived. prob: of having asked. */
+ * once the ray has arrived. */
 static void add_arriving(PathWalk *walk, const Surface *surface, Vec3 wo, const Lead *lead,
-                         LightSample *light, float prob)
+                         LightAsked *asked)
 {
     const PathContext *context = walk->context;
+    LightSample *light = &asked->light;
+    Vec3     local_wo = surface->local_wo, local_wi = asked->local_wi;
+    float    prob = asked->prob;
     Spectrum passed = visibility(walk, surface, light);
     if (spectrum_is_zero(passed)) return;
     absorb_sample(walk, surface, light, &passed);
-    Vec3 local_wi = frame_to_local(&surface->frame, light->wi);
-    Vec3 local_wo = frame_to_local(&surface->frame, wo);
     lead_weigh_light(lead, context->lights, lit_point(walk, surface), light);
     float    bsdf_pdf;
     Spectrum f = bsdf_eval(&surface->bsdf, local_wo, local_wi, &bsdf_pdf);
@@ -662,26 +666,27 @@ static void add_arriving(PathWalk *walk, const Surface *surface, Vec3 wo, const 
     share *= passed;
     if (walk->polarised) share = count_sample(walk, surface, wo, share, light);
     gather_sample(walk, surface, share, light);
-    if (tells_lambertian(walk, surface)) note_sample(walk, surface, wo, light->wi, share);
+    if (tells_lambertian(walk, surface)) note_sample(walk, surface, local_wi, share);
 }
 
 static void add_light_sample(PathWalk *walk, const Surface *surface, Vec3 wo, const Lead *lead,
                              LightSet set)
 {
     const PathContext *context = walk->context;
-    LightSample light;
-    float u[4], set_prob = lead->asked[set] * lead->often;
+    LightAsked   asked;
+    LightSample *light = &asked.light;
+    float u[4];
+    asked.prob = lead->asked[set] * lead->often;
     numbers_for(walk, NUMBERS_LIGHTS + 2 * (int)set);
     sampler_4d(walk->sampler, u);
-    if (!unit_choose(&u[0], set_prob)) return;
+    if (!unit_choose(&u[0], asked.prob)) return;
     LitPoint point = lit_point(walk, surface);
-    if (!lead_choose_light(lead, context->lights, set, point, u, &light)) return;
-    if (!light.is_delta && context->strategy == PATH_BSDF_ONLY) return;
-    Vec3 local_wi = frame_to_local(&surface->frame, light.wi);
-    Vec3 local_wo = frame_to_local(&surface->frame, wo);
-    if (!sides_agree(surface, local_wi, light.wi, local_wo, wo)) return;
-    if (!bsdf_reaches(&surface->bsdf, local_wo, local_wi)) return;
-    add_arriving(walk, surface, wo, lead, &light, set_prob);
+    if (!lead_choose_light(lead, context->lights, set, point, u, light)) return;
+    if (!light->is_delta && context->strategy == PATH_BSDF_ONLY) return;
+    asked.local_wi = frame_to_local(&surface->frame, light->wi);
+    if (!sides_agree(surface, asked.local_wi, light->wi, wo)) return;
+    if (!bsdf_reaches(&surface->bsdf, surface->local_wo, asked.local_wi)) return;
+    add_arriving(walk, surface, wo, lead, &asked);
 }
 
 /* ---- the sun by way of one mirror ------------------------------------------------------- */
@@ -746,10 +751,9 @@ static void add_mirrored_sun(void *user, uint32_t triangle, const ReflectionPoin
     float     pdf;
     if (!sun_mirror_at(&asked->question, &place, point->spread, &mirror)) return;
     Vec3 local_wi = frame_to_local(&surface->frame, mirror.light.wi);
-    Vec3 local_wo = frame_to_local(&surface->frame, asked->wo);
-    if (!sides_agree(surface, local_wi, mirror.light.wi, local_wo, asked->wo)) return;
+    if (!sides_agree(surface, local_wi, mirror.light.wi, asked->wo)) return;
     Spectrum share = walk->throughput * mirror.radiance *
-                     bsdf_eval(&surface->bsdf, local_wo, local_wi, &pdf) *
+                     bsdf_eval(&surface->bsdf, surface->local_wo, local_wi, &pdf) *
                      spectrum_all(fabsf(local_wi.z));
     if (spectrum_is_zero(share)) return;
     share *= visibility(walk, &mirror.surface, &asked->question.sun);
@@ -761,8 +765,7 @@ static void add_mirrored_sun(void *user, uint32_t triangle, const ReflectionPoin
     if (walk->polarised && !spectrum_is_zero(share))
         share = count_mirrored(asked, &mirror, &beyond, share);
     gather_mirrored(asked, &mirror, share);
-    if (tells_lambertian(walk, surface))
-        note_sample(walk, surface, asked->wo, mirror.light.wi, share);
+    if (tells_lambertian(walk, surface)) note_sample(walk, surface, local_wi, share);
 }
 
 /* u: of the sun's disc. */
@@ -806,12 +809,12 @@ static void add_mirrored_suns(PathWalk *walk, const Surface *surface, Vec3 wo)
 static void ask_far(PathWalk *walk, const Surface *surface, Vec3 wo)
 {
     const PathFar *far = walk->far;
-    Vec3 local_wo = frame_to_local(&surface->frame, wo);
+    Vec3 local_wo = surface->local_wo;
     for (int i = 0; i < far->count; i++) {
         LightSample light = {.wi = far->towards[i], .distance = INFINITY};
         Vec3  local_wi = frame_to_local(&surface->frame, light.wi);
         float pdf;
-        if (!sides_agree(surface, local_wi, light.wi, local_wo, wo)) continue;
+        if (!sides_agree(surface, local_wi, light.wi, wo)) continue;
         if (!bsdf_reaches(&surface->bsdf, local_wo, local_wi)) continue;
         Spectrum passed = visibility(walk, surface, &light);
         if (spectrum_is_zero(passed)) continue;
@@ -900,7 +903,7 @@ static Spectrum sun_share(const PathWalk *walk, const Surface *surface, Vec3 wo,
 {
     if (!(next->wi.z > 0) || !mirror_was_asked(walk, surface, wo, !next->is_delta))
         return spectrum_all(1);
-    return sun_mirror_share(&surface->bsdf, frame_to_local(&surface->frame, wo), next);
+    return sun_mirror_share(&surface->bsdf, surface->local_wo, next);
 }
 
 static bool is_display(const Scene *scene, const Surface *surface)
@@ -932,13 +935,13 @@ static void cross(PathWalk *walk, const Surface *surface, Vec3 local_wi, Vec3 wi
 static Step turn(PathWalk *walk, const Surface *surface, Vec3 wo, const BsdfSample *next)
 {
     Vec3 wi = frame_to_world(&surface->frame, next->wi);
-    Vec3 local_wo = frame_to_local(&surface->frame, wo);
-    if (!sides_agree(surface, next->wi, wi, local_wo, wo)) return STEP_ENDED;
+    float way = next->wi.z * surface->local_wo.z; /* below 0: across */
+    if (!sides_agree(surface, next->wi, wi, wo)) return STEP_ENDED;
     walk->sun_share = sun_share(walk, surface, wo, next);
-    if (next->wi.z * local_wo.z < 0) cross(walk, surface, next->wi, wi);
+    if (way < 0) cross(walk, surface, next->wi, wi);
     note_step(walk, surface,
               !next->is_delta ? PATH_SCATTERS
-                              : next->wi.z * local_wo.z > 0 ? PATH_REFLECTS : PATH_TRANSMITS);
+                              : way > 0 ? PATH_REFLECTS : PATH_TRANSMITS);
     if (walk->footprint && !footprint_turn(walk->footprint, walk->context->scene, surface, wo,
                                            next, walk->straight))
         walk->footprint = NULL;
@@ -966,9 +969,9 @@ static void keep_lead(PathWalk *walk)
 
 /* The way by a first display's mirror, of which nothing is left to chance; false: that is not
  * what is asked. */
-static bool take_mirror(const PathWalk *walk, const Surface *surface, Vec3 local_wo,
-                        BsdfSample *next)
+static bool take_mirror(const PathWalk *walk, const Surface *surface, BsdfSample *next)
 {
+    Vec3 local_wo = surface->local_wo;
     if (!walk->far || !walk->far->is_of_mirror || walk->bounce ||
         !is_display(walk->context->scene, surface))
         return false;
@@ -982,12 +985,10 @@ static bool take_mirror(const PathWalk *walk, const Surface *surface, Vec3 local
 static Step scatter(PathWalk *walk, const Surface *surface, Vec3 wo)
 {
     float u[4];
-    Vec3  local_wo = frame_to_local(&surface->frame, wo);
     BsdfSample next;
     numbers_for(walk, NUMBERS_SCATTER);
     sampler_4d(walk->sampler, u);
-    if (!take_mirror(walk, surface, local_wo, &next) &&
-        !lead_sample(walk->spare, surface, local_wo, u, &next))
+    if (!take_mirror(walk, surface, &next) && !lead_sample(walk->spare, surface, u, &next))
         return STEP_ENDED;
     walk->throughput *= next.weight;
     turn_polarised(walk, surface, wo, &next);
@@ -998,7 +999,7 @@ static Step scatter(PathWalk *walk, const Surface *surface, Vec3 wo)
     }
     if (walk->bounce >= walk->context->max_bounces) return STEP_ENDED;
     keep_lead(walk);
-    if (tells_lambertian(walk, surface)) note_way(walk, surface, local_wo, &next);
+    if (tells_lambertian(walk, surface)) note_way(walk, surface, &next);
     return turn(walk, surface, wo, &next);
 }
 
@@ -1062,7 +1063,7 @@ static Step show_pane(PathWalk *walk, const Surface *surface, const Hit *hit, Ve
 
 static Step reflect_window(PathWalk *walk, const Surface *surface, Vec3 wo)
 {
-    Vec3 local_wo = frame_to_local(&surface->frame, wo);
+    Vec3 local_wo = surface->local_wo;
     BsdfSample mirror = {.wi = vec3(-local_wo.x, -local_wo.y, local_wo.z), .is_delta = true,
                          .pdf = 1};
     if (walk->bounce >= walk->context->max_bounces) return STEP_ENDED;
@@ -1122,7 +1123,7 @@ static bool split(PathWalk *walk, const Surface *surface, const Hit *hit, Vec3 w
     if (sampler_1d(walk->sampler) < SHEET_SHARE) add_sheet(walk, surface, hit, wo);
     walk->throughput *=
         is_hole ? spectrum_all(1 - surface->alpha)
-                : bsdf_pass(&surface->bsdf, frame_to_local(&surface->frame, wo));
+                : bsdf_pass(&surface->bsdf, surface->local_wo);
     if (is_window && walk->polarised) pass_polarised(walk, surface, wo);
     go_on_behind(walk, surface);
     return true;
@@ -1162,6 +1163,8 @@ static void walk_path(PathWalk *walk)
             go_on_behind(walk, &surface);
             continue;
         }
+        BsdfRoom room;
+        bsdf_look(&surface.bsdf, surface.local_wo, &room);
         if (walk->first) walk->first->through = through_to(walk, &surface, &hit, wo);
         Step step = shade(walk, &surface, &hit, wo);
         if (step != STEP_PASSED) record_first(walk, &hit, distance, wo);

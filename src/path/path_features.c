@@ -122,7 +122,7 @@ void path_features(const PathContext *context, const PathResult *result,
                           .normal = surface.frame.z, .part_id = surface.part_id,
                           .uv = {surface.point.uv[0].x, surface.point.uv[0].y},
                           .display_id = NO_ID};
-    albedo_rgb(bsdf_albedo(&surface.bsdf, frame_to_local(&surface.frame, wo)), wavelengths,
+    albedo_rgb(bsdf_albedo(&surface.bsdf, surface.local_wo), wavelengths,
                out->albedo);
     if (!is_display(context, &surface)) return;
     SeenDisplay view = view_of(context, result, &surface, wavelengths);

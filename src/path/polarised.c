@@ -118,8 +118,7 @@ void polarised_turn(Polarised *light, const Surface *surface, Vec3 wo, const Bsd
 {
     BsdfPolarisation matrix;
     Vec3 axis, wi = frame_to_world(&surface->frame, way->wi);
-    Vec3 local_wo = frame_to_local(&surface->frame, wo);
-    if (!bsdf_polarise(&surface->bsdf, local_wo, way, &matrix)) {
+    if (!bsdf_polarise(&surface->bsdf, surface->local_wo, way, &matrix)) {
         forget(light);
         light->axis = frame_from_z(wi).x;
         return;
@@ -145,7 +144,7 @@ static void mix_with_holes(BsdfPolarisation *matrix, Spectrum through, float alp
 void polarised_pass(Polarised *light, const Surface *surface, Vec3 wo)
 {
     BsdfPolarisation matrix;
-    Vec3       axis, local_wo = frame_to_local(&surface->frame, wo);
+    Vec3       axis, local_wo = surface->local_wo;
     BsdfSample way = {.wi = vec3_neg(local_wo), .is_delta = true, .passes = true};
     if (!(surface->alpha > 0) || !axis_across(wo, surface->frame.z, &axis)) return;
     Spectrum through = bsdf_pass(&surface->bsdf, local_wo);

@@ -39,7 +39,7 @@ bool sun_mirror_at(const SunMirrorQuestion *question, const Hit *mirror, float s
     Surface *surface = &out->surface;
     if (!(distance > 0)) return false;
     surface_at(scene, question->tables, &hit, wo, question->wavelengths, surface);
-    Vec3 local_wo = frame_to_local(&surface->frame, wo);
+    Vec3 local_wo = surface->local_wo;
     if (!(surface->alpha > 0) || !is_plain(scene, surface, wo) || !(local_wo.z > 0) ||
         !(vec3_dot(sun->wi, surface->frame.z) > 0) ||
         !(vec3_dot(wo, surface->ng) * vec3_dot(sun->wi, surface->ng) > 0))

@@ -514,12 +514,13 @@ void surface_at(const Scene *scene, const SurfaceTables *tables, const Hit *hit,
         read_site(&site, &out->point, texel);
         set_bsdf(&site, out);
     }
+    out->local_wo = frame_to_local(&out->frame, wo);
 }
 
 void surface_white(const SurfaceTables *tables, Vec3 position, Vec3 normal, Surface *out)
 {
     *out = (Surface){.position = position, .ng = normal, .frame = frame_from_z(normal),
-                     .part_id = NO_ID, .material_id = NO_ID, .alpha = 1};
+                     .local_wo = {0, 0, 1}, .part_id = NO_ID, .material_id = NO_ID, .alpha = 1};
     out->bsdf.kind = BSDF_METALLIC_ROUGHNESS;
     out->bsdf.metallic_roughness = metallic_roughness_default(tables->of_coat);
     out->bsdf.metallic_roughness.metallic = 0;
@@ -533,6 +534,6 @@ Spectrum surface_pass(const Scene *scene, const SurfaceTables *tables, const Hit
     Vec3    wo = vec3_neg(direction);
     surface_at(scene, tables, hit, wo, wavelengths, &surface);
     if (surface.alpha <= 0) return spectrum_all(1);
-    Spectrum through = bsdf_pass(&surface.bsdf, frame_to_local(&surface.frame, wo));
+    Spectrum through = bsdf_pass(&surface.bsdf, surface.local_wo);
     return spectrum_all(1 - surface.alpha) + spectrum_all(surface.alpha) * through;
 }

@@ -20,6 +20,7 @@ typedef struct Surface {
     Vec3  position;    /* m, world */
     Vec3  ng;          /* unit geometric normal of the front */
     Frame frame;       /* shading frame; for all but solids that refract turned to wo's side */
+    Vec3  local_wo;    /* wo in it */
     int   part_id, material_id;
     uint32_t triangle; /* undefined where part_id is NO_ID */
     float alpha;       /* 1: all there; below: light passes this point as if it were a hole */
