@@ -79,6 +79,16 @@ static bool read_names(Scan *scan, CsvTable *table, Error *err)
                     "has more than %d columns", CSV_COLUMNS_MAX);
 }
 
+/* Whoever asks for a name would be given the first of two. */
+static bool check_names(const Scan *scan, const CsvTable *table, Error *err)
+{
+    for (int c = 1; c < table->columns; c++)
+        if (csv_table_column(table, table->name[c]) < c)
+            return error_at(err, ERROR_INPUT, table->file, place_of(scan),
+                            "has the column '%s' twice", table->name[c]);
+    return true;
+}
+
 static bool bad_cell(const Scan *scan, const CsvTable *table, int column, const char *text,
                      const char *stop)
 {
@@ -130,7 +140,7 @@ bool csv_table_read(const char *file, Arena *arena, CsvTable *out, Error *err)
     const char *text = (const char *)bytes.data;
     Scan     scan = {text, text + bytes.size, 0, arena, err};
     CsvTable table = {.file = file, .bytes = bytes.size};
-    if (!read_names(&scan, &table, err)) return false;
+    if (!read_names(&scan, &table, err) || !check_names(&scan, &table, err)) return false;
     int    most = count_lines(scan.next, scan.end);
     float *cell = ARENA_NEW(arena, float, (size_t)most * (size_t)table.columns);
     int   *line = ARENA_NEW(arena, int, most);

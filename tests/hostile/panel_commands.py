@@ -271,6 +271,11 @@ def check_places(report, commands, panel):
         fails(report, commands.run("fit", manifest, "-o", commands.file("no.panel"), "--quiet"),
               3, *words)
     report.claim(not os.path.exists(commands.file("no.panel")), "a refused set left a panel")
+    write_json(manifest, good)
+    before = open(manifest, "rb").read()
+    fails(report, commands.run("fit", manifest, "-o", manifest, "--quiet"), 2, manifest,
+          "wanted another name for the panel")
+    report.claim(open(manifest, "rb").read() == before, "a set's manifest was written over")
 
 
 def lambertian_set(commands, name, reflectance):

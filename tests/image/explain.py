@@ -93,6 +93,12 @@ def check_wall(report, reviewer):
                  f"a wall: {found}, the frame {wanted:.6g}")
     report.claim(told["chains"][0]["chain"][0].startswith("floor (floor paint)"),
                  f"the floor is {told['chains'][0]['chain']}")
+    for what, wanted in ((("--pixel", "12,54"), "--pixel 12,54: is no pixel of a picture of"),
+                         (("--pixel", "1.5,2"), "--pixel 1.5,2: is no pixel"),
+                         (("--region", "0,0,97,54"), "--region: 97 is no edge of a pixel")):
+        done = reviewer.run("explain", "dash.gltf", "--size", SIZE, *what)
+        report.claim(done.returncode == 2 and len(done.stderr.splitlines()) == 1 and
+                     wanted in done.stderr, f"{what}: {done.returncode} {done.stderr}")
 
 
 def check_remedies(report, reviewer):

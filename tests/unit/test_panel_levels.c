@@ -119,6 +119,7 @@ TEST(bad_tables_are_refused_by_line_and_words)
         {"level,L\n0,1\n128,1\n255,1\n", "line 4", "full level has no more light than level 0"},
         {"level,L\n0,0\n255,0\n", "line 3", "full level has no more light than level 0"},
         {"level,L\n0,1\n128,nan\n255,70\n", "line 3", "column 'L' holds 'nan'"},
+        {"level,L,L\n0,1,2\n255,70,9\n", "line 1", "has the column 'L' twice"},
         {"level,L\n0,1\n128\n255,70\n", "line 3", "fewer cells than the header's 2 columns"},
         {"0,1\n128,20\n255,70\n", "header line", "no column of levels, wanted one named"},
         {"level,x,y\n0,1,1\n255,70,1\n", "header line", "no column of luminance"},

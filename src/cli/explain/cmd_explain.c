@@ -36,11 +36,17 @@ static bool is_review(const ExplainWords *words)
 static bool check_region(const ExplainWords *words, Error *err)
 {
     const double *r = words->scene.region;
+    const int    *size = words->scene.size;
+    if (words->has_pixel && !(r[0] == floor(r[0]) && r[1] == floor(r[1]) && r[0] >= 0 &&
+                              r[1] >= 0 && r[0] < size[0] && r[1] < size[1]))
+        return error_set(err, ERROR_USAGE,
+                         "--pixel %g,%g: is no pixel of a picture of %dx%d, whose first is 0,0 "
+                         "at the top left", r[0], r[1], size[0], size[1]);
     for (int i = 0; i < 4; i++)
-        if (r[i] != floor(r[i]) || r[i] < 0 || r[i] > words->scene.size[i % 2])
-            return error_set(err, ERROR_USAGE, "%s: %g is no pixel of a picture of %dx%d",
-                             words->has_pixel ? "--pixel" : "--region", r[i],
-                             words->scene.size[0], words->scene.size[1]);
+        if (r[i] != floor(r[i]) || r[i] < 0 || r[i] > size[i % 2])
+            return error_set(err, ERROR_USAGE,
+                             "--region: %g is no edge of a pixel of a picture of %dx%d", r[i],
+                             size[0], size[1]);
     return (r[0] < r[2] && r[1] < r[3]) ||
            error_set(err, ERROR_USAGE, "--region: wanted X0 < X1 and Y0 < Y1");
 }

@@ -3,6 +3,7 @@
 #include <time.h>
 
 #include "base/count.h"
+#include "base/file.h"
 #include "base/machine.h"
 #include "base/reference.h"
 #include "cli/options/answer.h"
@@ -89,6 +90,17 @@ static bool parse(int argc, char **argv, Arena *arena, FitWords *out, Error *err
     return true;
 }
 
+/* A laboratory's own file is never written over. */
+static bool spares_inputs(const FitWords *words, Error *err)
+{
+    const char *input[] = {words->cli.arguments[0], words->levels};
+    for (int i = 0; i < COUNT_OF(input); i++)
+        if (input[i] && file_is_same(words->output, input[i]))
+            return error_set(err, ERROR_USAGE, "%s: is read, wanted another name for the panel",
+                             words->output);
+    return true;
+}
+
 static FitOptions options_of(const FitWords *words)
 {
     FitOptions fit = fit_options_default();
@@ -142,7 +154,7 @@ static bool run_fit(int argc, char **argv, Arena *arena, Error *err)
     FitOptions   fit = options_of(&words);
     Measurement *set = ARENA_NEW(arena, Measurement, 1);
     json_t      *report = NULL;
-    bool ok = reference_check_root(words.root, err) &&
+    bool ok = spares_inputs(&words, err) && reference_check_root(words.root, err) &&
               measurement_read_below(words.cli.arguments[0], words.root, arena, set, err) &&
               (!words.levels || measurement_read_levels(set, words.levels, arena, err)) &&
               panel_fit(set, &fit, words.output, arena, &report, err);
