@@ -5,7 +5,7 @@
  */
 #pragma once
 #include "shaders/covered_lobe.h"
-#include "shaders/metallic_roughness.h"
+#include "shaders/metallic_surface.h"
 #include "shaders/sheen.h"
 
 /* The non-metal's reflectance is f0 + rise * shape(angle). */

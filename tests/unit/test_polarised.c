@@ -198,6 +198,7 @@ static bool meet_another(Chain *chain)
     if (!bsdf_sample(&surface.bsdf, frame_to_local(&upright, wo), u, &way)) return false;
     surface.frame = (Frame){turned(chain, upright.x), turned(chain, upright.y),
                             turned(chain, upright.z)};
+    surface.local_wo = frame_to_local(&surface.frame, turned(chain, wo));
     polarised_turn(&chain->row, &surface, turned(chain, wo), &way);
     chain->direction = vec3_normalize(frame_to_world(&upright, way.wi));
     return true;
