@@ -1,54 +1,29 @@
 #include "shaders/facets/lobe_facets.h"
 
-#include "shaders/facets/energy.h"
+#include "shaders/facets/brushed_axes.h"
 #include "shaders/facets/microfacet.h"
 
 const float facet_cosine[LOBE_FACETS] = {0.00960736f, 0.08426519f, 0.22221488f, 0.40245484f,
                                          0.59754516f, 0.77778512f, 0.91573481f, 0.99039264f};
 
-/* ---- the axes of the table -------------------------------------------------------------- */
-
-/* Of alphas far below 1 only ratios matter: of the two, and of the cosine to the alpha along
- * the direction's own azimuth (Heitz 2014: G depends on nothing else), `own` below. So the
- * axes are the fourth roots of the greater alpha and of the ratio; the root of own from the
- * lesser (0) to the greater (1); and facet_axis. */
-typedef struct FacetKnot {
-    int   first;
-    float share[4];
-} FacetKnot;
-
 typedef struct FacetPlace {
     FacetKnot alpha, ratio, azimuth, cosine;
 } FacetPlace;
 
-/* Lagrange's cubic through four neighbours. */
-static FacetKnot knot_of(float share, int count)
-{
-    float place = clampf(share, 0, 1) * (float)(count - 1);
-    int   first = (int)place - 1;
-    if (first < 0) first = 0;
-    if (first > count - 4) first = count - 4;
-    float a = place - (float)first, b = a - 1, c = a - 2, d = a - 3;
-    return (FacetKnot){first, {b * c * d * (-1.0f / 6), a * c * d * 0.5f, a * b * d * -0.5f,
-                               a * b * c * (1.0f / 6)}};
-}
-
 static FacetKnot root_knot(float value, int count)
 {
-    return knot_of((sqrtf(sqrtf(value)) - FACET_LEAST) / (1 - FACET_LEAST), count);
+    return facet_knot((sqrtf(sqrtf(value)) - FACET_LEAST) / (1 - FACET_LEAST), count);
 }
 
 static FacetPlace place_of(Vec3 w, Vec2 alpha)
 {
     FacetPlace place;
-    float      x = alpha.x * w.x, y = alpha.y * w.y, side2 = w.x * w.x + w.y * w.y;
     float      high = fmaxf(alpha.x, alpha.y), low = fminf(alpha.x, alpha.y);
-    float      own = side2 > 1e-12f ? sqrtf((x * x + y * y) / side2) : high;
-    float      turn = high > low ? safe_sqrtf((own - low) / (high - low)) : 0;
+    float      own = facet_own(w, alpha);
     place.alpha = root_knot(high, FACET_ALPHAS);
     place.ratio = root_knot(low / high, FACET_RATIOS);
-    place.azimuth = knot_of(turn, FACET_AZIMUTHS);
-    place.cosine = knot_of(facet_axis(w.z, own), FACET_COSINES);
+    place.azimuth = facet_knot(facet_turn(own, alpha), FACET_AZIMUTHS);
+    place.cosine = facet_knot(facet_axis(w.z, own), FACET_COSINES);
     return place;
 }
 

@@ -17,11 +17,11 @@
 #include "base/vec.h"
 
 #define LOBE_FACETS 8
+/* Nodes on the axes of brushed_axes.h, both alphas' from FACET_LEAST to 1. */
 #define FACET_ALPHAS 13   /* of the greater alpha, evenly in its fourth root */
 #define FACET_RATIOS 10   /* of the lesser over the greater, likewise */
 #define FACET_AZIMUTHS 11
 #define FACET_COSINES 27
-#define FACET_LEAST 0.17782794f /* the fourth root of SMOOTH_ALPHA, where both begin */
 
 /* Weights sum up to the albedo of a lobe of reflectance 1. Some may be below 0. */
 typedef struct LobeFacets {
@@ -51,13 +51,6 @@ static inline void facet_polynomials(double x, double value[LOBE_FACETS])
             if (j != i) value[i] *= (x - other) / (here - other);
         }
     }
-}
-
-/* Where a cosine stands on the table's axis, 0 to 1; own: the alpha along the direction's own
- * azimuth. Half of the axis is for cosines about that alpha. */
-static inline float facet_axis(float cosine, float own)
-{
-    return 0.5f * cosine * (1 + (1 + own) / (cosine + own));
 }
 
 /* w: a unit direction with z > 0. alpha: of x and y, each in [SMOOTH_ALPHA, 1]. */

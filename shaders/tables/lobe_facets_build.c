@@ -3,6 +3,7 @@
 #include <stddef.h>
 
 #include "shaders/facets/brushed.h"
+#include "shaders/facets/brushed_axes.h"
 
 /* Points of the midpoint rule over the unit square of facets; as energy.c they crowd where the
  * facets lie that send light below the horizon. */
@@ -41,37 +42,14 @@ static float fourth_power(int row, int count)
     return root * root * root * root;
 }
 
-
-/* A direction of that cosine and of that alpha along its azimuth. */
-static Vec3 direction_of(float cosine, float own, Vec2 alpha)
-{
-    float range = alpha.x * alpha.x - alpha.y * alpha.y;
-    float c2 = range > 0 ? clampf((own * own - alpha.y * alpha.y) / range, 0, 1) : 1;
-    float sine = safe_sqrtf(1 - cosine * cosine);
-    return vec3(sine * sqrtf(c2), sine * sqrtf(1 - c2), cosine);
-}
-
-/* The inverse of facet_axis, which rises. */
-static float cosine_of(float x, float own)
-{
-    float low = 1e-5f, high = 1;
-    if (x >= 1) return 1;
-    for (int step = 0; step < 40; step++) {
-        float middle = 0.5f * (low + high);
-        if (facet_axis(middle, own) < x) low = middle;
-        else high = middle;
-    }
-    return low;
-}
-
 static void fill_lobes(Vec2 alpha, LobeFacets (*rows)[FACET_COSINES])
 {
     for (int t = 0; t < FACET_AZIMUTHS; t++)
         for (int c = 0; c < FACET_COSINES; c++) {
             float turn = (float)t / (FACET_AZIMUTHS - 1);
             float own = lerpf(alpha.y, alpha.x, turn * turn);
-            float cosine = cosine_of((float)c / (FACET_COSINES - 1), own);
-            rows[t][c] = facets_of_lobe(direction_of(cosine, own, alpha), alpha);
+            float cosine = facet_axis_cosine((float)c / (FACET_COSINES - 1), own);
+            rows[t][c] = facets_of_lobe(facet_direction(cosine, own, alpha), alpha);
         }
 }
 
