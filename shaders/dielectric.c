@@ -35,9 +35,10 @@
  * bare for how it polarises, and glass that parts light as of one index.
  *
  * What rough facets pass to one another comes out of the boundary without a direction of its
- * own, on both sides (solid_energy.h): a clear solid of any roughness returns what it gets,
- * within 0.2 %, coated or filmed as well; one that parts light within 0.6 %. Without that it
- * would lose up to a third at alpha 1. Brushed facets do lose it.
+ * own, on both sides (solid_energy.h; of brushed ones by azimuth as well, brushed_loss.h): a
+ * clear solid of any roughness returns what it gets, within 0.2 %, coated or filmed as well;
+ * one that parts light within 0.6 %, and a brushed one whose alphas a texture changes within
+ * 1 %. Without that it would lose up to a third at alpha 1.
  *
  * Not modelled: sheen. A boundary between equal indices, filmed or not, is smooth.
  */
@@ -57,26 +58,21 @@ static bool is_delta(const Dielectric *d)
 
 /* ---- facets: even, or brushed -------------------------------------------------------- */
 
-static inline Vec2 alphas(const Dielectric *d)
-{
-    return (Vec2){d->alpha_along, d->alpha};
-}
-
 static inline float facets_send(const Dielectric *d, const SolidRay *s, Vec3 half)
 {
-    return solid_is_brushed(d) ? brushed_reflection(s->wo, s->wi, half, alphas(d)) :
+    return solid_is_brushed(d) ? brushed_reflection(s->wo, s->wi, half, solid_alphas(d)) :
                            ggx_reflection(s->wo, s->wi, half, d->alpha);
 }
 
 static inline float facet_pdf(const Dielectric *d, Vec3 wo, Vec3 half)
 {
-    return solid_is_brushed(d) ? brushed_visible_pdf(wo, half, alphas(d)) :
+    return solid_is_brushed(d) ? brushed_visible_pdf(wo, half, solid_alphas(d)) :
                            ggx_visible_pdf(wo, half, d->alpha);
 }
 
 static inline Vec3 sample_facet(const Dielectric *d, Vec3 wo, const float u[3])
 {
-    return solid_is_brushed(d) ? brushed_sample_visible(wo, alphas(d), u[0], u[1]) :
+    return solid_is_brushed(d) ? brushed_sample_visible(wo, solid_alphas(d), u[0], u[1]) :
                            ggx_sample_visible(wo, d->alpha, u[0], u[1]);
 }
 

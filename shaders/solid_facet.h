@@ -21,8 +21,8 @@ typedef struct Dielectric {
     const Curve         *index;       /* by wavelength, 1 or more, in place of ior; NULL: it is
                                          the same for all. Without a coating */
     /* What rough facets pass to one another, of that ior; where the index differs by wavelength
-     * of its least and its greatest. NULL: it is lost, as of brushed facets; a smooth boundary
-     * has none. */
+     * of its least and its greatest; brushed facets need energy->brushed. NULL: it is lost; a
+     * smooth boundary has none. */
     const SolidEnergy   *energy, *energy_most;
     const Spectrum      *light;       /* of a path that is split: what its lanes still count,
                                          >= 0; chance follows it. NULL: all alike */
@@ -46,6 +46,12 @@ static inline SolidRay solid_ray(const Dielectric *d, Vec3 wo, Vec3 wi)
 static inline bool solid_is_brushed(const Dielectric *d)
 {
     return d->alpha_along > 0;
+}
+
+/* Of a brushed one; as they run along x and y. */
+static inline Vec2 solid_alphas(const Dielectric *d)
+{
+    return (Vec2){d->alpha_along, d->alpha};
 }
 
 static inline bool solid_has_film(const Dielectric *d)

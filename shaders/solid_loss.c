@@ -21,13 +21,33 @@ static Spectrum indices(const Dielectric *d)
     return d->index ? curve_lookup(d->index, d->wavelengths) : spectrum_all(d->ior);
 }
 
-/* Of bare facets. */
-static void lost_lanes(const Dielectric *d, bool is_inside, float cosine, Lost *lost,
-                       Spectrum *flux)
+/* ---- tables, by one alpha or two -------------------------------------------------------- */
+
+static SolidLost lost_by(const Dielectric *d, const SolidEnergy *energy, bool is_inside, Vec3 w)
 {
-    float     alpha = d->alpha;
-    SolidLost loss = solid_lost(d->energy, is_inside, cosine, alpha), most = loss;
-    if (d->index) most = solid_lost(d->energy_most, is_inside, cosine, alpha);
+    return solid_is_brushed(d) ? brushed_lost(energy->brushed, is_inside, w, solid_alphas(d)) :
+                                 solid_lost(energy, is_inside, w.z, d->alpha);
+}
+
+static LostFacets facets_by(const Dielectric *d, bool is_inside, Vec3 w)
+{
+    return solid_is_brushed(d) ?
+               brushed_lost_facets(d->energy->brushed, is_inside, w, solid_alphas(d)) :
+               solid_lost_facets(d->energy, is_inside, w.z, d->alpha);
+}
+
+static LostFacets mean_facets_by(const Dielectric *d, bool is_inside)
+{
+    return solid_is_brushed(d) ?
+               brushed_mean_facets(d->energy->brushed, is_inside, solid_alphas(d)) :
+               solid_mean_facets(d->energy, is_inside, d->alpha);
+}
+
+/* Of bare facets. */
+static void lost_lanes(const Dielectric *d, bool is_inside, Vec3 w, Lost *lost, Spectrum *flux)
+{
+    SolidLost loss = lost_by(d, d->energy, is_inside, w), most = loss;
+    if (d->index) most = lost_by(d, d->energy_most, is_inside, w);
     Spectrum  t = spectrum_all(0);
     if (d->index)
         t = (indices(d) - spectrum_all(d->energy->ior)) /
@@ -92,9 +112,8 @@ static Spectrum changed(const FacetChange *by, LostFacets facets)
 
 static Spectrum changed_mean(const Dielectric *d, bool is_inside, const FacetChange *by)
 {
-    SolidLost bare = solid_lost(d->energy, is_inside, 1, d->alpha);
-    Spectrum  mean = spectrum_all(bare.mean) +
-                     changed(by, solid_mean_facets(d->energy, is_inside, d->alpha));
+    SolidLost bare = lost_by(d, d->energy, is_inside, vec3(0, 0, 1));
+    Spectrum  mean = spectrum_all(bare.mean) + changed(by, mean_facets_by(d, is_inside));
     return spectrum_max(mean, spectrum_all(0));
 }
 
@@ -114,25 +133,25 @@ static const Changes *changes_of(const Dielectric *d, Changes *space)
 }
 
 /* Neither side can let more across than it loses. */
-static void change_lost(const Dielectric *d, bool is_inside, float cosine,
+static void change_lost(const Dielectric *d, bool is_inside, Vec3 w,
                         const Changes *changes, Lost *lost, Spectrum *flux)
 {
     const FacetChange *here = &changes->side[is_inside];
     Spectrum   other = changed_mean(d, !is_inside, &changes->side[!is_inside]), n = indices(d);
-    LostFacets facets = solid_lost_facets(d->energy, is_inside, cosine, d->alpha);
+    LostFacets facets = facets_by(d, is_inside, w);
     lost->share = spectrum_clamp(lost->share + changed(here, facets), 0, 1);
     lost->mean = changed_mean(d, is_inside, here);
     Spectrum outside = is_inside ? other : lost->mean, inside = is_inside ? lost->mean : other;
     *flux = spectrum_min(*flux * here->passes, spectrum_min(outside, inside * n * n));
 }
 
-/* cosine: to the normal, on the side inside the solid or outside. */
-static Lost lost_on(const Dielectric *d, bool is_inside, float cosine, const Changes *changes)
+/* w: seen from the side that it is on, inside the solid or outside. */
+static Lost lost_on(const Dielectric *d, bool is_inside, Vec3 w, const Changes *changes)
 {
     Lost     lost;
     Spectrum flux, n = indices(d);
-    lost_lanes(d, is_inside, cosine, &lost, &flux);
-    if (changes) change_lost(d, is_inside, cosine, changes, &lost, &flux);
+    lost_lanes(d, is_inside, w, &lost, &flux);
+    if (changes) change_lost(d, is_inside, w, changes, &lost, &flux);
     lost.across = over(is_inside ? over(flux, n * n) : flux, lost.mean);
     return lost;
 }
@@ -153,10 +172,11 @@ static LostChance lost_chance(const Dielectric *d, const Lost *lost)
 void solid_loss_add(const Dielectric *d, const SolidRay *s, Spectrum *value, float *pdf)
 {
     bool goes_across = s->wi.z < 0;
+    Vec3 above = vec3(s->wi.x, s->wi.y, fabsf(s->wi.z));
     Changes space;
     const Changes *changes = changes_of(d, &space);
-    Lost from = lost_on(d, s->turned, s->wo.z, changes);
-    Lost to = lost_on(d, s->turned != goes_across, fabsf(s->wi.z), changes);
+    Lost from = lost_on(d, s->turned, s->wo, changes);
+    Lost to = lost_on(d, s->turned != goes_across, above, changes);
     LostChance chance = lost_chance(d, &from);
     Spectrum way = goes_across ? from.across * d->tint : spectrum_all(1) - from.across;
     Spectrum spread = over(from.share * way * to.share, to.mean) * spectrum_all(INV_PI_F);
@@ -170,7 +190,7 @@ void solid_loss_add(const Dielectric *d, const SolidRay *s, Spectrum *value, flo
 bool solid_loss_sample(const Dielectric *d, SolidRay *s, float u[3])
 {
     Changes    space;
-    Lost       lost = lost_on(d, s->turned, s->wo.z, changes_of(d, &space));
+    Lost       lost = lost_on(d, s->turned, s->wo, changes_of(d, &space));
     LostChance chance = lost_chance(d, &lost);
     if (u[2] >= chance.any) {
         u[2] = fminf((u[2] - chance.any) / (1 - chance.any), 0x1.fffffep-1f);

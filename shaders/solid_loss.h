@@ -1,8 +1,8 @@
 /* solid_loss.h -- what rough facets of a solid pass to one another, coming out at last.
  *
- * For dielectric.c, by the tables of facets/solid_energy.h, which d->energy must hold: both
- * sides get lost(wo) lost(wi) / mean of it. Coated and filmed facets as well, and glass that
- * parts light. Threads: pure functions.
+ * For dielectric.c, by the tables of facets/solid_energy.h, which d->energy must hold (where
+ * facets are brushed its `brushed` as well): both sides get lost(wo) lost(wi) / mean of it.
+ * Coated and filmed facets as well, and glass that parts light. Threads: pure functions.
  */
 #pragma once
 #include "shaders/solid_facet.h"

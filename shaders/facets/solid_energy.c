@@ -140,6 +140,15 @@ const SolidEnergy *solid_energy_build(float ior, float least, float most, bool h
     return out;
 }
 
+const SolidEnergy *solid_energy_brushed(const SolidEnergy *even, BrushedRange range,
+                                        Arena *arena)
+{
+    SolidEnergy *out = ARENA_NEW(arena, SolidEnergy, 1);
+    *out = *even;
+    out->brushed = brushed_loss_build(even->ior, range, even->outside.facets != NULL, arena);
+    return out;
+}
+
 /* ---- looking up -------------------------------------------------------------------------- */
 
 static const SolidSide *side_of(const SolidEnergy *energy, bool is_inside)

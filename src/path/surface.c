@@ -25,7 +25,8 @@ struct SurfaceTables {
 
 static bool is_rough_solid(const Material *m)
 {
-    return m->is_solid && m->transmission > 0 && !is_smooth(m->roughness * m->roughness);
+    return m->is_solid && m->transmission > 0 &&
+           (m->brushing || !is_smooth(m->roughness * m->roughness));
 }
 
 /* Seen by the solid's surroundings: a coating may stand in another medium than air. */
@@ -34,20 +35,44 @@ static float index_of(const Material *m, float absolute)
     return m->coating ? (float)((double)absolute / m->coating->outside) : absolute;
 }
 
-static SolidTables solid_tables(const Material *m, Arena *arena)
+/* GGX, along the brushing. */
+static float alpha_brushed(float alpha, float strength)
+{
+    return lerpf(alpha, 1, strength * strength);
+}
+
+/* least, most: of alpha across the brushing. A texture weakens it to nothing. */
+static BrushedRange brushed_range(const Brushing *b, float least, float most)
+{
+    float weakest = b->texture.texture_id == NO_ID ? b->strength : 0;
+    least = fmaxf(least, SMOOTH_ALPHA);
+    most = fmaxf(most, SMOOTH_ALPHA);
+    return (BrushedRange){.least = alpha_brushed(least, weakest),
+                          .most = alpha_brushed(most, b->strength),
+                          .least_ratio = least / alpha_brushed(least, b->strength),
+                          .most_ratio = most / alpha_brushed(most, weakest)};
+}
+
+static const SolidEnergy *energy_of(const Material *m, float ior, bool has_facets, Arena *arena)
 {
     bool  is_even = m->metallic_roughness_texture.texture_id == NO_ID;
     float most = m->roughness * m->roughness, least = is_even ? most : 0;
+    const SolidEnergy *energy = solid_energy_build(ior, least, most, has_facets, arena);
+    return m->brushing ? solid_energy_brushed(energy, brushed_range(m->brushing, least, most),
+                                              arena) : energy;
+}
+
+static SolidTables solid_tables(const Material *m, Arena *arena)
+{
     float low = m->index ? m->index->value[0] : m->ior, high = low;
-    if (!is_rough_solid(m) || m->brushing) return (SolidTables){NULL, NULL};
+    if (!is_rough_solid(m)) return (SolidTables){NULL, NULL};
     for (int i = 0; i < CURVE_COUNT && m->index; i++) {
         low = fminf(low, m->index->value[i]);
         high = fmaxf(high, m->index->value[i]);
     }
     bool is_coated = m->coating || m->iridescence;
-    return (SolidTables){
-        solid_energy_build(index_of(m, low), least, most, is_coated, arena),
-        low < high ? solid_energy_build(high, least, most, false, arena) : NULL};
+    return (SolidTables){energy_of(m, index_of(m, low), is_coated, arena),
+                         low < high ? energy_of(m, high, false, arena) : NULL};
 }
 
 /* Materials of one index of refraction share a table. */
@@ -271,7 +296,7 @@ static void set_brushing(const Scene *scene, const Hit *hit, const Brushing *b,
     if (!(vec3_dot(turned, turned) > 0.5f)) return;
     surface->frame = (Frame){turned, vec3_cross(z, turned), z};
     *alpha = fmaxf(*alpha, SMOOTH_ALPHA);
-    *alpha_along = lerpf(*alpha, 1, strength * strength);
+    *alpha_along = alpha_brushed(*alpha, strength);
 }
 
 static const SurfaceCoating *coating_of(const Site *site, int material_id)

@@ -123,6 +123,27 @@ static Brushing *brushing_of(World *world, float turn)
     return brushing;
 }
 
+/* Also one whose brushing alone is rough, and one without tangents, which is not brushed. */
+TEST(a_brushed_box_is_not_seen_in_a_furnace)
+{
+    static const float roughness[] = {0.3f, 0.6f, 0, 0.5f};
+    (void)state;
+    for (int i = 0; i < 4; i++) {
+        World    world = world_start();
+        Material box = glass(1.5f, roughness[i]);
+        box.brushing = brushing_of(&world, 0.4f);
+        if (i == 1) box.iridescence = film_of(&world, 0.8f, 1.9f, 450);
+        add_box(&world, box);
+        if (i == 3) world.scene->parts[world.scene->part_count - 1].tangents = NULL;
+        set_sky(&world, 1000);
+        world_ready(&world, 1000);
+        Mean seen = look(&world, vec3(0, 1, 1.5f), vec3(0, 0, 0), 60000);
+        if (!(fabs(seen.value - 1000) < 3.5 * seen.sigma + 2 && seen.sigma < 4))
+            fail_msg("box %d: %g +- %g", i, seen.value, seen.sigma);
+        world_end(&world);
+    }
+}
+
 /* A lamp above, a lamp below, a sky. */
 static World box_world(bool has_film, bool is_brushed)
 {

@@ -1,4 +1,5 @@
 /* Glass and clear plastic among the models that obey all laws. */
+#include "brushed_fixture.h"
 #include "bsdf_laws.h"
 #include "layer_fixture.h"
 
@@ -162,26 +163,42 @@ static void add_films(void)
     models[model_count - 1].bsdf.dielectric.film = d->film;
 }
 
-static void add_brushed(const char *name, Dielectric *d, float along)
+/* The last model, as bare or not as it is. */
+static Dielectric *brush(const char *name, float along)
 {
+    Model      *model = &models[model_count - 1];
+    Dielectric *d = &model->bsdf.dielectric;
+    bool        has_facets = d->film.share > 0 || d->coating;
+    d->energy = brushed_energy(d->energy->ior, along, d->alpha, has_facets, &arena);
+    if (d->index)
+        d->energy_most = brushed_energy(d->energy_most->ior, along, d->alpha, false, &arena);
     d->alpha_along = along;
-    d->energy = NULL;
-    models[model_count - 1].name = name;
-    models[model_count - 1].lossless = false;
-    models[model_count - 1].width = fminf(models[model_count - 1].width, 0.05f);
+    model->name = name;
+    model->width = fminf(model->width, 0.05f);
+    return d;
 }
 
 static void add_brushed_solids(void)
 {
     add_dielectric("", 1.5f, 0.1f);
-    add_brushed("brushed glass", &models[model_count - 1].bsdf.dielectric, 0.5f);
+    brush("brushed glass", 0.5f);
     add_dielectric("", 1.5f, 0.6f);
-    add_brushed("glass brushed across x", &models[model_count - 1].bsdf.dielectric, 0.1f);
-    add_brushed("brushed filmed glass", add_filmed("", 1.5f, 0.2f), 0.6f);
-    add_dispersive("brushed flint", 0.1f, 2);
-    models[model_count - 1].bsdf.dielectric.alpha_along = 0.4f;
-    models[model_count - 1].bsdf.dielectric.energy = NULL;
+    brush("glass brushed across x", 0.1f);
+    add_dielectric("", 1.8f, 0.3f);
+    brush("glass brushed to the utmost", 1);
+    add_dielectric("", 2.42f, 1);
+    brush("rough diamond brushed across x", 0.4f);
+    add_dielectric("", 0.75f, 0.2f);
+    brush("brushed bubble", 0.6f);
+    add_dielectric("", 1.5f, 0.1f);
+    brush("single brushed facets", 0.5f)->energy = NULL;
     models[model_count - 1].lossless = false;
+    add_filmed("", 1.5f, 0.2f);
+    brush("brushed filmed glass", 0.6f);
+    add_coated_solid("", 0.2f, true, coating_of_solid(stack_four(&arena), 1.52, &arena));
+    brush("brushed coated glass", 0.7f);
+    add_dispersive("", 0.1f, 1);
+    brush("brushed flint", 0.4f);
 }
 
 static int make_models(void **state)
