@@ -253,10 +253,6 @@ static void check_reciprocity(const Model *model, Vec3 wo, Vec3 wi)
     float pdf;
     Spectrum scale = crosses && is_solid ? squeeze(model, wo) : spectrum_all(1);
     double tolerance = is_solid || model->width < 0.05f ? 1e-3 : 1e-4; /* rounding */
-    if (turn && model->bsdf.kind == BSDF_METALLIC_ROUGHNESS &&
-        model->bsdf.metallic_roughness.clearcoat > 0 &&
-        model->bsdf.metallic_roughness.transmission > 0)
-        return; /* its coat is on one side */
     Spectrum a = bsdf_eval(&model->bsdf, wo, wi, &pdf);
     Spectrum b =
         bsdf_eval(&model->bsdf, turn ? turned_over(wi) : wi, turn ? turned_over(wo) : wo, &pdf);

@@ -19,13 +19,16 @@ static inline double furnace_of(const MetallicRoughness *m, double theta_deg, do
 {
     enum { TURNS = 8 }; /* for one height */
     double t = radians_from_degrees(theta_deg), p = radians_from_degrees(phi_deg), sum = 0;
+    bool   is_frosted = m->transmission > 0 && m->alpha > 0; /* u2 chooses there */
     Bsdf   bsdf = {.kind = BSDF_METALLIC_ROUGHNESS, .metallic_roughness = *m};
     Vec3   wo = vec3((float)(sin(t) * cos(p)), (float)(sin(t) * sin(p)), (float)cos(t));
+    BsdfRoom room;
+    bsdf_look(&bsdf, wo, &room);
     for (int i = 0; i < side * side * TURNS; i++) {
         int    turn = i % (side * TURNS), height = i / (side * TURNS);
         double rest = (height + 0.5) / side, shift = fmod(height * 0.5698402910, 1);
         const float u[3] = {(float)((turn + shift) / (side * TURNS)), (float)(1 - rest * rest),
-                            0.5f};
+                            is_frosted ? (float)fmod(turn * 0.7548776662 + shift, 1) : 0.5f};
         BsdfSample s;
         if (bsdf_sample(&bsdf, wo, u, &s)) sum += 2 * rest * (double)s.weight[7];
     }

@@ -92,3 +92,40 @@ static void add_cloths(void)
     m = add_sheen("coated plastic, sheen 0.5", 0, 0.3f, 0.5f, true);
     m->coating = &plastic;
 }
+
+/* Sheets that a coat lies on, on both sides. */
+static void add_lacquered_sheets(void)
+{
+    MetallicRoughness *m = add_model("frosted sheet under lacquer", 0, 0.3f, true);
+    m->transmission = 1;
+    m->clearcoat = 1;
+    m = add_model("smooth sheet under lacquer", 0, 0, true);
+    m->transmission = 0.7f;
+    m->clearcoat = 1;
+    m = add_model("smooth sheet without a mirror under rough lacquer", 0, 0, true);
+    m->transmission = 1;
+    m->specular = 0;
+    m->clearcoat = 1;
+    m->clearcoat_alpha = 0.3f;
+    models[model_count - 1].width = 0.3f;
+    m = add_sheen("smooth sheet, sheen 0.5, under lacquer", 0, 0, 0.5f, true);
+    m->transmission = 1;
+    m->clearcoat = 1;
+    m = add_sheen("frosted sheet, sheen 0.5, under lacquer", 0, 0.2f, 0.5f, true);
+    m->transmission = 0.8f;
+    m->specular = 0;
+    m->clearcoat = 1;
+    m = add_filmed("filmed brushed frosted sheet under rough lacquer", 0.3f, 0.2f, true);
+    m->alpha_along = 0.5f;
+    m->transmission = 0.8f;
+    m->clearcoat = 0.7f;
+    m->clearcoat_alpha = 0.2f;
+    m = add_sheen("curtain with holes under lacquer", 0.4f, 0.36f, 0.5f, true);
+    m->transmission = 0.5f;
+    m->across = 0.3f;
+    m->across_color[0] = m->across_color[1] = m->across_color[2] = 1;
+    m->clearcoat = 1;
+    m = add_coated("coated frosted sheet under lacquer", 0, 0.3f, true, &frosted);
+    m->transmission = 1;
+    m->clearcoat = 1;
+}

@@ -189,6 +189,7 @@ static int make_models(void **state)
     add_brushed();
     add_films();
     add_cloths();
+    add_lacquered_sheets();
     return 0;
 }
 
