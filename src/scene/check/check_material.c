@@ -7,6 +7,7 @@
 #include "scene/check/check_coating.h"
 #include "scene/check/check_index.h"
 #include "scene/check/check_solid.h"
+#include "scene/gltf/extras.h"
 #include "scene/gltf/variant.h"
 
 /* ---- textures: the picture's type is the one that stands there ------------------------- */
@@ -171,7 +172,7 @@ static int texcoord_of(const GltfValue *info)
 /* The first set that a texture below `value` needs and the attributes do not have; NO_ID. */
 static int missing_set(const GltfValue *value, const GltfValue *attributes)
 {
-    if (value->key && strcmp(value->key, "extras") == 0) return NO_ID;
+    bool is_extras = value->key && strcmp(value->key, "extras") == 0;
     if (is_texture_info(value)) {
         char name[24];
         int set = texcoord_of(value);
@@ -179,6 +180,7 @@ static int missing_set(const GltfValue *value, const GltfValue *attributes)
         if (!tree_member(attributes, name)) return set;
     }
     for (int i = 0; value->kind == GLTF_OBJECT && i < value->count; i++) {
+        if (is_extras && !extras_is_ours(&value->items[i])) continue;
         int set = missing_set(&value->items[i], attributes);
         if (set != NO_ID) return set;
     }

@@ -8,6 +8,7 @@
 
 #include "scene/check/schema_extensions.h"
 #include "scene/gltf/document.h"
+#include "scene/gltf/extras.h"
 #include "text/nearest_word.h"
 
 #define MEMBERS_MAX 64 /* of one object that are compared with an unknown one */
@@ -262,9 +263,6 @@ static void check_extension(const DocumentCheck *check, const GltfValue *extensi
     bool is_known = false;
     DocumentCheck inner = *check;
     const ExtensionRule *rule = extension_rule(extension->key, host, &is_known);
-    if (!document_uses(check->file, extension->key))
-        check_warns(check, extension, "%s is used but not listed in extensionsUsed",
-                    extension->key);
     if (extension->kind != GLTF_OBJECT) {
         fails_as(check, extension, "an object");
         return;
@@ -276,10 +274,33 @@ static void check_extension(const DocumentCheck *check, const GltfValue *extensi
     if (rule && rule->schema) schema_check(&inner, extension, rule->schema);
 }
 
+/* Of extras only what is named as our extensions are is ours to judge; more may follow. */
+static void check_extras(const DocumentCheck *check, const GltfValue *extras, const char *host)
+{
+    const GltfValue *extensions = tree_member(extras->parent, "extensions");
+    for (int i = 0; extras->kind == GLTF_OBJECT && i < extras->count; i++) {
+        bool             is_known = false;
+        const GltfValue *member = &extras->items[i];
+        if (!extras_is_ours(member)) continue;
+        if (extension_rule(member->key, host, &is_known) == NULL)
+            check_warns(check, member,
+                        is_known ? "has no meaning on a %s and is skipped"
+                                 : "names no extension for a %s and is skipped",
+                        host);
+        else if (tree_member(extensions, member->key))
+            check_fails(check, member, "stands in extras and in extensions; one is wanted");
+        else
+            check_extension(check, member, host);
+    }
+}
+
 static void check_common(const DocumentCheck *check, const GltfValue *member,
                          const Schema *schema)
 {
-    if (strcmp(member->key, "extras") == 0) return;
+    if (strcmp(member->key, "extras") == 0) {
+        check_extras(check, member, schema->name);
+        return;
+    }
     if (strcmp(member->key, "name") == 0) {
         if (member->kind != GLTF_STRING) fails_as(check, member, "a text");
         return;
@@ -289,8 +310,13 @@ static void check_common(const DocumentCheck *check, const GltfValue *member,
         return;
     }
     if (member->kind != GLTF_OBJECT) fails_as(check, member, "an object");
-    for (int i = 0; member->kind == GLTF_OBJECT && i < member->count; i++)
-        check_extension(check, &member->items[i], schema->name);
+    for (int i = 0; member->kind == GLTF_OBJECT && i < member->count; i++) {
+        const GltfValue *extension = &member->items[i];
+        if (!document_uses(check->file, extension->key))
+            check_warns(check, extension, "%s is used but not listed in extensionsUsed",
+                        extension->key);
+        check_extension(check, extension, schema->name);
+    }
 }
 
 void schema_check(const DocumentCheck *check, const GltfValue *value, const Schema *schema)

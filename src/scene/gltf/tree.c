@@ -25,7 +25,9 @@ const GltfValue *tree_element(const GltfValue *root, const char *collection, int
 
 const GltfValue *tree_extension(const GltfValue *object, const char *name)
 {
-    return tree_member(tree_member(object, "extensions"), name);
+    const GltfValue *own = tree_member(tree_member(object, "extensions"), name);
+    if (own || strncmp(name, TREE_OURS, strlen(TREE_OURS)) != 0) return own;
+    return tree_member(tree_member(object, "extras"), name);
 }
 
 int tree_count(const GltfValue *object, const char *name)

@@ -18,7 +18,10 @@ const GltfValue *tree_item(const GltfValue *array, int index);
 /* The item with this index in a collection of the document's root ("nodes", "meshes" ...). */
 const GltfValue *tree_element(const GltfValue *root, const char *collection, int index);
 
-/* `object`'s extension, NULL where it has none. */
+#define TREE_OURS "PARHELION_" /* what the names of our own extensions begin with */
+
+/* `object`'s extension, NULL where it has none. One of ours is also found in its extras
+ * (gltf/extras.h). */
 const GltfValue *tree_extension(const GltfValue *object, const char *name);
 
 /* How many items the member has; 0 unless it is an array or object. */

@@ -13,6 +13,7 @@
 #include "scene/check/schema_extensions.h"
 #include "scene/gltf/buffer_view.h"
 #include "scene/gltf/document.h"
+#include "scene/gltf/extras.h"
 #include "scene/gltf/list.h"
 #include "scene/gltf/loader.h"
 #include "scene/gltf/packed_mesh.h"
@@ -247,6 +248,7 @@ static void load_file(Loader *load, const char *path)
     GltfFile *file = ARENA_NEW(&load->scratch, GltfFile, 1);
     *file = (GltfFile){.load = load, .path = arena_string(load->arena, path, strlen(path))};
     if (!document_read(file)) return;
+    extras_unfold(file);
     note_extensions(file);
     variant_choose(file);
     check_structure(file);
