@@ -207,6 +207,15 @@ def check_extras(report, trial):
         report.claim(status == 0 and not problems, f"extras: status {status}, {problems}")
 
 
+def check_deep_text(report, trial):
+    """A text in extras that holds our extension is JSON of its own, with the same limits."""
+    model = valid_model()
+    model.document["materials"][0]["extras"] = {"PARHELION_display": '{"panel":' + "[" * 400}
+    [(status, problems)] = trial.of_all([model])
+    report.claim(status == 3 and any("nested deeper than 256" in p[1] for p in problems),
+                 f"a deep text in extras: status {status}, {sorted(problems)[:4]}")
+
+
 def fill(value, extras):
     if isinstance(value, dict):
         for key, item in list(value.items()):
@@ -237,6 +246,7 @@ def main():
         check_codes(report, trial, table())
         check_properties(report, trial)
         check_extras(report, trial)
+        check_deep_text(report, trial)
         check_valid(report, trial)
     report.finish()
 

@@ -45,7 +45,8 @@ static const FaultCase FAULTS[] = {
     {MARKED("'[1,2]'"), PLACE, "is an array of 2, an object is wanted"},
     {MARKED("'" Q "text" Q "'"), PLACE, "is \"text\", an object is wanted"},
     /* both, and elsewhere */
-    {ALSO("{'panel':'none.panel'}"), PLACE, "stands in extras and in extensions; one is wanted"},
+    {ALSO("{'panel':'none.panel'}"), PLACE,
+     "stands in extras and in extensions; one is wanted"},
     {ALSO("{}"), PLACE, "stands in extras and in extensions; one is wanted"},
     {"'materials':[{'extras':{'PARHELION_dispaly':{}}}]",
      "/materials/0/extras/PARHELION_dispaly", "names no extension for a material"},
