@@ -76,6 +76,7 @@ if run_one 'release build, warnings are errors' build-release build release all;
     gather
     start 'why a display looks so' explain python3 tests/image/explain.py \
         .build/release/parhelion
+    start 'the Blender add-on' blender python3 tests/blender/run.py .build/release/parhelion
     start 'people in the seats' occupants \
         python3 tests/image/occupants.py .build/release/parhelion
     start 'what one pixel sees' probe python3 tests/image/probe.py .build/release/parhelion
