@@ -352,7 +352,11 @@ def glTF2_pre_export_callback(export_settings):
     """An exception here ends the export before anything is written, in every version."""
     folder = os.path.normpath(export_settings["gltf_filedirectory"])
     _export.update(faults=[], tree=None, wanted=None)
-    _export["wanted"] = marked(bpy.context.scene, folder)
+    try:
+        _export["wanted"] = marked(bpy.context.scene, folder)
+    except Wrong as error:
+        _export["faults"].append(str(error))
+        raise
 
 
 def glTF2_post_export_callback(export_settings):
@@ -453,12 +457,11 @@ def export_scene(path):
               "export_cameras": True, "export_lights": True, "export_apply": True,
               "export_animations": False, "export_extras": True, "use_active_scene": True}
     os.makedirs(os.path.dirname(path), exist_ok=True)
-    _export["is_ours"] = True
+    _export.update(is_ours=True, faults=[])
     try:
         export(filepath=path, **{key: value for key, value in wanted.items() if key in known})
-    except RuntimeError as error:  # an operator's: a traceback, the reason last
-        raise Wrong(str(error).strip().splitlines()[-1].partition("Wrong: ")[2]
-                    or str(error)) from error
+    except RuntimeError as error:  # an operator's: a traceback
+        raise Wrong((_export["faults"] or [str(error).strip()])[0]) from error
     finally:
         _export["is_ours"] = False
     return lost(read_document(path), _export["wanted"])

@@ -157,6 +157,8 @@ def check_broken(report, found, folder):
             error = found[f"broken_{name}{way}"]
             report.claim('material "cluster"' in error and words in error,
                          f"a panel {name}{way}: {error}")
+        report.claim("Traceback" not in found[f"broken_{name}"],
+                     f"a panel {name}: {found[f'broken_{name}']}")
     left = os.path.join(folder, "broken")
     report.claim(not os.path.exists(left) or not os.listdir(left),
                  "an aborted export left a file")
