@@ -506,7 +506,8 @@ def render_command(context, path):
                                                scene.render.resolution_y)]
     eye = scene.parhelion.eye or (scene.camera.name if scene.camera else "")
     command = [program(), "render", path, "-o", base + ".exr", "--png", base + ".png", "--size",
-               f"{size[0]}x{size[1]}", "--spp", str(scene.parhelion.spp), "--progress", "json"]
+               f"{size[0]}x{size[1]}", "--spp", str(scene.parhelion.spp), "--layers", "all",
+               "--progress", "json"]
     return command + (["--camera", eye] if eye else []) + outside_root(path)
 
 
