@@ -406,6 +406,17 @@ static Spectrum haze_ratio(const Panel *panel, const PanelPair *now, const Panel
            spectrum_all(masking);
 }
 
+/* The row of the table that counts most: at the last incidence weights that ought to be 0 may
+ * be some rounding. */
+static int main_row(const PanelReflection *r, const TableMix *mix)
+{
+    const Terms *terms = &mix->side[0];
+    int          best = 0;
+    for (int i = 1; i < terms->count; i++)
+        if (terms->term[i].weight > terms->term[best].weight) best = i;
+    return terms->term[best].table * (int)r->padded_wavelengths;
+}
+
 /* The haze moves and changes its height, the lambertian part follows the light that enters. */
 static Spectrum brdf_beyond(const Panel *panel, const PanelPair *pair, float light,
                             const PanelLanes *lanes)
@@ -417,7 +428,7 @@ static Spectrum brdf_beyond(const Panel *panel, const PanelPair *pair, float lig
     Spectrum logs = reflection_logs(panel, stored_at(r, &from), &mix, lanes);
     float    last = fresnel_unpolarised(from.wi.z, n);
     Spectrum total = spectrum_exp(logs) * spectrum_all(reference_at(r, &from));
-    int      row = mix.side[0].term[0].table * (int)r->padded_wavelengths;
+    int      row = main_row(r, &mix);
     Spectrum lambertian = spectrum_min(total, spread(r->lambertian + row, lanes));
     float    entering = (1 - fresnel_unpolarised(pair->wi.z, n)) / (1 - last);
     Spectrum haze = (total - lambertian) * haze_ratio(panel, pair, &from, lanes) +
@@ -438,7 +449,7 @@ static Spectrum lambertian_beyond(const Panel *panel, float theta, float cos_the
     const PanelReflection *r = panel->reflection;
     float    sine, cosine, n = r->refractive_index;
     TableMix mix = table_mix(r, r->last_theta, light);
-    int      row = mix.side[0].term[0].table * (int)r->padded_wavelengths;
+    int      row = main_row(r, &mix);
     sincos_turns(r->last_theta * (0.5f / PI_F), &sine, &cosine);
     float entering = (1 - fresnel_unpolarised(cos_theta, n)) /
                      (1 - fresnel_unpolarised(cosine, n));
