@@ -1,4 +1,4 @@
-/* panel_file.h -- the layout of X.panel (assets/schemas/panel.md). Private to src/panel.
+/* panel_file.h -- the layout of X.panel (assets/guides/panel-format.md). Private to src/panel.
  *
  * Little-endian. A header, a table of contents, then the sections, each at a multiple of 8
  * bytes; no pointers, so that a file is queried as it was read. The checksum (XXH3, 64 bits)
