@@ -12,6 +12,7 @@ from report import ROOT, Report, project_files, read, sources
 from source import exceptions
 
 MOST_FILES = 38  # in a folder
+OUTSIDE = "src/library/"  # other programs call what stands there
 NOT_CODE = re.compile(r'/\*.*?\*/|//[^\n]*|"(?:\\.|[^"\\\n])*"', re.DOTALL)
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*"([^"]+)"', re.M)
 
@@ -66,7 +67,8 @@ class Tree:
 
     def uncalled(self):
         allowed = exceptions("uncalled")
-        used = {name: self.uses(name, path) for name, (path, _) in self.functions.items()}
+        used = {name: self.uses(name, path) for name, (path, _) in self.functions.items()
+                if not path.startswith(OUTSIDE)}
         never = [self.place(name) for name, (inside, outside) in used.items()
                  if inside + outside <= 0 and name not in allowed]
         never += [f"{path}: {name}" for name, path in self.inline.items()

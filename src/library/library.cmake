@@ -1,0 +1,57 @@
+# libparhelion-panel: the measured panel for other renderers (src/library). Its sources are
+# compiled once more, as a library that may lie anywhere in memory wants them, with nothing but
+# the calls of parhelion_panel.h to be seen from outside; nothing is linked but the C library.
+# One build for every CPU: the instructions of x86-64 itself, so that no table of kernels is
+# carried and the bits are those of the program, whose kernels all give the same.
+include(GNUInstallDirs)
+set(PANEL_LIBRARY_ABI 1)
+set(panel_library_sources src/library/parhelion_panel.c
+  src/base/arena.c src/base/error.c src/base/file.c src/base/mathd.c
+  src/spectrum/spectral_table.c src/spectrum/wavelengths.c
+  src/hemisphere/geodesic.c src/hemisphere/specular_frame.c src/hemisphere/surface_frame.c
+  src/hemisphere/haar.c
+  src/hemisphere/vertex/vertex.c src/hemisphere/vertex/vertex_find.c
+  src/hemisphere/vertex/vertex_open.c src/hemisphere/vertex/vertex_query.c
+  src/hemisphere/vertex/vertex_sum.c
+  src/hemisphere/tree/tree_open.c src/hemisphere/tree/tree_query.c
+  src/hemisphere/tree/tree_sum.c
+  src/hemisphere/sampling/sampling_tree.c src/hemisphere/sampling/sampling_tree_build.c
+  src/hemisphere/sampling/sampling_tree_open.c
+  src/panel/shape/panel_beam.c src/panel/shape/panel_levels.c src/panel/shape/panel_spline.c
+  src/panel/shape/spectral_warp.c src/panel/shape/spot_ground.c)
+foreach(file components emission evenness info open open_emission open_places
+    open_reflection open_sampling place reflection sampling section sources)
+  list(APPEND panel_library_sources src/panel/query/panel_${file}.c)
+endforeach()
+list(APPEND panel_library_sources src/panel/query/sampling_make.c)
+
+add_library(parhelion_panel SHARED ${panel_library_sources})
+set_target_properties(parhelion_panel PROPERTIES OUTPUT_NAME parhelion-panel
+  VERSION ${PANEL_LIBRARY_ABI}.${PROJECT_VERSION} SOVERSION ${PANEL_LIBRARY_ABI}
+  C_VISIBILITY_PRESET hidden)
+target_compile_options(parhelion_panel PRIVATE -Wno-psabi -ffunction-sections)
+set(panel_library_map ${CMAKE_SOURCE_DIR}/src/library/parhelion_panel.map)
+target_link_options(parhelion_panel PRIVATE -Wl,--gc-sections
+  -Wl,--version-script=${panel_library_map})
+if(NOT PARHELION_SANITIZE)
+  target_link_options(parhelion_panel PRIVATE -Wl,-z,defs)
+endif()
+set_property(TARGET parhelion_panel PROPERTY LINK_DEPENDS ${panel_library_map})
+target_link_libraries(parhelion_panel PRIVATE m)
+
+set(PANEL_LIBRARY_PYTHON lib/python3/dist-packages)
+# The way up from the folder of the .pc file, so that an installed tree may be moved.
+string(REGEX REPLACE "[^/]+" ".." panel_library_up "${CMAKE_INSTALL_LIBDIR}")
+configure_file(src/library/parhelion-panel.pc.in parhelion-panel.pc @ONLY)
+install(TARGETS parhelion_panel
+  LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT libparhelion-panel1
+  NAMELINK_COMPONENT libparhelion-panel-dev)
+install(FILES src/library/parhelion_panel.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
+  COMPONENT libparhelion-panel-dev)
+install(FILES ${CMAKE_BINARY_DIR}/parhelion-panel.pc
+  DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT libparhelion-panel-dev)
+install(FILES src/library/parhelion_panel.py DESTINATION ${PANEL_LIBRARY_PYTHON}
+  COMPONENT libparhelion-panel-dev)
+install(FILES src/library/viewing_cone.py
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libparhelion-panel-dev/examples
+  COMPONENT libparhelion-panel-dev)

@@ -1,0 +1,457 @@
+/* What other programs call, over src/panel/query. */
+#include "library/parhelion_panel.h"
+
+#include <stdbool.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/arena.h"
+#include "base/error.h"
+#include "base/file.h"
+#include "base/mathf.h"
+#include "panel/query/panel_emission.h"
+#include "panel/query/panel_evenness.h"
+#include "panel/query/panel_info.h"
+#include "panel/query/panel_open.h"
+#include "panel/query/panel_place.h"
+#include "panel/query/panel_reflection.h"
+#include "spectrum/spectral_table.h"
+
+struct ParhelionPanel {
+    Arena        arena;
+    const Panel *panel;
+};
+
+/* Of the first version: what a caller has at least. */
+#define INFO_BYTES (offsetof(ParhelionPanelInfo, polarisation_azimuth) + sizeof(float))
+#define QUESTION_BYTES (offsetof(ParhelionPanelQuestions, nm) + sizeof(const float *))
+
+const char *parhelion_panel_version(void)
+{
+    return PARHELION_VERSION;
+}
+
+/* ---- opening ----------------------------------------------------------------------------- */
+
+#define ARENA_BYTES ((size_t)4 << 30)
+
+/* The bytes lie in the arena, at a multiple of 8. */
+static ParhelionPanel *keep(Arena *arena, const FileBytes *bytes, const char *name, Error *err)
+{
+    Panel          *panel;
+    ParhelionPanel *out = malloc(sizeof *out);
+    if (!out) {
+        error_at(err, ERROR_MEMORY, name, "", "there is no memory to open it");
+        return NULL;
+    }
+    if (!panel_open_memory(bytes->data, bytes->size, name, arena, &panel, err)) {
+        free(out);
+        return NULL;
+    }
+    *out = (ParhelionPanel){*arena, panel};
+    return out;
+}
+
+static void tell(const Error *err, char *error, size_t error_size)
+{
+    if (error && error_size)
+        error_line(err, error, error_size < INT32_MAX ? (int)error_size : INT32_MAX);
+}
+
+ParhelionPanel *parhelion_panel_open(const char *path, char *error, size_t error_size)
+{
+    Arena           arena = arena_reserve(ARENA_BYTES);
+    Error           err = {0};
+    FileBytes       bytes;
+    ParhelionPanel *out = NULL;
+    if (file_read(path, PANEL_FILE_BYTES_MAX, &arena, &bytes, &err))
+        out = keep(&arena, &bytes, path, &err);
+    if (out) return out;
+    tell(&err, error, error_size);
+    arena_release(&arena);
+    return NULL;
+}
+
+ParhelionPanel *parhelion_panel_open_memory(const void *bytes, size_t size, char *error,
+                                            size_t error_size)
+{
+    Error err = {0};
+    if (size > PANEL_FILE_BYTES_MAX) {
+        error_at(&err, ERROR_INPUT, "memory", "", "has %zu bytes, wanted at most %zu", size,
+                 PANEL_FILE_BYTES_MAX);
+        tell(&err, error, error_size);
+        return NULL;
+    }
+    Arena arena = arena_reserve(ARENA_BYTES);
+    unsigned char *copy = arena_alloc(&arena, 1, 8, size + 1);
+    if (size) memcpy(copy, bytes, size);
+    ParhelionPanel *out = keep(&arena, &(FileBytes){copy, size}, "memory", &err);
+    if (out) return out;
+    tell(&err, error, error_size);
+    arena_release(&arena);
+    return NULL;
+}
+
+void parhelion_panel_close(ParhelionPanel *panel)
+{
+    if (!panel) return;
+    arena_release(&panel->arena);
+    free(panel);
+}
+
+/* ---- what it holds ----------------------------------------------------------------------- */
+
+static uint32_t flags_of(const Panel *panel)
+{
+    double phi[PANEL_INFO_AZIMUTHS_MAX];
+    bool   reflects = panel_reflects(panel);
+    return (panel_info_emits(panel) ? PARHELION_PANEL_EMITS : 0) |
+           (reflects ? PARHELION_PANEL_REFLECTS : 0) |
+           (panel_has_mirror(panel) ? PARHELION_PANEL_HAS_MIRROR : 0) |
+           (panel_info_azimuths(panel, phi) > 1 ? PARHELION_PANEL_ANISOTROPIC : 0) |
+           (panel_varies(panel) ? PARHELION_PANEL_VARIES : 0) |
+           (panel_polarisation(panel).degree > 0 ? PARHELION_PANEL_POLARISED : 0) |
+           (panel_subpixels(panel).layout ? PARHELION_PANEL_HAS_SUBPIXELS : 0);
+}
+
+static void add_emission(const Panel *panel, ParhelionPanelInfo *info)
+{
+    double            code[PANEL_INFO_LEVELS_MAX];
+    PanelPolarisation polarisation = panel_polarisation(panel);
+    Subpixels         subpixels = panel_subpixels(panel);
+    if (!panel_info_emits(panel)) return;
+    for (int p = 0; p < 3; p++)
+        info->levels[p] = (uint32_t)panel_info_levels(panel, p, code);
+    info->emission_cone = (float)panel_info_emission_cone(panel);
+    info->emission_nm[0] = SPECTRAL_FIRST_NM;
+    info->emission_nm[1] = SPECTRAL_LAST_NM;
+    info->polarisation = polarisation.degree;
+    info->polarisation_azimuth = polarisation.azimuth;
+    info->subpixel_layout = (uint32_t)subpixels.layout;
+    info->subpixel_fill = subpixels.fill;
+    for (int k = 0; k < 2; k++) info->display_pixels[k] = (uint32_t)subpixels.pixels[k];
+}
+
+static void add_reflection(const Panel *panel, ParhelionPanelInfo *info)
+{
+    float  nm[PANEL_INFO_WAVELENGTHS_MAX];
+    double theta[PANEL_INFO_INCIDENCES_MAX], phi[PANEL_INFO_AZIMUTHS_MAX];
+    int    wavelengths = panel_info_wavelengths(panel, nm);
+    if (!wavelengths) return;
+    info->wavelengths = (uint32_t)wavelengths;
+    info->incidences = (uint32_t)panel_info_incidences(panel, theta);
+    info->azimuths = (uint32_t)panel_info_azimuths(panel, phi);
+    info->reflection_cone = (float)panel_info_reflection_cone(panel);
+    info->last_incidence = (float)theta[info->incidences - 1];
+    info->reflection_nm[0] = nm[0];
+    info->reflection_nm[1] = nm[wavelengths - 1];
+}
+
+int parhelion_panel_info(const ParhelionPanel *panel, ParhelionPanelInfo *info)
+{
+    ParhelionPanelInfo all = {.size = info->size};
+    float  place[PANEL_EVENNESS_SPOTS][2];
+    int    map[2];
+    size_t room = info->size;
+    if (room < INFO_BYTES) return PARHELION_PANEL_WRONG_SIZE;
+    all.flags = flags_of(panel->panel);
+    all.spots = (uint32_t)panel_spots(panel->panel, place, map);
+    for (int k = 0; k < 2; k++) all.map_pixels[k] = (uint32_t)map[k];
+    add_emission(panel->panel, &all);
+    add_reflection(panel->panel, &all);
+    memcpy(info, &all, room < sizeof all ? room : sizeof all);
+    return PARHELION_PANEL_OK;
+}
+
+#define LIST_MAX PANEL_INFO_WAVELENGTHS_MAX /* the longest */
+
+/* Angles and codes are doubles inside. */
+static int narrowed(const double *value, int count, float *out)
+{
+    for (int i = 0; i < count; i++) out[i] = (float)value[i];
+    return count;
+}
+
+static int list_of(const Panel *panel, int list, float out[LIST_MAX])
+{
+    double value[LIST_MAX];
+    float  place[PANEL_EVENNESS_SPOTS][2];
+    int    map[2], spots;
+    switch (list) {
+    case PARHELION_PANEL_RED_LEVELS:
+    case PARHELION_PANEL_GREEN_LEVELS:
+    case PARHELION_PANEL_BLUE_LEVELS:
+        return narrowed(value, panel_info_levels(panel, list, value), out);
+    case PARHELION_PANEL_WAVELENGTHS:
+        return panel_info_wavelengths(panel, out);
+    case PARHELION_PANEL_INCIDENCES:
+        return narrowed(value, panel_info_incidences(panel, value), out);
+    case PARHELION_PANEL_AZIMUTHS:
+        return panel_reflects(panel) ? narrowed(value, panel_info_azimuths(panel, value), out)
+                                     : 0;
+    case PARHELION_PANEL_SPOTS:
+        spots = panel_spots(panel, place, map);
+        memcpy(out, place, sizeof place[0] * (size_t)spots);
+        return 2 * spots;
+    default:
+        return 0;
+    }
+}
+
+size_t parhelion_panel_list(const ParhelionPanel *panel, int list, float *out, size_t room)
+{
+    float  all[LIST_MAX];
+    size_t count = (size_t)list_of(panel->panel, list, all);
+    if (out) memcpy(out, all, sizeof *out * (count < room ? count : room));
+    return count;
+}
+
+/* ---- questions --------------------------------------------------------------------------- */
+
+/* What the questions must bring. */
+typedef enum Need {
+    NEED_VIEWER = 1,
+    NEED_LIGHT = 2,
+    NEED_CODE = 4,
+    NEED_RANDOM = 8,
+    NEED_NM = 16
+} Need;
+
+static int check(const ParhelionPanelQuestions *q, int needs, const void *out)
+{
+    if (q->size < QUESTION_BYTES) return PARHELION_PANEL_WRONG_SIZE;
+    if (q->count == 0 || (needs & NEED_NM && q->wavelengths == 0)) return PARHELION_PANEL_OK;
+    bool lacks = (needs & NEED_VIEWER && !q->viewer) || (needs & NEED_LIGHT && !q->light) ||
+                 (needs & NEED_CODE && !q->code) || (needs & NEED_RANDOM && !q->random) ||
+                 (needs & NEED_NM && !q->nm) || !out;
+    return lacks ? PARHELION_PANEL_MISSING : PARHELION_PANEL_OK;
+}
+
+/* What is nearly of length 1 stays as it is: the bits are those of the program. */
+#define LENGTH_BEARS 1e-5f
+
+static Vec3 direction_at(const float *from, size_t i)
+{
+    Vec3  d = vec3(from[3 * i], from[3 * i + 1], from[3 * i + 2]);
+    float square = vec3_dot(d, d);
+    if (fabsf(square - 1) <= LENGTH_BEARS) return d;
+    double x = (double)d.x, y = (double)d.y, z = (double)d.z;
+    double length = sqrt(x * x + y * y + z * z);
+    if (!(length > 0 && length < (double)INFINITY)) return vec3(0, 0, 0);
+    return vec3((float)(x / length), (float)(y / length), (float)(z / length));
+}
+
+static void place_at(const ParhelionPanelQuestions *q, size_t i, float place[2])
+{
+    for (int k = 0; k < 2; k++) place[k] = q->place ? q->place[2 * i + (size_t)k] : 0.5f;
+}
+
+/* Held in [0, most]; no number is 0. */
+static void held_at(const float *from, size_t i, float most, float out[3])
+{
+    for (size_t k = 0; k < 3; k++) {
+        float value = from[3 * i + k];
+        out[k] = value > 0 ? fminf(value, most) : 0;
+    }
+}
+
+/* Up to 16 wavelengths from a first one on; lanes behind the last repeat it. */
+typedef struct WaveBlock {
+    Wavelengths wavelengths; /* nm alone */
+    size_t      first, count;
+} WaveBlock;
+
+static void fill_block(const ParhelionPanelQuestions *q, size_t first, WaveBlock *out)
+{
+    size_t left = q->wavelengths - first;
+    memset(out, 0, sizeof *out);
+    out->first = first;
+    out->count = left < SPECTRUM_LANES ? left : SPECTRUM_LANES;
+    for (size_t k = 0; k < SPECTRUM_LANES; k++) {
+        float nm = q->nm[first + (k < out->count ? k : out->count - 1)];
+        out->wavelengths.nm[k] = nm > SPECTRAL_FIRST_NM ? fminf(nm, SPECTRAL_LAST_NM)
+                                                        : SPECTRAL_FIRST_NM;
+    }
+}
+
+static void put(const ParhelionPanelQuestions *q, const WaveBlock *block, size_t i,
+                const Spectrum *value, float *out)
+{
+    float *to = out + i * q->wavelengths + block->first;
+    for (size_t k = 0; k < block->count; k++) to[k] = (*value)[k];
+}
+
+int parhelion_panel_emission_xyz(const ParhelionPanel *panel,
+                                 const ParhelionPanelQuestions *questions, float *xyz,
+                                 unsigned char *is_measured)
+{
+    const ParhelionPanelQuestions *q = questions;
+    int status = check(q, NEED_VIEWER | NEED_CODE, xyz);
+    for (size_t i = 0; !status && i < q->count; i++) {
+        float place[2], code[3];
+        place_at(q, i, place);
+        held_at(q->code, i, 255, code);
+        bool measured = panel_place_emission_xyz(panel->panel, place,
+                                                 direction_at(q->viewer, i), code, xyz + 3 * i);
+        if (is_measured) is_measured[i] = measured;
+    }
+    return status;
+}
+
+int parhelion_panel_emission_spectrum(const ParhelionPanel *panel,
+                                      const ParhelionPanelQuestions *questions, float *radiance)
+{
+    const ParhelionPanelQuestions *q = questions;
+    int status = check(q, NEED_VIEWER | NEED_CODE | NEED_NM, radiance);
+    for (size_t w = 0; !status && w < q->wavelengths; w += SPECTRUM_LANES) {
+        WaveBlock block;
+        fill_block(q, w, &block);
+        for (size_t i = 0; i < q->count; i++) {
+            float place[2], code[3];
+            place_at(q, i, place);
+            held_at(q->code, i, 255, code);
+            Spectrum light = panel_place_emission_spectrum(
+                panel->panel, place, direction_at(q->viewer, i), code, &block.wavelengths);
+            put(q, &block, i, &light, radiance);
+        }
+    }
+    return status;
+}
+
+/* A panel's lanes are worth a query and a half: kept while the same panel is asked. */
+typedef struct KeptLanes {
+    const Panel *panel;
+    PanelLanes   lanes;
+} KeptLanes;
+
+static const PanelLanes *lanes_of(const Panel *panel, const Wavelengths *wavelengths,
+                                  KeptLanes *kept)
+{
+    if (kept->panel != panel) panel_lanes(panel, wavelengths, &kept->lanes);
+    kept->panel = panel;
+    return &kept->lanes;
+}
+
+/* Panels at a place, the two directions and where they are asked. */
+typedef struct BrdfQuestion {
+    PanelMix mix;
+    Vec3     wo, wi;
+    const Wavelengths *wavelengths;
+} BrdfQuestion;
+
+static Spectrum brdf_of(const BrdfQuestion *of, KeptLanes *kept)
+{
+    Spectrum sum = spectrum_all(0);
+    for (int i = 0; i < of->mix.count; i++) {
+        const Panel *one = of->mix.panel[i];
+        sum += panel_brdf_at(one, of->wo, of->wi, lanes_of(one, of->wavelengths, kept)) *
+               spectrum_all(of->mix.weight[i]);
+    }
+    return sum;
+}
+
+static Spectrum lambertian_of(const BrdfQuestion *of, Spectrum brdf, KeptLanes *kept)
+{
+    Spectrum sum = spectrum_all(0);
+    for (int i = 0; i < of->mix.count; i++) {
+        const Panel *one = of->mix.panel[i];
+        sum += panel_lambertian_at(one, brdf, of->wi, lanes_of(one, of->wavelengths, kept)) *
+               spectrum_all(of->mix.weight[i]);
+    }
+    return sum;
+}
+
+int parhelion_panel_brdf(const ParhelionPanel *panel, const ParhelionPanelQuestions *questions,
+                         float *brdf, float *lambertian)
+{
+    const ParhelionPanelQuestions *q = questions;
+    int status = check(q, NEED_VIEWER | NEED_LIGHT | NEED_NM, brdf);
+    for (size_t w = 0; !status && w < q->wavelengths; w += SPECTRUM_LANES) {
+        WaveBlock     block;
+        KeptLanes kept = {.panel = NULL};
+        fill_block(q, w, &block);
+        for (size_t i = 0; i < q->count; i++) {
+            float place[2];
+            place_at(q, i, place);
+            BrdfQuestion of = {panel_place_reflection(panel->panel, place),
+                               direction_at(q->viewer, i), direction_at(q->light, i),
+                               &block.wavelengths};
+            Spectrum all = brdf_of(&of, &kept), part;
+            put(q, &block, i, &all, brdf);
+            if (!lambertian) continue;
+            part = lambertian_of(&of, all, &kept);
+            put(q, &block, i, &part, lambertian);
+        }
+    }
+    return status;
+}
+
+int parhelion_panel_mirror(const ParhelionPanel *panel,
+                           const ParhelionPanelQuestions *questions, float *reflectance)
+{
+    const ParhelionPanelQuestions *q = questions;
+    int status = check(q, NEED_VIEWER | NEED_NM, reflectance);
+    for (size_t w = 0; !status && w < q->wavelengths; w += SPECTRUM_LANES) {
+        WaveBlock block;
+        fill_block(q, w, &block);
+        for (size_t i = 0; i < q->count; i++) {
+            float place[2];
+            place_at(q, i, place);
+            PanelMix mix = panel_place_reflection(panel->panel, place);
+            Spectrum share = panel_mix_mirror(&mix, direction_at(q->viewer, i).z,
+                                              &block.wavelengths);
+            put(q, &block, i, &share, reflectance);
+        }
+    }
+    return status;
+}
+
+int parhelion_panel_albedo(const ParhelionPanel *panel,
+                           const ParhelionPanelQuestions *questions, float *albedo)
+{
+    const ParhelionPanelQuestions *q = questions;
+    int status = check(q, NEED_VIEWER, albedo);
+    for (size_t i = 0; !status && i < q->count; i++) {
+        float place[2];
+        place_at(q, i, place);
+        PanelMix mix = panel_place_reflection(panel->panel, place);
+        albedo[i] = panel_mix_haze_albedo(&mix, direction_at(q->viewer, i).z);
+    }
+    return status;
+}
+
+#define BELOW_ONE 0x1.fffffep-1f
+
+int parhelion_panel_sample(const ParhelionPanel *panel,
+                           const ParhelionPanelQuestions *questions, float *light,
+                           float *density)
+{
+    const ParhelionPanelQuestions *q = questions;
+    int status = check(q, NEED_VIEWER | NEED_RANDOM, light && density ? light : NULL);
+    for (size_t i = 0; !status && i < q->count; i++) {
+        float place[2], u[3], pdf;
+        Vec3  wi;
+        place_at(q, i, place);
+        held_at(q->random, i, BELOW_ONE, u);
+        PanelMix mix = panel_place_reflection(panel->panel, place);
+        bool     drawn = panel_mix_sample(&mix, direction_at(q->viewer, i), u, &wi, &pdf);
+        if (!drawn) wi = vec3(0, 0, 0);
+        memcpy(light + 3 * i, (float[3]){wi.x, wi.y, wi.z}, 3 * sizeof *light);
+        density[i] = drawn ? pdf : 0;
+    }
+    return status;
+}
+
+int parhelion_panel_pdf(const ParhelionPanel *panel, const ParhelionPanelQuestions *questions,
+                        float *density)
+{
+    const ParhelionPanelQuestions *q = questions;
+    int status = check(q, NEED_VIEWER | NEED_LIGHT, density);
+    for (size_t i = 0; !status && i < q->count; i++) {
+        float place[2];
+        place_at(q, i, place);
+        PanelMix mix = panel_place_reflection(panel->panel, place);
+        density[i] = panel_mix_pdf(&mix, direction_at(q->viewer, i), direction_at(q->light, i));
+    }
+    return status;
+}

@@ -1,0 +1,185 @@
+/* parhelion_panel.h -- libparhelion-panel: what a measured display emits and reflects, for any
+ * renderer. C99 to C23 and C++; no foreign types.
+ *
+ * A .panel file (`parhelion panel fit` makes it of measurements; `parhelion help panel-format`
+ * tells it byte by byte) answers, at any place of the display and at any angle: the emission as
+ * XYZ or as a spectrum, the BRDF, the mirror's reflectance, and directions to go on with.
+ *
+ * Frame    the display's own, right-handed: +z its normal, +x to the right and +y up as who
+ *          faces it sees them. Directions leave the display, also those to the light. They are
+ *          of length 1; others are scaled, and one without a length, with a number that is
+ *          not finite or with z <= 0 gets zeros. Places: u from 0 at the left to 1 at the
+ *          right, v from 0 at the top to 1 at the bottom of the active area, held in there.
+ * Units    XYZ with Y in cd m^-2; spectral radiance in W m^-2 sr^-1 nm^-1; BRDF and densities
+ *          in sr^-1, the cosine not included; reflectances are shares of 1; angles in
+ *          radians, wavelengths in nm. Codes are 0 to 255 a primary, fractions allowed, held
+ *          in there.
+ * Threads  no global state. An open panel is constant: any number of threads may ask it at
+ *          once; none may while another closes it.
+ * Memory   arrays belong to the caller. All of a panel is freed by closing it. Opening keeps
+ *          address space for 4 GiB, of which pages are used as they are needed; where the
+ *          system refuses memory the process ends with a line on stderr and status 3.
+ * Errors   opening tells in words what is wrong with a file. Questions fail only where they are
+ *          put wrongly (ParhelionPanelStatus), and then no array is written.
+ * ABI      structs begin with their size in bytes, which the caller fills in (sizeof): members
+ *          may come in behind, and a library fills and reads no more than that. Within one
+ *          soname nothing else changes. The same questions get the same bits from every build
+ *          of one version, on any x86-64.
+ */
+#ifndef PARHELION_PANEL_H
+#define PARHELION_PANEL_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#if defined(__GNUC__)
+#define PARHELION_PANEL_API __attribute__((visibility("default")))
+#else
+#define PARHELION_PANEL_API
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct ParhelionPanel ParhelionPanel; /* opaque */
+
+typedef enum ParhelionPanelStatus {
+    PARHELION_PANEL_OK = 0,
+    PARHELION_PANEL_WRONG_SIZE = 1, /* a struct's size is 0 or less than its first version's */
+    PARHELION_PANEL_MISSING = 2     /* an array that the question needs is NULL */
+} ParhelionPanelStatus;
+
+/* The library's version as text, such as "0.1.0". */
+PARHELION_PANEL_API const char *parhelion_panel_version(void);
+
+/* ---- opening ----------------------------------------------------------------------------- */
+
+/* Reads and checks a .panel file; later changes of the file make no difference. NULL: `error`
+ * (NULL is fine, error_size 0 then) has the reason as one line, cut at error_size - 1 bytes. */
+PARHELION_PANEL_API ParhelionPanel *parhelion_panel_open(const char *path, char *error,
+                                                         size_t error_size);
+
+/* The same for the bytes of a file, which are copied. */
+PARHELION_PANEL_API ParhelionPanel *parhelion_panel_open_memory(const void *bytes, size_t size,
+                                                                char *error,
+                                                                size_t error_size);
+
+PARHELION_PANEL_API void parhelion_panel_close(ParhelionPanel *panel); /* NULL is fine */
+
+/* ---- what it holds ----------------------------------------------------------------------- */
+
+/* Bits of ParhelionPanelInfo.flags. */
+#define PARHELION_PANEL_EMITS 1u
+#define PARHELION_PANEL_REFLECTS 2u
+#define PARHELION_PANEL_HAS_MIRROR 4u      /* an image in the glass, anywhere */
+#define PARHELION_PANEL_ANISOTROPIC 8u     /* reflection depends on the azimuth of the light */
+#define PARHELION_PANEL_VARIES 16u         /* not the same at every place */
+#define PARHELION_PANEL_POLARISED 32u
+#define PARHELION_PANEL_HAS_SUBPIXELS 64u
+
+/* Numbers of what is absent are 0. */
+typedef struct ParhelionPanelInfo {
+    uint32_t size;               /* sizeof(ParhelionPanelInfo), by the caller */
+    uint32_t flags;
+    uint32_t levels[3];          /* measured codes of red, green, blue, without 0 */
+    uint32_t wavelengths;        /* measured ones of the reflection */
+    uint32_t incidences;         /* measured ones of the light */
+    uint32_t azimuths;           /* of the light; 1: the same from all sides */
+    uint32_t spots;              /* measured places */
+    uint32_t map_pixels[2];      /* columns and rows of the uniformity map */
+    uint32_t subpixel_layout;    /* 1 stripe, 2 pentile */
+    uint32_t display_pixels[2];  /* columns and rows, where the file tells sub-pixels */
+    float    subpixel_fill;      /* share of the area that emits */
+    float    emission_cone;      /* last measured angle to the normal; beyond: extrapolated */
+    float    reflection_cone;    /* the same of leaving directions */
+    float    last_incidence;     /* the same of the light */
+    float    emission_nm[2];     /* range in which spectra of the emission are told */
+    float    reflection_nm[2];   /* measured range of the reflection; the ends hold outside */
+    float    polarisation;       /* linearly polarised share of the emission */
+    float    polarisation_azimuth; /* in which it swings: 0 right, pi / 2 up */
+} ParhelionPanelInfo;
+
+/* Fills in *info but its size. */
+PARHELION_PANEL_API int parhelion_panel_info(const ParhelionPanel *panel,
+                                             ParhelionPanelInfo *info);
+
+typedef enum ParhelionPanelList {
+    PARHELION_PANEL_RED_LEVELS = 0,
+    PARHELION_PANEL_GREEN_LEVELS = 1,
+    PARHELION_PANEL_BLUE_LEVELS = 2,
+    PARHELION_PANEL_WAVELENGTHS = 3, /* nm, of the reflection */
+    PARHELION_PANEL_INCIDENCES = 4,  /* radians, of the light */
+    PARHELION_PANEL_AZIMUTHS = 5,    /* radians, of the light; pi: from all sides */
+    PARHELION_PANEL_SPOTS = 6        /* u, v of each */
+} ParhelionPanelList;
+
+/* What was measured, rising but for spots; writes as much as there is room for (floats) and
+ * returns how much there is. 0: nothing, or an unknown list. */
+PARHELION_PANEL_API size_t parhelion_panel_list(const ParhelionPanel *panel, int list,
+                                                float *out, size_t room);
+
+/* ---- questions --------------------------------------------------------------------------- */
+
+/* Any number of questions at once: arrays have the numbers of one after those of the other.
+ * What a question does not need may be NULL. */
+typedef struct ParhelionPanelQuestions {
+    size_t       size;        /* sizeof(ParhelionPanelQuestions), by the caller */
+    size_t       count;       /* of questions */
+    const float *place;       /* [count][2]; NULL: all in the middle, (0.5, 0.5) */
+    const float *viewer;      /* [count][3], the direction to the eye */
+    const float *light;       /* [count][3], the direction to the light */
+    const float *code;        /* [count][3], red, green, blue */
+    const float *random;      /* [count][3], in [0, 1) */
+    size_t       wavelengths; /* asked for, the same in all questions */
+    const float *nm;          /* [wavelengths], in any order */
+} ParhelionPanelQuestions;
+
+/* Emission towards the viewer: viewer, code. xyz[count][3]; is_measured[count], 0: it lies
+ * beyond the cone; NULL is fine. */
+PARHELION_PANEL_API int parhelion_panel_emission_xyz(const ParhelionPanel *panel,
+                                                     const ParhelionPanelQuestions *questions,
+                                                     float *xyz, unsigned char *is_measured);
+
+/* The same as spectral radiance: viewer, code, nm (held in 360 to 830).
+ * radiance[count][wavelengths]. Its XYZ are nearly those above (0.1 % as a rule). */
+PARHELION_PANEL_API int parhelion_panel_emission_spectrum(
+    const ParhelionPanel *panel, const ParhelionPanelQuestions *questions, float *radiance);
+
+/* BRDF without the mirror part: viewer, light, nm. brdf[count][wavelengths];
+ * lambertian[count][wavelengths]: how much of it is the same to all sides, the rest is haze;
+ * NULL is fine. Where the mirror has a share see below. */
+PARHELION_PANEL_API int parhelion_panel_brdf(const ParhelionPanel *panel,
+                                             const ParhelionPanelQuestions *questions,
+                                             float *brdf, float *lambertian);
+
+/* Share of the light that is mirrored, an image: viewer (the angle to the normal counts), nm.
+ * reflectance[count][wavelengths]. */
+PARHELION_PANEL_API int parhelion_panel_mirror(const ParhelionPanel *panel,
+                                               const ParhelionPanelQuestions *questions,
+                                               float *reflectance);
+
+/* Share of the light that the BRDF sends back, its luminous mean: viewer. albedo[count]. With
+ * the mirror's share it tells how often to draw from which. */
+PARHELION_PANEL_API int parhelion_panel_albedo(const ParhelionPanel *panel,
+                                               const ParhelionPanelQuestions *questions,
+                                               float *albedo);
+
+/* Draws directions to the light as the BRDF times the cosine is distributed: viewer, random.
+ * light[count][3]; density[count], sr^-1, what parhelion_panel_pdf says of it to rounding; 0:
+ * there is no direction. The mirror is not drawn. */
+PARHELION_PANEL_API int parhelion_panel_sample(const ParhelionPanel *panel,
+                                               const ParhelionPanelQuestions *questions,
+                                               float *light, float *density);
+
+/* The density with which a direction is drawn: viewer, light. density[count]; it integrates to
+ * 1 over the hemisphere. */
+PARHELION_PANEL_API int parhelion_panel_pdf(const ParhelionPanel *panel,
+                                            const ParhelionPanelQuestions *questions,
+                                            float *density);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
