@@ -45,6 +45,10 @@ run 'what is learnt moves no mean' guided-long \
     python3 tests/image/guided.py .build/release/parhelion
 run 'false alarms and power of compare' compare-power \
     python3 tests/bench/compare_power.py .build/release/parhelion .build/release/bench_statistic
+start 'a second reader, 100,000 questions' agreement-long \
+    python3 tests/library/agreement.py .build/release --queries 100000
+start 'another renderer, less noise' renderer-long \
+    python3 tests/library/other_renderer.py .build/release --samples 1024
 start 'a hundred kills' resume-long \
     python3 tests/hostile/resume.py --kills 100 .build/release/parhelion
 start 'parts of every kind' merge-long \

@@ -34,6 +34,14 @@ if run_one 'release build, warnings are errors' build-release build release all;
     start 'panel commands' panel-commands \
         python3 tests/hostile/panel_commands.py .build/release/parhelion
     gather
+    start "the panel library's ABI" library-abi \
+        python3 tests/library/abi.py .build/release
+    start 'its Python module' library-module python3 tests/library/module.py .build/release
+    start 'a second reader of panels' library-agreement \
+        python3 tests/library/agreement.py .build/release
+    start 'another renderer' library-renderer \
+        python3 tests/library/other_renderer.py .build/release
+    gather
     start 'same bits, any parts' merge python3 tests/image/merge.py .build/release/parhelion
     start 'groups of lights' lights python3 tests/image/lights.py .build/release/parhelion
     start 'same bits, killed and resumed' resume \
