@@ -31,7 +31,8 @@ from report import ROOT, Report, read  # noqa: E402
 
 sys.path.insert(0, os.path.join(ROOT, "src", "library"))
 NEAR = 1e-6
-MOST_BEYOND = {"XYZ": 0.01, "lambertian": 0.01, "mirror": 0.01, "BRDF": 0.1, "spectra": 1}
+MOST_BEYOND = {"XYZ": 0.01, "lambertian": 0.01, "mirror": 0.01, "albedo": 0.01,
+               "BRDF": 0.1, "spectra": 1}
 TURN, LOG_STEP = 2.0 ** -21, 2.0 ** -22
 NM = numpy.array([365, 440.25, 555, 620.5, 705, 800], numpy.float32)
 EVERY_SPECTRUM = 10  # of so many questions one is for a spectrum, which takes long
@@ -148,7 +149,7 @@ def check_panel(report, name, path, count, table):
         if reader.panels[0].emission:
             check_emission(claims, panel, reader, q)
         if reader.panels[0].reflection:
-            check_reflection(claims, panel, reader, q)
+            check_reflection(claims, panel, reader, q, table)
             compare_densities(report, name, panel.pdf(q.viewer, q.light, q.place), reader, q)
 
 
@@ -167,13 +168,17 @@ def check_emission(claims, panel, reader, q):
                    [viewer])
 
 
-def check_reflection(claims, panel, reader, q):
+def check_reflection(claims, panel, reader, q, table):
     nm, both = NM.astype(float), [q.viewer, q.light]
     brdf, part = panel.brdf(*both, NM, q.place, lambertian=True)
     scale = float(panel.brdf(*mirror_directions(), NM).max())
     for kind, found, which in (("BRDF", brdf, 0), ("lambertian", part, 1)):
         claims.compare(kind, found, scale, lambda i, o, l, which=which: reader.brdf(
             o, l, nm, q.place[i].astype(float))[which], both)
+    every = slice(0, None, EVERY_SPECTRUM)
+    viewer, place = q.viewer[every], q.place[every]
+    claims.compare("albedo", panel.albedo(viewer, place)[:, None], 1.0, lambda i, d: [
+        reader.albedo(d, table, place[i].astype(float))], [viewer])
     claims.compare("mirror", panel.mirror(q.viewer, NM, q.place), 1.0, lambda i, d:
                    reader.mirror(d, nm, q.place[i].astype(float)), [q.viewer])
 

@@ -268,6 +268,10 @@ class Panel:
             out = [a + weight * b for a, b in zip(out, reflection.mirror(d[2], nm))]
         return out
 
+    def albedo(self, d, observer, place=(0.5, 0.5)):
+        return sum(weight * reflection.albedo(d[2], observer)
+                   for reflection, weight in self.reflecting(place))
+
     def pdf(self, wo, wi, place=(0.5, 0.5)):
         """(density, margin) as Reflection.pdf has it; None: a panel without a tree counts."""
         out, margin = 0.0, 1.0

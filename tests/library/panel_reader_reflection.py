@@ -105,10 +105,10 @@ class Reflection:
                    for row in rows_of(flat, self.components)]
         self.loading = rows_of(loading, self.coefficients)
         self.lobe = rows(tables if self.has_lobe else 0, "h", lobe_step)
-        rows(tables, "H", 1 / 65535)
+        self.albedo_rows = rows(tables, "H", 1 / 65535)
         self.mirrored = rows(self.incidences if self.has_mirror else 0, "H", 1 / 65535)
         self.held = rows(nodes, "H", 1 / 65535)
-        rows(nodes, "H", 1 / 65535)
+        self.node_albedo = rows(nodes, "H", 1 / 65535)
         assert s.at == len(section)
         self.read_surface(Bytes(surface) if surface else None)
         self.last = self.incidence[-1]
@@ -292,6 +292,30 @@ class Reflection:
         i = min(int(at), 179)
         low, high = (self.spread(self.mirror_table[k], nm) for k in (i, i + 1))
         return [a + (at - i) * (b - a) for a, b in zip(low, high)]
+
+    def albedo(self, cosine, observer):
+        """Luminous mean of what the BRDF sends back."""
+        y = [observer[held(int(nm + 0.5) - 360, 0, 470)][1] + 0.002 for nm in self.nm]
+
+        def mean(row):
+            return dot(y, row) / sum(y)
+        theta = self.incidence + self.node[1:]
+        shares = [sum(mean(self.albedo_rows[a * self.incidences + i])
+                      for a in range(self.azimuths)) / self.azimuths
+                  for i in range(self.incidences)]
+        shares += [mean(row) for row in self.node_albedo[1:]]
+        ratio = [share / fresnel(math.cos(t), self.index) for share, t in zip(shares, theta)]
+
+        def entry(a):
+            here = math.radians(a / 2)
+            i = max([k for k in range(len(theta) - 1) if theta[k] <= here], default=0)
+            k = min(i + 1, len(theta) - 1)
+            t = held((here - theta[i]) / (theta[k] - theta[i]), 0, 1) if k > i else 0
+            return min(1, fresnel(math.cos(here), self.index)
+                       * (ratio[i] + t * (ratio[k] - ratio[i])))
+        at = math.degrees(math.acos(held(cosine, 0, 1))) * 2
+        i = min(int(at), 179)
+        return entry(i) + (at - i) * (entry(i + 1) - entry(i))
 
     def gloss(self, cosine, nm):
         if not self.has_mirror:
