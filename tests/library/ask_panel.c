@@ -46,6 +46,22 @@ static int ask_wrongly(const ParhelionPanel *panel)
     return faults;
 }
 
+/* A caller that was compiled with a later version, whose struct is longer. */
+static int ask_from_later(const ParhelionPanel *panel)
+{
+    struct {
+        ParhelionPanelInfo info;
+        unsigned           more[4];
+    } later;
+    int faults, i;
+    memset(&later, 7, sizeof later);
+    later.info.size = sizeof later;
+    faults = refused("a longer struct", parhelion_panel_info(panel, &later.info) == 0);
+    faults += refused("its size", later.info.size == sizeof later);
+    for (i = 0; i < 4; i++) faults += refused("what is behind", later.more[i] == 0x07070707u);
+    return faults;
+}
+
 /* Numbers that are no directions, codes or places: zeros or held, never worse. */
 static int ask_nonsense(const ParhelionPanel *panel)
 {
@@ -96,7 +112,7 @@ int main(int count, char **arguments)
                (double)xyz[3 * i + 1], (double)xyz[3 * i + 2], measured[i],
                (double)brdf[2 * i], (double)brdf[2 * i + 1], (double)mirror[2 * i],
                (double)mirror[2 * i + 1]);
-    faults += ask_wrongly(panel) + ask_nonsense(panel);
+    faults += ask_wrongly(panel) + ask_nonsense(panel) + ask_from_later(panel);
     parhelion_panel_close(panel);
     parhelion_panel_close(NULL);
     return faults ? 1 : 0;
