@@ -1,8 +1,8 @@
 # libparhelion-panel: the measured panel for other renderers (src/library). Its sources are
 # compiled once more, as a library that may lie anywhere in memory wants them, with nothing but
 # the calls of parhelion_panel.h to be seen from outside; nothing is linked but the C library.
-# One build for every CPU: the instructions of x86-64 itself, so that no table of kernels is
-# carried and the bits are those of the program, whose kernels all give the same.
+# One build for every CPU: the instructions of x86-64 itself. The same sources for AVX2 give the
+# same bits and spectra in 0.86 of the time, but all else in 0.97 or more: no table of kernels.
 include(GNUInstallDirs)
 set(PANEL_LIBRARY_ABI 1)
 set(panel_library_sources src/library/parhelion_panel.c
