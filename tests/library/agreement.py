@@ -33,7 +33,7 @@ from report import ROOT, Report, read  # noqa: E402
 sys.path.insert(0, os.path.join(ROOT, "src", "library"))
 NEAR = 1e-6
 MOST_BEYOND = {"XYZ": 0.01, "lambertian": 0.01, "mirror": 0.01, "albedo": 0.01,
-               "BRDF": 0.1, "spectra": 1}
+               "BRDF": 0.15, "spectra": 1}
 TURN, LOG_STEP, DENSITY = 2.0 ** -21, 2.0 ** -22, 1e-4
 NM = numpy.array([365, 440.25, 555, 620.5, 705, 800], numpy.float32)
 EVERY_SPECTRUM = 10  # of so many questions one is for a spectrum, which takes long
