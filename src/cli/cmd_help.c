@@ -3,18 +3,40 @@
 
 #include <string.h>
 
+#include "base/count.h"
+#include "base/program.h"
 #include "cli/commands.h"
 #include "cli/options/answer.h"
 #include "cli/options/cli.h"
+#include "cli/options/completion.h"
 #include "cli/options/guides.h"
+#include "cli/options/man_guide.h"
+#include "cli/options/man_page.h"
 #include "text/nearest_word.h"
 
 #define WORDS_MAX 8   /* of a command's name: "panel fit" */
 #define NAMES_MAX 128 /* commands and guides */
+#define SUMMARY "physically correct frames of dashboards with measured displays"
+
+/* What help is asked for, and how. */
+typedef struct HelpWords {
+    Cli      cli;
+    HelpForm form;
+} HelpWords;
+
+/* A checkout has them two folders above the program that was built in it. */
+static bool find_scenes(char path[static PATH_MAX])
+{
+    const ProgramPart scenes = {"the folder of scenes", "../../scenes",
+                                INSTALLED_SHARE "/scenes"};
+    Error             none;
+    return program_find(&scenes, path, &none);
+}
 
 void cmd_help_print(FILE *out)
 {
-    fprintf(out, "parhelion: physically correct frames of dashboards with measured displays\n\n"
+    char scenes[PATH_MAX];
+    fprintf(out, "parhelion: " SUMMARY "\n\n"
                  "usage: parhelion COMMAND ... | help [NAME] | -h | -V\n\n");
     for (int i = 0; i < command_count; i++)
         fprintf(out, "  %-18s %s\n", command_table[i]->name, command_table[i]->summary);
@@ -25,6 +47,8 @@ void cmd_help_print(FILE *out)
         int         length = guide_title(&guide_table[i], &title);
         fprintf(out, "  %-18s %.*s\n", guide_table[i].name, length, title);
     }
+    fprintf(out, "\nscenes/ of the examples: %s\n",
+            find_scenes(scenes) ? scenes : "not installed (the package parhelion-scenes)");
 }
 
 static bool unknown_name(const char *name, Error *err)
@@ -39,11 +63,15 @@ static bool unknown_name(const char *name, Error *err)
     return error_set(err, ERROR_USAGE, "there is no command or guide %s — %s", name, advice);
 }
 
+static const char *const help_words[] = {
+    [HELP_TEXT] = "--help", [HELP_MAN] = "--help=man", [HELP_COMPLETION] = "--help=completion"};
+
 /* `help panel fit` is `panel fit --help`; every word behind a command is one of its own. */
-static bool print_command(const Command *command, const Cli *cli, Arena *arena, Error *err)
+static bool print_command(const Command *command, const HelpWords *words, Arena *arena,
+                          Error *err)
 {
-    char  option[] = "--help";
-    char *line[] = {(char *)cli->arguments[0], option, NULL};
+    const Cli *cli = &words->cli;
+    char      *line[] = {(char *)cli->arguments[0], (char *)help_words[words->form], NULL};
     for (int i = 1; i < cli->argument_count; i++) {
         const char *word = cli->arguments[i];
         if (!command->sub)
@@ -56,50 +84,113 @@ static bool print_command(const Command *command, const Cli *cli, Arena *arena, 
     return command->run(2, line, arena, err);
 }
 
-static bool print_guide(const Guide *guide, const Cli *cli, Error *err)
+static bool print_guide(const Guide *guide, const HelpWords *words, Error *err)
 {
-    if (!cli->json) return fputs(guide->text, stdout), true;
+    if (words->form == HELP_MAN) return man_guide_print(guide), true;
+    if (!words->cli.json) return fputs(guide->text, stdout), true;
     const char *title;
     int         length = guide_title(guide, &title);
     return cli_print_json(json_pack("{s:s, s:s%, s:s}", "name", guide->name, "title", title,
                                     (size_t)length, "text", guide->text), err);
 }
 
-static bool print_list(const Cli *cli, Error *err)
+static json_t *commands_json(const Command *const *list, int count)
 {
-    if (!cli->json) return cmd_help_print(stdout), true;
-    json_t *commands = json_array(), *guides = json_array();
-    for (int i = 0; i < command_count; i++)
-        json_array_append_new(commands, json_pack("{s:s, s:s}", "name", command_table[i]->name,
-                                                  "summary", command_table[i]->summary));
+    json_t *all = json_array();
+    for (int i = 0; i < count; i++) {
+        json_t *row = json_pack("{s:s, s:s}", "name", list[i]->name, "summary",
+                                list[i]->summary);
+        if (list[i]->sub)
+            json_object_set_new(row, "commands", commands_json(list[i]->sub,
+                                                               list[i]->sub_count));
+        json_array_append_new(all, row);
+    }
+    return all;
+}
+
+static bool print_json(Error *err)
+{
+    char    scenes[PATH_MAX];
+    json_t *guides = json_array();
     for (int i = 0; i < guide_count; i++) {
         const char *title;
         int         length = guide_title(&guide_table[i], &title);
         json_array_append_new(guides, json_pack("{s:s, s:s%}", "name", guide_table[i].name,
                                                 "title", title, (size_t)length));
     }
-    return cli_print_json(json_pack("{s:o, s:o}", "commands", commands, "guides", guides), err);
+    return cli_print_json(json_pack("{s:o, s:o, s:s?}", "commands",
+                                    commands_json(command_table, command_count), "guides",
+                                    guides, "scenes", find_scenes(scenes) ? scenes : NULL),
+                          err);
 }
 
-static bool help(const Cli *cli, Arena *arena, Error *err)
+static bool print_list(const HelpWords *words, Error *err)
 {
-    if (!cli->argument_count) return print_list(cli, err);
+    if (words->form == HELP_MAN)
+        return man_page_print_program(SUMMARY, command_table, command_count), true;
+    if (words->cli.json) return print_json(err);
+    return cmd_help_print(stdout), true;
+}
+
+/* A row for every command, by its own help. */
+static bool print_rows(const Command *const *list, int count, Arena *arena, Error *err)
+{
+    char *line[] = {NULL, (char *)help_words[HELP_COMPLETION], NULL};
+    for (int i = 0; i < count; i++) {
+        line[0] = (char *)list[i]->name;
+        if (!list[i]->run(2, line, arena, err) ||
+            !print_rows(list[i]->sub, list[i]->sub_count, arena, err))
+            return false;
+    }
+    return true;
+}
+
+static bool print_completion(Arena *arena, Error *err)
+{
+    completion_print_head();
+    completion_print_group("", command_table, command_count);
+    if (!print_rows(command_table, command_count, arena, err)) return false;
+    completion_print_tail();
+    return true;
+}
+
+static bool help(const HelpWords *words, Arena *arena, Error *err)
+{
+    const Cli *cli = &words->cli;
+    if (words->form == HELP_COMPLETION) return print_completion(arena, err);
+    if (!cli->argument_count) return print_list(words, err);
+    Error          no_command;
     const Command *command =
-        command_find(command_table, command_count, NULL, cli->arguments[0], err);
+        command_find(command_table, command_count, NULL, cli->arguments[0], &no_command);
     const Guide   *guide = guide_named(cli->arguments[0]);
-    if (command) return print_command(command, cli, arena, err);
-    return guide ? print_guide(guide, cli, err) : unknown_name(cli->arguments[0], err);
+    if (command) return print_command(command, words, arena, err);
+    return guide ? print_guide(guide, words, err) : unknown_name(cli->arguments[0], err);
 }
 
 static bool run_help(int argc, char **argv, Arena *arena, Error *err)
 {
+    bool         is_man = false;
+    int          shell = -1;
+    const Option options[] = {
+        {"--man", OPTION_FLAG, NULL, "the page as source of a manual page (man -l FILE)",
+         &is_man},
+        {"--completion", OPTION_CHOICE, "bash",
+         "what completes commands, options and files in a shell, which is to read it", &shell},
+    };
     const CliCommand command = {
-        .name = "help", .summary = "the commands and the guides, or one of them",
-        .usage = "[COMMAND|GUIDE]", .example = "parhelion help comparing",
-        .max_arguments = WORDS_MAX};
-    Cli   cli;
-    return cli_parse(&command, argc, argv, arena, &cli, err) &&
-           (cli.help_shown || help(&cli, arena, err));
+        "help", "the commands and the guides, or one of them", "[COMMAND|GUIDE]",
+        "parhelion help comparing", options, COUNT_OF(options), 0, WORDS_MAX};
+    HelpWords words = {.form = HELP_TEXT};
+    if (!cli_parse(&command, argc, argv, arena, &words.cli, err)) return false;
+    if (words.cli.help_shown) return true;
+    if (is_man + (shell >= 0) + words.cli.json > 1)
+        return error_set(err, ERROR_USAGE, "--man, --completion and --json exclude each other");
+    if (shell >= 0 && words.cli.argument_count)
+        return error_set(err, ERROR_USAGE, "--completion knows all commands: %s is too much",
+                         words.cli.arguments[0]);
+    if (is_man) words.form = HELP_MAN;
+    if (shell >= 0) words.form = HELP_COMPLETION;
+    return help(&words, arena, err);
 }
 
 const Command command_help = {"help", "the commands and the guides, or one of them", run_help};

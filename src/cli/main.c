@@ -86,7 +86,7 @@ int main(int argc, char **argv)
         return error_exit_status(ERROR_USAGE);
     }
     if (cli_is_version(argv[1])) version_print();
-    else if (cli_is_help(argv[1])) cmd_help_print(stdout);
+    else if (cli_help_form(argv[1]) == HELP_TEXT) cmd_help_print(stdout);
     else done = run_command(argc, argv, &err);
     bool wants_json = has_word(argc, argv, "--json");
     if (!done && !answers_no(&err)) return report(&err, wants_json);

@@ -1,7 +1,7 @@
 """guides.py PARHELION [PAGE ...] -- the guides and the README do what they say.
 
-Every ```sh block of assets/guides/*.md and of README.md (but for the set-up scripts, which
-tests/run.sh and the demo are) runs as written, each page in a folder of its own where scenes/
+Every ```sh block of assets/guides/*.md and of README.md (but for building and installing, which
+other tests do) runs as written, each page in a folder of its own where scenes/
 and assets/ lie. A command ends with status 0, or with the one that the page states behind it:
 `# status 1`. What it is to write is there afterwards, and so is every file that a page names.
 """
@@ -20,7 +20,8 @@ sys.path.insert(0, os.path.join(ROOT, "tests", "structure"))
 from readme import exists, named_paths  # noqa: E402
 from report import Report, read  # noqa: E402
 
-SET_UP = ("sh scenes/demo.sh", "sh tests/run.sh", "cd .build/release && alias ")
+SET_UP = ("sh scenes/demo.sh", "sh tests/run.sh", "cd .build/release && alias ",
+          "cmake ", "cpack ", "sudo apt ")
 OUTPUTS = ("-o", "--png", "--report", "--junit")
 COLUMNS = 96
 
@@ -98,7 +99,9 @@ def check_help(report, program, guides):
         long_lines = [line for line in text.splitlines() if len(line) > COLUMNS]
         report.claim(not long_lines, f"{page}: too long: {long_lines}")
         report.claim(text.startswith("# "), f"{page} begins with no title")
-        report.claim(run(program, "help", name).stdout == text, f"`help {name}` is not {page}")
+        shown = run(program, "help", name)
+        report.claim(shown.stdout == text and shown.returncode == 0,
+                     f"`help {name}` is not {page}, or ends with {shown.returncode}")
         report.claim(f"  {name} " in listed.stdout, f"`help` does not list {name}")
     names = listed_commands(program)
     report.claim({"render", "help", "panel fit"} <= set(names), f"`help` lists only {names}")

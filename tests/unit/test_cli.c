@@ -68,7 +68,7 @@ static bool parse(const char *const *words, Arena *arena, Values *out)
          .out = &out->texts},
     };
     const CliCommand command = {"try", "tries", "ARGUMENT [MORE]", "parhelion try x", options,
-                                (int)(sizeof options / sizeof *options), 1, 2, NULL};
+                                (int)(sizeof options / sizeof *options), 1, 2, NULL, NULL};
     return cli_parse(&command, argc, argv, arena, &out->cli, &out->err);
 }
 

@@ -1,24 +1,14 @@
 #include "openimageio/image_file.h"
 
 #include <dlfcn.h>
-#include <limits.h>
 #include <stdint.h>
-#include <string.h>
-#include <unistd.h>
 
 #include "base/machine.h"
+#include "base/program.h"
 #include "openimageio/image_file_module.h"
 
-/* The module lies beside the program, wherever that is and however it was started. */
-static bool module_path(char path[static PATH_MAX], Error *err)
-{
-    ssize_t length = readlink("/proc/self/exe", path, PATH_MAX - 1);
-    while (length > 0 && path[length - 1] != '/') length--;
-    if (length <= 0 || (size_t)length + sizeof PICTURES_MODULE > PATH_MAX)
-        return error_set(err, ERROR_LIBRARY, "/proc/self/exe does not name the program");
-    memcpy(path + length, PICTURES_MODULE, sizeof PICTURES_MODULE);
-    return true;
-}
+static const ProgramPart module_part = {
+    "the program's part for pictures", PICTURES_MODULE, INSTALLED_MODULES "/" PICTURES_MODULE};
 
 /* A library that finds no memory while it is loaded ends the program, so there must be enough:
  * 370 MB are mapped and some threads started. */
@@ -32,7 +22,8 @@ static void *load_first(const char *path, Error *err)
     }
     void *module = dlopen(path, RTLD_NOW | RTLD_LOCAL);
     if (!module)
-        error_set(err, ERROR_LIBRARY, "a part of the program is not beside it: %s", dlerror());
+        error_set(err, ERROR_LIBRARY, "the program's part for pictures cannot be loaded: %s",
+                  dlerror());
     return module;
 }
 
@@ -41,7 +32,7 @@ static void *load_first(const char *path, Error *err)
 static const ImageFileModule *load(Error *err)
 {
     char path[PATH_MAX];
-    if (!module_path(path, err)) return NULL;
+    if (!program_find(&module_part, path, err)) return NULL;
     void *module = dlopen(path, RTLD_NOW | RTLD_NOLOAD);
     if (!module) module = load_first(path, err);
     return module ? dlsym(module, "image_file_module") : NULL;

@@ -10,7 +10,9 @@
 
 #include "base/file.h"
 #include "base/parallel.h"
+#include "cli/options/completion.h"
 #include "cli/options/guides.h"
+#include "cli/options/man_page.h"
 #include "cli/options/version.h"
 #include "text/nearest_word.h"
 
@@ -260,7 +262,12 @@ void cli_print_guide(const char *command)
     if (guide) printf("\nguide: parhelion help %s\n", guide->name);
 }
 
-static void print_help(const Parser *in)
+static void print_row(const char *name, const char *text)
+{
+    printf("  %-12s %s\n", name, text);
+}
+
+static void print_text(const Parser *in)
 {
     const CliCommand *command = in->command;
     printf("parhelion %s: %s\n\nusage: parhelion %s %s\n\n", command->name, command->summary,
@@ -269,8 +276,19 @@ static void print_help(const Parser *in)
     if (command->option_count) printf("\n");
     print_options(in->common, in->common_count);
     printf("\nexample:\n  %s\n", command->example);
-    if (command->print_more) command->print_more();
+    if (command->each_row) {
+        printf("\n%s:\n", command->rows_title);
+        command->each_row(print_row);
+    }
     cli_print_guide(command->name);
+}
+
+static void print_help(const Parser *in, HelpForm form)
+{
+    if (form == HELP_MAN) man_page_print_command(in->command, in->common, in->common_count);
+    else if (form == HELP_COMPLETION)
+        completion_print_command(in->command, in->common, in->common_count);
+    else print_text(in);
 }
 
 static bool read_line(Parser *in, CliTexts *arguments)
@@ -290,9 +308,11 @@ static bool read_line(Parser *in, CliTexts *arguments)
     return true;
 }
 
-bool cli_is_help(const char *word)
+HelpForm cli_help_form(const char *word)
 {
-    return !strcmp(word, "--help") || !strcmp(word, "-h");
+    if (!strcmp(word, "--help=man")) return HELP_MAN;
+    if (!strcmp(word, "--help=completion")) return HELP_COMPLETION;
+    return strcmp(word, "--help") && strcmp(word, "-h") ? HELP_NONE : HELP_TEXT;
 }
 
 bool cli_is_version(const char *word)
@@ -300,30 +320,27 @@ bool cli_is_version(const char *word)
     return !strcmp(word, "--version") || !strcmp(word, "-V");
 }
 
-/* Somewhere before `--`, and not as the value of an option: then nothing else counts. */
-static bool has_option(const Parser *in, bool (*is_meant)(const char *word))
+/* Help or the version is asked for somewhere before `--`, and not as the value of an option:
+ * then nothing else counts. Help goes first. */
+static bool tell_about_it(const Parser *in)
 {
+    HelpForm form = HELP_NONE;
+    bool     wants_version = false;
     for (int i = 1; i < in->argc && strcmp(in->argv[i], "--"); i++) {
         const char   *word = in->argv[i];
         const Option *option = word[0] == '-' ? find_option(in, word, strlen(word)) : NULL;
-        if (is_meant(word)) return true;
+        if (!form) form = cli_help_form(word);
+        wants_version = wants_version || cli_is_version(word);
         if (option && option->kind != OPTION_FLAG) i++;
     }
-    return false;
+    if (form) print_help(in, form);
+    else if (wants_version) version_print();
+    return form || wants_version;
 }
 
-static bool is_help_alone(const CliTexts *arguments)
+static bool is_help_alone(const Parser *in)
 {
-    return arguments->count == 1 && !strcmp(arguments->list[0], "help") && !file_exists("help");
-}
-
-/* Whatever is asked instead of the command's work; false: nothing. */
-static bool tell_about_it(const Parser *in)
-{
-    if (has_option(in, cli_is_help)) print_help(in);
-    else if (has_option(in, cli_is_version)) version_print();
-    else return false;
-    return true;
+    return in->argc == 2 && !strcmp(in->argv[1], "help") && !file_exists("help");
 }
 
 bool cli_parse(const CliCommand *command, int argc, char **argv, Arena *arena, Cli *out,
@@ -350,8 +367,8 @@ bool cli_parse(const CliCommand *command, int argc, char **argv, Arena *arena, C
     cli.help_shown = tell_about_it(&in);
     if (!cli.help_shown) {
         if (!read_line(&in, &arguments)) return false;
-        cli.help_shown = is_help_alone(&arguments);
-        if (cli.help_shown) print_help(&in);
+        cli.help_shown = is_help_alone(&in);
+        if (cli.help_shown) print_help(&in, HELP_TEXT);
         else if (!count_arguments(&in, arguments.count)) return false;
     }
     cli.progress = cli.quiet ? PROGRESS_NONE : (ProgressMode)progress;

@@ -23,45 +23,7 @@
 #include "base/arena.h"
 #include "base/error.h"
 #include "base/progress.h"
-
-typedef enum OptionKind {
-    OPTION_FLAG,    /* bool: no value */
-    OPTION_TEXT,    /* const char * */
-    OPTION_NUMBER,  /* double in [low, high] */
-    OPTION_INTEGER, /* long in [low, high] */
-    OPTION_NUMBERS, /* double[count]: exactly count numbers with commas, each in [low, high] */
-    OPTION_SIZE,    /* int[2]: WxH, each in [1, 65536] */
-    OPTION_CHOICE,  /* int: index of the value among the names in `value`, "a|b|c" */
-    OPTION_TEXTS    /* CliTexts: may be given many times */
-} OptionKind;
-
-/* Every value of an OPTION_TEXTS, in the order given. */
-typedef struct CliTexts {
-    const char **list;
-    int          count, capacity;
-} CliTexts;
-
-typedef struct Option {
-    const char *name;  /* as typed: "--size", "-o" */
-    OptionKind  kind;
-    const char *value; /* what stands for the value in the help: "WxH"; NULL for a flag */
-    const char *help;  /* one line, with the unit and the default */
-    void       *out;   /* the type that belongs to the kind */
-    double      low, high; /* limits of numbers; both 0: none */
-    int         count; /* OPTION_NUMBERS: how many, at most 8 */
-    bool       *given; /* set when the option was there; NULL: not asked */
-} Option;
-
-typedef struct CliCommand {
-    const char   *name;    /* "render", "panel fit" */
-    const char   *summary; /* one line, lower case, no full stop */
-    const char   *usage;   /* arguments: "SCENE.gltf [LIGHTS.gltf ...] -o FRAME.exr" */
-    const char   *example; /* a whole command line that works on the shipped files */
-    const Option *options;
-    int           option_count;
-    int           min_arguments, max_arguments; /* max -1: any number */
-    void        (*print_more)(void); /* what the help tells below the example; NULL: nothing */
-} CliCommand;
+#include "cli/options/option.h"
 
 /* What cli_parse found besides the values. */
 typedef struct Cli {
@@ -78,8 +40,13 @@ typedef struct Cli {
 bool cli_parse(const CliCommand *command, int argc, char **argv, Arena *arena, Cli *out,
                Error *err);
 
-/* --help or -h; --version or -V. */
-bool cli_is_help(const char *word);
+/* What a word that asks for help wants printed: of --help and -h the text, of --help=man the
+ * source of a manual page, of --help=completion what shells complete by (completion.h). */
+typedef enum HelpForm { HELP_NONE, HELP_TEXT, HELP_MAN, HELP_COMPLETION } HelpForm;
+
+HelpForm cli_help_form(const char *word);
+
+/* --version or -V. */
 bool cli_is_version(const char *word);
 
 /* --root's line of help, the same wherever files name others (base/reference.h). */

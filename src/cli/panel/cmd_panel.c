@@ -4,6 +4,8 @@
 
 #include "base/count.h"
 #include "cli/options/cli.h"
+#include "cli/options/completion.h"
+#include "cli/options/man_page.h"
 #include "cli/options/version.h"
 #include "cli/panel/panel_commands.h"
 
@@ -19,7 +21,7 @@ static const Command *const commands[] = {
 
 enum { COMMAND_COUNT = COUNT_OF(commands) };
 
-static void print_help(void)
+static void print_text(void)
 {
     printf("parhelion panel COMMAND ... -- measured display panels\n\ncommands:\n");
     for (int i = 0; i < COMMAND_COUNT; i++)
@@ -28,11 +30,20 @@ static void print_help(void)
     cli_print_guide("panel");
 }
 
+static void print_help(HelpForm form)
+{
+    if (form == HELP_MAN) man_page_print_group(&command_panel);
+    else if (form == HELP_COMPLETION)
+        completion_print_group(command_panel.name, commands, COMMAND_COUNT);
+    else print_text();
+}
+
 static bool run_panel(int argc, char **argv, Arena *arena, Error *err)
 {
     const char *word = argc > 1 ? argv[1] : "";
     if (cli_is_version(word)) return version_print(), true;
-    if (cli_is_help(word) || !strcmp(word, "help")) return print_help(), true;
+    HelpForm form = strcmp(word, "help") ? cli_help_form(word) : HELP_TEXT;
+    if (form) return print_help(form), true;
     const Command *command = command_find(commands, COMMAND_COUNT, "panel", word, err);
     return command && command->run(argc - 1, argv + 1, arena, err);
 }

@@ -207,11 +207,9 @@ static bool make_request(const Words *words, Arena *arena, ImportRequest *reques
 
 /* ---- the command ------------------------------------------------------------------------- */
 
-static void print_formats(void)
+static void each_format(void (*print)(const char *name, const char *text))
 {
-    printf("\nformats:\n");
-    for (int i = 0; importers[i]; i++)
-        printf("  %-12s %s\n", importers[i]->name, importers[i]->summary);
+    for (int i = 0; importers[i]; i++) print(importers[i]->name, importers[i]->summary);
 }
 
 static bool run(const Cli *cli, const Words *words, Arena *arena, Error *err)
@@ -236,7 +234,7 @@ static bool run_import(int argc, char **argv, Arena *arena, Error *err)
         "the files that laboratories have as one measurement set",
         "FILE... -o MANIFEST.json [options]",
         "parhelion panel import ips_cluster/emission/*.csv ips_cluster/brdf/*.csv "
-        "-o again/MANIFEST.json", options, count, 1, -1, print_formats};
+        "-o again/MANIFEST.json", options, count, 1, -1, "formats", each_format};
     if (!cli_parse(&command, argc, argv, arena, &cli, err)) return false;
     if (cli.help_shown) return true;
     if (!words->output)
