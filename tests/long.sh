@@ -35,6 +35,9 @@ run_beams()
 
 run_one 'release build' build-release build release all || finish
 run_beams
+run 'packages built twice' packages python3 tests/install/packages.py .build/packages
+run 'packages in a bare Debian' bare-root \
+    python3 tests/install/bare_root.py .build/packages/first/.build/release/packages
 run 'all closed forms in frames' image-long \
     python3 tests/image/run.py --all .build/release/parhelion
 run 'a glare review, thirty hours of weather' review-long \
