@@ -31,15 +31,26 @@ static bool is_protected(const char *path)
 
 /* ---- names beside a path ----------------------------------------------------------------- */
 
+/* A folder that several machines share may see the same process number twice: FNV-1a, 32 bits,
+ * of the machine's name tells them apart. */
+static unsigned machine_number(void)
+{
+    char     name[256] = "";
+    unsigned hash = 2166136261u;
+    gethostname(name, sizeof name - 1);
+    for (const char *c = name; *c; c++) hash = (hash ^ (unsigned char)*c) * 16777619u;
+    return hash;
+}
+
 char *file_temporary_name(const char *path, Arena *arena)
 {
-    return arena_format(arena, "%s.%ld.part", path, (long)getpid());
+    return arena_format(arena, "%s.%08x-%ld.part", path, machine_number(), (long)getpid());
 }
 
 /* The same without an arena. */
 static void own_name(const char *path, char name[PATH_BYTES])
 {
-    snprintf(name, PATH_BYTES, "%s.%ld.part", path, (long)getpid());
+    snprintf(name, PATH_BYTES, "%s.%08x-%ld.part", path, machine_number(), (long)getpid());
 }
 
 /* Where a finished file stands for a moment before it replaces another: the same name for
@@ -59,7 +70,7 @@ static void folder_name(const char *path, char name[PATH_BYTES])
 static bool fits_name(const char *path)
 {
     char name[PATH_BYTES];
-    if (strlen(path) + 32 > sizeof name) return false;
+    if (strlen(path) + 48 > sizeof name) return false;
     handover_name(path, name);
     return access(name, F_OK) == 0 || errno != ENAMETOOLONG;
 }

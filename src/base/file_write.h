@@ -42,7 +42,8 @@ void file_writer_discard(FileWriter *writer);
 /* Removes a file, and what a process that was killed may have left of its successor. */
 void file_remove(const char *path);
 
-/* A name beside `path`, for a library that wants a path; unlike any other process's. */
+/* A name beside `path`, for a library that wants a path; unlike any other process's, of this
+ * machine or of another that shares the folder. */
 char *file_temporary_name(const char *path, Arena *arena);
 
 /* Makes the temporary file's bytes durable and gives it the final name. On failure it is
