@@ -392,6 +392,16 @@ bool film_part_add_band(FilmPartReader *from, Film *to, Arena scratch, Error *er
     return check_checksum(from, err);
 }
 
+bool film_part_check_end(const FilmPartReader *from, Arena scratch, Error *err)
+{
+    const FilmPart *part = &from->part;
+    ExrWords        words = name_words(part, &scratch);
+    int             y1 = part->crop.y1;
+    char           *values = arena_alloc(&scratch, row_bytes(part, 4 * (size_t)words.count),
+                                         _Alignof(PixelSums), 1);
+    return exr_reader_read_words(from->file, &words, y1 - 1, y1, values, err);
+}
+
 void film_part_close(FilmPartReader *from)
 {
     exr_reader_destroy(from->file);

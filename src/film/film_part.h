@@ -72,4 +72,8 @@ bool film_part_open(const char *path, Arena *arena, FilmPartReader *out, Error *
  * failure, the film is worth nothing. */
 bool film_part_add_band(FilmPartReader *from, Film *to, Arena scratch, Error *err);
 
+/* Whether the file goes on to its end: reads the last rows alone. A look that costs little;
+ * what lies before them is not compared with the checksum. */
+bool film_part_check_end(const FilmPartReader *from, Arena scratch, Error *err);
+
 void film_part_close(FilmPartReader *from);
