@@ -11,4 +11,6 @@ extern const Command command_compare;
 extern const Command command_develop;
 extern const Command command_help;
 extern const Command command_measure;
+extern const Command command_part;
 extern const Command command_sky;
+extern const Command command_status;

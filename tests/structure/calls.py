@@ -1,6 +1,6 @@
-"""calls.py -- what no source may call: no shell and no other program, no network (but in the
-one file that sends frames to a viewer), no code that is loaded while the program runs, and no
-file that is mapped (one that shrinks would kill us).
+"""calls.py -- what no source may call: no shell and no other program (but Slurm's sbatch, in
+one file), no network (but in the one file that sends frames to a viewer), no code that is
+loaded while the program runs, and no file that is mapped (one that shrinks would kill us).
 """
 import re
 import sys
@@ -17,8 +17,11 @@ FORBIDDEN = {
     "a mapped file": "mmap mmap64 mremap",
 }
 # What a file may call all the same, with a word that must stand in the same call: memory that
-# is no file, and the program's own part of that name and no other.
+# is no file, the one program that is started when it is asked for, and the program's own part
+# of that name and no other.
+SPAWNER = "src/cli/job/sbatch.c"
 ALLOWED = {("src/base/arena.c", "mmap"): "MAP_ANONYMOUS",
+           (SPAWNER, "posix_spawnp"): '"sbatch"',
            ("third_party/openimageio/image_file.c", "dlopen"): "path, RTLD_NOW"}
 NETWORK = "the network"
 SENDER = "src/live/viewer_socket.c"  # the only one that may: it sends frames to who watches
@@ -44,7 +47,8 @@ def calls_in(name, text):
             is_own = re.search(rf"\b(?:bool|int|void|static\s+\w+)\s+{match[1]}\s*\(", code)
             word = ALLOWED.get((name, match[1]))
             end = code.find(";", match.end())
-            if is_own or before.endswith((".", "->")) or word and word in code[match.end():end]:
+            call = text[match.end():end]
+            if is_own or before.endswith((".", "->")) or word and word in call:
                 continue
             yield code.count("\n", 0, match.start()) + 1, match[1], what
 
@@ -55,6 +59,11 @@ def check_itself(report):
                         ("mmap(NULL, 1, 2, MAP_ANONYMOUS, -1, 0);", 1), ("filesystem(x);", 0)):
         found = list(calls_in("x.c", text))
         report.claim(len(found) == count, f"calls.py: {text!r} has {found}")
+    start = 'posix_spawnp(&child, "{}", NULL);'
+    report.claim(not list(calls_in(SPAWNER, start.format("sbatch")))
+                 and list(calls_in(SPAWNER, start.format("sh")))
+                 and list(calls_in("x.c", start.format("sbatch"))),
+                 f"calls.py: who else than {SPAWNER} may start sbatch?")
     talk = "send(1, x, 2, 0); recv(1, x, 2, 0);"
     report.claim(len(list(calls_in("x.c", talk))) == 2 and not list(calls_in(SENDER, talk)),
                  f"calls.py: who else than {SENDER} may send?")
@@ -70,7 +79,8 @@ def main():
             for line, function, kind in calls_in(name, read(name)) if kind == what])
     report.claim_none("headers of other programs and the network", [
         f"{name}: {match[0]}" for name in names if name != SENDER
-        for match in HEADERS.finditer(read(name))])
+        for match in HEADERS.finditer(read(name))
+        if not (name == SPAWNER and match[1] == "spawn")])
     report.claim(len(names) > 100, f"{len(names)} sources only")
     check_itself(report)
     report.finish()

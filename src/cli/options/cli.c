@@ -356,7 +356,7 @@ bool cli_parse(const CliCommand *command, int argc, char **argv, Arena *arena, C
         {"--progress", OPTION_CHOICE, "auto|bar|plain|json|none",
          "how progress is shown on stderr (default auto)", &progress, 0, 0, 0, NULL},
         {"--threads", OPTION_INTEGER, "N", "threads (default: what the scheduler allows)",
-         &threads, 1, PARALLEL_THREADS_MAX, 0, NULL},
+         &threads, 1, PARALLEL_THREADS_MAX, 0, &cli.threads_given},
         {"--help", OPTION_FLAG, NULL, "this text; also -h", &cli.help_shown, 0, 0, 0, NULL},
         {"--version", OPTION_FLAG, NULL, "of the program and its libraries; also -V",
          &cli.help_shown, 0, 0, 0, NULL},

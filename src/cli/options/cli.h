@@ -31,6 +31,7 @@ typedef struct Cli {
     bool         json, quiet;
     ProgressMode progress;   /* PROGRESS_NONE when quiet */
     int          threads;    /* at least 1 */
+    bool         threads_given;
     const char **arguments;  /* what is not an option */
     int          argument_count;
 } Cli;

@@ -4,11 +4,14 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "base/count.h"
 #include "base/file.h"
 #include "base/file_write.h"
 #include "base/machine.h"
+#include "cli/job/job_manifest.h"
+#include "cli/job/job_state.h"
 #include "cli/options/answer.h"
 #include "cli/options/cli.h"
 #include "cli/render/command_line.h"
@@ -25,9 +28,13 @@ typedef struct MergeRun {
     const char *output;
     bool        keeps_sums;   /* --part */
     Arena      *arena;
-    FilmPart   *parts;        /* one an argument */
+    bool        is_job;       /* the argument was a job's folder */
+    RenderJob   job;
+    const char **files;       /* the parts' */
+    int         count;
+    FilmPart   *parts;        /* one a file */
     FilmPart    whole;        /* what they make */
-    const char **lines;       /* the parts' command lines */
+    const char **lines;       /* their command lines */
     const char *identity;     /* of the first; the others have the same */
     FrameImage  common;       /* attributes that all parts have; no channels */
     Film       *film;
@@ -35,19 +42,78 @@ typedef struct MergeRun {
     double      seconds;
 } MergeRun;
 
+/* ---- whose parts ------------------------------------------------------------------------- */
+
+/* One line, with as many commands as go into it. */
+static bool report_missing(const MergeRun *work, const int *missing, int count, Error *err)
+{
+    const RenderJob *job = &work->job;
+    Arena scratch = *work->arena;
+    Text  commands = {.arena = &scratch};
+    int   told = 0;
+    while (told < count && told < 4) {
+        text_format(&commands, "%s%s", told ? "; " : "",
+                    job_part_command(job, missing[told], work->arena));
+        told++;
+    }
+    return error_at(err, ERROR_INPUT, work->cli.arguments[0], "",
+                    "%d of %d parts are not done — %.700s%s (`parhelion status %.150s` tells "
+                    "why)",
+                    count, job->part_count, commands.data, told < count ? "; and so on" : "",
+                    work->cli.arguments[0]);
+}
+
+static bool take_job(MergeRun *work, Error *err)
+{
+    RenderJob *job = &work->job;
+    Error      ignored;
+    if (!job_manifest_read(work->cli.arguments[0], work->arena, job, err)) return false;
+    int *missing = ARENA_NEW(work->arena, int, job->part_count), count = 0;
+    work->is_job = true;
+    work->count = job->part_count;
+    work->files = ARENA_NEW(work->arena, const char *, job->part_count);
+    for (int i = 0; i < job->part_count; i++) {
+        work->files[i] = job_part_file(job, i, ".exr", work->arena);
+        if (!job_part_is_done(job, i, false, *work->arena, &ignored)) missing[count++] = i;
+    }
+    if (count) return report_missing(work, missing, count, err);
+    if (!work->output) work->output = job_output_file(job, work->arena);
+    work->keeps_sums = work->keeps_sums || job->keeps_sums;
+    return true;
+}
+
+static bool take_files(MergeRun *work, Error *err)
+{
+    struct stat info;
+    work->files = work->cli.arguments;
+    work->count = work->cli.argument_count;
+    for (int i = 0; i < work->count; i++) {
+        if (stat(work->files[i], &info) != 0 || !S_ISDIR(info.st_mode)) continue;
+        return work->count == 1 ? take_job(work, err)
+                                : error_at(err, ERROR_USAGE, work->files[i], "",
+                                           "is a folder: a job is merged alone");
+    }
+    return true;
+}
+
 static bool parse(int argc, char **argv, MergeRun *work, Error *err)
 {
     const Option options[] = {
-        {"-o", OPTION_TEXT, "FRAME.exr", "the frame that is written", &work->output},
+        {"-o", OPTION_TEXT, "FRAME.exr",
+         "the frame that is written (default, of a job: the one that it was planned for)",
+         &work->output},
         {"--part", OPTION_FLAG, NULL,
          "keep the exact sums, so that the frame can be merged again", &work->keeps_sums},
     };
     const CliCommand command = {
-        "merge", "make one frame of parts that were rendered with --samples or --crop",
-        "PART.exr ... -o FRAME.exr", "parhelion merge part1.exr part2.exr -o frame.exr",
+        "merge",
+        "make one frame of parts that were rendered with --samples or --crop, or of a job's",
+        "PART.exr ... -o FRAME.exr | DIR [-o FRAME.exr]",
+        "parhelion merge part1.exr part2.exr -o frame.exr",
         options, COUNT_OF(options), 1, -1};
     if (!cli_parse(&command, argc, argv, work->arena, &work->cli, err)) return false;
     if (work->cli.help_shown) return true;
+    if (!take_files(work, err)) return false;
     if (!work->output) return error_set(err, ERROR_USAGE, "no output — add -o FRAME.exr");
     if (strcmp(path_ending(work->output), ".exr") != 0)
         return error_set(err, ERROR_USAGE, "-o %s: wanted a name that ends in .exr",
@@ -147,7 +213,7 @@ static bool check_identity(MergeRun *work, const FilmPart *part, const FilmPart 
 static bool look_at(MergeRun *work, int i, Error *err)
 {
     FilmPartReader from;
-    if (!film_part_open(work->cli.arguments[i], work->arena, &from, err)) return false;
+    if (!film_part_open(work->files[i], work->arena, &from, err)) return false;
     const ExrPicture *picture = exr_reader_picture(from.file);
     const char *line = frame_string(picture, "parhelion:commandLine");
     work->parts[i] = from.part;
@@ -162,11 +228,11 @@ static bool look_at(MergeRun *work, int i, Error *err)
 
 static bool look_at_all(MergeRun *work, Error *err)
 {
-    int count = work->cli.argument_count;
+    int count = work->count;
     work->parts = ARENA_NEW(work->arena, FilmPart, count);
     work->lines = ARENA_NEW(work->arena, const char *, count);
     for (int i = 0; i < count; i++)
-        if (!look_at(work, i, err)) return error_in_file(err, work->cli.arguments[i]);
+        if (!look_at(work, i, err)) return error_in_file(err, work->files[i]);
     return film_merge_check(work->parts, count, *work->arena, &work->whole, err);
 }
 
@@ -201,7 +267,7 @@ static double pixels_in(FilmRect rect)
 static bool add_part(MergeRun *work, int i, Progress *progress, double *done, Error *err)
 {
     FilmPartReader from;
-    if (!film_part_open(work->cli.arguments[i], work->arena, &from, err)) return false;
+    if (!film_part_open(work->files[i], work->arena, &from, err)) return false;
     const FilmRect *crop = &from.part.crop;
     bool ok = same_part(&from.part, &work->parts[i]) ||
               error_set(err, ERROR_INPUT, "has changed while it was merged");
@@ -215,18 +281,28 @@ static bool add_part(MergeRun *work, int i, Progress *progress, double *done, Er
     return ok;
 }
 
+/* `parhelion part` reads a file that is there to its end, and renders a damaged one again. */
+static bool report_damage(const MergeRun *work, int i, Error *err)
+{
+    error_in_file(err, work->files[i]);
+    if (!work->is_job || err->code != ERROR_INPUT) return false;
+    const Error why = *err;
+    return error_at(err, why.code, why.file, why.path, "%.500s — make it again: %.400s",
+                    why.text, job_part_command(&work->job, i, work->arena));
+}
+
 static bool add_all(MergeRun *work, Error *err)
 {
     const FilmPart *whole = &work->whole;
     double          total = 0, done = 0;
     work->film = film_create(whole->width, whole->height, whole->crop, whole->layers,
                              &whole->lights, work->arena);
-    for (int i = 0; i < work->cli.argument_count; i++) total += pixels_in(work->parts[i].crop);
+    for (int i = 0; i < work->count; i++) total += pixels_in(work->parts[i].crop);
     Progress progress = progress_start(work->cli.progress, "merge", "pixels", total);
-    for (int i = 0; i < work->cli.argument_count; i++)
+    for (int i = 0; i < work->count; i++)
         if (!add_part(work, i, &progress, &done, err)) {
             progress_clear(&progress);
-            return error_in_file(err, work->cli.arguments[i]);
+            return report_damage(work, i, err);
         }
     progress_end(&progress, done);
     work->seconds = monotonic_seconds() - progress.begun_s;
@@ -236,11 +312,12 @@ static bool add_all(MergeRun *work, Error *err)
 
 /* ---- the frame --------------------------------------------------------------------------- */
 
-/* The command of one run, when the parts' agree on it. */
+/* The command of one run: a job was planned for it; else, when the parts' agree on it. */
 static const char *line_of_whole(const MergeRun *work, Arena *arena)
 {
     const char *first = NULL;
-    for (int i = 0; i < work->cli.argument_count; i++) {
+    if (work->is_job) return work->job.line;
+    for (int i = 0; i < work->count; i++) {
         const char *line = work->lines[i];
         if (strncmp(line, "parhelion render ", 17) != 0) return NULL;
         line = command_line_of_whole(line, &work->whole, arena);
@@ -258,7 +335,7 @@ static int compare_lines(const void *a, const void *b)
 /* Sorted: the order of the parts, and their names, decide nothing. */
 static const char *list_lines(const MergeRun *work, Arena *arena)
 {
-    int   count = work->cli.argument_count;
+    int   count = work->count;
     Text  list = {.arena = arena};
     qsort(work->lines, (size_t)count, sizeof *work->lines, compare_lines);
     for (int i = 0; i < count; i++) {
@@ -309,7 +386,7 @@ static bool print_json(const MergeRun *work, Error *err)
     const FilmPart *whole = &work->whole;
     json_t *answer = json_pack(
         "{s:o, s:i, s:[i,i], s:[i,i,i,i], s:[I,I], s:I, s:f, s:I, s:o, s:b, s:b}", "output",
-        json_text(work->output), "parts", work->cli.argument_count, "size", whole->width,
+        json_text(work->output), "parts", work->count, "size", whole->width,
         whole->height, "window", whole->crop.x0, whole->crop.y0, whole->crop.x1,
         whole->crop.y1, "sample_range", (json_int_t)whole->first_sample,
         (json_int_t)whole->end_sample, "samples",
@@ -329,8 +406,8 @@ static void print_line(const MergeRun *work)
     const FilmRect *crop = &whole->crop;
     printf("%s: %d part%s, pixels %d,%d,%d,%d of %dx%d, samples %u:%u, relative "
            "error %.2f%%%s\n",
-           work->output, work->cli.argument_count,
-           work->cli.argument_count == 1 ? "" : "s", crop->x0, crop->y0, crop->x1,
+           work->output, work->count,
+           work->count == 1 ? "" : "s", crop->x0, crop->y0, crop->x1,
            crop->y1, whole->width, whole->height, whole->first_sample,
            whole->end_sample, 100 * work->error.frame,
            work->keeps_sums ? ", with its sums" : "");

@@ -1,4 +1,6 @@
 /* parhelion render: load, render, write, develop, answer. */
+#include "cli/render/cmd_render.h"
+
 #include <math.h>
 #include <signal.h>
 #include <stdio.h>
@@ -15,6 +17,8 @@
 #include "cli/render/render_live.h"
 #include "cli/render/render_resume.h"
 #include "cli/render/render_setup.h"
+#include "cli/render/render_share.h"
+#include "render/identity.h"
 #include "scene/load/scene_load.h"
 
 /* Everything of one run of the command. */
@@ -28,6 +32,7 @@ typedef struct RenderRun {
     LightGroups   lights;
     const char   *identity;
     RenderLive    live;
+    const RenderPin *pin;  /* NULL: the user's own command */
 } RenderRun;
 
 /* ---- before ------------------------------------------------------------------------------ */
@@ -126,6 +131,39 @@ static bool identify(RenderRun *work, Error *err)
                                      work->setup.kernel, work->arena);
     return render_find_checkpoint(&work->request, work->identity, work->arena,
                                   &options->resume, err);
+}
+
+/* What the frame's samples are of, but for what is learnt: that takes a while, and follows from
+ * the rest. *kernel: the one that will be used. */
+static bool identify_plan(const RenderRun *work, const Kernel **kernel, const char **identity,
+                          Error *err)
+{
+    if (!kernel_choose(work->request.render.isa, kernel, err)) return false;
+    *identity = render_identity(&work->request, work->scene, &work->camera, *kernel,
+                                work->arena);
+    return true;
+}
+
+static bool share(RenderRun *work, Error *err)
+{
+    const Kernel *kernel;
+    const char   *identity;
+    return identify_plan(work, &kernel, &identity, err) &&
+           render_share(&work->request, identity, kernel->isa, work->arena, err);
+}
+
+static bool check_pin(const RenderRun *work, Error *err)
+{
+    const Kernel *kernel;
+    const char   *identity;
+    if (!work->pin) return true;
+    if (!identify_plan(work, &kernel, &identity, err)) return false;
+    const char *difference = identity_difference(work->pin->identity, identity, work->arena);
+    return !difference ||
+           error_at(err, ERROR_INPUT, work->pin->name, "",
+                    "was planned for something else: %.500s — plan the job again, in another "
+                    "folder",
+                    difference);
 }
 
 /* ---- after ------------------------------------------------------------------------------- */
@@ -273,21 +311,30 @@ static void find_viewer(RenderRun *work)
     options->tile_ended = work->live.has_viewer ? show_on : NULL;
 }
 
+/* A part of a job leaves no partial frame. */
+static void print_interruption(const RenderRun *work, const RenderResult *result,
+                               const char *signal_name, bool is_kept)
+{
+    const RenderOptions *options = &work->request.render;
+    const RenderPin     *pin = work->pin;
+    const char          *line = pin ? pin->resume_line : work->request.resume_line;
+    fprintf(stderr,
+            "parhelion: %s: stopped by %s after %u of %u samples a pixel%s — %s%s\n",
+            pin ? pin->name : work->request.output, signal_name, result->samples,
+            options->end_sample - options->first_sample,
+            pin ? "" : "; the frame is marked incomplete",
+            is_kept ? "go on with: " : "run the same command again for the whole",
+            is_kept ? line : "");
+}
+
 /* The partial frame is written and the answer given: only the line, which may be longer than
  * an error's text, and the status are left. */
 static bool report_interruption(const RenderRun *work, const RenderResult *result, bool is_kept,
                                 Error *err)
 {
-    const RenderOptions *options = &work->request.render;
     const char *name = result->stopped_by == SIGINT ? "INT"
                        : result->stopped_by == SIGHUP ? "HUP" : "TERM";
-    fprintf(stderr,
-            "parhelion: %s: stopped by %s after %u of %u samples a pixel; the frame is marked "
-            "incomplete — %s%s\n",
-            work->request.output, name, result->samples,
-            options->end_sample - options->first_sample,
-            is_kept ? "go on with: " : "run the same command again for the whole",
-            is_kept ? work->request.resume_line : "");
+    print_interruption(work, result, name, is_kept);
     err->code = (ErrorCode)(128 + result->stopped_by); /* ERROR_INTERRUPTED and its like */
     err->text[0] = '\0';
     return false;
@@ -318,8 +365,10 @@ static bool hand_over(RenderRun *work, const RenderResult *result, Error *err)
     if (work->request.replays)
         return render_print_replay(&work->request, work->scene, result, work->arena, err);
     bool is_kept = !result->complete && keep_checkpoint(work, result);
+    if (work->pin && !result->complete) return report_interruption(work, result, is_kept, err);
     if (!write_frame(work, result, err)) return false;
     if (result->complete) render_remove_checkpoint(&work->request);
+    if (work->pin) return true;
     show_end(work, result);
     if (work->request.png && !develop(work, result, err)) return false;
     if (!render_print_answer(&work->request, result, render_live_seconds(&work->live),
@@ -331,12 +380,15 @@ static bool run(RenderRun *work, Error *err)
 {
     RenderOptions *options = &work->request.render;
     RenderResult   result;
-    options->snapshot = work->request.replays ? NULL : write_snapshot;
+    options->snapshot = work->request.replays || work->pin ? NULL : write_snapshot;
+    if (work->pin && !options->isa) options->isa = work->pin->isa;
     options->checkpoint = work->request.keeps_checkpoints ? keep_checkpoint_meanwhile : NULL;
     options->user = work;
     if (!check_memory(options, err) || !check_outputs(&work->request, err) ||
         !check_look(&work->request, *work->arena, err) || !load(work, err))
         return false;
+    if (work->request.share.parts) return share(work, err);
+    if (!check_pin(work, err)) return false;
     find_viewer(work);
     if (!render_prepare(work->scene, &work->camera, options, work->arena, &work->setup, err))
         return false;
@@ -347,14 +399,19 @@ static bool run(RenderRun *work, Error *err)
     return done && hand_over(work, &result, err);
 }
 
-static bool run_render(int argc, char **argv, Arena *arena, Error *err)
+bool cmd_render_run(int argc, char **argv, const RenderPin *pin, Arena *arena, Error *err)
 {
-    RenderRun  work = {.arena = arena};
+    RenderRun  work = {.arena = arena, .pin = pin};
     bool  done = render_request_parse(argc, argv, arena, &work.request, err) &&
                 (work.request.cli.help_shown || run(&work, err));
     render_live_close(&work.live);
     scene_close(work.scene);
     return done;
+}
+
+static bool run_render(int argc, char **argv, Arena *arena, Error *err)
+{
+    return cmd_render_run(argc, argv, NULL, arena, err);
 }
 
 const Command command_render = {

@@ -30,7 +30,8 @@ static int idle_words(const char *word)
     } idle[] = {{"-o", true}, {"--png", true}, {"--false-colour", true}, {"--threads", true},
                 {"--json", false}, {"--quiet", false}, {"--progress", true},
                 {"--checkpoint", true}, {"--checkpoint-interval", true}, {"--resume", false},
-                {"--tev", true}, {"--live", true}};
+                {"--tev", true}, {"--live", true}, {"--slurm", true}, {"--split", true},
+                {"--job", true}, {"--submit", false}};
     DevelopOptions look;
     const Option   looks[] = {LOOK_OPTIONS(&look)};
     for (int i = 0; i < COUNT_OF(idle); i++)
@@ -116,6 +117,23 @@ static Rewrite *find_rewrite(const char *word)
     for (int i = 0; i < COUNT_OF(options); i++)
         if (is_option(word, options[i].name)) return options[i].rewrite;
     return NULL;
+}
+
+const char **command_line_part_words(int argc, char **argv, Arena *arena, int *count)
+{
+    const char **words = ARENA_NEW(arena, const char *, argc);
+    bool         has_options = true;
+    *count = 0;
+    for (int i = 1; i < argc; i++) {
+        bool is_range = has_options && find_rewrite(argv[i]);
+        bool is_kept = is_option(argv[i], "--checkpoint-interval"); /* the parts' as well */
+        int  skipped = is_range ? words_of(argv[i], true)
+                       : has_options && !is_kept ? idle_words(argv[i]) : 0;
+        if (!strcmp(argv[i], "--")) has_options = false;
+        if (skipped) i += skipped - 1;
+        else words[(*count)++] = argv[i];
+    }
+    return words;
 }
 
 const char *command_line_of_whole(const char *line, const FilmPart *whole, Arena *arena)

@@ -25,7 +25,7 @@ typedef struct RenderWords {
     double      crop[4], replay[3];
     SceneWords  scene;
     PolarisedWords polarised;
-    bool        has_spp, has_crop, has_replay, has_interval;
+    bool        has_spp, has_crop, has_replay, has_interval, has_split;
 } RenderWords;
 
 /* ---- layers ------------------------------------------------------------------------------ */
@@ -175,6 +175,46 @@ static bool check_live(const RenderRequest *request, Error *err)
                      request->live);
 }
 
+/* ---- a frame that is shared out ---------------------------------------------------------- */
+
+/* What belongs to one run cannot be shared; `why` begins after the option. */
+static bool refuse_shared(const char *option, const char *why, Error *err)
+{
+    return error_set(err, ERROR_USAGE, "%s does not go with --slurm: %s", option, why);
+}
+
+static bool check_share(const RenderWords *typed, const RenderRequest *request, Error *err)
+{
+    const ShareRequest *share = &request->share;
+    const char *alone = share->submits ? "--submit" : share->dir ? "--job"
+                        : typed->has_split ? "--split" : NULL;
+    if (!share->parts)
+        return !alone || error_set(err, ERROR_USAGE, "%s says how a frame is shared — add "
+                                                     "--slurm N, the number of parts", alone);
+    if (typed->noise) return refuse_shared("--noise", "it asks for a pause of all parts after "
+                                           "each pass — say how many samples (--spp N)", err);
+    if (request->replays) return refuse_shared("--replay", "it is one sample", err);
+    if (request->png)
+        return refuse_shared("--png", "nothing is rendered yet — `parhelion develop` the "
+                             "merged frame", err);
+    if (request->live || request->tev)
+        return refuse_shared(request->live ? "--live" : "--tev", "there is no single run to "
+                             "watch — `parhelion status` tells how far it is", err);
+    if (request->checkpoint || request->resumes)
+        return refuse_shared(request->checkpoint ? "--checkpoint" : "--resume", "each part "
+                             "has a checkpoint of its own, and goes on from it", err);
+    return true;
+}
+
+static void set_share(int argc, char **argv, Arena *arena, RenderRequest *request)
+{
+    ShareRequest *share = &request->share;
+    if (!share->parts) return;
+    if (!share->dir) share->dir = arena_format(arena, "%s.parts", request->output);
+    share->threads = request->cli.threads_given ? request->cli.threads : 0;
+    share->words = command_line_part_words(argc, argv, arena, &share->word_count);
+}
+
 /* ---- all of them ------------------------------------------------------------------------- */
 
 static bool check_outputs(const RenderRequest *request, Error *err)
@@ -270,6 +310,16 @@ static const char *resume_line(int argc, char **argv, bool resumes, Arena *arena
      "the frame so far, for any viewer: written anew about every ten seconds",                 \
      &(request)->live}
 
+#define SHARE_OPTIONS(share, typed)                                                            \
+    {"--slurm", OPTION_INTEGER, "N",                                                           \
+     "render nothing: a folder that shares the frame in N parts, for Slurm or any other",      \
+     &(share)->parts, .low = 1, .high = JOB_PARTS_MAX},                                        \
+    {"--split", OPTION_CHOICE, JOB_SPLITS, "how it is cut (default samples: equal work)",      \
+     &(share)->split, .given = &(typed)->has_split},                                           \
+    {"--job", OPTION_TEXT, "DIR", "that folder (default FRAME.exr.parts)", &(share)->dir},     \
+    {"--submit", OPTION_FLAG, NULL, "hand it to Slurm's sbatch, and the merge after it",       \
+     &(share)->submits}
+
 static bool parse_line(int argc, char **argv, Arena *arena, RenderWords *typed,
                        RenderRequest *request, Error *err)
 {
@@ -311,6 +361,7 @@ static bool parse_line(int argc, char **argv, Arena *arena, RenderWords *typed,
          &request->render.isa},
         CHECKPOINT_OPTIONS(request, typed),
         LIVE_OPTIONS(request),
+        SHARE_OPTIONS(&request->share, typed),
         {"--replay", OPTION_NUMBERS, "X,Y,SAMPLE", "one sample of one pixel, printed",
          typed->replay, .count = 3, .given = &typed->has_replay},
     };
@@ -332,9 +383,11 @@ bool render_request_parse(int argc, char **argv, Arena *arena, RenderRequest *ou
     if (!parse_line(argc, argv, arena, &typed, &request, err)) return false;
     if (!request.cli.help_shown &&
         (!check_render(&typed, arena, &request, err) || !check_outputs(&request, err) ||
+         !check_share(&typed, &request, err) ||
          !scene_options_read(&typed.scene, &request.cli, arena, &request.scene, err)))
         return false;
     set_checkpoint(&typed, arena, &request);
+    set_share(argc, argv, arena, &request);
     request.resume_line = resume_line(argc, argv, request.resumes, arena);
     *out = request;
     return true;

@@ -6,11 +6,23 @@
 #include "cli/options/camera_options.h"
 #include "cli/options/cli.h"
 #include "cli/options/scene_options.h"
+#include "cli/job/job_split.h"
 #include "cli/render/noise_goal.h"
 #include "image/develop.h"
 #include "live/viewer_address.h"
 #include "render/render.h"
 #include "scene/scene.h"
+
+/* --slurm: nothing is rendered, the frame is shared out. */
+typedef struct ShareRequest {
+    long        parts;   /* 0: it is not */
+    int         split;   /* JobSplit */
+    const char *dir;     /* the job's folder; without --job OUTPUT.parts */
+    bool        submits; /* runs sbatch */
+    int         threads; /* of each task, as --threads says; 0: it does not */
+    const char **words;  /* command_line_part_words */
+    int         word_count;
+} ShareRequest;
 
 typedef struct RenderRequest {
     Cli           cli;
@@ -34,6 +46,7 @@ typedef struct RenderRequest {
     const char   *checkpoint;   /* the file; without --checkpoint OUTPUT.checkpoint */
     bool          keeps_checkpoints; /* while rendering; else only when it is stopped */
     bool          resumes;      /* goes on from the checkpoint, if there is one */
+    ShareRequest  share;
 } RenderRequest;
 
 bool render_request_parse(int argc, char **argv, Arena *arena, RenderRequest *out, Error *err);

@@ -1,0 +1,139 @@
+/* parhelion status: how far a job is that `render --slurm` shared out, and what is left. */
+#include <stdio.h>
+#include <string.h>
+
+#include "base/count.h"
+#include "base/file.h"
+#include "cli/commands.h"
+#include "cli/job/job_manifest.h"
+#include "cli/job/job_state.h"
+#include "cli/options/answer.h"
+#include "cli/options/cli.h"
+#include "text/json_text.h"
+
+#define STATE_COUNT (JOB_PART_DONE + 1)
+
+static const char *const state_names[STATE_COUNT] = {
+    [JOB_PART_MISSING] = "missing", [JOB_PART_BEGUN] = "begun", [JOB_PART_FAILED] = "failed",
+    [JOB_PART_DONE] = "done"};
+
+typedef struct StatusRun {
+    Cli            cli;
+    Arena         *arena;
+    RenderJob      job;
+    JobPartReport *reports;
+    int            counts[STATE_COUNT];
+    const char    *output; /* the frame's file */
+} StatusRun;
+
+static bool parse(int argc, char **argv, StatusRun *work, Error *err)
+{
+    const CliCommand command = {
+        "status", "which parts of a job are done, and how to do the others", "DIR",
+        "parhelion status frame.exr.parts", NULL, 0, 1, 1};
+    return cli_parse(&command, argc, argv, work->arena, &work->cli, err);
+}
+
+static bool look(StatusRun *work, Error *err)
+{
+    JobFolder folder;
+    if (!job_manifest_read(work->cli.arguments[0], work->arena, &work->job, err) ||
+        !job_folder_list(&work->job, work->arena, &folder, err))
+        return false;
+    work->reports = ARENA_NEW(work->arena, JobPartReport, work->job.part_count);
+    for (int i = 0; i < work->job.part_count; i++) {
+        work->reports[i] = job_part_report(&work->job, &folder, i, work->arena);
+        work->counts[work->reports[i].state]++;
+    }
+    work->output = job_output_file(&work->job, work->arena);
+    return true;
+}
+
+static bool is_all_done(const StatusRun *work)
+{
+    return work->counts[JOB_PART_DONE] == work->job.part_count;
+}
+
+/* ---- as a document ----------------------------------------------------------------------- */
+
+static json_t *part_json(const StatusRun *work, int index)
+{
+    const JobPart       *part = &work->job.parts[index];
+    const JobPartReport *report = &work->reports[index];
+    const FilmRect       crop = part->crop;
+    return json_pack(
+        "{s:i, s:s, s:[I,I], s:[i,i,i,i], s:I, s:o, s:o, s:o}", "index", index, "state",
+        state_names[report->state], "samples", (json_int_t)part->first_sample,
+        (json_int_t)part->end_sample, "crop", crop.x0, crop.y0, crop.x1, crop.y1,
+        "samples_kept", (json_int_t)report->samples_kept, "status",
+        report->reason ? json_integer(report->status) : json_null(), "error",
+        report->reason ? json_text(report->reason) : json_null(), "command",
+        json_text(job_part_command(&work->job, index, work->arena)));
+}
+
+static bool print_json(const StatusRun *work, Error *err)
+{
+    json_t *parts = json_array();
+    for (int i = 0; i < work->job.part_count; i++)
+        json_array_append_new(parts, part_json(work, i));
+    json_t *answer = json_pack("{s:o, s:o, s:b, s:i, s:b, s:o, s:o}", "job",
+                               json_text(work->job.dir), "output", json_text(work->output),
+                               "output_is_there", file_exists(work->output), "parts",
+                               work->job.part_count, "complete", is_all_done(work), "merge",
+                               json_text(job_merge_command(&work->job, work->arena)), "list",
+                               parts);
+    for (int i = 0; i < STATE_COUNT; i++)
+        json_object_set_new(answer, state_names[i], json_integer(work->counts[i]));
+    return cli_print_json(answer, err);
+}
+
+/* ---- as lines ---------------------------------------------------------------------------- */
+
+static void print_part(const StatusRun *work, int index)
+{
+    const JobPart       *part = &work->job.parts[index];
+    const JobPartReport *report = &work->reports[index];
+    if (report->state == JOB_PART_DONE) return;
+    printf("part %d: %s", index, state_names[report->state]);
+    if (report->samples_kept)
+        printf(", %u of %u samples a pixel are kept", report->samples_kept,
+               part->end_sample - part->first_sample);
+    if (report->reason) printf(", status %d: %s", report->status, report->reason);
+    printf("\n    %s\n", job_part_command(&work->job, index, work->arena));
+}
+
+static void print_lines(const StatusRun *work)
+{
+    int count = work->job.part_count;
+    printf("%s: %d of %d part%s done", work->cli.arguments[0], work->counts[JOB_PART_DONE],
+           count, count == 1 ? "" : "s");
+    for (int i = 0; i < JOB_PART_DONE; i++)
+        if (work->counts[i]) printf(", %d %s", work->counts[i], state_names[i]);
+    printf("\n");
+    for (int i = 0; i < count; i++) print_part(work, i);
+    if (is_all_done(work) && file_exists(work->output))
+        printf("%s is there\n", work->output);
+    else
+        printf("%s: %s\n", is_all_done(work) ? "merge them" : "then",
+               job_merge_command(&work->job, work->arena));
+}
+
+/* 1 while something is left. */
+static bool tell(StatusRun *work, Error *err)
+{
+    if (!look(work, err)) return false;
+    if (work->cli.json && !print_json(work, err)) return false;
+    if (!work->cli.json) print_lines(work);
+    err->code = is_all_done(work) ? ERROR_NONE : ERROR_DIFFERENT;
+    err->text[0] = '\0';
+    return is_all_done(work);
+}
+
+static bool run_status(int argc, char **argv, Arena *arena, Error *err)
+{
+    StatusRun work = {.arena = arena};
+    return parse(argc, argv, &work, err) && (work.cli.help_shown || tell(&work, err));
+}
+
+const Command command_status = {
+    "status", "how far a frame is that is shared among machines", run_status};

@@ -1,0 +1,19 @@
+/* job_manifest.h -- manifest.json of a job's folder (assets/schemas/job.md).
+ *
+ * Memory   the arena's.
+ * Fails    ERROR_INPUT with the file, the place in it, what is there and what was wanted.
+ */
+#pragma once
+#include "base/error.h"
+#include "cli/job/job.h"
+
+#define JOB_MANIFEST "manifest.json"
+
+/* The document, with a newline; the same for the same job. */
+const char *job_manifest_text(const RenderJob *job, Arena *arena);
+
+/* Whether the folder holds one, of whatever content. */
+bool job_manifest_is_there(const char *dir, Arena scratch);
+
+/* dir: as the user named it. */
+bool job_manifest_read(const char *dir, Arena *arena, RenderJob *out, Error *err);

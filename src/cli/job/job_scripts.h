@@ -1,0 +1,20 @@
+/* job_scripts.h -- what of a job's folder is for those who run it: Slurm's two batch scripts,
+ * and the plain commands.
+ *
+ * Fails    ERROR_OUTPUT with the file.
+ */
+#pragma once
+#include "base/error.h"
+#include "cli/job/job.h"
+
+#define JOB_ARRAY "array.sbatch"
+#define JOB_MERGE "merge.sbatch"
+#define JOB_COMMANDS "commands.txt"
+#define JOB_LOGS "logs"
+
+/* threads: of each task, which Slurm is asked for; 0: nothing is asked. The folder of logs is
+ * there already. */
+bool job_scripts_write(const RenderJob *job, int threads, Arena scratch, Error *err);
+
+/* How the two scripts are submitted by hand, for a shell. */
+const char *job_scripts_by_hand(const RenderJob *job, Arena *arena);

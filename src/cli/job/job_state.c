@@ -1,0 +1,222 @@
+#include "cli/job/job_state.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "base/file.h"
+#include "base/file_write.h"
+#include "base/machine.h"
+#include "film/film_part.h"
+#include "render/checkpoint.h"
+
+#define CHECKPOINT ".checkpoint"
+#define FAILED ".failed"
+#define FAILURE_BYTES 4096
+
+/* ---- the folder -------------------------------------------------------------------------- */
+
+bool job_folder_list(const RenderJob *job, Arena *arena, JobFolder *out, Error *err)
+{
+    JobFolder folder = {0};
+    int       room = 0;
+    DIR      *names = opendir(job->dir);
+    if (!names)
+        return error_at(err, ERROR_INPUT, job->dir, "", "cannot be opened: %s",
+                        strerror(errno));
+    for (struct dirent *entry; (entry = readdir(names));) {
+        const char *name = arena_string(arena, entry->d_name, strlen(entry->d_name));
+        if (folder.count == room) {
+            int          more = room ? 2 * room : 256;
+            const char **list = ARENA_NEW(arena, const char *, more);
+            if (room) memcpy(list, folder.names, sizeof *list * (size_t)room);
+            folder.names = list;
+            room = more;
+        }
+        folder.names[folder.count++] = name;
+    }
+    closedir(names);
+    *out = folder;
+    return true;
+}
+
+static bool is_checkpoint_of(const char *name, int index)
+{
+    char   begin[32];
+    int    length = snprintf(begin, sizeof begin, "part-%04d.", index);
+    size_t size = strlen(name), end = strlen(CHECKPOINT);
+    return !strncmp(name, begin, (size_t)length) && size >= (size_t)length - 1 + end &&
+           !strcmp(name + size - end, CHECKPOINT);
+}
+
+/* ---- a part that is done ----------------------------------------------------------------- */
+
+static bool check_file(const RenderJob *job, const JobPart *wanted, const FilmPartReader *from,
+                       Error *err)
+{
+    const FilmPart *part = &from->part;
+    const char *identity = frame_string(exr_reader_picture(from->file), "parhelion:identity");
+    if (!identity || strncmp(identity, job->identity, strlen(job->identity)) != 0)
+        return error_set(err, ERROR_INPUT, "is a part of another frame");
+    if (memcmp(&part->crop, &wanted->crop, sizeof part->crop) != 0 ||
+        part->first_sample != wanted->first_sample)
+        return error_set(err, ERROR_INPUT, "is another part of the frame");
+    return part->end_sample == wanted->end_sample ||
+           error_set(err, ERROR_INPUT, "has samples %u:%u, wanted %u:%u", part->first_sample,
+                     part->end_sample, wanted->first_sample, wanted->end_sample);
+}
+
+/* Into a film of its own, which is thrown away. */
+static bool read_sums(FilmPartReader *from, Arena scratch, Error *err)
+{
+    const FilmPart *part = &from->part;
+    if (film_bytes(part->crop, part->layers, part->lights.count) >= machine_memory_bytes())
+        return error_set(err, ERROR_MEMORY, "does not go into this machine's memory");
+    Film *film = film_create(part->width, part->height, part->crop, part->layers,
+                             &part->lights, &scratch);
+    while (from->next_y < part->crop.y1)
+        if (!film_part_add_band(from, film, scratch, err)) return false;
+    return true;
+}
+
+bool job_part_is_done(const RenderJob *job, int index, bool with_sums, Arena scratch,
+                      Error *err)
+{
+    const char    *path = job_part_file(job, index, ".exr", &scratch);
+    FilmPartReader from;
+    if (!file_exists(path)) return error_set(err, ERROR_INPUT, "%s", "");
+    if (!film_part_open(path, &scratch, &from, err)) return error_in_file(err, path);
+    bool done = check_file(job, &job->parts[index], &from, err) &&
+                (with_sums ? read_sums(&from, scratch, err)
+                           : film_part_check_end(&from, scratch, err));
+    film_part_close(&from);
+    return done || error_in_file(err, path);
+}
+
+/* ---- checkpoints ------------------------------------------------------------------------- */
+
+/* Samples of every pixel that it holds; 0: it is damaged, or of something else. */
+static uint32_t samples_in(const RenderJob *job, int index, const char *path, Arena scratch)
+{
+    const JobPart *part = &job->parts[index];
+    const FilmPart wanted = {.crop = part->crop, .first_sample = part->first_sample,
+                             .end_sample = part->end_sample};
+    Checkpoint     found;
+    Error          ignored;
+    if (!checkpoint_open(path, &scratch, &found, &ignored) ||
+        strncmp(found.identity, job->identity, strlen(job->identity)) != 0 ||
+        !checkpoint_fits(&found, &wanted, &ignored))
+        return 0;
+    return found.done.end_sample - found.done.first_sample;
+}
+
+/* The path of the furthest one, or NULL. removes: those that are worth nothing. */
+static const char *furthest(const RenderJob *job, const JobFolder *folder, int index,
+                            bool removes, uint32_t *samples, Arena *arena)
+{
+    const char *best = NULL;
+    *samples = 0;
+    for (int i = 0; i < folder->count; i++) {
+        if (!is_checkpoint_of(folder->names[i], index)) continue;
+        const char *path = job_file(job, folder->names[i], arena);
+        uint32_t    found = samples_in(job, index, path, *arena);
+        if (!found && removes) file_remove(path);
+        if (found <= *samples) continue;
+        *samples = found;
+        best = path;
+    }
+    return best;
+}
+
+/* "HOST-PID", of letters that do well in a name: no other process that runs has it. */
+static const char *process_name(Arena *arena)
+{
+    char host[64] = "";
+    gethostname(host, sizeof host - 1);
+    host[32] = '\0';
+    for (char *c = host; *c; c++)
+        if (!strchr("-0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz", *c))
+            *c = '-';
+    return arena_format(arena, ".%s-%ld", host, (long)getpid());
+}
+
+/* By a rename: of two tasks that begin together one gets it, and the other begins anew. A task
+ * that still writes to it, since its node was only thought dead, writes a new one. */
+const char *job_take_checkpoint(const RenderJob *job, const JobFolder *folder, int index,
+                                Arena *arena)
+{
+    uint32_t    samples;
+    const char *ending = arena_format(arena, "%s" CHECKPOINT, process_name(arena));
+    const char *own = job_part_file(job, index, ending, arena);
+    const char *best = furthest(job, folder, index, true, &samples, arena);
+    if (best) rename(best, own);
+    return own;
+}
+
+void job_part_clean(const RenderJob *job, int index, Arena scratch)
+{
+    JobFolder folder;
+    Error     ignored;
+    job_part_forget_failure(job, index, scratch);
+    if (!job_folder_list(job, &scratch, &folder, &ignored)) return;
+    for (int i = 0; i < folder.count; i++)
+        if (is_checkpoint_of(folder.names[i], index))
+            file_remove(job_file(job, folder.names[i], &scratch));
+}
+
+/* ---- failures ---------------------------------------------------------------------------- */
+
+void job_part_note_failure(const RenderJob *job, int index, int status, const char *line,
+                           Arena scratch)
+{
+    Error       ignored;
+    const char *text = arena_format(&scratch, "%d %s\n", status, line);
+    file_write(job_part_file(job, index, FAILED, &scratch), text, strlen(text), &ignored);
+}
+
+void job_part_forget_failure(const RenderJob *job, int index, Arena scratch)
+{
+    unlink(job_part_file(job, index, FAILED, &scratch));
+}
+
+/* NULL: it did not fail. */
+static const char *failure_of(const RenderJob *job, int index, int *status, Arena *arena)
+{
+    FileBytes   bytes;
+    Error       ignored;
+    const char *path = job_part_file(job, index, FAILED, arena);
+    if (!file_exists(path) || !file_read_start(path, FAILURE_BYTES, arena, &bytes, &ignored))
+        return NULL;
+    char *end, *line = arena_string(arena, (const char *)bytes.data, bytes.size);
+    *status = (int)strtol(line, &end, 10);
+    end += *end == ' ';
+    end[strcspn(end, "\n")] = '\0';
+    error_make_plain(end);
+    return end;
+}
+
+JobPartReport job_part_report(const RenderJob *job, const JobFolder *folder, int index,
+                              Arena *arena)
+{
+    JobPartReport report = {0};
+    Error         err;
+    char          line[2048];
+    if (job_part_is_done(job, index, false, *arena, &err)) {
+        report.state = JOB_PART_DONE;
+        return report;
+    }
+    furthest(job, folder, index, false, &report.samples_kept, arena);
+    report.reason = failure_of(job, index, &report.status, arena);
+    if (!report.reason && err.text[0]) {
+        error_line(&err, line, (int)sizeof line);
+        report.reason = arena_string(arena, line, strlen(line));
+        report.status = error_exit_status(err.code);
+    }
+    report.state = report.reason ? JOB_PART_FAILED
+                   : report.samples_kept ? JOB_PART_BEGUN : JOB_PART_MISSING;
+    return report;
+}
