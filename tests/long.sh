@@ -60,6 +60,7 @@ start 'every fault' faults-long python3 tests/hostile/faults.py --all .build/rel
 start 'every key of a review' review-request-long \
     python3 tests/hostile/review_request.py --all .build/release/parhelion
 gather
+run 'frames shared by Slurm' slurm python3 tests/slurm/cluster.py .build/release/parhelion
 run 'reviews killed, stopped and starved' review-resume-long \
     python3 tests/hostile/review_resume.py --all --kills 40 .build/release/parhelion
 run 'what moves in a page' live python3 tests/page/live.py .build/release/parhelion

@@ -43,6 +43,7 @@ if run_one 'release build, warnings are errors' build-release build release all;
         python3 tests/library/other_renderer.py .build/release
     gather
     start 'same bits, any parts' merge python3 tests/image/merge.py .build/release/parhelion
+    start 'a frame shared in a job' job python3 tests/slurm/job.py .build/release/parhelion
     start 'groups of lights' lights python3 tests/image/lights.py .build/release/parhelion
     start 'same bits, killed and resumed' resume \
         python3 tests/hostile/resume.py .build/release/parhelion

@@ -1,0 +1,412 @@
+"""job.py PARHELION -- a frame that is shared by `render --slurm N` and done by plain commands
+is the file of one run, byte for byte: whoever did its parts, in what order, twice, killed or
+stopped meanwhile; and what is damaged, missing or of something else is told of in one line.
+Slurm itself is asked by cluster.py.
+"""
+import contextlib
+import copy
+import glob
+import json
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+from jobs import PATIENCE_S, Report, ROOT, Work, contents
+
+SMALL = ("--size", "52x36", "--layers", "all", "--spp", "12")
+LONG = ("--size", "96x64", "--spp", "600", "--checkpoint-interval", "0")
+LONG_RUN = LONG[:4]
+
+
+def check_plain(work):
+    """Six parts over three processes, from a folder whose name a shell would trip over."""
+    report, job = work.report, "it's a %a job"
+    work.share(6, *SMALL, job=job)
+    report.claim(not os.path.exists(work.path("frame.exr")), "--slurm renders")
+    code, status = work.status(job)
+    report.claim(code == 1 and status["missing"] == 6 and not status["complete"]
+                 and not status["output_is_there"], f"before any part: {code} {status}")
+    manifest = json.loads(contents(work.path(job, "manifest.json")))
+    report.claim([part["samples"] for part in manifest["parts"]] ==
+                 [[2 * i, 2 * i + 2] for i in range(6)], f"parts: {manifest['parts']}")
+    work.claim_line(work.run("merge", job), 3, "6 of 6 parts are not done", "; and so on",
+                    f"`parhelion status {job}`")
+    with open(work.path(job, "commands.txt"), encoding="utf-8") as commands:
+        done = subprocess.run(["xargs", "-L", "1", "-P", "3", "env"], stdin=commands, cwd="/",
+                              capture_output=True, text=True, timeout=PATIENCE_S)
+    report.claim(done.returncode == 0, f"xargs: {done.stderr}")
+    code, status = work.status(job)
+    report.claim(code == 0 and status["done"] == 6 and status["complete"], f"after: {status}")
+    report.claim(sorted(os.path.basename(name) for name in glob.glob(
+        os.path.join(glob.escape(work.path(job)), "part-*"))) ==
+        [f"part-{i:04}.exr" for i in range(6)], f"left: {os.listdir(work.path(job))}")
+    work.claim_whole(job, SMALL, "six parts")
+    parts = [contents(name) for name in sorted(glob.glob(work.path("it*", "part*.exr")))]
+    work.claim_whole(job, SMALL, "merged again")
+    report.claim(parts == [contents(name) for name in
+                           sorted(glob.glob(work.path("it*", "part*.exr")))], "merge and parts")
+    again = work.run("render", "small.gltf", "-o", "frame.exr", "--slurm", "6", "--job", job,
+                     *SMALL)
+    report.claim(again.returncode == 0 and ", as before" in again.stdout
+                 and work.status(job)[0] == 0, f"planned again: {again.stdout}{again.stderr}")
+    there = work.run("part", job, "3", "--json")
+    report.claim(json.loads(there.stdout)["was_there"], f"a part twice: {there.stdout}")
+    shutil.rmtree(work.path(job))
+
+
+def do_all(work, job, cwd="/"):
+    count = work.status(job)[1]["parts"]
+    for i in range(count):
+        done = work.run("part", work.path(job), str(i), "--quiet", cwd=cwd)
+        work.report.claim(done.returncode == 0, f"{job}, part {i}: {done.stderr}")
+
+
+def check_cuts(work):
+    """Other cuts, of frames that are parts themselves too."""
+    for name, count, options, how in (
+            ("rows", 5, SMALL, ("--split", "rows")),
+            ("one", 1, SMALL, ()),
+            ("late", 3, (*SMALL[:4], "--samples", "2:12"), ()),
+            ("window", 4, (*SMALL, "--crop", "3,5,40,30"), ("--split=rows",)),
+            ("word", 2, ("--size=52x36", "--spp=5"), ("--threads", "1"))):
+        do_all(work, work.share(count, *options, *how, job=name))
+        work.claim_whole(name, options, f"{name}: {count} parts")
+        shutil.rmtree(work.path(name))
+
+
+def newest(names):
+    """When the newest file of this pattern was written, 0 without one."""
+    times = [0]
+    for name in glob.glob(names):
+        with contextlib.suppress(OSError):
+            times.append(os.stat(name).st_mtime_ns)
+    return max(times)
+
+
+def wait_for(names, running, before=0):
+    """Until a file of this pattern is written: then the task hears signals."""
+    end = time.time() + PATIENCE_S
+    while newest(names) <= before and running.poll() is None and time.time() < end:
+        time.sleep(0.02)
+
+
+def check_stopped(work):
+    """Killed, then stopped by TERM, then gone on: the same bits."""
+    report = work.report
+    job = work.share(2, *LONG, job="stopped")
+    kept = work.path(job, "part-0000.*.checkpoint")
+    samples = [0]
+    for number, wanted in ((signal.SIGKILL, -9), (signal.SIGTERM, 143)):
+        before = newest(kept)
+        running = work.start("part", job, "0")
+        wait_for(kept, running, before)
+        running.send_signal(number)
+        err = running.communicate(timeout=PATIENCE_S)[1]
+        code, status = work.status(job)
+        part = status["list"][0]
+        report.claim(running.returncode == wanted, f"{number}: {running.returncode} {err}")
+        report.claim(code == 1 and part["state"] == "begun"
+                     and samples[-1] <= part["samples_kept"] < 300 and part["samples_kept"]
+                     and len(glob.glob(kept)) == 1, f"after {number}: {part} {glob.glob(kept)}")
+        report.claim(not os.path.exists(work.path(job, "part-0000.exr")),
+                     f"after {number}: a partial file")
+        samples.append(part["samples_kept"])
+    report.claim(f"stopped: part 0: stopped by TERM after {samples[-1]} of 300 samples" in err
+                 and part["command"] in err, f"TERM: {err}")
+    text = work.run("status", job).stdout
+    report.claim(f"part 0: begun, {samples[-1]} of 300 samples a pixel are kept" in text,
+                 f"status: {text}")
+    foreign = work.path(job, "part-0001.somebody-1.checkpoint")
+    shutil.copy(glob.glob(kept)[0], foreign)
+    with open(work.path(job, "part-0001.somebody-2.checkpoint"), "wb") as file:
+        file.write(contents(foreign)[:5000])
+    report.claim(work.states(job) == ["begun", "missing"], "another part's checkpoint counts")
+    done = work.run("part", job, "0")
+    report.claim(done.returncode == 0 and f"goes on after {samples[-1]} of 300" in done.stderr,
+                 f"going on: {done.stderr}")
+    check_twice_at_once(work, job)
+    work.claim_whole(job, LONG_RUN, "killed, stopped, gone on")
+    report.claim(not glob.glob(work.path(job, "*checkpoint*")), "checkpoints are left")
+    shutil.rmtree(work.path(job))
+
+
+def check_twice_at_once(work, job):
+    """An orphan and its successor: both end well, one file."""
+    running = [work.start("part", job, "1") for _ in range(2)]
+    ends = [(one.communicate(timeout=PATIENCE_S)[1], one.returncode) for one in running]
+    work.report.claim([code for _, code in ends] == [0, 0], f"twice at once: {ends}")
+    states = work.states(job)
+    work.report.claim(states == ["done", "done"], f"twice at once: {states}")
+
+
+# ---- what is wrong ---------------------------------------------------------------------------
+
+def check_damage(work):
+    """Files that are cut off, changed, or of something else."""
+    report = work.report
+    job = work.share(2, *SMALL, job="damage")
+    do_all(work, job)
+    first, second = work.path(job, "part-0000.exr"), work.path(job, "part-0001.exr")
+    sound = contents(first)
+    for size in (0, 3, 200, len(sound) // 3, len(sound) - 40):
+        with open(first, "wb") as file:
+            file.write(sound[:size])
+        code, status = work.status(job)
+        part = status["list"][0]
+        report.claim(code == 1 and part["state"] == "failed" and "part-0000.exr" in
+                     part["error"], f"cut to {size}: {part}")
+        work.claim_line(work.run("merge", job), 3, "1 of 2 parts are not done", "part")
+        done = work.run("part", job, "0", "--quiet")
+        report.claim(done.returncode == 0 and "it is rendered again" in done.stderr
+                     and contents(first) == sound, f"cut to {size}: {done.stderr}")
+    # In the middle of the sums: only who reads all of them finds it.
+    place = sound.rindex(b"film\0") if b"film\0" in sound else 0
+    middle = (max(place, len(sound) // 2) + len(sound)) // 2
+    with open(first, "wb") as file:
+        file.write(sound[:middle] + bytes(255 - b for b in sound[middle:middle + 20])
+                   + sound[middle + 20:])
+    done = work.run("merge", job)
+    work.claim_line(done, 3, "part-0000.exr", "make it again")
+    done = work.run("part", job, "0")
+    report.claim(done.returncode == 0 and contents(first) == sound, f"damaged: {done.stderr}")
+    shutil.copy(first, second)
+    work.claim_line(work.run("merge", job), 3, "1 of 2")
+    report.claim("is another part of the frame" in work.status(job)[1]["list"][1]["error"],
+                 "a part under another's name")
+    work.run("render", "small.gltf", "-o", second, *SMALL[:4], "--samples", "6:12", "--seed",
+             "2", "--quiet")
+    report.claim("is a part of another frame" in work.status(job)[1]["list"][1]["error"],
+                 "a part of another frame")
+    shutil.rmtree(work.path(job))
+
+
+def check_failures(work):
+    """A scene that is gone, and one that is another; a disk that is full."""
+    report, scene = work.report, work.path("small.gltf")
+    job = work.share(2, *SMALL, job="failing")
+    os.rename(scene, scene + ".away")
+    done = work.run("part", job, "1")
+    work.claim_line(done, 3, "small.gltf")
+    part = work.status(job)[1]["list"][1]
+    report.claim(part["state"] == "failed" and part["status"] == 3
+                 and part["error"] == done.stderr.strip(), f"a failure is kept: {part}")
+    text = contents(scene + ".away")
+    with open(scene, "wb") as file:
+        file.write(text + b"\n")
+    work.claim_line(work.run("part", job, "0"), 3, "failing: part 0: was planned for something "
+                    "else: input 0: small.gltf", "plan the job again")
+    os.rename(scene + ".away", scene)
+    line = f"ulimit -f 2; exec '{work.program}' part {job} 0 --quiet"
+    full = subprocess.run(["sh", "-c", line],
+                          capture_output=True, text=True, cwd=work.folder)
+    work.claim_line(full, 4, "part-0000.exr", "cannot be written")
+    report.claim([part["status"] for part in work.status(job)[1]["list"]] == [4, 3],
+                 "statuses of failures")
+    do_all(work, job)
+    work.claim_whole(job, SMALL, "after failures")
+    report.claim(work.run("status", job).stdout.endswith(
+        "2 of 2 parts done\n" + work.path("frame.exr") + " is there\n"), "status of the end")
+    shutil.rmtree(work.path(job))
+
+
+WRONG = [("format", "panel", "is 'panel'"), ("version", 2, "version 1"),
+         ("parts", [], "has 0 items"), ("parts", {}, "wanted a list"),
+         ("parts", [7], "wanted a list of objects"), ("words", ["a", 1], "only texts"),
+         ("words", "a", "wanted a list"), ("program", "bin/a", "wanted a path from the root"),
+         ("folder", "here", "wanted a path from the root"), ("size", [4], "wanted 2"),
+         ("size", [52.5, 36], "whole"), ("keeps_sums", 1, "true or false"),
+         ("identity", 5, "wanted a text"), ("outptu", 1, "unknown key")]
+WRONG_PARTS = [("index", 1, "wanted 0"), ("samples", [3, 3], "wanted a range"),
+               ("samples", [0], "wanted 2"), ("samples", [0, 1.5], "whole"),
+               ("crop", [0, 0, 53, 36], "inside the frame of 52x36"),
+               ("crop", [0, 0, 0, 36], "inside the frame"), ("file", None, "'file' is missing")]
+
+
+def check_manifests(work):
+    """Folders that are no job's, and manifests of any fault: one line from each command."""
+    job = work.share(2, *SMALL, job="manifests")
+    path = work.path(job, "manifest.json")
+    text = contents(path)
+    sound = json.loads(text)
+
+    def claim(words):
+        for command in (("status", job), ("part", job, "0"), ("merge", job)):
+            work.claim_line(work.run(*command), 3, *words)
+
+    for size in (0, 1, 100, len(text) // 2, len(text) - 3):
+        with open(path, "wb") as file:
+            file.write(text[:size])
+        claim(["manifest.json", "JSON"])
+    wrong = [(lambda root: root, *row) for row in WRONG]
+    wrong += [(lambda root: root["parts"][0], *row) for row in WRONG_PARTS]
+    wrong += [(lambda root: root, key, None, f"'{key}' is missing") for key in sound
+              if key not in ("format", "version")]
+    for place, key, value, words in wrong:
+        document = copy.deepcopy(sound)
+        if value is None:
+            del place(document)[key]
+        else:
+            place(document)[key] = value
+        with open(path, "w", encoding="utf-8") as file:
+            json.dump(document, file)
+        claim(["manifest.json", words])
+    os.remove(path)
+    claim([f"{job}: is no folder of a job", "manifest.json", "--slurm N"])
+    shutil.rmtree(work.path(job))
+    for command in (("status", job), ("part", job, "0"), ("merge", job)):
+        work.claim_line(work.run(*command), 2 if command[0] == "merge" else 3, "")
+
+
+def check_schema(work):
+    try:
+        import jsonschema
+    except ImportError:
+        work.report.skip("a manifest against its schema: python3-jsonschema is not installed")
+        return
+    job = work.share(3, *SMALL, job="schema")
+    with open(os.path.join(ROOT, "assets/schemas/job.schema.json"), encoding="utf-8") as file:
+        schema = json.load(file)
+    check = jsonschema.validators.validator_for(schema)(schema)
+    sound = json.loads(contents(work.path(job, "manifest.json")))
+    work.report.claim_none("a manifest", [error.message for error in check.iter_errors(sound)])
+    for key, value, _ in WRONG:
+        work.report.claim(not check.is_valid({**sound, key: value}), f"it takes {key} {value}")
+    shutil.rmtree(work.path(job))
+
+
+def check_lines(work):
+    """What does not go with --slurm, and what goes with it alone."""
+    line = ("render", "small.gltf", "-o", "refused.exr", *SMALL)
+    for more, word in ((("--noise", "0.1"), "--noise"), (("--png", "a.png"), "--png"),
+                       (("--live", "b.exr"), "--live"), (("--tev", "here"), "--tev"),
+                       (("--checkpoint", "c"), "--checkpoint"), (("--resume",), "--resume"),
+                       (("--replay", "1,1,1"), "--replay"), (("--slurm", "0"), "--slurm"),
+                       (("--slurm", "13"), "only 12 samples"),
+                       (("--slurm", "37", "--split", "rows"), "only 36 rows")):
+        slurm = () if "--slurm" in more else ("--slurm", "3")
+        work.claim_line(work.run(*line, *slurm, *more), 2, word)
+    for alone in (("--submit",), ("--job", "a"), ("--split", "rows")):
+        work.claim_line(work.run(*line, *alone), 2, alone[0], "add --slurm N")
+    work.report.claim(not glob.glob(work.path("refused*")), "something is left")
+    job = work.share(3, *SMALL, job="lines")
+    for index in ("3", "-1", "x", "1.5", "0x1", "99999999999999999999"):
+        work.claim_line(work.run("part", job, "--", index), 2, "wanted a number from 0 to 2")
+    work.claim_line(work.run(*line[:2], "-o", "f.exr", "--slurm", "3", "--job", job, *SMALL,
+                             "--seed", "3"), 4, "holds another job: seed: 0 there, 3 here")
+    work.claim_line(work.run(*line, "--slurm", "4", "--job", job), 4, "holds another job: 3 "
+                    "parts of `parhelion render small.gltf")
+    os.mkdir(work.path("mine"))
+    open(work.path("mine", "letter"), "w", encoding="utf-8").close()
+    work.claim_line(work.run(*line, "--slurm", "4", "--job", "mine"), 4, "holds letter")
+    work.claim_line(work.run(*line, "--slurm", "4", "--job", "small.gltf"), 4, "small.gltf")
+    work.claim_line(work.run(*line, "--slurm", "4", "--job", "no/where"), 4, "no/where")
+    work.claim_line(work.run(*line, "--slurm", "4", "--job", 'a"b'), 2, "quotes")
+    work.claim_line(work.run("merge", job, job, "-o", "f.exr"), 2, "is a folder")
+    for name in (job, 'a"b', "mine"):
+        shutil.rmtree(work.path(name))
+
+
+# ---- the scripts, without Slurm --------------------------------------------------------------
+
+def write_tool(work, name, text):
+    path = work.path("tools", name)
+    os.makedirs(os.path.dirname(path), exist_ok=True)
+    with open(path, "w", encoding="utf-8") as file:
+        file.write("#!/bin/sh\n" + text)
+    os.chmod(path, 0o755)
+
+
+def with_tools(work):
+    return {"PATH": work.path("tools") + os.pathsep + os.environ["PATH"]}
+
+
+def check_submit(work):
+    """sbatch is run twice, and only when asked for; what it says wrong is one line."""
+    report, tools = work.report, with_tools(work)
+    write_tool(work, "sbatch", 'echo "$*" >>../submitted\necho warning: busy >&2\n'
+                               'echo "4$(wc -l <../submitted);cluster"\n'.replace(
+                                   "../submitted", work.path("submitted")))
+    work.share(3, *SMALL, job="sent", **tools)
+    report.claim(not os.path.exists(work.path("submitted")), "it submits unasked")
+    done = work.run("render", "small.gltf", "-o", "frame.exr", "--slurm", "3", "--job", "sent",
+                    "--submit", "--json", *SMALL, **tools)
+    answer, sent = json.loads(done.stdout), contents(work.path("submitted")).decode()
+    report.claim((answer["array_job"], answer["merge_job"]) == ("41", "42")
+                 and answer["was_there"], f"--submit: {answer}")
+    report.claim(sent == "--parsable {0}/array.sbatch\n--parsable --dependency=afterany:41 "
+                 "{0}/merge.sbatch\n".format(work.path("sent")), f"--submit: {sent}")
+    line = ("render", "small.gltf", "-o", "frame.exr", "--slurm", "3", "--job", "sent", *SMALL,
+            "--submit")
+    write_tool(work, "sbatch", "echo sbatch: error: no such partition >&2; exit 1\n")
+    work.claim_line(work.run(*line, **tools), 3, "is ready, but not submitted: sbatch failed",
+                    "no such partition", "by hand: J=$(sbatch --parsable", "afterany:${J%%;*}")
+    write_tool(work, "sbatch", "echo Submitted batch job\n")
+    work.claim_line(work.run(*line, **tools), 3, "gave no number of a job")
+    os.remove(work.path("tools", "sbatch"))
+    work.claim_line(work.run(*line, PATH=work.path("tools")), 3, "sbatch cannot be started",
+                    "by hand")
+    report.claim(work.status("sent")[0] == 1, "the folder stays")
+    shutil.rmtree(work.path("sent"))
+
+
+def run_task(work, job, index, state, stop=False):
+    """(exit status, requeued?) of array.sbatch as Slurm would run it."""
+    note = work.path("requeued")
+    write_tool(work, "squeue", f"echo {state}\n")
+    write_tool(work, "scontrol", f'echo "$*" >>{note}\n')
+    if os.path.exists(note):
+        os.remove(note)
+    kept = work.path(job, f"part-{index:04}.*.checkpoint")
+    before = newest(kept)
+    task = subprocess.Popen(["sh", work.path(job, "array.sbatch")], cwd="/", text=True,
+                            stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                            env={**os.environ, **with_tools(work), "SLURM_JOB_ID": "77",
+                                 "SLURM_ARRAY_TASK_ID": str(index), "SLURM_CPUS_PER_TASK": "1"})
+    if stop:
+        wait_for(kept, task, before)
+        task.send_signal(signal.SIGTERM)
+    err = task.communicate(timeout=PATIENCE_S)[1]
+    requeued = contents(note).decode() if os.path.exists(note) else ""
+    return task.returncode, requeued, err
+
+
+def check_script(work):
+    """The batch script: TERM reaches the render once, and only what may end well comes back."""
+    report = work.report
+    job = work.share(2, *LONG, job="script")
+    for state, wanted in (("COMPLETING", ""), ("RUNNING", "requeue 77\n")):
+        code, requeued, err = run_task(work, job, 0, state, stop=True)
+        report.claim((code, requeued) == (143, wanted),
+                     f"TERM, {state}: {code} {requeued} {err}")
+    report.claim(work.states(job)[0] == "begun", f"TERM: {work.status(job)[1]}")
+    os.rename(work.path("small.gltf"), work.path("away.gltf"))
+    code, requeued, err = run_task(work, job, 1, "RUNNING")
+    report.claim((code, requeued) == (3, ""), f"a failure: {code} {requeued} {err}")
+    os.rename(work.path("away.gltf"), work.path("small.gltf"))
+    for index in range(2):
+        code, requeued, err = run_task(work, job, index, "RUNNING")
+        report.claim((code, requeued) == (0, ""), f"the end: {code} {requeued} {err}")
+    done = subprocess.run(["sh", work.path(job, "merge.sbatch")], cwd="/", text=True,
+                          capture_output=True)
+    report.claim(done.returncode == 0, f"merge.sbatch: {done.stderr}")
+    report.claim(contents(work.path("frame.exr")) == work.whole(*LONG_RUN),
+                 "scripts: not the bytes of one run")
+    shutil.rmtree(work.path(job))
+
+
+def main():
+    report = Report()
+    with tempfile.TemporaryDirectory(prefix="job-") as folder:
+        work = Work(sys.argv[1], os.path.realpath(folder), report)
+        for check in (check_plain, check_cuts, check_stopped, check_script, check_damage,
+                      check_failures, check_manifests, check_schema, check_lines, check_submit):
+            check(work)
+    report.finish()
+
+
+if __name__ == "__main__":
+    sys.exit(main())
