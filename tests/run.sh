@@ -9,6 +9,7 @@ run 'headers compile alone' headers sh tests/structure/headers.sh
 run 'folders include what they may' layers python3 tests/structure/layers.py
 run 'the module is the file' modules python3 tests/structure/modules.py
 run 'sizes and contents of the sources' source python3 tests/structure/source.py
+run 'every source says its licence' spdx python3 tests/structure/spdx.py
 run 'the README names what is there' readme python3 tests/structure/readme.py
 run 'pages and comments point to what is there' pointers python3 tests/structure/pointers.py
 run 'no shell, one socket, no mapped file' calls python3 tests/structure/calls.py

@@ -114,7 +114,8 @@ def sampling_steps(observer):
     return cumulative
 
 
-HEAD = """/* Made by assets/spectra/make_spectral_table.py: change that, not this. */
+HEAD = """/* SPDX-License-Identifier: Apache-2.0 */
+/* Made by assets/spectra/make_spectral_table.py: change that, not this. */
 #include "spectrum/spectral_table.h"
 
 """
