@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # Writes the files of the folder INPUT as a table into OUTPUT: TABLE_table of {name, text} and
 # TABLE_count, as the header HEADER declares them.
 # cmake -DINPUT=assets/guides/*.md -DHEADER=cli/options/guides.h -DTYPE=Guide -DTABLE=guide

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """contact_sheet.py PARHELION SCENE.gltf OUT.png [RENDER OPTION...] -- a day's light on a page.
 
 Renders a scene under the clear sky from dawn to dusk (21 June, 48.14 N 11.58 E, heading 90

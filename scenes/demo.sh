@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: Apache-2.0
 # demo.sh -- from a fresh checkout to a picture: installs what is missing, builds, renders the
 # dashboard at noon and develops it. SIZE, SPP and NOISE in the environment change the render.
 set -eu

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """Draws what the displays show, sRGB code values as a panel receives them, into
 assets/content: cluster.png (1920x720) and centre.png (2560x1440) of car_dashboard.gltf; pfd.png
 and nav.png (1280x1024), engine.png, standby.png, cdu.png and windows.png of cockpit.gltf.

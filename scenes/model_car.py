@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Models the car interior and writes car_dashboard.gltf (.bin, textures/) beside itself.
 
     blender -b --python scenes/model_car.py

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Models the flight deck and writes cockpit.gltf (.bin) and its four light scenes.
 
     blender -b --python scenes/model_cockpit.py

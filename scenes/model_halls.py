@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """Makes the car's two halls, garage.gltf and tunnel_exit.gltf (.bin), beside itself.
 
     python3 scenes/model_halls.py

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """Makes the car's head-up display: car_hud.gltf (.bin) beside itself and what it shows,
 assets/content/hud.png.
 

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """Models the people of the two interiors and writes their glTF files beside itself.
 
     python3 scenes/model_occupant.py

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "shaders/bsdf.h"
 
 #define TABLE_ROW(KIND, name, Parameters) [BSDF_##KIND] = &name##_model,

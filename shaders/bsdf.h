@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* bsdf.h -- how one surface point scatters light, whatever its model.
  *
  * Frame    local: +z is the shading normal on the side of wo's surface (wo.z > 0 always holds

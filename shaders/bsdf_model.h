@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* bsdf_model.h -- what a surface model is to the rest of the program: its functions.
  *
  * Each model's file defines one const BsdfModel; the list in bsdf.h takes it in. `parameters`

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "shaders/clear_film.h"
 
 #include "base/mathf.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* clear_film.h -- one thin clear film on a body, at all lanes of a path: what soap, oxides and
  * pearl paints do (KHR_materials_iridescence).
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "shaders/coating.h"
 
 /* Between two neighbours of `count` nodes spaced evenly in sqrt(cosine). */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* coating.h -- what a coated boundary reflects and lets through, interpolated.
  *
  * Shares of light (unpolarised, but for panes) in [0, 1] over angle and wavelength (360 to 830

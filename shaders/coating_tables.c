@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "shaders/coating_tables.h"
 
 /* What lies behind a stack: a metal or, where that is NULL, clear glass. */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* coating_tables.h -- makes the tables of coated boundaries (coating.h) of their layers.
  *
  * Light is taken as unpolarised at each boundary; a sheet's two faces are added up for each

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "shaders/covered_lobe.h"
 
 #include <string.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* covered_lobe.h -- what GGX facets send out through a coat, and below a sheen, in all.
  *
  * Of light from w that the coat let in, a facet met at cosine d sends R(d) lobe(w, wi) to wi,

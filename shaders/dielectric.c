@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* dielectric -- lenses, light guides, thick covers, bottles: the boundary of a closed solid of
  * clear glass or plastic.
  *   ior    above 0, inside against outside; acrylic 1.49, polycarbonate 1.585, water 1.33

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* dielectric.h -- clear glass and plastic: the boundary of a solid.
  *
  * The user page is on top of dielectric.c, the parameters in solid_facet.h. Frame: bsdf.h.

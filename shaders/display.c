@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* display -- the reflection of a measured display panel.
  *
  * Instrument clusters, centre displays, cockpit displays: what sun, sky and cabin add to the

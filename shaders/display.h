@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* display.h -- light that a measured display reflects: its mirror, haze, lambertian part.
  *
  * The user page is on top of display.c. Frame: the display's own (panel.h). Units: bsdf.h.

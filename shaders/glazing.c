@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* glazed_window -- windscreens and other panes of several layers (PARHELION_glazing).
  *
  * Modelled as one sheet; what the pane's thickness does to light is worked out here:

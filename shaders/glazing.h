@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* glazing.h -- a laminated pane: two mirror images, light straight through, dirt.
  *
  * The user page is on top of glazing.c. Frame and units: bsdf.h.

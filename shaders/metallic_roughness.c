@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* metallic_roughness -- glTF 2.0's surface with specular, ior, clear coat, thin transmission.
  *
  * On a dashboard it is nearly everything: moulded plastic, leather, soft paint, woven cloth,

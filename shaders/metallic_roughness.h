@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* metallic_roughness.h -- glTF's surface: paint, plastic, cloth, leather, chrome, lacquer.
  *
  * The user page is on top of metallic_roughness.c. Frame and units: bsdf.h.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* metallic_surface.h -- what metallic_roughness is made of at one point of a surface.
  *
  * What each of them means to the picture: the user page on top of metallic_roughness.c.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* metallic_view.h -- metallic_roughness as one eye sees it.
  *
  * What eval, sample and lobes need of wo alone. One vertex of a path asks them several times:

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* polarisation.h -- what a boundary does to polarised light.
  *
  * Axes     of light that comes along wi and leaves along wo: x across the plane of both (where

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* sheen.h -- the lobe of fibres that stand up from cloth (KHR_materials_sheen), and what it
  * leaves of the light to what lies beneath.
  *

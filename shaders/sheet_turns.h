@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* sheet_turns.h -- a thin sheet between two like layers that throw its light back at it.
  *
  * Light that leaves the sheet on either side meets a layer, which holds back the share `held`

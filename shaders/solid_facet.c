@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "shaders/solid_facet.h"
 
 #include "spectrum/fresnel.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* solid_facet.h -- the boundary of a solid, and what one facet of it reflects and lets through.
  *
  * For dielectric.c and solid_loss.c. Bare, coated, filmed. Threads: pure functions.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* solid_loss.h -- what rough facets of a solid pass to one another, coming out at last.
  *
  * For dielectric.c, by the tables of facets/solid_energy.h, which d->energy must hold (where

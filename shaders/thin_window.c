@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* thin_window -- clear sheets without thickness: windscreens, side windows, instrument covers.
  *
  * Light passes straight (shadow rays pass too), and a mirror image shows on it.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* thin_window.h -- clear glass: a sheet without thickness.
  *
  * The user page is on top of thin_window.c. Frame and units: bsdf.h.

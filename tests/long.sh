@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: Apache-2.0
 # long.sh -- what takes too long for run.sh: every closed form, two hundred pairs of frames of
 # other noise, a hundred kills, every fault, thousands of broken models and panels under the
 # address sanitizer, five minutes of fuzzing, and the second compiler. Stopped, it goes on where

@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: Apache-2.0
 # run.sh -- every test that fits into a quarter of an hour; tests/long.sh has the rest.
 # Installs what is missing, builds, and ends with one line: "N passed, N failed".
 cd "$(dirname "$0")/.." || exit 1

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # steps.sh -- what run.sh and long.sh share: steps, each with a line of its own, and the count.
 # Sourced from the project's root.
 # shellcheck shell=sh

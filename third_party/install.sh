@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: Apache-2.0
 # install.sh -- installs what `packages` (beside this file) lists and this machine lacks.
 #
 #   third_party/install.sh          what the build needs

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # What is installed, where, and in which package. Every path below the prefix is relative to the
 # program (src/base/program.h), so that an installed tree may be moved as a whole. The library of
 # panels, where it is built, has rules of its own, which come first.

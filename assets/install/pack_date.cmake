@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # cpack reads this before it packs: every file in a package gets one time, so that the same
 # sources give the same bytes. SOURCE_DATE_EPOCH if it is set; the last commit's; or, without
 # git, that of the newest entry in `changelog`, beside this file.

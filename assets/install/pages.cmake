@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # The manual pages of every command and guide, and the completion for bash, into the folder
 # OUTPUT as an installation has them, all by the program itself:
 # cmake -DPROGRAM=... -DOUTPUT=... -P pages.cmake

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # Writes the text file INPUT as the C array NAME into OUTPUT:
 # cmake -DINPUT=... -DOUTPUT=... -DNAME=... -P embed.cmake
 # Letters are written as '\xNN', which suits a char of either sign.

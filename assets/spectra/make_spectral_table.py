@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Writes src/spectrum/spectral_table.c from the published CIE tables beside this script.
 
     python3 assets/spectra/make_spectral_table.py       (needs numpy; takes about a minute)

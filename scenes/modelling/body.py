@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The body outside: bonnet, cowl, sides, boot, tyres."""
 
 import numpy as np

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Doors, console and seats."""
 
 import numpy as np

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The picture of the centre display, 2560x1440 pixels: a map with guidance, media, climate."""
 import math
 import random

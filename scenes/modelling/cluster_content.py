@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The picture of the instrument cluster, 1920x720 pixels."""
 import math
 

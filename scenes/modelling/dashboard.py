@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The dashboard: pad, trim, instrument cluster, centre display, vents, climate, glovebox."""
 import math
 

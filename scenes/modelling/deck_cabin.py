@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Around the pilots: side consoles with sticks, seats, pedals, and the overhead panel."""
 import math
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The glareshield: coaming with its stitched edge, mode control panel, warning lights."""
 import numpy as np
 

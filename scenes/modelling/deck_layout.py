@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Where things are on the flight deck: shared planes and sizes.
 
 x to the right, y forward, z up, metres; z = 0 the floor, y = 0 the pilots' eyes.

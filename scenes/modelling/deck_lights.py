@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The flight deck's light scenes: skies by place and time; dim flood lights after sunset."""
 import json
 import math

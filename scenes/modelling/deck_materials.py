@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The flight deck's materials, beside the car's: painted metal panels, moulded plastics, an
 anti-glare coaming, engraved legends that glow faintly, glass of the windscreens."""
 from materials import (

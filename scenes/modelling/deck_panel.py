@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The main instrument panel: displays in their bezels, standby instrument, landing gear."""
 import math
 

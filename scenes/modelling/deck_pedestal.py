@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The centre pedestal: flight management keyboards, throttles, flap lever, trim, radios."""
 import math
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The flight deck's shell: windscreens in their posts, lining, ceiling, floor and the nose.
 
 Each half has three flat window facets between a sill line and a top line whose stretches are

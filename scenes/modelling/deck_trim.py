@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What fills the walls beside the pilots: a tablet in its mount, boxes, placards, gap lines."""
 import numpy as np
 from mathutils import Matrix

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """A seated person as solids: shirt, trousers, head, hair, hands and shoes in a given posture.
 
 Metres; x to the right from the person's middle, y up, z to the rear. Lengths are those of a

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """From Blender's meshes to the committed glTF: coordinates, export, materials, extensions."""
 import json
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What the flight deck's displays show: primary flight and navigation, 1280x1024 pixels."""
 import math
 

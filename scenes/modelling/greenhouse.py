@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Windscreen, mirrors, side windows, pillars, roof and rear."""
 import math
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What the head-up display shows: drawn as the driver sees it, then bent for its optics."""
 import math
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The optics of the car's head-up display: windscreen, one freeform mirror, a small picture.
 
 The mirror is a Cartesian surface: light from the picture's middle P0 that it throws at any

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Closed meshes: of the surface where a function of space is zero, and of folded sheets.
 
 The function takes points (n, 3) and gives about the signed distance in metres, negative inside.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Many small hard parts as few meshes: switches, knobs, screws, plates, engraved letters.
 
 A Kit collects triangles and quads by material and becomes one mesh a material at the end, so

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The car's materials as glTF metallic-roughness, with physically plausible values.
 
 Colours are linear Rec.709 reflectances. TILE says how many metres one tile of a material's

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The night scene: lamps, lit windows, tail lights and the cabin's faint ambient light.
 
 Only what shines is in night.gltf; what it shines on is in car_dashboard.gltf."""

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The street in front of the car: road, kerbs, houses, trees, lamps, traffic, hills.
 
 The car stands in its own lane (x -1.75 .. 1.75); the street runs along y."""

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Meshes as the buffer of a glTF, without Blender."""
 import json
 

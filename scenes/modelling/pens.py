@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Strokes and letters that both displays are drawn with (cairo).
 
 Lengths are pixels of the panel, y down; angles are degrees clockwise from 3 o'clock.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Shapes the car is made of, as Blender meshes.
 
 Frame: x to the right, y forward, z up, metres (the exporter turns it into glTF's +Y up, -Z

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
 """Makes the noon scene: noon_sky.exr (512x256, equirectangular, cd/m2) and noon.gltf.
 
 A clear sky (CIE standard general sky 12: gradation a = -1, b = -0.32, scattering c = 10,

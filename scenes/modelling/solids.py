@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Signed distances, about, of the solids that a figure is made of, and ways to join them.
 
 Points are (n, 3) in metres; a distance is negative inside.

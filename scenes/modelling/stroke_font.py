@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Letters as an engraver cuts them: strokes on a grid 4 wide and 6 high, unit cap height."""
 
 # Each glyph: polylines of two-digit points (column, row), a space between polylines.

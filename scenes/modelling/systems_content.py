@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What the flight deck's other displays show: engines, standby, keyboards and windows."""
 
 from flight_content import (

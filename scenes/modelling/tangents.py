@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Tangents for brushed surfaces: glTF tells the grooves' direction from them."""
 import os
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Textures of the car's materials, made from noise with numpy and written as PNG.
 
 Every texture tiles. Colours are sRGB, normal maps linear with +Y up (glTF's convention).

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The steering wheel, its column, stalks and paddles."""
 import math
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The car's windscreen as a formula: for the modelling and for the head-up display's optics.
 
 Frame as shapes.py: x to the right, y forward, z up, metres.

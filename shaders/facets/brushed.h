@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* brushed.h -- GGX of a surface that is rougher along one direction than across it.
  *
  * Local frame with +z the normal; directions leave the surface. alpha: roughness along the

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* brushed_axes.h -- how directions above a brushed boundary stand in tables.
  *
  * Of alphas far below 1 only ratios matter: of the two, and of the cosine to the alpha along

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "shaders/facets/brushed_loss.h"
 
 #include "shaders/facets/brushed_axes.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* brushed_loss.h -- what the facets of a brushed solid's boundary pass to one another.
  *
  * solid_energy.h's shares where both alphas differ: by the alphas, cosine and azimuth, on the

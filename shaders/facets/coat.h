@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* coat.h -- what a lacquer lets through to a rough base and out again, tabulated.
  *
  * Light that a base sends up meets the lacquer from inside; what does not get out comes back

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* common_tables.h -- the tables of glTF's default index of refraction, made with the program.
  *
  * Nearly every material has the index 1.5, a lacquer always. Their tables (energy.h, coat.h)

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* energy.h -- how much light a rough reflecting boundary sends back in all, tabulated.
  *
  * For the GGX boundary of one index of refraction: the directional albedo with reflectance 1

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "shaders/facets/index_tables.h"
 
 #include "shaders/facets/common_tables.h"

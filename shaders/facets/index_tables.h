@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* index_tables.h -- the tables of energy.h for any index of refraction, most of them at once.
  *
  * Only the Fresnel curve's shape depends on the index. It is computed when the program is built

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* lobe_facets.h -- the facets that a rough boundary's lobe meets, as a few that stand for all.
  *
  * What GGX facets of roughness alpha (brushed.h) send back of light from one direction is the

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* lost_facets.h -- what a solid's rough boundary loses of light from a direction, and by which
  * facets. For solid_energy.h and brushed_loss.h.
  */

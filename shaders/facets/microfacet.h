@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* microfacet.h -- GGX: how a rough boundary's facets are turned, hidden and chosen.
  *
  * Local frame with +z the normal; directions leave the surface. Isotropic roughness `alpha`

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* solid_energy.h -- what the facets of a closed solid's rough boundary pass to one another.
  *
  * A GGX boundary of single facets (dielectric.c) reflects and refracts less than it gets: light

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "shaders/tables/lobe_facets_build.h"
 
 #include <stddef.h>

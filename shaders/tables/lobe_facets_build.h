@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* lobe_facets_build.h -- computes the table of lobe_facets.h.
  *
  * Memory   from the arena, 1.2 MB.  Threads  any.  Fails  never. It takes some seconds: the

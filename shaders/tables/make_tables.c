@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* make_tables FILE -- writes, as C, the tables that common_tables.h, index_tables.h,
  * lobe_facets.h and sheen.h promise. The build runs it once; each number is written exactly. */
 #include <stdio.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "shaders/tables/sheen_build.h"
 
 #include "base/units.h"

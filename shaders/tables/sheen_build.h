@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* sheen_build.h -- how sheen.h's table is made (tables/make_tables.c).
  *
  * energy: of the boundary whose facets lie beneath, and of the coat above. The table is the

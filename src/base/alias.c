@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "base/alias.h"
 
 /* Vose's two stacks: slots poorer than average are filled up from richer ones. Scratch is

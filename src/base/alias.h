@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* alias.h -- chooses one of n by weight in constant time (Walker 1977, Vose 1991).
  *
  * Memory   tables come from the arena. Threads: const after alias_build.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* arena.h -- hands out zeroed memory that is released all at once.
  *
  * Memory   arena_reserve maps address space; pages cost nothing until they are touched.

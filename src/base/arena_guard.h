@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* arena_guard.h -- lets the address sanitizer see what is read or written behind an arena's
  * allocations. Private to arena.c.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "base/calendar.h"
 
 bool calendar_is_leap(int year)

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* calendar.h -- the months of the Gregorian calendar.
  *
  * Units    months and days count from 1.  Threads  pure functions.  Fails  never.

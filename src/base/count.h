@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* count.h -- how many elements an array has, as an int. Not for pointers. */
 #pragma once
 #include <stddef.h>

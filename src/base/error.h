@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* error.h -- carries one failure, with its context, back to the command line.
  *
  * A function that can fail returns bool and takes `Error *err` last. On false, *err is

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* file.h -- reads whole files, and takes their names apart.
  *
  * Memory   what is read lies in the arena that is passed in, with a zero byte behind it.

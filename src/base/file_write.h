@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* file_write.h -- writes files so that a half-written one never shows: a file is seen when it
  * is whole and on the disk.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* mathd.h -- elementary functions in double precision whose bits depend on no library and no
  * CPU: what mathf.h is for floats, for tables that are made before the first ray.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* mathf.h -- elementary functions whose bits depend on no library and no CPU.
  *
  * A frame must be the same on every machine; libm's sinf, expf ... are not (glibc versions

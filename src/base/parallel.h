@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* parallel.h -- does many small pieces of work with several threads.
  *
  * The workers take items off one atomic counter, so that a slow item holds nobody up. The

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* problems.h -- collects everything that is wrong with the user's files, not just the first.
  *
  * Memory   the list grows in its arena. Threads: one thread at a time.

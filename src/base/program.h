@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* program.h -- what belongs to the program and lies in files: where, seen from the program.
  *
  * A build keeps it beside the program, an installation in folders of its own; either may be

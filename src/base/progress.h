@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* progress.h -- tells a waiting person how far long work has come.
  *
  * On a terminal a bar with percent, rate, elapsed and remaining time; in a pipe, a file or a

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* reference.h -- where a path leads that stands inside a file, and how far it may lead.
  *
  * Whoever sends a scene or a measurement set must not be able to make the program read what

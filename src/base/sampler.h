@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* sampler.h -- the random numbers of one sample of one pixel.
  *
  * Owen-scrambled Sobol points, two dimensions at a time, with the order of the points shuffled

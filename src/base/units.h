@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* units.h -- the canon of units, and the conversions at its borders.
  *
  * Inside the program: metre, radian, nanometre (names end in _nm), spectral radiance in

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* vec.h -- vectors, affine transforms and orthonormal frames of three dimensions.
  *
  * Frames of reference are named destination-from-source (`world_from_camera`).

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* bvh.h -- where a ray hits: the only wrapper of Embree (3 or 4).
  *
  * Memory   owns Embree's device and scene; positions and triangles stay the Scene's, which must

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* embree_version.h -- what differs between Embree 3 and 4, in one place.
  *
  * EMBREE_MAJOR comes from the build. Only the two inline queries and the context type below are

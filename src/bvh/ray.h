@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* ray.h -- a ray, and where it met a triangle. Metres, world space. */
 #pragma once
 #include <stdint.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "camera/camera.h"
 
 #include "base/mathf.h"

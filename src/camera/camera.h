@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* camera.h -- a film position becomes a ray.
  *
  * Frame    glTF's camera: looks along -Z, +Y up; film x to the right, y down, (0,0) the upper

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "camera/film_box.h"
 
 #define NEAREST_M 1e-3f /* what reaches nearer to the eye, or behind it, is cut off there */

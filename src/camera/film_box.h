@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* film_box.h -- where on the film a part of the scene is seen, such as a display.
  *
  * Units    pixels of the whole frame, from its upper left corner.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* parhelion check: what is in a scene, and everything that is wrong with it. */
 #include <stdio.h>
 #include <string.h>

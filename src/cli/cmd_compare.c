@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* parhelion compare: are two frames, pictures or folders of them the same? */
 #include <stdio.h>
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* parhelion develop: from a frame to a picture that people look at. */
 #include <stdio.h>
 

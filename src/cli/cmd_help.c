@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* parhelion help: the commands and the guides, or one of them. */
 #include "cli/cmd_help.h"
 

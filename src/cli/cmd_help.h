@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* cmd_help.h -- what `parhelion`, `parhelion --help` and `parhelion help` print alike. */
 #pragma once
 #include <stdio.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* parhelion measure: figures of a part of a frame, or the illuminance at a point of a scene,
  * with their 95 % intervals. */
 #include <math.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* parhelion part: one part of a job that `render --slurm` shared out, wherever the folder is.
  *
  * It may be run any number of times, also twice at once: the part's file appears whole or not

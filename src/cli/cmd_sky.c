@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* parhelion sky: draws a sky and tells its figures. */
 #include <math.h>
 #include <stdio.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* parhelion status: how far a job is that `render --slurm` shared out, and what is left. */
 #include <stdio.h>
 #include <string.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* commands.h -- the sub-commands: what main.c runs and `parhelion help` lists. */
 #pragma once
 #include "cli/options/command.h"

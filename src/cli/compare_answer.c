@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* What `parhelion compare` says to people. */
 #include <math.h>
 #include <stdio.h>

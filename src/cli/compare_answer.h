@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* compare_answer.h -- the answer of `parhelion compare` as text for people.
  *
  * Threads  one at a time. Fails: never; who prints looks at stdout at the end.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* compare_request.h -- what was asked of `parhelion compare`.
  *
  * Memory   texts are the command line's or the arena's. Threads: one at a time.

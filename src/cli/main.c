@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* parhelion: physically correct frames of dashboards with measured displays.
  * The sub-commands stand in commands.c; the exit status is the code of the error. */
 #include <errno.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* material_list.h -- the materials of a scene as somebody sees them who looks for its screens:
  * where each is worn, how large it is, and whether it looks like a screen.
  *

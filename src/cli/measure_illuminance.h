@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* measure_illuminance.h -- `parhelion measure --illuminance`: a luxmeter at a point of a
  * scene. */
 #pragma once

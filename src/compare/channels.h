@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* channels.h -- every channel of two sides, value by value: what differs, what is no number.
  *
  * NaN and infinity in light are a fault on whichever side, even on both. In layers of the first

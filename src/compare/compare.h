@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* compare.h -- are two frames or pictures the same, given their noise?
  *
  * What is different whatever the limits: sizes, windows, channels, metadata that decides what

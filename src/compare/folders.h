@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* folders.h -- two folders matched by the names of the pictures in them.
  *
  * Memory   names come from the arena that is passed in. Threads: one thread at a time.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* input.h -- one side of a comparison: a frame of light or a finished picture.
  *
  * A frame is an OpenEXR file, in cd m^-2; a Radiance picture or a TIFF of floats is taken for

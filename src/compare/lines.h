@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* lines.h -- a list of texts that grows: reasons, notes, names of files.
  *
  * Memory   the list and its texts grow in its arena. Threads: one thread at a time.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* metadata.h -- the attributes of two frames side by side, and what a comparison leaves out.
  *
  * Memory   texts come from the arena that is passed in. Threads: pure. Fails: never.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "compare/metadata_report.h"
 
 #include <ctype.h>

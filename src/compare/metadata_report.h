@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* metadata_report.h -- differences of metadata in words: one line, however many they are.
  *
  * Memory   the lines' arena. Threads: one at a time. Fails: never.

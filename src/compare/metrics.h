@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* metrics.h -- computes what a comparison asks for: metrics, their maps, contrasts, the test.
  *
  * Memory   from the arena that is passed in.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* picture_bands.h -- two large pictures of codes, compared in bands of rows.
  *
  * A band has as many rows around it as a filter reaches, so that no value depends on where it

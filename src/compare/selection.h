@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* selection.h -- which pixels count: a mask, a region, a display, a data window.
  *
  * Layout   one byte a pixel of the display window, 0: left out.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* structure.h -- what two sides are made of: sizes, windows, channels, metadata.
  *
  * Differences that change what the picture shows are reasons to fail; those that explain it

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* thresholds.h -- the metrics of a comparison by name, and the limits that a user sets.
  *
  * Threads  pure functions. Fails: never.

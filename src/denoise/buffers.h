@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* buffers.h -- what the filter works on: a frame's layers, taken apart so that what is filtered
  * is smooth.
  *

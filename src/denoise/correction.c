@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "denoise/correction.h"
 
 #include <math.h>

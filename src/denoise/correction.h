@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* correction.h -- gives back what the filter took away and noise cannot have been.
  *
  * Threads  as many as asked; the same bits for any number.

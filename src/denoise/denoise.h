@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* denoise.h -- a frame without most of its noise, for a picture to look at.
  *
  * Never for figures: what is measured, compared or judged is the frame itself. README.md says

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* fireflies.h -- single pixels that one rare sample made far too bright.
  *
  * Threads  one; the buffers are changed in place.

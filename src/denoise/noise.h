@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* noise.h -- how noisy each pixel's light is, from its own samples and its halves.
  *
  * Threads  one; the buffers are changed in place.

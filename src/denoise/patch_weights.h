@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* patch_weights.h -- how alike the pixels around are: non-local means over patches.
  *
  * One half's light gives the weights with which the other is filtered, so that noise does not

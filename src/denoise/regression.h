@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* regression.h -- light as a linear function of features, in a window of pixels.
  *
  * Weighted first-order regression; a fit counts for every pixel of its window, not for the

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* selection.h -- of a wide and a narrow filter, each pixel's better one.
  *
  * What a filter made of one half of the samples is held against the other half, whose noise it

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* film.h -- adds samples up exactly into a linear image and its layers.
  *
  * Units    CIE XYZ with Y in cd m^-2; row 0 at the top; the crop is half-open.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* film_add.h -- films added to each other.
  *
  * All sums are whole numbers: any order of adding gives the same bits.

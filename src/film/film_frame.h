@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* film_frame.h -- the film as a frame: means of the sums, channel by channel.
  *
  * Memory   the frame lies in the arena.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* film_merge.h -- whether the parts of a frame make a whole.
  *
  * Memory   scratch alone.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* film_part.h -- the film's exact sums as a second part of a frame's file, and back.
  *
  * A frame holds means in single precision, which cannot be added up exactly. So a frame that

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* film_sample.h -- what a film takes: samples, layers, rectangles. Units and ranges: film.h. */
 #pragma once
 #include <stdbool.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* film_state.h -- rows of the film's exact sums as packed bytes, and back.
  *
  * A pixel is a row of 16-byte numbers (pixels.h), most of whose upper bytes repeat their sign.

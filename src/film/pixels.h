@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* pixels.h -- how the film keeps a pixel; private to src/film.
  *
  * A pixel is a fixed part and then the sums of the layers that are kept, in the order of

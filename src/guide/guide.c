@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* HOT: runs at every vertex of a path. No allocation, no lock, no libm. */
 #include "guide/guide.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* guide.h -- from where light comes, learnt for parts of the space: a field of directions that
  * paths are led by.
  *

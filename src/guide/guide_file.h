@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* guide_file.h -- a guide as a file, and as a number that tells it from others.
  *
  * The file: a head (magic, version, counts, hash), the tree's nodes, then every cell's bins,

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* guide_training.h -- a guide learns, cell by cell, from where light comes.
  *
  * First the places are told that paths from the camera come by: they make the tree, whose cells

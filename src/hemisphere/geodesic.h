@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* geodesic.h -- the hemisphere cut into spherical triangles: the upper half of an octahedron.
  *
  * Level 0 is 4 octants, level i has 4^(i+1) triangles: every triangle (a, b, c) splits at the

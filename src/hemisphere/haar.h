@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* haar.h -- the Haar-like wavelet transform on the triangles of the hemisphere.
  *
  * The transform of the ELDIM paper: a father's mean m replaces the value of its central child

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* rows.h -- rows of 8- and 16-bit integers to vectors of floats, for tree sums. HOT. */
 #pragma once
 #include <stdint.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "hemisphere/specular_frame.h"
 
 #include "base/mathf.h"

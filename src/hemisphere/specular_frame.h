@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* specular_frame.h -- hemisphere coordinates in which a reflection's peak stands still.
  *
  * The "distorted disk": light comes from azimuth 180 degrees (-x) at theta_i, so that the

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* surface_frame.h -- hemisphere coordinates in which a reflection's lobe stands still that
  * belongs to the surface: brushed metal, a film with a structure.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* tree.h -- a vector-valued function on the hemisphere as a compressed tree.
  *
  * Two bases stand behind one view: Haar trees (this header) and vertex trees (vertex_tree.h).

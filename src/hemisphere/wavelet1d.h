@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* wavelet1d.h -- wavelet transforms of short rows of numbers, such as spectra.
  *
  * By lifting (Sweldens 1996), with mirrored boundaries, for any length. Every step halves the

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* adapt.h -- one exposure for a dark cabin and a bright street: local adaptation.
  *
  * Each pixel is darkened by what its surroundings are brighter than middle grey, as an eye that

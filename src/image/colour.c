@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "image/colour.h"
 
 static double determinant(const ColourMatrix *a)

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* colour.h -- changes between colour spaces that are told by their primaries.
  *
  * Units    linear light; no chromatic adaptation: a colour keeps its XYZ.

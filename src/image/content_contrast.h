@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* content_contrast.h -- the contrast of what a picture shows: characters on their ground.
  *
  * The pixels' luminances are split where the two halves differ most from each other and least

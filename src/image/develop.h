@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* develop.h -- makes a picture that people can look at from a frame.
  *
  * Units    frames in cd m^-2 (frame.h); pictures in code values.

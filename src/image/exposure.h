@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* exposure.h -- how much light becomes middle grey.
  *
  * Units    luminance in cd m^-2; EV is the photographic exposure value at ISO 100.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* false_colour.h -- shows numbers as colours, with the scale drawn beside the picture.
  *
  * Units    the numbers' own; their unit stands above the scale.

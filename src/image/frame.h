@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* frame.h -- a frame: named float channels over a data window, and a note of what made it.
  *
  * Units    R, G, B linear Rec.709/D65 in cd m^-2; the other channels as the table says.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* icc_profile.h -- a small ICC profile that says what a picture's code values mean.
  *
  * Memory   the bytes come from the arena. Threads: a pure function. Fails: never.

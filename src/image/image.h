@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* image.h -- pixels with named channels and a unit.
  *
  * Layout   row 0 at the top, pixels left to right, channels interleaved.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* layer_view.h -- how each layer of a frame is looked at.
  *
  * Memory   planes and pictures come from the arena that is passed in.

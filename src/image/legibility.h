@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* legibility.h -- how well a display can be read, pixel by pixel, from one frame.
  *
  * All figures follow from what a frame keeps of its displays (frame.h): what the panel would

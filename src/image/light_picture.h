@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* light_picture.h -- a picture of surroundings as light: pixels in cd m^-2, by what its file
  * says of its own scale and colours.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* measure.h -- figures of a part of a frame, with how sure they are.
  *
  * Units    luminance in cd m^-2; CIE 1931 x, y and CIE 1976 u', v'.

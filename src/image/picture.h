@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* picture.h -- a finished picture of code values, and its way into a file.
  *
  * Units    code values of some display, 0 .. 1; what lies outside is cut off when written.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* plain_png.h -- decodes the commonest pictures at once: PNG files of 8 bits that are grey or
  * RGB, with or without alpha, not interlaced, without a palette or a transparent colour.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* srgb.h -- the transfer function of sRGB, both ways (IEC 61966-2-1).
  *
  * Units    codes and display-referred linear light, both in [0, 1].

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* stroke_font.h -- writes numbers and units into a picture, smooth at any size.
  *
  * Letters are strokes on a grid, drawn with a round pen. There are the figures, small letters

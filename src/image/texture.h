@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* texture.h -- looks a texture up at a point.
  *
  * uv       glTF's: u to the right, v down, (0,0) the outer corner of the first texel.

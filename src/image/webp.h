@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* webp.h -- decodes WebP pictures, lossy and lossless, not animated.
  *
  * The library for all pictures (openimageio/image_file.h) would multiply the colours by alpha

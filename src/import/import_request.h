@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* import_request.h -- everything that a user asks of an import, on the command line or in a
  * file of options that a laboratory writes once.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* importers.h -- one row a foreign format; each stands in the file of its name.
  */
 #pragma once

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* primaries.h -- spectra of the primaries: a column of wavelengths, one each for red, green and
  * blue, and one for black if it was measured.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* kernel.h -- the hot part of the program, built once for each instruction set.
  *
  * Everything between a tile and its film samples (KERNEL_SOURCES of the build) is compiled for

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* probe.h -- what one eye sees of one surface, asked outside a frame: by the light that is
  * there now, or as a response to light from any direction. A luxmeter may stand in the eye's
  * place.

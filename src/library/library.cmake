@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # libparhelion-panel: the measured panel for other renderers (src/library). Its sources are
 # compiled once more, as a library that may lie anywhere in memory wants them, with nothing but
 # the calls of parhelion_panel.h to be seen from outside; nothing is linked but the C library.

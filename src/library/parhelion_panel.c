@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* What other programs call, over src/panel/query. */
 #include "library/parhelion_panel.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* parhelion_panel.h -- libparhelion-panel: what a measured display emits and reflects, for any
  * renderer. C99 to C23 and C++; no foreign types.
  *

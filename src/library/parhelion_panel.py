@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Measured displays for other renderers: what a .panel file emits and reflects.
 
     import numpy, parhelion_panel

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """viewing_cone.py PANEL [-o OUT.png|OUT.svg] [--code R,G,B] -- draws how a display shines into
 its viewing cone: every direction of the hemisphere is a place of a disc, the normal in the
 middle, the horizon around it, right to the right and up on top as someone facing it sees them.

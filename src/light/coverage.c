@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "light/coverage.h"
 
 void coverage_texel(const Scene *scene, const Material *material, const Hit *hit,

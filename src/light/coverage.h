@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* coverage.h -- how much of a triangle is there: its base colour's texel, and alpha. */
 #pragma once
 #include "light/emission.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "light/emission.h"
 
 #include "panel/query/panel_emission.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* emission.h -- what a triangle sends out at one point, in one direction.
  *
  * Used where a ray hits an emitter and where one is sampled: the same numbers both times.

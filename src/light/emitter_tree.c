@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Before the first path: the tree of emitters, and the directions of displays. */
 #include "light/emitter_tree.h"
 

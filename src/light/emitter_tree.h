@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* emitter_tree.h -- gathers the cells of emitters into a tree. Private to src/light. */
 #pragma once
 #include "light/emitters.h"

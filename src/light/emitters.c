@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* HOT: choosing a point of an emitter. No allocation, no lock, no libm. */
 #include "light/emitters.h"
 

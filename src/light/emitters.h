@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* emitters.h -- emissive triangles and displays as lights, chosen by what they send where.
  *
  * Every emissive triangle is cut into cells, as many as its texture or content deserves. Cells

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Before the first path: cells of emitters, their light, and the tree they are gathered in. */
 #include "light/emitters_build.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* light.h -- everything that emits: choose a point of light and tell its pdf.
  *
  * Lights come in four sets, each sampled by its own rule: the sun (its disc), the environment

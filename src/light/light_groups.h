@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* light_groups.h -- which lights of a scene are one to those who ask where light comes from.
  *
  * A group is the sun (or the moon), the sky, the lamps of one name, the emitting surfaces whose

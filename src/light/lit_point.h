@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* lit_point.h -- a point that is lit, as far as lights ask. */
 #pragma once
 #include "base/vec.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "light/opening.h"
 
 /* A point of the unit body and its normal; both are on the opening's own axes. */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* opening.h -- points of a luminous opening, as they are seen from somewhere.
  *
  * Frame    the luminaire's. Threads: const.

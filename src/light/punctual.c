@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* HOT: choosing a lamp. No allocation, no lock, no libm. */
 #include "light/punctual.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* punctual.h -- lamps without a surface that a ray could hit: chosen by what they give a point.
  *
  * A few lamps are all asked what they give. Many lie in a tree whose nodes have up to 16

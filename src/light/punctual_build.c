@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Before the first path: lamps are gathered into a tree. */
 #include "light/punctual_build.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* punctual_build.h -- before the first path: the tree of lamps. */
 #pragma once
 #include "light/punctual.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "light/sky.h"
 
 #include "base/mathd.h"

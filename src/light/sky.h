@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* sky.h -- what lies beyond the scene: the sky (constant, a picture or a model) and the sun.
  *
  * Compass  azimuth runs from north over east. At heading h the vehicle's forward vector points

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* sky_model.h -- a computed sky (sky/daylight.h) as a light: looked up, and sampled by
  * luminance.
  *

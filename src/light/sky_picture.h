@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* sky_picture.h -- an equirectangular picture as the sky (HDRI).
  *
  * The left edge is north, the centre south (with no rotation, +Z of the scene, +X to its left:

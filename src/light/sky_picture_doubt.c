@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "light/sky_picture_doubt.h"
 
 #include <math.h>

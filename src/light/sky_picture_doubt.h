@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* sky_picture_doubt.h -- does a picture of surroundings light the scene as what it shows would?
  *
  * Most pictures that are shared as HDRIs have no absolute scale: a sunset of 2 lx beside a

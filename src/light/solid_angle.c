@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* HOT: points of an emitter that is near. No allocation, no lock, no libm. */
 #include "light/solid_angle.h"
 

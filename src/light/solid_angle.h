@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* solid_angle.h -- a triangle as a point sees it: a uniform choice among the directions to it.
  *
  * Units    solid angle in sr. Threads: plain values.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* HOT: sub-pixels. No allocation, no lock, no libm. */
 #include "light/subpixels.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* subpixels.h -- a display's sub-pixels, as an eye sees them that comes close: the scene's, or
  * the panel's where the scene says nothing.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "live/tev_packets.h"
 
 #include <stdint.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* tev_packets.h -- a frame in the packets that the viewer tev takes over TCP, and others who
  * speak like it.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* time_share.h -- keeps what is done again and again from taking more than a share of the time.
  *
  * Units    seconds of the monotonic clock.

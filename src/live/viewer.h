@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* viewer.h -- somebody who watches a frame while it is made, elsewhere or on this machine.
  *
  * A viewer must never cost a render more than moments: what it does not take at once waits, and

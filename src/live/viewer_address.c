@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "live/viewer_address.h"
 
 #include <stdlib.h>

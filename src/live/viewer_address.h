@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* viewer_address.h -- where a viewer waits: HOST or HOST:PORT as a user types it.
  *
  * HOST is a name, an IPv4 address or an IPv6 address in brackets; PORT is 1 to 65535.

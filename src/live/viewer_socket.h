@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* viewer_socket.h -- the only part of the program that talks to another one: bytes go out to a
  * viewer that waits somewhere, and none are ever read.
  *

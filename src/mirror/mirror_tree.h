@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* mirror_tree.h -- the trees in which a scene's mirrors stand. What others
  * ask of them stands in mirrors.h.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* mirrors.h -- the smooth surfaces of a scene, in order, to find what they reflect.
  *
  * A mirror is a triangle whose material sends part of the light on by a smooth boundary about

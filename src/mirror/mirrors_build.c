@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "mirror/mirrors_build.h"
 
 #include "base/mathf.h"

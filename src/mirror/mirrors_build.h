@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* mirrors_build.h -- the mirrors' trees over boxes and bounds of normals.
  *
  * Memory   from the arena.  Threads  one caller.  Fails  never.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* With d from the lit point to the mirror, n its normal of any length and s towards the light,
  *
  *     F = (n.n) d - 2 (n.d) n

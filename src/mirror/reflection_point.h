@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* reflection_point.h -- where on a triangle does light from one direction turn towards a point?
  *
  * The triangle is flat, its mirror normal is the interpolated one: none, one or some points of

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* page.h -- one self-contained HTML page: what all reports have in common.
  *
  * A page opens anywhere: it asks no network, holds its pictures, is light or dark as the reader

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* What every report does: a link opens the closed part that it leads to, and paper shows closed
    parts too. Without script the reader opens them. The build embeds it (src/page/page.c). */
 (function(){

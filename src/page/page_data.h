@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* page_data.h -- numbers for a page's script, packed.
  *
  * Whole numbers of 1 to 4 bytes, as base64 of a zlib stream (RFC 1950) of their bytes in

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "path/cell_lamps.h"
 
 #include <math.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* cell_lamps.h -- which lamps light a guide's cell, and how much of each one's light arrives.
  *
  * Samples of lamps as they are drawn where nothing is known tell of each lamp what it would

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* cell_lights.h -- how often a guide's cells ask each set of lights.
  *
  * Once a cell knows from where light comes, points of it are lit by one sample of every set, as

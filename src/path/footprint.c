@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* HOT: footprints. No allocation, no lock, no libm. */
 #include "path/footprint.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* footprint.h -- what a frame's pixel covers along a ray that mirrors and clear glass turn.
  *
  * Ray differentials (H. Igehy, Tracing Ray Differentials, SIGGRAPH 1999): by how much the ray's

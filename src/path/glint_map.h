@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* glint_map.h -- how much light landed where, on which side of which part.
  *
  * Light is counted in cubes of two sizes, a fine one for small glints and one eight times as

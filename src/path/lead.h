@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* lead.h -- how a vertex of a path looks for light: by its surface, by a guide, or by both.
  *
  * Where the surface scatters widely and there is a guide, a direction is the guide's choice

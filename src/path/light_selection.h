@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* light_selection.h -- how often each set of lights is worth a sample, by parts of the scene.
  *
  * Before the first path a few points of every part are lit by every set, shadows included. A

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* mirror_beams.h -- which mirrors send the sun to which part of the scene, and how much.
  *
  * Before the first path some rays of the sun are followed to every mirror, and by it to what

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* path_context.h -- what all paths of a scene share.
  *
  * Threads  const once built (path.h).

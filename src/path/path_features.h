@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* path_features.h -- what the layers of a frame show of the first surface of a path. */
 #pragma once
 #include "path/path.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* path_light.h -- what a path has found so far.
  *
  * Threads  a plain value.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "path/polarised.h"
 
 #define NO_PLANE 1e-6f /* squared sine: below, s and p differ by no more */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* polarised.h -- how light along a path must be polarised to count.
  *
  * The eye measures one number: behind polarising glasses a weighted sum of the four Stokes

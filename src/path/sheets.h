@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* sheets.h -- sheets that lie in one plane: which of them a ray meets first.
  *
  * A sheet is a triangle that may let light through (MASK, BLEND, thin windows). Modellers lay

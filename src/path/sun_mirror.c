@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "path/sun_mirror.h"
 
 /* A normal that was bent towards the eye moved by more than its square. */

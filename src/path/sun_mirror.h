@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* sun_mirror.h -- sunlight by way of one mirror, as a light sample.
  *
  * Light that goes sun, mirror (src/mirror), surface that spreads it, was found by whoever

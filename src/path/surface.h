@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* surface.h -- a hit becomes a surface: where it is, how it scatters, what it emits.
  *
  * The only place where textures and materials of the scene turn into a Bsdf.

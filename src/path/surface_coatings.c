@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "path/surface_coatings.h"
 
 #include <string.h>

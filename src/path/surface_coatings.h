@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* surface_coatings.h -- the tables of a scene's coated materials and measured metals.
  *
  * Memory   from the arena, one set of tables for materials that are coated alike.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* sky_plot.h -- a picture of a sky: the dome as a chart, the panorama, the sun's way, a scale.
  *
  * The chart is a plan: north on top, east on the right, the zenith in the middle, the rim the

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* checkpoint.h -- keeps what a render has done in a file, from which it goes on bit for bit.
  *
  * File     all numbers little endian:

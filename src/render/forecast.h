@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* forecast.h -- how many samples a wanted relative error will take.
  *
  * The error of equal samples falls with the square root of their count. What is measured of it

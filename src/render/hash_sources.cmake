@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # Writes the C file OUTPUT with a number that changes with everything that decides a pixel:
 # cmake -DROOT=... -DOUTPUT=... -P hash_sources.cmake
 set(folders base text spectrum hemisphere sky image panel scene bvh light mirror guide camera path film

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* identity.h -- what decides the light of a scene, as text: two that are equal give the same
  * samples, so that what was traced for one may stand for the other.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* illuminance.h -- a luxmeter in a scene.
  *
  * Units    places in metres (world); results in lx.

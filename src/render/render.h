@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* render.h -- makes a film of a scene: passes, tiles, threads, stopping rule.
  *
  * A pass adds a few samples to every pixel: 1, 1, 2, 4 ... up to a number that depends on the

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* signals.h -- what the user or the batch system asks of a running render.
  *
  * The first INT, TERM or HUP asks it to stop after the pass in hand; a second one ends the

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "render/tiles.h"
 
 #define TILE_SIDE 16                /* pixels: a few milliseconds of work */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* tiles.h -- a rectangle of pixels cut into pieces of work, and what the workers count.
  *
  * Threads  each worker has its own WorkerCounts.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* train.h -- a guide learns the scene before the first sample that counts.
  *
  * Paths of a coarse raster over the whole frame, whatever the crop; always the same ones, so

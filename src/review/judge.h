@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* judge.h -- figures held against limits: margins and a verdict.
  *
  * A limit is kept when the whole 95 % interval of its figure keeps it, broken when the whole

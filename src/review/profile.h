@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* profile.h -- limits as data: what a standard, or a house, asks of what is to be read.
  *
  * A profile is a JSON file (assets/schemas/profile.md). Those of assets/profiles are inside the

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* profile_table.h -- the texts of assets/profiles, which the program carries.
  *
  * assets/embed_folder.cmake makes the table at build time, so a new profile needs no code.

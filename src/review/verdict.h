@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* verdict.h -- what a glare review says: of one symbol, seen by one eye under one condition; of
  * a sweep over many suns; of all of them.
  *

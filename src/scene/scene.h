@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* scene.h -- what the user described, as plain arrays with ids.
  *
  * Filled by scene_load (load/scene_load.h), checked once, then const. Elements refer to each

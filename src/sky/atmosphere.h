@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* atmosphere.h -- the clear sky as an observer sees it: an own spectral scattering atmosphere.
  *
  * Light scattered once is marched along every ray through a spherical, layered air (air.h);

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* daylight.h -- the sun and the sky of a place, a time and a weather, ready to be asked.
  *
  * Three kinds: CIE's general skies and Perez's (a shape times one spectrum, normalised by own

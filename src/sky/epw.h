@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* epw.h -- weather files of EnergyPlus: a place and the direct and diffuse light of every hour.
  *
  * Source    EnergyPlus, Auxiliary Programs: EPW data dictionary. Header line LOCATION, then

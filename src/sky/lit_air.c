@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "sky/lit_air.h"
 
 #include "spectrum/photometry.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* lit_air.h -- the atmosphere (atmosphere.h) under a beam of known spectrum: sun or moon.
  *
  * Frame     elevation from the observer's horizontal, azimuth from the beam's source, radians.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* moon_light.h -- how much of the sun's light the moon sends, and how its disc looks.
  *
  * Amount    V = -12.73 + 0.026 |a| + 4e-9 a^4 at 384400 km, a the phase angle in degrees

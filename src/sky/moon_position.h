@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* moon_position.h -- where the moon stands, how far it is and how much of it is lit.
  *
  * Source    Meeus, Astronomical Algorithms (1998), chapter 47: the 60 greatest terms each of

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Periodic terms of the moon's motion (Meeus, Astronomical Algorithms, second edition 1998,
  * tables 47.A and 47.B, after ELP 2000-82). */
 #include "sky/moon_position_tables.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* moon_position_tables.h -- the numbers of the lunar theory. Private to src/sky. */
 #pragma once
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* night.h -- what lights a clear night: the moon, its light in the air, and the background.
  *
  * The moon is a weak sun: its beam takes the sun's way through the same air (atmosphere.h), and

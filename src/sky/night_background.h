@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* night_background.h -- the moonless night sky: airglow, zodiacal light and integrated
  * starlight as one smooth background.
  *

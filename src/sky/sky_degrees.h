@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* sky_degrees.h -- what tables of astronomy are written in: degrees, from J2000 on.
  *
  * Threads  pure functions.  Fails  never.

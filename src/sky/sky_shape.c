@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "sky/sky_shape.h"
 
 #include <math.h>

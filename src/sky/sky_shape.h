@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* sky_shape.h -- how luminance is spread over a sky: CIE's general skies and Perez's.
  *
  * Both are a gradation over the zenith angle times an indicatrix over the angle to the sun,

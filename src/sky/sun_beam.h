@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* sun_beam.h -- the sun's direct light along its way through the layered air, above the horizon
  * and, for an observer in the air, below the horizontal.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* sun_disc.h -- the sun's disc as a source: its size, its edge, its spectrum.
  *
  * The irradiance on a plane that faces the sun is exact whatever the disc looks like: radiance

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "sky/sun_position.h"
 
 #include <math.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* sun_position.h -- where the sun stands: NREL's solar position algorithm (SPA).
  *
  * Source    Reda and Andreas, "Solar Position Algorithm for Solar Radiation Applications",

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Periodic terms of the Earth's motion (NREL/TP-560-34302, tables A4.2 and A4.3, after VSOP87
  * and the IAU 1980 nutation). */
 #include "sky/sun_position_tables.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* sun_position_tables.h -- the numbers of the solar position algorithm. Private to src/sky. */
 #pragma once
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* weather_clock.h -- which instant a row of a weather file belongs to, and the row of a moment.
  *
  * By the format's word a row holds the means of the hour that ends at its label: the sun stands

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* curve.h -- a measured spectrum over wavelength, ready for lookup.
  *
  * Unit     the quantity's own. Range 360..830 nm in steps of 1 nm, linear between; outside the

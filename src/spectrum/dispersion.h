@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* dispersion.h -- how the index of refraction of clear bodies falls with the wavelength.
  *
  * Cauchy's first two terms through the index at the d line (587.6 nm) and the Abbe number

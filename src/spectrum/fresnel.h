@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* fresnel.h -- how much a smooth boundary reflects.
  *
  * Reflectances are shares of the light, in [0, 1]; cosines are of the angle to the normal.

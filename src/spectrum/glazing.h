@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* glazing.h -- a laminated pane: its layers, its wedge, the dirt on it.
  *
  * The pane is one sheet of triangles without thickness; what stands here is what light would

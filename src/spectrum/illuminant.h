@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* illuminant.h -- light of a colour temperature.
  *
  * From 4000 K on CIE daylight (CIE 15: chromaticity and the components S0, S1, S2), below it a

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* intensity_web.h -- luminous intensity over all directions, as a luminaire file tells it.
  *
  * Bilinear between the file's angles. Type C (CIE 121, IES LM-63): gamma from the axis, C

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* luminous_opening.h -- the body or flat area out of which a luminaire shines.
  *
  * A box, an elliptic cylinder or an ellipsoid about the origin of the luminaire's frame

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* photometry.h -- from spectral radiance to what a person sees, and between colour spaces.
  *
  * Units    spectral radiance in W m^-2 sr^-1 nm^-1; XYZ in cd m^-2 (or any one unit).

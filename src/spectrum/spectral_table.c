@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Made by assets/spectra/make_spectral_table.py: change that, not this. */
 #include "spectrum/spectral_table.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* spectral_table.h -- what is known of every whole nanometre from 360 to 830.
  *
  * Everything here is linear between whole nanometres. Made from the published CIE tables by

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* spectrum.h -- 16 numbers of one quantity, one per wavelength of a path.
  *
  * A Spectrum is a compiler vector; +, -, *, / work lane by lane, also with itself. C has no

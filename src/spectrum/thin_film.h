@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* thin_film.h -- what a stack of thin layers between two media reflects and lets through.
  *
  * All waves between the boundaries are added up with their phases, for light polarised across

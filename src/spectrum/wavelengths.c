@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "spectrum/wavelengths.h"
 
 #include "spectrum/spectral_table.h"

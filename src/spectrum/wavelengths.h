@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* wavelengths.h -- the 16 wavelengths of one path, and what every lane needs to know of them.
  *
  * The wavelengths are one stratified set over 360..830 nm, moved by a single random offset and

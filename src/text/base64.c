@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "text/base64.h"
 
 void base64_encode(Text *text, const void *bytes, size_t size)

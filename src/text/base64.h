@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* base64.h -- bytes as text of 64 digits (RFC 4648), both ways.
  *
  * Memory   what is encoded grows the text; what is decoded goes to the caller's bytes.

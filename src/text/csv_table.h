@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* csv_table.h -- a table of finite numbers from a text file, with the line of every row.
  *
  * A header line of column names, then one row a line; commas (or semicolons or tabs) between

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* escape.h -- text inside languages that give some of its characters a meaning.
  *
  * Memory   the arena's, or that of the text that grows.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* json_text.h -- a text of any bytes, a number of any kind as a value of a JSON document.
  *
  * Memory   the caller's reference (jansson). Threads: no shared state.

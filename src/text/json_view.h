@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* json_view.h -- typed, checked reading of one JSON object of a user's file.
  *
  * Every error names the file, the JSON path, what was found and what was wanted; an unknown

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* nearest_word.h -- which known word somebody may have meant.
  *
  * Distances are Levenshtein's: letters put in, taken out or changed. Of two words that are

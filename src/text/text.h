@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* text.h -- a text that grows, for documents and tables.
  *
  * Memory   the arena's. While nothing else is taken from the arena the text grows where it

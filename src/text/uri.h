@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* uri.h -- takes URIs apart (RFC 3986) and decodes those that hold data (RFC 2397).
  *
  * Memory   what is decoded lies in the arena, with a zero byte behind it.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* utf8.h -- characters of UTF-8 (RFC 3629).
  *
  * Memory   what is returned lies in the arena that is passed in.

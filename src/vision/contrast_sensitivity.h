@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* contrast_sensitivity.h -- the least contrast that an eye can see.
  *
  * Source   P. G. J. Barten, "Formula for the contrast sensitivity of the human eye", Proc. SPIE

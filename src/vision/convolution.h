@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* convolution.h -- adds up convolutions of planes with kernels as large as they are:
  *
  *     out(x, y) = sum over terms of sum over (u, v) of light(u, v) kernel(x - u, y - v)

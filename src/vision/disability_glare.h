@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* disability_glare.h -- the veil that stray light inside the eye lays over what it looks at.
  *
  * Each function is the equivalent veiling luminance for one lux at the eye, sr^-1 (cd m^-2 per

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* discomfort.h -- figures of glare that disturbs without hiding anything. Secondary ones here:
  * they were fitted to rooms with windows and luminaires, not to cockpits in the sun.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* eye_filter.h -- a picture as it arrives on the retina: every pixel's light spread over the
  * others by the CIE's point spread (vision/eye_spread.h), by true angles.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* eye_spread.h -- how the eye spreads the light of a point over its retina.
  *
  * f(theta) is the luminance, seen at an angle from the point, for one lux that it brings to the

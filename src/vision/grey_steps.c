@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "vision/grey_steps.h"
 
 #include <math.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* grey_steps.h -- luminance counted in just noticeable differences.
  *
  * Source   DICOM PS3.14, Grayscale Standard Display Function: j = 1 .. 1023 steps from 0.05 to

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "vision/human_eye.h"
 
 #include <stdlib.h>

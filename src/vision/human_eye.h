@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* human_eye.h -- whose eye it is: what the spread of light inside it depends on.
  *
  * Units    years; pigment of the iris without a unit: 0 very dark, 0.5 brown, 1 green, 1.2

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* position_index.h -- how much less a glare source disturbs that is not looked at.
  *
  * 1 on the line of sight, more away from it, at most 16.

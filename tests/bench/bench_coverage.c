@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* bench_coverage RUNS REVIEW.json ... -- how often intervals of readings hold the converged
  * value: of each moment's first symbol as the first eye sees it, RUNS readings of other seeds
  * with so many paths each, and as many that end when a limit is clear. The converged value is

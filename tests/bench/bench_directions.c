@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* bench_directions.c -- errors between a panel's samples, at random directions.
  *
  *     bench_directions COUNT BOUND RECIPE.json X.panel

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* bench_hemisphere.c -- size and error of compressed hemispheres, and nanoseconds per query.
  *
  * Signals are functions with known values everywhere: a display's luminance over angle, the

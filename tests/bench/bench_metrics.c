@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* bench_metrics.c -- seconds of processor time of what compares two pictures, 1920 x 1080.
  *
  *     bench_metrics [RUNS]      one thread, fixed seeds, median and spread (least to most)

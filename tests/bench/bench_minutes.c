@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* bench_minutes PATHS EVERY REVIEW.json LIMIT ... -- minutes of a year in which the first
  * symbol, as the first eye sees it, has less contrast than each limit: of the first condition,
  * a year under clear skies at one level, for each of its headings; of EVERY so manyth day (1:

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* bench_panel.c -- nanoseconds of a panel's queries beside flat tables of uncompressed data.
  *
  *     bench_panel RUNS RECIPE.json X.panel     X.panel was fitted to the recipe's set

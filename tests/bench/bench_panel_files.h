@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* bench_panel_files.h -- a synthetic panel's closed form and the panel that was fitted to it.
  *
  * Memory   both come from the arena; the panel is closed by its caller.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* bench_statistic.c -- the statistical test of two frames, as one line of JSON.
  *
  * usage: bench_statistic REFERENCE.exr TEST.exr [LEVEL]

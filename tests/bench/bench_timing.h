@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* bench_timing.h -- the clock of the benches and the median of their runs.
  *
  * Units   seconds of processor time; the clock says whose: CLOCK_THREAD_CPUTIME_ID leaves other

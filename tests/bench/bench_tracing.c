@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* bench_tracing RUNS SCENE... -- how much of a render is ray tracing itself.
  *
  * Renders a frame with one thread, counts its rays by class, then replays the very same rays in

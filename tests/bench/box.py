@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """box.py OUT.gltf [CELLS] -- writes an interior of about a million triangles: a room of
 6 x 3 x 5 m whose Lambertian walls are bumpy everywhere, one window to a uniform sky, one panel
 of light under the ceiling, a camera named `eye`. Beside it goes OUT.bin. Standard library only.

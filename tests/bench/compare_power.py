@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """compare_power.py [--pairs N] [--frames N] [--only TEXT] [--climb SAMPLES] [--together N]
 PARHELION BENCH_STATISTIC -- the statistical test of two frames on frames of this program: false
 alarms over N pairs of seeds, and how often it finds 1 % more light in a display's reflection,

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """denoise.py [--only NAME] [--size WxH] [--crop X0,Y0,X1,Y1] [--reference N] [--keep DIR]
 PARHELION -- how close the denoised picture of 24 samples comes to that of 200: FLIP of both,
 and of the picture that was not denoised, to one of many samples, on the views and lights that

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* flat_tables.h -- what a program without compression would do: the recipe's closed form at
  * even steps, read by linear interpolation. For bench_panel.c, which says what they hold.
  */

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """forecast.py [--size WxH] PARHELION -- how well `render --noise` foretells its end.
 
 Renders shipped scenes to a relative error, takes what the progress says was left after a tenth

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """frames.py RUNS PARHELION -- whole renders: rays and paths a second, on one thread and on two,
 and the error that a second buys. The million-triangle box must be in .build/bench.
 """

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* hemisphere_signals.h -- functions on the hemisphere with known values everywhere, as displays
  * and their surfaces have them. */
 #pragma once

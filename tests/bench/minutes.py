@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """minutes.py PARHELION BENCH_MINUTES [EVERY [PATHS [HEADING ...]]] -- failing minutes of a
 year, as sweeps tell them, beside paths traced for the sun of every minute.
 

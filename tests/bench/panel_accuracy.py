@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """panel_accuracy.py PARHELION [--only PART[,PART...]] [FIT OPTION...] -- how true panels are.
 
 emission    two foreign sets through the importer and the fit, against known truth

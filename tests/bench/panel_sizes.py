@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """panel_sizes.py PARHELION [--only PART[,PART...]] [--match TEXT] [--haar] [FIT OPTION...] --
 sizes and errors of panels as a Markdown table.
 

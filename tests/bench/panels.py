@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """panels.py -- what the scripts that measure panels share: running the program, sets of tables,
 foreign sets brought into this project's form, and errors at measured samples.
 """

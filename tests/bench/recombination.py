@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """recombination.py PARHELION [CASES] -- what a sweep says of a sun beside paths traced for it.
 
 CASES (30) random suns (place, heading, content, brightness), a third of them within 0.5 to 3

@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: Apache-2.0
 # run.sh [RUNS] -- how fast it is: one line a work with its unit, median and spread (smallest
 # to largest) of RUNS runs, 5 if not said. Compare two commits on the same quiet machine only.
 # Sizes and errors of panels: panel_sizes.py; how true they are: panel_accuracy.py.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """sky_maps.py PARHELION [PICTURE.png] -- the scattering atmosphere beside fitted clear skies.
 
 Luminance over the dome for suns 15 to 60 degrees high: the own atmosphere, CIE type 12 and

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """time_to_error.py [--views "A;B"] [--size WxH] [--spp N] [--seeds N] NAME=PARHELION[,OPTION]
 ... -- what processor time each program needs to 5 % relative error, by true errors.
 

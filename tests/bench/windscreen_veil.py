@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """windscreen_veil.py PARHELION -- what the car's windscreen lays over the road.
 
 The driver looks at the road (a mean over 1 degree). The dashboard's top and the hood over the

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """marked_scene.py -- inside Blender: marks a small scene by the add-on, exports and renders it,
 and writes what it found as JSON. Part of run.py.
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """run.py PARHELION -- the Blender add-on, in a Blender without windows: what it marks is
 written, checks without a fault and renders as its panel emits; what is lost or broken is told
 by name.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """corpus.py [--bytes N] [--targets A,B] BUILD_DIR -- chooses what tests/fuzz/corpus keeps.
 
 From the inputs that stand there already and those that run.py has found (BUILD_DIR/fuzzing),

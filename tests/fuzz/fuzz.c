@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* fuzz.c -- libFuzzer's view of one target: fuzz --target=NAME [libFuzzer's options] CORPUS...
  *
  * Without --target the names of all targets are listed, each with the largest input that makes

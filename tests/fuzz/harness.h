@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* harness.h -- what a fuzz target is, and what it may use: memory, files, claims.
  *
  * A target takes any bytes and hands them to one reader of the program. Nothing may crash, no

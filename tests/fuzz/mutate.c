@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Mutations that leave the frame of a file alone. */
 #include <stdlib.h>
 #include <string.h>

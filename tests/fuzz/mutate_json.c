@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Mutations of JSON text that leave it JSON: values replaced, removed, doubled and exchanged,
  * numbers made extreme, names taken from elsewhere, and the bytes inside data URIs. */
 #include <stdio.h>

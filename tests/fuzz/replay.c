@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* replay.c -- every input of the corpora once, without libFuzzer: fuzz_replay FOLDER...
  *
  * A folder holds one folder a target (tests/fuzz/corpus, tests/fuzz/found). Each input is also

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """run.py [--seconds N | --runs N] [--targets A,B] [--jobs N] BUILD_DIR -- fuzzes every target.
 
 BUILD_DIR is that of the preset "fuzz". The time (five minutes) is shared among the targets, two

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* What a render leaves for another: a checkpoint, a part of a frame. Sums that are taken are
  * such as samples make. */
 #include <math.h>

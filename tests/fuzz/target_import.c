@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Measurements of other programs: what is imported is a set that this program's fit reads. */
 #include <math.h>
 #include <string.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* JSON files of users: a measurement set, a recipe, a declaration. */
 #include <math.h>
 #include <string.h>

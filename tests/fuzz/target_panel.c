@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Panel files: what opens answers every question with finite numbers. */
 #include <math.h>
 #include <stddef.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* What a review is asked: REVIEW.json, and the routes that it may name. */
 #include <math.h>
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Models, as .gltf or as .glb: what is loaded keeps what scene.h promises. */
 #include <math.h>
 #include <string.h>

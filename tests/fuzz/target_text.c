@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Texts: spectra, weather, command lines, URIs. */
 #include <math.h>
 #include <string.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* The targets: one row a reader of the program. */
 #include <string.h>
 

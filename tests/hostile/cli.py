@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """cli.py PARHELION -- what scripts rely on: exit statuses, one clear line for an error, answers
 on stdout, nothing half-written, and signals that leave a frame behind.
 """

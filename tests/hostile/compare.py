@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """compare.py PARHELION -- `parhelion compare` as scripts use it: statuses, messages, JSON,
 JUnit, folders, every kind of picture, and what must fail whatever the limits are.
 """

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """fault_files.py -- disks, folders, permissions, files that change: part of faults.py.
 
 Documented in README.md beside it and in src/base/file.h: status 4 with the output's name and

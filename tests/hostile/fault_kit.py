@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """fault_kit.py -- runs the program under faults: limits, other users, small and read-only
 disks; and says what every outcome must be: the status, one clear line, nothing left behind.
 """

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """fault_limits.py -- what files may name, how large and deep they may be: part of faults.py.
 
 Documented in src/base/reference.h (--root), src/scene/gltf/loader.h and the readers' headers.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """fault_memory.py -- address space that is short (ulimit -v): part of faults.py.
 
 Documented in src/base/arena.h: whatever the limit, a command does its work, or one line says

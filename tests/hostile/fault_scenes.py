@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """fault_scenes.py -- scenes at the edge of sense: part of faults.py.
 
 What is no scene is refused with its place; what is one, however strange, gives a frame whose

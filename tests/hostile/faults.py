@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """faults.py [--all] PARHELION -- disks that are full, folders that may not be written, files
 that change while they are read, memory that runs out, scenes at the edge of sense: each has the
 outcome that README.md says, with the exit status, one clear line, and nothing half-written.

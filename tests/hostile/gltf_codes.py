@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """gltf_codes.py PARHELION -- glTF's faults, by the codes of the Khronos validator.
 
 src/scene/check/README.md says of each code whether such a file is refused, reported, or why it

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """gltf_edits.py -- edits of a model (gltf_model.py), as functions of it: part of gltf_codes.py.
 """
 import struct

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """gltf_faults.py -- faults by the validator's codes, each with what is said of it: part of
 gltf_codes.py.
 

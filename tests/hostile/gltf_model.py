@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """gltf_model.py -- a valid glTF model that holds every property of the core and of the KHR_
 extensions that `check` knows, and ways to break it: part of gltf_codes.py.
 """

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """gltf_valid.py -- valid models of unusual kinds: each is taken, and what is said of it (""
 where nothing is): part of gltf_codes.py.
 """

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """live_view.py PARHELION -- a render that is watched: what a viewer gets is held byte for byte
 to the packets as they are defined, its last picture to the frame; viewers that are absent, die,
 or stop to read, and files that nobody may see half-written. Nothing of it changes the frame.

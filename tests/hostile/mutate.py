@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """mutate.py -- broken models made from a sound one, the same ones every time."""
 import json
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """packed.py -- parts of a scene (tests/image/gltf.py) that are packed, or move: for models that
 are broken afterwards.
 """

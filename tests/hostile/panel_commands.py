@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """panel_commands.py [--against OTHER] PARHELION -- the panel commands as scripts use them:
 grids, tables written back, synthetic sets, errors of one line. --against: a panel that one
 build wrote says the same, to the last printed figure, when the other build reads it.

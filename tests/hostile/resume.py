@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """resume.py [--small | --kills N] PARHELION -- a render that is killed, stopped or starved goes
 on from its checkpoint to the very file that it would have made; what is no checkpoint of it is
 refused by name. --kills: how many SIGKILLs at random moments (default 3). --small: one stop and

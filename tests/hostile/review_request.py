@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """review_request.py [--all] PARHELION -- every key of REVIEW.json with values that it cannot
 have: of another kind, no number, negative, zero, huge, empty, too short, too long, an unknown
 key beside it. The schema says which are wrong; those are refused in one line that names the

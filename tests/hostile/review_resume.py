@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """review_resume.py [--all] [--kills N] PARHELION -- a review that is killed, stopped or starved
 goes on to the very files that it would have made, and its responses serve the next one; until
 it is whole, an earlier review in the same folder stays as it was. --kills: how many SIGKILLs at

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """run.py [--all] PARHELION -- models that are broken, foreign or strange: no crash, no hang, no
 report of a sanitizer; what is valid loads and renders, what is not is refused in one clear line
 or reported by `check`. Made for the build with the address sanitizer. --all: more mutations.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """bits.py [--small | --against OTHER] PARHELION -- a frame's pixels have the same bits with 1,
 2 and 5 threads, and a crop has those of the whole; an instruction set that is asked for gives
 the same bits on a CPU that has more. --small: one render with 2 threads of the

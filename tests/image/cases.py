@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """cases.py -- small scenes whose luminance is known in closed form.
 
 Each function gives a Case: a scene, and for cameras in it the luminance in cd/m2 that the frame

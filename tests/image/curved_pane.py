@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """curved_pane.py PARHELION -- the ghost of curved laminated panes against a tracer of the
 test's own: two faces, spheres or cylinders, parallel or with a wedge between them, refraction
 and mirrors in double precision. Radii 1, 2 and 5 m, convex and concave, curved along, across

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """dispersion.py PARHELION -- a prism parts white light: what of it lands beyond an edge against
 Snell's law at both faces and Cauchy's index; indices and metals measured by wavelength
 (OpenMaterial_ior_data); and what is none.

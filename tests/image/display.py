@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """display.py [PANEL...] PARHELION -- a display in a black room shows what its panel emits:
 three primaries at nine grey levels from 25 directions, each against `panel eval`, luminance
 within 0.5 % and chromaticity within 0.002 in u'v'.

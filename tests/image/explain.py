@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """explain.py PARHELION -- why a display looks as it does: chains of objects add up to the
 frame's layers, what they foretell comes true, and their rays are a glTF file.
 """

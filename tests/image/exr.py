@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """exr.py -- reads OpenEXR frames without the product's own code: flat, scanlines, uncompressed
 or ZIP; of several parts the first, and the names of all. Standard library only."""
 import array

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """eye.py -- renders small scenes for the checks of this folder, and sums up what is seen."""
 import os
 import subprocess

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """films.py PARHELION -- thin films on solids of glass (KHR_materials_iridescence) against
 Airy's closed form: what one face reflects, what a slab lets through, its textures, the sun by
 way of it.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """glazing.py PARHELION -- a laminated pane against closed forms: what passes and what it
 mirrors at six angles, where its ghost stands, how bright it is and which wedge takes it away,
 what dirt on it shows under the sun, what coated faces do to all of it; and what is no pane.

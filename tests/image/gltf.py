@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """gltf.py -- writes small glTF scenes for tests: one file, buffers and pictures as data URIs.
 
 Metres, +Y up. Standard library only.

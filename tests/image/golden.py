@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """golden.py [--renew] [--keep DIR] [--only NAME] PARHELION -- the project's own scenes against
 golden frames, by `parhelion compare`.
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """guided.py PARHELION -- what is learnt of the light decides noise, never the mean: every
 shipped scene in every shipped light, with and without.
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """guides.py PARHELION [PAGE ...] -- the guides and the README do what they say.
 
 Every ```sh block of assets/guides/*.md and of README.md (but for building and installing, which

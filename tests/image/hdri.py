@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """hdri.py PARHELION -- pictures of surroundings as light: what their files say of their scale,
 in closed form, and the warning that they seem to have none.
 """

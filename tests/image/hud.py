@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """hud.py PARHELION -- the car's head-up display (scenes/car_hud.gltf) in its windscreen: where
 its virtual image stands, seen from five places; its ghost and the wedge that takes it away;
 which way round it is; how bright it is in polarised light and through sunglasses.

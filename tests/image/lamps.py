@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """lamps.py PARHELION -- luminaire files as lamps of a scene (--light, EXT_lights_ies):
 illuminances in closed form, flux, nodes that are turned, scaled and mirrored, openings near by
 and their soft shadows, tilts, the bits of both ways, and what is refused.

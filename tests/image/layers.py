@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """layers.py -- what one thin film on glass and a bare metal reflect in white (D65) light."""
 import cmath
 import math

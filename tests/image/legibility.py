@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """legibility.py PARHELION -- what a frame says of how well its displays can be read: a panel
 known in closed form in the dark, under a uniform sky, with the sun, behind a pane and by the
 light of walls; contrast within 0.5 %. The panel has no haze, and the frame says so.

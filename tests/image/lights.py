@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """lights.py PARHELION -- the layers of groups of lights: each is what a render with that light
 alone shows, their sum is the frame, parts of a frame make the same bits; names and figures.
 """

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """luxmeter.py PARHELION -- `measure --illuminance` under all light that a command line can set:
 closed forms where there are some, else what `sky` says of the same options.
 """

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """marked.py PARHELION -- which way round a display is: a panel with a lobe upwards looks bright
 from above, content stands upright, the back is black in every layer, and a real viewing-angle
 table is seen in a frame within 2 %.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """merge.py [--all] PARHELION -- parts of a frame, however it is cut and in any order, make the
 file that one run makes, byte for byte; and what does not make a whole is refused by name.
 --all: more ways to cut it, and a scene with displays.

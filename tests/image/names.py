@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """names.py PARHELION -- what a command writes has the same bytes whatever its outputs are
 called, wherever they stand, and however the run is shown, shared among threads or kept.
 """

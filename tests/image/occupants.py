@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """occupants.py PARHELION -- the people of scenes/ are what they are said to be: closed bodies
 whose normals agree with their sides, clear of the eyes and of what these read, in cloth of the
 reflectance that it is named for; a white shirt lights the display, a dark one does not.

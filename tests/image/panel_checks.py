@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """panel_checks.py -- what the checks of displays against their panels share."""
 import glob
 import math

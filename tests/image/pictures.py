@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """pictures.py -- writes small pictures without the product's own code: OpenEXR (float, no
 compression), PNG (8 and 16 bits), Radiance HDR. Standard library only."""
 import math

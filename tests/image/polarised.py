@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """polarised.py PARHELION -- polarised light against closed forms: a display and a polariser,
 straight and off their axes (Malus), panes at Brewster's angle and others, a display mirrored in
 one, the clear sky; unpolarised light stays the same frame; what cannot be asked.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """probe.py PARHELION -- what one pixel sees: the ways of light add up to the frame's pixel, by
 lights they are its layers, the spectrum is the one that shines; lines of glTF, errors.
 """

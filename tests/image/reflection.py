@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """reflection.py [PANEL...] PARHELION -- a dark display under the sun alone, and under a uniform
 sky alone, shows the integral of its BRDF as `panel eval` tells it: luminance and its
 lambertian part within 0.5 %.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """review.py [--all] PARHELION -- a glare review says what its scene is: its figures hang
 together and are those of a frame, a sweep's suns and a weather file's hours are those of
 moments, and nothing depends on the threads. --all: thirty of those hours, which take minutes.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """roof.py PARHELION [--all] -- daylight through an opening in the roof, for all 15 CIE skies.
 
 CIE 171:2006, case 5.9: a black room 4 x 4 x 3 m with an opening of 1 x 1 or 4 x 4 m in the

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """run.py [--all] [--only TEXT] [--keep DIR] PARHELION -- frames against closed forms.
 
 A claim holds when |shown - expected| <= 3 sigma, sigma being the standard deviation that the

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """states.py PARHELION -- what a file can be: a frame of a variant, or of a time, has the bits
 of the same scene with that material, or that place, put in by hand; and the command lines that
 ask for one are told what is wrong with them.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """subpixels.py PARHELION -- a display's sub-pixels in frames: what the panel says and what the
 scene says are the same frame; seen straight, in mirrors, flat and bent, and through glass they
 show when close, with the light of the even display, and from far they change no pixel.

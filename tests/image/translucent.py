@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """translucent.py PARHELION -- paper, shades and opal glass (KHR_materials_diffuse_transmission)
 against closed forms: lit from either side by every kind of light, in a furnace with and without
 lacquer, as a solid that absorbs; its textures, and what is wrong.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """bare_root.py PACKAGES_FOLDER -- the packages in a bare Debian: installed, used, purged.
 
 A root of the release that this machine runs is made by mmdebstrap, which wants to be root and a

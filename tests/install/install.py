@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """install.py BUILD_FOLDER -- `cmake --install` gives a tree that works wherever it is moved to.
 
 It renders with no view of the sources, names no folder of the build, tells in one line what is

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """packages.py FOLDER -- the same sources in two folders make the same packages, bit for bit,
 with nothing set by whoever builds them; lintian finds no error in them.
 

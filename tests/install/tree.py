@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """tree.py -- what an installation holds, by the program: commands, guides, manual pages."""
 import json
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """abi.py BUILD_DIR [--renew] -- what other programs rely on of libparhelion-panel: its symbols
 and the layout of its structs are those of abi.txt (--renew writes them, for a new soname or
 what is added at the end); the header compiles as C99, C17 and C++17; a program of its own is

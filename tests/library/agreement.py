@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """agreement.py BUILD_DIR [--queries N] -- libparhelion-panel and a reader that was written
 from `parhelion help panel-format` alone (panel_reader.py) give the same answers to N random
 questions, shared out over panels of every kind: XYZ, spectra, BRDF, its lambertian part,

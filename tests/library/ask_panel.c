@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* ask_panel.c PANEL -- another renderer's program: linked by pkg-config against an installed
  * tree, it opens a panel and prints what it says; and asks wrongly, which must be refused. */
 #include <math.h>

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """layout.py -- the structs and numbers of parhelion_panel.h as a compiler lays them out."""
 import os
 import re

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """module.py BUILD_DIR -- parhelion_panel.py: shapes and broadcasting, what is refused and in
 which words, where it finds the library, threads, draws against their densities, and the example
 that draws a viewing cone. Ends with what a question costs, which nothing is claimed of.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """other_renderer.py BUILD_DIR [--samples N] -- a path tracer of some 200 lines (tracer.py),
 which asks a panel through libparhelion-panel, and `parhelion render` show the same room: a
 display with contents, lit by a lamp whose image stands in its glass. Means over blocks of

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """panel_reader.py -- a second reader of .panel files: small, slow, with nothing but the
 standard library, written from assets/guides/panel-format.md alone.
 tests/library/agreement.py asks it and libparhelion-panel the same questions. All in double

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """panel_reader_emission.py -- sections 2 and 4 of a panel file (panel_reader.py)."""
 import math
 

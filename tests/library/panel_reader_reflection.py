@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """panel_reader_reflection.py -- sections 5, 7 and 9 of a panel file (panel_reader.py)."""
 import math
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """panel_reader_trees.py -- trees of a panel file: functions of direction (panel_reader.py)."""
 import functools
 import math

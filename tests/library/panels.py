@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """panels.py -- panels for the tests of the library, of every kind that a file can hold: shipped
 ones, and small ones that `panel simulate`, closed forms and `panel fit` make."""
 import json

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """tracer.py -- another renderer: a path tracer of a room with a measured display and a lamp, in
 numpy, that asks the panel through libparhelion-panel. It shares nothing with the program but
 the panel: sums over wavelengths instead of 16 lanes, one lamp sample a bounce, no weighting.

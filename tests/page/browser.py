@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """A page in a headless Chromium, spoken to through a pipe (the browser's own protocol): no
 driver, no port. find() says which browser there is, or None.
 """

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """live.py PARHELION [FOLDER] -- what the reader of a review's page may move, in a browser: the
 sun is dragged, and readings are those of the sweeps' tables; a picture is added up again, and
 the value under the cursor is the frame's. Without a browser it is skipped. FOLDER: where

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """cluster.py [--keep DIR] PARHELION -- a frame that is shared by Debian's Slurm, slurmctld and
 three slurmd on this machine: twelve parts over three nodes, parts that fail, a task that is
 warned and comes back. Each time the frame is that of one run, byte for byte. Skipped where

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """job.py PARHELION -- a frame that is shared by `render --slurm N` and done by plain commands
 is the file of one run, byte for byte: whoever did its parts, in what order, twice, killed or
 stopped meanwhile; and what is damaged, missing or of something else is told of in one line.

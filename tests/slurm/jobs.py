@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """jobs.py -- what the tests of shared frames have in common: a small scene, the frame of one
 run, jobs of it and their parts.
 """

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """calls.py -- what no source may call: no shell and no other program (but Slurm's sbatch, in
 one file), no network (but in the one file that sends frames to a viewer), no code that is
 loaded while the program runs, and no file that is mapped (one that shrinks would kill us).

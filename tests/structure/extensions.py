@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """extensions.py PARHELION -- the table of glTF extensions in the guide of scenes is what the
 program does: what is read is taken without a word even where it is required, what is not is a
 warning where it is used and a refusal where it is required, by name; and no extension that the

@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: Apache-2.0
 # globals.sh BUILD_DIR -- the libraries keep no state of their own: no variable of the product
 # can be written to, except those listed in exceptions.txt.
 cd "$(dirname "$0")/../.." || exit 1

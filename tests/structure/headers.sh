@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: Apache-2.0
 # headers.sh -- every header compiles alone as C17; those of the wrappers as C++17 as well.
 cd "$(dirname "$0")/../.." || exit 1
 passed=0 failed=0

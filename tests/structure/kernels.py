@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """kernels.py BUILD_DIR -- the hot sources are built once for each instruction set, and a vector
 travels otherwise in each of those builds: what a kernel object calls in the rest of the program
 may not take or return one, nor may it be called by way of a table of functions that stands

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """layers.py -- an include may only point downwards: layers.txt says to where."""
 import os
 import re

@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: Apache-2.0
 # libm.sh BUILD_DIR -- what reaches a pixel calls no function of the C library whose bits depend
 # on its version or on the CPU: base/mathd.h and base/mathf.h have their own.
 cd "$(dirname "$0")/../.." || exit 1

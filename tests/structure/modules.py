@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """modules.py -- the module is the file: a public function is declared in the header of its own
 file's name, somebody in the product calls it, no two structs share a name, and no two files
 of a folder need each other. What may differ stands in exceptions.txt with its reason."""

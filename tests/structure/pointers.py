@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """pointers.py -- comments, pages and scripts point only to what is in the repository.
 
 A word that looks like a path of ours (src/..., assets/..., panel/query/panel.h, README.md) must

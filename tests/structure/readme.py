@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """readme.py -- what the README names exists: "Follow one ray" and every other path."""
 import os
 import re

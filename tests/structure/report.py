@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """report.py -- counts claims and prints the broken ones, for every check written in Python."""
 import os
 import subprocess

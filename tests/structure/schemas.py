@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """schemas.py [PARHELION] -- files hold to the schemas of assets/schemas, and wrong ones do not.
 
 Shipped scenes against those of our glTF extensions; shipped recipes and reviews, and with the

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """source.py -- sizes of functions, files and lines; what must not stand in committed files."""
 import json
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """spdx.py [--write] -- every source says its licence: one line, the project's, near its start.
 
 `SPDX-License-Identifier: Apache-2.0`, in the file's own kind of comment. With --write the line

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* brushed_fixture.h -- tables of brushed solids for one pair of alphas. */
 #pragma once
 #include "shaders/facets/solid_energy.h"

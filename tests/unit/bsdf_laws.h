@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* bsdf_laws.h -- laws that every surface model obeys: a test that includes it fills `models`
  * before the first case, and its models inherit them all.
  */

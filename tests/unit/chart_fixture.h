@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* chart_fixture.h -- the sphere in cells that close in on a direction, and whether counts in
  * them are those expected. */
 #pragma once

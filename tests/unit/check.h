@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* check.h -- what every unit test includes: cmocka with its prerequisites, the list of a
  * program's cases, and closeness.
  *

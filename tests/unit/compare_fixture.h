@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* compare_fixture.h -- small frames and pictures to compare, and what is said about them. */
 #pragma once
 #include "fixture.h"

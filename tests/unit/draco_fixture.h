@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* draco_fixture.h -- a sheet of 5 x 5 vertices, 0.25 m apart, packed by Draco 1.5.5 in its two
  * ways, the second with metadata: position 14 bits, normal 10, texture coordinates 12, colour
  * exact, by the ids 0 to 3.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* emitter_fixture.h -- densities of emitters' points in one measure. */
 #pragma once
 #include "light/emitters.h"

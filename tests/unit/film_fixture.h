@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* film_fixture.h -- for tests of what films are kept in: one file in a temporary folder, and
  * numbers of a seed. */
 #pragma once

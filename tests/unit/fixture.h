@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* fixture.h -- what tests of any module stand on: a temporary folder, memory, texts of errors.
  *
  * A test is a program of its own, so one folder and one arena serve it: make_folder or

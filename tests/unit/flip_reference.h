@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* flip_reference.h -- LDR-FLIP once more, as slow and as near to the papers as it can be: in
  * double precision, with the C library, with filters over the plane that are summed as they
  * stand. It shares no line with src/compare.

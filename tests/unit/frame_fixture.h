@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* frame_fixture.h -- frames of known light. */
 #pragma once
 #include "fixture.h"

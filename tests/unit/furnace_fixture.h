@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* furnace_fixture.h -- what a surface sends back under a uniform surround of 1. */
 #pragma once
 #include "shader_fixture.h"

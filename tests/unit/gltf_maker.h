@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* gltf_maker.h -- small glTF files for tests: a JSON text and its bytes, written where the
  * system keeps temporary files, and loaded back. */
 #pragma once

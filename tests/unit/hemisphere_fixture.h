@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* hemisphere_fixture.h -- what the tests of src/hemisphere share: an arena and a geodesic for
  * every case, a stream of numbers that is always the same, and three functions to store. */
 #pragma once

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* import_fixture.h -- for tests of importers of scatter: a foreign file in a temporary folder,
  * read by one importer; rows looked up by direction. */
 #pragma once

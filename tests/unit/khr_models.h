@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* khr_models.h -- more rows for test_shaders.c: surfaces of glTF's later extensions. It stands
  * behind that file's add_model. */
 #pragma once

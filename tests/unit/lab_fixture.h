@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* lab_fixture.h -- a laboratory's files in a temporary folder, imported as a user would. */
 #pragma once
 #include "fixture.h"

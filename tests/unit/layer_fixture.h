@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* layer_fixture.h -- stacks of layers that coated surfaces are tried with. */
 #pragma once
 #include "base/arena.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* light_fixture.h -- what tests of lights share: random numbers, means with their error, and
  * the illuminance that a set of lights gives by its own samples. */
 #pragma once

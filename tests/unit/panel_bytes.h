@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* panel_bytes.h -- panel files that are changed byte by byte. */
 #pragma once
 #define XXH_INLINE_ALL

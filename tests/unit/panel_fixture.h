@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* panel_fixture.h -- small synthetic panels for tests: recipe, measurement set, fit, panel. */
 #pragma once
 #include "base/units.h"

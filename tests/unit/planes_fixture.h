@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* planes_fixture.h -- pictures for the tests of src/compare. */
 #pragma once
 #include <stdint.h>

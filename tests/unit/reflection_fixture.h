@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* reflection_fixture.h -- reflections fitted from tables of closed forms: no files are read. */
 #pragma once
 #include "panel_fixture.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* review_fixture.h -- a REVIEW.json that says all that one can say, and the files it names. */
 #pragma once
 #include "fixture.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* scene_builder.h -- small scenes made in code, for tests of what stands above the scene. */
 #pragma once
 #include <math.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* shader_fixture.h -- spectra and eyes that every surface model is tried with. */
 #pragma once
 #include "check.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* statistic_fixture.h -- frames of known noise for the statistical test.
  *
  * Memory   frames come from the arena that is passed in.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* symbol_fixture.h -- a picture that is drawn by shares of light, and the panel that shows it.
  *
  * Memory   easel_open is a group's setup, easel_close its end; state is the Easel.

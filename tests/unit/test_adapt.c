@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Local adaptation: what it does to flat light, to edges, to colours; and what says so. */
 #include "frame_fixture.h"
 

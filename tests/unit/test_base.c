@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* The ground floor: numbers, vectors, samples, memory and messages. */
 #include "check.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Brushed surfaces: GGX of two alphas, and what its lobes send back in all. */
 #include "furnace_fixture.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Chains of objects: they add up, their intervals hold, what they foretell comes true; and what
  * a display sees. */
 #include "check.h"

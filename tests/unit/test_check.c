@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* What `parhelion check` prints, for people and for scripts. */
 #include "check.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* What a checkpoint keeps is what it gives back; whatever is not whole is refused in one line
  * that says why. */
 #include "film_fixture.h"

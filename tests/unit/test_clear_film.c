@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Thin films on plastic, metal and clear solids: Airy's closed form, the transfer matrix, total
  * reflection, energy. */
 #include "furnace_fixture.h"

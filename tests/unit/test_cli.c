@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* The option parser: values, and the text of every error. */
 #include "fixture.h"
 

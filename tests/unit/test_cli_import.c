@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* `panel import` as it is typed: options, the declaration file under them, the answer. */
 #include "lab_fixture.h"
 

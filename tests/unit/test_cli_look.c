@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* develop and measure as scripts use them: exit statuses, answers, what is left behind. */
 #include "fixture.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* What the user types after `parhelion render`, and what it does to a scene. */
 #include "fixture.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Clear coat: what it holds back from the base comes out in the end. */
 #include "furnace_fixture.h"
 #include "layer_fixture.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* A clear coat on both sides of a thin sheet: what their turns send back and on. */
 #include "furnace_fixture.h"
 #include "layer_fixture.h"

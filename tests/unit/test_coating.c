@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Coated surfaces: tables against their stacks, closed forms, and the white furnace. */
 #include "check.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* The command line of a part becomes that of the whole. */
 #include "fixture.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Two sides of a comparison: what is read, what always differs, limits, which pixels count. */
 #include "compare_fixture.h"
 #include "base/count.h"

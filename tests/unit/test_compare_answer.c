@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* What a comparison is asked and what it answers: options, JSON, JUnit, HTML. */
 #include "compare_fixture.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Intervals hold the true mean as often as they say, also of samples with a long tail, and also
  * when they are looked at again and again. */
 #include "check.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* The contrast of what a picture shows, on made-up text of known luminance. */
 #include "fixture.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* The preview's filter: what it must leave alone, what it must take away, and that no light is
  * lost on the way. */
 #include "fixture.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Developing: exposure, views, layers and the picture files. */
 #include "frame_fixture.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Indices by wavelength: glTF's dispersion, Snell's angle and Fresnel's share of each lane. */
 #include "check.h"
 #include "gltf_maker.h"

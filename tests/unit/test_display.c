@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* A measured display in a scene: what the path tracer shows is what the panel says. */
 #include "check.h"
 

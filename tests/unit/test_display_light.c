@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Displays as lights: chosen by content and by what they send to the point that is lit. */
 #include "panel_fixture.h"
 

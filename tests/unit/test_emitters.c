@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Emitters that are near, many, or hidden below the horizon. */
 #include "light_fixture.h"
 

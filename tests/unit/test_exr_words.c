@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* The second part of a picture's file: words come back bit for bit, and the picture does not
  * know of them. */
 #include "fixture.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* A picture's light spread as an eye spreads it: beside the sum over all pairs of pixels. */
 #include "fixture.h"
 

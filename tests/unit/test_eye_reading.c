@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* The veil that stray light lays over a gaze point, against its formula. */
 #include "check.h"
 

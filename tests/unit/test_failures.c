@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* For how long a sweep fails, between its steps. */
 #include "check.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* False colours, their scale and its letters; colour spaces from primaries. */
 #include "fixture.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* When a mirror throws the sun into an eye, against the sun's way and plane geometry. */
 #include "check.h"
 

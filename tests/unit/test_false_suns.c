@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Where the sun has to stand for a mirror to throw it into an eye, against plane geometry. */
 #include "check.h"
 

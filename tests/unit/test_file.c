@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Files are read whole or not at all, written whole or not at all; URIs mean what RFC 3986 and
  * RFC 2397 say. */
 #include "fixture.h"

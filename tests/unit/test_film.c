@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* The film: exact sums, variance, layers. */
 #include "fixture.h"
 

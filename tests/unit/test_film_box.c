@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Boxes around parts of a scene on the film, against the camera's own rays. */
 #include "check.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* What groups of lights give: kept apart, and together what the frame has. */
 #include "film_fixture.h"
 

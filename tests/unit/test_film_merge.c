@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Parts of a film: in any split, order and grouping they make the same bits as one film; what
  * does not make a whole, or is damaged, is refused by name. */
 #include "film_fixture.h"

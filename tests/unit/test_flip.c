@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* FLIP and HDR-FLIP: closed forms, symmetries, and a slow twin that shares no line with it. */
 #include "fixture.h"
 

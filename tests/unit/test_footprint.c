@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* What a frame's pixel covers behind mirrors and glass: against rays beside it, and closed
  * forms of optics. */
 #include "fixture.h"

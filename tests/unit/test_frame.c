@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Frames: what is written is read, whole or not at all. */
 #include "fixture.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* What an eye sees along its gaze, and what a pane mirrors over it, against closed forms. */
 #include "check.h"
 

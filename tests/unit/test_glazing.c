@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Images of a curved pane against rays traced in double precision through two faces: spheres or
  * cylinders about one centre, or with a wedge between them. */
 #include "check.h"

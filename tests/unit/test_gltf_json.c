@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* The wrapper of tinygltf from C: values know their place, nothing foreign comes out. */
 #include "fixture.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* A guide's samples follow its density, whatever it has learnt the light stays what it is, and
  * its file is taken back as it was or not at all. */
 #include "check.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* test_hemisphere.c -- the laws of triangles, transforms and the specular frame. */
 #include "hemisphere_fixture.h"
 

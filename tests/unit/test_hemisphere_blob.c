@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* test_hemisphere_blob.c -- damaged and hostile trees are refused, or harmless. */
 #include "hemisphere/tree/tree_build.h"
 #include "hemisphere/tree/tree_expand.h"

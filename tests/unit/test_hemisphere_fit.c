@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Values of vertices from samples in any directions. */
 #include "hemisphere/vertex/vertex_fit.h"
 #include "hemisphere_fixture.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* test_hemisphere_sampling.c -- directions are drawn as their density says. */
 #include "hemisphere/sampling/sampling_tree_build.h"
 #include "hemisphere/sampling/sampling_tree_open.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* test_hemisphere_tree.c -- compressed trees and their queries. */
 #include "hemisphere/tree/tree_build.h"
 #include "hemisphere/tree/tree_expand.h"

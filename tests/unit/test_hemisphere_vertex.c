@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* The vertex basis: its lattice, trees and their queries. */
 #include "hemisphere/tree/tree_expand.h"
 #include "hemisphere/tree/tree_open.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Skies of a weather file's hours over a response: those of daylight_build, only quicker. */
 #include "check.h"
 

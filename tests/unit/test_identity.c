@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* What decides a sample's value is in a render's identity, and nothing else; two identities say
  * where they differ. */
 #include "fixture.h"

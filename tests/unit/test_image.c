@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Pictures: what is decoded is what the file says; broken files are refused. */
 #include "fixture.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* What importers of scatter say of text that they refuse: a row a message. */
 #include "import_fixture.h"
 

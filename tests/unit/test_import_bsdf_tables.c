@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Scatter as tables: ASTM, SSDD, Speos in text and binary. */
 #include "import/scatter/half_angle.h"
 #include "import_fixture.h"

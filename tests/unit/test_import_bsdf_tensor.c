@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Scatter in binary files: RGL and KAIST tensor files, MERL. */
 #include "import/scatter/half_angle.h"
 #include "import_fixture.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Scatter in the text formats of optical design programs and goniophotometers. */
 #include "import_fixture.h"
 

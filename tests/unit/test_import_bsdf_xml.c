@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Scatter as XML: Klems matrices and tensor trees of WINDOW and Radiance. */
 #include "import_fixture.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* EULUMDAT and IES LM-63: luminous intensities as luminances of a flat panel. */
 #include "lab_fixture.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Text tables that are refused: the message says where, what was found and what to give. */
 #include "lab_fixture.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* What a file is: by an option, by its own words, by its name. */
 #include "lab_fixture.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Many files to one set, and the set on disk as this project reads it. */
 #include "lab_fixture.h"
 

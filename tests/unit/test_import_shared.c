@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* The foreign sets of the shared data, imported with as few words as are honest, equal to their
  * source value by value. Without the shared data the cases are skipped. */
 #include "lab_fixture.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Text tables in the layouts that laboratories have, as values at directions of the set. */
 #include "lab_fixture.h"
 

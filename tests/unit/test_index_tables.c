@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Tables of any index of refraction against those that are computed in full. */
 #include "check.h"
 

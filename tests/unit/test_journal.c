@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* What a journal was told it tells, after any kill; what is cut off or damaged ends it, and all
  * before that counts. */
 #include "fixture.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* What a cell knows of its lamps: it decides how often each is chosen, never what they give. */
 #include "light_fixture.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Figures of displays: worked examples, closed forms, what stands where there are none. */
 #include "fixture.h"
 

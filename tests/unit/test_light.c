@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "emitter_fixture.h"
 #include "light/emitters_build.h"
 #include "light/sky.h"

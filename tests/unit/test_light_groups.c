@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Which lights are one group, and what their layers are called. */
 #include "light_fixture.h"
 

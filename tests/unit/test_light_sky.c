@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Skies of a model as lights. */
 #include "light/sky.h"
 #include "light_fixture.h"

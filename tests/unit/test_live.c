@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* How often a watched render shows itself, and to whom. Packets: tests/hostile/live_view.py. */
 #include "check.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* The functions of mathd.h against the C library in long double precision. */
 #include <float.h>
 #include <math.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Luminance and colour of a part of a frame, and their intervals. */
 #include "frame_fixture.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Pixel errors, SSIM, CIEDE2000 and ranks. */
 #include "fixture.h"
 

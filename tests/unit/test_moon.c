@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Where the moon stands, how much of it is lit, and what light it sends. */
 #include "base/units.h"
 #include "fixture.h"

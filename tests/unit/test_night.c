@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Clear nights: the moon as a weak sun, and the background that is always there. */
 #include "base/units.h"
 #include "fixture.h"

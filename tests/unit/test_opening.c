@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Luminous openings: sampled points lie on the body, and their weights give what the surface
  * sends out, near by and from afar. */
 #include "light_fixture.h"

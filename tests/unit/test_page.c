@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* The shared page of all reports: whole, escaped, without a network, one file of its parts. */
 #include "check.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* What a fitted panel says against the closed truth that its tables were made of. */
 #include "panel_fixture.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Narrow beams of an emission, which no tree of triangles resolves: every sample, directions
  * between them, the light over the hemisphere, and what a damaged beam is refused for.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Panels read at a coarser level: the finest is the panel itself to the bit, the stated errors
  * hold at random directions, and they fall from level to level. The panels that ship. */
 #include "check.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Between the samples: the stated bound, which a fit guarantees at the samples, plus what the
  * source's own grid leaves open holds at a million random directions inside the cone.
  *

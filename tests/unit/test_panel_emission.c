@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Emission of fitted panels against closed truth: bounds, noise, grids, levels, sizes. */
 #include "panel_fixture.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* A panel's tables written back say what the panel says, and a fit of them says it again. */
 #include "panel_fixture.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Hostile panel files: every prefix and thousands of mutations, with and without a checksum
  * that fits, of panels of both bases, with and without emission and reflection, isotropic and
  * not. They are refused with a text, or queried without a read outside their bytes (they lie in

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* A fit judges itself: a good set stays good, and each kind of fault is named. The sets are
  * closed forms written as tables. */
 #include "fixture.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Gamma tables beside a set of white alone: laws of the curves, the way round from a known
  * panel, and every table that is refused, by its words. */
 #include "panel_fixture.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Manifests with spots and uniformity maps: what is wrong is named, what they become, and what
  * is written back. */
 #include "panel_fixture.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* A panel that is not the same everywhere: spots and a uniformity map of a synthetic display
  * whose truth is known at every place, and the weights between spots. */
 #include "panel_fixture.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Laws of fitted reflections, on tables made from closed forms: no files are read. */
 #include "reflection_fixture.h"
 #include "panel/query/panel_info.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* How a panel's reflection is sampled: densities that integrate to one and fit the samples. */
 #include "panel_fixture.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Files of a laboratory: what is wrong with recipes, manifests and tables is named; every
  * layout says the same. */
 #include "panel_fixture.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Plain PNG pictures: the library's pixels to the bit, or left to the library. */
 #include "fixture.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* The parts of a picture: contour lines, ticks, colours, polar maps, documents. */
 #include "fixture.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* panel plot as a whole: pictures and reports of a small synthetic panel, and its errors. */
 #include "panel_fixture.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Polarised light against closed forms: Fresnel's waves, polarisers, and what must hold of
  * every chain of surfaces. */
 #include "shader_fixture.h"

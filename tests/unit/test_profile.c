@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Limits as data: those that are shipped, and what is said of wrong ones. */
 #include "fixture.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Readings: how sure they are, and when they end. */
 #include "check.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* A file leads to its neighbours and not beyond; an output is looked at before work is done;
  * an arena takes no more than half of a limited address space. */
 #include "fixture.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* The render loop's parts that need no scene: tiles, passes, workers, signals, progress. */
 #include "check.h"
 

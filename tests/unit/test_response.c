@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Probes and their responses: light adds up, however it is asked. */
 #include "check.h"
 

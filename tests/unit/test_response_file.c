@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* A response that was read is the one that was written, bit for bit; whatever is not whole, or
  * of another question, is refused in one line that names the file. */
 #include "fixture.h"

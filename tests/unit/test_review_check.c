@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* test_review_check.c -- a request against its scene, the file to start from, and the reviews
  * that are shipped. */
 #include "review_fixture.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* What spreadsheets get from a review: its cases, its gazes and its false suns, whatever the
  * names are. */
 #include "fixture.h"

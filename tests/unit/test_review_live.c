@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* What a review's page holds for its script: numbers come back as they went in, light within
  * the stated error; a frame's two parts add up to it, smaller and in the eye as well. */
 #include "frame_fixture.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* What scripts get from a review: the same again when it is read back, well formed whatever the
  * names are; its answer, and how it differs from another. test_review_page.c has the page. */
 #include "check.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* The page of a review: well formed whatever the names are, nothing loaded from anywhere, and
  * drawings that say what the figures say. */
 #include "check.h"

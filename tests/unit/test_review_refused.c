@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* test_review_refused.c -- what is wrong in REVIEW.json is said in one line: where, what was
  * found, what was wanted. */
 #include "review_fixture.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* test_review_request.c -- what REVIEW.json says arrives in the request; no bytes do harm. */
 #include "review_fixture.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* test_review_route.c -- routes: the same from GPX and CSV, headings of great circles, times
  * that move; levels that follow the light. */
 #include "fixture.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* The laws of src/scene: shapes, transforms and materials come out as glTF says. */
 #include "check.h"
 #include "base/units.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Coatings and measured metals of a scene: what is read, and what is said of wrong ones. */
 #include "check.h"
 #include "base/count.h"

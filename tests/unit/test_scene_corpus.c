@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* The models of other projects: whole ones load, faulty ones are told. Skipped, and said so,
  * where the shared data are not there. */
 #include "check.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* The laws of packed meshes (KHR_draco_mesh_compression): they equal what was packed within
  * their quantisation, and whatever is wrong with them is told. */
 #include "check.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Everything that is wrong with a file is found, and said with its place. */
 #include "check.h"
 #include "base/count.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Brushed metal, thin films, sheen: every member of these extensions arrives. */
 #include "check.h"
 #include "base/units.h"

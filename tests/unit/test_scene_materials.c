@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Materials, lights, cameras' light: every member has glTF's default and takes its value. */
 #include "check.h"
 #include "base/units.h"

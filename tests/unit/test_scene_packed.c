@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* The laws of packed bytes: what is unpacked is what was packed, to the bits or to the filter's
  * rounding, and packed bytes that are cut or changed are refused or read, never more. */
 #include <meshoptimizer.h>

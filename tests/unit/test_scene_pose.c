@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* The laws of what a file can be: animations at a time, and variants of materials. */
 #include "base/mathd.h"
 #include "check.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* A display's "subpixels": what is read, of the scene and of its panel, and what is said of
  * wrong ones. */
 #include "panel_fixture.h"

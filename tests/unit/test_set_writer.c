@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* A measurement set is written whole or not at all, whatever stood in its place. */
 #include "fixture.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Surface models against published values and closed forms. */
 #include "shader_fixture.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* glTF's surface and displays among the models that obey all laws. */
 #include "bsdf_laws.h"
 #include "layer_fixture.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Glass and clear plastic among the models that obey all laws. */
 #include "brushed_fixture.h"
 #include "bsdf_laws.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Sheen: the extension's formula, its albedo, and what cloth under it returns. */
 #include "furnace_fixture.h"
 

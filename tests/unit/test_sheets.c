@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Sheets that lie in one plane: masks, blended films and panes on one another and on what
  * carries them. All are seen, the later over the earlier, and all take their share of light. */
 #include "check.h"

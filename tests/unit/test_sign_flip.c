@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* The sign-flip test: its tails and the corrections for many tests. */
 #include "check.h"
 

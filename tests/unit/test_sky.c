@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Sun position, the sun's spectrum, sky shapes, weather files. */
 #include <math.h>
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Rough boundaries of solids: light that facets pass to one another is not lost. */
 #include "brushed_fixture.h"
 #include "layer_fixture.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Colour from spectra: one observer, one normalisation, no bias from sampling wavelengths. */
 #include "fixture.h"
 

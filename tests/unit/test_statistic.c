@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* The statistical test: its level on noise of every kind, masks, frames without noise. */
 #include "statistic_fixture.h"
 

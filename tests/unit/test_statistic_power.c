@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* The statistical test: how small a change it finds, and what it says of it. */
 #include "statistic_fixture.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* A display's sub-pixels: their mean, their order, and nothing of them from far. */
 #include "panel_fixture.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* The sun's direct beam above the horizon and, from the air, below the horizontal. */
 #include <math.h>
 

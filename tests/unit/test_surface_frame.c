@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Laws of the frame in which a surface's own lobe stands still. */
 #include "check.h"
 #include "base/mathd.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Suns of a sweep: where each stands, and how much of the time it means. */
 #include "check.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Sweeps under a weather file: each step takes its row, and gaps are told. */
 #include "check.h"
 

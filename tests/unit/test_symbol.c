@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* What of a symbol is foreground and what background. */
 #include "symbol_fixture.h"
 

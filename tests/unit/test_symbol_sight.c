@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* A symbol as an eye sees it: how large, how much of it, how bright. */
 #include "symbol_fixture.h"
 

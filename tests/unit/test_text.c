@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Texts that grow, escapes, characters of UTF-8, base64 and the nearest word. */
 #include "fixture.h"
 

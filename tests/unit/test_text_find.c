@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Where a content shows text. */
 #include "symbol_fixture.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Stacks of thin layers, held to closed forms. */
 #include "check.h"
 

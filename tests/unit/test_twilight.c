@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Twilight: the published illuminances, the laws of its orders, and bent rays. */
 #include "base/units.h"
 #include "fixture.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* The formulas of the eye: published values, and laws. */
 #include "check.h"
 

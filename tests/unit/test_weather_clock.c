@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Which instants the rows of a weather file hold: files of known instants, made here. */
 #include <math.h>
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* verdict_fixture.h -- reviews for tests of what is written from them: a plausible one, and one
  * of everything that can be odd.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* vertex_bound.h -- the acceptance test of vertex trees that tests and benches use. */
 #pragma once
 #include <math.h>

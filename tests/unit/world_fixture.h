@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* world_fixture.h -- a scene made ready for paths.
  *
  * Memory   world_end gives back all that world_start and world_ready took, and the panel.

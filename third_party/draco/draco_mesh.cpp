@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "draco/draco_mesh.h"
 
 #include <draco/compression/decode.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* draco_mesh.h -- a packed triangle mesh, unpacked. The only C view of Draco.
  *
  * Format   Draco bitstream 2.2, which KHR_draco_mesh_compression is made of.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "kissfft/fourier.h"
 
 #include <kissfft/kissfft.hh>

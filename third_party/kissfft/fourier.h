@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* fourier.h -- discrete Fourier transforms of one dimension. The only C view of kissfft.
  *
  *     out[k] = sum over n of in[n] exp(-+ 2 pi i k n / length)

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "opencolorio/view_transform.h"
 
 #include <OpenColorIO/OpenColorIO.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* view_transform.h -- turns scene-linear colour into display code values.
  * The only C view of OpenColorIO in this program.
  *

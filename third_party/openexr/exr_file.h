@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* exr_file.h -- pictures with named channels, windows and attributes, as OpenEXR bytes.
  * The only C view of OpenEXR in this program.
  *

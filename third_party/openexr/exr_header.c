@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Layout (OpenEXR File Layout): magic number and version, 4 bytes each; of every attribute a
  * name, a type, both ended by a zero byte, the value's size in 4 bytes, little endian, and the
  * value. An empty name ends the header; several headers, one a part, end with an empty one. */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* exr_header.h -- a look at an OpenEXR file's header before the library reads it.
  *
  * The library takes memory for an attribute of any size that a file states, before it finds

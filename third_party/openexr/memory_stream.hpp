@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* memory_stream.hpp -- OpenEXR's streams over bytes in memory; private to exr_file.cpp. */
 #pragma once
 #include <OpenEXR/Iex.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "openimageio/image_file.h"
 
 #include <dlfcn.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* image_file.h -- decodes and encodes picture files in memory.
  * The only C view of OpenImageIO in this program, which loads it when one of these is called
  * (image_file_module.h).

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* image_file_module.h -- what image_file.h's functions find in the module of pictures.
  *
  * OpenImageIO brings some 260 shared libraries: 133 MB and a fifth of a second before main. So

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* image_file_types.h -- what is known of a picture file, and what is to become one.
  * image_file.h says how they are used.
  */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* gltf_json.h -- a glTF document as a tree of plain values, and its accessors as arrays.
  * The only C view of tinygltf (and of the JSON parser beneath it) in this program.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* parhelion explain: by which chains of objects light comes to a symbol, a display or a pixel,
  * and what each of them costs. */
 #include "cli/explain/cmd_explain.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* cmd_explain.h -- the commands of this folder. */
 #pragma once
 #include "cli/options/command.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* parhelion probe: what one pixel sees, bounce by bounce, and its spectrum. */
 #include <math.h>
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* explain_answer.h -- what `parhelion explain` says, in words or as JSON. */
 #pragma once
 #include "cli/options/cli.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "cli/explain/explain_scene.h"
 
 #include "camera/camera.h"

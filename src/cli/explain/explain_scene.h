@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* explain_scene.h -- what of a scene is to be explained: a display, or pixels of a camera's
  * picture.
  *

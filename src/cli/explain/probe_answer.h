@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* probe_answer.h -- what `parhelion probe` says, in words or as JSON, and its rays.
  *
  * Units    cd m^-2; metres; W m^-2 sr^-1 nm^-1. Errors are standard errors.

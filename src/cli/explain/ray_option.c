@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "cli/explain/ray_option.h"
 
 #include "base/file.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* ray_option.h -- the file of rays that a command of this folder writes if it is asked to. */
 #pragma once
 #include "cli/options/cli.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* job.h -- one frame shared among machines: a folder that lists its parts, and holds each as
  * soon as it is done. No process watches over it: what is there tells what is left.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* job_manifest.h -- manifest.json of a job's folder (assets/schemas/job.md).
  *
  * Memory   the arena's.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* job_scripts.h -- what of a job's folder is for those who run it: Slurm's two batch scripts,
  * and the plain commands.
  *

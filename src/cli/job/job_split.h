@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* job_split.h -- how a frame is cut into parts.
  *
  * Memory   the arena's.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* job_state.h -- how far the parts of a job are, from what lies in its folder.
  *
  * Memory   the arena's.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* sbatch.h -- hands a batch script to Slurm. The only place where this program starts another
  * one, and only when the user asked for it (--submit): no shell is between.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* answer.h -- how answers, errors and warnings leave the program: answers go to stdout,
  * everything else to stderr.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* camera_options.h -- the options that say from where a scene is seen, for the commands that
  * look at one.
  *

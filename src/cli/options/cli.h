@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* cli.h -- a sub-command's options from one table: parsing, help and error texts agree.
  *
  * A command fills a table of Option on its stack, every row pointing at the variable that takes

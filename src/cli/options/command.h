@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* command.h -- sub-commands: each a constant in its own file, listed in a table.
  *
  * Adding one touches its file, the header of its folder that declares it, and the table that

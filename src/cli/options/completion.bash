@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # What was typed up to the cursor, in $typed; bash cuts words at = and :, which belong to them.
 _parhelion_type()
 {

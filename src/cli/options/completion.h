@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* completion.h -- what bash completes a command line of parhelion by, from the tables that
  * --help prints: `parhelion help --completion bash`. It begins with a shell function that knows
  * each command by a row; completion.bash, behind it, does the work. Fails: never.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* environment_options.h -- what a command line says about the surroundings: render and sky.
  *
  * Memory   the command's arena. Fails: ERROR_USAGE with the option, ERROR_INPUT with a file.

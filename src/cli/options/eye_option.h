@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* eye_option.h -- --eye AGE[,PIGMENT]: a frame as it arrives on the retina
  * (vision/eye_filter.h), before it becomes a picture.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* guides.h -- the pages of assets/guides, which the program carries: `parhelion help NAME`.
  *
  * A page begins with its title; a paragraph `Commands: render, merge.` names the commands whose

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "cli/options/hdri_warning.h"
 
 #include "base/units.h"

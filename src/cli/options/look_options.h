@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* look_options.h -- the options that say how a frame becomes a picture, for the commands that
  * develop one.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* man_page.h -- commands as the sources of manual pages of section 1, by the tables that --help
  * prints: `parhelion help --man NAME`. Fails: never.
  */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* roff.h -- words of a manual page on stdout, so that what is printed is what was written.
  *
  * Letters that troff reads as its own are escaped; UTF-8 stays itself. Lines begin with no

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* scene_options.h -- what a command line says about a scene besides its files, for the commands
  * that put light into one: render, and measure --illuminance.
  *

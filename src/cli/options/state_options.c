@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "cli/options/state_options.h"
 
 bool state_options_read(const StateWords *words, SceneState *out, Error *err)

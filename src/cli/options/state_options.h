@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* state_options.h -- which of the things that a scene's files can be it is: --variant, --time
  * and --animation, wherever a scene is loaded.
  *

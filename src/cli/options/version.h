@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* version.h -- what `parhelion --version`, and -V behind any command, print. */
 #pragma once
 

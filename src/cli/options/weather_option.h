@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* weather_option.h -- a weather file's row as the light of a sky, and what was done to find it.
  *
  * Memory   the command's arena. Fails: ERROR_INPUT with the file.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* panel -- measured displays: the table of its own sub-commands. */
 #include <stdio.h>
 #include <string.h>

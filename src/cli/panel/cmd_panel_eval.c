@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* panel eval: what a panel emits or reflects in one direction. */
 #include <math.h>
 #include <stdio.h>

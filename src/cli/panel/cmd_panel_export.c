@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* panel export: a panel's tables written back. */
 #include <stdio.h>
 

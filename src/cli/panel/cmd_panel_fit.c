@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* panel fit: from files of a laboratory to a panel file. */
 #include <stdio.h>
 #include <time.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* panel import: the files of a laboratory as one measurement set. */
 #include <stdio.h>
 #include <string.h>

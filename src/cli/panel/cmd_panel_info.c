@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* panel info: what a panel file holds, its sizes and errors. */
 #include <math.h>
 

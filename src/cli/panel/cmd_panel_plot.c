@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* panel plot: pictures of a panel. */
 #include <stdio.h>
 

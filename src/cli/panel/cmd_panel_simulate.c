@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* panel simulate: a virtual instrument measures a synthetic panel. */
 
 #include "base/count.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* panel_commands.h -- `parhelion panel` and its own sub-commands, which cmd_panel.c lists. */
 #pragma once
 #include "cli/options/command.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "cli/panel/panel_facts.h"
 
 #include <math.h>

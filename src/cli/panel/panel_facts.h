@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* panel_facts.h -- what a display engineer asks of a panel first: white, contrast, gamut,
  * gamma, viewing cone, reflectance.
  *

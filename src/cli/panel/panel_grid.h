@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* panel_grid.h -- a panel's values on a grid of directions: what `panel eval --grid` prints.
  *
  * Units    as panel_question.h.

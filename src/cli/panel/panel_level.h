@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* panel_level.h -- --level of the commands that ask a panel. */
 #pragma once
 #include <stdbool.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* panel_print.h -- the report of a panel file or of a fit as a table on stdout. */
 #pragma once
 #include <jansson.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* parhelion merge: parts of a frame become the frame, with the bits of one run. */
 #include <errno.h>
 #include <math.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* parhelion render: load, render, write, develop, answer. */
 #include "cli/render/cmd_render.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* cmd_render.h -- `parhelion render` for another command, which knows what has to come out.
  *
  * Memory   the command's arena.  Fails as the command does.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* command_line.h -- command lines as a shell would take them again: frames tell how they were
  * made, and a frame that was merged tells how one run would have made it.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "cli/render/frame_outcome.h"
 
 #include <stdlib.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* frame_outcome.h -- what a frame says of how it came out: the same words from a render and
  * from a merge of its parts.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "cli/render/guiding_options.h"
 
 bool guiding_options_check(const RenderOptions *render, Error *err)

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* guiding_options.h -- `--no-guiding` and `--field`: where paths learn that light comes from.
  *
  * Fails    ERROR_USAGE with the option.

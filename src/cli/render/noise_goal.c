@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "cli/render/noise_goal.h"
 
 #include <math.h>

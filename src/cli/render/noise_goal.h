@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* noise_goal.h -- what --noise asks for: a relative error, and the pixels whose error it is.
  *
  *     R                 of the whole frame (or crop)

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* polarised_options.h -- `--polarised` and `--sunglasses`: how the eye takes polarised light.
  *
  * Memory   the eye comes from the arena.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* render_answer.h -- what comes out of `parhelion render`: a frame with everything that is
  * needed to make it again, and what is printed.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* render_commands.h -- the sub-commands that make frames. */
 #pragma once
 #include "cli/options/command.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* render_identity.h -- everything that decides the value of a sample, as text.
  *
  * Two renders whose identities are equal give the same value for the same sample of the same

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "cli/render/render_live.h"
 
 #include "camera/film_box.h"

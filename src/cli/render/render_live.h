@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* render_live.h -- how a render is watched: --tev shows the frame so far to a viewer, --live
  * keeps it in a file. Neither changes the frame, and a render never ends because of them.
  *

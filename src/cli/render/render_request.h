@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* render_request.h -- what the user of `parhelion render` typed.
  *
  * Memory   everything lives in the command's arena.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* render_resume.h -- the checkpoints of `parhelion render`.
  *
  * Memory   the arena's.

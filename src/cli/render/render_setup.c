@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "cli/render/render_setup.h"
 
 #include <math.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* render_setup.h -- what of a scene is looked at, and with which light.
  *
  * Fails    with the cameras that there are.

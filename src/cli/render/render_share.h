@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* render_share.h -- `render --slurm`: a frame becomes a job's folder (cli/job/job.h).
  *
  * Memory   the command's arena.

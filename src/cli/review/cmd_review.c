@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* parhelion review: from REVIEW.json to verdicts, with tables and a page for a meeting. */
 #include "cli/review/cmd_review.h"
 

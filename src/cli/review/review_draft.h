@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* review_draft.h -- a review's files while it is not finished: DIR/unfinished holds them, with
  * what goes on after a kill, until they take their places all together.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* deltae.h -- CIEDE2000 colour differences.
  *
  * Source   CIE 142-2001; Sharma, Wu, Dalal, "The CIEDE2000 color-difference formula", Color

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* flip.h -- FLIP and HDR-FLIP: how different two pictures look when one flips between them.
  *
  * Source   Andersson et al., "FLIP: A Difference Evaluator for Alternating Images", HPG 2020;

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "compare/metrics/flip_filters.h"
 
 #include <math.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* flip_filters.h -- the weights that FLIP filters pictures with, along x and along y.
  *
  * Source   Andersson et al. 2020, sections 4.1.1 and 4.2: contrast sensitivity of the eye as

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* flip_tile.h -- LDR-FLIP of one part of a picture, at one exposure after the other.
  *
  * A tile is at most FLIP_TILE columns wide and as high as one likes: the rows that the filters

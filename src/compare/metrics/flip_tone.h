@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* flip_tone.h -- the curves that show light of any scale on a display, for HDR-FLIP.
  *
  * Source   the fitted curves (p0 x^2 + p1 x + p2) / (p3 x^2 + p4 x + p5) of FLIP 1.6.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* lab.h -- from linear Rec.709 to CIE L*a*b*.
  *
  * Units    linear light, 1 is white; L* 0 .. 100. Colours are taken relative to white:

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* pixel_errors.h -- metrics of the difference between two pictures of one size.
  *
  * Pictures must be finite: whoever calls has looked for NaN and infinity first.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* planes.h -- three planes of linear light, however the picture was stored.
  *
  * Units    linear Rec.709: cd m^-2 for frames, 0 .. 1 of the display's white for pictures.

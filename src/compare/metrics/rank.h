@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* rank.h -- medians and percentiles without sorting and without memory.
  *
  * Values must be finite; negative ones are fine.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* ssim.h -- structural similarity of two pictures of code values.
  *
  * Source   Wang, Bovik, Sheikh, Simoncelli, "Image quality assessment", IEEE TIP 13 (2004):

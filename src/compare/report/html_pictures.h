@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* html_pictures.h -- the pictures of a report: both sides and the maps of their difference,
  * each with its scale; private to the report.
  *

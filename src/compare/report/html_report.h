@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* html_report.h -- a comparison as one self-contained HTML file, for those who look at it.
  *
  * It needs no network, and shows its pictures without script too. A report of two files holds

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* html_tables.h -- metrics, regions, displays and metadata of a pair as tables; private to the
  * report. */
 #pragma once

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* junit.h -- the answer of a comparison as JUnit XML, which every CI service shows.
  *
  * Well-formed whatever the names are. Memory: owns the address space of its text until

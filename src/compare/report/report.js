@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Looking at a pair: slider, blink, side by side, maps, zoom, values under the pointer. Needs
    `ramps`, {"signed": "rrggbb...", "plain": "rrggbb..."}. Without script the pictures stand one
    beside the other. Embedded by the build, behind page.js. */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* noisy_pair.h -- two frames as differences with noise, one pixel and channel at a time.
  *
  * Units    linear Rec.709 in cd m^-2.

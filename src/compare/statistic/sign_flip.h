@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* sign_flip.h -- the sign-flip test: sums of independent differences, and how likely the noise
  * makes them.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* statistic.h -- did the mean move, or is it only the noise?
  *
  * Every pixel gives one difference, test minus reference. Pixels are independent: each has its

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* statistic_blocks.h -- the blocks' family of the test: where the mean moved, and whether it
  * did a little everywhere.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "compare/statistic/statistic_reason.h"
 
 #include <math.h>

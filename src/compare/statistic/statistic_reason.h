@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* statistic_reason.h -- the test's answer in words.
  *
  * Threads  pure.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "compare/statistic/statistic_regions.h"
 
 #include <math.h>

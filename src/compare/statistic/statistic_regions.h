@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* statistic_regions.h -- the regions' family of the test: the whole frame, every display, and
  * what every display reflects.
  *

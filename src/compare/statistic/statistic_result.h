@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* statistic_result.h -- what the statistical test is asked, and what it answers; statistic.h
  * says how it does it.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* sampling_code.h -- bits of a sampling tree's blob. Private to src/hemisphere.
  *
  * Rice's code with parameter k (R. F. Rice 1979): a whole number n as n >> k in ones, a zero,

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* HOT: drawing directions. No allocation, no lock, no libm. */
 #include "hemisphere/sampling/sampling_tree.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* sampling_tree.h -- chooses directions in proportion to functions on the hemisphere.
  *
  * A pruned tree over the triangles of geodesic.h: cells of different size, constant density in

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* sampling_tree_build.h -- makes the blob of a sampling tree.
  *
  * Memory   the blob from the arena. Threads: pure functions.

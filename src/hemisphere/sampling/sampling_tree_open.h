@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* sampling_tree_open.h -- checks the blob of a sampling tree and expands it for queries.
  *
  * Memory   the arena's. Threads: pure functions. Fails: naming what is wrong.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* tree_build.h -- compresses leaf values into a Haar tree's blob (hemisphere/tree.h).
  *
  * Memory   the blob from the arena, aligned to 16 bytes. Threads: pure functions.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* tree_choose.h -- which details of a function a compressed tree keeps, and how precisely: what
  * tree_choose.c decides and tree_build.c writes. Internal to src/hemisphere.
  */

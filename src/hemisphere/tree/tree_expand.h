@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* tree_expand.h -- a whole tree at once, by another way than queries go: what they are held to.
  *
  * Memory   scratch by value. Threads: pure functions. Fails: never.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* tree_open.h -- checks a tree's blob, of either basis, and makes the view that queries read.
  *
  * Memory   views into the blob. Threads: pure functions. Fails: naming what is wrong.

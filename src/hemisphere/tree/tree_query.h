@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* tree_query.h -- a compressed tree's value at one direction, without inverting the tree.
  *
  * HOT: no allocation, no lock, no libm. A query walks from the octant to the leaf once; cost

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* tree_sum.h -- what a walk found in a tree, summed up. HOT.
  *
  * Threads  any number, on a constant Tree. Fails: never.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* vertex.h -- the vertices of the geodesic triangles as an integer lattice, and functions that
  * are linear between them.
  *

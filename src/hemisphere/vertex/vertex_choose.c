@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "hemisphere/vertex/vertex_choose.h"
 
 /* Which vertices to store, and with what values.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* vertex_choose.h -- which vertices a tree stores, and towards which values.
  *
  * Memory   scratch by value; the choice is the caller's. Threads: as many as the options say.

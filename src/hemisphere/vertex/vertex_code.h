@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* vertex_code.h -- a vertex tree between its coder and its blob; private to those. */
 #pragma once
 #include "hemisphere/vertex/vertex_tree.h"

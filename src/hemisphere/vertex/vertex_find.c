@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "hemisphere/vertex/vertex_find.h"
 
 VertexPoint vertex_find(const Geodesic *geodesic, VertexLattice lattice, Vec3 direction)

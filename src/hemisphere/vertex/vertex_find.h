@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* vertex_find.h -- vertex.h's map from directions to places and vertices. HOT.
  *
  * Threads  pure functions of constants. Fails: never.

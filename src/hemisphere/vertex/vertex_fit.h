@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* vertex_fit.h -- values at the vertices of a lattice from samples anywhere.
  *
  * Memory   the caller's scratch. Threads: pure functions.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* vertex_judge.h -- whether a reconstruction of a vertex is good enough for the caller.
  *
  * Threads  a judge a thread; fails never.

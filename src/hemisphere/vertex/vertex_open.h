@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* vertex_open.h -- checks the blob of a vertex tree and makes its view; what tree_open calls.
  *
  * Memory   views into the blob. Threads: pure functions. Fails: naming what is wrong.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* vertex_options.h -- how a function is to be compressed in the vertex basis.
  *
  * Memory   plain data. Threads: `accepts` is asked by as many as `threads` says.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* vertex_query.h -- the way down a vertex tree; what tree_query.h calls. HOT.
  *
  * Threads  any number, on a constant Tree. Fails: never.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "hemisphere/vertex/vertex_sum.h"
 
 #include "hemisphere/rows.h"

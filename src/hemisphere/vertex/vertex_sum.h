@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* vertex_sum.h -- what a walk found in a vertex tree, summed up; what tree_sum calls. HOT.
  *
  * Threads  any number, on a constant Tree. Fails: never.

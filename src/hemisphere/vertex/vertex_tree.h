@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* vertex_tree.h -- a vector-valued function on the hemisphere compressed in the vertex basis.
  *
  * A vertex of level i+1 is new on an edge (u, w) of level i; its detail is

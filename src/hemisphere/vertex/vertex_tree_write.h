@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* vertex_tree_write.h -- the integers of a vertex tree as the bytes of its blob.
  *
  * Memory   the arena's. Threads: pure functions. Fails: never.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* EULUMDAT (.ldt): one value a line, in the order that A. Stockmar laid down in 1990. */
 #include "import/luminaire/eulumdat.h"
 

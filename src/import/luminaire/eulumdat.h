@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* eulumdat.h -- the intensities of an EULUMDAT file.
  *
  * Memory   the set's arena. Threads: no shared state.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* IES LM-63 (.ies) luminaires, 1986 to 2019. Numbers stand in any number of lines behind TILT=,
  * with blanks or commas between them. */
 #include "import/luminaire/ies.h"

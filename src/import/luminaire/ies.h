@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* ies.h -- the intensities of an IES LM-63 file.
  *
  * Memory   the set's arena. Threads: no shared state.

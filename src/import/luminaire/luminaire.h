@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* luminaire.h -- luminous intensities of a luminaire file as luminances of a flat panel.
  *
  * L(theta, phi) = I(theta, phi) / (A cos theta): the luminous area A is taken as a flat opening

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "import/luminaire/luminaire_opening.h"
 
 #include <math.h>

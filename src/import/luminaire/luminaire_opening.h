@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* luminaire_opening.h -- the luminous opening that a luminaire file states by three sizes.
  *
  * Units    metres. Threads: pure functions.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* luminaire_read.h -- a luminaire file of either format: EULUMDAT by its ending (.ldt), else
  * IES LM-63.
  *

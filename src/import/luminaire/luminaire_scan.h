@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* luminaire_scan.h -- the numbers of a luminaire file one after the other, as its format writes
  * them.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* ASTM E1392 / E2387 text (.astm): lines of a keyword and its value, then VARS with the names
  * of the columns, then rows of numbers between commas.
  *

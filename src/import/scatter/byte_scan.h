@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* byte_scan.h -- walks over the bytes of a little-endian file; nothing is read beyond its end.
  *
  * Memory   the arena's. Threads: one scan per thread.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* FRED's tabulated scatter (`type bsdf_data`), and the same layout with !! comments as RPC
  * Photonics writes it: a line of two angles, the MIRROR direction (theta, phi) of the light
  * that follows, then lines of theta, phi and value for the directions of scatter.

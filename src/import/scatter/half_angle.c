@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "import/scatter/half_angle.h"
 
 #include <math.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* half_angle.h -- half and difference angles (Rusinkiewicz, "A New Change of Variables for
  * Efficient BRDF Representation", 1998), and tables of a BRDF that is known as a function.
  *

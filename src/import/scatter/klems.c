@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* A BSDF matrix over patches of the hemisphere (Klems, "A New Method for Predicting the Solar
  * Heat Gain of Complex Fenestration Systems", 1994): every value is the mean of a pair of
  * patches. Rows stand at the centres of the leaving patches.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* klems.h -- a BSDF matrix over patches of the hemisphere as tables.
  *
  * Memory   the set's arena. Threads: one set per thread.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* LightTools' scatter text (.bsdf): a header with the scatter angles, then blocks that each
  * name their light (AOI, POI), side, kind and wavelength.
  *

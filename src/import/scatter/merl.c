@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* MERL's BRDF database (.binary): Matusik et al., "A Data-Driven Reflectance Model", 2003.
  *
  * Three int32 (90, 90, 180), then red, green and blue as doubles over half and difference

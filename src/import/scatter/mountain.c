@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* pab advanced technologies' "Mountain" text, one file a direction of the light: header lines
  * that begin with #, then lines of theta, phi and the value (or X, Y and Z).
  *

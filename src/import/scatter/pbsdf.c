@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* The KAIST polarimetric measurements as a tensor file (.pbsdf): Baek et al., "Image-Based
  * Acquisition and Modeling of Polarimetric Reflectance", 2020.
  *

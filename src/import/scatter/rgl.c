@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* The RGL material database's .bsdf: Dupuy and Jakob, "An Adaptive Parameterization for
  * Efficient Material Acquisition and Rendering", 2018.
  *

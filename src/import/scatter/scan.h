@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* scan.h -- walks over a text file word by word or line by line, and knows the line.
  *
  * Words are separated by blanks and line ends (and by commas, where a format has them). A line

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* scatter.h -- what importers of reflection share: directions, rows of a table, wavelengths,
  * the integral over a polar grid.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Speos' measured scatter (.anisotropicbsdf, .brdf) and its simplest model (.simplescattering).
  *
  * The tables are PROPORTIONAL to the BRDF, or to BRDF times the cosine of the leaving angle;

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* The binary form of .anisotropicbsdf, version 9.0: a line of text, then packed fields, and
  * arrays of doubles as LZ4 blocks. No description of it is public; the layout here was read off
  * one public file (reflection, one anisotropy angle), whose angles, spectrum and values then

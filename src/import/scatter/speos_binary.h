@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* speos_binary.h -- the binary form of Speos' .anisotropicbsdf, known from one public file of
  * version 9.0: every field that is not understood must have the value that it has there.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "import/scatter/speos_table.h"
 
 #include "import/scatter/scatter.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* speos_table.h -- what a Speos scatter file holds, from its text or its binary form.
  *
  * Frame     phi 0 is the mirror direction ("the theoretical specular direction is always

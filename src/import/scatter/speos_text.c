@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* The text form of Speos' .anisotropicbsdf and .brdf, version 8 and later, as the manual of
  * Speos Labs tells its rows. */
 #include "import/scatter/speos_text.h"

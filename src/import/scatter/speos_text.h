@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* speos_text.h -- the text form of Speos' .anisotropicbsdf and .brdf.
  *
  * Memory   the arena's. Threads: no shared state.

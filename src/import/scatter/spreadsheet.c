@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Workbooks of spreadsheet programs, by their first bytes: an OLE compound file (.xls) or a zip
  * archive (.xlsx). Their cells mean what a laboratory's template says, so they are refused,
  * with what can be given instead. */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Surface scattering distribution data (.ssdd, version 0.2): a text header, then blocks of
  * metadata and a table, as text or as little-endian floats.
  *

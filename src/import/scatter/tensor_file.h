@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* tensor_file.h -- named arrays of numbers in one file ("tensor_file" 1.0), the container of
  * the RGL material database and of the KAIST polarimetric one.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Radiance's tensor tree: the BSDF as steps of varying size over squares that Shirley and
  * Chiu's map ("A Low Distortion Map Between Disk and Square", 1997) makes of the disk of
  * projected directions. Rank 3: a coordinate for the incidence, (1 - sin theta) / 2, and two

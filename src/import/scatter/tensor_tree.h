@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* tensor_tree.h -- Radiance's tensor tree as tables.
  *
  * Memory   the set's arena. Threads: one set per thread.

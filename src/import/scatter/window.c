@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* WINDOW's and Radiance's BSDF as XML: a matrix over Klems patches, or a tensor tree. */
 #include <string.h>
 

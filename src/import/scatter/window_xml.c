@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* WINDOW's and Radiance's BSDF as XML: a matrix over Klems patches, or a tensor tree.
  *
  * Angles count counter-clockwise as seen from the side that reflects. The number of an incident

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* window_xml.h -- the parts of a WINDOW / Radiance BSDF file (XML) that a reflection needs.
  *
  * Memory   the arena's. Threads: const once read.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Radiant's BSDF Data Interchange text, as OpticStudio (Zemax) reads it (.bsdf): for every
  * sample rotation and angle of incidence a block of scatter azimuth x scatter radial.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* The set of tables while files are read. */
 #include "import/set/import.h"
 

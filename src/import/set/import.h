@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* import.h -- files that laboratories have, as one measurement set of this project.
  *
  * An importer reads one foreign file and adds the tables that it holds to an ImportSet, in this

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* import_complete.h -- from the tables of many files to one set.
  *
  * Memory   the set's arena. Threads: one set per thread.

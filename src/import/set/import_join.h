@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* import_join.h -- tables of a set compared and joined by their directions.
  *
  * Two rows stand at the same direction when both angles agree within SAME_ANGLE_DEG.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* import_levels.h -- a measured gamma table beside a set of white alone.
  *
  * Units    cd m^-2. Memory: the set's arena. Threads: one at a time.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* import_lights.h -- the lights and directions that a set must have: every incidence at every
  * azimuth, with what a symmetric sample spared.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* import_parts.h -- files that hold parts of one table: sections of one azimuth, one of X, Y
  * and Z, one wavelength.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* import_reference.h -- what an instrument reads without light, and white references.
  *
  * Memory   the set's arena. Threads: one set per thread.

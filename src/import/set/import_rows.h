@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* import_rows.h -- the rows of a table while they are found one by one.
  *
  * Memory   the arena's. Threads: one at a time.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "import/set/import_write.h"
 
 #include <jansson.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* import_write.h -- an imported set as MANIFEST.json and its tables.
  *
  * Fails    with the file that cannot be written, or that is one of those to import: nothing

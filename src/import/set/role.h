@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* role.h -- what a file is in a measurement set: which primary at which level, which light.
  *
  * Told by an option ("red:255", "brdf:20:90:550"), by words inside the file ("Sample;blue 127")

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* word_list.h -- which word of a list somebody wrote, in any case.
  *
  * Threads  no shared state. Fails: never.

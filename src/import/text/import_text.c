@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Text of any layout: columns or matrices, as the user and the file say it. */
 #include <math.h>
 #include <string.h>

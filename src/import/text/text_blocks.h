@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* text_blocks.h -- matrices over one polar grid, one a quantity, as rows of a table.
  *
  * Memory   the arena's. Threads: one scan each.

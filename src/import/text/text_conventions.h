@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* text_conventions.h -- which units, angles and azimuths hold in a text file.
  *
  * Memory   none. Threads: one reader each.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* text_lines.h -- a foreign text file as lines of cells, whatever its encoding, line ends,
  * delimiter and decimal sign.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* text_metadata.h -- what a file says of itself in the lines around its numbers.
  *
  * Memory   the arena's. Threads: no shared state.

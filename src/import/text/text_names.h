@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* text_names.h -- what the words of a measurement file mean: columns, units, azimuths.
  *
  * Memory   none. Threads: no shared state.

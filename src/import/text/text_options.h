@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* text_options.h -- what a user says of text tables: layout, units, azimuths, roles.
  *
  * Every member has a value for "not told"; what the file itself says is then taken, and where

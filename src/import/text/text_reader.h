@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* text_reader.h -- one text file on its way from raw rows to tables of the set.
  *
  * Memory   the set's arena. Threads: one set per thread.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* text_rows.h -- rows of numbers with the line of each, and names for their columns.
  *
  * Memory   the arena's. Threads: no shared state.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* text_table.h -- a text file's rows as tables of the set.
  *
  * Memory   the set's arena. Threads: one set per thread.

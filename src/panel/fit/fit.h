@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* fit.h -- from measured tables to one compressed panel file.
  *
  * Emission: the logarithm of what every table's X, Y, Z add to the black pattern, as a few

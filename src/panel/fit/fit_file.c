@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Layout: panel_file.h. */
 #include "panel/fit/fit_file.h"
 

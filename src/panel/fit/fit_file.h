@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* fit_file.h -- a panel file's bytes from what the fit made of a measurement.
  *
  * Memory   the arena's. Threads: one at a time. Fails: never.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* fit_judge.h -- is a fitted panel good, usable with care, or not usable, and why?
  *
  * Criteria  each has a limit from where a panel wants care and mostly one from where it is

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* fit_places.h -- what a set says of places becomes sections of a panel file (panel_file.h:
  * PANEL_SPOTS, PANEL_SPOT_FILE, PANEL_MAP).
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* fit_report.h -- how well a fitted panel says again what was measured.
  *
  * A ratio of sizes means nothing without the error that it cost: every table states both, and

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* fit_report_reflection.h -- the reflection in the report of a fit. */
 #pragma once
 #include "panel/fit/fit_file.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* judge_limits.h -- from where a fitted panel wants care, and from where it is not usable.
  *
  * Units    shares and relative errors of 1; degrees; cd m^-2. The limits stand in

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* judge_reason.h -- the reasons against a fitted panel, as they are found.
  *
  * Memory   the texts are in the JSON lists. Threads: one at a time. Fails: never.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* panel.h -- a measured display: what it emits and reflects at any angle.
  *
  * Frame    the display's own: +z its normal, +x the viewer's right (phi 0), +y up (phi 90).

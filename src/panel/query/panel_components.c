@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* HOT: the components of an emission at a direction. No allocation, no lock, no libm. */
 #include "panel/query/panel_components.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* panel_components.h -- the components of an emission at a direction: the tree's, the spline's
  * and the beams'. Private to src/panel.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* panel_emission.h -- what a panel emits at any angle (panel.h: frame and units). HOT.
  *
  * Threads  any number. Fails: never; a panel that emits nothing is dark.

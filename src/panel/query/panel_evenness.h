@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* panel_evenness.h -- how even a panel's light is over its active area.
  *
  * Nine points stand at a tenth, a half and nine tenths of width and height, row by row from the

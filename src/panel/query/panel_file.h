@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* panel_file.h -- the layout of X.panel (assets/guides/panel-format.md). Private to src/panel.
  *
  * Little-endian. A header, a table of contents, then the sections, each at a multiple of 8

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Opening a panel file: reading it, and checking everything that a query relies on. */
 #include "panel/query/panel_open.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* panel_open.h -- opens and closes a panel file.
  *
  * Memory   the file is read once; what queries need is made in the arena. panel_close gives the

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* panel_open_emission.h -- what a panel file says of emission, checked and expanded for
  * queries. Private to src/panel.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* panel_open_places.h -- what a panel file says of places, checked and made ready for queries.
  * Private to src/panel.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "panel/query/panel_open_reflection.h"
 
 #include <math.h>

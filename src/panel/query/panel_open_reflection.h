@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* panel_open_reflection.h -- what a panel file says of reflection, checked and expanded for
  * queries. Private to src/panel.
  *

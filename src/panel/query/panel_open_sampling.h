@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* panel_open_sampling.h -- how a panel's reflection is sampled, checked and expanded for
  * queries. Private to src/panel.
  *

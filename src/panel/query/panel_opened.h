@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* panel_opened.h -- a panel as queries read it: the file's numbers, expanded. Private to
  * src/panel.
  *

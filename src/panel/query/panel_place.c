@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* HOT: a panel at a place. No allocation, no lock, no libm. */
 #include "panel/query/panel_place.h"
 

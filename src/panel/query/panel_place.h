@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* panel_place.h -- what a panel emits and reflects at a place of its active area. HOT.
  *
  * A display was measured at several spots, or has a uniformity map, or both. The panels of the

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* panel_reference.h -- what a reflection is divided by before its logarithm is stored, and how
  * it goes on beyond the last measured incidence. Private to src/panel.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* HOT: what a panel reflects. No allocation, no lock, no libm. */
 #include "panel/query/panel_reflection.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* panel_reflection.h -- what a panel reflects at any angles (panel.h: frame and units). HOT.
  *
  * Threads  any number. Fails: never; a panel without reflection data is black.

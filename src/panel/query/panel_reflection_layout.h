@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* panel_reflection_layout.h -- where the numbers of a panel file's reflection stand behind its
  * PanelReflectionStored. Private to src/panel.
  *

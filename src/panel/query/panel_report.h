@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* panel_report.h -- what a fit found, as a panel file keeps it: JSON without what goes without
  * saying, and its tables in a few bytes a number.
  *

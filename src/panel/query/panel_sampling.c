@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* HOT: how a panel's reflection is sampled. No allocation, no lock, no libm. */
 #include "panel/query/panel_sampling.h"
 

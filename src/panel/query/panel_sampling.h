@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* panel_sampling.h -- directions drawn as a panel's reflection is distributed (panel.h). HOT.
  *
  * Threads  any number. Fails: never; there may be no direction.

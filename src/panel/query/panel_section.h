@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* panel_section.h -- the sections of a panel file while it is opened. Private to src/panel.
  *
  * Every function that fails says so in bytes->err, naming the file and the place.

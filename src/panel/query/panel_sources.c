@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* HOT: the sources of a panel's light. No allocation, no lock, no libm. */
 #include "panel/query/panel_sources.h"
 

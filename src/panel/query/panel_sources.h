@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* panel_sources.h -- the four sources of a panel's light: red, green, blue and black. Private
  * to src/panel.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* panel_turn.h -- the angles and the frame of a query. Private to src/panel.
  *
  * Frame    tables are stored with the light at azimuth 180 degrees; panel_turned goes there.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "panel/query/sampling_make.h"
 
 #include <math.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* sampling_make.h -- the sampling section that follows from what a panel says when its
  * reflection is queried: at which incidences and azimuths a tree of directions is wanted, and
  * the tree.

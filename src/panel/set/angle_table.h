@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* angle_table.h -- one measured table: values over directions, read from text and checked.
  *
  * Frame    the display's: theta from the normal, phi 0 right, 90 up.

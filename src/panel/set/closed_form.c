@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "panel/set/closed_form.h"
 
 #include <math.h>

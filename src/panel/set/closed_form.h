@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* closed_form.h -- the exact values of a synthetic panel, by the formulas of synthetic_panel.h.
  *
  * Frame    the display's: theta from the normal, phi 0 right, 90 up (radians).

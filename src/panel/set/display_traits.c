@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "panel/set/display_traits.h"
 
 #include <math.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* display_traits.h -- what manifests and recipes say of a display in the same words: how its
  * light is polarised, and how its pixels are divided.
  *

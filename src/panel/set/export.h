@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* export.h -- a panel's tables written back as a measurement set.
  *
  * MANIFEST.json, emission/ at every stored level and black, primaries.csv, brdf/ at the

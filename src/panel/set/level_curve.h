@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* level_curve.h -- the rows of a gamma table that a panel needs for its level curve.
  *
  * A panel keeps at most LEVEL_CURVE_MAX levels a primary and interpolates between them as

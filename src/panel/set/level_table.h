@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* level_table.h -- a measured gamma table: the luminance on the axis at grey levels, read and
  * checked, as level curves of the primaries.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* measured_primary.h -- the tables of one primary alone, level by level.
  *
  * Memory   its maker's. Threads: const once read.

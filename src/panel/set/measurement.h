@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* measurement.h -- what a laboratory measured of one display, read and checked.
  *
  * Frame    the display's: theta from the normal, phi 0 right, 90 up; in a reflection table

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* panel_coarse.h -- a panel read at a coarser level of its trees, and how far off that is.
  *
  * Every level of a tree is a whole function of its own, so a panel can be asked at any of them;

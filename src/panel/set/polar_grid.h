@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* polar_grid.h -- the directions in which an instrument's table stands: rings of equal theta.
  *
  * Units    degrees. Threads: pure functions.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "panel/set/primary_spectra.h"
 
 #include "text/csv_table.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* primary_spectra.h -- the relative spectra of a display's primaries from a table.
  *
  * Units    nm; values relative. Memory: the arena's. Threads: any number.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* set_writer.h -- a measurement set becomes files: all of them or none.
  *
  * Every file is written under a temporary name beside its own. Only when all are there do they

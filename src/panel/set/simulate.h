@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* simulate.h -- a virtual Fourier-optics instrument that measures a synthetic panel.
  *
  * Writes a measurement set (assets/schemas): MANIFEST.json, tables in emission/ and brdf/ (one

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* synthetic_panel.h -- a synthetic panel whose every value is known in closed form.
  *
  * It stands where a laboratory's panel would stand: `panel simulate` measures it with a

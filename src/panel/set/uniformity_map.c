@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "panel/set/uniformity_map.h"
 
 #include <math.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* uniformity_map.h -- relative XYZ of a display's white and black over its surface, from an
  * imaging colorimeter.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "panel/set/white_split.h"
 
 #include <math.h>

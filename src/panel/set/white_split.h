@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* white_split.h -- a set of white alone as primaries, at full level or at a gamma table's.
  *
  * White's XYZ at each angle is split into non-negative amounts of the Rec.709 primaries, or,

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Narrow beams of an emission as they are stored. */
 #include "panel/shape/panel_beam.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* panel_beam.h -- narrow beams of an emission: profiles of the components over the distance
  * from a centre, which no tree of triangles resolves. Private to src/panel.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "panel/shape/panel_levels.h"
 
 /* d slope / d steepness of the intervals before and behind a node, at the mean curve. */

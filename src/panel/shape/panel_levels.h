@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* panel_levels.h -- between grey levels. Private to src/panel.
  *
  * Threads  pure functions. Fails: never.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "panel/shape/panel_spline.h"
 
 #include <math.h>

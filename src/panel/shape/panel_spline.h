@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* panel_spline.h -- the smooth part of a tree's components as a few numbers, and the table that
  * a query reads instead. Private to src/panel.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* spectral_warp.h -- how the spectra of a panel's primaries are warped to a measured colour.
  * Private to src/panel.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* HOT: which measured places count at a place. No allocation and no libm in queries. */
 #include "panel/shape/spot_ground.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* spot_ground.h -- how much each of some places counts at a place between them.
  *
  * Places on a whole grid (every column with every row, evenly spaced or not) count bilinearly;

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* canvas.h -- what every figure is drawn with: inks, letters, lines, hatching.
  *
  * Units    "points" of the page, y down; a page is scaled to its picture as a whole.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* chart.h -- curves over an axis: frame, grid, ticks, curves with their names beside them.
  *
  * Units    an axis has its own unit; boxes are in points of the page.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* colour_map.h -- colours for numbers: ordered by lightness, so that order survives in print.
  *
  * Units    t in [0, 1], cut off there; colours are sRGB, each component in [0, 1].

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* contour.h -- lines of equal value of a function on a square grid, by marching squares.
  *
  * Frame    grid units: x to the right 0 .. side - 1, y DOWN 0 .. side - 1 (row 0 on top).

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* field.h -- a quantity over the hemisphere as a square grid of the polar map.
  *
  * Frame    the map is a disc: theta grows evenly from its centre, phi counter-clockwise from

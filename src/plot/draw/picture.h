@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* picture.h -- a drawing as the bytes of an SVG or PNG picture.
  *
  * Units    points; a PNG has `scale` pixels to each, an SVG unit is a pixel.

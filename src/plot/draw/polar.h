@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* polar.h -- the polar map: colours, lines of equal value with their numbers, angles, a scale.
  *
  * Units    angles in radians inside, lettered in degrees; the field's values in their own unit.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* polar_disc.h -- the disc of a polar map: what is drawn, and where letters stand already.
  *
  * Units    points of the page. Threads: one thread a disc.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* The lines of equal value of a polar map: drawn with a gap in which the number stands. */
 #include "plot/draw/polar_lines.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* polar_lines.h -- the lines of equal value of a polar map, each with its number on it.
  *
  * Units    points of the page. Memory: the canvas's arena. Threads: one thread a disc.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* svg_text.h -- makes cairo's SVG the same every time, and fit to stand inside a page.
  *
  * Cairo numbers its elements by counters of the whole process; here every id gets a number by

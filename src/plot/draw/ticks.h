@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* ticks.h -- round numbers for axes, contour lines and colour bars, and their labels.
  *
  * Threads  pure functions.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* ambient.h -- contrast under diffuse light that comes evenly from the whole hemisphere.
  *
  *   C(d) = (L_white(d) + R(d) E / pi) / (L_black(d) + R(d) E / pi)

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Colour: the chromaticity diagram, the white point over angle, the primaries' spectra. */
 #include "plot/panel/colour_charts.h"
 

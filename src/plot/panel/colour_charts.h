@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* colour_charts.h -- the chromaticity diagram, white over angle, the primaries' spectra.
  *
  * Memory   the list's data have the arena. Threads: one list at a time. Fails: never.

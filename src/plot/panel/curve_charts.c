@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Luminance along two sections of the hemisphere, and over the grey levels. */
 #include "plot/panel/curve_charts.h"
 

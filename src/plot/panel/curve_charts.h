@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* curve_charts.h -- luminance along two sections of the hemisphere, and over the grey levels.
  *
  * Memory   the list's data have the arena. Threads: one list at a time. Fails: never.

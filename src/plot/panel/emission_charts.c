@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Polar maps of what the panel emits: luminance, contrast, colour shift. */
 #include "plot/panel/emission_charts.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* emission_charts.h -- polar maps of what the panel emits: luminance, contrast, colour shift.
  *
  * Memory   the list's data have the arena. Threads: one list at a time. Fails: never.

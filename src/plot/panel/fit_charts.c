@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Measured against fitted: the source's points over the curves, and what is left. */
 #include "plot/panel/fit_charts.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* fit_charts.h -- measured against fitted: points over the curves, and what is left.
  *
  * Memory   the list's data have the arena. Threads: one list at a time. Fails: never.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* panel_chart.h -- the charts that a panel gives, and how each is drawn into a box.
  *
  * Units    points of the page.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "plot/panel/place_charts.h"
 
 #include <math.h>

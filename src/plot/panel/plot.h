@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* plot.h -- pictures of a measured panel, as display engineers draw them.
  *
  * Output   SVG or PNG from the same drawing; the same bytes for the same input and library.

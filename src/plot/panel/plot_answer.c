@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "plot/panel/plot_answer.h"
 
 #include <math.h>

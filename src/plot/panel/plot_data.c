@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "panel/query/panel_emission.h"
 #include "panel/query/panel_reflection.h"
 #include "panel/query/panel_sampling.h"

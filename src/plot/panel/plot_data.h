@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* plot_data.h -- the panel that is drawn, asked once for everything that several charts need.
  *
  * Frame    the display's: phi 0 right, 90 up. A polar map's rim is the horizon.

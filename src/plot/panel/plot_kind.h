@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* plot_kind.h -- what can be drawn of a panel.
  *
  * Threads  constants.

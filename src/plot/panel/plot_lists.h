@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* plot_lists.h -- the values that a user wants lines at, and the light of contrasts.
  *
  * Units    lux; a contour in the chart's own unit (cd m^-2, or a ratio), or in percent of the

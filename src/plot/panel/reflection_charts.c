@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Reflection: sections of the BRDF, over wavelength, over the hemisphere; the mirror part. */
 #include "plot/panel/reflection_charts.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* report.h -- a panel as one HTML page: every chart, and every number of its report.
  *
  * Memory   the arena's, and address space of its own for the text until it is written.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Figures of a panel: the value under the pointer, below its figure. Each figure brings in
    data-map where its axes lie, and a polar one its values. Embedded behind page.js. */
 document.querySelectorAll('figure[data-map]').forEach(function(figure){

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "plot/panel/report_tables.h"
 
 #include <math.h>

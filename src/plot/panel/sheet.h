@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* sheet.h -- charts side by side on one page, as the bytes of an SVG or PNG picture.
  *
  * Units    points of the page; a PNG has pixels_per_point of them.

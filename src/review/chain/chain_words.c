@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "review/chain/chain_words.h"
 
 static const char *event_word(int event)

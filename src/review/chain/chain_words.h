@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* chain_words.h -- what a chain of objects is called: nodes and materials by their names.
  *
  * Memory   texts and lists live in the arena.  Threads  pure functions.

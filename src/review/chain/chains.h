@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* chains.h -- by which chains of objects light comes to an eye from what it looks at.
  *
  * A chain is what the eye's ray meets, by node and material, and what each does with light: the

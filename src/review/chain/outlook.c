@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "review/chain/outlook.h"
 
 #include <math.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* outlook.h -- what a surface sees from one of its points: the half space before it as a
  * picture, and which things light it.
  *

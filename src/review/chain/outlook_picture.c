@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "review/chain/outlook_picture.h"
 
 #include <math.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* outlook_picture.h -- what a surface sees, shown and said.
  *
  * Memory   from the arena.  Threads  pure functions.

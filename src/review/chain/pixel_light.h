@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* pixel_light.h -- the light that an aim's paths bring to the eye: tristimulus values and
  * spectrum.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* frame_kept.h -- what a review that was stopped has of a frame: all of it, or a checkpoint.
  *
  * Memory   the arena's.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "review/keep/go_on.h"
 
 #include "render/signals.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* go_on.h -- whether a review goes on: the user may ask it to stop, a disk may be full.
  *
  * Threads  one at a time.

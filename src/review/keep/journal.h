@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* journal.h -- answers that were found, on the disk as soon as they are: who asks again, after
  * a kill, is told at once.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* confidence.h -- where the true mean lies, from a few batches of samples whose tail is long,
  * and when they may be looked at more than once.
  *

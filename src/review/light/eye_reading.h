@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* eye_reading.h -- what stray light does to an eye that looks somewhere, from all that it sees,
  * also outside any frame.
  *

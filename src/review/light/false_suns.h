@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* false_suns.h -- where the sun has to stand for a smooth surface to throw it into an eye.
  *
  * Rays from the eye, close together, are followed by way of mirrors, glass and the fronts of

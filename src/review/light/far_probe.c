@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "review/light/far_probe.h"
 
 #include <math.h>

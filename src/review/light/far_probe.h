@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* far_probe.h -- a probe's readings for many suns, in clear skies or those of a weather file,
  * without a path for each.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "review/light/gaze_reading.h"
 
 #include <math.h>

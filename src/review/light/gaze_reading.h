@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* gaze_reading.h -- what lies along an eye's gaze: what it looks at, and what a pane before it
  * mirrors over that, such as the top of the dashboard in the windscreen.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* hour_sky.h -- skies of a weather file's hours, each of its own, and what a response reads
  * under them.
  *

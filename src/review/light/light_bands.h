@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* light_bands.h -- what each band of a path's wavelengths gives of a light's luminance.
  *
  * A path's lane i lies in band i of the spectrum, wherever its offset puts it

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* question.h -- what a probe is asked, as the key of its answer (review/keep/journal.h).
  *
  * Everything that decides the answer is in it: the program, the scene's files, its light as it

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* reading.h -- what a probe reads under the light that is there.
  *
  * Paths go out in rounds, each as long as all before it, until what hangs on the reading is

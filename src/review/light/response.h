@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* response.h -- what a probe would read for light from any direction outside.
  *
  * The light that an eye sees by way of a surface is linear in what shines from outside. Paths

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* response_file.h -- a response in a file, for the next review that asks the same probe.
  *
  * File     assets/schemas/response.md. It holds the text of everything that decides it, and is

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* stage.h -- the scene as a condition has it: its files, contents, light and levels, ready for
  * paths.
  *

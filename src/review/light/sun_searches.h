@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* sun_searches.h -- searches for suns in mirrors (false_suns.h) that are kept: one serves all
  * gazes, moments and sweeps in which the same eye sees the same scene.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* ray_file.h -- the rays of a case's causes as glTF 2.0: lines that any viewer shows beside the
  * scene, in its metres.
  *

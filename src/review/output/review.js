@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* What a map or a calendar says under the pointer. Without script both are complete: this adds
    the numbers. The build embeds it (review_page.c).
 

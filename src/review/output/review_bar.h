@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* review_bar.h -- small drawings of figures, as inline SVG: a margin, a share, and the
  * luminances of a symbol against the contrast that is wanted; private to the output.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* review_card.h -- one case of a review as a part of the page that opens: its figures, what
  * washes it out, what would mend it, its pictures.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* review_csv.h -- the cases of a review, and its gazes, as tables (RFC 4180): a header with
  * units, one row each, figures as in review.json, an empty cell for what has no value.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* review_decide.h -- the answer of a whole review: pass or not, how many of what, the worst.
  *
  * Memory   the arena's. Threads: pure. Fails: never.

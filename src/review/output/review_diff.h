@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* review_diff.h -- two reviews beside each other: what a change of the design did.
  *
  * Cases belong together by condition, eye and symbol; so do sweeps; gazes by condition, eye and

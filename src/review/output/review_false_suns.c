@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "review/output/review_false_suns.h"
 
 #include <math.h>

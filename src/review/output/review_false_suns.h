@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* review_false_suns.h -- a review's false suns, where mirrors throw the sun into an eye, as a
  * table of its page.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "review/output/review_gaze.h"
 
 #include <math.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* review_gaze.h -- the part of a review's page about eyes that look elsewhere than at symbols:
  * what blinds them, what the glass before them mirrors, and what is left to be seen.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* review_json.h -- a review as JSON; the keys are promised to scripts.
  *
  * Figures have six significant digits; what is not a finite number is null. The same review

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* review_json_read.h -- review.json back into a Review, to hold another one against it.
  *
  * Memory   everything lies in the arena. Threads: no shared state.

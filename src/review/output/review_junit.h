@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* review_junit.h -- a review as JUnit XML, which every CI service shows: a test case for each
  * case and each sweep, failed with its reason; a verdict that fails only under --strict is
  * "skipped" otherwise.

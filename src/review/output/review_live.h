@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* review_live.h -- what the page's reader may move: the sun over a sweep, a picture's exposure
  * and its displays' brightness. The numbers for it stand in the page, packed, and are read by
  * review_live.js and review_look.js; without script the page is as it is without them.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Move the sun over a sweep: readings for every sun that was judged, and the map again for
    another brightness of the display. Without script maps and cards are complete. The numbers
    stand in the page, packed (review_live.h); review_look.js shares what is returned here. */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Look at a picture of a case: exposure, the displays' brightness, false colours with the value
    under the cursor, the light as the eye spreads it. The picture is added up of its layers
    (review_live.h) and shown as `parhelion develop` shows frames: assets/ocio/parhelion.ocio,

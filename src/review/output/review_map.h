@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* review_map.h -- a sweep as pictures: the verdict for every place of the sun, and for every
  * hour of every day.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* review_page.h -- a glare review as one self-contained HTML page, for a meeting.
  *
  * One line on top says pass or fail, the worst symbol, when and why; then the table of all

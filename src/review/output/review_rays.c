@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "review/output/review_rays.h"
 
 #include <math.h>

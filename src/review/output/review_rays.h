@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* review_rays.h -- the rays of a case's causes over the picture of its frame: a reader chooses
  * a cause, and its rays are shown. Links alone do that (:target), no script; private to the
  * output.

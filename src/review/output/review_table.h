@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* review_table.h -- the tables of a review's page: all verdicts, the limits, what changed.
  *
  * Rows lead to the cards of their cases (review_card_id).

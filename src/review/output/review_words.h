@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* review_words.h -- how a review is said in words that a meeting understands; private to the
  * output.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* level.h -- how bright the displays are set: fixed, or by the light on a sensor.
  *
  * Levels   multiply all that a display emits; 1: as its panel was measured.

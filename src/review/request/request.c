@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "review/request/request.h"
 
 int review_eye_count(const ReviewEye *eye)

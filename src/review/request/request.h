@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* request.h -- what a review is asked: REVIEW.json as plain arrays.
  *
  * request_read.h reads it, request_check.h holds it against the scene.

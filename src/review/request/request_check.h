@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* request_check.h -- what a review's request names, found in its scene.
  *
  * Memory   the arena's. Threads: const data.

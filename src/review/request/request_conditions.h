@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* request_conditions.h -- under which light: "conditions". Eyes, symbols, withs and levels are
  * read already.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* request_eyes.h -- who looks, and where to: "eyes", "forward", "observer" and "gaze".
  *
  * Fails    as request_read.h.

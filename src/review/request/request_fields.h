@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* request_fields.h -- kinds of members of REVIEW.json that text/json_view.h does not read:
  * lists, objects by name, words out of a few, directions, files.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* request_levels.h -- how bright the displays are set: "levels".
  *
  * Fails    as request_read.h.

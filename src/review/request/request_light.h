@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* request_light.h -- the "environment" of a condition, which is read as a scene's is.
  *
  * Fails    as request_read.h.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* request_read.h -- REVIEW.json becomes a ReviewRequest.
  *
  * Everything that can be known without the scene is checked: keys, kinds, ranges, the files of

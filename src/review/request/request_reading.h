@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* request_reading.h -- a REVIEW.json while it is being read: what its parts are read from, and
  * what they are put into.
  *

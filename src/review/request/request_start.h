@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* request_start.h -- a REVIEW.json to start from: a scene's displays and eyes, a noon, a night
  * and a year.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* request_sweep.h -- the "sweep" of a condition: over the sun's direction, or over a year.
  *
  * Fails    as request_read.h.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* request_symbols.h -- what is read and who else is there: "symbols" and "with"; the words of a
  * polarity.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* request_weather.h -- the "weather" of a route or a year: clear, or a file of every hour.
  *
  * Gaps in a file are the sweep's question, which knows the hours that count.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* route.h -- a drive or a flight: where the vehicle is at which time and where it points.
  *
  * Formats  GPX 1.0 and 1.1: <trkpt lat lon> with <ele> and <time>, segments and tracks one

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* route_csv.h -- the points of a route from a table: a header line, then a line a point.
  *
  * Columns  time, lat, lon wanted; heading and altitude_m may be missing, and their cells empty.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* route_gpx.h -- the track points of a GPX file.
  *
  * Source   GPX 1.0 and 1.1 (topografix.com): gpx / trk / trkseg / trkpt with the attributes lat

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* route_points.h -- the points of a route while its file is read: texts become numbers.
  *
  * Memory   the arena's. Threads: one at a time.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* cases.h -- a stage that is lit becomes cases: each symbol as each eye sees it.
  *
  * An eye box is judged by its worst point.

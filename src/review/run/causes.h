@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* causes.h -- by which chains of objects light comes to a symbol, and what would mend it.
  *
  * The chains are those of review/chain. Light that the display itself emits straight to the eye

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* explain.h -- why one thing looks as it does: a symbol of a review under one condition, a
  * display, or a part of a camera's picture.
  *

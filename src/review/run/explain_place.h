@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* explain_place.h -- the same for a display or a part of a picture, without a review.
  *
  * Units    explain.h's.  Memory  what is told lives in the arena.

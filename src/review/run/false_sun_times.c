@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "review/run/false_sun_times.h"
 
 #include <math.h>

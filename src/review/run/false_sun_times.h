@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* false_sun_times.h -- when in a sweep a mirror throws the sun into an eye.
  *
  * The sun moves its own width in two minutes: a sweep of hours would miss most of what it does

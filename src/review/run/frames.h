@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* frames.h -- pictures of a stage: what an eye sees under a condition.
  *
  * Frames go to FOLDER/frames: NAME.exr in cd m^-2 with the layers of displays, NAME.png

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* gazes.h -- eyes that look elsewhere than at symbols, such as at the road, in a stage that is
  * lit: what blinds them, and what the glass before them mirrors.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* job.h -- what a review is made of and into: shared by the run and its sweeps.
  *
  * Memory   the review lives in the arena of whoever makes it.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* live.h -- what the page's reader may move (review/output/review_live.h), from what a review
  * found: the suns of its sweeps, and the frames of its worst cases as they lie in its folder.
  *

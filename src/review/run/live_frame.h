@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* live_frame.h -- a frame as a sum of two pictures: what displays emit to the eye, and the
  * rest; smaller, and as an eye spreads them.
  *

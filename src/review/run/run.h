@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* run.h -- a request becomes a review: stage by stage, case by case.
  *
  * Memory   the review lives in the arena; stages use scratch of their own.

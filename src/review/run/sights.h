@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* sights.h -- what is drawn beside a rendered case: where its causes' rays lie in the frame,
  * and what the display sees from the symbol.
  *

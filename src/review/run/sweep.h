@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* sweep.h -- a condition that stands for many suns: all directions, the hours of a year, a
  * route.
  *

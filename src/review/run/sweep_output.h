@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* sweep_output.h -- what a sweep found of every sun, as a table and as pictures for the page.
  *
  * Memory   from the arena. Threads: pure.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* sweep_probes.h -- the probes of a scene's sweeps: each symbol as each eye sees it, its face,
  * the sensors of the levels.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* sweep_responses.h -- the responses of a sweep's probes, and what they read of the scene's own
  * light: of files of an earlier review, or traced and then kept in files.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* sweep_weather.h -- the hours of a weather file that a sweep stands under.
  *
  * Each step takes the row whose instant is nearest (weather_clock.h), with the sun where it

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* symbols.h -- the symbols of a request on the displays of a scene, ready to be looked at.
  *
  * A symbol that is to be found becomes one for every line of text in it, "NAME 1" with the

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* failures.h -- for how long a sweep fails, also between the steps at which it was asked.
  *
  * Steps that fail one after the other are a stretch. Where it begins and ends is looked for

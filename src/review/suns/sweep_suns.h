@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* sweep_suns.h -- the suns of a sweep: where each stands, and how much of it counts.
  *
  * Units    degrees; minutes. Azimuths of the vehicle (0 ahead, 90 right) and of the compass.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* connected.h -- the connected parts of a set of pixels: eight neighbours belong together.
  *
  * Memory   from the arena.  Threads  pure function.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* content_light.h -- the luminances of the pixels that a display shows within a rectangle of
  * its content: what the panel sends along its normal for each pixel's codes.
  *

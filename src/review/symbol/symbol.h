@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* symbol.h -- what of a symbol is foreground and what background: two classes of the luminance
  * that the display shows within a rectangle of its content.
  *

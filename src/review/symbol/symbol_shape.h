@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* symbol_shape.h -- size of what is drawn: extent, width of the strokes, height of characters.
  *
  * Units    pixels of the drawing, its first row's upper edge at 0.  Threads  pure function.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "review/symbol/symbol_sight.h"
 
 #include <math.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* symbol_sight.h -- a symbol as an eye sees it: how large, how much of it, how bright.
  *
  * Frames   metres, world.  Units  arc minutes, cd m^-2.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* symbol_surface.h -- where a rectangle of a display's content lies in the world.
  *
  * Frames   metres, world. uv of the content: after the display's own texture transform, u

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* text_find.h -- proposes where a content shows text: lines of two characters or more.
  *
  * The content is cut at 15 levels of lightness; at each, the connected parts that are lighter,

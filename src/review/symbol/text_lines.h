@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* text_lines.h -- characters that stand beside each other are a line.
  *
  * Units    pixels.  Memory  from the arena.  Threads  pure function.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* text_parts.h -- the connected parts of what is lighter, or darker, than a threshold: which of
  * them may be characters.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* check.h -- what a check of a glTF document finds, and where.
  *
  * An error is what makes the picture undefined or wrong; what breaks the specification but

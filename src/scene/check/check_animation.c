@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* At rest faults of animations only warn; when they are played (--time), those fail that leave
  * open where something stands. */
 #include "scene/check/check_animation.h"

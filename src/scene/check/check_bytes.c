@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* What tables cannot say about buffer views and accessors: everything lies inside. */
 #include "scene/check/check_bytes.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* check_bytes.h -- buffer views and accessors: everything lies inside its buffer. */
 #pragma once
 #include "scene/check/check.h"

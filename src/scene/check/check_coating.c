@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "scene/check/check_coating.h"
 
 #include "base/count.h"

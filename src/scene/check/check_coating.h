@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* check_coating.h -- what tables cannot say about coatings and measured metals. */
 #pragma once
 #include "scene/check/check.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* The bytes behind the accessors: finite, within their bounds, indices that exist. */
 #include "scene/check/check_data.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* What tables cannot say about the document's small objects. */
 #include "scene/check/check_document.h"
 

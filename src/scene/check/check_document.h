@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* check_document.h -- what tables cannot say about a document's small objects. */
 #pragma once
 #include "scene/check/check.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* What tables cannot say about nodes, scenes and skins. */
 #include "scene/check/check_graph.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* check_graph.h -- what tables cannot say about nodes, meshes and skins. */
 #pragma once
 #include "scene/check/check.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* check_index.h -- what tables cannot say about indices of refraction by wavelength. */
 #pragma once
 #include "scene/check/check.h"

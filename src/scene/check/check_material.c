@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* What tables cannot say about materials and textures. */
 #include "scene/check/check_material.h"
 

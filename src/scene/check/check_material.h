@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* check_material.h -- what tables cannot say about materials and textures. */
 #pragma once
 #include "scene/check/check.h"

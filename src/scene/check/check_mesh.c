@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* What tables cannot say about primitives: formats, counts and names of attributes. */
 #include "scene/check/check_mesh.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Packed bytes: an unpacker is handed nothing that does not fit. */
 #include "scene/check/check_packed.h"
 

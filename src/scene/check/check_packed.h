@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* check_packed.h -- the extensions that pack bytes: what they hold, and that it fits. */
 #pragma once
 #include "scene/check/rule.h"

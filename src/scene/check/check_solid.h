@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* check_solid.h -- what of a glTF material is not shown where it is a clear solid. */
 #pragma once
 #include "scene/check/check.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* glTF 2.0, 3.6.1: what stands in a buffer view is of one kind: vertices, indices, pictures,
  * light profiles, matrices or key frames, and an accessor is read in one way. Nothing here
  * depends on it, so that a fault only warns. */

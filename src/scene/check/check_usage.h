@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* check_usage.h -- accessors and buffer views serve one purpose each, as their target says. */
 #pragma once
 #include "scene/check/check.h"

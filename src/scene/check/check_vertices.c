@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* The numbers at vertices: unit vectors, colours, weights. */
 #include "scene/check/check_vertices.h"
 

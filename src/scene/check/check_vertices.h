@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* check_vertices.h -- the numbers at vertices: unit vectors, colours, weights.
  *
  * What is off is mended while the scene is built (vectors are normalised, colours clamped,

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* rule.h -- what a glTF document must look like, as tables.
  *
  * The tables (schema_core.c, schema_extensions.c) say for every object which members it may

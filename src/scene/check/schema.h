@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* schema.h -- checks a glTF document against the tables of what it must look like (rule.h). */
 #pragma once
 #include "scene/check/rule.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* The members of glTF 2.0's objects (Khronos glTF 2.0 specification, chapter 5). */
 #include "scene/check/schema_core.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* The extensions: where each may stand, what it holds, and which are honoured. */
 #include "scene/check/schema_extensions.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* schema_extensions.h -- glTF's extensions: where they may stand and what they hold. */
 #pragma once
 #include "scene/check/rule.h"

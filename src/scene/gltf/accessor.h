@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* accessor.h -- the numbers behind a glTF accessor, of documents that passed the check.
  *
  * Memory   arrays lie in the loader's scratch.

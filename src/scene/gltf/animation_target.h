@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* animation_target.h -- what a channel of an animation moves.
  *
  * A property of a node, named by the channel itself (glTF 2.0, 3.11) or by a JSON pointer

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* buffer_view.h -- the bytes of buffer views, also of packed ones (EXT_meshopt_compression).
  *
  * A view that is packed says where the packed bytes lie, in which buffer, and what the unpacked

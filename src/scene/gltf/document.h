@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* document.h -- a .gltf or .glb file: its JSON, its buffers, the files that it names.
  *
  * Memory   documents, buffers and paths lie in the loader's scratch.

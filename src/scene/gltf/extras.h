@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* extras.h -- our extensions where a tool that writes no extensions put them: `extras`.
  *
  * A member PARHELION_* of a material's or scene's extras is read as the extension of that name

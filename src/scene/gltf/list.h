@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* list.h -- an array that grows while the scene is being read.
  *
  * Memory   items lie in the arena that is passed in; a growing list leaves its older, shorter

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* loader.h -- a scene on its way from its files to its arrays.
  *
  * One Loader makes one Scene of several GltfFiles, each of them in four steps: read the

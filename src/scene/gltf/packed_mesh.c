@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "scene/gltf/packed_mesh.h"
 
 #include <string.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* packed_mesh.h -- the accessors of meshes that are packed (KHR_draco_mesh_compression).
  *
  * A primitive that is packed says which buffer view holds the packed bytes and which attribute

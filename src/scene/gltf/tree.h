@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* tree.h -- reads values out of a glTF document, each with its default.
  *
  * The readers take a missing value or one of a wrong kind for the default: whatever is wrong

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* variant.h -- which material a primitive wears (KHR_materials_variants).
  *
  * A file offers variants by name; the loader's options choose at most one of a file. What no

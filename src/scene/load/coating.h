@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* coating.h -- a material's thin layers.
  *
  * Memory   in the loader's arena.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* coating_library.h -- the coatings of assets/coatings, which the program carries.
  *
  * assets/embed_folder.cmake makes the tables at build time, so a new coating needs no code.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* display.h -- materials that are displays. */
 #pragma once
 #include "scene/gltf/loader.h"

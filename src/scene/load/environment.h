@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* environment.h -- the scene's PARHELION_environment: sky, sun, surroundings. */
 #pragma once
 #include "scene/gltf/loader.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "scene/load/environment_text.h"
 
 #include "scene/check/schema.h"

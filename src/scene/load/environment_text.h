@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* environment_text.h -- the members of a PARHELION_environment in another JSON file than a
  * scene's: checked and read exactly as there.
  *

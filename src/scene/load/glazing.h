@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* glazing.h -- materials that are laminated panes (PARHELION_glazing). */
 #pragma once
 #include "scene/gltf/loader.h"

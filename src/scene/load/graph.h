@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* graph.h -- the tree of nodes, flattened into the world. */
 #pragma once
 #include "scene/gltf/loader.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* image.h -- a file's images and textures. */
 #pragma once
 #include "image/light_picture.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* instances.h -- the places in which a node's mesh stands (EXT_mesh_gpu_instancing).
  *
  * Source   github.com/KhronosGroup/glTF, extensions/2.0/Vendor/EXT_mesh_gpu_instancing

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* luminaire.h -- the nodes that --light or EXT_lights_ies makes lamps of measured intensity.
  *
  * A lamp shines out of the opening that its file states, about its node's origin; a file that

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* material.h -- a file's materials. */
 #pragma once
 #include "scene/gltf/loader.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* node_transform.h -- a place from a translation, a rotation and a scale (glTF 2.0, 3.5.3).
  *
  * Units    m. Fails never. Threads: no state.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* part_draft.h -- a part before all triangles stand in one array; its normals and tangents.
  *
  * Memory   in the scratch that is passed in, until draft_keep.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* pose.h -- where the nodes of a file stand at a time: its animations, played.
  *
  * At rest (SceneState without a time) nothing is played. With one, the animations that are

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* primitive.h -- one primitive of one node becomes a part. */
 #pragma once
 #include "scene/gltf/loader.h"

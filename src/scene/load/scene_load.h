@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* scene_load.h -- glTF files become a scene.
  *
  * Memory   all of the scene lies in the caller's arena; scene_close closes what else it holds.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* texture_slot.h -- the textures of a material, and the coordinates that each is read with.
  *
  * A file may have many sets of coordinates; a Part has SCENE_UV_SETS of them.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* wearer.h -- the material that "node:NAME" or "mesh:NAME" means on the command line, where two
  * screens share one.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "scene/optics/curve_file.h"
 
 #include "base/file.h"

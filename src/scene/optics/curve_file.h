@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* curve_file.h -- the CSV files of measured curves that a scene names.
  *
  * Memory   what is returned lies in the loader's arena, the files' bytes in its scratch.

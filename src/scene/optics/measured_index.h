@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* measured_index.h -- the index of refraction of a material, by wavelength.
  *
  * KHR_materials_dispersion, and files that carry OpenMaterial_ior_data: JSON with n and k over

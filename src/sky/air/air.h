@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* air.h -- the cloudless air: how its scatterers lie over altitude, and what they do to light.
  *
  * Three constituents: air molecules (Rayleigh scattering; SPECTRL2's optical depth), aerosol

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "sky/air/beam_table.h"
 
 #include <math.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* beam_table.h -- how much of the sun's light reaches a point of the layered air, and how dense
  * the air is there: tables for many rays.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "sky/air/bent_ray.h"
 
 #include <math.h>

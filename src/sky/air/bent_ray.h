@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* bent_ray.h -- a ray of sunlight that the air bends, and what lies along it.
  *
  * In spherical shells x = n r carries the ray: x times the sine of its angle to the zenith is

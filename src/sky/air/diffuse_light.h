@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* diffuse_light.h -- light that has been scattered more than once, in flat layers of air.
  *
  * Successive orders of scattering in a plane-parallel atmosphere over a Lambertian ground, lit

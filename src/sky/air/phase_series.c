@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "sky/air/phase_series.h"
 
 #include <math.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* phase_series.h -- phase functions as series: in Legendre polynomials of the angle between two
  * directions, hence in the azimuth between them (Chandrasekhar 1960, chapter 6), with a
  * quadrature over the sphere's cosines.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "sky/air/spectrl2.h"
 
 #include <math.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* spectrl2.h -- the clear sky's direct and diffuse spectra on the ground (SPECTRL2).
  *
  * Source    Bird and Riordan, "Simple Solar Spectral Model for Direct and Diffuse Irradiance on

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* sphere_light.h -- light that has been scattered more than once, in spherical air: for a sun
  * below the horizon, where flat layers (diffuse_light.h) lose it.
  *

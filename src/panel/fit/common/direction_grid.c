@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "panel/fit/common/direction_grid.h"
 
 #include <math.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* direction_grid.h -- values measured at scattered directions, readable at any direction.
  *
  * The rows of a table become the cells of a grid over theta (rows) and phi (columns). Where a

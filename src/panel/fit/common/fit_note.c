@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "panel/fit/common/fit_note.h"
 
 #include <stdarg.h>

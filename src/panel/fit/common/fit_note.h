@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* fit_note.h -- sentences about a fit that its report keeps: what was chosen, missed, assumed.
  *
  * Memory   the notes' arena. Threads: one at a time. Fails: never; beyond FIT_NOTES_MAX

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "panel/fit/common/fit_options.h"
 
 FitOptions fit_options_default(void)

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* fit_options.h -- what a user may ask of a fit. */
 #pragma once
 #include <stdbool.h>

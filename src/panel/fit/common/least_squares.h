@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* least_squares.h -- normal equations, solved by Cholesky's factors.
  *
  * Matrices are n x n, symmetric and positive definite, row after row; only the lower half is

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "panel/fit/common/principal.h"
 
 #include <math.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* principal.h -- few numbers a row instead of many: principal components with weights.
  *
  * row[c] = mean[c] + sum_k loading[c][k] score[k], where the rms of weight[c] times the rest

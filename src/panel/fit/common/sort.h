@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* sort.h -- numbers in rising order. None of them is NaN. */
 #pragma once
 

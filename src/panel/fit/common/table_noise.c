@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* How noisy a table is, told by high differences of neighbours: smooth data leave nearly
  * nothing of them, noise of deviation s leaves s times the root of the sum of squared
  * binomials. */

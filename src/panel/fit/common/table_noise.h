@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* table_noise.h -- how noisy a measured table is, told by the table alone.
  *
  * Smooth data leave nearly nothing of high differences of neighbours; noise of standard

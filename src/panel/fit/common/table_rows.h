@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* table_rows.h -- where the rows of a measured table lie, and next to which others.
  *
  * Rows are sorted by theta, then phi; a ring is the rows of one theta. Angles in radians.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* A narrow beam of the emission: its centre, its width along two axes and its profiles
  * (panel_beam.h) by least squares, beside a cubic background, on the samples around it. */
 #include "panel/fit/emission/emission_beam.h"

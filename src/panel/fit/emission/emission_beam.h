@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* emission_beam.h -- narrow beams of an emission, each with profiles of its own
  * (panel_beam.h). */
 #pragma once

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "panel/fit/emission/emission_edges.h"
 
 #include <math.h>

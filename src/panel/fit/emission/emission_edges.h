@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* emission_edges.h -- an emission with sharp edges, read between its samples.
  *
  * Logarithms of a beam that ends between two samples fall by ten and more: a smooth surface

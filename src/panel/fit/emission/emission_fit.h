@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* emission_fit.h -- from the tables of an emission to the sections of a panel file.
  *
  * Samples at common directions -> few components for all tables -> smooth part and beams ->

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "base/mathf.h"
 #include "panel/fit/emission/emission_model.h"
 #include "panel/query/panel_components.h"

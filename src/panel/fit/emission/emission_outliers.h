@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* emission_outliers.h -- rows of an emission table that stand out of their neighbourhood (hot
  * and dead pixels), and directions that its grid lacks (the shadow of what holds the source).
  *

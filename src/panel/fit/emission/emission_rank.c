@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* Few components for all tables: a model of low rank of the logarithms, fitted to the numbers
  * themselves with their own noise, so that what drowns in noise (or is below the black pattern)
  * says little and is told by what it has in common with the rest.

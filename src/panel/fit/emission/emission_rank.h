@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* emission_rank.h -- few components for all tables of an emission.
  *
  * With E = M less the black pattern (or the black pattern itself),

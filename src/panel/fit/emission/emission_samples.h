@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* emission_samples.h -- all tables of an emission at common directions, with what noise makes
  * of every number.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* emission_section.h -- the emission's section of a panel file (layout: panel_file.h). */
 #pragma once
 #include "panel/fit/emission/emission_model.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* The smooth part of the components: least squares over B-splines in theta times harmonics of
  * the azimuth (panel_spline.h). */
 #include "panel/fit/emission/emission_smooth.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* emission_smooth.h -- the smooth part of an emission's components: cubic B-splines in theta
  * times harmonics of the azimuth (panel_spline.h). */
 #pragma once

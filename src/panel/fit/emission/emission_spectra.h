@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* emission_spectra.h -- the primaries' section of a panel file: their spectra at the sampling
  * that they were measured with. */
 #pragma once

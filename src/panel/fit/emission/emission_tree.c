@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* The tree of what the smooth part leaves: vertex values by least squares, coded so that every
  * channel of every table keeps the tolerance at every sample. */
 #include "base/mathf.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* emission_tree.h -- the tree of what the smooth part leaves of an emission, coded so that the
  * tolerance holds at every sample that it can hold at.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* emission_values.h -- values at the vertices of a lattice by least squares: what the smooth
  * part leaves of an emission's scores, as smooth as their noise asks for.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* reflection_axes.h -- how wide the haze's lobe is, and along which axes.
  *
  * Around the mirror direction a lobe is taken for (1 + x^T M x)^-2 over slopes or direction

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 #include "panel/fit/reflection/reflection_fit.h"
 
 #include <math.h>

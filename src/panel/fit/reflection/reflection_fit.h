@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* reflection_fit.h -- from the tables of a reflection to the sections of a panel file.
  *
  * Mirror, lobe and haze told apart -> the haze's logarithm in the specular-following frame ->

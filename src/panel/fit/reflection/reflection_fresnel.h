@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* reflection_fresnel.h -- what reflection tables are divided by: the unpolarised reflectance of
  * a smooth face of ordinary glass. Pure functions. */
 #pragma once

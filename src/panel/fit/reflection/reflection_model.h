@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* reflection_model.h -- what the steps of a reflection's fit hand to each other.
  *
  * Places     where the stored functions are read: vertices of the lattice, or the centres of

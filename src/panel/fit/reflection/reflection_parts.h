@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* reflection_parts.h -- the parts of a reflection told apart: mirror, lobe, and what is left
  * for the haze.
  *

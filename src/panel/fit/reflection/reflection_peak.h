@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* reflection_peak.h -- taking a narrow peak out of a measured table: the mirror's image, as
  * wide as the instrument, or a lobe of the panel's own, as wide as it comes.
  *

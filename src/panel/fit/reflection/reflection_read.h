@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* reflection_read.h -- reflection tables as logarithms at any direction of the
  * specular-following frame. */
 #pragma once

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* reflection_section.h -- the reflection's section of a panel file: integrals and energy are
  * settled on what the file will say itself. */
 #pragma once

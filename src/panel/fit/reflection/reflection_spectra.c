@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* What a query multiplies is rounded first, so that everything behind counts with the file's
  * own numbers. */
 #include "panel/fit/reflection/reflection_spectra.h"

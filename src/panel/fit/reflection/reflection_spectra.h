@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* reflection_spectra.h -- a reflection as few numbers a place: spectra on a few rows of a
  * basis, and the tables' coefficients on a few principal components that all tables share. */
 #pragma once

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* reflection_surface.h -- chooses in which coordinates an anisotropic haze is stored, and by
  * which law haze and mirror go on beyond the last measured incidence.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* reflection_tree.h -- the reflection's tree, and whether what it says again is good enough at
  * every place and at every measured sample. */
 #pragma once

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* reflection_view.h -- one table of a reflection in the coordinates and over the reference in
  * which its logarithm is stored.
  *
