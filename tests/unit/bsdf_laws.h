@@ -24,14 +24,22 @@ typedef struct Model {
 static Model models[MAX_MODELS];
 static int   model_count;
 
-/* Calls `law` for every model and eye, on the far side too where there is one. */
+/* Calls `law` for the model as a path's vertex has it: looked at from wo. */
+static void look_and_call(void (*law)(const Model *, Vec3), Model model, Vec3 wo)
+{
+    BsdfRoom room;
+    bsdf_look(&model.bsdf, wo, &room);
+    law(&model, wo);
+}
+
+/* For every model and eye, on the far side too where there is one. */
 static void for_all(void (*law)(const Model *, Vec3))
 {
     for (int m = 0; m < model_count; m++)
         for (int i = 0; i < EYE_COUNT; i++) {
             Vec3 wo = eye(i);
-            law(&models[m], wo);
-            if (models[m].both_sides) law(&models[m], vec3(wo.x, wo.y, -wo.z));
+            look_and_call(law, models[m], wo);
+            if (models[m].both_sides) look_and_call(law, models[m], vec3(wo.x, wo.y, -wo.z));
         }
 }
 
@@ -50,16 +58,14 @@ static Chart chart_for(const Model *model, Vec3 wo, bool same_side)
     return (Chart){frame_from_z(centre), model->width * fabsf(wo.z)}; /* lobes grow slender */
 }
 
-/* Integral of the pdf over one cell of the chart, on one side of the surface. */
-static double integrate_cell(const Model *model, Vec3 wo, const Chart *chart, int cell,
-                             bool same_side)
+/* Integral of the pdf over one cell of the chart, on one side of the surface, of fine * turns
+ * points. */
+static double sum_cell(const Model *model, Vec3 wo, const Chart *chart, int cell, int fine,
+                       int turns)
 {
     double sum = 0;
-    int    ring = cell / SECTORS, sector = cell % SECTORS;
-    int    turns = model->width < 0.03f ? 72 : 36;
-    int fine = fabsf(wo.z) < 0.1f || model->width < 0.03f
-                   ? 40
-                   : 16; /* the horizon cuts narrow lobes */
+    bool   same_side = cell < CELLS / 2;
+    int    ring = cell % (CELLS / 2) / SECTORS, sector = cell % SECTORS;
     double before = angle_of(chart, (double)ring / RINGS);
     for (int i = 0; i < fine; i++) {
         double after = angle_of(chart, (ring + (i + 1.0) / fine) / RINGS);
@@ -80,6 +86,22 @@ static double integrate_cell(const Model *model, Vec3 wo, const Chart *chart, in
     return sum;
 }
 
+/* The same, of ever more points until they agree; the horizon cuts narrow lobes, and there it
+ * takes them all. */
+static double integrate_cell(const Model *model, Vec3 wo, const Chart *chart, int cell)
+{
+    static const int fine[] = {4, 8, 16, 40}, turns[] = {9, 18, 36, 72};
+    bool   is_narrow = fabsf(wo.z) < 0.1f || model->width < 0.03f;
+    int    last = is_narrow ? 3 : 2;
+    double sum = 0;
+    for (int level = 0; level <= last; level++) {
+        double before = sum;
+        sum = sum_cell(model, wo, chart, cell, fine[level], turns[level]);
+        if (level > 0 && fabs(sum - before) <= 1e-3 * sum + 1e-7) break;
+    }
+    return sum;
+}
+
 static void samples_follow_pdf(const Model *model, Vec3 wo)
 {
     if (fabsf(wo.z) < 0.1f && model->width < 0.03f) return; /* a needle no chart resolves */
@@ -89,7 +111,7 @@ static void samples_follow_pdf(const Model *model, Vec3 wo)
     double total = 0;
     for (int i = 0; i < CELLS; i++) {
         bool same = i < CELLS / 2;
-        double part = integrate_cell(model, wo, &charts[!same], i % (CELLS / 2), same);
+        double part = integrate_cell(model, wo, &charts[!same], i);
         total += part;
         expected[i] = part * SAMPLES;
     }
