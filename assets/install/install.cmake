@@ -76,8 +76,9 @@ seats and lights: what the commands of Parhelion's guides render."
 package(libparhelion-panel1 libs "measured display panels for renderers"
   "What a measured display emits and reflects at every angle, asked in place
 from a .panel file as Parhelion makes it. This package has the shared library."
-  SHLIBDEPS ON CONTROL_EXTRA
-  "${CMAKE_BINARY_DIR}/shlibs;${CMAKE_SOURCE_DIR}/assets/install/triggers")
+  SHLIBDEPS ON)
+set(CPACK_DEBIAN_LIBPARHELION-PANEL1_PACKAGE_CONTROL_EXTRA
+  ${CMAKE_BINARY_DIR}/shlibs ${CMAKE_SOURCE_DIR}/assets/install/triggers)
 package(libparhelion-panel-dev libdevel
   "measured display panels for renderers, development"
   "What a measured display emits and reflects at every angle, asked in place
