@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""cluster.py [--keep DIR] PARHELION -- a frame that is shared by Debian's Slurm, slurmctld and
-three slurmd on this machine: twelve parts over three nodes, parts that fail, a task that is
-warned and comes back. Each time the frame is that of one run, byte for byte. Skipped where
-slurm-wlm is not installed, or nobody is root: without munge only root's daemons believe each
+"""cluster.py [--keep DIR] [--only NAME] PARHELION -- a frame that is shared by Debian's Slurm,
+slurmctld and three slurmd on this machine: twelve parts over three nodes, parts that fail, a
+task that is warned and comes back, a node that dies in the middle of a part; and a review of
+the shipped car. Each time the frame, or the review, is that of one run, byte for byte. Skipped
+where slurm-wlm is not installed, or nobody is root: without munge only root's daemons believe each
 other.
 """
 import argparse
@@ -13,10 +14,15 @@ import re
 import shutil
 import socket
 import subprocess
+import signal
+import sys
 import tempfile
 import time
 
-from jobs import Report, Work, contents
+from jobs import Report, ROOT, Work, contents
+
+sys.path.insert(0, os.path.join(ROOT, "tests", "hostile"))
+from review_resume import files_of  # noqa: E402
 
 TOOLS = ("slurmctld", "slurmd", "sbatch", "squeue", "scontrol", "scancel", "sinfo")
 NODES = ("n1", "n2", "n3")
@@ -63,6 +69,17 @@ def free_ports(count):
         return [one.getsockname()[1] for one in sockets]
 
 
+def read_proc(pid, name):
+    with contextlib.suppress(OSError), open(f"/proc/{pid}/{name}", "rb") as file:
+        return file.read()
+    return b""
+
+
+def parent_of(pid):
+    match = re.search(rb"^PPid:\s*(\d+)", read_proc(pid, "status"), re.M)
+    return int(match[1]) if match else 0
+
+
 class Cluster:
     """The daemons, each a child of this process."""
 
@@ -89,6 +106,19 @@ class Cluster:
 
     def start_node(self, node):
         self.start("slurmd", "-D", "-N", node, key=node)
+
+    def kill_node(self, node):
+        """The daemon and all that runs on the node, at once, as when its power goes."""
+        mark = f"SLURMD_NODENAME={node}\0".encode()
+        tasks = [pid for pid in map(int, filter(str.isdigit, os.listdir("/proc")))
+                 if mark in read_proc(pid, "environ")]
+        steps = {parent_of(pid) for pid in tasks}
+        self.daemons[node].kill()
+        for pid in [*tasks, *(pid for pid in steps
+                              if read_proc(pid, "comm").startswith(b"slurmstepd"))]:
+            with contextlib.suppress(ProcessLookupError):
+                os.kill(pid, signal.SIGKILL)
+        self.daemons[node].wait(20)
 
     def ask(self, *words):
         return subprocess.run(words, capture_output=True, text=True, timeout=60)
@@ -215,10 +245,51 @@ def check_warned(work, cluster):
     claim_frame(work, "warned", options, "a task that was warned")
 
 
+def check_dead(work, cluster):
+    """A node dies in the middle of a part: another goes on from the part's checkpoint."""
+    report = work.report
+    options = long_frame(work, 3)
+    array, _ = submit(work, 3, *options, "--checkpoint-interval", "0", job="dead")
+    report.claim(cluster.wait(lambda: kept(work, "dead", 0) > 0), "no checkpoint")
+    node = cluster.tasks(array)["0"]["NodeList"]
+    cluster.kill_node(node)
+    report.claim(cluster.wait(cluster.is_empty), "parts of a dead node do not end")
+    log, task = log_of(work, "dead", "part-0.log"), cluster.tasks(array)["0"]
+    report.claim((task["Restarts"], task["JobState"]) == ("1", "COMPLETED")
+                 and task["NodeList"] != node and "goes on after" in log,
+                 f"a node that died: {node} {task} {log}")
+    claim_frame(work, "dead", options, "a node that died")
+    cluster.start_node(node)
+    report.claim(cluster.wait(cluster.is_idle, 60), f"{node} does not come back")
+
+
+def check_review(work, cluster):
+    """The shipped car at a glance: a job array, and the merge ends as the review does."""
+    asked = os.path.join(ROOT, "scenes", "glance.review.json")
+    one = work.run("review", asked, "-o", "glance", "--quiet")
+    work.report.claim(one.returncode == 1, f"one run: {one.returncode} {one.stderr}")
+    os.rename(work.path("glance"), work.path("one"))
+    done = work.run("review", asked, "-o", "glance", "--slurm", "6", "--submit", "--json")
+    if not work.report.claim(done.returncode == 0, f"--submit: {done.stderr}"):
+        return
+    answer = json.loads(done.stdout)
+    work.report.claim(cluster.wait(cluster.is_empty), "a review's parts do not end")
+    tasks = cluster.tasks(answer["array_job"])
+    work.report.claim([task["JobState"] for task in tasks.values()] == ["COMPLETED"] * 6,
+                      f"a review's parts: {tasks}")
+    merge = cluster.tasks(answer["merge_job"])["0"]
+    work.report.claim(merge["ExitCode"] == "1:0", f"a review that fails: {merge}")
+    wanted, found = files_of(work.path("one")), files_of(work.path("glance"))
+    other = [name for name in wanted.keys() | found.keys()
+             if wanted.get(name) != found.get(name)]
+    work.report.claim(wanted and not other, f"not one run's: {other}")
+
+
 def main():
     report = Report()
     parser = argparse.ArgumentParser()
     parser.add_argument("--keep", help="the folder of the daemons and jobs, which is kept")
+    parser.add_argument("--only", default="", help="cases of which the name has this")
     parser.add_argument("program")
     arguments = parser.parse_args()
     missing = [tool for tool in TOOLS if not shutil.which(tool)]
@@ -234,7 +305,9 @@ def main():
         work = Work(arguments.program, os.path.realpath(folder), report)
         if report.claim(cluster.wait(cluster.is_idle, 60), "the nodes do not come up: " +
                         cluster.ask("sinfo", "-N", "-l").stdout):
-            for check in (check_twelve, check_failing, check_warned):
+            for check in (check_twelve, check_failing, check_warned, check_dead, check_review):
+                if arguments.only not in check.__name__:
+                    continue
                 begun = time.time()
                 check(work, cluster)
                 print(f"{check.__name__}: {time.time() - begun:.0f} s", flush=True)
