@@ -46,6 +46,8 @@ if run_one 'release build, warnings are errors' build-release build release all;
     gather
     start 'same bits, any parts' merge python3 tests/image/merge.py .build/release/parhelion
     start 'a frame shared in a job' job python3 tests/slurm/job.py .build/release/parhelion
+    start 'a review shared in a job' review-job \
+        python3 tests/slurm/review_job.py .build/release/parhelion
     start 'groups of lights' lights python3 tests/image/lights.py .build/release/parhelion
     start 'same bits, killed and resumed' resume \
         python3 tests/hostile/resume.py .build/release/parhelion

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* parhelion part: one part of a job that `render --slurm` shared out, wherever the folder is.
+/* parhelion part: one part of a job that `render --slurm` or `review --slurm` shared out,
+ * wherever the folder is.
  *
  * It may be run any number of times, also twice at once: the part's file appears whole or not
  * at all, and has the same bits whoever wrote it. */
@@ -7,13 +8,14 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "base/count.h"
 #include "base/file.h"
 #include "cli/commands.h"
 #include "cli/job/job_manifest.h"
 #include "cli/job/job_state.h"
+#include "cli/job_review.h"
+#include "cli/job_words.h"
 #include "cli/options/answer.h"
 #include "cli/options/cli.h"
 #include "cli/render/cmd_render.h"
@@ -22,7 +24,7 @@
 typedef struct PartRun {
     Cli         cli;
     Arena      *arena;
-    RenderJob   job;
+    SharedJob   job;
     int         index;
     const char *name;      /* "DIR: part 3", for messages */
     bool        was_there; /* nothing had to be done */
@@ -31,7 +33,8 @@ typedef struct PartRun {
 static bool parse(int argc, char **argv, PartRun *work, Error *err)
 {
     const CliCommand command = {
-        "part", "render one part of a job that `render --slurm` made", "DIR INDEX",
+        "part", "do one part of a job that `render --slurm` or `review --slurm` made",
+        "DIR INDEX",
         "parhelion part frame.exr.parts 3", NULL, 0, 2, 2};
     return cli_parse(&command, argc, argv, work->arena, &work->cli, err);
 }
@@ -60,56 +63,39 @@ static bool is_done(const PartRun *work)
     if (job_part_is_done(&work->job, work->index, true, *work->arena, &why)) return true;
     if (!why.text[0]) return false;
     error_line(&why, line, (int)sizeof line);
-    fprintf(stderr, "parhelion: warning: %s — it is rendered again\n", line);
+    fprintf(stderr, "parhelion: warning: %s — it is done again\n", line);
     return false;
 }
 
-static char *word(PartRun *work, const char *text)
+static bool render(PartRun *work, const JobFolder *folder, Error *err)
 {
-    return arena_string(work->arena, text, strlen(text));
-}
-
-/* The job's words behind the part's own: a `--` among them ends the options. */
-static char **make_words(PartRun *work, const char *checkpoint, int *count)
-{
-    const RenderJob *job = &work->job;
+    const SharedJob *job = &work->job;
     const JobPart   *part = &job->parts[work->index];
     const FilmRect   crop = part->crop;
     Arena           *arena = work->arena;
-    static const char *const progress[] = {
-        [PROGRESS_AUTO] = "auto", [PROGRESS_BAR] = "bar", [PROGRESS_PLAIN] = "plain",
-        [PROGRESS_JSON] = "json", [PROGRESS_NONE] = "none"};
+    const char *checkpoint = job_take_checkpoint(job, folder, work->index, arena);
     const char *own[] = {
         "render", "--samples", arena_format(arena, "%u:%u", part->first_sample,
                                             part->end_sample),
         "--crop", arena_format(arena, "%d,%d,%d,%d", crop.x0, crop.y0, crop.x1, crop.y1),
         "-o", job_part_file(job, work->index, ".exr", arena), "--checkpoint", checkpoint,
-        "--threads", arena_format(arena, "%d", work->cli.threads),
-        work->cli.quiet ? "--quiet" : arena_format(arena, "--progress=%s",
-                                                   progress[work->cli.progress]),
         "--resume"};
-    int    own_count = COUNT_OF(own) - !file_exists(checkpoint); /* nothing to go on from */
-    char **words = ARENA_NEW(arena, char *, own_count + job->word_count + 1);
-    for (int i = 0; i < own_count; i++) words[i] = word(work, own[i]);
-    for (int i = 0; i < job->word_count; i++) words[own_count + i] = word(work, job->words[i]);
-    *count = own_count + job->word_count;
-    return words;
+    int   has_nothing = !file_exists(checkpoint); /* to go on from */
+    JobWords words = job_words(job, &work->cli, own, COUNT_OF(own) - has_nothing, arena);
+    const RenderPin pin = {work->name, job->identity, job->isa,
+                           job_part_command(job, work->index, arena)};
+    return cmd_render_run(words.count, words.list, &pin, arena, err);
 }
 
-static bool render(PartRun *work, Error *err)
+static bool run_one(PartRun *work, Error *err)
 {
-    const RenderJob *job = &work->job;
-    JobFolder        folder;
-    int              count;
-    if (chdir(job->folder) != 0)
-        return error_at(err, ERROR_INPUT, job->folder, "",
-                        "cannot be entered: %s — the job was planned there", strerror(errno));
-    if (!job_folder_list(job, work->arena, &folder, err)) return false;
-    const char *checkpoint = job_take_checkpoint(job, &folder, work->index, work->arena);
-    char      **words = make_words(work, checkpoint, &count);
-    const RenderPin pin = {work->name, job->identity, job->isa,
-                           job_part_command(job, work->index, work->arena)};
-    return cmd_render_run(count, words, &pin, work->arena, err);
+    const SharedJob   *job = &work->job;
+    JobFolder          folder;
+    const JobReviewPart part = {work->index, work->name, &folder};
+    return job_enter(job, err) && job_folder_list(job, work->arena, &folder, err) &&
+           (job->kind == JOB_REVIEW
+                ? job_review_part(job, &work->cli, &part, work->arena, err)
+                : render(work, &folder, err));
 }
 
 /* What a task keeps of how it failed. Who was stopped did not fail; and who lost the race to
@@ -119,7 +105,10 @@ static bool end_badly(PartRun *work, Error *err)
     Error ignored;
     char  line[2048];
     if (!err->text[0]) return false;
-    if (job_part_is_done(&work->job, work->index, false, *work->arena, &ignored)) return true;
+    if (job_part_is_done(&work->job, work->index, false, *work->arena, &ignored)) {
+        *err = (Error){0};
+        return true;
+    }
     cli_error_line(err, line, (int)sizeof line);
     job_part_note_failure(&work->job, work->index, error_exit_status(err->code), line,
                           *work->arena);
@@ -128,7 +117,8 @@ static bool end_badly(PartRun *work, Error *err)
 
 static bool print_answer(const PartRun *work, Error *err)
 {
-    const char *file = job_part_file(&work->job, work->index, ".exr", work->arena);
+    const char *file = job_part_file(&work->job, work->index, job_part_ending(&work->job),
+                                     work->arena);
     if (work->cli.json)
         return cli_print_json(json_pack("{s:i, s:i, s:o, s:b}", "part", work->index, "parts",
                                         work->job.part_count, "output", json_text(file),
@@ -147,7 +137,7 @@ static bool do_part(PartRun *work, Error *err)
     work->was_there = is_done(work);
     if (!work->was_there) {
         job_part_forget_failure(&work->job, work->index, *work->arena);
-        if (!render(work, err) && !end_badly(work, err)) return false;
+        if (!run_one(work, err) && !end_badly(work, err)) return false;
     }
     job_part_clean(&work->job, work->index, *work->arena);
     return print_answer(work, err);
@@ -160,4 +150,4 @@ static bool run_part(int argc, char **argv, Arena *arena, Error *err)
 }
 
 const Command command_part = {
-    "part", "render one part of a frame that is shared among machines", run_part};
+    "part", "do one part of a frame or review that is shared among machines", run_part};

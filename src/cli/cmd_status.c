@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* parhelion status: how far a job is that `render --slurm` shared out, and what is left. */
+/* parhelion status: how far a job is that `--slurm` shared out, and what is left. */
 #include <stdio.h>
 #include <string.h>
 
@@ -21,10 +21,10 @@ static const char *const state_names[STATE_COUNT] = {
 typedef struct StatusRun {
     Cli            cli;
     Arena         *arena;
-    RenderJob      job;
+    SharedJob      job;
     JobPartReport *reports;
     int            counts[STATE_COUNT];
-    const char    *output; /* the frame's file */
+    const char    *output; /* the frame's file, or the review's */
 } StatusRun;
 
 static bool parse(int argc, char **argv, StatusRun *work, Error *err)
@@ -47,6 +47,8 @@ static bool look(StatusRun *work, Error *err)
         work->counts[work->reports[i].state]++;
     }
     work->output = job_output_file(&work->job, work->arena);
+    if (work->job.kind == JOB_REVIEW)
+        work->output = arena_format(work->arena, "%s/review.json", work->output);
     return true;
 }
 
@@ -59,17 +61,23 @@ static bool is_all_done(const StatusRun *work)
 
 static json_t *part_json(const StatusRun *work, int index)
 {
-    const JobPart       *part = &work->job.parts[index];
     const JobPartReport *report = &work->reports[index];
-    const FilmRect       crop = part->crop;
-    return json_pack(
-        "{s:i, s:s, s:[I,I], s:[i,i,i,i], s:I, s:o, s:o, s:o}", "index", index, "state",
-        state_names[report->state], "samples", (json_int_t)part->first_sample,
-        (json_int_t)part->end_sample, "crop", crop.x0, crop.y0, crop.x1, crop.y1,
-        "samples_kept", (json_int_t)report->samples_kept, "status",
+    bool    is_frame = work->job.kind == JOB_FRAME;
+    json_t *item = json_pack(
+        "{s:i, s:s, s:I, s:o, s:o, s:o}", "index", index, "state", state_names[report->state],
+        is_frame ? "samples_kept" : "answers_kept", (json_int_t)report->kept, "status",
         report->reason ? json_integer(report->status) : json_null(), "error",
         report->reason ? json_text(report->reason) : json_null(), "command",
         json_text(job_part_command(&work->job, index, work->arena)));
+    if (!is_frame) return item;
+    const JobPart *part = &work->job.parts[index];
+    const FilmRect crop = part->crop;
+    json_object_set_new(item, "samples",
+                        json_pack("[I,I]", (json_int_t)part->first_sample,
+                                  (json_int_t)part->end_sample));
+    json_object_set_new(item, "crop",
+                        json_pack("[i,i,i,i]", crop.x0, crop.y0, crop.x1, crop.y1));
+    return item;
 }
 
 static bool print_json(const StatusRun *work, Error *err)
@@ -77,8 +85,10 @@ static bool print_json(const StatusRun *work, Error *err)
     json_t *parts = json_array();
     for (int i = 0; i < work->job.part_count; i++)
         json_array_append_new(parts, part_json(work, i));
-    json_t *answer = json_pack("{s:o, s:o, s:b, s:i, s:b, s:o, s:o}", "job",
-                               json_text(work->job.dir), "output", json_text(work->output),
+    json_t *answer = json_pack("{s:o, s:s, s:o, s:b, s:i, s:b, s:o, s:o}", "job",
+                               json_text(work->job.dir), "kind",
+                               job_kind_names[work->job.kind], "output",
+                               json_text(work->output),
                                "output_is_there", file_exists(work->output), "parts",
                                work->job.part_count, "complete", is_all_done(work), "merge",
                                json_text(job_merge_command(&work->job, work->arena)), "list",
@@ -90,15 +100,24 @@ static bool print_json(const StatusRun *work, Error *err)
 
 /* ---- as lines ---------------------------------------------------------------------------- */
 
+static void print_kept(const StatusRun *work, int index)
+{
+    uint32_t kept = work->reports[index].kept;
+    if (work->job.kind == JOB_REVIEW) {
+        printf(", %u answer%s kept", kept, kept == 1 ? " is" : "s are");
+        return;
+    }
+    const JobPart *part = &work->job.parts[index];
+    uint32_t       all = part->end_sample - part->first_sample;
+    printf(", %u of %u samples a pixel are kept", kept, all);
+}
+
 static void print_part(const StatusRun *work, int index)
 {
-    const JobPart       *part = &work->job.parts[index];
     const JobPartReport *report = &work->reports[index];
     if (report->state == JOB_PART_DONE) return;
     printf("part %d: %s", index, state_names[report->state]);
-    if (report->samples_kept)
-        printf(", %u of %u samples a pixel are kept", report->samples_kept,
-               part->end_sample - part->first_sample);
+    if (report->kept) print_kept(work, index);
     if (report->reason) printf(", status %d: %s", report->status, report->reason);
     printf("\n    %s\n", job_part_command(&work->job, index, work->arena));
 }
@@ -137,4 +156,4 @@ static bool run_status(int argc, char **argv, Arena *arena, Error *err)
 }
 
 const Command command_status = {
-    "status", "how far a frame is that is shared among machines", run_status};
+    "status", "how far a frame or review is that is shared among machines", run_status};

@@ -12,6 +12,7 @@ extern const Command command_compare;
 extern const Command command_develop;
 extern const Command command_help;
 extern const Command command_measure;
+extern const Command command_merge;
 extern const Command command_part;
 extern const Command command_sky;
 extern const Command command_status;

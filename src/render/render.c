@@ -248,10 +248,7 @@ bool render_write_checkpoint(const CheckpointName *name, const RenderOptions *op
 
 static bool read_field(RenderSetup *setup, const char *path, Arena *arena, Error *err)
 {
-    GuideScene scene = {.light_count = setup->context.scene->light_count,
-                        .lamp_count = lights_lamp_count(setup->context.lights)};
-    for (int set = 0; set < GUIDE_LIGHTS; set++)
-        scene.has[set] = lights_has(setup->context.lights, (LightSet)set);
+    GuideScene scene = train_guide_scene(&setup->context);
     return guide_read(path, &scene, arena, &setup->context.guide, err);
 }
 

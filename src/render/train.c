@@ -116,6 +116,15 @@ static uint32_t places_a_cell(const Camera *camera, uint32_t places)
     return (uint32_t)fmax(places / (CELLS * sqrt(pixels)), GUIDE_POINTS);
 }
 
+GuideScene train_guide_scene(const PathContext *context)
+{
+    GuideScene scene = {.light_count = context->scene->light_count,
+                        .lamp_count = lights_lamp_count(context->lights)};
+    for (int set = 0; set < GUIDE_LIGHTS; set++)
+        scene.has[set] = lights_has(context->lights, (LightSet)set);
+    return scene;
+}
+
 const LightGuide *train_guide(const PathContext *context, const Camera *camera,
                          const TrainOptions *options, Arena *arena, PathStatistics *cost)
 {

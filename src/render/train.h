@@ -8,12 +8,16 @@
  */
 #pragma once
 #include "camera/camera.h"
+#include "guide/guide_file.h"
 #include "kernel/kernel.h"
 
 typedef struct TrainOptions {
     const Kernel *kernel;
     int           threads;
 } TrainOptions;
+
+/* What a guide that was kept for this light has to fit. */
+GuideScene train_guide_scene(const PathContext *context);
 
 /* context: without a guide. */
 const LightGuide *train_guide(const PathContext *context, const Camera *camera,

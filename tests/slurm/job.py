@@ -162,7 +162,7 @@ def check_damage(work):
                      part["error"], f"cut to {size}: {part}")
         work.claim_line(work.run("merge", job), 3, "1 of 2 parts are not done", "part")
         done = work.run("part", job, "0", "--quiet")
-        report.claim(done.returncode == 0 and "it is rendered again" in done.stderr
+        report.claim(done.returncode == 0 and "it is done again" in done.stderr
                      and contents(first) == sound, f"cut to {size}: {done.stderr}")
     # In the middle of the sums: only who reads all of them finds it.
     place = sound.rindex(b"film\0") if b"film\0" in sound else 0

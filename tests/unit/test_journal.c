@@ -159,6 +159,73 @@ TEST(two_at_once_are_refused_and_an_empty_one_leaves_nothing)
     assert_false(file_exists(file));
 }
 
+/* ---- files of others --------------------------------------------------------------------- */
+
+static char other_file[2 * FOLDER_BYTES];
+
+static Journal *open_other(Arena *arena)
+{
+    Problems problems = problems_start(arena);
+    Journal *journal;
+    Error    err;
+    snprintf(other_file, sizeof other_file, "%s", in_folder("other"));
+    unlink(other_file);
+    if (!journal_open(other_file, arena, &problems, &journal, &err)) fail_msg("%s", err.text);
+    return journal;
+}
+
+TEST(answers_of_another_are_taken_over_and_ones_own_count_first)
+{
+    Arena         arena = test_arena(state);
+    int           warnings;
+    unsigned char found[MOST], own[MOST] = {7};
+    fill(&arena);
+    Journal *from = open_journal(&arena, &warnings); /* somebody is at work on it */
+    Journal *to = open_other(&arena);
+    journal_add(to, key_of(3), own, size_of(3));
+    assert_true(journal_take_over(to, file, arena));
+    assert_true(journal_take_over(to, file, arena));
+    assert_int_equal(journal_count(to), ANSWERS);
+    assert_true(journal_find(to, key_of(3), found, size_of(3)));
+    assert_memory_equal(found, own, size_of(3));
+    for (int i = 4; i <= ANSWERS; i++) {
+        unsigned char wanted[MOST];
+        answer_of(i, wanted);
+        assert_true(journal_find(to, key_of(i), found, size_of(i)));
+        assert_memory_equal(found, wanted, size_of(i));
+    }
+    journal_close(to);
+    journal_close(from);
+    assert_int_equal(journal_file_count(other_file, arena), ANSWERS);
+}
+
+/* Of every prefix all whole answers count, and only the whole file is whole. */
+TEST(what_is_cut_off_is_taken_as_far_as_it_is_whole)
+{
+    Arena     arena = test_arena(state);
+    FileBytes bytes;
+    Error     err;
+    int       last = 0;
+    fill(&arena);
+    if (!file_read(file, 1 << 20, &arena, &bytes, &err)) fail_msg("%s", err.text);
+    for (size_t size = 0; size < bytes.size; size++) {
+        Arena room = arena;
+        write_bytes(file, bytes.data, size);
+        int count = journal_file_count(file, room);
+        assert_true(count >= last && count < ANSWERS);
+        assert_false(journal_file_has(file, key_of(ANSWERS), room));
+        Journal *to = open_other(&room);
+        assert_int_equal(journal_take_over(to, file, room), size >= 16);
+        assert_int_equal(journal_count(to), count);
+        journal_close(to);
+        last = count;
+    }
+    write_bytes(file, bytes.data, bytes.size);
+    assert_true(journal_file_has(file, key_of(ANSWERS), arena));
+    assert_false(journal_file_has(file, key_of(ANSWERS + 1), arena));
+    assert_false(journal_file_has("nowhere", key_of(1), arena));
+}
+
 int main(void)
 {
     return run_cases(start, clear_folder);

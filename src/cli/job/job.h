@@ -1,15 +1,17 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* job.h -- one frame shared among machines: a folder that lists its parts, and holds each as
- * soon as it is done. No process watches over it: what is there tells what is left.
+/* job.h -- one frame, or one review, shared among machines: a folder that lists its parts, and
+ * holds each as soon as it is done. No process watches over it: what is there tells what is
+ * left.
  *
- *     manifest.json             what the frame is, and its parts (assets/schemas/job.md)
+ *     manifest.json             what is made, and its parts (assets/schemas/job.md)
  *     array.sbatch              Slurm's array job, and the job that merges
  *     merge.sbatch
  *     commands.txt              the same parts as commands, one a line
  *     logs/                     what Slurm's tasks say
- *     part-0003.exr             a part that is done
+ *     part-0003.exr             a part that is done; of a review part-0003.answers
  *     part-0003.HOST-PID.checkpoint   what a task has done of it so far
  *     part-0003.failed          the status and the line with which it failed last
+ *     responses/                of a review's sweeps, unless they have a folder of their own
  *
  * Memory   the arena's.
  * Threads  one at a time.
@@ -20,36 +22,49 @@
 
 #define JOB_PARTS_MAX 100000
 
+typedef enum JobKind { JOB_FRAME, JOB_REVIEW, JOB_KINDS } JobKind;
+
+/* Of a frame. A review's part answers every part_count-th of its questions (review/run/
+ * share.h). */
 typedef struct JobPart {
     FilmRect crop;
     uint32_t first_sample, end_sample; /* half-open */
 } JobPart;
 
-typedef struct RenderJob {
+typedef struct SharedJob {
+    JobKind      kind;
     const char  *dir;      /* the job's folder, absolute */
     const char  *program;  /* that planned it, absolute */
     const char  *folder;   /* from where the names below are seen, absolute */
     const char  *line;     /* the command of one run, as frames say it (command_line.h) */
-    const char  *output;   /* the frame, as typed */
-    const char  *identity; /* of every part, but for what is learnt (render_identity.h) */
+    const char  *output;   /* the frame, or the review's folder, as typed */
+    const char  *identity; /* of all parts, but for what is learnt (render_identity.h); of a
+                              review that of each condition */
     const char  *isa;
-    const char **words;    /* of `render`, without its name, the outputs and the range */
+    const char **words;    /* of the command, without its name, the output and the range */
     int          word_count;
+    int          part_count;
+    /* of a frame: */
     int          width, height;
     bool         keeps_sums; /* one run would keep its sums: the frame is itself a part */
     JobPart     *parts;
-    int          part_count;
-} RenderJob;
+} SharedJob;
 
 /* A file of the job's folder. */
-const char *job_file(const RenderJob *job, const char *name, Arena *arena);
+const char *job_file(const SharedJob *job, const char *name, Arena *arena);
 
 /* "part-0003.exr" in it: of part 3, with this ending. */
-const char *job_part_file(const RenderJob *job, int index, const char *ending, Arena *arena);
+const char *job_part_file(const SharedJob *job, int index, const char *ending, Arena *arena);
 
-/* The frame's file, as seen from anywhere. */
-const char *job_output_file(const RenderJob *job, Arena *arena);
+/* The ending of a part that is done: ".exr", ".answers". */
+const char *job_part_ending(const SharedJob *job);
+
+/* "frame", "review": how manifests and messages call it. */
+extern const char *const job_kind_names[JOB_KINDS];
+
+/* The output, as seen from anywhere. */
+const char *job_output_file(const SharedJob *job, Arena *arena);
 
 /* The command that does part `index`, or the rest of it, for a shell. */
-const char *job_part_command(const RenderJob *job, int index, Arena *arena);
-const char *job_merge_command(const RenderJob *job, Arena *arena);
+const char *job_part_command(const SharedJob *job, int index, Arena *arena);
+const char *job_merge_command(const SharedJob *job, Arena *arena);

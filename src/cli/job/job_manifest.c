@@ -18,29 +18,37 @@
 
 /* ---- writing ----------------------------------------------------------------------------- */
 
-static json_t *part_json(const RenderJob *job, int index, Arena scratch)
+static json_t *part_json(const SharedJob *job, int index, Arena scratch)
 {
+    const char *file = job_part_file(job, index, job_part_ending(job), &scratch);
+    json_t     *item = json_pack("{s:i, s:s, s:s}", "index", index, "file", path_name(file),
+                                 "command", job_part_command(job, index, &scratch));
+    if (job->kind != JOB_FRAME) return item;
     const JobPart *part = &job->parts[index];
     const FilmRect crop = part->crop;
-    return json_pack("{s:i, s:[I,I], s:[i,i,i,i], s:s, s:s}", "index", index, "samples",
-                     (json_int_t)part->first_sample, (json_int_t)part->end_sample, "crop",
-                     crop.x0, crop.y0, crop.x1, crop.y1, "file",
-                     path_name(job_part_file(job, index, ".exr", &scratch)), "command",
-                     job_part_command(job, index, &scratch));
+    json_object_set_new(item, "samples",
+                        json_pack("[I,I]", (json_int_t)part->first_sample,
+                                  (json_int_t)part->end_sample));
+    json_object_set_new(item, "crop",
+                        json_pack("[i,i,i,i]", crop.x0, crop.y0, crop.x1, crop.y1));
+    return item;
 }
 
-const char *job_manifest_text(const RenderJob *job, Arena *arena)
+const char *job_manifest_text(const SharedJob *job, Arena *arena)
 {
     json_t *parts = json_array();
     for (int i = 0; i < job->part_count; i++)
         json_array_append_new(parts, part_json(job, i, *arena));
     json_t *document = json_pack(
-        "{s:s, s:i, s:s, s:s, s:s, s:s, s:s, s:o, s:[i,i], s:b, s:s, s:o, s:s}", "format",
-        FORMAT, "version", VERSION, "command", job->line, "program", job->program, "isa",
-        job->isa, "folder", job->folder, "output", job->output, "words",
-        json_texts(job->words, job->word_count), "size", job->width, job->height,
-        "keeps_sums", job->keeps_sums, "identity", job->identity, "parts", parts, "merge",
-        job_merge_command(job, arena));
+        "{s:s, s:i, s:s, s:s, s:s, s:s, s:s, s:s, s:o, s:s, s:o, s:s}", "format", FORMAT,
+        "version", VERSION, "kind", job_kind_names[job->kind], "command", job->line, "program",
+        job->program, "isa", job->isa, "folder", job->folder, "output", job->output, "words",
+        json_texts(job->words, job->word_count), "identity", job->identity, "parts", parts,
+        "merge", job_merge_command(job, arena));
+    if (job->kind == JOB_FRAME) {
+        json_object_set_new(document, "size", json_pack("[i,i]", job->width, job->height));
+        json_object_set_new(document, "keeps_sums", json_boolean(job->keeps_sums));
+    }
     char       *text = json_dumps(document, JSON_INDENT(1));
     const char *kept = arena_format(arena, "%s", "");
     if (text) {
@@ -55,11 +63,16 @@ const char *job_manifest_text(const RenderJob *job, Arena *arena)
 
 /* ---- reading ----------------------------------------------------------------------------- */
 
-/* Every key has to be there. */
-static const char *const keys[] = {"format", "version", "command", "program", "isa", "folder",
-                                   "output", "words", "size", "keeps_sums", "identity",
-                                   "parts", "merge"};
-static const char *const part_keys[] = {"index", "samples", "crop", "file", "command"};
+/* Every key has to be there: the last two of a frame alone. */
+static const char *const keys[] = {"format", "version", "kind", "command", "program", "isa",
+                                   "folder", "output", "words", "identity", "parts", "merge",
+                                   "size", "keeps_sums"};
+static const char *const part_keys[] = {"index", "file", "command", "samples", "crop"};
+
+static int key_count(const SharedJob *job, int all)
+{
+    return job->kind == JOB_FRAME ? all : all - 2;
+}
 
 static bool check_all_there(const JsonView *view, const char *const *wanted, int count,
                             Error *err)
@@ -79,7 +92,7 @@ static bool check_format(const JsonView *view, Error *err)
     if (strcmp(format, FORMAT) != 0)
         return error_at(err, ERROR_INPUT, view->file, "/format",
                         "is '%.80s', wanted '" FORMAT "' — it is no job that was shared by "
-                        "`parhelion render --slurm N`",
+                        "`parhelion render --slurm N` or `parhelion review --slurm N`",
                         format);
     if (!json_view_number(view, "version", 0, 1e6, &version, err)) return false;
     return version == VERSION ||
@@ -100,7 +113,7 @@ static bool read_list(const JsonView *view, const char *key, int least, int most
     return true;
 }
 
-static bool read_words(const JsonView *view, RenderJob *job, Error *err)
+static bool read_words(const JsonView *view, SharedJob *job, Error *err)
 {
     json_t *list, *value;
     size_t  i;
@@ -131,18 +144,22 @@ static bool read_wholes(const JsonView *view, const char *key, int count, double
                                       "has %d values, wanted %d", found, count);
 }
 
-static bool read_part(const JsonView *view, const RenderJob *job, int index, JobPart *out,
-                      Error *err)
+static bool check_index(const JsonView *view, int index, Error *err)
 {
-    double number = 0, samples[2], crop[4];
-    if (!check_all_there(view, part_keys, COUNT_OF(part_keys), err) ||
-        !json_view_number(view, "index", 0, JOB_PARTS_MAX, &number, err) ||
-        !read_wholes(view, "samples", 2, FILM_SAMPLES_MAX, samples, err) ||
+    double number = 0;
+    return json_view_number(view, "index", 0, JOB_PARTS_MAX, &number, err) &&
+           (number == index ||
+            error_at(err, ERROR_INPUT, view->file, json_view_path(view, "index"),
+                     "is %g, wanted %d", number, index));
+}
+
+/* Of a frame. */
+static bool read_part(const JsonView *view, const SharedJob *job, JobPart *out, Error *err)
+{
+    double samples[2], crop[4];
+    if (!read_wholes(view, "samples", 2, FILM_SAMPLES_MAX, samples, err) ||
         !read_wholes(view, "crop", 4, EXR_MAX_SIDE, crop, err))
         return false;
-    if (number != index)
-        return error_at(err, ERROR_INPUT, view->file, json_view_path(view, "index"),
-                        "is %g, wanted %d", number, index);
     if (samples[0] >= samples[1])
         return error_at(err, ERROR_INPUT, view->file, json_view_path(view, "samples"),
                         "is %g to %g, wanted a range", samples[0], samples[1]);
@@ -156,7 +173,7 @@ static bool read_part(const JsonView *view, const RenderJob *job, int index, Job
     return true;
 }
 
-static bool read_parts(const JsonView *view, RenderJob *job, Error *err)
+static bool read_parts(const JsonView *view, SharedJob *job, Error *err)
 {
     json_t *list;
     if (!read_list(view, "parts", 1, JOB_PARTS_MAX, &list, err)) return false;
@@ -168,7 +185,10 @@ static bool read_parts(const JsonView *view, RenderJob *job, Error *err)
         JsonView    item = {value, view->file, path, view->arena, NULL};
         if (!json_is_object(value))
             return json_view_wrong_kind(view, "parts", value, "a list of objects", err);
-        if (!read_part(&item, job, i, &job->parts[i], err)) return false;
+        if (!check_all_there(&item, part_keys, key_count(job, COUNT_OF(part_keys)), err) ||
+            !check_index(&item, i, err) ||
+            (job->kind == JOB_FRAME && !read_part(&item, job, &job->parts[i], err)))
+            return false;
     }
     return true;
 }
@@ -181,24 +201,44 @@ static bool read_folder(const JsonView *view, const char *key, const char **out,
                      "is '%.200s', wanted a path from the root", *out));
 }
 
-static bool read_all(const JsonView *view, RenderJob *job, Error *err)
+static bool read_kind(const JsonView *view, JobKind *out, Error *err)
+{
+    const char *kind = "";
+    if (!json_object_get(view->object, "kind"))
+        return error_at(err, ERROR_INPUT, view->file, view->path, "key 'kind' is missing");
+    if (!json_view_text(view, "kind", &kind, err)) return false;
+    for (*out = JOB_FRAME; *out < JOB_KINDS; (*out)++)
+        if (!strcmp(kind, job_kind_names[*out])) return true;
+    return error_at(err, ERROR_INPUT, view->file, "/kind",
+                    "is '%.80s', wanted 'frame' or 'review'", kind);
+}
+
+/* What a frame has beside all that jobs have. */
+static bool read_frame(const JsonView *view, SharedJob *job, Error *err)
 {
     double  size[2];
     json_t *keeps_sums = json_object_get(view->object, "keeps_sums");
-    if (!check_format(view, err) || !check_all_there(view, keys, COUNT_OF(keys), err) ||
+    if (!read_wholes(view, "size", 2, EXR_MAX_SIDE, size, err)) return false;
+    if (!json_is_boolean(keeps_sums))
+        return json_view_wrong_kind(view, "keeps_sums", keeps_sums, "true or false", err);
+    job->keeps_sums = json_is_true(keeps_sums);
+    job->width = (int)size[0];
+    job->height = (int)size[1];
+    return true;
+}
+
+static bool read_all(const JsonView *view, SharedJob *job, Error *err)
+{
+    if (!check_format(view, err) || !read_kind(view, &job->kind, err) ||
+        !check_all_there(view, keys, key_count(job, COUNT_OF(keys)), err) ||
         !json_view_text(view, "command", &job->line, err) ||
         !read_folder(view, "program", &job->program, err) ||
         !json_view_text(view, "isa", &job->isa, err) ||
         !read_folder(view, "folder", &job->folder, err) ||
         !json_view_text(view, "output", &job->output, err) ||
         !json_view_text(view, "identity", &job->identity, err) ||
-        !read_wholes(view, "size", 2, EXR_MAX_SIDE, size, err))
+        (job->kind == JOB_FRAME && !read_frame(view, job, err)))
         return false;
-    if (!json_is_boolean(keeps_sums))
-        return json_view_wrong_kind(view, "keeps_sums", keeps_sums, "true or false", err);
-    job->keeps_sums = json_is_true(keeps_sums);
-    job->width = (int)size[0];
-    job->height = (int)size[1];
     return read_words(view, job, err) && read_parts(view, job, err);
 }
 
@@ -209,14 +249,15 @@ bool job_manifest_is_there(const char *dir, Arena scratch)
            file_exists(arena_format(&scratch, "%s/" JOB_MANIFEST, dir));
 }
 
-bool job_manifest_read(const char *dir, Arena *arena, RenderJob *out, Error *err)
+bool job_manifest_read(const char *dir, Arena *arena, SharedJob *out, Error *err)
 {
     JsonView  view;
-    RenderJob job = {0};
+    SharedJob job = {0};
     if (!job_manifest_is_there(dir, *arena))
         return error_at(err, ERROR_INPUT, dir, "",
                         "is no folder of a job: it has no " JOB_MANIFEST
-                        " — `parhelion render ... --slurm N` makes one");
+                        " — `parhelion render ... --slurm N` makes one, and `parhelion review "
+                        "... --slurm N`");
     char *whole = realpath(dir, NULL);
     if (!whole)
         return error_at(err, ERROR_INPUT, dir, "", "cannot be opened: %s", strerror(errno));

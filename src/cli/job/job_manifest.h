@@ -11,10 +11,10 @@
 #define JOB_MANIFEST "manifest.json"
 
 /* The document, with a newline; the same for the same job. */
-const char *job_manifest_text(const RenderJob *job, Arena *arena);
+const char *job_manifest_text(const SharedJob *job, Arena *arena);
 
 /* Whether the folder holds one, of whatever content. */
 bool job_manifest_is_there(const char *dir, Arena scratch);
 
 /* dir: as the user named it. */
-bool job_manifest_read(const char *dir, Arena *arena, RenderJob *out, Error *err);
+bool job_manifest_read(const char *dir, Arena *arena, SharedJob *out, Error *err);

@@ -7,7 +7,7 @@
 
 /* A path inside a line of #SBATCH, where % begins a pattern. Quotes and backslashes do not come
  * here: such a folder is refused when the job is planned. */
-static void add_log(Text *text, const RenderJob *job, const char *name)
+static void add_log(Text *text, const SharedJob *job, const char *name)
 {
     text_add(text, "#SBATCH --output=\"");
     for (const char *c = job_file(job, JOB_LOGS, text->arena); *c; c++)
@@ -16,7 +16,7 @@ static void add_log(Text *text, const RenderJob *job, const char *name)
 }
 
 /* Blanks would end the name. */
-static void add_job_name(Text *text, const RenderJob *job, const char *ending)
+static void add_job_name(Text *text, const SharedJob *job, const char *ending)
 {
     text_add(text, "#!/bin/sh\n#SBATCH --job-name=");
     for (const char *c = path_name(job->output); *c; c++) {
@@ -54,7 +54,7 @@ static const char task_end[] =
     "case $status in 4 | 143) again ;; esac\n"
     "exit \"$status\"\n";
 
-static bool write_array(const RenderJob *job, int threads, Arena scratch, Error *err)
+static bool write_array(const SharedJob *job, int threads, Arena scratch, Error *err)
 {
     Text text = {.arena = &scratch};
     add_job_name(&text, job, "");
@@ -72,7 +72,7 @@ static bool write_array(const RenderJob *job, int threads, Arena scratch, Error 
     return text_write(&text, job_file(job, JOB_ARRAY, &scratch), err);
 }
 
-static bool write_merge(const RenderJob *job, Arena scratch, Error *err)
+static bool write_merge(const SharedJob *job, Arena scratch, Error *err)
 {
     Text text = {.arena = &scratch};
     add_job_name(&text, job, "-merge");
@@ -84,7 +84,7 @@ static bool write_merge(const RenderJob *job, Arena scratch, Error *err)
     return text_write(&text, job_file(job, JOB_MERGE, &scratch), err);
 }
 
-static bool write_commands(const RenderJob *job, Arena scratch, Error *err)
+static bool write_commands(const SharedJob *job, Arena scratch, Error *err)
 {
     Text text = {.arena = &scratch};
     for (int i = 0; i < job->part_count; i++)
@@ -93,13 +93,13 @@ static bool write_commands(const RenderJob *job, Arena scratch, Error *err)
     return text_write(&text, job_file(job, JOB_COMMANDS, &scratch), err);
 }
 
-bool job_scripts_write(const RenderJob *job, int threads, Arena scratch, Error *err)
+bool job_scripts_write(const SharedJob *job, int threads, Arena scratch, Error *err)
 {
     return write_array(job, threads, scratch, err) && write_merge(job, scratch, err) &&
            write_commands(job, scratch, err);
 }
 
-const char *job_scripts_by_hand(const RenderJob *job, Arena *arena)
+const char *job_scripts_by_hand(const SharedJob *job, Arena *arena)
 {
     return arena_format(arena,
                         "J=$(sbatch --parsable %s) && "

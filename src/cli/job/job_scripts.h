@@ -12,10 +12,11 @@
 #define JOB_MERGE "merge.sbatch"
 #define JOB_COMMANDS "commands.txt"
 #define JOB_LOGS "logs"
+#define JOB_RESPONSES "responses"
 
 /* threads: of each task, which Slurm is asked for; 0: nothing is asked. The folder of logs is
  * there already. */
-bool job_scripts_write(const RenderJob *job, int threads, Arena scratch, Error *err);
+bool job_scripts_write(const SharedJob *job, int threads, Arena scratch, Error *err);
 
 /* How the two scripts are submitted by hand, for a shell. */
-const char *job_scripts_by_hand(const RenderJob *job, Arena *arena);
+const char *job_scripts_by_hand(const SharedJob *job, Arena *arena);

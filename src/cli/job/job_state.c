@@ -14,6 +14,7 @@
 #include "base/machine.h"
 #include "film/film_part.h"
 #include "render/checkpoint.h"
+#include "text/text.h"
 
 #define CHECKPOINT ".checkpoint"
 #define FAILED ".failed"
@@ -21,7 +22,7 @@
 
 /* ---- the folder -------------------------------------------------------------------------- */
 
-bool job_folder_list(const RenderJob *job, Arena *arena, JobFolder *out, Error *err)
+bool job_folder_list(const SharedJob *job, Arena *arena, JobFolder *out, Error *err)
 {
     JobFolder folder = {0};
     int       room = 0;
@@ -45,7 +46,7 @@ bool job_folder_list(const RenderJob *job, Arena *arena, JobFolder *out, Error *
     return true;
 }
 
-static bool is_checkpoint_of(const char *name, int index)
+bool job_is_checkpoint(const char *name, int index)
 {
     char   begin[32];
     int    length = snprintf(begin, sizeof begin, "part-%04d.", index);
@@ -56,7 +57,7 @@ static bool is_checkpoint_of(const char *name, int index)
 
 /* ---- a part that is done ----------------------------------------------------------------- */
 
-static bool check_file(const RenderJob *job, const JobPart *wanted, const FilmPartReader *from,
+static bool check_file(const SharedJob *job, const JobPart *wanted, const FilmPartReader *from,
                        Error *err)
 {
     const FilmPart *part = &from->part;
@@ -84,12 +85,30 @@ static bool read_sums(FilmPartReader *from, Arena scratch, Error *err)
     return true;
 }
 
-bool job_part_is_done(const RenderJob *job, int index, bool with_sums, Arena scratch,
+JournalKey job_part_mark(const SharedJob *job, int index, Arena scratch)
+{
+    Text text = {.arena = &scratch};
+    text_format(&text, "part %d of %d is done\n", index, job->part_count);
+    text_add(&text, job->identity);
+    return journal_key(text.data);
+}
+
+/* A review's part is small: it is always read as a whole. */
+static bool has_all_answers(const SharedJob *job, int index, const char *path, Arena scratch,
+                            Error *err)
+{
+    return journal_file_has(path, job_part_mark(job, index, scratch), scratch) ||
+           error_at(err, ERROR_INPUT, path, "",
+                    "is damaged, or another part, or of another review");
+}
+
+bool job_part_is_done(const SharedJob *job, int index, bool with_sums, Arena scratch,
                       Error *err)
 {
-    const char    *path = job_part_file(job, index, ".exr", &scratch);
+    const char    *path = job_part_file(job, index, job_part_ending(job), &scratch);
     FilmPartReader from;
     if (!file_exists(path)) return error_set(err, ERROR_INPUT, "%s", "");
+    if (job->kind == JOB_REVIEW) return has_all_answers(job, index, path, scratch, err);
     if (!film_part_open(path, &scratch, &from, err)) return error_in_file(err, path);
     bool done = check_file(job, &job->parts[index], &from, err) &&
                 (with_sums ? read_sums(&from, scratch, err)
@@ -100,9 +119,10 @@ bool job_part_is_done(const RenderJob *job, int index, bool with_sums, Arena scr
 
 /* ---- checkpoints ------------------------------------------------------------------------- */
 
-/* Samples of every pixel that it holds; 0: it is damaged, or of something else. */
-static uint32_t samples_in(const RenderJob *job, int index, const char *path, Arena scratch)
+/* Samples of every pixel, or answers, that it holds; 0: it is damaged, or of something else. */
+static uint32_t kept_in(const SharedJob *job, int index, const char *path, Arena scratch)
 {
+    if (job->kind == JOB_REVIEW) return (uint32_t)journal_file_count(path, scratch);
     const JobPart *part = &job->parts[index];
     const FilmPart wanted = {.crop = part->crop, .first_sample = part->first_sample,
                              .end_sample = part->end_sample};
@@ -116,18 +136,18 @@ static uint32_t samples_in(const RenderJob *job, int index, const char *path, Ar
 }
 
 /* The path of the furthest one, or NULL. removes: those that are worth nothing. */
-static const char *furthest(const RenderJob *job, const JobFolder *folder, int index,
-                            bool removes, uint32_t *samples, Arena *arena)
+static const char *furthest(const SharedJob *job, const JobFolder *folder, int index,
+                            bool removes, uint32_t *kept, Arena *arena)
 {
     const char *best = NULL;
-    *samples = 0;
+    *kept = 0;
     for (int i = 0; i < folder->count; i++) {
-        if (!is_checkpoint_of(folder->names[i], index)) continue;
+        if (!job_is_checkpoint(folder->names[i], index)) continue;
         const char *path = job_file(job, folder->names[i], arena);
-        uint32_t    found = samples_in(job, index, path, *arena);
+        uint32_t    found = kept_in(job, index, path, *arena);
         if (!found && removes) file_remove(path);
-        if (found <= *samples) continue;
-        *samples = found;
+        if (found <= *kept) continue;
+        *kept = found;
         best = path;
     }
     return best;
@@ -145,33 +165,38 @@ static const char *process_name(Arena *arena)
     return arena_format(arena, ".%s-%ld", host, (long)getpid());
 }
 
+const char *job_own_checkpoint(const SharedJob *job, int index, Arena *arena)
+{
+    return job_part_file(job, index, arena_format(arena, "%s" CHECKPOINT, process_name(arena)),
+                         arena);
+}
+
 /* By a rename: of two tasks that begin together one gets it, and the other begins anew. A task
  * that still writes to it, since its node was only thought dead, writes a new one. */
-const char *job_take_checkpoint(const RenderJob *job, const JobFolder *folder, int index,
+const char *job_take_checkpoint(const SharedJob *job, const JobFolder *folder, int index,
                                 Arena *arena)
 {
-    uint32_t    samples;
-    const char *ending = arena_format(arena, "%s" CHECKPOINT, process_name(arena));
-    const char *own = job_part_file(job, index, ending, arena);
-    const char *best = furthest(job, folder, index, true, &samples, arena);
+    uint32_t    kept;
+    const char *own = job_own_checkpoint(job, index, arena);
+    const char *best = furthest(job, folder, index, true, &kept, arena);
     if (best) rename(best, own);
     return own;
 }
 
-void job_part_clean(const RenderJob *job, int index, Arena scratch)
+void job_part_clean(const SharedJob *job, int index, Arena scratch)
 {
     JobFolder folder;
     Error     ignored;
     job_part_forget_failure(job, index, scratch);
     if (!job_folder_list(job, &scratch, &folder, &ignored)) return;
     for (int i = 0; i < folder.count; i++)
-        if (is_checkpoint_of(folder.names[i], index))
+        if (job_is_checkpoint(folder.names[i], index))
             file_remove(job_file(job, folder.names[i], &scratch));
 }
 
 /* ---- failures ---------------------------------------------------------------------------- */
 
-void job_part_note_failure(const RenderJob *job, int index, int status, const char *line,
+void job_part_note_failure(const SharedJob *job, int index, int status, const char *line,
                            Arena scratch)
 {
     Error       ignored;
@@ -179,13 +204,13 @@ void job_part_note_failure(const RenderJob *job, int index, int status, const ch
     file_write(job_part_file(job, index, FAILED, &scratch), text, strlen(text), &ignored);
 }
 
-void job_part_forget_failure(const RenderJob *job, int index, Arena scratch)
+void job_part_forget_failure(const SharedJob *job, int index, Arena scratch)
 {
     unlink(job_part_file(job, index, FAILED, &scratch));
 }
 
 /* NULL: it did not fail. */
-static const char *failure_of(const RenderJob *job, int index, int *status, Arena *arena)
+static const char *failure_of(const SharedJob *job, int index, int *status, Arena *arena)
 {
     FileBytes   bytes;
     Error       ignored;
@@ -200,7 +225,7 @@ static const char *failure_of(const RenderJob *job, int index, int *status, Aren
     return end;
 }
 
-JobPartReport job_part_report(const RenderJob *job, const JobFolder *folder, int index,
+JobPartReport job_part_report(const SharedJob *job, const JobFolder *folder, int index,
                               Arena *arena)
 {
     JobPartReport report = {0};
@@ -210,7 +235,7 @@ JobPartReport job_part_report(const RenderJob *job, const JobFolder *folder, int
         report.state = JOB_PART_DONE;
         return report;
     }
-    furthest(job, folder, index, false, &report.samples_kept, arena);
+    furthest(job, folder, index, false, &report.kept, arena);
     report.reason = failure_of(job, index, &report.status, arena);
     if (!report.reason && err.text[0]) {
         error_line(&err, line, (int)sizeof line);
@@ -218,6 +243,6 @@ JobPartReport job_part_report(const RenderJob *job, const JobFolder *folder, int
         report.status = error_exit_status(err.code);
     }
     report.state = report.reason ? JOB_PART_FAILED
-                   : report.samples_kept ? JOB_PART_BEGUN : JOB_PART_MISSING;
+                   : report.kept ? JOB_PART_BEGUN : JOB_PART_MISSING;
     return report;
 }

@@ -7,6 +7,7 @@
 #pragma once
 #include "base/error.h"
 #include "cli/job/job.h"
+#include "review/keep/journal.h"
 
 typedef enum JobPartState {
     JOB_PART_MISSING, /* nothing is kept of it, whether somebody is at it or not */
@@ -17,7 +18,8 @@ typedef enum JobPartState {
 
 typedef struct JobPartReport {
     JobPartState state;
-    uint32_t     samples_kept; /* of every pixel, in the furthest checkpoint */
+    uint32_t     kept;         /* samples of every pixel, or answers, in the furthest
+                                  checkpoint */
     int          status;       /* of the failure */
     const char  *reason;       /* its line; NULL: none */
 } JobPartReport;
@@ -28,28 +30,37 @@ typedef struct JobFolder {
     int          count;
 } JobFolder;
 
-bool job_folder_list(const RenderJob *job, Arena *arena, JobFolder *out, Error *err);
+bool job_folder_list(const SharedJob *job, Arena *arena, JobFolder *out, Error *err);
 
-JobPartReport job_part_report(const RenderJob *job, const JobFolder *folder, int index,
+JobPartReport job_part_report(const SharedJob *job, const JobFolder *folder, int index,
                               Arena *arena);
 
 /* Whether the part's file is there and is that part, whole. with_sums: every sum is read, and
  * the checksum compared; else its end alone. False: *err says what it is instead; of a file
  * that is not there the text is empty. */
-bool job_part_is_done(const RenderJob *job, int index, bool with_sums, Arena scratch,
+bool job_part_is_done(const SharedJob *job, int index, bool with_sums, Arena scratch,
                       Error *err);
 
-/* The checkpoint of this name for a task of this process: the furthest of those that are there
- * becomes it. Damaged ones are removed. */
-const char *job_take_checkpoint(const RenderJob *job, const JobFolder *folder, int index,
+/* What a review's part that is done has under this key, behind all its answers. */
+JournalKey job_part_mark(const SharedJob *job, int index, Arena scratch);
+
+/* Is it a checkpoint of the part, whoever wrote it? */
+bool job_is_checkpoint(const char *name, int index);
+
+/* The checkpoint's name for a task of this process. */
+const char *job_own_checkpoint(const SharedJob *job, int index, Arena *arena);
+
+/* That one, of a frame: the furthest of those that are there becomes it. Damaged ones are
+ * removed. */
+const char *job_take_checkpoint(const SharedJob *job, const JobFolder *folder, int index,
                                 Arena *arena);
 
 /* Of a part that is done: all its checkpoints, and the failure before. */
-void job_part_clean(const RenderJob *job, int index, Arena scratch);
+void job_part_clean(const SharedJob *job, int index, Arena scratch);
 
 /* Of one that is begun again. */
-void job_part_forget_failure(const RenderJob *job, int index, Arena scratch);
+void job_part_forget_failure(const SharedJob *job, int index, Arena scratch);
 
 /* Keeps why it failed; a folder that cannot be written is no further error. */
-void job_part_note_failure(const RenderJob *job, int index, int status, const char *line,
+void job_part_note_failure(const SharedJob *job, int index, int status, const char *line,
                            Arena scratch);

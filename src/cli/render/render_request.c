@@ -311,15 +311,16 @@ static const char *resume_line(int argc, char **argv, bool resumes, Arena *arena
      "the frame so far, for any viewer: written anew about every ten seconds",                 \
      &(request)->live}
 
-#define SHARE_OPTIONS(share, typed)                                                            \
+#define SHARE_OPTIONS(request, typed)                                                          \
     {"--slurm", OPTION_INTEGER, "N",                                                           \
      "render nothing: a folder that shares the frame in N parts, for Slurm or any other",      \
-     &(share)->parts, .low = 1, .high = JOB_PARTS_MAX},                                        \
+     &(request)->share.parts, .low = 1, .high = JOB_PARTS_MAX},                                \
     {"--split", OPTION_CHOICE, JOB_SPLITS, "how it is cut (default samples: equal work)",      \
-     &(share)->split, .given = &(typed)->has_split},                                           \
-    {"--job", OPTION_TEXT, "DIR", "that folder (default FRAME.exr.parts)", &(share)->dir},     \
+     &(request)->split, .given = &(typed)->has_split},                                         \
+    {"--job", OPTION_TEXT, "DIR", "that folder (default FRAME.exr.parts)",                     \
+     &(request)->share.dir},                                                                   \
     {"--submit", OPTION_FLAG, NULL, "hand it to Slurm's sbatch, and the merge after it",       \
-     &(share)->submits}
+     &(request)->share.submits}
 
 static bool parse_line(int argc, char **argv, Arena *arena, RenderWords *typed,
                        RenderRequest *request, Error *err)
@@ -362,7 +363,7 @@ static bool parse_line(int argc, char **argv, Arena *arena, RenderWords *typed,
          &request->render.isa},
         CHECKPOINT_OPTIONS(request, typed),
         LIVE_OPTIONS(request),
-        SHARE_OPTIONS(&request->share, typed),
+        SHARE_OPTIONS(request, typed),
         {"--replay", OPTION_NUMBERS, "X,Y,SAMPLE", "one sample of one pixel, printed",
          typed->replay, .count = 3, .given = &typed->has_replay},
     };

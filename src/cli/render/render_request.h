@@ -7,23 +7,13 @@
 #include "cli/options/camera_options.h"
 #include "cli/options/cli.h"
 #include "cli/options/scene_options.h"
+#include "cli/job/job_share.h"
 #include "cli/job/job_split.h"
 #include "cli/render/noise_goal.h"
 #include "image/develop.h"
 #include "live/viewer_address.h"
 #include "render/render.h"
 #include "scene/scene.h"
-
-/* --slurm: nothing is rendered, the frame is shared out. */
-typedef struct ShareRequest {
-    long        parts;   /* 0: it is not */
-    int         split;   /* JobSplit */
-    const char *dir;     /* the job's folder; without --job OUTPUT.parts */
-    bool        submits; /* runs sbatch */
-    int         threads; /* of each task, as --threads says; 0: it does not */
-    const char **words;  /* command_line_part_words */
-    int         word_count;
-} ShareRequest;
 
 typedef struct RenderRequest {
     Cli           cli;
@@ -48,6 +38,7 @@ typedef struct RenderRequest {
     bool          keeps_checkpoints; /* while rendering; else only when it is stopped */
     bool          resumes;      /* goes on from the checkpoint, if there is one */
     ShareRequest  share;
+    int           split;  /* JobSplit: how it is cut */
 } RenderRequest;
 
 bool render_request_parse(int argc, char **argv, Arena *arena, RenderRequest *out, Error *err);

@@ -1,225 +1,24 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "cli/render/render_share.h"
 
-#include <errno.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
-#include "base/count.h"
-#include "base/file_write.h"
-#include "cli/job/job_manifest.h"
-#include "cli/job/job_scripts.h"
-#include "cli/job/job_state.h"
-#include "cli/job/sbatch.h"
 #include "cli/options/answer.h"
-#include "render/identity.h"
-#include "text/escape.h"
-#include "text/json_text.h"
-#include "text/utf8.h"
-
-#define PATH_BYTES 4096
-
-/* What became of it. */
-typedef struct Share {
-    const RenderRequest *request;
-    RenderJob            job;
-    bool                 was_there; /* the same job was planned before */
-    const char          *array_id, *merge_id; /* Slurm's numbers; NULL: not submitted */
-} Share;
-
-/* ---- the job ----------------------------------------------------------------------------- */
-
-/* JSON holds texts of UTF-8, and a script's lines no control characters. */
-static bool check_text(const char *text, Arena scratch, Error *err)
-{
-    return !strcmp(utf8_replace(text, &scratch), text) ||
-           error_set(err, ERROR_USAGE,
-                     "'%.200s' cannot be kept in a job: wanted UTF-8 without control "
-                     "characters",
-                     text);
-}
-
-static bool check_texts(const RenderJob *job, Arena scratch, Error *err)
-{
-    const char *texts[] = {job->dir, job->program, job->folder, job->output};
-    for (int i = 0; i < COUNT_OF(texts); i++)
-        if (!check_text(texts[i], scratch, err)) return false;
-    for (int i = 0; i < job->word_count; i++)
-        if (!check_text(job->words[i], scratch, err)) return false;
-    return !strpbrk(job->dir, "\"\\") ||
-           error_set(err, ERROR_USAGE,
-                     "--job %.200s: quotes and backslashes do not go into a batch script — "
-                     "name another folder",
-                     job->dir);
-}
-
-static bool make_folder(const char *path, Error *err)
-{
-    struct stat info;
-    if (mkdir(path, 0777) == 0) return true;
-    int reason = errno;
-    if (reason == EEXIST && stat(path, &info) == 0 && S_ISDIR(info.st_mode)) return true;
-    return error_at(err, ERROR_OUTPUT, path, "", "cannot be made: %s",
-                    strerror(reason == EEXIST ? ENOTDIR : reason));
-}
-
-/* A path that the program itself or the system knows. */
-static bool find_place(const char *what, char *found, Arena *arena, const char **out,
-                       Error *err)
-{
-    if (!found)
-        return error_set(err, ERROR_INPUT, "%s cannot be found: %s", what, strerror(errno));
-    *out = arena_string(arena, found, strlen(found));
-    free(found);
-    return true;
-}
-
-static bool find_places(const ShareRequest *share, RenderJob *job, Arena *arena, Error *err)
-{
-    return make_folder(share->dir, err) &&
-           find_place("the job's folder", realpath(share->dir, NULL), arena, &job->dir, err) &&
-           find_place("the program", realpath("/proc/self/exe", NULL), arena, &job->program,
-                      err) &&
-           find_place("the working folder", getcwd(NULL, 0), arena, &job->folder, err);
-}
-
-static bool make_job(Share *work, const char *identity, const char *isa, Arena *arena,
-                     Error *err)
-{
-    const RenderRequest *request = work->request;
-    const RenderOptions *options = &request->render;
-    const ShareRequest  *share = &request->share;
-    const JobPart whole = {options->crop, options->first_sample, options->end_sample};
-    RenderJob     job = {.line = request->command_line, .output = request->output,
-                         .identity = identity, .isa = isa, .words = share->words,
-                         .word_count = share->word_count, .width = options->width,
-                         .height = options->height, .keeps_sums = request->is_part,
-                         .part_count = (int)share->parts};
-    if (!job_split(&whole, (JobSplit)share->split, job.part_count, arena, &job.parts, err) ||
-        !find_places(share, &job, arena, err) || !check_texts(&job, *arena, err))
-        return false;
-    work->job = job;
-    return true;
-}
-
-/* ---- the folder -------------------------------------------------------------------------- */
-
-/* The manifest comes last: a folder without one was never finished, and holds the other files
- * at most. Everything else is somebody's. */
-static bool check_is_free(const RenderJob *job, Arena scratch, Error *err)
-{
-    static const char *const ours[] = {".", "..", JOB_LOGS, JOB_ARRAY, JOB_MERGE, JOB_COMMANDS};
-    JobFolder folder;
-    if (!job_folder_list(job, &scratch, &folder, err)) return false;
-    for (int i = 0; i < folder.count; i++) {
-        bool is_ours = false;
-        for (int j = 0; j < COUNT_OF(ours); j++)
-            is_ours = is_ours || !strcmp(folder.names[i], ours[j]);
-        if (!is_ours)
-            return error_at(err, ERROR_OUTPUT, job->dir, "",
-                            "is no folder of a job and holds %.200s — name another by "
-                            "--job DIR",
-                            folder.names[i]);
-    }
-    return true;
-}
-
-/* Parts that are done stay done when the same line is typed again. */
-static bool check_is_same(const RenderJob *job, Arena *arena, Error *err)
-{
-    RenderJob there;
-    if (!job_manifest_read(job->dir, arena, &there, err)) return false;
-    if (!strcmp(job_manifest_text(&there, arena), job_manifest_text(job, arena))) return true;
-    const char *difference = identity_difference(there.identity, job->identity, arena);
-    return error_at(err, ERROR_OUTPUT, job->dir, "",
-                    "holds another job: %.400s — remove it, or name another by --job DIR",
-                    difference ? difference
-                               : arena_format(arena, "%d parts of `%s` there", there.part_count,
-                                              there.line));
-}
-
-static bool write_folder(Share *work, Arena *arena, Error *err)
-{
-    const RenderJob *job = &work->job;
-    work->was_there = job_manifest_is_there(job->dir, *arena);
-    if (work->was_there ? !check_is_same(job, arena, err) : !check_is_free(job, *arena, err))
-        return false;
-    if (!make_folder(job_file(job, JOB_LOGS, arena), err) ||
-        !job_scripts_write(job, work->request->share.threads, *arena, err))
-        return false;
-    const char *text = job_manifest_text(job, arena);
-    return work->was_there ||
-           file_write(job_file(job, JOB_MANIFEST, arena), text, strlen(text), err);
-}
-
-static bool submit(Share *work, Arena *arena, Error *err)
-{
-    const RenderJob *job = &work->job;
-    Error            why;
-    if (!work->request->share.submits) return true;
-    if (sbatch_submit(job_file(job, JOB_ARRAY, arena), NULL, arena, &work->array_id, &why) &&
-        sbatch_submit(job_file(job, JOB_MERGE, arena), work->array_id, arena, &work->merge_id,
-                      &why))
-        return true;
-    if (work->array_id)
-        return error_at(err, why.code, job->dir, "",
-                        "job %s does the parts, but its merge is not submitted: %s — when it "
-                        "has ended: %s",
-                        work->array_id, why.text, job_merge_command(job, arena));
-    return error_at(err, why.code, job->dir, "",
-                    "is ready, but not submitted: %s — by hand: %s", why.text,
-                    job_scripts_by_hand(job, arena));
-}
-
-/* ---- the answer -------------------------------------------------------------------------- */
-
-static json_t *id_json(const char *id)
-{
-    return id ? json_text(id) : json_null();
-}
-
-static bool print_json(const Share *work, Arena *arena, Error *err)
-{
-    const RenderJob *job = &work->job;
-    static const char *const splits[] = {"samples", "rows"};
-    return cli_print_json(
-        json_pack("{s:o, s:o, s:i, s:s, s:b, s:o, s:o, s:o, s:o, s:o, s:o}", "output",
-                  json_text(job->output), "job", json_text(job->dir), "parts", job->part_count,
-                  "split", splits[work->request->share.split], "was_there", work->was_there,
-                  "manifest", json_text(job_file(job, JOB_MANIFEST, arena)), "commands",
-                  json_text(job_file(job, JOB_COMMANDS, arena)), "array",
-                  json_text(job_file(job, JOB_ARRAY, arena)), "merge",
-                  json_text(job_file(job, JOB_MERGE, arena)), "array_job",
-                  id_json(work->array_id), "merge_job", id_json(work->merge_id)),
-        err);
-}
-
-static void print_lines(const Share *work, Arena *arena)
-{
-    const RenderJob *job = &work->job;
-    const char      *dir = escape_shell(work->request->share.dir, arena);
-    printf("%s: %d part%s of %s%s\n", work->request->share.dir, job->part_count,
-           job->part_count == 1 ? "" : "s", job->output,
-           work->was_there ? ", as before" : "");
-    if (work->array_id)
-        printf("Slurm's job %s does them, %s merges them\n", work->array_id, work->merge_id);
-    else
-        printf("by Slurm: %s\n", job_scripts_by_hand(job, arena));
-    printf("here: xargs -L 1 -P 2 env <%s/" JOB_COMMANDS "\nthen: parhelion merge %s\n", dir,
-           dir);
-}
 
 bool render_share(const RenderRequest *request, const char *identity, const char *isa,
                   Arena *arena, Error *err)
 {
-    Share work = {.request = request};
-    if (!make_job(&work, identity, isa, arena, err) || !write_folder(&work, arena, err) ||
-        !submit(&work, arena, err))
-        return false;
-    if (request->cli.json) return print_json(&work, arena, err);
-    print_lines(&work, arena);
-    return true;
+    static const char *const splits[] = {[JOB_SPLIT_SAMPLES] = "samples",
+                                         [JOB_SPLIT_ROWS] = "rows"};
+    const RenderOptions *options = &request->render;
+    const JobPart whole = {options->crop, options->first_sample, options->end_sample};
+    ShareRequest  share = request->share;
+    json_t       *answer = NULL;
+    SharedJob     job = {.kind = JOB_FRAME, .line = request->command_line,
+                         .output = request->output, .identity = identity, .isa = isa,
+                         .width = options->width, .height = options->height,
+                         .keeps_sums = request->is_part};
+    share.split_name = splits[request->split];
+    return job_split(&whole, (JobSplit)request->split, (int)share.parts, arena, &job.parts,
+                     err) &&
+           job_share(&share, &job, arena, request->cli.json ? &answer : NULL, err) &&
+           (!answer || cli_print_json(answer, err));
 }

@@ -1,9 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* render_share.h -- `render --slurm`: a frame becomes a job's folder (cli/job/job.h).
+/* render_share.h -- `render --slurm`: a frame becomes a job's folder (cli/job/job_share.h).
  *
- * Memory   the command's arena.
- * Fails    ERROR_OUTPUT where the folder cannot be made, or is another job's; ERROR_INPUT where
- *          sbatch is asked for and fails: the folder stays, and the line says how to go on.
+ * Memory   the command's arena.  Fails  as job_share; ERROR_USAGE: more parts than samples.
  */
 #pragma once
 #include "cli/render/render_request.h"

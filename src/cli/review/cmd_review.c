@@ -11,6 +11,8 @@
 #include "cli/options/cli.h"
 #include "cli/options/state_options.h"
 #include "cli/review/review_folder.h"
+#include "cli/review/review_part.h"
+#include "cli/review/review_share.h"
 #include "render/signals.h"
 #include "review/output/review_decide.h"
 #include "review/output/review_json.h"
@@ -20,11 +22,13 @@
 #include "scene/load/scene_load.h"
 
 typedef struct ReviewWords {
+    ShareRequest share;
     const char *folder, *profile, *root, *isa, *diff, *init, *responses;
     bool        is_strict, dry_run;
     StateWords  state_words;
     SceneState  state;
     Cli         cli;
+    const ReviewPin *pin; /* NULL: the user's own command */
 } ReviewWords;
 
 static bool parse(int argc, char **argv, Arena *arena, ReviewWords *out, Error *err)
@@ -48,6 +52,7 @@ static bool parse(int argc, char **argv, Arena *arena, ReviewWords *out, Error *
         {"--root", OPTION_TEXT, "DIR", ROOT_HELP, &out->root},
         {"--isa", OPTION_TEXT, "NAME", "sse2, avx2, avx512 (default: the processor's best)",
          &out->isa},
+        REVIEW_SHARE_OPTIONS(&out->share),
     };
     const CliCommand command = {
         "review", "can displays be read, under every light? verdicts, causes, a page",
@@ -56,7 +61,10 @@ static bool parse(int argc, char **argv, Arena *arena, ReviewWords *out, Error *
         options, COUNT_OF(options), 1, -1};
     if (!cli_parse(&command, argc, argv, arena, &out->cli, err)) return false;
     if (out->cli.help_shown) return true;
-    if (!state_options_read(&out->state_words, &out->state, err)) return false;
+    const char *not_traced = out->init ? "--init" : out->dry_run ? "--dry-run" : NULL;
+    if (!state_options_read(&out->state_words, &out->state, err) ||
+        !review_share_check(&out->share, not_traced, err))
+        return false;
     if (out->init) return true;
     if (out->cli.argument_count > 1)
         return error_set(err, ERROR_USAGE, "%s: one request at a time is reviewed",
@@ -153,7 +161,7 @@ static bool plan(const ReviewWords *words, ReviewFolder *folder, ReviewRun *run,
     if (folder->target || folder->responses) review_folder_responses(folder, arena);
     run->responses = folder->responses;
     run->responses_shown = "";
-    if (!review_plan(run, &found, err)) return false;
+    if (!review_plan(run, arena, &found, err)) return false;
     cli_print_warnings(run->problems);
     if (!print_plan(&words->cli, run->request, &found, err)) return false;
     if (folder->target && !words->cli.json) print_unfinished(folder, arena);
@@ -215,6 +223,16 @@ static bool make_all(ReviewRun *run, ReviewFolder *folder, ReviewOutcome *outcom
              review_folder_write(folder, outcome, arena, err)));
 }
 
+/* Of a job that is merged: what its parts found. */
+static bool take_found(const ReviewFolder *folder, const ReviewPin *pin, Arena scratch,
+                       Error *err)
+{
+    if (!pin) return true;
+    review_take_answers(folder->draft.journal, pin, scratch);
+    return !folder->has_own_responses ||
+           review_take_responses(folder->responses, pin, scratch, err);
+}
+
 static bool make(const ReviewWords *words, ReviewFolder *folder, ReviewRun *run, Arena *arena,
                  Error *err)
 {
@@ -226,7 +244,8 @@ static bool make(const ReviewWords *words, ReviewFolder *folder, ReviewRun *run,
     run->responses = folder->responses;
     run->responses_shown = folder->responses_shown;
     run->journal = folder->draft.journal;
-    if (!make_all(run, folder, &outcome, arena, err)) {
+    if (!take_found(folder, words->pin, *arena, err) ||
+        !make_all(run, folder, &outcome, arena, err)) {
         if (err->code > 128) tell_stopped(folder, err, arena);
         else tell_kept(folder, err);
         review_folder_close(folder);
@@ -258,16 +277,32 @@ static bool review(const ReviewWords *words, Arena *arena, Error *err)
                      .state = words->state,
                      .threads = words->cli.threads, .isa = words->isa,
                      .progress = words->cli.progress, .problems = &problems};
+    if (words->pin) {
+        run.identity = words->pin->identity;
+        run.lessons = words->pin->responses;
+    }
+    if (words->pin && words->pin->share.count)
+        return review_part(&run, words->pin, words->responses, arena, err);
+    if (words->share.parts)
+        return review_share(&words->share, &folder, &run, words->cli.json, arena, err);
     return words->dry_run ? plan(words, &folder, &run, arena, err)
                           : make(words, &folder, &run, arena, err);
 }
 
-static bool run(int argc, char **argv, Arena *arena, Error *err)
+bool cmd_review_run(int argc, char **argv, const ReviewPin *pin, Arena *arena, Error *err)
 {
-    ReviewWords words = {0};
+    ReviewWords words = {.pin = pin};
     if (!parse(argc, argv, arena, &words, err)) return false;
     if (words.cli.help_shown) return true;
+    if (pin && !words.isa) words.isa = pin->isa;
+    if (words.share.parts)
+        review_share_set(&words.share, argc, argv, words.folder, &words.cli, arena);
     return words.init ? start(&words, arena, err) : review(&words, arena, err);
+}
+
+static bool run(int argc, char **argv, Arena *arena, Error *err)
+{
+    return cmd_review_run(argc, argv, NULL, arena, err);
 }
 
 const Command command_review = {

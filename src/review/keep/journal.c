@@ -181,6 +181,12 @@ static void take_entries(Journal *journal, uint64_t file_bytes)
     }
 }
 
+static bool is_ours(const JournalHead *head)
+{
+    return !memcmp(head->magic, MAGIC, sizeof head->magic) &&
+           head->byte_order == BYTE_ORDER_MARK && head->version == VERSION;
+}
+
 static bool take_file(Journal *journal, Problems *problems, Error *err)
 {
     JournalHead head = {{0}, 0, 0};
@@ -190,8 +196,7 @@ static bool take_file(Journal *journal, Problems *problems, Error *err)
     if (bytes < sizeof head) return start_file(journal, err); /* killed as it was made */
     if (!read_at(journal->file, &head, sizeof head, 0))
         return refuse(journal, "read", errno, err);
-    if (memcmp(head.magic, MAGIC, sizeof head.magic) != 0 ||
-        head.byte_order != BYTE_ORDER_MARK || head.version != VERSION) {
+    if (!is_ours(&head)) {
         problems_add(problems, SEVERITY_WARNING, journal->path, "",
                      "is not what this program keeps of a review: it is begun anew");
         return start_file(journal, err);
@@ -222,13 +227,13 @@ bool journal_open(const char *path, Arena *arena, Problems *problems, Journal **
     grow(journal);
     journal->file = open(path, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
     if (journal->file < 0) return refuse(journal, "created", errno, err);
-    bool is_ours = lock(journal, err);
-    if (is_ours && take_file(journal, problems, err)) {
+    bool is_free = lock(journal, err);
+    if (is_free && take_file(journal, problems, err)) {
         *out = journal;
         return true;
     }
     struct stat info;
-    if (is_ours && fstat(journal->file, &info) == 0 && info.st_size == 0) unlink(path);
+    if (is_free && fstat(journal->file, &info) == 0 && info.st_size == 0) unlink(path);
     close(journal->file);
     return false;
 }
@@ -273,6 +278,62 @@ bool journal_ok(const Journal *journal, Error *err)
     if (!journal || !journal->has_failed) return true;
     *err = journal->failure;
     return false;
+}
+
+/* ---- files of others --------------------------------------------------------------------- */
+
+/* To be closed, unless false. *bytes: of the file. */
+static bool open_other(const char *path, Arena *scratch, Journal *out, uint64_t *bytes)
+{
+    JournalHead head;
+    struct stat info;
+    *out = (Journal){.path = path, .arena = scratch, .end = sizeof head,
+                     .file = open(path, O_RDONLY | O_CLOEXEC)};
+    if (out->file < 0) return false;
+    if (fstat(out->file, &info) != 0 || (size_t)info.st_size < sizeof head ||
+        !read_at(out->file, &head, sizeof head, 0) || !is_ours(&head)) {
+        close(out->file);
+        return false;
+    }
+    grow(out);
+    *bytes = (uint64_t)info.st_size;
+    take_entries(out, *bytes);
+    return true;
+}
+
+bool journal_take_over(Journal *journal, const char *path, Arena scratch)
+{
+    Journal  other;
+    uint64_t bytes;
+    if (!open_other(path, &scratch, &other, &bytes)) return false;
+    for (size_t i = 0; i < other.room; i++) {
+        const JournalPlace *place = &other.places[i];
+        Arena room = scratch;
+        if (!place->offset) continue;
+        void *answer = arena_alloc(&room, place->size, 16, 1);
+        if (read_at(other.file, answer, place->size, place->offset))
+            journal_add(journal, place->key, answer, place->size);
+    }
+    close(other.file);
+    return true;
+}
+
+bool journal_file_has(const char *path, JournalKey key, Arena scratch)
+{
+    Journal  other;
+    uint64_t bytes;
+    if (!open_other(path, &scratch, &other, &bytes)) return false;
+    close(other.file);
+    return other.end == bytes && place_of(other.places, other.room, key)->offset;
+}
+
+int journal_file_count(const char *path, Arena scratch)
+{
+    Journal  other;
+    uint64_t bytes;
+    if (!open_other(path, &scratch, &other, &bytes)) return 0;
+    close(other.file);
+    return other.count;
 }
 
 int journal_count(const Journal *journal)

@@ -43,6 +43,16 @@ void journal_add(Journal *journal, JournalKey key, const void *answer, size_t si
 /* False: something could not be written, and *err says what. NULL is fine. */
 bool journal_ok(const Journal *journal, Error *err);
 
+/* Adds the answers of another journal's file, those that are whole: somebody may be at work
+ * on it. False: it is none. The scratch holds an index, and one answer at a time. */
+bool journal_take_over(Journal *journal, const char *path, Arena scratch);
+
+/* Whether the file is a journal that is whole to its end and has an answer under the key. */
+bool journal_file_has(const char *path, JournalKey key, Arena scratch);
+
+/* How many answers the file has that are whole; 0: it is no journal. */
+int journal_file_count(const char *path, Arena scratch);
+
 /* How many answers there are. NULL: 0. */
 int journal_count(const Journal *journal);
 

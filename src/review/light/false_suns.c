@@ -129,6 +129,7 @@ static void search_ring(void *user, int ring, int worker)
 #define CELL_DEG 1.0
 #define CELL_ROWS 180
 #define CELL_COLUMNS 360
+_Static_assert(CELL_ROWS * CELL_COLUMNS == FALSE_SUN_CELLS, "cells of one degree");
 
 static int row_of(Vec3 d)
 {

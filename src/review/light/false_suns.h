@@ -20,6 +20,7 @@
 
 #define FALSE_SUN_STEP_DEG 0.1
 #define FALSE_SUN_FIELD_DEG 100
+#define FALSE_SUN_CELLS (180 * 360) /* of the sun's direction */
 
 /* One ray. */
 typedef struct FalseSunRay {

@@ -83,7 +83,7 @@ bool stage_open(const StageOptions *options, Arena *arena, Problems *problems, S
     SceneOptions scene = {.root = options->root, .state = options->state};
     *out = (Stage){.request = options->request, .condition = options->condition,
                    .tools = {.threads = options->threads, .journal = options->journal},
-                   .sensor_lux = (double)NAN};
+                   .sensor_lux = (double)NAN, .lessons = options->lessons};
     scene.paths = all_paths(options, &scene.path_count, arena);
     scene.contents = all_contents(options, &scene.content_count, arena);
     if (!kernel_choose(options->isa, &out->tools.kernel, err)) return false;

@@ -25,6 +25,7 @@ typedef struct Stage {
     double       sensor_lux;   /* NaN: no level follows the light */
     double      *scene_levels; /* of the displays, before the condition's */
     const char  *identity;     /* program and scene (render/identity.h), not its light */
+    const char  *lessons;      /* StageOptions' */
 } Stage;
 
 typedef struct StageOptions {
@@ -35,6 +36,8 @@ typedef struct StageOptions {
     int                    threads;
     const char            *isa;       /* kernel.h's; NULL: the best */
     Journal               *journal;   /* of readings; NULL: none is kept */
+    const char            *lessons;   /* folder of what paths are taught (run/cases.h); NULL:
+                                         it is not kept */
 } StageOptions;
 
 /* The scene with the condition's files, contents and occupants, in the dark. Warnings go to

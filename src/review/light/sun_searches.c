@@ -28,6 +28,44 @@ static bool is_of(const SunSearch *search, const Stage *stage, Vec3 eye)
            !strcmp(search->identity, stage->identity);
 }
 
+/* Nothing but the scene and the eye decides it. */
+static JournalKey key_of(const Stage *stage, Vec3 eye, const char *what, Arena scratch)
+{
+    return journal_key(arena_format(&scratch, "suns in mirrors, %s\n%016llx%016llx\n%a %a %a",
+                                    what, (unsigned long long)stage->tools.base.high,
+                                    (unsigned long long)stage->tools.base.low, (double)eye.x,
+                                    (double)eye.y, (double)eye.z));
+}
+
+static bool find_kept(const Stage *stage, Vec3 eye, Arena *arena, FalseSunRays *out)
+{
+    const Journal *journal = stage->tools.journal;
+    int            count;
+    if (!journal_find(journal, key_of(stage, eye, "count", *arena), &count, sizeof count))
+        return false;
+    size_t bytes = (size_t)count * sizeof(FalseSunRay);
+    JournalKey   rays = key_of(stage, eye, "rays", *arena);
+    JournalKey   cells = key_of(stage, eye, "cells", *arena);
+    FalseSunRay *list = ARENA_NEW(arena, FalseSunRay, count);
+    int         *first = ARENA_NEW(arena, int, FALSE_SUN_CELLS + 1);
+    *out = (FalseSunRays){list, first, count};
+    return (!count || journal_find(journal, rays, list, bytes)) &&
+           journal_find(journal, cells, first, (FALSE_SUN_CELLS + 1) * sizeof *first);
+}
+
+/* The count comes last: the others are there when it is. */
+static void keep(const Stage *stage, Vec3 eye, const FalseSunRays *rays, Arena scratch)
+{
+    Journal *journal = stage->tools.journal;
+    if (rays->count)
+        journal_add(journal, key_of(stage, eye, "rays", scratch), rays->list,
+                    (size_t)rays->count * sizeof *rays->list);
+    journal_add(journal, key_of(stage, eye, "cells", scratch), rays->first,
+                (FALSE_SUN_CELLS + 1) * sizeof *rays->first);
+    journal_add(journal, key_of(stage, eye, "count", scratch), &rays->count,
+                sizeof rays->count);
+}
+
 const FalseSunRays *sun_searches_ask(SunSearches *searches, const Stage *stage, Vec3 eye)
 {
     Arena *arena = &searches->arena;
@@ -37,7 +75,10 @@ const FalseSunRays *sun_searches_ask(SunSearches *searches, const Stage *stage, 
     *search = (SunSearch){.identity = arena_string(arena, stage->identity,
                                                    strlen(stage->identity)),
                           .eye = eye, .before = searches->last};
-    false_suns_search(stage, eye, arena, &search->rays);
+    if (!stage->lessons || !find_kept(stage, eye, arena, &search->rays)) {
+        false_suns_search(stage, eye, arena, &search->rays);
+        if (stage->lessons) keep(stage, eye, &search->rays, *arena);
+    }
     searches->last = search;
     return &search->rays;
 }

@@ -3,6 +3,7 @@
  * gazes, moments and sweeps in which the same eye sees the same scene.
  *
  * A search takes some 2 million rays; neither the sun nor any other light has a part in it.
+ * Where lessons are kept, in a review that machines share, the stage's journal keeps it, too.
  *
  * Memory   of what is kept: the arena of sun_searches_start, until sun_searches_end.
  * Threads  one at a time; a search starts its own. The same figures for any count.

@@ -3,12 +3,15 @@
 
 #include <math.h>
 
+#include "base/file.h"
 #include "base/units.h"
 #include "camera/camera.h"
+#include "guide/guide_file.h"
 #include "render/train.h"
 #include "review/judge.h"
 #include "review/keep/go_on.h"
 #include "review/light/eye_reading.h"
+#include "review/light/question.h"
 #include "review/light/response.h"
 #include "review/output/review_decide.h"
 #include "review/request/request_check.h"
@@ -374,6 +377,24 @@ static bool case_of(const CaseTools *tools, const CaseAsk *ask, Arena *arena, Re
 #define LESSON_HEIGHT 270
 #define LESSON_DEG 60.0
 
+static const char *lesson_file(const Stage *stage, Vec3 eye, Vec3 towards, Arena *arena)
+{
+    ProbeAim   aim = {.context = &stage->context, .eye = eye};
+    Question   question = {.base = stage->tools.base, .kind = "lesson", .towards = &towards,
+                           .towards_count = 1};
+    JournalKey key = question_key(&question, &aim, *arena);
+    return arena_format(arena, "%s/%016llx%016llx.lesson", stage->lessons,
+                        (unsigned long long)key.high, (unsigned long long)key.low);
+}
+
+static bool read_lesson(Stage *stage, const char *file, Arena *arena)
+{
+    GuideScene scene = train_guide_scene(&stage->context);
+    Error      ignored;
+    return file_exists(file) &&
+           guide_read(file, &scene, arena, &stage->context.guide, &ignored);
+}
+
 bool stage_learn(Stage *stage, const StageSymbol *symbols, int count, Arena *arena, Error *err)
 {
     Vec3 eye, sum = vec3(0, 0, 0);
@@ -386,8 +407,10 @@ bool stage_learn(Stage *stage, const StageSymbol *symbols, int count, Arena *are
     Camera         camera = camera_from_scene(&look, LESSON_WIDTH, LESSON_HEIGHT);
     TrainOptions   train = {stage->tools.kernel, stage->tools.threads};
     PathStatistics cost;
+    const char    *file = stage->lessons ? lesson_file(stage, eye, towards, arena) : NULL;
+    if (file && read_lesson(stage, file, arena)) return true;
     stage->context.guide = train_guide(&stage->context, &camera, &train, arena, &cost);
-    return true;
+    return !file || guide_write(file, stage->context.guide, *arena, err);
 }
 
 /* ---- all cases --------------------------------------------------------------------------- */
@@ -402,13 +425,16 @@ bool stage_case(const CaseTools *tools, const StageSymbol *symbol, const ReviewE
 bool stage_cases(const CaseTools *tools, Arena *arena, ReviewCase *out, Error *err)
 {
     const ReviewRequest *request = tools->stage->request;
-    double *faces = ARENA_NEW(arena, double, tools->symbol_count);
-    for (int s = 0; s < tools->symbol_count; s++)
-        faces[s] = face_lux(tools, &tools->symbols[s], *arena);
-    for (int e = 0; e < request->eye_count; e++)
-        for (int s = 0; s < tools->symbol_count; s++) {
-            CaseAsk ask = {&request->eyes[e], &tools->symbols[s], faces[s]};
-            if (!case_of(tools, &ask, arena, out++, err)) return false;
-        }
+    int     symbols = tools->symbol_count, count = request->eye_count * symbols;
+    double *faces = ARENA_NEW(arena, double, symbols);
+    bool   *is_known = ARENA_NEW(arena, bool, symbols);
+    for (int i = 0; i < count; i++) {
+        int s = i % symbols;
+        if (!moment_share_has(&tools->share, i, count)) continue;
+        if (!is_known[s]) faces[s] = face_lux(tools, &tools->symbols[s], *arena);
+        is_known[s] = true;
+        CaseAsk ask = {&request->eyes[i / symbols], &tools->symbols[s], faces[s]};
+        if (!case_of(tools, &ask, arena, &out[i], err)) return false;
+    }
     return true;
 }

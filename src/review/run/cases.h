@@ -9,6 +9,7 @@
  */
 #pragma once
 #include "review/profile.h"
+#include "review/run/share.h"
 #include "review/run/symbols.h"
 
 typedef struct CaseTools {
@@ -18,6 +19,7 @@ typedef struct CaseTools {
     int                symbol_count;
     long               cause_paths; /* by which causes are found; 0: CAUSE_PATHS */
     int                cause_rays;  /* that are kept of each; 0: CAUSE_RAYS */
+    MomentShare        share;       /* of stage_cases: others' are left alone */
 } CaseTools;
 
 /* Share of what a display reflects from which on its light is that of direct sun. */
@@ -25,7 +27,8 @@ typedef struct CaseTools {
 
 /* Teaches the stage's paths, once it is lit, from where light comes to what the first eye sees
  * of the symbols: lamps that few of them would find otherwise, at night above all. The guide
- * comes from the arena. */
+ * comes from the arena, or from the stage's folder of lessons, where it is kept; one that is
+ * damaged is learnt again. Fails where it cannot be written. */
 bool stage_learn(Stage *stage, const StageSymbol *symbols, int count, Arena *arena, Error *err);
 
 /* symbol_count * eye_count cases, symbols fastest. Fails where an eye's camera is missing. */

@@ -138,23 +138,25 @@ static void read_gaze(const Stage *stage, SunSearches *searches, const GazeGoal 
     set_contrasts(&along, half, out);
 }
 
-bool stage_gazes(const Stage *stage, SunSearches *searches, Arena *arena, GazeFinding *out,
-                 Error *err)
+bool stage_gazes(const Stage *stage, const MomentShare *share, SunSearches *searches,
+                 Arena *arena, GazeFinding *out, Error *err)
 {
     const ReviewRequest *request = stage->request;
+    int at = -1, looks = review_look_count(request);
     for (int g = 0; g < request->gaze_count; g++)
         for (int e = 0; e < request->eye_count; e++) {
             const ReviewGaze *gaze = &request->gazes[g];
             const ReviewEye  *eye = &request->eyes[e];
             int count;
             if (gaze->at_symbols || !gaze->for_eye[e]) continue;
+            if (!moment_share_has(share, ++at, looks)) continue;
             Vec3 *points = stage_eye_points(stage, eye, &count, arena, err);
             if (!points) return false;
             GazeGoal goal = goal_of(worst_point(stage, gaze, points, count, *arena), gaze,
                                     PATHS_MOST);
-            *out = (GazeFinding){.condition = stage->condition->name, .eye = eye->name,
+            out[at] = (GazeFinding){.condition = stage->condition->name, .eye = eye->name,
                                  .gaze = gaze->name};
-            read_gaze(stage, searches, &goal, arena, out++);
+            read_gaze(stage, searches, &goal, arena, &out[at]);
         }
     return true;
 }

@@ -10,9 +10,10 @@
  */
 #pragma once
 #include "review/light/sun_searches.h"
+#include "review/run/share.h"
 #include "review/verdict.h"
 
-/* Fills review_look_count(request) findings, eyes fastest. Fails where an eye's camera is
- * missing. */
-bool stage_gazes(const Stage *stage, SunSearches *searches, Arena *arena, GazeFinding *out,
-                 Error *err);
+/* Fills review_look_count(request) findings, eyes fastest, but for those that are others'.
+ * Fails where an eye's camera is missing. */
+bool stage_gazes(const Stage *stage, const MomentShare *share, SunSearches *searches,
+                 Arena *arena, GazeFinding *out, Error *err);

@@ -11,6 +11,7 @@
 #include "review/light/sun_searches.h"
 #include "review/profile.h"
 #include "review/request/request.h"
+#include "review/run/share.h"
 #include "review/suns/sweep_suns.h"
 #include "review/verdict.h"
 
@@ -27,6 +28,9 @@ typedef struct ReviewRun {
     const char          *responses;  /* and of responses: as it is opened (plan: NULL: none), */
     const char          *responses_shown; /* and as the review names it */
     Journal             *journal;  /* of readings that were taken before */
+    const char          *lessons;  /* folder of what was learnt before; NULL: none is kept */
+    ReviewShare          share;    /* of its questions: the others' are left alone */
+    const char          *identity; /* review_plan's, of what was planned; NULL: anything */
     Problems            *problems; /* warnings of scenes, once each */
     SunSearches         *sun_searches; /* review_run's own */
 } ReviewRun;

@@ -16,6 +16,8 @@
 #include "review/run/sweep.h"
 #include "review/run/sweep_probes.h"
 #include "review/run/sweep_weather.h"
+#include "render/identity.h"
+#include "text/text.h"
 
 /* The most address space that a stage takes; what is not touched costs nothing. */
 #define STAGE_BYTES ((size_t)1 << 36)
@@ -38,11 +40,25 @@ static int most_responses(const ReviewRequest *request)
     return most_cases(request) + request->condition_count * (faces + request->level_count);
 }
 
-/* Names of symbols that were found live in the stage's memory. */
+/* Names of symbols that were found live in the stage's memory. Cases of other parts have none.
+ */
 static void keep_names(ReviewCase *cases, int count, Arena *arena)
 {
-    for (int i = 0; i < count; i++)
+    for (int i = 0; i < count && cases[i].symbol; i++)
         cases[i].symbol = arena_string(arena, cases[i].symbol, strlen(cases[i].symbol));
+}
+
+/* The place of a moment among those of the request. */
+static MomentShare share_of(const ReviewRun *run, const ReviewCondition *condition)
+{
+    const ReviewRequest *request = run->request;
+    MomentShare          share = {.of = run->share};
+    for (int i = 0; i < request->condition_count; i++) {
+        if (request->conditions[i].kind != CONDITION_MOMENT) continue;
+        if (&request->conditions[i] == condition) share.place = share.moments;
+        share.moments++;
+    }
+    return share;
 }
 
 static bool run_moment(const ReviewRun *run, Stage *stage, Arena *scratch, Arena *arena,
@@ -50,7 +66,8 @@ static bool run_moment(const ReviewRun *run, Stage *stage, Arena *scratch, Arena
 {
     const ReviewCondition *condition = stage->condition;
     Review   *review = &out->review;
-    CaseTools tools = {.stage = stage, .profile = run->profile};
+    CaseTools tools = {.stage = stage, .profile = run->profile,
+                       .share = share_of(run, condition)};
     StageSymbol *symbols;
     const Environment *sky = condition->has_environment ? &condition->environment : NULL;
     if (!stage_light(stage, sky, scratch, err) ||
@@ -64,7 +81,7 @@ static bool run_moment(const ReviewRun *run, Stage *stage, Arena *scratch, Arena
     keep_names(cases, count, arena);
     review->case_count += count;
     GazeFinding *gazes = review->gazes + review->gaze_count;
-    if (!stage_gazes(stage, run->sun_searches, arena, gazes, err)) return false;
+    if (!stage_gazes(stage, &tools.share, run->sun_searches, arena, gazes, err)) return false;
     review->gaze_count += review_look_count(run->request);
     return true;
 }
@@ -111,18 +128,43 @@ bool review_check(const ReviewRequest *request, Arena scratch, Error *err)
     return true;
 }
 
+/* ---- what it was planned for ------------------------------------------------------------- */
+
+static void add_condition(Text *text, const ReviewRequest *request,
+                          const ReviewCondition *condition, JournalKey base)
+{
+    identity_line(text, arena_format(text->arena, "condition %d",
+                                     (int)(condition - request->conditions)),
+                  "%016llx%016llx", (unsigned long long)base.high,
+                  (unsigned long long)base.low);
+}
+
+/* Answers of something else would find nobody who asks. */
+static bool check_planned(const ReviewRun *run, const Stage *stage, Arena scratch, Error *err)
+{
+    Text own = {.arena = &scratch};
+    if (!run->identity) return true;
+    add_condition(&own, run->request, stage->condition, stage->tools.base);
+    return strstr(run->identity, own.data) ||
+           error_at(err, ERROR_INPUT, run->request->file, "",
+                    "the program, the request or a file of condition '%.200s' is not what the "
+                    "job was planned for — plan it again, in another folder",
+                    stage->condition->name);
+}
+
 /* group: of sweeps; NULL: a moment. */
 static bool run_condition(const ReviewRun *run, const ReviewCondition *condition,
                           const SweepGroup *group, Arena *arena, ReviewOutcome *out, Error *err)
 {
     StageOptions options = {run->request, condition, run->root,   run->state,
-                            run->threads, run->isa,  run->journal};
+                            run->threads, run->isa,  run->journal, run->lessons};
     Arena scratch = arena_reserve(STAGE_BYTES);
     Stage stage;
     bool  ok = stage_open(&options, &scratch, run->problems, &stage, err);
     if (ok) {
         ok = (review_request_check(run->request, stage.scene, run->problems) ||
               problems_verdict(run->problems, err)) &&
+             check_planned(run, &stage, scratch, err) &&
              (group ? run_sweeps(run, &stage, group, arena, out, err)
                     : run_moment(run, &stage, &scratch, arena, out, err));
         stage_close(&stage);
@@ -143,6 +185,8 @@ static bool run_conditions(const ReviewRun *run, Arena *arena, ReviewOutcome *ou
         if (is_done[i]) continue;
         if (!review_goes_on(run->journal, err)) return false;
         bool is_moment = condition->kind == CONDITION_MOMENT;
+        MomentShare share = share_of(run, condition);
+        if (is_moment && !moment_share_has_any(&share)) continue;
         if (!is_moment) group = group_of(request, i, is_done, arena);
         if (!run_condition(run, condition, is_moment ? NULL : &group, arena, out, err))
             return false;
@@ -154,22 +198,24 @@ static bool run_conditions(const ReviewRun *run, Arena *arena, ReviewOutcome *ou
 
 /* ---- what is there ----------------------------------------------------------------------- */
 
-/* All moments, or all sweeps, of one scene: they ask for the same. */
-static void mark_scene(const ReviewRequest *request, int first, bool *is_done)
+/* All moments, or all sweeps, of one scene: they ask for the same, and are done as the first
+ * is. */
+static void mark_scene(const ReviewRequest *request, int first, int *done_by)
 {
     const ReviewCondition *c = request->conditions;
     bool is_moment = c[first].kind == CONDITION_MOMENT;
     for (int i = first; i < request->condition_count; i++)
-        is_done[i] |= (c[i].kind == CONDITION_MOMENT) == is_moment &&
-                      same_scene(request, &c[first], &c[i]);
+        if (done_by[i] < 0 && (c[i].kind == CONDITION_MOMENT) == is_moment &&
+            same_scene(request, &c[first], &c[i]))
+            done_by[i] = first;
 }
 
 /* A moment has symbols, but asks for no response. */
 static bool plan_condition(const ReviewRun *run, const ReviewCondition *condition,
-                           ReviewPlan *plan, Error *err)
+                           ReviewPlan *plan, JournalKey *base, Error *err)
 {
     StageOptions options = {run->request, condition, run->root, run->state,
-                            run->threads, run->isa,  NULL};
+                            run->threads, run->isa,  NULL, NULL};
     Arena scratch = arena_reserve(STAGE_BYTES);
     Stage stage;
     bool  ok = stage_open(&options, &scratch, run->problems, &stage, err);
@@ -182,6 +228,7 @@ static bool plan_condition(const ReviewRun *run, const ReviewCondition *conditio
              (condition->kind == CONDITION_MOMENT
                   ? stage_symbols(&stage, &scratch, &symbols, &count, err)
                   : sweep_place_probes(&sweep, &scratch, err));
+        *base = stage.tools.base;
         plan->responses += sweep.ask_count;
         for (int i = 0; i < sweep.ask_count; i++)
             plan->responses_kept += sweep.asks[i].is_kept;
@@ -191,19 +238,28 @@ static bool plan_condition(const ReviewRun *run, const ReviewCondition *conditio
     return ok;
 }
 
-bool review_plan(const ReviewRun *run, ReviewPlan *out, Error *err)
+bool review_plan(const ReviewRun *run, Arena *arena, ReviewPlan *out, Error *err)
 {
     const ReviewRequest *request = run->request;
-    Arena own = arena_reserve(1 << 20);
-    bool *is_done = ARENA_NEW(&own, bool, request->condition_count), ok = true;
-    *out = (ReviewPlan){0, 0};
-    for (int i = 0; ok && i < request->condition_count; i++) {
-        if (is_done[i]) continue;
-        mark_scene(request, i, is_done);
-        ok = plan_condition(run, &request->conditions[i], out, err);
+    const Kernel        *kernel;
+    int         count = request->condition_count;
+    int        *done_by = ARENA_NEW(arena, int, count);
+    JournalKey *bases = ARENA_NEW(arena, JournalKey, count);
+    Text        identity = {.arena = arena};
+    *out = (ReviewPlan){0};
+    if (!kernel_choose(run->isa, &kernel, err)) return false;
+    identity_add_program(&identity, kernel);
+    for (int i = 0; i < count; i++) done_by[i] = -1;
+    for (int i = 0; i < count; i++) {
+        if (done_by[i] < 0) {
+            mark_scene(request, i, done_by);
+            if (!plan_condition(run, &request->conditions[i], out, &bases[i], err))
+                return false;
+        }
+        add_condition(&identity, request, &request->conditions[i], bases[done_by[i]]);
     }
-    arena_release(&own);
-    return ok;
+    out->identity = identity.data;
+    return true;
 }
 
 /* ---- what a reader must know ------------------------------------------------------------- */
@@ -320,7 +376,8 @@ static bool make_frame(const ReviewRun *run, const Candidate *of, int number, Ar
 {
     const ReviewCondition *c = condition_named(run->request, of->of->condition);
     StageOptions options = {run->request, c,        run->root,   run->state,
-                            run->threads, run->isa, run->journal};
+                            run->threads, run->isa, run->journal,
+                            run->lessons};
     Problems     told_before = problems_start(arena);
     Environment  sky;
     Arena scratch = arena_reserve(STAGE_BYTES);
@@ -388,7 +445,7 @@ bool review_run(const ReviewRun *run, Arena *arena, ReviewOutcome *out, Error *e
     with.sun_searches = &searches;
     bool ok = run_conditions(&with, arena, out, err);
     sun_searches_end(&searches);
-    if (!ok) return false;
+    if (!ok || run->share.count) return ok;
     add_notes(request, &out->review, arena);
     review_decide(&out->review);
     return true;

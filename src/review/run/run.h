@@ -8,15 +8,17 @@
 #pragma once
 #include "review/run/job.h"
 
+/* Of a run that has a share the journal is what comes out, and responses; *out says nothing. */
 bool review_run(const ReviewRun *run, Arena *arena, ReviewOutcome *out, Error *err);
 
 /* What is there already of the work that is asked. Every scene is loaded, and its symbols are
  * found, so that what would end the review later is told now. */
 typedef struct ReviewPlan {
     int responses, responses_kept; /* of sweeps; those in the run's folder */
+    const char *identity; /* what decides the answers: the program, and a line a condition */
 } ReviewPlan;
 
-bool review_plan(const ReviewRun *run, ReviewPlan *out, Error *err);
+bool review_plan(const ReviewRun *run, Arena *arena, ReviewPlan *out, Error *err);
 
 /* Before long work: whether all conditions are such as can be reviewed. */
 bool review_check(const ReviewRequest *request, Arena scratch, Error *err);

@@ -437,10 +437,11 @@ static bool sweep_condition(Sweep *sweep, Arena scratch, Arena *arena, ReviewOut
     SweepSuns *suns = ARENA_NEW(arena, SweepSuns, 1);
     *suns = sweep->suns;
     Telling to = {sweep, &tools, suns, out, arena, scratch};
-    false_sun_times(sweep, scratch, arena, &out->review);
+    if (!sweep->run->share.count) false_sun_times(sweep, scratch, arena, &out->review);
     Progress progress = progress_start(sweep->run->progress, "verdicts", "sights",
                                        sweep->sight_count);
     for (int i = 0; i < sweep->sight_count; i++) {
+        if (sweep->sights[i].is_left) continue;
         if (!review_goes_on(sweep->run->journal, err) ||
             !tell_sight(&to, &sweep->sights[i], err))
             return false;

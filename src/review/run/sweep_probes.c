@@ -91,6 +91,25 @@ static bool place_sights(Sweep *sweep, Arena *arena, Error *err)
     return true;
 }
 
+/* ---- whose they are ---------------------------------------------------------------------- */
+
+/* Sights are shared, each with the meters that it takes. */
+static void leave_others(Sweep *sweep)
+{
+    const ReviewShare *share = &sweep->run->share;
+    bool has_any = false;
+    for (int i = 0; i < sweep->symbol_count; i++) sweep->faces[i].is_left = share->count > 0;
+    for (int i = 0; i < sweep->sight_count; i++) {
+        Sight *sight = &sweep->sights[i];
+        sight->is_left = !review_share_has(share, i);
+        if (sight->is_left) continue;
+        sweep->faces[sight->symbol - sweep->symbols].is_left = false;
+        has_any = true;
+    }
+    for (int i = 0; i < sweep->run->request->level_count; i++)
+        sweep->sensors[i].is_left = !has_any;
+}
+
 /* ---- what is asked of them --------------------------------------------------------------- */
 
 static void ask_meter(Sweep *sweep, SweepMeter *meter, const char *name)
@@ -99,7 +118,8 @@ static void ask_meter(Sweep *sweep, SweepMeter *meter, const char *name)
                                   .seed = METER_SEED};
     sweep->asks[sweep->ask_count++] =
         (ResponseAsk){.name = name, .probe = &meter->probe, .own = &meter->own,
-                      .paths = METER_PATHS, .precision = RESPONSE_PRECISION};
+                      .paths = METER_PATHS, .precision = RESPONSE_PRECISION,
+                      .is_left = meter->is_left};
 }
 
 static void list_asks(Sweep *sweep, Arena *arena)
@@ -120,7 +140,7 @@ static void list_asks(Sweep *sweep, Arena *arena)
         sweep->asks[sweep->ask_count++] = (ResponseAsk){
             .name = arena_format(arena, "%s, %s", sight->eye->name, sight->symbol->name),
             .probe = &sight->probe, .own = &sight->own, .paths = RESPONSE_PATHS,
-            .precision = RESPONSE_PRECISION};
+            .precision = RESPONSE_PRECISION, .is_left = sight->is_left};
     }
 }
 
@@ -138,7 +158,7 @@ void sweep_ask_meters(Sweep *sweep, Arena *arena)
     tools.has_mirror = false;
     tools.sun_paths = METER_SUN_PATHS;
     for (int i = 0; i < sweep->symbol_count; i++)
-        far_probe_ask(&sweep->faces[i].probe, &tools, arena);
+        if (!sweep->faces[i].is_left) far_probe_ask(&sweep->faces[i].probe, &tools, arena);
     if (sweep->sensor) far_probe_ask(&sweep->sensor->probe, &tools, arena);
 }
 
@@ -177,6 +197,20 @@ static bool find_false_suns(Sweep *sweep, Arena *arena, Error *err)
     return true;
 }
 
+/* For whoever puts the parts together: of the eyes that are this part's. */
+static bool search_own_suns(Sweep *sweep, Arena scratch, Error *err)
+{
+    const ReviewRun *run = sweep->run;
+    for (int e = 0; e < run->request->eye_count; e++) {
+        Vec3 from;
+        if (!review_share_has(&run->share, sweep->sight_count + e)) continue;
+        if (!stage_eye_middle(sweep->stage, &run->request->eyes[e], scratch, &from, err))
+            return false;
+        sun_searches_ask(run->sun_searches, sweep->stage, from);
+    }
+    return true;
+}
+
 /* ---- all of them ------------------------------------------------------------------------- */
 
 bool sweep_place_probes(Sweep *sweep, Arena *arena, Error *err)
@@ -187,6 +221,7 @@ bool sweep_place_probes(Sweep *sweep, Arena *arena, Error *err)
         return false;
     place_meters(sweep, arena);
     if (!place_sights(sweep, arena, err)) return false;
+    leave_others(sweep);
     list_asks(sweep, arena);
     responses_find(sweep->run, stage, sweep->asks, sweep->ask_count, arena);
     return true;
@@ -195,10 +230,11 @@ bool sweep_place_probes(Sweep *sweep, Arena *arena, Error *err)
 bool sweep_make_probes(Sweep *sweep, Arena *arena, Error *err)
 {
     Stage *stage = sweep->stage;
-    return sweep_place_probes(sweep, arena, err) &&
-           responses_read_own(stage, sweep->asks, sweep->ask_count, false, *arena, err) &&
+    if (!sweep_place_probes(sweep, arena, err)) return false;
+    return responses_read_own(stage, sweep->asks, sweep->ask_count, false, *arena, err) &&
            sweep_light_dark(stage, 1, arena, err) &&
            responses_read_own(stage, sweep->asks, sweep->ask_count, true, *arena, err) &&
            responses_trace(sweep->run, stage, sweep->asks, sweep->ask_count, arena, err) &&
-           find_false_suns(sweep, arena, err);
+           (sweep->run->share.count ? search_own_suns(sweep, *arena, err)
+                                    : find_false_suns(sweep, arena, err));
 }

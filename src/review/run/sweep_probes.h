@@ -14,6 +14,7 @@ typedef struct SweepMeter {
     LitPoint head;
     FarProbe probe;
     OwnLight own;
+    bool     is_left; /* to other parts of the review (share.h): nothing is asked of it */
 } SweepMeter;
 
 typedef struct Sight {
@@ -26,6 +27,7 @@ typedef struct Sight {
     FarProbe           probe;
     OwnLight           own;
     const SweepMeter  *face;
+    bool               is_left; /* as a meter */
 } Sight;
 
 typedef struct Sweep {

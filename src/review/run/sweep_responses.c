@@ -90,7 +90,7 @@ bool responses_read_own(const Stage *stage, const ResponseAsk *asks, int count, 
                         Arena scratch, Error *err)
 {
     for (int i = 0; i < count; i++) {
-        if (asks[i].is_kept) continue;
+        if (asks[i].is_kept || asks[i].is_left) continue;
         if (!review_goes_on(stage->tools.journal, err)) return false;
         double own = own_reading(stage, &asks[i].probe->aim, scratch);
         if (displays) asks[i].own->displays = own - asks[i].own->lamps;
@@ -108,7 +108,7 @@ bool responses_trace(const ReviewRun *run, const Stage *stage, ResponseAsk *asks
     Progress progress = progress_start(run->progress, "responses", "probes", count);
     for (int i = 0; i < count; i++) {
         ResponseAsk *ask = &asks[i];
-        if (ask->is_kept) continue;
+        if (ask->is_kept || ask->is_left) continue;
         if (!review_goes_on(stage->tools.journal, err)) return false;
         tools.paths = ask->paths;
         tools.precision = ask->precision;

@@ -24,6 +24,7 @@ typedef struct ResponseAsk {
     ResponseFile file;
     const char  *shown;     /* the file's name as review.json has it */
     bool         is_kept;   /* it was read, not traced */
+    bool         is_left;   /* to another part: nothing is known of it */
 } ResponseAsk;
 
 /* Reads those that are there. Sets file, shown and is_kept of all. */

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* parhelion merge: parts of a frame become the frame, with the bits of one run. */
+/* parhelion merge: parts of a frame become the frame, with the bits of one run; the parts of a
+ * review the review (job_review.h). */
 #include <errno.h>
 #include <math.h>
 #include <stdio.h>
@@ -11,13 +12,14 @@
 #include "base/file.h"
 #include "base/file_write.h"
 #include "base/machine.h"
+#include "cli/commands.h"
 #include "cli/job/job_manifest.h"
 #include "cli/job/job_state.h"
+#include "cli/job_review.h"
 #include "cli/options/answer.h"
 #include "cli/options/cli.h"
 #include "cli/render/command_line.h"
 #include "cli/render/frame_outcome.h"
-#include "cli/render/render_commands.h"
 #include "render/identity.h"
 #include "film/film_frame.h"
 #include "film/film_merge.h"
@@ -30,7 +32,7 @@ typedef struct MergeRun {
     bool        keeps_sums;   /* --part */
     Arena      *arena;
     bool        is_job;       /* the argument was a job's folder */
-    RenderJob   job;
+    SharedJob   job;
     const char **files;       /* the parts' */
     int         count;
     FilmPart   *parts;        /* one a file */
@@ -48,7 +50,7 @@ typedef struct MergeRun {
 /* One line, with as many commands as go into it. */
 static bool report_missing(const MergeRun *work, const int *missing, int count, Error *err)
 {
-    const RenderJob *job = &work->job;
+    const SharedJob *job = &work->job;
     Arena scratch = *work->arena;
     Text  commands = {.arena = &scratch};
     int   told = 0;
@@ -66,7 +68,7 @@ static bool report_missing(const MergeRun *work, const int *missing, int count, 
 
 static bool take_job(MergeRun *work, Error *err)
 {
-    RenderJob *job = &work->job;
+    SharedJob *job = &work->job;
     Error      ignored;
     if (!job_manifest_read(work->cli.arguments[0], work->arena, job, err)) return false;
     int *missing = ARENA_NEW(work->arena, int, job->part_count), count = 0;
@@ -74,10 +76,12 @@ static bool take_job(MergeRun *work, Error *err)
     work->count = job->part_count;
     work->files = ARENA_NEW(work->arena, const char *, job->part_count);
     for (int i = 0; i < job->part_count; i++) {
-        work->files[i] = job_part_file(job, i, ".exr", work->arena);
+        work->files[i] = job_part_file(job, i, job_part_ending(job), work->arena);
         if (!job_part_is_done(job, i, false, *work->arena, &ignored)) missing[count++] = i;
     }
     if (count) return report_missing(work, missing, count, err);
+    if (job->kind == JOB_REVIEW)
+        return !work->keeps_sums || error_set(err, ERROR_USAGE, "--part: a review has no sums");
     if (!work->output) work->output = job_output_file(job, work->arena);
     work->keeps_sums = work->keeps_sums || job->keeps_sums;
     return true;
@@ -97,11 +101,16 @@ static bool take_files(MergeRun *work, Error *err)
     return true;
 }
 
+static bool is_review(const MergeRun *work)
+{
+    return work->is_job && work->job.kind == JOB_REVIEW;
+}
+
 static bool parse(int argc, char **argv, MergeRun *work, Error *err)
 {
     const Option options[] = {
         {"-o", OPTION_TEXT, "FRAME.exr",
-         "the frame that is written (default, of a job: the one that it was planned for)",
+         "what is written (default, of a job: the frame or review that it was planned for)",
          &work->output},
         {"--part", OPTION_FLAG, NULL,
          "keep the exact sums, so that the frame can be merged again", &work->keeps_sums},
@@ -115,6 +124,7 @@ static bool parse(int argc, char **argv, MergeRun *work, Error *err)
     if (!cli_parse(&command, argc, argv, work->arena, &work->cli, err)) return false;
     if (work->cli.help_shown) return true;
     if (!take_files(work, err)) return false;
+    if (is_review(work)) return true;
     if (!work->output) return error_set(err, ERROR_USAGE, "no output — add -o FRAME.exr");
     if (strcmp(path_ending(work->output), ".exr") != 0)
         return error_set(err, ERROR_USAGE, "-o %s: wanted a name that ends in .exr",
@@ -427,9 +437,11 @@ static bool merge(MergeRun *work, Error *err)
 static bool run_merge(int argc, char **argv, Arena *arena, Error *err)
 {
     MergeRun  work = {.arena = arena};
-    return parse(argc, argv, &work, err) &&
-           (work.cli.help_shown || merge(&work, err));
+    if (!parse(argc, argv, &work, err)) return false;
+    if (work.cli.help_shown) return true;
+    return is_review(&work) ? job_review_merge(&work.job, &work.cli, work.output, arena, err)
+                            : merge(&work, err);
 }
 
 const Command command_merge = {
-    "merge", "make one frame of parts of it, with the bits of one run", run_merge};
+    "merge", "make one frame, or review, of its parts, with the bits of one run", run_merge};

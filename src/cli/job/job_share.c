@@ -1,0 +1,204 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "cli/job/job_share.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "base/count.h"
+#include "base/file_write.h"
+#include "cli/job/job_manifest.h"
+#include "cli/job/job_scripts.h"
+#include "cli/job/job_state.h"
+#include "cli/job/sbatch.h"
+#include "render/identity.h"
+#include "text/escape.h"
+#include "text/json_text.h"
+#include "text/utf8.h"
+
+/* What became of it. */
+typedef struct Share {
+    const ShareRequest *request;
+    SharedJob           job;
+    bool                was_there; /* the same job was planned before */
+    const char         *array_id, *merge_id; /* Slurm's numbers; NULL: not submitted */
+} Share;
+
+/* ---- the job ----------------------------------------------------------------------------- */
+
+/* JSON holds texts of UTF-8, and a script's lines no control characters. */
+static bool check_text(const char *text, Arena scratch, Error *err)
+{
+    return !strcmp(utf8_replace(text, &scratch), text) ||
+           error_set(err, ERROR_USAGE,
+                     "'%.200s' cannot be kept in a job: wanted UTF-8 without control "
+                     "characters",
+                     text);
+}
+
+static bool check_texts(const SharedJob *job, Arena scratch, Error *err)
+{
+    const char *texts[] = {job->dir, job->program, job->folder, job->output};
+    for (int i = 0; i < COUNT_OF(texts); i++)
+        if (!check_text(texts[i], scratch, err)) return false;
+    for (int i = 0; i < job->word_count; i++)
+        if (!check_text(job->words[i], scratch, err)) return false;
+    return !strpbrk(job->dir, "\"\\") ||
+           error_set(err, ERROR_USAGE,
+                     "--job %.200s: quotes and backslashes do not go into a batch script — "
+                     "name another folder",
+                     job->dir);
+}
+
+static bool make_folder(const char *path, Error *err)
+{
+    struct stat info;
+    if (mkdir(path, 0777) == 0) return true;
+    int reason = errno;
+    if (reason == EEXIST && stat(path, &info) == 0 && S_ISDIR(info.st_mode)) return true;
+    return error_at(err, ERROR_OUTPUT, path, "", "cannot be made: %s",
+                    strerror(reason == EEXIST ? ENOTDIR : reason));
+}
+
+/* A path that the program itself or the system knows. */
+static bool find_place(const char *what, char *found, Arena *arena, const char **out,
+                       Error *err)
+{
+    if (!found)
+        return error_set(err, ERROR_INPUT, "%s cannot be found: %s", what, strerror(errno));
+    *out = arena_string(arena, found, strlen(found));
+    free(found);
+    return true;
+}
+
+static bool find_places(const ShareRequest *share, SharedJob *job, Arena *arena, Error *err)
+{
+    return make_folder(share->dir, err) &&
+           find_place("the job's folder", realpath(share->dir, NULL), arena, &job->dir, err) &&
+           find_place("the program", realpath("/proc/self/exe", NULL), arena, &job->program,
+                      err) &&
+           find_place("the working folder", getcwd(NULL, 0), arena, &job->folder, err);
+}
+
+/* ---- the folder -------------------------------------------------------------------------- */
+
+/* The manifest comes last: a folder without one was never finished, and holds the other files
+ * at most. Everything else is somebody's. */
+static bool check_is_free(const SharedJob *job, Arena scratch, Error *err)
+{
+    static const char *const ours[] = {".", "..", JOB_LOGS, JOB_ARRAY, JOB_MERGE, JOB_COMMANDS};
+    JobFolder folder;
+    if (!job_folder_list(job, &scratch, &folder, err)) return false;
+    for (int i = 0; i < folder.count; i++) {
+        bool is_ours = false;
+        for (int j = 0; j < COUNT_OF(ours); j++)
+            is_ours = is_ours || !strcmp(folder.names[i], ours[j]);
+        if (!is_ours)
+            return error_at(err, ERROR_OUTPUT, job->dir, "",
+                            "is no folder of a job and holds %.200s — name another by "
+                            "--job DIR",
+                            folder.names[i]);
+    }
+    return true;
+}
+
+/* Parts that are done stay done when the same line is typed again. */
+static bool check_is_same(const SharedJob *job, Arena *arena, Error *err)
+{
+    SharedJob there;
+    if (!job_manifest_read(job->dir, arena, &there, err)) return false;
+    if (!strcmp(job_manifest_text(&there, arena), job_manifest_text(job, arena))) return true;
+    const char *difference = identity_difference(there.identity, job->identity, arena);
+    return error_at(err, ERROR_OUTPUT, job->dir, "",
+                    "holds another job: %.400s — remove it, or name another by --job DIR",
+                    difference ? difference
+                               : arena_format(arena, "%d parts of `%s` there", there.part_count,
+                                              there.line));
+}
+
+static bool write_folder(Share *work, Arena *arena, Error *err)
+{
+    const SharedJob *job = &work->job;
+    work->was_there = job_manifest_is_there(job->dir, *arena);
+    if (work->was_there ? !check_is_same(job, arena, err) : !check_is_free(job, *arena, err))
+        return false;
+    if (!make_folder(job_file(job, JOB_LOGS, arena), err) ||
+        !job_scripts_write(job, work->request->threads, *arena, err))
+        return false;
+    const char *text = job_manifest_text(job, arena);
+    return work->was_there ||
+           file_write(job_file(job, JOB_MANIFEST, arena), text, strlen(text), err);
+}
+
+static bool submit(Share *work, Arena *arena, Error *err)
+{
+    const SharedJob *job = &work->job;
+    Error            why;
+    if (!work->request->submits) return true;
+    if (sbatch_submit(job_file(job, JOB_ARRAY, arena), NULL, arena, &work->array_id, &why) &&
+        sbatch_submit(job_file(job, JOB_MERGE, arena), work->array_id, arena, &work->merge_id,
+                      &why))
+        return true;
+    if (work->array_id)
+        return error_at(err, why.code, job->dir, "",
+                        "job %s does the parts, but its merge is not submitted: %s — when it "
+                        "has ended: %s",
+                        work->array_id, why.text, job_merge_command(job, arena));
+    return error_at(err, why.code, job->dir, "",
+                    "is ready, but not submitted: %s — by hand: %s", why.text,
+                    job_scripts_by_hand(job, arena));
+}
+
+/* ---- the answer -------------------------------------------------------------------------- */
+
+static json_t *id_json(const char *id)
+{
+    return id ? json_text(id) : json_null();
+}
+
+static json_t *answer_json(const Share *work, Arena *arena)
+{
+    const SharedJob *job = &work->job;
+    return json_pack(
+        "{s:o, s:o, s:i, s:s, s:b, s:o, s:o, s:o, s:o, s:o, s:o}", "output",
+        json_text(job->output), "job", json_text(job->dir), "parts", job->part_count, "split",
+        work->request->split_name, "was_there", work->was_there, "manifest",
+        json_text(job_file(job, JOB_MANIFEST, arena)), "commands",
+        json_text(job_file(job, JOB_COMMANDS, arena)), "array",
+        json_text(job_file(job, JOB_ARRAY, arena)), "merge",
+        json_text(job_file(job, JOB_MERGE, arena)), "array_job", id_json(work->array_id),
+        "merge_job", id_json(work->merge_id));
+}
+
+static void print_lines(const Share *work, Arena *arena)
+{
+    const SharedJob *job = &work->job;
+    const char      *dir = escape_shell(work->request->dir, arena);
+    printf("%s: %d part%s of %s%s\n", work->request->dir, job->part_count,
+           job->part_count == 1 ? "" : "s", job->output,
+           work->was_there ? ", as before" : "");
+    if (work->array_id)
+        printf("Slurm's job %s does them, %s merges them\n", work->array_id, work->merge_id);
+    else
+        printf("by Slurm: %s\n", job_scripts_by_hand(job, arena));
+    printf("here: xargs -L 1 -P 2 env <%s/" JOB_COMMANDS "\nthen: parhelion merge %s\n", dir,
+           dir);
+}
+
+bool job_share(const ShareRequest *request, const SharedJob *job, Arena *arena, json_t **answer,
+               Error *err)
+{
+    Share work = {.request = request, .job = *job};
+    work.job.words = request->words;
+    work.job.word_count = request->word_count;
+    work.job.part_count = (int)request->parts;
+    if (!find_places(request, &work.job, arena, err) || !check_texts(&work.job, *arena, err) ||
+        !write_folder(&work, arena, err) || !submit(&work, arena, err))
+        return false;
+    if (answer) *answer = answer_json(&work, arena);
+    else print_lines(&work, arena);
+    return true;
+}

@@ -1,0 +1,24 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* job_review.h -- a review that is shared among machines: its parts answer questions
+ * (review/run/share.h), and the merge is the review itself, which finds them answered.
+ *
+ * Memory   the arena's.
+ * Fails    as the review does; ERROR_OUTPUT where a file of the job cannot be written.
+ */
+#pragma once
+#include "cli/job/job_state.h"
+#include "cli/options/cli.h"
+
+typedef struct JobReviewPart {
+    int              index;
+    const char      *name;   /* for messages */
+    const JobFolder *folder; /* what others left of the part is taken over */
+} JobReviewPart;
+
+/* The job's folder of names has been entered. */
+bool job_review_part(const SharedJob *job, const Cli *cli, const JobReviewPart *part,
+                     Arena *arena, Error *err);
+
+/* All parts are done. output: as typed; NULL: the job's. Its status is the review's. */
+bool job_review_merge(const SharedJob *job, const Cli *cli, const char *output, Arena *arena,
+                      Error *err);
