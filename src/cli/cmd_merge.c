@@ -56,7 +56,7 @@ static bool report_missing(const MergeRun *work, const int *missing, int count, 
     int   told = 0;
     while (told < count && told < 4) {
         text_format(&commands, "%s%s", told ? "; " : "",
-                    job_part_command(job, missing[told], work->arena));
+                    job_part_command(job, missing[told], &scratch));
         told++;
     }
     return error_at(err, ERROR_INPUT, work->cli.arguments[0], "",

@@ -34,8 +34,8 @@ def check_plain(work):
     manifest = json.loads(contents(work.path(job, "manifest.json")))
     report.claim([part["samples"] for part in manifest["parts"]] ==
                  [[2 * i, 2 * i + 2] for i in range(6)], f"parts: {manifest['parts']}")
-    work.claim_line(work.run("merge", job), 3, "6 of 6 parts are not done", "; and so on",
-                    f"`parhelion status {job}`")
+    work.claim_line(work.run("merge", job), 3, "6 of 6 parts are not done", "parhelion part ",
+                    " 0; ", " 3; and so on", f"`parhelion status {job}`")
     with open(work.path(job, "commands.txt"), encoding="utf-8") as commands:
         done = subprocess.run(["xargs", "-L", "1", "-P", "3", "env"], stdin=commands, cwd="/",
                               capture_output=True, text=True, timeout=PATIENCE_S)
