@@ -86,6 +86,8 @@ if run_one 'release build, warnings are errors' build-release build release all;
     start 'a glare review' review python3 tests/image/review.py .build/release/parhelion
     start 'installed, moved, read, completed' install \
         python3 tests/install/install.py .build/release
+    start 'frames held against accepted ones' regression \
+        python3 tests/image/regression.py .build/release/parhelion
     start 'README and guides as written' guides \
         python3 tests/image/guides.py .build/release/parhelion
     gather

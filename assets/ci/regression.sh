@@ -1,0 +1,109 @@
+#!/bin/sh
+# SPDX-License-Identifier: Apache-2.0
+# regression.sh [reference | today | compare | accept WHY] -- do the frames of this repository
+# still show what was accepted? Without a word: reference, today, compare. The page about it:
+# `parhelion help regression-in-ci`.
+#
+# It lies in the folder regression/ at the top of a git repository, beside
+#   views      one line a frame: its name, then what `parhelion render` is given, as in a shell
+#   accepted   a line each time that somebody looked and accepted, written by `accept`: the last
+#              commit that changed this file is what frames are held against
+# and writes into regression/out, which git ignores:
+#   reference/COMMIT/, today/                            the frames
+#   report.html, compare.txt, compare.json, junit.xml    what `parhelion compare` says of them
+#
+# PARHELION_OPTIONS    size, samples and the like, of every frame
+# PARHELION_LEVEL      share of false alarms that is allowed
+# PARHELION_REFERENCE  a folder of frames from elsewhere, instead of reference/COMMIT
+#
+# Status: 0 the same, 1 different, 2 or more: something could not be done, and a line says what.
+set -eu
+cd "$(dirname "$0")/.."
+options=${PARHELION_OPTIONS:---size 640x360 --spp 256 --isa avx2}
+level=${PARHELION_LEVEL:-0.001}
+out=$PWD/regression/out
+tree=$out/accepted
+
+fail()
+{
+    echo "regression.sh: $*" >&2
+    exit 3
+}
+
+# Where the reference is. A clone without history would take the commit at hand for it.
+find_reference()
+{
+    reference=${PARHELION_REFERENCE:-}
+    [ -z "$reference" ] || return 0
+    [ "$(git rev-parse --is-shallow-repository)" = false ] ||
+        fail "a clone without history, which does not tell what was accepted: fetch all of it"
+    commit=$(git log -1 --format=%H -- regression/accepted)
+    [ -n "$commit" ] || fail "no commit has regression/accepted: look at the frames that" \
+        "\`sh regression/regression.sh today\` makes, then \`... accept WHY\`, and commit it"
+    reference=$out/reference/$commit
+}
+
+# render_views TREE FOLDER: frames of a tree's views, but those that are there. A frame gets its
+# name when it is whole.
+render_views()
+{
+    mkdir -p "$2" "$out/unfinished"
+    while read -r name words; do
+        case $name in '' | '#'*) continue ;; esac
+        [ ! -f "$2/$name.exr" ] || continue
+        (cd "$1" && eval "parhelion render $words $options" --layers all --quiet \
+            -o '"$out/unfinished/$name.exr"') </dev/null
+        mv "$out/unfinished/$name.exr" "$2/$name.exr"
+    done <"$1/regression/views"
+}
+
+# Frames of the accepted commit, by the program that is here.
+render_reference()
+{
+    find_reference
+    [ -z "${PARHELION_REFERENCE:-}" ] || return 0
+    rm -rf "$tree"
+    git worktree prune
+    git worktree add --detach "$tree" "$commit" >/dev/null 2>&1 ||
+        fail "commit $commit cannot be checked out"
+    render_views "$tree" "$reference"
+    git worktree remove --force "$tree"
+}
+
+render_today()
+{
+    rm -rf "$out/today"
+    render_views "$PWD" "$out/today"
+}
+
+compare_frames()
+{
+    find_reference
+    [ -d "$reference" ] || fail "$reference is not there: \`regression.sh reference\` makes it"
+    set -- "$reference" "$out/today" --allow-extra --level "$level" --quiet
+    status=0
+    parhelion compare "$@" --report "$out/report.html" --junit "$out/junit.xml" \
+        >"$out/compare.txt" || status=$?
+    parhelion compare "$@" --json >"$out/compare.json" 2>/dev/null || true
+    cat "$out/compare.txt"
+    return $status
+}
+
+accept()
+{
+    [ -n "$1" ] || fail "accept: wanted a word on why, such as \`accept 'brighter cluster'\`"
+    echo "$(date -u +%Y-%m-%dT%H:%MZ) $1" >>regression/accepted
+    echo "commit regression/accepted together with what changed the frames"
+}
+
+command -v parhelion >/dev/null || fail "no program parhelion is in PATH"
+mkdir -p "$out"
+echo '*' >"$out/.gitignore"
+case ${1:-all} in
+reference) render_reference ;;
+today) render_today ;;
+compare) compare_frames ;;
+accept) accept "${2:-}" ;;
+all) render_reference; render_today; compare_frames ;;
+*) fail "$1: wanted reference, today, compare, accept WHY, or nothing" ;;
+esac
