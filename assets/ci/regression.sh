@@ -4,11 +4,11 @@
 # still show what was accepted? Without a word: reference, today, compare. The page about it:
 # `parhelion help regression-in-ci`.
 #
-# It lies in the folder regression/ at the top of a git repository, beside
+# It lies in the folder ci/ at the top of a git repository, beside
 #   views      one line a frame: its name, then what `parhelion render` is given, as in a shell
 #   accepted   a line each time that somebody looked and accepted, written by `accept`: the last
 #              commit that changed this file is what frames are held against
-# and writes into regression/out, which git ignores:
+# and writes into ci/out, which git ignores:
 #   reference/COMMIT/, today/                            the frames
 #   report.html, compare.txt, compare.json, junit.xml    what `parhelion compare` says of them
 #
@@ -21,7 +21,7 @@ set -eu
 cd "$(dirname "$0")/.."
 options=${PARHELION_OPTIONS:---size 640x360 --spp 256 --isa avx2}
 level=${PARHELION_LEVEL:-0.001}
-out=$PWD/regression/out
+out=$PWD/ci/out
 tree=$out/accepted
 
 fail()
@@ -37,9 +37,9 @@ find_reference()
     [ -z "$reference" ] || return 0
     [ "$(git rev-parse --is-shallow-repository)" = false ] ||
         fail "a clone without history, which does not tell what was accepted: fetch all of it"
-    commit=$(git log -1 --format=%H -- regression/accepted)
-    [ -n "$commit" ] || fail "no commit has regression/accepted: look at the frames that" \
-        "\`sh regression/regression.sh today\` makes, then \`... accept WHY\`, and commit it"
+    commit=$(git log -1 --format=%H -- ci/accepted)
+    [ -n "$commit" ] || fail "no commit has ci/accepted: look at the frames that" \
+        "\`sh ci/regression.sh today\` makes, then \`... accept WHY\`, and commit it"
     reference=$out/reference/$commit
 }
 
@@ -54,7 +54,7 @@ render_views()
         (cd "$1" && eval "parhelion render $words $options" --layers all --quiet \
             -o '"$out/unfinished/$name.exr"') </dev/null
         mv "$out/unfinished/$name.exr" "$2/$name.exr"
-    done <"$1/regression/views"
+    done <"$1/ci/views"
 }
 
 # Frames of the accepted commit, by the program that is here.
@@ -92,8 +92,8 @@ compare_frames()
 accept()
 {
     [ -n "$1" ] || fail "accept: wanted a word on why, such as \`accept 'brighter cluster'\`"
-    echo "$(date -u +%Y-%m-%dT%H:%MZ) $1" >>regression/accepted
-    echo "commit regression/accepted together with what changed the frames"
+    echo "$(date -u +%Y-%m-%dT%H:%MZ) $1" >>ci/accepted
+    echo "commit ci/accepted together with what changed the frames"
 }
 
 command -v parhelion >/dev/null || fail "no program parhelion is in PATH"

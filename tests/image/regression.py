@@ -48,7 +48,7 @@ class Project:
         self.away = os.path.join(folder, "runner")
         self.steps = list(steps_of(yaml.safe_load(read(WORKFLOW))))
         os.makedirs(self.away)
-        os.makedirs(os.path.join(self.folder, "regression"))
+        os.makedirs(os.path.join(self.folder, "ci"))
         os.makedirs(self.path("scenes"))
         tools = os.path.join(folder, "tools")
         os.makedirs(tools)
@@ -81,7 +81,7 @@ class Project:
                               timeout=600, env={**self.environment, **environment})
 
     def script(self, *words, **environment):
-        return self.run("sh", "regression/regression.sh", *words, **environment)
+        return self.run("sh", "ci/regression.sh", *words, **environment)
 
     def commit(self, why):
         done = [self.run("git", "add", "-A"), self.run("git", "commit", "-qm", why)]
@@ -130,8 +130,8 @@ def check_file(report, project):
         report.claim("${{" not in step.get("run", "") and "@v" in step.get("uses", "@v"),
                      f"a step: {step}")
     kept = project.steps[-1]["with"]["path"].split()
-    report.claim(set(kept) == {f"regression/out/{name}" for name in ARTEFACTS}
-                 | {"regression/out/reference/", "regression/out/today/"}, f"kept: {kept}")
+    report.claim(set(kept) == {f"ci/out/{name}" for name in ARTEFACTS}
+                 | {"ci/out/reference/", "ci/out/today/"}, f"kept: {kept}")
     words = {key: value for key, value in job["env"].items() if "${{" not in value}
     report.claim(words["PARHELION_OPTIONS"] in read("assets/ci/regression.sh"),
                  "options of the workflow and of the script differ")
@@ -140,15 +140,15 @@ def check_file(report, project):
 def check_first(report, project):
     """Before anything was accepted, and then the first time."""
     project.claim_workflow("nothing accepted", "Frames of the accepted commit, if they were not",
-                           3, ["no commit has regression/accepted", "accept WHY"])
+                           3, ["no commit has ci/accepted", "accept WHY"])
     done = project.script("accept")
     report.claim(done.returncode == 3 and "wanted a word on why" in done.stderr, str(done))
     report.claim(project.script("accept", "the first").returncode == 0, "accept fails")
     project.commit("accepted")
     project.claim_workflow("first", words=["equal in every pixel", "same: 2 of 2"])
     for name in ARTEFACTS:
-        report.claim(os.path.getsize(project.path("regression", "out", name)) > 0, f"no {name}")
-    with open(project.path("regression/out/compare.json"), encoding="utf-8") as file:
+        report.claim(os.path.getsize(project.path("ci", "out", name)) > 0, f"no {name}")
+    with open(project.path("ci/out/compare.json"), encoding="utf-8") as file:
         answer = json.load(file)
     report.claim(answer["same"] and len(answer["pairs"]) == 2, f"answer: {answer}")
     with open(os.path.join(project.away, "notes"), encoding="utf-8") as file:
@@ -163,7 +163,7 @@ def check_change(report, project):
     write_scene(project.path("scenes", "box.gltf"), 515)
     project.commit("more light")
     project.claim_workflow("more light", "Compare", 1, ["different", "wide.exr", "near.exr"])
-    failures = xml.parse(project.path("regression/out/junit.xml")).getroot().iter("failure")
+    failures = xml.parse(project.path("ci/out/junit.xml")).getroot().iter("failure")
     report.claim(len(list(failures)) == 2, "junit.xml tells other failures")
     with open(os.path.join(project.away, "summary"), encoding="utf-8") as file:
         report.claim("different" in file.read(), "the summary does not tell it")
@@ -174,12 +174,12 @@ def check_change(report, project):
 
 def check_views(report, project):
     """A new view passes until it is accepted, one that is gone does not; words are a shell's."""
-    with open(project.path("regression", "views"), "a", encoding="utf-8") as file:
+    with open(project.path("ci", "views"), "a", encoding="utf-8") as file:
         file.write("# dimmer\n\nhigh scenes/box.gltf --eye 0,1.8,0.9 --look-at '0,0,0'\n")
     project.commit("a view")
     project.claim_workflow("a new view")
-    report.claim(os.path.exists(project.path("regression/out/today/high.exr")), "no new frame")
-    project.write("regression/views", "wide scenes/box.gltf\n")
+    report.claim(os.path.exists(project.path("ci/out/today/high.exr")), "no new frame")
+    project.write("ci/views", "wide scenes/box.gltf\n")
     project.commit("a view less")
     project.claim_workflow("a view less", "Compare", 1, ["near.exr"])
 
@@ -187,7 +187,7 @@ def check_views(report, project):
 def check_noise(report, project):
     """Frames from elsewhere, and of other noise, are told by their statistics."""
     kept = os.path.join(project.away, "kept")
-    shutil.copytree(project.path("regression/out/today"), kept)
+    shutil.copytree(project.path("ci/out/today"), kept)
     elsewhere = {"PARHELION_REFERENCE": kept, "PARHELION_OPTIONS": OPTIONS + " --seed 7"}
     done = project.script(**elsewhere)
     report.claim(done.returncode == 0 and "noise" in done.stdout, f"another seed: {done}")
@@ -201,7 +201,7 @@ def check_refused(report, project):
     project.write("scenes/box.gltf", "{}")
     done = project.script("today")
     report.claim(done.returncode == 3 and "box.gltf" in done.stderr, f"broken scene: {done}")
-    report.claim(not os.path.exists(project.path("regression/out/today/wide.exr")),
+    report.claim(not os.path.exists(project.path("ci/out/today/wide.exr")),
                  "a frame of a broken scene")
     done = project.script("yesterday")
     report.claim(done.returncode == 3 and "wanted reference" in done.stderr, f"a word: {done}")
@@ -217,8 +217,8 @@ def main():
     with tempfile.TemporaryDirectory(prefix="regression-") as folder:
         project = Project(report, sys.argv[1], folder)
         check_file(report, project)
-        shutil.copy(os.path.join(ROOT, "assets/ci/regression.sh"), project.path("regression"))
-        project.write("regression/views", "wide scenes/box.gltf\n"
+        shutil.copy(os.path.join(ROOT, "assets/ci/regression.sh"), project.path("ci"))
+        project.write("ci/views", "wide scenes/box.gltf\n"
                       "near  scenes/box.gltf --eye 0,1,0.5 --look-at 0,0.8,-1\n")
         write_scene(project.path("scenes", "box.gltf"), 500)
         project.run("git", "init", "-q")
