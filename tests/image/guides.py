@@ -59,9 +59,10 @@ def run_page(program, name, text):
         for shared in ("scenes", "assets"):
             os.symlink(os.path.join(ROOT, shared), os.path.join(folder, shared))
         path = os.path.join(folder, "bin") + os.pathsep + os.environ["PATH"]
+        environment = {**os.environ, **WHO, "PATH": path}
         for command, status in commands(text):
             done = subprocess.run(["sh", "-c", command], cwd=folder, capture_output=True,
-                                  text=True, env={**os.environ, **WHO, "PATH": path}, timeout=600)
+                                  text=True, env=environment, timeout=600)
             claims.append((done.returncode == status,
                            f"{name}: status {done.returncode} instead of {status}: {command}\n"
                            f"{done.stderr.strip()[-500:]}"))

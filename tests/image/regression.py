@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """regression.py PARHELION -- the workflow that ships (assets/ci) does what its page says: its
-steps run as they stand in the file, in a repository of their own with a small scene, by stand-ins
-for what only a CI service has. The same pictures pass, other ones fail with a report, `accept`
-takes them over, and what cannot be done is one line.
+steps run as they stand in the file, in a repository of their own with a small scene, by
+stand-ins for what only a CI service has. The same pictures pass, other ones fail with a report,
+`accept` takes them over, and what cannot be done is one line.
 """
 import json
 import os
@@ -62,7 +62,8 @@ class Project:
                 tar.add(os.path.join(folder, name), name)
         self.environment = {
             **os.environ, "PATH": tools + os.pathsep + os.environ["PATH"], "HOME": self.away,
-            "NOTES": os.path.join(self.away, "notes"), "TAR": os.path.join(folder, "packages.tar"),
+            "NOTES": os.path.join(self.away, "notes"),
+            "TAR": os.path.join(folder, "packages.tar"),
             "GITHUB_WORKSPACE": self.folder, "RUNNER_TEMP": self.away,
             "GITHUB_STEP_SUMMARY": os.path.join(self.away, "summary"),
             "PARHELION_PACKAGES": ADDRESS, "PARHELION_OPTIONS": OPTIONS,
@@ -139,8 +140,9 @@ def check_file(report, project):
 
 def check_first(report, project):
     """Before anything was accepted, and then the first time."""
-    project.claim_workflow("nothing accepted", "Frames of the accepted commit, if they were not",
-                           3, ["no commit has ci/accepted", "accept WHY"])
+    project.claim_workflow("nothing accepted",
+                           "Frames of the accepted commit, if they were not", 3,
+                           ["no commit has ci/accepted", "accept WHY"])
     done = project.script("accept")
     report.claim(done.returncode == 3 and "wanted a word on why" in done.stderr, str(done))
     report.claim(project.script("accept", "the first").returncode == 0, "accept fails")
@@ -173,7 +175,7 @@ def check_change(report, project):
 
 
 def check_views(report, project):
-    """A new view passes until it is accepted, one that is gone does not; words are a shell's."""
+    """A new view passes until it is accepted, one that is gone does not."""
     with open(project.path("ci", "views"), "a", encoding="utf-8") as file:
         file.write("# dimmer\n\nhigh scenes/box.gltf --eye 0,1.8,0.9 --look-at '0,0,0'\n")
     project.commit("a view")
