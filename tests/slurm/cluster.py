@@ -3,8 +3,8 @@
 slurmctld and three slurmd on this machine: twelve parts over three nodes, parts that fail, a
 task that is warned and comes back, a node that dies in the middle of a part; and a review of
 the shipped car. Each time the frame, or the review, is that of one run, byte for byte. Skipped
-where slurm-wlm is not installed, or nobody is root: without munge only root's daemons believe each
-other.
+where slurm-wlm is not installed, or nobody is root: without munge only root's daemons believe
+each other.
 """
 import argparse
 import contextlib
