@@ -410,7 +410,7 @@ static bool run_check(int argc, char **argv, Arena *arena, Error *err)
     Problems problems = problems_start(arena);
     SceneOptions files = {.root = root};
     if (!scene_options_read(&words, &cli, arena, &files, err)) return false;
-    Scene *scene = scene_survey(&files, arena, &problems);
+    Scene *scene = scene_survey(&files, cli.progress, arena, &problems);
     bool   done = true;
     hdri_warn(&scene->environment, &problems);
     if (cli.json)

@@ -42,9 +42,8 @@ bool measure_illuminance(const Cli *cli, const LuxmeterRequest *request, Arena *
     if (!(vec3_dot(options.point.ns, options.point.ns) > 0.5f))
         return error_set(err, ERROR_USAGE, "--illuminance: the normal (%g, %g, %g) has no "
                          "direction", n[0], n[1], n[2]);
-    if (!scene_options_load(&request->scene, &request->environment, arena, &problems, &scene,
-                            err))
-        return false;
+    const SceneAsked asked = {&request->scene, &request->environment, cli->progress};
+    if (!scene_options_load(&asked, arena, &problems, &scene, err)) return false;
     cli_print_warnings(&problems);
     bool ok = illuminance_measure(scene, &options, arena, &measured, err) &&
               print_illuminance(cli, &options, &measured, err);

@@ -118,7 +118,7 @@ typedef struct Found {
 static inline Found maker_survey(const SceneOptions *options)
 {
     Found found = {.problems = problems_start(&maker.arena)};
-    found.scene = scene_survey(options, &maker.arena, &found.problems);
+    found.scene = scene_survey(options, PROGRESS_NONE, &maker.arena, &found.problems);
     return found;
 }
 

@@ -106,7 +106,9 @@ static GltfData data_of(const char *text)
 {
     Error err;
     GltfData data = {0};
-    if (!gltf_json_data(text, strlen(text), test_memory(), &data, &err))
+    const GltfValue *root;
+    if (!gltf_json_parse(text, strlen(text), test_memory(), &root, &err) ||
+        !gltf_json_data(root, test_memory(), &data, &err))
         fail_msg("%s", err.text);
     return data;
 }
@@ -146,13 +148,18 @@ TEST(what_tinygltf_refuses_comes_back_as_an_error)
     (void)state;
     Error err;
     GltfData data = {.view_count = 77};
-    static const char TEXT[] = "{\"bufferViews\":[{\"buffer\":0}]}";
-    assert_false(gltf_json_data(TEXT, sizeof TEXT - 1, test_memory(), &data, &err));
+    const GltfValue *root;
+    static const char TEXT[] = "{\"bufferViews\":[{\"buffer\":0}]}",
+                      THROWS[] = "{\"accessors\":[{\"type\":\"SCALAR\",\"componentType\":5126,"
+                                 "\"count\":1,\"sparse\":{}}]}";
+    assert_true(gltf_json_parse(TEXT, sizeof TEXT - 1, test_memory(), &root, &err));
+    assert_false(gltf_json_data(root, test_memory(), &data, &err));
     assert_int_equal(err.code, ERROR_LIBRARY);
     assert_non_null(strstr(err.text, "tinygltf: "));
     assert_int_equal(data.view_count, 77);                     /* outputs stay as they were */
-    assert_false(gltf_json_data("{", 1, test_memory(), &data, &err)); /* an exception inside */
-    assert_non_null(strstr(err.text, "parse error"));
+    assert_true(gltf_json_parse(THROWS, sizeof THROWS - 1, test_memory(), &root, &err));
+    assert_false(gltf_json_data(root, test_memory(), &data, &err)); /* an exception inside */
+    assert_non_null(strstr(err.text, "'indices' not found"));
 }
 
 int main(void)

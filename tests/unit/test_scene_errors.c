@@ -540,7 +540,8 @@ TEST_WITH(running_out_of_memory_takes_the_one_exit, maker_reset, NULL)
             continue;
         }
         Problems problems = problems_start(&arena);
-        scene_survey(&(SceneOptions){.paths = &path, .path_count = 1}, &arena, &problems);
+        scene_survey(&(SceneOptions){.paths = &path, .path_count = 1}, PROGRESS_NONE, &arena,
+                     &problems);
         loaded++;
     }
     assert_int_equal(loaded, 1);

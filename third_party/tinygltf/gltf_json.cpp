@@ -205,15 +205,41 @@ void set_parents(GltfValue *value)
 }
 
 /* tinygltf takes 3.0 for no integer; the specification takes it for one. */
-void make_integers(Json &value)
+Json json_from_number(double number)
 {
-    if (value.is_number_float()) {
-        double number = value.get<double>();
-        if (number == std::floor(number) && std::fabs(number) < 0x1p53)
-            value = static_cast<std::int64_t>(number);
-    } else if (value.is_structured()) {
-        for (Json &item : value) make_integers(item);
+    if (number == std::floor(number) && std::fabs(number) < 0x1p53)
+        return static_cast<std::int64_t>(number);
+    return number;
+}
+
+/* What tinygltf has no use for, and what may be large. */
+bool is_unused(const char *key)
+{
+    for (const char *unused : {"name", "extras", "extensions", "min", "max"})
+        if (std::strcmp(key, unused) == 0) return true;
+    return false;
+}
+
+Json json_from(const GltfValue &value)
+{
+    Json out;
+    switch (value.kind) {
+    case GLTF_NULL: break;
+    case GLTF_BOOLEAN: return value.number != 0;
+    case GLTF_NUMBER: return json_from_number(value.number);
+    case GLTF_STRING: return value.text;
+    case GLTF_ARRAY:
+        out = Json::array();
+        for (int i = 0; i < value.count; i++) out.push_back(json_from(value.items[i]));
+        break;
+    case GLTF_OBJECT:
+        out = Json::object();
+        for (int i = 0; i < value.count; i++)
+            if (!is_unused(value.items[i].key))
+                out[value.items[i].key] = json_from(value.items[i]);
+        break;
     }
+    return out;
 }
 
 bool is_among(const Json &object, const char *name, std::initializer_list<Json> values)
@@ -243,20 +269,16 @@ void make_unknown(Json &accessor)
     accessor["count"] = 1;
 }
 
-/* The part of the document that tinygltf is asked about. It gets no URI and no image. */
-std::string data_document(const char *text, size_t size)
+/* The part of the document that tinygltf is asked about. It gets no URI and no image, and of a
+ * large document not the many values that only we read. */
+std::string data_document(const GltfValue &root)
 {
-    Json whole = Json::parse(text, text + size), part;
+    Json part;
     part["asset"]["version"] = "2.0";
-    for (const char *name : {"bufferViews", "accessors"}) {
-        auto found = whole.find(name);
-        if (found == whole.end()) continue;
-        part[name] = *found;
-        for (Json &item : part[name])
-            for (const char *unused : {"name", "extras", "extensions", "min", "max"})
-                item.erase(unused);
-        make_integers(part[name]);
-    }
+    for (int i = 0; root.kind == GLTF_OBJECT && i < root.count; i++)
+        for (const char *name : {"bufferViews", "accessors"})
+            if (std::strcmp(root.items[i].key, name) == 0)
+                part[name] = json_from(root.items[i]);
     auto accessors = part.find("accessors");
     if (accessors == part.end()) return part.dump();
     for (Json &accessor : *accessors)
@@ -317,12 +339,12 @@ bool gltf_json_parse(const char *text, size_t size, Arena *arena, const GltfValu
     });
 }
 
-bool gltf_json_data(const char *text, size_t size, Arena *arena, GltfData *out, Error *err)
+bool gltf_json_data(const GltfValue *root, Arena *arena, GltfData *out, Error *err)
 {
     return guarded(err, "tinygltf", [&] {
         tinygltf::TinyGLTF loader;
         tinygltf::Model model;
-        std::string failure, warning, part = data_document(text, size);
+        std::string failure, warning, part = data_document(*root);
         if (!loader.LoadASCIIFromString(&model, &failure, &warning, part.data(),
                                         (unsigned)part.size(), "", tinygltf::NO_REQUIRE))
             return error_set(err, ERROR_LIBRARY, "tinygltf: %s", failure.c_str());

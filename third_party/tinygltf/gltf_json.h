@@ -70,9 +70,9 @@ typedef struct GltfData {
     int view_count, accessor_count;
 } GltfData;
 
-/* Lets tinygltf read the buffer views and accessors of a document that has been checked
+/* Lets tinygltf read the buffer views and accessors of a parsed document that has been checked
  * against the specification before: tinygltf itself checks no references and no bounds. */
-bool gltf_json_data(const char *text, size_t size, Arena *arena, GltfData *out, Error *err);
+bool gltf_json_data(const GltfValue *root, Arena *arena, GltfData *out, Error *err);
 
 #ifdef __cplusplus
 }

@@ -170,6 +170,7 @@ static bool parse(int argc, char **argv, Arena *arena, ExplainWords *out, Error 
     if (!cli_parse(&command, argc, argv, arena, &out->cli, err)) return false;
     if (out->cli.help_shown) return true;
     scene->threads = out->cli.threads;
+    scene->progress = out->cli.progress;
     scene->with_outlook = out->outlook != NULL;
     if (!(is_review(out) ? check_review(out, err) : read_scene(out, arena, err))) return false;
     return check_outputs(out, err);

@@ -155,8 +155,8 @@ static bool run(int argc, char **argv, Arena *arena, Error *err)
                         .max_bounces = BOUNCES};
     if (!parse(argc, argv, arena, &words, err)) return false;
     if (words.cli.help_shown) return true;
-    bool ok = scene_options_load(&words.scene, &words.environment, arena, &problems, &scene,
-                                 err) &&
+    const SceneAsked asked = {&words.scene, &words.environment, words.cli.progress};
+    bool ok = scene_options_load(&asked, arena, &problems, &scene, err) &&
               probe(&words, scene, &problems, arena, err);
     scene_close(scene);
     return ok;

@@ -70,9 +70,9 @@ bool explain_scene(const SceneQuestion *question, Arena *arena, Explained *out, 
     Scene       *scene;
     Bvh         *bvh = NULL;
     Lights      *lights;
+    const SceneAsked asked = {&question->scene, &question->environment, question->progress};
     if (!kernel_choose(question->isa, &tools.kernel, err) ||
-        !scene_options_load(&question->scene, &question->environment, arena,
-                            question->problems, &scene, err))
+        !scene_options_load(&asked, arena, question->problems, &scene, err))
         return false;
     render_tell_of_darkness(scene, question->problems);
     bool ok = bvh_create(scene, question->threads, question->isa, &bvh, err) &&

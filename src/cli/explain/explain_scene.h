@@ -21,6 +21,7 @@ typedef struct SceneQuestion {
     const char       *isa;
     long              paths;
     int               threads;
+    ProgressMode      progress; /* of loading */
     bool              with_outlook;
     Problems         *problems;
 } SceneQuestion;

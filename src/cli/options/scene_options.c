@@ -60,12 +60,13 @@ static void tell_of_night(const Environment *environment, Problems *problems)
                      -clearance, clearance < -TWILIGHT_DEG ? FAINT_TWILIGHT : "");
 }
 
-bool scene_options_load(const SceneOptions *options, const EnvironmentChange *change,
-                        Arena *arena, Problems *problems, Scene **out, Error *err)
+bool scene_options_load(const SceneAsked *asked, Arena *arena, Problems *problems, Scene **out,
+                        Error *err)
 {
     Scene *scene;
-    if (!scene_load(options, arena, problems, &scene, err)) return false;
-    if (!environment_change(change, scene, arena, problems, err)) {
+    if (!scene_load_shown(asked->options, asked->progress, arena, problems, &scene, err))
+        return false;
+    if (!environment_change(asked->change, scene, arena, problems, err)) {
         scene_close(scene);
         return false;
     }

@@ -41,9 +41,15 @@ typedef struct SceneWords {
 bool scene_options_read(const SceneWords *words, const Cli *cli, Arena *arena,
                         SceneOptions *options, Error *err);
 
+typedef struct SceneAsked {
+    const SceneOptions      *options;
+    const EnvironmentChange *change;
+    ProgressMode             progress; /* of its loading */
+} SceneAsked;
+
 /* The scene with the surroundings that are asked for. Warnings go to *problems. */
-bool scene_options_load(const SceneOptions *options, const EnvironmentChange *change,
-                        Arena *arena, Problems *problems, Scene **out, Error *err);
+bool scene_options_load(const SceneAsked *asked, Arena *arena, Problems *problems, Scene **out,
+                        Error *err);
 
 /* Something about the scene's light was said: the first such option's name, or NULL. */
 const char *scene_options_given(const SceneWords *words, const EnvironmentChange *change);

@@ -112,9 +112,9 @@ static bool load(RenderRun *work, Error *err)
 {
     RenderRequest *request = &work->request;
     work->problems = problems_start(work->arena);
+    const SceneAsked asked = {&request->scene, &request->environment, request->render.progress};
     bool loaded =
-        scene_options_load(&request->scene, &request->environment, work->arena,
-                           &work->problems, &work->scene, err) &&
+        scene_options_load(&asked, work->arena, &work->problems, &work->scene, err) &&
         render_choose_camera(work->scene, &request->camera, &work->problems, &work->camera,
                              err) &&
         noise_goal_find(work->scene, *work->arena, &request->noise, err);

@@ -10,6 +10,7 @@
 #include "scene/gltf/accessor.h"
 #include "scene/gltf/animation_target.h"
 #include "scene/gltf/document.h"
+#include "scene/gltf/load_progress.h"
 
 /* ---- numbers --------------------------------------------------------------------------- */
 
@@ -75,6 +76,13 @@ static void check_sparse_order(GltfFile *file, const GltfValue *value,
     }
 }
 
+/* Integers are finite: what is left is their bounds, where those are told. */
+static bool has_nothing_to_check(const GltfValue *value, const GltfAccessor *accessor)
+{
+    return !accessor_is_float(accessor) && !tree_member(value, "min") &&
+           !tree_member(value, "max");
+}
+
 static void check_one(GltfFile *file, int id)
 {
     const GltfValue *value = tree_element(file->root, "accessors", id);
@@ -82,6 +90,7 @@ static void check_one(GltfFile *file, int id)
     if (!accessor->component_count) return; /* of a type that an extension adds */
     if (!accessor->sparse_count && accessor->buffer_view < 0) return; /* zeros */
     if (accessor->sparse_count) check_sparse_order(file, value, accessor);
+    if (has_nothing_to_check(value, accessor)) return;
     const float *numbers = accessor_raw_floats(file, id);
     if (check_finite(file, value, accessor, numbers))
         check_bounds(file, value, accessor, numbers);
@@ -153,6 +162,7 @@ static void check_primitives(GltfFile *file)
             check_vertex_indices(file, &list->items[p]);
             file->load->scratch = saved;
         }
+        load_progress_add(file->load, 1);
     }
 }
 
@@ -298,15 +308,28 @@ static void check_matrices(GltfFile *file)
     }
 }
 
-void check_data(GltfFile *file)
+static void check_accessors(GltfFile *file)
 {
+    double total = 0;
+    for (int i = 0; i < file->data.accessor_count; i++)
+        total += accessor_numbers(accessor_get(file, i));
+    load_progress_begin(file->load, "check", "numbers", total);
     for (int i = 0; i < file->data.accessor_count; i++) {
         Arena saved = file->load->scratch;
         check_one(file, i);
         file->load->scratch = saved;
+        load_progress_add(file->load, accessor_numbers(accessor_get(file, i)));
     }
+    load_progress_end(file->load);
+}
+
+void check_data(GltfFile *file)
+{
+    check_accessors(file);
+    load_progress_begin(file->load, "check", "meshes", 2 * tree_count(file->root, "meshes"));
     check_primitives(file);
     check_vertices(file);
+    load_progress_end(file->load);
     check_skinned_nodes(file);
     check_matrices(file);
 }

@@ -7,6 +7,7 @@
 
 #include "scene/gltf/accessor.h"
 #include "scene/gltf/document.h"
+#include "scene/gltf/load_progress.h"
 
 /* A unit vector of three numbers rounded to signed bytes is off by at most sqrt(3) * 0.5/127 in
  * length. */
@@ -173,5 +174,6 @@ void check_vertices(GltfFile *file)
         const GltfValue *list = tree_member(&meshes->items[m], "primitives");
         for (int p = 0; p < tree_count(&meshes->items[m], "primitives"); p++)
             check_primitive(file, &list->items[p], is_seen);
+        load_progress_add(file->load, 1);
     }
 }

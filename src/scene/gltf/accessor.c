@@ -49,6 +49,16 @@ size_t accessor_element_extent(const GltfAccessor *accessor)
            component_size(accessor->component_type);
 }
 
+double accessor_numbers(const GltfAccessor *accessor)
+{
+    return (double)accessor->count * accessor->component_count;
+}
+
+bool accessor_is_float(const GltfAccessor *accessor)
+{
+    return accessor->component_type == TYPE_FLOAT;
+}
+
 const GltfAccessor *accessor_get(const GltfFile *file, int accessor)
 {
     bool exists = accessor >= 0 && accessor < file->data.accessor_count;
@@ -63,7 +73,7 @@ bool accessor_has_bytes(const GltfFile *file, const GltfAccessor *accessor)
                            document_view(file, accessor->sparse_value_view).data));
 }
 
-static uint32_t integer_at(const unsigned char *bytes, int component_type)
+static inline uint32_t integer_at(const unsigned char *bytes, int component_type)
 {
     switch (component_type) {
     case TYPE_BYTE: return (uint32_t)(int32_t)(int8_t)bytes[0];
@@ -138,6 +148,33 @@ static void decode_sparse(GltfFile *file, const GltfAccessor *accessor, Decoding
             decode_element(accessor, values + i * size, decoding, out + indices[i] * row);
 }
 
+/* Numbers that are kept as they stand: floats, and integers of four bytes. glTF's are little
+ * endian. */
+_Static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "floats are copied as they stand");
+static bool is_copied(const GltfAccessor *accessor, Decoding decoding)
+{
+    int type = accessor->component_type;
+    return !accessor->matrix_rows &&
+           (type == TYPE_FLOAT || (type == TYPE_UINT && decoding == TO_INTEGERS));
+}
+
+/* Large files are almost all floats and indices: those take the short ways. */
+static void decode_elements(const GltfAccessor *accessor, const unsigned char *bytes,
+                            size_t stride, Decoding decoding, char *out)
+{
+    size_t count = accessor->count, row = 4 * (size_t)accessor->component_count;
+    if (is_copied(accessor, decoding) && stride == row)
+        memcpy(out, bytes, count * row);
+    else if (is_copied(accessor, decoding))
+        for (size_t i = 0; i < count; i++) memcpy(out + i * row, bytes + i * stride, row);
+    else if (decoding == TO_INTEGERS && row == 4 && accessor->component_type == TYPE_USHORT)
+        for (size_t i = 0; i < count; i++)
+            ((uint32_t *)(void *)out)[i] = integer_at(bytes + i * stride, TYPE_USHORT);
+    else
+        for (size_t i = 0; i < count; i++)
+            decode_element(accessor, bytes + i * stride, decoding, out + i * row);
+}
+
 static void *decode(GltfFile *file, int accessor_id, Decoding decoding)
 {
     const GltfAccessor *accessor = accessor_get(file, accessor_id);
@@ -148,9 +185,7 @@ static void *decode(GltfFile *file, int accessor_id, Decoding decoding)
     if (bytes.data) {
         size_t stride = file->data.views[accessor->buffer_view].stride;
         if (!stride) stride = accessor_element_size(accessor);
-        const unsigned char *at = bytes.data + accessor->offset;
-        for (size_t i = 0; i < accessor->count; i++)
-            decode_element(accessor, at + i * stride, decoding, out + i * row);
+        decode_elements(accessor, bytes.data + accessor->offset, stride, decoding, out);
     }
     if (accessor->sparse_count) decode_sparse(file, accessor, decoding, out);
     return out;

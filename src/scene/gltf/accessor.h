@@ -18,6 +18,8 @@ size_t accessor_element_size(const GltfAccessor *accessor);
 /* The same without the padding behind the last column, which a buffer need not have. */
 size_t accessor_element_extent(const GltfAccessor *accessor);
 size_t component_size(int component_type); /* 0: no such type */
+double accessor_numbers(const GltfAccessor *accessor); /* how many it has */
+bool accessor_is_float(const GltfAccessor *accessor); /* else its numbers are integers */
 
 /* count x component_count numbers; normalised integers become [0,1] or [-1,1]. Matrices lose
  * their padding. */

@@ -10,7 +10,9 @@
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
+#include "base/file_pieces.h"
 #include "base/reference.h"
+#include "scene/gltf/load_progress.h"
 #include "text/uri.h"
 
 /* ---- problems -------------------------------------------------------------------------- */
@@ -64,9 +66,22 @@ static void note_input(Loader *load, const char *path, FileBytes bytes)
         XXH3_64bits(bytes.data, bytes.size);
 }
 
+static void tell_read(void *user, size_t done, size_t size)
+{
+    Loader *load = user;
+    load->progress.total = (double)size;
+    load_progress_add(load, (double)done - load->progress_done);
+}
+
 bool load_read(Loader *load, const char *path, Arena *arena, FileBytes *out, Error *err)
 {
-    if (!file_read(path, LOAD_MAX_FILE_BYTES, arena, out, err)) return false;
+    bool is_step = !load->has_step; /* not within another one */
+    const FilePieces how = {.max_bytes = LOAD_MAX_FILE_BYTES,
+                            .told = is_step ? tell_read : NULL, .user = load};
+    if (is_step) load_progress_begin(load, "read", "bytes", 0);
+    bool is_read = file_pieces_read(path, &how, arena, out, err);
+    if (is_step) load_progress_end(load);
+    if (!is_read) return false;
     note_input(load, path, *out);
     return true;
 }

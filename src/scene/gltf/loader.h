@@ -10,6 +10,7 @@
  */
 #pragma once
 #include "base/file.h"
+#include "base/progress.h"
 #include "scene/gltf/list.h"
 #include "scene/gltf/tree.h"
 #include "scene/scene.h"
@@ -46,6 +47,10 @@ typedef struct Loader {
     ItemList variants;       /* const char *, of all files */
     ItemList animations;     /* SceneAnimation, of all files */
     struct LuminaireDraft *luminaires; /* one a --light (load/luminaire.c) */
+    ProgressMode progress_mode; /* of gltf/load_progress.h, which has the three below */
+    Progress progress;
+    double progress_done;
+    bool has_step;
     size_t vertex_total;
     int ignored_occlusion_count;
 } Loader;

@@ -7,6 +7,7 @@
 #include "base/mathd.h"
 #include "base/units.h"
 #include "scene/gltf/document.h"
+#include "scene/gltf/load_progress.h"
 #include "scene/load/environment.h"
 #include "scene/load/instances.h"
 #include "scene/load/luminaire.h"
@@ -241,13 +242,16 @@ void graph_build(GltfFile *file)
         const int *parent = parents_of(file, nodes);
         place_nodes(file, nodes, parent);
         NodeOrder order = nodes_of_scene(file, nodes, parent);
+        load_progress_begin(file->load, "place", "nodes", order.count);
         for (int i = 0; i < order.count; i++) {
             const GltfValue *node = &nodes->items[order.nodes[i]];
             const Transform *world = &file->world_from_node[order.nodes[i]];
             add_camera(file, node, world);
             if (!luminaire_place(file, node, world)) add_light(file, node, world);
             add_mesh(file, node, world);
+            load_progress_add(file->load, 1);
         }
+        load_progress_end(file->load);
     }
     warn_of_skipped(file);
 }

@@ -6,6 +6,7 @@
 #include <strings.h>
 
 #include "scene/gltf/document.h"
+#include "scene/gltf/load_progress.h"
 #include "scene/gltf/variant.h"
 #include "text/uri.h"
 
@@ -162,8 +163,12 @@ void images_load(GltfFile *file)
     int image_count = images ? images->count : 0;
     Image *decoded = ARENA_NEW(&file->load->scratch, Image, image_count);
     const ImageUse *uses = image_uses(file, textures, image_count);
-    for (int i = 0; i < image_count; i++)
+    load_progress_begin(file->load, "decode", "pictures", image_count);
+    for (int i = 0; i < image_count; i++) {
         load_one_image(file, &images->items[i], uses[i], &decoded[i]);
+        load_progress_add(file->load, 1);
+    }
+    load_progress_end(file->load);
     file->texture_base = file->load->textures.count;
     for (int i = 0; textures && i < textures->count; i++) {
         const GltfValue *texture = &textures->items[i];

@@ -235,7 +235,7 @@ static void check_structure(GltfFile *file)
 static bool read_data(GltfFile *file)
 {
     Error err;
-    if (gltf_json_data(file->json, file->json_size, &file->load->scratch, &file->data, &err))
+    if (gltf_json_data(file->root, &file->load->scratch, &file->data, &err))
         return true;
     file_error(file, NULL, "%s", err.text);
     return false;
@@ -293,9 +293,11 @@ static Loader loader_start(const SceneOptions *options, Arena *arena, Problems *
                     .animations = list_of(sizeof(SceneAnimation))};
 }
 
-Scene *scene_survey(const SceneOptions *options, Arena *arena, Problems *problems)
+Scene *scene_survey(const SceneOptions *options, ProgressMode progress, Arena *arena,
+                    Problems *problems)
 {
     Loader load = loader_start(options, arena, problems);
+    load.progress_mode = progress;
     luminaires_start(&load);
     for (int i = 0; i < options->path_count; i++) load_file(&load, options->paths[i]);
     pose_report_missing(&load);
@@ -313,7 +315,13 @@ Scene *scene_survey(const SceneOptions *options, Arena *arena, Problems *problem
 bool scene_load(const SceneOptions *options, Arena *arena, Problems *problems, Scene **out,
                 Error *err)
 {
-    Scene *scene = scene_survey(options, arena, problems);
+    return scene_load_shown(options, PROGRESS_NONE, arena, problems, out, err);
+}
+
+bool scene_load_shown(const SceneOptions *options, ProgressMode progress, Arena *arena,
+                      Problems *problems, Scene **out, Error *err)
+{
+    Scene *scene = scene_survey(options, progress, arena, problems);
     if (problems_verdict(problems, err)) {
         *out = scene;
         return true;
