@@ -1,12 +1,15 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "path/light_selection.h"
 
+#include "base/parallel.h"
 #include "base/units.h"
+#include "bvh/bvh_build.h"
 #include "light/emission.h"
 
 #define POINTS 64        /* of every side of a part, for every set */
 #define GENEROSITY 4.0f  /* a set with a quarter of a part's light is sampled at every hit */
 #define LEAST 0.1f       /* and none less often than this */
+#define TOGETHER 16      /* parts that a thread takes at once */
 
 static bool always_passes(void *user, const Hit *hit)
 {
@@ -97,6 +100,24 @@ static void weigh_part(const Scene *scene, const Bvh *bvh, const Lights *lights,
     }
 }
 
+typedef struct Weighing {
+    const Scene  *scene;
+    const Bvh    *bvh;
+    const Lights *lights;
+    LightSelection selection;
+} Weighing;
+
+/* Parts have rows and random numbers of their own. */
+static void weigh_some(void *context, int item, int worker)
+{
+    const Weighing *w = context;
+    (void)worker;
+    for (int part = TOGETHER * item; part < TOGETHER * (item + 1); part++)
+        if (part < w->scene->part_count && w->scene->parts[part].triangle_count)
+            weigh_part(w->scene, w->bvh, w->lights, part, &w->selection.prob[2 * part],
+                       &w->selection.lx[2 * part]);
+}
+
 LightSelection light_selection_build(const Scene *scene, const Bvh *bvh, const Lights *lights,
                                      Arena *arena)
 {
@@ -106,9 +127,8 @@ LightSelection light_selection_build(const Scene *scene, const Bvh *bvh, const L
     selection.lx = ARENA_NEW(arena, float, rows);
     for (int set = 0; set < LIGHT_SETS; set++)
         selection.all[set] = lights_has(lights, (LightSet)set) ? 1.0f : 0.0f;
-    for (int part = 0; part < scene->part_count; part++)
-        if (scene->parts[part].triangle_count)
-            weigh_part(scene, bvh, lights, part, &selection.prob[2 * part],
-                      &selection.lx[2 * part]);
+    Weighing work = {scene, bvh, lights, selection};
+    parallel_for(bvh_threads(bvh), (scene->part_count + TOGETHER - 1) / TOGETHER, weigh_some,
+                 &work);
     return selection;
 }

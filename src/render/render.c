@@ -7,7 +7,7 @@
 #include "base/file.h"
 #include "base/machine.h"
 #include "base/parallel.h"
-#include "bvh/bvh.h"
+#include "bvh/bvh_build.h"
 #include "guide/guide_file.h"
 #include "light/light.h"
 #include "render/forecast.h"
@@ -290,7 +290,8 @@ bool render_prepare(const Scene *scene, const SceneCamera *camera, const RenderO
     Lights     *lights;
     if (!kernel_choose(options->isa, &setup.kernel, err)) return false;
     if (!lights_build(scene, arena, &lights, err)) return false;
-    if (!bvh_create(scene, options->threads, options->isa, &setup.bvh, err)) return false;
+    if (!bvh_build(scene, options->threads, options->isa, options->progress, &setup.bvh, err))
+        return false;
     setup.context = path_context_build(scene, setup.bvh, lights, options->max_bounces, arena);
     if (options->no_mirrors) setup.context.beams.mirrors = NULL;
     setup.camera = camera_from_scene(camera, options->width, options->height);
