@@ -1,23 +1,90 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "base/file.h"
 
+#include <errno.h>
+#include <fcntl.h>
+#include <stdint.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "base/file_pieces.h"
+#define PIECE_BYTES ((size_t)8 << 20) /* at once */
+
+static bool read_all(int file, const FilePieces *how, unsigned char *bytes, size_t size,
+                     size_t *got)
+{
+    *got = 0;
+    while (*got < size) {
+        size_t  left = size - *got;
+        ssize_t n = read(file, bytes + *got, left < PIECE_BYTES ? left : PIECE_BYTES);
+        if (n < 0 && errno == EINTR) continue;
+        if (n < 0) return false;
+        if (n == 0) break;
+        *got += (size_t)n;
+        if (how->told) how->told(how->user, *got, size);
+    }
+    return true;
+}
+
+static bool check_size(const char *path, const struct stat *info, size_t max_bytes, Error *err)
+{
+    if (!S_ISREG(info->st_mode))
+        return error_at(err, ERROR_INPUT, path, "", "is %s, a file is wanted",
+                        S_ISDIR(info->st_mode) ? "a folder" : "not a regular file");
+    if ((unsigned long long)info->st_size > max_bytes)
+        return error_at(err, ERROR_INPUT, path, "", "has %lld bytes, at most %zu are read",
+                        (long long)info->st_size, max_bytes);
+    return true;
+}
+
+/* Opens a regular file of at most max_bytes; -1 after an error. */
+static int open_regular(const char *path, size_t max_bytes, size_t *size, Error *err)
+{
+    int file = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+    struct stat info;
+    if (file < 0 || fstat(file, &info) != 0) {
+        int reason = errno;
+        if (file >= 0) close(file);
+        error_at(err, ERROR_INPUT, path, "", "cannot be opened: %s", strerror(reason));
+        return -1;
+    }
+    if (!check_size(path, &info, max_bytes, err)) {
+        close(file);
+        return -1;
+    }
+    *size = (size_t)info.st_size;
+    return file;
+}
+
+bool file_read_pieces(const char *path, const FilePieces *how, Arena *arena, FileBytes *out,
+                      Error *err)
+{
+    size_t size, got = 0;
+    int    file = open_regular(path, how->is_start ? SIZE_MAX : how->max_bytes, &size, err);
+    if (file < 0) return false;
+    if (size > how->max_bytes) size = how->max_bytes;
+    unsigned char *bytes = ARENA_NEW(arena, unsigned char, size + 1);
+    bool           done = read_all(file, how, bytes, size, &got);
+    int            reason = errno;
+    close(file);
+    if (!done)
+        return error_at(err, ERROR_INPUT, path, "", "cannot be read: %s", strerror(reason));
+    bytes[got] = 0;
+    *out = (FileBytes){bytes, got};
+    return true;
+}
 
 bool file_read(const char *path, size_t max_bytes, Arena *arena, FileBytes *out, Error *err)
 {
     const FilePieces how = {.max_bytes = max_bytes};
-    return file_pieces_read(path, &how, arena, out, err);
+    return file_read_pieces(path, &how, arena, out, err);
 }
 
 bool file_read_start(const char *path, size_t max_bytes, Arena *arena, FileBytes *out,
                      Error *err)
 {
     const FilePieces how = {.max_bytes = max_bytes, .is_start = true};
-    return file_pieces_read(path, &how, arena, out, err);
+    return file_read_pieces(path, &how, arena, out, err);
 }
 
 bool file_text(const char *path, const FileBytes *bytes, const char **out, Error *err)

@@ -27,6 +27,17 @@ bool file_read(const char *path, size_t max_bytes, Arena *arena, FileBytes *out,
 bool file_read_start(const char *path, size_t max_bytes, Arena *arena, FileBytes *out,
                      Error *err);
 
+typedef struct FilePieces {
+    size_t max_bytes; /* of a file that is read */
+    bool   is_start;  /* that many bytes at most, of a file of any length */
+    void (*told)(void *user, size_t done, size_t size); /* after each piece; NULL: nobody */
+    void  *user;
+} FilePieces;
+
+/* Piece by piece, for who shows how far it has come. */
+bool file_read_pieces(const char *path, const FilePieces *how, Arena *arena, FileBytes *out,
+                      Error *err);
+
 /* The bytes as text: behind the byte order mark that spreadsheets like to write. Zero bytes, as
  * UTF-16 has them, would end it early: an ERROR_INPUT that names `path`. */
 bool file_text(const char *path, const FileBytes *bytes, const char **out, Error *err);

@@ -1,10 +1,33 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "bvh/bvh.h"
 
+#include <stdatomic.h>
+#include <stdio.h>
 #include <stdlib.h>
 
-#include "bvh/bvh_build.h"
-#include "bvh/bvh_parts.h"
+#include "bvh/embree_version.h"
+
+/* Two geometries: opaque triangles, which nobody asks about, and the others, whose shadow rays
+ * are put to BvhPasses. Scene.triangles holds them in this order. */
+enum { GEOMETRY_OPAQUE, GEOMETRY_ASKED, GEOMETRY_COUNT };
+
+struct Bvh {
+    RTCDevice device;
+    RTCScene  scene;
+    RTCScene  sheets; /* GEOMETRY_ASKED alone; NULL: no material has holes */
+    uint32_t  first_triangle[GEOMETRY_COUNT];
+    BvhRecorder *recorder;
+    int       threads; /* that built it */
+};
+
+/* A query's context, with what the filters need behind Embree's own part. */
+typedef struct QueryContext {
+    EmbreeContext embree;
+    BvhPasses    *passes; /* of shadow rays */
+    void         *user;
+    const Bvh    *bvh;
+    float         sheets_from; /* of other rays */
+} QueryContext;
 
 /* The only place that fills a ray; every member is set, because one that is forgotten means
  * silently no hit. */
@@ -72,6 +95,152 @@ void bvh_ask_sheets(const Bvh *bvh, Ray ray, BvhPasses *asked, void *user)
     embree_occluded(bvh->sheets, &context.embree, &query);
 }
 
+/* ---- what Embree asks along a ray ------------------------------------------------------- */
+
+/* Called by Embree for asked triangles that a ray might meet first (always one ray at a time),
+ * where there are sheets. */
+static void skip_sheets(const struct RTCFilterFunctionNArguments *args)
+{
+    const QueryContext *context = (const QueryContext *)args->context;
+    const struct RTCRay *ray = (const struct RTCRay *)args->ray; /* N = 1: the plain struct */
+    if (ray->tfar < context->sheets_from) args->valid[0] = 0;
+}
+
+/* Called by Embree for every asked triangle along a shadow ray (always one ray at a time). */
+static void ask_passes(const struct RTCFilterFunctionNArguments *args)
+{
+    const QueryContext *context = (const QueryContext *)args->context;
+    if (!args->valid[0] || !context->passes) return;
+    const struct RTCRay *ray = (const struct RTCRay *)args->ray; /* N = 1: the plain structs */
+    const struct RTCHit *met = (const struct RTCHit *)args->hit;
+    Hit hit = {ray->tfar, met->u, met->v,
+               context->bvh->first_triangle[GEOMETRY_ASKED] + met->primID};
+    if (context->passes(context->user, &hit)) args->valid[0] = 0;
+}
+
+/* ---- building --------------------------------------------------------------------------- */
+
+static void keep_first_message(void *user, enum RTCError code, const char *text)
+{
+    Error *err = user;
+    if (err->code == ERROR_NONE)
+        error_set(err, code == RTC_ERROR_OUT_OF_MEMORY ? ERROR_MEMORY : ERROR_LIBRARY,
+                  "ray tracing: %s", text ? text : "unknown error");
+}
+
+static bool has_holes(const Scene *scene)
+{
+    for (int i = 0; i < scene->part_count; i++)
+        if (scene->parts[i].triangle_count &&
+            scene->materials[scene->parts[i].material_id].alpha_mode != ALPHA_OPAQUE)
+            return true;
+    return false;
+}
+
+static void attach_triangles(Bvh *bvh, const Scene *scene, int geometry_id, uint32_t first,
+                             uint32_t count)
+{
+    bvh->first_triangle[geometry_id] = first;
+    if (!count) return;
+    RTCGeometry geometry = rtcNewGeometry(bvh->device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                               scene->positions, 0, sizeof(Vec3), scene->vertex_count);
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                               scene->triangles, first * sizeof(Triangle), sizeof(Triangle),
+                               count);
+    rtcSetGeometryMask(geometry, ~0u); /* the default differs between Embree 3 and 4 */
+    bool is_sheet = geometry_id == GEOMETRY_ASKED && bvh->sheets;
+    if (geometry_id == GEOMETRY_ASKED)
+        rtcSetGeometryOccludedFilterFunction(geometry, ask_passes);
+    if (is_sheet) rtcSetGeometryIntersectFilterFunction(geometry, skip_sheets);
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometryByID(bvh->scene, geometry, (unsigned)geometry_id);
+    if (is_sheet) rtcAttachGeometryByID(bvh->sheets, geometry, (unsigned)geometry_id);
+    rtcReleaseGeometry(geometry);
+}
+
+static bool check_device(RTCDevice device, Error *err)
+{
+    if (!rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_TRIANGLE_GEOMETRY_SUPPORTED) ||
+        !rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_FILTER_FUNCTION_SUPPORTED))
+        return error_set(err, ERROR_LIBRARY, "this build of %s lacks triangles or filter "
+                         "functions: install Debian's package", bvh_library());
+    return true;
+}
+
+static RTCScene new_scene(RTCDevice device)
+{
+    RTCScene scene = rtcNewScene(device);
+    rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
+    /* Not HIGH: its spatial splits would ask BvhPasses twice about one triangle. */
+    rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_MEDIUM);
+    return scene;
+}
+
+/* How much of the tree stands, told by any of Embree's threads. */
+typedef struct TreeTelling {
+    atomic_flag busy;
+    Progress    progress;
+} TreeTelling;
+
+static bool tell(void *user, double share)
+{
+    TreeTelling *telling = user;
+    if (atomic_flag_test_and_set(&telling->busy)) return true; /* another thread does */
+    progress_update(&telling->progress, share * telling->progress.total);
+    atomic_flag_clear(&telling->busy);
+    return true;
+}
+
+static void commit(RTCScene tree, const char *what, double triangles, ProgressMode mode)
+{
+    TreeTelling telling = {.busy = ATOMIC_FLAG_INIT,
+                           .progress = progress_start(mode, what, "triangles", triangles)};
+    if (mode != PROGRESS_NONE) rtcSetSceneProgressMonitorFunction(tree, tell, &telling);
+    rtcCommitScene(tree);
+    rtcSetSceneProgressMonitorFunction(tree, NULL, NULL);
+    if (telling.progress.shown_columns) progress_clear(&telling.progress);
+}
+
+static void build_scene(Bvh *bvh, const Scene *scene, ProgressMode progress)
+{
+    uint32_t asked = scene->triangle_count - scene->opaque_count;
+    bvh->scene = new_scene(bvh->device);
+    if (has_holes(scene)) bvh->sheets = new_scene(bvh->device);
+    attach_triangles(bvh, scene, GEOMETRY_OPAQUE, 0, scene->opaque_count);
+    attach_triangles(bvh, scene, GEOMETRY_ASKED, scene->opaque_count, asked);
+    commit(bvh->scene, "ray tracer", scene->triangle_count, progress);
+    if (bvh->sheets) commit(bvh->sheets, "ray tracer's sheets", asked, progress);
+}
+
+bool bvh_build(const Scene *scene, int threads, const char *isa, ProgressMode progress,
+               Bvh **out, Error *err)
+{
+    char config[96];
+    Error first = {0};
+    snprintf(config, sizeof config, "threads=%d,set_affinity=0%s%s", threads,
+             isa ? ",isa=" : "", isa ? isa : "");
+    Bvh *bvh = calloc(1, sizeof *bvh);
+    if (!bvh) return error_set(err, ERROR_MEMORY, "out of memory for the ray tracer");
+    bvh->threads = threads;
+    bvh->device = rtcNewDevice(config);
+    if (!bvh->device) {
+        free(bvh);
+        return error_set(err, ERROR_LIBRARY, "ray tracing: no device for \"%s\"", config);
+    }
+    rtcSetDeviceErrorFunction(bvh->device, keep_first_message, &first);
+    if (check_device(bvh->device, &first)) build_scene(bvh, scene, progress);
+    rtcSetDeviceErrorFunction(bvh->device, NULL, NULL);
+    if (first.code != ERROR_NONE) {
+        /* Mostly for want of memory. Embree and oneTBB allocate while they clean up, and end
+         * the program where they cannot: what stands half-built is left to the system. */
+        *err = first;
+        return false;
+    }
+    *out = bvh;
+    return true;
+}
+
 bool bvh_create(const Scene *scene, int threads, const char *isa, Bvh **out, Error *err)
 {
     return bvh_build(scene, threads, isa, PROGRESS_NONE, out, err);
@@ -84,6 +253,11 @@ void bvh_destroy(Bvh *bvh)
     if (bvh->scene) rtcReleaseScene(bvh->scene);
     if (bvh->device) rtcReleaseDevice(bvh->device);
     free(bvh);
+}
+
+int bvh_threads(const Bvh *bvh)
+{
+    return bvh->threads;
 }
 
 void bvh_record(Bvh *bvh, BvhRecorder *recorder)

@@ -3,7 +3,7 @@
 
 #include "base/parallel.h"
 #include "base/units.h"
-#include "bvh/bvh_build.h"
+#include "bvh/bvh.h"
 #include "light/emission.h"
 
 #define POINTS 64        /* of every side of a part, for every set */

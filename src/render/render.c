@@ -7,7 +7,7 @@
 #include "base/file.h"
 #include "base/machine.h"
 #include "base/parallel.h"
-#include "bvh/bvh_build.h"
+#include "bvh/bvh.h"
 #include "guide/guide_file.h"
 #include "light/light.h"
 #include "render/forecast.h"

@@ -12,7 +12,7 @@
 #include "base/file.h"
 #include "base/machine.h"
 #include "bench_timing.h"
-#include "bvh/bvh_build.h"
+#include "bvh/bvh.h"
 #include "film/film.h"
 #include "kernel/kernel.h"
 #include "render/train.h"

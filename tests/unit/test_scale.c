@@ -5,8 +5,8 @@
 #include "gltf_maker.h"
 #include "scene_builder.h"
 
-#include "base/file_pieces.h"
-#include "bvh/bvh_build.h"
+#include "base/file.h"
+#include "bvh/bvh.h"
 #include "path/light_selection.h"
 
 /* ---- memory ------------------------------------------------------------------------------ */
@@ -139,7 +139,7 @@ TEST_WITH(reading_a_long_file_is_told_of, maker_reset, NULL)
     content[size - 1] = 'x';
     FilePieces how = {.max_bytes = size, .told = note, .user = &told};
     const char *path = maker_file(content, size, ".glb");
-    if (!file_pieces_read(path, &how, &maker.arena, &bytes, &err)) fail_msg("%s", err.text);
+    if (!file_read_pieces(path, &how, &maker.arena, &bytes, &err)) fail_msg("%s", err.text);
     assert_int_equal(bytes.size, size);
     assert_memory_equal(bytes.data, content, size);
     assert_true(told.count >= 3);

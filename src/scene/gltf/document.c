@@ -10,7 +10,6 @@
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
-#include "base/file_pieces.h"
 #include "base/reference.h"
 #include "scene/gltf/load_progress.h"
 #include "text/uri.h"
@@ -79,7 +78,7 @@ bool load_read(Loader *load, const char *path, Arena *arena, FileBytes *out, Err
     const FilePieces how = {.max_bytes = LOAD_MAX_FILE_BYTES,
                             .told = is_step ? tell_read : NULL, .user = load};
     if (is_step) load_progress_begin(load, "read", "bytes", 0);
-    bool is_read = file_pieces_read(path, &how, arena, out, err);
+    bool is_read = file_read_pieces(path, &how, arena, out, err);
     if (is_step) load_progress_end(load);
     if (!is_read) return false;
     note_input(load, path, *out);
