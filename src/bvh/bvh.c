@@ -199,6 +199,8 @@ static void commit(RTCScene tree, const char *what, double triangles, ProgressMo
     if (mode != PROGRESS_NONE) rtcSetSceneProgressMonitorFunction(tree, tell, &telling);
     rtcCommitScene(tree);
     rtcSetSceneProgressMonitorFunction(tree, NULL, NULL);
+    while (atomic_flag_test_and_set(&telling.busy)) { /* what they wrote comes before now */
+    }
     if (telling.progress.shown_columns) progress_clear(&telling.progress);
 }
 
