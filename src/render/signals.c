@@ -45,3 +45,8 @@ bool signals_take_snapshot(void)
 {
     return atomic_exchange(&snapshot_wanted, false);
 }
+
+const char *signals_name(int signal)
+{
+    return signal == SIGINT ? "INT" : signal == SIGHUP ? "HUP" : "TERM";
+}

@@ -18,5 +18,8 @@ void signals_watch(void);
 /* 0, or the number of the signal (SIGINT, SIGTERM, SIGHUP) that asks to stop. */
 int signals_stop_requested(void);
 
+/* "INT", "TERM" or "HUP", for messages. */
+const char *signals_name(int signal);
+
 /* True once for every USR1 (several that come together count as one). */
 bool signals_take_snapshot(void);

@@ -61,6 +61,17 @@ bool cli_name_value(const char *option, const char *text, Arena *arena, const ch
     return true;
 }
 
+bool cli_is_option(const char *word, const char *name)
+{
+    size_t length = strcspn(word, "=");
+    return strlen(name) == length && !strncmp(word, name, length);
+}
+
+int cli_option_words(const char *word, bool has_value)
+{
+    return has_value && !strchr(word, '=') ? 2 : 1;
+}
+
 static bool has_limits(const Option *option)
 {
     return option->low != 0 || option->high != 0;

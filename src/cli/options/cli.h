@@ -51,6 +51,12 @@ HelpForm cli_help_form(const char *word);
 /* --version or -V. */
 bool cli_is_version(const char *word);
 
+/* Is the word this option, by itself or with its value behind '='? */
+bool cli_is_option(const char *word, const char *name);
+
+/* How many words it takes, this one first: 1 or 2. */
+int cli_option_words(const char *word, bool has_value);
+
 /* --root's line of help, the same wherever files name others (base/reference.h). */
 #define ROOT_HELP "a folder whose files may be named too (default: parent of a file's folder)"
 

@@ -3,7 +3,6 @@
 #include "cli/render/cmd_render.h"
 
 #include <math.h>
-#include <signal.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -20,6 +19,7 @@
 #include "cli/render/render_setup.h"
 #include "cli/render/render_share.h"
 #include "render/identity.h"
+#include "render/signals.h"
 #include "scene/load/scene_load.h"
 
 /* Everything of one run of the command. */
@@ -333,8 +333,7 @@ static void print_interruption(const RenderRun *work, const RenderResult *result
 static bool report_interruption(const RenderRun *work, const RenderResult *result, bool is_kept,
                                 Error *err)
 {
-    const char *name = result->stopped_by == SIGINT ? "INT"
-                       : result->stopped_by == SIGHUP ? "HUP" : "TERM";
+    const char *name = signals_name(result->stopped_by);
     print_interruption(work, result, name, is_kept);
     err->code = (ErrorCode)(128 + result->stopped_by); /* ERROR_INTERRUPTED and its like */
     err->text[0] = '\0';

@@ -4,21 +4,11 @@
 
 #include <string.h>
 
+#include "cli/options/cli.h"
 #include "cli/options/look_options.h"
 #include "text/escape.h"
 
 /* ---- words ------------------------------------------------------------------------------- */
-
-static bool is_option(const char *word, const char *name)
-{
-    size_t length = strcspn(word, "=");
-    return strlen(name) == length && !strncmp(word, name, length);
-}
-
-static int words_of(const char *word, bool has_value)
-{
-    return has_value && !strchr(word, '=') ? 2 : 1;
-}
 
 /* How many words, this one first, leave every pixel as it is, since they only name files, make
  * a picture of the frame as well, or say how the run goes: frames that are the same say the
@@ -36,10 +26,10 @@ static int idle_words(const char *word)
     DevelopOptions look;
     const Option   looks[] = {LOOK_OPTIONS(&look)};
     for (int i = 0; i < COUNT_OF(idle); i++)
-        if (is_option(word, idle[i].name)) return words_of(word, idle[i].has_value);
+        if (cli_is_option(word, idle[i].name)) return cli_option_words(word, idle[i].has_value);
     for (int i = 0; i < COUNT_OF(looks); i++) /* --denoise is not idle: it adds layers */
-        if (looks[i].out != &look.is_denoised && is_option(word, looks[i].name))
-            return words_of(word, looks[i].kind != OPTION_FLAG);
+        if (looks[i].out != &look.is_denoised && cli_is_option(word, looks[i].name))
+            return cli_option_words(word, looks[i].kind != OPTION_FLAG);
     return 0;
 }
 
@@ -116,7 +106,7 @@ static const struct {
 static Rewrite *find_rewrite(const char *word)
 {
     for (int i = 0; i < COUNT_OF(options); i++)
-        if (is_option(word, options[i].name)) return options[i].rewrite;
+        if (cli_is_option(word, options[i].name)) return options[i].rewrite;
     return NULL;
 }
 
@@ -127,8 +117,8 @@ const char **command_line_part_words(int argc, char **argv, Arena *arena, int *c
     *count = 0;
     for (int i = 1; i < argc; i++) {
         bool is_range = has_options && find_rewrite(argv[i]);
-        bool is_kept = is_option(argv[i], "--checkpoint-interval"); /* the parts' as well */
-        int  skipped = is_range ? words_of(argv[i], true)
+        bool is_kept = cli_is_option(argv[i], "--checkpoint-interval"); /* the parts' as well */
+        int  skipped = is_range ? cli_option_words(argv[i], true)
                        : has_options && !is_kept ? idle_words(argv[i]) : 0;
         if (!strcmp(argv[i], "--")) has_options = false;
         if (skipped) i += skipped - 1;
@@ -146,7 +136,7 @@ const char *command_line_of_whole(const char *line, const FilmPart *whole, Arena
         Rewrite *rewrite = only_arguments ? NULL : find_rewrite(word);
         int      idle = only_arguments ? 0 : idle_words(word); /* in parts of older versions */
         only_arguments = only_arguments || !strcmp(word, "--");
-        if ((rewrite ? words_of(word, true) : idle) == 2) next_word(&rest, arena);
+        if ((rewrite ? cli_option_words(word, true) : idle) == 2) next_word(&rest, arena);
         if (idle) continue;
         const char *written = rewrite ? rewrite(&to) : arena_format(arena, " %s", word);
         result = arena_format(arena, "%s%s", result, written);

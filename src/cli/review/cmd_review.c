@@ -190,8 +190,7 @@ static bool start(const ReviewWords *words, Arena *arena, Error *err)
 /* The line may be longer than an error's text. */
 static void tell_stopped(const ReviewFolder *folder, Error *err, Arena *arena)
 {
-    const char *name = err->code == ERROR_INTERRUPTED ? "INT"
-                       : err->code == ERROR_HUNG_UP   ? "HUP" : "TERM";
+    const char *name = signals_name((int)err->code - 128);
     fprintf(stderr,
             "parhelion: %s: stopped by %s; what is done is kept in %s — the same command goes "
             "on: %s\n",

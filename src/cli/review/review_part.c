@@ -56,10 +56,8 @@ static bool answer(ReviewRun *run, const ReviewPin *pin, Arena *arena, Error *er
 
 static void tell_stopped(const ReviewPin *pin, Error *err)
 {
-    const char *name = err->code == ERROR_INTERRUPTED ? "INT"
-                       : err->code == ERROR_HUNG_UP   ? "HUP" : "TERM";
     fprintf(stderr, "parhelion: %s: stopped by %s; what is done is kept — go on with: %s\n",
-            pin->name, name, pin->resume_line);
+            pin->name, signals_name((int)err->code - 128), pin->resume_line);
     err->text[0] = '\0';
 }
 

@@ -5,6 +5,7 @@
 
 #include "base/count.h"
 #include "cli/options/answer.h"
+#include "cli/options/cli.h"
 #include "kernel/kernel.h"
 
 bool review_share_check(const ShareRequest *share, const char *not_traced, Error *err)
@@ -27,10 +28,8 @@ static int own_words(const char *word)
     } own[] = {{"-o", true}, {"--slurm", true}, {"--job", true}, {"--submit", false},
                {"--threads", true}, {"--progress", true}, {"--json", false},
                {"--quiet", false}};
-    size_t length = strcspn(word, "=");
     for (int i = 0; i < COUNT_OF(own); i++)
-        if (strlen(own[i].name) == length && !strncmp(word, own[i].name, length))
-            return own[i].has_value && !word[length] ? 2 : 1;
+        if (cli_is_option(word, own[i].name)) return cli_option_words(word, own[i].has_value);
     return 0;
 }
 

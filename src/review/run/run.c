@@ -40,11 +40,10 @@ static int most_responses(const ReviewRequest *request)
     return most_cases(request) + request->condition_count * (faces + request->level_count);
 }
 
-/* Names of symbols that were found live in the stage's memory. Cases of other parts have none.
- */
+/* Names of symbols that were found live in the stage's memory. */
 static void keep_names(ReviewCase *cases, int count, Arena *arena)
 {
-    for (int i = 0; i < count && cases[i].symbol; i++)
+    for (int i = 0; i < count; i++)
         cases[i].symbol = arena_string(arena, cases[i].symbol, strlen(cases[i].symbol));
 }
 
@@ -78,7 +77,7 @@ static bool run_moment(const ReviewRun *run, Stage *stage, Arena *scratch, Arena
     ReviewCase *cases = review->cases + review->case_count;
     if (!stage_cases(&tools, arena, cases, err)) return false;
     int count = tools.symbol_count * run->request->eye_count;
-    keep_names(cases, count, arena);
+    if (!run->share.count) keep_names(cases, count, arena); /* others' cases have none */
     review->case_count += count;
     GazeFinding *gazes = review->gazes + review->gaze_count;
     if (!stage_gazes(stage, &tools.share, run->sun_searches, arena, gazes, err)) return false;
