@@ -36,6 +36,16 @@ run_beams()
 
 run_one 'release build' build-release build release all || finish
 run_beams
+if run_one 'build with address sanitizer' build-asan build asan all; then
+    export UBSAN_OPTIONS=print_stacktrace=1
+    run_units 'unit tests, address sanitizer' unit-asan .build/asan --timeout 3600
+    start 'thousands of broken models' hostile-long \
+        python3 tests/hostile/run.py --all .build/asan/parhelion
+    run_mutations
+    gather
+    run 'every fault, address sanitizer' faults-asan \
+        python3 tests/hostile/faults.py --all .build/asan/parhelion
+fi
 run 'packages built twice' packages python3 tests/install/packages.py .build/packages
 run 'packages in a bare Debian' bare-root \
     python3 tests/install/bare_root.py .build/packages/first/.build/release/packages
@@ -75,16 +85,6 @@ if run_one 'build for this processor only' build-native build_native; then
     run 'panels of one build in another' panels-native \
         python3 tests/hostile/panel_commands.py --against .build/release/parhelion \
         .build/native/parhelion
-fi
-if run_one 'build with address sanitizer' build-asan build asan all; then
-    export UBSAN_OPTIONS=print_stacktrace=1
-    run_units 'unit tests, address sanitizer' unit-asan .build/asan --timeout 3600
-    start 'thousands of broken models' hostile-long \
-        python3 tests/hostile/run.py --all .build/asan/parhelion
-    run_mutations
-    gather
-    run 'every fault, address sanitizer' faults-asan \
-        python3 tests/hostile/faults.py --all .build/asan/parhelion
 fi
 if run_one 'build for fuzzing' build-fuzz build fuzz fuzz; then
     run 'five minutes of fuzzing' fuzz python3 tests/fuzz/run.py .build/fuzz
