@@ -78,9 +78,10 @@ static inline Vec3 vec3_normalize(Vec3 a)
     return length > 0 ? vec3_scale(a, 1 / length) : a;
 }
 
-static inline bool vec3_is_finite(Vec3 a)
+/* No coordinate is further from 0 than that, or no number. */
+static inline bool vec3_is_within(Vec3 a, float most)
 {
-    return isfinite(a.x) && isfinite(a.y) && isfinite(a.z);
+    return fabsf(a.x) <= most && fabsf(a.y) <= most && fabsf(a.z) <= most;
 }
 
 static inline Transform transform_identity(void)

@@ -39,11 +39,14 @@ static struct RTCRay embree_ray(Ray ray)
                            .time = 0, .mask = ~0u, .id = 0, .flags = 0};
 }
 
+#define FARTHEST 1.8e18f /* Embree's FLT_LARGE is 1.844e18 */
+
 /* Debian 12's Embree aborts on what is refused here; later ones would miss in silence. */
 static bool ray_is_valid(Ray ray)
 {
-    return vec3_is_finite(ray.origin) && vec3_is_finite(ray.direction) && ray.t_min >= 0 &&
-           ray.t_max >= ray.t_min && vec3_dot(ray.direction, ray.direction) > 0;
+    return vec3_is_within(ray.origin, FARTHEST) && vec3_is_within(ray.direction, FARTHEST) &&
+           ray.t_min >= 0 && ray.t_max >= ray.t_min &&
+           vec3_dot(ray.direction, ray.direction) > 0;
 }
 
 static void record(BvhRecorder *recorder, Ray ray, bool is_shadow)

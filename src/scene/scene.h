@@ -64,6 +64,11 @@ typedef struct TextureSlot {
     float uv_from_uv[6]; /* KHR_texture_transform: u' = a u + b v + c, v' = d u + e v + f */
 } TextureSlot;
 
+/* How far from the origin, along an axis and in metres, whatever is shown or sees may stand:
+ * beyond 4e9 squares of triangles' areas are no floats any more, and light is lost without a
+ * word; beyond 1.8e18 Embree takes no ray. */
+#define SCENE_MOST_M 1e9f
+
 /* The most that a scene may have shine on it: above it samples would overflow. */
 #define SCENE_MOST_CD_M2 1e12
 #define SCENE_MOST_LX 1e9

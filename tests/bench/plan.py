@@ -323,7 +323,7 @@ def print_frame(model):
             unequal = math.sqrt(math.log1p(model.rows_spread ** 2))
             trouble = dataclasses.replace(TROUBLE, spread=unequal if split == "rows"
                                           else TROUBLE.spread)
-            outcomes = [simulate(job, Nodes(nodes), trouble, seed) for seed in range(21)]
+            outcomes = [simulate(job, Nodes(nodes), trouble, seed) for seed in range(15)]
             calm = simulate(job, Nodes(nodes))
             seconds = statistics.median(o.seconds for o in outcomes)
             useful = sum(job.work)
@@ -337,7 +337,8 @@ def print_year(model):
     cpu = model.found["review"]["cpu"]
     print(f"\n{REVIEWS:,} reviews of {cpu / 60:.1f} minutes of one core: "
           f"{REVIEWS * cpu / 86400 / 365:.2f} years of one core\n\n"
-          "| nodes | days | efficiency | deaths | done again |\n| --- | --- | --- | --- | --- |")
+          "| nodes | days | efficiency | deaths | done again |\n"
+          "| --- | --- | --- | --- | --- |")
     for nodes in (10, 100, 1000):
         job = model.review_job(REVIEWS)
         done = simulate(job, Nodes(nodes), TROUBLE, 1)

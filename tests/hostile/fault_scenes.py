@@ -117,7 +117,24 @@ def check_lights_and_cameras(bench):
     scene.document["nodes"][0]["scale"] = [1e30, 1e30, 1e30]
     scene.document["nodes"].append({"scale": [1e30] * 3, "children": [0]})
     scene.document["scenes"][0]["nodes"][0] = len(scene.document["nodes"]) - 1
-    refusal(bench, scene, "finite", "a mesh beyond all numbers")
+    refusal(bench, scene, "within 1e+09 m", "a mesh beyond all numbers")
+
+
+def check_far(bench):
+    """What stands where numbers are too coarse for its light, or for any ray."""
+    for what, node in (("floor", 0), ("emitter", 2), ("camera", 3), ("lamp", 4), ("copies", 0)):
+        for far in (1.1e9, -2e18, -2.0 ** 63, 3.4e38):
+            scene = lit_scene()
+            scene.light("point", 1, [0, 1, 0])
+            place = scene.document["nodes"][node]
+            if what == "copies":
+                moves = scene._accessor([[0.0, 0, 0], [0, far, 0]], "VEC3", 5126, "f")
+                copies = "EXT_mesh_gpu_instancing"
+                place["extensions"] = {copies: {"attributes": {"TRANSLATION": moves}}}
+                scene.document.setdefault("extensionsUsed", []).append(copies)
+            else:
+                place["translation"] = [0, far, 0]
+            refusal(bench, scene, "within 1e+09 m are wanted", f"a {what} {far:g} m away")
 
 
 def check_missing_texture(bench):
@@ -238,9 +255,10 @@ def check_camera_inside(bench):
 
 def check_scale(bench):
     """A scene of glowing surfaces looks the same at any size: by a power of two, to the bit
-    or nearly so; by 10^6 and 10^-6, up to noise."""
+    or nearly so; by 10^6 and 10^-6, and as large as it may be, up to noise."""
     whole = frame_of(bench, lit_scene(), spp=64, options=PLAIN, what="scale 1")
-    for scale, tolerance in ((2.0 ** 20, 1e-3), (2.0 ** -20, 1e-3), (1e6, 0.03), (1e-6, 0.03)):
+    for scale, tolerance in ((2.0 ** 20, 1e-3), (2.0 ** -20, 1e-3), (1e6, 0.03), (1e-6, 0.03),
+                             (2e8, 0.03)):
         frame_of(bench, lit_scene(scale), what=f"what is learnt at scale {scale:g}")
         other = frame_of(bench, lit_scene(scale), spp=64, options=PLAIN,
                          what=f"scale {scale:g}")
@@ -358,7 +376,7 @@ def check_ten_million_triangles(bench):
 
 
 CHECKS = (check_darkness, check_numbers, check_bright_light, check_camera_inside, check_scale,
-          check_missing_texture)
+          check_far, check_missing_texture)
 MORE = (check_lights_and_cameras, check_display_level, check_flat_triangles,
         check_degenerate_frames, check_distance, check_mirrored_nodes, check_frame_sizes,
         check_many_nodes, check_ten_million_triangles)

@@ -15,6 +15,7 @@ import shlex
 import subprocess
 import sys
 import tempfile
+import time
 from concurrent.futures import ThreadPoolExecutor
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
@@ -52,7 +53,7 @@ def outputs(command):
 
 def run_page(program, name, text):
     """(claim, message) of every command of a page, in order; it ends at the first failure."""
-    claims = []
+    claims, begun = [], time.monotonic()
     with tempfile.TemporaryDirectory(prefix="guide-") as folder:
         os.mkdir(os.path.join(folder, "bin"))
         os.symlink(os.path.abspath(program), os.path.join(folder, "bin", "parhelion"))
@@ -71,6 +72,7 @@ def run_page(program, name, text):
             claims += [(os.path.exists(os.path.join(folder, file)) == (status in DONE),
                         f"{name}: {file}, status {status}: {command}")
                        for file in outputs(command) if status in DONE + REFUSED]
+    print(f"{name}: {time.monotonic() - begun:.0f} s", flush=True)
     return claims
 
 

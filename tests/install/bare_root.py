@@ -9,6 +9,7 @@ ours are purged.
 import glob
 import os
 import re
+import shlex
 import shutil
 import subprocess
 import sys
@@ -40,13 +41,18 @@ class Root:
     def __init__(self, folder):
         self.folder = folder
 
-    def run(self, line):
+    def run(self, line, patience_s=1800, binds=None):
+        """binds: {a folder here: where it is seen there}."""
+        mounts = ""
+        for here, there in (binds or {}).items():
+            os.makedirs(self.folder + there, exist_ok=True)
+            mounts += f"mount --bind {shlex.quote(here)} {shlex.quote(self.folder + there)} && "
         return subprocess.run(
             ["unshare", "--mount", "--pid", "--fork", "sh", "-c",
-             'mount -t proc proc "$0/proc" && exec chroot "$0" env -i '
+             f'{mounts}mount -t proc proc "$0/proc" && exec chroot "$0" env -i '
              'PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/opt/desk LC_ALL=C.UTF-8 '
              'DEBIAN_FRONTEND=noninteractive sh -c "$1"', self.folder, line],
-            capture_output=True, text=True, timeout=1800)
+            capture_output=True, text=True, timeout=patience_s)
 
     def packages(self):
         listed = self.run("dpkg-query -W -f '${Package} ${db:Status-Status}\\n'").stdout

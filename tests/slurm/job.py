@@ -18,9 +18,12 @@ import time
 
 from jobs import PATIENCE_S, Report, ROOT, Work, contents
 
-SMALL = ("--size", "52x36", "--layers", "all", "--spp", "12")
-LONG = ("--size", "96x64", "--spp", "600", "--checkpoint-interval", "0")
-LONG_RUN = LONG[:4]
+# Without guiding but for one job of check_cuts: its lesson takes longer than such a frame.
+FRAME = ("--size", "52x36", "--no-guiding", "--layers", "all")
+SMALL = (*FRAME, "--spp", "12")
+LONG_RUN = ("--size", "96x64", "--no-guiding", "--spp", "160")
+LONG = (*LONG_RUN, "--checkpoint-interval", "0")
+HALF = 80  # samples a pixel of one of its two parts
 
 
 def check_plain(work):
@@ -71,7 +74,7 @@ def check_cuts(work):
     for name, count, options, how in (
             ("rows", 5, SMALL, ("--split", "rows")),
             ("one", 1, SMALL, ()),
-            ("late", 3, (*SMALL[:4], "--samples", "2:12"), ()),
+            ("late", 3, (*FRAME, "--samples", "2:12"), ()),
             ("window", 4, (*SMALL, "--crop", "3,5,40,30"), ("--split=rows",)),
             ("word", 2, ("--size=52x36", "--spp=5"), ("--threads", "1"))):
         do_all(work, work.share(count, *options, *how, job=name))
@@ -111,15 +114,16 @@ def check_stopped(work):
         part = status["list"][0]
         report.claim(running.returncode == wanted, f"{number}: {running.returncode} {err}")
         report.claim(code == 1 and part["state"] == "begun"
-                     and samples[-1] <= part["samples_kept"] < 300 and part["samples_kept"]
+                     and samples[-1] <= part["samples_kept"] < HALF and part["samples_kept"]
                      and len(glob.glob(kept)) == 1, f"after {number}: {part} {glob.glob(kept)}")
         report.claim(not os.path.exists(work.path(job, "part-0000.exr")),
                      f"after {number}: a partial file")
         samples.append(part["samples_kept"])
-    report.claim(f"stopped: part 0: stopped by TERM after {samples[-1]} of 300 samples" in err
+    so_far = f"after {samples[-1]} of {HALF}"
+    report.claim(f"stopped: part 0: stopped by TERM {so_far} samples" in err
                  and part["command"] in err, f"TERM: {err}")
     text = work.run("status", job).stdout
-    report.claim(f"part 0: begun, {samples[-1]} of 300 samples a pixel are kept" in text,
+    report.claim(f"part 0: begun, {samples[-1]} of {HALF} samples a pixel are kept" in text,
                  f"status: {text}")
     foreign = work.path(job, "part-0001.somebody-1.checkpoint")
     shutil.copy(glob.glob(kept)[0], foreign)
@@ -127,7 +131,7 @@ def check_stopped(work):
         file.write(contents(foreign)[:5000])
     report.claim(work.states(job) == ["begun", "missing"], "another part's checkpoint counts")
     done = work.run("part", job, "0")
-    report.claim(done.returncode == 0 and f"goes on after {samples[-1]} of 300" in done.stderr,
+    report.claim(done.returncode == 0 and f"goes on {so_far}" in done.stderr,
                  f"going on: {done.stderr}")
     check_twice_at_once(work, job)
     work.claim_whole(job, LONG_RUN, "killed, stopped, gone on")
@@ -178,7 +182,7 @@ def check_damage(work):
     work.claim_line(work.run("merge", job), 3, "1 of 2")
     report.claim("is another part of the frame" in work.status(job)[1]["list"][1]["error"],
                  "a part under another's name")
-    work.run("render", "small.gltf", "-o", second, *SMALL[:4], "--samples", "6:12", "--seed",
+    work.run("render", "small.gltf", "-o", second, *FRAME, "--samples", "6:12", "--seed",
              "2", "--quiet")
     report.claim("is a part of another frame" in work.status(job)[1]["list"][1]["error"],
                  "a part of another frame")

@@ -31,7 +31,8 @@ def check_waves(report):
 def check_cores(report):
     """Three nodes of two cores do the work of two; one node has one core at most."""
     job = Job([10.0] * 12)
-    for count, cores, wanted in ((3, 2, 60), (2, 2, 60), (1, 2, 120), (12, 3, 40), (3, 1.5, 80)):
+    for count, cores, wanted in ((3, 2, 60), (2, 2, 60), (1, 2, 120), (12, 3, 40),
+                                 (3, 1.5, 80)):
         claim_close(report, simulate(job, Nodes(count, cores)).seconds, wanted,
                     f"{count} nodes of {cores} cores")
 

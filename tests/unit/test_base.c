@@ -180,7 +180,8 @@ TEST(the_zero_vector_has_no_direction)
 {
     (void)state;
     assert_vector(vec3_normalize(vec3(0, 0, 0)), vec3(0, 0, 0), 0);
-    assert_true(vec3_is_finite(vec3(1, 2, 3)) && !vec3_is_finite(vec3(1, NAN, 3)));
+    assert_true(vec3_is_within(vec3(1, -2, 3), 3) && !vec3_is_within(vec3(1, -2, 3), 2.9f));
+    assert_false(vec3_is_within(vec3(1, NAN, 3), INFINITY));
 }
 
 /* ---- sampler ------------------------------------------------------------------------- */

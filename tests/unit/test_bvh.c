@@ -143,6 +143,8 @@ TEST(rays_that_are_not_finite_hit_nothing_and_light_nothing)
         {vec3(0, 0, 0), vec3(0, 0, 1), NAN, INFINITY},
         {vec3(0, 0, 0), vec3(0, 0, 1), -1, INFINITY},
         {vec3(0, 0, 0), vec3(0, 0, 1), 0, NAN},
+        {vec3(0, -2e18f, 0), vec3(0, 0, 1), 0, INFINITY},
+        {vec3(0, 0, 0), vec3(0, 3e38f, 1), 0, INFINITY},
     };
     assert_true(bvh_create(scene, 1, NULL, &bvh, &err));
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {

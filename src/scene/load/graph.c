@@ -195,6 +195,21 @@ static void add_light(GltfFile *file, const GltfValue *node, const Transform *wo
                         : arena_format(file->load->arena, "light %d", light->index);
 }
 
+/* What sees and what shines; of meshes the place is checked vertex by vertex. */
+static void add_sights(GltfFile *file, const GltfValue *node, const Transform *world)
+{
+    const Loader *load = file->load;
+    Vec3        p = world->origin;
+    int         before = load->cameras.count + load->lights.count;
+    add_camera(file, node, world);
+    if (!luminaire_place(file, node, world)) add_light(file, node, world);
+    if (load->cameras.count + load->lights.count > before && !vec3_is_within(p, SCENE_MOST_M))
+        file_error(file, node,
+                   "its %s stands at (%g, %g, %g) in the scene; numbers within %g m are wanted",
+                   tree_member(node, "camera") ? "camera" : "light", (double)p.x, (double)p.y,
+                   (double)p.z, (double)SCENE_MOST_M);
+}
+
 /* ---- all of it ------------------------------------------------------------------------- */
 
 static void add_mesh(GltfFile *file, const GltfValue *node, const Transform *world)
@@ -246,8 +261,7 @@ void graph_build(GltfFile *file)
         for (int i = 0; i < order.count; i++) {
             const GltfValue *node = &nodes->items[order.nodes[i]];
             const Transform *world = &file->world_from_node[order.nodes[i]];
-            add_camera(file, node, world);
-            if (!luminaire_place(file, node, world)) add_light(file, node, world);
+            add_sights(file, node, world);
             add_mesh(file, node, world);
             load_progress_add(file->load, 1);
         }

@@ -298,16 +298,16 @@ static const char *part_name(GltfFile *file, const GltfValue *node, const GltfVa
     return arena_string(arena, name, strlen(name));
 }
 
-static bool has_finite_vertices(GltfFile *file, const GltfValue *primitive,
+static bool stands_near(GltfFile *file, const GltfValue *primitive,
                                 const PartDraft *draft)
 {
     for (uint32_t i = 0; i < draft->vertex_count; i++) {
         Vec3 p = draft->positions[i];
-        if (vec3_is_finite(p)) continue;
+        if (vec3_is_within(p, SCENE_MOST_M)) continue;
         file_error(file, primitive,
-                   "vertex %u stands at (%g, %g, %g) in the scene; finite "
-                   "numbers are wanted",
-                   i, (double)p.x, (double)p.y, (double)p.z);
+                   "vertex %u stands at (%g, %g, %g) in the scene; numbers within %g m are "
+                   "wanted",
+                   i, (double)p.x, (double)p.y, (double)p.z, (double)SCENE_MOST_M);
         return false;
     }
     return true;
@@ -372,7 +372,7 @@ static bool build_draft(GltfFile *file, const GltfValue *node, const Transform *
     read_attributes(file, primitive, morph_weights(file, node, mesh), uses_set, draft);
     Skin skin = read_skin(file, node, primitive);
     bool is_mirrored = place_vertices(draft, &skin, world);
-    if (!has_finite_vertices(file, primitive, draft)) return false;
+    if (!stands_near(file, primitive, draft)) return false;
     list_triangles(file, primitive, is_mirrored, draft);
     if (!draft->triangle_count) return false;
     finish_shading(draft, material, &load->scratch);
