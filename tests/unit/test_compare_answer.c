@@ -56,8 +56,8 @@ TEST(junit_is_well_formed_whatever_the_names_are)
     xmlNode *suite = xmlFirstElementChild(xmlDocGetRootElement(document));
     xmlChar *tests = xmlGetProp(suite, (const xmlChar *)"tests");
     xmlChar *failures = xmlGetProp(suite, (const xmlChar *)"failures");
-    assert_string_equal(tests, "4");
-    assert_string_equal(failures, "2");
+    assert_string_equal((const char *)tests, "4");
+    assert_string_equal((const char *)failures, "2");
     xmlFree(tests);
     xmlFree(failures);
     xmlFreeDoc(document);

@@ -203,7 +203,7 @@ static bool count_values(const Ssdd *in, size_t bytes_each, size_t *count, Error
 
 static bool read_ascii(Ssdd *in, Error *err)
 {
-    size_t count;
+    size_t count = 0;
     if (!count_values(in, 2, &count, err)) return false;
     in->value = ARENA_NEW(in->scan.arena, double, count);
     for (size_t i = 0; i < count; i++)
@@ -215,7 +215,7 @@ static bool read_ascii(Ssdd *in, Error *err)
 
 static bool read_binary(Ssdd *in, Error *err)
 {
-    size_t count;
+    size_t count = 0;
     if (!count_values(in, sizeof(float), &count, err)) return false;
     if (count * sizeof(float) > (size_t)(in->scan.end - in->scan.next))
         return scan_fail(&in->scan, err, "the file ends inside its table");

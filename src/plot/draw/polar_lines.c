@@ -128,7 +128,7 @@ static const char *level_text(const PolarDisc *disc, int i)
 
 static void draw_way(PolarDisc *disc, const Way *way, int i, bool wants_number)
 {
-    Spot        spot;
+    Spot        spot = {0};
     double      level = disc->map->level[i];
     bool        strong = level == disc->map->strong;
     double      size = polar_disc_letter_size(disc), total = way->length[way->count - 1];
