@@ -67,8 +67,8 @@ def add_up(report, said):
 
 
 def digests(said):
-    """Of the scenes of tests/image/bits.py, as it prints them."""
-    return dict(re.findall(r"^([\w.]+): ([0-9a-f]{64})$", said, re.M))
+    """(scene, digest) of the frames of tests/image/bits.py, as it prints them."""
+    return re.findall(r"^([\w.]+): ([0-9a-f]{64})$", said, re.M)
 
 
 def check_bits(report, root, program):
