@@ -50,7 +50,8 @@ if run_one 'build with address sanitizer' build-asan build asan all; then
         python3 tests/hostile/resume.py --kills 100 .build/release/parhelion
     start 'parts of every kind' merge-long \
         python3 tests/image/merge.py --all .build/release/parhelion
-    start 'every fault' faults-long python3 tests/hostile/faults.py --all .build/release/parhelion
+    start 'every fault' faults-long \
+        python3 tests/hostile/faults.py --all .build/release/parhelion
     start 'every key of a review' review-request-long \
         python3 tests/hostile/review_request.py --all .build/release/parhelion
     run_mutations

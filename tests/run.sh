@@ -28,7 +28,6 @@ if run_one 'release build, warnings are errors' build-release build release all;
     run_units 'unit tests' unit .build/release -LE long
     start 'the command line' cli python3 tests/hostile/cli.py .build/release/parhelion
     start 'comparisons' compare python3 tests/hostile/compare.py .build/release/parhelion
-    gather
     start 'faults and their outcomes' faults \
         python3 tests/hostile/faults.py .build/release/parhelion
     start "glTF's faults by their codes" gltf-codes \
@@ -37,7 +36,6 @@ if run_one 'release build, warnings are errors' build-release build release all;
         python3 tests/hostile/review_request.py .build/release/parhelion
     start 'panel commands' panel-commands \
         python3 tests/hostile/panel_commands.py .build/release/parhelion
-    gather
     start "the panel library's ABI" library-abi \
         python3 tests/library/abi.py .build/release
     start 'its Python module' library-module python3 tests/library/module.py .build/release
@@ -78,7 +76,6 @@ if run_one 'release build, warnings are errors' build-release build release all;
         python3 tests/image/regression.py .build/release/parhelion
     start 'the README as written' guides python3 tests/image/guides.py \
         .build/release/parhelion README.md assets/guides/rendering.md
-    gather
     start 'why a display looks so' explain python3 tests/image/explain.py \
         .build/release/parhelion
     start 'the Blender add-on' blender python3 tests/blender/run.py .build/release/parhelion
