@@ -40,7 +40,8 @@ class Commands:
         """What stands on stderr where that is a terminal."""
         mine, theirs = pty.openpty()
         subprocess.run([self.path, "panel", *arguments], stdout=subprocess.DEVNULL,
-                       stderr=theirs, timeout=600, check=False)
+                       stderr=theirs, timeout=600, check=False,
+                       env={**os.environ, "TERM": "xterm"})
         os.close(theirs)
         shown = os.read(mine, 1 << 16).decode()
         os.close(mine)

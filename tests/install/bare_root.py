@@ -49,7 +49,8 @@ class Root:
             mounts += f"mount --bind {shlex.quote(here)} {shlex.quote(self.folder + there)} && "
         return subprocess.run(
             ["unshare", "--mount", "--pid", "--fork", "sh", "-c",
-             f'{mounts}mount -t proc proc "$0/proc" && exec chroot "$0" env -i '
+             f'{mounts}mount -t proc proc "$0/proc" && mount -t devpts devpts "$0/dev/pts" && '
+             'exec chroot "$0" env -i '
              'PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/opt/desk LC_ALL=C.UTF-8 '
              'DEBIAN_FRONTEND=noninteractive sh -c "$1"', self.folder, line],
             capture_output=True, text=True, timeout=patience_s)

@@ -134,7 +134,7 @@ static void find_widths(const char *text, int count, size_t widths[COLUMNS_MAX])
 
 static void print_cell(const char *text, size_t length, bool is_block)
 {
-    printf(is_block ? "T{\n\\&" : "\\&");
+    printf(is_block ? "T{\n.na\n\\&" : "\\&"); /* groff 1.23 adjusts them after all */
     roff_inline(text, length);
     if (is_block) printf("\nT}");
 }
