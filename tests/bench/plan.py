@@ -78,10 +78,11 @@ class Program:
         self.program, self.folder = os.path.abspath(program), folder
 
     def plan(self, name, parts, samples, split="samples"):
-        """A job of so many parts; its folder."""
+        """A job of so many parts, each on one CPU; its folder."""
         job = os.path.join(self.folder, name)
         run_all([self.program, "render", *SCENE, "--size", f"{SIZE[0]}x{SIZE[1]}", "--spp",
-                 samples, "-o", job + ".exr", "--job", job, "--slurm", parts, "--split", split])
+                 samples, "-o", job + ".exr", "--job", job, "--slurm", parts, "--split", split,
+                 "--threads", 1])
         return job
 
     def parts(self, job, *indices):
@@ -359,7 +360,7 @@ def main():
     parser.add_argument("--parts", type=int, default=12)
     parser.add_argument("--samples", type=int, default=8, help="of the smaller part")
     parser.add_argument("--runs", type=int, default=5)
-    parser.add_argument("--review", default="glance.review.json")
+    parser.add_argument("--review", default="car_dashboard.review.json")
     parser.add_argument("--keep")
     parser.add_argument("--from", dest="kept")
     options = parser.parse_args()
