@@ -1,9 +1,10 @@
 #!/bin/sh
 # SPDX-License-Identifier: Apache-2.0
-# long.sh -- what takes too long for run.sh: every closed form, two hundred pairs of frames of
-# other noise, a hundred kills, every fault, thousands of broken models and panels under the
-# address sanitizer, five minutes of fuzzing, and the second compiler. Stopped, it goes on where
-# it was: a step that passed on the same files is not run again.
+# long.sh -- what takes too long for run.sh: slow units, every closed form, guide and fault, two
+# hundred pairs of frames of other noise, a hundred kills, all units and thousands of broken
+# models and panels under the address sanitizer, the thread sanitizer, packages, another Debian,
+# the second compiler, five minutes of fuzzing. Stopped, it goes on where it was: a step that
+# passed on the same files is not run again.
 cd "$(dirname "$0")/.." || exit 1
 sh third_party/install.sh --tests || exit 1
 . tests/steps.sh

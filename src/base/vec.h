@@ -78,7 +78,7 @@ static inline Vec3 vec3_normalize(Vec3 a)
     return length > 0 ? vec3_scale(a, 1 / length) : a;
 }
 
-/* No coordinate is further from 0 than that, or no number. */
+/* Every coordinate is a number, no further from 0 than `most`. */
 static inline bool vec3_is_within(Vec3 a, float most)
 {
     return fabsf(a.x) <= most && fabsf(a.y) <= most && fabsf(a.z) <= most;

@@ -189,7 +189,7 @@ Spectrum subpixels_spectrum(const CloseView *view, const Wavelengths *wavelength
     SubpixelMix mix;
     Spectrum    sum = spectrum_all(0);
     subpixels_seen(view, &mix);
-    for (int i = 0; i < mix.count && i < SUBPIXEL_TERMS; i++)
+    for (int i = 0; i < mix.count && i < SUBPIXEL_TERMS; i++) /* gcc 14 sees one bound */
         sum += display_panel_spectrum(view->display, view->point, view->local, mix.codes[i],
                                       wavelengths) *
                spectrum_all(mix.weight[i]);

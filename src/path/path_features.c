@@ -64,7 +64,7 @@ static void subpixels_of_content(const PathContext *context, const SeenDisplay *
     footprint_across(&footprint, view->path->first.t, &view->frame, close.across);
     subpixels_seen(&close, &mix);
     for (int j = 0; j < 3; j++) xyz[j] = 0;
-    for (int i = 0; i < mix.count && i < SUBPIXEL_TERMS; i++) {
+    for (int i = 0; i < mix.count && i < SUBPIXEL_TERMS; i++) { /* gcc 14 sees one bound */
         float one[3];
         emission_seen(view, mix.codes[i], one);
         for (int j = 0; j < 3; j++) xyz[j] += mix.weight[i] * one[j];

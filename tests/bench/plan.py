@@ -41,7 +41,6 @@ TROUBLE = Trouble(spread=0.05, slow_share=0.01, slow_factor=3, deaths=1 / (30 * 
                   repair=3600, requeue=120, kept_every=60)
 FRAME = (3840, 2160, 1024)  # pixels across, down, samples each
 REVIEWS = 30 * 4 * 4 * 52   # car lines, panels, trims, weeks
-LINE = "| " + " | ".join(["{}"] * 9) + " |"
 
 
 # ---- one command ----------------------------------------------------------------------------
@@ -309,8 +308,14 @@ def print_agreement(model):
               f"{one / found:.2f} | {one / found / min(n, CORES):.0%} |")
 
 
+LINE = "| " + " | ".join(["{}"] * 9) + " |"
+
+
 def print_frame(model):
     width, height, samples = FRAME
+    print(f"\nnot measured but assumed: nodes of {NODE_CORES} cores that do the work of "
+          f"{NODE_CORES * NODE_WORK:.1f}, {FILES_B_S / 1e9:g} GB/s of files for all, "
+          f"{LAUNCHES_S:g} launches a second, {TROUBLE}")
     print(f"\n{width}x{height}, {samples} samples: "
           f"{model.sample_s * width * height * samples / 3600:.1f} h of one core\n\n"
           "| nodes | parts | split | to the frame | of it merge | without trouble | "

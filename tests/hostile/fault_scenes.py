@@ -135,6 +135,9 @@ def check_far(bench):
             else:
                 place["translation"] = [0, far, 0]
             refusal(bench, scene, "within 1e+09 m are wanted", f"a {what} {far:g} m away")
+    scene = lit_scene()
+    scene.light("directional", 1, [0, 2e18, 0], [0, -1, 0])
+    frame_of(bench, scene, what="a light of which glTF ignores the place")
 
 
 def check_missing_texture(bench):
@@ -277,6 +280,8 @@ def check_distance(bench):
     bench.claim(abs(far / near - 1) < 0.03, f"a kilometre away: {far} instead of {near}")
     frame_of(bench, lit_scene(1, (1e6, 0, 0)), "from the origin", "move it nearer",
              what="a thousand kilometres away")
+    for scale in (1e-7, 1e-9, 1e-15, 1e-20):
+        frame_of(bench, lit_scene(scale), "make it larger", what=f"at scale {scale:g}")
 
 
 def check_mirrored_nodes(bench):

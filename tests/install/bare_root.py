@@ -48,7 +48,7 @@ class Root:
             os.makedirs(self.folder + there, exist_ok=True)
             mounts += f"mount --bind {shlex.quote(here)} {shlex.quote(self.folder + there)} && "
         return subprocess.run(
-            ["unshare", "--mount", "--pid", "--fork", "sh", "-c",
+            ["unshare", "--mount", "--pid", "--fork", "--kill-child", "sh", "-c",
              f'{mounts}mount -t proc proc "$0/proc" && mount -t devpts devpts "$0/dev/pts" && '
              'exec chroot "$0" env -i '
              'PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/opt/desk LC_ALL=C.UTF-8 '

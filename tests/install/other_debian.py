@@ -37,9 +37,9 @@ def make(report, folder):
     shutil.copy("/etc/resolv.conf", os.path.join(folder, "etc"))
     project = folder + PROJECT
     kept = project + ".build"
-    if os.path.isdir(project):  # what was built there is gone on with
-        os.rename(os.path.join(project, ".build"), kept)
-        shutil.rmtree(project)
+    if os.path.isdir(project + "/.build"):  # what was built there is gone on with
+        os.rename(project + "/.build", kept)
+    shutil.rmtree(project, ignore_errors=True)
     os.makedirs(project)
     copy_sources(project)
     if os.path.isdir(kept):

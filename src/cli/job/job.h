@@ -12,7 +12,7 @@
  *     part-0003.HOST-PID.checkpoint   what a task has done of it so far
  *     part-0003.failed          the status and the line with which it failed last
  *     responses/                of a review's sweeps, unless they have a folder of their own;
- *                               what its paths were taught
+ *                               in *.lesson, what its paths were taught
  *
  * Memory   the arena's.
  * Threads  one at a time.

@@ -195,19 +195,31 @@ static void add_light(GltfFile *file, const GltfValue *node, const Transform *wo
                         : arena_format(file->load->arena, "light %d", light->index);
 }
 
+static void claim_near(GltfFile *file, const GltfValue *node, const char *what, Vec3 p)
+{
+    if (!vec3_is_within(p, SCENE_MOST_M))
+        file_error(file, node,
+                   "its %s stands at (%g, %g, %g) in the scene; numbers within %g m are wanted",
+                   what, (double)p.x, (double)p.y, (double)p.z, (double)SCENE_MOST_M);
+}
+
+/* The light that was added last; of a directional one glTF ignores the place. */
+static bool last_has_place(const Loader *load)
+{
+    const PunctualLight *light = list_item(&load->lights, load->lights.count - 1);
+    return light->kind != LIGHT_DIRECTIONAL;
+}
+
 /* What sees and what shines; of meshes the place is checked vertex by vertex. */
 static void add_sights(GltfFile *file, const GltfValue *node, const Transform *world)
 {
     const Loader *load = file->load;
-    Vec3        p = world->origin;
-    int         before = load->cameras.count + load->lights.count;
+    int           cameras = load->cameras.count, lights = load->lights.count;
     add_camera(file, node, world);
     if (!luminaire_place(file, node, world)) add_light(file, node, world);
-    if (load->cameras.count + load->lights.count > before && !vec3_is_within(p, SCENE_MOST_M))
-        file_error(file, node,
-                   "its %s stands at (%g, %g, %g) in the scene; numbers within %g m are wanted",
-                   tree_member(node, "camera") ? "camera" : "light", (double)p.x, (double)p.y,
-                   (double)p.z, (double)SCENE_MOST_M);
+    if (load->cameras.count > cameras) claim_near(file, node, "camera", world->origin);
+    if (load->lights.count > lights && last_has_place(load))
+        claim_near(file, node, "light", world->origin);
 }
 
 /* ---- all of it ------------------------------------------------------------------------- */

@@ -139,7 +139,11 @@ static void measure_bounds(Scene *scene)
  * them. Edges jump and light leaks, but nothing is wrong with the file. */
 #define FAR_IN_SIZES 10000
 
-static void warn_if_far(const Scene *scene, Loader *load)
+/* Below a tenth of it, rays that leave a surface are set off by lengths like the scene's own,
+ * and areas are no floats at last: light is lost. */
+#define LEAST_SIZE_M 1e-6f
+
+static void warn_if_odd(const Scene *scene, Loader *load)
 {
     if (!scene->triangle_count) return;
     Vec3  low = scene->bounds_min, high = scene->bounds_max;
@@ -150,6 +154,11 @@ static void warn_if_far(const Scene *scene, Loader *load)
                      "the scene is %.3g m large and stands %.3g m from the origin, where "
                      "coordinates are %.2g m apart: move it nearer",
                      (double)size, (double)distance, (double)distance * 0x1p-23);
+    if (size < LEAST_SIZE_M)
+        problems_add(load->problems, SEVERITY_WARNING, scene->inputs[0], "",
+                     "the scene is %.3g m large: light goes astray below %g m; glTF's lengths "
+                     "are in metres: make it larger",
+                     (double)size, (double)LEAST_SIZE_M);
 }
 
 /* A texture that no material shows may have no picture; nobody looks, but it is valid. */
@@ -208,7 +217,7 @@ static Scene *assemble(Loader *load)
     measure_bounds(scene);
     fill_gaps(scene);
     sort_extensions(scene);
-    warn_if_far(scene, load);
+    warn_if_odd(scene, load);
     return scene;
 }
 
