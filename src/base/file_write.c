@@ -242,6 +242,16 @@ bool file_check_writable(const char *path, Error *err)
     return true;
 }
 
+/* Looked at only after mkdir: a folder that was not there a moment ago may be by now. */
+bool folder_make(const char *path, Error *err)
+{
+    struct stat info;
+    if (mkdir(path, 0777) == 0) return true;
+    int reason = errno;
+    if (reason == EEXIST && stat(path, &info) == 0 && S_ISDIR(info.st_mode)) return true;
+    return output_error(path, "made", reason == EEXIST ? ENOTDIR : reason, err);
+}
+
 void file_remove(const char *path)
 {
     char name[PATH_BYTES];

@@ -40,6 +40,9 @@ bool file_writer_add(FileWriter *writer, const void *bytes, size_t size, Error *
 bool file_writer_commit(FileWriter *writer, Error *err);
 void file_writer_discard(FileWriter *writer);
 
+/* Makes a folder, unless there is one: of several processes that do so at once all succeed. */
+bool folder_make(const char *path, Error *err);
+
 /* Removes a file, and what a process that was killed may have left of its successor. */
 void file_remove(const char *path);
 

@@ -10,6 +10,7 @@
 #include <stddef.h>
 #include <sys/prctl.h>
 #include <sys/syscall.h>
+#include <sys/wait.h>
 
 #include "text/uri.h"
 
@@ -186,6 +187,53 @@ TEST(reading_names_what_is_wrong)
     assert_true(file_write(path, "12345", 5, &err));
     assert_false(file_read(path, 4, &arena, &bytes, &err));
     assert_string_equal(err.text, "has 5 bytes, at most 4 are read");
+    unlink(path);
+}
+
+/* One of several that make the same folder a thousand times, a step ahead of the others or
+ * behind; its exit status. */
+static int make_thousand(void)
+{
+    char  path[400];
+    Error err;
+    for (int i = 0; i < 1000; i++) {
+        snprintf(path, sizeof path, "%s/%d", in_folder("many"), i);
+        if (!folder_make(path, &err)) return 1;
+    }
+    return 0;
+}
+
+TEST(processes_make_the_same_folders_at_once)
+{
+    (void)state;
+    Error err;
+    pid_t children[4];
+    assert_true(folder_make(in_folder("many"), &err));
+    for (int i = 0; i < 4; i++)
+        if (!(children[i] = fork())) _exit(make_thousand());
+    for (int i = 0; i < 4; i++) {
+        int status;
+        assert_int_equal(waitpid(children[i], &status, 0), children[i]);
+        assert_int_equal(status, 0);
+    }
+    for (int i = 0; i < 1000; i++) {
+        char path[400];
+        snprintf(path, sizeof path, "%s/%d", in_folder("many"), i);
+        assert_int_equal(rmdir(path), 0);
+    }
+    assert_int_equal(rmdir(in_folder("many")), 0);
+}
+
+TEST(a_file_is_no_folder)
+{
+    (void)state;
+    Error       err;
+    const char *path = in_folder("file");
+    assert_true(file_write(path, "x", 1, &err));
+    assert_false(folder_make(path, &err));
+    assert_non_null(strstr(err.text, "cannot be made: Not a directory"));
+    assert_false(folder_make(in_folder("none/inner"), &err));
+    assert_non_null(strstr(err.text, "cannot be made: No such file or directory"));
     unlink(path);
 }
 

@@ -5,7 +5,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include "base/count.h"
@@ -53,16 +52,6 @@ static bool check_texts(const SharedJob *job, Arena scratch, Error *err)
                      job->dir);
 }
 
-static bool make_folder(const char *path, Error *err)
-{
-    struct stat info;
-    if (mkdir(path, 0777) == 0) return true;
-    int reason = errno;
-    if (reason == EEXIST && stat(path, &info) == 0 && S_ISDIR(info.st_mode)) return true;
-    return error_at(err, ERROR_OUTPUT, path, "", "cannot be made: %s",
-                    strerror(reason == EEXIST ? ENOTDIR : reason));
-}
-
 /* A path that the program itself or the system knows. */
 static bool find_place(const char *what, char *found, Arena *arena, const char **out,
                        Error *err)
@@ -76,7 +65,7 @@ static bool find_place(const char *what, char *found, Arena *arena, const char *
 
 static bool find_places(const ShareRequest *share, SharedJob *job, Arena *arena, Error *err)
 {
-    return make_folder(share->dir, err) &&
+    return folder_make(share->dir, err) &&
            find_place("the job's folder", realpath(share->dir, NULL), arena, &job->dir, err) &&
            find_place("the program", realpath("/proc/self/exe", NULL), arena, &job->program,
                       err) &&
@@ -125,7 +114,7 @@ static bool write_folder(Share *work, Arena *arena, Error *err)
     work->was_there = job_manifest_is_there(job->dir, *arena);
     if (work->was_there ? !check_is_same(job, arena, err) : !check_is_free(job, *arena, err))
         return false;
-    if (!make_folder(job_file(job, JOB_LOGS, arena), err) ||
+    if (!folder_make(job_file(job, JOB_LOGS, arena), err) ||
         !job_scripts_write(job, work->request->threads, *arena, err))
         return false;
     const char *text = job_manifest_text(job, arena);

@@ -15,14 +15,6 @@
 
 /* ---- folders ----------------------------------------------------------------------------- */
 
-bool folder_make(const char *path, Error *err)
-{
-    struct stat there;
-    if (!stat(path, &there) && S_ISDIR(there.st_mode)) return true;
-    return mkdir(path, 0777) == 0 ||
-           error_at(err, ERROR_OUTPUT, path, "", "%s: wanted a folder", strerror(errno));
-}
-
 static const char *const parts[] = {"", "/sweeps", "/frames"};
 
 static bool make_parts(const char *folder, Arena scratch, Error *err)

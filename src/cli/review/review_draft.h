@@ -26,9 +26,6 @@ typedef struct ReviewDraft {
     Journal    *journal;
 } ReviewDraft;
 
-/* Unless it is there. */
-bool folder_make(const char *path, Error *err);
-
 /* Makes the folders that are not there. Whatever was done before goes on. */
 bool review_draft_open(const char *target, Arena *arena, Problems *problems, ReviewDraft *out,
                        Error *err);

@@ -4,6 +4,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/file_write.h"
 #include "base/machine.h"
 #include "base/progress.h"
 #include "cli/options/state_options.h"
