@@ -7,14 +7,15 @@ cd "$(dirname "$0")/.." || exit 1
 sh third_party/install.sh --tests || exit 1
 . tests/steps.sh
 
-run 'headers compile alone' headers sh tests/structure/headers.sh
+start 'headers compile alone' headers sh tests/structure/headers.sh
+start 'no shell, one socket, no mapped file' calls python3 tests/structure/calls.py
 run 'folders include what they may' layers python3 tests/structure/layers.py
 run 'the module is the file' modules python3 tests/structure/modules.py
 run 'sizes and contents of the sources' source python3 tests/structure/source.py
 run 'every source says its licence' spdx python3 tests/structure/spdx.py
 run 'the README names what is there' readme python3 tests/structure/readme.py
 run 'pages and comments point to what is there' pointers python3 tests/structure/pointers.py
-run 'no shell, one socket, no mapped file' calls python3 tests/structure/calls.py
+gather
 run 'a schedule, simulated' schedule python3 tests/slurm/schedule_laws.py
 
 if run_one 'release build, warnings are errors' build-release build release all; then

@@ -28,7 +28,8 @@ from schedule import Job, Nodes, Trouble, simulate  # noqa: E402
 SCENES = os.path.join(ROOT, "scenes")
 SCENE = [os.path.join(SCENES, name) for name in ("car_dashboard.gltf", "noon.gltf")]
 SIZE = (320, 180)
-PROBES = 24  # tasks that do nothing, by which Slurm's own time is measured
+PROBES, PROBES_S = 6, (0, 2, 3.5, 5, 7)  # tasks that wait: when does Slurm begin the next one?
+TICK_S = 1.0  # so it does at whole seconds; of tasks below 3 s at every third
 CORES = os.cpu_count()
 
 # ---- what is assumed of a cluster, and not measured ------------------------------------------
@@ -159,52 +160,44 @@ def wait_until_empty(cluster):
         sys.exit("Slurm's queue does not become empty")
 
 
-def probe(cluster, folder):
-    """Tasks that only say when they began, on one node: (seconds from one to the next,
-    seconds from the last to the job that waits for all)."""
-    stamps = os.path.join(folder, "stamps")
-    if os.path.exists(stamps):
-        os.remove(stamps)
-    words = ("--output=/dev/null", f"--wrap=date +%s.%N >>'{stamps}'")
-    begun = time.time()
-    array = sbatch(cluster, f"--array=0-{PROBES - 1}", *words)
+def probe(cluster, folder, wait_s):
+    """Tasks that say when they begin, and wait, on one node: s from one's begin to the next's,
+    the last of them a job that waits for all."""
+    stamps = os.path.join(folder, f"stamps-{wait_s}")
+    words = ("--output=/dev/null", f"--wrap=date +%s.%N >>'{stamps}'; sleep {wait_s}")
+    array = sbatch(cluster, f"--array=0-{PROBES - 2}", *words)
     sbatch(cluster, f"--dependency=afterany:{array}", *words)
     wait_until_empty(cluster)
     with open(stamps, encoding="ascii") as file:
         times = sorted(map(float, file))
-    return (times[-2] - begun) / PROBES, times[-1] - times[-2]
+    return [b - a for a, b in zip(times, times[1:])]
 
 
 def share(cluster, program, name, parts, samples):
-    """From sbatch to the merged frame, s, and when each part appeared after it."""
+    """From sbatch to the merged frame, s."""
     job = program.plan(name, parts, samples)
     begun = time.time()
     array = sbatch(cluster, os.path.join(job, "array.sbatch"))
     sbatch(cluster, f"--dependency=afterany:{array}", os.path.join(job, "merge.sbatch"))
     wait_until_empty(cluster)
-    files = [os.path.join(job, f"part-{k:04d}.exr") for k in range(parts)]
-    ends = sorted(os.path.getmtime(path) - begun for path in files)
     seconds = os.path.getmtime(job + ".exr") - begun
     shutil.rmtree(job)
-    return seconds, ends
+    return seconds
 
 
 def measure_slurm(program, folder, parts, samples, runs):
-    found = {"makespans": {}, "gaps": []}
+    found = {"makespans": {}}
     cluster = Cluster(folder)
     try:
         if not cluster.wait(cluster.is_idle, 60):
             sys.exit("the nodes do not come up")
         use_nodes(cluster, 1)
-        probes = [probe(cluster, folder) for _ in range(runs)]
-        found["dispatch"], found["merge wait"] = map(statistics.median, zip(*probes))
+        found["launches"] = {wait_s: probe(cluster, folder, wait_s) for wait_s in PROBES_S}
         for count in range(1, len(NODES) + 1):
             use_nodes(cluster, count)
-            shared = [share(cluster, program, f"slurm-{count}-{k}", parts, 4 * parts * samples)
-                      for k in range(runs)]
-            found["makespans"][str(count)] = [seconds for seconds, _ in shared]
-            if count == 1:
-                found["gaps"] = [b - a for _, ends in shared for a, b in zip(ends, ends[1:])]
+            found["makespans"][str(count)] = [
+                share(cluster, program, f"slurm-{count}-{k}", parts, 4 * parts * samples)
+                for k in range(runs)]
     finally:
         cluster.end()
     return found
@@ -237,9 +230,8 @@ class Model:
 
     def measured_job(self, count):
         """The job that Slurm did here, on so many nodes of this machine."""
-        slurm = self.found["slurm"]
         parts = len(self.found["parts"]["merge"]["parts cpu"])
-        job = Job([self.work] * parts, self.start, slurm["dispatch"], 0, slurm["merge wait"],
+        job = Job([self.work] * parts, self.start, TICK_S, 0,
                   self.merge_first + self.merge_s * parts)
         cores = self.cores.get(count, 1.0)
         return job, Nodes(count, cores)
@@ -256,17 +248,15 @@ class Model:
         held = film * parts if split == "samples" else film
         reading = self.read * min(nodes, parts) / FILES_B_S
         writing = held / parts * min(nodes, parts) / FILES_B_S
-        slurm = self.found["slurm"]
         merge = self.merge_first + held * self.merge_byte_s + held / FILES_B_S
-        job = Job([total / parts + writing] * parts, self.start + reading, slurm["dispatch"],
-                  1 / LAUNCHES_S, slurm["merge wait"], merge)
+        job = Job([total / parts + writing] * parts, self.start + reading, TICK_S,
+                  1 / LAUNCHES_S, merge)
         return job, held
 
     def review_job(self, reviews):
         """A review a part: they need nothing of each other."""
         seconds = self.found["review"]["cpu"] / self.node()
-        return Job([seconds] * reviews, self.start, self.found["slurm"]["dispatch"],
-                   1 / LAUNCHES_S)
+        return Job([seconds] * reviews, self.start, TICK_S, 1 / LAUNCHES_S)
 
 
 # ---- tables ---------------------------------------------------------------------------------
@@ -291,8 +281,8 @@ def print_costs(model):
     print(f"processor time: {count} parts {count * parts['part']['cpu']:.1f} s, one run "
           f"{whole:.1f} s; {count} bands of rows differ by "
           f"{model.rows_spread:.0%} (standard deviation)")
-    print(f"Slurm: {slurm['dispatch']:.2f} s a task, {slurm['merge wait']:.2f} s until the "
-          "merge")
+    for wait_s, gaps in slurm["launches"].items():
+        print(f"Slurm, tasks of {wait_s} s: from one to the next {spread(gaps, '{:.2f}')} s")
     for n, cores in model.cores.items():
         print(f"{n} parts at once: the work of {cores:.2f} cores")
 

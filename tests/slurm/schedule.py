@@ -19,9 +19,8 @@ class Job:
     """Seconds, of a node that has its cores for itself."""
     work: list              # of each part, without its start
     start: float = 0        # before a part's first sample; again by a part that goes on
-    dispatch: float = 0     # from a free node and a waiting part to the part's first step
+    tick: float = 0         # the scheduler looks what may begin at whole multiples of it
     launch: float = 0       # least time between two launches: the scheduler's own speed
-    merge_wait: float = 0   # from the last part's end to the merge's first step
     merge: float = 0
 
 
@@ -99,13 +98,17 @@ class Schedule:
             return math.inf
         return self.now + max(0, self.ends[0][0] - self.progress) / self.speed()
 
+    def next_tick(self, time):
+        tick = self.job.tick
+        return math.ceil(time / tick - 1e-9) * tick if tick else time
+
     # ---- what happens -----------------------------------------------------------------------
 
     def hand_out(self):
         while self.waiting and self.idle:
             part, node = heapq.heappop(self.waiting), heapq.heappop(self.idle)
             self.last_launch = max(self.now, self.last_launch + self.job.launch)
-            self.at(self.last_launch + self.job.dispatch, self.begin, part, node)
+            self.at(self.next_tick(self.last_launch), self.begin, part, node)
 
     def begin(self, part, node):
         running = Running(part, self.progress, self.job.start + self.left[part])
@@ -153,7 +156,7 @@ class Schedule:
             else:
                 _, _, act, facts = heapq.heappop(self.events)
                 act(*facts)
-        seconds = self.now + self.job.merge_wait + self.job.merge
+        seconds = self.next_tick(self.now) + self.job.merge
         return Outcome(seconds, self.now, self.core_s, self.lost_s, self.deaths)
 
 

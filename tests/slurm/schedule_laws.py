@@ -19,11 +19,11 @@ def claim_close(report, found, wanted, what):
 
 
 def check_waves(report):
-    """Equal parts run in waves, each with a dispatch and a start of its own."""
+    """Equal parts run in waves, each with a start of its own, which waits for the tick."""
     for parts in (1, 2, 7, 12, 13):
         for count in (1, 2, 3, 12, 40):
-            job = Job([10.0] * parts, start=2, dispatch=0.5, merge_wait=3, merge=4)
-            wanted = math.ceil(parts / count) * 12.5 + 7
+            job = Job([10.0] * parts, start=2, tick=2.5, merge=4)
+            wanted = math.ceil(parts / count) * 12.5 + 4
             claim_close(report, simulate(job, Nodes(count)).seconds, wanted,
                         f"{parts} parts on {count} nodes")
 
@@ -41,6 +41,8 @@ def check_launches(report):
     """A scheduler that starts one part a second keeps the last of 100 nodes waiting for 99."""
     found = simulate(Job([30.0] * 100, launch=1), Nodes(100))
     claim_close(report, found.seconds, 130, "launches in a row, the first after one")
+    found = simulate(Job([30.0] * 100, launch=1, tick=8), Nodes(100))
+    claim_close(report, found.seconds, 136, "the last at the tick after 100: from 104 to 134")
 
 
 def check_bounds(report):
