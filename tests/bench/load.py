@@ -1,12 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
-"""load.py [--keep DIR] [--threads N] [--most TRIANGLES] BENCH_LOAD [TRIANGLES ...] -- how long
-scenes of 0.3, 1 and 10 million triangles (many_parts.py) take to the first pixel, step by step,
-and how much memory: cold (the file is not in the system's cache) and warm (the second start).
+"""load.py [--keep DIR] [--runs N] [--threads N] [--most TRIANGLES] BENCH_LOAD [TRIANGLES ...]
+-- how long scenes of 0.3, 1 and 10 million triangles (many_parts.py) take to the first pixel,
+step by step, and how much memory: cold (the file is not in the system's cache) and warm (the second start).
 --most: of a mesh, so that fewer make more parts. Times are of all processors, in brackets the
-clock's, which means something on a quiet machine only.
+clock's, which means something on a quiet machine only: medians of the runs, and of the clock's
+time to the first pixel the least and the most.
 """
 import argparse
 import os
+import statistics
 import subprocess
 import sys
 import tempfile
@@ -41,13 +43,30 @@ def measure(program, name, threads):
             {last[i]: int(last[i + 1]) for i in range(0, len(last), 2)})
 
 
-def row(name, start, steps, counts):
+def clock(steps):
+    return sum(steps[step][0] for step in STEPS)
+
+
+def measure_all(program, name, threads, start, runs):
+    """measure, medians of the runs, and the clock's seconds of each."""
+    each = []
+    for _ in range(runs):
+        if start == "cold":
+            forget(name)
+        each.append(measure(program, name, threads))
+    steps = {step: [statistics.median(values)
+                    for values in zip(*(run[step] for run, _ in each))] for step in each[0][0]}
+    return steps, each[0][1], [clock(run) for run, _ in each]
+
+
+def row(name, start, steps, counts, clocks):
     cells = [f"{counts['triangles']:,}", f"{counts['parts']:,}",
              f"{os.path.getsize(name) / 1e6:.0f}", start]
     cells += [f"{steps[step][1]:.2f} ({steps[step][0]:.2f})" for step in STEPS]
-    first = [sum(steps[step][k] for step in STEPS) for k in (1, 0)]
     base = steps["start"][3]
-    cells += [f"{first[0]:.2f} ({first[1]:.2f})", f"{steps['read'][1]:.2f}"]
+    cells += [f"{sum(steps[step][1] for step in STEPS):.2f}",
+              f"{statistics.median(clocks):.2f} ({min(clocks):.2f} to {max(clocks):.2f})",
+              f"{steps['read'][1]:.2f}"]
     cells += [f"{(steps[step][k] - base) * 1e6 / counts['triangles']:.0f}"
               for step, k in (("load", 3), ("load", 2), ("tree", 3), ("tree", 2))]
     return "| " + " | ".join(cells) + " |"
@@ -58,20 +77,21 @@ def main():
     parser.add_argument("program")
     parser.add_argument("triangles", nargs="*", type=int)
     parser.add_argument("--keep")
+    parser.add_argument("--runs", type=int, default=1)
     parser.add_argument("--threads", type=int, default=os.cpu_count())
     parser.add_argument("--most", type=int, default=100_000)
     args = parser.parse_args()
-    heads = ["triangles", "parts", "MB", "start", *STEPS, "first pixel", "reading alone",
-             "load: peak B", "kept B", "tree: peak B", "kept B"]
+    heads = ["triangles", "parts", "MB", "start", *STEPS, "all", "first pixel by the clock",
+             "reading alone", "load: peak B", "kept B", "tree: peak B", "kept B"]
     print("| " + " | ".join(heads) + " |\n" + "| --- " * len(heads) + "|")
     with tempfile.TemporaryDirectory() as temporary:
         folder = args.keep or temporary
+        os.makedirs(folder, exist_ok=True)
         for triangles in args.triangles or (300_000, 1_000_000, 10_000_000):
             name = make(folder, triangles, args.most)
             for start in ("cold", "warm"):
-                if start == "cold":
-                    forget(name)
-                print(row(name, start, *measure(args.program, name, args.threads)), flush=True)
+                print(row(name, start, *measure_all(args.program, name, args.threads, start,
+                                                    args.runs)), flush=True)
 
 
 if __name__ == "__main__":
