@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """load.py [--keep DIR] [--runs N] [--threads N] [--most TRIANGLES] BENCH_LOAD [TRIANGLES ...]
 -- how long scenes of 0.3, 1 and 10 million triangles (many_parts.py) take to the first pixel,
-step by step, and how much memory: cold (the file is not in the system's cache) and warm (the second start).
---most: of a mesh, so that fewer make more parts. Times are of all processors, in brackets the
-clock's, which means something on a quiet machine only: medians of the runs, and of the clock's
-time to the first pixel the least and the most.
+step by step, and how much memory: cold (the file is not in the system's cache) and warm (the
+second start). --most: of a mesh, so that fewer make more parts. Times are of all processors, in
+brackets the clock's, which means something on a quiet machine only: medians of the runs, and of
+the clock's time to the first pixel the least and the most.
 """
 import argparse
 import os
