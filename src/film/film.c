@@ -245,20 +245,6 @@ FilmDropped film_dropped(const Film *film)
 
 /* ---- reading ----------------------------------------------------------------------------- */
 
-/* From the samples' spread, as if they were independent: the most it can be. */
-static double sigma_of_spread(const double variance_rgb[3])
-{
-    return 0.2126 * sqrt(variance_rgb[0]) + 0.7152 * sqrt(variance_rgb[1]) +
-           0.0722 * sqrt(variance_rgb[2]);
-}
-
-/* One difference d of two normal means says sigma only in the mean over pixels, where
- * E|d| = sqrt(2 / pi) sigma_d. */
-static double sigma_of_halves(double difference)
-{
-    return 1.2533141373155003 * fabs(difference);
-}
-
 FilmPixel film_pixel(const Film *film, int x, int y)
 {
     const PixelSums *sums = film_sums(film, x, y);
@@ -266,9 +252,7 @@ FilmPixel film_pixel(const Film *film, int x, int y)
     for (int i = 0; i < 3 && sums->samples; i++)
         pixel.mean_xyz[i] = double_from_fixed(sums->xyz[i], FIXED_BITS) / (double)sums->samples;
     pixel_variance(sums, pixel.variance_rgb);
-    double halves[3];
-    pixel.sigma_y = pixel_halves(sums, BLOCK_SAMPLES, halves) ? sigma_of_halves(halves[1])
-                                               : sigma_of_spread(pixel.variance_rgb);
+    pixel.sigma_y = pixel_sigma_y(sums);
     return pixel;
 }
 

@@ -10,44 +10,62 @@
 #include "spectrum/photometry.h"
 
 #define CHANNELS_MAX 64 /* besides those of lights */
-
-/* One pass over the pixels fills the channels of one layer. */
-typedef struct ChannelFill {
-    const Film *film;
-    FrameImage *frame;
-    Arena      *arena;
-} ChannelFill;
-
-/* Channels of one layer: up to three planes of floats. */
-typedef struct LayerPlanes {
-    float *of[3];
-} LayerPlanes;
-
-static LayerPlanes add_planes(const ChannelFill *to, const char *layer, const char *letters)
-{
-    LayerPlanes planes = {{NULL}};
-    for (int i = 0; letters[i] && i < 3; i++) {
-        const char *name = *layer ? arena_format(to->arena, "%s.%c", layer, letters[i])
-                                  : arena_format(to->arena, "%c", letters[i]);
-        planes.of[i] = frame_add_channel(to->frame, name, false, to->arena);
-    }
-    return planes;
-}
+#define FILL_PIXELS 64  /* whose sums stay in a cache while all layers read them */
 
 /* What a pixel shows: three numbers at most. */
 typedef void PixelReader(const Film *film, const PixelSums *sums, float values[3]);
 
-static void fill(const ChannelFill *to, LayerPlanes planes, PixelReader *read)
+/* What else is read: XYZ of one light's group, or the mean of a layer's sums. */
+typedef enum ChannelKind { KIND_READ, KIND_MEAN, KIND_LIGHT } ChannelKind;
+
+/* Where the values of a layer are from. */
+typedef struct ChannelSource {
+    ChannelKind    kind;
+    PixelReader *read;
+    LayerSums    mean;
+    int          group;
+} ChannelSource;
+
+/* Channels of one layer: up to three planes of floats. */
+typedef struct LayerPlanes {
+    float      *of[3];
+    ChannelSource from;
+} LayerPlanes;
+
+typedef struct ChannelFill {
+    const Film  *film;
+    FrameImage  *frame;
+    Arena       *arena;
+    LayerPlanes *layers;
+    int          layer_count;
+} ChannelFill;
+
+static void add_channel(ChannelFill *to, int index, const char *name, bool is_whole)
 {
-    const Film *film = to->film;
-    size_t      index = 0;
-    for (int y = film->crop.y0; y < film->crop.y1; y++)
-        for (int x = film->crop.x0; x < film->crop.x1; x++, index++) {
-            float values[3];
-            read(film, film_sums(film, x, y), values);
-            for (int i = 0; i < 3; i++)
-                if (planes.of[i]) planes.of[i][index] = values[i];
-        }
+    to->layers[to->layer_count - 1].of[index] =
+        frame_add_channel(to->frame, name, is_whole, to->arena);
+}
+
+static void begin_layer(ChannelFill *to, ChannelSource from)
+{
+    to->layers[to->layer_count++] = (LayerPlanes){{NULL}, from};
+}
+
+static void add_layer(ChannelFill *to, const char *layer, const char *letters,
+                      ChannelSource from)
+{
+    begin_layer(to, from);
+    for (int i = 0; letters[i] && i < 3; i++)
+        add_channel(to, i,
+                    *layer ? arena_format(to->arena, "%s.%c", layer, letters[i])
+                           : arena_format(to->arena, "%c", letters[i]),
+                    false);
+}
+
+static void add_number(ChannelFill *to, const char *name, bool is_whole, PixelReader *read)
+{
+    begin_layer(to, (ChannelSource){.kind = KIND_READ, .read = read});
+    add_channel(to, 0, name, is_whole);
 }
 
 /* Mean over `count` samples; NaN over none. */
@@ -64,19 +82,21 @@ static void mean_layer(const Film *film, const PixelSums *sums, LayerSums layer,
 }
 
 /* A layer that is a mean of its sums; of displays the sums are XYZ and the layer RGB. */
-static void fill_mean(const ChannelFill *to, LayerPlanes planes, LayerSums layer)
+static void read_mean(const Film *film, const PixelSums *sums, LayerSums layer, float v[3])
 {
-    const Film *film = to->film;
-    size_t      index = 0;
-    for (int y = film->crop.y0; y < film->crop.y1; y++)
-        for (int x = film->crop.x0; x < film->crop.x1; x++, index++) {
-            float mean[3], rgb[3];
-            mean_layer(film, film_sums(film, x, y), layer, mean);
-            if (layer >= SUMS_FIRST_DISPLAY) rgb_from_xyz(mean, rgb);
-            const float *values = layer >= SUMS_FIRST_DISPLAY ? rgb : mean;
-            for (int i = 0; i < 3; i++)
-                if (planes.of[i]) planes.of[i][index] = values[i];
-        }
+    float mean[3];
+    mean_layer(film, sums, layer, mean);
+    if (layer >= SUMS_FIRST_DISPLAY) rgb_from_xyz(mean, v);
+    else memcpy(v, mean, sizeof mean);
+}
+
+/* Of samples that had none of it too: a mean over all, as the frame's own. */
+static void read_light(const Film *film, const PixelSums *sums, int group, float v[3])
+{
+    float xyz[3];
+    mean_of(sums->layers + film->first_light + 3 * group, 3, sums->samples, xyz);
+    if (!sums->samples) xyz[0] = xyz[1] = xyz[2] = 0;
+    rgb_from_xyz(xyz, v);
 }
 
 /* ---- what is more than a mean ------------------------------------------------------------ */
@@ -201,11 +221,50 @@ static void read_degree(const Film *film, const PixelSums *sums, float v[3])
     v[0] = xyz[1] > 0 ? sqrtf(s[0] * s[0] + s[1] * s[1] + s[2] * s[2]) / xyz[1] : NAN;
 }
 
+static void read_error(const Film *film, const PixelSums *sums, float v[3])
+{
+    (void)film;
+    v[0] = (float)pixel_sigma_y(sums);
+}
+
 static void read_luminance(const Film *film, const PixelSums *sums, float v[3])
 {
     float xyz[3];
     read_xyz(film, sums, xyz);
     v[0] = xyz[1];
+}
+
+/* ---- all layers of a pixel --------------------------------------------------------------- */
+
+static void read_source(const Film *film, const ChannelSource *from, const PixelSums *sums,
+                        float v[3])
+{
+    switch (from->kind) {
+    case KIND_READ: from->read(film, sums, v); break;
+    case KIND_MEAN: read_mean(film, sums, from->mean, v); break;
+    case KIND_LIGHT: read_light(film, sums, from->group, v); break;
+    }
+}
+
+static void fill_layer(const Film *film, const LayerPlanes *layer, size_t first, size_t end)
+{
+    for (size_t index = first; index < end; index++) {
+        float values[3];
+        read_source(film, &layer->from, film_sums_at(film, index), values);
+        for (int i = 0; i < 3; i++)
+            if (layer->of[i]) layer->of[i][index] = values[i];
+    }
+}
+
+/* A pixel with all its layers takes a kilobyte: it comes from memory once, not once a layer. */
+static void fill(const ChannelFill *to)
+{
+    size_t count = frame_pixel_count(to->frame);
+    for (size_t first = 0; first < count; first += FILL_PIXELS) {
+        size_t end = count - first < FILL_PIXELS ? count : first + FILL_PIXELS;
+        for (int i = 0; i < to->layer_count; i++)
+            fill_layer(to->film, &to->layers[i], first, end);
+    }
 }
 
 /* ---- the frame --------------------------------------------------------------------------- */
@@ -235,51 +294,36 @@ static const struct {
     {LAYER_DISPLAY_FINE, "display.fine", "RGB", NULL, SUMS_FINE},
 };
 
-static void add_layers(const ChannelFill *to)
+static void add_layers(ChannelFill *to)
 {
     for (size_t i = 0; i < sizeof layer_channels / sizeof *layer_channels; i++) {
+        PixelReader *read = layer_channels[i].read;
         if (!(to->film->layers & layer_channels[i].layer)) continue;
-        LayerPlanes planes =
-            add_planes(to, layer_channels[i].name, layer_channels[i].letters);
-        if (layer_channels[i].read) fill(to, planes, layer_channels[i].read);
-        else fill_mean(to, planes, layer_channels[i].mean);
+        add_layer(to, layer_channels[i].name, layer_channels[i].letters,
+                  (ChannelSource){.kind = read ? KIND_READ : KIND_MEAN, .read = read,
+                                  .mean = layer_channels[i].mean});
     }
 }
 
-static LayerPlanes add_named(const ChannelFill *to, const char *first, const char *second,
-                             bool is_whole)
+static void add_angles(ChannelFill *to)
 {
-    LayerPlanes planes = {{NULL}};
-    planes.of[0] = frame_add_channel(to->frame, first, is_whole, to->arena);
-    if (second) planes.of[1] = frame_add_channel(to->frame, second, is_whole, to->arena);
-    return planes;
+    add_number(to, "display.theta", false, read_angles);
+    add_channel(to, 1, "display.phi", false);
 }
 
-static void add_stokes(const ChannelFill *to)
+static void add_stokes(ChannelFill *to)
 {
-    fill(to, add_named(to, "stokes.S0", NULL, false), read_luminance);
-    LayerPlanes planes = add_named(to, "stokes.S1", "stokes.S2", false);
-    planes.of[2] = frame_add_channel(to->frame, "stokes.S3", false, to->arena);
-    fill(to, planes, read_stokes);
-    fill(to, add_named(to, "stokes.degree", NULL, false), read_degree);
+    add_number(to, "stokes.S0", false, read_luminance);
+    add_number(to, "stokes.S1", false, read_stokes);
+    add_channel(to, 1, "stokes.S2", false);
+    add_channel(to, 2, "stokes.S3", false);
+    add_number(to, "stokes.degree", false, read_degree);
 }
 
-/* Of samples that had none of it too: a mean over all, as the frame's own. */
-static void add_light(const ChannelFill *to, int group)
+static void add_light(ChannelFill *to, int group)
 {
-    const Film *film = to->film;
-    const char *name = arena_format(to->arena, "light.%s", film->lights.names[group]);
-    LayerPlanes planes = add_planes(to, name, "RGB");
-    size_t      index = 0;
-    for (int y = film->crop.y0; y < film->crop.y1; y++)
-        for (int x = film->crop.x0; x < film->crop.x1; x++, index++) {
-            const PixelSums *sums = film_sums(film, x, y);
-            float            xyz[3], rgb[3];
-            mean_of(sums->layers + film->first_light + 3 * group, 3, sums->samples, xyz);
-            if (!sums->samples) xyz[0] = xyz[1] = xyz[2] = 0;
-            rgb_from_xyz(xyz, rgb);
-            for (int i = 0; i < 3; i++) planes.of[i][index] = rgb[i];
-        }
+    const char *name = arena_format(to->arena, "light.%s", to->film->lights.names[group]);
+    add_layer(to, name, "RGB", (ChannelSource){.kind = KIND_LIGHT, .group = group});
 }
 
 static int channels_most(const Film *film)
@@ -287,29 +331,63 @@ static int channels_most(const Film *film)
     return CHANNELS_MAX + 3 * film->lights.count;
 }
 
+typedef struct FrameWish {
+    ExrWindow data;
+    int       attribute_room;
+    bool      has_layers, has_error;
+} FrameWish;
+
+static void add_wished_layers(ChannelFill *to)
+{
+    const Film *film = to->film;
+    add_layers(to);
+    if (film->layers & LAYER_SAMPLES) add_number(to, "samples.N", true, read_samples);
+    if (film->layers & LAYER_ID) add_number(to, "id.part", true, read_part_id);
+    if (film->layers & (LAYER_ID | LAYER_DISPLAYS))
+        add_number(to, "id.display", true, read_display_id);
+    if (film->layers & LAYER_DISPLAY_ANGLES) add_angles(to);
+    if (film->layers & LAYER_DISPLAY_CONTRAST)
+        add_number(to, "display.contrast", false, read_contrast);
+    if (film->layers & LAYER_DISPLAY_FINE)
+        add_number(to, "display.coverage", false, read_coverage);
+    if (film->layers & LAYER_STOKES) add_stokes(to);
+    for (int i = 0; i < film->lights.count; i++) add_light(to, i);
+}
+
+static FrameImage make_frame(const Film *film, const FrameWish *wish, Arena *arena)
+{
+    int         most = channels_most(film);
+    FrameImage  frame = frame_create(film->width, film->height, wish->data, most,
+                                     wish->attribute_room, arena);
+    ChannelFill to = {film, &frame, arena, ARENA_NEW(arena, LayerPlanes, most), 0};
+    add_layer(&to, "", "RGB", (ChannelSource){.kind = KIND_READ, .read = read_rgb});
+    if (wish->has_layers) add_wished_layers(&to);
+    if (wish->has_error) add_number(&to, "error.Y", false, read_error);
+    fill(&to);
+    return frame;
+}
+
+static ExrWindow window_of(const Film *film)
+{
+    return (ExrWindow){film->crop.x0, film->crop.y0, film->crop.x1, film->crop.y1};
+}
+
 FrameImage film_to_frame(const Film *film, int attribute_room, Arena *arena)
 {
-    ExrWindow  data = {film->crop.x0, film->crop.y0, film->crop.x1, film->crop.y1};
-    FrameImage frame = frame_create(film->width, film->height, data, channels_most(film),
-                                    attribute_room, arena);
-    ChannelFill    to = {film, &frame, arena};
-    fill(&to, add_planes(&to, "", "RGB"), read_rgb);
-    add_layers(&to);
-    if (film->layers & LAYER_SAMPLES)
-        fill(&to, add_named(&to, "samples.N", NULL, true), read_samples);
-    if (film->layers & LAYER_ID)
-        fill(&to, add_named(&to, "id.part", NULL, true), read_part_id);
-    if (film->layers & (LAYER_ID | LAYER_DISPLAYS))
-        fill(&to, add_named(&to, "id.display", NULL, true), read_display_id);
-    if (film->layers & LAYER_DISPLAY_ANGLES)
-        fill(&to, add_named(&to, "display.theta", "display.phi", false), read_angles);
-    if (film->layers & LAYER_DISPLAY_CONTRAST)
-        fill(&to, add_named(&to, "display.contrast", NULL, false), read_contrast);
-    if (film->layers & LAYER_DISPLAY_FINE)
-        fill(&to, add_named(&to, "display.coverage", NULL, false), read_coverage);
-    if (film->layers & LAYER_STOKES) add_stokes(&to);
-    for (int i = 0; i < film->lights.count; i++) add_light(&to, i);
-    return frame;
+    const FrameWish wish = {window_of(film), attribute_room, true, false};
+    return make_frame(film, &wish, arena);
+}
+
+FrameImage film_to_view(const Film *film, bool has_layers, Arena *arena)
+{
+    const FrameWish wish = {window_of(film), 0, has_layers, true};
+    return make_frame(film, &wish, arena);
+}
+
+FrameImage film_view_outline(const Film *film, Arena *arena)
+{
+    const FrameWish wish = {{0, 0, 0, 0}, 0, true, true};
+    return make_frame(film, &wish, arena);
 }
 
 size_t film_frame_bytes_most(const Film *film)
@@ -317,12 +395,4 @@ size_t film_frame_bytes_most(const Film *film)
     FilmRect crop = film->crop;
     size_t   pixels = (size_t)(crop.x1 - crop.x0) * (size_t)(crop.y1 - crop.y0);
     return pixels * (size_t)channels_most(film) * sizeof(float) + ((size_t)1 << 20);
-}
-
-void film_add_error(const Film *film, FrameImage *frame, Arena *arena)
-{
-    float *error = frame_add_channel(frame, "error.Y", false, arena);
-    for (int y = film->crop.y0; y < film->crop.y1; y++)
-        for (int x = film->crop.x0; x < film->crop.x1; x++)
-            *error++ = (float)film_pixel(film, x, y).sigma_y;
 }

@@ -36,6 +36,9 @@ FrameImage film_to_frame(const Film *film, int attribute_room, Arena *arena);
 /* Bytes that the frame of a film takes at most, whatever its layers. */
 size_t film_frame_bytes_most(const Film *film);
 
-/* Adds the channel error.Y to a film's frame: the standard error of each pixel's luminance, as
- * film_pixel has it (sigma_y), cd m^-2; NaN below two samples. */
-void film_add_error(const Film *film, FrameImage *frame, Arena *arena);
+/* What a viewer is shown: R, G, B, the layers if it has them, and error.Y: the standard error
+ * of each pixel's luminance, as film_pixel has it (sigma_y), cd m^-2; NaN below two samples. */
+FrameImage film_to_view(const Film *film, bool has_layers, Arena *arena);
+
+/* Its channels with layers, in their order, and not one pixel. */
+FrameImage film_view_outline(const Film *film, Arena *arena);

@@ -63,3 +63,25 @@ bool pixel_halves(const PixelSums *sums, int least, double xyz[3])
     }
     return true;
 }
+
+/* From the samples' spread, as if they were independent: the most it can be. */
+static double sigma_of_spread(const double variance_rgb[3])
+{
+    return 0.2126 * sqrt(variance_rgb[0]) + 0.7152 * sqrt(variance_rgb[1]) +
+           0.0722 * sqrt(variance_rgb[2]);
+}
+
+/* One difference d of two normal means says sigma only in the mean over pixels, where
+ * E|d| = sqrt(2 / pi) sigma_d. */
+static double sigma_of_halves(double difference)
+{
+    return 1.2533141373155003 * fabs(difference);
+}
+
+double pixel_sigma_y(const PixelSums *sums)
+{
+    double variance_rgb[3], halves[3];
+    if (pixel_halves(sums, BLOCK_SAMPLES, halves)) return sigma_of_halves(halves[1]);
+    pixel_variance(sums, variance_rgb);
+    return sigma_of_spread(variance_rgb);
+}

@@ -73,11 +73,20 @@ bool pixel_halves(const PixelSums *sums, int least, double xyz[3]);
 /* Unbiased variance of the mean of linear Rec.709 R, G, B, (cd m^-2)^2; NaN below 2 samples. */
 void pixel_variance(const PixelSums *sums, double variance[3]);
 
+/* FilmPixel.sigma_y. */
+double pixel_sigma_y(const PixelSums *sums);
+
+/* index: row by row of the crop. */
+static inline PixelSums *film_sums_at(const Film *film, size_t index)
+{
+    return (PixelSums *)(void *)(film->pixels + index * film->stride);
+}
+
 static inline PixelSums *film_sums(const Film *film, int x, int y)
 {
     size_t index = (size_t)(y - film->crop.y0) * (size_t)(film->crop.x1 - film->crop.x0) +
                    (size_t)(x - film->crop.x0);
-    return (PixelSums *)(void *)(film->pixels + index * film->stride);
+    return film_sums_at(film, index);
 }
 
 /* bits: a step is 2^-bits, of the size of a double's exponent. */

@@ -92,14 +92,19 @@ static void add_rows(TevBytes *out, const char *image, const FrameImage *frame, 
     end_packet(out, begin);
 }
 
-void tev_add_update(TevBytes *out, const char *image, const FrameImage *frame)
+int tev_rows(const FrameImage *frame)
 {
-    int    rows = frame->data.y1 - frame->data.y0;
-    size_t row_bytes = frame_pixel_count(frame) / (size_t)rows *
+    size_t row_bytes = (size_t)(frame->data.x1 - frame->data.x0) *
                        (size_t)frame->channel_count * sizeof(float);
-    int    band = row_bytes < PACKET_MOST ? (int)(PACKET_MOST / row_bytes) : 1;
-    for (int row = 0; row < rows; row += band)
-        add_rows(out, image, frame, row, rows - row < band ? rows - row : band);
+    return row_bytes < PACKET_MOST ? (int)(PACKET_MOST / row_bytes) : 1;
+}
+
+void tev_add_update(TevBytes *out, const char *image, const FrameImage *frame, int first,
+                    int end)
+{
+    int most = tev_rows(frame);
+    for (int row = first; row < end; row += most)
+        add_rows(out, image, frame, row, end - row < most ? end - row : most);
 }
 
 void tev_add_boxes(TevBytes *out, const char *image, const TevBox *boxes, int count)

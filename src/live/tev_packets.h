@@ -32,9 +32,13 @@ typedef struct TevBox {
  */
 void tev_add_create(TevBytes *out, const char *image, const FrameImage *frame);
 
-/* The frame's data window, in as many updates of whole rows as keep each below 1 MiB, where a
- * row is; each channel is a plane. */
-void tev_add_update(TevBytes *out, const char *image, const FrameImage *frame);
+/* Rows [first, end) of the frame's data window, in updates of tev_rows whole rows at most; each
+ * channel is a plane. */
+void tev_add_update(TevBytes *out, const char *image, const FrameImage *frame, int first,
+                    int end);
+
+/* How many rows have less than 1 MiB of pixels; 1 where one row has more. */
+int tev_rows(const FrameImage *frame);
 
 /* Rectangles over the image, instead of those before. */
 void tev_add_boxes(TevBytes *out, const char *image, const TevBox *boxes, int count);

@@ -24,7 +24,7 @@ void viewer_close(Viewer *viewer)
     viewer->handle = -1;
     free(viewer->queue);
     viewer->queue = NULL;
-    viewer->size = viewer->sent = 0;
+    viewer->room = viewer->size = viewer->sent = 0;
 }
 
 void viewer_lose(Viewer *viewer)
@@ -48,31 +48,71 @@ bool viewer_is_ready(const Viewer *viewer)
     return viewer->handle >= 0 && viewer->sent == viewer->size;
 }
 
-static size_t encode(const Viewer *viewer, const FrameImage *frame, const TevBox *boxes,
-                     int box_count, char *data)
+/* Room for so many bytes in a queue from which all is taken. */
+static bool make_room(Viewer *viewer, size_t size)
+{
+    if (size <= viewer->room) return true;
+    free(viewer->queue);
+    viewer->queue = malloc(size);
+    viewer->room = viewer->queue ? size : 0;
+    if (viewer->queue) return true;
+    error_set(&viewer->loss, ERROR_MEMORY, "there are no %zu MB of memory for its frames",
+              size >> 20);
+    viewer_lose(viewer);
+    return false;
+}
+
+static void begin_sending(Viewer *viewer, size_t size)
+{
+    viewer->size = size;
+    viewer->sent = 0;
+    viewer->moved_s = monotonic_seconds();
+}
+
+static size_t encode_image(const Viewer *viewer, const FrameImage *outline,
+                           const TevBox *boxes, int box_count, char *data)
 {
     TevBytes bytes = {data, 0};
-    if (!viewer->queue) tev_add_create(&bytes, viewer->image, frame);
-    tev_add_update(&bytes, viewer->image, frame);
-    if (!viewer->queue && box_count) tev_add_boxes(&bytes, viewer->image, boxes, box_count);
+    tev_add_create(&bytes, viewer->image, outline);
+    if (box_count) tev_add_boxes(&bytes, viewer->image, boxes, box_count);
     return bytes.size;
 }
 
-/* The first frame's packets are the most. */
-void viewer_offer(Viewer *viewer, const FrameImage *frame, const TevBox *boxes, int box_count)
+void viewer_make_image(Viewer *viewer, const FrameImage *outline, const TevBox *boxes,
+                       int box_count)
 {
-    size_t size = encode(viewer, frame, boxes, box_count, NULL);
-    char  *queue = viewer->queue ? viewer->queue : malloc(size);
-    if (!queue) {
-        error_set(&viewer->loss, ERROR_MEMORY, "there are no %zu MB of memory for its frames",
-                  size >> 20);
-        viewer_lose(viewer);
-        return;
+    if (!make_room(viewer, encode_image(viewer, outline, boxes, box_count, NULL))) return;
+    begin_sending(viewer, encode_image(viewer, outline, boxes, box_count, viewer->queue));
+    viewer->has_image = true;
+}
+
+static size_t encode_rows(const Viewer *viewer, const FrameImage *frame, int first, int end,
+                          char *data)
+{
+    TevBytes bytes = {data, 0};
+    tev_add_update(&bytes, viewer->image, frame, first, end);
+    return bytes.size;
+}
+
+static void offer_rows(Viewer *viewer, const FrameImage *frame, int first, int end)
+{
+    if (!make_room(viewer, encode_rows(viewer, frame, first, end, NULL))) return;
+    begin_sending(viewer, encode_rows(viewer, frame, first, end, viewer->queue));
+}
+
+void viewer_offer(Viewer *viewer, const FrameImage *frame)
+{
+    offer_rows(viewer, frame, 0, frame->data.y1 - frame->data.y0);
+}
+
+/* Packet by packet: a queue of the whole frame would be memory to fill and to empty. */
+void viewer_send(Viewer *viewer, const FrameImage *frame)
+{
+    int rows = frame->data.y1 - frame->data.y0, most = tev_rows(frame);
+    for (int row = 0; row < rows && viewer->handle >= 0; row += most) {
+        offer_rows(viewer, frame, row, rows - row < most ? rows : row + most);
+        viewer_finish(viewer);
     }
-    viewer->size = encode(viewer, frame, boxes, box_count, queue);
-    viewer->queue = queue;
-    viewer->sent = 0;
-    viewer->moved_s = monotonic_seconds();
 }
 
 static bool has_waiting(const Viewer *viewer)

@@ -5,8 +5,8 @@
  * while it waits no newer frame is offered. Waiting happens when it is opened and at the end
  * alone, VIEWER_PATIENCE_S together; one that takes nothing for that long meanwhile is lost.
  *
- * Memory   what waits to be taken is on the heap, as much as one frame has; viewer_close
- *          releases it.
+ * Memory   what waits to be taken is on the heap, as much as the largest frame that was
+ *          offered; viewer_close releases it.
  * Threads  one at a time.
  * Fails    once: viewer_check tells why the viewer is lost, and everything is idle from then.
  */
@@ -21,9 +21,11 @@ typedef struct Viewer {
     int         handle;     /* -1: closed */
     double      patience_s; /* that is left for waiting */
     double      moved_s;    /* when it last took bytes, monotonic */
-    char       *queue;      /* NULL before the first frame */
-    size_t      size;       /* of the queue */
-    size_t      sent;       /* of its size */
+    bool        has_image;  /* it was made there */
+    char       *queue;
+    size_t      room;       /* of the queue */
+    size_t      size;       /* that is in it */
+    size_t      sent;       /* of that */
     Error       loss;       /* why it is lost, until that is told */
     bool        is_lost;
 } Viewer;
@@ -34,9 +36,16 @@ bool viewer_open(const ViewerAddress *address, const char *image, Viewer *out, E
 /* Whether all that it was offered is taken, so that it may be offered more. */
 bool viewer_is_ready(const Viewer *viewer);
 
-/* To a viewer that is ready. All frames have the same windows and channels. The first one makes
- * the image, with its boxes. */
-void viewer_offer(Viewer *viewer, const FrameImage *frame, const TevBox *boxes, int box_count);
+/* The image itself, with the channels of all frames to come, and boxes over it; to a viewer
+ * that has none yet. */
+void viewer_make_image(Viewer *viewer, const FrameImage *outline, const TevBox *boxes,
+                       int box_count);
+
+/* To one that has an image and is ready: all or some of its channels. */
+void viewer_offer(Viewer *viewer, const FrameImage *frame);
+
+/* The same, and waits until it is taken, with the patience that is left. */
+void viewer_send(Viewer *viewer, const FrameImage *frame);
 
 /* Sends as much as is taken at once: milliseconds at most. */
 void viewer_push(Viewer *viewer);

@@ -13,6 +13,7 @@ import subprocess
 import sys
 import tempfile
 import threading
+import time
 
 ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
 sys.path.insert(0, os.path.join(ROOT, "tests", "structure"))
@@ -26,6 +27,7 @@ PANEL = os.path.join(ROOT, "assets", "panels", "ips_cluster.panel")
 DEFAULT_PORT = 14158
 CREATE, UPDATE, DRAW = 4, 6, 8
 STROKE_COLOR, STROKE, BEGIN, RECTANGLE = 4, 5, 6, 18
+PICTURE = ["R", "G", "B", "error.Y"]  # what is shown more often than all layers
 LUMINANCE = {"R": 0.2126, "G": 0.7152, "B": 0.0722}
 SCREENS = ((-1.0, -0.1), (0.0, 0.9))  # from where to where, m
 EYE, HALF_HEIGHT = [0.3, 1.0, 1.5], 0.577350269  # the tangent of 30 degrees
@@ -89,6 +91,11 @@ def draw(image, color, boxes):
                   struct.pack("<Bi", 0, len(commands)) + b"".join(commands))
 
 
+def channel_count(one):
+    """Of an update."""
+    return struct.unpack_from("<i", one, one.index(b"\0", 6) + 1)[0]
+
+
 def packets_of(data):
     """By their lengths; what is cut off at the end comes as it is."""
     position = 0
@@ -105,7 +112,7 @@ class Canvas:
         self.report, self.image, self.size, self.channels = report, image, size, channels
         self.values = [bytearray(4 * size[0] * size[1]) for _ in channels]
         self.counts = [0] * (size[0] * size[1])
-        self.boxes, self.kinds = None, []
+        self.boxes, self.kinds, self.shown = None, [], []
 
     def take(self, data):
         for one in packets_of(data):
@@ -120,27 +127,33 @@ class Canvas:
                 self.report.claim(one == wanted, f"create: {one[:200]}, wanted {wanted[:200]}")
 
     def take_update(self, one):
-        place = 6 + len(text(self.image)) + len(names(self.channels))
-        if len(one) < place + 16:
+        """Of all channels, or of the picture's."""
+        begin = 6 + len(text(self.image))
+        channels = next((some for some in (self.channels, PICTURE)
+                         if one[begin:].startswith(names(some))), [])
+        place = begin + len(names(channels))
+        if not channels or len(one) < place + 16:
             self.report.claim(False, f"an update of {len(one)} bytes: {one[:200]}")
             return
         box = struct.unpack_from("<4i", one, place)
-        planes = one[place + 16 + 16 * len(self.channels):]
-        same = one == update(self.image, self.channels, box, planes)
-        whole = len(planes) == 4 * len(self.channels) * box[2] * box[3]
+        planes = one[place + 16 + 16 * len(channels):]
+        same = one == update(self.image, channels, box, planes)
+        whole = len(planes) == 4 * len(channels) * box[2] * box[3]
         inside = box[0] >= 0 and box[1] >= 0 and box[0] + box[2] <= self.size[0] and \
             box[1] + box[3] <= self.size[1]
+        self.shown.append(len(channels))
         if self.report.claim(same and whole and inside, f"update of {box}: {one[:place + 40]}"):
-            self.store(box, planes)
+            self.store(channels, box, planes)
 
-    def store(self, box, planes):
+    def store(self, channels, box, planes):
         x, y, width, height = box
         for row in range(height):
             begin = (y + row) * self.size[0] + x
             for i in range(begin, begin + width):
                 self.counts[i] += 1
-            for c, plane in enumerate(self.values):
+            for c, channel in enumerate(channels):
                 at = 4 * ((c * height + row) * width)
+                plane = self.values[self.channels.index(channel)]
                 plane[4 * begin:4 * (begin + width)] = planes[at:at + 4 * width]
 
     def take_boxes(self, one):
@@ -274,6 +287,8 @@ def check_packets(work, frame, size, *options, of_halves=False, host="127.0.0.1"
     claim_picture(work.report, canvas, picture, what)
     work.report.claim(canvas.kinds[0] == CREATE and canvas.kinds.count(CREATE) == 1 and
                       canvas.kinds.count(DRAW) == 1, f"{what}: packets {canvas.kinds}")
+    work.report.claim(canvas.shown[0] == len(PICTURE) and canvas.shown[-1] == len(channels),
+                      f"{what}: channels shown {canvas.shown}")
     wanted = list(screen_boxes(*size))
     work.report.claim(len(canvas.boxes) == len(wanted) and
                       max(abs(a - b) for shown, box in zip(canvas.boxes, wanted)
@@ -283,6 +298,24 @@ def check_packets(work, frame, size, *options, of_halves=False, host="127.0.0.1"
         claim_error(work.report, canvas, picture, of_halves, what)
     work.report.claim("--tev" not in done.stderr, f"{what}: says {done.stderr[-300:]}")
     work.claim_finished(done, frame, f"watched, {what}")
+
+
+def check_layers_meanwhile(work, *options):
+    """Every layer is shown before the end too, once there was time for it."""
+    viewer = Viewer()
+    running = work.start(*options, "--tev", f"127.0.0.1:{viewer.port}")
+    end_s, shown = time.monotonic() + PATIENCE_S, set()
+    while time.monotonic() < end_s and len(shown) < 2:
+        time.sleep(0.05)
+        shown = {channel_count(one) for one in packets_of(bytes(viewer.data))
+                 if one[4:5] == bytes([UPDATE]) and len(one) > 100}
+    is_running = running.poll() is None
+    running.send_signal(signal.SIGTERM)
+    running.communicate(timeout=PATIENCE_S)
+    viewer.end()
+    work.report.claim(is_running and shown == {len(PICTURE), len(PICTURE) + 1},
+                      f"shown before the end: updates of {shown} channels")
+    work.clear()
 
 
 def check_hosts(work, frame, size, *options):
@@ -471,6 +504,7 @@ def main():
         check_packets(work, work.reference(*halves)[0], size, *halves, of_halves=True)
         part = (*plain[:3], "--samples", "3:9", "--crop", "5,4,41,30")
         check_packets(work, work.reference(*part)[0], size, *part)
+        check_layers_meanwhile(work, *plain[:3], "--layers", "depth", "--spp", "1000000")
         check_resumed(work, work.reference(*halves, "--noise", "1e-9")[0], size, *halves)
         check_absent(work, frame, *small)
         check_killed(work, work.reference(*halves, "--spp", "200")[0], *halves, "--spp", "200")

@@ -4,7 +4,9 @@
 #include "camera/film_box.h"
 #include "film/film_frame.h"
 
-#define VIEWER_SHARE 0.005 /* without the first and the last frame */
+#define PICTURE_SHARE 0.004
+#define LAYERS_SHARE 0.002 /* without the last frame */
+#define PICTURE_CHANNELS 4 /* R, G, B, error.Y */
 #define FILE_SHARE 0.05
 #define FILE_INTERVAL_S 10
 
@@ -13,7 +15,8 @@ bool render_live_open(RenderLive *live, const RenderRequest *request, Error *err
     double now_s = monotonic_seconds();
     *live = (RenderLive){.request = request,
                          .has_file = request->live && !request->replays,
-                         .viewer_time = {.share = VIEWER_SHARE, .begun_s = now_s},
+                         .picture_time = {.share = PICTURE_SHARE, .begun_s = now_s},
+                         .layers_time = {.share = LAYERS_SHARE, .begun_s = now_s},
                          .file_time = {.share = FILE_SHARE, .begun_s = now_s}};
     if (!request->tev || request->replays) return true;
     live->has_viewer = viewer_open(&request->viewer, request->output, &live->viewer, err);
@@ -29,7 +32,7 @@ void render_live_close(RenderLive *live)
 
 double render_live_seconds(const RenderLive *live)
 {
-    return live->viewer_time.spent_s + live->file_time.spent_s;
+    return live->picture_time.spent_s + live->layers_time.spent_s + live->file_time.spent_s;
 }
 
 /* ---- the viewer -------------------------------------------------------------------------- */
@@ -60,25 +63,45 @@ static bool check_viewer(RenderLive *live, Error *err)
 }
 
 /* A film that leaves no room for its frame is not worth the render. */
-static bool check_memory(const Film *film, const Arena *scratch, Error *err)
+static bool has_room(Viewer *viewer, const Film *film, const Arena *scratch)
 {
     size_t wanted = film_frame_bytes_most(film), left = (size_t)(scratch->end - scratch->next);
-    return wanted <= left ||
-           error_set(err, ERROR_MEMORY, "a frame beside the film needs up to %zu MB, %zu MB "
-                                        "are left", wanted >> 20, left >> 20);
+    if (wanted <= left) return true;
+    error_set(&viewer->loss, ERROR_MEMORY,
+              "a frame beside the film needs up to %zu MB, %zu MB are left", wanted >> 20,
+              left >> 20);
+    viewer_lose(viewer);
+    return false;
 }
 
-static void offer(RenderLive *live, const Film *film, Arena scratch)
+/* False: it is not taken yet, or the viewer is lost. */
+static bool make_image(RenderLive *live, const Film *film, Arena scratch)
 {
     Viewer *viewer = &live->viewer;
-    if (!viewer_is_ready(viewer)) return;
-    if (!check_memory(film, &scratch, &viewer->loss)) {
-        viewer_lose(viewer);
-        return;
-    }
-    FrameImage frame = film_to_frame(film, 0, &scratch);
-    film_add_error(film, &frame, &scratch);
-    viewer_offer(viewer, &frame, live->boxes, live->box_count);
+    if (viewer->has_image) return viewer_is_ready(viewer);
+    FrameImage outline = film_view_outline(film, &scratch);
+    live->channel_count = outline.channel_count;
+    viewer_make_image(viewer, &outline, live->boxes, live->box_count);
+    viewer_push(viewer);
+    return viewer_is_ready(viewer);
+}
+
+static void offer(RenderLive *live, const Film *film, bool has_layers, Arena scratch)
+{
+    Viewer *viewer = &live->viewer;
+    if (!has_room(viewer, film, &scratch) || !make_image(live, film, scratch)) return;
+    FrameImage frame = film_to_view(film, has_layers, &scratch);
+    viewer_offer(viewer, &frame);
+}
+
+static void send_last(RenderLive *live, const Film *film, Arena scratch)
+{
+    Viewer *viewer = &live->viewer;
+    viewer_finish(viewer);
+    if (viewer->handle < 0 || !has_room(viewer, film, &scratch)) return;
+    if (!make_image(live, film, scratch)) viewer_finish(viewer);
+    FrameImage frame = film_to_view(film, true, &scratch);
+    viewer_send(viewer, &frame);
 }
 
 static void spend(TimeShare *time, double begun_s)
@@ -86,14 +109,28 @@ static void spend(TimeShare *time, double begun_s)
     time_share_spend(time, monotonic_seconds() - begun_s);
 }
 
+/* What there is time for; NULL: nothing. The picture comes first: what it took says what all
+ * layers will. */
+static TimeShare *affordable(RenderLive *live, double now_s)
+{
+    TimeShare *picture = &live->picture_time, *layers = &live->layers_time;
+    if (layers->spent_s <= 0)
+        layers->dearest_s = picture->dearest_s * live->channel_count / PICTURE_CHANNELS;
+    bool has_layers = live->channel_count > PICTURE_CHANNELS;
+    if (has_layers && picture->spent_s > 0 && time_share_allows(layers, now_s)) return layers;
+    return time_share_allows(picture, now_s) ? picture : NULL;
+}
+
 bool render_live_show(RenderLive *live, const Film *film, Arena scratch, Error *err)
 {
     double begun_s = monotonic_seconds();
     if (!live->has_viewer) return true;
-    if (viewer_is_ready(&live->viewer) && time_share_allows(&live->viewer_time, begun_s)) {
-        time_share_begin(&live->viewer_time);
-        offer(live, film, scratch);
-        spend(&live->viewer_time, begun_s);
+    TimeShare *time = viewer_is_ready(&live->viewer) ? affordable(live, begun_s) : NULL;
+    if (time) {
+        live->shown_time = time;
+        time_share_begin(time);
+        offer(live, film, time == &live->layers_time, scratch);
+        spend(time, begun_s);
     }
     return check_viewer(live, err);
 }
@@ -103,17 +140,15 @@ void render_live_push(RenderLive *live)
     if (!live->has_viewer || viewer_is_ready(&live->viewer)) return;
     double begun_s = monotonic_seconds();
     viewer_push(&live->viewer);
-    spend(&live->viewer_time, begun_s);
+    spend(live->shown_time, begun_s);
 }
 
 bool render_live_finish(RenderLive *live, const Film *film, Arena scratch, Error *err)
 {
     double begun_s = monotonic_seconds();
     if (!live->has_viewer) return true;
-    viewer_finish(&live->viewer);
-    offer(live, film, scratch);
-    viewer_finish(&live->viewer);
-    spend(&live->viewer_time, begun_s);
+    send_last(live, film, scratch);
+    spend(&live->layers_time, begun_s);
     return check_viewer(live, err);
 }
 

@@ -2,11 +2,11 @@
 /* render_live.h -- how a render is watched: --tev shows the frame so far to a viewer, --live
  * keeps it in a file. Neither changes the frame, and a render never ends because of them.
  *
- * Time     between passes and tiles; how often, follows from what it took so far: a viewer gets
- *          half a hundredth of the time besides the first and the last frame, which cannot be
- *          put off: of renders of minutes they take as much again, of those of seconds with
- *          many layers three hundredths. The file is written at most every ten seconds and
- *          gets a twentieth.
+ * Time     between passes and tiles; how often, follows from what it took so far. A viewer
+ *          gets R, G, B and error.Y first and for 4 thousandths of the time, and every layer
+ *          for 2, as soon as these are enough; besides them the last frame, which has all and
+ *          cannot be put off. The file is written at most every ten seconds and gets a
+ *          twentieth.
  *          viewer.h says how long a viewer may hold up the ends of a render.
  * Memory   scratch; and the viewer's queue until render_live_close.
  * Threads  the one that called render_prepared.
@@ -26,7 +26,9 @@ typedef struct RenderLive {
     Viewer    viewer;
     TevBox   *boxes;          /* of the displays in view */
     int       box_count;
-    TimeShare viewer_time, file_time;
+    int       channel_count;  /* of the viewer's image; 0: not known yet */
+    TimeShare picture_time, layers_time, file_time;
+    TimeShare *shown_time;    /* of what the viewer is being sent */
     double    file_written_s; /* when the file was last written; 0: never */
 } RenderLive;
 
@@ -37,7 +39,7 @@ bool render_live_open(RenderLive *live, const RenderRequest *request, Error *err
 void render_live_find_displays(RenderLive *live, const Scene *scene, const Camera *camera,
                                Arena *arena);
 
-/* After a pass: the viewer is shown the film if it has taken the one before. */
+/* After a pass: the viewer is shown the film if it has taken what it was shown before. */
 bool render_live_show(RenderLive *live, const Film *film, Arena scratch, Error *err);
 
 /* Between tiles: sends on. */
