@@ -22,7 +22,7 @@ run_mutations()
 {
     PARHELION_MUTATIONS=100000
     export PARHELION_MUTATIONS
-    run_units '100,000 broken panels' panels-long .build/asan --timeout 3600 -R '^panel_files$'
+    run_units '100,000 broken panels' panels-long .build/asan --timeout 10800 -R '^panel_files$'
     unset PARHELION_MUTATIONS
 }
 
@@ -39,7 +39,7 @@ run_one 'release build' build-release build release all || finish
 run_beams
 if run_one 'build with address sanitizer' build-asan build asan all; then
     export UBSAN_OPTIONS=print_stacktrace=1
-    run_units 'unit tests, address sanitizer' unit-asan .build/asan --timeout 3600
+    run_units 'unit tests, address sanitizer' unit-asan .build/asan --timeout 10800
     # The panels keep one processor busy for half an hour: the rest has the other.
     start 'thousands of broken models' hostile-long \
         python3 tests/hostile/run.py --all .build/asan/parhelion

@@ -417,9 +417,10 @@ def check_signal(report, program, number, status):
     out = program.file(f"signal{status}.exr")
     running = subprocess.Popen(
         [program.path, "render", program.file("scene.gltf"), "-o", out, "--size", "200x150",
-         "--spp", "100000"], stderr=subprocess.PIPE, stdout=subprocess.PIPE,
+         "--spp", "100000", "--progress", "json"], stderr=subprocess.PIPE,
+        stdout=subprocess.PIPE,
         preexec_fn=lambda: signal.signal(number, signal.SIG_DFL))  # nohup's children ignore HUP
-    time.sleep(4)  # before its first pass the program simply ends
+    running.stderr.readline()  # before its first pass the program simply ends
     running.send_signal(number)
     try:
         err = running.communicate(timeout=60)[1].decode()

@@ -15,7 +15,6 @@ import subprocess
 import sys
 import tempfile
 import threading
-import time
 
 from bits import digest, write_scene
 from exr import Frame
@@ -239,15 +238,13 @@ def check_damage(report, program):
 
 def check_stopped(report, program):
     """A part that was interrupted is named, unless others have what it lacks."""
-    for delay in (0.5, 2, 5):
-        work = subprocess.Popen(
-            [program.path, "render", *program.scene, "-o", "stopped.exr", *program.options,
-             "--layers", "all", "--samples", "0:1000000", "--quiet"], cwd=program.folder,
-            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        time.sleep(delay)
-        work.send_signal(signal.SIGTERM)  # not INT: a shell's background jobs ignore it
-        if work.wait(timeout=120) == 143:
-            break
+    work = subprocess.Popen(
+        [program.path, "render", *program.scene, "-o", "stopped.exr", *program.options,
+         "--layers", "all", "--samples", "0:1000000", "--progress", "json"],
+        cwd=program.folder, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+    work.stderr.readline()  # the first passes are done: before them it would simply end
+    work.send_signal(signal.SIGTERM)  # not INT: a shell's background jobs ignore it
+    work.communicate(timeout=120)
     if report.claim(work.returncode == 143, f"interrupted: status {work.returncode}"):
         claim_refused(report, program, ["stopped.exr"],
                       "stopped.exr: incomplete: it was stopped after samples 0:",
