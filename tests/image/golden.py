@@ -8,7 +8,7 @@ both frames and a report in DIR (default: .build/golden) that shows where.
 
 After a change that is meant to alter pictures, look at the reports, then renew with
     python3 tests/image/golden.py --renew .build/release/parhelion
-and say in the commit what moved and why. Renew all of them: a scene's change that one frame just
+and say in the commit what moved and why. Renew all of them: a scene's change that a frame just
 let pass has used up the room that the noise of another machine's bits needs.
 """
 import argparse
