@@ -182,6 +182,23 @@ static bool read_part(Film *to, FilmPart *part, Arena scratch, Error *err)
     return ok;
 }
 
+/* One by one: the bytes between members are nobody's. */
+static void assert_same_parts(const FilmPart *a, const FilmPart *b)
+{
+    assert_int_equal(a->width, b->width);
+    assert_int_equal(a->height, b->height);
+    assert_memory_equal(&a->crop, &b->crop, sizeof a->crop);
+    assert_int_equal(a->layers, b->layers);
+    assert_int_equal(a->first_sample, b->first_sample);
+    assert_int_equal(a->end_sample, b->end_sample);
+    assert_int_equal(a->asked_end, b->asked_end);
+    assert_true(a->dropped.count == b->dropped.count);
+    assert_int_equal(a->dropped.kept, b->dropped.kept);
+    assert_memory_equal(a->dropped.first, b->dropped.first, sizeof a->dropped.first);
+    assert_true(a->paths == b->paths && a->camera_rays == b->camera_rays);
+    assert_true(a->bounce_rays == b->bounce_rays && a->shadow_rays == b->shadow_rays);
+}
+
 TEST(files_carry_every_bit)
 {
     static const unsigned layers[] = {0, LAYER_ALL, LAYER_UV | LAYER_DISPLAY_CONTRAST};
@@ -202,12 +219,10 @@ TEST(files_carry_every_bit)
         if (!read_part(back, &found, arena, &err)) fail_msg("%s", err.text);
         assert_same_films(back, film);
         assert_string_equal(found.name, path);
-        found.name = part.name;
         assert_int_equal(found.lights.count, layers[i / 3] & LAYER_LIGHT ? 3 : 0);
         for (int k = 0; k < found.lights.count; k++)
             assert_string_equal(found.lights.names[k], group_names[k]);
-        found.lights = part.lights;
-        assert_memory_equal(&found, &part, sizeof part);
+        assert_same_parts(&found, &part);
     }
 }
 

@@ -43,7 +43,8 @@ static bool keep_visible(ImportSet *set, ImportTable *table, Error *err)
 
 static bool keep_usable(ImportSet *set, Error *err)
 {
-    int kept = 0;
+    int               kept = 0;
+    const ImportTable first = set->table[0];
     for (int i = 0; i < set->count; i++) {
         ImportTable *table = &set->table[i];
         bool is_reflection = table->source == IMPORT_REFLECTION;
@@ -56,7 +57,9 @@ static bool keep_usable(ImportSet *set, Error *err)
         set->table[kept++] = *table;
     }
     set->count = kept;
-    return true;
+    return kept || error_at(err, ERROR_INPUT, first.file, "",
+                            "has light from %g degrees and no file from less, wanted one of 0 "
+                            "to %d degrees", first.incidence_deg, INCIDENCE_MAX_DEG);
 }
 
 /* ---- white beside the primaries ---------------------------------------------------------- */
