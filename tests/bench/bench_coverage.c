@@ -31,8 +31,9 @@ static _Noreturn void stop(const Error *err)
     exit(2);
 }
 
-static bool is_clear_of(void *user, MeanInterval reflected)
+static bool is_clear_of(void *user, MeanInterval reflected, Arena scratch)
 {
+    (void)scratch;
     const double *limit = user;
     return reflected.low > *limit || reflected.high < *limit;
 }
@@ -90,7 +91,7 @@ static void measure(const Probing *p, Arena arena)
         int wrong = 0;
         for (int i = 0; i < p->runs; i++) {
             const MeanInterval *in = &list[i].interval;
-            wrong += limits[k] > 1 ? in->low > limit : is_clear_of(&limit, *in);
+            wrong += limits[k] > 1 ? in->low > limit : is_clear_of(&limit, *in, p->scratch);
         }
         printf("%-28s %-16s %.1f %% wrong verdicts\n", p->stage->condition->name, what,
                100.0 * wrong / p->runs);

@@ -72,8 +72,9 @@ TEST(intervals_hold_the_converged_reading)
 
 /* ---- a question -------------------------------------------------------------------------- */
 
-static bool is_clear_of(void *user, MeanInterval in)
+static bool is_clear_of(void *user, MeanInterval in, Arena scratch)
 {
+    (void)scratch;
     const double *limit = user;
     return in.low > *limit || in.high < *limit;
 }
@@ -96,6 +97,29 @@ TEST(paths_go_where_the_answer_is_not_clear)
     assert_true(far.sigma <= 0.05 * far.reflected && far.interval.high < 3 * truth);
     assert_true(near.sigma <= 0.001 * near.reflected || near.paths == 1 << 18);
     assert_true(near.interval.low < truth && truth < near.interval.high);
+    world_end(&world);
+}
+
+/* An asker that fills what scratch it is given. */
+static bool is_clear_with_scratch(void *user, MeanInterval in, Arena scratch)
+{
+    memset(ARENA_NEW(&scratch, char, 1 << 16), 0x7f, 1 << 16);
+    return is_clear_of(user, in, scratch);
+}
+
+TEST(an_askers_scratch_is_not_the_readings)
+{
+    (void)state;
+    World           world = closed_ball();
+    double          limit = converged(&world);
+    ReadingQuestion question = {is_clear_of, &limit, 0.05, "limit"}, other = question;
+    ReadingGoal     goal = {.precision = 0.001, .most = 1 << 16, .question = &question};
+    Reading         a = read_ball(&world, 8, &goal);
+    other.is_decided = is_clear_with_scratch;
+    goal.question = &other;
+    Reading b = read_ball(&world, 8, &goal);
+    assert_true(a.paths > READING_ASKED_LEAST); /* asked more than once */
+    assert_memory_equal(&a, &b, sizeof a);
     world_end(&world);
 }
 

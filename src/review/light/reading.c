@@ -99,12 +99,12 @@ static double uncertainty(const Reading *reading, const ReadingGoal *goal)
     return fabs(1 / bright - 1 / dark) * reading->sigma;
 }
 
-static bool is_decided(const Reading *reading, const ReadingGoal *goal)
+static bool is_decided(const Reading *reading, const ReadingGoal *goal, Arena scratch)
 {
     const ReadingQuestion *question = goal->question;
     return question && uncertainty(reading, goal) <= question->precision &&
            relative_error(reading) <= question->precision &&
-           question->is_decided(question->user, reading->interval);
+           question->is_decided(question->user, reading->interval, scratch);
 }
 
 /* How many rounds a reading may take after its first. */
@@ -126,7 +126,7 @@ static Reading take(const ProbeAim *aim, const ReadingGoal *goal, const ReadingT
     do {
         parallel_for(tools->threads, BATCHES, read_batch, &round);
         reading = reading_of(batches, round.end, goal->known, look_miss(false, looks));
-        if (is_decided(&reading, goal)) return reading;
+        if (is_decided(&reading, goal, scratch)) return reading;
         round.first = round.end;
         round.end *= 2;
     } while (uncertainty(&reading, goal) > goal->precision && 2 * reading.paths <= goal->most);

@@ -17,8 +17,10 @@
 
 /* What hangs on a reading: a verdict, say. */
 typedef struct ReadingQuestion {
-    /* Is the answer the same wherever in the interval the true reading lies? */
-    bool (*is_decided)(void *user, MeanInterval reflected);
+    /* Is the answer the same wherever in the interval the true reading lies? The scratch is
+     * that of whoever takes the reading, behind what it still needs: an asker that kept scratch
+     * of its own would write over the batches. */
+    bool (*is_decided)(void *user, MeanInterval reflected, Arena scratch);
     void  *user;
     double precision; /* at which a decided question may end: coarser than the goal's, and
                          asked of the reading itself too */

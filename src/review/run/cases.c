@@ -146,21 +146,19 @@ typedef struct VerdictAsk {
     const CaseTools  *tools;
     const ReviewCase *of;
     DirectSun         direct; /* of the reflected light */
-    Arena             scratch;
 } VerdictAsk;
 
 /* Would each limit that counts say the same, wherever in the interval the light lies? */
-static bool is_verdict_clear(void *user, MeanInterval reflected)
+static bool is_verdict_clear(void *user, MeanInterval reflected, Arena scratch)
 {
     const VerdictAsk *ask = user;
-    Arena      room = ask->scratch;
     ReviewCase c = *ask->of;
     bool       in_sun = is_in_sun(ask->direct, reflected.low);
     if (in_sun != is_in_sun(ask->direct, reflected.high)) return false;
     c.luminance_cd_m2.reflected = 0.5 * (reflected.low + reflected.high);
     set_contrasts(&c, reflected);
     judge_ambient(&c, ask->tools->profile, in_sun);
-    judge_case(&c, ask->tools->profile, &room);
+    judge_case(&c, ask->tools->profile, &scratch);
     for (int i = 0; i < c.limit_count; i++) {
         const LimitVerdict *limit = &c.limits[i];
         bool counts = !limit->is_advice && !isnan(limit->found);
@@ -193,15 +191,16 @@ static const char *name_of(const VerdictAsk *ask, Arena *arena)
 }
 
 /* The sun's image in a display is so small that few paths meet it: it is known by itself. */
-static Reading read_symbol(const CaseTools *tools, const CaseLook *look, const ProbeAim *aim,
-                           VerdictAsk *ask)
+static Reading read_symbol(const CaseLook *look, const ProbeAim *aim, VerdictAsk *ask,
+                           Arena scratch)
 {
     PathContext without = *aim->context;
     ProbeAim    rest = *aim;
-    const ReviewRequest  *request = tools->stage->request;
+    const Stage          *stage = ask->tools->stage;
+    const ReviewRequest  *request = stage->request;
     const CaseLuminances *shown = &ask->of->luminance_cd_m2;
     ReadingQuestion question = {is_verdict_clear, ask, request->precision_clear,
-                                name_of(ask, &ask->scratch)};
+                                name_of(ask, &scratch)};
     ReadingGoal     goal = {.brighter = fmax(shown->foreground, shown->background),
                             .darker = fmin(shown->foreground, shown->background),
                             .precision = request->precision_contrast,
@@ -214,7 +213,7 @@ static Reading read_symbol(const CaseTools *tools, const CaseLook *look, const P
         goal.most = COARSE_PATHS;
         goal.question = NULL;
     }
-    return reading_take(&rest, &goal, &tools->stage->tools, ask->scratch);
+    return reading_take(&rest, &goal, &stage->tools, scratch);
 }
 
 /* The panel's emission dimmed by what the eye looks through. */
@@ -271,8 +270,8 @@ static ProbeAim see_symbol(const CaseTools *tools, const CaseLook *look, ReviewC
     ProbeAim aim = aim_at(stage, look, is_visible, arena);
     if (!look->is_coarse) see_stray_light(stage, symbol, eye, c, *arena);
     *direct = direct_sun(stage, &aim, *arena);
-    VerdictAsk ask = {tools, c, *direct, *arena};
-    Reading    reading = read_symbol(tools, look, &aim, &ask);
+    VerdictAsk ask = {tools, c, *direct};
+    Reading    reading = read_symbol(look, &aim, &ask, *arena);
     c->paths = reading.paths;
     l->reflected = reading.reflected;
     l->mirror = reading.mirror;
