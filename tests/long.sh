@@ -69,6 +69,9 @@ run 'all closed forms in frames' image-long \
     python3 tests/image/run.py --all .build/release/parhelion
 run 'a glare review, thirty hours of weather' review-long \
     python3 tests/image/review.py --all .build/release/parhelion
+run 'verdicts beside their limits' review-laws \
+    python3 tests/image/review_laws.py .build/release/parhelion scenes/glance.review.json \
+    dimmed 0.2 0.4 0.005
 run 'daylight through a roof, every point' roof-long \
     python3 tests/image/roof.py .build/release/parhelion --all
 run_units 'unit tests that take long' unit-long .build/release -L long

@@ -14,6 +14,19 @@ void judge_ambient(ReviewCase *review_case, const Profile *profile, bool sun_on_
         profile_ambient(profile, review_case->display_lux, sun_on_display);
 }
 
+void judge_contrasts(ReviewCase *review_case, Range reflected)
+{
+    ReviewCase           *c = review_case;
+    const CaseLuminances *l = &c->luminance_cd_m2;
+    double veil = isnan(l->veil) ? 0 : l->veil;
+    c->reflected_range = reflected;
+    c->contrast_ratio = luminance_contrast(l->foreground, l->background, l->reflected);
+    c->contrast_low = luminance_contrast(l->foreground, l->background, reflected.high);
+    c->contrast_high = luminance_contrast(l->foreground, l->background, reflected.low);
+    c->contrast_with_veil =
+        luminance_contrast(l->foreground, l->background, l->reflected + veil);
+}
+
 /* ---- figures ----------------------------------------------------------------------------- */
 
 /* A contrast ratio is 1 + d/(k + r): d between the two luminances, k the darker, r reflected; a
@@ -114,6 +127,23 @@ static bool counts(const ProfileLimit *limit)
 static Verdict worse(Verdict one, Verdict other)
 {
     return verdict_rank(one) >= verdict_rank(other) ? one : other;
+}
+
+void judge_paths(ReviewCase *review_case)
+{
+    ReviewCase *c = review_case;
+    c->paths_to_decide = NAN;
+    if (c->verdict != VERDICT_TOO_CLOSE) return;
+    for (int i = 0; i < c->limit_count; i++) {
+        const LimitVerdict *limit = &c->limits[i];
+        if (limit->is_advice || limit->verdict != VERDICT_TOO_CLOSE || isnan(limit->found))
+            continue;
+        bool   is_above = limit->found > limit->value;
+        double half = is_above ? limit->found - limit->low : limit->high - limit->found;
+        double ratio = 2 * half / fabs(limit->found - limit->value);
+        c->paths_to_decide =
+            fmax(c->paths_to_decide, (double)c->paths * fmax(ratio * ratio, 1));
+    }
 }
 
 void judge_case(ReviewCase *review_case, const Profile *profile, Arena *arena)

@@ -18,6 +18,16 @@
 /* Sets the case's ambient from its display_lux, where the condition itself names none. */
 void judge_ambient(ReviewCase *review_case, const Profile *profile, bool sun_on_display);
 
+/* The one place where contrasts are made: from the case's luminances and the interval of what
+ * is reflected. Sets reflected_range, contrast_ratio, contrast_low, contrast_high and
+ * contrast_with_veil (of no veil, NaN: contrast_ratio). */
+void judge_contrasts(ReviewCase *review_case, Range reflected);
+
+/* Sets paths_to_decide of a case that was judged, from its paths and intervals: errors fall as
+ * the root of the paths, and a reading is as long as a pilot of its own length asks for, so
+ * that twice the half interval is to fit between figure and limit. */
+void judge_paths(ReviewCase *review_case);
+
 /* From the case's ambient, contrasts and their interval, height and visible_share:
  * sets limits, limit_count, limit_id, margin and verdict. limit_id is, among the contrast
  * limits that count, the one that asks the greatest ratio; margin is its margin.

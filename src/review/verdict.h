@@ -73,6 +73,11 @@ typedef struct CaseView {
     int    width, height;           /* pixels */
 } CaseView;
 
+/* A 95 % interval. */
+typedef struct Range {
+    double low, high;
+} Range;
+
 /* What would mend it: NaN where a figure has no meaning. */
 typedef struct CaseRemedy {
     const char *what;
@@ -94,8 +99,11 @@ typedef struct ReviewCase {
     bool    has_sun;             /* above the horizon */
     double  sun_azimuth_deg, sun_elevation_deg; /* of a sweep's worst: of the vehicle */
     CaseLuminances luminance_cd_m2;
+    Range   reflected_range;     /* 95 %, of sampling alone; of a sweep's steps of the response
+                                    too. The contrasts are made of these luminances
+                                    (judge_contrasts) */
     double  contrast_ratio;      /* (brighter + reflected) / (darker + reflected) */
-    double  contrast_low, contrast_high; /* 95 % or surer, of sampling alone */
+    double  contrast_low, contrast_high; /* at the ends of the reflected light's interval */
     double  contrast_with_veil;
     double  height_arcmin;       /* the foreground's extent along the content's v */
     double  jnd;                 /* steps of DICOM's GSDF between the two, veil included */
@@ -103,6 +111,8 @@ typedef struct ReviewCase {
                                     sees of strokes that wide (Barten) */
     double  dgp, ugr;            /* discomfort of this gaze: secondary figures */
     long    paths;               /* that what is reflected was read from */
+    double  paths_to_decide;     /* of a case that is too close: about as many would say; NaN */
+    double  minutes_to_decide;   /* as fast as its reading went, here; NaN: not known */
     double  visible_share;       /* of the rectangle, 0..1 */
     double  eye_failed_share;    /* of an eye box's points: those that fail; NaN: one point */
     Vec3    eye_m;               /* where the eye was; of a box its worst point */
@@ -122,11 +132,6 @@ typedef struct ReviewCase {
     const char *outlook;         /* picture of what the display sees from the symbol; or NULL */
     const char *outlook_words;   /* what is in it */
 } ReviewCase;
-
-/* A 95 % interval. */
-typedef struct Range {
-    double low, high;
-} Range;
 
 /* Of the veil in the eye, by where its light begins: they add up to it. */
 typedef struct GazeVeil {
@@ -167,7 +172,9 @@ typedef struct GazeFinding {
 typedef struct ReviewSweep {
     const char *condition, *eye, *symbol;
     long        cases;
-    double      failed_share;            /* weighted by time, as suns/failures.h counts it */
+    double      failed_share;            /* of its steps, weighted by time, as suns/failures.h
+                                            counts it: the verdict is the worst's, which was
+                                            read again */
     double      longest_failure_minutes; /* at a stretch; NaN: the sweep has no times */
     ReviewCase  worst;
     const char *table;                   /* "sweeps/NAME.csv" */

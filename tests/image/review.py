@@ -16,6 +16,7 @@ import tempfile
 
 from exr import Frame
 from gltf import Scene, png
+import review_laws
 
 ROOT = os.path.realpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."))
 sys.path.insert(0, os.path.join(ROOT, "tests", "structure"))
@@ -75,7 +76,10 @@ class Reviewer:
         done = self.run("review", "r.json", "-o", out, *options)
         assert done.returncode in (0, 1), done.stderr
         with open(os.path.join(self.folder, out, "review.json"), encoding="utf-8") as file:
-            return done.returncode, json.load(file)
+            found = json.load(file)
+        for said in review_laws.broken_laws(found, os.path.join(self.folder, out), done):
+            raise AssertionError(f"{out}: {said}")
+        return done.returncode, found
 
 
 def close(found, wanted, share):

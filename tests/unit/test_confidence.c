@@ -72,47 +72,6 @@ TEST(without_skewness_the_interval_is_students)
     assert_near(in.low, -in.high, 1e-12);
 }
 
-/* The limit is the mean itself: whoever calls it is wrong, at whichever look. */
-static bool is_called_wrongly(int shape, int looks, uint32_t *random)
-{
-    double mean[BATCHES] = {0};
-    int    samples = 1;
-    for (int look = 0; look < looks; look++) {
-        BatchSums sums = {0};
-        for (int i = 0; i < BATCHES; i++) {
-            if (look) mean[i] = 0.5 * (mean[i] + batch_mean(shape, samples, random));
-            else mean[i] = batch_mean(shape, samples, random);
-            batch_add(&sums, mean[i]);
-        }
-        samples *= look ? 2 : 1;
-        MeanInterval in = batch_interval(&sums, look_miss(look == looks - 1, looks - 1));
-        if (in.low > 0 || in.high < 0) return true;
-    }
-    return false;
-}
-
-TEST(looking_again_and_again_is_wrong_no_more_often)
-{
-    (void)state;
-    uint32_t random = 2;
-    for (int shape = 0; shape < 2; shape++)
-        for (int looks = 1; looks <= 7; looks += 3) {
-            int wrong = 0, runs = RUNS / 4;
-            for (int run = 0; run < runs; run++)
-                wrong += is_called_wrongly(shape, looks, &random);
-            if (!(wrong > 0 && wrong < (0.06 + 3 * 0.0069) * runs))
-                fail_msg("shape %d, %d looks: %d of %d", shape, looks, wrong, runs);
-        }
-}
-
-TEST(looks_share_what_may_miss)
-{
-    (void)state;
-    for (int before = 0; before < 12; before++)
-        assert_close(look_miss(true, before) + before * look_miss(false, before),
-                     CONFIDENCE_MISS, 1e-12);
-}
-
 int main(void)
 {
     return run_cases(NULL, NULL);

@@ -95,9 +95,43 @@ TEST(paths_go_where_the_answer_is_not_clear)
     Reading far = read_against(&world, 5, 3 * truth), near = read_against(&world, 5, truth);
     assert_true(far.paths < near.paths);
     assert_true(far.sigma <= 0.05 * far.reflected && far.interval.high < 3 * truth);
-    assert_true(near.sigma <= 0.001 * near.reflected || near.paths == 1 << 18);
-    assert_true(near.interval.low < truth && truth < near.interval.high);
+    assert_true(near.sigma <= 0.0015 * near.reflected || near.paths == 1 << 18); /* errors of 32
+                                           batches are known within half of themselves */
     world_end(&world);
+}
+
+/* How many paths there are hangs on none of those that are told: these mean 95 %, and who goes
+ * by them is wrong no more often than that. Limits near and far; a standard deviation of 400 is
+ * 1.1 %. */
+TEST(intervals_of_what_a_question_ends_hold_as_often)
+{
+    (void)state;
+    World  world = closed_ball();
+    double truth = converged(&world);
+    static const double LIMITS[] = {0.9, 0.97, 1.01, 1.05, 1.3};
+    for (int i = 0; i < 5; i++) {
+        int    held = 0, wrong = 0;
+        double limit = LIMITS[i] * truth;
+        ReadingQuestion question = {is_clear_of, &limit, 0.05, "limit"};
+        ReadingGoal goal = {.precision = 0.01, .most = 1 << 14, .question = &question};
+        for (uint32_t run = 0; run < RUNS; run++) {
+            Reading reading = read_ball(&world, 5000 + run, &goal);
+            held += reading.interval.low <= truth && truth <= reading.interval.high;
+            wrong += limit < truth ? reading.interval.high < limit
+                                   : reading.interval.low > limit;
+        }
+        double share = (double)held / RUNS;
+        if (!(share > 0.93 - 0.033 && share < 0.97 + 0.026) || wrong > 0.025 * RUNS)
+            fail_msg("limit at %g: %d of %d held, %d wrong", LIMITS[i], held, RUNS, wrong);
+    }
+    world_end(&world);
+}
+
+/* But for the time that each took. */
+static void assert_same(Reading a, Reading b)
+{
+    a.seconds = b.seconds = 0;
+    assert_memory_equal(&a, &b, sizeof a);
 }
 
 /* An asker that fills what scratch it is given. */
@@ -119,7 +153,7 @@ TEST(an_askers_scratch_is_not_the_readings)
     goal.question = &other;
     Reading b = read_ball(&world, 8, &goal);
     assert_true(a.paths > READING_ASKED_LEAST); /* asked more than once */
-    assert_memory_equal(&a, &b, sizeof a);
+    assert_same(a, b);
     world_end(&world);
 }
 
@@ -128,12 +162,10 @@ TEST(a_question_costs_no_paths)
 {
     (void)state;
     World       world = closed_ball();
-    ReadingGoal plain = {.precision = 0.001, .most = 1 << 18};
     double      truth = converged(&world);
-    long        paths = read_ball(&world, 6, &plain).paths;
+    long        paths = read_against(&world, 6, truth).paths; /* that nothing decides */
     for (int i = 0; i < 4; i++)
-        assert_true(read_against(&world, 6, (0.9 + 0.1 * i) * truth).paths <=
-                    (paths > READING_ASKED_LEAST ? paths : READING_ASKED_LEAST));
+        assert_true(read_against(&world, 6, (0.9 + 0.1 * i) * truth).paths <= paths);
     world_end(&world);
 }
 
@@ -146,7 +178,7 @@ TEST(readings_are_the_same_for_any_threads)
     ProbeAim     aim = aim_of(&world, 9);
     Reading a = reading_take(&aim, &goal, &one, world.arena);
     Reading b = reading_take(&aim, &goal, &five, world.arena);
-    assert_memory_equal(&a, &b, sizeof a);
+    assert_same(a, b);
     world_end(&world);
 }
 

@@ -24,7 +24,7 @@
 typedef struct ReviewWords {
     ShareRequest share;
     const char *folder, *profile, *root, *isa, *diff, *init, *responses;
-    bool        is_strict, dry_run;
+    bool        is_strict, dry_run, decides;
     StateWords  state_words;
     SceneState  state;
     Cli         cli;
@@ -43,6 +43,8 @@ static bool parse(int argc, char **argv, Arena *arena, ReviewWords *out, Error *
          &out->profile},
         {"--strict", OPTION_FLAG, NULL, "too close to call and not visible fail, too",
          &out->is_strict},
+        {"--decide", OPTION_FLAG, NULL,
+         "goes on with what is too close to call: up to 64 times the paths", &out->decides},
         {"--diff", OPTION_TEXT, "DIR", "an earlier review to hold this one against",
          &out->diff},
         {"--responses", OPTION_TEXT, "DIR",
@@ -82,13 +84,17 @@ static void print_case(const ReviewCase *c)
         printf(": contrast %.3g : 1 (%.3g to %.3g), reflected %.4g cd/m2", c->contrast_ratio,
                c->contrast_low, c->contrast_high, c->luminance_cd_m2.reflected);
     if (c->limit_id >= 0) printf(", wanted %.3g : 1", c->limits[c->limit_id].value);
+    if (c->minutes_to_decide > 0 && isfinite(c->minutes_to_decide))
+        printf("; about %.2g minutes more would decide it", fmax(c->minutes_to_decide, 0.1));
     putchar('\n');
 }
 
 static void print_sweep(const ReviewSweep *s)
 {
-    printf("%-11s %s, %s, %s: %.3g %% of %ld suns fail", verdict_names[sweep_verdict(s)],
-           s->condition, s->eye, s->symbol, 100 * s->failed_share, s->cases);
+    bool is_sure = sweep_verdict(s) == VERDICT_FAIL || !(s->failed_share > 0);
+    printf("%-11s %s, %s, %s: %.3g %% of %ld suns fail%s", verdict_names[sweep_verdict(s)],
+           s->condition, s->eye, s->symbol, 100 * s->failed_share, s->cases,
+           is_sure ? "" : " by their steps alone, none that was read again");
     if (s->longest_failure_minutes > 0)
         printf(", %.4g minutes at a stretch", s->longest_failure_minutes);
     if (s->worst.has_sun)
@@ -112,7 +118,8 @@ static void print_review(const Review *review)
     for (int i = 0; i < review->case_count; i++) print_case(&review->cases[i]);
     for (int i = 0; i < review->sweep_count; i++) print_sweep(&review->sweeps[i]);
     for (int i = 0; i < review->gaze_count; i++) print_gaze(&review->gazes[i]);
-    printf("%s\n", review->pass ? "pass" : "FAIL");
+    static const char *const LAST[4] = {"pass", "FAIL", "too close to call", "not visible"};
+    printf("%s\n", LAST[review_verdict(review)]);
 }
 
 static bool answer(const Cli *cli, const Review *review, Error *err)
@@ -271,6 +278,7 @@ static bool review(const ReviewWords *words, Arena *arena, Error *err)
     if (!review_request_read(file, words->root, arena, &problems, &request, err)) return false;
     if (!profile_load(words->profile ? words->profile : request.profile, arena, &profile, err))
         return words->profile ? false : error_in_file(err, request.file);
+    request.decides = words->decides;
     if (!review_check(&request, *arena, err)) return false;
     ReviewRun run = {.request = &request, .profile = profile, .root = words->root,
                      .state = words->state,

@@ -71,9 +71,3 @@ MeanInterval batch_interval(const BatchSums *sums, double miss)
     return (MeanInterval){mean - error * untransformed(t, a),
                           mean - error * untransformed(-t, a)};
 }
-
-double look_miss(bool is_last, int before)
-{
-    if (before <= 0) return CONFIDENCE_MISS;
-    return is_last ? 0.5 * CONFIDENCE_MISS : 0.5 * CONFIDENCE_MISS / before;
-}

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* confidence.h -- where the true mean lies, from a few batches of samples whose tail is long,
- * and when they may be looked at more than once.
+/* confidence.h -- where the true mean lies, from a few batches of samples whose tail is long.
  *
  * Light has a long tail: few paths find the sun in a mirror, and where they are missing mean
  * and spread are both too small, so that the usual interval misses too often below. The
@@ -9,15 +8,9 @@
  * (1992) 221-228). Student's quantiles from normal ones by the series of Abramowitz and Stegun,
  * 26.7.5.
  *
- * Whoever looks again and again, and stops at what pleases, is wrong more often than each
- * interval says. Looks share the 5 % among them (Bonferroni's inequality, whatever hangs on
- * what): half of it the last one, the other half all those before in equal parts.
- *
  * Threads  pure functions.
  */
 #pragma once
-#include <stdbool.h>
-
 #define CONFIDENCE_MISS 0.05 /* chance that a 95 % interval does not hold the true value */
 
 /* Of batches' means, all of as many samples. */
@@ -36,6 +29,3 @@ typedef struct MeanInterval {
 
 /* Misses the true mean with this chance, both sides together. */
 MeanInterval batch_interval(const BatchSums *sums, double miss);
-
-/* The chance that a look may miss with when there are `before` others before the last. */
-double look_miss(bool is_last, int before);

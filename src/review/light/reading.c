@@ -5,6 +5,7 @@
 
 #include "base/count.h"
 #include "base/parallel.h"
+#include "base/progress.h"
 #include "base/sampler.h"
 #include "review/light/question.h"
 #include "review/light/response.h"
@@ -19,12 +20,14 @@ typedef struct Batch {
     long   found;
 } Batch;
 
-typedef struct Round {
-    const ProbeAim *aim;
-    const Kernel   *kernel;
-    int             first, end; /* paths of every batch */
-    Batch          *batches;
-} Round;
+/* Paths that go on where they ended. */
+typedef struct Stream {
+    ProbeAim      aim;
+    const Kernel *kernel;
+    int           threads;
+    int           first, end; /* paths of every batch */
+    Batch        *batches;
+} Stream;
 
 static void add_looks(Batch *to, const ProbeLook *looks, int count)
 {
@@ -38,16 +41,16 @@ static void add_looks(Batch *to, const ProbeLook *looks, int count)
 static void read_batch(void *user, int item, int worker)
 {
     (void)worker;
-    const Round   *round = user;
+    const Stream  *stream = user;
     ProbeLook      looks[PIECE];
     PathStatistics statistics = {0};
-    ProbeAim       aim = *round->aim;
+    ProbeAim       aim = stream->aim;
     aim.seed = hash_combine(hash_u32(aim.seed), (uint32_t)item);
     aim.is_spread = true;
-    for (int first = round->first; first < round->end; first += PIECE) {
-        int end = first + PIECE < round->end ? first + PIECE : round->end;
-        round->kernel->look(&aim, first, end, looks, &statistics);
-        add_looks(&round->batches[item], looks, end - first);
+    for (int first = stream->first; first < stream->end; first += PIECE) {
+        int end = first + PIECE < stream->end ? first + PIECE : stream->end;
+        stream->kernel->look(&aim, first, end, looks, &statistics);
+        add_looks(&stream->batches[item], looks, end - first);
     }
 }
 
@@ -61,8 +64,8 @@ static void add_known(double known, Reading *to)
     to->interval.high += known + 2 * error;
 }
 
-/* Of batches with so many paths each; miss: chance that its interval may miss with. */
-static Reading reading_of(const Batch batches[BATCHES], int paths, double known, double miss)
+/* Of batches with so many paths each. */
+static Reading reading_of(const Batch batches[BATCHES], int paths, double known)
 {
     BatchSums sums = {0};
     Reading   reading = {.paths = (long)paths * BATCHES};
@@ -73,7 +76,7 @@ static Reading reading_of(const Batch batches[BATCHES], int paths, double known,
         found += (double)batches[i].found;
     }
     if (!(found > 0)) return reading;
-    MeanInterval interval = batch_interval(&sums, miss);
+    MeanInterval interval = batch_interval(&sums, CONFIDENCE_MISS);
     double   share = found / (double)reading.paths;
     reading.found_share = share;
     reading.reflected = sums.sum / BATCHES / share;
@@ -99,38 +102,103 @@ static double uncertainty(const Reading *reading, const ReadingGoal *goal)
     return fabs(1 / bright - 1 / dark) * reading->sigma;
 }
 
+static bool is_sure(const Reading *reading, const ReadingGoal *goal)
+{
+    return uncertainty(reading, goal) <= goal->precision;
+}
+
 static bool is_decided(const Reading *reading, const ReadingGoal *goal, Arena scratch)
 {
     const ReadingQuestion *question = goal->question;
-    return question && uncertainty(reading, goal) <= question->precision &&
+    return uncertainty(reading, goal) <= question->precision &&
            relative_error(reading) <= question->precision &&
            question->is_decided(question->user, reading->interval, scratch);
 }
 
-/* How many rounds a reading may take after its first. */
-static int rounds_after(long first, long most)
+/* ---- one stream -------------------------------------------------------------------------- */
+
+static Stream stream_start(const ProbeAim *aim, const ReadingTools *tools, Arena *arena)
 {
-    int rounds = 0;
-    for (long paths = 2 * first; paths <= most; paths *= 2) rounds++;
-    return rounds;
+    return (Stream){*aim, tools->kernel, tools->threads, 0, 0,
+                    ARENA_NEW(arena, Batch, BATCHES)};
+}
+
+/* All of its paths, up to so many. */
+static Reading stream_read(Stream *stream, long paths, const ReadingGoal *goal)
+{
+    stream->end = (int)(paths / BATCHES);
+    parallel_for(stream->threads, BATCHES, read_batch, stream);
+    stream->first = stream->end;
+    return reading_of(stream->batches, stream->end, goal->known);
+}
+
+/* Until it is sure enough by itself. */
+static Reading take_plain(const ProbeAim *aim, const ReadingGoal *goal,
+                          const ReadingTools *tools, Arena scratch)
+{
+    Stream  stream = stream_start(aim, tools, &scratch);
+    Reading reading = stream_read(&stream, READING_LEAST, goal);
+    while (!is_sure(&reading, goal) && 2 * reading.paths <= goal->most)
+        reading = stream_read(&stream, 2 * reading.paths, goal);
+    return reading;
+}
+
+/* ---- a pilot, and what it asks for ------------------------------------------------------- */
+
+/* What a fresh reading by so many paths may be expected to say, as far as the pilot knows: its
+ * interval is as wide as paths make it, and lies somewhere in the pilot's. */
+static Reading expected(const Reading *pilot, const ReadingGoal *goal, long paths)
+{
+    double  scale = sqrt((double)pilot->paths / (double)paths);
+    double  known = RESPONSE_MIRROR_ERROR * goal->known;
+    double  sampled = sqrt(fmax(pilot->sigma * pilot->sigma - known * known, 0));
+    Reading fresh = *pilot;
+    fresh.sigma = hypot(sampled * scale, known);
+    fresh.interval.low -= (pilot->reflected - pilot->interval.low) * scale;
+    fresh.interval.high += (pilot->interval.high - pilot->reflected) * scale;
+    fresh.interval.low = fmax(fresh.interval.low, 0);
+    return fresh;
+}
+
+/* The fewest that will do; the most there are, where none will. */
+static long paths_wanted(const Reading *pilot, const ReadingGoal *goal, Arena scratch)
+{
+    long paths = READING_ASKED_LEAST;
+    for (; 2 * paths <= goal->most; paths *= 2) {
+        Reading fresh = expected(pilot, goal, paths);
+        if (is_sure(&fresh, goal) || is_decided(&fresh, goal, scratch)) break;
+    }
+    return paths;
+}
+
+/* A pilot grows until it asks for no more than so many times its own paths: what it says of
+ * fewer is known too badly, and a longer one would cost more than it saves. */
+#define PILOT_REACH 4
+#define PILOT_SEED 0x70696c6fu
+
+static Reading take_asked(const ProbeAim *aim, const ReadingGoal *goal,
+                          const ReadingTools *tools, Arena scratch)
+{
+    Stream fresh = stream_start(aim, tools, &scratch);
+    Stream first = stream_start(aim, tools, &scratch);
+    first.aim.seed = hash_combine(hash_u32(aim->seed), PILOT_SEED);
+    Reading pilot = stream_read(&first, READING_PILOT, goal);
+    long    wanted = paths_wanted(&pilot, goal, scratch);
+    while (wanted > PILOT_REACH * pilot.paths) {
+        pilot = stream_read(&first, 2 * pilot.paths, goal);
+        wanted = paths_wanted(&pilot, goal, scratch);
+    }
+    return stream_read(&fresh, wanted, goal);
 }
 
 static Reading take(const ProbeAim *aim, const ReadingGoal *goal, const ReadingTools *tools,
                     Arena scratch)
 {
-    Batch  *batches = ARENA_NEW(&scratch, Batch, BATCHES);
-    int     least = goal->question ? READING_ASKED_LEAST : READING_LEAST;
-    int     looks = goal->question ? rounds_after(least, goal->most) : 0;
-    Round   round = {aim, tools->kernel, 0, least / BATCHES, batches};
-    Reading reading;
-    do {
-        parallel_for(tools->threads, BATCHES, read_batch, &round);
-        reading = reading_of(batches, round.end, goal->known, look_miss(false, looks));
-        if (is_decided(&reading, goal, scratch)) return reading;
-        round.first = round.end;
-        round.end *= 2;
-    } while (uncertainty(&reading, goal) > goal->precision && 2 * reading.paths <= goal->most);
-    return reading_of(batches, round.first, goal->known, look_miss(true, looks));
+    double  start = monotonic_seconds();
+    Reading reading = goal->question ? take_asked(aim, goal, tools, scratch)
+                                     : take_plain(aim, goal, tools, scratch);
+    reading.seconds = monotonic_seconds() - start;
+    return reading;
 }
 
 static JournalKey key_of(const ProbeAim *aim, const ReadingGoal *goal,

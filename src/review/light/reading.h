@@ -1,9 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* reading.h -- what a probe reads under the light that is there.
  *
- * Paths go out in rounds, each as long as all before it, until what hangs on the reading is
- * decided, or is sure enough. Intervals come from the means of independent batches of paths
- * (confidence.h).
+ * Paths go out in rounds, each as long as all before it, until the reading is sure enough.
+ * Where something hangs on it, these are a pilot only: it says how many paths will do, be it because
+ * the answer is clear then or because the reading is sure enough, and so many others, fresh
+ * ones, are what is told. Who stops when it pleases is wrong more often than its interval says;
+ * so fresh paths, whose number hangs on nothing that they find, have an interval that means
+ * 95 %. Intervals come from the means of independent batches of paths (confidence.h).
  *
  * Units    cd m^-2 (a luxmeter: lx).
  * Memory   scratch only.
@@ -50,14 +53,15 @@ typedef struct ReadingTools {
 typedef struct Reading {
     double reflected;      /* Y; of a luxmeter the illuminance */
     double sigma;          /* its standard error */
-    MeanInterval interval; /* 95 %, or surer where there was a question: it holds however often
-                              that was asked */
+    MeanInterval interval; /* 95 %, whether there was a question or not */
     double mirror;         /* of it, by way of the display's mirror */
     double found_share;    /* paths whose first surface was a display */
-    long   paths;
+    long   paths;          /* that it was read from; a pilot's do not count */
+    double seconds;        /* that it took when it was taken, the pilot's too */
 } Reading;
 
 #define READING_LEAST 1024       /* paths of any reading */
+#define READING_PILOT 2048       /* of a pilot, at least */
 #define READING_ASKED_LEAST 4096 /* of one on which something hangs: light that only one path in
                                     hundreds finds must have been met */
 

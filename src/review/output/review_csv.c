@@ -39,7 +39,8 @@ static const char HEADER[] =
     "background_cd_m2,reflected_cd_m2,mirror_cd_m2,scattered_cd_m2,veil_cd_m2,contrast_ratio,"
     "contrast_low,contrast_high,contrast_with_veil,height_arcmin,jnd,visible_share,level,"
     "display_lx,visibility,dgp,ugr,eye_failed_share,limit_name,limit_kind,limit_unit,"
-    "limit_source,limit_value,margin,first_cause,first_cause_share,verdict\r\n";
+    "limit_source,limit_value,margin,first_cause,first_cause_share,verdict,"
+    "reflected_low_cd_m2,reflected_high_cd_m2\r\n";
 
 static void add_limit(Text *csv, const ReviewCase *c)
 {
@@ -84,7 +85,10 @@ static void add_case(Text *csv, const ReviewCase *c, Arena scratch)
                                 c->dgp, c->ugr, c->eye_failed_share}, 13);
     add_limit(csv, c);
     add_cause(csv, c, scratch);
-    text_format(csv, "%s\r\n", verdict_names[c->verdict]);
+    add_text(csv, verdict_names[c->verdict]);
+    add_number(csv, c->reflected_range.low);
+    if (isfinite(c->reflected_range.high)) text_format(csv, "%.6g", c->reflected_range.high);
+    text_add(csv, "\r\n");
 }
 
 typedef void AddRows(Text *csv, const Review *review, Arena scratch);

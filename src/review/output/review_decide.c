@@ -6,7 +6,7 @@
 
 Verdict sweep_verdict(const ReviewSweep *sweep)
 {
-    return sweep->failed_share > 0 ? VERDICT_FAIL : sweep->worst.verdict;
+    return sweep->worst.verdict;
 }
 
 ReviewCounts review_count(const Review *review)
@@ -16,6 +16,12 @@ ReviewCounts review_count(const Review *review)
     for (int i = 0; i < review->sweep_count; i++)
         counts.of[sweep_verdict(&review->sweeps[i])]++;
     return counts;
+}
+
+Verdict review_verdict(const Review *review)
+{
+    if (!review->pass) return VERDICT_FAIL;
+    return review_count(review).of[VERDICT_TOO_CLOSE] ? VERDICT_TOO_CLOSE : VERDICT_PASS;
 }
 
 bool review_decide(Review *review)

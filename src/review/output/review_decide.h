@@ -22,6 +22,10 @@ ReviewCounts review_count(const Review *review);
 /* A sweep fails where its worst does or some of its time did. */
 Verdict sweep_verdict(const ReviewSweep *sweep);
 
+/* Of all: fail; too close, where nothing fails but something is; pass, also where something is
+ * not visible. A strict review that does not pass fails. */
+Verdict review_verdict(const Review *review);
+
 /* The limit that made the case's verdict: of those that say the same the one with the least
  * margin; else that of the contrast. NULL: no limit counts. */
 const LimitVerdict *case_worst_limit(const ReviewCase *c);

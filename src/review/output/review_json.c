@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/file_write.h"
+#include "review/output/review_decide.h"
 #include "text/json_text.h"
 
 #define DIGITS 6
@@ -97,7 +98,9 @@ static json_t *case_json(const ReviewCase *c)
                             luminance_json(c->luminance_cd_m2));
     set(out, "contrast_ratio", json_figure(c->contrast_ratio));
     set(out, "contrast_interval", pair(c->contrast_low, c->contrast_high));
+    set(out, "reflected_interval", pair(c->reflected_range.low, c->reflected_range.high));
     set(out, "paths", json_integer((json_int_t)c->paths));
+    set(out, "paths_to_decide", json_figure(c->paths_to_decide));
     set(out, "contrast_with_veil", json_figure(c->contrast_with_veil));
     set(out, "height_arcmin", json_figure(c->height_arcmin));
     set(out, "jnd", json_figure(c->jnd));
@@ -128,8 +131,9 @@ static json_t *sweeps_json(const Review *review)
     for (int i = 0; i < review->sweep_count; i++) {
         const ReviewSweep *s = &review->sweeps[i];
         json_array_append_new(
-            list, json_pack("{s:o, s:o, s:o, s:I, s:o, s:o, s:o, s:o}", "condition",
+            list, json_pack("{s:o, s:o, s:o, s:s, s:I, s:o, s:o, s:o, s:o}", "condition",
                             text(s->condition), "eye", text(s->eye), "symbol", text(s->symbol),
+                            "verdict", verdict_names[sweep_verdict(s)],
                             "cases", (json_int_t)s->cases, "failed_share",
                             json_figure(s->failed_share), "longest_failure_minutes",
                             json_figure(s->longest_failure_minutes), "worst",
@@ -218,7 +222,8 @@ static json_t *cases_json(const Review *review)
 
 json_t *review_json(const Review *review)
 {
-    json_t *out = json_pack("{s:b, s:b, s:o, s:o}", "pass", review->pass, "strict",
+    json_t *out = json_pack("{s:b, s:s, s:b, s:o, s:o}", "pass", review->pass, "verdict",
+                            verdict_names[review_verdict(review)], "strict",
                             review->is_strict, "title", text(review->title), "profile",
                             text(review->profile));
     set(out, "cases", cases_json(review));

@@ -62,8 +62,9 @@ static void add_verdict(Text *html, const ReviewPage *page, Arena *arena)
 {
     const Review     *review = page->review;
     const ReviewCase *worst = review_worst(review, *arena);
-    text_format(html, "<div class=\"verdict%s\"><h1><b>%s</b>: ", review->pass ? " same" : "",
-                review->pass ? "Passes" : "Fails");
+    Verdict           verdict = review_verdict(review);
+    text_format(html, "<div class=\"verdict%s\"><h1><b>%s</b>: ",
+                verdict == VERDICT_PASS ? " same" : "", words_verdict(verdict));
     if (!worst) {
         text_add(html, "nothing was asked, so nothing can fail.</h1></div>\n");
         return;
@@ -182,8 +183,12 @@ static bool add_cases(Text *html, const ReviewPage *page, Arena *arena, Error *e
 static void add_sweep_keys(Text *html, const ReviewSweep *s, Arena *arena)
 {
     page_keys_begin(html);
-    page_key(html, words_share(s->failed_share, arena), "of the time it fails",
-             s->failed_share > 0);
+    bool is_sure = sweep_verdict(s) == VERDICT_FAIL;
+    page_key(html, words_share(s->failed_share, arena),
+             is_sure || !(s->failed_share > 0)
+                 ? "of the time it fails"
+                 : "of the time by its steps alone: not confirmed",
+             is_sure && s->failed_share > 0);
     if (!isnan(s->longest_failure_minutes))
         page_key(html, words_minutes(s->longest_failure_minutes, arena),
                  "the longest failure at a stretch", s->longest_failure_minutes > 0);
@@ -211,7 +216,7 @@ static bool add_sweep_figures(Text *html, const ReviewPage *page, const ReviewSw
 static void add_sweep_line(Text *html, const ReviewSweep *s, bool is_open, Arena *arena)
 {
     Verdict     verdict = sweep_verdict(s);
-    const char *often = s->failed_share > 0
+    const char *often = verdict == VERDICT_FAIL && s->failed_share > 0
                             ? arena_format(arena, "%s of the time", words_often(s, arena))
                             : words_often(s, arena);
     text_format(html, "<details class=\"case %s\"%s><summary><span class=\"chip %s\">%s"

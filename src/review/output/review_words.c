@@ -107,8 +107,9 @@ const char *words_verdict(Verdict verdict)
 const char *words_often(const ReviewSweep *sweep, Arena *arena)
 {
     static const char *const NAMES[4] = {"never", "at worst", "too close", "not visible"};
-    return sweep->failed_share > 0 ? words_share(sweep->failed_share, arena)
-                                   : NAMES[sweep->worst.verdict];
+    Verdict verdict = sweep_verdict(sweep);
+    bool    fails = verdict == VERDICT_FAIL && sweep->failed_share > 0;
+    return fails ? words_share(sweep->failed_share, arena) : NAMES[verdict];
 }
 
 const char *words_class(Verdict verdict)
@@ -155,6 +156,15 @@ const char *words_case(const ReviewCase *c, Arena *arena)
                         c->eye ? c->eye : "?", c->condition ? c->condition : "?");
 }
 
+/* Behind what is too close to call, where the time is known; else "". */
+static const char *words_decide(const ReviewCase *c, Arena *arena)
+{
+    if (!(c->minutes_to_decide > 0)) return "";
+    if (isinf(c->minutes_to_decide)) return "; it lies on the limit: no time decides it";
+    return arena_format(arena, "; about %s more would decide it (--decide)",
+                        words_minutes(fmax(c->minutes_to_decide, 1), arena));
+}
+
 const char *words_reason(const ReviewCase *c, Arena *arena)
 {
     const LimitVerdict *limit = case_worst_limit(c);
@@ -166,9 +176,10 @@ const char *words_reason(const ReviewCase *c, Arena *arena)
     const char *found = words_amount(limit, limit->found, arena);
     const char *wanted = words_wanted(limit, arena);
     if (c->verdict == VERDICT_TOO_CLOSE)
-        return arena_format(arena, "%s %s, but anything between %s and %s, wanted %s",
+        return arena_format(arena, "%s %s, but anything between %s and %s, wanted %s%s",
                             name, found, words_figure(limit->low, arena),
-                            words_figure(limit->high, arena), wanted);
+                            words_figure(limit->high, arena), wanted,
+                            words_decide(c, arena));
     return arena_format(arena, "%s %s, wanted %s", name, found, wanted);
 }
 

@@ -44,7 +44,7 @@ const char *words_wanted(const LimitVerdict *limit, Arena *arena);
 /* "Passes", "Fails", "Too close to call", "Not visible": begins a sentence. */
 const char *words_verdict(Verdict verdict);
 
-/* How often a sweep fails: "0.5 %"; where none of its suns did, what its worst says: "never",
+/* How often a sweep fails: "0.5 %"; where its worst does not, or none of its steps: "never",
  * "at worst" (an eye box: a sweep goes by its middle), "too close", "not visible". */
 const char *words_often(const ReviewSweep *sweep, Arena *arena);
 

@@ -178,6 +178,7 @@ typedef struct ReviewRequest {
     int              weather_count;
     double           precision_contrast; /* relative standard error wanted */
     double           precision_clear;    /* enough where the verdict is clear; at least that */
+    bool             decides; /* what is too close is read on: DECIDE_TIMES (run/cases.c) */
     int              precision_paths;    /* of one reading at most: what is not sure then has a
                                             wider interval */
     ReviewFrames     frames;

@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "base/file.h"
+#include "base/sampler.h"
 #include "base/units.h"
 #include "camera/camera.h"
 #include "guide/guide_file.h"
@@ -25,6 +26,10 @@
 #define FACE_SEED 0x66616365u
 #define EYE_SEED 0x65796573u
 #define SUN_PATHS SYMBOL_POINTS
+/* Of a case that is too close, where that is to be decided: afresh, by so many more paths. */
+#define DECIDE_TIMES 8
+#define DECIDE_ROUNDS 2
+#define DECIDE_SEED 0x64656369u
 #define COARSE_PRECISION 0.05
 #define COARSE_PATHS 8192
 #define COARSE_SEED 0x626f7865u /* the worst of many is not read again from what made it so */
@@ -114,11 +119,7 @@ static void set_contrasts(ReviewCase *c, MeanInterval reflected)
 {
     const CaseLuminances *l = &c->luminance_cd_m2;
     double veil = isnan(l->veil) ? 0 : l->veil;
-    c->contrast_ratio = luminance_contrast(l->foreground, l->background, l->reflected);
-    c->contrast_low = luminance_contrast(l->foreground, l->background, reflected.high);
-    c->contrast_high = luminance_contrast(l->foreground, l->background, reflected.low);
-    c->contrast_with_veil =
-        luminance_contrast(l->foreground, l->background, l->reflected + veil);
+    judge_contrasts(c, (Range){reflected.low, reflected.high});
     c->jnd = grey_steps_between(l->foreground + l->reflected + veil,
                                 l->background + l->reflected + veil);
 }
@@ -213,7 +214,15 @@ static Reading read_symbol(const CaseLook *look, const ProbeAim *aim, VerdictAsk
         goal.most = COARSE_PATHS;
         goal.question = NULL;
     }
-    return reading_take(&rest, &goal, &stage->tools, scratch);
+    Reading reading = reading_take(&rest, &goal, &stage->tools, scratch);
+    for (int i = 0; i < DECIDE_ROUNDS && request->decides && goal.question; i++) {
+        if (is_verdict_clear(ask, reading.interval, scratch)) return reading;
+        goal.most *= DECIDE_TIMES;
+        goal.precision /= sqrt(DECIDE_TIMES);
+        rest.seed = hash_combine(rest.seed, DECIDE_SEED);
+        reading = reading_take(&rest, &goal, &stage->tools, scratch);
+    }
+    return reading;
 }
 
 /* The panel's emission dimmed by what the eye looks through. */
@@ -259,6 +268,8 @@ static ProbeAim see_symbol(const CaseTools *tools, const CaseLook *look, ReviewC
         symbol_visibility(&symbol->surface, &stage->context, eye, is_visible);
     *l = (CaseLuminances){(double)NAN, (double)NAN, (double)NAN, (double)NAN, (double)NAN,
                           (double)NAN};
+    c->minutes_to_decide = (double)NAN;
+    c->reflected_range = (Range){(double)NAN, (double)NAN};
     c->visible_share = seen.visible_share;
     c->height_arcmin = symbol_height_arcmin(&symbol->surface, symbol->split.box, eye);
     c->contrast_ratio = c->contrast_low = c->contrast_high = c->contrast_with_veil = c->jnd =
@@ -273,6 +284,7 @@ static ProbeAim see_symbol(const CaseTools *tools, const CaseLook *look, ReviewC
     VerdictAsk ask = {tools, c, *direct};
     Reading    reading = read_symbol(look, &aim, &ask, *arena);
     c->paths = reading.paths;
+    c->minutes_to_decide = reading.seconds / 60 / (double)reading.paths; /* of one path */
     l->reflected = reading.reflected;
     l->mirror = reading.mirror;
     l->scattered = reading.reflected - reading.mirror;
@@ -321,6 +333,8 @@ static ProbeAim judge_look(const CaseTools *tools, const CaseLook *look, ReviewC
     judge_ambient(c, tools->profile,
                   aim.target_count && is_in_sun(direct, c->luminance_cd_m2.reflected));
     judge_case(c, tools->profile, arena);
+    judge_paths(c);
+    c->minutes_to_decide *= c->paths_to_decide;
     return aim;
 }
 

@@ -41,7 +41,9 @@ typedef struct SweepTable {
     int              worst;     /* sun; -1: none */
     SweepSun         worst_sun; /* where near that one it is worst */
     const SweepSuns *suns;      /* shared by the sweep's tables */
-    const float     *contrast, *margin, *reflected, *mirror, *level, *lux; /* [suns->count] */
+    const float     *contrast, *low, *high; /* [suns->count], as all that follow: contrasts
+                                               with their 95 % interval */
+    const float     *margin, *reflected, *mirror, *level, *lux;
     const unsigned char *verdict, *ambient;
     double           foreground, background; /* cd m^-2, emitted at level 1 */
     const LimitVerdict *const *asked; /* [4] the contrast limit of each ambient; NULL: none */

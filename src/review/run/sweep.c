@@ -13,6 +13,9 @@
 #include "review/run/sweep_probes.h"
 #include "review/run/sweep_weather.h"
 
+#define WORST_READ 3          /* steps that are read again, at most */
+#define WORST_APART_DEG 5.0   /* the suns of two of them, at least: as wide as what a response
+                                 tells apart */
 #define SWEEP_BYTES ((size_t)1 << 36) /* address space: what is not touched costs nothing */
 
 /* Air and ground: the condition's, or as usual. */
@@ -47,12 +50,6 @@ static double level_for(const Sweep *sweep, const Sight *sight, const FarTools *
     return review_level_at(sweep->level, name, scene, lux);
 }
 
-static double shown_contrast(const ReviewCase *c, double reflected)
-{
-    return luminance_contrast(c->luminance_cd_m2.foreground, c->luminance_cd_m2.background,
-                              reflected);
-}
-
 /* The figures of a case under one sun; limits are judged by whoever asks. */
 static ReviewCase case_at(const Sweep *sweep, const Sight *sight, const FarTools *tools,
                           int sun)
@@ -69,10 +66,7 @@ static ReviewCase case_at(const Sweep *sweep, const Sight *sight, const FarTools
     c.luminance_cd_m2 = (CaseLuminances){
         level * sight->shown.foreground, level * sight->shown.background, reflected,
         light.mirror, reflected - light.mirror, (double)NAN};
-    c.contrast_ratio = shown_contrast(&c, reflected);
-    c.contrast_low = shown_contrast(&c, reflected + spread);
-    c.contrast_high = shown_contrast(&c, fmax(reflected - spread, 0));
-    c.contrast_with_veil = c.contrast_ratio;
+    judge_contrasts(&c, (Range){fmax(reflected - spread, 0), reflected + spread});
     judge_ambient(&c, sweep->run->profile, light.sun_first > CASE_SUNLIT * reflected);
     return c;
 }
@@ -80,16 +74,18 @@ static ReviewCase case_at(const Sweep *sweep, const Sight *sight, const FarTools
 /* ---- what is told of them ---------------------------------------------------------------- */
 
 typedef struct Told {
-    float *contrast, *margin, *reflected, *mirror, *level, *lux;
+    float *contrast, *low, *high; /* with its interval */
+    float *margin, *reflected, *mirror, *level, *lux;
     unsigned char *verdict, *ambient;
     int    worst; /* sun; -1: none */
 } Told;
 
 static Told told_start(int count, Arena *arena)
 {
-    float *numbers = ARENA_NEW(arena, float, 6 * (size_t)count);
+    float *numbers = ARENA_NEW(arena, float, 8 * (size_t)count);
     return (Told){numbers, numbers + count, numbers + 2 * count, numbers + 3 * count,
-                  numbers + 4 * count, numbers + 5 * count,
+                  numbers + 4 * count, numbers + 5 * count, numbers + 6 * count,
+                  numbers + 7 * count,
                   ARENA_NEW(arena, unsigned char, count),
                   ARENA_NEW(arena, unsigned char, count), -1};
 }
@@ -122,6 +118,8 @@ static void tell_sun(const TellWork *work, int sun, Arena scratch)
     ReviewCase c = case_at(work->sweep, work->sight, work->tools, sun);
     judge_case(&c, work->sweep->run->profile, &scratch);
     told->contrast[sun] = (float)c.contrast_ratio;
+    told->low[sun] = (float)c.contrast_low;
+    told->high[sun] = (float)c.contrast_high;
     told->margin[sun] = (float)c.margin;
     told->reflected[sun] = (float)c.luminance_cd_m2.reflected;
     told->mirror[sun] = (float)c.luminance_cd_m2.mirror;
@@ -330,6 +328,16 @@ static ReviewSweep sweep_of(const Telling *to, const Sight *sight)
     return sweep;
 }
 
+/* Between where two suns stand as the vehicle sees them. */
+static double sun_distance_deg(const SweepSun *a, const SweepSun *b)
+{
+    double up_a = radians_from_degrees(a->elevation_deg);
+    double up_b = radians_from_degrees(b->elevation_deg);
+    double turn = radians_from_degrees(a->azimuth_deg - b->azimuth_deg);
+    double cosine = sin(up_a) * sin(up_b) + cos(up_a) * cos(up_b) * cos(turn);
+    return degrees_from_radians(acos(fmin(fmax(cosine, -1), 1)));
+}
+
 /* The contrast limit that is asked under each ambient. */
 static const LimitVerdict *const *limits_asked(const Telling *to, const Sight *sight)
 {
@@ -343,6 +351,41 @@ static const LimitVerdict *const *limits_asked(const Telling *to, const Sight *s
     return asked;
 }
 
+/* The worst of those that fail for sure and lie far from all that were read; -1: none. */
+static int next_failing(const Telling *to, const Told *told, const SweepSun *read, int count)
+{
+    int next = -1;
+    for (int sun = 0; sun < to->suns->count; sun++) {
+        bool is_new = told->verdict[sun] == VERDICT_FAIL;
+        for (int i = 0; i < count && is_new; i++)
+            is_new = sun_distance_deg(&to->suns->list[sun], &read[i]) > WORST_APART_DEG;
+        if (is_new && is_worse(told, sun, next)) next = sun;
+    }
+    return next;
+}
+
+/* The worst of many steps is the one with the worst luck, too: what is told is read afresh.
+ * Where that does not fail, though steps do, so are others of them, until one is sure. */
+static bool find_worst(Telling *to, const Sight *sight, const Told *told, SweepSun *worst,
+                       ReviewCase *out, Error *err)
+{
+    SweepSun   read[WORST_READ];
+    ReviewCase found = *out;
+    int        sun = told->worst;
+    for (int i = 0; i < WORST_READ && sun >= 0; i++) {
+        read[i] = refine(to, sight, to->suns->list[sun]);
+        if (!read_worst(to, sight, &read[i], &found, err)) return false;
+        tell_when(to, &read[i], &found);
+        if (i == 0 || found.verdict == VERDICT_FAIL) {
+            *out = found;
+            *worst = read[i];
+        }
+        if (found.verdict == VERDICT_FAIL) return true;
+        sun = next_failing(to, told, read, i + 1);
+    }
+    return true;
+}
+
 static bool add_sweep(Telling *to, const Sight *sight, Error *err)
 {
     Review     *review = &to->out->review;
@@ -351,16 +394,12 @@ static bool add_sweep(Telling *to, const Sight *sight, Error *err)
         Told told = tell(to->sweep, sight, to->tools, to->arena);
         set_failures(to, sight, &told, &sweep);
         SweepSun worst = {0};
-        if (told.worst >= 0) {
-            worst = refine(to, sight, to->suns->list[told.worst]);
-            if (!read_worst(to, sight, &worst, &sweep.worst, err)) return false;
-            tell_when(to, &worst, &sweep.worst);
-        }
+        if (!find_worst(to, sight, &told, &worst, &sweep.worst, err)) return false;
         sweep.worst.symbol = sweep.symbol;
         to->out->tables[to->out->table_count++] =
             (SweepTable){review->sweep_count, told.worst, worst, to->suns, told.contrast,
-                         told.margin, told.reflected, told.mirror, told.level, told.lux,
-                         told.verdict, told.ambient, sight->shown.foreground,
+                         told.low, told.high, told.margin, told.reflected, told.mirror,
+                         told.level, told.lux, told.verdict, told.ambient, sight->shown.foreground,
                          sight->shown.background, limits_asked(to, sight)};
     }
     review->sweeps[review->sweep_count++] = sweep;

@@ -37,14 +37,16 @@ bool sweep_table_write(const SweepTable *table, const ReviewCondition *condition
     Text  text = {.arena = &own};
     text_format(&text, "%ssun_azimuth_deg,sun_elevation_deg,heading_deg,vehicle_azimuth_deg,"
                        "minutes,level,display_lx,reflected_cd_m2,sun_by_mirror_cd_m2,"
-                       "contrast_ratio,margin,verdict\n", head_of(condition));
+                       "contrast_ratio,contrast_low,contrast_high,margin,verdict\n",
+                head_of(condition));
     for (int i = 0; i < table->suns->count; i++) {
         const SweepSun *sun = &table->suns->list[i];
         add_time(&text, table, condition, sun);
-        text_format(&text, "%.2f,%.2f,%g,%.2f,%g,%.4g,%.5g,%.5g,%.5g,%.5g,", sun->compass_deg,
-                 sun->elevation_deg, sun->heading_deg, sun->azimuth_deg, sun->minutes,
-                 (double)table->level[i], (double)table->lux[i], (double)table->reflected[i],
-                 (double)table->mirror[i], (double)table->contrast[i]);
+        text_format(&text, "%.2f,%.2f,%g,%.2f,%g,%.4g,%.5g,%.5g,%.5g,%.5g,%.5g,%.5g,",
+                    sun->compass_deg, sun->elevation_deg, sun->heading_deg, sun->azimuth_deg,
+                    sun->minutes, (double)table->level[i], (double)table->lux[i],
+                    (double)table->reflected[i], (double)table->mirror[i],
+                    (double)table->contrast[i], (double)table->low[i], (double)table->high[i]);
         if (!isnan(table->margin[i])) text_format(&text, "%.4g", (double)table->margin[i]);
         text_format(&text, ",%s\n", verdict_names[table->verdict[i]]);
     }

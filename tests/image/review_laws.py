@@ -1,0 +1,135 @@
+# SPDX-License-Identifier: Apache-2.0
+"""review_laws.py PARHELION REVIEW.json [LEVEL FIRST LAST STEP] -- numbers of a review that
+belong together: every contrast is its luminances' own, intervals hold what they are of, one
+verdict stands in headline, card, table, JSON and exit status.
+
+With a level, the review is made once for each of its values; pictures are left out.
+"""
+import csv
+import json
+import math
+import os
+import subprocess
+import sys
+import tempfile
+
+
+def contrast(light, reflected):
+    bright = max(light["foreground"], light["background"]) + reflected
+    dark = min(light["foreground"], light["background"]) + reflected
+    return bright / dark if dark > 0 else math.inf
+
+
+def broken_case_laws(case):
+    """Numbers of a case that belong together and do not agree."""
+    light, ratio = case["luminance_cd_m2"], case["contrast_ratio"]
+    if case["verdict"] == "not visible":
+        return
+    low, high = case["reflected_interval"]
+    ends = case["contrast_interval"]
+    if not low / (1 + 1e-5) <= light["reflected"] <= high * (1 + 1e-5):
+        yield f"reflected {light['reflected']} lies outside {low} to {high}"
+    for found, reflected in ((ratio, light["reflected"]), (ends[0], high), (ends[1], low)):
+        if not math.isinf(contrast(light, reflected)) and \
+                abs(found - contrast(light, reflected)) > 1e-4 * found:
+            yield f"contrast {found} of luminances that give {contrast(light, reflected)}"
+    if case["limit"]:
+        limit = case["limit"]
+        if limit["margin"] != case["margin"]:
+            yield f"margin {case['margin']} beside its limit's {limit['margin']}"
+        if limit["kind"] == "contrast_ratio" and \
+                abs(limit["found"] / limit["value"] - 1 - limit["margin"]) > 1e-4:
+            yield f"margin {limit['margin']} of {limit['found']} by {limit['value']}"
+    if (case["paths_to_decide"] is not None) != (case["verdict"] == "too close"):
+        yield f"{case['verdict']}: {case['paths_to_decide']} paths would decide it"
+
+
+def broken_laws(review, folder, done):
+    cases = review["cases"] + [sweep["worst"] for sweep in review["sweeps"]]
+    for case in cases:
+        yield from broken_case_laws(case)
+    with open(os.path.join(folder, "cases.csv"), encoding="utf-8", newline="") as file:
+        rows = list(csv.DictReader(file))
+    told = [(c["verdict"], c["margin"]) for c in review["cases"]]
+    wrote = [(r["verdict"], float(r["margin"]) if r["margin"] else None) for r in rows]
+    if told != wrote[:len(told)]:
+        yield f"cases.csv says {wrote}, review.json {told}"
+    for sweep in review["sweeps"]:
+        if sweep["verdict"] != sweep["worst"]["verdict"]:
+            yield f"a sweep says {sweep['verdict']}, its worst {sweep['worst']['verdict']}"
+        if not sweep["table"]:
+            continue
+        with open(os.path.join(folder, sweep["table"]), encoding="utf-8") as file:
+            for row in csv.DictReader(file):
+                least, ratio, most = (float(row[f"contrast_{key}"])
+                                      for key in ("low", "ratio", "high"))
+                if not least / 1.0001 <= ratio <= most * 1.0001:
+                    yield f"a step's contrast lies outside its interval: {row}"
+    verdicts = [c["verdict"] for c in cases]
+    wanted = ("fail" if "fail" in verdicts else
+              "too close" if "too close" in verdicts else "pass")
+    if review["strict"]:
+        wanted = wanted if wanted != "pass" and set(verdicts) == {"pass"} else \
+            "pass" if set(verdicts) <= {"pass"} else "fail"
+    if review["verdict"] != wanted or review["pass"] != (wanted != "fail") or \
+            done.returncode != (wanted == "fail"):
+        yield f"says {review['verdict']}, status {done.returncode}, its cases {verdicts}"
+    words = {"pass": "pass", "fail": "FAIL", "too close": "too close to call"}
+    if done.stdout and done.stdout.splitlines()[-1] != words[wanted]:
+        yield f"the last line is {done.stdout.splitlines()[-1]}"
+
+
+def review(program, request, folder, responses):
+    """What is wrong, and how many cases there were."""
+    done = subprocess.run([program, "review", request, "-o", folder, "--quiet",
+                           "--responses", responses],
+                          capture_output=True, text=True, check=False)
+    if done.returncode not in (0, 1):
+        return [done.stderr], 0
+    with open(os.path.join(folder, "review.json"), encoding="utf-8") as file:
+        found = json.load(file)
+    with open(os.path.join(folder, "index.html"), encoding="utf-8") as file:
+        page = file.read()
+    words = {"pass": "Passes", "fail": "Fails", "too close": "Too close to call"}
+    wrong = list(broken_laws(found, folder, done))
+    if f"<h1><b>{words[found['verdict']]}</b>" not in page:
+        wrong.append(f"the page's headline does not say {found['verdict']}")
+    return wrong, len(found["cases"]) + len(found["sweeps"])
+
+
+def levels_of(words):
+    name, first, last, step = words[0], *map(float, words[1:])
+    count = int(round((last - first) / step))
+    return name, [round(first + i * step, 9) for i in range(count + 1)]
+
+
+def main(program, request, *words):
+    program, request = os.path.abspath(program), os.path.abspath(request)
+    with open(request, encoding="utf-8") as file:
+        document = json.load(file)
+    document["frames"] = {"worst": 0}
+    name, values = levels_of(words) if words else (None, [None])
+    cases, broken = 0, 0
+    kept = tempfile.TemporaryDirectory()
+    for value in values:
+        if name:
+            document["levels"][name] = {"*": value}
+        beside = os.path.join(os.path.dirname(request), f".laws-{os.getpid()}.review.json")
+        with tempfile.TemporaryDirectory() as folder:
+            try:
+                with open(beside, "w", encoding="utf-8") as file:
+                    json.dump(document, file)
+                wrong, count = review(program, beside, os.path.join(folder, "out"),
+                                      kept.name)
+            finally:
+                os.remove(beside)
+        cases, broken = cases + count, broken + len(wrong)
+        for said in wrong:
+            print(f"{os.path.basename(request)}, {name} {value}: {said}", flush=True)
+    kept.cleanup()
+    print(f"{cases} cases of {len(values)} reviews, {broken} broken laws")
+    return broken > 0 or cases == 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(*sys.argv[1:]))
