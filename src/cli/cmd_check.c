@@ -10,6 +10,7 @@
 #include "cli/material_list.h"
 #include "cli/options/answer.h"
 #include "cli/options/cli.h"
+#include "cli/options/data_warning.h"
 #include "cli/options/hdri_warning.h"
 #include "cli/options/scene_options.h"
 #include "scene/load/scene_load.h"
@@ -389,7 +390,7 @@ static bool print_json(const Scene *scene, const Problems *problems, Arena *aren
 static bool run_check(int argc, char **argv, Arena *arena, Error *err)
 {
     const char *root = NULL;
-    bool materials = false;
+    bool materials = false, is_strict = false;
     SceneWords words = {0};
     const Option options[] = {
         {"--root", OPTION_TEXT, "DIR", ROOT_HELP, &root, .given = NULL},
@@ -397,6 +398,8 @@ static bool run_check(int argc, char **argv, Arena *arena, Error *err)
          "which materials there are, on which nodes, how large, and which look like screens",
          &materials},
         LAMP_OPTIONS(&words),
+        {"--strict", OPTION_FLAG, NULL, "materials without optical data are errors",
+         &is_strict},
         STATE_OPTIONS(&words.state),
     };
     const CliCommand command = {
@@ -413,6 +416,7 @@ static bool run_check(int argc, char **argv, Arena *arena, Error *err)
     Scene *scene = scene_survey(&files, cli.progress, arena, &problems);
     bool   done = true;
     hdri_warn(&scene->environment, &problems);
+    data_warn(scene, is_strict ? SEVERITY_ERROR : SEVERITY_WARNING, &problems);
     if (cli.json)
         done = print_json(scene, &problems, arena, err);
     else if (materials)

@@ -9,6 +9,7 @@
 #include "cli/measure_illuminance.h"
 #include "cli/options/answer.h"
 #include "image/measure.h"
+#include "text/interval_text.h"
 #include "text/json_text.h"
 
 typedef struct MeasureWords {
@@ -70,14 +71,23 @@ static bool parse(int argc, char **argv, Arena *arena, MeasureWords *out, Error 
 
 /* ---- as text ----------------------------------------------------------------------------- */
 
+#define INTERVAL_BYTES 4096 /* of its words */
+
 static void print_figure(const char *name, Measured figure, const char *unit)
 {
     if (isnan(figure.value)) {
         printf("%-12s undefined: there is no light\n", name);
         return;
     }
-    if (isnan(figure.half_width)) printf("%-12s %.6g%s\n", name, figure.value, unit);
-    else printf("%-12s %.6g +- %.2g%s\n", name, figure.value, figure.half_width, unit);
+    if (isnan(figure.half_width)) {
+        printf("%-12s %.6g%s\n", name, figure.value, unit);
+        return;
+    }
+    Arena scratch = arena_reserve(INTERVAL_BYTES);
+    printf("%-12s %s%s\n", name,
+           interval_text(figure.value, figure.value - figure.half_width,
+                         figure.value + figure.half_width, &scratch), unit);
+    arena_release(&scratch);
 }
 
 /* Why there is no contrast of the content. */

@@ -63,6 +63,26 @@ typedef struct CaseCause {
                                  own */
 } CaseCause;
 
+/* What one thing has of the reflected light. */
+typedef struct CaseShare {
+    const char *what;
+    double      share, cd_m2; /* 0..1 */
+} CaseShare;
+
+/* All of the reflected light by one kind of thing, greatest first, "other" last: shares add up
+ * to 1. */
+typedef struct CaseGroup {
+    const CaseShare *list;
+    int              count;
+} CaseGroup;
+
+typedef enum CauseGroup {
+    GROUP_LIGHT,   /* where it began: sun, sky, a lamp, a display */
+    GROUP_OPENING, /* the last pane that it passed, or none */
+    GROUP_SURFACE, /* what the symbol mirrors or is lit by: a surface, or a light by itself */
+    CAUSE_GROUPS
+} CauseGroup;
+
 /* How a picture shows the world: what stands at `eye` + x right + y up + z forward is, of a
  * perspective view, at x / z of half_width and y / z of half_height from its middle; else at x
  * and y. */
@@ -125,6 +145,8 @@ typedef struct ReviewCase {
     Verdict verdict;             /* the worst of its limits' that count */
     const CaseCause  *causes;    /* greatest first */
     int     cause_count;
+    CaseGroup groups[CAUSE_GROUPS];
+    double  without_data_share;  /* of the reflected light, by way of materials without data */
     const CaseRemedy *remedies;
     int     remedy_count;
     const char *frame;           /* picture's name within the folder; NULL: none was rendered */
@@ -216,8 +238,11 @@ typedef struct Review {
     int             response_count;
     ReviewFalseSun *false_suns;   /* by condition and eye, the worst first */
     int             false_sun_count;
+    const char *without_data;     /* names of materials without data; NULL: there are none */
+    int         without_data_count;
     const char *const *notes;     /* what a reader must know: approximations, gaps in data */
     int             note_count;
-    bool            pass;         /* nothing fails; strict: nor is too close or not visible */
+    bool            pass;         /* nothing fails; strict: nor is too close, not visible or of
+                                     a material without data */
     bool            is_strict;
 } Review;

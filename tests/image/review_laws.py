@@ -33,6 +33,11 @@ def broken_case_laws(case):
         if not math.isinf(contrast(light, reflected)) and \
                 abs(found - contrast(light, reflected)) > 1e-4 * found:
             yield f"contrast {found} of luminances that give {contrast(light, reflected)}"
+    for name, group in case["cause_groups"].items():
+        if group and abs(sum(share["share"] for share in group) - 1) > 1e-4:
+            yield f"causes by {name} add up to {sum(share['share'] for share in group)}"
+        if any(share["what"] == "other" and share["share"] > 0.1 for share in group):
+            yield f"causes by {name}: {group[-1]['share']} under 'other'"
     if case["limit"]:
         limit = case["limit"]
         if limit["margin"] != case["margin"]:

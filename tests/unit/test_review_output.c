@@ -312,7 +312,8 @@ TEST(a_foreign_json_is_refused_in_one_line)
 /* What was told later than reviews that may be held against this one. */
 static bool is_optional(const char *key, const json_t *object)
 {
-    static const char *const ADDED[] = {"reflected_interval", "paths_to_decide"};
+    static const char *const ADDED[] = {"reflected_interval", "paths_to_decide", "cause_groups",
+                                        "without_data_share", "without_data"};
     for (size_t i = 0; i < sizeof ADDED / sizeof *ADDED; i++)
         if (!strcmp(key, ADDED[i])) return true;
     return !strcmp(key, "verdict") &&

@@ -6,6 +6,8 @@
 
 #include "cli/options/answer.h"
 #include "review/chain/outlook_picture.h"
+#include "review/output/review_json.h"
+#include "text/interval_text.h"
 #include "text/json_text.h"
 
 /* ---- as text ----------------------------------------------------------------------------- */
@@ -20,7 +22,7 @@ static void print_where(const ReviewCase *c)
            (double)c->eye_m.z);
 }
 
-static void print_light(const Explained *told)
+static void print_light(const Explained *told, Arena scratch)
 {
     const ReviewCase     *c = &told->of;
     const CaseLuminances *l = &c->luminance_cd_m2;
@@ -31,15 +33,14 @@ static void print_light(const Explained *told)
     else if (c->display)
         printf("sends      %.4g cd/m2; white %.4g, black %.4g\n", told->shown, l->foreground,
                l->background);
-    printf("%-10s %.4g cd/m2", light, l->reflected);
-    if (told->all.sigma > 0)
-        printf(" (%.4g to %.4g)", told->all.cd_m2 - INTERVAL_SIGMAS * told->all.sigma,
-               told->all.cd_m2 + INTERVAL_SIGMAS * told->all.sigma);
+    printf("%-10s %s cd/m2", light,
+           interval_text(l->reflected, c->reflected_range.low, c->reflected_range.high,
+                         &scratch));
     if (c->display) printf(": mirror %.4g, scattered %.4g", l->mirror, l->scattered);
     printf("\n");
     if (c->display)
-        printf("contrast   %.3g : 1 (%.3g to %.3g); %.4g : 1 if nothing were reflected\n",
-               c->contrast_ratio, c->contrast_low, c->contrast_high,
+        printf("contrast   %s : 1; %.4g : 1 if nothing were reflected\n",
+               interval_text(c->contrast_ratio, c->contrast_low, c->contrast_high, &scratch),
                luminance_contrast(l->foreground, l->background, 0));
 }
 
@@ -50,6 +51,20 @@ static void print_cause(const CaseCause *cause, bool has_contrast)
     if (has_contrast) printf("  %7.3g : 1", cause->contrast_without);
     for (int i = 0; i < cause->links; i++)
         printf("%s%s", i ? " > " : "  ", cause->chain[i]);
+    printf("\n");
+}
+
+/* Each adds up to all of the light. */
+static void print_groups(const ReviewCase *c)
+{
+    static const char *const NAMES[CAUSE_GROUPS] = {"began at", "came by", "met at"};
+    for (int g = 0; g < CAUSE_GROUPS; g++) {
+        const CaseGroup *group = &c->groups[g];
+        for (int i = 0; i < group->count; i++)
+            printf("%s%.3g %% %s", i ? ", " : g ? "\n" : "", 100 * group->list[i].share,
+                   group->list[i].what);
+        if (group->count) printf(" (%s)", NAMES[g]);
+    }
     printf("\n");
 }
 
@@ -77,7 +92,8 @@ static void print_text(const Explained *told, Arena *arena)
         printf("not visible\n");
         return;
     }
-    print_light(told);
+    print_light(told, *arena);
+    print_groups(&told->of);
     print_causes(&told->of);
     print_remedies(&told->of);
     if (told->has_outlook) printf("\nsees       %s\n", outlook_words(&told->outlook, arena));
@@ -178,6 +194,10 @@ static bool print_json(const Explained *told, Error *err)
         "contrast_interval", number(c->contrast_low), number(c->contrast_high), "paths",
         (json_int_t)told->paths);
     json_object_set_new(out, "visible_share", number(c->visible_share));
+    json_object_set_new(out, "reflected_interval",
+                        json_pack("[o,o]", number(c->reflected_range.low),
+                                  number(c->reflected_range.high)));
+    json_object_set_new(out, "cause_groups", review_groups_json(c));
     json_object_set_new(out, "chains", json_chains(c));
     json_object_set_new(out, "remedies", json_remedies(c));
     json_object_set_new(out, "outlook", json_outlook(told));

@@ -3,6 +3,7 @@
 
 #include "base/count.h"
 #include "base/reference.h"
+#include "cli/options/data_warning.h"
 #include "cli/options/hdri_warning.h"
 #include "scene/load/scene_load.h"
 
@@ -72,6 +73,7 @@ bool scene_options_load(const SceneAsked *asked, Arena *arena, Problems *problem
     }
     tell_of_night(&scene->environment, problems);
     hdri_warn(&scene->environment, problems);
+    data_warn(scene, SEVERITY_WARNING, problems);
     *out = scene;
     return true;
 }

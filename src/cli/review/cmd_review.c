@@ -20,6 +20,7 @@
 #include "review/request/request_read.h"
 #include "review/run/run.h"
 #include "scene/load/scene_load.h"
+#include "text/interval_text.h"
 
 typedef struct ReviewWords {
     ShareRequest share;
@@ -41,7 +42,8 @@ static bool parse(int argc, char **argv, Arena *arena, ReviewWords *out, Error *
          &out->dry_run},
         {"--profile", OPTION_TEXT, "NAME|FILE.json", "limits instead of the request's",
          &out->profile},
-        {"--strict", OPTION_FLAG, NULL, "too close to call and not visible fail, too",
+        {"--strict", OPTION_FLAG, NULL, "too close to call, not visible and materials without "
+         "optical data fail, too",
          &out->is_strict},
         {"--decide", OPTION_FLAG, NULL,
          "goes on with what is too close to call: up to 64 times the paths", &out->decides},
@@ -77,19 +79,21 @@ static bool parse(int argc, char **argv, Arena *arena, ReviewWords *out, Error *
 
 /* ---- what is said ------------------------------------------------------------------------ */
 
-static void print_case(const ReviewCase *c)
+static void print_case(const ReviewCase *c, Arena scratch)
 {
     printf("%-11s %s, %s, %s", verdict_names[c->verdict], c->condition, c->eye, c->symbol);
     if (c->visible_share > 0)
-        printf(": contrast %.3g : 1 (%.3g to %.3g), reflected %.4g cd/m2", c->contrast_ratio,
-               c->contrast_low, c->contrast_high, c->luminance_cd_m2.reflected);
+        printf(": contrast %s : 1, reflected %s cd/m2",
+               interval_text(c->contrast_ratio, c->contrast_low, c->contrast_high, &scratch),
+               interval_text(c->luminance_cd_m2.reflected, c->reflected_range.low,
+                             c->reflected_range.high, &scratch));
     if (c->limit_id >= 0) printf(", wanted %.3g : 1", c->limits[c->limit_id].value);
     if (c->minutes_to_decide > 0 && isfinite(c->minutes_to_decide))
         printf("; about %.2g minutes more would decide it", fmax(c->minutes_to_decide, 0.1));
     putchar('\n');
 }
 
-static void print_sweep(const ReviewSweep *s)
+static void print_sweep(const ReviewSweep *s, Arena scratch)
 {
     bool is_sure = sweep_verdict(s) == VERDICT_FAIL || !(s->failed_share > 0);
     printf("%-11s %s, %s, %s: %.3g %% of %ld suns fail%s", verdict_names[sweep_verdict(s)],
@@ -98,8 +102,10 @@ static void print_sweep(const ReviewSweep *s)
     if (s->longest_failure_minutes > 0)
         printf(", %.4g minutes at a stretch", s->longest_failure_minutes);
     if (s->worst.has_sun)
-        printf("; worst at azimuth %.1f, elevation %.1f: contrast %.3g : 1",
-               s->worst.sun_azimuth_deg, s->worst.sun_elevation_deg, s->worst.contrast_ratio);
+        printf("; worst at azimuth %.1f, elevation %.1f: contrast %s : 1",
+               s->worst.sun_azimuth_deg, s->worst.sun_elevation_deg,
+               interval_text(s->worst.contrast_ratio, s->worst.contrast_low,
+                             s->worst.contrast_high, &scratch));
     putchar('\n');
 }
 
@@ -113,19 +119,25 @@ static void print_gaze(const GazeFinding *g)
            g->veil - g->veil_parts.near);
 }
 
-static void print_review(const Review *review)
+static void print_review(const Review *review, Arena scratch)
 {
-    for (int i = 0; i < review->case_count; i++) print_case(&review->cases[i]);
-    for (int i = 0; i < review->sweep_count; i++) print_sweep(&review->sweeps[i]);
+    for (int i = 0; i < review->case_count; i++) print_case(&review->cases[i], scratch);
+    for (int i = 0; i < review->sweep_count; i++) print_sweep(&review->sweeps[i], scratch);
     for (int i = 0; i < review->gaze_count; i++) print_gaze(&review->gazes[i]);
+    const ReviewCase *worst = review_worst(review, scratch);
+    if (review->without_data_count)
+        printf("%-11s %d material%s taken as perfectly white: %s; of the light on the worst "
+               "case %.3g %% came by way of them\n", "no data", review->without_data_count,
+               review->without_data_count == 1 ? "" : "s", review->without_data,
+               worst ? 100 * worst->without_data_share : 0);
     static const char *const LAST[4] = {"pass", "FAIL", "too close to call", "not visible"};
     printf("%s\n", LAST[review_verdict(review)]);
 }
 
-static bool answer(const Cli *cli, const Review *review, Error *err)
+static bool answer(const Cli *cli, const Review *review, Arena scratch, Error *err)
 {
     if (cli->json) return cli_print_json(review_json(review), err);
-    print_review(review);
+    print_review(review, scratch);
     return true;
 }
 
@@ -258,7 +270,7 @@ static bool make(const ReviewWords *words, ReviewFolder *folder, ReviewRun *run,
         return false;
     }
     review_folder_finish(folder);
-    if (!answer(&words->cli, &outcome.review, err)) return false;
+    if (!answer(&words->cli, &outcome.review, *arena, err)) return false;
     if (outcome.review.pass) return true;
     *err = (Error){.code = ERROR_DIFFERENT};
     return false;

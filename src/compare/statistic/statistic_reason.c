@@ -51,8 +51,8 @@ static void tell_shift(const StatisticRegion *region, char *text, size_t size)
         append(text, size, "%+.3g %% +- %.2g %%", 100 * region->shift,
                100 * region->shift_sigma);
     if (is_surer && !is_proportional(region))
-        append(text, size, ", its surest pixels %+.3g %% +- %.2g %%", 100 * region->change,
-               100 * region->change_sigma);
+        append(text, size, ", where its pixels are known best %+.3g %% +- %.2g %%",
+               100 * region->change, 100 * region->change_sigma);
 }
 
 /* "display 'cluster': reflected light +1.02 % +- 0.21 %" */

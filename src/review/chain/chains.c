@@ -7,6 +7,7 @@
 
 #include "base/parallel.h"
 #include "base/sampler.h"
+#include "scene/load/material_data.h"
 
 #define ROUND 64          /* chunks at a time */
 #define CHUNK_ROOM 512    /* of a chunk's table: a power of two */
@@ -29,6 +30,7 @@ typedef struct ChainChunk {
     int         count;
     double      all, mirror, own;
     double     *by_part;
+    ChainGroups groups;
     uint32_t    tellings;
 } ChainChunk;
 
@@ -37,6 +39,7 @@ typedef struct ChainSearch {
     const ChainAsk *ask;
     const Scene    *scene;
     const int      *alike;
+    const bool     *has_data; /* of each part */
     float           far_m; /* how long a ray is drawn towards what is far off */
     int             first; /* chunk of this round */
     ChainChunk      *sums;  /* of the round's chunks */
@@ -148,6 +151,37 @@ static void add_parts(const ChunkListener *to, const PathTale *tale, double y)
     if (tale->count) add_part(to, tale->pane_id, parts, &count, y);
 }
 
+/* What shines there by itself: an emitter is a thing that is met. */
+static void add_straight(const ChunkListener *to, const PathTale *tale, double y)
+{
+    ChainGroups *groups = &to->sums->groups;
+    if (tale->source == LIGHTS_EMITTERS)
+        groups->by_surface[to->search->alike[tale->source_id]] += y;
+    else groups->straight[tale->source] += y;
+}
+
+static bool is_without_data(const ChunkListener *to, const PathTale *tale)
+{
+    const bool *has_data = to->search->has_data;
+    for (int i = 0; i < told_steps(tale); i++)
+        if (!has_data[tale->step[i].part_id]) return true;
+    return false;
+}
+
+static void add_groups(const ChunkListener *to, const PathTale *tale, double y)
+{
+    ChainGroups *groups = &to->sums->groups;
+    const int   *alike = to->search->alike;
+    groups->by_set[tale->source] += y;
+    if (tale->source == LIGHTS_EMITTERS) groups->by_emitter[alike[tale->source_id]] += y;
+    if (tale->source == LIGHTS_PUNCTUAL) groups->by_lamp[tale->source_id] += y;
+    if (tale->pane_id == NO_ID) groups->by_no_pane += y;
+    else groups->by_pane[alike[tale->pane_id]] += y;
+    if (tale->count < 2) add_straight(to, tale, y);
+    else groups->by_surface[alike[tale->step[1].part_id]] += y;
+    if (is_without_data(to, tale)) groups->without_data += y;
+}
+
 static int display_of(const Scene *scene, int part_id)
 {
     return scene->materials[scene->parts[part_id].material_id].display_id;
@@ -169,6 +203,7 @@ static void hear(void *user, const PathTale *tale, const float xyz[3])
         display_of(scene, tale->source_id) == display)
         sums->own += y;
     add_parts(to, tale, y);
+    add_groups(to, tale, y);
     if (!chain) return;
     chain->sum += y;
     draw_ray(to, chain, tale, y);
@@ -277,12 +312,47 @@ static void add_chunk(FoundChains *found, const ChainChunk *sums, ChunkGifts *gi
     }
 }
 
+static ChainGroups fresh_groups(const Scene *scene, Arena *arena)
+{
+    return (ChainGroups){.by_emitter = ARENA_NEW(arena, double, scene->part_count),
+                         .by_lamp = ARENA_NEW(arena, double, scene->light_count),
+                         .by_pane = ARENA_NEW(arena, double, scene->part_count),
+                         .by_surface = ARENA_NEW(arena, double, scene->part_count)};
+}
+
+static void add_all(double *to, const double *from, int count, double scale)
+{
+    for (int i = 0; i < count; i++) to[i] += scale * from[i];
+}
+
+static void merge_groups(ChainGroups *to, const ChainGroups *from, const Scene *scene,
+                         double scale)
+{
+    add_all(to->by_set, from->by_set, LIGHT_SETS, scale);
+    add_all(to->straight, from->straight, LIGHT_SETS, scale);
+    add_all(to->by_emitter, from->by_emitter, scene->part_count, scale);
+    add_all(to->by_lamp, from->by_lamp, scene->light_count, scale);
+    add_all(to->by_pane, from->by_pane, scene->part_count, scale);
+    add_all(to->by_surface, from->by_surface, scene->part_count, scale);
+    to->by_no_pane += scale * from->by_no_pane;
+    to->without_data += scale * from->without_data;
+}
+
+static bool *parts_with_data(const Scene *scene, Arena *arena)
+{
+    bool *has_data = ARENA_NEW(arena, bool, scene->part_count);
+    for (int i = 0; i < scene->part_count; i++)
+        has_data[i] = material_has_data(&scene->materials[scene->parts[i].material_id]);
+    return has_data;
+}
+
 static ChainChunk *fresh_sums(int count, const Scene *scene, Arena *arena)
 {
     ChainChunk *sums = ARENA_NEW(arena, ChainChunk, count);
     for (int i = 0; i < count; i++) {
         sums[i].table = ARENA_NEW(arena, ChunkChain, CHUNK_ROOM);
         sums[i].by_part = ARENA_NEW(arena, double, scene->part_count);
+        sums[i].groups = fresh_groups(scene, arena);
     }
     return sums;
 }
@@ -382,8 +452,10 @@ Chains chains_find(const ChainAsk *ask, Arena *arena)
     Arena  own = arena_reserve(OWN_BYTES);
     Chains out = {.scene = scene, .list = ARENA_NEW(arena, Chain, ask->most),
                   .by_part = ARENA_NEW(arena, double, scene->part_count),
+                  .groups = fresh_groups(scene, arena),
                   .alike = alike_parts(scene, arena), .paths = (long)chunks * CHAIN_CHUNK};
     ChainSearch search = {.ask = ask, .scene = scene, .alike = out.alike,
+                          .has_data = parts_with_data(scene, &own),
                           .far_m = far_length(scene)};
     FoundChains found = {.table = ARENA_NEW(&own, FoundChain *, ROOM),
                          .by_id = ARENA_NEW(&own, FoundChain *, CHAINS_TOLD),
@@ -396,8 +468,10 @@ Chains chains_find(const ChainAsk *ask, Arena *arena)
         parallel_for(ask->tools->threads, count, hear_chunk, &search);
         for (int i = 0; i < count; i++) {
             add_chunk(&found, &search.sums[i], &found.gifts[search.first + i], &own);
-            for (int p = 0; p < scene->part_count; p++)
-                out.by_part[p] += search.sums[i].by_part[p] / CHAIN_CHUNK / chunks;
+            add_all(out.by_part, search.sums[i].by_part, scene->part_count,
+                    1.0 / CHAIN_CHUNK / chunks);
+            merge_groups(&out.groups, &search.sums[i].groups, scene,
+                         1.0 / CHAIN_CHUNK / chunks);
         }
     }
     out.all = figure_of(found.all, chunks);

@@ -57,6 +57,21 @@ typedef struct Chain {
     int         ray_count;        /* one of a chunk of paths at most */
 } Chain;
 
+/* cd m^-2 of `all` by one thing of each path: each kind adds up to it. Parts that count as one
+ * at their first. */
+typedef struct ChainGroups {
+    double  by_set[LIGHT_SETS]; /* where the light began; emitters and lamps one by one: */
+    double *by_emitter;         /* [part] */
+    double *by_lamp;            /* [light] */
+    double *by_pane;            /* [part], by the last pane that it passed; */
+    double  by_no_pane;         /* and past none */
+    double *by_surface;         /* [part], by what is met next behind what is seen first, an
+                                   emitter among it; */
+    double  straight[LIGHT_SETS]; /* and what shines there by itself */
+    double  without_data;       /* by way of any material without data (material_data.h), each
+                                   path once */
+} ChainGroups;
+
 typedef struct Chains {
     const Scene *scene;
     Chain      *list;   /* the greatest, greatest first */
@@ -67,6 +82,7 @@ typedef struct Chains {
     double      own;    /* cd m^-2 of `all` that began at the display that is seen first */
     double     *by_part; /* cd m^-2 that came by each part of the scene, surface or pane, behind
                             what is seen first; of parts that count as one at their first */
+    ChainGroups groups;
     const int  *alike;  /* of each part: the first of those that count as one */
     long        paths;
 } Chains;

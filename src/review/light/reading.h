@@ -2,11 +2,11 @@
 /* reading.h -- what a probe reads under the light that is there.
  *
  * Paths go out in rounds, each as long as all before it, until the reading is sure enough.
- * Where something hangs on it, these are a pilot only: it says how many paths will do, be it because
- * the answer is clear then or because the reading is sure enough, and so many others, fresh
- * ones, are what is told. Who stops when it pleases is wrong more often than its interval says;
- * so fresh paths, whose number hangs on nothing that they find, have an interval that means
- * 95 %. Intervals come from the means of independent batches of paths (confidence.h).
+ * Where something hangs on it, these are a pilot only: it says how many paths will do, be it
+ * because the answer is clear then or because the reading is sure enough, and so many others,
+ * fresh ones, are what is told. Who stops when it pleases is wrong more often than its interval
+ * says; so fresh paths, whose number hangs on nothing that they find, have an interval that
+ * means 95 %. Intervals come from the means of independent batches of paths (confidence.h).
  *
  * Units    cd m^-2 (a luxmeter: lx).
  * Memory   scratch only.

@@ -172,6 +172,24 @@ static void add_cause(Text *html, const ReviewCard *card, int i, Arena *arena)
     text_add(html, "</li>\n");
 }
 
+/* The light by where it began, came in and shines from: each adds up to all of it. */
+static void add_groups(Text *html, const ReviewCase *c, Arena *arena)
+{
+    static const char *const HEADS[CAUSE_GROUPS] = {
+        "Where the light began", "By which opening it came",
+        "What the display mirrors or is lit by"};
+    for (int g = 0; g < CAUSE_GROUPS; g++) {
+        const CaseGroup *group = &c->groups[g];
+        if (!group->count) continue;
+        text_format(html, "<p class=\"sub\"><b>%s</b>: ", HEADS[g]);
+        for (int i = 0; i < group->count; i++)
+            escape_markup(html, arena_format(arena, "%s%s %s", i ? " · " : "",
+                                             words_share(group->list[i].share, arena),
+                                             group->list[i].what));
+        text_add(html, "</p>\n");
+    }
+}
+
 static double share_left(const ReviewCase *c)
 {
     double left = 1;
@@ -192,6 +210,7 @@ static void add_causes(Text *html, const ReviewCard *card, Arena *arena)
     int first = c->cause_count > FIRST_CAUSES + 1 ? FIRST_CAUSES : c->cause_count;
     if (c->cause_count == 0) return;
     text_add(html, "<div><h4>Where the light that washes it out comes from</h4>\n");
+    add_groups(html, c, arena);
     add_cause_list(html, card, 0, first, arena);
     if (first < c->cause_count) {
         page_more_begin(html, arena_format(arena, "%d more ways", c->cause_count - first));

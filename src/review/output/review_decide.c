@@ -30,7 +30,8 @@ bool review_decide(Review *review)
     int allowed = review->is_strict
                       ? counts.of[VERDICT_PASS]
                       : counts.total - counts.of[VERDICT_FAIL];
-    review->pass = allowed == counts.total;
+    bool is_described = !review->is_strict || !review->without_data_count;
+    review->pass = allowed == counts.total && is_described;
     return review->pass;
 }
 

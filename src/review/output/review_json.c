@@ -55,6 +55,25 @@ static json_t *causes_json(const ReviewCase *c)
     return list;
 }
 
+static json_t *group_json(const CaseGroup *group)
+{
+    json_t *list = json_array();
+    for (int i = 0; i < group->count; i++) {
+        const CaseShare *share = &group->list[i];
+        json_array_append_new(list, json_pack("{s:o, s:o, s:o}", "what", text(share->what),
+                                              "share", json_figure(share->share), "cd_m2",
+                                              json_figure(share->cd_m2)));
+    }
+    return list;
+}
+
+json_t *review_groups_json(const ReviewCase *c)
+{
+    return json_pack("{s:o, s:o, s:o}", "light", group_json(&c->groups[GROUP_LIGHT]),
+                     "opening", group_json(&c->groups[GROUP_OPENING]), "surface",
+                     group_json(&c->groups[GROUP_SURFACE]));
+}
+
 static json_t *remedies_json(const ReviewCase *c)
 {
     json_t *list = json_array();
@@ -116,6 +135,8 @@ static json_t *case_json(const ReviewCase *c)
     set(out, "margin", json_figure(c->margin));
     set(out, "verdict", json_string(verdict_names[c->verdict]));
     set(out, "causes", causes_json(c));
+    set(out, "cause_groups", review_groups_json(c));
+    set(out, "without_data_share", json_figure(c->without_data_share));
     set(out, "remedies", remedies_json(c));
     set(out, "frame", text(c->frame));
     set(out, "outlook", text(c->outlook));
@@ -231,6 +252,7 @@ json_t *review_json(const Review *review)
     set(out, "gazes", gazes_json(review));
     set(out, "false_suns", false_suns_json(review));
     set(out, "responses", responses_json(review));
+    set(out, "without_data", text(review->without_data));
     set(out, "notes", json_texts(review->notes, review->note_count));
     return out;
 }

@@ -15,6 +15,9 @@
 #include "review/verdict.h"
 
 /* {"pass", "strict", "title", "profile", "cases": [...], "sweeps", "responses", "notes"}. */
+/* {"light": [{"what", "share", "cd_m2"}, ...], "opening": ..., "surface": ...} */
+json_t *review_groups_json(const ReviewCase *c);
+
 json_t *review_json(const Review *review);
 
 /* A document becomes a file: review.json, diff.json. Takes the document. */

@@ -43,10 +43,13 @@ static void add_why(Text *html, const ReviewPage *page, const ReviewCase *c, Are
     if (c->when) escape_markup(html, arena_format(arena, "When: %s. ", c->when));
     escape_markup(html, arena_format(arena, "Light: %s%s%s.", words_ambient(c->ambient),
                                      c->has_sun ? ", " : "", c->has_sun ? sun : ""));
-    if (c->cause_count > 0)
+    if (c->groups[GROUP_LIGHT].count)
+        escape_markup(html, words_groups(c, arena));
+    else if (c->cause_count > 0)
         escape_markup(html, arena_format(arena, " %s of what the display reflects comes by: "
                                          "%s.", words_share(c->causes[0].share, arena),
                                          words_chain(&c->causes[0], arena)));
+    escape_markup(html, words_without_data(page->review, c, arena));
     text_add(html, "</span>");
 }
 

@@ -192,3 +192,30 @@ const char *words_chain(const CaseCause *cause, Arena *arena)
     }
     return text.data ? text.data : "";
 }
+
+static const CaseShare *greatest(const ReviewCase *c, CauseGroup group)
+{
+    return c->groups[group].count ? &c->groups[group].list[0] : NULL;
+}
+
+const char *words_groups(const ReviewCase *c, Arena *arena)
+{
+    const CaseShare *light = greatest(c, GROUP_LIGHT), *opening = greatest(c, GROUP_OPENING);
+    const CaseShare *surface = greatest(c, GROUP_SURFACE);
+    if (!light || !opening || !surface) return "";
+    return arena_format(arena, " Of what the display reflects %s began at: %s; %s came by the "
+                               "opening: %s; %s is mirrored from or lit by: %s.",
+                        words_share(light->share, arena), light->what,
+                        words_share(opening->share, arena), opening->what,
+                        words_share(surface->share, arena), surface->what);
+}
+
+const char *words_without_data(const Review *review, const ReviewCase *c, Arena *arena)
+{
+    int count = review->without_data_count;
+    if (!count) return "";
+    return arena_format(arena, " %s of it came by way of %d material%s without optical data "
+                               "(taken as perfectly white): %s.",
+                        words_share(c->without_data_share, arena), count,
+                        count == 1 ? "" : "s", review->without_data);
+}

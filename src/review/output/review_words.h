@@ -67,5 +67,12 @@ const char *words_case(const ReviewCase *c, Arena *arena);
 /* Why the case has its verdict: "contrast 1.64 : 1, wanted at least 2 : 1". */
 const char *words_reason(const ReviewCase *c, Arena *arena);
 
+/* " Of what the display reflects 97 % is the sky's, 64 % comes through Window_FL, ...": the
+ * greatest of each group. */
+const char *words_groups(const ReviewCase *c, Arena *arena);
+
+/* " 62 % of it by way of 9 materials without data: ..."; "" where all have some. */
+const char *words_without_data(const Review *review, const ReviewCase *c, Arena *arena);
+
 /* "glass Window_FL: through → seat FrontSeat_L: scatters" */
 const char *words_chain(const CaseCause *cause, Arena *arena);

@@ -375,7 +375,7 @@ static bool case_of(const CaseTools *tools, const CaseAsk *ask, Arena *arena, Re
     if (aim.target_count) {
         long     paths = tools->cause_paths ? tools->cause_paths : CAUSE_PATHS;
         int      rays = tools->cause_rays ? tools->cause_rays : CAUSE_RAYS;
-        CauseAsk causes = {&tools->stage->tools, &aim, paths, rays, false};
+        CauseAsk causes = {&tools->stage->tools, &aim, paths, rays, false, false};
         CauseFacts facts = case_causes(&causes, &c, arena);
         case_remedies(&facts, &c, arena);
     }

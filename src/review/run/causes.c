@@ -2,6 +2,8 @@
 #include "review/run/causes.h"
 
 #include <math.h>
+#include <stdlib.h>
+#include <string.h>
 
 #include "review/chain/chain_words.h"
 
@@ -71,6 +73,105 @@ static CauseFacts facts_of(const Chains *chains, Arena *arena)
     return facts;
 }
 
+/* ---- groups ------------------------------------------------------------------------------ */
+
+/* As many are told as have so much of the light, and no more than so many. */
+#define GROUP_TOLD 0.97
+#define GROUP_MOST 24
+
+/* A group that grows. */
+typedef struct Growing {
+    CaseShare *list;
+    int        count;
+    double     all; /* cd m^-2 */
+    Arena     *arena;
+} Growing;
+
+static void add(Growing *to, const char *what, double cd_m2)
+{
+    if (cd_m2 > 0) to->list[to->count++] = (CaseShare){what, cd_m2 / to->all, cd_m2};
+}
+
+static Growing grow(const Chains *chains, Arena *arena)
+{
+    int most = chains->scene->part_count + chains->scene->light_count + LIGHT_SETS + 1;
+    return (Growing){ARENA_NEW(arena, CaseShare, most), 0, chains->all.cd_m2, arena};
+}
+
+static void add_parts(Growing *to, const Scene *scene, const double *by_part)
+{
+    for (int i = 0; i < scene->part_count; i++)
+        if (by_part[i] > 0) add(to, chain_part_words(scene, i, to->arena), by_part[i]);
+}
+
+static Growing by_light(const Chains *chains, Arena *arena)
+{
+    const ChainGroups *groups = &chains->groups;
+    const Scene       *scene = chains->scene;
+    Growing            light = grow(chains, arena);
+    add(&light, "sun", groups->by_set[LIGHTS_SUN]);
+    add(&light, "sky", groups->by_set[LIGHTS_SKY]);
+    add_parts(&light, scene, groups->by_emitter);
+    for (int i = 0; i < scene->light_count; i++)
+        if (groups->by_lamp[i] > 0)
+            add(&light, chain_source_words(scene, LIGHTS_PUNCTUAL, i, arena),
+                groups->by_lamp[i]);
+    return light;
+}
+
+static Growing by_opening(const Chains *chains, Arena *arena)
+{
+    Growing opening = grow(chains, arena);
+    add_parts(&opening, chains->scene, chains->groups.by_pane);
+    add(&opening, "through no pane", chains->groups.by_no_pane);
+    return opening;
+}
+
+static Growing by_surface(const Chains *chains, Arena *arena)
+{
+    const double *straight = chains->groups.straight;
+    Growing       surface = grow(chains, arena);
+    add_parts(&surface, chains->scene, chains->groups.by_surface);
+    add(&surface, "the sun itself", straight[LIGHTS_SUN]);
+    add(&surface, "the sky itself", straight[LIGHTS_SKY]);
+    add(&surface, "lamps themselves", straight[LIGHTS_PUNCTUAL]);
+    return surface;
+}
+
+static int compare(const void *a, const void *b)
+{
+    const CaseShare *x = a, *y = b;
+    if (x->cd_m2 != y->cd_m2) return x->cd_m2 > y->cd_m2 ? -1 : 1;
+    return strcmp(x->what, y->what);
+}
+
+/* One that is all that is left is told by its name. */
+static CaseGroup told(Growing *group)
+{
+    double sum = 0, other = 0;
+    int    count = 0;
+    if (group->count) qsort(group->list, (size_t)group->count, sizeof *group->list, compare);
+    while (count < group->count && count < GROUP_MOST && sum < GROUP_TOLD)
+        sum += group->list[count++].share;
+    if (count == group->count - 1) count++;
+    for (int i = count; i < group->count; i++) other += group->list[i].cd_m2;
+    if (count < group->count)
+        group->list[count++] = (CaseShare){"other", other / group->all, other};
+    return (CaseGroup){group->list, count};
+}
+
+static void set_groups(const Chains *chains, ReviewCase *c, Arena *arena)
+{
+    Growing of[CAUSE_GROUPS] = {[GROUP_LIGHT] = by_light(chains, arena),
+                                [GROUP_OPENING] = by_opening(chains, arena),
+                                [GROUP_SURFACE] = by_surface(chains, arena)};
+    for (int i = 0; i < CAUSE_GROUPS; i++) c->groups[i] = told(&of[i]);
+    double all = chains->all.cd_m2;
+    c->without_data_share = all > 0 ? chains->groups.without_data / all : 0;
+}
+
+/* ---- all of it --------------------------------------------------------------------------- */
+
 static void set_luminances(const Chains *chains, CaseLuminances *l)
 {
     l->reflected = chains->all.cd_m2;
@@ -85,7 +186,7 @@ CauseFacts case_causes(const CauseAsk *ask, ReviewCase *c, Arena *arena)
     ChainAsk chain_ask = {.aim = ask->aim, .tools = ask->tools, .paths = ask->paths,
                           .most = CAUSES_MOST, .with_direct = ask->with_direct};
     Chains   chains = chains_find(&chain_ask, &scratch);
-    if (isnan(c->luminance_cd_m2.reflected)) set_luminances(&chains, &c->luminance_cd_m2);
+    if (ask->sets_luminances) set_luminances(&chains, &c->luminance_cd_m2);
     for (int i = 0; i < chains.count; i++) {
         const Chain *chain = &chains.list[i];
         causes[i] = cause_of(chain->figure, &chains, c);
@@ -95,6 +196,7 @@ CauseFacts case_causes(const CauseAsk *ask, ReviewCase *c, Arena *arena)
     c->causes = causes;
     c->cause_count = chains.count;
     if (chains.others) causes[c->cause_count++] = all_other(&chains, c, arena);
+    set_groups(&chains, c, arena);
     CauseFacts facts = facts_of(&chains, arena);
     arena_release(&scratch);
     return facts;

@@ -22,6 +22,8 @@ typedef struct CauseAsk {
     long                paths;
     int                 rays;        /* of each cause, at most CHAIN_RAYS */
     bool                with_direct; /* what the eye sees by itself counts, too */
+    bool                sets_luminances; /* the case has no reading: what is reflected is what
+                                            these paths tell */
 } CauseAsk;
 
 /* What could be made black. */
@@ -39,7 +41,7 @@ typedef struct CauseFacts {
 } CauseFacts;
 
 /* Sets the case's causes: the greatest CAUSES_MOST, and "all other ways", which add up to the
- * reflected light as these paths tell it; that light itself where the case has none yet. */
+ * reflected light as these paths tell it, and the groups; that light itself where asked. */
 CauseFacts case_causes(const CauseAsk *ask, ReviewCase *c, Arena *arena);
 
 /* Sets its remedies, from its figures and causes: nothing is traced. Where its limit is kept

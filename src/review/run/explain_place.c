@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+#include "review/judge.h"
 #include "review/run/explain_place.h"
 
 #include <math.h>
@@ -102,14 +103,10 @@ static void set_outlook(const ExplainPlace *place, const ProbeAim *aim, bool is_
 
 /* ---- all of it --------------------------------------------------------------------------- */
 
-static void set_contrasts(double sigma, ReviewCase *c)
+static void set_range(double sigma, ReviewCase *c)
 {
-    const CaseLuminances *l = &c->luminance_cd_m2;
-    double half = INTERVAL_SIGMAS * sigma;
-    c->contrast_ratio = luminance_contrast(l->foreground, l->background, l->reflected);
-    c->contrast_low = luminance_contrast(l->foreground, l->background, l->reflected + half);
-    c->contrast_high =
-        luminance_contrast(l->foreground, l->background, fmax(l->reflected - half, 0));
+    double half = INTERVAL_SIGMAS * sigma, reflected = c->luminance_cd_m2.reflected;
+    c->reflected_range = (Range){fmax(reflected - half, 0), reflected + half};
 }
 
 void explain_place(const ExplainPlace *place, Arena *arena, Explained *out)
@@ -124,10 +121,11 @@ void explain_place(const ExplainPlace *place, Arena *arena, Explained *out)
                       .contrast_low = nan, .contrast_high = nan, .limit_id = -1, .level = nan,
                       .eye_m = place->aim.eye, .visible_share = 1};
     if (is_display) set_sent(place, &aim, out);
-    CauseAsk   ask = {place->tools, &aim, place->paths, CHAIN_RAYS, !is_display};
+    CauseAsk   ask = {place->tools, &aim, place->paths, CHAIN_RAYS, !is_display, true};
     CauseFacts facts = case_causes(&ask, c, arena);
     out->all = facts.all;
-    if (is_display) set_contrasts(facts.all.sigma, c);
+    set_range(facts.all.sigma, c);
+    if (is_display) judge_contrasts(c, c->reflected_range);
     else c->luminance_cd_m2.mirror = c->luminance_cd_m2.scattered = nan;
     if (place->with_outlook) set_outlook(place, &aim, is_display, arena, out);
 }

@@ -18,6 +18,7 @@
 #include "review/run/sweep_weather.h"
 #include "render/identity.h"
 #include "text/text.h"
+#include "scene/load/material_data.h"
 
 /* The most address space that a stage takes; what is not touched costs nothing. */
 #define STAGE_BYTES ((size_t)1 << 36)
@@ -151,6 +152,16 @@ static bool check_planned(const ReviewRun *run, const Stage *stage, Arena scratc
                     stage->condition->name);
 }
 
+/* Of the scene that has most of them. */
+static void tell_without_data(const Scene *scene, Review *review, Arena scratch, Arena *arena)
+{
+    int  count;
+    int *list = scene_without_data(scene, &count, &scratch);
+    if (count <= review->without_data_count) return;
+    review->without_data_count = count;
+    review->without_data = scene_names_of(scene, list, count, arena);
+}
+
 /* group: of sweeps; NULL: a moment. */
 static bool run_condition(const ReviewRun *run, const ReviewCondition *condition,
                           const SweepGroup *group, Arena *arena, ReviewOutcome *out, Error *err)
@@ -161,6 +172,7 @@ static bool run_condition(const ReviewRun *run, const ReviewCondition *condition
     Stage stage;
     bool  ok = stage_open(&options, &scratch, run->problems, &stage, err);
     if (ok) {
+        tell_without_data(stage.scene, &out->review, scratch, arena);
         ok = (review_request_check(run->request, stage.scene, run->problems) ||
               problems_verdict(run->problems, err)) &&
              check_planned(run, &stage, scratch, err) &&

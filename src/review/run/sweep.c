@@ -399,8 +399,9 @@ static bool add_sweep(Telling *to, const Sight *sight, Error *err)
         to->out->tables[to->out->table_count++] =
             (SweepTable){review->sweep_count, told.worst, worst, to->suns, told.contrast,
                          told.low, told.high, told.margin, told.reflected, told.mirror,
-                         told.level, told.lux, told.verdict, told.ambient, sight->shown.foreground,
-                         sight->shown.background, limits_asked(to, sight)};
+                         told.level, told.lux, told.verdict, told.ambient,
+                         sight->shown.foreground, sight->shown.background,
+                         limits_asked(to, sight)};
     }
     review->sweeps[review->sweep_count++] = sweep;
     return true;

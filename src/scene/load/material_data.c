@@ -1,0 +1,56 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "scene/load/material_data.h"
+
+#define NAMES_TOLD 12
+
+static bool is_one(const float rgb[3])
+{
+    return rgb[0] == 1 && rgb[1] == 1 && rgb[2] == 1;
+}
+
+static bool has_colour(const Material *m)
+{
+    return !is_one(m->base_color) || m->base_color_texture.texture_id != NO_ID ||
+           m->base_color_curve_id != NO_ID || m->conductor;
+}
+
+static bool has_layer(const Material *m)
+{
+    return m->coating || m->sheen || m->iridescence || m->clearcoat > 0 ||
+           m->specular_curve_id != NO_ID || m->specular_color_texture.texture_id != NO_ID ||
+           !is_one(m->specular_color);
+}
+
+static bool lets_through(const Material *m)
+{
+    return m->glazing || m->transmission > 0 || m->diffuse_transmission > 0 ||
+           m->transmission_curve_id != NO_ID || m->index || m->base_color[3] < 1;
+}
+
+bool material_has_data(const Material *m)
+{
+    return m->display_id != NO_ID || m->unlit || m->is_emitter || has_colour(m) ||
+           has_layer(m) || lets_through(m);
+}
+
+int *scene_without_data(const Scene *scene, int *count, Arena *arena)
+{
+    int  *list = ARENA_NEW(arena, int, scene->material_count);
+    bool *is_used = ARENA_NEW(arena, bool, scene->material_count);
+    for (int i = 0; i < scene->part_count; i++)
+        is_used[scene->parts[i].material_id] = true;
+    *count = 0;
+    for (int i = 0; i < scene->material_count; i++)
+        if (is_used[i] && !material_has_data(&scene->materials[i])) list[(*count)++] = i;
+    return list;
+}
+
+const char *scene_names_of(const Scene *scene, const int *materials, int count, Arena *arena)
+{
+    const char *names = "";
+    int         told = count <= NAMES_TOLD ? count : NAMES_TOLD - 1;
+    for (int i = 0; i < told; i++)
+        names = arena_format(arena, "%s%s%s", names, !i ? "" : i == count - 1 ? " and " : ", ",
+                             scene->materials[materials[i]].name);
+    return told < count ? arena_format(arena, "%s and %d more", names, count - told) : names;
+}

@@ -1,0 +1,24 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* material_data.h -- which materials say nothing about what they reflect.
+ *
+ * A material that is left at glTF's defaults is perfectly white; nothing is, so it was not
+ * described. One is taken as without data when its base colour is 1, 1, 1 without a texture
+ * or a measured curve, and nothing else tells what it does with light: it is no display,
+ * glazing or coating, no conductor of measured constants; lets no light through; has no sheen,
+ * iridescence, clearcoat or specular colour of its own; does not emit and is not unlit. That
+ * some roughness or metalness was given alone does not count: exporters write both.
+ *
+ * Memory   names in the arena.
+ * Threads  pure functions.
+ */
+#pragma once
+#include "base/arena.h"
+#include "scene/scene.h"
+
+bool material_has_data(const Material *material);
+
+/* Ids of those without data that some triangle has. */
+int *scene_without_data(const Scene *scene, int *count, Arena *arena);
+
+/* "seat, trim and 7 more" */
+const char *scene_names_of(const Scene *scene, const int *materials, int count, Arena *arena);

@@ -1,0 +1,40 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "text/interval_text.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "text/text.h"
+
+#define ASIDE 0.2         /* of the half width: further from the middle both ends are told */
+#define DECIMALS_MOST 20
+
+/* Behind the point; below 0: of tens, hundreds, ... */
+static int decimals_for(double half)
+{
+    int place = (int)floor(log10(half));
+    return (half < 2.95 * pow(10, place) ? 1 : 0) - place;
+}
+
+static const char *rounded(double value, int decimals, Arena *arena)
+{
+    if (decimals > DECIMALS_MOST) return arena_format(arena, "%.3g", value);
+    double unit = pow(10, -decimals);
+    double whole = decimals < 0 ? floor(value / unit + 0.5) * unit : value;
+    const char *text = arena_format(arena, "%.*f", decimals > 0 ? decimals : 0, whole);
+    return strspn(text, "-0.") == strlen(text) && text[0] == '-' ? text + 1 : text;
+}
+
+const char *interval_text(double value, double low, double high, Arena *arena)
+{
+    double half = 0.5 * (high - low);
+    if (isnan(value) || isnan(half)) return isnan(value) ? "unknown" : rounded(value, 3, arena);
+    if (isinf(high)) return arena_format(arena, "at least %.3g", low);
+    if (!(half > 1e-9 * fabs(value))) return arena_format(arena, "%.4g", value);
+    int decimals = decimals_for(half);
+    if (fabs(0.5 * (low + high) - value) <= ASIDE * half)
+        return arena_format(arena, "%s +- %s", rounded(value, decimals, arena),
+                            rounded(half, decimals, arena));
+    return arena_format(arena, "%s (%s to %s)", rounded(value, decimals, arena),
+                        rounded(low, decimals, arena), rounded(high, decimals, arena));
+}
