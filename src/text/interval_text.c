@@ -9,17 +9,34 @@
 #define ASIDE 0.2         /* of the half width: further from the middle both ends are told */
 #define DECIMALS_MOST 20
 
+static double ten_to(int place)
+{
+    double power = 1;
+    for (; place > 0; place--) power *= 10;
+    for (; place < 0; place++) power /= 10;
+    return power;
+}
+
+/* Of the first digit of a figure above 0. */
+static int place_of(double value)
+{
+    int place = 0;
+    for (; value >= 10; value /= 10) place++;
+    for (; value < 1; value *= 10) place--;
+    return place;
+}
+
 /* Behind the point; below 0: of tens, hundreds, ... */
 static int decimals_for(double half)
 {
-    int place = (int)floor(log10(half));
-    return (half < 2.95 * pow(10, place) ? 1 : 0) - place;
+    int place = place_of(half);
+    return (half < 2.95 * ten_to(place) ? 1 : 0) - place;
 }
 
 static const char *rounded(double value, int decimals, Arena *arena)
 {
     if (decimals > DECIMALS_MOST) return arena_format(arena, "%.3g", value);
-    double unit = pow(10, -decimals);
+    double unit = ten_to(-decimals);
     double whole = decimals < 0 ? floor(value / unit + 0.5) * unit : value;
     const char *text = arena_format(arena, "%.*f", decimals > 0 ? decimals : 0, whole);
     return strspn(text, "-0.") == strlen(text) && text[0] == '-' ? text + 1 : text;

@@ -70,6 +70,8 @@ def check(program, paths):
                           timeout=600)
     found = {path: set() for path in paths}
     for p in json.loads(done.stdout)["problems"]:
+        if "no optical data" in p["message"]:  # of all files together, and no fault: no_data.py
+            continue
         found[p["file"]].add((p["severity"], p["message"], p["path"]))
     return [(3 if any(p[0] == "error" for p in found[path]) else 0, found[path])
             for path in paths]

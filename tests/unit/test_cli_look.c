@@ -321,7 +321,7 @@ TEST(measure_gives_the_figures_of_a_region)
     assert_true(json_is_null(json_object_get(j, "contrast")));
     json_decref(j);
     o = run("measure f.exr --region 3,0,9,8");
-    assert_non_null(strstr(o.out, "luminance    200 +- "));
+    assert_non_null(strstr(o.out, "luminance    200.00 +- 0.28 cd/m2"));
     assert_non_null(strstr(o.out, "100 to 300 cd/m2"));
 }
 
