@@ -87,9 +87,15 @@ typedef struct Growing {
     Arena     *arena;
 } Growing;
 
+/* What has the same name counts as one: a row of street lamps. */
 static void add(Growing *to, const char *what, double cd_m2)
 {
-    if (cd_m2 > 0) to->list[to->count++] = (CaseShare){what, cd_m2 / to->all, cd_m2};
+    int i = 0;
+    if (!(cd_m2 > 0)) return;
+    while (i < to->count && strcmp(to->list[i].what, what) != 0) i++;
+    if (i == to->count) to->list[to->count++] = (CaseShare){what, 0, 0};
+    to->list[i].cd_m2 += cd_m2;
+    to->list[i].share = to->list[i].cd_m2 / to->all;
 }
 
 static Growing grow(const Chains *chains, Arena *arena)
