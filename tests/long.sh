@@ -69,6 +69,8 @@ run 'all closed forms in frames' image-long \
     python3 tests/image/run.py --all .build/release/parhelion
 run 'a glare review, thirty hours of weather' review-long \
     python3 tests/image/review.py --all .build/release/parhelion
+run 'a hunt for wrong answers, 200 rooms' hunt-long \
+    python3 tests/hunt/hunt.py --count 200 .build/release/parhelion
 run 'verdicts beside their limits' review-laws \
     python3 tests/image/review_laws.py .build/release/parhelion scenes/glance.review.json \
     dimmed 0.2 0.4 0.005

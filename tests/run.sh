@@ -70,6 +70,8 @@ if run_one 'release build, warnings are errors' build-release build release all;
     start 'polarised light' polarised \
         python3 tests/image/polarised.py .build/release/parhelion
     gather
+    start 'a hunt for wrong answers' hunt \
+        python3 tests/hunt/hunt.py --count 10 .build/release/parhelion
     start 'materials without data' no-data \
         python3 tests/hostile/no_data.py .build/release/parhelion
     start 'a glare review' review python3 tests/image/review.py .build/release/parhelion
