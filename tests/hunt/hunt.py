@@ -2,7 +2,7 @@
 """hunt.py [--seed N] [--count N] PARHELION -- a hunt for wrong answers: small random rooms with
 a display. What a review says of the symbol's reflected light is held against the sum of its
 causes, which other paths find; every figure against its formula; a room under twice the light
-against twice the figure; `explain` against the review. Every fifth room is swept over suns, too.
+against twice the figure; `explain` against the review. Every fifth room is swept over suns.
 
 A line a room, with its seed; at last how the differences are spread, in standard errors.
 """
