@@ -69,6 +69,12 @@ typedef struct CaseShare {
     double      share, cd_m2; /* 0..1 */
 } CaseShare;
 
+/* What hides a share of a symbol's rectangle from an eye, 0..1. */
+typedef struct CaseHider {
+    const char *what; /* a node and its material, or that it shows its back */
+    double      share;
+} CaseHider;
+
 /* All of the reflected light by one kind of thing, greatest first, "other" last: shares add up
  * to 1. */
 typedef struct CaseGroup {
@@ -134,6 +140,8 @@ typedef struct ReviewCase {
     double  paths_to_decide;     /* of a case that is too close: about as many would say; NaN */
     double  minutes_to_decide;   /* as fast as its reading went, here; NaN: not known */
     double  visible_share;       /* of the rectangle, 0..1 */
+    const CaseHider *hiders;     /* of all else, greatest first: with it they add up to 1 */
+    int     hider_count;
     double  eye_failed_share;    /* of an eye box's points: those that fail; NaN: one point */
     Vec3    eye_m;               /* where the eye was; of a box its worst point */
     double  level;               /* at which the display was set, 1: as measured */

@@ -55,3 +55,16 @@ const char *interval_text(double value, double low, double high, Arena *arena)
     return arena_format(arena, "%s (%s to %s)", rounded(value, decimals, arena),
                         rounded(low, decimals, arena), rounded(high, decimals, arena));
 }
+
+#define DIGITS_ALONE 4 /* of a figure without its interval, at most */
+
+const char *interval_value_text(double value, double low, double high, Arena *arena)
+{
+    double half = 0.5 * (high - low), size = fabs(value);
+    if (isnan(value)) return "unknown";
+    if (!(half > 1e-9 * size) || !isfinite(half)) return arena_format(arena, "%.4g", value);
+    int decimals = decimals_for(half);
+    if (size > 0 && decimals > DIGITS_ALONE - 1 - place_of(size))
+        decimals = DIGITS_ALONE - 1 - place_of(size);
+    return rounded(value, decimals, arena);
+}

@@ -14,3 +14,7 @@
 /* "420 +- 25"; where it lies aside of the middle "2.95 (2.91 to 3.02)"; exact ones to four
  * digits; one without an end "at least 12"; "unknown" for NaN. */
 const char *interval_text(double value, double low, double high, Arena *arena);
+
+/* The figure alone, "420", with as many digits; four at most, and of one without an interval
+ * four. */
+const char *interval_value_text(double value, double low, double high, Arena *arena);

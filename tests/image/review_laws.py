@@ -23,6 +23,9 @@ def contrast(light, reflected):
 def broken_case_laws(case):
     """Numbers of a case that belong together and do not agree."""
     light, ratio = case["luminance_cd_m2"], case["contrast_ratio"]
+    hidden = sum(hider["share"] for hider in case["hidden_by"])
+    if abs(hidden + case["visible_share"] - 1) > 1e-4:
+        yield f"visible {case['visible_share']}, hidden {hidden}"
     if case["verdict"] == "not visible":
         return
     low, high = case["reflected_interval"]

@@ -111,6 +111,11 @@ static void assert_same_lists(const ReviewCase *a, const ReviewCase *b)
         assert_same(a->causes[i].low, b->causes[i].low);
         assert_same(a->causes[i].high, b->causes[i].high);
     }
+    assert_int_equal(a->hider_count, b->hider_count);
+    for (int i = 0; i < a->hider_count; i++) {
+        assert_same_text(a->hiders[i].what, b->hiders[i].what);
+        assert_same(a->hiders[i].share, b->hiders[i].share);
+    }
     for (int i = 0; i < a->remedy_count; i++) {
         assert_same_text(a->remedies[i].what, b->remedies[i].what);
         assert_same(a->remedies[i].contrast_ratio, b->remedies[i].contrast_ratio);
@@ -256,8 +261,9 @@ TEST(json_has_the_promised_keys)
         "condition", "eye", "symbol", "display", "ambient", "sun", "luminance_cd_m2",
         "contrast_ratio", "contrast_interval", "reflected_interval", "paths_to_decide",
         "paths", "contrast_with_veil", "height_arcmin",
-        "jnd", "visibility", "dgp", "ugr", "when", "visible_share", "eye_failed_share", "level",
-        "display_lux", "limit", "limits", "margin", "verdict", "causes", "remedies", "frame"};
+        "jnd", "visibility", "dgp", "ugr", "when", "visible_share", "hidden_by",
+        "eye_failed_share", "level", "display_lux", "limit", "limits", "margin", "verdict",
+        "causes", "remedies", "frame"};
     Review  review = fixture_review(&arena);
     json_t *json = review_json(&review), *value;
     json_t *first = json_array_get(json_object_get(json, "cases"), 0);
@@ -305,6 +311,8 @@ TEST(a_foreign_json_is_refused_in_one_line)
     assert_refused("\"foreground\": ", "\"foreground\": \"\", \"x\": ",
                    "/cases/0/luminance_cd_m2/foreground", "is a text, wanted a number");
     assert_refused("\"chain\": [", "\"chain\": [4, ", "/cases/0/causes/0/chain", "only texts");
+    assert_refused("\"hidden_by\": []", "\"hidden_by\": [{\"what\": 3}]",
+                   "/cases/0/hidden_by/0/what", "wanted a text");
     assert_refused("\"cases\": [", "\"cases\": [null, ", "/cases/0", "wanted an object");
     assert_refused("\"pass\"", "pass", "line 2", "not valid JSON");
 }
@@ -313,7 +321,7 @@ TEST(a_foreign_json_is_refused_in_one_line)
 static bool is_optional(const char *key, const json_t *object)
 {
     static const char *const ADDED[] = {"reflected_interval", "paths_to_decide", "cause_groups",
-                                        "without_data_share", "without_data"};
+                                        "without_data_share", "without_data", "hidden_by"};
     for (size_t i = 0; i < sizeof ADDED / sizeof *ADDED; i++)
         if (!strcmp(key, ADDED[i])) return true;
     return !strcmp(key, "verdict") &&

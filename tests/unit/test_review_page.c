@@ -546,52 +546,6 @@ TEST(the_pointer_reads_what_the_map_shows)
     arena_release(&scratch);
 }
 
-/* ---- words ------------------------------------------------------------------------------ */
-
-TEST(figures_are_said_in_words)
-{
-    (void)state;
-    LimitVerdict ratio = {.kind = "contrast_ratio", .unit = "1", .value = 2};
-    LimitVerdict height = {.kind = "character_height", .unit = "arcmin", .value = 12};
-    assert_string_equal(words_figure(NAN, &arena), "–");
-    assert_string_equal(words_figure(INFINITY, &arena), "∞");
-    assert_string_equal(words_margin(-0.18, &arena), "−18 %");
-    assert_string_equal(words_margin(0.042, &arena), "+4.2 %");
-    assert_string_equal(words_margin(NAN, &arena), "–");
-    assert_string_equal(words_share(0.62, &arena), "62 %");
-    assert_string_equal(words_share(0.0001, &arena), "less than 0.1 %");
-    assert_string_equal(words_share(0, &arena), "0 %");
-    assert_string_equal(words_share(0.996, &arena), "99.6 %");
-    assert_string_equal(words_share(0.9999, &arena), "more than 99.9 %");
-    assert_string_equal(words_share(1, &arena), "100 %");
-    assert_string_equal(words_minutes(85, &arena), "1 h 25 min");
-    assert_string_equal(words_minutes(120, &arena), "2 h");
-    assert_string_equal(words_minutes(NAN, &arena), "–");
-    assert_string_equal(words_wanted(&ratio, &arena), "at least 2 : 1");
-    height.is_upper = height.is_advice = true;
-    assert_string_equal(words_wanted(&height, &arena), "at most 12 arc min (advice)");
-}
-
-TEST(the_sun_is_named_by_its_direction)
-{
-    (void)state;
-    static const struct { double azimuth; const char *world, *vehicle; } SUNS[] = {
-        {0, "north", "ahead"}, {359, "north", "ahead"},
-        {-46, "north-west", "ahead on the left"},
-        {135, "south-east", "behind on the right"}, {180, "south", "behind"}};
-    for (int i = 0; i < 5; i++) {
-        ReviewCase c = {.has_sun = true, .sun_azimuth_deg = SUNS[i].azimuth,
-                        .sun_elevation_deg = 30};
-        assert_non_null(strstr(words_sun(&c, words_directions(false), &arena), SUNS[i].world));
-        assert_non_null(strstr(words_sun(&c, words_directions(true), &arena), SUNS[i].vehicle));
-    }
-    ReviewCase nobody_knows = {.has_sun = true, .sun_azimuth_deg = 90, .sun_elevation_deg = 30};
-    assert_string_equal(words_sun(&nobody_knows, NULL, &arena),
-                        "sun 30.0° high, azimuth 90.0°");
-    assert_string_equal(words_sun(&(ReviewCase){0}, NULL, &arena),
-                        "no sun above the horizon");
-}
-
 int main(void)
 {
     arena = arena_reserve((size_t)2 << 30);

@@ -264,6 +264,10 @@ TEST(nothing_hides_a_free_display_and_from_behind_none_is_seen)
     world = flat_world(*state);
     SymbolVisibility behind = seen_from(&world, vec3(0.05f, 0.1f, -1), NULL);
     assert_true(behind.visible_share == 0 && isnan(behind.transmittance));
+    SymbolSurface surface = first_part(&world, ALL);
+    SymbolHiding  hiding = symbol_hiding(&surface, &world.context, vec3(0.05f, 0.1f, -1),
+                                         &world.arena);
+    assert_near(hiding.turned_away, 1, 1e-6);
     world_end(&world);
 }
 
@@ -279,6 +283,10 @@ TEST(a_plate_hides_the_share_that_it_covers)
         SymbolSurface    surface = first_part(&world, ALL);
         assert_near(seen.visible_share, 1 - shares[i], 2e-3);
         assert_true(seen.transmittance == 1);
+        SymbolHiding hiding = symbol_hiding(&surface, &world.context, EYE, &world.arena);
+        assert_near(hiding.by_part[1], shares[i], 2e-3); /* the plate's */
+        assert_true(hiding.by_part[0] == 0 && hiding.turned_away == 0);
+        assert_near(hiding.by_part[1] + seen.visible_share, 1, 1e-6);
         for (int k = 0; k < POINTS; k++)
             if (fabs((double)surface.points[k].uv.x - shares[i]) > 1e-4)
                 assert_true(is_visible[k] == ((double)surface.points[k].uv.x > shares[i]));

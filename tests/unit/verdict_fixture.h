@@ -205,6 +205,11 @@ static inline Review fixture_review(Arena *arena)
         review.cases[i] = fixture_case(arena, &FIXTURE_LIGHTS[i % 4], EYES[i / 12],
                                        SYMBOLS[i / 4 % 3], WHITE[i / 4 % 3]);
     ReviewCase *hidden = &review.cases[20];
+    static const CaseHider HIDERS[] = {
+        {"wheel <rim> (leather)", 0.75}, {"stalk (satin)", 0.125},
+        {"driver's hand (skin)", 0.0625}, {"hub (leather)", 0.0625}};
+    hidden->hiders = HIDERS;
+    hidden->hider_count = 4;
     hidden->visible_share = 0;
     hidden->contrast_ratio = hidden->contrast_low = hidden->contrast_high = NAN;
     hidden->contrast_with_veil = hidden->margin = hidden->jnd = hidden->height_arcmin = NAN;

@@ -7,6 +7,7 @@
 #include "cli/options/answer.h"
 #include "review/chain/outlook_picture.h"
 #include "review/output/review_json.h"
+#include "review/output/review_words.h"
 #include "text/interval_text.h"
 #include "text/json_text.h"
 
@@ -44,10 +45,12 @@ static void print_light(const Explained *told, Arena scratch)
                luminance_contrast(l->foreground, l->background, 0));
 }
 
-static void print_cause(const CaseCause *cause, bool has_contrast)
+static void print_cause(const CaseCause *cause, bool has_contrast, Arena scratch)
 {
-    printf("%6.1f %%  %8.4g  %8.4g to %-8.4g", 100 * cause->share, cause->cd_m2, cause->low,
-           cause->high);
+    printf("%6.1f %%  %8s  %8s to %-8s", 100 * cause->share,
+           words_within(cause->cd_m2, cause->low, cause->high, &scratch),
+           words_within(cause->low, cause->low, cause->high, &scratch),
+           words_within(cause->high, cause->low, cause->high, &scratch));
     if (has_contrast) printf("  %7.3g : 1", cause->contrast_without);
     for (int i = 0; i < cause->links; i++)
         printf("%s%s", i ? " > " : "  ", cause->chain[i]);
@@ -68,13 +71,13 @@ static void print_groups(const ReviewCase *c)
     printf("\n");
 }
 
-static void print_causes(const ReviewCase *c)
+static void print_causes(const ReviewCase *c, Arena scratch)
 {
     bool has_contrast = c->display != NULL;
     if (!c->cause_count) return;
     printf("\n   share     cd/m2   95 %% interval     %s  by way of\n",
            has_contrast ? "without it " : "");
-    for (int i = 0; i < c->cause_count; i++) print_cause(&c->causes[i], has_contrast);
+    for (int i = 0; i < c->cause_count; i++) print_cause(&c->causes[i], has_contrast, scratch);
 }
 
 static void print_remedies(const ReviewCase *c)
@@ -88,13 +91,15 @@ static void print_remedies(const ReviewCase *c)
 static void print_text(const Explained *told, Arena *arena)
 {
     print_where(&told->of);
+    if (told->of.hider_count)
+        printf("hidden     %s\n", words_hiders(&told->of, arena));
     if (!(told->of.visible_share > 0)) {
         printf("not visible\n");
         return;
     }
     print_light(told, *arena);
     print_groups(&told->of);
-    print_causes(&told->of);
+    print_causes(&told->of, *arena);
     print_remedies(&told->of);
     if (told->has_outlook) printf("\nsees       %s\n", outlook_words(&told->outlook, arena));
 }
@@ -194,6 +199,7 @@ static bool print_json(const Explained *told, Error *err)
         "contrast_interval", number(c->contrast_low), number(c->contrast_high), "paths",
         (json_int_t)told->paths);
     json_object_set_new(out, "visible_share", number(c->visible_share));
+    json_object_set_new(out, "hidden_by", review_hiders_json(c));
     json_object_set_new(out, "reflected_interval",
                         json_pack("[o,o]", number(c->reflected_range.low),
                                   number(c->reflected_range.high)));

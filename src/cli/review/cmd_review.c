@@ -16,6 +16,7 @@
 #include "render/signals.h"
 #include "review/output/review_decide.h"
 #include "review/output/review_json.h"
+#include "review/output/review_words.h"
 #include "review/request/request_start.h"
 #include "review/request/request_read.h"
 #include "review/run/run.h"
@@ -87,6 +88,7 @@ static void print_case(const ReviewCase *c, Arena scratch)
                interval_text(c->contrast_ratio, c->contrast_low, c->contrast_high, &scratch),
                interval_text(c->luminance_cd_m2.reflected, c->reflected_range.low,
                              c->reflected_range.high, &scratch));
+    else if (c->hider_count) printf(": %s", words_hiders(c, &scratch));
     if (c->limit_id >= 0) printf(", wanted %.3g : 1", c->limits[c->limit_id].value);
     if (c->minutes_to_decide > 0 && isfinite(c->minutes_to_decide))
         printf("; about %.2g minutes more would decide it", fmax(c->minutes_to_decide, 0.1));
@@ -102,10 +104,13 @@ static void print_sweep(const ReviewSweep *s, Arena scratch)
     if (s->longest_failure_minutes > 0)
         printf(", %.4g minutes at a stretch", s->longest_failure_minutes);
     if (s->worst.has_sun)
-        printf("; worst at azimuth %.1f, elevation %.1f: contrast %s : 1",
-               s->worst.sun_azimuth_deg, s->worst.sun_elevation_deg,
+        printf("; worst at azimuth %.1f, elevation %.1f", s->worst.sun_azimuth_deg,
+               s->worst.sun_elevation_deg);
+    if (s->worst.visible_share > 0)
+        printf(": contrast %s : 1",
                interval_text(s->worst.contrast_ratio, s->worst.contrast_low,
                              s->worst.contrast_high, &scratch));
+    else if (s->worst.hider_count) printf(": %s", words_hiders(&s->worst, &scratch));
     putchar('\n');
 }
 

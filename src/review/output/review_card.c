@@ -29,7 +29,7 @@ static void add_summary(Text *html, const ReviewCase *c, Arena *arena)
     escape_markup(html, arena_format(arena, "seen by %s, %s", c->eye ? c->eye : "?",
                                      c->condition ? c->condition : "?"));
     text_format(html, "</span> <span class=\"ratio\">%s</span></summary>\n",
-                words_ratio(c->contrast_ratio, arena));
+                words_contrast(c, arena));
 }
 
 /* ---- figures ---------------------------------------------------------------------------- */
@@ -70,9 +70,11 @@ static void add_sight_facts(Text *html, const ReviewCase *c, Arena *arena)
     if (!isnan(c->contrast_ratio))
         add_fact(html, "Contrast",
                  arena_format(arena, "%s, 95 %% sure between %s and %s",
-                              words_ratio(c->contrast_ratio, arena),
-                              words_figure(c->contrast_low, arena),
-                              words_figure(c->contrast_high, arena)));
+                              words_contrast(c, arena),
+                              words_within(c->contrast_low, c->contrast_low,
+                                           c->contrast_high, arena),
+                              words_within(c->contrast_high, c->contrast_low,
+                                           c->contrast_high, arena)));
     add_figure(html, "… with the eye's own veil", c->contrast_with_veil, ": 1", arena);
     add_figure(html, "Height", c->height_arcmin, "arc minutes", arena);
     add_figure(html, "Told apart by", c->jnd, "just noticeable steps", arena);
@@ -80,6 +82,7 @@ static void add_sight_facts(Text *html, const ReviewCase *c, Arena *arena)
     if (!isnan(c->visible_share))
         add_fact(html, "Can be seen", arena_format(arena, "%s of its area",
                                                    words_share(c->visible_share, arena)));
+    if (c->hider_count) add_fact(html, "Hidden", words_hiders(c, arena));
     if (!isnan(c->eye_failed_share))
         add_fact(html, "Places of the eye that fail", words_share(c->eye_failed_share, arena));
     add_figure(html, "Daylight glare probability", c->dgp, "(a figure for rooms)", arena);
@@ -104,7 +107,7 @@ static void add_limit(Text *html, const LimitVerdict *l, Arena *arena)
                                                          words_class(l->verdict));
     page_row_begin(html, "");
     page_cell(html, "", l->name);
-    page_cell(html, "n", words_amount(l, l->found, arena));
+    page_cell(html, "n", words_found(l, arena));
     page_cell(html, "n", words_interval(l->low, l->high, arena));
     page_cell(html, "n", words_wanted(l, arena));
     page_cell(html, kind, words_margin(l->margin, arena));
@@ -165,9 +168,12 @@ static void add_cause(Text *html, const ReviewCard *card, int i, Arena *arena)
     text_add(html, "</div>");
     review_bar_add_share(html, cause->share);
     page_element(html, "small", arena_format(arena, "%s cd/m², 95 %% sure between %s and %s%s",
-                                             words_figure(cause->cd_m2, arena),
-                                             words_figure(cause->low, arena),
-                                             words_figure(cause->high, arena),
+                                             words_within(cause->cd_m2, cause->low,
+                                                          cause->high, arena),
+                                             words_within(cause->low, cause->low, cause->high,
+                                                          arena),
+                                             words_within(cause->high, cause->low, cause->high,
+                                                          arena),
                                              without_words(cause, arena)));
     text_add(html, "</li>\n");
 }

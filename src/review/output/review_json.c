@@ -87,6 +87,15 @@ static json_t *remedies_json(const ReviewCase *c)
     return list;
 }
 
+json_t *review_hiders_json(const ReviewCase *c)
+{
+    json_t *list = json_array();
+    for (int i = 0; i < c->hider_count; i++)
+        json_array_append_new(list, json_pack("{s:o, s:o}", "what", text(c->hiders[i].what),
+                                              "share", json_figure(c->hiders[i].share)));
+    return list;
+}
+
 static json_t *sun_json(const ReviewCase *c)
 {
     if (!c->has_sun) return json_null();
@@ -128,6 +137,7 @@ static json_t *case_json(const ReviewCase *c)
     set(out, "ugr", json_figure(c->ugr));
     set(out, "eye_failed_share", json_figure(c->eye_failed_share));
     set(out, "visible_share", json_figure(c->visible_share));
+    set(out, "hidden_by", review_hiders_json(c));
     set(out, "level", json_figure(c->level));
     set(out, "display_lux", json_figure(c->display_lux));
     set(out, "limit", has_limit ? limit_json(&c->limits[c->limit_id]) : json_null());

@@ -14,10 +14,13 @@
 #include "base/error.h"
 #include "review/verdict.h"
 
-/* {"pass", "strict", "title", "profile", "cases": [...], "sweeps", "responses", "notes"}. */
 /* {"light": [{"what", "share", "cd_m2"}, ...], "opening": ..., "surface": ...} */
 json_t *review_groups_json(const ReviewCase *c);
 
+/* [{"what", "share"}, ...] */
+json_t *review_hiders_json(const ReviewCase *c);
+
+/* {"pass", "strict", "title", "profile", "cases": [...], "sweeps", "responses", "notes"}. */
 json_t *review_json(const Review *review);
 
 /* A document becomes a file: review.json, diff.json. Takes the document. */

@@ -186,6 +186,13 @@ static bool read_remedy(const JsonView *view, void *item, Error *err)
            read_number(view, "level", &remedy->level, err);
 }
 
+static bool read_hider(const JsonView *view, void *item, Error *err)
+{
+    CaseHider *hider = item;
+    return read_text(view, "what", &hider->what, err) &&
+           read_number(view, "share", &hider->share, err);
+}
+
 static bool read_sun(const JsonView *view, ReviewCase *c, Error *err)
 {
     JsonView sun;
@@ -230,6 +237,12 @@ static bool read_told_since(const JsonView *view, ReviewCase *c, Error *err)
 {
     c->reflected_range = (Range){(double)NAN, (double)NAN};
     c->paths_to_decide = c->minutes_to_decide = (double)NAN;
+    void *hiders = NULL;
+    if (json_object_get(view->object, "hidden_by") &&
+        !read_list(view, "hidden_by", ITEM(read_hider, CaseHider), &hiders, &c->hider_count,
+                   err))
+        return false;
+    c->hiders = hiders;
     return (!json_object_get(view->object, "reflected_interval") ||
             read_pair(view, "reflected_interval", &c->reflected_range.low,
                       &c->reflected_range.high, err)) &&

@@ -195,7 +195,7 @@ static void add_sweep_keys(Text *html, const ReviewSweep *s, Arena *arena)
     if (!isnan(s->longest_failure_minutes))
         page_key(html, words_minutes(s->longest_failure_minutes, arena),
                  "the longest failure at a stretch", s->longest_failure_minutes > 0);
-    page_key(html, words_ratio(s->worst.contrast_ratio, arena), "contrast at its worst",
+    page_key(html, words_contrast(&s->worst, arena), "contrast at its worst",
              s->worst.verdict != VERDICT_PASS);
     page_key(html, arena_format(arena, "%ld", s->cases), "suns and hours judged", false);
     page_keys_end(html);
@@ -230,7 +230,7 @@ static void add_sweep_line(Text *html, const ReviewSweep *s, bool is_open, Arena
                  arena_format(arena, "seen by %s: %s", s->eye ? s->eye : "?",
                               s->condition ? s->condition : "?"));
     text_format(html, "<span class=\"ratio\">%s · worst %s</span></summary>\n", often,
-                words_ratio(s->worst.contrast_ratio, arena));
+                words_contrast(&s->worst, arena));
 }
 
 static bool add_sweep(Text *html, const ReviewPage *page, const ReviewSweep *s, bool is_open,

@@ -104,7 +104,7 @@ static void add_matrix_cell(Text *html, const Matrix *m, const ReviewCase *c, Ar
                                      words_reason(c, arena)));
     text_format(html, "\"><div><b>%s %s</b>", mark_of(c->verdict),
                 c->verdict == VERDICT_NOT_VISIBLE ? "not visible"
-                                                  : words_ratio(c->contrast_ratio, arena));
+                                                  : words_contrast(c, arena));
     if (limit) text_format(html, "<em>%s</em>", words_margin(limit->margin, arena));
     text_add(html, "</div>");
     if (limit) add_cell_limit(html, limit, arena);
@@ -177,7 +177,7 @@ static void add_sweep_cell(Text *html, const Review *review, const ReviewSweep *
                 review_card_id(review, &s->worst, arena), mark_of(verdict),
                 words_often(s, arena));
     page_element(html, "small",
-                 arena_format(arena, "%s%s%s", words_ratio(s->worst.contrast_ratio, arena),
+                 arena_format(arena, "%s%s%s", words_contrast(&s->worst, arena),
                               limit ? limit->is_upper ? " · ≤ " : " · ≥ " : "",
                               limit ? words_limit(limit, arena) : ""));
     text_add(html, "</a></td>");
@@ -256,7 +256,7 @@ static void add_list_row(Text *html, const Review *review, const ReviewCase *c, 
                                                 c->condition ? c->condition : "?")
                                  : c->condition);
     page_cell(html, "", c->eye);
-    page_cell(html, "n", words_ratio(c->contrast_ratio, arena));
+    page_cell(html, "n", words_contrast(c, arena));
     page_cell(html, "n", words_interval(c->contrast_low, c->contrast_high, arena));
     add_limit_cells(html, c, arena);
     page_row_end(html);
@@ -395,7 +395,7 @@ static const char *verdict_of(const ReviewCase *c)
 
 static const char *ratio_of(const ReviewCase *c, Arena *arena)
 {
-    return c ? words_ratio(c->contrast_ratio, arena) : "–";
+    return c ? words_contrast(c, arena) : "–";
 }
 
 static void add_diff_row(Text *html, const CaseDiff *d, Arena *arena)

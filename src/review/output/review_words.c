@@ -7,6 +7,7 @@
 
 #include "plot/draw/ticks.h"
 #include "review/output/review_decide.h"
+#include "text/interval_text.h"
 #include "text/text.h"
 
 bool words_same(const char *a, const char *b)
@@ -23,6 +24,20 @@ const char *words_figure(double value, Arena *arena)
     return arena_format(arena, "%s", figure_text(value, text));
 }
 
+const char *words_within(double value, double low, double high, Arena *arena)
+{
+    bool has_interval = isfinite(value) && isfinite(low) && isfinite(high) && low < high;
+    return has_interval ? interval_value_text(value, low, high, arena)
+                        : words_figure(value, arena);
+}
+
+const char *words_contrast(const ReviewCase *c, Arena *arena)
+{
+    if (isnan(c->contrast_ratio)) return "–";
+    return arena_format(arena, "%s : 1", words_within(c->contrast_ratio, c->contrast_low,
+                                                      c->contrast_high, arena));
+}
+
 const char *words_ratio(double value, Arena *arena)
 {
     return isnan(value) ? "–" : arena_format(arena, "%s : 1", words_figure(value, arena));
@@ -32,7 +47,8 @@ const char *words_interval(double low, double high, Arena *arena)
 {
     if (isnan(low) || isnan(high)) return "–";
     if (low == high) return "exact";
-    return arena_format(arena, "%s to %s", words_figure(low, arena), words_figure(high, arena));
+    return arena_format(arena, "%s to %s", words_within(low, low, high, arena),
+                        words_within(high, low, high, arena));
 }
 
 const char *words_share(double share, Arena *arena)
@@ -67,9 +83,10 @@ static const char *with_unit(const LimitVerdict *limit, const char *figure, Aren
                                              : figure;
 }
 
-const char *words_amount(const LimitVerdict *limit, double value, Arena *arena)
+const char *words_found(const LimitVerdict *limit, Arena *arena)
 {
-    return isnan(value) ? "–" : with_unit(limit, words_figure(value, arena), arena);
+    if (isnan(limit->found)) return "–";
+    return with_unit(limit, words_within(limit->found, limit->low, limit->high, arena), arena);
 }
 
 const char *words_number(double value, Arena *arena)
@@ -165,21 +182,40 @@ static const char *words_decide(const ReviewCase *c, Arena *arena)
                         words_minutes(fmax(c->minutes_to_decide, 1), arena));
 }
 
+#define HIDERS_TOLD 3
+
+const char *words_hiders(const ReviewCase *c, Arena *arena)
+{
+    Text   text = {.arena = arena};
+    double rest = 0;
+    for (int i = 0; i < c->hider_count; i++) {
+        const CaseHider *hider = &c->hiders[i];
+        if (i >= HIDERS_TOLD) rest += hider->share;
+        else
+            text_format(&text, "%s%s hides %s", i ? ", " : "", hider->what,
+                        words_share(hider->share, arena));
+    }
+    if (rest > 0) text_format(&text, ", others %s", words_share(rest, arena));
+    return text.data ? text.data : "";
+}
+
 const char *words_reason(const ReviewCase *c, Arena *arena)
 {
     const LimitVerdict *limit = case_worst_limit(c);
     if (c->verdict == VERDICT_NOT_VISIBLE)
-        return arena_format(arena, "%s of it can be seen from there",
-                            words_share(c->visible_share, arena));
+        return arena_format(arena, "%s of it can be seen from there%s%s",
+                            words_share(c->visible_share, arena), c->hider_count ? ": " : "",
+                            words_hiders(c, arena));
     if (!limit) return "no limit applies to it";
     const char *name = limit->name ? limit->name : "limit";
-    const char *found = words_amount(limit, limit->found, arena);
+    const char *found = words_found(limit, arena);
     const char *wanted = words_wanted(limit, arena);
     if (c->verdict == VERDICT_TOO_CLOSE)
         return arena_format(arena, "%s %s, but anything between %s and %s, wanted %s%s",
-                            name, found, words_figure(limit->low, arena),
-                            words_figure(limit->high, arena), wanted,
-                            words_decide(c, arena));
+                            name, found,
+                            words_within(limit->low, limit->low, limit->high, arena),
+                            words_within(limit->high, limit->low, limit->high, arena),
+                            wanted, words_decide(c, arena));
     return arena_format(arena, "%s %s, wanted %s", name, found, wanted);
 }
 

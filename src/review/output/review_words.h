@@ -14,6 +14,12 @@ bool words_same(const char *a, const char *b);
 /* Three significant digits; "–" for NaN, "∞". */
 const char *words_figure(double value, Arena *arena);
 
+/* The same with no more digits than its interval allows, where it has one. */
+const char *words_within(double value, double low, double high, Arena *arena);
+
+/* Of a case, so: "1.64 : 1"; "–" where it is not visible. */
+const char *words_contrast(const ReviewCase *c, Arena *arena);
+
 /* "1.64 : 1"; "–" for NaN. */
 const char *words_ratio(double value, Arena *arena);
 
@@ -30,7 +36,7 @@ const char *words_margin(double margin, Arena *arena);
 const char *words_number(double value, Arena *arena);
 
 /* What was found for a limit, in its unit: "1.64 : 1", "14 arc min", "320 cd/m²". */
-const char *words_amount(const LimitVerdict *limit, double value, Arena *arena);
+const char *words_found(const LimitVerdict *limit, Arena *arena);
 
 /* "3 min", "1 h 25 min"; "–" for NaN. */
 const char *words_minutes(double minutes, Arena *arena);
@@ -63,6 +69,10 @@ const char *words_sun(const ReviewCase *c, const char *const *directions, Arena 
 
 /* "speed, seen by driver, noon" */
 const char *words_case(const ReviewCase *c, Arena *arena);
+
+/* "wheel (leather) hides 62 %, rim (steel) hides 3.1 %, others 1.0 %"; "": nothing is hidden,
+ * or nobody told. */
+const char *words_hiders(const ReviewCase *c, Arena *arena);
 
 /* Why the case has its verdict: "contrast 1.64 : 1, wanted at least 2 : 1". */
 const char *words_reason(const ReviewCase *c, Arena *arena);

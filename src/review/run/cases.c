@@ -271,6 +271,8 @@ static ProbeAim see_symbol(const CaseTools *tools, const CaseLook *look, ReviewC
     c->minutes_to_decide = (double)NAN;
     c->reflected_range = (Range){(double)NAN, (double)NAN};
     c->visible_share = seen.visible_share;
+    if (seen.visible_share < 1 && !look->is_coarse)
+        case_hiders(&symbol->surface, &stage->context, eye, c, arena);
     c->height_arcmin = symbol_height_arcmin(&symbol->surface, symbol->split.box, eye);
     c->contrast_ratio = c->contrast_low = c->contrast_high = c->contrast_with_veil = c->jnd =
         c->visibility = c->dgp = c->ugr = (double)NAN;

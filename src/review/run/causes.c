@@ -208,6 +208,41 @@ CauseFacts case_causes(const CauseAsk *ask, ReviewCase *c, Arena *arena)
     return facts;
 }
 
+/* ---- what hides it ----------------------------------------------------------------------- */
+
+static int compare_hiders(const void *a, const void *b)
+{
+    const CaseHider *x = a, *y = b;
+    if (x->share != y->share) return x->share > y->share ? -1 : 1;
+    return strcmp(x->what, y->what);
+}
+
+static void add_hider(CaseHider *list, int *count, const char *what, double share)
+{
+    int i = 0;
+    if (!(share > 0)) return;
+    while (i < *count && strcmp(list[i].what, what) != 0) i++;
+    if (i == *count) list[(*count)++] = (CaseHider){what, 0};
+    list[i].share += share;
+}
+
+void case_hiders(const SymbolSurface *surface, const PathContext *context, Vec3 eye,
+                 ReviewCase *c, Arena *arena)
+{
+    const Scene *scene = context->scene;
+    SymbolHiding hiding = symbol_hiding(surface, context, eye, arena);
+    CaseHider   *list = ARENA_NEW(arena, CaseHider, scene->part_count + 1);
+    c->hider_count = 0;
+    add_hider(list, &c->hider_count, "its own back, which is turned to the eye",
+              hiding.turned_away);
+    for (int i = 0; i < scene->part_count; i++)
+        if (hiding.by_part[i] > 0)
+            add_hider(list, &c->hider_count, chain_part_words(scene, i, arena),
+                      hiding.by_part[i]);
+    qsort(list, (size_t)c->hider_count, sizeof *list, compare_hiders);
+    c->hiders = list;
+}
+
 /* ---- remedies ---------------------------------------------------------------------------- */
 
 /* The display's own light that comes back to it grows with its brightness. */

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* causes.h -- by which chains of objects light comes to a symbol, and what would mend it.
+/* causes.h -- by which chains of objects light comes to a symbol, what hides it, and what would
+ * mend it.
  *
  * The chains are those of review/chain. Light that the display itself emits straight to the eye
  * is none of it.
@@ -10,6 +11,7 @@
  */
 #pragma once
 #include "review/chain/chains.h"
+#include "review/symbol/symbol_sight.h"
 #include "review/verdict.h"
 
 #define CAUSES_MOST 10
@@ -47,3 +49,8 @@ CauseFacts case_causes(const CauseAsk *ask, ReviewCase *c, Arena *arena);
 /* Sets its remedies, from its figures and causes: nothing is traced. Where its limit is kept
  * there are none. */
 void case_remedies(const CauseFacts *facts, ReviewCase *c, Arena *arena);
+
+/* Sets the case's hiders, by the names of nodes and materials; what has the same name counts as
+ * one. */
+void case_hiders(const SymbolSurface *surface, const PathContext *context, Vec3 eye,
+                 ReviewCase *c, Arena *arena);

@@ -67,19 +67,39 @@ static bool passes(void *user, const Hit *hit)
     return luminous(question->wavelengths, &question->passed) >= HIDES_BELOW;
 }
 
+static bool faces(const SymbolPoint *point, Vec3 eye)
+{
+    return vec3_dot(vec3_sub(point->position, eye), point->ng) < 0;
+}
+
+static float look_step(const SymbolPoint *point, Vec3 eye)
+{
+    return fmaxf(ray_offset_step(point->position), ray_offset_step(eye));
+}
+
+/* From the eye to just before the point: a bezel may lie closely over the display. */
+static Ray look_at(const SymbolPoint *point, Vec3 eye)
+{
+    Vec3 look = vec3_sub(point->position, eye);
+    return (Ray){eye, vec3_normalize(look), 0,
+                 fmaxf(vec3_length(look) - 2 * look_step(point, eye), 0)};
+}
+
+static bool is_hidden(const Ray *look, SightQuestion *question)
+{
+    question->direction = look->direction;
+    return bvh_occluded(question->context->bvh, *look, passes, question);
+}
+
 /* The share of light that comes from the point to the eye; 0: it is hidden, or seen from
  * behind. */
 static float passed_from(const SymbolPoint *point, const PathContext *context,
                          const Wavelengths *wavelengths, Vec3 eye)
 {
-    Vec3  look = vec3_sub(point->position, eye);
-    float distance = vec3_length(look);
-    SightQuestion question = {context, wavelengths, vec3_normalize(look), spectrum_all(1)};
-    if (!(vec3_dot(look, point->ng) < 0)) return 0;
-    float step = fmaxf(ray_offset_step(point->position), ray_offset_step(eye));
-    float end = fmaxf(distance - 2 * step, 0); /* a bezel may lie closely over the display */
-    if (bvh_occluded(context->bvh, (Ray){eye, question.direction, 0, end}, passes, &question))
-        return 0;
+    SightQuestion question = {.context = context, .wavelengths = wavelengths,
+                              .passed = spectrum_all(1)};
+    Ray look = look_at(point, eye);
+    if (!faces(point, eye) || is_hidden(&look, &question)) return 0;
     return luminous(wavelengths, &question.passed);
 }
 
@@ -98,6 +118,41 @@ SymbolVisibility symbol_visibility(const SymbolSurface *surface, const PathConte
         passed += share * (double)point->area_m2;
     }
     return (SymbolVisibility){seen / surface->area_m2, passed / seen};
+}
+
+/* Of a look that is hidden, the part by which it first is. */
+static uint32_t hiding_part(Ray look, SightQuestion *question, float step)
+{
+    const Scene *scene = question->context->scene;
+    uint32_t     part = 0;
+    Hit          hit;
+    question->passed = spectrum_all(1);
+    while (bvh_intersect(question->context->bvh, look, 0, &hit)) {
+        part = scene->triangles[hit.triangle].part_id;
+        if (hit.triangle < scene->opaque_count || !passes(question, &hit)) break;
+        look.t_min = hit.t + step;
+    }
+    return part;
+}
+
+SymbolHiding symbol_hiding(const SymbolSurface *surface, const PathContext *context, Vec3 eye,
+                           Arena *arena)
+{
+    const Scene *scene = context->scene;
+    SymbolHiding hiding = {ARENA_NEW(arena, double, scene->part_count), 0};
+    Wavelengths  wavelengths;
+    wavelengths_sample(0.5f, &wavelengths);
+    for (int i = 0; i < surface->point_count; i++) {
+        const SymbolPoint *point = &surface->points[i];
+        double        share = (double)point->area_m2 / surface->area_m2;
+        SightQuestion question = {.context = context, .wavelengths = &wavelengths,
+                                  .passed = spectrum_all(1)};
+        Ray look = look_at(point, eye);
+        if (!faces(point, eye)) hiding.turned_away += share;
+        else if (is_hidden(&look, &question))
+            hiding.by_part[hiding_part(look, &question, look_step(point, eye))] += share;
+    }
+    return hiding;
 }
 
 #define INSET 0.01 /* of a patch: the rim of a display may lie on its own corners */

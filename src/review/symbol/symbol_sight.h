@@ -26,6 +26,16 @@ typedef struct SymbolVisibility {
 SymbolVisibility symbol_visibility(const SymbolSurface *surface, const PathContext *context,
                                    Vec3 eye, bool *is_visible);
 
+/* What hides the rest, as shares of the rectangle's area: with the visible one they add up to
+ * 1. It is what the look from the eye meets first of all that lets too little through. */
+typedef struct SymbolHiding {
+    double *by_part;    /* [scene->part_count], from the arena */
+    double  turned_away; /* shows its back, whatever stands before it */
+} SymbolHiding;
+
+SymbolHiding symbol_hiding(const SymbolSurface *surface, const PathContext *context, Vec3 eye,
+                           Arena *arena);
+
 /* Of a visible point its patch, when the eye sees the corners of that, too; else the point by
  * itself: paths to a patch that something covers in part would tell of what covers it. */
 SymbolPatch symbol_patch_seen(const SymbolSurface *surface, int point,

@@ -1,0 +1,87 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* A review's figures as people read them. */
+#include "check.h"
+
+#include <string.h>
+
+#include "review/output/review_words.h"
+#include "verdict_fixture.h"
+
+static Arena arena;
+
+TEST(figures_are_said_in_words)
+{
+    (void)state;
+    LimitVerdict ratio = {.kind = "contrast_ratio", .unit = "1", .value = 2};
+    LimitVerdict height = {.kind = "character_height", .unit = "arcmin", .value = 12};
+    assert_string_equal(words_figure(NAN, &arena), "–");
+    assert_string_equal(words_figure(INFINITY, &arena), "∞");
+    assert_string_equal(words_margin(-0.18, &arena), "−18 %");
+    assert_string_equal(words_margin(0.042, &arena), "+4.2 %");
+    assert_string_equal(words_margin(NAN, &arena), "–");
+    assert_string_equal(words_share(0.62, &arena), "62 %");
+    assert_string_equal(words_share(0.0001, &arena), "less than 0.1 %");
+    assert_string_equal(words_share(0, &arena), "0 %");
+    assert_string_equal(words_share(0.996, &arena), "99.6 %");
+    assert_string_equal(words_share(0.9999, &arena), "more than 99.9 %");
+    assert_string_equal(words_share(1, &arena), "100 %");
+    assert_string_equal(words_minutes(85, &arena), "1 h 25 min");
+    assert_string_equal(words_minutes(120, &arena), "2 h");
+    assert_string_equal(words_minutes(NAN, &arena), "–");
+    assert_string_equal(words_wanted(&ratio, &arena), "at least 2 : 1");
+    height.is_upper = height.is_advice = true;
+    assert_string_equal(words_wanted(&height, &arena), "at most 12 arc min (advice)");
+}
+
+TEST(what_is_not_visible_says_what_hides_it)
+{
+    (void)state;
+    Review            review = fixture_review(&arena);
+    const ReviewCase *hidden = &review.cases[20];
+    assert_string_equal(words_reason(hidden, &arena),
+                        "0 % of it can be seen from there: wheel <rim> (leather) hides 75 %, "
+                        "stalk (satin) hides 12 %, driver's hand (skin) hides 6.2 %, others "
+                        "6.2 %");
+    assert_string_equal(words_hiders(&review.cases[0], &arena), "");
+    assert_string_equal(words_contrast(hidden, &arena), "–");
+}
+
+/* No more digits than the interval allows, and four at most. */
+TEST(digits_follow_the_interval)
+{
+    (void)state;
+    assert_string_equal(words_within(417.486, 380, 455, &arena), "420");
+    assert_string_equal(words_interval(380.2, 455.1, &arena), "380 to 460");
+    assert_string_equal(words_within(94.5257, 94.52, 94.53, &arena), "94.53");
+    assert_string_equal(words_within(2.951, 2.931, 2.971, &arena), "2.951");
+    assert_string_equal(words_within(12.345, NAN, NAN, &arena), words_figure(12.345, &arena));
+    LimitVerdict limit = {.kind = "luminance", .unit = "cd/m2", .found = 417.486, .low = 380,
+                          .high = 455};
+    assert_string_equal(words_found(&limit, &arena), "420 cd/m²");
+}
+
+TEST(the_sun_is_named_by_its_direction)
+{
+    (void)state;
+    static const struct { double azimuth; const char *world, *vehicle; } SUNS[] = {
+        {0, "north", "ahead"}, {359, "north", "ahead"},
+        {-46, "north-west", "ahead on the left"},
+        {135, "south-east", "behind on the right"}, {180, "south", "behind"}};
+    for (int i = 0; i < 5; i++) {
+        ReviewCase c = {.has_sun = true, .sun_azimuth_deg = SUNS[i].azimuth,
+                        .sun_elevation_deg = 30};
+        assert_non_null(strstr(words_sun(&c, words_directions(false), &arena), SUNS[i].world));
+        assert_non_null(strstr(words_sun(&c, words_directions(true), &arena), SUNS[i].vehicle));
+    }
+    ReviewCase nobody_knows = {.has_sun = true, .sun_azimuth_deg = 90, .sun_elevation_deg = 30};
+    assert_string_equal(words_sun(&nobody_knows, NULL, &arena),
+                        "sun 30.0° high, azimuth 90.0°");
+    assert_string_equal(words_sun(&(ReviewCase){0}, NULL, &arena),
+                        "no sun above the horizon");
+}
+
+int main(void)
+{
+    arena = arena_reserve((size_t)2 << 30);
+    return run_cases(NULL, NULL);
+}
