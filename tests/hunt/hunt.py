@@ -1,11 +1,18 @@
 # SPDX-License-Identifier: Apache-2.0
-"""hunt.py [--seed N] [--count N] PARHELION -- a hunt for wrong answers: small random rooms with
-a display. What a review says of the symbol's reflected light is held against the sum of its
-causes, which other paths find; every figure against its formula; a room under twice the light
-against twice the figure; `explain` against the review. Every fifth room is swept over suns.
+"""hunt.py [--seed N] [--count N] [--first N] PARHELION -- a hunt for wrong answers: the same
+number asked in several ways of small random cockpits (rooms.py).
 
-A line a room, with its seed; at last how the differences are spread, in standard errors.
+What a review says of the symbol's reflected light is held against
+  causes   the sum of its causes, which other paths find;
+  frame    a frame's display layers, and `measure` of that frame;
+  sweep    the step of a sweep that has the moment's sun, which comes of a response;
+  closed   in every fifth room, which is empty under a uniform sky, the integral of the panel's
+           BRDF as `panel eval` tells it;
+and every figure against the formula that it is made of. `explain` says what the review says,
+and twice the light gives twice the figure. A line a comparison, with its seed and its
+difference in standard errors; at last how these are spread. --seed: that room alone.
 """
+import csv
 import json
 import math
 import os
@@ -15,59 +22,48 @@ import sys
 import tempfile
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "image"))
-from gltf import Scene, png, unit  # noqa: E402
-from review import PANEL, Report, Reviewer, moment, request  # noqa: E402
+from exr import Frame  # noqa: E402
+from gltf import unit  # noqa: E402
+import reflection  # noqa: E402
+from review import ROOT, Report, Reviewer, moment, request  # noqa: E402
+import rooms  # noqa: E402
 
-TOO_FAR = 4  # standard errors
-
-
-def room(draw):
-    """Walls about the display, some of them left out as windows."""
-    scene = Scene()
-    bars = png(60, 30, [[255 if 20 <= x < 40 and 8 <= y < 22 else 0 for x in range(60)
-                         for _ in range(3)] for y in range(30)])
-    scene.quad(scene.material("screen", extensions={"PARHELION_display": {
-        "panel": "ips.panel", "content": {"index": scene.image("image/png", bars)}}}),
-        [-0.15, -0.075, 0], [0.3, 0, 0], [0, 0.15, 0])
-    trim, wall = scene.metal(0.6, 0.3), scene.lambert(draw.uniform(0, 0.8))
-    walls = [([-0.6, -0.3, 1.2], [1.2, 0, 0], [0, 0, -1.3]),
-             ([-0.6, -0.3, 1.2], [0, 0, -1.3], [0, 0.9, 0]),
-             ([0.6, -0.3, -0.1], [0, 0, 1.3], [0, 0.9, 0]),
-             ([-0.6, 0.6, -0.1], [1.2, 0, 0], [0, 0, 1.3])]
-    windows = draw.sample(range(4), draw.randint(1, 3))
-    for i, sides in enumerate(walls):
-        if i not in windows:
-            scene.quad(trim if draw.random() < 0.2 else wall, *sides)
-    eye = [draw.uniform(-0.3, 0.3), draw.uniform(-0.1, 0.3), 0.8]
-    scene.view("eye", eye, unit([-x for x in eye]), 12)
-    return scene
+TOO_FAR = 4       # standard errors
+SIZE, SAMPLES = "96x54", 12
+SWEEP_EVERY = 8       # rooms: a response costs as much as all else together
+FRAME_SHARE = 0.003   # of what the frame shows: pixels on the symbol's rim are in or out whole
+CLOSED_SHARE = 0.004  # what the sum over directions, and D65 between wavelengths, leave
+CLOSED_POINTS = 3     # to a side of the symbol
 
 
-def question(draw, seed):
+# ---- what is asked --------------------------------------------------------------------------
+
+def question(draw, room, seed, reviewer):
+    """A uniform sky, twice of it, a sun, and a sweep of that sun alone; lamps by themselves."""
     luminance = draw.uniform(50, 8000)
-    sun = {"azimuth_deg": draw.uniform(0, 360), "elevation_deg": draw.uniform(5, 60),
-           "illuminance_lx": draw.uniform(2e4, 1e5)}
-    conditions = [moment("moment", type="constant", luminance=luminance),
-                  moment("twice", type="constant", luminance=2 * luminance),
+    azimuth, elevation = draw.randrange(0, 360, 10), draw.randrange(5, 60, 5)
+    sun = {"azimuth_deg": azimuth, "elevation_deg": elevation,
+           "illuminance_lx": reviewer.sun_lux(elevation)}
+    conditions = [moment("sky", type="constant", luminance=luminance),
                   moment("sun", type="sky", sun=sun)]
-    if seed % 5 == 0:
-        suns = {"azimuth_deg": [150, 210, 10], "elevation_deg": [5, 35, 10]}
-        conditions.append({"name": "suns", "level": "set",
-                           "sweep": {"sun": suns, "sky": "sky"}})
-    return request(conditions=conditions, precision={"contrast": 0.02},
-                   levels={"set": {"*": round(draw.uniform(0.05, 1), 3)}})
+    if room.has_lamps:
+        conditions.append(moment("lamps", type="constant", luminance=0.01))
+    if draw.random() < 0.3 and not room.is_empty:
+        conditions.append(moment("twice", type="constant", luminance=2 * luminance))
+    if seed % SWEEP_EVERY == 3:
+        conditions.append({"name": "suns", "sweep": {"sky": "sky", "sun": {
+            "azimuth_deg": [azimuth, azimuth, 1], "elevation_deg": [elevation, elevation, 1]}}})
+    for condition in conditions:
+        condition["level"] = "set"
+    return request(conditions=conditions, precision={"contrast": 0.02}, frames={"worst": 0},
+                   levels={"set": {"*": round(draw.uniform(0.05, 1), 3)}},
+                   symbols={"bar": {"display": "screen", "uv": rooms.SYMBOL_UV}})
 
+
+# ---- figures against what they are made of --------------------------------------------------
 
 def check_case(report, name, case):
-    """A contrast is the formula of its luminances, lies in its interval, and decides."""
-    light, found = case["luminance_cd_m2"], case["contrast_ratio"]
-    if case["verdict"] == "not visible":
-        return
-    parts = [light[k] + light["reflected"] for k in ("foreground", "background")]
-    wanted, (low, high) = max(parts) / min(parts), case["contrast_interval"]
-    report.claim(math.isclose(found, wanted, rel_tol=1e-3),
-                 f"{name}: contrast {found}, of its luminances {wanted:.5g}")
-    report.claim(low <= found <= high, f"{name}: {found} not in {low} to {high}")
+    """The contrast decides, by its interval. (Reviewer.review holds the other laws.)"""
     for limit in case["limits"]:
         if limit["kind"] == "contrast_ratio" and not limit["upper"]:
             least, most = limit["interval"]
@@ -77,80 +73,209 @@ def check_case(report, name, case):
                          f"{name}: {limit['verdict']}, its interval says {says}")
 
 
-def apart(case):
-    """What is reflected less what its causes add up to, in standard errors; both, in words."""
+def estimate(case):
+    """What is reflected and its standard error."""
     low, high = case["reflected_interval"]
-    found = case["luminance_cd_m2"]["reflected"]
-    causes = sum(cause["cd_m2"] for cause in case["causes"])
-    halves = [(cause["interval"][1] - cause["cd_m2"]) for cause in case["causes"]]
-    sigma = math.hypot((high - low) / 2, *halves) / 1.96
-    return (found - causes) / max(sigma, 1e-9), f"{found:.6g}, its causes {causes:.6g} cd/m2"
+    return case["luminance_cd_m2"]["reflected"], (high - low) / 3.92
 
 
-def check_twice(report, seed, one, two):
-    """Twice the light, with the same display: its own light in it stays as it is."""
-    z = []
-    for case in (one, two):
-        low, high = case["reflected_interval"]
-        z.append((case["luminance_cd_m2"]["reflected"], (high - low) / 3.92))
-    (a, sure_a), (b, sure_b) = z
-    own = 2 * a - b
-    report.claim(-TOO_FAR * math.hypot(2 * sure_a, sure_b) <= own <= a +
-                 TOO_FAR * math.hypot(2 * sure_a, sure_b),
-                 f"seed {seed}: reflected {a:.6g}, under twice the light {b:.6g}")
+def of_causes(case):
+    halves = [cause["interval"][1] - cause["cd_m2"] for cause in case["causes"]]
+    return (sum(cause["cd_m2"] for cause in case["causes"]), math.hypot(*halves) / 1.96)
 
 
-def hunt(report, reviewer, seed):
-    """The differences, in standard errors."""
-    draw = random.Random(seed)
-    room(draw).write(os.path.join(reviewer.folder, "dash.gltf"))
-    status, review = reviewer.review(question(draw, seed), f"out{seed}")
-    report.claim(status == (0 if review["pass"] else 1), f"seed {seed}: status {status}")
-    cases = review["cases"] + [sweep["worst"] for sweep in review["sweeps"]]
-    found = []
-    for case in cases:
-        name = f"seed {seed}, {case['condition']}"
-        check_case(report, name, case)
-        if case["verdict"] == "not visible":
+# ---- a frame --------------------------------------------------------------------------------
+
+def luminance_of(channels, name, i):
+    return (0.2126 * channels[name + ".R"][i] + 0.7152 * channels[name + ".G"][i] +
+            0.0722 * channels[name + ".B"][i])
+
+
+def light_of(condition):
+    """The same light for `render`."""
+    sky = condition["environment"]
+    if sky["type"] == "constant":
+        return ["--environment", f"constant:{sky['luminance']}"]
+    sun = sky["sun"]
+    return ["--environment", "sky:clear", "--sun", "{azimuth_deg},{elevation_deg},"
+            "{illuminance_lx}".format(**sun)]
+
+
+def of_frame(reviewer, condition, level):
+    """Two frames that differ in their seeds: the mean over the symbol by its area, as a review
+    counts, its error by the pixels' differences; and `measure` of one of them, with the mean of
+    that frame's layer by pixels, as it counts."""
+    layers, total, squares, both = [], 0, 0, 0
+    for seed in (1, 2):
+        name = f"frame{seed}.exr"
+        done = reviewer.run("render", "dash.gltf", *light_of(condition), "--size", SIZE,
+                            "--spp", str(SAMPLES), "--layers", "all", "--seed", str(seed),
+                            "-o", name, "--display-level", f"screen={100 * level}",
+                            *second(reviewer, level))
+        assert done.returncode == 0, done.stderr
+        layers.append(Frame(os.path.join(reviewer.folder, name)).channels)
+    one, two = layers
+    left, top, right, bottom = rooms.SYMBOL_UV
+    shown = [i for i, display in enumerate(one["id.display"]) if display == 0]
+    for i in shown:
+        if one["display.coverage"][i] < 1 or not (
+                left < one["uv.U"][i] < right and top < one["uv.V"][i] < bottom):
             continue
-        z, words = apart(case)
-        found.append(z)
-        print(f"{name}: {words}, z {z:.2f}", flush=True)
-        report.claim(abs(z) <= TOO_FAR, f"{name}: {words}, z {z:.2f}")
-    check_twice(report, seed, cases[0], cases[1])
-    done = reviewer.run("explain", "r.json", "--condition", "moment", "--json")
-    told = json.loads(done.stdout)
-    report.claim(math.isclose(told["contrast_ratio"], cases[0]["contrast_ratio"],
-                              rel_tol=1e-4), f"seed {seed}: explain {told['contrast_ratio']}")
-    return found
+        weight = one["depth.Z"][i] ** 2 / math.cos(math.radians(one["display.theta"][i]))
+        a, b = (luminance_of(c, "display.reflected", i) for c in layers)
+        total, both = total + weight, both + weight * (a + b) / 2
+        squares += (weight * (a - b) / 2) ** 2
+    told = json.loads(reviewer.run("measure", "frame1.exr", "--display", "screen",
+                                   "--json").stdout)["contrast"]
+    by_pixel = [luminance_of(one, "display.reflected", i) for i in shown]
+    return (both / total, math.sqrt(squares) / total), told, sum(by_pixel) / len(by_pixel)
 
 
-def tell_spread(report, found):
-    for low in range(-5, 5):
-        count = sum(low <= z < low + 1 for z in found)
-        print(f"z {low:+d} to {low + 1:+d}: {count:4d} {'#' * count}")
-    outside = sum(abs(z) > 1.96 for z in found)
-    print(f"{outside} of {len(found)} differ by more than 1.96 standard errors")
-    allowed = 0.05 * len(found) + 4 * math.sqrt(0.05 * 0.95 * len(found))
-    report.claim(outside <= allowed,
-                 f"{outside} of {len(found)} outside, {allowed:.0f} allowed")
+def second(reviewer, level):
+    """The other display's level, where the room has one."""
+    with open(os.path.join(reviewer.folder, "dash.gltf"), encoding="utf-8") as file:
+        names = [m["name"] for m in json.load(file)["materials"]]
+    return ["--display-level", f"second={100 * level}"] if "second" in names else []
+
+
+def check_measure(report, name, told, by_pixel):
+    """`measure` against the layer and its own formula."""
+    contrast = (told["white_cd_m2"] + told["reflected_cd_m2"]) / (
+        told["black_cd_m2"] + told["reflected_cd_m2"])
+    report.claim(math.isclose(contrast, told["value"], rel_tol=1e-4),
+                 f"{name}: measure says {told['value']}, its luminances {contrast}")
+    report.claim(told["interval"][0] <= told["value"] <= told["interval"][1],
+                 f"{name}: {told['value']} outside {told['interval']}")
+    report.claim(math.isclose(told["reflected_cd_m2"], by_pixel, rel_tol=1e-4),
+                 f"{name}: measure says {told['reflected_cd_m2']}, the layer {by_pixel}")
+
+
+# ---- a closed form --------------------------------------------------------------------------
+
+def of_panel(reviewer, room, luminance):
+    """The mean over points of the symbol of the uniform sky's reflection."""
+    path = os.path.join(reviewer.folder, room.panel())
+    panel = reflection.Panel(reviewer.program, path, reviewer.folder)
+    left, top, right, bottom = rooms.SYMBOL_UV
+    total = 0
+    for i in range(CLOSED_POINTS):
+        for j in range(CLOSED_POINTS):
+            u = left + (i + 0.5) / CLOSED_POINTS * (right - left)
+            v = top + (j + 0.5) / CLOSED_POINTS * (bottom - top)
+            point = [(u - 0.5) * rooms.WIDTH, (0.5 - v) * rooms.HEIGHT, 0]
+            eye = unit([e - p for e, p in zip(room.eye, point)])
+            total += reflection.under_sky(panel, eye, 60, 48)[0]
+    return total / CLOSED_POINTS ** 2 * luminance / reflection.SKY_CD_M2
+
+
+# ---- one room -------------------------------------------------------------------------------
+
+class Hunt:
+    def __init__(self, report, reviewer):
+        self.report, self.reviewer, self.found, self.outside = report, reviewer, [], 0
+
+    def compare(self, name, one, other):
+        """Two figures with their standard errors."""
+        (a, sure_a), (b, sure_b) = one, other
+        z = (a - b) / max(math.hypot(sure_a, sure_b), 1e-6 * abs(a), 1e-12)
+        self.found.append(z)
+        words = f"{name}: {a:.6g} +- {sure_a:.2g}, {b:.6g} +- {sure_b:.2g} cd/m2, z {z:.2f}"
+        print(words, flush=True)
+        self.report.claim(abs(z) <= TOO_FAR, words)
+
+    def check_cases(self, seed, room, asked, cases):
+        level = asked["levels"]["set"]["*"]
+        for case in cases:
+            name = f"seed {seed}, {case['condition']}"
+            check_case(self.report, name, case)
+            if case["verdict"] != "not visible":
+                self.compare(name + ", causes", estimate(case), of_causes(case))
+        moments = [c for c in asked["conditions"] if "environment" in c]
+        k = seed % len(moments)
+        frame, told, by_pixel = of_frame(self.reviewer, moments[k], level)
+        name = f"seed {seed}, {moments[k]['name']}"
+        self.compare(name + ", frame", estimate(cases[k]),
+                     (frame[0], math.hypot(frame[1], FRAME_SHARE * frame[0])))
+        check_measure(self.report, name, told, by_pixel)
+        if room.is_empty:
+            wanted = of_panel(self.reviewer, room, moments[0]["environment"]["luminance"])
+            self.compare(f"seed {seed}, sky, closed", estimate(cases[0]),
+                         (wanted, CLOSED_SHARE * wanted))
+
+    def check_sweep(self, seed, out, review, cases):
+        if not review["sweeps"]:
+            return
+        table = os.path.join(self.reviewer.folder, out, review["sweeps"][0]["table"])
+        with open(table, encoding="utf-8") as file:
+            row = list(csv.DictReader(file))[0]
+        wanted = float(row["reflected_cd_m2"])
+        error = max(r["relative_error"] for r in review["responses"])
+        self.compare(f"seed {seed}, sun, sweep", estimate(cases[1]), (wanted, error * wanted))
+
+    def check_twice(self, seed, cases):
+        """Under twice the light the display's own light in it stays as it is."""
+        twice = [case for case in cases if case["condition"] == "twice"]
+        for case in twice:
+            (a, sure_a), (b, sure_b) = estimate(cases[0]), estimate(case)
+            own, sure = 2 * a - b, math.hypot(2 * sure_a, sure_b)
+            self.report.claim(-TOO_FAR * sure <= own <= a + TOO_FAR * sure,
+                              f"seed {seed}: {a:.6g}, under twice the light {b:.6g}")
+
+    def check_explain(self, seed, case):
+        done = self.reviewer.run("explain", "r.json", "--condition", case["condition"],
+                                 "--json")
+        told = json.loads(done.stdout)
+        same = math.isclose(told["contrast_ratio"] or 0, case["contrast_ratio"] or 0,
+                            rel_tol=1e-4)
+        self.report.claim(same, f"seed {seed}: explain {told['contrast_ratio']}")
+
+    def room(self, seed):
+        draw = random.Random(seed)
+        room = rooms.Room(draw, seed % 5 == 0)
+        room.scene.write(os.path.join(self.reviewer.folder, "dash.gltf"))
+        asked, out = question(draw, room, seed, self.reviewer), f"out{seed}"
+        status, review = self.reviewer.review(asked, out)
+        self.report.claim(status == (0 if review["pass"] else 1),
+                          f"seed {seed}: status {status}")
+        cases = review["cases"]
+        worst = [sweep["worst"] for sweep in review["sweeps"]]
+        self.check_cases(seed, room, asked, cases + worst)
+        self.check_sweep(seed, out, review, cases)
+        self.check_twice(seed, cases)
+        self.check_explain(seed, cases[seed % len(cases)])
+        shutil.rmtree(os.path.join(self.reviewer.folder, out))
+
+    def tell_spread(self):
+        found = self.found
+        for low in range(-5, 5):
+            count = sum(low <= z < low + 1 for z in found)
+            print(f"z {low:+d} to {low + 1:+d}: {count:4d} {'#' * (count // 5 or count > 0)}")
+        outside = sum(abs(z) > 1.96 for z in found)
+        print(f"{outside} of {len(found)} differ by more than 1.96 standard errors, expected "
+              f"{0.05 * len(found):.0f}")
+        allowed = 0.05 * len(found) + 4 * math.sqrt(0.05 * 0.95 * len(found))
+        self.report.claim(outside <= allowed,
+                          f"{outside} of {len(found)} outside, {allowed:.0f} allowed")
 
 
 def main(words):
-    seed, count = 1, 10
+    first, count = 1, 10
     while len(words) > 1:
         if words[0] == "--seed":
-            seed, count = int(words[1]), 1
+            first, count = int(words[1]), 1
+        elif words[0] == "--first":
+            first = int(words[1])
         else:
             count = int(words[1])
         words = words[2:]
     report = Report()
     with tempfile.TemporaryDirectory() as folder:
-        shutil.copy(PANEL, os.path.join(folder, "ips.panel"))
-        found = []
-        for each in range(seed, seed + count):
-            found += hunt(report, Reviewer(words[0], folder), each)
-    tell_spread(report, found)
+        for panel in rooms.PANELS:
+            shutil.copy(os.path.join(ROOT, "assets", "panels", panel), folder)
+        hunt = Hunt(report, Reviewer(words[0], folder))
+        for seed in range(first, first + count):
+            hunt.room(seed)
+    hunt.tell_spread()
     return report.finish()
 
 

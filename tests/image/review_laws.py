@@ -46,7 +46,8 @@ def broken_case_laws(case):
         if limit["margin"] != case["margin"]:
             yield f"margin {case['margin']} beside its limit's {limit['margin']}"
         if limit["kind"] == "contrast_ratio" and \
-                abs(limit["found"] / limit["value"] - 1 - limit["margin"]) > 1e-4:
+                abs(limit["found"] / limit["value"] - 1 - limit["margin"]) > \
+                1e-4 * max(1, abs(limit["margin"])):
             yield f"margin {limit['margin']} of {limit['found']} by {limit['value']}"
     if (case["paths_to_decide"] is not None) != (case["verdict"] == "too close"):
         yield f"{case['verdict']}: {case['paths_to_decide']} paths would decide it"
