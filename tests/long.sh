@@ -71,6 +71,8 @@ run 'a glare review, thirty hours of weather' review-long \
     python3 tests/image/review.py --all .build/release/parhelion
 run 'a hunt for wrong answers, 200 rooms' hunt-long \
     python3 tests/hunt/hunt.py --count 200 .build/release/parhelion
+run "another maker's car" other-maker \
+    python3 tests/image/other_maker.py .build/release/parhelion
 run 'verdicts beside their limits' review-laws \
     python3 tests/image/review_laws.py .build/release/parhelion scenes/glance.review.json \
     dimmed 0.2 0.4 0.005

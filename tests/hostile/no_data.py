@@ -23,12 +23,14 @@ WITHOUT = {
     "ior alone": {"extensions": {"KHR_materials_ior": {"ior": 1.4}}},
     "empty extension": {"extensions": {"KHR_materials_clearcoat": {}}},
     "emissive of nothing": {"emissiveFactor": [0, 0, 0]},
+    "a lamp's light alone": {"emissiveFactor": [1, 1, 1]},
 }
 WITH = {
     "a colour": {PBR: {"baseColorFactor": [0.5, 0.5, 0.5, 1]}},
     "one channel": {PBR: {"baseColorFactor": [1, 1, 0.9, 1]}},
     "alpha": {"alphaMode": "BLEND", PBR: {"baseColorFactor": [1, 1, 1, 0.5]}},
-    "a lamp": {"emissiveFactor": [1, 1, 1]},
+    "a lamp with a body": {"emissiveFactor": [1, 1, 1], PBR: {
+        "baseColorFactor": [0.2, 0.2, 0.2, 1]}},
     "glass": {"extensions": {"KHR_materials_transmission": {"transmissionFactor": 1}}},
     "a coat": {"extensions": {"KHR_materials_clearcoat": {"clearcoatFactor": 1}}},
     "unlit": {"extensions": {"KHR_materials_unlit": {}}},
@@ -51,6 +53,20 @@ def triangle(materials, used):
         "bufferViews": [{"buffer": 0, "byteLength": len(data)}],
         "buffers": [{"byteLength": len(data), "uri": "data:application/octet-stream;base64," +
                      base64.b64encode(data).decode()}]}
+
+
+def with_colours(document, value):
+    """The same triangle, its vertices coloured: float RGB."""
+    data = struct.pack("<9f", *[value] * 9)
+    view = len(document["bufferViews"])
+    document["buffers"].append({"byteLength": len(data), "uri":
+                                "data:application/octet-stream;base64," +
+                                base64.b64encode(data).decode()})
+    document["bufferViews"].append({"buffer": 1, "byteLength": len(data)})
+    document["accessors"].append({"bufferView": view, "componentType": 5126, "count": 3,
+                                  "type": "VEC3"})
+    document["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"] = 1
+    return document
 
 
 def check(program, folder, document, *options):
@@ -76,6 +92,12 @@ def main(program):
                 status, said = check(program, folder, document, "--strict")
                 report.claim((status != 0) == bool(wanted) and len(said) == wanted,
                              f"{name}, strict: status {status}: {said}")
+        for value, wanted in ((0.5, 0), (1, 1)):
+            _, said = check(program, folder, with_colours(triangle([{}], [0]), value))
+            report.claim(len(said) == wanted, f"vertices of colour {value}: {said}")
+        both = with_colours(triangle([{"name": "cloth"}], [0, 0]), 0.5)
+        _, said = check(program, folder, both)
+        report.claim(len(said) == 1, f"one part coloured, one not: {said}")
         materials = [{"name": "leather"}, {"name": "unused"}, {"name": "wood", PBR: {
             "baseColorFactor": [0.3, 0.2, 0.1, 1]}}, {"name": "headliner"}]
         _, said = check(program, folder, triangle(materials, [0, 2, 3]))

@@ -15,6 +15,7 @@
 #include "cli/review/review_share.h"
 #include "render/signals.h"
 #include "review/output/review_decide.h"
+#include "review/output/review_gaze.h"
 #include "review/output/review_json.h"
 #include "review/output/review_words.h"
 #include "review/request/request_start.h"
@@ -115,20 +116,20 @@ static void print_sweep(const ReviewSweep *s, Arena scratch)
 }
 
 /* What takes half of what there is to be seen. */
-static void print_gaze(const GazeFinding *g)
+static void print_gaze(const GazeFinding *g, Arena scratch)
 {
     if (!(g->contrast_left < GAZE_POOR)) return;
     printf("%-11s %s, %s, looking at %s: %.3g %% of a distant object's contrast left; seen "
-           "%.4g cd/m2, mirrored by glass %.4g, veil in the eye %.4g\n", "veiled",
-           g->condition, g->eye, g->gaze, 100 * g->contrast_left, g->through, g->mirrored,
-           g->veil - g->veil_parts.near);
+           "%.4g cd/m2, mirrored by glass %s, veil in the eye %s\n", "veiled", g->condition,
+           g->eye, g->gaze, 100 * g->contrast_left, g->through,
+           review_gaze_mirrored(g, &scratch), review_gaze_veil(g, &scratch));
 }
 
 static void print_review(const Review *review, Arena scratch)
 {
     for (int i = 0; i < review->case_count; i++) print_case(&review->cases[i], scratch);
     for (int i = 0; i < review->sweep_count; i++) print_sweep(&review->sweeps[i], scratch);
-    for (int i = 0; i < review->gaze_count; i++) print_gaze(&review->gazes[i]);
+    for (int i = 0; i < review->gaze_count; i++) print_gaze(&review->gazes[i], scratch);
     const ReviewCase *worst = review_worst(review, scratch);
     if (review->without_data_count)
         printf("%-11s %d material%s taken as perfectly white: %s; of the light on the worst "

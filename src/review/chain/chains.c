@@ -342,7 +342,7 @@ static bool *parts_with_data(const Scene *scene, Arena *arena)
 {
     bool *has_data = ARENA_NEW(arena, bool, scene->part_count);
     for (int i = 0; i < scene->part_count; i++)
-        has_data[i] = material_has_data(&scene->materials[scene->parts[i].material_id]);
+        has_data[i] = part_has_data(scene, i);
     return has_data;
 }
 

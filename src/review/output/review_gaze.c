@@ -54,6 +54,18 @@ static double far_veil(const GazeFinding *g)
     return g->veil - g->veil_parts.near;
 }
 
+const char *review_gaze_mirrored(const GazeFinding *g, Arena *arena)
+{
+    return words_within(g->mirrored, g->mirrored_range.low, g->mirrored_range.high, arena);
+}
+
+const char *review_gaze_veil(const GazeFinding *g, Arena *arena)
+{
+    double near = g->veil_parts.near;
+    return words_within(far_veil(g), g->veil_range.low - near, g->veil_range.high - near,
+                        arena);
+}
+
 static const char *worst_words(const GazeFinding *g, Arena *arena)
 {
     const char *place = arena_format(arena, "%s, looking at %s, %s", of(g->eye), of(g->gaze),
@@ -63,13 +75,13 @@ static const char *worst_words(const GazeFinding *g, Arena *arena)
     const char *glass =
         g->mirrored_by ? arena_format(arena, "%s mirrors %s over it with %s cd/m²",
                                       g->mirrored_by, of(g->mirrored_from),
-                                      words_figure(g->mirrored, arena))
+                                      review_gaze_mirrored(g, arena))
                        : "no glass mirrors anything over it";
     return arena_format(arena, "Worst: %s. %s of a distant object's contrast is left: what is "
                                "seen there has %s cd/m², %s, and the eye lays %s cd/m² "
                                "over it.", place, words_share(g->contrast_left, arena),
                         words_figure(g->through, arena), glass,
-                        words_figure(far_veil(g), arena));
+                        review_gaze_veil(g, arena));
 }
 
 /* ---- the table --------------------------------------------------------------------------- */
@@ -101,10 +113,10 @@ static void add_names(Text *html, const GazeFinding *g, Arena *arena)
 static void add_veils(Text *html, const GazeFinding *g, Arena *arena)
 {
     const char *from = first_part(&g->veil_parts);
-    page_cell(html, "n", words_figure(g->mirrored, arena));
+    page_cell(html, "n", review_gaze_mirrored(g, arena));
     if (g->mirrored_by) add_small_cell(html, "", g->mirrored_by, of(g->mirrored_from));
     else page_cell(html, "", "–");
-    add_small_cell(html, "n", words_figure(far_veil(g), arena),
+    add_small_cell(html, "n", review_gaze_veil(g, arena),
                    from[0] ? arena_format(arena, "mostly %s", from) : "");
 }
 

@@ -10,3 +10,8 @@
 
 /* Nothing where the review has no such gazes. */
 void review_gaze_add(Text *html, const Review *review, Arena *arena);
+
+/* cd m^-2 that glass mirrors over the gaze, and that the eye's own veil lays over it, with no
+ * more digits than their intervals allow. */
+const char *review_gaze_mirrored(const GazeFinding *g, Arena *arena);
+const char *review_gaze_veil(const GazeFinding *g, Arena *arena);

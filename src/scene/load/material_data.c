@@ -29,19 +29,42 @@ static bool lets_through(const Material *m)
 
 bool material_has_data(const Material *m)
 {
-    return m->display_id != NO_ID || m->unlit || m->is_emitter || has_colour(m) ||
-           has_layer(m) || lets_through(m);
+    return m->display_id != NO_ID || m->unlit || has_colour(m) || has_layer(m) ||
+           lets_through(m);
+}
+
+/* Vertices without a colour of their own are white, and so are those that say so. */
+static bool is_white(VertexColor color)
+{
+    for (int c = 0; c < 4; c++)
+        if (color.linear[c] != UINT16_MAX) return false;
+    return true;
+}
+
+static bool is_coloured(const Scene *scene, const Part *part)
+{
+    uint32_t end = part->colors ? part->first_triangle + part->triangle_count : 0;
+    for (uint32_t t = part->first_triangle; t < end; t++)
+        for (int k = 0; k < 3; k++)
+            if (!is_white(part->colors[scene_corner_place(scene, t, k)])) return true;
+    return false;
+}
+
+bool part_has_data(const Scene *scene, int part_id)
+{
+    const Part *part = &scene->parts[part_id];
+    return material_has_data(&scene->materials[part->material_id]) || is_coloured(scene, part);
 }
 
 int *scene_without_data(const Scene *scene, int *count, Arena *arena)
 {
     int  *list = ARENA_NEW(arena, int, scene->material_count);
-    bool *is_used = ARENA_NEW(arena, bool, scene->material_count);
+    bool *has_none = ARENA_NEW(arena, bool, scene->material_count);
     for (int i = 0; i < scene->part_count; i++)
-        is_used[scene->parts[i].material_id] = true;
+        if (!part_has_data(scene, i)) has_none[scene->parts[i].material_id] = true;
     *count = 0;
     for (int i = 0; i < scene->material_count; i++)
-        if (is_used[i] && !material_has_data(&scene->materials[i])) list[(*count)++] = i;
+        if (has_none[i]) list[(*count)++] = i;
     return list;
 }
 

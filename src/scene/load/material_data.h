@@ -5,8 +5,9 @@
  * described. One is taken as without data when its base colour is 1, 1, 1 without a texture
  * or a measured curve, and nothing else tells what it does with light: it is no display,
  * glazing or coating, no conductor of measured constants; lets no light through; has no sheen,
- * iridescence, clearcoat or specular colour of its own; does not emit and is not unlit. That
- * some roughness or metalness was given alone does not count: exporters write both.
+ * iridescence, clearcoat or specular colour of its own; and is not unlit. That some roughness
+ * or metalness was given alone does not count: exporters write both. Nor does light of its own:
+ * a lamp too reflects something.
  *
  * Memory   names in the arena.
  * Threads  pure functions.
@@ -17,7 +18,10 @@
 
 bool material_has_data(const Material *material);
 
-/* Ids of those without data that some triangle has. */
+/* Or its vertices have colours (COLOR_0), which the material's is multiplied with. */
+bool part_has_data(const Scene *scene, int part_id);
+
+/* Ids of those without data that some part has which has none itself. */
 int *scene_without_data(const Scene *scene, int *count, Arena *arena);
 
 /* "seat, trim and 7 more" */
