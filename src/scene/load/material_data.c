@@ -27,7 +27,7 @@ static bool lets_through(const Material *m)
            m->transmission_curve_id != NO_ID || m->index || m->base_color[3] < 1;
 }
 
-bool material_has_data(const Material *m)
+static bool has_data(const Material *m)
 {
     return m->display_id != NO_ID || m->unlit || has_colour(m) || has_layer(m) ||
            lets_through(m);
@@ -53,7 +53,7 @@ static bool is_coloured(const Scene *scene, const Part *part)
 bool part_has_data(const Scene *scene, int part_id)
 {
     const Part *part = &scene->parts[part_id];
-    return material_has_data(&scene->materials[part->material_id]) || is_coloured(scene, part);
+    return has_data(&scene->materials[part->material_id]) || is_coloured(scene, part);
 }
 
 int *scene_without_data(const Scene *scene, int *count, Arena *arena)

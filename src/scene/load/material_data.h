@@ -16,9 +16,7 @@
 #include "base/arena.h"
 #include "scene/scene.h"
 
-bool material_has_data(const Material *material);
-
-/* Or its vertices have colours (COLOR_0), which the material's is multiplied with. */
+/* Of its material, or of its vertices: their colours (COLOR_0) are multiplied with its. */
 bool part_has_data(const Scene *scene, int part_id);
 
 /* Ids of those without data that some part has which has none itself. */
