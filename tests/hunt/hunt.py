@@ -55,8 +55,8 @@ def question(draw, room, seed, reviewer):
             "azimuth_deg": [azimuth, azimuth, 1], "elevation_deg": [elevation, elevation, 1]}}})
     for condition in conditions:
         condition["level"] = "set"
-    return request(conditions=conditions, precision={"contrast": 0.02}, frames={"worst": 0},
-                   levels={"set": {"*": round(draw.uniform(0.05, 1), 3)}},
+    return request(conditions=conditions, precision={"contrast": 0.02, "seed": seed},
+                   frames={"worst": 0}, levels={"set": {"*": round(draw.uniform(0.05, 1), 3)}},
                    symbols={"bar": {"display": "screen", "uv": rooms.SYMBOL_UV}})
 
 

@@ -169,7 +169,8 @@ static PupilSums *read_pupil(const EyePaths *paths, Arena *arena)
     Arena       scratch = *arena;
     LitPoint    pupil = {paths->aim.eye, paths->gaze, false};
     PathContext lights_only = paths->stage->context;
-    PupilWork   work = {{.context = &lights_only, .meter = &pupil, .seed = SEED + 1}, paths,
+    uint32_t    seed = review_seed(paths->stage->request, SEED + 1);
+    PupilWork   work = {{.context = &lights_only, .meter = &pupil, .seed = seed}, paths,
                         ARENA_NEW(&scratch, PupilSums, chunks)};
     lights_only.strategy = PATH_LIGHTS_ONLY;
     lights_only.max_bounces = 1;
@@ -350,7 +351,8 @@ static EyeReading read_eye(const Stage *stage, const EyeLook *look, Arena scratc
     Frame    frame = frame_from_z(paths.gaze);
     set_head(&paths);
     paths.aim = (ProbeAim){.context = &stage->context, .eye = look->eye,
-                           .targets = paths.targets, .target_count = count, .seed = SEED};
+                           .targets = paths.targets, .target_count = count,
+                           .seed = review_seed(stage->request, SEED)};
     for (int i = 0; i < count; i++) aim_path(&paths, &frame, i);
     parallel_for(stage->tools.threads, count / CHUNK, read_chunk, &paths);
     PupilSums *pupils = read_pupil(&paths, &scratch);
@@ -365,7 +367,7 @@ EyeReading eye_read(const Stage *stage, const EyeLook *look, Arena scratch)
     EyeReading reading;
     if (!tools->journal) return read_eye(stage, look, scratch);
     ProbeAim   aim = {.context = &stage->context, .eye = look->eye, .targets = &look->towards,
-                      .target_count = 1, .seed = SEED};
+                      .target_count = 1, .seed = review_seed(stage->request, SEED)};
     double     numbers[] = {observer->age_years, observer->pigment, look->rounds, ahead[0],
                             ahead[1], ahead[2], look->images ? look->images->count : -1};
     Question   question = {.base = tools->base, .kind = "eye", .numbers = numbers,

@@ -201,7 +201,7 @@ static GazeReading read_gaze(const Stage *stage, const GazeGoal *goal, Arena scr
     GazeReading out = {.most = {NO_ID, NO_ID, LIGHTS_SUN}};
     Vec3       *targets = ARENA_NEW(&scratch, Vec3, TARGETS);
     ProbeAim    aim = {.context = &stage->context, .eye = goal->eye, .targets = targets,
-                       .target_count = TARGETS, .seed = SEED};
+                       .target_count = TARGETS, .seed = review_seed(stage->request, SEED)};
     aim_at_cone(goal, targets);
     read_cone(stage, goal, &aim, &out, scratch);
     if (out.mirrored > 0) out.most = find_mirrored(stage, &aim, scratch);
@@ -214,7 +214,7 @@ GazeReading gaze_read(const Stage *stage, const GazeGoal *goal, Arena scratch)
     GazeReading reading;
     if (!tools->journal) return read_gaze(stage, goal, scratch);
     ProbeAim   aim = {.context = &stage->context, .eye = goal->eye, .targets = &goal->towards,
-                      .target_count = 1, .seed = SEED};
+                      .target_count = 1, .seed = review_seed(stage->request, SEED)};
     double     numbers[] = {goal->precision, goal->most};
     Question   question = {.base = tools->base, .kind = "gaze", .numbers = numbers,
                            .number_count = COUNT_OF(numbers)};

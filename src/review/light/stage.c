@@ -124,7 +124,8 @@ static Vec3 vec3_of(const double v[3])
 static void read_sensor(Stage *stage, const ReviewLevel *level, Arena scratch)
 {
     LitPoint    head = {vec3_of(level->position_m), vec3_of(level->normal), false};
-    ProbeAim    aim = {.context = &stage->context, .meter = &head, .seed = SENSOR_SEED};
+    ProbeAim    aim = {.context = &stage->context, .meter = &head,
+                       .seed = review_seed(stage->request, SENSOR_SEED)};
     ReadingGoal goal = {.precision = SENSOR_PRECISION, .most = SENSOR_PATHS};
     stage->sensor_lux = reading_take(&aim, &goal, &stage->tools, scratch).reflected;
 }

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "review/request/request.h"
 
+#include "base/sampler.h"
+
 int review_eye_count(const ReviewEye *eye)
 {
     return eye->kind == EYE_BOX ? eye->grid[0] * eye->grid[1] * eye->grid[2] : 1;
@@ -24,6 +26,12 @@ void review_eye_point(const ReviewEye *eye, int i, double out_m[3])
 double review_range_value(const ReviewRange *range, int i)
 {
     return i == range->count - 1 ? range->last : range->first + i * range->step;
+}
+
+uint32_t review_seed(const ReviewRequest *request, uint32_t base)
+{
+    uint32_t seed = (uint32_t)request->precision_seed;
+    return seed ? hash_combine(hash_u32(base), seed) : base;
 }
 
 int review_look_count(const ReviewRequest *request)

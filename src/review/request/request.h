@@ -181,10 +181,15 @@ typedef struct ReviewRequest {
     bool             decides; /* what is too close is read on: DECIDE_TIMES (run/cases.c) */
     int              precision_paths;    /* of one reading at most: what is not sure then has a
                                             wider interval */
+    int              precision_seed;     /* of the random numbers; 0 as a rule */
     ReviewFrames     frames;
     ReviewInput     *inputs;     /* the file itself, routes, weathers, skies' pictures */
     int              input_count;
 } ReviewRequest;
+
+/* What a probe's random numbers begin with, of which `base` alone is usual: another seed of the
+ * request takes others, so that luck shows. */
+uint32_t review_seed(const ReviewRequest *request, uint32_t base);
 
 /* How many pairs there are of a gaze that does not go to symbols and an eye that looks so. */
 int review_look_count(const ReviewRequest *request);

@@ -77,7 +77,8 @@ static double face_lux(const CaseTools *tools, const StageSymbol *symbol, Arena 
     SymbolPoint point = symbol_middle(symbol);
     float       off = ray_offset_step(point.position);
     LitPoint    head = {vec3_along(point.position, point.ng, off), point.ns, false};
-    ProbeAim    aim = {.context = &stage->context, .meter = &head, .seed = FACE_SEED};
+    ProbeAim    aim = {.context = &stage->context, .meter = &head,
+                       .seed = review_seed(stage->request, FACE_SEED)};
     ReadingGoal goal = {.precision = FACE_PRECISION, .most = FACE_PATHS};
     return reading_take(&aim, &goal, &stage->tools, scratch).reflected;
 }
@@ -134,8 +135,9 @@ typedef struct CaseLook {
 static ProbeAim aim_at(const Stage *stage, const CaseLook *look, const bool *is_visible,
                        Arena *arena)
 {
+    uint32_t base = look->is_coarse ? COARSE_SEED : EYE_SEED;
     ProbeAim aim = {.context = &stage->context, .eye = look->eye,
-                    .seed = look->is_coarse ? COARSE_SEED : EYE_SEED};
+                    .seed = review_seed(stage->request, base)};
     symbol_aim(&look->symbol->surface, is_visible, arena, &aim);
     return aim;
 }
