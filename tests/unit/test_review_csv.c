@@ -25,7 +25,7 @@ static void assert_same(double a, double b)
     else assert_near(b, a, 1e-5 * fabs(a) + 1e-300);
 }
 
-enum { CSV_COLUMNS = 37 };
+enum { CSV_COLUMNS = 39 };
 
 /* One record of RFC 4180 into cells; what follows it. */
 static const char *read_record(const char *at, const char *cell[CSV_COLUMNS], int *count)
@@ -81,6 +81,8 @@ static void assert_csv_says(const Review *review)
         assert_same(c->eye_failed_share, number_of(cell[25]));
         assert_same(c->margin, number_of(cell[31]));
         assert_string_equal(cell[34], verdict_names[c->verdict]);
+        assert_string_equal(cell[37], c->hider_count ? c->hiders[0].what : "");
+        assert_same(c->hider_count ? c->hiders[0].share : (double)NAN, number_of(cell[38]));
     }
     assert_int_equal(*at, 0);
 }

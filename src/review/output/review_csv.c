@@ -40,7 +40,7 @@ static const char HEADER[] =
     "contrast_low,contrast_high,contrast_with_veil,height_arcmin,jnd,visible_share,level,"
     "display_lx,visibility,dgp,ugr,eye_failed_share,limit_name,limit_kind,limit_unit,"
     "limit_source,limit_value,margin,first_cause,first_cause_share,verdict,"
-    "reflected_low_cd_m2,reflected_high_cd_m2\r\n";
+    "reflected_low_cd_m2,reflected_high_cd_m2,hidden_by,hidden_by_share\r\n";
 
 static void add_limit(Text *csv, const ReviewCase *c)
 {
@@ -87,7 +87,9 @@ static void add_case(Text *csv, const ReviewCase *c, Arena scratch)
     add_cause(csv, c, scratch);
     add_text(csv, verdict_names[c->verdict]);
     add_number(csv, c->reflected_range.low);
-    if (isfinite(c->reflected_range.high)) text_format(csv, "%.6g", c->reflected_range.high);
+    add_number(csv, c->reflected_range.high);
+    add_text(csv, c->hider_count ? c->hiders[0].what : NULL);
+    if (c->hider_count) text_format(csv, "%.6g", c->hiders[0].share);
     text_add(csv, "\r\n");
 }
 

@@ -251,6 +251,8 @@ static void add_list_row(Text *html, const Review *review, const ReviewCase *c, 
     text_format(html, "<td><span class=\"chip %s\">%s</span></td><td>", words_class(verdict),
                 words_verdict(verdict));
     add_link(html, review, c, c->symbol && c->symbol[0] ? c->symbol : "?", arena);
+    if (c->verdict == VERDICT_NOT_VISIBLE && c->hider_count)
+        page_element(html, "small", words_hiders(c, arena));
     text_add(html, "</td>");
     page_cell(html, "", is_worst ? arena_format(arena, "%s (worst)",
                                                 c->condition ? c->condition : "?")
