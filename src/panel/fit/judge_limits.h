@@ -69,3 +69,6 @@
 
 /* Each primary's share of white: blue, the least, has 3 to 10 %. */
 #define JUDGE_PRIMARY_LEAST 0.003
+
+/* How reasons begin that name what the instrument could not see. */
+#define JUDGE_COARSE "coarse: "
