@@ -124,12 +124,39 @@ static void judge_specular(Judge *judge, const Measurement *set)
                          "out of the samples: declare it (instrument_fwhm_deg)");
 }
 
+/* ---- rows left out ----------------------------------------------------------------------- */
+
+static void judge_held_out(Judge *judge, const FitParts *parts)
+{
+    const ReflectionResult *r = parts->reflection;
+    const Measurement      *set = parts->set;
+    int worst = 0;
+    for (int t = 1; t < r->parts.tables; t++)
+        if (r->held_out[t].estimate > r->held_out[worst].estimate) worst = t;
+    const HeldOut *most = &r->held_out[worst];
+    if (!(most->estimate > JUDGE_HELD_OUT_CARE)) return;
+    double degrees = degrees_from_radians(set->incidence[worst % set->incidence_count]);
+    PeakSpacing spacing = peak_spacing_find(&r->parts.haze[worst],
+                                            set->incidence[worst % set->incidence_count],
+                                            *judge->arena);
+    judge_reason_add(judge, JUDGE_CARE, JUDGE_COARSE "every second ring or azimuth left out "
+                     "near the mirror direction is missed by %.2g %% (light from %.4g degrees, "
+                     "theta %.4g, phi %.4g): with all of them, %.2g degrees apart, the panel "
+                     "may miss by %.2g %% between them, wanted at most %.0f %%: measure the "
+                     "BRDF every %.1g degrees there", 100 * most->error, degrees,
+                     degrees_from_radians(most->theta), degrees_from_radians(most->phi),
+                     degrees_from_radians(spacing.widest), 100 * most->estimate,
+                     100 * JUDGE_HELD_OUT_CARE, 0.5 * degrees_from_radians(spacing.widest));
+    json_object_set_new(judge->figures, "held_out_error", json_real(most->error));
+}
+
 void judge_reach(Judge *judge, const FitParts *parts)
 {
     const Measurement     *set = parts->set;
     const ReflectionParts *of = &parts->reflection->parts;
     Doubt mirror = no_doubt(), haze = no_doubt();
     judge_specular(judge, set);
+    judge_held_out(judge, parts);
     if (!of->peak) return;
     for (int t = 0; t < of->tables; t++) {
         double incidence = set->incidence[t % set->incidence_count];

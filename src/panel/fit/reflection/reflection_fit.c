@@ -2,6 +2,8 @@
 #include "panel/fit/reflection/reflection_fit.h"
 
 #include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
 
 #include "base/parallel.h"
 #include "hemisphere/tree/tree_open.h"
@@ -158,6 +160,32 @@ static bool code_frames(ReflectionModel *model, ReflectionMisses *misses, Error 
     return code_levels(model, misses, err);
 }
 
+/* ---- what was left out ------------------------------------------------------------------- */
+
+typedef struct HeldOutPass {
+    const ReflectionModel *model;
+    HeldOut               *held_out;
+} HeldOutPass;
+
+static void hold_out(void *context, int t, int worker)
+{
+    HeldOutPass *pass = context;
+    Arena        arena = arena_reserve(TRIAL_BYTES);
+    (void)worker;
+    pass->held_out[t] = reflection_held_out(pass->model, t, arena);
+    if(getenv("DBG"))fprintf(stderr,"t%d held out %.3g est %.3g rows %d at %.3g %.3g\n",t,pass->held_out[t].error,pass->held_out[t].estimate,pass->held_out[t].rows,pass->held_out[t].theta*57.3,pass->held_out[t].phi*57.3);
+    arena_release(&arena);
+}
+
+static const HeldOut *hold_out_all(const ReflectionModel *model)
+{
+    HeldOutPass pass = {model, ARENA_NEW(model->arena, HeldOut, model->tables)};
+    parallel_for(model->options->threads, model->tables, hold_out, &pass);
+    return pass.held_out;
+}
+
+/* ---- all --------------------------------------------------------------------------------- */
+
 bool reflection_fit(const Measurement *set, const FitOptions *options, Arena *arena,
                     FitNotes *notes, ReflectionResult *out, Error *err)
 {
@@ -166,6 +194,7 @@ bool reflection_fit(const Measurement *set, const FitOptions *options, Arena *ar
     ReflectionMisses misses = {0};
     reflection_read_tables(model);
     reflection_surface_choose(model, notes);
+    out->held_out = hold_out_all(model);
     if (!choose_frame(model, err) || !code_frames(model, &misses, err)) return false;
     out->tree = model->tree;
     out->tree_report = model->tree_report;

@@ -57,6 +57,18 @@ static float *copy_values(const AngleTable *slice, Arena *arena, AngleTable *haz
 
 /* ---- the mirror's image ------------------------------------------------------------------ */
 
+/* Keeps the rows of an ellipse: `theta` along the plane of incidence, `across` it. */
+static void keep_ellipse(PeakWindow *window, double theta, double across)
+{
+    int kept = 0;
+    for (int i = 0; i < window->count; i++) {
+        double x = window->row[i].tilt / theta, away = window->row[i].angle / across;
+        double y2 = away * away - x * x * (theta / across) * (theta / across);
+        if (x * x + fmax(0, y2) <= 1) window->row[kept++] = window->row[i];
+    }
+    window->count = kept;
+}
+
 /* A window whose haze may be as narrow as a twentieth of the instrument's image. */
 static PeakWindow open_window(const PeakTask *task, double reach, Arena *arena)
 {
@@ -132,8 +144,11 @@ static bool take_near(const PeakTask *task, Arena *arena, PeakMirror *mirror, fl
  * that there is comes out of the table even where it is open. */
 static bool take_far(const PeakTask *task, Arena *arena, PeakMirror *mirror, float *value)
 {
-    double reach = fmax(WINDOW_FWHMS * task->fwhm, WINDOW_STEPS * mirror->spacing.widest);
+    const PeakSpacing *step = &mirror->spacing;
+    double near = WINDOW_FWHMS * task->fwhm, reach = fmax(near, WINDOW_STEPS * step->widest);
     PeakWindow window = open_window(task, reach, arena);
+    keep_ellipse(&window, fmax(near, WINDOW_STEPS * step->theta),
+                 fmax(near, WINDOW_STEPS * step->across));
     if (window.count < PEAK_RANGE_ROWS) {
         mirror->range = peak_range_find(&window, NULL, MODEL_SIGMA, 0);
         mirror->has_haze_open = true;
