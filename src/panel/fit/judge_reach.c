@@ -56,11 +56,10 @@ static const char *incidences_text(const Doubt *doubt, Arena *arena)
 }
 
 /* How far apart rows should be, and how far around the mirror direction: three in the width of
- * what is looked for, out to where only the haze is left. */
-static const char *advice_text(const Doubt *doubt, double fwhm, Arena *arena)
+ * what is looked for, and never more than three in that of the image. */
+static const char *advice_text(double width, double fwhm, Arena *arena)
 {
-    double width = doubt->has_model ? fmin(fwhm, fmax(0.15, doubt->fwhm[0])) : fwhm;
-    double step = fmax(0.05, width / 3);
+    double step = fmax(0.05, fmin(width, fwhm) / 3);
     return arena_format(arena, "the BRDF every %.1g degrees within %.2g degrees of the mirror "
                         "direction", step, 4 * fwhm);
 }
@@ -73,7 +72,7 @@ static void judge_mirror(Judge *judge, const Doubt *doubt, double fwhm_deg)
                      "narrow in the haze: mirrors of %.2g to %.2g are possible: measure the "
                      "specular reflectance there, or %s", incidences_text(doubt, &arena),
                      degrees_from_radians(doubt->step), fwhm_deg, doubt->mirror[0],
-                     doubt->mirror[1], advice_text(doubt, fwhm_deg, &arena));
+                     doubt->mirror[1], advice_text(fwhm_deg, fwhm_deg, &arena));
 }
 
 static void judge_haze(Judge *judge, const Doubt *doubt, double fwhm_deg)
@@ -86,7 +85,7 @@ static void judge_haze(Judge *judge, const Doubt *doubt, double fwhm_deg)
                      incidences_text(doubt, &arena), doubt->haze[0], doubt->haze[1],
                      degrees_from_radians(doubt->fwhm[0]),
                      degrees_from_radians(doubt->fwhm[1]), degrees_from_radians(doubt->step),
-                     advice_text(doubt, fwhm_deg, &arena));
+                     advice_text(degrees_from_radians(doubt->fwhm[0]), fwhm_deg, &arena));
 }
 
 static json_t *range_json(const double range[2])

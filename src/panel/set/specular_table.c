@@ -7,16 +7,17 @@
 #include <string.h>
 
 #include "base/count.h"
+#include "base/file.h"
 #include "base/mathd.h"
 #include "base/units.h"
 #include "spectrum/fresnel.h"
 #include "text/csv_table.h"
+#include "text/text.h"
 
-#define APERTURE_MAX_DEG 30.0
 #define GLASS_INDEX 1.567 /* of the gloss standard */
 #define TABLE_INDEX 1.5   /* what is linear between incidences is over this one's */
 #define ANY_NM 550.0      /* of a table without wavelengths */
-#define GLOSS_MAX 2000.0  /* gu: a metal mirror at 20 degrees */
+#define GLOSS_MOST 2000.0 /* gu: a metal mirror at 20 degrees */
 
 /* ---- the file ---------------------------------------------------------------------------- */
 
@@ -156,85 +157,99 @@ typedef struct GlossMeter {
     double geometry_deg, width_deg[2];
 } GlossMeter;
 
-static const GlossMeter meters[] = {{20, {1.8, 3.6}}, {60, {4.4, 11.7}}, {85, {4.0, 6.0}}};
-
-static const GlossMeter *meter_of(double geometry_deg)
-{
-    for (int i = 0; i < COUNT_OF(meters); i++)
-        if (meters[i].geometry_deg == geometry_deg) return &meters[i];
-    return NULL;
-}
+static const GlossMeter meters[GLOSS_METERS] = {
+    {20, {1.8, 3.6}}, {60, {4.4, 11.7}}, {85, {4.0, 6.0}}};
 
 static double glass(double theta)
 {
     return fresnel_unpolarised_d(cos_d(theta), GLASS_INDEX);
 }
 
-bool specular_table_from_gloss(const double (*gloss)[2], int count, const char *file,
-                               Arena *arena, SpecularTable *out)
+/* In the order of the meters, so that angles rise. */
+void specular_table_from_gloss(const Gloss *gloss, const char *file, Arena *arena,
+                               SpecularTable *out)
 {
-    double *incidence = ARENA_NEW(arena, double, count), *value = ARENA_NEW(arena, double, count);
-    double *aperture = ARENA_NEW(arena, double, count), *nm = ARENA_NEW(arena, double, 1);
+    double *incidence = ARENA_NEW(arena, double, GLOSS_METERS);
+    double *aperture = ARENA_NEW(arena, double, GLOSS_METERS);
+    double *value = ARENA_NEW(arena, double, GLOSS_METERS), *nm = ARENA_NEW(arena, double, 1);
     int     rows = 0;
-    for (int m = 0; m < COUNT_OF(meters); m++)
-        for (int i = 0; i < count; i++) {
-            if (gloss[i][0] != meters[m].geometry_deg) continue;
+    for (int m = 0; m < GLOSS_METERS; m++)
+        for (int i = 0; i < gloss->count; i++) {
+            if (gloss->geometry_deg[i] != meters[m].geometry_deg) continue;
             const double *width = meters[m].width_deg;
-            incidence[rows] = radians_from_degrees(gloss[i][0]);
+            incidence[rows] = radians_from_degrees(meters[m].geometry_deg);
             aperture[rows] = radians_from_degrees(2 * sqrt(width[0] * width[1] / PI));
-            value[rows] = fmin(1, gloss[i][1] / 100 * glass(incidence[rows]));
+            value[rows] = fmin(1, gloss->gu[i] / 100 * glass(incidence[rows]));
             rows++;
         }
     nm[0] = ANY_NM;
     *out = (SpecularTable){file, true, rows, 1, incidence, aperture, nm, value};
-    return rows == count;
 }
 
-static bool read_gloss_row(const JsonView *view, double (*gloss)[2], int index, Error *err)
+bool specular_gloss_add(Gloss *gloss, double geometry_deg, double gu, Error *err)
+{
+    bool is_known = false;
+    for (int m = 0; m < GLOSS_METERS; m++) is_known |= meters[m].geometry_deg == geometry_deg;
+    if (!is_known)
+        return error_set(err, ERROR_INPUT, "a gloss meter's angle is %g degrees, wanted 20, 60 "
+                         "or 85", geometry_deg);
+    if (!(gu >= 0 && gu <= GLOSS_MOST))
+        return error_set(err, ERROR_INPUT, "gloss is %g, wanted 0 to %g gloss units", gu,
+                         GLOSS_MOST);
+    for (int i = 0; i < gloss->count; i++)
+        if (gloss->geometry_deg[i] == geometry_deg)
+            return error_set(err, ERROR_INPUT, "gloss at %g degrees is told twice, wanted it "
+                             "once", geometry_deg);
+    gloss->geometry_deg[gloss->count] = geometry_deg;
+    gloss->gu[gloss->count++] = gu;
+    return true;
+}
+
+static bool read_gloss_row(const JsonView *view, Gloss *gloss, Error *err)
 {
     static const char *const keys[] = {"geometry_deg", "gu"};
-    double *row = gloss[index];
-    row[0] = row[1] = -1;
-    if (!json_view_check_keys(view, keys, 2, err) ||
-        !json_view_number(view, "geometry_deg", 0, 90, &row[0], err) ||
-        !json_view_number(view, "gu", 0, GLOSS_MAX, &row[1], err))
-        return false;
-    for (int k = 0; k < 2; k++)
-        if (row[k] < 0)
+    double value[2] = {0, 0};
+    if (!json_view_check_keys(view, keys, 2, err)) return false;
+    for (int k = 0; k < 2; k++) {
+        if (!json_object_get(view->object, keys[k]))
             return error_at(err, ERROR_INPUT, view->file, view->path, "key '%s' is missing",
                             keys[k]);
-    if (!meter_of(row[0]))
-        return error_at(err, ERROR_INPUT, view->file, json_view_path(view, "geometry_deg"),
-                        "is %g, wanted a gloss meter's 20, 60 or 85", row[0]);
-    for (int i = 0; i < index; i++)
-        if (gloss[i][0] == row[0])
-            return error_at(err, ERROR_INPUT, view->file, view->path,
-                            "is a second value at %g degrees, wanted one a geometry", row[0]);
+        if (!json_view_number(view, keys[k], k ? 0 : 20, k ? GLOSS_MOST : 85, &value[k], err))
+            return false;
+    }
+    Error why;
+    return specular_gloss_add(gloss, value[0], value[1], &why) ||
+           error_at(err, ERROR_INPUT, view->file, view->path, "%s", why.text);
+}
+
+bool specular_gloss_read(const JsonView *view, Gloss *out, Error *err)
+{
+    json_t *list = json_object_get(view->object, "gloss"), *one;
+    size_t  i, count = json_array_size(list);
+    *out = (Gloss){0};
+    if (!json_is_array(list))
+        return json_view_wrong_kind(view, "gloss", list, "a list of {geometry_deg, gu}", err);
+    if (count < 1 || count > GLOSS_METERS)
+        return error_at(err, ERROR_INPUT, view->file, json_view_path(view, "gloss"),
+                        "holds %zu values, wanted 1 to %d", count, GLOSS_METERS);
+    json_array_foreach(list, i, one) {
+        JsonView row = *view;
+        row.object = one;
+        row.path = arena_format(view->arena, "%s/gloss/%zu", view->path, i);
+        if (!json_is_object(one))
+            return error_at(err, ERROR_INPUT, row.file, row.path, "wanted an object with "
+                            "geometry_deg and gu");
+        if (!read_gloss_row(&row, out, err)) return false;
+    }
     return true;
 }
 
 static bool read_gloss(const JsonView *reflection, Arena *arena, SpecularTable *out, Error *err)
 {
-    json_t *list = json_object_get(reflection->object, "gloss"), *one;
-    double  gloss[COUNT_OF(meters)][2];
-    size_t  i, count = json_array_size(list);
-    if (!json_is_array(list))
-        return json_view_wrong_kind(reflection, "gloss", list,
-                                    "a list of {geometry_deg, gu}", err);
-    if (count < 1 || count > COUNT_OF(meters))
-        return error_at(err, ERROR_INPUT, reflection->file, json_view_path(reflection, "gloss"),
-                        "holds %zu values, wanted 1 to %d", count, (int)COUNT_OF(meters));
-    json_array_foreach(list, i, one) {
-        JsonView view = *reflection;
-        view.object = one;
-        view.path = arena_format(arena, "%s/gloss/%zu", reflection->path, i);
-        if (!json_is_object(one))
-            return error_at(err, ERROR_INPUT, view.file, view.path, "wanted an object with "
-                            "geometry_deg and gu");
-        if (!read_gloss_row(&view, gloss, (int)i, err)) return false;
-    }
-    return specular_table_from_gloss((const double(*)[2])gloss, (int)count, reflection->file,
-                                     arena, out);
+    Gloss gloss;
+    if (!specular_gloss_read(reflection, &gloss, err)) return false;
+    specular_table_from_gloss(&gloss, reflection->file, arena, out);
+    return true;
 }
 
 /* ---- the manifest ------------------------------------------------------------------------ */
@@ -256,7 +271,7 @@ static bool read_specular(const JsonView *reflection, Arena *arena, SpecularTabl
         if (!json_view_child(reflection, key, true, &view, err) ||
             !json_view_check_keys(&view, keys, 2, err) ||
             !json_view_text(&view, "file", &text, err) ||
-            !json_view_number(&view, "aperture_deg", 0, APERTURE_MAX_DEG, &aperture, err))
+            !json_view_number(&view, "aperture_deg", 0, SPECULAR_APERTURE_MOST_DEG, &aperture, err))
             return false;
         if (!text)
             return error_at(err, ERROR_INPUT, view.file, view.path, "key 'file' is missing");
@@ -315,4 +330,17 @@ double specular_table_at(const SpecularTable *table, double incidence, double nm
     *aperture = table->aperture[share > 0.5 ? next : i];
     return fmin(1, (low + share * (high - low)) *
                        fresnel_unpolarised_d(cos_d(incidence), TABLE_INDEX));
+}
+
+const char *specular_table_text(const SpecularTable *table, Arena *arena)
+{
+    Text text = {.arena = arena};
+    text_format(&text, "# from %s\nincidence,wavelength,reflectance\n",
+                path_name(table->file));
+    for (int i = 0; i < table->rows; i++)
+        for (int w = 0; w < table->wavelengths; w++)
+            text_format(&text, "%.9g,%.9g,%.7g\n",
+                        round(degrees_from_radians(table->incidence[i]) * 1e9) / 1e9,
+                        table->nm[w], table->value[i * table->wavelengths + w]);
+    return text.data;
 }

@@ -15,6 +15,8 @@
 #pragma once
 #include "text/json_view.h"
 
+#define SPECULAR_APERTURE_MOST_DEG 30.0
+
 typedef struct SpecularTable {
     const char   *file;      /* the table's, or the manifest's */
     bool          is_gloss;
@@ -30,13 +32,30 @@ typedef struct SpecularTable {
 bool specular_table_read_file(const char *file, double aperture_deg, Arena *arena,
                               SpecularTable *out, Error *err);
 
-/* Geometry (20, 60, 85 degrees) and gloss units of each. file: for messages later. */
-bool specular_table_from_gloss(const double (*gloss)[2], int count, const char *file,
-                               Arena *arena, SpecularTable *out);
+#define GLOSS_METERS 3 /* 20, 60 and 85 degrees */
+
+/* Readings of gloss meters. */
+typedef struct Gloss {
+    int    count;
+    double geometry_deg[GLOSS_METERS], gu[GLOSS_METERS];
+} Gloss;
+
+/* One more; what the error says stands behind the name of where the reading is from. */
+bool specular_gloss_add(Gloss *gloss, double geometry_deg, double gu, Error *err);
+
+/* The key `gloss` of an object: a list of {geometry_deg, gu}. */
+bool specular_gloss_read(const JsonView *view, Gloss *out, Error *err);
+
+/* file: for messages later. */
+void specular_table_from_gloss(const Gloss *gloss, const char *file, Arena *arena,
+                               SpecularTable *out);
 
 /* The keys `specular` and `gloss` of a manifest's reflection; neither: *out stays. */
 bool specular_table_read(const JsonView *reflection, Arena *arena, const SpecularTable **out,
                          Error *err);
+
+/* The file again, as specular_table_read_file reads it. */
+const char *specular_table_text(const SpecularTable *table, Arena *arena);
 
 /* At an incidence and wavelength; *aperture is that of the nearest row. */
 double specular_table_at(const SpecularTable *table, double incidence, double nm,

@@ -2,8 +2,6 @@
 #include "panel/fit/reflection/reflection_fit.h"
 
 #include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
 
 #include "base/parallel.h"
 #include "hemisphere/tree/tree_open.h"
@@ -173,7 +171,6 @@ static void hold_out(void *context, int t, int worker)
     Arena        arena = arena_reserve(TRIAL_BYTES);
     (void)worker;
     pass->held_out[t] = reflection_held_out(pass->model, t, arena);
-    if(getenv("DBG"))fprintf(stderr,"t%d held out %.3g est %.3g rows %d at %.3g %.3g\n",t,pass->held_out[t].error,pass->held_out[t].estimate,pass->held_out[t].rows,pass->held_out[t].theta*57.3,pass->held_out[t].phi*57.3);
     arena_release(&arena);
 }
 

@@ -2,8 +2,6 @@
 #include "panel/fit/reflection/reflection_read.h"
 
 #include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
 
 #include "base/mathd.h"
 #include "base/mathf.h"
@@ -45,7 +43,8 @@ static float *log_cells(ReflectionModel *model, int table)
     return cells;
 }
 
-#define GUIDE_REST 0.02 /* relative, rms: a model that misses rows by more is no guide */
+#define GUIDE_REST 0.02   /* relative, rms: a model that misses rows by more is no guide */
+#define GUIDE_SPREAD 0.25 /* relative: nor is one whose peak is anybody's guess */
 
 /* Where rows are too far apart for the peak, cells hold what they have over the guide. */
 static void guide_cells(ReflectionModel *model, int table)
@@ -55,13 +54,11 @@ static void guide_cells(ReflectionModel *model, int table)
     ReflectionGuide     *guide = &model->guide[table];
     float *cells = model->cells[table];
     if (!peak || !peak->range.has_model || model->parts->has_lobe || !(peak->model.a > 0) ||
-        peak->rest > fmax(GUIDE_REST, 2 * model->parts->noise[table])) {
-        if(getenv("DBG"))fprintf(stderr,"t%d no guide rest %g\n",table,peak?peak->rest:-1);
-        return;}
-    if(getenv("DBG"))fprintf(stderr,"t%d source %d mirror %.4g..%.4g haze %.3g..%.3g spread %.3g fwhm %.3g..%.3g rest %.3g a %.3g w %.3g p %.3g\n",table,peak->source,peak->range.mirror[0],peak->range.mirror[1],peak->range.haze[0],peak->range.haze[1],peak->range.spread,peak->range.fwhm[0]*57.3,peak->range.fwhm[1]*57.3,peak->rest,peak->model.a,peak->model.width,peak->model.power);
+        peak->range.spread > GUIDE_SPREAD ||
+        peak->rest > fmax(GUIDE_REST, 2 * model->parts->noise[table]))
+        return;
     *guide = reflection_guide_of(peak, reflection_model_incidence(model, table));
     reflection_guide_choose(grid, cells, model->wavelengths, guide);
-    if(getenv("DBG"))fprintf(stderr,"t%d miss %.3g used %d\n",table,guide->miss,guide->is_used);
     for (int c = 0; c < grid->thetas * grid->phis && guide->is_used; c++) {
         float log = (float)reflection_guide_log(guide, (double)grid->theta[c / grid->phis],
                                                 (double)grid->phi[c % grid->phis]);
