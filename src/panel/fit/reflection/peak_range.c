@@ -8,7 +8,11 @@
 #include "panel/fit/reflection/reflection_fresnel.h"
 
 #define CHI_SQUARED 4.0   /* two standard deviations of one number */
-#define POWERS 16         /* of the haze, that are asked */
+#define LEAST_POWER 1.05   /* of the haze */
+#define MOST_POWER 4.0
+#define POWERS 12          /* of them, that are asked everywhere */
+#define WIDTHS 28          /* and widths */
+#define POWER_BISECTIONS 8
 #define BISECTIONS 12
 #define PLACES 9          /* of the haze: quarters of a step, from 0 to two of them */
 
@@ -81,29 +85,57 @@ static void walk(Search *search, PeakModel model, double limit)
     }
 }
 
-/* Steps around the best power, then over all of them. */
-static double power_of(double best, int i)
+/* Asks a power with its best width, and from there all widths; true: the rows allow it. */
+static bool ask_power(Search *search, PeakModel *model, double power)
 {
-    static const double near[] = {1, 0.98, 1.02, 0.94, 1.06, 0.85, 1.18};
-    int count = (int)(sizeof near / sizeof *near);
-    if (i < count) return fmin(4, fmax(1.05, best * near[i]));
-    return 1.05 * pow_d(4 / 1.05, (double)(i - count) / (POWERS - count - 1));
+    const PeakWindow *window = search->window;
+    model->power = power;
+    double chi = chi_squared(search, peak_window_best_width(window, 0, model)) - search->least;
+    if (chi > CHI_SQUARED) return false;
+    take_model(search, model, chi);
+    for (int k = 0; k < 2; k++) walk(search, *model, window->width[k]);
+    return true;
 }
 
-static void search_all(Search *search, const PeakModel *best)
+/* The same for powers: from the best one towards a limit. */
+static void walk_powers(Search *search, double inside, double outside)
 {
-    PeakModel model[POWERS];
-    double    chi[POWERS];
-    for (int i = 0; i < POWERS; i++) {
-        model[i].power = power_of(best->power, i);
-        chi[i] = chi_squared(search, peak_window_best_width(search->window, 0, &model[i]));
+    PeakModel model = {0};
+    if (ask_power(search, &model, outside)) return;
+    for (int i = 0; i < POWER_BISECTIONS; i++) {
+        double middle = 0.5 * (inside + outside);
+        if (ask_power(search, &model, middle)) inside = middle;
+        else outside = middle;
+    }
+}
+
+static double geometric(double low, double high, double share)
+{
+    return exp_d(log_d(low) + share * log_d(high / low));
+}
+
+/* All powers and widths on a grid, then from the best power both ways: the haze that explains
+ * rows best may be narrow without a mirror or wide with one. */
+static void search_all(Search *search, PeakModel best)
+{
+    PeakModel model[POWERS * WIDTHS];
+    double    chi[POWERS * WIDTHS];
+    const PeakWindow *window = search->window;
+    search->least = chi_squared(search, peak_window_best_width(window, 0, &best));
+    for (int i = 0; i < POWERS * WIDTHS; i++) {
+        model[i].power = geometric(LEAST_POWER, MOST_POWER, (i / WIDTHS) / (POWERS - 1.0));
+        model[i].width = geometric(window->width[0], window->width[1],
+                                   (i % WIDTHS) / (WIDTHS - 1.0));
+        chi[i] = chi_squared(search, peak_window_solve(window, -1, window->lambertian,
+                                                       &model[i]));
         search->least = fmin(search->least, chi[i]);
     }
-    for (int i = 0; i < POWERS; i++) {
-        if (chi[i] - search->least > CHI_SQUARED) continue;
-        take_model(search, &model[i], chi[i] - search->least);
-        for (int k = 0; k < 2; k++) walk(search, model[i], search->window->width[k]);
-    }
+    for (int i = 0; i < POWERS * WIDTHS; i++)
+        if (chi[i] - search->least <= CHI_SQUARED)
+            take_model(search, &model[i], chi[i] - search->least);
+    ask_power(search, &best, best.power);
+    walk_powers(search, best.power, LEAST_POWER);
+    walk_powers(search, best.power, MOST_POWER);
 }
 
 /* No row can have more of the image than it has. */
@@ -135,7 +167,7 @@ PeakRange peak_range_find(const PeakWindow *window, const PeakModel *best, doubl
     double    most = most_mirror(window, sigma);
     if (window->count < PEAK_RANGE_ROWS) return (PeakRange){.mirror = {0, most}};
     for (int k = 0; k < PLACES; k++) search.haze[0][k] = 1e30, search.haze[1][k] = 0;
-    search_all(&search, best);
+    search_all(&search, *best);
     finish(&search, &out);
     out.mirror[1] = fmax(0, fmin(out.mirror[1], most));
     out.mirror[0] = fmin(fmax(0, out.mirror[0]), out.mirror[1]);

@@ -203,40 +203,74 @@ void peak_window_variances(const PeakWindow *window, PeakModel *model, double va
     }
 }
 
-/* The best width for a power: golden section over its logarithm. */
-double peak_window_best_width(const PeakWindow *window, double scale, PeakModel *model)
+/* Where a function of one number is looked for its least value. */
+typedef struct Span {
+    double low, high;
+    int    scan, sections; /* of a scan before the golden section; 0: none */
+} Span;
+
+/* A model's rest at the logarithm of a width, or of a power with its best width. */
+typedef double RestAt(const PeakWindow *window, double scale, PeakModel *model, double log);
+
+static double rest_at_width(const PeakWindow *window, double scale, PeakModel *model,
+                            double log)
 {
-    bool   is_told = window->width[1] > 0;
-    double low = log_d(is_told ? window->width[0] : 0.5 * scale);
-    double high = log_d(is_told ? window->width[1] : 40 * scale);
-    for (int i = 0; i < 26; i++) {
+    (void)scale;
+    model->width = exp_d(log);
+    return peak_window_solve(window, -1, window->lambertian, model);
+}
+
+static double rest_at_power(const PeakWindow *window, double scale, PeakModel *model,
+                            double log)
+{
+    model->power = exp_d(log);
+    return peak_window_best_width(window, scale, model);
+}
+
+/* Narrows a span to the neighbours of its best point: there may be several valleys. */
+static void scan_span(const PeakWindow *window, double scale, RestAt *rest_at,
+                      PeakModel *model, Span *span)
+{
+    double step = (span->high - span->low) / (span->scan - 1), least = INFINITY, low = span->low;
+    int    best = 0;
+    for (int i = 0; i < span->scan; i++) {
+        double rest = rest_at(window, scale, model, low + i * step);
+        if (rest < least) least = rest, best = i;
+    }
+    span->high = fmin(span->high, low + (best + 1) * step);
+    span->low = fmax(span->low, low + (best - 1) * step);
+}
+
+/* By golden section; the model is left at the best point, and its rest returned. */
+static double best_in_span(const PeakWindow *window, double scale, RestAt *rest_at,
+                           PeakModel *model, Span span)
+{
+    if (span.scan) scan_span(window, scale, rest_at, model, &span);
+    double low = span.low, high = span.high;
+    for (int i = 0; i < span.sections; i++) {
         double a = high - 0.618034 * (high - low), b = low + 0.618034 * (high - low);
-        model->width = exp_d(a);
-        double left = peak_window_solve(window, -1, window->lambertian, model);
-        model->width = exp_d(b);
-        double right = peak_window_solve(window, -1, window->lambertian, model);
+        double left = rest_at(window, scale, model, a);
+        double right = rest_at(window, scale, model, b);
         if (left < right) high = b;
         else low = a;
     }
-    model->width = exp_d(0.5 * (low + high));
-    return peak_window_solve(window, -1, window->lambertian, model);
+    return rest_at(window, scale, model, 0.5 * (low + high));
+}
+
+double peak_window_best_width(const PeakWindow *window, double scale, PeakModel *model)
+{
+    bool is_told = window->width[1] > 0;
+    Span span = is_told ? (Span){log_d(window->width[0]), log_d(window->width[1]), 20, 12}
+                        : (Span){log_d(0.5 * scale), log_d(40 * scale), 0, 26};
+    return best_in_span(window, scale, rest_at_width, model, span);
 }
 
 PeakModel peak_window_choose_haze(const PeakWindow *window, double scale)
 {
-    double    low = log_d(1.05), high = log_d(4.0);
+    bool      is_told = window->width[1] > 0;
     PeakModel model = {0};
-    for (int i = 0; i < 18; i++) {
-        double a = high - 0.618034 * (high - low), b = low + 0.618034 * (high - low);
-        model.power = exp_d(a);
-        double left = peak_window_best_width(window, scale, &model);
-        model.power = exp_d(b);
-        double right = peak_window_best_width(window, scale, &model);
-        if (left < right) high = b;
-        else low = a;
-    }
-    model.power = exp_d(0.5 * (low + high));
-    peak_window_best_width(window, scale, &model);
+    best_in_span(window, scale, rest_at_power, &model,
+                 (Span){log_d(1.05), log_d(4.0), is_told ? 12 : 0, is_told ? 10 : 18});
     return model;
 }
 

@@ -20,7 +20,8 @@
 #define NARROWEST_HAZE 0.05  /* times the instrument's width: a haze's, at least */
 #define WIDEST_HAZE 1.0      /* of direction cosines */
 #define MODEL_SIGMA 0.01     /* relative: no closer does a real haze follow the model */
-#define ENOUGH 0.05          /* relative: what is known so well is told */
+#define ENOUGH 0.05          /* relative: as well as a panel should be known */
+#define TOLD 0.04            /* and so wide its range, since the model errs besides */
 #define LEAST_MIRROR 0.002   /* a smaller one need not be known better than this one */
 #define SEARCH_DEG 6.0   /* a lobe's top is nearer to the mirror direction than this */
 
@@ -92,6 +93,13 @@ static double row_sigma(const PeakTask *task, double rest)
     return fmax(MODEL_SIGMA, fmax(task->noise, rest));
 }
 
+/* Full width at half of the haze's height. A haze narrower than the instrument's image no
+ * instrument has seen as it is. */
+static double haze_width(const PeakModel *model)
+{
+    return 2 * model->width * sqrt(pow_d(2, 1 / model->power) - 1);
+}
+
 /* The range of what a window's rows allow, around its model. */
 static void find_range(const PeakTask *task, const PeakWindow *window, const PeakModel *model,
                        PeakMirror *mirror)
@@ -105,16 +113,17 @@ static void find_range(const PeakTask *task, const PeakWindow *window, const Pea
     mirror->rest = peak_window_solve(window, -1, window->lambertian, &best);
     mirror->range = peak_range_find(&open, model, row_sigma(task, mirror->rest),
                                     mirror->spacing.widest);
-    mirror->has_haze_open = !mirror->range.has_model || mirror->range.spread > ENOUGH;
+    mirror->has_haze_open = !mirror->range.has_model || mirror->range.spread > ENOUGH ||
+                            haze_width(model) < task->fwhm;
 }
 
-/* Within 5 % of it, or of the least mirror that matters. */
+/* Within 5 % of it, or of the least mirror that matters? */
 static bool is_told(const PeakMirror *mirror)
 {
     const double *range = mirror->range.mirror;
     double middle = 0.5 * (range[0] + range[1]);
     return mirror->range.has_model &&
-           0.5 * (range[1] - range[0]) <= ENOUGH * fmax(middle, LEAST_MIRROR);
+           0.5 * (range[1] - range[0]) <= TOLD * fmax(middle, LEAST_MIRROR);
 }
 
 static bool stands_out(const PeakTask *task, const PeakModel *model, double lambertian)
