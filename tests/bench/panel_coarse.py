@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""panel_coarse.py PARHELION [--cases all|some|few] [--jobs N] -- does a panel's verdict know what its grid saw?
+"""panel_coarse.py PARHELION [--cases all|some|few] [--jobs N] -- does a panel's verdict know
+what its grid saw?
 
 For grids, lobes and mirrors of every width: simulate, fit, ask, and compare with the closed
 form. A row of the table is WRONG, and the status 1, when anything asked is more than 5 % off
@@ -166,9 +167,9 @@ def run_case(path, case):
 
 
 def cases_of(kind):
-    """All: every lobe with every mirror on every grid. Some: every lobe on every grid with three
-    of the mirrors in turn, two on the fine grids, whose fits take a minute; with a specular
-    measurement one."""
+    """All: every lobe with every mirror on every grid. Some: every lobe on every grid with
+    three of the mirrors in turn, two on the fine grids, whose fits take a minute; with a
+    specular measurement one."""
     if kind == "few":
         return list(FEW)
     told = [(g, l, m, True) for g in GRIDS[:3] for l in LOBES[2:] for m in MIRRORS[1:]]
@@ -187,7 +188,8 @@ def main():
     kind = panels.take_option(arguments, "--cases", "all")
     cases = cases_of(kind)
     wrong, counts = 0, {}
-    print(f"{'grid':>11} {'lobe':>5} {'mirror':>7} {'BRDF err':>10} {'mirror err':>10}  verdict")
+    print(f"{'grid':>11} {'lobe':>5} {'mirror':>7} {'BRDF err':>10} {'mirror err':>10}  "
+          "verdict")
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
         for row, is_wrong, verdict in pool.map(lambda c: run_case(arguments[0], c), cases):
             print(row, flush=True)

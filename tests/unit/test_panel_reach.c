@@ -195,7 +195,8 @@ TEST(a_coarse_set_is_coarse_and_states_its_range)
     SyntheticPanel panel = simulate_set(&arena);
     json_t *report = fit_set("", &arena), *list, *one;
     size_t  i;
-    const char *reason = json_string_value(json_array_get(json_object_get(report, "reasons"), 0));
+    const json_t *reasons = json_object_get(report, "reasons");
+    const char   *reason = json_string_value(json_array_get(reasons, 0));
     assert_int_equal(fit_judge_grade(report), JUDGE_CARE);
     assert_true(json_is_true(json_object_get(report, "coarse")));
     assert_ptr_equal(strstr(reason, "coarse: "), reason);
@@ -268,8 +269,8 @@ static const Wrong wrongs[] = {
     {", \"gloss\": [{\"geometry_deg\": 45, \"gu\": 9}]", NULL, "/reflection/gloss/0",
      "wanted 20, 60 or 85"},
     {", \"gloss\": [{\"geometry_deg\": 60, \"gu\": -1}]", NULL, "/reflection/gloss/0/gu", "-1"},
-    {", \"gloss\": [{\"geometry_deg\": 60, \"gu\": 9}, {\"geometry_deg\": 60, \"gu\": 8}]", NULL,
-     "/reflection/gloss/1", "twice"},
+    {", \"gloss\": [{\"geometry_deg\": 60, \"gu\": 9}, {\"geometry_deg\": 60, \"gu\": 8}]",
+     NULL, "/reflection/gloss/1", "twice"},
 };
 
 TEST(malformed_measurements_are_refused_with_place_and_wish)

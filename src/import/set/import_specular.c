@@ -17,8 +17,8 @@ static bool check(const ImportSpecular *asked, const ImportSet *set, Error *err)
         return error_set(err, ERROR_USAGE, "the aperture is a specular table's, wanted with "
                          "one (--specular)");
     return has_reflection(set) || (!asked->file && !asked->gloss.count) ||
-           error_set(err, ERROR_INPUT, "a specular measurement belongs to a reflection, but the "
-                     "files to import hold none");
+           error_set(err, ERROR_INPUT, "a specular measurement belongs to a reflection, but "
+                     "the files to import hold none");
 }
 
 bool import_specular(const ImportSpecular *asked, ImportSet *set, Error *err)

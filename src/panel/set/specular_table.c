@@ -21,9 +21,9 @@
 
 /* ---- the file ---------------------------------------------------------------------------- */
 
-typedef struct Columns {
+typedef struct SpecularColumns {
     int incidence, nm, value;
-} Columns;
+} SpecularColumns;
 
 static int either_column(const CsvTable *csv, const char *a, const char *b)
 {
@@ -31,12 +31,12 @@ static int either_column(const CsvTable *csv, const char *a, const char *b)
     return at >= 0 ? at : csv_table_column(csv, b);
 }
 
-static bool find_columns(const CsvTable *csv, Columns *out, Error *err)
+static bool find_columns(const CsvTable *csv, SpecularColumns *out, Error *err)
 {
     static const char *const known[] = {"incidence", "theta", "wavelength", "nm",
                                         "reflectance"};
     if (!csv_table_check_columns(csv, known, COUNT_OF(known), err)) return false;
-    *out = (Columns){either_column(csv, "incidence", "theta"),
+    *out = (SpecularColumns){either_column(csv, "incidence", "theta"),
                      either_column(csv, "wavelength", "nm"),
                      csv_table_column(csv, "reflectance")};
     if (out->incidence < 0 || out->value < 0)
@@ -51,13 +51,13 @@ static double cell_of(const CsvTable *csv, int row, int column)
     return (double)csv->cell[(size_t)row * (size_t)csv->columns + (size_t)column];
 }
 
-static double nm_of(const CsvTable *csv, const Columns *columns, int row)
+static double nm_of(const CsvTable *csv, const SpecularColumns *columns, int row)
 {
     return columns->nm < 0 ? ANY_NM : cell_of(csv, row, columns->nm);
 }
 
-static bool check_row(const CsvTable *csv, const Columns *columns, int row, Arena *arena,
-                      Error *err)
+static bool check_row(const CsvTable *csv, const SpecularColumns *columns, int row,
+                      Arena *arena, Error *err)
 {
     const char *place = csv_table_place(csv, row, arena);
     double degrees = cell_of(csv, row, columns->incidence), nm = nm_of(csv, columns, row);
@@ -97,8 +97,8 @@ static int place_of(const double *list, int count, double value)
 }
 
 /* Every incidence at every wavelength, once. */
-static bool fill_table(const CsvTable *csv, const Columns *columns, const double *degrees,
-                       Arena *arena, SpecularTable *out, Error *err)
+static bool fill_table(const CsvTable *csv, const SpecularColumns *columns,
+                       const double *degrees, Arena *arena, SpecularTable *out, Error *err)
 {
     int     size = out->rows * out->wavelengths;
     double *value = ARENA_NEW(arena, double, size);
@@ -126,7 +126,7 @@ bool specular_table_read_file(const char *file, double aperture_deg, Arena *aren
                               SpecularTable *out, Error *err)
 {
     CsvTable csv;
-    Columns  columns;
+    SpecularColumns  columns;
     if (!csv_table_read(file, arena, &csv, err) || !find_columns(&csv, &columns, err))
         return false;
     double *degrees = ARENA_NEW(arena, double, csv.rows);
@@ -271,7 +271,8 @@ static bool read_specular(const JsonView *reflection, Arena *arena, SpecularTabl
         if (!json_view_child(reflection, key, true, &view, err) ||
             !json_view_check_keys(&view, keys, 2, err) ||
             !json_view_text(&view, "file", &text, err) ||
-            !json_view_number(&view, "aperture_deg", 0, SPECULAR_APERTURE_MOST_DEG, &aperture, err))
+            !json_view_number(&view, "aperture_deg", 0, SPECULAR_APERTURE_MOST_DEG, &aperture,
+                              err))
             return false;
         if (!text)
             return error_at(err, ERROR_INPUT, view.file, view.path, "key 'file' is missing");

@@ -16,20 +16,20 @@
 #define BISECTIONS 12
 #define PLACES 9          /* of the haze: quarters of a step, from 0 to two of them */
 
-typedef struct Search {
+typedef struct RangeSearch {
     const PeakWindow *window;
     double     sigma, step, least; /* least: chi squared of the best */
     double     haze[2][PLACES];
     PeakRange *out;
-} Search;
+} RangeSearch;
 
-static double chi_squared(const Search *search, double rest)
+static double chi_squared(const RangeSearch *search, double rest)
 {
     double rows = rest / search->sigma;
     return rows * rows * search->window->count;
 }
 
-static double haze_at(const Search *search, const PeakModel *model, double b)
+static double haze_at(const RangeSearch *search, const PeakModel *model, double b)
 {
     const PeakWindow *window = search->window;
     double leaving = 1 - reflection_fresnel(cos_d(window->incidence));
@@ -44,7 +44,7 @@ static void widen(double range[2], double low, double high)
 }
 
 /* A model that the rows allow, solved; chi: by how much it explains them less well. */
-static void take_model(Search *search, PeakModel *model, double chi)
+static void take_model(RangeSearch *search, PeakModel *model, double chi)
 {
     PeakRange *out = search->out;
     double     variance[2], room = sqrt(fmax(0, CHI_SQUARED - chi)) * search->sigma;
@@ -63,7 +63,7 @@ static void take_model(Search *search, PeakModel *model, double chi)
 }
 
 /* Asks one width; true: the rows allow it. */
-static bool ask_width(Search *search, PeakModel *model, double log_width)
+static bool ask_width(RangeSearch *search, PeakModel *model, double log_width)
 {
     model->width = exp_d(log_width);
     double rest = peak_window_solve(search->window, -1, search->window->lambertian, model);
@@ -74,7 +74,7 @@ static bool ask_width(Search *search, PeakModel *model, double log_width)
 }
 
 /* From a width that the rows allow as far as they allow it. */
-static void walk(Search *search, PeakModel model, double limit)
+static void walk(RangeSearch *search, PeakModel model, double limit)
 {
     double inside = log_d(model.width), outside = log_d(limit);
     if (ask_width(search, &model, outside)) return;
@@ -86,7 +86,7 @@ static void walk(Search *search, PeakModel model, double limit)
 }
 
 /* Asks a power with its best width, and from there all widths; true: the rows allow it. */
-static bool ask_power(Search *search, PeakModel *model, double power)
+static bool ask_power(RangeSearch *search, PeakModel *model, double power)
 {
     const PeakWindow *window = search->window;
     model->power = power;
@@ -98,7 +98,7 @@ static bool ask_power(Search *search, PeakModel *model, double power)
 }
 
 /* The same for powers: from the best one towards a limit. */
-static void walk_powers(Search *search, double inside, double outside)
+static void walk_powers(RangeSearch *search, double inside, double outside)
 {
     PeakModel model = {0};
     if (ask_power(search, &model, outside)) return;
@@ -116,7 +116,7 @@ static double geometric(double low, double high, double share)
 
 /* All powers and widths on a grid, then from the best power both ways: the haze that explains
  * rows best may be narrow without a mirror or wide with one. */
-static void search_all(Search *search, PeakModel best)
+static void search_all(RangeSearch *search, PeakModel best)
 {
     PeakModel model[POWERS * WIDTHS];
     double    chi[POWERS * WIDTHS];
@@ -150,7 +150,7 @@ static double most_mirror(const PeakWindow *window, double sigma)
     return most;
 }
 
-static void finish(const Search *search, PeakRange *out)
+static void finish(const RangeSearch *search, PeakRange *out)
 {
     for (int k = 0; k < PLACES; k++) {
         double low = search->haze[0][k], high = search->haze[1][k];
@@ -163,7 +163,7 @@ PeakRange peak_range_find(const PeakWindow *window, const PeakModel *best, doubl
                           double step)
 {
     PeakRange out = {.mirror = {1e30, -1e30}, .fwhm = {1e30, 0}, .has_model = true};
-    Search    search = {window, sigma, step, 1e30, {{0}}, &out};
+    RangeSearch    search = {window, sigma, step, 1e30, {{0}}, &out};
     double    most = most_mirror(window, sigma);
     if (window->count < PEAK_RANGE_ROWS) return (PeakRange){.mirror = {0, most}};
     for (int k = 0; k < PLACES; k++) search.haze[0][k] = 1e30, search.haze[1][k] = 0;

@@ -231,7 +231,7 @@ static double rest_at_power(const PeakWindow *window, double scale, PeakModel *m
 static void scan_span(const PeakWindow *window, double scale, RestAt *rest_at,
                       PeakModel *model, Span *span)
 {
-    double step = (span->high - span->low) / (span->scan - 1), least = INFINITY, low = span->low;
+    double low = span->low, step = (span->high - low) / (span->scan - 1), least = INFINITY;
     int    best = 0;
     for (int i = 0; i < span->scan; i++) {
         double rest = rest_at(window, scale, model, low + i * step);

@@ -26,15 +26,15 @@ double reflection_guide_log(const ReflectionGuide *guide, double theta, double p
 }
 
 /* A direction between cells; the middle channel is what is compared there. */
-typedef struct Between {
+typedef struct GuideCheck {
     const DirectionGrid *grid;
     const float         *cells;
     int                  channels;
     ReflectionGuide     *guide;
-} Between;
+} GuideCheck;
 
 /* Both ways of reading, from the same cells. */
-static void compare_at(const Between *at, double theta, double phi)
+static void compare_at(const GuideCheck *at, double theta, double phi)
 {
     const DirectionGrid *grid = at->grid;
     GridTaps taps;
@@ -57,7 +57,7 @@ static void compare_at(const Between *at, double theta, double phi)
 void reflection_guide_choose(const DirectionGrid *grid, const float *cells, int channels,
                              ReflectionGuide *guide)
 {
-    Between at = {grid, cells, channels, guide};
+    GuideCheck at = {grid, cells, channels, guide};
     for (int i = 0; i + 1 < grid->thetas; i++)
         for (int k = 0; k < grid->phis; k++) {
             double theta = (double)grid->theta[i], phi = (double)grid->phi[k];

@@ -12,7 +12,8 @@
 
 typedef struct ReflectionGuide {
     bool   is_used;
-    double incidence, width, power, a, lambertian; /* a (1 + b2 / width^2)^-power + lambertian */
+    double incidence;
+    double width, power, a, lambertian; /* a (1 + b2 / width^2)^-power + lambertian */
     double reach;  /* radians: so far from the mirror direction it was fitted */
     double miss;   /* of reading without it: the largest difference between rows, relative */
 } ReflectionGuide;

@@ -179,7 +179,8 @@ static bool *steep_rings(const Thinned *thinned)
     bool  *steep = ARENA_NEW(thinned->arena, bool, thinned->rings);
     for (int i = 0; i < table->rows; i++) {
         int ring = place_of(thinned->ring, thinned->rings, table->theta[i]);
-        if (angle_of(thinned, i) < thinned->reach) most[ring] = fmaxf(most[ring], middle_value(table, i));
+        if (angle_of(thinned, i) < thinned->reach)
+            most[ring] = fmaxf(most[ring], middle_value(table, i));
     }
     for (int i = 0; i + 1 < thinned->rings; i++)
         if (most[i] > 0 && most[i + 1] > 0 &&

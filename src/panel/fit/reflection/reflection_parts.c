@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/file.h"
 #include "base/mathd.h"
 #include "base/parallel.h"
 #include "base/units.h"
@@ -53,6 +54,28 @@ static void note_mirror(const Measurement *set, const ReflectionParts *out, FitN
     else
         fit_note(notes, "the instrument's width is not declared (instrument_fwhm_deg): no "
                  "mirror part was separated");
+}
+
+#define SPECULAR_MISS 0.05 /* relative: measurements that differ by more are two */
+
+/* Where the specular measurement was needed, and where it disagrees. */
+static void note_specular(const Measurement *set, const ReflectionParts *out, FitNotes *notes)
+{
+    double worst = 0;
+    int    used = 0;
+    for (int t = 0; t < out->tables; t++) {
+        used += out->peak[t].source == PEAK_SPECULAR;
+        worst = fmax(worst, out->peak[t].specular_miss);
+    }
+    if (used)
+        fit_note(notes, "of %d of %d tables of reflection the mirror follows from the %s "
+                 "(%s)", used, out->tables, set->specular->is_gloss
+                 ? "gloss, taken as the specular reflectance in a round aperture, the same at "
+                   "all wavelengths" : "specular measurement", path_name(set->specular->file));
+    if (worst > SPECULAR_MISS)
+        fit_note(notes, "the samples tell the mirror; the specular measurement (%s) differs "
+                 "from them by up to %.2g %%: check its aperture and its unit",
+                 path_name(set->specular->file), 100 * worst);
 }
 
 static void note_lobe(const Measurement *set, const ReflectionParts *out, FitNotes *notes)
@@ -242,5 +265,6 @@ void reflection_parts_separate(const Measurement *set, const FitOptions *options
     } else {
         note_mirror(set, out, notes);
     }
+    if (set->specular && out->peak) note_specular(set, out, notes);
     if (out->has_lobe) note_lobe(set, out, notes);
 }
