@@ -68,24 +68,26 @@ static void judge_mirror(Judge *judge, const Doubt *doubt, double fwhm_deg)
 {
     Arena arena = *judge->arena;
     judge_reason_add(judge, JUDGE_CARE, JUDGE_COARSE "with light from %s the samples, "
-                     "%.2g degrees apart, do not tell the mirror's image (%.2g degrees wide) from what is "
-                     "narrow in the haze: mirrors of %.2g to %.2g are possible: measure the "
-                     "specular reflectance there, or %s", incidences_text(doubt, &arena),
-                     degrees_from_radians(doubt->step), fwhm_deg, doubt->mirror[0],
-                     doubt->mirror[1], advice_text(fwhm_deg, fwhm_deg, &arena));
+                     "%.2g degrees apart, do not tell the mirror's image (%.2g degrees wide) "
+                     "from what is narrow in the haze: mirrors of %.2g to %.2g are possible: "
+                     "measure the specular reflectance there, or %s",
+                     incidences_text(doubt, &arena), degrees_from_radians(doubt->step),
+                     fwhm_deg, doubt->mirror[0], doubt->mirror[1],
+                     advice_text(fwhm_deg, fwhm_deg, &arena));
 }
 
 static void judge_haze(Judge *judge, const Doubt *doubt, double fwhm_deg)
 {
-    Arena arena = *judge->arena;
+    Arena  arena = *judge->arena;
+    double width = degrees_from_radians(doubt->fwhm[0]);
     if (!doubt->has_model) return;
     judge_reason_add(judge, JUDGE_CARE, JUDGE_COARSE "with light from %s the haze may be "
-                     "%.3g to %.3g sr^-1 in the mirror direction and %.2g to %.2g degrees wide at half "
-                     "of it, for the samples are %.2g degrees apart: measure %s",
-                     incidences_text(doubt, &arena), doubt->haze[0], doubt->haze[1],
-                     degrees_from_radians(doubt->fwhm[0]),
+                     "%.3g to %.3g sr^-1 in the mirror direction and %.2g to %.2g degrees "
+                     "wide at half of it, for the samples are %.2g degrees apart and the "
+                     "instrument's image is %.2g wide: measure %s",
+                     incidences_text(doubt, &arena), doubt->haze[0], doubt->haze[1], width,
                      degrees_from_radians(doubt->fwhm[1]), degrees_from_radians(doubt->step),
-                     advice_text(degrees_from_radians(doubt->fwhm[0]), fwhm_deg, &arena));
+                     fwhm_deg, advice_text(width, fwhm_deg, &arena));
 }
 
 static json_t *range_json(const double range[2])
@@ -118,9 +120,9 @@ static void keep_figures(Judge *judge, const Measurement *set, const PeakMirror 
 static void judge_specular(Judge *judge, const Measurement *set)
 {
     if (set->specular && !(set->instrument_fwhm_deg > 0))
-        judge_reason_add(judge, JUDGE_CARE, JUDGE_COARSE "the specular measurement is not used, "
-                         "for without the instrument's width the mirror's image cannot be taken "
-                         "out of the samples: declare it (instrument_fwhm_deg)");
+        judge_reason_add(judge, JUDGE_CARE, JUDGE_COARSE "the specular measurement is not "
+                         "used, for without the instrument's width the mirror's image cannot "
+                         "be taken out of the samples: declare it (instrument_fwhm_deg)");
 }
 
 /* ---- rows left out ----------------------------------------------------------------------- */
