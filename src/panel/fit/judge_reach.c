@@ -151,6 +151,24 @@ static void judge_held_out(Judge *judge, const FitParts *parts)
     json_object_set_new(judge->figures, "held_out_error", json_real(most->error));
 }
 
+/* What the panel makes of its tables between their rows. */
+static void judge_between(Judge *judge, const FitParts *parts)
+{
+    const ReflectionResult *r = parts->reflection;
+    const Measurement      *set = parts->set;
+    int worst = 0;
+    for (int t = 1; t < r->parts.tables; t++)
+        if (r->held_out[t].between > r->held_out[worst].between) worst = t;
+    if (!(r->held_out[worst].between > JUDGE_HELD_OUT_CARE)) return;
+    judge_reason_add(judge, JUDGE_CARE, JUDGE_COARSE "between the samples near the mirror "
+                     "direction the panel differs from the fitted haze by %.2g %% (light from "
+                     "%.4g degrees), wanted at most %.0f %%: measure the BRDF in finer steps "
+                     "there, or ask for a smaller bound (--max-error)",
+                     100 * r->held_out[worst].between,
+                     degrees_from_radians(set->incidence[worst % set->incidence_count]),
+                     100 * JUDGE_HELD_OUT_CARE);
+}
+
 void judge_reach(Judge *judge, const FitParts *parts)
 {
     const Measurement     *set = parts->set;
@@ -158,6 +176,7 @@ void judge_reach(Judge *judge, const FitParts *parts)
     Doubt mirror = no_doubt(), haze = no_doubt();
     judge_specular(judge, set);
     judge_held_out(judge, parts);
+    judge_between(judge, parts);
     if (!of->peak) return;
     for (int t = 0; t < of->tables; t++) {
         double incidence = set->incidence[t % set->incidence_count];

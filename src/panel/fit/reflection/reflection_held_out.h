@@ -16,6 +16,7 @@
 typedef struct HeldOut {
     double error;      /* relative, beside the noise, of rows left out */
     double estimate;   /* between the rows with none left out */
+    double between;    /* of the tree halfway between rows, relative (reflection_between.h) */
     double theta, phi; /* radians, in the table's frame */
     int    rows;       /* that were left out and counted */
 } HeldOut;
