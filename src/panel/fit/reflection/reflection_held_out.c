@@ -8,8 +8,8 @@
 #include "panel/fit/common/sort.h"
 #include "panel/fit/reflection/reflection_read.h"
 
-#define NEAR_DEG 20.0      /* rows nearer to the mirror direction than this */
-#define NEAR_STEPS 3.0     /* or than so many steps */
+#define NEAR_DEG 15.0      /* rows nearer to the mirror direction than this */
+#define NEAR_STEPS 2.0     /* or than so many steps */
 #define STEEP 0.1          /* a logarithm that changes by more to the ring beside is steep */
 #define CORE_FWHMS 1.6     /* under the image, times the instrument's width */
 #define NOISE_SIGMAS 5.0

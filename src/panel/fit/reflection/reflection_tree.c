@@ -17,7 +17,7 @@
 
 #define PLACE_SHARE 0.8    /* of the bound, for places: the rest is for what lies between */
 #define PEAK_SHARE 0.35    /* of that where a table is within 1/e of its largest value */
-#define GUIDED_SHARE 0.6   /* of tables whose rows are too far apart to check the tree between them */
+#define GUIDED_SHARE 0.6   /* of tables between whose rows no sample checks the tree */
 #define TIGHTER 0.6        /* a miss makes the places around it so much more precise */
 #define TIGHTEST 0.2       /* of the bound, beyond what the components leave out: rounding */
 #define ROUNDS 5
