@@ -43,6 +43,8 @@ if run_one 'build with address sanitizer' build-asan build asan all; then
     # The panels keep one processor busy for half an hour: the rest has the other.
     start 'thousands of broken models' hostile-long \
         python3 tests/hostile/run.py --all .build/asan/parhelion
+    start 'what grids can see of a panel' panel-coarse-long \
+        python3 tests/bench/panel_coarse.py .build/release/parhelion --jobs 1
     start 'a second reader, 100,000 questions' agreement-long \
         python3 tests/library/agreement.py .build/release --queries 100000
     start 'another renderer, less noise' renderer-long \

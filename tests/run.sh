@@ -37,6 +37,8 @@ if run_one 'release build, warnings are errors' build-release build release all;
         python3 tests/hostile/review_request.py .build/release/parhelion
     start 'panel commands' panel-commands \
         python3 tests/hostile/panel_commands.py .build/release/parhelion
+    start 'panels of coarse grids' panel-coarse \
+        python3 tests/bench/panel_coarse.py .build/release/parhelion --cases few
     start "the panel library's ABI" library-abi \
         python3 tests/library/abi.py .build/release
     start 'its Python module' library-module python3 tests/library/module.py .build/release

@@ -17,7 +17,8 @@
 
 /* Keys besides those of the text tables. */
 static const char *const other_keys[] = {"roles", "skip", "format", "wavelength_nm", "area_mm",
-    "panel", "instrument", "primaries", "levels", "isotropic", "symmetry", "no_black", "note"};
+    "panel", "instrument", "primaries", "levels", "specular", "specular_aperture_deg", "gloss",
+    "isotropic", "symmetry", "no_black", "note"};
 
 static bool wrong_kind(const JsonView *view, const char *key, const char *wanted, Error *err)
 {
@@ -144,6 +145,18 @@ static bool read_symmetry(const JsonView *root, ImportSymmetry *out, Error *err)
            (import_symmetry_named(name, out, err) || error_in_file(err, root->file));
 }
 
+static bool read_specular(const JsonView *root, ImportSpecular *out, Error *err)
+{
+    if (!json_view_text(root, "specular", &out->file, err) ||
+        !json_view_number(root, "specular_aperture_deg", 0, SPECULAR_APERTURE_MOST_DEG,
+                          &out->aperture_deg, err))
+        return false;
+    if (out->file && !json_view_file(root, "specular", out->file, &out->file, err))
+        return false;
+    return !json_object_get(root->object, "gloss") ||
+           specular_gloss_read(root, &out->gloss, err);
+}
+
 static bool read_others(const JsonView *root, ImportRequest *request, Error *err)
 {
     bool ok = read_roles(root, &request->text, err) && read_skip(root, &request->skip, err) &&
@@ -155,6 +168,7 @@ static bool read_others(const JsonView *root, ImportRequest *request, Error *err
               json_view_text(root, "instrument", &request->instrument, err) &&
               json_view_text(root, "primaries", &request->primaries, err) &&
               json_view_text(root, "levels", &request->levels, err) &&
+              read_specular(root, &request->specular, err) &&
               read_flag(root, "isotropic", &request->is_isotropic, err) &&
               read_symmetry(root, &request->symmetry, err) &&
               read_flag(root, "no_black", &request->black_is_zero, err);
@@ -229,5 +243,6 @@ bool import_run(const char *const *file, int count, const ImportRequest *request
     if (request->primaries && !primaries_read(request->primaries, &request->text, set, err))
         return false;
     return read_files(file, count, request, set, err) && import_complete(set, err) &&
-           (!request->levels || import_levels(request->levels, set, err));
+           (!request->levels || import_levels(request->levels, set, err)) &&
+           import_specular(&request->specular, set, err);
 }

@@ -6,6 +6,7 @@
  * Fails    with the file, the JSON path, what was found and what was wanted.
  */
 #pragma once
+#include "import/set/import_specular.h"
 #include "import/text/text_options.h"
 
 /* Called with the number of files done. */
@@ -17,6 +18,7 @@ typedef struct ImportRequest {
     TextList        skip;     /* patterns of files to leave out */
     const char     *primaries; /* a file of spectra; NULL: none */
     const char     *levels;    /* a gamma table of a white-only set; NULL: none */
+    ImportSpecular  specular;  /* of a reflection */
     const char     *root;      /* --root: where else such a file may name files; or NULL */
     const char     *panel, *instrument;
     ImportSymmetry  symmetry;

@@ -284,7 +284,8 @@ class Reflection:
         if not f[i + 1] - f[i] > 1e-6:
             return rho[i + 1]
         value = rho[i] + (rho[i + 1] - rho[i]) * (here - f[i]) / (f[i + 1] - f[i])
-        return min(1.0, max(value, 0.5 * min(rho[i], rho[i + 1])))
+        most = max(1.0, rho[i], rho[i + 1])
+        return min(most, max(value, 0.5 * min(rho[i], rho[i + 1])))
 
     def mirror(self, cosine, nm):
         if not self.has_mirror or not cosine > 0:

@@ -87,7 +87,7 @@ DECLARATION = {"delimiter": "semicolon", "decimal": "comma", "azimuth_zero": "to
                "azimuth_sense": "cw", "mask": [-999], "level_max": 255, "skip": ["log_*"],
                "columns": ["theta", "phi", "X", "Y", "Z"], "roles": {"m01*.txt": "black"},
                "isotropic": True, "symmetry": "both", "area_mm": [10, 20], "instrument": "C",
-               "levels": "levels.csv"}
+               "levels": "levels.csv", "specular_aperture_deg": 0}
 WRONG_RECIPES = [("emission/red/peaks_nm", []), ("emission/red/peaks_nm", None),
                  ("emission/green", None), ("emission/gama", 2.2), ("emission/gamma", 9),
                  ("instrument/theta_step_deg", 20), ("reflection/haze_share", 1.5),
@@ -101,12 +101,19 @@ WRONG_RECIPES = [("emission/red/peaks_nm", []), ("emission/red/peaks_nm", None),
                  *WRONG_SUBPIXELS]
 WRONG_DECLARATIONS = [("delimiter", "pipe"), ("azimuth_zero", "north"), ("azimut_zero", "top"),
                       ("level_max", 0), ("skip", "log_*"), ("isotropic", "yes"),
-                      ("symmetry", "round"), ("wavelength_nm", 200), ("levels", 7)]
+                      ("symmetry", "round"), ("wavelength_nm", 200), ("levels", 7),
+                      ("specular", 7), ("specular_aperture_deg", 60), ("gloss", []),
+                      ("gloss", [{"geometry_deg": 45, "gu": 9}]),
+                      ("gloss", [{"geometry_deg": 60}])]
 WRONG_MANIFESTS = [("emission/black", None), ("emission/red", {}), ("emission/red/300", "a"),
                    ("emission/white", "white.csv"), ("emission/levels", "levels.csv"),
                    ("emission/purple", "a.csv"),
                    ("reflection/files", "brdf/i10.csv"), ("reflection/incidence_deg", [95]),
                    ("reflection/wavelengths_nm", None), ("reflection/incidence_phi_deg", [0]),
+                   ("reflection/specular", 7), ("reflection/specular", {}),
+                   ("reflection/specular/aperture_deg", 40),
+                   ("reflection/specular/aperture", 1), ("reflection/gloss", []),
+                   ("reflection/gloss", [{"geometry_deg": 60, "gu": 1}]),
                    ("instrument_fwhm_deg", 40), ("pannel", "x"), ("polarisation", 0.5),
                    ("polarisation", {"degree": 1.5, "azimuth_deg": 0}),
                    ("polarisation", {"degree": "1", "azimuth_deg": 0}),

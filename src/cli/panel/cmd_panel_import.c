@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* panel import: the files of a laboratory as one measurement set. */
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/count.h"
@@ -77,13 +78,15 @@ static void print_summary(const ImportSet *set, const char *manifest, Arena *are
 /* ---- options ----------------------------------------------------------------------------- */
 
 #define KEYS_MAX 32
-#define OPTIONS_MAX (KEYS_MAX + 16)
+#define OPTIONS_MAX (KEYS_MAX + 24)
 
 /* What the command line holds before it is put on top of the declaration file. */
 typedef struct Words {
     const char *output, *layout, *root, *primaries, *levels, *panel, *instrument, *format,
         *symmetry;
-    CliTexts    roles, skip, list[KEYS_MAX];
+    const char *specular;
+    double      aperture_deg;
+    CliTexts    roles, skip, gloss, list[KEYS_MAX];
     const char *key[KEYS_MAX]; /* of the text tables' keys */
     double      wavelength_nm, area_mm[2];
     bool        has_area, is_isotropic, black_is_zero;
@@ -124,6 +127,13 @@ static int list_options(Words *words, Option *option, Arena *arena)
          &words->primaries, .given = NULL},
         {"--levels", OPTION_TEXT, "FILE.csv", "gamma table of white alone: columns level and "
          "luminance (or red, green, blue), cd/m2 on the axis", &words->levels, .given = NULL},
+        {"--specular", OPTION_TEXT, "FILE.csv", "specular reflectance: columns incidence, "
+         "wavelength and reflectance (0 to 1)", &words->specular, .given = NULL},
+        {"--specular-aperture", OPTION_NUMBER, "DEG", "full angle that --specular was measured "
+         "in, degrees (default: the mirror alone)", &words->aperture_deg, 0,
+         SPECULAR_APERTURE_MOST_DEG, .given = NULL},
+        {"--gloss", OPTION_TEXTS, "DEG=GU", "a gloss meter's reading at 20, 60 or 85 degrees",
+         &words->gloss, .given = NULL},
         {"--area-mm", OPTION_NUMBERS, "W,H", "luminous area for luminaire files",
          words->area_mm, 1e-3, 1e6, 2, &words->has_area},
         {"--isotropic", OPTION_FLAG, NULL, "the light's azimuth makes no difference",
@@ -177,6 +187,32 @@ static bool add_keys(const Words *words, TextOptions *text, Error *err)
     return true;
 }
 
+/* --gloss 60=82.5 */
+static bool add_gloss(const CliTexts *texts, Arena *arena, Gloss *gloss, Error *err)
+{
+    if (texts->count) *gloss = (Gloss){0};
+    for (int i = 0; i < texts->count; i++) {
+        const char *angle, *value;
+        char       *after[2];
+        if (!cli_name_value("--gloss", texts->list[i], arena, &angle, &value, err))
+            return false;
+        double numbers[2] = {strtod(angle, &after[0]), strtod(value, &after[1])};
+        if (after[0] == angle || *after[0] || after[1] == value || *after[1])
+            return error_set(err, ERROR_USAGE, "--gloss is '%s', wanted an angle and gloss "
+                             "units, as 60=82.5", texts->list[i]);
+        if (!specular_gloss_add(gloss, numbers[0], numbers[1], err))
+            return error_prefix(err, "--gloss %s", texts->list[i]);
+    }
+    return true;
+}
+
+static bool add_specular(const Words *words, Arena *arena, ImportSpecular *out, Error *err)
+{
+    if (words->specular) out->file = words->specular;
+    if (words->aperture_deg > 0) out->aperture_deg = words->aperture_deg;
+    return add_gloss(&words->gloss, arena, &out->gloss, err);
+}
+
 /* The declaration file first, the command line on top of it. */
 static bool make_request(const Words *words, Arena *arena, ImportRequest *request, Error *err)
 {
@@ -184,7 +220,8 @@ static bool make_request(const Words *words, Arena *arena, ImportRequest *reques
     if (!reference_check_root(words->root, err)) return false;
     if (words->layout && !import_request_read(words->layout, arena, request, err)) return false;
     if (!add_keys(words, &request->text, err) ||
-        !add_roles(&words->roles, arena, &request->text, err))
+        !add_roles(&words->roles, arena, &request->text, err) ||
+        !add_specular(words, arena, &request->specular, err))
         return false;
     for (int i = 0; i < words->skip.count; i++) {
         if (request->skip.count == TEXT_ENTRIES_MAX)

@@ -81,6 +81,9 @@ typedef struct ImportSet {
     double        white_reflectance; /* of the reference: Lambertian, 0 to 1 (default 1) */
     ImportSpectra spectra;
     const struct LevelTable *levels; /* of white alone (panel/set/level_table.h); NULL: none */
+    const struct SpecularTable *specular; /* panel/set/specular_table.h; NULL: none */
+    double        specular_aperture_deg;
+    const struct Gloss *gloss;       /* in its place; NULL: none */
     const char   *note[IMPORT_NOTES_MAX]; /* one line each: assumed, converted, left out */
     int           note_count;
 } ImportSet;

@@ -11,6 +11,7 @@
 #include "base/file.h"
 #include "panel/set/level_table.h"
 #include "panel/set/set_writer.h"
+#include "panel/set/specular_table.h"
 #include "text/json_text.h"
 
 typedef struct SetOutput {
@@ -33,6 +34,7 @@ const char *import_table_file(const ImportSet *set, const ImportTable *table, Ar
 }
 
 #define LEVELS_FILE "emission/levels.csv"
+#define SPECULAR_FILE "brdf/specular.csv"
 
 static bool is_file(const char *path, const struct stat *target)
 {
@@ -47,6 +49,7 @@ static bool spares(const SetOutput *out, const char *name, Arena scratch)
     const char *path = path_beside(out->writer.manifest, name, &scratch);
     if (stat(path, &target)) return true;
     bool is_source = out->set->levels && is_file(out->set->levels->file, &target);
+    is_source |= out->set->specular && is_file(out->set->specular->file, &target);
     for (int k = 0; k < out->set->count; k++)
         is_source |= is_file(out->set->table[k].file, &target);
     return !is_source ||
@@ -63,7 +66,8 @@ static bool spares_sources(const SetOutput *out)
         if (!spares(out, import_table_file(out->set, &out->set->table[i], &arena),
                     arena))
             return false;
-    return !out->set->levels || spares(out, LEVELS_FILE, arena);
+    return (!out->set->levels || spares(out, LEVELS_FILE, arena)) &&
+           (!out->set->specular || spares(out, SPECULAR_FILE, arena));
 }
 
 /* ---- tables ------------------------------------------------------------------------------ */
@@ -149,6 +153,15 @@ static bool write_levels(SetOutput *out)
     return set_writer_add(&out->writer, LEVELS_FILE, &text);
 }
 
+static bool write_specular(SetOutput *out)
+{
+    Arena arena = out->scratch;
+    Text  text = {.arena = &arena};
+    if (!out->set->specular) return true;
+    text_add(&text, specular_table_text(out->set->specular, &arena));
+    return set_writer_add(&out->writer, SPECULAR_FILE, &text);
+}
+
 /* ---- the manifest ------------------------------------------------------------------------ */
 
 static json_t *emission_object(SetOutput *out)
@@ -189,6 +202,21 @@ static void append_once(json_t *list, double value)
     json_array_insert_new(list, i, number(value));
 }
 
+/* What a set has of the mirror besides its tables. */
+static void add_specular(const ImportSet *set, json_t *object)
+{
+    json_t *list = json_array();
+    for (int i = 0; set->gloss && i < set->gloss->count; i++)
+        json_array_append_new(list, json_pack("{s:o, s:o}", "geometry_deg",
+                                              number(set->gloss->geometry_deg[i]), "gu",
+                                              number(set->gloss->gu[i])));
+    if (set->gloss) json_object_set(object, "gloss", list);
+    json_decref(list);
+    if (set->specular)
+        json_object_set_new(object, "specular", json_pack("{s:s, s:o}", "file", SPECULAR_FILE,
+                            "aperture_deg", number(set->specular_aperture_deg)));
+}
+
 static json_t *reflection_object(const ImportSet *set)
 {
     json_t *object = NULL, *nm = json_array(), *incidence = json_array(),
@@ -210,6 +238,7 @@ static json_t *reflection_object(const ImportSet *set)
         json_object_set_new(object, "files",
                             json_string(set->is_anisotropic ? "brdf/i{incidence}_a{azimuth}.csv"
                                                             : "brdf/i{incidence}.csv"));
+        add_specular(set, object);
     }
     json_decref(nm);
     json_decref(incidence);
@@ -264,7 +293,8 @@ bool import_write(const ImportSet *set, const char *manifest, Error *err)
     out.scratch = arena;
     bool ok = spares_sources(&out);
     for (int i = 0; i < set->count && ok; i++) ok = write_table(&out, &set->table[i]);
-    ok = ok && write_spectra(&out) && write_levels(&out) && write_manifest(&out);
+    ok = ok && write_spectra(&out) && write_levels(&out) && write_specular(&out) &&
+         write_manifest(&out);
     ok = set_writer_close(&out.writer, ok);
     arena_release(&arena);
     return ok;

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "panel/fit/judge_limits.h"
+#include "panel/fit/judge_reach.h"
 #include "panel/fit/judge_set.h"
 
 static const char *const words[] = {"good", "usable with care", "not usable"};
@@ -156,6 +157,16 @@ static void start(Judge *judge, Arena *arena)
     for (int g = 0; g < 3; g++) judge->reasons[g] = json_array();
 }
 
+/* The measurement could not see what it was asked for. */
+static bool has_coarse(const json_t *reasons)
+{
+    size_t  i;
+    json_t *one;
+    json_array_foreach((json_t *)reasons, i, one)
+        if (!strncmp(json_string_value(one), JUDGE_COARSE, strlen(JUDGE_COARSE))) return true;
+    return false;
+}
+
 /* The worst first. */
 static void finish(Judge *judge, json_t *report)
 {
@@ -163,6 +174,8 @@ static void finish(Judge *judge, json_t *report)
     json_object_set_new(report, "verdict", json_string(words[judge->grade]));
     json_object_set_new(report, "reasons", judge->reasons[JUDGE_UNUSABLE]);
     json_object_set_new(report, "judged", judge->figures);
+    if (has_coarse(json_object_get(report, "reasons")))
+        json_object_set_new(report, "coarse", json_true());
     json_decref(judge->reasons[JUDGE_GOOD]);
     json_decref(judge->reasons[JUDGE_CARE]);
 }
@@ -180,6 +193,7 @@ void fit_judge(const FitParts *parts, const FitDeviations *all, const FitTable *
     if (parts->reflection) {
         judge_albedo(&judge, parts);
         judge_zeros(&judge, parts);
+        judge_reach(&judge, parts);
     }
     judge_errors(&judge, parts, all);
     judge_integral(&judge, total);

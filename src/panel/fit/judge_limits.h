@@ -69,3 +69,10 @@
 
 /* Each primary's share of white: blue, the least, has 3 to 10 %. */
 #define JUDGE_PRIMARY_LEAST 0.003
+
+/* What the BRDF near the mirror direction may miss between its samples, as samples that were
+ * left out tell: what is asked of mirror and haze too. */
+#define JUDGE_HELD_OUT_CARE 0.05
+
+/* How reasons begin that name what the instrument could not see. */
+#define JUDGE_COARSE "coarse: "

@@ -191,7 +191,8 @@ static void find_cubics(PanelReflection *r)
 }
 
 /* R / F over the measured incidences, straight lines in F; beyond the last one the line goes
- * on (a coating loses its effect towards grazing), held between half the last ratio and 1. */
+ * on (a coating loses its effect towards grazing), held between half the last ratio and 1,
+ * or what was measured where that is more. */
 static double mirror_ratio(const PanelReflection *r, const ReflectionLayout *from,
                            uint32_t wavelength, double here)
 {
@@ -207,7 +208,8 @@ static double mirror_ratio(const PanelReflection *r, const ReflectionLayout *fro
     }
     if (m < 2 || here <= f[0] || !(f[1] - f[0] > 1e-6)) return ratio[here > f[0] && m > 1];
     double value = ratio[0] + (ratio[1] - ratio[0]) * (here - f[0]) / (f[1] - f[0]);
-    return fmin(1, fmax(value, 0.5 * fmin(ratio[0], ratio[1])));
+    double most = fmax(1, fmax(ratio[0], ratio[1])); /* a mirror may exceed plain glass */
+    return fmin(most, fmax(value, 0.5 * fmin(ratio[0], ratio[1])));
 }
 
 /* Beyond the last incidence: a bare face whose index the measured ones tell. */

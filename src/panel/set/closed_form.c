@@ -115,3 +115,33 @@ double closed_form_instrument_brdf(const SyntheticPanel *panel, double theta_i, 
     return closed_form_brdf(panel, theta_i, theta_o, phi, nm) +
            closed_form_mirror(panel, theta_i, nm) * image / cos_d(theta_i);
 }
+
+#define APERTURE_RINGS 32
+#define APERTURE_SECTORS 24
+
+/* BRDF times cosine in a direction at a distance from the mirror direction, turned about it. */
+static double towards_aperture(const SyntheticPanel *panel, double theta, double distance,
+                               double turn, double nm)
+{
+    double s = sin_d(distance), x = s * cos_d(turn), y = s * sin_d(turn), z = cos_d(distance);
+    double across = cos_d(theta) * x + sin_d(theta) * z;
+    double cosine = cos_d(theta) * z - sin_d(theta) * x;
+    if (!(cosine > 0)) return 0;
+    return cosine * closed_form_brdf(panel, theta, acos_d(fmin(1, cosine)), atan2_d(y, across),
+                                     nm);
+}
+
+/* Rings are closer where a narrow haze is: their radii go with a square. */
+double closed_form_specular(const SyntheticPanel *panel, double theta, double aperture,
+                            double nm)
+{
+    double sum = 0;
+    for (int i = 0; i < APERTURE_RINGS; i++) {
+        double x = (i + 0.5) / APERTURE_RINGS, radius = 0.5 * aperture * x * x;
+        double area = sin_d(radius) * aperture * x / APERTURE_RINGS;
+        for (int k = 0; k < APERTURE_SECTORS; k++)
+            sum += area * (2 * PI / APERTURE_SECTORS) *
+                   towards_aperture(panel, theta, radius, 2 * PI * k / APERTURE_SECTORS, nm);
+    }
+    return closed_form_mirror(panel, theta, nm) + sum;
+}

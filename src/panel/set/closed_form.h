@@ -29,3 +29,8 @@ double closed_form_mirror(const SyntheticPanel *panel, double theta, double nm);
  * instrument. */
 double closed_form_instrument_brdf(const SyntheticPanel *panel, double theta_i, double theta_o,
                                    double phi, double nm);
+
+/* What comes back within a round aperture (full angle) around the mirror direction: the mirror
+ * part, and what haze and lambertian part send there. */
+double closed_form_specular(const SyntheticPanel *panel, double theta, double aperture,
+                            double nm);

@@ -20,6 +20,7 @@
 #include "spectrum/spectral_table.h"
 
 #define STEPS_OF_FWHM 2.4 /* how well the mirror's image is sampled */
+#define MOST_FWHM_DEG 15.0 /* that a manifest may declare */
 
 static const char *const primary_names[3] = {"red", "green", "blue"};
 
@@ -140,7 +141,9 @@ static double mirror_fwhm(const Export *export)
 {
     PolarGrid grid = grid_of(export->options, 0, true);
     double fwhm = export->options->mirror_fwhm_deg;
-    if (fwhm < 0) fwhm = STEPS_OF_FWHM * fmax(grid.theta_step, 0.5 * grid.phi_step);
+    if (fwhm < 0)
+        fwhm = fmin(MOST_FWHM_DEG,
+                    STEPS_OF_FWHM * fmax(grid.theta_step, 0.5 * grid.phi_step));
     float  nm[PANEL_INFO_WAVELENGTHS_MAX];
     int    count = panel_info_wavelengths(export->panel, nm);
     for (int first = 0; first < count; first++) {

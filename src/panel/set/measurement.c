@@ -327,7 +327,7 @@ static bool read_azimuths(const JsonView *view, const char *pattern, Measurement
 static bool read_reflection(const JsonView *root, Measurement *out, Error *err)
 {
     static const char *const keys[] = {"wavelengths_nm", "incidence_deg", "incidence_phi_deg",
-                                       "files"};
+                                       "files", "specular", "gloss"};
     JsonView    view;
     const char *pattern = NULL;
     double      nm[MEASUREMENT_WAVELENGTHS_MAX], degrees[MEASUREMENT_INCIDENCES_MAX];
@@ -350,7 +350,9 @@ static bool read_reflection(const JsonView *root, Measurement *out, Error *err)
     out->wavelength_count = nm_count;
     for (int i = 0; i < nm_count; i++) out->wavelength_nm[i] = (float)nm[i];
     for (int i = 0; i < count; i++) out->incidence[i] = radians_from_degrees(degrees[i]);
-    return read_azimuths(&view, pattern, out, err) && read_slices(&view, pattern, out, err);
+    return read_azimuths(&view, pattern, out, err) &&
+           specular_table_read(&view, view.arena, &out->specular, err) &&
+           read_slices(&view, pattern, out, err);
 }
 
 /* ---- spots ------------------------------------------------------------------------------- */

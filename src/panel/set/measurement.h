@@ -12,6 +12,7 @@
 #include "panel/set/display_traits.h"
 #include "panel/set/level_table.h"
 #include "panel/set/measured_primary.h"
+#include "panel/set/specular_table.h"
 #include "panel/set/uniformity_map.h"
 #include "spectrum/spectral_table.h"
 
@@ -43,6 +44,7 @@ typedef struct Measurement {
     int         azimuth_count; /* of the light; 1: isotropic, symmetric in phi */
     double      azimuth[MEASUREMENT_AZIMUTHS_MAX]; /* radians, rising, [0, 2 pi) */
     AngleTable *brdf; /* azimuth * incidence_count + incidence; channels: wavelengths */
+    const SpecularTable *specular; /* what comes back around the mirror direction, or NULL */
     int         spot_count; /* 0: what stands above was measured at one place */
     struct MeasuredSpot *spot;
     bool        spots_emit, spots_reflect; /* some of them */

@@ -137,6 +137,33 @@ static bool write_brdf(Instrument *instrument, double incidence_deg)
     return write_table(instrument, name, &text);
 }
 
+static bool has_mirror(const SyntheticPanel *panel)
+{
+    return panel->reflection.exists && panel->reflection.haze_share < 1;
+}
+
+/* What a reflectometer with the instrument's aperture says of the mirror. It is written behind
+ * all tables, whose noise is numbered by their order. */
+static bool write_specular(Instrument *instrument)
+{
+    const SyntheticPanel *panel = instrument->panel;
+    const SyntheticReflection *r = &panel->reflection;
+    double aperture = radians_from_degrees(panel->instrument.fwhm_deg);
+    Arena  arena = instrument->scratch;
+    Text   text = {.arena = &arena};
+    text_add(&text, "incidence,wavelength,reflectance\n");
+    for (int i = 0; i < r->incidence_count; i++)
+        for (int w = 0; w < r->wavelength_count; w++) {
+            double value = closed_form_specular(panel,
+                radians_from_degrees(r->incidence_deg[i]), aperture, r->wavelength_nm[w]);
+            uint32_t index = (uint32_t)(i * r->wavelength_count + w);
+            text_format(&text, "%.10g,%.10g,%.5g\n", r->incidence_deg[i], r->wavelength_nm[w],
+                        fmin(1, fmax(0, noisy(instrument, value, 0, index))));
+        }
+    const char *name = arena_format(&arena, "%sspecular.csv", instrument->prefix);
+    return set_writer_add(&instrument->writer, name, &text);
+}
+
 /* ---- spectra and manifest -------------------------------------------------------------- */
 
 static bool write_spectra(Instrument *instrument)
@@ -185,14 +212,18 @@ static void add_emission(Text *text, const SyntheticEmission *emission, const ch
     text_add(text, "\n  }");
 }
 
-static void add_reflection(Text *text, const SyntheticReflection *reflection,
-                           const char *prefix)
+static void add_reflection(Text *text, const SyntheticPanel *panel, const char *prefix)
 {
+    const SyntheticReflection *reflection = &panel->reflection;
     text_add(text, ",\n  \"reflection\": {");
     add_list(text, "wavelengths_nm", reflection->wavelength_nm, reflection->wavelength_count);
     text_add(text, ",\n    ");
     add_list(text, "incidence_deg", reflection->incidence_deg, reflection->incidence_count);
-    text_format(text, ",\n    \"files\": \"%sbrdf/i{incidence}.csv\"}", prefix);
+    text_format(text, ",\n    \"files\": \"%sbrdf/i{incidence}.csv\"", prefix);
+    if (has_mirror(panel))
+        text_format(text, ",\n    \"specular\": {\"file\": \"%sspecular.csv\", "
+                    "\"aperture_deg\": %.10g}", prefix, panel->instrument.fwhm_deg);
+    text_add(text, "}");
 }
 
 /* ---- places ------------------------------------------------------------------------------ */
@@ -216,7 +247,7 @@ static void add_spots(Text *text, const SyntheticPanel *panel)
         text_format(text, "%s\n  {\"position\": [%.10g, %.10g],\n   ", i ? "," : "",
                     places->u[i], places->v[i]);
         add_emission(text, &panel->emission, prefix);
-        if (reflects_by_place(panel)) add_reflection(text, &panel->reflection, prefix);
+        if (reflects_by_place(panel)) add_reflection(text, panel, prefix);
         text_add(text, "}");
     }
     text_add(text, "],\n");
@@ -277,6 +308,24 @@ static bool write_all_brdf(Instrument *instrument)
     return ok;
 }
 
+static bool write_all_specular(Instrument *instrument)
+{
+    const SyntheticPanel  *panel = instrument->panel;
+    const SyntheticPlaces *places = &panel->places;
+    bool ok = true;
+    if (!has_mirror(panel)) return true;
+    if (!reflects_by_place(panel)) return write_specular(instrument);
+    for (int i = 0; i < places->spots && ok; i++) {
+        SyntheticPanel local = closed_form_at(panel, (double[2]){places->u[i], places->v[i]});
+        instrument->panel = &local;
+        instrument->prefix = spot_prefix(i, &instrument->writer.arena);
+        ok = write_specular(instrument);
+        instrument->panel = panel;
+        instrument->prefix = "";
+    }
+    return ok;
+}
+
 /* Every table: of the middle, or of all spots. */
 static bool write_places(Instrument *instrument)
 {
@@ -296,7 +345,7 @@ static bool write_places(Instrument *instrument)
         instrument->prefix = "";
     }
     return ok && (reflects_by_place(panel) || write_all_brdf(instrument)) &&
-           (!places->map[0] || write_map(instrument));
+           (!places->map[0] || write_map(instrument)) && write_all_specular(instrument);
 }
 
 static int count_tables(const SyntheticPanel *panel)
@@ -347,7 +396,7 @@ static bool write_manifest(Instrument *instrument)
     text_add(&text, "  \"primaries\": \"primaries.csv\"");
     add_traits(&text, &panel->traits);
     if (panel->reflection.exists && !reflects_by_place(panel))
-        add_reflection(&text, &panel->reflection, "");
+        add_reflection(&text, panel, "");
     if (panel->places.map[0]) add_uniformity(&text, &panel->places);
     text_add(&text, "\n}\n");
     return set_writer_add(&instrument->writer, "MANIFEST.json", &text);

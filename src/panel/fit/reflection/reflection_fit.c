@@ -5,6 +5,7 @@
 
 #include "base/parallel.h"
 #include "hemisphere/tree/tree_open.h"
+#include "panel/fit/reflection/reflection_between.h"
 #include "panel/fit/reflection/reflection_read.h"
 #include "panel/fit/reflection/reflection_spectra.h"
 #include "panel/fit/reflection/reflection_surface.h"
@@ -158,6 +159,40 @@ static bool code_frames(ReflectionModel *model, ReflectionMisses *misses, Error 
     return code_levels(model, misses, err);
 }
 
+/* ---- what was left out ------------------------------------------------------------------- */
+
+typedef struct HeldOutPass {
+    const ReflectionModel *model;
+    HeldOut               *held_out;
+} HeldOutPass;
+
+static void hold_out(void *context, int t, int worker)
+{
+    HeldOutPass *pass = context;
+    Arena        arena = arena_reserve(TRIAL_BYTES);
+    (void)worker;
+    pass->held_out[t] = reflection_held_out(pass->model, t, arena);
+    arena_release(&arena);
+}
+
+static void look_between(void *context, int t, int worker)
+{
+    HeldOutPass *pass = context;
+    Arena        arena = arena_reserve(TRIAL_BYTES);
+    (void)worker;
+    pass->held_out[t].between = reflection_between(pass->model, t, arena);
+    arena_release(&arena);
+}
+
+static HeldOut *hold_out_all(const ReflectionModel *model)
+{
+    HeldOutPass pass = {model, ARENA_NEW(model->arena, HeldOut, model->tables)};
+    parallel_for(model->options->threads, model->tables, hold_out, &pass);
+    return pass.held_out;
+}
+
+/* ---- all --------------------------------------------------------------------------------- */
+
 bool reflection_fit(const Measurement *set, const FitOptions *options, Arena *arena,
                     FitNotes *notes, ReflectionResult *out, Error *err)
 {
@@ -166,7 +201,10 @@ bool reflection_fit(const Measurement *set, const FitOptions *options, Arena *ar
     ReflectionMisses misses = {0};
     reflection_read_tables(model);
     reflection_surface_choose(model, notes);
+    HeldOutPass pass = {model, hold_out_all(model)};
     if (!choose_frame(model, err) || !code_frames(model, &misses, err)) return false;
+    parallel_for(options->threads, model->tables, look_between, &pass);
+    out->held_out = pass.held_out;
     out->tree = model->tree;
     out->tree_report = model->tree_report;
     out->masked = model->masked;

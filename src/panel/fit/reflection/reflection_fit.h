@@ -8,6 +8,7 @@
  * Fails    when the tree cannot be stored (ERROR_INPUT).
  */
 #pragma once
+#include "panel/fit/reflection/reflection_held_out.h"
 #include "panel/fit/reflection/reflection_section.h"
 
 typedef struct ReflectionResult {
@@ -18,6 +19,7 @@ typedef struct ReflectionResult {
     TreeReport        tree_report;
     const void       *sampling; /* the section's bytes; NULL: not yet built */
     size_t            sampling_size;
+    const HeldOut    *held_out; /* per table */
     int               masked; /* values below the least that counts */
     double            bound, worst; /* error that was aimed at; largest error over it */
     int               level, components, coefficients;

@@ -14,6 +14,7 @@
 #include "hemisphere/vertex/vertex_tree.h"
 #include "panel/fit/common/direction_grid.h"
 #include "panel/fit/reflection/reflection_fresnel.h"
+#include "panel/fit/reflection/reflection_guide.h"
 #include "panel/fit/reflection/reflection_parts.h"
 #include "panel/query/panel_file.h"
 #include "spectrum/wavelengths.h"
@@ -41,6 +42,7 @@ typedef struct ReflectionModel {
     Vec3  *direction;
     DirectionGrid *grid;   /* per table */
     float        **cells;  /* per table: ln f of the grid's cells */
+    ReflectionGuide *guide; /* per table: how it goes on between its rows */
     double        *least_value; /* per table: f is held above it */
     int            masked; /* values below it, which count nowhere */
     float *value;          /* places x tables x wavelengths */

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/file.h"
 #include "base/mathd.h"
 #include "base/parallel.h"
 #include "base/units.h"
@@ -55,6 +56,28 @@ static void note_mirror(const Measurement *set, const ReflectionParts *out, FitN
                  "mirror part was separated");
 }
 
+#define SPECULAR_MISS 0.05 /* relative: measurements that differ by more are two */
+
+/* Where the specular measurement was needed, and where it disagrees. */
+static void note_specular(const Measurement *set, const ReflectionParts *out, FitNotes *notes)
+{
+    double worst = 0;
+    int    used = 0;
+    for (int t = 0; t < out->tables; t++) {
+        used += out->peak[t].source == PEAK_SPECULAR;
+        worst = fmax(worst, out->peak[t].specular_miss);
+    }
+    if (used)
+        fit_note(notes, "of %d of %d tables of reflection the mirror follows from the %s "
+                 "(%s)", used, out->tables, set->specular->is_gloss
+                 ? "gloss, taken as the specular reflectance in a round aperture, the same at "
+                   "all wavelengths" : "specular measurement", path_name(set->specular->file));
+    if (worst > SPECULAR_MISS)
+        fit_note(notes, "the samples tell the mirror; the specular measurement (%s) differs "
+                 "from them by up to %.2g %%: check its aperture and its unit",
+                 path_name(set->specular->file), 100 * worst);
+}
+
 static void note_lobe(const Measurement *set, const ReflectionParts *out, FitNotes *notes)
 {
     double least = 1e9, most = 0;
@@ -92,6 +115,22 @@ static double incidence_of(const Measurement *set, int table)
     return set->incidence[table % set->incidence_count];
 }
 
+#define GLOSS_WEIGHT 0.25 /* a gloss meter is taken for one of twice the error of a row */
+
+/* What the specular measurement says at a table's incidence and wavelengths. */
+static PeakSpecular specular_of(const Measurement *set, int t, Arena *arena)
+{
+    PeakSpecular out = {.weight = set->specular->is_gloss ? GLOSS_WEIGHT : 1};
+    double      *value = ARENA_NEW(arena, double, set->wavelength_count);
+    for (int w = 0; w < set->wavelength_count; w++) {
+        value[w] = specular_table_at(set->specular, incidence_of(set, t),
+                                     (double)set->wavelength_nm[w], &out.aperture);
+        out.mean += value[w] / set->wavelength_count;
+    }
+    out.value = value;
+    return out;
+}
+
 static void find_mirror(void *context, int t, int worker)
 {
     PartsPass         *pass = context;
@@ -104,9 +143,15 @@ static void find_mirror(void *context, int t, int worker)
     out->dim_noise[t] = table_noise_dim(&set->brdf[t], set->wavelength_count / 2,
                                         pass->arena[t]);
     pass->table[t] = set->brdf[t];
-    if (fwhm > 0)
-        reflection_peak_take_mirror(&set->brdf[t], incidence_of(set, t), fwhm, &pass->arena[t],
-                                    row_of(out->reflectance, set, t), &pass->table[t]);
+    if (!out->peak) return;
+    PeakSpecular specular;
+    PeakTask task = {&set->brdf[t], incidence_of(set, t), fwhm, out->noise[t], NULL};
+    if (set->specular) {
+        specular = specular_of(set, t, &pass->arena[t]);
+        task.specular = &specular;
+    }
+    out->peak[t].reflectance = row_of(out->reflectance, set, t);
+    reflection_peak_take_mirror(&task, &pass->arena[t], &out->peak[t], &pass->table[t]);
 }
 
 static void find_lobe(void *context, int t, int worker)
@@ -203,6 +248,7 @@ void reflection_parts_separate(const Measurement *set, const FitOptions *options
     out->reflectance = ARENA_NEW(arena, double, rows);
     out->lobe = ARENA_NEW(arena, double, rows);
     out->lobe_sigma = ARENA_NEW(arena, double, tables);
+    if (set->instrument_fwhm_deg > 0) out->peak = ARENA_NEW(arena, PeakMirror, tables);
     pass.table = ARENA_NEW(arena, AngleTable, tables);
     pass.has_lobe = ARENA_NEW(arena, bool, tables);
     pass.arena = ARENA_NEW(arena, Arena, tables);
@@ -219,5 +265,6 @@ void reflection_parts_separate(const Measurement *set, const FitOptions *options
     } else {
         note_mirror(set, out, notes);
     }
+    if (set->specular && out->peak) note_specular(set, out, notes);
     if (out->has_lobe) note_lobe(set, out, notes);
 }

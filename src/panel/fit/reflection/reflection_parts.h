@@ -10,6 +10,7 @@
 #pragma once
 #include "panel/fit/common/fit_note.h"
 #include "panel/fit/common/fit_options.h"
+#include "panel/fit/reflection/reflection_peak.h"
 #include "panel/set/measurement.h"
 
 typedef struct ReflectionParts {
@@ -25,6 +26,7 @@ typedef struct ReflectionParts {
     double      lobe_y[MEASUREMENT_INCIDENCES_MAX];
     double      luminous[MEASUREMENT_WAVELENGTHS_MAX]; /* observer's weight, sum 1 */
     bool        has_mirror, has_lobe;
+    PeakMirror *peak;        /* per table; NULL: the instrument's width is not declared */
 } ReflectionParts;
 
 void reflection_parts_separate(const Measurement *set, const FitOptions *options, Arena *arena,

@@ -6,12 +6,40 @@
  * Memory   the arena's. Threads: pure functions of an arena each. Fails: never.
  */
 #pragma once
-#include "panel/set/angle_table.h"
+#include "panel/fit/reflection/peak_range.h"
+#include "panel/fit/reflection/peak_spacing.h"
 
-/* Takes the mirror's image out of one table: reflectance[wavelength], and the table without
- * it (values in the arena). fwhm: the instrument's. */
-void reflection_peak_take_mirror(const AngleTable *slice, double incidence, double fwhm,
-                                 Arena *arena, double *reflectance, AngleTable *haze);
+/* What is known of a table before its mirror's image is looked for. */
+typedef struct PeakTask {
+    const AngleTable   *slice;
+    double              incidence, fwhm; /* of the instrument */
+    double              noise;           /* of the slice, relative */
+    const PeakSpecular *specular;        /* NULL: not measured */
+} PeakTask;
+
+/* What tells the mirror. */
+typedef enum PeakSource {
+    PEAK_SAMPLES,  /* the samples: within 5 % of it, or of the least that matters */
+    PEAK_SPECULAR, /* the samples and the specular measurement */
+    PEAK_OPEN      /* nothing: what was taken out is a guess inside the range */
+} PeakSource;
+
+typedef struct PeakMirror {
+    double     *reflectance; /* per wavelength, room for them */
+    PeakSource  source;
+    PeakRange   range;   /* of mirror and haze */
+    PeakModel   model;   /* of the haze, where the range has one */
+    double      lambertian, rest; /* of the same */
+    PeakSpacing spacing; /* of the rows around the mirror direction */
+    double      specular_miss; /* of a measurement that was not needed, relative; else 0 */
+    bool        has_haze_open; /* the haze near the mirror direction may differ by more than
+                                  5 % from what was taken */
+} PeakMirror;
+
+/* Takes the mirror's image out of one table: reflectances, and the table without it (values in
+ * the arena). */
+void reflection_peak_take_mirror(const PeakTask *task, Arena *arena, PeakMirror *mirror,
+                                 AngleTable *haze);
 
 /* A Gaussian lobe on the mirror direction that stands on the haze. */
 typedef struct ReflectionLobe {

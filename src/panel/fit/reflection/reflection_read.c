@@ -43,12 +43,37 @@ static float *log_cells(ReflectionModel *model, int table)
     return cells;
 }
 
+#define GUIDE_REST 0.02   /* relative, rms: a model that misses rows by more is no guide */
+#define GUIDE_SPREAD 0.25 /* relative: nor is one whose peak is anybody's guess */
+
+/* Where rows are too far apart for the peak, cells hold what they have over the guide. */
+static void guide_cells(ReflectionModel *model, int table)
+{
+    const PeakMirror    *peak = model->parts->peak ? &model->parts->peak[table] : NULL;
+    const DirectionGrid *grid = &model->grid[table];
+    ReflectionGuide     *guide = &model->guide[table];
+    float *cells = model->cells[table];
+    if (!peak || !peak->range.has_model || model->parts->has_lobe || !(peak->model.a > 0) ||
+        peak->range.spread > GUIDE_SPREAD ||
+        peak->rest > fmax(GUIDE_REST, 2 * model->parts->noise[table]))
+        return;
+    *guide = reflection_guide_of(peak, reflection_model_incidence(model, table));
+    reflection_guide_choose(grid, cells, model->wavelengths, guide);
+    for (int c = 0; c < grid->thetas * grid->phis && guide->is_used; c++) {
+        float log = (float)reflection_guide_log(guide, (double)grid->theta[c / grid->phis],
+                                                (double)grid->phi[c % grid->phis]);
+        for (int w = 0; w < model->wavelengths; w++)
+            cells[(size_t)c * (size_t)model->wavelengths + (size_t)w] -= log;
+    }
+}
+
 void reflection_read_tables(ReflectionModel *model)
 {
     bool mirrored = model->set->azimuth_count < 2;
     model->grid = ARENA_NEW(model->arena, DirectionGrid, model->tables);
     model->cells = ARENA_NEW(model->arena, float *, model->tables);
     model->least_value = ARENA_NEW(model->arena, double, model->tables);
+    model->guide = ARENA_NEW(model->arena, ReflectionGuide, model->tables);
     model->masked = 0;
     for (int t = 0; t < model->tables; t++) {
         const AngleTable *table = &model->parts->haze[t];
@@ -58,6 +83,7 @@ void reflection_read_tables(ReflectionModel *model)
             model->grid[t] = model->grid[t - 1];
         else direction_grid_build(table, mirrored, model->arena, &model->grid[t]);
         model->cells[t] = log_cells(model, t);
+        guide_cells(model, t);
     }
 }
 
@@ -67,6 +93,9 @@ static void read_at(const ReflectionModel *model, int table, float theta, float 
     GridTaps taps;
     direction_grid_taps(&model->grid[table], theta, phi, &taps);
     direction_grid_read(&taps, model->cells[table], model->wavelengths, logs);
+    if (!model->guide[table].is_used) return;
+    float log = (float)reflection_guide_log(&model->guide[table], (double)theta, (double)phi);
+    for (int w = 0; w < model->wavelengths; w++) logs[w] += log;
 }
 
 float reflection_read_logs(const ReflectionModel *model, int table, Vec3 outer, float *logs)

@@ -17,6 +17,7 @@
 
 #define PLACE_SHARE 0.8    /* of the bound, for places: the rest is for what lies between */
 #define PEAK_SHARE 0.35    /* of that where a table is within 1/e of its largest value */
+#define GUIDED_SHARE 0.6   /* of tables between whose rows no sample checks the tree */
 #define TIGHTER 0.6        /* a miss makes the places around it so much more precise */
 #define TIGHTEST 0.2       /* of the bound, beyond what the components leave out: rounding */
 #define ROUNDS 5
@@ -71,6 +72,7 @@ static void start_tolerances(ReflectionModel *model)
             double bound = fmax(model->bound,
                                 5 * reflection_parts_noise(model->parts, t, f)) * PLACE_SHARE;
             if (row[middle] > peak - 1) bound *= PEAK_SHARE;
+            if (model->guide[t].is_used) bound *= GUIDED_SHARE;
             place_logs(model, i, t, logs);
             float lost = largest_difference(logs, row, model->wavelengths);
             model->tolerance[(size_t)i * (size_t)model->tables + (size_t)t] =

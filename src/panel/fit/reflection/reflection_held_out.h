@@ -1,0 +1,24 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* reflection_held_out.h -- rows near the mirror direction, where a table is steep, left out and
+ * predicted from the others.
+ *
+ * Every second ring is left out, then every second azimuth, each both ways; what is left is
+ * read as the fit reads tables: a cubic, whose error falls with the third power of the step. Of
+ * a table with a guide a quarter of the rows near the mirror direction is left out, four ways,
+ * and the guide is fitted anew without them. Rows under the mirror's image do not count: the
+ * fit made them.
+ * Memory   scratch. Threads: pure functions. Fails: never.
+ */
+#pragma once
+#include "panel/fit/reflection/reflection_model.h"
+
+/* The row that is missed most. */
+typedef struct HeldOut {
+    double error;      /* relative, beside the noise, of rows left out */
+    double estimate;   /* between the rows with none left out */
+    double between;    /* of the tree halfway between rows, relative (reflection_between.h) */
+    double theta, phi; /* radians, in the table's frame */
+    int    rows;       /* that were left out and counted */
+} HeldOut;
+
+HeldOut reflection_held_out(const ReflectionModel *model, int table, Arena scratch);

@@ -1,0 +1,62 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* specular_table.h -- what a reflectometer or a gloss meter says of a panel's mirror: the share
+ * of the light that comes back within an aperture around the mirror direction.
+ *
+ * Between its incidences reflectance over Fresnel's (index 1.5) is linear, beyond them it is
+ * held; along the wavelengths it is linear and held.
+ *
+ * Gloss     a gloss unit is a hundredth of what polished black glass of index 1.567 mirrors at
+ *           the meter's angle. The meters' receptors (20, 60, 85 degrees) are slits; here they
+ *           are round ones of the same solid angle, and one value serves all wavelengths: an
+ *           approximation.
+ * Units     radians, nm, reflectances of 1. Memory: the arena's. Threads: const once read.
+ * Fails     with file, line or JSON path, found and wanted.
+ */
+#pragma once
+#include "text/json_view.h"
+
+#define SPECULAR_APERTURE_MOST_DEG 30.0
+
+typedef struct SpecularTable {
+    const char   *file;      /* the table's, or the manifest's */
+    bool          is_gloss;
+    int           rows, wavelengths;
+    const double *incidence; /* radians, rising */
+    const double *aperture;  /* per row: full angle, radians; 0: the mirror alone */
+    const double *nm;        /* rising */
+    const double *value;     /* rows x wavelengths */
+} SpecularTable;
+
+/* Columns incidence (or theta), wavelength (or nm; without it: all of them) and reflectance,
+ * degrees and nm, rows in any order, every incidence at every wavelength. */
+bool specular_table_read_file(const char *file, double aperture_deg, Arena *arena,
+                              SpecularTable *out, Error *err);
+
+#define GLOSS_METERS 3 /* 20, 60 and 85 degrees */
+
+/* Readings of gloss meters. */
+typedef struct Gloss {
+    int    count;
+    double geometry_deg[GLOSS_METERS], gu[GLOSS_METERS];
+} Gloss;
+
+/* One more; what the error says stands behind the name of where the reading is from. */
+bool specular_gloss_add(Gloss *gloss, double geometry_deg, double gu, Error *err);
+
+/* The key `gloss` of an object: a list of {geometry_deg, gu}. */
+bool specular_gloss_read(const JsonView *view, Gloss *out, Error *err);
+
+/* file: for messages later. */
+void specular_table_from_gloss(const Gloss *gloss, const char *file, Arena *arena,
+                               SpecularTable *out);
+
+/* The keys `specular` and `gloss` of a manifest's reflection; neither: *out stays. */
+bool specular_table_read(const JsonView *reflection, Arena *arena, const SpecularTable **out,
+                         Error *err);
+
+/* The file again, as specular_table_read_file reads it. */
+const char *specular_table_text(const SpecularTable *table, Arena *arena);
+
+/* At an incidence and wavelength; *aperture is that of the nearest row. */
+double specular_table_at(const SpecularTable *table, double incidence, double nm,
+                         double *aperture);
