@@ -361,7 +361,7 @@ static ChainFigure figure_of(FoundSums sums, int chunks)
 {
     double mean = sums.sum / chunks;
     double variance = fmax(sums.squares / chunks - mean * mean, 0) / (chunks - 1);
-    return (ChainFigure){mean, sqrt(variance)};
+    return (ChainFigure){mean, sqrt(variance), mean - 1.96 * sqrt(variance), mean + 1.96 * sqrt(variance)};
 }
 
 /* Greatest first; of equals the one that was found first. */

@@ -48,6 +48,7 @@ typedef struct ChainRay {
 
 typedef struct ChainFigure {
     double cd_m2, sigma; /* and its standard error */
+    double low, high;
 } ChainFigure;
 
 typedef struct Chain {

@@ -181,6 +181,8 @@ typedef struct ReviewRequest {
     bool             decides; /* what is too close is read on: DECIDE_TIMES (run/cases.c) */
     int              precision_paths;    /* of one reading at most: what is not sure then has a
                                             wider interval */
+    unsigned         seed;               /* of readings: another takes other paths of the same
+                                            light */
     ReviewFrames     frames;
     ReviewInput     *inputs;     /* the file itself, routes, weathers, skies' pictures */
     int              input_count;

@@ -33,9 +33,9 @@ static bool read_title(RequestReading *reading, Error *err)
 
 static bool read_precision(RequestReading *reading, Error *err)
 {
-    static const char *const keys[] = {"contrast", "clear", "paths"};
+    static const char *const keys[] = {"contrast", "clear", "paths", "seed"};
     JsonView view;
-    int     *paths = &reading->request->precision_paths;
+    int     *paths = &reading->request->precision_paths, seed = 0;
     double  *contrast = &reading->request->precision_contrast;
     double  *clear = &reading->request->precision_clear;
     *contrast = 0.01;
@@ -45,8 +45,10 @@ static bool read_precision(RequestReading *reading, Error *err)
         !json_view_check_keys(&view, keys, COUNT_OF(keys), err) ||
         !json_view_number(&view, "contrast", 1e-6, 1, contrast, err) ||
         !json_view_number(&view, "clear", 1e-6, 1, clear, err) ||
-        !field_integer(&view, "paths", (FieldBounds){8192, 1 << 30}, paths, err))
+        !field_integer(&view, "paths", (FieldBounds){8192, 1 << 30}, paths, err) ||
+        !field_integer(&view, "seed", (FieldBounds){0, 1 << 30}, &seed, err))
         return false;
+    reading->request->seed = (unsigned)seed;
     if (isnan(*clear)) *clear = fmax(CLEAR_USUAL, *contrast);
     return *clear >= *contrast ||
            field_fails(&view, "clear", err, "is %g, wanted at least 'contrast', %g", *clear,

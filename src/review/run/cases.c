@@ -77,7 +77,8 @@ static double face_lux(const CaseTools *tools, const StageSymbol *symbol, Arena 
     SymbolPoint point = symbol_middle(symbol);
     float       off = ray_offset_step(point.position);
     LitPoint    head = {vec3_along(point.position, point.ng, off), point.ns, false};
-    ProbeAim    aim = {.context = &stage->context, .meter = &head, .seed = FACE_SEED};
+    ProbeAim    aim = {.context = &stage->context, .meter = &head,
+                       .seed = FACE_SEED + stage->request->seed};
     ReadingGoal goal = {.precision = FACE_PRECISION, .most = FACE_PATHS};
     return reading_take(&aim, &goal, &stage->tools, scratch).reflected;
 }
@@ -124,18 +125,19 @@ static void set_contrasts(ReviewCase *c, MeanInterval reflected)
                                 l->background + l->reflected + veil);
 }
 
-/* One point of an eye that looks at a symbol; coarse: to find the worst of many points. */
+/* One point of an eye that looks at a symbol; coarse: to find the worst of many points; bare:
+ * without stray light. */
 typedef struct CaseLook {
     const StageSymbol *symbol;
     Vec3               eye;
-    bool               is_coarse;
+    bool               is_coarse, is_bare;
 } CaseLook;
 
 static ProbeAim aim_at(const Stage *stage, const CaseLook *look, const bool *is_visible,
                        Arena *arena)
 {
     ProbeAim aim = {.context = &stage->context, .eye = look->eye,
-                    .seed = look->is_coarse ? COARSE_SEED : EYE_SEED};
+                    .seed = (look->is_coarse ? COARSE_SEED : EYE_SEED) + stage->request->seed};
     symbol_aim(&look->symbol->surface, is_visible, arena, &aim);
     return aim;
 }
@@ -279,7 +281,7 @@ static ProbeAim see_symbol(const CaseTools *tools, const CaseLook *look, ReviewC
         symbol_emission(&symbol->surface, &symbol->split, c->level, eye);
     set_shown(l, &emission, seen.transmittance);
     ProbeAim aim = aim_at(stage, look, is_visible, arena);
-    if (!look->is_coarse) see_stray_light(stage, symbol, eye, c, *arena);
+    if (!look->is_coarse && !look->is_bare) see_stray_light(stage, symbol, eye, c, *arena);
     *direct = direct_sun(stage, &aim, *arena);
     VerdictAsk ask = {tools, c, *direct};
     Reading    reading = read_symbol(look, &aim, &ask, *arena);
@@ -323,6 +325,7 @@ typedef struct CaseAsk {
     const ReviewEye   *eye;
     const StageSymbol *symbol;
     double             face_lux;
+    bool               is_bare; /* its light and verdict alone */
 } CaseAsk;
 
 static ProbeAim judge_look(const CaseTools *tools, const CaseLook *look, ReviewCase *c,
@@ -346,7 +349,7 @@ static int worst_point(const CaseTools *tools, const CaseLook *look, const Vec3 
     int        at = 0, failed = 0;
     for (int i = 0; i < count; i++) {
         Arena      room = scratch;
-        CaseLook   one = {look->symbol, points[i], true};
+        CaseLook   one = {look->symbol, points[i], true, true};
         ReviewCase seen = start;
         judge_look(tools, &one, &seen, &room);
         failed += seen.verdict == VERDICT_FAIL || seen.verdict == VERDICT_NOT_VISIBLE;
@@ -364,7 +367,7 @@ static bool case_of(const CaseTools *tools, const CaseAsk *ask, Arena *arena, Re
     int        count;
     Vec3      *points = stage_eye_points(tools->stage, ask->eye, &count, arena, err);
     ReviewCase c = start_case(tools, ask->eye, ask->symbol);
-    CaseLook   look = {.symbol = ask->symbol};
+    CaseLook   look = {.symbol = ask->symbol, .is_bare = ask->is_bare};
     if (!points || !review_goes_on(tools->stage->tools.journal, err)) return false;
     c.display_lux = ask->face_lux;
     c.eye_failed_share = (double)NAN;
@@ -372,7 +375,7 @@ static bool case_of(const CaseTools *tools, const CaseAsk *ask, Arena *arena, Re
         points[count > 1 ? worst_point(tools, &look, points, count, &c, *arena) : 0];
     ProbeAim aim = judge_look(tools, &look, &c, arena);
     c.eye_m = look.eye;
-    if (aim.target_count) {
+    if (aim.target_count && !ask->is_bare) {
         long     paths = tools->cause_paths ? tools->cause_paths : CAUSE_PATHS;
         int      rays = tools->cause_rays ? tools->cause_rays : CAUSE_RAYS;
         CauseAsk causes = {&tools->stage->tools, &aim, paths, rays, false, false};
@@ -431,7 +434,14 @@ bool stage_learn(Stage *stage, const StageSymbol *symbols, int count, Arena *are
 bool stage_case(const CaseTools *tools, const StageSymbol *symbol, const ReviewEye *eye,
                 Arena *arena, ReviewCase *out, Error *err)
 {
-    CaseAsk ask = {eye, symbol, face_lux(tools, symbol, *arena)};
+    CaseAsk ask = {eye, symbol, face_lux(tools, symbol, *arena), false};
+    return case_of(tools, &ask, arena, out, err);
+}
+
+bool stage_verdict(const CaseTools *tools, const StageSymbol *symbol, const ReviewEye *eye,
+                   Arena *arena, ReviewCase *out, Error *err)
+{
+    CaseAsk ask = {eye, symbol, out->display_lux, true};
     return case_of(tools, &ask, arena, out, err);
 }
 
@@ -446,7 +456,7 @@ bool stage_cases(const CaseTools *tools, Arena *arena, ReviewCase *out, Error *e
         if (!moment_share_has(&tools->share, i, count)) continue;
         if (!is_known[s]) faces[s] = face_lux(tools, &tools->symbols[s], *arena);
         is_known[s] = true;
-        CaseAsk ask = {&request->eyes[i / symbols], &tools->symbols[s], faces[s]};
+        CaseAsk ask = {&request->eyes[i / symbols], &tools->symbols[s], faces[s], false};
         if (!case_of(tools, &ask, arena, &out[i], err)) return false;
     }
     return true;

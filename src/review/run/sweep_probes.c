@@ -69,7 +69,8 @@ static void aim_sight(Sweep *sweep, Sight *sight, Arena *arena)
     sight->shown.background = shown.background_xyz[1] * sight->seen.transmittance;
     sight->height_arcmin = symbol_height_arcmin(surface, sight->symbol->split.box, sight->from);
     sight->probe.aim =
-        (ProbeAim){.context = &stage->context, .eye = sight->from, .seed = EYE_SEED};
+        (ProbeAim){.context = &stage->context, .eye = sight->from,
+                   .seed = EYE_SEED + stage->request->seed};
     symbol_aim(surface, is_visible, arena, &sight->probe.aim);
 }
 
@@ -115,7 +116,7 @@ static void leave_others(Sweep *sweep)
 static void ask_meter(Sweep *sweep, SweepMeter *meter, const char *name)
 {
     meter->probe.aim = (ProbeAim){.context = &sweep->stage->context, .meter = &meter->head,
-                                  .seed = METER_SEED};
+                                  .seed = METER_SEED + sweep->stage->request->seed};
     sweep->asks[sweep->ask_count++] =
         (ResponseAsk){.name = name, .probe = &meter->probe, .own = &meter->own,
                       .paths = METER_PATHS, .precision = RESPONSE_PRECISION,
