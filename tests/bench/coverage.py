@@ -30,7 +30,7 @@ LEAST, MOST = 0.93, 0.97
 
 
 def room():
-    """A display in a niche of white walls, open above and to the right, a chrome rod before
+    """A display in a niche of white walls, open above and to the right, a satin rod before
     it."""
     scene = Scene()
     bars = png(60, 30, [[255 if 20 <= x < 40 and 8 <= y < 22 else 0 for x in range(60)
@@ -42,7 +42,7 @@ def room():
     scene.quad(screen, [-0.15, -0.075, 0], [0.3, 0, 0], [0, 0.15, 0])
     scene.quad(wall, [-0.6, -0.3, 1.2], [1.2, 0, 0], [0, 0, -1.3])
     scene.quad(wall, [-0.6, -0.3, 1.2], [0, 0, -1.3], [0, 0.8, 0])
-    scene.box_outside(scene.metal(0.7, 0.2), [-0.2, -0.11, 0.02], [0.2, -0.09, 0.04])
+    scene.box_outside(scene.metal(0.7, 0.6), [-0.2, -0.11, 0.02], [0.2, -0.09, 0.04])
     scene.view("eye", [0.1, 0.15, 0.8], [-0.1, -0.15, -0.8], 8)
     return scene
 
@@ -108,13 +108,13 @@ def niche(folder):
 # ---- what the programs print -------------------------------------------------------------
 
 
-def rows_of(program, *words):
-    done = subprocess.run([program, *words], capture_output=True, text=True, check=False)
-    if done.returncode:
-        sys.exit(f"{program}: {done.stderr}")
-    for line in done.stdout.splitlines():
-        words = line.split("\t")
-        yield words[0], words[1], [float(x) for x in words[2:]]
+def rows_of(*line):
+    with subprocess.Popen(line, stdout=subprocess.PIPE, text=True) as running:
+        for row in running.stdout:
+            words = row.rstrip("\n").split("\t")
+            yield words[0], words[1], [float(x) for x in words[2:]]
+    if running.returncode:
+        sys.exit(f"{line[0]}: status {running.returncode}")
 
 
 def judged(held, trials):

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/parallel.h"
+#include "base/sampler.h"
 #include "base/units.h"
 #include "review/light/light_bands.h"
 
@@ -81,12 +82,25 @@ typedef struct Trace {
     float      *tables[WAVE];    /* sums of a chunk */
     Vec3       *towards[WAVE];
     double     *sums;            /* of all chunks */
-    double      reading, squares; /* of chunks, under a uniform white sky */
+    double     *groups;          /* as a response's, sums */
+    double      reading[RESPONSE_GROUPS]; /* under a uniform sky */
+    float       white[RESPONSE_BANDS];
 } Trace;
+
+/* How many of the first so many chunks are of a group. */
+static int group_chunks(int group, int chunks)
+{
+    return (chunks - group + RESPONSE_GROUPS - 1) / RESPONSE_GROUPS;
+}
 
 static size_t table_size(const ProbeCells *cells)
 {
     return (size_t)PROBE_ORDERS * (size_t)cells->count * RESPONSE_BANDS;
+}
+
+static size_t groups_size(const ProbeCells *cells)
+{
+    return (size_t)cells->count * 2 * RESPONSE_GROUPS;
 }
 
 static void trace_chunk(void *user, int item, int worker)
@@ -94,11 +108,27 @@ static void trace_chunk(void *user, int item, int worker)
     (void)worker;
     Trace         *trace = user;
     PathStatistics statistics = {0};
-    int            first = (trace->first_chunk + item) * RESPONSE_CHUNK;
+    int            chunk = trace->first_chunk + item;
+    int            first = chunk / RESPONSE_GROUPS * RESPONSE_CHUNK;
+    ProbeAim       aim = *trace->aim; /* a stream of the group's own */
+    aim.seed = hash_combine(hash_u32(aim.seed), (uint32_t)(chunk % RESPONSE_GROUPS));
+    aim.is_spread = true;
     memset(trace->tables[item], 0, table_size(&trace->asks[item]) * sizeof(float));
     ProbeAnswers   answers = {trace->tables[item], trace->towards[item]};
-    trace->options->kernel->ask_cells(trace->aim, &trace->asks[item], first,
+    trace->options->kernel->ask_cells(&aim, &trace->asks[item], first,
                                       first + RESPONSE_CHUNK, &answers, &statistics);
+}
+
+static void add_to_group(Trace *trace, const float *table, int cells, int group)
+{
+    size_t order = (size_t)cells * RESPONSE_BANDS;
+    for (int cell = 0; cell < cells; cell++) {
+        const float *shares = table + (size_t)cell * RESPONSE_BANDS;
+        double      *to = trace->groups + (size_t)cell * 2 * RESPONSE_GROUPS;
+        double       rest = light_bands_sum(shares + order, trace->white);
+        to[group] += light_bands_sum(shares, trace->white) + rest;
+        to[RESPONSE_GROUPS + group] += rest;
+    }
 }
 
 static void add_wave(Trace *trace, int chunks)
@@ -106,12 +136,13 @@ static void add_wave(Trace *trace, int chunks)
     size_t size = table_size(&trace->asks[0]);
     for (int k = 0; k < chunks; k++) {
         double reading = 0;
+        int    group = (trace->first_chunk + k) % RESPONSE_GROUPS;
         for (size_t i = 0; i < size; i++) {
             trace->sums[i] += (double)trace->tables[k][i];
             reading += (double)trace->tables[k][i];
         }
-        trace->reading += reading;
-        trace->squares += reading * reading;
+        trace->reading[group] += reading;
+        add_to_group(trace, trace->tables[k], trace->asks[k].count, group);
     }
 }
 
@@ -130,6 +161,8 @@ static Trace trace_start(const ProbeAim *aim, const ResponseOptions *options,
 {
     Trace trace = {.aim = aim, .options = options};
     trace.sums = ARENA_NEW(arena, double, table_size(cells));
+    trace.groups = ARENA_NEW(arena, double, groups_size(cells));
+    light_bands_white(trace.white);
     for (int k = 0; k < WAVE; k++) {
         trace.tables[k] = ARENA_NEW(arena, float, table_size(cells));
         trace.towards[k] = ARENA_NEW(arena, Vec3, cells->count);
@@ -137,23 +170,31 @@ static Trace trace_start(const ProbeAim *aim, const ResponseOptions *options,
     return trace;
 }
 
+/* Groups may differ by a chunk. */
 static double relative_error(const Trace *trace)
 {
-    double n = trace->first_chunk, mean = trace->reading / n;
-    double variance = fmax(trace->squares / n - mean * mean, 0) / (n - 1);
-    return mean > 0 ? sqrt(variance) / mean : 0;
+    BatchSums means = {0};
+    double    n = trace->first_chunk, sum = 0;
+    for (int i = 0; i < RESPONSE_GROUPS; i++) sum += trace->reading[i];
+    for (int i = 0; i < RESPONSE_GROUPS; i++) {
+        double share = group_chunks(i, trace->first_chunk) / n;
+        batch_add(&means, (trace->reading[i] - share * sum) * RESPONSE_GROUPS);
+    }
+    return sum > 0 ? batch_error(&means) / sum : 0;
 }
 
 float *response_empty(int level, Arena *arena, Response *out)
 {
     *out = (Response){.cells = cells_of_level(level, arena)};
-    float *shares = ARENA_NEW(arena, float, table_size(&out->cells));
+    size_t size = table_size(&out->cells);
+    float *shares = ARENA_NEW(arena, float, size + groups_size(&out->cells));
     Vec3  *centers = ARENA_NEW(arena, Vec3, out->cells.count);
     for (int i = 0; i < out->cells.count; i++)
         centers[i] = probe_cell_center(&out->cells, i);
     out->centers = centers;
     out->first = shares;
-    out->rest = shares + table_size(&out->cells) / PROBE_ORDERS;
+    out->rest = shares + size / PROBE_ORDERS;
+    out->groups = shares + size;
     return shares;
 }
 
@@ -175,6 +216,9 @@ void response_trace(const ProbeAim *aim, const ResponseOptions *options, Arena *
     out->paths = trace.first_chunk * RESPONSE_CHUNK;
     for (size_t i = 0; i < table_size(&out->cells); i++)
         shares[i] = (float)(trace.sums[i] / out->paths);
+    shares += table_size(&out->cells);
+    for (size_t i = 0; i < groups_size(&out->cells); i++)
+        shares[i] = (float)(trace.groups[i] / out->paths);
     out->relative_error = relative_error(&trace);
 }
 
@@ -220,24 +264,89 @@ static double fit_value(const PlaneFit *fit)
     return fmin(fmax(value / all, fit->least), fit->most);
 }
 
-double response_sun(const Response *response, Vec3 towards, const float bands[RESPONSE_BANDS])
+double response_without(const Response *response, int group, double sum, double of_group)
+{
+    int chunks = response->paths / RESPONSE_CHUNK;
+    return (sum - of_group) * chunks / fmax(chunks - group_chunks(group, chunks), 1);
+}
+
+/* Jackknife: K x - (K - 1) x_k are as good as K independent readings (Miller, Biometrika 61
+ * (1974) 1), also of what is no mean, such as a fit. */
+MeanInterval response_interval(double reading, const double without[RESPONSE_GROUPS])
+{
+    BatchSums values = {0};
+    for (int k = 0; k < RESPONSE_GROUPS; k++)
+        batch_add(&values, RESPONSE_GROUPS * reading - (RESPONSE_GROUPS - 1) * without[k]);
+    double       off = reading - values.sum / RESPONSE_GROUPS;
+    MeanInterval in = batch_interval(&values, CONFIDENCE_MISS);
+    return (MeanInterval){in.low + off, in.high + off};
+}
+
+#define NEAR_MOST 64 /* triangles about a direction; some 5 to 10 lie there */
+
+/* A triangle near a direction. */
+typedef struct NearCell {
+    int    cell;
+    double weight, area, at[3];
+} NearCell;
+
+static int near_cells(const Response *response, Vec3 towards, NearCell near[NEAR_MOST])
 {
     const ProbeCells *cells = &response->cells;
-    Frame    frame = frame_from_z(towards);
-    float    width = NEAR * sqrtf(4 * PI_F / (float)cells->count), near = cosf(width);
-    PlaneFit fit = {.least = INFINITY, .most = -INFINITY};
-    for (int cell = 0; cell < cells->count; cell++) {
+    Frame frame = frame_from_z(towards);
+    float width = NEAR * sqrtf(4 * PI_F / (float)cells->count), least = cosf(width);
+    int   count = 0;
+    for (int cell = 0; cell < cells->count && count < NEAR_MOST; cell++) {
         Vec3  center = response->centers[cell];
         float cosine = vec3_dot(towards, center);
-        if (cosine <= near) continue;
-        double weight = 1 - (double)(acosf(fminf(cosine, 1)) / width);
+        if (cosine <= least) continue;
         double area = (double)cells->samplers[cell % (cells->count / 2)].area;
-        double at[3] = {1, (double)vec3_dot(frame.x, center),
-                        (double)vec3_dot(frame.y, center)};
-        const float *share = response->rest + (size_t)cell * RESPONSE_BANDS;
-        fit_add(&fit, weight * area, at, light_bands_sum(share, bands) / area);
+        double weight = 1 - (double)(acosf(fminf(cosine, 1)) / width);
+        near[count++] = (NearCell){cell, weight * area, area,
+                                   {1, (double)vec3_dot(frame.x, center),
+                                    (double)vec3_dot(frame.y, center)}};
     }
+    return count;
+}
+
+static double fit_of(const NearCell *near, int count, const double *values)
+{
+    PlaneFit fit = {.least = INFINITY, .most = -INFINITY};
+    for (int i = 0; i < count; i++)
+        fit_add(&fit, near[i].weight, near[i].at, values[i] / near[i].area);
     return fit_value(&fit);
+}
+
+/* Of white light; group: that is left out, or none. */
+static double white_fit(const Response *response, const NearCell *near, int count, int group)
+{
+    double values[NEAR_MOST] = {0};
+    for (int i = 0; i < count; i++) {
+        const float *rest =
+            response->groups + ((size_t)near[i].cell * 2 + 1) * RESPONSE_GROUPS;
+        values[i] = 0;
+        for (int k = 0; k < RESPONSE_GROUPS; k++) values[i] += (double)rest[k];
+        if (group < RESPONSE_GROUPS)
+            values[i] = response_without(response, group, values[i], (double)rest[group]);
+    }
+    return fit_of(near, count, values);
+}
+
+double response_sun(const Response *response, Vec3 towards, const float bands[RESPONSE_BANDS],
+                    double without[RESPONSE_GROUPS])
+{
+    NearCell near[NEAR_MOST] = {{0}};
+    double   values[NEAR_MOST] = {0};
+    int      count = near_cells(response, towards, near);
+    for (int i = 0; i < count; i++)
+        values[i] =
+            light_bands_sum(response->rest + (size_t)near[i].cell * RESPONSE_BANDS, bands);
+    double reading = fit_of(near, count, values);
+    double white = without ? white_fit(response, near, count, RESPONSE_GROUPS) : 0;
+    for (int k = 0; k < RESPONSE_GROUPS && without; k++)
+        without[k] =
+            white > 0 ? reading * white_fit(response, near, count, k) / white : reading;
+    return reading;
 }
 
 /* ---- suns -------------------------------------------------------------------------------- */

@@ -58,15 +58,14 @@ static ReviewCase case_at(const Sweep *sweep, const Sight *sight, const FarTools
     FarReading face = far_probe_read(&sight->face->probe, tools, sun);
     double     level = level_for(sweep, sight, tools, sun);
     double     own = sight->own.lamps + level * sight->own.displays;
-    double     reflected = total(&light) + own, sigma = sight->probe.response.relative_error;
+    double     reflected = total(&light) + own;
     ReviewCase c = {.level = level, .limit_id = -1, .visible_share = sight->seen.visible_share,
                     .height_arcmin = sight->height_arcmin};
-    double     spread = INTERVAL_SIGMAS * sigma * (light.sky + light.sun_rest);
     c.display_lux = total(&face) + sight->face->own.lamps + level * sight->face->own.displays;
     c.luminance_cd_m2 = (CaseLuminances){
         level * sight->shown.foreground, level * sight->shown.background, reflected,
         light.mirror, reflected - light.mirror, (double)NAN};
-    judge_contrasts(&c, (Range){fmax(reflected - spread, 0), reflected + spread});
+    judge_contrasts(&c, (Range){fmax(light.interval.low + own, 0), light.interval.high + own});
     judge_ambient(&c, sweep->run->profile, light.sun_first > CASE_SUNLIT * reflected);
     return c;
 }
