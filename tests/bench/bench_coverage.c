@@ -187,7 +187,8 @@ static RenderOptions frame_options(const Moment *m)
 
 static void cover_measure(const Moment *m, Arena arena)
 {
-    Trial *light = ARENA_NEW(&arena, Trial, m->runs), *ratio = ARENA_NEW(&arena, Trial, m->runs);
+    Trial *light = ARENA_NEW(&arena, Trial, m->runs);
+    Trial *ratio = ARENA_NEW(&arena, Trial, m->runs);
     double reflected = 0;
     Error  err = {0};
     FrameMeasurement f = {.pixels = 0};

@@ -80,7 +80,8 @@ static const char *sun_name(const SweepTrials *t, int sun, Arena *arena)
     return arena_format(arena, "sun %.0f, %.0f", at->azimuth_deg, at->elevation_deg);
 }
 
-static void tell_steps(const SweepTrials *t, const Trial *steps, const Truth *truths, Arena arena)
+static void tell_steps(const SweepTrials *t, const Trial *steps, const Truth *truths,
+                       Arena arena)
 {
     for (int i = 0; i < t->suns.count; i++) {
         Arena  room = arena;

@@ -87,14 +87,16 @@ def car(folder):
     return request(os.path.relpath(SCENES, folder) + "/car_dashboard.gltf",
                    {"display": "cluster", "uv": [0.167, 0.408, 0.27, 0.609],
                     "content": os.path.relpath(CONTENT, folder) + "/cluster.png"},
-                   {"camera": "driver-eye"}, os.path.relpath(SCENES, folder) + "/night.gltf", 0.04, 238)
+                   {"camera": "driver-eye"},
+                   os.path.relpath(SCENES, folder) + "/night.gltf", 0.04, 238)
 
 
 def deck(folder):
     return request(os.path.relpath(SCENES, folder) + "/cockpit.gltf",
                    {"display": "pfd", "uv": [0.114, 0.451, 0.188, 0.498],
                     "content": os.path.relpath(CONTENT, folder) + "/pfd.png"},
-                   {"camera": "captain"}, os.path.relpath(SCENES, folder) + "/flight_night.gltf", 0.01, 240)
+                   {"camera": "captain"},
+                   os.path.relpath(SCENES, folder) + "/flight_night.gltf", 0.01, 240)
 
 
 def niche(folder):

@@ -23,7 +23,7 @@ static const char review_good[] =
     "'profile':'iso-15008',"
     "'levels':{'night':{'*':0.04,'cluster':0.1},'auto':{'sensor':{'position_m':[0,1,2],"
     "'normal':[0,3,4]},'table_lx':[[0,0.02],[100,0.1],[10000,1]]}},"
-    "'precision':{'contrast':0.02,'paths':10000},"
+    "'precision':{'contrast':0.02,'paths':10000,'seed':7},"
     "'frames':{'size':[640,360],'noise':0.1,'worst':2},"
     "'conditions':[{'name':'noon','environment':{'type':'sky',"
     "'when':'2026-06-21T12:00+02:00','where':[48.14,11.58,520],'heading_deg':30},"

@@ -5,7 +5,7 @@
 
 #include "base/mathd.h"
 #include "base/sampler.h"
-#include "review/light/confidence.h"
+#include "base/confidence.h"
 
 #define RUNS 4000
 #define BATCHES 32

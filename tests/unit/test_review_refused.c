@@ -198,6 +198,8 @@ TEST(the_rest_is_checked)
         {"'contrast':0.02", "'contrast':0", "/precision/contrast", "is 0, wanted"},
         {"'contrast':0.02", "'contrast':0.02,'clear':0.01", "/precision/clear",
          "is 0.01, wanted at least 'contrast', 0.02"},
+        {"'seed':7", "'seed':1.5", "/precision/seed", "wanted a whole number"},
+        {"'seed':7", "'seed':-1", "/precision/seed", "is -1, wanted"},
         {"'contrast':0.02", "'clear':2", "/precision/clear", "is 2, wanted"},
         {"[640,360]", "[640,0]", "/frames/size", "is 0, wanted a number from 1 to 16384"},
         {"[640,360]", "[640.5,360]", "/frames/size", "wanted whole numbers of pixels"},

@@ -60,7 +60,7 @@ TEST(symbols_levels_and_the_rest_arrive)
     assert_true(r.levels[1].is_curve && r.levels[1].point_count == 3);
     assert_near(r.levels[1].normal[1], 0.6, 1e-15);
     assert_string_equal(r.profile, "iso-15008");
-    assert_true(r.precision_clear == 0.05 && r.precision_paths == 10000);
+    assert_true(r.precision_clear == 0.05 && r.precision_paths == 10000 && r.seed == 7);
     assert_true(r.precision_contrast == 0.02 && r.frames.width == 640 && r.frames.worst == 2);
     assert_int_equal(r.input_count, 2); /* the file and the route */
     assert_string_equal(r.inputs[0].path, r.file);

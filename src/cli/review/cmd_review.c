@@ -16,6 +16,7 @@
 #include "render/signals.h"
 #include "review/output/review_decide.h"
 #include "review/output/review_json.h"
+#include "review/output/review_words.h"
 #include "review/request/request_start.h"
 #include "review/request/request_read.h"
 #include "review/run/run.h"
@@ -88,6 +89,7 @@ static void print_case(const ReviewCase *c, Arena scratch)
                interval_text(c->luminance_cd_m2.reflected, c->reflected_range.low,
                              c->reflected_range.high, &scratch));
     if (c->limit_id >= 0) printf(", wanted %.3g : 1", c->limits[c->limit_id].value);
+    fputs(words_precision(c, &scratch), stdout);
     if (c->minutes_to_decide > 0 && isfinite(c->minutes_to_decide))
         printf("; about %.2g minutes more would decide it", fmax(c->minutes_to_decide, 0.1));
     putchar('\n');
@@ -106,6 +108,7 @@ static void print_sweep(const ReviewSweep *s, Arena scratch)
                s->worst.sun_azimuth_deg, s->worst.sun_elevation_deg,
                interval_text(s->worst.contrast_ratio, s->worst.contrast_low,
                              s->worst.contrast_high, &scratch));
+    fputs(words_precision(&s->worst, &scratch), stdout);
     putchar('\n');
 }
 

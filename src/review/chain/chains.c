@@ -20,6 +20,7 @@
 typedef struct ChunkChain {
     ChainKey key;
     double   sum;
+    BrightSamples bright;
     double   draw; /* the ray's: the least is kept */
     ChainRay ray;
     bool     is_used;
@@ -29,6 +30,7 @@ typedef struct ChainChunk {
     ChunkChain *table;   /* [CHUNK_ROOM] */
     int         count;
     double      all, mirror, own;
+    BrightSamples bright; /* of all */
     double     *by_part;
     ChainGroups groups;
     uint32_t    tellings;
@@ -199,6 +201,7 @@ static void hear(void *user, const PathTale *tale, const float xyz[3])
     ChunkChain *chain = chunk_chain(sums, &key);
     int         display = tale->count ? display_of(scene, tale->step[0].part_id) : NO_ID;
     sums->all += y;
+    bright_add(&sums->bright, y);
     if (display != NO_ID && tale->step[0].event == PATH_REFLECTS) sums->mirror += y;
     if (display != NO_ID && tale->source == LIGHTS_EMITTERS &&
         display_of(scene, tale->source_id) == display)
@@ -207,6 +210,7 @@ static void hear(void *user, const PathTale *tale, const float xyz[3])
     add_groups(to, tale, y);
     if (!chain) return;
     chain->sum += y;
+    bright_add(&chain->bright, y);
     draw_ray(to, chain, tale, y);
 }
 
@@ -239,6 +243,7 @@ static void hear_chunk(void *user, int item, int worker)
 /* Of all chunks, and of each batch's. */
 typedef struct FoundSums {
     double sum, by_batch[CHAIN_BATCHES];
+    BrightSamples bright;
 } FoundSums;
 
 typedef struct FoundChain {
@@ -262,6 +267,12 @@ static void add_sum(FoundSums *sums, int batch, double sum)
 {
     sums->sum += sum;
     sums->by_batch[batch] += sum;
+}
+
+static void add_bright(FoundSums *sums, const BrightSamples *more)
+{
+    sums->bright.squares += more->squares;
+    sums->bright.fourths += more->fourths;
 }
 
 /* NULL: the table is full. */
@@ -297,6 +308,7 @@ static void keep_ray(FoundChain *f, const ChunkChain *from)
 static void add_chunk(FoundChains *found, const ChainChunk *sums, int batch, Arena *own)
 {
     add_sum(&found->all, batch, sums->all);
+    add_bright(&found->all, &sums->bright);
     add_sum(&found->mirror, batch, sums->mirror);
     found->own += sums->own;
     for (int i = 0; i < CHUNK_ROOM; i++) {
@@ -304,6 +316,7 @@ static void add_chunk(FoundChains *found, const ChainChunk *sums, int batch, Are
         FoundChain       *to = from->is_used ? found_chain(found, &from->key, own) : NULL;
         if (!to) continue;
         add_sum(&to->sums, batch, from->sum);
+        add_bright(&to->sums, &from->bright);
         keep_ray(to, from);
     }
 }
@@ -364,7 +377,8 @@ static ChainFigure figure_of(const FoundSums *sums, const ChainSearch *search)
         batch_add(&means, mean + (sums->by_batch[i] - mean * own) * batches / paths);
     }
     MeanInterval in = batch_interval(&means, CONFIDENCE_MISS);
-    return (ChainFigure){mean, batch_error(&means), fmax(in.low, 0), in.high};
+    return (ChainFigure){mean, batch_error(&means), fmax(in.low, 0),
+                         in.high + bright_missing(&sums->bright, paths, 1)};
 }
 
 /* Greatest first; of equals the one that was found first. */
@@ -389,12 +403,18 @@ static int by_sureness(const void *a, const void *b)
 /* What comes by chains that are not kept. */
 static ChainFigure rest_of(const FoundChains *found, const ChainSearch *search)
 {
-    FoundSums rest = {0, {0}};
+    FoundSums rest = {.sum = 0, .bright = found->all.bright};
     for (int k = 0; k < search->batches; k++) {
         double left = found->all.by_batch[k];
         for (int i = 0; i < found->count; i++)
             if (found->by_id[i]->is_kept) left -= found->by_id[i]->sums.by_batch[k];
         add_sum(&rest, k, fmax(left, 0));
+    }
+    for (int i = 0; i < found->count; i++) {
+        const BrightSamples *kept = &found->by_id[i]->sums.bright;
+        if (!found->by_id[i]->is_kept) continue;
+        rest.bright.squares = fmax(rest.bright.squares - kept->squares, 0);
+        rest.bright.fourths = fmax(rest.bright.fourths - kept->fourths, 0);
     }
     return figure_of(&rest, search);
 }

@@ -8,9 +8,9 @@
  * count as greatest that are so for sure: by their figure less one standard error, so that a
  * lucky path is no cause.
  *
- * Errors and 95 % intervals come from the means of CHAIN_BATCHES independent batches of paths, as
- * a reading's do (reading.h); of a pixel, whose paths are its samples, the batches are parts of
- * these, and errors what they would be if the parts were independent.
+ * Errors and 95 % intervals come from the means of CHAIN_BATCHES independent batches of paths,
+ * as a reading's do (reading.h); of a pixel, whose paths are its samples, the batches are parts
+ * of these, and errors what they would be if the parts were independent.
  *
  * Units    cd m^-2; metres, world.
  * Memory   what is kept lives in the arena.

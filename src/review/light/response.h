@@ -20,7 +20,7 @@
  */
 #pragma once
 #include "kernel/kernel.h"
-#include "review/light/confidence.h"
+#include "base/confidence.h"
 
 #define RESPONSE_LEVEL 5 /* 8,192 triangles over the sphere, edges of about 3.4 degrees */
 #define RESPONSE_BANDS SPECTRUM_LANES

@@ -165,6 +165,14 @@ static const char *words_decide(const ReviewCase *c, Arena *arena)
                         words_minutes(fmax(c->minutes_to_decide, 1), arena));
 }
 
+const char *words_precision(const ReviewCase *c, Arena *arena)
+{
+    if (!(c->precision_reached > c->precision_asked)) return "";
+    return arena_format(arena, "; known within %s, %s was asked",
+                        words_share(c->precision_reached, arena),
+                        words_share(c->precision_asked, arena));
+}
+
 const char *words_reason(const ReviewCase *c, Arena *arena)
 {
     const LimitVerdict *limit = case_worst_limit(c);
@@ -176,11 +184,12 @@ const char *words_reason(const ReviewCase *c, Arena *arena)
     const char *found = words_amount(limit, limit->found, arena);
     const char *wanted = words_wanted(limit, arena);
     if (c->verdict == VERDICT_TOO_CLOSE)
-        return arena_format(arena, "%s %s, but anything between %s and %s, wanted %s%s",
+        return arena_format(arena, "%s %s, but anything between %s and %s, wanted %s%s%s",
                             name, found, words_figure(limit->low, arena),
                             words_figure(limit->high, arena), wanted,
-                            words_decide(c, arena));
-    return arena_format(arena, "%s %s, wanted %s", name, found, wanted);
+                            words_precision(c, arena), words_decide(c, arena));
+    return arena_format(arena, "%s %s, wanted %s%s", name, found, wanted,
+                        words_precision(c, arena));
 }
 
 const char *words_chain(const CaseCause *cause, Arena *arena)

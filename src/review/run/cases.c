@@ -270,7 +270,7 @@ static ProbeAim see_symbol(const CaseTools *tools, const CaseLook *look, ReviewC
         symbol_visibility(&symbol->surface, &stage->context, eye, is_visible);
     *l = (CaseLuminances){(double)NAN, (double)NAN, (double)NAN, (double)NAN, (double)NAN,
                           (double)NAN};
-    c->minutes_to_decide = (double)NAN;
+    c->minutes_to_decide = c->precision_asked = c->precision_reached = (double)NAN;
     c->reflected_range = (Range){(double)NAN, (double)NAN};
     c->visible_share = seen.visible_share;
     c->height_arcmin = symbol_height_arcmin(&symbol->surface, symbol->split.box, eye);
@@ -286,6 +286,10 @@ static ProbeAim see_symbol(const CaseTools *tools, const CaseLook *look, ReviewC
     VerdictAsk ask = {tools, c, *direct};
     Reading    reading = read_symbol(look, &aim, &ask, *arena);
     c->paths = reading.paths;
+    c->precision_reached = reading.reached;
+    c->precision_asked = is_verdict_clear(&ask, reading.interval, *arena)
+                             ? stage->request->precision_clear
+                             : stage->request->precision_contrast;
     c->minutes_to_decide = reading.seconds / 60 / (double)reading.paths; /* of one path */
     l->reflected = reading.reflected;
     l->mirror = reading.mirror;
