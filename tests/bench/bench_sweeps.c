@@ -15,7 +15,7 @@
 #include "review/run/sweep.h"
 #include "review/run/sweep_probes.h"
 
-#define STEP_PATHS 4096
+#define STEP_PATHS 8320 /* a pilot and a wave of every group */
 #define TRUTH_PATHS 65536
 #define TRUTH_RUNS 4
 #define WORST_PATHS 4096

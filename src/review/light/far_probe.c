@@ -321,6 +321,6 @@ FarReading far_probe_read(const FarProbe *probe, const FarTools *tools, int sun)
         read_sun(probe, tools, sun, &reading, of_sun);
     double sum = reading.sky + reading.sun_first + reading.sun_rest;
     for (int k = 0; k < RESPONSE_GROUPS; k++) without[k] += reading.sun_first + of_sun[k];
-    reading.interval = response_interval(sum, without);
+    reading.interval = response_interval(&probe->response, sum, without);
     return reading;
 }

@@ -87,10 +87,27 @@ typedef struct Trace {
     float       white[RESPONSE_BANDS];
 } Trace;
 
+/* A wave asks every open triangle once, so that groups of whole waves are alike. */
+static int group_of(int chunk)
+{
+    return chunk < PILOT ? 0 : (chunk - PILOT) / WAVE % RESPONSE_GROUPS;
+}
+
 /* How many of the first so many chunks are of a group. */
 static int group_chunks(int group, int chunks)
 {
-    return (chunks - group + RESPONSE_GROUPS - 1) / RESPONSE_GROUPS;
+    int waves = chunks > PILOT ? (chunks - PILOT) / WAVE : 0;
+    int left = chunks > PILOT ? (chunks - PILOT) % WAVE : 0;
+    int own = (waves - group + RESPONSE_GROUPS - 1) / RESPONSE_GROUPS * WAVE;
+    own += waves % RESPONSE_GROUPS == group ? left : 0;
+    return own + (group ? 0 : chunks < PILOT ? chunks : PILOT);
+}
+
+static int groups_used(int chunks)
+{
+    int used = 0;
+    while (used < RESPONSE_GROUPS && group_chunks(used, chunks) > 0) used++;
+    return used;
 }
 
 static size_t table_size(const ProbeCells *cells)
@@ -109,9 +126,10 @@ static void trace_chunk(void *user, int item, int worker)
     Trace         *trace = user;
     PathStatistics statistics = {0};
     int            chunk = trace->first_chunk + item;
-    int            first = chunk / RESPONSE_GROUPS * RESPONSE_CHUNK;
+    int            group = group_of(chunk);
+    int            first = group_chunks(group, chunk) * RESPONSE_CHUNK;
     ProbeAim       aim = *trace->aim; /* a stream of the group's own */
-    aim.seed = hash_combine(hash_u32(aim.seed), (uint32_t)(chunk % RESPONSE_GROUPS));
+    aim.seed = hash_combine(hash_u32(aim.seed), (uint32_t)group);
     aim.is_spread = true;
     memset(trace->tables[item], 0, table_size(&trace->asks[item]) * sizeof(float));
     ProbeAnswers   answers = {trace->tables[item], trace->towards[item]};
@@ -136,7 +154,7 @@ static void add_wave(Trace *trace, int chunks)
     size_t size = table_size(&trace->asks[0]);
     for (int k = 0; k < chunks; k++) {
         double reading = 0;
-        int    group = (trace->first_chunk + k) % RESPONSE_GROUPS;
+        int    group = group_of(trace->first_chunk + k);
         for (size_t i = 0; i < size; i++) {
             trace->sums[i] += (double)trace->tables[k][i];
             reading += (double)trace->tables[k][i];
@@ -150,7 +168,7 @@ static void trace_wave(Trace *trace, const ProbeCells *cells, const bool *is_ope
                        Arena scratch)
 {
     for (int k = 0; k < chunks; k++)
-        trace->asks[k] = ask_for(cells, is_open, trace->first_chunk + k, &scratch);
+        trace->asks[k] = ask_for(cells, is_open, trace->first_chunk - PILOT + k, &scratch);
     parallel_for(trace->options->threads, chunks, trace_chunk, trace);
     add_wave(trace, chunks);
     trace->first_chunk += chunks;
@@ -170,17 +188,18 @@ static Trace trace_start(const ProbeAim *aim, const ResponseOptions *options,
     return trace;
 }
 
-/* Groups may differ by a chunk. */
+/* Groups may differ by a wave. */
 static double relative_error(const Trace *trace)
 {
     BatchSums means = {0};
+    int       groups = groups_used(trace->first_chunk);
     double    n = trace->first_chunk, sum = 0;
-    for (int i = 0; i < RESPONSE_GROUPS; i++) sum += trace->reading[i];
-    for (int i = 0; i < RESPONSE_GROUPS; i++) {
+    for (int i = 0; i < groups; i++) sum += trace->reading[i];
+    for (int i = 0; i < groups; i++) {
         double share = group_chunks(i, trace->first_chunk) / n;
-        batch_add(&means, (trace->reading[i] - share * sum) * RESPONSE_GROUPS);
+        batch_add(&means, (trace->reading[i] - share * sum) * groups);
     }
-    return sum > 0 ? batch_error(&means) / sum : 0;
+    return sum > 0 && groups > 1 ? batch_error(&means) / sum : 0;
 }
 
 float *response_empty(int level, Arena *arena, Response *out)
@@ -209,7 +228,8 @@ void response_trace(const ProbeAim *aim, const ResponseOptions *options, Arena *
     trace_wave(&trace, &out->cells, NULL, pilot, scratch);
     const bool *is_open = open_cells(&out->cells, out->centers, trace.sums, &scratch);
     while (trace.first_chunk < chunks &&
-           (trace.first_chunk <= PILOT || relative_error(&trace) > options->precision)) {
+           (trace.first_chunk < PILOT + RESPONSE_GROUPS * WAVE ||
+            relative_error(&trace) > options->precision)) {
         int left = chunks - trace.first_chunk;
         trace_wave(&trace, &out->cells, is_open, left < WAVE ? left : WAVE, scratch);
     }
@@ -272,12 +292,15 @@ double response_without(const Response *response, int group, double sum, double 
 
 /* Jackknife: K x - (K - 1) x_k are as good as K independent readings (Miller, Biometrika 61
  * (1974) 1), also of what is no mean, such as a fit. */
-MeanInterval response_interval(double reading, const double without[RESPONSE_GROUPS])
+MeanInterval response_interval(const Response *response, double reading,
+                               const double without[RESPONSE_GROUPS])
 {
     BatchSums values = {0};
-    for (int k = 0; k < RESPONSE_GROUPS; k++)
-        batch_add(&values, RESPONSE_GROUPS * reading - (RESPONSE_GROUPS - 1) * without[k]);
-    double       off = reading - values.sum / RESPONSE_GROUPS;
+    int       groups = groups_used(response->paths / RESPONSE_CHUNK);
+    if (groups < 2) return (MeanInterval){-INFINITY, INFINITY};
+    for (int k = 0; k < groups; k++)
+        batch_add(&values, groups * reading - (groups - 1) * without[k]);
+    double       off = reading - values.sum / groups;
     MeanInterval in = batch_interval(&values, CONFIDENCE_MISS);
     return (MeanInterval){in.low + off, in.high + off};
 }

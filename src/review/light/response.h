@@ -11,8 +11,9 @@
  * Spectrum     16 bands, those of the lanes of a path. Light is told by what each of its bands
  *              gives of the luminance (light_bands.h), so that bands add up to it; a response
  *              is the share of that, a mean over the band.
- * Errors       paths come in RESPONSE_GROUPS independent groups, and what each gives of white
- *              light is kept: readings without one of them tell how sure they are.
+ * Errors       paths come in up to RESPONSE_GROUPS independent groups, each of whole waves that
+ *              ask every triangle equally often; what each gives of white light is kept:
+ *              readings without one of them tell how sure they are.
  * Units        shares: cd m^-2 by cd m^-2 (of a luxmeter lx by cd m^-2); of a sun cd m^-2 by
  *              lx on a plane that faces it.
  * Memory       from the arena: 256 bytes a triangle; some 20 times that while tracing.
@@ -63,8 +64,10 @@ double response_sun(const Response *response, Vec3 towards, const float bands[RE
 /* What is left of a sum without one group, by what that gave to it. */
 double response_without(const Response *response, int group, double sum, double of_group);
 
-/* The 95 % interval of a reading, by what it would be without each group. */
-MeanInterval response_interval(double reading, const double without[RESPONSE_GROUPS]);
+/* The 95 % interval of a reading, by what it would be without each group. Of fewer paths than
+ * two groups take nothing is known: all numbers. */
+MeanInterval response_interval(const Response *response, double reading,
+                               const double without[RESPONSE_GROUPS]);
 
 /* Paths that tell what an aim's mirror sends of a sun of that radius (radians) within 1 %,
  * wherever in its patches the sun's image lies; of patches that fill more than 0.3 sr, and of a
