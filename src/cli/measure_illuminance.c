@@ -14,15 +14,15 @@ static bool print_illuminance(const Cli *cli, const IlluminanceOptions *options,
     float xyz[3], xy[2];
     for (int k = 0; k < 3; k++) xyz[k] = (float)e->xyz_lx[k];
     xy_from_xyz(xyz, xy);
-    double half_width = 1.96 * e->sigma_lx;
     if (cli->json)
         return cli_print_json(
             json_pack("{s:f, s:[f,f], s:[f,f], s:I}", "illuminance_lx", e->xyz_lx[1],
-                      "illuminance_interval", e->xyz_lx[1] - half_width,
-                      e->xyz_lx[1] + half_width, "xy", (double)xy[0], (double)xy[1], "samples",
+                      "illuminance_interval", e->low_lx, e->high_lx, "xy", (double)xy[0],
+                      (double)xy[1], "samples",
                       (json_int_t)options->samples),
             err);
-    printf("illuminance  %.6g +- %.2g lx\nx, y         %.4f, %.4f\n", e->xyz_lx[1], half_width,
+    printf("illuminance  %.6g +- %.2g lx\nx, y         %.4f, %.4f\n", e->xyz_lx[1],
+           0.5 * (e->high_lx - e->low_lx),
            (double)xy[0], (double)xy[1]);
     return true;
 }

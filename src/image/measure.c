@@ -6,27 +6,34 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/confidence.h"
 #include "image/layer_view.h"
 #include "image/legibility.h"
 #include "spectrum/photometry.h"
 
 #define SIGMAS_95 1.959964 /* of the normal distribution */
 
+/* Variances of sums over pixels: of channels and luminance, and over those of displays. */
+typedef struct PixelNoise {
+    double rgb[3], luminance, fourths; /* fourths: squares of the pixels' variances */
+    double display_rgb[3], display_luminance;
+} PixelNoise;
+
 /* What is summed over the pixels. */
 typedef struct Sums {
-    double rgb[3], variance[3]; /* of the channels */
-    double luminance_variance;
+    double rgb[3]; /* of the channels */
+    PixelNoise noise, by_halves;
     DisplayLight light; /* of displays */
-    double mirror, lambertian, display_variance[3], reflected_variance;
-    long   pixels, display_pixels, nonfinite;
+    double mirror, lambertian;
+    long   pixels, display_pixels, halves_pixels, nonfinite;
     double least, greatest;
 } Sums;
 
 /* The planes that are looked at; has_... tells which the frame has. */
 typedef struct RegionPlanes {
-    LayerView    light, variance, white, black, reflected, shown, mirror, lambertian;
+    LayerView    light, variance, halves, white, black, reflected, shown, mirror, lambertian;
     const float *display_id; /* NULL: every pixel is wanted */
-    bool has_variance, has_display, has_shown, has_mirror, has_lambertian;
+    bool has_variance, has_halves, has_display, has_shown, has_mirror, has_lambertian;
 } RegionPlanes;
 
 static void xyz_at(const LayerView *view, size_t i, double xyz[3])
@@ -83,6 +90,7 @@ static bool find_planes(const FrameImage *frame, Arena *arena, RegionPlanes *out
 {
     if (!layer_view_find(frame, NULL, arena, &out->light, err)) return false;
     out->has_variance = raw_layer(frame, "variance", arena, &out->variance);
+    out->has_halves = raw_layer(frame, "halves", arena, &out->halves);
     out->has_display = raw_layer(frame, "display.white", arena, &out->white) &&
                        raw_layer(frame, "display.black", arena, &out->black) &&
                        raw_layer(frame, "display.reflected", arena, &out->reflected);
@@ -119,38 +127,85 @@ static bool display_light(const RegionPlanes *planes, size_t i, DisplayLight *ou
            isfinite(out->shown[1]);
 }
 
-static void add_display(const RegionPlanes *planes, size_t i, double variance, Sums *sums)
+static bool add_display(const RegionPlanes *planes, size_t i, Sums *sums)
 {
     DisplayLight light;
-    if (!display_light(planes, i, &light)) return;
+    if (!display_light(planes, i, &light)) return false;
     sums->light.white += light.white;
     sums->light.black += light.black;
     for (int c = 0; c < 3; c++) {
         sums->light.shown[c] += light.shown[c];
         sums->light.reflected[c] += light.reflected[c];
-        if (planes->has_variance)
-            sums->display_variance[c] += (double)planes->variance.planes[c][i];
     }
     if (planes->has_mirror) sums->mirror += luminance_at(&planes->mirror, i);
     if (planes->has_lambertian) sums->lambertian += luminance_at(&planes->lambertian, i);
-    sums->reflected_variance += variance;
     sums->display_pixels++;
+    return true;
+}
+
+static void add_noise(PixelNoise *noise, const double rgb[3], double luminance, bool on_display)
+{
+    noise->luminance += luminance;
+    noise->fourths += luminance * luminance;
+    noise->display_luminance += on_display ? luminance : 0;
+    for (int c = 0; c < 3; c++) {
+        noise->rgb[c] += rgb[c];
+        noise->display_rgb[c] += on_display ? rgb[c] : 0;
+    }
+}
+
+/* The squares of a pixel's halves have the expectation of its variances, that of their
+ * luminance, too. */
+static void add_halves(const RegionPlanes *planes, size_t i, bool on_display, Sums *sums)
+{
+    double rgb[3], y = luminance_at(&planes->halves, i);
+    for (int c = 0; c < 3; c++) {
+        double half = (double)planes->halves.planes[c][i];
+        rgb[c] = half * half;
+    }
+    if (!isfinite(y)) return;
+    add_noise(&sums->by_halves, rgb, y * y, on_display);
+    sums->halves_pixels++;
+}
+
+static void add_spread(const RegionPlanes *planes, size_t i, bool on_display, Sums *sums)
+{
+    double rgb[3];
+    for (int c = 0; c < 3; c++) rgb[c] = (double)planes->variance.planes[c][i];
+    add_noise(&sums->noise, rgb, variance_at(planes, i), on_display);
+}
+
+#define HALVES_FREEDOM 16 /* of the halves' squares, at least */
+
+/* Halves' squares are those of normal variables, as many as count: 3 (sum d^2)^2 / sum d^4.
+ * Student's factor is put into the variances. */
+static void choose_noise(Sums *sums)
+{
+    PixelNoise *noise = &sums->by_halves;
+    double freedom = noise->fourths > 0
+                         ? 3 * noise->luminance * noise->luminance / noise->fourths : 0;
+    if (sums->halves_pixels != sums->pixels || freedom < HALVES_FREEDOM) return;
+    double factor = student_quantile(CONFIDENCE_MISS, freedom) / SIGMAS_95;
+    sums->noise = *noise;
+    sums->noise.luminance *= factor * factor;
+    sums->noise.display_luminance *= factor * factor;
+    for (int c = 0; c < 3; c++) {
+        sums->noise.rgb[c] *= factor * factor;
+        sums->noise.display_rgb[c] *= factor * factor;
+    }
 }
 
 static void add_pixel(const RegionPlanes *planes, size_t i, Sums *sums)
 {
-    double luminance = luminance_at(&planes->light, i), variance = 0;
+    double luminance = luminance_at(&planes->light, i);
     if (!isfinite(luminance)) {
         sums->nonfinite++;
         return;
     }
     for (int c = 0; c < 3; c++) sums->rgb[c] += (double)planes->light.planes[c][i];
-    if (planes->has_variance) {
-        for (int c = 0; c < 3; c++) sums->variance[c] += (double)planes->variance.planes[c][i];
-        variance = variance_at(planes, i);
-        sums->luminance_variance += variance;
-    }
-    if (planes->has_display) add_display(planes, i, variance, sums);
+    bool on_display = planes->has_display && add_display(planes, i, sums);
+    if (planes->has_variance) add_spread(planes, i, on_display, sums);
+    if (planes->has_halves) add_halves(planes, i, on_display, sums);
     if (luminance < sums->least) sums->least = luminance;
     if (luminance > sums->greatest) sums->greatest = luminance;
     sums->pixels++;
@@ -226,8 +281,8 @@ static double colour_error_width(const DisplayLight *light, const double varianc
 static void measure_errors(const DisplayLight *light, const Sums *sums, FrameMeasurement *out)
 {
     double n = (double)sums->display_pixels, variance[3];
-    double sigma = sqrt(sums->reflected_variance) / n;
-    for (int c = 0; c < 3; c++) variance[c] = sums->display_variance[c] / (n * n);
+    double sigma = sqrt(sums->noise.display_luminance) / n;
+    for (int c = 0; c < 3; c++) variance[c] = sums->noise.display_rgb[c] / (n * n);
     out->shown = light->shown[1];
     out->luminance_error = (Measured){legibility_luminance_error(light),
                                       SIGMAS_95 * sigma / light->shown[1]};
@@ -253,7 +308,7 @@ static void measure_display(const RegionPlanes *planes, const Sums *sums,
     out->mirror = planes->has_mirror ? sums->mirror / n : (double)NAN;
     out->lambertian = planes->has_lambertian ? sums->lambertian / n : (double)NAN;
     out->has_errors = planes->has_shown;
-    measure_ratios(&light, sqrt(sums->reflected_variance) / n, out);
+    measure_ratios(&light, sqrt(sums->noise.display_luminance) / n, out);
     if (out->has_errors) measure_errors(&light, sums, out);
     if (out->has_variance) return;
     out->contrast.half_width = out->weber.half_width = out->michelson.half_width = NAN;
@@ -290,12 +345,12 @@ static FrameMeasurement figures_of(const RegionPlanes *planes, const Sums *sums)
                             .greatest = sums->greatest};
     for (int c = 0; c < 3; c++) {
         rgb[c] = sums->rgb[c] / n;
-        variance[c] = sums->variance[c] / (n * n);
+        variance[c] = sums->noise.rgb[c] / (n * n);
     }
     measure_colour(rgb, variance, &out);
     out.luminance.value = out.xyz[1];
     out.luminance.half_width =
-        has_variance ? SIGMAS_95 * sqrt(sums->luminance_variance) / n : NAN;
+        has_variance ? SIGMAS_95 * sqrt(sums->noise.luminance) / n : NAN;
     measure_display(planes, sums, &out);
     return out;
 }
@@ -341,6 +396,7 @@ bool measure_frame(const FrameImage *frame, const MeasureRequest *request, Arena
                         "no pixel to measure%s%s: %ld are not finite",
                         request->display ? " on display " : "",
                         request->display ? request->display : "", sums.nonfinite);
+    if (planes.has_variance) choose_noise(&sums);
     *out = figures_of(&planes, &sums);
     out->has_content = request->has_region || request->display;
     size_t first = (size_t)(r.y0 - w.y0) * (size_t)planes.light.width + (size_t)(r.x0 - w.x0);

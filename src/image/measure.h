@@ -2,10 +2,12 @@
 /* measure.h -- figures of a part of a frame, with how sure they are.
  *
  * Units    luminance in cd m^-2; CIE 1931 x, y and CIE 1976 u', v'.
- * Intervals are 95 % confidence intervals (1.96 standard errors) of the render's noise, from
- *          the frame's variance layer: pixels are independent. R, G and B of a pixel are taken
- *          to rise and fall together for luminance and contrast, and to be independent for
- *          chromaticity: the wider answer each time.
+ * Intervals are 95 % confidence intervals of the render's noise; pixels are independent. From
+ *          the frame's layer of halves where that tells enough: what well-spread samples leave.
+ *          Else from its variance layer, as if samples were independent, R, G and B of a pixel
+ *          taken to rise and fall together for luminance and contrast: both too wide. They
+ *          count as independent for chromaticity. The noise of what a display shows counts for
+ *          its contrast, too: no layer tells it apart.
  * Threads  pure functions.
  * Fails    when the frame lacks what is asked for: the text says what to render again.
  */

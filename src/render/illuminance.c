@@ -1,65 +1,85 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "render/illuminance.h"
 
-#include "base/parallel.h"
+#include <math.h>
 
-#define CHUNK 1024 /* samples of one piece of work; pieces are added in order */
+#include "base/confidence.h"
+#include "base/parallel.h"
+#include "base/sampler.h"
+
+#define BATCHES 32 /* each with a seed of its own, its samples well spread among themselves */
 
 typedef struct IlluminanceSums {
-    double xyz[3], squares;
+    double        xyz[3];
+    BrightSamples bright;
 } IlluminanceSums;
 
 typedef struct Meter {
     const PathContext        *context;
     const IlluminanceOptions *options;
-    IlluminanceSums                     *sums; /* one a chunk */
+    IlluminanceSums           sums[BATCHES];
 } Meter;
 
-static void measure_chunk(void *user, int chunk, int worker)
+/* Of the options' samples; the first batches have one more. */
+static long batch_samples(const IlluminanceOptions *options, int batch)
+{
+    return (options->samples - batch + BATCHES - 1) / BATCHES;
+}
+
+static void measure_batch(void *user, int batch, int worker)
 {
     (void)worker;
-    const Meter *meter = user;
+    Meter *meter = user;
     const IlluminanceOptions *options = meter->options;
-    PathStatistics statistics = {0};
-    IlluminanceSums *sums = &meter->sums[chunk];
-    long  begin = (long)chunk * CHUNK, end = begin + CHUNK;
-    for (long i = begin; i < end && i < options->samples; i++) {
-        Sampler     sampler = sampler_start(options->seed, 0, 0, (uint32_t)i);
+    PathStatistics   statistics = {0};
+    IlluminanceSums *sums = &meter->sums[batch];
+    uint32_t seed = hash_combine(hash_u32(options->seed), (uint32_t)batch);
+    for (long i = 0; i < batch_samples(options, batch); i++) {
+        Sampler     sampler = sampler_start(seed, 0, 0, (uint32_t)i);
         Wavelengths wavelengths;
         float       xyz[3];
         wavelengths_sample(sampler_1d(&sampler), &wavelengths);
         path_illuminance(meter->context, options->point, &wavelengths, &sampler, xyz,
                          &statistics);
         for (int k = 0; k < 3; k++) sums->xyz[k] += (double)xyz[k];
-        sums->squares += (double)xyz[1] * (double)xyz[1];
+        bright_add(&sums->bright, (double)xyz[1]);
     }
 }
 
-static Illuminance add_chunks(const IlluminanceSums *sums, int chunks, double samples)
+/* Batches of different lengths: each by what it has more than the mean's share of it. */
+static Illuminance add_batches(const Meter *meter)
 {
-    Illuminance total = {0};
-    double squares = 0;
-    for (int c = 0; c < chunks; c++) {
-        for (int k = 0; k < 3; k++) total.xyz_lx[k] += sums[c].xyz[k] / samples;
-        squares += sums[c].squares / samples;
+    Illuminance   total = {0};
+    BatchSums     means = {0};
+    BrightSamples bright = {0};
+    double        samples = (double)meter->options->samples;
+    for (int i = 0; i < BATCHES; i++) {
+        for (int k = 0; k < 3; k++) total.xyz_lx[k] += meter->sums[i].xyz[k] / samples;
+        bright.squares += meter->sums[i].bright.squares;
+        bright.fourths += meter->sums[i].bright.fourths;
     }
-    double variance = squares - total.xyz_lx[1] * total.xyz_lx[1];
-    total.sigma_lx = sqrt(fmax(variance, 0) / (samples - 1));
+    for (int i = 0; i < BATCHES; i++) {
+        double own = total.xyz_lx[1] * (double)batch_samples(meter->options, i);
+        batch_add(&means,
+                  total.xyz_lx[1] + (meter->sums[i].xyz[1] - own) * BATCHES / samples);
+    }
+    MeanInterval in = batch_interval(&means, CONFIDENCE_MISS);
+    total.low_lx = fmax(in.low, 0);
+    total.high_lx = in.high + bright_missing(&bright, samples, 1);
     return total;
 }
 
 bool illuminance_measure(const Scene *scene, const IlluminanceOptions *options, Arena *arena,
                          Illuminance *out, Error *err)
 {
-    int     chunks = (int)((options->samples + CHUNK - 1) / CHUNK);
     Lights *lights;
     Bvh    *bvh;
     if (!lights_build(scene, arena, &lights, err)) return false;
     if (!bvh_create(scene, options->threads, NULL, &bvh, err)) return false;
     PathContext context = path_context_build(scene, bvh, lights, options->max_bounces, arena);
-    Meter meter = {&context, options, ARENA_NEW(arena, IlluminanceSums, chunks)};
-    parallel_for(options->threads, chunks, measure_chunk, &meter);
+    Meter meter = {.context = &context, .options = options};
+    parallel_for(options->threads, BATCHES, measure_batch, &meter);
     bvh_destroy(bvh);
-    *out = add_chunks(meter.sums, chunks, (double)options->samples);
+    *out = add_batches(&meter);
     return true;
 }

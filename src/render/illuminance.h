@@ -18,7 +18,7 @@ typedef struct IlluminanceOptions {
 
 typedef struct Illuminance {
     double xyz_lx[3];  /* Y is the illuminance */
-    double sigma_lx;   /* standard error of Y */
+    double low_lx, high_lx; /* 95 % interval of Y, of independent batches of samples */
 } Illuminance;
 
 bool illuminance_measure(const Scene *scene, const IlluminanceOptions *options, Arena *arena,

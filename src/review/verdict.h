@@ -137,6 +137,9 @@ typedef struct ReviewCase {
                                     sees of strokes that wide (Barten) */
     double  dgp, ugr;            /* discomfort of this gaze: secondary figures */
     long    paths;               /* that what is reflected was read from */
+    double  precision_asked;     /* of the contrast, relative: coarser where the verdict is
+                                    clear; NaN: nothing is visible */
+    double  precision_reached;   /* its standard error, relative; NaN likewise */
     double  paths_to_decide;     /* of a case that is too close: about as many would say; NaN */
     double  minutes_to_decide;   /* as fast as its reading went, here; NaN: not known */
     double  visible_share;       /* of the rectangle, 0..1 */

@@ -49,6 +49,8 @@ def broken_case_laws(case):
                 abs(limit["found"] / limit["value"] - 1 - limit["margin"]) > \
                 1e-4 * max(1, abs(limit["margin"])):
             yield f"margin {limit['margin']} of {limit['found']} by {limit['value']}"
+    if case["precision_asked"] is None or case["precision_reached"] is None:
+        yield "no precision"
     if (case["paths_to_decide"] is not None) != (case["verdict"] == "too close"):
         yield f"{case['verdict']}: {case['paths_to_decide']} paths would decide it"
 

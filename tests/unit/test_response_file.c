@@ -27,6 +27,9 @@ static Response make_response(Arena *arena)
     int      cells = response.cells.count;
     for (int i = 0; i < PROBE_ORDERS * cells * RESPONSE_BANDS; i++)
         if (i / RESPONSE_BANDS % 2) shares[i] = 1.0f / (float)(i + 3);
+    for (int i = 0; i < 2 * cells * RESPONSE_GROUPS; i++)
+        if (i / (2 * RESPONSE_GROUPS) % 2)
+            shares[PROBE_ORDERS * cells * RESPONSE_BANDS + i] = 1.0f / (float)(i + 5);
     shares[0] = -0.0f;
     response.paths = 640;
     response.relative_error = 0.0123;
@@ -42,6 +45,8 @@ static void assert_same_responses(const Response *a, const Response *b)
     assert_memory_equal(&a->relative_error, &b->relative_error, sizeof(double));
     assert_memory_equal(a->first, b->first, bytes);
     assert_memory_equal(a->rest, b->rest, bytes);
+    assert_memory_equal(a->groups, b->groups,
+                        2 * (size_t)a->cells.count * RESPONSE_GROUPS * sizeof(float));
     assert_memory_equal(a->centers, b->centers, (size_t)a->cells.count * sizeof *a->centers);
 }
 
@@ -82,7 +87,8 @@ TEST(what_was_written_is_read)
     assert_same_responses(&found, &wanted);
     assert_memory_equal(&own, &light, sizeof own);
     assert_int_equal(file.bytes, bytes.size);
-    size_t whole = PROBE_ORDERS * (size_t)wanted.cells.count * RESPONSE_BANDS * sizeof(float);
+    size_t whole = (PROBE_ORDERS * RESPONSE_BANDS + 2 * RESPONSE_GROUPS) *
+                   (size_t)wanted.cells.count * sizeof(float);
     assert_true(bytes.size < whole); /* empty triangles take no room */
 }
 

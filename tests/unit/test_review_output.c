@@ -11,6 +11,7 @@
 #include "base/file.h"
 #include "base/file_write.h"
 #include "review/output/review_json.h"
+#include "review/output/review_words.h"
 #include "review/output/review_json_read.h"
 #include "review/output/review_junit.h"
 #include "verdict_fixture.h"
@@ -253,6 +254,18 @@ TEST(json_is_read_back)
     }
 }
 
+/* Reached or not: what paths did not do stands beside what was asked. */
+TEST(a_precision_that_was_not_reached_is_named)
+{
+    (void)state;
+    ReviewCase c = {.precision_asked = 0.01, .precision_reached = 0.0234};
+    assert_string_equal(words_precision(&c, &arena), "; known within 2.3 %, 1.0 % was asked");
+    c.precision_reached = 0.01;
+    assert_string_equal(words_precision(&c, &arena), "");
+    c.precision_asked = c.precision_reached = (double)NAN;
+    assert_string_equal(words_precision(&c, &arena), "");
+}
+
 /* Scripts hold on to these keys. */
 TEST(json_has_the_promised_keys)
 {
@@ -260,6 +273,7 @@ TEST(json_has_the_promised_keys)
     static const char *const KEYS[] = {
         "condition", "eye", "symbol", "display", "ambient", "sun", "luminance_cd_m2",
         "contrast_ratio", "contrast_interval", "reflected_interval", "paths_to_decide",
+        "precision_asked", "precision_reached",
         "paths", "contrast_with_veil", "height_arcmin",
         "jnd", "visibility", "dgp", "ugr", "when", "visible_share", "hidden_by",
         "eye_failed_share", "level", "display_lux", "limit", "limits", "margin", "verdict",
@@ -320,7 +334,8 @@ TEST(a_foreign_json_is_refused_in_one_line)
 /* What was told later than reviews that may be held against this one. */
 static bool is_optional(const char *key, const json_t *object)
 {
-    static const char *const ADDED[] = {"reflected_interval", "paths_to_decide", "cause_groups",
+    static const char *const ADDED[] = {"reflected_interval", "precision_asked",
+                                        "precision_reached", "paths_to_decide", "cause_groups",
                                         "without_data_share", "without_data", "hidden_by"};
     for (size_t i = 0; i < sizeof ADDED / sizeof *ADDED; i++)
         if (!strcmp(key, ADDED[i])) return true;

@@ -61,7 +61,7 @@ TEST(symbols_levels_and_the_rest_arrive)
     assert_near(r.levels[1].normal[1], 0.6, 1e-15);
     assert_string_equal(r.profile, "iso-15008");
     assert_true(r.precision_clear == 0.05 && r.precision_paths == 10000);
-    assert_true(r.precision_seed == 7 && review_seed(&r, 3) != 3 && review_seed(&r, 4) != 3);
+    assert_true(r.seed == 7 && review_seed(&r, 3) != 3 && review_seed(&r, 4) != 3);
     assert_true(r.precision_contrast == 0.02 && r.frames.width == 640 && r.frames.worst == 2);
     assert_int_equal(r.input_count, 2); /* the file and the route */
     assert_string_equal(r.inputs[0].path, r.file);
@@ -127,7 +127,7 @@ TEST(what_is_not_said_has_defaults)
     assert_true(r.observer.age_years == 50 && r.observer.pigment == 0.5);
     assert_true(r.gaze_count == 1 && r.gazes[0].at_symbols && r.gazes[0].for_eye[0]);
     assert_int_equal(r.symbols[0].polarity, POLARITY_AUTO);
-    assert_true(r.precision_seed == 0 && review_seed(&r, 3) == 3);
+    assert_true(r.seed == 0 && review_seed(&r, 3) == 3);
     assert_true(r.precision_contrast == 0.01 && r.frames.width == 960 && r.frames.worst == 2);
     const ReviewCondition *c = &r.conditions[0];
     assert_true(c->kind == CONDITION_MOMENT && !c->has_environment && !c->has_heading);

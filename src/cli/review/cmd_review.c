@@ -91,6 +91,7 @@ static void print_case(const ReviewCase *c, Arena scratch)
                              c->reflected_range.high, &scratch));
     else if (c->hider_count) printf(": %s", words_hiders(c, &scratch));
     if (c->limit_id >= 0) printf(", wanted %.3g : 1", c->limits[c->limit_id].value);
+    fputs(words_precision(c, &scratch), stdout);
     if (c->minutes_to_decide > 0 && isfinite(c->minutes_to_decide))
         printf("; about %.2g minutes more would decide it", fmax(c->minutes_to_decide, 0.1));
     putchar('\n');
@@ -112,6 +113,7 @@ static void print_sweep(const ReviewSweep *s, Arena scratch)
                interval_text(s->worst.contrast_ratio, s->worst.contrast_low,
                              s->worst.contrast_high, &scratch));
     else if (s->worst.hider_count) printf(": %s", words_hiders(&s->worst, &scratch));
+    fputs(words_precision(&s->worst, &scratch), stdout);
     putchar('\n');
 }
 

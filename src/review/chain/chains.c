@@ -20,6 +20,7 @@
 typedef struct ChunkChain {
     ChainKey key;
     double   sum;
+    BrightSamples bright;
     double   draw; /* the ray's: the least is kept */
     ChainRay ray;
     bool     is_used;
@@ -29,6 +30,7 @@ typedef struct ChainChunk {
     ChunkChain *table;   /* [CHUNK_ROOM] */
     int         count;
     double      all, mirror, own;
+    BrightSamples bright; /* of all */
     double     *by_part;
     ChainGroups groups;
     uint32_t    tellings;
@@ -41,6 +43,7 @@ typedef struct ChainSearch {
     const int      *alike;
     const bool     *has_data; /* of each part */
     float           far_m; /* how long a ray is drawn towards what is far off */
+    int             chunks, batches;
     int             first; /* chunk of this round */
     ChainChunk      *sums;  /* of the round's chunks */
 } ChainSearch;
@@ -198,6 +201,7 @@ static void hear(void *user, const PathTale *tale, const float xyz[3])
     ChunkChain *chain = chunk_chain(sums, &key);
     int         display = tale->count ? display_of(scene, tale->step[0].part_id) : NO_ID;
     sums->all += y;
+    bright_add(&sums->bright, y);
     if (display != NO_ID && tale->step[0].event == PATH_REFLECTS) sums->mirror += y;
     if (display != NO_ID && tale->source == LIGHTS_EMITTERS &&
         display_of(scene, tale->source_id) == display)
@@ -206,61 +210,69 @@ static void hear(void *user, const PathTale *tale, const float xyz[3])
     add_groups(to, tale, y);
     if (!chain) return;
     chain->sum += y;
+    bright_add(&chain->bright, y);
     draw_ray(to, chain, tale, y);
+}
+
+/* Whose chunks follow each other in a stream of their own. */
+static int batch_of(const ChainSearch *search, int chunk)
+{
+    return chunk % search->batches;
 }
 
 static void hear_chunk(void *user, int item, int worker)
 {
     (void)worker;
     const ChainSearch *search = user;
-    int            chunk = search->first + item;
+    int            chunk = search->first + item, place = chunk;
     ChunkListener  to = {search, &search->sums[item], chunk};
     PathListener   listener = {.hear = hear, .user = &to};
     PathStatistics statistics = {0};
-    search->ask->tools->kernel->hear(search->ask->aim, chunk * CHAIN_CHUNK,
-                                     (chunk + 1) * CHAIN_CHUNK, &listener, &statistics);
+    ProbeAim       aim = *search->ask->aim;
+    if (!aim.pixel) {
+        aim.seed = hash_combine(hash_u32(aim.seed), (uint32_t)batch_of(search, chunk));
+        aim.is_spread = true;
+        place = chunk / search->batches;
+    }
+    search->ask->tools->kernel->hear(&aim, place * CHAIN_CHUNK, (place + 1) * CHAIN_CHUNK,
+                                     &listener, &statistics);
 }
 
 /* ---- all chunks -------------------------------------------------------------------------- */
 
-typedef struct FoundChain {
-    Chain  chain;
-    double draw[CHAIN_RAYS]; /* of its rays, rising */
-    double sum, squares;     /* of the chunks' means */
-    double sure;             /* its mean less one standard error: one lucky path has 0 */
-    int    id;
-    bool   is_kept;
-} FoundChain;
-
-/* What a chunk gave to one chain. */
-typedef struct ChunkGift {
-    int    chain_id;
-    double mean;
-} ChunkGift;
-
-typedef struct ChunkGifts {
-    ChunkGift *list;
-    int        count;
-    double     all;
-} ChunkGifts;
-
+/* Of all chunks, and of each batch's. */
 typedef struct FoundSums {
-    double sum, squares; /* of the chunks' means */
+    double sum, by_batch[CHAIN_BATCHES];
+    BrightSamples bright;
 } FoundSums;
+
+typedef struct FoundChain {
+    Chain     chain;
+    double    draw[CHAIN_RAYS]; /* of its rays, rising */
+    FoundSums sums;
+    double    sure;             /* its mean less one standard error: one lucky path has 0 */
+    int       id;
+    bool      is_kept;
+} FoundChain;
 
 typedef struct FoundChains {
     FoundChain **table;  /* [ROOM] */
     FoundChain **by_id;
     int          count;
-    ChunkGifts  *gifts;  /* of each chunk */
     FoundSums    all, mirror;
     double       own;
 } FoundChains;
 
-static void add_mean(FoundSums *sums, double mean)
+static void add_sum(FoundSums *sums, int batch, double sum)
 {
-    sums->sum += mean;
-    sums->squares += mean * mean;
+    sums->sum += sum;
+    sums->by_batch[batch] += sum;
+}
+
+static void add_bright(FoundSums *sums, const BrightSamples *more)
+{
+    sums->bright.squares += more->squares;
+    sums->bright.fourths += more->fourths;
 }
 
 /* NULL: the table is full. */
@@ -293,22 +305,19 @@ static void keep_ray(FoundChain *f, const ChunkChain *from)
     if (count < CHAIN_RAYS) f->chain.ray_count++;
 }
 
-static void add_chunk(FoundChains *found, const ChainChunk *sums, ChunkGifts *gifts, Arena *own)
+static void add_chunk(FoundChains *found, const ChainChunk *sums, int batch, Arena *own)
 {
-    gifts->list = ARENA_NEW(own, ChunkGift, sums->count);
-    gifts->all = sums->all / CHAIN_CHUNK;
-    add_mean(&found->all, sums->all / CHAIN_CHUNK);
-    add_mean(&found->mirror, sums->mirror / CHAIN_CHUNK);
-    found->own += sums->own / CHAIN_CHUNK;
+    add_sum(&found->all, batch, sums->all);
+    add_bright(&found->all, &sums->bright);
+    add_sum(&found->mirror, batch, sums->mirror);
+    found->own += sums->own;
     for (int i = 0; i < CHUNK_ROOM; i++) {
         const ChunkChain *from = &sums->table[i];
         FoundChain       *to = from->is_used ? found_chain(found, &from->key, own) : NULL;
         if (!to) continue;
-        double mean = from->sum / CHAIN_CHUNK;
-        to->sum += mean;
-        to->squares += mean * mean;
+        add_sum(&to->sums, batch, from->sum);
+        add_bright(&to->sums, &from->bright);
         keep_ray(to, from);
-        gifts->list[gifts->count++] = (ChunkGift){to->id, mean};
     }
 }
 
@@ -357,11 +366,19 @@ static ChainChunk *fresh_sums(int count, const Scene *scene, Arena *arena)
     return sums;
 }
 
-static ChainFigure figure_of(FoundSums sums, int chunks)
+/* Batches of different lengths: each by what it has more than the mean's share of it. */
+static ChainFigure figure_of(const FoundSums *sums, const ChainSearch *search)
 {
-    double mean = sums.sum / chunks;
-    double variance = fmax(sums.squares / chunks - mean * mean, 0) / (chunks - 1);
-    return (ChainFigure){mean, sqrt(variance)};
+    BatchSums means = {0};
+    int       batches = search->batches;
+    double    paths = (double)search->chunks * CHAIN_CHUNK, mean = sums->sum / paths;
+    for (int i = 0; i < batches; i++) {
+        double own = (double)((search->chunks - i + batches - 1) / batches) * CHAIN_CHUNK;
+        batch_add(&means, mean + (sums->by_batch[i] - mean * own) * batches / paths);
+    }
+    MeanInterval in = batch_interval(&means, CONFIDENCE_MISS);
+    return (ChainFigure){mean, batch_error(&means), fmax(in.low, 0),
+                         in.high + bright_missing(&sums->bright, paths, 1)};
 }
 
 /* Greatest first; of equals the one that was found first. */
@@ -374,7 +391,7 @@ static int compare(double x, double y, const FoundChain *a, const FoundChain *b)
 static int by_sum(const void *a, const void *b)
 {
     const FoundChain *x = *(FoundChain *const *)a, *y = *(FoundChain *const *)b;
-    return compare(x->sum, y->sum, x, y);
+    return compare(x->sums.sum, y->sums.sum, x, y);
 }
 
 static int by_sureness(const void *a, const void *b)
@@ -383,29 +400,33 @@ static int by_sureness(const void *a, const void *b)
     return compare(x->sure, y->sure, x, y);
 }
 
-/* What the chunks gave to chains that are not kept. */
-static ChainFigure rest_of(const FoundChains *found, int chunks)
+/* What comes by chains that are not kept. */
+static ChainFigure rest_of(const FoundChains *found, const ChainSearch *search)
 {
-    FoundSums rest = {0, 0};
-    for (int k = 0; k < chunks; k++) {
-        double left = found->gifts[k].all;
-        for (int i = 0; i < found->gifts[k].count; i++) {
-            const ChunkGift *gift = &found->gifts[k].list[i];
-            if (found->by_id[gift->chain_id]->is_kept) left -= gift->mean;
-        }
-        add_mean(&rest, fmax(left, 0));
+    FoundSums rest = {.sum = 0, .bright = found->all.bright};
+    for (int k = 0; k < search->batches; k++) {
+        double left = found->all.by_batch[k];
+        for (int i = 0; i < found->count; i++)
+            if (found->by_id[i]->is_kept) left -= found->by_id[i]->sums.by_batch[k];
+        add_sum(&rest, k, fmax(left, 0));
     }
-    return figure_of(rest, chunks);
+    for (int i = 0; i < found->count; i++) {
+        const BrightSamples *kept = &found->by_id[i]->sums.bright;
+        if (!found->by_id[i]->is_kept) continue;
+        rest.bright.squares = fmax(rest.bright.squares - kept->squares, 0);
+        rest.bright.fourths = fmax(rest.bright.fourths - kept->fourths, 0);
+    }
+    return figure_of(&rest, search);
 }
 
-static void keep_greatest(const FoundChains *found, int chunks, int most, Arena own,
+static void keep_greatest(const FoundChains *found, const ChainSearch *search, Arena own,
                           Chains *out)
 {
     FoundChain **list = ARENA_NEW(&own, FoundChain *, found->count);
+    int          most = search->ask->most;
     for (int i = 0; i < found->count; i++) {
         list[i] = found->by_id[i];
-        list[i]->chain.figure =
-            figure_of((FoundSums){list[i]->sum, list[i]->squares}, chunks);
+        list[i]->chain.figure = figure_of(&list[i]->sums, search);
         list[i]->sure = list[i]->chain.figure.cd_m2 - list[i]->chain.figure.sigma;
     }
     qsort(list, (size_t)found->count, sizeof *list, by_sureness);
@@ -416,7 +437,7 @@ static void keep_greatest(const FoundChains *found, int chunks, int most, Arena 
         list[i]->is_kept = true;
         out->list[i] = list[i]->chain;
     }
-    out->rest = rest_of(found, chunks);
+    out->rest = rest_of(found, search);
 }
 
 static const int *alike_parts(const Scene *scene, Arena *arena)
@@ -455,11 +476,11 @@ Chains chains_find(const ChainAsk *ask, Arena *arena)
                   .groups = fresh_groups(scene, arena),
                   .alike = alike_parts(scene, arena), .paths = (long)chunks * CHAIN_CHUNK};
     ChainSearch search = {.ask = ask, .scene = scene, .alike = out.alike,
-                          .has_data = parts_with_data(scene, &own),
+                          .has_data = parts_with_data(scene, &own), .chunks = chunks,
+                          .batches = chunks < CHAIN_BATCHES ? chunks : CHAIN_BATCHES,
                           .far_m = far_length(scene)};
     FoundChains found = {.table = ARENA_NEW(&own, FoundChain *, ROOM),
-                         .by_id = ARENA_NEW(&own, FoundChain *, CHAINS_TOLD),
-                         .gifts = ARENA_NEW(&own, ChunkGifts, chunks)};
+                         .by_id = ARENA_NEW(&own, FoundChain *, CHAINS_TOLD)};
     Arena rounds = arena_reserve(OWN_BYTES);
     for (; search.first < chunks; search.first += ROUND) {
         int   count = chunks - search.first < ROUND ? chunks - search.first : ROUND;
@@ -467,17 +488,17 @@ Chains chains_find(const ChainAsk *ask, Arena *arena)
         search.sums = fresh_sums(count, scene, &room);
         parallel_for(ask->tools->threads, count, hear_chunk, &search);
         for (int i = 0; i < count; i++) {
-            add_chunk(&found, &search.sums[i], &found.gifts[search.first + i], &own);
+            add_chunk(&found, &search.sums[i], batch_of(&search, search.first + i), &own);
             add_all(out.by_part, search.sums[i].by_part, scene->part_count,
                     1.0 / CHAIN_CHUNK / chunks);
             merge_groups(&out.groups, &search.sums[i].groups, scene,
                          1.0 / CHAIN_CHUNK / chunks);
         }
     }
-    out.all = figure_of(found.all, chunks);
-    out.mirror = figure_of(found.mirror, chunks);
-    out.own = found.own / chunks;
-    keep_greatest(&found, chunks, ask->most, own, &out);
+    out.all = figure_of(&found.all, &search);
+    out.mirror = figure_of(&found.mirror, &search);
+    out.own = found.own / (double)out.paths;
+    keep_greatest(&found, &search, own, &out);
     arena_release(&rounds);
     arena_release(&own);
     return out;

@@ -8,7 +8,9 @@
  * count as greatest that are so for sure: by their figure less one standard error, so that a
  * lucky path is no cause.
  *
- * Standard errors come from means of whole chunks of paths, as a reading's do (reading.h).
+ * Errors and 95 % intervals come from the means of CHAIN_BATCHES independent batches of paths,
+ * as a reading's do (reading.h); of a pixel, whose paths are its samples, the batches are parts
+ * of these, and errors what they would be if the parts were independent.
  *
  * Units    cd m^-2; metres, world.
  * Memory   what is kept lives in the arena.
@@ -18,6 +20,7 @@
 #include "review/light/reading.h"
 
 #define CHAIN_CHUNK 64 /* paths of a chunk */
+#define CHAIN_BATCHES 32 /* fewer where there are fewer chunks */
 #define CHAIN_STEPS 4
 #define CHAIN_RAYS 8
 #define CHAIN_POINTS (PATH_STEPS_TOLD + 2)
@@ -48,6 +51,7 @@ typedef struct ChainRay {
 
 typedef struct ChainFigure {
     double cd_m2, sigma; /* and its standard error */
+    double low, high;    /* 95 % interval */
 } ChainFigure;
 
 typedef struct Chain {
@@ -96,6 +100,6 @@ typedef struct ChainAsk {
     bool                with_first_pane; /* the eye looks through a pane: that is told */
 } ChainAsk;
 
-#define CHAIN_PATHS_LEAST (2 * CHAIN_CHUNK) /* an error takes two chunks */
+#define CHAIN_PATHS_LEAST (2 * CHAIN_CHUNK) /* an error takes two batches */
 
 Chains chains_find(const ChainAsk *ask, Arena *arena);

@@ -91,6 +91,17 @@ typedef struct SkySum {
     int             row;
 } SkySum;
 
+/* What is left of a total without each group, by what white light gives of them. */
+static void shares_without(const Response *response, const double white[RESPONSE_GROUPS],
+                           double total, float out[RESPONSE_GROUPS])
+{
+    double all = 0;
+    for (int k = 0; k < RESPONSE_GROUPS; k++) all += white[k];
+    for (int k = 0; k < RESPONSE_GROUPS; k++)
+        out[k] = (float)(all > 0 ? total * response_without(response, k, all, white[k]) / all
+                                 : total);
+}
+
 static void sum_sky(void *user, int azimuth, int worker)
 {
     (void)worker;
@@ -98,16 +109,23 @@ static void sum_sky(void *user, int azimuth, int worker)
     const Response *response = &sum->probe->response;
     const Daylight *sky = &sum->tools->table->skies[sum->row];
     double          total = 0, turn = 360.0 * azimuth / SKY_AZIMUTHS;
+    double          white[RESPONSE_GROUPS] = {0};
+    size_t          place = (size_t)(sum->row * SKY_AZIMUTHS + azimuth);
     for (int i = 0; i < sum->count; i++) {
-        float bands[LIGHT_BANDS];
+        float bands[LIGHT_BANDS], light = 0;
         size_t at = (size_t)sum->cells[i] * LIGHT_BANDS;
+        const float *groups = response->groups + 2 * (size_t)sum->cells[i] * RESPONSE_GROUPS;
         light_bands_sky(sky, (float)radians_from_degrees(sum->at[i].elevation_deg),
                         (float)radians_from_degrees(sum->at[i].azimuth_deg - turn), bands);
-        for (int b = 0; b < LIGHT_BANDS; b++)
+        for (int b = 0; b < LIGHT_BANDS; b++) {
             total += (double)(response->first[at + (size_t)b] +
                               response->rest[at + (size_t)b]) * (double)bands[b];
+            light += bands[b];
+        }
+        for (int k = 0; k < RESPONSE_GROUPS; k++) white[k] += (double)(light * groups[k]);
     }
-    sum->probe->sky[sum->row * SKY_AZIMUTHS + azimuth] = total;
+    sum->probe->sky[place] = total;
+    shares_without(response, white, total, sum->probe->sky_without + place * RESPONSE_GROUPS);
 }
 
 static bool sends_anything(const Response *response, int cell)
@@ -132,6 +150,7 @@ static void sum_skies(FarProbe *probe, const FarTools *tools, Arena *arena)
     const Response *response = &probe->response;
     int  rows = tools->table->count;
     probe->sky = ARENA_NEW(arena, double, rows * SKY_AZIMUTHS);
+    probe->sky_without = ARENA_NEW(arena, float, rows * SKY_AZIMUTHS * RESPONSE_GROUPS);
     Arena      scratch = *arena;
     int       *cells = ARENA_NEW(&scratch, int, response->cells.count);
     SunAngles *at = ARENA_NEW(&scratch, SunAngles, response->cells.count);
@@ -202,28 +221,70 @@ void far_probe_ask_suns(FarProbe *probe, const FarTools *tools, Arena *arena)
         tools->has_mirror ? ask_suns(probe, with, &options, &suns, arena) : NULL;
 }
 
+/* Skies of hours are many: their errors are those of an even one. */
+static float *even_without(const Response *response, Arena *arena)
+{
+    float *without = ARENA_NEW(arena, float, RESPONSE_GROUPS);
+    double white[RESPONSE_GROUPS] = {0};
+    for (int cell = 0; cell < response->cells.count; cell++)
+        for (int k = 0; k < RESPONSE_GROUPS; k++)
+            white[k] += (double)response->groups[2 * cell * RESPONSE_GROUPS + k];
+    shares_without(response, white, 1, without);
+    return without;
+}
+
 void far_probe_ask(FarProbe *probe, const FarTools *tools, Arena *arena)
 {
-    if (tools->hours)
+    if (tools->hours) {
         probe->sky = hour_skies_read(tools->hours, &probe->response,
                                      sun_directions(tools, arena), tools->suns.count,
                                      tools->stage->tools.threads, arena);
-    else
+        probe->sky_without = even_without(&probe->response, arena);
+    } else {
         sum_skies(probe, tools, arena);
+    }
     far_probe_ask_suns(probe, tools, arena);
 }
 
-static double sky_reading(const FarProbe *probe, const SkyTable *table, SunAngles sun)
+/* Between four of a table's places. */
+typedef struct SkyPlaces {
+    size_t at[4];
+    double weight[4];
+} SkyPlaces;
+
+static SkyPlaces sky_places(const SkyTable *table, SunAngles sun)
 {
     double share, turns = sun.azimuth_deg / 360, places;
     int    row = row_of(table, sun.elevation_deg, &share), next = row + (share > 0);
     places = (turns - floor(turns)) * SKY_AZIMUTHS;
     int    a = (int)places % SKY_AZIMUTHS, b = (a + 1) % SKY_AZIMUTHS;
     double along = places - floor(places);
-    const double *low = probe->sky + row * SKY_AZIMUTHS;
-    const double *high = probe->sky + next * SKY_AZIMUTHS;
-    return (1 - share) * (low[a] + along * (low[b] - low[a])) +
-           share * (high[a] + along * (high[b] - high[a]));
+    size_t low = (size_t)row * SKY_AZIMUTHS, high = (size_t)next * SKY_AZIMUTHS;
+    return (SkyPlaces){{low + (size_t)a, low + (size_t)b, high + (size_t)a, high + (size_t)b},
+                       {(1 - share) * (1 - along), (1 - share) * along, share * (1 - along),
+                        share * along}};
+}
+
+/* The sky's light, and what it would be without each group. */
+static double read_sky(const FarProbe *probe, const FarTools *tools, int sun,
+                       double without[RESPONSE_GROUPS])
+{
+    double sky = 0;
+    if (tools->hours) {
+        sky = probe->sky[sun];
+        for (int k = 0; k < RESPONSE_GROUPS; k++)
+            without[k] = sky * (double)probe->sky_without[k];
+        return sky;
+    }
+    SkyPlaces places = sky_places(tools->table, tools->suns.angles[sun]);
+    for (int k = 0; k < RESPONSE_GROUPS; k++) without[k] = 0;
+    for (int i = 0; i < 4; i++) {
+        const float *of_place = probe->sky_without + places.at[i] * RESPONSE_GROUPS;
+        sky += places.weight[i] * probe->sky[places.at[i]];
+        for (int k = 0; k < RESPONSE_GROUPS; k++)
+            without[k] += places.weight[i] * (double)of_place[k];
+    }
+    return sky;
 }
 
 static void sun_bands(const FarTools *tools, int sun, float bands[LIGHT_BANDS])
@@ -237,20 +298,29 @@ static void sun_bands(const FarTools *tools, int sun, float bands[LIGHT_BANDS])
         bands[b] = hours->of_sun[sun] < 0 ? 0 : hours->list[hours->of_sun[sun]].sun_bands[b];
 }
 
-FarReading far_probe_read(const FarProbe *probe, const FarTools *tools, int sun)
+static void read_sun(const FarProbe *probe, const FarTools *tools, int sun, FarReading *to,
+                     double without[RESPONSE_GROUPS])
 {
     SunAngles  angles = tools->suns.angles[sun];
-    FarReading reading = {.sky = tools->hours ? probe->sky[sun]
-                                              : sky_reading(probe, tools->table, angles)};
     float      bands[LIGHT_BANDS];
     size_t     at = (size_t)sun * LIGHT_BANDS;
-    double     heading = degrees_from_radians((double)tools->stage->scene->environment.heading);
+    angles.azimuth_deg +=
+        degrees_from_radians((double)tools->stage->scene->environment.heading);
     sun_bands(tools, sun, bands);
-    angles.azimuth_deg += heading;
-    if (angles.elevation_deg < -SUN_MEAN_RADIUS_DEG) return reading;
-    reading.mirror = probe->mirror ? light_bands_sum(probe->mirror + at, bands) : 0;
-    reading.sun_first = light_bands_sum(probe->scattered + at, bands) + reading.mirror;
-    reading.sun_rest =
-        response_sun(&probe->response, stage_direction(tools->stage, angles), bands);
+    to->mirror = probe->mirror ? light_bands_sum(probe->mirror + at, bands) : 0;
+    to->sun_first = light_bands_sum(probe->scattered + at, bands) + to->mirror;
+    to->sun_rest = response_sun(&probe->response, stage_direction(tools->stage, angles), bands,
+                                without);
+}
+
+FarReading far_probe_read(const FarProbe *probe, const FarTools *tools, int sun)
+{
+    double     without[RESPONSE_GROUPS], of_sun[RESPONSE_GROUPS] = {0};
+    FarReading reading = {.sky = read_sky(probe, tools, sun, without)};
+    if (!(tools->suns.angles[sun].elevation_deg < -SUN_MEAN_RADIUS_DEG))
+        read_sun(probe, tools, sun, &reading, of_sun);
+    double sum = reading.sky + reading.sun_first + reading.sun_rest;
+    for (int k = 0; k < RESPONSE_GROUPS; k++) without[k] += reading.sun_first + of_sun[k];
+    reading.interval = response_interval(&probe->response, sum, without);
     return reading;
 }

@@ -44,6 +44,8 @@ typedef struct FarProbe {
     Response     response;
     const float *scattered, *mirror; /* of the first vertex: [sun][band], by lx */
     double      *sky;  /* [elevation of the table][SKY_AZIMUTHS]; by hours [sun] */
+    float       *sky_without; /* of each the same without each of the response's groups:
+                                 [...][group]; by hours [group], as a share of any sky */
 } FarProbe;
 
 typedef struct FarSuns {
@@ -74,6 +76,7 @@ void far_probe_ask_suns(FarProbe *probe, const FarTools *tools, Arena *arena);
 typedef struct FarReading {
     double sky, sun_first, sun_rest; /* they add up */
     double mirror;                   /* of sun_first */
+    MeanInterval interval;           /* 95 %, of their sum */
 } FarReading;
 
 FarReading far_probe_read(const FarProbe *probe, const FarTools *tools, int sun);

@@ -42,6 +42,18 @@ void light_bands_curve(const Curve *curve, float bands[LIGHT_BANDS])
     }
 }
 
+void light_bands_white(float bands[LIGHT_BANDS])
+{
+    float sum = 0;
+    memset(bands, 0, LIGHT_BANDS * sizeof *bands);
+    for (int k = 0; k < OFFSETS; k++) {
+        Wavelengths w = wavelengths_of(k);
+        add_bands(&w, spectrum_all(1), 1, bands);
+    }
+    for (int b = 0; b < LIGHT_BANDS; b++) sum += bands[b];
+    for (int b = 0; b < LIGHT_BANDS; b++) bands[b] /= sum;
+}
+
 /* The limb darkens around the disc's own mean, which so is all that counts. */
 void light_bands_sun(const Daylight *daylight, float bands[LIGHT_BANDS])
 {

@@ -19,6 +19,9 @@ void light_bands_sky(const Daylight *daylight, float elevation, float azimuth,
 /* Of a spectral radiance as a curve. */
 void light_bands_curve(const Curve *curve, float bands[LIGHT_BANDS]);
 
+/* Of equal-energy white; they add up to 1. */
+void light_bands_white(float bands[LIGHT_BANDS]);
+
 /* What a response's shares make of a light: their sum over bands. */
 double light_bands_sum(const float shares[LIGHT_BANDS], const float bands[LIGHT_BANDS]);
 

@@ -18,6 +18,7 @@
 typedef struct Batch {
     double reflected, mirror; /* sums */
     long   found;
+    BrightSamples bright;
 } Batch;
 
 /* Paths that go on where they ended. */
@@ -34,6 +35,7 @@ static void add_looks(Batch *to, const ProbeLook *looks, int count)
     for (int i = 0; i < count; i++) {
         to->reflected += (double)looks[i].reflected[1];
         to->mirror += (double)looks[i].mirror[1];
+        bright_add(&to->bright, (double)looks[i].reflected[1]);
         to->found += looks[i].is_found;
     }
 }
@@ -64,6 +66,13 @@ static void add_known(double known, Reading *to)
     to->interval.high += known + 2 * error;
 }
 
+/* Of the light that the found paths bring, of so many times the reading's. */
+static double missing(const Reading *reading, double repeated)
+{
+    return bright_missing(&reading->bright, (double)reading->paths * reading->found_share,
+                          repeated);
+}
+
 /* Of batches with so many paths each. */
 static Reading reading_of(const Batch batches[BATCHES], int paths, double known)
 {
@@ -74,6 +83,8 @@ static Reading reading_of(const Batch batches[BATCHES], int paths, double known)
         batch_add(&sums, batches[i].reflected / paths);
         mirror += batches[i].mirror;
         found += (double)batches[i].found;
+        reading.bright.squares += batches[i].bright.squares;
+        reading.bright.fourths += batches[i].bright.fourths;
     }
     if (!(found > 0)) return reading;
     MeanInterval interval = batch_interval(&sums, CONFIDENCE_MISS);
@@ -83,6 +94,7 @@ static Reading reading_of(const Batch batches[BATCHES], int paths, double known)
     reading.mirror = mirror / found;
     reading.sigma = batch_error(&sums) / share;
     reading.interval = (MeanInterval){fmax(interval.low, 0) / share, interval.high / share};
+    reading.interval.high += missing(&reading, 1);
     add_known(known, &reading);
     return reading;
 }
@@ -155,7 +167,9 @@ static Reading expected(const Reading *pilot, const ReadingGoal *goal, long path
     Reading fresh = *pilot;
     fresh.sigma = hypot(sampled * scale, known);
     fresh.interval.low -= (pilot->reflected - pilot->interval.low) * scale;
-    fresh.interval.high += (pilot->interval.high - pilot->reflected) * scale;
+    fresh.interval.high +=
+        (pilot->interval.high - missing(pilot, 1) - pilot->reflected) * scale +
+        missing(pilot, (double)paths / (double)pilot->paths);
     fresh.interval.low = fmax(fresh.interval.low, 0);
     return fresh;
 }
@@ -197,6 +211,7 @@ static Reading take(const ProbeAim *aim, const ReadingGoal *goal, const ReadingT
     double  start = monotonic_seconds();
     Reading reading = goal->question ? take_asked(aim, goal, tools, scratch)
                                      : take_plain(aim, goal, tools, scratch);
+    reading.reached = uncertainty(&reading, goal);
     reading.seconds = monotonic_seconds() - start;
     return reading;
 }

@@ -6,7 +6,8 @@
  * because the answer is clear then or because the reading is sure enough, and so many others,
  * fresh ones, are what is told. Who stops when it pleases is wrong more often than its interval
  * says; so fresh paths, whose number hangs on nothing that they find, have an interval that
- * means 95 %. Intervals come from the means of independent batches of paths (confidence.h).
+ * means 95 %. Intervals come from the means of independent batches of paths, and their upper
+ * ends from the brightest paths, too (confidence.h).
  *
  * Units    cd m^-2 (a luxmeter: lx).
  * Memory   scratch only.
@@ -16,7 +17,7 @@
 #include "base/arena.h"
 #include "kernel/kernel.h"
 #include "review/keep/journal.h"
-#include "review/light/confidence.h"
+#include "base/confidence.h"
 
 /* What hangs on a reading: a verdict, say. */
 typedef struct ReadingQuestion {
@@ -56,6 +57,8 @@ typedef struct Reading {
     MeanInterval interval; /* 95 %, whether there was a question or not */
     double mirror;         /* of it, by way of the display's mirror */
     double found_share;    /* paths whose first surface was a display */
+    BrightSamples bright;  /* its paths, by the light that each found */
+    double reached;        /* by how much of itself one standard error moves what counts */
     long   paths;          /* that it was read from; a pilot's do not count */
     double seconds;        /* that it took when it was taken, the pilot's too */
 } Reading;

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/parallel.h"
+#include "base/sampler.h"
 #include "base/units.h"
 #include "review/light/light_bands.h"
 
@@ -81,12 +82,42 @@ typedef struct Trace {
     float      *tables[WAVE];    /* sums of a chunk */
     Vec3       *towards[WAVE];
     double     *sums;            /* of all chunks */
-    double      reading, squares; /* of chunks, under a uniform white sky */
+    double     *groups;          /* as a response's, sums */
+    double      reading[RESPONSE_GROUPS]; /* under a uniform sky */
+    float       white[RESPONSE_BANDS];
 } Trace;
+
+/* A wave asks every open triangle once, so that groups of whole waves are alike. */
+static int group_of(int chunk)
+{
+    return chunk < PILOT ? 0 : (chunk - PILOT) / WAVE % RESPONSE_GROUPS;
+}
+
+/* How many of the first so many chunks are of a group. */
+static int group_chunks(int group, int chunks)
+{
+    int waves = chunks > PILOT ? (chunks - PILOT) / WAVE : 0;
+    int left = chunks > PILOT ? (chunks - PILOT) % WAVE : 0;
+    int own = (waves - group + RESPONSE_GROUPS - 1) / RESPONSE_GROUPS * WAVE;
+    own += waves % RESPONSE_GROUPS == group ? left : 0;
+    return own + (group ? 0 : chunks < PILOT ? chunks : PILOT);
+}
+
+static int groups_used(int chunks)
+{
+    int used = 0;
+    while (used < RESPONSE_GROUPS && group_chunks(used, chunks) > 0) used++;
+    return used;
+}
 
 static size_t table_size(const ProbeCells *cells)
 {
     return (size_t)PROBE_ORDERS * (size_t)cells->count * RESPONSE_BANDS;
+}
+
+static size_t groups_size(const ProbeCells *cells)
+{
+    return (size_t)cells->count * 2 * RESPONSE_GROUPS;
 }
 
 static void trace_chunk(void *user, int item, int worker)
@@ -94,11 +125,28 @@ static void trace_chunk(void *user, int item, int worker)
     (void)worker;
     Trace         *trace = user;
     PathStatistics statistics = {0};
-    int            first = (trace->first_chunk + item) * RESPONSE_CHUNK;
+    int            chunk = trace->first_chunk + item;
+    int            group = group_of(chunk);
+    int            first = group_chunks(group, chunk) * RESPONSE_CHUNK;
+    ProbeAim       aim = *trace->aim; /* a stream of the group's own */
+    aim.seed = hash_combine(hash_u32(aim.seed), (uint32_t)group);
+    aim.is_spread = true;
     memset(trace->tables[item], 0, table_size(&trace->asks[item]) * sizeof(float));
     ProbeAnswers   answers = {trace->tables[item], trace->towards[item]};
-    trace->options->kernel->ask_cells(trace->aim, &trace->asks[item], first,
+    trace->options->kernel->ask_cells(&aim, &trace->asks[item], first,
                                       first + RESPONSE_CHUNK, &answers, &statistics);
+}
+
+static void add_to_group(Trace *trace, const float *table, int cells, int group)
+{
+    size_t order = (size_t)cells * RESPONSE_BANDS;
+    for (int cell = 0; cell < cells; cell++) {
+        const float *shares = table + (size_t)cell * RESPONSE_BANDS;
+        double      *to = trace->groups + (size_t)cell * 2 * RESPONSE_GROUPS;
+        double       rest = light_bands_sum(shares + order, trace->white);
+        to[group] += light_bands_sum(shares, trace->white) + rest;
+        to[RESPONSE_GROUPS + group] += rest;
+    }
 }
 
 static void add_wave(Trace *trace, int chunks)
@@ -106,12 +154,13 @@ static void add_wave(Trace *trace, int chunks)
     size_t size = table_size(&trace->asks[0]);
     for (int k = 0; k < chunks; k++) {
         double reading = 0;
+        int    group = group_of(trace->first_chunk + k);
         for (size_t i = 0; i < size; i++) {
             trace->sums[i] += (double)trace->tables[k][i];
             reading += (double)trace->tables[k][i];
         }
-        trace->reading += reading;
-        trace->squares += reading * reading;
+        trace->reading[group] += reading;
+        add_to_group(trace, trace->tables[k], trace->asks[k].count, group);
     }
 }
 
@@ -119,7 +168,7 @@ static void trace_wave(Trace *trace, const ProbeCells *cells, const bool *is_ope
                        Arena scratch)
 {
     for (int k = 0; k < chunks; k++)
-        trace->asks[k] = ask_for(cells, is_open, trace->first_chunk + k, &scratch);
+        trace->asks[k] = ask_for(cells, is_open, trace->first_chunk - PILOT + k, &scratch);
     parallel_for(trace->options->threads, chunks, trace_chunk, trace);
     add_wave(trace, chunks);
     trace->first_chunk += chunks;
@@ -130,6 +179,8 @@ static Trace trace_start(const ProbeAim *aim, const ResponseOptions *options,
 {
     Trace trace = {.aim = aim, .options = options};
     trace.sums = ARENA_NEW(arena, double, table_size(cells));
+    trace.groups = ARENA_NEW(arena, double, groups_size(cells));
+    light_bands_white(trace.white);
     for (int k = 0; k < WAVE; k++) {
         trace.tables[k] = ARENA_NEW(arena, float, table_size(cells));
         trace.towards[k] = ARENA_NEW(arena, Vec3, cells->count);
@@ -137,23 +188,32 @@ static Trace trace_start(const ProbeAim *aim, const ResponseOptions *options,
     return trace;
 }
 
+/* Groups may differ by a wave. */
 static double relative_error(const Trace *trace)
 {
-    double n = trace->first_chunk, mean = trace->reading / n;
-    double variance = fmax(trace->squares / n - mean * mean, 0) / (n - 1);
-    return mean > 0 ? sqrt(variance) / mean : 0;
+    BatchSums means = {0};
+    int       groups = groups_used(trace->first_chunk);
+    double    n = trace->first_chunk, sum = 0;
+    for (int i = 0; i < groups; i++) sum += trace->reading[i];
+    for (int i = 0; i < groups; i++) {
+        double share = group_chunks(i, trace->first_chunk) / n;
+        batch_add(&means, (trace->reading[i] - share * sum) * groups);
+    }
+    return sum > 0 && groups > 1 ? batch_error(&means) / sum : 0;
 }
 
 float *response_empty(int level, Arena *arena, Response *out)
 {
     *out = (Response){.cells = cells_of_level(level, arena)};
-    float *shares = ARENA_NEW(arena, float, table_size(&out->cells));
+    size_t size = table_size(&out->cells);
+    float *shares = ARENA_NEW(arena, float, size + groups_size(&out->cells));
     Vec3  *centers = ARENA_NEW(arena, Vec3, out->cells.count);
     for (int i = 0; i < out->cells.count; i++)
         centers[i] = probe_cell_center(&out->cells, i);
     out->centers = centers;
     out->first = shares;
-    out->rest = shares + table_size(&out->cells) / PROBE_ORDERS;
+    out->rest = shares + size / PROBE_ORDERS;
+    out->groups = shares + size;
     return shares;
 }
 
@@ -168,13 +228,17 @@ void response_trace(const ProbeAim *aim, const ResponseOptions *options, Arena *
     trace_wave(&trace, &out->cells, NULL, pilot, scratch);
     const bool *is_open = open_cells(&out->cells, out->centers, trace.sums, &scratch);
     while (trace.first_chunk < chunks &&
-           (trace.first_chunk <= PILOT || relative_error(&trace) > options->precision)) {
+           (trace.first_chunk < PILOT + RESPONSE_GROUPS * WAVE ||
+            relative_error(&trace) > options->precision)) {
         int left = chunks - trace.first_chunk;
         trace_wave(&trace, &out->cells, is_open, left < WAVE ? left : WAVE, scratch);
     }
     out->paths = trace.first_chunk * RESPONSE_CHUNK;
     for (size_t i = 0; i < table_size(&out->cells); i++)
         shares[i] = (float)(trace.sums[i] / out->paths);
+    shares += table_size(&out->cells);
+    for (size_t i = 0; i < groups_size(&out->cells); i++)
+        shares[i] = (float)(trace.groups[i] / out->paths);
     out->relative_error = relative_error(&trace);
 }
 
@@ -220,24 +284,92 @@ static double fit_value(const PlaneFit *fit)
     return fmin(fmax(value / all, fit->least), fit->most);
 }
 
-double response_sun(const Response *response, Vec3 towards, const float bands[RESPONSE_BANDS])
+double response_without(const Response *response, int group, double sum, double of_group)
+{
+    int chunks = response->paths / RESPONSE_CHUNK;
+    return (sum - of_group) * chunks / fmax(chunks - group_chunks(group, chunks), 1);
+}
+
+/* Jackknife: K x - (K - 1) x_k are as good as K independent readings (Miller, Biometrika 61
+ * (1974) 1), also of what is no mean, such as a fit. */
+MeanInterval response_interval(const Response *response, double reading,
+                               const double without[RESPONSE_GROUPS])
+{
+    BatchSums values = {0};
+    int       groups = groups_used(response->paths / RESPONSE_CHUNK);
+    if (groups < 2) return (MeanInterval){-INFINITY, INFINITY};
+    for (int k = 0; k < groups; k++)
+        batch_add(&values, groups * reading - (groups - 1) * without[k]);
+    double       off = reading - values.sum / groups;
+    MeanInterval in = batch_interval(&values, CONFIDENCE_MISS);
+    return (MeanInterval){in.low + off, in.high + off};
+}
+
+#define NEAR_MOST 64 /* triangles about a direction; some 5 to 10 lie there */
+
+/* A triangle near a direction. */
+typedef struct NearCell {
+    int    cell;
+    double weight, area, at[3];
+} NearCell;
+
+static int near_cells(const Response *response, Vec3 towards, NearCell near[NEAR_MOST])
 {
     const ProbeCells *cells = &response->cells;
-    Frame    frame = frame_from_z(towards);
-    float    width = NEAR * sqrtf(4 * PI_F / (float)cells->count), near = cosf(width);
-    PlaneFit fit = {.least = INFINITY, .most = -INFINITY};
-    for (int cell = 0; cell < cells->count; cell++) {
+    Frame frame = frame_from_z(towards);
+    float width = NEAR * sqrtf(4 * PI_F / (float)cells->count), least = cosf(width);
+    int   count = 0;
+    for (int cell = 0; cell < cells->count && count < NEAR_MOST; cell++) {
         Vec3  center = response->centers[cell];
         float cosine = vec3_dot(towards, center);
-        if (cosine <= near) continue;
-        double weight = 1 - (double)(acosf(fminf(cosine, 1)) / width);
+        if (cosine <= least) continue;
         double area = (double)cells->samplers[cell % (cells->count / 2)].area;
-        double at[3] = {1, (double)vec3_dot(frame.x, center),
-                        (double)vec3_dot(frame.y, center)};
-        const float *share = response->rest + (size_t)cell * RESPONSE_BANDS;
-        fit_add(&fit, weight * area, at, light_bands_sum(share, bands) / area);
+        double weight = 1 - (double)(acosf(fminf(cosine, 1)) / width);
+        near[count++] = (NearCell){cell, weight * area, area,
+                                   {1, (double)vec3_dot(frame.x, center),
+                                    (double)vec3_dot(frame.y, center)}};
     }
+    return count;
+}
+
+static double fit_of(const NearCell *near, int count, const double *values)
+{
+    PlaneFit fit = {.least = INFINITY, .most = -INFINITY};
+    for (int i = 0; i < count; i++)
+        fit_add(&fit, near[i].weight, near[i].at, values[i] / near[i].area);
     return fit_value(&fit);
+}
+
+/* Of white light; group: that is left out, or none. */
+static double white_fit(const Response *response, const NearCell *near, int count, int group)
+{
+    double values[NEAR_MOST] = {0};
+    for (int i = 0; i < count; i++) {
+        const float *rest =
+            response->groups + ((size_t)near[i].cell * 2 + 1) * RESPONSE_GROUPS;
+        values[i] = 0;
+        for (int k = 0; k < RESPONSE_GROUPS; k++) values[i] += (double)rest[k];
+        if (group < RESPONSE_GROUPS)
+            values[i] = response_without(response, group, values[i], (double)rest[group]);
+    }
+    return fit_of(near, count, values);
+}
+
+double response_sun(const Response *response, Vec3 towards, const float bands[RESPONSE_BANDS],
+                    double without[RESPONSE_GROUPS])
+{
+    NearCell near[NEAR_MOST] = {{0}};
+    double   values[NEAR_MOST] = {0};
+    int      count = near_cells(response, towards, near);
+    for (int i = 0; i < count; i++)
+        values[i] =
+            light_bands_sum(response->rest + (size_t)near[i].cell * RESPONSE_BANDS, bands);
+    double reading = fit_of(near, count, values);
+    double white = without ? white_fit(response, near, count, RESPONSE_GROUPS) : 0;
+    for (int k = 0; k < RESPONSE_GROUPS && without; k++)
+        without[k] =
+            white > 0 ? reading * white_fit(response, near, count, k) / white : reading;
+    return reading;
 }
 
 /* ---- suns -------------------------------------------------------------------------------- */

@@ -11,13 +11,17 @@
  * Spectrum     16 bands, those of the lanes of a path. Light is told by what each of its bands
  *              gives of the luminance (light_bands.h), so that bands add up to it; a response
  *              is the share of that, a mean over the band.
+ * Errors       paths come in up to RESPONSE_GROUPS independent groups, each of whole waves that
+ *              ask every triangle equally often; what each gives of white light is kept:
+ *              readings without one of them tell how sure they are.
  * Units        shares: cd m^-2 by cd m^-2 (of a luxmeter lx by cd m^-2); of a sun cd m^-2 by
  *              lx on a plane that faces it.
- * Memory       from the arena: 128 bytes a triangle; some 20 times that while tracing.
+ * Memory       from the arena: 256 bytes a triangle; some 20 times that while tracing.
  * Threads      starts its own; the same numbers for any count.
  */
 #pragma once
 #include "kernel/kernel.h"
+#include "base/confidence.h"
 
 #define RESPONSE_LEVEL 5 /* 8,192 triangles over the sphere, edges of about 3.4 degrees */
 #define RESPONSE_BANDS SPECTRUM_LANES
@@ -31,6 +35,7 @@ typedef struct ResponseOptions {
 } ResponseOptions;
 
 #define RESPONSE_CHUNK 32
+#define RESPONSE_GROUPS 16
 
 typedef struct Response {
     ProbeCells cells;   /* geometry; nothing is asked any more */
@@ -38,19 +43,31 @@ typedef struct Response {
     int        paths;
     const float *first; /* [cell][band], of the whole triangle: by the first vertex */
     const float *rest;  /* by all further ones */
+    const float *groups; /* [cell][2][group] of white light what each group gives of all, and of
+                            the rest: they add up to it */
     double relative_error; /* standard error of the reading under a uniform white sky */
 } Response;
 
-/* A response of which nothing is known but its triangles. Its shares, all 0: first, then rest.
- */
+/* A response of which nothing is known but its triangles. Its shares, all 0: first, rest, then
+ * groups. */
 float *response_empty(int level, Arena *arena, Response *out);
 
 void response_trace(const ProbeAim *aim, const ResponseOptions *options, Arena *arena,
                     Response *out);
 
 /* Reading of the further vertices for a sun in direction `towards` (unit, world) whose
- * irradiance has these band illuminances (light_bands.h), lx: cd m^-2, or lx. */
-double response_sun(const Response *response, Vec3 towards, const float bands[RESPONSE_BANDS]);
+ * irradiance has these band illuminances (light_bands.h), lx: cd m^-2, or lx. without: what it
+ * would be without each group, or NULL. */
+double response_sun(const Response *response, Vec3 towards, const float bands[RESPONSE_BANDS],
+                    double without[RESPONSE_GROUPS]);
+
+/* What is left of a sum without one group, by what that gave to it. */
+double response_without(const Response *response, int group, double sum, double of_group);
+
+/* The 95 % interval of a reading, by what it would be without each group. Of fewer paths than
+ * two groups take nothing is known: all numbers. */
+MeanInterval response_interval(const Response *response, double reading,
+                               const double without[RESPONSE_GROUPS]);
 
 /* Paths that tell what an aim's mirror sends of a sun of that radius (radians) within 1 %,
  * wherever in its patches the sun's image lies; of patches that fill more than 0.3 sr, and of a

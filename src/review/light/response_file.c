@@ -14,6 +14,7 @@
 #define FILE_BYTES_MOST ((size_t)1 << 28)
 #define LEVEL_MOST 9
 #define CELL_BYTES (RESPONSE_BANDS * sizeof(float))
+#define GROUP_BYTES (2 * RESPONSE_GROUPS * sizeof(float))
 
 _Static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "numbers go out as they lie");
 
@@ -31,7 +32,7 @@ _Static_assert(sizeof(ResponseHead) == 8 + 8 + 16 + 16 + 24, "the head has no ga
 static size_t bytes_of(const ResponseHead *head)
 {
     return sizeof *head + head->identity_bytes +
-           (size_t)head->kept * (sizeof(int32_t) + PROBE_ORDERS * CELL_BYTES) +
+           (size_t)head->kept * (sizeof(int32_t) + PROBE_ORDERS * CELL_BYTES + GROUP_BYTES) +
            sizeof(uint64_t);
 }
 
@@ -81,6 +82,8 @@ bool response_write(ResponseFile *file, const Response *response, const OwnLight
         to = put(to, response->first + (size_t)kept[i] * RESPONSE_BANDS, CELL_BYTES);
     for (int i = 0; i < head.kept; i++)
         to = put(to, response->rest + (size_t)kept[i] * RESPONSE_BANDS, CELL_BYTES);
+    for (int i = 0; i < head.kept; i++)
+        to = put(to, response->groups + (size_t)kept[i] * 2 * RESPONSE_GROUPS, GROUP_BYTES);
     uint64_t checksum = XXH3_64bits(bytes, (size_t)(to - bytes));
     put(to, &checksum, sizeof checksum);
     file->bytes = head.file_bytes;
@@ -145,20 +148,35 @@ static bool check_identity(const ResponseFile *file, const char *there, Arena sc
                                    "is the response of something else: %s", difference);
 }
 
+/* One of the file's parts: so many bytes a kept triangle. */
+typedef struct FilePart {
+    const unsigned char *values;
+    size_t               bytes;
+    float               *to;
+} FilePart;
+
 static bool spread(const ResponseFile *file, const ResponseHead *head,
-                   const unsigned char *body, float *shares, Error *err)
+                   const unsigned char *cells, FilePart part, Error *err)
 {
-    const unsigned char *values = body + (size_t)head->kept * sizeof(int32_t);
-    for (int order = 0; order < PROBE_ORDERS; order++)
-        for (int i = 0; i < head->kept; i++, values += CELL_BYTES) {
-            int32_t cell;
-            memcpy(&cell, body + (size_t)i * sizeof cell, sizeof cell);
-            if (cell < 0 || cell >= head->cells)
-                return refuse(file, "is damaged: it has triangles that are not there", err);
-            size_t at = (size_t)order * (size_t)head->cells + (size_t)cell;
-            memcpy(shares + at * RESPONSE_BANDS, values, CELL_BYTES);
-        }
+    for (int i = 0; i < head->kept; i++, part.values += part.bytes) {
+        int32_t cell;
+        memcpy(&cell, cells + (size_t)i * sizeof cell, sizeof cell);
+        if (cell < 0 || cell >= head->cells)
+            return refuse(file, "is damaged: it has triangles that are not there", err);
+        memcpy(part.to + (size_t)cell * (part.bytes / sizeof(float)), part.values, part.bytes);
+    }
     return true;
+}
+
+static bool spread_all(const ResponseFile *file, const ResponseHead *head,
+                       const unsigned char *cells, float *shares, Error *err)
+{
+    size_t kept = (size_t)head->kept, order = (size_t)head->cells * RESPONSE_BANDS;
+    const unsigned char *first = cells + kept * sizeof(int32_t);
+    const unsigned char *rest = first + kept * CELL_BYTES, *groups = rest + kept * CELL_BYTES;
+    return spread(file, head, cells, (FilePart){first, CELL_BYTES, shares}, err) &&
+           spread(file, head, cells, (FilePart){rest, CELL_BYTES, shares + order}, err) &&
+           spread(file, head, cells, (FilePart){groups, GROUP_BYTES, shares + 2 * order}, err);
 }
 
 bool response_read(ResponseFile *file, Arena *arena, Response *out, OwnLight *own, Error *err)
@@ -175,7 +193,7 @@ bool response_read(ResponseFile *file, Arena *arena, Response *out, OwnLight *ow
         Response found;
         float   *shares = response_empty(head.level, arena, &found);
         ok = check_identity(file, there, scratch, err) &&
-             spread(file, &head, text + head.identity_bytes, shares, err);
+             spread_all(file, &head, text + head.identity_bytes, shares, err);
         found.paths = head.paths;
         found.relative_error = head.relative_error;
         if (ok) file->bytes = bytes.size;

@@ -11,7 +11,7 @@
 #pragma once
 #include "review/light/response.h"
 
-#define RESPONSE_VERSION 1
+#define RESPONSE_VERSION 2
 
 /* What a probe reads of the scene's own light, whatever the sky. */
 typedef struct OwnLight {

@@ -128,6 +128,8 @@ static json_t *case_json(const ReviewCase *c)
     set(out, "contrast_interval", pair(c->contrast_low, c->contrast_high));
     set(out, "reflected_interval", pair(c->reflected_range.low, c->reflected_range.high));
     set(out, "paths", json_integer((json_int_t)c->paths));
+    set(out, "precision_asked", json_figure(c->precision_asked));
+    set(out, "precision_reached", json_figure(c->precision_reached));
     set(out, "paths_to_decide", json_figure(c->paths_to_decide));
     set(out, "contrast_with_veil", json_figure(c->contrast_with_veil));
     set(out, "height_arcmin", json_figure(c->height_arcmin));

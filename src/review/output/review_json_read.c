@@ -243,9 +243,14 @@ static bool read_told_since(const JsonView *view, ReviewCase *c, Error *err)
                    err))
         return false;
     c->hiders = hiders;
+    c->precision_asked = c->precision_reached = (double)NAN;
     return (!json_object_get(view->object, "reflected_interval") ||
             read_pair(view, "reflected_interval", &c->reflected_range.low,
                       &c->reflected_range.high, err)) &&
+           (!json_object_get(view->object, "precision_asked") ||
+            read_number(view, "precision_asked", &c->precision_asked, err)) &&
+           (!json_object_get(view->object, "precision_reached") ||
+            read_number(view, "precision_reached", &c->precision_reached, err)) &&
            (!json_object_get(view->object, "paths_to_decide") ||
             read_number(view, "paths_to_decide", &c->paths_to_decide, err));
 }

@@ -199,6 +199,14 @@ const char *words_hiders(const ReviewCase *c, Arena *arena)
     return text.data ? text.data : "";
 }
 
+const char *words_precision(const ReviewCase *c, Arena *arena)
+{
+    if (!(c->precision_reached > c->precision_asked)) return "";
+    return arena_format(arena, "; known within %s, %s was asked",
+                        words_share(c->precision_reached, arena),
+                        words_share(c->precision_asked, arena));
+}
+
 const char *words_reason(const ReviewCase *c, Arena *arena)
 {
     const LimitVerdict *limit = case_worst_limit(c);
@@ -211,12 +219,13 @@ const char *words_reason(const ReviewCase *c, Arena *arena)
     const char *found = words_found(limit, arena);
     const char *wanted = words_wanted(limit, arena);
     if (c->verdict == VERDICT_TOO_CLOSE)
-        return arena_format(arena, "%s %s, but anything between %s and %s, wanted %s%s",
+        return arena_format(arena, "%s %s, but anything between %s and %s, wanted %s%s%s",
                             name, found,
                             words_within(limit->low, limit->low, limit->high, arena),
                             words_within(limit->high, limit->low, limit->high, arena),
-                            wanted, words_decide(c, arena));
-    return arena_format(arena, "%s %s, wanted %s", name, found, wanted);
+                            wanted, words_precision(c, arena), words_decide(c, arena));
+    return arena_format(arena, "%s %s, wanted %s%s", name, found, wanted,
+                        words_precision(c, arena));
 }
 
 const char *words_chain(const CaseCause *cause, Arena *arena)

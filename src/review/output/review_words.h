@@ -77,6 +77,10 @@ const char *words_hiders(const ReviewCase *c, Arena *arena);
 /* Why the case has its verdict: "contrast 1.64 : 1, wanted at least 2 : 1". */
 const char *words_reason(const ReviewCase *c, Arena *arena);
 
+/* "; known within 2.3 %, 1.0 % was asked", behind what is told of a case; "" where that was
+ * reached. */
+const char *words_precision(const ReviewCase *c, Arena *arena);
+
 /* " Of what the display reflects 97 % is the sky's, 64 % comes through Window_FL, ...": the
  * greatest of each group. */
 const char *words_groups(const ReviewCase *c, Arena *arena);

@@ -30,8 +30,7 @@ double review_range_value(const ReviewRange *range, int i)
 
 uint32_t review_seed(const ReviewRequest *request, uint32_t base)
 {
-    uint32_t seed = (uint32_t)request->precision_seed;
-    return seed ? hash_combine(hash_u32(base), seed) : base;
+    return request->seed ? hash_combine(hash_u32(base), request->seed) : base;
 }
 
 int review_look_count(const ReviewRequest *request)

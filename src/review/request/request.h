@@ -181,7 +181,8 @@ typedef struct ReviewRequest {
     bool             decides; /* what is too close is read on: DECIDE_TIMES (run/cases.c) */
     int              precision_paths;    /* of one reading at most: what is not sure then has a
                                             wider interval */
-    int              precision_seed;     /* of the random numbers; 0 as a rule */
+    uint32_t         seed;    /* of the random numbers: another one takes other paths of the
+                                 same light; 0 as a rule */
     ReviewFrames     frames;
     ReviewInput     *inputs;     /* the file itself, routes, weathers, skies' pictures */
     int              input_count;

@@ -35,7 +35,7 @@ static bool read_precision(RequestReading *reading, Error *err)
 {
     static const char *const keys[] = {"contrast", "clear", "paths", "seed"};
     JsonView view;
-    int     *paths = &reading->request->precision_paths;
+    int     *paths = &reading->request->precision_paths, seed = 0;
     double  *contrast = &reading->request->precision_contrast;
     double  *clear = &reading->request->precision_clear;
     *contrast = 0.01;
@@ -46,9 +46,9 @@ static bool read_precision(RequestReading *reading, Error *err)
         !json_view_number(&view, "contrast", 1e-6, 1, contrast, err) ||
         !json_view_number(&view, "clear", 1e-6, 1, clear, err) ||
         !field_integer(&view, "paths", (FieldBounds){8192, 1 << 30}, paths, err) ||
-        !field_integer(&view, "seed", (FieldBounds){0, INT32_MAX},
-                       &reading->request->precision_seed, err))
+        !field_integer(&view, "seed", (FieldBounds){0, INT32_MAX}, &seed, err))
         return false;
+    reading->request->seed = (uint32_t)seed;
     if (isnan(*clear)) *clear = fmax(CLEAR_USUAL, *contrast);
     return *clear >= *contrast ||
            field_fails(&view, "clear", err, "is %g, wanted at least 'contrast', %g", *clear,

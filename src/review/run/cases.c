@@ -125,11 +125,12 @@ static void set_contrasts(ReviewCase *c, MeanInterval reflected)
                                 l->background + l->reflected + veil);
 }
 
-/* One point of an eye that looks at a symbol; coarse: to find the worst of many points. */
+/* One point of an eye that looks at a symbol; coarse: to find the worst of many points; bare:
+ * without stray light. */
 typedef struct CaseLook {
     const StageSymbol *symbol;
     Vec3               eye;
-    bool               is_coarse;
+    bool               is_coarse, is_bare;
 } CaseLook;
 
 static ProbeAim aim_at(const Stage *stage, const CaseLook *look, const bool *is_visible,
@@ -270,7 +271,7 @@ static ProbeAim see_symbol(const CaseTools *tools, const CaseLook *look, ReviewC
         symbol_visibility(&symbol->surface, &stage->context, eye, is_visible);
     *l = (CaseLuminances){(double)NAN, (double)NAN, (double)NAN, (double)NAN, (double)NAN,
                           (double)NAN};
-    c->minutes_to_decide = (double)NAN;
+    c->minutes_to_decide = c->precision_asked = c->precision_reached = (double)NAN;
     c->reflected_range = (Range){(double)NAN, (double)NAN};
     c->visible_share = seen.visible_share;
     if (seen.visible_share < 1 && !look->is_coarse)
@@ -283,11 +284,15 @@ static ProbeAim see_symbol(const CaseTools *tools, const CaseLook *look, ReviewC
         symbol_emission(&symbol->surface, &symbol->split, c->level, eye);
     set_shown(l, &emission, seen.transmittance);
     ProbeAim aim = aim_at(stage, look, is_visible, arena);
-    if (!look->is_coarse) see_stray_light(stage, symbol, eye, c, *arena);
+    if (!look->is_coarse && !look->is_bare) see_stray_light(stage, symbol, eye, c, *arena);
     *direct = direct_sun(stage, &aim, *arena);
     VerdictAsk ask = {tools, c, *direct};
     Reading    reading = read_symbol(look, &aim, &ask, *arena);
     c->paths = reading.paths;
+    c->precision_reached = reading.reached;
+    c->precision_asked = is_verdict_clear(&ask, reading.interval, *arena)
+                             ? stage->request->precision_clear
+                             : stage->request->precision_contrast;
     c->minutes_to_decide = reading.seconds / 60 / (double)reading.paths; /* of one path */
     l->reflected = reading.reflected;
     l->mirror = reading.mirror;
@@ -327,6 +332,7 @@ typedef struct CaseAsk {
     const ReviewEye   *eye;
     const StageSymbol *symbol;
     double             face_lux;
+    bool               is_bare; /* its light and verdict alone */
 } CaseAsk;
 
 static ProbeAim judge_look(const CaseTools *tools, const CaseLook *look, ReviewCase *c,
@@ -350,7 +356,7 @@ static int worst_point(const CaseTools *tools, const CaseLook *look, const Vec3 
     int        at = 0, failed = 0;
     for (int i = 0; i < count; i++) {
         Arena      room = scratch;
-        CaseLook   one = {look->symbol, points[i], true};
+        CaseLook   one = {look->symbol, points[i], true, true};
         ReviewCase seen = start;
         judge_look(tools, &one, &seen, &room);
         failed += seen.verdict == VERDICT_FAIL || seen.verdict == VERDICT_NOT_VISIBLE;
@@ -368,7 +374,7 @@ static bool case_of(const CaseTools *tools, const CaseAsk *ask, Arena *arena, Re
     int        count;
     Vec3      *points = stage_eye_points(tools->stage, ask->eye, &count, arena, err);
     ReviewCase c = start_case(tools, ask->eye, ask->symbol);
-    CaseLook   look = {.symbol = ask->symbol};
+    CaseLook   look = {.symbol = ask->symbol, .is_bare = ask->is_bare};
     if (!points || !review_goes_on(tools->stage->tools.journal, err)) return false;
     c.display_lux = ask->face_lux;
     c.eye_failed_share = (double)NAN;
@@ -376,7 +382,7 @@ static bool case_of(const CaseTools *tools, const CaseAsk *ask, Arena *arena, Re
         points[count > 1 ? worst_point(tools, &look, points, count, &c, *arena) : 0];
     ProbeAim aim = judge_look(tools, &look, &c, arena);
     c.eye_m = look.eye;
-    if (aim.target_count) {
+    if (aim.target_count && !ask->is_bare) {
         long     paths = tools->cause_paths ? tools->cause_paths : CAUSE_PATHS;
         int      rays = tools->cause_rays ? tools->cause_rays : CAUSE_RAYS;
         CauseAsk causes = {&tools->stage->tools, &aim, paths, rays, false, false};
@@ -435,7 +441,14 @@ bool stage_learn(Stage *stage, const StageSymbol *symbols, int count, Arena *are
 bool stage_case(const CaseTools *tools, const StageSymbol *symbol, const ReviewEye *eye,
                 Arena *arena, ReviewCase *out, Error *err)
 {
-    CaseAsk ask = {eye, symbol, face_lux(tools, symbol, *arena)};
+    CaseAsk ask = {eye, symbol, face_lux(tools, symbol, *arena), false};
+    return case_of(tools, &ask, arena, out, err);
+}
+
+bool stage_verdict(const CaseTools *tools, const StageSymbol *symbol, const ReviewEye *eye,
+                   Arena *arena, ReviewCase *out, Error *err)
+{
+    CaseAsk ask = {eye, symbol, out->display_lux, true};
     return case_of(tools, &ask, arena, out, err);
 }
 
@@ -450,7 +463,7 @@ bool stage_cases(const CaseTools *tools, Arena *arena, ReviewCase *out, Error *e
         if (!moment_share_has(&tools->share, i, count)) continue;
         if (!is_known[s]) faces[s] = face_lux(tools, &tools->symbols[s], *arena);
         is_known[s] = true;
-        CaseAsk ask = {&request->eyes[i / symbols], &tools->symbols[s], faces[s]};
+        CaseAsk ask = {&request->eyes[i / symbols], &tools->symbols[s], faces[s], false};
         if (!case_of(tools, &ask, arena, &out[i], err)) return false;
     }
     return true;

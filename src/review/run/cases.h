@@ -38,6 +38,11 @@ bool stage_cases(const CaseTools *tools, Arena *arena, ReviewCase *out, Error *e
 bool stage_case(const CaseTools *tools, const StageSymbol *symbol, const ReviewEye *eye,
                 Arena *arena, ReviewCase *out, Error *err);
 
+/* The same without stray light, causes and remedies: for trials of many seeds. out->display_lux
+ * is the illuminance of its face. */
+bool stage_verdict(const CaseTools *tools, const StageSymbol *symbol, const ReviewEye *eye,
+                   Arena *arena, ReviewCase *out, Error *err);
+
 /* The points of an eye, world, as many as it has; in the arena. NULL: its camera is missing. */
 Vec3 *stage_eye_points(const Stage *stage, const ReviewEye *eye, int *count, Arena *arena,
                        Error *err);

@@ -28,10 +28,10 @@ static const CaseRay *rays_of(const Chain *chain, int most, int *count, Arena *a
 static CaseCause cause_of(ChainFigure figure, const Chains *chains, const ReviewCase *c)
 {
     const CaseLuminances *l = &c->luminance_cd_m2;
-    double half = INTERVAL_SIGMAS * figure.sigma, all = chains->all.cd_m2;
+    double all = chains->all.cd_m2;
     double left = fmax(l->reflected - figure.cd_m2, 0);
     return (CaseCause){.share = all > 0 ? figure.cd_m2 / all : 0, .cd_m2 = figure.cd_m2,
-                       .low = fmax(figure.cd_m2 - half, 0), .high = figure.cd_m2 + half,
+                       .low = figure.low, .high = figure.high,
                        .contrast_without =
                            luminance_contrast(l->foreground, l->background, left)};
 }

@@ -103,12 +103,6 @@ static void set_outlook(const ExplainPlace *place, const ProbeAim *aim, bool is_
 
 /* ---- all of it --------------------------------------------------------------------------- */
 
-static void set_range(double sigma, ReviewCase *c)
-{
-    double half = INTERVAL_SIGMAS * sigma, reflected = c->luminance_cd_m2.reflected;
-    c->reflected_range = (Range){fmax(reflected - half, 0), reflected + half};
-}
-
 void explain_place(const ExplainPlace *place, Arena *arena, Explained *out)
 {
     const double nan = (double)NAN;
@@ -124,7 +118,7 @@ void explain_place(const ExplainPlace *place, Arena *arena, Explained *out)
     CauseAsk   ask = {place->tools, &aim, place->paths, CHAIN_RAYS, !is_display, true};
     CauseFacts facts = case_causes(&ask, c, arena);
     out->all = facts.all;
-    set_range(facts.all.sigma, c);
+    c->reflected_range = (Range){facts.all.low, facts.all.high};
     if (is_display) judge_contrasts(c, c->reflected_range);
     else c->luminance_cd_m2.mirror = c->luminance_cd_m2.scattered = nan;
     if (place->with_outlook) set_outlook(place, &aim, is_display, arena, out);

@@ -23,9 +23,23 @@ void batch_add(BatchSums *sums, double mean);
 /* The standard error of the mean of all; at least 2 batches. */
 double batch_error(const BatchSums *sums);
 
+/* Exceeded by a variable of Student's distribution, either side, with this chance. */
+double student_quantile(double miss, double freedom);
+
 typedef struct MeanInterval {
     double low, high;
 } MeanInterval;
+
+/* Of single samples that are light: 0 or more. */
+typedef struct BrightSamples {
+    double squares, fourths; /* sums */
+} BrightSamples;
+
+void bright_add(BrightSamples *samples, double light);
+
+/* What a mean over so many samples may lack for want of bright ones: the upper end of its
+ * interval has this more. repeated: of so many times these samples. */
+double bright_missing(const BrightSamples *samples, double count, double repeated);
 
 /* Misses the true mean with this chance, both sides together. */
 MeanInterval batch_interval(const BatchSums *sums, double miss);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "review/light/confidence.h"
+#include "base/confidence.h"
 
 #include <math.h>
 
@@ -28,6 +28,28 @@ double batch_error(const BatchSums *sums)
     return sqrt(variance_of(sums) / (sums->count - 1));
 }
 
+void bright_add(BrightSamples *samples, double light)
+{
+    double square = light * light;
+    samples->squares += square;
+    samples->fourths += square * square;
+}
+
+/* Light that few paths find, and that then is bright, is missing from most means, and their
+ * spread does not know of it; but the light about it tells. With q and f the sums of squares
+ * and of fourth powers, q^2/f samples make most of the spread, each of the light sqrt(f/q).
+ * Where the brightest go with rank i as i^-k these are 1.2 samples for k = 2 (a lamp in a
+ * glossy edge, whose lobe falls with the fourth power of the angle), 2.5 for k = 1, and more
+ * and more where the spread is finite (k < 1/2). As many such may be missing: for k = 2 those
+ * up to 50 times as bright as the brightest, 2 (sqrt(50) - 1) = 12; for k = 1 log(50) = 4 to 7;
+ * of many that are alike what an interval of Poisson's has more than a normal one, 1. */
+double bright_missing(const BrightSamples *samples, double count, double repeated)
+{
+    double q = samples->squares, f = samples->fourths;
+    if (!(f > 0)) return 0;
+    return (1 + 14 * f / (q * q * repeated)) * sqrt(f / q) / (count * repeated);
+}
+
 /* The third moment by the standard deviation's cube. */
 static double skewness_of(const BatchSums *sums)
 {
@@ -49,7 +71,7 @@ static double normal_quantile(double miss)
     return low;
 }
 
-static double student_quantile(double miss, double freedom)
+double student_quantile(double miss, double freedom)
 {
     double z = normal_quantile(miss), s = z * z, v = freedom;
     return z * (1 + (s + 1) / (4 * v) + ((5 * s + 16) * s + 3) / (96 * v * v) +

@@ -1,0 +1,125 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* bench_verdicts TRIALS REVIEW.json -- how often a verdict is wrong: of each moment the first
+ * symbol as the first eye sees it, held against limits that leave its true contrast a margin of
+ * -10 to 10 %, TRIALS seeds each, by what decides a review's verdicts. coverage.py makes the
+ * reviews.
+ *
+ * The truth is the mean of as many longer readings with seeds of their own; the error of the
+ * contrast that this leaves is printed. Printed: moment, margin in percent, trials, passes,
+ * failures, too close; mean of the paths. */
+#include <string.h>
+
+#include "coverage_trials.h"
+#include "review/request/request_read.h"
+#include "review/run/cases.h"
+
+#define TRUTH_PATHS 16384
+#define NEVER 1e-9
+
+typedef struct Verdicts {
+    ReviewRequest     *request;
+    const Stage       *stage;
+    const StageSymbol *symbol;
+    int                trials;
+    Arena              scratch;
+} Verdicts;
+
+static ReviewCase judged(const Verdicts *v, const Profile *profile, unsigned seed)
+{
+    Arena      room = v->scratch;
+    CaseTools  tools = {.stage = v->stage, .profile = profile};
+    ReviewCase c = {.display_lux = 1000};
+    Error      err = {0};
+    v->request->seed = seed;
+    if (!stage_verdict(&tools, v->symbol, &v->request->eyes[0], &room, &c, &err))
+        trials_stop(&err);
+    return c;
+}
+
+/* The contrast that the mean of the reflected light makes. */
+static double true_contrast(const Verdicts *v, Arena arena)
+{
+    ReviewRequest *r = v->request, asked = *r;
+    Profile        open = {.id = "none"};
+    Trial         *list = ARENA_NEW(&arena, Trial, v->trials);
+    CaseLuminances l = {0};
+    r->precision_contrast = r->precision_clear = NEVER;
+    r->precision_paths = TRUTH_PATHS;
+    for (int i = 0; i < v->trials; i++) {
+        ReviewCase c = judged(v, &open, (1u << 28) + (unsigned)i);
+        l = c.luminance_cd_m2;
+        list[i].found = l.reflected;
+    }
+    *r = asked;
+    Truth  truth = trials_mean(list, v->trials);
+    double ratio = luminance_contrast(l.foreground, l.background, truth.value);
+    double off = luminance_contrast(l.foreground, l.background, truth.value + truth.error);
+    printf("%s\ttruth\t%.5f\t%.4f\n", v->stage->condition->name, ratio,
+           100 * fabs(off / ratio - 1));
+    return ratio;
+}
+
+static void try_margin(const Verdicts *v, double ratio, double percent, unsigned seed)
+{
+    ProfileLimit limit = {.name = "limit", .kind = LIMIT_CONTRAST_RATIO,
+                          .ambients = {true, true, true, true},
+                          .value = ratio / (1 + percent / 100)};
+    Profile      profile = {.id = "one", .limits = &limit, .limit_count = 1};
+    int          count[4] = {0};
+    double       paths = 0;
+    for (int i = 0; i < v->trials; i++) {
+        ReviewCase c = judged(v, &profile, seed + (unsigned)i);
+        count[c.verdict]++;
+        paths += (double)c.paths / v->trials;
+    }
+    printf("%s\t%g\t%d\t%d\t%d\t%d\t%.0f\n", v->stage->condition->name, percent, v->trials,
+           count[VERDICT_PASS], count[VERDICT_FAIL], count[VERDICT_TOO_CLOSE], paths);
+    fflush(stdout);
+}
+
+static void try_moment(ReviewRequest *request, const ReviewCondition *c, int trials,
+                       Problems *problems)
+{
+    static const double margins[] = {-10, -5, -2, -1, 1, 2, 5, 10};
+    StageOptions options = {.request = request, .condition = c, .root = "/", .threads = 1};
+    Arena        arena = arena_reserve((size_t)1 << 36);
+    Verdicts     v = {.request = request, .trials = trials,
+                      .scratch = arena_reserve((size_t)1 << 33)};
+    Stage        stage;
+    StageSymbol *symbols;
+    int          count;
+    Error        err = {0};
+    request->seed = 0;
+    if (!stage_open(&options, &arena, problems, &stage, &err) ||
+        !stage_light(&stage, c->has_environment ? &c->environment : NULL, &arena, &err) ||
+        !stage_symbols(&stage, &arena, &symbols, &count, &err) ||
+        !stage_learn(&stage, symbols, count, &arena, &err))
+        trials_stop(&err);
+    v.stage = &stage;
+    v.symbol = &symbols[0];
+    double ratio = true_contrast(&v, arena);
+    for (int i = 0; i < 8; i++) try_margin(&v, ratio, margins[i], (unsigned)(i + 1) << 20);
+    arena_release(&v.scratch);
+    stage_close(&stage);
+    arena_release(&arena);
+}
+
+int main(int argc, char **argv)
+{
+    Arena         arena = arena_reserve((size_t)1 << 30);
+    Error         err = {0};
+    Problems      problems = problems_start(&arena);
+    ReviewRequest request;
+    int           trials = argc == 3 ? atoi(argv[1]) : 0;
+    if (trials < 1) {
+        fprintf(stderr, "bench_verdicts TRIALS REVIEW.json\n");
+        return 1;
+    }
+    if (!review_request_read(argv[2], "/", &arena, &problems, &request, &err))
+        trials_stop(&err);
+    for (int i = 0; i < request.condition_count; i++)
+        if (request.conditions[i].kind == CONDITION_MOMENT)
+            try_moment(&request, &request.conditions[i], trials, &problems);
+    arena_release(&arena);
+    return 0;
+}

@@ -1,0 +1,136 @@
+# SPDX-License-Identifier: Apache-2.0
+"""verdicts.py BUILD [--trials N] [--rooms window,sun,trim] -- how often a verdict is wrong
+whose true margin is -10 to 10 %: a table. BUILD has bench_verdicts.
+
+Rooms: a display in a dark box, lit through a window by an even sky; in the open under a sun and
+a sky; by small lamps over a glossy trim. A wrong verdict passes where the truth fails, or fails
+where it passes; "too close" is none. At most one in a hundred may be; the upper end is that of
+Clopper and Pearson's 95 % interval of one side.
+"""
+import argparse
+import json
+import math
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+sys.path.insert(0, os.path.join(HERE, "..", "image"))
+from gltf import Scene, png  # noqa: E402
+
+PANEL = os.path.join(HERE, "..", "..", "assets", "panels", "ips_cluster.panel")
+
+
+def display(scene):
+    bars = png(60, 30, [[255 if 20 <= x < 40 and 8 <= y < 22 else 0 for x in range(60)
+                         for _ in range(3)] for y in range(30)])
+    screen = scene.material("screen", extensions={"PARHELION_display": {
+        "panel": "ips.panel", "content": {"index": scene.image("image/png", bars)},
+        "level": 1}})
+    scene.quad(screen, [-0.15, -0.075, 0], [0.3, 0, 0], [0, 0.15, 0])
+    scene.view("eye", [0.1, 0.15, 0.8], [-0.1, -0.15, -0.8], 8)
+
+
+def window():
+    """Walls that reflect 5 %, open above: the sky stands in a square of 0.4 m."""
+    scene, wall = Scene(), None
+    display(scene)
+    wall = scene.lambert(0.05, double_sided=True)
+    scene.quad(wall, [-1, -1, -0.1], [2, 0, 0], [0, 2, 0])
+    scene.quad(wall, [-1, -1, 2], [2, 0, 0], [0, 0, -2.1])
+    scene.quad(wall, [-1, -1, 2], [0, 0, -2.1], [0, 2, 0])
+    scene.quad(wall, [1, -1, 2], [0, 0, -2.1], [0, 2, 0])
+    scene.quad(wall, [-1, -1, 2], [2, 0, 0], [0, 2, 0])
+    scene.quad(wall, [-1, 1, 2], [2, 0, 0], [0, 0, -0.8])
+    scene.quad(wall, [-1, 1, 0.8], [2, 0, 0], [0, 0, -0.9])
+    scene.quad(wall, [-1, 1, 1.2], [0.8, 0, 0], [0, 0, -0.4])
+    scene.quad(wall, [0.2, 1, 1.2], [0.8, 0, 0], [0, 0, -0.4])
+    return scene, {"type": "constant", "luminance": 2000000}
+
+
+def sun():
+    scene = Scene()
+    display(scene)
+    return scene, {"type": "sky", "sun": {"azimuth_deg": 175, "elevation_deg": 25,
+                                          "illuminance_lx": 40000}}
+
+
+def trim():
+    """A rod of polished metal before the display, which lamps of a small room shine on."""
+    scene = Scene()
+    display(scene)
+    wall = scene.lambert(0.3)
+    scene.quad(wall, [-0.6, -0.3, 1.2], [1.2, 0, 0], [0, 0, -1.3])
+    scene.box_outside(scene.metal(0.7, 0.3), [-0.2, -0.11, 0.02], [0.2, -0.09, 0.04])
+    for x in (-0.3, 0.4):
+        scene.facing_quad(scene.emitter(400000), [x, 0.8, 0.7], [-x, -0.8, -0.7], 0.03)
+    return scene, {"type": "constant", "luminance": 200}
+
+
+def write_review(room, folder):
+    scene, light = room()
+    scene.write(os.path.join(folder, "room.gltf"))
+    shutil.copy(PANEL, os.path.join(folder, "ips.panel"))
+    path = os.path.join(folder, "review.json")
+    with open(path, "w", encoding="utf-8") as file:
+        json.dump({"title": "verdicts", "scene": ["room.gltf"], "profile": "iso-15008",
+                   "eyes": {"eye": {"camera": "eye"}}, "precision": {"contrast": 0.01},
+                   "symbols": {"bar": {"display": "screen", "uv": [0.1, 0.1, 0.9, 0.9]}},
+                   "conditions": [{"name": "moment", "environment": light}]}, file)
+    return path
+
+
+def upper_end(wrong, trials):
+    """The chance under which so few or fewer are wrong in one of twenty tries."""
+    low, high = wrong / trials, 1.0
+    for _ in range(60):
+        p = (low + high) / 2
+        tail = sum(math.exp(math.lgamma(trials + 1) - math.lgamma(k + 1) -
+                            math.lgamma(trials - k + 1) + k * math.log(p) +
+                            (trials - k) * math.log1p(-p)) for k in range(wrong + 1))
+        low, high = (p, high) if tail > 0.05 else (low, p)
+    return high
+
+
+def print_row(room, words):
+    margin, (trials, passed, failed, close) = float(words[1]), map(int, words[2:6])
+    wrong = passed if margin < 0 else failed
+    print(f"| {room} | {margin:+g} % | {trials} | {100 * passed / trials:.1f} % | "
+          f"{100 * failed / trials:.1f} % | {100 * close / trials:.1f} % | "
+          f"{100 * wrong / trials:.2f} % (at most {100 * upper_end(wrong, trials):.2f} %) | "
+          f"{words[6]} |", flush=True)
+    return wrong > 0.01 * trials
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("build")
+    parser.add_argument("--trials", type=int, default=2000)
+    parser.add_argument("--rooms", default="window,sun,trim")
+    words = parser.parse_args()
+    off = 0
+    print("| room | true margin | trials | pass | fail | too close | wrong | paths |\n" +
+          "| --- " * 8 + "|")
+    for name in words.rooms.split(","):
+        with tempfile.TemporaryDirectory() as folder:
+            path = write_review({"window": window, "sun": sun, "trim": trim}[name], folder)
+            line = [os.path.join(os.path.abspath(words.build), "bench_verdicts"),
+                    f"{words.trials}", path]
+            with subprocess.Popen(line, stdout=subprocess.PIPE, text=True) as running:
+                for row in running.stdout:
+                    cells = row.rstrip("\n").split("\t")
+                    if cells[1] == "truth":
+                        print(f"{name}: contrast {cells[2]}, known within {cells[3]} %",
+                              file=sys.stderr)
+                    else:
+                        off += print_row(name, cells)
+            if running.returncode:
+                return running.returncode
+    print(f"{off} cells of more than 1 % wrong")
+    return off > 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
