@@ -78,12 +78,18 @@ double student_quantile(double miss, double freedom)
                 (((3 * s + 19) * s + 17) * s - 15) / (384 * v * v * v));
 }
 
+/* The same bits on every processor. */
+static double cube_root(double x)
+{
+    return x != 0 ? copysign(exp_d(log_d(fabs(x)) / 3), x) : 0;
+}
+
 /* What Hall's transformation makes `t` of: t + a t^2 / 3 + a^2 t^3 / 27 + a / 6 is its value,
  * a the skewness by the root of the count. */
 static double untransformed(double value, double a)
 {
     if (fabs(a) < 1e-6) return value;
-    return 3 / a * (cbrt(1 + a * (value - a / 6)) - 1);
+    return 3 / a * (cube_root(1 + a * (value - a / 6)) - 1);
 }
 
 MeanInterval batch_interval(const BatchSums *sums, double miss)
