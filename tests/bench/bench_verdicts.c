@@ -4,9 +4,10 @@
  * -10 to 10 %, TRIALS seeds each, by what decides a review's verdicts. coverage.py makes the
  * reviews.
  *
- * The truth is the mean of as many longer readings with seeds of their own; the error of the
- * contrast that this leaves is printed. Printed: moment, margin in percent, trials, passes,
- * failures, too close; mean of the paths. */
+ * The truth is the mean of as many longer readings with seeds of their own; printed are its
+ * contrast, the error of that in percent, and what is shown, foreground and background. Then of
+ * each margin: moment, margin in percent, trials, passes, failures, too close; mean of the
+ * paths. */
 #include <string.h>
 
 #include "coverage_trials.h"
@@ -54,8 +55,9 @@ static double true_contrast(const Verdicts *v, Arena arena)
     Truth  truth = trials_mean(list, v->trials);
     double ratio = luminance_contrast(l.foreground, l.background, truth.value);
     double off = luminance_contrast(l.foreground, l.background, truth.value + truth.error);
-    printf("%s\ttruth\t%.5f\t%.4f\n", v->stage->condition->name, ratio,
-           100 * fabs(off / ratio - 1));
+    printf("%s\ttruth\t%.5f\t%.4f\t%.6g\t%.6g\n", v->stage->condition->name, ratio,
+           100 * fabs(off / ratio - 1), l.foreground, l.background);
+    fflush(stdout);
     return ratio;
 }
 

@@ -23,14 +23,14 @@ WITHOUT = {
     "ior alone": {"extensions": {"KHR_materials_ior": {"ior": 1.4}}},
     "empty extension": {"extensions": {"KHR_materials_clearcoat": {}}},
     "emissive of nothing": {"emissiveFactor": [0, 0, 0]},
-    "a lamp's light alone": {"emissiveFactor": [1, 1, 1]},
+    "what an exporter leaves of an ambient term": {"emissiveFactor": [0.2, 0.03, 0.03]},
 }
 WITH = {
     "a colour": {PBR: {"baseColorFactor": [0.5, 0.5, 0.5, 1]}},
     "one channel": {PBR: {"baseColorFactor": [1, 1, 0.9, 1]}},
     "alpha": {"alphaMode": "BLEND", PBR: {"baseColorFactor": [1, 1, 1, 0.5]}},
-    "a lamp with a body": {"emissiveFactor": [1, 1, 1], PBR: {
-        "baseColorFactor": [0.2, 0.2, 0.2, 1]}},
+    "a lamp": {"emissiveFactor": [1, 1, 1]},
+    "a dim lamp": {"emissiveFactor": [0.3, 0, 0]},
     "glass": {"extensions": {"KHR_materials_transmission": {"transmissionFactor": 1}}},
     "a coat": {"extensions": {"KHR_materials_clearcoat": {"clearcoatFactor": 1}}},
     "unlit": {"extensions": {"KHR_materials_unlit": {}}},

@@ -230,13 +230,13 @@ class Hunt:
             self.report.claim(-TOO_FAR * sure <= own <= a + TOO_FAR * sure,
                               f"seed {seed}: {a:.6g}, under twice the light {b:.6g}")
 
-    def check_explain(self, seed, case):
-        done = self.reviewer.run("explain", "r.json", "--condition", case["condition"],
+    def check_explain(self, seed, case, *sun):
+        done = self.reviewer.run("explain", "r.json", "--condition", case["condition"], *sun,
                                  "--json")
-        told = json.loads(done.stdout)
-        same = math.isclose(told["contrast_ratio"] or 0, case["contrast_ratio"] or 0,
-                            rel_tol=1e-4)
-        self.report.claim(same, f"seed {seed}: explain {told['contrast_ratio']}")
+        told, wanted = json.loads(done.stdout), case["contrast_ratio"]
+        same = math.isclose(told["contrast_ratio"] or 0, wanted or 0, rel_tol=1e-4)
+        self.report.claim(same, f"seed {seed}, {case['condition']}: explain says "
+                                f"{told['contrast_ratio']}, the review {wanted}")
 
     def go(self, seed):
         """A law that is broken is told, and the hunt goes on."""
@@ -259,6 +259,10 @@ class Hunt:
         self.check_sweep(seed, out, review, cases)
         self.check_twice(seed, cases)
         self.check_explain(seed, cases[seed % len(cases)])
+        for case in worst:
+            sun = case["sun"]
+            self.check_explain(seed, case, "--sun",
+                               f"{sun['azimuth_deg']},{sun['elevation_deg']}")
         shutil.rmtree(os.path.join(self.reviewer.folder, out))
 
     def tell_spread(self):

@@ -16,7 +16,7 @@
 #define WORST_READ 3          /* steps that are read again, at most */
 #define WORST_APART_DEG 5.0   /* the suns of two of them, at least: as wide as what a response
                                  tells apart */
-#define AGAIN_SEED 0x40000000u
+#define PICK_SEED 0x40000000u
 #define SWEEP_BYTES ((size_t)1 << 36) /* address space: what is not touched costs nothing */
 
 /* Air and ground: the condition's, or as usual. */
@@ -283,8 +283,8 @@ static void set_failures(const Telling *to, const Sight *sight, const Told *told
     out->longest_failure_minutes = found.longest_minutes;
 }
 
-/* again: with other paths than before. */
-static bool read_worst(Telling *to, const Sight *sight, const SweepSun *sun, bool again,
+/* picks: to choose it; with other paths than those that are told, by explain too. */
+static bool read_worst(Telling *to, const Sight *sight, const SweepSun *sun, bool picks,
                        ReviewCase *out, Error *err)
 {
     const Sweep *sweep = to->sweep;
@@ -293,7 +293,7 @@ static bool read_worst(Telling *to, const Sight *sight, const SweepSun *sun, boo
     Environment  environment = sweep_environment(sweep->stage, sun);
     Environment  dark = stage.scene->environment;
     ReviewRequest request = *stage.request;
-    request.seed += again ? AGAIN_SEED : 0;
+    request.seed += picks ? PICK_SEED : 0;
     stage.request = &request;
     for (int i = 0; i < stage.scene->display_count; i++)
         stage.scene->displays[i].level = (float)stage.scene_levels[i];
@@ -370,8 +370,8 @@ static int next_failing(const Telling *to, const Told *told, const SweepSun *rea
 
 /* The worst of many steps is the one with the worst luck, too: what is told is read afresh.
  * Where that does not fail, though steps do, so are others of them, until one does. Chosen for
- * that, it is read once more, and this is told whatever it says: who picks the reading that
- * fails of three is wrong three times as often. */
+ * that by paths of its own, it is read once more, and this is told whatever it says: who picks
+ * the reading that fails of three is wrong three times as often. */
 static bool find_worst(Telling *to, const Sight *sight, const Told *told, SweepSun *worst,
                        ReviewCase *out, Error *err)
 {
@@ -380,9 +380,9 @@ static bool find_worst(Telling *to, const Sight *sight, const Told *told, SweepS
     int        sun = told->worst;
     for (int i = 0; i < WORST_READ && sun >= 0; i++) {
         read[i] = refine(to, sight, to->suns->list[sun]);
-        if (!read_worst(to, sight, &read[i], false, &found, err)) return false;
+        if (!read_worst(to, sight, &read[i], i > 0, &found, err)) return false;
         bool fails = found.verdict == VERDICT_FAIL;
-        if (i && fails && !read_worst(to, sight, &read[i], true, &found, err)) return false;
+        if (i && fails && !read_worst(to, sight, &read[i], false, &found, err)) return false;
         tell_when(to, &read[i], &found);
         if (i == 0 || fails) {
             *out = found;

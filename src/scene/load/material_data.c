@@ -2,6 +2,8 @@
 #include "scene/load/material_data.h"
 
 #define NAMES_TOLD 12
+#define LAMP_CD_M2 0.25f /* less is no lamp: exporters write ambient terms of old formats (AC3D,
+                            OBJ) as 0.03 to 0.21 */
 
 static bool is_one(const float rgb[3])
 {
@@ -27,10 +29,17 @@ static bool lets_through(const Material *m)
            m->transmission_curve_id != NO_ID || m->index || m->base_color[3] < 1;
 }
 
+static bool is_lamp(const Material *m)
+{
+    for (int c = 0; c < 3; c++)
+        if (m->emissive_cd_m2[c] >= LAMP_CD_M2) return true;
+    return m->emission_curve_id != NO_ID;
+}
+
 static bool has_data(const Material *m)
 {
-    return m->display_id != NO_ID || m->unlit || has_colour(m) || has_layer(m) ||
-           lets_through(m);
+    return m->display_id != NO_ID || m->unlit || is_lamp(m) || has_colour(m) ||
+           has_layer(m) || lets_through(m);
 }
 
 /* Vertices without a colour of their own are white, and so are those that say so. */

@@ -5,9 +5,9 @@
  * described. One is taken as without data when its base colour is 1, 1, 1 without a texture
  * or a measured curve, and nothing else tells what it does with light: it is no display,
  * glazing or coating, no conductor of measured constants; lets no light through; has no sheen,
- * iridescence, clearcoat or specular colour of its own; and is not unlit. That some roughness
- * or metalness was given alone does not count: exporters write both. Nor does light of its own:
- * a lamp too reflects something.
+ * iridescence, clearcoat or specular colour of its own; is no lamp and not unlit. That some
+ * roughness or metalness was given alone does not count: exporters write both. Nor does a trace
+ * of emission, below 0.25 cd m^-2.
  *
  * Memory   names in the arena.
  * Threads  pure functions.
