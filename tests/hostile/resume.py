@@ -31,8 +31,9 @@ def write_scene(path):
     scene.box_inside(scene.lambert(0.7), [-2, 0, -2], [2, 2.5, 2])
     scene.facing_quad(scene.emitter(500), [0, 2.49, 0], [0, -1, 0], 0.8)
     scene.sphere(scene.metal(0.8, 0.3), [-0.7, 0.5, -0.8], 0.5, rings=8)
-    scene.quad(scene.material("screen", pbrMetallicRoughness={"metallicFactor": 0}),
-               [-1, 0.5, -1.9], [2, 0, 0], [0, 1.5, 0])
+    grey = {"metallicFactor": 0, "baseColorFactor": [0.8, 0.8, 0.8, 1]}
+    scene.quad(scene.material("screen", pbrMetallicRoughness=grey), [-1, 0.5, -1.9], [2, 0, 0],
+               [0, 1.5, 0])
     scene.view("eye", [0, 1.2, 1.9], [0, -0.1, -1], 60)
     scene.write(path)
 
