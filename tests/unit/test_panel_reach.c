@@ -12,6 +12,7 @@
 #include "panel/set/polar_grid.h"
 #include "panel/set/simulate.h"
 #include "spectrum/fresnel.h"
+#include "text/text.h"
 
 #define NM 550.0
 #define FWHM_DEG 1.2
@@ -271,6 +272,8 @@ static const Wrong wrongs[] = {
     {", \"gloss\": [{\"geometry_deg\": 60, \"gu\": -1}]", NULL, "/reflection/gloss/0/gu", "-1"},
     {", \"gloss\": [{\"geometry_deg\": 60, \"gu\": 9}, {\"geometry_deg\": 60, \"gu\": 8}]",
      NULL, "/reflection/gloss/1", "twice"},
+    {", \"gloss\": [{\"geometry_deg\": 60, \"gu\": 1500}]", NULL, "/reflection/gloss/0",
+     "a perfect mirror has 999.4 gloss units"},
 };
 
 TEST(malformed_measurements_are_refused_with_place_and_wish)
@@ -287,6 +290,21 @@ TEST(malformed_measurements_are_refused_with_place_and_wish)
             !strstr(err.path, wrong->place) || !strstr(err.text, wrong->text))
             fail_msg("%s: place '%s', text '%s'", wrong->keys, err.path, err.text);
     }
+}
+
+/* Their product is more than an int holds. */
+TEST(a_table_of_a_diagonal_is_refused)
+{
+    Arena         arena = test_arena(state);
+    Text          text = {.arena = &arena};
+    SpecularTable table;
+    Error         err = {0};
+    text_add(&text, "incidence,wavelength,reflectance\n");
+    for (int i = 0; i < 50000; i++)
+        text_format(&text, "%.6f,%.6f,0.01\n", i * 80.0 / 50000, 400 + i * 300.0 / 50000);
+    write_text(in_folder("s.csv"), text.data);
+    assert_false(specular_table_read_file(in_folder("s.csv"), 1, &arena, &table, &err));
+    assert_non_null(strstr(err.text, "has 50000 incidences and 50000 wavelengths in 50000"));
 }
 
 int main(void)

@@ -17,6 +17,7 @@
 #define GLASS_INDEX 1.567 /* of the gloss standard */
 #define TABLE_INDEX 1.5   /* what is linear between incidences is over this one's */
 #define ANY_NM 550.0      /* of a table without wavelengths */
+#define PLACES_MOST 1000000 /* incidences by wavelengths: a table has hundreds */
 #define GLOSS_MOST 2000.0 /* gu: a metal mirror at 20 degrees */
 
 /* ---- the file ---------------------------------------------------------------------------- */
@@ -100,6 +101,10 @@ static int place_of(const double *list, int count, double value)
 static bool fill_table(const CsvTable *csv, const SpecularColumns *columns,
                        const double *degrees, Arena *arena, SpecularTable *out, Error *err)
 {
+    if ((long long)out->rows * out->wavelengths > PLACES_MOST)
+        return error_at(err, ERROR_INPUT, csv->file, "", "has %d incidences and %d wavelengths "
+                        "in %d rows, wanted every incidence at every wavelength", out->rows,
+                        out->wavelengths, csv->rows);
     int     size = out->rows * out->wavelengths;
     double *value = ARENA_NEW(arena, double, size);
     for (int i = 0; i < size; i++) value[i] = -1;
@@ -179,7 +184,7 @@ void specular_table_from_gloss(const Gloss *gloss, const char *file, Arena *aren
             const double *width = meters[m].width_deg;
             incidence[rows] = radians_from_degrees(meters[m].geometry_deg);
             aperture[rows] = radians_from_degrees(2 * sqrt(width[0] * width[1] / PI));
-            value[rows] = fmin(1, gloss->gu[i] / 100 * glass(incidence[rows]));
+            value[rows] = gloss->gu[i] / 100 * glass(incidence[rows]);
             rows++;
         }
     nm[0] = ANY_NM;
@@ -196,6 +201,10 @@ bool specular_gloss_add(Gloss *gloss, double geometry_deg, double gu, Error *err
     if (!(gu >= 0 && gu <= GLOSS_MOST))
         return error_set(err, ERROR_INPUT, "gloss is %g, wanted 0 to %g gloss units", gu,
                          GLOSS_MOST);
+    double mirror = 100 / glass(radians_from_degrees(geometry_deg));
+    if (gu > mirror)
+        return error_set(err, ERROR_INPUT, "gloss is %g at %g degrees, where a perfect mirror "
+                         "has %.4g gloss units", gu, geometry_deg, mirror);
     for (int i = 0; i < gloss->count; i++)
         if (gloss->geometry_deg[i] == geometry_deg)
             return error_set(err, ERROR_INPUT, "gloss at %g degrees is told twice, wanted it "

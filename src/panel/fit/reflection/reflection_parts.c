@@ -58,6 +58,22 @@ static void note_mirror(const Measurement *set, const ReflectionParts *out, FitN
 
 #define SPECULAR_MISS 0.05 /* relative: measurements that differ by more are two */
 
+#define REACH_DEG 10.0 /* beyond a specular table's incidences: nearer ones go without a word */
+
+/* Beyond its incidences it goes on as plain glass does (specular_table.c). */
+static void note_reach(const Measurement *set, FitNotes *notes)
+{
+    const SpecularTable *table = set->specular;
+    double low = degrees_from_radians(table->incidence[0]);
+    double high = degrees_from_radians(table->incidence[table->rows - 1]);
+    double first = degrees_from_radians(set->incidence[0]);
+    double last = degrees_from_radians(set->incidence[set->incidence_count - 1]);
+    if (low - first > REACH_DEG || last - high > REACH_DEG)
+        fit_note(notes, "the specular measurement (%s) reaches from %.3g to %.3g degrees, the "
+                 "tables from %.3g to %.3g: beyond, its mirror goes on as plain glass's does",
+                 path_name(table->file), low, high, first, last);
+}
+
 /* Where the specular measurement was needed, and where it disagrees. */
 static void note_specular(const Measurement *set, const ReflectionParts *out, FitNotes *notes)
 {
@@ -72,6 +88,7 @@ static void note_specular(const Measurement *set, const ReflectionParts *out, Fi
                  "(%s)", used, out->tables, set->specular->is_gloss
                  ? "gloss, taken as the specular reflectance in a round aperture, the same at "
                    "all wavelengths" : "specular measurement", path_name(set->specular->file));
+    if (used) note_reach(set, notes);
     if (worst > SPECULAR_MISS)
         fit_note(notes, "the samples tell the mirror; the specular measurement (%s) differs "
                  "from them by up to %.2g %%: check its aperture and its unit",
