@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* bench_verdicts TRIALS REVIEW.json -- how often a verdict is wrong: of each moment the first
  * symbol as the first eye sees it, held against limits that leave its true contrast a margin of
- * -10 to 10 %, TRIALS seeds each, by what decides a review's verdicts. coverage.py makes the
+ * -10 to 10 %, TRIALS seeds each, by what decides a review's verdicts. verdicts.py makes the
  * reviews.
  *
  * The truth is the mean of as many longer readings with seeds of their own; printed are its
