@@ -74,7 +74,7 @@ run 'a glare review, thirty hours of weather' review-long \
 run 'a hunt for wrong answers, 200 rooms' hunt-long \
     python3 tests/hunt/hunt.py --count 200 .build/release/parhelion
 run_one 'verdicts whose truth is known' verdicts \
-    python3 tests/bench/verdicts.py .build/release --rooms open --trials 200
+    python3 tests/bench/verdicts.py .build/release --rooms open,window --trials 200
 run "another maker's car" other-maker \
     python3 tests/image/other_maker.py .build/release/parhelion
 run 'verdicts beside their limits' review-laws \

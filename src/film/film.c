@@ -126,6 +126,23 @@ static bool display_in_range(const Film *film, const FilmSample *sample)
             (fabsf(sample->theta) <= 4 && fabsf(sample->phi) <= 8));
 }
 
+static bool is_odd(const FilmSample *sample)
+{
+    return sample->sample_index / BLOCK_SAMPLES % 2;
+}
+
+static void add_reflected(const Film *film, PixelSums *sums, const FilmSample *sample)
+{
+    int first = film->first[SUMS_REFLECTED], odd = film->first[SUMS_ODD];
+    if (first < 0) return;
+    for (int i = 0; i < 3; i++) {
+        Fixed reflected = fixed_from_float(sample->xyz[i]) - fixed_from_float(sample->emitted[i]);
+        sums->layers[first + i] += reflected;
+        if (odd >= 0 && is_odd(sample)) sums->layers[odd + i] += reflected;
+    }
+    if (odd >= 0 && is_odd(sample)) sums->layers[odd + 3] += fixed_from_float(1);
+}
+
 static void add_display(const Film *film, PixelSums *sums, const FilmSample *sample)
 {
     if (!display_in_range(film, sample)) return;
@@ -140,10 +157,7 @@ static void add_display(const Film *film, PixelSums *sums, const FilmSample *sam
     add_layer(film, sums, SUMS_FINE, sample->fine);
     add_layer(film, sums, SUMS_MIRROR, sample->mirror);
     add_layer(film, sums, SUMS_LAMBERTIAN, sample->lambertian);
-    if (film->first[SUMS_REFLECTED] >= 0)
-        for (int i = 0; i < 3; i++)
-            sums->layers[film->first[SUMS_REFLECTED] + i] +=
-                fixed_from_float(sample->xyz[i]) - fixed_from_float(sample->emitted[i]);
+    add_reflected(film, sums, sample);
     if (film->first[SUMS_DIRECTION] >= 0) {
         const float turns = 0.159154943f; /* 1 / (2 pi) */
         float sin_theta, cos_theta, sin_phi, cos_phi;
@@ -228,7 +242,7 @@ void film_add_sample(Film *film, int x, int y, const FilmSample *sample)
     sums->samples++;
     for (int i = 0; i < 3; i++) sums->xyz[i] += fixed_from_float(sample->xyz[i]);
     add_squares(sums, sample->xyz);
-    if (sample->sample_index / BLOCK_SAMPLES % 2) {
+    if (is_odd(sample)) {
         for (int i = 0; i < 3; i++) sums->odd_xyz[i] += fixed_from_float(sample->xyz[i]);
         sums->odd_samples++;
     }

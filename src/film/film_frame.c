@@ -188,6 +188,18 @@ static void read_halves(const Film *film, const PixelSums *sums, float v[3])
     rgb_from_xyz(xyz, v);
 }
 
+static void read_display_halves(const Film *film, const PixelSums *sums, float v[3])
+{
+    const Fixed *layers = sums->layers;
+    double       halves[3];
+    float        xyz[3];
+    if (!pixel_display_halves(sums, layers + film->first[SUMS_REFLECTED],
+                              layers + film->first[SUMS_ODD], BLOCK_LEAST, halves))
+        halves[0] = halves[1] = halves[2] = (double)NAN;
+    for (int i = 0; i < 3; i++) xyz[i] = (float)halves[i];
+    rgb_from_xyz(xyz, v);
+}
+
 static void read_samples(const Film *film, const PixelSums *sums, float v[3])
 {
     (void)film;
@@ -292,6 +304,7 @@ static const struct {
     {LAYER_DISPLAY_WHITE, "display.white", "RGB", NULL, SUMS_WHITE},
     {LAYER_DISPLAY_BLACK, "display.black", "RGB", NULL, SUMS_BLACK},
     {LAYER_DISPLAY_FINE, "display.fine", "RGB", NULL, SUMS_FINE},
+    {LAYER_DISPLAY_HALVES, "display.halves", "RGB", read_display_halves, 0},
 };
 
 static void add_layers(ChannelFill *to)

@@ -30,7 +30,8 @@
  *       the expectation of the variance of the pixel's mean, if the halves are independent.
  *       Sobol points' halves fill each other's gaps: measured between frames of two seeds, its
  *       root mean square is 0 to 6 % too large at 32 samples, 12 % at 256 (that of `variance`
- *       7 to 29 %). NaN below 24 samples: the smaller half has 8 of them there. */
+ *       7 to 29 %). NaN below 24 samples: the smaller half has 8 of them there;
+ *   display.halves   the same of display.reflected, over the samples that saw a display. */
 FrameImage film_to_frame(const Film *film, int attribute_room, Arena *arena);
 
 /* Bytes that the frame of a film takes at most, whatever its layers. */

@@ -49,7 +49,7 @@ static const struct {
     [SUMS_REFLECTED] = {"reflected", "XYZ"}, [SUMS_WHITE] = {"white", "XYZ"},
     [SUMS_BLACK] = {"black", "XYZ"},        [SUMS_DIRECTION] = {"direction", "XYZ"},
     [SUMS_FINE] = {"fine", "XYZ"},           [SUMS_MIRROR] = {"mirror", "XYZ"},
-    [SUMS_LAMBERTIAN] = {"lambertian", "XYZ"},
+    [SUMS_LAMBERTIAN] = {"lambertian", "XYZ"}, [SUMS_ODD] = {"odd_reflected", "XYZN"},
     [SUMS_STOKES] = {"stokes", "123"},
 };
 
@@ -81,7 +81,7 @@ static void add_sum(NameList *list, const char *name)
 static ExrWords name_words(const FilmPart *part, Arena *arena)
 {
     unsigned layers = part->layers;
-    size_t   sums = SUM_NAMES + 3 * SUMS_COUNT + 3 * (size_t)part->lights.count;
+    size_t   sums = SUM_NAMES + 4 * SUMS_COUNT + 3 * (size_t)part->lights.count;
     size_t   most = 4 * sums + COUNT_NAMES;
     NameList list = {ARENA_NEW(arena, const char *, most), 0, arena};
     for (size_t i = 0; i < SUM_NAMES; i++) add_sum(&list, sum_names[i]);

@@ -62,12 +62,13 @@ typedef enum FilmLayer {
     LAYER_DISPLAY_HAZE = 1 << 19,
     LAYER_DISPLAY_LAMBERTIAN = 1 << 20,
     LAYER_LIGHT = 1 << 21,
-    LAYER_ALL = (1 << 22) - 1, /* but for one that not every render can have: */
-    LAYER_STOKES = 1 << 22,
+    LAYER_DISPLAY_HALVES = 1 << 22,
+    LAYER_ALL = (1 << 23) - 1, /* but for one that not every render can have: */
+    LAYER_STOKES = 1 << 23,
     LAYER_EVERY = LAYER_ALL | LAYER_STOKES,
     LAYER_DISPLAYS = ((LAYER_HALVES - 1) & ~(LAYER_DISPLAY_EMITTED - 1)) | LAYER_DISPLAY_FINE |
                      LAYER_DISPLAY_MIRROR | LAYER_DISPLAY_SCATTERED | LAYER_DISPLAY_HAZE |
-                     LAYER_DISPLAY_LAMBERTIAN,
+                     LAYER_DISPLAY_LAMBERTIAN | LAYER_DISPLAY_HALVES,
     LAYER_NEEDS_LAMBERTIAN = LAYER_DISPLAY_HAZE | LAYER_DISPLAY_LAMBERTIAN,
     LAYER_FEATURES = LAYER_ALL & ~(LAYER_XYZ | LAYER_VARIANCE | LAYER_SAMPLES | LAYER_HALVES |
                                    LAYER_LIGHT)

@@ -11,7 +11,7 @@ _Static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "the lower bytes come 
 
 /* Of a pixel with all layers. */
 #define MOST_NUMBERS                                                                           \
-    (sizeof(PixelSums) / sizeof(Fixed) + 3 * SUMS_COUNT + 3 * FILM_LIGHTS_MAX)
+    (sizeof(PixelSums) / sizeof(Fixed) + 4 * SUMS_COUNT + 3 * FILM_LIGHTS_MAX)
 
 __extension__ typedef unsigned __int128 Bits;
 

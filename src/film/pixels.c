@@ -16,13 +16,14 @@ static const struct {
     [SUMS_UV] = {LAYER_UV, 2},
     [SUMS_EMITTED] = {LAYER_DISPLAY_EMITTED, 3},
     [SUMS_REFLECTED] = {LAYER_DISPLAY_REFLECTED | LAYER_DISPLAY_CONTRAST |
-                        LAYER_DISPLAY_SCATTERED | LAYER_DISPLAY_HAZE, 3},
+                        LAYER_DISPLAY_SCATTERED | LAYER_DISPLAY_HAZE | LAYER_DISPLAY_HALVES, 3},
     [SUMS_WHITE] = {LAYER_DISPLAY_WHITE | LAYER_DISPLAY_CONTRAST, 3},
     [SUMS_BLACK] = {LAYER_DISPLAY_BLACK | LAYER_DISPLAY_CONTRAST, 3},
     [SUMS_DIRECTION] = {LAYER_DISPLAY_ANGLES, 3},
     [SUMS_FINE] = {LAYER_DISPLAY_FINE, 3},
     [SUMS_MIRROR] = {LAYER_DISPLAY_MIRROR | LAYER_DISPLAY_SCATTERED | LAYER_DISPLAY_HAZE, 3},
     [SUMS_LAMBERTIAN] = {LAYER_NEEDS_LAMBERTIAN, 3},
+    [SUMS_ODD] = {LAYER_DISPLAY_HALVES, 4},
     [SUMS_STOKES] = {LAYER_STOKES, 3},
 };
 
@@ -52,16 +53,31 @@ void pixel_variance(const PixelSums *sums, double variance[3])
     }
 }
 
-bool pixel_halves(const PixelSums *sums, int least, double xyz[3])
+/* odd: samples of sum_odd, of n. */
+static bool halves_of(const Fixed sum[3], const Fixed sum_odd[3], double n, double odd,
+                      int least, double xyz[3])
 {
-    double n = (double)sums->samples, odd = (double)sums->odd_samples, even = n - odd;
+    double even = n - odd;
     if (odd < least || even < least) return false;
     for (int i = 0; i < 3; i++) {
-        double odd_sum = double_from_fixed(sums->odd_xyz[i], FIXED_BITS);
-        double even_sum = double_from_fixed(sums->xyz[i] - sums->odd_xyz[i], FIXED_BITS);
+        double odd_sum = double_from_fixed(sum_odd[i], FIXED_BITS);
+        double even_sum = double_from_fixed(sum[i] - sum_odd[i], FIXED_BITS);
         xyz[i] = (odd_sum / odd - even_sum / even) * sqrt(odd * even) / n;
     }
     return true;
+}
+
+bool pixel_halves(const PixelSums *sums, int least, double xyz[3])
+{
+    return halves_of(sums->xyz, sums->odd_xyz, (double)sums->samples, (double)sums->odd_samples,
+                     least, xyz);
+}
+
+bool pixel_display_halves(const PixelSums *sums, const Fixed reflected[3], const Fixed odd[4],
+                          int least, double xyz[3])
+{
+    return halves_of(reflected, odd, (double)sums->display_hits,
+                     double_from_fixed(odd[3], FIXED_BITS), least, xyz);
 }
 
 /* From the samples' spread, as if they were independent: the most it can be. */

@@ -27,6 +27,7 @@ typedef enum LayerSums {
     SUMS_DEPTH, SUMS_POSITION, SUMS_NORMAL, SUMS_ALBEDO, SUMS_UV,
     SUMS_EMITTED, SUMS_REFLECTED, SUMS_WHITE, SUMS_BLACK, SUMS_DIRECTION, /* display */
     SUMS_FINE, SUMS_MIRROR, SUMS_LAMBERTIAN,
+    SUMS_ODD, /* XYZ reflected in every second block, and how many of its samples saw a display */
     SUMS_STOKES, /* of all samples */
     SUMS_COUNT
 } LayerSums;
@@ -69,6 +70,11 @@ int      layer_sums_size(LayerSums sums);
  * (a - b) sqrt(n_a n_b) / (n_a + n_b), half the difference for halves of one size. False when
  * one half has fewer than `least` samples. */
 bool pixel_halves(const PixelSums *sums, int least, double xyz[3]);
+
+/* The same of what a display reflects, over the samples that saw one: sums of all of them, and
+ * of SUMS_ODD. */
+bool pixel_display_halves(const PixelSums *sums, const Fixed reflected[3], const Fixed odd[4],
+                          int least, double xyz[3]);
 
 /* Unbiased variance of the mean of linear Rec.709 R, G, B, (cd m^-2)^2; NaN below 2 samples. */
 void pixel_variance(const PixelSums *sums, double variance[3]);

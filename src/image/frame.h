@@ -31,6 +31,7 @@
  *                                         what the panes before them let through
  *   display.{mirror,scattered}.{R,G,B}    the two parts of the reflected;
  *   display.{haze,lambertian}.{R,G,B}     the two parts of the scattered
+ *   display.halves.{R,G,B}                what halves is of the reflected alone
  *   display.theta  display.phi            degrees, NaN off displays
  *   display.contrast                      (white + reflected) / (black + reflected), NaN off
  *   display.{weber,michelson,luminance_error,colour_error} follow from these: legibility.h

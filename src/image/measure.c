@@ -13,27 +13,31 @@
 
 #define SIGMAS_95 1.959964 /* of the normal distribution */
 
-/* Variances of sums over pixels: of channels and luminance, and over those of displays. */
+/* Variances of sums over pixels, of channels and of luminance. */
 typedef struct PixelNoise {
     double rgb[3], luminance, fourths; /* fourths: squares of the pixels' variances */
-    double display_rgb[3], display_luminance;
+    long   pixels;
 } PixelNoise;
 
 /* What is summed over the pixels. */
 typedef struct Sums {
     double rgb[3]; /* of the channels */
     PixelNoise noise, by_halves;
+    PixelNoise display_noise, display_by_halves; /* over the pixels of displays */
+    PixelNoise reflected_by_halves; /* of what is reflected there: all that a contrast hangs on */
     DisplayLight light; /* of displays */
     double mirror, lambertian;
-    long   pixels, display_pixels, halves_pixels, nonfinite;
+    long   pixels, display_pixels, nonfinite;
     double least, greatest;
 } Sums;
 
 /* The planes that are looked at; has_... tells which the frame has. */
 typedef struct RegionPlanes {
     LayerView    light, variance, halves, white, black, reflected, shown, mirror, lambertian;
+    LayerView    display_halves;
     const float *display_id; /* NULL: every pixel is wanted */
     bool has_variance, has_halves, has_display, has_shown, has_mirror, has_lambertian;
+    bool has_display_halves;
 } RegionPlanes;
 
 static void xyz_at(const LayerView *view, size_t i, double xyz[3])
@@ -97,6 +101,7 @@ static bool find_planes(const FrameImage *frame, Arena *arena, RegionPlanes *out
     out->has_shown = raw_layer(frame, "display.emitted", arena, &out->shown);
     out->has_mirror = raw_layer(frame, "display.mirror", arena, &out->mirror);
     out->has_lambertian = raw_layer(frame, "display.lambertian", arena, &out->lambertian);
+    out->has_display_halves = raw_layer(frame, "display.halves", arena, &out->display_halves);
     return true;
 }
 
@@ -143,56 +148,66 @@ static bool add_display(const RegionPlanes *planes, size_t i, Sums *sums)
     return true;
 }
 
-static void add_noise(PixelNoise *noise, const double rgb[3], double luminance, bool on_display)
+static void add_noise(PixelNoise *noise, const double rgb[3], double luminance)
 {
     noise->luminance += luminance;
     noise->fourths += luminance * luminance;
-    noise->display_luminance += on_display ? luminance : 0;
-    for (int c = 0; c < 3; c++) {
-        noise->rgb[c] += rgb[c];
-        noise->display_rgb[c] += on_display ? rgb[c] : 0;
-    }
+    for (int c = 0; c < 3; c++) noise->rgb[c] += rgb[c];
+    noise->pixels++;
 }
 
 /* The squares of a pixel's halves have the expectation of its variances, that of their
  * luminance, too. */
-static void add_halves(const RegionPlanes *planes, size_t i, bool on_display, Sums *sums)
+static void add_halves(const LayerView *halves, size_t i, PixelNoise *to)
 {
-    double rgb[3], y = luminance_at(&planes->halves, i);
+    double rgb[3], y = luminance_at(halves, i);
     for (int c = 0; c < 3; c++) {
-        double half = (double)planes->halves.planes[c][i];
+        double half = (double)halves->planes[c][i];
         rgb[c] = half * half;
     }
-    if (!isfinite(y)) return;
-    add_noise(&sums->by_halves, rgb, y * y, on_display);
-    sums->halves_pixels++;
+    if (isfinite(y)) add_noise(to, rgb, y * y);
 }
 
-static void add_spread(const RegionPlanes *planes, size_t i, bool on_display, Sums *sums)
+static void add_spread(const RegionPlanes *planes, size_t i, PixelNoise *to)
 {
     double rgb[3];
     for (int c = 0; c < 3; c++) rgb[c] = (double)planes->variance.planes[c][i];
-    add_noise(&sums->noise, rgb, variance_at(planes, i), on_display);
+    add_noise(to, rgb, variance_at(planes, i));
+}
+
+static void add_pixel_noise(const RegionPlanes *planes, size_t i, bool on_display, Sums *sums)
+{
+    if (planes->has_variance) add_spread(planes, i, &sums->noise);
+    if (planes->has_halves) add_halves(&planes->halves, i, &sums->by_halves);
+    if (!on_display) return;
+    if (planes->has_variance) add_spread(planes, i, &sums->display_noise);
+    if (planes->has_halves) add_halves(&planes->halves, i, &sums->display_by_halves);
+    if (planes->has_display_halves)
+        add_halves(&planes->display_halves, i, &sums->reflected_by_halves);
 }
 
 #define HALVES_FREEDOM 16 /* of the halves' squares, at least */
 
 /* Halves' squares are those of normal variables, as many as count: 3 (sum d^2)^2 / sum d^4.
- * Student's factor is put into the variances. */
+ * Student's factor is put into the variances. False where they are too few, or some pixel has
+ * none. */
+static bool choose_halves(const PixelNoise *halves, long pixels, PixelNoise *out)
+{
+    double freedom = halves->fourths > 0
+                         ? 3 * halves->luminance * halves->luminance / halves->fourths : 0;
+    if (halves->pixels != pixels || freedom < HALVES_FREEDOM) return false;
+    double factor = student_quantile(CONFIDENCE_MISS, freedom) / SIGMAS_95;
+    *out = *halves;
+    out->luminance *= factor * factor;
+    for (int c = 0; c < 3; c++) out->rgb[c] *= factor * factor;
+    return true;
+}
+
 static void choose_noise(Sums *sums)
 {
-    PixelNoise *noise = &sums->by_halves;
-    double freedom = noise->fourths > 0
-                         ? 3 * noise->luminance * noise->luminance / noise->fourths : 0;
-    if (sums->halves_pixels != sums->pixels || freedom < HALVES_FREEDOM) return;
-    double factor = student_quantile(CONFIDENCE_MISS, freedom) / SIGMAS_95;
-    sums->noise = *noise;
-    sums->noise.luminance *= factor * factor;
-    sums->noise.display_luminance *= factor * factor;
-    for (int c = 0; c < 3; c++) {
-        sums->noise.rgb[c] *= factor * factor;
-        sums->noise.display_rgb[c] *= factor * factor;
-    }
+    choose_halves(&sums->by_halves, sums->pixels, &sums->noise);
+    if (!choose_halves(&sums->reflected_by_halves, sums->display_pixels, &sums->display_noise))
+        choose_halves(&sums->display_by_halves, sums->display_pixels, &sums->display_noise);
 }
 
 static void add_pixel(const RegionPlanes *planes, size_t i, Sums *sums)
@@ -204,8 +219,7 @@ static void add_pixel(const RegionPlanes *planes, size_t i, Sums *sums)
     }
     for (int c = 0; c < 3; c++) sums->rgb[c] += (double)planes->light.planes[c][i];
     bool on_display = planes->has_display && add_display(planes, i, sums);
-    if (planes->has_variance) add_spread(planes, i, on_display, sums);
-    if (planes->has_halves) add_halves(planes, i, on_display, sums);
+    add_pixel_noise(planes, i, on_display, sums);
     if (luminance < sums->least) sums->least = luminance;
     if (luminance > sums->greatest) sums->greatest = luminance;
     sums->pixels++;
@@ -281,8 +295,8 @@ static double colour_error_width(const DisplayLight *light, const double varianc
 static void measure_errors(const DisplayLight *light, const Sums *sums, FrameMeasurement *out)
 {
     double n = (double)sums->display_pixels, variance[3];
-    double sigma = sqrt(sums->noise.display_luminance) / n;
-    for (int c = 0; c < 3; c++) variance[c] = sums->noise.display_rgb[c] / (n * n);
+    double sigma = sqrt(sums->display_noise.luminance) / n;
+    for (int c = 0; c < 3; c++) variance[c] = sums->display_noise.rgb[c] / (n * n);
     out->shown = light->shown[1];
     out->luminance_error = (Measured){legibility_luminance_error(light),
                                       SIGMAS_95 * sigma / light->shown[1]};
@@ -308,7 +322,7 @@ static void measure_display(const RegionPlanes *planes, const Sums *sums,
     out->mirror = planes->has_mirror ? sums->mirror / n : (double)NAN;
     out->lambertian = planes->has_lambertian ? sums->lambertian / n : (double)NAN;
     out->has_errors = planes->has_shown;
-    measure_ratios(&light, sqrt(sums->noise.display_luminance) / n, out);
+    measure_ratios(&light, sqrt(sums->display_noise.luminance) / n, out);
     if (out->has_errors) measure_errors(&light, sums, out);
     if (out->has_variance) return;
     out->contrast.half_width = out->weber.half_width = out->michelson.half_width = NAN;

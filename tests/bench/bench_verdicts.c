@@ -4,7 +4,7 @@
  * -10 to 10 %, TRIALS seeds each, by what decides a review's verdicts. verdicts.py makes the
  * reviews.
  *
- * The truth is the mean of as many longer readings with seeds of their own; printed are its
+ * The truth is the mean of 400 longer readings with seeds of their own; printed are its
  * contrast, the error of that in percent, and what is shown, foreground and background. Then of
  * each margin: moment, margin in percent, trials, passes, failures, too close; mean of the
  * paths. */
@@ -15,6 +15,7 @@
 #include "review/run/cases.h"
 
 #define TRUTH_PATHS 16384
+#define TRUTH_RUNS 400
 #define NEVER 1e-9
 
 typedef struct Verdicts {
@@ -42,17 +43,17 @@ static double true_contrast(const Verdicts *v, Arena arena)
 {
     ReviewRequest *r = v->request, asked = *r;
     Profile        open = {.id = "none"};
-    Trial         *list = ARENA_NEW(&arena, Trial, v->trials);
+    Trial         *list = ARENA_NEW(&arena, Trial, TRUTH_RUNS);
     CaseLuminances l = {0};
     r->precision_contrast = r->precision_clear = NEVER;
     r->precision_paths = TRUTH_PATHS;
-    for (int i = 0; i < v->trials; i++) {
+    for (int i = 0; i < TRUTH_RUNS; i++) {
         ReviewCase c = judged(v, &open, (1u << 28) + (unsigned)i);
         l = c.luminance_cd_m2;
         list[i].found = l.reflected;
     }
     *r = asked;
-    Truth  truth = trials_mean(list, v->trials);
+    Truth  truth = trials_mean(list, TRUTH_RUNS);
     double ratio = luminance_contrast(l.foreground, l.background, truth.value);
     double off = luminance_contrast(l.foreground, l.background, truth.value + truth.error);
     printf("%s\ttruth\t%.5f\t%.4f\t%.6g\t%.6g\n", v->stage->condition->name, ratio,

@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
-"""verdicts.py BUILD [--trials N] [--rooms open,window,sun,trim] -- how often a verdict is wrong
-whose true margin is -10 to 10 %: a table. BUILD has bench_verdicts.
+"""verdicts.py BUILD [--trials N] [--rooms open,window,grey,sun,trim] -- how often a verdict is
+wrong whose true margin is -10 to 10 %: a table. BUILD has bench_verdicts.
 
-Rooms: a display in the open under an even sky, whose truth is a closed form (the sky times the
-integral of the panel's BRDF as `panel eval` tells it) and is held against that of long runs; in
-a dark box, lit through a window by an even sky; in the open under a sun and a sky; by small
-lamps over a glossy trim. A wrong verdict passes where the truth fails, or fails
+Rooms: a display in the open under an even sky, and in a black box that an even sky and a sun
+light through a window, whose truths are closed forms (the panel's BRDF as `panel eval` tells it,
+over the sky, or over the window and for the sun) and are held against those of long runs; in a
+grey box with a small window; in the open under a sun and a sky; by small lamps over a glossy
+trim. A wrong verdict passes where the truth fails, or fails
 where it passes; "too close" is none. At most one in a hundred may be; the upper end is that of
 Clopper and Pearson's 95 % interval of one side.
 """
@@ -46,23 +47,75 @@ def open_sky():
     return scene, {"type": "constant", "luminance": SKY_CD_M2}
 
 
-def closed_form(program, folder, shown, points=5):
-    """Contrast of what is shown and what the panel reflects of an even sky: the mean over the
-    symbol, points to a side."""
+def open_light(panel, at, eye):
+    """What the panel reflects of the sky at a place, cd/m2."""
+    return reflection.under_sky(panel, eye)[0] * SKY_CD_M2 / reflection.SKY_CD_M2
+
+
+WALLS = ((-1, -1, -0.1), (1, 0.6, 2))  # of a box about the display
+PANE = ((-0.7, 0.2), (0.7, 1.6))       # x and z of its window, in the ceiling
+PANE_CD_M2, SUN_LUX, SUN_WAY = 20000, 8000, [-0.1, -0.6, -0.7]
+
+
+def ceiling(scene, wall):
+    """Down to the room, about the pane."""
+    (x0, _, z0), (x1, y, z1) = WALLS
+    (a, c), (b, d) = PANE
+    for left, right, far, near in ((x0, a, z0, z1), (b, x1, z0, z1), (a, b, z0, c),
+                                   (a, b, d, z1)):
+        scene.quad(wall, [left, y, far], [right - left, 0, 0], [0, 0, near - far])
+
+
+def window():
+    """A black box with a window in its ceiling: of what falls in nothing comes back."""
+    scene = Scene()
+    display(scene)
+    wall = scene.lambert(0, double_sided=True)
+    (x0, y0, z0), (x1, y1, z1) = WALLS
+    w, h, d = x1 - x0, y1 - y0, z1 - z0
+    scene.quad(wall, [x0, y0, z0], [w, 0, 0], [0, h, 0])
+    scene.quad(wall, [x0, y0, z1], [w, 0, 0], [0, h, 0])
+    scene.quad(wall, [x0, y0, z0], [w, 0, 0], [0, 0, d])
+    scene.quad(wall, [x0, y0, z0], [0, 0, d], [0, h, 0])
+    scene.quad(wall, [x1, y0, z0], [0, 0, d], [0, h, 0])
+    ceiling(scene, wall)
+    scene.light("directional", SUN_LUX, direction=SUN_WAY)
+    return scene, {"type": "constant", "luminance": PANE_CD_M2}
+
+
+def window_light(panel, at, eye, steps=40):
+    """Midpoints of the pane, and the sun, which shines on all of the display."""
+    (a, c), (b, d) = PANE
+    area, lights, shares = (b - a) * (d - c) / steps ** 2, [], []
+    for i in range(steps):
+        for j in range(steps):
+            to = [p - q for p, q in zip([a + (b - a) * (i + 0.5) / steps, WALLS[1][1],
+                                         c + (d - c) * (j + 0.5) / steps], at)]
+            square = sum(x * x for x in to)
+            lights.append(unit(to))
+            shares.append(PANE_CD_M2 * area * to[1] * to[2] / square ** 2)
+    lights.append(unit([-x for x in SUN_WAY]))
+    shares.append(SUN_LUX * lights[-1][2])
+    return sum(v[0] * share for v, share in zip(panel.ask(eye, lights), shares))
+
+
+def closed_form(light, program, folder, shown, points=5):
+    """Contrast of what is shown and what the panel reflects: the mean over the symbol, points to
+    a side."""
     panel = reflection.Panel(program, os.path.join(folder, "ips.panel"), folder)
     total = 0
     for i in range(points):
         for j in range(points):
             u, v = (0.1 + 0.8 * (k + 0.5) / points for k in (i, j))
             at = [0.3 * (u - 0.5), 0.15 * (0.5 - v), 0]
-            total += reflection.under_sky(panel, unit([e - p for e, p in zip(EYE, at)]))[0]
-    reflected = total / points ** 2 * SKY_CD_M2 / reflection.SKY_CD_M2
+            total += light(panel, at, unit([e - p for e, p in zip(EYE, at)]))
+    reflected = total / points ** 2
     return (max(shown) + reflected) / (min(shown) + reflected)
 
 
-def window():
+def grey():
     """Walls that reflect 5 %, open above: the sky stands in a square of 0.4 m."""
-    scene, wall = Scene(), None
+    scene = Scene()
     display(scene)
     wall = scene.lambert(0.05, double_sided=True)
     scene.quad(wall, [-1, -1, -0.1], [2, 0, 0], [0, 2, 0])
@@ -121,7 +174,8 @@ def upper_end(wrong, trials):
     return high
 
 
-ROOMS = {"open": open_sky, "window": window, "sun": sun, "trim": trim}
+ROOMS = {"open": open_sky, "window": window, "grey": grey, "sun": sun, "trim": trim}
+CLOSED = {"open": open_light, "window": window_light}
 CLOSED_WITHIN = 0.003  # the sum over directions, and D65 between wavelengths
 
 
@@ -129,10 +183,11 @@ def print_truth(room, words, build, folder):
     """False: it is the closed form, where there is one."""
     ratio, error = float(words[2]), float(words[3])
     print(f"{room}: contrast {ratio:.5g}, known within {error:.2g} %", flush=True)
-    if room != "open":
+    if room not in CLOSED:
         return False
     shown = float(words[4]), float(words[5])
-    closed = closed_form(os.path.join(os.path.abspath(build), "parhelion"), folder, shown)
+    program = os.path.join(os.path.abspath(build), "parhelion")
+    closed = closed_form(CLOSED[room], program, folder, shown)
     print(f"{room}: in closed form {closed:.5g}, {100 * (ratio / closed - 1):+.2f} %")
     return abs(ratio / closed - 1) > CLOSED_WITHIN + 3 * error / 100
 
@@ -151,7 +206,7 @@ def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("build")
     parser.add_argument("--trials", type=int, default=2000)
-    parser.add_argument("--rooms", default="open,window,sun,trim")
+    parser.add_argument("--rooms", default="open,window,grey,sun,trim")
     words = parser.parse_args()
     off = 0
     print("| room | true margin | trials | pass | fail | too close | wrong | paths |\n" +

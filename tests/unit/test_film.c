@@ -360,7 +360,7 @@ TEST(a_frame_has_the_channels_asked_for_and_no_others)
     film = film_create(WIDTH, HEIGHT, whole, LAYER_ALL, NULL, &arena);
     frame = film_to_frame(film, 0, &arena);
     assert_int_equal(frame.channel_count,
-                     3 + 3 + 1 + 3 + 3 + 3 + 2 + 2 + 3 + 3 + 1 + 8 * 3 + 2 + 1 + 3 + 1);
+                     3 + 3 + 1 + 3 + 3 + 3 + 2 + 2 + 3 + 3 + 1 + 9 * 3 + 2 + 1 + 3 + 1);
 }
 
 /* 80 samples in blocks of 16, the second and fourth of which are odd: 32 against 48. */
@@ -381,6 +381,32 @@ TEST(halves_are_the_difference_of_interleaved_blocks)
     assert_close(film_pixel(film, 0, 0).sigma_y, half * sqrt(PI / 2), 1e-6);
     assert_true(isnan(at(&frame, "halves.G", 1)));
     assert_close(at(&frame, "halves.G", WIDTH), 5 * sqrt(8.0 * 16) / 24 * (double)rgb[1], 1e-6);
+}
+
+/* What a display emits differs from sample to sample, and is not in them; nor are samples that
+ * saw no display, 20 of the 48 even ones. */
+TEST(display_halves_are_those_of_the_reflected)
+{
+    Arena      arena = test_arena(state);
+    Film      *film = film_create(WIDTH, HEIGHT, whole, LAYER_DISPLAY_HALVES, NULL, &arena);
+    FilmSample s = display_sample(0, 0.5f, 1);
+    for (uint32_t i = 0; i < 80; i++) {
+        bool is_odd = i / 16 % 2;
+        for (int c = 0; c < 3; c++) {
+            s.emitted[c] = (float)(i % 7);
+            s.xyz[c] = s.emitted[c] + (is_odd ? 9.0f : 4.0f);
+        }
+        s.sample_index = i;
+        s.display_id = i < 10 || i >= 70 ? -1 : 1;
+        film_add_sample(film, 0, 0, &s);
+    }
+    FrameImage frame = film_to_frame(film, 0, &arena);
+    float      grey[3] = {1, 1, 1}, rgb[3];
+    rgb_from_xyz(grey, rgb);
+    double half = (9 - 4) * sqrt(32.0 * 28) / 60;
+    assert_close(at(&frame, "display.halves.R", 0), half * (double)rgb[0], 1e-6);
+    assert_close(at(&frame, "display.halves.G", 0), half * (double)rgb[1], 1e-6);
+    assert_true(isnan(at(&frame, "display.halves.G", 1)));
 }
 
 /* Over many pixels of independent samples the square of `halves` is their variance. */

@@ -120,6 +120,24 @@ TEST(a_display_has_its_contrast)
     assert_int_equal(m.pixels, 10);
 }
 
+/* A contrast hangs on what is reflected alone: its halves count, not those of the pixel, which
+ * differ by what the display emits, too. */
+TEST(a_contrast_has_the_noise_of_the_reflected)
+{
+    Arena      arena = test_arena(state);
+    FrameImage frame = uniform_frame(10, 10, 100, &arena);
+    add_layer(&frame, "variance", 4, &arena);
+    add_layer(&frame, "halves", 2, &arena);
+    add_layer(&frame, "display.white", 400, &arena);
+    add_layer(&frame, "display.black", 0.4f, &arena);
+    add_layer(&frame, "display.reflected", 20, &arena);
+    FrameMeasurement whole = measure(&frame, (MeasureRequest){0}, arena);
+    add_layer(&frame, "display.halves", 0.5f, &arena);
+    FrameMeasurement m = measure(&frame, (MeasureRequest){0}, arena);
+    assert_close(m.luminance.half_width, whole.luminance.half_width, 1e-9);
+    assert_close(m.contrast.half_width, 0.25 * whole.contrast.half_width, 1e-6);
+}
+
 TEST(what_cannot_be_measured_is_told)
 {
     Arena          arena = test_arena(state);

@@ -45,8 +45,8 @@ static const struct {
     {"display.contrast", LAYER_DISPLAY_CONTRAST}, {"display.fine", LAYER_DISPLAY_FINE},
     {"display.coverage", LAYER_DISPLAY_FINE}, {"display.mirror", LAYER_DISPLAY_MIRROR},
     {"display.scattered", LAYER_DISPLAY_SCATTERED}, {"display.haze", LAYER_DISPLAY_HAZE},
-    {"display.lambertian", LAYER_DISPLAY_LAMBERTIAN}, {"light", LAYER_LIGHT},
-    {"stokes", LAYER_STOKES},
+    {"display.lambertian", LAYER_DISPLAY_LAMBERTIAN},
+    {"display.halves", LAYER_DISPLAY_HALVES}, {"light", LAYER_LIGHT}, {"stokes", LAYER_STOKES},
 };
 
 #define LAYER_NAME_COUNT COUNT_OF(layer_names)
