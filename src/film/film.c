@@ -136,7 +136,8 @@ static void add_reflected(const Film *film, PixelSums *sums, const FilmSample *s
     int first = film->first[SUMS_REFLECTED], odd = film->first[SUMS_ODD];
     if (first < 0) return;
     for (int i = 0; i < 3; i++) {
-        Fixed reflected = fixed_from_float(sample->xyz[i]) - fixed_from_float(sample->emitted[i]);
+        Fixed reflected =
+            fixed_from_float(sample->xyz[i]) - fixed_from_float(sample->emitted[i]);
         sums->layers[first + i] += reflected;
         if (odd >= 0 && is_odd(sample)) sums->layers[odd + i] += reflected;
     }

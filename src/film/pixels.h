@@ -27,7 +27,7 @@ typedef enum LayerSums {
     SUMS_DEPTH, SUMS_POSITION, SUMS_NORMAL, SUMS_ALBEDO, SUMS_UV,
     SUMS_EMITTED, SUMS_REFLECTED, SUMS_WHITE, SUMS_BLACK, SUMS_DIRECTION, /* display */
     SUMS_FINE, SUMS_MIRROR, SUMS_LAMBERTIAN,
-    SUMS_ODD, /* XYZ reflected in every second block, and how many of its samples saw a display */
+    SUMS_ODD, /* XYZ reflected in every second block, and how many samples that is of */
     SUMS_STOKES, /* of all samples */
     SUMS_COUNT
 } LayerSums;

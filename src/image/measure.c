@@ -24,7 +24,7 @@ typedef struct Sums {
     double rgb[3]; /* of the channels */
     PixelNoise noise, by_halves;
     PixelNoise display_noise, display_by_halves; /* over the pixels of displays */
-    PixelNoise reflected_by_halves; /* of what is reflected there: all that a contrast hangs on */
+    PixelNoise reflected_by_halves; /* of what is reflected there: all that contrasts hang on */
     DisplayLight light; /* of displays */
     double mirror, lambertian;
     long   pixels, display_pixels, nonfinite;

@@ -3,10 +3,10 @@
 wrong whose true margin is -10 to 10 %: a table. BUILD has bench_verdicts.
 
 Rooms: a display in the open under an even sky, and in a black box that an even sky and a sun
-light through a window, whose truths are closed forms (the panel's BRDF as `panel eval` tells it,
-over the sky, or over the window and for the sun) and are held against those of long runs; in a
-grey box with a small window; in the open under a sun and a sky; by small lamps over a glossy
-trim. A wrong verdict passes where the truth fails, or fails
+light through a window, whose truths are closed forms (the panel's BRDF as `panel eval` tells
+it, over the sky, or over the window and for the sun) and are held against those of long runs;
+in a grey box with a small window; in the open under a sun and a sky; by small lamps over a
+glossy trim. A wrong verdict passes where the truth fails, or fails
 where it passes; "too close" is none. At most one in a hundred may be; the upper end is that of
 Clopper and Pearson's 95 % interval of one side.
 """
@@ -100,8 +100,8 @@ def window_light(panel, at, eye, steps=40):
 
 
 def closed_form(light, program, folder, shown, points=5):
-    """Contrast of what is shown and what the panel reflects: the mean over the symbol, points to
-    a side."""
+    """Contrast of what is shown and what the panel reflects: the mean over the symbol, points
+    to a side."""
     panel = reflection.Panel(program, os.path.join(folder, "ips.panel"), folder)
     total = 0
     for i in range(points):

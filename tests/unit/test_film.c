@@ -1,19 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* The film: exact sums, variance, layers. */
-#include "fixture.h"
+#include "film_samples.h"
 
 #include <string.h>
 
-#include "base/sampler.h"
 #include "base/units.h"
-#include "film/film_frame.h"
 #include "film/pixels.h"
 #include "spectrum/photometry.h"
-
-#define WIDTH 3
-#define HEIGHT 2
-
-static const FilmRect whole = {0, 0, WIDTH, HEIGHT};
 
 static float random_unit(uint32_t *state)
 {
@@ -43,14 +36,6 @@ static FilmSample random_sample(uint32_t *state, uint32_t index)
     s.theta = random_unit(state);
     s.phi = 6 * random_unit(state);
     return s;
-}
-
-/* A film of one colour for one pixel. */
-static void add_grey(Film *film, int x, int y, uint32_t index, float luminance)
-{
-    FilmSample s = {.sample_index = index, .display_id = -1};
-    for (int i = 0; i < 3; i++) s.xyz[i] = luminance;
-    film_add_sample(film, x, y, &s);
 }
 
 static void assert_same_frames(const FrameImage *a, const FrameImage *b)
@@ -218,12 +203,6 @@ TEST(variance_needs_two_samples)
     assert_near(film_pixel(film, 0, 0).variance_rgb[0], 0, 1e-15);
 }
 
-/* A coin that is the same for every machine: 1 or 3 times the value. */
-static float coin(int pixel, uint32_t index, float value)
-{
-    return value * (hash_combine((uint32_t)pixel, index) & 1 ? 1.0f : 3.0f);
-}
-
 TEST(relative_error_is_the_mean_of_sigma_over_luminance)
 {
     (void)state;
@@ -332,21 +311,6 @@ TEST(the_worst_pixels_come_in_order)
 
 /* ---- layers ------------------------------------------------------------------------------ */
 
-static double at(const FrameImage *frame, const char *channel, int index)
-{
-    const float *values = frame_channel(frame, channel);
-    if (!values) fail_msg("no channel %s", channel);
-    return (double)values[index];
-}
-
-static FilmSample display_sample(uint32_t index, float theta, float phi)
-{
-    return (FilmSample){.sample_index = index, .xyz = {110, 120, 130}, .hit = true, .depth = 2,
-                        .normal = {0, 0, 1}, .albedo = {0.5f, 0.5f, 0.5f}, .part_id = 3,
-                        .display_id = 1, .emitted = {100, 100, 100}, .white = {380, 380, 380},
-                        .black = {0, 0, 0}, .theta = theta, .phi = phi};
-}
-
 TEST(a_frame_has_the_channels_asked_for_and_no_others)
 {
     Arena      arena = test_arena(state);
@@ -361,71 +325,6 @@ TEST(a_frame_has_the_channels_asked_for_and_no_others)
     frame = film_to_frame(film, 0, &arena);
     assert_int_equal(frame.channel_count,
                      3 + 3 + 1 + 3 + 3 + 3 + 2 + 2 + 3 + 3 + 1 + 9 * 3 + 2 + 1 + 3 + 1);
-}
-
-/* 80 samples in blocks of 16, the second and fourth of which are odd: 32 against 48. */
-TEST(halves_are_the_difference_of_interleaved_blocks)
-{
-    Arena arena = test_arena(state);
-    Film *film = film_create(WIDTH, HEIGHT, whole, LAYER_HALVES, NULL, &arena);
-    for (uint32_t i = 80; i-- > 0;) add_grey(film, 0, 0, i, i / 16 % 2 ? 9.0f : 4.0f);
-    for (uint32_t i = 0; i < 23; i++) add_grey(film, 1, 0, i, 4); /* the odd half is short */
-    for (uint32_t i = 0; i < 24; i++) add_grey(film, 0, 1, i, i / 16 % 2 ? 9.0f : 4.0f);
-    FrameImage frame = film_to_frame(film, 0, &arena);
-    float      grey[3] = {1, 1, 1}, rgb[3];
-    rgb_from_xyz(grey, rgb);
-    double     half = (9 - 4) * sqrt(32.0 * 48) / 80;
-    assert_close(at(&frame, "halves.R", 0), half * (double)rgb[0], 1e-6);
-    assert_close(at(&frame, "halves.G", 0), half * (double)rgb[1], 1e-6);
-    assert_close(at(&frame, "halves.B", 0), half * (double)rgb[2], 1e-6);
-    assert_close(film_pixel(film, 0, 0).sigma_y, half * sqrt(PI / 2), 1e-6);
-    assert_true(isnan(at(&frame, "halves.G", 1)));
-    assert_close(at(&frame, "halves.G", WIDTH), 5 * sqrt(8.0 * 16) / 24 * (double)rgb[1], 1e-6);
-}
-
-/* What a display emits differs from sample to sample, and is not in them; nor are samples that
- * saw no display, 20 of the 48 even ones. */
-TEST(display_halves_are_those_of_the_reflected)
-{
-    Arena      arena = test_arena(state);
-    Film      *film = film_create(WIDTH, HEIGHT, whole, LAYER_DISPLAY_HALVES, NULL, &arena);
-    FilmSample s = display_sample(0, 0.5f, 1);
-    for (uint32_t i = 0; i < 80; i++) {
-        bool is_odd = i / 16 % 2;
-        for (int c = 0; c < 3; c++) {
-            s.emitted[c] = (float)(i % 7);
-            s.xyz[c] = s.emitted[c] + (is_odd ? 9.0f : 4.0f);
-        }
-        s.sample_index = i;
-        s.display_id = i < 10 || i >= 70 ? -1 : 1;
-        film_add_sample(film, 0, 0, &s);
-    }
-    FrameImage frame = film_to_frame(film, 0, &arena);
-    float      grey[3] = {1, 1, 1}, rgb[3];
-    rgb_from_xyz(grey, rgb);
-    double half = (9 - 4) * sqrt(32.0 * 28) / 60;
-    assert_close(at(&frame, "display.halves.R", 0), half * (double)rgb[0], 1e-6);
-    assert_close(at(&frame, "display.halves.G", 0), half * (double)rgb[1], 1e-6);
-    assert_true(isnan(at(&frame, "display.halves.G", 1)));
-}
-
-/* Over many pixels of independent samples the square of `halves` is their variance. */
-TEST(halves_squared_are_the_variance_of_independent_samples)
-{
-    enum { SIDE = 60 };
-    Arena    arena = test_arena(state);
-    FilmRect square = {0, 0, SIDE, SIDE};
-    Film    *film =
-        film_create(SIDE, SIDE, square, LAYER_HALVES | LAYER_VARIANCE, NULL, &arena);
-    for (int p = 0; p < SIDE * SIDE; p++)
-        for (uint32_t i = 0; i < 80; i++) add_grey(film, p % SIDE, p / SIDE, i, coin(p, i, 1));
-    FrameImage frame = film_to_frame(film, 0, &arena);
-    double     squares = 0, variance = 0;
-    for (int p = 0; p < SIDE * SIDE; p++) {
-        squares += at(&frame, "halves.G", p) * at(&frame, "halves.G", p);
-        variance += at(&frame, "variance.G", p);
-    }
-    assert_close(squares, variance, 0.08); /* 3 sigma: 3600 squares of a normal number */
 }
 
 TEST(layers_are_means_over_the_samples_that_hit)
