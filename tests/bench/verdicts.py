@@ -6,9 +6,9 @@ Rooms: a display in the open under an even sky, and in a black box that an even 
 light through a window, whose truths are closed forms (the panel's BRDF as `panel eval` tells
 it, over the sky, or over the window and for the sun) and are held against those of long runs;
 in a grey box with a small window; in the open under a sun and a sky; by small lamps over a
-glossy trim. A wrong verdict passes where the truth fails, or fails
-where it passes; "too close" is none. At most one in a hundred may be; the upper end is that of
-Clopper and Pearson's 95 % interval of one side.
+glossy trim. A wrong verdict passes where the truth fails, or fails where it passes; "too close"
+is none. At most one in a hundred may be; the upper end is that of Clopper and Pearson's 95 %
+interval of one side.
 """
 import argparse
 import json
