@@ -71,16 +71,30 @@ static void read_meter(const ProbeAim *aim, int path, ProbeLook *out,
                      statistics);
 }
 
-void probe_look(const ProbeAim *aim, int first, int end, ProbeLook *out,
-                PathStatistics *statistics)
+/* A pixel's paths are those of its frame. */
+static ProbeAim aim_of_first(const ProbeAim *aim, PathContext *room)
 {
-    for (int path = first; path < end; path++)
-        (aim->meter ? read_meter : look)(aim, path, &out[path - first], statistics);
+    ProbeAim own = *aim;
+    *room = *aim->context;
+    room->is_probe = !aim->meter && !aim->pixel;
+    own.context = room;
+    return own;
 }
 
-void probe_hear(const ProbeAim *aim, int first, int end, const PathListener *listener,
+void probe_look(const ProbeAim *asked, int first, int end, ProbeLook *out,
                 PathStatistics *statistics)
 {
+    PathContext context;
+    ProbeAim    aim = aim_of_first(asked, &context);
+    for (int path = first; path < end; path++)
+        (aim.meter ? read_meter : look)(&aim, path, &out[path - first], statistics);
+}
+
+void probe_hear(const ProbeAim *asked, int first, int end, const PathListener *listener,
+                PathStatistics *statistics)
+{
+    PathContext context;
+    ProbeAim    own = aim_of_first(asked, &context), *aim = &own;
     for (int path = first; path < end; path++) {
         Wavelengths wavelengths;
         Ray         ray;
@@ -179,9 +193,11 @@ static void draw_cells(const ProbeAim *aim, const ProbeCells *cells, int path, V
     }
 }
 
-void probe_ask_cells(const ProbeAim *aim, const ProbeCells *cells, int first, int end,
+void probe_ask_cells(const ProbeAim *asked, const ProbeCells *cells, int first, int end,
                      ProbeAnswers *out, PathStatistics *statistics)
 {
+    PathContext context;
+    ProbeAim    own = aim_of_first(asked, &context), *aim = &own;
     CellSums to = {cells, out->sums};
     PathFar  far = {out->towards, cells->asked_count, add_cell, add_escaped_cell, NULL, &to,
                     false};

@@ -72,6 +72,7 @@ typedef struct PathWalk {
     bool     last_is_delta; /* no light sample could have found what comes now */
     Spectrum sun_share; /* of the sun met now; the rest was told to the last vertex but one */
     int      bounce;     /* scattering vertices so far */
+    float    bright;     /* what a path lets through that is not dim; 1 but of a probe's */
     int      steps;       /* surfaces met so far */
     int      splits_left; /* thin sheets that may still be followed both ways */
     int      medium_id;  /* material of the solid that the ray is in; NO_ID: air */
@@ -890,7 +891,8 @@ static bool roulette(PathWalk *walk)
 {
     if (walk->bounce < ROULETTE_FIRST_BOUNCE) return true;
     numbers_for(walk, NUMBERS_ROULETTE);
-    float survival = fminf(ROULETTE_GENEROSITY * sqrtf(spectrum_max_lane(walk->throughput)), 1);
+    float share = spectrum_max_lane(walk->throughput) / walk->bright;
+    float survival = fminf(ROULETTE_GENEROSITY * sqrtf(share), 1);
     if (sampler_1d(walk->sampler) >= survival) return false;
     walk->throughput *= spectrum_all(1 / survival);
     return true;
@@ -953,6 +955,8 @@ static Step turn(PathWalk *walk, const Surface *surface, Vec3 wo, const BsdfSamp
     walk->straight = walk->sheets_from = 0;
     sheets_none(walk->stack);
     note_mirror(walk, surface, next);
+    if (walk->context->is_probe && !walk->bounce)
+        walk->bright = spectrum_max_lane(walk->throughput);
     walk->bounce++;
     walk->ray = (Ray){next->along == 0 ? ray_offset_origin(surface->position, surface->ng, wi)
                                        : beside(surface, wi, next->along),
@@ -1200,7 +1204,7 @@ static PathWalk walk_start(const PathContext *context, const Wavelengths *wavele
     sheets_none(&room->stack);
     lead_alone(context, &room->leads[0]);
     return (PathWalk){.context = context, .wavelengths = wavelengths, .sampler = sampler,
-                  .statistics = statistics, .throughput = spectrum_all(1),
+                  .statistics = statistics, .throughput = spectrum_all(1), .bright = 1,
                   .gathered.radiance = spectrum_all(0), .last.ns = vec3(0, 0, 1),
                   .last_is_delta = true, .last_part_id = NO_ID,
                   .sun_share = spectrum_all(1),

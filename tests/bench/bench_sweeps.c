@@ -3,10 +3,11 @@
  * the true value: of the first sweep of REVIEW.json the first symbol as the first eye sees it,
  * RUNS seeds of everything. Printed as coverage_trials.h says.
  *
- * WAYS, letters: s steps, which cells of a map and hours of a year are, w the worst of them,
- * chosen by each seed's own steps and read again as a moment, as run/sweep.c does. The truth
- * of a step is the mean of all runs, so that what is told is the interval alone; its offset
- * from the moment's truth, which triangles make, has a line of its own. */
+ * WAYS, letters: s steps, which cells of a map and hours of a year are, b the same beside a
+ * moment's truth, w the worst of them, chosen by each seed's own steps and read again as a
+ * moment, as run/sweep.c does. The truth of a step is the mean of all runs, so that what is
+ * told is the interval alone; b has its offset from the moment's truth, which triangles make,
+ * too. b and w take most of the time. */
 #include <string.h>
 
 #include "base/units.h"
@@ -80,6 +81,7 @@ static const char *sun_name(const SweepTrials *t, int sun, Arena *arena)
     return arena_format(arena, "sun %.0f, %.0f", at->azimuth_deg, at->elevation_deg);
 }
 
+/* truths: NULL: each step's own mean. */
 static void tell_steps(const SweepTrials *t, const Trial *steps, const Truth *truths,
                        Arena arena)
 {
@@ -88,8 +90,8 @@ static void tell_steps(const SweepTrials *t, const Trial *steps, const Truth *tr
         Trial *list = ARENA_NEW(&room, Trial, t->runs);
         for (int k = 0; k < t->runs; k++) list[k] = steps[k * t->suns.count + i];
         const char *name = sun_name(t, i, &room);
-        trials_tell(name, "step", list, t->runs, trials_mean(list, t->runs));
-        trials_tell(name, "step beside a moment", list, t->runs, truths[i]);
+        if (truths) trials_tell(name, "step beside a moment", list, t->runs, truths[i]);
+        else trials_tell(name, "step", list, t->runs, trials_mean(list, t->runs));
     }
 }
 
@@ -127,20 +129,30 @@ static double own_light(const SweepTrials *t)
     return reading_take(&t->aim, &goal, &t->stage->tools, t->scratch).reflected;
 }
 
-static void cover(const SweepTrials *t, const char *ways, Arena arena)
+/* Of every sun, by paths traced for it. */
+static Truth *find_truths(const SweepTrials *t, Arena *arena)
 {
-    int    count = t->suns.count;
-    double own = own_light(t);
-    Trial *steps = ARENA_NEW(&arena, Trial, t->runs * count), longest[TRUTH_RUNS];
-    Truth *truths = ARENA_NEW(&arena, Truth, count);
-    for (int k = 0; k < t->runs; k++)
-        read_steps(t, own, (1u << 20) + (unsigned)k, steps + k * count);
-    for (int i = 0; i < count; i++) {
+    Truth *truths = ARENA_NEW(arena, Truth, t->suns.count);
+    for (int i = 0; i < t->suns.count; i++) {
+        Trial longest[TRUTH_RUNS];
         for (int k = 0; k < TRUTH_RUNS; k++)
             longest[k] = moment_trial(t, i, TRUTH_PATHS, (1u << 21) + (unsigned)k);
         truths[i] = trials_mean(longest, TRUTH_RUNS);
     }
-    if (strchr(ways, 's')) tell_steps(t, steps, truths, arena);
+    return truths;
+}
+
+static void cover(const SweepTrials *t, const char *ways, Arena arena)
+{
+    int    count = t->suns.count;
+    double own = own_light(t);
+    Trial *steps = ARENA_NEW(&arena, Trial, t->runs * count);
+    for (int k = 0; k < t->runs; k++)
+        read_steps(t, own, (1u << 20) + (unsigned)k, steps + k * count);
+    if (strchr(ways, 's')) tell_steps(t, steps, NULL, arena);
+    if (!strpbrk(ways, "bw")) return;
+    Truth *truths = find_truths(t, &arena);
+    if (strchr(ways, 'b')) tell_steps(t, steps, truths, arena);
     if (strchr(ways, 'w')) tell_worst(t, steps, truths, arena);
 }
 
