@@ -859,6 +859,24 @@ static Vec3 beside(const Surface *surface, Vec3 wi, float along)
     return ray_offset_origin(vec3_along(place, wi, OFF_PANE * fabsf(along)), surface->ng, wi);
 }
 
+static bool lets_pass(void *user, const Hit *hit)
+{
+    (void)user, (void)hit;
+    return true;
+}
+
+/* Does the pane's frame, or what else is opaque, stand before where the image of its far face
+ * starts? Near the rim that is under the frame, or beyond it. Asked along the ray: a pane goes
+ * on under its seal. */
+static bool is_framed(const PathWalk *walk, const Surface *surface, Vec3 wi, float along)
+{
+    Vec3  from = ray_offset_origin(surface->position, surface->ng, wi), n = surface->frame.z;
+    float flat = sqrtf(fmaxf(1 - vec3_dot(wi, n) * vec3_dot(wi, n), 1e-6f));
+    walk->statistics->shadow_rays++;
+    return bvh_occluded(walk->context->bvh, (Ray){from, wi, 0, fabsf(along) / flat}, lets_pass,
+                        NULL);
+}
+
 /* Only what the eye itself sees through a pane is moved: no light sample has asked for it. */
 static Vec3 behind_pane(const PathWalk *walk, const Surface *surface)
 {
@@ -938,8 +956,11 @@ static void cross(PathWalk *walk, const Surface *surface, Vec3 local_wi, Vec3 wi
 static Step turn(PathWalk *walk, const Surface *surface, Vec3 wo, const BsdfSample *next)
 {
     Vec3 wi = frame_to_world(&surface->frame, next->wi);
+    Vec3 start = next->along == 0 ? ray_offset_origin(surface->position, surface->ng, wi)
+                                  : beside(surface, wi, next->along);
     float way = next->wi.z * surface->local_wo.z; /* below 0: across */
     if (!sides_agree(surface, next->wi, wi, wo)) return STEP_ENDED;
+    if (next->along != 0 && is_framed(walk, surface, wi, next->along)) return STEP_ENDED;
     walk->sun_share = sun_share(walk, surface, wo, next);
     if (way < 0) cross(walk, surface, next->wi, wi);
     note_step(walk, surface,
@@ -958,9 +979,7 @@ static Step turn(PathWalk *walk, const Surface *surface, Vec3 wo, const BsdfSamp
     if (walk->context->is_probe && !walk->bounce)
         walk->bright = spectrum_max_lane(walk->throughput);
     walk->bounce++;
-    walk->ray = (Ray){next->along == 0 ? ray_offset_origin(surface->position, surface->ng, wi)
-                                       : beside(surface, wi, next->along),
-                      vec3_normalize(wi), 0, INFINITY};
+    walk->ray = (Ray){start, vec3_normalize(wi), 0, INFINITY};
     return roulette(walk) ? STEP_SCATTERED : STEP_ENDED;
 }
 
