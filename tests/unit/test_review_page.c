@@ -218,7 +218,7 @@ TEST(sweeps_that_fail_come_first)
 }
 
 /* Top: the answer, the worst symbol, when, why; the limit that nobody read is marked. */
-TEST(the_first_line_says_it_all)
+TEST(the_first_screen_says_it_all)
 {
     (void)state;
     Review            review = fixture_review(&arena);
@@ -227,10 +227,11 @@ TEST(the_first_line_says_it_all)
     const char       *line = strstr(page, "<h1>");
     Text              text = {.arena = &arena};
     assert_non_null(line);
-    text_add_bytes(&text, line, (size_t)(strstr(line, "</h1>") - line));
+    text_add_bytes(&text, line, (size_t)(strstr(line, "</section>") - line));
     assert_int_equal(worst->verdict, VERDICT_FAIL);
     const char *parts[] = {"<b>Fails</b>", worst->symbol, worst->eye, worst->condition,
-                           words_ratio(worst->contrast_ratio, &arena), "62 %", "→ sky"};
+                           words_ratio(worst->contrast_ratio, &arena), "62 %", "→ sky",
+                           "✗", "When", "What mends it"};
     for (size_t i = 0; i < sizeof parts / sizeof *parts; i++)
         if (!strstr(text.data, parts[i])) fail_msg("no %s in %s", parts[i], text.data);
     assert_int_equal(count_of(page, "not read in the standard"), 3); /* three limits */

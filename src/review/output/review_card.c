@@ -303,6 +303,13 @@ static bool add_file(Text *html, const ReviewPicture *p, Arena scratch, Error *e
     return true;
 }
 
+bool review_card_add_picture(Text *html, const ReviewPicture *p, Arena scratch, Error *err)
+{
+    return p->picture ? page_picture(html, p->title ? p->title : "", p->picture, false, scratch,
+                                     err)
+                      : add_file(html, p, scratch, err);
+}
+
 static bool add_picture(Text *html, const ReviewCard *card, const ReviewPicture *p,
                         Arena scratch, Error *err)
 {
@@ -310,9 +317,7 @@ static bool add_picture(Text *html, const ReviewCard *card, const ReviewPicture 
     text_add(html, p->is_frame ? "<figure class=\"frame\">" : "<figure>");
     page_element(html, "h3", title);
     if (p->view) text_add(html, "<div class=\"shown\">");
-    if (p->picture ? !page_picture(html, title, p->picture, false, scratch, err)
-                   : !add_file(html, p, scratch, err))
-        return false;
+    if (!review_card_add_picture(html, p, scratch, err)) return false;
     if (p->view) {
         review_rays_add(html, card->of, card->id, &scratch);
         text_add(html, "</div>");

@@ -34,4 +34,8 @@ typedef struct ReviewCard {
 /* "c3" of the fourth case, "s0" of the first sweep's worst. */
 const char *review_card_id(const Review *review, const ReviewCase *c, Arena *arena);
 
+/* The picture alone: <img ...>. */
+bool review_card_add_picture(Text *html, const ReviewPicture *picture, Arena scratch,
+                             Error *err);
+
 bool review_card_add(Text *html, const ReviewCard *card, Arena *arena, Error *err);

@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "page/page.h"
+#include "review/output/review_answer.h"
 #include "review/output/review_decide.h"
 #include "review/output/review_false_suns.h"
 #include "review/output/review_gaze.h"
@@ -13,99 +14,22 @@
 
 #define PAGE_BYTES ((size_t)4 << 30) /* of address space, for the text */
 #define WORDS_BYTES ((size_t)1 << 30)
-#define OPEN_CARDS 4
-#define OPEN_SWEEPS 2
-#define OPEN_ROWS 12
+#define OPEN_SWEEPS 1
 
 /* review.css and review.js beside this file; the build embeds them. */
 extern const char REVIEW_STYLE[], REVIEW_SCRIPT[];
 /* What the reader may move: review_live.css, review_live.js, review_look.js. */
 extern const char LIVE_STYLE[], LIVE_SCRIPT[], LOOK_SCRIPT[];
 
-/* ---- the line on top -------------------------------------------------------------------- */
+/* ---- the answer ------------------------------------------------------------------------- */
 
-/* A case's sun counts from north; a sweep's from where its map's does. */
-static const char *const *directions_of(const ReviewPage *page, const ReviewCase *c,
-                                        Arena *arena)
+static ReviewAnswer answer_of(const ReviewPage *page)
 {
-    if (review_card_id(page->review, c, arena)[0] == 'c') return words_directions(false);
-    for (int i = 0; i < page->map_count; i++)
-        if (c == &page->maps[i].of->worst)
-            return words_directions(page->maps[i].is_of_vehicle);
-    return NULL;
+    return (ReviewAnswer){page->review, page->pictures, page->picture_count, page->maps,
+                          page->map_count};
 }
 
-/* Where the sun stands, and by which way most of the light comes. */
-static void add_why(Text *html, const ReviewPage *page, const ReviewCase *c, Arena *arena)
-{
-    const char *sun = words_sun(c, directions_of(page, c, arena), arena);
-    text_add(html, " <span class=\"why\">");
-    if (c->when) escape_markup(html, arena_format(arena, "When: %s. ", c->when));
-    escape_markup(html, arena_format(arena, "Light: %s%s%s.", words_ambient(c->ambient),
-                                     c->has_sun ? ", " : "", c->has_sun ? sun : ""));
-    if (c->groups[GROUP_LIGHT].count)
-        escape_markup(html, words_groups(c, arena));
-    else if (c->cause_count > 0)
-        escape_markup(html, arena_format(arena, " %s of what the display reflects comes by: "
-                                         "%s.", words_share(c->causes[0].share, arena),
-                                         words_chain(&c->causes[0], arena)));
-    escape_markup(html, words_without_data(page->review, c, arena));
-    text_add(html, "</span>");
-}
-
-/* What leads to the worst case. */
-static const char *answer_words(const Review *review, const ReviewCase *worst)
-{
-    if (!review->pass) return worst->verdict == VERDICT_PASS ? "the worst is " : "";
-    return worst->verdict == VERDICT_PASS ? "closest to its limit is "
-                                          : "nothing fails; the worst is ";
-}
-
-static void add_verdict(Text *html, const ReviewPage *page, Arena *arena)
-{
-    const Review     *review = page->review;
-    const ReviewCase *worst = review_worst(review, *arena);
-    Verdict           verdict = review_verdict(review);
-    text_format(html, "<div class=\"verdict%s\"><h1><b>%s</b>: ",
-                verdict == VERDICT_PASS ? " same" : "", words_verdict(verdict));
-    if (!worst) {
-        text_add(html, "nothing was asked, so nothing can fail.</h1></div>\n");
-        return;
-    }
-    text_add(html, answer_words(review, worst));
-    escape_markup(html, words_case(worst, arena));
-    text_add(html, ": ");
-    escape_markup(html, words_reason(worst, arena));
-    text_add(html, ".");
-    add_why(html, page, worst, arena);
-    text_add(html, "</h1></div>\n");
-}
-
-static void add_keys(Text *html, const Review *review, Arena *arena)
-{
-    static const char *const NAMES[4] = {"pass", "fail", "are too close to call",
-                                         "cannot be seen"};
-    ReviewCounts counts = review_count(review);
-    double       worst_share = NAN, longest = NAN;
-    page_keys_begin(html);
-    for (int i = 0; i < 4; i++)
-        if (i < 2 || counts.of[i] > 0)
-            page_key(html, arena_format(arena, "%d of %d", counts.of[i], counts.total),
-                     NAMES[i], i == VERDICT_FAIL && counts.of[i] > 0);
-    for (int i = 0; i < review->sweep_count; i++) {
-        worst_share = fmax(worst_share, review->sweeps[i].failed_share);
-        longest = fmax(longest, review->sweeps[i].longest_failure_minutes);
-    }
-    if (!isnan(worst_share))
-        page_key(html, words_share(worst_share, arena),
-                 "of the time fails, in the worst sweep", worst_share > 0);
-    if (!isnan(longest))
-        page_key(html, words_minutes(longest, arena), "is the longest failure at a stretch",
-                 longest > 0);
-    page_keys_end(html);
-}
-
-static void add_head(Text *html, const ReviewPage *page, Arena *arena)
+static bool add_head(Text *html, const ReviewPage *page, Arena *arena, Error *err)
 {
     const Review *review = page->review;
     const char   *title = review->title && review->title[0] ? review->title : "Glare review";
@@ -116,8 +40,8 @@ static void add_head(Text *html, const ReviewPage *page, Arena *arena)
                               review->profile ? review->profile : "none",
                               review->is_strict ? " · strict: too close or not visible fails"
                                                 : ""));
-    add_verdict(html, page, arena);
-    add_keys(html, review, arena);
+    ReviewAnswer answer = answer_of(page);
+    return review_answer_add(html, &answer, arena, err);
 }
 
 /* ---- verdicts --------------------------------------------------------------------------- */
@@ -127,17 +51,14 @@ static void add_verdicts(Text *html, const ReviewPage *page, Arena *arena)
     const Review *review = page->review;
     int           rows = review->case_count + review->sweep_count;
     if (rows == 0) return;
-    page_element(html, "h2", "Verdicts");
+    page_more_begin(html, arena_format(arena, "Every verdict: %d", rows));
     text_add(html, "<p class=\"sub\">Contrast is how many times brighter the bright part of "
              "a symbol is than its dark part, with all reflections on both; the margin is how "
              "far it is above (+) or below (−) its limit. ✓ passes, ✗ fails, ≈ too close to "
              "call, ∅ not visible; below it the 95 % interval and the limit.</p>\n");
     review_table_add_matrix(html, review, arena);
-    text_format(html, "<details class=\"all\"%s><summary>%d verdict%s with intervals and "
-                "limits, worst first</summary>\n", rows <= OPEN_ROWS ? " open" : "", rows,
-                rows == 1 ? "" : "s");
     review_table_add_list(html, review, arena);
-    text_add(html, "</details>\n");
+    page_more_end(html);
 }
 
 static void add_diff(Text *html, const ReviewPage *page, Arena *arena)
@@ -152,9 +73,11 @@ static void add_diff(Text *html, const ReviewPage *page, Arena *arena)
 static bool add_card(Text *html, const ReviewPage *page, const ReviewCase *c, bool is_open,
                      Arena *arena, Error *err)
 {
-    ReviewCard card = {.of = c, .id = review_card_id(page->review, c, arena),
-                       .is_open = is_open, .directions = directions_of(page, c, arena),
-                       .pictures = page->pictures, .picture_count = page->picture_count};
+    ReviewAnswer answer = answer_of(page);
+    ReviewCard   card = {.of = c, .id = review_card_id(page->review, c, arena),
+                         .is_open = is_open,
+                         .directions = review_answer_directions(&answer, c, arena),
+                         .pictures = page->pictures, .picture_count = page->picture_count};
     return review_card_add(html, &card, arena, err);
 }
 
@@ -164,7 +87,8 @@ static bool add_cases(Text *html, const ReviewPage *page, Arena *arena, Error *e
     const ReviewCase **ranked = review_rank(review, arena);
     int                shown = 0, passing = 0;
     if (review->case_count == 0) return true;
-    page_element(html, "h2", "Cases, worst first");
+    page_more_begin(html, arena_format(arena, "Every case, worst first: %d",
+                                       review->case_count));
     for (int i = 0; i < review->case_count; i++)
         passing += review->cases[i].verdict == VERDICT_PASS;
     for (int i = 0; i < review->case_count + review->sweep_count; i++) {
@@ -173,11 +97,11 @@ static bool add_cases(Text *html, const ReviewPage *page, Arena *arena, Error *e
         if (shown > 0 && shown == review->case_count - passing)
             page_more_begin(html, arena_format(arena, "%d that pass%s", passing,
                                                passing == 1 ? "es" : ""));
-        bool is_open = shown < (c->verdict == VERDICT_PASS ? 1 : OPEN_CARDS);
-        shown++;
+        bool is_open = shown++ == 0;
         if (!add_card(html, page, c, is_open, arena, err)) return false;
     }
     if (passing > 0 && passing < review->case_count) page_more_end(html);
+    page_more_end(html);
     return true;
 }
 
@@ -187,11 +111,11 @@ static void add_sweep_keys(Text *html, const ReviewSweep *s, Arena *arena)
 {
     page_keys_begin(html);
     bool is_sure = sweep_verdict(s) == VERDICT_FAIL;
+    const char *of = words_of_what(s);
     page_key(html, words_share(s->failed_share, arena),
-             is_sure || !(s->failed_share > 0)
-                 ? "of the time it fails"
-                 : "of the time by its steps alone: not confirmed",
-             is_sure && s->failed_share > 0);
+             arena_format(arena, is_sure || !(s->failed_share > 0)
+                                     ? "%s it fails" : "%s by its steps alone: not confirmed",
+                          of), is_sure && s->failed_share > 0);
     if (!isnan(s->longest_failure_minutes))
         page_key(html, words_minutes(s->longest_failure_minutes, arena),
                  "the longest failure at a stretch", s->longest_failure_minutes > 0);
@@ -218,10 +142,7 @@ static bool add_sweep_figures(Text *html, const ReviewPage *page, const ReviewSw
 
 static void add_sweep_line(Text *html, const ReviewSweep *s, bool is_open, Arena *arena)
 {
-    Verdict     verdict = sweep_verdict(s);
-    const char *often = verdict == VERDICT_FAIL && s->failed_share > 0
-                            ? arena_format(arena, "%s of the time", words_often(s, arena))
-                            : words_often(s, arena);
+    Verdict verdict = sweep_verdict(s);
     text_format(html, "<details class=\"case %s\"%s><summary><span class=\"chip %s\">%s"
                 "</span> ", words_class(verdict), is_open ? " open" : "", words_class(verdict),
                 words_verdict(verdict));
@@ -229,8 +150,8 @@ static void add_sweep_line(Text *html, const ReviewSweep *s, bool is_open, Arena
     page_element(html, "span class=\"where\"",
                  arena_format(arena, "seen by %s: %s", s->eye ? s->eye : "?",
                               s->condition ? s->condition : "?"));
-    text_format(html, "<span class=\"ratio\">%s · worst %s</span></summary>\n", often,
-                words_contrast(&s->worst, arena));
+    text_format(html, "<span class=\"ratio\">%s · worst %s</span></summary>\n",
+                words_how_often(s, arena), words_contrast(&s->worst, arena));
 }
 
 static bool add_sweep(Text *html, const ReviewPage *page, const ReviewSweep *s, bool is_open,
@@ -241,7 +162,7 @@ static bool add_sweep(Text *html, const ReviewPage *page, const ReviewSweep *s, 
     add_sweep_keys(html, s, arena);
     if (!add_sweep_figures(html, page, s, arena, err)) return false;
     page_element(html, "h4", "At its worst");
-    if (!add_card(html, page, &s->worst, sweep_verdict(s) != VERDICT_PASS, arena, err))
+    if (!add_card(html, page, &s->worst, false, arena, err))
         return false;
     if (s->table)
         page_element(html, "p class=\"sub\"",
@@ -276,8 +197,7 @@ static bool add_sweeps(Text *html, const ReviewPage *page, Arena *arena, Error *
         if (shown > 0 && shown == review->sweep_count - passing)
             page_more_begin(html, arena_format(arena, "%d that pass%s", passing,
                                                passing == 1 ? "es" : ""));
-        bool is_open = shown < (sweep_verdict(s) == VERDICT_PASS ? 1 : OPEN_SWEEPS);
-        shown++;
+        bool is_open = shown++ < OPEN_SWEEPS;
         if (!add_sweep(html, page, s, is_open, arena, err)) return false;
     }
     if (passing > 0 && passing < review->sweep_count) page_more_end(html);
@@ -318,6 +238,7 @@ static void add_responses(Text *html, const Review *review, Arena *arena)
 static void add_provenance(Text *html, const ReviewPage *page, Arena *arena)
 {
     const Review *review = page->review;
+    page_more_begin(html, "Where the limits come from, and what it was made of");
     page_element(html, "h2", "Where the limits come from");
     page_element(html, "p class=\"sub\"", review->profile ? review->profile : "No profile.");
     review_table_add_limits(html, review, arena);
@@ -329,10 +250,10 @@ static void add_provenance(Text *html, const ReviewPage *page, Arena *arena)
     }
     text_add(html, "</dl>\n");
     add_responses(html, review, arena);
-    if (page->command_count == 0) return;
-    page_element(html, "h3", "Commands");
+    if (page->command_count) page_element(html, "h3", "Commands");
     for (int i = 0; i < page->command_count; i++)
         page_element(html, "pre", page->commands[i]);
+    page_more_end(html);
 }
 
 static void add_notes(Text *html, const Review *review)
@@ -391,14 +312,14 @@ static void add_glossary(Text *html)
 
 static bool add_page(Text *html, const ReviewPage *page, Arena *arena, Error *err)
 {
-    add_head(html, page, arena);
-    add_verdicts(html, page, arena);
+    if (!add_head(html, page, arena, err)) return false;
     add_diff(html, page, arena);
-    add_notes(html, page->review);
+    if (!add_sweeps(html, page, arena, err)) return false;
+    add_verdicts(html, page, arena);
     if (!add_cases(html, page, arena, err)) return false;
     review_gaze_add(html, page->review, arena);
-    if (!add_sweeps(html, page, arena, err)) return false;
     review_false_suns_add(html, page->review, arena);
+    add_notes(html, page->review);
     add_provenance(html, page, arena);
     add_glossary(html);
     if (page->live && !review_live_add(html, page->review, page->live, arena, err))

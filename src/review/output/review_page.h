@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* review_page.h -- a glare review as one self-contained HTML page, for a meeting.
  *
- * One line on top says pass or fail, the worst symbol, when and why; then the table of all
- * verdicts, a card for every case that needs a look, maps and calendars of the sweeps, and
- * where every limit comes from. Nothing is loaded from anywhere, nothing needs script.
+ * The first screen is the answer: pass or fail, every symbol and eye at its worst, and the
+ * worst case of all with its picture, when, why and what mends it. Then maps and calendars of
+ * the sweeps; folded, all verdicts, a card for every case, and where every limit comes from.
+ * Nothing is loaded from anywhere, nothing needs script.
  *
  * Units    angles in degrees, azimuths from ahead over right, or from north over east.
  * Memory   the caller's until the page is written; the page's own text is given back.

@@ -15,13 +15,6 @@
 #define MATRIX_COLUMNS 10
 #define MATRIX_ROWS 60
 
-/* Seen without colours too. */
-static const char *mark_of(Verdict verdict)
-{
-    static const char *const MARKS[4] = {"✓", "✗", "≈", "∅"};
-    return MARKS[verdict];
-}
-
 /* <a href="#c3">text</a> */
 static void add_link(Text *html, const Review *review, const ReviewCase *c, const char *text,
                      Arena *arena)
@@ -102,7 +95,7 @@ static void add_matrix_cell(Text *html, const Matrix *m, const ReviewCase *c, Ar
                 review_card_id(m->review, c, arena));
     escape_markup(html, arena_format(arena, "%s: %s", words_verdict(c->verdict),
                                      words_reason(c, arena)));
-    text_format(html, "\"><div><b>%s %s</b>", mark_of(c->verdict),
+    text_format(html, "\"><div><b>%s %s</b>", words_mark(c->verdict),
                 c->verdict == VERDICT_NOT_VISIBLE ? "not visible"
                                                   : words_contrast(c, arena));
     if (limit) text_format(html, "<em>%s</em>", words_margin(limit->margin, arena));
@@ -174,7 +167,7 @@ static void add_sweep_cell(Text *html, const Review *review, const ReviewSweep *
     Verdict             verdict = sweep_verdict(s);
     const LimitVerdict *limit = shown_limit(&s->worst);
     text_format(html, "<td class=\"%s\"><a href=\"#%s\"><b>%s %s</b>", words_class(verdict),
-                review_card_id(review, &s->worst, arena), mark_of(verdict),
+                review_card_id(review, &s->worst, arena), words_mark(verdict),
                 words_often(s, arena));
     page_element(html, "small",
                  arena_format(arena, "%s%s%s", words_contrast(&s->worst, arena),

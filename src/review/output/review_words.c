@@ -129,6 +129,24 @@ const char *words_often(const ReviewSweep *sweep, Arena *arena)
     return fails ? words_share(sweep->failed_share, arena) : NAMES[verdict];
 }
 
+const char *words_of_what(const ReviewSweep *sweep)
+{
+    return isnan(sweep->longest_failure_minutes) ? "of the sun's directions" : "of the time";
+}
+
+const char *words_how_often(const ReviewSweep *sweep, Arena *arena)
+{
+    bool is_share = sweep_verdict(sweep) == VERDICT_FAIL && sweep->failed_share > 0;
+    const char *often = words_often(sweep, arena);
+    return is_share ? arena_format(arena, "%s %s", often, words_of_what(sweep)) : often;
+}
+
+const char *words_mark(Verdict verdict)
+{
+    static const char *const MARKS[4] = {"✓", "✗", "≈", "∅"};
+    return MARKS[verdict];
+}
+
 const char *words_class(Verdict verdict)
 {
     static const char *const CLASSES[4] = {"good", "bad", "close", "hidden"};
@@ -236,23 +254,6 @@ const char *words_chain(const CaseCause *cause, Arena *arena)
         text_add(&text, cause->chain[i] ? cause->chain[i] : "?");
     }
     return text.data ? text.data : "";
-}
-
-static const CaseShare *greatest(const ReviewCase *c, CauseGroup group)
-{
-    return c->groups[group].count ? &c->groups[group].list[0] : NULL;
-}
-
-const char *words_groups(const ReviewCase *c, Arena *arena)
-{
-    const CaseShare *light = greatest(c, GROUP_LIGHT), *opening = greatest(c, GROUP_OPENING);
-    const CaseShare *surface = greatest(c, GROUP_SURFACE);
-    if (!light || !opening || !surface) return "";
-    return arena_format(arena, " Of what the display reflects %s began at: %s; %s came by the "
-                               "opening: %s; %s is mirrored from or lit by: %s.",
-                        words_share(light->share, arena), light->what,
-                        words_share(opening->share, arena), opening->what,
-                        words_share(surface->share, arena), surface->what);
 }
 
 const char *words_without_data(const Review *review, const ReviewCase *c, Arena *arena)

@@ -54,6 +54,15 @@ const char *words_verdict(Verdict verdict);
  * "at worst" (an eye box: a sweep goes by its middle), "too close", "not visible". */
 const char *words_often(const ReviewSweep *sweep, Arena *arena);
 
+/* "of the time"; of a sweep of directions alone "of the sun's directions". */
+const char *words_of_what(const ReviewSweep *sweep);
+
+/* The two together, where a share is told: "0.5 % of the time". */
+const char *words_how_often(const ReviewSweep *sweep, Arena *arena);
+
+/* Seen without colours too: "✓", "✗", "≈", "∅". */
+const char *words_mark(Verdict verdict);
+
 /* Its class in review.css: good, bad, close, hidden. */
 const char *words_class(Verdict verdict);
 
@@ -80,10 +89,6 @@ const char *words_reason(const ReviewCase *c, Arena *arena);
 /* "; known within 2.3 %, 1.0 % was asked", behind what is told of a case; "" where that was
  * reached. */
 const char *words_precision(const ReviewCase *c, Arena *arena);
-
-/* " Of what the display reflects 97 % is the sky's, 64 % comes through Window_FL, ...": the
- * greatest of each group. */
-const char *words_groups(const ReviewCase *c, Arena *arena);
 
 /* " 62 % of it by way of 9 materials without data: ..."; "" where all have some. */
 const char *words_without_data(const Review *review, const ReviewCase *c, Arena *arena);

@@ -1,0 +1,297 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "review/output/review_answer.h"
+
+#include <math.h>
+
+#include "page/page.h"
+#include "review/output/review_bar.h"
+#include "review/output/review_decide.h"
+#include "review/output/review_words.h"
+#include "text/escape.h"
+
+#define GRID_ROWS 10
+#define GRID_EYES 4
+#define MENDS_TOLD 2
+#define SHARES_TOLD 3
+
+const char *const *review_answer_directions(const ReviewAnswer *answer, const ReviewCase *c,
+                                            Arena *arena)
+{
+    if (review_card_id(answer->review, c, arena)[0] == 'c') return words_directions(false);
+    for (int i = 0; i < answer->map_count; i++)
+        if (c == &answer->maps[i].of->worst)
+            return words_directions(answer->maps[i].is_of_vehicle);
+    return NULL;
+}
+
+/* NULL: the case is a moment's. */
+static const ReviewSweep *sweep_of(const Review *review, const ReviewCase *c)
+{
+    for (int i = 0; i < review->sweep_count; i++)
+        if (c == &review->sweeps[i].worst) return &review->sweeps[i];
+    return NULL;
+}
+
+/* ---- the line --------------------------------------------------------------------------- */
+
+/* What leads to the worst case. */
+static const char *answer_words(const Review *review, const ReviewCase *worst)
+{
+    if (!review->pass) return worst->verdict == VERDICT_PASS ? "the worst is " : "";
+    return worst->verdict == VERDICT_PASS ? "closest to its limit is "
+                                          : "nothing fails; the worst is ";
+}
+
+static void add_line(Text *html, const Review *review, const ReviewCase *worst, Arena *arena)
+{
+    Verdict verdict = review_verdict(review);
+    text_format(html, "<div class=\"verdict%s\"><h1><b>%s</b>: ",
+                verdict == VERDICT_PASS ? " same" : "", words_verdict(verdict));
+    if (!worst) {
+        text_add(html, "nothing was asked, so nothing can fail.</h1></div>\n");
+        return;
+    }
+    text_add(html, answer_words(review, worst));
+    escape_markup(html, words_case(worst, arena));
+    text_add(html, ": ");
+    escape_markup(html, words_reason(worst, arena));
+    text_add(html, ".</h1></div>\n");
+}
+
+/* ---- every symbol and eye --------------------------------------------------------------- */
+
+typedef struct Grid {
+    const ReviewCase **ranked; /* the worst first */
+    int                count;
+    const char       **symbols, **eyes; /* in the order of their worst */
+    int                symbol_count, eye_count;
+} Grid;
+
+static int add_name(const char **names, int count, const char *name)
+{
+    for (int i = 0; i < count; i++)
+        if (words_same(names[i], name)) return count;
+    names[count] = name ? name : "";
+    return count + 1;
+}
+
+static Grid make_grid(const Review *review, Arena *arena)
+{
+    int  count = review->case_count + review->sweep_count;
+    Grid grid = {.ranked = review_rank(review, arena), .count = count,
+                 .symbols = ARENA_NEW(arena, const char *, count),
+                 .eyes = ARENA_NEW(arena, const char *, count)};
+    for (int i = 0; i < count; i++) {
+        const ReviewCase *c = grid.ranked[i];
+        grid.symbol_count = add_name(grid.symbols, grid.symbol_count, c->symbol);
+        grid.eye_count = add_name(grid.eyes, grid.eye_count, c->eye);
+    }
+    return grid;
+}
+
+static const ReviewCase *worst_of(const Grid *grid, const char *symbol, const char *eye)
+{
+    for (int i = 0; i < grid->count; i++)
+        if (words_same(grid->ranked[i]->symbol, symbol) &&
+            words_same(grid->ranked[i]->eye, eye))
+            return grid->ranked[i];
+    return NULL;
+}
+
+/* What fails by its height or stroke says so, not its contrast. */
+static const char *found_words(const ReviewCase *c, Arena *arena)
+{
+    const LimitVerdict *limit = case_worst_limit(c);
+    if (c->verdict == VERDICT_NOT_VISIBLE) return "not visible";
+    if (!limit || words_same(limit->kind, "contrast_ratio")) return words_contrast(c, arena);
+    return arena_format(arena, "%s %s", limit->name ? limit->name : "",
+                        words_found(limit, arena));
+}
+
+static const char *below_words(const ReviewCase *c, Arena *arena)
+{
+    const LimitVerdict *limit = case_worst_limit(c);
+    const char *condition = c->condition ? c->condition : "?";
+    if (!limit || c->verdict == VERDICT_NOT_VISIBLE) return condition;
+    return arena_format(arena, "%s · %s", words_margin(limit->margin, arena), condition);
+}
+
+static void add_cell(Text *html, const Review *review, const ReviewCase *c, Arena *arena)
+{
+    if (!c) {
+        page_cell(html, "none", "–");
+        return;
+    }
+    text_format(html, "<td class=\"%s\"><a href=\"#%s\" title=\"", words_class(c->verdict),
+                review_card_id(review, c, arena));
+    escape_markup(html, arena_format(arena, "%s: %s", words_verdict(c->verdict),
+                                     words_reason(c, arena)));
+    text_add(html, "\"><b>");
+    escape_markup(html, arena_format(arena, "%s %s", words_mark(c->verdict),
+                                     found_words(c, arena)));
+    text_add(html, "</b>");
+    page_element(html, "small", below_words(c, arena));
+    text_add(html, "</a></td>");
+}
+
+static void add_rows(Text *html, const Review *review, const Grid *grid, int rows, int eyes,
+                     Arena *arena)
+{
+    for (int row = 0; row < rows; row++) {
+        page_row_begin(html, "");
+        page_cell(html, "", grid->symbols[row]);
+        for (int i = 0; i < eyes; i++)
+            add_cell(html, review, worst_of(grid, grid->symbols[row], grid->eyes[i]), arena);
+        page_row_end(html);
+    }
+}
+
+static const char *count_words(const Review *review, Arena *arena)
+{
+    static const char *const NAMES[4] = {"pass", "fail", "too close to call",
+                                         "cannot be seen"};
+    static const Verdict ORDER[4] = {VERDICT_FAIL, VERDICT_NOT_VISIBLE, VERDICT_TOO_CLOSE,
+                                     VERDICT_PASS};
+    ReviewCounts counts = review_count(review);
+    Text         text = {.arena = arena};
+    text_format(&text, "%d verdict%s", counts.total, counts.total == 1 ? "" : "s");
+    for (int i = 0; i < 4; i++)
+        if (counts.of[ORDER[i]])
+            text_format(&text, "%s %d %s", i && text.data[text.size - 1] != 's' ? "," : ":",
+                        counts.of[ORDER[i]], NAMES[ORDER[i]]);
+    return text.data;
+}
+
+static void add_grid(Text *html, const Review *review, Arena *arena)
+{
+    Grid        grid = make_grid(review, arena);
+    PageColumn  columns[GRID_EYES + 1] = {{"at its worst", false, NULL}};
+    int         eyes = grid.eye_count < GRID_EYES ? grid.eye_count : GRID_EYES;
+    int         rows = grid.symbol_count < GRID_ROWS ? grid.symbol_count : GRID_ROWS;
+    for (int i = 0; i < eyes; i++) columns[i + 1] = (PageColumn){grid.eyes[i], false, NULL};
+    text_add(html, "<div class=\"grid\">");
+    page_table_begin(html, "", "matrix", columns, eyes + 1);
+    add_rows(html, review, &grid, rows, eyes, arena);
+    page_table_end(html);
+    if (rows < grid.symbol_count || eyes < grid.eye_count)
+        page_element(html, "p class=\"sub\"",
+                     arena_format(arena, "%d more symbols and %d more eyes, none worse, stand "
+                                  "below.", grid.symbol_count - rows, grid.eye_count - eyes));
+    page_element(html, "p class=\"sub\"", count_words(review, arena));
+    text_add(html, "</div>\n");
+}
+
+/* ---- the worst case --------------------------------------------------------------------- */
+
+static void add_fact(Text *html, const char *name, const char *value)
+{
+    page_element(html, "dt", name);
+    page_element(html, "dd", value);
+}
+
+static void add_when(Text *html, const ReviewAnswer *answer, const ReviewCase *c, Arena *arena)
+{
+    const ReviewSweep *sweep = sweep_of(answer->review, c);
+    const char *sun = words_sun(c, review_answer_directions(answer, c, arena), arena);
+    const char *when = c->when ? c->when : c->condition ? c->condition : "?";
+    add_fact(html, "When", arena_format(arena, "%s: %s", when,
+                                        c->has_sun ? sun : words_ambient(c->ambient)));
+    if (sweep) add_fact(html, "How often", words_how_often(sweep, arena));
+}
+
+/* All of it in whole percent that add up to 100, the small ones together. */
+static const char *group_words(const CaseGroup *group, Arena *arena)
+{
+    Text text = {.arena = arena};
+    int  told = group->count > SHARES_TOLD + 1 ? SHARES_TOLD : group->count, left = 100;
+    bool has_rest = told < group->count;
+    for (int i = 0; i < told; i++) {
+        bool is_last = i == told - 1 && !has_rest;
+        int  percent = is_last ? left : (int)lrint(100 * group->list[i].share);
+        left -= percent;
+        const char *share = percent > 0 ? arena_format(arena, "%d", percent) : "<1";
+        text_format(&text, "%s%s %% %s", i ? " · " : "", share, group->list[i].what);
+    }
+    if (has_rest) text_format(&text, " · %d %% others", left > 0 ? left : 0);
+    return text.data ? text.data : "";
+}
+
+static void add_why(Text *html, const ReviewAnswer *answer, const ReviewCase *c, Arena *arena)
+{
+    static const char *const NAMES[CAUSE_GROUPS] = {"Light from", "… in through", "… off"};
+    for (int g = 0; g < CAUSE_GROUPS; g++)
+        if (c->groups[g].count) add_fact(html, NAMES[g], group_words(&c->groups[g], arena));
+    if (!c->groups[GROUP_LIGHT].count && c->cause_count)
+        add_fact(html, "Why",
+                 arena_format(arena, "%s of what the display reflects comes by: %s",
+                              words_share(c->causes[0].share, arena),
+                              words_chain(&c->causes[0], arena)));
+    const char *without = words_without_data(answer->review, c, arena);
+    if (without[0]) add_fact(html, "No data", without);
+}
+
+/* What changes the contrast by more than its interval. */
+static bool mends(const ReviewCase *c, const CaseRemedy *r)
+{
+    return r->contrast_ratio > c->contrast_high;
+}
+
+/* The one that gives most contrast first. */
+static const CaseRemedy *next_mend(const ReviewCase *c, const bool *is_told)
+{
+    const CaseRemedy *best = NULL;
+    for (int i = 0; i < c->remedy_count; i++) {
+        const CaseRemedy *r = &c->remedies[i];
+        if (!is_told[i] && mends(c, r) && !(best && best->contrast_ratio >= r->contrast_ratio))
+            best = r;
+    }
+    return best;
+}
+
+static void add_mends(Text *html, const ReviewCase *c, Arena *arena)
+{
+    bool *is_told = ARENA_NEW(arena, bool, c->remedy_count + 1);
+    for (int i = 0; i < MENDS_TOLD; i++) {
+        const CaseRemedy *r = next_mend(c, is_told);
+        if (!r) return;
+        is_told[r - c->remedies] = true;
+        add_fact(html, i ? "… or" : "What mends it",
+                 arena_format(arena, "%s: %s", r->what, words_ratio(r->contrast_ratio, arena)));
+    }
+}
+
+static const ReviewPicture *frame_of(const ReviewAnswer *answer, const ReviewCase *c)
+{
+    for (int i = 0; i < answer->picture_count; i++) {
+        const ReviewPicture *p = &answer->pictures[i];
+        if (p->of == c && p->is_frame) return p;
+    }
+    return NULL;
+}
+
+static bool add_worst(Text *html, const ReviewAnswer *answer, const ReviewCase *c, Arena *arena,
+                      Error *err)
+{
+    const ReviewPicture *frame = frame_of(answer, c);
+    text_add(html, "<section class=\"worst\" aria-label=\"The worst case\">\n");
+    if (frame && !review_card_add_picture(html, frame, *arena, err)) return false;
+    if (!frame && c->verdict != VERDICT_NOT_VISIBLE) review_bar_add_luminances(html, c, arena);
+    text_add(html, "<dl class=\"facts\">\n");
+    add_when(html, answer, c, arena);
+    add_why(html, answer, c, arena);
+    if (c->verdict != VERDICT_PASS) add_mends(html, c, arena);
+    text_add(html, "</dl></section>\n");
+    return true;
+}
+
+bool review_answer_add(Text *html, const ReviewAnswer *answer, Arena *arena, Error *err)
+{
+    const ReviewCase *worst = review_worst(answer->review, *arena);
+    add_line(html, answer->review, worst, arena);
+    if (!worst) return true;
+    text_add(html, "<div class=\"first\">\n");
+    add_grid(html, answer->review, arena);
+    if (!add_worst(html, answer, worst, arena, err)) return false;
+    text_add(html, "</div>\n");
+    return true;
+}

@@ -1,0 +1,26 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* review_answer.h -- the page's first screen: pass or fail, every symbol as every eye sees it
+ * at its worst, and beside them the worst case of all: its picture, when, why and what mends
+ * it; private to the output.
+ *
+ * Memory   the arena's. Threads: no shared state.
+ * Fails    for a picture that cannot be read.
+ */
+#pragma once
+#include "review/output/review_card.h"
+#include "review/output/review_map.h"
+#include "review/verdict.h"
+
+typedef struct ReviewAnswer {
+    const Review        *review;
+    const ReviewPicture *pictures; /* of the page */
+    int                  picture_count;
+    const ReviewMap     *maps;
+    int                  map_count;
+} ReviewAnswer;
+
+bool review_answer_add(Text *html, const ReviewAnswer *answer, Arena *arena, Error *err);
+
+/* What the azimuth of a case's sun counts from: words_directions, or NULL. */
+const char *const *review_answer_directions(const ReviewAnswer *answer, const ReviewCase *c,
+                                            Arena *arena);
