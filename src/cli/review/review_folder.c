@@ -128,8 +128,9 @@ static const struct {
 
 /* The pictures that a page has room for. */
 typedef struct PictureList {
-    ReviewPicture *at;
-    int            count;
+    ReviewPicture    *at;
+    int               count;
+    const ReviewCase *worst; /* whose frame the first screen shows, too */
 } PictureList;
 
 /* One that several cards show stands in the page once. */
@@ -141,6 +142,8 @@ static void add_picture(PictureList *list, ReviewPicture picture, Arena *arena)
             picture.id = list->at[i].id;
             picture.is_again = true;
         }
+    if (picture.is_frame && picture.of == list->worst && !picture.id)
+        picture.id = arena_format(arena, "p%d", list->count);
     list->at[list->count++] = picture;
 }
 
@@ -172,7 +175,8 @@ static void add_pictures(const ReviewFolder *folder, const Review *review, Revie
 {
     int                all = review->case_count + review->sweep_count;
     const ReviewCase **ranked = review_rank(review, arena);
-    PictureList        list = {ARENA_NEW(arena, ReviewPicture, all * (FRAME_VIEWS + 1)), 0};
+    PictureList        list = {ARENA_NEW(arena, ReviewPicture, all * (FRAME_VIEWS + 1)), 0,
+                               review_worst(review, *arena)};
     for (int i = 0; i < all; i++)
         if (review_card_id(review, ranked[i], arena)[0] == 'c')
             add_case_pictures(folder, ranked[i], &list, arena);

@@ -269,12 +269,20 @@ static const ReviewPicture *frame_of(const ReviewAnswer *answer, const ReviewCas
     return NULL;
 }
 
+/* The case's card has it, too: there it stands. */
+static bool add_frame(Text *html, const ReviewPicture *frame, Arena scratch, Error *err)
+{
+    ReviewPicture shown = *frame;
+    shown.is_again = shown.id != NULL;
+    return review_card_add_picture(html, &shown, scratch, err);
+}
+
 static bool add_worst(Text *html, const ReviewAnswer *answer, const ReviewCase *c, Arena *arena,
                       Error *err)
 {
     const ReviewPicture *frame = frame_of(answer, c);
     text_add(html, "<section class=\"worst\" aria-label=\"The worst case\">\n");
-    if (frame && !review_card_add_picture(html, frame, *arena, err)) return false;
+    if (frame && !add_frame(html, frame, *arena, err)) return false;
     if (!frame && c->verdict != VERDICT_NOT_VISIBLE) review_bar_add_luminances(html, c, arena);
     text_add(html, "<dl class=\"facts\">\n");
     add_when(html, answer, c, arena);
