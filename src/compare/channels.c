@@ -35,7 +35,7 @@ static bool is_surface_layer(const char *name)
 
 static bool is_noise_layer(const char *name)
 {
-    static const char *const LAYERS[] = {"variance", "halves"};
+    static const char *const LAYERS[] = {"variance", "halves", "display.halves"};
     return is_one_of(name, LAYERS, sizeof LAYERS / sizeof *LAYERS);
 }
 

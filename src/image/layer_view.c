@@ -64,6 +64,7 @@ static const KnownLayer KNOWN[] = {
     {"halves", "RGB", SHOW_NUMBER, "cd/m^2", true},
     {"depth", "Z", SHOW_NUMBER, "m", true},
     {"samples", "N", SHOW_NUMBER, "samples", false},
+    {"display.halves", "RGB", SHOW_NUMBER, "cd/m^2", true},
     {"display.theta", "", SHOW_NUMBER, "deg", false},
     {"display.phi", "", SHOW_NUMBER, "deg", false},
     {"display.contrast", "", SHOW_NUMBER, ": 1", true},
@@ -253,8 +254,8 @@ bool layer_view_find(const FrameImage *frame, const char *layer, Arena *arena, L
     if (view.show == SHOW_LIGHT || view.show == SHOW_REFLECTANCE)
         convert_to_rec709(frame, !strcmp(layer, "xyz"), &view, arena);
     if (view.show == SHOW_NUMBER && view.planes[2])
-        view.planes[0] = strcmp(layer, "halves") ? luminance_variance(&view, arena)
-                                                 : luminance_size(&view, arena);
+        view.planes[0] = strcmp(layer, "variance") ? luminance_size(&view, arena)
+                                                   : luminance_variance(&view, arena);
     *out = view;
     return true;
 }

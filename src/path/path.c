@@ -867,14 +867,14 @@ static bool lets_pass(void *user, const Hit *hit)
 
 /* Does the pane's frame, or what else is opaque, stand before where the image of its far face
  * starts? Near the rim that is under the frame, or beyond it. Asked along the ray: a pane goes
- * on under its seal. */
+ * on under its seal. along: above 0. */
 static bool is_framed(const PathWalk *walk, const Surface *surface, Vec3 wi, float along)
 {
-    Vec3  from = ray_offset_origin(surface->position, surface->ng, wi), n = surface->frame.z;
-    float flat = sqrtf(fmaxf(1 - vec3_dot(wi, n) * vec3_dot(wi, n), 1e-6f));
+    float cosine = vec3_dot(wi, surface->frame.z), flat2 = 1 - cosine * cosine;
+    float reach = along * (1 / sqrtf(fmaxf(flat2, 1e-6f)) + 2 * OFF_PANE); /* and a little */
+    Ray   ray = {ray_offset_origin(surface->position, surface->ng, wi), wi, 0, reach};
     walk->statistics->shadow_rays++;
-    return bvh_occluded(walk->context->bvh, (Ray){from, wi, 0, fabsf(along) / flat}, lets_pass,
-                        NULL);
+    return bvh_occluded(walk->context->bvh, ray, lets_pass, NULL);
 }
 
 /* Only what the eye itself sees through a pane is moved: no light sample has asked for it. */

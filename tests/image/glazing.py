@@ -442,6 +442,21 @@ def check_hidden(report, program, folder):
                      f"extensions/{name})" in said, f"{name}: {said}")
 
 
+def check_rim(report, eye):
+    """A thick pane on the floor of a black box that is closed: its far face's image starts up
+    to 6 cm beside where the pane is met, near the rim beyond the wall, and still none of the
+    bright sky comes in."""
+    scene = Scene()
+    scene.box_inside(scene.lambert(0, double_sided=True), [-0.5, -0.5, -0.5], [0.5, 0.5, 0.5])
+    scene.quad(scene.material("pane", pane([{"thickness_m": 0.05, "ior": INDEX}]),
+                              doubleSided=True),
+               [-0.7, -0.49, 0.7], [1.4, 0, 0], [0, 0, -1.4])
+    scene.environment(type="constant", luminance=1e6)
+    scene.view("eye", [-0.4, -0.4, 0], [1, -0.1, 0], 40)
+    seen = luminances(eye.frame(scene, "--size", "64x36", "--spp", "64"))
+    report.claim(max(seen) == 0, f"a closed box lets in {max(seen):g} cd/m2 at a pane's rim")
+
+
 def main():
     program = os.path.abspath(sys.argv[-1])
     report = Report()
@@ -452,6 +467,7 @@ def main():
         check_coated(report, eye)
         check_ghost(report, eye)
         check_coated_ghost(report, eye)
+        check_rim(report, eye)
         check_haze(report, eye)
         check_furnace(report, eye)
         check_faults(report, program, folder)

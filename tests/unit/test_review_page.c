@@ -215,6 +215,12 @@ TEST(sweeps_that_fail_come_first)
     review.sweeps[1].failed_share = 0; /* an eye box: its middle never fails */
     assert_string_equal(words_often(&review.sweeps[0], &arena), "never");
     assert_string_equal(words_often(&review.sweeps[1], &arena), "at worst");
+    review.sweeps[1].failed_share = 0.04;
+    review.sweeps[1].longest_failure_minutes = 7;
+    assert_string_equal(words_how_often(&review.sweeps[1], &arena), "4.0 % of the time");
+    review.sweeps[1].longest_failure_minutes = NAN; /* directions alone */
+    assert_string_equal(words_how_often(&review.sweeps[1], &arena),
+                        "4.0 % of the sun's directions");
 }
 
 /* Top: the answer, the worst symbol, when, why; the limit that nobody read is marked. */

@@ -24,14 +24,6 @@ const char *const *review_answer_directions(const ReviewAnswer *answer, const Re
     return NULL;
 }
 
-/* NULL: the case is a moment's. */
-static const ReviewSweep *sweep_of(const Review *review, const ReviewCase *c)
-{
-    for (int i = 0; i < review->sweep_count; i++)
-        if (c == &review->sweeps[i].worst) return &review->sweeps[i];
-    return NULL;
-}
-
 /* ---- the line --------------------------------------------------------------------------- */
 
 /* What leads to the worst case. */
@@ -154,11 +146,13 @@ static const char *count_words(const Review *review, Arena *arena)
                                      VERDICT_PASS};
     ReviewCounts counts = review_count(review);
     Text         text = {.arena = arena};
+    const char  *before = ":";
     text_format(&text, "%d verdict%s", counts.total, counts.total == 1 ? "" : "s");
-    for (int i = 0; i < 4; i++)
-        if (counts.of[ORDER[i]])
-            text_format(&text, "%s %d %s", i && text.data[text.size - 1] != 's' ? "," : ":",
-                        counts.of[ORDER[i]], NAMES[ORDER[i]]);
+    for (int i = 0; i < 4; i++) {
+        if (!counts.of[ORDER[i]]) continue;
+        text_format(&text, "%s %d %s", before, counts.of[ORDER[i]], NAMES[ORDER[i]]);
+        before = ",";
+    }
     return text.data;
 }
 
@@ -175,8 +169,9 @@ static void add_grid(Text *html, const Review *review, Arena *arena)
     page_table_end(html);
     if (rows < grid.symbol_count || eyes < grid.eye_count)
         page_element(html, "p class=\"sub\"",
-                     arena_format(arena, "%d more symbols and %d more eyes, none worse, stand "
-                                  "below.", grid.symbol_count - rows, grid.eye_count - eyes));
+                     arena_format(arena, "The worst %d of %d symbols, as the worst %d of %d "
+                                  "eyes see them; all stand below.", rows, grid.symbol_count,
+                                  eyes, grid.eye_count));
     page_element(html, "p class=\"sub\"", count_words(review, arena));
     text_add(html, "</div>\n");
 }
@@ -191,7 +186,7 @@ static void add_fact(Text *html, const char *name, const char *value)
 
 static void add_when(Text *html, const ReviewAnswer *answer, const ReviewCase *c, Arena *arena)
 {
-    const ReviewSweep *sweep = sweep_of(answer->review, c);
+    const ReviewSweep *sweep = review_sweep_of(answer->review, c);
     const char *sun = words_sun(c, review_answer_directions(answer, c, arena), arena);
     const char *when = c->when ? c->when : c->condition ? c->condition : "?";
     add_fact(html, "When", arena_format(arena, "%s: %s", when,

@@ -9,6 +9,13 @@ Verdict sweep_verdict(const ReviewSweep *sweep)
     return sweep->worst.verdict;
 }
 
+const ReviewSweep *review_sweep_of(const Review *review, const ReviewCase *c)
+{
+    for (int i = 0; i < review->sweep_count; i++)
+        if (c == &review->sweeps[i].worst) return &review->sweeps[i];
+    return NULL;
+}
+
 ReviewCounts review_count(const Review *review)
 {
     ReviewCounts counts = {.total = review->case_count + review->sweep_count};

@@ -17,6 +17,9 @@ typedef struct ReviewCounts {
     int total;
 } ReviewCounts;
 
+/* The sweep whose worst this is; NULL: the case is a moment's. */
+const ReviewSweep *review_sweep_of(const Review *review, const ReviewCase *c);
+
 ReviewCounts review_count(const Review *review);
 
 /* A sweep fails where its worst does or some of its time did. */

@@ -171,14 +171,6 @@ static bool add_sweep(Text *html, const ReviewPage *page, const ReviewSweep *s, 
     return true;
 }
 
-/* NULL: the case is no sweep's worst. */
-static const ReviewSweep *sweep_with_worst(const Review *review, const ReviewCase *c)
-{
-    for (int i = 0; i < review->sweep_count; i++)
-        if (c == &review->sweeps[i].worst) return &review->sweeps[i];
-    return NULL;
-}
-
 static bool add_sweeps(Text *html, const ReviewPage *page, Arena *arena, Error *err)
 {
     const Review      *review = page->review;
@@ -192,7 +184,7 @@ static bool add_sweeps(Text *html, const ReviewPage *page, Arena *arena, Error *
     for (int i = 0; i < review->sweep_count; i++)
         passing += sweep_verdict(&review->sweeps[i]) == VERDICT_PASS;
     for (int i = 0; i < review->case_count + review->sweep_count; i++) {
-        const ReviewSweep *s = sweep_with_worst(review, ranked[i]);
+        const ReviewSweep *s = review_sweep_of(review, ranked[i]);
         if (!s) continue;
         if (shown > 0 && shown == review->sweep_count - passing)
             page_more_begin(html, arena_format(arena, "%d that pass%s", passing,
