@@ -79,14 +79,13 @@ static void print_figure(const char *name, Measured figure, const char *unit)
         printf("%-12s undefined: there is no light\n", name);
         return;
     }
-    if (isnan(figure.half_width)) {
+    if (isnan(figure.low)) {
         printf("%-12s %.6g%s\n", name, figure.value, unit);
         return;
     }
     Arena scratch = arena_reserve(INTERVAL_BYTES);
     printf("%-12s %s%s\n", name,
-           interval_text(figure.value, figure.value - figure.half_width,
-                         figure.value + figure.half_width, &scratch), unit);
+           interval_text(figure.value, figure.low, figure.high, &scratch), unit);
     arena_release(&scratch);
 }
 
@@ -166,9 +165,8 @@ static void print_lights(const LightShares *lights)
 
 static json_t *interval(Measured figure)
 {
-    if (isnan(figure.half_width) || isnan(figure.value)) return json_null();
-    return json_pack("[f,f]", figure.value - figure.half_width,
-                     figure.value + figure.half_width);
+    if (isnan(figure.low) || isnan(figure.value)) return json_null();
+    return json_pack("[f,f]", figure.low, figure.high);
 }
 
 /* JSON has no NaN. */

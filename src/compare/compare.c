@@ -97,7 +97,8 @@ static const char *limits_text(const CompareOptions *options, const Comparison *
 static bool contrast_moved(const ContrastChange *change)
 {
     double far = fabs(change->ratio.value - 1);
-    return isnan(change->ratio.half_width) ? far > LEAST_SAID : far > change->ratio.half_width;
+    double error = measured_half_width(change->ratio);
+    return isnan(error) ? far > LEAST_SAID : far > error;
 }
 
 /* "contrast of cluster 9.9 : 1 to 6.1 : 1 (-38 +- 0.5 %) and of 2 more displays; ", for what
@@ -113,7 +114,7 @@ static const char *contrast_change_text(const Comparison *out, Arena *arena)
         if (!most || fabs(c->ratio.value - 1) > fabs(most->ratio.value - 1)) most = c;
     }
     if (!most) return "";
-    double      error = most->ratio.half_width;
+    double      error = measured_half_width(most->ratio);
     const char *text = arena_format(
         arena, "contrast of %s %.3g : 1 to %.3g : 1 (%+.3g%s %%)", most->display,
         most->reference.contrast.value, most->test.contrast.value,
@@ -131,7 +132,7 @@ static const char *contrast_held_text(const Comparison *out, Arena *arena)
     double most = 0;
     for (int i = 0; i < out->contrast_count; i++) {
         Measured ratio = out->contrasts[i].ratio;
-        double   far = fabs(ratio.value - 1) + ratio.half_width;
+        double   far = fabs(ratio.value - 1) + measured_half_width(ratio);
         if (!(far <= most)) most = far;
     }
     if (!(most > 0) || isinf(most)) return "";

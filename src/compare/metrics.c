@@ -216,7 +216,7 @@ static FrameImage masked_frame(const FrameImage *frame, PixelMask mask, Arena *a
 
 static double relative(Measured measured)
 {
-    return measured.half_width / measured.value;
+    return measured_half_width(measured) / measured.value;
 }
 
 static ContrastChange contrast_change(const char *display, const FrameImage frames[2],
@@ -230,8 +230,8 @@ static ContrastChange contrast_change(const char *display, const FrameImage fram
                  change.reference.has_contrast && change.test.has_contrast;
     if (!change.has) return change;
     Measured a = change.reference.contrast, b = change.test.contrast;
-    change.ratio.value = b.value / a.value;
-    change.ratio.half_width = change.ratio.value * hypot(relative(a), relative(b));
+    double ratio = b.value / a.value;
+    change.ratio = measured_about(ratio, ratio * hypot(relative(a), relative(b)));
     return change;
 }
 

@@ -129,15 +129,15 @@ static void add_halves(const ContentPixels *pixels, double threshold, bool only_
 static Measured mean_of(const Half *half, bool has_variance)
 {
     double n = (double)half->counted;
-    return (Measured){half->sum / n,
-                      has_variance ? SIGMAS_95 * sqrt(half->variance) / n : (double)NAN};
+    return measured_about(half->sum / n,
+                          has_variance ? SIGMAS_95 * sqrt(half->variance) / n : (double)NAN);
 }
 
 /* First order: the halves' errors are independent. */
 static Measured derived(double value, Measured a, double slope_a, Measured b, double slope_b)
 {
-    double of_a = slope_a * a.half_width, of_b = slope_b * b.half_width;
-    return (Measured){value, sqrt(of_a * of_a + of_b * of_b)};
+    double of_a = slope_a * measured_half_width(a), of_b = slope_b * measured_half_width(b);
+    return measured_about(value, sqrt(of_a * of_a + of_b * of_b));
 }
 
 static void set_figures(Measured low, Measured high, ContentContrast *out)

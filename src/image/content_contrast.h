@@ -20,10 +20,20 @@
 
 #include "base/arena.h"
 
-/* A figure; half_width is of its interval, NaN without variances. */
+/* A figure and its interval, of which both ends are NaN without variances. */
 typedef struct Measured {
-    double value, half_width;
+    double value, low, high;
 } Measured;
+
+static inline Measured measured_about(double value, double half_width)
+{
+    return (Measured){value, value - half_width, value + half_width};
+}
+
+static inline double measured_half_width(Measured figure)
+{
+    return 0.5 * (figure.high - figure.low);
+}
 
 /* Rows of pixels; NaN: not part of the region. */
 typedef struct ContentPixels {

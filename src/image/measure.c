@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/confidence.h"
+#include "base/count.h"
 #include "image/layer_view.h"
 #include "image/legibility.h"
 #include "spectrum/photometry.h"
@@ -25,6 +26,7 @@ typedef struct Sums {
     PixelNoise noise, by_halves;
     PixelNoise display_noise, display_by_halves; /* over the pixels of displays */
     PixelNoise reflected_by_halves; /* of what is reflected there: all that contrasts hang on */
+    double reflected_missing;       /* what few samples find may be missing there, summed */
     DisplayLight light; /* of displays */
     double mirror, lambertian;
     long   pixels, display_pixels, nonfinite;
@@ -186,16 +188,18 @@ static void add_pixel_noise(const RegionPlanes *planes, size_t i, bool on_displa
         add_halves(&planes->display_halves, i, &sums->reflected_by_halves);
 }
 
-#define HALVES_FREEDOM 16 /* of the halves' squares, at least */
+#define HALVES_FREEDOM 16   /* of the halves' squares, at least: */
+#define REFLECTED_FREEDOM 4 /* what is reflected has no other layer that tells its noise */
 
 /* Halves' squares are those of normal variables, as many as count: 3 (sum d^2)^2 / sum d^4.
  * Student's factor is put into the variances. False where they are too few, or some pixel has
  * none. */
-static bool choose_halves(const PixelNoise *halves, long pixels, PixelNoise *out)
+static bool choose_halves(const PixelNoise *halves, long pixels, double least,
+                          PixelNoise *out)
 {
     double freedom = halves->fourths > 0
                          ? 3 * halves->luminance * halves->luminance / halves->fourths : 0;
-    if (halves->pixels != pixels || freedom < HALVES_FREEDOM) return false;
+    if (halves->pixels != pixels || freedom < least) return false;
     double factor = student_quantile(CONFIDENCE_MISS, freedom) / SIGMAS_95;
     *out = *halves;
     out->luminance *= factor * factor;
@@ -203,11 +207,18 @@ static bool choose_halves(const PixelNoise *halves, long pixels, PixelNoise *out
     return true;
 }
 
+/* A bright sample in a pixel of n moves it by its n-th part, and half the difference of the
+ * pixel's halves is as much: these stand for the samples. */
 static void choose_noise(Sums *sums)
 {
-    choose_halves(&sums->by_halves, sums->pixels, &sums->noise);
-    if (!choose_halves(&sums->reflected_by_halves, sums->display_pixels, &sums->display_noise))
-        choose_halves(&sums->display_by_halves, sums->display_pixels, &sums->display_noise);
+    const PixelNoise *reflected = &sums->reflected_by_halves;
+    BrightSamples     bright = {reflected->luminance, reflected->fourths};
+    choose_halves(&sums->by_halves, sums->pixels, HALVES_FREEDOM, &sums->noise);
+    if (choose_halves(reflected, sums->display_pixels, REFLECTED_FREEDOM, &sums->display_noise))
+        sums->reflected_missing = bright_missing(&bright, 1, 1);
+    else
+        choose_halves(&sums->display_by_halves, sums->display_pixels, HALVES_FREEDOM,
+                      &sums->display_noise);
 }
 
 static void add_pixel(const RegionPlanes *planes, size_t i, Sums *sums)
@@ -260,20 +271,34 @@ static void measure_colour(const double rgb[3], const double variance[3], FrameM
         }
     }
     for (int k = 0; k < 4; k++)
-        *figures[k] = (Measured){
-            mean[k], out->has_variance ? SIGMAS_95 * sqrt(spread[k]) : (double)NAN};
+        *figures[k] = measured_about(
+            mean[k], out->has_variance ? SIGMAS_95 * sqrt(spread[k]) : (double)NAN);
 }
 
-/* dC/dr = (black - white) / (black + r)^2: only the reflected light is noisy. */
-static void measure_ratios(const DisplayLight *light, double sigma, FrameMeasurement *out)
+/* Of what falls as the reflected light, which alone is noisy, rises from r.low to r.high. */
+static Measured falling(double (*figure)(const DisplayLight *light), const DisplayLight *light,
+                        Measured r)
 {
-    double low = light->black + light->reflected[1];
-    double width = SIGMAS_95 * fabs((light->black - light->white) / (low * low)) * sigma;
-    double ratio = legibility_contrast(light);
-    out->contrast = (Measured){ratio, width};
-    out->weber = (Measured){legibility_weber(light), width};
-    out->michelson = (Measured){legibility_michelson(light),
-                                2 * width / ((ratio + 1) * (ratio + 1))};
+    DisplayLight dim = *light, bright = *light;
+    dim.reflected[1] = r.low;
+    bright.reflected[1] = r.high;
+    double low = figure(&bright), high = figure(&dim);
+    return (Measured){figure(light), fmin(low, high), fmax(low, high)};
+}
+
+static void measure_ratios(const DisplayLight *light, Measured reflected, FrameMeasurement *out)
+{
+    out->contrast = falling(legibility_contrast, light, reflected);
+    out->weber = falling(legibility_weber, light, reflected);
+    out->michelson = falling(legibility_michelson, light, reflected);
+}
+
+static Measured reflected_interval(double reflected, const Sums *sums)
+{
+    double n = (double)sums->display_pixels;
+    double width = SIGMAS_95 * sqrt(sums->display_noise.luminance) / n;
+    return (Measured){reflected, fmax(reflected - width, 0),
+                      reflected + width + sums->reflected_missing / n};
 }
 
 /* By the slopes along the noisy channels; where there is no error, its own size. */
@@ -292,16 +317,17 @@ static double colour_error_width(const DisplayLight *light, const double varianc
     return SIGMAS_95 * sqrt(spread);
 }
 
-static void measure_errors(const DisplayLight *light, const Sums *sums, FrameMeasurement *out)
+static void measure_errors(const DisplayLight *light, Measured reflected, const Sums *sums,
+                           FrameMeasurement *out)
 {
     double n = (double)sums->display_pixels, variance[3];
-    double sigma = sqrt(sums->display_noise.luminance) / n;
     for (int c = 0; c < 3; c++) variance[c] = sums->display_noise.rgb[c] / (n * n);
     out->shown = light->shown[1];
     out->luminance_error = (Measured){legibility_luminance_error(light),
-                                      SIGMAS_95 * sigma / light->shown[1]};
-    out->colour_error = (Measured){legibility_colour_error(light),
-                                   colour_error_width(light, variance)};
+                                      reflected.low / light->shown[1],
+                                      reflected.high / light->shown[1]};
+    out->colour_error = measured_about(legibility_colour_error(light),
+                                       colour_error_width(light, variance));
 }
 
 static void measure_display(const RegionPlanes *planes, const Sums *sums,
@@ -322,11 +348,13 @@ static void measure_display(const RegionPlanes *planes, const Sums *sums,
     out->mirror = planes->has_mirror ? sums->mirror / n : (double)NAN;
     out->lambertian = planes->has_lambertian ? sums->lambertian / n : (double)NAN;
     out->has_errors = planes->has_shown;
-    measure_ratios(&light, sqrt(sums->display_noise.luminance) / n, out);
-    if (out->has_errors) measure_errors(&light, sums, out);
+    Measured reflected = reflected_interval(light.reflected[1], sums);
+    measure_ratios(&light, reflected, out);
+    if (out->has_errors) measure_errors(&light, reflected, sums, out);
     if (out->has_variance) return;
-    out->contrast.half_width = out->weber.half_width = out->michelson.half_width = NAN;
-    out->luminance_error.half_width = out->colour_error.half_width = NAN;
+    Measured *noisy[] = {&out->contrast, &out->weber, &out->michelson, &out->luminance_error,
+                         &out->colour_error};
+    for (int i = 0; i < COUNT_OF(noisy); i++) noisy[i]->low = noisy[i]->high = NAN;
 }
 
 /* The pixels that are measured, by themselves. */
@@ -362,9 +390,8 @@ static FrameMeasurement figures_of(const RegionPlanes *planes, const Sums *sums)
         variance[c] = sums->noise.rgb[c] / (n * n);
     }
     measure_colour(rgb, variance, &out);
-    out.luminance.value = out.xyz[1];
-    out.luminance.half_width =
-        has_variance ? SIGMAS_95 * sqrt(sums->noise.luminance) / n : NAN;
+    out.luminance = measured_about(
+        out.xyz[1], has_variance ? SIGMAS_95 * sqrt(sums->noise.luminance) / n : (double)NAN);
     measure_display(planes, sums, &out);
     return out;
 }

@@ -6,8 +6,11 @@
  *          the frame's layer of halves where that tells enough: what well-spread samples leave.
  *          Else from its variance layer, as if samples were independent, R, G and B of a pixel
  *          taken to rise and fall together for luminance and contrast: both too wide. They
- *          count as independent for chromaticity. The noise of what a display shows counts for
- *          its contrast, too: no layer tells it apart.
+ *          count as independent for chromaticity. What a display reflects has halves of its own
+ *          (display.halves); without them the noise of what it shows counts for its contrast,
+ *          too. A contrast falls as the reflected light rises: its interval goes from the one
+ *          end of that light's to the other; the upper end of that light has what few bright
+ *          samples may have left out (confidence.h).
  * Threads  pure functions.
  * Fails    when the frame lacks what is asked for: the text says what to render again.
  */

@@ -72,7 +72,8 @@ typedef struct PathWalk {
     bool     last_is_delta; /* no light sample could have found what comes now */
     Spectrum sun_share; /* of the sun met now; the rest was told to the last vertex but one */
     int      bounce;     /* scattering vertices so far */
-    float    bright;     /* what a path lets through that is not dim; 1 but of a probe's */
+    float    bright;     /* what a path lets through that is not dim; 1 but of a probe's
+                            and behind a display */
     int      steps;       /* surfaces met so far */
     int      splits_left; /* thin sheets that may still be followed both ways */
     int      medium_id;  /* material of the solid that the ray is in; NO_ID: air */
@@ -933,6 +934,12 @@ static bool is_display(const Scene *scene, const Surface *surface)
            scene->materials[surface->material_id].display_id != NO_ID;
 }
 
+/* What the first surface reflects is asked for, be it ever so dark. */
+static bool asks_the_first(const PathWalk *walk, const Surface *surface)
+{
+    return walk->context->is_probe || is_display(walk->context->scene, surface);
+}
+
 /* At the first surface: what comes from now on came by way of a display's mirror. */
 static void note_mirror(PathWalk *walk, const Surface *surface, const BsdfSample *next)
 {
@@ -976,7 +983,7 @@ static Step turn(PathWalk *walk, const Surface *surface, Vec3 wo, const BsdfSamp
     walk->straight = walk->sheets_from = 0;
     sheets_none(walk->stack);
     note_mirror(walk, surface, next);
-    if (walk->context->is_probe && !walk->bounce)
+    if (!walk->bounce && asks_the_first(walk, surface))
         walk->bright = spectrum_max_lane(walk->throughput);
     walk->bounce++;
     walk->ray = (Ray){start, vec3_normalize(wi), 0, INFINITY};

@@ -157,8 +157,7 @@ static void cover_explain(const Moment *m, Arena arena)
 
 static Trial trial_of_measured(Measured figure)
 {
-    return (Trial){figure.value, figure.value - figure.half_width,
-                   figure.value + figure.half_width, FRAME_SAMPLES};
+    return (Trial){figure.value, figure.low, figure.high, FRAME_SAMPLES};
 }
 
 static FrameMeasurement measure_once(const Moment *m, const RenderSetup *setup,

@@ -2,6 +2,7 @@
 /* Luminance and colour of a part of a frame, and their intervals. */
 #include "frame_fixture.h"
 
+#include "base/confidence.h"
 #include "image/measure.h"
 
 static FrameMeasurement measure(const FrameImage *frame, MeasureRequest request, Arena arena)
@@ -23,6 +24,17 @@ static void add_layer(FrameImage *frame, const char *layer, float value, Arena *
     }
 }
 
+static double half(Measured figure)
+{
+    return measured_half_width(figure);
+}
+
+static void assert_interval(Measured figure, double low, double high)
+{
+    assert_close(figure.low, low, 1e-5);
+    assert_close(figure.high, high, 1e-5);
+}
+
 TEST(a_region_has_the_mean_of_its_pixels)
 {
     Arena      arena = test_arena(state);
@@ -38,7 +50,7 @@ TEST(a_region_has_the_mean_of_its_pixels)
     assert_near(m.y.value, 0.3290, 2e-4);
     assert_near(m.u.value, 0.1978, 3e-4);
     assert_near(m.v.value, 0.4683, 3e-4);
-    assert_true(isnan(m.luminance.half_width) && !m.has_variance && !m.has_contrast);
+    assert_true(isnan(half(m.luminance)) && !m.has_variance && !m.has_contrast);
     frame.channels[1].values[1] = NAN;
     m = measure(&frame, corner, arena);
     assert_int_equal(m.pixels, 3);
@@ -52,8 +64,8 @@ TEST(intervals_follow_from_the_variance_layer)
     FrameImage frame = uniform_frame(10, 10, 100, &arena);
     add_layer(&frame, "variance", 4, &arena);
     FrameMeasurement m = measure(&frame, (MeasureRequest){0}, arena);
-    assert_close(m.luminance.half_width, 1.959964 * 0.2, 1e-4);
-    assert_true(m.x.half_width > 0 && m.x.half_width < 0.01);
+    assert_close(half(m.luminance), 1.959964 * 0.2, 1e-4);
+    assert_true(half(m.x) > 0 && half(m.x) < 0.01);
 }
 
 /* With channels that are independent and normal the interval of x holds 95 of 100 times. */
@@ -78,7 +90,7 @@ TEST(the_interval_of_chromaticity_covers)
         }
         FrameMeasurement m = measure(&frame, (MeasureRequest){0}, scratch);
         if (trial < 0) truth = m.x.value;
-        else inside += fabs(m.x.value - truth) <= m.x.half_width;
+        else inside += fabs(m.x.value - truth) <= half(m.x);
     }
     assert_near(inside / (double)TRIALS, 0.95, 0.02);
 }
@@ -102,20 +114,20 @@ TEST(a_display_has_its_contrast)
     assert_int_equal(m.pixels, 50);
     assert_true(m.has_contrast);
     assert_close(m.contrast.value, 420 / 20.4, 1e-5);
-    assert_close(m.contrast.half_width, 1.959964 * 399.6 / (20.4 * 20.4) * 2 / sqrt(50), 1e-3);
+    double w = 1.959964 * 2 / sqrt(50); /* of what is reflected */
+    assert_interval(m.contrast, (420 + w) / (20.4 + w), (420 - w) / (20.4 - w));
     assert_close(m.weber.value, 399.6 / 20.4, 1e-5);
-    assert_close(m.weber.half_width, m.contrast.half_width, 1e-9);
+    assert_interval(m.weber, 399.6 / (20.4 + w), 399.6 / (20.4 - w));
     assert_close(m.michelson.value, 399.6 / 440.4, 1e-5);
-    assert_close(m.michelson.half_width, 1.959964 * 2 * 399.6 / (440.4 * 440.4) * 2 / sqrt(50),
-                 1e-3);
+    assert_interval(m.michelson, 399.6 / (440.4 + 2 * w), 399.6 / (440.4 - 2 * w));
     assert_close(m.mirror, 5, 1e-5);
     assert_close(m.lambertian, 9, 1e-5);
     assert_true(m.has_errors);
     assert_close(m.shown, 80, 1e-5);
     assert_close(m.luminance_error.value, 0.25, 1e-5);
-    assert_close(m.luminance_error.half_width, 1.959964 * 2 / sqrt(50) / 80, 1e-3);
+    assert_interval(m.luminance_error, (20 - w) / 80, (20 + w) / 80);
     assert_near(m.colour_error.value, 0, 1e-6); /* both are grey */
-    assert_true(m.colour_error.half_width > 0 && m.colour_error.half_width < 0.01);
+    assert_true(half(m.colour_error) > 0 && half(m.colour_error) < 0.01);
     m = measure(&frame, (MeasureRequest){.display = "centre"}, arena);
     assert_int_equal(m.pixels, 10);
 }
@@ -134,8 +146,10 @@ TEST(a_contrast_has_the_noise_of_the_reflected)
     FrameMeasurement whole = measure(&frame, (MeasureRequest){0}, arena);
     add_layer(&frame, "display.halves", 0.5f, &arena);
     FrameMeasurement m = measure(&frame, (MeasureRequest){0}, arena);
-    assert_close(m.luminance.half_width, whole.luminance.half_width, 1e-9);
-    assert_close(m.contrast.half_width, 0.25 * whole.contrast.half_width, 1e-6);
+    double below = student_quantile(0.05, 300) * 0.5 / 10;
+    double above = below + (1 + 14.0 / 100) * 0.5 / 100; /* bright_missing of 100 alike */
+    assert_close(half(m.luminance), half(whole.luminance), 1e-9);
+    assert_interval(m.contrast, (420 + above) / (20.4 + above), (420 - below) / (20.4 - below));
 }
 
 TEST(what_cannot_be_measured_is_told)
@@ -158,6 +172,82 @@ TEST(what_cannot_be_measured_is_told)
     for (int i = 0; i < 100; i++) id[i] = -1;
     assert_false(measure_frame(&frame, &request, arena, &m, &err));
     assert_error_has(&err, "no pixel to measure on display cluster");
+}
+
+static double uniform(unsigned *seed)
+{
+    *seed = *seed * 1664525u + 1013904223u;
+    return ((double)(*seed >> 8) + 0.5) / (1 << 24);
+}
+
+static double normal(unsigned *seed)
+{
+    double radius = sqrt(-2 * log(uniform(seed)));
+    return radius * cos(6.283185307179586 * uniform(seed));
+}
+
+static int poisson(double mean, unsigned *seed)
+{
+    int    count = 0;
+    double least = exp(-mean);
+    for (double product = uniform(seed); product > least; product *= uniform(seed)) count++;
+    return count;
+}
+
+static float *plane_of(FrameImage *frame, const char *layer, int channel)
+{
+    char name[64];
+    snprintf(name, sizeof name, "%s.%c", layer, "RGB"[channel]);
+    for (int c = 0; c < frame->channel_count; c++)
+        if (!strcmp(frame->channels[c].name, name)) return frame->channels[c].values;
+    fail_msg("no channel %s", name);
+    return NULL;
+}
+
+#define GLINT 5.0 /* cd m^-2 that one bright sample adds to its pixel */
+
+/* What each half of a pixel's samples found besides 20 cd m^-2: noise, and `glints` in all. */
+static void scatter_glints(FrameImage *frame, double glints, unsigned *seed)
+{
+    size_t pixels = frame_pixel_count(frame);
+    for (size_t i = 0; i < pixels; i++) {
+        double part[2];
+        for (int k = 0; k < 2; k++)
+            part[k] = GLINT * poisson(0.5 * glints / (double)pixels, seed) +
+                      0.1 * normal(seed);
+        for (int c = 0; c < 3; c++) {
+            plane_of(frame, "display.reflected", c)[i] = (float)(20 + part[0] + part[1]);
+            plane_of(frame, "display.halves", c)[i] = (float)(part[0] - part[1]);
+        }
+    }
+}
+
+/* Of a few bright samples, as of many: the interval of a contrast holds the true one. */
+TEST(the_interval_of_contrast_covers_glints)
+{
+    enum { TRIALS = 2000 };
+    static const double glints[] = {0, 4, 10, 40, 400};
+    Arena      arena = test_arena(state);
+    unsigned   seed = 11;
+    FrameImage frame = uniform_frame(10, 10, 100, &arena);
+    add_layer(&frame, "variance", 100, &arena);
+    add_layer(&frame, "display.white", 400, &arena);
+    add_layer(&frame, "display.black", 0.4f, &arena);
+    add_layer(&frame, "display.reflected", 20, &arena);
+    add_layer(&frame, "display.halves", 0, &arena);
+    for (size_t k = 0; k < sizeof glints / sizeof *glints; k++) {
+        double reflected = 20 + GLINT * glints[k] / 100;
+        double truth = (400 + reflected) / (0.4 + reflected);
+        int    inside = 0;
+        for (int trial = 0; trial < TRIALS; trial++) {
+            scatter_glints(&frame, glints[k], &seed);
+            Measured m = measure(&frame, (MeasureRequest){0}, arena).contrast;
+            inside += m.low <= truth && truth <= m.high;
+        }
+        double held = inside / (double)TRIALS;
+        assert_true(held > 0.935);
+        if (k == 0 || glints[k] > 100) assert_near(held, 0.955, 0.02); /* not too long */
+    }
 }
 
 /* The brightest first, whatever order they stand in; those without a measure behind them. */

@@ -47,9 +47,8 @@ static json_t *stat_json(const StatisticResult *s)
 
 static json_t *interval(Measured range)
 {
-    if (!isfinite(range.half_width) || !isfinite(range.value)) return json_null();
-    return json_pack("[f,f]", range.value - range.half_width,
-                     range.value + range.half_width);
+    if (!isfinite(range.low) || !isfinite(range.high)) return json_null();
+    return json_pack("[f,f]", range.low, range.high);
 }
 
 static json_t *pair_of(double a, double b)
