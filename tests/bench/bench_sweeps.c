@@ -3,8 +3,8 @@
  * the true value: of the first sweep of REVIEW.json the first symbol as the first eye sees it,
  * RUNS seeds of everything. Printed as coverage_trials.h says.
  *
- * WAYS, letters: s steps, which cells of a map and hours of a year are, b the same beside a
- * moment's truth, w the worst of them, chosen by each seed's own steps and read again as a
+ * WAYS, letters: s steps of the fewest paths, f of as many as a review takes, which cells of a
+ * map and hours of a year are, b the first beside a moment's truth, w the worst of them, chosen by each seed's own steps and read again as a
  * moment, as run/sweep.c does. The truth of a step is the mean of all runs, so that what is
  * told is the interval alone; b has its offset from the moment's truth, which triangles make,
  * too. b and w take most of the time. */
@@ -16,7 +16,9 @@
 #include "review/run/sweep.h"
 #include "review/run/sweep_probes.h"
 
-#define STEP_PATHS 8320 /* a pilot and a wave of every group */
+#define STEP_PATHS 8320  /* a pilot and a wave of every group */
+#define FULL_PATHS 65536 /* at most, as a review's: */
+#define FULL_PRECISION 0.004
 #define TRUTH_PATHS 65536
 #define TRUTH_RUNS 4
 #define WORST_PATHS 4096
@@ -56,10 +58,13 @@ static Trial moment_trial(const SweepTrials *t, int sun, int paths, unsigned see
 }
 
 /* Of every sun, all by one seed's response. */
-static void read_steps(const SweepTrials *t, double own, unsigned seed, Trial *out)
+static void read_steps(const SweepTrials *t, bool is_full, double own, unsigned seed,
+                       Trial *out)
 {
     Arena    room = t->scratch;
-    FarTools tools = {.stage = t->stage, .table = &t->table, .paths = STEP_PATHS,
+    FarTools tools = {.stage = t->stage, .table = &t->table,
+                      .paths = is_full ? FULL_PATHS : STEP_PATHS,
+                      .precision = is_full ? FULL_PRECISION : 0,
                       .suns = {t->suns.angles, t->suns.count}, .sun_paths = SYMBOL_POINTS,
                       .has_mirror = true};
     FarProbe probe = {.aim = t->aim};
@@ -73,6 +78,12 @@ static void read_steps(const SweepTrials *t, double own, unsigned seed, Trial *o
     }
 }
 
+static void read_all_steps(const SweepTrials *t, bool is_full, double own, Trial *out)
+{
+    for (int k = 0; k < t->runs; k++)
+        read_steps(t, is_full, own, (1u << 20) + (unsigned)k, out + k * t->suns.count);
+}
+
 /* ---- what is told ------------------------------------------------------------------------ */
 
 static const char *sun_name(const SweepTrials *t, int sun, Arena *arena)
@@ -82,16 +93,15 @@ static const char *sun_name(const SweepTrials *t, int sun, Arena *arena)
 }
 
 /* truths: NULL: each step's own mean. */
-static void tell_steps(const SweepTrials *t, const Trial *steps, const Truth *truths,
-                       Arena arena)
+static void tell_steps(const SweepTrials *t, const char *way, const Trial *steps,
+                       const Truth *truths, Arena arena)
 {
     for (int i = 0; i < t->suns.count; i++) {
         Arena  room = arena;
         Trial *list = ARENA_NEW(&room, Trial, t->runs);
         for (int k = 0; k < t->runs; k++) list[k] = steps[k * t->suns.count + i];
         const char *name = sun_name(t, i, &room);
-        if (truths) trials_tell(name, "step beside a moment", list, t->runs, truths[i]);
-        else trials_tell(name, "step", list, t->runs, trials_mean(list, t->runs));
+        trials_tell(name, way, list, t->runs, truths ? truths[i] : trials_mean(list, t->runs));
     }
 }
 
@@ -147,12 +157,16 @@ static void cover(const SweepTrials *t, const char *ways, Arena arena)
     int    count = t->suns.count;
     double own = own_light(t);
     Trial *steps = ARENA_NEW(&arena, Trial, t->runs * count);
-    for (int k = 0; k < t->runs; k++)
-        read_steps(t, own, (1u << 20) + (unsigned)k, steps + k * count);
-    if (strchr(ways, 's')) tell_steps(t, steps, NULL, arena);
+    if (strchr(ways, 'f')) {
+        read_all_steps(t, true, own, steps);
+        tell_steps(t, "step of a review", steps, NULL, arena);
+    }
+    if (!strpbrk(ways, "sbw")) return;
+    read_all_steps(t, false, own, steps);
+    if (strchr(ways, 's')) tell_steps(t, "step", steps, NULL, arena);
     if (!strpbrk(ways, "bw")) return;
     Truth *truths = find_truths(t, &arena);
-    if (strchr(ways, 'b')) tell_steps(t, steps, truths, arena);
+    if (strchr(ways, 'b')) tell_steps(t, "step beside a moment", steps, truths, arena);
     if (strchr(ways, 'w')) tell_worst(t, steps, truths, arena);
 }
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""coverage.py BUILD [--seeds N] [--scenes car,deck,room] [--ways rcaemsbw] [--moments 1,2,...]
+"""coverage.py BUILD [--seeds N] [--scenes car,deck,room] [--ways rcaemsfbw] [--moments 1,2,...]
 -- how often 95 % intervals hold the true value, for every way to a number: a table of three
 scenes under seven lights. BUILD has bench_coverage and bench_sweeps.
 
@@ -149,7 +149,7 @@ def main():
     parser.add_argument("build")
     parser.add_argument("--seeds", type=int, default=200)
     parser.add_argument("--scenes", default="room,car,deck")
-    parser.add_argument("--ways", default="rcaemsbw")
+    parser.add_argument("--ways", default="rcaemsfbw")
     parser.add_argument("--moments", default="")
     words = parser.parse_args()
     print("| scene | light | number | held | lie below, above the truth | trials | paths | "
@@ -165,7 +165,7 @@ def main():
             with open(path, "w", encoding="utf-8") as file:
                 json.dump(document, file)
             for program in ("bench_coverage", "bench_sweeps"):
-                if not set(words.ways) & set("sbw" if program == "bench_sweeps" else "rcaem"):
+                if not set(words.ways) & set("sfbw" if program == "bench_sweeps" else "rcaem"):
                     continue
                 for moment, way, numbers in rows_of(
                         os.path.join(os.path.abspath(words.build), program), words.ways,

@@ -207,7 +207,7 @@ TEST(a_response_to_a_sun_is_what_paths_find_under_it)
         double  first = 0;
         for (int b = 0; b < LIGHT_BANDS; b++)
             first += (double)scattered[i * LIGHT_BANDS + b] * (double)bands[b];
-        double found = first + response_sun(&response, suns[i], bands, NULL);
+        double found = first + response_sun(&response, suns[i], bands, NULL, NULL);
         if (!(reading.reflected > 1)) continue;
         double off = found / reading.reflected - 1;
         squares += off * off;
@@ -429,8 +429,43 @@ TEST(an_even_response_is_the_same_for_suns_anywhere)
             v[k] = unit_float(random) - 0.5f;
         }
         Vec3 towards = vec3_normalize(vec3(v[0], v[1], v[2]));
-        assert_close(response_sun(&even, towards, bands, NULL), 1, 1e-5);
+        assert_close(response_sun(&even, towards, bands, NULL, NULL), 1, 1e-5);
     }
+    world_end(&world);
+}
+
+/* As many samples alike, and one that is all of the light. */
+TEST(a_sun_tells_the_samples_it_is_made_of)
+{
+    (void)state;
+    World world = niche();
+    float bands[LIGHT_BANDS];
+    world_ready(&world, 4);
+    ProbeAim aim = aim_of(&world);
+    Response even = respond(&aim, 32, 1, &world.arena);
+    int      cells = even.cells.count;
+    float   *rest = ARENA_NEW(&world.arena, float, cells * LIGHT_BANDS);
+    float   *groups = ARENA_NEW(&world.arena, float, cells * 2 * RESPONSE_GROUPS);
+    double   without[RESPONSE_GROUPS];
+    for (int cell = 0; cell < cells; cell++) {
+        float area = even.cells.samplers[cell % (cells / 2)].area;
+        for (int b = 0; b < LIGHT_BANDS; b++) rest[cell * LIGHT_BANDS + b] = area;
+        for (int k = 0; k < RESPONSE_GROUPS; k++)
+            groups[(2 * cell + 1) * RESPONSE_GROUPS + k] = area / RESPONSE_GROUPS;
+    }
+    even.rest = rest;
+    even.groups = groups;
+    for (int b = 0; b < LIGHT_BANDS; b++) bands[b] = 1.0f / LIGHT_BANDS;
+    Vec3          towards = even.centers[100];
+    BrightSamples many = {0}, one = {0};
+    response_sun(&even, towards, bands, without, &many);
+    assert_true(many.squares > 1 / (16.0 * RESPONSE_GROUPS));
+    assert_true(many.squares < 1 / (1.5 * RESPONSE_GROUPS));
+    memset(groups, 0, (size_t)cells * 2 * RESPONSE_GROUPS * sizeof *groups);
+    groups[(2 * 100 + 1) * RESPONSE_GROUPS + 3] = 1;
+    response_sun(&even, towards, bands, without, &one);
+    assert_close(one.squares, 1, 1e-5);
+    assert_close(one.fourths, 1, 1e-5);
     world_end(&world);
 }
 

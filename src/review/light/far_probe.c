@@ -102,6 +102,34 @@ static void shares_without(const Response *response, const double white[RESPONSE
                                  : total);
 }
 
+/* What white light gives of a response: samples of it, which add up to its groups. */
+typedef struct WhiteSamples {
+    double of[RESPONSE_CLASSES][RESPONSE_GROUPS];
+} WhiteSamples;
+
+static void add_white(const Response *response, int cell, double light, WhiteSamples *to)
+{
+    const float *groups = response->groups + 2 * (size_t)cell * RESPONSE_GROUPS;
+    double      *sums = to->of[cell % RESPONSE_CLASSES];
+    for (int k = 0; k < RESPONSE_GROUPS; k++) sums[k] += light * (double)groups[k];
+}
+
+/* The same of a total, and what that is without each group. */
+static BrightSamples read_white(const Response *response, const WhiteSamples *white,
+                                double total, float without[RESPONSE_GROUPS])
+{
+    BrightSamples bright = {0};
+    double        groups[RESPONSE_GROUPS] = {0}, all = 0;
+    for (int c = 0; c < RESPONSE_CLASSES; c++)
+        for (int k = 0; k < RESPONSE_GROUPS; k++) groups[k] += white->of[c][k];
+    for (int k = 0; k < RESPONSE_GROUPS; k++) all += groups[k];
+    for (int c = 0; c < RESPONSE_CLASSES && all > 0; c++)
+        for (int k = 0; k < RESPONSE_GROUPS; k++)
+            bright_add(&bright, total / all * white->of[c][k]);
+    shares_without(response, groups, total, without);
+    return bright;
+}
+
 static void sum_sky(void *user, int azimuth, int worker)
 {
     (void)worker;
@@ -109,12 +137,11 @@ static void sum_sky(void *user, int azimuth, int worker)
     const Response *response = &sum->probe->response;
     const Daylight *sky = &sum->tools->table->skies[sum->row];
     double          total = 0, turn = 360.0 * azimuth / SKY_AZIMUTHS;
-    double          white[RESPONSE_GROUPS] = {0};
+    WhiteSamples    white = {{{0}}};
     size_t          place = (size_t)(sum->row * SKY_AZIMUTHS + azimuth);
     for (int i = 0; i < sum->count; i++) {
         float bands[LIGHT_BANDS], light = 0;
         size_t at = (size_t)sum->cells[i] * LIGHT_BANDS;
-        const float *groups = response->groups + 2 * (size_t)sum->cells[i] * RESPONSE_GROUPS;
         light_bands_sky(sky, (float)radians_from_degrees(sum->at[i].elevation_deg),
                         (float)radians_from_degrees(sum->at[i].azimuth_deg - turn), bands);
         for (int b = 0; b < LIGHT_BANDS; b++) {
@@ -122,10 +149,11 @@ static void sum_sky(void *user, int azimuth, int worker)
                               response->rest[at + (size_t)b]) * (double)bands[b];
             light += bands[b];
         }
-        for (int k = 0; k < RESPONSE_GROUPS; k++) white[k] += (double)(light * groups[k]);
+        add_white(response, sum->cells[i], (double)light, &white);
     }
     sum->probe->sky[place] = total;
-    shares_without(response, white, total, sum->probe->sky_without + place * RESPONSE_GROUPS);
+    sum->probe->sky_bright[place] = read_white(
+        response, &white, total, sum->probe->sky_without + place * RESPONSE_GROUPS);
 }
 
 static bool sends_anything(const Response *response, int cell)
@@ -151,6 +179,7 @@ static void sum_skies(FarProbe *probe, const FarTools *tools, Arena *arena)
     int  rows = tools->table->count;
     probe->sky = ARENA_NEW(arena, double, rows * SKY_AZIMUTHS);
     probe->sky_without = ARENA_NEW(arena, float, rows * SKY_AZIMUTHS * RESPONSE_GROUPS);
+    probe->sky_bright = ARENA_NEW(arena, BrightSamples, rows * SKY_AZIMUTHS);
     Arena      scratch = *arena;
     int       *cells = ARENA_NEW(&scratch, int, response->cells.count);
     SunAngles *at = ARENA_NEW(&scratch, SunAngles, response->cells.count);
@@ -222,15 +251,14 @@ void far_probe_ask_suns(FarProbe *probe, const FarTools *tools, Arena *arena)
 }
 
 /* Skies of hours are many: their errors are those of an even one. */
-static float *even_without(const Response *response, Arena *arena)
+static void read_even_sky(FarProbe *probe, Arena *arena)
 {
-    float *without = ARENA_NEW(arena, float, RESPONSE_GROUPS);
-    double white[RESPONSE_GROUPS] = {0};
-    for (int cell = 0; cell < response->cells.count; cell++)
-        for (int k = 0; k < RESPONSE_GROUPS; k++)
-            white[k] += (double)response->groups[2 * cell * RESPONSE_GROUPS + k];
-    shares_without(response, white, 1, without);
-    return without;
+    WhiteSamples white = {{{0}}};
+    probe->sky_without = ARENA_NEW(arena, float, RESPONSE_GROUPS);
+    probe->sky_bright = ARENA_NEW(arena, BrightSamples, 1);
+    for (int cell = 0; cell < probe->response.cells.count; cell++)
+        add_white(&probe->response, cell, 1, &white);
+    probe->sky_bright[0] = read_white(&probe->response, &white, 1, probe->sky_without);
 }
 
 void far_probe_ask(FarProbe *probe, const FarTools *tools, Arena *arena)
@@ -239,7 +267,7 @@ void far_probe_ask(FarProbe *probe, const FarTools *tools, Arena *arena)
         probe->sky = hour_skies_read(tools->hours, &probe->response,
                                      sun_directions(tools, arena), tools->suns.count,
                                      tools->stage->tools.threads, arena);
-        probe->sky_without = even_without(&probe->response, arena);
+        read_even_sky(probe, arena);
     } else {
         sum_skies(probe, tools, arena);
     }
@@ -265,13 +293,15 @@ static SkyPlaces sky_places(const SkyTable *table, SunAngles sun)
                         share * along}};
 }
 
-/* The sky's light, and what it would be without each group. */
+/* The sky's light, what it would be without each group, and its samples. */
 static double read_sky(const FarProbe *probe, const FarTools *tools, int sun,
-                       double without[RESPONSE_GROUPS])
+                       double without[RESPONSE_GROUPS], BrightSamples *bright)
 {
     double sky = 0;
     if (tools->hours) {
         sky = probe->sky[sun];
+        bright->squares += probe->sky_bright->squares * sky * sky;
+        bright->fourths += probe->sky_bright->fourths * sky * sky * sky * sky;
         for (int k = 0; k < RESPONSE_GROUPS; k++)
             without[k] = sky * (double)probe->sky_without[k];
         return sky;
@@ -280,7 +310,10 @@ static double read_sky(const FarProbe *probe, const FarTools *tools, int sun,
     for (int k = 0; k < RESPONSE_GROUPS; k++) without[k] = 0;
     for (int i = 0; i < 4; i++) {
         const float *of_place = probe->sky_without + places.at[i] * RESPONSE_GROUPS;
+        const BrightSamples *samples = &probe->sky_bright[places.at[i]];
         sky += places.weight[i] * probe->sky[places.at[i]];
+        bright->squares += places.weight[i] * samples->squares;
+        bright->fourths += places.weight[i] * samples->fourths;
         for (int k = 0; k < RESPONSE_GROUPS; k++)
             without[k] += places.weight[i] * (double)of_place[k];
     }
@@ -299,7 +332,7 @@ static void sun_bands(const FarTools *tools, int sun, float bands[LIGHT_BANDS])
 }
 
 static void read_sun(const FarProbe *probe, const FarTools *tools, int sun, FarReading *to,
-                     double without[RESPONSE_GROUPS])
+                     double without[RESPONSE_GROUPS], BrightSamples *bright)
 {
     SunAngles  angles = tools->suns.angles[sun];
     float      bands[LIGHT_BANDS];
@@ -310,17 +343,19 @@ static void read_sun(const FarProbe *probe, const FarTools *tools, int sun, FarR
     to->mirror = probe->mirror ? light_bands_sum(probe->mirror + at, bands) : 0;
     to->sun_first = light_bands_sum(probe->scattered + at, bands) + to->mirror;
     to->sun_rest = response_sun(&probe->response, stage_direction(tools->stage, angles), bands,
-                                without);
+                                without, bright);
 }
 
 FarReading far_probe_read(const FarProbe *probe, const FarTools *tools, int sun)
 {
-    double     without[RESPONSE_GROUPS], of_sun[RESPONSE_GROUPS] = {0};
-    FarReading reading = {.sky = read_sky(probe, tools, sun, without)};
+    BrightSamples bright = {0};
+    double        without[RESPONSE_GROUPS], of_sun[RESPONSE_GROUPS] = {0};
+    FarReading    reading = {.sky = read_sky(probe, tools, sun, without, &bright)};
     if (!(tools->suns.angles[sun].elevation_deg < -SUN_MEAN_RADIUS_DEG))
-        read_sun(probe, tools, sun, &reading, of_sun);
+        read_sun(probe, tools, sun, &reading, of_sun, &bright);
     double sum = reading.sky + reading.sun_first + reading.sun_rest;
     for (int k = 0; k < RESPONSE_GROUPS; k++) without[k] += reading.sun_first + of_sun[k];
     reading.interval = response_interval(&probe->response, sum, without);
+    reading.interval.high += bright_missing(&bright, 1, 1);
     return reading;
 }

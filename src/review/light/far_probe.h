@@ -9,7 +9,7 @@
  *
  * Frame    azimuths of the vehicle: 0 ahead, 90 right; elevations apparent; degrees.
  * Units    cd m^-2 (a luxmeter: lx).
- * Memory   from the arena: 0.6 KB a probe and elevation, 128 bytes a probe and sun, 1 MB a
+ * Memory   from the arena: 6.3 KB a probe and elevation, 128 bytes a probe and sun, 1 MB a
  *          response.
  * Threads  starts its own; the same numbers for any count.
  */
@@ -46,6 +46,7 @@ typedef struct FarProbe {
     double      *sky;  /* [elevation of the table][SKY_AZIMUTHS]; by hours [sun] */
     float       *sky_without; /* of each the same without each of the response's groups:
                                  [...][group]; by hours [group], as a share of any sky */
+    BrightSamples *sky_bright; /* what each is the sum of; by hours one, of a sky of 1 */
 } FarProbe;
 
 typedef struct FarSuns {

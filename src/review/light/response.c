@@ -13,10 +13,10 @@
 #define WAVE 16    /* chunks that are traced before they are added, in order */
 #define PILOT 4    /* chunks that ask every triangle */
 #define NEAR 1.2f  /* widths of a triangle: what is asked for a sun; one lies within, or more */
-#define OFTEN 16   /* later ones ask a cell that those found in every so manyth chunk: as many
-                      rays go out along so many times as many paths, whose noise is greater
-                      than that of directions within a triangle */
-#define SELDOM 128 /* what none of those found */
+/* Later ones ask a cell that those found in every so manyth chunk: as many rays go out along so
+ * many times as many paths, whose noise is greater than that of directions within a triangle. */
+#define OFTEN RESPONSE_CLASSES
+#define SELDOM (8 * OFTEN) /* what none of those found */
 
 /* ---- which triangles are asked ----------------------------------------------------------- */
 
@@ -355,8 +355,28 @@ static double white_fit(const Response *response, const NearCell *near, int coun
     return fit_of(near, count, values);
 }
 
+/* What groups gave to a reading by way of each triangle: a wave asks that with the paths of one
+ * chunk. */
+static void add_samples(const Response *response, const NearCell *near, int count,
+                        double reading, BrightSamples *to)
+{
+    double white = 0;
+    for (int i = 0; i < count; i++) {
+        const float *rest =
+            response->groups + ((size_t)near[i].cell * 2 + 1) * RESPONSE_GROUPS;
+        for (int k = 0; k < RESPONSE_GROUPS; k++)
+            white += near[i].weight / near[i].area * (double)rest[k];
+    }
+    for (int i = 0; i < count && white > 0; i++) {
+        const float *rest =
+            response->groups + ((size_t)near[i].cell * 2 + 1) * RESPONSE_GROUPS;
+        double share = near[i].weight / near[i].area * reading / white;
+        for (int k = 0; k < RESPONSE_GROUPS; k++) bright_add(to, share * (double)rest[k]);
+    }
+}
+
 double response_sun(const Response *response, Vec3 towards, const float bands[RESPONSE_BANDS],
-                    double without[RESPONSE_GROUPS])
+                    double without[RESPONSE_GROUPS], BrightSamples *bright)
 {
     NearCell near[NEAR_MOST] = {{0}};
     double   values[NEAR_MOST] = {0};
@@ -369,6 +389,7 @@ double response_sun(const Response *response, Vec3 towards, const float bands[RE
     for (int k = 0; k < RESPONSE_GROUPS && without; k++)
         without[k] =
             white > 0 ? reading * white_fit(response, near, count, k) / white : reading;
+    if (without) add_samples(response, near, count, reading, bright);
     return reading;
 }
 

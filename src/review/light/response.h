@@ -36,6 +36,8 @@ typedef struct ResponseOptions {
 
 #define RESPONSE_CHUNK 32
 #define RESPONSE_GROUPS 16
+#define RESPONSE_CLASSES 16 /* triangles whose numbers differ by a multiple of it are asked by the
+                               same paths, others of a wave by others */
 
 typedef struct Response {
     ProbeCells cells;   /* geometry; nothing is asked any more */
@@ -57,9 +59,9 @@ void response_trace(const ProbeAim *aim, const ResponseOptions *options, Arena *
 
 /* Reading of the further vertices for a sun in direction `towards` (unit, world) whose
  * irradiance has these band illuminances (light_bands.h), lx: cd m^-2, or lx. without: what it
- * would be without each group, or NULL. */
+ * would be without each group, with the samples that it is made of added to bright; or NULL. */
 double response_sun(const Response *response, Vec3 towards, const float bands[RESPONSE_BANDS],
-                    double without[RESPONSE_GROUPS]);
+                    double without[RESPONSE_GROUPS], BrightSamples *bright);
 
 /* What is left of a sum without one group, by what that gave to it. */
 double response_without(const Response *response, int group, double sum, double of_group);
