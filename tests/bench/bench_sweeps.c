@@ -4,10 +4,10 @@
  * RUNS seeds of everything. Printed as coverage_trials.h says.
  *
  * WAYS, letters: s steps of the fewest paths, f of as many as a review takes, which cells of a
- * map and hours of a year are, b the first beside a moment's truth, w the worst of them, chosen by each seed's own steps and read again as a
- * moment, as run/sweep.c does. The truth of a step is the mean of all runs, so that what is
- * told is the interval alone; b has its offset from the moment's truth, which triangles make,
- * too. b and w take most of the time. */
+ * map and hours of a year are, b the first beside a moment's truth, w the worst of them, chosen
+ * by each seed's own steps and read again as a moment, as run/sweep.c does. The truth of a step
+ * is the mean of all runs, so that what is told is the interval alone; b has its offset from
+ * the moment's truth, which triangles make, too. b and w take most of the time. */
 #include <string.h>
 
 #include "base/units.h"

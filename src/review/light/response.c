@@ -13,8 +13,9 @@
 #define WAVE 16    /* chunks that are traced before they are added, in order */
 #define PILOT 4    /* chunks that ask every triangle */
 #define NEAR 1.2f  /* widths of a triangle: what is asked for a sun; one lies within, or more */
-/* Later ones ask a cell that those found in every so manyth chunk: as many rays go out along so
- * many times as many paths, whose noise is greater than that of directions within a triangle. */
+/* Later ones ask a cell that those found in every so manyth chunk: as many rays go out along
+ * so many times as many paths, whose noise is greater than that of directions within a
+ * triangle. */
 #define OFTEN RESPONSE_CLASSES
 #define SELDOM (8 * OFTEN) /* what none of those found */
 
