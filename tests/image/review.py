@@ -133,7 +133,7 @@ def check_pictures(report, reviewer):
         "bar": {"display": "screen", "uv": [0.1, 0.1, 0.9, 0.9]},
         "edge": {"display": "screen", "uv": [0.2, 0.1, 0.8, 0.9]}},
         frames={"size": [64, 36], "noise": 0.5, "worst": 2})
-    _, review = reviewer.review(document, "pictures")
+    _, review = reviewer.review(document, "pictures", "--self-contained")
     frames = {case["frame"] for case in review["cases"]}
     name = frames.pop()
     report.claim(not frames and name.endswith(".png"), "one view has two frames")
@@ -147,6 +147,26 @@ def check_pictures(report, reviewer):
     found = [page.count(words) for words in ("<image id=", "<use href=")]
     report.claim(cards == [2, 2, 2] and found == [3, 4],
                  f"pictures on the page: {cards}, {found}")
+    check_beside(report, reviewer, document, index)
+
+
+def check_beside(report, reviewer, document, alone):
+    """The same with pictures beside the page: all that it names are there; and back again."""
+    folder = os.path.join(reviewer.folder, "pictures")
+    size = os.path.getsize(alone)
+    reviewer.review(document, "pictures")
+    with open(alone, encoding="utf-8") as file:
+        page = file.read()
+    named = re.findall(r' src="([^"#]+)"', page) + re.findall(r'"script":"([^"]+)"', page)
+    lost = [name for name in named if not os.path.isfile(os.path.join(folder, name))]
+    report.claim(len(named) == 1 + 2 * 3 + 1 + 1 and not lost,
+                 f"beside the page: {named}, {lost}")
+    report.claim("data:image/png" not in page and len(page) < size,
+                 f"{len(page)} bytes beside {size}")
+    reviewer.review(document, "pictures", "--self-contained")
+    scripts = [name for name in os.listdir(os.path.join(folder, "frames"))
+               if name.endswith(".js")]
+    report.claim(not scripts, f"left behind: {scripts}")
 
 
 def check_threads(report, reviewer):

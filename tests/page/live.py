@@ -181,14 +181,19 @@ def check_route(report, sweep):
     report.claim(sweep.said()[0] is sweep.rows[2], "a key along the route")
 
 
+def open_card(page, card):
+    """With all that it is folded in."""
+    page.run(f"for(let e={card};e;e=e.parentElement)if(e.tagName==='DETAILS')e.open=true")
+
+
 class Look:
     """A case's picture in its card, and the frame that it is of."""
 
     def __init__(self, page, folder, case, card):
         self.page, self.card = page, f"document.getElementById('{card}')"
         self.frame = Frame(os.path.join(folder, case["frame"][:-4] + ".exr"))
-        page.run(f"{self.card}.open=true;{self.card}.querySelector('.figures')"
-                 ".scrollIntoView({block:'center'})")
+        open_card(page, self.card)
+        page.run(f"{self.card}.querySelector('.figures').scrollIntoView({{block:'center'}})")
         page.wait(f"!!{self.card}.querySelector('.look canvas[data-drawn]')")
         page.run(f"{self.card}.querySelector('.look').scrollIntoView({{block:'center'}})")
 
@@ -316,8 +321,8 @@ def check_rate(report, program, page_file, card):
     with open(large, "w", encoding="utf-8") as file:
         file.write(text.replace(block, json.dumps(data)))
     with browser.Browser(program, "file://" + large) as page:
-        page.run(f"document.getElementById('{card}').open=true;"
-                 f"document.querySelector('#{card} .figures').scrollIntoView()")
+        open_card(page, f"document.getElementById('{card}')")
+        page.run(f"document.querySelector('#{card} .figures').scrollIntoView()")
         page.wait(f"!!document.querySelector('#{card} .look canvas[data-drawn]')")
         for title, label in (("photograph", ""), ("false colours", "False colours")):
             if label:
@@ -386,8 +391,43 @@ def shots(program, address, folder):
                 page.pdf(os.path.join(folder, "live_paper.pdf"))
 
 
+def check_beside(report, program, reviewer):
+    """Pictures and layers in files beside the page: it finds them all, and asks for no layers
+    before its reader looks at a picture; without them the picture stays."""
+    _, review = reviewer.review(document(), "beside", "--threads", "2")
+    folder = os.path.join(reviewer.folder, "beside")
+    where = "file://" + folder + "/"
+    cards = [f"c{i}" for i, case in enumerate(review["cases"]) if case.get("frame")]
+    case = review["cases"][int(cards[0][1:])]
+    size = os.path.getsize(os.path.join(folder, "index.html"))
+    with browser.Browser(program, where + "index.html") as page:
+        asked = [name for name in page.requests if name.endswith(".js")]
+        report.claim(not asked, f"layers before anybody looks: {asked}")
+        check_value(report, Look(page, folder, case, cards[0]))
+        page.run("document.querySelectorAll('details').forEach(d=>d.open=true);"
+                 "document.querySelectorAll('img').forEach(i=>i.loading='eager')")
+        page.wait("[...document.images].every(i=>i.complete)")
+        missing = page.run("[...document.images].filter(i=>!i.naturalWidth).map(i=>i.src)")
+        report.claim(not missing, f"pictures that are not there: {missing}")
+        count = page.run("[...document.images].filter(i=>i.src.endsWith('.png')).length")
+        report.claim(count >= 4, f"{count} pictures")
+        check_page(report, page, where)
+    for name in os.listdir(os.path.join(folder, "frames")):
+        if name.endswith(".js"):
+            os.remove(os.path.join(folder, "frames", name))
+    with browser.Browser(program, where + "index.html") as page:
+        open_card(page, f"document.getElementById('{cards[0]}')")
+        page.run(f"document.querySelector('#{cards[0]} .figures').scrollIntoView()")
+        page.run("new Promise(done=>setTimeout(done,500))")
+        shown = page.run(f"!!document.querySelector('#{cards[0]} figure.frame img')"
+                         f".naturalWidth&&!document.querySelector('#{cards[0]} .look canvas')")
+        report.claim(shown, "without layers the picture does not stay")
+    print(f"the page beside its pictures: {size / 1e3:.0f} kB")
+
+
 def check(report, program, reviewer, folder_of_shots):
-    reviewer.review(document(), "live", "--threads", "2")
+    check_beside(report, program, reviewer)
+    reviewer.review(document(), "live", "--threads", "2", "--self-contained")
     folder = os.path.join(reviewer.folder, "live")
     with open(os.path.join(folder, "review.json"), encoding="utf-8") as file:
         review = json.load(file)

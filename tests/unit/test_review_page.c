@@ -300,6 +300,36 @@ TEST(pictures_go_into_the_page_as_they_stand)
     remove(path);
 }
 
+/* It is named, with its size; several cards name it alike. One that is not there is an error
+ * all the same. */
+TEST(pictures_beside_the_page_are_named)
+{
+    (void)state;
+    Error         err = {0};
+    Review        review = fixture_review(&arena);
+    const char   *file = fresh_name(".png");
+    Picture       picture = picture_create(3, 2, &arena);
+    ReviewPicture shown[] = {
+        {.of = &review.cases[0], .title = "frame", .file = file, .id = "p0",
+         .beside = "frames/a&b.png"},
+        {.of = &review.sweeps[1].worst, .title = "frame", .file = file, .id = "p0",
+         .is_again = true, .beside = "frames/a&b.png"}};
+    ReviewPage page = {.review = &review, .pictures = shown, .picture_count = 2};
+    assert_true(picture_write(file, &picture, (PictureFile){.bits = 8}, arena, &err));
+    const char *path = fresh_name(".html");
+    assert_true(review_page_write(&page, path, &err));
+    FileBytes bytes;
+    assert_true(file_read(path, 1 << 22, &arena, &bytes, &err));
+    const char *text = arena_string(&arena, (const char *)bytes.data, bytes.size);
+    assert_int_equal(count_of(text, "<img loading=\"lazy\" alt=\"frame\" width=\"3\" "
+                                    "height=\"2\" src=\"frames/a&amp;b.png\">"), 2);
+    assert_int_equal(count_of(text, "data:image/png"), 0);
+    remove(file);
+    assert_false(review_page_write(&page, path, &err));
+    assert_string_equal(err.file, file);
+    remove(path);
+}
+
 /* The eye at the origin looks along -z, a right angle wide. */
 TEST(rays_of_a_cause_lie_over_its_frame)
 {

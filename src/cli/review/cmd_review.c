@@ -27,7 +27,7 @@
 typedef struct ReviewWords {
     ShareRequest share;
     const char *folder, *profile, *root, *isa, *diff, *init, *responses;
-    bool        is_strict, dry_run, decides;
+    bool        is_strict, dry_run, decides, is_self_contained;
     StateWords  state_words;
     SceneState  state;
     Cli         cli;
@@ -49,6 +49,9 @@ static bool parse(int argc, char **argv, Arena *arena, ReviewWords *out, Error *
          &out->is_strict},
         {"--decide", OPTION_FLAG, NULL,
          "goes on with what is too close to call: up to 64 times the paths", &out->decides},
+        {"--self-contained", OPTION_FLAG, NULL,
+         "pictures in the page itself, not in files beside it: to send it by mail",
+         &out->is_self_contained},
         {"--diff", OPTION_TEXT, "DIR", "an earlier review to hold this one against",
          &out->diff},
         {"--responses", OPTION_TEXT, "DIR",
@@ -294,7 +297,8 @@ static bool review(const ReviewWords *words, Arena *arena, Error *err)
                              .profile = words->profile, .root = words->root,
                              .state = words->state, .responses = words->responses,
                              .threads = words->cli.threads,
-                             .is_strict = words->is_strict};
+                             .is_strict = words->is_strict,
+                             .is_self_contained = words->is_self_contained};
     if (!review_request_read(file, words->root, arena, &problems, &request, err)) return false;
     if (!profile_load(words->profile ? words->profile : request.profile, arena, &profile, err))
         return words->profile ? false : error_in_file(err, request.file);

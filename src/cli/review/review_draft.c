@@ -188,7 +188,9 @@ static void remove_earlier(const ReviewDraft *draft, const Review *review,
     list_files(&files, draft->target, "sweeps/");
     list_files(&files, draft->target, "frames/");
     for (int i = 0; i < files.count; i++)
-        if (is_named(&earlier, files.names[i]) && !is_named(review, files.names[i]))
+        if (is_named(&earlier, files.names[i]) &&
+            (!is_named(review, files.names[i]) ||
+             (has_ending(files.names[i], ".js") && !is_among(published, files.names[i]))))
             unlink(arena_format(&scratch, "%s/%s", draft->target, files.names[i]));
 }
 

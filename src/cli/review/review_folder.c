@@ -4,6 +4,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/file.h"
 #include "base/file_write.h"
 #include "base/machine.h"
 #include "base/progress.h"
@@ -152,12 +153,13 @@ static void add_case_pictures(const ReviewFolder *folder, const ReviewCase *c,
 {
     if (!c->frame) return;
     for (FrameView view = FRAME_PICTURE; view < FRAME_VIEWS; view++) {
+        const char   *name = frame_view(c->frame, view, arena);
         ReviewPicture picture = {.of = c, .title = VIEWS[view].title,
                                  .caption = VIEWS[view].caption,
                                  .is_frame = view == FRAME_PICTURE,
                                  .view = view == FRAME_PICTURE ? c->view : NULL,
-                                 .file = arena_format(arena, "%s/%s", folder->name,
-                                                      frame_view(c->frame, view, arena))};
+                                 .file = arena_format(arena, "%s/%s", folder->name, name),
+                                 .beside = folder->is_self_contained ? NULL : name};
         add_picture(list, picture, arena);
     }
     if (!c->outlook) return;
@@ -165,7 +167,8 @@ static void add_case_pictures(const ReviewFolder *folder, const ReviewCase *c,
         .of = c, .title = "What the display sees",
         .caption = arena_format(arena, "Looking out from the symbol's middle, half a sphere. "
                                        "%s", c->outlook_words),
-        .file = arena_format(arena, "%s/%s", folder->name, c->outlook)};
+        .file = arena_format(arena, "%s/%s", folder->name, c->outlook),
+        .beside = folder->is_self_contained ? NULL : c->outlook};
     add_picture(list, outlook, arena);
 }
 
@@ -209,9 +212,30 @@ const char *review_folder_command(const ReviewFolder *folder, Arena *arena)
     const char *responses = folder->has_own_responses
                                 ? ""
                                 : arena_format(arena, " --responses %s", folder->responses);
-    return arena_format(arena, "parhelion review %s -o %s%s%s%s%s%s%s", folder->request->file,
+    return arena_format(arena, "parhelion review %s -o %s%s%s%s%s%s%s%s", folder->request->file,
                         folder->target, profile, root, state, diff, responses,
-                        folder->is_strict ? " --strict" : "");
+                        folder->is_strict ? " --strict" : "",
+                        folder->is_self_contained ? " --self-contained" : "");
+}
+
+/* "frames/NAME.layers.js" of "frames/NAME.png". */
+static const char *layers_name(const char *frame, Arena *arena)
+{
+    return arena_format(arena, "%.*s.layers.js", (int)(path_ending(frame) - frame), frame);
+}
+
+static bool put_layers_beside(const ReviewFolder *folder, ReviewLive *live, Arena *arena,
+                              Error *err)
+{
+    LivePicture *beside = ARENA_NEW(arena, LivePicture, live->picture_count);
+    for (int i = 0; i < live->picture_count; i++) {
+        beside[i] = live->pictures[i];
+        beside[i].beside = layers_name(beside[i].frame, arena);
+        const char *path = arena_format(arena, "%s/%s", folder->name, beside[i].beside);
+        if (!live_layers_write(&beside[i], path, err)) return false;
+    }
+    live->pictures = beside;
+    return true;
 }
 
 static bool write_page(const ReviewFolder *folder, const ReviewOutcome *outcome, Arena *arena,
@@ -222,7 +246,9 @@ static bool write_page(const ReviewFolder *folder, const ReviewOutcome *outcome,
     ReviewDiff diff;
     ReviewLive live;
     LiveAsk    ask = {folder->request, outcome, folder->name, folder->threads};
-    if (!live_make(&ask, arena, &live, err)) return false;
+    if (!live_make(&ask, arena, &live, err) ||
+        (!folder->is_self_contained && !put_layers_beside(folder, &live, arena, err)))
+        return false;
     page.live = &live;
     add_charts(folder, outcome, &page, arena);
     add_pictures(folder, &outcome->review, &page, arena);

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* review_folder.h -- the folder of a review: page, documents, tables, pictures.
  *
- * index.html, review.json, cases.csv, junit.xml; sweeps/NAME.csv; frames/NAME.exr and .png;
+ * index.html, review.json, cases.csv, junit.xml; sweeps/NAME.csv; frames/NAME.exr and .png, and
+ * NAME.layers.js, which the page asks for when its reader looks at the picture;
  * responses/NAME.response; run.json with what may differ from run to run; diff.json beside an
  * earlier review; unfinished/ (review_draft.h) until all is there.
  *
@@ -22,6 +23,7 @@ typedef struct ReviewFolder {
     const char          *responses; /* the same, then where they are */
     int                  threads;
     bool                 is_strict;
+    bool                 is_self_contained; /* pictures stand in the page, not beside it */
     Review               before; /* what stood there */
     double               begun_s;
     /* since it is open: */

@@ -280,7 +280,19 @@ static void add_shared(Text *html, const ReviewPicture *p, const PlainPng *png)
     text_add(html, "/></svg>");
 }
 
-/* The bytes of a picture's file, as they stand. */
+/* It takes its room before it is there. */
+static void add_link(Text *html, const ReviewPicture *p, const PlainPng *png)
+{
+    text_add(html, "<img loading=\"lazy\" alt=\"");
+    escape_markup(html, p->title ? p->title : "");
+    text_add(html, "\"");
+    if (png) text_format(html, " width=\"%d\" height=\"%d\"", png->width, png->height);
+    text_add(html, " src=\"");
+    escape_markup(html, p->beside);
+    text_add(html, "\">");
+}
+
+/* The bytes of a picture's file, as they stand, or its name. */
 static bool add_file(Text *html, const ReviewPicture *p, Arena scratch, Error *err)
 {
     FileBytes   bytes;
@@ -291,7 +303,12 @@ static bool add_file(Text *html, const ReviewPicture *p, Arena scratch, Error *e
         return error_at(err, ERROR_INPUT, p->file, "",
                         "wanted a picture ending in .png or .jpg");
     if (!file_read(p->file, PICTURE_BYTES_MAX, &scratch, &bytes, err)) return false;
-    if (p->id && is_png && plain_png_open(bytes.data, bytes.size, &png)) {
+    bool is_plain = is_png && plain_png_open(bytes.data, bytes.size, &png);
+    if (p->beside) {
+        add_link(html, p, is_plain ? &png : NULL);
+        return true;
+    }
+    if (p->id && is_plain) {
         add_shared(html, p, &png);
         return true;
     }

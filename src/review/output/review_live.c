@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/file_write.h"
 #include "base/mathd.h"
 #include "page/page_data.h"
 #include "review/output/review_card.h"
@@ -251,19 +252,42 @@ static bool add_sweeps(const Writer *to, const LiveFound *found)
 
 /* ---- pictures ---------------------------------------------------------------------------- */
 
+static void add_layers(Text *to, const LivePicture *p)
+{
+    const char *layers[4] = {p->scene, p->displays, p->eye_scene, p->eye_displays};
+    for (int i = 0; i < 4; i++) {
+        text_add(to, i ? ",\"" : "[\"");
+        text_add(to, layers[i] ? layers[i] : "");
+        text_add(to, "\"");
+    }
+    text_add(to, "]");
+}
+
+bool live_layers_write(const LivePicture *picture, const char *path, Error *err)
+{
+    Arena own = arena_reserve((size_t)1 << 34);
+    Text  script = {.arena = &own};
+    text_format(&script, "liveLayers(\"%s\",", picture->beside);
+    add_layers(&script, picture);
+    text_add(&script, ");\n");
+    bool ok = file_write(path, script.data, script.size, err);
+    arena_release(&own);
+    return ok;
+}
+
 static void add_picture(Text *html, const LivePicture *p)
 {
     text_format(html, "{\"frame\":\"%s\",\"width\":%d,\"height\":%d,\"grey\":%.9g,"
-                "\"low\":%.9g,\"high\":%.9g,\"age\":%.9g,\"pigment\":%.9g,\"layers\":[",
+                "\"low\":%.9g,\"high\":%.9g,\"age\":%.9g,\"pigment\":%.9g,\"eye\":%s,",
                 p->frame, p->width, p->height, p->grey_cd_m2, p->low, p->high, p->age_years,
-                p->pigment);
-    const char *layers[4] = {p->scene, p->displays, p->eye_scene, p->eye_displays};
-    for (int i = 0; i < 4; i++) {
-        text_add(html, i ? ",\"" : "\"");
-        text_add(html, layers[i] ? layers[i] : "");
-        text_add(html, "\"");
+                p->pigment, p->eye_scene ? "true" : "false");
+    if (p->beside) {
+        text_format(html, "\"script\":\"%s\"}", p->beside);
+        return;
     }
-    text_add(html, "]}");
+    text_add(html, "\"layers\":");
+    add_layers(html, p);
+    text_add(html, "}");
 }
 
 /* A case that has a picture: its card, and what its readings are made of. */

@@ -62,10 +62,15 @@ typedef struct LivePicture {
     int         width, height;
     const char *scene, *displays;         /* packed layers */
     const char *eye_scene, *eye_displays; /* as an eye spreads them; NULL: not known */
+    const char *beside; /* a script's name from the page on, which has the layers
+                           (live_layers_write); NULL: they stand in the page */
     double      grey_cd_m2;               /* shown as middle grey at first */
     double      low, high;                /* of false colours, cd m^-2 */
     double      age_years, pigment;       /* of the eye */
 } LivePicture;
+
+/* The script that picture->beside names. */
+bool live_layers_write(const LivePicture *picture, const char *path, Error *err);
 
 /* ---- all of it --------------------------------------------------------------------------- */
 

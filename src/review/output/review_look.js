@@ -38,13 +38,32 @@ async function layerOf(text,count){
   }
   return planes;
 }
+/* A picture's layers stand in the page, or in a script beside it that hands them over by its
+   own name. */
+var handed={},scripts={};
+window.liveLayers=function(name,layers){handed[name]=layers;};
+function textsOf(picture){
+  var name=picture.script;
+  if(!name)return Promise.resolve(picture.layers);
+  if(!scripts[name])
+    scripts[name]=new Promise(function(done,failed){
+      var script=make('script');
+      script.onload=function(){done(handed[name]);};
+      script.onerror=failed;
+      script.src=name;
+      document.head.append(script);
+    });
+  return scripts[name];
+}
 var loaded={};
 function layersOf(id,inEye){
   var key=id+(inEye?'e':''),picture=t.data.pictures[id],count=picture.width*picture.height;
   if(!loaded[key])
-    loaded[key]=Promise.all(picture.layers.slice(inEye?2:0,inEye?4:2).map(function(text){
-      return layerOf(text,count);
-    }));
+    loaded[key]=textsOf(picture).then(function(texts){
+      return Promise.all(texts.slice(inEye?2:0,inEye?4:2).map(function(text){
+        return layerOf(text,count);
+      }));
+    });
   return loaded[key];
 }
 
@@ -217,7 +236,7 @@ Look.prototype.addControls=function(into){
     changed);
   this.content=check(ticks,'Displays on',true,changed);
   this.colours=check(ticks,'False colours',false,changed);
-  if(this.picture.layers[2])
+  if(this.picture.eye)
     this.eye=check(ticks,'Spread as in an eye of '+this.picture.age+' years',false,changed);
   if(this.eye)this.eye.parentElement.title='of what lies in the frame: a sun outside it adds '+
     'nothing';
@@ -306,7 +325,7 @@ t.data.cases.forEach(function(of){
   if(!frame)return;
   t.whenSeen(frame,function(){
     var look=new Look(of,card,frame);
-    layersOf(of.picture,false).then(function(){look.build();look.ask();});
+    layersOf(of.picture,false).then(function(){look.build();look.ask();},function(){});
   });
 });
 })();
