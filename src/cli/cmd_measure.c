@@ -163,16 +163,17 @@ static void print_lights(const LightShares *lights)
 
 /* ---- as JSON ----------------------------------------------------------------------------- */
 
-static json_t *interval(Measured figure)
-{
-    if (isnan(figure.low) || isnan(figure.value)) return json_null();
-    return json_pack("[f,f]", figure.low, figure.high);
-}
-
-/* JSON has no NaN. */
+/* JSON has no NaN and no infinity. */
 static json_t *number(double value)
 {
     return isfinite(value) ? json_real(value) : json_null();
+}
+
+/* One without an upper end: of a contrast where nothing may be reflected on black. */
+static json_t *interval(Measured figure)
+{
+    if (!isfinite(figure.low) || !isfinite(figure.value)) return json_null();
+    return json_pack("[o,o]", number(figure.low), number(figure.high));
 }
 
 static void set_pair(json_t *answer, const char *key, json_t *first, json_t *second)

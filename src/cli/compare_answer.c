@@ -60,7 +60,7 @@ static void print_contrasts(const Comparison *c)
         printf("%-12s %s: %.4g : 1 to %.4g : 1, %+.3g", "contrast", d->display,
                d->reference.contrast.value, d->test.contrast.value,
                100 * (d->ratio.value - 1));
-        if (!isnan(d->ratio.low)) printf(" +- %.2g", 100 * measured_half_width(d->ratio));
+        if (isfinite(d->ratio.low)) printf(" +- %.2g", 100 * measured_half_width(d->ratio));
         printf(" %%\n");
     }
 }

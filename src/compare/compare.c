@@ -119,7 +119,7 @@ static const char *contrast_change_text(const Comparison *out, Arena *arena)
         arena, "contrast of %s %.3g : 1 to %.3g : 1 (%+.3g%s %%)", most->display,
         most->reference.contrast.value, most->test.contrast.value,
         100 * (most->ratio.value - 1),
-        isnan(error) ? "" : arena_format(arena, " +- %.2g", 100 * error));
+        !isfinite(error) ? "" : arena_format(arena, " +- %.2g", 100 * error));
     if (count == 1) return arena_format(arena, "%s; ", text);
     return arena_format(arena, "%s and of %d more display%s; ", text, count - 1,
                         count > 2 ? "s" : "");

@@ -28,7 +28,8 @@ typedef struct PathContext {
     bool without_mirrored_sun; /* the sun in the mirror of a display that the eye sees is left
                                   out: who asks knows it */
     bool is_probe; /* what the first surface reflects is asked for, be it ever so dark: which
-                      paths are dim counts from there */
+                      paths are dim counts from there; of a frame's those that a display
+                      starts */
     bool    has_subpixels; /* some display: the frame's rays carry what its pixels cover */
     RayCone cone; /* of the frame whose rays these are: displays with sub-pixels show them to a
                      ray of a frame that sees them large enough */

@@ -24,6 +24,17 @@ static void add_layer(FrameImage *frame, const char *layer, float value, Arena *
     }
 }
 
+/* A display of 10 x 10 pixels: 400 cd m^-2 in white, 20 reflected. */
+static FrameImage display_frame(float variance, float black, Arena *arena)
+{
+    FrameImage frame = uniform_frame(10, 10, 100, arena);
+    add_layer(&frame, "variance", variance, arena);
+    add_layer(&frame, "display.white", 400, arena);
+    add_layer(&frame, "display.black", black, arena);
+    add_layer(&frame, "display.reflected", 20, arena);
+    return frame;
+}
+
 static double half(Measured figure)
 {
     return measured_half_width(figure);
@@ -98,11 +109,7 @@ TEST(the_interval_of_chromaticity_covers)
 TEST(a_display_has_its_contrast)
 {
     Arena      arena = test_arena(state);
-    FrameImage frame = uniform_frame(10, 10, 100, &arena);
-    add_layer(&frame, "variance", 4, &arena);
-    add_layer(&frame, "display.white", 400, &arena);
-    add_layer(&frame, "display.black", 0.4f, &arena);
-    add_layer(&frame, "display.reflected", 20, &arena);
+    FrameImage frame = display_frame(4, 0.4f, &arena);
     add_layer(&frame, "display.emitted", 80, &arena);
     add_layer(&frame, "display.mirror", 5, &arena);
     add_layer(&frame, "display.lambertian", 9, &arena);
@@ -137,12 +144,8 @@ TEST(a_display_has_its_contrast)
 TEST(a_contrast_has_the_noise_of_the_reflected)
 {
     Arena      arena = test_arena(state);
-    FrameImage frame = uniform_frame(10, 10, 100, &arena);
-    add_layer(&frame, "variance", 4, &arena);
+    FrameImage frame = display_frame(4, 0.4f, &arena);
     add_layer(&frame, "halves", 2, &arena);
-    add_layer(&frame, "display.white", 400, &arena);
-    add_layer(&frame, "display.black", 0.4f, &arena);
-    add_layer(&frame, "display.reflected", 20, &arena);
     FrameMeasurement whole = measure(&frame, (MeasureRequest){0}, arena);
     add_layer(&frame, "display.halves", 0.5f, &arena);
     FrameMeasurement m = measure(&frame, (MeasureRequest){0}, arena);
@@ -150,6 +153,22 @@ TEST(a_contrast_has_the_noise_of_the_reflected)
     double above = below + (1 + 14.0 / 100) * 0.5 / 100; /* bright_missing of 100 alike */
     assert_close(half(m.luminance), half(whole.luminance), 1e-9);
     assert_interval(m.contrast, (420 + above) / (20.4 + above), (420 - below) / (20.4 - below));
+}
+
+/* Where less than nothing might be reflected the lower end is nothing: of a display whose black
+ * is dark no contrast is too great. */
+TEST(noise_beyond_the_reflected_leaves_no_upper_end)
+{
+    Arena arena = test_arena(state);
+    for (int k = 0; k < 2; k++) {
+        FrameImage frame = display_frame(100 * 200 * 200, k ? 0 : 0.4f, &arena);
+        FrameMeasurement m = measure(&frame, (MeasureRequest){0}, arena);
+        double above = 20 + 1.959964 * 200, black = k ? 0 : (double)0.4f;
+        assert_close(m.contrast.value, 420 / (20 + black), 1e-5);
+        assert_close(m.contrast.low, (400 + above) / (black + above), 1e-5);
+        if (k) assert_true(isinf(m.contrast.high));
+        else assert_close(m.contrast.high, 400 / black, 1e-5);
+    }
 }
 
 TEST(what_cannot_be_measured_is_told)
@@ -229,11 +248,7 @@ TEST(the_interval_of_contrast_covers_glints)
     static const double glints[] = {0, 4, 10, 40, 400};
     Arena      arena = test_arena(state);
     unsigned   seed = 11;
-    FrameImage frame = uniform_frame(10, 10, 100, &arena);
-    add_layer(&frame, "variance", 100, &arena);
-    add_layer(&frame, "display.white", 400, &arena);
-    add_layer(&frame, "display.black", 0.4f, &arena);
-    add_layer(&frame, "display.reflected", 20, &arena);
+    FrameImage frame = display_frame(100, 0.4f, &arena);
     add_layer(&frame, "display.halves", 0, &arena);
     for (size_t k = 0; k < sizeof glints / sizeof *glints; k++) {
         double reflected = 20 + GLINT * glints[k] / 100;

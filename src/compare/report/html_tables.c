@@ -55,7 +55,7 @@ static void add_key(Text *html, const Comparison *c, const CompareOptions *optio
 static void change_text(Measured ratio, char text[64])
 {
     double change = 100 * (ratio.value - 1);
-    if (isnan(ratio.low)) snprintf(text, 64, "%+.3g %%", change);
+    if (!isfinite(ratio.low)) snprintf(text, 64, "%+.3g %%", change);
     else snprintf(text, 64, "%+.3g ± %.2g %%", change, 100 * measured_half_width(ratio));
 }
 

@@ -36,8 +36,8 @@ typedef struct ResponseOptions {
 
 #define RESPONSE_CHUNK 32
 #define RESPONSE_GROUPS 16
-#define RESPONSE_CLASSES 16 /* triangles whose numbers differ by a multiple of it are asked by
-                               the same paths, others of a wave by others */
+#define RESPONSE_CLASSES 16 /* of the triangles that get light those whose numbers differ by a
+                               multiple of it are asked by the same paths, others by others */
 
 typedef struct Response {
     ProbeCells cells;   /* geometry; nothing is asked any more */

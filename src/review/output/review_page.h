@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* review_page.h -- a glare review as one self-contained HTML page, for a meeting.
+/* review_page.h -- a glare review as an HTML page, for a meeting.
  *
  * The first screen is the answer: pass or fail, every symbol and eye at its worst, and the
  * worst case of all with its picture, when, why and what mends it. Then maps and calendars of
  * the sweeps; folded, all verdicts, a card for every case, and where every limit comes from.
- * Nothing is loaded from anywhere, nothing needs script.
+ * Nothing is loaded but pictures, and the layers of those that are looked at, of which the page
+ * names files beside it (ReviewPicture.beside, LivePicture.beside); nothing needs script.
  *
  * Units    angles in degrees, azimuths from ahead over right, or from north over east.
  * Memory   the caller's until the page is written; the page's own text is given back.
