@@ -409,6 +409,10 @@ def check_beside(report, program, reviewer):
         page.wait("[...document.images].every(i=>i.complete)")
         missing = page.run("[...document.images].filter(i=>!i.naturalWidth).map(i=>i.src)")
         report.claim(not missing, f"pictures that are not there: {missing}")
+        first = page.run("(i=>[i.width,i.height,i.naturalWidth,i.naturalHeight])"
+                         "(document.querySelector('.worst img'))")
+        tall = min(270, first[0] * first[3] / first[2])
+        report.claim(abs(first[1] - tall) < 2, f"the first picture is stretched: {first}")
         count = page.run("[...document.images].filter(i=>i.src.endsWith('.png')).length")
         report.claim(count >= 4, f"{count} pictures")
         check_page(report, page, where)
