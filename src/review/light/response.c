@@ -341,13 +341,18 @@ static double fit_of(const NearCell *near, int count, const double *values)
     return fit_value(&fit);
 }
 
+/* What each group gives of white light by way of further vertices. */
+static const float *rest_groups(const Response *response, int cell)
+{
+    return response->groups + ((size_t)cell * 2 + 1) * RESPONSE_GROUPS;
+}
+
 /* Of white light; group: that is left out, or none. */
 static double white_fit(const Response *response, const NearCell *near, int count, int group)
 {
     double values[NEAR_MOST] = {0};
     for (int i = 0; i < count; i++) {
-        const float *rest =
-            response->groups + ((size_t)near[i].cell * 2 + 1) * RESPONSE_GROUPS;
+        const float *rest = rest_groups(response, near[i].cell);
         values[i] = 0;
         for (int k = 0; k < RESPONSE_GROUPS; k++) values[i] += (double)rest[k];
         if (group < RESPONSE_GROUPS)
@@ -363,14 +368,12 @@ static void add_samples(const Response *response, const NearCell *near, int coun
 {
     double white = 0;
     for (int i = 0; i < count; i++) {
-        const float *rest =
-            response->groups + ((size_t)near[i].cell * 2 + 1) * RESPONSE_GROUPS;
+        const float *rest = rest_groups(response, near[i].cell);
         for (int k = 0; k < RESPONSE_GROUPS; k++)
             white += near[i].weight / near[i].area * (double)rest[k];
     }
     for (int i = 0; i < count && white > 0; i++) {
-        const float *rest =
-            response->groups + ((size_t)near[i].cell * 2 + 1) * RESPONSE_GROUPS;
+        const float *rest = rest_groups(response, near[i].cell);
         double share = near[i].weight / near[i].area * reading / white;
         for (int k = 0; k < RESPONSE_GROUPS; k++) bright_add(to, share * (double)rest[k]);
     }
