@@ -165,19 +165,28 @@ static float *cell_sums(const CellSums *to, int order, int cell)
     return to->sums + at * SPECTRUM_LANES;
 }
 
-static void add_cell(void *user, int i, int bounce, const float *share)
+/* One over the density with which calls ask a direction, sr. */
+static float sr_of_cell(const ProbeCells *cells, int cell)
 {
-    const CellSums   *to = user;
-    const ProbeCells *cells = to->cells;
-    int   cell = cells->asked[i];
-    float area = cells->samplers[cell % (cells->count / 2)].area;
-    add_lanes(cell_sums(to, bounce > 0, cell), area * cells->weight[i], share);
+    return cells->samplers[cell % (cells->count / 2)].area * cells->every[cell];
 }
 
-static void add_escaped_cell(void *user, Vec3 direction, int bounce, const float *share)
+/* The balance heuristic (Veach 1997, 9.2.2) of asking and of ways. */
+static void add_cell(void *user, int i, int bounce, const float *share, float pdf)
 {
     const CellSums *to = user;
-    add_lanes(cell_sums(to, bounce > 1, cell_of(to->cells, direction)), 1, share);
+    int   cell = to->cells->asked[i];
+    float sr = sr_of_cell(to->cells, cell);
+    add_lanes(cell_sums(to, bounce > 0, cell), sr / (1 + pdf * sr), share);
+}
+
+static void add_escaped_cell(void *user, Vec3 direction, int bounce, const float *share,
+                             float pdf)
+{
+    const CellSums *to = user;
+    int   cell = cell_of(to->cells, direction);
+    float sought = pdf * sr_of_cell(to->cells, cell);
+    add_lanes(cell_sums(to, bounce > 1, cell), pdf > 0 ? sought / (1 + sought) : 1, share);
 }
 
 static void draw_cells(const ProbeAim *aim, const ProbeCells *cells, int path, Vec3 *towards)
@@ -199,8 +208,8 @@ void probe_ask_cells(const ProbeAim *asked, const ProbeCells *cells, int first, 
     PathContext context;
     ProbeAim    own = aim_of_first(asked, &context), *aim = &own;
     CellSums to = {cells, out->sums};
-    PathFar  far = {out->towards, cells->asked_count, add_cell, add_escaped_cell, NULL, &to,
-                    false};
+    PathFar  far = {.towards = out->towards, .count = cells->asked_count, .add = add_cell,
+                    .add_escaped = add_escaped_cell, .user = &to, .has_ways = true};
     for (int path = first; path < end; path++) {
         draw_cells(aim, cells, path, out->towards);
         ask(aim, path, &far, statistics);
@@ -217,8 +226,9 @@ typedef struct SunSums {
     float            per_sr; /* one over the disc's solid angle */
 } SunSums;
 
-static void add_sun(void *user, int i, int bounce, const float *share)
+static void add_sun(void *user, int i, int bounce, const float *share, float pdf)
 {
+    (void)pdf;
     const SunSums *to = user;
     if (bounce == 0) add_lanes(to->sums + (size_t)i * SPECTRUM_LANES, 1, share);
 }
@@ -236,8 +246,10 @@ static int first_sun_from(const ProbeSuns *suns, float y)
 }
 
 /* By way of the first surface's mirror into each disc that the direction meets. */
-static void add_escaped_sun(void *user, Vec3 direction, int bounce, const float *share)
+static void add_escaped_sun(void *user, Vec3 direction, int bounce, const float *share,
+                            float pdf)
 {
+    (void)pdf;
     const SunSums   *to = user;
     const ProbeSuns *suns = to->suns;
     if (bounce != 1 || !suns->by_mirror) return;
@@ -272,8 +284,9 @@ void probe_ask_suns(const ProbeAim *aim, const ProbeSuns *suns, int first, int e
     float       chord2 = (float)(4 * half * half);
     SunSums     to = {suns, chord2, out->sums, 1 / (PI_F * chord2)};
     int         count = suns->by_mirror ? 0 : suns->count;
-    PathFar     far = {out->towards, count, add_sun, add_escaped_sun, NULL, &to,
-                       suns->by_mirror};
+    PathFar     far = {.towards = out->towards, .count = count, .add = add_sun,
+                       .add_escaped = add_escaped_sun, .user = &to,
+                       .is_of_mirror = suns->by_mirror};
     PathContext once = *aim->context;
     ProbeAim    direct = *aim;
     once.max_bounces = 1;
@@ -310,7 +323,7 @@ void probe_ask_images(const ProbeAim *aim, int first, int end, const ProbeImages
                       PathStatistics *statistics)
 {
     ProbeImages listener = *images;
-    PathFar     far = {NULL, 0, NULL, NULL, add_image, &listener, false};
+    PathFar     far = {.add_image = add_image, .user = &listener};
     PathContext once = *aim->context;
     ProbeAim    direct = *aim;
     once.max_bounces = IMAGE_BOUNCES;

@@ -61,9 +61,9 @@ typedef struct ProbeCells {
     const GeodesicSampler *samplers; /* of the upper ones */
     int        level;
     int        count;      /* of the whole sphere */
-    const int *asked;      /* by every path of this call, */
-    const float *weight;   /* for so many calls each, */
+    const int *asked;     /* by every path of this call */
     int        asked_count;
+    const float *every;   /* [cell] it is asked by one in so many calls */
 } ProbeCells;
 
 #define PROBE_ORDERS 2 /* light that the first vertex sends to the eye; all other */

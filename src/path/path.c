@@ -16,6 +16,7 @@
 #define SHEET_SHARE 0.5f /* of the samples that follow what a thin sheet itself shows */
 #define SPLITS 2         /* thin sheets along a camera ray that are followed both ways */
 #define OFF_PANE 0.05f   /* of an image's shift: so far along its way its ray starts */
+#define SHARP_ALPHA 0.2f /* of GGX: what ways follow besides mirrors */
 #define ARRIVING_PDF 1.0f /* sr^-1, with which a guide that has learnt finds light, about */
 
 #define PASSES_MAX 512 /* windows and holes along one path: more is a closed loop of rounding */
@@ -82,6 +83,9 @@ typedef struct PathWalk {
     PathPlaces *places;  /* where it scatters is noted here; NULL: nobody asks */
     float   *arriving_sky; /* of a path to a point: the sky seen by it goes here; or NULL */
     const PathFar *far;   /* the path asks instead of being lit; or NULL */
+    bool     sent_ways;   /* from the last vertex that scattered; mirrors may lie between */
+    bool     is_way;      /* one of them: it follows mirrors, and */
+    float    way_pdf;     /* ends behind a sharp lobe; its density there, sr^-1; 0: none yet */
     const PathListener *listener; /* NULL: nobody is told */
     PathTale *tale;       /* for it, of the path so far */
     Panes     *panes;     /* the last shadow ray's go here; NULL: nobody asks */
@@ -341,9 +345,9 @@ static void tell_escape(const PathWalk *walk)
 {
     const PathFar *far = walk->far;
     const float   *share = (const float *)&walk->throughput;
-    if (!walk->last_is_delta) return;
+    if (walk->sent_ways || !(walk->last_is_delta || walk->way_pdf > 0)) return;
     if (far->add_image) far->add_image(far->user, walk->tale, walk->ray.direction, share);
-    else far->add_escaped(far->user, walk->ray.direction, walk->bounce, share);
+    else far->add_escaped(far->user, walk->ray.direction, walk->bounce, share, walk->way_pdf);
 }
 
 static void add_distant(PathWalk *walk)
@@ -809,10 +813,19 @@ static void add_mirrored_suns(PathWalk *walk, const Surface *surface, Vec3 wo)
     if (unit_choose(&u[0], prob)) ask_mirrors(walk, surface, wo, u, prob);
 }
 
-static void ask_far(PathWalk *walk, const Surface *surface, Vec3 wo)
+/* ---- light from far away as a question --------------------------------------------------- */
+
+static bool is_sharp(const Surface *surface)
+{
+    return surface->bsdf.kind == BSDF_METALLIC_ROUGHNESS &&
+           surface->bsdf.metallic_roughness.alpha <= SHARP_ALPHA;
+}
+
+static void ask_far(PathWalk *walk, const Surface *surface, Vec3 wo, const Lead *lead)
 {
     const PathFar *far = walk->far;
     Vec3 local_wo = surface->local_wo;
+    int  ways = walk->sent_ways && is_sharp(surface) ? PATH_WAYS : 0;
     for (int i = 0; i < far->count; i++) {
         LightSample light = {.wi = far->towards[i], .distance = INFINITY};
         Vec3  local_wi = frame_to_local(&surface->frame, light.wi);
@@ -824,8 +837,46 @@ static void ask_far(PathWalk *walk, const Surface *surface, Vec3 wo)
         Spectrum share = walk->throughput * passed *
                          bsdf_eval(&surface->bsdf, local_wo, local_wi, &pdf) *
                          spectrum_all(fabsf(local_wi.z));
-        far->add(far->user, i, walk->bounce, (const float *)&share);
+        far->add(far->user, i, walk->bounce, (const float *)&share,
+                 ways ? (float)ways * lead_pdf(lead, light.wi, pdf) : 0);
     }
+}
+
+typedef enum Step { STEP_ENDED, STEP_PASSED, STEP_SCATTERED } Step;
+
+static Step turn(PathWalk *walk, const Surface *surface, Vec3 wo, const BsdfSample *next);
+static void walk_path(PathWalk *walk);
+
+/* Towards what lies where the surface scatters to; its own mirror the path itself follows. */
+static void send_way(const PathWalk *from, const Surface *surface, Vec3 wo, const Lead *lead,
+                     int i)
+{
+    PathWalk   way = *from;
+    SheetStack stack;
+    Lead       leads[2] = {*lead, *lead};
+    BsdfSample next;
+    float      u[4];
+    way.steps += STEPS_FAR * (SPLITS + 1) * (1 + i);
+    numbers_for(&way, NUMBERS_SCATTER);
+    sampler_4d(way.sampler, u);
+    if (!lead_sample(lead, surface, u, &next) || next.is_delta || next.passes) return;
+    way.throughput *= next.weight * spectrum_all(1.0f / PATH_WAYS);
+    way.stack = &stack;
+    way.lead = &leads[0];
+    way.spare = &leads[1];
+    way.splits_left = 1;
+    way.is_way = true;
+    way.sent_ways = false;
+    if (turn(&way, surface, wo, &next) == STEP_SCATTERED) walk_path(&way);
+}
+
+/* A path that goes on by a mirror is one of few that do, and tells of one direction: sunlight
+ * by way of a pane or of a satin ring would hang on a handful of paths. Ways cost a ray or two;
+ * a vertex asks hundreds. */
+static void send_ways(const PathWalk *walk, const Surface *surface, Vec3 wo, const Lead *lead)
+{
+    if (!walk->far->has_ways || walk->bounce + 1 >= walk->context->max_bounces) return;
+    for (int i = 0; i < PATH_WAYS; i++) send_way(walk, surface, wo, lead, i);
 }
 
 static void add_light_samples(PathWalk *walk, const Surface *surface, Vec3 wo,
@@ -833,7 +884,8 @@ static void add_light_samples(PathWalk *walk, const Surface *surface, Vec3 wo,
 {
     if (!bsdf_scatters(&surface->bsdf)) return;
     if (walk->far) {
-        ask_far(walk, surface, wo);
+        ask_far(walk, surface, wo, lead);
+        send_ways(walk, surface, wo, lead);
         return;
     }
     for (int set = 0; set < LIGHT_SETS; set++)
@@ -917,8 +969,6 @@ static bool roulette(PathWalk *walk)
     return true;
 }
 
-typedef enum Step { STEP_ENDED, STEP_PASSED, STEP_SCATTERED } Step;
-
 /* What of the sun that the path may meet in this direction was not told before. */
 static Spectrum sun_share(const PathWalk *walk, const Surface *surface, Vec3 wo,
                           const BsdfSample *next)
@@ -980,6 +1030,7 @@ static Step turn(PathWalk *walk, const Surface *surface, Vec3 wo, const BsdfSamp
     walk->last_part_id = surface->part_id;
     walk->last_pdf = next->pdf;
     walk->last_is_delta = next->is_delta;
+    if (walk->far && walk->far->has_ways && !walk->is_way) walk->sent_ways |= !next->is_delta;
     walk->straight = walk->sheets_from = 0;
     sheets_none(walk->stack);
     note_mirror(walk, surface, next);
@@ -987,7 +1038,7 @@ static Step turn(PathWalk *walk, const Surface *surface, Vec3 wo, const BsdfSamp
         walk->bright = spectrum_max_lane(walk->throughput);
     walk->bounce++;
     walk->ray = (Ray){start, vec3_normalize(wi), 0, INFINITY};
-    return roulette(walk) ? STEP_SCATTERED : STEP_ENDED;
+    return walk->is_way || roulette(walk) ? STEP_SCATTERED : STEP_ENDED;
 }
 
 /* The spare lead becomes that of the last vertex. */
@@ -1011,6 +1062,15 @@ static bool take_mirror(const PathWalk *walk, const Surface *surface, BsdfSample
     return true;
 }
 
+/* Does the way go on? Vertices behind a sharp lobe send out their own. */
+static bool keeps_way(PathWalk *walk, const Surface *surface, const BsdfSample *next)
+{
+    if (walk->way_pdf > 0) return false;
+    if (next->is_delta) return true;
+    walk->way_pdf = PATH_WAYS * next->pdf;
+    return is_sharp(surface);
+}
+
 /* Chooses where the path goes from the surface, by the spare lead. Windows can be passed after
  * the last bounce. */
 static Step scatter(PathWalk *walk, const Surface *surface, Vec3 wo)
@@ -1029,6 +1089,7 @@ static Step scatter(PathWalk *walk, const Surface *surface, Vec3 wo)
         return STEP_PASSED;
     }
     if (walk->bounce >= walk->context->max_bounces) return STEP_ENDED;
+    if (walk->is_way && !keeps_way(walk, surface, &next)) return STEP_ENDED;
     keep_lead(walk);
     if (tells_lambertian(walk, surface)) note_way(walk, surface, &next);
     return turn(walk, surface, wo, &next);
@@ -1080,7 +1141,8 @@ static Step shade(PathWalk *walk, const Surface *surface, const Hit *hit, Vec3 w
     if (!walk->far) add_emitted(walk, surface, hit, wo);
     lead_at(walk->context, surface, wo, walk->bounce, lead);
     note_place(walk, lead, surface, wo);
-    if (walk->bounce < walk->context->max_bounces) add_light_samples(walk, surface, wo, lead);
+    if (walk->bounce < walk->context->max_bounces && !walk->is_way)
+        add_light_samples(walk, surface, wo, lead);
     return scatter(walk, surface, wo);
 }
 
@@ -1103,10 +1165,10 @@ static Step reflect_window(PathWalk *walk, const Surface *surface, Vec3 wo)
     return turn(walk, surface, wo, &mirror);
 }
 
-static void walk_path(PathWalk *walk);
-
-/* What the sheet itself shows to the eye: its mirror image, or what of it is not a hole. */
-static void add_sheet(PathWalk *walk, const Surface *surface, const Hit *hit, Vec3 wo)
+/* What the sheet itself shows to the eye: its mirror image, or what of it is not a hole. share:
+ * of samples that ask. */
+static void add_sheet(PathWalk *walk, const Surface *surface, const Hit *hit, Vec3 wo,
+                      float share)
 {
     PathWalk   sheet = *walk;
     SheetStack rest;
@@ -1120,7 +1182,7 @@ static void add_sheet(PathWalk *walk, const Surface *surface, const Hit *hit, Ve
     sheet.steps += STEPS_FAR * (1 + walk->splits_left);
     sheet.first = NULL;
     sheet.gathered = (PathLight){.radiance = spectrum_all(0)};
-    sheet.throughput *= spectrum_all(surface->alpha / SHEET_SHARE);
+    sheet.throughput *= spectrum_all(surface->alpha / share);
     if (walk->tale) {
         tale = *walk->tale;
         sheet.tale = &tale;
@@ -1140,6 +1202,14 @@ static void add_sheet(PathWalk *walk, const Surface *surface, const Hit *hit, Ve
     path_light_add(&walk->gathered, &sheet.gathered);
 }
 
+/* From the eye, or a way's first. */
+static bool may_split(const PathWalk *walk)
+{
+    bool is_first = walk->is_way ? !walk->last_is_delta && !(walk->way_pdf > 0)
+                                 : !walk->bounce;
+    return is_first && walk->splits_left;
+}
+
 /* The first thin sheets (windows, holes) that the eye looks through are followed both ways, the
  * sheet itself in every second sample. By chance, one sample in twelve would show the cabin's
  * mirror image and not the street: noise that everyone sees. False: this is no such sheet. */
@@ -1148,10 +1218,11 @@ static bool split(PathWalk *walk, const Surface *surface, const Hit *hit, Vec3 w
     bool is_hole = surface->alpha > 0 && surface->alpha < 1;
     bool is_window = surface->alpha >= 1 &&
                      (surface->bsdf.kind == BSDF_THIN_WINDOW || is_glazed(surface));
-    if (walk->bounce || !walk->splits_left || !(is_hole || is_window)) return false;
+    float share = walk->is_way ? 1 : SHEET_SHARE;
+    if (!may_split(walk) || !(is_hole || is_window)) return false;
     walk->splits_left--;
     numbers_for(walk, NUMBERS_SPLIT);
-    if (sampler_1d(walk->sampler) < SHEET_SHARE) add_sheet(walk, surface, hit, wo);
+    if (sampler_1d(walk->sampler) < share) add_sheet(walk, surface, hit, wo, share);
     walk->throughput *=
         is_hole ? spectrum_all(1 - surface->alpha)
                 : bsdf_pass(&surface->bsdf, surface->local_wo);

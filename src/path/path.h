@@ -121,20 +121,25 @@ void path_arriving(const PathContext *context, const PathArrival *at,
                    const Wavelengths *wavelengths, Sampler *sampler, float cd_m2[GUIDE_AIMS],
                    PathStatistics *statistics);
 
+#define PATH_WAYS 16
+
 /* Light from infinitely far as a question: from where does it reach the eye, and how much? */
 typedef struct PathFar {
     const Vec3 *towards; /* unit; every scattering vertex asks all of them */
     int         count;
     /* share: of the radiance from towards[i], per steradian, what comes to the eye by way of
-     * vertex `bounce` (0: the first surface that scatters), per lane. */
-    void (*add)(void *user, int i, int bounce, const float *share);
+     * vertex `bounce` (0: the first surface that scatters), per lane. pdf: with which ways find
+     * that direction from there, too, sr^-1; 0: none does. */
+    void (*add)(void *user, int i, int bounce, const float *share, float pdf);
     /* Paths that leave by a mirror or straight on, after `bounce` vertices: share of the
-     * radiance from there. */
-    void (*add_escaped)(void *user, Vec3 direction, int bounce, const float *share);
+     * radiance from there. pdf: 0, or of a way that left by a sharp lobe, sr^-1. */
+    void (*add_escaped)(void *user, Vec3 direction, int bounce, const float *share, float pdf);
     /* Of a ray: what leaves so is told here instead, with the surfaces on its way; or NULL. */
     void (*add_image)(void *user, const PathTale *tale, Vec3 direction, const float *share);
     void *user;
     bool  is_of_mirror; /* where a display comes first, its mirror alone is followed */
+    bool  has_ways; /* vertices send out PATH_WAYS rays each, which mirrors and sharp lobes lead
+                       on: what leaves so is told of these, not of paths */
 } PathFar;
 
 /* Follows a path and asks; no light of the scene counts. */

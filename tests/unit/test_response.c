@@ -134,10 +134,29 @@ TEST(a_luxmeter_in_the_open_responds_with_pi)
     world_end(&world);
 }
 
-TEST(a_response_to_a_uniform_sky_is_what_paths_find_under_it)
+/* The niche, with what ways follow: a wall that mirrors, one of satin metal, and a pane. */
+static World mirrored_niche(void)
 {
-    (void)state;
-    World world = niche();
+    World    world = niche();
+    Scene   *scene = world.scene;
+    Material metal = builder_material(0.8f), pane = builder_material(1);
+    metal.metallic = 1;
+    metal.roughness = 0;
+    builder_part(scene, metal);
+    builder_quad(scene, vec3(0, 0, -0.1f), vec3(0.6f, 0, 0), vec3(0, 0.3f, 0));
+    metal.roughness = 0.35f;
+    builder_part(scene, metal);
+    builder_quad(scene, vec3(0, 0, 1), vec3(-0.6f, 0, 0), vec3(0, 0.3f, 0));
+    pane.specular = pane.transmission = 1;
+    pane.lets_light_through = true;
+    pane.roughness = 0;
+    builder_part(scene, pane);
+    builder_quad(scene, vec3(0.6f, 0, 0.5f), vec3(0, 0.3f, 0), vec3(0, 0, 0.6f));
+    return world;
+}
+
+static void check_under_a_uniform_sky(World world)
+{
     set_uniform_sky(&world);
     world_ready(&world, 64);
     ProbeAim aim = aim_of(&world);
@@ -151,6 +170,13 @@ TEST(a_response_to_a_uniform_sky_is_what_paths_find_under_it)
         fail_msg("%g, paths %g +- %g", found, reading.reflected, sigma);
     assert_true(reading.mirror > 0 && reading.mirror < reading.reflected);
     world_end(&world);
+}
+
+TEST(a_response_to_a_uniform_sky_is_what_paths_find_under_it)
+{
+    (void)state;
+    check_under_a_uniform_sky(niche());
+    check_under_a_uniform_sky(mirrored_niche());
 }
 
 /* Suns from all sides, one of them in the mirror direction of a target. */

@@ -41,16 +41,16 @@ static ProbeCells ask_for(const ProbeCells *cells, const bool *is_open, int chun
 {
     ProbeCells asks = *cells;
     int   *asked = ARENA_NEW(arena, int, cells->count);
-    float *weight = ARENA_NEW(arena, float, cells->count);
+    float *often = ARENA_NEW(arena, float, cells->count);
     asks.asked_count = 0;
     for (int cell = 0; cell < cells->count; cell++) {
         int every = !is_open ? 1 : is_open[cell] ? OFTEN : SELDOM;
+        often[cell] = (float)every;
         if ((cell + chunk + chunk / every) % every) continue;
-        asked[asks.asked_count] = cell;
-        weight[asks.asked_count++] = (float)every;
+        asked[asks.asked_count++] = cell;
     }
     asks.asked = asked;
-    asks.weight = weight;
+    asks.every = often;
     return asks;
 }
 
