@@ -162,6 +162,9 @@ typedef struct ReviewCase {
     int     remedy_count;
     const char *frame;           /* picture's name within the folder; NULL: none was rendered */
     const CaseView *view;        /* of the frame; NULL: not known */
+    const Vec3 *rim;             /* once around the symbol, m, world; of a case without a frame
+                                    of its own none */
+    int rim_count;
     const char *outlook;         /* picture of what the display sees from the symbol; or NULL */
     const char *outlook_words;   /* what is in it */
 } ReviewCase;

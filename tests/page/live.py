@@ -391,6 +391,19 @@ def shots(program, address, folder):
                 page.pdf(os.path.join(folder, "live_paper.pdf"))
 
 
+def check_first(report, page):
+    """The first screen: a line around the symbol, in its picture; a grid without a bar."""
+    rim, shown, over = page.run(
+        "(box=>[box('.worst .rim path'),box('.worst .shown'),"
+        "(g=>g.scrollWidth-g.clientWidth)(document.querySelector('.first .grid>*'))])"
+        "(s=>(b=>[b.left,b.top,b.right,b.bottom])"
+        "(document.querySelector(s).getBoundingClientRect()))")
+    share = [(min(rim[k + 2], shown[k + 2]) - max(rim[k], shown[k])) / (rim[k + 2] - rim[k])
+             for k in (0, 1)]
+    report.claim(min(share) > 0.6, f"the symbol's line {rim} in {shown}: {share}")
+    report.claim(over <= 0, f"the grid is {over} px wider than its place")
+
+
 def check_beside(report, program, reviewer):
     """Pictures and layers in files beside the page: it finds them all, and asks for no layers
     before its reader looks at a picture; without them the picture stays."""
@@ -413,6 +426,7 @@ def check_beside(report, program, reviewer):
                          "(document.querySelector('.worst img'))")
         tall = min(270, first[0] * first[3] / first[2])
         report.claim(abs(first[1] - tall) < 2, f"the first picture is stretched: {first}")
+        check_first(report, page)
         count = page.run("[...document.images].filter(i=>i.src.endsWith('.png')).length")
         report.claim(count >= 4, f"{count} pictures")
         check_page(report, page, where)

@@ -1,50 +1,13 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* The page of a review: well formed whatever the names are, nothing loaded from anywhere, and
  * drawings that say what the figures say. */
-#include "check.h"
-
 #include <ctype.h>
 #include <string.h>
-#include <unistd.h>
 
-#include "base/file.h"
-#include "base/file_write.h"
-#include "image/plain_png.h"
 #include "review/output/review_bar.h"
 #include "review/output/review_words.h"
 #include "text/base64.h"
-#include "verdict_fixture.h"
-
-static Arena arena;
-
-static const char *fresh_name(const char *ending)
-{
-    char name[64];
-    snprintf(name, sizeof name, "test_review_page_XXXXXX%s", ending);
-    int handle = mkstemps(name, (int)strlen(ending));
-    assert_true(handle >= 0);
-    close(handle);
-    return arena_format(&arena, "%s", name);
-}
-
-static const char *page_of(const ReviewPage *page)
-{
-    Error       err = {0};
-    FileBytes   bytes;
-    const char *path = fresh_name(".html");
-    if (!review_page_write(page, path, &err)) fail_msg("%s", err.text);
-    assert_true(file_read(path, (size_t)1 << 28, &arena, &bytes, &err));
-    remove(path);
-    assert_int_equal(bytes.size, strlen((const char *)bytes.data));
-    return (const char *)bytes.data;
-}
-
-static int count_of(const char *text, const char *part)
-{
-    int count = 0;
-    for (const char *p = text; (p = strstr(p, part)); p++) count++;
-    return count;
-}
+#include "review_page_fixture.h"
 
 /* ---- well formed ------------------------------------------------------------------------ */
 
@@ -274,110 +237,6 @@ TEST(what_changed_is_on_the_page)
     assert_non_null(strstr(page, "310 → 123"));
     assert_non_null(strstr(page, "Before: old. Now: new."));
     assert_int_equal(count_of(page, "more contrast"), 1);
-}
-
-/* ---- pictures --------------------------------------------------------------------------- */
-
-TEST(pictures_go_into_the_page_as_they_stand)
-{
-    (void)state;
-    Error         err = {0};
-    Review        review = fixture_review(&arena);
-    const char   *file = fresh_name(".png");
-    ReviewPicture shown = {.of = &review.sweeps[1].worst, .title = "frame", .file = file};
-    ReviewPage    page = {.review = &review, .pictures = &shown, .picture_count = 1};
-    assert_true(file_write(file, "Man", 3, &err));
-    const char *text = page_of(&page);
-    assert_int_equal(count_of(text, "src=\"data:image/png;base64,TWFu\""), 1);
-    assert_true(strstr(text, "TWFu") > strstr(text, "id=\"s1\""));
-    remove(file);
-    const char *path = fresh_name(".html");
-    assert_false(review_page_write(&page, path, &err));
-    assert_string_equal(err.file, file);
-    shown.file = "frame.exr";
-    assert_false(review_page_write(&page, path, &err));
-    assert_non_null(strstr(err.text, "wanted a picture ending in .png or .jpg"));
-    remove(path);
-}
-
-/* It is named, with its size; several cards name it alike. One that is not there is an error
- * all the same. */
-TEST(pictures_beside_the_page_are_named)
-{
-    (void)state;
-    Error         err = {0};
-    Review        review = fixture_review(&arena);
-    const char   *file = fresh_name(".png");
-    Picture       picture = picture_create(3, 2, &arena);
-    ReviewPicture shown[] = {
-        {.of = &review.cases[0], .title = "frame", .file = file, .id = "p0",
-         .beside = "frames/a&b.png"},
-        {.of = &review.sweeps[1].worst, .title = "frame", .file = file, .id = "p0",
-         .is_again = true, .beside = "frames/a&b.png"}};
-    ReviewPage page = {.review = &review, .pictures = shown, .picture_count = 2};
-    assert_true(picture_write(file, &picture, (PictureFile){.bits = 8}, arena, &err));
-    const char *text = page_of(&page), *path = fresh_name(".html");
-    assert_int_equal(count_of(text, "<img loading=\"lazy\" alt=\"frame\" width=\"3\" "
-                                    "height=\"2\" src=\"frames/a&amp;b.png\">"), 2);
-    assert_int_equal(count_of(text, "data:image/png"), 0);
-    remove(file);
-    assert_false(review_page_write(&page, path, &err));
-    assert_string_equal(err.file, file);
-    remove(path);
-}
-
-/* The eye at the origin looks along -z, a right angle wide. */
-TEST(rays_of_a_cause_lie_over_its_frame)
-{
-    (void)state;
-    static const Vec3 AHEAD[] = {{0, 0, 0}, {0, 0, -1}, {0.5f, 0.25f, -1}, {1, 0, -1}};
-    static const Vec3 BEHIND[] = {{0, 0, 0}, {-0.5f, 0, -1}, {-0.5f, 0, 1}};
-    static const CaseRay  RAYS[] = {{AHEAD, 4}, {BEHIND, 3}};
-    static const CaseView VIEW = {.right = {1, 0, 0}, .up = {0, 1, 0}, .forward = {0, 0, -1},
-                                  .is_perspective = true, .half_width = 1,
-                                  .half_height = 0.5, .width = 200, .height = 100};
-    Error         err = {0};
-    Review        review = fixture_review(&arena);
-    ReviewCase   *c = &review.cases[3];
-    CaseCause     causes[2] = {c->causes[0], c->causes[1]};
-    const char   *file = fresh_name(".png");
-    ReviewPicture shown = {.of = c, .title = "frame", .file = file, .view = &VIEW};
-    ReviewPage    page = {.review = &review, .pictures = &shown, .picture_count = 1};
-    assert_true(file_write(file, "Man", 3, &err));
-    causes[0].rays = RAYS;
-    causes[0].ray_count = 2;
-    c->causes = causes;
-    c->cause_count = 2;
-    c->frame = file;
-    c->view = &VIEW;
-    const char *text = page_of(&page);
-    assert_int_equal(count_of(text, "<a href=\"#c3-way1\">"), 1);
-    assert_int_equal(count_of(text, "<g id=\"c3-way1\""), 1);
-    assert_int_equal(count_of(text, "c3-way2"), 0); /* it has no rays */
-    assert_int_equal(count_of(text, "d=\"M100 50L150 25M150 25L200 50M50 50L0 50\""), 2);
-    assert_int_equal(count_of(text, "<circle cx=\"50\" cy=\"50\""), 1);
-    remove(file);
-}
-
-TEST(a_picture_of_several_cards_stands_once)
-{
-    (void)state;
-    Error         err = {0};
-    Review        review = fixture_review(&arena);
-    const char   *file = fresh_name(".png");
-    Picture       picture = picture_create(3, 2, &arena);
-    ReviewPicture shown[] = {
-        {.of = &review.cases[0], .title = "frame", .file = file, .id = "p0"},
-        {.of = &review.sweeps[1].worst, .title = "frame", .file = file, .id = "p0",
-         .is_again = true}};
-    assert_true(picture_write(file, &picture, (PictureFile){.bits = 8}, arena, &err));
-    const char *text = page_of(&(ReviewPage){.review = &review, .pictures = shown,
-                                             .picture_count = 2});
-    assert_int_equal(count_of(text, "data:image/png;base64,"), 1);
-    assert_int_equal(count_of(text, "<svg viewBox=\"0 0 3 2\" role=\"img\""), 2);
-    assert_int_equal(count_of(text, "<image id=\"p0\" width=\"3\" height=\"2\""), 1);
-    assert_non_null(strstr(strstr(text, "id=\"s1\""), "<use href=\"#p0\"/>"));
-    remove(file);
 }
 
 TEST(a_page_that_cannot_be_written_is_an_error)

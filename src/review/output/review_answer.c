@@ -6,6 +6,7 @@
 #include "page/page.h"
 #include "review/output/review_bar.h"
 #include "review/output/review_decide.h"
+#include "review/output/review_rays.h"
 #include "review/output/review_words.h"
 #include "text/escape.h"
 
@@ -96,8 +97,10 @@ static const char *found_words(const ReviewCase *c, Arena *arena)
     const LimitVerdict *limit = case_worst_limit(c);
     if (c->verdict == VERDICT_NOT_VISIBLE) return "not visible";
     if (!limit || words_same(limit->kind, "contrast_ratio")) return words_contrast(c, arena);
-    return arena_format(arena, "%s %s", limit->name ? limit->name : "",
-                        words_found(limit, arena));
+    const char *found = words_found(limit, arena);
+    if (words_same(limit->kind, "character_height"))
+        return arena_format(arena, "%s high", found);
+    return arena_format(arena, "%s %s", limit->name ? limit->name : "", found);
 }
 
 static const char *below_words(const ReviewCase *c, Arena *arena)
@@ -269,7 +272,11 @@ static bool add_frame(Text *html, const ReviewPicture *frame, Arena scratch, Err
 {
     ReviewPicture shown = *frame;
     shown.is_again = shown.id != NULL;
-    return review_card_add_picture(html, &shown, scratch, err);
+    text_add(html, "<div class=\"shown\">");
+    if (!review_card_add_picture(html, &shown, scratch, err)) return false;
+    review_rays_add_rim(html, shown.of);
+    text_add(html, "</div>\n");
+    return true;
 }
 
 static bool add_worst(Text *html, const ReviewAnswer *answer, const ReviewCase *c, Arena *arena,

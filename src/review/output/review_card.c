@@ -267,8 +267,8 @@ static void add_data(Text *html, const FileBytes *bytes, const char *kind)
 static void add_shared(Text *html, const ReviewPicture *p, const PlainPng *png)
 {
     FileBytes bytes = {png->bytes, png->size};
-    text_format(html, "<svg viewBox=\"0 0 %d %d\" role=\"img\" aria-label=\"", png->width,
-                png->height);
+    text_format(html, "<svg viewBox=\"0 0 %d %d\" preserveAspectRatio=\"xMidYMid slice\" "
+                "role=\"img\" aria-label=\"", png->width, png->height);
     escape_markup(html, p->title ? p->title : "");
     if (p->is_again) {
         text_format(html, "\"><use href=\"#%s\"/></svg>", p->id);

@@ -7,7 +7,8 @@
 #include "review/output/review_words.h"
 #include "text/escape.h"
 
-#define NEAR_M 0.02 /* nothing nearer to the eye is drawn */
+#define NEAR_M 0.02    /* nothing nearer to the eye is drawn */
+#define RIM_APART 0.01 /* of a picture's width, between a symbol and its line */
 
 /* Of a frame: x to the right, y down in pixels; z metres before the eye. */
 typedef struct SeenPoint {
@@ -80,6 +81,64 @@ static void add_place(Text *html, const CaseView *view, const CaseRay *ray)
     if (p.x < 0 || p.x > view->width || p.y < 0 || p.y > view->height) return;
     text_format(html, "<circle cx=\"%.0f\" cy=\"%.0f\" r=\"%d\"/>", p.x, p.y,
                 view->width / 320 + 2);
+}
+
+/* x, y in pixels: about a middle, half as wide and high. */
+typedef struct PictureBox {
+    double x, y, half_width, half_height;
+} PictureBox;
+
+static PictureBox rim_box(const ReviewCase *c)
+{
+    double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
+    for (int i = 0; i < c->rim_count; i++) {
+        SeenPoint p = in_picture(c->view, before_eye(c->view, c->rim[i]));
+        double    at[2] = {p.x, p.y};
+        for (int k = 0; k < 2; k++) {
+            low[k] = fmin(low[k], at[k]);
+            high[k] = fmax(high[k], at[k]);
+        }
+    }
+    return (PictureBox){(low[0] + high[0]) / 2, (low[1] + high[1]) / 2,
+                        (high[0] - low[0]) / 2, (high[1] - low[1]) / 2};
+}
+
+/* Made wider by so many pixels on either side. */
+static double widened(double x, double middle, double half, double by)
+{
+    return middle + (x - middle) * (1 + by / fmax(half, 1));
+}
+
+static bool is_before_eye(const ReviewCase *c)
+{
+    for (int i = 0; i < c->rim_count; i++)
+        if (before_eye(c->view, c->rim[i]).z < NEAR_M) return false;
+    return c->rim_count > 0;
+}
+
+static void add_rim_path(Text *html, const ReviewCase *c)
+{
+    PictureBox box = rim_box(c);
+    double     by = RIM_APART * c->view->width;
+    for (int i = 0; i < c->rim_count; i++) {
+        SeenPoint p = in_picture(c->view, before_eye(c->view, c->rim[i]));
+        text_format(html, "%c%.1f %.1f", i ? 'L' : 'M',
+                    widened(p.x, box.x, box.half_width, by),
+                    widened(p.y, box.y, box.half_height, by));
+    }
+    text_add(html, "Z\"/>");
+}
+
+void review_rays_add_rim(Text *html, const ReviewCase *c)
+{
+    if (!c->view || !is_before_eye(c)) return;
+    text_format(html, "<svg class=\"rim\" viewBox=\"0 0 %d %d\" aria-hidden=\"true\" "
+                "preserveAspectRatio=\"xMidYMid slice\"><path class=\"under\" d=\"",
+                c->view->width, c->view->height);
+    add_rim_path(html, c);
+    text_add(html, "<path d=\"");
+    add_rim_path(html, c);
+    text_add(html, "</svg>");
 }
 
 bool review_rays_has(const ReviewCase *c, int i)

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* review_rays.h -- the rays of a case's causes over the picture of its frame: a reader chooses
- * a cause, and its rays are shown. Links alone do that (:target), no script; private to the
- * output.
+/* review_rays.h -- lines over the picture of a case's frame: around its symbol, and the rays of
+ * its causes. A reader chooses a cause, and its rays are shown; links alone do that (:target),
+ * no script. Private to the output.
  *
  * Lines are cut at the picture's edge.
  *
@@ -16,6 +16,10 @@ bool review_rays_has(const ReviewCase *c, int i);
 
 /* "c3-way2", where a link to the rays of cause i of the card "c3" goes. */
 const char *review_rays_id(const char *card_id, int i, Arena *arena);
+
+/* <svg class="rim"> of the frame's size: a line around the symbol, a little outside it, cut
+ * where a picture of object-fit: cover is. Nothing where the symbol's rim is not known. */
+void review_rays_add_rim(Text *html, const ReviewCase *c);
 
 /* <svg class="rays"> of the frame's size, a group for each cause. */
 void review_rays_add(Text *html, const ReviewCase *c, const char *card_id, Arena *arena);

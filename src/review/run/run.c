@@ -337,30 +337,32 @@ static const ReviewEye *eye_named(const ReviewRequest *request, const char *name
     return NULL;
 }
 
-static int by_verdict(const void *a, const void *b)
+/* `of`: null where nothing is seen. */
+static Candidate candidate_of(ReviewOutcome *outcome, const ReviewCase *c)
 {
-    const ReviewCase *x = ((const Candidate *)a)->of, *y = ((const Candidate *)b)->of;
-    int rank = verdict_rank(y->verdict) - verdict_rank(x->verdict);
-    if (rank) return rank;
-    if (x->margin != y->margin && !isnan(x->margin) && !isnan(y->margin))
-        return x->margin < y->margin ? -1 : 1;
-    int condition = strcmp(x->condition, y->condition);
-    return condition ? condition : strcmp(x->symbol, y->symbol);
+    Review *review = &outcome->review;
+    for (int i = 0; i < review->case_count; i++)
+        if (c == &review->cases[i])
+            return (Candidate){c->visible_share > 0 ? &review->cases[i] : NULL, NULL};
+    for (int i = 0; i < outcome->table_count; i++) {
+        const SweepTable *table = &outcome->tables[i];
+        ReviewCase       *worst = &review->sweeps[table->sweep_id].worst;
+        if (c == worst && table->worst >= 0) return (Candidate){worst, table};
+    }
+    return (Candidate){NULL, NULL};
 }
 
+/* In the order of the page, so that its first screen has a picture. */
 static Candidate *candidates(ReviewOutcome *outcome, int *count, Arena *arena)
 {
-    Review    *review = &outcome->review;
-    Candidate *list = ARENA_NEW(arena, Candidate, review->case_count + outcome->table_count);
+    int                all = outcome->review.case_count + outcome->review.sweep_count;
+    const ReviewCase **ranked = review_rank(&outcome->review, arena);
+    Candidate         *list = ARENA_NEW(arena, Candidate, all);
     *count = 0;
-    for (int i = 0; i < review->case_count; i++)
-        if (review->cases[i].visible_share > 0)
-            list[(*count)++] = (Candidate){&review->cases[i], NULL};
-    for (int i = 0; i < outcome->table_count; i++)
-        if (outcome->tables[i].worst >= 0)
-            list[(*count)++] = (Candidate){&review->sweeps[outcome->tables[i].sweep_id].worst,
-                                           &outcome->tables[i]};
-    qsort(list, (size_t)*count, sizeof *list, by_verdict);
+    for (int i = 0; i < all; i++) {
+        Candidate found = candidate_of(outcome, ranked[i]);
+        if (found.of) list[(*count)++] = found;
+    }
     return list;
 }
 

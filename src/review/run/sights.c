@@ -7,12 +7,31 @@
 #include "review/chain/outlook_picture.h"
 #include "review/run/explain.h"
 
+#define RIM_STEPS 8 /* points along a side of a symbol's rectangle */
+
 static CaseView view_of(const Camera *camera)
 {
     const Transform *t = &camera->world_from_camera;
     return (CaseView){t->origin, t->x, t->y, vec3_neg(t->z), camera->is_perspective,
                       (double)camera->half_width, (double)camera->half_height, camera->width,
                       camera->height};
+}
+
+/* From corner to corner; a curved display bends between them. */
+static void add_rim(const SymbolSurface *surface, ReviewCase *c, Arena *arena)
+{
+    const double *uv = surface->uv;
+    const double  corner[5][2] = {{uv[0], uv[1]}, {uv[2], uv[1]}, {uv[2], uv[3]},
+                                  {uv[0], uv[3]}, {uv[0], uv[1]}};
+    Vec3 *rim = ARENA_NEW(arena, Vec3, 4 * RIM_STEPS);
+    for (int i = 0; i < 4 * RIM_STEPS; i++) {
+        const double *a = corner[i / RIM_STEPS], *b = corner[i / RIM_STEPS + 1];
+        double      t = (double)(i % RIM_STEPS) / RIM_STEPS;
+        double      at[2] = {a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])};
+        SymbolPoint point;
+        if (symbol_surface_at(surface, at, &point)) rim[c->rim_count++] = point.position;
+    }
+    c->rim = rim;
 }
 
 static bool add_outlook(const FrameAsk *ask, const StageSymbol *symbol, ReviewCase *c,
@@ -45,9 +64,11 @@ bool case_sights(const FrameAsk *ask, ReviewCase *c, Arena *arena, Error *err)
         CaseView *view = ARENA_NEW(arena, CaseView, 1);
         *view = view_of(&seen);
         c->view = view;
-        for (int i = 0; i < count && ok; i++)
-            if (!strcmp(symbols[i].name, c->symbol))
-                ok = add_outlook(ask, &symbols[i], c, arena, err);
+        for (int i = 0; i < count && ok; i++) {
+            if (strcmp(symbols[i].name, c->symbol)) continue;
+            add_rim(&symbols[i].surface, c, arena);
+            ok = add_outlook(ask, &symbols[i], c, arena, err);
+        }
     }
     arena_release(&own);
     return ok;

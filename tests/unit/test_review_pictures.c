@@ -1,0 +1,140 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Pictures of a review's page: in it or beside it, once each, and the lines over them. */
+#include "image/plain_png.h"
+#include "review_page_fixture.h"
+
+TEST(pictures_go_into_the_page_as_they_stand)
+{
+    (void)state;
+    Error         err = {0};
+    Review        review = fixture_review(&arena);
+    const char   *file = fresh_name(".png");
+    ReviewPicture shown = {.of = &review.sweeps[1].worst, .title = "frame", .file = file};
+    ReviewPage    page = {.review = &review, .pictures = &shown, .picture_count = 1};
+    assert_true(file_write(file, "Man", 3, &err));
+    const char *text = page_of(&page);
+    assert_int_equal(count_of(text, "src=\"data:image/png;base64,TWFu\""), 1);
+    assert_true(strstr(text, "TWFu") > strstr(text, "id=\"s1\""));
+    remove(file);
+    const char *path = fresh_name(".html");
+    assert_false(review_page_write(&page, path, &err));
+    assert_string_equal(err.file, file);
+    shown.file = "frame.exr";
+    assert_false(review_page_write(&page, path, &err));
+    assert_non_null(strstr(err.text, "wanted a picture ending in .png or .jpg"));
+    remove(path);
+}
+
+/* It is named, with its size; several cards name it alike. One that is not there is an error
+ * all the same. */
+TEST(pictures_beside_the_page_are_named)
+{
+    (void)state;
+    Error         err = {0};
+    Review        review = fixture_review(&arena);
+    const char   *file = fresh_name(".png");
+    Picture       picture = picture_create(3, 2, &arena);
+    ReviewPicture shown[] = {
+        {.of = &review.cases[0], .title = "frame", .file = file, .id = "p0",
+         .beside = "frames/a&b.png"},
+        {.of = &review.sweeps[1].worst, .title = "frame", .file = file, .id = "p0",
+         .is_again = true, .beside = "frames/a&b.png"}};
+    ReviewPage page = {.review = &review, .pictures = shown, .picture_count = 2};
+    assert_true(picture_write(file, &picture, (PictureFile){.bits = 8}, arena, &err));
+    const char *text = page_of(&page), *path = fresh_name(".html");
+    assert_int_equal(count_of(text, "<img loading=\"lazy\" alt=\"frame\" width=\"3\" "
+                                    "height=\"2\" src=\"frames/a&amp;b.png\">"), 2);
+    assert_int_equal(count_of(text, "data:image/png"), 0);
+    remove(file);
+    assert_false(review_page_write(&page, path, &err));
+    assert_string_equal(err.file, file);
+    remove(path);
+}
+
+/* The eye at the origin looks along -z, a right angle wide. */
+static const CaseView VIEW = {.right = {1, 0, 0}, .up = {0, 1, 0}, .forward = {0, 0, -1},
+                              .is_perspective = true, .half_width = 1, .half_height = 0.5,
+                              .width = 200, .height = 100};
+
+TEST(rays_of_a_cause_lie_over_its_frame)
+{
+    (void)state;
+    static const Vec3 AHEAD[] = {{0, 0, 0}, {0, 0, -1}, {0.5f, 0.25f, -1}, {1, 0, -1}};
+    static const Vec3 BEHIND[] = {{0, 0, 0}, {-0.5f, 0, -1}, {-0.5f, 0, 1}};
+    static const CaseRay  RAYS[] = {{AHEAD, 4}, {BEHIND, 3}};
+    Error         err = {0};
+    Review        review = fixture_review(&arena);
+    ReviewCase   *c = &review.cases[3];
+    CaseCause     causes[2] = {c->causes[0], c->causes[1]};
+    const char   *file = fresh_name(".png");
+    ReviewPicture shown = {.of = c, .title = "frame", .file = file, .view = &VIEW};
+    ReviewPage    page = {.review = &review, .pictures = &shown, .picture_count = 1};
+    assert_true(file_write(file, "Man", 3, &err));
+    causes[0].rays = RAYS;
+    causes[0].ray_count = 2;
+    c->causes = causes;
+    c->cause_count = 2;
+    c->frame = file;
+    c->view = &VIEW;
+    const char *text = page_of(&page);
+    assert_int_equal(count_of(text, "<a href=\"#c3-way1\">"), 1);
+    assert_int_equal(count_of(text, "<g id=\"c3-way1\""), 1);
+    assert_int_equal(count_of(text, "c3-way2"), 0); /* it has no rays */
+    assert_int_equal(count_of(text, "d=\"M100 50L150 25M150 25L200 50M50 50L0 50\""), 2);
+    assert_int_equal(count_of(text, "<circle cx=\"50\" cy=\"50\""), 1);
+    remove(file);
+}
+
+/* A symbol a tenth of the picture wide: its line runs a hundredth of that further out. */
+TEST(the_first_screen_has_a_line_around_its_symbol)
+{
+    (void)state;
+    static const Vec3 RIM[] = {{-0.1f, -0.05f, -1}, {0.1f, -0.05f, -1}, {0.1f, 0.05f, -1},
+                               {-0.1f, 0.05f, -1}};
+    static const Vec3 BEHIND[] = {{-0.1f, -0.05f, -1}, {0.1f, -0.05f, -1}, {0.1f, 0.05f, 1}};
+    Error         err = {0};
+    Review        review = fixture_review(&arena);
+    ReviewCase   *c = (ReviewCase *)(void *)review_worst(&review, arena);
+    const char   *file = fresh_name(".png");
+    ReviewPicture shown = {.of = c, .title = "frame", .file = file, .view = &VIEW,
+                           .is_frame = true};
+    ReviewPage    page = {.review = &review, .pictures = &shown, .picture_count = 1};
+    assert_true(file_write(file, "Man", 3, &err));
+    c->view = &VIEW;
+    assert_int_equal(count_of(page_of(&page), "class=\"rim\""), 0);
+    c->rim = RIM;
+    c->rim_count = 4;
+    assert_int_equal(count_of(page_of(&page),
+                              "d=\"M88.0 57.0L112.0 57.0L112.0 43.0L88.0 43.0Z\""), 2);
+    c->rim = BEHIND;
+    c->rim_count = 3;
+    assert_int_equal(count_of(page_of(&page), "class=\"rim\""), 0);
+    remove(file);
+}
+
+TEST(a_picture_of_several_cards_stands_once)
+{
+    (void)state;
+    Error         err = {0};
+    Review        review = fixture_review(&arena);
+    const char   *file = fresh_name(".png");
+    Picture       picture = picture_create(3, 2, &arena);
+    ReviewPicture shown[] = {
+        {.of = &review.cases[0], .title = "frame", .file = file, .id = "p0"},
+        {.of = &review.sweeps[1].worst, .title = "frame", .file = file, .id = "p0",
+         .is_again = true}};
+    assert_true(picture_write(file, &picture, (PictureFile){.bits = 8}, arena, &err));
+    const char *text = page_of(&(ReviewPage){.review = &review, .pictures = shown,
+                                             .picture_count = 2});
+    assert_int_equal(count_of(text, "data:image/png;base64,"), 1);
+    assert_int_equal(count_of(text, "<svg viewBox=\"0 0 3 2\" "), 2);
+    assert_int_equal(count_of(text, "<image id=\"p0\" width=\"3\" height=\"2\""), 1);
+    assert_non_null(strstr(strstr(text, "id=\"s1\""), "<use href=\"#p0\"/>"));
+    remove(file);
+}
+
+int main(void)
+{
+    arena = arena_reserve((size_t)1 << 30);
+    return run_cases(NULL, NULL);
+}
