@@ -1067,8 +1067,9 @@ static bool keeps_way(PathWalk *walk, const Surface *surface, const BsdfSample *
 {
     if (walk->way_pdf > 0) return false;
     if (next->is_delta) return true;
+    if (!is_sharp(surface)) return false;
     walk->way_pdf = PATH_WAYS * next->pdf;
-    return is_sharp(surface);
+    return true;
 }
 
 /* Chooses where the path goes from the surface, by the spare lead. Windows can be passed after

@@ -121,7 +121,7 @@ void path_arriving(const PathContext *context, const PathArrival *at,
                    const Wavelengths *wavelengths, Sampler *sampler, float cd_m2[GUIDE_AIMS],
                    PathStatistics *statistics);
 
-#define PATH_WAYS 16
+#define PATH_WAYS 16 /* of a vertex: a ray or two each, beside hundreds of its questions */
 
 /* Light from infinitely far as a question: from where does it reach the eye, and how much? */
 typedef struct PathFar {

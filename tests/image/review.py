@@ -150,6 +150,25 @@ def check_pictures(report, reviewer):
     check_beside(report, reviewer, document, index)
 
 
+def check_first_picture(report, reviewer):
+    """A symbol that is too small from afar, in either light: the page tells the first, whose
+    contrast has the larger margin, and that is the one that has a frame."""
+    far = {"position_m": [x + 40 * (y - x) for x, y in zip([0, 0, 0], EYE)]}
+    document = request(eyes={"far": far}, conditions=[
+        moment("dim", type="constant", luminance=300),
+        moment("bright", type="constant", luminance=3000)],
+        frames={"size": [64, 36], "noise": 0.5, "worst": 1})
+    _, review = reviewer.review(document, "first")
+    dim, bright = review["cases"]
+    report.claim(dim["verdict"] == bright["verdict"] == "fail" and
+                 dim["margin"] > bright["margin"], "the cases are not as the test wants them")
+    report.claim(dim.get("frame") and not bright.get("frame"), "another case has the frame")
+    with open(os.path.join(reviewer.folder, "first", "index.html"), encoding="utf-8") as file:
+        worst = file.read().split('<section class="worst"')[1].split("</section>")[0]
+    report.claim(worst.count("<img") == 1 and worst.count('<svg class="rim"') == 1,
+                 "the first screen has no picture, or no line around the symbol")
+
+
 def check_beside(report, reviewer, document, alone):
     """The same with pictures beside the page: all that it names are there; and back again."""
     folder = os.path.join(reviewer.folder, "pictures")
@@ -356,6 +375,7 @@ def main(program, whole):
         dashboard().write(os.path.join(folder, "dash.gltf"))
         check_frame(report, reviewer, *check_figures(report, reviewer))
         check_pictures(report, reviewer)
+        check_first_picture(report, reviewer)
         check_threads(report, reviewer)
         check_diff(report, reviewer)
         check_start(report, reviewer)

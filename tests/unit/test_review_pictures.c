@@ -25,6 +25,19 @@ TEST(pictures_go_into_the_page_as_they_stand)
     remove(path);
 }
 
+/* Of two cases, the second time as another that shows the same. */
+static void show_twice(ReviewPicture shown[2], const Review *review, const char *file,
+                       const char *beside)
+{
+    Error   err = {0};
+    Picture picture = picture_create(3, 2, &arena);
+    assert_true(picture_write(file, &picture, (PictureFile){.bits = 8}, arena, &err));
+    shown[0] = shown[1] = (ReviewPicture){.of = &review->cases[0], .title = "frame",
+                                          .file = file, .id = "p0", .beside = beside};
+    shown[1].of = &review->sweeps[1].worst;
+    shown[1].is_again = true;
+}
+
 /* It is named, with its size; several cards name it alike. One that is not there is an error
  * all the same. */
 TEST(pictures_beside_the_page_are_named)
@@ -33,14 +46,9 @@ TEST(pictures_beside_the_page_are_named)
     Error         err = {0};
     Review        review = fixture_review(&arena);
     const char   *file = fresh_name(".png");
-    Picture       picture = picture_create(3, 2, &arena);
-    ReviewPicture shown[] = {
-        {.of = &review.cases[0], .title = "frame", .file = file, .id = "p0",
-         .beside = "frames/a&b.png"},
-        {.of = &review.sweeps[1].worst, .title = "frame", .file = file, .id = "p0",
-         .is_again = true, .beside = "frames/a&b.png"}};
-    ReviewPage page = {.review = &review, .pictures = shown, .picture_count = 2};
-    assert_true(picture_write(file, &picture, (PictureFile){.bits = 8}, arena, &err));
+    ReviewPicture shown[2];
+    ReviewPage    page = {.review = &review, .pictures = shown, .picture_count = 2};
+    show_twice(shown, &review, file, "frames/a&b.png");
     const char *text = page_of(&page), *path = fresh_name(".html");
     assert_int_equal(count_of(text, "<img loading=\"lazy\" alt=\"frame\" width=\"3\" "
                                     "height=\"2\" src=\"frames/a&amp;b.png\">"), 2);
@@ -115,15 +123,10 @@ TEST(the_first_screen_has_a_line_around_its_symbol)
 TEST(a_picture_of_several_cards_stands_once)
 {
     (void)state;
-    Error         err = {0};
     Review        review = fixture_review(&arena);
     const char   *file = fresh_name(".png");
-    Picture       picture = picture_create(3, 2, &arena);
-    ReviewPicture shown[] = {
-        {.of = &review.cases[0], .title = "frame", .file = file, .id = "p0"},
-        {.of = &review.sweeps[1].worst, .title = "frame", .file = file, .id = "p0",
-         .is_again = true}};
-    assert_true(picture_write(file, &picture, (PictureFile){.bits = 8}, arena, &err));
+    ReviewPicture shown[2];
+    show_twice(shown, &review, file, NULL);
     const char *text = page_of(&(ReviewPage){.review = &review, .pictures = shown,
                                              .picture_count = 2});
     assert_int_equal(count_of(text, "data:image/png;base64,"), 1);

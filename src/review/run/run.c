@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "review/run/run.h"
 
-#include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "review/run/cases.h"
