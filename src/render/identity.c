@@ -212,12 +212,30 @@ static void add_state(Text *text, const SceneState *state)
                       state->animations[i]);
 }
 
+/* What is tried out. */
+static void add_changes(Text *text, const SceneOptions *options)
+{
+    for (int i = 0; i < options->change_count; i++) {
+        const SceneChange *c = &options->changes[i];
+        const float numbers[] = {c->tilt,     c->turn,     c->roll,     c->move_m[0],
+                                 c->move_m[1], c->move_m[2], c->ahead[0], c->ahead[1],
+                                 c->ahead[2], c->depth_m};
+        XXH64_hash_t hash = XXH3_64bits(numbers, sizeof numbers);
+        for (int k = 0; k < c->with_count; k++)
+            hash = XXH3_64bits_withSeed(c->with[k], strlen(c->with[k]), hash);
+        if (c->patch) hash = XXH3_64bits_withSeed(c->patch, strlen(c->patch), hash);
+        identity_line(text, arena_format(text->arena, "change %d", i), "%d %.200s %016llx",
+                      (int)c->kind, c->name, (unsigned long long)hash);
+    }
+}
+
 void identity_add_scene(Text *text, const SceneOptions *options, const Scene *scene)
 {
     add_files(text, scene);
     add_displays(text, options, scene);
     add_luminaires(text, scene);
     add_state(text, &options->state);
+    add_changes(text, options);
 }
 
 /* ---- comparing --------------------------------------------------------------------------- */

@@ -117,6 +117,8 @@ typedef struct CaseLuminances {
     double veil;                   /* that stray light lays over the gaze point, in the eye */
 } CaseLuminances;
 
+#define CASE_BATCHES 32
+
 typedef struct ReviewCase {
     const char *condition, *eye, *symbol, *display;
     Ambient ambient;
@@ -137,6 +139,9 @@ typedef struct ReviewCase {
                                     sees of strokes that wide (Barten) */
     double  dgp, ugr;            /* discomfort of this gaze: secondary figures */
     long    paths;               /* that what is reflected was read from */
+    const double *batches;       /* [CASE_BATCHES] what independent batches of them say, cd
+                                    m^-2, with luminance_cd_m2.reflected for a mean; NULL: not
+                                    known */
     double  precision_asked;     /* of the contrast, relative: coarser where the verdict is
                                     clear; NaN: nothing is visible */
     double  precision_reached;   /* its standard error, relative; NaN likewise */
@@ -240,7 +245,29 @@ typedef struct ReviewResponse {
     double      relative_error;
 } ReviewResponse;
 
-typedef struct Review {
+/* What a variant changes of one symbol and eye, in a moment or at a sweep's worst. */
+typedef struct ReviewDifference {
+    const ReviewCase  *before, *after;
+    const ReviewSweep *sweep_before, *sweep_after; /* NULL: a moment */
+    double margin;       /* after less before, of the contrast's margin; NaN: one has none */
+    Range  margin_range; /* 95 %: both were read by the same random numbers, whose luck they
+                            share; NaN likewise */
+} ReviewDifference;
+
+typedef struct Review Review;
+
+/* The same review with something changed: verdicts alone, no causes and no pictures. */
+typedef struct ReviewVariantFound {
+    const char        *name;
+    const char *const *words; /* what it changes, one text a change */
+    int                word_count;
+    Review            *review;
+    ReviewDifference  *differences; /* of each of its cases, then of each of its sweeps */
+    int                difference_count;
+    ReviewDifference   worst;       /* of the least margins of all, whose cases may differ */
+} ReviewVariantFound;
+
+struct Review {
     const char *title, *profile;  /* profile: the standard's name and edition */
     ReviewCase     *cases;
     int             case_count;
@@ -252,6 +279,8 @@ typedef struct Review {
     int             response_count;
     ReviewFalseSun *false_suns;   /* by condition and eye, the worst first */
     int             false_sun_count;
+    ReviewVariantFound *variants; /* in the request's order */
+    int             variant_count;
     const char *without_data;     /* names of materials without data; NULL: there are none */
     int         without_data_count;
     const char *const *notes;     /* what a reader must know: approximations, gaps in data */
@@ -259,4 +288,4 @@ typedef struct Review {
     bool            pass;         /* nothing fails; strict: nor is too close, not visible or of
                                      a material without data */
     bool            is_strict;
-} Review;
+};

@@ -294,6 +294,23 @@ typedef struct SceneState {
     int animation_count;
 } SceneState;
 
+/* What is tried out on a scene whose files stay as they are. */
+typedef enum SceneChangeKind { CHANGE_NODES, CHANGE_MATERIAL, CHANGE_HOOD } SceneChangeKind;
+
+typedef struct SceneChange {
+    SceneChangeKind kind;
+    const char *name;        /* of a node, a material, a display's material */
+    const char *const *with; /* nodes: more of the same file, which move along */
+    int   with_count;
+    float tilt, turn, roll;  /* nodes: radians, about the middle of the named one's surface
+                                (change/node_change.h) */
+    float move_m[3];         /* nodes: world, after the turns */
+    float ahead[3];          /* nodes: where the vehicle points, world, not vertical */
+    const char *patch;       /* material: JSON, merged into it (change/material_change.h) */
+    float depth_m;           /* hood: how far it reaches out (load/hood.h); above 0 */
+    const char *file, *place; /* where it stands, for messages */
+} SceneChange;
+
 /* Which files make the scene, and what the command line overrides. */
 typedef struct SceneOptions {
     const char *const *paths; /* .gltf or .glb; the first holds the dashboard */
@@ -312,6 +329,8 @@ typedef struct SceneOptions {
     int light_level_count;
     const SceneOverride *light_ccts; /* --light-cct NODE=KELVIN, * for all */
     int light_cct_count;
+    const SceneChange *changes;
+    int change_count;
     SceneState state;
 } SceneOptions;
 

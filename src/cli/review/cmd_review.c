@@ -21,6 +21,7 @@
 #include "review/request/request_start.h"
 #include "review/request/request_read.h"
 #include "review/run/run.h"
+#include "review/run/variants.h"
 #include "scene/load/scene_load.h"
 #include "text/interval_text.h"
 
@@ -247,6 +248,9 @@ static bool make_all(ReviewRun *run, ReviewFolder *folder, ReviewOutcome *outcom
     outcome->review.is_strict = folder->is_strict;
     review_decide(&outcome->review);
     return review_folder_write(folder, outcome, arena, err) &&
+           (run->request->variant_count == 0 ||
+            (review_variants(run, outcome, arena, err) &&
+             review_folder_write(folder, outcome, arena, err))) &&
            (run->request->frames.worst == 0 ||
             (review_frames(run, outcome, arena, err) &&
              review_folder_write(folder, outcome, arena, err)));

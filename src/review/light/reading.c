@@ -10,9 +10,7 @@
 #include "review/light/question.h"
 #include "review/light/response.h"
 
-/* Batches are alike and independent: each has a seed of its own, its samples are well spread
- * among themselves. */
-#define BATCHES 32
+#define BATCHES READING_BATCHES
 #define PIECE 64 /* paths that are looked at together */
 
 typedef struct Batch {
@@ -95,6 +93,8 @@ static Reading reading_of(const Batch batches[BATCHES], int paths, double known)
     reading.sigma = batch_error(&sums) / share;
     reading.interval = (MeanInterval){fmax(interval.low, 0) / share, interval.high / share};
     reading.interval.high += missing(&reading, 1);
+    for (int i = 0; i < BATCHES; i++)
+        reading.batches[i] = batches[i].reflected / paths / share + known;
     add_known(known, &reading);
     return reading;
 }
@@ -202,7 +202,7 @@ static Reading take_asked(const ProbeAim *aim, const ReadingGoal *goal,
         pilot = stream_read(&first, 2 * pilot.paths, goal);
         wanted = paths_wanted(&pilot, goal, scratch);
     }
-    return stream_read(&fresh, wanted, goal);
+    return stream_read(&fresh, wanted > goal->least ? wanted : goal->least, goal);
 }
 
 static Reading take(const ProbeAim *aim, const ReadingGoal *goal, const ReadingTools *tools,
@@ -221,7 +221,7 @@ static JournalKey key_of(const ProbeAim *aim, const ReadingGoal *goal,
 {
     const ReadingQuestion *asked = goal->question;
     double   numbers[] = {goal->brighter, goal->darker, goal->precision, (double)goal->most,
-                          goal->known, asked ? asked->precision : 0};
+                          goal->known, asked ? asked->precision : 0, (double)goal->least};
     Question question = {.base = tools->base, .kind = asked ? asked->name : "reading",
                          .numbers = numbers, .number_count = COUNT_OF(numbers)};
     return question_key(&question, aim, scratch);

@@ -38,6 +38,8 @@ typedef struct ReadingGoal {
     double brighter, darker; /* emitted, cd m^-2; both 0: the reading itself counts */
     double precision;        /* relative, above 0 */
     long   most;             /* paths, at most */
+    long   least;            /* of one on which something hangs: no fewer, so that it may be
+                                held against another by the same random numbers; 0 as a rule */
     double known;            /* of the reading, by the display's mirror: paths leave it out
                                 (path_context.h); it is added, with the error of
                                 response_mirror_paths */
@@ -51,6 +53,9 @@ typedef struct ReadingTools {
     JournalKey    base;    /* of the journal's keys: program, scene, request (question.h) */
 } ReadingTools;
 
+#define READING_BATCHES 32 /* batches are alike and independent: each has a seed of its own, its
+                              samples are well spread among themselves */
+
 typedef struct Reading {
     double reflected;      /* Y; of a luxmeter the illuminance */
     double sigma;          /* its standard error */
@@ -58,6 +63,8 @@ typedef struct Reading {
     double mirror;         /* of it, by way of the display's mirror */
     double found_share;    /* paths whose first surface was a display */
     BrightSamples bright;  /* its paths, by the light that each found */
+    double batches[READING_BATCHES]; /* what each batch says by itself: they have `reflected`
+                                        for a mean */
     double reached;        /* by how much of itself one standard error moves what counts */
     long   paths;          /* that it was read from; a pilot's do not count */
     double seconds;        /* that it took when it was taken, the pilot's too */

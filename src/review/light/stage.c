@@ -35,32 +35,53 @@ static bool is_material(const char *display)
     return strncmp(display, "node:", 5) != 0;
 }
 
-/* Symbols' contents first: what a condition says wins. */
+/* Contents that are to be shown, the first that is said of a display first of all. */
+typedef struct ContentList {
+    SceneOverride *list;
+    int            count;
+} ContentList;
+
+static void add_content(ContentList *to, const char *display, const char *path,
+                        const char *said)
+{
+    for (int i = 0; i < to->count; i++)
+        if (!strcmp(to->list[i].material, display)) return;
+    to->list[to->count++] = (SceneOverride){display, path, said};
+}
+
+/* A variant's word holds, then the condition's, then the symbols'. */
 static SceneOverride *all_contents(const StageOptions *options, int *count, Arena *arena)
 {
     const ReviewRequest   *request = options->request;
     const ReviewCondition *c = options->condition;
-    int            own = c ? c->content_count : 0;
-    SceneOverride *contents = ARENA_NEW(arena, SceneOverride, request->symbol_count + own);
-    *count = 0;
+    const ReviewChange    *change = request->change;
+    int changed = change ? change->content_count : 0, own = c ? c->content_count : 0;
+    ContentList contents = {
+        ARENA_NEW(arena, SceneOverride, request->symbol_count + own + changed), 0};
+    for (int k = 0; k < changed; k++)
+        add_content(&contents, change->contents[k].display, change->contents[k].path,
+                    arena_format(arena, "%s: contents of a variant", request->file));
+    for (int k = 0; k < own; k++)
+        add_content(&contents, c->contents[k].display, c->contents[k].path,
+                    arena_format(arena, "%s: /conditions/%d/contents/%s", request->file,
+                                 (int)(c - request->conditions), c->contents[k].display));
     for (int i = 0; i < request->symbol_count; i++) {
         const ReviewSymbol *symbol = &request->symbols[i];
-        bool is_said = false;
-        for (int k = 0; k < own; k++)
-            is_said |= !strcmp(c->contents[k].display, symbol->display);
-        for (int k = 0; k < *count; k++)
-            is_said |= !strcmp(contents[k].material, symbol->display);
-        if (symbol->content && is_material(symbol->display) && !is_said)
-            contents[(*count)++] = (SceneOverride){
-                symbol->display, symbol->content,
-                arena_format(arena, "%s: /symbols/%s", request->file, symbol->name)};
+        if (symbol->content && is_material(symbol->display))
+            add_content(&contents, symbol->display, symbol->content,
+                        arena_format(arena, "%s: /symbols/%s", request->file, symbol->name));
     }
-    for (int k = 0; k < own; k++)
-        contents[(*count)++] = (SceneOverride){
-            c->contents[k].display, c->contents[k].path,
-            arena_format(arena, "%s: /conditions/%d/contents/%s", request->file,
-                         (int)(c - request->conditions), c->contents[k].display)};
-    return contents;
+    *count = contents.count;
+    return contents.list;
+}
+
+static void set_change(const ReviewChange *change, SceneOptions *scene)
+{
+    if (!change) return;
+    scene->changes = change->scene;
+    scene->change_count = change->scene_count;
+    scene->panels = change->panels;
+    scene->panel_count = change->panel_count;
 }
 
 /* Of the stage's scene; for keys of all files, the request's own, too. */
@@ -86,6 +107,7 @@ bool stage_open(const StageOptions *options, Arena *arena, Problems *problems, S
                    .sensor_lux = (double)NAN, .lessons = options->lessons};
     scene.paths = all_paths(options, &scene.path_count, arena);
     scene.contents = all_contents(options, &scene.content_count, arena);
+    set_change(options->request->change, &scene);
     if (!kernel_choose(options->isa, &out->tools.kernel, err)) return false;
     if (!scene_load(&scene, arena, problems, &out->scene, err)) return false;
     if (!bvh_create(out->scene, options->threads, options->isa, &out->bvh, err)) {
@@ -130,24 +152,34 @@ static void read_sensor(Stage *stage, const ReviewLevel *level, Arena scratch)
     stage->sensor_lux = reading_take(&aim, &goal, &stage->tools, scratch).reflected;
 }
 
+double stage_level_of(const Stage *stage, const ReviewLevel *level, int display_id,
+                      const char *name, double sensor_lux)
+{
+    double            scene = stage->scene_levels[display_id];
+    ReviewDisplayName display = {name, stage->scene->displays[display_id].name};
+    double            own = level ? review_level_at(level, display, scene, sensor_lux) : scene;
+    return own * review_brightness(stage->request, display);
+}
+
 static void set_levels(Stage *stage, const ReviewLevel *level)
 {
     for (int i = 0; i < stage->scene->display_count; i++) {
         Display *display = &stage->scene->displays[i];
-        ReviewDisplayName name = {display->name, display->name};
-        display->level = (float)review_level_at(level, name, stage->scene_levels[i],
-                                                stage->sensor_lux);
+        display->level =
+            (float)stage_level_of(stage, level, i, display->name, stage->sensor_lux);
     }
 }
 
 bool stage_light(Stage *stage, const Environment *environment, Arena *arena, Error *err)
 {
     const ReviewCondition *condition = stage->condition;
+    bool has_level = condition && condition->level_id != NO_ID;
+    const ReviewLevel *level =
+        has_level ? &stage->request->levels[condition->level_id] : NULL;
     if (environment) stage->scene->environment = *environment;
     if (!make_context(stage, arena, err)) return false;
-    if (!condition || condition->level_id == NO_ID) return true;
-    const ReviewLevel *level = &stage->request->levels[condition->level_id];
-    if (level->is_curve) read_sensor(stage, level, *arena);
+    if (!level && !stage->request->change) return true;
+    if (level && level->is_curve) read_sensor(stage, level, *arena);
     set_levels(stage, level);
     return make_context(stage, arena, err);
 }

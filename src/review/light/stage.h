@@ -67,3 +67,8 @@ Vec3 stage_direction(const Stage *stage, SunAngles angles);
 
 /* The level at which a display stands now. */
 double stage_level(const Stage *stage, int display_id);
+
+/* What it is set to by a level of the request (NULL: as the scene says), with what a variant
+ * makes of it. name: as the review calls it; sensor_lux: counts for a curve only. */
+double stage_level_of(const Stage *stage, const ReviewLevel *level, int display_id,
+                      const char *name, double sensor_lux);

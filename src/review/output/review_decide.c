@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 Verdict sweep_verdict(const ReviewSweep *sweep)
 {
@@ -115,4 +116,19 @@ const ReviewCase *review_worst(const Review *review, Arena scratch)
 {
     int count = review->case_count + review->sweep_count;
     return count > 0 ? review_rank(review, &scratch)[0] : NULL;
+}
+
+static bool is_like(const ReviewCase *a, const ReviewCase *b)
+{
+    return !strcmp(a->condition, b->condition) && !strcmp(a->eye, b->eye) &&
+           !strcmp(a->symbol, b->symbol);
+}
+
+const ReviewCase *review_case_like(const Review *review, const ReviewCase *like)
+{
+    for (int i = 0; i < review->case_count; i++)
+        if (is_like(&review->cases[i], like)) return &review->cases[i];
+    for (int i = 0; i < review->sweep_count; i++)
+        if (is_like(&review->sweeps[i].worst, like)) return &review->sweeps[i].worst;
+    return NULL;
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "review/output/review_json.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -253,6 +254,56 @@ static json_t *cases_json(const Review *review)
     return list;
 }
 
+/* ---- variants --------------------------------------------------------------------------- */
+
+static json_t *difference_json(const ReviewDifference *d)
+{
+    const ReviewCase *c = d->after;
+    json_t *out = json_pack("{s:o, s:o, s:o, s:s, s:o, s:o}", "condition", text(c->condition),
+                            "eye", text(c->eye), "symbol", text(c->symbol), "verdict",
+                            verdict_names[c->verdict], "contrast_ratio",
+                            json_figure(c->contrast_ratio), "contrast_interval",
+                            pair(c->contrast_low, c->contrast_high));
+    set(out, "margin", json_figure(c->margin));
+    set(out, "margin_before", json_figure(d->before ? d->before->margin : (double)NAN));
+    set(out, "margin_difference", json_figure(d->margin));
+    set(out, "margin_difference_interval", pair(d->margin_range.low, d->margin_range.high));
+    set(out, "reflected_cd_m2", json_figure(c->luminance_cd_m2.reflected));
+    set(out, "level", json_figure(c->level));
+    set(out, "when", text(c->when));
+    set(out, "sun", sun_json(c));
+    if (!d->sweep_after) return out;
+    const ReviewSweep *before = d->sweep_before;
+    set(out, "failed_share", json_figure(d->sweep_after->failed_share));
+    set(out, "failed_share_before", json_figure(before ? before->failed_share : (double)NAN));
+    set(out, "longest_failure_minutes",
+        json_figure(d->sweep_after->longest_failure_minutes));
+    return out;
+}
+
+static json_t *variant_json(const ReviewVariantFound *v)
+{
+    json_t *out = json_pack("{s:o, s:o, s:b, s:s}", "name", text(v->name), "changes",
+                            json_texts(v->words, v->word_count), "pass", v->review->pass,
+                            "verdict", verdict_names[review_verdict(v->review)]);
+    json_t *cases = json_array(), *sweeps = json_array();
+    set(out, "worst", v->worst.after ? difference_json(&v->worst) : json_null());
+    for (int i = 0; i < v->difference_count; i++)
+        json_array_append_new(v->differences[i].sweep_after ? sweeps : cases,
+                              difference_json(&v->differences[i]));
+    set(out, "cases", cases);
+    set(out, "sweeps", sweeps);
+    return out;
+}
+
+static json_t *variants_json(const Review *review)
+{
+    json_t *list = json_array();
+    for (int i = 0; i < review->variant_count; i++)
+        json_array_append_new(list, variant_json(&review->variants[i]));
+    return list;
+}
+
 json_t *review_json(const Review *review)
 {
     json_t *out = json_pack("{s:b, s:s, s:b, s:o, s:o}", "pass", review->pass, "verdict",
@@ -263,6 +314,7 @@ json_t *review_json(const Review *review)
     set(out, "sweeps", sweeps_json(review));
     set(out, "gazes", gazes_json(review));
     set(out, "false_suns", false_suns_json(review));
+    if (review->variant_count) set(out, "variants", variants_json(review));
     set(out, "responses", responses_json(review));
     set(out, "without_data", text(review->without_data));
     set(out, "notes", json_texts(review->notes, review->note_count));

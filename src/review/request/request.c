@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "review/request/request.h"
 
+#include <string.h>
+
 #include "base/sampler.h"
 
 int review_eye_count(const ReviewEye *eye)
@@ -18,7 +20,8 @@ void review_eye_point(const ReviewEye *eye, int i, double out_m[3])
 {
     for (int axis = 0; axis < 3; axis++) {
         int n = eye->kind == EYE_BOX ? eye->grid[axis] : 1;
-        out_m[axis] = eye->position_m[axis] + eye->half_size_m[axis] * share_of(i % n, n);
+        out_m[axis] = eye->position_m[axis] + eye->move_m[axis] +
+                      eye->half_size_m[axis] * share_of(i % n, n);
         i /= n;
     }
 }
@@ -40,4 +43,61 @@ int review_look_count(const ReviewRequest *request)
         for (int e = 0; e < request->eye_count; e++)
             count += !request->gazes[g].at_symbols && request->gazes[g].for_eye[e];
     return count;
+}
+
+/* ---- variants ---------------------------------------------------------------------------- */
+
+static void set_levels(ReviewRequest *of, const ReviewVariant *variant, Arena *arena)
+{
+    ReviewLevel *levels = ARENA_NEW(arena, ReviewLevel, of->level_count);
+    for (int i = 0; i < of->level_count; i++) {
+        levels[i] = of->levels[i];
+        for (int k = 0; k < variant->level_count; k++)
+            if (!strcmp(variant->levels[k].name, levels[i].name))
+                levels[i] = variant->levels[k];
+    }
+    of->levels = levels;
+}
+
+static void set_scenes(ReviewRequest *of, const ReviewVariant *variant, Arena *arena)
+{
+    const char **own = variant->scene_count ? variant->scenes : of->scenes;
+    int          count = variant->scene_count ? variant->scene_count : of->scene_count;
+    const char **all = ARENA_NEW(arena, const char *, count + variant->more_count);
+    for (int i = 0; i < count; i++) all[i] = own[i];
+    for (int i = 0; i < variant->more_count; i++) all[count + i] = variant->more[i];
+    of->scenes = all;
+    of->scene_count = count + variant->more_count;
+}
+
+static void move_eyes(ReviewRequest *of, const ReviewVariant *variant, Arena *arena)
+{
+    ReviewEye *eyes = ARENA_NEW(arena, ReviewEye, of->eye_count);
+    for (int i = 0; i < of->eye_count; i++) {
+        eyes[i] = of->eyes[i];
+        for (int axis = 0; axis < 3; axis++) eyes[i].move_m[axis] += variant->eye_moves[i][axis];
+    }
+    of->eyes = eyes;
+}
+
+ReviewRequest review_request_variant(const ReviewRequest *request, const ReviewVariant *variant,
+                                     Arena *arena)
+{
+    ReviewRequest of = *request;
+    of.variants = NULL;
+    of.variant_count = 0;
+    of.change = &variant->change;
+    if (variant->level_count) set_levels(&of, variant, arena);
+    set_scenes(&of, variant, arena);
+    if (variant->eye_moves) move_eyes(&of, variant, arena);
+    return of;
+}
+
+double review_brightness(const ReviewRequest *request, ReviewDisplayName display)
+{
+    const ReviewChange *change = request->change;
+    if (!change) return 1;
+    ReviewLevel level = {.fixed = (ReviewFixedLevel *)change->brightness,
+                         .fixed_count = change->brightness_count};
+    return review_level_at(&level, display, 1, 0);
 }

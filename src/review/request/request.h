@@ -30,6 +30,7 @@ typedef struct ReviewEye {
     double        position_m[3];  /* point; box: its centre */
     double        half_size_m[3]; /* box */
     int           grid[3];        /* box: points along each axis, both ends in; 1: the middle */
+    double        move_m[3];      /* of a variant: from there, scene's frame */
 } ReviewEye;
 
 /* A box has grid[0] * grid[1] * grid[2] points, x fastest; other eyes one. */
@@ -133,6 +134,36 @@ typedef struct ReviewWeather {
     WeatherClock clock;
 } ReviewWeather;
 
+/* ---- variants ---------------------------------------------------------------------------- */
+
+/* What is other than in the review itself. Of names that it does not say all stays as it is. */
+typedef struct ReviewChange {
+    const SceneChange   *scene;    /* nodes, materials, hoods */
+    int                  scene_count;
+    const SceneOverride *panels;   /* by display: a file */
+    int                  panel_count;
+    const ReviewContent *contents; /* in every condition */
+    int                  content_count;
+    const ReviewFixedLevel *brightness; /* multiplies the level that a display has, whatever
+                                           says it; the display's own name counts first, then
+                                           its material's, then "*" */
+    int                  brightness_count;
+} ReviewChange;
+
+typedef struct ReviewVariant {
+    const char *name;
+    const char **words; /* what it changes, for people, one text a change */
+    int          word_count;
+    ReviewChange change;
+    ReviewLevel *levels;       /* take the places of those of their names */
+    int          level_count;
+    const char **scenes;       /* instead of the review's; */
+    int          scene_count;  /* 0: those */
+    const char **more;         /* files besides */
+    int          more_count;
+    double     (*eye_moves)[3]; /* m, one an eye */
+} ReviewVariant;
+
 /* Where a display's surface is: all parts of its material, or those of one node. */
 typedef struct ReviewDisplay {
     int        display_id;
@@ -184,6 +215,9 @@ typedef struct ReviewRequest {
     uint32_t         seed;    /* of the random numbers: another one takes other paths of the
                                  same light; 0 as a rule */
     ReviewFrames     frames;
+    ReviewVariant   *variants;
+    int              variant_count;
+    const ReviewChange *change;  /* of the variant that this is; NULL: the review itself */
     ReviewInput     *inputs;     /* the file itself, routes, weathers, skies' pictures */
     int              input_count;
 } ReviewRequest;
@@ -191,6 +225,13 @@ typedef struct ReviewRequest {
 /* What a probe's random numbers begin with, of which `base` alone is usual: another seed of the
  * request takes others, so that luck shows. */
 uint32_t review_seed(const ReviewRequest *request, uint32_t base);
+
+/* The request as a variant has it, with no variants of its own. */
+ReviewRequest review_request_variant(const ReviewRequest *request, const ReviewVariant *variant,
+                                     Arena *arena);
+
+/* What multiplies the level of a display; 1 where no change says it. */
+double review_brightness(const ReviewRequest *request, ReviewDisplayName display);
 
 /* How many pairs there are of a gaze that does not go to symbols and an eye that looks so. */
 int review_look_count(const ReviewRequest *request);

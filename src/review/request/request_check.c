@@ -223,6 +223,16 @@ static void check_contents(const RequestCheck *check, int condition)
     }
 }
 
+/* Of a variant: names of displays that its change has and the loader does not look for. */
+static void check_change(const RequestCheck *check, const ReviewChange *change)
+{
+    ReviewDisplay display;
+    for (int i = 0; i < change->brightness_count; i++) {
+        const char *name = change->brightness[i].display;
+        if (strcmp(name, "*")) check_display(check, "brightness of a variant", name, &display);
+    }
+}
+
 bool review_request_check(const ReviewRequest *request, const Scene *scene, Problems *problems)
 {
     int          before = problems->error_count;
@@ -231,5 +241,6 @@ bool review_request_check(const ReviewRequest *request, const Scene *scene, Prob
     for (int i = 0; i < request->symbol_count; i++) check_symbol(&check, &request->symbols[i]);
     for (int i = 0; i < request->level_count; i++) check_level(&check, &request->levels[i]);
     for (int i = 0; i < request->condition_count; i++) check_contents(&check, i);
+    if (request->change) check_change(&check, request->change);
     return problems->error_count == before;
 }

@@ -79,21 +79,29 @@ static bool read_curve(const JsonView *view, ReviewLevel *level, Error *err)
     return true;
 }
 
+static bool read_level(const FieldMembers *members, int i, ReviewLevel *level, Error *err)
+{
+    FieldMembers parts;
+    level->name = members->name[i];
+    if (!field_members(&members->view, level->name, FIXED_MAX, &parts, err)) return false;
+    bool is_curve = json_object_get(parts.view.object, "sensor") ||
+                    json_object_get(parts.view.object, "table_lx");
+    return is_curve ? read_curve(&parts.view, level, err) : read_fixed(&parts, level, err);
+}
+
+bool request_levels_of(const JsonView *view, ReviewLevel **out, int *count, Error *err)
+{
+    FieldMembers members;
+    if (!field_members(view, "levels", LEVELS_MAX, &members, err)) return false;
+    *out = ARENA_NEW(view->arena, ReviewLevel, members.count);
+    *count = members.count;
+    for (int i = 0; i < members.count; i++)
+        if (!read_level(&members, i, &(*out)[i], err)) return false;
+    return true;
+}
+
 bool request_levels_read(RequestReading *reading, Error *err)
 {
-    FieldMembers   members, parts;
     ReviewRequest *request = reading->request;
-    if (!field_members(&reading->root, "levels", LEVELS_MAX, &members, err)) return false;
-    request->levels = ARENA_NEW(reading->root.arena, ReviewLevel, members.count);
-    request->level_count = members.count;
-    for (int i = 0; i < members.count; i++) {
-        ReviewLevel *level = &request->levels[i];
-        level->name = members.name[i];
-        if (!field_members(&members.view, level->name, FIXED_MAX, &parts, err)) return false;
-        bool is_curve = json_object_get(parts.view.object, "sensor") ||
-                        json_object_get(parts.view.object, "table_lx");
-        if (!(is_curve ? read_curve(&parts.view, level, err) : read_fixed(&parts, level, err)))
-            return false;
-    }
-    return true;
+    return request_levels_of(&reading->root, &request->levels, &request->level_count, err);
 }

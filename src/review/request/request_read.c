@@ -11,6 +11,7 @@
 #include "review/request/request_eyes.h"
 #include "review/request/request_levels.h"
 #include "review/request/request_symbols.h"
+#include "review/request/request_variants.h"
 #include "tinygltf/gltf_json.h"
 
 #define PATHS_USUAL 262144
@@ -19,7 +20,7 @@
 static const char *const KEYS[] = {"title",  "scene",     "eyes",       "forward",
                                    "gaze",   "observer",  "with",       "symbols",
                                    "levels", "profile",   "conditions", "precision",
-                                   "frames"};
+                                   "frames", "variants"};
 
 static bool read_title(RequestReading *reading, Error *err)
 {
@@ -99,7 +100,7 @@ static bool read_all(RequestReading *reading, Error *err)
            request_eyes_read(reading, err) && request_withs_read(reading, err) &&
            request_symbols_read(reading, err) && request_levels_read(reading, err) &&
            read_precision(reading, err) && read_frames(reading, err) &&
-           request_conditions_read(reading, err);
+           request_conditions_read(reading, err) && request_variants_read(reading, err);
 }
 
 bool review_request_read(const char *file, const char *root, Arena *arena, Problems *problems,

@@ -45,11 +45,11 @@ bool stage_eye_middle(const Stage *stage, const ReviewEye *eye, Arena scratch, V
                       Error *err)
 {
     int id;
-    *out = vec3_of(eye->position_m);
+    *out = vec3_add(vec3_of(eye->position_m), vec3_of(eye->move_m));
     if (eye->kind != EYE_CAMERA) return true;
     if (!review_camera_find(stage->scene, eye, scratch, &id, err))
         return error_in_file(err, stage->request->file);
-    *out = stage->scene->cameras[id].world_from_camera.origin;
+    *out = vec3_add(stage->scene->cameras[id].world_from_camera.origin, vec3_of(eye->move_m));
     return true;
 }
 
@@ -194,6 +194,13 @@ static const char *name_of(const VerdictAsk *ask, Arena *arena)
     return text.data;
 }
 
+/* Of the same case of the review that this is a variant of: a sweep's worst, or a moment's. */
+static long base_paths(const VerdictAsk *ask)
+{
+    const ReviewCase *base = review_case_like(ask->tools->base, ask->of);
+    return base ? base->paths : 0;
+}
+
 /* The sun's image in a display is so small that few paths meet it: it is known by itself. */
 static Reading read_symbol(const CaseLook *look, const ProbeAim *aim, VerdictAsk *ask,
                            Arena scratch)
@@ -209,6 +216,7 @@ static Reading read_symbol(const CaseLook *look, const ProbeAim *aim, VerdictAsk
                             .darker = fmin(shown->foreground, shown->background),
                             .precision = request->precision_contrast,
                             .most = request->precision_paths, .known = ask->direct.mirror,
+                            .least = ask->tools->base ? base_paths(ask) : 0,
                             .question = &question};
     without.without_mirrored_sun = ask->direct.mirror > 0;
     rest.context = &without;
@@ -257,6 +265,15 @@ static double visibility_of(const ReviewCase *c, const SymbolSplit *split)
            contrast_sensitivity(1 / (2 * stroke_deg), mean, c->height_arcmin / 60);
 }
 
+_Static_assert(CASE_BATCHES == READING_BATCHES, "a case keeps what a reading has");
+
+static const double *keep_batches(const Reading *reading, Arena *arena)
+{
+    double *kept = ARENA_NEW(arena, double, READING_BATCHES);
+    for (int i = 0; i < READING_BATCHES; i++) kept[i] = reading->batches[i];
+    return kept;
+}
+
 /* What does not depend on the eye is set. The aim has no targets where nothing is visible;
  * *direct: of what is reflected. */
 static ProbeAim see_symbol(const CaseTools *tools, const CaseLook *look, ReviewCase *c,
@@ -284,11 +301,13 @@ static ProbeAim see_symbol(const CaseTools *tools, const CaseLook *look, ReviewC
         symbol_emission(&symbol->surface, &symbol->split, c->level, eye);
     set_shown(l, &emission, seen.transmittance);
     ProbeAim aim = aim_at(stage, look, is_visible, arena);
-    if (!look->is_coarse && !look->is_bare) see_stray_light(stage, symbol, eye, c, *arena);
+    bool wants_veil = !look->is_bare || tools->profile->uses_veil;
+    if (!look->is_coarse && wants_veil) see_stray_light(stage, symbol, eye, c, *arena);
     *direct = direct_sun(stage, &aim, *arena);
     VerdictAsk ask = {tools, c, *direct};
     Reading    reading = read_symbol(look, &aim, &ask, *arena);
     c->paths = reading.paths;
+    c->batches = look->is_coarse ? NULL : keep_batches(&reading, arena);
     c->precision_reached = reading.reached;
     c->precision_asked = is_verdict_clear(&ask, reading.interval, *arena)
                              ? stage->request->precision_clear
@@ -441,7 +460,7 @@ bool stage_learn(Stage *stage, const StageSymbol *symbols, int count, Arena *are
 bool stage_case(const CaseTools *tools, const StageSymbol *symbol, const ReviewEye *eye,
                 Arena *arena, ReviewCase *out, Error *err)
 {
-    CaseAsk ask = {eye, symbol, face_lux(tools, symbol, *arena), false};
+    CaseAsk ask = {eye, symbol, face_lux(tools, symbol, *arena), tools->base != NULL};
     return case_of(tools, &ask, arena, out, err);
 }
 
@@ -463,7 +482,8 @@ bool stage_cases(const CaseTools *tools, Arena *arena, ReviewCase *out, Error *e
         if (!moment_share_has(&tools->share, i, count)) continue;
         if (!is_known[s]) faces[s] = face_lux(tools, &tools->symbols[s], *arena);
         is_known[s] = true;
-        CaseAsk ask = {&request->eyes[i / symbols], &tools->symbols[s], faces[s], false};
+        CaseAsk ask = {&request->eyes[i / symbols], &tools->symbols[s], faces[s],
+                       tools->base != NULL};
         if (!case_of(tools, &ask, arena, &out[i], err)) return false;
     }
     return true;

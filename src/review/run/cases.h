@@ -20,6 +20,9 @@ typedef struct CaseTools {
     long               cause_paths; /* by which causes are found; 0: CAUSE_PATHS */
     int                cause_rays;  /* that are kept of each; 0: CAUSE_RAYS */
     MomentShare        share;       /* of stage_cases: others' are left alone */
+    const Review      *base;        /* of a variant: the review itself. Cases are bare then
+                                       (stage_verdict), and read from no fewer paths than its
+                                       own, so that what differs is known sharply; or NULL */
 } CaseTools;
 
 /* Share of what a display reflects from which on its light is that of direct sun. */
@@ -38,7 +41,8 @@ bool stage_cases(const CaseTools *tools, Arena *arena, ReviewCase *out, Error *e
 bool stage_case(const CaseTools *tools, const StageSymbol *symbol, const ReviewEye *eye,
                 Arena *arena, ReviewCase *out, Error *err);
 
-/* The same without stray light, causes and remedies: for trials of many seeds. out->display_lux
+/* The same without causes and remedies, and without stray light unless the profile's verdicts
+ * hang on it: for variants, and trials of many seeds. out->display_lux
  * is the illuminance of its face. */
 bool stage_verdict(const CaseTools *tools, const StageSymbol *symbol, const ReviewEye *eye,
                    Arena *arena, ReviewCase *out, Error *err);

@@ -33,6 +33,8 @@ typedef struct ReviewRun {
     const char          *identity; /* review_plan's, of what was planned; NULL: anything */
     Problems            *problems; /* warnings of scenes, once each */
     SunSearches         *sun_searches; /* review_run's own */
+    const Review        *base;     /* this is a variant of that, which is whole: verdicts alone
+                                      are made (cases.h); NULL: the review itself */
 } ReviewRun;
 
 /* What a sweep found of each of its suns: one symbol, one eye. */

@@ -65,7 +65,7 @@ static bool run_moment(const ReviewRun *run, Stage *stage, Arena *scratch, Arena
     const ReviewCondition *condition = stage->condition;
     Review   *review = &out->review;
     CaseTools tools = {.stage = stage, .profile = run->profile,
-                       .share = share_of(run, condition)};
+                       .share = share_of(run, condition), .base = run->base};
     StageSymbol *symbols;
     const Environment *sky = condition->has_environment ? &condition->environment : NULL;
     if (!stage_light(stage, sky, scratch, err) ||
@@ -78,6 +78,7 @@ static bool run_moment(const ReviewRun *run, Stage *stage, Arena *scratch, Arena
     int count = tools.symbol_count * run->request->eye_count;
     if (!run->share.count) keep_names(cases, count, arena); /* others' cases have none */
     review->case_count += count;
+    if (run->base) return true;
     GazeFinding *gazes = review->gazes + review->gaze_count;
     if (!stage_gazes(stage, &tools.share, run->sun_searches, arena, gazes, err)) return false;
     review->gaze_count += review_look_count(run->request);
@@ -457,7 +458,7 @@ bool review_run(const ReviewRun *run, Arena *arena, ReviewOutcome *out, Error *e
     bool ok = run_conditions(&with, arena, out, err);
     sun_searches_end(&searches);
     if (!ok || run->share.count) return ok;
-    add_notes(request, &out->review, arena);
+    if (!run->base) add_notes(request, &out->review, arena);
     review_decide(&out->review);
     return true;
 }

@@ -39,16 +39,13 @@ static double total(const FarReading *reading)
 
 static double level_for(const Sweep *sweep, const Sight *sight, const FarTools *tools, int sun)
 {
-    double scene = sweep->stage->scene_levels[sight->symbol->display.display_id], lux = 0;
-    if (!sweep->level) return scene;
+    double lux = 0;
     if (sweep->sensor) {
         FarReading at = far_probe_read(&sweep->sensor->probe, tools, sun);
         lux = total(&at) + sweep->sensor->own.lamps;
     }
-    const Display    *display =
-        &sweep->stage->scene->displays[sight->symbol->display.display_id];
-    ReviewDisplayName name = {sight->symbol->display_name, display->name};
-    return review_level_at(sweep->level, name, scene, lux);
+    return stage_level_of(sweep->stage, sweep->level, sight->symbol->display.display_id,
+                          sight->symbol->display_name, lux);
 }
 
 /* The figures of a case under one sun; limits are judged by whoever asks. */
@@ -298,7 +295,8 @@ static bool read_worst(Telling *to, const Sight *sight, const SweepSun *sun, boo
     for (int i = 0; i < stage.scene->display_count; i++)
         stage.scene->displays[i].level = (float)stage.scene_levels[i];
     CaseTools tools = {.stage = &stage, .profile = sweep->run->profile,
-                       .symbols = sight->symbol, .symbol_count = 1};
+                       .symbols = sight->symbol, .symbol_count = 1,
+                       .base = sweep->run->base};
     bool ok = stage_light(&stage, &environment, &scratch, err) &&
               stage_case(&tools, sight->symbol, sight->eye, to->arena, out, err);
     stage.scene->environment = dark; /* as the next sight is asked */
@@ -485,7 +483,8 @@ static bool sweep_condition(Sweep *sweep, Arena scratch, Arena *arena, ReviewOut
     SweepSuns *suns = ARENA_NEW(arena, SweepSuns, 1);
     *suns = sweep->suns;
     Telling to = {sweep, &tools, suns, out, arena, scratch};
-    if (!sweep->run->share.count) false_sun_times(sweep, scratch, arena, &out->review);
+    if (!sweep->run->share.count && !sweep->run->base)
+        false_sun_times(sweep, scratch, arena, &out->review);
     Progress progress = progress_start(sweep->run->progress, "verdicts", "sights",
                                        sweep->sight_count);
     for (int i = 0; i < sweep->sight_count; i++) {

@@ -46,6 +46,7 @@ typedef struct Loader {
     ItemList node_names;     /* const char *, of nodes that are shown */
     ItemList variants;       /* const char *, of all files */
     ItemList animations;     /* SceneAnimation, of all files */
+    int *change_uses;        /* one a change: how often its name was found */
     struct LuminaireDraft *luminaires; /* one a --light (load/luminaire.c) */
     ProgressMode progress_mode; /* of gltf/load_progress.h, which has the three below */
     Progress progress;

@@ -11,7 +11,7 @@
 #include "panel/query/panel_place.h"
 #include "scene/gltf/document.h"
 #include "scene/load/image.h"
-#include "scene/load/part_draft.h"
+#include "scene/gltf/part_draft.h"
 #include "scene/load/texture_slot.h"
 #include "scene/load/wearer.h"
 #include "text/nearest_word.h"

@@ -6,6 +6,7 @@
 
 #include "base/mathd.h"
 #include "base/units.h"
+#include "scene/change/node_change.h"
 #include "scene/gltf/document.h"
 #include "scene/gltf/load_progress.h"
 #include "scene/load/environment.h"
@@ -268,6 +269,7 @@ void graph_build(GltfFile *file)
     if (nodes) {
         const int *parent = parents_of(file, nodes);
         place_nodes(file, nodes, parent);
+        nodes_change(file, parent);
         NodeOrder order = nodes_of_scene(file, nodes, parent);
         load_progress_begin(file->load, "place", "nodes", order.count);
         for (int i = 0; i < order.count; i++) {

@@ -268,3 +268,12 @@ int material_default(GltfFile *file)
             add_material(file->load, default_material("default"), (int[SCENE_UV_SETS]){0, 1});
     return file->default_material_id;
 }
+
+int material_add_matt(Loader *load, const char *name, float reflectance)
+{
+    Material m = default_material(arena_string(load->arena, name, strlen(name)));
+    for (int i = 0; i < 3; i++) m.base_color[i] = reflectance;
+    m.metallic = 0;
+    m.specular = 0;
+    return add_material(load, m, (int[SCENE_UV_SETS]){0, 1});
+}

@@ -9,5 +9,8 @@ void materials_build(GltfFile *file);
 /* The id of glTF's default material, which the file gets when it first needs it. */
 int material_default(GltfFile *file);
 
+/* The id of a new material that only scatters: linear Rec.709 of all three, 0..1. */
+int material_add_matt(Loader *load, const char *name, float reflectance);
+
 /* What follows from the other members, when all that may change them is done. */
 void material_derive_flags(Material *material);

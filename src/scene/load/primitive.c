@@ -8,7 +8,7 @@
 #include "scene/gltf/document.h"
 #include "scene/gltf/variant.h"
 #include "scene/load/material.h"
-#include "scene/load/part_draft.h"
+#include "scene/gltf/part_draft.h"
 #include "scene/load/pose.h"
 #include "scene/load/texture_slot.h"
 

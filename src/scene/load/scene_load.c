@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "scene/change/material_change.h"
 #include "scene/check/check.h"
 #include "scene/check/check_data.h"
 #include "scene/check/check_graph.h"
@@ -22,12 +23,14 @@
 #include "scene/gltf/variant.h"
 #include "scene/load/display.h"
 #include "scene/load/graph.h"
+#include "scene/load/hood.h"
 #include "scene/load/image.h"
 #include "scene/load/luminaire.h"
 #include "scene/load/material.h"
-#include "scene/load/part_draft.h"
+#include "scene/gltf/part_draft.h"
 #include "scene/load/pose.h"
 #include "scene/load/profiles.h"
+#include "text/nearest_word.h"
 
 /* ---- materials that say BLEND or MASK but are opaque everywhere ------------------------ */
 
@@ -259,6 +262,7 @@ static void load_file(Loader *load, const char *path)
     *file = (GltfFile){.load = load, .path = arena_string(load->arena, path, strlen(path))};
     if (!document_read(file)) return;
     extras_unfold(file);
+    materials_change(file);
     note_extensions(file);
     variant_choose(file);
     check_structure(file);
@@ -302,16 +306,55 @@ static Loader loader_start(const SceneOptions *options, Arena *arena, Problems *
                     .animations = list_of(sizeof(SceneAnimation))};
 }
 
+/* ---- what is tried out ------------------------------------------------------------------ */
+
+/* Of all nodes that are shown, or of all materials. */
+static const char **names_for(Loader *load, SceneChangeKind kind, int *count)
+{
+    if (kind == CHANGE_NODES) {
+        *count = load->node_names.count;
+        return load->node_names.items;
+    }
+    const char **names = ARENA_NEW(&load->scratch, const char *, load->materials.count);
+    *count = 0;
+    for (int i = 0; i < load->materials.count; i++) {
+        const Material *m = list_item(&load->materials, i);
+        if (kind != CHANGE_HOOD || m->display_id != NO_ID) names[(*count)++] = m->name;
+    }
+    return names;
+}
+
+/* The names that changes ask for and no file has. */
+static void report_unused_changes(Loader *load)
+{
+    static const char *const WHAT[] = {
+        [CHANGE_NODES] = "node", [CHANGE_MATERIAL] = "material", [CHANGE_HOOD] = "display"};
+    for (int i = 0; i < load->options->change_count; i++) {
+        const SceneChange *change = &load->options->changes[i];
+        char advice[600];
+        int  count;
+        if (load->change_uses[i] > 0) continue;
+        const char **names = names_for(load, change->kind, &count);
+        problems_add(load->problems, SEVERITY_ERROR, change->file, change->place,
+                     "no %s is named \"%.100s\" — %s", WHAT[change->kind], change->name,
+                     nearest_word_advice(change->name, names, count, advice,
+                                         (int)sizeof advice));
+    }
+}
+
 Scene *scene_survey(const SceneOptions *options, ProgressMode progress, Arena *arena,
                     Problems *problems)
 {
     Loader load = loader_start(options, arena, problems);
     load.progress_mode = progress;
+    load.change_uses = ARENA_NEW(&load.scratch, int, options->change_count);
     luminaires_start(&load);
     for (int i = 0; i < options->path_count; i++) load_file(&load, options->paths[i]);
     pose_report_missing(&load);
     luminaires_finish(&load);
     displays_override(&load);
+    hoods_build(&load);
+    report_unused_changes(&load);
     displays_finish(&load);
     find_opaque_materials(&load);
     for (int i = 0; i < load.materials.count; i++)

@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "scene/load/part_draft.h"
+#include "scene/gltf/part_draft.h"
 
 #define NODE "node:"
 #define MESH "mesh:"

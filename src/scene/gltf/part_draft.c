@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "scene/load/part_draft.h"
+#include "scene/gltf/part_draft.h"
 
 #include <string.h>
 

@@ -1,0 +1,366 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "review/request/request_variants.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/file.h"
+#include "base/units.h"
+#include "review/request/request_levels.h"
+#include "text/text.h"
+
+#define VARIANTS_MAX 100
+#define NAMES_MAX 1000
+#define WITH_MAX 1000
+#define METRES_MAX 100.0
+#define HOOD_MAX_M 2.0
+#define BRIGHTNESS_MAX 100.0
+
+static const char *const KEYS[] = {"panels",  "contents",  "levels", "brightness",
+                                   "coatings", "glazings", "materials", "nodes", "hoods",
+                                   "eyes",    "scene",     "add"};
+
+/* A variant while it is read, with room for its changes of the scene. */
+typedef struct VariantReading {
+    RequestReading *reading;
+    JsonView        view;
+    ReviewVariant  *variant;
+    SceneChange    *scene; /* the change's own */
+} VariantReading;
+
+static Arena *arena_of(const VariantReading *v)
+{
+    return v->view.arena;
+}
+
+static void say(VariantReading *v, const char *words)
+{
+    v->variant->words[v->variant->word_count++] = words;
+}
+
+static SceneChange *add_change(VariantReading *v, SceneChangeKind kind, const FieldMembers *of,
+                               int i)
+{
+    SceneChange *change = &v->scene[v->variant->change.scene_count++];
+    const char  *place = json_view_path(&of->view, of->name[i]);
+    *change = (SceneChange){.kind = kind, .name = of->name[i], .file = v->view.file,
+                            .place = place};
+    return change;
+}
+
+/* ---- displays ---------------------------------------------------------------------------- */
+
+static bool read_panels(VariantReading *v, Error *err)
+{
+    FieldMembers members;
+    if (!field_members(&v->view, "panels", NAMES_MAX, &members, err)) return false;
+    SceneOverride *panels = ARENA_NEW(arena_of(v), SceneOverride, members.count);
+    for (int i = 0; i < members.count; i++) {
+        const char *path = NULL, *name = members.name[i];
+        if (!field_file(&members.view, name, &path, err)) return false;
+        const char *said = arena_format(arena_of(v), "%s: %s", v->view.file,
+                                        json_view_path(&members.view, name));
+        panels[i] = (SceneOverride){name, path, said};
+        say(v, arena_format(arena_of(v), "panel of %s: %s", name, path_name(path)));
+    }
+    v->variant->change.panels = panels;
+    v->variant->change.panel_count = members.count;
+    return true;
+}
+
+static bool read_contents(VariantReading *v, Error *err)
+{
+    FieldMembers members;
+    if (!field_members(&v->view, "contents", NAMES_MAX, &members, err)) return false;
+    ReviewContent *contents = ARENA_NEW(arena_of(v), ReviewContent, members.count);
+    for (int i = 0; i < members.count; i++) {
+        contents[i].display = members.name[i];
+        if (!field_file(&members.view, members.name[i], &contents[i].path, err)) return false;
+        say(v, arena_format(arena_of(v), "%s shows %s", members.name[i],
+                            path_name(contents[i].path)));
+    }
+    v->variant->change.contents = contents;
+    v->variant->change.content_count = members.count;
+    return true;
+}
+
+/* Those that it names must be there: another name would change nothing. */
+static bool read_levels(VariantReading *v, Error *err)
+{
+    const ReviewRequest *request = v->reading->request;
+    ReviewVariant       *variant = v->variant;
+    if (!request_levels_of(&v->view, &variant->levels, &variant->level_count, err))
+        return false;
+    for (int i = 0; i < variant->level_count; i++) {
+        const char *name = variant->levels[i].name;
+        bool        is_known = false;
+        for (int k = 0; k < request->level_count; k++)
+            is_known |= !strcmp(request->levels[k].name, name);
+        if (!is_known)
+            return field_fails(&v->view, arena_format(arena_of(v), "levels/%s", name), err,
+                               "is no level of the review, wanted a name of its 'levels'");
+        say(v, arena_format(arena_of(v), "level '%s'", name));
+    }
+    return true;
+}
+
+static bool read_brightness(VariantReading *v, Error *err)
+{
+    FieldMembers members;
+    if (!field_members(&v->view, "brightness", NAMES_MAX, &members, err)) return false;
+    ReviewFixedLevel *list = ARENA_NEW(arena_of(v), ReviewFixedLevel, members.count);
+    for (int i = 0; i < members.count; i++) {
+        const char *name = members.name[i];
+        list[i].display = name;
+        if (!json_view_number(&members.view, name, 0, BRIGHTNESS_MAX, &list[i].level, err))
+            return false;
+        say(v, arena_format(arena_of(v), "%s %g times as bright",
+                            strcmp(name, "*") ? name : "every display", list[i].level));
+    }
+    v->variant->change.brightness = list;
+    v->variant->change.brightness_count = members.count;
+    return true;
+}
+
+/* ---- materials --------------------------------------------------------------------------- */
+
+/* What a material's JSON becomes as a patch of it. */
+static const char *patch_text(VariantReading *v, json_t *patch)
+{
+    char       *text = json_dumps(patch, JSON_COMPACT | JSON_ENCODE_ANY);
+    const char *kept = text ? arena_string(arena_of(v), text, strlen(text)) : "{}";
+    free(text);
+    json_decref(patch);
+    return kept;
+}
+
+static bool read_materials(VariantReading *v, Error *err)
+{
+    FieldMembers members;
+    if (!field_members(&v->view, "materials", NAMES_MAX, &members, err)) return false;
+    for (int i = 0; i < members.count; i++) {
+        json_t *patch = json_object_get(members.view.object, members.name[i]);
+        if (!json_is_object(patch))
+            return json_view_wrong_kind(&members.view, members.name[i], patch,
+                                        "an object, merged into the material", err);
+        SceneChange *change = add_change(v, CHANGE_MATERIAL, &members, i);
+        change->patch = patch_text(v, json_incref(patch));
+        say(v, arena_format(arena_of(v), "material of %s", members.name[i]));
+    }
+    return true;
+}
+
+/* A name is a stack that the program carries; null takes the coating away. */
+static bool read_extension(VariantReading *v, const char *key, const char *extension,
+                           bool takes_names, Error *err)
+{
+    FieldMembers members;
+    if (!field_members(&v->view, key, NAMES_MAX, &members, err)) return false;
+    for (int i = 0; i < members.count; i++) {
+        const char *name = members.name[i], *stack = NULL;
+        json_t     *value = json_object_get(members.view.object, name);
+        if (takes_names && json_is_string(value)) stack = json_string_value(value);
+        else if (!json_is_object(value) && !json_is_null(value))
+            return json_view_wrong_kind(&members.view, name, value,
+                                        takes_names ? "an object, a stack's name or null"
+                                                    : "an object or null", err);
+        /* what was there goes first: it is replaced, not merged */
+        add_change(v, CHANGE_MATERIAL, &members, i)->patch = patch_text(
+            v, json_pack("{s:{s:n}, s:{s:n}}", "extensions", extension, "extras", extension));
+        json_t *inside = stack ? json_pack("{s:s}", "stack", stack) : json_incref(value);
+        if (json_is_null(inside)) json_decref(inside);
+        else
+            add_change(v, CHANGE_MATERIAL, &members, i)->patch =
+                patch_text(v, json_pack("{s:{s:o}}", "extensions", extension, inside));
+        say(v, json_is_null(value)
+                   ? arena_format(arena_of(v), "no %.*s on %s", (int)strlen(key) - 1, key, name)
+                   : arena_format(arena_of(v), "%.*s of %s%s%s", (int)strlen(key) - 1, key,
+                                  name, stack ? ": " : "",
+                                  stack ? arena_string(arena_of(v), stack, strlen(stack)) : ""));
+    }
+    return true;
+}
+
+/* ---- geometry ---------------------------------------------------------------------------- */
+
+static bool read_with(const JsonView *view, SceneChange *change, Error *err)
+{
+    int count;
+    if (!field_list(view, "with", WITH_MAX, &count, err)) return false;
+    const char **names = ARENA_NEW(view->arena, const char *, count);
+    for (int i = 0; i < count; i++) {
+        const json_t *item = json_array_get(json_object_get(view->object, "with"), (size_t)i);
+        if (!json_is_string(item))
+            return json_view_wrong_kind(view, arena_format(view->arena, "with/%d", i), item,
+                                        "a node's name", err);
+        names[i] = arena_string(view->arena, json_string_value(item),
+                                json_string_length(item));
+    }
+    change->with = names;
+    change->with_count = count;
+    return true;
+}
+
+static void say_move(VariantReading *v, const SceneChange *c)
+{
+    static const char *const WAYS[3] = {"tilted", "turned", "rolled"};
+    const float angles[3] = {c->tilt, c->turn, c->roll};
+    Text        text = {.arena = arena_of(v)};
+    text_add(&text, c->name);
+    for (int i = 0; i < 3; i++)
+        if (angles[i] != 0)
+            text_format(&text, " %s by %.4g°", WAYS[i],
+                        (double)degrees_from_radians((double)angles[i]));
+    if (c->move_m[0] != 0 || c->move_m[1] != 0 || c->move_m[2] != 0)
+        text_format(&text, " moved by (%.4g, %.4g, %.4g) m", (double)c->move_m[0],
+                    (double)c->move_m[1], (double)c->move_m[2]);
+    say(v, text.data);
+}
+
+static bool read_node(VariantReading *v, const FieldMembers *members, int i, Error *err)
+{
+    static const char *const keys[] = {"tilt_deg", "turn_deg", "roll_deg", "move_m", "with"};
+    JsonView     view;
+    double       angle[3] = {0, 0, 0}, move[3] = {0, 0, 0};
+    SceneChange *change = add_change(v, CHANGE_NODES, members, i);
+    if (!json_view_child(&members->view, members->name[i], true, &view, err) ||
+        !json_view_check_keys(&view, keys, COUNT_OF(keys), err))
+        return false;
+    for (int k = 0; k < 3; k++)
+        if (!json_view_number(&view, keys[k], -180, 180, &angle[k], err)) return false;
+    if (!field_numbers(&view, "move_m", (JsonRange){-METRES_MAX, METRES_MAX, 3}, move, NULL,
+                       err) ||
+        !read_with(&view, change, err))
+        return false;
+    change->tilt = (float)radians_from_degrees(angle[0]);
+    change->turn = (float)radians_from_degrees(angle[1]);
+    change->roll = (float)radians_from_degrees(angle[2]);
+    for (int k = 0; k < 3; k++) {
+        change->move_m[k] = (float)move[k];
+        change->ahead[k] = (float)v->reading->request->forward[k];
+    }
+    say_move(v, change);
+    return true;
+}
+
+static bool read_nodes(VariantReading *v, Error *err)
+{
+    FieldMembers members;
+    if (!field_members(&v->view, "nodes", NAMES_MAX, &members, err)) return false;
+    for (int i = 0; i < members.count; i++)
+        if (!read_node(v, &members, i, err)) return false;
+    return true;
+}
+
+static bool read_hoods(VariantReading *v, Error *err)
+{
+    FieldMembers members;
+    if (!field_members(&v->view, "hoods", NAMES_MAX, &members, err)) return false;
+    for (int i = 0; i < members.count; i++) {
+        double depth = 0;
+        if (!json_view_number(&members.view, members.name[i], 1e-3, HOOD_MAX_M, &depth, err))
+            return false;
+        add_change(v, CHANGE_HOOD, &members, i)->depth_m = (float)depth;
+        say(v, arena_format(arena_of(v), "hood of %.4g mm over %s", 1000 * depth,
+                            members.name[i]));
+    }
+    return true;
+}
+
+/* ---- eyes, files ------------------------------------------------------------------------- */
+
+static bool read_eye(VariantReading *v, const FieldMembers *members, int i, Error *err)
+{
+    static const char *const keys[] = {"move_m"};
+    JsonView view;
+    const ReviewRequest *request = v->reading->request;
+    const char          *name = members->name[i];
+    if (!json_view_child(&members->view, name, true, &view, err) ||
+        !json_view_check_keys(&view, keys, COUNT_OF(keys), err) ||
+        !field_wanted(&view, "move_m", err))
+        return false;
+    for (int e = 0; e < request->eye_count; e++) {
+        if (strcmp(request->eyes[e].name, name) != 0) continue;
+        double *move = v->variant->eye_moves[e];
+        if (!field_numbers(&view, "move_m", (JsonRange){-METRES_MAX, METRES_MAX, 3}, move,
+                           NULL, err))
+            return false;
+        say(v, arena_format(arena_of(v), "%s moved by (%.4g, %.4g, %.4g) m", name, move[0],
+                            move[1], move[2]));
+        return true;
+    }
+    return field_fails(&members->view, name, err,
+                       "is no eye of the review, wanted a name of its 'eyes'");
+}
+
+static bool read_eyes(VariantReading *v, Error *err)
+{
+    FieldMembers members;
+    if (!field_members(&v->view, "eyes", NAMES_MAX, &members, err)) return false;
+    if (members.count)
+        v->variant->eye_moves = (double(*)[3])ARENA_NEW(arena_of(v), double,
+                                                        3 * v->reading->request->eye_count);
+    for (int i = 0; i < members.count; i++)
+        if (!read_eye(v, &members, i, err)) return false;
+    return true;
+}
+
+static bool read_files(VariantReading *v, Error *err)
+{
+    ReviewVariant *variant = v->variant;
+    if (!field_files(&v->view, "scene", &variant->scenes, &variant->scene_count, err) ||
+        !field_files(&v->view, "add", &variant->more, &variant->more_count, err))
+        return false;
+    if (variant->scene_count)
+        say(v, arena_format(arena_of(v), "scene %s", path_name(variant->scenes[0])));
+    for (int i = 0; i < variant->more_count; i++)
+        say(v, arena_format(arena_of(v), "with %s", path_name(variant->more[i])));
+    return true;
+}
+
+/* ---- a variant --------------------------------------------------------------------------- */
+
+/* The most that it may say: members of members. */
+static size_t room_for(const JsonView *view)
+{
+    const char *key;
+    json_t     *value;
+    size_t      room = 0;
+    json_object_foreach(view->object, key, value)
+        room += json_is_array(value) ? json_array_size(value) : json_object_size(value);
+    return room + 1;
+}
+
+static bool read_variant(RequestReading *reading, const FieldMembers *members, int i,
+                         Error *err)
+{
+    VariantReading v = {.reading = reading, .variant = &reading->request->variants[i]};
+    if (!json_view_child(&members->view, members->name[i], true, &v.view, err) ||
+        !json_view_check_keys(&v.view, KEYS, COUNT_OF(KEYS), err))
+        return false;
+    if (!json_object_size(v.view.object))
+        return field_fails(&members->view, members->name[i], err,
+                           "changes nothing, wanted one of 'panels', 'levels', 'nodes' ...");
+    size_t room = 2 * room_for(&v.view);
+    *v.variant = (ReviewVariant){.name = members->name[i],
+                                 .words = ARENA_NEW(v.view.arena, const char *, room)};
+    v.variant->change.scene = v.scene = ARENA_NEW(v.view.arena, SceneChange, room);
+    return read_panels(&v, err) && read_contents(&v, err) && read_levels(&v, err) &&
+           read_brightness(&v, err) &&
+           read_extension(&v, "coatings", "PARHELION_coating", true, err) &&
+           read_extension(&v, "glazings", "PARHELION_glazing", false, err) &&
+           read_materials(&v, err) && read_nodes(&v, err) && read_hoods(&v, err) &&
+           read_eyes(&v, err) && read_files(&v, err);
+}
+
+bool request_variants_read(RequestReading *reading, Error *err)
+{
+    FieldMembers   members;
+    ReviewRequest *request = reading->request;
+    if (!field_members(&reading->root, "variants", VARIANTS_MAX, &members, err)) return false;
+    request->variants = ARENA_NEW(reading->root.arena, ReviewVariant, members.count);
+    request->variant_count = members.count;
+    for (int i = 0; i < members.count; i++)
+        if (!read_variant(reading, &members, i, err)) return false;
+    return true;
+}

@@ -1,0 +1,25 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* variants.h -- the review once more for each of its variants, and what they differ by.
+ *
+ * A variant is read by the same random numbers as the review itself, from no fewer paths, and
+ * told by the light alone: no causes, gazes, false suns, pictures. What its change does not
+ * reach is not traced again: responses and readings are found by what decides them
+ * (sweep_responses.h, light/question.h).
+ *
+ * Intervals  of differences of margins: jackknife over the batches of both readings, which are
+ *            independent of each other and share their luck pair by pair; Student's t for 95 %.
+ *            The error of what is known without paths, the same on both sides, is not in it.
+ * Source     B. Efron, The Jackknife, the Bootstrap and Other Resampling Plans, SIAM 1982
+ * Memory     from the arena.
+ * Threads    starts its own; the same figures for any count.
+ * Fails      as a review does, naming the variant.
+ */
+#pragma once
+#include "review/run/job.h"
+
+/* Of a review that is whole: sets outcome->review.variants. */
+bool review_variants(const ReviewRun *run, ReviewOutcome *outcome, Arena *arena, Error *err);
+
+/* A request that is another's but for a change, run for its verdicts, and held against that. */
+bool review_variant(const ReviewRun *run, const ReviewVariant *variant, const Review *base,
+                    Arena *arena, ReviewVariantFound *out, Error *err);
