@@ -5,8 +5,6 @@
 
 #include "base/mathd.h"
 
-#define HALVINGS 60 /* of an interval of normal quantiles: as fine as doubles are */
-#define FARTHEST 38 /* standard deviations */
 
 void batch_add(BatchSums *sums, double mean)
 {
@@ -59,21 +57,9 @@ static double skewness_of(const BatchSums *sums)
     return third / (variance * sqrt(variance));
 }
 
-/* Exceeded by a normal variable, either side, with this chance. */
-static double normal_quantile(double miss)
+double student_quantile(double freedom)
 {
-    double low = 0, high = FARTHEST;
-    for (int i = 0; i < HALVINGS; i++) {
-        double middle = 0.5 * (low + high);
-        if (erfc_d(middle / sqrt(2)) > miss) low = middle;
-        else high = middle;
-    }
-    return low;
-}
-
-double student_quantile(double miss, double freedom)
-{
-    double z = normal_quantile(miss), s = z * z, v = freedom;
+    double z = NORMAL_QUANTILE, s = z * z, v = freedom;
     return z * (1 + (s + 1) / (4 * v) + ((5 * s + 16) * s + 3) / (96 * v * v) +
                 (((3 * s + 19) * s + 17) * s - 15) / (384 * v * v * v));
 }
@@ -92,10 +78,10 @@ static double untransformed(double value, double a)
     return 3 / a * (cube_root(1 + a * (value - a / 6)) - 1);
 }
 
-MeanInterval batch_interval(const BatchSums *sums, double miss)
+MeanInterval batch_interval(const BatchSums *sums)
 {
     double n = sums->count, mean = sums->sum / n, error = batch_error(sums);
-    double a = skewness_of(sums) / sqrt(n), t = student_quantile(miss, n - 1);
+    double a = skewness_of(sums) / sqrt(n), t = student_quantile(n - 1);
     return (MeanInterval){mean - error * untransformed(t, a),
                           mean - error * untransformed(-t, a)};
 }

@@ -11,7 +11,9 @@
  * Threads  pure functions.
  */
 #pragma once
-#define CONFIDENCE_MISS 0.05 /* chance that a 95 % interval does not hold the true value */
+#define CONFIDENCE_MISS 0.05 /* chance that a 95 % interval does not hold the true value: */
+#define NORMAL_QUANTILE 1.959963984540054 /* that of a normal variable to lie farther out, either
+                                             side: erfc(z / sqrt 2) */
 
 /* Of batches' means, all of as many samples. */
 typedef struct BatchSums {
@@ -23,8 +25,8 @@ void batch_add(BatchSums *sums, double mean);
 /* The standard error of the mean of all; at least 2 batches. */
 double batch_error(const BatchSums *sums);
 
-/* Exceeded by a variable of Student's distribution, either side, with this chance. */
-double student_quantile(double miss, double freedom);
+/* Exceeded by a variable of Student's distribution, either side, with CONFIDENCE_MISS. */
+double student_quantile(double freedom);
 
 typedef struct MeanInterval {
     double low, high;
@@ -41,5 +43,5 @@ void bright_add(BrightSamples *samples, double light);
  * interval has this more. repeated: of so many times these samples. */
 double bright_missing(const BrightSamples *samples, double count, double repeated);
 
-/* Misses the true mean with this chance, both sides together. */
-MeanInterval batch_interval(const BatchSums *sums, double miss);
+/* Misses the true mean with CONFIDENCE_MISS, both sides together. */
+MeanInterval batch_interval(const BatchSums *sums);

@@ -200,7 +200,7 @@ static bool choose_halves(const PixelNoise *halves, long pixels, double least,
     double freedom = halves->fourths > 0
                          ? 3 * halves->luminance * halves->luminance / halves->fourths : 0;
     if (halves->pixels != pixels || freedom < least) return false;
-    double factor = student_quantile(CONFIDENCE_MISS, freedom) / SIGMAS_95;
+    double factor = student_quantile(freedom) / SIGMAS_95;
     *out = *halves;
     out->luminance *= factor * factor;
     for (int c = 0; c < 3; c++) out->rgb[c] *= factor * factor;

@@ -63,7 +63,7 @@ static Illuminance add_batches(const Meter *meter)
         batch_add(&means,
                   total.xyz_lx[1] + (meter->sums[i].xyz[1] - own) * BATCHES / samples);
     }
-    MeanInterval in = batch_interval(&means, CONFIDENCE_MISS);
+    MeanInterval in = batch_interval(&means);
     total.low_lx = fmax(in.low, 0);
     total.high_lx = in.high + bright_missing(&bright, samples, 1);
     return total;

@@ -70,7 +70,8 @@ static void read_steps(const SweepTrials *t, bool is_full, double own, unsigned 
     FarProbe probe = {.aim = t->aim};
     probe.aim.seed = seed;
     far_probe_respond(&probe, &tools, &room);
-    far_probe_ask(&probe, &tools, &room);
+    far_probes_ask_skies((FarProbe *[]){&probe}, 1, &tools, &room);
+    far_probe_ask_suns(&probe, &tools, &room);
     for (int i = 0; i < t->suns.count; i++) {
         FarReading r = far_probe_read(&probe, &tools, i);
         out[i] = (Trial){r.sky + r.sun_first + r.sun_rest + own, r.interval.low + own,

@@ -50,7 +50,7 @@ TEST(intervals_hold_the_mean_as_often_as_they_say)
             int held = 0;
             for (int run = 0; run < RUNS; run++) {
                 BatchSums sums = batches_of(shape, samples, &random);
-                MeanInterval  in = batch_interval(&sums, CONFIDENCE_MISS);
+                MeanInterval  in = batch_interval(&sums);
                 held += in.low <= 0 && 0 <= in.high;
             }
             double share = (double)held / RUNS;
@@ -86,7 +86,7 @@ static void try_lobe(int k, uint32_t *random, int *bare, int *held)
         }
         batch_add(&sums, sum / SAMPLES);
     }
-    MeanInterval in = batch_interval(&sums, CONFIDENCE_MISS);
+    MeanInterval in = batch_interval(&sums);
     *bare += in.low <= mean && mean <= in.high;
     in.high += bright_missing(&bright, BATCHES * SAMPLES, 1);
     *held += in.low <= mean && mean <= in.high;
@@ -126,10 +126,12 @@ TEST(without_skewness_the_interval_is_students)
     double    error = sqrt(1.25 / 7); /* of 0.5 1.5 ... about 0 */
     for (int i = 0; i < 8; i++) batch_add(&sums, i % 4 - 1.5);
     assert_close(batch_error(&sums), error, 1e-12);
-    MeanInterval in = batch_interval(&sums, 0.05), wide = batch_interval(&sums, 0.01);
+    MeanInterval in = batch_interval(&sums);
     assert_near(in.high, 2.3646 * error, 2e-3); /* t of 7 degrees of freedom */
-    assert_near(wide.high, 3.4995 * error, 2e-2);
     assert_near(in.low, -in.high, 1e-12);
+    assert_close(erfc_d(NORMAL_QUANTILE / sqrt(2)), CONFIDENCE_MISS, 1e-14);
+    assert_near(student_quantile(31), 2.0395, 1e-4);
+    assert_near(student_quantile(1e9), NORMAL_QUANTILE, 1e-8);
 }
 
 int main(void)

@@ -382,7 +382,8 @@ TEST(a_response_to_a_clear_sky_is_what_paths_find_under_it)
     FarProbe probe = {.aim = aim_of(&world)};
     probe.aim.context = &stage.context;
     far_probe_respond(&probe, &tools, &world.arena);
-    far_probe_ask(&probe, &tools, &world.arena);
+    far_probes_ask_skies((FarProbe *[]){&probe}, 1, &tools, &world.arena);
+    far_probe_ask_suns(&probe, &tools, &world.arena);
     for (int i = 0; i < 4; i++) {
         Lights *lights;
         world.scene->environment = clear_sky(suns[i].azimuth_deg, suns[i].elevation_deg, 0);

@@ -376,7 +376,7 @@ static ChainFigure figure_of(const FoundSums *sums, const ChainSearch *search)
         double own = (double)((search->chunks - i + batches - 1) / batches) * CHAIN_CHUNK;
         batch_add(&means, mean + (sums->by_batch[i] - mean * own) * batches / paths);
     }
-    MeanInterval in = batch_interval(&means, CONFIDENCE_MISS);
+    MeanInterval in = batch_interval(&means);
     return (ChainFigure){mean, batch_error(&means), fmax(in.low, 0),
                          in.high + bright_missing(&sums->bright, paths, 1)};
 }

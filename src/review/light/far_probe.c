@@ -82,13 +82,22 @@ void sky_table_sun(const SkyTable *table, double elevation_deg, float bands[LIGH
 
 /* ---- a sky over a response --------------------------------------------------------------- */
 
+/* A probe and what of it sends anything. */
+typedef struct SkyProbe {
+    FarProbe    *of;
+    const int   *cells;
+    const float *shares; /* [i][band] of cells[i], first and rest together */
+    int          count;
+} SkyProbe;
+
+/* A row of the table over all probes, so that each sky is looked up once. */
 typedef struct SkySum {
-    FarProbe       *probe;
-    const FarTools *tools;
-    const int      *cells; /* that send anything */
-    const SunAngles *at;   /* of each */
-    int             count;
-    int             row;
+    const FarTools  *tools;
+    const SkyProbe  *probes;
+    int              probe_count, row, cell_count;
+    const bool      *is_asked; /* [cell] by any of the probes */
+    const SunAngles *at;       /* [cell] of the vehicle */
+    float           *bands;    /* [worker][cell][band], cd m^-2 */
 } SkySum;
 
 /* What is left of a total without each group, by what white light gives of them. */
@@ -130,30 +139,44 @@ static BrightSamples read_white(const Response *response, const WhiteSamples *wh
     return bright;
 }
 
-static void sum_sky(void *user, int azimuth, int worker)
+static void look_up(const SkySum *sum, int azimuth, float *bands)
 {
-    (void)worker;
-    const SkySum   *sum = user;
-    const Response *response = &sum->probe->response;
     const Daylight *sky = &sum->tools->table->skies[sum->row];
-    double          total = 0, turn = 360.0 * azimuth / SKY_AZIMUTHS;
+    double          turn = 360.0 * azimuth / SKY_AZIMUTHS;
+    for (int cell = 0; cell < sum->cell_count; cell++)
+        if (sum->is_asked[cell])
+            light_bands_sky(sky, (float)radians_from_degrees(sum->at[cell].elevation_deg),
+                            (float)radians_from_degrees(sum->at[cell].azimuth_deg - turn),
+                            bands + (size_t)cell * LIGHT_BANDS);
+}
+
+static void sum_probe(const SkyProbe *probe, const float *sky, size_t place)
+{
+    const Response *response = &probe->of->response;
+    double          total = 0;
     WhiteSamples    white = {{{0}}};
-    size_t          place = (size_t)(sum->row * SKY_AZIMUTHS + azimuth);
-    for (int i = 0; i < sum->count; i++) {
-        float bands[LIGHT_BANDS], light = 0;
-        size_t at = (size_t)sum->cells[i] * LIGHT_BANDS;
-        light_bands_sky(sky, (float)radians_from_degrees(sum->at[i].elevation_deg),
-                        (float)radians_from_degrees(sum->at[i].azimuth_deg - turn), bands);
+    for (int i = 0; i < probe->count; i++) {
+        const float *bands = sky + (size_t)probe->cells[i] * LIGHT_BANDS;
+        const float *shares = probe->shares + (size_t)i * LIGHT_BANDS;
+        float        light = 0;
         for (int b = 0; b < LIGHT_BANDS; b++) {
-            total += (double)(response->first[at + (size_t)b] +
-                              response->rest[at + (size_t)b]) * (double)bands[b];
+            total += (double)shares[b] * (double)bands[b];
             light += bands[b];
         }
-        add_white(response, sum->cells[i], (double)light, &white);
+        add_white(response, probe->cells[i], (double)light, &white);
     }
-    sum->probe->sky[place] = total;
-    sum->probe->sky_bright[place] = read_white(
-        response, &white, total, sum->probe->sky_without + place * RESPONSE_GROUPS);
+    probe->of->sky[place] = total;
+    probe->of->sky_bright[place] = read_white(
+        response, &white, total, probe->of->sky_without + place * RESPONSE_GROUPS);
+}
+
+static void sum_sky(void *user, int azimuth, int worker)
+{
+    const SkySum *sum = user;
+    float *bands = sum->bands + (size_t)worker * (size_t)sum->cell_count * LIGHT_BANDS;
+    look_up(sum, azimuth, bands);
+    for (int i = 0; i < sum->probe_count; i++)
+        sum_probe(&sum->probes[i], bands, (size_t)(sum->row * SKY_AZIMUTHS + azimuth));
 }
 
 static bool sends_anything(const Response *response, int cell)
@@ -173,25 +196,47 @@ static SunAngles vehicle_angles(const Stage *stage, Vec3 direction)
     return angles;
 }
 
-static void sum_skies(FarProbe *probe, const FarTools *tools, Arena *arena)
+static SkyProbe sky_probe(FarProbe *probe, bool *is_asked, Arena *scratch)
 {
     const Response *response = &probe->response;
-    int  rows = tools->table->count;
-    probe->sky = ARENA_NEW(arena, double, rows * SKY_AZIMUTHS);
-    probe->sky_without = ARENA_NEW(arena, float, rows * SKY_AZIMUTHS * RESPONSE_GROUPS);
-    probe->sky_bright = ARENA_NEW(arena, BrightSamples, rows * SKY_AZIMUTHS);
-    Arena      scratch = *arena;
-    int       *cells = ARENA_NEW(&scratch, int, response->cells.count);
-    SunAngles *at = ARENA_NEW(&scratch, SunAngles, response->cells.count);
-    SkySum     sum = {probe, tools, cells, at, 0, 0};
-    for (int cell = 0; cell < response->cells.count; cell++) {
+    int    all = response->cells.count;
+    int   *cells = ARENA_NEW(scratch, int, all);
+    float *shares = ARENA_NEW(scratch, float, (size_t)all * LIGHT_BANDS);
+    SkyProbe out = {probe, cells, shares, 0};
+    for (int cell = 0; cell < all; cell++) {
+        size_t from = (size_t)cell * LIGHT_BANDS, to = (size_t)out.count * LIGHT_BANDS;
         if (!sends_anything(response, cell)) continue;
-        cells[sum.count] = cell;
-        at[sum.count++] =
-            vehicle_angles(tools->stage, response->centers[cell]);
+        for (size_t b = 0; b < LIGHT_BANDS; b++)
+            shares[to + b] = response->first[from + b] + response->rest[from + b];
+        cells[out.count++] = cell;
+        is_asked[cell] = true;
     }
-    for (; sum.row < rows; sum.row++)
-        parallel_for(tools->stage->tools.threads, SKY_AZIMUTHS, sum_sky, &sum);
+    return out;
+}
+
+static void sum_skies(FarProbe *const *probes, int count, const FarTools *tools, Arena *arena)
+{
+    int rows = tools->table->count, threads = tools->stage->tools.threads;
+    for (int i = 0; i < count; i++) {
+        probes[i]->sky = ARENA_NEW(arena, double, rows * SKY_AZIMUTHS);
+        probes[i]->sky_without =
+            ARENA_NEW(arena, float, rows * SKY_AZIMUTHS * RESPONSE_GROUPS);
+        probes[i]->sky_bright = ARENA_NEW(arena, BrightSamples, rows * SKY_AZIMUTHS);
+    }
+    Arena           scratch = *arena;
+    const Response *first = &probes[0]->response; /* all have the same triangles */
+    int             cells = first->cells.count;
+    bool           *is_asked = ARENA_NEW(&scratch, bool, cells);
+    SunAngles      *at = ARENA_NEW(&scratch, SunAngles, cells);
+    SkyProbe       *list = ARENA_NEW(&scratch, SkyProbe, count);
+    for (int i = 0; i < count; i++) list[i] = sky_probe(probes[i], is_asked, &scratch);
+    for (int cell = 0; cell < cells; cell++)
+        at[cell] = vehicle_angles(tools->stage, first->centers[cell]);
+    SkySum sum = {.tools = tools, .probes = list, .probe_count = count, .cell_count = cells,
+                  .is_asked = is_asked, .at = at,
+                  .bands = ARENA_NEW(&scratch, float,
+                                     (size_t)threads * (size_t)cells * LIGHT_BANDS)};
+    for (; sum.row < rows; sum.row++) parallel_for(threads, SKY_AZIMUTHS, sum_sky, &sum);
 }
 
 /* ---- probes ------------------------------------------------------------------------------ */
@@ -261,17 +306,16 @@ static void read_even_sky(FarProbe *probe, Arena *arena)
     probe->sky_bright[0] = read_white(&probe->response, &white, 1, probe->sky_without);
 }
 
-void far_probe_ask(FarProbe *probe, const FarTools *tools, Arena *arena)
+void far_probes_ask_skies(FarProbe *const *probes, int count, const FarTools *tools,
+                          Arena *arena)
 {
-    if (tools->hours) {
-        probe->sky = hour_skies_read(tools->hours, &probe->response,
-                                     sun_directions(tools, arena), tools->suns.count,
-                                     tools->stage->tools.threads, arena);
-        read_even_sky(probe, arena);
-    } else {
-        sum_skies(probe, tools, arena);
+    if (!tools->hours && count > 0) sum_skies(probes, count, tools, arena);
+    for (int i = 0; tools->hours && i < count; i++) {
+        probes[i]->sky = hour_skies_read(tools->hours, &probes[i]->response,
+                                         sun_directions(tools, arena), tools->suns.count,
+                                         tools->stage->tools.threads, arena);
+        read_even_sky(probes[i], arena);
     }
-    far_probe_ask_suns(probe, tools, arena);
 }
 
 /* Between four of a table's places. */

@@ -68,10 +68,13 @@ typedef struct FarTools {
 /* probe->aim is set: its response is made, for any table and suns. */
 void far_probe_respond(FarProbe *probe, const FarTools *tools, Arena *arena);
 
-/* After that: the rest, for the tools' own. */
-void far_probe_ask(FarProbe *probe, const FarTools *tools, Arena *arena);
+/* After that: what the tools' skies give them. All at once, since a sky is looked up but once
+ * for all of them. */
+void far_probes_ask_skies(FarProbe *const *probes, int count, const FarTools *tools,
+                          Arena *arena);
 
-/* A probe that was asked, for other suns of the same clear skies. */
+/* The first vertex's answers to the tools' suns: after that the probe may be read; once more
+ * for other suns of the same clear skies. */
 void far_probe_ask_suns(FarProbe *probe, const FarTools *tools, Arena *arena);
 
 typedef struct FarReading {

@@ -85,7 +85,7 @@ static Reading reading_of(const Batch batches[BATCHES], int paths, double known)
         reading.bright.fourths += batches[i].bright.fourths;
     }
     if (!(found > 0)) return reading;
-    MeanInterval interval = batch_interval(&sums, CONFIDENCE_MISS);
+    MeanInterval interval = batch_interval(&sums);
     double   share = found / (double)reading.paths;
     reading.found_share = share;
     reading.reflected = sums.sum / BATCHES / share;

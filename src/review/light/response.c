@@ -302,7 +302,7 @@ MeanInterval response_interval(const Response *response, double reading,
     for (int k = 0; k < groups; k++)
         batch_add(&values, groups * reading - (groups - 1) * without[k]);
     double       off = reading - values.sum / groups;
-    MeanInterval in = batch_interval(&values, CONFIDENCE_MISS);
+    MeanInterval in = batch_interval(&values);
     return (MeanInterval){in.low + off, in.high + off};
 }
 

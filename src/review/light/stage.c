@@ -170,17 +170,18 @@ static void set_levels(Stage *stage, const ReviewLevel *level)
     }
 }
 
+/* Fixed levels are known before the light is; those of a curve only from its sensor. */
 bool stage_light(Stage *stage, const Environment *environment, Arena *arena, Error *err)
 {
     const ReviewCondition *condition = stage->condition;
     bool has_level = condition && condition->level_id != NO_ID;
     const ReviewLevel *level =
         has_level ? &stage->request->levels[condition->level_id] : NULL;
+    bool is_curve = level && level->is_curve;
     if (environment) stage->scene->environment = *environment;
-    if (!make_context(stage, arena, err)) return false;
-    if (!level && !stage->request->change) return true;
-    if (level && level->is_curve) read_sensor(stage, level, *arena);
-    set_levels(stage, level);
+    if (is_curve && !make_context(stage, arena, err)) return false;
+    if (is_curve) read_sensor(stage, level, *arena);
+    if (level || stage->request->change) set_levels(stage, level);
     return make_context(stage, arena, err);
 }
 

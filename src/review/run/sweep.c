@@ -478,7 +478,7 @@ static bool sweep_condition(Sweep *sweep, Arena scratch, Arena *arena, ReviewOut
     sweep->sensor =
         has_level && sweep->level->is_curve ? &sweep->sensors[condition->level_id] : NULL;
     if (!make_skies(sweep, &scratch, err)) return false;
-    sweep_ask_meters(sweep, &scratch);
+    sweep_ask_light(sweep, &scratch);
     FarTools   tools = sweep_tools(sweep);
     SweepSuns *suns = ARENA_NEW(arena, SweepSuns, 1);
     *suns = sweep->suns;

@@ -153,21 +153,37 @@ FarTools sweep_tools(const Sweep *sweep)
                       .sun_paths = SUN_PATHS, .has_mirror = true};
 }
 
-void sweep_ask_meters(Sweep *sweep, Arena *arena)
+static void ask_skies(Sweep *sweep, const FarTools *tools, Arena *arena)
+{
+    int        most = sweep->symbol_count + 1 + sweep->sight_count, count = 0;
+    FarProbe **probes = ARENA_NEW(arena, FarProbe *, most);
+    for (int i = 0; i < sweep->symbol_count; i++)
+        if (!sweep->faces[i].is_left) probes[count++] = &sweep->faces[i].probe;
+    if (sweep->sensor) probes[count++] = &sweep->sensor->probe;
+    for (int i = 0; i < sweep->sight_count; i++) {
+        Sight *sight = &sweep->sights[i];
+        if (!sight->is_left && sight->probe.aim.target_count) probes[count++] = &sight->probe;
+    }
+    far_probes_ask_skies(probes, count, tools, arena);
+}
+
+void sweep_ask_light(Sweep *sweep, Arena *arena)
 {
     FarTools tools = sweep_tools(sweep);
+    ask_skies(sweep, &tools, arena);
     tools.has_mirror = false;
     tools.sun_paths = METER_SUN_PATHS;
     for (int i = 0; i < sweep->symbol_count; i++)
-        if (!sweep->faces[i].is_left) far_probe_ask(&sweep->faces[i].probe, &tools, arena);
-    if (sweep->sensor) far_probe_ask(&sweep->sensor->probe, &tools, arena);
+        if (!sweep->faces[i].is_left)
+            far_probe_ask_suns(&sweep->faces[i].probe, &tools, arena);
+    if (sweep->sensor) far_probe_ask_suns(&sweep->sensor->probe, &tools, arena);
 }
 
 Sight sweep_ask_sight(const Sweep *sweep, const Sight *sight, Arena *arena)
 {
     FarTools tools = sweep_tools(sweep);
     Sight    asked = *sight;
-    if (asked.probe.aim.target_count) far_probe_ask(&asked.probe, &tools, arena);
+    if (asked.probe.aim.target_count) far_probe_ask_suns(&asked.probe, &tools, arena);
     return asked;
 }
 

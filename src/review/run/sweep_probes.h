@@ -60,8 +60,8 @@ bool sweep_place_probes(Sweep *sweep, Arena *arena, Error *err);
 /* The same with all responses, in the dark but for the scene's own light. */
 bool sweep_make_probes(Sweep *sweep, Arena *arena, Error *err);
 
-/* The meters, for the suns of a condition. */
-void sweep_ask_meters(Sweep *sweep, Arena *arena);
+/* Everything for the skies of a condition, and the meters for its suns. */
+void sweep_ask_light(Sweep *sweep, Arena *arena);
 
 /* One sight, for these suns: some 150 bytes a sun, so that they are asked one by one. */
 Sight sweep_ask_sight(const Sweep *sweep, const Sight *sight, Arena *arena);

@@ -3,11 +3,11 @@
 
 #include <math.h>
 
+#include "base/confidence.h"
 #include "review/judge.h"
 #include "review/output/review_decide.h"
 #include "review/run/run.h"
 
-#define T_31 2.039513 /* Student's t for 95 % with CASE_BATCHES - 1 degrees of freedom */
 #define JUDGE_BYTES ((size_t)1 << 20)
 
 /* ---- differences ------------------------------------------------------------------------- */
@@ -44,7 +44,8 @@ static void set_difference(const Profile *profile, ReviewDifference *of, Arena s
         mean += each[i] / CASE_BATCHES;
     }
     for (int i = 0; i < CASE_BATCHES; i++) squares += (each[i] - mean) * (each[i] - mean);
-    double half = T_31 * sqrt(squares * (CASE_BATCHES - 1) / CASE_BATCHES);
+    double error = sqrt(squares * (CASE_BATCHES - 1) / CASE_BATCHES);
+    double half = student_quantile(CASE_BATCHES - 1) * error;
     of->margin_range = (Range){of->margin - half, of->margin + half};
 }
 
