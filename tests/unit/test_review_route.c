@@ -4,7 +4,7 @@
 #include "fixture.h"
 
 #include "review/request/level.h"
-#include "review/request/route.h"
+#include "review/route/route.h"
 
 static bool read_route(const char *text, Arena *arena, Route *out, Error *err)
 {

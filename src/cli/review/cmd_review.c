@@ -21,13 +21,16 @@
 #include "review/request/request_start.h"
 #include "review/request/request_read.h"
 #include "review/run/run.h"
-#include "review/run/variants.h"
+#include "review/vary/mend.h"
+#include "review/vary/sensitivity.h"
+#include "review/vary/variants.h"
 #include "scene/load/scene_load.h"
 #include "text/interval_text.h"
+#include "text/nearest_word.h"
 
 typedef struct ReviewWords {
     ShareRequest share;
-    const char *folder, *profile, *root, *isa, *diff, *init, *responses;
+    const char *folder, *profile, *root, *isa, *diff, *init, *responses, *mend;
     bool        is_strict, dry_run, decides, is_self_contained;
     StateWords  state_words;
     SceneState  state;
@@ -53,6 +56,9 @@ static bool parse(int argc, char **argv, Arena *arena, ReviewWords *out, Error *
         {"--self-contained", OPTION_FLAG, NULL,
          "pictures in the page itself, not in files beside it: to send it by mail",
          &out->is_self_contained},
+        {"--mend", OPTION_TEXT, "NAME",
+         "the smallest change of that parameter of \"sensitivity\" that makes all pass",
+         &out->mend},
         {"--diff", OPTION_TEXT, "DIR", "an earlier review to hold this one against",
          &out->diff},
         {"--responses", OPTION_TEXT, "DIR",
@@ -131,6 +137,24 @@ static void print_gaze(const GazeFinding *g, Arena scratch)
            review_gaze_mirrored(g, &scratch), review_gaze_veil(g, &scratch));
 }
 
+/* Its least margin beside the review's own, in percent of the limit. */
+static void print_variant(const ReviewVariantFound *v)
+{
+    const ReviewDifference *d = &v->worst;
+    printf("%-11s variant %s", verdict_names[review_verdict(v->review)], v->name);
+    if (d->after)
+        printf(": least margin %+.3g %%, %+.2g %% (%+.2g to %+.2g) from the review's: %s, %s, "
+               "%s", 100 * d->after->margin, 100 * d->margin, 100 * d->margin_range.low,
+               100 * d->margin_range.high, d->after->condition, d->after->eye,
+               d->after->symbol);
+    putchar('\n');
+}
+
+static void print_mend(const ReviewMend *m, Arena *scratch)
+{
+    printf("%-11s %s\n", m->is_found ? "mended" : "not mended", words_mend(m, scratch));
+}
+
 static void print_review(const Review *review, Arena scratch)
 {
     for (int i = 0; i < review->case_count; i++) print_case(&review->cases[i], scratch);
@@ -142,6 +166,8 @@ static void print_review(const Review *review, Arena scratch)
                "case %.3g %% came by way of them\n", "no data", review->without_data_count,
                review->without_data_count == 1 ? "" : "s", review->without_data,
                worst ? 100 * worst->without_data_share : 0);
+    for (int i = 0; i < review->variant_count; i++) print_variant(&review->variants[i]);
+    for (int i = 0; i < review->mend_count; i++) print_mend(&review->mends[i], &scratch);
     static const char *const LAST[4] = {"pass", "FAIL", "too close to call", "not visible"};
     printf("%s\n", LAST[review_verdict(review)]);
 }
@@ -192,7 +218,8 @@ static bool plan(const ReviewWords *words, ReviewFolder *folder, ReviewRun *run,
     if (folder->target || folder->responses) review_folder_responses(folder, arena);
     run->responses = folder->responses;
     run->responses_shown = "";
-    if (!review_plan(run, arena, &found, err)) return false;
+    if (!review_plan(run, arena, &found, err) || !review_variants_check(run, err))
+        return false;
     cli_print_warnings(run->problems);
     if (!print_plan(&words->cli, run->request, &found, err)) return false;
     if (folder->target && !words->cli.json) print_unfinished(folder, arena);
@@ -238,6 +265,21 @@ static void tell_kept(const ReviewFolder *folder, Error *err)
                  "%.900s — what is done is kept: the same command goes on", before.text);
 }
 
+/* What if, each told as soon as it is known. */
+static bool make_varied(ReviewRun *run, ReviewFolder *folder, ReviewOutcome *outcome,
+                        Arena *arena, Error *err)
+{
+    const ReviewRequest *request = run->request;
+    return (request->variant_count == 0 ||
+            (review_variants(run, outcome, arena, err) &&
+             review_folder_write(folder, outcome, arena, err))) &&
+           (request->parameter_count == 0 ||
+            (review_sensitivities(run, outcome, arena, err) &&
+             review_folder_write(folder, outcome, arena, err))) &&
+           (!folder->mend || (review_mend(run, folder->mend, outcome, arena, err) &&
+                              review_folder_write(folder, outcome, arena, err)));
+}
+
 /* Frames take long: all else is safe before, and names them after. */
 static bool make_all(ReviewRun *run, ReviewFolder *folder, ReviewOutcome *outcome, Arena *arena,
                      Error *err)
@@ -248,9 +290,7 @@ static bool make_all(ReviewRun *run, ReviewFolder *folder, ReviewOutcome *outcom
     outcome->review.is_strict = folder->is_strict;
     review_decide(&outcome->review);
     return review_folder_write(folder, outcome, arena, err) &&
-           (run->request->variant_count == 0 ||
-            (review_variants(run, outcome, arena, err) &&
-             review_folder_write(folder, outcome, arena, err))) &&
+           make_varied(run, folder, outcome, arena, err) &&
            (run->request->frames.worst == 0 ||
             (review_frames(run, outcome, arena, err) &&
              review_folder_write(folder, outcome, arena, err)));
@@ -271,7 +311,9 @@ static bool make(const ReviewWords *words, ReviewFolder *folder, ReviewRun *run,
 {
     ReviewOutcome outcome;
     signals_watch();
-    if (!review_folder_open(folder, arena, run->problems, err)) return false;
+    if (!review_variants_check(run, err) ||
+        !review_folder_open(folder, arena, run->problems, err))
+        return false;
     run->folder = folder->name;
     run->unfinished = folder->draft.unfinished;
     run->responses = folder->responses;
@@ -291,6 +333,24 @@ static bool make(const ReviewWords *words, ReviewFolder *folder, ReviewRun *run,
     return false;
 }
 
+static bool find_parameter(const ReviewRequest *request, const char *name, Arena scratch,
+                           const ReviewParameter **out, Error *err)
+{
+    char         advice[320];
+    int          count = request->parameter_count;
+    const char **names = ARENA_NEW(&scratch, const char *, count + 1);
+    for (int i = 0; i < count; i++) {
+        *out = &request->parameters[i];
+        names[i] = request->parameters[i].name;
+        if (!strcmp(names[i], name)) return true;
+    }
+    if (!count)
+        return error_set(err, ERROR_USAGE, "--mend %.100s: %.200s has no \"sensitivity\", "
+                         "whose parameters could be turned", name, request->file);
+    return error_set(err, ERROR_USAGE, "--mend %.100s: is no parameter of \"sensitivity\": %s",
+                     name, nearest_word_advice(name, names, count, advice, sizeof advice));
+}
+
 static bool review(const ReviewWords *words, Arena *arena, Error *err)
 {
     const char    *file = words->cli.arguments[0];
@@ -307,6 +367,8 @@ static bool review(const ReviewWords *words, Arena *arena, Error *err)
     if (!profile_load(words->profile ? words->profile : request.profile, arena, &profile, err))
         return words->profile ? false : error_in_file(err, request.file);
     request.decides = words->decides;
+    if (words->mend && !find_parameter(&request, words->mend, *arena, &folder.mend, err))
+        return false;
     if (!review_check(&request, *arena, err)) return false;
     ReviewRun run = {.request = &request, .profile = profile, .root = words->root,
                      .state = words->state,

@@ -212,9 +212,12 @@ const char *review_folder_command(const ReviewFolder *folder, Arena *arena)
     const char *responses = folder->has_own_responses
                                 ? ""
                                 : arena_format(arena, " --responses %s", folder->responses);
-    return arena_format(arena, "parhelion review %s -o %s%s%s%s%s%s%s%s", folder->request->file,
+    const char *mend =
+        folder->mend ? arena_format(arena, " --mend '%s'", folder->mend->name) : "";
+    return arena_format(arena, "parhelion review %s -o %s%s%s%s%s%s%s%s%s",
+                        folder->request->file,
                         folder->target, profile, root, state, diff, responses,
-                        folder->is_strict ? " --strict" : "",
+                        mend, folder->is_strict ? " --strict" : "",
                         folder->is_self_contained ? " --self-contained" : "");
 }
 

@@ -18,6 +18,7 @@ typedef struct ReviewFolder {
     const char          *target; /* as on the command line */
     const ReviewRequest *request;
     const char          *diff; /* folder of an earlier review; NULL: none */
+    const ReviewParameter *mend; /* --mend's; NULL: none */
     const char          *profile, *root; /* as on the command line; NULL: not given */
     SceneState           state;          /* the same */
     const char          *responses; /* the same, then where they are */

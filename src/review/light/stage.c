@@ -98,16 +98,29 @@ static void identify(Stage *stage, const SceneOptions *options, Arena *arena)
     stage->tools.base = journal_key(all.data);
 }
 
-bool stage_open(const StageOptions *options, Arena *arena, Problems *problems, Stage *out,
-                Error *err)
+static SceneOptions scene_options(const StageOptions *options, Arena *arena)
 {
     SceneOptions scene = {.root = options->root, .state = options->state};
-    *out = (Stage){.request = options->request, .condition = options->condition,
-                   .tools = {.threads = options->threads, .journal = options->journal},
-                   .sensor_lux = (double)NAN, .lessons = options->lessons};
     scene.paths = all_paths(options, &scene.path_count, arena);
     scene.contents = all_contents(options, &scene.content_count, arena);
     set_change(options->request->change, &scene);
+    return scene;
+}
+
+bool stage_scene(const StageOptions *options, Arena *arena, Problems *problems, Scene **out,
+                 Error *err)
+{
+    SceneOptions scene = scene_options(options, arena);
+    return scene_load(&scene, arena, problems, out, err);
+}
+
+bool stage_open(const StageOptions *options, Arena *arena, Problems *problems, Stage *out,
+                Error *err)
+{
+    SceneOptions scene = scene_options(options, arena);
+    *out = (Stage){.request = options->request, .condition = options->condition,
+                   .tools = {.threads = options->threads, .journal = options->journal},
+                   .sensor_lux = (double)NAN, .lessons = options->lessons};
     if (!kernel_choose(options->isa, &out->tools.kernel, err)) return false;
     if (!scene_load(&scene, arena, problems, &out->scene, err)) return false;
     if (!bvh_create(out->scene, options->threads, options->isa, &out->bvh, err)) {

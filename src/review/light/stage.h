@@ -45,6 +45,10 @@ typedef struct StageOptions {
 bool stage_open(const StageOptions *options, Arena *arena, Problems *problems, Stage *out,
                 Error *err);
 
+/* Its scene alone, to be checked; scene_close closes it. */
+bool stage_scene(const StageOptions *options, Arena *arena, Problems *problems, Scene **out,
+                 Error *err);
+
 /* Lights it: the environment, then the levels, which may follow the light on a sensor. */
 bool stage_light(Stage *stage, const Environment *environment, Arena *arena, Error *err);
 

@@ -304,6 +304,60 @@ static json_t *variants_json(const Review *review)
     return list;
 }
 
+static json_t *slope_json(const ReviewSlope *slope)
+{
+    const ReviewCase *c = slope->of;
+    return json_pack("{s:o, s:o, s:o, s:o, s:o, s:o}", "condition", text(c->condition), "eye",
+                     text(c->eye), "symbol", text(c->symbol), "margin", json_figure(c->margin),
+                     "margin_per_unit", json_figure(slope->slope), "interval",
+                     pair(slope->range.low, slope->range.high));
+}
+
+static json_t *sensitivities_json(const Review *review)
+{
+    json_t *list = json_array();
+    for (int i = 0; i < review->sensitivity_count; i++) {
+        const ReviewSensitivity *s = &review->sensitivities[i];
+        json_t *slopes = json_array();
+        for (int k = 0; k < s->slope_count; k++)
+            json_array_append_new(slopes, slope_json(&s->slopes[k]));
+        json_array_append_new(
+            list, json_pack("{s:o, s:o, s:o, s:o, s:o, s:o}", "name", text(s->name), "unit",
+                            text(s->unit), "at", json_figure(s->at), "step",
+                            json_figure(s->step), "compared", pair(s->low, s->high), "symbols",
+                            slopes));
+    }
+    return list;
+}
+
+static json_t *trials_json(const ReviewMend *mend)
+{
+    json_t *list = json_array();
+    for (int i = 0; i < mend->trial_count; i++) {
+        const ReviewTrial *t = &mend->trials[i];
+        json_array_append_new(list, json_pack("{s:o, s:s, s:o, s:o, s:b}", "value",
+                                              json_figure(t->value), "verdict",
+                                              verdict_names[t->verdict], "least_margin",
+                                              json_figure(t->margin), "of", text(t->worst),
+                                              "fresh", t->is_fresh));
+    }
+    return list;
+}
+
+static json_t *mends_json(const Review *review)
+{
+    json_t *list = json_array();
+    for (int i = 0; i < review->mend_count; i++) {
+        const ReviewMend *m = &review->mends[i];
+        json_array_append_new(
+            list, json_pack("{s:o, s:o, s:o, s:b, s:o, s:o, s:o}", "name", text(m->name),
+                            "unit", text(m->unit), "at", json_figure(m->at), "found",
+                            m->is_found, "value", json_figure(m->value), "outside",
+                            json_figure(m->outside), "trials", trials_json(m)));
+    }
+    return list;
+}
+
 json_t *review_json(const Review *review)
 {
     json_t *out = json_pack("{s:b, s:s, s:b, s:o, s:o}", "pass", review->pass, "verdict",
@@ -315,6 +369,8 @@ json_t *review_json(const Review *review)
     set(out, "gazes", gazes_json(review));
     set(out, "false_suns", false_suns_json(review));
     if (review->variant_count) set(out, "variants", variants_json(review));
+    if (review->sensitivity_count) set(out, "sensitivity", sensitivities_json(review));
+    if (review->mend_count) set(out, "mends", mends_json(review));
     set(out, "responses", responses_json(review));
     set(out, "without_data", text(review->without_data));
     set(out, "notes", json_texts(review->notes, review->note_count));

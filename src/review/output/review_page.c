@@ -9,6 +9,7 @@
 #include "review/output/review_false_suns.h"
 #include "review/output/review_gaze.h"
 #include "review/output/review_table.h"
+#include "review/output/review_variants.h"
 #include "review/output/review_words.h"
 #include "text/escape.h"
 
@@ -306,6 +307,7 @@ static bool add_page(Text *html, const ReviewPage *page, Arena *arena, Error *er
 {
     if (!add_head(html, page, arena, err)) return false;
     add_diff(html, page, arena);
+    review_variants_add(html, page->review, arena);
     if (!add_sweeps(html, page, arena, err)) return false;
     add_verdicts(html, page, arena);
     if (!add_cases(html, page, arena, err)) return false;

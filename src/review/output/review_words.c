@@ -265,3 +265,29 @@ const char *words_without_data(const Review *review, const ReviewCase *c, Arena 
                         words_share(c->without_data_share, arena), count,
                         count == 1 ? "" : "s", review->without_data);
 }
+
+/* Of the trials the one at a value; fresh paths' word goes before. */
+static const ReviewTrial *trial_at(const ReviewMend *mend, double value)
+{
+    const ReviewTrial *found = NULL;
+    for (int i = 0; i < mend->trial_count; i++)
+        if (mend->trials[i].value == value) found = &mend->trials[i];
+    return found;
+}
+
+const char *words_mend(const ReviewMend *m, Arena *arena)
+{
+    const ReviewTrial *at = trial_at(m, m->value);
+    const char *margin = at ? words_margin(at->margin, arena) : "–";
+    if (!m->is_found)
+        return arena_format(arena, "%s: no value that was tried makes everything pass; nearest "
+                            "came %.3g %s: least margin %s%s%s", m->name, m->value, m->unit,
+                            margin, at && at->worst ? ", " : "",
+                            at && at->worst ? at->worst : "");
+    if (isnan(m->outside))
+        return arena_format(arena, "%s: everything passes as it stands, at %.3g %s", m->name,
+                            m->value, m->unit);
+    return arena_format(arena, "%s: with %.3g %s instead of %.3g everything passes, its least "
+                        "margin %s; with %.3g something does not", m->name, m->value, m->unit,
+                        m->at, margin, m->outside);
+}

@@ -86,6 +86,7 @@ ReviewRequest review_request_variant(const ReviewRequest *request, const ReviewV
     ReviewRequest of = *request;
     of.variants = NULL;
     of.variant_count = 0;
+    of.parameter_count = 0;
     of.change = &variant->change;
     if (variant->level_count) set_levels(&of, variant, arena);
     set_scenes(&of, variant, arena);

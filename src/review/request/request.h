@@ -13,7 +13,7 @@
  */
 #pragma once
 #include "review/request/level.h"
-#include "review/request/route.h"
+#include "review/route/route.h"
 #include "scene/scene.h"
 #include "sky/epw.h"
 #include "sky/weather_clock.h"
@@ -164,6 +164,35 @@ typedef struct ReviewVariant {
     double     (*eye_moves)[3]; /* m, one an eye */
 } ReviewVariant;
 
+/* One number that may be turned: how verdicts hang on it, and where all of them pass. */
+typedef enum ReviewParameterKind {
+    PARAMETER_TILT,        /* degrees, of a node (scene/change/node_change.h) */
+    PARAMETER_TURN,
+    PARAMETER_ROLL,
+    PARAMETER_SHIFT,       /* m along `direction`, of a node */
+    PARAMETER_HOOD,        /* m, over a display */
+    PARAMETER_EYE,         /* m along `direction`, of an eye */
+    PARAMETER_BRIGHTNESS,  /* times as bright as it stands, of a display or "*" */
+    PARAMETER_REFLECTANCE, /* 0..BARE_REFLECTANCE of a material's coating: a quarter wave at 550
+                              nm on glass of index 1.52, of the index that leaves so much */
+    PARAMETER_KINDS
+} ReviewParameterKind;
+
+typedef struct ReviewParameter {
+    const char  *name;
+    ReviewParameterKind kind;
+    const char  *target;     /* a node, display, eye or material */
+    const char **with;       /* nodes that move along */
+    int          with_count;
+    double       direction[3]; /* unit */
+    double       at;         /* where it stands now: 0; brightness 1; reflectance as said */
+    double       step;       /* of the slope, above 0 */
+    double       low, high;  /* what may be tried */
+    const char  *place;      /* JSON path */
+} ReviewParameter;
+
+#define BARE_REFLECTANCE 0.0425 /* of glass of index 1.52 at the normal, just below */
+
 /* Where a display's surface is: all parts of its material, or those of one node. */
 typedef struct ReviewDisplay {
     int        display_id;
@@ -217,6 +246,8 @@ typedef struct ReviewRequest {
     ReviewFrames     frames;
     ReviewVariant   *variants;
     int              variant_count;
+    ReviewParameter *parameters; /* of "sensitivity" */
+    int              parameter_count;
     const ReviewChange *change;  /* of the variant that this is; NULL: the review itself */
     ReviewInput     *inputs;     /* the file itself, routes, weathers, skies' pictures */
     int              input_count;

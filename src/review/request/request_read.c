@@ -10,6 +10,7 @@
 #include "review/request/request_conditions.h"
 #include "review/request/request_eyes.h"
 #include "review/request/request_levels.h"
+#include "review/request/request_parameters.h"
 #include "review/request/request_symbols.h"
 #include "review/request/request_variants.h"
 #include "tinygltf/gltf_json.h"
@@ -20,7 +21,7 @@
 static const char *const KEYS[] = {"title",  "scene",     "eyes",       "forward",
                                    "gaze",   "observer",  "with",       "symbols",
                                    "levels", "profile",   "conditions", "precision",
-                                   "frames", "variants"};
+                                   "frames", "variants",   "sensitivity"};
 
 static bool read_title(RequestReading *reading, Error *err)
 {
@@ -100,7 +101,8 @@ static bool read_all(RequestReading *reading, Error *err)
            request_eyes_read(reading, err) && request_withs_read(reading, err) &&
            request_symbols_read(reading, err) && request_levels_read(reading, err) &&
            read_precision(reading, err) && read_frames(reading, err) &&
-           request_conditions_read(reading, err) && request_variants_read(reading, err);
+           request_conditions_read(reading, err) && request_variants_read(reading, err) &&
+           request_parameters_read(reading, err);
 }
 
 bool review_request_read(const char *file, const char *root, Arena *arena, Problems *problems,

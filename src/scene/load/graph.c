@@ -237,6 +237,15 @@ static void add_mesh(GltfFile *file, const GltfValue *node, const Transform *wor
                             &primitives->items[i]);
 }
 
+/* For whoever asks for a node by its name. */
+static void note_name(GltfFile *file, const GltfValue *node)
+{
+    Loader     *load = file->load;
+    const char *name = tree_text(node, "name", "");
+    if (name[0] && (load->options->light_count || load->options->change_count))
+        *(const char **)list_add(&load->node_names, &load->scratch) = kept_text(file, name);
+}
+
 static void build_environment(GltfFile *file)
 {
     const GltfValue *scene =
@@ -275,6 +284,7 @@ void graph_build(GltfFile *file)
         for (int i = 0; i < order.count; i++) {
             const GltfValue *node = &nodes->items[order.nodes[i]];
             const Transform *world = &file->world_from_node[order.nodes[i]];
+            note_name(file, node);
             add_sights(file, node, world);
             add_mesh(file, node, world);
             load_progress_add(file->load, 1);

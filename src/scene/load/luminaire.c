@@ -112,7 +112,6 @@ static bool place_by_name(GltfFile *file, const GltfValue *node, const Transform
     const char *text = tree_text(node, "name", "");
     if (!o->light_count || !text[0]) return false;
     const char *name = arena_string(load->arena, text, strlen(text));
-    *(const char **)list_add(&load->node_names, &load->scratch) = name;
     for (int i = o->light_count; i-- > 0;) {
         if (strcmp(node_of(&o->lights[i]), name) != 0) continue;
         for (int k = 0; k <= i; k++)

@@ -6,6 +6,6 @@
  * Threads  no shared state. Fails: as route_points.h.
  */
 #pragma once
-#include "review/request/route_points.h"
+#include "review/route/route_points.h"
 
 bool route_csv_read(const char *text, RoutePoints *points, Error *err);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "review/request/route_csv.h"
+#include "review/route/route_csv.h"
 
 #include <stdio.h>
 #include <string.h>

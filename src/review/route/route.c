@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "review/request/route.h"
+#include "review/route/route.h"
 
 #include <math.h>
 #include <string.h>
@@ -7,8 +7,8 @@
 #include "base/file.h"
 #include "base/mathd.h"
 #include "base/units.h"
-#include "review/request/route_csv.h"
-#include "review/request/route_gpx.h"
+#include "review/route/route_csv.h"
+#include "review/route/route_gpx.h"
 
 #define EARTH_M 6371008.8 /* mean radius (IUGG) */
 #define STANDING_M 1.0

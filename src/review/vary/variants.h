@@ -17,9 +17,20 @@
 #pragma once
 #include "review/run/job.h"
 
+/* Before long work: the scenes of all variants and parameters are loaded, and what they name is
+ * looked for. */
+bool review_variants_check(const ReviewRun *run, Error *err);
+
 /* Of a review that is whole: sets outcome->review.variants. */
 bool review_variants(const ReviewRun *run, ReviewOutcome *outcome, Arena *arena, Error *err);
 
 /* A request that is another's but for a change, run for its verdicts, and held against that. */
 bool review_variant(const ReviewRun *run, const ReviewVariant *variant, const Review *base,
                     Arena *arena, ReviewVariantFound *out, Error *err);
+
+/* The margin of one case less that of another. */
+ReviewDifference review_difference(const Profile *profile, const ReviewCase *before,
+                                   const ReviewCase *after);
+
+/* The case or sweep's worst with the least margin of contrast; NULL: none has one. */
+const ReviewCase *review_least_margin(const Review *review);

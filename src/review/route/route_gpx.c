@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "review/request/route_gpx.h"
+#include "review/route/route_gpx.h"
 
 #include <libxml/parser.h>
 #include <libxml/tree.h>

@@ -13,7 +13,7 @@
  * Fails    ERROR_INPUT with file and line, what was found and what was wanted.
  */
 #pragma once
-#include "review/request/route_points.h"
+#include "review/route/route_points.h"
 
 typedef struct Route {
     const char *file;

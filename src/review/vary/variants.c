@@ -1,14 +1,19 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "review/run/variants.h"
+#include "review/vary/variants.h"
 
 #include <math.h>
 
 #include "base/confidence.h"
 #include "review/judge.h"
+#include "review/light/stage.h"
 #include "review/output/review_decide.h"
+#include "review/request/request_check.h"
+#include "review/request/request_parameters.h"
 #include "review/run/run.h"
+#include "scene/load/scene_load.h"
 
 #define JUDGE_BYTES ((size_t)1 << 20)
+#define SCENE_BYTES ((size_t)1 << 36) /* address space: what is not touched costs nothing */
 
 /* ---- differences ------------------------------------------------------------------------- */
 
@@ -49,16 +54,15 @@ static void set_difference(const Profile *profile, ReviewDifference *of, Arena s
     of->margin_range = (Range){of->margin - half, of->margin + half};
 }
 
-static ReviewDifference difference_of(const Profile *profile, const Review *base,
-                                      const Review *review, const ReviewCase *after,
-                                      Arena scratch)
+ReviewDifference review_difference(const Profile *profile, const ReviewCase *before,
+                                   const ReviewCase *after)
 {
-    ReviewDifference d = {.after = after, .before = review_case_like(base, after),
-                          .margin = (double)NAN, .margin_range = {(double)NAN, (double)NAN}};
-    d.sweep_after = review_sweep_of(review, after);
-    if (!d.before) return d;
-    d.sweep_before = review_sweep_of(base, d.before);
+    ReviewDifference d = {.before = before, .after = after, .margin = (double)NAN,
+                          .margin_range = {(double)NAN, (double)NAN}};
+    if (!before || !after) return d;
+    Arena scratch = arena_reserve(JUDGE_BYTES);
     set_difference(profile, &d, scratch);
+    arena_release(&scratch);
     return d;
 }
 
@@ -68,8 +72,7 @@ static void keep_least(const ReviewCase *c, const ReviewCase **least)
     if (!*least || c->margin < (*least)->margin) *least = c;
 }
 
-/* The case of the least margin; NULL: none has one. */
-static const ReviewCase *least_margin(const Review *review)
+const ReviewCase *review_least_margin(const Review *review)
 {
     const ReviewCase *least = NULL;
     for (int i = 0; i < review->case_count; i++) keep_least(&review->cases[i], &least);
@@ -77,27 +80,68 @@ static const ReviewCase *least_margin(const Review *review)
     return least;
 }
 
+static ReviewDifference sweeps_of(ReviewDifference d, const Review *base, const Review *review)
+{
+    if (d.before) d.sweep_before = review_sweep_of(base, d.before);
+    if (d.after) d.sweep_after = review_sweep_of(review, d.after);
+    return d;
+}
+
 static void compare(const Profile *profile, const Review *base, ReviewVariantFound *found,
                     Arena *arena)
 {
     const Review *review = found->review;
-    Arena         scratch = arena_reserve(JUDGE_BYTES);
     found->difference_count = review->case_count + review->sweep_count;
     found->differences = ARENA_NEW(arena, ReviewDifference, found->difference_count);
     for (int i = 0; i < found->difference_count; i++) {
         int               sweep = i - review->case_count;
         const ReviewCase *after =
             sweep < 0 ? &review->cases[i] : &review->sweeps[sweep].worst;
-        found->differences[i] = difference_of(profile, base, review, after, scratch);
+        ReviewDifference d =
+            review_difference(profile, review_case_like(base, after), after);
+        found->differences[i] = sweeps_of(d, base, review);
     }
-    found->worst = (ReviewDifference){least_margin(base), least_margin(review), NULL, NULL,
-                                      (double)NAN, {(double)NAN, (double)NAN}};
-    if (found->worst.before && found->worst.after) {
-        found->worst.sweep_before = review_sweep_of(base, found->worst.before);
-        found->worst.sweep_after = review_sweep_of(review, found->worst.after);
-        set_difference(profile, &found->worst, scratch);
+    ReviewDifference worst = review_difference(profile, review_least_margin(base),
+                                               review_least_margin(review));
+    found->worst = sweeps_of(worst, base, review);
+}
+
+/* ---- before all -------------------------------------------------------------------------- */
+
+static bool check_one(const ReviewRun *run, const ReviewVariant *variant, Error *err)
+{
+    Arena         scratch = arena_reserve(SCENE_BYTES);
+    Problems      problems = problems_start(&scratch); /* warnings are the review's own */
+    ReviewRequest request = review_request_variant(run->request, variant, &scratch);
+    StageOptions  options = {.request = &request, .root = run->root, .state = run->state,
+                             .threads = run->threads, .isa = run->isa};
+    Scene *scene;
+    bool   ok = stage_scene(&options, &scratch, &problems, &scene, err);
+    if (ok) {
+        ok = review_request_check(&request, scene, &problems) ||
+             problems_verdict(&problems, err);
+        scene_close(scene);
     }
     arena_release(&scratch);
+    return ok || error_prefix(err, "variant '%.100s'", variant->name);
+}
+
+bool review_variants_check(const ReviewRun *run, Error *err)
+{
+    const ReviewRequest *request = run->request;
+    for (int i = 0; i < request->variant_count; i++)
+        if (!check_one(run, &request->variants[i], err)) return false;
+    for (int i = 0; i < request->parameter_count; i++) {
+        const ReviewParameter *p = &request->parameters[i];
+        Arena         scratch = arena_reserve(JUDGE_BYTES);
+        double        value = p->at + p->step <= p->high ? p->at + p->step : p->low;
+        ReviewVariant variant = review_parameter_at(request, p, value, &scratch);
+        variant.name = p->name;
+        bool ok = check_one(run, &variant, err);
+        arena_release(&scratch);
+        if (!ok) return false;
+    }
+    return true;
 }
 
 /* ---- all of them ------------------------------------------------------------------------- */

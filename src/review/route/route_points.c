@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "review/request/route_points.h"
+#include "review/route/route_points.h"
 
 #include <math.h>
 #include <stdlib.h>

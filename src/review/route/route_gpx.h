@@ -7,6 +7,6 @@
  * Fails    as route_points.h; no network, no document type, no entities.
  */
 #pragma once
-#include "review/request/route_points.h"
+#include "review/route/route_points.h"
 
 bool route_gpx_read(const char *text, RoutePoints *points, Error *err);

@@ -1,0 +1,346 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "review/output/review_variants.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "page/page.h"
+#include "review/output/review_decide.h"
+#include "review/output/review_words.h"
+
+/* ---- the order --------------------------------------------------------------------------- */
+
+/* Of all sweeps, that fail most of their time; -1: there is none. */
+static double most_failed(const Review *review)
+{
+    double most = -1;
+    for (int i = 0; i < review->sweep_count; i++)
+        most = fmax(most, review->sweeps[i].failed_share);
+    return most;
+}
+
+static double least_margin(const ReviewVariantFound *v)
+{
+    return v->worst.after ? v->worst.after->margin : (double)INFINITY;
+}
+
+static int compare(const void *a, const void *b)
+{
+    const ReviewVariantFound *one = *(const ReviewVariantFound *const *)a;
+    const ReviewVariantFound *other = *(const ReviewVariantFound *const *)b;
+    int rank = verdict_rank(review_verdict(one->review)) -
+               verdict_rank(review_verdict(other->review));
+    if (rank) return rank;
+    double margins = least_margin(other) - least_margin(one);
+    if (margins != 0 && !isnan(margins)) return margins > 0 ? 1 : -1;
+    double failed = most_failed(one->review) - most_failed(other->review);
+    if (failed != 0) return failed > 0 ? 1 : -1;
+    return one < other ? -1 : 1; /* they lie in one list */
+}
+
+const ReviewVariantFound **review_variants_rank(const Review *review, Arena *arena)
+{
+    int count = review->variant_count;
+    const ReviewVariantFound **out = ARENA_NEW(arena, const ReviewVariantFound *, count);
+    for (int i = 0; i < count; i++) out[i] = &review->variants[i];
+    if (count > 0) qsort(out, (size_t)count, sizeof *out, compare);
+    return out;
+}
+
+/* ---- words ------------------------------------------------------------------------------- */
+
+/* In percent of the limit: "+20.8 ± 0.5 %"; what may be nothing says so. */
+static const char *difference_words(const ReviewDifference *d, Arena *arena)
+{
+    double half = 50 * (d->margin_range.high - d->margin_range.low);
+    double value = 100 * d->margin;
+    if (isnan(value)) return "–";
+    if (d->margin_range.low <= 0 && d->margin_range.high >= 0)
+        return half < 0.05 ? "none" : arena_format(arena, "none above %.2g %%", half);
+    return arena_format(arena, "%s%.*f ± %.2g %%", value < 0 ? "−" : "+",
+                        fabs(value) < 10 ? 1 : 0, fabs(value), half);
+}
+
+static const char *difference_class(const ReviewDifference *d)
+{
+    if (d->margin_range.low > 0) return "n good";
+    return d->margin_range.high < 0 ? "n bad" : "n";
+}
+
+static const char *changes_words(const ReviewVariantFound *v, Arena *arena)
+{
+    Text text = {.arena = arena};
+    for (int i = 0; i < v->word_count; i++)
+        text_format(&text, "%s%s", i ? "; " : "", v->words[i]);
+    return text.data ? text.data : "";
+}
+
+static const char *counts_words(const Review *review, Arena *arena)
+{
+    ReviewCounts counts = review_count(review);
+    int open = counts.of[VERDICT_TOO_CLOSE] + counts.of[VERDICT_NOT_VISIBLE];
+    if (!open) return arena_format(arena, "%d of %d", counts.of[VERDICT_FAIL], counts.total);
+    return arena_format(arena, "%d of %d, %d open", counts.of[VERDICT_FAIL], counts.total, open);
+}
+
+static const char *failed_words(const Review *review, Arena *arena)
+{
+    double most = most_failed(review);
+    return most < 0 ? "–" : most > 0 ? words_share(most, arena) : "never";
+}
+
+/* ---- the table of all -------------------------------------------------------------------- */
+
+static void add_verdict_cell(Text *html, const Review *review)
+{
+    Verdict verdict = review_verdict(review);
+    text_format(html, "<td><span class=\"chip %s\">%s</span></td>", words_class(verdict),
+                words_verdict(verdict));
+}
+
+static void add_name_cell(Text *html, const char *name, const char *below)
+{
+    text_add(html, "<td>");
+    page_element(html, "b", name);
+    page_element(html, "small", below);
+    text_add(html, "</td>");
+}
+
+static const char *worst_words(const ReviewCase *c, Arena *arena)
+{
+    return c ? words_case(c, arena) : "nothing has a limit of contrast";
+}
+
+static void add_base_row(Text *html, const Review *review, const ReviewCase *least,
+                         Arena *arena)
+{
+    page_row_begin(html, "same");
+    add_name_cell(html, "as it stands", "the review itself");
+    add_verdict_cell(html, review);
+    page_cell(html, "n", least ? words_margin(least->margin, arena) : "–");
+    page_cell(html, "n", "");
+    page_cell(html, "n", counts_words(review, arena));
+    page_cell(html, "n", failed_words(review, arena));
+    page_cell(html, "", worst_words(least, arena));
+    page_row_end(html);
+}
+
+static void add_row(Text *html, const ReviewVariantFound *v, Arena *arena)
+{
+    const ReviewCase *worst = v->worst.after;
+    page_row_begin(html, "");
+    add_name_cell(html, v->name, changes_words(v, arena));
+    add_verdict_cell(html, v->review);
+    page_cell(html, "n", worst ? words_margin(worst->margin, arena) : "–");
+    page_cell(html, difference_class(&v->worst), difference_words(&v->worst, arena));
+    page_cell(html, "n", counts_words(v->review, arena));
+    page_cell(html, "n", failed_words(v->review, arena));
+    page_cell(html, "", worst_words(worst, arena));
+    page_row_end(html);
+}
+
+static void add_table(Text *html, const Review *review, const ReviewVariantFound **ranked,
+                      Arena *arena)
+{
+    static const PageColumn COLUMNS[] = {
+        {"Variant", false, NULL}, {"Verdict", false, NULL},
+        {"Least margin", true, "the contrast that is nearest to its limit, or farthest below"},
+        {"Difference", true, "in percent of the limit, with its 95 % interval"},
+        {"Fail", true, "verdicts"}, {"Of the time", true, "the sweep that fails most"},
+        {"Where it is least", false, NULL}};
+    page_table_begin(html, "", "variants", COLUMNS, 7);
+    add_base_row(html, review, ranked[0]->worst.before, arena);
+    for (int i = 0; i < review->variant_count; i++) add_row(html, ranked[i], arena);
+    page_table_end(html);
+}
+
+/* ---- each by itself ---------------------------------------------------------------------- */
+
+static int compare_change(const void *a, const void *b)
+{
+    const ReviewDifference *one = *(const ReviewDifference *const *)a;
+    const ReviewDifference *other = *(const ReviewDifference *const *)b;
+    double x = isnan(one->margin) ? 0 : fabs(one->margin);
+    double y = isnan(other->margin) ? 0 : fabs(other->margin);
+    return x != y ? (x < y ? 1 : -1) : one < other ? -1 : 1;
+}
+
+static void add_difference(Text *html, const ReviewDifference *d, Arena *arena)
+{
+    const ReviewCase *c = d->after;
+    page_row_begin(html, "");
+    page_cell(html, "", words_case(c, arena));
+    text_format(html, "<td><span class=\"chip %s\">%s</span></td>", words_class(c->verdict),
+                words_verdict(c->verdict));
+    page_cell(html, "n", d->before ? words_margin(d->before->margin, arena) : "–");
+    page_cell(html, "n", words_margin(c->margin, arena));
+    page_cell(html, difference_class(d), difference_words(d, arena));
+    page_row_end(html);
+}
+
+/* Those that change most first. */
+static void add_variant(Text *html, const ReviewVariantFound *v, Arena *arena)
+{
+    static const PageColumn COLUMNS[] = {{"Case", false, NULL}, {"Verdict", false, NULL},
+                                         {"Margin before", true, NULL},
+                                         {"With the change", true, NULL},
+                                         {"Difference", true, NULL}};
+    const ReviewDifference **list =
+        ARENA_NEW(arena, const ReviewDifference *, v->difference_count);
+    for (int i = 0; i < v->difference_count; i++) list[i] = &v->differences[i];
+    if (v->difference_count > 0)
+        qsort(list, (size_t)v->difference_count, sizeof *list, compare_change);
+    page_more_begin(html, arena_format(arena, "%s, case by case: %d", v->name,
+                                       v->difference_count));
+    page_table_begin(html, "", "", COLUMNS, 5);
+    for (int i = 0; i < v->difference_count; i++) add_difference(html, list[i], arena);
+    page_table_end(html);
+    page_more_end(html);
+}
+
+static void add_variants(Text *html, const Review *review, Arena *arena)
+{
+    if (!review->variant_count) return;
+    const ReviewVariantFound **ranked = review_variants_rank(review, arena);
+    page_element(html, "p class=\"sub\"",
+                 "The same review with something changed, the best first. Both are traced by "
+                 "the same random numbers, so that a difference is known better than either "
+                 "margin.");
+    add_table(html, review, ranked, arena);
+    for (int i = 0; i < review->variant_count; i++) add_variant(html, ranked[i], arena);
+}
+
+/* ---- sensitivity ------------------------------------------------------------------------- */
+
+#define BAR_WIDTH 300
+#define BAR_HEIGHT 22
+#define SYMBOLS_TOLD 3
+
+/* Of one step, in percent of the limit. */
+static double effect(const ReviewSensitivity *s, const ReviewSlope *slope)
+{
+    return 100 * s->step * slope->slope;
+}
+
+static double greatest_effect(const Review *review)
+{
+    double most = 0;
+    for (int i = 0; i < review->sensitivity_count; i++)
+        for (int k = 0; k < review->sensitivities[i].slope_count; k++) {
+            const ReviewSensitivity *s = &review->sensitivities[i];
+            const ReviewSlope       *slope = &s->slopes[k];
+            if (isnan(slope->slope)) continue;
+            most = fmax(most, fabs(effect(s, slope)));
+        }
+    return most;
+}
+
+/* A bar to the right gains; the line in it is the interval. */
+static void add_effect_bar(Text *html, const ReviewSensitivity *s, const ReviewSlope *slope,
+                           double most)
+{
+    double scale = most > 0 ? 0.46 * BAR_WIDTH / most : 0, middle = 0.5 * BAR_WIDTH;
+    double value = effect(s, slope), x = scale * value;
+    double low = middle + scale * 100 * s->step * slope->range.low;
+    double high = middle + scale * 100 * s->step * slope->range.high;
+    text_format(html, "<td><svg class=\"margin\" width=\"%d\" height=\"%d\" role=\"img\" "
+                "aria-label=\"%+.2g percent of the limit by a step\">", BAR_WIDTH, BAR_HEIGHT,
+                value);
+    text_format(html, "<rect class=\"%s\" x=\"%.1f\" y=\"4\" width=\"%.1f\" height=\"14\"/>",
+                value < 0 ? "bad" : "good", x < 0 ? middle + x : middle, fabs(x));
+    text_format(html, "<path d=\"M%.1f 0V%d\"/><path class=\"whisker\" d=\"M%.1f 11H%.1f\"/>"
+                "</svg></td>", middle, BAR_HEIGHT, fmax(low, 0), fmin(high, BAR_WIDTH));
+}
+
+static void add_slope(Text *html, const ReviewSensitivity *s, int place, double most,
+                      Arena *arena)
+{
+    const ReviewSlope *slope = &s->slopes[place];
+    double half = 50 * (slope->range.high - slope->range.low);
+    page_row_begin(html, "");
+    page_cell(html, "", place ? "" : s->name);
+    page_cell(html, "", words_case(slope->of, arena));
+    page_cell(html, "n", words_margin(slope->of->margin, arena));
+    if (isnan(slope->slope)) {
+        page_cell(html, "n", "–");
+        page_cell(html, "", "");
+    } else {
+        page_cell_format(html, "n", "%+.3g ± %.2g %% a %s", 100 * slope->slope, half, s->unit);
+        add_effect_bar(html, s, slope, most);
+    }
+    page_row_end(html);
+}
+
+static int compare_parameters(const void *a, const void *b)
+{
+    const ReviewSensitivity *one = *(const ReviewSensitivity *const *)a;
+    const ReviewSensitivity *other = *(const ReviewSensitivity *const *)b;
+    double x = one->slope_count ? fabs(effect(one, &one->slopes[0])) : 0;
+    double y = other->slope_count ? fabs(effect(other, &other->slopes[0])) : 0;
+    if (isnan(x)) x = 0;
+    if (isnan(y)) y = 0;
+    return x != y ? (x < y ? 1 : -1) : one < other ? -1 : 1;
+}
+
+/* What moves the least margin most comes first. */
+static void add_sensitivities(Text *html, const Review *review, Arena *arena)
+{
+    static const PageColumn COLUMNS[] = {
+        {"Parameter", false, NULL}, {"Where its margin is least", false, NULL},
+        {"Margin", true, NULL}, {"Slope", true, "in percent of the limit, with its interval"},
+        {"One step", false, "what a step up does to the margin: right gains"}};
+    int count = review->sensitivity_count;
+    if (!count) return;
+    const ReviewSensitivity **list = ARENA_NEW(arena, const ReviewSensitivity *, count);
+    for (int i = 0; i < count; i++) list[i] = &review->sensitivities[i];
+    qsort(list, (size_t)count, sizeof *list, compare_parameters);
+    page_element(html, "h3", "What the margins hang on");
+    page_table_begin(html, "", "variants", COLUMNS, 5);
+    for (int i = 0; i < count; i++)
+        for (int k = 0; k < list[i]->slope_count && k < SYMBOLS_TOLD; k++)
+            add_slope(html, list[i], k, greatest_effect(review), arena);
+    page_table_end(html);
+}
+
+/* ---- what would mend it ------------------------------------------------------------------ */
+
+static void add_trials(Text *html, const ReviewMend *mend, Arena *arena)
+{
+    static const PageColumn COLUMNS[] = {{"Value", true, NULL}, {"Verdict", false, NULL},
+                                         {"Least margin", true, NULL}, {"Of", false, NULL},
+                                         {"Paths", false, NULL}};
+    page_more_begin(html, arena_format(arena, "What was tried: %d values", mend->trial_count));
+    page_table_begin(html, "", "", COLUMNS, 5);
+    for (int i = 0; i < mend->trial_count; i++) {
+        const ReviewTrial *t = &mend->trials[i];
+        page_row_begin(html, "");
+        page_cell_format(html, "n", "%.4g %s", t->value, mend->unit);
+        page_cell(html, "", words_verdict(t->verdict));
+        page_cell(html, "n", words_margin(t->margin, arena));
+        page_cell(html, "", t->worst ? t->worst : "–");
+        page_cell(html, "", t->is_fresh ? "fresh" : "the review's");
+        page_row_end(html);
+    }
+    page_table_end(html);
+    page_more_end(html);
+}
+
+static void add_mends(Text *html, const Review *review, Arena *arena)
+{
+    for (int i = 0; i < review->mend_count; i++) {
+        const ReviewMend *mend = &review->mends[i];
+        page_element(html, "h3", mend->is_found ? "The smallest change that mends it"
+                                                : "No change that mends it");
+        page_element(html, "p class=\"reason\"", words_mend(mend, arena));
+        add_trials(html, mend, arena);
+    }
+}
+
+void review_variants_add(Text *html, const Review *review, Arena *arena)
+{
+    if (!review->variant_count && !review->sensitivity_count && !review->mend_count) return;
+    page_element(html, "h2", "What if");
+    add_variants(html, review, arena);
+    add_sensitivities(html, review, arena);
+    add_mends(html, review, arena);
+}

@@ -1,0 +1,23 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* request_parameters.h -- the "sensitivity" of REVIEW.json: numbers that may be turned; and the
+ * variant that a value of one of them is.
+ *
+ * Units    as files have them: degrees, metres; times as bright; reflectance 0..1.
+ * Memory   the root view's arena; of a variant the one that is passed in.
+ * Threads  one at a time. Fails as request_read.h.
+ */
+#pragma once
+#include "review/request/request_reading.h"
+
+bool request_parameters_read(RequestReading *reading, Error *err);
+
+/* The review with the parameter at a value within its range. */
+ReviewVariant review_parameter_at(const ReviewRequest *request,
+                                  const ReviewParameter *parameter, double value, Arena *arena);
+
+/* "2.6 degrees", "31 mm", "1.21 times as bright", "1.1 %": a value of it, or a step. */
+const char *review_parameter_words(const ReviewParameter *parameter, double value,
+                                   Arena *arena);
+
+/* The unit of slopes: "degree", "mm", ...; and how many of the file's it is. */
+const char *review_parameter_unit(const ReviewParameter *parameter, double *scale);

@@ -1,0 +1,172 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "review/vary/mend.h"
+
+#include <math.h>
+
+#include "review/output/review_decide.h"
+#include "review/output/review_words.h"
+#include "review/request/request_parameters.h"
+#include "review/vary/variants.h"
+
+#define TRIALS_MOST 64
+#define FINE 8             /* parts of a step: a narrower gap is none */
+#define CONFIRMS 4         /* values that fresh paths are asked of */
+#define FRESH_SEED 0x20000000u
+
+typedef struct Mending {
+    const ReviewRun       *run;
+    const ReviewParameter *parameter;
+    const Review          *base;
+    Arena                 *arena;
+    double                 scale;
+    ReviewMend             out;
+} Mending;
+
+/* ---- one value --------------------------------------------------------------------------- */
+
+static void note(Mending *m, double value, const Review *review, bool is_fresh)
+{
+    const ReviewCase *least = review_least_margin(review);
+    m->out.trials[m->out.trial_count++] = (ReviewTrial){
+        m->scale * value, review_verdict(review), least ? least->margin : (double)NAN, is_fresh,
+        least ? words_case(least, m->arena) : NULL};
+}
+
+/* Does everything pass there? */
+static bool try_value(Mending *m, double value, bool is_fresh, bool *passes, Error *err)
+{
+    ReviewVariantFound found;
+    ReviewVariant variant =
+        review_parameter_at(m->run->request, m->parameter, value, m->arena);
+    ReviewRequest request = *m->run->request;
+    ReviewRun     run = *m->run;
+    request.seed += is_fresh ? FRESH_SEED : 0;
+    run.request = &request;
+    if (!review_variant(&run, &variant, m->base, m->arena, &found, err)) return false;
+    note(m, value, found.review, is_fresh);
+    *passes = review_verdict(found.review) == VERDICT_PASS;
+    return true;
+}
+
+/* ---- the search -------------------------------------------------------------------------- */
+
+/* A side of the search: how far it went without passing. */
+typedef struct Side {
+    double sign, last, reach; /* values as distances from where the parameter stands */
+} Side;
+
+/* Brightness is turned by factors, all else by lengths and angles. */
+static double value_at(const ReviewParameter *p, double sign, double distance)
+{
+    if (p->kind == PARAMETER_BRIGHTNESS) return p->at * pow(1 + distance, sign);
+    return p->at + sign * distance;
+}
+
+static double reach_of(const ReviewParameter *p, double sign)
+{
+    if (p->kind == PARAMETER_BRIGHTNESS)
+        return (sign > 0 ? p->high / p->at : p->at / p->low) - 1;
+    return sign > 0 ? p->high - p->at : p->at - p->low;
+}
+
+/* Ever larger steps to both sides; *side: the one that passes, NULL: none does. */
+static bool expand(Mending *m, Side sides[2], Side **side, double *found, Error *err)
+{
+    const ReviewParameter *p = m->parameter;
+    *side = NULL;
+    for (double step = p->step;; step *= 2) {
+        bool any = false;
+        for (int i = 0; i < 2; i++) {
+            double distance = fmin(step, sides[i].reach);
+            bool   passes;
+            if (!(distance > sides[i].last)) continue;
+            any = true;
+            if (!try_value(m, value_at(p, sides[i].sign, distance), false, &passes, err))
+                return false;
+            if (!passes) {
+                sides[i].last = distance;
+                continue;
+            }
+            *side = &sides[i];
+            *found = distance;
+            return true;
+        }
+        if (!any) return true;
+    }
+}
+
+static bool narrow(Mending *m, Side *side, double *found, Error *err)
+{
+    while (*found - side->last > fmax(m->parameter->step / FINE, 0.02 * *found)) {
+        double middle = 0.5 * (*found + side->last);
+        bool   passes;
+        if (!try_value(m, value_at(m->parameter, side->sign, middle), false, &passes, err))
+            return false;
+        if (passes) *found = middle;
+        else side->last = middle;
+    }
+    return true;
+}
+
+static bool confirm(Mending *m, Side *side, double found, Error *err)
+{
+    const ReviewParameter *p = m->parameter;
+    double gap = fmax(found - side->last, p->step / FINE);
+    for (int i = 0; i < CONFIRMS && !m->out.is_found; i++) {
+        double distance = fmin(found + i * gap, side->reach);
+        bool   passes;
+        m->out.value = m->scale * value_at(p, side->sign, distance);
+        if (!try_value(m, value_at(p, side->sign, distance), true, &passes, err)) return false;
+        if (!passes) side->last = distance;
+        m->out.is_found = passes;
+    }
+    m->out.outside = m->scale * value_at(p, side->sign, side->last);
+    return true;
+}
+
+/* Of all that were tried, where the least margin is greatest. */
+static void take_nearest(Mending *m)
+{
+    double best = -(double)INFINITY;
+    for (int i = 0; i < m->out.trial_count; i++) {
+        const ReviewTrial *trial = &m->out.trials[i];
+        if (!(trial->margin > best)) continue;
+        best = trial->margin;
+        m->out.value = trial->value;
+    }
+}
+
+static bool search(Mending *m, Error *err)
+{
+    const ReviewParameter *p = m->parameter;
+    Side   sides[2] = {{1, 0, reach_of(p, 1)}, {-1, 0, reach_of(p, -1)}};
+    Side  *side;
+    double found = 0;
+    note(m, p->at, m->base, false);
+    m->out.value = m->out.at;
+    m->out.outside = (double)NAN;
+    m->out.is_found = review_verdict(m->base) == VERDICT_PASS;
+    if (m->out.is_found) return true;
+    if (!expand(m, sides, &side, &found, err)) return false;
+    if (side) return narrow(m, side, &found, err) && confirm(m, side, found, err);
+    take_nearest(m);
+    m->out.outside = m->out.value;
+    return true;
+}
+
+bool review_mend(const ReviewRun *run, const ReviewParameter *parameter,
+                 ReviewOutcome *outcome, Arena *arena, Error *err)
+{
+    Review *review = &outcome->review;
+    Mending m = {.run = run, .parameter = parameter, .base = review, .arena = arena};
+    m.out = (ReviewMend){.name = parameter->name,
+                         .unit = review_parameter_unit(parameter, &m.scale),
+                         .trials = ARENA_NEW(arena, ReviewTrial, TRIALS_MOST)};
+    m.out.at = m.scale * parameter->at;
+    if (!search(&m, err)) return false;
+    ReviewMend *list = ARENA_NEW(arena, ReviewMend, review->mend_count + 1);
+    for (int i = 0; i < review->mend_count; i++) list[i] = review->mends[i];
+    list[review->mend_count++] = m.out;
+    review->mends = list;
+    return true;
+}
