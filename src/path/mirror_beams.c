@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "base/mathf.h"
+#include "base/parallel.h"
 #include "mirror/mirrors_build.h"
 #include "shaders/facets/microfacet.h"
 #include "spectrum/photometry.h"
@@ -18,13 +19,21 @@
 #define LEAST_EDGE_M 1e-4f
 #define LEAST_LX 1e-6f     /* of other light */
 
+/* Where a ray of the sun falls behind a mirror. */
+typedef struct Glint {
+    GlintPlace place;
+    float      lm;
+} Glint;
+
+/* What some of the rays find; another thread may follow others. */
 typedef struct Beams {
     const BeamTools *tools;
-    Arena           *arena;
+    Arena            arena;
     MirrorPair      *pairs;
     uint32_t         count, room;
-    BeamSide        *sides; /* as MirrorBeams's */
-    GlintMap         map;
+    Glint           *glints;
+    uint32_t         glint_count, glint_room;
+    const BeamSide  *sides; /* as MirrorBeams's */
 } Beams;
 
 /* One ray of the sun behind its mirror. */
@@ -49,10 +58,20 @@ static void add_pair(Beams *beams, MirrorPair pair)
         if (!mirrors_compare_pairs(&beams->pairs[i - 1], &pair)) return;
     if (beams->count == beams->room) {
         beams->room = beams->room ? 2 * beams->room : FIRST_ROOM;
-        beams->pairs = ARENA_GROW(beams->arena, MirrorPair, beams->pairs, beams->count,
+        beams->pairs = ARENA_GROW(&beams->arena, MirrorPair, beams->pairs, beams->count,
                                   beams->room);
     }
     beams->pairs[beams->count++] = pair;
+}
+
+static void add_glint(Beams *beams, Glint glint)
+{
+    if (beams->glint_count == beams->glint_room) {
+        beams->glint_room = beams->glint_room ? 2 * beams->glint_room : FIRST_ROOM;
+        beams->glints = ARENA_GROW(&beams->arena, Glint, beams->glints, beams->glint_count,
+                                   beams->glint_room);
+    }
+    beams->glints[beams->glint_count++] = glint;
 }
 
 /* What scatters into less than a rough mirror does finds the sun in it by itself. */
@@ -76,8 +95,7 @@ static void follow(Beams *beams, Beam beam)
             add_pair(beams, (MirrorPair){part_id, beam.is_rough, beam.triangle});
             const BeamSide *side =
                 &beams->sides[2 * part_id + (vec3_dot(point.ng, beam.ray.direction) > 0)];
-            GlintPlace place = {side->row, side->edge_m, point.position};
-            glint_map_add(&beams->map, &place, beam.lm, beams->arena);
+            add_glint(beams, (Glint){{side->row, side->edge_m, point.position}, beam.lm});
         }
         if (hit.triangle < scene->opaque_count) return;
         beam.ray.origin = ray_offset_origin(point.position, point.ng, beam.ray.direction);
@@ -164,22 +182,74 @@ static void send_rays(Beams *beams, Aim aim, double all_m2)
         sent += send_ray(beams, &aim, sampler_start(aim.alpha > 0, (int)aim.triangle, 0, k));
 }
 
-/* To what of each material is smooth, and to what is rough. */
-static void send_all_rays(Beams *beams)
+/* ---- all rays ---------------------------------------------------------------------------- */
+
+#define PIECES 64 /* of the rays; the same for any number of threads */
+#define PIECE_BYTES ((size_t)1 << 30) /* address space: what is not touched costs nothing */
+
+/* What of each material is smooth, then what is rough, triangle by triangle. */
+static Aim *list_aims(const Scene *scene, int *count, double *all_m2, Arena *arena)
 {
-    const Scene *scene = beams->tools->scene;
-    bool  *is_smooth_one = ARENA_NEW(beams->arena, bool, scene->material_count + 1);
-    double all_m2 = 0;
+    Arena scratch = *arena;
+    bool *is_smooth_one = ARENA_NEW(&scratch, bool, scene->material_count + 1);
     for (int i = 0; i < scene->material_count; i++)
         is_smooth_one[i] = mirrors_can_be(scene, &scene->materials[i]);
-    for (int pass = 0; pass < 2; pass++)
-        for (uint32_t i = 0; i < scene->triangle_count; i++) {
-            int   id = scene_part(scene, i)->material_id;
-            float alpha = mirrors_rough_alpha(&scene->materials[id]);
-            if (pass == 0 && (is_smooth_one[id] || alpha > 0)) all_m2 += area_m2(scene, i);
-            if (pass == 1 && is_smooth_one[id]) send_rays(beams, (Aim){i, 0, 0}, all_m2);
-            if (pass == 1 && alpha > 0) send_rays(beams, (Aim){i, alpha, 0}, all_m2);
-        }
+    Aim *aims = ARENA_NEW(&scratch, Aim, 2 * (size_t)scene->triangle_count);
+    *count = 0;
+    *all_m2 = 0;
+    for (uint32_t i = 0; i < scene->triangle_count; i++) {
+        int   id = scene_part(scene, i)->material_id;
+        float alpha = mirrors_rough_alpha(&scene->materials[id]);
+        if (is_smooth_one[id] || alpha > 0) *all_m2 += area_m2(scene, i);
+        if (is_smooth_one[id]) aims[(*count)++] = (Aim){i, 0, 0};
+        if (alpha > 0) aims[(*count)++] = (Aim){i, alpha, 0};
+    }
+    return arena_keep(arena, aims, (size_t)*count * sizeof *aims, _Alignof(Aim));
+}
+
+typedef struct RayWork {
+    Beams     *pieces;
+    const Aim *aims;
+    int        count;
+    double     all_m2;
+} RayWork;
+
+static void send_piece(void *user, int item, int worker)
+{
+    (void)worker;
+    const RayWork *work = user;
+    int first = (int)((int64_t)work->count * item / PIECES);
+    int end = (int)((int64_t)work->count * (item + 1) / PIECES);
+    for (int i = first; i < end; i++)
+        send_rays(&work->pieces[item], work->aims[i], work->all_m2);
+}
+
+/* The pieces one after the other: as one thread finds them. */
+static void join_pieces(const Beams *pieces, Beams *out, GlintMap *map, Arena *arena)
+{
+    for (int p = 0; p < PIECES; p++) out->count += pieces[p].count;
+    out->pairs = ARENA_NEW(arena, MirrorPair, out->count);
+    uint32_t count = 0;
+    for (int p = 0; p < PIECES; p++)
+        for (uint32_t i = 0; i < pieces[p].count; i++) out->pairs[count++] = pieces[p].pairs[i];
+    for (int p = 0; p < PIECES; p++)
+        for (uint32_t i = 0; i < pieces[p].glint_count; i++)
+            glint_map_add(map, &pieces[p].glints[i].place, pieces[p].glints[i].lm, arena);
+}
+
+static void send_all_rays(Beams *beams, GlintMap *map, Arena *arena)
+{
+    Beams   pieces[PIECES];
+    RayWork work = {.pieces = pieces};
+    Arena   scratch = arena_reserve(PIECE_BYTES);
+    work.aims = list_aims(beams->tools->scene, &work.count, &work.all_m2, &scratch);
+    for (int p = 0; p < PIECES; p++)
+        pieces[p] = (Beams){.tools = beams->tools, .sides = beams->sides,
+                            .arena = arena_reserve(PIECE_BYTES)};
+    parallel_for(bvh_threads(beams->tools->bvh), PIECES, send_piece, &work);
+    join_pieces(pieces, beams, map, arena);
+    for (int p = 0; p < PIECES; p++) arena_release(&pieces[p].arena);
+    arena_release(&scratch);
 }
 
 /* The longest edge of the box about a part. */
@@ -212,15 +282,15 @@ static void measure_sides(const Scene *scene, BeamSide *sides)
  * times its time: the least of both together has q along c over the root of the time, and the
  * time grows about as the root of the mirrors asked. Measured over views of both cockpits the
  * root of c does better than c, which is known by a few rays. */
-static void weigh_sides(const Beams *beams, const LightSelection *selection)
+static void weigh_sides(const Beams *beams, const LightSelection *selection, BeamSide *sides,
+                        Arena scratch)
 {
     const Scene *scene = beams->tools->scene;
-    Arena     scratch = *beams->arena;
     uint32_t *mirrors = ARENA_NEW(&scratch, uint32_t, scene->part_count + 1);
     for (uint32_t i = 0; i < beams->count; i++)
         if (beams->pairs[i].part_id != NO_ID) mirrors[beams->pairs[i].part_id]++;
     for (int row = 0; row < 2 * scene->part_count; row++) {
-        BeamSide *side = &beams->sides[row];
+        BeamSide *side = &sides[row];
         float     time = sqrtf(sqrtf((float)mirrors[row / 2]));
         if (!mirrors[row / 2]) continue;
         side->least = LEAST;
@@ -231,16 +301,17 @@ static void weigh_sides(const Beams *beams, const LightSelection *selection)
 MirrorBeams mirror_beams_build(const BeamTools *tools, const LightSelection *selection,
                                Arena *arena)
 {
-    Beams beams = {.tools = tools, .arena = arena};
     if (!lights_has(tools->lights, LIGHTS_SUN)) return (MirrorBeams){.mirrors = NULL};
-    beams.sides = ARENA_NEW(arena, BeamSide, 2 * ((size_t)tools->scene->part_count + 1));
-    measure_sides(tools->scene, beams.sides);
-    send_all_rays(&beams);
+    BeamSide *sides = ARENA_NEW(arena, BeamSide, 2 * ((size_t)tools->scene->part_count + 1));
+    Beams     beams = {.tools = tools, .sides = sides};
+    GlintMap  map = {0};
+    measure_sides(tools->scene, sides);
+    send_all_rays(&beams, &map, arena);
     if (!beams.count) return (MirrorBeams){.mirrors = NULL};
     qsort(beams.pairs, beams.count, sizeof *beams.pairs, mirrors_compare_pairs);
-    weigh_sides(&beams, selection);
-    return (MirrorBeams){mirrors_build(tools->scene, beams.pairs, beams.count, arena),
-                         beams.sides, beams.map};
+    weigh_sides(&beams, selection, sides, *arena);
+    return (MirrorBeams){mirrors_build(tools->scene, beams.pairs, beams.count, arena), sides,
+                         map};
 }
 
 float mirror_beams_prob(const MirrorBeams *beams, int part_id, bool is_back, Vec3 position)

@@ -1285,14 +1285,21 @@ static bool has_subpixels(const Scene *scene)
 PathContext path_context_build(const Scene *scene, const Bvh *bvh, const Lights *lights,
                                int max_bounces, Arena *arena)
 {
-    const SurfaceTables *tables = surface_tables_build(scene, false, arena);
-    LightSelection       selection = light_selection_build(scene, bvh, lights, arena);
-    const BeamTools      tools = {scene, bvh, lights, tables};
-    return (PathContext){.scene = scene, .bvh = bvh, .lights = lights, .tables = tables,
-                         .selection = selection,
-                         .beams = mirror_beams_build(&tools, &selection, arena),
-                         .has_subpixels = has_subpixels(scene),
-                         .max_bounces = max_bounces, .strategy = PATH_MIS};
+    PathContext context = {.scene = scene, .bvh = bvh, .max_bounces = max_bounces,
+                           .tables = surface_tables_build(scene, false, arena),
+                           .has_subpixels = has_subpixels(scene), .strategy = PATH_MIS};
+    return path_context_relight(&context, lights, arena);
+}
+
+PathContext path_context_relight(const PathContext *before, const Lights *lights, Arena *arena)
+{
+    PathContext     context = *before;
+    const BeamTools tools = {context.scene, context.bvh, lights, context.tables};
+    context.lights = lights;
+    context.guide = NULL;
+    context.selection = light_selection_build(context.scene, context.bvh, lights, arena);
+    context.beams = mirror_beams_build(&tools, &context.selection, arena);
+    return context;
 }
 
 static PathWalk walk_start(const PathContext *context, const Wavelengths *wavelengths,

@@ -13,6 +13,9 @@
 PathContext path_context_build(const Scene *scene, const Bvh *bvh, const Lights *lights,
                                int max_bounces, Arena *arena);
 
+/* The same scene under other lights; what surfaces need is shared with `before`. */
+PathContext path_context_relight(const PathContext *before, const Lights *lights, Arena *arena);
+
 /* What a path's light did on its way, as the eye's ray meets it. */
 typedef enum PathEvent { PATH_SCATTERS, PATH_REFLECTS, PATH_TRANSMITS } PathEvent;
 

@@ -202,6 +202,7 @@ static Reading take_asked(const ProbeAim *aim, const ReadingGoal *goal,
         pilot = stream_read(&first, 2 * pilot.paths, goal);
         wanted = paths_wanted(&pilot, goal, scratch);
     }
+    if (goal->times > 1) wanted *= goal->times;
     return stream_read(&fresh, wanted > goal->least ? wanted : goal->least, goal);
 }
 
@@ -221,7 +222,8 @@ static JournalKey key_of(const ProbeAim *aim, const ReadingGoal *goal,
 {
     const ReadingQuestion *asked = goal->question;
     double   numbers[] = {goal->brighter, goal->darker, goal->precision, (double)goal->most,
-                          goal->known, asked ? asked->precision : 0, (double)goal->least};
+                          goal->known, asked ? asked->precision : 0,
+                          (double)goal->times, (double)goal->least};
     Question question = {.base = tools->base, .kind = asked ? asked->name : "reading",
                          .numbers = numbers, .number_count = COUNT_OF(numbers)};
     return question_key(&question, aim, scratch);

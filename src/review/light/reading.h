@@ -38,8 +38,10 @@ typedef struct ReadingGoal {
     double brighter, darker; /* emitted, cd m^-2; both 0: the reading itself counts */
     double precision;        /* relative, above 0 */
     long   most;             /* paths, at most */
-    long   least;            /* of one on which something hangs: no fewer, so that it may be
-                                held against another by the same random numbers; 0 as a rule */
+    int    times;            /* of one on which something hangs: so many times the paths that
+                                would do, for a difference to another reading; 0 is 1 */
+    long   least;            /* of the same: no fewer, as many as that other one has; 0 as a
+                                rule */
     double known;            /* of the reading, by the display's mirror: paths leave it out
                                 (path_context.h); it is added, with the error of
                                 response_mirror_paths */

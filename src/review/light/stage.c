@@ -142,12 +142,14 @@ void stage_close(Stage *stage)
 
 /* ---- light ------------------------------------------------------------------------------- */
 
-static bool make_context(Stage *stage, Arena *arena, Error *err)
+bool stage_relight(Stage *stage, Arena *arena, Error *err)
 {
     Lights *lights;
     if (!lights_build(stage->scene, arena, &lights, err)) return false;
     stage->context =
-        path_context_build(stage->scene, stage->bvh, lights, STAGE_BOUNCES, arena);
+        stage->context.tables
+            ? path_context_relight(&stage->context, lights, arena)
+            : path_context_build(stage->scene, stage->bvh, lights, STAGE_BOUNCES, arena);
     return true;
 }
 
@@ -192,10 +194,10 @@ bool stage_light(Stage *stage, const Environment *environment, Arena *arena, Err
         has_level ? &stage->request->levels[condition->level_id] : NULL;
     bool is_curve = level && level->is_curve;
     if (environment) stage->scene->environment = *environment;
-    if (is_curve && !make_context(stage, arena, err)) return false;
+    if (is_curve && !stage_relight(stage, arena, err)) return false;
     if (is_curve) read_sensor(stage, level, *arena);
     if (level || stage->request->change) set_levels(stage, level);
-    return make_context(stage, arena, err);
+    return stage_relight(stage, arena, err);
 }
 
 /* ---- the sun ----------------------------------------------------------------------------- */

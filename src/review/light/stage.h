@@ -52,6 +52,10 @@ bool stage_scene(const StageOptions *options, Arena *arena, Problems *problems, 
 /* Lights it: the environment, then the levels, which may follow the light on a sensor. */
 bool stage_light(Stage *stage, const Environment *environment, Arena *arena, Error *err);
 
+/* For the scene as it is now, its environment and levels set otherwise. What was built first
+ * for its surfaces stays in its arena, which must not end before the stage's. */
+bool stage_relight(Stage *stage, Arena *arena, Error *err);
+
 void stage_close(Stage *stage);
 
 /* Where the sun stands, unit, world, and what its bands give, lx on a plane that faces it.

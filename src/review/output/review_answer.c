@@ -246,14 +246,35 @@ static const CaseRemedy *next_mend(const ReviewCase *c, const bool *is_told)
     return best;
 }
 
-static void add_mends(Text *html, const ReviewCase *c, Arena *arena)
+static void add_mend(Text *html, int *told, const char *words)
+{
+    add_fact(html, *told ? "… or" : "What mends it", words);
+    ++*told;
+}
+
+/* What was tried on all of it goes before what is reckoned of this case alone. */
+static void add_tried(Text *html, const Review *review, int *told, Arena *arena)
+{
+    for (int i = 0; i < review->mend_count; i++)
+        if (review->mends[i].is_found) add_mend(html, told, words_mend(&review->mends[i], arena));
+    for (int i = 0; i < review->variant_count && *told < MENDS_TOLD; i++) {
+        const ReviewVariantFound *v = &review->variants[i];
+        if (review_verdict(v->review) == VERDICT_PASS)
+            add_mend(html, told, arena_format(arena, "the variant '%s': everything passes",
+                                              v->name));
+    }
+}
+
+static void add_mends(Text *html, const Review *review, const ReviewCase *c, Arena *arena)
 {
     bool *is_told = ARENA_NEW(arena, bool, c->remedy_count + 1);
-    for (int i = 0; i < MENDS_TOLD; i++) {
+    int   told = 0;
+    add_tried(html, review, &told, arena);
+    while (told < MENDS_TOLD) {
         const CaseRemedy *r = next_mend(c, is_told);
         if (!r) return;
         is_told[r - c->remedies] = true;
-        add_fact(html, i ? "… or" : "What mends it",
+        add_mend(html, &told,
                  arena_format(arena, "%s: %s", r->what, words_ratio(r->contrast_ratio, arena)));
     }
 }
@@ -289,7 +310,7 @@ static bool add_worst(Text *html, const ReviewAnswer *answer, const ReviewCase *
     text_add(html, "<dl class=\"facts\">\n");
     add_when(html, answer, c, arena);
     add_why(html, answer, c, arena);
-    if (c->verdict != VERDICT_PASS) add_mends(html, c, arena);
+    if (c->verdict != VERDICT_PASS) add_mends(html, answer->review, c, arena);
     text_add(html, "</dl></section>\n");
     return true;
 }

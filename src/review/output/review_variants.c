@@ -252,11 +252,23 @@ static void add_effect_bar(Text *html, const ReviewSensitivity *s, const ReviewS
                 "</svg></td>", middle, BAR_HEIGHT, fmax(low, 0), fmin(high, BAR_WIDTH));
 }
 
+/* "+1.03 ± 0.01 % by mm"; what may be nothing, or is less than is shown, says so. */
+static const char *slope_words(const ReviewSensitivity *s, const ReviewSlope *slope,
+                               Arena *arena)
+{
+    double half = 50 * (slope->range.high - slope->range.low);
+    bool   is_none = slope->range.low <= 0 && slope->range.high >= 0;
+    bool   is_small = fabs(effect(s, slope)) < 0.05 && half * s->step < 0.05;
+    if (is_small) return "none";
+    if (is_none) return arena_format(arena, "none above %.2g %% by %s", half, s->unit);
+    return arena_format(arena, "%s%s ± %.2g %% by %s", slope->slope < 0 ? "−" : "+",
+                        words_figure(fabs(100 * slope->slope), arena), half, s->unit);
+}
+
 static void add_slope(Text *html, const ReviewSensitivity *s, int place, double most,
                       Arena *arena)
 {
     const ReviewSlope *slope = &s->slopes[place];
-    double half = 50 * (slope->range.high - slope->range.low);
     page_row_begin(html, "");
     page_cell(html, "", place ? "" : s->name);
     page_cell(html, "", words_case(slope->of, arena));
@@ -265,7 +277,7 @@ static void add_slope(Text *html, const ReviewSensitivity *s, int place, double 
         page_cell(html, "n", "–");
         page_cell(html, "", "");
     } else {
-        page_cell_format(html, "n", "%+.3g ± %.2g %% a %s", 100 * slope->slope, half, s->unit);
+        page_cell(html, "n", slope_words(s, slope, arena));
         add_effect_bar(html, s, slope, most);
     }
     page_row_end(html);

@@ -275,19 +275,25 @@ static const ReviewTrial *trial_at(const ReviewMend *mend, double value)
     return found;
 }
 
+/* "2.6 degrees", "31 mm", "1.1 %". */
+static const char *value_words(const ReviewMend *m, double value, Arena *arena)
+{
+    bool is_many = words_same(m->unit, "degree") && value != 1;
+    return arena_format(arena, "%.3g %s%s", value, m->unit, is_many ? "s" : "");
+}
+
 const char *words_mend(const ReviewMend *m, Arena *arena)
 {
     const ReviewTrial *at = trial_at(m, m->value);
     const char *margin = at ? words_margin(at->margin, arena) : "–";
+    const char *value = value_words(m, m->value, arena);
     if (!m->is_found)
         return arena_format(arena, "%s: no value that was tried makes everything pass; nearest "
-                            "came %.3g %s: least margin %s%s%s", m->name, m->value, m->unit,
-                            margin, at && at->worst ? ", " : "",
-                            at && at->worst ? at->worst : "");
+                            "came %s: least margin %s%s%s", m->name, value, margin,
+                            at && at->worst ? ", " : "", at && at->worst ? at->worst : "");
     if (isnan(m->outside))
-        return arena_format(arena, "%s: everything passes as it stands, at %.3g %s", m->name,
-                            m->value, m->unit);
-    return arena_format(arena, "%s: with %.3g %s instead of %.3g everything passes, its least "
-                        "margin %s; with %.3g something does not", m->name, m->value, m->unit,
-                        m->at, margin, m->outside);
+        return arena_format(arena, "%s: everything passes as it stands, at %s", m->name, value);
+    return arena_format(arena, "%s: with %s instead of %.3g everything passes, its least "
+                        "margin %s; with %.4g something does not", m->name, value, m->at,
+                        margin, m->outside);
 }

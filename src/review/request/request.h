@@ -248,6 +248,8 @@ typedef struct ReviewRequest {
     int              variant_count;
     ReviewParameter *parameters; /* of "sensitivity" */
     int              parameter_count;
+    bool             is_compared; /* has variants or parameters, or is one of them: read from
+                                     more paths (run/cases.c) */
     const ReviewChange *change;  /* of the variant that this is; NULL: the review itself */
     ReviewInput     *inputs;     /* the file itself, routes, weathers, skies' pictures */
     int              input_count;

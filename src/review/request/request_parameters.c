@@ -238,9 +238,9 @@ const char *review_parameter_unit(const ReviewParameter *p, double *scale)
     case PARAMETER_SHIFT:
     case PARAMETER_HOOD:
     case PARAMETER_EYE: *scale = 1000; return "mm";
-    case PARAMETER_BRIGHTNESS: return "times as bright";
+    case PARAMETER_BRIGHTNESS: return "times the brightness";
     case PARAMETER_REFLECTANCE: *scale = 100; return "%";
-    default: return "degrees";
+    default: return "degree";
     }
 }
 
@@ -248,5 +248,6 @@ const char *review_parameter_words(const ReviewParameter *p, double value, Arena
 {
     double      scale;
     const char *unit = review_parameter_unit(p, &scale);
-    return arena_format(arena, "%.3g %s", scale * value, unit);
+    return arena_format(arena, "%.3g %s%s", scale * value, unit,
+                        !strcmp(unit, "degree") && scale * value != 1 ? "s" : "");
 }

@@ -30,6 +30,10 @@
 #define DECIDE_TIMES 8
 #define DECIDE_ROUNDS 2
 #define DECIDE_SEED 0x64656369u
+/* Of a review with variants, and of those: their differences are then known twice as well as
+ * two such reviews would know them even where nothing is common to both, as with another panel,
+ * whose lobes send paths elsewhere. */
+#define COMPARED_TIMES 4
 #define COARSE_PRECISION 0.05
 #define COARSE_PATHS 8192
 #define COARSE_SEED 0x626f7865u /* the worst of many is not read again from what made it so */
@@ -197,7 +201,8 @@ static const char *name_of(const VerdictAsk *ask, Arena *arena)
 /* Of the same case of the review that this is a variant of: a sweep's worst, or a moment's. */
 static long base_paths(const VerdictAsk *ask)
 {
-    const ReviewCase *base = review_case_like(ask->tools->base, ask->of);
+    const Review     *review = ask->tools->base;
+    const ReviewCase *base = review ? review_case_like(review, ask->of) : NULL;
     return base ? base->paths : 0;
 }
 
@@ -216,7 +221,8 @@ static Reading read_symbol(const CaseLook *look, const ProbeAim *aim, VerdictAsk
                             .darker = fmin(shown->foreground, shown->background),
                             .precision = request->precision_contrast,
                             .most = request->precision_paths, .known = ask->direct.mirror,
-                            .least = ask->tools->base ? base_paths(ask) : 0,
+                            .times = request->is_compared ? COMPARED_TIMES : 1,
+                            .least = request->is_compared ? base_paths(ask) : 0,
                             .question = &question};
     without.without_mirrored_sun = ask->direct.mirror > 0;
     rest.context = &without;

@@ -21,15 +21,11 @@ static void set_all_levels(Stage *stage, float level)
 
 bool sweep_light_dark(Stage *stage, float level, Arena *arena, Error *err)
 {
-    Lights *lights;
     stage->scene->environment.kind = ENVIRONMENT_NONE;
     stage->scene->environment.has_sun = false;
     stage->scene->environment.heading = 0;
     set_all_levels(stage, level);
-    if (!lights_build(stage->scene, arena, &lights, err)) return false;
-    stage->context =
-        path_context_build(stage->scene, stage->bvh, lights, STAGE_BOUNCES, arena);
-    return true;
+    return stage_relight(stage, arena, err);
 }
 
 /* ---- making them ------------------------------------------------------------------------- */

@@ -10,7 +10,8 @@
 
 #define TRIALS_MOST 64
 #define FINE 8             /* parts of a step: a narrower gap is none */
-#define CONFIRMS 4         /* values that fresh paths are asked of */
+#define CONFIRMS 5         /* values that fresh paths are asked of */
+#define FRESH_TIMES 2      /* reviews by paths of their own at each */
 #define FRESH_SEED 0x20000000u
 
 typedef struct Mending {
@@ -32,18 +33,20 @@ static void note(Mending *m, double value, const Review *review, bool is_fresh)
         least ? words_case(least, m->arena) : NULL};
 }
 
-/* Does everything pass there? */
-static bool try_value(Mending *m, double value, bool is_fresh, bool *passes, Error *err)
+/* Does everything pass there? fresh: by other paths, and no more of them than a review by itself
+ * takes; 0: by the review's. */
+static bool try_value(Mending *m, double value, int fresh, bool *passes, Error *err)
 {
     ReviewVariantFound found;
     ReviewVariant variant =
         review_parameter_at(m->run->request, m->parameter, value, m->arena);
     ReviewRequest request = *m->run->request;
     ReviewRun     run = *m->run;
-    request.seed += is_fresh ? FRESH_SEED : 0;
+    request.seed += (uint32_t)fresh * FRESH_SEED;
+    request.is_compared = fresh == 0;
     run.request = &request;
     if (!review_variant(&run, &variant, m->base, m->arena, &found, err)) return false;
-    note(m, value, found.review, is_fresh);
+    note(m, value, found.review, fresh > 0);
     *passes = review_verdict(found.review) == VERDICT_PASS;
     return true;
 }
@@ -81,7 +84,7 @@ static bool expand(Mending *m, Side sides[2], Side **side, double *found, Error 
             bool   passes;
             if (!(distance > sides[i].last)) continue;
             any = true;
-            if (!try_value(m, value_at(p, sides[i].sign, distance), false, &passes, err))
+            if (!try_value(m, value_at(p, sides[i].sign, distance), 0, &passes, err))
                 return false;
             if (!passes) {
                 sides[i].last = distance;
@@ -100,11 +103,19 @@ static bool narrow(Mending *m, Side *side, double *found, Error *err)
     while (*found - side->last > fmax(m->parameter->step / FINE, 0.02 * *found)) {
         double middle = 0.5 * (*found + side->last);
         bool   passes;
-        if (!try_value(m, value_at(m->parameter, side->sign, middle), false, &passes, err))
+        if (!try_value(m, value_at(m->parameter, side->sign, middle), 0, &passes, err))
             return false;
         if (passes) *found = middle;
         else side->last = middle;
     }
+    return true;
+}
+
+static bool is_confirmed(Mending *m, double value, bool *out, Error *err)
+{
+    *out = true;
+    for (int fresh = 1; fresh <= FRESH_TIMES && *out; fresh++)
+        if (!try_value(m, value, fresh, out, err)) return false;
     return true;
 }
 
@@ -114,11 +125,10 @@ static bool confirm(Mending *m, Side *side, double found, Error *err)
     double gap = fmax(found - side->last, p->step / FINE);
     for (int i = 0; i < CONFIRMS && !m->out.is_found; i++) {
         double distance = fmin(found + i * gap, side->reach);
-        bool   passes;
-        m->out.value = m->scale * value_at(p, side->sign, distance);
-        if (!try_value(m, value_at(p, side->sign, distance), true, &passes, err)) return false;
-        if (!passes) side->last = distance;
-        m->out.is_found = passes;
+        double value = value_at(p, side->sign, distance);
+        m->out.value = m->scale * value;
+        if (!is_confirmed(m, value, &m->out.is_found, err)) return false;
+        if (!m->out.is_found) side->last = distance;
     }
     m->out.outside = m->scale * value_at(p, side->sign, side->last);
     return true;

@@ -1,0 +1,242 @@
+# SPDX-License-Identifier: Apache-2.0
+"""variants.py PARHELION -- what a review says of its variants is what separate reviews of scenes
+changed by hand say; differences are sharper than values; slopes are finite differences; what
+mends it does, and a little less does not.
+"""
+import math
+import os
+import shutil
+import sys
+import tempfile
+
+from gltf import png
+from review import PANEL, Report, Reviewer, dashboard, moment, request
+
+OLED = os.path.join(os.path.dirname(PANEL), "oled_centre.panel")
+LEVEL = 0.3
+OTHER_SEED = 11
+
+
+def scene(tilt_deg=0.0, wall=0.5, panel="ips.panel", turned=None):
+    """The dashboard, whose screen is tilted by hand about its middle; turned: its content."""
+    made = dashboard()
+    document = made.document
+    document["nodes"][0]["name"] = "face"
+    material = next(m for m in document["materials"] if m["name"] == "screen")
+    material["extensions"]["PARHELION_display"]["panel"] = panel
+    for other in document["materials"]:
+        if other is not material:
+            other["name"] = "wall"
+            other["pbrMetallicRoughness"]["baseColorFactor"] = [wall] * 3 + [1]
+    angle = math.radians(-tilt_deg)
+    document["nodes"][0]["rotation"] = [math.sin(angle / 2), 0, 0, math.cos(angle / 2)]
+    if turned:
+        document["images"][0] = {"uri": turned}
+    return made
+
+
+def bars(first, last):
+    return png(60, 30, [[255 if first <= x < last and 8 <= y < 22 else 0 for x in range(60)
+                         for _ in range(3)] for y in range(30)])
+
+
+def asked(level=LEVEL, **members):
+    sun = {"azimuth_deg": [150, 190, 20], "elevation_deg": [20, 40, 20]}
+    conditions = [dict(moment("grey", type="constant", luminance=3000), level="day"),
+                  {"name": "suns", "level": "day", "sweep": {"sun": sun, "sky": "sky"}}]
+    return request(conditions=conditions, levels={"day": {"*": level}},
+                   precision={"contrast": 0.004, "clear": 0.004}, **members)
+
+
+# A variant, and the same by hand: members of the scene, of the request.
+VARIANTS = {
+    "brighter": ({"brightness": {"*": 1.5}}, {}, {"level": 1.5 * LEVEL}),
+    "other level": ({"levels": {"day": {"*": 0.2}}}, {}, {"level": 0.2}),
+    "tilted": ({"nodes": {"face": {"tilt_deg": 8}}}, {"tilt_deg": 8}, {}),
+    "black walls": ({"materials": {"wall": {"pbrMetallicRoughness": {
+        "baseColorFactor": [0.1, 0.1, 0.1, 1]}}}}, {"wall": 0.1}, {}),
+    "other panel": ({"panels": {"screen": "oled.panel"}}, {"panel": "oled.panel"}, {}),
+    "other content": ({"contents": {"screen": "bars.png"}}, {"turned": "bars.png"}, {}),
+    "higher eye": ({"eyes": {"eye": {"move_m": [0, 0.1, 0]}}}, {},
+                   {"eyes": {"eye": {"position_m": [0.1, 0.25, 0.8]}}}),
+    "another file": ({"scene": ["black.gltf"]}, {"wall": 0.1}, {}),
+    "more files": ({"add": ["bars.gltf"]}, {}, {"scene": ["dash.gltf", "bars.gltf"]}),
+    "the same": ({"brightness": {"screen": 1}}, {}, {}),
+}
+
+
+def half(pair):
+    return 0.5 * (pair[1] - pair[0])
+
+
+def cases_of(review):
+    return {(c["condition"], c["symbol"]): c
+            for c in review["cases"] + [s["worst"] for s in review["sweeps"]]}
+
+
+def margin_half(case):
+    return half(case["contrast_interval"]) / case["limit"]["value"]
+
+
+def check_variant(report, name, variant, base, alone, plain):
+    """Held against a review of its own, by other random numbers."""
+    for found in variant["cases"] + variant["sweeps"]:
+        key = found["condition"], found["symbol"]
+        before, by_hand = cases_of(base)[key], cases_of(alone)[key]
+        place = f"{name}, {key[0]}"
+        limit = by_hand["limit"]["value"]
+        own = half(found["contrast_interval"]) / limit
+        report.claim(abs(found["margin"] - by_hand["margin"]) <=
+                     own + margin_half(by_hand) + 1e-6,
+                     f"{place}: margin {found['margin']}, by hand {by_hand['margin']}")
+        low, high = found["margin_difference_interval"]
+        report.claim(low <= found["margin_difference"] <= high, f"{place}: {low} to {high}")
+        report.claim(abs(found["margin"] - found["margin_before"] -
+                         found["margin_difference"]) < 1e-4 * (1 + abs(found["margin"])),
+                     f"{place}: difference {found['margin_difference']}")
+        report.claim(found["margin_before"] == before["margin"], f"{place}: margin before")
+        report.claim(found["verdict"] == by_hand["verdict"] or
+                     "too close" in (found["verdict"], by_hand["verdict"]),
+                     f"{place}: {found['verdict']}, by hand {by_hand['verdict']}")
+        yield name, half((low, high)), math.hypot(margin_half(by_hand),
+                                                  margin_half(cases_of(plain)[key]))
+
+
+def check_variants(report, reviewer):
+    variants = {name: change for name, (change, _, _) in VARIANTS.items()}
+    _, base = reviewer.review(asked(variants=variants), "base")
+    report.claim([v["name"] for v in base["variants"]] == list(variants), "variants' names")
+    _, plain = reviewer.review(asked(), "plain")
+    widths = []
+    for variant in base["variants"]:
+        name = variant["name"]
+        _, of_scene, of_request = VARIANTS[name]
+        scene(**of_scene).write(os.path.join(reviewer.folder, "hand.gltf"))
+        document = asked(**{"scene": ["hand.gltf"], **of_request})
+        document["precision"]["seed"] = OTHER_SEED
+        _, alone = reviewer.review(document, "alone")
+        widths += check_variant(report, name, variant, base, alone, plain)
+        report.claim(variant["pass"] == all(
+            c["verdict"] != "fail" for c in variant["cases"] + variant["sweeps"]),
+            f"{name}: passes {variant['pass']}")
+        least = min(c["margin"] for c in variant["cases"] + variant["sweeps"])
+        report.claim(variant["worst"]["margin"] == least, f"{name}: least margin {least}")
+    for name, own, separate in widths:
+        print(f"  {name}: interval of the difference {own:.2g}, of two reviews {separate:.2g}")
+        if name == "the same":
+            report.claim(own == 0, "what is not changed differs")
+    ratios = sorted(own / separate for name, own, separate in widths if name != "the same")
+    print(f"  of the two reviews' by themselves: median {ratios[len(ratios) // 2]:.2f}, most "
+          f"{ratios[-1]:.2f}")
+    report.claim(ratios[len(ratios) // 2] < 0.5, f"median of sharpness {ratios}")
+
+
+def check_slopes(report, reviewer):
+    """Against two reviews by other random numbers, a step apart."""
+    document = asked(sensitivity={
+        "brightness": {"brightness": 0.2, "display": "*"},
+        "tilt": {"tilt_deg": 4, "node": "face"},
+        "height": {"eye_m": 0.02, "eye": "eye", "direction": [0, 2, 0]}})
+    _, base = reviewer.review(document, "slopes")
+    for name, values, members in (
+            ("brightness", (0.8, 1.2), lambda v: ({}, {"level": v * LEVEL})),
+            ("tilt", (-4, 4), lambda v: ({"tilt_deg": v}, {})),
+            ("height", (-20, 20), lambda v: ({}, {"eyes": {"eye": {
+                "position_m": [0.1, 0.15 + v / 1000, 0.8]}}}))):
+        found = next(s for s in base["sensitivity"] if s["name"] == name)
+        slope = found["symbols"][0]
+        report.claim(close_pair(found["compared"], values), f"{name}: {found['compared']}")
+        ends = []
+        for value in values:
+            of_scene, of_request = members(value)
+            scene(**of_scene).write(os.path.join(reviewer.folder, "hand.gltf"))
+            other = asked(**{"scene": ["hand.gltf"], **of_request})
+            other["precision"]["seed"] = OTHER_SEED
+            _, review = reviewer.review(other, "alone")
+            ends.append(cases_of(review)[slope["condition"], slope["symbol"]])
+        apart = values[1] - values[0]
+        wanted = (ends[1]["margin"] - ends[0]["margin"]) / apart
+        width = math.hypot(*map(margin_half, ends)) / apart + half(slope["interval"])
+        report.claim(abs(slope["margin_per_unit"] - wanted) <= width,
+                     f"{name}: slope {slope['margin_per_unit']}, by hand {wanted} +- {width}")
+
+
+def close_pair(found, wanted):
+    return all(abs(a - b) < 1e-4 * (1 + abs(b)) for a, b in zip(found, wanted))
+
+
+def check_mend(report, reviewer):
+    """Where it says that all passes it does, by other paths too; just outside it does not."""
+    document = asked(level=0.1, sensitivity={
+        "brightness": {"brightness": 0.3, "display": "*"},
+        "roll": {"roll_deg": 2, "node": "face", "range": [-4, 4]}})
+    status, base = reviewer.review(document, "mend", "--mend", "brightness")
+    mend = base["mends"][0]
+    report.claim(status == 1 and not base["pass"], "the review itself passes")
+    report.claim(mend["found"] and mend["value"] > 1, f"mended by {mend['value']}")
+    report.claim(mend["trials"][-1]["fresh"] and mend["trials"][-1]["verdict"] == "pass",
+                 "the answer was not confirmed")
+    gap = mend["value"] - mend["outside"]
+    for value, verdicts in ((mend["value"] + gap, ("pass",)),
+                            (mend["outside"] - gap, ("fail", "too close"))):
+        other = asked(level=0.1 * value)
+        other["precision"]["seed"] = OTHER_SEED
+        _, review = reviewer.review(other, "alone")
+        report.claim(review["verdict"] in verdicts,
+                     f"{value}: {review['verdict']}, {least(review)}")
+    done = reviewer.run("review", "r.json", "-o", "none", "--mend", "roll")
+    report.claim(done.returncode == 2 and "has no \"sensitivity\"" in done.stderr, done.stderr)
+    _, base = reviewer.review(document, "roll", "--mend", "roll")
+    report.claim(not base["mends"][0]["found"], "a roll mends it")
+    report.claim(len(base["mends"][0]["trials"]) == 5, "2 and 4 degrees to both sides")
+
+
+def least(review):
+    return min(c["margin"] for c in cases_of(review).values())
+
+
+def check_refusals(report, reviewer):
+    for change, words in (
+            ({"nodes": {"fase": {"tilt_deg": 3}}}, "no node is named \"fase\""),
+            ({"panels": {"scren": "oled.panel"}}, "is named \"scren\""),
+            ({"materials": {"walls": {}}}, "no material is named \"walls\""),
+            ({"materials": {"wall": {"doubleSided": 3}}}, "doubleSided"),
+            ({"hoods": {"scren": 0.1}}, "no display is named \"scren\""),
+            ({"eyes": {"nobody": {"move_m": [0, 0, 0]}}}, "/variants/x/eyes/nobody"),
+            ({"levels": {"dusk": {"*": 1}}}, "/variants/x/levels/dusk"),
+            ({"brightness": {"scren": 2}}, "scren"),
+            ({"panels": {"screen": "none.panel"}}, "none.panel"),
+            ({"coatings": {"wall": "gold"}}, "gold"),
+            ({"tilt": 3}, "unknown key"), ({}, "changes nothing")):
+        reviewer.write("r.json", asked(variants={"x": change}))
+        for options in (("-o", "refused"), ("--dry-run",)):
+            done = reviewer.run("review", "r.json", *options)
+            lines = done.stderr.strip().splitlines()
+            report.claim(done.returncode == 3 and words in done.stderr and len(lines) == 1,
+                         f"{change}: status {done.returncode}: {done.stderr}")
+        report.claim(not os.path.exists(os.path.join(reviewer.folder, "refused")),
+                     "something is left behind")
+
+
+def main(program):
+    report = Report()
+    with tempfile.TemporaryDirectory() as folder:
+        reviewer = Reviewer(program, folder)
+        shutil.copy(PANEL, os.path.join(folder, "ips.panel"))
+        shutil.copy(OLED, os.path.join(folder, "oled.panel"))
+        with open(os.path.join(folder, "bars.png"), "wb") as file:
+            file.write(bars(10, 50))
+        scene().write(os.path.join(folder, "dash.gltf"))
+        scene(wall=0.1).write(os.path.join(folder, "black.gltf"))
+        more = dashboard().__class__()
+        more.quad(more.lambert(0.8), [0.3, -0.2, 0.1], [0, 0, 0.5], [0, 0.5, 0])
+        more.write(os.path.join(folder, "bars.gltf"))
+        check_variants(report, reviewer)
+        check_slopes(report, reviewer)
+        check_mend(report, reviewer)
+        check_refusals(report, reviewer)
+    return report.finish()
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[-1]))
