@@ -12,11 +12,15 @@ document.addEventListener('click',function(event){
 });
 openFor(location.hash);
 var closed=[];
+/* Where the reader has a choice (#print-all), folds stay closed on paper until it is taken. */
 window.addEventListener('beforeprint',function(){
+  var choice=document.getElementById('print-all');
+  if(choice&&!choice.checked)return;
   closed=[].slice.call(document.querySelectorAll('details:not([open])'));
   closed.forEach(function(e){e.open=true;});
 });
 window.addEventListener('afterprint',function(){
   closed.forEach(function(e){e.open=false;});
+  closed=[];
 });
 })();

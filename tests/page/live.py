@@ -414,7 +414,7 @@ def check_beside(report, program, reviewer):
     case = review["cases"][int(cards[0][1:])]
     size = os.path.getsize(os.path.join(folder, "index.html"))
     with browser.Browser(program, where + "index.html") as page:
-        asked = [name for name in page.requests if name.endswith(".js")]
+        asked = [name for name in page.requests if name.endswith(".layers.js")]
         report.claim(not asked, f"layers before anybody looks: {asked}")
         check_value(report, Look(page, folder, case, cards[0]))
         page.run("document.querySelectorAll('details').forEach(d=>d.open=true);"

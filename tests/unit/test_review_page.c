@@ -164,6 +164,53 @@ TEST(a_page_holds_every_case)
     assert_true(strlen(page) < 2000000);
 }
 
+/* Every link to a card leads to one that is there, on this page or the other. */
+static int check_links(const char *page, const char *other, const char *name)
+{
+    const char *begin = arena_format(&arena, "<a href=\"%s#", name);
+    int         count = 0;
+    for (const char *at = page; (at = strstr(at, begin)); count++) {
+        at += strlen(begin);
+        const char *id = arena_format(&arena, " id=\"%.*s\"", (int)strcspn(at, "\""), at);
+        if (!strstr(other, id)) fail_msg("%s#%s leads nowhere", name, id);
+    }
+    return count;
+}
+
+TEST(many_cases_take_two_pages)
+{
+    (void)state;
+    enum { CASES = 9, HERE = 4 };
+    Review review = fixture_review(&arena), both;
+    ReviewCase *cases = ARENA_NEW(&arena, ReviewCase, CASES);
+    for (int i = 0; i < CASES; i++) {
+        cases[i] = review.cases[i % review.case_count];
+        cases[i].symbol = arena_format(&arena, "symbol %d", i);
+    }
+    review.cases = cases;
+    review.case_count = CASES;
+    review.main_cards = HERE;
+    both = review;
+    both.is_beside = true;
+    const char *page = page_of(&(ReviewPage){.review = &review});
+    const char *rest = page_of(&(ReviewPage){.review = &both});
+    int         all = CASES + review.sweep_count, here = 0;
+    assert_well_formed(page);
+    assert_well_formed(rest);
+    for (int i = 0; i < all; i++) {
+        const ReviewCase *c = i < CASES ? &cases[i] : &review.sweeps[i - CASES].worst;
+        const char *id = arena_format(&arena, " id=\"%s\"", review_card_id(&review, c, &arena));
+        int         found = count_of(page, id), beside = count_of(rest, id);
+        assert_int_equal(found + beside, 1);
+        assert_int_equal(found, review_card_is_here(&review, c, arena));
+        here += found;
+    }
+    assert_int_equal(here, HERE);
+    assert_true(check_links(page, page, "") > 0 && check_links(page, rest, "cases.html") > 0);
+    check_links(rest, rest, "");
+    check_links(rest, page, "index.html");
+}
+
 /* Behind a table that leads to each. What fails is open, what passes lies in a fold. */
 TEST(sweeps_that_fail_come_first)
 {

@@ -11,6 +11,7 @@
 #include "base/count.h"
 #include "base/file.h"
 #include "base/file_write.h"
+#include "review/output/review_card.h"
 #include "review/output/review_json_read.h"
 
 /* ---- folders ----------------------------------------------------------------------------- */
@@ -44,7 +45,8 @@ static bool check_files(const char *target, Arena scratch, Error *err)
 {
     static const char *const files[] = {"review.json", "index.html",     "cases.csv",
                                         "gazes.csv",   "false_suns.csv", "junit.xml",
-                                        "diff.json",   "run.json"};
+                                        "diff.json",   "run.json",       "live.js",
+                                        REVIEW_PAGE_BESIDE};
     for (int i = 0; i < COUNT_OF(files); i++)
         if (!file_check_writable(arena_format(&scratch, "%s/%s", target, files[i]), err))
             return false;
@@ -175,7 +177,8 @@ static bool is_among(const DraftFiles *files, const char *name)
 static void remove_earlier(const ReviewDraft *draft, const Review *review,
                            const DraftFiles *published)
 {
-    static const char *const seldom[] = {"diff.json", "false_suns.csv", "gazes.csv"};
+    static const char *const seldom[] = {"diff.json", "false_suns.csv", "gazes.csv", "live.js",
+                                         REVIEW_PAGE_BESIDE};
     Arena       scratch = *published->arena;
     DraftFiles  files = {.arena = &scratch};
     Review      earlier;

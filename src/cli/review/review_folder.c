@@ -20,6 +20,8 @@
 #include "review/output/review_junit.h"
 
 #define MAP_STEP_DEG 5
+#define MAIN_CARDS 20 /* of the page itself: it stays below 3 MB */
+#define LIVE_FILE "live.js"
 
 /* ---- before the work ------------------------------------------------------------------*/
 
@@ -241,30 +243,58 @@ static bool put_layers_beside(const ReviewFolder *folder, ReviewLive *live, Aren
     return true;
 }
 
-static bool write_page(const ReviewFolder *folder, const ReviewOutcome *outcome, Arena *arena,
-                       Error *err)
+/* What a page is made of besides the review. */
+static bool fill_page(const ReviewFolder *folder, const ReviewOutcome *outcome,
+                      ReviewPage *page, Arena *arena, Error *err)
 {
-    const char *command = review_folder_command(folder, arena);
-    ReviewPage page = {.review = &outcome->review, .commands = &command, .command_count = 1};
-    ReviewDiff diff;
-    ReviewLive live;
-    LiveAsk    ask = {folder->request, outcome, folder->name, folder->threads};
-    if (!live_make(&ask, arena, &live, err) ||
-        (!folder->is_self_contained && !put_layers_beside(folder, &live, arena, err)))
+    ReviewLive *live = ARENA_NEW(arena, ReviewLive, 1);
+    LiveAsk     ask = {folder->request, outcome, folder->name, folder->threads};
+    if (!live_make(&ask, arena, live, err) ||
+        (!folder->is_self_contained && !put_layers_beside(folder, live, arena, err)))
         return false;
-    page.live = &live;
-    add_charts(folder, outcome, &page, arena);
-    add_pictures(folder, &outcome->review, &page, arena);
-    add_facts(folder->request, &page, arena);
-    if (folder->diff) {
-        diff = review_diff(&folder->before, &outcome->review, folder->diff, folder->target,
-                           arena);
-        page.diff = &diff;
-        if (!review_json_write(review_diff_json(&diff),
-                               arena_format(arena, "%s/diff.json", folder->name), err))
+    if (!folder->is_self_contained && live->sweep_count + live->picture_count) {
+        live->beside = LIVE_FILE;
+        if (!review_live_write(&outcome->review, live,
+                               arena_format(arena, "%s/%s", folder->name, LIVE_FILE), err))
             return false;
     }
-    return review_page_write(&page, arena_format(arena, "%s/index.html", folder->name), err);
+    page->live = live;
+    add_charts(folder, outcome, page, arena);
+    add_pictures(folder, &outcome->review, page, arena);
+    add_facts(folder->request, page, arena);
+    return true;
+}
+
+static bool write_diff(const ReviewFolder *folder, const ReviewOutcome *outcome,
+                       ReviewPage *page, Arena *arena, Error *err)
+{
+    if (!folder->diff) return true;
+    ReviewDiff *diff = ARENA_NEW(arena, ReviewDiff, 1);
+    *diff = review_diff(&folder->before, &outcome->review, folder->diff, folder->target, arena);
+    page->diff = diff;
+    return review_json_write(review_diff_json(diff),
+                             arena_format(arena, "%s/diff.json", folder->name), err);
+}
+
+/* Many cases take two pages, so that the first is light. */
+static bool write_page(const ReviewFolder *folder, ReviewOutcome *outcome, Arena *arena,
+                       Error *err)
+{
+    Review     *review = &outcome->review;
+    const char *command = review_folder_command(folder, arena);
+    ReviewPage  page = {.review = review, .commands = &command, .command_count = 1};
+    int         all = review->case_count + review->sweep_count;
+    review->main_cards = folder->is_self_contained || all <= MAIN_CARDS ? 0 : MAIN_CARDS;
+    if (!fill_page(folder, outcome, &page, arena, err) ||
+        !write_diff(folder, outcome, &page, arena, err) ||
+        !review_page_write(&page, arena_format(arena, "%s/index.html", folder->name), err))
+        return false;
+    if (!review->main_cards) return true;
+    review->is_beside = true;
+    bool ok = review_page_write(
+        &page, arena_format(arena, "%s/%s", folder->name, REVIEW_PAGE_BESIDE), err);
+    review->is_beside = false;
+    return ok;
 }
 
 static bool write_run(const ReviewFolder *folder, const ReviewOutcome *outcome, Arena *arena,

@@ -117,8 +117,8 @@ static void add_cell(Text *html, const Review *review, const ReviewCase *c, Aren
         page_cell(html, "none", "–");
         return;
     }
-    text_format(html, "<td class=\"%s\"><a href=\"#%s\" title=\"", words_class(c->verdict),
-                review_card_id(review, c, arena));
+    text_format(html, "<td class=\"%s\"><a href=\"%s\" title=\"", words_class(c->verdict),
+                review_card_link(review, c, arena));
     escape_markup(html, arena_format(arena, "%s: %s", words_verdict(c->verdict),
                                      words_reason(c, arena)));
     text_add(html, "\"><b>");

@@ -9,6 +9,7 @@
 #include "image/plain_png.h"
 #include "page/page.h"
 #include "review/output/review_bar.h"
+#include "review/output/review_decide.h"
 #include "review/output/review_rays.h"
 #include "review/output/review_words.h"
 #include "text/base64.h"
@@ -364,6 +365,23 @@ const char *review_card_id(const Review *review, const ReviewCase *c, Arena *are
     for (int i = 0; i < review->sweep_count; i++)
         if (c == &review->sweeps[i].worst) return arena_format(arena, "s%d", i);
     return arena_format(arena, "c%td", c - review->cases);
+}
+
+bool review_card_is_here(const Review *review, const ReviewCase *c, Arena scratch)
+{
+    int                all = review->case_count + review->sweep_count;
+    const ReviewCase **ranked = review_rank(review, &scratch);
+    for (int i = 0; review->main_cards && i < all; i++)
+        if (ranked[i] == c) return (i < review->main_cards) != review->is_beside;
+    return true;
+}
+
+const char *review_card_link(const Review *review, const ReviewCase *c, Arena *arena)
+{
+    const char *page = "";
+    if (!review_card_is_here(review, c, *arena))
+        page = review->is_beside ? "index.html" : REVIEW_PAGE_BESIDE;
+    return arena_format(arena, "%s#%s", page, review_card_id(review, c, arena));
 }
 
 bool review_card_add(Text *html, const ReviewCard *card, Arena *arena, Error *err)

@@ -35,6 +35,15 @@ typedef struct ReviewCard {
 /* "c3" of the fourth case, "s0" of the first sweep's worst. */
 const char *review_card_id(const Review *review, const ReviewCase *c, Arena *arena);
 
+/* The page that has the cards which the review's own leaves out (Review.main_cards). */
+#define REVIEW_PAGE_BESIDE "cases.html"
+
+/* Whether its card is on the page that the review is about. */
+bool review_card_is_here(const Review *review, const ReviewCase *c, Arena scratch);
+
+/* Where its card is: "#c3", or on the other page. */
+const char *review_card_link(const Review *review, const ReviewCase *c, Arena *arena);
+
 /* The picture alone: <img ...>. */
 bool review_card_add_picture(Text *html, const ReviewPicture *picture, Arena scratch,
                              Error *err);

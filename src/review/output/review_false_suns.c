@@ -6,6 +6,8 @@
 #include "page/page.h"
 #include "review/output/review_words.h"
 
+#define TOLD_AT_ONCE 2
+
 static void add_row(Text *html, const ReviewFalseSun *f, Arena *arena)
 {
     const char *place = arena_format(arena, "%.0f°, %.0f° up", f->sun_azimuth_deg,
@@ -40,8 +42,15 @@ void review_false_suns_add(Text *html, const Review *review, Arena *arena)
     page_element(html, "p class=\"sub\"",
                  "Where glass, chrome and the fronts of displays throw the sun itself into an "
                  "eye, in a clear sky, asked minute by minute.");
+    int told = review->false_sun_count < TOLD_AT_ONCE ? review->false_sun_count : TOLD_AT_ONCE;
     page_table_begin(html, "", "", COLUMNS, sizeof COLUMNS / sizeof *COLUMNS);
-    for (int i = 0; i < review->false_sun_count; i++)
+    for (int i = 0; i < told; i++) add_row(html, &review->false_suns[i], arena);
+    page_table_end(html);
+    if (told == review->false_sun_count) return;
+    page_more_begin(html, arena_format(arena, "%d more", review->false_sun_count - told));
+    page_table_begin(html, "", "", COLUMNS, sizeof COLUMNS / sizeof *COLUMNS);
+    for (int i = told; i < review->false_sun_count; i++)
         add_row(html, &review->false_suns[i], arena);
     page_table_end(html);
+    page_more_end(html);
 }

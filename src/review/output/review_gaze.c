@@ -156,7 +156,10 @@ void review_gaze_add(Text *html, const Review *review, Arena *arena)
                  "scatters. Both brighten an object and its background alike, and so take of "
                  "its contrast. No limit is held against them.");
     page_element(html, "p", worst_words(list[0], arena));
+    page_more_begin(html, arena_format(arena, "All of them, the least left first: %d",
+                                       review->gaze_count));
     page_table_begin(html, "", "list gazes", COLUMNS, 9);
     for (int i = 0; i < review->gaze_count; i++) add_row(html, list[i], arena);
     page_table_end(html);
+    page_more_end(html);
 }

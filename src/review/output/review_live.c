@@ -11,6 +11,7 @@
 
 /* Sweeps beyond that much text stay as they are drawn: one minute a step over a year. */
 #define SWEEPS_BYTES ((size_t)6 << 20)
+#define SCRIPT_BYTES ((size_t)1 << 30) /* address space: what is not touched costs nothing */
 
 /* ---- codes ------------------------------------------------------------------------------- */
 
@@ -329,14 +330,42 @@ static void add_pictures(Text *html, const Review *review, const ReviewLive *liv
 
 /* ---- all of it --------------------------------------------------------------------------- */
 
+static bool add_all(Text *to, const Review *review, const ReviewLive *live, Arena *arena,
+                    Error *err)
+{
+    Writer writer = {to, arena, err};
+    text_add(to, "{");
+    if (!add_sweeps(&writer, &(LiveFound){review, live})) return false;
+    add_pictures(to, review, live, arena);
+    return true;
+}
+
+bool review_live_write(const Review *review, const ReviewLive *live, const char *path,
+                       Error *err)
+{
+    Arena own = arena_reserve(SCRIPT_BYTES), words = arena_reserve(SCRIPT_BYTES);
+    Text  script = {.arena = &own};
+    text_add(&script, "window.liveData=");
+    bool ok = add_all(&script, review, live, &words, err);
+    if (ok) {
+        text_add(&script, ";\n");
+        ok = file_write(path, script.data, script.size, err);
+    }
+    arena_release(&words);
+    arena_release(&own);
+    return ok;
+}
+
 bool review_live_add(Text *html, const Review *review, const ReviewLive *live, Arena *arena,
                      Error *err)
 {
-    Writer to = {html, arena, err};
     if (live->sweep_count + live->picture_count == 0) return true;
-    text_add(html, "<script type=\"application/json\" id=\"live-data\">\n{");
-    if (!add_sweeps(&to, &(LiveFound){review, live})) return false;
-    add_pictures(html, review, live, arena);
+    if (live->beside) {
+        text_format(html, "<script src=\"%s\"></script>\n", live->beside);
+        return true;
+    }
+    text_add(html, "<script type=\"application/json\" id=\"live-data\">\n");
+    if (!add_all(html, review, live, arena, err)) return false;
     text_add(html, "</script>\n");
     return true;
 }

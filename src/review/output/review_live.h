@@ -80,8 +80,14 @@ typedef struct ReviewLive {
     const LivePicture *pictures;
     int                picture_count;
     const char        *colours; /* of the false colours: 256 of three bytes, base64 */
+    const char        *beside;  /* a script's name from the page on, which has all of it
+                                   (review_live_write); NULL: it stands in the page */
 } ReviewLive;
 
-/* A block of JSON that is not shown: before the page ends. */
+/* The script that live->beside names. */
+bool review_live_write(const Review *review, const ReviewLive *live, const char *path,
+                       Error *err);
+
+/* A block of JSON that is not shown, or what asks for it: before the page ends. */
 bool review_live_add(Text *html, const Review *review, const ReviewLive *live, Arena *arena,
                      Error *err);

@@ -4,8 +4,14 @@
    stand in the page, packed (review_live.h); review_look.js shares what is returned here. */
 var liveTools=(function(){
 var block=document.getElementById('live-data');
-if(!block||!window.DecompressionStream||!window.Blob)return null;
-var data=JSON.parse(block.textContent);
+if(!(block||window.liveData)||!window.DecompressionStream||!window.Blob)return null;
+var data=window.liveData||JSON.parse(block.textContent);
+
+/* A card may stand on the other of the two pages. */
+function hrefOf(card){
+  if(document.getElementById(card))return '#'+card;
+  return (/cases\.html$/.test(location.pathname)?'index.html#':'cases.html#')+card;
+}
 
 /* ---- numbers ---- */
 function bytesOf(text){
@@ -472,7 +478,7 @@ Panel.prototype.link=function(){
   for(var i=0;i<this.seen.length;i++)
     if(this.seen[i].at===this.at){
       var link=make('a','','Look at the picture of this sun');
-      link.href='#'+this.seen[i].card;
+      link.href=hrefOf(this.seen[i].card);
       return link;
     }
   return null;

@@ -82,26 +82,55 @@ static bool add_card(Text *html, const ReviewPage *page, const ReviewCase *c, bo
     return review_card_add(html, &card, arena, err);
 }
 
+/* A link to where the others are; nothing where all are here. */
+static void add_others(Text *html, const Review *review, int count, const char *what,
+                       Arena *arena)
+{
+    if (count == 0) return;
+    text_format(html, "<p class=\"sub\"><a href=\"%s\">",
+                review->is_beside ? "index.html" : REVIEW_PAGE_BESIDE);
+    escape_markup(html, arena_format(arena, "%d more %s: %s", count, what,
+                                     review->is_beside ? "the worst" : "a page of their own"));
+    text_add(html, "</a></p>\n");
+}
+
+/* Those of the page in hand, the worst first. */
+typedef struct CardList {
+    const ReviewCase **list;
+    int                count, passing, elsewhere;
+} CardList;
+
+static CardList list_cards(const Review *review, bool of_sweeps, Arena *arena)
+{
+    int                all = review->case_count + review->sweep_count;
+    const ReviewCase **ranked = review_rank(review, arena);
+    CardList           cards = {.list = ARENA_NEW(arena, const ReviewCase *, all)};
+    for (int i = 0; i < all; i++) {
+        bool is_here = !review->main_cards || (i < review->main_cards) != review->is_beside;
+        if ((review_sweep_of(review, ranked[i]) != NULL) != of_sweeps) continue;
+        cards.elsewhere += !is_here;
+        if (!is_here) continue;
+        cards.list[cards.count++] = ranked[i];
+        cards.passing += ranked[i]->verdict == VERDICT_PASS;
+    }
+    return cards;
+}
+
 static bool add_cases(Text *html, const ReviewPage *page, Arena *arena, Error *err)
 {
-    const Review      *review = page->review;
-    const ReviewCase **ranked = review_rank(review, arena);
-    int                shown = 0, passing = 0;
-    if (review->case_count == 0) return true;
+    CardList cards = list_cards(page->review, false, arena);
+    int      not_passing = cards.count - cards.passing;
+    if (cards.count + cards.elsewhere == 0) return true;
     page_more_begin(html, arena_format(arena, "Every case, worst first: %d",
-                                       review->case_count));
-    for (int i = 0; i < review->case_count; i++)
-        passing += review->cases[i].verdict == VERDICT_PASS;
-    for (int i = 0; i < review->case_count + review->sweep_count; i++) {
-        const ReviewCase *c = ranked[i];
-        if (review_card_id(review, c, arena)[0] != 'c') continue;
-        if (shown > 0 && shown == review->case_count - passing)
-            page_more_begin(html, arena_format(arena, "%d that pass%s", passing,
-                                               passing == 1 ? "es" : ""));
-        bool is_open = shown++ == 0;
-        if (!add_card(html, page, c, is_open, arena, err)) return false;
+                                       cards.count + cards.elsewhere));
+    for (int i = 0; i < cards.count; i++) {
+        if (i > 0 && i == not_passing)
+            page_more_begin(html, arena_format(arena, "%d that pass%s", cards.passing,
+                                               cards.passing == 1 ? "es" : ""));
+        if (!add_card(html, page, cards.list[i], i == 0, arena, err)) return false;
     }
-    if (passing > 0 && passing < review->case_count) page_more_end(html);
+    if (cards.passing > 0 && not_passing > 0) page_more_end(html);
+    add_others(html, page->review, cards.elsewhere, "cases", arena);
     page_more_end(html);
     return true;
 }
@@ -172,28 +201,39 @@ static bool add_sweep(Text *html, const ReviewPage *page, const ReviewSweep *s, 
     return true;
 }
 
+static void add_how_often(Text *html, const Review *review, Arena *arena)
+{
+    page_more_begin(html, arena_format(arena, "How often each symbol fails, and its least "
+                                       "contrast: %d sweeps", review->sweep_count));
+    review_table_add_sweeps(html, review, arena);
+    page_more_end(html);
+}
+
+/* The worst is open; all else is told by a line. */
 static bool add_sweeps(Text *html, const ReviewPage *page, Arena *arena, Error *err)
 {
-    const Review      *review = page->review;
-    const ReviewCase **ranked = review_rank(review, arena);
-    int                shown = 0, passing = 0;
+    const Review *review = page->review;
+    CardList      cards = list_cards(review, true, arena);
+    int           not_passing = cards.count - cards.passing;
+    bool          has_more = false;
     if (review->sweep_count == 0) return true;
     page_element(html, "h2", "Every sun, every hour");
-    page_element(html, "p class=\"sub\"", "How often each symbol fails, and the least contrast "
-                 "that was found.");
-    review_table_add_sweeps(html, review, arena);
-    for (int i = 0; i < review->sweep_count; i++)
-        passing += sweep_verdict(&review->sweeps[i]) == VERDICT_PASS;
-    for (int i = 0; i < review->case_count + review->sweep_count; i++) {
-        const ReviewSweep *s = review_sweep_of(review, ranked[i]);
-        if (!s) continue;
-        if (shown > 0 && shown == review->sweep_count - passing)
-            page_more_begin(html, arena_format(arena, "%d that pass%s", passing,
-                                               passing == 1 ? "es" : ""));
-        bool is_open = shown++ < OPEN_SWEEPS;
-        if (!add_sweep(html, page, s, is_open, arena, err)) return false;
+    if (!review->is_beside) add_how_often(html, review, arena);
+    for (int i = 0; i < cards.count; i++) {
+        bool is_passing = i >= not_passing;
+        if (i == OPEN_SWEEPS || (i > 0 && i == not_passing)) {
+            int left = is_passing ? cards.passing : not_passing - i;
+            if (has_more) page_more_end(html);
+            const char *word = is_passing ? "that pass" : "more that do not pass";
+            page_more_begin(html, arena_format(arena, "%d %s%s", left, word,
+                                               is_passing && left == 1 ? "es" : ""));
+            has_more = true;
+        }
+        const ReviewSweep *s = review_sweep_of(review, cards.list[i]);
+        if (!add_sweep(html, page, s, i < OPEN_SWEEPS, arena, err)) return false;
     }
-    if (passing > 0 && passing < review->sweep_count) page_more_end(html);
+    if (has_more) page_more_end(html);
+    add_others(html, review, cards.elsewhere, "sweeps", arena);
     return true;
 }
 
@@ -303,19 +343,8 @@ static void add_glossary(Text *html)
 
 /* ---- the page --------------------------------------------------------------------------- */
 
-static bool add_page(Text *html, const ReviewPage *page, Arena *arena, Error *err)
+static bool end_page(Text *html, const ReviewPage *page, Arena *arena, Error *err)
 {
-    if (!add_head(html, page, arena, err)) return false;
-    add_diff(html, page, arena);
-    review_variants_add(html, page->review, arena);
-    if (!add_sweeps(html, page, arena, err)) return false;
-    add_verdicts(html, page, arena);
-    if (!add_cases(html, page, arena, err)) return false;
-    review_gaze_add(html, page->review, arena);
-    review_false_suns_add(html, page->review, arena);
-    add_notes(html, page->review);
-    add_provenance(html, page, arena);
-    add_glossary(html);
     if (page->live && !review_live_add(html, page->review, page->live, arena, err))
         return false;
     page_end(html, "review",
@@ -323,11 +352,47 @@ static bool add_page(Text *html, const ReviewPage *page, Arena *arena, Error *er
     return true;
 }
 
+static bool add_page(Text *html, const ReviewPage *page, Arena *arena, Error *err)
+{
+    if (!add_head(html, page, arena, err)) return false;
+    add_diff(html, page, arena);
+    review_variants_add(html, page->review, arena);
+    if (!add_sweeps(html, page, arena, err)) return false;
+    text_add(html, "<p class=\"sub choice\"><label><input type=\"checkbox\" id=\"print-all\"> "
+             "print what follows, too</label></p>\n<div class=\"appendix\">\n");
+    add_verdicts(html, page, arena);
+    if (!add_cases(html, page, arena, err)) return false;
+    review_gaze_add(html, page->review, arena);
+    review_false_suns_add(html, page->review, arena);
+    add_notes(html, page->review);
+    add_provenance(html, page, arena);
+    add_glossary(html);
+    text_add(html, "</div>\n");
+    return end_page(html, page, arena, err);
+}
+
+/* The cards that the page itself leaves out. */
+static bool add_beside(Text *html, const ReviewPage *page, Arena *arena, Error *err)
+{
+    const Review *review = page->review;
+    const char   *title = review->title && review->title[0] ? review->title : "Glare review";
+    page_begin(html, &(PageHead){title, arena_format(arena, "%s%s", REVIEW_STYLE, LIVE_STYLE),
+                               page->is_dark});
+    page_element(html, "h1", arena_format(arena, "%s: all other cases", title));
+    text_add(html, "<p class=\"sub\"><a href=\"index.html\">The answer, and the worst of "
+             "them</a></p>\n");
+    if (!add_sweeps(html, page, arena, err) || !add_cases(html, page, arena, err)) return false;
+    add_glossary(html);
+    return end_page(html, page, arena, err);
+}
+
 bool review_page_write(const ReviewPage *page, const char *path, Error *err)
 {
     Arena own = arena_reserve(PAGE_BYTES), words = arena_reserve(WORDS_BYTES);
     Text  html = {.arena = &own};
-    bool  ok = add_page(&html, page, &words, err) &&
+    bool  is_made = page->review->is_beside ? add_beside(&html, page, &words, err)
+                                            : add_page(&html, page, &words, err);
+    bool  ok = is_made &&
               page_write((const Text *const[]){&html}, 1, path, err);
     arena_release(&words);
     arena_release(&own);

@@ -4,6 +4,8 @@
  * The first screen is the answer: pass or fail, every symbol and eye at its worst, and the
  * worst case of all with its picture, when, why and what mends it. Then maps and calendars of
  * the sweeps; folded, all verdicts, a card for every case, and where every limit comes from.
+ * Where a review has many cases the page keeps the cards of the worst (Review.main_cards), and
+ * another, written of the same with is_beside, the others.
  * Nothing is loaded but pictures, and the layers of those that are looked at, of which the page
  * names files beside it (ReviewPicture.beside, LivePicture.beside); nothing needs script.
  *

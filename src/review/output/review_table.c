@@ -19,7 +19,7 @@
 static void add_link(Text *html, const Review *review, const ReviewCase *c, const char *text,
                      Arena *arena)
 {
-    text_format(html, "<a href=\"#%s\">", review_card_id(review, c, arena));
+    text_format(html, "<a href=\"%s\">", review_card_link(review, c, arena));
     escape_markup(html, text);
     text_add(html, "</a>");
 }
@@ -91,8 +91,8 @@ static void add_matrix_cell(Text *html, const Matrix *m, const ReviewCase *c, Ar
         return;
     }
     const LimitVerdict *limit = c->verdict == VERDICT_NOT_VISIBLE ? NULL : shown_limit(c);
-    text_format(html, "<td class=\"%s\"><a href=\"#%s\" title=\"", words_class(c->verdict),
-                review_card_id(m->review, c, arena));
+    text_format(html, "<td class=\"%s\"><a href=\"%s\" title=\"", words_class(c->verdict),
+                review_card_link(m->review, c, arena));
     escape_markup(html, arena_format(arena, "%s: %s", words_verdict(c->verdict),
                                      words_reason(c, arena)));
     text_format(html, "\"><div><b>%s %s</b>", words_mark(c->verdict),
@@ -166,8 +166,8 @@ static void add_sweep_cell(Text *html, const Review *review, const ReviewSweep *
     }
     Verdict             verdict = sweep_verdict(s);
     const LimitVerdict *limit = shown_limit(&s->worst);
-    text_format(html, "<td class=\"%s\"><a href=\"#%s\"><b>%s %s</b>", words_class(verdict),
-                review_card_id(review, &s->worst, arena), words_mark(verdict),
+    text_format(html, "<td class=\"%s\"><a href=\"%s\"><b>%s %s</b>", words_class(verdict),
+                review_card_link(review, &s->worst, arena), words_mark(verdict),
                 words_often(s, arena));
     page_element(html, "small",
                  arena_format(arena, "%s%s%s", words_contrast(&s->worst, arena),

@@ -1,0 +1,181 @@
+# SPDX-License-Identifier: Apache-2.0
+"""meeting.py PARHELION [REVIEW_FOLDER ...] -- a review's page fits a meeting: light, short before
+anything is unfolded, two pages on paper, no wider than a telephone, usable by keyboard and by a
+screen reader, light and dark; and its first screen is the answer, to a reader who sees nothing
+else. Without a folder a small review is made.
+"""
+import base64
+import os
+import re
+import subprocess
+import sys
+import tempfile
+
+import browser
+
+ROOT = os.path.realpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."))
+sys.path[:0] = [os.path.join(ROOT, "tests", "image"), os.path.join(ROOT, "tests", "structure")]
+from report import Report  # noqa: E402
+
+MOST_BYTES, MOST_SCREENS, PAPER_PAGES = 3_000_000, 4, 2
+SCREEN = (1280, 720)
+# What stands within the first screen, as its reader reads it: word by word, from the top.
+SEEN = """(()=>{const out=[];const walk=document.createTreeWalker(document.body,
+NodeFilter.SHOW_TEXT);while(walk.nextNode()){const n=walk.currentNode;
+if(/SCRIPT|STYLE/.test(n.parentElement.tagName))continue;
+const r=document.createRange();r.selectNodeContents(n);const b=r.getBoundingClientRect();
+if(b.width&&b.bottom<=innerHeight&&n.data.trim())out.push(n.data.trim());}
+return out.join('\\n');})()"""
+
+
+def axe():
+    """The accessibility checker's script, of npm; None where it cannot be had."""
+    try:
+        where = subprocess.run(["npm", "root", "-g"], capture_output=True, text=True,
+                               check=True).stdout.strip()
+        path = os.path.join(where, "axe-core", "axe.min.js")
+        if not os.path.exists(path):
+            folder = tempfile.mkdtemp()
+            subprocess.run(["npm", "install", "--silent", "--prefix", folder, "axe-core"],
+                           check=True, capture_output=True, timeout=120)
+            path = os.path.join(folder, "node_modules", "axe-core", "axe.min.js")
+        with open(path, encoding="utf-8") as file:
+            return file.read()
+    except (OSError, subprocess.SubprocessError):
+        return None
+
+
+def check_access(report, page, checker, where):
+    """Nothing serious, folded or unfolded."""
+    page.run(checker + ";0")
+    for opens in (False, True):
+        if opens:
+            page.run("document.querySelectorAll('details').forEach(d=>d.open=true)")
+        found = page.run("axe.run(document,{resultTypes:['violations']}).then(r=>r.violations"
+                         ".filter(v=>/serious|critical/.test(v.impact)).map(v=>v.id+': '+"
+                         "v.nodes.length+' '+v.nodes[0].html.slice(0,120)))")
+        report.claim(not found, f"{where}, {'un' if opens else ''}folded: {found}")
+
+
+def check_size(report, page, index):
+    size = os.path.getsize(index)
+    height = page.run("document.documentElement.scrollHeight")
+    print(f"{index}: {size / 1e6:.2f} MB, {height / SCREEN[1]:.2f} screens", end="")
+    report.claim(size <= MOST_BYTES, f"{index}: {size} bytes")
+    report.claim(height <= MOST_SCREENS * SCREEN[1], f"{index}: {height} px tall")
+
+
+def paper_pages(page):
+    data = page.call("Page.printToPDF", paperWidth=8.27, paperHeight=11.69,
+                     preferCSSPageSize=True)["data"]
+    return len(re.findall(rb"/Type\s*/Page[^s]", base64.b64decode(data)))
+
+
+def check_paper(report, page, index):
+    few = paper_pages(page)
+    page.run("document.getElementById('print-all').click()")
+    all_pages = paper_pages(page)
+    print(f", on paper {few} pages, with the appendix {all_pages}")
+    report.claim(few <= PAPER_PAGES, f"{index}: {few} pages of A4")
+    report.claim(all_pages >= few, f"{index}: {all_pages} pages with the appendix")
+    page.run("document.getElementById('print-all').click()")
+
+
+def check_narrow(report, page, index):
+    """A telephone: nothing is cut off, wide tables scroll in their place."""
+    page.resize(390, 844)
+    page.run("document.querySelectorAll('details').forEach(d=>d.open=true)")
+    over = page.run("document.documentElement.scrollWidth-innerWidth")
+    report.claim(over <= 0, f"{index}: {over} px wider than 390")
+    cut = page.run("[...document.querySelectorAll('table')].filter(t=>{const w=t.closest("
+                   "'.wide');return t.getBoundingClientRect().right>innerWidth+1&&!(w&&"
+                   "getComputedStyle(w).overflowX==='auto')}).length")
+    report.claim(cut == 0, f"{index}: {cut} tables are cut off")
+    page.resize(*SCREEN)
+
+
+def check_keyboard(report, page, index):
+    """Tab comes to links and folds, which Enter opens; what has the focus shows it."""
+    page.run("document.querySelectorAll('details').forEach(d=>d.open=false);scrollTo(0,0);"
+             "document.activeElement.blur()")
+    seen = set()
+    for _ in range(60):
+        page.call("Input.dispatchKeyEvent", type="keyDown", key="Tab", code="Tab",
+                  windowsVirtualKeyCode=9)
+        page.call("Input.dispatchKeyEvent", type="keyUp", key="Tab", code="Tab",
+                  windowsVirtualKeyCode=9)
+        seen.add(page.run("document.activeElement.tagName"))
+        if page.run("document.activeElement.tagName==='SUMMARY'"):
+            break
+    report.claim("SUMMARY" in seen, f"{index}: Tab comes to {seen}")
+    drawn = page.run("getComputedStyle(document.activeElement).outlineStyle")
+    report.claim(drawn != "none", f"{index}: the focus is not shown")
+
+
+def check_reader(report, page, index, review):
+    """A reader of the first screen's words alone finds verdict, worst case, when, the largest
+    cause and the best remedy."""
+    page.resize(*SCREEN)
+    page.run("scrollTo(0,0)")
+    words = page.run(SEEN)
+    verdict = re.search(r"^(Fails|Passes|Too close to call)$", words, re.M)
+    wanted = {"pass": "Passes", "fail": "Fails", "too close": "Too close to call"}
+    report.claim(verdict and verdict[1] == wanted[review["verdict"]], f"{index}: no verdict")
+    worst = re.search(r"([^\n:]+), seen by ([^,\n]+), (.+?): ", words)
+    report.claim(bool(worst), f"{index}: no worst case in {words[:200]!r}")
+    if not worst:
+        return
+    cases = [c for c in review["cases"] + [s["worst"] for s in review["sweeps"]]
+             if c["symbol"] in worst[1] and c["eye"] == worst[2] and
+             worst[3].startswith(c["condition"])]
+    report.claim(len(cases) >= 1, f"{index}: {worst[0]!r} is no case")
+    for name in ("When", "Light from") + (() if review["verdict"] == "pass" else
+                                          ("What mends it",)):
+        report.claim(re.search(rf"^{name}\n(.+)", words, re.M), f"{index}: no '{name}' in "
+                     f"the first screen")
+    cause = re.search(r"^Light from\n(\d+) % (\S.*?)(?: ·|$)", words, re.M)
+    if cause and cases:
+        light = cases[0]["cause_groups"]["light"]
+        report.claim(not light or light[0]["what"].startswith(cause[2][:8]),
+                     f"{index}: largest cause {cause[2]}, of {light[:1]}")
+
+
+def check_folder(report, program, folder, checker):
+    import json
+    index = os.path.join(folder, "index.html")
+    with open(os.path.join(folder, "review.json"), encoding="utf-8") as file:
+        review = json.load(file)
+    for dark in (False, True):
+        with browser.Browser(program, "file://" + index, SCREEN, dark) as page:
+            page.run("new Promise(done=>setTimeout(done,300))")
+            if not dark:
+                check_size(report, page, index)
+                check_reader(report, page, index, review)
+                check_paper(report, page, index)
+                check_narrow(report, page, index)
+                check_keyboard(report, page, index)
+            if checker:
+                check_access(report, page, checker, index + (", dark" if dark else ""))
+            report.claim(not page.errors, f"{index}: {page.errors}")
+
+
+def main(program, *folders):
+    report, found, checker = Report(), browser.find(), axe()
+    if not found:
+        report.skip("pages of reviews: there is no Chromium")
+        return report.finish()
+    if not checker:
+        report.skip("pages of reviews for screen readers: npm has no axe-core here")
+    for folder in folders:
+        check_folder(report, found, os.path.abspath(folder), checker)
+    if not folders:
+        with tempfile.TemporaryDirectory() as place:
+            out = os.path.join(place, "glance")
+            subprocess.run([program, "review", "scenes/glance.review.json", "-o", out,
+                            "--quiet"], cwd=ROOT, capture_output=True, check=False)
+            check_folder(report, found, out, checker)
+    return report.finish()
+
+
+if __name__ == "__main__":
+    sys.exit(main(*[os.path.abspath(word) for word in sys.argv[1:]]))
