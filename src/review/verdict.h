@@ -330,7 +330,10 @@ struct Review {
     bool            pass;         /* nothing fails; strict: nor is too close, not visible or of
                                      a material without data */
     bool            is_strict;
+    bool            has_summaries; /* beside its page, one a symbol */
     int             main_cards;   /* of its page: so many of the worst cases and sweeps have
                                      their cards there, the others on a page beside; 0: all */
     bool            is_beside;    /* this is about that page */
+    const Review   *whole;        /* this is what it says of one symbol: cards stand on its
+                                     pages; NULL: it is no part */
 };

@@ -5,6 +5,7 @@ screen reader, light and dark; and its first screen is the answer, to a reader w
 else. Without a folder a small review is made.
 """
 import base64
+import json
 import os
 import re
 import subprocess
@@ -19,6 +20,7 @@ from report import Report  # noqa: E402
 
 MOST_BYTES, MOST_SCREENS, PAPER_PAGES = 3_000_000, 4, 2
 SCREEN = (1280, 720)
+MOST_SUMMARIES = 4
 # What stands within the first screen, as its reader reads it: word by word, from the top.
 SEEN = """(()=>{const out=[];const walk=document.createTreeWalker(document.body,
 NodeFilter.SHOW_TEXT);while(walk.nextNode()){const n=walk.currentNode;
@@ -140,8 +142,25 @@ def check_reader(report, page, index, review):
                      f"{index}: largest cause {cause[2]}, of {light[:1]}")
 
 
+def check_summaries(report, program, folder, checker):
+    """One page of paper a symbol, to which the grid leads."""
+    names = sorted(name for name in os.listdir(folder) if name.startswith("summary-"))
+    with open(os.path.join(folder, "index.html"), encoding="utf-8") as file:
+        index = file.read()
+    report.claim(names, f"{folder}: no symbol has a summary")
+    for name in names[:MOST_SUMMARIES]:
+        path = os.path.join(folder, name)
+        report.claim(f'href="{name}"' in index or len(names) > 10, f"nothing leads to {path}")
+        with browser.Browser(program, "file://" + path, SCREEN) as page:
+            pages = paper_pages(page)
+            report.claim(pages == 1, f"{path}: {pages} pages of A4")
+            if checker:
+                check_access(report, page, checker, path)
+            report.claim(not page.errors, f"{path}: {page.errors}")
+
+
 def check_folder(report, program, folder, checker):
-    import json
+    check_summaries(report, program, folder, checker)
     index = os.path.join(folder, "index.html")
     with open(os.path.join(folder, "review.json"), encoding="utf-8") as file:
         review = json.load(file)

@@ -177,6 +177,18 @@ static int check_links(const char *page, const char *other, const char *name)
     return count;
 }
 
+static const char *summary_of(const Review *review, const char *symbol)
+{
+    Error       err = {0};
+    FileBytes   bytes;
+    const char *path = fresh_name(".html");
+    ReviewPage  page = {.review = review};
+    if (!review_page_write_summary(&page, symbol, path, &err)) fail_msg("%s", err.text);
+    assert_true(file_read(path, (size_t)1 << 28, &arena, &bytes, &err));
+    remove(path);
+    return (const char *)bytes.data;
+}
+
 TEST(many_cases_take_two_pages)
 {
     (void)state;
@@ -209,6 +221,14 @@ TEST(many_cases_take_two_pages)
     assert_true(check_links(page, page, "") > 0 && check_links(page, rest, "cases.html") > 0);
     check_links(rest, rest, "");
     check_links(rest, page, "index.html");
+    for (int i = 0; i < CASES; i++) {
+        const char *one = summary_of(&review, cases[i].symbol);
+        assert_well_formed(one);
+        assert_int_equal(check_links(one, page, "index.html") +
+                             check_links(one, rest, "cases.html"), 2); /* the grid, the list */
+        assert_non_null(strstr(one, cases[i].symbol));
+        assert_null(strstr(one, cases[(i + 1) % CASES].symbol));
+    }
 }
 
 /* Behind a table that leads to each. What fails is open, what passes lies in a fold. */

@@ -30,7 +30,7 @@
 
 typedef struct ReviewWords {
     ShareRequest share;
-    const char *folder, *profile, *root, *isa, *diff, *init, *responses, *mend;
+    const char *folder, *profile, *root, *isa, *diff, *init, *responses, *mend, *summary;
     bool        is_strict, dry_run, decides, is_self_contained;
     StateWords  state_words;
     SceneState  state;
@@ -59,6 +59,8 @@ static bool parse(int argc, char **argv, Arena *arena, ReviewWords *out, Error *
         {"--mend", OPTION_TEXT, "NAME",
          "the smallest change of that parameter of \"sensitivity\" that makes all pass",
          &out->mend},
+        {"--summary", OPTION_TEXT, "SYMBOL",
+         "one page of paper about this symbol, instead of one about each", &out->summary},
         {"--diff", OPTION_TEXT, "DIR", "an earlier review to hold this one against",
          &out->diff},
         {"--responses", OPTION_TEXT, "DIR",
@@ -351,6 +353,25 @@ static bool find_parameter(const ReviewRequest *request, const char *name, Arena
                      name, nearest_word_advice(name, names, count, advice, sizeof advice));
 }
 
+/* Symbols that are found in a content are "NAME 1", "NAME 2" ... */
+static bool check_symbol(const ReviewRequest *request, const char *name, Arena scratch,
+                         Error *err)
+{
+    char         advice[320];
+    const char **names = ARENA_NEW(&scratch, const char *, request->symbol_count);
+    for (int i = 0; i < request->symbol_count; i++) {
+        const ReviewSymbol *symbol = &request->symbols[i];
+        size_t              length = strlen(symbol->name);
+        names[i] = symbol->name;
+        if (!strcmp(symbol->name, name) ||
+            (symbol->find_text && !strncmp(symbol->name, name, length) && name[length] == ' '))
+            return true;
+    }
+    return error_set(err, ERROR_USAGE, "--summary %.100s: is no symbol of %.200s: %s", name,
+                     request->file, nearest_word_advice(name, names, request->symbol_count,
+                                                        advice, sizeof advice));
+}
+
 static bool review(const ReviewWords *words, Arena *arena, Error *err)
 {
     const char    *file = words->cli.arguments[0];
@@ -362,6 +383,7 @@ static bool review(const ReviewWords *words, Arena *arena, Error *err)
                              .state = words->state, .responses = words->responses,
                              .threads = words->cli.threads,
                              .is_strict = words->is_strict,
+                             .summary = words->summary,
                              .is_self_contained = words->is_self_contained};
     if (!review_request_read(file, words->root, arena, &problems, &request, err)) return false;
     if (!profile_load(words->profile ? words->profile : request.profile, arena, &profile, err))
@@ -369,6 +391,7 @@ static bool review(const ReviewWords *words, Arena *arena, Error *err)
     request.decides = words->decides;
     if (words->mend && !find_parameter(&request, words->mend, *arena, &folder.mend, err))
         return false;
+    if (words->summary && !check_symbol(&request, words->summary, *arena, err)) return false;
     if (!review_check(&request, *arena, err)) return false;
     ReviewRun run = {.request = &request, .profile = profile, .root = words->root,
                      .state = words->state,

@@ -188,6 +188,11 @@ static void remove_earlier(const ReviewDraft *draft, const Review *review,
     for (int i = 0; i < COUNT_OF(seldom); i++)
         if (!is_among(published, seldom[i]))
             unlink(arena_format(&scratch, "%s/%s", draft->target, seldom[i]));
+    list_files(&files, draft->target, "");
+    for (int i = 0; i < files.count; i++)
+        if (starts_with(files.names[i], "summary-") && !is_among(published, files.names[i]))
+            unlink(arena_format(&scratch, "%s/%s", draft->target, files.names[i]));
+    files.count = 0;
     list_files(&files, draft->target, "sweeps/");
     list_files(&files, draft->target, "frames/");
     for (int i = 0; i < files.count; i++)

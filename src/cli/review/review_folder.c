@@ -13,6 +13,7 @@
 #include "render/render.h"
 #include "review/run/frames.h"
 #include "review/run/live.h"
+#include "review/output/review_answer.h"
 #include "review/output/review_csv.h"
 #include "review/output/review_decide.h"
 #include "review/output/review_json.h"
@@ -216,10 +217,12 @@ const char *review_folder_command(const ReviewFolder *folder, Arena *arena)
                                 : arena_format(arena, " --responses %s", folder->responses);
     const char *mend =
         folder->mend ? arena_format(arena, " --mend '%s'", folder->mend->name) : "";
-    return arena_format(arena, "parhelion review %s -o %s%s%s%s%s%s%s%s%s",
+    const char *summary =
+        folder->summary ? arena_format(arena, " --summary '%s'", folder->summary) : "";
+    return arena_format(arena, "parhelion review %s -o %s%s%s%s%s%s%s%s%s%s",
                         folder->request->file,
                         folder->target, profile, root, state, diff, responses,
-                        mend, folder->is_strict ? " --strict" : "",
+                        mend, summary, folder->is_strict ? " --strict" : "",
                         folder->is_self_contained ? " --self-contained" : "");
 }
 
@@ -276,6 +279,27 @@ static bool write_diff(const ReviewFolder *folder, const ReviewOutcome *outcome,
                              arena_format(arena, "%s/diff.json", folder->name), err);
 }
 
+/* One a symbol; --summary: that one alone. Where two names are one file's the first has it. */
+static bool write_summaries(const ReviewFolder *folder, const ReviewPage *page, Arena *arena,
+                            Error *err)
+{
+    const Review      *review = page->review;
+    int                all = review->case_count + review->sweep_count;
+    const ReviewCase **ranked = review_rank(review, arena);
+    for (int i = 0; i < all; i++) {
+        const char *symbol = ranked[i]->symbol;
+        bool        is_told = folder->summary && strcmp(folder->summary, symbol) != 0;
+        for (int k = 0; k < i && !is_told; k++)
+            is_told = !strcmp(review_summary_name(ranked[k]->symbol, arena),
+                              review_summary_name(symbol, arena));
+        if (is_told) continue;
+        const char *path =
+            arena_format(arena, "%s/%s", folder->name, review_summary_name(symbol, arena));
+        if (!review_page_write_summary(page, symbol, path, err)) return false;
+    }
+    return true;
+}
+
 /* Many cases take two pages, so that the first is light. */
 static bool write_page(const ReviewFolder *folder, ReviewOutcome *outcome, Arena *arena,
                        Error *err)
@@ -284,10 +308,14 @@ static bool write_page(const ReviewFolder *folder, ReviewOutcome *outcome, Arena
     const char *command = review_folder_command(folder, arena);
     ReviewPage  page = {.review = review, .commands = &command, .command_count = 1};
     int         all = review->case_count + review->sweep_count;
+    review->has_summaries = !folder->is_self_contained && !folder->summary;
     review->main_cards = folder->is_self_contained || all <= MAIN_CARDS ? 0 : MAIN_CARDS;
     if (!fill_page(folder, outcome, &page, arena, err) ||
         !write_diff(folder, outcome, &page, arena, err) ||
         !review_page_write(&page, arena_format(arena, "%s/index.html", folder->name), err))
+        return false;
+    if ((review->has_summaries || folder->summary) &&
+        !write_summaries(folder, &page, arena, err))
         return false;
     if (!review->main_cards) return true;
     review->is_beside = true;

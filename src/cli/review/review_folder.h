@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* review_folder.h -- the folder of a review: page, documents, tables, pictures.
  *
- * index.html, review.json, cases.csv, junit.xml; sweeps/NAME.csv; frames/NAME.exr and .png, and
+ * index.html (with many cases cases.html beside it), live.js, summary-SYMBOL.html, review.json,
+ * cases.csv, junit.xml; sweeps/NAME.csv; frames/NAME.exr and .png, and
  * NAME.layers.js, which the page asks for when its reader looks at the picture;
  * responses/NAME.response; run.json with what may differ from run to run; diff.json beside an
  * earlier review; unfinished/ (review_draft.h) until all is there.
@@ -19,6 +20,7 @@ typedef struct ReviewFolder {
     const ReviewRequest *request;
     const char          *diff; /* folder of an earlier review; NULL: none */
     const ReviewParameter *mend; /* --mend's; NULL: none */
+    const char          *summary; /* the symbol that --summary names; NULL: all */
     const char          *profile, *root; /* as on the command line; NULL: not given */
     SceneState           state;          /* the same */
     const char          *responses; /* the same, then where they are */

@@ -25,6 +25,17 @@ const char *const *review_answer_directions(const ReviewAnswer *answer, const Re
     return NULL;
 }
 
+const char *review_summary_name(const char *symbol, Arena *arena)
+{
+    char *name = arena_format(arena, "%s", symbol ? symbol : "");
+    for (char *c = name; *c; c++) {
+        bool is_plain = (*c >= 'a' && *c <= 'z') || (*c >= 'A' && *c <= 'Z') ||
+                        (*c >= '0' && *c <= '9') || *c == '_';
+        if (!is_plain) *c = '-';
+    }
+    return arena_format(arena, "summary-%s.html", name);
+}
+
 /* ---- the line --------------------------------------------------------------------------- */
 
 /* What leads to the worst case. */
@@ -129,12 +140,25 @@ static void add_cell(Text *html, const Review *review, const ReviewCase *c, Aren
     text_add(html, "</a></td>");
 }
 
+/* It leads to what fits on one page of paper. */
+static void add_symbol(Text *html, const Review *review, const char *symbol, Arena *arena)
+{
+    if (!review->has_summaries || review->whole) {
+        page_cell(html, "", symbol);
+        return;
+    }
+    text_format(html, "<td><a class=\"symbol\" href=\"%s\">",
+                review_summary_name(symbol, arena));
+    escape_markup(html, symbol);
+    text_add(html, "</a></td>");
+}
+
 static void add_rows(Text *html, const Review *review, const Grid *grid, int rows, int eyes,
                      Arena *arena)
 {
     for (int row = 0; row < rows; row++) {
         page_row_begin(html, "");
-        page_cell(html, "", grid->symbols[row]);
+        add_symbol(html, review, grid->symbols[row], arena);
         for (int i = 0; i < eyes; i++)
             add_cell(html, review, worst_of(grid, grid->symbols[row], grid->eyes[i]), arena);
         page_row_end(html);

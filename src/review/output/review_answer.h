@@ -24,3 +24,6 @@ bool review_answer_add(Text *html, const ReviewAnswer *answer, Arena *arena, Err
 /* What the azimuth of a case's sun counts from: words_directions, or NULL. */
 const char *const *review_answer_directions(const ReviewAnswer *answer, const ReviewCase *c,
                                             Arena *arena);
+
+/* The page that tells of one symbol alone: "summary-speed.html". */
+const char *review_summary_name(const char *symbol, Arena *arena);

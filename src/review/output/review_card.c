@@ -379,6 +379,11 @@ bool review_card_is_here(const Review *review, const ReviewCase *c, Arena scratc
 const char *review_card_link(const Review *review, const ReviewCase *c, Arena *arena)
 {
     const char *page = "";
+    if (review->whole) {
+        const ReviewCase *same = review_case_like(review->whole, c);
+        const char       *link = review_card_link(review->whole, same, arena);
+        return link[0] == '#' ? arena_format(arena, "index.html%s", link) : link;
+    }
     if (!review_card_is_here(review, c, *arena))
         page = review->is_beside ? "index.html" : REVIEW_PAGE_BESIDE;
     return arena_format(arena, "%s#%s", page, review_card_id(review, c, arena));

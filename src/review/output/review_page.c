@@ -16,6 +16,7 @@
 #define PAGE_BYTES ((size_t)4 << 30) /* of address space, for the text */
 #define WORDS_BYTES ((size_t)1 << 30)
 #define OPEN_SWEEPS 1
+#define SUMMARY_ROWS 10 /* of verdicts, so that it fits on one page of paper */
 
 /* review.css and review.js beside this file; the build embeds them. */
 extern const char REVIEW_STYLE[], REVIEW_SCRIPT[];
@@ -58,7 +59,7 @@ static void add_verdicts(Text *html, const ReviewPage *page, Arena *arena)
              "far it is above (+) or below (−) its limit. ✓ passes, ✗ fails, ≈ too close to "
              "call, ∅ not visible; below it the 95 % interval and the limit.</p>\n");
     review_table_add_matrix(html, review, arena);
-    review_table_add_list(html, review, arena);
+    review_table_add_list(html, review, 0, arena);
     page_more_end(html);
 }
 
@@ -358,7 +359,7 @@ static bool add_page(Text *html, const ReviewPage *page, Arena *arena, Error *er
     add_diff(html, page, arena);
     review_variants_add(html, page->review, arena);
     if (!add_sweeps(html, page, arena, err)) return false;
-    text_add(html, "<p class=\"sub choice\"><label><input type=\"checkbox\" id=\"print-all\"> "
+    text_add(html, "<p class=\"sub choice\"><label><input type=\"checkbox\" id=\"print-all\"/> "
              "print what follows, too</label></p>\n<div class=\"appendix\">\n");
     add_verdicts(html, page, arena);
     if (!add_cases(html, page, arena, err)) return false;
@@ -385,6 +386,100 @@ static bool add_beside(Text *html, const ReviewPage *page, Arena *arena, Error *
     add_glossary(html);
     return end_page(html, page, arena, err);
 }
+
+/* ---- one symbol alone ------------------------------------------------------------------- */
+
+/* What the review says of a symbol. */
+static Review part_of(const Review *whole, const char *symbol, Arena *arena)
+{
+    Review part = *whole;
+    part.whole = whole;
+    part.main_cards = part.case_count = part.sweep_count = part.gaze_count = 0;
+    part.variant_count = part.sensitivity_count = part.mend_count = 0;
+    part.cases = ARENA_NEW(arena, ReviewCase, whole->case_count);
+    part.sweeps = ARENA_NEW(arena, ReviewSweep, whole->sweep_count);
+    for (int i = 0; i < whole->case_count; i++)
+        if (words_same(whole->cases[i].symbol, symbol))
+            part.cases[part.case_count++] = whole->cases[i];
+    for (int i = 0; i < whole->sweep_count; i++)
+        if (words_same(whole->sweeps[i].symbol, symbol))
+            part.sweeps[part.sweep_count++] = whole->sweeps[i];
+    review_decide(&part);
+    return part;
+}
+
+/* The part's own of a case or sweep of the whole; NULL: it is another symbol's. */
+static const ReviewCase *case_of_part(const Review *part, const ReviewCase *of)
+{
+    const ReviewCase *like = review_case_like(part, of);
+    return like && words_same(like->symbol, of->symbol) ? like : NULL;
+}
+
+static ReviewPage page_of_part(const ReviewPage *page, const Review *part, Arena *arena)
+{
+    ReviewPage     out = {.review = part, .is_dark = page->is_dark};
+    ReviewPicture *pictures = ARENA_NEW(arena, ReviewPicture, page->picture_count);
+    ReviewMap     *maps = ARENA_NEW(arena, ReviewMap, page->map_count);
+    for (int i = 0; i < page->picture_count; i++) {
+        const ReviewCase *of = case_of_part(part, page->pictures[i].of);
+        if (!of) continue;
+        ReviewPicture *p = &pictures[out.picture_count++];
+        *p = page->pictures[i];
+        p->of = of;
+        p->id = NULL; /* nothing else of this page shows it */
+        p->is_again = false;
+    }
+    for (int i = 0; i < page->map_count; i++) {
+        const ReviewCase *of = case_of_part(part, &page->maps[i].of->worst);
+        if (!of) continue;
+        maps[out.map_count] = page->maps[i];
+        maps[out.map_count++].of = review_sweep_of(part, of);
+    }
+    out.pictures = pictures;
+    out.maps = maps;
+    return out;
+}
+
+/* Of the sweep whose worst comes first. */
+static bool add_worst_map(Text *html, const ReviewPage *page, Arena *arena, Error *err)
+{
+    CardList cards = list_cards(page->review, true, arena);
+    if (cards.count == 0) return true;
+    const ReviewSweep *s = review_sweep_of(page->review, cards.list[0]);
+    page_element(html, "h2", arena_format(arena, "%s, seen by %s: %s",
+                                          s->condition ? s->condition : "?",
+                                          s->eye ? s->eye : "?", words_how_often(s, arena)));
+    return add_sweep_figures(html, page, s, arena, err);
+}
+
+static bool add_summary(Text *html, const ReviewPage *page, Arena *arena, Error *err)
+{
+    if (!add_head(html, page, arena, err)) return false;
+    text_add(html, "<div class=\"brief\">\n");
+    if (!add_worst_map(html, page, arena, err)) return false;
+    text_add(html, "</div>\n");
+    page_element(html, "h2", "Every verdict");
+    review_table_add_list(html, page->review, SUMMARY_ROWS, arena);
+    text_add(html, "<p class=\"sub\"><a href=\"index.html\">All symbols</a></p>\n");
+    page_end(html, "review", (const char *const[]){REVIEW_SCRIPT, NULL});
+    return true;
+}
+
+bool review_page_write_summary(const ReviewPage *page, const char *symbol, const char *path,
+                               Error *err)
+{
+    Arena own = arena_reserve(PAGE_BYTES), words = arena_reserve(WORDS_BYTES);
+    Text  html = {.arena = &own};
+    Review     part = part_of(page->review, symbol, &words);
+    ReviewPage alone = page_of_part(page, &part, &words);
+    bool  ok = add_summary(&html, &alone, &words, err) &&
+              page_write((const Text *const[]){&html}, 1, path, err);
+    arena_release(&words);
+    arena_release(&own);
+    return ok;
+}
+
+/* ---- as a file -------------------------------------------------------------------------- */
 
 bool review_page_write(const ReviewPage *page, const char *path, Error *err)
 {

@@ -44,3 +44,8 @@ typedef struct ReviewPage {
 } ReviewPage;
 
 bool review_page_write(const ReviewPage *page, const char *path, Error *err);
+
+/* What it says of one symbol, on one page of paper: verdicts, its worst, why, a map. Its links
+ * lead to index.html, pictures stay where they are. */
+bool review_page_write_summary(const ReviewPage *page, const char *symbol, const char *path,
+                               Error *err);

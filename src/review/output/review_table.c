@@ -257,7 +257,7 @@ static void add_list_row(Text *html, const Review *review, const ReviewCase *c, 
     page_row_end(html);
 }
 
-void review_table_add_list(Text *html, const Review *review, Arena *arena)
+void review_table_add_list(Text *html, const Review *review, int most, Arena *arena)
 {
     static const PageColumn COLUMNS[] = {
         {"Verdict", false, NULL}, {"Symbol", false, NULL}, {"Condition", false, NULL},
@@ -269,10 +269,13 @@ void review_table_add_list(Text *html, const Review *review, Arena *arena)
         {"Margin", true, "how far above or below the limit"},
         {"half ← limit → twice", false, NULL}};
     const ReviewCase **ranked = review_rank(review, arena);
+    int all = review->case_count + review->sweep_count, told = most && most < all ? most : all;
     page_table_begin(html, "", "list", COLUMNS, 9);
-    for (int i = 0; i < review->case_count + review->sweep_count; i++)
-        add_list_row(html, review, ranked[i], arena);
+    for (int i = 0; i < told; i++) add_list_row(html, review, ranked[i], arena);
     page_table_end(html);
+    if (told < all)
+        page_element(html, "p class=\"sub\"",
+                     arena_format(arena, "The worst %d of %d.", told, all));
 }
 
 /* ---- limits ----------------------------------------------------------------------------- */

@@ -16,8 +16,8 @@ void review_table_add_matrix(Text *html, const Review *review, Arena *arena);
 /* For every sweep: how often each symbol fails each eye, and the least contrast. */
 void review_table_add_sweeps(Text *html, const Review *review, Arena *arena);
 
-/* Every case and every sweep's worst with its figures, worst first. */
-void review_table_add_list(Text *html, const Review *review, Arena *arena);
+/* Every case and every sweep's worst with its figures, worst first; most: so many, 0 is all. */
+void review_table_add_list(Text *html, const Review *review, int most, Arena *arena);
 
 /* Every limit that was asked, once, with where its value was read. */
 void review_table_add_limits(Text *html, const Review *review, Arena *arena);
