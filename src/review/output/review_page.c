@@ -16,7 +16,7 @@
 #define PAGE_BYTES ((size_t)4 << 30) /* of address space, for the text */
 #define WORDS_BYTES ((size_t)1 << 30)
 #define OPEN_SWEEPS 1
-#define SUMMARY_ROWS 10 /* of verdicts, so that it fits on one page of paper */
+#define SUMMARY_ROWS 8 /* of verdicts, so that it fits on one page of paper */
 
 /* review.css and review.js beside this file; the build embeds them. */
 extern const char REVIEW_STYLE[], REVIEW_SCRIPT[];
