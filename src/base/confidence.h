@@ -12,7 +12,7 @@
  */
 #pragma once
 #define CONFIDENCE_MISS 0.05 /* chance that a 95 % interval does not hold the true value: */
-#define NORMAL_QUANTILE 1.959963984540054 /* that of a normal variable to lie farther out, either
+#define NORMAL_QUANTILE 1.959963984540054 /* that a normal variable lies farther out, on either
                                              side: erfc(z / sqrt 2) */
 
 /* Of batches' means, all of as many samples. */

@@ -267,7 +267,7 @@ typedef struct ReviewVariantFound {
     ReviewDifference   worst;       /* of the least margins of all, whose cases may differ */
 } ReviewVariantFound;
 
-/* How the contrast's margin of one symbol hangs on a parameter, where the review has it least. */
+/* How one symbol's margin of contrast hangs on a parameter, where the review has it least. */
 typedef struct ReviewSlope {
     const ReviewCase *of;    /* of the review itself */
     double            slope; /* margin by unit of the parameter; NaN: it is not seen there */

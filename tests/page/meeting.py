@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""meeting.py PARHELION [REVIEW_FOLDER ...] -- a review's page fits a meeting: light, short before
-anything is unfolded, two pages on paper, no wider than a telephone, usable by keyboard and by a
-screen reader, light and dark; and its first screen is the answer, to a reader who sees nothing
-else. Without a folder a small review is made.
+"""meeting.py PARHELION [REVIEW_FOLDER ...] -- a review's page fits a meeting: light, short
+before anything is unfolded, two pages on paper, no wider than a telephone, usable by keyboard
+and by a screen reader, light and dark; and its first screen is the answer, to a reader who sees
+nothing else. Without a folder a small review is made.
 """
 import base64
 import json

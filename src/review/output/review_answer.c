@@ -280,7 +280,8 @@ static void add_mend(Text *html, int *told, const char *words)
 static void add_tried(Text *html, const Review *review, int *told, Arena *arena)
 {
     for (int i = 0; i < review->mend_count; i++)
-        if (review->mends[i].is_found) add_mend(html, told, words_mend(&review->mends[i], arena));
+        if (review->mends[i].is_found)
+            add_mend(html, told, words_mend(&review->mends[i], arena));
     for (int i = 0; i < review->variant_count && *told < MENDS_TOLD; i++) {
         const ReviewVariantFound *v = &review->variants[i];
         if (review_verdict(v->review) == VERDICT_PASS)

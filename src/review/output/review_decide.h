@@ -41,5 +41,5 @@ const ReviewCase **review_rank(const Review *review, Arena *arena);
 /* The first of them. NULL: there are none. */
 const ReviewCase *review_worst(const Review *review, Arena scratch);
 
-/* The case of the same condition, eye and symbol: a moment's, or a sweep's worst. NULL: none. */
+/* The case of the same condition, eye and symbol: a moment's or a sweep's worst; or NULL. */
 const ReviewCase *review_case_like(const Review *review, const ReviewCase *like);

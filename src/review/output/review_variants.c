@@ -28,9 +28,9 @@ static int compare(const void *a, const void *b)
 {
     const ReviewVariantFound *one = *(const ReviewVariantFound *const *)a;
     const ReviewVariantFound *other = *(const ReviewVariantFound *const *)b;
-    int rank = verdict_rank(review_verdict(one->review)) -
-               verdict_rank(review_verdict(other->review));
-    if (rank) return rank;
+    int verdicts = verdict_rank(review_verdict(one->review)) -
+                   verdict_rank(review_verdict(other->review));
+    if (verdicts) return verdicts;
     double margins = least_margin(other) - least_margin(one);
     if (margins != 0 && !isnan(margins)) return margins > 0 ? 1 : -1;
     double failed = most_failed(one->review) - most_failed(other->review);
@@ -38,7 +38,8 @@ static int compare(const void *a, const void *b)
     return one < other ? -1 : 1; /* they lie in one list */
 }
 
-const ReviewVariantFound **review_variants_rank(const Review *review, Arena *arena)
+/* By verdict, then by worst margin, then by how much of the time they fail. */
+static const ReviewVariantFound **rank(const Review *review, Arena *arena)
 {
     int count = review->variant_count;
     const ReviewVariantFound **out = ARENA_NEW(arena, const ReviewVariantFound *, count);
@@ -80,7 +81,8 @@ static const char *counts_words(const Review *review, Arena *arena)
     ReviewCounts counts = review_count(review);
     int open = counts.of[VERDICT_TOO_CLOSE] + counts.of[VERDICT_NOT_VISIBLE];
     if (!open) return arena_format(arena, "%d of %d", counts.of[VERDICT_FAIL], counts.total);
-    return arena_format(arena, "%d of %d, %d open", counts.of[VERDICT_FAIL], counts.total, open);
+    return arena_format(arena, "%d of %d, %d open", counts.of[VERDICT_FAIL], counts.total,
+                        open);
 }
 
 static const char *failed_words(const Review *review, Arena *arena)
@@ -201,7 +203,7 @@ static void add_variant(Text *html, const ReviewVariantFound *v, Arena *arena)
 static void add_variants(Text *html, const Review *review, Arena *arena)
 {
     if (!review->variant_count) return;
-    const ReviewVariantFound **ranked = review_variants_rank(review, arena);
+    const ReviewVariantFound **ranked = rank(review, arena);
     page_element(html, "p class=\"sub\"",
                  "The same review with something changed, the best first. Both are traced by "
                  "the same random numbers, so that a difference is known better than either "

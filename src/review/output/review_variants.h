@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* review_variants.h -- what if: variants beside each other, the best first, and what each changes
- * of every symbol; how margins hang on parameters; the smallest change that mends it.
+/* review_variants.h -- what if: variants beside each other, the best first, and what each
+ * changes of every symbol; how margins hang on parameters; the smallest change that mends it.
  *
  * Memory   the arena's, for as long as the page is made. Threads: one at a time. Fails: never.
  */
@@ -11,7 +11,3 @@
 
 /* Nothing where the review has none of them. */
 void review_variants_add(Text *html, const Review *review, Arena *arena);
-
-/* By verdict, then by worst margin, then by how much of the time they fail: variant_count
- * pointers. */
-const ReviewVariantFound **review_variants_rank(const Review *review, Arena *arena);

@@ -96,6 +96,6 @@ const char *words_without_data(const Review *review, const ReviewCase *c, Arena 
 /* "glass Window_FL: through → seat FrontSeat_L: scatters" */
 const char *words_chain(const CaseCause *cause, Arena *arena);
 
-/* "tilt: 2.6 degrees make everything pass; at 2.5 degrees something does not"; what is left where
- * no value does. */
+/* "tilt: with 2.6 degrees instead of 0 everything passes ...; with 2.5 something does not";
+ * where no value does what is left. */
 const char *words_mend(const ReviewMend *mend, Arena *arena);

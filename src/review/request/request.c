@@ -75,7 +75,8 @@ static void move_eyes(ReviewRequest *of, const ReviewVariant *variant, Arena *ar
     ReviewEye *eyes = ARENA_NEW(arena, ReviewEye, of->eye_count);
     for (int i = 0; i < of->eye_count; i++) {
         eyes[i] = of->eyes[i];
-        for (int axis = 0; axis < 3; axis++) eyes[i].move_m[axis] += variant->eye_moves[i][axis];
+        for (int axis = 0; axis < 3; axis++)
+            eyes[i].move_m[axis] += variant->eye_moves[i][axis];
     }
     of->eyes = eyes;
 }

@@ -67,7 +67,8 @@ static bool read_range(const JsonView *view, ReviewParameter *out, Error *err)
         return field_fails(view, "range", err,
                            "is [%g, %g], wanted [least, most] about %g, where it stands",
                            range[0], range[1], out->at);
-    double least = out->kind == PARAMETER_HOOD || out->kind == PARAMETER_REFLECTANCE ? 0 : -180;
+    bool   is_length = out->kind == PARAMETER_HOOD || out->kind == PARAMETER_REFLECTANCE;
+    double least = is_length ? 0 : -180;
     double most = out->kind == PARAMETER_REFLECTANCE ? BARE_REFLECTANCE : 180;
     if (out->kind == PARAMETER_BRIGHTNESS) least = 1e-3;
     if (range[0] < least || range[1] > most)
@@ -93,7 +94,8 @@ static bool check_eye(const RequestReading *reading, const JsonView *view,
     if (parameter->kind != PARAMETER_EYE) return true;
     for (int i = 0; i < request->eye_count; i++)
         if (!strcmp(request->eyes[i].name, parameter->target)) return true;
-    return field_fails(view, "eye", err, "is no eye of the review, wanted a name of its 'eyes'");
+    return field_fails(view, "eye", err,
+                       "is no eye of the review, wanted a name of its 'eyes'");
 }
 
 static bool read_parameter(RequestReading *reading, const FieldMembers *members, int i,
@@ -140,6 +142,30 @@ bool request_parameters_read(RequestReading *reading, Error *err)
     for (int i = 0; i < members.count; i++)
         if (!read_parameter(reading, &members, i, &request->parameters[i], err)) return false;
     return true;
+}
+
+/* ---- words ------------------------------------------------------------------------------- */
+
+const char *review_parameter_unit(const ReviewParameter *p, double *scale)
+{
+    *scale = 1;
+    switch (p->kind) {
+    case PARAMETER_SHIFT:
+    case PARAMETER_HOOD:
+    case PARAMETER_EYE: *scale = 1000; return "mm";
+    case PARAMETER_BRIGHTNESS: return "times the brightness";
+    case PARAMETER_REFLECTANCE: *scale = 100; return "%";
+    default: return "degree";
+    }
+}
+
+/* "2.6 degrees", "31 mm", "1.21 times the brightness", "1.1 %". */
+static const char *value_words(const ReviewParameter *p, double value, Arena *arena)
+{
+    double      scale;
+    const char *unit = review_parameter_unit(p, &scale);
+    return arena_format(arena, "%.3g %s%s", scale * value, unit,
+                        !strcmp(unit, "degree") && scale * value != 1 ? "s" : "");
 }
 
 /* ---- as a variant ------------------------------------------------------------------------ */
@@ -211,7 +237,7 @@ ReviewVariant review_parameter_at(const ReviewRequest *request, const ReviewPara
     SceneChange  *changes = ARENA_NEW(arena, SceneChange, 2);
     const char  **words = ARENA_NEW(arena, const char *, 1);
     ReviewVariant out = {.words = words, .word_count = 1};
-    words[0] = arena_format(arena, "%s: %s", p->name, review_parameter_words(p, value, arena));
+    words[0] = arena_format(arena, "%s: %s", p->name, value_words(p, value, arena));
     out.name = words[0];
     out.change.scene = changes;
     out.change.scene_count = scene_changes(request, p, value, changes, arena);
@@ -227,27 +253,4 @@ ReviewVariant review_parameter_at(const ReviewRequest *request, const ReviewPara
     }
     if (p->kind == PARAMETER_EYE) move_eye(request, p, value, &out, arena);
     return out;
-}
-
-/* ---- words ------------------------------------------------------------------------------- */
-
-const char *review_parameter_unit(const ReviewParameter *p, double *scale)
-{
-    *scale = 1;
-    switch (p->kind) {
-    case PARAMETER_SHIFT:
-    case PARAMETER_HOOD:
-    case PARAMETER_EYE: *scale = 1000; return "mm";
-    case PARAMETER_BRIGHTNESS: return "times the brightness";
-    case PARAMETER_REFLECTANCE: *scale = 100; return "%";
-    default: return "degree";
-    }
-}
-
-const char *review_parameter_words(const ReviewParameter *p, double value, Arena *arena)
-{
-    double      scale;
-    const char *unit = review_parameter_unit(p, &scale);
-    return arena_format(arena, "%.3g %s%s", scale * value, unit,
-                        !strcmp(unit, "degree") && scale * value != 1 ? "s" : "");
 }

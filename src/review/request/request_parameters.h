@@ -15,9 +15,5 @@ bool request_parameters_read(RequestReading *reading, Error *err);
 ReviewVariant review_parameter_at(const ReviewRequest *request,
                                   const ReviewParameter *parameter, double value, Arena *arena);
 
-/* "2.6 degrees", "31 mm", "1.21 times the brightness", "1.1 %": a value of it, or a step. */
-const char *review_parameter_words(const ReviewParameter *parameter, double value,
-                                   Arena *arena);
-
 /* The unit of slopes: "degree", "mm", ...; and how many of the file's it is. */
 const char *review_parameter_unit(const ReviewParameter *parameter, double *scale);

@@ -175,8 +175,7 @@ static bool read_extension(VariantReading *v, const char *key, const char *exten
         say(v, json_is_null(value)
                    ? arena_format(arena_of(v), "no %.*s on %s", (int)strlen(key) - 1, key, name)
                    : arena_format(arena_of(v), "%.*s of %s%s%s", (int)strlen(key) - 1, key,
-                                  name, stack ? ": " : "",
-                                  stack ? arena_string(arena_of(v), stack, strlen(stack)) : ""));
+                                  name, stack ? ": " : "", stack ? stack : ""));
     }
     return true;
 }

@@ -28,13 +28,14 @@ typedef struct Mending {
 static void note(Mending *m, double value, const Review *review, bool is_fresh)
 {
     const ReviewCase *least = review_least_margin(review);
-    m->out.trials[m->out.trial_count++] = (ReviewTrial){
-        m->scale * value, review_verdict(review), least ? least->margin : (double)NAN, is_fresh,
-        least ? words_case(least, m->arena) : NULL};
+    m->out.trials[m->out.trial_count++] =
+        (ReviewTrial){m->scale * value, review_verdict(review),
+                      least ? least->margin : (double)NAN, is_fresh,
+                      least ? words_case(least, m->arena) : NULL};
 }
 
-/* Does everything pass there? fresh: by other paths, and no more of them than a review by itself
- * takes; 0: by the review's. */
+/* Does everything pass there? fresh: by other paths, and no more of them than a review by
+ * itself takes; 0: by the review's. */
 static bool try_value(Mending *m, double value, int fresh, bool *passes, Error *err)
 {
     ReviewVariantFound found;

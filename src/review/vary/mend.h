@@ -2,7 +2,7 @@
 /* mend.h -- the smallest change of one parameter that makes everything pass.
  *
  * From where it stands, ever larger steps are tried to both sides within its range, the nearer
- * first, until the whole review passes: nothing fails and nothing is too close to call. Then the
+ * first, until the whole review passes: nothing fails, nothing is too close to call. Then the
  * gap to the last value that does not is halved, by the same random numbers. What is found is
  * made twice more by fresh ones, as two reviews by themselves would be; where one of these does
  * not agree it gives way by what is left of the gap, a few times.

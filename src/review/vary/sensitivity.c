@@ -49,17 +49,14 @@ static void list_symbols(const Review *review, ReviewSensitivity *to, Arena *are
 /* ---- one parameter ----------------------------------------------------------------------- */
 
 /* The review with the parameter there; where it stands it is the review itself, but for a
- * coating, which stands as its own layers say. */
-static bool review_at(const ReviewRun *run, const ReviewParameter *p, double value,
-                      const Review *base, Arena *arena, const Review **out, Error *err)
+ * coating, which stands as its own layers say. NULL: it failed. */
+static const Review *review_at(const ReviewRun *run, const ReviewParameter *p, double value,
+                               const Review *base, Arena *arena, Error *err)
 {
     ReviewVariantFound found;
-    *out = base;
-    if (value == p->at && p->kind != PARAMETER_REFLECTANCE) return true;
+    if (value == p->at && p->kind != PARAMETER_REFLECTANCE) return base;
     ReviewVariant variant = review_parameter_at(run->request, p, value, arena);
-    if (!review_variant(run, &variant, base, arena, &found, err)) return false;
-    *out = found.review;
-    return true;
+    return review_variant(run, &variant, base, arena, &found, err) ? found.review : NULL;
 }
 
 static void set_slope(const Profile *profile, const Review *below, const Review *above,
@@ -75,16 +72,15 @@ static bool find_slopes(const ReviewRun *run, const ReviewParameter *p, const Re
                         Arena *arena, ReviewSensitivity *out, Error *err)
 {
     double scale, low = fmax(p->at - p->step, p->low), high = fmin(p->at + p->step, p->high);
-    const Review *below, *above;
     *out = (ReviewSensitivity){.name = p->name, .unit = review_parameter_unit(p, &scale)};
     out->at = scale * p->at;
     out->step = scale * p->step;
     out->low = scale * low;
     out->high = scale * high;
     list_symbols(base, out, arena);
-    if (!review_at(run, p, low, base, arena, &below, err) ||
-        !review_at(run, p, high, base, arena, &above, err))
-        return false;
+    const Review *below = review_at(run, p, low, base, arena, err);
+    const Review *above = below ? review_at(run, p, high, base, arena, err) : NULL;
+    if (!above) return false;
     for (int i = 0; i < out->slope_count; i++)
         set_slope(run->profile, below, above, scale * (high - low), &out->slopes[i]);
     return true;

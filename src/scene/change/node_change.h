@@ -5,9 +5,10 @@
  * same file that move along: a display with its glass and its rim. Whatever hangs below a moved
  * node, lights and cameras among it, moves with it.
  *
- * Frame    the surface's: its normal is the mean of the surface (right-handed triangles, each by
- *          its area), `up` is the world's +Y. Of a surface that faces nowhere (a closed body) or
- *          straight up or down the normal is taken as against where the vehicle points.
+ * Frame    the surface's: its normal is the mean of the surface (right-handed triangles, each
+ *          by its area), `up` is the world's +Y. Of a surface that faces nowhere (a closed
+ *          body) or straight up or down the normal is taken as against where the vehicle
+ *          points.
  *          roll turns it clockwise as seen by who faces it, then turn to their right about the
  *          vertical, then tilt up about the surface's own level axis as it stood before.
  * Units    radians, m.
