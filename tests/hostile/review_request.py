@@ -30,7 +30,7 @@ MARK = "written as it stands"
 NO_JSON = ("NaN", "Infinity", "-Infinity", "1e999", "-1e999", "01", "'text'")
 OTHER_KINDS = (None, True, "", "no such word", -1, 0, 0.5, 1e300, -1e300, [], {}, [[]], [None],
                {"no such key": 1}, "x" * 5000, "line\nfeed\u001b[31m")
-PLACE = re.compile(r"\((/.*)\)$|: (/[^:]*): ")
+PLACE = re.compile(r"\((/[^()]*)\)(?: — .*)?$|: (/[^:]*): ")
 
 # Says all that one can say: check_whole sees to that.
 GOOD = {
@@ -46,13 +46,30 @@ GOOD = {
     "symbols": {"bar": {"display": "screen", "content": "letters.png",
                         "uv": [0.1, 0.1, 0.9, 0.9], "polarity": "light-on-dark"},
                 "drawn": {"display": "screen", "mask": "letters.png"},
-                "text": {"display": "node:node 0", "uv": [0, 0, 1, 1], "find": "text"}},
+                "text": {"display": "node:face", "uv": [0, 0, 1, 1], "find": "text"}},
     "profile": "iso-15008",
     "levels": {"night": {"*": 0.04, "screen": 0.1},
                "auto": {"sensor": {"position_m": [0, 0.2, 0.2], "normal": [0, 3, 4]},
                         "table_lx": [[0, 0.02], [100, 0.1], [10000, 1]]}},
     "precision": {"contrast": 0.02, "clear": 0.05, "paths": 65536, "seed": 3},
     "frames": {"size": [64, 36], "noise": 0.1, "worst": 2},
+    "variants": {
+        "all": {"panels": {"screen": "ips.panel"}, "contents": {"screen": "letters.png"},
+                "levels": {"night": {"*": 0.05}}, "brightness": {"screen": 1.5, "*": 1},
+                "coatings": {"coated": {"stack": "mgf2"}}, "glazings": {"coated": None},
+                "materials": {"coated": {"doubleSided": True}},
+                "nodes": {"face": {"tilt_deg": 2, "turn_deg": -1, "roll_deg": 0.5,
+                                   "move_m": [0, 0.01, 0], "with": ["shelf"]}},
+                "hoods": {"screen": 0.02}, "eyes": {"box": {"move_m": [0, 0.01, 0]}},
+                "scene": ["dash.gltf"], "add": ["lamp.gltf"]}},
+    "sensitivity": {
+        "tilt": {"tilt_deg": 1, "node": "face", "with": ["shelf"], "range": [-5, 5]},
+        "turn": {"turn_deg": 1, "node": "face"}, "roll": {"roll_deg": 1, "node": "face"},
+        "shift": {"shift_m": 0.01, "node": "face", "direction": [0, 2, 0]},
+        "hood": {"hood_m": 0.01, "display": "screen"},
+        "eye": {"eye_m": 0.01, "eye": "box", "direction": [1, 0, 0]},
+        "peak": {"brightness": 0.1, "display": "*"},
+        "coat": {"reflectance": 0.005, "material": "coated", "at": 0.013}},
     "conditions": [
         {"name": "noon", "level": "auto", "with": "somebody", "polarity": "light-on-dark",
          "contents": {"screen": "letters.png"},
@@ -80,7 +97,13 @@ def write_files(folder):
     def path(name):
         return os.path.join(folder, name)
     shutil.copy(PANEL, path("ips.panel"))
-    dashboard().write(path("dash.gltf"))
+    dash = dashboard()
+    for node, name in enumerate(("face", "shelf")):
+        dash.document["nodes"][node]["name"] = name
+    dash.quad(dash.material("coated", {"KHR_materials_ior": {"ior": 1.5}},
+                            pbrMetallicRoughness={"metallicFactor": 0}),
+              [2, 0, 1], [0.1, 0, 0], [0, 0.1, 0])
+    dash.write(path("dash.gltf"))
     for name in ("person.gltf", "lamp.gltf"):
         scene = Scene()
         scene.quad(scene.lambert(0.5), [2, 0, 0], [0.1, 0, 0], [0, 0.1, 0])

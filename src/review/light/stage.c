@@ -60,7 +60,8 @@ static SceneOverride *all_contents(const StageOptions *options, int *count, Aren
         ARENA_NEW(arena, SceneOverride, request->symbol_count + own + changed), 0};
     for (int k = 0; k < changed; k++)
         add_content(&contents, change->contents[k].display, change->contents[k].path,
-                    arena_format(arena, "%s: contents of a variant", request->file));
+                    arena_format(arena, "%s: %s/contents/%s", request->file, change->place,
+                                 change->contents[k].display));
     for (int k = 0; k < own; k++)
         add_content(&contents, c->contents[k].display, c->contents[k].path,
                     arena_format(arena, "%s: /conditions/%d/contents/%s", request->file,

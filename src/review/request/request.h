@@ -138,6 +138,7 @@ typedef struct ReviewWeather {
 
 /* What is other than in the review itself. Of names that it does not say all stays as it is. */
 typedef struct ReviewChange {
+    const char          *place;    /* JSON path of what says it */
     const SceneChange   *scene;    /* nodes, materials, hoods */
     int                  scene_count;
     const SceneOverride *panels;   /* by display: a file */

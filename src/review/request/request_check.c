@@ -229,7 +229,7 @@ static void check_change(const RequestCheck *check, const ReviewChange *change)
     ReviewDisplay display;
     for (int i = 0; i < change->brightness_count; i++) {
         const char *name = change->brightness[i].display;
-        if (strcmp(name, "*")) check_display(check, "brightness of a variant", name, &display);
+        if (strcmp(name, "*")) check_display(check, change->place, name, &display);
     }
 }
 

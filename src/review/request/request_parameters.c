@@ -239,6 +239,7 @@ ReviewVariant review_parameter_at(const ReviewRequest *request, const ReviewPara
     ReviewVariant out = {.words = words, .word_count = 1};
     words[0] = arena_format(arena, "%s: %s", p->name, value_words(p, value, arena));
     out.name = words[0];
+    out.change.place = p->place;
     out.change.scene = changes;
     out.change.scene_count = scene_changes(request, p, value, changes, arena);
     for (int i = 0; i < out.change.scene_count; i++) {

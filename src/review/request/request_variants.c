@@ -343,6 +343,7 @@ static bool read_variant(RequestReading *reading, const FieldMembers *members, i
     size_t room = 2 * room_for(&v.view);
     *v.variant = (ReviewVariant){.name = members->name[i],
                                  .words = ARENA_NEW(v.view.arena, const char *, room)};
+    v.variant->change.place = v.view.path;
     v.variant->change.scene = v.scene = ARENA_NEW(v.view.arena, SceneChange, room);
     return read_panels(&v, err) && read_contents(&v, err) && read_levels(&v, err) &&
            read_brightness(&v, err) &&
