@@ -71,6 +71,8 @@ run 'all closed forms in frames' image-long \
     python3 tests/image/run.py --all .build/release/parhelion
 run 'a glare review, thirty hours of weather' review-long \
     python3 tests/image/review.py --all .build/release/parhelion
+run 'all variants of a review, slopes, mends' variants-long \
+    python3 tests/image/variants.py --all .build/release/parhelion
 run 'a hunt for wrong answers, 200 rooms' hunt-long \
     python3 tests/hunt/hunt.py --count 200 .build/release/parhelion
 run_one 'verdicts whose truth is known' verdicts \

@@ -77,6 +77,10 @@ if run_one 'release build, warnings are errors' build-release build release all;
     start 'materials without data' no-data \
         python3 tests/hostile/no_data.py .build/release/parhelion
     start 'a glare review' review python3 tests/image/review.py .build/release/parhelion
+    start 'variants of a review' variants \
+        python3 tests/image/variants.py .build/release/parhelion
+    start 'pages for a meeting' meeting \
+        python3 tests/page/meeting.py .build/release/parhelion
     start 'installed, moved, read, completed' install \
         python3 tests/install/install.py .build/release
     start 'frames held against accepted ones' regression \

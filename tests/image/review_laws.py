@@ -55,6 +55,25 @@ def broken_case_laws(case):
         yield f"{case['verdict']}: {case['paths_to_decide']} paths would decide it"
 
 
+def broken_variant_laws(review):
+    """A difference is that of its margins; the worst is the least; who passes has no failure."""
+    for variant in review.get("variants", []):
+        found = variant["cases"] + variant["sweeps"]
+        for case in found:
+            if case["margin"] is None or case["margin_before"] is None:
+                continue
+            low, high = case["margin_difference_interval"]
+            apart = case["margin"] - case["margin_before"]
+            if not low - 1e-9 <= case["margin_difference"] <= high + 1e-9 or \
+                    abs(case["margin_difference"] - apart) > 1e-4 * (1 + abs(case["margin"])):
+                yield f"variant {variant['name']}: {case['margin_difference']} of {apart}"
+        margins = [case["margin"] for case in found if case["margin"] is not None]
+        if margins and variant["worst"]["margin"] != min(margins):
+            yield f"variant {variant['name']}: worst {variant['worst']['margin']}"
+        if variant["pass"] and any(case["verdict"] == "fail" for case in found):
+            yield f"variant {variant['name']} passes"
+
+
 def broken_step_laws(sweep, row):
     """A step's contrast is of its own light; what is shown goes with the level. (A sweep of an
     eye box is of its middle, its worst of another place.)"""
@@ -75,6 +94,7 @@ def broken_laws(review, folder, done):
     cases = review["cases"] + [sweep["worst"] for sweep in review["sweeps"]]
     for case in cases:
         yield from broken_case_laws(case)
+    yield from broken_variant_laws(review)
     with open(os.path.join(folder, "cases.csv"), encoding="utf-8", newline="") as file:
         rows = list(csv.DictReader(file))
     told = [(c["verdict"], c["margin"]) for c in review["cases"]]
@@ -133,6 +153,8 @@ def main(program, request, *words):
         document = json.load(file)
     document["frames"] = {"worst": 0}
     name, values = levels_of(words) if words else (None, [None])
+    for key in ("variants", "sensitivity") if name else ():
+        document.pop(key, None)
     cases, broken = 0, 0
     kept = tempfile.TemporaryDirectory()
     for value in values:

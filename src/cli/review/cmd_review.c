@@ -31,7 +31,7 @@
 typedef struct ReviewWords {
     ShareRequest share;
     const char *folder, *profile, *root, *isa, *diff, *init, *responses, *mend, *summary;
-    bool        is_strict, dry_run, decides, is_self_contained;
+    bool        is_strict, dry_run, decides, is_self_contained, is_alone;
     StateWords  state_words;
     SceneState  state;
     Cli         cli;
@@ -59,6 +59,8 @@ static bool parse(int argc, char **argv, Arena *arena, ReviewWords *out, Error *
         {"--mend", OPTION_TEXT, "NAME",
          "the smallest change of that parameter of \"sensitivity\" that makes all pass",
          &out->mend},
+        {"--no-variants", OPTION_FLAG, NULL,
+         "the review by itself, whatever variants and sensitivities it has", &out->is_alone},
         {"--summary", OPTION_TEXT, "SYMBOL",
          "one page of paper about this symbol, instead of one about each", &out->summary},
         {"--diff", OPTION_TEXT, "DIR", "an earlier review to hold this one against",
@@ -383,7 +385,7 @@ static bool review(const ReviewWords *words, Arena *arena, Error *err)
                              .state = words->state, .responses = words->responses,
                              .threads = words->cli.threads,
                              .is_strict = words->is_strict,
-                             .summary = words->summary,
+                             .summary = words->summary, .is_alone = words->is_alone,
                              .is_self_contained = words->is_self_contained};
     if (!review_request_read(file, words->root, arena, &problems, &request, err)) return false;
     if (!profile_load(words->profile ? words->profile : request.profile, arena, &profile, err))
@@ -391,6 +393,10 @@ static bool review(const ReviewWords *words, Arena *arena, Error *err)
     request.decides = words->decides;
     if (words->mend && !find_parameter(&request, words->mend, *arena, &folder.mend, err))
         return false;
+    if (words->is_alone) {
+        request.variant_count = request.parameter_count = 0;
+        request.is_compared = words->mend != NULL;
+    }
     if (words->summary && !check_symbol(&request, words->summary, *arena, err)) return false;
     if (!review_check(&request, *arena, err)) return false;
     ReviewRun run = {.request = &request, .profile = profile, .root = words->root,

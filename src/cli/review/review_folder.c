@@ -219,10 +219,11 @@ const char *review_folder_command(const ReviewFolder *folder, Arena *arena)
         folder->mend ? arena_format(arena, " --mend '%s'", folder->mend->name) : "";
     const char *summary =
         folder->summary ? arena_format(arena, " --summary '%s'", folder->summary) : "";
-    return arena_format(arena, "parhelion review %s -o %s%s%s%s%s%s%s%s%s%s",
+    return arena_format(arena, "parhelion review %s -o %s%s%s%s%s%s%s%s%s%s%s",
                         folder->request->file,
                         folder->target, profile, root, state, diff, responses,
-                        mend, summary, folder->is_strict ? " --strict" : "",
+                        mend, summary, folder->is_alone ? " --no-variants" : "",
+                        folder->is_strict ? " --strict" : "",
                         folder->is_self_contained ? " --self-contained" : "");
 }
 

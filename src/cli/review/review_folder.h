@@ -26,6 +26,7 @@ typedef struct ReviewFolder {
     const char          *responses; /* the same, then where they are */
     int                  threads;
     bool                 is_strict;
+    bool                 is_alone;          /* --no-variants */
     bool                 is_self_contained; /* pictures stand in the page, not beside it */
     Review               before; /* what stood there */
     double               begun_s;

@@ -224,6 +224,15 @@ static bool search_own_suns(Sweep *sweep, Arena scratch, Error *err)
     return true;
 }
 
+/* A variant tells of none. */
+static bool find_suns(Sweep *sweep, Arena *arena, Error *err)
+{
+    const ReviewRun *run = sweep->run;
+    if (run->base) return true;
+    return run->share.count ? search_own_suns(sweep, *arena, err)
+                            : find_false_suns(sweep, arena, err);
+}
+
 /* ---- all of them ------------------------------------------------------------------------- */
 
 bool sweep_place_probes(Sweep *sweep, Arena *arena, Error *err)
@@ -248,6 +257,5 @@ bool sweep_make_probes(Sweep *sweep, Arena *arena, Error *err)
            sweep_light_dark(stage, 1, arena, err) &&
            responses_read_own(stage, sweep->asks, sweep->ask_count, true, *arena, err) &&
            responses_trace(sweep->run, stage, sweep->asks, sweep->ask_count, arena, err) &&
-           (sweep->run->share.count ? search_own_suns(sweep, *arena, err)
-                                    : find_false_suns(sweep, arena, err));
+           find_suns(sweep, arena, err);
 }
