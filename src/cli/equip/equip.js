@@ -440,8 +440,8 @@ function fill(){
   $('profile').value='iso-15008';
   var own=data.materials.filter(function(m){return m.display;}).map(function(m){return m.name;});
   $('own-displays').textContent=own.length?'Displays already: '+own.join(', ')+'.':'';
-  $('command').textContent=data.command+' --with '+quoted(fileName())+' -o '+
-    quoted(stem()+'.equipped.gltf');
+  $('command').textContent=data.command+' --with '+quoted(fileName())+
+    ' -o '+quoted(stem()+'.equipped.gltf');
   data.contents.forEach(function(c){
     pictures[c.name]=c;
     if(!c.picture)return;

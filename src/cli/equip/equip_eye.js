@@ -12,7 +12,8 @@ var SITTING_M=0.75;
 var WHEELS=[/steering.?wheel|lenkrad|volant/i,/steer|yoke|steuerhorn|lenk/i],
   NO_WHEEL=/column|cord|mount|rack|frame|s(ä|ae)ule|house|shaft|box|main|button|stalk/i;
 var SEATS=/seat|sitz|si(e|è)ge/i,NO_SEAT=/mount|rail|belt|back.?seat|rear|rück|hinten|gurt/i;
-var DRIVER=/driver|pilot|captain|fahrer|left|links|_l\b|\bl_/i,EYE=/eye|driver|pilot|captain|fahrer/i;
+var DRIVER=/driver|pilot|captain|fahrer|left|links|_l\b|\bl_/i;
+var EYE=/eye|driver|pilot|captain|fahrer/i;
 
 function boxOf(part){
   var low=[Infinity,Infinity,Infinity],high=[-Infinity,-Infinity,-Infinity];
@@ -91,7 +92,7 @@ function fromSeat(seat){
 function fromCamera(camera){
   var a=camera.ahead;
   return {position:camera.position.slice(),ahead:axis(a[0],a[2]),gaze:a,
-    label:'Camera '+camera.name,name:camera.name+' 2',
+    label:'Camera '+camera.name,name:camera.name.replace(/[-_]/g,' '),
     why:'where the model\'s own camera "'+camera.name+'" is'};
 }
 /* The likeliest first. */
