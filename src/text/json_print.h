@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* json_print.h -- a JSON document as people like to read and to change it: what fits into a line
- * stands in one, members are indented by two.
+/* json_print.h -- a JSON document as people like to read and to change it: what fits into a
+ * line stands in one, members are indented by two.
  *
- * A number has `digits` digits where they are enough to give the same double again, else as many
- * as it takes, 17 at most; or `digits` of them at most.
+ * A number has `digits` digits where they are enough to give the same double again, else as
+ * many as it takes, 17 at most; or `digits` of them at most.
  *
  * Memory   the text's. Threads: no shared state. Fails: never.
  */

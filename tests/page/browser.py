@@ -22,7 +22,8 @@ def find():
 class Browser:
     """with Browser(path, "file:///...") as page: page.run("document.title")"""
 
-    def __init__(self, program, address, size=(1280, 900), dark=False, flags=("--disable-gpu",)):
+    def __init__(self, program, address, size=(1280, 900), dark=False,
+                 flags=("--disable-gpu",)):
         self.folder = tempfile.mkdtemp()
         self.errors, self.requests, self.number, self.left = [], [], 0, b""
         down, up = os.pipe(), os.pipe()

@@ -169,8 +169,8 @@ def check_car(work):
                      f"the car: clicked {found}")
         saved = save(work, page, "torcs_car8-trb1.equip.json")
         document, _ = apply(work, CAR, "torcs_car8-trb1.equip.json", "car.gltf")
-        print(f"the car: 2 clicks and {time.monotonic() - start:.1f} s from the .glb to car.gltf "
-              f"with a page, a browser, check and a plan")
+        print(f"the car: 2 clicks and {time.monotonic() - start:.1f} s from the .glb to "
+              f"car.gltf, with the page, the browser, check and the review's plan")
         check_page(report, page, "the car")
     display = saved["displays"][0]
     report.claim(abs(display["width_m"] - 0.568) < 2e-3 and

@@ -37,7 +37,8 @@ static bool parse(int argc, char **argv, Arena *arena, EquipWords *out, Error *e
         {"--root", OPTION_TEXT, "DIR", ROOT_HELP, &out->root},
     };
     const CliCommand command = {
-        "equip", SUMMARY, "MODEL.gltf|.glb [-o PAGE.html] | MODEL --with EQUIP.json -o NEW.gltf",
+        "equip", SUMMARY,
+        "MODEL.gltf|.glb [-o PAGE.html] | MODEL --with EQUIP.json -o NEW.gltf",
         "parhelion equip scenes/cockpit.gltf -o equip.html", options, COUNT_OF(options), 1, 1};
     return cli_parse(&command, argc, argv, arena, &out->cli, err);
 }
@@ -93,20 +94,22 @@ static bool print_result(const EquipWords *words, const EquipResult *r, Arena *a
         return cli_print_json(
             json_pack("{s:o, s:o, s:o, s:o, s:i, s:i, s:i, s:i}", "scene", json_text(r->scene),
                       "bin", r->bin ? json_text(r->bin) : json_null(), "review",
-                      json_text(r->review), "copies", json_texts(r->copies, r->copy_count),
-                      "displays", r->display_count, "eyes", r->eye_count, "materials",
-                      r->material_count, "without_data", r->without_data),
+                      r->review ? json_text(r->review) : json_null(), "copies",
+                      json_texts(r->copies, r->copy_count), "displays", r->display_count,
+                      "eyes", r->eye_count, "materials", r->material_count, "without_data",
+                      r->without_data),
             err);
-    printf("scene        %s: %d display%s, %d eye%s, %d material%s\n", r->scene,
-           r->display_count, r->display_count == 1 ? "" : "s", r->eye_count,
-           r->eye_count == 1 ? "" : "s", r->material_count, r->material_count == 1 ? "" : "s");
+    printf("scene        %s: displays %d, eyes %d, materials %d\n", r->scene, r->display_count,
+           r->eye_count, r->material_count);
     if (r->bin) printf("bytes        %s\n", r->bin);
     for (int i = 0; i < r->copy_count; i++) printf("copy         %s\n", r->copies[i]);
-    printf("review       %s\n", r->review);
+    if (r->review) printf("review       %s\n", r->review);
+    else printf("review       none: no display shows content that could be read\n");
     if (r->without_data)
         printf("without data %d material%s: parhelion check %s tells which\n", r->without_data,
                r->without_data == 1 ? "" : "s", escape_shell(r->scene, arena));
-    printf("next         parhelion review %s --dry-run\n", escape_shell(r->review, arena));
+    if (r->review)
+        printf("next         parhelion review %s --dry-run\n", escape_shell(r->review, arena));
     return true;
 }
 

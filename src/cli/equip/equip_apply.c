@@ -111,19 +111,29 @@ static bool check_output(const EquipOrder *order, const char *path, Error *err)
 
 /* ---- the document ------------------------------------------------------------------------ */
 
+/* What is at work. */
+typedef struct Applying {
+    const EquipOrder *order;
+    Equip             equip;
+    EquipFiles        files;
+    EquipModel        model;
+    EquipResult       result;
+    Problems         *problems;
+    Arena            *arena;
+} Applying;
+
 /* A .glb's bytes get a file of their own, which the first buffer then names. */
-static bool name_bin(const EquipOrder *order, EquipModel *model, const EquipFiles *files,
-                     EquipResult *out, Error *err)
+static bool name_bin(Applying *at, Error *err)
 {
-    json_t *buffer = json_array_get(json_object_get(model->document, "buffers"), 0);
-    if (!model->bin.data || !buffer || json_object_get(buffer, "uri")) return true;
-    const char *path = equip_files_beside(files, ".bin");
-    const char *name = arena_format(files->arena, "/%s", path_name(path));
-    json_object_set_new(buffer, "uri", json_text(uri_between("/", name, files->arena)));
-    if (!check_output(order, path, err) ||
-        !file_write(path, model->bin.data, model->bin.size, err))
+    json_t *buffer = json_array_get(json_object_get(at->model.document, "buffers"), 0);
+    if (!at->model.bin.data || !buffer || json_object_get(buffer, "uri")) return true;
+    const char *path = equip_files_beside(&at->files, ".bin");
+    const char *name = arena_format(at->arena, "/%s", path_name(path));
+    json_object_set_new(buffer, "uri", json_text(uri_between("/", name, at->arena)));
+    if (!check_output(at->order, path, err) ||
+        !file_write(path, at->model.bin.data, at->model.bin.size, err))
         return false;
-    out->bin = path;
+    at->result.bin = path;
     return true;
 }
 
@@ -134,111 +144,125 @@ static void sign(json_t *document, Arena scratch)
     const char *by = json_string_value(json_object_get(asset, "generator"));
     const char *text = arena_format(&scratch, "%s%sParhelion %s, equip", by ? by : "",
                                     by ? "; " : "", PARHELION_VERSION);
-    json_object_set_new(asset, "generator", json_string(text));
+    json_object_set_new(asset, "generator", json_text(text));
 }
 
-static bool make_document(const EquipOrder *order, const Equip *equip, EquipFiles *files,
-                          EquipModel *model, Error *err)
+static bool make_document(Applying *at, Error *err)
 {
-    EquipNames *names = ARENA_NEW(files->arena, EquipNames, equip->display_count);
-    if (!equip_files_refer(files, model->document, err) ||
-        !name_files(order, equip, files, names, err) ||
-        !equip_patch(model->document, equip, names, *files->arena, err))
+    EquipNames *names = ARENA_NEW(at->arena, EquipNames, at->equip.display_count);
+    json_t     *document = at->model.document;
+    if (!equip_files_refer(&at->files, document, err) ||
+        !name_files(at->order, &at->equip, &at->files, names, err) ||
+        !equip_patch(document, &at->equip, names, *at->arena, err))
         return false;
-    sign(model->document, *files->arena);
+    sign(document, *at->arena);
     return true;
 }
 
 /* ---- writing ----------------------------------------------------------------------------- */
 
-static bool start_review(const EquipOrder *order, const Equip *equip, const Scene *scene,
-                         const EquipResult *result, Arena *arena, Error *err)
+/* What shows nothing has nothing to read. */
+static bool has_content(const Equip *equip)
 {
-    const char **eyes = ARENA_NEW(arena, const char *, equip->eye_count);
-    for (int i = 0; i < equip->eye_count; i++) eyes[i] = equip->eyes[i].name;
+    bool found = false;
+    for (int i = 0; i < equip->display_count; i++) found |= equip->displays[i].content != NULL;
+    return found;
+}
+
+static bool start_review(const Applying *at, const Scene *scene, Error *err)
+{
+    const Equip *e = &at->equip;
+    const char **eyes = ARENA_NEW(at->arena, const char *, e->eye_count);
+    const char **displays = ARENA_NEW(at->arena, const char *, e->display_count);
+    for (int i = 0; i < e->eye_count; i++) eyes[i] = e->eyes[i].name;
+    for (int i = 0; i < e->display_count; i++) displays[i] = e->displays[i].name;
     const ReviewWishes wishes = {
-        equip->profile, {equip->forward[0], equip->forward[1], equip->forward[2]}, eyes,
-        equip->eye_count, equip->has_place ? &equip->place : NULL};
-    const ReviewStart start = {&order->output, 1, result->review, NULL, &wishes,
-                               order->overwrites};
-    return review_request_start(&start, scene, arena, err);
+        .profile = e->profile, .forward = {e->forward[0], e->forward[1], e->forward[2]},
+        .eyes = eyes, .eye_count = e->eye_count, .displays = displays,
+        .display_count = e->display_count, .place = e->has_place ? &e->place : NULL};
+    const ReviewStart start = {&at->order->output, 1, at->result.review, NULL, &wishes,
+                               at->order->overwrites};
+    return review_request_start(&start, scene, at->arena, err);
 }
 
 /* The scene under a name that nobody sees is loaded as it will be, then it gets its own. */
-static bool write_scene(const EquipOrder *order, const EquipModel *model, Arena *arena,
-                        Problems *problems, Scene **scene, Error *err)
+static bool write_scene(const Applying *at, Scene **scene, Error *err)
 {
-    Text        text = {.arena = arena};
-    const char *draft = file_temporary_name(order->output, arena);
-    json_print(&text, model->document, (JsonDigits){DIGITS, false});
+    Text        text = {.arena = at->arena};
+    const char *output = at->order->output;
+    const char *draft = file_temporary_name(output, at->arena);
+    json_print(&text, at->model.document, (JsonDigits){DIGITS, false});
     SceneOptions options = {.paths = &draft, .path_count = 1};
     if (!text_write(&text, draft, err)) return false;
-    if (!scene_load(&options, arena, problems, scene, err)) {
+    if (!scene_load(&options, at->arena, at->problems, scene, err)) {
         file_discard(draft);
-        return error_prefix(err, "what was to become %s", order->output);
+        return error_prefix(err, "what was to become %s", output);
     }
-    if (file_commit(draft, order->output, err)) return true;
+    if (file_commit(draft, output, err)) return true;
     scene_close(*scene);
     return false;
 }
 
-static void tell_copies(const EquipFiles *files, EquipResult *out)
+static void tell_copies(Applying *at)
 {
-    out->copies = ARENA_NEW(files->arena, const char *, files->count);
-    out->copy_count = files->count;
-    for (int i = 0; i < files->count; i++) out->copies[i] = files->copies[i].name;
+    const EquipFiles *files = &at->files;
+    at->result.copies = ARENA_NEW(at->arena, const char *, files->count);
+    at->result.copy_count = files->count;
+    for (int i = 0; i < files->count; i++) at->result.copies[i] = files->copies[i].name;
 }
 
-static bool write_all(const EquipOrder *order, const Equip *equip, EquipFiles *files,
-                      EquipModel *model, EquipResult *out, Problems *problems, Error *err)
+static bool write_all(Applying *at, Error *err)
 {
     Scene *scene;
-    if (!equip_files_write(files, err) || !name_bin(order, model, files, out, err) ||
-        !write_scene(order, model, files->arena, problems, &scene, err)) {
-        equip_files_undo(files);
-        if (out->bin && !order->overwrites) file_remove(out->bin);
+    if (!equip_files_write(&at->files, err) || !name_bin(at, err) ||
+        !write_scene(at, &scene, err)) {
+        equip_files_undo(&at->files);
+        if (at->result.bin && !at->order->overwrites) file_remove(at->result.bin);
         return false;
     }
-    scene_without_data(scene, &out->without_data, files->arena);
-    bool ok = start_review(order, equip, scene, out, files->arena, err);
+    scene_without_data(scene, &at->result.without_data, at->arena);
+    if (!has_content(&at->equip)) at->result.review = NULL;
+    bool ok = !at->result.review || start_review(at, scene, err);
     scene_close(scene);
-    tell_copies(files, out);
+    tell_copies(at);
     return ok;
 }
 
-static bool check_model(const EquipOrder *order, const Equip *equip, Arena *arena, Error *err)
+static bool check_model(const Applying *at, Error *err)
 {
-    const SceneOptions options = {.paths = &order->model, .path_count = 1, .root = order->root};
-    Problems           problems = problems_start(arena);
+    const SceneOptions options = {.paths = &at->order->model, .path_count = 1,
+                                  .root = at->order->root};
+    Problems           problems = problems_start(at->arena);
     Scene             *scene;
-    if (!scene_load(&options, arena, &problems, &scene, err)) return false;
-    bool ok = check_names(equip, scene, err);
+    if (!scene_load(&options, at->arena, &problems, &scene, err)) return false;
+    bool ok = check_names(&at->equip, scene, err);
     scene_close(scene);
     return ok;
+}
+
+static bool prepare(Applying *at, Error *err)
+{
+    const EquipOrder *order = at->order;
+    if (!equip_file_read(order->with, at->arena, &at->equip, err) ||
+        !equip_files_open(order->model, order->output, order->root, at->arena, &at->files, err))
+        return false;
+    at->result.scene = order->output;
+    at->result.review = equip_files_beside(&at->files, ".review.json");
+    at->result.display_count = at->equip.display_count;
+    at->result.eye_count = at->equip.eye_count;
+    at->result.material_count = at->equip.material_count;
+    return check_output(order, at->result.scene, err) &&
+           check_output(order, at->result.review, err) && check_model(at, err);
 }
 
 bool equip_apply(const EquipOrder *order, Arena *arena, Problems *problems, EquipResult *out,
                  Error *err)
 {
-    Equip       equip;
-    EquipFiles  files;
-    EquipModel  model = {0};
-    EquipResult result = {.scene = order->output};
-    if (!equip_file_read(order->with, arena, &equip, err) ||
-        !equip_files_open(order->model, order->output, order->root, arena, &files, err))
+    Applying at = {.order = order, .problems = problems, .arena = arena};
+    if (!prepare(&at, err) || !equip_model_read(order->model, arena, &at.model, err))
         return false;
-    result.review = equip_files_beside(&files, ".review.json");
-    if (!check_output(order, result.scene, err) || !check_output(order, result.review, err) ||
-        !check_model(order, &equip, arena, err) ||
-        !equip_model_read(order->model, arena, &model, err))
-        return false;
-    bool ok = make_document(order, &equip, &files, &model, err) &&
-              write_all(order, &equip, &files, &model, &result, problems, err);
-    equip_model_close(&model);
-    if (!ok) return false;
-    result.display_count = equip.display_count;
-    result.eye_count = equip.eye_count;
-    result.material_count = equip.material_count;
-    *out = result;
-    return true;
+    bool ok = make_document(&at, err) && write_all(&at, err);
+    equip_model_close(&at.model);
+    if (ok) *out = at.result;
+    return ok;
 }

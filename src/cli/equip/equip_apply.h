@@ -20,7 +20,7 @@ typedef struct EquipOrder {
 } EquipOrder;
 
 typedef struct EquipResult {
-    const char  *scene, *bin, *review; /* bin NULL: none */
+    const char  *scene, *bin, *review; /* NULL: no .bin; no display shows content to read */
     const char **copies;               /* beside the scene */
     int          copy_count;
     int          display_count, eye_count, material_count;

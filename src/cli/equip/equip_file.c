@@ -61,6 +61,12 @@ static bool square(const JsonView *view, EquipDisplay *display, Error *err)
     return true;
 }
 
+/* Absent: full white. */
+static bool read_content(const JsonView *view, const char **out, Error *err)
+{
+    return !json_object_get(view->object, "content") || field_name(view, "content", out, err);
+}
+
 static bool read_display(const JsonView *view, EquipDisplay *out, Error *err)
 {
     const double side[2] = {LEAST_M, MOST_M};
@@ -75,7 +81,7 @@ static bool read_display(const JsonView *view, EquipDisplay *out, Error *err)
               wanted_number(view, "height_m", side, &out->height_m, err) &&
               json_view_number(view, "before_mm", 0.05, 1000, &before_mm, err) &&
               field_name(view, "panel", &out->panel, err) &&
-              json_view_text(view, "content", &out->content, err) &&
+              read_content(view, &out->content, err) &&
               json_view_number(view, "level", 0, 100, &out->level, err);
     out->before_m = before_mm / 1000;
     return ok;

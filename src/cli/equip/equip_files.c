@@ -78,7 +78,8 @@ static bool add_copy(EquipFiles *files, const char *source, const char **name, E
                         "%s cannot be copied beside it: all names are taken", source);
     if (files->count == files->capacity) {
         int wanted = 2 * files->capacity + 8;
-        files->copies = ARENA_GROW(files->arena, EquipCopy, files->copies, files->count, wanted);
+        files->copies =
+            ARENA_GROW(files->arena, EquipCopy, files->copies, files->count, wanted);
         files->capacity = wanted;
     }
     files->copies[files->count++] = copy;

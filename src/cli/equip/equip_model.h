@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* equip_model.h -- a model's document as it stands in its file, to be changed and written again.
+/* equip_model.h -- a model's document as it stands in its file, to be changed and written.
  *
  * Memory   bytes in the arena; the document is released by equip_model_close.
  * Threads  one at a time.

@@ -235,8 +235,7 @@ static bool add_triangles(Text *page, const Scene *scene, Arena scratch, Error *
 {
     uint32_t *index = ARENA_NEW(&scratch, uint32_t, 3 * (size_t)scene->triangle_count);
     for (uint32_t t = 0; t < scene->triangle_count; t++)
-        for (int k = 0; k < 3; k++) index[3 * (size_t)t + (size_t)k] =
-            scene->triangles[t].vertex[k];
+        memcpy(index + 3 * (size_t)t, scene->triangles[t].vertex, 3 * sizeof *index);
     text_add(page, "<script type=\"text/plain\" id=\"equip-i\">");
     if (!page_data_add(page, index, 3 * (size_t)scene->triangle_count, index_bytes(scene),
                        scratch, err))

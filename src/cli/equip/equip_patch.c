@@ -128,7 +128,8 @@ static int add_accessor(json_t *document, int view, int kind, int count, const c
 /* Its primitive without a material: all displays share it. */
 static json_t *add_rectangle(json_t *document, Arena scratch)
 {
-    const Rectangle r = {{{-0.5f, -0.5f, 0}, {0.5f, -0.5f, 0}, {0.5f, 0.5f, 0}, {-0.5f, 0.5f, 0}},
+    const Rectangle r = {{{-0.5f, -0.5f, 0}, {0.5f, -0.5f, 0}, {0.5f, 0.5f, 0},
+                          {-0.5f, 0.5f, 0}},
                          {{0, 1}, {1, 1}, {1, 0}, {0, 0}},
                          {0, 1, 2, 0, 2, 3}};
     Text text = {.arena = &scratch};
@@ -177,7 +178,8 @@ static void add_display(json_t *document, const EquipDisplay *display, const Equ
     double  normal[3], centre[3], scale[3] = {display->width_m, display->height_m, 1};
     json_t *primitive = json_deep_copy(rectangle);
     equip_display_normal(display, normal);
-    for (int i = 0; i < 3; i++) centre[i] = display->centre_m[i] + display->before_m * normal[i];
+    for (int i = 0; i < 3; i++)
+        centre[i] = display->centre_m[i] + display->before_m * normal[i];
     json_object_set_new(primitive, "material",
                         json_integer(add_screen(document, display, names)));
     int mesh = add_to(document, "meshes", json_pack("{s:o, s:[o]}", "name",
@@ -192,7 +194,7 @@ static void add_display(json_t *document, const EquipDisplay *display, const Equ
 
 /* ---- eyes -------------------------------------------------------------------------------- */
 
-/* Looks along -Z with +Y up; up in the picture is the world's, or ahead where one looks down. */
+/* Looks along -Z with +Y up: the world's up, or ahead where one looks straight down. */
 static void add_eye(json_t *document, const EquipEye *eye, const double forward[3])
 {
     const double world_up[3] = {0, 1, 0};

@@ -47,7 +47,8 @@ const char **equip_shipped_names(const ShippedKind *kind, int *count, Arena *are
     while (folder && *count < NAMES_MAX && (entry = readdir(folder))) {
         const char *ending = path_ending(entry->d_name);
         if (strcmp(ending, kind->ending) != 0) continue;
-        names[(*count)++] = arena_string(arena, entry->d_name, (size_t)(ending - entry->d_name));
+        size_t length = (size_t)(ending - entry->d_name);
+        names[(*count)++] = arena_string(arena, entry->d_name, length);
     }
     if (folder) closedir(folder);
     qsort(names, (size_t)*count, sizeof *names, by_name);
@@ -64,7 +65,7 @@ bool equip_shipped_find(const ShippedKind *kind, const char *name, Arena *arena,
     *path = arena_format(arena, "%s/%s%s", folder, name, kind->ending);
     if (file_exists(*path)) return true;
     const char **names = equip_shipped_names(kind, &count, arena);
-    return error_set(err, ERROR_INPUT, "'%.60s' is no shipped %s — %s, or a path beside the model",
-                     name, kind->what,
+    return error_set(err, ERROR_INPUT, "'%.60s' is no shipped %s — %s; or a path, as seen from "
+                     "the model", name, kind->what,
                      nearest_word_advice(name, names, count, advice, sizeof advice));
 }

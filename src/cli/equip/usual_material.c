@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "cli/equip/usual_material.h"
 
-#include <string.h>
-
 #include "base/count.h"
 
 #define CAR "stated, as the shipped car's (scenes/car_dashboard.gltf)"
@@ -37,13 +35,6 @@ const UsualMaterial usual_materials[] = {
     {"acrylic, clear", {1, 1, 1}, 0, 0, 1, 1.49, "PMMA, n 1.49; absorbs nothing"},
 };
 const int usual_material_count = COUNT_OF(usual_materials);
-
-const UsualMaterial *usual_material_find(const char *name)
-{
-    for (int i = 0; i < usual_material_count; i++)
-        if (!strcmp(usual_materials[i].name, name)) return &usual_materials[i];
-    return NULL;
-}
 
 void usual_material_names(const char **names)
 {

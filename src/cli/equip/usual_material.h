@@ -20,9 +20,6 @@ typedef struct UsualMaterial {
 extern const UsualMaterial usual_materials[];
 extern const int           usual_material_count;
 
-/* NULL: there is none of that name. */
-const UsualMaterial *usual_material_find(const char *name);
-
 /* Their names, usual_material_count of them. */
 void usual_material_names(const char **names);
 

@@ -74,13 +74,23 @@ static bool add_scenes(json_t *document, const ReviewStart *start, Arena *arena,
 
 /* ---- eyes and symbols -------------------------------------------------------------------- */
 
-/* Of a model's own cameras some see it from outside: who wishes names those in its seats. */
-static bool is_wished(const ReviewWishes *wishes, const char *name)
+static bool is_among(const char *const *names, int count, const char *name)
 {
-    bool found = !wishes;
-    for (int i = 0; wishes && i < wishes->eye_count && !found; i++)
-        found = !strcmp(wishes->eyes[i], name);
+    bool found = false;
+    for (int i = 0; i < count && !found; i++) found = !strcmp(names[i], name);
     return found;
+}
+
+/* Of a model's own cameras some see it from outside: who wishes names those in its seats. */
+static bool is_eye(const ReviewWishes *wishes, const char *name)
+{
+    return !wishes || is_among(wishes->eyes, wishes->eye_count, name);
+}
+
+static bool is_read(const ReviewWishes *wishes, const Display *display)
+{
+    return display->content.texture_id != NO_ID &&
+           (!wishes || is_among(wishes->displays, wishes->display_count, display->name));
 }
 
 static bool add_eyes(json_t *document, const ReviewStart *start, const Scene *scene,
@@ -91,7 +101,7 @@ static bool add_eyes(json_t *document, const ReviewStart *start, const Scene *sc
     for (int i = 0; i < scene->camera_count; i++) {
         const SceneCamera *camera = &scene->cameras[i];
         const char *name = *camera->node_name ? camera->node_name : camera->camera_name;
-        if (!camera->is_perspective || !is_wished(start->wishes, name)) continue;
+        if (!camera->is_perspective || !is_eye(start->wishes, name)) continue;
         bool is_known = !*name || json_object_get(eyes, name);
         if (is_known) name = arena_format(arena, "camera %d", i);
         json_object_set_new(eyes, name, is_known ? json_pack("{s:i}", "camera", i)
@@ -166,12 +176,13 @@ static void add_symbols_of(json_t *symbols, const Scene *scene, const Display *d
     }
 }
 
-static bool add_symbols(json_t *document, const Scene *scene, Arena *arena, Error *err)
+static bool add_symbols(json_t *document, const ReviewStart *start, const Scene *scene,
+                        Arena *arena, Error *err)
 {
     json_t *symbols = json_object();
     json_object_set_new(document, "symbols", symbols);
     for (int i = 0; i < scene->display_count; i++)
-        if (scene->displays[i].content.texture_id != NO_ID)
+        if (is_read(start->wishes, &scene->displays[i]))
             add_symbols_of(symbols, scene, &scene->displays[i], arena);
     return json_object_size(symbols) > 0 ||
            error_at(err, ERROR_INPUT, scene->inputs[0], "",
@@ -274,7 +285,7 @@ static bool fill(json_t *document, const ReviewStart *start, const Scene *scene,
     json_object_set_new(document, "title", json_text(title));
     if (!add_scenes(document, start, arena, err) ||
         !add_eyes(document, start, scene, arena, err) ||
-        !add_symbols(document, scene, arena, err))
+        !add_symbols(document, start, scene, arena, err))
         return false;
     add_rest(document, start, scene, arena);
     return true;

@@ -26,6 +26,8 @@ typedef struct ReviewWishes {
     double              forward[3]; /* where the vehicle points, world */
     const char *const  *eyes;       /* the cameras that are eyes, by their nodes' names */
     int                 eye_count;  /* 1 or more */
+    const char *const  *displays;   /* those that are to be read, by name */
+    int                 display_count;
     const ReviewPlace  *place;      /* NULL: no year */
 } ReviewWishes;
 
