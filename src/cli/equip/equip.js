@@ -206,7 +206,7 @@ function usual(name){return data.usual.find(function(u){return u.name===name;});
 function colourOf(id){
   var m=data.materials[id];
   if(state.as[id])return usual(state.as[id]).base_color;
-  return m.missing&&$('mark').checked?view.MARK:m.color;
+  return m.missing&&$('mark').checked?view.MARK:null;
 }
 function css(rgb){
   return 'rgb('+rgb.map(function(v){
@@ -228,7 +228,7 @@ function materialRow(id){
   select.value=state.as[id]||'';
   function show(){
     var u=usual(state.as[id]);
-    swatch.style.background=css(colourOf(id));
+    swatch.style.background=css(colourOf(id)||m.color);
     source.textContent=u?u.source:'';
     source.hidden=!u;
   }

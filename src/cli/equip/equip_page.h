@@ -3,7 +3,7 @@
  *
  * The page asks for nothing from anywhere: three.js (Debian's libjs-three) draws the model,
  * whose corners stand in the page to a 16-millionth of its size, packed (page/page_data.h).
- * Colours are means of what the materials say: it is a picture to click in, not a frame.
+ * It is a picture to click in, not a frame: base colours and their textures, made small.
  *
  * Memory   scratch in the arena. Threads: one at a time.
  * Fails    ERROR_INPUT for a model without triangles, or with more than a page takes.

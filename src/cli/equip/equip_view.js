@@ -37,6 +37,12 @@ async function unpackModel(){
     for(var i=0;i<data.vertices;i++)
       view.position[3*i+a]=data.low[a]+size*steps[a][i]/16777215;
   }
+  view.uv=new Float32Array(2*data.vertices);
+  for(var w of [0,1]){
+    var block=document.getElementById('equip-'+'uv'[w]),low=+block.dataset.low;
+    var scale=block.dataset.size/16777215,codes=await unpack(block.id,data.vertices,3);
+    for(var k=0;k<data.vertices;k++)view.uv[2*k+w]=low+scale*codes[k];
+  }
   view.index=await unpack('equip-i',3*data.triangles,data.index_bytes);
   view.partOf=new Uint32Array(data.triangles);
   data.parts.forEach(function(part,p){
@@ -46,39 +52,56 @@ async function unpackModel(){
 
 /* ---- what is drawn ---- */
 var renderer,scene=new THREE.Scene(),camera=new THREE.PerspectiveCamera(50,1,0.01,1000);
-var colors,meshes=[],waiting=false;
+var meshes=[],materials=[],textures=[],waiting=false;
 var marks=new THREE.Group();
 view.marks=marks;
 
+function textureOf(id){
+  if(id<0||!data.textures[id])return null;
+  if(!textures[id]){
+    textures[id]=new THREE.TextureLoader().load(data.textures[id],view.draw);
+    textures[id].flipY=false;
+    textures[id].encoding=THREE.sRGBEncoding;
+    textures[id].wrapS=textures[id].wrapT=THREE.RepeatWrapping;
+  }
+  return textures[id];
+}
+function addMaterials(){
+  data.materials.forEach(function(m){
+    var clear=m.alpha<1;
+    materials.push(new THREE.MeshPhongMaterial({side:THREE.DoubleSide,flatShading:true,
+      shininess:8,specular:0x080808,transparent:clear,opacity:m.alpha,depthWrite:!clear,
+      polygonOffset:true,polygonOffsetFactor:1,polygonOffsetUnits:1}));
+  });
+}
 /* Glass is drawn clear, and a click goes through it to what is behind. */
 function addMesh(isGlass){
-  var triangles=[];
-  data.parts.forEach(function(part){
-    if((data.materials[part.material].alpha<1)!==isGlass)return;
+  var parts=data.parts.filter(function(part){
+    return (data.materials[part.material].alpha<1)===isGlass;
+  }).sort(function(a,b){return a.material-b.material;});
+  var triangles=[],geometry=new THREE.BufferGeometry();
+  parts.forEach(function(part){
+    geometry.addGroup(3*triangles.length,3*part.count,part.material);
     for(var t=part.first;t<part.first+part.count;t++)triangles.push(t);
   });
   var index=new Uint32Array(3*triangles.length);
   triangles.forEach(function(t,i){index.set(view.index.subarray(3*t,3*t+3),3*i);});
-  var geometry=new THREE.BufferGeometry();
   geometry.setAttribute('position',new THREE.BufferAttribute(view.position,3));
-  geometry.setAttribute('color',colors);
+  geometry.setAttribute('uv',new THREE.BufferAttribute(view.uv,2));
   geometry.setIndex(new THREE.BufferAttribute(index,1));
-  var mesh=new THREE.Mesh(geometry,new THREE.MeshPhongMaterial({vertexColors:
-    THREE.VertexColors,side:THREE.DoubleSide,flatShading:true,shininess:8,specular:0x080808,
-    transparent:isGlass,opacity:isGlass?0.28:1,depthWrite:!isGlass,polygonOffset:true,
-    polygonOffsetFactor:1,polygonOffsetUnits:1}));
+  var mesh=new THREE.Mesh(geometry,materials);
   mesh.triangles=triangles;
   if(triangles.length)scene.add(mesh);
   meshes.push(mesh);
 }
-/* colour of a material: what it is taken for, marked while it is nothing yet. */
+/* colourOf: a material's colour where something else is said of it, null where it stays. */
 view.paint=function(colourOf){
-  data.parts.forEach(function(part){
-    var rgb=colourOf(part.material);
-    for(var i=3*part.first;i<3*(part.first+part.count);i++)
-      colors.array.set(rgb,3*view.index[i]);
+  data.materials.forEach(function(m,id){
+    var own=colourOf(id),map=own?null:textureOf(m.texture);
+    materials[id].color.setRGB(...(own||(map?m.factor:m.color)));
+    if(materials[id].map!==map)materials[id].needsUpdate=true;
+    materials[id].map=map;
   });
-  colors.needsUpdate=true;
   view.draw();
 };
 view.MARK=MARK;
@@ -246,7 +269,7 @@ view.start=async function(){
   view.size=high.distanceTo(low)||1;
   renderer=new THREE.WebGLRenderer({canvas:canvas,antialias:true,alpha:true});
   renderer.gammaOutput=true;
-  colors=new THREE.BufferAttribute(new Float32Array(3*data.vertices),3);
+  addMaterials();
   addMesh(false);
   addMesh(true);
   addLights();
