@@ -159,6 +159,36 @@ def check_review(work, name, saved):
 
 # ---- models ----
 
+def click_word(page, word):
+    """A button of the last card, by what it says."""
+    page.click(*page.run(f"""(()=>{{const b=[...document.querySelectorAll('.card button')]
+        .find(b=>b.textContent==={json.dumps(word)});
+        b.scrollIntoView({{block:'center'}});
+        const r=b.getBoundingClientRect();
+        return [r.left+r.width/2,r.top+r.height/2];}})()"""))
+
+
+def check_inside(report, page, before):
+    """The face is a trapezoid: a rectangle in it is smaller. The content's shape is kept.
+    Numbers put it back."""
+    click_word(page, "Inside the face")
+    within = equip(page)["displays"][0]
+    report.claim(within["width_m"] <= before["width_m"] and
+                 0.3 < within["height_m"] * within["width_m"] /
+                 (before["height_m"] * before["width_m"]) < 0.98, f"inside: {within}")
+    click_word(page, "The content's shape")
+    shaped = equip(page)["displays"][0]
+    report.claim(abs(shaped["width_m"] / shaped["height_m"] - 1920 / 720) < 0.01,
+                 f"the content's shape: {shaped}")
+    page.run("""document.querySelector('#displays details').open=true;
+        (f=>[[0,1000*W],[1,1000*H],[2,0],[3,0]].forEach(([i,v])=>{f[i].value=v;
+        f[i].dispatchEvent(new Event('input'));}))
+        (document.querySelectorAll('#displays input[type=number]'))"""
+             .replace("W", str(before["width_m"])).replace("H", str(before["height_m"])))
+    again = equip(page)["displays"][0]
+    report.claim(again == before, f"put back: {again}, it was {before}")
+
+
 def check_car(work):
     """From the .glb to the scene by two clicks: its eye is proposed."""
     report, start = work.report, time.monotonic()
@@ -167,6 +197,7 @@ def check_car(work):
         found = equip(page)["displays"]
         report.claim(len(found) == 1 and found[0]["on"] == "CONSOLEFRONT_s_0",
                      f"the car: clicked {found}")
+        check_inside(report, page, found[0])
         saved = save(work, page, "torcs_car8-trb1.equip.json")
         document, _ = apply(work, CAR, "torcs_car8-trb1.equip.json", "car.gltf")
         print(f"the car: 2 clicks and {time.monotonic() - start:.1f} s from the .glb to "
@@ -292,7 +323,9 @@ def shots(work, model, folder):
                              ("narrow", (390, 800), False)):
         with work.open(address, size, dark) as page:
             click_point(page, [0.489, 0.64, 0.32])
-            page.run("new Promise(done=>setTimeout(done,400))")
+            click_word(page, "Inside the face")
+            page.run("window.scrollTo(0,0);document.querySelector('.steps').scrollTop=0;"
+                     "new Promise(done=>setTimeout(done,400))")
             page.shot(os.path.join(folder, f"equip_{name}.png"))
 
 

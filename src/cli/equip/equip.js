@@ -123,6 +123,7 @@ function addDisplay(fit){
   var content=defaultContent();
   var d={name:freeName(content||'display'),on:fit.on,centre:fit.centre,right:fit.right,
     up:fit.up,width:fit.width,height:fit.height,dx:0,dy:0,turn_deg:0,before_mm:0.5,level:1,
+    inside:fit.inside,
     panel:data.panels.find(function(p){return /ips|oled/.test(p);})||data.panels[0]||'',
     content:content};
   state.displays.push(d);
@@ -140,6 +141,12 @@ function keepShape(d){
   var shape=c.width/c.height;
   if(d.width>d.height*shape)d.width=d.height*shape;
   else d.height=d.width/shape;
+  rebuild();
+}
+function goInside(d){
+  var within=d.inside();
+  if(!within){say('No upright rectangle fits into that face.',true);return;}
+  Object.assign(d,within,{turn_deg:0});
   rebuild();
 }
 function mm(d,key){
@@ -161,9 +168,11 @@ function displayCard(d){
     numberField('Before the face, mm',...plain(d,'before_mm'),0.5),
     numberField('Level, 1 is full',...plain(d,'level'),0.1));
   var shape=make('button',{type:'button','class':'plain'},"The content's shape");
+  var within=make('button',{type:'button','class':'plain',hidden:!d.inside},'Inside the face');
   shape.addEventListener('click',function(){keepShape(d);});
-  more.append(make('summary',{},'Place it finely'),fine,shape);
-  box.append(fields,more);
+  within.addEventListener('click',function(){goInside(d);});
+  more.append(make('summary',{},'Place it finely'),fine);
+  box.append(fields,within,shape,more);
   return box;
 }
 
@@ -438,7 +447,8 @@ function fill(){
     ' m';
   data.profiles.forEach(function(p){$('profile').append(make('option',{value:p},p));});
   $('profile').value='iso-15008';
-  var own=data.materials.filter(function(m){return m.display;}).map(function(m){return m.name;});
+  var own=data.materials.filter(function(m){return m.display;})
+    .map(function(m){return m.name;});
   $('own-displays').textContent=own.length?'Displays already: '+own.join(', ')+'.':'';
   $('command').textContent=data.command+' --with '+quoted(fileName())+
     ' -o '+quoted(stem()+'.equipped.gltf');

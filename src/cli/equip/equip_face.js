@@ -3,6 +3,7 @@
    together with it and lies as it does, and the upright rectangle around that. */
 var equipFace=(function(){
 var view=equipView,LIKE=Math.cos(5*Math.PI/180),LEVEL=0.99;
+var STEPS=128; /* of the grid that finds what fits inside */
 
 function corner(vertex){
   var p=view.position;
@@ -61,6 +62,60 @@ function axes(normal,from,middle){
   var right=up.cross(normal).normalize();
   return {right:right,up:normal.clone().cross(right).normalize()};
 }
+/* Which corners of a grid over the unit square lie in one of the triangles. */
+function covered(flat){
+  var wide=STEPS+1,found=new Uint8Array(wide*wide),rim=1e-3;
+  flat.forEach(function(p){
+    var d=(p[1][0]-p[0][0])*(p[2][1]-p[0][1])-(p[2][0]-p[0][0])*(p[1][1]-p[0][1]);
+    if(!d)return;
+    var from=[0,1].map(function(i){
+      return Math.max(0,Math.ceil((Math.min(p[0][i],p[1][i],p[2][i])-rim)*STEPS));
+    }),to=[0,1].map(function(i){
+      return Math.min(STEPS,Math.floor((Math.max(p[0][i],p[1][i],p[2][i])+rim)*STEPS));
+    });
+    for(var y=from[1];y<=to[1];y++)
+      for(var x=from[0];x<=to[0];x++){
+        var s=x/STEPS-p[0][0],t=y/STEPS-p[0][1];
+        var b=(s*(p[2][1]-p[0][1])-t*(p[2][0]-p[0][0]))/d;
+        var c=(t*(p[1][0]-p[0][0])-s*(p[1][1]-p[0][1]))/d;
+        if(b>=-rim&&c>=-rim&&b+c<=1+rim)found[y*wide+x]=1;
+      }
+  });
+  return found;
+}
+/* The largest rectangle of cells whose four corners are covered: over each row, bars of covered
+   cells, of which the largest rectangle is kept by a stack. */
+function largest(found){
+  var wide=STEPS+1,high=new Uint16Array(wide),best={area:0};
+  for(var y=0;y<STEPS;y++){
+    var stack=[];
+    for(var x=0;x<=STEPS;x++){
+      var at=y*wide+x,is=x<STEPS&&found[at]&&found[at+1]&&found[at+wide]&&found[at+wide+1];
+      high[x]=is?high[x]+1:0;
+      var left=x;
+      while(stack.length&&stack[stack.length-1].high>=high[x]){
+        var bar=stack.pop(),area=bar.high*(x-bar.left);
+        left=bar.left;
+        if(area>best.area)best={area:area,left:left,right:x,bottom:y+1-bar.high,top:y+1};
+      }
+      stack.push({left:left,high:high[x]});
+    }
+  }
+  return best;
+}
+/* The upright rectangle that fits into the face, within 1/128 of its size; null: none does. */
+function inside(triangles,centre,a,width,height){
+  var best=largest(covered(triangles.map(function(t){
+    return [0,1,2].map(function(k){
+      var d=corner(view.index[3*t+k]).sub(centre);
+      return [d.dot(a.right)/width+0.5,d.dot(a.up)/height+0.5];
+    });
+  })));
+  if(!best.area)return null;
+  return {dx:width*((best.left+best.right)/2/STEPS-0.5),
+    dy:height*((best.bottom+best.top)/2/STEPS-0.5),
+    width:width*(best.right-best.left)/STEPS,height:height*(best.top-best.bottom)/STEPS};
+}
 function fit(hit){
   var triangles=flood(hit.triangle);
   var normal=meanNormal(triangles,hit.normal);
@@ -78,7 +133,10 @@ function fit(hit){
   var centre=hit.point.clone().addScaledVector(a.right,(low[0]+high[0])/2)
     .addScaledVector(a.up,(low[1]+high[1])/2).addScaledVector(normal,deep);
   return {on:view.data.parts[view.partOf[hit.triangle]].name,triangles:triangles.length,
-    centre:centre,right:a.right,up:a.up,width:high[0]-low[0],height:high[1]-low[1]};
+    centre:centre,right:a.right,up:a.up,width:high[0]-low[0],height:high[1]-low[1],
+    inside:function(){
+      return inside(triangles,centre,a,high[0]-low[0],high[1]-low[1]);
+    }};
 }
 return {fit:fit};
 })();
