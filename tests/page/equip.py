@@ -157,6 +157,19 @@ def check_review(work, name, saved):
                       review["forward"] == saved["forward"], f"{name}: {review['eyes']}")
 
 
+def check_reopened(report, page, saved):
+    """What was saved is taken up again, figures of somebody's own included."""
+    saved = json.loads(json.dumps(saved))
+    saved["materials"][0] = {"index": saved["materials"][0]["index"],
+                             "base_color": [0.2, 0.1, 0.1], "roughness": 0.4}
+    page.run(f"""(()=>{{const files=new DataTransfer(),field=document.getElementById('open');
+        files.items.add(new File([{json.dumps(json.dumps(saved))}],'a.json'));
+        field.files=files.files;
+        field.dispatchEvent(new Event('change'));}})()""")
+    page.wait("document.getElementById('hint').textContent==='Taken up again.'")
+    report.claim(equip(page) == saved, f"taken up again: {equip(page)}, it was {saved}")
+
+
 # ---- models ----
 
 def click_word(page, word):
@@ -247,6 +260,7 @@ def check_bare_car(work):
         report.claim(now["position_m"] != eye and "before" in now["proposed_from"] or
                      "above" in now["proposed_from"], f"the clicked eye: {now}")
         saved = save(work, page, "bare.equip.json")
+        check_reopened(report, page, saved)
         check_page(report, page, "the bare car")
     report.claim([m["name"] for m in saved["materials"]] == missing, f"{saved['materials']}")
     _, checked = apply(work, "bare.glb", "bare.equip.json", "bare.gltf")

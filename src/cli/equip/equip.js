@@ -3,8 +3,9 @@
    that all of it goes into (assets/schemas/equip.schema.json). */
 (function(){
 var view=equipView,data=view.data;
-var state={displays:[],eyes:[],as:{},mode:'display',chosen:null};
-var proposals=[],pictures={};
+/* kept: materials as a file that was opened has them, with figures of its own. */
+var state={displays:[],eyes:[],as:{},kept:{},mode:'display',chosen:null};
+var proposals=[],pictures={},OWN='figures of its own';
 function $(id){return document.getElementById(id);}
 function make(tag,attributes,text){
   var e=document.createElement(tag);
@@ -120,6 +121,15 @@ function defaultContent(){
   })||(data.contents[0]||{name:''}).name;
 }
 function addDisplay(fit){
+  var same=state.displays.find(function(d){
+    return d.on===fit.on&&d.centre.distanceTo(fit.centre)<0.001;
+  });
+  if(same){
+    state.chosen=same;
+    rebuild();
+    say('"'+same.name+'" is there already.');
+    return;
+  }
   var content=defaultContent();
   var d={name:freeName(content||'display'),on:fit.on,centre:fit.centre,right:fit.right,
     up:fit.up,width:fit.width,height:fit.height,dx:0,dy:0,turn_deg:0,before_mm:0.5,level:1,
@@ -212,8 +222,15 @@ function eyeCard(eye){
 
 /* ---- materials ---- */
 function usual(name){return data.usual.find(function(u){return u.name===name;});}
+/* Until something else is chosen. */
+function keptOf(id){
+  var kept=state.kept[id];
+  return kept&&(kept.as||OWN)===state.as[id]?kept:null;
+}
 function colourOf(id){
   var m=data.materials[id];
+  var kept=keptOf(id);
+  if(kept&&kept.base_color)return kept.base_color;
   if(state.as[id])return usual(state.as[id]).base_color;
   return m.missing&&$('mark').checked?view.MARK:null;
 }
@@ -234,6 +251,7 @@ function materialRow(id){
   name.append(make('small',{},wearers(id)));
   select.append(make('option',{value:''},m.missing?'not said':'as the model says'));
   data.usual.forEach(function(u){select.append(make('option',{value:u.name},u.name));});
+  if(state.kept[id]&&!state.kept[id].as)select.append(make('option',{value:OWN},OWN));
   select.value=state.as[id]||'';
   function show(){
     var u=usual(state.as[id]);
@@ -324,7 +342,7 @@ function equipOf(){
   out.eyes=state.eyes.map(eyeOf);
   var ids=Object.keys(state.as).filter(function(id){return state.as[id];});
   if(ids.length)out.materials=ids.map(function(id){
-    return {index:+id,name:data.materials[id].name,as:state.as[id]};
+    return keptOf(id)||{index:+id,name:data.materials[id].name,as:state.as[id]};
   });
   out.profile=$('profile').value;
   out.forward=ahead();
@@ -377,7 +395,12 @@ function take(saved){
       looks:state.displays.find(function(d){return d.name===e.looks_at;})||null};
   });
   state.as={};
-  (saved.materials||[]).forEach(function(m){if(usual(m.as))state.as[m.index]=m.as;});
+  state.kept={};
+  (saved.materials||[]).forEach(function(m){
+    if(!data.materials[m.index]||m.as&&!usual(m.as))return;
+    state.as[m.index]=m.as||OWN;
+    state.kept[m.index]=m;
+  });
   $('profile').value=saved.profile||'iso-15008';
   $('forward').value=(saved.forward||[0,0,-1]).join(',');
   $('has-place').checked=!!saved.place;
@@ -442,6 +465,9 @@ function offerProposals(){
 }
 function fill(){
   $('title').textContent='Equip '+data.model;
+  var long=Math.max(...data.high.map(function(h,a){return h-data.low[a];}));
+  if(long>100||long<0.3)$('units').textContent='The model is '+long.toPrecision(3)+
+    ' m long. glTF counts in metres: was it exported in another unit?';
   $('about').textContent=data.triangles.toLocaleString('en')+' triangles, '+data.parts.length+
     ' parts, '+data.high.map(function(h,a){return (h-data.low[a]).toFixed(2);}).join(' × ')+
     ' m';

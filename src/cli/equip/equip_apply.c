@@ -185,6 +185,13 @@ static bool start_review(const Applying *at, const Scene *scene, Error *err)
     return review_request_start(&start, scene, at->arena, err);
 }
 
+/* What is said of a draft is said of the file that it becomes. */
+static void rename_draft(Problems *problems, const char *draft, const char *output)
+{
+    for (int i = 0; i < problems->count; i++)
+        if (!strcmp(problems->list[i].file, draft)) problems->list[i].file = output;
+}
+
 /* The scene under a name that nobody sees is loaded as it will be, then it gets its own. */
 static bool write_scene(const Applying *at, Scene **scene, Error *err)
 {
@@ -194,9 +201,12 @@ static bool write_scene(const Applying *at, Scene **scene, Error *err)
     json_print(&text, at->model.document, (JsonDigits){DIGITS, false});
     SceneOptions options = {.paths = &draft, .path_count = 1};
     if (!text_write(&text, draft, err)) return false;
-    if (!scene_load(&options, at->arena, at->problems, scene, err)) {
+    bool ok = scene_load(&options, at->arena, at->problems, scene, err);
+    rename_draft(at->problems, draft, output);
+    if (!ok) {
+        const Error why = *err;
         file_discard(draft);
-        return error_prefix(err, "what was to become %s", output);
+        return error_at(err, why.code, output, why.path, "is not written: %.900s", why.text);
     }
     if (file_commit(draft, output, err)) return true;
     scene_close(*scene);

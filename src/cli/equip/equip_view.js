@@ -236,8 +236,11 @@ canvas.addEventListener('pointermove',function(e){
 });
 function lift(e){
   var was=fingers.delete(e.pointerId);
-  if(was&&!fingers.size&&moved<=CLICK_PIXELS&&e.type==='pointerup'&&e.button===0&&view.onclick)
-    view.onclick(view.pick(e.clientX,e.clientY));
+  if(was&&!fingers.size&&moved<=CLICK_PIXELS&&e.type==='pointerup'){
+    var hit=view.pick(e.clientX,e.clientY);
+    if(e.button===0&&view.onclick)view.onclick(hit);
+    if(e.button===2&&hit)view.look(camera.position,hit.point,camera.fov);
+  }
   if(fingers.size)moved=CLICK_PIXELS+1;
 }
 canvas.addEventListener('pointerup',lift);
@@ -247,10 +250,6 @@ canvas.addEventListener('wheel',function(e){
   e.preventDefault();
   zoom(Math.exp(Math.max(-1,Math.min(1,e.deltaY/400))));
 },{passive:false});
-canvas.addEventListener('dblclick',function(e){
-  var hit=view.pick(e.clientX,e.clientY);
-  if(hit)view.look(camera.position,hit.point,camera.fov);
-});
 var KEYS={ArrowLeft:[1,0],ArrowRight:[-1,0],ArrowUp:[0,1],ArrowDown:[0,-1]};
 canvas.addEventListener('keydown',function(e){
   var way=KEYS[e.key];
