@@ -4,7 +4,8 @@
 (function(){
 var view=equipView,data=view.data;
 /* kept: materials as a file that was opened has them, with figures of its own. */
-var state={displays:[],eyes:[],as:{},kept:{},mode:'display',chosen:null};
+var state={displays:[],eyes:[],as:{},kept:{},mode:'display',chosen:null,
+  lit:null};
 var proposals=[],pictures={},OWN='figures of its own';
 function $(id){return document.getElementById(id);}
 function make(tag,attributes,text){
@@ -230,6 +231,7 @@ function keptOf(id){
 function colourOf(id){
   var m=data.materials[id];
   var kept=keptOf(id);
+  if(state.lit===id)return view.LIT;
   if(kept&&kept.base_color)return kept.base_color;
   if(state.as[id])return usual(state.as[id]).base_color;
   return m.missing&&$('mark').checked?view.MARK:null;
@@ -242,7 +244,12 @@ function css(rgb){
 function wearers(id){
   var names=[...new Set(data.parts.filter(function(p){return p.material===id;})
     .map(function(p){return p.name;}))];
-  return names.slice(0,3).join(', ')+(names.length>3?' and '+(names.length-3)+' more':'');
+  return names.slice(0,2).join(', ')+(names.length>2?' and '+(names.length-2)+' more':'');
+}
+/* Where a row's material is. */
+function light(id){
+  state.lit=id;
+  view.paint(colourOf);
 }
 function materialRow(id){
   var m=data.materials[id],row=make('div',{'class':'material'}),swatch=make('b');
@@ -255,6 +262,7 @@ function materialRow(id){
   select.value=state.as[id]||'';
   function show(){
     var u=usual(state.as[id]);
+    state.lit=null;
     swatch.style.background=css(colourOf(id)||m.color);
     source.textContent=u?u.source:'';
     source.hidden=!u;
@@ -266,6 +274,12 @@ function materialRow(id){
     changed();
   });
   show();
+  ['mouseenter','focusin'].forEach(function(name){
+    row.addEventListener(name,function(){light(id);});
+  });
+  ['mouseleave','focusout'].forEach(function(name){
+    row.addEventListener(name,function(){light(null);});
+  });
   row.dataset.material=id;
   row.append(swatch,name,select,source);
   return row;
@@ -425,8 +439,9 @@ function changed(){
   $('step-eyes').classList.toggle('done',state.eyes.length>0);
   $('step-materials').classList.toggle('done',!left);
   $('step-review').classList.add('done');
-  $('missing').textContent=left?left+' material'+(left>1?'s say':' says')+
-    ' nothing of what light does there: say what they are.':'Every material has data.';
+  $('missing').textContent=!left?'Every material has data.':left>1?left+
+    ' materials say nothing of what light does there: say what they are.':
+    '1 material says nothing of what light does there: say what it is.';
   mark();
 }
 function rebuild(){

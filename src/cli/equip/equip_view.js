@@ -4,7 +4,7 @@
 var equipView=(function(){
 var data=JSON.parse(document.getElementById('equip-data').textContent);
 var canvas=document.getElementById('canvas');
-var MARK=[0.95,0.25,0.05],CLICK_PIXELS=5,LEAST_M=0.02;
+var MARK=[0.95,0.25,0.05],LIT=[0.1,0.45,1],CLICK_PIXELS=5,LEAST_M=0.02;
 var view={data:data,canvas:canvas,onclick:null,onlook:null};
 
 /* ---- the numbers (page_data.h) ---- */
@@ -105,6 +105,7 @@ view.paint=function(colourOf){
   view.draw();
 };
 view.MARK=MARK;
+view.LIT=LIT;
 
 function addLights(){
   scene.add(new THREE.HemisphereLight(0xffffff,0x8a8f96,0.75));
