@@ -416,7 +416,10 @@ function take(saved){
     state.kept[m.index]=m;
   });
   $('profile').value=saved.profile||'iso-15008';
-  $('forward').value=(saved.forward||[0,0,-1]).join(',');
+  var way=(saved.forward||[0,0,-1]).join(',');
+  if(![...$('forward').options].some(function(o){return o.value===way;}))
+    $('forward').append(make('option',{value:way},'('+way+')'));
+  $('forward').value=way;
   $('has-place').checked=!!saved.place;
   if(saved.place){
     ['lat','lon','alt'].forEach(function(id,i){$(id).value=saved.place.where[i];});

@@ -4,6 +4,7 @@
 #include <limits.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "base/file.h"
 #include "base/file_write.h"
@@ -129,6 +130,13 @@ void equip_files_undo(const EquipFiles *files)
 
 /* ---- what the document names ------------------------------------------------------------- */
 
+/* A word such as "sky" may be a folder's name. */
+static bool is_regular(const char *path)
+{
+    struct stat info;
+    return !stat(path, &info) && S_ISREG(info.st_mode);
+}
+
 /* The file that a URI of the model names; NULL when it names none, as most texts. */
 static const char *named_file(const EquipFiles *files, const char *uri)
 {
@@ -137,7 +145,7 @@ static const char *named_file(const EquipFiles *files, const char *uri)
     const char *path = NULL;
     if (uri_scheme_length(uri) || !uri_decode(uri, files->arena, &relative, &none) ||
         !reference_resolve(files->model, relative, files->root, files->arena, &path, &none) ||
-        !file_exists(path))
+        !is_regular(path))
         return NULL;
     return path;
 }
