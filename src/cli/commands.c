@@ -2,6 +2,7 @@
 #include "cli/commands.h"
 
 #include "base/count.h"
+#include "cli/equip/cmd_equip.h"
 #include "cli/explain/cmd_explain.h"
 #include "cli/panel/panel_commands.h"
 #include "cli/render/render_commands.h"
@@ -10,6 +11,7 @@
 const Command *const command_table[] = {
     &command_render,  &command_develop, &command_panel,   &command_sky,  &command_check,
     &command_compare, &command_merge,   &command_part,    &command_status,
-    &command_measure, &command_review,  &command_explain, &command_probe, &command_help,
+    &command_measure, &command_review,  &command_explain, &command_probe, &command_equip,
+    &command_help,
 };
 const int command_count = COUNT_OF(command_table);

@@ -6,6 +6,7 @@
 #include <strings.h>
 
 #include "text/base64.h"
+#include "text/text.h"
 
 size_t uri_scheme_length(const char *uri)
 {
@@ -95,4 +96,34 @@ bool data_uri_decode(const char *uri, Arena *arena, FileBytes *out, const char *
     if (media_type) *media_type = arena_string(arena, uri + 5, strcspn(uri + 5, ";,"));
     *out = (FileBytes){bytes, size};
     return true;
+}
+
+/* Length of the folders that both absolute paths begin with, the slash included. */
+static size_t common_folders(const char *a, const char *b)
+{
+    size_t length = 0;
+    for (size_t i = 0; a[i] && a[i] == b[i]; i++)
+        if (a[i] == '/') length = i + 1;
+    return length;
+}
+
+static void add_escaped(Text *text, const char *path)
+{
+    static const char plain[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz"
+                                "0123456789-._~/";
+    for (; *path; path++)
+        if (strchr(plain, *path))
+            text_format(text, "%c", *path);
+        else
+            text_format(text, "%%%02X", (unsigned)(unsigned char)*path);
+}
+
+const char *uri_between(const char *folder, const char *file, Arena *arena)
+{
+    Text   text = {.arena = arena};
+    size_t shared = common_folders(folder, file);
+    for (const char *at = folder + shared; *at; at++)
+        if (*at == '/') text_add(&text, "../");
+    add_escaped(&text, file + shared);
+    return text.data ? text.data : "";
 }

@@ -18,6 +18,10 @@ bool uri_is_data(const char *uri);
  * in its first part without a scheme before it, is an error. */
 bool uri_decode(const char *uri, Arena *arena, char **out, Error *err);
 
+/* The way from a folder, "/a/b/", to a file, "/a/c d": "../c%20d". Both are absolute, without
+ * links, and need not be there. */
+const char *uri_between(const char *folder, const char *file, Arena *arena);
+
 /* The bytes of a data: URI; *media_type (may be NULL) is its type, "" if it has none. */
 bool data_uri_decode(const char *uri, Arena *arena, FileBytes *out, const char **media_type,
                      Error *err);

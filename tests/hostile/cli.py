@@ -22,7 +22,7 @@ from report import Report  # noqa: E402
 
 COMMANDS = ("render", "develop", "check", "measure", "compare", "merge", "sky", "panel import",
             "panel fit", "panel info", "panel eval", "panel plot", "panel export",
-            "panel simulate", "probe", "part", "status", "help")
+            "panel simulate", "probe", "part", "status", "equip", "help")
 CAR = os.path.join(ROOT, "scenes", "car_dashboard.gltf")
 PANEL = os.path.join(ROOT, "assets", "panels", "ips_cluster.panel")
 

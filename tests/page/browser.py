@@ -22,12 +22,13 @@ def find():
 class Browser:
     """with Browser(path, "file:///...") as page: page.run("document.title")"""
 
-    def __init__(self, program, address, size=(1280, 900), dark=False):
+    def __init__(self, program, address, size=(1280, 900), dark=False,
+                 flags=("--disable-gpu",)):
         self.folder = tempfile.mkdtemp()
         self.errors, self.requests, self.number, self.left = [], [], 0, b""
         down, up = os.pipe(), os.pipe()
         line = [program, "--headless=new", "--no-sandbox", "--remote-debugging-pipe",
-                "--disable-gpu", "--no-first-run", "--disable-dev-shm-usage",
+                "--no-first-run", "--disable-dev-shm-usage", *flags,
                 f"--user-data-dir={self.folder}", "about:blank"]
         self.process = subprocess.Popen(
             ["sh", "-c", f'exec "$@" 3<&{down[0]} 4>&{up[1]}', "sh", *line],
@@ -123,11 +124,23 @@ class Browser:
         self.call("Emulation.setDeviceMetricsOverride", width=width, height=height,
                   deviceScaleFactor=1, mobile=width < 700)
 
-    def mouse(self, kind, x, y):
+    def mouse(self, kind, x, y, held=True):
         """kind: Pressed, Moved, Released."""
-        held = kind != "Released"
-        self.call("Input.dispatchMouseEvent", type="mouse" + kind, x=x, y=y, button="left",
-                  buttons=int(held), clickCount=1)
+        held = held and kind != "Released"
+        self.call("Input.dispatchMouseEvent", type="mouse" + kind, x=x, y=y,
+                  button="left" if held or kind == "Released" else "none",
+                  buttons=int(held), clickCount=int(kind != "Moved"))
+
+    def click(self, x, y):
+        self.mouse("Moved", x, y, held=False)
+        self.mouse("Pressed", x, y)
+        self.mouse("Released", x, y)
+
+    def downloads(self, folder):
+        """What the page saves goes there; the browser's command, not the page's."""
+        session, self.session = self.session, None
+        self.call("Browser.setDownloadBehavior", behavior="allow", downloadPath=folder)
+        self.session = session
 
     def key(self, name):
         for kind in ("keyDown", "keyUp"):

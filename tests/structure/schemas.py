@@ -5,11 +5,13 @@ Shipped scenes against those of our glTF extensions; shipped recipes and reviews
 program the manifest that it writes, against those of the formats. Program and schema refuse
 alike.
 """
+import base64
 import copy
 import glob
 import json
 import os
 import re
+import struct
 import subprocess
 import sys
 import tempfile
@@ -156,6 +158,31 @@ WRONG_REVIEWS = [("profile", None), ("scene", []), ("eyes", {}), ("eye", {}),
                  ("precision/colour", 1)]
 
 
+EQUIP = {"equip": 1, "model": "car.glb",
+         "displays": [{"name": "speed", "on": "console", "centre_m": [0, 1, -1],
+                       "right": [1, 0, 0], "up": [0, 1, 0], "width_m": 0.3, "height_m": 0.1,
+                       "before_mm": 1, "panel": "ips_cluster", "content": "cluster",
+                       "level": 0.5}],
+         "eyes": [{"name": "the eye", "position_m": [0, 1.2, 0], "looks_at": "speed",
+                   "proposed_from": "nothing"}],
+         "materials": [{"index": 0, "name": "bare", "as": "rubber"},
+                       {"index": 1, "base_color": [0.1, 0.1, 0.1], "roughness": 0.5,
+                        "metallic": 0, "transmission": 0, "ior": 1.4}],
+         "profile": "iso-15008", "forward": [0, 0, -1],
+         "place": {"where": [48, 11, 500], "year": 2026, "headings_deg": [0, 90]}}
+WRONG_EQUIPS = [("equip", None), ("equip", 2), ("eyes", None), ("eyes", []), ("eye", []),
+                ("displays", {}), ("displays/0/name", ""), ("displays/0/up", [0, 0, 0]),
+                ("displays/0/width_m", 0), ("displays/0/panel", None),
+                ("displays/0/content", ""), ("displays/0/level", -1),
+                ("displays/0/centre_m", [0, 1]), ("displays/0/before_mm", 0),
+                ("displays/0/width_mm", 300), ("eyes/0/looks_at", None),
+                ("eyes/0/target_m", [0, 0, 0]), ("eyes/0/position_m", None),
+                ("materials/0/index", -1), ("materials/0/as", None),
+                ("materials/0/ior", 0.5), ("materials/1/base_color", [1, 1, 2]),
+                ("profile", "a/b"), ("forward", [0, 0, 0]), ("place", {}),
+                ("place/where", [91, 0, 0]), ("place/year", 1900), ("place/headings_deg", [])]
+
+
 def changed(document, path, value):
     """A copy with one member set, or taken away where the value is None."""
     document = copy.deepcopy(document)
@@ -236,6 +263,25 @@ def check_formats(report, program, folder, schema_of):
                      folder, document))
 
 
+def check_equips(report, program, folder, validator):
+    """Onto a triangle; what it would be applied to is the same for all."""
+    bare = {"pbrMetallicRoughness": {"roughnessFactor": 0.5}}
+    corners = base64.b64encode(struct.pack("<9f", 0, 0, 0, 1, 0, 0, 0, 1, 0)).decode()
+    triangle = {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
+                "nodes": [{"mesh": 0}], "materials": [{"name": "bare", **bare}, bare],
+                "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "material": 0}]}],
+                "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3,
+                               "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]}],
+                "bufferViews": [{"buffer": 0, "byteLength": 36}],
+                "buffers": [{"byteLength": 36,
+                             "uri": f"data:application/octet-stream;base64,{corners}"}]}
+    with open(os.path.join(folder, "triangle.gltf"), "w", encoding="utf-8") as file:
+        json.dump(triangle, file)
+    check_format(report, validator, EQUIP, WRONG_EQUIPS, lambda document: program and refuses(
+        program, ("equip", "FOLDER/triangle.gltf", "--with", "DOCUMENT", "-o",
+                  "FOLDER/equipped.gltf", "--overwrite"), folder, document) or None)
+
+
 def with_references(node):
     """The schema with those of other files in their place."""
     if isinstance(node, list):
@@ -285,6 +331,7 @@ def main():
         return validator(schema)
     with tempfile.TemporaryDirectory(prefix="schemas-") as folder:
         check_formats(report, program, folder, schema_of)
+        check_equips(report, program, folder, schema_of("equip"))
     check_reviews(report, schema_of("review"))
     scenes = sorted(glob.glob(os.path.join(ROOT, "scenes/**/*.gltf"), recursive=True))
     report.claim(bool(scenes), "scenes holds no .gltf")

@@ -204,7 +204,7 @@ static bool begin_with_root(const Scene *scene, const char *output, const char *
                             Arena *arena, Error *err)
 {
     const char *scenes[] = {in_folder("b c.gltf"), in_folder("a.gltf")};
-    ReviewStart request = {scenes, 2, output, root};
+    ReviewStart request = {scenes, 2, output, root, NULL, false};
     return review_request_start(&request, scene, arena, err);
 }
 

@@ -237,7 +237,8 @@ static bool start(const ReviewWords *words, Arena *arena, Error *err)
     SceneOptions options = {.paths = words->cli.arguments,
                             .path_count = words->cli.argument_count, .root = words->root,
                             .state = words->state};
-    ReviewStart  asked = {options.paths, options.path_count, words->init, words->root};
+    ReviewStart  asked = {options.paths, options.path_count, words->init, words->root, NULL,
+                          false};
     Problems     problems = problems_start(arena);
     Scene       *scene;
     if (!scene_load(&options, arena, &problems, &scene, err)) return false;

@@ -8,102 +8,17 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/count.h"
 #include "base/file.h"
+#include "text/json_print.h"
 #include "text/json_text.h"
-#include "text/text.h"
+#include "text/uri.h"
 
-#define LINE_CHARS 92
-#define INDENT 2
 #define UV_STEPS 10000 /* coordinates are written to four digits */
 #define UV_SLACK 0.01  /* of such a step: what floats may miss */
-#define NUMBER_FLAGS (JSON_ENCODE_ANY | JSON_REAL_PRECISION(10))
-
-/* ---- pretty printing --------------------------------------------------------------------- */
-
-/* A value's place: of its own lines, and how many letters stand before it in the first. */
-typedef struct PrintPlace {
-    int indent, column;
-} PrintPlace;
-
-static void print(Text *text, json_t *value, PrintPlace place);
-
-static void print_line(Text *text, const json_t *value)
-{
-    char *line = json_dumps(value, NUMBER_FLAGS);
-    text_add(text, line ? line : "null");
-    free(line);
-}
-
-static bool fits(const json_t *value, PrintPlace place)
-{
-    char *line = json_dumps(value, NUMBER_FLAGS);
-    bool  is_short = !line || (size_t)place.column + strlen(line) <= LINE_CHARS;
-    free(line);
-    return is_short || !(json_is_array(value) || json_is_object(value));
-}
-
-/* Returns its letters. */
-static int print_key(Text *text, const char *key)
-{
-    json_t *string = json_text(key);
-    size_t  before = text->size;
-    print_line(text, string);
-    text_add(text, ": ");
-    json_decref(string);
-    return (int)(text->size - before);
-}
-
-static void print_members(Text *text, json_t *value, int indent)
-{
-    const char *key, *between = "";
-    json_t     *item;
-    size_t      i;
-    json_object_foreach(value, key, item) {
-        text_format(text, "%s\n%*s", between, indent, "");
-        int letters = print_key(text, key);
-        print(text, item, (PrintPlace){indent, indent + letters});
-        between = ",";
-    }
-    json_array_foreach(value, i, item) {
-        text_format(text, "%s\n%*s", between, indent, "");
-        print(text, item, (PrintPlace){indent, indent});
-        between = ",";
-    }
-}
-
-/* What fits into a line stands in one; the document itself never does. */
-static void print(Text *text, json_t *value, PrintPlace place)
-{
-    if (place.indent && fits(value, place)) {
-        print_line(text, value);
-        return;
-    }
-    text_add(text, json_is_object(value) ? "{" : "[");
-    print_members(text, value, place.indent + INDENT);
-    text_format(text, "\n%*s%s", place.indent, "", json_is_object(value) ? "}" : "]");
-}
+#define DIGITS 10
 
 /* ---- the scene's files ------------------------------------------------------------------- */
-
-/* Length of the folders that both absolute paths begin with, the slash included. */
-static size_t common_folders(const char *a, const char *b)
-{
-    size_t length = 0;
-    for (size_t i = 0; a[i] && a[i] == b[i]; i++)
-        if (a[i] == '/') length = i + 1;
-    return length;
-}
-
-static void add_escaped(Text *text, const char *path)
-{
-    static const char plain[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz"
-                                "0123456789-._~/";
-    for (; *path; path++)
-        if (strchr(plain, *path))
-            text_format(text, "%c", *path);
-        else
-            text_format(text, "%%%02X", (unsigned)(unsigned char)*path);
-}
 
 static bool lies_in(const char *root, const char *target)
 {
@@ -120,23 +35,18 @@ static const char *uri_of(const char *from, const char *file, const char *root, 
                           Error *err)
 {
     char target[PATH_MAX];
-    Text text = {.arena = arena};
     if (!realpath(file, target)) {
         error_at(err, ERROR_INPUT, file, "", "cannot be found");
         return NULL;
     }
-    size_t shared = common_folders(from, target);
-    int    up = 0;
-    for (const char *at = from + shared; *at; at++) up += *at == '/';
-    if (up > 1 && !lies_in(root, target)) {
+    const char *uri = uri_between(from, target, arena);
+    if (path_climb(uri) > 1 && !lies_in(root, target)) {
         error_at(err, ERROR_INPUT, file, "",
                  "lies outside the parent of the new file's folder, wanted the new file in the "
                  "scene's folder or one beside it, or --root");
         return NULL;
     }
-    for (; up > 0; up--) text_add(&text, "../");
-    add_escaped(&text, target + shared);
-    return text.data;
+    return uri;
 }
 
 static bool find_folder(const char *output, char folder[PATH_MAX + 1], Arena scratch,
@@ -164,14 +74,34 @@ static bool add_scenes(json_t *document, const ReviewStart *start, Arena *arena,
 
 /* ---- eyes and symbols -------------------------------------------------------------------- */
 
-static bool add_eyes(json_t *document, const Scene *scene, Arena *arena, Error *err)
+static bool is_among(const char *const *names, int count, const char *name)
+{
+    bool found = false;
+    for (int i = 0; i < count && !found; i++) found = !strcmp(names[i], name);
+    return found;
+}
+
+/* Of a model's own cameras some see it from outside: who wishes names those in its seats. */
+static bool is_eye(const ReviewWishes *wishes, const char *name)
+{
+    return !wishes || is_among(wishes->eyes, wishes->eye_count, name);
+}
+
+static bool is_read(const ReviewWishes *wishes, const Display *display)
+{
+    return display->content.texture_id != NO_ID &&
+           (!wishes || is_among(wishes->displays, wishes->display_count, display->name));
+}
+
+static bool add_eyes(json_t *document, const ReviewStart *start, const Scene *scene,
+                     Arena *arena, Error *err)
 {
     json_t *eyes = json_object();
     json_object_set_new(document, "eyes", eyes);
     for (int i = 0; i < scene->camera_count; i++) {
         const SceneCamera *camera = &scene->cameras[i];
         const char *name = *camera->node_name ? camera->node_name : camera->camera_name;
-        if (!camera->is_perspective) continue;
+        if (!camera->is_perspective || !is_eye(start->wishes, name)) continue;
         bool is_known = !*name || json_object_get(eyes, name);
         if (is_known) name = arena_format(arena, "camera %d", i);
         json_object_set_new(eyes, name, is_known ? json_pack("{s:i}", "camera", i)
@@ -246,12 +176,13 @@ static void add_symbols_of(json_t *symbols, const Scene *scene, const Display *d
     }
 }
 
-static bool add_symbols(json_t *document, const Scene *scene, Arena *arena, Error *err)
+static bool add_symbols(json_t *document, const ReviewStart *start, const Scene *scene,
+                        Arena *arena, Error *err)
 {
     json_t *symbols = json_object();
     json_object_set_new(document, "symbols", symbols);
     for (int i = 0; i < scene->display_count; i++)
-        if (scene->displays[i].content.texture_id != NO_ID)
+        if (is_read(start->wishes, &scene->displays[i]))
             add_symbols_of(symbols, scene, &scene->displays[i], arena);
     return json_object_size(symbols) > 0 ||
            error_at(err, ERROR_INPUT, scene->inputs[0], "",
@@ -261,35 +192,87 @@ static bool add_symbols(json_t *document, const Scene *scene, Arena *arena, Erro
 /* ---- levels and conditions --------------------------------------------------------------- */
 
 #define START_YEAR 2026
-#define START_PLACE "where", 48.14, 11.58, 520.0
+#define HOUR_DEG 15.0 /* of longitude */
 
-static json_t *conditions(void)
+static const double start_headings_deg[] = {0, 45, 90, 135, 180, 225, 270, 315};
+
+static ReviewPlace place_of(const ReviewStart *start)
 {
-    json_t *noon = json_pack("{s:s, s:{s:s, s:s, s:[f,f,f]}, s:i, s:s}", "name", "noon",
-                             "environment", "type", "sky", "when", "2026-06-21T12:00+02:00",
-                             START_PLACE, "heading_deg", 0, "level", "day");
-    json_t *night = json_pack("{s:s, s:{s:s, s:f}, s:s}", "name", "night", "environment",
-                              "type", "constant", "luminance", 0.01, "level", "night");
-    json_t *year = json_pack("{s:s, s:{s:i, s:[f,f,f], s:i, s:[i,i,i,i,i,i,i,i], s:s}, s:s}",
-                             "name", "a year", "sweep", "year", START_YEAR, START_PLACE,
-                             "step_minutes", 60, "headings_deg", 0, 45, 90, 135, 180, 225, 270,
-                             315, "weather", "clear", "level", "day");
-    return json_pack("[o,o,o]", noon, night, year);
+    if (start->wishes && start->wishes->place) return *start->wishes->place;
+    return (ReviewPlace){{48.14, 11.58, 520.0}, START_YEAR, start_headings_deg,
+                         COUNT_OF(start_headings_deg)};
 }
 
-static void add_rest(json_t *document, const Scene *scene)
+static json_t *where_of(const ReviewPlace *place)
 {
-    Vec3 forward = scene->environment.forward;
-    json_object_set_new(document, "forward",
-                        json_pack("[f,f,f]", (double)forward.x, (double)forward.y,
-                                  (double)forward.z));
+    return json_pack("[f,f,f]", place->where[0], place->where[1], place->where[2]);
+}
+
+static json_t *whole_or_not(double value)
+{
+    return value == floor(value) ? json_integer((json_int_t)value) : json_real(value);
+}
+
+/* Noon by the clock of the place's zone, or of summer time where nothing was wished. */
+static json_t *noon_of(const ReviewStart *start, const ReviewPlace *place, Arena *arena)
+{
+    bool  is_told = start->wishes && start->wishes->place;
+    int   zone = is_told ? (int)lround(place->where[1] / HOUR_DEG) : 2;
+    char *when = arena_format(arena, "%04d-06-21T12:00%c%02d:00", place->year,
+                              zone < 0 ? '-' : '+', abs(zone));
+    return json_pack("{s:s, s:{s:s, s:s, s:o}, s:o, s:s}", "name", "noon", "environment",
+                     "type", "sky", "when", when, "where", where_of(place), "heading_deg",
+                     whole_or_not(place->headings_deg[0]), "level", "day");
+}
+
+static json_t *year_of(const ReviewPlace *place)
+{
+    json_t *headings = json_array();
+    for (int i = 0; i < place->heading_count; i++)
+        json_array_append_new(headings, whole_or_not(place->headings_deg[i]));
+    return json_pack("{s:s, s:{s:i, s:o, s:i, s:o, s:s}, s:s}", "name", "a year", "sweep",
+                     "year", place->year, "where", where_of(place), "step_minutes", 60,
+                     "headings_deg", headings, "weather", "clear", "level", "day");
+}
+
+static json_t *any_sun(void)
+{
+    return json_pack("{s:s, s:{s:{s:[i,i,i], s:[i,i,i]}, s:s}, s:s}", "name", "any sun",
+                     "sweep", "sun", "azimuth_deg", 0, 360, 2, "elevation_deg", 0, 80, 2,
+                     "sky", "sky", "level", "day");
+}
+
+static json_t *conditions(const ReviewStart *start, Arena *arena)
+{
+    const ReviewPlace place = place_of(start);
+    json_t *night = json_pack("{s:s, s:{s:s, s:f}, s:s}", "name", "night", "environment",
+                              "type", "constant", "luminance", 0.01, "level", "night");
+    json_t *list = json_pack("[o,o]", noon_of(start, &place, arena), night);
+    if (start->wishes) json_array_append_new(list, any_sun());
+    if (!start->wishes || start->wishes->place) json_array_append_new(list, year_of(&place));
+    return list;
+}
+
+static json_t *forward_of(const ReviewStart *start, const Scene *scene)
+{
+    const Vec3    own = scene->environment.forward;
+    const double *wish = start->wishes ? start->wishes->forward : NULL;
+    return json_pack("[f,f,f]", wish ? wish[0] : (double)own.x, wish ? wish[1] : (double)own.y,
+                     wish ? wish[2] : (double)own.z);
+}
+
+static void add_rest(json_t *document, const ReviewStart *start, const Scene *scene,
+                     Arena *arena)
+{
+    const char *profile = start->wishes ? start->wishes->profile : "iso-15008";
+    json_object_set_new(document, "forward", forward_of(start, scene));
     json_object_set_new(document, "observer",
                         json_pack("{s:i, s:f}", "age_years", 50, "pigment", 0.5));
     json_object_set_new(document, "gaze", json_pack("[{s:s}]", "at", "symbols"));
-    json_object_set_new(document, "profile", json_string("iso-15008"));
+    json_object_set_new(document, "profile", json_text(profile));
     json_object_set_new(document, "levels",
                         json_pack("{s:{s:f}, s:{s:f}}", "day", "*", 1.0, "night", "*", 0.05));
-    json_object_set_new(document, "conditions", conditions());
+    json_object_set_new(document, "conditions", conditions(start, arena));
 }
 
 /* ---- all of it --------------------------------------------------------------------------- */
@@ -300,10 +283,11 @@ static bool fill(json_t *document, const ReviewStart *start, const Scene *scene,
     const char *name = path_name(start->scenes[0]);
     const char *title = arena_string(arena, name, strlen(name) - strlen(path_ending(name)));
     json_object_set_new(document, "title", json_text(title));
-    if (!add_scenes(document, start, arena, err) || !add_eyes(document, scene, arena, err) ||
-        !add_symbols(document, scene, arena, err))
+    if (!add_scenes(document, start, arena, err) ||
+        !add_eyes(document, start, scene, arena, err) ||
+        !add_symbols(document, start, scene, arena, err))
         return false;
-    add_rest(document, scene);
+    add_rest(document, start, scene, arena);
     return true;
 }
 
@@ -311,15 +295,12 @@ bool review_request_start(const ReviewStart *start, const Scene *scene, Arena *a
                           Error *err)
 {
     Text text = {.arena = arena};
-    if (!access(start->output, F_OK))
+    if (!start->replaces && !access(start->output, F_OK))
         return error_at(err, ERROR_OUTPUT, start->output, "",
                         "is there already, wanted the name of a new file");
     json_t *document = json_object();
     bool    ok = fill(document, start, scene, arena, err);
-    if (ok) {
-        print(&text, document, (PrintPlace){0, 0});
-        text_add(&text, "\n");
-    }
+    if (ok) json_print(&text, document, (JsonDigits){DIGITS, true});
     json_decref(document);
     return ok && text_write(&text, start->output, err);
 }

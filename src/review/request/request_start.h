@@ -4,7 +4,7 @@
  *
  * Every perspective camera is an eye. Every display that shows something has one symbol,
  * "find": "text" over what it shows of its content; one whose material several nodes wear has
- * one a node.
+ * one a node. Wishes say more, and put a sweep over every sun beside the noon.
  *
  * Memory   the arena's. Threads: one at a time.
  * Fails    ERROR_INPUT when the scene has no such display or camera, or lies where the file may
@@ -14,11 +14,30 @@
 #pragma once
 #include "scene/scene.h"
 
+typedef struct ReviewPlace {
+    double        where[3]; /* latitude and longitude, degrees; altitude, m */
+    int           year;
+    const double *headings_deg;
+    int           heading_count; /* 1 or more */
+} ReviewPlace;
+
+typedef struct ReviewWishes {
+    const char         *profile;    /* a name, or a path as the new file has it */
+    double              forward[3]; /* where the vehicle points, world */
+    const char *const  *eyes;       /* the cameras that are eyes, by their nodes' names */
+    int                 eye_count;  /* 1 or more */
+    const char *const  *displays;   /* those that are to be read, by name */
+    int                 display_count;
+    const ReviewPlace  *place;      /* NULL: no year */
+} ReviewWishes;
+
 typedef struct ReviewStart {
     const char *const *scenes; /* the scene's files, as the user named them */
     int                scene_count;
     const char        *output;
     const char        *root; /* --root: a folder whose files may be named too; NULL: none */
+    const ReviewWishes *wishes; /* NULL: as the scene has it, and a place and year to change */
+    bool               replaces; /* a file that is there already */
 } ReviewStart;
 
 bool review_request_start(const ReviewStart *start, const Scene *scene, Arena *arena,

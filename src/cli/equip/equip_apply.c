@@ -1,0 +1,278 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "cli/equip/equip_apply.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "base/file.h"
+#include "base/file_write.h"
+#include "base/reference.h"
+#include "cli/equip/equip_files.h"
+#include "cli/equip/equip_model.h"
+#include "cli/equip/equip_patch.h"
+#include "cli/equip/equip_shipped.h"
+#include "scene/load/material_data.h"
+#include "scene/load/scene_load.h"
+#include "text/json_print.h"
+#include "text/json_text.h"
+#include "text/uri.h"
+
+#define DIGITS 9 /* tell any two floats apart */
+
+/* ---- before anything is written ---------------------------------------------------------- */
+
+/* Where a display's panel or content lies. */
+static bool find_file(const EquipOrder *order, const ShippedKind *kind, const char *text,
+                      Arena *arena, const char **path, Error *err)
+{
+    if (equip_shipped_is_name(text)) return equip_shipped_find(kind, text, arena, path, err);
+    if (!reference_resolve(order->model, text, order->root, arena, path, err)) return false;
+    return file_exists(*path) ||
+           error_set(err, ERROR_INPUT, "%s cannot be found", *path);
+}
+
+static bool name_file(const EquipOrder *order, EquipFiles *files, const ShippedKind *kind,
+                      const char *text, const char **uri, Error *err)
+{
+    const char *path;
+    return find_file(order, kind, text, files->arena, &path, err) &&
+           equip_files_uri(files, path, uri, err);
+}
+
+/* A fault of a name in the equip file, at its place there. */
+static bool at_place(const Equip *equip, const EquipDisplay *display, const char *key,
+                     Error *err)
+{
+    const Error why = *err;
+    char        place[256];
+    snprintf(place, sizeof place, "%.200s/%s", display->place, key);
+    return error_at(err, why.code, equip->file, place, "%s%s%.800s", why.file,
+                    why.file[0] ? ": " : "", why.text);
+}
+
+static bool name_files(const EquipOrder *order, const Equip *equip, EquipFiles *files,
+                       EquipNames *names, Error *err)
+{
+    for (int i = 0; i < equip->display_count; i++) {
+        const EquipDisplay *d = &equip->displays[i];
+        if (!name_file(order, files, &shipped_panels, d->panel, &names[i].panel, err))
+            return at_place(equip, d, "panel", err);
+        if (d->content && !name_file(order, files, &shipped_contents, d->content,
+                                     &names[i].content, err))
+            return at_place(equip, d, "content", err);
+    }
+    return true;
+}
+
+/* Who names a part, a material or a camera must mean one thing. */
+static bool is_in_model(const Scene *scene, const char *name)
+{
+    for (int i = 0; i < scene->part_count; i++)
+        if (!strcmp(scene->parts[i].name, name)) return true;
+    for (int i = 0; i < scene->material_count; i++)
+        if (!strcmp(scene->materials[i].name, name)) return true;
+    for (int i = 0; i < scene->camera_count; i++)
+        if (!strcmp(scene->cameras[i].node_name, name) ||
+            !strcmp(scene->cameras[i].camera_name, name))
+            return true;
+    return false;
+}
+
+static bool check_name(const Equip *equip, const Scene *scene, const char *name,
+                       const char *place, Error *err)
+{
+    char path[256];
+    if (!is_in_model(scene, name)) return true;
+    snprintf(path, sizeof path, "%.200s/name", place);
+    return error_at(err, ERROR_INPUT, equip->file, path,
+                    "is '%.60s', which the model has already, wanted a new name", name);
+}
+
+static bool check_names(const Equip *equip, const Scene *scene, Error *err)
+{
+    for (int i = 0; i < equip->display_count; i++)
+        if (!check_name(equip, scene, equip->displays[i].name, equip->displays[i].place, err))
+            return false;
+    for (int i = 0; i < equip->eye_count; i++)
+        if (!check_name(equip, scene, equip->eyes[i].name, equip->eyes[i].place, err))
+            return false;
+    return true;
+}
+
+static bool check_output(const EquipOrder *order, const char *path, Error *err)
+{
+    if (file_is_same(path, order->model))
+        return error_at(err, ERROR_OUTPUT, path, "", "is the model itself, wanted a new file");
+    if (!order->overwrites && file_exists(path))
+        return error_at(err, ERROR_OUTPUT, path, "",
+                        "is there already, wanted the name of a new file, or --overwrite");
+    return file_check_writable(path, err);
+}
+
+/* ---- the document ------------------------------------------------------------------------ */
+
+/* What is at work. */
+typedef struct Applying {
+    const EquipOrder *order;
+    Equip             equip;
+    EquipFiles        files;
+    EquipModel        model;
+    EquipResult       result;
+    Problems         *problems;
+    Arena            *arena;
+} Applying;
+
+/* A .glb's bytes get a file of their own, which the first buffer then names. */
+static bool name_bin(Applying *at, Error *err)
+{
+    json_t *buffer = json_array_get(json_object_get(at->model.document, "buffers"), 0);
+    if (!at->model.bin.data || !buffer || json_object_get(buffer, "uri")) return true;
+    const char *path = equip_files_beside(&at->files, ".bin");
+    const char *name = arena_format(at->arena, "/%s", path_name(path));
+    json_object_set_new(buffer, "uri", json_text(uri_between("/", name, at->arena)));
+    if (!check_output(at->order, path, err) ||
+        !file_write(path, at->model.bin.data, at->model.bin.size, err))
+        return false;
+    at->result.bin = path;
+    return true;
+}
+
+/* What the model says of who wrote it stays; who changed it is added. */
+static void sign(json_t *document, Arena scratch)
+{
+    json_t     *asset = json_object_get(document, "asset");
+    const char *by = json_string_value(json_object_get(asset, "generator"));
+    const char *text = arena_format(&scratch, "%s%sParhelion %s, equip", by ? by : "",
+                                    by ? "; " : "", PARHELION_VERSION);
+    json_object_set_new(asset, "generator", json_text(text));
+}
+
+static bool make_document(Applying *at, Error *err)
+{
+    EquipNames *names = ARENA_NEW(at->arena, EquipNames, at->equip.display_count);
+    json_t     *document = at->model.document;
+    if (!equip_files_refer(&at->files, document, err) ||
+        !name_files(at->order, &at->equip, &at->files, names, err) ||
+        !equip_patch(document, &at->equip, names, *at->arena, err))
+        return false;
+    sign(document, *at->arena);
+    return true;
+}
+
+/* ---- writing ----------------------------------------------------------------------------- */
+
+/* What shows nothing has nothing to read. */
+static bool has_content(const Equip *equip)
+{
+    bool found = false;
+    for (int i = 0; i < equip->display_count; i++) found |= equip->displays[i].content != NULL;
+    return found;
+}
+
+static bool start_review(const Applying *at, const Scene *scene, Error *err)
+{
+    const Equip *e = &at->equip;
+    const char **eyes = ARENA_NEW(at->arena, const char *, e->eye_count);
+    const char **displays = ARENA_NEW(at->arena, const char *, e->display_count);
+    for (int i = 0; i < e->eye_count; i++) eyes[i] = e->eyes[i].name;
+    for (int i = 0; i < e->display_count; i++) displays[i] = e->displays[i].name;
+    const ReviewWishes wishes = {
+        .profile = e->profile, .forward = {e->forward[0], e->forward[1], e->forward[2]},
+        .eyes = eyes, .eye_count = e->eye_count, .displays = displays,
+        .display_count = e->display_count, .place = e->has_place ? &e->place : NULL};
+    const ReviewStart start = {&at->order->output, 1, at->result.review, NULL, &wishes,
+                               at->order->overwrites};
+    return review_request_start(&start, scene, at->arena, err);
+}
+
+/* What is said of a draft is said of the file that it becomes. */
+static void rename_draft(Problems *problems, const char *draft, const char *output)
+{
+    for (int i = 0; i < problems->count; i++)
+        if (!strcmp(problems->list[i].file, draft)) problems->list[i].file = output;
+}
+
+/* The scene under a name that nobody sees is loaded as it will be, then it gets its own. */
+static bool write_scene(const Applying *at, Scene **scene, Error *err)
+{
+    Text        text = {.arena = at->arena};
+    const char *output = at->order->output;
+    const char *draft = file_temporary_name(output, at->arena);
+    json_print(&text, at->model.document, (JsonDigits){DIGITS, false});
+    SceneOptions options = {.paths = &draft, .path_count = 1};
+    if (!text_write(&text, draft, err)) return false;
+    bool ok = scene_load(&options, at->arena, at->problems, scene, err);
+    rename_draft(at->problems, draft, output);
+    if (!ok) {
+        const Error why = *err;
+        file_discard(draft);
+        return error_at(err, why.code, output, why.path, "is not written: %.900s", why.text);
+    }
+    if (file_commit(draft, output, err)) return true;
+    scene_close(*scene);
+    return false;
+}
+
+static void tell_copies(Applying *at)
+{
+    const EquipFiles *files = &at->files;
+    at->result.copies = ARENA_NEW(at->arena, const char *, files->count);
+    at->result.copy_count = files->count;
+    for (int i = 0; i < files->count; i++) at->result.copies[i] = files->copies[i].name;
+}
+
+static bool write_all(Applying *at, Error *err)
+{
+    Scene *scene;
+    if (!equip_files_write(&at->files, err) || !name_bin(at, err) ||
+        !write_scene(at, &scene, err)) {
+        equip_files_undo(&at->files);
+        if (at->result.bin && !at->order->overwrites) file_remove(at->result.bin);
+        return false;
+    }
+    scene_without_data(scene, &at->result.without_data, at->arena);
+    if (!has_content(&at->equip)) at->result.review = NULL;
+    bool ok = !at->result.review || start_review(at, scene, err);
+    scene_close(scene);
+    tell_copies(at);
+    return ok;
+}
+
+static bool check_model(const Applying *at, Error *err)
+{
+    const SceneOptions options = {.paths = &at->order->model, .path_count = 1,
+                                  .root = at->order->root};
+    Problems           problems = problems_start(at->arena);
+    Scene             *scene;
+    if (!scene_load(&options, at->arena, &problems, &scene, err)) return false;
+    bool ok = check_names(&at->equip, scene, err);
+    scene_close(scene);
+    return ok;
+}
+
+static bool prepare(Applying *at, Error *err)
+{
+    const EquipOrder *order = at->order;
+    if (!equip_file_read(order->with, at->arena, &at->equip, err) ||
+        !equip_files_open(order->model, order->output, order->root, at->arena, &at->files, err))
+        return false;
+    at->result.scene = order->output;
+    at->result.review = equip_files_beside(&at->files, ".review.json");
+    at->result.display_count = at->equip.display_count;
+    at->result.eye_count = at->equip.eye_count;
+    at->result.material_count = at->equip.material_count;
+    return check_output(order, at->result.scene, err) &&
+           check_output(order, at->result.review, err) && check_model(at, err);
+}
+
+bool equip_apply(const EquipOrder *order, Arena *arena, Problems *problems, EquipResult *out,
+                 Error *err)
+{
+    Applying at = {.order = order, .problems = problems, .arena = arena};
+    if (!prepare(&at, err) || !equip_model_read(order->model, arena, &at.model, err))
+        return false;
+    bool ok = make_document(&at, err) && write_all(&at, err);
+    equip_model_close(&at.model);
+    if (ok) *out = at.result;
+    return ok;
+}

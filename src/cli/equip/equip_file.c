@@ -1,0 +1,312 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "cli/equip/equip_file.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "cli/equip/usual_material.h"
+#include "review/profile.h"
+#include "review/request/request_fields.h"
+#include "text/nearest_word.h"
+
+#define METRES_MAX 1e4
+#define LEAST_M 0.001   /* a display's side */
+#define MOST_M 100.0
+#define NEAR_M 0.001    /* an eye that is nearer looks nowhere */
+#define SQUARE 1e-3     /* of two unit vectors' product */
+#define MATERIALS_MAX 10000
+#define VERTICAL 1e-6   /* of a unit vector's level part */
+
+static const JsonRange PLACE_RANGE = {-METRES_MAX, METRES_MAX, 3};
+
+static bool position(const JsonView *view, const char *key, double out[3], Error *err)
+{
+    return field_wanted(view, key, err) &&
+           field_numbers(view, key, PLACE_RANGE, out, NULL, err);
+}
+
+static bool direction(const JsonView *view, const char *key, double out[3], Error *err)
+{
+    return field_wanted(view, key, err) && field_unit_vector(view, key, out, NULL, err);
+}
+
+static bool wanted_number(const JsonView *view, const char *key, const double range[2],
+                          double *out, Error *err)
+{
+    return field_wanted(view, key, err) &&
+           json_view_number(view, key, range[0], range[1], out, err);
+}
+
+void equip_display_normal(const EquipDisplay *display, double out[3])
+{
+    const double *r = display->right, *u = display->up;
+    for (int i = 0; i < 3; i++)
+        out[i] = r[(i + 1) % 3] * u[(i + 2) % 3] - r[(i + 2) % 3] * u[(i + 1) % 3];
+}
+
+/* ---- displays ---------------------------------------------------------------------------- */
+
+/* Rounding leaves them a little off: up is made square again. */
+static bool square(const JsonView *view, EquipDisplay *display, Error *err)
+{
+    double *r = display->right, *u = display->up;
+    double  along = r[0] * u[0] + r[1] * u[1] + r[2] * u[2], length = 0;
+    if (fabs(along) > SQUARE)
+        return field_fails(view, "up", err,
+                           "stands at %.4g degrees to \"right\", wanted 90",
+                           acos(along) * 180 / M_PI);
+    for (int i = 0; i < 3; i++) u[i] -= along * r[i];
+    for (int i = 0; i < 3; i++) length += u[i] * u[i];
+    for (int i = 0; i < 3; i++) u[i] /= sqrt(length);
+    return true;
+}
+
+/* Absent: full white. */
+static bool read_content(const JsonView *view, const char **out, Error *err)
+{
+    return !json_object_get(view->object, "content") || field_name(view, "content", out, err);
+}
+
+static bool read_display(const JsonView *view, EquipDisplay *out, Error *err)
+{
+    const double side[2] = {LEAST_M, MOST_M};
+    double       before_mm = 0.5;
+    out->place = view->path;
+    out->level = 1;
+    bool ok = field_name(view, "name", &out->name, err) &&
+              position(view, "centre_m", out->centre_m, err) &&
+              direction(view, "right", out->right, err) &&
+              direction(view, "up", out->up, err) && square(view, out, err) &&
+              wanted_number(view, "width_m", side, &out->width_m, err) &&
+              wanted_number(view, "height_m", side, &out->height_m, err) &&
+              json_view_number(view, "before_mm", 0.05, 1000, &before_mm, err) &&
+              field_name(view, "panel", &out->panel, err) &&
+              read_content(view, &out->content, err) &&
+              json_view_number(view, "level", 0, 100, &out->level, err);
+    out->before_m = before_mm / 1000;
+    return ok;
+}
+
+static bool is_taken(const Equip *equip, int displays, int eyes, const char *name)
+{
+    bool found = false;
+    for (int i = 0; i < displays && !found; i++)
+        found = !strcmp(equip->displays[i].name, name);
+    for (int i = 0; i < eyes && !found; i++) found = !strcmp(equip->eyes[i].name, name);
+    return found;
+}
+
+static bool read_displays(const JsonView *root, Equip *out, Error *err)
+{
+    static const char *const keys[] = {"name", "on", "centre_m", "right", "up", "width_m",
+                                       "height_m", "before_mm", "panel", "content", "level"};
+    int count;
+    if (!field_list(root, "displays", EQUIP_DISPLAYS_MAX, &count, err)) return false;
+    EquipDisplay *list = ARENA_NEW(root->arena, EquipDisplay, count);
+    out->displays = list;
+    for (int i = 0; i < count; i++) {
+        JsonView view;
+        if (!field_item(root, "displays", i, (FieldWords){keys, COUNT_OF(keys)}, &view, err) ||
+            !read_display(&view, &list[i], err))
+            return false;
+        if (is_taken(out, i, 0, list[i].name))
+            return field_fails(&view, "name", err, "is '%.60s' once more, wanted a new name",
+                               list[i].name);
+    }
+    out->display_count = count;
+    return true;
+}
+
+/* ---- eyes -------------------------------------------------------------------------------- */
+
+static bool find_target(const JsonView *view, const Equip *equip, EquipEye *eye, Error *err)
+{
+    const char *names[EQUIP_DISPLAYS_MAX];
+    FieldWords  words = {names, equip->display_count};
+    int         id = -1;
+    for (int i = 0; i < words.count; i++) names[i] = equip->displays[i].name;
+    if (!json_object_get(view->object, "looks_at"))
+        return position(view, "target_m", eye->target_m, err);
+    if (json_object_get(view->object, "target_m"))
+        return field_fails(view, "target_m", err,
+                           "stands beside \"looks_at\", wanted one of the two");
+    if (!words.count)
+        return field_fails(view, "looks_at", err,
+                           "names a display where there is none, wanted \"target_m\"");
+    if (!field_choice(view, "looks_at", words, &id, err)) return false;
+    memcpy(eye->target_m, equip->displays[id].centre_m, sizeof eye->target_m);
+    return true;
+}
+
+static bool read_eye(const JsonView *view, const Equip *equip, EquipEye *out, Error *err)
+{
+    out->place = view->path;
+    if (!field_name(view, "name", &out->name, err) ||
+        !position(view, "position_m", out->position_m, err) ||
+        !find_target(view, equip, out, err))
+        return false;
+    double way = 0;
+    for (int i = 0; i < 3; i++) way += pow(out->target_m[i] - out->position_m[i], 2);
+    return sqrt(way) >= NEAR_M ||
+           field_fails(view, "position_m", err, "is where it looks at, wanted another place");
+}
+
+static bool read_eyes(const JsonView *root, Equip *out, Error *err)
+{
+    static const char *const keys[] = {"name", "position_m", "looks_at", "target_m",
+                                       "proposed_from"};
+    int count;
+    if (!field_wanted(root, "eyes", err) ||
+        !field_list(root, "eyes", EQUIP_EYES_MAX, &count, err))
+        return false;
+    EquipEye *list = ARENA_NEW(root->arena, EquipEye, count);
+    out->eyes = list;
+    for (int i = 0; i < count; i++) {
+        JsonView view;
+        if (!field_item(root, "eyes", i, (FieldWords){keys, COUNT_OF(keys)}, &view, err) ||
+            !read_eye(&view, out, &list[i], err))
+            return false;
+        if (is_taken(out, out->display_count, i, list[i].name))
+            return field_fails(&view, "name", err, "is '%.60s' once more, wanted a new name",
+                               list[i].name);
+    }
+    out->eye_count = count;
+    return true;
+}
+
+/* ---- materials --------------------------------------------------------------------------- */
+
+static bool start_usual(const JsonView *view, EquipMaterial *out, Error *err)
+{
+    const char **names = ARENA_NEW(view->arena, const char *, usual_material_count);
+    int          id = -1;
+    usual_material_names(names);
+    if (!json_object_get(view->object, "as")) return field_wanted(view, "base_color", err);
+    if (!field_choice(view, "as", (FieldWords){names, usual_material_count}, &id, err))
+        return false;
+    const UsualMaterial *usual = &usual_materials[id];
+    out->as = usual->name;
+    memcpy(out->base_color, usual->base_color, sizeof out->base_color);
+    out->roughness = usual->roughness;
+    out->metallic = usual->metallic;
+    out->transmission = usual->transmission;
+    out->ior = usual->ior;
+    return true;
+}
+
+static bool read_material(const JsonView *view, EquipMaterial *out, Error *err)
+{
+    *out = (EquipMaterial){.name = "", .place = view->path, .roughness = 0.6, .ior = 1.5};
+    return field_wanted(view, "index", err) &&
+           field_integer(view, "index", (FieldBounds){0, MATERIALS_MAX}, &out->index, err) &&
+           json_view_text(view, "name", &out->name, err) && start_usual(view, out, err) &&
+           field_numbers(view, "base_color", (JsonRange){0, 1, 3}, out->base_color, NULL,
+                         err) &&
+           json_view_number(view, "roughness", 0, 1, &out->roughness, err) &&
+           json_view_number(view, "metallic", 0, 1, &out->metallic, err) &&
+           json_view_number(view, "transmission", 0, 1, &out->transmission, err) &&
+           json_view_number(view, "ior", 1, 4, &out->ior, err);
+}
+
+static bool read_materials(const JsonView *root, Equip *out, Error *err)
+{
+    static const char *const keys[] = {"index", "name", "as", "base_color", "roughness",
+                                       "metallic", "transmission", "ior"};
+    int count;
+    if (!field_list(root, "materials", MATERIALS_MAX, &count, err)) return false;
+    EquipMaterial *list = ARENA_NEW(root->arena, EquipMaterial, count);
+    out->materials = list;
+    for (int i = 0; i < count; i++) {
+        JsonView view;
+        if (!field_item(root, "materials", i, (FieldWords){keys, COUNT_OF(keys)}, &view,
+                        err) ||
+            !read_material(&view, &list[i], err))
+            return false;
+        for (int j = 0; j < i; j++)
+            if (list[j].index == list[i].index)
+                return field_fails(&view, "index", err, "is %d once more, wanted each once",
+                                   list[i].index);
+    }
+    out->material_count = count;
+    return true;
+}
+
+/* ---- the review -------------------------------------------------------------------------- */
+
+static bool read_place(const JsonView *root, Equip *out, Error *err)
+{
+    static const char *const keys[] = {"where", "year", "headings_deg"};
+    JsonView view;
+    double  *headings = ARENA_NEW(root->arena, double, EQUIP_HEADINGS_MAX);
+    if (!json_view_child(root, "place", false, &view, err)) return false;
+    out->has_place = view.object != NULL;
+    if (!out->has_place) return true;
+    out->place = (ReviewPlace){.year = 2026, .headings_deg = headings, .heading_count = 8};
+    for (int i = 0; i < 8; i++) headings[i] = 45 * i;
+    double *where = out->place.where;
+    if (!json_view_check_keys(&view, keys, COUNT_OF(keys), err) ||
+        !field_wanted(&view, "where", err) ||
+        !field_numbers(&view, "where", (JsonRange){-1000, 10000, 3}, where, NULL, err) ||
+        !field_integer(&view, "year", (FieldBounds){1950, 2100}, &out->place.year, err) ||
+        !json_view_numbers(&view, "headings_deg", (JsonRange){0, 360, EQUIP_HEADINGS_MAX},
+                           headings, &out->place.heading_count, err))
+        return false;
+    return (fabs(where[0]) <= 90 && fabs(where[1]) <= 180) ||
+           field_fails(&view, "where", err,
+                       "is %g, %g: wanted a latitude of -90 to 90 and a longitude of -180 to "
+                       "180 degrees",
+                       where[0], where[1]);
+}
+
+static bool read_forward(const JsonView *root, Equip *out, Error *err)
+{
+    out->forward[2] = -1;
+    if (!field_unit_vector(root, "forward", out->forward, NULL, err)) return false;
+    return hypot(out->forward[0], out->forward[2]) > VERTICAL ||
+           field_fails(root, "forward", err,
+                       "is vertical, wanted where the vehicle points");
+}
+
+static bool read_profile(const JsonView *root, Equip *out, Error *err)
+{
+    const Profile *profile;
+    Error          why;
+    out->profile = "iso-15008";
+    if (!json_view_text(root, "profile", &out->profile, err)) return false;
+    if (!strchr(out->profile, '/') && !strchr(out->profile, '.') &&
+        profile_load(out->profile, root->arena, &profile, &why))
+        return true;
+    return field_fails(root, "profile", err, "is '%.60s', wanted one of %s", out->profile,
+                       profile_names(root->arena));
+}
+
+static bool read_version(const JsonView *root, Error *err)
+{
+    int version = 0;
+    return field_wanted(root, "equip", err) &&
+           field_integer(root, "equip", (FieldBounds){EQUIP_VERSION, EQUIP_VERSION}, &version,
+                         err);
+}
+
+static bool read_all(const JsonView *root, Equip *out, Error *err)
+{
+    static const char *const keys[] = {"equip", "model", "displays", "eyes", "materials",
+                                       "profile", "forward", "place"};
+    const char *model = "";
+    return json_view_check_keys(root, keys, COUNT_OF(keys), err) && read_version(root, err) &&
+           json_view_text(root, "model", &model, err) && read_displays(root, out, err) &&
+           read_eyes(root, out, err) && read_materials(root, out, err) &&
+           read_profile(root, out, err) && read_forward(root, out, err) &&
+           read_place(root, out, err);
+}
+
+bool equip_file_read(const char *file, Arena *arena, Equip *out, Error *err)
+{
+    JsonView root;
+    Equip    equip = {.file = file};
+    if (!json_view_open(file, arena, &root, err)) return false;
+    bool ok = read_all(&root, &equip, err);
+    json_view_close(&root);
+    if (ok) *out = equip;
+    return ok;
+}

@@ -1,0 +1,60 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* equip_file.h -- what a model is equipped with: the file that `parhelion equip`'s page saves
+ * (assets/schemas/equip.schema.json).
+ *
+ * Units    metres, degrees; positions and directions in the model's world (glTF's axes).
+ * Memory   everything lies in the arena.
+ * Threads  const after reading.
+ * Fails    ERROR_INPUT with file, JSON path, what was found and what was wanted.
+ */
+#pragma once
+#include "base/arena.h"
+#include "base/error.h"
+#include "review/request/request_start.h"
+
+#define EQUIP_VERSION 1
+#define EQUIP_DISPLAYS_MAX 64
+#define EQUIP_EYES_MAX 64
+#define EQUIP_HEADINGS_MAX 360
+
+/* A rectangle before a face of the model. */
+typedef struct EquipDisplay {
+    const char *name, *place; /* place: its JSON path, for messages */
+    double      centre_m[3], right[3], up[3]; /* unit, at right angles; on the face */
+    double      width_m, height_m;
+    double      before_m;     /* so far before the face */
+    const char *panel;        /* a shipped one's name, or a path beside the model */
+    const char *content;      /* likewise; NULL: full white */
+    double      level;        /* multiplies its light */
+} EquipDisplay;
+
+typedef struct EquipEye {
+    const char *name, *place;
+    double      position_m[3];
+    double      target_m[3]; /* elsewhere */
+} EquipEye;
+
+/* A material of the model is replaced. */
+typedef struct EquipMaterial {
+    const char *name, *place; /* name: as the model has it, "" none */
+    int         index;        /* in the model's list; its length: glTF's default material */
+    const char *as;           /* which usual one it is; NULL: figures of its own */
+    double      base_color[3], roughness, metallic, transmission, ior;
+} EquipMaterial;
+
+typedef struct Equip {
+    const char          *file;
+    const EquipDisplay  *displays;
+    const EquipEye      *eyes;
+    const EquipMaterial *materials;
+    int                  display_count, eye_count, material_count;
+    const char          *profile;    /* a shipped one's name */
+    double               forward[3]; /* where the vehicle points */
+    bool                 has_place;
+    ReviewPlace          place;
+} Equip;
+
+bool equip_file_read(const char *file, Arena *arena, Equip *out, Error *err);
+
+/* The direction that a display shows its picture in: right x up. */
+void equip_display_normal(const EquipDisplay *display, double out[3]);

@@ -1,0 +1,298 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "cli/equip/equip_patch.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "text/base64.h"
+#include "text/json_text.h"
+
+#define EYE_FOV 0.7       /* radians, a picture's height: 40 degrees */
+#define EYE_ASPECT 1.7778
+#define STEEP 0.999       /* a direction that is hardly level: up is another axis */
+
+enum { FLOAT_KIND = 5126, SHORT_KIND = 5123, CORNERS = 4, INDICES = 6 };
+
+/* ---- small things ------------------------------------------------------------------------ */
+
+/* Appends to a list of the document, which need not be there; returns the place. */
+static int add_to(json_t *document, const char *list, json_t *item)
+{
+    if (!json_object_get(document, list)) json_object_set_new(document, list, json_array());
+    json_t *items = json_object_get(document, list);
+    json_array_append_new(items, item);
+    return (int)json_array_size(items) - 1;
+}
+
+static void use_extension(json_t *document, const char *name)
+{
+    json_t *item;
+    size_t  i;
+    json_array_foreach(json_object_get(document, "extensionsUsed"), i, item)
+        if (!strcmp(json_string_value(item), name)) return;
+    add_to(document, "extensionsUsed", json_string(name));
+}
+
+static json_t *numbers(const double *values, int count)
+{
+    json_t *list = json_array();
+    for (int i = 0; i < count; i++) json_array_append_new(list, json_real(values[i] + 0.0));
+    return list;
+}
+
+static void cross(const double a[3], const double b[3], double out[3])
+{
+    for (int i = 0; i < 3; i++)
+        out[i] = a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
+}
+
+static double unit(double a[3])
+{
+    double length = sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
+    for (int i = 0; i < 3; i++) a[i] /= length;
+    return length;
+}
+
+/* The unit quaternion (x, y, z, w) of the rotation whose columns are three axes, by its largest
+ * member: of q q^T = f(axes) each row is q times one of its members. */
+static json_t *rotation(const double x[3], const double y[3], const double z[3])
+{
+    const double square[4] = {1 + x[0] - y[1] - z[2], 1 - x[0] + y[1] - z[2],
+                              1 - x[0] - y[1] + z[2], 1 + x[0] + y[1] + z[2]};
+    const double xy = x[1] + y[0], xz = x[2] + z[0], yz = y[2] + z[1];
+    const double xw = y[2] - z[1], yw = z[0] - x[2], zw = x[1] - y[0];
+    const double row[4][4] = {{square[0], xy, xz, xw}, {xy, square[1], yz, yw},
+                              {xz, yz, square[2], zw}, {xw, yw, zw, square[3]}};
+    int    most = 0;
+    double q[4], length = 0;
+    for (int i = 1; i < 4; i++)
+        if (square[i] > square[most]) most = i;
+    for (int i = 0; i < 4; i++) length += row[most][i] * row[most][i];
+    for (int i = 0; i < 4; i++) q[i] = row[most][i] / sqrt(length);
+    return numbers(q, 4);
+}
+
+/* ---- the scene --------------------------------------------------------------------------- */
+
+static bool is_child(const json_t *nodes, int index)
+{
+    json_t *node, *child;
+    size_t  i, k;
+    json_array_foreach(nodes, i, node)
+        json_array_foreach(json_object_get(node, "children"), k, child)
+            if (json_number_value(child) == index) return true;
+    return false;
+}
+
+/* Without a scene all nodes are shown: so that they still are, their roots become one. */
+static json_t *make_scene(json_t *document)
+{
+    const json_t *nodes = json_object_get(document, "nodes");
+    json_t       *roots = json_array();
+    for (int i = 0; i < (int)json_array_size(nodes); i++)
+        if (!is_child(nodes, i)) json_array_append_new(roots, json_integer(i));
+    json_t *scene = json_pack("{s:o}", "nodes", roots);
+    add_to(document, "scenes", scene);
+    return scene;
+}
+
+static void add_node(json_t *document, json_t *node)
+{
+    int     shown = (int)json_number_value(json_object_get(document, "scene"));
+    json_t *scene = json_array_get(json_object_get(document, "scenes"), (size_t)shown);
+    if (!scene) scene = make_scene(document);
+    add_to(scene, "nodes", json_integer(add_to(document, "nodes", node)));
+}
+
+/* ---- displays ---------------------------------------------------------------------------- */
+
+typedef struct Rectangle {
+    float    position[CORNERS][3], uv[CORNERS][2];
+    uint16_t index[INDICES];
+} Rectangle;
+
+static int add_view(json_t *document, int buffer, size_t offset, size_t size)
+{
+    return add_to(document, "bufferViews",
+                  json_pack("{s:i, s:I, s:I}", "buffer", buffer, "byteOffset",
+                            (json_int_t)offset, "byteLength", (json_int_t)size));
+}
+
+static int add_accessor(json_t *document, int view, int kind, int count, const char *type)
+{
+    return add_to(document, "accessors",
+                  json_pack("{s:i, s:i, s:i, s:s}", "bufferView", view, "componentType", kind,
+                            "count", count, "type", type));
+}
+
+/* Its primitive without a material: all displays share it. */
+static json_t *add_rectangle(json_t *document, Arena scratch)
+{
+    const Rectangle r = {{{-0.5f, -0.5f, 0}, {0.5f, -0.5f, 0}, {0.5f, 0.5f, 0},
+                          {-0.5f, 0.5f, 0}},
+                         {{0, 1}, {1, 1}, {1, 0}, {0, 0}},
+                         {0, 1, 2, 0, 2, 3}};
+    Text text = {.arena = &scratch};
+    text_add(&text, "data:application/octet-stream;base64,");
+    base64_encode(&text, &r, sizeof r);
+    int buffer = add_to(document, "buffers", json_pack("{s:i, s:s}", "byteLength",
+                                                       (int)sizeof r, "uri", text.data));
+    int position = add_view(document, buffer, offsetof(Rectangle, position), sizeof r.position);
+    int uv = add_view(document, buffer, offsetof(Rectangle, uv), sizeof r.uv);
+    int index = add_view(document, buffer, offsetof(Rectangle, index), sizeof r.index);
+    position = add_accessor(document, position, FLOAT_KIND, CORNERS, "VEC3");
+    json_t *accessor = json_array_get(json_object_get(document, "accessors"), (size_t)position);
+    json_object_set_new(accessor, "min", json_pack("[f,f,i]", -0.5, -0.5, 0));
+    json_object_set_new(accessor, "max", json_pack("[f,f,i]", 0.5, 0.5, 0));
+    uv = add_accessor(document, uv, FLOAT_KIND, CORNERS, "VEC2");
+    index = add_accessor(document, index, SHORT_KIND, INDICES, "SCALAR");
+    return json_pack("{s:{s:i, s:i}, s:i}", "attributes", "POSITION", position, "TEXCOORD_0",
+                     uv, "indices", index);
+}
+
+/* Other viewers see its content glow on black. */
+static int add_screen(json_t *document, const EquipDisplay *display, const EquipNames *names)
+{
+    json_t *own = json_pack("{s:o, s:f}", "panel", json_text(names->panel), "level",
+                            display->level);
+    json_t *material =
+        json_pack("{s:o, s:{s:[i,i,i,i], s:i, s:f}}", "name", json_text(display->name),
+                  "pbrMetallicRoughness", "baseColorFactor", 0, 0, 0, 1, "metallicFactor", 0,
+                  "roughnessFactor", 0.2);
+    if (names->content) {
+        int image = add_to(document, "images",
+                           json_pack("{s:o}", "uri", json_text(names->content)));
+        int texture = add_to(document, "textures", json_pack("{s:i}", "source", image));
+        json_object_set_new(own, "content", json_pack("{s:i}", "index", texture));
+        json_object_set_new(material, "emissiveTexture", json_pack("{s:i}", "index", texture));
+        json_object_set_new(material, "emissiveFactor", json_pack("[i,i,i]", 1, 1, 1));
+    }
+    json_object_set_new(material, "extensions", json_pack("{s:o}", "PARHELION_display", own));
+    use_extension(document, "PARHELION_display");
+    return add_to(document, "materials", material);
+}
+
+static void add_display(json_t *document, const EquipDisplay *display, const EquipNames *names,
+                        const json_t *rectangle)
+{
+    double  normal[3], centre[3], scale[3] = {display->width_m, display->height_m, 1};
+    json_t *primitive = json_deep_copy(rectangle);
+    equip_display_normal(display, normal);
+    for (int i = 0; i < 3; i++)
+        centre[i] = display->centre_m[i] + display->before_m * normal[i];
+    json_object_set_new(primitive, "material",
+                        json_integer(add_screen(document, display, names)));
+    int mesh = add_to(document, "meshes", json_pack("{s:o, s:[o]}", "name",
+                                                    json_text(display->name), "primitives",
+                                                    primitive));
+    add_node(document,
+             json_pack("{s:o, s:i, s:o, s:o, s:o}", "name", json_text(display->name), "mesh",
+                       mesh, "translation", numbers(centre, 3), "rotation",
+                       rotation(display->right, display->up, normal), "scale",
+                       numbers(scale, 3)));
+}
+
+/* ---- eyes -------------------------------------------------------------------------------- */
+
+/* Looks along -Z with +Y up: the world's up, or ahead where one looks straight down. */
+static void add_eye(json_t *document, const EquipEye *eye, const double forward[3])
+{
+    const double world_up[3] = {0, 1, 0};
+    double       x[3], y[3], z[3];
+    for (int i = 0; i < 3; i++) z[i] = eye->position_m[i] - eye->target_m[i];
+    unit(z);
+    cross(fabs(z[1]) > STEEP ? forward : world_up, z, x);
+    unit(x);
+    cross(z, x, y);
+    int camera = add_to(document, "cameras",
+                        json_pack("{s:o, s:s, s:{s:f, s:f, s:f}}", "name", json_text(eye->name),
+                                  "type", "perspective", "perspective", "yfov", EYE_FOV,
+                                  "aspectRatio", EYE_ASPECT, "znear", 0.01));
+    add_node(document, json_pack("{s:o, s:i, s:o, s:o}", "name", json_text(eye->name), "camera",
+                                 camera, "translation", numbers(eye->position_m, 3), "rotation",
+                                 rotation(x, y, z)));
+}
+
+/* ---- materials --------------------------------------------------------------------------- */
+
+/* What tells of its shape stays: a normal map, whether the back is a front. */
+static json_t *material_of(json_t *document, const EquipMaterial *m, const json_t *old)
+{
+    const char *const kept[] = {"name", "doubleSided", "normalTexture"};
+    json_t *material = json_object(), *extensions = json_object();
+    for (int i = 0; i < 3; i++)
+        json_object_set(material, kept[i], json_object_get(old, kept[i]));
+    json_object_set_new(
+        material, "pbrMetallicRoughness",
+        json_pack("{s:[f,f,f,i], s:f, s:f}", "baseColorFactor", m->base_color[0],
+                  m->base_color[1], m->base_color[2], 1, "metallicFactor", m->metallic,
+                  "roughnessFactor", m->roughness));
+    if (m->transmission > 0) {
+        json_object_set_new(extensions, "KHR_materials_transmission",
+                            json_pack("{s:f}", "transmissionFactor", m->transmission));
+        use_extension(document, "KHR_materials_transmission");
+    }
+    if (m->ior != 1.5) { /* glTF's own */
+        json_object_set_new(extensions, "KHR_materials_ior", json_pack("{s:f}", "ior", m->ior));
+        use_extension(document, "KHR_materials_ior");
+    }
+    if (json_object_size(extensions)) json_object_set(material, "extensions", extensions);
+    json_decref(extensions);
+    if (m->as)
+        json_object_set_new(material, "extras", json_pack("{s:s}", "equipped as", m->as));
+    return material;
+}
+
+/* glTF's default material gets a place in the list, and who wears none wears it. */
+static void dress_bare(json_t *document, int material)
+{
+    json_t *mesh, *primitive;
+    size_t  i, k;
+    json_array_foreach(json_object_get(document, "meshes"), i, mesh)
+        json_array_foreach(json_object_get(mesh, "primitives"), k, primitive)
+            if (!json_object_get(primitive, "material"))
+                json_object_set_new(primitive, "material", json_integer(material));
+}
+
+static bool check_material(const EquipMaterial *m, const Equip *equip, const json_t *old,
+                           int count, Error *err)
+{
+    const char *name = json_string_value(json_object_get(old, "name"));
+    if (m->index > count)
+        return error_at(err, ERROR_INPUT, equip->file, m->place,
+                        "is for material %d, the model has %d — was it made for another model?",
+                        m->index, count);
+    return !m->name[0] || !strcmp(m->name, name ? name : "") || !old ||
+           error_at(err, ERROR_INPUT, equip->file, m->place,
+                    "is for material %d with the name '%.60s', the model's is '%.60s' — was it "
+                    "made for another model?",
+                    m->index, m->name, name ? name : "");
+}
+
+static bool patch_materials(json_t *document, const Equip *equip, Error *err)
+{
+    int count = (int)json_array_size(json_object_get(document, "materials"));
+    for (int i = 0; i < equip->material_count; i++) {
+        const EquipMaterial *m = &equip->materials[i];
+        json_t *list = json_object_get(document, "materials");
+        json_t *old = m->index < count ? json_array_get(list, (size_t)m->index) : NULL;
+        if (!check_material(m, equip, old, count, err)) return false;
+        json_t *material = material_of(document, m, old);
+        if (old) json_array_set_new(list, (size_t)m->index, material);
+        else dress_bare(document, add_to(document, "materials", material));
+    }
+    return true;
+}
+
+bool equip_patch(json_t *document, const Equip *equip, const EquipNames *names, Arena scratch,
+                 Error *err)
+{
+    if (!patch_materials(document, equip, err)) return false;
+    json_t *rectangle = equip->display_count ? add_rectangle(document, scratch) : NULL;
+    for (int i = 0; i < equip->display_count; i++)
+        add_display(document, &equip->displays[i], &names[i], rectangle);
+    for (int i = 0; i < equip->eye_count; i++)
+        add_eye(document, &equip->eyes[i], equip->forward);
+    json_decref(rectangle);
+    return true;
+}

@@ -1,0 +1,337 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* test_equip.c -- what is put into a model is found in the scene that comes of it, where the
+ * file said; a file that is wrong is refused with its place, and leaves nothing behind. */
+#include "fixture.h"
+
+#include "cli/equip/equip_apply.h"
+#include "cli/equip/equip_page.h"
+#include "cli/equip/usual_material.h"
+#include "scene/load/scene_load.h"
+
+#define OFF 1e-5 /* m, and of unit vectors */
+
+/* A triangle of 1 m at the origin, twice; the second wears no material. "%s" is the buffer's
+ * uri, if any. */
+static const char model_json[] =
+    "{\"asset\": {\"version\": \"2.0\", \"generator\": \"a test\"}, \"scene\": 0,\n"
+    " \"scenes\": [{\"nodes\": [0, 1]}], \"cameras\": [{\"type\": \"perspective\", \"name\": "
+    "\"outside\", \"perspective\": {\"yfov\": 0.7, \"znear\": 0.1}}],\n"
+    " \"nodes\": [{\"name\": \"wall\", \"mesh\": 0}, {\"name\": \"door\", \"mesh\": 1,"
+    " \"translation\": [2, 0, 0]}, {\"name\": \"hidden\"}],\n"
+    " \"materials\": [{\"name\": \"paint\", \"doubleSided\": true}],\n"
+    " \"meshes\": [{\"primitives\": [{\"attributes\": {\"POSITION\": 0}, \"material\": 0}]},"
+    " {\"primitives\": [{\"attributes\": {\"POSITION\": 0}}]}],\n"
+    " \"accessors\": [{\"bufferView\": 0, \"componentType\": 5126, \"count\": 3, \"type\": "
+    "\"VEC3\", \"min\": [0, 0, 0], \"max\": [1, 1, 0]}],\n"
+    " \"bufferViews\": [{\"buffer\": 0, \"byteLength\": 36}],\n"
+    " \"buffers\": [{\"byteLength\": 36%s}]}";
+static const float corners[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+
+/* right is (0.8, 0, -0.6), up (0.36, 0.8, 0.48): it leans back and is turned. */
+static const char good[] =
+    "{\"equip\": 1, \"model\": \"m.glb\",\n"
+    " \"displays\": [{\"name\": \"speed\", \"on\": \"wall\", \"centre_m\": [0.3, 0.25, -0.5],"
+    " \"right\": [0.8, 0, -0.6], \"up\": [0.36, 0.8, 0.48], \"width_m\": 0.3,"
+    " \"height_m\": 0.12, \"before_mm\": 2, \"panel\": \"ips_cluster\","
+    " \"content\": \"cluster\", \"level\": 0.5}],\n"
+    " \"eyes\": [{\"name\": \"driver\", \"position_m\": [-0.37, 1.21, 0.11],"
+    " \"looks_at\": \"speed\"}, {\"name\": \"down\", \"position_m\": [0, 2, 0],"
+    " \"target_m\": [0, 1, 0]}],\n"
+    " \"materials\": [{\"index\": 0, \"name\": \"paint\", \"as\": \"glass, clear\"},"
+    " {\"index\": 1, \"base_color\": [0.1, 0.2, 0.3], \"roughness\": 0.25, \"ior\": 1.4}],\n"
+    " \"profile\": \"iso-15008\", \"forward\": [1, 0, 0],"
+    " \"place\": {\"where\": [35.5, -120, 20], \"year\": 2027, \"headings_deg\": [90]}}";
+
+/* ---- files ------------------------------------------------------------------------------- */
+
+static void put_u32(unsigned char *at, size_t value)
+{
+    for (int i = 0; i < 4; i++) at[i] = (unsigned char)(value >> 8 * i);
+}
+
+static const char *write_glb(const char *name)
+{
+    static unsigned char bytes[4096];
+    static char          json[3072], path[FOLDER_BYTES + 32];
+    snprintf(path, sizeof path, "%s/%s", test_folder(), name);
+    size_t size = (size_t)snprintf(json, sizeof json, model_json, "");
+    while (size % 4) json[size++] = ' ';
+    memcpy(bytes, "glTF\2\0\0\0", 8);
+    put_u32(bytes + 8, 12 + 8 + size + 8 + sizeof corners);
+    put_u32(bytes + 12, size);
+    memcpy(bytes + 16, "JSON", 4);
+    memcpy(bytes + 20, json, size);
+    put_u32(bytes + 20 + size, sizeof corners);
+    memcpy(bytes + 24 + size, "BIN\0", 4);
+    memcpy(bytes + 28 + size, corners, sizeof corners);
+    write_bytes(path, bytes, 28 + size + sizeof corners);
+    return path;
+}
+
+/* In a folder of its own, too far off for what it names to be named from the folder of others:
+ * its bytes lie beside it. */
+static const char *write_far(void)
+{
+    static char json[3072], path[FOLDER_BYTES + 32];
+    snprintf(path, sizeof path, "%s/a/b/far.gltf", test_folder());
+    mkdir(in_folder("a"), 0777);
+    mkdir(in_folder("a/b"), 0777);
+    mkdir(in_folder("new"), 0777);
+    mkdir(in_folder("new/deep"), 0777);
+    snprintf(json, sizeof json, model_json, ", \"uri\": \"some%20bytes.bin\"");
+    write_text(path, json);
+    write_bytes(in_folder("a/b/some bytes.bin"), corners, sizeof corners);
+    return path;
+}
+
+/* The good file with one text in another's place. */
+static const char *write_changed(const char *from, const char *to, Arena *arena)
+{
+    const char *at = strstr(good, from), *path = in_folder("e.json");
+    if (!at) fail_msg("the good file has no %s", from);
+    write_text(path, arena_format(arena, "%.*s%s%s", (int)(at - good), good, to,
+                                  at + strlen(from)));
+    return path;
+}
+
+static bool apply(const char *model, const char *output, bool overwrites, Arena *arena,
+                  EquipResult *result, Error *err)
+{
+    Problems         problems = problems_start(arena);
+    const EquipOrder order = {model, in_folder("e.json"), output, NULL, overwrites};
+    return equip_apply(&order, arena, &problems, result, err);
+}
+
+static Scene *load(const char *path, Arena *arena)
+{
+    Scene       *scene = NULL;
+    Error        err;
+    Problems     problems = problems_start(arena);
+    SceneOptions options = {.paths = &path, .path_count = 1};
+    if (!scene_load(&options, arena, &problems, &scene, &err)) fail_msg("%s", err.text);
+    return scene;
+}
+
+/* ---- where things are -------------------------------------------------------------------- */
+
+static void assert_vec(Vec3 found, double x, double y, double z)
+{
+    assert_near(found.x, x, OFF);
+    assert_near(found.y, y, OFF);
+    assert_near(found.z, z, OFF);
+}
+
+static const Part *part_named(const Scene *scene, const char *name)
+{
+    for (int i = 0; i < scene->part_count; i++)
+        if (!strcmp(scene->parts[i].name, name)) return &scene->parts[i];
+    fail_msg("no part %s", name);
+    return NULL;
+}
+
+/* Each corner of the rectangle, which its texture coordinates tell. */
+static void check_rectangle(const Scene *scene, const Part *part)
+{
+    const double normal[3] = {0.48, -0.6, 0.64}; /* right x up */
+    assert_int_equal(part->triangle_count, 2);
+    for (uint32_t t = 0; t < 2; t++)
+        for (int k = 0; k < 3; k++) {
+            Vec2   uv = scene_corner_uv(scene, part->first_triangle + t, k, 0);
+            double s = 0.3 * ((double)uv.x - 0.5), h = 0.12 * (0.5 - (double)uv.y);
+            assert_vec(scene_corner(scene, part->first_triangle + t, k),
+                       0.3 + 0.8 * s + 0.36 * h + 0.002 * normal[0],
+                       0.25 + 0.8 * h + 0.002 * normal[1],
+                       -0.5 - 0.6 * s + 0.48 * h + 0.002 * normal[2]);
+        }
+}
+
+static void check_eye(const SceneCamera *camera)
+{
+    const double way[3] = {0.3 + 0.37, 0.25 - 1.21, -0.5 - 0.11};
+    const double length = sqrt(way[0] * way[0] + way[1] * way[1] + way[2] * way[2]);
+    assert_string_equal(camera->node_name, "driver");
+    assert_vec(camera->world_from_camera.origin, -0.37, 1.21, 0.11);
+    assert_vec(vec3_neg(camera->world_from_camera.z), way[0] / length, way[1] / length,
+               way[2] / length);
+    assert_near(camera->world_from_camera.x.y, 0, OFF); /* level */
+    assert_true(camera->world_from_camera.y.y > 0);
+}
+
+static void check_materials(const Scene *scene)
+{
+    const Material *glass = &scene->materials[part_named(scene, "wall")->material_id];
+    const Material *own = &scene->materials[part_named(scene, "door")->material_id];
+    assert_string_equal(glass->name, "paint");
+    assert_true(glass->transmission == 1 && glass->double_sided);
+    assert_near(glass->ior, 1.52, 1e-6);
+    assert_near(own->base_color[2], 0.3, 1e-6);
+    assert_near(own->roughness, 0.25, 1e-6);
+    assert_near(own->ior, 1.4, 1e-6);
+}
+
+TEST(what_is_applied_is_found_again)
+{
+    Arena       arena = test_arena(state);
+    Error       err = {0};
+    EquipResult result;
+    const char *model = write_glb("m.glb");
+    write_text(in_folder("e.json"), good);
+    if (!apply(model, in_folder("new.gltf"), false, &arena, &result, &err))
+        fail_msg("%s: %s", err.path, err.text);
+    Scene *scene = load(in_folder("new.gltf"), &arena);
+    assert_int_equal(scene->display_count, 1);
+    assert_string_equal(scene->displays[0].name, "speed");
+    assert_near(scene->displays[0].level, 0.5, 1e-6);
+    assert_true(scene->displays[0].content.texture_id != NO_ID);
+    check_rectangle(scene, part_named(scene, "speed"));
+    assert_int_equal(scene->camera_count, 2);
+    check_eye(&scene->cameras[0]);
+    assert_vec(vec3_neg(scene->cameras[1].world_from_camera.z), 0, -1, 0);
+    assert_vec(scene->cameras[1].world_from_camera.y, 1, 0, 0); /* ahead is up */
+    check_materials(scene);
+    scene_close(scene);
+    assert_true(file_exists(result.bin) && result.copy_count == 2);
+    const char *review = read_text(result.review, &arena);
+    assert_text_has(review, "2027-06-21T12:00-08:00");
+    assert_text_has(review, "\"forward\": [1.0, 0.0, 0.0]");
+    assert_text_has(review, "\"any sun\"");
+    assert_text_has(review, "\"headings_deg\": [90]");
+    assert_false(apply(model, in_folder("new.gltf"), false, &arena, &result, &err));
+    assert_error_has(&err, "is there already, wanted the name of a new file, or --overwrite");
+    assert_true(apply(model, in_folder("new.gltf"), true, &arena, &result, &err));
+    assert_false(apply(model, model, true, &arena, &result, &err));
+    assert_error_has(&err, "is the model itself");
+}
+
+TEST(files_of_the_model_come_along)
+{
+    Arena       arena = test_arena(state);
+    Error       err = {0};
+    EquipResult result;
+    const char *model = write_far();
+    write_text(in_folder("e.json"), good);
+    if (!apply(model, in_folder("new/deep/n.gltf"), false, &arena, &result, &err))
+        fail_msg("%s: %s", err.path, err.text);
+    assert_null(result.bin);
+    assert_int_equal(result.copy_count, 3);
+    assert_true(file_exists(in_folder("new/deep/some bytes.bin")));
+    assert_text_has(read_text(in_folder("new/deep/n.gltf"), &arena), "\"some%20bytes.bin\"");
+    scene_close(load(in_folder("new/deep/n.gltf"), &arena));
+    /* another file of that name is not written over */
+    write_text(in_folder("new/deep/some bytes.bin"), "other bytes");
+    assert_true(apply(model, in_folder("new/deep/n.gltf"), true, &arena, &result, &err));
+    assert_true(file_exists(in_folder("new/deep/n_some bytes.bin")));
+    assert_string_equal(read_text(in_folder("new/deep/some bytes.bin"), &arena), "other bytes");
+    /* and beside the model nothing is copied but what ships */
+    assert_true(apply(model, in_folder("a/n.gltf"), true, &arena, &result, &err));
+    assert_text_has(read_text(in_folder("a/n.gltf"), &arena), "\"b/some%20bytes.bin\"");
+}
+
+TEST(without_content_there_is_no_review)
+{
+    Arena       arena = test_arena(state);
+    Error       err = {0};
+    EquipResult result;
+    const char *model = write_glb("m.glb");
+    write_changed("\"content\": \"cluster\", ", "", &arena);
+    assert_true(apply(model, in_folder("bare.gltf"), false, &arena, &result, &err));
+    assert_null(result.review);
+    assert_false(file_exists(in_folder("bare.review.json")));
+}
+
+/* ---- what is refused --------------------------------------------------------------------- */
+
+static const struct {
+    const char *from, *to, *path, *text;
+} wrong[] = {
+    {"\"equip\": 1", "\"equip\": 2", "/equip", "is 2, wanted a number from 1 to 1"},
+    {"\"model\"", "\"modle\"", "/modle", "the nearest known one is 'model'"},
+    {"\"width_m\": 0.3", "\"width_mm\": 300", "/displays/0/width_mm", "'width_m'"},
+    {"\"width_m\": 0.3", "\"width_m\": 0", "/displays/0/width_m", "from 0.001 to 100"},
+    {"[0.36, 0.8, 0.48]", "[1, 1, 0]", "/displays/0/up", "degrees to \"right\", wanted 90"},
+    {"[0.36, 0.8, 0.48]", "[0, 0, 0]", "/displays/0/up", "is the zero vector"},
+    {"ips_cluster", "ips_clustr", "/displays/0/panel", "did you mean ips_cluster?"},
+    {"ips_cluster", "../../../x.panel", "/displays/0/panel", "leaves the parent"},
+    {"ips_cluster", "mine.panel", "/displays/0/panel", "cannot be found"},
+    {"\"content\": \"cluster\"", "\"content\": \"clusters\"", "/displays/0/content",
+     "'clusters' is no shipped content"},
+    {"\"name\": \"down\"", "\"name\": \"wall\"", "/eyes/1/name",
+     "is 'wall', which the model has already"},
+    {"\"name\": \"down\"", "\"name\": \"paint\"", "/eyes/1/name",
+     "is 'paint', which the model has already"},
+    {"\"looks_at\": \"speed\"", "\"looks_at\": \"sped\"", "/eyes/0/looks_at",
+     "did you mean speed?"},
+    {"\"looks_at\": \"speed\"", "\"target_m\": [-0.37, 1.21, 0.11]", "/eyes/0/position_m",
+     "is where it looks at"},
+    {"\"name\": \"down\"", "\"name\": \"driver\"", "/eyes/1/name", "is 'driver' once more"},
+    {"\"glass, clear\"", "\"glas, clear\"", "/materials/0/as", "did you mean"},
+    {"\"name\": \"paint\"", "\"name\": \"print\"", "/materials/0", "made for another model?"},
+    {"\"index\": 1", "\"index\": 2", "/materials/1", "is for material 2, the model has 1"},
+    {"\"index\": 1", "\"index\": 0", "/materials/1/index", "is 0 once more"},
+    {"iso-15008", "iso-15009", "/profile", "wanted one of"},
+    {"\"forward\": [1, 0, 0]", "\"forward\": [0, 1, 0]", "/forward", "is vertical"},
+    {"[35.5, -120, 20]", "[95, 0, 20]", "/place/where", "wanted a latitude of -90 to 90"},
+    {"\"year\": 2027", "\"year\": 1900", "/place/year", "from 1950 to 2100"},
+};
+
+TEST(a_wrong_file_is_refused_and_leaves_nothing)
+{
+    Error       err;
+    EquipResult result;
+    const char *model = write_glb("m.glb");
+    write_text(in_folder("e.json"), good);
+    int before = files_in_folder();
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        Arena arena = test_arena(state);
+        err = (Error){0};
+        write_changed(wrong[i].from, wrong[i].to, &arena);
+        if (apply(model, in_folder("wrong.gltf"), false, &arena, &result, &err))
+            fail_msg("%s is taken", wrong[i].to);
+        if (strcmp(err.path, wrong[i].path))
+            fail_msg("%s at %s: %s", wrong[i].to, err.path, err.text);
+        assert_error_has(&err, wrong[i].text);
+        assert_int_equal(files_in_folder(), before);
+    }
+}
+
+/* ---- the page ---------------------------------------------------------------------------- */
+
+TEST(a_page_holds_the_model_and_asks_for_nothing)
+{
+    Arena       arena = test_arena(state);
+    Error       err = {0};
+    const char *model = write_glb("<script>.glb"), *page = in_folder("page.html");
+    Scene      *scene = load(model, &arena);
+    assert_true(equip_page_write(scene, model, "parhelion equip m", page, &arena, &err));
+    scene_close(scene);
+    const char *text = read_text(page, &arena);
+    assert_text_has(text, "\"model\":\"\\u003cscript>.glb\"");
+    assert_text_has(text, "id=\"equip-z\"");
+    assert_text_has(text, "\"ips_cluster\"");
+    assert_null(strstr(text, "<script src"));
+    assert_null(strstr(text, "<link"));
+    scene = ARENA_NEW(&arena, Scene, 1);
+    assert_false(equip_page_write(scene, model, "parhelion equip m", page, &arena, &err));
+    assert_error_has(&err, "has no triangles, so no face to click");
+    scene->triangle_count = EQUIP_TRIANGLES_MAX + 1;
+    assert_false(equip_page_write(scene, model, "parhelion equip m", page, &arena, &err));
+    assert_error_has(&err, "a page takes at most 4000000");
+}
+
+TEST(usual_materials_can_be_told_apart_and_are_physical)
+{
+    (void)state;
+    for (int i = 0; i < usual_material_count; i++) {
+        const UsualMaterial *m = &usual_materials[i];
+        for (int c = 0; c < 3; c++) assert_true(m->base_color[c] > 0 && m->base_color[c] <= 1);
+        assert_true(m->roughness >= 0 && m->roughness <= 1 && m->ior > 1);
+        assert_true(m->metallic == 0 || m->metallic == 1);
+        assert_true(m->source[0] != 0);
+        for (int k = 0; k < i; k++) assert_true(strcmp(m->name, usual_materials[k].name) != 0);
+    }
+}
+
+int main(void)
+{
+    return run_cases(make_folder, clear_folder);
+}
