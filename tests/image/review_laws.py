@@ -56,7 +56,7 @@ def broken_case_laws(case):
 
 
 def broken_variant_laws(review):
-    """A difference is that of its margins; the worst is the least; who passes has no failure."""
+    """A difference is that of its margins; the worst is the least; no failure passes."""
     for variant in review.get("variants", []):
         found = variant["cases"] + variant["sweeps"]
         for case in found:
