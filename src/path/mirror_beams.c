@@ -28,7 +28,7 @@ typedef struct Glint {
 /* What some of the rays find; another thread may follow others. */
 typedef struct Beams {
     const BeamTools *tools;
-    Arena            arena;
+    Arena           *arena; /* nobody else takes of it in between */
     MirrorPair      *pairs;
     uint32_t         count, room;
     Glint           *glints;
@@ -58,7 +58,7 @@ static void add_pair(Beams *beams, MirrorPair pair)
         if (!mirrors_compare_pairs(&beams->pairs[i - 1], &pair)) return;
     if (beams->count == beams->room) {
         beams->room = beams->room ? 2 * beams->room : FIRST_ROOM;
-        beams->pairs = ARENA_GROW(&beams->arena, MirrorPair, beams->pairs, beams->count,
+        beams->pairs = ARENA_GROW(beams->arena, MirrorPair, beams->pairs, beams->count,
                                   beams->room);
     }
     beams->pairs[beams->count++] = pair;
@@ -68,7 +68,7 @@ static void add_glint(Beams *beams, Glint glint)
 {
     if (beams->glint_count == beams->glint_room) {
         beams->glint_room = beams->glint_room ? 2 * beams->glint_room : FIRST_ROOM;
-        beams->glints = ARENA_GROW(&beams->arena, Glint, beams->glints, beams->glint_count,
+        beams->glints = ARENA_GROW(beams->arena, Glint, beams->glints, beams->glint_count,
                                    beams->glint_room);
     }
     beams->glints[beams->glint_count++] = glint;
@@ -185,7 +185,7 @@ static void send_rays(Beams *beams, Aim aim, double all_m2)
 /* ---- all rays ---------------------------------------------------------------------------- */
 
 #define PIECES 64 /* of the rays; the same for any number of threads */
-#define PIECE_BYTES ((size_t)1 << 30) /* address space: what is not touched costs nothing */
+#define WORKER_BYTES ((size_t)1 << 30) /* address space: what is not touched costs nothing */
 
 /* What of each material is smooth, then what is rough, triangle by triangle. */
 static Aim *list_aims(const Scene *scene, int *count, double *all_m2, Arena *arena)
@@ -209,6 +209,7 @@ static Aim *list_aims(const Scene *scene, int *count, double *all_m2, Arena *are
 
 typedef struct RayWork {
     Beams     *pieces;
+    Arena     *arenas; /* one a worker */
     const Aim *aims;
     int        count;
     double     all_m2;
@@ -216,8 +217,8 @@ typedef struct RayWork {
 
 static void send_piece(void *user, int item, int worker)
 {
-    (void)worker;
     const RayWork *work = user;
+    work->pieces[item].arena = &work->arenas[worker];
     int first = (int)((int64_t)work->count * item / PIECES);
     int end = (int)((int64_t)work->count * (item + 1) / PIECES);
     for (int i = first; i < end; i++)
@@ -241,14 +242,16 @@ static void send_all_rays(Beams *beams, GlintMap *map, Arena *arena)
 {
     Beams   pieces[PIECES];
     RayWork work = {.pieces = pieces};
-    Arena   scratch = arena_reserve(PIECE_BYTES);
+    int     threads = bvh_threads(beams->tools->bvh);
+    Arena   scratch = arena_reserve(WORKER_BYTES);
+    work.arenas = ARENA_NEW(&scratch, Arena, threads);
+    for (int i = 0; i < threads; i++) work.arenas[i] = arena_reserve(WORKER_BYTES);
     work.aims = list_aims(beams->tools->scene, &work.count, &work.all_m2, &scratch);
     for (int p = 0; p < PIECES; p++)
-        pieces[p] = (Beams){.tools = beams->tools, .sides = beams->sides,
-                            .arena = arena_reserve(PIECE_BYTES)};
-    parallel_for(bvh_threads(beams->tools->bvh), PIECES, send_piece, &work);
+        pieces[p] = (Beams){.tools = beams->tools, .sides = beams->sides};
+    parallel_for(threads, PIECES, send_piece, &work);
     join_pieces(pieces, beams, map, arena);
-    for (int p = 0; p < PIECES; p++) arena_release(&pieces[p].arena);
+    for (int i = 0; i < threads; i++) arena_release(&work.arenas[i]);
     arena_release(&scratch);
 }
 

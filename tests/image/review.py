@@ -207,7 +207,10 @@ def check_threads(report, reviewer):
     index = os.path.join(reviewer.folder, "threads1", "index.html")
     with open(index, encoding="utf-8") as file:
         page = file.read()
-    report.claim(not re.search(r'(src|href)="(?!#|data:)', page), "the page loads something")
+    asked = set(re.findall(r'(?:src|href)="(?!#|data:)([^"]*)', page))
+    beside = {name for name in os.listdir(os.path.join(reviewer.folder, "threads1"))}
+    report.claim(asked <= beside and asked & {"live.js"},
+                 f"the page asks for {asked - beside}, which does not stand beside it")
 
 
 def check_diff(report, reviewer):
