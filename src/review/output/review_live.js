@@ -7,12 +7,6 @@ var block=document.getElementById('live-data');
 if(!(block||window.liveData)||!window.DecompressionStream||!window.Blob)return null;
 var data=window.liveData||JSON.parse(block.textContent);
 
-/* A card may stand on the other of the two pages. */
-function hrefOf(card){
-  if(document.getElementById(card))return '#'+card;
-  return (/cases\.html$/.test(location.pathname)?'index.html#':'cases.html#')+card;
-}
-
 /* ---- numbers ---- */
 function bytesOf(text){
   var digits=atob(text),out=new Uint8Array(digits.length);
@@ -478,7 +472,9 @@ Panel.prototype.link=function(){
   for(var i=0;i<this.seen.length;i++)
     if(this.seen[i].at===this.at){
       var link=make('a','','Look at the picture of this sun');
-      link.href=hrefOf(this.seen[i].card);
+      link.href=(document.getElementById(this.seen[i].card)?'':
+        /cases\.html$/.test(location.pathname)?'index.html':'cases.html')+
+        '#'+this.seen[i].card;
       return link;
     }
   return null;
