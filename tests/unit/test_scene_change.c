@@ -21,13 +21,15 @@ static const struct {
     "{'bufferView':2,'componentType':5126,'count':3,'type':'VEC2'}],"                          \
     "'materials':[{'name':'screen','pbrMetallicRoughness':{'roughnessFactor':0.3,"             \
     "'metallicFactor':0},'extensions':{'PARHELION_coating':{'stack':'mgf2'}}},"                \
-    "{'name':'lying'}],'extensionsUsed':['PARHELION_coating'],"                                \
+    "{'name':'lying'},{'name':'both'}],'extensionsUsed':['PARHELION_coating'],"                                \
     "'meshes':[{'primitives':[{'attributes':{'POSITION':0,'TEXCOORD_0':2},'material':0}]},"    \
-    "{'primitives':[{'attributes':{'POSITION':1,'TEXCOORD_0':2},'material':1}]}],"             \
-    "'scene':0,'scenes':[{'nodes':[0,2,3,4,5,6]}],'nodes':["                                   \
+    "{'primitives':[{'attributes':{'POSITION':1,'TEXCOORD_0':2},'material':1}]},"             \
+    "{'primitives':[{'attributes':{'POSITION':0,'TEXCOORD_0':2},'material':2}]}],"             \
+    "'scene':0,'scenes':[{'nodes':[0,2,3,4,5,6,7,8]}],'nodes':["                                   \
     "{'name':'face','mesh':0,'children':[1]},{'name':'glass','mesh':0},"                       \
     "{'name':'rim','mesh':0},{'name':'desk','mesh':1},{'name':'twin'},{'name':'twin'},"        \
-    "{'name':'empty'}]"
+    "{'name':'empty'},{'name':'front','mesh':2},"                                             \
+    "{'name':'rear','mesh':2,'scale':[1,1,-1]}]"
 
 /* Only then are there displays. */
 static bool has_hood(const SceneChange *changes, int count)
@@ -38,10 +40,13 @@ static bool has_hood(const SceneChange *changes, int count)
 static Found survey(const SceneChange *changes, int count)
 {
     const char   *path = maker_gltf(&BYTES, sizeof BYTES, MEMBERS);
-    SceneOverride panels[2] = {{"screen", PROJECT_DIR "/assets/panels/ips_cluster.panel", NULL},
-                               {"lying", PROJECT_DIR "/assets/panels/ips_cluster.panel", NULL}};
+    const char   *panel = PROJECT_DIR "/assets/panels/ips_cluster.panel";
+    SceneOverride panels[3] = {
+        {"screen", panel, NULL}, {"lying", panel, NULL}, {"both", panel, NULL}};
     return maker_survey(&(SceneOptions){.paths = &path, .path_count = 1, .panels = panels,
-                                        .panel_count = has_hood(changes, count) ? 2 : 0,
+                                        .panel_count = has_hood(changes, count)
+                                                           ? 2 + !strcmp(changes->name, "both")
+                                                           : 0,
                                         .changes = changes,
                                         .change_count = count});
 }
@@ -303,6 +308,8 @@ TEST(a_hood_needs_an_upper_edge)
     (void)state;
     assert_refused((SceneChange){.kind = CHANGE_HOOD, .name = "lying", .depth_m = DEPTH},
                    "lies flat");
+    assert_refused((SceneChange){.kind = CHANGE_HOOD, .name = "both", .depth_m = DEPTH},
+                   "faces nowhere");
     assert_refused((SceneChange){.kind = CHANGE_HOOD, .name = "skreen", .depth_m = DEPTH},
                    "no display is named \"skreen\" — did you mean screen?");
 }

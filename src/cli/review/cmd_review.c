@@ -146,7 +146,7 @@ static void print_variant(const ReviewVariantFound *v)
 {
     const ReviewDifference *d = &v->worst;
     printf("%-11s variant %s", verdict_names[review_verdict(v->review)], v->name);
-    if (d->after)
+    if (d->after && d->before)
         printf(": least margin %+.3g %%, %+.2g %% (%+.2g to %+.2g) from the review's: %s, %s, "
                "%s", 100 * d->after->margin, 100 * d->margin, 100 * d->margin_range.low,
                100 * d->margin_range.high, d->after->condition, d->after->eye,
@@ -278,7 +278,7 @@ static bool make_varied(ReviewRun *run, ReviewFolder *folder, ReviewOutcome *out
     return (request->variant_count == 0 ||
             (review_variants(run, outcome, arena, err) &&
              review_folder_write(folder, outcome, arena, err))) &&
-           (request->parameter_count == 0 ||
+           (request->parameter_count == 0 || folder->is_alone ||
             (review_sensitivities(run, outcome, arena, err) &&
              review_folder_write(folder, outcome, arena, err))) &&
            (!folder->mend || (review_mend(run, folder->mend, outcome, arena, err) &&
@@ -395,7 +395,8 @@ static bool review(const ReviewWords *words, Arena *arena, Error *err)
     if (words->mend && !find_parameter(&request, words->mend, *arena, &folder.mend, err))
         return false;
     if (words->is_alone) {
-        request.variant_count = request.parameter_count = 0;
+        request.variant_count = 0;
+        if (!words->mend) request.parameter_count = 0; /* else they are checked with it */
         request.is_compared = words->mend != NULL;
     }
     if (words->summary && !check_symbol(&request, words->summary, *arena, err)) return false;

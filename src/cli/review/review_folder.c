@@ -19,6 +19,7 @@
 #include "review/output/review_json.h"
 #include "review/output/review_json_read.h"
 #include "review/output/review_junit.h"
+#include "text/escape.h"
 
 #define MAP_STEP_DEG 5
 #define MAIN_CARDS 20 /* of the page itself: it stays below 3 MB */
@@ -205,6 +206,12 @@ static void add_facts(const ReviewRequest *request, ReviewPage *page, Arena *are
     page->facts = facts;
 }
 
+/* " --mend NAME"; "" without a name. */
+static const char *option_text(const char *option, const char *name, Arena *arena)
+{
+    return name ? arena_format(arena, " %s %s", option, escape_shell(name, arena)) : "";
+}
+
 const char *review_folder_command(const ReviewFolder *folder, Arena *arena)
 {
     const char *profile =
@@ -215,10 +222,8 @@ const char *review_folder_command(const ReviewFolder *folder, Arena *arena)
     const char *responses = folder->has_own_responses
                                 ? ""
                                 : arena_format(arena, " --responses %s", folder->responses);
-    const char *mend =
-        folder->mend ? arena_format(arena, " --mend '%s'", folder->mend->name) : "";
-    const char *summary =
-        folder->summary ? arena_format(arena, " --summary '%s'", folder->summary) : "";
+    const char *mend = option_text("--mend", folder->mend ? folder->mend->name : NULL, arena);
+    const char *summary = option_text("--summary", folder->summary, arena);
     return arena_format(arena, "parhelion review %s -o %s%s%s%s%s%s%s%s%s%s%s",
                         folder->request->file,
                         folder->target, profile, root, state, diff, responses,

@@ -397,17 +397,19 @@ static bool add_sweep(Telling *to, const Sight *sight, Error *err)
     Review     *review = &to->out->review;
     ReviewSweep sweep = sweep_of(to, sight);
     if (sight->probe.aim.target_count) {
-        Told told = tell(to->sweep, sight, to->tools, to->arena);
+        bool is_kept = !to->sweep->run->base; /* of a variant no table is told */
+        Told told =
+            tell(to->sweep, sight, to->tools, is_kept ? to->arena : &to->scratch);
         set_failures(to, sight, &told, &sweep);
         SweepSun worst = {0};
         if (!find_worst(to, sight, &told, &worst, &sweep.worst, err)) return false;
         sweep.worst.symbol = sweep.symbol;
-        to->out->tables[to->out->table_count++] =
-            (SweepTable){review->sweep_count, told.worst, worst, to->suns, told.contrast,
-                         told.low, told.high, told.margin, told.reflected, told.mirror,
-                         told.level, told.lux, told.verdict, told.ambient,
-                         sight->shown.foreground, sight->shown.background,
-                         limits_asked(to, sight)};
+        if (is_kept)
+            to->out->tables[to->out->table_count++] = (SweepTable){
+                review->sweep_count, told.worst, worst, to->suns, told.contrast, told.low,
+                told.high, told.margin, told.reflected, told.mirror, told.level, told.lux,
+                told.verdict, told.ambient, sight->shown.foreground, sight->shown.background,
+                limits_asked(to, sight)};
     }
     review->sweeps[review->sweep_count++] = sweep;
     return true;

@@ -209,7 +209,7 @@ void nodes_change(GltfFile *file, const int *parent)
         if (change->kind != CHANGE_NODES) continue;
         int count = count_named(nodes, change->name, &first);
         if (!count) continue;
-        file->load->change_uses[i] += count;
+        file->load->change_uses[i]++;
         change_nodes(file, parent, change);
     }
 }

@@ -11,12 +11,14 @@
 #define THICK_M 0.002f
 #define GAP_M 0.002f
 #define FLAT 0.985f /* cosine of 10 degrees between normal and vertical */
+#define FACING 0.5f /* less is a closed body */
 #define NODE "node:"
 
 /* The display's box in axes of its own: right and up of who faces it, and its normal. */
 typedef struct Face {
     Vec3  right, up, normal;
     float low[3], high[3]; /* along those axes */
+    float facing;          /* of its area, what faces along the normal */
     const PartDraft *draft; /* one of its parts */
 } Face;
 
@@ -31,14 +33,16 @@ static bool is_of(const Loader *load, const PartDraft *draft, const char *name)
     return !strcmp(m->name, name);
 }
 
-static Vec3 normal_area(const PartDraft *draft)
+/* The sum of normals by area, and the area: both twice. */
+static Vec3 normal_area(const PartDraft *draft, float *area)
 {
     Vec3 sum = vec3(0, 0, 0);
     for (uint32_t t = 0; t < draft->triangle_count; t++) {
         const uint32_t *at = &draft->indices[3 * t];
         const Vec3     *p = draft->positions;
-        sum = vec3_add(sum, vec3_cross(vec3_sub(p[at[1]], p[at[0]]),
-                                       vec3_sub(p[at[2]], p[at[0]])));
+        Vec3 n = vec3_cross(vec3_sub(p[at[1]], p[at[0]]), vec3_sub(p[at[2]], p[at[0]]));
+        sum = vec3_add(sum, n);
+        *area += vec3_length(n);
     }
     return sum;
 }
@@ -59,17 +63,19 @@ static void add_points(Face *face, const PartDraft *draft)
 /* False: no display has the name. */
 static bool find_face(const Loader *load, const char *name, Face *out)
 {
-    Vec3 sum = vec3(0, 0, 0);
+    Vec3  sum = vec3(0, 0, 0);
+    float area = 0;
     *out = (Face){.low = {INFINITY, INFINITY, INFINITY},
                   .high = {-INFINITY, -INFINITY, -INFINITY}};
     for (int i = 0; i < load->parts.count; i++) {
         const PartDraft *draft = list_item(&load->parts, i);
         if (!is_of(load, draft, name)) continue;
         out->draft = draft;
-        sum = vec3_add(sum, normal_area(draft));
+        sum = vec3_add(sum, normal_area(draft, &area));
     }
     if (!out->draft) return false;
     out->normal = vec3_normalize(sum);
+    out->facing = area > 0 ? vec3_length(sum) / area : 0;
     out->right = vec3_normalize(vec3_cross(vec3(0, 1, 0), out->normal));
     out->up = vec3_cross(out->normal, out->right);
     for (int i = 0; i < load->parts.count; i++) {
@@ -127,6 +133,12 @@ static void add_cheek(Loader *load, const Face *face, int material_id, float dep
 
 static void build_hood(Loader *load, const SceneChange *change, const Face *face)
 {
+    if (!(face->facing > FACING)) {
+        problems_add(load->problems, SEVERITY_ERROR, change->file, change->place,
+                     "display \"%.100s\" faces nowhere: it is a closed body, wanted a surface "
+                     "that a hood could stand over", change->name);
+        return;
+    }
     if (fabsf(face->normal.y) > FLAT) {
         problems_add(load->problems, SEVERITY_ERROR, change->file, change->place,
                      "display \"%.100s\" lies flat: no edge of it is the upper one, along "

@@ -333,6 +333,10 @@ static void report_unused_changes(Loader *load)
         const SceneChange *change = &load->options->changes[i];
         char advice[600];
         int  count;
+        if (change->kind == CHANGE_NODES && load->change_uses[i] > 1)
+            problems_add(load->problems, SEVERITY_ERROR, change->file, change->place,
+                         "nodes of %d files are named \"%.100s\", wanted one",
+                         load->change_uses[i], change->name);
         if (load->change_uses[i] > 0) continue;
         const char **names = names_for(load, change->kind, &count);
         problems_add(load->problems, SEVERITY_ERROR, change->file, change->place,
