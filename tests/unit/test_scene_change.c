@@ -21,11 +21,11 @@ static const struct {
     "{'bufferView':2,'componentType':5126,'count':3,'type':'VEC2'}],"                          \
     "'materials':[{'name':'screen','pbrMetallicRoughness':{'roughnessFactor':0.3,"             \
     "'metallicFactor':0},'extensions':{'PARHELION_coating':{'stack':'mgf2'}}},"                \
-    "{'name':'lying'},{'name':'both'}],'extensionsUsed':['PARHELION_coating'],"                                \
+    "{'name':'lying'},{'name':'both'}],'extensionsUsed':['PARHELION_coating'],"                \
     "'meshes':[{'primitives':[{'attributes':{'POSITION':0,'TEXCOORD_0':2},'material':0}]},"    \
     "{'primitives':[{'attributes':{'POSITION':1,'TEXCOORD_0':2},'material':1}]},"             \
     "{'primitives':[{'attributes':{'POSITION':0,'TEXCOORD_0':2},'material':2}]}],"             \
-    "'scene':0,'scenes':[{'nodes':[0,2,3,4,5,6,7,8]}],'nodes':["                                   \
+    "'scene':0,'scenes':[{'nodes':[0,2,3,4,5,6,7,8]}],'nodes':["                               \
     "{'name':'face','mesh':0,'children':[1]},{'name':'glass','mesh':0},"                       \
     "{'name':'rim','mesh':0},{'name':'desk','mesh':1},{'name':'twin'},{'name':'twin'},"        \
     "{'name':'empty'},{'name':'front','mesh':2},"                                             \
