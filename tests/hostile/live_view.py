@@ -175,7 +175,7 @@ class Viewer:
     def __init__(self, host="127.0.0.1", port=0, reads=True, dies_after=None):
         self.socket = socket.socket(socket.AF_INET6 if ":" in host else socket.AF_INET)
         self.socket.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-        if not reads:
+        if not reads or dies_after:  # else a frame may wait in the buffer when it dies
             self.socket.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
         self.socket.bind((host, port))
         self.socket.listen(1)
@@ -369,7 +369,8 @@ def check_absent(work, frame, *options):
     claim_told(work, done, frame, "no viewer is there, the render goes on", "an unknown name")
 
 
-def check_killed(work, frame, *options):
+def check_killed(work, *options):
+    frame, _ = work.reference(*options)
     for bytes_ in (0, 30000):
         viewer = Viewer(dies_after=bytes_)
         done = watched(work, viewer, *options, "--json")
@@ -507,8 +508,9 @@ def main():
         check_layers_meanwhile(work, *plain[:3], "--layers", "depth", "--spp", "1000000")
         check_resumed(work, work.reference(*halves, "--noise", "1e-9")[0], size, *halves)
         check_absent(work, frame, *small)
-        check_killed(work, work.reference(*halves, "--spp", "200")[0], *halves, "--spp", "200")
-        check_hung(work, "--size", "320x240", "--layers", "all", "--spp", "1", "--no-guiding")
+        large = ("--size", "320x240", "--layers", "all", "--spp", "1", "--no-guiding")
+        check_killed(work, *large)
+        check_hung(work, *large)
         check_words(work)
         check_file(work, frame, *small)
         check_file_meanwhile(work, *small[:4])
