@@ -83,4 +83,9 @@ typedef struct FarReading {
     MeanInterval interval;           /* 95 %, of their sum */
 } FarReading;
 
+static inline double far_reading_sum(FarReading reading)
+{
+    return reading.sky + reading.sun_first + reading.sun_rest;
+}
+
 FarReading far_probe_read(const FarProbe *probe, const FarTools *tools, int sun);

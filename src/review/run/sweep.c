@@ -32,18 +32,9 @@ static DaylightInput air_of(const ReviewCondition *condition)
 
 /* ---- reading them ------------------------------------------------------------------------ */
 
-static double total(const FarReading *reading)
+static double level_for(const Sweep *sweep, const Sight *sight, int sun)
 {
-    return reading->sky + reading->sun_first + reading->sun_rest;
-}
-
-static double level_for(const Sweep *sweep, const Sight *sight, const FarTools *tools, int sun)
-{
-    double lux = 0;
-    if (sweep->sensor) {
-        FarReading at = far_probe_read(&sweep->sensor->probe, tools, sun);
-        lux = total(&at) + sweep->sensor->own.lamps;
-    }
+    double lux = sweep->sensor ? sweep->sensor->lux[sun] + sweep->sensor->own.lamps : 0;
     return stage_level_of(sweep->stage, sweep->level, sight->symbol->display.display_id,
                           sight->symbol->display_name, lux);
 }
@@ -53,13 +44,13 @@ static ReviewCase case_at(const Sweep *sweep, const Sight *sight, const FarTools
                           int sun)
 {
     FarReading light = far_probe_read(&sight->probe, tools, sun);
-    FarReading face = far_probe_read(&sight->face->probe, tools, sun);
-    double     level = level_for(sweep, sight, tools, sun);
+    double     level = level_for(sweep, sight, sun);
     double     own = sight->own.lamps + level * sight->own.displays;
-    double     reflected = total(&light) + own;
+    double     reflected = far_reading_sum(light) + own;
     ReviewCase c = {.level = level, .limit_id = -1, .visible_share = sight->seen.visible_share,
                     .height_arcmin = sight->height_arcmin};
-    c.display_lux = total(&face) + sight->face->own.lamps + level * sight->face->own.displays;
+    c.display_lux = sight->face->lux[sun] + sight->face->own.lamps +
+                    level * sight->face->own.displays;
     c.luminance_cd_m2 = (CaseLuminances){
         level * sight->shown.foreground, level * sight->shown.background, reflected,
         light.mirror, reflected - light.mirror, (double)NAN};
@@ -134,19 +125,17 @@ static void tell_chunk(void *user, int item, int worker)
         tell_sun(work, sun, work->scratch[worker]);
 }
 
-static Told tell(const Sweep *sweep, const Sight *sight, const FarTools *tools, Arena *arena)
+static void tell(const Sweep *sweep, const Sight *sight, const FarTools *tools, Told *told,
+                 Arena room)
 {
     int      count = sweep->suns.count, threads = sweep->run->threads;
-    Told     told = told_start(count, arena);
-    TellWork work = {sweep, sight, tools, &told, NULL};
-    Arena    room = *arena;
+    TellWork work = {sweep, sight, tools, told, NULL};
     work.scratch = ARENA_NEW(&room, Arena, threads);
     for (int i = 0; i < threads; i++) work.scratch[i] = arena_reserve(TELL_BYTES);
     parallel_for(threads, (count + TELL_CHUNK - 1) / TELL_CHUNK, tell_chunk, &work);
     for (int i = 0; i < threads; i++) arena_release(&work.scratch[i]);
     for (int sun = 0; sun < count; sun++)
-        if (is_worse(&told, sun, told.worst)) told.worst = sun;
-    return told;
+        if (is_worse(told, sun, told->worst)) told->worst = sun;
 }
 
 /* By its figure, and for sure. */
@@ -200,11 +189,18 @@ Environment sweep_environment(const Stage *stage, const SweepSun *sun)
     return environment;
 }
 
+/* What a sight says of every sun, which holds for its twin, too. */
+typedef struct SightTold {
+    Told   told;
+    double failed_share, longest_failure_minutes;
+} SightTold;
+
 /* What a sweep does with each of its sights. */
 typedef struct Telling {
     const Sweep     *sweep;
     const FarTools  *tools;
     const SweepSuns *suns;   /* kept */
+    SightTold       *sights; /* of those that have twins */
     ReviewOutcome   *out;
     Arena           *arena;  /* of what is kept */
     Arena            scratch;
@@ -224,13 +220,17 @@ static Told tell_others(const Telling *to, const Sight *sight, const SweepSuns *
     of_meters.has_mirror = false;
     far_probe_ask_suns(&seen.probe, &tools, scratch);
     far_probe_ask_suns(&face.probe, &of_meters, scratch);
+    sweep_meter_read(&face, &of_meters, scratch);
     seen.face = &face;
     if (sweep.sensor) {
         sensor = *sweep.sensor;
         far_probe_ask_suns(&sensor.probe, &of_meters, scratch);
+        sweep_meter_read(&sensor, &of_meters, scratch);
         sweep.sensor = &sensor;
     }
-    return tell(&sweep, &seen, &tools, scratch);
+    Told told = told_start(suns->count, scratch);
+    tell(&sweep, &seen, &tools, &told, *scratch);
+    return told;
 }
 
 /* Where about a sun it is worst. */
@@ -392,35 +392,58 @@ static bool find_worst(Telling *to, const Sight *sight, const Told *told, SweepS
     return true;
 }
 
-static bool add_sweep(Telling *to, const Sight *sight, Error *err)
+static void add_table(const Telling *to, const Sight *sight, const Told *told,
+                      const SweepSun *worst)
 {
-    Review     *review = &to->out->review;
-    ReviewSweep sweep = sweep_of(to, sight);
-    if (sight->probe.aim.target_count) {
-        bool is_kept = !to->sweep->run->base; /* of a variant no table is told */
-        Told told =
-            tell(to->sweep, sight, to->tools, is_kept ? to->arena : &to->scratch);
-        set_failures(to, sight, &told, &sweep);
-        SweepSun worst = {0};
-        if (!find_worst(to, sight, &told, &worst, &sweep.worst, err)) return false;
-        sweep.worst.symbol = sweep.symbol;
-        if (is_kept)
-            to->out->tables[to->out->table_count++] = (SweepTable){
-                review->sweep_count, told.worst, worst, to->suns, told.contrast, told.low,
-                told.high, told.margin, told.reflected, told.mirror, told.level, told.lux,
-                told.verdict, told.ambient, sight->shown.foreground, sight->shown.background,
-                limits_asked(to, sight)};
-    }
-    review->sweeps[review->sweep_count++] = sweep;
-    return true;
+    if (to->sweep->run->base) return; /* of a variant no table is told */
+    to->out->tables[to->out->table_count++] = (SweepTable){
+        to->out->review.sweep_count, told->worst, *worst, to->suns, told->contrast, told->low,
+        told->high, told->margin, told->reflected, told->mirror, told->level, told->lux,
+        told->verdict, told->ambient, sight->shown.foreground, sight->shown.background,
+        limits_asked(to, sight)};
 }
 
-/* What the suns give of a sight is forgotten when it is told. */
-static bool tell_sight(const Telling *to, const Sight *sight, Error *err)
+/* The suns of a sight are asked, and forgotten when all is told of them. */
+static void tell_all(const Telling *to, const Sight *sight, Told *told, ReviewSweep *out)
 {
     Telling with = *to;
     Sight   asked = sweep_ask_sight(to->sweep, sight, &with.scratch);
-    return add_sweep(&with, &asked, err);
+    tell(to->sweep, &asked, to->tools, told, with.scratch);
+    set_failures(&with, &asked, told, out);
+}
+
+/* Of a variant, whose tables nobody asks for, it lasts as long as the scratch. */
+static Told told_of(Telling *to, const Sight *sight, ReviewSweep *out)
+{
+    int        id = (int)(sight - to->sweep->sights);
+    SightTold *kept = &to->sights[sight->twin != NO_ID ? sight->twin : id];
+    if (sight->twin == NO_ID) {
+        kept->told = told_start(to->suns->count,
+                                to->sweep->run->base ? &to->scratch : to->arena);
+        tell_all(to, sight, &kept->told, out);
+        kept->failed_share = out->failed_share;
+        kept->longest_failure_minutes = out->longest_failure_minutes;
+    }
+    out->failed_share = kept->failed_share;
+    out->longest_failure_minutes = kept->longest_failure_minutes;
+    return kept->told;
+}
+
+static bool tell_sight(Telling *to, const Sight *sight, Error *err)
+{
+    Review     *review = &to->out->review;
+    ReviewSweep sweep = sweep_of(to, sight);
+    Arena       before = to->scratch;
+    if (sight->probe.aim.target_count) {
+        Told     told = told_of(to, sight, &sweep);
+        SweepSun worst = {0};
+        if (!find_worst(to, sight, &told, &worst, &sweep.worst, err)) return false;
+        sweep.worst.symbol = sweep.symbol;
+        add_table(to, sight, &told, &worst);
+    }
+    if (!sight->has_twin) to->scratch = before;
+    review->sweeps[review->sweep_count++] = sweep;
+    return true;
 }
 
 /* ---- all of it --------------------------------------------------------------------------- */
@@ -483,8 +506,9 @@ static bool sweep_condition(Sweep *sweep, Arena scratch, Arena *arena, ReviewOut
     sweep_ask_light(sweep, &scratch);
     FarTools   tools = sweep_tools(sweep);
     SweepSuns *suns = ARENA_NEW(arena, SweepSuns, 1);
+    SightTold *sights = ARENA_NEW(&scratch, SightTold, sweep->sight_count);
     *suns = sweep->suns;
-    Telling to = {sweep, &tools, suns, out, arena, scratch};
+    Telling to = {sweep, &tools, suns, sights, out, arena, scratch};
     if (!sweep->run->share.count && !sweep->run->base)
         false_sun_times(sweep, scratch, arena, &out->review);
     Progress progress = progress_start(sweep->run->progress, "verdicts", "sights",

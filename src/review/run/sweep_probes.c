@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "review/run/sweep_probes.h"
 
+#include <string.h>
+
+#include "base/parallel.h"
 #include "base/units.h"
 
 #define RESPONSE_PATHS 65536
@@ -70,6 +73,20 @@ static void aim_sight(Sweep *sweep, Sight *sight, Arena *arena)
     symbol_aim(surface, is_visible, arena, &sight->probe.aim);
 }
 
+/* Symbols follow each other eye by eye. */
+static void find_twin(Sweep *sweep, Sight *sight)
+{
+    int id = (int)(sight - sweep->sights), same = id % sweep->symbol_count;
+    sight->twin = NO_ID;
+    for (int i = same; i < id && sight->twin == NO_ID; i += sweep->symbol_count) {
+        Sight *other = &sweep->sights[i];
+        if (other->is_left || memcmp(&other->from, &sight->from, sizeof sight->from) != 0)
+            continue;
+        sight->twin = i;
+        other->has_twin = true;
+    }
+}
+
 static bool place_sights(Sweep *sweep, Arena *arena, Error *err)
 {
     const ReviewRequest *request = sweep->run->request;
@@ -81,7 +98,7 @@ static bool place_sights(Sweep *sweep, Arena *arena, Error *err)
         for (int s = 0; s < sweep->symbol_count; s++) {
             Sight *sight = &sweep->sights[sweep->sight_count++];
             *sight = (Sight){.eye = &request->eyes[e], .symbol = &sweep->symbols[s],
-                             .from = from, .face = &sweep->faces[s]};
+                             .from = from, .face = &sweep->faces[s], .twin = NO_ID};
             aim_sight(sweep, sight, arena);
         }
     }
@@ -102,6 +119,7 @@ static void leave_others(Sweep *sweep)
         if (sight->is_left) continue;
         sweep->faces[sight->symbol - sweep->symbols].is_left = false;
         has_any = true;
+        find_twin(sweep, sight);
     }
     for (int i = 0; i < sweep->run->request->level_count; i++)
         sweep->sensors[i].is_left = !has_any;
@@ -133,7 +151,7 @@ static void list_asks(Sweep *sweep, Arena *arena)
                       arena_format(arena, "sensor of %s", request->levels[i].name));
     for (int i = 0; i < sweep->sight_count; i++) {
         Sight *sight = &sweep->sights[i];
-        if (!sight->probe.aim.target_count) continue;
+        if (!sight->probe.aim.target_count || sight->twin != NO_ID) continue;
         sweep->asks[sweep->ask_count++] = (ResponseAsk){
             .name = arena_format(arena, "%s, %s", sight->eye->name, sight->symbol->name),
             .probe = &sight->probe, .own = &sight->own, .paths = RESPONSE_PATHS,
@@ -149,6 +167,17 @@ FarTools sweep_tools(const Sweep *sweep)
                       .sun_paths = SUN_PATHS, .has_mirror = true};
 }
 
+/* What is known of a sight is known of its twin. */
+static void tell_twins(Sweep *sweep)
+{
+    for (int i = 0; i < sweep->sight_count; i++) {
+        Sight *sight = &sweep->sights[i];
+        if (sight->is_left || sight->twin == NO_ID) continue;
+        sight->probe = sweep->sights[sight->twin].probe;
+        sight->own = sweep->sights[sight->twin].own;
+    }
+}
+
 static void ask_skies(Sweep *sweep, const FarTools *tools, Arena *arena)
 {
     int        most = sweep->symbol_count + 1 + sweep->sight_count, count = 0;
@@ -158,9 +187,46 @@ static void ask_skies(Sweep *sweep, const FarTools *tools, Arena *arena)
     if (sweep->sensor) probes[count++] = &sweep->sensor->probe;
     for (int i = 0; i < sweep->sight_count; i++) {
         Sight *sight = &sweep->sights[i];
-        if (!sight->is_left && sight->probe.aim.target_count) probes[count++] = &sight->probe;
+        bool is_asked = !sight->is_left && sight->twin == NO_ID;
+        if (is_asked && sight->probe.aim.target_count) probes[count++] = &sight->probe;
     }
     far_probes_ask_skies(probes, count, tools, arena);
+    tell_twins(sweep);
+}
+
+/* ---- meters ------------------------------------------------------------------------------ */
+
+#define METER_CHUNK 256 /* suns of one piece of work */
+
+typedef struct MeterWork {
+    const FarProbe *probe;
+    const FarTools *tools;
+    double         *lux;
+} MeterWork;
+
+static void read_chunk(void *user, int item, int worker)
+{
+    (void)worker;
+    const MeterWork *work = user;
+    int first = item * METER_CHUNK, end = first + METER_CHUNK, count = work->tools->suns.count;
+    for (int sun = first; sun < end && sun < count; sun++)
+        work->lux[sun] = far_reading_sum(far_probe_read(work->probe, work->tools, sun));
+}
+
+void sweep_meter_read(SweepMeter *meter, const FarTools *tools, Arena *arena)
+{
+    int       count = tools->suns.count;
+    MeterWork work = {&meter->probe, tools, ARENA_NEW(arena, double, count)};
+    parallel_for(tools->stage->tools.threads, (count + METER_CHUNK - 1) / METER_CHUNK,
+                 read_chunk, &work);
+    meter->lux = work.lux;
+}
+
+static void ask_meter_suns(SweepMeter *meter, const FarTools *tools, Arena *arena)
+{
+    if (meter->is_left) return;
+    far_probe_ask_suns(&meter->probe, tools, arena);
+    sweep_meter_read(meter, tools, arena);
 }
 
 void sweep_ask_light(Sweep *sweep, Arena *arena)
@@ -170,9 +236,8 @@ void sweep_ask_light(Sweep *sweep, Arena *arena)
     tools.has_mirror = false;
     tools.sun_paths = METER_SUN_PATHS;
     for (int i = 0; i < sweep->symbol_count; i++)
-        if (!sweep->faces[i].is_left)
-            far_probe_ask_suns(&sweep->faces[i].probe, &tools, arena);
-    if (sweep->sensor) far_probe_ask_suns(&sweep->sensor->probe, &tools, arena);
+        ask_meter_suns(&sweep->faces[i], &tools, arena);
+    if (sweep->sensor) ask_meter_suns(sweep->sensor, &tools, arena);
 }
 
 Sight sweep_ask_sight(const Sweep *sweep, const Sight *sight, Arena *arena)

@@ -14,6 +14,7 @@ typedef struct SweepMeter {
     LitPoint head;
     FarProbe probe;
     OwnLight own;
+    const double *lux; /* [sun of the condition in hand] all of its light but its own */
     bool     is_left; /* to other parts of the review (share.h): nothing is asked of it */
 } SweepMeter;
 
@@ -27,6 +28,9 @@ typedef struct Sight {
     FarProbe           probe;
     OwnLight           own;
     const SweepMeter  *face;
+    int                twin;    /* an earlier sight from the same place, as an eye box about an
+                                   eye is: what is asked of that holds for both; NO_ID: none */
+    bool               has_twin; /* a later one has this for its twin */
     bool               is_left; /* as a meter */
 } Sight;
 
@@ -65,6 +69,9 @@ void sweep_ask_light(Sweep *sweep, Arena *arena);
 
 /* One sight, for these suns: some 150 bytes a sun, so that they are asked one by one. */
 Sight sweep_ask_sight(const Sweep *sweep, const Sight *sight, Arena *arena);
+
+/* Sets what a meter reads under each of the tools' suns, which it was asked. */
+void sweep_meter_read(SweepMeter *meter, const FarTools *tools, Arena *arena);
 
 /* Of which they read these. */
 FarTools sweep_tools(const Sweep *sweep);

@@ -2,9 +2,13 @@
 #include "review/run/symbols.h"
 
 #include <string.h>
+#define XXH_INLINE_ALL
+#include <xxhash.h>
 
+#include "render/identity.h"
 #include "review/request/request_check.h"
 #include "review/symbol/text_find.h"
+#include "text/text.h"
 
 /* One list that grows; its elements lie apart, since surfaces are pointed at. */
 typedef struct SymbolList {
@@ -49,21 +53,52 @@ static bool read_mask(const ReviewSymbol *asked, Image *mask, const Image **out,
     return image_read(asked->mask, arena, mask, err);
 }
 
+/* As a journal keeps it. */
+typedef struct TextsFound {
+    int          count;
+    TextProposal list[SYMBOLS_FOUND_MOST];
+} TextsFound;
+
+static JournalKey key_of(const Stage *stage, const ContentLight *light, Arena scratch)
+{
+    size_t pixels = (size_t)light->width * (size_t)light->height;
+    Text   text = {.arena = &scratch};
+    text_add(&text, "text\n");
+    identity_add_program(&text, stage->tools.kernel);
+    identity_line(&text, "of", "%d x %d at %d, %d of %d x %d, %016llx", light->width,
+                  light->height, light->x, light->y, light->content_width,
+                  light->content_height,
+                  (unsigned long long)XXH3_64bits(light->cd_m2, pixels * sizeof *light->cd_m2));
+    return journal_key(text.data);
+}
+
+/* Every condition and variant asks again, mostly of the same content. */
+static TextsFound find_texts(const Stage *stage, const ContentLight *light, Arena scratch)
+{
+    TextsFound    found = {0};
+    TextProposal *list;
+    JournalKey    key = key_of(stage, light, scratch);
+    if (journal_find(stage->tools.journal, key, &found, sizeof found)) return found;
+    found.count = text_find(light, SYMBOLS_FOUND_MOST, &scratch, &list);
+    for (int i = 0; i < found.count; i++) found.list[i] = list[i];
+    journal_add(stage->tools.journal, key, &found, sizeof found);
+    return found;
+}
+
 static bool add_found(SymbolList *list, const StageSymbol *symbol, SymbolQuestion *question,
                       Arena *arena, Error *err)
 {
-    ContentLight  light;
-    TextProposal *found;
+    ContentLight light;
     if (!content_light(question->panel, question->content, question->uv, arena, &light, err))
         return false;
-    int count = text_find(&light, SYMBOLS_FOUND_MOST, arena, &found);
-    if (count == 0) return error_set(err, ERROR_INPUT, "no text was found there");
-    for (int i = 0; i < count; i++) {
+    TextsFound found = find_texts(list->stage, &light, *arena);
+    if (found.count == 0) return error_set(err, ERROR_INPUT, "no text was found there");
+    for (int i = 0; i < found.count; i++) {
         StageSymbol one = *symbol;
         one.name = arena_format(arena, "%s %d", symbol->name, i + 1);
-        memcpy(question->uv, found[i].uv, sizeof question->uv);
+        memcpy(question->uv, found.list[i].uv, sizeof question->uv);
         question->polarity =
-            found[i].is_light_on_dark ? POLARITY_LIGHT_ON_DARK : POLARITY_DARK_ON_LIGHT;
+            found.list[i].is_light_on_dark ? POLARITY_LIGHT_ON_DARK : POLARITY_DARK_ON_LIGHT;
         if (!add_symbol(list, one, question, arena, err)) return false;
     }
     return true;
