@@ -26,6 +26,14 @@ bool lights_build(const Scene *scene, Arena *arena, Lights **out, Error *err)
     return true;
 }
 
+const Lights *lights_with_levels(const Lights *before, Arena *arena)
+{
+    Lights *lights = ARENA_NEW(arena, Lights, 1);
+    *lights = *before;
+    lights->emitters = emitters_build(before->scene, arena);
+    return lights;
+}
+
 bool lights_has(const Lights *lights, LightSet set)
 {
     switch (set) {

@@ -79,9 +79,10 @@ static Trial *cases_under(const Moment *m, const Profile *profile, unsigned seed
 
 static double contrast_at(const Moment *m, double reflected)
 {
+    SymbolLook look = {&m->symbol->surface, &m->symbol->split, m->aim.eye,
+                       m->stage->tools.threads};
     SymbolEmission shown =
-        symbol_emission(&m->symbol->surface, &m->symbol->split,
-                        stage_level(m->stage, m->symbol->display.display_id), m->aim.eye);
+        symbol_emission(&look, stage_level(m->stage, m->symbol->display.display_id));
     return luminance_contrast(shown.foreground_xyz[1], shown.background_xyz[1], reflected);
 }
 

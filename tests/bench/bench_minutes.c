@@ -279,7 +279,8 @@ static void open_first(Brute *b, const ReviewRequest *request, Problems *problem
     for (int i = 0; i < surface->point_count; i++)
         if (is_visible[i]) targets[b->aim.target_count++] = surface->points[i].position;
     double level = stage_level(&b->stage, symbols[0].display.display_id);
-    SymbolEmission shown = symbol_emission(surface, &symbols[0].split, level, eye);
+    SymbolLook look = {surface, &symbols[0].split, eye, b->stage.tools.threads};
+    SymbolEmission shown = symbol_emission(&look, level);
     b->shown[0] = seen.transmittance * shown.foreground_xyz[1];
     b->shown[1] = seen.transmittance * shown.background_xyz[1];
 }

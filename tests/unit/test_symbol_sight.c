@@ -434,14 +434,15 @@ TEST(one_colour_has_the_panels_own_light)
                               (float)cos(t));
         float  xyz[3];
         panel_emission_xyz(easel->panel, towards, codes, xyz);
-        SymbolEmission seen = symbol_emission(&surface, &split, 0.3,
-                                              vec3_scale(towards, 300));
+        SymbolLook     look = {&surface, &split, vec3_scale(towards, 300), 1 + i % 3};
+        SymbolEmission seen = symbol_emission(&look, 0.3);
         for (int k = 0; k < 3; k++) {
             assert_close(seen.foreground_xyz[k], 0.3 * (double)xyz[k], 1e-3);
             assert_close(seen.background_xyz[k], 0.3 * (double)xyz[k], 1e-3);
         }
     }
-    SymbolEmission behind = symbol_emission(&surface, &split, 1, vec3(0, 0, -1));
+    SymbolLook     back = {&surface, &split, vec3(0, 0, -1), 1};
+    SymbolEmission behind = symbol_emission(&back, 1);
     assert_true(isnan(behind.foreground_xyz[1]));
     world_end(&world);
     easel->arena = easel->fresh;
@@ -456,7 +457,8 @@ TEST(light_is_averaged_and_not_codes)
     SymbolSplit split = split_halves(easel, &content);
     World       world = flat_world(easel);
     SymbolSurface  surface = first_part(&world, ALL);
-    SymbolEmission seen = symbol_emission(&surface, &split, 1, vec3(0, 0, 500));
+    SymbolLook     look = {&surface, &split, vec3(0, 0, 500), 2};
+    SymbolEmission seen = symbol_emission(&look, 1);
     double half = 0.5 * (easel_luminance(easel, 255) + easel_luminance(easel, 0));
     assert_close(seen.foreground_xyz[1], half, 1e-3);
     assert_close(split.foreground_cd_m2, half, 1e-5);
@@ -474,7 +476,8 @@ TEST(each_class_has_its_own_light)
     SymbolSplit split = split_halves(easel, &content);
     World       world = flat_world(easel);
     SymbolSurface  surface = first_part(&world, ALL);
-    SymbolEmission seen = symbol_emission(&surface, &split, 1, vec3(0, 0, 500));
+    SymbolLook     look = {&surface, &split, vec3(0, 0, 500), 2};
+    SymbolEmission seen = symbol_emission(&look, 1);
     assert_close(seen.foreground_xyz[1], split.foreground_cd_m2, 1e-3);
     assert_close(seen.background_xyz[1], split.background_cd_m2, 1e-3);
     assert_true(seen.foreground_xyz[1] > 2 * seen.background_xyz[1]);
@@ -506,7 +509,8 @@ TEST(a_mirrored_display_is_seen_from_its_front)
     SymbolSplit split = split_halves(easel, &content);
     float       xyz[3]; /* in the display's own frame the eye stands at the other side */
     panel_emission_xyz(easel->panel, vec3(-0.6f, 0, 0.8f), codes, xyz);
-    SymbolEmission seen = symbol_emission(&surface, &split, 1, vec3(180, 0, 240));
+    SymbolLook     look = {&surface, &split, vec3(180, 0, 240), 2};
+    SymbolEmission seen = symbol_emission(&look, 1);
     assert_close(seen.foreground_xyz[1], xyz[1], 1e-3);
     world_ready(&world, 1);
     assert_true(symbol_visibility(&surface, &world.context, EYE, NULL).visible_share == 1);

@@ -177,13 +177,25 @@ double stage_level_of(const Stage *stage, const ReviewLevel *level, int display_
     return own * review_brightness(stage->request, display);
 }
 
-static void set_levels(Stage *stage, const ReviewLevel *level)
+/* Returns whether any is another now. */
+static bool set_levels(Stage *stage, const ReviewLevel *level)
 {
+    bool any = false;
     for (int i = 0; i < stage->scene->display_count; i++) {
         Display *display = &stage->scene->displays[i];
+        float    before = display->level;
         display->level =
             (float)stage_level_of(stage, level, i, display->name, stage->sensor_lux);
+        any = any || display->level != before;
     }
+    return any;
+}
+
+/* Under the same sky. */
+static void light_again(Stage *stage, Arena *arena)
+{
+    const Lights *lights = lights_with_levels(stage->context.lights, arena);
+    stage->context = path_context_relight(&stage->context, lights, arena);
 }
 
 /* Fixed levels are known before the light is; those of a curve only from its sensor. */
@@ -195,8 +207,12 @@ bool stage_light(Stage *stage, const Environment *environment, Arena *arena, Err
         has_level ? &stage->request->levels[condition->level_id] : NULL;
     bool is_curve = level && level->is_curve;
     if (environment) stage->scene->environment = *environment;
-    if (is_curve && !stage_relight(stage, arena, err)) return false;
-    if (is_curve) read_sensor(stage, level, *arena);
+    if (is_curve) {
+        if (!stage_relight(stage, arena, err)) return false;
+        read_sensor(stage, level, *arena);
+        if (set_levels(stage, level)) light_again(stage, arena);
+        return true;
+    }
     if (level || stage->request->change) set_levels(stage, level);
     return stage_relight(stage, arena, err);
 }

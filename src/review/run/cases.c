@@ -303,8 +303,8 @@ static ProbeAim see_symbol(const CaseTools *tools, const CaseLook *look, ReviewC
     c->contrast_ratio = c->contrast_low = c->contrast_high = c->contrast_with_veil = c->jnd =
         c->visibility = c->dgp = c->ugr = (double)NAN;
     if (!(seen.visible_share > 0)) return (ProbeAim){.target_count = 0};
-    SymbolEmission emission =
-        symbol_emission(&symbol->surface, &symbol->split, c->level, eye);
+    SymbolLook shown = {&symbol->surface, &symbol->split, eye, stage->tools.threads};
+    SymbolEmission emission = symbol_emission(&shown, c->level);
     set_shown(l, &emission, seen.transmittance);
     ProbeAim aim = aim_at(stage, look, is_visible, arena);
     bool wants_veil = !look->is_bare || tools->profile->uses_veil;

@@ -62,8 +62,8 @@ static void aim_sight(Sweep *sweep, Sight *sight, Arena *arena)
     const SymbolSurface *surface = &sight->symbol->surface;
     bool *is_visible = ARENA_NEW(arena, bool, surface->point_count);
     sight->seen = symbol_visibility(surface, &stage->context, sight->from, is_visible);
-    SymbolEmission shown =
-        symbol_emission(surface, &sight->symbol->split, 1, sight->from);
+    SymbolLook look = {surface, &sight->symbol->split, sight->from, stage->tools.threads};
+    SymbolEmission shown = symbol_emission(&look, 1);
     sight->shown.foreground = shown.foreground_xyz[1] * sight->seen.transmittance;
     sight->shown.background = shown.background_xyz[1] * sight->seen.transmittance;
     sight->height_arcmin = symbol_height_arcmin(surface, sight->symbol->split.box, sight->from);

@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "base/mathd.h"
+#include "base/parallel.h"
 #include "base/units.h"
 #include "light/emission.h"
 
@@ -206,31 +207,63 @@ static bool add_pixel(const SymbolSurface *surface, const ContentLight *light, s
     return true;
 }
 
-static void mean_of_class(const SymbolSurface *surface, const SymbolSplit *split,
-                          SymbolClass which, Vec3 eye, double xyz[3])
+#define EMISSION_PIECES 32
+
+/* Pixels of one class, in pieces, so that the sum is the same for any number of threads. */
+typedef struct ClassWork {
+    const SymbolSurface *surface;
+    const ContentLight  *light;
+    Vec3      eye;
+    uint32_t  pixels[MOST_PIXELS];
+    long      count;
+    double    sum[EMISSION_PIECES][3];
+    long      counted[EMISSION_PIECES];
+} ClassWork;
+
+static void add_piece(void *user, int piece, int worker)
 {
-    const ContentLight *light = &split->light;
-    size_t all = (size_t)light->width * (size_t)light->height;
+    (void)worker;
+    ClassWork *work = user;
+    long first = piece * work->count / EMISSION_PIECES;
+    long end = (piece + 1) * work->count / EMISSION_PIECES;
+    for (long i = first; i < end; i++)
+        work->counted[piece] += add_pixel(work->surface, work->light, work->pixels[i],
+                                          work->eye, work->sum[piece]);
+}
+
+static void list_pixels(const SymbolSplit *split, SymbolClass which, ClassWork *work)
+{
+    size_t all = (size_t)split->light.width * (size_t)split->light.height;
     long   of_class = which == SYMBOL_FOREGROUND ? split->foreground_count
                                                  : split->background_count;
     long   wanted = of_class < MOST_PIXELS ? of_class : MOST_PIXELS;
-    long   met = 0, asked = 0, counted = 0;
-    for (int k = 0; k < 3; k++) xyz[k] = 0;
+    long   met = 0;
     for (size_t i = 0; i < all; i++) {
         if (split->class_of[i] != which) continue;
-        if (met++ != (2 * asked + 1) * of_class / (2 * wanted)) continue;
-        asked++;
-        counted += add_pixel(surface, light, i, eye, xyz);
+        if (met++ != (2 * work->count + 1) * of_class / (2 * wanted)) continue;
+        work->pixels[work->count++] = (uint32_t)i;
+    }
+}
+
+static void mean_of_class(const SymbolLook *look, SymbolClass which, double xyz[3])
+{
+    ClassWork work = {.surface = look->surface, .light = &look->split->light, .eye = look->eye};
+    long      counted = 0;
+    list_pixels(look->split, which, &work);
+    parallel_for(look->threads, EMISSION_PIECES, add_piece, &work);
+    for (int k = 0; k < 3; k++) xyz[k] = 0;
+    for (int i = 0; i < EMISSION_PIECES; i++) {
+        counted += work.counted[i];
+        for (int k = 0; k < 3; k++) xyz[k] += work.sum[i][k];
     }
     for (int k = 0; k < 3; k++) xyz[k] /= (double)counted;
 }
 
-SymbolEmission symbol_emission(const SymbolSurface *surface, const SymbolSplit *split,
-                               double level, Vec3 eye)
+SymbolEmission symbol_emission(const SymbolLook *look, double level)
 {
     SymbolEmission out;
-    mean_of_class(surface, split, SYMBOL_FOREGROUND, eye, out.foreground_xyz);
-    mean_of_class(surface, split, SYMBOL_BACKGROUND, eye, out.background_xyz);
+    mean_of_class(look, SYMBOL_FOREGROUND, out.foreground_xyz);
+    mean_of_class(look, SYMBOL_BACKGROUND, out.background_xyz);
     for (int k = 0; k < 3; k++) {
         out.foreground_xyz[k] *= level;
         out.background_xyz[k] *= level;

@@ -2,7 +2,7 @@
 /* symbol_sight.h -- a symbol as an eye sees it: how large, how much of it, how bright.
  *
  * Frames   metres, world.  Units  arc minutes, cd m^-2.
- * Threads  pure functions.
+ * Threads  pure functions; symbol_emission starts its own.
  */
 #pragma once
 #include "path/path_context.h"
@@ -48,7 +48,14 @@ typedef struct SymbolEmission {
     double foreground_xyz[3], background_xyz[3];
 } SymbolEmission;
 
+/* Who looks at what, with how many threads. */
+typedef struct SymbolLook {
+    const SymbolSurface *surface;
+    const SymbolSplit   *split;
+    Vec3                 eye;
+    int                  threads;
+} SymbolLook;
+
 /* level: of the display; 1: as measured. Of more than 20,000 pixels of a class so many, evenly
- * chosen, stand for all. */
-SymbolEmission symbol_emission(const SymbolSurface *surface, const SymbolSplit *split,
-                               double level, Vec3 eye);
+ * chosen, stand for all. The same for any number of threads. */
+SymbolEmission symbol_emission(const SymbolLook *look, double level);
