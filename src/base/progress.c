@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #define BAR_CELLS 24
+#define FIRST_S 3 /* of the first line, at the latest */
 
 double monotonic_seconds(void)
 {
@@ -34,7 +35,8 @@ Progress progress_start(ProgressMode mode, const char *what, const char *unit, d
         mode = is_live ? PROGRESS_BAR : PROGRESS_PLAIN;
     double now = monotonic_seconds();
     return (Progress){.mode = mode, .what = what, .unit = unit, .total = total, .begun_s = now,
-                      .shown_s = now, .interval_s = intervals_s[mode],
+                      .shown_s = now - fmax(intervals_s[mode] - FIRST_S, 0),
+                      .interval_s = intervals_s[mode],
                       .has_colour = is_live && !(no_colour && *no_colour)};
 }
 
@@ -70,7 +72,8 @@ typedef struct ProgressState {
 static ProgressState state_of(const Progress *progress, double done, double now)
 {
     double elapsed = now - progress->begun_s;
-    double rate = elapsed > 0 ? (done - progress->first) / elapsed : 0;
+    double known_s = elapsed + progress->expected_s;
+    double rate = known_s > 0 ? (done - progress->first + progress->expected_s) / known_s : 0;
     double left = progress->total > done ? progress->total - done : 0;
     double share = progress->total > 0 ? fmin(1, done / progress->total) : 1;
     return (ProgressState){.fraction = share, .rate = rate, .elapsed_s = elapsed,
@@ -124,22 +127,49 @@ static void show(Progress *progress, double done, double now)
         show_text(progress, &f);
 }
 
+Progress progress_part(Progress *outer, double weight, double total)
+{
+    return (Progress){.mode = outer->mode, .total = total, .begun_s = monotonic_seconds(),
+                      .outer = outer, .outer_from = outer->done, .outer_weight = weight};
+}
+
+static void update_outer(const Progress *progress, double share)
+{
+    double weight = progress->outer_weight * fmin(fmax(share, 0), 1);
+    progress_update(progress->outer,
+                    fmax(progress->outer->done, progress->outer_from + weight));
+}
+
 void progress_update(Progress *progress, double done)
 {
+    progress->done = done;
     if (progress->mode == PROGRESS_NONE) return;
+    if (progress->outer) {
+        update_outer(progress, progress->total > 0 ? done / progress->total : 0);
+        return;
+    }
     double now = monotonic_seconds();
     if (now - progress->shown_s >= progress->interval_s) show(progress, done, now);
 }
 
 void progress_end(Progress *progress, double done)
 {
+    progress->done = done;
     if (progress->mode == PROGRESS_NONE) return;
+    if (progress->outer) {
+        update_outer(progress, 1);
+        return;
+    }
     show(progress, done, monotonic_seconds());
     if (progress->mode == PROGRESS_BAR) fprintf(stderr, "\n");
 }
 
 void progress_clear(const Progress *progress)
 {
+    if (progress->outer) {
+        progress_clear(progress->outer);
+        return;
+    }
     if (progress->mode == PROGRESS_BAR)
         fprintf(stderr, "\r%*s\r", progress->shown_columns, "");
 }

@@ -17,20 +17,29 @@ typedef enum ProgressMode {
     PROGRESS_BAR, PROGRESS_PLAIN, PROGRESS_JSON, PROGRESS_NONE
 } ProgressMode;
 
-typedef struct Progress {
+typedef struct Progress Progress;
+struct Progress {
     ProgressMode mode;   /* never PROGRESS_AUTO once started */
     const char  *what;   /* "render": a verb or a file's name */
     const char  *unit;   /* what is counted, for the rate: "samples" */
     double       total;  /* how much there is to do; may be changed between updates */
+    double       done;   /* as the last update said */
     double       first;  /* done before it began: counts for the share, not for the rate */
+    double       expected_s; /* so long the rate is thought to be 1 a second before much is
+                                known of it; 0: nothing is thought */
     double       begun_s, shown_s; /* seconds of the monotonic clock */
     double       interval_s;       /* wanted between two lines */
     bool         has_colour;
     int          shown_columns;    /* of the bar's longest line so far */
-} Progress;
+    Progress    *outer;            /* this is a part of that; or NULL */
+    double       outer_from, outer_weight;
+};
 
 /* what and unit must outlive the Progress. */
 Progress progress_start(ProgressMode mode, const char *what, const char *unit, double total);
+
+/* A part of an outer one, where all of it counts `weight`. Nothing is shown of itself. */
+Progress progress_part(Progress *outer, double weight, double total);
 
 /* Shows how much is done when the last line is old enough; cheap otherwise. */
 void progress_update(Progress *progress, double done);

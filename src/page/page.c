@@ -18,6 +18,8 @@ void page_begin(Text *page, const PageHead *head)
                 "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
                 "<meta name=\"generator\" content=\"Parhelion %s\">\n",
                 head->is_dark ? " class=\"dark\"" : "", PARHELION_VERSION);
+    if (head->renewed_s)
+        text_format(page, "<meta http-equiv=\"refresh\" content=\"%d\">\n", head->renewed_s);
     page_element(page, "title", head->title);
     text_format(page, "<style>\n%s%s</style></head>\n<body><main>\n", PAGE_STYLE, head->style);
 }

@@ -18,6 +18,7 @@ typedef struct PageHead {
     const char *title;   /* of the window */
     const char *style;   /* the report's own CSS */
     bool        is_dark; /* whatever the reader has */
+    int         renewed_s; /* the file is written anew: it is asked for after so long; 0: not */
 } PageHead;
 
 void page_begin(Text *page, const PageHead *head);

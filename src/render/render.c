@@ -218,9 +218,10 @@ static void render_film(const RenderSetup *setup, const RenderOptions *options, 
                         .lights = options->layers & LAYER_LIGHT ? options->lights : NULL,
                         .seed = options->seed};
     run.counts = ARENA_NEW(arena, WorkerCounts, options->threads);
-    run.progress = progress_start(options->progress, "render", "samples",
-                                  pixels *
-                                      (double)(options->end_sample - options->first_sample));
+    double most = pixels * (double)(options->end_sample - options->first_sample);
+    run.progress = options->within
+                       ? progress_part(options->within, options->within_weight, most)
+                       : progress_start(options->progress, "render", "samples", most);
     run.progress.first = pixels * (double)result->samples;
     run.checkpoint_s = run.progress.begun_s;
     signals_watch();

@@ -369,7 +369,7 @@ bool equip_page_write(const Scene *scene, const char *model, const char *command
     Arena   own = arena_reserve((size_t)64 << 30);
     Text    page = {.arena = &own};
     page_begin(&page, &(PageHead){arena_format(arena, "%s: equip", path_name(model)),
-                                  EQUIP_STYLE, false});
+                                  EQUIP_STYLE, false, 0});
     text_add(&page, EQUIP_BODY);
     add_data(&page, data);
     bool ok = true;

@@ -14,6 +14,7 @@
 #include "cli/review/review_part.h"
 #include "cli/review/review_share.h"
 #include "render/signals.h"
+#include "review/keep/work.h"
 #include "review/output/review_decide.h"
 #include "review/output/review_gaze.h"
 #include "review/output/review_json.h"
@@ -27,6 +28,9 @@
 #include "scene/load/scene_load.h"
 #include "text/interval_text.h"
 #include "text/nearest_word.h"
+#include "text/text.h"
+
+#define PACE_KNOWN_S 5 /* of a review's work, then as much as what was thought of it */
 
 typedef struct ReviewWords {
     ShareRequest share;
@@ -270,35 +274,112 @@ static void tell_kept(const ReviewFolder *folder, Error *err)
                  "%.900s — what is done is kept: the same command goes on", before.text);
 }
 
-/* What if, each told as soon as it is known. */
-static bool make_varied(ReviewRun *run, ReviewFolder *folder, ReviewOutcome *outcome,
-                        Arena *arena, Error *err)
+/* ---- what is known so far ---------------------------------------------------------------- */
+
+#define SO_FAR_S 55 /* from one such page to the next: the first stands after a minute */
+
+typedef struct SoFar {
+    const ReviewFolder *folder;
+    const Arena        *arena; /* what is behind its end is scratch */
+    double              shown_s;
+} SoFar;
+
+static bool write_so_far(void *user, const ReviewOutcome *outcome, int done, Error *err)
 {
-    const ReviewRequest *request = run->request;
-    return (request->variant_count == 0 ||
-            (review_variants(run, outcome, arena, err) &&
-             review_folder_write(folder, outcome, arena, err))) &&
-           (request->parameter_count == 0 || folder->is_alone ||
-            (review_sensitivities(run, outcome, arena, err) &&
-             review_folder_write(folder, outcome, arena, err))) &&
-           (!folder->mend || (review_mend(run, folder->mend, outcome, arena, err) &&
-                              review_folder_write(folder, outcome, arena, err)));
+    SoFar               *so_far = user;
+    const ReviewRequest *request = so_far->folder->request;
+    Arena                scratch = *so_far->arena;
+    double               now = monotonic_seconds();
+    if (now - so_far->shown_s < SO_FAR_S || done == request->condition_count) return true;
+    so_far->shown_s = now;
+    const char *to_come = arena_format(&scratch, "%d of %d conditions are reviewed", done,
+                                       request->condition_count);
+    return review_folder_write_so_far(so_far->folder, outcome, to_come, scratch, err);
 }
 
-/* Frames take long: all else is safe before, and names them after. */
+/* ---- all of it --------------------------------------------------------------------------- */
+
+/* What follows when all conditions are reviewed, in turn. */
+typedef struct Later {
+    bool (*make)(const ReviewRun *run, const ReviewFolder *folder, ReviewOutcome *outcome,
+                 Arena *arena, Error *err);
+    const char *what;
+    bool        is_wanted;
+} Later;
+
+static bool make_variants(const ReviewRun *run, const ReviewFolder *folder,
+                          ReviewOutcome *outcome, Arena *arena, Error *err)
+{
+    (void)folder;
+    return review_variants(run, outcome, arena, err);
+}
+
+static bool make_sensitivities(const ReviewRun *run, const ReviewFolder *folder,
+                               ReviewOutcome *outcome, Arena *arena, Error *err)
+{
+    (void)folder;
+    return review_sensitivities(run, outcome, arena, err);
+}
+
+static bool make_mend(const ReviewRun *run, const ReviewFolder *folder, ReviewOutcome *outcome,
+                      Arena *arena, Error *err)
+{
+    return review_mend(run, folder->mend, outcome, arena, err);
+}
+
+static bool make_frames(const ReviewRun *run, const ReviewFolder *folder,
+                        ReviewOutcome *outcome, Arena *arena, Error *err)
+{
+    (void)folder;
+    return review_frames(run, outcome, arena, err);
+}
+
+/* NULL: nothing. */
+static const char *still_to_come(const Later *later, int first, int count, Arena *arena)
+{
+    Text words = {.arena = arena};
+    bool any = false;
+    text_add(&words, "every verdict is there; to come: ");
+    for (int i = first; i < count; i++) {
+        if (!later[i].is_wanted) continue;
+        text_format(&words, "%s%s", any ? ", " : "", later[i].what);
+        any = true;
+    }
+    return any ? words.data : NULL;
+}
+
+/* Each is told as soon as it is known. Frames take long: all else is safe before, and names
+ * them after. */
+static bool make_later(const ReviewRun *run, ReviewFolder *folder, ReviewOutcome *outcome,
+                       Arena *arena, Error *err)
+{
+    const ReviewRequest *request = run->request;
+    const Later later[] = {
+        {make_variants, "variants", request->variant_count > 0},
+        {make_sensitivities, "sensitivity", request->parameter_count > 0 && !folder->is_alone},
+        {make_mend, "what mends it", folder->mend != NULL},
+        {make_frames, "pictures", request->frames.worst > 0}};
+    for (int i = -1; i < COUNT_OF(later); i++) {
+        if (i >= 0 && !later[i].is_wanted) continue;
+        if (i >= 0 && !later[i].make(run, folder, outcome, arena, err)) return false;
+        outcome->review.to_come = still_to_come(later, i + 1, COUNT_OF(later), arena);
+        if (!review_folder_write(folder, outcome, arena, err)) return false;
+    }
+    return true;
+}
+
 static bool make_all(ReviewRun *run, ReviewFolder *folder, ReviewOutcome *outcome, Arena *arena,
                      Error *err)
 {
+    SoFar so_far = {folder, arena, monotonic_seconds()};
+    run->news = (ReviewNews){write_so_far, &so_far};
     bool is_run = review_run(run, arena, outcome, err);
+    progress_clear(run->work);
     cli_print_warnings(run->problems);
     if (!is_run) return false;
     outcome->review.is_strict = folder->is_strict;
     review_decide(&outcome->review);
-    return review_folder_write(folder, outcome, arena, err) &&
-           make_varied(run, folder, outcome, arena, err) &&
-           (run->request->frames.worst == 0 ||
-            (review_frames(run, outcome, arena, err) &&
-             review_folder_write(folder, outcome, arena, err)));
+    return make_later(run, folder, outcome, arena, err);
 }
 
 /* Of a job that is merged: what its parts found. */
@@ -331,6 +412,7 @@ static bool make(const ReviewWords *words, ReviewFolder *folder, ReviewRun *run,
         review_folder_close(folder);
         return false;
     }
+    progress_end(run->work, run->work->total);
     review_folder_finish(folder);
     if (!answer(&words->cli, &outcome.review, *arena, err)) return false;
     if (outcome.review.pass) return true;
@@ -401,10 +483,13 @@ static bool review(const ReviewWords *words, Arena *arena, Error *err)
     }
     if (words->summary && !check_symbol(&request, words->summary, *arena, err)) return false;
     if (!review_check(&request, *arena, err)) return false;
+    Progress work = progress_start(words->cli.progress, "review", "steps",
+                                   work_of_review(&request, folder.mend != NULL));
+    work.expected_s = PACE_KNOWN_S;
     ReviewRun run = {.request = &request, .profile = profile, .root = words->root,
                      .state = words->state,
                      .threads = words->cli.threads, .isa = words->isa,
-                     .progress = words->cli.progress, .problems = &problems};
+                     .problems = &problems, .work = &work};
     if (words->pin) {
         run.identity = words->pin->identity;
         run.lessons = words->pin->responses;

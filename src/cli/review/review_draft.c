@@ -177,8 +177,9 @@ static bool is_among(const DraftFiles *files, const char *name)
 static void remove_earlier(const ReviewDraft *draft, const Review *review,
                            const DraftFiles *published)
 {
-    static const char *const seldom[] = {"diff.json", "false_suns.csv", "gazes.csv", "live.js",
-                                         REVIEW_PAGE_BESIDE};
+    static const char *const seldom[] = {"diff.json", "false_suns.csv", "gazes.csv",
+                                         "cases.csv", "junit.xml",      "run.json",
+                                         "live.js",   REVIEW_PAGE_BESIDE};
     Arena       scratch = *published->arena;
     DraftFiles  files = {.arena = &scratch};
     Review      earlier;

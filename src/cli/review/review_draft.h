@@ -6,7 +6,8 @@
  *     DIR/unfinished/HASH.checkpoint of the frame in hand
  *     DIR/unfinished/new/            files as they will stand in DIR
  *
- * So what stands in DIR is always of one review: the earlier one until the new one is whole.
+ * So what stands in DIR is always of one review: the earlier one until the new one is whole, or
+ * has worked for a minute and shows what it knows so far, marked as such.
  * The files then move one by one, within milliseconds, review.json last; a kill in between is
  * mended by the same command.
  *

@@ -358,3 +358,19 @@ bool review_folder_write(const ReviewFolder *folder, ReviewOutcome *outcome, Are
            write_page(folder, outcome, arena, err) && write_run(folder, outcome, arena, err) &&
            review_draft_publish(&folder->draft, review, *arena, err);
 }
+
+bool review_folder_write_so_far(const ReviewFolder *folder, const ReviewOutcome *so_far,
+                                const char *to_come, Arena scratch, Error *err)
+{
+    ReviewOutcome known = *so_far;
+    Review       *review = &known.review;
+    review->to_come = to_come;
+    review->is_partial = true;
+    review->is_strict = folder->is_strict;
+    review_decide(review);
+    return write_tables(folder, &known, &scratch, err) &&
+           review_json_write(review_json(review),
+                             arena_format(&scratch, "%s/review.json", folder->name), err) &&
+           write_page(folder, &known, &scratch, err) &&
+           review_draft_publish(&folder->draft, review, scratch, err);
+}

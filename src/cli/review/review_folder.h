@@ -55,6 +55,11 @@ void review_folder_finish(ReviewFolder *folder);
 /* The command that makes it. */
 const char *review_folder_command(const ReviewFolder *folder, Arena *arena);
 
+/* The same of what is known so far: page, review.json and tables, marked as such, so that
+ * nobody takes them for the whole. to_come: for people. */
+bool review_folder_write_so_far(const ReviewFolder *folder, const ReviewOutcome *so_far,
+                                const char *to_come, Arena scratch, Error *err);
+
 /* All files take the places of an earlier review's. Sets the tables' names in the sweeps. */
 bool review_folder_write(const ReviewFolder *folder, ReviewOutcome *outcome, Arena *arena,
                          Error *err);

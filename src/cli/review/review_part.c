@@ -11,6 +11,7 @@
 #include "cli/options/answer.h"
 #include "cli/review/review_draft.h"
 #include "render/signals.h"
+#include "review/keep/work.h"
 #include "review/run/run.h"
 
 void review_take_answers(Journal *journal, const ReviewPin *pin, Arena scratch)
@@ -72,7 +73,9 @@ bool review_part(ReviewRun *run, const ReviewPin *pin, const char *responses, Ar
     if (!folder_make(run->responses, err) || !folder_make(run->lessons, err) ||
         !journal_open(pin->answers, arena, run->problems, &run->journal, err))
         return false;
+    run->work->total = work_of_conditions(run->request, false) / run->share.count;
     bool ok = answer(run, pin, arena, err);
+    if (ok) progress_end(run->work, run->work->total);
     journal_close(run->journal);
     if (!ok && err->code > 128) tell_stopped(pin, err);
     return ok;

@@ -214,7 +214,7 @@ static void add_keys(Text *html, const PlotData *s, Arena *arena)
 static void add_head(Text *html, const PlotData *s, bool is_dark)
 {
     const char *note = json_string_value(json_object_get(s->source.report, "note"));
-    page_begin(html, &(PageHead){s->name, PANEL_STYLE, is_dark});
+    page_begin(html, &(PageHead){s->name, PANEL_STYLE, is_dark, 0});
     page_element(html, "h1", s->name);
     text_add(html, "<p class=\"sub\">");
     escape_markup(html, s->file_name);

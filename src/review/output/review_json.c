@@ -360,10 +360,13 @@ static json_t *mends_json(const Review *review)
 
 json_t *review_json(const Review *review)
 {
-    json_t *out = json_pack("{s:b, s:s, s:b, s:o, s:o}", "pass", review->pass, "verdict",
-                            verdict_names[review_verdict(review)], "strict",
-                            review->is_strict, "title", text(review->title), "profile",
+    bool        is_open = review->is_partial && review->pass;
+    const char *verdict =
+        is_open ? "provisional" : verdict_names[review_verdict(review)];
+    json_t *out = json_pack("{s:b, s:s, s:b, s:o, s:o}", "pass", review->pass && !is_open,
+                            "verdict", verdict, "strict", review->is_strict, "title", text(review->title), "profile",
                             text(review->profile));
+    if (review->to_come) set(out, "to_come", text(review->to_come));
     set(out, "cases", cases_json(review));
     set(out, "sweeps", sweeps_json(review));
     set(out, "gazes", gazes_json(review));

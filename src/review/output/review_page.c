@@ -16,6 +16,7 @@
 #define PAGE_BYTES ((size_t)4 << 30) /* of address space, for the text */
 #define WORDS_BYTES ((size_t)1 << 30)
 #define OPEN_SWEEPS 1
+#define RENEWED_S 15 /* a page to which something is to come */
 #define SUMMARY_ROWS 8 /* of verdicts, so that it fits on one page of paper */
 
 /* review.css and review.js beside this file; the build embeds them. */
@@ -36,7 +37,11 @@ static bool add_head(Text *html, const ReviewPage *page, Arena *arena, Error *er
     const Review *review = page->review;
     const char   *title = review->title && review->title[0] ? review->title : "Glare review";
     page_begin(html, &(PageHead){title, arena_format(arena, "%s%s", REVIEW_STYLE, LIVE_STYLE),
-                               page->is_dark});
+                               page->is_dark, review->to_come ? RENEWED_S : 0});
+    if (review->to_come)
+        page_element(html, "p class=\"provisional\" role=\"status\"",
+                     arena_format(arena, "Provisional: %s. This page renews itself until all "
+                                         "is there.", review->to_come));
     page_element(html, "p class=\"sub title\"",
                  arena_format(arena, "%s · limits: %s%s", title,
                               review->profile ? review->profile : "none",
@@ -378,7 +383,7 @@ static bool add_beside(Text *html, const ReviewPage *page, Arena *arena, Error *
     const Review *review = page->review;
     const char   *title = review->title && review->title[0] ? review->title : "Glare review";
     page_begin(html, &(PageHead){title, arena_format(arena, "%s%s", REVIEW_STYLE, LIVE_STYLE),
-                               page->is_dark});
+                               page->is_dark, 0});
     page_element(html, "h1", arena_format(arena, "%s: all other cases", title));
     text_add(html, "<p class=\"sub\"><a href=\"index.html\">The answer, and the worst of "
              "them</a></p>\n");

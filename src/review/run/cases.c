@@ -11,6 +11,7 @@
 #include "render/train.h"
 #include "review/judge.h"
 #include "review/keep/go_on.h"
+#include "review/keep/work.h"
 #include "review/light/eye_reading.h"
 #include "review/light/question.h"
 #include "review/light/response.h"
@@ -491,6 +492,7 @@ bool stage_cases(const CaseTools *tools, Arena *arena, ReviewCase *out, Error *e
         CaseAsk ask = {&request->eyes[i / symbols], &tools->symbols[s], faces[s],
                        tools->base != NULL};
         if (!case_of(tools, &ask, arena, &out[i], err)) return false;
+        if (tools->work) work_add(tools->work, work_of_case(request, ask.eye, ask.is_bare));
     }
     return true;
 }

@@ -12,6 +12,7 @@
 #include "review/run/cases.h"
 #include "review/keep/frame_kept.h"
 #include "review/keep/go_on.h"
+#include "review/keep/work.h"
 #include "review/request/request_check.h"
 
 #define YFOV_DEG 35 /* of an eye that is no camera */
@@ -53,7 +54,8 @@ static RenderOptions options_of(const FrameAsk *ask)
         .noise = frames->noise, .max_bounces = STAGE_BOUNCES,
         .noise_area = {{0, 0, frames->width, frames->height}, FILM_ALL_PIXELS},
         .layers = LAYER_VARIANCE | LAYER_ID | LAYER_DISPLAYS,
-        .threads = ask->stage->tools.threads, .progress = ask->progress};
+        .threads = ask->stage->tools.threads, .within = ask->work,
+        .within_weight = work_of_frame(ask->stage->request)};
 }
 
 /* As frames of a render say it, where it is known here. */
@@ -168,6 +170,7 @@ bool frame_make(const FrameAsk *ask, Arena *arena, const char **out, Error *err)
     const char   *name = arena_format(arena, "frames/%s.png", ask->name);
     const char   *exr = exr_of(ask, arena);
     Arena         scratch = *arena;
+    double        begun_s = monotonic_seconds(), from = ask->work->done;
     if (!frame_camera(ask, &camera, scratch, err)) return false;
     FrameKept kept = {.journal = ask->stage->tools.journal, .unfinished = ask->unfinished,
                       .identity = identity_of(ask, &camera, &options, &scratch),
@@ -179,6 +182,8 @@ bool frame_make(const FrameAsk *ask, Arena *arena, const char **out, Error *err)
         (!render(ask, &kept, &camera, &options, &result, err) ||
          !write_frame(ask, &camera, &result, scratch, err) || !frame_kept_end(&kept, err)))
         return false;
+    progress_update(ask->work, from + options.within_weight);
+    work_done(ask->work, options.within_weight, begun_s);
     *out = name;
     return true;
 }

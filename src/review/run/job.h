@@ -15,6 +15,15 @@
 #include "review/suns/sweep_suns.h"
 #include "review/verdict.h"
 
+typedef struct ReviewOutcome ReviewOutcome;
+
+/* Whoever wants to know what is known so far: after each condition, with how many are done. It
+ * must change nothing. NULL: nobody. Fails: what it says ends the review. */
+typedef struct ReviewNews {
+    bool (*told)(void *user, const ReviewOutcome *so_far, int done, Error *err);
+    void  *user;
+} ReviewNews;
+
 typedef struct ReviewRun {
     const ReviewRequest *request;
     const Profile       *profile;
@@ -22,7 +31,7 @@ typedef struct ReviewRun {
     SceneState           state;    /* scene.h's */
     int                  threads;
     const char          *isa;      /* kernel.h's; NULL: the best */
-    ProgressMode         progress;
+    Progress            *work;     /* keep/work.h: of all that is left, or of a part in hand */
     const char          *folder;   /* of the frames, which is there; */
     const char          *unfinished; /* of checkpoints, */
     const char          *responses;  /* and of responses: as it is opened (plan: NULL: none), */
@@ -31,6 +40,7 @@ typedef struct ReviewRun {
     const char          *lessons;  /* folder of what was learnt before; NULL: none is kept */
     ReviewShare          share;    /* of its questions: the others' are left alone */
     const char          *identity; /* review_plan's, of what was planned; NULL: anything */
+    ReviewNews           news;
     Problems            *problems; /* warnings of scenes, once each */
     SunSearches         *sun_searches; /* review_run's own */
     const Review        *base;     /* this is a variant of that, which is whole: verdicts alone
@@ -52,9 +62,9 @@ typedef struct SweepTable {
 } SweepTable;
 
 /* The review, and what its sweeps found of every sun. */
-typedef struct ReviewOutcome {
+struct ReviewOutcome {
     Review      review;
     SweepTable *tables;
     int         table_count;
     int         responses_kept; /* of its responses: those that were not traced */
-} ReviewOutcome;
+};

@@ -8,6 +8,7 @@
 #include "review/run/frames.h"
 #include "review/run/gazes.h"
 #include "review/keep/go_on.h"
+#include "review/keep/work.h"
 #include "review/run/sights.h"
 #include "review/output/review_decide.h"
 #include "review/request/request_check.h"
@@ -59,12 +60,22 @@ static MomentShare share_of(const ReviewRun *run, const ReviewCondition *conditi
     return share;
 }
 
+/* Now that all symbols are found. */
+static double work_of_moment(const ReviewRun *run, int symbols)
+{
+    const ReviewRequest *request = run->request;
+    double work = WORK_STAGE;
+    for (int e = 0; e < request->eye_count; e++)
+        work += symbols * work_of_case(request, &request->eyes[e], run->base != NULL);
+    return run->base ? work : work + WORK_LOOK * review_look_count(request);
+}
+
 static bool run_moment(const ReviewRun *run, Stage *stage, Arena *scratch, Arena *arena,
                        ReviewOutcome *out, Error *err)
 {
     const ReviewCondition *condition = stage->condition;
     Review   *review = &out->review;
-    CaseTools tools = {.stage = stage, .profile = run->profile,
+    CaseTools tools = {.stage = stage, .profile = run->profile, .work = run->work,
                        .share = share_of(run, condition), .base = run->base};
     StageSymbol *symbols;
     const Environment *sky = condition->has_environment ? &condition->environment : NULL;
@@ -73,6 +84,8 @@ static bool run_moment(const ReviewRun *run, Stage *stage, Arena *scratch, Arena
         !stage_learn(stage, symbols, tools.symbol_count, scratch, err))
         return false;
     tools.symbols = symbols;
+    run->work->total = work_of_moment(run, tools.symbol_count);
+    work_add(run->work, WORK_STAGE - WORK_OPENED);
     ReviewCase *cases = review->cases + review->case_count;
     if (!stage_cases(&tools, arena, cases, err)) return false;
     int count = tools.symbol_count * run->request->eye_count;
@@ -171,6 +184,7 @@ static bool run_condition(const ReviewRun *run, const ReviewCondition *condition
     Stage stage;
     bool  ok = stage_open(&options, &scratch, run->problems, &stage, err);
     if (ok) {
+        work_add(run->work, WORK_OPENED);
         tell_without_data(stage.scene, &out->review, scratch, arena);
         ok = (review_request_check(run->request, stage.scene, run->problems) ||
               problems_verdict(run->problems, err)) &&
@@ -183,12 +197,37 @@ static bool run_condition(const ReviewRun *run, const ReviewCondition *condition
     return ok;
 }
 
+static double work_of(const ReviewRun *run, const ReviewCondition *condition,
+                      const SweepGroup *group)
+{
+    bool   is_bare = run->base != NULL;
+    double work = 0;
+    for (int i = 0; i < group->count; i++)
+        work += work_of_condition(run->request, group->conditions[i], is_bare);
+    if (!group->count) work = work_of_condition(run->request, condition, is_bare);
+    return run->share.count ? work / run->share.count : work;
+}
+
+/* group: empty: a moment. */
+static bool run_watched(const ReviewRun *run, const ReviewCondition *condition,
+                        const SweepGroup *group, Arena *arena, ReviewOutcome *out, Error *err)
+{
+    double    weight = work_of(run, condition, group);
+    Progress  part = progress_part(run->work, weight, weight);
+    ReviewRun own = *run;
+    own.work = &part;
+    if (!run_condition(&own, condition, group->count ? group : NULL, arena, out, err))
+        return false;
+    progress_end(&part, part.total);
+    work_done(run->work, weight, part.begun_s);
+    return true;
+}
+
 static bool run_conditions(const ReviewRun *run, Arena *arena, ReviewOutcome *out, Error *err)
 {
     const ReviewRequest *request = run->request;
-    Progress progress = progress_start(run->progress, "review", "conditions",
-                                       request->condition_count);
     bool    *is_done = ARENA_NEW(arena, bool, request->condition_count);
+    int      done = 0;
     for (int i = 0; i < request->condition_count; i++) {
         const ReviewCondition *condition = &request->conditions[i];
         SweepGroup group = {NULL, 0};
@@ -198,11 +237,10 @@ static bool run_conditions(const ReviewRun *run, Arena *arena, ReviewOutcome *ou
         MomentShare share = share_of(run, condition);
         if (is_moment && !moment_share_has_any(&share)) continue;
         if (!is_moment) group = group_of(request, i, is_done, arena);
-        if (!run_condition(run, condition, is_moment ? NULL : &group, arena, out, err))
-            return false;
-        progress_update(&progress, i + 1);
+        if (!run_watched(run, condition, &group, arena, out, err)) return false;
+        done += is_moment ? 1 : group.count;
+        if (run->news.told && !run->news.told(run->news.user, out, done, err)) return false;
     }
-    progress_end(&progress, request->condition_count);
     return true;
 }
 
@@ -402,7 +440,7 @@ static bool make_frame(const ReviewRun *run, const Candidate *of, int number, Ar
         FrameAsk ask = {&stage, eye_named(run->request, of->of->eye),
                         vec3(0, 0, 0), run->folder, run->unfinished,
                         file_name_of(arena_format(arena, "%d-%s-%s", number, of->of->condition,
-                                                  of->of->eye), arena), run->progress};
+                                                  of->of->eye), arena), run->work};
         bool has_sky = of->table || c->has_environment;
         ok = stage_light(&stage, has_sky ? &sky : NULL, &scratch, err) &&
              find_middle(&stage, of->of->symbol, scratch, &ask.look_at, err) &&

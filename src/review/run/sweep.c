@@ -10,6 +10,7 @@
 #include "review/suns/failures.h"
 #include "review/run/false_sun_times.h"
 #include "review/keep/go_on.h"
+#include "review/keep/work.h"
 #include "review/run/sweep_probes.h"
 #include "review/run/sweep_weather.h"
 
@@ -197,10 +198,12 @@ typedef struct SightTold {
 
 /* What a sweep does with each of its sights. */
 typedef struct Telling {
-    const Sweep     *sweep;
+    Sweep           *sweep;
     const FarTools  *tools;
     const SweepSuns *suns;   /* kept */
     SightTold       *sights; /* of those that have twins */
+    SweepTable      *tables; /* one a sight; those without suns are none */
+    int              first;  /* sweep of the review: that of the first sight */
     ReviewOutcome   *out;
     Arena           *arena;  /* of what is kept */
     Arena            scratch;
@@ -284,21 +287,18 @@ static void set_failures(const Telling *to, const Sight *sight, const Told *told
 static bool read_worst(Telling *to, const Sight *sight, const SweepSun *sun, bool picks,
                        ReviewCase *out, Error *err)
 {
-    const Sweep *sweep = to->sweep;
-    Arena        scratch = to->scratch;
-    Stage        stage = *sweep->stage;
-    Environment  environment = sweep_environment(sweep->stage, sun);
-    Environment  dark = stage.scene->environment;
-    ReviewRequest request = *stage.request;
+    Sweep        *sweep = to->sweep;
+    Environment   sky = sweep_environment(sweep->stage, sun);
+    Environment   dark = sweep->stage->scene->environment;
+    ReviewRequest request = *sweep->run->request;
     request.seed += picks ? PICK_SEED : 0;
+    if (!sweep_light_sun(sweep, sun, &sky, err)) return false;
+    Stage stage = sweep->lit.stage;
     stage.request = &request;
-    for (int i = 0; i < stage.scene->display_count; i++)
-        stage.scene->displays[i].level = (float)stage.scene_levels[i];
     CaseTools tools = {.stage = &stage, .profile = sweep->run->profile,
                        .symbols = sight->symbol, .symbol_count = 1,
                        .base = sweep->run->base};
-    bool ok = stage_light(&stage, &environment, &scratch, err) &&
-              stage_case(&tools, sight->symbol, sight->eye, to->arena, out, err);
+    bool ok = stage_case(&tools, sight->symbol, sight->eye, to->arena, out, err);
     stage.scene->environment = dark; /* as the next sight is asked */
     return ok;
 }
@@ -395,9 +395,10 @@ static bool find_worst(Telling *to, const Sight *sight, const Told *told, SweepS
 static void add_table(const Telling *to, const Sight *sight, const Told *told,
                       const SweepSun *worst)
 {
+    int id = (int)(sight - to->sweep->sights);
     if (to->sweep->run->base) return; /* of a variant no table is told */
-    to->out->tables[to->out->table_count++] = (SweepTable){
-        to->out->review.sweep_count, told->worst, *worst, to->suns, told->contrast, told->low,
+    to->tables[id] = (SweepTable){
+        to->first + id, told->worst, *worst, to->suns, told->contrast, told->low,
         told->high, told->margin, told->reflected, told->mirror, told->level, told->lux,
         told->verdict, told->ambient, sight->shown.foreground, sight->shown.background,
         limits_asked(to, sight)};
@@ -442,8 +443,37 @@ static bool tell_sight(Telling *to, const Sight *sight, Error *err)
         add_table(to, sight, &told, &worst);
     }
     if (!sight->has_twin) to->scratch = before;
-    review->sweeps[review->sweep_count++] = sweep;
+    review->sweeps[to->first + (int)(sight - to->sweep->sights)] = sweep;
     return true;
+}
+
+/* Of its suns and its worst. */
+static double work_of_sight(const SweepSuns *suns)
+{
+    return WORK_SUN * suns->count + WORK_WORST;
+}
+
+/* Symbol by symbol, so that what its eyes share is at hand. */
+static bool tell_sights(Telling *to, Error *err)
+{
+    const Sweep *sweep = to->sweep;
+    int          symbols = sweep->symbol_count;
+    for (int i = 0; i < sweep->sight_count; i++) {
+        int          eyes = sweep->sight_count / symbols;
+        const Sight *sight = &sweep->sights[i % eyes * symbols + i / eyes];
+        if (sight->is_left) continue;
+        if (!review_goes_on(sweep->run->journal, err) || !tell_sight(to, sight, err))
+            return false;
+        work_add(sweep->run->work, work_of_sight(&sweep->suns));
+    }
+    return true;
+}
+
+static void keep_tables(const Telling *to)
+{
+    ReviewOutcome *out = to->out;
+    for (int i = 0; i < to->sweep->sight_count; i++)
+        if (to->tables[i].suns) out->tables[out->table_count++] = to->tables[i];
 }
 
 /* ---- all of it --------------------------------------------------------------------------- */
@@ -492,6 +522,19 @@ bool sweep_check(const ReviewRequest *request, int condition_id, Arena scratch, 
            sweep_weather_check(request, condition, &suns, scratch, err);
 }
 
+static void plan_work(const Sweep *sweep, const SweepGroup *group, Arena scratch)
+{
+    double work = WORK_STAGE;
+    for (int i = 0; i < sweep->ask_count; i++)
+        work += responses_work(&sweep->asks[i], 2 * WORK_OWN);
+    for (int i = 0; i < group->count; i++) {
+        SweepSuns suns = sweep_suns(group->conditions[i], &scratch);
+        for (int k = 0; k < sweep->sight_count; k++)
+            work += sweep->sights[k].is_left ? 0 : WORK_SKIES + work_of_sight(&suns);
+    }
+    sweep->run->work->total = work;
+}
+
 static bool sweep_condition(Sweep *sweep, Arena scratch, Arena *arena, ReviewOutcome *out,
                             Error *err)
 {
@@ -504,29 +547,30 @@ static bool sweep_condition(Sweep *sweep, Arena scratch, Arena *arena, ReviewOut
         has_level && sweep->level->is_curve ? &sweep->sensors[condition->level_id] : NULL;
     if (!make_skies(sweep, &scratch, err)) return false;
     sweep_ask_light(sweep, &scratch);
+    work_add(sweep->run->work, WORK_SKIES * sweep->sight_count);
     FarTools   tools = sweep_tools(sweep);
     SweepSuns *suns = ARENA_NEW(arena, SweepSuns, 1);
-    SightTold *sights = ARENA_NEW(&scratch, SightTold, sweep->sight_count);
     *suns = sweep->suns;
-    Telling to = {sweep, &tools, suns, sights, out, arena, scratch};
+    Telling to = {.sweep = sweep, .tools = &tools, .suns = suns, .out = out, .arena = arena,
+                  .first = out->review.sweep_count,
+                  .sights = ARENA_NEW(&scratch, SightTold, sweep->sight_count),
+                  .tables = ARENA_NEW(&scratch, SweepTable, sweep->sight_count)};
+    to.scratch = scratch;
+    sweep->lit.is_lit = false;
     if (!sweep->run->share.count && !sweep->run->base)
         false_sun_times(sweep, scratch, arena, &out->review);
-    Progress progress = progress_start(sweep->run->progress, "verdicts", "sights",
-                                       sweep->sight_count);
-    for (int i = 0; i < sweep->sight_count; i++) {
-        if (sweep->sights[i].is_left) continue;
-        if (!review_goes_on(sweep->run->journal, err) ||
-            !tell_sight(&to, &sweep->sights[i], err))
-            return false;
-        progress_update(&progress, i + 1);
-    }
-    progress_end(&progress, sweep->sight_count);
+    if (!tell_sights(&to, err)) return false;
+    keep_tables(&to);
+    out->review.sweep_count += sweep->sight_count;
     return true;
 }
 
 static bool sweep_all(Sweep *sweep, const SweepGroup *group, Arena *scratch, Arena *arena,
                       ReviewOutcome *out, Error *err)
 {
+    if (!sweep_place_probes(sweep, scratch, err)) return false;
+    plan_work(sweep, group, *scratch);
+    work_add(sweep->run->work, WORK_STAGE - WORK_OPENED);
     if (!sweep_make_probes(sweep, scratch, err)) return false;
     tell_responses(sweep, arena, out);
     for (int i = 0; i < group->count; i++) {
@@ -542,9 +586,10 @@ static bool sweep_all(Sweep *sweep, const SweepGroup *group, Arena *scratch, Are
 bool run_sweeps(const ReviewRun *run, Stage *stage, const SweepGroup *group, Arena *arena,
                 ReviewOutcome *out, Error *err)
 {
-    Arena scratch = arena_reserve(SWEEP_BYTES);
-    Sweep sweep = {.run = run, .stage = stage};
+    Arena scratch = arena_reserve(SWEEP_BYTES), lit = arena_reserve(SWEEP_BYTES);
+    Sweep sweep = {.run = run, .stage = stage, .lit = {.fresh = lit}};
     bool  ok = sweep_all(&sweep, group, &scratch, arena, out, err);
+    arena_release(&lit);
     arena_release(&scratch);
     return ok;
 }

@@ -31,6 +31,39 @@ bool sweep_light_dark(Stage *stage, float level, Arena *arena, Error *err)
     return stage_relight(stage, arena, err);
 }
 
+static bool is_same_light(const SweepSun *a, const SweepSun *b)
+{
+    return a->elevation_deg == b->elevation_deg && a->compass_deg == b->compass_deg &&
+           a->heading_deg == b->heading_deg && a->step == b->step;
+}
+
+static bool light_afresh(Sweep *sweep, const SweepSun *sun, const Environment *sky, Error *err)
+{
+    SweepLit *lit = &sweep->lit;
+    Arena     arena = lit->fresh;
+    Scene    *scene = sweep->stage->scene;
+    lit->stage = *sweep->stage;
+    lit->sun = *sun;
+    for (int i = 0; i < scene->display_count; i++)
+        scene->displays[i].level = (float)lit->stage.scene_levels[i];
+    lit->is_lit = stage_light(&lit->stage, sky, &arena, err);
+    if (!lit->is_lit) return false;
+    lit->levels = ARENA_NEW(&arena, float, scene->display_count);
+    for (int i = 0; i < scene->display_count; i++) lit->levels[i] = scene->displays[i].level;
+    return true;
+}
+
+bool sweep_light_sun(Sweep *sweep, const SweepSun *sun, const Environment *sky, Error *err)
+{
+    SweepLit *lit = &sweep->lit;
+    Scene    *scene = sweep->stage->scene;
+    if (!lit->is_lit || !is_same_light(&lit->sun, sun))
+        return light_afresh(sweep, sun, sky, err);
+    scene->environment = *sky;
+    for (int i = 0; i < scene->display_count; i++) scene->displays[i].level = lit->levels[i];
+    return true;
+}
+
 /* ---- making them ------------------------------------------------------------------------- */
 
 static SweepMeter meter_at(Vec3 position, Vec3 normal)
@@ -317,10 +350,10 @@ bool sweep_place_probes(Sweep *sweep, Arena *arena, Error *err)
 bool sweep_make_probes(Sweep *sweep, Arena *arena, Error *err)
 {
     Stage *stage = sweep->stage;
-    if (!sweep_place_probes(sweep, arena, err)) return false;
-    return responses_read_own(stage, sweep->asks, sweep->ask_count, false, *arena, err) &&
+    const ReviewRun *run = sweep->run;
+    return responses_read_own(run, stage, sweep->asks, sweep->ask_count, false, err) &&
            sweep_light_dark(stage, 1, arena, err) &&
-           responses_read_own(stage, sweep->asks, sweep->ask_count, true, *arena, err) &&
-           responses_trace(sweep->run, stage, sweep->asks, sweep->ask_count, arena, err) &&
+           responses_read_own(run, stage, sweep->asks, sweep->ask_count, true, err) &&
+           responses_trace(run, stage, sweep->asks, sweep->ask_count, arena, err) &&
            find_suns(sweep, arena, err);
 }

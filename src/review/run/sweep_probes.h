@@ -34,6 +34,16 @@ typedef struct Sight {
     bool               is_left; /* as a meter */
 } Sight;
 
+/* The stage under the sun for which it was lit last: eyes that share a symbol often share its
+ * worst. */
+typedef struct SweepLit {
+    bool     is_lit;
+    SweepSun sun;
+    Stage    stage;
+    float   *levels; /* of the displays */
+    Arena    fresh;  /* for all that it is made of */
+} SweepLit;
+
 typedef struct Sweep {
     const ReviewRun   *run;
     Stage             *stage;
@@ -53,15 +63,20 @@ typedef struct Sweep {
     bool               has_hours; /* of a weather file: probes do not use the table */
     const ReviewLevel *level;   /* NULL: the scene's */
     SweepMeter        *sensor;  /* of the level; NULL: it is fixed */
+    SweepLit           lit;
 } Sweep;
 
 /* The scene without sky and sun, its displays at one level. */
 bool sweep_light_dark(Stage *stage, float level, Arena *arena, Error *err);
 
+/* The scene under one of the condition's suns, in its sky, with the levels that follow from it:
+ * sweep->lit. The environment stays in the scene. */
+bool sweep_light_sun(Sweep *sweep, const SweepSun *sun, const Environment *sky, Error *err);
+
 /* Probes of the scene, and those of their responses that are kept. */
 bool sweep_place_probes(Sweep *sweep, Arena *arena, Error *err);
 
-/* The same with all responses, in the dark but for the scene's own light. */
+/* Then all other responses, in the dark but for the scene's own light. */
 bool sweep_make_probes(Sweep *sweep, Arena *arena, Error *err);
 
 /* Everything for the skies of a condition, and the meters for its suns. */

@@ -10,9 +10,11 @@
 #include "review/light/question.h"
 #include "review/run/frames.h"
 #include "review/keep/go_on.h"
+#include "review/keep/work.h"
 
 #define OWN_PRECISION 0.02
 #define OWN_PATHS 8192
+#define OWN_BYTES ((size_t)1 << 30) /* address space: what is not touched costs nothing */
 
 /* ---- files ------------------------------------------------------------------------------- */
 
@@ -86,26 +88,35 @@ static double own_reading(const Stage *stage, const ProbeAim *aim, Arena scratch
     return reading_take(aim, &goal, &stage->tools, scratch).reflected;
 }
 
-bool responses_read_own(const Stage *stage, const ResponseAsk *asks, int count, bool displays,
-                        Arena scratch, Error *err)
+bool responses_read_own(const ReviewRun *run, const Stage *stage, const ResponseAsk *asks,
+                        int count, bool displays, Error *err)
 {
-    for (int i = 0; i < count; i++) {
+    Arena scratch = arena_reserve(OWN_BYTES);
+    bool  ok = true;
+    for (int i = 0; i < count && ok; i++) {
         if (asks[i].is_kept || asks[i].is_left) continue;
-        if (!review_goes_on(stage->tools.journal, err)) return false;
+        ok = review_goes_on(stage->tools.journal, err);
+        if (!ok) break;
         double own = own_reading(stage, &asks[i].probe->aim, scratch);
         if (displays) asks[i].own->displays = own - asks[i].own->lamps;
         else asks[i].own->lamps = own;
+        work_add(run->work, WORK_OWN);
     }
-    return true;
+    arena_release(&scratch);
+    return ok;
 }
 
 /* ---- tracing ----------------------------------------------------------------------------- */
+
+double responses_work(const ResponseAsk *ask, double own)
+{
+    return ask->is_kept || ask->is_left ? 0 : own + ask->paths * WORK_RESPONSE_PATH;
+}
 
 bool responses_trace(const ReviewRun *run, const Stage *stage, ResponseAsk *asks, int count,
                      Arena *arena, Error *err)
 {
     FarTools tools = {.stage = stage};
-    Progress progress = progress_start(run->progress, "responses", "probes", count);
     for (int i = 0; i < count; i++) {
         ResponseAsk *ask = &asks[i];
         if (ask->is_kept || ask->is_left) continue;
@@ -115,8 +126,7 @@ bool responses_trace(const ReviewRun *run, const Stage *stage, ResponseAsk *asks
         far_probe_respond(ask->probe, &tools, arena);
         if (!response_write(&ask->file, &ask->probe->response, ask->own, *arena, err))
             return false;
-        progress_update(&progress, i + 1);
+        work_add(run->work, responses_work(ask, 0));
     }
-    progress_end(&progress, count);
     return true;
 }

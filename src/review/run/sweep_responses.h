@@ -33,8 +33,12 @@ void responses_find(const ReviewRun *run, const Stage *stage, ResponseAsk *asks,
 
 /* The own light of those that were not there: the scene is dark but for its lamps, or for its
  * lamps and displays at level 1, which is asked after them. */
-bool responses_read_own(const Stage *stage, const ResponseAsk *asks, int count, bool displays,
-                        Arena scratch, Error *err);
+bool responses_read_own(const ReviewRun *run, const Stage *stage, const ResponseAsk *asks,
+                        int count, bool displays, Error *err);
+
+/* How long it will take (keep/work.h), with so much for its own light; 0: it is not to be
+ * traced. */
+double responses_work(const ResponseAsk *ask, double own);
 
 /* Traces and keeps the rest. */
 bool responses_trace(const ReviewRun *run, const Stage *stage, ResponseAsk *asks, int count,

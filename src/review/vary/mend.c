@@ -3,6 +3,7 @@
 
 #include <math.h>
 
+#include "review/keep/work.h"
 #include "review/output/review_decide.h"
 #include "review/output/review_words.h"
 #include "review/request/request_parameters.h"
@@ -19,7 +20,7 @@ typedef struct Mending {
     const ReviewParameter *parameter;
     const Review          *base;
     Arena                 *arena;
-    double                 scale;
+    double                 scale, work; /* of a trial (keep/work.h) */
     ReviewMend             out;
 } Mending;
 
@@ -46,6 +47,7 @@ static bool try_value(Mending *m, double value, int fresh, bool *passes, Error *
     request.seed += (uint32_t)fresh * FRESH_SEED;
     request.is_compared = fresh == 0;
     run.request = &request;
+    if (run.work->done + m->work > run.work->total) run.work->total += m->work;
     if (!review_variant(&run, &variant, m->base, m->arena, &found, err)) return false;
     note(m, value, found.review, fresh > 0);
     *passes = review_verdict(found.review) == VERDICT_PASS;
@@ -168,13 +170,19 @@ static bool search(Mending *m, Error *err)
 bool review_mend(const ReviewRun *run, const ReviewParameter *parameter,
                  ReviewOutcome *outcome, Arena *arena, Error *err)
 {
-    Review *review = &outcome->review;
-    Mending m = {.run = run, .parameter = parameter, .base = review, .arena = arena};
+    Review  *review = &outcome->review;
+    double   work = work_of_conditions(run->request, true);
+    Progress part = progress_part(run->work, WORK_TRIALS * work, WORK_TRIALS * work);
+    ReviewRun own = *run;
+    own.work = &part;
+    Mending m = {.run = &own, .parameter = parameter, .base = review, .arena = arena,
+                 .work = work};
     m.out = (ReviewMend){.name = parameter->name,
                          .unit = review_parameter_unit(parameter, &m.scale),
                          .trials = ARENA_NEW(arena, ReviewTrial, TRIALS_MOST)};
     m.out.at = m.scale * parameter->at;
     if (!search(&m, err)) return false;
+    progress_end(&part, part.total);
     ReviewMend *list = ARENA_NEW(arena, ReviewMend, review->mend_count + 1);
     for (int i = 0; i < review->mend_count; i++) list[i] = review->mends[i];
     list[review->mend_count++] = m.out;

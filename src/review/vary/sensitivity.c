@@ -91,15 +91,11 @@ bool review_sensitivities(const ReviewRun *run, ReviewOutcome *outcome, Arena *a
 {
     const ReviewRequest *request = run->request;
     Review   *review = &outcome->review;
-    Progress  progress = progress_start(run->progress, "sensitivity", "parameters",
-                                        request->parameter_count);
     ReviewSensitivity *list = ARENA_NEW(arena, ReviewSensitivity, request->parameter_count);
     for (int i = 0; i < request->parameter_count; i++) {
         if (!find_slopes(run, &request->parameters[i], review, arena, &list[i], err))
             return false;
-        progress_update(&progress, i + 1);
     }
-    progress_end(&progress, request->parameter_count);
     review->sensitivities = list;
     review->sensitivity_count = request->parameter_count;
     return true;

@@ -156,6 +156,7 @@ bool review_variant(const ReviewRun *run, const ReviewVariant *variant, const Re
     own.request = request;
     own.base = base;
     own.identity = NULL;
+    own.news = (ReviewNews){NULL, NULL};
     own.share = (ReviewShare){0};
     if (!review_run(&own, arena, outcome, err))
         return err->code > 128 ? false : error_prefix(err, "variant '%.100s'", variant->name);
@@ -172,15 +173,11 @@ bool review_variants(const ReviewRun *run, ReviewOutcome *outcome, Arena *arena,
 {
     const ReviewRequest *request = run->request;
     Review   *review = &outcome->review;
-    Progress  progress = progress_start(run->progress, "variants", "variants",
-                                        request->variant_count);
     ReviewVariantFound *list = ARENA_NEW(arena, ReviewVariantFound, request->variant_count);
     for (int i = 0; i < request->variant_count; i++) {
         if (!review_variant(run, &request->variants[i], review, arena, &list[i], err))
             return false;
-        progress_update(&progress, i + 1);
     }
-    progress_end(&progress, request->variant_count);
     review->variants = list;
     review->variant_count = request->variant_count;
     return true;

@@ -1,0 +1,92 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "review/keep/work.h"
+
+#define FOUND_LIKELY 6      /* symbols of a rectangle in which text is found */
+#define CASE 0.45           /* of an eye's point, with its causes */
+#define CASE_BARE 0.25
+#define CASE_COMPARED 0.15  /* more, of a review with variants */
+#define POINT 0.025         /* of each further point of an eye's box */
+#define FRAME_PIXEL 1.2e-4  /* at the usual noise */
+#define FRAME_NOISE 0.15
+#define MINUTES_A_YEAR (365 * 24 * 60.0)
+
+double work_of_case(const ReviewRequest *request, const ReviewEye *eye, bool is_bare)
+{
+    double more = request->is_compared ? CASE_COMPARED : 0;
+    return (is_bare ? CASE_BARE : CASE) + more + POINT * (review_eye_count(eye) - 1);
+}
+
+static int symbols_of(const ReviewRequest *request)
+{
+    int count = 0;
+    for (int i = 0; i < request->symbol_count; i++)
+        count += request->symbols[i].find_text ? FOUND_LIKELY : 1;
+    return count;
+}
+
+static double work_of_moment(const ReviewRequest *request, bool is_bare)
+{
+    double work = WORK_STAGE;
+    for (int e = 0; e < request->eye_count; e++)
+        work += symbols_of(request) * work_of_case(request, &request->eyes[e], is_bare);
+    return is_bare ? work : work + WORK_LOOK * review_look_count(request);
+}
+
+/* About: of a year half are up. */
+static double suns_of(const ReviewCondition *c)
+{
+    if (c->kind == CONDITION_ROUTE) return c->route.count;
+    if (c->kind == CONDITION_SUN_SWEEP)
+        return (double)c->azimuth_deg.count * c->elevation_deg.count;
+    return 0.5 * MINUTES_A_YEAR / c->step_minutes * c->heading_count;
+}
+
+static double work_of_sweep(const ReviewRequest *request, const ReviewCondition *condition)
+{
+    int    sights = request->eye_count * symbols_of(request);
+    double suns = suns_of(condition);
+    double each = WORK_RESPONSE + 2 * WORK_OWN + WORK_SKIES + WORK_SUN * suns + WORK_WORST;
+    return WORK_STAGE + sights * each;
+}
+
+double work_of_condition(const ReviewRequest *request, const ReviewCondition *condition,
+                         bool is_bare)
+{
+    return condition->kind == CONDITION_MOMENT ? work_of_moment(request, is_bare)
+                                               : work_of_sweep(request, condition);
+}
+
+double work_of_frame(const ReviewRequest *request)
+{
+    const ReviewFrames *frames = &request->frames;
+    double finer = FRAME_NOISE / frames->noise;
+    return FRAME_PIXEL * frames->width * frames->height * finer * finer;
+}
+
+double work_of_conditions(const ReviewRequest *request, bool is_bare)
+{
+    double work = 0;
+    for (int i = 0; i < request->condition_count; i++)
+        work += work_of_condition(request, &request->conditions[i], is_bare);
+    return work;
+}
+
+double work_of_review(const ReviewRequest *request, bool mend)
+{
+    int varied = request->variant_count + 2 * request->parameter_count +
+                 (mend ? WORK_TRIALS : 0);
+    return work_of_conditions(request, false) + varied * work_of_conditions(request, true) +
+           request->frames.worst * work_of_frame(request);
+}
+
+void work_add(Progress *work, double weight)
+{
+    progress_update(work, work->done + weight);
+}
+
+void work_done(Progress *work, double weight, double begun_s)
+{
+    if (monotonic_seconds() - begun_s >= 0.1 * weight) return;
+    while (work->outer) work = work->outer;
+    work->first += weight;
+}
