@@ -110,6 +110,8 @@ run 'reviews killed, stopped and starved' review-resume-long \
 run 'what moves in a page' live python3 tests/page/live.py .build/release/parhelion
 run 'models of others equipped' equip-models \
     python3 tests/hostile/equip.py .build/release/parhelion
+run 'a review that watches its files' review-watch \
+    python3 tests/hostile/review_watch.py --all .build/release/parhelion
 run 'a model equipped by clicks' equip python3 tests/page/equip.py .build/release/parhelion
 if run_one 'build by the second compiler' build-clang build clang all; then
     run_units 'unit tests, second compiler' unit-clang .build/clang

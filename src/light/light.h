@@ -32,8 +32,8 @@ typedef struct Lights Lights;
 /* The scene must outlive the lights. Fails on an environment that cannot be lit yet. */
 bool lights_build(const Scene *scene, Arena *arena, Lights **out, Error *err);
 
-/* The same lights after displays of the scene changed their levels; what is not theirs is shared
- * with `before`. */
+/* The same lights after displays of the scene changed their levels; what is not theirs is
+ * shared with `before`. */
 const Lights *lights_with_levels(const Lights *before, Arena *arena);
 
 /* Has this set anything that emits? */

@@ -43,8 +43,8 @@ typedef struct RenderOptions {
     int      threads;          /* at least 1 */
     const char *isa;           /* kernel.h's names; NULL: the best there is */
     ProgressMode progress;
-    Progress    *within;       /* of that the frame is a part of this weight, and shows nothing */
-    double       within_weight; /* of its own; NULL: it is by itself */
+    Progress    *within;       /* the frame is a part of that and shows nothing of its own; */
+    double       within_weight; /* of this weight. NULL: it is by itself */
     void   (*snapshot)(void *user, const RenderResult *so_far); /* NULL: none */
     void   (*checkpoint)(void *user, const RenderResult *so_far); /* NULL: none */
     double   checkpoint_interval_s; /* at least this between two, after the pass in hand */

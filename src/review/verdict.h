@@ -330,7 +330,7 @@ struct Review {
     bool            pass;         /* nothing fails; strict: nor is too close, not visible or of
                                      a material without data */
     bool            is_strict;
-    const char     *to_come;      /* of one that is not finished: what is missing; NULL: nothing */
+    const char     *to_come;      /* of one that is not finished: what is missing; or NULL */
     bool            is_partial;   /* conditions are: nobody may take it for one that passes */
     bool            has_summaries; /* beside its page, one a symbol */
     int             main_cards;   /* of its page: so many of the worst cases and sweeps have

@@ -25,7 +25,7 @@ static Text small_page(bool is_dark)
 {
     static const PageColumn COLUMNS[] = {{"name", false, NULL}, {"value", true, WILD}};
     Text page = {.arena = &arena};
-    page_begin(&page, &(PageHead){WILD, ".own{}\n", is_dark});
+    page_begin(&page, &(PageHead){WILD, ".own{}\n", is_dark, 0});
     page_element(&page, "h1 class=\"x\"", WILD);
     page_list(&page, "notes", (const char *const[]){WILD, "b"}, 2);
     page_keys_begin(&page);

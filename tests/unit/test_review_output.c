@@ -336,7 +336,8 @@ static bool is_optional(const char *key, const json_t *object)
 {
     static const char *const ADDED[] = {"reflected_interval", "precision_asked",
                                         "precision_reached", "paths_to_decide", "cause_groups",
-                                        "without_data_share", "without_data", "hidden_by"};
+                                        "without_data_share", "without_data", "hidden_by",
+                                        "eye_places"};
     for (size_t i = 0; i < sizeof ADDED / sizeof *ADDED; i++)
         if (!strcmp(key, ADDED[i])) return true;
     return !strcmp(key, "verdict") &&

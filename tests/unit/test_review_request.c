@@ -166,6 +166,33 @@ TEST(an_eye_box_is_a_grid_with_both_ends)
     assert_near(high[2], 3.3, 1e-12);
 }
 
+/* Its points lie on an ellipsoid about its middle, whose front is down by the tilt. */
+TEST(an_ellipse_of_eyes_has_its_axes)
+{
+    Arena         arena = test_arena(state);
+    Error         err = {0};
+    ReviewRequest r;
+    const char   *text = review_changed(review_good, "'half_size_m':[0.1,0.2,0],'grid':[2,3,1]",
+                                        "'ellipse_m':[0.4,0.2,0.1],'tilt_deg':30", &arena);
+    assert_true(review_read(text, &arena, &r, &err));
+    const ReviewEye *eye = &r.eyes[3];
+    double c = sqrt(0.75), s = 0.5, middle[3], sum[3] = {0};
+    assert_int_equal(review_eye_count(eye), ELLIPSE_POINTS);
+    review_eye_point(eye, 0, middle);
+    for (int k = 0; k < 3; k++) assert_near(middle[k], k + 1, 1e-12);
+    for (int i = 0; i < ELLIPSE_POINTS; i++) {
+        double p[3];
+        review_eye_point(eye, i, p);
+        for (int k = 0; k < 3; k++) sum[k] += p[k] - middle[k];
+        /* forward is -z: ahead (0, -s, -c), across x, up (0, c, -s) */
+        double ahead = -s * (p[1] - middle[1]) - c * (p[2] - middle[2]);
+        double up = c * (p[1] - middle[1]) - s * (p[2] - middle[2]);
+        double radius = hypot(hypot(ahead / 0.2, (p[0] - middle[0]) / 0.1), up / 0.05);
+        assert_near(radius, i ? 1 : 0, 1e-12);
+    }
+    for (int k = 0; k < 3; k++) assert_near(sum[k], 0, 1e-12);
+}
+
 /* ---- any bytes --------------------------------------------------------------------------- */
 
 TEST(every_prefix_is_refused_in_one_line)

@@ -7,18 +7,18 @@
 
 #include "base/count.h"
 #include "base/file.h"
+#include "base/machine.h"
 #include "cli/options/answer.h"
 #include "cli/options/cli.h"
 #include "cli/options/state_options.h"
 #include "cli/review/review_folder.h"
 #include "cli/review/review_part.h"
+#include "cli/review/review_say.h"
 #include "cli/review/review_share.h"
+#include "cli/review/review_watch.h"
 #include "render/signals.h"
-#include "review/keep/work.h"
+#include "review/work/work.h"
 #include "review/output/review_decide.h"
-#include "review/output/review_gaze.h"
-#include "review/output/review_json.h"
-#include "review/output/review_words.h"
 #include "review/request/request_start.h"
 #include "review/request/request_read.h"
 #include "review/run/run.h"
@@ -26,7 +26,6 @@
 #include "review/vary/sensitivity.h"
 #include "review/vary/variants.h"
 #include "scene/load/scene_load.h"
-#include "text/interval_text.h"
 #include "text/nearest_word.h"
 #include "text/text.h"
 
@@ -40,6 +39,8 @@ typedef struct ReviewWords {
     SceneState  state;
     Cli         cli;
     const ReviewPin *pin; /* NULL: the user's own command */
+    bool        watches;  /* --watch */
+    ReviewWatch *watch;   /* that is told of files; NULL: nobody watches */
 } ReviewWords;
 
 static bool parse(int argc, char **argv, Arena *arena, ReviewWords *out, Error *err)
@@ -67,6 +68,9 @@ static bool parse(int argc, char **argv, Arena *arena, ReviewWords *out, Error *
          "the review by itself, whatever variants and sensitivities it has", &out->is_alone},
         {"--summary", OPTION_TEXT, "SYMBOL",
          "one page of paper about this symbol, instead of one about each", &out->summary},
+        {"--watch", OPTION_FLAG, NULL,
+         "reviews again what changed whenever one of its files is saved, until Ctrl-C",
+         &out->watches},
         {"--diff", OPTION_TEXT, "DIR", "an earlier review to hold this one against",
          &out->diff},
         {"--responses", OPTION_TEXT, "DIR",
@@ -89,102 +93,15 @@ static bool parse(int argc, char **argv, Arena *arena, ReviewWords *out, Error *
     if (!state_options_read(&out->state_words, &out->state, err) ||
         !review_share_check(&out->share, not_traced, err))
         return false;
+    if (out->watches && (not_traced || out->share.parts || out->decides))
+        return error_set(err, ERROR_USAGE, "--watch does not go with %s",
+                         not_traced ? not_traced : out->decides ? "--decide" : "a job's parts");
     if (out->init) return true;
     if (out->cli.argument_count > 1)
         return error_set(err, ERROR_USAGE, "%s: one request at a time is reviewed",
                          out->cli.arguments[1]);
     return out->folder || out->dry_run ||
            error_set(err, ERROR_USAGE, "-o DIR: nothing says where the review goes");
-}
-
-/* ---- what is said ------------------------------------------------------------------------ */
-
-static void print_case(const ReviewCase *c, Arena scratch)
-{
-    printf("%-11s %s, %s, %s", verdict_names[c->verdict], c->condition, c->eye, c->symbol);
-    if (c->visible_share > 0)
-        printf(": contrast %s : 1, reflected %s cd/m2",
-               interval_text(c->contrast_ratio, c->contrast_low, c->contrast_high, &scratch),
-               interval_text(c->luminance_cd_m2.reflected, c->reflected_range.low,
-                             c->reflected_range.high, &scratch));
-    else if (c->hider_count) printf(": %s", words_hiders(c, &scratch));
-    if (c->limit_id >= 0) printf(", wanted %.3g : 1", c->limits[c->limit_id].value);
-    fputs(words_precision(c, &scratch), stdout);
-    if (c->minutes_to_decide > 0 && isfinite(c->minutes_to_decide))
-        printf("; about %.2g minutes more would decide it", fmax(c->minutes_to_decide, 0.1));
-    putchar('\n');
-}
-
-static void print_sweep(const ReviewSweep *s, Arena scratch)
-{
-    bool is_sure = sweep_verdict(s) == VERDICT_FAIL || !(s->failed_share > 0);
-    printf("%-11s %s, %s, %s: %.3g %% of %ld suns fail%s", verdict_names[sweep_verdict(s)],
-           s->condition, s->eye, s->symbol, 100 * s->failed_share, s->cases,
-           is_sure ? "" : " by their steps alone, none that was read again");
-    if (s->longest_failure_minutes > 0)
-        printf(", %.4g minutes at a stretch", s->longest_failure_minutes);
-    if (s->worst.has_sun)
-        printf("; worst at azimuth %.1f, elevation %.1f", s->worst.sun_azimuth_deg,
-               s->worst.sun_elevation_deg);
-    if (s->worst.visible_share > 0)
-        printf(": contrast %s : 1",
-               interval_text(s->worst.contrast_ratio, s->worst.contrast_low,
-                             s->worst.contrast_high, &scratch));
-    else if (s->worst.hider_count) printf(": %s", words_hiders(&s->worst, &scratch));
-    fputs(words_precision(&s->worst, &scratch), stdout);
-    putchar('\n');
-}
-
-/* What takes half of what there is to be seen. */
-static void print_gaze(const GazeFinding *g, Arena scratch)
-{
-    if (!(g->contrast_left < GAZE_POOR)) return;
-    printf("%-11s %s, %s, looking at %s: %.3g %% of a distant object's contrast left; seen "
-           "%.4g cd/m2, mirrored by glass %s, veil in the eye %s\n", "veiled", g->condition,
-           g->eye, g->gaze, 100 * g->contrast_left, g->through,
-           review_gaze_mirrored(g, &scratch), review_gaze_veil(g, &scratch));
-}
-
-/* Its least margin beside the review's own, in percent of the limit. */
-static void print_variant(const ReviewVariantFound *v)
-{
-    const ReviewDifference *d = &v->worst;
-    printf("%-11s variant %s", verdict_names[review_verdict(v->review)], v->name);
-    if (d->after && d->before)
-        printf(": least margin %+.3g %%, %+.2g %% (%+.2g to %+.2g) from the review's: %s, %s, "
-               "%s", 100 * d->after->margin, 100 * d->margin, 100 * d->margin_range.low,
-               100 * d->margin_range.high, d->after->condition, d->after->eye,
-               d->after->symbol);
-    putchar('\n');
-}
-
-static void print_mend(const ReviewMend *m, Arena *scratch)
-{
-    printf("%-11s %s\n", m->is_found ? "mended" : "not mended", words_mend(m, scratch));
-}
-
-static void print_review(const Review *review, Arena scratch)
-{
-    for (int i = 0; i < review->case_count; i++) print_case(&review->cases[i], scratch);
-    for (int i = 0; i < review->sweep_count; i++) print_sweep(&review->sweeps[i], scratch);
-    for (int i = 0; i < review->gaze_count; i++) print_gaze(&review->gazes[i], scratch);
-    const ReviewCase *worst = review_worst(review, scratch);
-    if (review->without_data_count)
-        printf("%-11s %d material%s taken as perfectly white: %s; of the light on the worst "
-               "case %.3g %% came by way of them\n", "no data", review->without_data_count,
-               review->without_data_count == 1 ? "" : "s", review->without_data,
-               worst ? 100 * worst->without_data_share : 0);
-    for (int i = 0; i < review->variant_count; i++) print_variant(&review->variants[i]);
-    for (int i = 0; i < review->mend_count; i++) print_mend(&review->mends[i], &scratch);
-    static const char *const LAST[4] = {"pass", "FAIL", "too close to call", "not visible"};
-    printf("%s\n", LAST[review_verdict(review)]);
-}
-
-static bool answer(const Cli *cli, const Review *review, Arena scratch, Error *err)
-{
-    if (cli->json) return cli_print_json(review_json(review), err);
-    print_review(review, scratch);
-    return true;
 }
 
 /* ---- what would be traced ---------------------------------------------------------------- */
@@ -281,8 +198,16 @@ static void tell_kept(const ReviewFolder *folder, Error *err)
 typedef struct SoFar {
     const ReviewFolder *folder;
     const Arena        *arena; /* what is behind its end is scratch */
+    ReviewWatch        *watch; /* NULL: nobody watches */
     double              shown_s;
 } SoFar;
+
+static void note_files(void *user, const Scene *scene)
+{
+    SoFar *so_far = user;
+    for (int i = 0; i < scene->input_count && so_far->watch; i++)
+        review_watch_add(so_far->watch, scene->inputs[i]);
+}
 
 static bool write_so_far(void *user, const ReviewOutcome *outcome, int done, Error *err)
 {
@@ -368,11 +293,11 @@ static bool make_later(const ReviewRun *run, ReviewFolder *folder, ReviewOutcome
     return true;
 }
 
-static bool make_all(ReviewRun *run, ReviewFolder *folder, ReviewOutcome *outcome, Arena *arena,
-                     Error *err)
+static bool make_all(ReviewRun *run, ReviewFolder *folder, ReviewWatch *watch,
+                     ReviewOutcome *outcome, Arena *arena, Error *err)
 {
-    SoFar so_far = {folder, arena, monotonic_seconds()};
-    run->news = (ReviewNews){write_so_far, &so_far};
+    SoFar so_far = {folder, arena, watch, monotonic_seconds()};
+    run->news = (ReviewNews){write_so_far, note_files, &so_far};
     bool is_run = review_run(run, arena, outcome, err);
     progress_clear(run->work);
     cli_print_warnings(run->problems);
@@ -406,18 +331,29 @@ static bool make(const ReviewWords *words, ReviewFolder *folder, ReviewRun *run,
     run->responses_shown = folder->responses_shown;
     run->journal = folder->draft.journal;
     if (!take_found(folder, words->pin, *arena, err) ||
-        !make_all(run, folder, &outcome, arena, err)) {
+        !make_all(run, folder, words->watch, &outcome, arena, err)) {
         if (err->code > 128) tell_stopped(folder, err, arena);
         else tell_kept(folder, err);
         review_folder_close(folder);
         return false;
     }
     progress_end(run->work, run->work->total);
-    review_folder_finish(folder);
-    if (!answer(&words->cli, &outcome.review, *arena, err)) return false;
+    if (words->watch) review_folder_close(folder); /* answers are asked for again */
+    else review_folder_finish(folder);
+    if (!review_say(&words->cli, &outcome.review, *arena, err)) return false;
     if (outcome.review.pass) return true;
     *err = (Error){.code = ERROR_DIFFERENT};
     return false;
+}
+
+static void watch_inputs(ReviewWatch *watch, const ReviewRequest *request)
+{
+    for (int i = 0; i < request->input_count; i++)
+        review_watch_add(watch, request->inputs[i].path);
+    for (int i = 0; i < request->symbol_count; i++)
+        if (request->symbols[i].mask) review_watch_add(watch, request->symbols[i].mask);
+    for (int i = 0; i < request->scene_count; i++)
+        review_watch_add(watch, request->scenes[i]);
 }
 
 static bool find_parameter(const ReviewRequest *request, const char *name, Arena scratch,
@@ -471,6 +407,7 @@ static bool review(const ReviewWords *words, Arena *arena, Error *err)
                              .summary = words->summary, .is_alone = words->is_alone,
                              .is_self_contained = words->is_self_contained};
     if (!review_request_read(file, words->root, arena, &problems, &request, err)) return false;
+    if (words->watch) watch_inputs(words->watch, &request);
     if (!profile_load(words->profile ? words->profile : request.profile, arena, &profile, err))
         return words->profile ? false : error_in_file(err, request.file);
     request.decides = words->decides;
@@ -502,6 +439,55 @@ static bool review(const ReviewWords *words, Arena *arena, Error *err)
                           : make(words, &folder, &run, arena, err);
 }
 
+/* ---- again and again --------------------------------------------------------------------- */
+
+/* A review that fails is told of, and its files are watched: the next save may mend it. */
+static bool review_once(const ReviewWords *words, Error *err)
+{
+    Arena once = arena_reserve(machine_memory_bytes());
+    *err = (Error){0};
+    bool  ok = review(words, &once, err);
+    bool  is_stopped = !ok && err->code > 128;
+    if (!ok && !is_stopped && err->text[0]) cli_report_error(err, words->cli.json);
+    fflush(stdout);
+    arena_release(&once);
+    return !is_stopped;
+}
+
+/* The answers that were kept for the next time go with the last. */
+static void forget_answers(const ReviewWords *words)
+{
+    Arena       scratch = arena_reserve(machine_memory_bytes());
+    Problems    ignored = problems_start(&scratch);
+    ReviewDraft draft;
+    Error       err;
+    if (review_draft_open(words->folder, &scratch, &ignored, &draft, &err))
+        review_draft_finish(&draft);
+    arena_release(&scratch);
+}
+
+static bool watch(ReviewWords *words, Error *err)
+{
+    ReviewWatch files = review_watch_start();
+    const char *changed = words->cli.arguments[0];
+    words->watch = &files;
+    review_watch_add(&files, changed);
+    bool goes_on = review_once(words, err);
+    signals_watch();
+    while (goes_on) {
+        fprintf(stderr, "parhelion: %d files are watched, Ctrl-C ends\n", files.count);
+        if (!review_watch_wait(&files, &changed)) break;
+        fprintf(stderr, "parhelion: %s was saved: what it changes is reviewed again\n",
+                changed);
+        goes_on = review_once(words, err);
+    }
+    review_watch_end(&files);
+    if (!goes_on) return false;
+    forget_answers(words);
+    *err = (Error){0};
+    return true;
+}
+
 bool cmd_review_run(int argc, char **argv, const ReviewPin *pin, Arena *arena, Error *err)
 {
     ReviewWords words = {.pin = pin};
@@ -510,6 +496,7 @@ bool cmd_review_run(int argc, char **argv, const ReviewPin *pin, Arena *arena, E
     if (pin && !words.isa) words.isa = pin->isa;
     if (words.share.parts)
         review_share_set(&words.share, argc, argv, words.folder, &words.cli, arena);
+    if (words.watches) return watch(&words, err);
     return words.init ? start(&words, arena, err) : review(&words, arena, err);
 }
 

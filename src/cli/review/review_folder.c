@@ -29,9 +29,12 @@
 
 static bool read_earlier(ReviewFolder *folder, Arena *arena, Error *err)
 {
-    return !folder->diff ||
-           review_json_read(arena_format(arena, "%s/review.json", folder->diff), arena,
-                            &folder->before, err);
+    if (!folder->diff) return true;
+    const char *path = arena_format(arena, "%s/review.json", folder->diff);
+    return review_json_read(path, arena, &folder->before, err) &&
+           (!folder->before.is_partial ||
+            error_at(err, ERROR_INPUT, path, "/provisional", "is of a review that was not "
+                     "finished, wanted a whole one — the command that made it goes on"));
 }
 
 void review_folder_responses(ReviewFolder *folder, Arena *arena)

@@ -85,18 +85,28 @@ static void set_change(const ReviewChange *change, SceneOptions *scene)
     scene->panel_count = change->panel_count;
 }
 
-/* Of the stage's scene; for keys of all files, the request's own, too. */
+static void add_inputs(const ReviewRequest *request, bool with_request, Text *text)
+{
+    for (int i = 0; i < request->input_count; i++)
+        if (with_request || strcmp(request->inputs[i].path, request->file) != 0)
+            identity_line(text, "request", "%016llx",
+                          (unsigned long long)request->inputs[i].hash);
+}
+
+/* Of the stage's scene; for keys of all files; for plans the request itself, too: what is asked
+ * stands in the keys, so that who changes a word of it is not asked for all anew. */
 static void identify(Stage *stage, const SceneOptions *options, Arena *arena)
 {
-    const ReviewRequest *request = stage->request;
-    Text own = {.arena = arena}, all = {.arena = arena};
+    Text own = {.arena = arena}, files = {.arena = arena}, all = {.arena = arena};
     identity_add_program(&own, stage->tools.kernel);
     identity_add_scene(&own, options, stage->scene);
+    text_add(&files, own.data);
+    add_inputs(stage->request, false, &files);
     text_add(&all, own.data);
-    for (int i = 0; i < request->input_count; i++)
-        identity_line(&all, "request", "%016llx", (unsigned long long)request->inputs[i].hash);
+    add_inputs(stage->request, true, &all);
     stage->identity = own.data;
-    stage->tools.base = journal_key(all.data);
+    stage->tools.base = journal_key(files.data);
+    stage->planned = journal_key(all.data);
 }
 
 static SceneOptions scene_options(const StageOptions *options, Arena *arena)

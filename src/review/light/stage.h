@@ -26,6 +26,7 @@ typedef struct Stage {
     double      *scene_levels; /* of the displays, before the condition's */
     const char  *identity;     /* program and scene (render/identity.h), not its light */
     const char  *lessons;      /* StageOptions' */
+    JournalKey   planned;      /* of program, files and request */
 } Stage;
 
 typedef struct StageOptions {

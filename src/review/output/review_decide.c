@@ -132,3 +132,27 @@ const ReviewCase *review_case_like(const Review *review, const ReviewCase *like)
         if (is_like(&review->sweeps[i].worst, like)) return &review->sweeps[i].worst;
     return NULL;
 }
+
+static void add_places(const ReviewCase *c, ReviewPlaces *list, int *count)
+{
+    int i = 0;
+    if (isnan(c->eye_failed_share) || !c->eye || !c->symbol) return;
+    while (i < *count && (strcmp(list[i].at->eye, c->eye) != 0 ||
+                          strcmp(list[i].at->symbol, c->symbol) != 0))
+        i++;
+    double share = 1 - c->eye_failed_share;
+    if (i == *count) ++*count;
+    else if (list[i].read_share <= share) return;
+    list[i] = (ReviewPlaces){c, share};
+}
+
+ReviewPlaces *review_places(const Review *review, int *count, Arena *arena)
+{
+    ReviewPlaces *list =
+        ARENA_NEW(arena, ReviewPlaces, review->case_count + review->sweep_count + 1);
+    *count = 0;
+    for (int i = 0; i < review->case_count; i++) add_places(&review->cases[i], list, count);
+    for (int i = 0; i < review->sweep_count; i++)
+        add_places(&review->sweeps[i].worst, list, count);
+    return list;
+}

@@ -43,3 +43,13 @@ const ReviewCase *review_worst(const Review *review, Arena scratch);
 
 /* The case of the same condition, eye and symbol: a moment's or a sweep's worst; or NULL. */
 const ReviewCase *review_case_like(const Review *review, const ReviewCase *like);
+
+/* Of an eye that is a box or an ellipse and a symbol: where the fewest of its places can read
+ * it, moments and the worst of sweeps. */
+typedef struct ReviewPlaces {
+    const ReviewCase *at;
+    double            read_share; /* 0..1 of its points */
+} ReviewPlaces;
+
+/* In the order of the cases; 0: no eye has several places. */
+ReviewPlaces *review_places(const Review *review, int *count, Arena *arena);

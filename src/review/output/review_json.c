@@ -10,6 +10,7 @@
 #include "text/json_text.h"
 
 #define DIGITS 6
+#define PLACES_BYTES ((size_t)1 << 26)
 
 static json_t *pair(double low, double high)
 {
@@ -358,14 +359,31 @@ static json_t *mends_json(const Review *review)
     return list;
 }
 
+static json_t *places_json(const Review *review)
+{
+    Arena         scratch = arena_reserve(PLACES_BYTES);
+    int           count;
+    ReviewPlaces *places = review_places(review, &count, &scratch);
+    json_t       *list = json_array();
+    for (int i = 0; i < count; i++)
+        json_array_append_new(
+            list, json_pack("{s:o, s:o, s:f, s:o}", "eye", text(places[i].at->eye), "symbol",
+                            text(places[i].at->symbol), "read_share", places[i].read_share,
+                            "condition", text(places[i].at->condition)));
+    arena_release(&scratch);
+    return list;
+}
+
 json_t *review_json(const Review *review)
 {
     bool        is_open = review->is_partial && review->pass;
     const char *verdict =
         is_open ? "provisional" : verdict_names[review_verdict(review)];
     json_t *out = json_pack("{s:b, s:s, s:b, s:o, s:o}", "pass", review->pass && !is_open,
-                            "verdict", verdict, "strict", review->is_strict, "title", text(review->title), "profile",
+                            "verdict", verdict, "strict", review->is_strict, "title",
+                            text(review->title), "profile",
                             text(review->profile));
+    if (review->is_partial) set(out, "provisional", json_true());
     if (review->to_come) set(out, "to_come", text(review->to_come));
     set(out, "cases", cases_json(review));
     set(out, "sweeps", sweeps_json(review));
@@ -374,6 +392,7 @@ json_t *review_json(const Review *review)
     if (review->variant_count) set(out, "variants", variants_json(review));
     if (review->sensitivity_count) set(out, "sensitivity", sensitivities_json(review));
     if (review->mend_count) set(out, "mends", mends_json(review));
+    set(out, "eye_places", places_json(review));
     set(out, "responses", responses_json(review));
     set(out, "without_data", text(review->without_data));
     set(out, "notes", json_texts(review->notes, review->note_count));

@@ -420,6 +420,7 @@ static bool read_review(const JsonView *root, Review *out, Error *err)
                    &review.false_sun_count, err) ||
         !read_texts(root, "notes", &review.notes, &review.note_count, err))
         return false;
+    review.is_partial = json_is_true(json_object_get(root->object, "provisional"));
     review.cases = cases;
     review.sweeps = sweeps;
     review.gazes = gazes;

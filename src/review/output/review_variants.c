@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "review/output/review_variants.h"
 
+#include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -192,12 +193,9 @@ static void add_variant(Text *html, const ReviewVariantFound *v, Arena *arena)
     for (int i = 0; i < v->difference_count; i++) list[i] = &v->differences[i];
     if (v->difference_count > 0)
         qsort(list, (size_t)v->difference_count, sizeof *list, compare_change);
-    page_more_begin(html, arena_format(arena, "%s, case by case: %d", v->name,
-                                       v->difference_count));
-    page_table_begin(html, "", "", COLUMNS, 5);
+    page_table_begin(html, v->name, "", COLUMNS, 5);
     for (int i = 0; i < v->difference_count; i++) add_difference(html, list[i], arena);
     page_table_end(html);
-    page_more_end(html);
 }
 
 static void add_variants(Text *html, const Review *review, Arena *arena)
@@ -209,14 +207,15 @@ static void add_variants(Text *html, const Review *review, Arena *arena)
                  "the same random numbers, so that a difference is known better than either "
                  "margin.");
     add_table(html, review, ranked, arena);
+    page_more_begin(html, "Every variant, case by case");
     for (int i = 0; i < review->variant_count; i++) add_variant(html, ranked[i], arena);
+    page_more_end(html);
 }
 
 /* ---- sensitivity ------------------------------------------------------------------------- */
 
 #define BAR_WIDTH 300
 #define BAR_HEIGHT 22
-#define SYMBOLS_TOLD 3
 
 /* Of one step, in percent of the limit. */
 static double effect(const ReviewSensitivity *s, const ReviewSlope *slope)
@@ -272,7 +271,7 @@ static void add_slope(Text *html, const ReviewSensitivity *s, int place, double 
 {
     const ReviewSlope *slope = &s->slopes[place];
     page_row_begin(html, "");
-    page_cell(html, "", place ? "" : s->name);
+    page_cell(html, "", place > 1 ? "" : s->name); /* the first of its table */
     page_cell(html, "", words_case(slope->of, arena));
     page_cell(html, "n", words_margin(slope->of->margin, arena));
     if (isnan(slope->slope)) {
@@ -296,24 +295,67 @@ static int compare_parameters(const void *a, const void *b)
     return x != y ? (x < y ? 1 : -1) : one < other ? -1 : 1;
 }
 
-/* What moves the least margin most comes first. */
-static void add_sensitivities(Text *html, const Review *review, Arena *arena)
+/* Symbols [first, end) of each parameter. */
+static void add_slopes(Text *html, const Review *review, const ReviewSensitivity *const *list,
+                       const int from_to[2], Arena *arena)
 {
     static const PageColumn COLUMNS[] = {
         {"Parameter", false, NULL}, {"Where its margin is least", false, NULL},
         {"Margin", true, NULL}, {"Slope", true, "in percent of the limit, with its interval"},
         {"One step", false, "what a step up does to the margin: right gains"}};
-    int count = review->sensitivity_count;
+    double most = greatest_effect(review);
+    page_table_begin(html, "", "variants", COLUMNS, 5);
+    for (int i = 0; i < review->sensitivity_count; i++)
+        for (int k = from_to[0]; k < list[i]->slope_count && k < from_to[1]; k++)
+            add_slope(html, list[i], k, most, arena);
+    page_table_end(html);
+}
+
+/* What moves the least margin most comes first; symbols whose margin is not the least are
+ * folded. */
+static void add_sensitivities(Text *html, const Review *review, Arena *arena)
+{
+    static const int LEAST[2] = {0, 1}, OTHERS[2] = {1, INT_MAX};
+    int count = review->sensitivity_count, others = 0;
     if (!count) return;
     const ReviewSensitivity **list = ARENA_NEW(arena, const ReviewSensitivity *, count);
     for (int i = 0; i < count; i++) list[i] = &review->sensitivities[i];
+    for (int i = 0; i < count; i++) others += list[i]->slope_count > 1;
     qsort(list, (size_t)count, sizeof *list, compare_parameters);
     page_element(html, "h3", "What the margins hang on");
-    page_table_begin(html, "", "variants", COLUMNS, 5);
-    for (int i = 0; i < count; i++)
-        for (int k = 0; k < list[i]->slope_count && k < SYMBOLS_TOLD; k++)
-            add_slope(html, list[i], k, greatest_effect(review), arena);
+    add_slopes(html, review, list, LEAST, arena);
+    if (!others) return;
+    page_more_begin(html, "The same of the other symbols");
+    add_slopes(html, review, list, OTHERS, arena);
+    page_more_end(html);
+}
+
+/* ---- places of an eye -------------------------------------------------------------------- */
+
+static void add_place(Text *html, const ReviewPlaces *p, Arena *arena)
+{
+    page_row_begin(html, "");
+    page_cell(html, "", p->at->eye);
+    page_cell(html, "", p->at->symbol);
+    page_cell(html, "n", words_share(p->read_share, arena));
+    page_cell(html, "", p->at->condition);
+    page_row_end(html);
+}
+
+static void add_places(Text *html, const Review *review, Arena *arena)
+{
+    static const PageColumn COLUMNS[] = {{"Eye", false, NULL}, {"Symbol", false, NULL},
+                                         {"Places that can read", true,
+                                          "of the points of its box or ellipse, where fewest"},
+                                         {"Where they are fewest", false, NULL}};
+    int           count;
+    ReviewPlaces *list = review_places(review, &count, arena);
+    if (!count) return;
+    page_more_begin(html, "From how many of an eye's places a symbol can be read");
+    page_table_begin(html, "", "", COLUMNS, 4);
+    for (int i = 0; i < count; i++) add_place(html, &list[i], arena);
     page_table_end(html);
+    page_more_end(html);
 }
 
 /* ---- what would mend it ------------------------------------------------------------------ */
@@ -356,5 +398,6 @@ void review_variants_add(Text *html, const Review *review, Arena *arena)
     page_element(html, "h2", "What if");
     add_variants(html, review, arena);
     add_sensitivities(html, review, arena);
+    add_places(html, review, arena);
     add_mends(html, review, arena);
 }

@@ -5,8 +5,14 @@
 
 #include "base/sampler.h"
 
+bool review_eye_is_wide(const ReviewEye *eye)
+{
+    return eye->kind == EYE_BOX || eye->kind == EYE_ELLIPSE;
+}
+
 int review_eye_count(const ReviewEye *eye)
 {
+    if (eye->kind == EYE_ELLIPSE) return ELLIPSE_POINTS;
     return eye->kind == EYE_BOX ? eye->grid[0] * eye->grid[1] * eye->grid[2] : 1;
 }
 
@@ -16,8 +22,34 @@ static double share_of(int i, int n)
     return n > 1 ? 2.0 * i / (n - 1) - 1 : 0;
 }
 
+/* Along each axis, in halves of it: point i of an ellipse. */
+static void ellipse_shares(int i, double share[3])
+{
+    static const double root = 0.57735026918962576; /* of a third */
+    for (int axis = 0; axis < 3; axis++) share[axis] = 0;
+    if (i >= 7)
+        for (int axis = 0; axis < 3; axis++) share[axis] = (i - 7) >> axis & 1 ? root : -root;
+    else if (i >= 1)
+        share[(i - 1) / 2] = i % 2 ? -1 : 1;
+}
+
+static void ellipse_point(const ReviewEye *eye, int i, double out_m[3])
+{
+    double share[3];
+    ellipse_shares(i, share);
+    for (int k = 0; k < 3; k++) {
+        out_m[k] = eye->position_m[k] + eye->move_m[k];
+        for (int axis = 0; axis < 3; axis++)
+            out_m[k] += share[axis] * eye->half_axes_m[axis][k];
+    }
+}
+
 void review_eye_point(const ReviewEye *eye, int i, double out_m[3])
 {
+    if (eye->kind == EYE_ELLIPSE) {
+        ellipse_point(eye, i, out_m);
+        return;
+    }
     for (int axis = 0; axis < 3; axis++) {
         int n = eye->kind == EYE_BOX ? eye->grid[axis] : 1;
         out_m[axis] = eye->position_m[axis] + eye->move_m[axis] +

@@ -20,21 +20,32 @@
 
 /* ---- eyes and where they look ------------------------------------------------------------ */
 
-typedef enum ReviewEyeKind { EYE_CAMERA, EYE_POINT, EYE_BOX } ReviewEyeKind;
+typedef enum ReviewEyeKind { EYE_CAMERA, EYE_POINT, EYE_BOX, EYE_ELLIPSE } ReviewEyeKind;
 
 typedef struct ReviewEye {
     const char   *name;
     ReviewEyeKind kind;
     const char   *camera;         /* camera: its name; NULL: camera_id counts it */
     int           camera_id;      /* camera: its index; NO_ID: it is named */
-    double        position_m[3];  /* point; box: its centre */
+    double        position_m[3];  /* point; box, ellipse: its centre */
     double        half_size_m[3]; /* box */
     int           grid[3];        /* box: points along each axis, both ends in; 1: the middle */
+    double        axes_m[3];      /* ellipse: their lengths ahead, across and up */
+    double        tilt_deg;       /* ellipse: its front down, about the axis across */
+    double        half_axes_m[3][3]; /* ellipse: half of each, scene's frame */
     double        move_m[3];      /* of a variant: from there, scene's frame */
 } ReviewEye;
 
-/* A box has grid[0] * grid[1] * grid[2] points, x fastest; other eyes one. */
+/* Of an ellipse, as SAE J941 has it for the eyes of drivers: its middle, the ends of its axes
+ * and the points halfway between those of all three, on its surface. */
+#define ELLIPSE_POINTS 15
+
+/* A box has grid[0] * grid[1] * grid[2] points, x fastest; an ellipse ELLIPSE_POINTS, its
+ * middle first; other eyes one. */
 int review_eye_count(const ReviewEye *eye);
+
+/* An eye of several points. */
+bool review_eye_is_wide(const ReviewEye *eye);
 
 /* Point i of an eye that is no camera. */
 void review_eye_point(const ReviewEye *eye, int i, double out_m[3]);

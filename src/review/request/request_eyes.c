@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/mathd.h"
+#include "base/units.h"
 
 #define EYES_MAX 256
 #define GRID_MAX 33
@@ -53,6 +54,16 @@ static bool read_box(const JsonView *view, ReviewEye *eye, Error *err)
            read_grid(view, eye, err);
 }
 
+static bool read_ellipse(const JsonView *view, ReviewEye *eye, Error *err)
+{
+    eye->kind = EYE_ELLIPSE;
+    return field_numbers(view, "centre_m", (JsonRange){-METRES_MAX, METRES_MAX, 3},
+                         eye->position_m, NULL, err) &&
+           field_numbers(view, "ellipse_m", (JsonRange){0, BOX_METRES_MAX, 3}, eye->axes_m,
+                         NULL, err) &&
+           json_view_number(view, "tilt_deg", -90, 90, &eye->tilt_deg, err);
+}
+
 static bool read_point(const JsonView *view, ReviewEye *eye, Error *err)
 {
     eye->kind = EYE_POINT;
@@ -60,27 +71,42 @@ static bool read_point(const JsonView *view, ReviewEye *eye, Error *err)
                          eye->position_m, NULL, err);
 }
 
+/* has: of the keys of read_eye, in their order. */
+static bool check_form(const JsonView *view, const bool *has, Error *err)
+{
+    bool is_wide = has[3] || has[4], has_more = is_wide || has[5] || has[6];
+    int  forms = has[0] + has[1] + has[2];
+    if (forms != 1 || (!has[2] && has_more))
+        return error_at(err, ERROR_INPUT, view->file, view->path, "is %s, wanted one of "
+                        "'camera', 'position_m', or 'centre_m' with 'half_size_m' or "
+                        "'ellipse_m'",
+                        forms > 1 ? "said in several ways" : forms ? "a box without a centre"
+                                                                   : "nowhere");
+    if (has[3] && has[4])
+        return field_fails(view, "ellipse_m", err, "stands beside 'half_size_m', wanted one");
+    if (has[4] ? has[5] : has[6])
+        return field_fails(view, has[4] ? "grid" : "tilt_deg", err,
+                           has[4] ? "is a box's, not an ellipse's"
+                                  : "is an ellipse's: 'ellipse_m' is missing");
+    return true;
+}
+
 static bool read_eye(const FieldMembers *members, int i, ReviewEye *out, Error *err)
 {
     static const char *const keys[] = {"camera", "position_m", "centre_m", "half_size_m",
-                                       "grid"};
+                                       "ellipse_m", "grid", "tilt_deg"};
     JsonView  view;
     ReviewEye eye = {.name = members->name[i], .camera_id = NO_ID};
     if (!json_view_child(&members->view, eye.name, true, &view, err) ||
         !json_view_check_keys(&view, keys, COUNT_OF(keys), err))
         return false;
-    int  forms = 0;
     bool has[COUNT_OF(keys)];
     for (int k = 0; k < COUNT_OF(keys); k++)
         has[k] = json_object_get(view.object, keys[k]) != NULL;
-    for (int k = 0; k < 3; k++) forms += has[k];
-    if (forms != 1 || (!has[2] && (has[3] || has[4])))
-        return error_at(err, ERROR_INPUT, view.file, view.path, "is %s, wanted one of "
-                        "'camera', 'position_m', or 'centre_m' with 'half_size_m'",
-                        forms > 1 ? "said in several ways" : forms ? "a box without a centre"
-                                                                   : "nowhere");
+    if (!check_form(&view, has, err)) return false;
     bool ok = has[0]   ? read_camera(&view, &eye, err)
               : has[1] ? read_point(&view, &eye, err)
+              : has[4] ? read_ellipse(&view, &eye, err)
                        : read_box(&view, &eye, err);
     if (ok) *out = eye;
     return ok;
@@ -110,6 +136,28 @@ static bool read_forward(RequestReading *reading, Error *err)
     return hypot_d(forward[0], forward[2]) > UPRIGHT ||
            field_fails(&reading->root, "forward", err,
                        "is vertical, wanted where the vehicle points");
+}
+
+/* Ahead on the horizontal, its front down by the tilt; across; upright on both. */
+static void turn_ellipse(const double forward[3], ReviewEye *eye)
+{
+    double level = hypot_d(forward[0], forward[2]);
+    double ahead[3] = {forward[0] / level, 0, forward[2] / level};
+    double across[3] = {-ahead[2], 0, ahead[0]};
+    double tilt = radians_from_degrees(eye->tilt_deg), c = cos_d(tilt), s = sin_d(tilt);
+    for (int k = 0; k < 3; k++) {
+        double up = k == 1;
+        eye->half_axes_m[0][k] = 0.5 * eye->axes_m[0] * (c * ahead[k] - s * up);
+        eye->half_axes_m[1][k] = 0.5 * eye->axes_m[1] * across[k];
+        eye->half_axes_m[2][k] = 0.5 * eye->axes_m[2] * (s * ahead[k] + c * up);
+    }
+}
+
+static void turn_ellipses(ReviewRequest *request)
+{
+    for (int i = 0; i < request->eye_count; i++)
+        if (request->eyes[i].kind == EYE_ELLIPSE)
+            turn_ellipse(request->forward, &request->eyes[i]);
 }
 
 static bool read_observer(RequestReading *reading, Error *err)
@@ -218,6 +266,7 @@ static bool read_gazes(RequestReading *reading, Error *err)
 
 bool request_eyes_read(RequestReading *reading, Error *err)
 {
-    return read_eyes(reading, err) && read_forward(reading, err) &&
-           read_observer(reading, err) && read_gazes(reading, err);
+    if (!read_eyes(reading, err) || !read_forward(reading, err)) return false;
+    turn_ellipses(reading->request);
+    return read_observer(reading, err) && read_gazes(reading, err);
 }

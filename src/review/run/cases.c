@@ -11,7 +11,7 @@
 #include "render/train.h"
 #include "review/judge.h"
 #include "review/keep/go_on.h"
-#include "review/keep/work.h"
+#include "review/work/work.h"
 #include "review/light/eye_reading.h"
 #include "review/light/question.h"
 #include "review/light/response.h"
@@ -63,7 +63,7 @@ Vec3 *stage_eye_points(const Stage *stage, const ReviewEye *eye, int *count, Are
 {
     *count = review_eye_count(eye);
     Vec3 *points = ARENA_NEW(arena, Vec3, *count);
-    if (eye->kind != EYE_BOX)
+    if (!review_eye_is_wide(eye))
         return stage_eye_middle(stage, eye, *arena, points, err) ? points : NULL;
     for (int i = 0; i < *count; i++) {
         double p[3];

@@ -18,9 +18,11 @@
 typedef struct ReviewOutcome ReviewOutcome;
 
 /* Whoever wants to know what is known so far: after each condition, with how many are done. It
- * must change nothing. NULL: nobody. Fails: what it says ends the review. */
+ * must change nothing. NULL: nobody. Fails: what it says ends the review. And which files
+ * scenes are made of, once they are read; NULL: the same. */
 typedef struct ReviewNews {
     bool (*told)(void *user, const ReviewOutcome *so_far, int done, Error *err);
+    void (*read)(void *user, const Scene *scene);
     void  *user;
 } ReviewNews;
 
@@ -31,7 +33,7 @@ typedef struct ReviewRun {
     SceneState           state;    /* scene.h's */
     int                  threads;
     const char          *isa;      /* kernel.h's; NULL: the best */
-    Progress            *work;     /* keep/work.h: of all that is left, or of a part in hand */
+    Progress            *work;     /* work/work.h: of all that is left, or of a part in hand */
     const char          *folder;   /* of the frames, which is there; */
     const char          *unfinished; /* of checkpoints, */
     const char          *responses;  /* and of responses: as it is opened (plan: NULL: none), */

@@ -8,7 +8,7 @@
 #include "review/run/frames.h"
 #include "review/run/gazes.h"
 #include "review/keep/go_on.h"
-#include "review/keep/work.h"
+#include "review/work/work.h"
 #include "review/run/sights.h"
 #include "review/output/review_decide.h"
 #include "review/request/request_check.h"
@@ -156,7 +156,7 @@ static bool check_planned(const ReviewRun *run, const Stage *stage, Arena scratc
 {
     Text own = {.arena = &scratch};
     if (!run->identity) return true;
-    add_condition(&own, run->request, stage->condition, stage->tools.base);
+    add_condition(&own, run->request, stage->condition, stage->planned);
     return strstr(run->identity, own.data) ||
            error_at(err, ERROR_INPUT, run->request->file, "",
                     "the program, the request or a file of condition '%.200s' is not what the "
@@ -185,6 +185,7 @@ static bool run_condition(const ReviewRun *run, const ReviewCondition *condition
     bool  ok = stage_open(&options, &scratch, run->problems, &stage, err);
     if (ok) {
         work_add(run->work, WORK_OPENED);
+        if (run->news.read) run->news.read(run->news.user, stage.scene);
         tell_without_data(stage.scene, &out->review, scratch, arena);
         ok = (review_request_check(run->request, stage.scene, run->problems) ||
               problems_verdict(run->problems, err)) &&
@@ -276,7 +277,7 @@ static bool plan_condition(const ReviewRun *run, const ReviewCondition *conditio
              (condition->kind == CONDITION_MOMENT
                   ? stage_symbols(&stage, &scratch, &symbols, &count, err)
                   : sweep_place_probes(&sweep, &scratch, err));
-        *base = stage.tools.base;
+        *base = stage.planned;
         plan->responses += sweep.ask_count;
         for (int i = 0; i < sweep.ask_count; i++)
             plan->responses_kept += sweep.asks[i].is_kept;
@@ -328,7 +329,7 @@ static bool has_sweeps(const ReviewRequest *request)
 static bool has_boxes(const ReviewRequest *request)
 {
     for (int i = 0; i < request->eye_count; i++)
-        if (request->eyes[i].kind == EYE_BOX) return true;
+        if (review_eye_is_wide(&request->eyes[i])) return true;
     return false;
 }
 
@@ -342,7 +343,7 @@ static void add_notes(const ReviewRequest *request, Review *review, Arena *arena
                  "among it, is a mean over about 3 degrees of the sun's place. The worst case "
                  "of each sweep is traced by itself.");
         if (has_boxes(request))
-            add_note(review, &notes, "Sweeps: an eye box counts by its middle.");
+            add_note(review, &notes, "Sweeps: an eye box or ellipse counts by its middle.");
         if (review_look_count(request))
             add_note(review, &notes,
                      "Sweeps and routes: of gazes that do not go to symbols only the sun in "

@@ -156,7 +156,7 @@ bool review_variant(const ReviewRun *run, const ReviewVariant *variant, const Re
     own.request = request;
     own.base = base;
     own.identity = NULL;
-    own.news = (ReviewNews){NULL, NULL};
+    own.news.told = NULL;
     own.share = (ReviewShare){0};
     if (!review_run(&own, arena, outcome, err))
         return err->code > 128 ? false : error_prefix(err, "variant '%.100s'", variant->name);

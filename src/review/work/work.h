@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* work.h -- how long the parts of a review take beside each other, so that a person who waits is
- * told when it will be done.
+/* work.h -- how long the parts of a review take beside each other, so that a person who waits
+ * is told when it will be done.
  *
- * Units    seconds of two processors of 2023 in the shipped car: only their ratios count, since
- *          the pace is measured as the work goes on. Measured over the shipped scenes, where
- *          the time left is right within half of itself from a tenth of the way on.
+ * Units    about seconds of the shipped car on two processors: only their ratios count, since
+ *          the pace is measured as the work goes on.
  * Threads  pure functions; a Progress has one thread at a time.
  */
 #pragma once

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "review/keep/work.h"
+#include "review/work/work.h"
 
 #define FOUND_LIKELY 6      /* symbols of a rectangle in which text is found */
 #define CASE 0.45           /* of an eye's point, with its causes */

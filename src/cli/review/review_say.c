@@ -1,0 +1,100 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "cli/review/review_say.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#include "cli/options/answer.h"
+#include "review/output/review_decide.h"
+#include "review/output/review_gaze.h"
+#include "review/output/review_json.h"
+#include "review/output/review_words.h"
+#include "text/interval_text.h"
+
+static void print_case(const ReviewCase *c, Arena scratch)
+{
+    printf("%-11s %s, %s, %s", verdict_names[c->verdict], c->condition, c->eye, c->symbol);
+    if (c->visible_share > 0)
+        printf(": contrast %s : 1, reflected %s cd/m2",
+               interval_text(c->contrast_ratio, c->contrast_low, c->contrast_high, &scratch),
+               interval_text(c->luminance_cd_m2.reflected, c->reflected_range.low,
+                             c->reflected_range.high, &scratch));
+    else if (c->hider_count) printf(": %s", words_hiders(c, &scratch));
+    if (c->limit_id >= 0) printf(", wanted %.3g : 1", c->limits[c->limit_id].value);
+    fputs(words_precision(c, &scratch), stdout);
+    if (c->minutes_to_decide > 0 && isfinite(c->minutes_to_decide))
+        printf("; about %.2g minutes more would decide it", fmax(c->minutes_to_decide, 0.1));
+    putchar('\n');
+}
+
+static void print_sweep(const ReviewSweep *s, Arena scratch)
+{
+    bool is_sure = sweep_verdict(s) == VERDICT_FAIL || !(s->failed_share > 0);
+    printf("%-11s %s, %s, %s: %.3g %% of %ld suns fail%s", verdict_names[sweep_verdict(s)],
+           s->condition, s->eye, s->symbol, 100 * s->failed_share, s->cases,
+           is_sure ? "" : " by their steps alone, none that was read again");
+    if (s->longest_failure_minutes > 0)
+        printf(", %.4g minutes at a stretch", s->longest_failure_minutes);
+    if (s->worst.has_sun)
+        printf("; worst at azimuth %.1f, elevation %.1f", s->worst.sun_azimuth_deg,
+               s->worst.sun_elevation_deg);
+    if (s->worst.visible_share > 0)
+        printf(": contrast %s : 1",
+               interval_text(s->worst.contrast_ratio, s->worst.contrast_low,
+                             s->worst.contrast_high, &scratch));
+    else if (s->worst.hider_count) printf(": %s", words_hiders(&s->worst, &scratch));
+    fputs(words_precision(&s->worst, &scratch), stdout);
+    putchar('\n');
+}
+
+/* What takes half of what there is to be seen. */
+static void print_gaze(const GazeFinding *g, Arena scratch)
+{
+    if (!(g->contrast_left < GAZE_POOR)) return;
+    printf("%-11s %s, %s, looking at %s: %.3g %% of a distant object's contrast left; seen "
+           "%.4g cd/m2, mirrored by glass %s, veil in the eye %s\n", "veiled", g->condition,
+           g->eye, g->gaze, 100 * g->contrast_left, g->through,
+           review_gaze_mirrored(g, &scratch), review_gaze_veil(g, &scratch));
+}
+
+/* Its least margin beside the review's own, in percent of the limit. */
+static void print_variant(const ReviewVariantFound *v)
+{
+    const ReviewDifference *d = &v->worst;
+    printf("%-11s variant %s", verdict_names[review_verdict(v->review)], v->name);
+    if (d->after && d->before)
+        printf(": least margin %+.3g %%, %+.2g %% (%+.2g to %+.2g) from the review's: %s, %s, "
+               "%s", 100 * d->after->margin, 100 * d->margin, 100 * d->margin_range.low,
+               100 * d->margin_range.high, d->after->condition, d->after->eye,
+               d->after->symbol);
+    putchar('\n');
+}
+
+static void print_mend(const ReviewMend *m, Arena *scratch)
+{
+    printf("%-11s %s\n", m->is_found ? "mended" : "not mended", words_mend(m, scratch));
+}
+
+static void print_review(const Review *review, Arena scratch)
+{
+    for (int i = 0; i < review->case_count; i++) print_case(&review->cases[i], scratch);
+    for (int i = 0; i < review->sweep_count; i++) print_sweep(&review->sweeps[i], scratch);
+    for (int i = 0; i < review->gaze_count; i++) print_gaze(&review->gazes[i], scratch);
+    const ReviewCase *worst = review_worst(review, scratch);
+    if (review->without_data_count)
+        printf("%-11s %d material%s taken as perfectly white: %s; of the light on the worst "
+               "case %.3g %% came by way of them\n", "no data", review->without_data_count,
+               review->without_data_count == 1 ? "" : "s", review->without_data,
+               worst ? 100 * worst->without_data_share : 0);
+    for (int i = 0; i < review->variant_count; i++) print_variant(&review->variants[i]);
+    for (int i = 0; i < review->mend_count; i++) print_mend(&review->mends[i], &scratch);
+    static const char *const LAST[4] = {"pass", "FAIL", "too close to call", "not visible"};
+    printf("%s\n", LAST[review_verdict(review)]);
+}
+
+bool review_say(const Cli *cli, const Review *review, Arena scratch, Error *err)
+{
+    if (cli->json) return cli_print_json(review_json(review), err);
+    print_review(review, scratch);
+    return true;
+}

@@ -1,0 +1,10 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* review_say.h -- what a review says on stdout: a line a case, or review.json.
+ *
+ * Memory   scratch only. Threads: one at a time. Fails: when stdout cannot be written.
+ */
+#pragma once
+#include "cli/options/cli.h"
+#include "review/verdict.h"
+
+bool review_say(const Cli *cli, const Review *review, Arena scratch, Error *err);
