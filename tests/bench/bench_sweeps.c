@@ -58,7 +58,7 @@ static Trial moment_trial(const SweepTrials *t, int sun, int paths, unsigned see
 }
 
 /* Of every sun, all by one seed's response. */
-static void read_steps(const SweepTrials *t, bool is_full, double own, unsigned seed,
+static void read_steps(SweepTrials *t, bool is_full, double own, unsigned seed,
                        Trial *out)
 {
     Arena    room = t->scratch;
@@ -70,7 +70,8 @@ static void read_steps(const SweepTrials *t, bool is_full, double own, unsigned 
     FarProbe probe = {.aim = t->aim};
     probe.aim.seed = seed;
     far_probe_respond(&probe, &tools, &room);
-    far_probes_ask_skies((FarProbe *[]){&probe}, 1, &tools, &room);
+    Error err;
+    if (!far_probes_ask_skies((FarProbe *[]){&probe}, 1, &tools, &room, &err)) trials_stop(&err);
     far_probe_ask_suns(&probe, &tools, &room);
     for (int i = 0; i < t->suns.count; i++) {
         FarReading r = far_probe_read(&probe, &tools, i);
@@ -79,7 +80,7 @@ static void read_steps(const SweepTrials *t, bool is_full, double own, unsigned 
     }
 }
 
-static void read_all_steps(const SweepTrials *t, bool is_full, double own, Trial *out)
+static void read_all_steps(SweepTrials *t, bool is_full, double own, Trial *out)
 {
     for (int k = 0; k < t->runs; k++)
         read_steps(t, is_full, own, (1u << 20) + (unsigned)k, out + k * t->suns.count);
@@ -153,7 +154,7 @@ static Truth *find_truths(const SweepTrials *t, Arena *arena)
     return truths;
 }
 
-static void cover(const SweepTrials *t, const char *ways, Arena arena)
+static void cover(SweepTrials *t, const char *ways, Arena arena)
 {
     int    count = t->suns.count;
     double own = own_light(t);

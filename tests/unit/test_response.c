@@ -382,7 +382,7 @@ TEST(a_response_to_a_clear_sky_is_what_paths_find_under_it)
     FarProbe probe = {.aim = aim_of(&world)};
     probe.aim.context = &stage.context;
     far_probe_respond(&probe, &tools, &world.arena);
-    far_probes_ask_skies((FarProbe *[]){&probe}, 1, &tools, &world.arena);
+    assert_true(far_probes_ask_skies((FarProbe *[]){&probe}, 1, &tools, &world.arena, &err));
     far_probe_ask_suns(&probe, &tools, &world.arena);
     for (int i = 0; i < 4; i++) {
         Lights *lights;

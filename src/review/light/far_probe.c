@@ -25,24 +25,44 @@ static int elevations_within(double low, double high, int *first)
     return last - *first + 1;
 }
 
+SkyTable sky_table_start(const DaylightInput *like, double low_deg, double high_deg,
+                         Arena *arena)
+{
+    int first, count = elevations_within(low_deg, high_deg, &first);
+    return (SkyTable){*like, elevations + first,
+                      arena_alloc(arena, sizeof(float[LIGHT_BANDS]), _Alignof(float),
+                                  (size_t)count), count};
+}
+
+/* The sky of a row; its sun is noted. */
+static bool make_sky(SkyTable *table, int row, Arena *arena, Daylight *out, Error *err)
+{
+    DaylightInput input = table->like;
+    input.has_sun = true;
+    input.sun_azimuth = 0;
+    input.sun_elevation = radians_from_degrees(table->elevation_deg[row]);
+    input.sun_lux = -1;
+    input.no_moon = true;
+    if (!daylight_build(&input, arena, out, err)) return false;
+    light_bands_sun(out, table->sun_bands[row]);
+    return true;
+}
+
+static bool make_suns(SkyTable *table, const Arena *arena, Error *err)
+{
+    for (int row = 0; row < table->count; row++) {
+        Arena    room = *arena;
+        Daylight sky;
+        if (!make_sky(table, row, &room, &sky, err)) return false;
+    }
+    return true;
+}
+
 bool sky_table_build(const DaylightInput *like, double low_deg, double high_deg, Arena *arena,
                      SkyTable *out, Error *err)
 {
-    int first, count = elevations_within(low_deg, high_deg, &first);
-    *out = (SkyTable){elevations + first, ARENA_NEW(arena, Daylight, count),
-                      arena_alloc(arena, sizeof(float[LIGHT_BANDS]), _Alignof(float),
-                                  (size_t)count), count};
-    for (int i = 0; i < count; i++) {
-        DaylightInput input = *like;
-        input.has_sun = true;
-        input.sun_azimuth = 0;
-        input.sun_elevation = radians_from_degrees(elevations[first + i]);
-        input.sun_lux = -1;
-        input.no_moon = true;
-        if (!daylight_build(&input, arena, &out->skies[i], err)) return false;
-        light_bands_sun(&out->skies[i], out->sun_bands[i]);
-    }
-    return true;
+    *out = sky_table_start(like, low_deg, high_deg, arena);
+    return make_suns(out, arena, err);
 }
 
 /* The table's row at or below an elevation, and how far it lies towards the next. */
@@ -92,7 +112,7 @@ typedef struct SkyProbe {
 
 /* A row of the table over all probes, so that each sky is looked up once. */
 typedef struct SkySum {
-    const FarTools  *tools;
+    const Daylight  *sky;      /* of the row */
     const SkyProbe  *probes;
     int              probe_count, row, cell_count;
     const bool      *is_asked; /* [cell] by any of the probes */
@@ -141,11 +161,10 @@ static BrightSamples read_white(const Response *response, const WhiteSamples *wh
 
 static void look_up(const SkySum *sum, int azimuth, float *bands)
 {
-    const Daylight *sky = &sum->tools->table->skies[sum->row];
-    double          turn = 360.0 * azimuth / SKY_AZIMUTHS;
+    double turn = 360.0 * azimuth / SKY_AZIMUTHS;
     for (int cell = 0; cell < sum->cell_count; cell++)
         if (sum->is_asked[cell])
-            light_bands_sky(sky, (float)radians_from_degrees(sum->at[cell].elevation_deg),
+            light_bands_sky(sum->sky, (float)radians_from_degrees(sum->at[cell].elevation_deg),
                             (float)radians_from_degrees(sum->at[cell].azimuth_deg - turn),
                             bands + (size_t)cell * LIGHT_BANDS);
 }
@@ -214,7 +233,8 @@ static SkyProbe sky_probe(FarProbe *probe, bool *is_asked, Arena *scratch)
     return out;
 }
 
-static void sum_skies(FarProbe *const *probes, int count, const FarTools *tools, Arena *arena)
+static bool sum_skies(FarProbe *const *probes, int count, const FarTools *tools, Arena *arena,
+                      Error *err)
 {
     int rows = tools->table->count, threads = tools->stage->tools.threads;
     for (int i = 0; i < count; i++) {
@@ -232,11 +252,18 @@ static void sum_skies(FarProbe *const *probes, int count, const FarTools *tools,
     for (int i = 0; i < count; i++) list[i] = sky_probe(probes[i], is_asked, &scratch);
     for (int cell = 0; cell < cells; cell++)
         at[cell] = vehicle_angles(tools->stage, first->centers[cell]);
-    SkySum sum = {.tools = tools, .probes = list, .probe_count = count, .cell_count = cells,
+    SkySum sum = {.probes = list, .probe_count = count, .cell_count = cells,
                   .is_asked = is_asked, .at = at,
                   .bands = ARENA_NEW(&scratch, float,
                                      (size_t)threads * (size_t)cells * LIGHT_BANDS)};
-    for (; sum.row < rows; sum.row++) parallel_for(threads, SKY_AZIMUTHS, sum_sky, &sum);
+    for (; sum.row < rows; sum.row++) {
+        Arena    room = scratch;
+        Daylight sky;
+        if (!make_sky(tools->table, sum.row, &room, &sky, err)) return false;
+        sum.sky = &sky;
+        parallel_for(threads, SKY_AZIMUTHS, sum_sky, &sum);
+    }
+    return true;
 }
 
 /* ---- probes ------------------------------------------------------------------------------ */
@@ -306,16 +333,19 @@ static void read_even_sky(FarProbe *probe, Arena *arena)
     probe->sky_bright[0] = read_white(&probe->response, &white, 1, probe->sky_without);
 }
 
-void far_probes_ask_skies(FarProbe *const *probes, int count, const FarTools *tools,
-                          Arena *arena)
+static void ask_hours(FarProbe *probe, const FarTools *tools, Arena *arena)
 {
-    if (!tools->hours && count > 0) sum_skies(probes, count, tools, arena);
-    for (int i = 0; tools->hours && i < count; i++) {
-        probes[i]->sky = hour_skies_read(tools->hours, &probes[i]->response,
-                                         sun_directions(tools, arena), tools->suns.count,
-                                         tools->stage->tools.threads, arena);
-        read_even_sky(probes[i], arena);
-    }
+    probe->sky = hour_skies_read(tools->hours, &probe->response, sun_directions(tools, arena),
+                                 tools->suns.count, tools->stage->tools.threads, arena);
+    read_even_sky(probe, arena);
+}
+
+bool far_probes_ask_skies(FarProbe *const *probes, int count, const FarTools *tools,
+                          Arena *arena, Error *err)
+{
+    if (!tools->hours && count > 0) return sum_skies(probes, count, tools, arena, err);
+    for (int i = 0; i < count; i++) ask_hours(probes[i], tools, arena);
+    return make_suns(tools->table, arena, err);
 }
 
 /* Between four of a table's places. */

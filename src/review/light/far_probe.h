@@ -23,13 +23,18 @@
 
 /* Clear skies by the sun's elevation. */
 typedef struct SkyTable {
+    DaylightInput like;          /* air and ground; suns stand at azimuth 0 */
     const double *elevation_deg; /* rising */
-    Daylight     *skies;         /* their suns at azimuth 0 */
-    float       (*sun_bands)[LIGHT_BANDS]; /* lx */
+    float       (*sun_bands)[LIGHT_BANDS]; /* lx; 0 before its skies were made */
     int           count;
 } SkyTable;
 
-/* Elevations that reach from `low` to `high`; `like` says air and ground. */
+/* Elevations that reach from `low` to `high`; `like` says air and ground. Its skies are made
+ * when probes ask for them (far_probes_ask_skies), one by one: each takes some 10 MB. */
+SkyTable sky_table_start(const DaylightInput *like, double low_deg, double high_deg,
+                         Arena *arena);
+
+/* The same, and what its suns give. */
 bool sky_table_build(const DaylightInput *like, double low_deg, double high_deg, Arena *arena,
                      SkyTable *out, Error *err);
 
@@ -56,7 +61,7 @@ typedef struct FarSuns {
 
 typedef struct FarTools {
     const Stage    *stage;
-    const SkyTable *table;
+    SkyTable       *table;
     FarSuns         suns;
     int             paths;       /* of the response, at most, */
     double          precision;   /* and when it ends before */
@@ -68,10 +73,10 @@ typedef struct FarTools {
 /* probe->aim is set: its response is made, for any table and suns. */
 void far_probe_respond(FarProbe *probe, const FarTools *tools, Arena *arena);
 
-/* After that: what the tools' skies give them. All at once, since a sky is looked up but once
- * for all of them. */
-void far_probes_ask_skies(FarProbe *const *probes, int count, const FarTools *tools,
-                          Arena *arena);
+/* After that: what the tools' skies give them, and the table's suns. All at once, since a sky is
+ * made and looked up but once for all of them. Fails as daylight_build. */
+bool far_probes_ask_skies(FarProbe *const *probes, int count, const FarTools *tools,
+                          Arena *arena, Error *err);
 
 /* The first vertex's answers to the tools' suns: after that the probe may be read; once more
  * for other suns of the same clear skies. */

@@ -507,7 +507,8 @@ static bool make_skies(Sweep *sweep, Arena *scratch, Error *err)
     DaylightInput like = air_of(stage->condition);
     like.has_time = false;
     like.threads = stage->tools.threads;
-    return sky_table_build(&like, low, high, scratch, &sweep->table, err);
+    sweep->table = sky_table_start(&like, low, high, scratch);
+    return true;
 }
 
 bool sweep_check(const ReviewRequest *request, int condition_id, Arena scratch, Error *err)
@@ -546,7 +547,7 @@ static bool sweep_condition(Sweep *sweep, Arena scratch, Arena *arena, ReviewOut
     sweep->sensor =
         has_level && sweep->level->is_curve ? &sweep->sensors[condition->level_id] : NULL;
     if (!make_skies(sweep, &scratch, err)) return false;
-    sweep_ask_light(sweep, &scratch);
+    if (!sweep_ask_light(sweep, &scratch, err)) return false;
     work_add(sweep->run->work, WORK_SKIES * sweep->sight_count);
     FarTools   tools = sweep_tools(sweep);
     SweepSuns *suns = ARENA_NEW(arena, SweepSuns, 1);

@@ -192,7 +192,7 @@ static void list_asks(Sweep *sweep, Arena *arena)
     }
 }
 
-FarTools sweep_tools(const Sweep *sweep)
+FarTools sweep_tools(Sweep *sweep)
 {
     return (FarTools){.stage = sweep->stage, .table = &sweep->table,
                       .hours = sweep->has_hours ? &sweep->hours : NULL,
@@ -211,7 +211,7 @@ static void tell_twins(Sweep *sweep)
     }
 }
 
-static void ask_skies(Sweep *sweep, const FarTools *tools, Arena *arena)
+static bool ask_skies(Sweep *sweep, const FarTools *tools, Arena *arena, Error *err)
 {
     int        most = sweep->symbol_count + 1 + sweep->sight_count, count = 0;
     FarProbe **probes = ARENA_NEW(arena, FarProbe *, most);
@@ -223,8 +223,9 @@ static void ask_skies(Sweep *sweep, const FarTools *tools, Arena *arena)
         bool is_asked = !sight->is_left && sight->twin == NO_ID;
         if (is_asked && sight->probe.aim.target_count) probes[count++] = &sight->probe;
     }
-    far_probes_ask_skies(probes, count, tools, arena);
+    if (!far_probes_ask_skies(probes, count, tools, arena, err)) return false;
     tell_twins(sweep);
+    return true;
 }
 
 /* ---- meters ------------------------------------------------------------------------------ */
@@ -262,18 +263,19 @@ static void ask_meter_suns(SweepMeter *meter, const FarTools *tools, Arena *aren
     sweep_meter_read(meter, tools, arena);
 }
 
-void sweep_ask_light(Sweep *sweep, Arena *arena)
+bool sweep_ask_light(Sweep *sweep, Arena *arena, Error *err)
 {
     FarTools tools = sweep_tools(sweep);
-    ask_skies(sweep, &tools, arena);
+    if (!ask_skies(sweep, &tools, arena, err)) return false;
     tools.has_mirror = false;
     tools.sun_paths = METER_SUN_PATHS;
     for (int i = 0; i < sweep->symbol_count; i++)
         ask_meter_suns(&sweep->faces[i], &tools, arena);
     if (sweep->sensor) ask_meter_suns(sweep->sensor, &tools, arena);
+    return true;
 }
 
-Sight sweep_ask_sight(const Sweep *sweep, const Sight *sight, Arena *arena)
+Sight sweep_ask_sight(Sweep *sweep, const Sight *sight, Arena *arena)
 {
     FarTools tools = sweep_tools(sweep);
     Sight    asked = *sight;

@@ -80,13 +80,13 @@ bool sweep_place_probes(Sweep *sweep, Arena *arena, Error *err);
 bool sweep_make_probes(Sweep *sweep, Arena *arena, Error *err);
 
 /* Everything for the skies of a condition, and the meters for its suns. */
-void sweep_ask_light(Sweep *sweep, Arena *arena);
+bool sweep_ask_light(Sweep *sweep, Arena *arena, Error *err);
 
 /* One sight, for these suns: some 150 bytes a sun, so that they are asked one by one. */
-Sight sweep_ask_sight(const Sweep *sweep, const Sight *sight, Arena *arena);
+Sight sweep_ask_sight(Sweep *sweep, const Sight *sight, Arena *arena);
 
 /* Sets what a meter reads under each of the tools' suns, which it was asked. */
 void sweep_meter_read(SweepMeter *meter, const FarTools *tools, Arena *arena);
 
 /* Of which they read these. */
-FarTools sweep_tools(const Sweep *sweep);
+FarTools sweep_tools(Sweep *sweep);
