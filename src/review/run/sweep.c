@@ -222,12 +222,10 @@ static Told tell_others(const Telling *to, const Sight *sight, const SweepSuns *
     of_meters = tools;
     of_meters.has_mirror = false;
     far_probe_ask_suns(&seen.probe, &tools, scratch);
-    far_probe_ask_suns(&face.probe, &of_meters, scratch);
     sweep_meter_read(&face, &of_meters, scratch);
     seen.face = &face;
     if (sweep.sensor) {
         sensor = *sweep.sensor;
-        far_probe_ask_suns(&sensor.probe, &of_meters, scratch);
         sweep_meter_read(&sensor, &of_meters, scratch);
         sweep.sensor = &sensor;
     }

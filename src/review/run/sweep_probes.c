@@ -250,17 +250,13 @@ static void read_chunk(void *user, int item, int worker)
 void sweep_meter_read(SweepMeter *meter, const FarTools *tools, Arena *arena)
 {
     int       count = tools->suns.count;
-    MeterWork work = {&meter->probe, tools, ARENA_NEW(arena, double, count)};
+    FarProbe  probe = meter->probe;
+    MeterWork work = {&probe, tools, ARENA_NEW(arena, double, count)};
+    Arena     room = *arena;
+    far_probe_ask_suns(&probe, tools, &room);
     parallel_for(tools->stage->tools.threads, (count + METER_CHUNK - 1) / METER_CHUNK,
                  read_chunk, &work);
     meter->lux = work.lux;
-}
-
-static void ask_meter_suns(SweepMeter *meter, const FarTools *tools, Arena *arena)
-{
-    if (meter->is_left) return;
-    far_probe_ask_suns(&meter->probe, tools, arena);
-    sweep_meter_read(meter, tools, arena);
 }
 
 bool sweep_ask_light(Sweep *sweep, Arena *arena, Error *err)
@@ -270,8 +266,9 @@ bool sweep_ask_light(Sweep *sweep, Arena *arena, Error *err)
     tools.has_mirror = false;
     tools.sun_paths = METER_SUN_PATHS;
     for (int i = 0; i < sweep->symbol_count; i++)
-        ask_meter_suns(&sweep->faces[i], &tools, arena);
-    if (sweep->sensor) ask_meter_suns(sweep->sensor, &tools, arena);
+        if (!sweep->faces[i].is_left) sweep_meter_read(&sweep->faces[i], &tools, arena);
+    if (sweep->sensor && !sweep->sensor->is_left)
+        sweep_meter_read(sweep->sensor, &tools, arena);
     return true;
 }
 

@@ -85,7 +85,7 @@ bool sweep_ask_light(Sweep *sweep, Arena *arena, Error *err);
 /* One sight, for these suns: some 150 bytes a sun, so that they are asked one by one. */
 Sight sweep_ask_sight(Sweep *sweep, const Sight *sight, Arena *arena);
 
-/* Sets what a meter reads under each of the tools' suns, which it was asked. */
+/* Asks a meter of each of the tools' suns, and sets what it reads there. */
 void sweep_meter_read(SweepMeter *meter, const FarTools *tools, Arena *arena);
 
 /* Of which they read these. */

@@ -1,13 +1,15 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "review/work/work.h"
 
+#include <math.h>
+
 #define FOUND_LIKELY 6      /* symbols of a rectangle in which text is found */
 #define CASE 0.45           /* of an eye's point, with its causes */
 #define CASE_BARE 0.25
 #define CASE_COMPARED 0.15  /* more, of a review with variants */
 #define POINT 0.025         /* of each further point of an eye's box */
 #define FRAME_PIXEL 1.2e-4  /* at the usual noise */
-#define FRAME_NOISE 0.15
+#define FRAME_NOISE 0.15    /* reached by about as many samples as any frame has */
 #define MINUTES_A_YEAR (365 * 24 * 60.0)
 
 double work_of_case(const ReviewRequest *request, const ReviewEye *eye, bool is_bare)
@@ -59,7 +61,7 @@ double work_of_condition(const ReviewRequest *request, const ReviewCondition *co
 double work_of_frame(const ReviewRequest *request)
 {
     const ReviewFrames *frames = &request->frames;
-    double finer = FRAME_NOISE / frames->noise;
+    double finer = fmax(FRAME_NOISE / frames->noise, 1); /* a frame has some samples at least */
     return FRAME_PIXEL * frames->width * frames->height * finer * finer;
 }
 
