@@ -9,7 +9,7 @@
 #include <unistd.h>
 
 #define BAR_CELLS 24
-#define FIRST_S 3 /* of the first line, at the latest */
+#define FIRST_S 1 /* of the first line, at the latest */
 
 double monotonic_seconds(void)
 {

@@ -71,7 +71,8 @@ static void read_steps(SweepTrials *t, bool is_full, double own, unsigned seed,
     probe.aim.seed = seed;
     far_probe_respond(&probe, &tools, &room);
     Error err;
-    if (!far_probes_ask_skies((FarProbe *[]){&probe}, 1, &tools, &room, &err)) trials_stop(&err);
+    if (!far_probes_ask_skies((FarProbe *[]){&probe}, 1, &tools, &room, &err))
+        trials_stop(&err);
     far_probe_ask_suns(&probe, &tools, &room);
     for (int i = 0; i < t->suns.count; i++) {
         FarReading r = far_probe_read(&probe, &tools, i);
@@ -178,13 +179,12 @@ static void make_table(SweepTrials *t, Arena *arena)
 {
     DaylightInput air = daylight_input_default(DAYLIGHT_CLEAR);
     double        low = 90, high = -90;
-    Error         err = {0};
     air.threads = 1;
     for (int i = 0; i < t->suns.count; i++) {
         low = fmin(low, t->suns.list[i].elevation_deg);
         high = fmax(high, t->suns.list[i].elevation_deg);
     }
-    if (!sky_table_build(&air, low, high, arena, &t->table, &err)) trials_stop(&err);
+    t->table = sky_table_start(&air, low, high, arena);
 }
 
 static void cover_sweep(ReviewRequest *request, const ReviewCondition *c, const char *ways,

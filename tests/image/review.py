@@ -298,6 +298,34 @@ EPW = "".join(f"{line}\n" for line in (
     "COMMENTS 1,none", "COMMENTS 2,none", "DATA PERIODS,1,1,Data,Sunday, 1/ 1,12/31"))
 
 
+def check_twins(report, reviewer):
+    """Eyes at one place share what a sweep asks: the same tables as either has by itself."""
+    x, y, z = EYE
+    both = {"point": {"position_m": EYE},
+            "box": {"centre_m": EYE, "half_size_m": [0.02, 0, 0], "grid": [3, 1, 1]},
+            "ellipse": {"centre_m": EYE, "ellipse_m": [0.1, 0.04, 0.06], "tilt_deg": 5},
+            "beside": {"position_m": [x + 0.05, y, z]}}
+    sweep = {"name": "suns", "sweep": {"sun": {"azimuth_deg": [0, 90, 30],
+                                               "elevation_deg": [30, 60, 30]}, "sky": "sky"}}
+    tables = {}
+    for name, eyes in (("all", both), ("alone", {"box": both["box"]})):
+        document = request(eyes=eyes, conditions=[sweep], precision={"contrast": 0.05})
+        _, found = reviewer.review(document, f"twins-{name}")
+        tables[name] = {s["eye"]: (s["failed_share"], read_table(reviewer, f"twins-{name}",
+                                                                 {"sweeps": [s]}))
+                        for s in found["sweeps"]}
+        names = {r["name"] for r in found["responses"]}
+        report.claim(len(names) == (3 if name == "all" else 2), f"asked: {sorted(names)}")
+        places = {p["eye"]: p["read_share"] for p in found["eye_places"]}
+        report.claim(set(places) == set(eyes) & {"box", "ellipse"} and
+                     all(0 <= share <= 1 for share in places.values()), f"places: {places}")
+    report.claim(list(tables["all"]) == list(both), f"order: {list(tables['all'])}")
+    for eye in ("box", "ellipse"):
+        report.claim(tables["all"][eye] == tables["all"]["point"], f"{eye} is other than its eye")
+    report.claim(tables["all"]["box"] == tables["alone"]["box"], "shared is other than alone")
+    report.claim(tables["all"]["beside"] != tables["all"]["point"], "all eyes are one")
+
+
 def weather_hours(count):
     """Hours of a year in its order: month, day, label, W/m2 direct and diffuse, heading."""
     draw = random.Random(9)
@@ -383,6 +411,7 @@ def main(program, whole):
         check_diff(report, reviewer)
         check_start(report, reviewer)
         check_suns(report, reviewer)
+        check_twins(report, reviewer)
         if whole:
             check_weather(report, reviewer, 30)
             check_worst(report, reviewer)

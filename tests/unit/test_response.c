@@ -369,15 +369,14 @@ TEST(a_response_to_a_clear_sky_is_what_paths_find_under_it)
     (void)state;
     static const SunAngles suns[] = {{270, 33}, {180, 30}, {0, 36}, {90, 30}};
     static const ReviewRequest request = {.forward = {0, 0, -1}};
-    World    world = niche();
-    SkyTable table;
-    Error    err = {0};
+    World world = niche();
+    Error err = {0};
     world_ready(&world, 64);
     Stage stage = {.request = &request, .tools = {.kernel = kernel(), .threads = 2},
                    .scene = world.scene, .context = world.context};
     DaylightInput like = daylight_input_default(DAYLIGHT_CLEAR);
     like.threads = 2;
-    assert_true(sky_table_build(&like, 30, 36, &world.arena, &table, &err));
+    SkyTable table = sky_table_start(&like, 30, 36, &world.arena);
     FarTools tools = {&stage, &table, {suns, 4}, 16384, 0, 64, false, NULL};
     FarProbe probe = {.aim = aim_of(&world)};
     probe.aim.context = &stage.context;
@@ -411,9 +410,10 @@ TEST(the_sun_of_a_sky_table_is_the_atmospheres)
                                      6.8, 9,    11.5, 14.5, 18,  33};
     Arena         arena = arena_reserve((size_t)1 << 30);
     DaylightInput like = daylight_input_default(DAYLIGHT_CLEAR);
-    SkyTable      table;
+    SkyTable      table = sky_table_start(&like, 0, 90, &arena);
+    FarTools      tools = {.table = &table};
     Error         err = {0};
-    assert_true(sky_table_build(&like, 0, 90, &arena, &table, &err));
+    assert_true(far_probes_ask_skies(NULL, 0, &tools, &arena, &err));
     for (size_t i = 0; i < COUNT_OF(BETWEEN); i++) {
         DaylightInput input = like;
         Daylight      sky;

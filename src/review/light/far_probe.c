@@ -58,13 +58,6 @@ static bool make_suns(SkyTable *table, const Arena *arena, Error *err)
     return true;
 }
 
-bool sky_table_build(const DaylightInput *like, double low_deg, double high_deg, Arena *arena,
-                     SkyTable *out, Error *err)
-{
-    *out = sky_table_start(like, low_deg, high_deg, arena);
-    return make_suns(out, arena, err);
-}
-
 /* The table's row at or below an elevation, and how far it lies towards the next. */
 static int row_of(const SkyTable *table, double elevation_deg, double *share)
 {

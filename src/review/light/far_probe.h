@@ -34,10 +34,6 @@ typedef struct SkyTable {
 SkyTable sky_table_start(const DaylightInput *like, double low_deg, double high_deg,
                          Arena *arena);
 
-/* The same, and what its suns give. */
-bool sky_table_build(const DaylightInput *like, double low_deg, double high_deg, Arena *arena,
-                     SkyTable *out, Error *err);
-
 /* What the sun's bands give at an elevation within the table's, lx: within 1 % from 2 degrees
  * on, 3 % or 1 lx below. */
 void sky_table_sun(const SkyTable *table, double elevation_deg, float bands[LIGHT_BANDS]);
@@ -73,8 +69,9 @@ typedef struct FarTools {
 /* probe->aim is set: its response is made, for any table and suns. */
 void far_probe_respond(FarProbe *probe, const FarTools *tools, Arena *arena);
 
-/* After that: what the tools' skies give them, and the table's suns. All at once, since a sky is
- * made and looked up but once for all of them. Fails as daylight_build. */
+/* After that: what the tools' skies give them, and the table's suns. All at once, since a sky
+ * is made and looked up but once for all of them. No probes: its suns alone. Fails as
+ * daylight_build. */
 bool far_probes_ask_skies(FarProbe *const *probes, int count, const FarTools *tools,
                           Arena *arena, Error *err);
 

@@ -4,11 +4,12 @@
 #include <math.h>
 
 #define FOUND_LIKELY 6      /* symbols of a rectangle in which text is found */
-#define CASE 0.45           /* of an eye's point, with its causes */
-#define CASE_BARE 0.25
-#define CASE_COMPARED 0.15  /* more, of a review with variants */
-#define POINT 0.025         /* of each further point of an eye's box */
-#define FRAME_PIXEL 1.2e-4  /* at the usual noise */
+#define CASE 0.28           /* of an eye's point, with its causes */
+#define CASE_BARE 0.15
+#define CASE_COMPARED 0.1  /* more, of a review with variants */
+#define POINT 0.015         /* of each further point of an eye's box */
+#define FRAME 42.0          /* of a frame, however small, */
+#define FRAME_PIXEL 6e-5    /* and its pixels, at the usual noise */
 #define FRAME_NOISE 0.15    /* reached by about as many samples as any frame has */
 #define MINUTES_A_YEAR (365 * 24 * 60.0)
 
@@ -62,7 +63,7 @@ double work_of_frame(const ReviewRequest *request)
 {
     const ReviewFrames *frames = &request->frames;
     double finer = fmax(FRAME_NOISE / frames->noise, 1); /* a frame has some samples at least */
-    return FRAME_PIXEL * frames->width * frames->height * finer * finer;
+    return FRAME + FRAME_PIXEL * frames->width * frames->height * finer * finer;
 }
 
 double work_of_conditions(const ReviewRequest *request, bool is_bare)

@@ -14,25 +14,25 @@
 double work_of_case(const ReviewRequest *request, const ReviewEye *eye, bool is_bare);
 
 /* Of a gaze that does not go to symbols. */
-#define WORK_LOOK 2.0
+#define WORK_LOOK 1.25
 
 /* Of a scene that is opened, its symbols found, its paths taught. */
-#define WORK_STAGE 4.0
-#define WORK_OPENED 1.0 /* of it, until it is open */
+#define WORK_STAGE 2.5
+#define WORK_OPENED 0.6 /* of it, until it is open */
 
 /* Of a sweep: a symbol that an eye sees, which is asked of every direction; of skies, and each
  * sun that it is asked of then; and its worst, read again. */
-#define WORK_RESPONSE 2.9
+#define WORK_RESPONSE 1.8
 #define WORK_RESPONSE_PATH (WORK_RESPONSE / 65536) /* of the paths of most of them */
-#define WORK_OWN 0.4  /* what is read of the scene's own light, once with its displays */
-#define WORK_SKIES 0.5
-#define WORK_SUN 2.7e-5
-#define WORK_WORST 1.0
+#define WORK_OWN 0.25 /* what is read of the scene's own light, once with its displays */
+#define WORK_SKIES 0.3
+#define WORK_SUN 1.7e-5
+#define WORK_WORST 0.62
 
 double work_of_condition(const ReviewRequest *request, const ReviewCondition *condition,
                          bool is_bare);
 
-/* Of one picture. */
+/* Of one picture, and what the page makes of it. */
 double work_of_frame(const ReviewRequest *request);
 
 /* Of all conditions of a review or a variant. */
