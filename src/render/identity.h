@@ -26,6 +26,9 @@ void identity_add_program(Text *text, const Kernel *kernel);
  * which it was loaded. */
 void identity_add_scene(Text *text, const SceneOptions *options, const Scene *scene);
 
+/* Of a sky by daylight. */
+void identity_add_daylight(Text *text, const DaylightInput *daylight);
+
 /* The scene's surroundings as they are now. */
 void identity_add_environment(Text *text, const Scene *scene);
 

@@ -314,7 +314,7 @@ def check_twins(report, reviewer):
         tables[name] = {s["eye"]: (s["failed_share"], read_table(reviewer, f"twins-{name}",
                                                                  {"sweeps": [s]}))
                         for s in found["sweeps"]}
-        names = {r["name"] for r in found["responses"]}
+        names = {r["probe"] for r in found["responses"]}
         report.claim(len(names) == (3 if name == "all" else 2), f"asked: {sorted(names)}")
         places = {p["eye"]: p["read_share"] for p in found["eye_places"]}
         report.claim(set(places) == set(eyes) & {"box", "ellipse"} and

@@ -330,6 +330,7 @@ static bool make(const ReviewWords *words, ReviewFolder *folder, ReviewRun *run,
     run->responses = folder->responses;
     run->responses_shown = folder->responses_shown;
     run->journal = folder->draft.journal;
+    if (!run->lessons) run->lessons = folder->draft.unfinished;
     if (!take_found(folder, words->pin, *arena, err) ||
         !make_all(run, folder, words->watch, &outcome, arena, err)) {
         if (err->code > 128) tell_stopped(folder, err, arena);

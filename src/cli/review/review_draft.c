@@ -229,7 +229,8 @@ void review_draft_finish(ReviewDraft *draft)
     list_files(&files, draft->unfinished, "");
     for (int i = 0; i < files.count; i++) {
         const char *name = files.names[i];
-        if (starts_with(name, "new/") || has_ending(name, ".checkpoint") || is_leftover(name))
+        if (starts_with(name, "new/") || has_ending(name, ".checkpoint") ||
+            has_ending(name, ".lesson") || is_leftover(name))
             unlink(arena_format(&scratch, "%s/%s", draft->unfinished, name));
     }
     unlink(arena_format(&scratch, "%s/journal", draft->unfinished));

@@ -3,6 +3,7 @@
  * what goes on after a kill, until they take their places all together.
  *
  *     DIR/unfinished/journal         readings that were taken (review/keep/journal.h)
+ *     DIR/unfinished/HASH.lesson     what a moment's paths were taught
  *     DIR/unfinished/HASH.checkpoint of the frame in hand
  *     DIR/unfinished/new/            files as they will stand in DIR
  *

@@ -6,6 +6,7 @@
 #include "base/count.h"
 #include "base/parallel.h"
 #include "base/units.h"
+#include "render/identity.h"
 #include "review/light/question.h"
 
 /* ---- skies ------------------------------------------------------------------------------- */
@@ -226,17 +227,106 @@ static SkyProbe sky_probe(FarProbe *probe, bool *is_asked, Arena *scratch)
     return out;
 }
 
-static bool sum_skies(FarProbe *const *probes, int count, const FarTools *tools, Arena *arena,
+/* ---- skies that were summed before ------------------------------------------------------- */
+
+/* A probe's answers to all skies of a table, in one piece: sky, sky_bright, sky_without. */
+static size_t answer_bytes(const SkyTable *table)
+{
+    return (size_t)table->count * SKY_AZIMUTHS *
+           (sizeof(double) + sizeof(BrightSamples) + RESPONSE_GROUPS * sizeof(float));
+}
+
+static void place_answers(FarProbe *probe, const SkyTable *table, Arena *arena)
+{
+    size_t places = (size_t)table->count * SKY_AZIMUTHS;
+    probe->sky = arena_alloc(arena, 1, _Alignof(double), answer_bytes(table));
+    probe->sky_bright = (BrightSamples *)(probe->sky + places);
+    probe->sky_without = (float *)(probe->sky_bright + places);
+}
+
+/* All that decides a table's skies and suns, and where the vehicle points. */
+static const char *table_words(const FarTools *tools, const char *what, Arena *arena)
+{
+    const SkyTable *table = tools->table;
+    const double   *forward = tools->stage->request->forward;
+    Text            text = {.arena = arena};
+    text_format(&text, "%s\n", what);
+    identity_add_program(&text, tools->stage->tools.kernel);
+    identity_add_daylight(&text, &table->like);
+    identity_line(&text, "elevations", "%d, %.17g to %.17g", table->count,
+                  table->elevation_deg[0], table->elevation_deg[table->count - 1]);
+    identity_line(&text, "forward", "%.17g %.17g %.17g", forward[0], forward[1], forward[2]);
+    return text.data;
+}
+
+static JournalKey answers_key(const FarProbe *probe, const FarTools *tools, Arena scratch)
+{
+    const Response *response = &probe->response;
+    double   numbers[] = {(double)response->paths, response->relative_error};
+    Question question = {.base = tools->stage->tools.base,
+                         .kind = table_words(tools, "skies", &scratch), .numbers = numbers,
+                         .number_count = COUNT_OF(numbers)};
+    return question_key(&question, &probe->aim, scratch);
+}
+
+static size_t suns_bytes(const SkyTable *table)
+{
+    return (size_t)table->count * sizeof *table->sun_bands;
+}
+
+/* NULL: nothing is kept. */
+static Journal *journal_of(const FarTools *tools)
+{
+    return tools->stage ? tools->stage->tools.journal : NULL;
+}
+
+static bool find_suns(const FarTools *tools, Arena scratch)
+{
+    if (!journal_of(tools)) return false;
+    JournalKey key = journal_key(table_words(tools, "suns of skies", &scratch));
+    return journal_find(journal_of(tools), key, tools->table->sun_bands,
+                        suns_bytes(tools->table));
+}
+
+static void keep_suns(const FarTools *tools, Arena scratch)
+{
+    if (!journal_of(tools)) return;
+    JournalKey key = journal_key(table_words(tools, "suns of skies", &scratch));
+    journal_add(journal_of(tools), key, tools->table->sun_bands, suns_bytes(tools->table));
+}
+
+/* Those that are not known; *count: how many. */
+static FarProbe **probes_to_ask(FarProbe *const *probes, int *count, const FarTools *tools,
+                                Arena *arena)
+{
+    const Journal *journal = journal_of(tools);
+    FarProbe     **list = ARENA_NEW(arena, FarProbe *, *count);
+    int            left = 0;
+    for (int i = 0; i < *count; i++) {
+        place_answers(probes[i], tools->table, arena);
+        if (!journal || !journal_find(journal, answers_key(probes[i], tools, *arena),
+                                      probes[i]->sky, answer_bytes(tools->table)))
+            list[left++] = probes[i];
+    }
+    *count = left;
+    return list;
+}
+
+static void keep_answers(FarProbe *const *probes, int count, const FarTools *tools,
+                         Arena scratch)
+{
+    Journal *journal = journal_of(tools);
+    for (int i = 0; i < count && journal; i++)
+        journal_add(journal, answers_key(probes[i], tools, scratch), probes[i]->sky,
+                    answer_bytes(tools->table));
+}
+
+/* ---- skies that are asked ---------------------------------------------------------------- */
+
+static bool sum_skies(FarProbe *const *probes, int count, const FarTools *tools, Arena scratch,
                       Error *err)
 {
     int rows = tools->table->count, threads = tools->stage->tools.threads;
-    for (int i = 0; i < count; i++) {
-        probes[i]->sky = ARENA_NEW(arena, double, rows * SKY_AZIMUTHS);
-        probes[i]->sky_without =
-            ARENA_NEW(arena, float, rows * SKY_AZIMUTHS * RESPONSE_GROUPS);
-        probes[i]->sky_bright = ARENA_NEW(arena, BrightSamples, rows * SKY_AZIMUTHS);
-    }
-    Arena           scratch = *arena;
     const Response *first = &probes[0]->response; /* all have the same triangles */
     int             cells = first->cells.count;
     bool           *is_asked = ARENA_NEW(&scratch, bool, cells);
@@ -256,6 +346,19 @@ static bool sum_skies(FarProbe *const *probes, int count, const FarTools *tools,
         sum.sky = &sky;
         parallel_for(threads, SKY_AZIMUTHS, sum_sky, &sum);
     }
+    return true;
+}
+
+static bool ask_table(FarProbe *const *probes, int count, const FarTools *tools, Arena *arena,
+                      Error *err)
+{
+    FarProbe **list = probes_to_ask(probes, &count, tools, arena);
+    if (!count && find_suns(tools, *arena)) return true;
+    if (count ? !sum_skies(list, count, tools, *arena, err)
+              : !make_suns(tools->table, arena, err))
+        return false;
+    keep_answers(list, count, tools, *arena);
+    keep_suns(tools, *arena);
     return true;
 }
 
@@ -336,9 +439,9 @@ static void ask_hours(FarProbe *probe, const FarTools *tools, Arena *arena)
 bool far_probes_ask_skies(FarProbe *const *probes, int count, const FarTools *tools,
                           Arena *arena, Error *err)
 {
-    if (!tools->hours && count > 0) return sum_skies(probes, count, tools, arena, err);
+    if (!tools->hours) return ask_table(probes, count, tools, arena, err);
     for (int i = 0; i < count; i++) ask_hours(probes[i], tools, arena);
-    return make_suns(tools->table, arena, err);
+    return ask_table(NULL, 0, tools, arena, err);
 }
 
 /* Between four of a table's places. */

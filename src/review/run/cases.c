@@ -8,12 +8,12 @@
 #include "base/units.h"
 #include "camera/camera.h"
 #include "guide/guide_file.h"
+#include "render/identity.h"
 #include "render/train.h"
 #include "review/judge.h"
 #include "review/keep/go_on.h"
 #include "review/work/work.h"
 #include "review/light/eye_reading.h"
-#include "review/light/question.h"
 #include "review/light/response.h"
 #include "review/output/review_decide.h"
 #include "review/request/request_check.h"
@@ -426,12 +426,18 @@ static bool case_of(const CaseTools *tools, const CaseAsk *ask, Arena *arena, Re
 #define LESSON_HEIGHT 270
 #define LESSON_DEG 60.0
 
+/* A variant of the same scene has the review's: where light comes from changes little with a
+ * display's level, and who is taught the same takes the same ways. */
 static const char *lesson_file(const Stage *stage, Vec3 eye, Vec3 towards, Arena *arena)
 {
-    ProbeAim   aim = {.context = &stage->context, .eye = eye};
-    Question   question = {.base = stage->tools.base, .kind = "lesson", .towards = &towards,
-                           .towards_count = 1};
-    JournalKey key = question_key(&question, &aim, *arena);
+    Text text = {.arena = arena};
+    identity_line(&text, "lesson", "%016llx%016llx, condition %d",
+                  (unsigned long long)stage->planned.high,
+                  (unsigned long long)stage->planned.low,
+                  (int)(stage->condition - stage->request->conditions));
+    identity_vector(&text, "eye", eye);
+    identity_vector(&text, "towards", towards);
+    JournalKey key = journal_key(text.data);
     return arena_format(arena, "%s/%016llx%016llx.lesson", stage->lessons,
                         (unsigned long long)key.high, (unsigned long long)key.low);
 }
