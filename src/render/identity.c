@@ -163,7 +163,8 @@ void identity_add_environment(Text *text, const Scene *scene)
         identity_float(text, "hdri scale", environment->hdri_scale);
         identity_float(text, "hdri lux", environment->horizontal_illuminance_lx);
     }
-    if (environment->kind >= ENVIRONMENT_CIE) identity_add_daylight(text, &environment->daylight);
+    if (environment->kind >= ENVIRONMENT_CIE)
+        identity_add_daylight(text, &environment->daylight);
     identity_line(text, "sun", "%s", environment->has_sun ? "set" : "not set");
     if (environment->has_sun) {
         identity_float(text, "sun azimuth", environment->sun_azimuth);

@@ -321,7 +321,7 @@ def check_twins(report, reviewer):
                      all(0 <= share <= 1 for share in places.values()), f"places: {places}")
     report.claim(list(tables["all"]) == list(both), f"order: {list(tables['all'])}")
     for eye in ("box", "ellipse"):
-        report.claim(tables["all"][eye] == tables["all"]["point"], f"{eye} is other than its eye")
+        report.claim(tables["all"][eye] == tables["all"]["point"], f"{eye}: other than its eye")
     report.claim(tables["all"]["box"] == tables["alone"]["box"], "shared is other than alone")
     report.claim(tables["all"]["beside"] != tables["all"]["point"], "all eyes are one")
 
