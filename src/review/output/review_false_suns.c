@@ -6,8 +6,6 @@
 #include "page/page.h"
 #include "review/output/review_words.h"
 
-#define TOLD_AT_ONCE 2
-
 static void add_row(Text *html, const ReviewFalseSun *f, Arena *arena)
 {
     const char *place = arena_format(arena, "%.0f°, %.0f° up", f->sun_azimuth_deg,
@@ -38,18 +36,13 @@ void review_false_suns_add(Text *html, const Review *review, Arena *arena)
         {"lx at the eye", true, "on a plane that faces the image"}, {"Image", false, NULL},
         {"Veil, cd/m²", true, "that it lays over what the eye looks at"}};
     if (!review->false_sun_count) return;
-    page_element(html, "h2", "The sun in mirrors");
-    page_element(html, "p class=\"sub\"",
-                 "Where glass, chrome and the fronts of displays throw the sun itself into an "
-                 "eye, in a clear sky, asked minute by minute.");
-    int told = review->false_sun_count < TOLD_AT_ONCE ? review->false_sun_count : TOLD_AT_ONCE;
+    if (!review->gaze_count) page_element(html, "h2", "The sun in mirrors");
+    page_more_begin(html, arena_format(arena, "Where glass, chrome and the fronts of displays "
+                                              "throw the sun itself into an eye: %d",
+                                       review->false_sun_count));
+    page_element(html, "p class=\"sub\"", "In a clear sky, asked minute by minute.");
     page_table_begin(html, "", "", COLUMNS, sizeof COLUMNS / sizeof *COLUMNS);
-    for (int i = 0; i < told; i++) add_row(html, &review->false_suns[i], arena);
-    page_table_end(html);
-    if (told == review->false_sun_count) return;
-    page_more_begin(html, arena_format(arena, "%d more", review->false_sun_count - told));
-    page_table_begin(html, "", "", COLUMNS, sizeof COLUMNS / sizeof *COLUMNS);
-    for (int i = told; i < review->false_sun_count; i++)
+    for (int i = 0; i < review->false_sun_count; i++)
         add_row(html, &review->false_suns[i], arena);
     page_table_end(html);
     page_more_end(html);

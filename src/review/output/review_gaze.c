@@ -150,14 +150,14 @@ void review_gaze_add(Text *html, const Review *review, Arena *arena)
     if (review->gaze_count == 0) return;
     const GazeFinding **list = ranked(review, arena);
     page_element(html, "h2", "Looking elsewhere");
+    page_element(html, "p", worst_words(list[0], arena));
+    page_more_begin(html, arena_format(arena, "All of them, the least left first: %d",
+                                       review->gaze_count));
     page_element(html, "p class=\"sub\"",
                  "Two veils lie over what an eye looks at: what the glass before it mirrors, "
                  "such as the top of the dashboard in the windscreen, and what the eye itself "
                  "scatters. Both brighten an object and its background alike, and so take of "
                  "its contrast. No limit is held against them.");
-    page_element(html, "p", worst_words(list[0], arena));
-    page_more_begin(html, arena_format(arena, "All of them, the least left first: %d",
-                                       review->gaze_count));
     page_table_begin(html, "", "list gazes", COLUMNS, 9);
     for (int i = 0; i < review->gaze_count; i++) add_row(html, list[i], arena);
     page_table_end(html);

@@ -81,7 +81,7 @@ static void set_code(unsigned char *codes, size_t i, unsigned code)
 /* share: of the way along the axis, 0..1; from the left, or from the top. */
 static void begin_tick(Text *html, const char *side, double share)
 {
-    const char *end = share < 0.04 ? " class=\"first\"" : share > 0.96 ? " class=\"last\"" : "";
+    const char *end = share < 0.04 ? " class=\"begin\"" : share > 0.96 ? " class=\"last\"" : "";
     text_format(html, "<span%s style=\"%s:%.2f%%\">", end, side, 100 * share);
 }
 

@@ -17,7 +17,7 @@
 #define WORDS_BYTES ((size_t)1 << 30)
 #define OPEN_SWEEPS 1
 #define RENEWED_S 15 /* a page to which something is to come */
-#define SUMMARY_ROWS 8 /* of verdicts, so that it fits on one page of paper */
+#define SUMMARY_ROWS 6 /* of verdicts, so that it fits on one page of paper */
 
 /* review.css and review.js beside this file; the build embeds them. */
 extern const char REVIEW_STYLE[], REVIEW_SCRIPT[];
@@ -295,11 +295,14 @@ static void add_provenance(Text *html, const ReviewPage *page, Arena *arena)
     page_more_end(html);
 }
 
-static void add_notes(Text *html, const Review *review)
+static void add_notes(Text *html, const Review *review, Arena *arena)
 {
+    page_element(html, "h2", "How it was made");
     if (review->note_count == 0) return;
-    page_element(html, "h2", "What a reader must know");
+    page_more_begin(html, arena_format(arena, "What a reader must know: %d",
+                                       review->note_count));
     page_list(html, "notes", review->notes, review->note_count);
+    page_more_end(html);
 }
 
 static void add_glossary(Text *html)
@@ -370,7 +373,7 @@ static bool add_page(Text *html, const ReviewPage *page, Arena *arena, Error *er
     if (!add_cases(html, page, arena, err)) return false;
     review_gaze_add(html, page->review, arena);
     review_false_suns_add(html, page->review, arena);
-    add_notes(html, page->review);
+    add_notes(html, page->review, arena);
     add_provenance(html, page, arena);
     add_glossary(html);
     text_add(html, "</div>\n");

@@ -202,12 +202,12 @@ static void add_variants(Text *html, const Review *review, Arena *arena)
 {
     if (!review->variant_count) return;
     const ReviewVariantFound **ranked = rank(review, arena);
+    add_table(html, review, ranked, arena);
+    page_more_begin(html, "Every variant, case by case");
     page_element(html, "p class=\"sub\"",
                  "The same review with something changed, the best first. Both are traced by "
                  "the same random numbers, so that a difference is known better than either "
                  "margin.");
-    add_table(html, review, ranked, arena);
-    page_more_begin(html, "Every variant, case by case");
     for (int i = 0; i < review->variant_count; i++) add_variant(html, ranked[i], arena);
     page_more_end(html);
 }
@@ -253,7 +253,7 @@ static void add_effect_bar(Text *html, const ReviewSensitivity *s, const ReviewS
                 "</svg></td>", middle, BAR_HEIGHT, fmax(low, 0), fmin(high, BAR_WIDTH));
 }
 
-/* "+1.03 ± 0.01 % by mm"; what may be nothing, or is less than is shown, says so. */
+/* "+1.03 ± 0.01 % per mm"; what may be nothing, or is less than is shown, says so. */
 static const char *slope_words(const ReviewSensitivity *s, const ReviewSlope *slope,
                                Arena *arena)
 {
@@ -261,8 +261,8 @@ static const char *slope_words(const ReviewSensitivity *s, const ReviewSlope *sl
     bool   is_none = slope->range.low <= 0 && slope->range.high >= 0;
     bool   is_small = fabs(effect(s, slope)) < 0.05 && half * s->step < 0.05;
     if (is_small) return "none";
-    if (is_none) return arena_format(arena, "none above %.2g %% by %s", half, s->unit);
-    return arena_format(arena, "%s%s ± %.2g %% by %s", slope->slope < 0 ? "−" : "+",
+    if (is_none) return arena_format(arena, "none above %.2g %% per %s", half, s->unit);
+    return arena_format(arena, "%s%s ± %.2g %% per %s", slope->slope < 0 ? "−" : "+",
                         words_figure(fabs(100 * slope->slope), arena), half, s->unit);
 }
 
