@@ -24,7 +24,7 @@ from report import Report  # noqa: E402
 from review import dashboard, moment, request  # noqa: E402
 from review_resume import PATIENCE_S, Work, cabin, document, files_of  # noqa: E402
 
-WATCHED = "are watched"
+WATCHED = "are watched:"
 
 
 class Watching:
@@ -69,6 +69,8 @@ def claim_as_fresh(work, what):
     wanted = files_of(work.path("fresh"))
     shutil.rmtree(work.path("fresh"))
     told = {name for name in wanted if not name.startswith("responses")}
+    more = {name for name in found if not name.startswith("responses")} - told
+    work.report.claim(not more, f"{what}: files that a fresh review has not: {more}")
     for name in sorted(told):
         same = found.get(name) == wanted[name].replace(b" -o fresh", b" -o out")
         work.report.claim(same, f"{what}: {name} is other than that of a fresh review")
@@ -103,6 +105,17 @@ def check_scene(work, watching):
     told = watching.until_watching()
     work.report.claim(any("dash.gltf was saved" in line for line in told), f"scene: {told}")
     claim_as_fresh(work, "another scene")
+
+
+def check_words(work):
+    for words, part in ((("--dry-run", "-o", "out"), "--dry-run"),
+                        (("--init", "x.review.json"), "--init")):
+        done = subprocess.run([work.program, "review", "r.json", "--watch", *words],
+                              cwd=work.folder, capture_output=True, text=True,
+                              timeout=PATIENCE_S)
+        work.report.claim(done.returncode == 2 and done.stderr.count("\n") == 1 and
+                          f"--watch does not go with {part}" in done.stderr,
+                          f"{words}: {done.stderr}")
 
 
 def check_watched(work):
@@ -189,6 +202,7 @@ def main():
     report = Report()
     with tempfile.TemporaryDirectory() as folder:
         work = Work(report, words.parhelion, folder)
+        check_words(work)
         check_watched(work)
         if words.all:
             check_so_far(work)

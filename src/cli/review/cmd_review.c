@@ -17,7 +17,7 @@
 #include "cli/review/review_share.h"
 #include "cli/review/review_watch.h"
 #include "render/signals.h"
-#include "review/work/work.h"
+#include "review/pace/work.h"
 #include "review/output/review_decide.h"
 #include "review/request/request_start.h"
 #include "review/request/request_read.h"
@@ -93,9 +93,9 @@ static bool parse(int argc, char **argv, Arena *arena, ReviewWords *out, Error *
     if (!state_options_read(&out->state_words, &out->state, err) ||
         !review_share_check(&out->share, not_traced, err))
         return false;
-    if (out->watches && (not_traced || out->share.parts || out->decides))
+    if (out->watches && (not_traced || out->share.parts))
         return error_set(err, ERROR_USAGE, "--watch does not go with %s",
-                         not_traced ? not_traced : out->decides ? "--decide" : "a job's parts");
+                         not_traced ? not_traced : "a job's parts");
     if (out->init) return true;
     if (out->cli.argument_count > 1)
         return error_set(err, ERROR_USAGE, "%s: one request at a time is reviewed",
@@ -476,7 +476,7 @@ static bool watch(ReviewWords *words, Error *err)
     bool goes_on = review_once(words, err);
     signals_watch();
     while (goes_on) {
-        fprintf(stderr, "parhelion: %d files are watched, Ctrl-C ends\n", files.count);
+        fprintf(stderr, "parhelion: files that are watched: %d — Ctrl-C ends\n", files.count);
         if (!review_watch_wait(&files, &changed)) break;
         fprintf(stderr, "parhelion: %s was saved: what it changes is reviewed again\n",
                 changed);

@@ -11,7 +11,7 @@
 #include "cli/options/answer.h"
 #include "cli/review/review_draft.h"
 #include "render/signals.h"
-#include "review/work/work.h"
+#include "review/pace/work.h"
 #include "review/run/run.h"
 
 void review_take_answers(Journal *journal, const ReviewPin *pin, Arena scratch)

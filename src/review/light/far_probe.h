@@ -30,7 +30,7 @@ typedef struct SkyTable {
 } SkyTable;
 
 /* Elevations that reach from `low` to `high`; `like` says air and ground. Its skies are made
- * when probes ask for them (far_probes_ask_skies), one by one: each takes some 10 MB. */
+ * when probes ask for them (far_probes_ask_skies), one by one: each takes megabytes. */
 SkyTable sky_table_start(const DaylightInput *like, double low_deg, double high_deg,
                          Arena *arena);
 

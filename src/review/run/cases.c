@@ -12,7 +12,7 @@
 #include "render/train.h"
 #include "review/judge.h"
 #include "review/keep/go_on.h"
-#include "review/work/work.h"
+#include "review/pace/work.h"
 #include "review/light/eye_reading.h"
 #include "review/light/response.h"
 #include "review/output/review_decide.h"

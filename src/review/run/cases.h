@@ -19,7 +19,7 @@ typedef struct CaseTools {
     int                symbol_count;
     long               cause_paths; /* by which causes are found; 0: CAUSE_PATHS */
     int                cause_rays;  /* that are kept of each; 0: CAUSE_RAYS */
-    Progress          *work;        /* of stage_cases (work/work.h); or NULL */
+    Progress          *work;        /* of stage_cases (pace/work.h); or NULL */
     MomentShare        share;       /* of stage_cases: others' are left alone */
     const Review      *base;        /* of a variant: the review itself. Cases are bare then
                                        (stage_verdict), and read from no fewer paths than its

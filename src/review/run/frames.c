@@ -12,7 +12,7 @@
 #include "review/run/cases.h"
 #include "review/keep/frame_kept.h"
 #include "review/keep/go_on.h"
-#include "review/work/work.h"
+#include "review/pace/work.h"
 #include "review/request/request_check.h"
 
 #define YFOV_DEG 35 /* of an eye that is no camera */

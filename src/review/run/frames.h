@@ -33,7 +33,7 @@ typedef struct FrameAsk {
     const char      *folder;
     const char      *unfinished; /* folder of its checkpoint */
     const char      *name;    /* without an ending */
-    Progress        *work;   /* of which the frame is a part (work/work.h) */
+    Progress        *work;   /* of which the frame is a part (pace/work.h) */
 } FrameAsk;
 
 /* From where the frame is seen. */

@@ -33,7 +33,7 @@ typedef struct ReviewRun {
     SceneState           state;    /* scene.h's */
     int                  threads;
     const char          *isa;      /* kernel.h's; NULL: the best */
-    Progress            *work;     /* work/work.h: of all that is left, or of a part in hand */
+    Progress            *work;     /* pace/work.h: of all that is left, or of a part in hand */
     const char          *folder;   /* of the frames, which is there; */
     const char          *unfinished; /* of checkpoints, */
     const char          *responses;  /* and of responses: as it is opened (plan: NULL: none), */

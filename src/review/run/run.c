@@ -8,7 +8,7 @@
 #include "review/run/frames.h"
 #include "review/run/gazes.h"
 #include "review/keep/go_on.h"
-#include "review/work/work.h"
+#include "review/pace/work.h"
 #include "review/run/sights.h"
 #include "review/output/review_decide.h"
 #include "review/request/request_check.h"

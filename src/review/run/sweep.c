@@ -10,7 +10,7 @@
 #include "review/suns/failures.h"
 #include "review/run/false_sun_times.h"
 #include "review/keep/go_on.h"
-#include "review/work/work.h"
+#include "review/pace/work.h"
 #include "review/run/sweep_probes.h"
 #include "review/run/sweep_weather.h"
 

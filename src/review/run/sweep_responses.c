@@ -10,7 +10,7 @@
 #include "review/light/question.h"
 #include "review/run/frames.h"
 #include "review/keep/go_on.h"
-#include "review/work/work.h"
+#include "review/pace/work.h"
 
 #define OWN_PRECISION 0.02
 #define OWN_PATHS 8192

@@ -36,7 +36,7 @@ void responses_find(const ReviewRun *run, const Stage *stage, ResponseAsk *asks,
 bool responses_read_own(const ReviewRun *run, const Stage *stage, const ResponseAsk *asks,
                         int count, bool displays, Error *err);
 
-/* How long it will take (work/work.h), with so much for its own light; 0: it is not to be
+/* How long it will take (pace/work.h), with so much for its own light; 0: it is not to be
  * traced. */
 double responses_work(const ResponseAsk *ask, double own);
 

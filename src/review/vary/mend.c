@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-#include "review/work/work.h"
+#include "review/pace/work.h"
 #include "review/output/review_decide.h"
 #include "review/output/review_words.h"
 #include "review/request/request_parameters.h"
@@ -20,7 +20,7 @@ typedef struct Mending {
     const ReviewParameter *parameter;
     const Review          *base;
     Arena                 *arena;
-    double                 scale, work; /* of a trial (work/work.h) */
+    double                 scale, work; /* of a trial (pace/work.h) */
     ReviewMend             out;
 } Mending;
 

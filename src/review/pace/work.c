@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "review/work/work.h"
+#include "review/pace/work.h"
 
 #include <math.h>
 
