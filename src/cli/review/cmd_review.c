@@ -333,6 +333,7 @@ static bool make(const ReviewWords *words, ReviewFolder *folder, ReviewRun *run,
     if (!run->lessons) run->lessons = folder->draft.unfinished;
     if (!take_found(folder, words->pin, *arena, err) ||
         !make_all(run, folder, words->watch, &outcome, arena, err)) {
+        progress_clear(run->work);
         if (err->code > 128) tell_stopped(folder, err, arena);
         else tell_kept(folder, err);
         review_folder_close(folder);
