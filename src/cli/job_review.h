@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* job_review.h -- a review that is shared among machines: its parts answer questions
- * (review/run/share.h), and the merge is the review itself, which finds them answered.
+ * (review/share.h), and the merge is the review itself, which finds them answered.
  *
  * Memory   the arena's.
  * Fails    as the review does; ERROR_OUTPUT where a file of the job cannot be written.

@@ -43,18 +43,61 @@ static Sampler path_start(const ProbeAim *aim, int path, Wavelengths *wavelength
 
 /* ---- by the light that is there ---------------------------------------------------------- */
 
+static int display_of(const Scene *scene, int part_id)
+{
+    return scene->materials[scene->parts[part_id].material_id].display_id;
+}
+
+/* Where the light turned last, before it came to the eye: NULL: it came straight. */
+static const PathStep *turn_of(const PathTale *tale)
+{
+    int told = tale->count < PATH_STEPS_TOLD ? tale->count : PATH_STEPS_TOLD;
+    for (int i = 0; i < told; i++)
+        if (tale->step[i].event != PATH_TRANSMITS) return &tale->step[i];
+    return NULL;
+}
+
+/* Who adds up what displays send. */
+typedef struct OwnSums {
+    const Scene *scene;
+    bool         of_meter;
+    ProbeOwn    *display;
+} OwnSums;
+
+static void hear_display(void *user, const PathTale *tale, const float xyz[3])
+{
+    const OwnSums  *sums = user;
+    const PathStep *turn = turn_of(tale);
+    int             display = display_of(sums->scene, tale->source_id);
+    if (display == NO_ID || (!turn && !sums->of_meter)) return;
+    sums->display[display].reflected += xyz[1];
+    if (!sums->of_meter && turn->event == PATH_REFLECTS &&
+        display_of(sums->scene, turn->part_id) != NO_ID)
+        sums->display[display].mirror += xyz[1];
+}
+
 static void look(const ProbeAim *aim, int path, ProbeLook *out, PathStatistics *statistics)
 {
-    Wavelengths wavelengths;
-    Ray         ray;
-    Sampler     sampler = path_start(aim, path, &wavelengths, &ray);
-    PathResult  result;
-    float       emitted[3];
-    path_trace(aim->context, ray, &wavelengths, &sampler, &result, statistics);
-    *out = (ProbeLook){.is_found = result.hit &&
-                                   path_display_emission(aim->context, &result,
-                                                         &wavelengths, emitted)};
-    for (int i = 0; i < 3 && out->is_found; i++) {
+    Wavelengths  wavelengths;
+    Ray          ray;
+    Sampler      sampler = path_start(aim, path, &wavelengths, &ray);
+    PathResult   result;
+    float        emitted[3];
+    OwnSums      sums = {aim->context->scene, false, out->display};
+    PathListener listener = {.hear = hear_display, .user = &sums, .of_emitters = true};
+    PathApart    apart = {&result, false, &listener};
+    *out = (ProbeLook){.is_found = false};
+    if (aim->tells_displays)
+        path_trace_apart(aim->context, ray, &wavelengths, &sampler, &apart, statistics);
+    else
+        path_trace(aim->context, ray, &wavelengths, &sampler, &result, statistics);
+    if (!result.hit ||
+        !path_display_emission(aim->context, &result, &wavelengths, emitted)) {
+        *out = (ProbeLook){.is_found = false};
+        return;
+    }
+    out->is_found = true;
+    for (int i = 0; i < 3; i++) {
         out->reflected[i] = result.xyz[i] - emitted[i];
         out->mirror[i] = result.mirror[i];
     }
@@ -66,9 +109,16 @@ static void read_meter(const ProbeAim *aim, int path, ProbeLook *out,
     Wavelengths wavelengths;
     Ray         ray;
     Sampler     sampler = path_start(aim, path, &wavelengths, &ray);
+    OwnSums      sums = {aim->context->scene, true, out->display};
+    PathListener listener = {.hear = hear_display, .user = &sums, .of_emitters = true,
+                             .all = out->reflected};
     *out = (ProbeLook){.is_found = true};
-    path_illuminance(aim->context, *aim->meter, &wavelengths, &sampler, out->reflected,
-                     statistics);
+    if (aim->tells_displays)
+        path_illuminance_told(aim->context, *aim->meter, &wavelengths, &sampler, &listener,
+                              statistics);
+    else
+        path_illuminance(aim->context, *aim->meter, &wavelengths, &sampler, out->reflected,
+                         statistics);
 }
 
 /* A pixel's paths are those of its frame. */

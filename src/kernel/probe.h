@@ -24,6 +24,8 @@ typedef struct ProbePixel {
     int           x, y;
 } ProbePixel;
 
+#define PROBE_DISPLAYS 16 /* whose light looks can tell apart */
+
 /* An eye and the points that it looks at, one path each; more paths than points begin again. */
 typedef struct ProbeAim {
     const PathContext *context;
@@ -35,14 +37,23 @@ typedef struct ProbeAim {
     bool            is_spread; /* paths take points by chance, evenly, however few they are */
     const LitPoint *meter;     /* a luxmeter instead: eye and targets do not count; or NULL */
     const ProbePixel *pixel;   /* a frame's pixel instead of targets; or NULL */
+    bool            tells_displays; /* looks tell what displays send by themselves; of a scene
+                                       of at most PROBE_DISPLAYS of them */
     uint32_t        seed;
 } ProbeAim;
+
+/* Y of what a display sends, as `reflected` and `mirror` count it. */
+typedef struct ProbeOwn {
+    float reflected, mirror;
+} ProbeOwn;
 
 /* What one path found: XYZ. */
 typedef struct ProbeLook {
     float reflected[3]; /* all but what the first surface emits; of a luxmeter all */
     float mirror[3];    /* of it, by way of a display's mirror */
     bool  is_found;     /* the first surface is a display, or a luxmeter's; else these are 0 */
+    ProbeOwn display[PROBE_DISPLAYS]; /* of these, what each of the scene's displays sends, if
+                                         the aim wants it; else 0 */
 } ProbeLook;
 
 /* HOT. Of paths [first, end): out[i - first]. */

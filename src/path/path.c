@@ -143,11 +143,16 @@ static void tell(const PathWalk *walk, const PathTale *tale, const PathLight *li
     walk->listener->hear(walk->listener->user, tale, xyz);
 }
 
+static bool has_listener(const PathWalk *walk, LightSet set)
+{
+    return walk->listener && (set == LIGHTS_EMITTERS || !walk->listener->of_emitters);
+}
+
 /* Light is found: of a set, and where it began. */
 static void gather(PathWalk *walk, Spectrum radiance, LightSet set, int source_id)
 {
     walk->gathered.radiance += radiance;
-    if (!walk->listener) return;
+    if (!has_listener(walk, set)) return;
     PathLight light = {.radiance = radiance};
     walk->tale->source = set;
     walk->tale->source_id = source_id;
@@ -608,7 +613,7 @@ static int source_of(const PathWalk *walk, const LightSample *light)
 static void gather_sample(PathWalk *walk, const Surface *surface, Spectrum radiance,
                           const LightSample *light)
 {
-    if (!walk->listener) {
+    if (!has_listener(walk, light->set)) {
         walk->gathered.radiance += radiance;
         return;
     }
@@ -712,7 +717,7 @@ static void gather_mirrored(const MirrorWalk *asked, const SunMirror *mirror,
 {
     PathWalk      *walk = asked->walk;
     const Surface *surface = asked->surface;
-    if (!walk->listener) {
+    if (!has_listener(walk, LIGHTS_SUN)) {
         walk->gathered.radiance += radiance;
         return;
     }
@@ -1090,6 +1095,7 @@ static Step scatter(PathWalk *walk, const Surface *surface, Vec3 wo)
         return STEP_PASSED;
     }
     if (walk->bounce >= walk->context->max_bounces) return STEP_ENDED;
+    if (walk->far && walk->far->add_image && !next.is_delta) return STEP_ENDED;
     if (walk->is_way && !keeps_way(walk, surface, &next)) return STEP_ENDED;
     keep_lead(walk);
     if (tells_lambertian(walk, surface)) note_way(walk, surface, &next);
@@ -1470,6 +1476,7 @@ void path_illuminance_told(const PathContext *context, LitPoint point,
     walk.listener = listener;
     walk.tale = &tale;
     walk_from_head(&walk, point);
+    if (listener->all) path_light_to_xyz(&walk.gathered, wavelengths, listener->all);
 }
 
 void path_ask_far_at(const PathContext *context, LitPoint point, const Wavelengths *wavelengths,

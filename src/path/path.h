@@ -51,7 +51,9 @@ typedef struct PathTale {
 typedef struct PathListener {
     void (*hear)(void *user, const PathTale *tale, const float xyz[3]);
     void  *user;
-    bool   with_lanes; /* displays' lanes are wanted, too */
+    bool   with_lanes;  /* displays' lanes are wanted, too */
+    bool   of_emitters; /* it is told of these alone */
+    float *all;         /* of path_illuminance_told: XYZ of all light is put here; or NULL */
 } PathListener;
 
 /* Counts of one thread; add them up. */
@@ -137,7 +139,8 @@ typedef struct PathFar {
     /* Paths that leave by a mirror or straight on, after `bounce` vertices: share of the
      * radiance from there. pdf: 0, or of a way that left by a sharp lobe, sr^-1. */
     void (*add_escaped)(void *user, Vec3 direction, int bounce, const float *share, float pdf);
-    /* Of a ray: what leaves so is told here instead, with the surfaces on its way; or NULL. */
+    /* Of a ray: what leaves so is told here instead, with the surfaces on its way, and what
+     * scatters is not followed; or NULL. */
     void (*add_image)(void *user, const PathTale *tale, Vec3 direction, const float *share);
     void *user;
     bool  is_of_mirror; /* where a display comes first, its mirror alone is followed */

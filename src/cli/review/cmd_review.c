@@ -24,6 +24,7 @@
 #include "review/run/run.h"
 #include "review/vary/mend.h"
 #include "review/vary/sensitivity.h"
+#include "review/vary/riders.h"
 #include "review/vary/variants.h"
 #include "scene/load/scene_load.h"
 #include "text/nearest_word.h"
@@ -293,8 +294,8 @@ static bool make_later(const ReviewRun *run, ReviewFolder *folder, ReviewOutcome
     return true;
 }
 
-static bool make_all(ReviewRun *run, ReviewFolder *folder, ReviewWatch *watch,
-                     ReviewOutcome *outcome, Arena *arena, Error *err)
+static bool make_told(ReviewRun *run, ReviewFolder *folder, ReviewWatch *watch,
+                      ReviewOutcome *outcome, Arena *arena, Error *err)
 {
     SoFar so_far = {folder, arena, watch, monotonic_seconds()};
     run->news = (ReviewNews){write_so_far, note_files, &so_far};
@@ -305,6 +306,15 @@ static bool make_all(ReviewRun *run, ReviewFolder *folder, ReviewWatch *watch,
     outcome->review.is_strict = folder->is_strict;
     review_decide(&outcome->review);
     return make_later(run, folder, outcome, arena, err);
+}
+
+static bool make_all(ReviewRun *run, ReviewFolder *folder, ReviewWatch *watch,
+                     ReviewOutcome *outcome, Arena *arena, Error *err)
+{
+    review_riders_start(run, !folder->is_alone, arena);
+    bool ok = make_told(run, folder, watch, outcome, arena, err);
+    review_riders_end(run);
+    return ok;
 }
 
 /* Of a job that is merged: what its parts found. */

@@ -32,7 +32,16 @@ SkyTable sky_table_start(const DaylightInput *like, double low_deg, double high_
     int first, count = elevations_within(low_deg, high_deg, &first);
     return (SkyTable){*like, elevations + first,
                       arena_alloc(arena, sizeof(float[LIGHT_BANDS]), _Alignof(float),
-                                  (size_t)count), count};
+                                  (size_t)count), count, 0, SKY_AZIMUTHS};
+}
+
+void sky_table_between(SkyTable *table, double low_deg, double high_deg)
+{
+    int first = (int)floor(low_deg / 360 * SKY_AZIMUTHS);
+    int last = (int)floor(high_deg / 360 * SKY_AZIMUTHS) + 1; /* what lies between two */
+    if (last - first + 1 >= SKY_AZIMUTHS) return;
+    table->first_azimuth = (first % SKY_AZIMUTHS + SKY_AZIMUTHS) % SKY_AZIMUTHS;
+    table->azimuths = last - first + 1;
 }
 
 /* The sky of a row; its sun is noted. */
@@ -108,7 +117,7 @@ typedef struct SkyProbe {
 typedef struct SkySum {
     const Daylight  *sky;      /* of the row */
     const SkyProbe  *probes;
-    int              probe_count, row, cell_count;
+    int              probe_count, row, cell_count, first_azimuth;
     const bool      *is_asked; /* [cell] by any of the probes */
     const SunAngles *at;       /* [cell] of the vehicle */
     float           *bands;    /* [worker][cell][band], cd m^-2 */
@@ -183,9 +192,10 @@ static void sum_probe(const SkyProbe *probe, const float *sky, size_t place)
         response, &white, total, probe->of->sky_without + place * RESPONSE_GROUPS);
 }
 
-static void sum_sky(void *user, int azimuth, int worker)
+static void sum_sky(void *user, int item, int worker)
 {
     const SkySum *sum = user;
+    int    azimuth = (sum->first_azimuth + item) % SKY_AZIMUTHS;
     float *bands = sum->bands + (size_t)worker * (size_t)sum->cell_count * LIGHT_BANDS;
     look_up(sum, azimuth, bands);
     for (int i = 0; i < sum->probe_count; i++)
@@ -242,6 +252,7 @@ static void place_answers(FarProbe *probe, const SkyTable *table, Arena *arena)
     probe->sky = arena_alloc(arena, 1, _Alignof(double), answer_bytes(table));
     probe->sky_bright = (BrightSamples *)(probe->sky + places);
     probe->sky_without = (float *)(probe->sky_bright + places);
+    for (size_t i = 0; i < places; i++) probe->sky[i] = (double)NAN; /* until it is summed */
 }
 
 /* All that decides a table's skies and suns, and where the vehicle points. */
@@ -255,6 +266,7 @@ static const char *table_words(const FarTools *tools, const char *what, Arena *a
     identity_add_daylight(&text, &table->like);
     identity_line(&text, "elevations", "%d, %.17g to %.17g", table->count,
                   table->elevation_deg[0], table->elevation_deg[table->count - 1]);
+    identity_line(&text, "azimuths", "%d from %d", table->azimuths, table->first_azimuth);
     identity_line(&text, "forward", "%.17g %.17g %.17g", forward[0], forward[1], forward[2]);
     return text.data;
 }
@@ -336,6 +348,7 @@ static bool sum_skies(FarProbe *const *probes, int count, const FarTools *tools,
     for (int cell = 0; cell < cells; cell++)
         at[cell] = vehicle_angles(tools->stage, first->centers[cell]);
     SkySum sum = {.probes = list, .probe_count = count, .cell_count = cells,
+                  .first_azimuth = tools->table->first_azimuth,
                   .is_asked = is_asked, .at = at,
                   .bands = ARENA_NEW(&scratch, float,
                                      (size_t)threads * (size_t)cells * LIGHT_BANDS)};
@@ -344,7 +357,7 @@ static bool sum_skies(FarProbe *const *probes, int count, const FarTools *tools,
         Daylight sky;
         if (!make_sky(tools->table, sum.row, &room, &sky, err)) return false;
         sum.sky = &sky;
-        parallel_for(threads, SKY_AZIMUTHS, sum_sky, &sum);
+        parallel_for(threads, tools->table->azimuths, sum_sky, &sum);
     }
     return true;
 }

@@ -27,12 +27,18 @@ typedef struct SkyTable {
     const double *elevation_deg; /* rising */
     float       (*sun_bands)[LIGHT_BANDS]; /* lx; 0 before its skies were made */
     int           count;
+    int           first_azimuth, azimuths; /* of SKY_AZIMUTHS, on from the first: those that are
+                                              made; no other may be read */
 } SkyTable;
 
 /* Elevations that reach from `low` to `high`; `like` says air and ground. Its skies are made
  * when probes ask for them (far_probes_ask_skies), one by one: each takes megabytes. */
 SkyTable sky_table_start(const DaylightInput *like, double low_deg, double high_deg,
                          Arena *arena);
+
+/* Of the sun's azimuths, of the vehicle, only those from low to high; before its skies are
+ * made. */
+void sky_table_between(SkyTable *table, double low_deg, double high_deg);
 
 /* What the sun's bands give at an elevation within the table's, lx: within 1 % from 2 degrees
  * on, 3 % or 1 lx below. */

@@ -2,6 +2,8 @@
 #include "review/light/reading.h"
 
 #include <math.h>
+#include <stddef.h>
+#include <string.h>
 
 #include "base/count.h"
 #include "base/parallel.h"
@@ -13,10 +15,23 @@
 #define BATCHES READING_BATCHES
 #define PIECE 64 /* paths that are looked at together */
 
+/* Of light x that no level changes and light y of displays: sums of x^i y^k over paths, for
+ * the squares and fourths of x + y at any level. */
+#define MOMENTS 8
+static const int MOMENT[MOMENTS][2] = {{2, 0}, {1, 1}, {0, 2}, {4, 0},
+                                       {3, 1}, {2, 2}, {1, 3}, {0, 4}};
+
+/* Of displays. */
+typedef struct Own {
+    double reflected, mirror; /* sums */
+} Own;
+
 typedef struct Batch {
     double reflected, mirror; /* sums */
     long   found;
     BrightSamples bright;
+    double moments[MOMENTS];          /* of a shared reading, */
+    Own    display[PROBE_DISPLAYS];   /* and of its scene's displays */
 } Batch;
 
 /* Paths that go on where they ended. */
@@ -28,13 +43,34 @@ typedef struct Stream {
     Batch        *batches;
 } Stream;
 
-static void add_looks(Batch *to, const ProbeLook *looks, int count)
+static double power(double x, int exponent)
+{
+    double out = 1;
+    while (exponent-- > 0) out *= x;
+    return out;
+}
+
+static void add_own(Batch *to, const ProbeLook *look)
+{
+    double y = 0;
+    for (int d = 0; d < PROBE_DISPLAYS; d++) {
+        to->display[d].reflected += (double)look->display[d].reflected;
+        to->display[d].mirror += (double)look->display[d].mirror;
+        y += (double)look->display[d].reflected;
+    }
+    double x = (double)look->reflected[1] - y;
+    for (int m = 0; m < MOMENTS; m++)
+        to->moments[m] += power(x, MOMENT[m][0]) * power(y, MOMENT[m][1]);
+}
+
+static void add_looks(Batch *to, const ProbeLook *looks, int count, bool with_own)
 {
     for (int i = 0; i < count; i++) {
         to->reflected += (double)looks[i].reflected[1];
         to->mirror += (double)looks[i].mirror[1];
         bright_add(&to->bright, (double)looks[i].reflected[1]);
         to->found += looks[i].is_found;
+        if (with_own && looks[i].is_found) add_own(to, &looks[i]);
     }
 }
 
@@ -50,7 +86,7 @@ static void read_batch(void *user, int item, int worker)
     for (int first = stream->first; first < stream->end; first += PIECE) {
         int end = first + PIECE < stream->end ? first + PIECE : stream->end;
         stream->kernel->look(&aim, first, end, looks, &statistics);
-        add_looks(&stream->batches[item], looks, end - first);
+        add_looks(&stream->batches[item], looks, end - first, aim.tells_displays);
     }
 }
 
@@ -127,6 +163,44 @@ static bool is_decided(const Reading *reading, const ReadingGoal *goal, Arena sc
            question->is_decided(question->user, reading->interval, scratch);
 }
 
+/* ---- under other levels ------------------------------------------------------------------ */
+
+/* All that a shared reading is made of. */
+typedef struct ReadingParts {
+    Batch  pilot[BATCHES], fresh[BATCHES];
+    int    pilot_paths, paths; /* of every batch */
+    double seconds;
+} ReadingParts;
+
+static double greatest(const double *scale, int displays)
+{
+    double most = displays ? scale[0] : 1;
+    for (int d = 1; d < displays; d++) most = fmax(most, scale[d]);
+    return most;
+}
+
+/* Displays that are scaled differently count as the brightest of them: it widens. */
+static BrightSamples scaled_bright(const double moments[MOMENTS], double scale)
+{
+    double s2 = scale * scale;
+    return (BrightSamples){
+        .squares = moments[0] + 2 * scale * moments[1] + s2 * moments[2],
+        .fourths = moments[3] + 4 * scale * moments[4] + 6 * s2 * moments[5] +
+                   4 * s2 * scale * moments[6] + s2 * s2 * moments[7]};
+}
+
+static void scale_batches(Batch *batches, const double *scale, int displays)
+{
+    for (int i = 0; i < BATCHES; i++) {
+        Batch *b = &batches[i];
+        for (int d = 0; d < displays; d++) {
+            b->reflected += (scale[d] - 1) * b->display[d].reflected;
+            b->mirror += (scale[d] - 1) * b->display[d].mirror;
+        }
+        b->bright = scaled_bright(b->moments, greatest(scale, displays));
+    }
+}
+
 /* ---- one stream -------------------------------------------------------------------------- */
 
 static Stream stream_start(const ProbeAim *aim, const ReadingTools *tools, Arena *arena)
@@ -144,14 +218,21 @@ static Reading stream_read(Stream *stream, long paths, const ReadingGoal *goal)
     return reading_of(stream->batches, stream->end, goal->known);
 }
 
+static void keep_stream(const Stream *stream, Batch *batches, int *paths)
+{
+    memcpy(batches, stream->batches, BATCHES * sizeof *batches);
+    *paths = stream->end;
+}
+
 /* Until it is sure enough by itself. */
 static Reading take_plain(const ProbeAim *aim, const ReadingGoal *goal,
-                          const ReadingTools *tools, Arena scratch)
+                          const ReadingTools *tools, ReadingParts *parts, Arena scratch)
 {
     Stream  stream = stream_start(aim, tools, &scratch);
     Reading reading = stream_read(&stream, READING_LEAST, goal);
     while (!is_sure(&reading, goal) && 2 * reading.paths <= goal->most)
         reading = stream_read(&stream, 2 * reading.paths, goal);
+    if (parts) keep_stream(&stream, parts->fresh, &parts->paths);
     return reading;
 }
 
@@ -191,7 +272,7 @@ static long paths_wanted(const Reading *pilot, const ReadingGoal *goal, Arena sc
 #define PILOT_SEED 0x70696c6fu
 
 static Reading take_asked(const ProbeAim *aim, const ReadingGoal *goal,
-                          const ReadingTools *tools, Arena scratch)
+                          const ReadingTools *tools, ReadingParts *parts, Arena scratch)
 {
     Stream fresh = stream_start(aim, tools, &scratch);
     Stream first = stream_start(aim, tools, &scratch);
@@ -203,19 +284,29 @@ static Reading take_asked(const ProbeAim *aim, const ReadingGoal *goal,
         wanted = paths_wanted(&pilot, goal, scratch);
     }
     if (goal->times > 1) wanted *= goal->times;
-    return stream_read(&fresh, wanted > goal->least ? wanted : goal->least, goal);
-}
-
-static Reading take(const ProbeAim *aim, const ReadingGoal *goal, const ReadingTools *tools,
-                    Arena scratch)
-{
-    double  start = monotonic_seconds();
-    Reading reading = goal->question ? take_asked(aim, goal, tools, scratch)
-                                     : take_plain(aim, goal, tools, scratch);
-    reading.reached = uncertainty(&reading, goal);
-    reading.seconds = monotonic_seconds() - start;
+    Reading reading = stream_read(&fresh, wanted > goal->least ? wanted : goal->least, goal);
+    if (!parts) return reading;
+    keep_stream(&first, parts->pilot, &parts->pilot_paths);
+    keep_stream(&fresh, parts->fresh, &parts->paths);
     return reading;
 }
+
+/* parts: NULL: nobody wants them. */
+static Reading take(const ProbeAim *aim, const ReadingGoal *goal, const ReadingTools *tools,
+                    ReadingParts *parts, Arena scratch)
+{
+    double   start = monotonic_seconds();
+    ProbeAim own = *aim;
+    own.tells_displays = parts != NULL;
+    Reading reading = goal->question ? take_asked(&own, goal, tools, parts, scratch)
+                                     : take_plain(&own, goal, tools, parts, scratch);
+    reading.reached = uncertainty(&reading, goal);
+    reading.seconds = monotonic_seconds() - start;
+    if (parts) parts->seconds = reading.seconds;
+    return reading;
+}
+
+/* ---- what is kept ------------------------------------------------------------------------ */
 
 static JournalKey key_of(const ProbeAim *aim, const ReadingGoal *goal,
                          const ReadingTools *tools, Arena scratch)
@@ -229,14 +320,134 @@ static JournalKey key_of(const ProbeAim *aim, const ReadingGoal *goal,
     return question_key(&question, aim, scratch);
 }
 
+/* Of a shared reading: what is emitted, and how many paths it takes, are not in it. */
+static JournalKey parts_key(const ProbeAim *aim, const ReadingGoal *goal,
+                            const ReadingTools *tools, Arena scratch)
+{
+    const ReadingQuestion *asked = goal->question;
+    double   numbers[] = {goal->precision, (double)goal->most, goal->known,
+                          asked ? asked->precision : 0};
+    Question question = {.base = tools->base,
+                         .kind = arena_format(&scratch, "parts, %s",
+                                              asked ? asked->name : "reading"),
+                         .numbers = numbers, .number_count = COUNT_OF(numbers)};
+    return question_key(&question, aim, scratch);
+}
+
+static int displays_of(const ProbeAim *aim)
+{
+    return aim->context->scene->display_count;
+}
+
+/* Batches as they are kept: with as many displays as the scene has. */
+static size_t batch_bytes(int displays)
+{
+    return offsetof(Batch, display) + (size_t)displays * sizeof(Own);
+}
+
+static size_t parts_bytes(int displays)
+{
+    return 2 * BATCHES * batch_bytes(displays) + 2 * sizeof(int) + sizeof(double);
+}
+
+static void pack_batches(const Batch *batches, int displays, unsigned char **to)
+{
+    for (int i = 0; i < BATCHES; i++, *to += batch_bytes(displays))
+        memcpy(*to, &batches[i], batch_bytes(displays));
+}
+
+static void unpack_batches(const unsigned char **from, int displays, Batch *batches)
+{
+    for (int i = 0; i < BATCHES; i++, *from += batch_bytes(displays)) {
+        batches[i] = (Batch){0};
+        memcpy(&batches[i], *from, batch_bytes(displays));
+    }
+}
+
+static void keep_parts(Journal *journal, JournalKey key, const ReadingParts *parts,
+                       int displays, Arena scratch)
+{
+    unsigned char *bytes = ARENA_NEW(&scratch, unsigned char, parts_bytes(displays));
+    unsigned char *to = bytes;
+    const int      paths[2] = {parts->pilot_paths, parts->paths};
+    pack_batches(parts->pilot, displays, &to);
+    pack_batches(parts->fresh, displays, &to);
+    memcpy(to, paths, sizeof paths);
+    memcpy(to + sizeof paths, &parts->seconds, sizeof parts->seconds);
+    journal_add(journal, key, bytes, parts_bytes(displays));
+}
+
+static bool find_parts(const Journal *journal, JournalKey key, int displays,
+                       ReadingParts *parts, Arena scratch)
+{
+    unsigned char       *bytes = ARENA_NEW(&scratch, unsigned char, parts_bytes(displays));
+    const unsigned char *from = bytes;
+    int                  paths[2];
+    if (!journal_find(journal, key, bytes, parts_bytes(displays))) return false;
+    unpack_batches(&from, displays, parts->pilot);
+    unpack_batches(&from, displays, parts->fresh);
+    memcpy(paths, from, sizeof paths);
+    memcpy(&parts->seconds, from + sizeof paths, sizeof parts->seconds);
+    parts->pilot_paths = paths[0];
+    parts->paths = paths[1];
+    return true;
+}
+
+/* A reading that was kept before anybody shared it is taken again: it says the same. */
+static Reading take_shared(const ProbeAim *aim, const ReadingGoal *goal,
+                           const ReadingTools *tools, Arena scratch)
+{
+    Reading       reading;
+    ReadingParts *parts = ARENA_NEW(&scratch, ReadingParts, 1);
+    JournalKey key = key_of(aim, goal, tools, scratch);
+    JournalKey shared = parts_key(aim, goal, tools, scratch);
+    if (journal_find(tools->journal, key, &reading, sizeof reading) &&
+        find_parts(tools->journal, shared, displays_of(aim), parts, scratch))
+        return reading;
+    reading = take(aim, goal, tools, parts, scratch);
+    keep_parts(tools->journal, shared, parts, displays_of(aim), scratch);
+    journal_add(tools->journal, key, &reading, sizeof reading);
+    return reading;
+}
+
 Reading reading_take(const ProbeAim *aim, const ReadingGoal *goal, const ReadingTools *tools,
                      Arena scratch)
 {
     Reading reading;
-    if (!tools->journal) return take(aim, goal, tools, scratch);
+    if (!tools->journal) return take(aim, goal, tools, NULL, scratch);
+    if (goal->is_shared && displays_of(aim) <= PROBE_DISPLAYS)
+        return take_shared(aim, goal, tools, scratch);
     JournalKey key = key_of(aim, goal, tools, scratch);
     if (journal_find(tools->journal, key, &reading, sizeof reading)) return reading;
-    reading = take(aim, goal, tools, scratch);
+    reading = take(aim, goal, tools, NULL, scratch);
     journal_add(tools->journal, key, &reading, sizeof reading);
     return reading;
+}
+
+/* Would the reading have been taken by as many paths? */
+static bool is_enough(const ReadingParts *parts, const Reading *reading,
+                      const ReadingGoal *goal, Arena scratch)
+{
+    if (!goal->question) return is_sure(reading, goal) || 2 * reading->paths > goal->most;
+    Reading pilot = reading_of(parts->pilot, parts->pilot_paths, goal->known);
+    return paths_wanted(&pilot, goal, scratch) <= reading->paths;
+}
+
+bool reading_scaled(const ProbeAim *aim, const ReadingGoal *goal, const double *scale,
+                    const ReadingTools *tools, Arena scratch, Reading *out)
+{
+    int           displays = displays_of(aim);
+    ReadingParts *parts = ARENA_NEW(&scratch, ReadingParts, 1);
+    if (!tools->journal || displays > PROBE_DISPLAYS ||
+        !find_parts(tools->journal, parts_key(aim, goal, tools, scratch), displays, parts,
+                    scratch))
+        return false;
+    scale_batches(parts->pilot, scale, displays);
+    scale_batches(parts->fresh, scale, displays);
+    Reading reading = reading_of(parts->fresh, parts->paths, goal->known);
+    if (!is_enough(parts, &reading, goal, scratch)) return false;
+    reading.reached = uncertainty(&reading, goal);
+    reading.seconds = parts->seconds;
+    *out = reading;
+    return true;
 }

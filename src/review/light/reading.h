@@ -45,6 +45,8 @@ typedef struct ReadingGoal {
     double known;            /* of the reading, by the display's mirror: paths leave it out
                                 (path_context.h); it is added, with the error of
                                 response_mirror_paths */
+    bool   is_shared;        /* reading_scaled will be asked: what it needs is kept. Counts of
+                                scenes with no more than PROBE_DISPLAYS displays */
     const ReadingQuestion *question; /* NULL: none */
 } ReadingGoal;
 
@@ -79,3 +81,10 @@ typedef struct Reading {
 
 Reading reading_take(const ProbeAim *aim, const ReadingGoal *goal, const ReadingTools *tools,
                      Arena scratch);
+
+/* What the same paths say of displays whose light counts scale[display] times: of a reading
+ * that was shared, by its aim and goal but for what is emitted and how it may be decided. Its
+ * paths do not hang on what it says: the pilot asks for as many, or it is not told. False: it
+ * is not known, or takes more paths. */
+bool reading_scaled(const ProbeAim *aim, const ReadingGoal *goal, const double *scale,
+                    const ReadingTools *tools, Arena scratch, Reading *out);

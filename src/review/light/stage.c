@@ -227,6 +227,91 @@ bool stage_light(Stage *stage, const Environment *environment, Arena *arena, Err
     return stage_relight(stage, arena, err);
 }
 
+/* ---- other levels under the same light --------------------------------------------------- */
+
+/* NULL: from what is dark there is no way to what shines. */
+static const double *scale_of(const Scene *scene, const float *levels, Arena *arena)
+{
+    double *scale = ARENA_NEW(arena, double, scene->display_count);
+    for (int i = 0; i < scene->display_count; i++) {
+        float stands = scene->displays[i].level;
+        if (!(stands > 0) && levels[i] > 0) return NULL;
+        scale[i] = stands > 0 ? (double)levels[i] / (double)stands : 1;
+    }
+    return scale;
+}
+
+Stage stage_beside(const Stage *of, const ReviewRequest *request, Arena *arena, Arena room,
+                   StageOther *other)
+{
+    const Scene *scene = of->scene;
+    int    level_id = of->condition->level_id;
+    float *levels = ARENA_NEW(arena, float, scene->display_count);
+    Stage  out = *of;
+    out.request = request;
+    out.is_shared = false;
+    for (int i = 0; i < scene->display_count; i++)
+        levels[i] = (float)stage_level_of(&out,
+                                          level_id != NO_ID ? &request->levels[level_id] : NULL,
+                                          i, scene->displays[i].name, of->sensor_lux);
+    *other = (StageOther){.levels = levels, .scale = scale_of(scene, levels, arena),
+                          .room = room};
+    out.other = other;
+    return out;
+}
+
+static void swap_levels(const Stage *stage)
+{
+    float *levels = stage->other->levels;
+    for (int i = 0; i < stage->scene->display_count; i++) {
+        float before = stage->scene->displays[i].level;
+        stage->scene->displays[i].level = levels[i];
+        levels[i] = before;
+    }
+}
+
+Stage stage_lit(const Stage *stage)
+{
+    StageOther *other = stage->other;
+    Stage       out = *stage;
+    if (!other) return out;
+    swap_levels(stage);
+    if (!other->is_lit) {
+        const Lights *lights = lights_with_levels(stage->context.lights, &other->room);
+        other->context = path_context_relight(&stage->context, lights, &other->room);
+        other->context.guide = stage->context.guide;
+        other->is_lit = true;
+    }
+    out.context = other->context;
+    out.other = NULL;
+    return out;
+}
+
+void stage_unlight(const Stage *stage)
+{
+    if (stage->other) swap_levels(stage);
+}
+
+Reading stage_ask(const Stage *stage, const ProbeAim *aim, const ReadingGoal *asked,
+                  Arena scratch)
+{
+    const StageOther *other = stage->other;
+    ReadingGoal       goal = *asked;
+    ProbeAim          own = *aim;
+    Reading           reading;
+    goal.is_shared = stage->is_shared;
+    if (!other) return reading_take(aim, &goal, &stage->tools, scratch);
+    if (other->scale &&
+        reading_scaled(aim, &goal, other->scale, &stage->tools, scratch, &reading))
+        return reading;
+    Stage lit = stage_lit(stage);
+    lit.context.without_mirrored_sun = aim->context->without_mirrored_sun;
+    own.context = &lit.context;
+    reading = reading_take(&own, &goal, &stage->tools, scratch);
+    stage_unlight(stage);
+    return reading;
+}
+
 /* ---- the sun ----------------------------------------------------------------------------- */
 
 #define SUN_DRAWS 16
@@ -290,5 +375,6 @@ Vec3 stage_direction(const Stage *stage, SunAngles angles)
 
 double stage_level(const Stage *stage, int display_id)
 {
-    return (double)stage->scene->displays[display_id].level;
+    return (double)(stage->other ? stage->other->levels[display_id]
+                                 : stage->scene->displays[display_id].level);
 }

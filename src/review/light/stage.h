@@ -15,6 +15,16 @@
 
 #define STAGE_BOUNCES 64
 
+/* Levels of displays beside those that a stage is lit for: of a variant that changes nothing
+ * else, and stands on its review's stage. */
+typedef struct StageOther {
+    float        *levels; /* [display] */
+    const double *scale;  /* [display] of the stage's; NULL: a display is off there */
+    PathContext   context;
+    bool          is_lit; /* the context is, for these levels */
+    Arena         room;   /* of the context */
+} StageOther;
+
 typedef struct Stage {
     const ReviewRequest   *request;
     const ReviewCondition *condition;
@@ -27,6 +37,8 @@ typedef struct Stage {
     const char  *identity;     /* program and scene (render/identity.h), not its light */
     const char  *lessons;      /* StageOptions' */
     JournalKey   planned;      /* of program, files and request */
+    bool         is_shared;    /* its readings will be asked for under other levels, too */
+    StageOther  *other;        /* what is asked is asked under these; NULL: as it is lit */
 } Stage;
 
 typedef struct StageOptions {
@@ -73,6 +85,20 @@ SunAngles stage_angles(const Stage *stage, Vec3 towards);
 
 /* The other way round. */
 Vec3 stage_direction(const Stage *stage, SunAngles angles);
+
+/* The stage under another request's levels, which must be all in which that differs from its
+ * own. Whoever asks there has what stage_ask says; the room must outlive it. */
+Stage stage_beside(const Stage *of, const ReviewRequest *request, Arena *arena, Arena room,
+                   StageOther *other);
+
+/* reading_take of an aim that this stage's context has. */
+Reading stage_ask(const Stage *stage, const ProbeAim *aim, const ReadingGoal *goal,
+                  Arena scratch);
+
+/* Lights a stage beside another for its own levels, for who asks for more than readings; until
+ * stage_unlight no other may be asked. */
+Stage stage_lit(const Stage *stage);
+void  stage_unlight(const Stage *stage);
 
 /* The level at which a display stands now. */
 double stage_level(const Stage *stage, int display_id);

@@ -127,6 +127,41 @@ ReviewRequest review_request_variant(const ReviewRequest *request, const ReviewV
     return of;
 }
 
+/* A fixed level is one wherever it looks from. */
+static bool looks_alike(const ReviewLevel *level, const ReviewLevel *before)
+{
+    return !level->is_curve ||
+           (before->is_curve &&
+            memcmp(level->position_m, before->position_m, sizeof level->position_m) == 0 &&
+            memcmp(level->normal, before->normal, sizeof level->normal) == 0);
+}
+
+static bool has_same_sensors(const ReviewRequest *request, const ReviewVariant *variant)
+{
+    for (int i = 0; i < request->level_count; i++)
+        for (int k = 0; k < variant->level_count; k++)
+            if (!strcmp(variant->levels[k].name, request->levels[i].name) &&
+                !looks_alike(&variant->levels[k], &request->levels[i]))
+                return false;
+    return true;
+}
+
+bool review_variant_is_of_levels(const ReviewRequest *request, const ReviewVariant *variant)
+{
+    const ReviewChange *c = &variant->change;
+    return !c->scene_count && !c->panel_count && !c->content_count && !variant->scene_count &&
+           !variant->more_count && !variant->eye_moves && has_same_sensors(request, variant);
+}
+
+bool review_is_compared(const ReviewRequest *request)
+{
+    for (int i = 0; i < request->variant_count; i++)
+        if (!review_variant_is_of_levels(request, &request->variants[i])) return true;
+    for (int i = 0; i < request->parameter_count; i++)
+        if (request->parameters[i].kind != PARAMETER_BRIGHTNESS) return true;
+    return false;
+}
+
 double review_brightness(const ReviewRequest *request, ReviewDisplayName display)
 {
     const ReviewChange *change = request->change;

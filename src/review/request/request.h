@@ -260,8 +260,8 @@ typedef struct ReviewRequest {
     int              variant_count;
     ReviewParameter *parameters; /* of "sensitivity" */
     int              parameter_count;
-    bool             is_compared; /* has variants or parameters, or is one of them: read from
-                                     more paths (run/cases.c) */
+    bool             is_compared; /* has variants or parameters that change more than levels, or
+                                     is one of them: read from more paths (run/cases.c) */
     const ReviewChange *change;  /* of the variant that this is; NULL: the review itself */
     ReviewInput     *inputs;     /* the file itself, routes, weathers, skies' pictures */
     int              input_count;
@@ -274,6 +274,13 @@ uint32_t review_seed(const ReviewRequest *request, uint32_t base);
 /* The request as a variant has it, with no variants of its own. */
 ReviewRequest review_request_variant(const ReviewRequest *request, const ReviewVariant *variant,
                                      Arena *arena);
+
+/* Does it change levels of displays and nothing else, so that they alone tell it from the
+ * request's own light? A curve that looks from elsewhere changes more. */
+bool review_variant_is_of_levels(const ReviewRequest *request, const ReviewVariant *variant);
+
+/* Whether anything that is to be compared changes more than levels. */
+bool review_is_compared(const ReviewRequest *request);
 
 /* What multiplies the level of a display; 1 where no change says it. */
 double review_brightness(const ReviewRequest *request, ReviewDisplayName display);

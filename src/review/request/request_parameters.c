@@ -168,6 +168,12 @@ static const char *value_words(const ReviewParameter *p, double value, Arena *ar
                         !strcmp(unit, "degree") && scale * value != 1 ? "s" : "");
 }
 
+void review_parameter_ends(const ReviewParameter *p, double ends[2])
+{
+    ends[0] = fmax(p->at - p->step, p->low);
+    ends[1] = fmin(p->at + p->step, p->high);
+}
+
 /* ---- as a variant ------------------------------------------------------------------------ */
 
 static SceneChange node_change(const ReviewRequest *request, const ReviewParameter *p,

@@ -15,5 +15,8 @@ bool request_parameters_read(RequestReading *reading, Error *err);
 ReviewVariant review_parameter_at(const ReviewRequest *request,
                                   const ReviewParameter *parameter, double value, Arena *arena);
 
+/* A step below where it stands and one above, within its range: slopes lie between them. */
+void review_parameter_ends(const ReviewParameter *parameter, double ends[2]);
+
 /* The unit of slopes: "degree", "mm", ...; and how many of the file's it is. */
 const char *review_parameter_unit(const ReviewParameter *parameter, double *scale);

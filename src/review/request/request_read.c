@@ -113,7 +113,7 @@ bool review_request_read(const char *file, const char *root, Arena *arena, Probl
     if (!json_view_open(file, arena, &reading.root, err)) return false;
     reading.root.root = root;
     bool ok = read_all(&reading, err);
-    request.is_compared = request.variant_count + request.parameter_count > 0;
+    request.is_compared = review_is_compared(&request);
     json_view_close(&reading.root);
     if (ok) *out = request;
     return ok;

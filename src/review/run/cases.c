@@ -85,7 +85,7 @@ static double face_lux(const CaseTools *tools, const StageSymbol *symbol, Arena 
     ProbeAim    aim = {.context = &stage->context, .meter = &head,
                        .seed = review_seed(stage->request, FACE_SEED)};
     ReadingGoal goal = {.precision = FACE_PRECISION, .most = FACE_PATHS};
-    return reading_take(&aim, &goal, &stage->tools, scratch).reflected;
+    return stage_ask(stage, &aim, &goal, scratch).reflected;
 }
 
 /* What the display sends to the eye straight from the sun, cd m^-2. */
@@ -232,13 +232,13 @@ static Reading read_symbol(const CaseLook *look, const ProbeAim *aim, VerdictAsk
         goal.most = COARSE_PATHS;
         goal.question = NULL;
     }
-    Reading reading = reading_take(&rest, &goal, &stage->tools, scratch);
+    Reading reading = stage_ask(stage, &rest, &goal, scratch);
     for (int i = 0; i < DECIDE_ROUNDS && request->decides && goal.question; i++) {
         if (is_verdict_clear(ask, reading.interval, scratch)) return reading;
         goal.most *= DECIDE_TIMES;
         goal.precision /= sqrt(DECIDE_TIMES);
         rest.seed = hash_combine(rest.seed, DECIDE_SEED);
-        reading = reading_take(&rest, &goal, &stage->tools, scratch);
+        reading = stage_ask(stage, &rest, &goal, scratch);
     }
     return reading;
 }
@@ -254,7 +254,9 @@ static void see_stray_light(const Stage *stage, const StageSymbol *symbol, Vec3 
                             ReviewCase *c, Arena scratch)
 {
     EyeLook    look = {eye, vec3_sub(symbol_middle(symbol).position, eye), 1, NULL};
-    EyeReading stray = eye_read(stage, &look, scratch);
+    Stage      lit = stage_lit(stage);
+    EyeReading stray = eye_read(&lit, &look, scratch);
+    stage_unlight(stage);
     c->luminance_cd_m2.veil = stray.veil;
     c->dgp = stray.dgp;
     c->ugr = stray.ugr;

@@ -9,7 +9,7 @@
  */
 #pragma once
 #include "review/profile.h"
-#include "review/run/share.h"
+#include "review/share.h"
 #include "review/run/symbols.h"
 
 typedef struct CaseTools {

@@ -10,7 +10,7 @@
  */
 #pragma once
 #include "review/light/sun_searches.h"
-#include "review/run/share.h"
+#include "review/share.h"
 #include "review/verdict.h"
 
 /* Fills review_look_count(request) findings, eyes fastest, but for those that are others'.

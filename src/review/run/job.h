@@ -11,7 +11,7 @@
 #include "review/light/sun_searches.h"
 #include "review/profile.h"
 #include "review/request/request.h"
-#include "review/run/share.h"
+#include "review/share.h"
 #include "review/suns/sweep_suns.h"
 #include "review/verdict.h"
 
@@ -25,6 +25,15 @@ typedef struct ReviewNews {
     void (*read)(void *user, const Scene *scene);
     void  *user;
 } ReviewNews;
+
+/* A variant that changes levels alone: it goes with the review, stage by stage, and is read
+ * from its paths. */
+typedef struct ReviewRider {
+    const ReviewVariant *variant;
+    const ReviewRequest *request;
+    ReviewOutcome       *outcome; /* made with the review's */
+    Arena                room;    /* scratch of its own */
+} ReviewRider;
 
 typedef struct ReviewRun {
     const ReviewRequest *request;
@@ -45,9 +54,14 @@ typedef struct ReviewRun {
     ReviewNews           news;
     Problems            *problems; /* warnings of scenes, once each */
     SunSearches         *sun_searches; /* review_run's own */
-    const Review        *base;     /* this is a variant of that, which is whole: verdicts alone
-                                      are made (cases.h); NULL: the review itself */
+    const Review        *base;     /* this is a variant of that, which is made before: verdicts
+                                      alone are made (cases.h); NULL: the review itself */
+    ReviewRider         *riders;   /* go with it; a share of one has none */
+    int                  rider_count;
 } ReviewRun;
+
+/* A rider as a run by itself, on the stages of the review that it goes with. */
+ReviewRun review_rider_run(const ReviewRun *run, const ReviewRider *rider, const Review *base);
 
 /* What a sweep found of each of its suns: one symbol, one eye. */
 typedef struct SweepTable {

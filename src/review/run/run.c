@@ -70,6 +70,38 @@ static double work_of_moment(const ReviewRun *run, int symbols)
     return run->base ? work : work + WORK_LOOK * review_look_count(request);
 }
 
+/* The same cases under a rider's levels. */
+static bool ride_moment(const CaseTools *base_tools, const ReviewRider *rider,
+                        const ReviewRun *run, const Review *base, Arena *arena, Error *err)
+{
+    StageOther other;
+    Arena      room = rider->room, of_context = arena_reserve(STAGE_BYTES);
+    ReviewRun  own = review_rider_run(run, rider, base);
+    Review    *review = &rider->outcome->review;
+    Stage      stage =
+        stage_beside(base_tools->stage, rider->request, &room, of_context, &other);
+    CaseTools tools = *base_tools;
+    tools.stage = &stage;
+    tools.work = NULL;
+    tools.base = own.base;
+    ReviewCase *cases = review->cases + review->case_count;
+    int         count = tools.symbol_count * rider->request->eye_count;
+    bool        ok = stage_cases(&tools, arena, cases, err);
+    if (ok) keep_names(cases, count, arena);
+    if (ok) review->case_count += count;
+    else if (err->code <= 128) error_prefix(err, "variant '%.100s'", rider->variant->name);
+    arena_release(&of_context);
+    return ok;
+}
+
+static bool ride_moments(const ReviewRun *run, const CaseTools *tools, const Review *review,
+                         Arena *arena, Error *err)
+{
+    for (int i = 0; i < run->rider_count; i++)
+        if (!ride_moment(tools, &run->riders[i], run, review, arena, err)) return false;
+    return true;
+}
+
 static bool run_moment(const ReviewRun *run, Stage *stage, Arena *scratch, Arena *arena,
                        ReviewOutcome *out, Error *err)
 {
@@ -91,6 +123,7 @@ static bool run_moment(const ReviewRun *run, Stage *stage, Arena *scratch, Arena
     int count = tools.symbol_count * run->request->eye_count;
     if (!run->share.count) keep_names(cases, count, arena); /* others' cases have none */
     review->case_count += count;
+    if (!ride_moments(run, &tools, review, arena, err)) return false;
     if (run->base) return true;
     GazeFinding *gazes = review->gazes + review->gaze_count;
     if (!stage_gazes(stage, &tools.share, run->sun_searches, arena, gazes, err)) return false;
@@ -184,6 +217,7 @@ static bool run_condition(const ReviewRun *run, const ReviewCondition *condition
     Stage stage;
     bool  ok = stage_open(&options, &scratch, run->problems, &stage, err);
     if (ok) {
+        stage.is_shared = run->rider_count > 0;
         work_add(run->work, WORK_OPENED);
         if (run->news.read) run->news.read(run->news.user, stage.scene);
         tell_without_data(stage.scene, &out->review, scratch, arena);
@@ -475,9 +509,9 @@ bool review_frames(const ReviewRun *run, ReviewOutcome *outcome, Arena *arena, E
 
 /* ---- all of it --------------------------------------------------------------------------- */
 
-bool review_run(const ReviewRun *run, Arena *arena, ReviewOutcome *out, Error *err)
+static void start(const ReviewRun *run, const ReviewRequest *request, ReviewOutcome *out,
+                  Arena *arena)
 {
-    const ReviewRequest *request = run->request;
     int most = most_cases(request);
     int most_looks = request->condition_count * review_look_count(request);
     *out = (ReviewOutcome){.tables = ARENA_NEW(arena, SweepTable, most)};
@@ -491,13 +525,21 @@ bool review_run(const ReviewRun *run, Arena *arena, ReviewOutcome *out, Error *e
                                                   most_responses(request)),
                            .false_suns = ARENA_NEW(arena, ReviewFalseSun,
                                                    most_false_suns(request))};
+}
+
+bool review_run(const ReviewRun *run, Arena *arena, ReviewOutcome *out, Error *err)
+{
     SunSearches searches = sun_searches_start();
     ReviewRun   with = *run;
     with.sun_searches = &searches;
+    if (run->share.count) with.rider_count = 0;
+    start(run, run->request, out, arena);
+    for (int i = 0; i < with.rider_count; i++)
+        start(run, run->riders[i].request, run->riders[i].outcome, arena);
     bool ok = run_conditions(&with, arena, out, err);
     sun_searches_end(&searches);
     if (!ok || run->share.count) return ok;
-    if (!run->base) add_notes(request, &out->review, arena);
+    if (!run->base) add_notes(run->request, &out->review, arena);
     review_decide(&out->review);
     return true;
 }

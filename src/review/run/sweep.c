@@ -12,6 +12,7 @@
 #include "review/keep/go_on.h"
 #include "review/pace/work.h"
 #include "review/run/sweep_probes.h"
+#include "review/run/sweep_told.h"
 #include "review/run/sweep_weather.h"
 
 #define WORST_READ 3          /* steps that are read again, at most */
@@ -29,126 +30,6 @@ static DaylightInput air_of(const ReviewCondition *condition)
     if (condition->kind == CONDITION_YEAR_SWEEP) air.where = condition->where;
     if (condition->kind == CONDITION_ROUTE) air.where = condition->route.points[0].where;
     return air;
-}
-
-/* ---- reading them ------------------------------------------------------------------------ */
-
-static double level_for(const Sweep *sweep, const Sight *sight, int sun)
-{
-    double lux = sweep->sensor ? sweep->sensor->lux[sun] + sweep->sensor->own.lamps : 0;
-    return stage_level_of(sweep->stage, sweep->level, sight->symbol->display.display_id,
-                          sight->symbol->display_name, lux);
-}
-
-/* The figures of a case under one sun; limits are judged by whoever asks. */
-static ReviewCase case_at(const Sweep *sweep, const Sight *sight, const FarTools *tools,
-                          int sun)
-{
-    FarReading light = far_probe_read(&sight->probe, tools, sun);
-    double     level = level_for(sweep, sight, sun);
-    double     own = sight->own.lamps + level * sight->own.displays;
-    double     reflected = far_reading_sum(light) + own;
-    ReviewCase c = {.level = level, .limit_id = -1, .visible_share = sight->seen.visible_share,
-                    .height_arcmin = sight->height_arcmin};
-    c.display_lux = sight->face->lux[sun] + sight->face->own.lamps +
-                    level * sight->face->own.displays;
-    c.luminance_cd_m2 = (CaseLuminances){
-        level * sight->shown.foreground, level * sight->shown.background, reflected,
-        light.mirror, reflected - light.mirror, (double)NAN};
-    judge_contrasts(&c, (Range){fmax(light.interval.low + own, 0), light.interval.high + own});
-    judge_ambient(&c, sweep->run->profile, light.sun_first > CASE_SUNLIT * reflected);
-    return c;
-}
-
-/* ---- what is told of them ---------------------------------------------------------------- */
-
-typedef struct Told {
-    float *contrast, *low, *high; /* with its interval */
-    float *margin, *reflected, *mirror, *level, *lux;
-    unsigned char *verdict, *ambient;
-    int    worst; /* sun; -1: none */
-} Told;
-
-static Told told_start(int count, Arena *arena)
-{
-    float *numbers = ARENA_NEW(arena, float, 8 * (size_t)count);
-    return (Told){numbers, numbers + count, numbers + 2 * count, numbers + 3 * count,
-                  numbers + 4 * count, numbers + 5 * count, numbers + 6 * count,
-                  numbers + 7 * count,
-                  ARENA_NEW(arena, unsigned char, count),
-                  ARENA_NEW(arena, unsigned char, count), -1};
-}
-
-/* Worse: by its verdict, then by its margin, then by its contrast. */
-static bool is_worse(const Told *told, int sun, int than)
-{
-    if (than < 0) return true;
-    int rank = verdict_rank(told->verdict[sun]), other = verdict_rank(told->verdict[than]);
-    if (rank != other) return rank > other;
-    float margin = told->margin[sun], before = told->margin[than];
-    if (!isnan(margin) && !isnan(before) && margin != before) return margin < before;
-    return told->contrast[sun] < told->contrast[than];
-}
-
-#define TELL_CHUNK 256 /* suns of one piece of work */
-#define TELL_BYTES ((size_t)1 << 20) /* scratch of a worker */
-
-typedef struct TellWork {
-    const Sweep    *sweep;
-    const Sight    *sight;
-    const FarTools *tools;
-    Told           *told;
-    Arena          *scratch; /* one a worker */
-} TellWork;
-
-static void tell_sun(const TellWork *work, int sun, Arena scratch)
-{
-    Told      *told = work->told;
-    ReviewCase c = case_at(work->sweep, work->sight, work->tools, sun);
-    judge_case(&c, work->sweep->run->profile, &scratch);
-    told->contrast[sun] = (float)c.contrast_ratio;
-    told->low[sun] = (float)c.contrast_low;
-    told->high[sun] = (float)c.contrast_high;
-    told->margin[sun] = (float)c.margin;
-    told->reflected[sun] = (float)c.luminance_cd_m2.reflected;
-    told->mirror[sun] = (float)c.luminance_cd_m2.mirror;
-    told->level[sun] = (float)c.level;
-    told->lux[sun] = (float)c.display_lux;
-    told->verdict[sun] = (unsigned char)c.verdict;
-    told->ambient[sun] = (unsigned char)c.ambient;
-}
-
-static void tell_chunk(void *user, int item, int worker)
-{
-    const TellWork *work = user;
-    int first = item * TELL_CHUNK, end = first + TELL_CHUNK, count = work->sweep->suns.count;
-    for (int sun = first; sun < end && sun < count; sun++)
-        tell_sun(work, sun, work->scratch[worker]);
-}
-
-static void tell(const Sweep *sweep, const Sight *sight, const FarTools *tools, Told *told,
-                 Arena room)
-{
-    int      count = sweep->suns.count, threads = sweep->run->threads;
-    TellWork work = {sweep, sight, tools, told, NULL};
-    work.scratch = ARENA_NEW(&room, Arena, threads);
-    for (int i = 0; i < threads; i++) work.scratch[i] = arena_reserve(TELL_BYTES);
-    parallel_for(threads, (count + TELL_CHUNK - 1) / TELL_CHUNK, tell_chunk, &work);
-    for (int i = 0; i < threads; i++) arena_release(&work.scratch[i]);
-    for (int sun = 0; sun < count; sun++)
-        if (is_worse(told, sun, told->worst)) told->worst = sun;
-}
-
-/* By its figure, and for sure. */
-static StepState state_of(const Told *told, int sun)
-{
-    if (told->verdict[sun] == VERDICT_FAIL) return STEP_FAILS_SURELY;
-    return told->margin[sun] < 0 ? STEP_FAILS : STEP_PASSES;
-}
-
-static void tell_states(const Told *told, int count, unsigned char *states)
-{
-    for (int i = 0; i < count; i++) states[i] = (unsigned char)state_of(told, i);
 }
 
 /* Of a sweep without times: every sun counts alike. */
@@ -207,6 +88,8 @@ typedef struct Telling {
     ReviewOutcome   *out;
     Arena           *arena;  /* of what is kept */
     Arena            scratch;
+    const ReviewRider *rider; /* whose it is; NULL: the review's own */
+    Arena            beside; /* room for its stage */
 } Telling;
 
 /* By the probes, for other suns. */
@@ -217,6 +100,7 @@ static Told tell_others(const Telling *to, const Sight *sight, const SweepSuns *
     FarTools   tools = *to->tools, of_meters;
     SweepMeter face = *sight->face, sensor;
     Sight      seen = *sight;
+    seen.read = NULL;
     sweep.suns = *suns;
     tools.suns = (FarSuns){suns->angles, suns->count};
     of_meters = tools;
@@ -230,7 +114,7 @@ static Told tell_others(const Telling *to, const Sight *sight, const SweepSuns *
         sweep.sensor = &sensor;
     }
     Told told = told_start(suns->count, scratch);
-    tell(&sweep, &seen, &tools, &told, *scratch);
+    told_tell(&sweep, &seen, &tools, &told, *scratch);
     return told;
 }
 
@@ -257,7 +141,7 @@ static void states_between(void *user, const SweepSuns *suns, unsigned char *sta
 {
     const Between *between = user;
     Told told = tell_others(between->to, between->sight, suns, &scratch);
-    tell_states(&told, suns->count, states);
+    told_states(&told, suns->count, states);
 }
 
 /* The skies of a weather file stand for their steps alone, a route's points for themselves. */
@@ -274,7 +158,7 @@ static void set_failures(const Telling *to, const Sight *sight, const Told *told
         return;
     }
     unsigned char *states = ARENA_NEW(&scratch, unsigned char, to->suns->count);
-    tell_states(told, to->suns->count, states);
+    told_states(told, to->suns->count, states);
     Failures found = sweep_failures(condition, to->suns, states, is_steady ? &ask : NULL,
                                     scratch);
     out->failed_share = found.share;
@@ -291,7 +175,11 @@ static bool read_worst(Telling *to, const Sight *sight, const SweepSun *sun, boo
     ReviewRequest request = *sweep->run->request;
     request.seed += picks ? PICK_SEED : 0;
     if (!sweep_light_sun(sweep, sun, &sky, err)) return false;
-    Stage stage = sweep->lit.stage;
+    Arena      room = to->scratch;
+    StageOther other;
+    Stage      stage = sweep->lit->stage;
+    if (to->rider)
+        stage = stage_beside(&sweep->lit->stage, &request, &room, to->beside, &other);
     stage.request = &request;
     CaseTools tools = {.stage = &stage, .profile = sweep->run->profile,
                        .symbols = sight->symbol, .symbol_count = 1,
@@ -359,7 +247,7 @@ static int next_failing(const Telling *to, const Told *told, const SweepSun *rea
         bool is_new = told->verdict[sun] == VERDICT_FAIL;
         for (int i = 0; i < count && is_new; i++)
             is_new = sun_distance_deg(&to->suns->list[sun], &read[i]) > WORST_APART_DEG;
-        if (is_new && is_worse(told, sun, next)) next = sun;
+        if (is_new && told_is_worse(told, sun, next)) next = sun;
     }
     return next;
 }
@@ -402,24 +290,17 @@ static void add_table(const Telling *to, const Sight *sight, const Told *told,
         limits_asked(to, sight)};
 }
 
-/* The suns of a sight are asked, and forgotten when all is told of them. */
-static void tell_all(const Telling *to, const Sight *sight, Told *told, ReviewSweep *out)
-{
-    Telling with = *to;
-    Sight   asked = sweep_ask_sight(to->sweep, sight, &with.scratch);
-    tell(to->sweep, &asked, to->tools, told, with.scratch);
-    set_failures(&with, &asked, told, out);
-}
-
-/* Of a variant, whose tables nobody asks for, it lasts as long as the scratch. */
-static Told told_of(Telling *to, const Sight *sight, ReviewSweep *out)
+/* Of a variant, whose tables nobody asks for, it lasts as long as the scratch. asked: the sight
+ * with its suns. */
+static Told told_of(Telling *to, const Sight *sight, const Sight *asked, ReviewSweep *out)
 {
     int        id = (int)(sight - to->sweep->sights);
     SightTold *kept = &to->sights[sight->twin != NO_ID ? sight->twin : id];
     if (sight->twin == NO_ID) {
         kept->told = told_start(to->suns->count,
                                 to->sweep->run->base ? &to->scratch : to->arena);
-        tell_all(to, sight, &kept->told, out);
+        told_tell(to->sweep, asked, to->tools, &kept->told, to->scratch);
+        set_failures(to, asked, &kept->told, out);
         kept->failed_share = out->failed_share;
         kept->longest_failure_minutes = out->longest_failure_minutes;
     }
@@ -428,13 +309,13 @@ static Told told_of(Telling *to, const Sight *sight, ReviewSweep *out)
     return kept->told;
 }
 
-static bool tell_sight(Telling *to, const Sight *sight, Error *err)
+static bool tell_sight(Telling *to, const Sight *sight, const Sight *asked, Error *err)
 {
     Review     *review = &to->out->review;
     ReviewSweep sweep = sweep_of(to, sight);
     Arena       before = to->scratch;
     if (sight->probe.aim.target_count) {
-        Told     told = told_of(to, sight, &sweep);
+        Told     told = told_of(to, sight, asked, &sweep);
         SweepSun worst = {0};
         if (!find_worst(to, sight, &told, &worst, &sweep.worst, err)) return false;
         sweep.worst.symbol = sweep.symbol;
@@ -451,16 +332,35 @@ static double work_of_sight(const SweepSuns *suns)
     return WORK_SUN * suns->count + WORK_WORST;
 }
 
-/* Symbol by symbol, so that what its eyes share is at hand. */
-static bool tell_sights(Telling *to, Error *err)
+/* A sight for the review, then for its riders: its suns are asked, and forgotten when all is
+ * told of them. */
+static bool tell_asked(Sweep *sweep, Telling *to, int count, const Sight *sight, Arena room,
+                       Error *err)
 {
-    const Sweep *sweep = to->sweep;
-    int          symbols = sweep->symbol_count;
+    Sight asked = *sight;
+    if (sight->twin == NO_ID && sight->probe.aim.target_count) {
+        asked = sweep_ask_sight(sweep, sight, &room);
+        if (count > 1) asked.read = sweep_read_sight(&asked, to->tools, &room);
+    }
+    for (int i = 0; i < count; i++) {
+        if (tell_sight(&to[i], sight, &asked, err)) continue;
+        return err->code > 128 || !to[i].rider
+                   ? false
+                   : error_prefix(err, "variant '%.100s'", to[i].rider->variant->name);
+    }
+    return true;
+}
+
+/* Symbol by symbol, so that what its eyes share is at hand. to[0]: the review's own. */
+static bool tell_sights(Sweep *sweep, Telling *to, int count, Arena room, Error *err)
+{
+    int symbols = sweep->symbol_count;
     for (int i = 0; i < sweep->sight_count; i++) {
         int          eyes = sweep->sight_count / symbols;
         const Sight *sight = &sweep->sights[i % eyes * symbols + i / eyes];
         if (sight->is_left) continue;
-        if (!review_goes_on(sweep->run->journal, err) || !tell_sight(to, sight, err))
+        if (!review_goes_on(sweep->run->journal, err) ||
+            !tell_asked(sweep, to, count, sight, room, err))
             return false;
         work_add(sweep->run->work, work_of_sight(&sweep->suns));
     }
@@ -506,6 +406,11 @@ static bool make_skies(Sweep *sweep, Arena *scratch, Error *err)
     like.has_time = false;
     like.threads = stage->tools.threads;
     sweep->table = sky_table_start(&like, low, high, scratch);
+    if (stage->condition->kind == CONDITION_SUN_SWEEP) {
+        const ReviewRange *azimuths = &stage->condition->azimuth_deg;
+        double             heading = sweep->suns.list[0].heading_deg; /* of all of them */
+        sky_table_between(&sweep->table, azimuths->first - heading, azimuths->last - heading);
+    }
     return true;
 }
 
@@ -534,16 +439,67 @@ static void plan_work(const Sweep *sweep, const SweepGroup *group, Arena scratch
     sweep->run->work->total = work;
 }
 
-static bool sweep_condition(Sweep *sweep, Arena scratch, Arena *arena, ReviewOutcome *out,
-                            Error *err)
+static void set_level(Sweep *sweep)
 {
     const ReviewRequest   *request = sweep->run->request;
     const ReviewCondition *condition = sweep->stage->condition;
     bool has_level = condition->level_id != NO_ID;
-    sweep->suns = sweep_suns(condition, arena);
     sweep->level = has_level ? &request->levels[condition->level_id] : NULL;
     sweep->sensor =
         has_level && sweep->level->is_curve ? &sweep->sensors[condition->level_id] : NULL;
+}
+
+/* A rider on the review's probes. */
+typedef struct Riding {
+    ReviewRun run;
+    Stage     stage;
+    Sweep     sweep;
+    Arena     beside;
+} Riding;
+
+static void start_riding(const Telling *own, const ReviewRider *rider, Riding *riding,
+                         Telling *to)
+{
+    const Sweep *sweep = own->sweep;
+    *riding = (Riding){.run = review_rider_run(sweep->run, rider, &own->out->review),
+                       .stage = *sweep->stage, .sweep = *sweep,
+                       .beside = arena_reserve(SWEEP_BYTES)};
+    riding->stage.request = rider->request;
+    riding->sweep.run = &riding->run;
+    riding->sweep.stage = &riding->stage;
+    set_level(&riding->sweep);
+    *to = *own;
+    to->sweep = &riding->sweep;
+    to->out = rider->outcome;
+    to->first = rider->outcome->review.sweep_count;
+    to->scratch = rider->room;
+    to->rider = rider;
+    to->beside = riding->beside;
+    to->sights = ARENA_NEW(&to->scratch, SightTold, sweep->sight_count);
+}
+
+/* The review's own, then its riders'. */
+static bool tell_with_riders(Sweep *sweep, const Telling *own, Arena room, Error *err)
+{
+    int      riders = sweep->run->rider_count;
+    Telling *to = ARENA_NEW(&room, Telling, 1 + riders);
+    Riding  *riding = ARENA_NEW(&room, Riding, riders);
+    to[0] = *own;
+    for (int i = 0; i < riders; i++)
+        start_riding(own, &sweep->run->riders[i], &riding[i], &to[1 + i]);
+    bool ok = tell_sights(sweep, to, 1 + riders, room, err);
+    for (int i = 0; i < riders; i++) {
+        if (ok) sweep->run->riders[i].outcome->review.sweep_count += sweep->sight_count;
+        arena_release(&riding[i].beside);
+    }
+    return ok;
+}
+
+static bool sweep_condition(Sweep *sweep, Arena scratch, Arena *arena, ReviewOutcome *out,
+                            Error *err)
+{
+    sweep->suns = sweep_suns(sweep->stage->condition, arena);
+    set_level(sweep);
     if (!make_skies(sweep, &scratch, err)) return false;
     if (!sweep_ask_light(sweep, &scratch, err)) return false;
     work_add(sweep->run->work, WORK_SKIES * sweep->sight_count);
@@ -551,14 +507,13 @@ static bool sweep_condition(Sweep *sweep, Arena scratch, Arena *arena, ReviewOut
     SweepSuns *suns = ARENA_NEW(arena, SweepSuns, 1);
     *suns = sweep->suns;
     Telling to = {.sweep = sweep, .tools = &tools, .suns = suns, .out = out, .arena = arena,
-                  .first = out->review.sweep_count,
+                  .first = out->review.sweep_count, .scratch = sweep->told,
                   .sights = ARENA_NEW(&scratch, SightTold, sweep->sight_count),
                   .tables = ARENA_NEW(&scratch, SweepTable, sweep->sight_count)};
-    to.scratch = scratch;
-    sweep->lit.is_lit = false;
+    sweep->lit->is_lit = false;
     if (!sweep->run->share.count && !sweep->run->base)
         false_sun_times(sweep, scratch, arena, &out->review);
-    if (!tell_sights(&to, err)) return false;
+    if (!tell_with_riders(sweep, &to, scratch, err)) return false;
     keep_tables(&to);
     out->review.sweep_count += sweep->sight_count;
     return true;
@@ -585,10 +540,13 @@ static bool sweep_all(Sweep *sweep, const SweepGroup *group, Arena *scratch, Are
 bool run_sweeps(const ReviewRun *run, Stage *stage, const SweepGroup *group, Arena *arena,
                 ReviewOutcome *out, Error *err)
 {
-    Arena scratch = arena_reserve(SWEEP_BYTES), lit = arena_reserve(SWEEP_BYTES);
-    Sweep sweep = {.run = run, .stage = stage, .lit = {.fresh = lit}};
-    bool  ok = sweep_all(&sweep, group, &scratch, arena, out, err);
-    arena_release(&lit);
+    Arena    scratch = arena_reserve(SWEEP_BYTES);
+    SweepLit lit = {.of = stage, .fresh = arena_reserve(SWEEP_BYTES)};
+    Sweep    sweep = {.run = run, .stage = stage, .lit = &lit,
+                      .told = arena_reserve(SWEEP_BYTES)};
+    bool     ok = sweep_all(&sweep, group, &scratch, arena, out, err);
+    arena_release(&sweep.told);
+    arena_release(&lit.fresh);
     arena_release(&scratch);
     return ok;
 }

@@ -29,5 +29,6 @@ typedef struct SweepGroup {
     int                     count;
 } SweepGroup;
 
+/* Riders go with it. */
 bool run_sweeps(const ReviewRun *run, Stage *stage, const SweepGroup *group, Arena *arena,
                 ReviewOutcome *out, Error *err);

@@ -39,10 +39,10 @@ static bool is_same_light(const SweepSun *a, const SweepSun *b)
 
 static bool light_afresh(Sweep *sweep, const SweepSun *sun, const Environment *sky, Error *err)
 {
-    SweepLit *lit = &sweep->lit;
+    SweepLit *lit = sweep->lit;
     Arena     arena = lit->fresh;
     Scene    *scene = sweep->stage->scene;
-    lit->stage = *sweep->stage;
+    lit->stage = *lit->of;
     lit->sun = *sun;
     for (int i = 0; i < scene->display_count; i++)
         scene->displays[i].level = (float)lit->stage.scene_levels[i];
@@ -55,7 +55,7 @@ static bool light_afresh(Sweep *sweep, const SweepSun *sun, const Environment *s
 
 bool sweep_light_sun(Sweep *sweep, const SweepSun *sun, const Environment *sky, Error *err)
 {
-    SweepLit *lit = &sweep->lit;
+    SweepLit *lit = sweep->lit;
     Scene    *scene = sweep->stage->scene;
     if (!lit->is_lit || !is_same_light(&lit->sun, sun))
         return light_afresh(sweep, sun, sky, err);
@@ -238,7 +238,7 @@ typedef struct MeterWork {
     double         *lux;
 } MeterWork;
 
-static void read_chunk(void *user, int item, int worker)
+static void read_meter(void *user, int item, int worker)
 {
     (void)worker;
     const MeterWork *work = user;
@@ -255,7 +255,7 @@ void sweep_meter_read(SweepMeter *meter, const FarTools *tools, Arena *arena)
     Arena     room = *arena;
     far_probe_ask_suns(&probe, tools, &room);
     parallel_for(tools->stage->tools.threads, (count + METER_CHUNK - 1) / METER_CHUNK,
-                 read_chunk, &work);
+                 read_meter, &work);
     meter->lux = work.lux;
 }
 
@@ -278,6 +278,32 @@ Sight sweep_ask_sight(Sweep *sweep, const Sight *sight, Arena *arena)
     Sight    asked = *sight;
     if (asked.probe.aim.target_count) far_probe_ask_suns(&asked.probe, &tools, arena);
     return asked;
+}
+
+#define SIGHT_CHUNK 256
+
+typedef struct SightWork {
+    const FarProbe *probe;
+    const FarTools *tools;
+    FarReading     *read;
+} SightWork;
+
+static void read_sight(void *user, int item, int worker)
+{
+    (void)worker;
+    const SightWork *work = user;
+    int first = item * SIGHT_CHUNK, end = first + SIGHT_CHUNK, count = work->tools->suns.count;
+    for (int sun = first; sun < end && sun < count; sun++)
+        work->read[sun] = far_probe_read(work->probe, work->tools, sun);
+}
+
+const FarReading *sweep_read_sight(const Sight *asked, const FarTools *tools, Arena *arena)
+{
+    int       count = tools->suns.count;
+    SightWork work = {&asked->probe, tools, ARENA_NEW(arena, FarReading, count)};
+    parallel_for(tools->stage->tools.threads, (count + SIGHT_CHUNK - 1) / SIGHT_CHUNK,
+                 read_sight, &work);
+    return work.read;
 }
 
 /* ---- the sun in mirrors ------------------------------------------------------------------ */

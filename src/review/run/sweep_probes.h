@@ -32,11 +32,13 @@ typedef struct Sight {
                                    eye is: what is asked of that holds for both; NO_ID: none */
     bool               has_twin; /* a later one has this for its twin */
     bool               is_left; /* as a meter */
+    const FarReading  *read;    /* [sun], where several ask for them; else NULL */
 } Sight;
 
 /* The stage under the sun for which it was lit last: eyes that share a symbol often share its
  * worst. */
 typedef struct SweepLit {
+    const Stage *of;    /* the review's own */
     bool     is_lit;
     SweepSun sun;
     Stage    stage;
@@ -63,7 +65,8 @@ typedef struct Sweep {
     bool               has_hours; /* of a weather file: probes do not use the table */
     const ReviewLevel *level;   /* NULL: the scene's */
     SweepMeter        *sensor;  /* of the level; NULL: it is fixed */
-    SweepLit           lit;
+    SweepLit          *lit;     /* shared with riders */
+    Arena              told;    /* scratch for what a condition is told */
 } Sweep;
 
 /* The scene without sky and sun, its displays at one level. */
@@ -84,6 +87,9 @@ bool sweep_ask_light(Sweep *sweep, Arena *arena, Error *err);
 
 /* One sight, for these suns: some 150 bytes a sun, so that they are asked one by one. */
 Sight sweep_ask_sight(Sweep *sweep, const Sight *sight, Arena *arena);
+
+/* And read once for all who ask. */
+const FarReading *sweep_read_sight(const Sight *asked, const FarTools *tools, Arena *arena);
 
 /* Asks a meter of each of the tools' suns, and sets what it reads there. */
 void sweep_meter_read(SweepMeter *meter, const FarTools *tools, Arena *arena);

@@ -47,6 +47,7 @@ static bool try_value(Mending *m, double value, int fresh, bool *passes, Error *
     request.seed += (uint32_t)fresh * FRESH_SEED;
     request.is_compared = fresh == 0;
     run.request = &request;
+    run.rider_count = 0;
     if (run.work->done + m->work > run.work->total) run.work->total += m->work;
     if (!review_variant(&run, &variant, m->base, m->arena, &found, err)) return false;
     note(m, value, found.review, fresh > 0);

@@ -71,7 +71,9 @@ static void set_slope(const Profile *profile, const Review *below, const Review 
 static bool find_slopes(const ReviewRun *run, const ReviewParameter *p, const Review *base,
                         Arena *arena, ReviewSensitivity *out, Error *err)
 {
-    double scale, low = fmax(p->at - p->step, p->low), high = fmin(p->at + p->step, p->high);
+    double scale, ends[2];
+    review_parameter_ends(p, ends);
+    double low = ends[0], high = ends[1];
     *out = (ReviewSensitivity){.name = p->name, .unit = review_parameter_unit(p, &scale)};
     out->at = scale * p->at;
     out->step = scale * p->step;

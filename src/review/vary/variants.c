@@ -10,6 +10,7 @@
 #include "review/request/request_check.h"
 #include "review/request/request_parameters.h"
 #include "review/run/run.h"
+#include "review/vary/riders.h"
 #include "scene/load/scene_load.h"
 
 #define JUDGE_BYTES ((size_t)1 << 20)
@@ -146,11 +147,10 @@ bool review_variants_check(const ReviewRun *run, Error *err)
 
 /* ---- all of them ------------------------------------------------------------------------- */
 
-bool review_variant(const ReviewRun *run, const ReviewVariant *variant, const Review *base,
-                    Arena *arena, ReviewVariantFound *out, Error *err)
+static bool run_variant(const ReviewRun *run, const ReviewVariant *variant, const Review *base,
+                        Arena *arena, ReviewOutcome *out, Error *err)
 {
     ReviewRequest *request = ARENA_NEW(arena, ReviewRequest, 1);
-    ReviewOutcome *outcome = ARENA_NEW(arena, ReviewOutcome, 1);
     ReviewRun      own = *run;
     *request = review_request_variant(run->request, variant, arena);
     own.request = request;
@@ -158,8 +158,17 @@ bool review_variant(const ReviewRun *run, const ReviewVariant *variant, const Re
     own.identity = NULL;
     own.news.told = NULL;
     own.share = (ReviewShare){0};
-    if (!review_run(&own, arena, outcome, err))
-        return err->code > 128 ? false : error_prefix(err, "variant '%.100s'", variant->name);
+    own.rider_count = 0;
+    return review_run(&own, arena, out, err) ||
+           (err->code <= 128 && error_prefix(err, "variant '%.100s'", variant->name));
+}
+
+bool review_variant(const ReviewRun *run, const ReviewVariant *variant, const Review *base,
+                    Arena *arena, ReviewVariantFound *out, Error *err)
+{
+    const ReviewRider *rider = review_rider_of(run, variant);
+    ReviewOutcome     *outcome = rider ? rider->outcome : ARENA_NEW(arena, ReviewOutcome, 1);
+    if (!rider && !run_variant(run, variant, base, arena, outcome, err)) return false;
     *out = (ReviewVariantFound){.name = variant->name, .words = variant->words,
                                 .word_count = variant->word_count,
                                 .review = &outcome->review};

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "review/run/share.h"
+#include "review/share.h"
 
 #include <stdint.h>
 
