@@ -13,7 +13,23 @@ struct Lights {
     Sky          sky;
     Emitters     emitters;
     PunctualLights punctual;
+    const float *levels; /* of the scene's displays, as emitters have them */
 };
+
+static const float *levels_of(const Scene *scene, Arena *arena)
+{
+    float *levels = ARENA_NEW(arena, float, scene->display_count);
+    for (int i = 0; i < scene->display_count; i++) levels[i] = scene->displays[i].level;
+    return levels;
+}
+
+static bool has_same_levels(const Lights *lights)
+{
+    const Scene *scene = lights->scene;
+    for (int i = 0; i < scene->display_count; i++)
+        if (lights->levels[i] != scene->displays[i].level) return false;
+    return true;
+}
 
 bool lights_build(const Scene *scene, Arena *arena, Lights **out, Error *err)
 {
@@ -21,8 +37,20 @@ bool lights_build(const Scene *scene, Arena *arena, Lights **out, Error *err)
     if (!sky_build(&scene->environment, arena, &sky, err)) return false;
     Lights *lights = ARENA_NEW(arena, Lights, 1);
     *lights = (Lights){.scene = scene, .sky = sky, .emitters = emitters_build(scene, arena),
-                       .punctual = punctual_build(scene, arena)};
+                       .punctual = punctual_build(scene, arena),
+                       .levels = levels_of(scene, arena)};
     *out = lights;
+    return true;
+}
+
+bool lights_under_sky(const Lights *before, Arena *arena, Lights **out, Error *err)
+{
+    Sky sky;
+    if (!has_same_levels(before)) return lights_build(before->scene, arena, out, err);
+    if (!sky_build(&before->scene->environment, arena, &sky, err)) return false;
+    *out = ARENA_NEW(arena, Lights, 1);
+    **out = *before;
+    (*out)->sky = sky;
     return true;
 }
 
@@ -31,6 +59,7 @@ const Lights *lights_with_levels(const Lights *before, Arena *arena)
     Lights *lights = ARENA_NEW(arena, Lights, 1);
     *lights = *before;
     lights->emitters = emitters_build(before->scene, arena);
+    lights->levels = levels_of(before->scene, arena);
     return lights;
 }
 

@@ -256,7 +256,7 @@ typedef struct ReviewDifference {
 
 typedef struct Review Review;
 
-/* The same review with something changed: verdicts alone, no causes and no pictures. */
+/* The same review with something changed: verdicts alone, no causes. */
 typedef struct ReviewVariantFound {
     const char        *name;
     const char *const *words; /* what it changes, one text a change */
@@ -265,6 +265,9 @@ typedef struct ReviewVariantFound {
     ReviewDifference  *differences; /* of each of its cases, then of each of its sweeps */
     int                difference_count;
     ReviewDifference   worst;       /* of the least margins of all, whose cases may differ */
+    const char        *frame_before, *frame; /* pictures' names within the folder: one view
+                                                without and with the change; NULL: none */
+    const ReviewCase  *seen;        /* of the review: what they show */
 } ReviewVariantFound;
 
 /* How one symbol's margin of contrast hangs on a parameter, where the review has it least. */

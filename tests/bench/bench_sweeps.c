@@ -16,7 +16,7 @@
 #include "review/run/sweep.h"
 #include "review/run/sweep_probes.h"
 
-#define STEP_PATHS 8320  /* a pilot and a wave of every group */
+#define STEP_PATHS 4224  /* a pilot and a wave of every group */
 #define FULL_PATHS 65536 /* at most, as a review's: */
 #define FULL_PRECISION 0.004
 #define TRUTH_PATHS 65536

@@ -10,6 +10,7 @@ import shutil
 import sys
 import tempfile
 
+from exr import Frame
 from gltf import png
 from review import PANEL, Report, Reviewer, dashboard, moment, request
 
@@ -135,6 +136,70 @@ def check_variants(report, reviewer, names):
     report.claim(ratios[len(ratios) // 2] < 0.5, f"median of sharpness {ratios}")
 
 
+def curved(times, **members):
+    """An eye box, and a level that follows the light: a table that many times as bright."""
+    document = asked(**members)
+    document["levels"] = {"day": {
+        "sensor": {"position_m": [0, 0.2, 0.3], "normal": [0, 1, 0]},
+        "table_lx": [[100, 0.1 * times], [20000, 0.3 * times]]}}
+    document["eyes"] = {"eye": {"centre_m": [0.1, 0.15, 0.8], "half_size_m": [0.03, 0.02, 0.03],
+                                "grid": [2, 2, 2]}}
+    return document
+
+
+def width_of(path):
+    with open(path, "rb") as file:
+        return int.from_bytes(file.read(20)[16:], "big")
+
+
+def box_of(frame, channel):
+    """Where it has numbers, on even pixels: left, top, right, bottom."""
+    places = [divmod(i, frame.width) for i, value in enumerate(frame.channels[channel])
+              if value == value]
+    rows, columns = [y for y, _ in places], [x for _, x in places]
+    return (min(columns) // 2 * 2 + 2, min(rows) // 2 * 2 + 2, max(columns) // 2 * 2,
+            max(rows) // 2 * 2)
+
+
+def check_pair(report, reviewer, name, frames, times):
+    """The same view twice, the second half as wide: with so much more of what the display
+    sends."""
+    paths = [os.path.join(reviewer.folder, name, frames[key]) for key in ("before", "after")]
+    report.claim([width_of(path) for path in paths] == [256, 128], f"pair {frames}")
+    before, after = (Frame(path.replace(".png", ".exr")) for path in paths)
+    box = box_of(before, "display.emitted.G")
+    (mean, sigma), (more, other) = (before.mean_luminance(box),
+                                    after.mean_luminance([side // 2 for side in box]))
+    pixels = before.pixels(box)
+    emitted = (times - 1) / len(pixels) * sum(
+        weight * value for channel, weight in zip("RGB", (0.2126, 0.7152, 0.0722))
+        for value in (before.channels[f"display.emitted.{channel}"][i] for i in pixels)
+        if value == value) # others are no display's
+    wide = 4 * math.hypot(sigma, other) + 0.02 * emitted
+    report.claim(wide < 0.2 * emitted and abs(more - mean - emitted) <= wide,
+                 f"{times} times as bright: {mean} + {emitted}, {more}, within {wide}")
+
+
+def check_curves(report, reviewer):
+    """Variants that ride with the review, and nothing else, under a level that is a curve."""
+    variants = {"brighter": {"brightness": {"*": 1.3}}, "dimmer": {"levels": None},
+                "much brighter": {"brightness": {"screen": 3}}}
+    variants["dimmer"]["levels"] = curved(0.8)["levels"]
+    document = curved(1, variants=variants)
+    document["frames"] = {"size": [256, 144], "noise": 0.2, "worst": 1}
+    _, base = reviewer.review(document, "curves")
+    _, plain = reviewer.review(curved(1), "plain")
+    for variant, times in zip(base["variants"], (1.3, 0.8, 3)):
+        by_hand = curved(times)
+        by_hand["precision"]["seed"] = OTHER_SEED
+        _, alone = reviewer.review(by_hand, "alone")
+        for name, own, separate in check_variant(report, variant["name"], variant, base, alone,
+                                                 plain):
+            if times < 2:
+                report.claim(own < 0.5 * separate, f"{name}: sharp to {own} of {separate}")
+    check_pair(report, reviewer, "curves", base["variants"][2]["frames"], 3)
+
+
 def check_slopes(report, reviewer):
     """Against two reviews by other random numbers, a step apart."""
     document = asked(sensitivity={
@@ -236,6 +301,7 @@ def main(program, whole):
         more.quad(more.lambert(0.8), [0.3, -0.2, 0.1], [0, 0, 0.5], [0, 0.5, 0])
         more.write(os.path.join(folder, "bars.gltf"))
         check_variants(report, reviewer, VARIANTS if whole else SOME)
+        check_curves(report, reviewer)
         if whole:
             check_slopes(report, reviewer)
             check_mend(report, reviewer)

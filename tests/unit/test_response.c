@@ -402,6 +402,39 @@ TEST(a_response_to_a_clear_sky_is_what_paths_find_under_it)
 }
 
 /* Wherever the sun stands a triangle is near: no direction reads nothing. */
+/* Where it does not none lights it, asked by itself. */
+TEST(a_response_reaches_all_suns_that_light_it)
+{
+    (void)state;
+    enum { SUNS = 4000 };
+    static Vec3 suns[SUNS];
+    World world = niche();
+    int   left = 0, lit = 0;
+    world_ready(&world, 8);
+    ProbeAim  aim = aim_of(&world);
+    Response  response = respond(&aim, 8192, 2, &world.arena);
+    for (int i = 0; i < SUNS; i++) { /* Fibonacci's spiral */
+        double y = 1 - (2 * i + 1.0) / SUNS, about = 2.399963229728653 * i;
+        double ring = sqrt(1 - y * y);
+        suns[i] = vec3((float)(ring * cos(about)), (float)y, (float)(ring * sin(about)));
+    }
+    ProbeSuns       asked = {suns, SUNS, 0.00465f, false};
+    ResponseOptions options = {kernel(), 4, 256, 2, 0};
+    const float    *shares = response_suns(&aim, &options, &asked, &world.arena);
+    for (int i = 0; i < SUNS; i++) {
+        bool is_lit = false;
+        for (int b = 0; b < LIGHT_BANDS; b++) is_lit |= shares[i * LIGHT_BANDS + b] > 0;
+        bool reaches = response_reaches(&response, suns[i]);
+        if (is_lit && !reaches)
+            fail_msg("%g, %g, %g", (double)suns[i].x, (double)suns[i].y, (double)suns[i].z);
+        left += !reaches;
+        lit += is_lit;
+    }
+    assert_true(lit > SUNS / 20);
+    assert_true(left > SUNS / 2); /* behind the display, and walls */
+    world_end(&world);
+}
+
 /* Also between its elevations; below 2 degrees light changes faster. */
 TEST(the_sun_of_a_sky_table_is_the_atmospheres)
 {

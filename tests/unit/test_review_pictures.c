@@ -59,6 +59,45 @@ TEST(pictures_beside_the_page_are_named)
     remove(path);
 }
 
+/* Without and with the change: the first stands in the page already, or is a file like the
+ * second. */
+TEST(a_variants_pair_stands_before_its_cases)
+{
+    (void)state;
+    Error         err = {0};
+    Review        review = fixture_review(&arena);
+    const char   *file = fresh_name(".png");
+    const char   *changes[] = {"display 3 degrees back"};
+    Review        changed = review;
+    ReviewDifference   all = {.after = &review.cases[0], .before = &review.cases[0]};
+    ReviewVariantFound variant = {.name = "leaning & back", .words = changes, .word_count = 1,
+                                  .review = &changed, .differences = &all,
+                                  .difference_count = 1, .worst = all};
+    Picture       picture = picture_create(3, 2, &arena);
+    ReviewPicture pair[2] = {{.title = "As it stands", .caption = "noon", .file = file,
+                              .beside = "frames/a.png"},
+                             {.title = "leaning & back", .caption = "noon", .file = file,
+                              .beside = "frames/a-variant-1.png"}};
+    review.variants = &variant;
+    review.variant_count = 1;
+    assert_true(picture_write(file, &picture, (PictureFile){.bits = 8}, arena, &err));
+    ReviewPage  page = {.review = &review, .pairs = pair};
+    const char *text = page_of(&page), *first = strstr(text, "src=\"frames/a.png\"");
+    assert_non_null(first);
+    const char *second = strstr(first, "src=\"frames/a-variant-1.png\"");
+    assert_non_null(second);
+    assert_non_null(strstr(second, "<th>Case</th>"));
+    assert_int_equal(count_of(text, "<h4>leaning &amp; back</h4>"), 1);
+    pair[1].file = NULL;
+    assert_int_equal(count_of(page_of(&page), "frames/a"), 0);
+    remove(file);
+    pair[1].file = file;
+    const char *path = fresh_name(".html");
+    assert_false(review_page_write(&page, path, &err));
+    assert_string_equal(err.file, file);
+    remove(path);
+}
+
 /* The eye at the origin looks along -z, a right angle wide. */
 static const CaseView VIEW = {.right = {1, 0, 0}, .up = {0, 1, 0}, .forward = {0, 0, -1},
                               .is_perspective = true, .half_width = 1, .half_height = 0.5,

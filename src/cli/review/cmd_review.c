@@ -22,6 +22,7 @@
 #include "review/request/request_start.h"
 #include "review/request/request_read.h"
 #include "review/run/run.h"
+#include "review/run/worst_frames.h"
 #include "review/vary/mend.h"
 #include "review/vary/sensitivity.h"
 #include "review/vary/riders.h"

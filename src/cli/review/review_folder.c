@@ -139,6 +139,7 @@ typedef struct PictureList {
     ReviewPicture    *at;
     int               count;
     const ReviewCase *worst; /* whose frame the first screen shows, too */
+    bool              has_pairs; /* variants show frames once more */
 } PictureList;
 
 /* One that several cards show stands in the page once. */
@@ -150,7 +151,8 @@ static void add_picture(PictureList *list, ReviewPicture picture, Arena *arena)
             picture.id = list->at[i].id;
             picture.is_again = true;
         }
-    if (picture.is_frame && picture.of == list->worst && !picture.id)
+    bool is_shown_again = list->has_pairs || picture.of == list->worst;
+    if (picture.is_frame && is_shown_again && !picture.id)
         picture.id = arena_format(arena, "p%d", list->count);
     list->at[list->count++] = picture;
 }
@@ -186,7 +188,8 @@ static void add_pictures(const ReviewFolder *folder, const Review *review, Revie
     int                all = review->case_count + review->sweep_count;
     const ReviewCase **ranked = review_rank(review, arena);
     PictureList        list = {ARENA_NEW(arena, ReviewPicture, all * (FRAME_VIEWS + 1)), 0,
-                               review_worst(review, *arena)};
+                               review_worst(review, *arena),
+                               review->variant_count && review->variants[0].frame};
     for (int i = 0; i < all; i++)
         if (review_card_id(review, ranked[i], arena)[0] == 'c')
             add_case_pictures(folder, ranked[i], &list, arena);
@@ -194,6 +197,41 @@ static void add_pictures(const ReviewFolder *folder, const Review *review, Revie
         add_case_pictures(folder, &review->sweeps[i].worst, &list, arena);
     page->pictures = list.at;
     page->picture_count = list.count;
+}
+
+/* The picture of a case that the page has already: it stands there. */
+static ReviewPicture shown_again(const ReviewPage *page, const char *file)
+{
+    for (int i = 0; i < page->picture_count; i++)
+        if (!strcmp(page->pictures[i].file, file))
+            return (ReviewPicture){.id = page->pictures[i].id, .is_again = true};
+    return (ReviewPicture){0};
+}
+
+static void set_pair(const ReviewFolder *folder, const ReviewVariantFound *v,
+                     const ReviewPage *page, ReviewPicture pair[2], Arena *arena)
+{
+    const char *names[2] = {v->frame_before, v->frame};
+    const char *file = arena_format(arena, "%s/%s", folder->name, v->frame_before);
+    pair[0] = shown_again(page, file);
+    pair[0].title = "As it stands";
+    pair[1].title = v->name;
+    for (int i = 0; i < 2; i++) {
+        pair[i].file = arena_format(arena, "%s/%s", folder->name, names[i]);
+        pair[i].beside = folder->is_self_contained ? NULL : names[i];
+        pair[i].caption = arena_format(arena, "%s, %s%s", v->seen->condition, v->seen->eye,
+                                       i ? ", exposed as the other" : "");
+    }
+}
+
+static void add_pairs(const ReviewFolder *folder, const Review *review, ReviewPage *page,
+                      Arena *arena)
+{
+    ReviewPicture *pairs = ARENA_NEW(arena, ReviewPicture, 2 * review->variant_count);
+    for (int i = 0; i < review->variant_count; i++)
+        if (review->variants[i].frame)
+            set_pair(folder, &review->variants[i], page, &pairs[2 * i], arena);
+    page->pairs = pairs;
 }
 
 static void add_facts(const ReviewRequest *request, ReviewPage *page, Arena *arena)
@@ -273,6 +311,7 @@ static bool fill_page(const ReviewFolder *folder, const ReviewOutcome *outcome,
     page->live = live;
     add_charts(folder, outcome, page, arena);
     add_pictures(folder, &outcome->review, page, arena);
+    add_pairs(folder, &outcome->review, page, arena);
     add_facts(folder->request, page, arena);
     return true;
 }

@@ -2,6 +2,7 @@
 #include "review/light/far_probe.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "base/count.h"
 #include "base/parallel.h"
@@ -417,6 +418,37 @@ static const float *ask_suns(const FarProbe *probe, const ReadingTools *with,
     return found;
 }
 
+/* Those that may light the first vertex, by the response; *count: how many. */
+static int *suns_that_reach(const Response *response, const ProbeSuns *suns, int *count,
+                            Arena *arena)
+{
+    int *list = ARENA_NEW(arena, int, suns->count);
+    *count = 0;
+    for (int i = 0; i < suns->count; i++)
+        if (response_reaches(response, suns->towards[i])) list[(*count)++] = i;
+    return list;
+}
+
+/* Of all suns, most of which stand behind a roof: only those that may light it are asked. */
+static const float *ask_scattered(const FarProbe *probe, const ReadingTools *with,
+                                  const ResponseOptions *options, const ProbeSuns *all,
+                                  Arena *arena)
+{
+    float    *shares = ARENA_NEW(arena, float, (size_t)all->count * RESPONSE_BANDS);
+    Arena     scratch = *arena;
+    ProbeSuns some = *all;
+    int      *list = suns_that_reach(&probe->response, all, &some.count, &scratch);
+    Vec3     *towards = ARENA_NEW(&scratch, Vec3, some.count);
+    for (int i = 0; i < some.count; i++) towards[i] = all->towards[list[i]];
+    some.towards = towards;
+    if (!some.count) return shares;
+    const float *found = ask_suns(probe, with, options, &some, &scratch);
+    for (int i = 0; i < some.count; i++)
+        memcpy(shares + (size_t)list[i] * RESPONSE_BANDS, found + (size_t)i * RESPONSE_BANDS,
+               RESPONSE_BANDS * sizeof(float));
+    return shares;
+}
+
 void far_probe_ask_suns(FarProbe *probe, const FarTools *tools, Arena *arena)
 {
     const ReadingTools *with = &tools->stage->tools;
@@ -424,7 +456,7 @@ void far_probe_ask_suns(FarProbe *probe, const FarTools *tools, Arena *arena)
                                0};
     ProbeSuns suns = {.towards = sun_directions(tools, arena), .count = tools->suns.count,
                       .radius = (float)radians_from_degrees(SUN_MEAN_RADIUS_DEG)};
-    probe->scattered = ask_suns(probe, with, &options, &suns, arena);
+    probe->scattered = ask_scattered(probe, with, &options, &suns, arena);
     suns.by_mirror = true;
     options.paths = response_mirror_paths(&probe->aim, suns.radius);
     probe->mirror =

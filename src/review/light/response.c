@@ -11,7 +11,7 @@
 #include "review/light/light_bands.h"
 
 #define WAVE 16    /* chunks that are traced before they are added, in order */
-#define PILOT 4    /* chunks that ask every triangle */
+#define PILOT 8    /* chunks that ask every triangle */
 #define NEAR 1.2f  /* widths of a triangle: what is asked for a sun; one lies within, or more */
 /* Later ones ask a cell that those found in every so manyth chunk: as many rays go out along
  * so many times as many paths, whose noise is greater than that of directions within a
@@ -203,6 +203,28 @@ static double relative_error(const Trace *trace)
     return sum > 0 && groups > 1 ? batch_error(&means) / sum : 0;
 }
 
+static int slab_of(float y)
+{
+    int slab = (int)floorf((y + 1) * (RESPONSE_SLABS / 2.0f));
+    return slab < 0 ? 0 : slab < RESPONSE_SLABS ? slab : RESPONSE_SLABS - 1;
+}
+
+/* Counting sort: within a slab in the order of the cells. */
+static void sort_slabs(Response *response, Arena *arena)
+{
+    int  count = response->cells.count;
+    int *first = ARENA_NEW(arena, int, RESPONSE_SLABS + 1);
+    int *slabs = ARENA_NEW(arena, int, count), next[RESPONSE_SLABS];
+    for (int i = 0; i < count; i++) first[slab_of(response->centers[i].y) + 1]++;
+    for (int k = 0; k < RESPONSE_SLABS; k++) {
+        first[k + 1] += first[k];
+        next[k] = first[k];
+    }
+    for (int i = 0; i < count; i++) slabs[next[slab_of(response->centers[i].y)]++] = i;
+    response->slabs = slabs;
+    response->slab_first = first;
+}
+
 float *response_empty(int level, Arena *arena, Response *out)
 {
     *out = (Response){.cells = cells_of_level(level, arena)};
@@ -212,6 +234,7 @@ float *response_empty(int level, Arena *arena, Response *out)
     for (int i = 0; i < out->cells.count; i++)
         centers[i] = probe_cell_center(&out->cells, i);
     out->centers = centers;
+    sort_slabs(out, arena);
     out->first = shares;
     out->rest = shares + size / PROBE_ORDERS;
     out->groups = shares + size;
@@ -314,13 +337,22 @@ typedef struct NearCell {
     double weight, area, at[3];
 } NearCell;
 
+static int compare_cells(const void *a, const void *b)
+{
+    return ((const NearCell *)a)->cell - ((const NearCell *)b)->cell;
+}
+
+/* In the order of cells. */
 static int near_cells(const Response *response, Vec3 towards, NearCell near[NEAR_MOST])
 {
     const ProbeCells *cells = &response->cells;
     Frame frame = frame_from_z(towards);
     float width = NEAR * sqrtf(4 * PI_F / (float)cells->count), least = cosf(width);
     int   count = 0;
-    for (int cell = 0; cell < cells->count && count < NEAR_MOST; cell++) {
+    int   low = response->slab_first[slab_of(towards.y - width)];
+    int   high = response->slab_first[slab_of(towards.y + width) + 1];
+    for (int i = low; i < high && count < NEAR_MOST; i++) {
+        int   cell = response->slabs[i];
         Vec3  center = response->centers[cell];
         float cosine = vec3_dot(towards, center);
         if (cosine <= least) continue;
@@ -330,6 +362,7 @@ static int near_cells(const Response *response, Vec3 towards, NearCell near[NEAR
                                    {1, (double)vec3_dot(frame.x, center),
                                     (double)vec3_dot(frame.y, center)}};
     }
+    qsort(near, (size_t)count, sizeof *near, compare_cells);
     return count;
 }
 
@@ -397,11 +430,24 @@ double response_sun(const Response *response, Vec3 towards, const float bands[RE
     return reading;
 }
 
+bool response_reaches(const Response *response, Vec3 towards)
+{
+    NearCell near[NEAR_MOST] = {{0}};
+    int      count = near_cells(response, towards, near);
+    for (int i = 0; i < count; i++) {
+        const float *first = response->first + (size_t)near[i].cell * RESPONSE_BANDS;
+        for (int b = 0; b < RESPONSE_BANDS; b++)
+            if (first[b] > 0) return true;
+    }
+    return false;
+}
+
 /* ---- suns -------------------------------------------------------------------------------- */
 
 /* Paths of one piece of work: pieces are added in order. By mirror a path reaches few suns. */
 #define SUN_CHUNK 4
 #define MIRROR_CHUNK 1024
+#define SUN_BYTES ((size_t)16 << 20) /* of what is not added yet */
 
 typedef struct SunTrace {
     const ProbeAim        *aim;
@@ -471,9 +517,8 @@ static int *rising_order(const ProbeSuns *suns, Arena *arena)
 }
 
 /* sums: [sun][band] over all paths. */
-static void sum_suns(SunTrace *trace, double *sums)
+static void sum_suns(SunTrace *trace, int pieces, double *sums)
 {
-    int    pieces = trace->options->threads;
     size_t size = (size_t)trace->suns->count * RESPONSE_BANDS;
     for (; trace->first < trace->paths; trace->first += pieces * trace->chunk) {
         int left = (trace->paths - trace->first + trace->chunk - 1) / trace->chunk;
@@ -485,10 +530,21 @@ static void sum_suns(SunTrace *trace, double *sums)
     }
 }
 
+/* As many as their tables have room for: threads wait for each other after so many. */
+static int pieces_at_once(const ResponseOptions *options, int chunk, size_t suns)
+{
+    size_t room = SUN_BYTES / (suns * RESPONSE_BANDS * sizeof(float) + 1);
+    int    all = (options->paths + chunk - 1) / chunk;
+    int    most = room < (size_t)all ? (int)room : all;
+    return most > options->threads ? most : options->threads;
+}
+
 const float *response_suns(const ProbeAim *aim, const ResponseOptions *options,
                            const ProbeSuns *suns, Arena *arena)
 {
-    size_t    count = (size_t)suns->count, pieces = (size_t)options->threads;
+    size_t    count = (size_t)suns->count;
+    int       chunk = suns->by_mirror ? MIRROR_CHUNK : SUN_CHUNK;
+    size_t    pieces = (size_t)pieces_at_once(options, chunk, count);
     float    *shares = ARENA_NEW(arena, float, count * RESPONSE_BANDS);
     Arena     scratch = *arena;
     ProbeAim  spread = *aim; /* few paths see all of what is looked at, too */
@@ -501,9 +557,8 @@ const float *response_suns(const ProbeAim *aim, const ResponseOptions *options,
     spread.is_spread = true;
     SunTrace trace = {&spread, options, &rising,
                       ARENA_NEW(&scratch, float, count * RESPONSE_BANDS * pieces),
-                      ARENA_NEW(&scratch, Vec3, count * pieces), 0, options->paths,
-                      suns->by_mirror ? MIRROR_CHUNK : SUN_CHUNK};
-    sum_suns(&trace, sums);
+                      ARENA_NEW(&scratch, Vec3, count * pieces), 0, options->paths, chunk};
+    sum_suns(&trace, (int)pieces, sums);
     for (size_t i = 0; i < count; i++)
         for (int b = 0; b < RESPONSE_BANDS; b++)
             shares[(size_t)order[i] * RESPONSE_BANDS + (size_t)b] =

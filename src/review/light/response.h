@@ -34,14 +34,18 @@ typedef struct ResponseOptions {
     double precision; /* response_trace ends when relative_error is no more; 0: never before */
 } ResponseOptions;
 
-#define RESPONSE_CHUNK 32
+#define RESPONSE_CHUNK 16
 #define RESPONSE_GROUPS 16
 #define RESPONSE_CLASSES 16 /* of the triangles that get light those whose numbers differ by a
                                multiple of it are asked by the same paths, others by others */
 
+#define RESPONSE_SLABS 128
+
 typedef struct Response {
     ProbeCells cells;   /* geometry; nothing is asked any more */
     const Vec3 *centers; /* [cell] directions, unit, world */
+    const int  *slabs;   /* cells of each of RESPONSE_SLABS equal steps of y, rising; */
+    const int  *slab_first; /* [RESPONSE_SLABS + 1] its place among them */
     int        paths;
     const float *first; /* [cell][band], of the whole triangle: by the first vertex */
     const float *rest;  /* by all further ones */
@@ -62,6 +66,10 @@ void response_trace(const ProbeAim *aim, const ResponseOptions *options, Arena *
  * would be without each group, with the samples that it is made of added to bright; or NULL. */
 double response_sun(const Response *response, Vec3 towards, const float bands[RESPONSE_BANDS],
                     double without[RESPONSE_GROUPS], BrightSamples *bright);
+
+/* Did the first vertex send anything that came from about there, of as many directions and points
+ * as the response has paths? Where not, no sun there lights it. */
+bool response_reaches(const Response *response, Vec3 towards);
 
 /* What is left of a sum without one group, by what that gave to it. */
 double response_without(const Response *response, int group, double sum, double of_group);

@@ -11,7 +11,7 @@
 #pragma once
 #include "review/light/response.h"
 
-#define RESPONSE_VERSION 2
+#define RESPONSE_VERSION 3
 
 /* What a probe reads of the scene's own light, whatever the sky. */
 typedef struct OwnLight {

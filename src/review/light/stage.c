@@ -155,8 +155,11 @@ void stage_close(Stage *stage)
 
 bool stage_relight(Stage *stage, Arena *arena, Error *err)
 {
-    Lights *lights;
-    if (!lights_build(stage->scene, arena, &lights, err)) return false;
+    Lights       *lights;
+    const Lights *before = stage->context.tables ? stage->context.lights : NULL;
+    if (!(before ? lights_under_sky(before, arena, &lights, err)
+                 : lights_build(stage->scene, arena, &lights, err)))
+        return false;
     stage->context =
         stage->context.tables
             ? path_context_relight(&stage->context, lights, arena)

@@ -294,6 +294,9 @@ static json_t *variant_json(const ReviewVariantFound *v)
                               difference_json(&v->differences[i]));
     set(out, "cases", cases);
     set(out, "sweeps", sweeps);
+    if (v->frame)
+        set(out, "frames", json_pack("{s:o, s:o}", "before", text(v->frame_before), "after",
+                                     text(v->frame)));
     return out;
 }
 

@@ -365,7 +365,7 @@ static bool add_page(Text *html, const ReviewPage *page, Arena *arena, Error *er
 {
     if (!add_head(html, page, arena, err)) return false;
     add_diff(html, page, arena);
-    review_variants_add(html, page->review, arena);
+    if (!review_variants_add(html, page->review, page->pairs, arena, err)) return false;
     if (!add_sweeps(html, page, arena, err)) return false;
     text_add(html, "<p class=\"sub choice\"><label><input type=\"checkbox\" id=\"print-all\"/> "
              "print what follows, too</label></p>\n<div class=\"appendix\">\n");

@@ -30,6 +30,8 @@ typedef struct ReviewPage {
     const Review         *review;
     const ReviewPicture  *pictures;
     int                   picture_count;
+    const ReviewPicture  *pairs;    /* two a variant: without and with its change; no file:
+                                       none */
     const ReviewMap      *maps;
     int                   map_count;
     const ReviewCalendar *calendars;

@@ -181,8 +181,28 @@ static void add_difference(Text *html, const ReviewDifference *d, Arena *arena)
     page_row_end(html);
 }
 
+static bool add_picture(Text *html, const ReviewPicture *p, Arena scratch, Error *err)
+{
+    text_add(html, "<figure>");
+    page_element(html, "h4", p->title);
+    if (!review_card_add_picture(html, p, scratch, err)) return false;
+    page_element(html, "figcaption", p->caption);
+    text_add(html, "</figure>\n");
+    return true;
+}
+
+static bool add_pair(Text *html, const ReviewPicture pair[2], Arena scratch, Error *err)
+{
+    if (!pair[1].file) return true;
+    text_add(html, "<div class=\"figures pair\">\n");
+    for (int i = 0; i < 2; i++)
+        if (!add_picture(html, &pair[i], scratch, err)) return false;
+    text_add(html, "</div>\n");
+    return true;
+}
+
 /* Those that change most first. */
-static void add_variant(Text *html, const ReviewVariantFound *v, Arena *arena)
+static void add_cases(Text *html, const ReviewVariantFound *v, Arena *arena)
 {
     static const PageColumn COLUMNS[] = {{"Case", false, NULL}, {"Verdict", false, NULL},
                                          {"Margin before", true, NULL},
@@ -193,14 +213,15 @@ static void add_variant(Text *html, const ReviewVariantFound *v, Arena *arena)
     for (int i = 0; i < v->difference_count; i++) list[i] = &v->differences[i];
     if (v->difference_count > 0)
         qsort(list, (size_t)v->difference_count, sizeof *list, compare_change);
-    page_table_begin(html, v->name, "", COLUMNS, 5);
+    page_table_begin(html, "", "", COLUMNS, 5);
     for (int i = 0; i < v->difference_count; i++) add_difference(html, list[i], arena);
     page_table_end(html);
 }
 
-static void add_variants(Text *html, const Review *review, Arena *arena)
+static bool add_variants(Text *html, const Review *review, const ReviewPicture *pairs,
+                         Arena *arena, Error *err)
 {
-    if (!review->variant_count) return;
+    if (!review->variant_count) return true;
     const ReviewVariantFound **ranked = rank(review, arena);
     add_table(html, review, ranked, arena);
     page_more_begin(html, "Every variant, case by case");
@@ -208,8 +229,14 @@ static void add_variants(Text *html, const Review *review, Arena *arena)
                  "The same review with something changed, the best first. Both are traced by "
                  "the same random numbers, so that a difference is known better than either "
                  "margin.");
-    for (int i = 0; i < review->variant_count; i++) add_variant(html, ranked[i], arena);
+    for (int i = 0; i < review->variant_count; i++) {
+        int number = (int)(ranked[i] - review->variants);
+        page_element(html, "h3", ranked[i]->name);
+        if (pairs && !add_pair(html, &pairs[2 * number], *arena, err)) return false;
+        add_cases(html, ranked[i], arena);
+    }
     page_more_end(html);
+    return true;
 }
 
 /* ---- sensitivity ------------------------------------------------------------------------- */
@@ -392,12 +419,15 @@ static void add_mends(Text *html, const Review *review, Arena *arena)
     }
 }
 
-void review_variants_add(Text *html, const Review *review, Arena *arena)
+bool review_variants_add(Text *html, const Review *review, const ReviewPicture *pairs,
+                         Arena *arena, Error *err)
 {
-    if (!review->variant_count && !review->sensitivity_count && !review->mend_count) return;
+    if (!review->variant_count && !review->sensitivity_count && !review->mend_count)
+        return true;
     page_element(html, "h2", "What if");
-    add_variants(html, review, arena);
+    if (!add_variants(html, review, pairs, arena, err)) return false;
     add_sensitivities(html, review, arena);
     add_places(html, review, arena);
     add_mends(html, review, arena);
+    return true;
 }

@@ -5,9 +5,9 @@
  * Memory   the arena's, for as long as the page is made. Threads: one at a time. Fails: never.
  */
 #pragma once
-#include "base/arena.h"
-#include "review/verdict.h"
-#include "text/text.h"
+#include "review/output/review_card.h"
 
-/* Nothing where the review has none of them. */
-void review_variants_add(Text *html, const Review *review, Arena *arena);
+/* Nothing where the review has none of them. pairs: two pictures a variant, without and with its
+ * change; those without a file, or all if NULL, are none. Fails as review_card_add_picture. */
+bool review_variants_add(Text *html, const Review *review, const ReviewPicture *pairs,
+                         Arena *arena, Error *err);

@@ -10,6 +10,7 @@
 #define POINT 0.015         /* of each further point of an eye's box */
 #define FRAME 42.0          /* of a frame, however small, */
 #define FRAME_PIXEL 6e-5    /* and its pixels, at the usual noise */
+#define FRAME_PAIR 0.3      /* of it, of a variant's */
 #define FRAME_NOISE 0.15    /* reached by about as many samples as any frame has */
 #define MINUTES_A_YEAR (365 * 24 * 60.0)
 
@@ -66,6 +67,11 @@ double work_of_frame(const ReviewRequest *request)
     return FRAME + FRAME_PIXEL * frames->width * frames->height * finer * finer;
 }
 
+double work_of_pair(const ReviewRequest *request)
+{
+    return FRAME_PAIR * work_of_frame(request);
+}
+
 double work_of_conditions(const ReviewRequest *request, bool is_bare)
 {
     double work = 0;
@@ -79,7 +85,8 @@ double work_of_review(const ReviewRequest *request, bool mend)
     int varied = request->variant_count + 2 * request->parameter_count +
                  (mend ? WORK_TRIALS : 0);
     return work_of_conditions(request, false) + varied * work_of_conditions(request, true) +
-           request->frames.worst * work_of_frame(request);
+           request->frames.worst * work_of_frame(request) +
+           (request->frames.worst ? request->variant_count * work_of_pair(request) : 0);
 }
 
 void work_add(Progress *work, double weight)

@@ -35,6 +35,9 @@ double work_of_condition(const ReviewRequest *request, const ReviewCondition *co
 /* Of one picture, and what the page makes of it. */
 double work_of_frame(const ReviewRequest *request);
 
+/* Of one that stands beside it, with a variant's change. */
+double work_of_pair(const ReviewRequest *request);
+
 /* Of all conditions of a review or a variant. */
 double work_of_conditions(const ReviewRequest *request, bool is_bare);
 

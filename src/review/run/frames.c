@@ -4,12 +4,15 @@
 #include <string.h>
 
 #include "base/units.h"
+#include "camera/camera.h"
 #include "film/film_frame.h"
 #include "image/develop.h"
 #include "render/identity.h"
 #include "render/render.h"
 #include "render/train.h"
 #include "review/run/cases.h"
+#include "review/run/explain.h"
+#include "review/chain/outlook_picture.h"
 #include "review/keep/frame_kept.h"
 #include "review/keep/go_on.h"
 #include "review/pace/work.h"
@@ -17,6 +20,7 @@
 
 #define YFOV_DEG 35 /* of an eye that is no camera */
 #define WORDS 16    /* of a frame's metadata, at most */
+#define RIM_STEPS 8 /* points along a side of a symbol's rectangle */
 
 const char *file_name_of(const char *text, Arena *arena)
 {
@@ -47,15 +51,17 @@ bool frame_camera(const FrameAsk *ask, SceneCamera *out, Arena scratch, Error *e
 
 static RenderOptions options_of(const FrameAsk *ask)
 {
-    const ReviewFrames *frames = &ask->stage->request->frames;
+    const ReviewRequest *request = ask->stage->request;
+    int by = ask->like ? FRAMES_PAIR : 1;
+    int width = request->frames.width / by, height = request->frames.height / by;
+    FilmRect all = {0, 0, width > 1 ? width : 1, height > 1 ? height : 1};
     return (RenderOptions){
-        .width = frames->width, .height = frames->height,
-        .crop = {0, 0, frames->width, frames->height}, .end_sample = FRAMES_SAMPLES,
-        .noise = frames->noise, .max_bounces = STAGE_BOUNCES,
-        .noise_area = {{0, 0, frames->width, frames->height}, FILM_ALL_PIXELS},
-        .layers = LAYER_VARIANCE | LAYER_ID | LAYER_DISPLAYS,
+        .width = all.x1, .height = all.y1, .crop = all, .end_sample = FRAMES_SAMPLES,
+        .noise = request->frames.noise, .max_bounces = STAGE_BOUNCES,
+        .noise_area = {all, FILM_ALL_PIXELS},
+        .layers = ask->like ? LAYER_VARIANCE : LAYER_VARIANCE | LAYER_ID | LAYER_DISPLAYS,
         .threads = ask->stage->tools.threads, .within = ask->work,
-        .within_weight = work_of_frame(ask->stage->request)};
+        .within_weight = ask->like ? work_of_pair(request) : work_of_frame(request)};
 }
 
 /* As frames of a render say it, where it is known here. */
@@ -84,6 +90,29 @@ const char *frame_view(const char *frame, FrameView view, Arena *arena)
     return arena_format(arena, "%.*s%s.png", before_ending, frame, ENDS[view]);
 }
 
+/* The exposure of another frame, so that the two can be compared. */
+static bool exposure_like(const char *exr, Arena *arena, const char **out, Error *err)
+{
+    FrameImage     frame;
+    Picture        picture;
+    DevelopReport  report;
+    DevelopOptions look = {.own_config = true, .frame_name = exr};
+    if (!frame_read(exr, arena, &frame, err) ||
+        !develop_picture(&frame, &look, arena, &picture, &report, err))
+        return false;
+    *out = arena_format(arena, "%.9g", report.ev);
+    return true;
+}
+
+static bool write_pair(const FrameAsk *ask, const FrameImage *frame, const char *exr,
+                       Arena scratch, Error *err)
+{
+    DevelopOptions look = {.own_config = true, .frame_name = exr};
+    return exposure_like(ask->like, &scratch, &look.exposure, err) &&
+           develop_frame(frame, &look, frame_view(exr, FRAME_PICTURE, &scratch), scratch, NULL,
+                         err);
+}
+
 /* All frames have one scale of contrast, so that they can be compared. */
 static bool write_views(const FrameImage *frame, const char *exr, Arena scratch, Error *err)
 {
@@ -110,7 +139,9 @@ static bool write_frame(const FrameAsk *ask, const SceneCamera *camera,
     const char *exr = exr_of(ask, &scratch);
     FrameImage  frame = film_to_frame(result->film, WORDS, &scratch);
     set_words(&frame, ask, camera, result, &scratch);
-    return frame_write(exr, &frame, err) && write_views(&frame, exr, scratch, err);
+    return frame_write(exr, &frame, err) &&
+           (ask->like ? write_pair(ask, &frame, exr, scratch, err)
+                      : write_views(&frame, exr, scratch, err));
 }
 
 /* ---- of all that decides it -------------------------------------------------------------- */
@@ -130,6 +161,7 @@ static const char *identity_of(const FrameAsk *ask, const SceneCamera *camera,
     identity_line(&text, "size", "%dx%d", options->width, options->height);
     identity_line(&text, "layers", "%u", options->layers);
     identity_line(&text, "samples", "%u", options->end_sample);
+    if (ask->like) identity_line(&text, "exposed as", "%s", ask->like);
     identity_number(&text, "noise", options->noise);
     identity_line(&text, "eye", "%s", ask->eye->name);
     for (int i = 0; i < scene->display_count; i++)
@@ -176,7 +208,8 @@ bool frame_make(const FrameAsk *ask, Arena *arena, const char **out, Error *err)
                       .identity = identity_of(ask, &camera, &options, &scratch),
                       .arena = &scratch};
     kept.files[kept.file_count++] = exr;
-    for (FrameView view = FRAME_PICTURE; view < FRAME_VIEWS; view++)
+    int views = ask->like ? 1 : FRAME_VIEWS;
+    for (FrameView view = FRAME_PICTURE; (int)view < views; view++)
         kept.files[kept.file_count++] = frame_view(exr, view, &scratch);
     if (!frame_kept_is_whole(&kept) &&
         (!render(ask, &kept, &camera, &options, &result, err) ||
@@ -186,4 +219,71 @@ bool frame_make(const FrameAsk *ask, Arena *arena, const char **out, Error *err)
     work_done(ask->work, options.within_weight, begun_s);
     *out = name;
     return true;
+}
+
+/* ---- what is drawn beside it ------------------------------------------------------------- */
+
+static CaseView view_of(const Camera *camera)
+{
+    const Transform *t = &camera->world_from_camera;
+    return (CaseView){t->origin, t->x, t->y, vec3_neg(t->z), camera->is_perspective,
+                      (double)camera->half_width, (double)camera->half_height, camera->width,
+                      camera->height};
+}
+
+/* From corner to corner; a curved display bends between them. */
+static void add_rim(const SymbolSurface *surface, ReviewCase *c, Arena *arena)
+{
+    const double *uv = surface->uv;
+    const double  corner[5][2] = {{uv[0], uv[1]}, {uv[2], uv[1]}, {uv[2], uv[3]},
+                                  {uv[0], uv[3]}, {uv[0], uv[1]}};
+    Vec3 *rim = ARENA_NEW(arena, Vec3, 4 * RIM_STEPS);
+    for (int i = 0; i < 4 * RIM_STEPS; i++) {
+        const double *a = corner[i / RIM_STEPS], *b = corner[i / RIM_STEPS + 1];
+        double      t = (double)(i % RIM_STEPS) / RIM_STEPS;
+        double      at[2] = {a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])};
+        SymbolPoint point;
+        if (symbol_surface_at(surface, at, &point)) rim[c->rim_count++] = point.position;
+    }
+    c->rim = rim;
+}
+
+static bool add_outlook(const FrameAsk *ask, const StageSymbol *symbol, ReviewCase *c,
+                        Arena *arena, Error *err)
+{
+    Arena       scratch = arena_reserve((size_t)1 << 28);
+    Outlook     outlook = stage_outlook(ask->stage, symbol, c->eye_m, &scratch);
+    Picture     picture = outlook_picture(&outlook, &scratch);
+    PictureFile file = {.bits = 8, .is_srgb = true};
+    c->outlook_words = outlook_words(&outlook, arena);
+    c->outlook = arena_format(arena, "frames/%s-outlook.png", ask->name);
+    file.description = c->outlook_words;
+    const char *path = arena_format(arena, "%s/%s", ask->folder, c->outlook);
+    bool        ok = picture_write(path, &picture, file, scratch, err);
+    arena_release(&scratch);
+    return ok;
+}
+
+bool case_sights(const FrameAsk *ask, ReviewCase *c, Arena *arena, Error *err)
+{
+    Arena        own = arena_reserve((size_t)1 << 34);
+    SceneCamera  camera;
+    StageSymbol *symbols;
+    int          count;
+    bool         ok = frame_camera(ask, &camera, own, err) &&
+              stage_symbols(ask->stage, &own, &symbols, &count, err);
+    if (ok) {
+        const ReviewFrames *frames = &ask->stage->request->frames;
+        Camera    seen = camera_from_scene(&camera, frames->width, frames->height);
+        CaseView *view = ARENA_NEW(arena, CaseView, 1);
+        *view = view_of(&seen);
+        c->view = view;
+        for (int i = 0; i < count && ok; i++) {
+            if (strcmp(symbols[i].name, c->symbol)) continue;
+            add_rim(&symbols[i].surface, c, arena);
+            ok = add_outlook(ask, &symbols[i], c, arena, err);
+        }
+    }
+    arena_release(&own);
+    return ok;
 }

@@ -15,8 +15,10 @@
 #pragma once
 #include "base/progress.h"
 #include "review/light/stage.h"
+#include "review/verdict.h"
 
 #define FRAMES_SAMPLES 256
+#define FRAMES_PAIR 2       /* a variant's is so many times smaller each way */
 #define FRAMES_CONTRAST 100 /* : 1, where the scale of contrasts ends */
 
 typedef enum FrameView {
@@ -33,6 +35,8 @@ typedef struct FrameAsk {
     const char      *folder;
     const char      *unfinished; /* folder of its checkpoint */
     const char      *name;    /* without an ending */
+    const char      *like;    /* file of a frame to stand beside: this one is smaller, exposed
+                                 as that, and its picture alone is made; NULL: by itself */
     Progress        *work;   /* of which the frame is a part (pace/work.h) */
 } FrameAsk;
 
@@ -41,6 +45,10 @@ bool frame_camera(const FrameAsk *ask, SceneCamera *out, Arena scratch, Error *e
 
 /* *out: the picture's name within the folder. */
 bool frame_make(const FrameAsk *ask, Arena *arena, const char **out, Error *err);
+
+/* Sets view, outlook and outlook_words of the case whose frame the ask was: where its causes'
+ * rays lie in it; and FOLDER/frames/NAME-outlook.png, what the display sees from the symbol. */
+bool case_sights(const FrameAsk *ask, ReviewCase *c, Arena *arena, Error *err);
 
 /* A file's name from texts of any kind: letters and digits stay, all else becomes '-'. */
 const char *file_name_of(const char *text, Arena *arena);

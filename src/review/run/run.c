@@ -5,11 +5,9 @@
 
 #include "review/run/cases.h"
 #include "review/run/false_sun_times.h"
-#include "review/run/frames.h"
 #include "review/run/gazes.h"
 #include "review/keep/go_on.h"
 #include "review/pace/work.h"
-#include "review/run/sights.h"
 #include "review/output/review_decide.h"
 #include "review/request/request_check.h"
 #include "review/run/sweep.h"
@@ -385,126 +383,6 @@ static void add_notes(const ReviewRequest *request, Review *review, Arena *arena
     }
     for (int i = 0; i < request->weather_count; i++)
         add_note(review, &notes, sweep_weather_note(&request->weathers[i], arena));
-}
-
-/* ---- frames of the worst ----------------------------------------------------------------- */
-
-/* A case that may be rendered: of a moment, or the worst of a sweep. */
-typedef struct Candidate {
-    ReviewCase       *of;
-    const SweepTable *table; /* NULL: a moment */
-} Candidate;
-
-static const ReviewCondition *condition_named(const ReviewRequest *request, const char *name)
-{
-    for (int i = 0; i < request->condition_count; i++)
-        if (!strcmp(request->conditions[i].name, name)) return &request->conditions[i];
-    return NULL;
-}
-
-static const ReviewEye *eye_named(const ReviewRequest *request, const char *name)
-{
-    for (int i = 0; i < request->eye_count; i++)
-        if (!strcmp(request->eyes[i].name, name)) return &request->eyes[i];
-    return NULL;
-}
-
-/* `of`: null where nothing is seen. */
-static Candidate candidate_of(ReviewOutcome *outcome, const ReviewCase *c)
-{
-    Review *review = &outcome->review;
-    for (int i = 0; i < review->case_count; i++)
-        if (c == &review->cases[i])
-            return (Candidate){c->visible_share > 0 ? &review->cases[i] : NULL, NULL};
-    for (int i = 0; i < outcome->table_count; i++) {
-        const SweepTable *table = &outcome->tables[i];
-        ReviewCase       *worst = &review->sweeps[table->sweep_id].worst;
-        if (c == worst && table->worst >= 0) return (Candidate){worst, table};
-    }
-    return (Candidate){NULL, NULL};
-}
-
-/* In the order of the page, so that its first screen has a picture. */
-static Candidate *candidates(ReviewOutcome *outcome, int *count, Arena *arena)
-{
-    int                all = outcome->review.case_count + outcome->review.sweep_count;
-    const ReviewCase **ranked = review_rank(&outcome->review, arena);
-    Candidate         *list = ARENA_NEW(arena, Candidate, all);
-    *count = 0;
-    for (int i = 0; i < all; i++) {
-        Candidate found = candidate_of(outcome, ranked[i]);
-        if (found.of) list[(*count)++] = found;
-    }
-    return list;
-}
-
-/* What is in a frame: the same eye under the same light. */
-static bool is_one_view(const Candidate *a, const Candidate *b)
-{
-    return a->table == b->table && !strcmp(a->of->eye, b->of->eye) &&
-           !strcmp(a->of->condition, b->of->condition);
-}
-
-static bool find_middle(const Stage *stage, const char *symbol, Arena scratch, Vec3 *out,
-                        Error *err)
-{
-    StageSymbol *symbols;
-    int          count;
-    if (!stage_symbols(stage, &scratch, &symbols, &count, err)) return false;
-    for (int i = 0; i < count; i++)
-        if (!strcmp(symbols[i].name, symbol)) *out = symbol_middle(&symbols[i]).position;
-    return true;
-}
-
-static bool make_frame(const ReviewRun *run, const Candidate *of, int number, Arena *arena,
-                       Error *err)
-{
-    const ReviewCondition *c = condition_named(run->request, of->of->condition);
-    StageOptions options = {run->request, c,        run->root,   run->state,
-                            run->threads, run->isa, run->journal,
-                            run->lessons};
-    Problems     told_before = problems_start(arena);
-    Environment  sky;
-    Arena scratch = arena_reserve(STAGE_BYTES);
-    Stage stage;
-    bool  ok = stage_open(&options, &scratch, &told_before, &stage, err);
-    if (ok) {
-        const SweepTable *table = of->table;
-        if (table) sky = sweep_environment(&stage, &table->worst_sun);
-        else if (c->has_environment) sky = c->environment;
-        FrameAsk ask = {&stage, eye_named(run->request, of->of->eye),
-                        vec3(0, 0, 0), run->folder, run->unfinished,
-                        file_name_of(arena_format(arena, "%d-%s-%s", number, of->of->condition,
-                                                  of->of->eye), arena), run->work};
-        bool has_sky = of->table || c->has_environment;
-        ok = stage_light(&stage, has_sky ? &sky : NULL, &scratch, err) &&
-             find_middle(&stage, of->of->symbol, scratch, &ask.look_at, err) &&
-             frame_make(&ask, &scratch, &of->of->frame, err);
-        if (ok) of->of->frame = arena_string(arena, of->of->frame, strlen(of->of->frame));
-        ok = ok && case_sights(&ask, of->of, arena, err);
-        stage_close(&stage);
-    }
-    arena_release(&scratch);
-    return ok;
-}
-
-bool review_frames(const ReviewRun *run, ReviewOutcome *outcome, Arena *arena, Error *err)
-{
-    int        count, made = 0;
-    Candidate *list = candidates(outcome, &count, arena);
-    for (int i = 0; i < count; i++) {
-        int same = 0;
-        while (same < i && !(list[same].of->frame && is_one_view(&list[same], &list[i])))
-            same++;
-        if (same < i) {
-            list[i].of->frame = list[same].of->frame;
-            list[i].of->view = list[same].of->view;
-        } else if (made < run->request->frames.worst &&
-                 (!review_goes_on(run->journal, err) ||
-                  !make_frame(run, &list[i], ++made, arena, err)))
-            return false;
-    }
-    return true;
 }
 
 /* ---- all of it --------------------------------------------------------------------------- */

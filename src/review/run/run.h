@@ -22,7 +22,3 @@ bool review_plan(const ReviewRun *run, Arena *arena, ReviewPlan *out, Error *err
 
 /* Before long work: whether all conditions are such as can be reviewed. */
 bool review_check(const ReviewRequest *request, Arena scratch, Error *err);
-
-/* Frames of the worst cases, as many as the request asks for, into the run's folder; the cases
- * then name them. */
-bool review_frames(const ReviewRun *run, ReviewOutcome *outcome, Arena *arena, Error *err);

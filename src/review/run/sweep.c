@@ -527,9 +527,11 @@ static bool sweep_all(Sweep *sweep, const SweepGroup *group, Arena *scratch, Are
     work_add(sweep->run->work, WORK_STAGE - WORK_OPENED);
     if (!sweep_make_probes(sweep, scratch, err)) return false;
     tell_responses(sweep, arena, out);
+    PathContext dark = sweep->stage->context;
     for (int i = 0; i < group->count; i++) {
         Arena room = *scratch;
         sweep->stage->condition = group->conditions[i];
+        sweep->stage->context = dark; /* the last one's is gone with its room */
         if (!sweep_light_dark(sweep->stage, 1, &room, err) ||
             !sweep_condition(sweep, room, arena, out, err))
             return false;

@@ -1,0 +1,197 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "review/run/worst_frames.h"
+
+#include <string.h>
+
+#include "base/file.h"
+#include "review/keep/go_on.h"
+#include "review/output/review_decide.h"
+#include "review/run/frames.h"
+#include "review/run/sweep.h"
+#include "review/run/symbols.h"
+
+#define STAGE_BYTES ((size_t)1 << 36) /* address space: what is not touched costs nothing */
+
+/* ---- which ------------------------------------------------------------------------------- */
+
+/* A case that may be rendered: of a moment, or the worst of a sweep. */
+typedef struct Candidate {
+    ReviewCase       *of;
+    const SweepTable *table; /* NULL: a moment */
+} Candidate;
+
+static const ReviewCondition *condition_named(const ReviewRequest *request, const char *name)
+{
+    for (int i = 0; i < request->condition_count; i++)
+        if (!strcmp(request->conditions[i].name, name)) return &request->conditions[i];
+    return NULL;
+}
+
+static const ReviewEye *eye_named(const ReviewRequest *request, const char *name)
+{
+    for (int i = 0; i < request->eye_count; i++)
+        if (!strcmp(request->eyes[i].name, name)) return &request->eyes[i];
+    return NULL;
+}
+
+/* `of`: null where nothing is seen. */
+static Candidate candidate_of(ReviewOutcome *outcome, const ReviewCase *c)
+{
+    Review *review = &outcome->review;
+    for (int i = 0; i < review->case_count; i++)
+        if (c == &review->cases[i])
+            return (Candidate){c->visible_share > 0 ? &review->cases[i] : NULL, NULL};
+    for (int i = 0; i < outcome->table_count; i++) {
+        const SweepTable *table = &outcome->tables[i];
+        ReviewCase       *worst = &review->sweeps[table->sweep_id].worst;
+        if (c == worst && table->worst >= 0) return (Candidate){worst, table};
+    }
+    return (Candidate){NULL, NULL};
+}
+
+/* In the order of the page, so that its first screen has a picture. */
+static Candidate *candidates(ReviewOutcome *outcome, int *count, Arena *arena)
+{
+    int                all = outcome->review.case_count + outcome->review.sweep_count;
+    const ReviewCase **ranked = review_rank(&outcome->review, arena);
+    Candidate         *list = ARENA_NEW(arena, Candidate, all);
+    *count = 0;
+    for (int i = 0; i < all; i++) {
+        Candidate found = candidate_of(outcome, ranked[i]);
+        if (found.of) list[(*count)++] = found;
+    }
+    return list;
+}
+
+/* What is in a frame: the same eye under the same light. */
+static bool is_one_view(const Candidate *a, const Candidate *b)
+{
+    return a->table == b->table && !strcmp(a->of->eye, b->of->eye) &&
+           !strcmp(a->of->condition, b->of->condition);
+}
+
+static bool find_middle(const Stage *stage, const char *symbol, Arena scratch, Vec3 *out,
+                        Error *err)
+{
+    StageSymbol *symbols;
+    int          count;
+    if (!stage_symbols(stage, &scratch, &symbols, &count, err)) return false;
+    for (int i = 0; i < count; i++)
+        if (!strcmp(symbols[i].name, symbol)) *out = symbol_middle(&symbols[i]).position;
+    return true;
+}
+
+/* Who is lit, and looks, as in a frame. */
+typedef struct FrameWork {
+    const ReviewRun *run; /* of the review, or of a variant of it */
+    const Candidate *of;
+    const char      *name, *like; /* FrameAsk's */
+} FrameWork;
+
+static bool make_lit(const FrameWork *work, Stage *stage, FrameAsk *ask, Arena *scratch,
+                     const char **made, Error *err)
+{
+    const Candidate       *of = work->of;
+    const ReviewCondition *c = stage->condition;
+    Environment sky;
+    if (of->table) sky = sweep_environment(stage, &of->table->worst_sun);
+    else if (c->has_environment) sky = c->environment;
+    return stage_light(stage, of->table || c->has_environment ? &sky : NULL, scratch, err) &&
+           find_middle(stage, of->of->symbol, *scratch, &ask->look_at, err) &&
+           frame_make(ask, scratch, made, err);
+}
+
+/* *made: the picture's name, in the arena. of: its case is told what the frame shows; NULL:
+ * nobody. */
+static bool make_frame(const FrameWork *work, ReviewCase *of, Arena *arena, const char **made,
+                       Error *err)
+{
+    const ReviewRun       *run = work->run;
+    const ReviewCondition *c = condition_named(run->request, work->of->of->condition);
+    StageOptions options = {run->request, c,        run->root,    run->state,
+                            run->threads, run->isa, run->journal, run->lessons};
+    Problems     told_before = problems_start(arena);
+    Arena scratch = arena_reserve(STAGE_BYTES);
+    Stage stage;
+    bool  ok = stage_open(&options, &scratch, &told_before, &stage, err);
+    if (ok) {
+        FrameAsk ask = {&stage, eye_named(run->request, work->of->of->eye), vec3(0, 0, 0),
+                        run->folder, run->unfinished, work->name, work->like, run->work};
+        ok = make_lit(work, &stage, &ask, &scratch, made, err);
+        if (ok) *made = arena_string(arena, *made, strlen(*made));
+        ok = ok && (!of || case_sights(&ask, of, arena, err));
+        stage_close(&stage);
+    }
+    arena_release(&scratch);
+    return ok;
+}
+
+static bool make_worst(const ReviewRun *run, const Candidate *of, int number, Arena *arena,
+                       Error *err)
+{
+    FrameWork work = {run, of, NULL, NULL};
+    work.name = file_name_of(arena_format(arena, "%d-%s-%s", number, of->of->condition,
+                                          of->of->eye), arena);
+    return make_frame(&work, of->of, arena, &of->of->frame, err);
+}
+
+/* ---- of variants ------------------------------------------------------------------------- */
+
+/* "1-noon-driver" of "frames/1-noon-driver.png". */
+static const char *name_of(const char *frame, Arena *arena)
+{
+    const char *name = path_name(frame);
+    return arena_string(arena, name, (size_t)(path_ending(name) - name));
+}
+
+/* The same view with the change made, beside that of the review. */
+static bool make_pair(const ReviewRun *run, const Candidate *of, int number,
+                      ReviewVariantFound *variant, Arena *arena, Error *err)
+{
+    const char   *frame = of->of->frame, *name = name_of(frame, arena);
+    ReviewRequest request =
+        review_request_variant(run->request, &run->request->variants[number], arena);
+    ReviewRun own = *run;
+    FrameWork work = {&own, of, NULL, NULL};
+    own.request = &request;
+    work.name = file_name_of(arena_format(arena, "%s-variant-%d-%s", name, number + 1,
+                                          variant->name), arena);
+    work.like = arena_format(arena, "%s/frames/%s.exr", run->folder, name);
+    if (!make_frame(&work, NULL, arena, &variant->frame, err))
+        return err->code > 128 ? false
+                               : error_prefix(err, "variant '%.100s'", variant->name);
+    variant->frame_before = frame;
+    variant->seen = of->of;
+    return true;
+}
+
+static bool make_pairs(const ReviewRun *run, const Candidate *of, Review *review, Arena *arena,
+                       Error *err)
+{
+    for (int i = 0; i < review->variant_count; i++)
+        if (!review_goes_on(run->journal, err) ||
+            !make_pair(run, of, i, &review->variants[i], arena, err))
+            return false;
+    return true;
+}
+
+/* ---- all of them ------------------------------------------------------------------------- */
+
+bool review_frames(const ReviewRun *run, ReviewOutcome *outcome, Arena *arena, Error *err)
+{
+    int        count, made = 0;
+    Candidate *list = candidates(outcome, &count, arena);
+    for (int i = 0; i < count; i++) {
+        int same = 0;
+        while (same < i && !(list[same].of->frame && is_one_view(&list[same], &list[i])))
+            same++;
+        if (same < i) {
+            list[i].of->frame = list[same].of->frame;
+            list[i].of->view = list[same].of->view;
+        } else if (made < run->request->frames.worst &&
+                 (!review_goes_on(run->journal, err) ||
+                  !make_worst(run, &list[i], ++made, arena, err)))
+            return false;
+    }
+    return !made || make_pairs(run, &list[0], &outcome->review, arena, err);
+}
