@@ -36,8 +36,9 @@ bool lights_build(const Scene *scene, Arena *arena, Lights **out, Error *err);
  * shared with `before`. */
 const Lights *lights_with_levels(const Lights *before, Arena *arena);
 
-/* Lights of the same scene under its environment as it is now. Emitters are shared with `before`
- * where no display has another level: they take long to sort. Fails as lights_build. */
+/* Lights of the same scene under its environment as it is now. Emitters are shared with
+ * `before` where no display has another level: they take long to sort. Fails as
+ * lights_build. */
 bool lights_under_sky(const Lights *before, Arena *arena, Lights **out, Error *err);
 
 /* Has this set anything that emits? */

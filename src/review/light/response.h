@@ -67,8 +67,8 @@ void response_trace(const ProbeAim *aim, const ResponseOptions *options, Arena *
 double response_sun(const Response *response, Vec3 towards, const float bands[RESPONSE_BANDS],
                     double without[RESPONSE_GROUPS], BrightSamples *bright);
 
-/* Did the first vertex send anything that came from about there, of as many directions and points
- * as the response has paths? Where not, no sun there lights it. */
+/* Did the first vertex send anything that came from about there, of as many directions and
+ * points as the response has paths? Where not, no sun there lights it. */
 bool response_reaches(const Response *response, Vec3 towards);
 
 /* What is left of a sum without one group, by what that gave to it. */

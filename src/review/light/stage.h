@@ -66,7 +66,8 @@ bool stage_scene(const StageOptions *options, Arena *arena, Problems *problems, 
 bool stage_light(Stage *stage, const Environment *environment, Arena *arena, Error *err);
 
 /* For the scene as it is now, its environment and levels set otherwise. What was built for its
- * surfaces, and the lights before, stay in their arenas, which must not end before the stage's. */
+ * surfaces, and the lights before, stay in their arenas: these must not end before the
+ * stage's. */
 bool stage_relight(Stage *stage, Arena *arena, Error *err);
 
 void stage_close(Stage *stage);

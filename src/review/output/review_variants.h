@@ -7,7 +7,8 @@
 #pragma once
 #include "review/output/review_card.h"
 
-/* Nothing where the review has none of them. pairs: two pictures a variant, without and with its
- * change; those without a file, or all if NULL, are none. Fails as review_card_add_picture. */
+/* Nothing where the review has none of them. pairs: two pictures a variant, without and with
+ * its change; those without a file, or all if NULL, are none. Fails as
+ * review_card_add_picture. */
 bool review_variants_add(Text *html, const Review *review, const ReviewPicture *pairs,
                          Arena *arena, Error *err);

@@ -46,9 +46,5 @@ bool frame_camera(const FrameAsk *ask, SceneCamera *out, Arena scratch, Error *e
 /* *out: the picture's name within the folder. */
 bool frame_make(const FrameAsk *ask, Arena *arena, const char **out, Error *err);
 
-/* Sets view, outlook and outlook_words of the case whose frame the ask was: where its causes'
- * rays lie in it; and FOLDER/frames/NAME-outlook.png, what the display sees from the symbol. */
-bool case_sights(const FrameAsk *ask, ReviewCase *c, Arena *arena, Error *err);
-
 /* A file's name from texts of any kind: letters and digits stay, all else becomes '-'. */
 const char *file_name_of(const char *text, Arena *arena);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* worst_frames.h -- pictures of a review that is made: of its worst cases, and of the very worst
- * with each variant's change.
+/* worst_frames.h -- pictures of a review that is made: of its worst cases, and of the very
+ * worst with each variant's change.
  *
  * Memory   names live in the arena; stages use scratch of their own.
  * Threads  starts its own; the same pictures for any count.

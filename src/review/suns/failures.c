@@ -4,6 +4,8 @@
 #include <math.h>
 
 #define CLOSE_MINUTES 1.0
+#define CLOSE_SHARE 0.001 /* of all failures: where their sum is known so well, it will do */
+#define CLOSE_PART 8      /* of a step: what is coarser never does, wherever changes gather */
 
 /* A change between a step and the next of its heading, minutes after the first one's middle (of
  * a route after the point itself): it lies between low and high. */
@@ -94,68 +96,137 @@ static void halve(const Steps *steps, Edge *edges, int count, const FailureAsk *
     }
 }
 
-static void find_changes(const Steps *steps, const FailureAsk *ask, Arena scratch)
-{
-    int   count;
-    Edge *edges = edges_of(steps, &count, &scratch);
-    for (double width = steps->suns->step_minutes; count && width > CLOSE_MINUTES; width /= 2)
-        halve(steps, edges, count, ask, scratch);
-    for (int i = 0; i < count; i++)
-        steps->change[edges[i].after] = 0.5 * (edges[i].low + edges[i].high);
-}
-
 /* ---- stretches --------------------------------------------------------------------------- */
 
 typedef struct Stretch {
-    double minutes;
+    double minutes, step;
+    int    first, end; /* the suns before which it begins and ends, between steps; or NO_ID */
     bool   is_open, is_sure;
 } Stretch;
 
-typedef struct Sum {
-    double failed, longest;
-} Sum;
+typedef struct Stretches {
+    Stretch *list; /* those that count */
+    int      count;
+} Stretches;
 
-static void end_stretch(Stretch *stretch, double more, double step, Sum *sum)
+static void end_stretch(Stretch *stretch, double more, double step, Stretches *to)
 {
     stretch->minutes += more;
-    if (stretch->is_sure) {
-        sum->failed += fmax(stretch->minutes, step);
-        sum->longest = fmax(sum->longest, stretch->minutes);
-    }
+    stretch->step = step;
+    if (stretch->is_sure) to->list[to->count++] = *stretch;
     *stretch = (Stretch){0};
 }
 
 /* last: the step that was met before under this heading; NO_ID: none. */
-static void meet(const Steps *steps, int sun, int last, Stretch *stretch, Sum *sum)
+static void meet(const Steps *steps, int sun, int last, Stretch *stretch, Stretches *to)
 {
     bool follows = steps->before[sun] != NO_ID, was_open = stretch->is_open;
-    if (was_open && !(follows && fails(steps, sun)))
+    if (was_open && !(follows && fails(steps, sun))) {
+        stretch->end = follows ? sun : NO_ID;
         end_stretch(stretch, follows ? steps->change[sun] : ends_after(steps, last),
-                    steps->suns->list[last].minutes, sum);
+                    steps->suns->list[last].minutes, to);
+    }
     if (!fails(steps, sun)) return;
     double since = follows ? steps->suns->list[last].minutes : 0;
     if (stretch->is_open) stretch->minutes += since;
-    else stretch->minutes = follows ? since - steps->change[sun] : begins_before(steps, sun);
+    else {
+        stretch->first = follows ? sun : NO_ID;
+        stretch->minutes = follows ? since - steps->change[sun] : begins_before(steps, sun);
+    }
     stretch->is_open = true;
     stretch->is_sure |= steps->states[sun] == STEP_FAILS_SURELY;
 }
 
-static Sum sum_stretches(const Steps *steps, Arena scratch)
+static Stretches find_stretches(const Steps *steps, Arena *arena)
 {
-    int      headings = heading_count(steps->suns), *last = ARENA_NEW(&scratch, int, headings);
-    Stretch *open = ARENA_NEW(&scratch, Stretch, headings);
-    Sum      sum = {0};
+    Stretches out = {ARENA_NEW(arena, Stretch, steps->suns->count), 0};
+    Arena     scratch = *arena;
+    int       headings = heading_count(steps->suns);
+    int      *last = ARENA_NEW(&scratch, int, headings);
+    Stretch  *open = ARENA_NEW(&scratch, Stretch, headings);
     for (int h = 0; h < headings; h++) last[h] = NO_ID;
     for (int i = 0; i < steps->suns->count; i++) {
         int h = steps->suns->list[i].heading_id;
-        meet(steps, i, last[h], &open[h], &sum);
+        meet(steps, i, last[h], &open[h], &out);
         last[h] = i;
     }
-    for (int h = 0; h < headings; h++)
-        if (open[h].is_open)
-            end_stretch(&open[h], ends_after(steps, last[h]),
-                        steps->suns->list[last[h]].minutes, &sum);
+    for (int h = 0; h < headings; h++) {
+        if (!open[h].is_open) continue;
+        open[h].end = NO_ID;
+        end_stretch(&open[h], ends_after(steps, last[h]), steps->suns->list[last[h]].minutes,
+                    &out);
+    }
+    return out;
+}
+
+static double longest_of(const Stretches *stretches)
+{
+    double longest = 0;
+    for (int i = 0; i < stretches->count; i++)
+        longest = fmax(longest, stretches->list[i].minutes);
+    return longest;
+}
+
+static double sum_of(const Stretches *stretches)
+{
+    double sum = 0;
+    for (int i = 0; i < stretches->count; i++)
+        sum += fmax(stretches->list[i].minutes, stretches->list[i].step);
     return sum;
+}
+
+/* ---- to a minute ------------------------------------------------------------------------- */
+
+static void set_changes(const Steps *steps, const Edge *edges, int count)
+{
+    for (int i = 0; i < count; i++)
+        steps->change[edges[i].after] = 0.5 * (edges[i].low + edges[i].high);
+}
+
+/* Errors of many edges, each even within its width, add up as their root. */
+static bool is_sum_close(const Steps *steps, double width, int count, Arena scratch)
+{
+    Stretches stretches = find_stretches(steps, &scratch);
+    if (CLOSE_PART * width > steps->suns->step_minutes) return false;
+    return width * sqrt(count / 12.0) <= CLOSE_SHARE * sum_of(&stretches);
+}
+
+/* Those of stretches that may be the longest; how many. */
+static int keep_longest(const Steps *steps, Edge *edges, int count, double width,
+                        Arena scratch)
+{
+    Stretches stretches = find_stretches(steps, &scratch);
+    bool     *is_kept = ARENA_NEW(&scratch, bool, steps->suns->count);
+    double    least = longest_of(&stretches) - 2 * width;
+    int       kept = 0;
+    for (int i = 0; i < stretches.count; i++) {
+        const Stretch *s = &stretches.list[i];
+        if (s->minutes < least) continue;
+        if (s->first != NO_ID) is_kept[s->first] = true;
+        if (s->end != NO_ID) is_kept[s->end] = true;
+    }
+    for (int i = 0; i < count; i++)
+        if (is_kept[edges[i].after]) edges[kept++] = edges[i];
+    return kept;
+}
+
+static void find_changes(const Steps *steps, const FailureAsk *ask, Arena scratch)
+{
+    int    count;
+    double width = steps->suns->step_minutes;
+    Edge  *edges = edges_of(steps, &count, &scratch);
+    count = keep_longest(steps, edges, count, INFINITY, scratch); /* of all that count */
+    for (; count && width > CLOSE_MINUTES && !is_sum_close(steps, width, count, scratch);
+         width /= 2) {
+        halve(steps, edges, count, ask, scratch);
+        set_changes(steps, edges, count);
+    }
+    for (; count && width > CLOSE_MINUTES; width /= 2) {
+        count = keep_longest(steps, edges, count, width, scratch);
+        if (!count) return;
+        halve(steps, edges, count, ask, scratch);
+        set_changes(steps, edges, count);
+    }
 }
 
 Failures sweep_failures(const ReviewCondition *condition, const SweepSuns *suns,
@@ -164,7 +235,7 @@ Failures sweep_failures(const ReviewCondition *condition, const SweepSuns *suns,
     Steps  steps = steps_of(condition, suns, states, &scratch);
     double all = 0;
     if (ask) find_changes(&steps, ask, scratch);
-    Sum sum = sum_stretches(&steps, scratch);
+    Stretches stretches = find_stretches(&steps, &scratch);
     for (int i = 0; i < suns->count; i++) all += suns->list[i].minutes;
-    return (Failures){all > 0 ? sum.failed / all : 0, sum.longest};
+    return (Failures){all > 0 ? sum_of(&stretches) / all : 0, longest_of(&stretches)};
 }

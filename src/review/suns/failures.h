@@ -2,9 +2,10 @@
 /* failures.h -- for how long a sweep fails, also between the steps at which it was asked.
  *
  * Steps that fail one after the other are a stretch. Where it begins and ends is looked for
- * between the steps, to a minute, so that hours do not round every failure to hours. A stretch
- * shorter than a step is met by a step as seldom as it is shorter: it then counts as a whole
- * one, for those that no step met.
+ * between the steps, so that hours do not round every failure to hours: to a minute; where
+ * there are many, until their sum is known to 1 in 1,000, and the longest to a minute. A
+ * stretch shorter than a step is met by a step as seldom as it is shorter: it then counts as a
+ * whole one, for those that no step met.
  *
  * Step     fails by its figure; a stretch counts when one of its steps fails for sure, by all
  *          of its interval.
