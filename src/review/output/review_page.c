@@ -17,7 +17,7 @@
 #define WORDS_BYTES ((size_t)1 << 30)
 #define OPEN_SWEEPS 1
 #define RENEWED_S 15 /* a page to which something is to come */
-#define SUMMARY_ROWS 6 /* of verdicts, so that it fits on one page of paper */
+#define SUMMARY_ROWS 5 /* of verdicts, so that it fits on one page of paper */
 
 /* review.css and review.js beside this file; the build embeds them. */
 extern const char REVIEW_STYLE[], REVIEW_SCRIPT[];
