@@ -10,7 +10,7 @@
 #include "review/output/review_words.h"
 #include "text/escape.h"
 
-#define GRID_ROWS 8
+#define GRID_ROWS 7
 #define GRID_EYES 4
 #define MENDS_TOLD 2
 #define SHARES_TOLD 3
