@@ -194,7 +194,7 @@ static bool add_picture(Text *html, const ReviewPicture *p, Arena scratch, Error
 static bool add_pair(Text *html, const ReviewPicture pair[2], Arena scratch, Error *err)
 {
     if (!pair[1].file) return true;
-    text_add(html, "<div class=\"figures pair\">\n");
+    text_add(html, "<div class=\"figures\">\n");
     for (int i = 0; i < 2; i++)
         if (!add_picture(html, &pair[i], scratch, err)) return false;
     text_add(html, "</div>\n");

@@ -80,11 +80,21 @@ double work_of_conditions(const ReviewRequest *request, bool is_bare)
     return work;
 }
 
+/* Those that are run by themselves: what rides with the review (vary/riders.h) takes little. */
+static int varied(const ReviewRequest *request)
+{
+    int count = 0;
+    for (int i = 0; i < request->variant_count; i++)
+        count += !review_variant_is_of_levels(request, &request->variants[i]);
+    for (int i = 0; i < request->parameter_count; i++)
+        count += request->parameters[i].kind == PARAMETER_BRIGHTNESS ? 0 : 2;
+    return count;
+}
+
 double work_of_review(const ReviewRequest *request, bool mend)
 {
-    int varied = request->variant_count + 2 * request->parameter_count +
-                 (mend ? WORK_TRIALS : 0);
-    return work_of_conditions(request, false) + varied * work_of_conditions(request, true) +
+    int runs = varied(request) + (mend ? WORK_TRIALS : 0);
+    return work_of_conditions(request, false) + runs * work_of_conditions(request, true) +
            request->frames.worst * work_of_frame(request) +
            (request->frames.worst ? request->variant_count * work_of_pair(request) : 0);
 }

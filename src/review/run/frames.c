@@ -48,16 +48,16 @@ bool frame_camera(const FrameAsk *ask, SceneCamera *out, Arena scratch, Error *e
 static RenderOptions options_of(const FrameAsk *ask)
 {
     const ReviewRequest *request = ask->stage->request;
-    int by = ask->like ? FRAMES_PAIR : 1;
+    int by = ask->exposure ? FRAMES_PAIR : 1;
     int width = request->frames.width / by, height = request->frames.height / by;
     FilmRect all = {0, 0, width > 1 ? width : 1, height > 1 ? height : 1};
     return (RenderOptions){
         .width = all.x1, .height = all.y1, .crop = all, .end_sample = FRAMES_SAMPLES,
         .noise = request->frames.noise, .max_bounces = STAGE_BOUNCES,
         .noise_area = {all, FILM_ALL_PIXELS},
-        .layers = ask->like ? LAYER_VARIANCE : LAYER_VARIANCE | LAYER_ID | LAYER_DISPLAYS,
+        .layers = ask->exposure ? LAYER_VARIANCE : LAYER_VARIANCE | LAYER_ID | LAYER_DISPLAYS,
         .threads = ask->stage->tools.threads, .within = ask->work,
-        .within_weight = ask->like ? work_of_pair(request) : work_of_frame(request)};
+        .within_weight = ask->exposure ? work_of_pair(request) : work_of_frame(request)};
 }
 
 /* As frames of a render say it, where it is known here. */
@@ -86,8 +86,7 @@ const char *frame_view(const char *frame, FrameView view, Arena *arena)
     return arena_format(arena, "%.*s%s.png", before_ending, frame, ENDS[view]);
 }
 
-/* The exposure of another frame, so that the two can be compared. */
-static bool exposure_like(const char *exr, Arena *arena, const char **out, Error *err)
+bool frame_exposure(const char *exr, Arena *arena, const char **out, Error *err)
 {
     FrameImage     frame;
     Picture        picture;
@@ -100,12 +99,11 @@ static bool exposure_like(const char *exr, Arena *arena, const char **out, Error
     return true;
 }
 
-static bool write_pair(const FrameAsk *ask, const FrameImage *frame, const char *exr,
+static bool write_pair(const FrameImage *frame, const char *exposure, const char *exr,
                        Arena scratch, Error *err)
 {
-    DevelopOptions look = {.own_config = true, .frame_name = exr};
-    return exposure_like(ask->like, &scratch, &look.exposure, err) &&
-           develop_frame(frame, &look, frame_view(exr, FRAME_PICTURE, &scratch), scratch, NULL,
+    DevelopOptions look = {.own_config = true, .exposure = exposure, .frame_name = exr};
+    return develop_frame(frame, &look, frame_view(exr, FRAME_PICTURE, &scratch), scratch, NULL,
                          err);
 }
 
@@ -136,8 +134,8 @@ static bool write_frame(const FrameAsk *ask, const SceneCamera *camera,
     FrameImage  frame = film_to_frame(result->film, WORDS, &scratch);
     set_words(&frame, ask, camera, result, &scratch);
     return frame_write(exr, &frame, err) &&
-           (ask->like ? write_pair(ask, &frame, exr, scratch, err)
-                      : write_views(&frame, exr, scratch, err));
+           (ask->exposure ? write_pair(&frame, ask->exposure, exr, scratch, err)
+                          : write_views(&frame, exr, scratch, err));
 }
 
 /* ---- of all that decides it -------------------------------------------------------------- */
@@ -157,7 +155,7 @@ static const char *identity_of(const FrameAsk *ask, const SceneCamera *camera,
     identity_line(&text, "size", "%dx%d", options->width, options->height);
     identity_line(&text, "layers", "%u", options->layers);
     identity_line(&text, "samples", "%u", options->end_sample);
-    if (ask->like) identity_line(&text, "exposed as", "%s", ask->like);
+    if (ask->exposure) identity_line(&text, "exposure", "%s", ask->exposure);
     identity_number(&text, "noise", options->noise);
     identity_line(&text, "eye", "%s", ask->eye->name);
     for (int i = 0; i < scene->display_count; i++)
@@ -204,7 +202,7 @@ bool frame_make(const FrameAsk *ask, Arena *arena, const char **out, Error *err)
                       .identity = identity_of(ask, &camera, &options, &scratch),
                       .arena = &scratch};
     kept.files[kept.file_count++] = exr;
-    int views = ask->like ? 1 : FRAME_VIEWS;
+    int views = ask->exposure ? 1 : FRAME_VIEWS;
     for (FrameView view = FRAME_PICTURE; (int)view < views; view++)
         kept.files[kept.file_count++] = frame_view(exr, view, &scratch);
     if (!frame_kept_is_whole(&kept) &&

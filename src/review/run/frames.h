@@ -35,13 +35,17 @@ typedef struct FrameAsk {
     const char      *folder;
     const char      *unfinished; /* folder of its checkpoint */
     const char      *name;    /* without an ending */
-    const char      *like;    /* file of a frame to stand beside: this one is smaller, exposed
-                                 as that, and its picture alone is made; NULL: by itself */
+    const char      *exposure; /* of a frame to stand beside (frame_exposure): this one is
+                                  smaller, and its picture alone is made; NULL: by itself */
     Progress        *work;   /* of which the frame is a part (pace/work.h) */
 } FrameAsk;
 
 /* From where the frame is seen. */
 bool frame_camera(const FrameAsk *ask, SceneCamera *out, Arena scratch, Error *err);
+
+/* *out: how the frame in that file is exposed (image/exposure.h), for others to be compared
+ * with it. Fails when the file cannot be read. */
+bool frame_exposure(const char *exr, Arena *arena, const char **out, Error *err);
 
 /* *out: the picture's name within the folder. */
 bool frame_make(const FrameAsk *ask, Arena *arena, const char **out, Error *err);

@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "review/run/job.h"
 
-ReviewRun review_rider_run(const ReviewRun *run, const ReviewRider *rider, const Review *base)
+ReviewRun review_run_of(const ReviewRun *run, const ReviewRequest *request, const Review *base)
 {
     ReviewRun own = *run;
-    own.request = rider->request;
+    own.request = request;
     own.base = base;
     own.identity = NULL;
-    own.news = (ReviewNews){NULL, NULL, NULL};
+    own.news.told = NULL;
+    own.share = (ReviewShare){0};
     own.rider_count = 0;
     return own;
 }

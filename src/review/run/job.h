@@ -60,8 +60,8 @@ typedef struct ReviewRun {
     int                  rider_count;
 } ReviewRun;
 
-/* A rider as a run by itself, on the stages of the review that it goes with. */
-ReviewRun review_rider_run(const ReviewRun *run, const ReviewRider *rider, const Review *base);
+/* A variant's run, by its request, held against that. */
+ReviewRun review_run_of(const ReviewRun *run, const ReviewRequest *request, const Review *base);
 
 /* What a sweep found of each of its suns: one symbol, one eye. */
 typedef struct SweepTable {

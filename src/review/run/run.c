@@ -74,7 +74,7 @@ static bool ride_moment(const CaseTools *base_tools, const ReviewRider *rider,
 {
     StageOther other;
     Arena      room = rider->room, of_context = arena_reserve(STAGE_BYTES);
-    ReviewRun  own = review_rider_run(run, rider, base);
+    ReviewRun  own = review_run_of(run, rider->request, base);
     Review    *review = &rider->outcome->review;
     Stage      stage =
         stage_beside(base_tools->stage, rider->request, &room, of_context, &other);

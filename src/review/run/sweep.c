@@ -461,7 +461,7 @@ static void start_riding(const Telling *own, const ReviewRider *rider, Riding *r
                          Telling *to)
 {
     const Sweep *sweep = own->sweep;
-    *riding = (Riding){.run = review_rider_run(sweep->run, rider, &own->out->review),
+    *riding = (Riding){.run = review_run_of(sweep->run, rider->request, &own->out->review),
                        .stage = *sweep->stage, .sweep = *sweep,
                        .beside = arena_reserve(SWEEP_BYTES)};
     riding->stage.request = rider->request;

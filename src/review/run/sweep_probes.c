@@ -228,35 +228,44 @@ static bool ask_skies(Sweep *sweep, const FarTools *tools, Arena *arena, Error *
     return true;
 }
 
-/* ---- meters ------------------------------------------------------------------------------ */
+/* ---- what they read ---------------------------------------------------------------------- */
 
-#define METER_CHUNK 256 /* suns of one piece of work */
+#define READ_CHUNK 256 /* suns of one piece of work */
 
-typedef struct MeterWork {
+typedef struct ReadWork {
     const FarProbe *probe;
     const FarTools *tools;
-    double         *lux;
-} MeterWork;
+    FarReading     *read;
+} ReadWork;
 
-static void read_meter(void *user, int item, int worker)
+static void read_chunk(void *user, int item, int worker)
 {
     (void)worker;
-    const MeterWork *work = user;
-    int first = item * METER_CHUNK, end = first + METER_CHUNK, count = work->tools->suns.count;
+    const ReadWork *work = user;
+    int first = item * READ_CHUNK, end = first + READ_CHUNK, count = work->tools->suns.count;
     for (int sun = first; sun < end && sun < count; sun++)
-        work->lux[sun] = far_reading_sum(far_probe_read(work->probe, work->tools, sun));
+        work->read[sun] = far_probe_read(work->probe, work->tools, sun);
+}
+
+/* [sun] of a probe that was asked of them. */
+static const FarReading *read_suns(const FarProbe *probe, const FarTools *tools, Arena *arena)
+{
+    int      count = tools->suns.count;
+    ReadWork work = {probe, tools, ARENA_NEW(arena, FarReading, count)};
+    parallel_for(tools->stage->tools.threads, (count + READ_CHUNK - 1) / READ_CHUNK,
+                 read_chunk, &work);
+    return work.read;
 }
 
 void sweep_meter_read(SweepMeter *meter, const FarTools *tools, Arena *arena)
 {
-    int       count = tools->suns.count;
-    FarProbe  probe = meter->probe;
-    MeterWork work = {&probe, tools, ARENA_NEW(arena, double, count)};
-    Arena     room = *arena;
+    FarProbe probe = meter->probe;
+    double  *lux = ARENA_NEW(arena, double, tools->suns.count);
+    Arena    room = *arena;
     far_probe_ask_suns(&probe, tools, &room);
-    parallel_for(tools->stage->tools.threads, (count + METER_CHUNK - 1) / METER_CHUNK,
-                 read_meter, &work);
-    meter->lux = work.lux;
+    const FarReading *read = read_suns(&probe, tools, &room);
+    for (int i = 0; i < tools->suns.count; i++) lux[i] = far_reading_sum(read[i]);
+    meter->lux = lux;
 }
 
 bool sweep_ask_light(Sweep *sweep, Arena *arena, Error *err)
@@ -280,30 +289,9 @@ Sight sweep_ask_sight(Sweep *sweep, const Sight *sight, Arena *arena)
     return asked;
 }
 
-#define SIGHT_CHUNK 256
-
-typedef struct SightWork {
-    const FarProbe *probe;
-    const FarTools *tools;
-    FarReading     *read;
-} SightWork;
-
-static void read_sight(void *user, int item, int worker)
-{
-    (void)worker;
-    const SightWork *work = user;
-    int first = item * SIGHT_CHUNK, end = first + SIGHT_CHUNK, count = work->tools->suns.count;
-    for (int sun = first; sun < end && sun < count; sun++)
-        work->read[sun] = far_probe_read(work->probe, work->tools, sun);
-}
-
 const FarReading *sweep_read_sight(const Sight *asked, const FarTools *tools, Arena *arena)
 {
-    int       count = tools->suns.count;
-    SightWork work = {&asked->probe, tools, ARENA_NEW(arena, FarReading, count)};
-    parallel_for(tools->stage->tools.threads, (count + SIGHT_CHUNK - 1) / SIGHT_CHUNK,
-                 read_sight, &work);
-    return work.read;
+    return read_suns(&asked->probe, tools, arena);
 }
 
 /* ---- the sun in mirrors ------------------------------------------------------------------ */

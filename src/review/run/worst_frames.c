@@ -159,8 +159,21 @@ static bool add_sights(const FrameAsk *ask, ReviewCase *c, Arena *arena, Error *
 typedef struct FrameWork {
     const ReviewRun *run; /* of the review, or of a variant of it */
     const Candidate *of;
-    const char      *name, *like; /* FrameAsk's */
+    const char      *name, *exposure; /* FrameAsk's */
 } FrameWork;
+
+/* A variant is seen as the review is, whatever became of the symbol. */
+static bool aim(const FrameWork *work, const Stage *stage, FrameAsk *ask, Arena scratch,
+                Error *err)
+{
+    const CaseView *view = work->of->of->view;
+    Vec3            from;
+    if (!work->exposure)
+        return find_middle(stage, work->of->of->symbol, scratch, &ask->look_at, err);
+    if (!stage_eye_middle(stage, ask->eye, scratch, &from, err)) return false;
+    ask->look_at = vec3_add(from, view->forward);
+    return true;
+}
 
 static bool make_lit(const FrameWork *work, Stage *stage, FrameAsk *ask, Arena *scratch,
                      const char **made, Error *err)
@@ -171,7 +184,7 @@ static bool make_lit(const FrameWork *work, Stage *stage, FrameAsk *ask, Arena *
     if (of->table) sky = sweep_environment(stage, &of->table->worst_sun);
     else if (c->has_environment) sky = c->environment;
     return stage_light(stage, of->table || c->has_environment ? &sky : NULL, scratch, err) &&
-           find_middle(stage, of->of->symbol, *scratch, &ask->look_at, err) &&
+           aim(work, stage, ask, *scratch, err) &&
            frame_make(ask, scratch, made, err);
 }
 
@@ -190,7 +203,7 @@ static bool make_frame(const FrameWork *work, ReviewCase *of, Arena *arena, cons
     bool  ok = stage_open(&options, &scratch, &told_before, &stage, err);
     if (ok) {
         FrameAsk ask = {&stage, eye_named(run->request, work->of->of->eye), vec3(0, 0, 0),
-                        run->folder, run->unfinished, work->name, work->like, run->work};
+                        run->folder, run->unfinished, work->name, work->exposure, run->work};
         ok = make_lit(work, &stage, &ask, &scratch, made, err);
         if (ok) *made = arena_string(arena, *made, strlen(*made));
         ok = ok && (!of || add_sights(&ask, of, arena, err));
@@ -219,34 +232,39 @@ static const char *name_of(const char *frame, Arena *arena)
 }
 
 /* The same view with the change made, beside that of the review. */
-static bool make_pair(const ReviewRun *run, const Candidate *of, int number,
-                      ReviewVariantFound *variant, Arena *arena, Error *err)
+static bool make_pair(const FrameWork *before, int number, ReviewVariantFound *variant,
+                      Arena *arena, Error *err)
 {
-    const char   *frame = of->of->frame, *name = name_of(frame, arena);
-    ReviewRequest request =
-        review_request_variant(run->request, &run->request->variants[number], arena);
-    ReviewRun own = *run;
-    FrameWork work = {&own, of, NULL, NULL};
+    const char   *name = before->name;
+    ReviewRequest request = review_request_variant(
+        before->run->request, &before->run->request->variants[number], arena);
+    ReviewRun own = *before->run;
+    FrameWork work = *before;
     own.request = &request;
+    work.run = &own;
     work.name = file_name_of(arena_format(arena, "%s-variant-%d-%s", name, number + 1,
                                           variant->name), arena);
-    work.like = arena_format(arena, "%s/frames/%s.exr", run->folder, name);
     if (!make_frame(&work, NULL, arena, &variant->frame, err))
         return err->code > 128 ? false
                                : error_prefix(err, "variant '%.100s'", variant->name);
-    variant->frame_before = frame;
-    variant->seen = of->of;
+    variant->frame_before = work.of->of->frame;
+    variant->seen = work.of->of;
     return true;
 }
 
 static bool make_pairs(const ReviewRun *run, const Candidate *of, Review *review, Arena *arena,
                        Error *err)
 {
-    for (int i = 0; i < review->variant_count; i++)
-        if (!review_goes_on(run->journal, err) ||
-            !make_pair(run, of, i, &review->variants[i], arena, err))
-            return false;
-    return true;
+    FrameWork work = {run, of, name_of(of->of->frame, arena), NULL};
+    Arena     scratch = arena_reserve(STAGE_BYTES);
+    bool      ok = !review->variant_count ||
+              frame_exposure(arena_format(&scratch, "%s/frames/%s.exr", run->folder, work.name),
+                             &scratch, &work.exposure, err);
+    for (int i = 0; i < review->variant_count && ok; i++)
+        ok = review_goes_on(run->journal, err) &&
+             make_pair(&work, i, &review->variants[i], arena, err);
+    arena_release(&scratch);
+    return ok;
 }
 
 /* ---- all of them ------------------------------------------------------------------------- */

@@ -151,14 +151,8 @@ static bool run_variant(const ReviewRun *run, const ReviewVariant *variant, cons
                         Arena *arena, ReviewOutcome *out, Error *err)
 {
     ReviewRequest *request = ARENA_NEW(arena, ReviewRequest, 1);
-    ReviewRun      own = *run;
     *request = review_request_variant(run->request, variant, arena);
-    own.request = request;
-    own.base = base;
-    own.identity = NULL;
-    own.news.told = NULL;
-    own.share = (ReviewShare){0};
-    own.rider_count = 0;
+    ReviewRun own = review_run_of(run, request, base);
     return review_run(&own, arena, out, err) ||
            (err->code <= 128 && error_prefix(err, "variant '%.100s'", variant->name));
 }
