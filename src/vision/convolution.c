@@ -11,12 +11,12 @@
 enum { COLUMNS = 4 };
 
 struct Convolution {
-    int      width, height, threads;
-    int      wide, high;               /* padded */
-    double  *kernel;                   /* high rows of wide, rows transformed */
-    double  *light[CONVOLUTION_PAIRS]; /* height rows of wide, rows transformed */
-    double  *sums[CONVOLUTION_PAIRS];  /* wide columns of high, transformed */
-    double **scratch;                  /* one a worker */
+    int      width, height, pairs, threads;
+    int      wide, high; /* padded */
+    double  *kernel;     /* high rows of wide, rows transformed */
+    double **light;      /* [pair] height rows of wide, rows transformed */
+    double **sums;       /* [pair] wide columns of high, transformed */
+    double **scratch;    /* one a worker */
     Fourier *row_forwards, *row_backwards, *column_forwards, *column_backwards;
     const ConvolutionTerm *term;       /* at work */
 };
@@ -48,15 +48,16 @@ static double *new_plane(int wide, int high, Arena *arena)
     return ARENA_NEW(arena, double, 2 * (size_t)wide * (size_t)high);
 }
 
-bool convolution_create(int width, int height, int threads, Arena *arena, Convolution **out,
+bool convolution_create(ConvolutionSize size, int threads, Arena *arena, Convolution **out,
                         Error *err)
 {
     Convolution *c = ARENA_NEW(arena, Convolution, 1);
-    c->width = width;
-    c->height = height;
+    c->width = size.width;
+    c->height = size.height;
+    c->pairs = size.pairs;
     c->threads = smaller(threads, PARALLEL_THREADS_MAX);
-    c->wide = quick_length(2 * width - 1);
-    c->high = quick_length(2 * height - 1);
+    c->wide = quick_length(2 * c->width - 1);
+    c->high = quick_length(2 * c->height - 1);
     if (!fourier_create(c->wide, false, &c->row_forwards, err) ||
         !fourier_create(c->wide, true, &c->row_backwards, err) ||
         !fourier_create(c->high, false, &c->column_forwards, err) ||
@@ -65,8 +66,10 @@ bool convolution_create(int width, int height, int threads, Arena *arena, Convol
         return false;
     }
     c->kernel = new_plane(c->wide, c->high, arena);
-    for (int i = 0; i < CONVOLUTION_PAIRS; i++) {
-        c->light[i] = new_plane(c->wide, height, arena);
+    c->light = ARENA_NEW(arena, double *, c->pairs);
+    c->sums = ARENA_NEW(arena, double *, c->pairs);
+    for (int i = 0; i < c->pairs; i++) {
+        c->light[i] = new_plane(c->wide, c->height, arena);
         c->sums[i] = new_plane(c->wide, c->high, arena);
     }
     c->scratch = ARENA_NEW(arena, double *, c->threads);
@@ -92,21 +95,29 @@ static double *row_of(double *plane, int wide, int row)
 
 /* ---- a term ------------------------------------------------------------------------------ */
 
+/* At (0, dy). */
+static const double *kernel_middle(const Convolution *c, int dy)
+{
+    const ConvolutionKernel *kernel = &c->term->kernel;
+    int row = (kernel->is_mirrored_y ? -dy : dy) + c->height - 1;
+    return kernel->values + (size_t)row * (size_t)(2 * c->width - 1) + (c->width - 1);
+}
+
 /* Offset 0 comes first, those below it from the end backwards; what lies between is nothing. */
 static void do_kernel_row(void *context, int row, int worker)
 {
     const Convolution *c = context;
-    double *in = c->scratch[worker], *values = in + 2 * c->wide;
+    double *in = c->scratch[worker], *out = row_of(c->kernel, c->wide, row);
     int     dy = row < c->height ? row : row - c->high;
-    double *out = row_of(c->kernel, c->wide, row);
+    int     sign = c->term->kernel.is_mirrored_x ? -1 : 1;
     if (dy <= -c->height) {
         memset(out, 0, sizeof *out * 2 * (size_t)c->wide);
         return;
     }
-    c->term->kernel_row(c->term->context, dy, values);
+    const double *middle = kernel_middle(c, dy);
     memset(in, 0, sizeof *in * 2 * (size_t)c->wide);
     for (int dx = 1 - c->width; dx < c->width; dx++)
-        in[2 * (dx < 0 ? dx + c->wide : dx)] = values[dx + c->width - 1];
+        in[2 * (dx < 0 ? dx + c->wide : dx)] = middle[sign * dx];
     fourier_transform(c->row_forwards, in, out);
 }
 
@@ -164,7 +175,7 @@ static void do_columns(void *context, int item, int worker)
     const Convolution *c = context;
     ColumnsAtWork columns = columns_of(c, item, worker);
     transform_columns(c, &columns, c->kernel, c->high, columns.kernel);
-    for (int pair = 0; pair < CONVOLUTION_PAIRS; pair++) {
+    for (int pair = 0; pair < c->pairs; pair++) {
         transform_columns(c, &columns, c->light[pair], c->height, columns.light);
         add_products(row_of(c->sums[pair], c->high, columns.first), columns.light,
                      columns.kernel, columns.count * c->high);
@@ -181,7 +192,7 @@ void convolution_add(Convolution *convolution, const ConvolutionTerm *term)
     Convolution *c = convolution;
     c->term = term;
     parallel_for(c->threads, c->high, do_kernel_row, c);
-    parallel_for(c->threads, CONVOLUTION_PAIRS * c->height, do_light_row, c);
+    parallel_for(c->threads, c->pairs * c->height, do_light_row, c);
     parallel_for(c->threads, column_items(c), do_columns, c);
     c->term = NULL;
 }
@@ -220,8 +231,8 @@ static void finish_row(void *context, int item, int worker)
 void convolution_finish(Convolution *convolution)
 {
     Convolution *c = convolution;
-    parallel_for(c->threads, CONVOLUTION_PAIRS * column_items(c), finish_columns, c);
-    parallel_for(c->threads, CONVOLUTION_PAIRS * c->height, finish_row, c);
+    parallel_for(c->threads, c->pairs * column_items(c), finish_columns, c);
+    parallel_for(c->threads, c->pairs * c->height, finish_row, c);
 }
 
 const double *convolution_row(const Convolution *convolution, int pair, int y)

@@ -6,7 +6,8 @@
  * By Fourier transforms of a plane with so much nothing around it that nothing wraps. Kernels
  * are real, so that two planes are done at once, as the real and the imaginary part.
  *
- * Memory   planes from the arena: 64 bytes a pixel of one twice as wide and high.
+ * Memory   planes from the arena: 16 bytes, and 24 a pair, of each pixel of a picture twice as
+ *          wide and high.
  * Threads  `threads` share the work; the same bits for any number of them.
  * Fails    creating does, when memory is out.
  */
@@ -14,21 +15,31 @@
 #include "base/arena.h"
 #include "base/error.h"
 
-enum { CONVOLUTION_PAIRS = 2 };
-
 typedef struct Convolution Convolution;
 
-/* What a term is made of; called from several threads. */
+typedef struct ConvolutionSize {
+    int width, height; /* of the planes, at least 1 */
+    int pairs;         /* of planes, at least 1 */
+} ConvolutionSize;
+
+/* The kernel's values at (dx, dy): 2 * height - 1 rows from -(height - 1) on, of each its
+ * 2 * width - 1 columns from -(width - 1) on. Mirrored: that at (-dx, dy), at (dx, -dy). */
+typedef struct ConvolutionKernel {
+    const double *values;
+    bool          is_mirrored_x, is_mirrored_y;
+} ConvolutionKernel;
+
+/* What a term is made of. */
 typedef struct ConvolutionTerm {
-    const void *context;
-    /* The kernel at (dx, dy) for dx of -(width - 1) to width - 1, in this order. */
-    void (*kernel_row)(const void *context, int dy, double *values);
-    /* 2 * width numbers: two planes' light at (0, y), at (1, y) ...; pair: which two. */
+    ConvolutionKernel kernel;
+    const void       *context;
+    /* 2 * width numbers: two planes' light at (0, y), at (1, y) ...; pair: which two. Called
+     * from several threads. */
     void (*light_row)(const void *context, int pair, int y, double *values);
 } ConvolutionTerm;
 
-/* width, height: at least 1. To be destroyed. */
-bool convolution_create(int width, int height, int threads, Arena *arena, Convolution **out,
+/* To be destroyed. */
+bool convolution_create(ConvolutionSize size, int threads, Arena *arena, Convolution **out,
                         Error *err);
 
 void convolution_add(Convolution *convolution, const ConvolutionTerm *term);

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 
 #include "base/mathd.h"
+#include "base/parallel.h"
 #include "base/units.h"
 #include "vision/convolution.h"
 #include "vision/eye_spread.h"
@@ -26,11 +27,13 @@ enum { NODES_MAX = 48 };
 
 /* A node at work, and the light that it shares in. */
 typedef struct NodeWork {
-    const EyeFilter    *filter;
-    const float *const *rgb;
-    const double *omega;        /* of each pixel, 0 where nothing is to be spread */
+    const EyeFilter *filter;
+    const EyeLayer  *layers;
+    int              layer_count;
+    const double *omega;         /* of each pixel, 0 where nothing is to be spread */
     double        over_integral; /* 1 / eye_spread_integral */
-    double        node_x, node_y; /* pixels */
+    double        node_x, node_y; /* pixels: of the kernel, */
+    double       *kernel;         /* convolution.h's */
     double       *weights_x, *weights_y; /* one a column or row */
 } NodeWork;
 
@@ -75,12 +78,21 @@ static double kernel_value(const NodeWork *k, int dx, int dy)
     return sum * k->over_integral / (count * count);
 }
 
-static void kernel_row(const void *context, int dy, double *values)
+static void kernel_row(void *context, int row, int worker)
 {
+    (void)worker;
     const NodeWork *work = context;
-    int             width = work->filter->view.width;
-    for (int dx = 1 - width; dx < width; dx++)
-        values[dx + width - 1] = kernel_value(work, dx, dy);
+    const EyeView  *view = &work->filter->view;
+    double *values = work->kernel + (size_t)row * (size_t)(2 * view->width - 1);
+    for (int dx = 1 - view->width; dx < view->width; dx++)
+        *values++ = kernel_value(work, dx, row - (view->height - 1));
+}
+
+static void make_kernel(NodeWork *work, double x, double y)
+{
+    work->node_x = x;
+    work->node_y = y;
+    parallel_for(work->filter->threads, 2 * work->filter->view.height - 1, kernel_row, work);
 }
 
 /* ---- nodes ------------------------------------------------------------------------------- */
@@ -119,18 +131,29 @@ static void set_weights(const Nodes *nodes, int node, int size, double *out)
 
 /* ---- the sum over all pixels ------------------------------------------------------------- */
 
-/* R and G, then B and a constant 1, times solid angle and the node's weight. */
+/* Planes are a layer's R, G and B, then the next one's, then a constant 1; two are a pair. */
+static int plane_count(int layers)
+{
+    return 3 * layers + 1;
+}
+
+/* Times solid angle and the node's weight. */
 static void light_row(const void *context, int pair, int y, double *values)
 {
     const NodeWork *work = context;
     size_t          width = (size_t)work->filter->view.width, start = (size_t)y * width;
-    const float    *one = work->rgb[2 * pair] + start;
-    const float    *other = pair == 0 ? work->rgb[1] + start : NULL;
-    for (size_t x = 0; x < width; x++) {
-        double omega = work->omega[start + x];
-        double share = omega * work->weights_x[x] * work->weights_y[y];
-        values[2 * x] = omega == 0 ? 0 : share * (double)one[x];
-        values[2 * x + 1] = omega == 0 ? 0 : share * (other ? (double)other[x] : 1);
+    for (int k = 0; k < 2; k++) {
+        int          plane = 2 * pair + k;
+        bool         is_light = plane < 3 * work->layer_count;
+        bool         is_one = plane == 3 * work->layer_count;
+        const float *light =
+            is_light ? work->layers[plane / 3].rgb[plane % 3] + start : NULL;
+        for (size_t x = 0; x < width; x++) {
+            double omega = work->omega[start + x];
+            double share = omega * work->weights_x[x] * work->weights_y[y];
+            double value = is_light ? (double)light[x] : is_one;
+            values[2 * x + (size_t)k] = omega == 0 ? 0 : share * value;
+        }
     }
 }
 
@@ -143,65 +166,116 @@ static double solid_angle(const EyeView *view, int x, int y)
     return view->pixel * view->pixel / (square * sqrt(square));
 }
 
-static const double *solid_angles(const EyeFilter *filter, const float *const rgb[3],
-                                  Arena *arena)
+static bool is_finite_in_all(const NodeWork *work, size_t pixel)
 {
-    size_t  width = (size_t)filter->view.width, height = (size_t)filter->view.height;
+    for (int plane = 0; plane < 3 * work->layer_count; plane++)
+        if (!isfinite(work->layers[plane / 3].rgb[plane % 3][pixel])) return false;
+    return true;
+}
+
+static const double *solid_angles(const NodeWork *work, Arena *arena)
+{
+    const EyeView *view = &work->filter->view;
+    size_t  width = (size_t)view->width, height = (size_t)view->height;
     double *omega = ARENA_NEW(arena, double, width * height);
     for (size_t i = 0; i < width * height; i++)
-        if (isfinite(rgb[0][i]) && isfinite(rgb[1][i]) && isfinite(rgb[2][i]))
-            omega[i] = solid_angle(&filter->view, (int)(i % width), (int)(i / width));
+        if (is_finite_in_all(work, i))
+            omega[i] = solid_angle(view, (int)(i % width), (int)(i / width));
     return omega;
 }
 
-static void add_nodes(NodeWork *work, Convolution *convolution)
+/* ---- all nodes --------------------------------------------------------------------------- */
+
+/* Nodes lie evenly about the middle of a picture; where the camera looks there, what belongs to
+ * a node is mirrored what belongs to the one on the other side. */
+typedef struct NodeGrid {
+    Nodes x, y;
+    bool  is_even_x, is_even_y;
+} NodeGrid;
+
+static NodeGrid make_grid(const EyeView *view)
 {
-    const EyeView        *view = &work->filter->view;
-    const ConvolutionTerm term = {work, kernel_row, light_row};
-    const Nodes across_x = make_nodes(view->width, view->width * view->pixel / 2);
-    const Nodes across_y = make_nodes(view->height, view->height * view->pixel / 2);
-    for (int node = 0; node < across_x.count * across_y.count; node++) {
-        int i = node % across_x.count, j = node / across_x.count;
-        work->node_x = across_x.place[i];
-        work->node_y = across_y.place[j];
-        set_weights(&across_x, i, view->width, work->weights_x);
-        set_weights(&across_y, j, view->height, work->weights_y);
-        convolution_add(convolution, &term);
-    }
-    convolution_finish(convolution);
+    return (NodeGrid){.x = make_nodes(view->width, view->width * view->pixel / 2),
+                      .y = make_nodes(view->height, view->height * view->pixel / 2),
+                      .is_even_x = 2 * view->axis_x == view->width,
+                      .is_even_y = 2 * view->axis_y == view->height};
 }
 
-/* What arrived minus what went, of one row. */
-static void exchange_row(const NodeWork *work, const Convolution *sums, int y,
-                         float *const out[3])
+static void add_node(NodeWork *work, const NodeGrid *grid, int i, int j,
+                     const ConvolutionKernel *kernel, Convolution *convolution)
 {
-    size_t        width = (size_t)work->filter->view.width;
-    const double *pairs[2] = {convolution_row(sums, 0, y), convolution_row(sums, 1, y)};
-    for (size_t x = 0; x < width; x++) {
-        size_t i = (size_t)y * width + x;
-        double went = pairs[1][2 * x + 1];
-        for (int c = 0; c < 3; c++) {
-            double light = (double)work->rgb[c][i];
-            double arrived = pairs[c / 2][2 * x + (size_t)(c % 2)];
-            out[c][i] = work->omega[i] == 0 ? work->rgb[c][i]
-                                            : (float)(light + arrived - light * went);
+    const EyeView        *view = &work->filter->view;
+    const ConvolutionTerm term = {*kernel, work, light_row};
+    set_weights(&grid->x, i, view->width, work->weights_x);
+    set_weights(&grid->y, j, view->height, work->weights_y);
+    convolution_add(convolution, &term);
+}
+
+/* The node, and those whose kernels are its own, mirrored. */
+static void add_mirrored(NodeWork *work, const NodeGrid *grid, int i, int j,
+                         Convolution *convolution)
+{
+    int other_i = grid->is_even_x ? grid->x.count - 1 - i : i;
+    int other_j = grid->is_even_y ? grid->y.count - 1 - j : j;
+    make_kernel(work, grid->x.place[i], grid->y.place[j]);
+    for (int by_y = 0; by_y <= (other_j != j); by_y++) {
+        for (int by_x = 0; by_x <= (other_i != i); by_x++) {
+            ConvolutionKernel kernel = {work->kernel, by_x, by_y};
+            add_node(work, grid, by_x ? other_i : i, by_y ? other_j : j, &kernel, convolution);
         }
     }
 }
 
-bool eye_filter(const EyeFilter *filter, const float *const rgb[3], float *const out[3],
-                Arena scratch, Error *err)
+static void add_nodes(NodeWork *work, Convolution *convolution)
 {
-    const EyeView *view = &filter->view;
-    Convolution   *sums;
-    if (!convolution_create(view->width, view->height, filter->threads, &scratch, &sums, err))
-        return false;
-    NodeWork work = {.filter = filter, .rgb = rgb, .omega = solid_angles(filter, rgb, &scratch),
+    const NodeGrid grid = make_grid(&work->filter->view);
+    int across_x = grid.is_even_x ? (grid.x.count + 1) / 2 : grid.x.count;
+    int across_y = grid.is_even_y ? (grid.y.count + 1) / 2 : grid.y.count;
+    for (int node = 0; node < across_x * across_y; node++)
+        add_mirrored(work, &grid, node % across_x, node / across_x, convolution);
+    convolution_finish(convolution);
+}
+
+/* ---- out --------------------------------------------------------------------------------- */
+
+static double plane_at(const Convolution *sums, int plane, int x, int y)
+{
+    return convolution_row(sums, plane / 2, y)[2 * x + plane % 2];
+}
+
+/* What arrived minus what went, of one row. */
+static void exchange_row(const NodeWork *work, const Convolution *sums, int y)
+{
+    int width = work->filter->view.width;
+    for (int plane = 0; plane < 3 * work->layer_count; plane++) {
+        const EyeLayer *layer = &work->layers[plane / 3];
+        size_t          start = (size_t)y * (size_t)width;
+        const float    *from = layer->rgb[plane % 3] + start;
+        float          *to = layer->out[plane % 3] + start;
+        for (int x = 0; x < width; x++) {
+            double light = (double)from[x], went = plane_at(sums, 3 * work->layer_count, x, y);
+            double seen = light + plane_at(sums, plane, x, y) - light * went;
+            to[x] = work->omega[start + (size_t)x] == 0 ? from[x] : (float)seen;
+        }
+    }
+}
+
+bool eye_filter(const EyeFilter *filter, const EyeLayer *layers, int count, Arena scratch,
+                Error *err)
+{
+    const EyeView  *view = &filter->view;
+    ConvolutionSize size = {view->width, view->height, (plane_count(count) + 1) / 2};
+    Convolution    *sums;
+    if (!convolution_create(size, filter->threads, &scratch, &sums, err)) return false;
+    size_t   kernel = (size_t)(2 * view->width - 1) * (size_t)(2 * view->height - 1);
+    NodeWork work = {.filter = filter, .layers = layers, .layer_count = count,
                      .over_integral = 1 / eye_spread_integral(filter->eye),
+                     .kernel = ARENA_NEW(&scratch, double, kernel),
                      .weights_x = ARENA_NEW(&scratch, double, view->width),
                      .weights_y = ARENA_NEW(&scratch, double, view->height)};
+    work.omega = solid_angles(&work, &scratch);
     add_nodes(&work, sums);
-    for (int y = 0; y < view->height; y++) exchange_row(&work, sums, y, out);
+    for (int y = 0; y < view->height; y++) exchange_row(&work, sums, y);
     convolution_destroy(sums);
     return true;
 }

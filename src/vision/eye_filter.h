@@ -18,7 +18,7 @@
  *
  * Units    cd m^-2 in each channel.
  * Layout   planes of width * height, row 0 at the top.
- * Memory   scratch: 64 bytes a pixel of a picture twice as wide and high.
+ * Memory   scratch: 72 bytes a pixel of a picture twice as wide and high, of two layers 120.
  * Threads  `threads` share the work; the same bits for any number of them.
  * Fails    when memory is out.
  */
@@ -39,7 +39,13 @@ typedef struct EyeFilter {
     int      threads; /* at least 1 */
 } EyeFilter;
 
-/* rgb: a pixel with a value that is not finite spreads nothing and stays as it is. out must not
- * overlap it. */
-bool eye_filter(const EyeFilter *filter, const float *const rgb[3], float *const out[3],
-                Arena scratch, Error *err);
+/* A picture, and where it goes as the eye has it; these must not overlap. */
+typedef struct EyeLayer {
+    const float *rgb[3];
+    float       *out[3];
+} EyeLayer;
+
+/* Layers of one view, count: at least 1, take less time together. A pixel with a value that is
+ * not finite in any of them spreads nothing and stays as it is. */
+bool eye_filter(const EyeFilter *filter, const EyeLayer *layers, int count, Arena scratch,
+                Error *err);

@@ -20,12 +20,22 @@ static Planes make_planes(const EyeView *view, float value, Arena *arena)
     return planes;
 }
 
+static EyeLayer layer_of(Planes in, Planes out)
+{
+    EyeLayer layer;
+    for (int c = 0; c < 3; c++) {
+        layer.rgb[c] = in.rgb[c];
+        layer.out[c] = out.rgb[c];
+    }
+    return layer;
+}
+
 static Planes filtered(const EyeFilter *filter, Planes in, Arena *arena)
 {
     Planes out = make_planes(&filter->view, -1, arena);
-    const float *rgb[3] = {in.rgb[0], in.rgb[1], in.rgb[2]};
-    Error        err = {0};
-    if (!eye_filter(filter, rgb, out.rgb, *arena, &err)) fail_msg("%s", err.text);
+    EyeLayer layer = layer_of(in, out);
+    Error    err = {0};
+    if (!eye_filter(filter, &layer, 1, *arena, &err)) fail_msg("%s", err.text);
     return out;
 }
 
@@ -180,6 +190,37 @@ TEST(what_is_not_finite_stays_and_spreads_nothing)
             else assert_close(out.rgb[c][i], 10, 1e-6);
         }
     }
+}
+
+/* Of one view, whose kernels are made once; a hole in one is a hole in both. */
+TEST(layers_spread_together_as_they_do_alone)
+{
+    const EyeFilter filter = {whole_view(48, 30, 40), {50, 0.5}, 2};
+    Arena  arena = test_arena(state);
+    Planes in[2], alone[2], together[2];
+    for (int k = 0; k < 2; k++) {
+        in[k] = make_planes(&filter.view, 3, &arena);
+        for (int i = 0; i < 48 * 30; i++)
+            for (int c = 0; c < 3; c++)
+                in[k].rgb[c][i] += (float)((i * (31 + 6 * k) + c * 13) % 97) * 20;
+        in[k].rgb[k][77] = NAN;
+        in[k].rgb[1][900] = INFINITY;
+        together[k] = make_planes(&filter.view, -1, &arena);
+    }
+    in[0].rgb[1][77] = NAN; /* where the other one has it */
+    in[1].rgb[0][77] = NAN;
+    const EyeLayer layers[2] = {layer_of(in[0], together[0]), layer_of(in[1], together[1])};
+    Error err = {0};
+    if (!eye_filter(&filter, layers, 2, arena, &err)) fail_msg("%s", err.text);
+    for (int k = 0; k < 2; k++) {
+        alone[k] = filtered(&filter, in[k], &arena);
+        for (int c = 0; c < 3; c++)
+            for (int i = 0; i < 48 * 30; i++)
+                if (i != 77 && i != 900)
+                    assert_close(together[k].rgb[c][i], alone[k].rgb[c][i], 1e-6);
+    }
+    assert_true(isinf(together[0].rgb[1][900]) && isnan(together[1].rgb[1][77]));
+    assert_close(together[0].rgb[2][77], in[0].rgb[2][77], 0);
 }
 
 TEST(threads_change_no_bit)

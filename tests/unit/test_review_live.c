@@ -279,7 +279,7 @@ TEST(an_eye_keeps_the_light)
     assert_true(live_frame_split(&frame, &arena, &split, &err));
     double before = mean_of(split.displays.rgb[1], 1200);
     HumanEye eye = {70, 0.5};
-    assert_true(live_frame_spread(&split.displays, 2, eye, 2, &arena, &err));
+    assert_true(live_frame_spread(&split, 2, eye, 2, &arena, &err));
     assert_float_equal(mean_of(split.displays.rgb[1], 1200), before, 1e-3 * before);
     assert_true(split.displays.rgb[1][39] > 0 && split.displays.rgb[1][10] < 40);
 }

@@ -79,7 +79,8 @@ bool eye_option_apply(const EyeOption *option, const FrameImage *frame, int thre
     if (!field_of_view(option, frame, &fov_deg, err)) return false;
     for (int c = 0; c < 3; c++) planes[c] = ARENA_NEW(arena, float, frame_pixel_count(frame));
     const EyeFilter filter = {view_of(frame, fov_deg), option->eye, threads};
-    if (!eye_filter(&filter, rgb, planes, *arena, err)) return false;
+    const EyeLayer layer = {{rgb[0], rgb[1], rgb[2]}, {planes[0], planes[1], planes[2]}};
+    if (!eye_filter(&filter, &layer, 1, *arena, err)) return false;
     *out = with_planes(frame, rgb, planes, arena);
     return true;
 }

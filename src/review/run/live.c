@@ -60,8 +60,7 @@ static bool make_layers(const LiveAsk *ask, const FrameImage *frame, LivePicture
              (out->displays = pack(&split.displays, arena, err)) != NULL;
     }
     if (ok && yfov > 0) {
-        ok = live_frame_spread(&split.scene, yfov, eye, ask->threads, &scratch, err) &&
-             live_frame_spread(&split.displays, yfov, eye, ask->threads, &scratch, err) &&
+        ok = live_frame_spread(&split, yfov, eye, ask->threads, &scratch, err) &&
              (out->eye_scene = pack(&split.scene, arena, err)) != NULL &&
              (out->eye_displays = pack(&split.displays, arena, err)) != NULL;
         out->age_years = eye.age_years;

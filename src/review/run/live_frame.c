@@ -79,18 +79,29 @@ LivePlanes live_frame_shrink(const LivePlanes *planes, int width, int height, Ar
 
 /* ---- in the eye -------------------------------------------------------------------------- */
 
-bool live_frame_spread(LivePlanes *planes, double yfov_deg, HumanEye eye, int threads,
+static EyeLayer layer_of(const LivePlanes *from, const LivePlanes *to)
+{
+    EyeLayer layer;
+    for (int c = 0; c < 3; c++) {
+        layer.rgb[c] = from->rgb[c];
+        layer.out[c] = to->rgb[c];
+    }
+    return layer;
+}
+
+bool live_frame_spread(LiveFrame *frame, double yfov_deg, HumanEye eye, int threads,
                        Arena *arena, Error *err)
 {
-    LivePlanes out = planes_new(planes->width, planes->height, arena);
-    double     high = 2 * tan_d(radians_from_degrees(yfov_deg) / 2);
+    int       width = frame->scene.width, height = frame->scene.height;
+    LiveFrame out = {planes_new(width, height, arena), planes_new(width, height, arena)};
+    double    high = 2 * tan_d(radians_from_degrees(yfov_deg) / 2);
     const EyeFilter filter = {
-        .view = {.width = planes->width, .height = planes->height,
-                 .axis_x = planes->width / 2.0, .axis_y = planes->height / 2.0,
-                 .pixel = high / planes->height},
+        .view = {.width = width, .height = height, .axis_x = width / 2.0,
+                 .axis_y = height / 2.0, .pixel = high / height},
         .eye = eye, .threads = threads};
-    const float *from[3] = {planes->rgb[0], planes->rgb[1], planes->rgb[2]};
-    if (!eye_filter(&filter, from, out.rgb, *arena, err)) return false;
-    *planes = out;
+    const EyeLayer layers[] = {layer_of(&frame->scene, &out.scene),
+                               layer_of(&frame->displays, &out.displays)};
+    if (!eye_filter(&filter, layers, 2, *arena, err)) return false;
+    *frame = out;
     return true;
 }

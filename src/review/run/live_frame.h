@@ -26,6 +26,6 @@ bool live_frame_split(const FrameImage *frame, Arena *arena, LiveFrame *out, Err
 /* At most so large, as it is or smaller: each pixel is the mean over its area. */
 LivePlanes live_frame_shrink(const LivePlanes *planes, int width, int height, Arena *arena);
 
-/* A perspective view, yfov_deg high. */
-bool live_frame_spread(LivePlanes *planes, double yfov_deg, HumanEye eye, int threads,
+/* Both pictures. A perspective view, yfov_deg high. */
+bool live_frame_spread(LiveFrame *frame, double yfov_deg, HumanEye eye, int threads,
                        Arena *arena, Error *err);
