@@ -211,23 +211,52 @@ static void light_again(Stage *stage, Arena *arena)
     stage->context = path_context_relight(&stage->context, lights, arena);
 }
 
-/* Fixed levels are known before the light is; those of a curve only from its sensor. */
-bool stage_light(Stage *stage, const Environment *environment, Arena *arena, Error *err)
+static const ReviewLevel *level_of(const Stage *stage)
 {
     const ReviewCondition *condition = stage->condition;
     bool has_level = condition && condition->level_id != NO_ID;
-    const ReviewLevel *level =
-        has_level ? &stage->request->levels[condition->level_id] : NULL;
+    return has_level ? &stage->request->levels[condition->level_id] : NULL;
+}
+
+/* Fixed levels are known before the light is; those of a curve only from its sensor. */
+static void set_fixed_levels(Stage *stage)
+{
+    const ReviewLevel *level = level_of(stage);
     bool is_curve = level && level->is_curve;
+    if (!is_curve && (level || stage->request->change)) set_levels(stage, level);
+}
+
+bool stage_light(Stage *stage, const Environment *environment, Arena *arena, Error *err)
+{
+    const ReviewLevel *level = level_of(stage);
     if (environment) stage->scene->environment = *environment;
-    if (is_curve) {
-        if (!stage_relight(stage, arena, err)) return false;
-        read_sensor(stage, level, *arena);
-        if (set_levels(stage, level)) light_again(stage, arena);
-        return true;
-    }
-    if (level || stage->request->change) set_levels(stage, level);
+    set_fixed_levels(stage);
+    if (!stage_relight(stage, arena, err)) return false;
+    if (!level || !level->is_curve) return true;
+    read_sensor(stage, level, *arena);
+    if (set_levels(stage, level)) light_again(stage, arena);
+    return true;
+}
+
+static void set_scene_levels(Stage *stage)
+{
+    for (int i = 0; i < stage->scene->display_count; i++)
+        stage->scene->displays[i].level = (float)stage->scene_levels[i];
+}
+
+bool stage_before_light(Stage *stage, Arena *arena, Error *err)
+{
+    set_scene_levels(stage);
+    set_fixed_levels(stage);
     return stage_relight(stage, arena, err);
+}
+
+bool stage_light_again(Stage *stage, const Stage *before, const Environment *environment,
+                       Arena *arena, Error *err)
+{
+    *stage = *before;
+    set_scene_levels(stage);
+    return stage_light(stage, environment, arena, err);
 }
 
 /* ---- other levels under the same light --------------------------------------------------- */

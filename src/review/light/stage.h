@@ -65,6 +65,13 @@ bool stage_scene(const StageOptions *options, Arena *arena, Problems *problems, 
 /* Lights it: the environment, then the levels, which may follow the light on a sensor. */
 bool stage_light(Stage *stage, const Environment *environment, Arena *arena, Error *err);
 
+/* For a stage that is lit by one sky after the other: with the levels that it has before any
+ * light is known, its emitters sorted for them, under the sky that it has now. *before: this
+ * stage, which must outlive all that are lit from it. */
+bool stage_before_light(Stage *stage, Arena *arena, Error *err);
+bool stage_light_again(Stage *stage, const Stage *before, const Environment *environment,
+                       Arena *arena, Error *err);
+
 /* For the scene as it is now, its environment and levels set otherwise. What was built for its
  * surfaces, and the lights before, stay in their arenas: these must not end before the
  * stage's. */

@@ -510,7 +510,7 @@ static bool sweep_condition(Sweep *sweep, Arena scratch, Arena *arena, ReviewOut
                   .first = out->review.sweep_count, .scratch = sweep->told,
                   .sights = ARENA_NEW(&scratch, SightTold, sweep->sight_count),
                   .tables = ARENA_NEW(&scratch, SweepTable, sweep->sight_count)};
-    sweep->lit->is_lit = false;
+    sweep->lit->is_ready = sweep->lit->is_lit = false;
     if (!sweep->run->share.count && !sweep->run->base)
         false_sun_times(sweep, scratch, arena, &out->review);
     if (!tell_with_riders(sweep, &to, scratch, err)) return false;
@@ -543,12 +543,14 @@ bool run_sweeps(const ReviewRun *run, Stage *stage, const SweepGroup *group, Are
                 ReviewOutcome *out, Error *err)
 {
     Arena    scratch = arena_reserve(SWEEP_BYTES);
-    SweepLit lit = {.of = stage, .fresh = arena_reserve(SWEEP_BYTES)};
+    SweepLit lit = {.of = stage, .room = arena_reserve(SWEEP_BYTES),
+                    .fresh = arena_reserve(SWEEP_BYTES)};
     Sweep    sweep = {.run = run, .stage = stage, .lit = &lit,
                       .told = arena_reserve(SWEEP_BYTES)};
     bool     ok = sweep_all(&sweep, group, &scratch, arena, out, err);
     arena_release(&sweep.told);
     arena_release(&lit.fresh);
+    arena_release(&lit.room);
     arena_release(&scratch);
     return ok;
 }

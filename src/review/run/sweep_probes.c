@@ -37,16 +37,24 @@ static bool is_same_light(const SweepSun *a, const SweepSun *b)
            a->heading_deg == b->heading_deg && a->step == b->step;
 }
 
+/* Once a condition. */
+static bool make_ready(SweepLit *lit, Error *err)
+{
+    Arena arena = lit->room;
+    if (lit->is_ready) return true;
+    lit->ready = *lit->of;
+    lit->is_ready = stage_before_light(&lit->ready, &arena, err);
+    return lit->is_ready;
+}
+
 static bool light_afresh(Sweep *sweep, const SweepSun *sun, const Environment *sky, Error *err)
 {
     SweepLit *lit = sweep->lit;
     Arena     arena = lit->fresh;
     Scene    *scene = sweep->stage->scene;
-    lit->stage = *lit->of;
+    if (!make_ready(lit, err)) return false;
     lit->sun = *sun;
-    for (int i = 0; i < scene->display_count; i++)
-        scene->displays[i].level = (float)lit->stage.scene_levels[i];
-    lit->is_lit = stage_light(&lit->stage, sky, &arena, err);
+    lit->is_lit = stage_light_again(&lit->stage, &lit->ready, sky, &arena, err);
     if (!lit->is_lit) return false;
     lit->levels = ARENA_NEW(&arena, float, scene->display_count);
     for (int i = 0; i < scene->display_count; i++) lit->levels[i] = scene->displays[i].level;

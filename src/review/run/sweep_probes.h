@@ -39,11 +39,12 @@ typedef struct Sight {
  * worst. */
 typedef struct SweepLit {
     const Stage *of;    /* the review's own */
-    bool     is_lit;
+    bool     is_ready, is_lit; /* of the condition in hand */
+    Stage    ready;  /* before any sun shines */
     SweepSun sun;
     Stage    stage;
     float   *levels; /* of the displays */
-    Arena    fresh;  /* for all that it is made of */
+    Arena    room, fresh; /* for all that they are made of */
 } SweepLit;
 
 typedef struct Sweep {
