@@ -312,9 +312,13 @@ static bool make_told(ReviewRun *run, ReviewFolder *folder, ReviewWatch *watch,
 static bool make_all(ReviewRun *run, ReviewFolder *folder, ReviewWatch *watch,
                      ReviewOutcome *outcome, Arena *arena, Error *err)
 {
+    Inherited *inherited = run->request->is_compared ? inherited_start(run->request) : NULL;
+    run->inherited = inherited;
     review_riders_start(run, !folder->is_alone, arena);
     bool ok = make_told(run, folder, watch, outcome, arena, err);
     review_riders_end(run);
+    run->inherited = NULL;
+    inherited_end(inherited);
     return ok;
 }
 

@@ -33,7 +33,7 @@ SkyTable sky_table_start(const DaylightInput *like, double low_deg, double high_
     int first, count = elevations_within(low_deg, high_deg, &first);
     return (SkyTable){*like, elevations + first,
                       arena_alloc(arena, sizeof(float[LIGHT_BANDS]), _Alignof(float),
-                                  (size_t)count), count, 0, SKY_AZIMUTHS};
+                                  (size_t)count), count, 0, SKY_AZIMUTHS, NULL};
 }
 
 void sky_table_between(SkyTable *table, double low_deg, double high_deg)
@@ -45,26 +45,33 @@ void sky_table_between(SkyTable *table, double low_deg, double high_deg)
     table->azimuths = last - first + 1;
 }
 
-/* The sky of a row; its sun is noted. */
-static bool make_sky(SkyTable *table, int row, Arena *arena, Daylight *out, Error *err)
+static const Daylight *build_sky(const DaylightInput *input, Arena *arena, Error *err)
 {
-    DaylightInput input = table->like;
+    Daylight *sky = ARENA_NEW(arena, Daylight, 1);
+    return daylight_build(input, arena, sky, err) ? sky : NULL;
+}
+
+/* The sky of a row; its sun is noted. NULL: it failed. */
+static const Daylight *make_sky(SkyTable *table, int row, Arena *arena, Error *err)
+{
+    DaylightInput   input = table->like;
+    const Daylight *sky;
     input.has_sun = true;
     input.sun_azimuth = 0;
     input.sun_elevation = radians_from_degrees(table->elevation_deg[row]);
     input.sun_lux = -1;
     input.no_moon = true;
-    if (!daylight_build(&input, arena, out, err)) return false;
-    light_bands_sun(out, table->sun_bands[row]);
-    return true;
+    sky = table->inherited ? inherited_sky(table->inherited, &input, err)
+                           : build_sky(&input, arena, err);
+    if (sky) light_bands_sun(sky, table->sun_bands[row]);
+    return sky;
 }
 
 static bool make_suns(SkyTable *table, const Arena *arena, Error *err)
 {
     for (int row = 0; row < table->count; row++) {
-        Arena    room = *arena;
-        Daylight sky;
-        if (!make_sky(table, row, &room, &sky, err)) return false;
+        Arena room = *arena;
+        if (!make_sky(table, row, &room, err)) return false;
     }
     return true;
 }
@@ -354,10 +361,9 @@ static bool sum_skies(FarProbe *const *probes, int count, const FarTools *tools,
                   .bands = ARENA_NEW(&scratch, float,
                                      (size_t)threads * (size_t)cells * LIGHT_BANDS)};
     for (; sum.row < rows; sum.row++) {
-        Arena    room = scratch;
-        Daylight sky;
-        if (!make_sky(tools->table, sum.row, &room, &sky, err)) return false;
-        sum.sky = &sky;
+        Arena room = scratch;
+        sum.sky = make_sky(tools->table, sum.row, &room, err);
+        if (!sum.sky) return false;
         parallel_for(threads, tools->table->azimuths, sum_sky, &sum);
     }
     return true;

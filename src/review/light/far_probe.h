@@ -15,6 +15,7 @@
  */
 #pragma once
 #include "review/light/hour_sky.h"
+#include "review/light/inherited.h"
 #include "review/light/stage.h"
 
 /* ---- skies ------------------------------------------------------------------------------- */
@@ -29,6 +30,7 @@ typedef struct SkyTable {
     int           count;
     int           first_azimuth, azimuths; /* of SKY_AZIMUTHS, on from the first: those that are
                                               made; no other may be read */
+    Inherited    *inherited; /* where its skies are found and kept; NULL: they are not */
 } SkyTable;
 
 /* Elevations that reach from `low` to `high`; `like` says air and ground. Its skies are made

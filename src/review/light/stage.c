@@ -131,7 +131,8 @@ bool stage_open(const StageOptions *options, Arena *arena, Problems *problems, S
     SceneOptions scene = scene_options(options, arena);
     *out = (Stage){.request = options->request, .condition = options->condition,
                    .tools = {.threads = options->threads, .journal = options->journal},
-                   .sensor_lux = (double)NAN, .lessons = options->lessons};
+                   .sensor_lux = (double)NAN, .lessons = options->lessons,
+                   .inherited = options->inherited};
     if (!kernel_choose(options->isa, &out->tools.kernel, err)) return false;
     if (!scene_load(&scene, arena, problems, &out->scene, err)) return false;
     if (!bvh_create(out->scene, options->threads, options->isa, &out->bvh, err)) {

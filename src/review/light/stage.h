@@ -9,6 +9,7 @@
  */
 #pragma once
 #include "base/problems.h"
+#include "review/light/inherited.h"
 #include "review/light/light_bands.h"
 #include "review/light/reading.h"
 #include "review/request/request.h"
@@ -36,6 +37,7 @@ typedef struct Stage {
     double      *scene_levels; /* of the displays, before the condition's */
     const char  *identity;     /* program and scene (render/identity.h), not its light */
     const char  *lessons;      /* StageOptions' */
+    Inherited   *inherited;
     JournalKey   planned;      /* of program, files and request */
     bool         is_shared;    /* its readings will be asked for under other levels, too */
     StageOther  *other;        /* what is asked is asked under these; NULL: as it is lit */
@@ -51,6 +53,7 @@ typedef struct StageOptions {
     Journal               *journal;   /* of readings; NULL: none is kept */
     const char            *lessons;   /* folder of what paths are taught (run/cases.h); NULL:
                                          it is not kept */
+    Inherited             *inherited; /* of the review and its variants, or NULL */
 } StageOptions;
 
 /* The scene with the condition's files, contents and occupants, in the dark. Warnings go to

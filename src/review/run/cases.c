@@ -428,15 +428,18 @@ static bool case_of(const CaseTools *tools, const CaseAsk *ask, Arena *arena, Re
 #define LESSON_HEIGHT 270
 #define LESSON_DEG 60.0
 
-/* A variant of the same scene has the review's: where light comes from changes little with a
- * display's level, and who is taught the same takes the same ways. */
+static int condition_id(const Stage *stage)
+{
+    return (int)(stage->condition - stage->request->conditions);
+}
+
 static const char *lesson_file(const Stage *stage, Vec3 eye, Vec3 towards, Arena *arena)
 {
     Text text = {.arena = arena};
     identity_line(&text, "lesson", "%016llx%016llx, condition %d",
                   (unsigned long long)stage->planned.high,
                   (unsigned long long)stage->planned.low,
-                  (int)(stage->condition - stage->request->conditions));
+                  condition_id(stage));
     identity_vector(&text, "eye", eye);
     identity_vector(&text, "towards", towards);
     JournalKey key = journal_key(text.data);
@@ -452,23 +455,50 @@ static bool read_lesson(Stage *stage, const char *file, Arena *arena)
            guide_read(file, &scene, arena, &stage->context.guide, &ignored);
 }
 
-bool stage_learn(Stage *stage, const StageSymbol *symbols, int count, Arena *arena, Error *err)
+/* A guide from the stage's folder, or a new one. */
+static void take_lesson(Stage *stage, Vec3 eye, Vec3 towards, Arena *arena)
 {
-    Vec3 eye, sum = vec3(0, 0, 0);
-    if (!stage_eye_middle(stage, &stage->request->eyes[0], *arena, &eye, err)) return false;
-    for (int i = 0; i < count; i++) sum = vec3_add(sum, symbol_middle(&symbols[i]).position);
-    Vec3 towards = vec3_sub(vec3_scale(sum, 1 / (float)count), eye);
-    if (!(vec3_dot(towards, towards) > 0)) return true;
     SceneCamera    look = camera_look_at(eye, vec3_add(eye, towards),
                                          (float)radians_from_degrees(LESSON_DEG));
     Camera         camera = camera_from_scene(&look, LESSON_WIDTH, LESSON_HEIGHT);
     TrainOptions   train = {stage->tools.kernel, stage->tools.threads};
     PathStatistics cost;
     const char    *file = stage->lessons ? lesson_file(stage, eye, towards, arena) : NULL;
-    if (file && read_lesson(stage, file, arena)) return true;
+    if (file && read_lesson(stage, file, arena)) return;
     stage->context.guide = train_guide(&stage->context, &camera, &train, arena, &cost);
     Error ignored; /* who cannot keep it teaches it again: the same lesson, of the same seed */
     if (file) guide_write(file, stage->context.guide, *arena, &ignored);
+}
+
+static bool is_variant(const Stage *stage)
+{
+    return stage->request->change != NULL;
+}
+
+/* What the review itself was taught under this condition. */
+static bool inherit_lesson(Stage *stage)
+{
+    GuideScene scene = train_guide_scene(&stage->context);
+    if (!stage->inherited || !is_variant(stage)) return false;
+    stage->context.guide =
+        inherited_guide(stage->inherited, stage->request, condition_id(stage), &scene);
+    return stage->context.guide != NULL;
+}
+
+bool stage_learn(Stage *stage, const StageSymbol *symbols, int count, Arena *arena, Error *err)
+{
+    Vec3 eye, sum = vec3(0, 0, 0);
+    if (inherit_lesson(stage)) return true;
+    if (!stage_eye_middle(stage, &stage->request->eyes[0], *arena, &eye, err)) return false;
+    for (int i = 0; i < count; i++) sum = vec3_add(sum, symbol_middle(&symbols[i]).position);
+    Vec3 towards = vec3_sub(vec3_scale(sum, 1 / (float)count), eye);
+    if (!(vec3_dot(towards, towards) > 0)) return true;
+    bool leaves = stage->inherited && !is_variant(stage);
+    take_lesson(stage, eye, towards, leaves ? inherited_room(stage->inherited) : arena);
+    GuideScene scene = train_guide_scene(&stage->context);
+    if (leaves)
+        inherited_keep_guide(stage->inherited, condition_id(stage), stage->context.guide,
+                             &scene);
     return true;
 }
 

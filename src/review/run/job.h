@@ -8,6 +8,7 @@
 #include "base/problems.h"
 #include "base/progress.h"
 #include "review/keep/journal.h"
+#include "review/light/inherited.h"
 #include "review/light/sun_searches.h"
 #include "review/profile.h"
 #include "review/request/request.h"
@@ -54,6 +55,7 @@ typedef struct ReviewRun {
     ReviewNews           news;
     Problems            *problems; /* warnings of scenes, once each */
     SunSearches         *sun_searches; /* review_run's own */
+    Inherited           *inherited; /* what its variants will take over, or do; NULL: nothing */
     const Review        *base;     /* this is a variant of that, which is made before: verdicts
                                       alone are made (cases.h); NULL: the review itself */
     ReviewRider         *riders;   /* go with it; a share of one has none */

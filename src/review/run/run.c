@@ -210,7 +210,8 @@ static bool run_condition(const ReviewRun *run, const ReviewCondition *condition
                           const SweepGroup *group, Arena *arena, ReviewOutcome *out, Error *err)
 {
     StageOptions options = {run->request, condition, run->root,   run->state,
-                            run->threads, run->isa,  run->journal, run->lessons};
+                            run->threads, run->isa,  run->journal, run->lessons,
+                            run->inherited};
     Arena scratch = arena_reserve(STAGE_BYTES);
     Stage stage;
     bool  ok = stage_open(&options, &scratch, run->problems, &stage, err);
@@ -296,7 +297,7 @@ static bool plan_condition(const ReviewRun *run, const ReviewCondition *conditio
                            ReviewPlan *plan, JournalKey *base, Error *err)
 {
     StageOptions options = {run->request, condition, run->root, run->state,
-                            run->threads, run->isa,  NULL, NULL};
+                            run->threads, run->isa,  NULL, NULL, NULL};
     Arena scratch = arena_reserve(STAGE_BYTES);
     Stage stage;
     bool  ok = stage_open(&options, &scratch, run->problems, &stage, err);

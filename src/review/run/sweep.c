@@ -406,6 +406,7 @@ static bool make_skies(Sweep *sweep, Arena *scratch, Error *err)
     like.has_time = false;
     like.threads = stage->tools.threads;
     sweep->table = sky_table_start(&like, low, high, scratch);
+    sweep->table.inherited = sweep->run->inherited;
     if (stage->condition->kind == CONDITION_SUN_SWEEP) {
         const ReviewRange *azimuths = &stage->condition->azimuth_deg;
         double             heading = sweep->suns.list[0].heading_deg; /* of all of them */

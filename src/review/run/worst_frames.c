@@ -196,7 +196,7 @@ static bool make_frame(const FrameWork *work, ReviewCase *of, Arena *arena, cons
     const ReviewRun       *run = work->run;
     const ReviewCondition *c = condition_named(run->request, work->of->of->condition);
     StageOptions options = {run->request, c,        run->root,    run->state,
-                            run->threads, run->isa, run->journal, run->lessons};
+                            run->threads, run->isa, run->journal, run->lessons, NULL};
     Problems     told_before = problems_start(arena);
     Arena scratch = arena_reserve(STAGE_BYTES);
     Stage stage;
