@@ -22,6 +22,26 @@ def exists(path):
     return os.path.exists(os.path.join(ROOT, path))
 
 
+def tabled_files(text):
+    """What the first cells of a folder's table of files name: `light/stage`, `run/`, `a`, `b`
+    (the second in the folder of the first)."""
+    for line in text.splitlines():
+        if not line.startswith("| `"):
+            continue
+        folder = ""
+        for name in re.findall(r"`([^`]+)`", line.split("|")[1]):
+            yield name if "/" in name else folder + name, name
+            folder = name.rpartition("/")[0] + "/" if "/" in name else folder
+
+
+def check_table(report, folder):
+    for with_folder, name in tabled_files(read(f"{folder}/README.md")):
+        places = [os.path.join(ROOT, folder, each) for each in (with_folder, name)]
+        report.claim(any(os.path.exists(place + ending) for place in places
+                         for ending in ("", ".h", ".js")),
+                     f"{folder}/README.md names {name}, which is not there")
+
+
 def main():
     report = Report()
     text = read("README.md")
@@ -30,6 +50,7 @@ def main():
     for path in named_paths(text):
         report.claim(exists(path), f"README.md names {path}, which is not there")
     report.claim(not exists("src/nowhere.c"), "a missing file passes for a present one")
+    check_table(report, "src/review")
     licence = read("LICENSE")
     report.claim("Apache License" in licence and "Version 2.0" in licence,
                  "LICENSE is not Apache-2.0")

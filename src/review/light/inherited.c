@@ -92,7 +92,8 @@ static const char *identity_of(const DaylightInput *input, Arena *arena)
     return text.data;
 }
 
-static const Daylight *build(const DaylightInput *input, Daylight *sky, Arena *arena, Error *err)
+static const Daylight *build(const DaylightInput *input, Daylight *sky, Arena *arena,
+                             Error *err)
 {
     return daylight_build(input, arena, sky, err) ? sky : NULL;
 }

@@ -32,7 +32,8 @@ typedef struct CaseTools {
 /* Teaches the stage's paths, once it is lit, from where light comes to what the first eye sees
  * of the symbols: lamps that few of them would find otherwise, at night above all. The guide
  * comes from the arena, or from the stage's folder of lessons, where it is kept; one that is
- * damaged is learnt again. Fails where it cannot be written. */
+ * damaged is learnt again. A variant takes the review's (light/inherited.h). Fails where an
+ * eye's camera is missing. */
 bool stage_learn(Stage *stage, const StageSymbol *symbols, int count, Arena *arena, Error *err);
 
 /* symbol_count * eye_count cases, symbols fastest. Fails where an eye's camera is missing. */

@@ -8,6 +8,8 @@
 
 #define RESPONSE_PATHS 65536
 #define RESPONSE_PRECISION 0.004
+#define RESPONSE_PRECISION_VARIANT 0.006 /* their worst is read by paths of its own; this is
+                                            for how long they fail */
 #define METER_PATHS 16384
 #define SUN_PATHS SYMBOL_POINTS /* of the first vertex: a lobe is narrower than a symbol */
 #define METER_SUN_PATHS 64
@@ -168,13 +170,18 @@ static void leave_others(Sweep *sweep)
 
 /* ---- what is asked of them --------------------------------------------------------------- */
 
+static double response_precision(const Sweep *sweep)
+{
+    return sweep->run->base ? RESPONSE_PRECISION_VARIANT : RESPONSE_PRECISION;
+}
+
 static void ask_meter(Sweep *sweep, SweepMeter *meter, const char *name)
 {
     meter->probe.aim = (ProbeAim){.context = &sweep->stage->context, .meter = &meter->head,
                                   .seed = review_seed(sweep->run->request, METER_SEED)};
     sweep->asks[sweep->ask_count++] =
         (ResponseAsk){.name = name, .probe = &meter->probe, .own = &meter->own,
-                      .paths = METER_PATHS, .precision = RESPONSE_PRECISION,
+                      .paths = METER_PATHS, .precision = response_precision(sweep),
                       .is_left = meter->is_left};
 }
 
@@ -196,7 +203,7 @@ static void list_asks(Sweep *sweep, Arena *arena)
         sweep->asks[sweep->ask_count++] = (ResponseAsk){
             .name = arena_format(arena, "%s, %s", sight->eye->name, sight->symbol->name),
             .probe = &sight->probe, .own = &sight->own, .paths = RESPONSE_PATHS,
-            .precision = RESPONSE_PRECISION, .is_left = sight->is_left};
+            .precision = response_precision(sweep), .is_left = sight->is_left};
     }
 }
 

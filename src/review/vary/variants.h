@@ -4,7 +4,8 @@
  * A variant is read by the same random numbers as the review itself, from no fewer paths, and
  * told by the light alone: no causes, gazes, false suns, pictures. What its change does not
  * reach is not traced again: responses and readings are found by what decides them
- * (sweep_responses.h, light/question.h).
+ * (sweep_responses.h, light/question.h); guides and clear skies are the review's
+ * (light/inherited.h). Responses end half as long: how long it fails hangs on them alone.
  *
  * Intervals  of differences of margins: jackknife over the batches of both readings, which are
  *            independent of each other and share their luck pair by pair; Student's t for 95 %.
