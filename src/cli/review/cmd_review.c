@@ -340,6 +340,7 @@ static bool make(const ReviewWords *words, ReviewFolder *folder, ReviewRun *run,
     if (!review_variants_check(run, err) ||
         !review_folder_open(folder, arena, run->problems, err))
         return false;
+    folder->work = run->work;
     run->folder = folder->name;
     run->unfinished = folder->draft.unfinished;
     run->responses = folder->responses;

@@ -298,7 +298,8 @@ static bool fill_page(const ReviewFolder *folder, const ReviewOutcome *outcome,
                       ReviewPage *page, Arena *arena, Error *err)
 {
     ReviewLive *live = ARENA_NEW(arena, ReviewLive, 1);
-    LiveAsk     ask = {folder->request, outcome, folder->name, folder->threads};
+    LiveAsk     ask = {folder->request, outcome, folder->name, folder->threads,
+                       folder->work};
     if (!live_make(&ask, arena, live, err) ||
         (!folder->is_self_contained && !put_layers_beside(folder, live, arena, err)))
         return false;

@@ -34,6 +34,7 @@ typedef struct ReviewFolder {
     ReviewDraft          draft;
     const char          *name; /* where its files are written: the draft's folder */
     const char          *responses_shown;   /* as review.json names the folder */
+    Progress            *work; /* of the review, of which its files are a part */
     bool                 has_own_responses; /* DIR/responses */
 } ReviewFolder;
 

@@ -11,6 +11,7 @@
 #define FRAME 42.0          /* of a frame, however small, */
 #define FRAME_PIXEL 6e-5    /* and its pixels, at the usual noise */
 #define FRAME_PAIR 0.3      /* of it, of a variant's */
+#define FRAME_LAYERS 0.17   /* of it, of what a reader may move on the page */
 #define FRAME_NOISE 0.15    /* reached by about as many samples as any frame has */
 #define MINUTES_A_YEAR (365 * 24 * 60.0)
 
@@ -67,6 +68,11 @@ double work_of_frame(const ReviewRequest *request)
     return FRAME + FRAME_PIXEL * frames->width * frames->height * finer * finer;
 }
 
+double work_of_layers(const ReviewRequest *request)
+{
+    return FRAME_LAYERS * work_of_frame(request);
+}
+
 double work_of_pair(const ReviewRequest *request)
 {
     return FRAME_PAIR * work_of_frame(request);
@@ -95,7 +101,7 @@ double work_of_review(const ReviewRequest *request, bool mend)
 {
     int runs = varied(request) + (mend ? WORK_TRIALS : 0);
     return work_of_conditions(request, false) + runs * work_of_conditions(request, true) +
-           request->frames.worst * work_of_frame(request) +
+           request->frames.worst * (work_of_frame(request) + work_of_layers(request)) +
            (request->frames.worst ? request->variant_count * work_of_pair(request) : 0);
 }
 

@@ -32,8 +32,9 @@ double work_of_case(const ReviewRequest *request, const ReviewEye *eye, bool is_
 double work_of_condition(const ReviewRequest *request, const ReviewCondition *condition,
                          bool is_bare);
 
-/* Of one picture, and what the page makes of it. */
+/* Of one picture; and of what the page makes of it. */
 double work_of_frame(const ReviewRequest *request);
+double work_of_layers(const ReviewRequest *request);
 
 /* Of one that stands beside it, with a variant's change. */
 double work_of_pair(const ReviewRequest *request);

@@ -7,6 +7,7 @@
 #include "base/file.h"
 #include "image/exposure.h"
 #include "image/false_colour.h"
+#include "review/pace/work.h"
 #include "review/run/live_frame.h"
 #include "text/base64.h"
 
@@ -116,6 +117,7 @@ static bool make_pictures(const LiveAsk *ask, Arena *arena, ReviewLive *out, Err
         if (!c->frame || !is_new(pictures, made, c->frame)) continue;
         if (!make_picture(ask, c->frame, &pictures[made], arena, err)) return false;
         size += packed_size(&pictures[made++]);
+        work_add(ask->work, work_of_layers(ask->request));
     }
     out->pictures = pictures;
     out->picture_count = made;

@@ -23,6 +23,7 @@ typedef struct LiveAsk {
     const ReviewOutcome *outcome;
     const char          *folder; /* of the frames */
     int                  threads;
+    Progress            *work;   /* pace/work.h */
 } LiveAsk;
 
 bool live_make(const LiveAsk *ask, Arena *arena, ReviewLive *out, Error *err);
