@@ -119,14 +119,6 @@ static inline MetallicFace boundary_of(const MetallicRoughness *m)
     return b;
 }
 
-/* Exact curve's rise from 0 at normal incidence to 1 at grazing. */
-static float fresnel_shape(float ior, float cosine)
-{
-    if (!(ior > 1)) return 0;
-    float f0 = fresnel_normal(ior);
-    return (fresnel_unpolarised(cosine, ior) - f0) / (1 - f0);
-}
-
 static inline bool has_film(const MetallicRoughness *m)
 {
     return m->film.share > 0;

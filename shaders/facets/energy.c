@@ -9,14 +9,6 @@
 #define TURNS 24
 #define HEIGHTS (ENERGY_LOBE_POINTS / TURNS)
 
-/* Exact reflectance's rise from normal incidence (0) to grazing (1). */
-static float fresnel_shape(float ior, float cosine)
-{
-    if (!(ior > 1)) return 0;
-    float f0 = fresnel_normal(ior);
-    return (fresnel_unpolarised(cosine, ior) - f0) / (1 - f0);
-}
-
 static Vec3 direction_at(float cosine)
 {
     return vec3(safe_sqrtf(1 - cosine * cosine), 0, cosine);

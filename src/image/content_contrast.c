@@ -2,8 +2,9 @@
 #include "image/content_contrast.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
+
+#include "base/sort.h"
 
 #define SIGMAS_95 1.959964    /* of the normal distribution */
 #define LEAST_PIXELS 16       /* of a region, and of the inside of a half */
@@ -19,19 +20,13 @@ typedef struct Half {
 
 /* ---- the split --------------------------------------------------------------------------- */
 
-static int by_value(const void *a, const void *b)
-{
-    float x = *(const float *)a, y = *(const float *)b;
-    return (x > y) - (x < y);
-}
-
 /* The luminances that there are, in order. */
 static long sorted_values(const ContentPixels *pixels, float *values)
 {
     long count = 0, all = (long)pixels->width * pixels->height;
     for (long i = 0; i < all; i++)
         if (isfinite(pixels->luminance[i])) values[count++] = pixels->luminance[i];
-    qsort(values, (size_t)count, sizeof *values, by_value);
+    sort_floats(values, count);
     return count;
 }
 

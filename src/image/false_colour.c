@@ -3,10 +3,10 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/mathf.h"
+#include "base/sort.h"
 #include "image/srgb.h"
 #include "image/stroke_font.h"
 
@@ -71,12 +71,6 @@ void false_colour_of(float t, float srgb[3])
 
 /* ---- the range ----------------------------------------------------------------------- */
 
-static int compare_floats(const void *a, const void *b)
-{
-    float x = *(const float *)a, y = *(const float *)b;
-    return (x > y) - (x < y);
-}
-
 /* 1, 2 or 5 times a power of ten, the next one at or above (below) value > 0. */
 static float round_number(float value, bool up)
 {
@@ -117,7 +111,7 @@ ScaleRange scale_range_of(const float *values, size_t count, bool is_log, Arena 
     size_t kept = 0;
     for (size_t i = 0; i < count; i++)
         if (isfinite(values[i]) && (!is_log || values[i] > 1e-30f)) sorted[kept++] = values[i];
-    qsort(sorted, kept, sizeof *sorted, compare_floats);
+    sort_floats(sorted, (long)kept);
     return is_log ? log_range(sorted, kept) : linear_range(sorted, kept);
 }
 

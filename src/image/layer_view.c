@@ -5,10 +5,10 @@
 #include <math.h>
 #include <stdint.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/mathf.h"
+#include "base/sort.h"
 #include "image/colour.h"
 #include "image/false_colour.h"
 #include "image/legibility.h"
@@ -285,12 +285,6 @@ static void id_colour(float id, float rgb[3])
     }
 }
 
-static int compare_floats(const void *a, const void *b)
-{
-    float x = *(const float *)a, y = *(const float *)b;
-    return (x > y) - (x < y);
-}
-
 /* From the 5th to the 80th percentile of a plane: mountains far away must not make a cabin
  * one colour. */
 static ScaleRange extent_of(const float *plane, size_t count, Arena scratch)
@@ -300,7 +294,7 @@ static ScaleRange extent_of(const float *plane, size_t count, Arena scratch)
     for (size_t i = 0; i < count; i++)
         if (isfinite(plane[i])) sorted[kept++] = plane[i];
     if (kept == 0) return (ScaleRange){0, 1, false};
-    qsort(sorted, kept, sizeof *sorted, compare_floats);
+    sort_floats(sorted, (long)kept);
     ScaleRange range = {sorted[(kept - 1) / 20], sorted[(kept - 1) * 4 / 5], false};
     return range.high > range.low ? range : (ScaleRange){range.low, range.low + 1, false};
 }

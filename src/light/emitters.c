@@ -2,9 +2,9 @@
 /* HOT: choosing a point of an emitter. No allocation, no lock, no libm. */
 #include "light/emitters.h"
 
+#include "light/branch_choice.h"
 #include "light/solid_angle.h"
 
-#define BELOW_ONE 0x1.fffffep-1f
 #define BLIND_SHARE 0.1f /* of the choices that go by power alone among what can be seen */
 #define NEAR_SPREAD 4.0f /* of the mean square extent */
 #define LOOSE 0.25f      /* intensity over power of what faces all ways: a sphere's */
@@ -189,17 +189,6 @@ static Spectrum weigh(const Emitters *emitters, const Scene *scene, const Emitte
     if (!(sum > 0 && sum < 1e30f)) return power * spectrum_all(1 / all);
     return weight * spectrum_all((1 - BLIND_SHARE) / sum) +
            power * spectrum_all(BLIND_SHARE / all);
-}
-
-/* Takes the choice of a branch off *u. */
-static int choose_branch(Spectrum prob, int count, float *u)
-{
-    float below = 0;
-    int   i = 0;
-    while (i + 1 < count && *u >= below + prob[i]) below += prob[i++];
-    while (i > 0 && !(prob[i] > 0)) below -= prob[--i]; /* by rounding, beyond the last seen */
-    *u = prob[i] > 0 ? clampf((*u - below) / prob[i], 0, BELOW_ONE) : 0;
-    return i;
 }
 
 /* Are a branch's cells chosen at once, or by its own branches? */

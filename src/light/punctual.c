@@ -3,10 +3,10 @@
 #include "light/punctual.h"
 
 #include "base/sampler.h"
+#include "light/branch_choice.h"
 #include "light/opening.h"
 #include "spectrum/photometry.h"
 
-#define BELOW_ONE 0x1.fffffep-1f
 #define BLIND_SHARE 0.1f /* of the choices that go by intensity alone among what can be seen */
 #define NEAR_SPREAD 4.0f /* of the mean square extent, that softens the horizon */
 #define LEAST_COSINE 0.1f /* polished surfaces may show lamps on their horizon brightest */
@@ -185,17 +185,6 @@ static bool weigh(const PunctualNode *node, const LitPoint *point, Spectrum *pro
         *prob = weight * spectrum_all((1 - BLIND_SHARE) / sum) +
                 *prob * spectrum_all(BLIND_SHARE);
     return true;
-}
-
-/* Takes the choice of a branch off *u. */
-static int choose_branch(Spectrum prob, int count, float *u)
-{
-    float below = 0;
-    int   i = 0;
-    while (i + 1 < count && *u >= below + prob[i]) below += prob[i++];
-    while (i > 0 && !(prob[i] > 0)) below -= prob[--i]; /* by rounding, beyond the last seen */
-    *u = prob[i] > 0 ? clampf((*u - below) / prob[i], 0, BELOW_ONE) : 0;
-    return i;
 }
 
 /* ---- which lamp -------------------------------------------------------------------------- */

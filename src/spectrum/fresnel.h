@@ -56,6 +56,15 @@ static inline float fresnel_normal(float eta)
     return r * r;
 }
 
+/* The exact curve's rise from 0 at normal incidence to 1 at grazing; 0 where there is no
+ * boundary. */
+static inline float fresnel_shape(float eta, float cosine)
+{
+    if (!(eta > 1)) return 0;
+    float f0 = fresnel_normal(eta);
+    return (fresnel_unpolarised(cosine, eta) - f0) / (1 - f0);
+}
+
 /* A sheet with two equal faces, all reflections between them added up without interference:
  * R = 2r / (1 + r) for each polarisation; what is not reflected is transmitted. */
 static inline float fresnel_slab(Fresnel face)

@@ -78,13 +78,6 @@ void review_folder_finish(ReviewFolder *folder)
 
 /* ---- sweeps ------------------------------------------------------------------------------ */
 
-static const ReviewCondition *condition_of(const ReviewRequest *request, const char *name)
-{
-    for (int i = 0; i < request->condition_count; i++)
-        if (!strcmp(request->conditions[i].name, name)) return &request->conditions[i];
-    return NULL;
-}
-
 static bool write_tables(const ReviewFolder *folder, ReviewOutcome *outcome, Arena *arena,
                          Error *err)
 {
@@ -96,9 +89,9 @@ static bool write_tables(const ReviewFolder *folder, ReviewOutcome *outcome, Are
                          sweep->eye, sweep->symbol), arena);
         sweep->table = arena_format(arena, "sweeps/%s.csv", name);
         const char *path = arena_format(arena, "%s/%s", folder->name, sweep->table);
-        if (!sweep_table_write(table, condition_of(folder->request, sweep->condition), path,
-                               err))
-            return false;
+        const ReviewCondition *condition =
+            review_condition_named(folder->request, sweep->condition);
+        if (!sweep_table_write(table, condition, path, err)) return false;
     }
     return true;
 }
@@ -111,7 +104,8 @@ static void add_charts(const ReviewFolder *folder, const ReviewOutcome *outcome,
     for (int i = 0; i < outcome->table_count; i++) {
         const SweepTable  *table = &outcome->tables[i];
         const ReviewSweep *sweep = &outcome->review.sweeps[table->sweep_id];
-        const ReviewCondition *condition = condition_of(folder->request, sweep->condition);
+        const ReviewCondition *condition =
+            review_condition_named(folder->request, sweep->condition);
         maps[page->map_count++] = sweep_map(table, sweep, MAP_STEP_DEG, arena);
         if (condition->kind == CONDITION_YEAR_SWEEP)
             calendars[page->calendar_count++] = sweep_calendar(table, sweep, condition, arena);

@@ -7,6 +7,7 @@
 #include <string.h>
 #include <strings.h>
 
+#include "base/sort.h"
 #include "base/units.h"
 #include "text/csv_table.h"
 #include "text/json_view.h"
@@ -117,18 +118,12 @@ static void keep_row(const RawTable *raw, const Row *row, AngleTable *table, flo
 #define POLE_ROWS 4      /* so many tell which of them is wrong */
 #define POLE_LIMIT 0.284f /* e^0.25 - 1: further from the median is a hot or dead pixel */
 
-static int by_float(const void *a, const void *b)
-{
-    float p = *(const float *)a, q = *(const float *)b;
-    return p < q ? -1 : p > q;
-}
-
 static float pole_median(const RawTable *raw, int count, size_t channel, Arena scratch)
 {
     float *list = ARENA_NEW(&scratch, float, count);
     for (int i = 0; i < count; i++)
         list[i] = raw->value[(size_t)raw->row[i].source * (size_t)raw->channels + channel];
-    qsort(list, (size_t)count, sizeof *list, by_float);
+    sort_floats(list, count);
     return list[count / 2];
 }
 

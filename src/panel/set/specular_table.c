@@ -3,12 +3,12 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/count.h"
 #include "base/file.h"
 #include "base/mathd.h"
+#include "base/sort.h"
 #include "base/units.h"
 #include "spectrum/fresnel.h"
 #include "text/csv_table.h"
@@ -74,17 +74,11 @@ static bool check_row(const CsvTable *csv, const SpecularColumns *columns, int r
                     "share, not per cent)", value);
 }
 
-static int by_value(const void *a, const void *b)
-{
-    double p = *(const double *)a, q = *(const double *)b;
-    return p < q ? -1 : p > q;
-}
-
 /* Sorted, each once; how many. */
 static int distinct(double *value, int count)
 {
     int kept = 0;
-    qsort(value, (size_t)count, sizeof *value, by_value);
+    sort_doubles(value, count);
     for (int i = 0; i < count; i++)
         if (!kept || value[i] > value[kept - 1]) value[kept++] = value[i];
     return kept;

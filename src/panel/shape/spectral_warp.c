@@ -2,8 +2,9 @@
 #include "panel/shape/spectral_warp.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
+
+#include "base/sort.h"
 
 #define WARP_LIMIT 24.0 /* largest |c1|, |c2| that counts as a solution */
 #define HALVES (2 * SPECTRAL_COUNT - 1) /* whole and half nm */
@@ -261,12 +262,6 @@ int spectral_warp_fill(const float *spectrum, SpectralWarp *warp)
 
 /* ---- where colours lie ------------------------------------------------------------------ */
 
-static int by_value(const void *a, const void *b)
-{
-    float p = *(const float *)a, q = *(const float *)b;
-    return p < q ? -1 : p > q;
-}
-
 /* The centre of the cloud and the direction of its largest spread. */
 static void cloud_axes(float *const ratio[2], int count, SpectralWarpRange *out)
 {
@@ -297,7 +292,7 @@ SpectralWarpRange spectral_warp_range(float *const ratio[2], int count)
         ratio[1][i] = v * out.along[0] - u * out.along[1];
     }
     for (int k = 0; k < 2; k++) {
-        qsort(ratio[k], (size_t)count, sizeof(float), by_value);
+        sort_floats(ratio[k], count);
         float low = ratio[k][count / 200], high = ratio[k][count - 1 - count / 200];
         float margin = 0.002f + 0.05f * (high - low);
         out.low[k] = low - margin;

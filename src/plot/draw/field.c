@@ -2,8 +2,8 @@
 #include "plot/draw/field.h"
 
 #include <math.h>
-#include <stdlib.h>
 
+#include "base/sort.h"
 #include "base/units.h"
 
 #define THETA_LAST (PI / 2 - 1e-3) /* just above the surface */
@@ -71,12 +71,6 @@ FieldRange field_range(const Field *field, double theta_limit)
     return range.high < range.low ? (FieldRange){0} : range;
 }
 
-static int compare_floats(const void *a, const void *b)
-{
-    float x = *(const float *)a, y = *(const float *)b;
-    return (x > y) - (x < y);
-}
-
 double field_quantile(const Field *field, double theta_limit, double share, Arena scratch)
 {
     float *sorted = ARENA_NEW(&scratch, float, (size_t)field->side * (size_t)field->side);
@@ -87,6 +81,6 @@ double field_quantile(const Field *field, double theta_limit, double share, Aren
             float  v = field->value[row * field->side + column];
             if (theta <= theta_limit && isfinite(v)) sorted[count++] = v;
         }
-    qsort(sorted, (size_t)count, sizeof *sorted, compare_floats);
+    sort_floats(sorted, count);
     return count > 0 ? (double)sorted[(int)(share * (count - 1))] : 0;
 }

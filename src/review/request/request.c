@@ -68,6 +68,20 @@ uint32_t review_seed(const ReviewRequest *request, uint32_t base)
     return request->seed ? hash_combine(hash_u32(base), request->seed) : base;
 }
 
+const ReviewCondition *review_condition_named(const ReviewRequest *request, const char *name)
+{
+    for (int i = 0; i < request->condition_count; i++)
+        if (!strcmp(request->conditions[i].name, name)) return &request->conditions[i];
+    return NULL;
+}
+
+const ReviewEye *review_eye_named(const ReviewRequest *request, const char *name)
+{
+    for (int i = 0; i < request->eye_count; i++)
+        if (!strcmp(request->eyes[i].name, name)) return &request->eyes[i];
+    return NULL;
+}
+
 int review_look_count(const ReviewRequest *request)
 {
     int count = 0;

@@ -285,5 +285,9 @@ bool review_is_compared(const ReviewRequest *request);
 /* What multiplies the level of a display; 1 where no change says it. */
 double review_brightness(const ReviewRequest *request, ReviewDisplayName display);
 
+/* NULL: there is none. */
+const ReviewCondition *review_condition_named(const ReviewRequest *request, const char *name);
+const ReviewEye       *review_eye_named(const ReviewRequest *request, const char *name);
+
 /* How many pairs there are of a gaze that does not go to symbols and an eye that looks so. */
 int review_look_count(const ReviewRequest *request);

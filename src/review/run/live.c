@@ -139,13 +139,6 @@ static const char *false_colours(Arena *arena)
 
 /* ---- sweeps ------------------------------------------------------------------------------ */
 
-static const ReviewCondition *condition_of(const ReviewRequest *request, const char *name)
-{
-    for (int i = 0; i < request->condition_count; i++)
-        if (!strcmp(request->conditions[i].name, name)) return &request->conditions[i];
-    return NULL;
-}
-
 static const LiveSky *make_sky(const SweepSuns *suns, const ReviewCondition *condition,
                                Arena *arena)
 {
@@ -177,7 +170,7 @@ static void make_sweeps(const LiveAsk *ask, Arena *arena, ReviewLive *out)
         const SweepTable *t = &outcome->tables[i];
         const char *condition = outcome->review.sweeps[t->sweep_id].condition;
         if (t->suns != last)
-            sky = make_sky(t->suns, condition_of(ask->request, condition), arena);
+            sky = make_sky(t->suns, review_condition_named(ask->request, condition), arena);
         last = t->suns;
         sweeps[i] = (LiveSweep){t->sweep_id, sky, t->worst, t->reflected, t->mirror, t->level,
                                 t->lux, t->verdict, t->ambient, t->foreground,

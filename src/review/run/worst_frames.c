@@ -24,20 +24,6 @@ typedef struct Candidate {
     const SweepTable *table; /* NULL: a moment */
 } Candidate;
 
-static const ReviewCondition *condition_named(const ReviewRequest *request, const char *name)
-{
-    for (int i = 0; i < request->condition_count; i++)
-        if (!strcmp(request->conditions[i].name, name)) return &request->conditions[i];
-    return NULL;
-}
-
-static const ReviewEye *eye_named(const ReviewRequest *request, const char *name)
-{
-    for (int i = 0; i < request->eye_count; i++)
-        if (!strcmp(request->eyes[i].name, name)) return &request->eyes[i];
-    return NULL;
-}
-
 /* `of`: null where nothing is seen. */
 static Candidate candidate_of(ReviewOutcome *outcome, const ReviewCase *c)
 {
@@ -194,7 +180,7 @@ static bool make_frame(const FrameWork *work, ReviewCase *of, Arena *arena, cons
                        Error *err)
 {
     const ReviewRun       *run = work->run;
-    const ReviewCondition *c = condition_named(run->request, work->of->of->condition);
+    const ReviewCondition *c = review_condition_named(run->request, work->of->of->condition);
     StageOptions options = {run->request, c,        run->root,    run->state,
                             run->threads, run->isa, run->journal, run->lessons, NULL};
     Problems     told_before = problems_start(arena);
@@ -202,8 +188,9 @@ static bool make_frame(const FrameWork *work, ReviewCase *of, Arena *arena, cons
     Stage stage;
     bool  ok = stage_open(&options, &scratch, &told_before, &stage, err);
     if (ok) {
-        FrameAsk ask = {&stage, eye_named(run->request, work->of->of->eye), vec3(0, 0, 0),
-                        run->folder, run->unfinished, work->name, work->exposure, run->work};
+        FrameAsk ask = {&stage, review_eye_named(run->request, work->of->of->eye),
+                        vec3(0, 0, 0), run->folder, run->unfinished, work->name,
+                        work->exposure, run->work};
         ok = make_lit(work, &stage, &ask, &scratch, made, err);
         if (ok) *made = arena_string(arena, *made, strlen(*made));
         ok = ok && (!of || add_sights(&ask, of, arena, err));

@@ -3,9 +3,9 @@
 
 #include <math.h>
 #include <stdbool.h>
-#include <stdlib.h>
 #include <string.h>
 
+#include "base/sort.h"
 #include "base/vec.h"
 #include "review/symbol/connected.h"
 
@@ -18,16 +18,10 @@ static float share_at(const SymbolDrawing *d, int x, int y)
     return d->share[(size_t)y * (size_t)d->width + (size_t)x];
 }
 
-static int by_value(const void *a, const void *b)
-{
-    float x = *(const float *)a, y = *(const float *)b;
-    return (x > y) - (x < y);
-}
-
 /* Of at least one. */
 static double median(float *values, long count)
 {
-    qsort(values, (size_t)count, sizeof *values, by_value);
+    sort_floats(values, count);
     return 0.5 * ((double)values[(count - 1) / 2] + (double)values[count / 2]);
 }
 

@@ -5,8 +5,8 @@
 #include <string.h>
 
 #include "base/mathd.h"
+#include "base/sort.h"
 #include "base/units.h"
-#include "panel/fit/common/sort.h"
 
 #define SAME_ANGLE 2e-6f /* radians: two rings or azimuths nearer than this are one */
 #define NEAREST_COUNT 10 /* rows that fill a cell without a row */

@@ -7,8 +7,8 @@
 #include <math.h>
 
 #include "base/mathd.h"
+#include "base/sort.h"
 #include "base/units.h"
-#include "panel/fit/common/sort.h"
 #include "panel/fit/common/table_rows.h"
 
 #define ENOUGH 16          /* differences */

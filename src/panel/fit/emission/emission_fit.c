@@ -4,7 +4,7 @@
 #include <math.h>
 
 #include "base/mathd.h"
-#include "panel/fit/common/sort.h"
+#include "base/sort.h"
 #include "panel/fit/common/table_noise.h"
 #include "panel/fit/emission/emission_beam.h"
 #include "panel/fit/emission/emission_section.h"

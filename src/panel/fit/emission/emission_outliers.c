@@ -4,8 +4,8 @@
 #include <math.h>
 
 #include "base/mathd.h"
+#include "base/sort.h"
 #include "base/units.h"
-#include "panel/fit/common/sort.h"
 #include "panel/fit/common/table_noise.h"
 #include "panel/fit/common/table_rows.h"
 #include "panel/fit/emission/emission_samples.h"

@@ -12,9 +12,9 @@
 
 #include "base/mathd.h"
 #include "base/mathf.h"
+#include "base/sort.h"
 #include "panel/fit/common/least_squares.h"
 #include "panel/fit/common/principal.h"
-#include "panel/fit/common/sort.h"
 #include "panel/query/panel_components.h"
 
 #define COMPONENTS_MAX 24

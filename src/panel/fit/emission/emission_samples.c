@@ -6,9 +6,9 @@
 
 #include "base/mathd.h"
 #include "base/mathf.h"
+#include "base/sort.h"
 #include "base/units.h"
 #include "panel/fit/common/direction_grid.h"
-#include "panel/fit/common/sort.h"
 #include "panel/fit/common/table_noise.h"
 #include "panel/fit/common/table_rows.h"
 

@@ -4,8 +4,8 @@
 #include <math.h>
 
 #include "base/mathd.h"
+#include "base/sort.h"
 #include "base/units.h"
-#include "panel/fit/common/sort.h"
 #include "panel/fit/reflection/reflection_read.h"
 
 #define NEAR_DEG 15.0      /* rows nearer to the mirror direction than this */

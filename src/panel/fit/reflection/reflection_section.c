@@ -6,11 +6,11 @@
 
 #include "base/mathd.h"
 #include "base/parallel.h"
+#include "base/sort.h"
 #include "base/units.h"
 #include "hemisphere/specular_frame.h"
 #include "hemisphere/tree/tree_open.h"
 #include "hemisphere/tree/tree_query.h"
-#include "panel/fit/common/sort.h"
 #include "panel/fit/common/table_rows.h"
 #include "panel/fit/reflection/reflection_spectra.h"
 #include "panel/fit/reflection/reflection_view.h"

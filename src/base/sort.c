@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "panel/fit/common/sort.h"
+#include "base/sort.h"
 
 #include <stdlib.h>
 
@@ -15,12 +15,12 @@ static int by_double(const void *a, const void *b)
     return p < q ? -1 : p > q;
 }
 
-void sort_floats(float *value, int count)
+void sort_floats(float *value, long count)
 {
     qsort(value, (size_t)count, sizeof *value, by_float);
 }
 
-void sort_doubles(double *value, int count)
+void sort_doubles(double *value, long count)
 {
     qsort(value, (size_t)count, sizeof *value, by_double);
 }

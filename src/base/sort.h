@@ -2,8 +2,8 @@
 /* sort.h -- numbers in rising order. None of them is NaN. */
 #pragma once
 
-void sort_floats(float *value, int count);
-void sort_doubles(double *value, int count);
+void sort_floats(float *value, long count);
+void sort_doubles(double *value, long count);
 
 /* Sorts; then the value that half of the others are below. count: at least 1. */
 double sort_median(double *value, int count);
