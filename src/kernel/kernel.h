@@ -13,6 +13,7 @@
 #include "kernel/probe.h"
 #include "light/light_groups.h"
 #include "path/cell_lights.h"
+#include "path/collect/lesson.h"
 #include "path/path.h"
 
 /* Work on a rectangle of pixels: the seam between the render loop and the kernel. */

@@ -4,6 +4,8 @@
 #include "base/mathd.h"
 #include "base/mathf.h"
 #include "base/units.h"
+#include "path/collect/pixel_ray.h"
+#include "path/collect/seen.h"
 #include "path/path_features.h"
 
 /* place: two numbers in [0, 1), where a pixel's path has its place in the pixel. What chooses
@@ -23,22 +25,34 @@ static Vec3 target_of(const ProbeAim *aim, int path, Vec2 place)
                                                    vec3_scale(patch->down, place.y - 0.5f)));
 }
 
-/* The sampler of a path behind its wavelengths, and where it goes. */
-static Sampler path_start(const ProbeAim *aim, int path, Wavelengths *wavelengths, Ray *ray)
+/* A path of a probe: its sampler behind the wavelengths, and where it goes. */
+typedef struct ProbePath {
+    PathStart   start;
+    Wavelengths wavelengths;
+    Sampler     sampler;
+    Ray         ray; /* of an eye */
+} ProbePath;
+
+static Ray ray_of(const ProbeAim *aim, int path, Vec2 place)
 {
     const ProbePixel *pixel = aim->pixel;
-    int     x = pixel ? pixel->x : 0, y = pixel ? pixel->y : 0;
-    Sampler sampler = sampler_start(aim->seed, x, y, (uint32_t)path);
-    Vec2    place = sampler_2d(&sampler);
-    wavelengths_sample(sampler_1d(&sampler), wavelengths);
-    if (aim->meter) return sampler;
-    if (pixel) {
-        *ray = camera_ray(pixel->camera, (float)x + place.x, (float)y + place.y);
-        return sampler;
-    }
+    if (pixel)
+        return camera_ray(pixel->camera, (float)pixel->x + place.x, (float)pixel->y + place.y);
     Vec3 to = vec3_sub(target_of(aim, path, place), aim->eye);
-    *ray = (Ray){aim->eye, vec3_normalize(to), 0, INFINITY};
-    return sampler;
+    return (Ray){aim->eye, vec3_normalize(to), 0, INFINITY};
+}
+
+static void start_path(const ProbeAim *aim, int path, PathStatistics *statistics,
+                       ProbePath *out)
+{
+    const ProbePixel *pixel = aim->pixel;
+    int  x = pixel ? pixel->x : 0, y = pixel ? pixel->y : 0;
+    out->sampler = sampler_start(aim->seed, x, y, (uint32_t)path);
+    Vec2 place = sampler_2d(&out->sampler);
+    wavelengths_sample(sampler_1d(&out->sampler), &out->wavelengths);
+    out->start = (PathStart){.context = aim->context, .wavelengths = &out->wavelengths,
+                             .sampler = &out->sampler, .statistics = statistics};
+    if (!aim->meter) out->ray = ray_of(aim, path, place);
 }
 
 /* ---- by the light that is there ---------------------------------------------------------- */
@@ -78,47 +92,38 @@ static void hear_display(void *user, const PathTale *tale, const float xyz[3])
 
 static void look(const ProbeAim *aim, int path, ProbeLook *out, PathStatistics *statistics)
 {
-    Wavelengths  wavelengths;
-    Ray          ray;
-    Sampler      sampler = path_start(aim, path, &wavelengths, &ray);
-    PathResult   result;
+    ProbePath    own;
+    SeenLight    seen;
     float        emitted[3];
     OwnSums      sums = {aim->context->scene, false, out->display};
     PathListener listener = {.hear = hear_display, .user = &sums, .of_emitters = true};
-    PathApart    apart = {&result, false, &listener};
+    SeenAsk      ask = {.listener = aim->tells_displays ? &listener : NULL};
     *out = (ProbeLook){.is_found = false};
-    if (aim->tells_displays)
-        path_trace_apart(aim->context, ray, &wavelengths, &sampler, &apart, statistics);
-    else
-        path_trace(aim->context, ray, &wavelengths, &sampler, &result, statistics);
-    if (!result.hit ||
-        !path_display_emission(aim->context, &result, &wavelengths, emitted)) {
+    start_path(aim, path, statistics, &own);
+    path_seen(&own.start, own.ray, &ask, &seen);
+    if (!seen.path.hit ||
+        !path_display_emission(aim->context, &seen.path, &own.wavelengths, emitted)) {
         *out = (ProbeLook){.is_found = false};
         return;
     }
     out->is_found = true;
     for (int i = 0; i < 3; i++) {
-        out->reflected[i] = result.xyz[i] - emitted[i];
-        out->mirror[i] = result.mirror[i];
+        out->reflected[i] = seen.path.xyz[i] - emitted[i];
+        out->mirror[i] = seen.path.mirror[i];
     }
 }
 
 static void read_meter(const ProbeAim *aim, int path, ProbeLook *out,
                        PathStatistics *statistics)
 {
-    Wavelengths wavelengths;
-    Ray         ray;
-    Sampler     sampler = path_start(aim, path, &wavelengths, &ray);
+    ProbePath    own;
     OwnSums      sums = {aim->context->scene, true, out->display};
-    PathListener listener = {.hear = hear_display, .user = &sums, .of_emitters = true,
-                             .all = out->reflected};
+    PathListener listener = {.hear = hear_display, .user = &sums, .of_emitters = true};
+    ToldWays     told = told_ways(&listener, NULL);
     *out = (ProbeLook){.is_found = true};
-    if (aim->tells_displays)
-        path_illuminance_told(aim->context, *aim->meter, &wavelengths, &sampler, &listener,
-                              statistics);
-    else
-        path_illuminance(aim->context, *aim->meter, &wavelengths, &sampler, out->reflected,
-                         statistics);
+    start_path(aim, path, statistics, &own);
+    if (aim->tells_displays) own.start.collector = &told.base;
+    path_from_point(&own.start, *aim->meter, out->reflected);
 }
 
 /* A pixel's paths are those of its frame. */
@@ -140,36 +145,49 @@ void probe_look(const ProbeAim *asked, int first, int end, ProbeLook *out,
         (aim.meter ? read_meter : look)(&aim, path, &out[path - first], statistics);
 }
 
+/* For collectors alone. */
+static void go(const ProbeAim *aim, const ProbePath *path)
+{
+    float ignored[3];
+    if (aim->meter) path_from_point(&path->start, *aim->meter, ignored);
+    else path_from_ray(&path->start, path->ray, NULL);
+}
+
 void probe_hear(const ProbeAim *asked, int first, int end, const PathListener *listener,
                 PathStatistics *statistics)
 {
     PathContext context;
     ProbeAim    own = aim_of_first(asked, &context), *aim = &own;
     for (int path = first; path < end; path++) {
-        Wavelengths wavelengths;
-        Ray         ray;
-        Sampler     sampler = path_start(aim, path, &wavelengths, &ray);
-        if (aim->meter)
-            path_illuminance_told(aim->context, *aim->meter, &wavelengths, &sampler, listener,
-                                  statistics);
-        else
-            path_trace_told(aim->context, ray, &wavelengths, &sampler,
-                            listener, statistics);
+        ProbePath one;
+        ToldWays  told = told_ways(listener, NULL);
+        PixelRay  pixel = pixel_ray(&told.base);
+        start_path(aim, path, statistics, &one);
+        one.start.collector = &told.base;
+        if (!aim->meter && pixel_ray_is_wanted(aim->context))
+            one.start.collector = &pixel.base;
+        go(aim, &one);
     }
 }
 
 /* ---- by light from anywhere -------------------------------------------------------------- */
 
-static void ask(const ProbeAim *aim, int path, const PathFar *far, PathStatistics *statistics)
+/* collector: who asks, instead of light. */
+static void ask(const ProbeAim *aim, int path, PathCollector *collector,
+                PathStatistics *statistics)
 {
-    Wavelengths wavelengths;
-    Ray         ray;
-    Sampler     sampler = path_start(aim, path, &wavelengths, &ray);
-    if (aim->meter)
-        path_ask_far_at(aim->context, *aim->meter, &wavelengths, &sampler, far, statistics);
-    else
-        path_ask_far(aim->context, ray, &wavelengths, &sampler, far,
-                     statistics);
+    ProbePath one;
+    start_path(aim, path, statistics, &one);
+    one.start.collector = collector;
+    one.start.manner.is_dark = true;
+    go(aim, &one);
+}
+
+static void ask_far(const ProbeAim *aim, int path, const PathFar *far,
+                    PathStatistics *statistics)
+{
+    FarQuestions questions = far_questions(far);
+    ask(aim, path, &questions.base, statistics);
 }
 
 static void add_lanes(float *sums, float weight, const float *share)
@@ -262,7 +280,7 @@ void probe_ask_cells(const ProbeAim *asked, const ProbeCells *cells, int first, 
                     .add_escaped = add_escaped_cell, .user = &to, .has_ways = true};
     for (int path = first; path < end; path++) {
         draw_cells(aim, cells, path, out->towards);
-        ask(aim, path, &far, statistics);
+        ask_far(aim, path, &far, statistics);
     }
 }
 
@@ -343,7 +361,7 @@ void probe_ask_suns(const ProbeAim *aim, const ProbeSuns *suns, int first, int e
     direct.context = &once;
     for (int path = first; path < end; path++) {
         if (!suns->by_mirror) draw_suns(aim, &to, path, out->towards);
-        ask(&direct, path, &far, statistics);
+        ask_far(&direct, path, &far, statistics);
     }
 }
 
@@ -373,10 +391,13 @@ void probe_ask_images(const ProbeAim *aim, int first, int end, const ProbeImages
                       PathStatistics *statistics)
 {
     ProbeImages listener = *images;
-    PathFar     far = {.add_image = add_image, .user = &listener};
+    PathImages  wanted = {add_image, &listener};
     PathContext once = *aim->context;
     ProbeAim    direct = *aim;
     once.max_bounces = IMAGE_BOUNCES;
     direct.context = &once;
-    for (int path = first; path < end; path++) ask(&direct, path, &far, statistics);
+    for (int path = first; path < end; path++) {
+        ImageWays ways = image_ways(&wanted);
+        ask(&direct, path, &ways.base, statistics);
+    }
 }

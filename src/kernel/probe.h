@@ -11,6 +11,8 @@
 #pragma once
 #include "camera/camera.h"
 #include "hemisphere/geodesic.h"
+#include "path/collect/far.h"
+#include "path/collect/told.h"
 #include "path/path.h"
 
 /* Edges of a parallelogram, m. */

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "kernel/kernel.h"
 
+#include "path/collect/seen.h"
 #include "path/path_features.h"
 
 static void copy3(float to[3], const float from[3])
@@ -55,13 +56,17 @@ static void add_fine_ray(const TileJob *job, Ray ray, const Wavelengths *wavelen
                          Sampler *sampler, FilmSample *out, PathStatistics *statistics)
 {
     PathContext    eye = *job->context;
-    PathResult     result;
+    SeenLight      seen;
     PathStatistics counted = {0};
+    PathStart      start = {.context = &eye, .wavelengths = wavelengths, .sampler = sampler,
+                            .statistics = &counted};
+    const SeenAsk  ask = {.listener = NULL};
     float          emitted[3];
     eye.max_bounces = 0;
-    path_trace(&eye, ray, wavelengths, sampler, &result, &counted);
+    path_seen(&start, ray, &ask, &seen);
     statistics->camera_rays += counted.camera_rays;
-    if (!result.hit || !path_display_emission(&eye, &result, wavelengths, emitted)) return;
+    if (!seen.path.hit || !path_display_emission(&eye, &seen.path, wavelengths, emitted))
+        return;
     for (int i = 0; i < 3; i++) out->fine[i] += emitted[i];
 }
 
@@ -128,15 +133,14 @@ typedef struct TileWork {
 } TileWork;
 
 static void trace(TileWork *work, Ray ray, const Wavelengths *wavelengths, Sampler *sampler,
-                  PathResult *out)
+                  SeenLight *out)
 {
     const TileJob     *job = work->job;
     const PathListener listener = {.hear = lights_hear, .user = &work->lights};
-    const PathApart    apart = {out, job->with_lambertian, job->lights ? &listener : NULL};
-    if (apart.with_lambertian || apart.listener)
-        path_trace_apart(job->context, ray, wavelengths, sampler, &apart, work->statistics);
-    else
-        path_trace(job->context, ray, wavelengths, sampler, out, work->statistics);
+    const SeenAsk      ask = {job->with_lambertian, job->lights ? &listener : NULL};
+    const PathStart    start = {.context = job->context, .wavelengths = wavelengths,
+                                .sampler = sampler, .statistics = work->statistics};
+    path_seen(&start, ray, &ask, out);
 }
 
 static void tile_sample(TileWork *work, int x, int y, uint32_t index, FilmSample *out)
@@ -145,16 +149,17 @@ static void tile_sample(TileWork *work, int x, int y, uint32_t index, FilmSample
     Sampler sampler = sampler_start(job->seed, x, y, index);
     Vec2    at = sampler_2d(&sampler); /* the filter is a box of one pixel */
     Wavelengths wavelengths;
-    PathResult  result;
+    SeenLight   seen;
     wavelengths_sample(sampler_1d(&sampler), &wavelengths);
     Ray ray = camera_ray(job->camera, (float)x + at.x, (float)y + at.y);
-    trace(work, ray, &wavelengths, &sampler, &result);
+    trace(work, ray, &wavelengths, &sampler, &seen);
     *out = (FilmSample){.sample_index = index, .part_id = -1, .display_id = -1};
-    copy3(out->xyz, result.xyz);
-    copy3(out->stokes, result.stokes);
-    copy3(out->mirror, result.mirror);
-    copy3(out->lambertian, result.lambertian);
-    if (job->with_features && result.hit) add_features(job, &result, &wavelengths, out);
+    copy3(out->xyz, seen.path.xyz);
+    copy3(out->stokes, seen.stokes);
+    copy3(out->mirror, seen.path.mirror);
+    copy3(out->lambertian, seen.lambertian);
+    if (job->with_features && seen.path.hit)
+        add_features(job, &seen.path, &wavelengths, out);
     if (job->with_fine && out->display_id >= 0)
         add_fine(job, x, y, &wavelengths, out, work->statistics);
 }
@@ -187,9 +192,12 @@ static void lesson_find_places(const LessonJob *job, FilmRect rect, PathStatisti
             wavelengths_sample(sampler_1d(&sampler), &wavelengths);
             Ray ray = camera_ray(job->camera, ((float)x + at.x) * job->stretch.x,
                                  ((float)y + at.y) * job->stretch.y);
-            path_find_places(job->context, ray, &wavelengths, &sampler,
-                             &job->places[(size_t)y * (size_t)job->columns + (size_t)x],
-                             statistics);
+            LessonPlaces places = lesson_places(
+                &job->places[(size_t)y * (size_t)job->columns + (size_t)x]);
+            PathStart start = {.context = job->context, .wavelengths = &wavelengths,
+                               .sampler = &sampler, .statistics = statistics,
+                               .collector = &places.base};
+            path_from_ray(&start, ray, NULL);
         }
 }
 
@@ -202,14 +210,19 @@ static void lesson_learn(const LessonJob *job, uint32_t cell, PathStatistics *st
             Sampler sampler = sampler_start(job->seed, (int)cell, bin,
                                             job->index + (uint32_t)i);
             Vec2    at = sampler_2d(&sampler);
-            PathArrival arrival = {
-                {lesson->points[i].position, lesson->points[i].normal, false},
-                guide_bin_direction(bin, at.x, at.y)};
+            LitPoint point = {lesson->points[i].position, lesson->points[i].normal, false};
+            Vec3     towards = guide_bin_direction(bin, at.x, at.y);
             Wavelengths wavelengths;
-            if (!(vec3_dot(arrival.towards, arrival.point.ns) > 0)) continue;
+            if (!(vec3_dot(towards, point.ns) > 0)) continue;
             wavelengths_sample(sampler_1d(&sampler), &wavelengths);
-            float cd_m2[GUIDE_AIMS];
-            path_arriving(job->context, &arrival, &wavelengths, &sampler, cd_m2, statistics);
+            float      cd_m2[GUIDE_AIMS];
+            PathResult rest;
+            LessonSky  sky = lesson_sky(&cd_m2[GUIDE_SKY]);
+            PathStart  start = {.context = job->context, .wavelengths = &wavelengths,
+                                .sampler = &sampler, .statistics = statistics,
+                                .collector = &sky.base, .from = &point};
+            path_from_ray(&start, (Ray){point.position, towards, 0, INFINITY}, &rest);
+            cd_m2[GUIDE_LIGHT] = rest.xyz[1];
             guide_lesson_add(lesson, bin, cd_m2);
         }
 }

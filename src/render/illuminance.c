@@ -39,8 +39,9 @@ static void measure_batch(void *user, int batch, int worker)
         Wavelengths wavelengths;
         float       xyz[3];
         wavelengths_sample(sampler_1d(&sampler), &wavelengths);
-        path_illuminance(meter->context, options->point, &wavelengths, &sampler, xyz,
-                         &statistics);
+        PathStart start = {.context = meter->context, .wavelengths = &wavelengths,
+                           .sampler = &sampler, .statistics = &statistics};
+        path_from_point(&start, options->point, xyz);
         for (int k = 0; k < 3; k++) sums->xyz[k] += (double)xyz[k];
         bright_add(&sums->bright, (double)xyz[1]);
     }

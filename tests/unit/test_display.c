@@ -82,8 +82,10 @@ static Seen gather(const World *world, const Ray *ray, LitPoint point, int count
         Wavelengths w;
         PathResult result;
         wavelengths_sample(sampler_1d(&sampler), &w);
-        if (ray) path_trace(&world->context, *ray, &w, &sampler, &result, &statistics);
-        else path_illuminance(&world->context, point, &w, &sampler, result.xyz, &statistics);
+        PathStart start = {.context = &world->context, .wavelengths = &w, .sampler = &sampler,
+                           .statistics = &statistics};
+        if (ray) path_from_ray(&start, *ray, &result);
+        else path_from_point(&start, point, result.xyz);
         for (int k = 0; k < 3; k++) seen.xyz[k] += (double)result.xyz[k] / count;
         squares += (double)result.xyz[1] * (double)result.xyz[1] / count;
     }

@@ -224,8 +224,9 @@ TEST(every_strategy_finds_the_same_light_of_displays)
             Wavelengths w;
             float       lx[3];
             wavelengths_sample(sampler_1d(&sampler), &w);
-            path_illuminance(&context, at_origin, &w, &sampler,
-                             lx, &statistics);
+            PathStart start = {.context = &context, .wavelengths = &w, .sampler = &sampler,
+                               .statistics = &statistics};
+            path_from_point(&start, at_origin, lx);
             mean[s] += (double)lx[1] / counts[s];
             squares += (double)lx[1] * (double)lx[1] / counts[s];
         }

@@ -60,7 +60,9 @@ static Mean look(const World *world, Vec3 from, Vec3 to, int count)
         wavelengths_sample(sampler_1d(&sampler), &w);
         Vec3 local = vec3(0.1f * (at.x - 0.5f), 0.1f * (at.y - 0.5f), 1);
         Ray  ray = {from, vec3_normalize(frame_to_world(&frame, local)), 0, INFINITY};
-        path_trace(&world->context, ray, &w, &sampler, &result, &statistics);
+        PathStart start = {.context = &world->context, .wavelengths = &w, .sampler = &sampler,
+                           .statistics = &statistics};
+        path_from_ray(&start, ray, &result);
         sum += (double)result.xyz[1] / count;
         squares += (double)result.xyz[1] * (double)result.xyz[1] / count;
     }

@@ -204,8 +204,9 @@ static double camera_luminance(const World *world, double *sigma)
         double cosine = 1 - narrow * (double)place.x, sine = sqrt(1 - cosine * cosine);
         double phi = 2 * PI * (double)place.y;
         Vec3   d = vec3((float)(sine * cos(phi)), (float)(sine * sin(phi)), (float)-cosine);
-        path_trace(&world->context, (Ray){vec3(0, 0, 0), d, 0, INFINITY}, &w, &sampler, &seen,
-                   &statistics);
+        PathStart start = {.context = &world->context, .wavelengths = &w, .sampler = &sampler,
+                           .statistics = &statistics};
+        path_from_ray(&start, (Ray){vec3(0, 0, 0), d, 0, INFINITY}, &seen);
         sum += (double)seen.xyz[1];
         squares += (double)seen.xyz[1] * (double)seen.xyz[1];
     }

@@ -178,7 +178,9 @@ static Estimate luminance(const World *world, Vec3 from, Vec3 direction, int cou
         wavelengths_sample(sampler_1d(&sampler), &w);
         Vec3 local = vec3(0.2f * (at.x - 0.5f), 0.2f * (at.y - 0.5f), 1);
         Ray  ray = {from, vec3_normalize(frame_to_world(&frame, local)), 0, INFINITY};
-        path_trace(&world->context, ray, &w, &sampler, &result, &statistics);
+        PathStart start = {.context = &world->context, .wavelengths = &w, .sampler = &sampler,
+                           .statistics = &statistics};
+        path_from_ray(&start, ray, &result);
         sum += (double)result.xyz[1];
         squares += (double)result.xyz[1] * (double)result.xyz[1];
     }

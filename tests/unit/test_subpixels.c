@@ -7,6 +7,7 @@
 #include "bvh/bvh.h"
 #include "camera/camera.h"
 #include "light/subpixels.h"
+#include "path/collect/seen.h"
 #include "path/path_features.h"
 #include "scene_builder.h"
 #include "spectrum/photometry.h"
@@ -320,6 +321,7 @@ static void take_frame_at(Shown *shown, const Stand *stand, double parts, Layout
         int            pixel = i / SAMPLES;
         PathStatistics statistics = {0};
         Wavelengths    w;
+        SeenLight      seen;
         PathResult     result;
         float          emitted[3];
         int     column = stand->bounces ? FRAME - 1 - pixel % FRAME : pixel % FRAME;
@@ -329,7 +331,10 @@ static void take_frame_at(Shown *shown, const Stand *stand, double parts, Layout
         wavelengths_sample(sampler_1d(&sampler), &w);
         Ray ray = camera_ray(&camera, (float)(pixel % FRAME) + in.x,
                              (float)(pixel / FRAME) + in.y);
-        path_trace(&context, ray, &w, &sampler, &result, &statistics);
+        PathStart start = {.context = &context, .wavelengths = &w, .sampler = &sampler,
+                           .statistics = &statistics};
+        path_seen(&start, ray, &(SeenAsk){.listener = NULL}, &seen);
+        result = seen.path;
         assert_true(result.hit);
         if (!stand->bounces) {
             assert_true(path_display_emission(&context, &result, &w, emitted));

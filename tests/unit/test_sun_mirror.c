@@ -19,7 +19,9 @@ static Estimate illuminance(const World *world, LitPoint point, uint32_t seed, i
         Wavelengths w;
         float lx[3];
         wavelengths_sample(sampler_1d(&sampler), &w);
-        path_illuminance(&world->context, point, &w, &sampler, lx, &statistics);
+        PathStart start = {.context = &world->context, .wavelengths = &w, .sampler = &sampler,
+                           .statistics = &statistics};
+        path_from_point(&start, point, lx);
         sum += (double)lx[1];
         squares += (double)lx[1] * (double)lx[1];
         largest = fmax(largest, (double)lx[1]);
@@ -43,7 +45,9 @@ static Estimate luminance(const World *world, Vec3 from, Vec3 to, float spread, 
         wavelengths_sample(sampler_1d(&sampler), &w);
         Vec3 local = vec3(spread * (at.x - 0.5f), spread * (at.y - 0.5f), 1);
         Ray ray = {from, vec3_normalize(frame_to_world(&frame, local)), 0, INFINITY};
-        path_trace(&world->context, ray, &w, &sampler, &result, &statistics);
+        PathStart start = {.context = &world->context, .wavelengths = &w, .sampler = &sampler,
+                           .statistics = &statistics};
+        path_from_ray(&start, ray, &result);
         sum += (double)result.xyz[1];
         squares += (double)result.xyz[1] * (double)result.xyz[1];
         largest = fmax(largest, (double)result.xyz[1]);

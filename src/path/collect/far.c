@@ -1,0 +1,173 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* HOT: no allocation, no lock, no libm. */
+#include "path/collect/far.h"
+
+#include "path/direct.h"
+#include "path/path.h"
+
+#define SHARP_ALPHA 0.2f /* of GGX: what ways follow besides mirrors */
+
+static bool is_sharp(const Surface *surface)
+{
+    return surface->bsdf.kind == BSDF_METALLIC_ROUGHNESS &&
+           surface->bsdf.metallic_roughness.alpha <= SHARP_ALPHA;
+}
+
+/* ---- ways -------------------------------------------------------------------------------- */
+
+/* A ray that a vertex sends out: it follows mirrors, and ends behind a sharp lobe. */
+typedef struct FarWay {
+    PathCollector  base;
+    const PathFar *far;
+    float          pdf; /* of its direction behind that lobe, sr^-1; 0: none yet */
+} FarWay;
+
+static bool ask_nobody(PathCollector *c, PathState *path, const Surface *surface, Vec3 wo,
+                       const Lead *lead)
+{
+    (void)c, (void)path, (void)surface, (void)wo, (void)lead;
+    return true;
+}
+
+/* Does the way end? Vertices behind a sharp lobe send out their own. */
+static bool refuse(PathCollector *c, PathState *path, const Surface *surface,
+                   const BsdfSample *next)
+{
+    (void)path;
+    FarWay *way = (FarWay *)c;
+    if (way->pdf > 0) return true;
+    if (next->is_delta) return false;
+    if (!is_sharp(surface)) return true;
+    way->pdf = PATH_WAYS * next->pdf;
+    return false;
+}
+
+static bool leave_by_way(PathCollector *c, PathState *path)
+{
+    const FarWay *way = (const FarWay *)c;
+    if (path->last.is_delta || way->pdf > 0)
+        way->far->add_escaped(way->far->user, path->ray.direction, path->bounce,
+                              (const float *)&path->throughput, way->pdf);
+    return true;
+}
+
+static const CollectorKind way_kind = {.size = sizeof(FarWay), .vertex = ask_nobody,
+                                       .refuse = refuse, .escape = leave_by_way};
+
+/* Towards what lies where the surface scatters to; its own mirror the path itself follows. */
+static void send_way(const FarQuestions *questions, const PathState *from,
+                     const Surface *surface, Vec3 wo, const Lead *lead, int i)
+{
+    PathState  path = *from;
+    FarWay     way = {{&way_kind, NULL}, questions->far, 0};
+    SheetStack stack;
+    Lead       leads[2] = {*lead, *lead};
+    BsdfSample next;
+    float      u[4];
+    path.steps += STEPS_FAR * (SPLITS + 1) * (1 + i);
+    numbers_for(&path, NUMBERS_SCATTER);
+    sampler_4d(path.sampler, u);
+    if (!lead_sample(lead, surface, u, &next) || next.is_delta || next.passes) return;
+    path.throughput *= next.weight * spectrum_all(1.0f / PATH_WAYS);
+    path.stack = &stack;
+    path.lead = &leads[0];
+    path.spare = &leads[1];
+    path.splits_left = 1;
+    path.first_bounce = path.bounce + 1;
+    path.collector = &way.base;
+    path.manner = (PathManner){.is_dark = true, .is_spared = true, .has_sheets = true};
+    path_follow(&path, surface, wo, &next);
+}
+
+/* A path that goes on by a mirror is one of few that do, and tells of one direction: sunlight
+ * by way of a pane or of a satin ring would hang on a handful of paths. Ways cost a ray or two;
+ * a vertex asks hundreds. */
+static void send_ways(const FarQuestions *questions, const PathState *path,
+                      const Surface *surface, Vec3 wo, const Lead *lead)
+{
+    if (!questions->far->has_ways || path->bounce + 1 >= path->context->max_bounces) return;
+    for (int i = 0; i < PATH_WAYS; i++) send_way(questions, path, surface, wo, lead, i);
+}
+
+/* ---- questions --------------------------------------------------------------------------- */
+
+static void ask_all(const FarQuestions *questions, PathState *path, const Surface *surface,
+                    Vec3 wo, const Lead *lead)
+{
+    const PathFar *far = questions->far;
+    Vec3 local_wo = surface->local_wo;
+    int  ways = questions->sent_ways && is_sharp(surface) ? PATH_WAYS : 0;
+    for (int i = 0; i < far->count; i++) {
+        LightSample light = {.wi = far->towards[i], .distance = INFINITY};
+        Vec3        local_wi = frame_to_local(&surface->frame, light.wi);
+        ShadowRay   ray;
+        float       pdf;
+        if (!direct_sides_agree(surface, local_wi, light.wi, wo)) continue;
+        if (!bsdf_reaches(&surface->bsdf, local_wo, local_wi)) continue;
+        Spectrum passed = direct_visibility(path, surface, &light, &ray);
+        if (spectrum_is_zero(passed)) continue;
+        Spectrum share = path->throughput * passed *
+                         bsdf_eval(&surface->bsdf, local_wo, local_wi, &pdf) *
+                         spectrum_all(fabsf(local_wi.z));
+        far->add(far->user, i, path->bounce, (const float *)&share,
+                 ways ? (float)ways * lead_pdf(lead, light.wi, pdf) : 0);
+    }
+}
+
+static bool ask(PathCollector *c, PathState *path, const Surface *surface, Vec3 wo,
+                const Lead *lead)
+{
+    const FarQuestions *questions = (const FarQuestions *)c;
+    if (path->bounce < path->context->max_bounces && bsdf_scatters(&surface->bsdf)) {
+        ask_all(questions, path, surface, wo, lead);
+        send_ways(questions, path, surface, wo, lead);
+    }
+    return true;
+}
+
+static bool is_display(const Scene *scene, const Surface *surface)
+{
+    return surface->material_id != NO_ID &&
+           scene->materials[surface->material_id].display_id != NO_ID;
+}
+
+/* The way by a first display's mirror, of which nothing is left to chance; false: that is not
+ * what is asked. */
+static bool choose_mirror(PathCollector *c, PathState *path, const Surface *surface,
+                          BsdfSample *next)
+{
+    Vec3 local_wo = surface->local_wo;
+    if (!((FarQuestions *)c)->far->is_of_mirror || path->bounce ||
+        !is_display(path->context->scene, surface))
+        return false;
+    *next = (BsdfSample){.wi = vec3(-local_wo.x, -local_wo.y, local_wo.z), .pdf = 1,
+                         .weight = bsdf_mirror(&surface->bsdf, local_wo), .is_delta = true};
+    return true;
+}
+
+static void turn_from(PathCollector *c, PathState *path, const Surface *surface, Vec3 wo,
+                      const BsdfSample *next)
+{
+    (void)path, (void)surface, (void)wo;
+    FarQuestions *questions = (FarQuestions *)c;
+    if (questions->far->has_ways) questions->sent_ways |= !next->is_delta;
+}
+
+/* Vertices that scatter have asked for themselves. */
+static bool leave(PathCollector *c, PathState *path)
+{
+    const FarQuestions *questions = (const FarQuestions *)c;
+    const PathFar      *far = questions->far;
+    if (!questions->sent_ways && path->last.is_delta)
+        far->add_escaped(far->user, path->ray.direction, path->bounce,
+                         (const float *)&path->throughput, 0);
+    return true;
+}
+
+FarQuestions far_questions(const PathFar *far)
+{
+    static const CollectorKind kind = {.size = sizeof(FarQuestions), .vertex = ask,
+                                       .choose = choose_mirror, .turn = turn_from,
+                                       .escape = leave};
+    return (FarQuestions){{&kind, NULL}, far, false};
+}

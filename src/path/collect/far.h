@@ -1,0 +1,36 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* far.h -- light from infinitely far as a question: from where does it reach the eye, or a
+ * luxmeter, and how much? Instead of being lit a path asks.
+ *
+ * Threads  one thread's, like the path.
+ */
+#pragma once
+#include "path/path_collector.h"
+
+#define PATH_WAYS 16 /* of a vertex: a ray or two each, beside hundreds of its questions */
+
+typedef struct PathFar {
+    const Vec3 *towards; /* unit; every scattering vertex asks all of them */
+    int         count;
+    /* share: of the radiance from towards[i], per steradian, what comes to the eye by way of
+     * vertex `bounce` (0: the first surface that scatters), per lane; of a luxmeter to
+     * tristimulus values in lx. pdf: with which ways find that direction from there, too,
+     * sr^-1; 0: none does. */
+    void (*add)(void *user, int i, int bounce, const float *share, float pdf);
+    /* Paths that leave by a mirror or straight on, after `bounce` vertices: share of the
+     * radiance from there. pdf: 0, or of a way that left by a sharp lobe, sr^-1. */
+    void (*add_escaped)(void *user, Vec3 direction, int bounce, const float *share, float pdf);
+    void *user;
+    bool  is_of_mirror; /* where a display comes first, its mirror alone is followed */
+    bool  has_ways; /* vertices send out PATH_WAYS rays each, which mirrors and sharp lobes lead
+                       on: what leaves so is told of these, not of paths */
+} PathFar;
+
+typedef struct FarQuestions {
+    PathCollector  base;
+    const PathFar *far;
+    bool           sent_ways; /* from the last vertex that scattered; mirrors may lie between */
+} FarQuestions;
+
+/* Of a path that is dark (PathManner). */
+FarQuestions far_questions(const PathFar *far);

@@ -1,0 +1,33 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* lesson.h -- what a guide that is to learn asks of paths: where they scatter, and what arrives
+ * there.
+ *
+ * Threads  one thread's, like the path.
+ */
+#pragma once
+#include "path/path_collector.h"
+
+#define PATH_PLACES_MAX 8
+
+/* Where a path scattered widely: just off the surfaces, on the side that was looked at. */
+typedef struct PathPlaces {
+    int      count;
+    LitPoint place[PATH_PLACES_MAX];
+} PathPlaces;
+
+typedef struct LessonPlaces {
+    PathCollector base;
+    PathPlaces   *out;
+} LessonPlaces;
+
+/* The context must have a guide, lit or not. */
+LessonPlaces lesson_places(PathPlaces *out);
+
+/* Of a path to a point (PathStart.from) the sky that is seen there is told by itself: its
+ * luminance, cd m^-2, and 0 where there is none. The path's own light is all else. */
+typedef struct LessonSky {
+    PathCollector base;
+    float        *sky_cd_m2;
+} LessonSky;
+
+LessonSky lesson_sky(float *sky_cd_m2);

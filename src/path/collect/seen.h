@@ -1,0 +1,25 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* seen.h -- what an eye or a frame's pixel sees along a ray, by all that its context says:
+ * polarised light, sub-pixels; and what is asked besides.
+ *
+ * Threads  one thread's, like the path.
+ */
+#pragma once
+#include "path/collect/told.h"
+#include "path/path.h"
+
+typedef struct SeenAsk {
+    bool                with_lambertian; /* of a display that the eye sees, from the haze */
+    const PathListener *listener;        /* NULL: nobody */
+} SeenAsk;
+
+typedef struct SeenLight {
+    PathResult path;
+    float      stokes[3];     /* S1, S2, S3, luminances, cd m^-2, where the context's eye asks;
+                                 else 0 */
+    float      lambertian[3]; /* of path.xyz: what a display that the eye sees scattered by its
+                                 lambertian part, where that was asked; else 0 */
+} SeenLight;
+
+/* start: without collectors. Whatever is asked, the path is the same. */
+void path_seen(const PathStart *start, Ray ray, const SeenAsk *ask, SeenLight *out);

@@ -1,0 +1,71 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* told.h -- who is told all light that a path finds, way by way: by which surfaces it came, and
+ * where it began.
+ *
+ * Units    XYZ in cd m^-2, of a luxmeter in lx; they add up to the path's but for rounding.
+ * Threads  one thread's, like the path.
+ */
+#pragma once
+#include "path/path_collector.h"
+
+/* What a path's light did on its way, as the eye's ray meets it. */
+typedef enum PathEvent { PATH_SCATTERS, PATH_REFLECTS, PATH_TRANSMITS } PathEvent;
+
+typedef struct PathStep {
+    int       part_id; /* scene part */
+    PathEvent event;   /* reflects: as a mirror does */
+    int       pane_id; /* part of the last pane on the way there; NO_ID: none */
+    Vec3      position; /* m, world */
+} PathStep;
+
+#define PATH_STEPS_TOLD 6
+
+/* One way by which light came, and where it began. */
+typedef struct PathTale {
+    PathStep step[PATH_STEPS_TOLD]; /* the first of them; panes that the eye looks straight
+                                       through count too */
+    int      count;                 /* all of them, also those that have no room */
+    Vec3     towards; /* unit: from the eye, or the luxmeter, along the first stretch */
+    LightSet source;
+    int      source_id;             /* emitters: scene part; punctual: scene light; else 0 */
+    int      pane_id;               /* part of the last pane that the light passed on its way to
+                                       the last step; NO_ID: none */
+    int      reached_by;            /* as pane_id, to where the path is now */
+    Vec3     from;                  /* where it began, m, world; is_far: the unit direction
+                                       towards it */
+    bool     is_far;
+    const float       *lanes;       /* its radiance, W m^-2 sr^-1 nm^-1 per lane; of a display
+                                       that is seen by its measured XYZ NULL, unless wanted */
+    const Wavelengths *wavelengths; /* of the lanes */
+} PathTale;
+
+typedef struct PathListener {
+    void (*hear)(void *user, const PathTale *tale, const float xyz[3]);
+    void  *user;
+    bool   with_lanes;  /* displays' lanes are wanted, too */
+    bool   of_emitters; /* it is told of these alone */
+} PathListener;
+
+typedef struct ToldWays {
+    PathCollector       base;
+    PathTale            tale; /* of the path so far */
+    const PathListener *listener;
+} ToldWays;
+
+ToldWays told_ways(const PathListener *listener, PathCollector *next);
+
+/* Which mirror images lie along a ray: what scatters is not followed, and no light counts. */
+typedef struct PathImages {
+    /* A path leaves the scene: share per lane of the radiance from there. */
+    void (*add)(void *user, const PathTale *tale, Vec3 direction, const float *share);
+    void  *user;
+} PathImages;
+
+typedef struct ImageWays {
+    PathCollector     base;
+    PathTale          tale;
+    const PathImages *images;
+} ImageWays;
+
+/* Of a path that is dark (PathManner). */
+ImageWays image_ways(const PathImages *images);

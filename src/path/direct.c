@@ -1,0 +1,307 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* HOT: no allocation, no lock, no libm. */
+#include "path/direct.h"
+
+#include "path/emitted.h"
+#include "path/sun_mirror.h"
+
+/* ---- solids ------------------------------------------------------------------------------ */
+
+void direct_absorb(const PathState *path, int medium_id, float distance, Spectrum *light)
+{
+    const Material *m = &path->context->scene->materials[medium_id];
+    if (!isfinite(m->attenuation_distance_m)) return;
+    Spectrum left = spectrum_from_rgb(path->wavelengths, m->attenuation_color);
+    for (int i = 0; i < SPECTRUM_LANES; i++)
+        (*light)[i] *= pow_f(left[i], distance / m->attenuation_distance_m);
+}
+
+/* A translucent solid takes its part of what a lamp inside sends to its boundary. */
+static void absorb_sample(const PathState *path, const Surface *surface,
+                          const LightSample *light, Spectrum *passed)
+{
+    if (surface->bsdf.kind != BSDF_METALLIC_ROUGHNESS ||
+        !(surface->bsdf.metallic_roughness.across > 0) || !isfinite(light->distance))
+        return;
+    const Material *m = &path->context->scene->materials[surface->material_id];
+    if (material_is_translucent_solid(m) && vec3_dot(light->wi, surface->ng) < 0)
+        direct_absorb(path, surface->material_id, light->distance, passed);
+}
+
+/* ---- shadow rays ------------------------------------------------------------------------- */
+
+/* A ray through the edge that two triangles share meets both: that is one sheet, not two. */
+static bool was_asked(ShadowRay *ray, const Hit *hit)
+{
+    const Scene *scene = ray->path->context->scene;
+    for (int i = 0; i < ray->hit_count && i < SHADOW_HITS; i++)
+        if (fabsf(hit->t - ray->recent[i].t) <= 2e-6f * hit->t + ray->step &&
+            sheets_are_one(scene, hit->triangle, ray->recent[i].triangle))
+            return true;
+    ray->recent[ray->hit_count++ % SHADOW_HITS] = *hit;
+    return false;
+}
+
+static bool passes(void *user, const Hit *hit)
+{
+    ShadowRay         *ray = user;
+    const PathContext *context = ray->path->context;
+    if (was_asked(ray, hit)) return true;
+    ray->passed *= surface_pass(context->scene, context->tables, hit, ray->light->wi,
+                                ray->path->wavelengths);
+    return !spectrum_is_zero(ray->passed);
+}
+
+/* Of sheets about the emitter: those that lie over it take their share. */
+static bool passes_before_emitter(void *user, const Hit *hit)
+{
+    const ShadowRay   *ray = user;
+    const LightSample *light = ray->light;
+    float behind = (hit->t - ray->end) * fabsf(vec3_dot(light->wi, light->ng));
+    bool  is_over = behind < -ray->rounding ||
+                   (behind <= ray->rounding && hit->triangle > light->triangle);
+    return !is_over || passes(user, hit);
+}
+
+Spectrum direct_visibility(PathState *path, const Surface *surface, const LightSample *light,
+                    ShadowRay *ray)
+{
+    const Bvh *bvh = path->context->bvh;
+    Vec3  origin = ray_offset_origin(surface->position, surface->ng, light->wi);
+    Vec3  moved = vec3_sub(origin, surface->position);
+    float end = fmaxf(light->distance * (1 - 1e-4f) - 4 * vec3_length(moved), 0);
+    ray->path = path; /* most rays meet no sheet: room for hits is left as it is */
+    ray->light = light;
+    ray->passed = spectrum_all(1);
+    ray->step = ray_offset_step(surface->position);
+    ray->hit_count = 0;
+    path->statistics->shadow_rays++;
+    if (bvh_occluded(bvh, (Ray){origin, light->wi, 0, end}, passes, ray))
+        return spectrum_all(0);
+    if (light->is_emitter && bvh_has_sheets(bvh)) {
+        Vec3 on_emitter = vec3_along(surface->position, light->wi, light->distance);
+        ray->end = light->distance -
+                   vec3_dot(moved, light->ng) / vec3_dot(light->wi, light->ng);
+        ray->rounding = fmaxf(sheets_rounding(on_emitter), 0x1p-20f * light->distance);
+        bvh_ask_sheets(bvh, (Ray){origin, light->wi, end, 2 * light->distance - end},
+                       passes_before_emitter, ray);
+    }
+    return ray->passed;
+}
+
+bool direct_sides_agree(const Surface *surface, Vec3 local_wi, Vec3 wi, Vec3 wo)
+{
+    return (local_wi.z * surface->local_wo.z > 0) ==
+           (vec3_dot(wi, surface->ng) * vec3_dot(wo, surface->ng) > 0);
+}
+
+/* ---- light samples ----------------------------------------------------------------------- */
+
+static bool asks_mirrors(const PathContext *context)
+{
+    return context->beams.mirrors && context->strategy != PATH_BSDF_ONLY &&
+           lights_has(context->lights, LIGHTS_SUN);
+}
+
+/* Did the vertex before ask for the sun in this mirror, smooth or rough? */
+static bool mirror_was_asked(const PathState *path, const Surface *surface, Vec3 wo,
+                             bool is_rough)
+{
+    MirrorPair pair = {path->last.part_id, is_rough, surface->triangle};
+    return asks_mirrors(path->context) && !path->last.is_delta && path->medium_id == NO_ID &&
+           sun_mirror_is_known(path->context->scene, path->context->beams.mirrors, pair,
+                               surface, wo);
+}
+
+Spectrum direct_sun_share(const PathState *path, const Surface *surface, Vec3 wo,
+                   const BsdfSample *next)
+{
+    if (!(next->wi.z > 0) || !mirror_was_asked(path, surface, wo, !next->is_delta))
+        return spectrum_all(1);
+    return sun_mirror_share(&surface->bsdf, surface->local_wo, next);
+}
+
+static int source_of(const PathState *path, const LightSample *light)
+{
+    const Scene *scene = path->context->scene;
+    if (light->set == LIGHTS_EMITTERS) return (int)scene->triangles[light->triangle].part_id;
+    return light->set == LIGHTS_PUNCTUAL ? light->light_id : 0;
+}
+
+/* A light was asked for from a surface, with this probability. */
+typedef struct LightAsked {
+    LightSample light;
+    Vec3        local_wi;
+    float       prob;
+} LightAsked;
+
+/* The surface scatters the sample's light. */
+static void find_sample(PathState *path, const Surface *surface, Vec3 wo,
+                        const LightAsked *asked, const ShadowRay *ray, Spectrum radiance)
+{
+    const LightSample *light = &asked->light;
+    if (!path->collector) {
+        path->gathered.radiance += radiance;
+        return;
+    }
+    bool      is_far = !isfinite(light->distance);
+    PathFound found = {
+        .set = light->set, .source_id = source_of(path, light), .is_far = is_far,
+        .from = is_far ? light->wi
+                       : vec3_along(surface->position, light->wi, light->distance),
+        .way = vec3_neg(light->wi), .radiance = radiance, .triangle = light->triangle,
+        .point = light->set == LIGHTS_EMITTERS ? &light->point : NULL, .by = surface, .wo = wo,
+        .local_wi = asked->local_wi, .shadow = ray};
+    collect_count(path, &found);
+    path->gathered.radiance += found.radiance;
+    collect_hear(path, &found);
+}
+
+/* Most samples end in shadow: what the light sends and how the surface scatters it is asked
+ * once the ray has arrived. */
+static void add_arriving(PathState *path, const Surface *surface, Vec3 wo, const Lead *lead,
+                         LightAsked *asked)
+{
+    const PathContext *context = path->context;
+    LightSample *light = &asked->light;
+    ShadowRay    ray;
+    Vec3     local_wo = surface->local_wo, local_wi = asked->local_wi;
+    float    prob = asked->prob;
+    Spectrum passed = direct_visibility(path, surface, light, &ray);
+    if (spectrum_is_zero(passed)) return;
+    absorb_sample(path, surface, light, &passed);
+    lead_weigh_light(lead, context->lights, emitted_lit_point(path, surface), light);
+    float    bsdf_pdf;
+    Spectrum f = bsdf_eval(&surface->bsdf, local_wo, local_wi, &bsdf_pdf);
+    if (light->set == LIGHTS_SUN && mirror_was_asked(path, surface, wo, true))
+        f = sun_mirror_left(&surface->bsdf, local_wo, local_wi, f);
+    Spectrum share = path->throughput * f *
+                     lights_radiance(context->lights, light, path->wavelengths) *
+                     spectrum_all(fabsf(local_wi.z) / (light->pdf * prob));
+    if (!light->is_delta && context->strategy == PATH_MIS)
+        share *= spectrum_all(mis_weight(light->pdf * prob,
+                                         lead_pdf(lead, light->wi, bsdf_pdf)));
+    find_sample(path, surface, wo, asked, &ray, share * passed);
+}
+
+static void add_light_sample(PathState *path, const Surface *surface, Vec3 wo, const Lead *lead,
+                             LightSet set)
+{
+    const PathContext *context = path->context;
+    LightAsked   asked;
+    LightSample *light = &asked.light;
+    float u[4];
+    asked.prob = lead->asked[set] * lead->often;
+    numbers_for(path, NUMBERS_LIGHTS + 2 * (int)set);
+    sampler_4d(path->sampler, u);
+    if (!unit_choose(&u[0], asked.prob)) return;
+    LitPoint point = emitted_lit_point(path, surface);
+    if (!lead_choose_light(lead, context->lights, set, point, u, light)) return;
+    if (!light->is_delta && context->strategy == PATH_BSDF_ONLY) return;
+    asked.local_wi = frame_to_local(&surface->frame, light->wi);
+    if (!direct_sides_agree(surface, asked.local_wi, light->wi, wo)) return;
+    if (!bsdf_reaches(&surface->bsdf, surface->local_wo, asked.local_wi)) return;
+    add_arriving(path, surface, wo, lead, &asked);
+}
+
+/* ---- the sun by way of one mirror -------------------------------------------------------- */
+
+/* A lit surface on its way through its mirrors. */
+typedef struct MirrorWalk {
+    PathState        *path;
+    const Surface    *surface;
+    Vec3              wo;
+    SunMirrorQuestion question;
+} MirrorWalk;
+
+/* The stretches of one way. */
+typedef struct MirrorRays {
+    ShadowRay to_mirror, to_sun;
+} MirrorRays;
+
+static void find_mirrored(const MirrorWalk *asked, const SunMirror *mirror, Vec3 local_wi,
+                          const MirrorRays *rays, Spectrum radiance)
+{
+    PathState *path = asked->path;
+    Vec3       to_sun = asked->question.sun.wi;
+    if (!path->collector) {
+        path->gathered.radiance += radiance;
+        return;
+    }
+    PathFound found = {.set = LIGHTS_SUN, .from = to_sun, .is_far = true,
+                       .way = vec3_neg(to_sun), .radiance = radiance, .by = asked->surface,
+                       .wo = asked->wo, .local_wi = local_wi, .shadow = &rays->to_mirror,
+                       .mirror = mirror, .beyond = &rays->to_sun,
+                       .by_rough = asked->question.is_rough};
+    collect_count(path, &found);
+    path->gathered.radiance += found.radiance;
+    collect_hear(path, &found);
+}
+
+static void add_mirrored_sun(void *user, uint32_t triangle, const ReflectionPoint *point)
+{
+    MirrorWalk    *asked = user;
+    const Surface *surface = asked->surface;
+    PathState     *path = asked->path;
+    MirrorRays     rays;
+    SunMirror      mirror;
+    Hit            place = {0, point->u, point->v, triangle};
+    float          pdf;
+    if (!sun_mirror_at(&asked->question, &place, point->spread, &mirror)) return;
+    Vec3 local_wi = frame_to_local(&surface->frame, mirror.light.wi);
+    if (!direct_sides_agree(surface, local_wi, mirror.light.wi, asked->wo)) return;
+    Spectrum share = path->throughput * mirror.radiance *
+                     bsdf_eval(&surface->bsdf, surface->local_wo, local_wi, &pdf) *
+                     spectrum_all(fabsf(local_wi.z));
+    if (spectrum_is_zero(share)) return;
+    share *= direct_visibility(path, &mirror.surface, &asked->question.sun, &rays.to_sun);
+    if (spectrum_is_zero(share)) return;
+    share *= direct_visibility(path, surface, &mirror.light, &rays.to_mirror);
+    find_mirrored(asked, &mirror, local_wi, &rays, share);
+}
+
+/* u: of the sun's disc. */
+static void ask_mirrors(PathState *path, const Surface *surface, Vec3 wo, const float u[4],
+                        float prob)
+{
+    const PathContext *context = path->context;
+    MirrorWalk asked = {path, surface, wo,
+                        {.scene = context->scene, .tables = context->tables,
+                         .wavelengths = path->wavelengths, .from = surface->position}};
+    LitPoint     point = {surface->position, surface->frame.z, true}; /* from any side */
+    LightSample *sun = &asked.question.sun;
+    if (!lights_sample(context->lights, LIGHTS_SUN, point, u, sun)) return;
+    asked.question.radiance = lights_radiance(context->lights, sun, path->wavelengths);
+    sun->pdf *= prob;
+    MirrorQuery query = {surface->part_id, false, surface->position, sun->wi, {0, 0}};
+    mirrors_find(context->beams.mirrors, &query, add_mirrored_sun, &asked);
+    query.is_rough = asked.question.is_rough = true;
+    query.u = sampler_2d(path->sampler);
+    mirrors_find(context->beams.mirrors, &query, add_mirrored_sun, &asked);
+}
+
+/* The mirror is one more vertex: none is asked where the path would end before it. */
+static void add_mirrored_suns(PathState *path, const Surface *surface, Vec3 wo)
+{
+    const PathContext *context = path->context;
+    if (!asks_mirrors(context) || path->medium_id != NO_ID ||
+        path->bounce + 1 >= context->max_bounces)
+        return;
+    float prob = mirror_beams_prob(&context->beams, surface->part_id,
+                                   vec3_dot(wo, surface->ng) < 0, surface->position);
+    for (int i = 0; i < path->bounce && i < DEEP_BOUNCE; i++) prob *= DEEP_SHARE;
+    if (!(prob > 0)) return;
+    float u[4];
+    numbers_for(path, NUMBERS_MIRRORS);
+    sampler_4d(path->sampler, u);
+    if (unit_choose(&u[0], prob)) ask_mirrors(path, surface, wo, u, prob);
+}
+
+void direct_add(PathState *path, const Surface *surface, Vec3 wo, const Lead *lead)
+{
+    if (!bsdf_scatters(&surface->bsdf)) return;
+    for (int set = 0; set < LIGHT_SETS; set++)
+        if (lights_has(path->context->lights, (LightSet)set))
+            add_light_sample(path, surface, wo, lead, (LightSet)set);
+    add_mirrored_suns(path, surface, wo);
+}

@@ -1,0 +1,24 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* direct.h -- light that a vertex asks for: samples of every set of lights, and the sun by way
+ * of the mirrors about. HOT.
+ */
+#pragma once
+#include "path/path_collector.h"
+
+/* The lights are asked from the surface, which the path came to against wo. */
+void direct_add(PathState *path, const Surface *surface, Vec3 wo, const Lead *lead);
+
+/* A direction must lie on the same side of the triangle as of the shading normal's plane, or
+ * light would leak through the surface. */
+bool direct_sides_agree(const Surface *surface, Vec3 local_wi, Vec3 wi, Vec3 wo);
+
+/* Share of the light sample that arrives at the surface; *ray: by which ways. */
+Spectrum direct_visibility(PathState *path, const Surface *surface, const LightSample *light,
+                    ShadowRay *ray);
+
+/* What of the sun that the path may meet by way of `next` was not told to the vertex before. */
+Spectrum direct_sun_share(const PathState *path, const Surface *surface, Vec3 wo,
+                   const BsdfSample *next);
+
+/* Beer's law inside a solid: the material's colour is what is left after its distance. */
+void direct_absorb(const PathState *path, int medium_id, float distance, Spectrum *light);

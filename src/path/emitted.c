@@ -1,0 +1,150 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* HOT: no allocation, no lock, no libm. */
+#include "path/emitted.h"
+
+#include "light/subpixels.h"
+#include "path/path_collector.h"
+
+/* How much of emitted light that the last vertex met by chance is counted: the rest belongs to
+ * its light samples, which find the same light with density light_pdf. */
+static float emission_weight(const PathState *path, LightSet set, float light_pdf)
+{
+    const PathContext *context = path->context;
+    if (path->last.is_delta || context->strategy == PATH_BSDF_ONLY) return 1;
+    if (context->strategy == PATH_LIGHTS_ONLY) return 0;
+    float prob = path->lead->asked[set] * path->lead->often;
+    if (set == LIGHTS_SKY) light_pdf = lead_sky_pdf(path->lead, path->ray.direction, light_pdf);
+    return mis_weight(path->last.pdf, prob * light_pdf);
+}
+
+LitPoint emitted_lit_point(const PathState *path, const Surface *surface)
+{
+    const Material *m = surface->material_id == NO_ID
+                            ? NULL
+                            : &path->context->scene->materials[surface->material_id];
+    return (LitPoint){surface->position, surface->frame.z,
+                      m && (m->is_solid || material_sends_through(m))};
+}
+
+/* ---- sun and sky ------------------------------------------------------------------------- */
+
+static void find_distant(PathState *path, LightSet set, Spectrum radiance)
+{
+    if (!path->collector) {
+        path->gathered.radiance += radiance;
+        return;
+    }
+    Vec3      towards = path->ray.direction;
+    PathFound found = {.set = set, .from = towards, .is_far = true, .way = vec3_neg(towards),
+                       .radiance = radiance};
+    collect_count(path, &found);
+    path->gathered.radiance += found.radiance;
+    collect_hear(path, &found);
+}
+
+void emitted_far(PathState *path)
+{
+    if (collect_escape(path)) return;
+    Spectrum radiance[2];
+    float    pdf[2];
+    lights_distant(path->context->lights, path->ray.direction, path->last.at.ns,
+                   path->wavelengths, radiance, pdf);
+    radiance[LIGHTS_SUN] *= path->last.sun_share;
+    if (path->context->without_mirrored_sun && path->first.by_mirror && path->bounce == 1)
+        radiance[LIGHTS_SUN] = spectrum_all(0);
+    collect_sky(path, &radiance[LIGHTS_SKY]);
+    for (int set = LIGHTS_SUN; set <= LIGHTS_SKY; set++) {
+        float weight = emission_weight(path, (LightSet)set, pdf[set]);
+        find_distant(path, (LightSet)set,
+                     path->throughput * radiance[set] * spectrum_all(weight));
+    }
+}
+
+/* ---- emitters ---------------------------------------------------------------------------- */
+
+/* Is this a display with sub-pixels, seen by the eye itself, straight, in mirrors or through
+ * clear glass? What surfaces that scatter see is its even light. */
+static bool comes_close(const PathState *path, const Surface *surface, uint32_t triangle,
+                        Vec3 wo, CloseView *out)
+{
+    const Scene        *scene = path->context->scene;
+    const RayFootprint *footprint = collect_footprint(path);
+    int                 display_id = scene->materials[surface->material_id].display_id;
+    if (!footprint || display_id == NO_ID || !scene->displays[display_id].subpixels)
+        return false;
+    const Display *display = &scene->displays[display_id];
+    Frame          frame = display_frame(scene, display, triangle, &surface->point);
+    *out = (CloseView){.scene = scene, .display = display, .point = &surface->point,
+                       .triangle = triangle, .local = frame_to_local(&frame, wo)};
+    footprint_across(footprint, path->straight, &frame, out->across);
+    return true;
+}
+
+Spectrum emitted_seen(const PathState *path, const Surface *surface, uint32_t triangle,
+                       Vec3 wo)
+{
+    CloseView close;
+    if (comes_close(path, surface, triangle, wo, &close))
+        return subpixels_spectrum(&close, path->wavelengths);
+    return triangle_emission(path->context->scene, triangle, &surface->point, wo,
+                             path->wavelengths);
+}
+
+static PathFound found_on(const Surface *surface, const Hit *hit, Vec3 wo, float weight)
+{
+    return (PathFound){.set = LIGHTS_EMITTERS, .source_id = surface->part_id,
+                       .from = surface->position, .way = wo, .weight = weight, .met = surface,
+                       .triangle = hit->triangle, .point = &surface->point};
+}
+
+/* A display seen along a path on which nothing depended on wavelength: its measured XYZ. */
+static void add_display_xyz(PathState *path, const Surface *surface, const Hit *hit, Vec3 wo,
+                            float weight)
+{
+    const Scene *scene = path->context->scene;
+    int          display_id = scene->materials[surface->material_id].display_id;
+    float        xyz[3];
+    CloseView    close;
+    if (comes_close(path, surface, hit->triangle, wo, &close))
+        subpixels_xyz(&close, xyz);
+    else
+        display_emission_xyz(scene, &scene->displays[display_id], hit->triangle,
+                             &surface->point, wo, xyz);
+    PathFound found = found_on(surface, hit, wo, weight);
+    PathLight light = {.radiance = spectrum_all(0)};
+    found.radiance = spectrum_all(0);
+    found.xyz = xyz;
+    found.share = path->throughput[0] * weight;
+    collect_count(path, &found);
+    for (int i = 0; i < 3; i++) light.xyz[i] = found.share * xyz[i];
+    path_light_add(&path->gathered, &light);
+    collect_hear(path, &found);
+}
+
+/* Of the light samples of the last vertex; nothing asks for it behind a mirror. */
+static float emitter_pdf(const PathState *path, const Surface *surface, const Hit *hit)
+{
+    Hit seen = {path->straight, hit->u, hit->v, hit->triangle};
+    if (path->last.is_delta) return 0;
+    return lights_emitter_pdf(path->context->lights, &path->last.at, &seen,
+                              path->ray.direction, surface->ng);
+}
+
+void emitted_add(PathState *path, const Surface *surface, const Hit *hit, Vec3 wo)
+{
+    if (!surface->emits) return;
+    const Scene *scene = path->context->scene;
+    float weight = emission_weight(path, LIGHTS_EMITTERS, emitter_pdf(path, surface, hit));
+    if (!(weight > 0)) return;
+    if (scene->materials[surface->material_id].display_id != NO_ID &&
+        spectrum_is_grey(path->throughput)) {
+        add_display_xyz(path, surface, hit, wo, weight);
+        return;
+    }
+    PathFound found = found_on(surface, hit, wo, weight);
+    found.radiance = path->throughput * spectrum_all(weight) *
+                     emitted_seen(path, surface, hit->triangle, wo);
+    collect_count(path, &found);
+    path->gathered.radiance += found.radiance;
+    collect_hear(path, &found);
+}

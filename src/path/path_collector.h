@@ -1,0 +1,203 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* path_collector.h -- what somebody wants from a path besides its light.
+ *
+ * A path calls its collectors, one after the other, at the places named below. Those of plain
+ * frames have none and pay nothing. A collector is a structure that begins with PathCollector;
+ * where a path is followed two ways (path/windows.h) each way has its own copy, so what both
+ * add to is pointed at.
+ *
+ * Threads  one thread's, like the path.
+ */
+#pragma once
+#include "path/footprint.h"
+#include "path/path_state.h"
+#include "path/sun_mirror.h"
+
+#define SHADOW_HITS 16 /* that a shadow ray remembers */
+
+/* A ray from a surface to what lights it, and the sheets that it passed. */
+typedef struct ShadowRay {
+    const PathState   *path;
+    const LightSample *light;
+    Spectrum passed;
+    float    step;     /* by which it starts off its surface, m */
+    float    end;      /* m along it, to the emitter; and how well that is known, */
+    float    rounding; /* across its plane */
+    int      hit_count; /* of more than there is room for, the last ones are there: */
+    Hit      recent[SHADOW_HITS]; /* number i at i % SHADOW_HITS, as the ray tracer told them */
+} ShadowRay;
+
+/* Light that a path has found, and how. */
+typedef struct PathFound {
+    LightSet set;
+    int      source_id; /* emitters: scene part; punctual: scene light; else 0 */
+    Vec3     from;      /* where it began, m, world; is_far: the unit direction towards it */
+    bool     is_far;
+    Vec3     way;       /* unit: along which it left what emits it */
+    Spectrum radiance;  /* per lane, as the eye gets it; of a display that is seen by its
+                           measured XYZ instead: */
+    const float *xyz;   /* these; NULL: it is none */
+    float    share;     /* and so much of them */
+    float    weight;    /* of what the path met itself, beside light samples */
+    uint32_t             triangle; /* of an emitter, */
+    const TrianglePoint *point;    /* and where on it; NULL: it is none */
+    const Surface   *met; /* an emitter that the path met itself; NULL: it is none */
+    const Surface   *by;  /* a light sample: the surface that scatters it, seen from wo; NULL:
+                             it is none */
+    Vec3             wo, local_wi;
+    const ShadowRay *shadow; /* from there to the light, or to the mirror */
+    const SunMirror *mirror; /* NULL: it came straight */
+    const ShadowRay *beyond; /* from the mirror to the sun */
+    bool             by_rough; /* facets of a rough mirror */
+} PathFound;
+
+typedef struct PathCollector PathCollector;
+
+/* When a collector is called; what is NULL is not. */
+typedef struct CollectorKind {
+    size_t size; /* of the whole structure */
+    void (*start)(PathCollector *c, PathState *path); /* its first ray is known */
+    void (*meet)(PathCollector *c, PathState *path);  /* the ray meets a surface */
+    /* The surface that the eye itself sees, before it is shaded. */
+    void (*see)(PathCollector *c, PathState *path, const Surface *surface, Vec3 wo,
+                uint32_t triangle);
+    /* A vertex, before it asks the lights. True: it shall not. */
+    bool (*vertex)(PathCollector *c, PathState *path, const Surface *surface, Vec3 wo,
+                   const Lead *lead);
+    /* True: where the path goes on is *next, instead of what the surface chooses. */
+    bool (*choose)(PathCollector *c, PathState *path, const Surface *surface,
+                   BsdfSample *next);
+    /* It leaves by `next`, straight on included; the throughput has its weight. */
+    void (*leave)(PathCollector *c, PathState *path, const Surface *surface, Vec3 wo,
+                  const BsdfSample *next);
+    /* True: it ends instead of being turned there. */
+    bool (*refuse)(PathCollector *c, PathState *path, const Surface *surface,
+                   const BsdfSample *next);
+    void (*turn)(PathCollector *c, PathState *path, const Surface *surface, Vec3 wo,
+                 const BsdfSample *next); /* it is turned; the stretch before is still there */
+    void (*pass)(PathCollector *c, PathState *path, const Surface *pane, Vec3 wo); /* it is
+                  followed straight through a window whose own light is followed besides */
+    void (*behind)(PathCollector *c, PathState *path, const Surface *surface); /* it goes on
+                  straight behind, through a hole or a window */
+    bool (*escape)(PathCollector *c, PathState *path); /* it leaves the scene. True: sun and sky
+                  are not asked for */
+    void (*sky)(PathCollector *c, PathState *path, Spectrum *radiance); /* of the sky there */
+    void (*count)(PathCollector *c, PathState *path, PathFound *light); /* how much counts */
+    void (*hear)(PathCollector *c, PathState *path, const PathFound *light); /* it counts */
+    void (*finish)(PathCollector *c, PathState *path); /* all is found */
+    const RayFootprint *(*footprint)(const PathCollector *c); /* of the ray; NULL: not known */
+} CollectorKind;
+
+struct PathCollector {
+    const CollectorKind *kind;
+    PathCollector       *next;
+};
+
+/* All of them may copy themselves into this. */
+#define COLLECTORS_MAX_BYTES 4096
+
+static inline void collect_start(PathState *path)
+{
+    for (PathCollector *c = path->collector; c; c = c->next)
+        if (c->kind->start) c->kind->start(c, path);
+}
+
+static inline void collect_meet(PathState *path)
+{
+    for (PathCollector *c = path->collector; c; c = c->next)
+        if (c->kind->meet) c->kind->meet(c, path);
+}
+
+static inline void collect_see(PathState *path, const Surface *surface, Vec3 wo,
+                               uint32_t triangle)
+{
+    for (PathCollector *c = path->collector; c; c = c->next)
+        if (c->kind->see) c->kind->see(c, path, surface, wo, triangle);
+}
+
+static inline bool collect_vertex(PathState *path, const Surface *surface, Vec3 wo,
+                                  const Lead *lead)
+{
+    for (PathCollector *c = path->collector; c; c = c->next)
+        if (c->kind->vertex && c->kind->vertex(c, path, surface, wo, lead)) return true;
+    return false;
+}
+
+static inline bool collect_choose(PathState *path, const Surface *surface, BsdfSample *next)
+{
+    for (PathCollector *c = path->collector; c; c = c->next)
+        if (c->kind->choose && c->kind->choose(c, path, surface, next)) return true;
+    return false;
+}
+
+static inline void collect_leave(PathState *path, const Surface *surface, Vec3 wo,
+                                 const BsdfSample *next)
+{
+    for (PathCollector *c = path->collector; c; c = c->next)
+        if (c->kind->leave) c->kind->leave(c, path, surface, wo, next);
+}
+
+static inline bool collect_refuse(PathState *path, const Surface *surface,
+                                  const BsdfSample *next)
+{
+    for (PathCollector *c = path->collector; c; c = c->next)
+        if (c->kind->refuse && c->kind->refuse(c, path, surface, next)) return true;
+    return false;
+}
+
+static inline void collect_turn(PathState *path, const Surface *surface, Vec3 wo,
+                                const BsdfSample *next)
+{
+    for (PathCollector *c = path->collector; c; c = c->next)
+        if (c->kind->turn) c->kind->turn(c, path, surface, wo, next);
+}
+
+static inline void collect_pass(PathState *path, const Surface *pane, Vec3 wo)
+{
+    for (PathCollector *c = path->collector; c; c = c->next)
+        if (c->kind->pass) c->kind->pass(c, path, pane, wo);
+}
+
+static inline void collect_behind(PathState *path, const Surface *surface)
+{
+    for (PathCollector *c = path->collector; c; c = c->next)
+        if (c->kind->behind) c->kind->behind(c, path, surface);
+}
+
+static inline bool collect_escape(PathState *path)
+{
+    for (PathCollector *c = path->collector; c; c = c->next)
+        if (c->kind->escape && c->kind->escape(c, path)) return true;
+    return false;
+}
+
+static inline void collect_sky(PathState *path, Spectrum *radiance)
+{
+    for (PathCollector *c = path->collector; c; c = c->next)
+        if (c->kind->sky) c->kind->sky(c, path, radiance);
+}
+
+static inline void collect_count(PathState *path, PathFound *light)
+{
+    for (PathCollector *c = path->collector; c; c = c->next)
+        if (c->kind->count) c->kind->count(c, path, light);
+}
+
+static inline void collect_hear(PathState *path, const PathFound *light)
+{
+    for (PathCollector *c = path->collector; c; c = c->next)
+        if (c->kind->hear) c->kind->hear(c, path, light);
+}
+
+static inline void collect_finish(PathState *path)
+{
+    for (PathCollector *c = path->collector; c; c = c->next)
+        if (c->kind->finish) c->kind->finish(c, path);
+}
+
+static inline const RayFootprint *collect_footprint(const PathState *path)
+{
+    for (const PathCollector *c = path->collector; c; c = c->next)
+        if (c->kind->footprint) return c->kind->footprint(c);
+    return NULL;
+}

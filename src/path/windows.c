@@ -1,0 +1,155 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* HOT: no allocation, no lock, no libm. */
+#include "path/windows.h"
+
+#include <string.h>
+
+#define SHEET_SHARE 0.5f /* of an eye's samples that follow what a thin sheet itself shows */
+#define OFF_PANE 0.05f /* of an image's shift: so far along its way its ray starts */
+
+/* ---- images of panes --------------------------------------------------------------------- */
+
+static bool is_glazed(const Surface *surface)
+{
+    return surface->bsdf.kind == BSDF_GLAZED_WINDOW;
+}
+
+/* Along the surface from where it was met, towards wi, by so much: images of a pane's far face
+ * start there, and what is seen through a pane goes on there. A pane may be curved: the ray
+ * starts a little along its way. */
+static Vec3 beside(const Surface *surface, Vec3 wi, float along)
+{
+    Vec3 n = surface->frame.z;
+    Vec3 towards = vec3_normalize(vec3_along(wi, n, -vec3_dot(wi, n)));
+    Vec3 place = vec3_along(surface->position, towards, along);
+    return ray_offset_origin(vec3_along(place, wi, OFF_PANE * fabsf(along)), surface->ng, wi);
+}
+
+static bool lets_pass(void *user, const Hit *hit)
+{
+    (void)user, (void)hit;
+    return true;
+}
+
+/* Near the rim that is under the frame, or beyond it. Asked along the ray: a pane goes on under
+ * its seal. along: above 0. */
+static bool is_framed(const PathState *path, const Surface *surface, Vec3 wi, float along)
+{
+    float cosine = vec3_dot(wi, surface->frame.z), flat2 = 1 - cosine * cosine;
+    float reach = along * (1 / sqrtf(fmaxf(flat2, 1e-6f)) + 2 * OFF_PANE); /* and a little */
+    Ray   ray = {ray_offset_origin(surface->position, surface->ng, wi), wi, 0, reach};
+    path->statistics->shadow_rays++;
+    return bvh_occluded(path->context->bvh, ray, lets_pass, NULL);
+}
+
+bool pane_image_start(const PathState *path, const Surface *surface, Vec3 wi, float along,
+                  Vec3 *out)
+{
+    *out = beside(surface, wi, along);
+    return !is_framed(path, surface, wi, along);
+}
+
+/* Only what the eye itself sees through a pane is moved: no light sample has asked for it. */
+static Vec3 behind_pane(const PathState *path, const Surface *surface)
+{
+    Vec3  way = path->ray.direction;
+    float cosine = fabsf(vec3_dot(surface->frame.z, way));
+    return beside(surface, way, glazing_shift(surface->bsdf.glazed_window.pane, cosine));
+}
+
+/* ---- straight on ------------------------------------------------------------------------- */
+
+void sheet_go_behind(PathState *path, const Surface *surface)
+{
+    collect_behind(path, surface);
+    Vec3  direction = path->ray.direction, ng = surface->ng;
+    float cosine = fabsf(vec3_dot(ng, direction));
+    if (path->stack->next < path->stack->count) return;
+    path->sheets_from =
+        path->stack->count ? 2 * ray_offset_step(surface->position) / fmaxf(cosine, 1e-6f) : 0;
+    Vec3 side = path->stack->count ? vec3_neg(direction) : direction;
+    path->ray = (Ray){ray_offset_origin(surface->position, ng, side), direction, 0, INFINITY};
+    if (is_glazed(surface) && !path->bounce && !path->stack->count)
+        path->ray.origin = behind_pane(path, surface);
+}
+
+/* ---- both ways --------------------------------------------------------------------------- */
+
+static bool is_hole(const Surface *surface)
+{
+    return surface->alpha > 0 && surface->alpha < 1;
+}
+
+static bool is_window(const Surface *surface)
+{
+    return surface->alpha >= 1 &&
+           (surface->bsdf.kind == BSDF_THIN_WINDOW || is_glazed(surface));
+}
+
+bool sheet_is_followed(PathState *path, const Surface *surface)
+{
+    if (path->bounce != path->first_bounce || !path->splits_left ||
+        !(is_hole(surface) || is_window(surface)))
+        return false;
+    path->splits_left--;
+    return true;
+}
+
+/* Copies of them all, one after the other in the room. */
+static PathCollector *copy_collectors(const PathCollector *from, char *room)
+{
+    PathCollector *first = NULL, **link = &first;
+    for (; from; from = from->next) {
+        PathCollector *copy = memcpy(room, from, from->kind->size);
+        room += (from->kind->size + 63) / 64 * 64;
+        *link = copy;
+        link = &copy->next;
+    }
+    *link = NULL;
+    return first;
+}
+
+bool sheet_is_shown(PathState *path, const Surface *surface, SheetRoom *room, PathState *sheet)
+{
+    float share = path->manner.has_sheets ? 1 : SHEET_SHARE; /* of samples that ask */
+    numbers_for(path, NUMBERS_SPLIT);
+    if (!(sampler_1d(path->sampler) < share)) return false;
+    *sheet = *path;
+    if (path->stack->count) room->stack = *path->stack;
+    else sheets_none(&room->stack);
+    sheet->stack = &room->stack;
+    sheet->splits_left = 0;
+    sheet->steps += STEPS_FAR * (1 + path->splits_left);
+    sheet->first.is_awaited = false;
+    sheet->gathered = (PathLight){.radiance = spectrum_all(0)};
+    sheet->throughput *= spectrum_all(surface->alpha / share);
+    sheet->collector = copy_collectors(path->collector, room->collectors);
+    return true;
+}
+
+bool window_reflects(PathState *sheet, const Surface *surface, Vec3 wo, BsdfSample *mirror)
+{
+    Vec3 local_wo = surface->local_wo;
+    *mirror = (BsdfSample){.wi = vec3(-local_wo.x, -local_wo.y, local_wo.z), .is_delta = true,
+                           .pdf = 1};
+    if (sheet->bounce >= sheet->context->max_bounces) return false;
+    sheet->throughput *= thin_window_reflectance(&surface->bsdf.thin_window, local_wo.z);
+    collect_leave(sheet, surface, wo, mirror);
+    return true;
+}
+
+bool pane_shows_itself(const Surface *surface, Surface *pane)
+{
+    if (!is_glazed(surface)) return false;
+    *pane = *surface;
+    pane->bsdf.glazed_window.shows_itself = true;
+    return true;
+}
+
+void sheet_pass(PathState *path, const Surface *surface, Vec3 wo)
+{
+    path->throughput *= is_hole(surface) ? spectrum_all(1 - surface->alpha)
+                                         : bsdf_pass(&surface->bsdf, surface->local_wo);
+    if (is_window(surface)) collect_pass(path, surface, wo);
+    sheet_go_behind(path, surface);
+}
