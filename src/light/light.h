@@ -3,7 +3,8 @@
  *
  * Lights come in four sets, each sampled by its own rule: the sun (its disc), the environment
  * (constant or HDRI), emitters (emissive triangles and displays), and punctual lights, both
- * by about what they give the point. Which sets a hit samples is the path's business (path.c).
+ * by about what they give the point. Which sets a hit samples is the path's business
+ * (path/direct.c).
  *
  * Units    radiance in W m^-2 sr^-1 nm^-1 per lane; for delta lights it is the
  *          irradiance on a plane that faces the light. pdf in sr^-1.

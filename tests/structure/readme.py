@@ -51,6 +51,7 @@ def main():
         report.claim(exists(path), f"README.md names {path}, which is not there")
     report.claim(not exists("src/nowhere.c"), "a missing file passes for a present one")
     check_table(report, "src/review")
+    check_table(report, "src/path")
     licence = read("LICENSE")
     report.claim("Apache License" in licence and "Version 2.0" in licence,
                  "LICENSE is not Apache-2.0")
