@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "shaders/bsdf.h"
 
+#include <math.h>
+
 #define TABLE_ROW(KIND, name, Parameters) [BSDF_##KIND] = &name##_model,
 
 static const BsdfModel black_model;
@@ -81,4 +83,59 @@ bool bsdf_polarise(const Bsdf *bsdf, Vec3 wo, const BsdfSample *way, BsdfPolaris
 {
     const BsdfModel *model = models[bsdf->kind];
     return model->polarise && model->polarise(parameters_of(bsdf), wo, way, out);
+}
+
+bool bsdf_is(const Bsdf *bsdf, BsdfTrait trait)
+{
+    return (models[bsdf->kind]->traits & (unsigned)trait) != 0;
+}
+
+float bsdf_sharpest(const Bsdf *bsdf)
+{
+    const BsdfModel *model = models[bsdf->kind];
+    return model->sharpest ? model->sharpest(parameters_of(bsdf)) : INFINITY;
+}
+
+float bsdf_index(const Bsdf *bsdf)
+{
+    const BsdfModel *model = models[bsdf->kind];
+    return model->index ? model->index(parameters_of(bsdf)) : 0;
+}
+
+float bsdf_shift(const Bsdf *bsdf, float cosine)
+{
+    const BsdfModel *model = models[bsdf->kind];
+    return model->shift ? model->shift(parameters_of(bsdf), cosine) : 0;
+}
+
+bool bsdf_show_itself(Bsdf *bsdf)
+{
+    const BsdfModel *model = models[bsdf->kind];
+    if (model->show_itself) model->show_itself(&bsdf->metallic_roughness);
+    return model->show_itself != NULL;
+}
+
+void bsdf_carry(Bsdf *bsdf, const Spectrum *light)
+{
+    const BsdfModel *model = models[bsdf->kind];
+    if (model->carry) model->carry(&bsdf->metallic_roughness, light);
+}
+
+bool bsdf_sends_across(const Bsdf *bsdf)
+{
+    const BsdfModel *model = models[bsdf->kind];
+    return model->sends_across && model->sends_across(parameters_of(bsdf));
+}
+
+bool bsdf_has_lambertian(const Bsdf *bsdf)
+{
+    return models[bsdf->kind]->lambertian != NULL;
+}
+
+Spectrum bsdf_lambertian_share(const Bsdf *bsdf, Vec3 wo, Vec3 wi)
+{
+    const BsdfModel *model = models[bsdf->kind];
+    float            pdf;
+    if (!model->lambertian) return spectrum_all(0);
+    return model->lambertian(parameters_of(bsdf), bsdf_eval(bsdf, wo, wi, &pdf), wi);
 }

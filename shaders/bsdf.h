@@ -42,6 +42,20 @@ typedef struct Bsdf {
     };
 } Bsdf;
 
+/* bsdf_be_NAME: becomes that model; its parameters are to be set. */
+#define BSDF_BE(KIND, name, Parameters)                                                        \
+    static inline Parameters *bsdf_be_##name(Bsdf *bsdf)                                       \
+    {                                                                                          \
+        bsdf->kind = BSDF_##KIND;                                                              \
+        return &bsdf->name;                                                                    \
+    }
+BSDF_MODELS(BSDF_BE)
+
+static inline void bsdf_be_black(Bsdf *bsdf)
+{
+    bsdf->kind = BSDF_BLACK;
+}
+
 /* What one eye sees of a surface; its members are undefined until bsdf_look. */
 typedef union BsdfRoom {
     MetallicView metallic_roughness;
@@ -82,6 +96,35 @@ BsdfLobes bsdf_lobes(const Bsdf *bsdf, Vec3 wo);
 /* What scattering from way->wi to wo does to polarised light; of `way` wi, is_delta, passes and
  * along are looked at. False: what leaves is unpolarised, whatever came. */
 bool bsdf_polarise(const Bsdf *bsdf, Vec3 wo, const BsdfSample *way, BsdfPolarisation *out);
+
+bool bsdf_is(const Bsdf *bsdf, BsdfTrait trait);
+
+/* GGX alpha of its lobe; INFINITY: it has none. */
+float bsdf_sharpest(const Bsdf *bsdf);
+
+/* Of a boundary that refracts: the mean index behind it over that outside; 0: none. */
+float bsdf_index(const Bsdf *bsdf);
+
+/* By how far a ray that goes straight through a pane comes out along it, in the direction in
+ * which it goes along it, m (below 0: back). cosine: of its angle to the normal, (0, 1]. 0: the
+ * surface has no thickness. */
+float bsdf_shift(const Bsdf *bsdf, float cosine);
+
+/* From now on bsdf_sample leaves out what passes a pane: that is followed by itself. False: it
+ * shows nothing but its mirror image. */
+bool bsdf_show_itself(Bsdf *bsdf);
+
+/* The light that comes to it, per lane, which must outlive it: who parts it by wavelength draws
+ * a lane by that. */
+void bsdf_carry(Bsdf *bsdf, const Spectrum *light);
+
+/* Does it send light diffusely to its other side? */
+bool bsdf_sends_across(const Bsdf *bsdf);
+
+/* Has it a lambertian part that is told by itself? And its share, per lane, of what it scatters
+ * from wi: 0 to 1. */
+bool     bsdf_has_lambertian(const Bsdf *bsdf);
+Spectrum bsdf_lambertian_share(const Bsdf *bsdf, Vec3 wo, Vec3 wi);
 
 /* Directional-hemispherical reflectance plus transmittance, estimated: for the albedo layer
  * and for roulette, not for transport. */

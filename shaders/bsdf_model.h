@@ -39,7 +39,15 @@ typedef struct BsdfLobes {
     float alpha;
 } BsdfLobes;
 
+/* What kind of thing it is, for whoever follows light past it. */
+typedef enum BsdfTrait {
+    BSDF_IS_SHEET = 1, /* thin, and light goes straight through: shadow rays pass, and an eye's
+                          ray follows what lies behind besides what the sheet shows */
+    BSDF_REFRACTS = 2, /* the boundary of a solid, which light crosses bent */
+} BsdfTrait;
+
 typedef struct BsdfModel {
+    unsigned traits; /* of BsdfTrait */
     /* room: the model's own member of BsdfRoom. NULL: nothing is kept. */
     void     (*look)(void *parameters, Vec3 wo, void *room);
     Spectrum (*eval)(const void *parameters, Vec3 wo, Vec3 wi, float *pdf);
@@ -54,4 +62,12 @@ typedef struct BsdfModel {
     /* way: wi, is_delta, passes and along are told. False or NULL: all becomes unpolarised. */
     bool     (*polarise)(const void *parameters, Vec3 wo, const BsdfSample *way,
                          BsdfPolarisation *out);
+    /* What few models have; NULL: it has not. */
+    float    (*sharpest)(const void *parameters);
+    float    (*index)(const void *parameters);
+    float    (*shift)(const void *parameters, float cosine);
+    void     (*show_itself)(void *parameters);
+    void     (*carry)(void *parameters, const Spectrum *light);
+    bool     (*sends_across)(const void *parameters);
+    Spectrum (*lambertian)(const void *parameters, Spectrum f, Vec3 wi);
 } BsdfModel;

@@ -390,7 +390,18 @@ static bool solid_polarise(const void *parameters, Vec3 wo, const BsdfSample *wa
     return true;
 }
 
-const BsdfModel dielectric_model = {.eval = solid_eval, .sample = solid_sample,
-                                    .mirror = solid_mirror,
+static float solid_index(const void *parameters)
+{
+    return ((const Dielectric *)parameters)->ior;
+}
+
+static void solid_carry(void *parameters, const Spectrum *light)
+{
+    ((Dielectric *)parameters)->light = light;
+}
+
+const BsdfModel dielectric_model = {.traits = BSDF_REFRACTS, .eval = solid_eval,
+                                    .sample = solid_sample, .mirror = solid_mirror,
                                     .scatters = solid_scatters, .albedo = solid_albedo,
-                                    .polarise = solid_polarise};
+                                    .polarise = solid_polarise, .index = solid_index,
+                                    .carry = solid_carry};

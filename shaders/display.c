@@ -148,8 +148,10 @@ static Spectrum model_albedo(const void *parameters, Vec3 wo)
            spectrum_all(haze_albedo_of(display, wo.z));
 }
 
-Spectrum display_lambertian_share(const DisplaySurface *display, Spectrum f, Vec3 wi)
+/* Of f, as eval gave it, the panel's lambertian part and no haze; 0 where f is 0. */
+static Spectrum model_lambertian(const void *parameters, Spectrum f, Vec3 wi)
 {
+    const DisplaySurface *display = parameters;
     Spectrum lambertian = display->mix.count
         ? panel_mix_lambertian(&display->mix, f, wi, display->wavelengths)
         : panel_lambertian_at(display->panel, f, wi, &display->lanes);
@@ -176,4 +178,5 @@ static bool model_polarise(const void *parameters, Vec3 wo, const BsdfSample *wa
 const BsdfModel display_model = {.eval = model_eval, .reaches = model_reaches,
                                  .sample = model_sample, .mirror = model_mirror,
                                  .scatters = model_scatters, .albedo = model_albedo,
-                                 .polarise = model_polarise};
+                                 .polarise = model_polarise,
+                                 .lambertian = model_lambertian};

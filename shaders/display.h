@@ -21,7 +21,3 @@ typedef struct DisplaySurface {
 } DisplaySurface;
 
 extern const BsdfModel display_model;
-
-/* HOT. Share of what it scatters, f as eval gave it for light from wi (local), that is the
- * panel's lambertian part and no haze: 0 to 1 per lane, 0 where f is 0. */
-Spectrum display_lambertian_share(const DisplaySurface *display, Spectrum f, Vec3 wi);

@@ -188,9 +188,10 @@ static float ghost_shift(const Glazing *pane, float cosine)
     return 2 * sum;
 }
 
-float glazing_shift(const Glazing *pane, float cosine)
+static float window_shift(const void *parameters, float cosine)
 {
-    float thickness = 0;
+    const Glazing *pane = ((const GlazedWindow *)parameters)->pane;
+    float          thickness = 0;
     for (int i = 0; i < pane->layer_count; i++) thickness += pane->layers[i].thickness_m;
     cosine = fmaxf(cosine, LEAST_COSINE);
     float straight = thickness * safe_sqrtf(1 - cosine * cosine) / cosine;
@@ -456,8 +457,15 @@ static bool window_polarise(const void *parameters, Vec3 wo, const BsdfSample *w
     return true;
 }
 
-const BsdfModel glazed_window_model = {.eval = window_eval, .reaches = window_reaches,
+static void window_show_itself(void *parameters)
+{
+    ((GlazedWindow *)parameters)->shows_itself = true;
+}
+
+const BsdfModel glazed_window_model = {.traits = BSDF_IS_SHEET, .eval = window_eval,
+                                       .reaches = window_reaches,
                                        .sample = window_sample, .pass = window_pass,
                                        .mirror = window_mirror, .scatters = window_scatters,
                                        .albedo = window_albedo,
-                                       .polarise = window_polarise};
+                                       .polarise = window_polarise, .shift = window_shift,
+                                       .show_itself = window_show_itself};

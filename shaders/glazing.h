@@ -22,6 +22,3 @@ typedef struct GlazedWindow {
 
 extern const BsdfModel glazed_window_model;
 
-/* HOT. By how far a ray that passes is moved along the pane, in the direction in which it goes
- * along it, m (below 0: back). cosine: of its angle to the normal, (0, 1]. */
-float glazing_shift(const Glazing *pane, float cosine);

@@ -1689,10 +1689,22 @@ static bool model_polarise(const void *parameters, Vec3 wo, const BsdfSample *wa
     return true;
 }
 
+static float model_sharpest(const void *parameters)
+{
+    return ((const MetallicRoughness *)parameters)->alpha;
+}
+
+static bool model_sends_across(const void *parameters)
+{
+    return ((const MetallicRoughness *)parameters)->across > 0;
+}
+
 const BsdfModel metallic_roughness_model = {.eval = model_eval,
                                             .reaches = model_reaches, .sample = model_sample,
                                             .pass = model_pass, .mirror = model_mirror,
                                             .glint = model_glint,
                                             .scatters = model_scatters, .lobes = model_lobes,
                                             .albedo = model_albedo, .look = model_look,
-                                            .polarise = model_polarise};
+                                            .polarise = model_polarise,
+                                            .sharpest = model_sharpest,
+                                            .sends_across = model_sends_across};

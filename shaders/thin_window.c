@@ -103,6 +103,7 @@ static bool window_polarise(const void *parameters, Vec3 wo, const BsdfSample *w
     return true;
 }
 
-const BsdfModel thin_window_model = {.sample = window_sample, .pass = window_pass,
+const BsdfModel thin_window_model = {.traits = BSDF_IS_SHEET, .sample = window_sample,
+                                     .pass = window_pass,
                                      .mirror = window_mirror, .albedo = window_albedo,
                                      .polarise = window_polarise};

@@ -14,6 +14,7 @@ run 'the module is the file' modules python3 tests/structure/modules.py
 run 'sizes and contents of the sources' source python3 tests/structure/source.py
 run 'every source says its licence' spdx python3 tests/structure/spdx.py
 run 'the README names what is there' readme python3 tests/structure/readme.py
+run 'a surface model is known by its own files' models python3 tests/structure/models.py
 run 'pages and comments point to what is there' pointers python3 tests/structure/pointers.py
 gather
 run 'a schedule, simulated' schedule python3 tests/slurm/schedule_laws.py

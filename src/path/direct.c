@@ -20,9 +20,7 @@ void direct_absorb(const PathState *path, int medium_id, float distance, Spectru
 static void absorb_sample(const PathState *path, const Surface *surface,
                           const LightSample *light, Spectrum *passed)
 {
-    if (surface->bsdf.kind != BSDF_METALLIC_ROUGHNESS ||
-        !(surface->bsdf.metallic_roughness.across > 0) || !isfinite(light->distance))
-        return;
+    if (!isfinite(light->distance) || !bsdf_sends_across(&surface->bsdf)) return;
     const Material *m = &path->context->scene->materials[surface->material_id];
     if (material_is_translucent_solid(m) && vec3_dot(light->wi, surface->ng) < 0)
         direct_absorb(path, surface->material_id, light->distance, passed);

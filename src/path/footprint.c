@@ -108,8 +108,8 @@ static bool has_smooth_normals(const Scene *scene, const Surface *surface)
 /* The index on the ray's side over that behind; 1: the surface refracts nothing. */
 static float index_ratio(const Surface *surface, Vec3 wo)
 {
-    float ior = surface->bsdf.dielectric.ior;
-    if (surface->bsdf.kind != BSDF_DIELECTRIC || !(ior > 0)) return 1;
+    float ior = bsdf_index(&surface->bsdf);
+    if (!(ior > 0)) return 1;
     return vec3_dot(wo, surface->frame.z) > 0 ? 1 / ior : ior;
 }
 

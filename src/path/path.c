@@ -57,7 +57,7 @@ static void note_mirror(PathState *path, const Surface *surface, const BsdfSampl
  * outside. */
 static void cross(PathState *path, const Surface *surface, Vec3 local_wi, Vec3 wi)
 {
-    bool refracts = surface->bsdf.kind == BSDF_DIELECTRIC;
+    bool refracts = bsdf_is(&surface->bsdf, BSDF_REFRACTS);
     bool is_inside = refracts ? local_wi.z < 0 : vec3_dot(wi, surface->ng) < 0;
     const Material *m = &path->context->scene->materials[surface->material_id];
     if (refracts || material_is_translucent_solid(m))
@@ -210,8 +210,7 @@ static void walk(PathState *path)
         float distance = path->straight;
         path->steps++;
         surface_at(context->scene, context->tables, &hit, wo, path->wavelengths, &surface);
-        if (surface.bsdf.kind == BSDF_DIELECTRIC)
-            surface.bsdf.dielectric.light = &path->throughput;
+        bsdf_carry(&surface.bsdf, &path->throughput);
         collect_meet(path);
         if (sheet_is_followed(path, &surface)) {
             follow_both(path, &surface, &hit, wo);

@@ -346,8 +346,7 @@ static void set_metallic_roughness(const Site *site, Surface *surface)
     const TrianglePoint *point = &surface->point;
     float texel[4];
     bool  coloured = read_colour(site->scene, &m->specular_color_texture, point, texel);
-    surface->bsdf.kind = BSDF_METALLIC_ROUGHNESS;
-    MetallicRoughness *model = &surface->bsdf.metallic_roughness;
+    MetallicRoughness *model = bsdf_be_metallic_roughness(&surface->bsdf);
     *model = metallic_roughness_default(site->tables->of_material[surface->material_id]);
     model->base_color = site->base_color;
     model->metallic = site->metallic;
@@ -377,8 +376,7 @@ static void set_solid(const Site *site, Surface *surface)
 {
     const Material *m = site->material;
     const SurfaceCoating *coating = coating_of(site, surface->material_id);
-    Dielectric *solid = &surface->bsdf.dielectric;
-    surface->bsdf.kind = BSDF_DIELECTRIC;
+    Dielectric *solid = bsdf_be_dielectric(&surface->bsdf);
     *solid = (Dielectric){.tint = tint_of(site), .ior = m->ior, .alpha = site->alpha};
     solid->energy = site->tables->solids[surface->material_id].least;
     solid->energy_most = site->tables->solids[surface->material_id].most;
@@ -398,8 +396,7 @@ static void set_solid(const Site *site, Surface *surface)
 static void set_window(const Site *site, Surface *surface)
 {
     const SurfaceCoating *coating = coating_of(site, surface->material_id);
-    ThinWindow *window = &surface->bsdf.thin_window;
-    surface->bsdf.kind = BSDF_THIN_WINDOW;
+    ThinWindow *window = bsdf_be_thin_window(&surface->bsdf);
     *window = (ThinWindow){.tint = tint_of(site), .ior = site->material->ior};
     if (!coating) return;
     window->reflectance = is_front(surface) ? coating->sheet->front : coating->sheet->back;
@@ -438,8 +435,7 @@ static void set_bend(const Site *site, const Surface *surface, GlazedWindow *mod
 static void set_glazing(const Site *site, Surface *surface)
 {
     const Glazing *pane = site->material->glazing;
-    GlazedWindow  *model = &surface->bsdf.glazed_window;
-    surface->bsdf.kind = BSDF_GLAZED_WINDOW;
+    GlazedWindow  *model = bsdf_be_glazed_window(&surface->bsdf);
     *model = (GlazedWindow){.pane = pane,
                             .absorbance = curve_lookup(&pane->absorbance, site->wavelengths),
                             .front_is_up = vec3_dot(surface->frame.z, surface->ng) > 0};
@@ -492,18 +488,18 @@ static void set_display(const Site *site, Vec3 wo, Surface *surface)
 {
     const Display *display = &site->scene->displays[site->material->display_id];
     if (vec3_dot(wo, surface->ng) <= 0) {
-        surface->bsdf.kind = BSDF_BLACK; /* the back of a display: its casing */
+        bsdf_be_black(&surface->bsdf); /* the back of a display: its casing */
         return;
     }
     TrianglePoint turned = surface->point;
     turned.ns = surface->frame.z;
     surface->frame = display_frame(site->scene, display, site->hit->triangle, &turned);
-    surface->bsdf.kind = BSDF_DISPLAY;
-    set_display_panel(site, display, &surface->point, &surface->bsdf.display);
+    DisplaySurface       *model = bsdf_be_display(&surface->bsdf);
     const SurfaceCoating *coating = coating_of(site, surface->material_id);
-    surface->bsdf.display.cover = coating ? coating->cover->front : NULL;
-    surface->bsdf.display.waves = coating ? coating->glass_waves : NULL;
-    surface->bsdf.display.wavelengths = site->wavelengths;
+    set_display_panel(site, display, &surface->point, model);
+    model->cover = coating ? coating->cover->front : NULL;
+    model->waves = coating ? coating->glass_waves : NULL;
+    model->wavelengths = site->wavelengths;
 }
 
 void surface_at(const Scene *scene, const SurfaceTables *tables, const Hit *hit, Vec3 wo,
@@ -533,7 +529,7 @@ void surface_at(const Scene *scene, const SurfaceTables *tables, const Hit *hit,
     if (m->display_id != NO_ID) {
         set_display(&site, wo, out);
     } else if (m->unlit) {
-        out->bsdf.kind = BSDF_BLACK;
+        bsdf_be_black(&out->bsdf);
     } else if (m->glazing) {
         set_glazing(&site, out);
     } else {
@@ -547,10 +543,10 @@ void surface_white(const SurfaceTables *tables, Vec3 position, Vec3 normal, Surf
 {
     *out = (Surface){.position = position, .ng = normal, .frame = frame_from_z(normal),
                      .local_wo = {0, 0, 1}, .part_id = NO_ID, .material_id = NO_ID, .alpha = 1};
-    out->bsdf.kind = BSDF_METALLIC_ROUGHNESS;
-    out->bsdf.metallic_roughness = metallic_roughness_default(tables->of_coat);
-    out->bsdf.metallic_roughness.metallic = 0;
-    out->bsdf.metallic_roughness.specular = 0;
+    MetallicRoughness *model = bsdf_be_metallic_roughness(&out->bsdf);
+    *model = metallic_roughness_default(tables->of_coat);
+    model->metallic = 0;
+    model->specular = 0;
 }
 
 Spectrum surface_pass(const Scene *scene, const SurfaceTables *tables, const Hit *hit,

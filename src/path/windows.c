@@ -9,11 +9,6 @@
 
 /* ---- images of panes --------------------------------------------------------------------- */
 
-static bool is_glazed(const Surface *surface)
-{
-    return surface->bsdf.kind == BSDF_GLAZED_WINDOW;
-}
-
 /* Along the surface from where it was met, towards wi, by so much: images of a pane's far face
  * start there, and what is seen through a pane goes on there. A pane may be curved: the ray
  * starts a little along its way. */
@@ -50,11 +45,12 @@ bool pane_image_start(const PathState *path, const Surface *surface, Vec3 wi, fl
 }
 
 /* Only what the eye itself sees through a pane is moved: no light sample has asked for it. */
-static Vec3 behind_pane(const PathState *path, const Surface *surface)
+static void start_behind_pane(PathState *path, const Surface *surface)
 {
     Vec3  way = path->ray.direction;
     float cosine = fabsf(vec3_dot(surface->frame.z, way));
-    return beside(surface, way, glazing_shift(surface->bsdf.glazed_window.pane, cosine));
+    float shift = bsdf_shift(&surface->bsdf, cosine);
+    if (shift != 0) path->ray.origin = beside(surface, way, shift);
 }
 
 /* ---- straight on ------------------------------------------------------------------------- */
@@ -69,8 +65,7 @@ void sheet_go_behind(PathState *path, const Surface *surface)
         path->stack->count ? 2 * ray_offset_step(surface->position) / fmaxf(cosine, 1e-6f) : 0;
     Vec3 side = path->stack->count ? vec3_neg(direction) : direction;
     path->ray = (Ray){ray_offset_origin(surface->position, ng, side), direction, 0, INFINITY};
-    if (is_glazed(surface) && !path->bounce && !path->stack->count)
-        path->ray.origin = behind_pane(path, surface);
+    if (!path->bounce && !path->stack->count) start_behind_pane(path, surface);
 }
 
 /* ---- both ways --------------------------------------------------------------------------- */
@@ -82,8 +77,7 @@ static bool is_hole(const Surface *surface)
 
 static bool is_window(const Surface *surface)
 {
-    return surface->alpha >= 1 &&
-           (surface->bsdf.kind == BSDF_THIN_WINDOW || is_glazed(surface));
+    return surface->alpha >= 1 && bsdf_is(&surface->bsdf, BSDF_IS_SHEET);
 }
 
 bool sheet_is_followed(PathState *path, const Surface *surface)
@@ -133,17 +127,15 @@ bool window_reflects(PathState *sheet, const Surface *surface, Vec3 wo, BsdfSamp
     *mirror = (BsdfSample){.wi = vec3(-local_wo.x, -local_wo.y, local_wo.z), .is_delta = true,
                            .pdf = 1};
     if (sheet->bounce >= sheet->context->max_bounces) return false;
-    sheet->throughput *= thin_window_reflectance(&surface->bsdf.thin_window, local_wo.z);
+    sheet->throughput *= bsdf_mirror(&surface->bsdf, local_wo);
     collect_leave(sheet, surface, wo, mirror);
     return true;
 }
 
 bool pane_shows_itself(const Surface *surface, Surface *pane)
 {
-    if (!is_glazed(surface)) return false;
     *pane = *surface;
-    pane->bsdf.glazed_window.shows_itself = true;
-    return true;
+    return bsdf_show_itself(&pane->bsdf);
 }
 
 void sheet_pass(PathState *path, const Surface *surface, Vec3 wo)

@@ -9,8 +9,7 @@
 
 static bool is_sharp(const Surface *surface)
 {
-    return surface->bsdf.kind == BSDF_METALLIC_ROUGHNESS &&
-           surface->bsdf.metallic_roughness.alpha <= SHARP_ALPHA;
+    return bsdf_sharpest(&surface->bsdf) <= SHARP_ALPHA;
 }
 
 /* ---- ways -------------------------------------------------------------------------------- */

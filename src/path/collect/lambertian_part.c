@@ -5,15 +5,13 @@
 /* Is this what is asked about? */
 static bool is_asked(const PathState *path, const Surface *surface)
 {
-    return path->first.is_awaited && surface->bsdf.kind == BSDF_DISPLAY;
+    return path->first.is_awaited && bsdf_has_lambertian(&surface->bsdf);
 }
 
 /* Of what a display scatters from local_wi. */
 static Spectrum share_of(const Surface *surface, Vec3 local_wi)
 {
-    float    pdf;
-    Spectrum f = bsdf_eval(&surface->bsdf, surface->local_wo, local_wi, &pdf);
-    return display_lambertian_share(&surface->bsdf.display, f, local_wi);
+    return bsdf_lambertian_share(&surface->bsdf, surface->local_wo, local_wi);
 }
 
 /* The surface scatters light of its own samples. */

@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: Apache-2.0
+"""models.py -- a surface model is known by its own files, the list in shaders/bsdf.h, and who
+makes one of a material: so that another one takes the six files that CONTRIBUTING.md lists."""
+import re
+import sys
+
+from report import Report, read, sources
+
+MAKER = "src/path/surface.c"
+LIST = "shaders/bsdf.h"
+
+
+def models():
+    """(KIND, name) of every line of BSDF_MODELS."""
+    listed = read(LIST).partition("#define BSDF_MODELS")[2]
+    return re.findall(r"MODEL\(([A-Z_]+), (\w+), \w+\)", listed)
+
+
+def named(kind, name, text):
+    """What of a model a source names: its kind, its table, its member of Bsdf, its maker."""
+    words = rf"\bBSDF_{kind}\b|\b{name}_model\b|bsdf(?:\.|->){name}\b|\bbsdf_be_{name}\b"
+    return re.findall(words, text)
+
+
+def listed_files():
+    """Of CONTRIBUTING.md's list for a surface model."""
+    text = read("CONTRIBUTING.md").partition("**A surface model**")[2].partition("\n\n")[0]
+    return re.findall(r"^\d+\. `([\w./]+)`", text, re.MULTILINE)
+
+
+def main():
+    report, names = Report(), sources(".c", ".h")
+    found = models()
+    report.claim(len(found) >= 5, f"models: {found}")
+    for kind, name in found:
+        outside = [path for path in names if not path.startswith(("shaders/", "tests/"))
+                   and named(kind, name, read(path))]
+        report.claim(outside == [MAKER], f"{name} is named in {outside}, wanted {MAKER} alone")
+    report.claim(len(listed_files()) <= 6 and MAKER in listed_files() and LIST in listed_files(),
+                 f"CONTRIBUTING.md lists {listed_files()} for a surface model")
+    report.claim(named("A", "a", "bsdf.a x; BSDF_A; b_model") == ["bsdf.a", "BSDF_A"],
+                 "what names a model is not seen")
+    report.finish()
+
+
+if __name__ == "__main__":
+    sys.exit(main())
