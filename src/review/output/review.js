@@ -31,6 +31,18 @@ function ofCalendar(d,value,column,row){
   var failed=Math.round((value-1)/10000*of*10)/10;
   return text+(failed?'fails for '+failed+' of '+of+' heading'+(of===1?'':'s'):'passes');
 }
+/* On a telephone each cell of these tables says its column. */
+[].forEach.call(document.querySelectorAll('table.variants'),function(table){
+  var heads=table.tHead?table.tHead.rows[0].cells:[];
+  [].forEach.call(table.tBodies,function(body){
+    [].forEach.call(body.rows,function(row){
+      [].forEach.call(row.cells,function(cell,i){
+        if(heads[i])cell.dataset.name=heads[i].textContent;
+      });
+    });
+  });
+  table.classList.add('named');
+});
 [].forEach.call(document.querySelectorAll('.area[data-values]'),function(area){
   var d=area.dataset,values=cells(d.values),read=document.createElement('div');
   read.className='read';

@@ -51,20 +51,30 @@ static const ReviewVariantFound **rank(const Review *review, Arena *arena)
 
 /* ---- words ------------------------------------------------------------------------------- */
 
-/* In percent of the limit: "+20.8 ± 0.5 %"; what may be nothing says so. */
+/* Is it less than a tenth of a percent of the limit, which is all that is shown? */
+static bool is_small(const ReviewDifference *d)
+{
+    double half = 50 * (d->margin_range.high - d->margin_range.low);
+    return fabs(100 * d->margin) < 0.05 && half < 0.05;
+}
+
+/* In percent of the limit: "+20.8 ± 0.5 %"; what may be nothing, or is less than is shown, says
+ * so. */
 static const char *difference_words(const ReviewDifference *d, Arena *arena)
 {
     double half = 50 * (d->margin_range.high - d->margin_range.low);
     double value = 100 * d->margin;
     if (isnan(value)) return "–";
+    if (is_small(d)) return "none";
     if (d->margin_range.low <= 0 && d->margin_range.high >= 0)
-        return half < 0.05 ? "none" : arena_format(arena, "none above %.2g %%", half);
+        return arena_format(arena, "none above %.2g %%", half);
     return arena_format(arena, "%s%.*f ± %.2g %%", value < 0 ? "−" : "+",
                         fabs(value) < 10 ? 1 : 0, fabs(value), half);
 }
 
 static const char *difference_class(const ReviewDifference *d)
 {
+    if (is_small(d)) return "n";
     if (d->margin_range.low > 0) return "n good";
     return d->margin_range.high < 0 ? "n bad" : "n";
 }
