@@ -84,11 +84,11 @@ def check_paper(report, page, index):
 
 
 def check_narrow(report, page, index):
-    """A telephone: nothing is cut off; of what is folded wide tables scroll in their place."""
+    """A telephone: nothing is cut off; folded wide tables scroll in their place."""
     page.resize(390, 844)
     wide = page.run("[...document.querySelectorAll('table')].filter(t=>t.checkVisibility()&&"
                     "t.getBoundingClientRect().right>innerWidth+1).length")
-    report.claim(wide == 0, f"{index}: {wide} tables must be scrolled before anything is opened")
+    report.claim(wide == 0, f"{index}: {wide} tables scroll before anything is opened")
     page.run("document.querySelectorAll('details').forEach(d=>d.open=true)")
     over = page.run("document.documentElement.scrollWidth-innerWidth")
     report.claim(over <= 0, f"{index}: {over} px wider than 390")
