@@ -47,6 +47,9 @@ def main():
     text = read("README.md")
     ray = text.partition("## Follow one ray")[2].partition("\n## ")[0]
     report.claim(len(named_paths(ray)) >= 9, "README: `Follow one ray` names too few files")
+    for sister, least in (("One measurement", 7), ("One verdict", 8)):
+        told = text.partition(f"**{sister}**")[2].partition("\n\n")[0]
+        report.claim(len(named_paths(told)) >= least, f"README: `{sister}` names too few files")
     for path in named_paths(text):
         report.claim(exists(path), f"README.md names {path}, which is not there")
     report.claim(not exists("src/nowhere.c"), "a missing file passes for a present one")
