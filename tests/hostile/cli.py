@@ -106,9 +106,13 @@ class Program:
                         "32x24", "--spp", "2", *options)
 
 
+# What a machine that is busy says of its work, from a second on.
+PROGRESS = re.compile(r"parhelion: \S+ \d+%, .* elapsed, .* left$")
+
+
 def one_line(done, *words):
-    """stderr is one line of ours that holds the words."""
-    lines = done.stderr.splitlines()
+    """stderr is one line of ours that holds the words, besides progress."""
+    lines = [line for line in done.stderr.splitlines() if not PROGRESS.match(line)]
     return len(lines) == 1 and lines[0].startswith("parhelion: ") \
         and all(word in lines[0] for word in words)
 
