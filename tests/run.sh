@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: Apache-2.0
-# run.sh -- the tests of every day, in twelve minutes on two processors; tests/long.sh has the
+# run.sh -- the tests of every day, in fifteen minutes on two processors; tests/long.sh has the
 # rest: what is slow, every guide, most of the sanitizers.
 # Installs what is missing, builds, and ends with one line: "N passed, N failed".
 cd "$(dirname "$0")/.." || exit 1

@@ -31,24 +31,18 @@ static bool roulette(PathState *path)
     return true;
 }
 
-static bool is_display(const Scene *scene, const Surface *surface)
-{
-    return surface->material_id != NO_ID &&
-           scene->materials[surface->material_id].display_id != NO_ID;
-}
-
 /* What the first surface reflects is asked for, be it ever so dark. */
 static bool asks_the_first(const PathState *path, const Surface *surface)
 {
-    return path->context->is_probe || is_display(path->context->scene, surface);
+    return path->context->is_probe || surface_is_display(path->context->scene, surface);
 }
 
 /* At the first surface: what comes from now on came by way of a display's mirror. */
 static void note_mirror(PathState *path, const Surface *surface, const BsdfSample *next)
 {
     PathFirst *first = &path->first;
-    if (!first->is_awaited || !next->is_delta || !is_display(path->context->scene, surface))
-        return;
+    bool is_mirror = next->is_delta && surface_is_display(path->context->scene, surface);
+    if (!first->is_awaited || !is_mirror) return;
     first->by_mirror = true;
     first->before = path->gathered;
 }

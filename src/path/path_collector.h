@@ -93,8 +93,17 @@ struct PathCollector {
     PathCollector       *next;
 };
 
-/* All of them may copy themselves into this. */
+/* All that hang on one path copy themselves into this, each from a multiple of 64 bytes on. */
 #define COLLECTORS_MAX_BYTES 4096
+#define COLLECTOR_ROOM(Type) ((sizeof(Type) + 63) / 64 * 64)
+
+/* As `vertex`: the lights are asked by nobody. */
+static inline bool collector_asks_nobody(PathCollector *c, PathState *path,
+                                         const Surface *surface, Vec3 wo, const Lead *lead)
+{
+    (void)c, (void)path, (void)surface, (void)wo, (void)lead;
+    return true;
+}
 
 static inline void collect_start(PathState *path)
 {

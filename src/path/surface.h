@@ -30,6 +30,12 @@ typedef struct Surface {
     Bsdf  bsdf;
 } Surface;
 
+static inline bool surface_is_display(const Scene *scene, const Surface *surface)
+{
+    return surface->material_id != NO_ID &&
+           scene->materials[surface->material_id].display_id != NO_ID;
+}
+
 /* wo: unit, world, from the hit to where the ray came from. Wavelengths must outlive *out. */
 void surface_at(const Scene *scene, const SurfaceTables *tables, const Hit *hit, Vec3 wo,
                 const Wavelengths *wavelengths, Surface *out);

@@ -21,13 +21,6 @@ typedef struct FarWay {
     float          pdf; /* of its direction behind that lobe, sr^-1; 0: none yet */
 } FarWay;
 
-static bool ask_nobody(PathCollector *c, PathState *path, const Surface *surface, Vec3 wo,
-                       const Lead *lead)
-{
-    (void)c, (void)path, (void)surface, (void)wo, (void)lead;
-    return true;
-}
-
 /* Does the way end? Vertices behind a sharp lobe send out their own. */
 static bool refuse(PathCollector *c, PathState *path, const Surface *surface,
                    const BsdfSample *next)
@@ -50,7 +43,7 @@ static bool leave_by_way(PathCollector *c, PathState *path)
     return true;
 }
 
-static const CollectorKind way_kind = {.size = sizeof(FarWay), .vertex = ask_nobody,
+static const CollectorKind way_kind = {.size = sizeof(FarWay), .vertex = collector_asks_nobody,
                                        .refuse = refuse, .escape = leave_by_way};
 
 /* Towards what lies where the surface scatters to; its own mirror the path itself follows. */
@@ -124,12 +117,6 @@ static bool ask(PathCollector *c, PathState *path, const Surface *surface, Vec3 
     return true;
 }
 
-static bool is_display(const Scene *scene, const Surface *surface)
-{
-    return surface->material_id != NO_ID &&
-           scene->materials[surface->material_id].display_id != NO_ID;
-}
-
 /* The way by a first display's mirror, of which nothing is left to chance; false: that is not
  * what is asked. */
 static bool choose_mirror(PathCollector *c, PathState *path, const Surface *surface,
@@ -137,7 +124,7 @@ static bool choose_mirror(PathCollector *c, PathState *path, const Surface *surf
 {
     Vec3 local_wo = surface->local_wo;
     if (!((FarQuestions *)c)->far->is_of_mirror || path->bounce ||
-        !is_display(path->context->scene, surface))
+        !surface_is_display(path->context->scene, surface))
         return false;
     *next = (BsdfSample){.wi = vec3(-local_wo.x, -local_wo.y, local_wo.z), .pdf = 1,
                          .weight = bsdf_mirror(&surface->bsdf, local_wo), .is_delta = true};

@@ -6,6 +6,11 @@
 #include "path/collect/pixel_ray.h"
 #include "path/collect/polarised_rows.h"
 
+_Static_assert(COLLECTOR_ROOM(PolarisedRows) + COLLECTOR_ROOM(PixelRay) +
+                       COLLECTOR_ROOM(LambertianPart) + COLLECTOR_ROOM(ToldWays) <=
+                   COLLECTORS_MAX_BYTES,
+               "what an eye sees is collected by more than a sheet has room for");
+
 void path_seen(const PathStart *start, Ray ray, const SeenAsk *ask, SeenLight *out)
 {
     const PathContext *context = start->context;

@@ -122,13 +122,6 @@ ToldWays told_ways(const PathListener *listener, PathCollector *next)
 
 /* ---- mirror images ----------------------------------------------------------------------- */
 
-static bool ask_nobody(PathCollector *c, PathState *path, const Surface *surface, Vec3 wo,
-                       const Lead *lead)
-{
-    (void)c, (void)path, (void)surface, (void)wo, (void)lead;
-    return true;
-}
-
 static bool refuse_scattered(PathCollector *c, PathState *path, const Surface *surface,
                              const BsdfSample *next)
 {
@@ -149,6 +142,7 @@ ImageWays image_ways(const PathImages *images)
 {
     static const CollectorKind kind = {
         .size = sizeof(ImageWays), .start = start, .meet = meet, .behind = behind,
-        .turn = turn, .vertex = ask_nobody, .refuse = refuse_scattered, .escape = add_image};
+        .turn = turn, .vertex = collector_asks_nobody, .refuse = refuse_scattered,
+        .escape = add_image};
     return (ImageWays){{&kind, NULL}, tale_start(), images};
 }
