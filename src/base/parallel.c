@@ -50,6 +50,34 @@ void parallel_for(int thread_count, int item_count, ParallelWork *work, void *co
     for (int i = 1; i < started; i++) pthread_join(workers[i].thread, NULL);
 }
 
+typedef struct Tries {
+    ParallelTry *work;
+    void        *context;
+    bool        *failed; /* of each item, as errors: */
+    Error       *errors;
+} Tries;
+
+static void try_item(void *context, int item, int worker)
+{
+    const Tries *tries = context;
+    (void)worker;
+    tries->failed[item] = !tries->work(tries->context, item, &tries->errors[item]);
+}
+
+bool parallel_try(int thread_count, int item_count, ParallelTry *work, void *context,
+                  Arena scratch, Error *err)
+{
+    Tries tries = {work, context, ARENA_NEW(&scratch, bool, item_count),
+                   ARENA_NEW(&scratch, Error, item_count)};
+    parallel_for(thread_count, item_count, try_item, &tries);
+    for (int i = 0; i < item_count; i++)
+        if (tries.failed[i]) {
+            *err = tries.errors[i];
+            return false;
+        }
+    return true;
+}
+
 int parallel_default_threads(void)
 {
     cpu_set_t allowed;

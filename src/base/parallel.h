@@ -5,9 +5,11 @@
  * calling thread is worker 0 and works too; when the system refuses more threads the work is
  * done with fewer. No thread keeps state between two calls.
  *
- * Fails    never.
+ * Fails    parallel_for never.
  */
 #pragma once
+#include "base/arena.h"
+#include "base/error.h"
 
 #define PARALLEL_THREADS_MAX 1024
 
@@ -18,6 +20,12 @@ typedef void ParallelWork(void *context, int item, int worker);
 /* Returns when every item is done. thread_count at least 1;
  * more than PARALLEL_THREADS_MAX count as that many. */
 void parallel_for(int thread_count, int item_count, ParallelWork *work, void *context);
+
+/* The same of items that may fail, each with an error of its own: that of the first item which
+ * did is told when all are done. */
+typedef bool ParallelTry(void *context, int item, Error *err);
+bool parallel_try(int thread_count, int item_count, ParallelTry *work, void *context,
+                  Arena scratch, Error *err);
 
 /* How many threads the scheduler lets this process have (its affinity), at least 1. */
 int parallel_default_threads(void);

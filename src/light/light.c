@@ -8,12 +8,14 @@
 #include "light/sky.h"
 #include "spectrum/photometry.h"
 
+#define LEVEL_CHANGE 4.0f /* times as bright: so much is not worth another choice */
+
 struct Lights {
     const Scene *scene;
     Sky          sky;
     Emitters     emitters;
     PunctualLights punctual;
-    const float *levels; /* of the scene's displays, as emitters have them */
+    const float *levels; /* of the scene's displays, when emitters were built */
 };
 
 static const float *levels_of(const Scene *scene, Arena *arena)
@@ -23,11 +25,16 @@ static const float *levels_of(const Scene *scene, Arena *arena)
     return levels;
 }
 
-static bool has_same_levels(const Lights *lights)
+/* Do emitters as they are chosen still fit? The choice is no part of what they send: displays a
+ * little brighter or darker are chosen nearly as often as they should be. */
+static bool fits_levels(const Lights *lights)
 {
     const Scene *scene = lights->scene;
-    for (int i = 0; i < scene->display_count; i++)
-        if (lights->levels[i] != scene->displays[i].level) return false;
+    for (int i = 0; i < scene->display_count; i++) {
+        float now = scene->displays[i].level, then = lights->levels[i];
+        if (now == then) continue;
+        if (!(now <= LEVEL_CHANGE * then && then <= LEVEL_CHANGE * now)) return false;
+    }
     return true;
 }
 
@@ -46,7 +53,7 @@ bool lights_build(const Scene *scene, Arena *arena, Lights **out, Error *err)
 bool lights_under_sky(const Lights *before, Arena *arena, Lights **out, Error *err)
 {
     Sky sky;
-    if (!has_same_levels(before)) return lights_build(before->scene, arena, out, err);
+    if (!fits_levels(before)) return lights_build(before->scene, arena, out, err);
     if (!sky_build(&before->scene->environment, arena, &sky, err)) return false;
     *out = ARENA_NEW(arena, Lights, 1);
     **out = *before;
@@ -56,6 +63,7 @@ bool lights_under_sky(const Lights *before, Arena *arena, Lights **out, Error *e
 
 const Lights *lights_with_levels(const Lights *before, Arena *arena)
 {
+    if (fits_levels(before)) return before;
     Lights *lights = ARENA_NEW(arena, Lights, 1);
     *lights = *before;
     lights->emitters = emitters_build(before->scene, arena);

@@ -34,12 +34,13 @@ typedef struct Lights Lights;
 bool lights_build(const Scene *scene, Arena *arena, Lights **out, Error *err);
 
 /* The same lights after displays of the scene changed their levels; what is not theirs is
- * shared with `before`. */
+ * shared with `before`. Levels within four times and a quarter of those that emitters were
+ * sorted by only choose them a little less well (nothing that is read moves but by noise): then
+ * `before`. */
 const Lights *lights_with_levels(const Lights *before, Arena *arena);
 
 /* Lights of the same scene under its environment as it is now. Emitters are shared with
- * `before` where no display has another level: they take long to sort. Fails as
- * lights_build. */
+ * `before` where lights_with_levels would: they take long to sort. Fails as lights_build. */
 bool lights_under_sky(const Lights *before, Arena *arena, Lights **out, Error *err);
 
 /* Has this set anything that emits? */

@@ -253,6 +253,60 @@ TEST(a_reading_that_was_kept_before_is_shared_later)
     world_end(&world);
 }
 
+/* ---- emitters that were sorted for other levels ----------------------------------------- */
+
+/* Under these levels, of lights that stood under `then`. */
+static const Lights *changed(World *world, const double then[2], const double now[2])
+{
+    set_levels(world, then);
+    for (int i = 0; i < 2; i++) world->scene->displays[i].level = (float)now[i];
+    return lights_with_levels(world->context.lights, &world->arena);
+}
+
+TEST(emitters_are_sorted_again_where_a_display_changes_four_times)
+{
+    (void)state;
+    static const struct {
+        double then[2], now[2];
+        bool   is_again;
+    } CASES[] = {{{1, 1}, {1, 1}, false},   {{1, 1}, {0.25, 4}, false},
+                 {{1, 1}, {0.24, 1}, true}, {{1, 1}, {1, 4.1}, true},
+                 {{1, 1}, {0, 1}, true},    {{0, 1}, {0, 1}, false},
+                 {{0, 1}, {1e-6, 1}, true}};
+    for (size_t i = 0; i < sizeof CASES / sizeof *CASES; i++) {
+        World         world = room();
+        const Lights *lights = changed(&world, CASES[i].then, CASES[i].now);
+        assert_int_equal(lights != world.context.lights, CASES[i].is_again);
+        world_end(&world);
+    }
+}
+
+/* Which emitters are chosen how often is no part of the light: both say the same of it. */
+TEST(emitters_of_other_levels_tell_the_same_light)
+{
+    (void)state;
+    static const double ONE[2] = {1, 1}, LEVELS[2] = {0.25, 4}, FAR[2] = {8, 0.05};
+    ReadingGoal  longer = {.precision = 1e-9, .most = 1 << 17};
+    World        world = room();
+    ReadingTools tools = tools_of(NULL);
+    for (int by_meter = 0; by_meter < 2; by_meter++) {
+        Reading  kept, own;
+        ProbeAim aim = aim_of(&world, 5, by_meter);
+        set_levels(&world, FAR);
+        set_levels(&world, ONE);
+        set_levels(&world, LEVELS); /* those of one stay */
+        kept = reading_take(&aim, &longer, &tools, world.arena);
+        set_levels(&world, FAR);
+        set_levels(&world, LEVELS); /* made for them */
+        own = reading_take(&aim, &longer, &tools, world.arena);
+        assert_true(kept.reflected != own.reflected);
+        assert_true(kept.interval.low < own.interval.high);
+        assert_true(own.interval.low < kept.interval.high);
+        assert_close(kept.reflected / own.reflected, 1, 0.01);
+    }
+    world_end(&world);
+}
+
 int main(void)
 {
     return run_cases(make_folder, clear_folder);

@@ -135,6 +135,31 @@ static void every_item_is_done_once_for_any_number_of_threads(void **state)
     }
 }
 
+static bool fails_at(void *context, int item, Error *err)
+{
+    Counting *counting = context;
+    atomic_fetch_add(&counting->items[item], 1);
+    return item % 10 != 7 || error_set(err, ERROR_OUTPUT, "of %d", item);
+}
+
+static void the_first_item_that_fails_is_told_when_all_are_done(void **state)
+{
+    (void)state;
+    Arena arena = arena_reserve(1 << 20);
+    for (int threads = 1; threads < 4; threads++) {
+        Counting *counting = calloc(1, sizeof *counting);
+        Error     err = {0};
+        assert_true(parallel_try(threads, 7, fails_at, counting, arena, &err));
+        assert_int_equal(err.code, 0);
+        assert_false(parallel_try(threads, 100, fails_at, counting, arena, &err));
+        assert_int_equal(err.code, ERROR_OUTPUT);
+        assert_string_equal(err.text, "of 7");
+        for (int i = 0; i < 100; i++) assert_int_equal(counting->items[i], i < 7 ? 2 : 1);
+        free(counting);
+    }
+    arena_release(&arena);
+}
+
 static void no_items_is_no_work(void **state)
 {
     (void)state;
@@ -297,6 +322,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(noise_that_grows_is_foretold),
         cmocka_unit_test(forecasts_of_nothing_and_of_no_end),
         cmocka_unit_test(every_item_is_done_once_for_any_number_of_threads),
+        cmocka_unit_test(the_first_item_that_fails_is_told_when_all_are_done),
         cmocka_unit_test(no_items_is_no_work),
         cmocka_unit_test(a_snapshot_is_taken_once),
         cmocka_unit_test(progress_shows_percent_rate_elapsed_and_remaining),

@@ -7,6 +7,7 @@
 #include "base/file.h"
 #include "base/file_write.h"
 #include "base/machine.h"
+#include "base/parallel.h"
 #include "base/progress.h"
 #include "cli/options/state_options.h"
 #include "cli/options/version.h"
@@ -78,22 +79,44 @@ void review_folder_finish(ReviewFolder *folder)
 
 /* ---- sweeps ------------------------------------------------------------------------------ */
 
+typedef struct FolderTables {
+    const ReviewFolder *folder;
+    ReviewOutcome      *outcome;
+} FolderTables;
+
+static ReviewSweep *sweep_of(ReviewOutcome *outcome, int table)
+{
+    return &outcome->review.sweeps[outcome->tables[table].sweep_id];
+}
+
+static bool write_table(void *context, int i, Error *err)
+{
+    const FolderTables   *work = context;
+    const ReviewSweep *sweep = sweep_of(work->outcome, i);
+    Arena       own = arena_reserve((size_t)1 << 20);
+    const char *path = arena_format(&own, "%s/%s", work->folder->name, sweep->table);
+    bool        ok = sweep_table_write(
+        &work->outcome->tables[i],
+        review_condition_named(work->folder->request, sweep->condition), path, err);
+    arena_release(&own);
+    return ok;
+}
+
+/* Once they are named they stand there: nothing that comes later changes them. */
 static bool write_tables(const ReviewFolder *folder, ReviewOutcome *outcome, Arena *arena,
                          Error *err)
 {
-    for (int i = 0; i < outcome->table_count; i++) {
-        const SweepTable *table = &outcome->tables[i];
-        ReviewSweep      *sweep = &outcome->review.sweeps[table->sweep_id];
-        const char *name = file_name_of(
-            arena_format(arena, "%d-%s-%s-%s", table->sweep_id + 1, sweep->condition,
-                         sweep->eye, sweep->symbol), arena);
+    int       count = outcome->table_count;
+    FolderTables work = {folder, outcome};
+    if (!count || sweep_of(outcome, 0)->table) return true;
+    for (int i = 0; i < count; i++) {
+        ReviewSweep *sweep = sweep_of(outcome, i);
+        const char  *name = file_name_of(
+            arena_format(arena, "%d-%s-%s-%s", outcome->tables[i].sweep_id + 1,
+                         sweep->condition, sweep->eye, sweep->symbol), arena);
         sweep->table = arena_format(arena, "sweeps/%s.csv", name);
-        const char *path = arena_format(arena, "%s/%s", folder->name, sweep->table);
-        const ReviewCondition *condition =
-            review_condition_named(folder->request, sweep->condition);
-        if (!sweep_table_write(table, condition, path, err)) return false;
     }
-    return true;
+    return parallel_try(folder->threads, count, write_table, &work, *arena, err);
 }
 
 static void add_charts(const ReviewFolder *folder, const ReviewOutcome *outcome,

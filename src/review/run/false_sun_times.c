@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/parallel.h"
 #include "base/units.h"
 #include "vision/disability_glare.h"
 
@@ -226,16 +227,31 @@ static void tell(const Watch *watch, const ReviewEye *eye, const SweepSuns *suns
     }
 }
 
+/* Every eye watches the same suns, each for itself. */
+typedef struct Watching {
+    Watch           *eyes;
+    const SweepSuns *suns;
+} Watching;
+
+static void watch_eye(void *context, int eye, int worker)
+{
+    const Watching *watching = context;
+    (void)worker;
+    watch_all(&watching->eyes[eye], watching->suns);
+}
+
 void false_sun_times(const Sweep *sweep, Arena scratch, Arena *arena, Review *out)
 {
     const ReviewRequest  *request = sweep->run->request;
     const ReviewObserver *observer = &request->observer;
     SweepSuns suns = closer_suns(sweep->stage->condition, &scratch);
-    for (int e = 0; e < request->eye_count; e++) {
-        Arena room = scratch;
-        Watch watch = {sweep, &sweep->false_suns[e], gazes_of(sweep, e, &room),
-                       {observer->age_years, observer->pigment}, ARENA_NEW(&room, Tallies, 1)};
-        watch_all(&watch, &suns);
-        tell(&watch, &request->eyes[e], &suns, arena, out);
-    }
+    Watching  watching = {ARENA_NEW(&scratch, Watch, request->eye_count), &suns};
+    for (int e = 0; e < request->eye_count; e++)
+        watching.eyes[e] =
+            (Watch){sweep, &sweep->false_suns[e], gazes_of(sweep, e, &scratch),
+                    {observer->age_years, observer->pigment},
+                    ARENA_NEW(&scratch, Tallies, 1)};
+    parallel_for(sweep->run->threads, request->eye_count, watch_eye, &watching);
+    for (int e = 0; e < request->eye_count; e++)
+        tell(&watching.eyes[e], &request->eyes[e], &suns, arena, out);
 }

@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "base/parallel.h"
 #include "base/units.h"
 #include "film/film_frame.h"
 #include "image/develop.h"
@@ -17,6 +18,7 @@
 
 #define YFOV_DEG 35 /* of an eye that is no camera */
 #define WORDS 16    /* of a frame's metadata, at most */
+#define FILES_BYTES ((size_t)1 << 36) /* address space: what is not touched costs nothing */
 
 const char *file_name_of(const char *text, Arena *arena)
 {
@@ -99,27 +101,40 @@ bool frame_exposure(const char *exr, Arena *arena, const char **out, Error *err)
     return true;
 }
 
-static bool write_pair(const FrameImage *frame, const char *exposure, const char *exr,
-                       Arena scratch, Error *err)
-{
-    DevelopOptions look = {.own_config = true, .exposure = exposure, .frame_name = exr};
-    return develop_frame(frame, &look, frame_view(exr, FRAME_PICTURE, &scratch), scratch, NULL,
-                         err);
-}
-
 /* All frames have one scale of contrast, so that they can be compared. */
-static bool write_views(const FrameImage *frame, const char *exr, Arena scratch, Error *err)
+static DevelopOptions look_of(FrameView view, const char *exposure, const char *exr)
 {
     const DevelopOptions looks[] = {
-        [FRAME_PICTURE] = {.own_config = true, .frame_name = exr},
+        [FRAME_PICTURE] = {.own_config = true, .exposure = exposure, .frame_name = exr},
         [FRAME_LUMINANCE] = {.false_colour = true, .frame_name = exr},
         [FRAME_CONTRAST] = {.layer = "display.contrast", .frame_name = exr,
                             .range = {1, FRAMES_CONTRAST}}};
-    for (FrameView view = FRAME_PICTURE; view < FRAME_VIEWS; view++)
-        if (!develop_frame(frame, &looks[view], frame_view(exr, view, &scratch), scratch, NULL,
-                           err))
-            return false;
-    return true;
+    return looks[view];
+}
+
+/* The frame's file and its views, written beside each other. */
+typedef struct FrameFiles {
+    const FrameImage *frame;
+    const char       *exr, *exposure; /* FrameAsk's */
+} FrameFiles;
+
+static bool write_file(void *context, int item, Error *err)
+{
+    const FrameFiles *files = context;
+    if (item == 0) return frame_write(files->exr, files->frame, err);
+    FrameView      view = (FrameView)(item - 1);
+    DevelopOptions look = look_of(view, files->exposure, files->exr);
+    Arena          own = arena_reserve(FILES_BYTES);
+    bool ok = develop_frame(files->frame, &look, frame_view(files->exr, view, &own), own, NULL,
+                            err);
+    arena_release(&own);
+    return ok;
+}
+
+/* Of a pair, the picture alone. */
+static int views_of(const FrameAsk *ask)
+{
+    return ask->exposure ? 1 : FRAME_VIEWS;
 }
 
 static const char *exr_of(const FrameAsk *ask, Arena *arena)
@@ -133,9 +148,9 @@ static bool write_frame(const FrameAsk *ask, const SceneCamera *camera,
     const char *exr = exr_of(ask, &scratch);
     FrameImage  frame = film_to_frame(result->film, WORDS, &scratch);
     set_words(&frame, ask, camera, result, &scratch);
-    return frame_write(exr, &frame, err) &&
-           (ask->exposure ? write_pair(&frame, ask->exposure, exr, scratch, err)
-                          : write_views(&frame, exr, scratch, err));
+    FrameFiles files = {&frame, exr, ask->exposure};
+    return parallel_try(ask->stage->tools.threads, 1 + views_of(ask), write_file, &files,
+                        scratch, err);
 }
 
 /* ---- of all that decides it -------------------------------------------------------------- */
@@ -202,8 +217,7 @@ bool frame_make(const FrameAsk *ask, Arena *arena, const char **out, Error *err)
                       .identity = identity_of(ask, &camera, &options, &scratch),
                       .arena = &scratch};
     kept.files[kept.file_count++] = exr;
-    int views = ask->exposure ? 1 : FRAME_VIEWS;
-    for (FrameView view = FRAME_PICTURE; (int)view < views; view++)
+    for (FrameView view = FRAME_PICTURE; (int)view < views_of(ask); view++)
         kept.files[kept.file_count++] = frame_view(exr, view, &scratch);
     if (!frame_kept_is_whole(&kept) &&
         (!render(ask, &kept, &camera, &options, &result, err) ||

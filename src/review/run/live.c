@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/file.h"
+#include "base/parallel.h"
 #include "image/exposure.h"
 #include "image/false_colour.h"
 #include "review/pace/work.h"
@@ -37,10 +38,37 @@ static void look_at(const FrameImage *frame, LivePicture *out, Arena scratch)
     out->high = (double)range.high;
 }
 
-static const char *pack(const LivePlanes *planes, Arena *arena, Error *err)
+/* Both parts of a frame, packed beside each other. */
+typedef struct Packing {
+    const LivePlanes *planes[2];
+    Arena             room[2];
+    const char       *packed[2];
+} Packing;
+
+static bool pack_part(void *context, int part, Error *err)
 {
-    const float *rgb[3] = {planes->rgb[0], planes->rgb[1], planes->rgb[2]};
-    return live_layer_pack(rgb, (size_t)planes->width * (size_t)planes->height, arena, err);
+    Packing          *packing = context;
+    const LivePlanes *planes = packing->planes[part];
+    const float      *rgb[3] = {planes->rgb[0], planes->rgb[1], planes->rgb[2]};
+    packing->packed[part] =
+        live_layer_pack(rgb, (size_t)planes->width * (size_t)planes->height,
+                        &packing->room[part], err);
+    return packing->packed[part] != NULL;
+}
+
+static bool pack(const LiveFrame *frame, int threads, const char **scene, const char **displays,
+                 Arena *arena, Error *err)
+{
+    Packing      packing = {.planes = {&frame->scene, &frame->displays}};
+    const char **out[2] = {scene, displays};
+    for (int i = 0; i < 2; i++) packing.room[i] = arena_reserve(LIVE_BYTES);
+    bool ok = parallel_try(threads, 2, pack_part, &packing, *arena, err);
+    for (int i = 0; i < 2; i++) {
+        const char *packed = packing.packed[i];
+        *out[i] = packed ? arena_string(arena, packed, strlen(packed)) : NULL;
+        arena_release(&packing.room[i]);
+    }
+    return ok;
 }
 
 static bool make_layers(const LiveAsk *ask, const FrameImage *frame, LivePicture *out,
@@ -57,13 +85,11 @@ static bool make_layers(const LiveAsk *ask, const FrameImage *frame, LivePicture
         split.displays = live_frame_shrink(&split.displays, LIVE_WIDTH, LIVE_HEIGHT, &scratch);
         out->width = split.scene.width;
         out->height = split.scene.height;
-        ok = (out->scene = pack(&split.scene, arena, err)) != NULL &&
-             (out->displays = pack(&split.displays, arena, err)) != NULL;
+        ok = pack(&split, ask->threads, &out->scene, &out->displays, arena, err);
     }
     if (ok && yfov > 0) {
         ok = live_frame_spread(&split, yfov, eye, ask->threads, &scratch, err) &&
-             (out->eye_scene = pack(&split.scene, arena, err)) != NULL &&
-             (out->eye_displays = pack(&split.displays, arena, err)) != NULL;
+             pack(&split, ask->threads, &out->eye_scene, &out->eye_displays, arena, err);
         out->age_years = eye.age_years;
         out->pigment = eye.pigment;
     }
