@@ -7,7 +7,7 @@
 #include "panel/query/panel_place.h"
 #include "panel/query/panel_reflection.h"
 #include "shaders/bsdf_model.h"
-#include "shaders/coating.h"
+#include "shaders/layers/coating.h"
 #include "spectrum/wavelengths.h"
 
 typedef struct DisplaySurface {

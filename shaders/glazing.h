@@ -5,7 +5,7 @@
  */
 #pragma once
 #include "shaders/bsdf_model.h"
-#include "shaders/coating.h"
+#include "shaders/layers/coating.h"
 #include "spectrum/glazing.h"
 
 typedef struct GlazedWindow {

@@ -12,7 +12,7 @@
  */
 #pragma once
 #include "shaders/bsdf_model.h"
-#include "shaders/coating.h"
+#include "shaders/layers/coating.h"
 #include "spectrum/fresnel.h"
 
 #pragma GCC diagnostic push /* inline: no vector goes from one file to another */

@@ -5,8 +5,8 @@
  */
 #pragma once
 #include "base/vec.h"
-#include "shaders/clear_film.h"
-#include "shaders/coating.h"
+#include "shaders/layers/clear_film.h"
+#include "shaders/layers/coating.h"
 #include "shaders/facets/solid_energy.h"
 
 /* Where a solid ends. The frame's +z is the outside: wo.z < 0 is an eye inside the solid. */

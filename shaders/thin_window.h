@@ -5,7 +5,7 @@
  */
 #pragma once
 #include "shaders/bsdf_model.h"
-#include "shaders/coating.h"
+#include "shaders/layers/coating.h"
 
 /* A smooth sheet with two parallel faces: a mirror image, and light straight through. */
 typedef struct ThinWindow {

@@ -63,7 +63,7 @@ int main(int count, char **names)
     fprintf(file, "#include \"shaders/facets/common_tables.h\"\n"
                   "#include \"shaders/facets/index_tables.h\"\n"
                   "#include \"shaders/facets/lobe_facets.h\"\n"
-                  "#include \"shaders/sheen.h\"\n");
+                  "#include \"shaders/layers/sheen.h\"\n");
     write_table(file, "EnergyTable common_energy_table", energy, sizeof *energy);
     write_table(file, "CoatTable common_coat_table", coat, sizeof *coat);
     write_table(file, "FacetTable common_facet_table", facet_table_build(&arena),

@@ -7,6 +7,6 @@
  */
 #pragma once
 #include "shaders/facets/energy.h"
-#include "shaders/sheen.h"
+#include "shaders/layers/sheen.h"
 
 const SheenTable *sheen_table_build(const EnergyTable *energy, Arena *arena);

@@ -6,7 +6,7 @@
 #include "shaders/facets/common_tables.h"
 #include "shaders/facets/index_tables.h"
 #include "shaders/facets/microfacet.h"
-#include "shaders/sheen.h"
+#include "shaders/layers/sheen.h"
 
 /* A shading normal is bent until the eye is above its plane by this much. */
 #define LOWEST_COSINE 1e-3f

@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-#include "shaders/coating_tables.h"
+#include "shaders/layers/coating_tables.h"
 
 /* Which tables a material asks for: its factors, and textures that may lower them. */
 typedef struct CoatingNeeds {

@@ -6,7 +6,7 @@
  */
 #pragma once
 #include "scene/scene.h"
-#include "shaders/coating.h"
+#include "shaders/layers/coating.h"
 
 /* One a material; NULL: neither coated nor of a measured metal. NULL in all: no material is. */
 const SurfaceCoating *const *surface_coatings_build(const Scene *scene, bool is_polarised,

@@ -59,12 +59,13 @@ static void work_sampler(Inputs *in, int call)
 
 static const char *const MODEL_NAMES[] = {"plastic", "metal", "lacquer", "frosted glass"};
 
-static void make_model(int model, const EnergyTable *energy, Bsdf *bsdf)
+static void make_model(int model, const EnergyTable *energy, const CoatTable *coat, Bsdf *bsdf)
 {
     bsdf->kind = BSDF_METALLIC_ROUGHNESS;
     MetallicRoughness *m = &bsdf->metallic_roughness;
     *m = metallic_roughness_default(energy);
     m->clearcoat_energy = energy;
+    m->coat = coat;
     m->base_color = spectrum_all(0.5f);
     m->metallic = model == 1;
     m->alpha = 0.2f;
@@ -109,13 +110,14 @@ int main(int argc, char **argv)
 {
     int runs = argc > 1 ? atoi(argv[1]) : 9;
     runs = runs < 1 ? 1 : runs > MAX_RUNS ? MAX_RUNS : runs;
-    Arena arena = arena_reserve(1 << 20);
+    Arena arena = arena_reserve(1 << 24);
     const EnergyTable *energy = energy_table_build(1.5f, &arena);
+    const CoatTable   *coat = coat_table_build(energy, energy, &arena);
     static Inputs in;
     fill_inputs(&in);
     for (int model = 0; model < 4; model++) {
         char name[64];
-        make_model(model, energy, &in.bsdf);
+        make_model(model, energy, coat, &in.bsdf);
         snprintf(name, sizeof name, "eval, %s", MODEL_NAMES[model]);
         run(name, work_eval, &in, runs);
         snprintf(name, sizeof name, "sample, %s", MODEL_NAMES[model]);

@@ -3,7 +3,7 @@
 #include "furnace_fixture.h"
 #include "layer_fixture.h"
 
-#include "shaders/coating_tables.h"
+#include "shaders/layers/coating_tables.h"
 #include "shaders/facets/common_tables.h"
 #include "spectrum/fresnel.h"
 

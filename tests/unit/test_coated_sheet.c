@@ -3,9 +3,9 @@
 #include "furnace_fixture.h"
 #include "layer_fixture.h"
 
-#include "shaders/coating_tables.h"
+#include "shaders/layers/coating_tables.h"
 #include "shaders/facets/common_tables.h"
-#include "shaders/sheet_turns.h"
+#include "shaders/layers/sheet_turns.h"
 #include "spectrum/fresnel.h"
 
 static Arena arena;

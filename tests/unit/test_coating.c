@@ -7,7 +7,7 @@
 #include "base/sampler.h"
 #include "base/units.h"
 #include "shaders/bsdf.h"
-#include "shaders/coating_tables.h"
+#include "shaders/layers/coating_tables.h"
 #include "shaders/facets/common_tables.h"
 #include "spectrum/fresnel.h"
 

@@ -6,7 +6,7 @@
 #include "base/units.h"
 #include "panel/query/panel_open.h"
 #include "shaders/bsdf.h"
-#include "shaders/coating_tables.h"
+#include "shaders/layers/coating_tables.h"
 #include "shaders/facets/microfacet.h"
 
 static Arena arena;

@@ -5,7 +5,7 @@
 #include "layer_fixture.h"
 
 #include "base/arena.h"
-#include "shaders/coating_tables.h"
+#include "shaders/layers/coating_tables.h"
 #include "shaders/facets/microfacet.h"
 #include "spectrum/dispersion.h"
 

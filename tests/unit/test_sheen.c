@@ -3,7 +3,7 @@
 #include "furnace_fixture.h"
 
 #include "shaders/facets/common_tables.h"
-#include "shaders/sheen.h"
+#include "shaders/layers/sheen.h"
 
 static Wavelengths wavelengths;
 

@@ -6,7 +6,7 @@
 
 #include "base/units.h"
 #include "shaders/bsdf.h"
-#include "shaders/coating_tables.h"
+#include "shaders/layers/coating_tables.h"
 #include "spectrum/dispersion.h"
 
 static Arena       arena;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "shaders/clear_film.h"
+#include "shaders/layers/clear_film.h"
 
 #include "base/mathf.h"
 

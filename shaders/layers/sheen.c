@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "shaders/sheen.h"
+#include "shaders/layers/sheen.h"
 
 #include "base/units.h"
 #include "shaders/facets/energy.h"

@@ -5,9 +5,9 @@
  * bsdf_look (bsdf.h) keeps it for all of them.
  */
 #pragma once
-#include "shaders/covered_lobe.h"
-#include "shaders/metallic_surface.h"
-#include "shaders/sheen.h"
+#include "shaders/layers/covered_lobe.h"
+#include "shaders/metallic/metallic_surface.h"
+#include "shaders/layers/sheen.h"
 
 /* The non-metal's reflectance is f0 + rise * shape(angle). */
 typedef struct MetallicFace {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "shaders/coating_tables.h"
+#include "shaders/layers/coating_tables.h"
 
 /* What lies behind a stack: a metal or, where that is NULL, clear glass. */
 typedef struct CoatedBody {

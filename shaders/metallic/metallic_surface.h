@@ -5,8 +5,8 @@
  */
 #pragma once
 #include "base/vec.h"
-#include "shaders/clear_film.h"
-#include "shaders/coating.h"
+#include "shaders/layers/clear_film.h"
+#include "shaders/layers/coating.h"
 #include "shaders/facets/coat.h"
 
 #define CLEARCOAT_IOR 1.5f /* glTF's */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "shaders/covered_lobe.h"
+#include "shaders/layers/covered_lobe.h"
 
 #include <string.h>
 

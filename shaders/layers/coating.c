@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "shaders/coating.h"
+#include "shaders/layers/coating.h"
 
 /* Between two neighbours of `count` nodes spaced evenly in sqrt(cosine). */
 static EnergyKnot knot_of(float cosine, int count)

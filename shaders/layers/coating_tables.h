@@ -9,7 +9,7 @@
  *          milliseconds, energies of every alpha a fifth of a second.
  */
 #pragma once
-#include "shaders/coating.h"
+#include "shaders/layers/coating.h"
 #include "spectrum/glazing.h"
 
 /* The boundary of a closed solid. */

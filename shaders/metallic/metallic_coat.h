@@ -1,0 +1,123 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* metallic_coat.h -- the lacquer over metallic_roughness, and the base's light through it.
+ *
+ * The coat's own lobe, and the base's parts for light that goes in and out through it, turns
+ * between both summed up (facets/coat.h). Values are sr^-1 or shares of light.
+ *
+ * Threads  pure functions.  Fails  never.
+ */
+#pragma once
+#include "shaders/layers/sheet_turns.h"
+#include "shaders/metallic/metallic_facet.h"
+#include "shaders/metallic/metallic_energy.h"
+#include "shaders/metallic/metallic_sheen.h"
+#include "spectrum/fresnel.h"
+
+#define COAT_UPRIGHT 0.9999f /* z of a coat's normal that is not tilted */
+
+/* What the coats of both sides do to a sheet's light along these two: share that gets in and
+ * out, and share of what the sheet sends that they hold back each time. A clear sheet then
+ * sends pass / (1 - held), as much as a white metal's lobe under that coat: the boosts' product
+ * (coat.h), or, of smooth sheets and of what its tables do not know, the lesser share. */
+typedef struct CoatOnSheet {
+    float pass, held;
+} CoatOnSheet;
+
+#pragma GCC diagnostic push /* inline: no vector goes from one file to another */
+#pragma GCC diagnostic ignored "-Wpsabi"
+
+/* With a tilted normal the coat's own cosines differ from the surface's: dividing by the larger
+ * of each pair keeps it reciprocal and below its untilted albedo. */
+float coat_tilt(const MetallicRoughness *m, Vec3 wo, Vec3 wi);
+
+/* Into and out of the coat's own frame. */
+Frame coat_frame(const MetallicRoughness *m);
+
+/* Rough coat: *pdf of choosing wi by it. */
+float coat_eval(const MetallicRoughness *m, Vec3 wo, Vec3 wi, float *pdf);
+
+/* Of the light that goes in and out along these, with p = (t / u)^2 the share that a lobe's
+ * light gets out with each time and r the base's albedo: t t / sqrt of both 1 - r (1 - p). */
+Spectrum coat_on_metal(const MetallicRoughness *m, const ThroughCoat *out,
+                       const ThroughCoat *in);
+
+/* A mirror of reflectance r under a coat that lets pass t: t t (1 + r (1 - t) + ...). A rough
+ * lobe has the lesser t of its two directions: so it never sends out more than came in along
+ * either. */
+Spectrum coat_on_mirror(Spectrum r, float t);
+
+CoatOnSheet coat_on_sheet(const MetallicRoughness *m, const ThroughCoat *out,
+                          const ThroughCoat *in);
+
+/* What a facet of the sheet's share sends through the coats of light along these two. */
+SheetLight coat_sheet(const MetallicView *view, float cosine,
+                      const ThroughCoat *below);
+
+/* What becomes of the light that the sheet's facets hide, turns between the coats in it: share
+ * of the rebound's lobe on either side. */
+SheetLight coat_sheet_rebound(const MetallicView *view);
+
+/* The Lambert base through it; albedo: of one side. */
+Spectrum coat_diffuse(const MetallicView *view, Spectrum albedo, Energy in,
+                      const ThroughCoat *below);
+
+/* The rebound's lobe, sr^-1, of the light that the coat let in along both. */
+float coat_rebound_lobe(const MetallicView *view, Energy in);
+
+/* All of the rebound on the eye's side. */
+Spectrum coat_rebound(const MetallicView *view, Energy in, const ThroughCoat *below);
+
+static inline float coat_cosine(const MetallicRoughness *m, Vec3 w)
+{
+    return fabsf(vec3_dot(m->clearcoat_normal, w));
+}
+
+/* Is there a coat, over what coat.h's tables do not know? */
+static inline bool is_covered(const MetallicRoughness *m)
+{
+    return m->clearcoat > 0 &&
+           (is_brushed(m) || has_film(m) || has_sheen(m) || coated_face(m));
+}
+
+/* Is there a sheet that a coat lies on? On both of its sides alike. */
+static inline bool has_sheet_under_coat(const MetallicRoughness *m)
+{
+    return m->clearcoat > 0 && clear_share(m) > 0;
+}
+
+/* Bare and coated, by the coat's share. */
+static inline Spectrum coat_mixed(const MetallicRoughness *m, Spectrum bare, Spectrum coated)
+{
+    return bare + (coated - bare) * spectrum_all(m->clearcoat);
+}
+
+/* The coat's albedo for a direction, times its share. */
+static inline float coat_albedo(const MetallicRoughness *m, Vec3 w)
+{
+    if (!(m->clearcoat > 0)) return 0;
+    return m->clearcoat *
+           coat_reflectance(m->clearcoat_energy, coat_cosine(m, w), m->clearcoat_alpha);
+}
+
+static inline float coat_open(const MetallicRoughness *m, Vec3 w)
+{
+    return 1 - coat_reflectance(m->clearcoat_energy, coat_cosine(m, w), m->clearcoat_alpha);
+}
+
+static inline float coat_facet(float cosine)
+{
+    return fresnel_unpolarised(cosine, CLEARCOAT_IOR);
+}
+
+/* A tilted coat's turns are left out: the table knows no tilt. */
+static inline ThroughCoat coat_through(const MetallicRoughness *m, Vec3 w)
+{
+    float       cosine = coat_cosine(m, w);
+    ThroughCoat t;
+    t.open = 1 - coat_reflectance(m->clearcoat_energy, cosine, m->clearcoat_alpha);
+    t.share = coat_share(m->coat, cosine, m->alpha, m->clearcoat_alpha);
+    if (m->clearcoat_normal.z < COAT_UPRIGHT) t.share.boost = t.open;
+    return t;
+}
+
+#pragma GCC diagnostic pop

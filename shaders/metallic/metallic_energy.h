@@ -1,0 +1,88 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* metallic_energy.h -- what all facets of metallic_roughness send back together.
+ *
+ * Directions are in the local frame, above the surface. Energies and averages over the
+ * hemisphere are shares of light, [0, 1]: by the tables of an even surface (facets/energy.h),
+ * by a few facets of a brushed, filmed or coated one (facets/lobe_facets.h).
+ *
+ * Threads  pure functions.  Fails  never.
+ */
+#pragma once
+#include "shaders/facets/brushed.h"
+#include "shaders/facets/microfacet.h"
+#include "shaders/metallic/metallic_view.h"
+
+#pragma GCC diagnostic push /* inline: no vector goes from one file to another */
+#pragma GCC diagnostic ignored "-Wpsabi"
+
+/* Brushed facets along a direction, and on average. */
+Energy energy_brushed(const MetallicRoughness *m, Vec3 w);
+
+Energy energy_brushed_average(const MetallicRoughness *m);
+
+/* The roughness of an even surface whose facets send back as much on average. */
+float energy_even_alpha(const MetallicRoughness *m);
+
+/* The roughness along a direction's own azimuth. */
+float energy_own_alpha(const MetallicRoughness *m, Vec3 w);
+
+/* What a coated face sends back in all. */
+Spectrum energy_coated(const MetallicRoughness *m, Vec3 w);
+
+Spectrum energy_coated_average(const MetallicRoughness *m);
+
+/* What a filmed face sends back in all. */
+Spectrum energy_filmed(const MetallicView *view, Vec3 w);
+
+/* Of light from everywhere; a smooth face's is that of its narrowest lobe. */
+Spectrum energy_filmed_average(const MetallicView *view, float alpha);
+
+/* Of a metal every further bounce takes its mean reflectance; the mean of Schlick's curve over
+ * the hemisphere is f0 + (1 - f0) / 21. */
+Spectrum energy_metal_mean(const MetallicRoughness *m);
+
+static inline bool is_brushed(const MetallicRoughness *m)
+{
+    return m->alpha_along > 0;
+}
+
+static inline Vec2 alphas(const MetallicRoughness *m)
+{
+    return (Vec2){m->alpha_along, m->alpha};
+}
+
+static inline Vec2 facet_alphas(const MetallicRoughness *m)
+{
+    return is_brushed(m) ? alphas(m) : (Vec2){m->alpha, m->alpha};
+}
+
+/* What the base's facets send back along a direction above it, and on average. */
+static inline Energy base_energy(const MetallicRoughness *m, Vec3 w)
+{
+    return is_brushed(m) ? energy_brushed(m, w) : energy_directional(m->energy, w.z, m->alpha);
+}
+
+static inline Energy base_average(const MetallicRoughness *m)
+{
+    return is_brushed(m) ? energy_brushed_average(m) : energy_average(m->energy, m->alpha);
+}
+
+static inline float base_lobe(const MetallicRoughness *m, Vec3 wo, Vec3 wi, Vec3 half)
+{
+    return is_brushed(m) ? brushed_reflection(wo, wi, half, alphas(m)) :
+                           ggx_reflection(wo, wi, half, m->alpha);
+}
+
+static inline float base_lobe_pdf(const MetallicRoughness *m, Vec3 wo, Vec3 half)
+{
+    return is_brushed(m) ? brushed_reflection_pdf(wo, half, alphas(m)) :
+                           ggx_reflection_pdf(wo, half, m->alpha);
+}
+
+static inline Vec3 base_sample(const MetallicRoughness *m, Vec3 wo, float u0, float u1)
+{
+    return is_brushed(m) ? brushed_sample_reflection(wo, alphas(m), u0, u1) :
+                           ggx_sample_reflection(wo, m->alpha, u0, u1);
+}
+
+#pragma GCC diagnostic pop

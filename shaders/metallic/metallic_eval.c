@@ -1,0 +1,187 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "shaders/metallic/metallic_eval.h"
+
+#include "base/units.h"
+#include "shaders/metallic/metallic_base.h"
+#include "shaders/metallic/metallic_covered.h"
+
+/* Of a sheet's facets: their lobe turned over to the other side, and the cosine to them. */
+typedef struct SheetLobe {
+    float value, cosine;
+} SheetLobe;
+
+/* ---- back ------------------------------------------------------------------------------- */
+
+/* A facet of the base met at `cosine`, as the light of both directions finds it: below NULL: no
+ * coat lies on it. */
+static Spectrum facet_below(const MetallicView *view, float cosine, const ThroughCoat *below)
+{
+    const MetallicRoughness *m = view->m;
+    Spectrum nonmetal = facet_of_nonmetal(m, &view->boundary, cosine);
+    Spectrum metal = facet_of_metal(m, cosine);
+    if (!below) return nonmetal + metal;
+    if (m->metallic > 0)
+        metal *= is_covered(m) ? coat_on_mirror(energy_metal_mean(m),
+                                                fminf(view->through.open, below->open))
+                               : coat_on_metal(m, &view->through, below);
+    if (has_sheet_under_coat(m)) {
+        SheetFaces faces = facet_sheet(m, &view->boundary, cosine);
+        nonmetal -= faces.front * spectrum_all(clear_share(m));
+        nonmetal = spectrum_max(nonmetal, spectrum_all(0));
+        metal += coat_sheet(view, cosine, below).back;
+    }
+    return nonmetal * spectrum_all(view->through.open * below->open) + metal;
+}
+
+Spectrum eval_facets(const MetallicView *view, Vec3 wi, const ThroughCoat *below)
+{
+    const MetallicRoughness *m = view->m;
+    Vec3     half = vec3_normalize(vec3_add(view->wo, wi));
+    Spectrum facet = facet_below(view, vec3_dot(view->wo, half), NULL);
+    if (m->clearcoat > 0)
+        facet = coat_mixed(m, facet, facet_below(view, vec3_dot(view->wo, half), below));
+    return sheen_over(view, wi, facet) * spectrum_all(base_lobe(m, view->wo, wi, half));
+}
+
+Spectrum eval_smooth(const MetallicView *view, Vec3 wi)
+{
+    Spectrum bare = facet_below(view, wi.z, NULL);
+    if (!(view->m->clearcoat > 0)) return sheen_over(view, wi, bare);
+    ThroughCoat below = coat_through(view->m, wi);
+    return sheen_over(view, wi, coat_mixed(view->m, bare, facet_below(view, wi.z, &below)));
+}
+
+/* Lambert, rebound and fibres under a coat. */
+static Spectrum covered_above(const MetallicView *view, Vec3 wi)
+{
+    const MetallicRoughness *m = view->m;
+    CoveredRest     in = covered_rest(view, wi);
+    Spectrum sum = covered_lambert(view, lambert_back(m), &in) +
+                   covered_rebound(view, &in);
+    if (has_sheen(m))
+        sum += sheen_fibres(view, wi) * spectrum_all(view->through.open * coat_open(m, wi));
+    return sum;
+}
+
+/* All but facets. below: of wi; undefined without a coat. */
+static Spectrum spread_by_base(const MetallicView *view, Vec3 wi, Energy in,
+                               const ThroughCoat *below)
+{
+    const MetallicRoughness *m = view->m;
+    Spectrum lambert = lambert_back(m);
+    Spectrum sum = base_diffuse(view, lambert, wi, in);
+    if (has_rebound(m)) sum += base_rebound(view, wi, in);
+    if (has_sheen(m)) sum += sheen_fibres(view, wi);
+    if (!(m->clearcoat > 0)) return sum;
+    if (is_covered(m)) return coat_mixed(m, sum, covered_above(view, wi));
+    return coat_mixed(m, sum, coat_diffuse(view, lambert, in, below) +
+                               coat_rebound(view, in, below));
+}
+
+/* The base seen from above: rough mirror, Lambert, rebound; and its part of the pdf. */
+static Spectrum base_above(const MetallicView *view, Vec3 wi, float *pdf)
+{
+    const MetallicRoughness *m = view->m;
+    ThroughCoat  below;
+    Energy   in = base_energy(m, wi);
+    *pdf = view->choices.diffuse * wi.z * INV_PI_F;
+    if (m->clearcoat > 0) below = coat_through(m, wi);
+    if (has_sheen(m)) *pdf += view->choices.sheen * (0.5f * INV_PI_F);
+    Spectrum sum = spread_by_base(view, wi, in, &below);
+    if (!is_smooth(m->alpha)) {
+        Vec3 half = vec3_normalize(vec3_add(view->wo, wi));
+        sum += eval_facets(view, wi, &below);
+        *pdf += view->choices.mirror * base_lobe_pdf(m, view->wo, half);
+    }
+    return sum;
+}
+
+/* ---- to the other side ------------------------------------------------------------------- */
+
+/* What a sheet's rebound sends across below the coats of both sides, from below. */
+static Spectrum rebound_below_coat(const MetallicView *view, Vec3 wi, Energy in,
+                                   const ThroughCoat *below)
+{
+    const MetallicRoughness *m = view->m;
+    float lobe;
+    if (is_covered(m)) {
+        bool is_tilted = m->clearcoat_normal.z < COAT_UPRIGHT; /* as seen from that side */
+        Vec3 up = is_tilted ? vec3_neg(wi) : vec3(wi.x, wi.y, -wi.z);
+        CoveredRest rest = covered_rest(view, up);
+        lobe = covered_rebound_lobe(view, &rest);
+    } else {
+        lobe = coat_rebound_lobe(view, in) * view->through.open * below->open;
+    }
+    return lobe > 0 ? coat_sheet_rebound(view).through * spectrum_all(lobe) : spectrum_all(0);
+}
+
+/* What goes through a coated sheet, but for what a smooth one passes straight on. bare: what
+ * would where no coat lies. lobe: of its facets; cosine: at which they are met. */
+static Spectrum below_coat(const MetallicView *view, Vec3 wi, Energy in, Spectrum bare,
+                           const SheetLobe *lobe)
+{
+    const MetallicRoughness *m = view->m;
+    ThroughCoat below = coat_through(m, wi);
+    Spectrum    sum = rebound_below_coat(view, wi, in, &below);
+    if (lobe->value > 0)
+        sum += sheen_over(view, wi, coat_sheet(view, lobe->cosine, &below).through) *
+               spectrum_all(lobe->value);
+    return coat_mixed(m, bare, sum);
+}
+
+/* A rough sheet sends on what a mirror would send back, turned over to the other side, and its
+ * part of the rebound. */
+static Spectrum base_below(const MetallicView *view, Vec3 wi, float *pdf)
+{
+    const MetallicRoughness *m = view->m;
+    *pdf = 0;
+    if (!sends_below(m)) return spectrum_all(0);
+    Vec3      up = vec3(wi.x, wi.y, -wi.z);
+    Energy    in = base_energy(m, up);
+    SheetLobe none = {0, 0};
+    if (is_smooth(m->alpha)) return below_coat(view, wi, in, spectrum_all(0), &none);
+    Vec3   half = vec3_normalize(vec3_add(view->wo, up));
+    float  all = view->energy.all, pdf_lobe = base_lobe_pdf(m, view->wo, half);
+    *pdf = view->choices.through * (all * pdf_lobe + (1 - all) * up.z * INV_PI_F);
+    SheetLobe lobe = {base_lobe(m, view->wo, up, half), vec3_dot(view->wo, half)};
+    Spectrum straight = facet_through(m, &view->boundary, lobe.cosine);
+    Spectrum spread = base_pane_through(view) * m->base_color *
+                      spectrum_all((1 - m->metallic) * m->transmission);
+    Spectrum bare = sheen_over(view, up, straight) * spectrum_all(lobe.value) +
+                    spread * spectrum_all(base_rebound_lobe(view, up, in));
+    return m->clearcoat > 0 ? below_coat(view, wi, in, bare, &lobe) : bare;
+}
+
+/* Lambert's light from the other side. */
+static Spectrum base_across(const MetallicView *view, Vec3 wi)
+{
+    const MetallicRoughness *m = view->m;
+    Vec3     up = vec3(wi.x, wi.y, -wi.z);
+    Energy   in = base_energy(m, up);
+    Spectrum lambert = base_lambert_across(m);
+    Spectrum sum = base_diffuse(view, lambert, up, in);
+    if (!(m->clearcoat > 0)) return sum;
+    if (is_covered(m)) {
+        CoveredRest rest = covered_rest(view, up);
+        return coat_mixed(m, sum, covered_lambert(view, lambert, &rest));
+    }
+    ThroughCoat below = coat_through(m, up);
+    return coat_mixed(m, sum, coat_diffuse(view, lambert, in, &below));
+}
+
+/* ---- both -------------------------------------------------------------------------------- */
+
+Spectrum eval_all(const MetallicView *view, Vec3 wi, float *pdf)
+{
+    const MetallicRoughness *m = view->m;
+    Spectrum f = wi.z > 0 ? base_above(view, wi, pdf) : base_below(view, wi, pdf);
+    if (view->choices.across > 0 && wi.z < 0)
+        *pdf += view->choices.across * -wi.z * INV_PI_F;
+    if (m->across > 0 && wi.z < 0) f += base_across(view, wi);
+    if (m->clearcoat > 0 && !is_smooth(m->clearcoat_alpha)) {
+        float coat_pdf;
+        f += spectrum_all(coat_eval(m, view->wo, wi, &coat_pdf));
+        *pdf += view->choices.coat * coat_pdf;
+    }
+    return f;
+}
