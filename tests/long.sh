@@ -1,14 +1,33 @@
 #!/bin/sh
 # SPDX-License-Identifier: Apache-2.0
-# long.sh -- what takes too long for run.sh: slow units, every closed form, guide and fault, two
-# hundred pairs of frames of other noise, a hundred kills, all units and thousands of broken
-# models and panels under the address sanitizer, the thread sanitizer, packages, another Debian,
-# the second compiler, five minutes of fuzzing. Stopped, it goes on where it was: a step that
-# passed on the same files is not run again.
+# long.sh [--list | --changed [COMMIT]] -- what takes too long for run.sh: slow units, every
+# closed form, guide and fault, two hundred pairs of frames of other noise, a hundred kills, all
+# units and thousands of broken models and panels under the address sanitizer, the thread
+# sanitizer, packages, another Debian, the second compiler, five minutes of fuzzing.
+# A step that passed is not run again until a file that it depends on changes: stopped, it goes
+# on where it was. --list says which steps would be run; --changed runs of them those alone that
+# a commit after COMMIT reaches (the last one, if none is named), or what is not committed.
 cd "$(dirname "$0")/.." || exit 1
-sh third_party/install.sh --tests || exit 1
 . tests/steps.sh
-keep_steps
+keep_steps "$@"
+[ "$mode" = list ] || sh third_party/install.sh --tests || exit 1
+
+# ---- what depends on what: with a folder all that it includes (tests/structure/steps.py) ----
+build='CMakeLists.txt CMakePresets.json third_party tests/steps.sh tests/structure/report.py'
+base="$build src/base src/text src/spectrum"
+panels="$base src/hemisphere src/image src/panel src/page src/library assets/panels"
+light="$panels src/import src/sky src/scene src/bvh src/light src/mirror src/guide src/camera
+    src/path src/film src/kernel src/render shaders"
+options="$light src/denoise src/vision src/cli/ src/cli/options"
+tables="$options src/plot src/cli/panel"
+render="$options assets src/live src/cli/job src/cli/render src/review/keep"
+review="$render src/review src/plot src/cli/review src/cli/equip src/cli/explain"
+compare="$render src/compare"
+all="$build src shaders assets"
+
+program=.build/release/parhelion
+
+# ---- functions that a step runs ----
 
 # build_native: the second compiler, every instruction that this machine has
 build_native()
@@ -17,124 +36,141 @@ build_native()
         cmake --build .build/native --target parhelion
 }
 
-# run_mutations: 100,000 mutated panel files under the sanitizers
-run_mutations()
+# native_panels: a panel file is queried in place: every build must read every other one's
+native_panels()
+{
+    build_native && python3 tests/hostile/panel_commands.py --against $program \
+        .build/native/parhelion
+}
+
+# mutations: 100,000 mutated panel files under the sanitizers
+mutations()
 {
     PARHELION_MUTATIONS=100000
     export PARHELION_MUTATIONS
-    run_units '100,000 broken panels' panels-long .build/asan --timeout 10800 -R '^panel_files$'
-    unset PARHELION_MUTATIONS
+    units .build/asan --timeout 10800 -R '^panel_files$'
 }
 
-# run_beams: every profile of a narrow beam
-run_beams()
+# beams: every profile of a narrow beam
+beams()
 {
     PARHELION_BEAMS=all
     export PARHELION_BEAMS
-    run_units 'every narrow beam' beams-long .build/release -R '^panel_beam$'
-    unset PARHELION_BEAMS
+    units .build/release -R '^panel_beam$'
 }
 
-run_one 'release build' build-release build release all || finish
-run_beams
-if run_one 'build with address sanitizer' build-asan build asan all; then
-    export UBSAN_OPTIONS=print_stacktrace=1
-    run_units 'unit tests, address sanitizer' unit-asan .build/asan --timeout 10800
-    # The panels keep one processor busy for half an hour: the rest has the other.
-    start 'thousands of broken models' hostile-long \
-        python3 tests/hostile/run.py --all .build/asan/parhelion
-    start 'what grids can see of a panel' panel-coarse-long \
-        python3 tests/bench/panel_coarse.py .build/release/parhelion --jobs 1
-    start 'a second reader, 100,000 questions' agreement-long \
-        python3 tests/library/agreement.py .build/release --queries 100000
-    start 'another renderer, less noise' renderer-long \
-        python3 tests/library/other_renderer.py .build/release --samples 1024
-    start 'a hundred kills' resume-long \
-        python3 tests/hostile/resume.py --kills 100 .build/release/parhelion
-    start 'parts of every kind' merge-long \
-        python3 tests/image/merge.py --all .build/release/parhelion
-    start 'every fault' faults-long \
-        python3 tests/hostile/faults.py --all .build/release/parhelion
-    start 'every key of a review' review-request-long \
-        python3 tests/hostile/review_request.py --all .build/release/parhelion
-    run_mutations
-    gather
-    run 'every fault, address sanitizer' faults-asan \
-        python3 tests/hostile/faults.py --all .build/asan/parhelion
-fi
+export UBSAN_OPTIONS=print_stacktrace=1
+export TSAN_OPTIONS=ignore_noninstrumented_modules=1
+
+# ---- as it is built for users ----
+needs 'release all'
+of "$panels tests/unit"
+run 'every narrow beam' beams-long beams
+of "$tables tests/bench"
+start 'what grids can see of a panel' panel-coarse-long \
+    python3 tests/bench/panel_coarse.py $program --jobs 1
+of "$panels tests/library"
+start 'a second reader, 100,000 questions' agreement-long \
+    python3 tests/library/agreement.py .build/release --queries 100000
+start 'another renderer, less noise' renderer-long \
+    python3 tests/library/other_renderer.py .build/release --samples 1024
+of "$render scenes tests/image tests/hostile"
+start 'a hundred kills' resume-long python3 tests/hostile/resume.py --kills 100 $program
+start 'parts of every kind' merge-long python3 tests/image/merge.py --all $program
+of "$all scenes tests/hostile tests/image"
+start 'every fault' faults-long python3 tests/hostile/faults.py --all $program
+of "$review scenes tests/hostile tests/image"
+start 'every key of a review' review-request-long \
+    python3 tests/hostile/review_request.py --all $program
+gather
+of "$render scenes tests/image"
+run 'all closed forms in frames' image-long python3 tests/image/run.py --all $program
+run 'daylight through a roof, every point' roof-long python3 tests/image/roof.py $program --all
+start 'laminated panes' glazing python3 tests/image/glazing.py $program
+start 'curved panes' curved python3 tests/image/curved_pane.py $program
+start 'paper and opal' translucent python3 tests/image/translucent.py $program
+start 'prisms' dispersion python3 tests/image/dispersion.py $program
+start 'films on glass' films python3 tests/image/films.py $program
+start 'a head-up display' hud python3 tests/image/hud.py $program
+start 'a luxmeter under every light' luxmeter python3 tests/image/luxmeter.py $program
+gather
+run 'what is learnt moves no mean' guided-long python3 tests/image/guided.py $program
+of "$render scenes tests/image tests/hunt"
+run 'a hunt for wrong answers, 200 rooms' hunt-long \
+    python3 tests/hunt/hunt.py --count 200 $program
+of "$review scenes tests/image"
+run 'a glare review, thirty hours of weather' review-long \
+    python3 tests/image/review.py --all $program
+run 'all variants of a review, slopes, mends' variants-long \
+    python3 tests/image/variants.py --all $program
+run "another maker's car" other-maker python3 tests/image/other_maker.py $program
+run 'verdicts beside their limits' review-laws python3 tests/image/review_laws.py $program \
+    scenes/glance.review.json dimmed 0.2 0.4 0.005
+of "$review tests/bench tests/image"
+run 'verdicts whose truth is known' verdicts claim \
+    python3 tests/bench/verdicts.py .build/release --rooms open,window --trials 200
+of "$review scenes tests/slurm tests/image"
+run 'a review shared in a job' review-job python3 tests/slurm/review_job.py $program
+of "$render scenes tests/slurm tests/image"
+run 'frames shared by Slurm' slurm python3 tests/slurm/cluster.py $program
+of "$review scenes tests/hostile tests/image"
+run 'reviews killed, stopped and starved' review-resume-long \
+    python3 tests/hostile/review_resume.py --all --kills 40 $program
+run 'models of others equipped' equip-models python3 tests/hostile/equip.py $program
+run 'a review that watches its files' review-watch \
+    python3 tests/hostile/review_watch.py --all $program
+of "$review scenes tests/page tests/image"
+run 'what moves in a page' live python3 tests/page/live.py $program
+run 'a model equipped by clicks' equip python3 tests/page/equip.py $program
+of "$compare scenes tests/bench tests/image"
+run 'false alarms and power of compare' compare-power \
+    python3 tests/bench/compare_power.py $program .build/release/bench_statistic
+of "$all scenes README.md tests/image"
+run 'every guide as written' guides-long python3 tests/image/guides.py $program
+of "$all tests/unit"
+run 'unit tests that take long' unit-long units .build/release -L long
+of "$all scenes README.md CONTRIBUTING.md tests"
 run 'packages built twice' packages python3 tests/install/packages.py .build/packages
-run 'the suite in another Debian' other-debian \
-    python3 tests/install/other_debian.py .build/release/parhelion
 run 'packages in a bare Debian' bare-root \
     python3 tests/install/bare_root.py .build/packages/first/.build/release/packages
-run 'all closed forms in frames' image-long \
-    python3 tests/image/run.py --all .build/release/parhelion
-run 'a glare review, thirty hours of weather' review-long \
-    python3 tests/image/review.py --all .build/release/parhelion
-run 'all variants of a review, slopes, mends' variants-long \
-    python3 tests/image/variants.py --all .build/release/parhelion
-run 'a hunt for wrong answers, 200 rooms' hunt-long \
-    python3 tests/hunt/hunt.py --count 200 .build/release/parhelion
-run_one 'verdicts whose truth is known' verdicts \
-    python3 tests/bench/verdicts.py .build/release --rooms open,window --trials 200
-run "another maker's car" other-maker \
-    python3 tests/image/other_maker.py .build/release/parhelion
-run 'verdicts beside their limits' review-laws \
-    python3 tests/image/review_laws.py .build/release/parhelion scenes/glance.review.json \
-    dimmed 0.2 0.4 0.005
-run 'daylight through a roof, every point' roof-long \
-    python3 tests/image/roof.py .build/release/parhelion --all
-run_units 'unit tests that take long' unit-long .build/release -L long
-start 'laminated panes' glazing python3 tests/image/glazing.py .build/release/parhelion
-start 'curved panes' curved python3 tests/image/curved_pane.py .build/release/parhelion
-start 'paper and opal' translucent \
-    python3 tests/image/translucent.py .build/release/parhelion
-start 'prisms' dispersion python3 tests/image/dispersion.py .build/release/parhelion
-start 'films on glass' films python3 tests/image/films.py .build/release/parhelion
-start 'a head-up display' hud python3 tests/image/hud.py .build/release/parhelion
-start 'a luxmeter under every light' luxmeter \
-    python3 tests/image/luxmeter.py .build/release/parhelion
+run 'the suite in another Debian' other-debian python3 tests/install/other_debian.py $program
+
+# ---- with the sanitizers for addresses and what is not defined ----
+needs 'asan all'
+of "$all tests/unit"
+run 'unit tests, address sanitizer' unit-asan units .build/asan --timeout 10800
+of "$panels tests/unit"
+start '100,000 broken panels' panels-long mutations
+of "$render scenes tests/hostile"
+start 'thousands of broken models' hostile-long \
+    python3 tests/hostile/run.py --all .build/asan/parhelion
+of "$all scenes tests/hostile tests/image"
+start 'every fault, address sanitizer' faults-asan \
+    python3 tests/hostile/faults.py --all .build/asan/parhelion
 gather
-start 'a review shared in a job' review-job \
-    python3 tests/slurm/review_job.py .build/release/parhelion
-start 'every guide as written' guides-long \
-    python3 tests/image/guides.py .build/release/parhelion
-gather
-run 'what is learnt moves no mean' guided-long \
-    python3 tests/image/guided.py .build/release/parhelion
-run 'false alarms and power of compare' compare-power \
-    python3 tests/bench/compare_power.py .build/release/parhelion .build/release/bench_statistic
-run 'frames shared by Slurm' slurm python3 tests/slurm/cluster.py .build/release/parhelion
-run 'reviews killed, stopped and starved' review-resume-long \
-    python3 tests/hostile/review_resume.py --all --kills 40 .build/release/parhelion
-run 'what moves in a page' live python3 tests/page/live.py .build/release/parhelion
-run 'models of others equipped' equip-models \
-    python3 tests/hostile/equip.py .build/release/parhelion
-run 'a review that watches its files' review-watch \
-    python3 tests/hostile/review_watch.py --all .build/release/parhelion
-run 'a model equipped by clicks' equip python3 tests/page/equip.py .build/release/parhelion
-if run_one 'build by the second compiler' build-clang build clang all; then
-    run_units 'unit tests, second compiler' unit-clang .build/clang
-    run 'same bits from both compilers' bits-clang \
-        python3 tests/image/bits.py --against .build/release/parhelion .build/clang/parhelion
-fi
-# A panel file is queried in place: every build must read every other one's.
-if run_one 'build for this processor only' build-native build_native; then
-    run 'panels of one build in another' panels-native \
-        python3 tests/hostile/panel_commands.py --against .build/release/parhelion \
-        .build/native/parhelion
-fi
-if run_one 'build with thread sanitizer' build-tsan \
-    build tsan parhelion test_base test_render test_checkpoint; then
-    export TSAN_OPTIONS=ignore_noninstrumented_modules=1
-    run_units 'unit tests, thread sanitizer' unit-tsan .build/tsan \
-        -R '^(base|render|checkpoint)$'
-    run 'two threads, thread sanitizer' tsan \
-        python3 tests/image/bits.py --small .build/tsan/parhelion
-    run 'checkpoint and interrupt, the same' tsan-resume \
-        python3 tests/hostile/resume.py --small .build/tsan/parhelion
-fi
-if run_one 'build for fuzzing' build-fuzz build fuzz fuzz; then
-    run 'five minutes of fuzzing' fuzz python3 tests/fuzz/run.py .build/fuzz
-fi
+
+# ---- by the second compiler, and for this processor alone ----
+needs 'release all' 'clang all'
+of "$all tests/unit"
+run 'unit tests, second compiler' unit-clang units .build/clang
+of "$render scenes tests/image"
+run 'same bits from both compilers' bits-clang \
+    python3 tests/image/bits.py --against $program .build/clang/parhelion
+of "$tables tests/hostile"
+run 'panels of one build in another' panels-native native_panels
+
+# ---- with the sanitizer for threads ----
+needs 'tsan parhelion test_base test_render test_checkpoint'
+of "$light tests/unit"
+run 'unit tests, thread sanitizer' unit-tsan units .build/tsan -R '^(base|render|checkpoint)$'
+of "$render scenes tests/image tests/hostile"
+run 'two threads, thread sanitizer' tsan \
+    python3 tests/image/bits.py --small .build/tsan/parhelion
+run 'checkpoint and interrupt, the same' tsan-resume \
+    python3 tests/hostile/resume.py --small .build/tsan/parhelion
+
+# ---- by chance ----
+needs 'fuzz fuzz'
+of "$all tests/fuzz tests/unit"
+run 'five minutes of fuzzing' fuzz python3 tests/fuzz/run.py .build/fuzz
 finish

@@ -7,137 +7,237 @@ total_passed=0 total_failed=0 total_skipped=0
 export PYTHONDONTWRITEBYTECODE=1
 mkdir -p $logs
 
-# counts FILE: "PASSED FAILED SKIPPED" from the last line "N passed, N failed[, N skipped]"
+# ---- counting ----
+
+# counts FILE: "PASSED FAILED SKIPPED" from the last line "N passed, N failed[, N skipped]", or
+# from what cmocka says under ctest
 counts()
 {
-    awk '/^[0-9]+ passed, [0-9]+ failed/ { line = $1 " " $3 " " $5 } END { print line }' "$1"
-}
-
-# unit_counts FILE: the same from the output of cmocka under ctest
-unit_counts()
-{
-    awk '/\[  PASSED  \]/ { passed += number() }
+    awk '/^[0-9]+ passed, [0-9]+ failed/ { line = $1 " " $3 " " $5 + 0 }
+         /\[  PASSED  \]/ { passed += number() }
          /\[  FAILED  \] [0-9]+ test/ { failed += number() }
          /\[  SKIPPED \] [0-9]+ test/ { skipped += number() }
-         function number(  line) { line = $0; sub(/.*\] /, "", line); return line + 0 }
-         END { print passed + 0, failed + 0, skipped + 0 }' "$1"
+         function number(  rest) { rest = $0; sub(/.*\] /, "", rest); return rest + 0 }
+         END { print line ? line : passed + 0 " " failed + 0 " " skipped + 0 }' "$1"
 }
 
-# report NAME STATUS SECONDS PASSED FAILED SKIPPED: prints the step's line and adds it up.
+# processor_seconds FILE: of a shell's children, from what `times` wrote
+processor_seconds()
+{
+    awk 'NR == 2 { split($1, own, /[ms]/); split($2, of_system, /[ms]/)
+                   print int(60 * (own[1] + of_system[1]) + own[2] + of_system[2]) }' "$1"
+}
+
+# report NAME LOG STATUS TIME PASSED FAILED SKIPPED: prints the step's line and adds it up.
 # A step that fails without having counted a failure counts as one.
 report()
 {
-    failed=$5
-    [ "$2" = 0 ] || [ "$failed" != 0 ] || failed=1
-    total_passed=$((total_passed + $4))
+    failed=$6
+    [ "$3" = 0 ] || [ "$failed" != 0 ] || failed=1
+    total_passed=$((total_passed + $5))
     total_failed=$((total_failed + failed))
-    total_skipped=$((total_skipped + ${6:-0}))
-    line=$(printf '%-34s %5d passed %4d failed' "$1" "$4" "$failed")
-    [ "${6:-0}" = 0 ] || line="$line $6 skipped"
-    echo "$line  ($3 s)"
-    [ "$failed" = 0 ] || { grep -h '^FAILED\|\[  FAILED  \]\|error:\|ERROR:\|WARNING: Thread' \
-        "$log" | head -n 12 | sed 's/^/    /'; echo "    the whole log: $log"; }
-    grep -h '^skipped' "$log" | head -n 5 | sed 's/^/    /' || true
+    total_skipped=$((total_skipped + $7))
+    line=$(printf '%-38s %5d passed %4d failed' "$1" "$5" "$failed")
+    [ "$7" = 0 ] || line="$line $7 skipped"
+    echo "$line  ($4)"
+    [ "$failed" = 0 ] || {
+        grep -h '^FAILED\|\[  FAILED  \]\|error:\|ERROR:\|WARNING: Thread' "$logs/$2.log" |
+            head -n 12 | sed 's/^/    /'
+        echo "    the whole log: $logs/$2.log"
+    }
+    grep -h '^skipped' "$logs/$2.log" | head -n 5 | sed 's/^/    /' || true
 }
 
-# keep_steps: from here on a step that passed on these very files is not run again: its line of
-# then is printed instead. For runs of hours; what a step was run on is told by the sum of all
-# files, so that a change of one byte runs every step again.
-sum=
+# ---- steps that are kept ----
+
+# keep_steps [--list | --changed [COMMIT]]: from here on a step that passed on the very files
+# that it depends on is not run again: its line of then is printed instead. For runs of hours.
+# --list: nothing is run: says of each step whether it would be. --changed: of the others only
+# those are run that a commit after COMMIT (the last one but one) reaches, or what is not
+# committed.
+keeps='' mode='' sum='' reached=''
 keep_steps()
 {
-    sum=$(find CMakeLists.txt CMakePresets.json src shaders scenes assets tests third_party \
+    keeps=1 mode=${1#--}
+    find CMakeLists.txt CMakePresets.json src shaders scenes assets tests third_party \
         README.md CONTRIBUTING.md -type f ! -name '*.pyc' -print0 | LC_ALL=C sort -z |
-        xargs -0 sha256sum | sha256sum | cut -d ' ' -f 1)
+        xargs -0 sha256sum | awk '{ print $2, $1 }' >$logs/files.sums
+    case $mode in
+    '' | list) ;;
+    changed)
+        since=${2:-HEAD~1}
+        { git diff --name-only "$since" && git ls-files --others --exclude-standard; } \
+            >$logs/files.changed || exit 1 ;;
+    *) echo "steps: $1: wanted --list or --changed [COMMIT]" >&2; exit 2 ;;
+    esac
 }
 
-# was_kept NAME: reports the step whose log is $log as it passed before; false if it did not
-was_kept()
+# of FOLDER-OR-FILE...: what the steps from here on depend on
+of()
 {
-    [ -n "$sum" ] && [ -f "$log.kept" ] || return 1
-    read -r of seconds passed skipped <"$log.kept"
-    [ "$of" = "$sum" ] || return 1
-    report "$1" 0 "kept, $seconds" "$passed" 0 "$skipped"
+    sum=$(among "$*" <$logs/files.sums | sha256sum | cut -d ' ' -f 1)
+    [ "$mode" != changed ] || reached=$(among "$*" <$logs/files.changed | head -n 1)
 }
 
-# keep_step STATUS SECONDS PASSED FAILED SKIPPED: of the step whose log is $log
-keep_step()
+# among "FOLDER...": of lines that begin with a file's name, those of these folders and files;
+# FOLDER/ is without the folders in it
+among()
 {
-    [ -n "$sum" ] && [ "$1" = 0 ] && [ "$4" = 0 ] || return 0
-    echo "$sum $2 $3 $5" >"$log.kept"
+    awk -v folders="$1" 'BEGIN { count = split(folders, folder, " ") }
+        function is_in(file, folder) {
+            if (folder !~ /\/$/) return file == folder || index(file, folder "/") == 1
+            return index(file, folder) == 1 && substr(file, length(folder) + 1) !~ /\// }
+        { for (i = 1; i <= count; i++) if (is_in($1, folder[i])) { print; break } }'
+}
+
+# is_done NAME LOG: says what there is to say of a step that is not to be run; false: it is
+is_done()
+{
+    [ -n "$keeps" ] || return 1
+    of='' seconds='' passed='' skipped=''
+    [ ! -f "$logs/$2.kept" ] || read -r of seconds passed skipped <"$logs/$2.kept"
+    if [ "$mode" = list ]; then
+        state=stale
+        [ "$of" != "$sum" ] || state=fresh
+        [ -n "$of" ] || state='never run'
+        printf '%-38s %s%s\n' "$1" "$state" "${seconds:+, $seconds s}"
+    elif [ "$of" = "$sum" ]; then
+        report "$1" "$2" 0 "kept, $seconds s" "$passed" 0 "$skipped"
+    elif [ "$mode" = changed ] && [ -z "$reached" ]; then
+        printf '%-38s not reached\n' "$1"
+    else
+        return 1
+    fi
+}
+
+# needs 'PRESET TARGET...'...: what the steps from here on need built: before the first of them
+# that is run
+needed='' built=' '
+needs()
+{
+    needed=
+    for each in "$@"; do needed="$needed$each;"; done
+}
+
+build_needed()
+{
+    rest=$needed
+    while [ -n "$rest" ]; do
+        each=${rest%%;*} rest=${rest#*;}
+        case $built in
+        *" $each; "*) continue ;;
+        esac
+        # shellcheck disable=SC2086
+        run_one "build: $each" "build-${each%% *}" build $each || return 1
+        built="$built$each; "
+    done
+}
+
+# ---- running them ----
+
+# measured LOG COMMAND...: runs it with its output in the log; LOG.end gets its status, seconds
+# and processors' seconds
+measured()
+{
+    end=$logs/$1
+    rm -f "$end.end"
+    shift
+    ( begun=$(date +%s)
+      "$@" >"$end.log" 2>&1
+      status=$?
+      times >"$end.times"
+      echo "$status $(($(date +%s) - begun)) $(processor_seconds "$end.times")" >"$end.tmp"
+      mv "$end.tmp" "$end.end" )
+}
+
+# finished NAME LOG: reports a step that was measured, and keeps it
+finished()
+{
+    read -r status seconds busy <"$logs/$2.end"
+    # shellcheck disable=SC2046
+    set -- "$1" "$2" $(counts "$logs/$2.log")
+    report "$1" "$2" "$status" "$seconds s, $busy s of processors" "$3" "$4" "$5"
+    [ -n "$keeps" ] && [ "$status" = 0 ] && [ "$4" = 0 ] &&
+        echo "$(cat "$logs/$2.of") $seconds $3 $5" >"$logs/$2.kept"
+    [ "$status" = 0 ]
 }
 
 # run NAME LOG COMMAND...: a step that counts its own claims
 run()
 {
-    name=$1 log=$logs/$2.log start=$(date +%s)
+    name=$1 log=$2
     shift 2
-    was_kept "$name" && return
-    "$@" >"$log" 2>&1
-    status=$?
-    # shellcheck disable=SC2046
-    set -- $status $(($(date +%s) - start)) $(counts "$log")
-    report "$name" "$1" "$2" "${3:-0}" "${4:-0}" "${5:-0}"
-    keep_step "$1" "$2" "${3:-0}" "${4:-0}" "${5:-0}"
-    return $status
+    is_done "$name" "$log" && return
+    build_needed || return
+    echo "$sum" >"$logs/$log.of"
+    measured "$log" "$@"
+    finished "$name" "$log"
 }
 
-# start NAME LOG COMMAND...: as run, but beside others; gather waits for them and reports.
-# For steps that mostly wait for one small program after the other.
-started=
+# start NAME LOG COMMAND...: as run, but beside others, one more than there are processors;
+# gather waits for them.
+started='' beside_most=$(($(nproc) + 1))
 start()
 {
-    name=$1 beside=$2 log=$logs/$2.log
+    name=$1 log=$2
     shift 2
-    was_kept "$name" && return
-    printf '%s' "$name" >"$logs/$beside.name"
-    ( begun=$(date +%s)
-      "$@" >"$logs/$beside.log" 2>&1
-      echo "$? $(($(date +%s) - begun))" >"$logs/$beside.end" ) &
-    started="$started $beside"
+    is_done "$name" "$log" && return
+    build_needed || return
+    wait_for_others $((beside_most - 1))
+    echo "$sum" >"$logs/$log.of"
+    printf '%s' "$name" >"$logs/$log.name"
+    rm -f "$logs/$log.end"
+    measured "$log" "$@" &
+    started="$started $log"
+}
+
+# wait_for_others COUNT: until no more than so many run; reports those that ended
+wait_for_others()
+{
+    while :; do
+        running=
+        for log_of in $started; do
+            if [ -f "$logs/$log_of.end" ]; then finished "$(cat "$logs/$log_of.name")" "$log_of"
+            else running="$running $log_of"; fi
+        done
+        started=$running
+        # shellcheck disable=SC2086
+        set -- "$1" $running
+        [ $(($# - 1)) -gt "$1" ] || return 0
+        sleep 0.2
+    done
 }
 
 gather()
 {
-    wait
-    for beside in $started; do
-        log=$logs/$beside.log
-        read -r status seconds <"$logs/$beside.end"
-        # shellcheck disable=SC2046
-        set -- "$status" "$seconds" $(counts "$log")
-        report "$(cat "$logs/$beside.name")" "$1" "$2" "${3:-0}" "${4:-0}" "${5:-0}"
-        keep_step "$1" "$2" "${3:-0}" "${4:-0}" "${5:-0}"
-    done
-    started=
+    wait_for_others 0
 }
 
-# run_one NAME LOG COMMAND...: a step that is one claim
+# run_one NAME LOG COMMAND...: a step that is one claim, and is never kept
 run_one()
 {
-    name=$1 log=$logs/$2.log start=$(date +%s)
+    name=$1 log=$2
     shift 2
-    if "$@" >"$log" 2>&1; then
-        report "$name" 0 $(($(date +%s) - start)) 1 0
-    else
-        report "$name" 1 $(($(date +%s) - start)) 0 1
-        return 1
-    fi
+    [ "$mode" != list ] || return 0
+    measured "$log" "$@"
+    read -r status seconds busy <"$logs/$log.end"
+    report "$name" "$log" "$status" "$seconds s, $busy s of processors" \
+        $((status == 0)) $((status != 0)) 0
+    [ "$status" = 0 ]
 }
 
-# run_units NAME LOG BUILD_DIR [CTEST ARGUMENT...]: cmocka's cases
-run_units()
+# claim COMMAND...: one that counts nothing
+claim()
 {
-    name=$1 log=$logs/$2.log start=$(date +%s) folder=$3
-    shift 3
-    was_kept "$name" && return
-    ctest --test-dir "$folder" -j "$(nproc)" -V --timeout 300 --no-tests=error "$@" \
-        >"$log" 2>&1
-    status=$?
-    # shellcheck disable=SC2046
-    set -- $status $(($(date +%s) - start)) $(unit_counts "$log")
-    report "$name" "$@"
-    keep_step "$@"
-    return $status
+    "$@" && echo '1 passed, 0 failed'
+}
+
+# units BUILD_DIR [CTEST ARGUMENT...]: cmocka's cases
+units()
+{
+    folder=$1
+    shift
+    ctest --test-dir "$folder" -j "$(nproc)" -V --timeout 300 --no-tests=error "$@"
 }
 
 # build PRESET TARGET...: a warning is an error
@@ -151,6 +251,7 @@ build()
 
 finish()
 {
+    [ "$mode" != list ] || exit 0
     [ $total_skipped = 0 ] || echo "$total_skipped skipped: see the lines above"
     echo "$total_passed passed, $total_failed failed"
     [ $total_failed = 0 ] || exit 1

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """review.py [--all] PARHELION -- a glare review says what its scene is: its figures hang
 together and are those of a frame, a sweep's suns and a weather file's hours are those of
-moments, and nothing depends on the threads. --all: thirty of those hours, which take minutes.
+moments, and nothing depends on the threads. --all: thirty of those hours, which take minutes,
+and eyes at one place.
 """
 import csv
 import json
@@ -411,8 +412,8 @@ def main(program, whole):
         check_diff(report, reviewer)
         check_start(report, reviewer)
         check_suns(report, reviewer)
-        check_twins(report, reviewer)
         if whole:
+            check_twins(report, reviewer)
             check_weather(report, reviewer, 30)
             check_worst(report, reviewer)
         check_refusals(report, reviewer)

@@ -2,7 +2,7 @@
 """variants.py [--all] PARHELION -- what a review says of its variants is what separate reviews
 of scenes changed by hand say; differences are sharper than values; slopes are finite
 differences; what mends it does, and a little less does not; pictures stand side by side.
-Without --all three of the variants, and what is refused.
+Without --all two of the variants, and what is refused.
 """
 import math
 import os
@@ -67,7 +67,7 @@ VARIANTS = {
 }
 
 
-SOME = ("brighter", "tilted", "the same")
+SOME = ("tilted", "the same")
 
 
 def half(pair):
