@@ -28,6 +28,24 @@
 #define CORE_MOST_DEG 2.0
 #define CORE_STEPS 1.5      /* of the samples: less, and no sample would tell the first knots */
 #define TURN_MOST 60.0      /* of narrow^2 */
+#define KNOTS_LEAST 4       /* of a profile: a cubic spline has no fewer */
+#define RIDGE 1e-12         /* of the samples' weight, on the diagonal: all unknowns are told */
+
+/* The search: a first core with a first walk of the centre, then the core that fits, then the
+ * ellipse. Steps grow after a gain and shrink without one. */
+#define FIRST_DEG 0.3       /* the first core, and the centre's first steps */
+#define FIRST_END 0.02      /* of them: where the first walk ends */
+#define CENTRE_STEP 0.2     /* of the core: the centre's steps in the second walk */
+#define ELLIPSE_STEP 0.05   /* of the core: in the third, which turns, too, by */
+#define TURN_STEP 0.3       /* of narrow^2 */
+#define WALK_END 5e-4       /* of the core: where both end */
+#define WALK_ROUNDS 60
+#define STEP_GROWS 1.5
+#define STEP_SHRINKS 0.5
+
+#define HALF_STEP 0.02      /* of ln(1 + r^2): how closely half the height is sought */
+#define STORED_STEP 0.25f   /* of the tree's steps: of a stored profile */
+#define SCRATCH_BYTES ((size_t)1 << 30) /* address space: what is not touched costs nothing */
 
 /* The samples around a beam in the tangent plane of a centre, in units of chord. */
 typedef struct BeamWindow {
@@ -156,7 +174,7 @@ static int knots_for(const BeamWindow *w, double core)
 {
     double cores = w->reach / core;
     double knots = log_d(1 + cores * cores) / (double)PANEL_BEAM_STEP;
-    return (int)fmin(PANEL_BEAM_KNOTS_MAX, fmax(4, knots));
+    return (int)fmin(PANEL_BEAM_KNOTS_MAX, fmax(KNOTS_LEAST, knots));
 }
 
 /* The numbers of a sample's equation: at most 4 of the beam, then the background. */
@@ -220,7 +238,7 @@ static void add_smoothness(const BeamWindow *w, BeamEquations *out)
     size_t n = (size_t)out->unknowns;
     add_differences(second, 3, w->total * doubt * doubt / (1 + w->count), out);
     add_differences(third, 4, w->total * EVEN_SHARE, out);
-    for (size_t i = 0; i < n; i++) out->matrix[i * n + i] += w->total * 1e-12;
+    for (size_t i = 0; i < n; i++) out->matrix[i * n + i] += w->total * RIDGE;
 }
 
 /* Weighted squares that a beam of a shape leaves of the signal. right: the solution. */
@@ -278,12 +296,11 @@ static void choose_core(BeamSearch *search)
     }
 }
 
-/* Steps along every axis, twice as long after a gain and half as long without one. */
 static void walk(BeamSearch *search, int axes, double shift_step, double turn_step,
                  double least)
 {
     double step[4] = {shift_step, shift_step, turn_step, turn_step};
-    for (int round = 0; round < 60 && step[0] + step[1] > 2 * least; round++)
+    for (int round = 0; round < WALK_ROUNDS && step[0] + step[1] > 2 * least; round++)
         for (int axis = 0; axis < axes; axis++) {
             bool gained = false;
             for (int sign = -1; sign <= 1 && !gained; sign += 2) {
@@ -292,22 +309,22 @@ static void walk(BeamSearch *search, int axes, double shift_step, double turn_st
                 *at += sign * step[axis];
                 gained = improve(search, &shape);
             }
-            step[axis] *= gained ? 1.5 : 0.5;
+            step[axis] *= gained ? STEP_GROWS : STEP_SHRINKS;
         }
 }
 
 static void find_shape(BeamSearch *search)
 {
-    const double fine = 5e-4;
-    double       coarse = chord_of(0.3);
+    double first = chord_of(FIRST_DEG);
     search->left = INFINITY;
-    search->best = (BeamShape){.core = chord_of(0.3)};
+    search->best = (BeamShape){.core = first};
     choose_core(search);
-    walk(search, 2, coarse, 0, 0.02 * coarse);
+    walk(search, 2, first, 0, FIRST_END * first);
     choose_core(search);
-    walk(search, 2, 0.2 * search->best.core, 0, fine * search->best.core);
+    double core = search->best.core;
+    walk(search, 2, CENTRE_STEP * core, 0, WALK_END * core);
     BeamSearch round = *search;
-    walk(search, 4, 0.05 * search->best.core, 0.3, fine * search->best.core);
+    walk(search, 4, ELLIPSE_STEP * core, TURN_STEP, WALK_END * core);
     if (search->left > ELLIPSE_WORTH * round.left) *search = round;
 }
 
@@ -337,7 +354,7 @@ static bool is_beam(const BeamSearch *search, double before, double *width)
     int               knots = knots_for(w, search->best.core), inside = 0;
     double            top = profile_at(search->right, knots, 0), u = 0;
     if (!(search->left < WORTH * before) || top < LEAST_HEIGHT) return false;
-    while (profile_at(search->right, knots, u) > 0.5 * top) u += 0.02;
+    while (profile_at(search->right, knots, u) > 0.5 * top) u += HALF_STEP;
     double half = exp_d(u) - 1;
     for (int i = 0; i < w->count; i++) inside += squares_at(w, &search->best, i) < half;
     *width = search->best.core * sqrt(half);
@@ -395,7 +412,7 @@ static bool keep_beam(const BeamSearch *search, double width, Arena scratch, Are
     float         step[PANEL_COMPONENTS_MAX];
     size_t        used;
     EmissionBeam *beam = &model->beam[model->beams];
-    for (int k = 0; k < n; k++) step[k] = 0.25f * model->step[k];
+    for (int k = 0; k < n; k++) step[k] = STORED_STEP * model->step[k];
     beam->size = panel_beam_pack(&head, profile, step, n, arena, &beam->bytes);
     beam->half_width = width;
     if (!panel_beam_open(beam->bytes, beam->size, n, arena, &beam->view, &used)) return false;
@@ -405,7 +422,7 @@ static bool keep_beam(const BeamSearch *search, double width, Arena scratch, Are
 
 bool emission_beam_find(EmissionModel *model, int row, double reach, Arena *arena)
 {
-    Arena      scratch = arena_reserve((size_t)1 << 30);
+    Arena      scratch = arena_reserve(SCRATCH_BYTES);
     BeamWindow window;
     BeamSearch search = {&window, ARENA_NEW(&scratch, BeamEquations, 1), {0}, {{0}, {0}, 0}, 0};
     double     width = 0;
