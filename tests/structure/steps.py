@@ -1,9 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """steps.py -- a step of tests/long.sh is run again when a file changes that it depends on: with
 a folder it names all that the folder includes, as layers.txt has it, and the tests that it
-runs. src/cli/ (the commands' own files, which know every room) hands on and is let off."""
+runs. src/cli/ (the commands' own files, which know every room) hands on and is let off.
+What steps.sh keeps, lists and leaves out is tried on four steps of a project of their own."""
 import os
 import re
+import shutil
+import subprocess
+import tempfile
 
 from layers import allowed_includes
 from report import ROOT, Report, read
@@ -34,6 +38,95 @@ def not_covered(folders, layers):
                         if not entry.startswith("<") and not covers(folders, entry))
 
 
+SCRIPT_OF_STEPS = """. tests/steps.sh
+keep_steps "$@"
+of src
+run one one sh src/one.sh
+of 'shaders scenes/'
+start two two sh shaders/two.sh
+start three three sh -c 'sleep 0.3; echo 3 passed, 0 failed'
+gather
+run four four sh -c 'echo 0 passed, 1 failed; exit 1'
+finish
+"""
+NAMES = ("src", "shaders", "scenes", "assets", "tests", "third_party")
+FILES = ("CMakeLists.txt", "CMakePresets.json", "README.md", "CONTRIBUTING.md")
+
+
+class Steps:
+    """A project of its own with four steps."""
+
+    def __init__(self, folder):
+        self.folder = folder
+        for name in NAMES:
+            os.mkdir(os.path.join(folder, name))
+        for name in FILES:
+            self.write(name, name)
+        shutil.copy(os.path.join(ROOT, "tests", "steps.sh"), os.path.join(folder, "tests"))
+        self.write("src/one.sh", "echo 1 passed, 0 failed")
+        self.write("shaders/two.sh", "echo 2 passed, 0 failed, 1 skipped")
+        self.write("steps.sh", SCRIPT_OF_STEPS)
+        self.write(".gitignore", ".build")
+        self.git("init", "-q")
+        self.commit()
+
+    def write(self, name, text):
+        with open(os.path.join(self.folder, name), "w", encoding="utf-8") as file:
+            file.write(text + "\n")
+
+    def git(self, *words):
+        subprocess.run(["git", "-c", "user.name=a", "-c", "user.email=a@b", *words], check=True,
+                       cwd=self.folder, capture_output=True)
+
+    def commit(self):
+        self.git("add", "-A")
+        self.git("commit", "-q", "--allow-empty", "-m", "x")
+
+    def run(self, *options):
+        """Step -> what its line says; None: the count, as it is printed."""
+        done = subprocess.run(["sh", "steps.sh", *options], cwd=self.folder, text=True,
+                              capture_output=True, check=False)
+        said = {}
+        for line in done.stdout.splitlines():
+            words = line.split(None, 1)
+            if words[0] in ("one", "two", "three", "four"):
+                said[words[0]] = re.sub(r" +", " ", words[1])
+        return said, done.stdout.splitlines()[-1] if done.stdout else "", done.returncode
+
+
+def check_running(report):
+    with tempfile.TemporaryDirectory() as folder:
+        steps = Steps(folder)
+        said, count, status = steps.run()
+        report.claim(count == "6 passed, 1 failed" and status == 1, f"first run: {count}")
+        report.claim("2 passed 0 failed 1 skipped (0 s," in said["two"], f"two: {said['two']}")
+        said, count, _ = steps.run()
+        kept = [name for name, words in said.items() if "kept" in words]
+        report.claim(kept == ["one", "two", "three"] and count == "6 passed, 1 failed",
+                     f"kept: {said}, {count}")
+        steps.write("shaders/two.sh", "echo 5 passed, 0 failed")
+        said, _, _ = steps.run("--list")
+        report.claim([words.split(",")[0] for words in said.values()] ==
+                     ["fresh", "stale", "stale", "never run"], f"list: {said}")
+        steps.commit()
+        steps.write("src/one.sh", "echo 7 passed, 0 failed")
+        steps.write("scenes/x", "of no step: folders in it are")
+        steps.commit()
+        said, count, _ = steps.run("--changed")
+        report.claim(said["one"].startswith("7 passed") and said["two"].startswith("5 passed"),
+                     f"changed: {said}")
+        steps.write("src/one.sh", "echo 8 passed, 0 failed")
+        steps.write("shaders/two.sh", "echo 6 passed, 0 failed")
+        steps.commit()
+        steps.write("src/one.sh", "echo 9 passed, 0 failed")
+        steps.commit()
+        said, count, _ = steps.run("--changed")
+        report.claim(said["one"].startswith("9 passed") and said["two"] == "not reached",
+                     f"changed since the last commit: {said}")
+        _, _, status = steps.run("--change")
+        report.claim(status == 2, f"an unknown option: {status}")
+
+
 def main():
     report = Report()
     text = read("tests/long.sh")
@@ -53,6 +146,7 @@ def main():
     report.claim_none("what is no file, or which a step runs and does not depend on", missing)
     report.claim(steps > 40, f"only {steps} steps were read")
     check_itself(report)
+    check_running(report)
     report.finish()
 
 
