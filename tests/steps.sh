@@ -58,18 +58,18 @@ report()
 keeps='' mode='' sum='' reached=''
 keep_steps()
 {
-    keeps=1 mode=${1#--}
+    keeps=1
+    case ${1:-} in
+    '') ;;
+    --list | --changed) mode=${1#--} ;;
+    *) echo "steps: $1: wanted --list or --changed [COMMIT]" >&2; exit 2 ;;
+    esac
     find CMakeLists.txt CMakePresets.json src shaders scenes assets tests third_party \
         README.md CONTRIBUTING.md -type f ! -name '*.pyc' -print0 | LC_ALL=C sort -z |
         xargs -0 sha256sum | awk '{ print $2, $1 }' >$logs/files.sums
-    case $mode in
-    '' | list) ;;
-    changed)
-        since=${2:-HEAD~1}
-        { git diff --name-only "$since" && git ls-files --others --exclude-standard; } \
-            >$logs/files.changed || exit 1 ;;
-    *) echo "steps: $1: wanted --list or --changed [COMMIT]" >&2; exit 2 ;;
-    esac
+    [ "$mode" = changed ] || return 0
+    { git diff --name-only "${2:-HEAD~1}" && git ls-files --others --exclude-standard; } \
+        >$logs/files.changed || exit 1
 }
 
 # of FOLDER-OR-FILE...: what the steps from here on depend on
@@ -188,15 +188,20 @@ start()
     printf '%s' "$name" >"$logs/$log.name"
     rm -f "$logs/$log.end"
     measured "$log" "$@" &
+    echo $! >"$logs/$log.pid"
     started="$started $log"
 }
 
-# wait_for_others COUNT: until no more than so many run; reports those that ended
+# wait_for_others COUNT: until no more than so many run; reports those that ended. Who was
+# killed before it could say so has failed.
 wait_for_others()
 {
     while :; do
         running=
+        jobs >$logs/jobs # the shell takes note of those that ended
         for log_of in $started; do
+            kill -0 "$(cat "$logs/$log_of.pid")" 2>/dev/null || [ -f "$logs/$log_of.end" ] ||
+                echo '137 0 0' >"$logs/$log_of.end"
             if [ -f "$logs/$log_of.end" ]; then finished "$(cat "$logs/$log_of.name")" "$log_of"
             else running="$running $log_of"; fi
         done

@@ -8,7 +8,9 @@
 #include "light/sky.h"
 #include "spectrum/photometry.h"
 
-#define LEVEL_CHANGE 4.0f /* times as bright: so much is not worth another choice */
+/* How often an emitter is chosen is no part of what it sends: displays that are so many times as
+ * bright are chosen nearly as often as they should be. */
+#define LEVEL_CHANGE 4.0f
 
 struct Lights {
     const Scene *scene;
@@ -25,15 +27,13 @@ static const float *levels_of(const Scene *scene, Arena *arena)
     return levels;
 }
 
-/* Do emitters as they are chosen still fit? The choice is no part of what they send: displays a
- * little brighter or darker are chosen nearly as often as they should be. */
-static bool fits_levels(const Lights *lights)
+/* Is no display more than so many times as bright, or as dark, as when emitters were built? */
+static bool fits_levels(const Lights *lights, float times)
 {
     const Scene *scene = lights->scene;
     for (int i = 0; i < scene->display_count; i++) {
         float now = scene->displays[i].level, then = lights->levels[i];
-        if (now == then) continue;
-        if (!(now <= LEVEL_CHANGE * then && then <= LEVEL_CHANGE * now)) return false;
+        if (!(now <= times * then && then <= times * now)) return false;
     }
     return true;
 }
@@ -53,7 +53,7 @@ bool lights_build(const Scene *scene, Arena *arena, Lights **out, Error *err)
 bool lights_under_sky(const Lights *before, Arena *arena, Lights **out, Error *err)
 {
     Sky sky;
-    if (!fits_levels(before)) return lights_build(before->scene, arena, out, err);
+    if (!fits_levels(before, 1)) return lights_build(before->scene, arena, out, err);
     if (!sky_build(&before->scene->environment, arena, &sky, err)) return false;
     *out = ARENA_NEW(arena, Lights, 1);
     **out = *before;
@@ -63,7 +63,7 @@ bool lights_under_sky(const Lights *before, Arena *arena, Lights **out, Error *e
 
 const Lights *lights_with_levels(const Lights *before, Arena *arena)
 {
-    if (fits_levels(before)) return before;
+    if (fits_levels(before, LEVEL_CHANGE)) return before;
     Lights *lights = ARENA_NEW(arena, Lights, 1);
     *lights = *before;
     lights->emitters = emitters_build(before->scene, arena);

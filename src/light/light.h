@@ -40,7 +40,8 @@ bool lights_build(const Scene *scene, Arena *arena, Lights **out, Error *err);
 const Lights *lights_with_levels(const Lights *before, Arena *arena);
 
 /* Lights of the same scene under its environment as it is now. Emitters are shared with
- * `before` where lights_with_levels would: they take long to sort. Fails as lights_build. */
+ * `before` where no display has another level than they were sorted by: that takes long, and
+ * does not hang on what was lit before. Fails as lights_build. */
 bool lights_under_sky(const Lights *before, Arena *arena, Lights **out, Error *err);
 
 /* Has this set anything that emits? */

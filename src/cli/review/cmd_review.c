@@ -286,6 +286,7 @@ static bool make_later(const ReviewRun *run, ReviewFolder *folder, ReviewOutcome
         {make_sensitivities, "sensitivity", request->parameter_count > 0 && !folder->is_alone},
         {make_mend, "what mends it", folder->mend != NULL},
         {make_frames, "pictures", request->frames.worst > 0}};
+    if (!review_folder_write_tables(folder, outcome, arena, err)) return false;
     for (int i = -1; i < COUNT_OF(later); i++) {
         if (i >= 0 && !later[i].is_wanted) continue;
         if (i >= 0 && !later[i].make(run, folder, outcome, arena, err)) return false;

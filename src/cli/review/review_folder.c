@@ -91,8 +91,8 @@ static ReviewSweep *sweep_of(ReviewOutcome *outcome, int table)
 
 static bool write_table(void *context, int i, Error *err)
 {
-    const FolderTables   *work = context;
-    const ReviewSweep *sweep = sweep_of(work->outcome, i);
+    const FolderTables *work = context;
+    const ReviewSweep  *sweep = sweep_of(work->outcome, i);
     Arena       own = arena_reserve((size_t)1 << 20);
     const char *path = arena_format(&own, "%s/%s", work->folder->name, sweep->table);
     bool        ok = sweep_table_write(
@@ -102,13 +102,11 @@ static bool write_table(void *context, int i, Error *err)
     return ok;
 }
 
-/* Once they are named they stand there: nothing that comes later changes them. */
-static bool write_tables(const ReviewFolder *folder, ReviewOutcome *outcome, Arena *arena,
-                         Error *err)
+bool review_folder_write_tables(const ReviewFolder *folder, ReviewOutcome *outcome,
+                                Arena *arena, Error *err)
 {
-    int       count = outcome->table_count;
+    int          count = outcome->table_count;
     FolderTables work = {folder, outcome};
-    if (!count || sweep_of(outcome, 0)->table) return true;
     for (int i = 0; i < count; i++) {
         ReviewSweep *sweep = sweep_of(outcome, i);
         const char  *name = file_name_of(
@@ -405,8 +403,7 @@ bool review_folder_write(const ReviewFolder *folder, ReviewOutcome *outcome, Are
                          Error *err)
 {
     const Review *review = &outcome->review;
-    return write_tables(folder, outcome, arena, err) &&
-           review_csv_write(review, arena_format(arena, "%s/cases.csv", folder->name), err) &&
+    return review_csv_write(review, arena_format(arena, "%s/cases.csv", folder->name), err) &&
            (!review->false_sun_count ||
             review_csv_write_false_suns(
                 review, arena_format(arena, "%s/false_suns.csv", folder->name), err)) &&
@@ -428,7 +425,7 @@ bool review_folder_write_so_far(const ReviewFolder *folder, const ReviewOutcome 
     review->is_partial = true;
     review->is_strict = folder->is_strict;
     review_decide(review);
-    return write_tables(folder, &known, &scratch, err) &&
+    return review_folder_write_tables(folder, &known, &scratch, err) &&
            review_json_write(review_json(review),
                              arena_format(&scratch, "%s/review.json", folder->name), err) &&
            write_page(folder, &known, &scratch, err) &&

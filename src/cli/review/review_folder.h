@@ -61,6 +61,11 @@ const char *review_folder_command(const ReviewFolder *folder, Arena *arena);
 bool review_folder_write_so_far(const ReviewFolder *folder, const ReviewOutcome *so_far,
                                 const char *to_come, Arena scratch, Error *err);
 
-/* All files take the places of an earlier review's. Sets the tables' names in the sweeps. */
+/* Tables of the sweeps, whose names it sets: once, before review_folder_write. Nothing that
+ * comes later changes them. */
+bool review_folder_write_tables(const ReviewFolder *folder, ReviewOutcome *outcome,
+                                Arena *arena, Error *err);
+
+/* All other files; they take the places of an earlier review's. */
 bool review_folder_write(const ReviewFolder *folder, ReviewOutcome *outcome, Arena *arena,
                          Error *err);
