@@ -38,17 +38,18 @@ def not_covered(folders, layers):
                         if not entry.startswith("<") and not covers(folders, entry))
 
 
-SCRIPT_OF_STEPS = """. tests/steps.sh
-keep_steps "$@"
-of src
-run one one sh src/one.sh
-of 'shaders scenes/'
-start two two sh shaders/two.sh
-start three three sh -c 'sleep 0.3; echo 3 passed, 0 failed'
-gather
-run four four sh -c 'echo 0 passed, 1 failed; exit 1'
-finish
-"""
+SCRIPT_OF_STEPS = (
+    '. tests/steps.sh\n'
+    'keep_steps "$@"\n'
+    'of src\n'
+    'run one one sh src/one.sh\n'
+    "of 'shaders scenes/'\n"
+    'start two two sh shaders/two.sh\n'
+    "start three three sh -c 'sleep 0.3; echo 3 passed, 0 failed'\n"
+    'gather\n'
+    "run four four sh -c 'echo 0 passed, 1 failed; exit 1'\n"
+    'finish\n'
+)
 NAMES = ("src", "shaders", "scenes", "assets", "tests", "third_party")
 FILES = ("CMakeLists.txt", "CMakePresets.json", "README.md", "CONTRIBUTING.md")
 
