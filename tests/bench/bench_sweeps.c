@@ -206,7 +206,7 @@ static void cover_sweep(ReviewRequest *request, const ReviewCondition *c, const 
         !stage_eye_middle(&stage, &request->eyes[0], arena, &eye, &err))
         trials_stop(&err);
     t.symbol = &symbols[0];
-    t.suns = sweep_suns(c, &arena);
+    t.suns = sweep_suns(c, 2, &arena);
     make_table(&t, &arena);
     bool *is_visible = ARENA_NEW(&arena, bool, symbols[0].surface.point_count);
     symbol_visibility(&symbols[0].surface, &stage.context, eye, is_visible);

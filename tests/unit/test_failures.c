@@ -42,7 +42,7 @@ static Failures failures_of(Daily daily, bool with_ask)
     ReviewCondition year = {.kind = CONDITION_YEAR_SWEEP, .year = 2026, .weather_id = NO_ID,
                             .where = {48.14, 11.58, 520}, .headings_deg = headings,
                             .heading_count = 2, .step_minutes = daily.step_minutes};
-    SweepSuns      suns = sweep_suns(&year, &arena);
+    SweepSuns      suns = sweep_suns(&year, 2, &arena);
     unsigned char *states = ARENA_NEW(&arena, unsigned char, suns.count);
     FailureAsk     ask = {tell, &daily};
     tell(&daily, &suns, states, arena);

@@ -103,7 +103,7 @@ TEST(a_facet_that_dazzles_for_minutes_a_year_is_found)
     Stage           stage = {.request = &request, .condition = &condition,
                              .scene = world.scene};
     minutes.step_minutes = 1;
-    SweepSuns suns = sweep_suns(&minutes, &scratch);
+    SweepSuns suns = sweep_suns(&minutes, 2, &scratch);
     int       at = 0; /* 3 October, in the afternoon: ahead is east, the sun behind */
     while (suns.list[at].step < (275 * 24 + 15) * 60 + 20) at++;
     Facet facet = facet_for(stage_direction(&stage, suns.angles[at]));

@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Skies of a weather file's hours over a response: those of daylight_build, only quicker. */
+/* Skies of a weather file's hours over a response: those of daylight_build, only
+ * quicker. Suns of the table of clear skies. */
 #include "check.h"
 
+#include "base/count.h"
 #include "base/sampler.h"
 #include "base/units.h"
-#include "review/light/hour_sky.h"
+#include "review/light/far_probe.h"
 
 #define ROUND 64
 #define UPPER (ROUND * ROUND)
@@ -165,6 +167,39 @@ TEST(an_hour_that_is_no_sky_is_told)
     assert_false(hour_skies_build(&(HourInputs){inputs, 3}, 2, &arena, &list, &failed, &err));
     assert_int_equal(failed, 1);
     assert_non_null(strstr(err.text, "a Perez sky wants a diffuse irradiance above 0"));
+    arena_release(&arena);
+}
+
+/* Also between its elevations; below 2 degrees light changes faster. */
+TEST(the_sun_of_a_sky_table_is_the_atmospheres)
+{
+    (void)state;
+    static const double BETWEEN[] = {0.3, 0.75, 1.2, 1.7,  2.2,  3.5, 4.5,
+                                     6.8, 9,    11.5, 14.5, 18,  33};
+    Arena         arena = arena_reserve((size_t)1 << 30);
+    DaylightInput like = daylight_input_default(DAYLIGHT_CLEAR);
+    SkyTable      table = sky_table_start(&like, 0, 90, &arena);
+    FarTools      tools = {.table = &table};
+    Error         err = {0};
+    assert_true(far_probes_ask_skies(NULL, 0, &tools, &arena, &err));
+    for (size_t i = 0; i < COUNT_OF(BETWEEN); i++) {
+        DaylightInput input = like;
+        Daylight      sky;
+        float         bands[LIGHT_BANDS], wanted[LIGHT_BANDS];
+        double        sum = 0, off = 0;
+        input.has_sun = input.no_moon = true;
+        input.sun_elevation = radians_from_degrees(BETWEEN[i]);
+        input.sun_lux = -1;
+        assert_true(daylight_build(&input, &arena, &sky, &err));
+        light_bands_sun(&sky, wanted);
+        sky_table_sun(&table, BETWEEN[i], bands);
+        for (int b = 0; b < LIGHT_BANDS; b++) {
+            sum += (double)wanted[b];
+            off += (double)(bands[b] - wanted[b]);
+        }
+        if (!(fabs(off) < (BETWEEN[i] < 2 ? 0.03 * sum + 1 : 0.01 * sum)))
+            fail_msg("%g degrees: %g lx, %+g", BETWEEN[i], sum, off);
+    }
     arena_release(&arena);
 }
 

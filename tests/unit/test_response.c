@@ -401,23 +401,30 @@ TEST(a_response_to_a_clear_sky_is_what_paths_find_under_it)
     world_end(&world);
 }
 
-/* Wherever the sun stands a triangle is near: no direction reads nothing. */
 /* Where it does not none lights it, asked by itself. */
+enum { SUNS = 4000 };
+
+/* Fibonacci's spiral over the sphere. */
+static Vec3 *suns_all_round(Arena *arena)
+{
+    Vec3 *suns = ARENA_NEW(arena, Vec3, SUNS);
+    for (int i = 0; i < SUNS; i++) {
+        double y = 1 - (2 * i + 1.0) / SUNS, about = 2.399963229728653 * i;
+        double ring = sqrt(1 - y * y);
+        suns[i] = vec3((float)(ring * cos(about)), (float)y, (float)(ring * sin(about)));
+    }
+    return suns;
+}
+
 TEST(a_response_reaches_all_suns_that_light_it)
 {
     (void)state;
-    enum { SUNS = 4000 };
-    static Vec3 suns[SUNS];
     World world = niche();
     int   left = 0, lit = 0;
     world_ready(&world, 8);
     ProbeAim  aim = aim_of(&world);
     Response  response = respond(&aim, 8192, 2, &world.arena);
-    for (int i = 0; i < SUNS; i++) { /* Fibonacci's spiral */
-        double y = 1 - (2 * i + 1.0) / SUNS, about = 2.399963229728653 * i;
-        double ring = sqrt(1 - y * y);
-        suns[i] = vec3((float)(ring * cos(about)), (float)y, (float)(ring * sin(about)));
-    }
+    Vec3           *suns = suns_all_round(&world.arena);
     ProbeSuns       asked = {suns, SUNS, 0.00465f, false};
     ResponseOptions options = {kernel(), 4, 256, 2, 0};
     const float    *shares = response_suns(&aim, &options, &asked, &world.arena);
@@ -433,39 +440,6 @@ TEST(a_response_reaches_all_suns_that_light_it)
     assert_true(lit > SUNS / 20);
     assert_true(left > SUNS / 2); /* behind the display, and walls */
     world_end(&world);
-}
-
-/* Also between its elevations; below 2 degrees light changes faster. */
-TEST(the_sun_of_a_sky_table_is_the_atmospheres)
-{
-    (void)state;
-    static const double BETWEEN[] = {0.3, 0.75, 1.2, 1.7,  2.2,  3.5, 4.5,
-                                     6.8, 9,    11.5, 14.5, 18,  33};
-    Arena         arena = arena_reserve((size_t)1 << 30);
-    DaylightInput like = daylight_input_default(DAYLIGHT_CLEAR);
-    SkyTable      table = sky_table_start(&like, 0, 90, &arena);
-    FarTools      tools = {.table = &table};
-    Error         err = {0};
-    assert_true(far_probes_ask_skies(NULL, 0, &tools, &arena, &err));
-    for (size_t i = 0; i < COUNT_OF(BETWEEN); i++) {
-        DaylightInput input = like;
-        Daylight      sky;
-        float         bands[LIGHT_BANDS], wanted[LIGHT_BANDS];
-        double        sum = 0, off = 0;
-        input.has_sun = input.no_moon = true;
-        input.sun_elevation = radians_from_degrees(BETWEEN[i]);
-        input.sun_lux = -1;
-        assert_true(daylight_build(&input, &arena, &sky, &err));
-        light_bands_sun(&sky, wanted);
-        sky_table_sun(&table, BETWEEN[i], bands);
-        for (int b = 0; b < LIGHT_BANDS; b++) {
-            sum += (double)wanted[b];
-            off += (double)(bands[b] - wanted[b]);
-        }
-        if (!(fabs(off) < (BETWEEN[i] < 2 ? 0.03 * sum + 1 : 0.01 * sum)))
-            fail_msg("%g degrees: %g lx, %+g", BETWEEN[i], sum, off);
-    }
-    arena_release(&arena);
 }
 
 TEST(an_even_response_is_the_same_for_suns_anywhere)
@@ -526,6 +500,33 @@ TEST(a_sun_tells_the_samples_it_is_made_of)
     response_sun(&even, towards, bands, without, &one);
     assert_close(one.squares, 1, 1e-5);
     assert_close(one.fourths, 1, 1e-5);
+    world_end(&world);
+}
+
+/* So that what is kept of one asking is what another would find. */
+TEST(a_sun_is_answered_alike_beside_any_others)
+{
+    (void)state;
+    World world = niche();
+    world_ready(&world, 8);
+    ProbeAim  aim = aim_of(&world);
+    Vec3     *suns = suns_all_round(&world.arena);
+    int       lit = 0;
+    for (int by_mirror = 0; by_mirror < 2; by_mirror++) {
+        ProbeSuns       all = {suns, SUNS, 0.00465f, by_mirror}, one = all;
+        ResponseOptions options = {kernel(), 4, by_mirror ? 2048 : 49, 2, 0};
+        const float    *together = response_suns(&aim, &options, &all, &world.arena);
+        for (int i = 0; i < SUNS; i += 7) {
+            Arena room = world.arena;
+            one.towards = suns + i;
+            one.count = 1;
+            const float *alone = response_suns(&aim, &options, &one, &room);
+            lit += alone[0] > 0;
+            assert_memory_equal(alone, together + (size_t)i * LIGHT_BANDS,
+                                LIGHT_BANDS * sizeof(float));
+        }
+    }
+    assert_true(lit > SUNS / 7 / 20);
     world_end(&world);
 }
 

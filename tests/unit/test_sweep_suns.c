@@ -3,12 +3,13 @@
 #include "check.h"
 
 #include "base/units.h"
+#include "review/light/sun_readings.h"
 #include "review/suns/sweep_suns.h"
 
 static SweepSuns suns_of(ReviewCondition condition, Arena *arena)
 {
     condition.weather_id = condition.level_id = condition.with_id = NO_ID;
-    return sweep_suns(&condition, arena);
+    return sweep_suns(&condition, 2, arena);
 }
 
 /* Every hour of a year is counted once a heading, when the sun is up: half of the year and what
@@ -124,6 +125,28 @@ TEST(a_route_gives_each_point_its_time)
         assert_near(suns.list[i].heading_deg, 30 * i, 1e-9);
         assert_true(suns.list[i].step == i);
     }
+    arena_release(&arena);
+}
+
+/* Each is found with its own reading, and no other is, however many there are. */
+TEST(kept_readings_are_found_by_their_suns)
+{
+    (void)state;
+    enum { MANY = 5000 };
+    Arena       arena = arena_reserve((size_t)1 << 28);
+    SunReadings of[2] = {sun_readings_start(&arena), sun_readings_start(&arena)};
+    for (int i = 0; i < 2 * MANY; i++) {
+        SunAngles at = {i % 100 * 3.6, i / 100 * 0.9};
+        assert_null(sun_readings_find(&of[i % 2], at));
+        sun_readings_add(&of[i % 2], at, i);
+    }
+    for (int i = 0; i < 2 * MANY; i++) {
+        SunAngles at = {i % 100 * 3.6, i / 100 * 0.9}, beside = {i % 100 * 3.6, i / 100 * -0.9};
+        assert_true(*sun_readings_find(&of[i % 2], at) == i);
+        assert_null(sun_readings_find(&of[1 - i % 2], at));
+        if (i >= 100) assert_null(sun_readings_find(&of[i % 2], beside));
+    }
+    assert_int_equal(of[0].count, MANY);
     arena_release(&arena);
 }
 

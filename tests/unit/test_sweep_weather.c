@@ -52,7 +52,7 @@ TEST(each_step_has_the_light_of_its_row)
     for (int steps = 1; steps <= 4; steps += 3) {
         Fixture  *f = drive(steps);
         Error     err;
-        SweepSuns suns = sweep_suns(&f->condition, &f->arena);
+        SweepSuns suns = sweep_suns(&f->condition, 2, &f->arena);
         assert_true(suns.count > 15 * steps);
         assert_true(sweep_weather_check(&f->request, &f->condition, &suns, f->arena, &err));
         for (int i = 0; i < suns.count; i++) {
@@ -83,7 +83,7 @@ TEST(skies_are_made_once_an_hour)
                                      .where = {50, 0, 0}, .step_minutes = 60,
                                      .headings_deg = headings, .heading_count = 3};
     Stage     stage = {.request = &f->request, .condition = &f->condition, .tools.threads = 2};
-    SweepSuns suns = sweep_suns(&f->condition, &f->arena), day = suns;
+    SweepSuns suns = sweep_suns(&f->condition, 2, &f->arena), day = suns;
     while (day.list->step < 171 * 24) day.list++;
     day.count = 3 * 15;
     if (!sweep_weather_skies(&stage, &day, &f->arena, &skies, &err)) fail_msg("%s", err.text);
@@ -145,7 +145,7 @@ TEST(gaps_by_day_are_told)
         Fixture *f = drive(1);
         Error    err = {0};
         wrong[i].harm(f);
-        SweepSuns suns = sweep_suns(&f->condition, &f->arena);
+        SweepSuns suns = sweep_suns(&f->condition, 2, &f->arena);
         assert_false(sweep_weather_check(&f->request, &f->condition, &suns, f->arena, &err));
         if (!strstr(err.text, wrong[i].words) || strcmp(err.path, wrong[i].path))
             fail_msg("%s: %s", err.path, err.text);
@@ -159,11 +159,11 @@ TEST(gaps_by_night_matter_to_none)
     Fixture *f = drive(1);
     Error    err;
     f->hours[0].has_light = f->hours[23].has_light = false;
-    SweepSuns suns = sweep_suns(&f->condition, &f->arena);
+    SweepSuns suns = sweep_suns(&f->condition, 2, &f->arena);
     assert_true(sweep_weather_check(&f->request, &f->condition, &suns, f->arena, &err));
     f->condition.with_night = true;
     for (int i = 0; i < DAY; i++) f->points[i].where.latitude_deg = 62; /* no deep night */
-    suns = sweep_suns(&f->condition, &f->arena);
+    suns = sweep_suns(&f->condition, 2, &f->arena);
     assert_false(sweep_weather_check(&f->request, &f->condition, &suns, f->arena, &err));
     arena_release(&f->arena);
 }

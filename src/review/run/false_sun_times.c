@@ -153,7 +153,7 @@ static void narrow(ReviewRange *range)
 }
 
 /* The same sweep in smaller steps, of the first heading alone: the sun's way is the same. */
-static SweepSuns closer_suns(const ReviewCondition *condition, Arena *arena)
+static SweepSuns closer_suns(const ReviewCondition *condition, int threads, Arena *arena)
 {
     ReviewCondition closer = *condition;
     if (condition->kind == CONDITION_YEAR_SWEEP) {
@@ -162,7 +162,7 @@ static SweepSuns closer_suns(const ReviewCondition *condition, Arena *arena)
     }
     narrow(&closer.azimuth_deg);
     narrow(&closer.elevation_deg);
-    return sweep_suns(&closer, arena);
+    return sweep_suns(&closer, threads, arena);
 }
 
 static void watch_heading(const Watch *watch, const SweepSuns *suns, const double *heading_deg)
@@ -244,7 +244,7 @@ void false_sun_times(const Sweep *sweep, Arena scratch, Arena *arena, Review *ou
 {
     const ReviewRequest  *request = sweep->run->request;
     const ReviewObserver *observer = &request->observer;
-    SweepSuns suns = closer_suns(sweep->stage->condition, &scratch);
+    SweepSuns suns = closer_suns(sweep->stage->condition, sweep->run->threads, &scratch);
     Watching  watching = {ARENA_NEW(&scratch, Watch, request->eye_count), &suns};
     for (int e = 0; e < request->eye_count; e++)
         watching.eyes[e] =

@@ -106,11 +106,11 @@ static Told tell_others(const Telling *to, const Sight *sight, const SweepSuns *
     of_meters = tools;
     of_meters.has_mirror = false;
     far_probe_ask_suns(&seen.probe, &tools, scratch);
-    sweep_meter_read(&face, &of_meters, scratch);
+    face.lux = sweep_meter_read(&face, &of_meters, scratch);
     seen.face = &face;
     if (sweep.sensor) {
         sensor = *sweep.sensor;
-        sweep_meter_read(&sensor, &of_meters, scratch);
+        sensor.lux = sweep_meter_read(&sensor, &of_meters, scratch);
         sweep.sensor = &sensor;
     }
     Told told = told_start(suns->count, scratch);
@@ -419,7 +419,7 @@ bool sweep_check(const ReviewRequest *request, int condition_id, Arena scratch, 
 {
     const ReviewCondition *condition = &request->conditions[condition_id];
     const char *place = arena_format(&scratch, "/conditions/%d", condition_id);
-    SweepSuns suns = sweep_suns(condition, &scratch);
+    SweepSuns suns = sweep_suns(condition, 1, &scratch);
     if (!suns.count)
         return error_at(err, ERROR_INPUT, request->file, place,
                         "the sun is never up: wanted a time or a place with some");
@@ -433,7 +433,7 @@ static void plan_work(const Sweep *sweep, const SweepGroup *group, Arena scratch
     for (int i = 0; i < sweep->ask_count; i++)
         work += responses_work(&sweep->asks[i], 2 * WORK_OWN);
     for (int i = 0; i < group->count; i++) {
-        SweepSuns suns = sweep_suns(group->conditions[i], &scratch);
+        SweepSuns suns = sweep_suns(group->conditions[i], 1, &scratch);
         for (int k = 0; k < sweep->sight_count; k++)
             work += sweep->sights[k].is_left ? 0 : WORK_SKIES + work_of_sight(&suns);
     }
@@ -499,7 +499,7 @@ static bool tell_with_riders(Sweep *sweep, const Telling *own, Arena room, Error
 static bool sweep_condition(Sweep *sweep, Arena scratch, Arena *arena, ReviewOutcome *out,
                             Error *err)
 {
-    sweep->suns = sweep_suns(sweep->stage->condition, arena);
+    sweep->suns = sweep_suns(sweep->stage->condition, sweep->run->threads, arena);
     set_level(sweep);
     if (!make_skies(sweep, &scratch, err)) return false;
     if (!sweep_ask_light(sweep, &scratch, err)) return false;
@@ -547,8 +547,10 @@ bool run_sweeps(const ReviewRun *run, Stage *stage, const SweepGroup *group, Are
     SweepLit lit = {.of = stage, .room = arena_reserve(SWEEP_BYTES),
                     .fresh = arena_reserve(SWEEP_BYTES)};
     Sweep    sweep = {.run = run, .stage = stage, .lit = &lit,
-                      .told = arena_reserve(SWEEP_BYTES)};
+                      .told = arena_reserve(SWEEP_BYTES),
+                      .between = arena_reserve(SWEEP_BYTES)};
     bool     ok = sweep_all(&sweep, group, &scratch, arena, out, err);
+    arena_release(&sweep.between);
     arena_release(&sweep.told);
     arena_release(&lit.fresh);
     arena_release(&lit.room);

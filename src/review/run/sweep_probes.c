@@ -272,27 +272,68 @@ static const FarReading *read_suns(const FarProbe *probe, const FarTools *tools,
     return work.read;
 }
 
-void sweep_meter_read(SweepMeter *meter, const FarTools *tools, Arena *arena)
+/* lux: [sun] */
+static void ask_meter_suns(const SweepMeter *meter, const FarTools *tools, Arena room,
+                           double *lux)
 {
     FarProbe probe = meter->probe;
-    double  *lux = ARENA_NEW(arena, double, tools->suns.count);
-    Arena    room = *arena;
     far_probe_ask_suns(&probe, tools, &room);
     const FarReading *read = read_suns(&probe, tools, &room);
     for (int i = 0; i < tools->suns.count; i++) lux[i] = far_reading_sum(read[i]);
-    meter->lux = lux;
+}
+
+/* All suns whose reading is not kept are asked at once, and kept. */
+static void keep_missing(const SweepMeter *meter, const FarTools *tools, Arena room)
+{
+    SunAngles *missing = ARENA_NEW(&room, SunAngles, tools->suns.count);
+    FarTools   of_missing = *tools;
+    of_missing.suns = (FarSuns){missing, 0};
+    for (int i = 0; i < tools->suns.count; i++)
+        if (!sun_readings_find(meter->kept, tools->suns.angles[i]))
+            missing[of_missing.suns.count++] = tools->suns.angles[i];
+    if (!of_missing.suns.count) return;
+    double *lux = ARENA_NEW(&room, double, of_missing.suns.count);
+    ask_meter_suns(meter, &of_missing, room, lux);
+    for (int i = 0; i < of_missing.suns.count; i++)
+        if (!sun_readings_find(meter->kept, missing[i]))
+            sun_readings_add(meter->kept, missing[i], lux[i]);
+}
+
+const double *sweep_meter_read(const SweepMeter *meter, const FarTools *tools, Arena *arena)
+{
+    double *lux = ARENA_NEW(arena, double, tools->suns.count);
+    if (!meter->kept) {
+        ask_meter_suns(meter, tools, *arena, lux);
+        return lux;
+    }
+    keep_missing(meter, tools, *arena);
+    for (int i = 0; i < tools->suns.count; i++)
+        lux[i] = *sun_readings_find(meter->kept, tools->suns.angles[i]);
+    return lux;
+}
+
+/* Under the condition's own suns; others are kept from now on. */
+static void read_meter(SweepMeter *meter, const FarTools *tools, Arena *between,
+                       Arena *arena)
+{
+    meter->kept = NULL;
+    meter->lux = sweep_meter_read(meter, tools, arena);
+    meter->kept = ARENA_NEW(arena, SunReadings, 1);
+    *meter->kept = sun_readings_start(between);
 }
 
 bool sweep_ask_light(Sweep *sweep, Arena *arena, Error *err)
 {
     FarTools tools = sweep_tools(sweep);
+    Arena   *between = ARENA_NEW(arena, Arena, 1);
+    *between = sweep->between;
     if (!ask_skies(sweep, &tools, arena, err)) return false;
     tools.has_mirror = false;
     tools.sun_paths = METER_SUN_PATHS;
     for (int i = 0; i < sweep->symbol_count; i++)
-        if (!sweep->faces[i].is_left) sweep_meter_read(&sweep->faces[i], &tools, arena);
+        if (!sweep->faces[i].is_left) read_meter(&sweep->faces[i], &tools, between, arena);
     if (sweep->sensor && !sweep->sensor->is_left)
-        sweep_meter_read(sweep->sensor, &tools, arena);
+        read_meter(sweep->sensor, &tools, between, arena);
     return true;
 }
 

@@ -7,6 +7,7 @@
  */
 #pragma once
 #include "review/light/false_suns.h"
+#include "review/light/sun_readings.h"
 #include "review/run/cases.h"
 #include "review/run/sweep_responses.h"
 
@@ -15,6 +16,7 @@ typedef struct SweepMeter {
     FarProbe probe;
     OwnLight own;
     const double *lux; /* [sun of the condition in hand] all of its light but its own */
+    SunReadings  *kept; /* of other suns of that condition; NULL: none are kept */
     bool     is_left; /* to other parts of the review (share.h): nothing is asked of it */
 } SweepMeter;
 
@@ -68,6 +70,7 @@ typedef struct Sweep {
     SweepMeter        *sensor;  /* of the level; NULL: it is fixed */
     SweepLit          *lit;     /* shared with riders */
     Arena              told;    /* scratch for what a condition is told */
+    Arena              between; /* for what meters read between its suns */
 } Sweep;
 
 /* The scene without sky and sun, its displays at one level. */
@@ -83,7 +86,8 @@ bool sweep_place_probes(Sweep *sweep, Arena *arena, Error *err);
 /* Then all other responses, in the dark but for the scene's own light. */
 bool sweep_make_probes(Sweep *sweep, Arena *arena, Error *err);
 
-/* Everything for the skies of a condition, and the meters for its suns. */
+/* Everything for the skies of a condition, and the meters for its suns; what they read between
+ * them is kept in sweep->between. */
 bool sweep_ask_light(Sweep *sweep, Arena *arena, Error *err);
 
 /* One sight, for these suns: some 150 bytes a sun, so that they are asked one by one. */
@@ -92,8 +96,8 @@ Sight sweep_ask_sight(Sweep *sweep, const Sight *sight, Arena *arena);
 /* And read once for all who ask. */
 const FarReading *sweep_read_sight(const Sight *asked, const FarTools *tools, Arena *arena);
 
-/* Asks a meter of each of the tools' suns, and sets what it reads there. */
-void sweep_meter_read(SweepMeter *meter, const FarTools *tools, Arena *arena);
+/* What the meter reads under each of the tools' suns, asked where that is not kept. */
+const double *sweep_meter_read(const SweepMeter *meter, const FarTools *tools, Arena *arena);
 
 /* Of which they read these. */
 FarTools sweep_tools(Sweep *sweep);

@@ -3,6 +3,7 @@
 
 #include <math.h>
 
+#include "base/parallel.h"
 #include "base/units.h"
 
 #define LOWEST_DEG (-12) /* what the table of skies reaches */
@@ -44,18 +45,40 @@ static void add_sun(SunList *to, SunAngles at, SweepSun sun)
     to->list[to->count++] = sun;
 }
 
-static void year_suns(const ReviewCondition *c, SunList *to)
+#define YEAR_CHUNK 1024 /* steps of one piece of work */
+
+typedef struct YearWork {
+    const ReviewCondition *condition;
+    double     first; /* Julian day of its beginning */
+    int        steps;
+    SunAngles *at;    /* [step] */
+} YearWork;
+
+static void find_places(void *user, int item, int worker)
 {
-    SkyTime start = {.year = c->year, .month = 1, .day = 1};
-    double  first = sky_julian_day(&start);
-    start.year++;
-    int steps = (int)floor((sky_julian_day(&start) - first) * 1440 / c->step_minutes + 0.5);
-    for (int step = 0; step < steps; step++) {
-        SunAngles at = sun_at(first + (step + 0.5) * c->step_minutes / 1440, &c->where);
-        for (int h = 0; h < c->heading_count; h++)
-            add_sun(to, at, (SweepSun){.heading_deg = c->headings_deg[h], .heading_id = h,
-                                       .minutes = c->step_minutes, .step = step});
+    (void)worker;
+    const YearWork *work = user;
+    int first = item * YEAR_CHUNK, end = first + YEAR_CHUNK;
+    for (int step = first; step < end && step < work->steps; step++) {
+        double days = (step + 0.5) * work->condition->step_minutes / 1440;
+        work->at[step] = sun_at(work->first + days, &work->condition->where);
     }
+}
+
+static void year_suns(const ReviewCondition *c, int threads, SunList *to, Arena scratch)
+{
+    SkyTime  start = {.year = c->year, .month = 1, .day = 1};
+    YearWork work = {.condition = c, .first = sky_julian_day(&start)};
+    start.year++;
+    double minutes = (sky_julian_day(&start) - work.first) * 1440;
+    work.steps = (int)floor(minutes / c->step_minutes + 0.5);
+    work.at = ARENA_NEW(&scratch, SunAngles, work.steps);
+    parallel_for(threads, (work.steps + YEAR_CHUNK - 1) / YEAR_CHUNK, find_places, &work);
+    for (int step = 0; step < work.steps; step++)
+        for (int h = 0; h < c->heading_count; h++)
+            add_sun(to, work.at[step], (SweepSun){.heading_deg = c->headings_deg[h],
+                                                  .heading_id = h, .minutes = c->step_minutes,
+                                                  .step = step});
 }
 
 static void route_suns(const ReviewCondition *c, SunList *to)
@@ -97,12 +120,12 @@ static int most_suns(const ReviewCondition *c)
     return c->heading_count * (int)ceil(366 * 1440 / c->step_minutes + 1);
 }
 
-SweepSuns sweep_suns(const ReviewCondition *c, Arena *arena)
+SweepSuns sweep_suns(const ReviewCondition *c, int threads, Arena *arena)
 {
     SunList list = {ARENA_NEW(arena, SweepSun, most_suns(c)), 0, c->with_night};
     if (c->kind == CONDITION_ROUTE) route_suns(c, &list);
     else if (c->kind == CONDITION_SUN_SWEEP) grid_suns(c, &list);
-    else year_suns(c, &list);
+    else year_suns(c, threads, &list, *arena);
     SweepSuns suns = suns_of(&list, arena);
     suns.has_time = c->kind != CONDITION_SUN_SWEEP;
     suns.step_minutes = c->step_minutes;

@@ -2,7 +2,8 @@
 /* sweep_suns.h -- the suns of a sweep: where each stands, and how much of it counts.
  *
  * Units    degrees; minutes. Azimuths of the vehicle (0 ahead, 90 right) and of the compass.
- * Memory   from the arena. Threads: const once made.
+ * Memory   from the arena.
+ * Threads  const once made; the suns of a year are found by several; the same for any count.
  */
 #pragma once
 #include "review/light/far_probe.h"
@@ -33,7 +34,7 @@ SkyTime sweep_time(const ReviewCondition *condition, double step_minutes, double
 
 /* Those that are up, and with `with_night` all. A route's places differ; the air is that of the
  * first. */
-SweepSuns sweep_suns(const ReviewCondition *condition, Arena *arena);
+SweepSuns sweep_suns(const ReviewCondition *condition, int threads, Arena *arena);
 
 /* Suns about one of them, closer than the sweep's own: SWEEP_CLOSE_DEG apart and as far as its
  * neighbours, in rounds about what the round before found (a sweep over the sun: two; a year:

@@ -1,0 +1,35 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* sun_readings.h -- what a luxmeter reads under suns, kept so that none is asked for twice.
+ *
+ * Symbols are asked for suns between the steps of a year, and many for the same: a sensor reads
+ * the same for all of them, the face of a display for all eyes. A reading does not depend on
+ * the others that are asked for beside it.
+ *
+ * Frame    angles as those of far_probe.h; a sun is known by their bits.
+ * Units    lx.
+ * Memory   from the arena of the start, which others may use, too: 64 to 256 bytes a sun.
+ * Threads  one at a time.
+ */
+#pragma once
+#include "review/light/stage.h"
+
+typedef struct KeptReading {
+    SunAngles at;
+    double    lux;
+    bool      is_taken;
+} KeptReading;
+
+typedef struct SunReadings {
+    Arena       *arena;
+    KeptReading *places;
+    int          count, room; /* a power of two, half of it or more free */
+} SunReadings;
+
+/* None yet. */
+SunReadings sun_readings_start(Arena *arena);
+
+/* NULL: that sun has not been read. */
+const double *sun_readings_find(const SunReadings *readings, SunAngles at);
+
+/* Of a sun that is not there yet. */
+void sun_readings_add(SunReadings *readings, SunAngles at, double lux);
