@@ -76,8 +76,10 @@ class Steps:
             file.write(text + "\n")
 
     def git(self, *words):
+        own = {name: value for name, value in os.environ.items()
+               if not name.startswith("GIT_")}  # a hook's say which repository is meant
         subprocess.run(["git", "-c", "user.name=a", "-c", "user.email=a@b", *words], check=True,
-                       cwd=self.folder, capture_output=True)
+                       cwd=self.folder, capture_output=True, env=own)
 
     def commit(self):
         self.git("add", "-A")

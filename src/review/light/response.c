@@ -34,41 +34,54 @@ static ProbeCells cells_of_level(int level, Arena *arena)
                         .count = 2 * count};
 }
 
+static int slab_of(float y)
+{
+    int slab = (int)floorf((y + 1) * (RESPONSE_SLABS / 2.0f));
+    return slab < 0 ? 0 : slab < RESPONSE_SLABS ? slab : RESPONSE_SLABS - 1;
+}
+
+/* How seldom each is asked, of so many times. is_open: NULL: always. */
+static void set_every(const bool *is_open, ProbeCells *cells, float *every)
+{
+    for (int cell = 0; cell < cells->count; cell++)
+        every[cell] = !is_open ? 1 : is_open[cell] ? OFTEN : SELDOM;
+    cells->every = every;
+}
+
 /* Of a chunk: some of the open ones for all of them, a few of the others for many. Cells that
  * follow each other are neighbours and are asked by different chunks; later by others again,
- * since chunks come back to the same points of a symbol. is_open: NULL: all. */
-static ProbeCells ask_for(const ProbeCells *cells, const bool *is_open, int chunk, Arena *arena)
+ * since chunks come back to the same points of a symbol. asked: room for all. */
+static ProbeCells ask_for(const ProbeCells *cells, int chunk, int *asked)
 {
     ProbeCells asks = *cells;
-    int   *asked = ARENA_NEW(arena, int, cells->count);
-    float *often = ARENA_NEW(arena, float, cells->count);
     asks.asked_count = 0;
     for (int cell = 0; cell < cells->count; cell++) {
-        int every = !is_open ? 1 : is_open[cell] ? OFTEN : SELDOM;
-        often[cell] = (float)every;
+        int every = (int)cells->every[cell];
         if ((cell + chunk + chunk / every) % every) continue;
         asked[asks.asked_count++] = cell;
     }
     asks.asked = asked;
-    asks.every = often;
     return asks;
 }
 
 /* Those that got something, and all that lie within a triangle's width of them. */
-static bool *open_cells(const ProbeCells *cells, const Vec3 *centers, const double *sums,
-                        Arena *arena)
+static bool *open_cells(const Response *response, const double *sums, Arena *arena)
 {
-    bool  *is_open = ARENA_NEW(arena, bool, cells->count);
-    size_t order = (size_t)cells->count * RESPONSE_BANDS;
-    float  near = cosf(2.2f * sqrtf(4 * PI_F / (float)cells->count));
-    for (int i = 0; i < cells->count; i++) {
+    int         count = response->cells.count;
+    const Vec3 *centers = response->centers;
+    bool  *is_open = ARENA_NEW(arena, bool, count);
+    size_t order = (size_t)count * RESPONSE_BANDS;
+    float  reach = 2.2f * sqrtf(4 * PI_F / (float)count), near = cosf(reach);
+    for (int i = 0; i < count; i++) {
         double found = 0;
         for (int b = 0; b < RESPONSE_BANDS; b++)
             found += sums[(size_t)i * RESPONSE_BANDS + (size_t)b] +
                      sums[order + (size_t)i * RESPONSE_BANDS + (size_t)b];
         if (!(found > 0)) continue;
-        for (int k = 0; k < cells->count; k++)
-            is_open[k] |= vec3_dot(centers[i], centers[k]) >= near;
+        int end = response->slab_first[slab_of(centers[i].y + reach) + 1];
+        for (int k = response->slab_first[slab_of(centers[i].y - reach)]; k < end; k++)
+            is_open[response->slabs[k]] |=
+                vec3_dot(centers[i], centers[response->slabs[k]]) >= near;
     }
     return is_open;
 }
@@ -78,10 +91,12 @@ static bool *open_cells(const ProbeCells *cells, const Vec3 *centers, const doub
 typedef struct Trace {
     const ProbeAim        *aim;
     const ResponseOptions *options;
-    ProbeCells  asks[WAVE];
-    int         first_chunk;
-    float      *tables[WAVE];    /* sums of a chunk */
+    const ProbeCells *cells;
+    int         first_chunk, chunks; /* of the wave */
+    int        *asked[WAVE];     /* cells of a chunk, */
     Vec3       *towards[WAVE];
+    float      *tables[WAVE];    /* its sums, */
+    double      sent[WAVE];      /* and all of them */
     double     *sums;            /* of all chunks */
     double     *groups;          /* as a response's, sums */
     double      reading[RESPONSE_GROUPS]; /* under a uniform sky */
@@ -129,62 +144,71 @@ static void trace_chunk(void *user, int item, int worker)
     int            chunk = trace->first_chunk + item;
     int            group = group_of(chunk);
     int            first = group_chunks(group, chunk) * RESPONSE_CHUNK;
+    size_t         size = table_size(trace->cells);
     ProbeAim       aim = *trace->aim; /* a stream of the group's own */
     aim.seed = hash_combine(hash_u32(aim.seed), (uint32_t)group);
     aim.is_spread = true;
-    memset(trace->tables[item], 0, table_size(&trace->asks[item]) * sizeof(float));
+    memset(trace->tables[item], 0, size * sizeof(float));
+    ProbeCells     asks = ask_for(trace->cells, chunk - PILOT, trace->asked[item]);
     ProbeAnswers   answers = {trace->tables[item], trace->towards[item]};
-    trace->options->kernel->ask_cells(&aim, &trace->asks[item], first,
-                                      first + RESPONSE_CHUNK, &answers, &statistics);
+    trace->options->kernel->ask_cells(&aim, &asks, first, first + RESPONSE_CHUNK, &answers,
+                                      &statistics);
+    trace->sent[item] = 0;
+    for (size_t i = 0; i < size; i++) trace->sent[item] += (double)trace->tables[item][i];
 }
 
-static void add_to_group(Trace *trace, const float *table, int cells, int group)
+#define ADD_CELLS 512 /* of one piece of work */
+
+static void add_chunk(Trace *trace, int chunk, int first, int end)
 {
-    size_t order = (size_t)cells * RESPONSE_BANDS;
-    for (int cell = 0; cell < cells; cell++) {
-        const float *shares = table + (size_t)cell * RESPONSE_BANDS;
+    size_t       order = (size_t)trace->cells->count * RESPONSE_BANDS;
+    const float *table = trace->tables[chunk];
+    int          group = group_of(trace->first_chunk + chunk);
+    for (int cell = first; cell < end; cell++) {
+        size_t       at = (size_t)cell * RESPONSE_BANDS;
+        const float *shares = table + at;
         double      *to = trace->groups + (size_t)cell * 2 * RESPONSE_GROUPS;
-        double       rest = light_bands_sum(shares + order, trace->white);
+        for (size_t b = at; b < at + RESPONSE_BANDS; b++) {
+            trace->sums[b] += (double)table[b];
+            trace->sums[order + b] += (double)table[order + b];
+        }
+        double rest = light_bands_sum(shares + order, trace->white);
         to[group] += light_bands_sum(shares, trace->white) + rest;
         to[RESPONSE_GROUPS + group] += rest;
     }
 }
 
-static void add_wave(Trace *trace, int chunks)
+static void add_cells(void *user, int item, int worker)
 {
-    size_t size = table_size(&trace->asks[0]);
-    for (int k = 0; k < chunks; k++) {
-        double reading = 0;
-        int    group = group_of(trace->first_chunk + k);
-        for (size_t i = 0; i < size; i++) {
-            trace->sums[i] += (double)trace->tables[k][i];
-            reading += (double)trace->tables[k][i];
-        }
-        trace->reading[group] += reading;
-        add_to_group(trace, trace->tables[k], trace->asks[k].count, group);
-    }
+    (void)worker;
+    Trace *trace = user;
+    int    first = item * ADD_CELLS, end = first + ADD_CELLS, count = trace->cells->count;
+    for (int k = 0; k < trace->chunks; k++)
+        add_chunk(trace, k, first, end < count ? end : count);
 }
 
-static void trace_wave(Trace *trace, const ProbeCells *cells, const bool *is_open, int chunks,
-                       Arena scratch)
+static void trace_wave(Trace *trace, int chunks)
 {
+    int threads = trace->options->threads, count = trace->cells->count;
+    trace->chunks = chunks;
+    parallel_for(threads, chunks, trace_chunk, trace);
+    parallel_for(threads, (count + ADD_CELLS - 1) / ADD_CELLS, add_cells, trace);
     for (int k = 0; k < chunks; k++)
-        trace->asks[k] = ask_for(cells, is_open, trace->first_chunk - PILOT + k, &scratch);
-    parallel_for(trace->options->threads, chunks, trace_chunk, trace);
-    add_wave(trace, chunks);
+        trace->reading[group_of(trace->first_chunk + k)] += trace->sent[k];
     trace->first_chunk += chunks;
 }
 
 static Trace trace_start(const ProbeAim *aim, const ResponseOptions *options,
                          const ProbeCells *cells, Arena *arena)
 {
-    Trace trace = {.aim = aim, .options = options};
+    Trace trace = {.aim = aim, .options = options, .cells = cells};
     trace.sums = ARENA_NEW(arena, double, table_size(cells));
     trace.groups = ARENA_NEW(arena, double, groups_size(cells));
     light_bands_white(trace.white);
     for (int k = 0; k < WAVE; k++) {
         trace.tables[k] = ARENA_NEW(arena, float, table_size(cells));
         trace.towards[k] = ARENA_NEW(arena, Vec3, cells->count);
+        trace.asked[k] = ARENA_NEW(arena, int, cells->count);
     }
     return trace;
 }
@@ -201,12 +225,6 @@ static double relative_error(const Trace *trace)
         batch_add(&means, (trace->reading[i] - share * sum) * groups);
     }
     return sum > 0 && groups > 1 ? batch_error(&means) / sum : 0;
-}
-
-static int slab_of(float y)
-{
-    int slab = (int)floorf((y + 1) * (RESPONSE_SLABS / 2.0f));
-    return slab < 0 ? 0 : slab < RESPONSE_SLABS ? slab : RESPONSE_SLABS - 1;
 }
 
 /* Counting sort: within a slab in the order of the cells. */
@@ -247,15 +265,17 @@ void response_trace(const ProbeAim *aim, const ResponseOptions *options, Arena *
     int chunks = options->paths / RESPONSE_CHUNK;
     float *shares = response_empty(options->level, arena, out);
     Arena  scratch = *arena;
-    Trace  trace = trace_start(aim, options, &out->cells, &scratch);
-    int    pilot = chunks < PILOT ? chunks : PILOT;
-    trace_wave(&trace, &out->cells, NULL, pilot, scratch);
-    const bool *is_open = open_cells(&out->cells, out->centers, trace.sums, &scratch);
+    ProbeCells cells = out->cells;
+    float *every = ARENA_NEW(&scratch, float, cells.count);
+    Trace  trace = trace_start(aim, options, &cells, &scratch);
+    set_every(NULL, &cells, every);
+    trace_wave(&trace, chunks < PILOT ? chunks : PILOT);
+    set_every(open_cells(out, trace.sums, &scratch), &cells, every);
     while (trace.first_chunk < chunks &&
            (trace.first_chunk < PILOT + RESPONSE_GROUPS * WAVE ||
             relative_error(&trace) > options->precision)) {
         int left = chunks - trace.first_chunk;
-        trace_wave(&trace, &out->cells, is_open, left < WAVE ? left : WAVE, scratch);
+        trace_wave(&trace, left < WAVE ? left : WAVE);
     }
     out->paths = trace.first_chunk * RESPONSE_CHUNK;
     for (size_t i = 0; i < table_size(&out->cells); i++)
