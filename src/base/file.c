@@ -21,7 +21,7 @@ static bool read_all(int file, const FilePieces *how, unsigned char *bytes, size
         if (n < 0) return false;
         if (n == 0) break;
         *got += (size_t)n;
-        if (how->told) how->told(how->user, *got, size);
+        if (how->on_bytes) how->on_bytes(how->user, *got, size);
     }
     return true;
 }

@@ -30,7 +30,7 @@ bool file_read_start(const char *path, size_t max_bytes, Arena *arena, FileBytes
 typedef struct FilePieces {
     size_t max_bytes; /* of a file that is read */
     bool   is_start;  /* that many bytes at most, of a file of any length */
-    void (*told)(void *user, size_t done, size_t size); /* after each piece; NULL: nobody */
+    void (*on_bytes)(void *user, size_t done, size_t size); /* after each piece; NULL: nobody */
     void  *user;
 } FilePieces;
 

@@ -181,30 +181,30 @@ static RTCScene new_scene(RTCDevice device)
 }
 
 /* How much of the tree stands, told by any of Embree's threads. */
-typedef struct TreeTelling {
+typedef struct TreeProgress {
     atomic_flag busy;
     Progress    progress;
-} TreeTelling;
+} TreeProgress;
 
-static bool tell(void *user, double share)
+static bool report(void *user, double share)
 {
-    TreeTelling *telling = user;
-    if (atomic_flag_test_and_set(&telling->busy)) return true; /* another thread does */
-    progress_update(&telling->progress, share * telling->progress.total);
-    atomic_flag_clear(&telling->busy);
+    TreeProgress *building = user;
+    if (atomic_flag_test_and_set(&building->busy)) return true; /* another thread does */
+    progress_update(&building->progress, share * building->progress.total);
+    atomic_flag_clear(&building->busy);
     return true;
 }
 
 static void commit(RTCScene tree, const char *what, double triangles, ProgressMode mode)
 {
-    TreeTelling telling = {.busy = ATOMIC_FLAG_INIT,
-                           .progress = progress_start(mode, what, "triangles", triangles)};
-    if (mode != PROGRESS_NONE) rtcSetSceneProgressMonitorFunction(tree, tell, &telling);
+    TreeProgress building = {.busy = ATOMIC_FLAG_INIT,
+                             .progress = progress_start(mode, what, "triangles", triangles)};
+    if (mode != PROGRESS_NONE) rtcSetSceneProgressMonitorFunction(tree, report, &building);
     rtcCommitScene(tree);
     rtcSetSceneProgressMonitorFunction(tree, NULL, NULL);
-    while (atomic_flag_test_and_set(&telling.busy)) { /* what they wrote comes before now */
+    while (atomic_flag_test_and_set(&building.busy)) { /* what they wrote comes before now */
     }
-    if (telling.progress.shown_columns) progress_clear(&telling.progress);
+    if (building.progress.shown_columns) progress_clear(&building.progress);
 }
 
 static void build_scene(Bvh *bvh, const Scene *scene, ProgressMode progress)

@@ -53,16 +53,16 @@ static bool report_missing(const MergeRun *work, const int *missing, int count, 
     const SharedJob *job = &work->job;
     Arena scratch = *work->arena;
     Text  commands = {.arena = &scratch};
-    int   told = 0;
-    while (told < count && told < 4) {
-        text_format(&commands, "%s%s", told ? "; " : "",
-                    job_part_command(job, missing[told], &scratch));
-        told++;
+    int   listed = 0;
+    while (listed < count && listed < 4) {
+        text_format(&commands, "%s%s", listed ? "; " : "",
+                    job_part_command(job, missing[listed], &scratch));
+        listed++;
     }
     return error_at(err, ERROR_INPUT, work->cli.arguments[0], "",
                     "%d of %d parts are not done — %.700s%s (`parhelion status %.150s` tells "
                     "why)",
-                    count, job->part_count, commands.data, told < count ? "; and so on" : "",
+                    count, job->part_count, commands.data, listed < count ? "; and so on" : "",
                     work->cli.arguments[0]);
 }
 

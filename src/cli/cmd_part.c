@@ -82,9 +82,9 @@ static bool render(PartRun *work, const JobFolder *folder, Error *err)
         "--resume"};
     int   has_nothing = !file_exists(checkpoint); /* to go on from */
     JobWords words = job_words(job, &work->cli, own, COUNT_OF(own) - has_nothing, arena);
-    const RenderPin pin = {work->name, job->identity, job->isa,
-                           job_part_command(job, work->index, arena)};
-    return cmd_render_run(words.count, words.list, &pin, arena, err);
+    const RenderTask task = {work->name, job->identity, job->isa,
+                             job_part_command(job, work->index, arena)};
+    return cmd_render_run(words.count, words.list, &task, arena, err);
 }
 
 static bool run_one(PartRun *work, Error *err)

@@ -139,7 +139,7 @@ static void print_lines(const StatusRun *work)
 }
 
 /* 1 while something is left. */
-static bool tell(StatusRun *work, Error *err)
+static bool report(StatusRun *work, Error *err)
 {
     if (!look(work, err)) return false;
     if (work->cli.json && !print_json(work, err)) return false;
@@ -152,7 +152,7 @@ static bool tell(StatusRun *work, Error *err)
 static bool run_status(int argc, char **argv, Arena *arena, Error *err)
 {
     StatusRun work = {.arena = arena};
-    return parse(argc, argv, &work, err) && (work.cli.help_shown || tell(&work, err));
+    return parse(argc, argv, &work, err) && (work.cli.help_shown || report(&work, err));
 }
 
 const Command command_status = {

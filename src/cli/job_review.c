@@ -21,16 +21,16 @@ bool job_review_part(const SharedJob *job, const Cli *cli, const JobReviewPart *
     JobWords       words = job_words(job, cli, own, COUNT_OF(own), arena);
     const char *answers = job_own_checkpoint(job, part->index, arena);
     const char *done = job_part_file(job, part->index, job_part_ending(job), arena);
-    ReviewPin   pin = {.name = part->name, .identity = job->identity, .isa = job->isa,
-                       .share = {part->index, job->part_count}, .answers = answers,
-                       .mark = job_part_mark(job, part->index, *arena),
-                       .found = ARENA_NEW(arena, const char *, folder->count),
-                       .responses = job_file(job, JOB_RESPONSES, arena),
-                       .resume_line = job_part_command(job, part->index, arena)};
+    ReviewTask  task = {.name = part->name, .identity = job->identity, .isa = job->isa,
+                        .share = {part->index, job->part_count}, .answers = answers,
+                        .mark = job_part_mark(job, part->index, *arena),
+                        .found = ARENA_NEW(arena, const char *, folder->count),
+                        .responses = job_file(job, JOB_RESPONSES, arena),
+                        .resume_line = job_part_command(job, part->index, arena)};
     for (int i = 0; i < folder->count; i++)
         if (job_is_checkpoint(folder->names[i], part->index))
-            pin.found[pin.found_count++] = job_file(job, folder->names[i], arena);
-    if (!cmd_review_run(words.count, words.list, &pin, arena, err)) return false;
+            task.found[task.found_count++] = job_file(job, folder->names[i], arena);
+    if (!cmd_review_run(words.count, words.list, &task, arena, err)) return false;
     return rename(answers, done) == 0 ||
            error_at(err, ERROR_OUTPUT, done, "", "cannot be written: %s", strerror(errno));
 }
@@ -56,13 +56,13 @@ bool job_review_merge(const SharedJob *job, const Cli *cli, const char *output, 
     else if (!find_output(output, arena, &output, err)) return false;
     const char *own[] = {"review", "-o", output, "--json"};
     JobWords       words = job_words(job, cli, own, COUNT_OF(own) - !cli->json, arena);
-    ReviewPin   pin = {.name = job->dir, .identity = job->identity, .isa = job->isa,
-                       .found = ARENA_NEW(arena, const char *, job->part_count),
-                       .found_count = job->part_count,
-                       .responses = job_file(job, JOB_RESPONSES, arena),
-                       .resume_line = job_merge_command(job, arena)};
+    ReviewTask  task = {.name = job->dir, .identity = job->identity, .isa = job->isa,
+                        .found = ARENA_NEW(arena, const char *, job->part_count),
+                        .found_count = job->part_count,
+                        .responses = job_file(job, JOB_RESPONSES, arena),
+                        .resume_line = job_merge_command(job, arena)};
     for (int i = 0; i < job->part_count; i++)
-        pin.found[i] = job_part_file(job, i, job_part_ending(job), arena);
+        task.found[i] = job_part_file(job, i, job_part_ending(job), arena);
     return job_enter(job, err) &&
-           cmd_review_run(words.count, words.list, &pin, arena, err);
+           cmd_review_run(words.count, words.list, &task, arena, err);
 }

@@ -201,7 +201,7 @@ static const char *rows_text(const MetadataRow *const *rows, int count, Arena *a
     return joined(&list, NAMED);
 }
 
-static bool is_told(const MetadataRow *row, bool decides, Arena scratch)
+static bool is_listed(const MetadataRow *row, bool decides, Arena scratch)
 {
     if (!row->differs || row->is_ignored || row->decides != decides) return false;
     return !is_inputs(row) || inputs_text(row, NAMED, &scratch)[0];
@@ -211,15 +211,15 @@ static void report(const MetadataRow *rows, int count, bool decides, const char 
                    Lines *to)
 {
     Arena              *arena = to->arena;
-    const MetadataRow **told = ARENA_NEW(arena, const MetadataRow *, count);
+    const MetadataRow **listed = ARENA_NEW(arena, const MetadataRow *, count);
     int                 n = 0;
     for (int i = 0; i < count; i++)
-        if (is_told(&rows[i], decides, *arena)) told[n++] = &rows[i];
-    if (n == 1) lines_add(to, "%s%s", whole_text(told[0], arena), why);
+        if (is_listed(&rows[i], decides, *arena)) listed[n++] = &rows[i];
+    if (n == 1) lines_add(to, "%s%s", whole_text(listed[0], arena), why);
     if (n > 1)
         lines_add(to, "metadata differs in %d keys%s: %s%s; all values: --json or --report", n,
                   decides ? " that decide what the picture shows" : "",
-                  rows_text(told, n, arena), why);
+                  rows_text(listed, n, arena), why);
 }
 
 void metadata_report(const MetadataRow *rows, int count, bool strict, Lines *reasons,

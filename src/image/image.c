@@ -296,12 +296,12 @@ static bool decode_other(const Encoded *file, Arena *arena, Image *out, Error *e
 static bool decode_plain(const Encoded *file, Arena *arena, Image *out)
 {
     PlainPng png;
-    Error    told_later;
+    Error    ignored;
     if (strcmp(file->format, "png") != 0 || !plain_png_open(file->bytes, file->size, &png))
         return false;
     size_t row_bytes = png.row_bytes, count = (size_t)png.width * (size_t)png.height;
     if (!check_size(png.width, png.height, 4, row_bytes * (size_t)png.height, arena,
-                    &told_later))
+                    &ignored))
         return false;
     Arena   kept = *arena;
     uint8_t *pixels = arena_alloc(&kept, 4, 16, count);

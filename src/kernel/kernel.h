@@ -54,7 +54,7 @@ typedef struct Kernel {
     /* What an eye sees outside a frame (probe.h). */
     void (*look)(const ProbeAim *aim, int first, int end, ProbeLook *out,
                  PathStatistics *statistics);
-    void (*hear)(const ProbeAim *aim, int first, int end, const PathListener *listener,
+    void (*trace)(const ProbeAim *aim, int first, int end, const PathListener *listener,
                  PathStatistics *statistics);
     void (*ask_cells)(const ProbeAim *aim, const ProbeCells *cells, int first, int end,
                       ProbeAnswers *out, PathStatistics *statistics);

@@ -63,11 +63,10 @@ static int display_of(const Scene *scene, int part_id)
 }
 
 /* Where the light turned last, before it came to the eye: NULL: it came straight. */
-static const PathStep *turn_of(const PathTale *tale)
+static const PathStep *turn_of(const PathHistory *history)
 {
-    int told = tale->count < PATH_STEPS_TOLD ? tale->count : PATH_STEPS_TOLD;
-    for (int i = 0; i < told; i++)
-        if (tale->step[i].event != PATH_TRANSMITS) return &tale->step[i];
+    for (int i = 0; i < path_steps_kept(history); i++)
+        if (history->step[i].event != PATH_TRANSMITS) return &history->step[i];
     return NULL;
 }
 
@@ -78,11 +77,11 @@ typedef struct OwnSums {
     ProbeOwn    *display;
 } OwnSums;
 
-static void hear_display(void *user, const PathTale *tale, const float xyz[3])
+static void add_display(void *user, const PathHistory *history, const float xyz[3])
 {
     const OwnSums  *sums = user;
-    const PathStep *turn = turn_of(tale);
-    int             display = display_of(sums->scene, tale->source_id);
+    const PathStep *turn = turn_of(history);
+    int             display = display_of(sums->scene, history->source_id);
     if (display == NO_ID || (!turn && !sums->of_meter)) return;
     sums->display[display].reflected += xyz[1];
     if (!sums->of_meter && turn->event == PATH_REFLECTS &&
@@ -96,8 +95,8 @@ static void look(const ProbeAim *aim, int path, ProbeLook *out, PathStatistics *
     SeenLight    seen;
     float        emitted[3];
     OwnSums      sums = {aim->context->scene, false, out->display};
-    PathListener listener = {.hear = hear_display, .user = &sums, .of_emitters = true};
-    SeenAsk      ask = {.listener = aim->tells_displays ? &listener : NULL};
+    PathListener listener = {.on_light = add_display, .user = &sums, .of_emitters = true};
+    SeenAsk      ask = {.listener = aim->by_display ? &listener : NULL};
     *out = (ProbeLook){.is_found = false};
     start_path(aim, path, statistics, &own);
     path_seen(&own.start, own.ray, &ask, &seen);
@@ -118,11 +117,11 @@ static void read_meter(const ProbeAim *aim, int path, ProbeLook *out,
 {
     ProbePath    own;
     OwnSums      sums = {aim->context->scene, true, out->display};
-    PathListener listener = {.hear = hear_display, .user = &sums, .of_emitters = true};
-    ToldWays     told = told_ways(&listener, NULL);
+    PathListener listener = {.on_light = add_display, .user = &sums, .of_emitters = true};
+    HistoryCollector by_way = history_collector(&listener, NULL);
     *out = (ProbeLook){.is_found = true};
     start_path(aim, path, statistics, &own);
-    if (aim->tells_displays) own.start.collector = &told.base;
+    if (aim->by_display) own.start.collector = &by_way.base;
     path_from_point(&own.start, *aim->meter, out->reflected);
 }
 
@@ -153,17 +152,17 @@ static void go(const ProbeAim *aim, const ProbePath *path)
     else path_from_ray(&path->start, path->ray, NULL);
 }
 
-void probe_hear(const ProbeAim *asked, int first, int end, const PathListener *listener,
-                PathStatistics *statistics)
+void probe_trace(const ProbeAim *asked, int first, int end, const PathListener *listener,
+                 PathStatistics *statistics)
 {
     PathContext context;
     ProbeAim    own = aim_of_first(asked, &context), *aim = &own;
     for (int path = first; path < end; path++) {
         ProbePath one;
-        ToldWays  told = told_ways(listener, NULL);
-        PixelRay  pixel = pixel_ray(&told.base);
+        HistoryCollector by_way = history_collector(listener, NULL);
+        PixelRay  pixel = pixel_ray(&by_way.base);
         start_path(aim, path, statistics, &one);
-        one.start.collector = &told.base;
+        one.start.collector = &by_way.base;
         if (!aim->meter && pixel_ray_is_wanted(aim->context))
             one.start.collector = &pixel.base;
         go(aim, &one);
@@ -370,20 +369,21 @@ void probe_ask_suns(const ProbeAim *aim, const ProbeSuns *suns, int first, int e
 #define IMAGE_BOUNCES 4
 
 /* The part of the first mirror on the way; NO_ID: there is none, or something scattered. */
-static int mirror_of(const PathTale *tale)
+static int mirror_of(const PathHistory *history)
 {
     int part_id = NO_ID;
-    for (int i = tale->count - 1; i >= 0; i--) {
-        if (tale->step[i].event == PATH_SCATTERS) return NO_ID;
-        if (tale->step[i].event == PATH_REFLECTS) part_id = tale->step[i].part_id;
+    for (int i = history->count - 1; i >= 0; i--) {
+        if (history->step[i].event == PATH_SCATTERS) return NO_ID;
+        if (history->step[i].event == PATH_REFLECTS) part_id = history->step[i].part_id;
     }
     return part_id;
 }
 
-static void add_image(void *user, const PathTale *tale, Vec3 direction, const float *share)
+static void add_image(void *user, const PathHistory *history, Vec3 direction,
+                      const float *share)
 {
     const ProbeImages *images = user;
-    int                part_id = mirror_of(tale);
+    int                part_id = mirror_of(history);
     if (part_id != NO_ID) images->found(images->user, part_id, direction, share);
 }
 
@@ -397,7 +397,7 @@ void probe_ask_images(const ProbeAim *aim, int first, int end, const ProbeImages
     once.max_bounces = IMAGE_BOUNCES;
     direct.context = &once;
     for (int path = first; path < end; path++) {
-        ImageWays ways = image_ways(&wanted);
+        ImageCollector ways = image_collector(&wanted);
         ask(&direct, path, &ways.base, statistics);
     }
 }

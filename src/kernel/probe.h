@@ -12,7 +12,7 @@
 #include "camera/camera.h"
 #include "hemisphere/geodesic.h"
 #include "path/collect/far.h"
-#include "path/collect/told.h"
+#include "path/collect/history.h"
 #include "path/path.h"
 
 /* Edges of a parallelogram, m. */
@@ -39,7 +39,7 @@ typedef struct ProbeAim {
     bool            is_spread; /* paths take points by chance, evenly, however few they are */
     const LitPoint *meter;     /* a luxmeter instead: eye and targets do not count; or NULL */
     const ProbePixel *pixel;   /* a frame's pixel instead of targets; or NULL */
-    bool            tells_displays; /* looks tell what displays send by themselves; of a scene
+    bool            by_display; /* looks tell what displays send by themselves; of a scene
                                        of at most PROBE_DISPLAYS of them */
     uint32_t        seed;
 } ProbeAim;
@@ -63,8 +63,8 @@ void probe_look(const ProbeAim *aim, int first, int end, ProbeLook *out,
                 PathStatistics *statistics);
 
 /* HOT. Tells of paths [first, end) all light that they find. */
-void probe_hear(const ProbeAim *aim, int first, int end, const PathListener *listener,
-                PathStatistics *statistics);
+void probe_trace(const ProbeAim *aim, int first, int end, const PathListener *listener,
+                 PathStatistics *statistics);
 
 /* ---- responses --------------------------------------------------------------------------- */
 

@@ -109,11 +109,11 @@ static void lights_clear(LightSums *sums)
     sums->count = 0;
 }
 
-/* What leaves the scene is told of sun and sky, also where there is none: it is nothing. */
-static void lights_hear(void *user, const PathTale *tale, const float xyz[3])
+/* Paths that leave the scene report sun and sky, also where there is none: it is nothing. */
+static void lights_add(void *user, const PathHistory *history, const float xyz[3])
 {
     LightSums *sums = user;
-    int        group = light_group_of(sums->groups, tale->source, tale->source_id);
+    int        group = light_group_of(sums->groups, history->source, history->source_id);
     if (group == NO_ID) return;
     int       *place = &sums->place[group];
     if (*place < 0) {
@@ -136,7 +136,7 @@ static void trace(TileWork *work, Ray ray, const Wavelengths *wavelengths, Sampl
                   SeenLight *out)
 {
     const TileJob     *job = work->job;
-    const PathListener listener = {.hear = lights_hear, .user = &work->lights};
+    const PathListener listener = {.on_light = lights_add, .user = &work->lights};
     const SeenAsk      ask = {job->with_lambertian, job->lights ? &listener : NULL};
     const PathStart    start = {.context = job->context, .wavelengths = wavelengths,
                                 .sampler = sampler, .statistics = work->statistics};
@@ -255,5 +255,5 @@ static void lesson_try_lights(const LessonJob *job, uint32_t cell, PathStatistic
 #endif
 extern const Kernel KERNEL_NAME;
 const Kernel KERNEL_NAME = {KERNEL_ISA, tile_render, lesson_find_places, lesson_learn,
-                            lesson_try_lights, probe_look, probe_hear, probe_ask_cells,
+                            lesson_try_lights, probe_look, probe_trace, probe_ask_cells,
                             probe_ask_suns, probe_ask_images};

@@ -53,7 +53,7 @@ static ParhelionPanel *keep(Arena *arena, const FileBytes *bytes, const char *na
     return out;
 }
 
-static void tell(const Error *err, char *error, size_t error_size)
+static void report(const Error *err, char *error, size_t error_size)
 {
     if (error && error_size)
         error_line(err, error, error_size < INT32_MAX ? (int)error_size : INT32_MAX);
@@ -68,7 +68,7 @@ ParhelionPanel *parhelion_panel_open(const char *path, char *error, size_t error
     if (file_read(path, PANEL_FILE_BYTES_MAX, &arena, &bytes, &err))
         out = keep(&arena, &bytes, path, &err);
     if (out) return out;
-    tell(&err, error, error_size);
+    report(&err, error, error_size);
     arena_release(&arena);
     return NULL;
 }
@@ -80,7 +80,7 @@ ParhelionPanel *parhelion_panel_open_memory(const void *bytes, size_t size, char
     if (size > PANEL_FILE_BYTES_MAX) {
         error_at(&err, ERROR_INPUT, "memory", "", "has %zu bytes, wanted at most %zu", size,
                  PANEL_FILE_BYTES_MAX);
-        tell(&err, error, error_size);
+        report(&err, error, error_size);
         return NULL;
     }
     Arena arena = arena_reserve(ARENA_BYTES);
@@ -88,7 +88,7 @@ ParhelionPanel *parhelion_panel_open_memory(const void *bytes, size_t size, char
     if (size) memcpy(copy, bytes, size);
     ParhelionPanel *out = keep(&arena, &(FileBytes){copy, size}, "memory", &err);
     if (out) return out;
-    tell(&err, error, error_size);
+    report(&err, error, error_size);
     arena_release(&arena);
     return NULL;
 }

@@ -8,11 +8,11 @@
 #define LEAST 0.1f
 
 /* How much of it chance does not find by itself: the weight that a path gives to the sample. */
-static double own_share(const Lead *lead, LitPoint point, const LightSample *light)
+static double own_share(const Guiding *guiding, LitPoint point, const LightSample *light)
 {
     if (light->is_delta) return 1;
     float cosine = vec3_dot(light->wi, point.ns);
-    float other = lead_pdf(lead, light->wi, cosine * INV_PI_F) / light->pdf;
+    float other = guiding_pdf(guiding, light->wi, cosine * INV_PI_F) / light->pdf;
     return 1 / (1 + (double)(other * other));
 }
 
@@ -27,22 +27,22 @@ static void note_lamp(const PathContext *context, LitPoint point, const LightSam
 void cell_lights_try(const PathContext *context, LitPoint point, uint32_t cell,
                      Sampler *sampler, LightFinds *finds)
 {
-    Lead lead;
-    lead_of_white(context, cell, point.ns, &lead);
+    Guiding guiding;
+    guiding_of_white(context, cell, point.ns, &guiding);
     finds->points++;
     for (int set = 0; set < LIGHT_SETS; set++) {
         LightSample light;
         float       u[4];
         if (!lights_has(context->lights, (LightSet)set)) continue;
         sampler_4d(sampler, u);
-        if (!lead_choose_light(&lead, context->lights, (LightSet)set, point, u, &light))
+        if (!guiding_choose_light(&guiding, context->lights, (LightSet)set, point, u, &light))
             continue;
         bool arrives = light_selection_arrives(context->bvh, point, &light);
         if (set == LIGHTS_PUNCTUAL) note_lamp(context, point, &light, u[3], arrives, finds);
         if (!arrives) continue;
-        lead_weigh_light(&lead, context->lights, point, &light);
+        guiding_weigh_light(&guiding, context->lights, point, &light);
         double lx = light_selection_lx(context->lights, point, &light, u[3]) *
-                    own_share(&lead, point, &light);
+                    own_share(&guiding, point, &light);
         finds->sum[set] += lx;
         finds->squares[set] += lx * lx;
     }

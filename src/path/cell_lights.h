@@ -8,7 +8,7 @@
  */
 #pragma once
 #include "path/cell_lamps.h"
-#include "path/lead.h"
+#include "path/guiding.h"
 
 /* What light samples find in a cell: sums over so many points. */
 typedef struct LightFinds {

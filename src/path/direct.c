@@ -152,12 +152,13 @@ static void find_sample(PathState *path, const Surface *surface, Vec3 wo,
         .local_wi = asked->local_wi, .shadow = ray};
     collect_count(path, &found);
     path->gathered.radiance += found.radiance;
-    collect_hear(path, &found);
+    collect_light(path, &found);
 }
 
 /* Most samples end in shadow: what the light sends and how the surface scatters it is asked
  * once the ray has arrived. */
-static void add_arriving(PathState *path, const Surface *surface, Vec3 wo, const Lead *lead,
+static void add_arriving(PathState *path, const Surface *surface, Vec3 wo,
+                         const Guiding *guiding,
                          LightAsked *asked)
 {
     const PathContext *context = path->context;
@@ -168,7 +169,7 @@ static void add_arriving(PathState *path, const Surface *surface, Vec3 wo, const
     Spectrum passed = direct_visibility(path, surface, light, &ray);
     if (spectrum_is_zero(passed)) return;
     absorb_sample(path, surface, light, &passed);
-    lead_weigh_light(lead, context->lights, emitted_lit_point(path, surface), light);
+    guiding_weigh_light(guiding, context->lights, emitted_lit_point(path, surface), light);
     float    bsdf_pdf;
     Spectrum f = bsdf_eval(&surface->bsdf, local_wo, local_wi, &bsdf_pdf);
     if (light->set == LIGHTS_SUN && mirror_was_asked(path, surface, wo, true))
@@ -178,28 +179,28 @@ static void add_arriving(PathState *path, const Surface *surface, Vec3 wo, const
                      spectrum_all(fabsf(local_wi.z) / (light->pdf * prob));
     if (!light->is_delta && context->strategy == PATH_MIS)
         share *= spectrum_all(mis_weight(light->pdf * prob,
-                                         lead_pdf(lead, light->wi, bsdf_pdf)));
+                                         guiding_pdf(guiding, light->wi, bsdf_pdf)));
     find_sample(path, surface, wo, asked, &ray, share * passed);
 }
 
-static void add_light_sample(PathState *path, const Surface *surface, Vec3 wo, const Lead *lead,
-                             LightSet set)
+static void add_light_sample(PathState *path, const Surface *surface, Vec3 wo,
+                             const Guiding *guiding, LightSet set)
 {
     const PathContext *context = path->context;
     LightAsked   asked;
     LightSample *light = &asked.light;
     float u[4];
-    asked.prob = lead->asked[set] * lead->often;
+    asked.prob = guiding->asked[set] * guiding->often;
     numbers_for(path, NUMBERS_LIGHTS + 2 * (int)set);
     sampler_4d(path->sampler, u);
     if (!unit_choose(&u[0], asked.prob)) return;
     LitPoint point = emitted_lit_point(path, surface);
-    if (!lead_choose_light(lead, context->lights, set, point, u, light)) return;
+    if (!guiding_choose_light(guiding, context->lights, set, point, u, light)) return;
     if (!light->is_delta && context->strategy == PATH_BSDF_ONLY) return;
     asked.local_wi = frame_to_local(&surface->frame, light->wi);
     if (!direct_sides_agree(surface, asked.local_wi, light->wi, wo)) return;
     if (!bsdf_reaches(&surface->bsdf, surface->local_wo, asked.local_wi)) return;
-    add_arriving(path, surface, wo, lead, &asked);
+    add_arriving(path, surface, wo, guiding, &asked);
 }
 
 /* ---- the sun by way of one mirror -------------------------------------------------------- */
@@ -233,7 +234,7 @@ static void find_mirrored(const MirrorWalk *asked, const SunMirror *mirror, Vec3
                        .by_rough = asked->question.is_rough};
     collect_count(path, &found);
     path->gathered.radiance += found.radiance;
-    collect_hear(path, &found);
+    collect_light(path, &found);
 }
 
 static void add_mirrored_sun(void *user, uint32_t triangle, const ReflectionPoint *point)
@@ -295,11 +296,11 @@ static void add_mirrored_suns(PathState *path, const Surface *surface, Vec3 wo)
     if (unit_choose(&u[0], prob)) ask_mirrors(path, surface, wo, u, prob);
 }
 
-void direct_add(PathState *path, const Surface *surface, Vec3 wo, const Lead *lead)
+void direct_add(PathState *path, const Surface *surface, Vec3 wo, const Guiding *guiding)
 {
     if (!bsdf_scatters(&surface->bsdf)) return;
     for (int set = 0; set < LIGHT_SETS; set++)
         if (lights_has(path->context->lights, (LightSet)set))
-            add_light_sample(path, surface, wo, lead, (LightSet)set);
+            add_light_sample(path, surface, wo, guiding, (LightSet)set);
     add_mirrored_suns(path, surface, wo);
 }

@@ -6,7 +6,7 @@
 #include "path/path_collector.h"
 
 /* The lights are asked from the surface, which the path came to against wo. */
-void direct_add(PathState *path, const Surface *surface, Vec3 wo, const Lead *lead);
+void direct_add(PathState *path, const Surface *surface, Vec3 wo, const Guiding *guiding);
 
 /* A direction must lie on the same side of the triangle as of the shading normal's plane, or
  * light would leak through the surface. */
@@ -16,7 +16,8 @@ bool direct_sides_agree(const Surface *surface, Vec3 local_wi, Vec3 wi, Vec3 wo)
 Spectrum direct_visibility(PathState *path, const Surface *surface, const LightSample *light,
                     ShadowRay *ray);
 
-/* What of the sun that the path may meet by way of `next` was not told to the vertex before. */
+/* The share of the sun, which the path may meet by way of `next`, that the vertex before did
+ * not ask for. */
 Spectrum direct_sun_share(const PathState *path, const Surface *surface, Vec3 wo,
                    const BsdfSample *next);
 

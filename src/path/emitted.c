@@ -12,8 +12,9 @@ static float emission_weight(const PathState *path, LightSet set, float light_pd
     const PathContext *context = path->context;
     if (path->last.is_delta || context->strategy == PATH_BSDF_ONLY) return 1;
     if (context->strategy == PATH_LIGHTS_ONLY) return 0;
-    float prob = path->lead->asked[set] * path->lead->often;
-    if (set == LIGHTS_SKY) light_pdf = lead_sky_pdf(path->lead, path->ray.direction, light_pdf);
+    float prob = path->guiding->asked[set] * path->guiding->often;
+    if (set == LIGHTS_SKY) light_pdf = guiding_sky_pdf(path->guiding, path->ray.direction,
+                                                       light_pdf);
     return mis_weight(path->last.pdf, prob * light_pdf);
 }
 
@@ -39,7 +40,7 @@ static void find_distant(PathState *path, LightSet set, Spectrum radiance)
                        .radiance = radiance};
     collect_count(path, &found);
     path->gathered.radiance += found.radiance;
-    collect_hear(path, &found);
+    collect_light(path, &found);
 }
 
 void emitted_far(PathState *path)
@@ -118,7 +119,7 @@ static void add_display_xyz(PathState *path, const Surface *surface, const Hit *
     collect_count(path, &found);
     for (int i = 0; i < 3; i++) light.xyz[i] = found.share * xyz[i];
     path_light_add(&path->gathered, &light);
-    collect_hear(path, &found);
+    collect_light(path, &found);
 }
 
 /* Of the light samples of the last vertex; nothing asks for it behind a mirror. */
@@ -146,5 +147,5 @@ void emitted_add(PathState *path, const Surface *surface, const Hit *hit, Vec3 w
                      emitted_seen(path, surface, hit->triangle, wo);
     collect_count(path, &found);
     path->gathered.radiance += found.radiance;
-    collect_hear(path, &found);
+    collect_light(path, &found);
 }

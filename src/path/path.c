@@ -80,23 +80,24 @@ static Step turn(PathState *path, const Surface *surface, Vec3 wo, const BsdfSam
     return path->manner.is_spared || roulette(path) ? STEP_SCATTERED : STEP_ENDED;
 }
 
-/* The spare lead becomes that of the last vertex. */
-static void keep_lead(PathState *path)
+/* The spare guiding becomes that of the last vertex. */
+static void keep_guiding(PathState *path)
 {
-    Lead *last = path->lead;
-    path->lead = path->spare;
+    Guiding *last = path->guiding;
+    path->guiding = path->spare;
     path->spare = last;
 }
 
-/* Chooses where the path goes from the surface, by the spare lead. Windows can be passed after
- * the last bounce. */
+/* Chooses where the path goes from the surface, by the spare guiding. Windows can be passed
+ * after the last bounce. */
 static Step scatter(PathState *path, const Surface *surface, Vec3 wo)
 {
     float u[4];
     BsdfSample next;
     numbers_for(path, NUMBERS_SCATTER);
     sampler_4d(path->sampler, u);
-    if (!collect_choose(path, surface, &next) && !lead_sample(path->spare, surface, u, &next))
+    if (!collect_choose(path, surface, &next) && !guiding_sample(path->spare, surface, u,
+                                                                 &next))
         return STEP_ENDED;
     path->throughput *= next.weight;
     collect_leave(path, surface, wo, &next);
@@ -107,7 +108,7 @@ static Step scatter(PathState *path, const Surface *surface, Vec3 wo)
     }
     if (path->bounce >= path->context->max_bounces) return STEP_ENDED;
     if (collect_refuse(path, surface, &next)) return STEP_ENDED;
-    keep_lead(path);
+    keep_guiding(path);
     return turn(path, surface, wo, &next);
 }
 
@@ -155,12 +156,12 @@ static void record_first(PathState *path, const Hit *hit, float distance, Vec3 w
 /* What happens at a surface that is there: it shines, is lit, and sends the path on. */
 static Step shade(PathState *path, const Surface *surface, const Hit *hit, Vec3 wo)
 {
-    Lead *lead = path->spare;
+    Guiding *guiding = path->spare;
     if (!path->manner.is_dark) emitted_add(path, surface, hit, wo);
-    lead_at(path->context, surface, wo, path->bounce, lead);
-    bool is_done = collect_vertex(path, surface, wo, lead);
+    guiding_at(path->context, surface, wo, path->bounce, guiding);
+    bool is_done = collect_vertex(path, surface, wo, guiding);
     if (!is_done && path->bounce < path->context->max_bounces)
-        direct_add(path, surface, wo, lead);
+        direct_add(path, surface, wo, guiding);
     return scatter(path, surface, wo);
 }
 
@@ -263,14 +264,14 @@ PathContext path_context_relight(const PathContext *before, const Lights *lights
 /* What a path needs room for besides. */
 typedef struct PathRoom {
     SheetStack stack;
-    Lead       leads[2];
+    Guiding    guidings[2];
 } PathRoom;
 
 static PathState state_of(const PathStart *start, PathRoom *room)
 {
     start->statistics->samples++;
     sheets_none(&room->stack);
-    lead_alone(start->context, &room->leads[0]);
+    guiding_none(start->context, &room->guidings[0]);
     return (PathState){
         .context = start->context, .wavelengths = start->wavelengths,
         .sampler = start->sampler, .statistics = start->statistics,
@@ -278,7 +279,7 @@ static PathState state_of(const PathStart *start, PathRoom *room)
         .throughput = spectrum_all(1), .bright = 1, .gathered.radiance = spectrum_all(0),
         .last = {.at.ns = vec3(0, 0, 1), .is_delta = true, .part_id = NO_ID,
                  .sun_share = spectrum_all(1)},
-        .lead = &room->leads[0], .spare = &room->leads[1], .splits_left = SPLITS,
+        .guiding = &room->guidings[0], .spare = &room->guidings[1], .splits_left = SPLITS,
         .medium_id = NO_ID, .stack = &room->stack};
 }
 
@@ -290,7 +291,7 @@ static void start_from(PathState *path, const LitPoint *point)
     path->bounce = 1;
 }
 
-static void tell(const PathState *path, PathResult *out)
+static void report(const PathState *path, PathResult *out)
 {
     const PathFirst *first = &path->first;
     *out = (PathResult){.hit = first->is_met, .first = first->hit,
@@ -312,7 +313,7 @@ void path_from_ray(const PathStart *start, Ray ray, PathResult *out)
     collect_start(&path);
     walk(&path);
     collect_finish(&path);
-    if (out) tell(&path, out);
+    if (out) report(&path, out);
 }
 
 /* A white surface sends pi-th parts of its illuminance. */
@@ -323,7 +324,7 @@ void path_from_point(const PathStart *start, LitPoint point, float xyz_lx[3])
     PathState path = state_of(start, &room);
     surface_white(path.context->tables, point.position, point.ns, &head);
     path.throughput = spectrum_all(PI_F);
-    lead_alone(path.context, path.spare);
+    guiding_none(path.context, path.spare);
     if (!collect_vertex(&path, &head, point.ns, path.spare))
         direct_add(&path, &head, point.ns, path.spare);
     if (scatter(&path, &head, point.ns) == STEP_SCATTERED) {

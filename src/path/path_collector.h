@@ -24,7 +24,7 @@ typedef struct ShadowRay {
     float    end;      /* m along it, to the emitter; and how well that is known, */
     float    rounding; /* across its plane */
     int      hit_count; /* of more than there is room for, the last ones are there: */
-    Hit      recent[SHADOW_HITS]; /* number i at i % SHADOW_HITS, as the ray tracer told them */
+    Hit      recent[SHADOW_HITS]; /* number i at i % SHADOW_HITS, in the ray tracer's order */
 } ShadowRay;
 
 /* Light that a path has found, and how. */
@@ -63,7 +63,7 @@ typedef struct CollectorKind {
                 uint32_t triangle);
     /* A vertex, before it asks the lights. True: it shall not. */
     bool (*vertex)(PathCollector *c, PathState *path, const Surface *surface, Vec3 wo,
-                   const Lead *lead);
+                   const Guiding *guiding);
     /* True: where the path goes on is *next, instead of what the surface chooses. */
     bool (*choose)(PathCollector *c, PathState *path, const Surface *surface,
                    BsdfSample *next);
@@ -83,7 +83,7 @@ typedef struct CollectorKind {
                   are not asked for */
     void (*sky)(PathCollector *c, PathState *path, Spectrum *radiance); /* of the sky there */
     void (*count)(PathCollector *c, PathState *path, PathFound *light); /* how much counts */
-    void (*hear)(PathCollector *c, PathState *path, const PathFound *light); /* it counts */
+    void (*on_light)(PathCollector *c, PathState *path, const PathFound *light); /* it counts */
     void (*finish)(PathCollector *c, PathState *path); /* all is found */
     const RayFootprint *(*footprint)(const PathCollector *c); /* of the ray; NULL: not known */
 } CollectorKind;
@@ -99,9 +99,10 @@ struct PathCollector {
 
 /* As `vertex`: the lights are asked by nobody. */
 static inline bool collector_asks_nobody(PathCollector *c, PathState *path,
-                                         const Surface *surface, Vec3 wo, const Lead *lead)
+                                         const Surface *surface, Vec3 wo,
+                                         const Guiding *guiding)
 {
-    (void)c, (void)path, (void)surface, (void)wo, (void)lead;
+    (void)c, (void)path, (void)surface, (void)wo, (void)guiding;
     return true;
 }
 
@@ -125,10 +126,10 @@ static inline void collect_see(PathState *path, const Surface *surface, Vec3 wo,
 }
 
 static inline bool collect_vertex(PathState *path, const Surface *surface, Vec3 wo,
-                                  const Lead *lead)
+                                  const Guiding *guiding)
 {
     for (PathCollector *c = path->collector; c; c = c->next)
-        if (c->kind->vertex && c->kind->vertex(c, path, surface, wo, lead)) return true;
+        if (c->kind->vertex && c->kind->vertex(c, path, surface, wo, guiding)) return true;
     return false;
 }
 
@@ -192,10 +193,10 @@ static inline void collect_count(PathState *path, PathFound *light)
         if (c->kind->count) c->kind->count(c, path, light);
 }
 
-static inline void collect_hear(PathState *path, const PathFound *light)
+static inline void collect_light(PathState *path, const PathFound *light)
 {
     for (PathCollector *c = path->collector; c; c = c->next)
-        if (c->kind->hear) c->kind->hear(c, path, light);
+        if (c->kind->on_light) c->kind->on_light(c, path, light);
 }
 
 static inline void collect_finish(PathState *path)

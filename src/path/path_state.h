@@ -6,7 +6,7 @@
  */
 #pragma once
 #include "base/sampler.h"
-#include "path/lead.h"
+#include "path/guiding.h"
 #include "path/path_context.h"
 #include "path/path_light.h"
 #include "path/sheets.h"
@@ -39,7 +39,7 @@ typedef struct PathVertex {
     int      part_id;   /* NO_ID: an eye or a luxmeter */
     float    pdf;       /* with which the direction was chosen, sr^-1 */
     bool     is_delta;  /* no light sample could have found what comes now */
-    Spectrum sun_share; /* of the sun met now; the rest was told to the vertex before it */
+    Spectrum sun_share; /* of the sun met now; the vertex before it got the rest */
 } PathVertex;
 
 /* The first surface that an eye sees: windows passed and holes do not count. */
@@ -74,8 +74,8 @@ typedef struct PathState {
     PathLight  gathered;   /* found so far */
     PathFirst  first;
     PathVertex last;
-    Lead      *lead;       /* with which that looked for light; and room for the next one */
-    Lead      *spare;
+    Guiding   *guiding;    /* with which that looked for light; and room for the next one */
+    Guiding   *spare;
     float      straight;   /* m since the last vertex (windows do not scatter) */
     float      bright;     /* what a path lets through that is not dim; 1 but of a probe's and
                               behind a display */

@@ -292,7 +292,7 @@ static void fill_beam(const Daylight *out, Curve *beam)
 
 /* Irradiances from 300 to 4000 nm: the beam's by its own way through the air, the sky's by
  * SPECTRL2's ratio of watts to lux. */
-static void tell_watts(Daylight *out)
+static void report_watts(Daylight *out)
 {
     DaylightMetrics *f = &out->metrics;
     Spectrl2 ground = ground_spectra(out);
@@ -333,7 +333,7 @@ static bool add_night(Daylight *out, Arena *arena, Error *err)
 }
 
 /* Its share of the figures. */
-static void tell_night(const Night *night, DaylightMetrics *f)
+static void report_night(const Night *night, DaylightMetrics *f)
 {
     const NightMetrics *n = &night->metrics;
     double sky_lx = n->moon_sky_lx + n->background_lx;
@@ -344,7 +344,7 @@ static void tell_night(const Night *night, DaylightMetrics *f)
 }
 
 /* What lies above the horizontal, and the floor, of the sun and of the night. */
-static void tell_light(Daylight *out)
+static void report_light(Daylight *out)
 {
     DaylightMetrics  *f = &out->metrics;
     const LitAir     *air = &out->sunlight;
@@ -356,10 +356,10 @@ static void tell_light(Daylight *out)
                               f->direct_normal_lx * fmax(0, sin_d(out->sun_elevation));
     lit_air_curve(air, atmosphere_radiance(day, (float)(PI / 2), 0), &zenith);
     if (out->night) {
-        tell_night(out->night, f);
+        report_night(out->night, f);
         night_add_zenith(out->night, &zenith);
     }
-    tell_watts(out);
+    report_watts(out);
     f->zenith_cd_m2 = curve_luminance(&zenith);
     curve_xy(&zenith, f->zenith_xy);
 }
@@ -380,7 +380,7 @@ static bool build_clear(Daylight *out, Arena *arena, Error *err)
     if (in->sun_lux >= 0 && lux > 0) scale_curve(&irradiance, in->sun_lux / lux);
     set_sun(out, &irradiance);
     if (!add_night(out, arena, err)) return false;
-    tell_light(out);
+    report_light(out);
     return true;
 }
 

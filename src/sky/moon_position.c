@@ -119,7 +119,7 @@ static Vector horizontal(Vector v, double sidereal_deg, double latitude_deg)
 }
 
 /* sun: from the place, km. */
-static void tell_phase(Vector moon, Vector sun, MoonPosition *p)
+static void set_phase(Vector moon, Vector sun, MoonPosition *p)
 {
     Vector from_moon = {sun.x - moon.x, sun.y - moon.y, sun.z - moon.z};
     Vector back = {-moon.x, -moon.y, -moon.z};
@@ -145,9 +145,9 @@ MoonPosition moon_position(double julian_day, double delta_t_s, const SkyPlace *
     p.elevation_deg = degrees_from_radians(asin_d(moon.z / p.topocentric_km));
     p.sun_azimuth_deg = sun.azimuth_deg;
     p.sun_elevation_deg = sun.elevation_deg;
-    tell_phase(moon,
-               along(sun.azimuth_deg, sun.elevation_deg,
-                     sun.distance_au * ASTRONOMICAL_UNIT_KM),
-               &p);
+    set_phase(moon,
+              along(sun.azimuth_deg, sun.elevation_deg,
+                    sun.distance_au * ASTRONOMICAL_UNIT_KM),
+              &p);
     return p;
 }

@@ -85,14 +85,14 @@ static void choose(const Weather *weather, WeatherClock *clock)
 {
     double best = clock->best_offset_h, comment = weather->comment_offset_h;
     double hour = floor(best - comment + 0.5); /* the line's whole hour by closure */
-    bool   is_told = clock->rows && clock->closes;
-    if (weather->has_comment_offset && !is_told) {
+    bool   is_known = clock->rows && clock->closes;
+    if (weather->has_comment_offset && !is_known) {
         clock->source = WEATHER_CLOCK_COMMENT;
         clock->offset_h = comment_offset(weather);
     } else if (weather->has_comment_offset && fabs(comment + hour - best) <= NEAR_H) {
         clock->source = WEATHER_CLOCK_COMMENT;
         clock->offset_h = comment + hour;
-    } else if (is_told && fabs(clock->offset_h - best) > NEAR_H) {
+    } else if (is_known && fabs(clock->offset_h - best) > NEAR_H) {
         clock->source = WEATHER_CLOCK_CLOSURE;
         clock->offset_h = best;
     }

@@ -30,8 +30,8 @@
 
 typedef struct Moment {
     ReviewRequest     *request; /* whose seed and precision are the trials' */
-    Stage             *stage;
-    const StageSymbol *symbol;
+    Setup             *setup;
+    const SetupSymbol *symbol;
     ProbeAim           aim;
     const char        *name;
     int                runs;
@@ -45,16 +45,16 @@ static void cover_readings(const Moment *m, Arena arena)
     ReadingGoal goal = {.precision = NEVER, .most = READ_PATHS};
     int         count = 2 * m->runs;
     Trial      *list = ARENA_NEW(&arena, Trial, count);
-    PathContext without = m->stage->context;
+    PathContext without = m->setup->context;
     ProbeAim    aim = m->aim;
     without.without_mirrored_sun = true; /* cases add it */
     aim.context = &without;
     for (int i = 0; i < count; i++) {
         aim.seed = 1000 + (uint32_t)i;
-        Reading r = reading_take(&aim, &goal, &m->stage->tools, m->scratch);
+        Reading r = reading_take(&aim, &goal, &m->setup->tools, m->scratch);
         list[i] = (Trial){r.reflected, r.interval.low, r.interval.high, (double)r.paths};
     }
-    trials_tell(m->name, "reading of 1,024 paths", list, count, trials_mean(list, count));
+    trials_report(m->name, "reading of 1,024 paths", list, count, trials_mean(list, count));
 }
 
 /* ---- cases ------------------------------------------------------------------------------- */
@@ -63,13 +63,13 @@ static void cover_readings(const Moment *m, Arena arena)
 static Trial *cases_under(const Moment *m, const Profile *profile, unsigned seed, Arena *arena)
 {
     Trial    *list = ARENA_NEW(arena, Trial, m->runs);
-    CaseTools tools = {.stage = m->stage, .profile = profile};
+    CaseTools tools = {.setup = m->setup, .profile = profile};
     for (int i = 0; i < m->runs; i++) {
         Arena      room = m->scratch;
         ReviewCase c = {.display_lux = 1000};
         Error      err = {0};
         m->request->seed = seed + (unsigned)i;
-        if (!stage_verdict(&tools, m->symbol, &m->request->eyes[0], &room, &c, &err))
+        if (!setup_verdict(&tools, m->symbol, &m->request->eyes[0], &room, &c, &err))
             trials_stop(&err);
         list[i] = (Trial){c.luminance_cd_m2.reflected, c.reflected_range.low,
                           c.reflected_range.high, (double)c.paths};
@@ -80,9 +80,9 @@ static Trial *cases_under(const Moment *m, const Profile *profile, unsigned seed
 static double contrast_at(const Moment *m, double reflected)
 {
     SymbolLook look = {&m->symbol->surface, &m->symbol->split, m->aim.eye,
-                       m->stage->tools.threads};
+                       m->setup->tools.threads};
     SymbolEmission shown =
-        symbol_emission(&look, stage_level(m->stage, m->symbol->display.display_id));
+        symbol_emission(&look, setup_level(m->setup, m->symbol->display.display_id));
     return luminance_contrast(shown.foreground_xyz[1], shown.background_xyz[1], reflected);
 }
 
@@ -93,7 +93,7 @@ static Truth cover_cases(const Moment *m, Arena arena)
     m->request->precision_paths = CASE_PATHS;
     Trial *list = cases_under(m, &open, 1u << 20, &arena);
     Truth  truth = trials_mean(list, m->runs);
-    trials_tell(m->name, "case of 4,096 paths", list, m->runs, truth);
+    trials_report(m->name, "case of 4,096 paths", list, m->runs, truth);
     return truth;
 }
 
@@ -112,7 +112,7 @@ static void cover_asked(const Moment *m, Truth truth, Arena arena)
         Arena        room = arena;
         Trial       *list = cases_under(m, &profile, (unsigned)(k + 2) << 20, &room);
         snprintf(what, sizeof what, "case, limit at %g", limits[k]);
-        trials_tell(m->name, what, list, m->runs, truth);
+        trials_report(m->name, what, list, m->runs, truth);
     }
 }
 
@@ -137,7 +137,7 @@ static void cover_explain(const Moment *m, Arena arena)
     ProbeAim aim = m->aim;
     ChainKey key;
     int      found = 0;
-    ChainAsk ask = {.aim = &aim, .tools = &m->stage->tools, .paths = EXPLAIN_PATHS,
+    ChainAsk ask = {.aim = &aim, .tools = &m->setup->tools, .paths = EXPLAIN_PATHS,
                     .most = CAUSES_MOST};
     memset(&key, 0, sizeof key);
     for (int i = 0; i < m->runs; i++) {
@@ -149,9 +149,9 @@ static void cover_explain(const Moment *m, Arena arena)
         const Chain *chain = find_chain(&chains, &key);
         if (chain) one[found++] = trial_of(chain->figure, chains.paths);
     }
-    trials_tell(m->name, "explain: all", all, m->runs, trials_mean(all, m->runs));
+    trials_report(m->name, "explain: all", all, m->runs, trials_mean(all, m->runs));
     if (found > m->runs / 2)
-        trials_tell(m->name, "explain: greatest cause", one, found, trials_mean(one, found));
+        trials_report(m->name, "explain: greatest cause", one, found, trials_mean(one, found));
 }
 
 /* ---- measure ----------------------------------------------------------------------------- */
@@ -180,9 +180,9 @@ static RenderOptions frame_options(const Moment *m)
 {
     return (RenderOptions){
         .width = FRAME_WIDTH, .height = FRAME_HEIGHT, .crop = {0, 0, FRAME_WIDTH, FRAME_HEIGHT},
-        .end_sample = FRAME_SAMPLES, .max_bounces = STAGE_BOUNCES, .threads = 1,
+        .end_sample = FRAME_SAMPLES, .max_bounces = SETUP_BOUNCES, .threads = 1,
         .layers = LAYER_VARIANCE | LAYER_HALVES | LAYER_DISPLAYS | LAYER_ID,
-        .progress = PROGRESS_NONE, .no_guiding = !m->stage->context.guide};
+        .progress = PROGRESS_NONE, .no_guiding = !m->setup->context.guide};
 }
 
 static void cover_measure(const Moment *m, Arena arena)
@@ -196,7 +196,7 @@ static void cover_measure(const Moment *m, Arena arena)
     RenderOptions    options = frame_options(m);
     SceneCamera camera = camera_look_at(m->aim.eye, symbol_middle(m->symbol).position,
                                         (float)(FRAME_DEG * 3.14159265 / 180));
-    if (!render_prepare(m->stage->scene, &camera, &options, &arena, &setup, &err))
+    if (!render_prepare(m->setup->scene, &camera, &options, &arena, &setup, &err))
         trials_stop(&err);
     for (int i = 0; i < m->runs; i++) {
         f = measure_once(m, &setup, &options, 100 + (uint32_t)i);
@@ -204,9 +204,9 @@ static void cover_measure(const Moment *m, Arena arena)
         ratio[i] = trial_of_measured(f.contrast);
         reflected += f.reflected / m->runs;
     }
-    trials_tell(m->name, "measure: luminance", light, m->runs, trials_mean(light, m->runs));
+    trials_report(m->name, "measure: luminance", light, m->runs, trials_mean(light, m->runs));
     Truth truth = {(f.white + reflected) / (f.black + reflected), 0};
-    if (f.has_contrast) trials_tell(m->name, "measure: contrast", ratio, m->runs, truth);
+    if (f.has_contrast) trials_report(m->name, "measure: contrast", ratio, m->runs, truth);
     render_setup_end(&setup);
 }
 
@@ -225,29 +225,29 @@ static void cover(const Moment *m, const char *ways, Arena arena)
 static void cover_moment(ReviewRequest *request, const ReviewCondition *c, const char *ways,
                          int runs, Problems *problems)
 {
-    StageOptions options = {.request = request, .condition = c, .root = "/", .threads = 1};
+    SetupOptions options = {.request = request, .condition = c, .root = "/", .threads = 1};
     Arena        arena = arena_reserve((size_t)1 << 36);
-    Stage        stage;
-    StageSymbol *symbols;
+    Setup        setup;
+    SetupSymbol *symbols;
     int          count;
     Vec3         eye;
     Error        err = {0};
     request->seed = 0;
-    if (!stage_open(&options, &arena, problems, &stage, &err) ||
-        !stage_light(&stage, c->has_environment ? &c->environment : NULL, &arena, &err) ||
-        !stage_symbols(&stage, &arena, &symbols, &count, &err) ||
-        !stage_learn(&stage, symbols, count, &arena, &err) ||
-        !stage_eye_middle(&stage, &request->eyes[0], arena, &eye, &err))
+    if (!setup_open(&options, &arena, problems, &setup, &err) ||
+        !setup_light(&setup, c->has_environment ? &c->environment : NULL, &arena, &err) ||
+        !setup_symbols(&setup, &arena, &symbols, &count, &err) ||
+        !setup_learn(&setup, symbols, count, &arena, &err) ||
+        !setup_eye_middle(&setup, &request->eyes[0], arena, &eye, &err))
         trials_stop(&err);
     const SymbolSurface *surface = &symbols[0].surface;
     bool *is_visible = ARENA_NEW(&arena, bool, surface->point_count);
-    Moment m = {request, &stage, &symbols[0], {.context = &stage.context, .eye = eye}, c->name,
+    Moment m = {request, &setup, &symbols[0], {.context = &setup.context, .eye = eye}, c->name,
                 runs, arena_reserve((size_t)1 << 33)};
-    symbol_visibility(surface, &stage.context, eye, is_visible);
+    symbol_visibility(surface, &setup.context, eye, is_visible);
     symbol_aim(surface, is_visible, &arena, &m.aim);
     if (m.aim.target_count) cover(&m, ways, arena);
     arena_release(&m.scratch);
-    stage_close(&stage);
+    setup_close(&setup);
     arena_release(&arena);
 }
 

@@ -41,7 +41,7 @@ static double beam_elevation(int i)
 }
 
 typedef struct Brute {
-    Stage        stage;
+    Setup        setup;
     ProbeAim     aim;
     PathContext  by_sun; /* of all suns; lights are each one's own */
     DaylightInput air;
@@ -66,7 +66,7 @@ static _Noreturn void stop(const Error *err)
 
 static Environment environment_at(const Brute *b, SunAngles sun, double heading_deg)
 {
-    const double *forward = b->stage.request->forward;
+    const double *forward = b->setup.request->forward;
     return (Environment){
         .forward = vec3((float)forward[0], (float)forward[1], (float)forward[2]),
         .heading = (float)radians_from_degrees(heading_deg), .daylight = b->air,
@@ -103,9 +103,9 @@ static double reading_under(Brute *b, SunAngles sun, float lux, Arena arena)
     Error       err = {0};
     environment.kind = ENVIRONMENT_SKY;
     environment.sun_illuminance_lx = lux;
-    if (!stage_light(&b->stage, &environment, &arena, &err)) stop(&err);
-    b->aim.context = &b->stage.context;
-    return reading_take(&b->aim, &goal, &b->stage.tools, arena).reflected;
+    if (!setup_light(&b->setup, &environment, &arena, &err)) stop(&err);
+    b->aim.context = &b->setup.context;
+    return reading_take(&b->aim, &goal, &b->setup.tools, arena).reflected;
 }
 
 /* Between four values, the place is `along` from b to c (Catmull and Rom's cubic). */
@@ -138,7 +138,7 @@ static double sky_at(const Brute *b, SunAngles of_vehicle)
 /* What paths bring of the sun alone. */
 static double sun_reading(const Brute *b, SunAngles sun, double heading_deg, Arena room)
 {
-    Scene   scene = *b->stage.scene; /* with light of its own */
+    Scene   scene = *b->setup.scene; /* with light of its own */
     Lights *lights;
     Error   err = {0};
     scene.environment = environment_at(b, sun, heading_deg);
@@ -155,7 +155,7 @@ static double sun_reading(const Brute *b, SunAngles sun, double heading_deg, Are
                             (uint32_t)(1e5 * sun.azimuth_deg));
     for (int first = 0; first < b->paths; first += PIECE) {
         ProbeLook looks[PIECE];
-        b->stage.tools.kernel->look(&aim, first, first + PIECE, looks, &statistics);
+        b->setup.tools.kernel->look(&aim, first, first + PIECE, looks, &statistics);
         for (int i = 0; i < PIECE; i++) {
             sum += (double)looks[i].reflected[1];
             found += looks[i].is_found;
@@ -168,8 +168,8 @@ static void look_at_day(void *user, int item, int worker)
 {
     Brute          *b = user;
     int             day = item * b->every;
-    const SkyPlace *where = &b->stage.condition->where;
-    SkyTime         start = {.year = b->stage.condition->year, .month = 1, .day = 1};
+    const SkyPlace *where = &b->setup.condition->where;
+    SkyTime         start = {.year = b->setup.condition->year, .month = 1, .day = 1};
     double          mbar, celsius;
     standard_atmosphere(where->altitude_m, &mbar, &celsius);
     for (int minute = 0; minute < DAY; minute++) {
@@ -190,8 +190,8 @@ static void look_at_day(void *user, int item, int worker)
 
 static void set_levels(Brute *b, float level)
 {
-    for (int i = 0; i < b->stage.scene->display_count; i++)
-        b->stage.scene->displays[i].level = level;
+    for (int i = 0; i < b->setup.scene->display_count; i++)
+        b->setup.scene->displays[i].level = level;
 }
 
 /* ---- a year ------------------------------------------------------------------------------ */
@@ -199,10 +199,10 @@ static void set_levels(Brute *b, float level)
 static void prepare(Brute *b, Arena arena)
 {
     b->air = daylight_input_default(DAYLIGHT_CLEAR);
-    b->air.where = b->stage.condition->where;
+    b->air.where = b->setup.condition->where;
     b->air.has_sun = b->air.no_moon = true;
     b->air.sun_lux = -1;
-    parallel_for(b->stage.tools.threads, BEAMS, fill_beam, b);
+    parallel_for(b->setup.tools.threads, BEAMS, fill_beam, b);
     for (int row = 0; row < SKY_ROWS; row++)
         for (int c = 0; c < SKY_COLUMNS; c++)
             b->sky[row][c] = reading_under(
@@ -214,12 +214,12 @@ static void prepare_suns(Brute *b, Arena *arena)
 {
     Lights *lights;
     Error   err = {0};
-    b->stage.scene->environment = environment_at(b, (SunAngles){0, 45}, 0);
-    b->stage.scene->environment.sun_illuminance_lx = 1;
+    b->setup.scene->environment = environment_at(b, (SunAngles){0, 45}, 0);
+    b->setup.scene->environment.sun_illuminance_lx = 1;
     set_levels(b, 0);
-    if (!lights_build(b->stage.scene, arena, &lights, &err)) stop(&err);
+    if (!lights_build(b->setup.scene, arena, &lights, &err)) stop(&err);
     b->by_sun =
-        path_context_build(b->stage.scene, b->stage.bvh, lights, STAGE_BOUNCES, arena);
+        path_context_build(b->setup.scene, b->setup.bvh, lights, SETUP_BOUNCES, arena);
     b->by_sun.beams = (MirrorBeams){0};
 }
 
@@ -242,7 +242,7 @@ static void compare_spectra(Brute *b, Arena arena)
 
 static void tell_year(Brute *b, double heading_deg)
 {
-    int threads = b->stage.tools.threads;
+    int threads = b->setup.tools.threads;
     b->heading_deg = heading_deg;
     for (int w = 0; w < threads; w++) {
         b->up[w] = 0;
@@ -260,26 +260,26 @@ static void tell_year(Brute *b, double heading_deg)
 
 static void open_first(Brute *b, const ReviewRequest *request, Problems *problems, Arena *arena)
 {
-    StageOptions options = {.request = request, .condition = &request->conditions[0],
+    SetupOptions options = {.request = request, .condition = &request->conditions[0],
                             .threads = parallel_default_threads()};
-    StageSymbol *symbols;
+    SetupSymbol *symbols;
     int          count;
     Vec3         eye;
     Error        err = {0};
-    if (!stage_open(&options, arena, problems, &b->stage, &err) ||
-        !stage_light(&b->stage, NULL, arena, &err) ||
-        !stage_symbols(&b->stage, arena, &symbols, &count, &err) ||
-        !stage_eye_middle(&b->stage, &request->eyes[0], *arena, &eye, &err))
+    if (!setup_open(&options, arena, problems, &b->setup, &err) ||
+        !setup_light(&b->setup, NULL, arena, &err) ||
+        !setup_symbols(&b->setup, arena, &symbols, &count, &err) ||
+        !setup_eye_middle(&b->setup, &request->eyes[0], *arena, &eye, &err))
         stop(&err);
     const SymbolSurface *surface = &symbols[0].surface;
     bool *is_visible = ARENA_NEW(arena, bool, surface->point_count);
     Vec3 *targets = ARENA_NEW(arena, Vec3, surface->point_count);
-    b->aim = (ProbeAim){.context = &b->stage.context, .eye = eye, .targets = targets};
-    SymbolVisibility seen = symbol_visibility(surface, &b->stage.context, eye, is_visible);
+    b->aim = (ProbeAim){.context = &b->setup.context, .eye = eye, .targets = targets};
+    SymbolVisibility seen = symbol_visibility(surface, &b->setup.context, eye, is_visible);
     for (int i = 0; i < surface->point_count; i++)
         if (is_visible[i]) targets[b->aim.target_count++] = surface->points[i].position;
-    double level = stage_level(&b->stage, symbols[0].display.display_id);
-    SymbolLook look = {surface, &symbols[0].split, eye, b->stage.tools.threads};
+    double level = setup_level(&b->setup, symbols[0].display.display_id);
+    SymbolLook look = {surface, &symbols[0].split, eye, b->setup.tools.threads};
     SymbolEmission shown = symbol_emission(&look, level);
     b->shown[0] = seen.transmittance * shown.foreground_xyz[1];
     b->shown[1] = seen.transmittance * shown.background_xyz[1];
@@ -303,7 +303,7 @@ int main(int argc, char **argv)
         b->limits[b->limit_count++] = atof(argv[i]);
     if (!review_request_read(argv[3], NULL, &arena, &problems, &request, &err)) stop(&err);
     open_first(b, &request, &problems, &arena);
-    for (int w = 0; w < b->stage.tools.threads; w++)
+    for (int w = 0; w < b->setup.tools.threads; w++)
         b->rooms[w] = arena_reserve((size_t)1 << 28);
     prepare(b, arena);
     printf("skies and beams: %.0f s of processor time\n",
@@ -311,11 +311,11 @@ int main(int argc, char **argv)
     fflush(stdout);
     prepare_suns(b, &arena);
     compare_spectra(b, arena);
-    for (int h = 0; h < b->stage.condition->heading_count; h++)
-        tell_year(b, b->stage.condition->headings_deg[h]);
+    for (int h = 0; h < b->setup.condition->heading_count; h++)
+        tell_year(b, b->setup.condition->headings_deg[h]);
     printf("all: %.0f s of processor time\n", clock_seconds(CLOCK_PROCESS_CPUTIME_ID));
-    for (int w = 0; w < b->stage.tools.threads; w++) arena_release(&b->rooms[w]);
-    stage_close(&b->stage);
+    for (int w = 0; w < b->setup.tools.threads; w++) arena_release(&b->rooms[w]);
+    setup_close(&b->setup);
     arena_release(&arena);
     return 0;
 }

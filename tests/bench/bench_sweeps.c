@@ -26,8 +26,8 @@
 
 typedef struct SweepTrials {
     ReviewRequest     *request;
-    Stage             *stage;
-    const StageSymbol *symbol;
+    Setup             *setup;
+    const SetupSymbol *symbol;
     ProbeAim           aim;
     SkyTable           table;
     SweepSuns          suns;
@@ -39,20 +39,20 @@ typedef struct SweepTrials {
 static Trial moment_trial(const SweepTrials *t, int sun, int paths, unsigned seed)
 {
     Arena       room = t->scratch;
-    Stage       stage = *t->stage;
+    Setup       setup = *t->setup;
     Profile     open = {.id = "none"};
-    CaseTools   tools = {.stage = &stage, .profile = &open};
+    CaseTools   tools = {.setup = &setup, .profile = &open};
     ReviewCase  c = {.display_lux = 1000};
-    Environment light = sweep_environment(t->stage, &t->suns.list[sun]);
-    Environment dark = stage.scene->environment;
+    Environment light = sweep_environment(t->setup, &t->suns.list[sun]);
+    Environment dark = setup.scene->environment;
     Error       err = {0};
     t->request->precision_contrast = t->request->precision_clear = NEVER;
     t->request->precision_paths = paths;
     t->request->seed = seed;
-    if (!stage_light(&stage, &light, &room, &err) ||
-        !stage_verdict(&tools, t->symbol, &t->request->eyes[0], &room, &c, &err))
+    if (!setup_light(&setup, &light, &room, &err) ||
+        !setup_verdict(&tools, t->symbol, &t->request->eyes[0], &room, &c, &err))
         trials_stop(&err);
-    stage.scene->environment = dark;
+    setup.scene->environment = dark;
     return (Trial){c.luminance_cd_m2.reflected, c.reflected_range.low, c.reflected_range.high,
                    (double)c.paths};
 }
@@ -62,7 +62,7 @@ static void read_steps(SweepTrials *t, bool is_full, double own, unsigned seed,
                        Trial *out)
 {
     Arena    room = t->scratch;
-    FarTools tools = {.stage = t->stage, .table = &t->table,
+    FarTools tools = {.setup = t->setup, .table = &t->table,
                       .paths = is_full ? FULL_PATHS : STEP_PATHS,
                       .precision = is_full ? FULL_PRECISION : 0,
                       .suns = {t->suns.angles, t->suns.count}, .sun_paths = SYMBOL_POINTS,
@@ -104,7 +104,8 @@ static void tell_steps(const SweepTrials *t, const char *way, const Trial *steps
         Trial *list = ARENA_NEW(&room, Trial, t->runs);
         for (int k = 0; k < t->runs; k++) list[k] = steps[k * t->suns.count + i];
         const char *name = sun_name(t, i, &room);
-        trials_tell(name, way, list, t->runs, truths ? truths[i] : trials_mean(list, t->runs));
+        trials_report(name, way, list, t->runs, truths ? truths[i] : trials_mean(list,
+                                                                                 t->runs));
     }
 }
 
@@ -130,16 +131,16 @@ static void tell_worst(const SweepTrials *t, const Trial *steps, const Truth *tr
         list[k] = (Trial){r.found / truth, r.low / truth, r.high / truth, r.paths};
         step[k] = (Trial){s.found / truth, s.low / truth, s.high / truth, s.paths};
     }
-    trials_tell("all suns", "worst, its step", step, t->runs, (Truth){1, 0});
-    trials_tell("all suns", "worst, read again", list, t->runs, (Truth){1, 0});
+    trials_report("all suns", "worst, its step", step, t->runs, (Truth){1, 0});
+    trials_report("all suns", "worst, read again", list, t->runs, (Truth){1, 0});
 }
 
 static double own_light(const SweepTrials *t)
 {
     ReadingGoal goal = {.precision = NEVER, .most = TRUTH_PATHS};
-    Lights     *lights = (Lights *)(void *)t->stage->context.lights;
+    Lights     *lights = (Lights *)(void *)t->setup->context.lights;
     if (!lights_has(lights, LIGHTS_EMITTERS) && !lights_has(lights, LIGHTS_PUNCTUAL)) return 0;
-    return reading_take(&t->aim, &goal, &t->stage->tools, t->scratch).reflected;
+    return reading_take(&t->aim, &goal, &t->setup->tools, t->scratch).reflected;
 }
 
 /* Of every sun, by paths traced for it. */
@@ -190,31 +191,31 @@ static void make_table(SweepTrials *t, Arena *arena)
 static void cover_sweep(ReviewRequest *request, const ReviewCondition *c, const char *ways,
                         int runs, Problems *problems)
 {
-    StageOptions options = {.request = request, .condition = c, .root = "/", .threads = 1};
+    SetupOptions options = {.request = request, .condition = c, .root = "/", .threads = 1};
     Arena        arena = arena_reserve((size_t)1 << 36);
     SweepTrials  t = {.request = request, .runs = runs,
                       .scratch = arena_reserve((size_t)1 << 34)};
-    Stage        stage;
-    StageSymbol *symbols;
+    Setup        setup;
+    SetupSymbol *symbols;
     int          count;
     Vec3         eye;
     Error        err = {0};
-    t.stage = &stage;
-    if (!stage_open(&options, &arena, problems, &stage, &err) ||
-        !sweep_light_dark(&stage, 1, &arena, &err) ||
-        !stage_symbols(&stage, &arena, &symbols, &count, &err) ||
-        !stage_eye_middle(&stage, &request->eyes[0], arena, &eye, &err))
+    t.setup = &setup;
+    if (!setup_open(&options, &arena, problems, &setup, &err) ||
+        !sweep_light_dark(&setup, 1, &arena, &err) ||
+        !setup_symbols(&setup, &arena, &symbols, &count, &err) ||
+        !setup_eye_middle(&setup, &request->eyes[0], arena, &eye, &err))
         trials_stop(&err);
     t.symbol = &symbols[0];
     t.suns = sweep_suns(c, 2, &arena);
     make_table(&t, &arena);
     bool *is_visible = ARENA_NEW(&arena, bool, symbols[0].surface.point_count);
-    symbol_visibility(&symbols[0].surface, &stage.context, eye, is_visible);
-    t.aim = (ProbeAim){.context = &stage.context, .eye = eye};
+    symbol_visibility(&symbols[0].surface, &setup.context, eye, is_visible);
+    t.aim = (ProbeAim){.context = &setup.context, .eye = eye};
     symbol_aim(&symbols[0].surface, is_visible, &arena, &t.aim);
     cover(&t, ways, arena);
     arena_release(&t.scratch);
-    stage_close(&stage);
+    setup_close(&setup);
     arena_release(&arena);
 }
 

@@ -20,8 +20,8 @@
 
 typedef struct Verdicts {
     ReviewRequest     *request;
-    const Stage       *stage;
-    const StageSymbol *symbol;
+    const Setup       *setup;
+    const SetupSymbol *symbol;
     int                trials;
     Arena              scratch;
 } Verdicts;
@@ -29,11 +29,11 @@ typedef struct Verdicts {
 static ReviewCase judged(const Verdicts *v, const Profile *profile, unsigned seed)
 {
     Arena      room = v->scratch;
-    CaseTools  tools = {.stage = v->stage, .profile = profile};
+    CaseTools  tools = {.setup = v->setup, .profile = profile};
     ReviewCase c = {.display_lux = 1000};
     Error      err = {0};
     v->request->seed = seed;
-    if (!stage_verdict(&tools, v->symbol, &v->request->eyes[0], &room, &c, &err))
+    if (!setup_verdict(&tools, v->symbol, &v->request->eyes[0], &room, &c, &err))
         trials_stop(&err);
     return c;
 }
@@ -56,7 +56,7 @@ static double true_contrast(const Verdicts *v, Arena arena)
     Truth  truth = trials_mean(list, TRUTH_RUNS);
     double ratio = luminance_contrast(l.foreground, l.background, truth.value);
     double off = luminance_contrast(l.foreground, l.background, truth.value + truth.error);
-    printf("%s\ttruth\t%.5f\t%.4f\t%.6g\t%.6g\n", v->stage->condition->name, ratio,
+    printf("%s\ttruth\t%.5f\t%.4f\t%.6g\t%.6g\n", v->setup->condition->name, ratio,
            100 * fabs(off / ratio - 1), l.foreground, l.background);
     fflush(stdout);
     return ratio;
@@ -75,7 +75,7 @@ static void try_margin(const Verdicts *v, double ratio, double percent, unsigned
         count[c.verdict]++;
         paths += (double)c.paths / v->trials;
     }
-    printf("%s\t%g\t%d\t%d\t%d\t%d\t%.0f\n", v->stage->condition->name, percent, v->trials,
+    printf("%s\t%g\t%d\t%d\t%d\t%d\t%.0f\n", v->setup->condition->name, percent, v->trials,
            count[VERDICT_PASS], count[VERDICT_FAIL], count[VERDICT_TOO_CLOSE], paths);
     fflush(stdout);
 }
@@ -84,26 +84,26 @@ static void try_moment(ReviewRequest *request, const ReviewCondition *c, int tri
                        Problems *problems)
 {
     static const double margins[] = {-10, -5, -2, -1, 1, 2, 5, 10};
-    StageOptions options = {.request = request, .condition = c, .root = "/", .threads = 1};
+    SetupOptions options = {.request = request, .condition = c, .root = "/", .threads = 1};
     Arena        arena = arena_reserve((size_t)1 << 36);
     Verdicts     v = {.request = request, .trials = trials,
                       .scratch = arena_reserve((size_t)1 << 33)};
-    Stage        stage;
-    StageSymbol *symbols;
+    Setup        setup;
+    SetupSymbol *symbols;
     int          count;
     Error        err = {0};
     request->seed = 0;
-    if (!stage_open(&options, &arena, problems, &stage, &err) ||
-        !stage_light(&stage, c->has_environment ? &c->environment : NULL, &arena, &err) ||
-        !stage_symbols(&stage, &arena, &symbols, &count, &err) ||
-        !stage_learn(&stage, symbols, count, &arena, &err))
+    if (!setup_open(&options, &arena, problems, &setup, &err) ||
+        !setup_light(&setup, c->has_environment ? &c->environment : NULL, &arena, &err) ||
+        !setup_symbols(&setup, &arena, &symbols, &count, &err) ||
+        !setup_learn(&setup, symbols, count, &arena, &err))
         trials_stop(&err);
-    v.stage = &stage;
+    v.setup = &setup;
     v.symbol = &symbols[0];
     double ratio = true_contrast(&v, arena);
     for (int i = 0; i < 8; i++) try_margin(&v, ratio, margins[i], (unsigned)(i + 1) << 20);
     arena_release(&v.scratch);
-    stage_close(&stage);
+    setup_close(&setup);
     arena_release(&arena);
 }
 

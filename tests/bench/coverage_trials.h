@@ -52,8 +52,8 @@ static inline double trials_error(const Trial *list, int count, double truth)
 
 /* moment, way, trials, held, lie below the truth, above, paths, error of a trial, half an
  * interval, the mean's offset, the truth's error; the last four in percent of the truth. */
-static inline void trials_tell(const char *moment, const char *way, const Trial *list,
-                               int count, Truth truth)
+static inline void trials_report(const char *moment, const char *way, const Trial *list,
+                                 int count, Truth truth)
 {
     double paths = 0, half = 0;
     int    held = 0, below = 0;

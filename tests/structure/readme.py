@@ -23,7 +23,7 @@ def exists(path):
 
 
 def tabled_files(text):
-    """What the first cells of a folder's table of files name: `light/stage`, `run/`, `a`, `b`
+    """What the first cells of a folder's table of files name: `light/setup`, `run/`, `a`, `b`
     (the second in the folder of the first)."""
     for line in text.splitlines():
         if not line.startswith("| `"):

@@ -17,10 +17,10 @@ static EyeReading read_towards(World *world, Vec3 towards, int rounds)
     Error         err = {0};
     assert_true(kernel_choose(NULL, &kernel, &err));
     if (!world->bvh) world_ready(world, 16); /* a test may look twice */
-    Stage stage = {.request = &request, .tools = {.kernel = kernel, .threads = 2},
+    Setup setup = {.request = &request, .tools = {.kernel = kernel, .threads = 2},
                    .scene = world->scene, .context = world->context};
     EyeLook look = {vec3(0, 0, 0), towards, rounds, NULL};
-    return eye_read(&stage, &look, world->arena);
+    return eye_read(&setup, &look, world->arena);
 }
 
 static EyeReading read_eye(World *world)
@@ -147,13 +147,13 @@ TEST(an_image_of_the_sun_veils_by_its_illuminance)
     world.scene->environment.sun_illuminance_lx = 60000;
     assert_true(kernel_choose(NULL, &kernel, &err));
     world_ready(&world, 16);
-    Stage stage = {.request = &request, .tools = {.kernel = kernel, .threads = 2},
+    Setup setup = {.request = &request, .tools = {.kernel = kernel, .threads = 2},
                    .scene = world.scene, .context = world.context};
-    assert_true(stage_sun(&stage, &towards, bands));
-    false_suns_search(&stage, vec3(0, 0, 0), &world.arena, &rays);
+    assert_true(setup_sun(&setup, &towards, bands));
+    false_suns_search(&setup, vec3(0, 0, 0), &world.arena, &rays);
     FalseSuns  images = false_suns_of(&rays, bands, &world.arena);
     EyeLook    look = {vec3(0, 0, 0), at, 4, &images};
-    EyeReading found = eye_read(&stage, &look, world.arena);
+    EyeReading found = eye_read(&setup, &look, world.arena);
     double     lux = 0.8 * 60000 * cos(radians_from_degrees(20));
     double     wanted = lux * disability_glare(20, whose);
     assert_near(found.parts[EYE_GLINTS], wanted, wanted / 22);

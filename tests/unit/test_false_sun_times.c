@@ -63,11 +63,11 @@ typedef struct Brute {
 } Brute;
 
 /* Minute by minute. */
-static Brute brute_force(const Stage *stage, const Facet *facet, const SweepSuns *suns)
+static Brute brute_force(const Setup *setup, const Facet *facet, const SweepSuns *suns)
 {
     Brute out = {0, 0};
     for (int i = 0; i < suns->count; i++) {
-        double apart = degrees_outside(facet, stage_direction(stage, suns->angles[i]));
+        double apart = degrees_outside(facet, setup_direction(setup, suns->angles[i]));
         out.certain += apart < SUN_MEAN_RADIUS_DEG - 0.06;
         out.possible += apart < SUN_MEAN_RADIUS_DEG + 0.08;
     }
@@ -98,55 +98,55 @@ TEST(a_facet_that_dazzles_for_minutes_a_year_is_found)
     const Kernel   *kernel;
     ReviewCondition condition = year_condition(), minutes = condition;
     ReviewRun       run = {.request = &request};
-    ReviewFalseSun  told[FALSE_SUNS_TOLD];
-    Review          out = {.false_suns = told};
-    Stage           stage = {.request = &request, .condition = &condition,
+    ReviewFalseSun  reported[FALSE_SUNS_LISTED];
+    Review          out = {.false_suns = reported};
+    Setup           setup = {.request = &request, .condition = &condition,
                              .scene = world.scene};
     minutes.step_minutes = 1;
     SweepSuns suns = sweep_suns(&minutes, 2, &scratch);
     int       at = 0; /* 3 October, in the afternoon: ahead is east, the sun behind */
     while (suns.list[at].step < (275 * 24 + 15) * 60 + 20) at++;
-    Facet facet = facet_for(stage_direction(&stage, suns.angles[at]));
+    Facet facet = facet_for(setup_direction(&setup, suns.angles[at]));
     add_facet(&world, &facet);
     world_ready(&world, 16);
     assert_true(kernel_choose(NULL, &kernel, &err));
-    stage.tools = (ReadingTools){.kernel = kernel, .threads = 2};
-    stage.context = world.context;
-    Brute brute = brute_force(&stage, &facet, &suns);
+    setup.tools = (ReadingTools){.kernel = kernel, .threads = 2};
+    setup.context = world.context;
+    Brute brute = brute_force(&setup, &facet, &suns);
     assert_true(brute.certain >= 3 && brute.certain < 60);
 
     float         bands[LIGHT_BANDS];
     FalseSunRays  rays;
     FalseSuns     images;
-    Sweep         sweep = {.run = &run, .stage = &stage, .false_suns = &images};
+    Sweep         sweep = {.run = &run, .setup = &setup, .false_suns = &images};
     DaylightInput clear = daylight_input_default(DAYLIGHT_CLEAR);
     FarTools      tools = {.table = &sweep.table};
     sweep.table = sky_table_start(&clear, 16, 36, &scratch);
     assert_true(far_probes_ask_skies(NULL, 0, &tools, &scratch, &err));
     for (int b = 0; b < LIGHT_BANDS; b++) bands[b] = 1;
-    false_suns_search(&stage, vec3(0, 0, 0), &scratch, &rays);
+    false_suns_search(&setup, vec3(0, 0, 0), &scratch, &rays);
     images = false_suns_of(&rays, bands, &scratch);
     false_sun_times(&sweep, scratch, &world.arena, &out);
 
     assert_int_equal(out.false_sun_count, 1);
-    if (!(told[0].minutes >= brute.certain && told[0].minutes <= brute.possible))
-        fail_msg("%g minutes of %g to %g", told[0].minutes, brute.certain, brute.possible);
-    assert_true(told[0].longest_minutes >= 2 && told[0].longest_minutes <= 8);
-    assert_string_equal(told[0].mirror, "part (chrome)");
-    assert_string_equal(told[0].gaze, "road");
-    assert_non_null(strstr(told[0].when, "UTC, heading 90 degrees"));
+    if (!(reported[0].minutes >= brute.certain && reported[0].minutes <= brute.possible))
+        fail_msg("%g minutes of %g to %g", reported[0].minutes, brute.certain, brute.possible);
+    assert_true(reported[0].longest_minutes >= 2 && reported[0].longest_minutes <= 8);
+    assert_string_equal(reported[0].mirror, "part (chrome)");
+    assert_string_equal(reported[0].gaze, "road");
+    assert_non_null(strstr(reported[0].when, "UTC, heading 90 degrees"));
     /* The sun returns to that height in spring: either day will do. */
-    assert_true(strstr(told[0].when, "2026-10-0") || strstr(told[0].when, "2026-03-") ||
-                strstr(told[0].when, "2026-09-") || strstr(told[0].when, "2026-04-"));
-    assert_near(told[0].share * suns.count, told[0].minutes, 1e-6 * suns.count);
+    assert_true(strstr(reported[0].when, "2026-10-0") || strstr(reported[0].when, "2026-03-") ||
+                strstr(reported[0].when, "2026-09-") || strstr(reported[0].when, "2026-04-"));
+    assert_near(reported[0].share * suns.count, reported[0].minutes, 1e-6 * suns.count);
     double angle = degrees_from_radians(acos(0.9 / sqrt(0.35 * 0.35 + 0.3 * 0.3 + 0.9 * 0.9)));
-    assert_near(told[0].angle_deg, angle, 0.5);
-    double veil = told[0].lux * cos(radians_from_degrees(angle)) *
+    assert_near(reported[0].angle_deg, angle, 0.5);
+    double veil = reported[0].lux * cos(radians_from_degrees(angle)) *
                   disability_glare(angle, (HumanEye){50, 0.5});
-    assert_true(fabs(told[0].veil_cd_m2 / veil - 1) < 0.05);
+    assert_true(fabs(reported[0].veil_cd_m2 / veil - 1) < 0.05);
     double covered = SIDE_M * SIDE_M / 0.49 /
                      (2 * PI * (1 - cos(radians_from_degrees(SUN_MEAN_RADIUS_DEG))));
-    assert_true(told[0].lux > 0.5 * covered * sun_lx && told[0].lux < covered * 130000);
+    assert_true(reported[0].lux > 0.5 * covered * sun_lx && reported[0].lux < covered * 130000);
     arena_release(&scratch);
     world_end(&world);
 }

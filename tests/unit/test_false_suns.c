@@ -14,12 +14,12 @@ typedef struct Found {
     FalseSuns suns;
 } Found;
 
-static Stage stage_of(const World *world)
+static Setup setup_of(const World *world)
 {
     const Kernel *kernel;
     Error         err = {0};
     assert_true(kernel_choose(NULL, &kernel, &err));
-    return (Stage){.request = &request, .tools = {.kernel = kernel, .threads = 2},
+    return (Setup){.request = &request, .tools = {.kernel = kernel, .threads = 2},
                    .scene = world->scene, .context = world->context};
 }
 
@@ -36,8 +36,8 @@ static void search(Found *found)
     FalseSunRays rays;
     Arena       *arena = &found->world.arena;
     world_ready(&found->world, 16);
-    Stage stage = stage_of(&found->world);
-    false_suns_search(&stage, vec3(0, 0, 0), arena, &rays);
+    Setup setup = setup_of(&found->world);
+    false_suns_search(&setup, vec3(0, 0, 0), arena, &rays);
     found->suns = under(&rays, 0, LIGHT_BANDS, arena);
 }
 
@@ -119,15 +119,15 @@ static double all_sr(const FalseSuns *suns, int part_id)
 static const FalseSunRays *ask_twice(SunSearches *kept, const World *world)
 {
     Vec3  eye = vec3(0, 0, 0);
-    Stage stage = stage_of(world), other = stage;
-    stage.identity = "a scene";
+    Setup setup = setup_of(world), other = setup;
+    setup.identity = "a scene";
     other.identity = "another";
     other.tools.threads = 1;
-    const FalseSunRays *rays = sun_searches_ask(kept, &stage, eye);
+    const FalseSunRays *rays = sun_searches_ask(kept, &setup, eye);
     const FalseSunRays *again = sun_searches_ask(kept, &other, eye);
     assert_true(rays != again && rays->count == again->count && rays->count > 0);
     assert_memory_equal(rays->list, again->list, (size_t)rays->count * sizeof *rays->list);
-    assert_ptr_equal(sun_searches_ask(kept, &stage, eye), rays);
+    assert_ptr_equal(sun_searches_ask(kept, &setup, eye), rays);
     assert_ptr_equal(sun_searches_ask(kept, &other, eye), again);
     return rays;
 }

@@ -18,10 +18,10 @@ static GazeReading read_gaze(World *world)
     Error         err = {0};
     assert_true(kernel_choose(NULL, &kernel, &err));
     world_ready(world, 16);
-    Stage    stage = {.request = &request, .tools = {.kernel = kernel, .threads = 2},
+    Setup    setup = {.request = &request, .tools = {.kernel = kernel, .threads = 2},
                       .scene = world->scene, .context = world->context};
     GazeGoal goal = {vec3(0, 0, 0), vec3(0, 0, -2), 0.002, 1 << 17};
-    return gaze_read(&stage, &goal, world->arena);
+    return gaze_read(&setup, &goal, world->arena);
 }
 
 static Material glass(void)

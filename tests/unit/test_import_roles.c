@@ -31,9 +31,9 @@ TEST(names_tell_the_pattern_or_the_light)
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         bool mixed;
         Role role = role_from_words(cases[i].name, 255, &mixed);
-        if (!role.is_told || mixed || role.source != cases[i].source)
+        if (!role.is_known || mixed || role.source != cases[i].source)
             fail_msg("'%s' is taken as %d", cases[i].name,
-                     role.is_told ? (int)role.source : -1);
+                     role.is_known ? (int)role.source : -1);
         if (role.source <= IMPORT_BLUE) assert_near(role.level, cases[i].number, 0);
         if (role.source == IMPORT_REFLECTION)
             assert_near(role.incidence_deg, cases[i].number, 0);
@@ -67,7 +67,7 @@ TEST(what_a_name_does_not_tell_is_not_guessed)
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         bool mixed;
         Role role = role_from_words(cases[i].name, 255, &mixed);
-        if (role.is_told && !mixed) fail_msg("'%s' is taken as told", cases[i].name);
+        if (role.is_known && !mixed) fail_msg("'%s' is taken as told", cases[i].name);
         if (mixed != cases[i].is_ambiguous) fail_msg("'%s'", cases[i].name);
     }
 }

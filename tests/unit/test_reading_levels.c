@@ -114,7 +114,7 @@ TEST(who_tells_displays_apart_tells_the_same)
     for (int by_meter = 0; by_meter < 2; by_meter++) {
         ProbeAim aim = aim_of(&world, 3, by_meter);
         tools_of(NULL).kernel->look(&aim, 0, PATHS, plain, &statistics);
-        aim.tells_displays = true;
+        aim.by_display = true;
         tools_of(NULL).kernel->look(&aim, 0, PATHS, apart, &statistics);
         for (int i = 0; i < PATHS; i++) {
             float all = apart[i].reflected[1], sum = 0, mirror = 0;

@@ -224,10 +224,10 @@ TEST(a_response_to_a_sun_is_what_paths_find_under_it)
     for (int i = 0; i < count; i++) {
         Vec3  towards;
         float bands[LIGHT_BANDS];
-        Stage stage = {.scene = world.scene};
+        Setup setup = {.scene = world.scene};
         set_sun(&world, suns[i]);
-        stage.context = world.context;
-        assert_true(stage_sun(&stage, &towards, bands));
+        setup.context = world.context;
+        assert_true(setup_sun(&setup, &towards, bands));
         assert_true(vec3_dot(towards, suns[i]) > 0.99999f);
         Reading reading = read_all(&aim, world.arena);
         double  first = 0;
@@ -326,10 +326,10 @@ TEST(a_reading_knows_of_the_sun_in_a_display)
     add_display(&world);
     world_ready(&world, 64);
     set_sun(&world, vec3(to.x, to.y, -to.z));
-    Stage     stage = {.scene = world.scene, .context = world.context};
+    Setup     setup = {.scene = world.scene, .context = world.context};
     ProbeAim  aim = {.context = &world.context, .eye = eye, .targets = &at, .patches = &patch,
                      .target_count = 1, .seed = 7};
-    assert_true(stage_sun(&stage, &towards, bands));
+    assert_true(setup_sun(&setup, &towards, bands));
     float           radius = world.scene->environment.sun_angular_radius;
     ProbeSuns       asked = {&towards, 1, radius, true};
     ResponseOptions options = {kernel(), 4, response_mirror_paths(&aim, radius), 2, 0};
@@ -372,14 +372,14 @@ TEST(a_response_to_a_clear_sky_is_what_paths_find_under_it)
     World world = niche();
     Error err = {0};
     world_ready(&world, 64);
-    Stage stage = {.request = &request, .tools = {.kernel = kernel(), .threads = 2},
+    Setup setup = {.request = &request, .tools = {.kernel = kernel(), .threads = 2},
                    .scene = world.scene, .context = world.context};
     DaylightInput like = daylight_input_default(DAYLIGHT_CLEAR);
     like.threads = 2;
     SkyTable table = sky_table_start(&like, 30, 36, &world.arena);
-    FarTools tools = {&stage, &table, {suns, 4}, 16384, 0, 64, false, NULL};
+    FarTools tools = {&setup, &table, {suns, 4}, 16384, 0, 64, false, NULL};
     FarProbe probe = {.aim = aim_of(&world)};
-    probe.aim.context = &stage.context;
+    probe.aim.context = &setup.context;
     far_probe_respond(&probe, &tools, &world.arena);
     assert_true(far_probes_ask_skies((FarProbe *[]){&probe}, 1, &tools, &world.arena, &err));
     far_probe_ask_suns(&probe, &tools, &world.arena);
@@ -551,11 +551,11 @@ typedef struct Heard {
     int    count;
 } Heard;
 
-static void hear(void *user, const PathTale *tale, const float xyz[3])
+static void on_light(void *user, const PathHistory *history, const float xyz[3])
 {
     Heard *heard = user;
-    assert_true(tale->count >= 0 && tale->source < LIGHT_SETS);
-    if (tale->count) heard->y += (double)xyz[1]; /* else the display's own */
+    assert_true(history->count >= 0 && history->source < LIGHT_SETS);
+    if (history->count) heard->y += (double)xyz[1]; /* else the display's own */
     heard->count++;
 }
 
@@ -568,11 +568,11 @@ TEST(what_a_listener_hears_adds_up_to_the_light)
     world_ready(&world, 64);
     ProbeAim       aim = aim_of(&world);
     Heard          heard = {0};
-    PathListener   listener = {.hear = hear, .user = &heard};
+    PathListener   listener = {.on_light = on_light, .user = &heard};
     PathStatistics statistics = {0};
     ProbeLook      looks[256];
     double         seen = 0;
-    kernel()->hear(&aim, 0, 256, &listener, &statistics);
+    kernel()->trace(&aim, 0, 256, &listener, &statistics);
     kernel()->look(&aim, 0, 256, looks, &statistics);
     for (int i = 0; i < 256; i++) seen += (double)looks[i].reflected[1];
     assert_close(heard.y, seen, 1e-6);

@@ -137,7 +137,7 @@ TEST_WITH(reading_a_long_file_is_told_of, maker_reset, NULL)
     size_t    size = ((size_t)20 << 20) + 5;
     char     *content = ARENA_NEW(&maker.arena, char, size);
     content[size - 1] = 'x';
-    FilePieces how = {.max_bytes = size, .told = note, .user = &told};
+    FilePieces how = {.max_bytes = size, .on_bytes = note, .user = &told};
     const char *path = maker_file(content, size, ".glb");
     if (!file_read_pieces(path, &how, &maker.arena, &bytes, &err)) fail_msg("%s", err.text);
     assert_int_equal(bytes.size, size);

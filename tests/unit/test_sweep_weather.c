@@ -82,11 +82,11 @@ TEST(skies_are_made_once_an_hour)
     f->condition = (ReviewCondition){.name = "year", .kind = CONDITION_YEAR_SWEEP, .year = 2026,
                                      .where = {50, 0, 0}, .step_minutes = 60,
                                      .headings_deg = headings, .heading_count = 3};
-    Stage     stage = {.request = &f->request, .condition = &f->condition, .tools.threads = 2};
+    Setup     setup = {.request = &f->request, .condition = &f->condition, .tools.threads = 2};
     SweepSuns suns = sweep_suns(&f->condition, 2, &f->arena), day = suns;
     while (day.list->step < 171 * 24) day.list++;
     day.count = 3 * 15;
-    if (!sweep_weather_skies(&stage, &day, &f->arena, &skies, &err)) fail_msg("%s", err.text);
+    if (!sweep_weather_skies(&setup, &day, &f->arena, &skies, &err)) fail_msg("%s", err.text);
     for (int i = 0; i < day.count; i++) {
         int label = day.list[i].step - 171 * 24 + 1;
         assert_int_equal(skies.of_sun[i] >= 0, is_day(label));
@@ -102,17 +102,17 @@ TEST(a_sun_is_traced_under_its_hour)
 {
     (void)state;
     Fixture *f = drive(1);
-    Stage    stage = {.request = &f->request, .condition = &f->condition};
+    Setup    setup = {.request = &f->request, .condition = &f->condition};
     SweepSun noon = {.elevation_deg = 60, .heading_deg = 90, .step = 11};
     SweepSun dusk = {.elevation_deg = 2, .step = 20}, any = {.elevation_deg = 30, .step = -1};
     f->request.forward[2] = -1;
-    Environment sky = sweep_environment(&stage, &noon);
+    Environment sky = sweep_environment(&setup, &noon);
     assert_int_equal(sky.kind, ENVIRONMENT_PEREZ);
     assert_false(sky.has_sun);
     assert_near(sky.daylight.direct_w_m2, 112, 1e-12);
     assert_near(sky.heading, 1.5707963, 1e-6);
-    assert_int_equal(sweep_environment(&stage, &dusk).kind, ENVIRONMENT_NONE);
-    assert_int_equal(sweep_environment(&stage, &any).kind, ENVIRONMENT_SKY);
+    assert_int_equal(sweep_environment(&setup, &dusk).kind, ENVIRONMENT_NONE);
+    assert_int_equal(sweep_environment(&setup, &any).kind, ENVIRONMENT_SKY);
     arena_release(&f->arena);
 }
 

@@ -213,7 +213,7 @@ static bool write_scene(const Applying *at, Scene **scene, Error *err)
     return false;
 }
 
-static void tell_copies(Applying *at)
+static void report_copies(Applying *at)
 {
     const EquipFiles *files = &at->files;
     at->result.copies = ARENA_NEW(at->arena, const char *, files->count);
@@ -234,7 +234,7 @@ static bool write_all(Applying *at, Error *err)
     if (!has_content(&at->equip)) at->result.review = NULL;
     bool ok = !at->result.review || start_review(at, scene, err);
     scene_close(scene);
-    tell_copies(at);
+    report_copies(at);
     return ok;
 }
 

@@ -207,13 +207,13 @@ static bool review_question(const ExplainWords *words, Arena *arena, Explained *
            explain_review(&request, &options, arena, out, err);
 }
 
-static bool write_outlook(const ExplainWords *words, const Explained *told, Arena *arena,
+static bool write_outlook(const ExplainWords *words, const Explained *explained, Arena *arena,
                           Error *err)
 {
     if (!words->outlook) return true;
     PictureFile file = {.bits = 8, .is_srgb = true,
-                        .description = outlook_words(&told->outlook, arena)};
-    Picture     picture = outlook_picture(&told->outlook, arena);
+                        .description = outlook_words(&explained->outlook, arena)};
+    Picture     picture = outlook_picture(&explained->outlook, arena);
     return picture_write(words->outlook, &picture, file, *arena, err);
 }
 
@@ -222,20 +222,20 @@ static bool run(int argc, char **argv, Arena *arena, Error *err)
     Problems     problems = problems_start(arena);
     ExplainWords words = {.scene = {.uv = {0, 0, 1, 1}, .size = {1280, 720},
                                     .paths = 65536, .problems = &problems}};
-    Explained    told;
+    Explained    explained;
     if (!parse(argc, argv, arena, &words, err)) return false;
     if (words.cli.help_shown) return true;
     if (!(is_review(&words)
-              ? review_question(&words, arena, &told, err)
-              : explain_scene(&words.scene, arena, &told, err)))
+              ? review_question(&words, arena, &explained, err)
+              : explain_scene(&words.scene, arena, &explained, err)))
         return false;
-    if (words.outlook && !told.has_outlook)
+    if (words.outlook && !explained.has_outlook)
         return error_set(err, ERROR_INPUT, "--outlook %s: the eye meets no surface there, "
                          "wanted one to look out from", words.outlook);
     cli_print_warnings(&problems);
-    return (!words.rays || ray_file_write(&told.of, words.rays, err)) &&
-           write_outlook(&words, &told, arena, err) &&
-           explain_answer(&words.cli, &told, arena, err);
+    return (!words.rays || ray_file_write(&explained.of, words.rays, err)) &&
+           write_outlook(&words, &explained, arena, err) &&
+           explain_answer(&words.cli, &explained, arena, err);
 }
 
 const Command command_explain = {

@@ -136,7 +136,7 @@ static bool probe(const ProbeWords *words, const Scene *scene, Problems *problem
     RenderSetup setup;
     Probed      found;
     if (!render_choose_camera(scene, &words->camera, problems, &camera, err)) return false;
-    render_tell_of_darkness(scene, problems);
+    render_warn_of_darkness(scene, problems);
     cli_print_warnings(problems);
     if (!render_prepare(scene, &camera, &words->render, arena, &setup, err)) return false;
     look(words, &setup, arena, &found);

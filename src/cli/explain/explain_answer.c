@@ -23,17 +23,17 @@ static void print_where(const ReviewCase *c)
            (double)c->eye_m.z);
 }
 
-static void print_light(const Explained *told, Arena scratch)
+static void print_light(const Explained *explained, Arena scratch)
 {
-    const ReviewCase     *c = &told->of;
+    const ReviewCase     *c = &explained->of;
     const CaseLuminances *l = &c->luminance_cd_m2;
     const char *light = c->display ? "reflected" : "luminance";
     if (c->symbol)
         printf("sends      %.4g cd/m2 foreground, %.4g background\n", l->foreground,
                l->background);
     else if (c->display)
-        printf("sends      %.4g cd/m2; white %.4g, black %.4g\n", told->shown, l->foreground,
-               l->background);
+        printf("sends      %.4g cd/m2; white %.4g, black %.4g\n", explained->shown,
+               l->foreground, l->background);
     printf("%-10s %s cd/m2", light,
            interval_text(l->reflected, c->reflected_range.low, c->reflected_range.high,
                          &scratch));
@@ -88,20 +88,21 @@ static void print_remedies(const ReviewCase *c)
                c->remedies[i].contrast_ratio);
 }
 
-static void print_text(const Explained *told, Arena *arena)
+static void print_text(const Explained *explained, Arena *arena)
 {
-    print_where(&told->of);
-    if (told->of.hider_count)
-        printf("hidden     %s\n", words_hiders(&told->of, arena));
-    if (!(told->of.visible_share > 0)) {
+    print_where(&explained->of);
+    if (explained->of.hider_count)
+        printf("hidden     %s\n", words_hiders(&explained->of, arena));
+    if (!(explained->of.visible_share > 0)) {
         printf("not visible\n");
         return;
     }
-    print_light(told, *arena);
-    print_groups(&told->of);
-    print_causes(&told->of, *arena);
-    print_remedies(&told->of);
-    if (told->has_outlook) printf("\nsees       %s\n", outlook_words(&told->outlook, arena));
+    print_light(explained, *arena);
+    print_groups(&explained->of);
+    print_causes(&explained->of, *arena);
+    print_remedies(&explained->of);
+    if (explained->has_outlook) printf("\nsees       %s\n", outlook_words(&explained->outlook,
+                                                                          arena));
 }
 
 /* ---- as JSON ----------------------------------------------------------------------------- */
@@ -150,16 +151,16 @@ static json_t *json_chains(const ReviewCase *c)
     return out;
 }
 
-static json_t *json_light(const Explained *told)
+static json_t *json_light(const Explained *explained)
 {
-    const CaseLuminances *l = &told->of.luminance_cd_m2;
-    if (!told->of.display) return json_pack("{s:o}", "all", number(l->reflected));
+    const CaseLuminances *l = &explained->of.luminance_cd_m2;
+    if (!explained->of.display) return json_pack("{s:o}", "all", number(l->reflected));
     json_t *out = json_pack("{s:o, s:o, s:o}", "reflected", number(l->reflected), "mirror",
                             number(l->mirror), "scattered", number(l->scattered));
-    bool is_symbol = told->of.symbol != NULL;
+    bool is_symbol = explained->of.symbol != NULL;
     json_object_set_new(out, is_symbol ? "foreground" : "white", number(l->foreground));
     json_object_set_new(out, is_symbol ? "background" : "black", number(l->background));
-    if (!is_symbol) json_object_set_new(out, "emitted", number(told->shown));
+    if (!is_symbol) json_object_set_new(out, "emitted", number(explained->shown));
     return out;
 }
 
@@ -173,10 +174,10 @@ static json_t *json_remedies(const ReviewCase *c)
     return out;
 }
 
-static json_t *json_outlook(const Explained *told)
+static json_t *json_outlook(const Explained *explained)
 {
-    const Outlook *o = &told->outlook;
-    if (!told->has_outlook) return json_null();
+    const Outlook *o = &explained->outlook;
+    if (!explained->has_outlook) return json_null();
     json_t *shares = json_array();
     for (int i = 0; i < o->share_count; i++)
         json_array_append_new(shares, json_pack("{s:o, s:o, s:o}", "what",
@@ -188,16 +189,16 @@ static json_t *json_outlook(const Explained *told)
                      "cd_m2", number(o->mirror_cd_m2));
 }
 
-static bool print_json(const Explained *told, Error *err)
+static bool print_json(const Explained *explained, Error *err)
 {
-    const ReviewCase *c = &told->of;
+    const ReviewCase *c = &explained->of;
     json_t *out = json_pack(
         "{s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:[o,o], s:I}", "condition",
         text_or_null(c->condition), "eye", text_or_null(c->eye), "symbol",
         text_or_null(c->symbol), "display", text_or_null(c->display), "eye_m", point(c->eye_m),
-        "luminance_cd_m2", json_light(told), "contrast_ratio", number(c->contrast_ratio),
+        "luminance_cd_m2", json_light(explained), "contrast_ratio", number(c->contrast_ratio),
         "contrast_interval", number(c->contrast_low), number(c->contrast_high), "paths",
-        (json_int_t)told->paths);
+        (json_int_t)explained->paths);
     json_object_set_new(out, "visible_share", number(c->visible_share));
     json_object_set_new(out, "hidden_by", review_hiders_json(c));
     json_object_set_new(out, "reflected_interval",
@@ -206,13 +207,13 @@ static bool print_json(const Explained *told, Error *err)
     json_object_set_new(out, "cause_groups", review_groups_json(c));
     json_object_set_new(out, "chains", json_chains(c));
     json_object_set_new(out, "remedies", json_remedies(c));
-    json_object_set_new(out, "outlook", json_outlook(told));
+    json_object_set_new(out, "outlook", json_outlook(explained));
     return cli_print_json(out, err);
 }
 
-bool explain_answer(const Cli *cli, const Explained *told, Arena *arena, Error *err)
+bool explain_answer(const Cli *cli, const Explained *explained, Arena *arena, Error *err)
 {
-    if (cli->json) return print_json(told, err);
-    print_text(told, arena);
+    if (cli->json) return print_json(explained, err);
+    print_text(explained, arena);
     return true;
 }

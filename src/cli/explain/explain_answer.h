@@ -4,4 +4,4 @@
 #include "cli/options/cli.h"
 #include "review/run/explain.h"
 
-bool explain_answer(const Cli *cli, const Explained *told, Arena *arena, Error *err);
+bool explain_answer(const Cli *cli, const Explained *explained, Arena *arena, Error *err);

@@ -74,7 +74,7 @@ bool explain_scene(const SceneQuestion *question, Arena *arena, Explained *out, 
     if (!kernel_choose(question->isa, &tools.kernel, err) ||
         !scene_options_load(&asked, arena, question->problems, &scene, err))
         return false;
-    render_tell_of_darkness(scene, question->problems);
+    render_warn_of_darkness(scene, question->problems);
     bool ok = bvh_create(scene, question->threads, question->isa, &bvh, err) &&
               lights_build(scene, arena, &lights, err);
     if (ok) {

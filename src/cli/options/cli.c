@@ -334,7 +334,7 @@ bool cli_is_version(const char *word)
 
 /* Help or the version is asked for somewhere before `--`, and not as the value of an option:
  * then nothing else counts. Help goes first. */
-static bool tell_about_it(const Parser *in)
+static bool asks_for_help(const Parser *in)
 {
     HelpForm form = HELP_NONE;
     bool     wants_version = false;
@@ -376,7 +376,7 @@ bool cli_parse(const CliCommand *command, int argc, char **argv, Arena *arena, C
     Parser in = {command, common, COUNT_OF(common), argc, 1, argv, arena,
                  err};
     CliTexts arguments = {0};
-    cli.help_shown = tell_about_it(&in);
+    cli.help_shown = asks_for_help(&in);
     if (!cli.help_shown) {
         if (!read_line(&in, &arguments)) return false;
         cli.help_shown = is_help_alone(&in);

@@ -48,7 +48,7 @@ bool scene_options_read(const SceneWords *words, const Cli *cli, Arena *arena,
     "by half at 15)"
 
 /* A sky whose sun is down is no error, but the frame may be darker than was meant. */
-static void tell_of_night(const Environment *environment, Problems *problems)
+static void warn_of_night(const Environment *environment, Problems *problems)
 {
     if (environment->kind != ENVIRONMENT_SKY) return;
     DaylightInput input = environment->daylight;
@@ -71,7 +71,7 @@ bool scene_options_load(const SceneAsked *asked, Arena *arena, Problems *problem
         scene_close(scene);
         return false;
     }
-    tell_of_night(&scene->environment, problems);
+    warn_of_night(&scene->environment, problems);
     hdri_warn(&scene->environment, problems);
     data_warn(scene, SEVERITY_WARNING, problems);
     *out = scene;

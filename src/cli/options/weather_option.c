@@ -9,7 +9,7 @@
 
 /* ---- telling ----------------------------------------------------------------------------- */
 
-static void tell_of_clock(const EnvironmentWeather *weather, Problems *problems)
+static void warn_of_clock(const EnvironmentWeather *weather, Problems *problems)
 {
     const WeatherClock *clock = &weather->clock;
     if (clock->rows && !clock->closes)
@@ -100,6 +100,6 @@ bool weather_option_apply(const WeatherAsk *ask, Environment *environment, Arena
     environment->daylight.direct_w_m2 = hour->direct_normal_w_m2;
     environment->daylight.diffuse_w_m2 = hour->diffuse_horizontal_w_m2;
     if (!ask->has_place) environment->daylight.where = weather.place;
-    tell_of_clock(&environment->weather, problems);
+    warn_of_clock(&environment->weather, problems);
     return true;
 }

@@ -170,13 +170,13 @@ static void add_polarisation(const Panel *panel, json_t *out)
 /* Absent: nobody said. */
 static void add_subpixels(const Panel *panel, json_t *out)
 {
-    Subpixels told = panel_subpixels(panel);
-    if (told.layout == SUBPIXELS_NONE) return;
-    json_t *list = json_pack("{s:s, s:f}", "layout", display_traits_layout(told.layout), "fill",
-                             round((double)told.fill * 1e6) / 1e6);
-    if (told.pixels[0])
-        json_object_update_new(list, json_pack("{s:i, s:i}", "columns", told.pixels[0], "rows",
-                                               told.pixels[1]));
+    Subpixels stated = panel_subpixels(panel);
+    if (stated.layout == SUBPIXELS_NONE) return;
+    json_t *list = json_pack("{s:s, s:f}", "layout", display_traits_layout(stated.layout),
+                             "fill", round((double)stated.fill * 1e6) / 1e6);
+    if (stated.pixels[0])
+        json_object_update_new(list, json_pack("{s:i, s:i}", "columns", stated.pixels[0],
+                                               "rows", stated.pixels[1]));
     json_object_set_new(out, "subpixels", list);
 }
 
@@ -334,13 +334,13 @@ static void print_polarisation(const json_t *polarisation)
            100 * number(polarisation, "degree"), number(polarisation, "azimuth_deg"));
 }
 
-static void print_subpixels(const json_t *told)
+static void print_subpixels(const json_t *stated)
 {
-    if (!told) return;
+    if (!stated) return;
     printf("sub-pixels %s, %.4g %% of the area shines",
-           json_string_value(json_object_get(told, "layout")), 100 * number(told, "fill"));
-    if (json_object_get(told, "columns"))
-        printf(", %.0f x %.0f pixels", number(told, "columns"), number(told, "rows"));
+           json_string_value(json_object_get(stated, "layout")), 100 * number(stated, "fill"));
+    if (json_object_get(stated, "columns"))
+        printf(", %.0f x %.0f pixels", number(stated, "columns"), number(stated, "rows"));
     printf("\n");
 }
 

@@ -33,7 +33,7 @@ typedef struct RenderRun {
     LightGroups   lights;
     const char   *identity;
     RenderLive    live;
-    const RenderPin *pin;  /* NULL: the user's own command */
+    const RenderTask *task;  /* NULL: the user's own command */
 } RenderRun;
 
 /* ---- before ------------------------------------------------------------------------------ */
@@ -62,12 +62,12 @@ static bool check_memory(const RenderOptions *options, Error *err)
 static bool find_lights(RenderRun *work, Error *err)
 {
     RenderOptions *options = &work->request.render;
-    int            told = work->problems.count;
+    int            reported = work->problems.count;
     if (!(options->layers & LAYER_LIGHT) || work->request.replays) return true;
     work->lights = light_groups_build(work->scene, work->setup.context.lights, work->arena,
                                       &work->problems);
-    for (; told < work->problems.count; told++)
-        fprintf(stderr, "parhelion: warning: %s\n", work->problems.list[told].message);
+    for (; reported < work->problems.count; reported++)
+        fprintf(stderr, "parhelion: warning: %s\n", work->problems.list[reported].message);
     if (work->lights.count > FILM_LIGHTS_MAX)
         return error_set(err, ERROR_USAGE,
                          "--layers light: the lights of the scene have %d names, at most %d "
@@ -119,7 +119,7 @@ static bool load(RenderRun *work, Error *err)
                              err) &&
         noise_goal_find(work->scene, *work->arena, &request->noise, err);
     if (loaded) set_noise(request);
-    if (loaded) render_tell_of_darkness(work->scene, &work->problems);
+    if (loaded) render_warn_of_darkness(work->scene, &work->problems);
     cli_print_warnings(&work->problems);
     return loaded;
 }
@@ -153,15 +153,15 @@ static bool share(RenderRun *work, Error *err)
            render_share(&work->request, identity, kernel->isa, work->arena, err);
 }
 
-static bool check_pin(const RenderRun *work, Error *err)
+static bool check_task(const RenderRun *work, Error *err)
 {
     const Kernel *kernel;
     const char   *identity;
-    if (!work->pin) return true;
+    if (!work->task) return true;
     if (!identify_plan(work, &kernel, &identity, err)) return false;
-    const char *difference = identity_difference(work->pin->identity, identity, work->arena);
+    const char *difference = identity_difference(work->task->identity, identity, work->arena);
     return !difference ||
-           error_at(err, ERROR_INPUT, work->pin->name, "",
+           error_at(err, ERROR_INPUT, work->task->name, "",
                     "was planned for something else: %.500s — plan the job again, in another "
                     "folder",
                     difference);
@@ -317,13 +317,13 @@ static void print_interruption(const RenderRun *work, const RenderResult *result
                                const char *signal_name, bool is_kept)
 {
     const RenderOptions *options = &work->request.render;
-    const RenderPin     *pin = work->pin;
-    const char          *line = pin ? pin->resume_line : work->request.resume_line;
+    const RenderTask    *task = work->task;
+    const char          *line = task ? task->resume_line : work->request.resume_line;
     fprintf(stderr,
             "parhelion: %s: stopped by %s after %u of %u samples a pixel%s — %s%s\n",
-            pin ? pin->name : work->request.output, signal_name, result->samples,
+            task ? task->name : work->request.output, signal_name, result->samples,
             options->end_sample - options->first_sample,
-            pin ? "" : "; the frame is marked incomplete",
+            task ? "" : "; the frame is marked incomplete",
             is_kept ? "go on with: " : "run the same command again for the whole",
             is_kept ? line : "");
 }
@@ -365,10 +365,10 @@ static bool hand_over(RenderRun *work, const RenderResult *result, Error *err)
     if (work->request.replays)
         return render_print_replay(&work->request, work->scene, result, work->arena, err);
     bool is_kept = !result->complete && keep_checkpoint(work, result);
-    if (work->pin && !result->complete) return report_interruption(work, result, is_kept, err);
+    if (work->task && !result->complete) return report_interruption(work, result, is_kept, err);
     if (!write_frame(work, result, err)) return false;
     if (result->complete) render_remove_checkpoint(&work->request);
-    if (work->pin) return true;
+    if (work->task) return true;
     show_end(work, result);
     if (work->request.png && !develop(work, result, err)) return false;
     if (!render_print_answer(&work->request, result, render_live_seconds(&work->live),
@@ -380,15 +380,15 @@ static bool run(RenderRun *work, Error *err)
 {
     RenderOptions *options = &work->request.render;
     RenderResult   result;
-    options->snapshot = work->request.replays || work->pin ? NULL : write_snapshot;
-    if (work->pin && !options->isa) options->isa = work->pin->isa;
+    options->snapshot = work->request.replays || work->task ? NULL : write_snapshot;
+    if (work->task && !options->isa) options->isa = work->task->isa;
     options->checkpoint = work->request.keeps_checkpoints ? keep_checkpoint_meanwhile : NULL;
     options->user = work;
     if (!check_memory(options, err) || !check_outputs(&work->request, err) ||
         !check_look(&work->request, *work->arena, err) || !load(work, err))
         return false;
     if (work->request.share.parts) return share(work, err);
-    if (!check_pin(work, err)) return false;
+    if (!check_task(work, err)) return false;
     find_viewer(work);
     if (!render_prepare(work->scene, &work->camera, options, work->arena, &work->setup, err))
         return false;
@@ -399,9 +399,9 @@ static bool run(RenderRun *work, Error *err)
     return done && hand_over(work, &result, err);
 }
 
-bool cmd_render_run(int argc, char **argv, const RenderPin *pin, Arena *arena, Error *err)
+bool cmd_render_run(int argc, char **argv, const RenderTask *task, Arena *arena, Error *err)
 {
-    RenderRun  work = {.arena = arena, .pin = pin};
+    RenderRun  work = {.arena = arena, .task = task};
     bool  done = render_request_parse(argc, argv, arena, &work.request, err) &&
                 (work.request.cli.help_shown || run(&work, err));
     render_live_close(&work.live);

@@ -8,14 +8,14 @@
 #include "base/error.h"
 
 /* A render that is a part of something planned. */
-typedef struct RenderPin {
+typedef struct RenderTask {
     const char *name;        /* of the part, for messages */
     const char *identity;    /* what the samples have to be of; what is learnt is not in it */
     const char *isa;         /* taken where the words name none */
     const char *resume_line; /* the command that goes on with it */
-} RenderPin;
+} RenderTask;
 
-/* argv as the command's. pin NULL: the command itself. Else the scene and the program have to
+/* argv as the command's. task NULL: the command itself. Else the scene and the program have to
  * be what was planned (ERROR_INPUT), only a whole frame is written, no snapshot, and there is
  * no answer. */
-bool cmd_render_run(int argc, char **argv, const RenderPin *pin, Arena *arena, Error *err);
+bool cmd_render_run(int argc, char **argv, const RenderTask *task, Arena *arena, Error *err);

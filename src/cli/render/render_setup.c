@@ -67,7 +67,7 @@ static bool look(const CameraChoice *choice, SceneCamera *out, Error *err)
 }
 
 /* A frame that is not where anybody put it is said to be so. */
-static void tell_of_framing(const Scene *scene, const SceneCamera *camera, Problems *problems)
+static void warn_of_framing(const Scene *scene, const SceneCamera *camera, Problems *problems)
 {
     const Vec3 eye = camera->world_from_camera.origin;
     const char *file = scene->input_count ? scene->inputs[0] : "";
@@ -97,7 +97,7 @@ bool render_choose_camera(const Scene *scene, const CameraChoice *choice, Proble
         return true;
     }
     *out = camera_frame_scene(scene);
-    tell_of_framing(scene, out, problems);
+    warn_of_framing(scene, out, problems);
     return true;
 }
 
@@ -116,7 +116,7 @@ static bool has_light(const Scene *scene)
     return false;
 }
 
-void render_tell_of_darkness(const Scene *scene, Problems *problems)
+void render_warn_of_darkness(const Scene *scene, Problems *problems)
 {
     if (!has_light(scene))
         problems_add(problems, SEVERITY_WARNING, scene->input_count ? scene->inputs[0] : "",

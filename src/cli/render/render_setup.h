@@ -14,4 +14,4 @@ bool render_choose_camera(const Scene *scene, const CameraChoice *choice, Proble
                           SceneCamera *out, Error *err);
 
 /* A warning when nothing of the scene can send light: the frame will be black. */
-void render_tell_of_darkness(const Scene *scene, Problems *problems);
+void render_warn_of_darkness(const Scene *scene, Problems *problems);

@@ -13,7 +13,7 @@
 #include "cli/options/state_options.h"
 #include "cli/review/review_folder.h"
 #include "cli/review/review_part.h"
-#include "cli/review/review_say.h"
+#include "cli/review/review_print.h"
 #include "cli/review/review_share.h"
 #include "cli/review/review_watch.h"
 #include "render/signals.h"
@@ -40,7 +40,7 @@ typedef struct ReviewWords {
     StateWords  state_words;
     SceneState  state;
     Cli         cli;
-    const ReviewPin *pin; /* NULL: the user's own command */
+    const ReviewTask *task; /* NULL: the user's own command */
     bool        watches;  /* --watch */
     ReviewWatch *watch;   /* that is told of files; NULL: nobody watches */
 } ReviewWords;
@@ -174,7 +174,7 @@ static bool start(const ReviewWords *words, Arena *arena, Error *err)
 /* ---- the command ------------------------------------------------------------------------- */
 
 /* The line may be longer than an error's text. */
-static void tell_stopped(const ReviewFolder *folder, Error *err, Arena *arena)
+static void report_stopped(const ReviewFolder *folder, Error *err, Arena *arena)
 {
     const char *name = signals_name((int)err->code - 128);
     fprintf(stderr,
@@ -296,8 +296,8 @@ static bool make_later(const ReviewRun *run, ReviewFolder *folder, ReviewOutcome
     return true;
 }
 
-static bool make_told(ReviewRun *run, ReviewFolder *folder, ReviewWatch *watch,
-                      ReviewOutcome *outcome, Arena *arena, Error *err)
+static bool make_watched(ReviewRun *run, ReviewFolder *folder, ReviewWatch *watch,
+                         ReviewOutcome *outcome, Arena *arena, Error *err)
 {
     SoFar so_far = {folder, arena, watch, monotonic_seconds()};
     run->news = (ReviewNews){write_so_far, note_files, &so_far};
@@ -316,7 +316,7 @@ static bool make_all(ReviewRun *run, ReviewFolder *folder, ReviewWatch *watch,
     Inherited *inherited = run->request->is_compared ? inherited_start(run->request) : NULL;
     run->inherited = inherited;
     review_riders_start(run, !folder->is_alone, arena);
-    bool ok = make_told(run, folder, watch, outcome, arena, err);
+    bool ok = make_watched(run, folder, watch, outcome, arena, err);
     review_riders_end(run);
     run->inherited = NULL;
     inherited_end(inherited);
@@ -324,13 +324,13 @@ static bool make_all(ReviewRun *run, ReviewFolder *folder, ReviewWatch *watch,
 }
 
 /* Of a job that is merged: what its parts found. */
-static bool take_found(const ReviewFolder *folder, const ReviewPin *pin, Arena scratch,
+static bool take_found(const ReviewFolder *folder, const ReviewTask *task, Arena scratch,
                        Error *err)
 {
-    if (!pin) return true;
-    review_take_answers(folder->draft.journal, pin, scratch);
+    if (!task) return true;
+    review_take_answers(folder->draft.journal, task, scratch);
     return !folder->has_own_responses ||
-           review_take_responses(folder->responses, pin, scratch, err);
+           review_take_responses(folder->responses, task, scratch, err);
 }
 
 static bool make(const ReviewWords *words, ReviewFolder *folder, ReviewRun *run, Arena *arena,
@@ -348,10 +348,10 @@ static bool make(const ReviewWords *words, ReviewFolder *folder, ReviewRun *run,
     run->responses_shown = folder->responses_shown;
     run->journal = folder->draft.journal;
     if (!run->lessons) run->lessons = folder->draft.unfinished;
-    if (!take_found(folder, words->pin, *arena, err) ||
+    if (!take_found(folder, words->task, *arena, err) ||
         !make_all(run, folder, words->watch, &outcome, arena, err)) {
         progress_clear(run->work);
-        if (err->code > 128) tell_stopped(folder, err, arena);
+        if (err->code > 128) report_stopped(folder, err, arena);
         else tell_kept(folder, err);
         review_folder_close(folder);
         return false;
@@ -359,7 +359,7 @@ static bool make(const ReviewWords *words, ReviewFolder *folder, ReviewRun *run,
     progress_end(run->work, run->work->total);
     if (words->watch) review_folder_close(folder); /* answers are asked for again */
     else review_folder_finish(folder);
-    if (!review_say(&words->cli, &outcome.review, *arena, err)) return false;
+    if (!review_print(&words->cli, &outcome.review, *arena, err)) return false;
     if (outcome.review.pass) return true;
     *err = (Error){.code = ERROR_DIFFERENT};
     return false;
@@ -446,12 +446,12 @@ static bool review(const ReviewWords *words, Arena *arena, Error *err)
                      .state = words->state,
                      .threads = words->cli.threads, .isa = words->isa,
                      .problems = &problems, .work = &work};
-    if (words->pin) {
-        run.identity = words->pin->identity;
-        run.lessons = words->pin->responses;
+    if (words->task) {
+        run.identity = words->task->identity;
+        run.lessons = words->task->responses;
     }
-    if (words->pin && words->pin->share.count)
-        return review_part(&run, words->pin, words->responses, arena, err);
+    if (words->task && words->task->share.count)
+        return review_part(&run, words->task, words->responses, arena, err);
     if (words->share.parts)
         return review_share(&words->share, &folder, &run, words->cli.json, arena, err);
     return words->dry_run ? plan(words, &folder, &run, arena, err)
@@ -507,12 +507,12 @@ static bool watch(ReviewWords *words, Error *err)
     return true;
 }
 
-bool cmd_review_run(int argc, char **argv, const ReviewPin *pin, Arena *arena, Error *err)
+bool cmd_review_run(int argc, char **argv, const ReviewTask *task, Arena *arena, Error *err)
 {
-    ReviewWords words = {.pin = pin};
+    ReviewWords words = {.task = task};
     if (!parse(argc, argv, arena, &words, err)) return false;
     if (words.cli.help_shown) return true;
-    if (pin && !words.isa) words.isa = pin->isa;
+    if (task && !words.isa) words.isa = task->isa;
     if (words.share.parts)
         review_share_set(&words.share, argc, argv, words.folder, &words.cli, arena);
     if (words.watches) return watch(&words, err);

@@ -2,9 +2,9 @@
 /* cmd_review.h -- the command of this folder, for other commands, too. */
 #pragma once
 #include "cli/options/command.h"
-#include "cli/review/review_pin.h"
+#include "cli/review/review_task.h"
 
-/* argv as the command's. Of a part there is no answer, and no file but those of the pin. */
-bool cmd_review_run(int argc, char **argv, const ReviewPin *pin, Arena *arena, Error *err);
+/* argv as the command's. Of a part there is no answer, and no file but those of the task. */
+bool cmd_review_run(int argc, char **argv, const ReviewTask *task, Arena *arena, Error *err);
 
 extern const Command command_review;

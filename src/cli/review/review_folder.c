@@ -352,11 +352,11 @@ static bool write_summaries(const ReviewFolder *folder, const ReviewPage *page, 
     const ReviewCase **ranked = review_rank(review, arena);
     for (int i = 0; i < all; i++) {
         const char *symbol = ranked[i]->symbol;
-        bool        is_told = folder->summary && strcmp(folder->summary, symbol) != 0;
-        for (int k = 0; k < i && !is_told; k++)
-            is_told = !strcmp(review_summary_name(ranked[k]->symbol, arena),
+        bool        is_listed = folder->summary && strcmp(folder->summary, symbol) != 0;
+        for (int k = 0; k < i && !is_listed; k++)
+            is_listed = !strcmp(review_summary_name(ranked[k]->symbol, arena),
                               review_summary_name(symbol, arena));
-        if (is_told) continue;
+        if (is_listed) continue;
         const char *path =
             arena_format(arena, "%s/%s", folder->name, review_summary_name(symbol, arena));
         if (!review_page_write_summary(page, symbol, path, err)) return false;

@@ -5,14 +5,15 @@
  * Fails    as the review does; when the user asks to stop, after a line that says how to go on.
  */
 #pragma once
-#include "cli/review/review_pin.h"
+#include "cli/review/review_task.h"
 
-/* Answers the part's questions. responses: the folder that was typed; NULL: the pin's. */
-bool review_part(ReviewRun *run, const ReviewPin *pin, const char *responses, Arena *arena,
+/* Answers the part's questions. responses: the folder that was typed; NULL: the task's. */
+bool review_part(ReviewRun *run, const ReviewTask *task, const char *responses, Arena *arena,
                  Error *err);
 
 /* What was found before, as far as it is whole. */
-void review_take_answers(Journal *journal, const ReviewPin *pin, Arena scratch);
+void review_take_answers(Journal *journal, const ReviewTask *task, Arena scratch);
 
 /* The parts' responses, into a folder of the review's own. */
-bool review_take_responses(const char *folder, const ReviewPin *pin, Arena scratch, Error *err);
+bool review_take_responses(const char *folder, const ReviewTask *task, Arena scratch,
+                           Error *err);

@@ -38,7 +38,7 @@ static bool is_proportional(const StatisticRegion *region)
     return apart < 3 * (region->shift_sigma + region->change_sigma); /* false for NaN */
 }
 
-static void tell_shift(const StatisticRegion *region, char *text, size_t size)
+static void append_shift(const StatisticRegion *region, char *text, size_t size)
 {
     bool is_surer = fabs(region->change) / region->change_sigma >
                     fabs(region->shift) / region->shift_sigma;
@@ -56,7 +56,7 @@ static void tell_shift(const StatisticRegion *region, char *text, size_t size)
 }
 
 /* "display 'cluster': reflected light +1.02 % +- 0.21 %" */
-static void tell_region(const StatisticRegion *region, bool is_frame, char *text, size_t size)
+static void append_region(const StatisticRegion *region, bool is_frame, char *text, size_t size)
 {
     static const char REFLECTED[] = " reflected";
     size_t length = strlen(region->name), tail = sizeof REFLECTED - 1;
@@ -68,12 +68,12 @@ static void tell_region(const StatisticRegion *region, bool is_frame, char *text
     else
         append(text, size, "display '%.*s'", (int)(length < 60 ? length : 60), region->name);
     append(text, size, ": %s ", is_reflected ? "reflected light" : "mean luminance");
-    tell_shift(region, text, size);
+    append_shift(region, text, size);
 }
 
 /* "block at x 120..128, y 40..48: green -12.1 %" in pixels of the display window. */
-static void tell_block(const NoisyPair *pair, const BlockGrid *grid, const BlockFinding *found,
-                       char *text, size_t size)
+static void append_block(const NoisyPair *pair, const BlockGrid *grid,
+                         const BlockFinding *found, char *text, size_t size)
 {
     const ExrWindow    d = pair->data, w = pair->display_window;
     const SignFlipSum *sum = &grid->sums[found->index][found->channel];
@@ -90,7 +90,7 @@ static void tell_block(const NoisyPair *pair, const BlockGrid *grid, const Block
         append(text, size, "%+.3g cd/m2", sum->sum / (double)sum->count);
 }
 
-static void tell_shared(const StatisticResult *r, char *text, size_t size)
+static void append_shared(const StatisticResult *r, char *text, size_t size)
 {
     append(text, size, "one seed and the same samples: %ld of %ld pixels differ", r->differing,
            r->pixels);
@@ -108,16 +108,16 @@ void statistic_reason(const NoisyPair *pair, const BlockGrid grids[2],
     size_t size = sizeof out->reason;
     text[0] = '\0';
     if (out->verdict == STATISTIC_EQUAL || out->region_count == 0) return;
-    if (out->shares_noise) tell_shared(out, text, size);
+    if (out->shares_noise) append_shared(out, text, size);
     if (out->verdict != STATISTIC_DIFFERENT) return;
     const StatisticRegion *region = surest_region(out);
     double family_level = sidak_level(level, 3);
-    bool   tells_region = out->p_regions < family_level;
-    bool   tells_block = out->p_blocks < family_level;
-    if (tells_region) tell_region(region, region == &out->regions[0], text, size);
-    if (tells_region && tells_block) append(text, size, "; ");
-    if (tells_block) tell_block(pair, &grids[found->grid], found, text, size);
-    if (!tells_region && !tells_block)
+    bool   has_region = out->p_regions < family_level;
+    bool   has_block = out->p_blocks < family_level;
+    if (has_region) append_region(region, region == &out->regions[0], text, size);
+    if (has_region && has_block) append(text, size, "; ");
+    if (has_block) append_block(pair, &grids[found->grid], found, text, size);
+    if (!has_region && !has_block)
         append(text, size, "small changes all over the frame: the blocks' squared deviations "
                "are %.3g of what noise makes (p = %.2g)", out->mean_square, out->p_histogram);
 }

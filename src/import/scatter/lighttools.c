@@ -173,11 +173,11 @@ static bool read_block(LightTools *in, const ImportOptions *options, ImportSet *
     if (!block.is_front || !block.is_reflection || !block.is_y) return true;
     const char  *file = in->scan.file;
     const float *nm = in->is_xyz ? scatter_photopic(options, file, set)
-                                 : scatter_told_wavelength(block.nm, options, file, set, err);
+                                 : scatter_stated_wavelength(block.nm, options, file, set, err);
     return nm && add_block(in, &block, nm, set, totals, err);
 }
 
-static bool tell(const LightTools *in, ImportSet *set, Error *err)
+static bool report(const LightTools *in, ImportSet *set, Error *err)
 {
     const char *name = path_name(in->scan.file);
     if (!in->kept)
@@ -210,8 +210,8 @@ static bool read_lighttools(const char *file, const ImportOptions *options, Impo
         *err = none;
         return false;
     }
-    totals_tell(&totals, file, set);
-    return tell(&in, set, err);
+    totals_report(&totals, file, set);
+    return report(&in, set, err);
 }
 
 static bool is_lighttools(const char *file, const char *head, size_t head_size)

@@ -175,7 +175,7 @@ static ImportRows join_pattern(ImportSet *set, const ImportRows *rows, ScatterLi
     return all;
 }
 
-static void tell(const Mountain *in, ImportSet *set)
+static void report(const Mountain *in, ImportSet *set)
 {
     const char *name = path_name(in->scan.file);
     if (in->has_cosine)
@@ -200,7 +200,7 @@ static bool read_mountain(const char *file, const ImportOptions *options, Import
     if (!read_rows(&in, &rows, err)) return false;
     const float *nm = in.is_xyz ? scatter_xyz(options, file, set)
                                 : scatter_photopic(options, file, set);
-    tell(&in, set);
+    report(&in, set);
     ScatterLight light = {in.theta, in.phi};
     rows = join_pattern(set, &rows, light, *nm);
     return scatter_add(set, file, &rows, light, nm, err);

@@ -150,13 +150,13 @@ const float *scatter_band(double nm, ImportSet *set)
 const float *scatter_wavelength(const ImportOptions *options, const char *file, ImportSet *set,
                                 Error *err)
 {
-    return scatter_told_wavelength(0, options, file, set, err);
+    return scatter_stated_wavelength(0, options, file, set, err);
 }
 
-const float *scatter_told_wavelength(double told_nm, const ImportOptions *options,
-                                     const char *file, ImportSet *set, Error *err)
+const float *scatter_stated_wavelength(double stated_nm, const ImportOptions *options,
+                                       const char *file, ImportSet *set, Error *err)
 {
-    double nm = options->wavelength_nm > 0 ? options->wavelength_nm : told_nm;
+    double nm = options->wavelength_nm > 0 ? options->wavelength_nm : stated_nm;
     if (nm > 0) return scatter_band(nm, set);
     error_at(err, ERROR_INPUT, file, "", "does not say the wavelength of its values — give it "
              "as --wavelength NM");
@@ -252,7 +252,7 @@ void totals_add(TotalsNote *note, double incidence_deg, double stated, double in
              used ? ", " : "", incidence_deg, stated, integrated);
 }
 
-void totals_tell(const TotalsNote *note, const char *file, ImportSet *set)
+void totals_report(const TotalsNote *note, const char *file, ImportSet *set)
 {
     if (note->count)
         import_note(set, "%s: total integrated scatter as stated, and (in brackets) as the "

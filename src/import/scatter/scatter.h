@@ -66,8 +66,8 @@ const float *scatter_wavelength(const ImportOptions *options, const char *file, 
                                 Error *err);
 
 /* The wavelength that a file tells (0: it does not), unless --wavelength is given. */
-const float *scatter_told_wavelength(double told_nm, const ImportOptions *options,
-                                     const char *file, ImportSet *set, Error *err);
+const float *scatter_stated_wavelength(double stated_nm, const ImportOptions *options,
+                                       const char *file, ImportSet *set, Error *err);
 
 /* Photopic values (CIE Y) stand at one wavelength, and a note says so; --wavelength wins. Of
  * X, Y and Z another note says that Y alone is taken. */
@@ -104,7 +104,7 @@ typedef struct TotalsNote {
 void totals_add(TotalsNote *note, double incidence_deg, double stated, double integrated);
 
 /* One note with both figures of every incidence, if any were added. */
-void totals_tell(const TotalsNote *note, const char *file, ImportSet *set);
+void totals_report(const TotalsNote *note, const char *file, ImportSet *set);
 
 /* Is the list rising, and within [least, most]? The error names `what` and the file. */
 bool angles_check(const char *file, const char *what, const double *list, int count,

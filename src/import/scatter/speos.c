@@ -200,12 +200,12 @@ static bool add_spectral(const Speos *in, ImportSet *set, Error *err)
     }
     import_note(set, "%s: every table is scaled to the reflectance that the file states",
                 path_name(in->file));
-    totals_tell(&totals, in->file, set);
+    totals_report(&totals, in->file, set);
     return true;
 }
 
 /* Compares the quarters around phi 0 and around phi 180, beyond 20 degrees. */
-static void tell_brighter_back(const Speos *in, ImportSet *set)
+static void warn_of_brighter_back(const Speos *in, ImportSet *set)
 {
     double front = 0, back = 0;
     for (int t = 0; t < in->tables; t++) {
@@ -281,7 +281,7 @@ static bool read_speos(const char *file, const ImportOptions *options, ImportSet
     for (int i = 0; !in.is_bsdf && i < in.tables; i++) divide_cosine(&in.table[i]);
     if (in.has_transmission)
         import_note(set, "%s: transmission is left out", path_name(file));
-    tell_brighter_back(&in, set);
+    warn_of_brighter_back(&in, set);
     return in.is_spectral ? add_spectral(&in, set, err) : add_scaled(&in, set, err);
 }
 

@@ -216,10 +216,10 @@ static const float *find_wavelength(const Zemax *in, const ImportOptions *option
 {
     const char *file = in->scan.file;
     if (in->is_xyz) return scatter_xyz(options, file, set);
-    double told = comment_wavelength(text, in->scan.end);
-    if (!(options->wavelength_nm > 0) && told > 0)
-        import_note(set, "%s: %g nm is read from the file's comments", path_name(file), told);
-    return scatter_told_wavelength(told, options, file, set, err);
+    double stated = comment_wavelength(text, in->scan.end);
+    if (!(options->wavelength_nm > 0) && stated > 0)
+        import_note(set, "%s: %g nm is read from the file's comments", path_name(file), stated);
+    return scatter_stated_wavelength(stated, options, file, set, err);
 }
 
 /* ---- tables ------------------------------------------------------------------------------ */
@@ -272,7 +272,7 @@ static bool add_tables(Zemax *in, const float *nm, ImportSet *set, Error *err)
     for (int r = 0; r <= last - closes; r++)
         for (int i = 0; i < in->incidences; i++)
             if (!add_block(in, r, i, nm, set, err)) return false;
-    totals_tell(&in->totals, in->scan.file, set);
+    totals_report(&in->totals, in->scan.file, set);
     if (in->rotations > 1)
         import_note(set, "%s: a sample turned by S counter-clockwise is taken as light from "
                     "azimuth 180 - S", path_name(in->scan.file));

@@ -32,10 +32,10 @@ void import_rows_append(ImportRows *rows, const ImportTable *table)
     for (int i = 0; i < table->rows; i++)
         import_rows_put(rows, table->theta_deg[i], table->phi_deg[i],
                         table->value + (size_t)i * size);
-    bool is_told = table->masked_theta_deg != NULL;
+    bool is_masked = table->masked_theta_deg != NULL;
     for (int i = 0; i < table->masked; i++)
-        import_rows_mask(rows, is_told ? table->masked_theta_deg[i] : 0,
-                         is_told ? table->masked_phi_deg[i] : 0);
+        import_rows_mask(rows, is_masked ? table->masked_theta_deg[i] : 0,
+                         is_masked ? table->masked_phi_deg[i] : 0);
 }
 
 void import_rows_give_measured(const ImportRows *rows, ImportTable *table)

@@ -88,10 +88,10 @@ bool role_parse(const char *text, double level_max, Role *out, Error *err)
     char        copy[128];
     const char *field[4] = {0};
     int         count = cut_fields(text, copy, sizeof copy, field);
-    Role        role = {.is_told = true};
+    Role        role = {.is_known = true};
     if (count < 1) return bad_role(text, err);
     if (!strcmp(field[0], "skip") && count == 1) {
-        *out = (Role){.is_told = true, .is_skipped = true};
+        *out = (Role){.is_known = true, .is_skipped = true};
         return true;
     }
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
@@ -235,7 +235,7 @@ Role role_from_words(const char *words, double level_max, bool *is_ambiguous)
     read_words(&in);
     Role *role = &in.role;
     *is_ambiguous = in.colours + in.lights > 1;
-    role->is_told = in.colours + in.lights == 1;
+    role->is_known = in.colours + in.lights == 1;
     if (in.lights) {
         role->source = IMPORT_REFLECTION;
         role->component = 0;
@@ -249,7 +249,7 @@ Role role_from_words(const char *words, double level_max, bool *is_ambiguous)
     *is_ambiguous |= role->level > level_max;
     *is_ambiguous |= role->source == IMPORT_WHITE && role->level != level_max;
     *is_ambiguous &= in.colours > 0;
-    if (*is_ambiguous) role->is_told = false;
+    if (*is_ambiguous) role->is_known = false;
     return *role;
 }
 

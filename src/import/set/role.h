@@ -10,7 +10,7 @@
 #include "import/set/import.h"
 
 typedef struct Role {
-    bool         is_told;
+    bool         is_known;
     bool         is_skipped;
     ImportSource source;
     double       level;

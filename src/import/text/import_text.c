@@ -10,7 +10,7 @@
 
 /* ---- what the file is -------------------------------------------------------------------- */
 
-static bool not_told(TextReader *in, bool is_ambiguous)
+static bool fails_unstated(TextReader *in, bool is_ambiguous)
 {
     const char *wanted =
         in->is_reflection ? "brdf:INCIDENCE" : "red:255 (or green, blue, black, white)";
@@ -41,7 +41,7 @@ static bool role_from_option(TextReader *in, const char *text)
                         "has the angle of incidence in a column, and its role is '%s'", text);
     bool is_reflection = in->role.source == IMPORT_REFLECTION;
     if (is_reflection && !in->role.has_incidence && in->column[QUANTITY_INCIDENCE] < 0)
-        return not_told(in, false);
+        return fails_unstated(in, false);
     return true;
 }
 
@@ -56,13 +56,13 @@ static const char *name_without_ending(TextReader *in)
 /* The role of a reflection table whose own text says the incidence. */
 static Role stated_light(const TextReader *in)
 {
-    return (Role){.is_told = in->metadata.has_incidence, .source = IMPORT_REFLECTION,
+    return (Role){.is_known = in->metadata.has_incidence, .source = IMPORT_REFLECTION,
                   .has_incidence = in->metadata.has_incidence,
                   .incidence_deg = in->metadata.incidence_deg,
                   .wavelength_nm = in->metadata.wavelength_nm};
 }
 
-static bool told_twice(TextReader *in, const Role *stated, const Role *named)
+static bool fails_twice(TextReader *in, const Role *stated, const Role *named)
 {
     Arena *arena = in->set->arena;
     return error_at(in->err, ERROR_INPUT, in->file, in->metadata.words_line >= 0 ?
@@ -82,15 +82,15 @@ static bool find_role(TextReader *in)
     Role stated = in->is_reflection ? stated_light(in)
                                   : role_from_words(in->metadata.words, most, &is_mixed[0]);
     Role named = role_from_words(name_without_ending(in), most, &is_mixed[1]);
-    if (named.is_told && !fits_kind(in, &named)) named = (Role){.is_told = false};
-    in->role = stated.is_told ? stated : named;
+    if (named.is_known && !fits_kind(in, &named)) named = (Role){.is_known = false};
+    in->role = stated.is_known ? stated : named;
     if (by_column) {
         in->role.source = IMPORT_REFLECTION;
         return true;
     }
-    if (stated.is_told && named.is_told && !role_agrees(&stated, &named))
-        return told_twice(in, &stated, &named);
-    if (stated.is_told && named.is_told) { /* each may know what the other leaves open */
+    if (stated.is_known && named.is_known && !role_agrees(&stated, &named))
+        return fails_twice(in, &stated, &named);
+    if (stated.is_known && named.is_known) { /* each may know what the other leaves open */
         if (!stated.has_level && named.has_level) in->role.level = named.level;
         if (!stated.component) in->role.component = named.component;
         if (!stated.has_azimuth && named.has_azimuth) {
@@ -99,7 +99,8 @@ static bool find_role(TextReader *in)
         }
         if (!(stated.wavelength_nm > 0)) in->role.wavelength_nm = named.wavelength_nm;
     }
-    return in->role.is_told || not_told(in, is_mixed[0] || (!stated.is_told && is_mixed[1]));
+    bool is_ambiguous = is_mixed[0] || (!stated.is_known && is_mixed[1]);
+    return in->role.is_known || fails_unstated(in, is_ambiguous);
 }
 
 /* ---- columns ----------------------------------------------------------------------------- */
@@ -117,15 +118,15 @@ static bool name_unlabelled(TextReader *in)
     int c = in->column[QUANTITY_NONE];
     if (c < 0) return true;
     ColumnName *name = &in->raw->column[c].name;
-    const char *told = in->options->quantity,
+    const char *given = in->options->quantity,
                *role = text_options_role(in->options, in->file);
     double most = text_options_level_max(in->options);
     bool   is_mixed;
     Role   named = role_from_words(name_without_ending(in), most, &is_mixed);
     if (role && !role_parse(role, most, &named, in->err)) return false;
-    if (told) {
-        *name = column_name((TextCell){told, (int)strlen(told)});
-    } else if (named.is_told && named.source == IMPORT_REFLECTION) {
+    if (given) {
+        *name = column_name((TextCell){given, (int)strlen(given)});
+    } else if (named.is_known && named.source == IMPORT_REFLECTION) {
         name->quantity = QUANTITY_REFLECTION;
     } else if (named.component) {
         name->quantity = (Quantity)(QUANTITY_X + named.component - 'X');
@@ -171,10 +172,10 @@ static bool find_kind(TextReader *in)
 
 static bool check_wavelength(TextReader *in)
 {
-    double told = in->import->wavelength_nm, stated = in->metadata.wavelength_nm;
-    if (told > 0 && stated > 0 && fabs(told - stated) > 1e-3)
+    double given = in->import->wavelength_nm, stated = in->metadata.wavelength_nm;
+    if (given > 0 && stated > 0 && fabs(given - stated) > 1e-3)
         return error_at(in->err, ERROR_INPUT, in->file, "",
-                        "says a wavelength of %g nm, and --wavelength says %g", stated, told);
+                        "says a wavelength of %g nm, and --wavelength says %g", stated, given);
     return true;
 }
 

@@ -143,12 +143,12 @@ static bool choose_layout(const TextBlocks *blocks, const ColumnName name[2], Ta
 {
     const TextBlock *block = &blocks->block[0];
     const char *at = text_place(block->line, blocks->arena);
-    TableLayout told = blocks->options->layout, found = corner_layout(name);
-    if (told != LAYOUT_AUTO && found != LAYOUT_AUTO && told != found)
+    TableLayout given = blocks->options->layout, found = corner_layout(name);
+    if (given != LAYOUT_AUTO && found != LAYOUT_AUTO && given != found)
         return error_at(err, ERROR_INPUT, blocks->text->file, at,
                         "the corner '%s' says that %s runs down, and --table says the other",
                         block->corner, name_of_down(found));
-    *out = told != LAYOUT_AUTO ? told : find_layout(blocks, name);
+    *out = given != LAYOUT_AUTO ? given : find_layout(blocks, name);
     if (*out != LAYOUT_AUTO) return true;
     return error_at(err, ERROR_INPUT, blocks->text->file, at,
                     "does not tell whether theta runs down or across — say --table theta-down "

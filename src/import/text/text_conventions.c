@@ -73,12 +73,12 @@ static double largest(const TextReader *in, int column)
 static bool find_angle_unit(TextReader *in, int column)
 {
     AngleUnit header = in->raw->column[column].name.angle, stated = in->metadata.angle;
-    AngleUnit told = in->options->angle_unit;
+    AngleUnit given = in->options->angle_unit;
     AngleUnit file = header != ANGLE_AUTO ? header : stated;
-    if (file != ANGLE_AUTO && told != ANGLE_AUTO && file != told)
+    if (file != ANGLE_AUTO && given != ANGLE_AUTO && file != given)
         return contradicts(in, in->metadata.angle_line, "the unit of its angles",
                            "--angle-unit");
-    AngleUnit unit = file != ANGLE_AUTO ? file : told;
+    AngleUnit unit = file != ANGLE_AUTO ? file : given;
     double    most = largest(in, column);
     if (unit == ANGLE_AUTO && most > 0 && most <= 1.6)
         return error_at(in->err, ERROR_INPUT, in->file, "",
@@ -91,17 +91,17 @@ static bool find_angle_unit(TextReader *in, int column)
 static bool find_angles(TextReader *in)
 {
     bool      is_pair = in->column[QUANTITY_THETA] < 0;
-    AnglePair told = in->options->angles;
+    AnglePair given = in->options->angles;
     int       column = in->column[is_pair ? QUANTITY_HORIZONTAL : QUANTITY_THETA];
-    if (is_pair && (told == ANGLES_AUTO || told == ANGLES_POLAR))
+    if (is_pair && (given == ANGLES_AUTO || given == ANGLES_POLAR))
         return error_at(in->err, ERROR_INPUT, in->file, "header line",
                         "has a horizontal and a vertical angle — say which with --angles "
                         "projected, equidistant, north-polar or east-polar");
-    if (!is_pair && told > ANGLES_POLAR)
+    if (!is_pair && given > ANGLES_POLAR)
         return error_at(in->err, ERROR_INPUT, in->file, "header line",
                         "has theta and phi, and --angles declares a horizontal and a vertical "
                         "angle");
-    in->angles = is_pair ? told : ANGLES_POLAR;
+    in->angles = is_pair ? given : ANGLES_POLAR;
     return find_angle_unit(in, column);
 }
 
@@ -176,19 +176,19 @@ static bool header_unit(TextReader *in, ValueUnit *out)
 static bool find_unit(TextReader *in)
 {
     ValueUnit header, stated = canonical(in->metadata.unit);
-    ValueUnit told = canonical(in->options->unit);
+    ValueUnit given = canonical(in->options->unit);
     if (!header_unit(in, &header)) return false;
     if (!fits_kind(stated, in->is_reflection)) stated = UNIT_AUTO;
-    if (!fits_kind(told, in->is_reflection)) told = UNIT_AUTO;
+    if (!fits_kind(given, in->is_reflection)) given = UNIT_AUTO;
     ValueUnit file = header != UNIT_AUTO ? header : stated;
     if (header != UNIT_AUTO && stated != UNIT_AUTO && header != stated)
         return contradicts(in, in->metadata.unit_line, value_unit_name(stated),
                            "the header line");
     /* "brdf" heads values of any scattering unit in practice: there the user has the word */
     bool is_loose = header == UNIT_BRDF && stated == UNIT_AUTO;
-    if (file != UNIT_AUTO && told != UNIT_AUTO && file != told && !is_loose)
+    if (file != UNIT_AUTO && given != UNIT_AUTO && file != given && !is_loose)
         return contradicts(in, in->metadata.unit_line, value_unit_name(file), "--unit");
-    in->unit = told != UNIT_AUTO ? told : file;
+    in->unit = given != UNIT_AUTO ? given : file;
     if (in->unit != UNIT_AUTO) return true;
     in->unit = in->is_reflection ? UNIT_BRDF : UNIT_CD_M2;
     import_note(in->set, "%s are taken in %s: neither the files nor --unit say their unit",

@@ -284,7 +284,7 @@ static bool codes_role(TextReader *in, const RowGroup *group, Role *role)
 {
     double most = text_options_level_max(in->options);
     int    lit = 0;
-    *role = (Role){.is_told = true, .source = IMPORT_BLACK, .has_level = true};
+    *role = (Role){.is_known = true, .source = IMPORT_BLACK, .has_level = true};
     for (int p = 0; p < 3; p++)
         if (group->key[p] != 0) {
             lit++;

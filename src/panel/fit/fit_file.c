@@ -78,12 +78,12 @@ static void write_polarised(FitWriter *writer, const DisplayTraits *traits)
 
 static void write_subpixels(FitWriter *writer, const Measurement *set)
 {
-    const Subpixels     *told = &set->traits.subpixels;
-    PanelSubpixelsStored stored = {.layout = (uint8_t)told->layout, .fill = told->fill,
+    const Subpixels     *stated = &set->traits.subpixels;
+    PanelSubpixelsStored stored = {.layout = (uint8_t)stated->layout, .fill = stated->fill,
                                    .pixels = {(uint32_t)set->pixels[0],
                                               (uint32_t)set->pixels[1]}};
     FitPiece piece = {&stored, sizeof stored};
-    if (told->layout != SUBPIXELS_NONE) write_section(writer, PANEL_SUBPIXELS, 0, &piece, 1);
+    if (stated->layout != SUBPIXELS_NONE) write_section(writer, PANEL_SUBPIXELS, 0, &piece, 1);
 }
 
 /* A section of what goes without saying is left out. */

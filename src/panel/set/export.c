@@ -270,11 +270,11 @@ static void add_polarisation(const Panel *panel, json_t *manifest)
 /* The pixels' number is among the names. */
 static void add_subpixels(const Panel *panel, json_t *manifest)
 {
-    Subpixels told = panel_subpixels(panel);
-    if (told.layout == SUBPIXELS_NONE) return;
+    Subpixels stated = panel_subpixels(panel);
+    if (stated.layout == SUBPIXELS_NONE) return;
     json_object_set_new(manifest, "subpixels",
-                        json_pack("{s:s, s:f}", "layout", display_traits_layout(told.layout),
-                                  "fill", round((double)told.fill * 1e6) / 1e6));
+                        json_pack("{s:s, s:f}", "layout", display_traits_layout(stated.layout),
+                                  "fill", round((double)stated.fill * 1e6) / 1e6));
 }
 
 /* What the panel's report says of where it comes from. */

@@ -48,22 +48,22 @@ static const CollectorKind way_kind = {.size = sizeof(FarWay), .vertex = collect
 
 /* Towards what lies where the surface scatters to; its own mirror the path itself follows. */
 static void send_way(const FarQuestions *questions, const PathState *from,
-                     const Surface *surface, Vec3 wo, const Lead *lead, int i)
+                     const Surface *surface, Vec3 wo, const Guiding *guiding, int i)
 {
     PathState  path = *from;
     FarWay     way = {{&way_kind, NULL}, questions->far, 0};
     SheetStack stack;
-    Lead       leads[2] = {*lead, *lead};
+    Guiding    guidings[2] = {*guiding, *guiding};
     BsdfSample next;
     float      u[4];
     path.steps += STEPS_FAR * (SPLITS + 1) * (1 + i);
     numbers_for(&path, NUMBERS_SCATTER);
     sampler_4d(path.sampler, u);
-    if (!lead_sample(lead, surface, u, &next) || next.is_delta || next.passes) return;
+    if (!guiding_sample(guiding, surface, u, &next) || next.is_delta || next.passes) return;
     path.throughput *= next.weight * spectrum_all(1.0f / PATH_WAYS);
     path.stack = &stack;
-    path.lead = &leads[0];
-    path.spare = &leads[1];
+    path.guiding = &guidings[0];
+    path.spare = &guidings[1];
     path.splits_left = 1;
     path.first_bounce = path.bounce + 1;
     path.collector = &way.base;
@@ -75,16 +75,16 @@ static void send_way(const FarQuestions *questions, const PathState *from,
  * by way of a pane or of a satin ring would hang on a handful of paths. Ways cost a ray or two;
  * a vertex asks hundreds. */
 static void send_ways(const FarQuestions *questions, const PathState *path,
-                      const Surface *surface, Vec3 wo, const Lead *lead)
+                      const Surface *surface, Vec3 wo, const Guiding *guiding)
 {
     if (!questions->far->has_ways || path->bounce + 1 >= path->context->max_bounces) return;
-    for (int i = 0; i < PATH_WAYS; i++) send_way(questions, path, surface, wo, lead, i);
+    for (int i = 0; i < PATH_WAYS; i++) send_way(questions, path, surface, wo, guiding, i);
 }
 
 /* ---- questions --------------------------------------------------------------------------- */
 
 static void ask_all(const FarQuestions *questions, PathState *path, const Surface *surface,
-                    Vec3 wo, const Lead *lead)
+                    Vec3 wo, const Guiding *guiding)
 {
     const PathFar *far = questions->far;
     Vec3 local_wo = surface->local_wo;
@@ -102,17 +102,17 @@ static void ask_all(const FarQuestions *questions, PathState *path, const Surfac
                          bsdf_eval(&surface->bsdf, local_wo, local_wi, &pdf) *
                          spectrum_all(fabsf(local_wi.z));
         far->add(far->user, i, path->bounce, (const float *)&share,
-                 ways ? (float)ways * lead_pdf(lead, light.wi, pdf) : 0);
+                 ways ? (float)ways * guiding_pdf(guiding, light.wi, pdf) : 0);
     }
 }
 
 static bool ask(PathCollector *c, PathState *path, const Surface *surface, Vec3 wo,
-                const Lead *lead)
+                const Guiding *guiding)
 {
     const FarQuestions *questions = (const FarQuestions *)c;
     if (path->bounce < path->context->max_bounces && bsdf_scatters(&surface->bsdf)) {
-        ask_all(questions, path, surface, wo, lead);
-        send_ways(questions, path, surface, wo, lead);
+        ask_all(questions, path, surface, wo, guiding);
+        send_ways(questions, path, surface, wo, guiding);
     }
     return true;
 }

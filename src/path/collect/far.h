@@ -23,7 +23,7 @@ typedef struct PathFar {
     void *user;
     bool  is_of_mirror; /* where a display comes first, its mirror alone is followed */
     bool  has_ways; /* vertices send out PATH_WAYS rays each, which mirrors and sharp lobes lead
-                       on: what leaves so is told of these, not of paths */
+                       on: what leaves so is added for these, not for paths */
 } PathFar;
 
 typedef struct FarQuestions {

@@ -15,7 +15,7 @@ static Spectrum share_of(const Surface *surface, Vec3 local_wi)
 }
 
 /* The surface scatters light of its own samples. */
-static void hear(PathCollector *c, PathState *path, const PathFound *found)
+static void on_light(PathCollector *c, PathState *path, const PathFound *found)
 {
     LambertianPart *part = (LambertianPart *)c;
     if (found->by && is_asked(path, found->by))
@@ -49,6 +49,6 @@ static void finish(PathCollector *c, PathState *path)
 LambertianPart lambertian_part(float xyz[3], PathCollector *next)
 {
     static const CollectorKind kind = {.size = sizeof(LambertianPart), .turn = turn,
-                                       .hear = hear, .finish = finish};
+                                       .on_light = on_light, .finish = finish};
     return (LambertianPart){.base = {&kind, next}, .share = spectrum_all(0), .xyz = xyz};
 }

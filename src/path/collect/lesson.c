@@ -3,11 +3,11 @@
 #include "path/collect/lesson.h"
 
 static bool note_place(PathCollector *c, PathState *path, const Surface *surface, Vec3 wo,
-                       const Lead *lead)
+                       const Guiding *guiding)
 {
     (void)path;
     PathPlaces *places = ((LessonPlaces *)c)->out;
-    if (!lead->is_wide || places->count == PATH_PLACES_MAX) return false;
+    if (!guiding->is_wide || places->count == PATH_PLACES_MAX) return false;
     Vec3 origin = ray_offset_origin(surface->position, surface->ng, wo);
     places->place[places->count++] = (LitPoint){origin, surface->frame.z, false};
     return false;

@@ -23,7 +23,7 @@ typedef struct LessonPlaces {
 /* The context must have a guide, lit or not. */
 LessonPlaces lesson_places(PathPlaces *out);
 
-/* Of a path to a point (PathStart.from) the sky that is seen there is told by itself: its
+/* Of a path to a point (PathStart.from) the sky that is seen there is kept by itself: its
  * luminance, cd m^-2, and 0 where there is none. The path's own light is all else. */
 typedef struct LessonSky {
     PathCollector base;

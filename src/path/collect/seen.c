@@ -7,7 +7,7 @@
 #include "path/collect/polarised_rows.h"
 
 _Static_assert(COLLECTOR_ROOM(PolarisedRows) + COLLECTOR_ROOM(PixelRay) +
-                       COLLECTOR_ROOM(LambertianPart) + COLLECTOR_ROOM(ToldWays) <=
+                       COLLECTOR_ROOM(LambertianPart) + COLLECTOR_ROOM(HistoryCollector) <=
                    COLLECTORS_MAX_BYTES,
                "what an eye sees is collected by more than a sheet has room for");
 
@@ -19,11 +19,11 @@ void path_seen(const PathStart *start, Ray ray, const SeenAsk *ask, SeenLight *o
     PolarisedRows  rows;
     PixelRay       pixel;
     LambertianPart part;
-    ToldWays       told;
+    HistoryCollector by_way;
     for (int i = 0; i < 3; i++) out->stokes[i] = out->lambertian[i] = 0;
     if (ask->listener) {
-        told = told_ways(ask->listener, own.collector);
-        own.collector = &told.base;
+        by_way = history_collector(ask->listener, own.collector);
+        own.collector = &by_way.base;
     }
     if (ask->with_lambertian) {
         part = lambertian_part(out->lambertian, own.collector);

@@ -5,7 +5,7 @@
  * Threads  one thread's, like the path.
  */
 #pragma once
-#include "path/collect/told.h"
+#include "path/collect/history.h"
 #include "path/path.h"
 
 typedef struct SeenAsk {

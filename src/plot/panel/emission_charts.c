@@ -126,9 +126,9 @@ static void draw_contrast(Canvas *canvas, Box box, const PanelChart *shown, Pane
                        .low = round_down(fmax(range.low, range.high / 1e5)),
                        .high = round_up(range.high), .theta_measured = s->cone, .unit = ": 1"};
     if (map.high < 2 * map.low) map.low = map.high / 2;
-    bool is_told = take_contours(canvas, &map, &s->source.contours,
+    bool is_labelled = take_contours(canvas, &map, &s->source.contours,
                                  contrast_on_axis(s, shown->index));
-    for (int i = 0; i < 15 && !is_told; i++)
+    for (int i = 0; i < 15 && !is_labelled; i++)
         if (LEVELS[i] > range.low && LEVELS[i] < range.high)
             map.level[map.level_count++] = LEVELS[i];
     note_map(out, &map, polar_draw(canvas, box, &map));

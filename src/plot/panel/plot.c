@@ -62,7 +62,7 @@ static void keep_kind(PanelChartList *list, PlotKind kind)
 }
 
 /* Why there is no chart of that kind. */
-static bool say_nothing_to_draw(const PlotData *s, PlotKind kind, Error *err)
+static bool fails_empty(const PlotData *s, PlotKind kind, Error *err)
 {
     const char *file = s->source.file, *name = plot_kind_name(kind);
     if (kind == PLOT_FIT && !s->source.measured)
@@ -129,7 +129,7 @@ bool plot_write(const PlotInput *input, const PlotOptions *options, const char *
     keep_kind(list, options->kind);
     SheetSpec spec = {list, data, options->kind, options->width, options->height,
                      options->is_dark};
-    bool ok = (list->count > 0 || say_nothing_to_draw(data, options->kind, err)) &&
+    bool ok = (list->count > 0 || fails_empty(data, options->kind, err)) &&
               (is_svg ? sheet_svg(&spec, arena, &bytes, err)
                       : sheet_png(&spec, arena, &bytes, err)) &&
               file_write(path, bytes.data, bytes.size, err);

@@ -11,9 +11,9 @@
 
 #define ROUND 64          /* chunks at a time */
 #define CHUNK_ROOM 512    /* of a chunk's table: a power of two */
-#define CHUNK_CHAINS 400  /* that are told apart in one chunk */
+#define CHUNK_CHAINS 400  /* that one chunk keeps apart */
 #define ROOM 16384        /* of all: a power of two */
-#define CHAINS_TOLD 10000 /* that are told apart */
+#define CHAINS_KEPT 10000 /* that are kept apart */
 
 /* ---- one chunk of paths ------------------------------------------------------------------ */
 
@@ -33,7 +33,7 @@ typedef struct ChainChunk {
     BrightSamples bright; /* of all */
     double     *by_part;
     ChainGroups groups;
-    uint32_t    tellings;
+    uint32_t    draws;
 } ChainChunk;
 
 /* What all chunks share. */
@@ -55,32 +55,28 @@ typedef struct ChunkListener {
     int                chunk;
 } ChunkListener;
 
-static int told_steps(const PathTale *tale)
-{
-    return tale->count < PATH_STEPS_TOLD ? tale->count : PATH_STEPS_TOLD;
-}
-
 static int alike_or_none(const int *alike, int part_id)
 {
     return part_id == NO_ID ? NO_ID : alike[part_id];
 }
 
-static ChainKey key_of(const ChainSearch *search, const PathTale *tale)
+static ChainKey key_of(const ChainSearch *search, const PathHistory *history)
 {
     const int *alike = search->alike;
-    bool       tells_first = search->ask->with_first_pane;
+    bool       with_first = search->ask->with_first_pane;
     ChainKey key;
     memset(&key, 0, sizeof key);
-    for (int i = 0; i < told_steps(tale) && i < CHAIN_STEPS; i++) {
-        const PathStep *step = &tale->step[i];
+    for (int i = 0; i < path_steps_kept(history) && i < CHAIN_STEPS; i++) {
+        const PathStep *step = &history->step[i];
         key.link[key.count++] =
             (ChainLink){alike[step->part_id], (int)step->event,
-                        i || tells_first ? alike_or_none(alike, step->pane_id) : NO_ID};
+                        i || with_first ? alike_or_none(alike, step->pane_id) : NO_ID};
     }
-    key.is_longer = tale->count > key.count;
-    key.pane_id = alike_or_none(alike, tale->pane_id);
-    key.source = (int)tale->source;
-    key.source_id = tale->source == LIGHTS_EMITTERS ? alike[tale->source_id] : tale->source_id;
+    key.is_longer = history->count > key.count;
+    key.pane_id = alike_or_none(alike, history->pane_id);
+    key.source = (int)history->source;
+    key.source_id = key.source == LIGHTS_EMITTERS ? alike[history->source_id]
+                                                  : history->source_id;
     return key;
 }
 
@@ -108,30 +104,31 @@ static ChunkChain *chunk_chain(ChainChunk *sums, const ChainKey *key)
     }
 }
 
-static ChainRay ray_of(const ChainSearch *search, const PathTale *tale)
+static ChainRay ray_of(const ChainSearch *search, const PathHistory *history)
 {
     ChainRay ray = {.count = 0};
-    int      told = told_steps(tale);
+    int      kept = path_steps_kept(history);
     ray.point[ray.count++] = search->ask->aim->eye;
-    for (int i = 0; i < told; i++) ray.point[ray.count++] = tale->step[i].position;
-    ray.is_cut = tale->count > told;
+    for (int i = 0; i < kept; i++) ray.point[ray.count++] = history->step[i].position;
+    ray.is_cut = history->count > kept;
     if (!ray.is_cut)
         ray.point[ray.count] =
-            tale->is_far ? vec3_along(ray.point[ray.count - 1], tale->from, search->far_m)
-                         : tale->from;
+            history->is_far ? vec3_along(ray.point[ray.count - 1], history->from, search->far_m)
+                         : history->from;
     ray.count += !ray.is_cut;
     return ray;
 }
 
 /* Rays with a chance that goes with their light, one pass, any order: the least of
  * -ln(u) / light (Efraimidis and Spirakis 2006). */
-static void draw_ray(const ChunkListener *to, ChunkChain *chain, const PathTale *tale, double y)
+static void draw_ray(const ChunkListener *to, ChunkChain *chain, const PathHistory *history,
+                     double y)
 {
-    uint32_t bits = hash_combine(hash_u32((uint32_t)to->chunk), to->sums->tellings++);
+    uint32_t bits = hash_combine(hash_u32((uint32_t)to->chunk), to->sums->draws++);
     double   draw = -log((bits + 0.5) * 0x1p-32) / y;
     if (!(draw < chain->draw)) return;
     chain->draw = draw;
-    chain->ray = ray_of(to->search, tale);
+    chain->ray = ray_of(to->search, history);
 }
 
 static void add_part(const ChunkListener *to, int part_id, int *parts, int *count, double y)
@@ -144,45 +141,45 @@ static void add_part(const ChunkListener *to, int part_id, int *parts, int *coun
     to->sums->by_part[id] += y;
 }
 
-static void add_parts(const ChunkListener *to, const PathTale *tale, double y)
+static void add_parts(const ChunkListener *to, const PathHistory *history, double y)
 {
-    int parts[2 * PATH_STEPS_TOLD + 1], count = 0;
-    for (int i = 1; i < told_steps(tale); i++) {
-        add_part(to, tale->step[i].part_id, parts, &count, y);
-        add_part(to, tale->step[i].pane_id, parts, &count, y);
+    int parts[2 * PATH_STEPS_MAX + 1], count = 0;
+    for (int i = 1; i < path_steps_kept(history); i++) {
+        add_part(to, history->step[i].part_id, parts, &count, y);
+        add_part(to, history->step[i].pane_id, parts, &count, y);
     }
-    if (tale->count) add_part(to, tale->pane_id, parts, &count, y);
+    if (history->count) add_part(to, history->pane_id, parts, &count, y);
 }
 
 /* What shines there by itself: an emitter is a thing that is met. */
-static void add_straight(const ChunkListener *to, const PathTale *tale, double y)
+static void add_straight(const ChunkListener *to, const PathHistory *history, double y)
 {
     ChainGroups *groups = &to->sums->groups;
-    if (tale->source == LIGHTS_EMITTERS)
-        groups->by_surface[to->search->alike[tale->source_id]] += y;
-    else groups->straight[tale->source] += y;
+    if (history->source == LIGHTS_EMITTERS)
+        groups->by_surface[to->search->alike[history->source_id]] += y;
+    else groups->straight[history->source] += y;
 }
 
-static bool is_without_data(const ChunkListener *to, const PathTale *tale)
+static bool is_without_data(const ChunkListener *to, const PathHistory *history)
 {
     const bool *has_data = to->search->has_data;
-    for (int i = 0; i < told_steps(tale); i++)
-        if (!has_data[tale->step[i].part_id]) return true;
+    for (int i = 0; i < path_steps_kept(history); i++)
+        if (!has_data[history->step[i].part_id]) return true;
     return false;
 }
 
-static void add_groups(const ChunkListener *to, const PathTale *tale, double y)
+static void add_groups(const ChunkListener *to, const PathHistory *history, double y)
 {
     ChainGroups *groups = &to->sums->groups;
     const int   *alike = to->search->alike;
-    groups->by_set[tale->source] += y;
-    if (tale->source == LIGHTS_EMITTERS) groups->by_emitter[alike[tale->source_id]] += y;
-    if (tale->source == LIGHTS_PUNCTUAL) groups->by_lamp[tale->source_id] += y;
-    if (tale->pane_id == NO_ID) groups->by_no_pane += y;
-    else groups->by_pane[alike[tale->pane_id]] += y;
-    if (tale->count < 2) add_straight(to, tale, y);
-    else groups->by_surface[alike[tale->step[1].part_id]] += y;
-    if (is_without_data(to, tale)) groups->without_data += y;
+    groups->by_set[history->source] += y;
+    if (history->source == LIGHTS_EMITTERS) groups->by_emitter[alike[history->source_id]] += y;
+    if (history->source == LIGHTS_PUNCTUAL) groups->by_lamp[history->source_id] += y;
+    if (history->pane_id == NO_ID) groups->by_no_pane += y;
+    else groups->by_pane[alike[history->pane_id]] += y;
+    if (history->count < 2) add_straight(to, history, y);
+    else groups->by_surface[alike[history->step[1].part_id]] += y;
+    if (is_without_data(to, history)) groups->without_data += y;
 }
 
 static int display_of(const Scene *scene, int part_id)
@@ -190,28 +187,28 @@ static int display_of(const Scene *scene, int part_id)
     return scene->materials[scene->parts[part_id].material_id].display_id;
 }
 
-static void hear(void *user, const PathTale *tale, const float xyz[3])
+static void on_light(void *user, const PathHistory *history, const float xyz[3])
 {
     const ChunkListener *to = user;
     const Scene         *scene = to->search->scene;
     ChainChunk           *sums = to->sums;
     double               y = (double)xyz[1];
-    if (!(y > 0) || (tale->count == 0 && !to->search->ask->with_direct)) return;
-    ChainKey    key = key_of(to->search, tale);
+    if (!(y > 0) || (history->count == 0 && !to->search->ask->with_direct)) return;
+    ChainKey    key = key_of(to->search, history);
     ChunkChain *chain = chunk_chain(sums, &key);
-    int         display = tale->count ? display_of(scene, tale->step[0].part_id) : NO_ID;
+    int         display = history->count ? display_of(scene, history->step[0].part_id) : NO_ID;
     sums->all += y;
     bright_add(&sums->bright, y);
-    if (display != NO_ID && tale->step[0].event == PATH_REFLECTS) sums->mirror += y;
-    if (display != NO_ID && tale->source == LIGHTS_EMITTERS &&
-        display_of(scene, tale->source_id) == display)
+    if (display != NO_ID && history->step[0].event == PATH_REFLECTS) sums->mirror += y;
+    if (display != NO_ID && history->source == LIGHTS_EMITTERS &&
+        display_of(scene, history->source_id) == display)
         sums->own += y;
-    add_parts(to, tale, y);
-    add_groups(to, tale, y);
+    add_parts(to, history, y);
+    add_groups(to, history, y);
     if (!chain) return;
     chain->sum += y;
     bright_add(&chain->bright, y);
-    draw_ray(to, chain, tale, y);
+    draw_ray(to, chain, history, y);
 }
 
 /* Whose chunks follow each other in a stream of their own. */
@@ -220,13 +217,13 @@ static int batch_of(const ChainSearch *search, int chunk)
     return chunk % search->batches;
 }
 
-static void hear_chunk(void *user, int item, int worker)
+static void trace_chunk(void *user, int item, int worker)
 {
     (void)worker;
     const ChainSearch *search = user;
     int            chunk = search->first + item, place = chunk;
     ChunkListener  to = {search, &search->sums[item], chunk};
-    PathListener   listener = {.hear = hear, .user = &to};
+    PathListener   listener = {.on_light = on_light, .user = &to};
     PathStatistics statistics = {0};
     ProbeAim       aim = *search->ask->aim;
     if (!aim.pixel) {
@@ -234,7 +231,7 @@ static void hear_chunk(void *user, int item, int worker)
         aim.is_spread = true;
         place = chunk / search->batches;
     }
-    search->ask->tools->kernel->hear(&aim, place * CHAIN_CHUNK, (place + 1) * CHAIN_CHUNK,
+    search->ask->tools->kernel->trace(&aim, place * CHAIN_CHUNK, (place + 1) * CHAIN_CHUNK,
                                      &listener, &statistics);
 }
 
@@ -282,7 +279,7 @@ static FoundChain *found_chain(FoundChains *found, const ChainKey *key, Arena *o
         FoundChain **place = &found->table[i & (ROOM - 1)], *f = *place;
         if (f && !memcmp(&f->chain.key, key, sizeof *key)) return f;
         if (f) continue;
-        if (found->count == CHAINS_TOLD) return NULL;
+        if (found->count == CHAINS_KEPT) return NULL;
         *place = f = ARENA_NEW(own, FoundChain, 1);
         f->chain.key = *key;
         f->id = found->count;
@@ -480,13 +477,13 @@ Chains chains_find(const ChainAsk *ask, Arena *arena)
                           .batches = chunks < CHAIN_BATCHES ? chunks : CHAIN_BATCHES,
                           .far_m = far_length(scene)};
     FoundChains found = {.table = ARENA_NEW(&own, FoundChain *, ROOM),
-                         .by_id = ARENA_NEW(&own, FoundChain *, CHAINS_TOLD)};
+                         .by_id = ARENA_NEW(&own, FoundChain *, CHAINS_KEPT)};
     Arena rounds = arena_reserve(OWN_BYTES);
     for (; search.first < chunks; search.first += ROUND) {
         int   count = chunks - search.first < ROUND ? chunks - search.first : ROUND;
         Arena room = rounds;
         search.sums = fresh_sums(count, scene, &room);
-        parallel_for(ask->tools->threads, count, hear_chunk, &search);
+        parallel_for(ask->tools->threads, count, trace_chunk, &search);
         for (int i = 0; i < count; i++) {
             add_chunk(&found, &search.sums[i], batch_of(&search, search.first + i), &own);
             add_all(out.by_part, search.sums[i].by_part, scene->part_count,

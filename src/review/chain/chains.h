@@ -3,10 +3,10 @@
  *
  * A chain is what the eye's ray meets, by node and material, and what each does with light: the
  * first CHAIN_STEPS of it, the panes between, and where the light began. Parts of one node and
- * material count as one. Light is heard path by path (path.h); the greatest chains are kept
- * with some of their rays, all others are one figure, and they add up to what was seen. Those
- * count as greatest that are so for sure: by their figure less one standard error, so that a
- * lucky path is no cause.
+ * material count as one. Light is added path by path (path/collect/history.h); the greatest
+ * chains are kept with some of their rays, all others are one figure, and they add up to what
+ * was seen. Those count as greatest that are so for sure: by their figure less one standard
+ * error, so that a lucky path is no cause.
  *
  * Errors and 95 % intervals come from the means of CHAIN_BATCHES independent batches of paths,
  * as a reading's do (reading.h); of a pixel, whose paths are its samples, the batches are parts
@@ -23,7 +23,7 @@
 #define CHAIN_BATCHES 32 /* fewer where there are fewer chunks */
 #define CHAIN_STEPS 4
 #define CHAIN_RAYS 8
-#define CHAIN_POINTS (PATH_STEPS_TOLD + 2)
+#define CHAIN_POINTS (PATH_STEPS_MAX + 2)
 
 typedef struct ChainLink {
     int part_id; /* the first of those that count as one */
@@ -38,7 +38,7 @@ typedef struct ChainKey {
     int is_longer; /* there are further surfaces */
     int pane_id;   /* the last pane before the source; NO_ID: none */
     int source;    /* LightSet */
-    int source_id; /* as a PathTale's */
+    int source_id; /* as a PathHistory's */
 } ChainKey;
 
 /* From the eye over the surfaces to where the light began; what comes from far off ends some

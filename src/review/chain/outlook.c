@@ -83,7 +83,7 @@ static Frame frame_of(Vec3 ng, Vec3 up)
     return (Frame){right, vec3_cross(right, ng), ng};
 }
 
-/* ---- what is heard ----------------------------------------------------------------------- */
+/* ---- what paths find --------------------------------------------------------------------- */
 
 static Thing *thing_of(ThingList *things, const Thing *wanted)
 {
@@ -98,31 +98,31 @@ static Thing *thing_of(ThingList *things, const Thing *wanted)
     return &things->list[things->count++];
 }
 
-static Thing thing_told(const PathTale *tale)
+static Thing thing_met(const PathHistory *history)
 {
-    if (tale->count)
-        return (Thing){.part_id = tale->step[0].part_id, .source = -1, .source_id = -1,
-                       .pane_id = tale->step[0].pane_id};
-    return (Thing){.part_id = tale->source == LIGHTS_EMITTERS ? tale->source_id : NO_ID,
-                   .source = tale->source == LIGHTS_EMITTERS ? -1 : (int)tale->source,
-                   .source_id = tale->source == LIGHTS_PUNCTUAL ? tale->source_id : -1,
-                   .pane_id = tale->pane_id};
+    if (history->count)
+        return (Thing){.part_id = history->step[0].part_id, .source = -1, .source_id = -1,
+                       .pane_id = history->step[0].pane_id};
+    return (Thing){.part_id = history->source == LIGHTS_EMITTERS ? history->source_id : NO_ID,
+                   .source = history->source == LIGHTS_EMITTERS ? -1 : (int)history->source,
+                   .source_id = history->source == LIGHTS_PUNCTUAL ? history->source_id : -1,
+                   .pane_id = history->pane_id};
 }
 
-/* One pixel, while it is heard. */
+/* One pixel, while paths add to it. */
 typedef struct OutlookPixel {
     ThingList *things;
     double     cd_m2, lux_per_cd_m2;
     bool       is_mirrored;
 } OutlookPixel;
 
-static void hear_pixel(void *user, const PathTale *tale, const float xyz[3])
+static void add_pixel(void *user, const PathHistory *history, const float xyz[3])
 {
     OutlookPixel *pixel = user;
     double     y = (double)xyz[1] / PATHS;
-    if (!(y > 0) || (tale->count == 0 && tale->source == LIGHTS_SUN)) return;
-    Thing  told = thing_told(tale);
-    Thing *thing = thing_of(pixel->things, &told);
+    if (!(y > 0) || (history->count == 0 && history->source == LIGHTS_SUN)) return;
+    Thing  met = thing_met(history);
+    Thing *thing = thing_of(pixel->things, &met);
     pixel->cd_m2 += y;
     thing->lux += y * pixel->lux_per_cd_m2;
     if (pixel->is_mirrored) thing->near_mirror += y;
@@ -140,9 +140,9 @@ static void see_pixel(const OutlookWork *work, int column, int row)
     OutlookPixel sums = {.things = &work->rows[row],
                          .lux_per_cd_m2 = pixel_sr(theta) * cos(theta),
                          .is_mirrored = degrees_from_radians(apart) <= OUTLOOK_MIRROR_DEG};
-    PathListener   listener = {.hear = hear_pixel, .user = &sums};
+    PathListener   listener = {.on_light = add_pixel, .user = &sums};
     PathStatistics statistics = {0};
-    work->ask->tools->kernel->hear(&work->aim, first, first + PATHS, &listener, &statistics);
+    work->ask->tools->kernel->trace(&work->aim, first, first + PATHS, &listener, &statistics);
     *out = (float)sums.cd_m2;
 }
 
@@ -161,16 +161,16 @@ typedef struct SmallLights {
     Vec3      sun;   /* sum of directions by lux */
 } SmallLights;
 
-static void hear_small(void *user, const PathTale *tale, const float xyz[3])
+static void add_small(void *user, const PathHistory *history, const float xyz[3])
 {
     SmallLights *lights = user;
     double       lux = (double)xyz[1] / PASSES;
-    bool         is_small = tale->source == LIGHTS_SUN || tale->source == LIGHTS_PUNCTUAL;
-    if (!(lux > 0) || tale->count || !is_small) return;
-    Thing told = thing_told(tale);
-    thing_of(&lights->things, &told)->lux += lux;
-    if (tale->source == LIGHTS_SUN)
-        lights->sun = vec3_along(lights->sun, tale->towards, (float)lux);
+    bool         is_small = history->source == LIGHTS_SUN || history->source == LIGHTS_PUNCTUAL;
+    if (!(lux > 0) || history->count || !is_small) return;
+    Thing met = thing_met(history);
+    thing_of(&lights->things, &met)->lux += lux;
+    if (history->source == LIGHTS_SUN)
+        lights->sun = vec3_along(lights->sun, history->towards, (float)lux);
 }
 
 static SmallLights small_lights(const OutlookAsk *ask, Vec3 from, Arena *arena)
@@ -179,11 +179,11 @@ static SmallLights small_lights(const OutlookAsk *ask, Vec3 from, Arena *arena)
     PathContext    lights_only = *ask->context;
     ProbeAim       aim = {.context = &lights_only, .meter = &head, .seed = SEED + 1};
     SmallLights    out = {.things = {ARENA_NEW(arena, Thing, THINGS), 0, THINGS}};
-    PathListener   listener = {.hear = hear_small, .user = &out};
+    PathListener   listener = {.on_light = add_small, .user = &out};
     PathStatistics statistics = {0};
     lights_only.strategy = PATH_LIGHTS_ONLY;
     lights_only.max_bounces = 1;
-    ask->tools->kernel->hear(&aim, 0, PASSES, &listener, &statistics);
+    ask->tools->kernel->trace(&aim, 0, PASSES, &listener, &statistics);
     return out;
 }
 
@@ -210,7 +210,7 @@ static void add_things(const Scene *scene, const ThingList *from, OutlookShare *
         if (at == ALL_THINGS) at--;
         if (at == *count) to[(*count)++].what = what;
         to[at].lux += from->list[i].lux;
-        to[at].share += from->list[i].near_mirror; /* till all are told */
+        to[at].share += from->list[i].near_mirror; /* till all are there */
     }
 }
 

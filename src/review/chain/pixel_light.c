@@ -35,26 +35,26 @@ static double lane_weight(double nm, int *band)
     return 1 / (SPECTRUM_LANES * density * PIXEL_BAND_NM);
 }
 
-static void hear(void *user, const PathTale *tale, const float xyz[3])
+static void on_light(void *user, const PathHistory *history, const float xyz[3])
 {
     ChunkLight  *to = user;
-    const float *nm = (const float *)&tale->wavelengths->nm;
+    const float *nm = (const float *)&history->wavelengths->nm;
     for (int i = 0; i < 3; i++) to->sum[i] += (double)xyz[i];
     for (int i = 0; i < SPECTRUM_LANES; i++) {
         int    band;
         double weight = lane_weight((double)nm[i], &band);
-        to->sum[3 + band] += weight * (double)tale->lanes[i];
+        to->sum[3 + band] += weight * (double)history->lanes[i];
     }
 }
 
-static void hear_chunk(void *user, int item, int worker)
+static void trace_chunk(void *user, int item, int worker)
 {
     (void)worker;
     const LightSearch *search = user;
-    PathListener   listener = {.hear = hear, .user = &search->chunks[item],
+    PathListener   listener = {.on_light = on_light, .user = &search->chunks[item],
                                .with_lanes = true};
     PathStatistics statistics = {0};
-    search->ask->tools->kernel->hear(search->ask->aim, item * CHAIN_CHUNK,
+    search->ask->tools->kernel->trace(search->ask->aim, item * CHAIN_CHUNK,
                                      (item + 1) * CHAIN_CHUNK, &listener, &statistics);
 }
 
@@ -77,7 +77,7 @@ PixelLight pixel_light_find(const ChainAsk *ask)
     Arena       own = arena_reserve((size_t)1 << 30);
     LightSearch search = {ask, ARENA_NEW(&own, ChunkLight, count)};
     PixelLight  out;
-    parallel_for(ask->tools->threads, count, hear_chunk, &search);
+    parallel_for(ask->tools->threads, count, trace_chunk, &search);
     for (int i = 0; i < 3; i++) out.xyz[i] = figure_of(search.chunks, count, i);
     for (int i = 0; i < PIXEL_BANDS; i++)
         out.radiance[i] = figure_of(search.chunks, count, 3 + i);

@@ -66,7 +66,7 @@ static bool write_checkpoint(const FrameKept *kept, const RenderResult *so_far, 
     return render_write_checkpoint(&name, kept->options, so_far, *kept->arena, err);
 }
 
-static void tell(const Error *err, const char *then)
+static void report(const Error *err, const char *then)
 {
     char line[2048];
     error_line(err, line, (int)sizeof line);
@@ -77,7 +77,7 @@ static void tell(const Error *err, const char *then)
 static void keep(void *user, const RenderResult *so_far)
 {
     Error err;
-    if (!write_checkpoint(user, so_far, &err)) tell(&err, "the frame goes on without it");
+    if (!write_checkpoint(user, so_far, &err)) report(&err, "the frame goes on without it");
 }
 
 static bool find_checkpoint(const FrameKept *kept, Checkpoint *out, Error *err)
@@ -101,7 +101,7 @@ bool frame_kept_begin(FrameKept *kept, RenderOptions *options, Error *err)
     if (file_exists(kept->checkpoint)) {
         Checkpoint *found = ARENA_NEW(kept->arena, Checkpoint, 1);
         if (find_checkpoint(kept, found, &fault)) options->resume = found;
-        else tell(&fault, "the frame begins anew");
+        else report(&fault, "the frame begins anew");
     }
     options->checkpoint = keep;
     options->checkpoint_interval_s = CHECKPOINT_S;

@@ -30,7 +30,7 @@ typedef struct EyePath {
 /* Angles are drawn evenly in their logarithm, as f cos theta sin theta, about 1 / theta, asks;
  * Hammersley's points, which each round but the first shifts (Cranley and Patterson 1976). */
 typedef struct EyePaths {
-    const Stage *stage;
+    const Setup *setup;
     ProbeAim     aim;
     int          count;           /* of all rounds' paths */
     Vec3         gaze, right, up; /* unit: the head's axes */
@@ -76,28 +76,27 @@ static double degrees_between(Vec3 a, Vec3 b)
     return degrees_from_radians(acos(fmin(fmax((double)vec3_dot(a, b), -1), 1)));
 }
 
-static EyeSource source_of(const PathTale *tale)
+static EyeSource source_of(const PathHistory *history)
 {
-    int  told = tale->count < PATH_STEPS_TOLD ? tale->count : PATH_STEPS_TOLD;
     bool is_mirrored = false;
-    for (int i = 0; i < told; i++) {
-        if (tale->step[i].event == PATH_SCATTERS) return EYE_SURFACES;
-        is_mirrored |= tale->step[i].event == PATH_REFLECTS;
+    for (int i = 0; i < path_steps_kept(history); i++) {
+        if (history->step[i].event == PATH_SCATTERS) return EYE_SURFACES;
+        is_mirrored |= history->step[i].event == PATH_REFLECTS;
     }
-    if (tale->source == LIGHTS_SKY) return is_mirrored ? EYE_SURFACES : EYE_SKY;
+    if (history->source == LIGHTS_SKY) return is_mirrored ? EYE_SURFACES : EYE_SKY;
     if (is_mirrored) return EYE_GLINTS;
-    return tale->source == LIGHTS_SUN ? EYE_SUN : EYE_LAMPS;
+    return history->source == LIGHTS_SUN ? EYE_SUN : EYE_LAMPS;
 }
 
-static void hear_path(void *user, const PathTale *tale, const float xyz[3])
+static void add_found(void *user, const PathHistory *history, const float xyz[3])
 {
     EyePath *path = user;
-    bool     is_direct = tale->count == 0;
-    if (is_direct && tale->source == LIGHTS_SUN) return;
+    bool     is_direct = history->count == 0;
+    if (is_direct && history->source == LIGHTS_SUN) return;
     path->seen += (double)xyz[1];
-    if (!is_direct || tale->source == LIGHTS_SKY)
-        path->apart[source_of(tale)] += (double)xyz[1];
-    if (tale->source == LIGHTS_SUN && source_of(tale) == EYE_GLINTS)
+    if (!is_direct || history->source == LIGHTS_SKY)
+        path->apart[source_of(history)] += (double)xyz[1];
+    if (history->source == LIGHTS_SUN && source_of(history) == EYE_GLINTS)
         path->images += (double)xyz[1];
 }
 
@@ -107,8 +106,8 @@ static void read_chunk(void *user, int item, int worker)
     EyePaths      *paths = user;
     PathStatistics statistics = {0};
     for (int i = item * CHUNK; i < (item + 1) * CHUNK; i++) {
-        PathListener listener = {.hear = hear_path, .user = &paths->found[i]};
-        paths->stage->tools.kernel->hear(&paths->aim, i, i + 1, &listener, &statistics);
+        PathListener listener = {.on_light = add_found, .user = &paths->found[i]};
+        paths->setup->tools.kernel->trace(&paths->aim, i, i + 1, &listener, &statistics);
     }
 }
 
@@ -126,13 +125,13 @@ static double veil_of(const EyePaths *paths, Vec3 towards, double lux)
     return degrees >= FROM_DEG ? lux * disability_glare(degrees, paths->whose) : 0;
 }
 
-static void hear_pupil(void *user, const PathTale *tale, const float xyz[3])
+static void add_to_pupil(void *user, const PathHistory *history, const float xyz[3])
 {
     PupilSums *sums = user;
-    bool       is_sun = tale->source == LIGHTS_SUN;
-    if (tale->count || tale->source == LIGHTS_SKY) return;
+    bool       is_sun = history->source == LIGHTS_SUN;
+    if (history->count || history->source == LIGHTS_SKY) return;
     *(is_sun ? &sums->sun_veil : &sums->lamp_veil) +=
-        veil_of(sums->paths, tale->towards, (double)xyz[1]);
+        veil_of(sums->paths, history->towards, (double)xyz[1]);
     *(is_sun ? &sums->sun_lx : &sums->lamp_lx) += (double)xyz[1];
 }
 
@@ -147,9 +146,9 @@ static void read_pupil_chunk(void *user, int item, int worker)
     (void)worker;
     PupilWork     *work = user;
     PathStatistics statistics = {0};
-    PathListener   listener = {.hear = hear_pupil, .user = &work->sums[item]};
+    PathListener   listener = {.on_light = add_to_pupil, .user = &work->sums[item]};
     work->sums[item] = (PupilSums){.paths = work->paths};
-    work->paths->stage->tools.kernel->hear(&work->aim, item * CHUNK, (item + 1) * CHUNK,
+    work->paths->setup->tools.kernel->trace(&work->aim, item * CHUNK, (item + 1) * CHUNK,
                                            &listener, &statistics);
 }
 
@@ -168,13 +167,13 @@ static PupilSums *read_pupil(const EyePaths *paths, Arena *arena)
     PupilSums  *all = ARENA_NEW(arena, PupilSums, rounds);
     Arena       scratch = *arena;
     LitPoint    pupil = {paths->aim.eye, paths->gaze, false};
-    PathContext lights_only = paths->stage->context;
-    uint32_t    seed = review_seed(paths->stage->request, SEED + 1);
+    PathContext lights_only = paths->setup->context;
+    uint32_t    seed = review_seed(paths->setup->request, SEED + 1);
     PupilWork   work = {{.context = &lights_only, .meter = &pupil, .seed = seed}, paths,
                         ARENA_NEW(&scratch, PupilSums, chunks)};
     lights_only.strategy = PATH_LIGHTS_ONLY;
     lights_only.max_bounces = 1;
-    parallel_for(paths->stage->tools.threads, chunks, read_pupil_chunk, &work);
+    parallel_for(paths->setup->tools.threads, chunks, read_pupil_chunk, &work);
     for (int i = 0; i < chunks; i++) add_pupil(&all[i / (PATHS / CHUNK)], &work.sums[i]);
     return all;
 }
@@ -216,7 +215,7 @@ static void add_veil(const EyePaths *paths, int round, EyeSource source, double 
 /* Within the field in which images were looked for? */
 static bool has_images(const EyePaths *paths, Vec3 d)
 {
-    const double *to = paths->stage->request->forward;
+    const double *to = paths->setup->request->forward;
     Vec3 ahead = vec3((float)to[0], (float)to[1], (float)to[2]);
     return paths->images && degrees_between(d, ahead) < FALSE_SUN_FIELD_DEG;
 }
@@ -269,7 +268,7 @@ static void add_images(const EyePaths *paths, EyeSums *sums)
     Vec3      towards;
     float     bands[LIGHT_BANDS];
     double    disc = 2 * PI * (1 - cos(radians_from_degrees(SUN_MEAN_RADIUS_DEG)));
-    if (!paths->images || !stage_sun(paths->stage, &towards, bands)) return;
+    if (!paths->images || !setup_sun(paths->setup, &towards, bands)) return;
     for (int b = 0; b < LIGHT_BANDS; b++) work.luminance += (double)bands[b] / disc;
     false_suns_each(paths->images, towards, add_image, &work);
 }
@@ -279,7 +278,7 @@ static void add_sun(const EyePaths *paths, double sun_lx, EyeSums *sums)
 {
     Vec3  towards;
     float bands[LIGHT_BANDS];
-    if (!(sun_lx > 0) || !stage_sun(paths->stage, &towards, bands)) return;
+    if (!(sun_lx > 0) || !setup_sun(paths->setup, &towards, bands)) return;
     double sine = sin(radians_from_degrees(SUN_MEAN_RADIUS_DEG)), disc = PI * sine * sine;
     double cosine = (double)vec3_dot(towards, paths->gaze);
     add_source(paths, towards, sun_lx / (disc * cosine), disc, sums);
@@ -329,7 +328,7 @@ static EyeReading sum_up(const EyePaths *paths, const PupilSums *pupils, Arena s
  * from looking ahead. */
 static void set_head(EyePaths *paths)
 {
-    const double *ahead = paths->stage->request->forward;
+    const double *ahead = paths->setup->request->forward;
     Vec3 forward = vec3((float)ahead[0], (float)ahead[1], (float)ahead[2]);
     Vec3 top = vec3(0, 1, 0);
     if (fabsf(paths->gaze.y) > UPRIGHT)
@@ -338,11 +337,11 @@ static void set_head(EyePaths *paths)
     paths->up = vec3_cross(paths->right, paths->gaze);
 }
 
-static EyeReading read_eye(const Stage *stage, const EyeLook *look, Arena scratch)
+static EyeReading read_eye(const Setup *setup, const EyeLook *look, Arena scratch)
 {
-    const ReviewObserver *observer = &stage->request->observer;
+    const ReviewObserver *observer = &setup->request->observer;
     int      count = look->rounds * PATHS;
-    EyePaths paths = {.stage = stage, .count = count, .gaze = vec3_normalize(look->towards),
+    EyePaths paths = {.setup = setup, .count = count, .gaze = vec3_normalize(look->towards),
                       .whose = {observer->age_years, observer->pigment},
                       .images = look->images,
                       .targets = ARENA_NEW(&scratch, Vec3, count),
@@ -350,31 +349,31 @@ static EyeReading read_eye(const Stage *stage, const EyeLook *look, Arena scratc
                       .found = ARENA_NEW(&scratch, EyePath, count)};
     Frame    frame = frame_from_z(paths.gaze);
     set_head(&paths);
-    paths.aim = (ProbeAim){.context = &stage->context, .eye = look->eye,
+    paths.aim = (ProbeAim){.context = &setup->context, .eye = look->eye,
                            .targets = paths.targets, .target_count = count,
-                           .seed = review_seed(stage->request, SEED)};
+                           .seed = review_seed(setup->request, SEED)};
     for (int i = 0; i < count; i++) aim_path(&paths, &frame, i);
-    parallel_for(stage->tools.threads, count / CHUNK, read_chunk, &paths);
+    parallel_for(setup->tools.threads, count / CHUNK, read_chunk, &paths);
     PupilSums *pupils = read_pupil(&paths, &scratch);
     return sum_up(&paths, pupils, scratch);
 }
 
-EyeReading eye_read(const Stage *stage, const EyeLook *look, Arena scratch)
+EyeReading eye_read(const Setup *setup, const EyeLook *look, Arena scratch)
 {
-    const ReadingTools   *tools = &stage->tools;
-    const ReviewObserver *observer = &stage->request->observer;
-    const double         *ahead = stage->request->forward;
+    const ReadingTools   *tools = &setup->tools;
+    const ReviewObserver *observer = &setup->request->observer;
+    const double         *ahead = setup->request->forward;
     EyeReading reading;
-    if (!tools->journal) return read_eye(stage, look, scratch);
-    ProbeAim   aim = {.context = &stage->context, .eye = look->eye, .targets = &look->towards,
-                      .target_count = 1, .seed = review_seed(stage->request, SEED)};
+    if (!tools->journal) return read_eye(setup, look, scratch);
+    ProbeAim   aim = {.context = &setup->context, .eye = look->eye, .targets = &look->towards,
+                      .target_count = 1, .seed = review_seed(setup->request, SEED)};
     double     numbers[] = {observer->age_years, observer->pigment, look->rounds, ahead[0],
                             ahead[1], ahead[2], look->images ? look->images->count : -1};
     Question   question = {.base = tools->base, .kind = "eye", .numbers = numbers,
                            .number_count = COUNT_OF(numbers)};
     JournalKey key = question_key(&question, &aim, scratch);
     if (journal_find(tools->journal, key, &reading, sizeof reading)) return reading;
-    reading = read_eye(stage, look, scratch);
+    reading = read_eye(setup, look, scratch);
     journal_add(tools->journal, key, &reading, sizeof reading);
     return reading;
 }

@@ -52,4 +52,4 @@ typedef struct EyeReading {
 } EyeReading;
 
 /* The request's observer. */
-EyeReading eye_read(const Stage *stage, const EyeLook *look, Arena scratch);
+EyeReading eye_read(const Setup *setup, const EyeLook *look, Arena scratch);

@@ -26,7 +26,7 @@ static int blocks_of_ring(int ring)
 }
 
 typedef struct ImageSearch {
-    const Stage *stage;
+    const Setup *setup;
     Vec3         eye;
     Frame        ahead;              /* z: straight ahead */
     Arena       *found;              /* FalseSunRay by FalseSunRay, one a ring */
@@ -60,11 +60,11 @@ static void follow(SearchRay *ray, int first, int end)
 {
     const ImageSearch  *search = ray->search;
     Vec3           target = vec3_add(search->eye, ray->seen);
-    ProbeAim       aim = {.context = &search->stage->context, .eye = search->eye,
+    ProbeAim       aim = {.context = &search->setup->context, .eye = search->eye,
                           .targets = &target, .target_count = 1, .seed = SEED};
     ProbeImages    images = {add_image, ray};
     PathStatistics statistics = {0};
-    search->stage->tools.kernel->ask_images(&aim, first, end, &images, &statistics);
+    search->setup->tools.kernel->ask_images(&aim, first, end, &images, &statistics);
 }
 
 typedef struct SearchBlock {
@@ -178,14 +178,14 @@ static void put_in_order(const Arena *found, Arena *arena, FalseSunRays *out)
 
 #define RING_BYTES ((size_t)1 << 28) /* address space: what is not touched costs nothing */
 
-void false_suns_search(const Stage *stage, Vec3 eye, Arena *arena, FalseSunRays *out)
+void false_suns_search(const Setup *setup, Vec3 eye, Arena *arena, FalseSunRays *out)
 {
-    const double *to = stage->request->forward;
+    const double *to = setup->request->forward;
     Arena  found[RINGS];
-    ImageSearch search = {.stage = stage, .eye = eye, .found = found,
+    ImageSearch search = {.setup = setup, .eye = eye, .found = found,
                      .ahead = frame_from_z(vec3((float)to[0], (float)to[1], (float)to[2]))};
     for (int ring = 0; ring < RINGS; ring++) found[ring] = arena_reserve(RING_BYTES);
-    parallel_for(stage->tools.threads, RINGS, search_ring, &search);
+    parallel_for(setup->tools.threads, RINGS, search_ring, &search);
     put_in_order(found, arena, out);
     for (int ring = 0; ring < RINGS; ring++) arena_release(&found[ring]);
 }
@@ -208,7 +208,7 @@ FalseSuns false_suns_of(const FalseSunRays *rays, const float bands[LIGHT_BANDS]
 
 /* ---- one sun ----------------------------------------------------------------------------- */
 
-#define MIRRORS_TOLD 16
+#define MIRRORS_LISTED 16
 
 typedef struct MirrorSums {
     int    part_id;
@@ -217,7 +217,7 @@ typedef struct MirrorSums {
 } MirrorSums;
 
 typedef struct ImageSums {
-    MirrorSums mirror[MIRRORS_TOLD];
+    MirrorSums mirror[MIRRORS_LISTED];
     int        count;
     double     sr;
 } ImageSums;
@@ -229,7 +229,7 @@ static void add_false_sun(void *user, const FalseSun *image, double share)
     double     sr = share * (double)image->sr;
     while (i < sums->count && sums->mirror[i].part_id != image->part_id) i++;
     sums->sr += sr;
-    if (i == MIRRORS_TOLD) return;
+    if (i == MIRRORS_LISTED) return;
     if (i == sums->count) sums->mirror[sums->count++] = (MirrorSums){.part_id = image->part_id};
     sums->mirror[i].sr += sr;
     sums->mirror[i].seen =
@@ -246,13 +246,13 @@ static double share_in_disc(Vec3 ray, Vec3 towards)
 }
 
 /* Who is told of a sun's images. */
-typedef struct SunTold {
+typedef struct SunVisit {
     Vec3          towards;
-    FalseSunTold *told;
+    FalseSunVisitor *visit;
     void         *user;
-} SunTold;
+} SunVisit;
 
-static void tell_row(const FalseSuns *suns, int row, int columns, const SunTold *to)
+static void visit_row(const FalseSuns *suns, int row, int columns, const SunVisit *to)
 {
     int middle = column_of(to->towards), count = 2 * columns + 1;
     for (int k = 0; k < count && k < CELL_COLUMNS; k++) {
@@ -260,7 +260,7 @@ static void tell_row(const FalseSuns *suns, int row, int columns, const SunTold 
         int cell = row * CELL_COLUMNS + column;
         for (int i = suns->first[cell]; i < suns->first[cell + 1]; i++) {
             double share = share_in_disc(suns->list[i].sun, to->towards);
-            if (share > 0) to->told(to->user, &suns->list[i], share);
+            if (share > 0) to->visit(to->user, &suns->list[i], share);
         }
     }
 }
@@ -274,12 +274,12 @@ static int columns_about(Vec3 towards)
     return (int)ceil(degrees_from_radians(asin(reach / sine)) / CELL_DEG);
 }
 
-void false_suns_each(const FalseSuns *suns, Vec3 towards, FalseSunTold *told, void *user)
+void false_suns_each(const FalseSuns *suns, Vec3 towards, FalseSunVisitor *visit, void *user)
 {
-    SunTold to = {towards, told, user};
+    SunVisit to = {towards, visit, user};
     int     row = row_of(towards), columns = columns_about(towards);
     for (int r = row - 1; r <= row + 1; r++)
-        if (r >= 0 && r < CELL_ROWS) tell_row(suns, r, columns, &to);
+        if (r >= 0 && r < CELL_ROWS) visit_row(suns, r, columns, &to);
 }
 
 FalseSunSight false_suns_at(const FalseSuns *suns, Vec3 towards)

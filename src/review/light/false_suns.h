@@ -16,7 +16,7 @@
  * Threads      a search starts its own; the same figures for any count.
  */
 #pragma once
-#include "review/light/stage.h"
+#include "review/light/setup.h"
 
 #define FALSE_SUN_STEP_DEG 0.1
 #define FALSE_SUN_FIELD_DEG 100
@@ -38,8 +38,8 @@ typedef struct FalseSunRays {
     int                count;
 } FalseSunRays;
 
-/* The stage may be dark: no light of it counts. */
-void false_suns_search(const Stage *stage, Vec3 eye, Arena *arena, FalseSunRays *out);
+/* The setup may be dark: no light of it counts. */
+void false_suns_search(const Setup *setup, Vec3 eye, Arena *arena, FalseSunRays *out);
 
 /* A ray under suns of one spectrum. */
 typedef struct FalseSun {
@@ -59,10 +59,10 @@ FalseSuns false_suns_of(const FalseSunRays *rays, const float bands[LIGHT_BANDS]
 
 /* Is told of a ray that leaves to the sun: `share` of it leaves to the disc, its rim's by a
  * part. */
-typedef void FalseSunTold(void *user, const FalseSun *image, double share);
+typedef void FalseSunVisitor(void *user, const FalseSun *image, double share);
 
 /* towards: the sun, unit, world. */
-void false_suns_each(const FalseSuns *suns, Vec3 towards, FalseSunTold *told, void *user);
+void false_suns_each(const FalseSuns *suns, Vec3 towards, FalseSunVisitor *visit, void *user);
 
 /* All images of one sun. */
 typedef struct FalseSunSight {

@@ -219,11 +219,11 @@ static bool sends_anything(const Response *response, int cell)
 }
 
 /* Of the vehicle, whatever its heading. */
-static SunAngles vehicle_angles(const Stage *stage, Vec3 direction)
+static SunAngles vehicle_angles(const Setup *setup, Vec3 direction)
 {
-    SunAngles angles = stage_angles(stage, direction);
+    SunAngles angles = setup_angles(setup, direction);
     angles.azimuth_deg -=
-        degrees_from_radians((double)stage->scene->environment.heading);
+        degrees_from_radians((double)setup->scene->environment.heading);
     return angles;
 }
 
@@ -267,10 +267,10 @@ static void place_answers(FarProbe *probe, const SkyTable *table, Arena *arena)
 static const char *table_words(const FarTools *tools, const char *what, Arena *arena)
 {
     const SkyTable *table = tools->table;
-    const double   *forward = tools->stage->request->forward;
+    const double   *forward = tools->setup->request->forward;
     Text            text = {.arena = arena};
     text_format(&text, "%s\n", what);
-    identity_add_program(&text, tools->stage->tools.kernel);
+    identity_add_program(&text, tools->setup->tools.kernel);
     identity_add_daylight(&text, &table->like);
     identity_line(&text, "elevations", "%d, %.17g to %.17g", table->count,
                   table->elevation_deg[0], table->elevation_deg[table->count - 1]);
@@ -283,7 +283,7 @@ static JournalKey answers_key(const FarProbe *probe, const FarTools *tools, Aren
 {
     const Response *response = &probe->response;
     double   numbers[] = {(double)response->paths, response->relative_error};
-    Question question = {.base = tools->stage->tools.base,
+    Question question = {.base = tools->setup->tools.base,
                          .kind = table_words(tools, "skies", &scratch), .numbers = numbers,
                          .number_count = COUNT_OF(numbers)};
     return question_key(&question, &probe->aim, scratch);
@@ -297,7 +297,7 @@ static size_t suns_bytes(const SkyTable *table)
 /* NULL: nothing is kept. */
 static Journal *journal_of(const FarTools *tools)
 {
-    return tools->stage ? tools->stage->tools.journal : NULL;
+    return tools->setup ? tools->setup->tools.journal : NULL;
 }
 
 static bool find_suns(const FarTools *tools, Arena scratch)
@@ -346,7 +346,7 @@ static void keep_answers(FarProbe *const *probes, int count, const FarTools *too
 static bool sum_skies(FarProbe *const *probes, int count, const FarTools *tools, Arena scratch,
                       Error *err)
 {
-    int rows = tools->table->count, threads = tools->stage->tools.threads;
+    int rows = tools->table->count, threads = tools->setup->tools.threads;
     const Response *first = &probes[0]->response; /* all have the same triangles */
     int             cells = first->cells.count;
     bool           *is_asked = ARENA_NEW(&scratch, bool, cells);
@@ -354,7 +354,7 @@ static bool sum_skies(FarProbe *const *probes, int count, const FarTools *tools,
     SkyProbe       *list = ARENA_NEW(&scratch, SkyProbe, count);
     for (int i = 0; i < count; i++) list[i] = sky_probe(probes[i], is_asked, &scratch);
     for (int cell = 0; cell < cells; cell++)
-        at[cell] = vehicle_angles(tools->stage, first->centers[cell]);
+        at[cell] = vehicle_angles(tools->setup, first->centers[cell]);
     SkySum sum = {.probes = list, .probe_count = count, .cell_count = cells,
                   .first_azimuth = tools->table->first_azimuth,
                   .is_asked = is_asked, .at = at,
@@ -386,19 +386,19 @@ static bool ask_table(FarProbe *const *probes, int count, const FarTools *tools,
 
 static Vec3 *sun_directions(const FarTools *tools, Arena *arena)
 {
-    double heading = degrees_from_radians((double)tools->stage->scene->environment.heading);
+    double heading = degrees_from_radians((double)tools->setup->scene->environment.heading);
     Vec3  *towards = ARENA_NEW(arena, Vec3, tools->suns.count);
     for (int i = 0; i < tools->suns.count; i++) {
         SunAngles angles = tools->suns.angles[i];
         angles.azimuth_deg += heading;
-        towards[i] = stage_direction(tools->stage, angles);
+        towards[i] = setup_direction(tools->setup, angles);
     }
     return towards;
 }
 
 void far_probe_respond(FarProbe *probe, const FarTools *tools, Arena *arena)
 {
-    const ReadingTools *with = &tools->stage->tools;
+    const ReadingTools *with = &tools->setup->tools;
     ResponseOptions     options = {with->kernel, RESPONSE_LEVEL, tools->paths, with->threads,
                                    tools->precision};
     response_trace(&probe->aim, &options, arena, &probe->response);
@@ -457,7 +457,7 @@ static const float *ask_scattered(const FarProbe *probe, const ReadingTools *wit
 
 void far_probe_ask_suns(FarProbe *probe, const FarTools *tools, Arena *arena)
 {
-    const ReadingTools *with = &tools->stage->tools;
+    const ReadingTools *with = &tools->setup->tools;
     ResponseOptions options = {with->kernel, RESPONSE_LEVEL, tools->sun_paths, with->threads,
                                0};
     ProbeSuns suns = {.towards = sun_directions(tools, arena), .count = tools->suns.count,
@@ -483,7 +483,7 @@ static void read_even_sky(FarProbe *probe, Arena *arena)
 static void ask_hours(FarProbe *probe, const FarTools *tools, Arena *arena)
 {
     probe->sky = hour_skies_read(tools->hours, &probe->response, sun_directions(tools, arena),
-                                 tools->suns.count, tools->stage->tools.threads, arena);
+                                 tools->suns.count, tools->setup->tools.threads, arena);
     read_even_sky(probe, arena);
 }
 
@@ -559,11 +559,11 @@ static void read_sun(const FarProbe *probe, const FarTools *tools, int sun, FarR
     float      bands[LIGHT_BANDS];
     size_t     at = (size_t)sun * LIGHT_BANDS;
     angles.azimuth_deg +=
-        degrees_from_radians((double)tools->stage->scene->environment.heading);
+        degrees_from_radians((double)tools->setup->scene->environment.heading);
     sun_bands(tools, sun, bands);
     to->mirror = probe->mirror ? light_bands_sum(probe->mirror + at, bands) : 0;
     to->sun_first = light_bands_sum(probe->scattered + at, bands) + to->mirror;
-    to->sun_rest = response_sun(&probe->response, stage_direction(tools->stage, angles), bands,
+    to->sun_rest = response_sun(&probe->response, setup_direction(tools->setup, angles), bands,
                                 without, bright);
 }
 

@@ -16,7 +16,7 @@
 #pragma once
 #include "review/light/hour_sky.h"
 #include "review/light/inherited.h"
-#include "review/light/stage.h"
+#include "review/light/setup.h"
 
 /* ---- skies ------------------------------------------------------------------------------- */
 
@@ -64,7 +64,7 @@ typedef struct FarSuns {
 } FarSuns;
 
 typedef struct FarTools {
-    const Stage    *stage;
+    const Setup    *setup;
     SkyTable       *table;
     FarSuns         suns;
     int             paths;       /* of the response, at most, */

@@ -38,34 +38,29 @@ static void aim_at_cone(const GazeGoal *goal, Vec3 *targets)
     }
 }
 
-/* ---- what is heard ----------------------------------------------------------------------- */
+/* ---- what paths find --------------------------------------------------------------------- */
 
 static bool is_pane(const Scene *scene, int part_id)
 {
     return scene->materials[scene->parts[part_id].material_id].transmission > 0;
 }
 
-static int steps_told(const PathTale *tale)
-{
-    return tale->count < PATH_STEPS_TOLD ? tale->count : PATH_STEPS_TOLD;
-}
-
 /* The step at which a pane mirrors what the eye sees there; NO_ID: none does. */
-static int mirroring_step(const Scene *scene, const PathTale *tale)
+static int mirroring_step(const Scene *scene, const PathHistory *history)
 {
-    int told = steps_told(tale), i = 0;
-    while (i < told && tale->step[i].event == PATH_TRANSMITS) i++;
-    bool mirrors = i < told && tale->step[i].event == PATH_REFLECTS &&
-                   is_pane(scene, tale->step[i].part_id);
+    int kept = path_steps_kept(history), i = 0;
+    while (i < kept && history->step[i].event == PATH_TRANSMITS) i++;
+    bool mirrors = i < kept && history->step[i].event == PATH_REFLECTS &&
+                   is_pane(scene, history->step[i].part_id);
     return mirrors ? i : NO_ID;
 }
 
 /* Straight, or through panes with a thickness. */
-static bool is_suns_disc(const PathTale *tale)
+static bool is_suns_disc(const PathHistory *history)
 {
-    for (int i = 0; i < steps_told(tale); i++)
-        if (tale->step[i].event != PATH_TRANSMITS) return false;
-    return tale->source == LIGHTS_SUN;
+    for (int i = 0; i < path_steps_kept(history); i++)
+        if (history->step[i].event != PATH_TRANSMITS) return false;
+    return history->source == LIGHTS_SUN;
 }
 
 /* Sums over a chunk of paths. */
@@ -74,18 +69,18 @@ typedef struct GazeChunk {
     double       through, mirrored;
 } GazeChunk;
 
-static void hear(void *user, const PathTale *tale, const float xyz[3])
+static void on_light(void *user, const PathHistory *history, const float xyz[3])
 {
     GazeChunk *chunk = user;
-    bool       is_mirrored = mirroring_step(chunk->scene, tale) != NO_ID;
-    if (!is_suns_disc(tale))
+    bool       is_mirrored = mirroring_step(chunk->scene, history) != NO_ID;
+    if (!is_suns_disc(history))
         *(is_mirrored ? &chunk->mirrored : &chunk->through) += (double)xyz[1];
 }
 
 /* ---- how much ---------------------------------------------------------------------------- */
 
 typedef struct GazeRound {
-    const Stage *stage;
+    const Setup *setup;
     ProbeAim     aim;
     int          first; /* chunk */
     GazeChunk   *chunks;
@@ -97,10 +92,11 @@ static void read_chunk(void *user, int item, int worker)
     const GazeRound *round = user;
     PathStatistics   statistics = {0};
     GazeChunk       *chunk = &round->chunks[item];
-    PathListener     listener = {.hear = hear, .user = chunk};
+    PathListener     listener = {.on_light = on_light, .user = chunk};
     int              first = (round->first + item) * CHUNK;
-    *chunk = (GazeChunk){.scene = round->stage->scene};
-    round->stage->tools.kernel->hear(&round->aim, first, first + CHUNK, &listener, &statistics);
+    *chunk = (GazeChunk){.scene = round->setup->scene};
+    round->setup->tools.kernel->trace(&round->aim, first, first + CHUNK, &listener,
+                                      &statistics);
 }
 
 /* Of one figure: over the chunks so far. */
@@ -128,16 +124,16 @@ static bool is_sure(const GazeReading *reading, double precision)
 }
 
 /* As many paths again as there were before, until both figures are sure. */
-static void read_cone(const Stage *stage, const GazeGoal *goal, const ProbeAim *aim,
+static void read_cone(const Setup *setup, const GazeGoal *goal, const ProbeAim *aim,
                       GazeReading *out, Arena scratch)
 {
     GazeSum   through = {0}, mirrored = {0};
-    GazeRound round = {stage, *aim, 0, NULL};
+    GazeRound round = {setup, *aim, 0, NULL};
     int       chunks = LEAST / CHUNK;
     do {
         Arena room = scratch;
         round.chunks = ARENA_NEW(&room, GazeChunk, chunks);
-        parallel_for(stage->tools.threads, chunks, read_chunk, &round);
+        parallel_for(setup->tools.threads, chunks, read_chunk, &round);
         for (int i = 0; i < chunks; i++) {
             add_mean(&through, round.chunks[i].through);
             add_mean(&mirrored, round.chunks[i].mirrored);
@@ -157,21 +153,21 @@ typedef struct GazeTally {
     double      *panes, *shown;
 } GazeTally;
 
-static int place_shown(const Scene *scene, const PathTale *tale, int from)
+static int place_shown(const Scene *scene, const PathHistory *history, int from)
 {
-    for (int i = from + 1; i < steps_told(tale); i++)
-        if (!is_pane(scene, tale->step[i].part_id)) return tale->step[i].part_id;
-    return tale->source == LIGHTS_EMITTERS ? tale->source_id
-                                           : scene->part_count + (int)tale->source;
+    for (int i = from + 1; i < path_steps_kept(history); i++)
+        if (!is_pane(scene, history->step[i].part_id)) return history->step[i].part_id;
+    return history->source == LIGHTS_EMITTERS ? history->source_id
+                                           : scene->part_count + (int)history->source;
 }
 
-static void hear_place(void *user, const PathTale *tale, const float xyz[3])
+static void add_place(void *user, const PathHistory *history, const float xyz[3])
 {
     GazeTally *tally = user;
-    int        step = mirroring_step(tally->scene, tale);
+    int        step = mirroring_step(tally->scene, history);
     if (step == NO_ID) return;
-    tally->panes[tale->step[step].part_id] += (double)xyz[1];
-    tally->shown[place_shown(tally->scene, tale, step)] += (double)xyz[1];
+    tally->panes[history->step[step].part_id] += (double)xyz[1];
+    tally->shown[place_shown(tally->scene, history, step)] += (double)xyz[1];
 }
 
 /* NO_ID: all are 0. */
@@ -183,44 +179,44 @@ static int greatest(const double *values, int count)
     return at;
 }
 
-static GazeMirrored find_mirrored(const Stage *stage, const ProbeAim *aim, Arena scratch)
+static GazeMirrored find_mirrored(const Setup *setup, const ProbeAim *aim, Arena scratch)
 {
-    int            parts = stage->scene->part_count;
-    GazeTally      tally = {stage->scene, ARENA_NEW(&scratch, double, parts),
+    int            parts = setup->scene->part_count;
+    GazeTally      tally = {setup->scene, ARENA_NEW(&scratch, double, parts),
                             ARENA_NEW(&scratch, double, parts + LIGHT_SETS)};
-    PathListener   listener = {.hear = hear_place, .user = &tally};
+    PathListener   listener = {.on_light = add_place, .user = &tally};
     PathStatistics statistics = {0};
-    stage->tools.kernel->hear(aim, 0, LEAST, &listener, &statistics);
+    setup->tools.kernel->trace(aim, 0, LEAST, &listener, &statistics);
     int shown = greatest(tally.shown, parts + LIGHT_SETS);
     return (GazeMirrored){greatest(tally.panes, parts), shown < parts ? shown : NO_ID,
                           shown < parts ? LIGHTS_SUN : (LightSet)(shown - parts)};
 }
 
-static GazeReading read_gaze(const Stage *stage, const GazeGoal *goal, Arena scratch)
+static GazeReading read_gaze(const Setup *setup, const GazeGoal *goal, Arena scratch)
 {
     GazeReading out = {.most = {NO_ID, NO_ID, LIGHTS_SUN}};
     Vec3       *targets = ARENA_NEW(&scratch, Vec3, TARGETS);
-    ProbeAim    aim = {.context = &stage->context, .eye = goal->eye, .targets = targets,
-                       .target_count = TARGETS, .seed = review_seed(stage->request, SEED)};
+    ProbeAim    aim = {.context = &setup->context, .eye = goal->eye, .targets = targets,
+                       .target_count = TARGETS, .seed = review_seed(setup->request, SEED)};
     aim_at_cone(goal, targets);
-    read_cone(stage, goal, &aim, &out, scratch);
-    if (out.mirrored > 0) out.most = find_mirrored(stage, &aim, scratch);
+    read_cone(setup, goal, &aim, &out, scratch);
+    if (out.mirrored > 0) out.most = find_mirrored(setup, &aim, scratch);
     return out;
 }
 
-GazeReading gaze_read(const Stage *stage, const GazeGoal *goal, Arena scratch)
+GazeReading gaze_read(const Setup *setup, const GazeGoal *goal, Arena scratch)
 {
-    const ReadingTools *tools = &stage->tools;
+    const ReadingTools *tools = &setup->tools;
     GazeReading reading;
-    if (!tools->journal) return read_gaze(stage, goal, scratch);
-    ProbeAim   aim = {.context = &stage->context, .eye = goal->eye, .targets = &goal->towards,
-                      .target_count = 1, .seed = review_seed(stage->request, SEED)};
+    if (!tools->journal) return read_gaze(setup, goal, scratch);
+    ProbeAim   aim = {.context = &setup->context, .eye = goal->eye, .targets = &goal->towards,
+                      .target_count = 1, .seed = review_seed(setup->request, SEED)};
     double     numbers[] = {goal->precision, goal->most};
     Question   question = {.base = tools->base, .kind = "gaze", .numbers = numbers,
                            .number_count = COUNT_OF(numbers)};
     JournalKey key = question_key(&question, &aim, scratch);
     if (journal_find(tools->journal, key, &reading, sizeof reading)) return reading;
-    reading = read_gaze(stage, goal, scratch);
+    reading = read_gaze(setup, goal, scratch);
     journal_add(tools->journal, key, &reading, sizeof reading);
     return reading;
 }

@@ -37,4 +37,4 @@ typedef struct GazeReading {
     GazeMirrored most;                     /* most of what is mirrored */
 } GazeReading;
 
-GazeReading gaze_read(const Stage *stage, const GazeGoal *goal, Arena scratch);
+GazeReading gaze_read(const Setup *setup, const GazeGoal *goal, Arena scratch);

@@ -86,7 +86,7 @@ static void read_batch(void *user, int item, int worker)
     for (int first = stream->first; first < stream->end; first += PIECE) {
         int end = first + PIECE < stream->end ? first + PIECE : stream->end;
         stream->kernel->look(&aim, first, end, looks, &statistics);
-        add_looks(&stream->batches[item], looks, end - first, aim.tells_displays);
+        add_looks(&stream->batches[item], looks, end - first, aim.by_display);
     }
 }
 
@@ -297,7 +297,7 @@ static Reading take(const ProbeAim *aim, const ReadingGoal *goal, const ReadingT
 {
     double   start = monotonic_seconds();
     ProbeAim own = *aim;
-    own.tells_displays = parts != NULL;
+    own.by_display = parts != NULL;
     Reading reading = goal->question ? take_asked(&own, goal, tools, parts, scratch)
                                      : take_plain(&own, goal, tools, parts, scratch);
     reading.reached = uncertainty(&reading, goal);

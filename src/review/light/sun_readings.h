@@ -11,7 +11,7 @@
  * Threads  one at a time.
  */
 #pragma once
-#include "review/light/stage.h"
+#include "review/light/setup.h"
 
 typedef struct KeptReading {
     SunAngles at;

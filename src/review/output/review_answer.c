@@ -12,8 +12,8 @@
 
 #define GRID_ROWS 7
 #define GRID_EYES 4
-#define MENDS_TOLD 2
-#define SHARES_TOLD 3
+#define MENDS_LISTED 2
+#define SHARES_LISTED 3
 
 const char *const *review_answer_directions(const ReviewAnswer *answer, const ReviewCase *c,
                                             Arena *arena)
@@ -225,10 +225,10 @@ static void add_when(Text *html, const ReviewAnswer *answer, const ReviewCase *c
 static const char *group_words(const CaseGroup *group, Arena *arena)
 {
     Text text = {.arena = arena};
-    int  told = group->count > SHARES_TOLD + 1 ? SHARES_TOLD : group->count, left = 100;
-    bool has_rest = told < group->count;
-    for (int i = 0; i < told; i++) {
-        bool is_last = i == told - 1 && !has_rest;
+    int  listed = group->count > SHARES_LISTED + 1 ? SHARES_LISTED : group->count, left = 100;
+    bool has_rest = listed < group->count;
+    for (int i = 0; i < listed; i++) {
+        bool is_last = i == listed - 1 && !has_rest;
         int  percent = is_last ? left : (int)lrint(100 * group->list[i].share);
         left -= percent;
         const char *share = percent > 0 ? arena_format(arena, "%d", percent) : "<1";
@@ -259,47 +259,48 @@ static bool mends(const ReviewCase *c, const CaseRemedy *r)
 }
 
 /* The one that gives most contrast first. */
-static const CaseRemedy *next_mend(const ReviewCase *c, const bool *is_told)
+static const CaseRemedy *next_mend(const ReviewCase *c, const bool *is_listed)
 {
     const CaseRemedy *best = NULL;
     for (int i = 0; i < c->remedy_count; i++) {
         const CaseRemedy *r = &c->remedies[i];
-        if (!is_told[i] && mends(c, r) && !(best && best->contrast_ratio >= r->contrast_ratio))
+        if (!is_listed[i] && mends(c,
+                                   r) && !(best && best->contrast_ratio >= r->contrast_ratio))
             best = r;
     }
     return best;
 }
 
-static void add_mend(Text *html, int *told, const char *words)
+static void add_mend(Text *html, int *listed, const char *words)
 {
-    add_fact(html, *told ? "… or" : "What mends it", words);
-    ++*told;
+    add_fact(html, *listed ? "… or" : "What mends it", words);
+    ++*listed;
 }
 
 /* What was tried on all of it goes before what is reckoned of this case alone. */
-static void add_tried(Text *html, const Review *review, int *told, Arena *arena)
+static void add_tried(Text *html, const Review *review, int *listed, Arena *arena)
 {
     for (int i = 0; i < review->mend_count; i++)
         if (review->mends[i].is_found)
-            add_mend(html, told, words_mend(&review->mends[i], arena));
-    for (int i = 0; i < review->variant_count && *told < MENDS_TOLD; i++) {
+            add_mend(html, listed, words_mend(&review->mends[i], arena));
+    for (int i = 0; i < review->variant_count && *listed < MENDS_LISTED; i++) {
         const ReviewVariantFound *v = &review->variants[i];
         if (review_verdict(v->review) == VERDICT_PASS)
-            add_mend(html, told, arena_format(arena, "the variant '%s': everything passes",
-                                              v->name));
+            add_mend(html, listed, arena_format(arena, "the variant '%s': everything passes",
+                                                v->name));
     }
 }
 
 static void add_mends(Text *html, const Review *review, const ReviewCase *c, Arena *arena)
 {
-    bool *is_told = ARENA_NEW(arena, bool, c->remedy_count + 1);
-    int   told = 0;
-    add_tried(html, review, &told, arena);
-    while (told < MENDS_TOLD) {
-        const CaseRemedy *r = next_mend(c, is_told);
+    bool *is_listed = ARENA_NEW(arena, bool, c->remedy_count + 1);
+    int   listed = 0;
+    add_tried(html, review, &listed, arena);
+    while (listed < MENDS_LISTED) {
+        const CaseRemedy *r = next_mend(c, is_listed);
         if (!r) return;
-        is_told[r - c->remedies] = true;
-        add_mend(html, &told,
+        is_listed[r - c->remedies] = true;
+        add_mend(html, &listed,
                  arena_format(arena, "%s: %s", r->what, words_ratio(r->contrast_ratio, arena)));
     }
 }

@@ -233,7 +233,7 @@ static bool read_names(const JsonView *view, ReviewCase *c, Error *err)
 }
 
 /* Reviews of before it was told have none. */
-static bool read_told_since(const JsonView *view, ReviewCase *c, Error *err)
+static bool read_since(const JsonView *view, ReviewCase *c, Error *err)
 {
     c->reflected_range = (Range){(double)NAN, (double)NAN};
     c->paths_to_decide = c->minutes_to_decide = (double)NAN;
@@ -260,7 +260,7 @@ static bool read_figures(const JsonView *view, ReviewCase *c, Error *err)
     json_int_t paths = 0;
     if (!read_count(view, "paths", &paths, err)) return false;
     c->paths = (long)paths;
-    return read_told_since(view, c, err) &&
+    return read_since(view, c, err) &&
            read_number(view, "contrast_ratio", &c->contrast_ratio, err) &&
            read_pair(view, "contrast_interval", &c->contrast_low, &c->contrast_high, err) &&
            read_number(view, "contrast_with_veil", &c->contrast_with_veil, err) &&

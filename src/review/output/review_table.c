@@ -269,13 +269,14 @@ void review_table_add_list(Text *html, const Review *review, int most, Arena *ar
         {"Margin", true, "how far above or below the limit"},
         {"half ← limit → twice", false, NULL}};
     const ReviewCase **ranked = review_rank(review, arena);
-    int all = review->case_count + review->sweep_count, told = most && most < all ? most : all;
+    int all = review->case_count + review->sweep_count;
+    int listed = most && most < all ? most : all;
     page_table_begin(html, "", "list", COLUMNS, 9);
-    for (int i = 0; i < told; i++) add_list_row(html, review, ranked[i], arena);
+    for (int i = 0; i < listed; i++) add_list_row(html, review, ranked[i], arena);
     page_table_end(html);
-    if (told < all)
+    if (listed < all)
         page_element(html, "p class=\"sub\"",
-                     arena_format(arena, "The worst %d of %d.", told, all));
+                     arena_format(arena, "The worst %d of %d.", listed, all));
 }
 
 /* ---- limits ----------------------------------------------------------------------------- */

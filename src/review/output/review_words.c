@@ -200,7 +200,7 @@ static const char *words_decide(const ReviewCase *c, Arena *arena)
                         words_minutes(fmax(c->minutes_to_decide, 1), arena));
 }
 
-#define HIDERS_TOLD 3
+#define HIDERS_LISTED 3
 
 const char *words_hiders(const ReviewCase *c, Arena *arena)
 {
@@ -208,7 +208,7 @@ const char *words_hiders(const ReviewCase *c, Arena *arena)
     double rest = 0;
     for (int i = 0; i < c->hider_count; i++) {
         const CaseHider *hider = &c->hiders[i];
-        if (i >= HIDERS_TOLD) rest += hider->share;
+        if (i >= HIDERS_LISTED) rest += hider->share;
         else
             text_format(&text, "%s%s hides %s", i ? ", " : "", hider->what,
                         words_share(hider->share, arena));

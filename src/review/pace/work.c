@@ -31,7 +31,7 @@ static int symbols_of(const ReviewRequest *request)
 
 static double work_of_moment(const ReviewRequest *request, bool is_bare)
 {
-    double work = WORK_STAGE;
+    double work = WORK_SETUP;
     for (int e = 0; e < request->eye_count; e++)
         work += symbols_of(request) * work_of_case(request, &request->eyes[e], is_bare);
     return is_bare ? work : work + WORK_LOOK * review_look_count(request);
@@ -51,7 +51,7 @@ static double work_of_sweep(const ReviewRequest *request, const ReviewCondition 
     int    sights = request->eye_count * symbols_of(request);
     double suns = suns_of(condition);
     double each = WORK_RESPONSE + 2 * WORK_OWN + WORK_SKIES + WORK_SUN * suns + WORK_WORST;
-    return WORK_STAGE + sights * each;
+    return WORK_SETUP + sights * each;
 }
 
 double work_of_condition(const ReviewRequest *request, const ReviewCondition *condition,

@@ -17,7 +17,7 @@ double work_of_case(const ReviewRequest *request, const ReviewEye *eye, bool is_
 #define WORK_LOOK 1.25
 
 /* Of a scene that is opened, its symbols found, its paths taught. */
-#define WORK_STAGE 2.5
+#define WORK_SETUP 2.5
 #define WORK_OPENED 0.6 /* of it, until it is open */
 
 /* Of a sweep: a symbol that an eye sees, which is asked of every direction; of skies, and each

@@ -216,8 +216,8 @@ static json_t *whole_or_not(double value)
 /* Noon by the clock of the place's zone, or of summer time where nothing was wished. */
 static json_t *noon_of(const ReviewStart *start, const ReviewPlace *place, Arena *arena)
 {
-    bool  is_told = start->wishes && start->wishes->place;
-    int   zone = is_told ? (int)lround(place->where[1] / HOUR_DEG) : 2;
+    bool  is_known = start->wishes && start->wishes->place;
+    int   zone = is_known ? (int)lround(place->where[1] / HOUR_DEG) : 2;
     char *when = arena_format(arena, "%04d-06-21T12:00%c%02d:00", place->year,
                               zone < 0 ? '-' : '+', abs(zone));
     return json_pack("{s:s, s:{s:s, s:s, s:o}, s:o, s:s}", "name", "noon", "environment",

@@ -200,7 +200,7 @@ static bool read_with(const JsonView *view, SceneChange *change, Error *err)
     return true;
 }
 
-static void say_move(VariantReading *v, const SceneChange *c)
+static void set_words(VariantReading *v, const SceneChange *c)
 {
     static const char *const WAYS[3] = {"tilted", "turned", "rolled"};
     const float angles[3] = {c->tilt, c->turn, c->roll};
@@ -238,7 +238,7 @@ static bool read_node(VariantReading *v, const FieldMembers *members, int i, Err
         change->move_m[k] = (float)move[k];
         change->ahead[k] = (float)v->reading->request->forward[k];
     }
-    say_move(v, change);
+    set_words(v, change);
     return true;
 }
 

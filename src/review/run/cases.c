@@ -46,25 +46,25 @@ static Vec3 vec3_of(const double p[3])
     return vec3((float)p[0], (float)p[1], (float)p[2]);
 }
 
-bool stage_eye_middle(const Stage *stage, const ReviewEye *eye, Arena scratch, Vec3 *out,
+bool setup_eye_middle(const Setup *setup, const ReviewEye *eye, Arena scratch, Vec3 *out,
                       Error *err)
 {
     int id;
     *out = vec3_add(vec3_of(eye->position_m), vec3_of(eye->move_m));
     if (eye->kind != EYE_CAMERA) return true;
-    if (!review_camera_find(stage->scene, eye, scratch, &id, err))
-        return error_in_file(err, stage->request->file);
-    *out = vec3_add(stage->scene->cameras[id].world_from_camera.origin, vec3_of(eye->move_m));
+    if (!review_camera_find(setup->scene, eye, scratch, &id, err))
+        return error_in_file(err, setup->request->file);
+    *out = vec3_add(setup->scene->cameras[id].world_from_camera.origin, vec3_of(eye->move_m));
     return true;
 }
 
-Vec3 *stage_eye_points(const Stage *stage, const ReviewEye *eye, int *count, Arena *arena,
+Vec3 *setup_eye_points(const Setup *setup, const ReviewEye *eye, int *count, Arena *arena,
                        Error *err)
 {
     *count = review_eye_count(eye);
     Vec3 *points = ARENA_NEW(arena, Vec3, *count);
     if (!review_eye_is_wide(eye))
-        return stage_eye_middle(stage, eye, *arena, points, err) ? points : NULL;
+        return setup_eye_middle(setup, eye, *arena, points, err) ? points : NULL;
     for (int i = 0; i < *count; i++) {
         double p[3];
         review_eye_point(eye, i, p);
@@ -76,16 +76,16 @@ Vec3 *stage_eye_points(const Stage *stage, const ReviewEye *eye, int *count, Are
 /* ---- the display's face ------------------------------------------------------------------ */
 
 /* Illuminance of a symbol's middle. */
-static double face_lux(const CaseTools *tools, const StageSymbol *symbol, Arena scratch)
+static double face_lux(const CaseTools *tools, const SetupSymbol *symbol, Arena scratch)
 {
-    const Stage       *stage = tools->stage;
+    const Setup       *setup = tools->setup;
     SymbolPoint point = symbol_middle(symbol);
     float       off = ray_offset_step(point.position);
     LitPoint    head = {vec3_along(point.position, point.ng, off), point.ns, false};
-    ProbeAim    aim = {.context = &stage->context, .meter = &head,
-                       .seed = review_seed(stage->request, FACE_SEED)};
+    ProbeAim    aim = {.context = &setup->context, .meter = &head,
+                       .seed = review_seed(setup->request, FACE_SEED)};
     ReadingGoal goal = {.precision = FACE_PRECISION, .most = FACE_PATHS};
-    return stage_ask(stage, &aim, &goal, scratch).reflected;
+    return setup_ask(setup, &aim, &goal, scratch).reflected;
 }
 
 /* What the display sends to the eye straight from the sun, cd m^-2. */
@@ -93,15 +93,15 @@ typedef struct DirectSun {
     double scattered, mirror;
 } DirectSun;
 
-static DirectSun direct_sun(const Stage *stage, const ProbeAim *aim, Arena scratch)
+static DirectSun direct_sun(const Setup *setup, const ProbeAim *aim, Arena scratch)
 {
     Vec3      towards;
     float     bands[LIGHT_BANDS];
     DirectSun direct = {0, 0};
-    if (!stage_sun(stage, &towards, bands)) return direct;
+    if (!setup_sun(setup, &towards, bands)) return direct;
     float           radius = (float)radians_from_degrees(SUN_MEAN_RADIUS_DEG);
     ProbeSuns       suns = {&towards, 1, radius, false};
-    ResponseOptions options = {stage->tools.kernel, 0, SUN_PATHS, stage->tools.threads, 0};
+    ResponseOptions options = {setup->tools.kernel, 0, SUN_PATHS, setup->tools.threads, 0};
     for (int by_mirror = 0; by_mirror < 2; by_mirror++) {
         Arena room = scratch;
         suns.by_mirror = by_mirror;
@@ -133,17 +133,17 @@ static void set_contrasts(ReviewCase *c, MeanInterval reflected)
 /* One point of an eye that looks at a symbol; coarse: to find the worst of many points; bare:
  * without stray light. */
 typedef struct CaseLook {
-    const StageSymbol *symbol;
+    const SetupSymbol *symbol;
     Vec3               eye;
     bool               is_coarse, is_bare;
 } CaseLook;
 
-static ProbeAim aim_at(const Stage *stage, const CaseLook *look, const bool *is_visible,
+static ProbeAim aim_at(const Setup *setup, const CaseLook *look, const bool *is_visible,
                        Arena *arena)
 {
     uint32_t base = look->is_coarse ? COARSE_SEED : EYE_SEED;
-    ProbeAim aim = {.context = &stage->context, .eye = look->eye,
-                    .seed = review_seed(stage->request, base)};
+    ProbeAim aim = {.context = &setup->context, .eye = look->eye,
+                    .seed = review_seed(setup->request, base)};
     symbol_aim(&look->symbol->surface, is_visible, arena, &aim);
     return aim;
 }
@@ -213,8 +213,8 @@ static Reading read_symbol(const CaseLook *look, const ProbeAim *aim, VerdictAsk
 {
     PathContext without = *aim->context;
     ProbeAim    rest = *aim;
-    const Stage          *stage = ask->tools->stage;
-    const ReviewRequest  *request = stage->request;
+    const Setup          *setup = ask->tools->setup;
+    const ReviewRequest  *request = setup->request;
     const CaseLuminances *shown = &ask->of->luminance_cd_m2;
     ReadingQuestion question = {is_verdict_clear, ask, request->precision_clear,
                                 name_of(ask, &scratch)};
@@ -232,13 +232,13 @@ static Reading read_symbol(const CaseLook *look, const ProbeAim *aim, VerdictAsk
         goal.most = COARSE_PATHS;
         goal.question = NULL;
     }
-    Reading reading = stage_ask(stage, &rest, &goal, scratch);
+    Reading reading = setup_ask(setup, &rest, &goal, scratch);
     for (int i = 0; i < DECIDE_ROUNDS && request->decides && goal.question; i++) {
         if (is_verdict_clear(ask, reading.interval, scratch)) return reading;
         goal.most *= DECIDE_TIMES;
         goal.precision /= sqrt(DECIDE_TIMES);
         rest.seed = hash_combine(rest.seed, DECIDE_SEED);
-        reading = stage_ask(stage, &rest, &goal, scratch);
+        reading = setup_ask(setup, &rest, &goal, scratch);
     }
     return reading;
 }
@@ -250,13 +250,13 @@ static void set_shown(CaseLuminances *l, const SymbolEmission *emission, double 
     l->background = emission->background_xyz[1] * transmittance;
 }
 
-static void see_stray_light(const Stage *stage, const StageSymbol *symbol, Vec3 eye,
+static void see_stray_light(const Setup *setup, const SetupSymbol *symbol, Vec3 eye,
                             ReviewCase *c, Arena scratch)
 {
     EyeLook    look = {eye, vec3_sub(symbol_middle(symbol).position, eye), 1, NULL};
-    Stage      lit = stage_lit(stage);
+    Setup      lit = setup_lit(setup);
     EyeReading stray = eye_read(&lit, &look, scratch);
-    stage_unlight(stage);
+    setup_unlight(setup);
     c->luminance_cd_m2.veil = stray.veil;
     c->dgp = stray.dgp;
     c->ugr = stray.ugr;
@@ -288,39 +288,39 @@ static const double *keep_batches(const Reading *reading, Arena *arena)
 static ProbeAim see_symbol(const CaseTools *tools, const CaseLook *look, ReviewCase *c,
                            DirectSun *direct, Arena *arena)
 {
-    const Stage       *stage = tools->stage;
-    const StageSymbol *symbol = look->symbol;
+    const Setup       *setup = tools->setup;
+    const SetupSymbol *symbol = look->symbol;
     Vec3           eye = look->eye;
     CaseLuminances *l = &c->luminance_cd_m2;
     bool *is_visible = ARENA_NEW(arena, bool, symbol->surface.point_count);
     SymbolVisibility seen =
-        symbol_visibility(&symbol->surface, &stage->context, eye, is_visible);
+        symbol_visibility(&symbol->surface, &setup->context, eye, is_visible);
     *l = (CaseLuminances){(double)NAN, (double)NAN, (double)NAN, (double)NAN, (double)NAN,
                           (double)NAN};
     c->minutes_to_decide = c->precision_asked = c->precision_reached = (double)NAN;
     c->reflected_range = (Range){(double)NAN, (double)NAN};
     c->visible_share = seen.visible_share;
     if (seen.visible_share < 1 && !look->is_coarse)
-        case_hiders(&symbol->surface, &stage->context, eye, c, arena);
+        case_hiders(&symbol->surface, &setup->context, eye, c, arena);
     c->height_arcmin = symbol_height_arcmin(&symbol->surface, symbol->split.box, eye);
     c->contrast_ratio = c->contrast_low = c->contrast_high = c->contrast_with_veil = c->jnd =
         c->visibility = c->dgp = c->ugr = (double)NAN;
     if (!(seen.visible_share > 0)) return (ProbeAim){.target_count = 0};
-    SymbolLook shown = {&symbol->surface, &symbol->split, eye, stage->tools.threads};
+    SymbolLook shown = {&symbol->surface, &symbol->split, eye, setup->tools.threads};
     SymbolEmission emission = symbol_emission(&shown, c->level);
     set_shown(l, &emission, seen.transmittance);
-    ProbeAim aim = aim_at(stage, look, is_visible, arena);
+    ProbeAim aim = aim_at(setup, look, is_visible, arena);
     bool wants_veil = !look->is_bare || tools->profile->uses_veil;
-    if (!look->is_coarse && wants_veil) see_stray_light(stage, symbol, eye, c, *arena);
-    *direct = direct_sun(stage, &aim, *arena);
+    if (!look->is_coarse && wants_veil) see_stray_light(setup, symbol, eye, c, *arena);
+    *direct = direct_sun(setup, &aim, *arena);
     VerdictAsk ask = {tools, c, *direct};
     Reading    reading = read_symbol(look, &aim, &ask, *arena);
     c->paths = reading.paths;
     c->batches = look->is_coarse ? NULL : keep_batches(&reading, arena);
     c->precision_reached = reading.reached;
     c->precision_asked = is_verdict_clear(&ask, reading.interval, *arena)
-                             ? stage->request->precision_clear
-                             : stage->request->precision_contrast;
+                             ? setup->request->precision_clear
+                             : setup->request->precision_contrast;
     c->minutes_to_decide = reading.seconds / 60 / (double)reading.paths; /* of one path */
     l->reflected = reading.reflected;
     l->mirror = reading.mirror;
@@ -338,16 +338,16 @@ static bool is_worse(const ReviewCase *a, const ReviewCase *b)
 }
 
 static ReviewCase start_case(const CaseTools *tools, const ReviewEye *eye,
-                             const StageSymbol *symbol)
+                             const SetupSymbol *symbol)
 {
-    const Stage *stage = tools->stage;
+    const Setup *setup = tools->setup;
     Vec3         towards;
     float        bands[LIGHT_BANDS];
-    ReviewCase   c = {.condition = stage->condition->name, .eye = eye->name,
+    ReviewCase   c = {.condition = setup->condition->name, .eye = eye->name,
                       .symbol = symbol->name, .display = symbol->display_name, .limit_id = -1,
-                      .level = stage_level(stage, symbol->display.display_id)};
-    if (stage_sun(stage, &towards, bands)) {
-        SunAngles angles = stage_angles(stage, towards);
+                      .level = setup_level(setup, symbol->display.display_id)};
+    if (setup_sun(setup, &towards, bands)) {
+        SunAngles angles = setup_angles(setup, towards);
         c.has_sun = true;
         c.sun_azimuth_deg = angles.azimuth_deg;
         c.sun_elevation_deg = angles.elevation_deg;
@@ -358,7 +358,7 @@ static ReviewCase start_case(const CaseTools *tools, const ReviewEye *eye,
 /* What is asked of one symbol and one eye. */
 typedef struct CaseAsk {
     const ReviewEye   *eye;
-    const StageSymbol *symbol;
+    const SetupSymbol *symbol;
     double             face_lux;
     bool               is_bare; /* its light and verdict alone */
 } CaseAsk;
@@ -400,10 +400,10 @@ static bool case_of(const CaseTools *tools, const CaseAsk *ask, Arena *arena, Re
                     Error *err)
 {
     int        count;
-    Vec3      *points = stage_eye_points(tools->stage, ask->eye, &count, arena, err);
+    Vec3      *points = setup_eye_points(tools->setup, ask->eye, &count, arena, err);
     ReviewCase c = start_case(tools, ask->eye, ask->symbol);
     CaseLook   look = {.symbol = ask->symbol, .is_bare = ask->is_bare};
-    if (!points || !review_goes_on(tools->stage->tools.journal, err)) return false;
+    if (!points || !review_goes_on(tools->setup->tools.journal, err)) return false;
     c.display_lux = ask->face_lux;
     c.eye_failed_share = (double)NAN;
     look.eye =
@@ -413,7 +413,7 @@ static bool case_of(const CaseTools *tools, const CaseAsk *ask, Arena *arena, Re
     if (aim.target_count && !ask->is_bare) {
         long     paths = tools->cause_paths ? tools->cause_paths : CAUSE_PATHS;
         int      rays = tools->cause_rays ? tools->cause_rays : CAUSE_RAYS;
-        CauseAsk causes = {&tools->stage->tools, &aim, paths, rays, false, false};
+        CauseAsk causes = {&tools->setup->tools, &aim, paths, rays, false, false};
         CauseFacts facts = case_causes(&causes, &c, arena);
         case_remedies(&facts, &c, arena);
     }
@@ -428,99 +428,99 @@ static bool case_of(const CaseTools *tools, const CaseAsk *ask, Arena *arena, Re
 #define LESSON_HEIGHT 270
 #define LESSON_DEG 60.0
 
-static int condition_id(const Stage *stage)
+static int condition_id(const Setup *setup)
 {
-    return (int)(stage->condition - stage->request->conditions);
+    return (int)(setup->condition - setup->request->conditions);
 }
 
-static const char *lesson_file(const Stage *stage, Vec3 eye, Vec3 towards, Arena *arena)
+static const char *lesson_file(const Setup *setup, Vec3 eye, Vec3 towards, Arena *arena)
 {
     Text text = {.arena = arena};
     identity_line(&text, "lesson", "%016llx%016llx, condition %d",
-                  (unsigned long long)stage->planned.high,
-                  (unsigned long long)stage->planned.low,
-                  condition_id(stage));
+                  (unsigned long long)setup->planned.high,
+                  (unsigned long long)setup->planned.low,
+                  condition_id(setup));
     identity_vector(&text, "eye", eye);
     identity_vector(&text, "towards", towards);
     JournalKey key = journal_key(text.data);
-    return arena_format(arena, "%s/%016llx%016llx.lesson", stage->lessons,
+    return arena_format(arena, "%s/%016llx%016llx.lesson", setup->lessons,
                         (unsigned long long)key.high, (unsigned long long)key.low);
 }
 
-static bool read_lesson(Stage *stage, const char *file, Arena *arena)
+static bool read_lesson(Setup *setup, const char *file, Arena *arena)
 {
-    GuideScene scene = train_guide_scene(&stage->context);
+    GuideScene scene = train_guide_scene(&setup->context);
     Error      ignored;
     return file_exists(file) &&
-           guide_read(file, &scene, arena, &stage->context.guide, &ignored);
+           guide_read(file, &scene, arena, &setup->context.guide, &ignored);
 }
 
-/* A guide from the stage's folder, or a new one. */
-static void take_lesson(Stage *stage, Vec3 eye, Vec3 towards, Arena *arena)
+/* A guide from the setup's folder, or a new one. */
+static void take_lesson(Setup *setup, Vec3 eye, Vec3 towards, Arena *arena)
 {
     SceneCamera    look = camera_look_at(eye, vec3_add(eye, towards),
                                          (float)radians_from_degrees(LESSON_DEG));
     Camera         camera = camera_from_scene(&look, LESSON_WIDTH, LESSON_HEIGHT);
-    TrainOptions   train = {stage->tools.kernel, stage->tools.threads};
+    TrainOptions   train = {setup->tools.kernel, setup->tools.threads};
     PathStatistics cost;
-    const char    *file = stage->lessons ? lesson_file(stage, eye, towards, arena) : NULL;
-    if (file && read_lesson(stage, file, arena)) return;
-    stage->context.guide = train_guide(&stage->context, &camera, &train, arena, &cost);
+    const char    *file = setup->lessons ? lesson_file(setup, eye, towards, arena) : NULL;
+    if (file && read_lesson(setup, file, arena)) return;
+    setup->context.guide = train_guide(&setup->context, &camera, &train, arena, &cost);
     Error ignored; /* who cannot keep it teaches it again: the same lesson, of the same seed */
-    if (file) guide_write(file, stage->context.guide, *arena, &ignored);
+    if (file) guide_write(file, setup->context.guide, *arena, &ignored);
 }
 
-static bool is_variant(const Stage *stage)
+static bool is_variant(const Setup *setup)
 {
-    return stage->request->change != NULL;
+    return setup->request->change != NULL;
 }
 
 /* What the review itself was taught under this condition. */
-static bool inherit_lesson(Stage *stage)
+static bool inherit_lesson(Setup *setup)
 {
-    GuideScene scene = train_guide_scene(&stage->context);
-    if (!stage->inherited || !is_variant(stage)) return false;
-    stage->context.guide =
-        inherited_guide(stage->inherited, stage->request, condition_id(stage), &scene);
-    return stage->context.guide != NULL;
+    GuideScene scene = train_guide_scene(&setup->context);
+    if (!setup->inherited || !is_variant(setup)) return false;
+    setup->context.guide =
+        inherited_guide(setup->inherited, setup->request, condition_id(setup), &scene);
+    return setup->context.guide != NULL;
 }
 
-bool stage_learn(Stage *stage, const StageSymbol *symbols, int count, Arena *arena, Error *err)
+bool setup_learn(Setup *setup, const SetupSymbol *symbols, int count, Arena *arena, Error *err)
 {
     Vec3 eye, sum = vec3(0, 0, 0);
-    if (inherit_lesson(stage)) return true;
-    if (!stage_eye_middle(stage, &stage->request->eyes[0], *arena, &eye, err)) return false;
+    if (inherit_lesson(setup)) return true;
+    if (!setup_eye_middle(setup, &setup->request->eyes[0], *arena, &eye, err)) return false;
     for (int i = 0; i < count; i++) sum = vec3_add(sum, symbol_middle(&symbols[i]).position);
     Vec3 towards = vec3_sub(vec3_scale(sum, 1 / (float)count), eye);
     if (!(vec3_dot(towards, towards) > 0)) return true;
-    bool leaves = stage->inherited && !is_variant(stage);
-    take_lesson(stage, eye, towards, leaves ? inherited_room(stage->inherited) : arena);
-    GuideScene scene = train_guide_scene(&stage->context);
+    bool leaves = setup->inherited && !is_variant(setup);
+    take_lesson(setup, eye, towards, leaves ? inherited_room(setup->inherited) : arena);
+    GuideScene scene = train_guide_scene(&setup->context);
     if (leaves)
-        inherited_keep_guide(stage->inherited, condition_id(stage), stage->context.guide,
+        inherited_keep_guide(setup->inherited, condition_id(setup), setup->context.guide,
                              &scene);
     return true;
 }
 
 /* ---- all cases --------------------------------------------------------------------------- */
 
-bool stage_case(const CaseTools *tools, const StageSymbol *symbol, const ReviewEye *eye,
+bool setup_case(const CaseTools *tools, const SetupSymbol *symbol, const ReviewEye *eye,
                 Arena *arena, ReviewCase *out, Error *err)
 {
     CaseAsk ask = {eye, symbol, face_lux(tools, symbol, *arena), tools->base != NULL};
     return case_of(tools, &ask, arena, out, err);
 }
 
-bool stage_verdict(const CaseTools *tools, const StageSymbol *symbol, const ReviewEye *eye,
+bool setup_verdict(const CaseTools *tools, const SetupSymbol *symbol, const ReviewEye *eye,
                    Arena *arena, ReviewCase *out, Error *err)
 {
     CaseAsk ask = {eye, symbol, out->display_lux, true};
     return case_of(tools, &ask, arena, out, err);
 }
 
-bool stage_cases(const CaseTools *tools, Arena *arena, ReviewCase *out, Error *err)
+bool setup_cases(const CaseTools *tools, Arena *arena, ReviewCase *out, Error *err)
 {
-    const ReviewRequest *request = tools->stage->request;
+    const ReviewRequest *request = tools->setup->request;
     int     symbols = tools->symbol_count, count = request->eye_count * symbols;
     double *faces = ARENA_NEW(arena, double, symbols);
     bool   *is_known = ARENA_NEW(arena, bool, symbols);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* cases.h -- a stage that is lit becomes cases: each symbol as each eye sees it.
+/* cases.h -- a setup that is lit becomes cases: each symbol as each eye sees it.
  *
  * An eye box is judged by its worst point.
  *
@@ -13,46 +13,46 @@
 #include "review/run/symbols.h"
 
 typedef struct CaseTools {
-    const Stage       *stage;
+    const Setup       *setup;
     const Profile     *profile;
-    const StageSymbol *symbols;
+    const SetupSymbol *symbols;
     int                symbol_count;
     long               cause_paths; /* by which causes are found; 0: CAUSE_PATHS */
     int                cause_rays;  /* that are kept of each; 0: CAUSE_RAYS */
-    Progress          *work;        /* of stage_cases (pace/work.h); or NULL */
-    MomentShare        share;       /* of stage_cases: others' are left alone */
+    Progress          *work;        /* of setup_cases (pace/work.h); or NULL */
+    MomentShare        share;       /* of setup_cases: others' are left alone */
     const Review      *base;        /* of a variant: the review itself. Cases are bare then
-                                       (stage_verdict), and read from no fewer paths than its
+                                       (setup_verdict), and read from no fewer paths than its
                                        own, so that what differs is known sharply; or NULL */
 } CaseTools;
 
 /* Share of what a display reflects from which on its light is that of direct sun. */
 #define CASE_SUNLIT 0.5
 
-/* Teaches the stage's paths, once it is lit, from where light comes to what the first eye sees
+/* Teaches the setup's paths, once it is lit, from where light comes to what the first eye sees
  * of the symbols: lamps that few of them would find otherwise, at night above all. The guide
- * comes from the arena, or from the stage's folder of lessons, where it is kept; one that is
+ * comes from the arena, or from the setup's folder of lessons, where it is kept; one that is
  * damaged is learnt again. A variant takes the review's (light/inherited.h). Fails where an
  * eye's camera is missing. */
-bool stage_learn(Stage *stage, const StageSymbol *symbols, int count, Arena *arena, Error *err);
+bool setup_learn(Setup *setup, const SetupSymbol *symbols, int count, Arena *arena, Error *err);
 
 /* symbol_count * eye_count cases, symbols fastest. Fails where an eye's camera is missing. */
-bool stage_cases(const CaseTools *tools, Arena *arena, ReviewCase *out, Error *err);
+bool setup_cases(const CaseTools *tools, Arena *arena, ReviewCase *out, Error *err);
 
 /* One of them. */
-bool stage_case(const CaseTools *tools, const StageSymbol *symbol, const ReviewEye *eye,
+bool setup_case(const CaseTools *tools, const SetupSymbol *symbol, const ReviewEye *eye,
                 Arena *arena, ReviewCase *out, Error *err);
 
 /* The same without causes and remedies, and without stray light unless the profile's verdicts
  * hang on it: for variants, and trials of many seeds. out->display_lux
  * is the illuminance of its face. */
-bool stage_verdict(const CaseTools *tools, const StageSymbol *symbol, const ReviewEye *eye,
+bool setup_verdict(const CaseTools *tools, const SetupSymbol *symbol, const ReviewEye *eye,
                    Arena *arena, ReviewCase *out, Error *err);
 
 /* The points of an eye, world, as many as it has; in the arena. NULL: its camera is missing. */
-Vec3 *stage_eye_points(const Stage *stage, const ReviewEye *eye, int *count, Arena *arena,
+Vec3 *setup_eye_points(const Setup *setup, const ReviewEye *eye, int *count, Arena *arena,
                        Error *err);
 
 /* The point of an eye that is one; of a box its centre. */
-bool stage_eye_middle(const Stage *stage, const ReviewEye *eye, Arena scratch, Vec3 *out,
+bool setup_eye_middle(const Setup *setup, const ReviewEye *eye, Arena scratch, Vec3 *out,
                       Error *err);

@@ -76,7 +76,7 @@ static CauseFacts facts_of(const Chains *chains, Arena *arena)
 /* ---- groups ------------------------------------------------------------------------------ */
 
 /* As many are told as have so much of the light, and no more than so many. */
-#define GROUP_TOLD 0.97
+#define GROUP_LISTED 0.97
 #define GROUP_MOST 24
 
 /* A group that grows. */
@@ -152,12 +152,12 @@ static int compare(const void *a, const void *b)
 }
 
 /* One that is all that is left is told by its name. */
-static CaseGroup told(Growing *group)
+static CaseGroup listed(Growing *group)
 {
     double sum = 0, other = 0;
     int    count = 0;
     if (group->count) qsort(group->list, (size_t)group->count, sizeof *group->list, compare);
-    while (count < group->count && count < GROUP_MOST && sum < GROUP_TOLD)
+    while (count < group->count && count < GROUP_MOST && sum < GROUP_LISTED)
         sum += group->list[count++].share;
     if (count == group->count - 1) count++;
     for (int i = count; i < group->count; i++) other += group->list[i].cd_m2;
@@ -171,7 +171,7 @@ static void set_groups(const Chains *chains, ReviewCase *c, Arena *arena)
     Growing of[CAUSE_GROUPS] = {[GROUP_LIGHT] = by_light(chains, arena),
                                 [GROUP_OPENING] = by_opening(chains, arena),
                                 [GROUP_SURFACE] = by_surface(chains, arena)};
-    for (int i = 0; i < CAUSE_GROUPS; i++) c->groups[i] = told(&of[i]);
+    for (int i = 0; i < CAUSE_GROUPS; i++) c->groups[i] = listed(&of[i]);
     double all = chains->all.cd_m2;
     c->without_data_share = all > 0 ? chains->groups.without_data / all : 0;
 }

@@ -9,7 +9,7 @@
 #include "review/run/sweep.h"
 #include "text/text.h"
 
-#define STAGE_BYTES ((size_t)1 << 36)
+#define SETUP_BYTES ((size_t)1 << 36)
 
 /* ---- names ------------------------------------------------------------------------------- */
 
@@ -75,8 +75,8 @@ static bool find_eye(const ReviewRequest *request, const char *wanted, const Rev
     return true;
 }
 
-static bool find_symbol(const StageSymbol *symbols, int count, const char *wanted,
-                        const StageSymbol **out, Arena scratch, Error *err)
+static bool find_symbol(const SetupSymbol *symbols, int count, const char *wanted,
+                        const SetupSymbol **out, Arena scratch, Error *err)
 {
     KnownNames list = {"symbol", ARENA_NEW(&scratch, const char *, count), count};
     int      id;
@@ -88,19 +88,19 @@ static bool find_symbol(const StageSymbol *symbols, int count, const char *wante
 
 /* ---- a symbol of a review ---------------------------------------------------------------- */
 
-Outlook stage_outlook(const Stage *stage, const StageSymbol *symbol, Vec3 eye, Arena *arena)
+Outlook setup_outlook(const Setup *setup, const SetupSymbol *symbol, Vec3 eye, Arena *arena)
 {
     SymbolPoint middle = symbol_middle(symbol);
-    OutlookAsk  ask = {&stage->context, &stage->tools, middle.position, middle.ng,
+    OutlookAsk  ask = {&setup->context, &setup->tools, middle.position, middle.ng,
                        outlook_up(middle.ng), eye};
     return outlook_take(&ask, arena);
 }
 
-static bool explain_symbol(const CaseTools *tools, const StageSymbol *symbol,
+static bool explain_symbol(const CaseTools *tools, const SetupSymbol *symbol,
                            const ReviewEye *eye, Arena *arena, Explained *out, Error *err)
 {
     ReviewCase *c = &out->of;
-    if (!stage_case(tools, symbol, eye, arena, c, err)) return false;
+    if (!setup_case(tools, symbol, eye, arena, c, err)) return false;
     c->symbol = arena_string(arena, c->symbol, strlen(c->symbol));
     out->paths = tools->cause_paths;
     out->shown = (double)NAN;
@@ -108,57 +108,57 @@ static bool explain_symbol(const CaseTools *tools, const StageSymbol *symbol,
     return true;
 }
 
-static bool light_stage(Stage *stage, const ExplainOptions *options, Arena *scratch, Error *err)
+static bool light_setup(Setup *setup, const ExplainOptions *options, Arena *scratch, Error *err)
 {
-    const ReviewCondition *condition = stage->condition;
+    const ReviewCondition *condition = setup->condition;
     if (condition->kind == CONDITION_MOMENT)
-        return stage_light(stage, condition->has_environment ? &condition->environment : NULL,
+        return setup_light(setup, condition->has_environment ? &condition->environment : NULL,
                            scratch, err);
     SweepSun    sun = {.azimuth_deg = options->sun_deg[0], .compass_deg = options->sun_deg[0],
                        .elevation_deg = options->sun_deg[1], .step = -1};
-    Environment sky = sweep_environment(stage, &sun);
-    return stage_light(stage, &sky, scratch, err);
+    Environment sky = sweep_environment(setup, &sun);
+    return setup_light(setup, &sky, scratch, err);
 }
 
-/* The stage is open. */
-static bool explain_on(Stage *stage, const ExplainOptions *options, Arena *scratch,
+/* The setup is open. */
+static bool explain_on(Setup *setup, const ExplainOptions *options, Arena *scratch,
                        Arena *arena, Explained *out, Error *err)
 {
     const ReviewEye   *eye;
-    const StageSymbol *symbol;
-    StageSymbol       *symbols;
-    CaseTools tools = {.stage = stage, .profile = options->profile,
+    const SetupSymbol *symbol;
+    SetupSymbol       *symbols;
+    CaseTools tools = {.setup = setup, .profile = options->profile,
                        .cause_paths = options->paths, .cause_rays = CHAIN_RAYS};
-    if (!light_stage(stage, options, scratch, err) ||
-        !stage_symbols(stage, scratch, &symbols, &tools.symbol_count, err) ||
-        (stage->condition->kind == CONDITION_MOMENT &&
-         !stage_learn(stage, symbols, tools.symbol_count, scratch, err)) ||
+    if (!light_setup(setup, options, scratch, err) ||
+        !setup_symbols(setup, scratch, &symbols, &tools.symbol_count, err) ||
+        (setup->condition->kind == CONDITION_MOMENT &&
+         !setup_learn(setup, symbols, tools.symbol_count, scratch, err)) ||
         !find_symbol(symbols, tools.symbol_count, options->symbol, &symbol, *scratch, err) ||
-        !find_eye(stage->request, options->eye, &eye, *scratch, err))
+        !find_eye(setup->request, options->eye, &eye, *scratch, err))
         return false;
     tools.symbols = symbols;
     if (!explain_symbol(&tools, symbol, eye, arena, out, err)) return false;
     out->has_outlook = options->with_outlook && out->of.visible_share > 0;
-    if (out->has_outlook) out->outlook = stage_outlook(stage, symbol, out->of.eye_m, arena);
+    if (out->has_outlook) out->outlook = setup_outlook(setup, symbol, out->of.eye_m, arena);
     return true;
 }
 
 bool explain_review(const ReviewRequest *request, const ExplainOptions *options, Arena *arena,
                     Explained *out, Error *err)
 {
-    StageOptions stage_options = {.request = request, .root = options->root,
+    SetupOptions setup_options = {.request = request, .root = options->root,
                                   .state = options->state, .threads = options->threads,
                                   .isa = options->isa};
-    Stage stage;
+    Setup setup;
     *out = (Explained){.has_outlook = false};
-    if (!find_condition(request, options, &stage_options.condition, *arena, err)) return false;
-    Arena scratch = arena_reserve(STAGE_BYTES);
-    bool  ok = stage_open(&stage_options, &scratch, options->problems, &stage, err);
+    if (!find_condition(request, options, &setup_options.condition, *arena, err)) return false;
+    Arena scratch = arena_reserve(SETUP_BYTES);
+    bool  ok = setup_open(&setup_options, &scratch, options->problems, &setup, err);
     if (ok) {
-        ok = (review_request_check(request, stage.scene, options->problems) ||
+        ok = (review_request_check(request, setup.scene, options->problems) ||
               problems_verdict(options->problems, err)) &&
-             explain_on(&stage, options, &scratch, arena, out, err);
-        stage_close(&stage);
+             explain_on(&setup, options, &scratch, arena, out, err);
+        setup_close(&setup);
     }
     arena_release(&scratch);
     return ok;

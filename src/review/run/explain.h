@@ -39,7 +39,7 @@ typedef struct Explained {
 } Explained;
 
 /* What a symbol's middle sees; the eye stands before it. */
-Outlook stage_outlook(const Stage *stage, const StageSymbol *symbol, Vec3 eye, Arena *arena);
+Outlook setup_outlook(const Setup *setup, const SetupSymbol *symbol, Vec3 eye, Arena *arena);
 
 bool explain_review(const ReviewRequest *request, const ExplainOptions *options, Arena *arena,
                     Explained *out, Error *err);

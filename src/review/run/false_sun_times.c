@@ -118,14 +118,14 @@ typedef struct Watch {
 
 static void watch_sun(const Watch *watch, const SweepSun *sun)
 {
-    const Stage *stage = watch->sweep->stage;
+    const Setup *setup = watch->sweep->setup;
     SunAngles    angles = {sun->azimuth_deg, sun->elevation_deg};
     float        bands[LIGHT_BANDS];
     double       lux = 0;
     watch->tallies->minutes += sun->minutes;
     watch->tallies->suns++;
     if (sun->elevation_deg < -SUN_MEAN_RADIUS_DEG) return;
-    FalseSunSight sight = false_suns_at(watch->images, stage_direction(stage, angles));
+    FalseSunSight sight = false_suns_at(watch->images, setup_direction(setup, angles));
     if (!(sight.share > 0)) return;
     sky_table_sun(&watch->sweep->table, sun->elevation_deg, bands);
     for (int b = 0; b < LIGHT_BANDS; b++) lux += (double)bands[b];
@@ -179,7 +179,7 @@ static void watch_heading(const Watch *watch, const SweepSuns *suns, const doubl
 
 static void watch_all(const Watch *watch, const SweepSuns *suns)
 {
-    const ReviewCondition *condition = watch->sweep->stage->condition;
+    const ReviewCondition *condition = watch->sweep->setup->condition;
     if (condition->kind != CONDITION_YEAR_SWEEP) watch_heading(watch, suns, NULL);
     else
         for (int h = 0; h < condition->heading_count; h++)
@@ -195,34 +195,34 @@ static int by_veil(const void *a, const void *b)
     return x->part_id - y->part_id;
 }
 
-static ReviewFalseSun told(const Watch *watch, const Tally *tally, const SweepSuns *suns,
-                           Arena *arena)
+static ReviewFalseSun listed(const Watch *watch, const Tally *tally, const SweepSuns *suns,
+                             Arena *arena)
 {
-    const Stage *stage = watch->sweep->stage;
-    const Part  *part = &stage->scene->parts[tally->part_id];
+    const Setup *setup = watch->sweep->setup;
+    const Part  *part = &setup->scene->parts[tally->part_id];
     bool         timed = suns->has_time;
     double       all = timed ? watch->tallies->minutes : watch->tallies->suns;
     return (ReviewFalseSun){
-        .condition = stage->condition->name,
+        .condition = setup->condition->name,
         .mirror = arena_format(arena, "%s (%s)", part->name,
-                               stage->scene->materials[part->material_id].name),
+                               setup->scene->materials[part->material_id].name),
         .share = (timed ? tally->minutes : tally->suns) / all,
         .minutes = timed ? tally->minutes : (double)NAN,
         .longest_minutes = timed ? tally->longest : (double)NAN,
-        .when = sweep_suns_when(stage->condition, suns, &tally->sun, arena),
+        .when = sweep_suns_when(setup->condition, suns, &tally->sun, arena),
         .sun_azimuth_deg = fmod(tally->sun.azimuth_deg + 360, 360),
         .sun_elevation_deg = tally->sun.elevation_deg, .lux = tally->lux,
         .gaze = arena_format(arena, "%s", watch->gazes.list[tally->worst.gaze_id].name),
         .angle_deg = tally->worst.angle_deg, .veil_cd_m2 = tally->worst.cd_m2};
 }
 
-static void tell(const Watch *watch, const ReviewEye *eye, const SweepSuns *suns, Arena *arena,
-                 Review *out)
+static void report(const Watch *watch, const ReviewEye *eye, const SweepSuns *suns,
+                   Arena *arena, Review *out)
 {
     Tallies *all = watch->tallies;
     qsort(all->list, (size_t)all->count, sizeof *all->list, by_veil);
-    for (int i = 0; i < all->count && i < FALSE_SUNS_TOLD; i++) {
-        out->false_suns[out->false_sun_count] = told(watch, &all->list[i], suns, arena);
+    for (int i = 0; i < all->count && i < FALSE_SUNS_LISTED; i++) {
+        out->false_suns[out->false_sun_count] = listed(watch, &all->list[i], suns, arena);
         out->false_suns[out->false_sun_count++].eye = eye->name;
     }
 }
@@ -244,7 +244,7 @@ void false_sun_times(const Sweep *sweep, Arena scratch, Arena *arena, Review *ou
 {
     const ReviewRequest  *request = sweep->run->request;
     const ReviewObserver *observer = &request->observer;
-    SweepSuns suns = closer_suns(sweep->stage->condition, sweep->run->threads, &scratch);
+    SweepSuns suns = closer_suns(sweep->setup->condition, sweep->run->threads, &scratch);
     Watching  watching = {ARENA_NEW(&scratch, Watch, request->eye_count), &suns};
     for (int e = 0; e < request->eye_count; e++)
         watching.eyes[e] =
@@ -253,5 +253,5 @@ void false_sun_times(const Sweep *sweep, Arena scratch, Arena *arena, Review *ou
                     ARENA_NEW(&scratch, Tallies, 1)};
     parallel_for(sweep->run->threads, request->eye_count, watch_eye, &watching);
     for (int e = 0; e < request->eye_count; e++)
-        tell(&watching.eyes[e], &request->eyes[e], &suns, arena, out);
+        report(&watching.eyes[e], &request->eyes[e], &suns, arena, out);
 }

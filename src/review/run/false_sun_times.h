@@ -19,7 +19,7 @@
 #define FALSE_SUN_NEAR_DEG 1.0 /* nearer to the gaze it is looked at: it veils as if it stood
                                   there */
 
-/* Adds what was found to the review, the worst mirrors of each eye: FALSE_SUNS_TOLD at most. */
-#define FALSE_SUNS_TOLD 12
+/* Adds what was found: of each eye the worst mirrors, FALSE_SUNS_LISTED at most. */
+#define FALSE_SUNS_LISTED 12
 
 void false_sun_times(const Sweep *sweep, Arena scratch, Arena *arena, Review *out);

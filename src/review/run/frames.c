@@ -33,7 +33,7 @@ const char *file_name_of(const char *text, Arena *arena)
 
 bool frame_camera(const FrameAsk *ask, SceneCamera *out, Arena scratch, Error *err)
 {
-    const Scene *scene = ask->stage->scene;
+    const Scene *scene = ask->setup->scene;
     int          id;
     Vec3         from;
     if (ask->eye->kind == EYE_CAMERA) {
@@ -41,7 +41,7 @@ bool frame_camera(const FrameAsk *ask, SceneCamera *out, Arena scratch, Error *e
         *out = scene->cameras[id];
         return true;
     }
-    if (!stage_eye_middle(ask->stage, ask->eye, scratch, &from, err)) return false;
+    if (!setup_eye_middle(ask->setup, ask->eye, scratch, &from, err)) return false;
     *out = camera_look_at(from, ask->look_at,
                           (float)radians_from_degrees(YFOV_DEG));
     return true;
@@ -49,16 +49,16 @@ bool frame_camera(const FrameAsk *ask, SceneCamera *out, Arena scratch, Error *e
 
 static RenderOptions options_of(const FrameAsk *ask)
 {
-    const ReviewRequest *request = ask->stage->request;
+    const ReviewRequest *request = ask->setup->request;
     int by = ask->exposure ? FRAMES_PAIR : 1;
     int width = request->frames.width / by, height = request->frames.height / by;
     FilmRect all = {0, 0, width > 1 ? width : 1, height > 1 ? height : 1};
     return (RenderOptions){
         .width = all.x1, .height = all.y1, .crop = all, .end_sample = FRAMES_SAMPLES,
-        .noise = request->frames.noise, .max_bounces = STAGE_BOUNCES,
+        .noise = request->frames.noise, .max_bounces = SETUP_BOUNCES,
         .noise_area = {all, FILM_ALL_PIXELS},
         .layers = ask->exposure ? LAYER_VARIANCE : LAYER_VARIANCE | LAYER_ID | LAYER_DISPLAYS,
-        .threads = ask->stage->tools.threads, .within = ask->work,
+        .threads = ask->setup->tools.threads, .within = ask->work,
         .within_weight = ask->exposure ? work_of_pair(request) : work_of_frame(request)};
 }
 
@@ -68,8 +68,8 @@ static void set_words(FrameImage *frame, const FrameAsk *ask, const SceneCamera 
 {
     frame_set_string(frame, "software", "parhelion " PARHELION_VERSION, arena);
     frame_set_string(frame, "parhelion:unit", "cd/m2", arena);
-    frame_set_string(frame, "parhelion:review", ask->stage->request->file, arena);
-    frame_set_string(frame, "parhelion:condition", ask->stage->condition->name, arena);
+    frame_set_string(frame, "parhelion:review", ask->setup->request->file, arena);
+    frame_set_string(frame, "parhelion:condition", ask->setup->condition->name, arena);
     frame_set_string(frame, "parhelion:camera", ask->eye->name, arena);
     if (camera->is_perspective)
         frame_set_number(frame, "parhelion:yfov_deg",
@@ -149,7 +149,7 @@ static bool write_frame(const FrameAsk *ask, const SceneCamera *camera,
     FrameImage  frame = film_to_frame(result->film, WORDS, &scratch);
     set_words(&frame, ask, camera, result, &scratch);
     FrameFiles files = {&frame, exr, ask->exposure};
-    return parallel_try(ask->stage->tools.threads, 1 + views_of(ask), write_file, &files,
+    return parallel_try(ask->setup->tools.threads, 1 + views_of(ask), write_file, &files,
                         scratch, err);
 }
 
@@ -158,15 +158,15 @@ static bool write_frame(const FrameAsk *ask, const SceneCamera *camera,
 static const char *identity_of(const FrameAsk *ask, const SceneCamera *camera,
                                const RenderOptions *options, Arena *arena)
 {
-    const Scene *scene = ask->stage->scene;
+    const Scene *scene = ask->setup->scene;
     Text text = {.arena = arena};
-    JournalKey base = ask->stage->tools.base; /* pictures of skies, too */
-    text_add(&text, ask->stage->identity);
+    JournalKey base = ask->setup->tools.base; /* pictures of skies, too */
+    text_add(&text, ask->setup->identity);
     identity_line(&text, "files", "%016llx%016llx", (unsigned long long)base.high,
                   (unsigned long long)base.low);
     identity_line(&text, "name", "%s", ask->name);
-    identity_line(&text, "condition", "%s", ask->stage->condition->name);
-    identity_line(&text, "review", "%s", ask->stage->request->file);
+    identity_line(&text, "condition", "%s", ask->setup->condition->name);
+    identity_line(&text, "review", "%s", ask->setup->request->file);
     identity_line(&text, "size", "%dx%d", options->width, options->height);
     identity_line(&text, "layers", "%u", options->layers);
     identity_line(&text, "samples", "%u", options->end_sample);
@@ -185,18 +185,18 @@ static const char *identity_of(const FrameAsk *ask, const SceneCamera *camera,
 static bool render(const FrameAsk *ask, FrameKept *kept, const SceneCamera *camera,
                    RenderOptions *options, RenderResult *result, Error *err)
 {
-    const Stage *stage = ask->stage;
-    RenderSetup  setup = {.kernel = stage->tools.kernel, .bvh = stage->bvh,
-                          .context = stage->context};
-    TrainOptions train = {stage->tools.kernel, options->threads};
+    const Setup *setup = ask->setup;
+    RenderSetup  render = {.kernel = setup->tools.kernel, .bvh = setup->bvh,
+                          .context = setup->context};
+    TrainOptions train = {setup->tools.kernel, options->threads};
     Arena       *arena = kept->arena;
     if (!frame_kept_begin(kept, options, err)) return false;
-    setup.camera = camera_from_scene(camera, options->width, options->height);
-    setup.context.cone = camera_cone(&setup.camera);
-    setup.context.guide =
-        train_guide(&stage->context, &setup.camera, &train, arena, &setup.training);
-    if (!review_goes_on(stage->tools.journal, err) ||
-        !render_prepared(&setup, options, arena, result, err))
+    render.camera = camera_from_scene(camera, options->width, options->height);
+    render.context.cone = camera_cone(&render.camera);
+    render.context.guide =
+        train_guide(&setup->context, &render.camera, &train, arena, &render.training);
+    if (!review_goes_on(setup->tools.journal, err) ||
+        !render_prepared(&render, options, arena, result, err))
         return false;
     if (!result->stopped_by) return true;
     return frame_kept_pause(kept, result, err) &&
@@ -213,7 +213,7 @@ bool frame_make(const FrameAsk *ask, Arena *arena, const char **out, Error *err)
     Arena         scratch = *arena;
     double        begun_s = monotonic_seconds(), from = ask->work->done;
     if (!frame_camera(ask, &camera, scratch, err)) return false;
-    FrameKept kept = {.journal = ask->stage->tools.journal, .unfinished = ask->unfinished,
+    FrameKept kept = {.journal = ask->setup->tools.journal, .unfinished = ask->unfinished,
                       .identity = identity_of(ask, &camera, &options, &scratch),
                       .arena = &scratch};
     kept.files[kept.file_count++] = exr;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* frames.h -- pictures of a stage: what an eye sees under a condition.
+/* frames.h -- pictures of a setup: what an eye sees under a condition.
  *
  * Frames go to FOLDER/frames: NAME.exr in cd m^-2 with the layers of displays, NAME.png
  * developed, and in false colours NAME-luminance.png and NAME-contrast.png: what contrast full
@@ -14,7 +14,7 @@
  */
 #pragma once
 #include "base/progress.h"
-#include "review/light/stage.h"
+#include "review/light/setup.h"
 #include "review/verdict.h"
 
 #define FRAMES_SAMPLES 256
@@ -29,7 +29,7 @@ typedef enum FrameView {
 const char *frame_view(const char *frame, FrameView view, Arena *arena);
 
 typedef struct FrameAsk {
-    const Stage     *stage;
+    const Setup     *setup;
     const ReviewEye *eye;
     Vec3             look_at; /* m, world: of an eye that is no camera */
     const char      *folder;

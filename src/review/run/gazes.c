@@ -25,20 +25,20 @@ static GazeGoal goal_of(Vec3 eye, const ReviewGaze *gaze, int most)
 }
 
 /* Light over the view, quickly. */
-static double coarse_veil(const Stage *stage, const GazeGoal *goal, Arena scratch)
+static double coarse_veil(const Setup *setup, const GazeGoal *goal, Arena scratch)
 {
     EyeLook look = {goal->eye, goal->towards, 1, NULL};
-    return eye_read(stage, &look, scratch).veil + gaze_read(stage, goal, scratch).mirrored;
+    return eye_read(setup, &look, scratch).veil + gaze_read(setup, goal, scratch).mirrored;
 }
 
-static Vec3 worst_point(const Stage *stage, const ReviewGaze *gaze, const Vec3 *points,
+static Vec3 worst_point(const Setup *setup, const ReviewGaze *gaze, const Vec3 *points,
                         int count, Arena scratch)
 {
     int    worst = 0;
     double most = -1;
     for (int i = 0; i < count && count > 1; i++) {
         GazeGoal goal = goal_of(points[i], gaze, COARSE_PATHS);
-        double   veil = coarse_veil(stage, &goal, scratch);
+        double   veil = coarse_veil(setup, &goal, scratch);
         if (veil > most) worst = i;
         most = fmax(most, veil);
     }
@@ -53,15 +53,15 @@ static const char *part_words(const Scene *scene, int part_id, Arena *arena)
     return arena_format(arena, "%s (%s)", part->name, scene->materials[part->material_id].name);
 }
 
-static void name_mirrored(const Stage *stage, const GazeMirrored *most, GazeFinding *out,
+static void name_mirrored(const Setup *setup, const GazeMirrored *most, GazeFinding *out,
                           Arena *arena)
 {
     static const char *const SOURCES[LIGHT_SETS] = {"sun", "sky", "a display", "a lamp"};
     if (most->pane_id == NO_ID) return;
-    out->mirrored_by = part_words(stage->scene, most->pane_id, arena);
+    out->mirrored_by = part_words(setup->scene, most->pane_id, arena);
     out->mirrored_from = most->part_id == NO_ID
                              ? SOURCES[most->source]
-                             : part_words(stage->scene, most->part_id, arena);
+                             : part_words(setup->scene, most->part_id, arena);
 }
 
 static Range range_of(double mean, double half)
@@ -90,39 +90,39 @@ static void set_contrasts(const GazeReading *along, double veil_half, GazeFindin
                                   fmin(out->contrast_left + half, 1)};
 }
 
-static double sun_from_gaze(const Stage *stage, Vec3 gaze)
+static double sun_from_gaze(const Setup *setup, Vec3 gaze)
 {
     Vec3  towards;
     float bands[LIGHT_BANDS];
-    if (!stage_sun(stage, &towards, bands)) return (double)NAN;
+    if (!setup_sun(setup, &towards, bands)) return (double)NAN;
     double cosine = (double)vec3_dot(towards, vec3_normalize(gaze));
     return degrees_from_radians(acos(fmin(fmax(cosine, -1), 1)));
 }
 
 /* The sun in mirrors is looked for, if there is a sun. */
-static EyeReading read_eye(const Stage *stage, SunSearches *searches, const GazeGoal *goal)
+static EyeReading read_eye(const Setup *setup, SunSearches *searches, const GazeGoal *goal)
 {
     EyeLook   look = {goal->eye, goal->towards, ROUNDS, NULL};
     Arena     scratch = arena_reserve(EYE_BYTES);
     FalseSuns images;
     Vec3      towards;
     float     bands[LIGHT_BANDS];
-    if (stage_sun(stage, &towards, bands)) {
-        images = false_suns_of(sun_searches_ask(searches, stage, goal->eye), bands, &scratch);
+    if (setup_sun(setup, &towards, bands)) {
+        images = false_suns_of(sun_searches_ask(searches, setup, goal->eye), bands, &scratch);
         look.images = &images;
     }
-    EyeReading eye = eye_read(stage, &look, scratch);
+    EyeReading eye = eye_read(setup, &look, scratch);
     arena_release(&scratch);
     return eye;
 }
 
-static void read_gaze(const Stage *stage, SunSearches *searches, const GazeGoal *goal,
+static void read_gaze(const Setup *setup, SunSearches *searches, const GazeGoal *goal,
                       Arena *arena, GazeFinding *out)
 {
-    EyeReading  eye = read_eye(stage, searches, goal);
-    GazeReading along = gaze_read(stage, goal, *arena);
+    EyeReading  eye = read_eye(setup, searches, goal);
+    GazeReading along = gaze_read(setup, goal, *arena);
     double      half = ROUNDS_HALF * eye.veil_sigma;
-    out->sun_deg = sun_from_gaze(stage, goal->towards);
+    out->sun_deg = sun_from_gaze(setup, goal->towards);
     out->veil = eye.veil;
     out->veil_range = range_of(eye.veil, half);
     out->veil_parts = (GazeVeil){eye.parts[EYE_SUN], eye.parts[EYE_SKY], eye.parts[EYE_LAMPS],
@@ -134,14 +134,14 @@ static void read_gaze(const Stage *stage, SunSearches *searches, const GazeGoal 
     out->through = along.through;
     out->mirrored = along.mirrored;
     out->mirrored_range = range_of(along.mirrored, INTERVAL_SIGMAS * along.mirrored_sigma);
-    name_mirrored(stage, &along.most, out, arena);
+    name_mirrored(setup, &along.most, out, arena);
     set_contrasts(&along, half, out);
 }
 
-bool stage_gazes(const Stage *stage, const MomentShare *share, SunSearches *searches,
+bool setup_gazes(const Setup *setup, const MomentShare *share, SunSearches *searches,
                  Arena *arena, GazeFinding *out, Error *err)
 {
-    const ReviewRequest *request = stage->request;
+    const ReviewRequest *request = setup->request;
     int at = -1, looks = review_look_count(request);
     for (int g = 0; g < request->gaze_count; g++)
         for (int e = 0; e < request->eye_count; e++) {
@@ -150,13 +150,13 @@ bool stage_gazes(const Stage *stage, const MomentShare *share, SunSearches *sear
             int count;
             if (gaze->at_symbols || !gaze->for_eye[e]) continue;
             if (!moment_share_has(share, ++at, looks)) continue;
-            Vec3 *points = stage_eye_points(stage, eye, &count, arena, err);
+            Vec3 *points = setup_eye_points(setup, eye, &count, arena, err);
             if (!points) return false;
-            GazeGoal goal = goal_of(worst_point(stage, gaze, points, count, *arena), gaze,
+            GazeGoal goal = goal_of(worst_point(setup, gaze, points, count, *arena), gaze,
                                     PATHS_MOST);
-            out[at] = (GazeFinding){.condition = stage->condition->name, .eye = eye->name,
+            out[at] = (GazeFinding){.condition = setup->condition->name, .eye = eye->name,
                                  .gaze = gaze->name};
-            read_gaze(stage, searches, &goal, arena, &out[at]);
+            read_gaze(setup, searches, &goal, arena, &out[at]);
         }
     return true;
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* gazes.h -- eyes that look elsewhere than at symbols, such as at the road, in a stage that is
+/* gazes.h -- eyes that look elsewhere than at symbols, such as at the road, in a setup that is
  * lit: what blinds them, and what the glass before them mirrors.
  *
  * An eye box counts by the point whose view has the most light laid over it.
@@ -15,5 +15,5 @@
 
 /* Fills review_look_count(request) findings, eyes fastest, but for those that are others'.
  * Fails where an eye's camera is missing. */
-bool stage_gazes(const Stage *stage, const MomentShare *share, SunSearches *searches,
+bool setup_gazes(const Setup *setup, const MomentShare *share, SunSearches *searches,
                  Arena *arena, GazeFinding *out, Error *err);

@@ -7,7 +7,7 @@ ReviewRun review_run_of(const ReviewRun *run, const ReviewRequest *request, cons
     own.request = request;
     own.base = base;
     own.identity = NULL;
-    own.news.told = NULL;
+    own.news.on_condition = NULL;
     own.share = (ReviewShare){0};
     own.rider_count = 0;
     return own;

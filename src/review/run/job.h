@@ -22,12 +22,12 @@ typedef struct ReviewOutcome ReviewOutcome;
  * must change nothing. NULL: nobody. Fails: what it says ends the review. And which files
  * scenes are made of, once they are read; NULL: the same. */
 typedef struct ReviewNews {
-    bool (*told)(void *user, const ReviewOutcome *so_far, int done, Error *err);
+    bool (*on_condition)(void *user, const ReviewOutcome *so_far, int done, Error *err);
     void (*read)(void *user, const Scene *scene);
     void  *user;
 } ReviewNews;
 
-/* A variant that changes levels alone: it goes with the review, stage by stage, and is read
+/* A variant that changes levels alone: it goes with the review, setup by setup, and is read
  * from its paths. */
 typedef struct ReviewRider {
     const ReviewVariant *variant;

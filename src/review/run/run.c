@@ -17,8 +17,8 @@
 #include "text/text.h"
 #include "scene/load/material_data.h"
 
-/* The most address space that a stage takes; what is not touched costs nothing. */
-#define STAGE_BYTES ((size_t)1 << 36)
+/* The most address space that a setup takes; what is not touched costs nothing. */
+#define SETUP_BYTES ((size_t)1 << 36)
 
 static int most_cases(const ReviewRequest *request)
 {
@@ -28,7 +28,7 @@ static int most_cases(const ReviewRequest *request)
 
 static int most_false_suns(const ReviewRequest *request)
 {
-    return request->condition_count * request->eye_count * FALSE_SUNS_TOLD;
+    return request->condition_count * request->eye_count * FALSE_SUNS_LISTED;
 }
 
 /* A response for each sight, face and sensor of a condition. */
@@ -38,7 +38,7 @@ static int most_responses(const ReviewRequest *request)
     return most_cases(request) + request->condition_count * (faces + request->level_count);
 }
 
-/* Names of symbols that were found live in the stage's memory. */
+/* Names of symbols that were found live in the setup's memory. */
 static void keep_names(ReviewCase *cases, int count, Arena *arena)
 {
     for (int i = 0; i < count; i++)
@@ -62,7 +62,7 @@ static MomentShare share_of(const ReviewRun *run, const ReviewCondition *conditi
 static double work_of_moment(const ReviewRun *run, int symbols)
 {
     const ReviewRequest *request = run->request;
-    double work = WORK_STAGE;
+    double work = WORK_SETUP;
     for (int e = 0; e < request->eye_count; e++)
         work += symbols * work_of_case(request, &request->eyes[e], run->base != NULL);
     return run->base ? work : work + WORK_LOOK * review_look_count(request);
@@ -72,19 +72,19 @@ static double work_of_moment(const ReviewRun *run, int symbols)
 static bool ride_moment(const CaseTools *base_tools, const ReviewRider *rider,
                         const ReviewRun *run, const Review *base, Arena *arena, Error *err)
 {
-    StageOther other;
-    Arena      room = rider->room, of_context = arena_reserve(STAGE_BYTES);
+    SetupOther other;
+    Arena      room = rider->room, of_context = arena_reserve(SETUP_BYTES);
     ReviewRun  own = review_run_of(run, rider->request, base);
     Review    *review = &rider->outcome->review;
-    Stage      stage =
-        stage_beside(base_tools->stage, rider->request, &room, of_context, &other);
+    Setup      setup =
+        setup_beside(base_tools->setup, rider->request, &room, of_context, &other);
     CaseTools tools = *base_tools;
-    tools.stage = &stage;
+    tools.setup = &setup;
     tools.work = NULL;
     tools.base = own.base;
     ReviewCase *cases = review->cases + review->case_count;
     int         count = tools.symbol_count * rider->request->eye_count;
-    bool        ok = stage_cases(&tools, arena, cases, err);
+    bool        ok = setup_cases(&tools, arena, cases, err);
     if (ok) keep_names(cases, count, arena);
     if (ok) review->case_count += count;
     else if (err->code <= 128) error_prefix(err, "variant '%.100s'", rider->variant->name);
@@ -100,31 +100,31 @@ static bool ride_moments(const ReviewRun *run, const CaseTools *tools, const Rev
     return true;
 }
 
-static bool run_moment(const ReviewRun *run, Stage *stage, Arena *scratch, Arena *arena,
+static bool run_moment(const ReviewRun *run, Setup *setup, Arena *scratch, Arena *arena,
                        ReviewOutcome *out, Error *err)
 {
-    const ReviewCondition *condition = stage->condition;
+    const ReviewCondition *condition = setup->condition;
     Review   *review = &out->review;
-    CaseTools tools = {.stage = stage, .profile = run->profile, .work = run->work,
+    CaseTools tools = {.setup = setup, .profile = run->profile, .work = run->work,
                        .share = share_of(run, condition), .base = run->base};
-    StageSymbol *symbols;
+    SetupSymbol *symbols;
     const Environment *sky = condition->has_environment ? &condition->environment : NULL;
-    if (!stage_light(stage, sky, scratch, err) ||
-        !stage_symbols(stage, scratch, &symbols, &tools.symbol_count, err) ||
-        !stage_learn(stage, symbols, tools.symbol_count, scratch, err))
+    if (!setup_light(setup, sky, scratch, err) ||
+        !setup_symbols(setup, scratch, &symbols, &tools.symbol_count, err) ||
+        !setup_learn(setup, symbols, tools.symbol_count, scratch, err))
         return false;
     tools.symbols = symbols;
     run->work->total = work_of_moment(run, tools.symbol_count);
-    work_add(run->work, WORK_STAGE - WORK_OPENED);
+    work_add(run->work, WORK_SETUP - WORK_OPENED);
     ReviewCase *cases = review->cases + review->case_count;
-    if (!stage_cases(&tools, arena, cases, err)) return false;
+    if (!setup_cases(&tools, arena, cases, err)) return false;
     int count = tools.symbol_count * run->request->eye_count;
     if (!run->share.count) keep_names(cases, count, arena); /* others' cases have none */
     review->case_count += count;
     if (!ride_moments(run, &tools, review, arena, err)) return false;
     if (run->base) return true;
     GazeFinding *gazes = review->gazes + review->gaze_count;
-    if (!stage_gazes(stage, &tools.share, run->sun_searches, arena, gazes, err)) return false;
+    if (!setup_gazes(setup, &tools.share, run->sun_searches, arena, gazes, err)) return false;
     review->gaze_count += review_look_count(run->request);
     return true;
 }
@@ -183,20 +183,20 @@ static void add_condition(Text *text, const ReviewRequest *request,
 }
 
 /* Answers of something else would find nobody who asks. */
-static bool check_planned(const ReviewRun *run, const Stage *stage, Arena scratch, Error *err)
+static bool check_planned(const ReviewRun *run, const Setup *setup, Arena scratch, Error *err)
 {
     Text own = {.arena = &scratch};
     if (!run->identity) return true;
-    add_condition(&own, run->request, stage->condition, stage->planned);
+    add_condition(&own, run->request, setup->condition, setup->planned);
     return strstr(run->identity, own.data) ||
            error_at(err, ERROR_INPUT, run->request->file, "",
                     "the program, the request or a file of condition '%.200s' is not what the "
                     "job was planned for — plan it again, in another folder",
-                    stage->condition->name);
+                    setup->condition->name);
 }
 
 /* Of the scene that has most of them. */
-static void tell_without_data(const Scene *scene, Review *review, Arena scratch, Arena *arena)
+static void report_without_data(const Scene *scene, Review *review, Arena scratch, Arena *arena)
 {
     int  count;
     int *list = scene_without_data(scene, &count, &scratch);
@@ -209,23 +209,23 @@ static void tell_without_data(const Scene *scene, Review *review, Arena scratch,
 static bool run_condition(const ReviewRun *run, const ReviewCondition *condition,
                           const SweepGroup *group, Arena *arena, ReviewOutcome *out, Error *err)
 {
-    StageOptions options = {run->request, condition, run->root,   run->state,
+    SetupOptions options = {run->request, condition, run->root,   run->state,
                             run->threads, run->isa,  run->journal, run->lessons,
                             run->inherited};
-    Arena scratch = arena_reserve(STAGE_BYTES);
-    Stage stage;
-    bool  ok = stage_open(&options, &scratch, run->problems, &stage, err);
+    Arena scratch = arena_reserve(SETUP_BYTES);
+    Setup setup;
+    bool  ok = setup_open(&options, &scratch, run->problems, &setup, err);
     if (ok) {
-        stage.is_shared = run->rider_count > 0;
+        setup.is_shared = run->rider_count > 0;
         work_add(run->work, WORK_OPENED);
-        if (run->news.read) run->news.read(run->news.user, stage.scene);
-        tell_without_data(stage.scene, &out->review, scratch, arena);
-        ok = (review_request_check(run->request, stage.scene, run->problems) ||
+        if (run->news.read) run->news.read(run->news.user, setup.scene);
+        report_without_data(setup.scene, &out->review, scratch, arena);
+        ok = (review_request_check(run->request, setup.scene, run->problems) ||
               problems_verdict(run->problems, err)) &&
-             check_planned(run, &stage, scratch, err) &&
-             (group ? run_sweeps(run, &stage, group, arena, out, err)
-                    : run_moment(run, &stage, &scratch, arena, out, err));
-        stage_close(&stage);
+             check_planned(run, &setup, scratch, err) &&
+             (group ? run_sweeps(run, &setup, group, arena, out, err)
+                    : run_moment(run, &setup, &scratch, arena, out, err));
+        setup_close(&setup);
     }
     arena_release(&scratch);
     return ok;
@@ -273,7 +273,8 @@ static bool run_conditions(const ReviewRun *run, Arena *arena, ReviewOutcome *ou
         if (!is_moment) group = group_of(request, i, is_done, arena);
         if (!run_watched(run, condition, &group, arena, out, err)) return false;
         done += is_moment ? 1 : group.count;
-        if (run->news.told && !run->news.told(run->news.user, out, done, err)) return false;
+        if (run->news.on_condition && !run->news.on_condition(run->news.user, out, done,
+                                                              err)) return false;
     }
     return true;
 }
@@ -296,25 +297,25 @@ static void mark_scene(const ReviewRequest *request, int first, int *done_by)
 static bool plan_condition(const ReviewRun *run, const ReviewCondition *condition,
                            ReviewPlan *plan, JournalKey *base, Error *err)
 {
-    StageOptions options = {run->request, condition, run->root, run->state,
+    SetupOptions options = {run->request, condition, run->root, run->state,
                             run->threads, run->isa,  NULL, NULL, NULL};
-    Arena scratch = arena_reserve(STAGE_BYTES);
-    Stage stage;
-    bool  ok = stage_open(&options, &scratch, run->problems, &stage, err);
+    Arena scratch = arena_reserve(SETUP_BYTES);
+    Setup setup;
+    bool  ok = setup_open(&options, &scratch, run->problems, &setup, err);
     if (ok) {
-        Sweep        sweep = {.run = run, .stage = &stage};
-        StageSymbol *symbols;
+        Sweep        sweep = {.run = run, .setup = &setup};
+        SetupSymbol *symbols;
         int          count;
-        ok = (review_request_check(run->request, stage.scene, run->problems) ||
+        ok = (review_request_check(run->request, setup.scene, run->problems) ||
               problems_verdict(run->problems, err)) &&
              (condition->kind == CONDITION_MOMENT
-                  ? stage_symbols(&stage, &scratch, &symbols, &count, err)
+                  ? setup_symbols(&setup, &scratch, &symbols, &count, err)
                   : sweep_place_probes(&sweep, &scratch, err));
-        *base = stage.planned;
+        *base = setup.planned;
         plan->responses += sweep.ask_count;
         for (int i = 0; i < sweep.ask_count; i++)
             plan->responses_kept += sweep.asks[i].is_kept;
-        stage_close(&stage);
+        setup_close(&setup);
     }
     arena_release(&scratch);
     return ok;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* run.h -- a request becomes a review: stage by stage, case by case.
+/* run.h -- a request becomes a review: setup by setup, case by case.
  *
- * Memory   the review lives in the arena; stages use scratch of their own.
+ * Memory   the review lives in the arena; setups use scratch of their own.
  * Threads  starts its own; the same review for any count.
  * Fails    as its parts do. review_run writes nothing.
  */

@@ -12,7 +12,7 @@
 #include "review/keep/go_on.h"
 #include "review/pace/work.h"
 #include "review/run/sweep_probes.h"
-#include "review/run/sweep_told.h"
+#include "review/run/sun_figures.h"
 #include "review/run/sweep_weather.h"
 
 #define WORST_READ 3          /* steps that are read again, at most */
@@ -33,35 +33,35 @@ static DaylightInput air_of(const ReviewCondition *condition)
 }
 
 /* Of a sweep without times: every sun counts alike. */
-static double failed_share(const SweepSuns *suns, const Told *told)
+static double failed_share(const SweepSuns *suns, const SunFigures *figures)
 {
     double failed = 0;
-    for (int i = 0; i < suns->count; i++) failed += told->verdict[i] == VERDICT_FAIL;
+    for (int i = 0; i < suns->count; i++) failed += figures->verdict[i] == VERDICT_FAIL;
     return failed / suns->count;
 }
 
 /* ---- the worst, read again as a moment --------------------------------------------------- */
 
 /* Of a weather file: none when it is dark. */
-static void set_weather(const Stage *stage, const SweepSun *sun, Environment *environment)
+static void set_weather(const Setup *setup, const SweepSun *sun, Environment *environment)
 {
-    bool is_lit = sweep_weather_light(stage->request, stage->condition, sun,
+    bool is_lit = sweep_weather_light(setup->request, setup->condition, sun,
                                       &environment->daylight);
     environment->kind = is_lit ? ENVIRONMENT_PEREZ : ENVIRONMENT_NONE;
 }
 
-Environment sweep_environment(const Stage *stage, const SweepSun *sun)
+Environment sweep_environment(const Setup *setup, const SweepSun *sun)
 {
-    const double *forward = stage->request->forward;
+    const double *forward = setup->request->forward;
     Environment   environment = {
         .forward = vec3((float)forward[0], (float)forward[1], (float)forward[2]),
         .heading = (float)radians_from_degrees(sun->heading_deg)};
-    if (stage->condition->weather_id != NO_ID && sun->step >= 0) {
-        set_weather(stage, sun, &environment);
+    if (setup->condition->weather_id != NO_ID && sun->step >= 0) {
+        set_weather(setup, sun, &environment);
         return environment;
     }
     environment.kind = ENVIRONMENT_SKY;
-    environment.daylight = air_of(stage->condition);
+    environment.daylight = air_of(setup->condition);
     environment.daylight.has_time = false;
     environment.has_sun = true;
     environment.sun_azimuth = (float)radians_from_degrees(sun->compass_deg);
@@ -72,29 +72,29 @@ Environment sweep_environment(const Stage *stage, const SweepSun *sun)
 }
 
 /* What a sight says of every sun, which holds for its twin, too. */
-typedef struct SightTold {
-    Told   told;
+typedef struct SightFigures {
+    SunFigures figures;
     double failed_share, longest_failure_minutes;
-} SightTold;
+} SightFigures;
 
 /* What a sweep does with each of its sights. */
-typedef struct Telling {
+typedef struct SweepReport {
     Sweep           *sweep;
     const FarTools  *tools;
     const SweepSuns *suns;   /* kept */
-    SightTold       *sights; /* of those that have twins */
+    SightFigures    *sights; /* of those that have twins */
     SweepTable      *tables; /* one a sight; those without suns are none */
     int              first;  /* sweep of the review: that of the first sight */
     ReviewOutcome   *out;
     Arena           *arena;  /* of what is kept */
     Arena            scratch;
     const ReviewRider *rider; /* whose it is; NULL: the review's own */
-    Arena            beside; /* room for its stage */
-} Telling;
+    Arena            beside; /* room for its setup */
+} SweepReport;
 
 /* By the probes, for other suns. */
-static Told tell_others(const Telling *to, const Sight *sight, const SweepSuns *suns,
-                        Arena *scratch)
+static SunFigures judge_others(const SweepReport *to, const Sight *sight, const SweepSuns *suns,
+                               Arena *scratch)
 {
     Sweep      sweep = *to->sweep;
     FarTools   tools = *to->tools, of_meters;
@@ -113,26 +113,26 @@ static Told tell_others(const Telling *to, const Sight *sight, const SweepSuns *
         sensor.lux = sweep_meter_read(&sensor, &of_meters, scratch);
         sweep.sensor = &sensor;
     }
-    Told told = told_start(suns->count, scratch);
-    told_tell(&sweep, &seen, &tools, &told, *scratch);
-    return told;
+    SunFigures figures = sun_figures_start(suns->count, scratch);
+    sun_figures_judge(&sweep, &seen, &tools, &figures, *scratch);
+    return figures;
 }
 
 /* Where about a sun it is worst. */
-static SweepSun refine(const Telling *to, const Sight *sight, SweepSun sun)
+static SweepSun refine(const SweepReport *to, const Sight *sight, SweepSun sun)
 {
     for (int round = 0;; round++) {
         Arena     scratch = to->scratch;
         SweepSuns near =
-            sweep_suns_about(to->sweep->stage->condition, &sun, round, &scratch);
+            sweep_suns_about(to->sweep->setup->condition, &sun, round, &scratch);
         if (near.count < 2) return sun;
-        sun = near.list[tell_others(to, sight, &near, &scratch).worst];
+        sun = near.list[judge_others(to, sight, &near, &scratch).worst];
     }
 }
 
 /* Who is asked between steps. */
 typedef struct Between {
-    const Telling *to;
+    const SweepReport *to;
     const Sight   *sight;
 } Between;
 
@@ -140,25 +140,25 @@ static void states_between(void *user, const SweepSuns *suns, unsigned char *sta
                            Arena scratch)
 {
     const Between *between = user;
-    Told told = tell_others(between->to, between->sight, suns, &scratch);
-    told_states(&told, suns->count, states);
+    SunFigures figures = judge_others(between->to, between->sight, suns, &scratch);
+    sun_figures_states(&figures, suns->count, states);
 }
 
 /* The skies of a weather file stand for their steps alone, a route's points for themselves. */
-static void set_failures(const Telling *to, const Sight *sight, const Told *told,
+static void set_failures(const SweepReport *to, const Sight *sight, const SunFigures *figures,
                          ReviewSweep *out)
 {
-    const ReviewCondition *condition = to->sweep->stage->condition;
+    const ReviewCondition *condition = to->sweep->setup->condition;
     bool       is_steady = condition->kind == CONDITION_YEAR_SWEEP && !to->sweep->has_hours;
     Between    between = {to, sight};
     FailureAsk ask = {states_between, &between};
     Arena      scratch = to->scratch;
     if (!to->suns->has_time) {
-        out->failed_share = failed_share(to->suns, told);
+        out->failed_share = failed_share(to->suns, figures);
         return;
     }
     unsigned char *states = ARENA_NEW(&scratch, unsigned char, to->suns->count);
-    told_states(told, to->suns->count, states);
+    sun_figures_states(figures, to->suns->count, states);
     Failures found = sweep_failures(condition, to->suns, states, is_steady ? &ask : NULL,
                                     scratch);
     out->failed_share = found.share;
@@ -166,33 +166,33 @@ static void set_failures(const Telling *to, const Sight *sight, const Told *told
 }
 
 /* picks: to choose it; with other paths than those that are told, by explain too. */
-static bool read_worst(Telling *to, const Sight *sight, const SweepSun *sun, bool picks,
+static bool read_worst(SweepReport *to, const Sight *sight, const SweepSun *sun, bool picks,
                        ReviewCase *out, Error *err)
 {
     Sweep        *sweep = to->sweep;
-    Environment   sky = sweep_environment(sweep->stage, sun);
-    Environment   dark = sweep->stage->scene->environment;
+    Environment   sky = sweep_environment(sweep->setup, sun);
+    Environment   dark = sweep->setup->scene->environment;
     ReviewRequest request = *sweep->run->request;
     request.seed += picks ? PICK_SEED : 0;
     if (!sweep_light_sun(sweep, sun, &sky, err)) return false;
     Arena      room = to->scratch;
-    StageOther other;
-    Stage      stage = sweep->lit->stage;
+    SetupOther other;
+    Setup      setup = sweep->lit->setup;
     if (to->rider)
-        stage = stage_beside(&sweep->lit->stage, &request, &room, to->beside, &other);
-    stage.request = &request;
-    CaseTools tools = {.stage = &stage, .profile = sweep->run->profile,
+        setup = setup_beside(&sweep->lit->setup, &request, &room, to->beside, &other);
+    setup.request = &request;
+    CaseTools tools = {.setup = &setup, .profile = sweep->run->profile,
                        .symbols = sight->symbol, .symbol_count = 1,
                        .base = sweep->run->base};
-    bool ok = stage_case(&tools, sight->symbol, sight->eye, to->arena, out, err);
-    stage.scene->environment = dark; /* as the next sight is asked */
+    bool ok = setup_case(&tools, sight->symbol, sight->eye, to->arena, out, err);
+    setup.scene->environment = dark; /* as the next sight is asked */
     return ok;
 }
 
 /* Azimuths of a sweep's worst are the vehicle's, as those of its map are. */
-static void tell_when(const Telling *to, const SweepSun *sun, ReviewCase *c)
+static void set_when(const SweepReport *to, const SweepSun *sun, ReviewCase *c)
 {
-    const ReviewCondition *condition = to->sweep->stage->condition;
+    const ReviewCondition *condition = to->sweep->setup->condition;
     const char *when = sweep_suns_when(condition, to->suns, sun, to->arena);
     c->sun_azimuth_deg = fmod(sun->azimuth_deg + 360, 360);
     c->when = condition->weather_id == NO_ID
@@ -202,10 +202,10 @@ static void tell_when(const Telling *to, const SweepSun *sun, ReviewCase *c)
                                                     to->arena));
 }
 
-static ReviewSweep sweep_of(const Telling *to, const Sight *sight)
+static ReviewSweep sweep_of(const SweepReport *to, const Sight *sight)
 {
     const char *symbol = sight->symbol->name;
-    ReviewSweep sweep = {.condition = to->sweep->stage->condition->name,
+    ReviewSweep sweep = {.condition = to->sweep->setup->condition->name,
                          .eye = sight->eye->name, .cases = to->suns->count,
                          .symbol = arena_string(to->arena, symbol, strlen(symbol)),
                          .longest_failure_minutes = to->suns->has_time ? 0 : (double)NAN};
@@ -227,7 +227,7 @@ static double sun_distance_deg(const SweepSun *a, const SweepSun *b)
 }
 
 /* The contrast limit that is asked under each ambient. */
-static const LimitVerdict *const *limits_asked(const Telling *to, const Sight *sight)
+static const LimitVerdict *const *limits_asked(const SweepReport *to, const Sight *sight)
 {
     const LimitVerdict **asked = ARENA_NEW(to->arena, const LimitVerdict *, 4);
     for (int ambient = 0; ambient < 4; ambient++) {
@@ -240,14 +240,15 @@ static const LimitVerdict *const *limits_asked(const Telling *to, const Sight *s
 }
 
 /* The worst of those that fail for sure and lie far from all that were read; -1: none. */
-static int next_failing(const Telling *to, const Told *told, const SweepSun *read, int count)
+static int next_failing(const SweepReport *to, const SunFigures *figures, const SweepSun *read,
+                        int count)
 {
     int next = -1;
     for (int sun = 0; sun < to->suns->count; sun++) {
-        bool is_new = told->verdict[sun] == VERDICT_FAIL;
+        bool is_new = figures->verdict[sun] == VERDICT_FAIL;
         for (int i = 0; i < count && is_new; i++)
             is_new = sun_distance_deg(&to->suns->list[sun], &read[i]) > WORST_APART_DEG;
-        if (is_new && told_is_worse(told, sun, next)) next = sun;
+        if (is_new && sun_figures_is_worse(figures, sun, next)) next = sun;
     }
     return next;
 }
@@ -256,70 +257,71 @@ static int next_failing(const Telling *to, const Told *told, const SweepSun *rea
  * Where that does not fail, though steps do, so are others of them, until one does. Chosen for
  * that by paths of its own, it is read once more, and this is told whatever it says: who picks
  * the reading that fails of three is wrong three times as often. */
-static bool find_worst(Telling *to, const Sight *sight, const Told *told, SweepSun *worst,
-                       ReviewCase *out, Error *err)
+static bool find_worst(SweepReport *to, const Sight *sight, const SunFigures *figures,
+                       SweepSun *worst, ReviewCase *out, Error *err)
 {
     SweepSun   read[WORST_READ];
     ReviewCase found = *out;
-    int        sun = told->worst;
+    int        sun = figures->worst;
     for (int i = 0; i < WORST_READ && sun >= 0; i++) {
         read[i] = refine(to, sight, to->suns->list[sun]);
         if (!read_worst(to, sight, &read[i], i > 0, &found, err)) return false;
         bool fails = found.verdict == VERDICT_FAIL;
         if (i && fails && !read_worst(to, sight, &read[i], false, &found, err)) return false;
-        tell_when(to, &read[i], &found);
+        set_when(to, &read[i], &found);
         if (i == 0 || fails) {
             *out = found;
             *worst = read[i];
         }
         if (fails) return true;
-        sun = next_failing(to, told, read, i + 1);
+        sun = next_failing(to, figures, read, i + 1);
     }
     return true;
 }
 
-static void add_table(const Telling *to, const Sight *sight, const Told *told,
+static void add_table(const SweepReport *to, const Sight *sight, const SunFigures *figures,
                       const SweepSun *worst)
 {
     int id = (int)(sight - to->sweep->sights);
     if (to->sweep->run->base) return; /* of a variant no table is told */
     to->tables[id] = (SweepTable){
-        to->first + id, told->worst, *worst, to->suns, told->contrast, told->low,
-        told->high, told->margin, told->reflected, told->mirror, told->level, told->lux,
-        told->verdict, told->ambient, sight->shown.foreground, sight->shown.background,
-        limits_asked(to, sight)};
+        to->first + id, figures->worst, *worst, to->suns, figures->contrast, figures->low,
+        figures->high, figures->margin, figures->reflected, figures->mirror, figures->level,
+        figures->lux, figures->verdict, figures->ambient, sight->shown.foreground,
+        sight->shown.background,         limits_asked(to, sight)};
 }
 
 /* Of a variant, whose tables nobody asks for, it lasts as long as the scratch. asked: the sight
  * with its suns. */
-static Told told_of(Telling *to, const Sight *sight, const Sight *asked, ReviewSweep *out)
+static SunFigures figures_of(SweepReport *to, const Sight *sight, const Sight *asked,
+                             ReviewSweep *out)
 {
     int        id = (int)(sight - to->sweep->sights);
-    SightTold *kept = &to->sights[sight->twin != NO_ID ? sight->twin : id];
+    SightFigures *kept = &to->sights[sight->twin != NO_ID ? sight->twin : id];
     if (sight->twin == NO_ID) {
-        kept->told = told_start(to->suns->count,
-                                to->sweep->run->base ? &to->scratch : to->arena);
-        told_tell(to->sweep, asked, to->tools, &kept->told, to->scratch);
-        set_failures(to, asked, &kept->told, out);
+        kept->figures = sun_figures_start(to->suns->count,
+                                          to->sweep->run->base ? &to->scratch : to->arena);
+        sun_figures_judge(to->sweep, asked, to->tools, &kept->figures, to->scratch);
+        set_failures(to, asked, &kept->figures, out);
         kept->failed_share = out->failed_share;
         kept->longest_failure_minutes = out->longest_failure_minutes;
     }
     out->failed_share = kept->failed_share;
     out->longest_failure_minutes = kept->longest_failure_minutes;
-    return kept->told;
+    return kept->figures;
 }
 
-static bool tell_sight(Telling *to, const Sight *sight, const Sight *asked, Error *err)
+static bool report_sight(SweepReport *to, const Sight *sight, const Sight *asked, Error *err)
 {
     Review     *review = &to->out->review;
     ReviewSweep sweep = sweep_of(to, sight);
     Arena       before = to->scratch;
     if (sight->probe.aim.target_count) {
-        Told     told = told_of(to, sight, asked, &sweep);
+        SunFigures figures = figures_of(to, sight, asked, &sweep);
         SweepSun worst = {0};
-        if (!find_worst(to, sight, &told, &worst, &sweep.worst, err)) return false;
+        if (!find_worst(to, sight, &figures, &worst, &sweep.worst, err)) return false;
         sweep.worst.symbol = sweep.symbol;
-        add_table(to, sight, &told, &worst);
+        add_table(to, sight, &figures, &worst);
     }
     if (!sight->has_twin) to->scratch = before;
     review->sweeps[to->first + (int)(sight - to->sweep->sights)] = sweep;
@@ -334,8 +336,8 @@ static double work_of_sight(const SweepSuns *suns)
 
 /* A sight for the review, then for its riders: its suns are asked, and forgotten when all is
  * told of them. */
-static bool tell_asked(Sweep *sweep, Telling *to, int count, const Sight *sight, Arena room,
-                       Error *err)
+static bool report_asked(Sweep *sweep, SweepReport *to, int count, const Sight *sight,
+                         Arena room, Error *err)
 {
     Sight asked = *sight;
     if (sight->twin == NO_ID && sight->probe.aim.target_count) {
@@ -343,7 +345,7 @@ static bool tell_asked(Sweep *sweep, Telling *to, int count, const Sight *sight,
         if (count > 1) asked.read = sweep_read_sight(&asked, to->tools, &room);
     }
     for (int i = 0; i < count; i++) {
-        if (tell_sight(&to[i], sight, &asked, err)) continue;
+        if (report_sight(&to[i], sight, &asked, err)) continue;
         return err->code > 128 || !to[i].rider
                    ? false
                    : error_prefix(err, "variant '%.100s'", to[i].rider->variant->name);
@@ -352,7 +354,7 @@ static bool tell_asked(Sweep *sweep, Telling *to, int count, const Sight *sight,
 }
 
 /* Symbol by symbol, so that what its eyes share is at hand. to[0]: the review's own. */
-static bool tell_sights(Sweep *sweep, Telling *to, int count, Arena room, Error *err)
+static bool report_sights(Sweep *sweep, SweepReport *to, int count, Arena room, Error *err)
 {
     int symbols = sweep->symbol_count;
     for (int i = 0; i < sweep->sight_count; i++) {
@@ -360,14 +362,14 @@ static bool tell_sights(Sweep *sweep, Telling *to, int count, Arena room, Error 
         const Sight *sight = &sweep->sights[i % eyes * symbols + i / eyes];
         if (sight->is_left) continue;
         if (!review_goes_on(sweep->run->journal, err) ||
-            !tell_asked(sweep, to, count, sight, room, err))
+            !report_asked(sweep, to, count, sight, room, err))
             return false;
         work_add(sweep->run->work, work_of_sight(&sweep->suns));
     }
     return true;
 }
 
-static void keep_tables(const Telling *to)
+static void keep_tables(const SweepReport *to)
 {
     ReviewOutcome *out = to->out;
     for (int i = 0; i < to->sweep->sight_count; i++)
@@ -376,7 +378,7 @@ static void keep_tables(const Telling *to)
 
 /* ---- all of it --------------------------------------------------------------------------- */
 
-static void tell_responses(const Sweep *sweep, Arena *arena, ReviewOutcome *out)
+static void report_responses(const Sweep *sweep, Arena *arena, ReviewOutcome *out)
 {
     Review *review = &out->review;
     for (int i = 0; i < sweep->ask_count; i++) {
@@ -392,23 +394,23 @@ static void tell_responses(const Sweep *sweep, Arena *arena, ReviewOutcome *out)
 
 static bool make_skies(Sweep *sweep, Arena *scratch, Error *err)
 {
-    const Stage *stage = sweep->stage;
+    const Setup *setup = sweep->setup;
     double low = 90, high = -90;
-    sweep->has_hours = stage->condition->weather_id != NO_ID;
+    sweep->has_hours = setup->condition->weather_id != NO_ID;
     if (sweep->has_hours &&
-        !sweep_weather_skies(stage, &sweep->suns, scratch, &sweep->hours, err))
+        !sweep_weather_skies(setup, &sweep->suns, scratch, &sweep->hours, err))
         return false;
     for (int i = 0; i < sweep->suns.count; i++) {
         low = fmin(low, sweep->suns.list[i].elevation_deg);
         high = fmax(high, sweep->suns.list[i].elevation_deg);
     }
-    DaylightInput like = air_of(stage->condition);
+    DaylightInput like = air_of(setup->condition);
     like.has_time = false;
-    like.threads = stage->tools.threads;
+    like.threads = setup->tools.threads;
     sweep->table = sky_table_start(&like, low, high, scratch);
     sweep->table.inherited = sweep->run->inherited;
-    if (stage->condition->kind == CONDITION_SUN_SWEEP) {
-        const ReviewRange *azimuths = &stage->condition->azimuth_deg;
+    if (setup->condition->kind == CONDITION_SUN_SWEEP) {
+        const ReviewRange *azimuths = &setup->condition->azimuth_deg;
         double             heading = sweep->suns.list[0].heading_deg; /* of all of them */
         sky_table_between(&sweep->table, azimuths->first - heading, azimuths->last - heading);
     }
@@ -429,7 +431,7 @@ bool sweep_check(const ReviewRequest *request, int condition_id, Arena scratch, 
 
 static void plan_work(const Sweep *sweep, const SweepGroup *group, Arena scratch)
 {
-    double work = WORK_STAGE;
+    double work = WORK_SETUP;
     for (int i = 0; i < sweep->ask_count; i++)
         work += responses_work(&sweep->asks[i], 2 * WORK_OWN);
     for (int i = 0; i < group->count; i++) {
@@ -443,7 +445,7 @@ static void plan_work(const Sweep *sweep, const SweepGroup *group, Arena scratch
 static void set_level(Sweep *sweep)
 {
     const ReviewRequest   *request = sweep->run->request;
-    const ReviewCondition *condition = sweep->stage->condition;
+    const ReviewCondition *condition = sweep->setup->condition;
     bool has_level = condition->level_id != NO_ID;
     sweep->level = has_level ? &request->levels[condition->level_id] : NULL;
     sweep->sensor =
@@ -453,21 +455,21 @@ static void set_level(Sweep *sweep)
 /* A rider on the review's probes. */
 typedef struct Riding {
     ReviewRun run;
-    Stage     stage;
+    Setup     setup;
     Sweep     sweep;
     Arena     beside;
 } Riding;
 
-static void start_riding(const Telling *own, const ReviewRider *rider, Riding *riding,
-                         Telling *to)
+static void start_riding(const SweepReport *own, const ReviewRider *rider, Riding *riding,
+                         SweepReport *to)
 {
     const Sweep *sweep = own->sweep;
     *riding = (Riding){.run = review_run_of(sweep->run, rider->request, &own->out->review),
-                       .stage = *sweep->stage, .sweep = *sweep,
+                       .setup = *sweep->setup, .sweep = *sweep,
                        .beside = arena_reserve(SWEEP_BYTES)};
-    riding->stage.request = rider->request;
+    riding->setup.request = rider->request;
     riding->sweep.run = &riding->run;
-    riding->sweep.stage = &riding->stage;
+    riding->sweep.setup = &riding->setup;
     set_level(&riding->sweep);
     *to = *own;
     to->sweep = &riding->sweep;
@@ -476,19 +478,19 @@ static void start_riding(const Telling *own, const ReviewRider *rider, Riding *r
     to->scratch = rider->room;
     to->rider = rider;
     to->beside = riding->beside;
-    to->sights = ARENA_NEW(&to->scratch, SightTold, sweep->sight_count);
+    to->sights = ARENA_NEW(&to->scratch, SightFigures, sweep->sight_count);
 }
 
 /* The review's own, then its riders'. */
-static bool tell_with_riders(Sweep *sweep, const Telling *own, Arena room, Error *err)
+static bool report_with_riders(Sweep *sweep, const SweepReport *own, Arena room, Error *err)
 {
     int      riders = sweep->run->rider_count;
-    Telling *to = ARENA_NEW(&room, Telling, 1 + riders);
+    SweepReport *to = ARENA_NEW(&room, SweepReport, 1 + riders);
     Riding  *riding = ARENA_NEW(&room, Riding, riders);
     to[0] = *own;
     for (int i = 0; i < riders; i++)
         start_riding(own, &sweep->run->riders[i], &riding[i], &to[1 + i]);
-    bool ok = tell_sights(sweep, to, 1 + riders, room, err);
+    bool ok = report_sights(sweep, to, 1 + riders, room, err);
     for (int i = 0; i < riders; i++) {
         if (ok) sweep->run->riders[i].outcome->review.sweep_count += sweep->sight_count;
         arena_release(&riding[i].beside);
@@ -499,7 +501,7 @@ static bool tell_with_riders(Sweep *sweep, const Telling *own, Arena room, Error
 static bool sweep_condition(Sweep *sweep, Arena scratch, Arena *arena, ReviewOutcome *out,
                             Error *err)
 {
-    sweep->suns = sweep_suns(sweep->stage->condition, sweep->run->threads, arena);
+    sweep->suns = sweep_suns(sweep->setup->condition, sweep->run->threads, arena);
     set_level(sweep);
     if (!make_skies(sweep, &scratch, err)) return false;
     if (!sweep_ask_light(sweep, &scratch, err)) return false;
@@ -507,14 +509,14 @@ static bool sweep_condition(Sweep *sweep, Arena scratch, Arena *arena, ReviewOut
     FarTools   tools = sweep_tools(sweep);
     SweepSuns *suns = ARENA_NEW(arena, SweepSuns, 1);
     *suns = sweep->suns;
-    Telling to = {.sweep = sweep, .tools = &tools, .suns = suns, .out = out, .arena = arena,
-                  .first = out->review.sweep_count, .scratch = sweep->told,
-                  .sights = ARENA_NEW(&scratch, SightTold, sweep->sight_count),
-                  .tables = ARENA_NEW(&scratch, SweepTable, sweep->sight_count)};
+    SweepReport to = {.sweep = sweep, .tools = &tools, .suns = suns, .out = out, .arena = arena,
+                      .first = out->review.sweep_count, .scratch = sweep->figures,
+                      .sights = ARENA_NEW(&scratch, SightFigures, sweep->sight_count),
+                      .tables = ARENA_NEW(&scratch, SweepTable, sweep->sight_count)};
     sweep->lit->is_ready = sweep->lit->is_lit = false;
     if (!sweep->run->share.count && !sweep->run->base)
         false_sun_times(sweep, scratch, arena, &out->review);
-    if (!tell_with_riders(sweep, &to, scratch, err)) return false;
+    if (!report_with_riders(sweep, &to, scratch, err)) return false;
     keep_tables(&to);
     out->review.sweep_count += sweep->sight_count;
     return true;
@@ -525,33 +527,33 @@ static bool sweep_all(Sweep *sweep, const SweepGroup *group, Arena *scratch, Are
 {
     if (!sweep_place_probes(sweep, scratch, err)) return false;
     plan_work(sweep, group, *scratch);
-    work_add(sweep->run->work, WORK_STAGE - WORK_OPENED);
+    work_add(sweep->run->work, WORK_SETUP - WORK_OPENED);
     if (!sweep_make_probes(sweep, scratch, err)) return false;
-    tell_responses(sweep, arena, out);
-    PathContext dark = sweep->stage->context;
+    report_responses(sweep, arena, out);
+    PathContext dark = sweep->setup->context;
     for (int i = 0; i < group->count; i++) {
         Arena room = *scratch;
-        sweep->stage->condition = group->conditions[i];
-        sweep->stage->context = dark; /* the last one's is gone with its room */
-        if (!sweep_light_dark(sweep->stage, 1, &room, err) ||
+        sweep->setup->condition = group->conditions[i];
+        sweep->setup->context = dark; /* the last one's is gone with its room */
+        if (!sweep_light_dark(sweep->setup, 1, &room, err) ||
             !sweep_condition(sweep, room, arena, out, err))
             return false;
     }
     return true;
 }
 
-bool run_sweeps(const ReviewRun *run, Stage *stage, const SweepGroup *group, Arena *arena,
+bool run_sweeps(const ReviewRun *run, Setup *setup, const SweepGroup *group, Arena *arena,
                 ReviewOutcome *out, Error *err)
 {
     Arena    scratch = arena_reserve(SWEEP_BYTES);
-    SweepLit lit = {.of = stage, .room = arena_reserve(SWEEP_BYTES),
+    SweepLit lit = {.of = setup, .room = arena_reserve(SWEEP_BYTES),
                     .fresh = arena_reserve(SWEEP_BYTES)};
-    Sweep    sweep = {.run = run, .stage = stage, .lit = &lit,
-                      .told = arena_reserve(SWEEP_BYTES),
+    Sweep    sweep = {.run = run, .setup = setup, .lit = &lit,
+                      .figures = arena_reserve(SWEEP_BYTES),
                       .between = arena_reserve(SWEEP_BYTES)};
     bool     ok = sweep_all(&sweep, group, &scratch, arena, out, err);
     arena_release(&sweep.between);
-    arena_release(&sweep.told);
+    arena_release(&sweep.figures);
     arena_release(&lit.fresh);
     arena_release(&lit.room);
     arena_release(&scratch);

@@ -19,9 +19,9 @@
 /* Can the condition be swept? To be asked before long work; the error names its place. */
 bool sweep_check(const ReviewRequest *request, int condition_id, Arena scratch, Error *err);
 
-/* The clear sky of the stage's sweep under one of its suns; that of its weather file, where the
+/* The clear sky of the setup's sweep under one of its suns; that of its weather file, where the
  * sun has a step. */
-Environment sweep_environment(const Stage *stage, const SweepSun *sun);
+Environment sweep_environment(const Setup *setup, const SweepSun *sun);
 
 /* Sweeps of one scene: the same files, contents and polarities, so that responses serve all. */
 typedef struct SweepGroup {
@@ -30,5 +30,5 @@ typedef struct SweepGroup {
 } SweepGroup;
 
 /* Riders go with it. */
-bool run_sweeps(const ReviewRun *run, Stage *stage, const SweepGroup *group, Arena *arena,
+bool run_sweeps(const ReviewRun *run, Setup *setup, const SweepGroup *group, Arena *arena,
                 ReviewOutcome *out, Error *err);

@@ -18,19 +18,19 @@
 
 /* ---- the scene's own light --------------------------------------------------------------- */
 
-static void set_all_levels(Stage *stage, float level)
+static void set_all_levels(Setup *setup, float level)
 {
-    for (int i = 0; i < stage->scene->display_count; i++)
-        stage->scene->displays[i].level = level;
+    for (int i = 0; i < setup->scene->display_count; i++)
+        setup->scene->displays[i].level = level;
 }
 
-bool sweep_light_dark(Stage *stage, float level, Arena *arena, Error *err)
+bool sweep_light_dark(Setup *setup, float level, Arena *arena, Error *err)
 {
-    stage->scene->environment.kind = ENVIRONMENT_NONE;
-    stage->scene->environment.has_sun = false;
-    stage->scene->environment.heading = 0;
-    set_all_levels(stage, level);
-    return stage_relight(stage, arena, err);
+    setup->scene->environment.kind = ENVIRONMENT_NONE;
+    setup->scene->environment.has_sun = false;
+    setup->scene->environment.heading = 0;
+    set_all_levels(setup, level);
+    return setup_relight(setup, arena, err);
 }
 
 static bool is_same_light(const SweepSun *a, const SweepSun *b)
@@ -45,7 +45,7 @@ static bool make_ready(SweepLit *lit, Error *err)
     Arena arena = lit->room;
     if (lit->is_ready) return true;
     lit->ready = *lit->of;
-    lit->is_ready = stage_before_light(&lit->ready, &arena, err);
+    lit->is_ready = setup_before_light(&lit->ready, &arena, err);
     return lit->is_ready;
 }
 
@@ -53,10 +53,10 @@ static bool light_afresh(Sweep *sweep, const SweepSun *sun, const Environment *s
 {
     SweepLit *lit = sweep->lit;
     Arena     arena = lit->fresh;
-    Scene    *scene = sweep->stage->scene;
+    Scene    *scene = sweep->setup->scene;
     if (!make_ready(lit, err)) return false;
     lit->sun = *sun;
-    lit->is_lit = stage_light_again(&lit->stage, &lit->ready, sky, &arena, err);
+    lit->is_lit = setup_light_again(&lit->setup, &lit->ready, sky, &arena, err);
     if (!lit->is_lit) return false;
     lit->levels = ARENA_NEW(&arena, float, scene->display_count);
     for (int i = 0; i < scene->display_count; i++) lit->levels[i] = scene->displays[i].level;
@@ -66,7 +66,7 @@ static bool light_afresh(Sweep *sweep, const SweepSun *sun, const Environment *s
 bool sweep_light_sun(Sweep *sweep, const SweepSun *sun, const Environment *sky, Error *err)
 {
     SweepLit *lit = sweep->lit;
-    Scene    *scene = sweep->stage->scene;
+    Scene    *scene = sweep->setup->scene;
     if (!lit->is_lit || !is_same_light(&lit->sun, sun))
         return light_afresh(sweep, sun, sky, err);
     scene->environment = *sky;
@@ -101,18 +101,18 @@ static void place_meters(Sweep *sweep, Arena *arena)
 
 static void aim_sight(Sweep *sweep, Sight *sight, Arena *arena)
 {
-    const Stage         *stage = sweep->stage;
+    const Setup         *setup = sweep->setup;
     const SymbolSurface *surface = &sight->symbol->surface;
     bool *is_visible = ARENA_NEW(arena, bool, surface->point_count);
-    sight->seen = symbol_visibility(surface, &stage->context, sight->from, is_visible);
-    SymbolLook look = {surface, &sight->symbol->split, sight->from, stage->tools.threads};
+    sight->seen = symbol_visibility(surface, &setup->context, sight->from, is_visible);
+    SymbolLook look = {surface, &sight->symbol->split, sight->from, setup->tools.threads};
     SymbolEmission shown = symbol_emission(&look, 1);
     sight->shown.foreground = shown.foreground_xyz[1] * sight->seen.transmittance;
     sight->shown.background = shown.background_xyz[1] * sight->seen.transmittance;
     sight->height_arcmin = symbol_height_arcmin(surface, sight->symbol->split.box, sight->from);
     sight->probe.aim =
-        (ProbeAim){.context = &stage->context, .eye = sight->from,
-                   .seed = review_seed(stage->request, EYE_SEED)};
+        (ProbeAim){.context = &setup->context, .eye = sight->from,
+                   .seed = review_seed(setup->request, EYE_SEED)};
     symbol_aim(surface, is_visible, arena, &sight->probe.aim);
 }
 
@@ -136,7 +136,7 @@ static bool place_sights(Sweep *sweep, Arena *arena, Error *err)
     sweep->sights = ARENA_NEW(arena, Sight, request->eye_count * sweep->symbol_count);
     for (int e = 0; e < request->eye_count; e++) {
         Vec3 from;
-        if (!stage_eye_middle(sweep->stage, &request->eyes[e], *arena, &from, err))
+        if (!setup_eye_middle(sweep->setup, &request->eyes[e], *arena, &from, err))
             return false;
         for (int s = 0; s < sweep->symbol_count; s++) {
             Sight *sight = &sweep->sights[sweep->sight_count++];
@@ -177,7 +177,7 @@ static double response_precision(const Sweep *sweep)
 
 static void ask_meter(Sweep *sweep, SweepMeter *meter, const char *name)
 {
-    meter->probe.aim = (ProbeAim){.context = &sweep->stage->context, .meter = &meter->head,
+    meter->probe.aim = (ProbeAim){.context = &sweep->setup->context, .meter = &meter->head,
                                   .seed = review_seed(sweep->run->request, METER_SEED)};
     sweep->asks[sweep->ask_count++] =
         (ResponseAsk){.name = name, .probe = &meter->probe, .own = &meter->own,
@@ -209,14 +209,14 @@ static void list_asks(Sweep *sweep, Arena *arena)
 
 FarTools sweep_tools(Sweep *sweep)
 {
-    return (FarTools){.stage = sweep->stage, .table = &sweep->table,
+    return (FarTools){.setup = sweep->setup, .table = &sweep->table,
                       .hours = sweep->has_hours ? &sweep->hours : NULL,
                       .suns = {sweep->suns.angles, sweep->suns.count},
                       .sun_paths = SUN_PATHS, .has_mirror = true};
 }
 
 /* What is known of a sight is known of its twin. */
-static void tell_twins(Sweep *sweep)
+static void copy_twins(Sweep *sweep)
 {
     for (int i = 0; i < sweep->sight_count; i++) {
         Sight *sight = &sweep->sights[i];
@@ -239,7 +239,7 @@ static bool ask_skies(Sweep *sweep, const FarTools *tools, Arena *arena, Error *
         if (is_asked && sight->probe.aim.target_count) probes[count++] = &sight->probe;
     }
     if (!far_probes_ask_skies(probes, count, tools, arena, err)) return false;
-    tell_twins(sweep);
+    copy_twins(sweep);
     return true;
 }
 
@@ -267,7 +267,7 @@ static const FarReading *read_suns(const FarProbe *probe, const FarTools *tools,
 {
     int      count = tools->suns.count;
     ReadWork work = {probe, tools, ARENA_NEW(arena, FarReading, count)};
-    parallel_for(tools->stage->tools.threads, (count + READ_CHUNK - 1) / READ_CHUNK,
+    parallel_for(tools->setup->tools.threads, (count + READ_CHUNK - 1) / READ_CHUNK,
                  read_chunk, &work);
     return work.read;
 }
@@ -368,10 +368,10 @@ static bool find_false_suns(Sweep *sweep, Arena *arena, Error *err)
     sweep->false_suns = ARENA_NEW(arena, FalseSuns, request->eye_count);
     for (int e = 0; e < request->eye_count; e++) {
         Vec3 from;
-        if (!stage_eye_middle(sweep->stage, &request->eyes[e], *arena, &from, err))
+        if (!setup_eye_middle(sweep->setup, &request->eyes[e], *arena, &from, err))
             return false;
         const FalseSunRays *rays =
-            sun_searches_ask(sweep->run->sun_searches, sweep->stage, from);
+            sun_searches_ask(sweep->run->sun_searches, sweep->setup, from);
         sweep->false_suns[e] = false_suns_of(rays, bands, arena);
     }
     return true;
@@ -384,9 +384,9 @@ static bool search_own_suns(Sweep *sweep, Arena scratch, Error *err)
     for (int e = 0; e < run->request->eye_count; e++) {
         Vec3 from;
         if (!review_share_has(&run->share, sweep->sight_count + e)) continue;
-        if (!stage_eye_middle(sweep->stage, &run->request->eyes[e], scratch, &from, err))
+        if (!setup_eye_middle(sweep->setup, &run->request->eyes[e], scratch, &from, err))
             return false;
-        sun_searches_ask(run->sun_searches, sweep->stage, from);
+        sun_searches_ask(run->sun_searches, sweep->setup, from);
     }
     return true;
 }
@@ -404,25 +404,25 @@ static bool find_suns(Sweep *sweep, Arena *arena, Error *err)
 
 bool sweep_place_probes(Sweep *sweep, Arena *arena, Error *err)
 {
-    Stage *stage = sweep->stage;
-    if (!sweep_light_dark(stage, 0, arena, err) ||
-        !stage_symbols(stage, arena, &sweep->symbols, &sweep->symbol_count, err))
+    Setup *setup = sweep->setup;
+    if (!sweep_light_dark(setup, 0, arena, err) ||
+        !setup_symbols(setup, arena, &sweep->symbols, &sweep->symbol_count, err))
         return false;
     place_meters(sweep, arena);
     if (!place_sights(sweep, arena, err)) return false;
     leave_others(sweep);
     list_asks(sweep, arena);
-    responses_find(sweep->run, stage, sweep->asks, sweep->ask_count, arena);
+    responses_find(sweep->run, setup, sweep->asks, sweep->ask_count, arena);
     return true;
 }
 
 bool sweep_make_probes(Sweep *sweep, Arena *arena, Error *err)
 {
-    Stage *stage = sweep->stage;
+    Setup *setup = sweep->setup;
     const ReviewRun *run = sweep->run;
-    return responses_read_own(run, stage, sweep->asks, sweep->ask_count, false, err) &&
-           sweep_light_dark(stage, 1, arena, err) &&
-           responses_read_own(run, stage, sweep->asks, sweep->ask_count, true, err) &&
-           responses_trace(run, stage, sweep->asks, sweep->ask_count, arena, err) &&
+    return responses_read_own(run, setup, sweep->asks, sweep->ask_count, false, err) &&
+           sweep_light_dark(setup, 1, arena, err) &&
+           responses_read_own(run, setup, sweep->asks, sweep->ask_count, true, err) &&
+           responses_trace(run, setup, sweep->asks, sweep->ask_count, arena, err) &&
            find_suns(sweep, arena, err);
 }

@@ -2,7 +2,7 @@
 /* sweep_probes.h -- the probes of a scene's sweeps: each symbol as each eye sees it, its face,
  * the sensors of the levels.
  *
- * Memory   from the arena that is passed in; the stage must outlive them.
+ * Memory   from the arena that is passed in; the setup must outlive them.
  * Threads  starts its own; the same figures for any count.
  */
 #pragma once
@@ -22,7 +22,7 @@ typedef struct SweepMeter {
 
 typedef struct Sight {
     const ReviewEye   *eye;
-    const StageSymbol *symbol;
+    const SetupSymbol *symbol;
     Vec3               from;
     SymbolVisibility   seen;
     CaseLuminances     shown;   /* foreground and background at level 1 */
@@ -37,22 +37,22 @@ typedef struct Sight {
     const FarReading  *read;    /* [sun], where several ask for them; else NULL */
 } Sight;
 
-/* The stage under the sun for which it was lit last: eyes that share a symbol often share its
+/* The setup under the sun for which it was lit last: eyes that share a symbol often share its
  * worst. */
 typedef struct SweepLit {
-    const Stage *of;    /* the review's own */
+    const Setup *of;    /* the review's own */
     bool     is_ready, is_lit; /* of the condition in hand */
-    Stage    ready;  /* before any sun shines */
+    Setup    ready;  /* before any sun shines */
     SweepSun sun;
-    Stage    stage;
+    Setup    setup;
     float   *levels; /* of the displays */
     Arena    room, fresh; /* for all that they are made of */
 } SweepLit;
 
 typedef struct Sweep {
     const ReviewRun   *run;
-    Stage             *stage;
-    StageSymbol       *symbols;
+    Setup             *setup;
+    SetupSymbol       *symbols;
     int                symbol_count;
     SweepMeter        *faces;   /* one a symbol */
     SweepMeter        *sensors; /* one a level of the request; those of curves are used */
@@ -69,12 +69,12 @@ typedef struct Sweep {
     const ReviewLevel *level;   /* NULL: the scene's */
     SweepMeter        *sensor;  /* of the level; NULL: it is fixed */
     SweepLit          *lit;     /* shared with riders */
-    Arena              told;    /* scratch for what a condition is told */
+    Arena              figures; /* scratch for the figures of a condition */
     Arena              between; /* for what meters read between its suns */
 } Sweep;
 
 /* The scene without sky and sun, its displays at one level. */
-bool sweep_light_dark(Stage *stage, float level, Arena *arena, Error *err);
+bool sweep_light_dark(Setup *setup, float level, Arena *arena, Error *err);
 
 /* The scene under one of the condition's suns, in its sky, with the levels that follow from it:
  * sweep->lit. The environment stays in the scene. */

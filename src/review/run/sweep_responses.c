@@ -33,11 +33,11 @@ static void add_eye(Text *text, const ProbeAim *aim)
 }
 
 /* Everything that decides the response and what the probe reads of the scene's own light. */
-static const char *identity_of(const Stage *stage, const ResponseAsk *ask, Arena *arena)
+static const char *identity_of(const Setup *setup, const ResponseAsk *ask, Arena *arena)
 {
     const ProbeAim *aim = &ask->probe->aim;
     Text text = {.arena = arena};
-    text_add(&text, stage->identity);
+    text_add(&text, setup->identity);
     if (aim->meter) add_meter(&text, aim->meter);
     else add_eye(&text, aim);
     identity_line(&text, "seed", "%u", aim->seed);
@@ -47,9 +47,9 @@ static const char *identity_of(const Stage *stage, const ResponseAsk *ask, Arena
     return text.data;
 }
 
-static void name_file(const ReviewRun *run, const Stage *stage, ResponseAsk *ask, Arena *arena)
+static void name_file(const ReviewRun *run, const Setup *setup, ResponseAsk *ask, Arena *arena)
 {
-    const char *identity = identity_of(stage, ask, arena);
+    const char *identity = identity_of(setup, ask, arena);
     uint64_t    hash = XXH3_64bits(identity, strlen(identity));
     const char *name = arena_format(arena, "%.80s-%016llx.response",
                                     file_name_of(ask->name, arena), (unsigned long long)hash);
@@ -58,13 +58,13 @@ static void name_file(const ReviewRun *run, const Stage *stage, ResponseAsk *ask
     ask->shown = arena_format(arena, "%s/%s", run->responses_shown, name);
 }
 
-void responses_find(const ReviewRun *run, const Stage *stage, ResponseAsk *asks, int count,
+void responses_find(const ReviewRun *run, const Setup *setup, ResponseAsk *asks, int count,
                     Arena *arena)
 {
     for (int i = 0; i < count; i++) {
         Error err;
         if (!run->responses) continue;
-        name_file(run, stage, &asks[i], arena);
+        name_file(run, setup, &asks[i], arena);
         if (!file_exists(asks[i].file.path)) continue;
         asks[i].is_kept = response_read(&asks[i].file, arena, &asks[i].probe->response,
                                         asks[i].own, &err);
@@ -81,23 +81,23 @@ static bool gives_light(const Lights *lights)
     return lights_has(lights, LIGHTS_EMITTERS) || lights_has(lights, LIGHTS_PUNCTUAL);
 }
 
-static double own_reading(const Stage *stage, const ProbeAim *aim, Arena scratch)
+static double own_reading(const Setup *setup, const ProbeAim *aim, Arena scratch)
 {
     ReadingGoal goal = {.precision = OWN_PRECISION, .most = OWN_PATHS};
-    if (!gives_light(stage->context.lights)) return 0;
-    return reading_take(aim, &goal, &stage->tools, scratch).reflected;
+    if (!gives_light(setup->context.lights)) return 0;
+    return reading_take(aim, &goal, &setup->tools, scratch).reflected;
 }
 
-bool responses_read_own(const ReviewRun *run, const Stage *stage, const ResponseAsk *asks,
+bool responses_read_own(const ReviewRun *run, const Setup *setup, const ResponseAsk *asks,
                         int count, bool displays, Error *err)
 {
     Arena scratch = arena_reserve(OWN_BYTES);
     bool  ok = true;
     for (int i = 0; i < count && ok; i++) {
         if (asks[i].is_kept || asks[i].is_left) continue;
-        ok = review_goes_on(stage->tools.journal, err);
+        ok = review_goes_on(setup->tools.journal, err);
         if (!ok) break;
-        double own = own_reading(stage, &asks[i].probe->aim, scratch);
+        double own = own_reading(setup, &asks[i].probe->aim, scratch);
         if (displays) asks[i].own->displays = own - asks[i].own->lamps;
         else asks[i].own->lamps = own;
         work_add(run->work, WORK_OWN);
@@ -113,14 +113,14 @@ double responses_work(const ResponseAsk *ask, double own)
     return ask->is_kept || ask->is_left ? 0 : own + ask->paths * WORK_RESPONSE_PATH;
 }
 
-bool responses_trace(const ReviewRun *run, const Stage *stage, ResponseAsk *asks, int count,
+bool responses_trace(const ReviewRun *run, const Setup *setup, ResponseAsk *asks, int count,
                      Arena *arena, Error *err)
 {
-    FarTools tools = {.stage = stage};
+    FarTools tools = {.setup = setup};
     for (int i = 0; i < count; i++) {
         ResponseAsk *ask = &asks[i];
         if (ask->is_kept || ask->is_left) continue;
-        if (!review_goes_on(stage->tools.journal, err)) return false;
+        if (!review_goes_on(setup->tools.journal, err)) return false;
         tools.paths = ask->paths;
         tools.precision = ask->precision;
         far_probe_respond(ask->probe, &tools, arena);

@@ -28,12 +28,12 @@ typedef struct ResponseAsk {
 } ResponseAsk;
 
 /* Reads those that are there. Sets file, shown and is_kept of all. */
-void responses_find(const ReviewRun *run, const Stage *stage, ResponseAsk *asks, int count,
+void responses_find(const ReviewRun *run, const Setup *setup, ResponseAsk *asks, int count,
                     Arena *arena);
 
 /* The own light of those that were not there: the scene is dark but for its lamps, or for its
  * lamps and displays at level 1, which is asked after them. */
-bool responses_read_own(const ReviewRun *run, const Stage *stage, const ResponseAsk *asks,
+bool responses_read_own(const ReviewRun *run, const Setup *setup, const ResponseAsk *asks,
                         int count, bool displays, Error *err);
 
 /* How long it will take (pace/work.h), with so much for its own light; 0: it is not to be
@@ -41,5 +41,5 @@ bool responses_read_own(const ReviewRun *run, const Stage *stage, const Response
 double responses_work(const ResponseAsk *ask, double own);
 
 /* Traces and keeps the rest. */
-bool responses_trace(const ReviewRun *run, const Stage *stage, ResponseAsk *asks, int count,
+bool responses_trace(const ReviewRun *run, const Setup *setup, ResponseAsk *asks, int count,
                      Arena *arena, Error *err);

@@ -129,16 +129,16 @@ bool sweep_weather_check(const ReviewRequest *request, const ReviewCondition *co
 
 /* ---- skies ------------------------------------------------------------------------------- */
 
-static bool no_sky(const Stage *stage, const SkyTime *when, Arena scratch, Error *err)
+static bool no_sky(const Setup *setup, const SkyTime *when, Arena scratch, Error *err)
 {
-    const ReviewWeather *weather = weather_of(stage->request, stage->condition);
+    const ReviewWeather *weather = weather_of(setup->request, setup->condition);
     const WeatherHour   *row = row_of(weather, when);
     return error_at(err, ERROR_INPUT, weather->path,
                     arena_format(&scratch, "line %d", row->line), "%s",
                     arena_format(&scratch, "%s", err->text));
 }
 
-bool sweep_weather_skies(const Stage *stage, const SweepSuns *suns, Arena *arena,
+bool sweep_weather_skies(const Setup *setup, const SweepSuns *suns, Arena *arena,
                          HourSkies *out, Error *err)
 {
     int  *of_sun = ARENA_NEW(arena, int, suns->count), count = 0, failed;
@@ -147,15 +147,15 @@ bool sweep_weather_skies(const Stage *stage, const SweepSuns *suns, Arena *arena
     for (int i = 0; i < suns->count; i++) {
         const SweepSun *sun = &suns->list[i];
         if (!is_new_step(suns, i)) of_sun[i] = of_sun[i - 1];
-        else if (sweep_weather_light(stage->request, stage->condition, sun, &inputs[count]))
+        else if (sweep_weather_light(setup->request, setup->condition, sun, &inputs[count]))
             of_sun[i] = count++;
         else
             of_sun[i] = NO_ID;
     }
     out->of_sun = of_sun;
     HourInputs hours = {inputs, count};
-    bool ok = hour_skies_build(&hours, stage->tools.threads, arena, &out->list, &failed, err) ||
-              no_sky(stage, &inputs[failed].when, *arena, err);
+    bool ok = hour_skies_build(&hours, setup->tools.threads, arena, &out->list, &failed, err) ||
+              no_sky(setup, &inputs[failed].when, *arena, err);
     arena_release(&scratch);
     return ok;
 }

@@ -24,7 +24,7 @@ const char *sweep_weather_text(const ReviewRequest *request, const ReviewConditi
 bool sweep_weather_check(const ReviewRequest *request, const ReviewCondition *condition,
                          const SweepSuns *suns, Arena scratch, Error *err);
 
-bool sweep_weather_skies(const Stage *stage, const SweepSuns *suns, Arena *arena,
+bool sweep_weather_skies(const Setup *setup, const SweepSuns *suns, Arena *arena,
                          HourSkies *out, Error *err);
 
 /* What a reader must know of a file: where its rows' instants lie, and how well that fits. */

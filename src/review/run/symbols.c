@@ -12,8 +12,8 @@
 
 /* One list that grows; its elements lie apart, since surfaces are pointed at. */
 typedef struct SymbolList {
-    const Stage *stage;
-    StageSymbol *list;
+    const Setup *setup;
+    SetupSymbol *list;
     int          count, room;
 } SymbolList;
 
@@ -23,18 +23,18 @@ static const Image *shown_content(const Scene *scene, const ReviewDisplay *displ
     return id == NO_ID ? NULL : &scene->textures[id].image;
 }
 
-static ReviewPolarity polarity_of(const Stage *stage, int symbol_id)
+static ReviewPolarity polarity_of(const Setup *setup, int symbol_id)
 {
-    if (stage->condition) return stage->condition->polarity[symbol_id];
-    return stage->request->symbols[symbol_id].polarity;
+    if (setup->condition) return setup->condition->polarity[symbol_id];
+    return setup->request->symbols[symbol_id].polarity;
 }
 
-static bool add_symbol(SymbolList *list, StageSymbol symbol, const SymbolQuestion *question,
+static bool add_symbol(SymbolList *list, SetupSymbol symbol, const SymbolQuestion *question,
                        Arena *arena, Error *err)
 {
-    const Scene *scene = list->stage->scene;
+    const Scene *scene = list->setup->scene;
     if (!symbol_split(question, arena, &symbol.split, err)) return false;
-    StageSymbol *kept = &list->list[list->count];
+    SetupSymbol *kept = &list->list[list->count];
     *kept = symbol;
     SymbolPlace place = {.scene = scene, .display = &kept->display,
                          .point_count = SYMBOL_POINTS};
@@ -59,12 +59,12 @@ typedef struct TextsFound {
     TextProposal list[SYMBOLS_FOUND_MOST];
 } TextsFound;
 
-static JournalKey key_of(const Stage *stage, const ContentLight *light, Arena scratch)
+static JournalKey key_of(const Setup *setup, const ContentLight *light, Arena scratch)
 {
     size_t pixels = (size_t)light->width * (size_t)light->height;
     Text   text = {.arena = &scratch};
     text_add(&text, "text\n");
-    identity_add_program(&text, stage->tools.kernel);
+    identity_add_program(&text, setup->tools.kernel);
     identity_line(&text, "of", "%d x %d at %d, %d of %d x %d, %016llx", light->width,
                   light->height, light->x, light->y, light->content_width,
                   light->content_height,
@@ -73,28 +73,28 @@ static JournalKey key_of(const Stage *stage, const ContentLight *light, Arena sc
 }
 
 /* Every condition and variant asks again, mostly of the same content. */
-static TextsFound find_texts(const Stage *stage, const ContentLight *light, Arena scratch)
+static TextsFound find_texts(const Setup *setup, const ContentLight *light, Arena scratch)
 {
     TextsFound    found = {0};
     TextProposal *list;
-    JournalKey    key = key_of(stage, light, scratch);
-    if (journal_find(stage->tools.journal, key, &found, sizeof found)) return found;
+    JournalKey    key = key_of(setup, light, scratch);
+    if (journal_find(setup->tools.journal, key, &found, sizeof found)) return found;
     found.count = text_find(light, SYMBOLS_FOUND_MOST, &scratch, &list);
     for (int i = 0; i < found.count; i++) found.list[i] = list[i];
-    journal_add(stage->tools.journal, key, &found, sizeof found);
+    journal_add(setup->tools.journal, key, &found, sizeof found);
     return found;
 }
 
-static bool add_found(SymbolList *list, const StageSymbol *symbol, SymbolQuestion *question,
+static bool add_found(SymbolList *list, const SetupSymbol *symbol, SymbolQuestion *question,
                       Arena *arena, Error *err)
 {
     ContentLight light;
     if (!content_light(question->panel, question->content, question->uv, arena, &light, err))
         return false;
-    TextsFound found = find_texts(list->stage, &light, *arena);
+    TextsFound found = find_texts(list->setup, &light, *arena);
     if (found.count == 0) return error_set(err, ERROR_INPUT, "no text was found there");
     for (int i = 0; i < found.count; i++) {
-        StageSymbol one = *symbol;
+        SetupSymbol one = *symbol;
         one.name = arena_format(arena, "%s %d", symbol->name, i + 1);
         memcpy(question->uv, found.list[i].uv, sizeof question->uv);
         question->polarity =
@@ -106,21 +106,21 @@ static bool add_found(SymbolList *list, const StageSymbol *symbol, SymbolQuestio
 
 static bool add_asked(SymbolList *list, int id, Arena *arena, Error *err)
 {
-    const ReviewSymbol *asked = &list->stage->request->symbols[id];
-    const Scene        *scene = list->stage->scene;
-    StageSymbol symbol = {.name = asked->name, .display_name = asked->display, .symbol_id = id};
+    const ReviewSymbol *asked = &list->setup->request->symbols[id];
+    const Scene        *scene = list->setup->scene;
+    SetupSymbol symbol = {.name = asked->name, .display_name = asked->display, .symbol_id = id};
     Image       mask;
     if (!review_display_find(scene, asked->display, arena, &symbol.display, err)) return false;
     SymbolQuestion question = {.panel = scene->displays[symbol.display.display_id].panel,
                                .content = shown_content(scene, &symbol.display),
-                               .uv = {0, 0, 1, 1}, .polarity = polarity_of(list->stage, id)};
+                               .uv = {0, 0, 1, 1}, .polarity = polarity_of(list->setup, id)};
     if (asked->has_uv) memcpy(question.uv, asked->uv, sizeof question.uv);
     if (!read_mask(asked, &mask, &question.mask, arena, err)) return false;
     if (asked->find_text) return add_found(list, &symbol, &question, arena, err);
     return add_symbol(list, symbol, &question, arena, err);
 }
 
-SymbolPoint symbol_middle(const StageSymbol *symbol)
+SymbolPoint symbol_middle(const SetupSymbol *symbol)
 {
     const double *uv = symbol->surface.uv;
     const double  middle[2] = {0.5 * (uv[0] + uv[2]), 0.5 * (uv[1] + uv[3])};
@@ -145,14 +145,14 @@ void symbol_aim(const SymbolSurface *surface, const bool *is_visible, Arena *are
     }
 }
 
-bool stage_symbols(const Stage *stage, Arena *arena, StageSymbol **out, int *count, Error *err)
+bool setup_symbols(const Setup *setup, Arena *arena, SetupSymbol **out, int *count, Error *err)
 {
-    int        most = stage->request->symbol_count * SYMBOLS_FOUND_MOST;
-    SymbolList list = {stage, ARENA_NEW(arena, StageSymbol, most), 0, most};
-    for (int id = 0; id < stage->request->symbol_count; id++) {
+    int        most = setup->request->symbol_count * SYMBOLS_FOUND_MOST;
+    SymbolList list = {setup, ARENA_NEW(arena, SetupSymbol, most), 0, most};
+    for (int id = 0; id < setup->request->symbol_count; id++) {
         if (add_asked(&list, id, arena, err)) continue;
-        error_prefix(err, "symbol '%s'", stage->request->symbols[id].name);
-        return error_in_file(err, stage->request->file);
+        error_prefix(err, "symbol '%s'", setup->request->symbols[id].name);
+        return error_in_file(err, setup->request->file);
     }
     *out = list.list;
     *count = list.count;

@@ -4,26 +4,26 @@
  * A symbol that is to be found becomes one for every line of text in it, "NAME 1" with the
  * tallest characters first.
  *
- * Memory   from the arena; the stage must outlive them.
+ * Memory   from the arena; the setup must outlive them.
  * Threads  const once made.
  */
 #pragma once
-#include "review/light/stage.h"
+#include "review/light/setup.h"
 #include "review/symbol/symbol_sight.h"
 
 #define SYMBOLS_FOUND_MOST 6 /* of one rectangle */
 #define SYMBOL_POINTS 256
 
-typedef struct StageSymbol {
+typedef struct SetupSymbol {
     const char   *name, *display_name;
     int           symbol_id;  /* of the request */
     ReviewDisplay display;
     SymbolSurface surface;
     SymbolSplit   split;
-} StageSymbol;
+} SetupSymbol;
 
 /* The middle of its rectangle; where no triangle shows that, the surface's first point. */
-SymbolPoint symbol_middle(const StageSymbol *symbol);
+SymbolPoint symbol_middle(const SetupSymbol *symbol);
 
 /* Aims a probe, whose context and eye are set, at what is visible (symbol_visibility): targets
  * and patches, from the arena. */
@@ -31,4 +31,4 @@ void symbol_aim(const SymbolSurface *surface, const bool *is_visible, Arena *are
                 ProbeAim *aim);
 
 /* Fails with the request's file and the symbol's place in it. */
-bool stage_symbols(const Stage *stage, Arena *arena, StageSymbol **out, int *count, Error *err);
+bool setup_symbols(const Setup *setup, Arena *arena, SetupSymbol **out, int *count, Error *err);

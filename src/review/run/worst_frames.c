@@ -14,7 +14,7 @@
 #include "review/run/symbols.h"
 
 #define RIM_STEPS 8 /* points along a side of a symbol's rectangle */
-#define STAGE_BYTES ((size_t)1 << 36) /* address space: what is not touched costs nothing */
+#define SETUP_BYTES ((size_t)1 << 36) /* address space: what is not touched costs nothing */
 
 /* ---- which ------------------------------------------------------------------------------- */
 
@@ -60,12 +60,12 @@ static bool is_one_view(const Candidate *a, const Candidate *b)
            !strcmp(a->of->condition, b->of->condition);
 }
 
-static bool find_middle(const Stage *stage, const char *symbol, Arena scratch, Vec3 *out,
+static bool find_middle(const Setup *setup, const char *symbol, Arena scratch, Vec3 *out,
                         Error *err)
 {
-    StageSymbol *symbols;
+    SetupSymbol *symbols;
     int          count;
-    if (!stage_symbols(stage, &scratch, &symbols, &count, err)) return false;
+    if (!setup_symbols(setup, &scratch, &symbols, &count, err)) return false;
     for (int i = 0; i < count; i++)
         if (!strcmp(symbols[i].name, symbol)) *out = symbol_middle(&symbols[i]).position;
     return true;
@@ -98,11 +98,11 @@ static void add_rim(const SymbolSurface *surface, ReviewCase *c, Arena *arena)
     c->rim = rim;
 }
 
-static bool add_outlook(const FrameAsk *ask, const StageSymbol *symbol, ReviewCase *c,
+static bool add_outlook(const FrameAsk *ask, const SetupSymbol *symbol, ReviewCase *c,
                         Arena *arena, Error *err)
 {
     Arena       scratch = arena_reserve((size_t)1 << 28);
-    Outlook     outlook = stage_outlook(ask->stage, symbol, c->eye_m, &scratch);
+    Outlook     outlook = setup_outlook(ask->setup, symbol, c->eye_m, &scratch);
     Picture     picture = outlook_picture(&outlook, &scratch);
     PictureFile file = {.bits = 8, .is_srgb = true};
     c->outlook_words = outlook_words(&outlook, arena);
@@ -119,12 +119,12 @@ static bool add_sights(const FrameAsk *ask, ReviewCase *c, Arena *arena, Error *
 {
     Arena        own = arena_reserve((size_t)1 << 34);
     SceneCamera  camera;
-    StageSymbol *symbols;
+    SetupSymbol *symbols;
     int          count;
     bool         ok = frame_camera(ask, &camera, own, err) &&
-              stage_symbols(ask->stage, &own, &symbols, &count, err);
+              setup_symbols(ask->setup, &own, &symbols, &count, err);
     if (ok) {
-        const ReviewFrames *frames = &ask->stage->request->frames;
+        const ReviewFrames *frames = &ask->setup->request->frames;
         Camera    seen = camera_from_scene(&camera, frames->width, frames->height);
         CaseView *view = ARENA_NEW(arena, CaseView, 1);
         *view = view_of(&seen);
@@ -149,28 +149,28 @@ typedef struct FrameWork {
 } FrameWork;
 
 /* A variant is seen as the review is, whatever became of the symbol. */
-static bool aim(const FrameWork *work, const Stage *stage, FrameAsk *ask, Arena scratch,
+static bool aim(const FrameWork *work, const Setup *setup, FrameAsk *ask, Arena scratch,
                 Error *err)
 {
     const CaseView *view = work->of->of->view;
     Vec3            from;
     if (!work->exposure)
-        return find_middle(stage, work->of->of->symbol, scratch, &ask->look_at, err);
-    if (!stage_eye_middle(stage, ask->eye, scratch, &from, err)) return false;
+        return find_middle(setup, work->of->of->symbol, scratch, &ask->look_at, err);
+    if (!setup_eye_middle(setup, ask->eye, scratch, &from, err)) return false;
     ask->look_at = vec3_add(from, view->forward);
     return true;
 }
 
-static bool make_lit(const FrameWork *work, Stage *stage, FrameAsk *ask, Arena *scratch,
+static bool make_lit(const FrameWork *work, Setup *setup, FrameAsk *ask, Arena *scratch,
                      const char **made, Error *err)
 {
     const Candidate       *of = work->of;
-    const ReviewCondition *c = stage->condition;
+    const ReviewCondition *c = setup->condition;
     Environment sky;
-    if (of->table) sky = sweep_environment(stage, &of->table->worst_sun);
+    if (of->table) sky = sweep_environment(setup, &of->table->worst_sun);
     else if (c->has_environment) sky = c->environment;
-    return stage_light(stage, of->table || c->has_environment ? &sky : NULL, scratch, err) &&
-           aim(work, stage, ask, *scratch, err) &&
+    return setup_light(setup, of->table || c->has_environment ? &sky : NULL, scratch, err) &&
+           aim(work, setup, ask, *scratch, err) &&
            frame_make(ask, scratch, made, err);
 }
 
@@ -181,20 +181,20 @@ static bool make_frame(const FrameWork *work, ReviewCase *of, Arena *arena, cons
 {
     const ReviewRun       *run = work->run;
     const ReviewCondition *c = review_condition_named(run->request, work->of->of->condition);
-    StageOptions options = {run->request, c,        run->root,    run->state,
+    SetupOptions options = {run->request, c,        run->root,    run->state,
                             run->threads, run->isa, run->journal, run->lessons, NULL};
-    Problems     told_before = problems_start(arena);
-    Arena scratch = arena_reserve(STAGE_BYTES);
-    Stage stage;
-    bool  ok = stage_open(&options, &scratch, &told_before, &stage, err);
+    Problems     so_far = problems_start(arena);
+    Arena scratch = arena_reserve(SETUP_BYTES);
+    Setup setup;
+    bool  ok = setup_open(&options, &scratch, &so_far, &setup, err);
     if (ok) {
-        FrameAsk ask = {&stage, review_eye_named(run->request, work->of->of->eye),
+        FrameAsk ask = {&setup, review_eye_named(run->request, work->of->of->eye),
                         vec3(0, 0, 0), run->folder, run->unfinished, work->name,
                         work->exposure, run->work};
-        ok = make_lit(work, &stage, &ask, &scratch, made, err);
+        ok = make_lit(work, &setup, &ask, &scratch, made, err);
         if (ok) *made = arena_string(arena, *made, strlen(*made));
         ok = ok && (!of || add_sights(&ask, of, arena, err));
-        stage_close(&stage);
+        setup_close(&setup);
     }
     arena_release(&scratch);
     return ok;
@@ -243,7 +243,7 @@ static bool make_pairs(const ReviewRun *run, const Candidate *of, Review *review
                        Error *err)
 {
     FrameWork work = {run, of, name_of(of->of->frame, arena), NULL};
-    Arena     scratch = arena_reserve(STAGE_BYTES);
+    Arena     scratch = arena_reserve(SETUP_BYTES);
     bool      ok = !review->variant_count ||
               frame_exposure(arena_format(&scratch, "%s/frames/%s.exr", run->folder, work.name),
                              &scratch, &work.exposure, err);

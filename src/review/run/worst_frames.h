@@ -2,7 +2,7 @@
 /* worst_frames.h -- pictures of a review that is made: of its worst cases, and of the very
  * worst with each variant's change.
  *
- * Memory   names live in the arena; stages use scratch of their own.
+ * Memory   names live in the arena; setups use scratch of their own.
  * Threads  starts its own; the same pictures for any count.
  * Fails    as its parts do.
  */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* riders.h -- variants that change levels of displays and nothing else: they go with the
- * review, stage by stage, and are read from its paths, since light is linear in what shines.
+ * review, setup by setup, and are read from its paths, since light is linear in what shines.
  *
  * Memory   from the arena, and a room of each, until review_riders_end.
  * Threads  as a review.

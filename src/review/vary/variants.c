@@ -5,7 +5,7 @@
 
 #include "base/confidence.h"
 #include "review/judge.h"
-#include "review/light/stage.h"
+#include "review/light/setup.h"
 #include "review/output/review_decide.h"
 #include "review/request/request_check.h"
 #include "review/request/request_parameters.h"
@@ -114,10 +114,10 @@ static bool check_one(const ReviewRun *run, const ReviewVariant *variant, Error 
     Arena         scratch = arena_reserve(SCENE_BYTES);
     Problems      problems = problems_start(&scratch); /* warnings are the review's own */
     ReviewRequest request = review_request_variant(run->request, variant, &scratch);
-    StageOptions  options = {.request = &request, .root = run->root, .state = run->state,
+    SetupOptions  options = {.request = &request, .root = run->root, .state = run->state,
                              .threads = run->threads, .isa = run->isa};
     Scene *scene;
-    bool   ok = stage_scene(&options, &scratch, &problems, &scene, err);
+    bool   ok = setup_scene(&options, &scratch, &problems, &scene, err);
     if (ok) {
         ok = review_request_check(&request, scene, &problems) ||
              problems_verdict(&problems, err);

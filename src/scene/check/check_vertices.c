@@ -29,8 +29,8 @@ static void add_fault(Faults *faults, size_t place, float value)
     }
 }
 
-static void tell(GltfFile *file, const GltfValue *at, const Faults *faults, const char *what,
-                 const char *wanted)
+static void report(GltfFile *file, const GltfValue *at, const Faults *faults, const char *what,
+                   const char *wanted)
 {
     if (faults->count)
         file_warning(file, at, "%s %zu has the %s %g, %s is wanted (%zu such)", at->key,
@@ -45,7 +45,7 @@ static void check_unit(GltfFile *file, const GltfValue *at, const float *v, size
         float length = sqrtf(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
         if (!(fabsf(length - 1) <= UNIT_ALLOWED)) add_fault(&faults, i, length);
     }
-    tell(file, at, &faults, "length", "1");
+    report(file, at, &faults, "length", "1");
 }
 
 static void check_sign(GltfFile *file, const GltfValue *at, const float *v, size_t count)
@@ -53,7 +53,7 @@ static void check_sign(GltfFile *file, const GltfValue *at, const float *v, size
     Faults faults = {0};
     for (size_t i = 0; i < count; i++)
         if (fabsf(v[4 * i + 3]) != 1) add_fault(&faults, i, v[4 * i + 3]);
-    tell(file, at, &faults, "sign", "1 or -1");
+    report(file, at, &faults, "sign", "1 or -1");
 }
 
 static void check_range(GltfFile *file, const GltfValue *at, const float *v, size_t count,
@@ -62,7 +62,7 @@ static void check_range(GltfFile *file, const GltfValue *at, const float *v, siz
     Faults faults = {0};
     for (size_t i = 0; i < count * (size_t)components; i++)
         if (!(v[i] >= 0 && v[i] <= 1)) add_fault(&faults, i / (size_t)components, v[i]);
-    tell(file, at, &faults, "component", "0 to 1");
+    report(file, at, &faults, "component", "0 to 1");
 }
 
 static void check_attribute(GltfFile *file, const GltfValue *attribute, bool *is_seen)
@@ -145,8 +145,8 @@ static void check_weights(GltfFile *file, const Bending *bending)
         if (!(fabsf(sum - 1) <= SUM_ALLOWED)) add_fault(&sums, v, sum);
         if (names_joint_twice(bending, v)) add_fault(&twice, v, 2);
     }
-    tell(file, bending->at, &negative, "weight", "0 to 1");
-    tell(file, bending->at, &sums, "sum of weights", "1");
+    report(file, bending->at, &negative, "weight", "0 to 1");
+    report(file, bending->at, &sums, "sum of weights", "1");
     if (twice.count)
         file_warning(file, bending->at, "vertex %zu names one joint twice (%zu such)",
                      twice.first, twice.count);

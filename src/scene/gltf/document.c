@@ -65,7 +65,7 @@ static void note_input(Loader *load, const char *path, FileBytes bytes)
         XXH3_64bits(bytes.data, bytes.size);
 }
 
-static void tell_read(void *user, size_t done, size_t size)
+static void report_read(void *user, size_t done, size_t size)
 {
     Loader *load = user;
     load->progress.total = (double)size;
@@ -76,7 +76,7 @@ bool load_read(Loader *load, const char *path, Arena *arena, FileBytes *out, Err
 {
     bool is_step = !load->has_step; /* not within another one */
     const FilePieces how = {.max_bytes = LOAD_MAX_FILE_BYTES,
-                            .told = is_step ? tell_read : NULL, .user = load};
+                            .on_bytes = is_step ? report_read : NULL, .user = load};
     if (is_step) load_progress_begin(load, "read", "bytes", 0);
     bool is_read = file_read_pieces(path, &how, arena, out, err);
     if (is_step) load_progress_end(load);

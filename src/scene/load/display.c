@@ -286,9 +286,9 @@ static void choose_subpixels(Loader *load, int id)
 {
     Display *display = list_item(&load->displays, id);
     if (!display->subpixels && display->panel) {
-        Subpixels *told = ARENA_NEW(load->arena, Subpixels, 1);
-        *told = panel_subpixels(display->panel);
-        display->subpixels = told;
+        Subpixels *stated = ARENA_NEW(load->arena, Subpixels, 1);
+        *stated = panel_subpixels(display->panel);
+        display->subpixels = stated;
     }
     if (display->subpixels && display->subpixels->layout == SUBPIXELS_NONE)
         display->subpixels = NULL;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "scene/load/material_data.h"
 
-#define NAMES_TOLD 12
+#define NAMES_LISTED 12
 #define LAMP_CD_M2 0.25f /* less is no lamp: exporters write ambient terms of old formats (AC3D,
                             OBJ) as 0.03 to 0.21 */
 
@@ -80,9 +80,10 @@ int *scene_without_data(const Scene *scene, int *count, Arena *arena)
 const char *scene_names_of(const Scene *scene, const int *materials, int count, Arena *arena)
 {
     const char *names = "";
-    int         told = count <= NAMES_TOLD ? count : NAMES_TOLD - 1;
-    for (int i = 0; i < told; i++)
+    int         listed = count <= NAMES_LISTED ? count : NAMES_LISTED - 1;
+    for (int i = 0; i < listed; i++)
         names = arena_format(arena, "%s%s%s", names, !i ? "" : i == count - 1 ? " and " : ", ",
                              scene->materials[materials[i]].name);
-    return told < count ? arena_format(arena, "%s and %d more", names, count - told) : names;
+    return listed < count ? arena_format(arena, "%s and %d more", names,
+                                         count - listed) : names;
 }

@@ -259,18 +259,18 @@ static double best_in_span(const PeakWindow *window, double scale, RestAt *rest_
 
 double peak_window_best_width(const PeakWindow *window, double scale, PeakModel *model)
 {
-    bool is_told = window->width[1] > 0;
-    Span span = is_told ? (Span){log_d(window->width[0]), log_d(window->width[1]), 20, 12}
+    bool is_known = window->width[1] > 0;
+    Span span = is_known ? (Span){log_d(window->width[0]), log_d(window->width[1]), 20, 12}
                         : (Span){log_d(0.5 * scale), log_d(40 * scale), 0, 26};
     return best_in_span(window, scale, rest_at_width, model, span);
 }
 
 PeakModel peak_window_choose_haze(const PeakWindow *window, double scale)
 {
-    bool      is_told = window->width[1] > 0;
+    bool      is_known = window->width[1] > 0;
     PeakModel model = {0};
     best_in_span(window, scale, rest_at_power, &model,
-                 (Span){log_d(1.05), log_d(4.0), is_told ? 12 : 0, is_told ? 10 : 18});
+                 (Span){log_d(1.05), log_d(4.0), is_known ? 12 : 0, is_known ? 10 : 18});
     return model;
 }
 

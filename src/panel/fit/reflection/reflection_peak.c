@@ -21,7 +21,7 @@
 #define WIDEST_HAZE 1.0      /* of direction cosines */
 #define MODEL_SIGMA 0.01     /* relative: no closer does a real haze follow the model */
 #define ENOUGH 0.05          /* relative: as well as a panel should be known */
-#define TOLD 0.04            /* and so wide its range, since the model errs besides */
+#define CLOSE_ENOUGH 0.04            /* and so wide its range, since the model errs besides */
 #define LEAST_MIRROR 0.002   /* a smaller one need not be known better than this one */
 #define SEARCH_DEG 6.0   /* a lobe's top is nearer to the mirror direction than this */
 
@@ -118,12 +118,12 @@ static void find_range(const PeakTask *task, const PeakWindow *window, const Pea
 }
 
 /* Within 5 % of it, or of the least mirror that matters? */
-static bool is_told(const PeakMirror *mirror)
+static bool is_known(const PeakMirror *mirror)
 {
     const double *range = mirror->range.mirror;
     double middle = 0.5 * (range[0] + range[1]);
     return mirror->range.has_model &&
-           0.5 * (range[1] - range[0]) <= TOLD * fmax(middle, LEAST_MIRROR);
+           0.5 * (range[1] - range[0]) <= CLOSE_ENOUGH * fmax(middle, LEAST_MIRROR);
 }
 
 static bool stands_out(const PeakTask *task, const PeakModel *model, double lambertian)
@@ -141,7 +141,7 @@ static bool take_near(const PeakTask *task, Arena *arena, PeakMirror *mirror, fl
     peak_window_set_image(&window, task->fwhm);
     PeakModel model = peak_window_choose_haze(&window, task->fwhm);
     find_range(task, &window, &model, mirror);
-    if (!is_told(mirror)) return false;
+    if (!is_known(mirror)) return false;
     bool has_image = stands_out(task, &model, window.lambertian);
     if (!has_image && mirror->range.mirror[0] > ENOUGH * LEAST_MIRROR) return false;
     window.stride = 1;
@@ -169,7 +169,7 @@ static bool take_far(const PeakTask *task, Arena *arena, PeakMirror *mirror, flo
     take_out(&window, task->fwhm, model, mirror->reflectance, value);
     for (int w = 0; w < task->slice->channels; w++)
         mirror->reflectance[w] = fmin(mirror->reflectance[w], 1);
-    return is_told(mirror);
+    return is_known(mirror);
 }
 
 /* By how much the specular measurement differs from what samples told without it. */
@@ -193,8 +193,8 @@ void reflection_peak_take_mirror(const PeakTask *task, Arena *arena, PeakMirror 
         return;
     }
     if (task->specular) {
-        bool is_told = take_far(task, arena, mirror, value);
-        mirror->source = is_told ? PEAK_SPECULAR : PEAK_OPEN;
+        bool is_known = take_far(task, arena, mirror, value);
+        mirror->source = is_known ? PEAK_SPECULAR : PEAK_OPEN;
         return;
     }
     if (!take_far(&alone, arena, mirror, value)) mirror->source = PEAK_OPEN;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* review_say.h -- what a review says on stdout: a line a case, or review.json.
+/* review_print.h -- what a review says on stdout: a line a case, or review.json.
  *
  * Memory   scratch only. Threads: one at a time. Fails: when stdout cannot be written.
  */
@@ -7,4 +7,4 @@
 #include "cli/options/cli.h"
 #include "review/verdict.h"
 
-bool review_say(const Cli *cli, const Review *review, Arena scratch, Error *err);
+bool review_print(const Cli *cli, const Review *review, Arena scratch, Error *err);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* told.h -- who is told all light that a path finds, way by way: by which surfaces it came, and
- * where it began.
+/* history.h -- all light that a path finds, way by way, for a listener: by which surfaces it
+ * came, and where it began.
  *
  * Units    XYZ in cd m^-2, of a luxmeter in lx; they add up to the path's but for rounding.
  * Threads  one thread's, like the path.
@@ -18,11 +18,11 @@ typedef struct PathStep {
     Vec3      position; /* m, world */
 } PathStep;
 
-#define PATH_STEPS_TOLD 6
+#define PATH_STEPS_MAX 6
 
 /* One way by which light came, and where it began. */
-typedef struct PathTale {
-    PathStep step[PATH_STEPS_TOLD]; /* the first of them; panes that the eye looks straight
+typedef struct PathHistory {
+    PathStep step[PATH_STEPS_MAX]; /* the first of them; panes that the eye looks straight
                                        through count too */
     int      count;                 /* all of them, also those that have no room */
     Vec3     towards; /* unit: from the eye, or the luxmeter, along the first stretch */
@@ -37,35 +37,40 @@ typedef struct PathTale {
     const float       *lanes;       /* its radiance, W m^-2 sr^-1 nm^-1 per lane; of a display
                                        that is seen by its measured XYZ NULL, unless wanted */
     const Wavelengths *wavelengths; /* of the lanes */
-} PathTale;
+} PathHistory;
+
+static inline int path_steps_kept(const PathHistory *history)
+{
+    return history->count < PATH_STEPS_MAX ? history->count : PATH_STEPS_MAX;
+}
 
 typedef struct PathListener {
-    void (*hear)(void *user, const PathTale *tale, const float xyz[3]);
+    void (*on_light)(void *user, const PathHistory *history, const float xyz[3]);
     void  *user;
     bool   with_lanes;  /* displays' lanes are wanted, too */
-    bool   of_emitters; /* it is told of these alone */
+    bool   of_emitters; /* it gets these alone */
 } PathListener;
 
-typedef struct ToldWays {
+typedef struct HistoryCollector {
     PathCollector       base;
-    PathTale            tale; /* of the path so far */
+    PathHistory         history; /* of the path so far */
     const PathListener *listener;
-} ToldWays;
+} HistoryCollector;
 
-ToldWays told_ways(const PathListener *listener, PathCollector *next);
+HistoryCollector history_collector(const PathListener *listener, PathCollector *next);
 
 /* Which mirror images lie along a ray: what scatters is not followed, and no light counts. */
 typedef struct PathImages {
     /* A path leaves the scene: share per lane of the radiance from there. */
-    void (*add)(void *user, const PathTale *tale, Vec3 direction, const float *share);
+    void (*add)(void *user, const PathHistory *history, Vec3 direction, const float *share);
     void  *user;
 } PathImages;
 
-typedef struct ImageWays {
+typedef struct ImageCollector {
     PathCollector     base;
-    PathTale          tale;
+    PathHistory       history;
     const PathImages *images;
-} ImageWays;
+} ImageCollector;
 
 /* Of a path that is dark (PathManner). */
-ImageWays image_ways(const PathImages *images);
+ImageCollector image_collector(const PathImages *images);

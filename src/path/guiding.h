@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* lead.h -- how a vertex of a path looks for light: by its surface, by a guide, or by both.
+/* guiding.h -- how a vertex of a path looks for light: by its surface, by a guide, or by both.
  *
  * Where the surface scatters widely and there is a guide, a direction is the guide's choice
  * with the probability `mix`, else the surface's own: one-sample multiple importance sampling
@@ -19,7 +19,7 @@ _Static_assert(LIGHT_SETS == GUIDE_LIGHTS, "cells of a guide know all sets of li
 #define DEEP_BOUNCE 2
 #define DEEP_SHARE 0.4f
 
-typedef struct Lead {
+typedef struct Guiding {
     float        mix;
     bool         is_wide; /* the surface scatters widely, and there is a guide */
     const float *asked;   /* how often each set of lights is sampled, times this: */
@@ -27,31 +27,33 @@ typedef struct Lead {
     float        sky_mix;
     PunctualKnown lamps; /* that light the place; count 0: nobody knows */
     GuideView    view;    /* unless both are 0 */
-} Lead;
+} Guiding;
 
 /* wo: unit, world. bounce: scattering vertices before this one. */
-void lead_at(const PathContext *context, const Surface *surface, Vec3 wo, int bounce,
-             Lead *lead);
+void guiding_at(const PathContext *context, const Surface *surface, Vec3 wo, int bounce,
+                Guiding *guiding);
 
 /* Where no guide knows the way: lights are always asked. */
-void lead_alone(const PathContext *context, Lead *lead);
+void guiding_none(const PathContext *context, Guiding *guiding);
 
 /* Of a white surface that faces ns, in a cell of the context's guide. */
-void lead_of_white(const PathContext *context, uint32_t cell, Vec3 ns, Lead *lead);
+void guiding_of_white(const PathContext *context, uint32_t cell, Vec3 ns, Guiding *guiding);
 
 /* HOT. As lights_sample, but that the guide leads to the sky and to lamps, and that the
- * sample's pdf is right only after lead_weigh_light: what does not arrive need not know it. */
-bool lead_choose_light(const Lead *lead, const Lights *lights, LightSet set, LitPoint point,
-                       const float u[3], LightSample *sample);
-void lead_weigh_light(const Lead *lead, const Lights *lights, LitPoint point,
-                      LightSample *sample);
+ * sample's pdf is right only after guiding_weigh_light: what does not arrive need not know
+ * it. */
+bool guiding_choose_light(const Guiding *guiding, const Lights *lights, LightSet set,
+                          LitPoint point, const float u[3], LightSample *sample);
+void guiding_weigh_light(const Guiding *guiding, const Lights *lights, LitPoint point,
+                         LightSample *sample);
 
-/* HOT. Density with which lead_choose_light chooses a direction to the sky that the sky's own
- * samples find with `own`, sr^-1. */
-float lead_sky_pdf(const Lead *lead, Vec3 wi, float own);
+/* HOT. Density with which guiding_choose_light chooses a direction to the sky that the sky's
+ * own samples find with `own`, sr^-1. */
+float guiding_sky_pdf(const Guiding *guiding, Vec3 wi, float own);
 
 /* HOT. Density of choosing wi (world) where the surface alone would with bsdf_pdf, sr^-1. */
-float lead_pdf(const Lead *lead, Vec3 wi, float bsdf_pdf);
+float guiding_pdf(const Guiding *guiding, Vec3 wi, float bsdf_pdf);
 
 /* HOT. A direction in the surface's frame; u in [0, 1)^3. False: absorbed. */
-bool lead_sample(const Lead *lead, const Surface *surface, const float u[3], BsdfSample *next);
+bool guiding_sample(const Guiding *guiding, const Surface *surface, const float u[3],
+                    BsdfSample *next);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* sweep_told.h -- what one sight of a sweep says of every sun: its case, in figures.
+/* sun_figures.h -- what one sight of a sweep says of every sun: its case, in figures.
  *
  * Units    verdict.h's.
  * Memory   from the arena.
@@ -9,20 +9,20 @@
 #include "review/run/sweep_probes.h"
 
 /* [sun] of each. */
-typedef struct Told {
+typedef struct SunFigures {
     float *contrast, *low, *high; /* with its interval */
     float *margin, *reflected, *mirror, *level, *lux;
     unsigned char *verdict, *ambient;
     int    worst; /* sun; -1: none */
-} Told;
+} SunFigures;
 
-Told told_start(int count, Arena *arena);
+SunFigures sun_figures_start(int count, Arena *arena);
 
 /* The sight, asked of the sweep's suns, tells of each. */
-void told_tell(const Sweep *sweep, const Sight *sight, const FarTools *tools, Told *told,
-               Arena room);
+void sun_figures_judge(const Sweep *sweep, const Sight *sight, const FarTools *tools,
+                       SunFigures *figures, Arena room);
 
-bool told_is_worse(const Told *told, int sun, int than);
+bool sun_figures_is_worse(const SunFigures *figures, int sun, int than);
 
 /* StepState's (suns/failures.h). */
-void told_states(const Told *told, int count, unsigned char *states);
+void sun_figures_states(const SunFigures *figures, int count, unsigned char *states);

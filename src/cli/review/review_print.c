@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "cli/review/review_say.h"
+#include "cli/review/review_print.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -92,7 +92,7 @@ static void print_review(const Review *review, Arena scratch)
     printf("%s\n", LAST[review_verdict(review)]);
 }
 
-bool review_say(const Cli *cli, const Review *review, Arena scratch, Error *err)
+bool review_print(const Cli *cli, const Review *review, Arena scratch, Error *err)
 {
     if (cli->json) return cli_print_json(review_json(review), err);
     print_review(review, scratch);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "review/light/stage.h"
+#include "review/light/setup.h"
 
 #include <math.h>
 #include <string.h>
@@ -15,7 +15,7 @@
 
 /* ---- files ------------------------------------------------------------------------------- */
 
-static const char **all_paths(const StageOptions *options, int *count, Arena *arena)
+static const char **all_paths(const SetupOptions *options, int *count, Arena *arena)
 {
     const ReviewRequest   *request = options->request;
     const ReviewCondition *c = options->condition;
@@ -50,7 +50,7 @@ static void add_content(ContentList *to, const char *display, const char *path,
 }
 
 /* A variant's word holds, then the condition's, then the symbols'. */
-static SceneOverride *all_contents(const StageOptions *options, int *count, Arena *arena)
+static SceneOverride *all_contents(const SetupOptions *options, int *count, Arena *arena)
 {
     const ReviewRequest   *request = options->request;
     const ReviewCondition *c = options->condition;
@@ -93,23 +93,23 @@ static void add_inputs(const ReviewRequest *request, bool with_request, Text *te
                           (unsigned long long)request->inputs[i].hash);
 }
 
-/* Of the stage's scene; for keys of all files; for plans the request itself, too: what is asked
+/* Of the setup's scene; for keys of all files; for plans the request itself, too: what is asked
  * stands in the keys, so that who changes a word of it is not asked for all anew. */
-static void identify(Stage *stage, const SceneOptions *options, Arena *arena)
+static void identify(Setup *setup, const SceneOptions *options, Arena *arena)
 {
     Text own = {.arena = arena}, files = {.arena = arena}, all = {.arena = arena};
-    identity_add_program(&own, stage->tools.kernel);
-    identity_add_scene(&own, options, stage->scene);
+    identity_add_program(&own, setup->tools.kernel);
+    identity_add_scene(&own, options, setup->scene);
     text_add(&files, own.data);
-    add_inputs(stage->request, false, &files);
+    add_inputs(setup->request, false, &files);
     text_add(&all, own.data);
-    add_inputs(stage->request, true, &all);
-    stage->identity = own.data;
-    stage->tools.base = journal_key(files.data);
-    stage->planned = journal_key(all.data);
+    add_inputs(setup->request, true, &all);
+    setup->identity = own.data;
+    setup->tools.base = journal_key(files.data);
+    setup->planned = journal_key(all.data);
 }
 
-static SceneOptions scene_options(const StageOptions *options, Arena *arena)
+static SceneOptions scene_options(const SetupOptions *options, Arena *arena)
 {
     SceneOptions scene = {.root = options->root, .state = options->state};
     scene.paths = all_paths(options, &scene.path_count, arena);
@@ -118,18 +118,18 @@ static SceneOptions scene_options(const StageOptions *options, Arena *arena)
     return scene;
 }
 
-bool stage_scene(const StageOptions *options, Arena *arena, Problems *problems, Scene **out,
+bool setup_scene(const SetupOptions *options, Arena *arena, Problems *problems, Scene **out,
                  Error *err)
 {
     SceneOptions scene = scene_options(options, arena);
     return scene_load(&scene, arena, problems, out, err);
 }
 
-bool stage_open(const StageOptions *options, Arena *arena, Problems *problems, Stage *out,
+bool setup_open(const SetupOptions *options, Arena *arena, Problems *problems, Setup *out,
                 Error *err)
 {
     SceneOptions scene = scene_options(options, arena);
-    *out = (Stage){.request = options->request, .condition = options->condition,
+    *out = (Setup){.request = options->request, .condition = options->condition,
                    .tools = {.threads = options->threads, .journal = options->journal},
                    .sensor_lux = (double)NAN, .lessons = options->lessons,
                    .inherited = options->inherited};
@@ -146,25 +146,25 @@ bool stage_open(const StageOptions *options, Arena *arena, Problems *problems, S
     return true;
 }
 
-void stage_close(Stage *stage)
+void setup_close(Setup *setup)
 {
-    bvh_destroy(stage->bvh);
-    scene_close(stage->scene);
+    bvh_destroy(setup->bvh);
+    scene_close(setup->scene);
 }
 
 /* ---- light ------------------------------------------------------------------------------- */
 
-bool stage_relight(Stage *stage, Arena *arena, Error *err)
+bool setup_relight(Setup *setup, Arena *arena, Error *err)
 {
     Lights       *lights;
-    const Lights *before = stage->context.tables ? stage->context.lights : NULL;
+    const Lights *before = setup->context.tables ? setup->context.lights : NULL;
     if (!(before ? lights_under_sky(before, arena, &lights, err)
-                 : lights_build(stage->scene, arena, &lights, err)))
+                 : lights_build(setup->scene, arena, &lights, err)))
         return false;
-    stage->context =
-        stage->context.tables
-            ? path_context_relight(&stage->context, lights, arena)
-            : path_context_build(stage->scene, stage->bvh, lights, STAGE_BOUNCES, arena);
+    setup->context =
+        setup->context.tables
+            ? path_context_relight(&setup->context, lights, arena)
+            : path_context_build(setup->scene, setup->bvh, lights, SETUP_BOUNCES, arena);
     return true;
 }
 
@@ -173,91 +173,91 @@ static Vec3 vec3_of(const double v[3])
     return vec3((float)v[0], (float)v[1], (float)v[2]);
 }
 
-static void read_sensor(Stage *stage, const ReviewLevel *level, Arena scratch)
+static void read_sensor(Setup *setup, const ReviewLevel *level, Arena scratch)
 {
     LitPoint    head = {vec3_of(level->position_m), vec3_of(level->normal), false};
-    ProbeAim    aim = {.context = &stage->context, .meter = &head,
-                       .seed = review_seed(stage->request, SENSOR_SEED)};
+    ProbeAim    aim = {.context = &setup->context, .meter = &head,
+                       .seed = review_seed(setup->request, SENSOR_SEED)};
     ReadingGoal goal = {.precision = SENSOR_PRECISION, .most = SENSOR_PATHS};
-    stage->sensor_lux = reading_take(&aim, &goal, &stage->tools, scratch).reflected;
+    setup->sensor_lux = reading_take(&aim, &goal, &setup->tools, scratch).reflected;
 }
 
-double stage_level_of(const Stage *stage, const ReviewLevel *level, int display_id,
+double setup_level_of(const Setup *setup, const ReviewLevel *level, int display_id,
                       const char *name, double sensor_lux)
 {
-    double            scene = stage->scene_levels[display_id];
-    ReviewDisplayName display = {name, stage->scene->displays[display_id].name};
+    double            scene = setup->scene_levels[display_id];
+    ReviewDisplayName display = {name, setup->scene->displays[display_id].name};
     double            own = level ? review_level_at(level, display, scene, sensor_lux) : scene;
-    return own * review_brightness(stage->request, display);
+    return own * review_brightness(setup->request, display);
 }
 
 /* Returns whether any is another now. */
-static bool set_levels(Stage *stage, const ReviewLevel *level)
+static bool set_levels(Setup *setup, const ReviewLevel *level)
 {
     bool any = false;
-    for (int i = 0; i < stage->scene->display_count; i++) {
-        Display *display = &stage->scene->displays[i];
+    for (int i = 0; i < setup->scene->display_count; i++) {
+        Display *display = &setup->scene->displays[i];
         float    before = display->level;
         display->level =
-            (float)stage_level_of(stage, level, i, display->name, stage->sensor_lux);
+            (float)setup_level_of(setup, level, i, display->name, setup->sensor_lux);
         any = any || display->level != before;
     }
     return any;
 }
 
 /* Under the same sky. */
-static void light_again(Stage *stage, Arena *arena)
+static void light_again(Setup *setup, Arena *arena)
 {
-    const Lights *lights = lights_with_levels(stage->context.lights, arena);
-    stage->context = path_context_relight(&stage->context, lights, arena);
+    const Lights *lights = lights_with_levels(setup->context.lights, arena);
+    setup->context = path_context_relight(&setup->context, lights, arena);
 }
 
-static const ReviewLevel *level_of(const Stage *stage)
+static const ReviewLevel *level_of(const Setup *setup)
 {
-    const ReviewCondition *condition = stage->condition;
+    const ReviewCondition *condition = setup->condition;
     bool has_level = condition && condition->level_id != NO_ID;
-    return has_level ? &stage->request->levels[condition->level_id] : NULL;
+    return has_level ? &setup->request->levels[condition->level_id] : NULL;
 }
 
 /* Fixed levels are known before the light is; those of a curve only from its sensor. */
-static void set_fixed_levels(Stage *stage)
+static void set_fixed_levels(Setup *setup)
 {
-    const ReviewLevel *level = level_of(stage);
+    const ReviewLevel *level = level_of(setup);
     bool is_curve = level && level->is_curve;
-    if (!is_curve && (level || stage->request->change)) set_levels(stage, level);
+    if (!is_curve && (level || setup->request->change)) set_levels(setup, level);
 }
 
-bool stage_light(Stage *stage, const Environment *environment, Arena *arena, Error *err)
+bool setup_light(Setup *setup, const Environment *environment, Arena *arena, Error *err)
 {
-    const ReviewLevel *level = level_of(stage);
-    if (environment) stage->scene->environment = *environment;
-    set_fixed_levels(stage);
-    if (!stage_relight(stage, arena, err)) return false;
+    const ReviewLevel *level = level_of(setup);
+    if (environment) setup->scene->environment = *environment;
+    set_fixed_levels(setup);
+    if (!setup_relight(setup, arena, err)) return false;
     if (!level || !level->is_curve) return true;
-    read_sensor(stage, level, *arena);
-    if (set_levels(stage, level)) light_again(stage, arena);
+    read_sensor(setup, level, *arena);
+    if (set_levels(setup, level)) light_again(setup, arena);
     return true;
 }
 
-static void set_scene_levels(Stage *stage)
+static void set_scene_levels(Setup *setup)
 {
-    for (int i = 0; i < stage->scene->display_count; i++)
-        stage->scene->displays[i].level = (float)stage->scene_levels[i];
+    for (int i = 0; i < setup->scene->display_count; i++)
+        setup->scene->displays[i].level = (float)setup->scene_levels[i];
 }
 
-bool stage_before_light(Stage *stage, Arena *arena, Error *err)
+bool setup_before_light(Setup *setup, Arena *arena, Error *err)
 {
-    set_scene_levels(stage);
-    set_fixed_levels(stage);
-    return stage_relight(stage, arena, err);
+    set_scene_levels(setup);
+    set_fixed_levels(setup);
+    return setup_relight(setup, arena, err);
 }
 
-bool stage_light_again(Stage *stage, const Stage *before, const Environment *environment,
+bool setup_light_again(Setup *setup, const Setup *before, const Environment *environment,
                        Arena *arena, Error *err)
 {
-    *stage = *before;
-    set_scene_levels(stage);
-    return stage_light(stage, environment, arena, err);
+    *setup = *before;
+    set_scene_levels(setup);
+    return setup_light(setup, environment, arena, err);
 }
 
 /* ---- other levels under the same light --------------------------------------------------- */
@@ -274,45 +274,45 @@ static const double *scale_of(const Scene *scene, const float *levels, Arena *ar
     return scale;
 }
 
-Stage stage_beside(const Stage *of, const ReviewRequest *request, Arena *arena, Arena room,
-                   StageOther *other)
+Setup setup_beside(const Setup *of, const ReviewRequest *request, Arena *arena, Arena room,
+                   SetupOther *other)
 {
     const Scene *scene = of->scene;
     int    level_id = of->condition->level_id;
     float *levels = ARENA_NEW(arena, float, scene->display_count);
-    Stage  out = *of;
+    Setup  out = *of;
     out.request = request;
     out.is_shared = false;
     for (int i = 0; i < scene->display_count; i++)
-        levels[i] = (float)stage_level_of(&out,
+        levels[i] = (float)setup_level_of(&out,
                                           level_id != NO_ID ? &request->levels[level_id] : NULL,
                                           i, scene->displays[i].name, of->sensor_lux);
-    *other = (StageOther){.levels = levels, .scale = scale_of(scene, levels, arena),
+    *other = (SetupOther){.levels = levels, .scale = scale_of(scene, levels, arena),
                           .room = room};
     out.other = other;
     return out;
 }
 
-static void swap_levels(const Stage *stage)
+static void swap_levels(const Setup *setup)
 {
-    float *levels = stage->other->levels;
-    for (int i = 0; i < stage->scene->display_count; i++) {
-        float before = stage->scene->displays[i].level;
-        stage->scene->displays[i].level = levels[i];
+    float *levels = setup->other->levels;
+    for (int i = 0; i < setup->scene->display_count; i++) {
+        float before = setup->scene->displays[i].level;
+        setup->scene->displays[i].level = levels[i];
         levels[i] = before;
     }
 }
 
-Stage stage_lit(const Stage *stage)
+Setup setup_lit(const Setup *setup)
 {
-    StageOther *other = stage->other;
-    Stage       out = *stage;
+    SetupOther *other = setup->other;
+    Setup       out = *setup;
     if (!other) return out;
-    swap_levels(stage);
+    swap_levels(setup);
     if (!other->is_lit) {
-        const Lights *lights = lights_with_levels(stage->context.lights, &other->room);
-        other->context = path_context_relight(&stage->context, lights, &other->room);
-        other->context.guide = stage->context.guide;
+        const Lights *lights = lights_with_levels(setup->context.lights, &other->room);
+        other->context = path_context_relight(&setup->context, lights, &other->room);
+        other->context.guide = setup->context.guide;
         other->is_lit = true;
     }
     out.context = other->context;
@@ -320,28 +320,28 @@ Stage stage_lit(const Stage *stage)
     return out;
 }
 
-void stage_unlight(const Stage *stage)
+void setup_unlight(const Setup *setup)
 {
-    if (stage->other) swap_levels(stage);
+    if (setup->other) swap_levels(setup);
 }
 
-Reading stage_ask(const Stage *stage, const ProbeAim *aim, const ReadingGoal *asked,
+Reading setup_ask(const Setup *setup, const ProbeAim *aim, const ReadingGoal *asked,
                   Arena scratch)
 {
-    const StageOther *other = stage->other;
+    const SetupOther *other = setup->other;
     ReadingGoal       goal = *asked;
     ProbeAim          own = *aim;
     Reading           reading;
-    goal.is_shared = stage->is_shared;
-    if (!other) return reading_take(aim, &goal, &stage->tools, scratch);
+    goal.is_shared = setup->is_shared;
+    if (!other) return reading_take(aim, &goal, &setup->tools, scratch);
     if (other->scale &&
-        reading_scaled(aim, &goal, other->scale, &stage->tools, scratch, &reading))
+        reading_scaled(aim, &goal, other->scale, &setup->tools, scratch, &reading))
         return reading;
-    Stage lit = stage_lit(stage);
+    Setup lit = setup_lit(setup);
     lit.context.without_mirrored_sun = aim->context->without_mirrored_sun;
     own.context = &lit.context;
-    reading = reading_take(&own, &goal, &stage->tools, scratch);
-    stage_unlight(stage);
+    reading = reading_take(&own, &goal, &setup->tools, scratch);
+    setup_unlight(setup);
     return reading;
 }
 
@@ -349,9 +349,9 @@ Reading stage_ask(const Stage *stage, const ProbeAim *aim, const ReadingGoal *as
 
 #define SUN_DRAWS 16
 
-bool stage_sun(const Stage *stage, Vec3 *towards, float bands[LIGHT_BANDS])
+bool setup_sun(const Setup *setup, Vec3 *towards, float bands[LIGHT_BANDS])
 {
-    const Lights *lights = stage->context.lights;
+    const Lights *lights = setup->context.lights;
     Vec3 sum = vec3(0, 0, 0);
     memset(bands, 0, LIGHT_BANDS * sizeof *bands);
     if (!lights_has(lights, LIGHTS_SUN) || lights_sun_is_moon(lights)) return false;
@@ -374,40 +374,40 @@ bool stage_sun(const Stage *stage, Vec3 *towards, float bands[LIGHT_BANDS])
 }
 
 /* Forward on the horizontal, and to its right. */
-static void axes(const Stage *stage, Vec3 *ahead, Vec3 *right)
+static void axes(const Setup *setup, Vec3 *ahead, Vec3 *right)
 {
-    Vec3 forward = vec3_of(stage->request->forward);
+    Vec3 forward = vec3_of(setup->request->forward);
     *ahead = vec3_normalize(vec3(forward.x, 0, forward.z));
     *right = vec3(-ahead->z, 0, ahead->x);
 }
 
-static double heading_deg(const Stage *stage)
+static double heading_deg(const Setup *setup)
 {
-    return degrees_from_radians((double)stage->scene->environment.heading);
+    return degrees_from_radians((double)setup->scene->environment.heading);
 }
 
-SunAngles stage_angles(const Stage *stage, Vec3 d)
+SunAngles setup_angles(const Setup *setup, Vec3 d)
 {
     Vec3 ahead, right;
-    axes(stage, &ahead, &right);
+    axes(setup, &ahead, &right);
     double azimuth = atan2((double)vec3_dot(d, right), (double)vec3_dot(d, ahead));
-    double degrees = fmod(degrees_from_radians(azimuth) + heading_deg(stage) + 720, 360);
+    double degrees = fmod(degrees_from_radians(azimuth) + heading_deg(setup) + 720, 360);
     return (SunAngles){degrees, degrees_from_radians(asin(fmin(fmax((double)d.y, -1), 1)))};
 }
 
-Vec3 stage_direction(const Stage *stage, SunAngles angles)
+Vec3 setup_direction(const Setup *setup, SunAngles angles)
 {
     Vec3 ahead, right;
-    axes(stage, &ahead, &right);
-    double azimuth = radians_from_degrees(angles.azimuth_deg - heading_deg(stage));
+    axes(setup, &ahead, &right);
+    double azimuth = radians_from_degrees(angles.azimuth_deg - heading_deg(setup));
     double elevation = radians_from_degrees(angles.elevation_deg), level = cos(elevation);
     Vec3 along = vec3_add(vec3_scale(ahead, (float)(level * cos(azimuth))),
                           vec3_scale(right, (float)(level * sin(azimuth))));
     return vec3_normalize(vec3(along.x, (float)sin(elevation), along.z));
 }
 
-double stage_level(const Stage *stage, int display_id)
+double setup_level(const Setup *setup, int display_id)
 {
-    return (double)(stage->other ? stage->other->levels[display_id]
-                                 : stage->scene->displays[display_id].level);
+    return (double)(setup->other ? setup->other->levels[display_id]
+                                 : setup->scene->displays[display_id].level);
 }

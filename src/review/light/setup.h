@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* stage.h -- the scene as a condition has it: its files, contents, light and levels, ready for
+/* setup.h -- the scene as a condition has it: its files, contents, light and levels, ready for
  * paths.
  *
  * Memory   scene and lights come from the arena; Embree's memory and the panels are gone after
- *          stage_close.
+ *          setup_close.
  * Threads  const once lit.
  * Fails    as scene_load and lights_build do.
  */
@@ -14,19 +14,19 @@
 #include "review/light/reading.h"
 #include "review/request/request.h"
 
-#define STAGE_BOUNCES 64
+#define SETUP_BOUNCES 64
 
-/* Levels of displays beside those that a stage is lit for: of a variant that changes nothing
- * else, and stands on its review's stage. */
-typedef struct StageOther {
+/* Levels of displays beside those that a setup is lit for: of a variant that changes nothing
+ * else, and stands on its review's setup. */
+typedef struct SetupOther {
     float        *levels; /* [display] */
-    const double *scale;  /* [display] of the stage's; NULL: a display is off there */
+    const double *scale;  /* [display] of the setup's; NULL: a display is off there */
     PathContext   context;
     bool          is_lit; /* the context is, for these levels */
     Arena         room;   /* of the context */
-} StageOther;
+} SetupOther;
 
-typedef struct Stage {
+typedef struct Setup {
     const ReviewRequest   *request;
     const ReviewCondition *condition;
     ReadingTools tools;
@@ -36,14 +36,14 @@ typedef struct Stage {
     double       sensor_lux;   /* NaN: no level follows the light */
     double      *scene_levels; /* of the displays, before the condition's */
     const char  *identity;     /* program and scene (render/identity.h), not its light */
-    const char  *lessons;      /* StageOptions' */
+    const char  *lessons;      /* SetupOptions' */
     Inherited   *inherited;
     JournalKey   planned;      /* of program, files and request */
     bool         is_shared;    /* its readings will be asked for under other levels, too */
-    StageOther  *other;        /* what is asked is asked under these; NULL: as it is lit */
-} Stage;
+    SetupOther  *other;        /* what is asked is asked under these; NULL: as it is lit */
+} Setup;
 
-typedef struct StageOptions {
+typedef struct SetupOptions {
     const ReviewRequest   *request;
     const ReviewCondition *condition; /* NULL: the request's own files, no light but theirs */
     const char            *root;      /* --root, or NULL */
@@ -54,37 +54,37 @@ typedef struct StageOptions {
     const char            *lessons;   /* folder of what paths are taught (run/cases.h); NULL:
                                          it is not kept */
     Inherited             *inherited; /* of the review and its variants, or NULL */
-} StageOptions;
+} SetupOptions;
 
 /* The scene with the condition's files, contents and occupants, in the dark. Warnings go to
  * *problems. */
-bool stage_open(const StageOptions *options, Arena *arena, Problems *problems, Stage *out,
+bool setup_open(const SetupOptions *options, Arena *arena, Problems *problems, Setup *out,
                 Error *err);
 
 /* Its scene alone, to be checked; scene_close closes it. */
-bool stage_scene(const StageOptions *options, Arena *arena, Problems *problems, Scene **out,
+bool setup_scene(const SetupOptions *options, Arena *arena, Problems *problems, Scene **out,
                  Error *err);
 
 /* Lights it: the environment, then the levels, which may follow the light on a sensor. */
-bool stage_light(Stage *stage, const Environment *environment, Arena *arena, Error *err);
+bool setup_light(Setup *setup, const Environment *environment, Arena *arena, Error *err);
 
-/* For a stage that is lit by one sky after the other: with the levels that it has before any
+/* For a setup that is lit by one sky after the other: with the levels that it has before any
  * light is known, its emitters sorted for them, under the sky that it has now. *before: this
- * stage, which must outlive all that are lit from it. */
-bool stage_before_light(Stage *stage, Arena *arena, Error *err);
-bool stage_light_again(Stage *stage, const Stage *before, const Environment *environment,
+ * setup, which must outlive all that are lit from it. */
+bool setup_before_light(Setup *setup, Arena *arena, Error *err);
+bool setup_light_again(Setup *setup, const Setup *before, const Environment *environment,
                        Arena *arena, Error *err);
 
 /* For the scene as it is now, its environment and levels set otherwise. What was built for its
  * surfaces, and the lights before, stay in their arenas: these must not end before the
- * stage's. */
-bool stage_relight(Stage *stage, Arena *arena, Error *err);
+ * setup's. */
+bool setup_relight(Setup *setup, Arena *arena, Error *err);
 
-void stage_close(Stage *stage);
+void setup_close(Setup *setup);
 
 /* Where the sun stands, unit, world, and what its bands give, lx on a plane that faces it.
  * False: the scene has none, or the moon in its place. */
-bool stage_sun(const Stage *stage, Vec3 *towards, float bands[LIGHT_BANDS]);
+bool setup_sun(const Setup *setup, Vec3 *towards, float bands[LIGHT_BANDS]);
 
 /* Azimuth from north over east, or of the vehicle (0 ahead, 90 right) where the environment has
  * no heading; elevation; degrees. */
@@ -92,29 +92,29 @@ typedef struct SunAngles {
     double azimuth_deg, elevation_deg;
 } SunAngles;
 
-SunAngles stage_angles(const Stage *stage, Vec3 towards);
+SunAngles setup_angles(const Setup *setup, Vec3 towards);
 
 /* The other way round. */
-Vec3 stage_direction(const Stage *stage, SunAngles angles);
+Vec3 setup_direction(const Setup *setup, SunAngles angles);
 
-/* The stage under another request's levels, which must be all in which that differs from its
- * own. Whoever asks there has what stage_ask says; the room must outlive it. */
-Stage stage_beside(const Stage *of, const ReviewRequest *request, Arena *arena, Arena room,
-                   StageOther *other);
+/* The setup under another request's levels, which must be all in which that differs from its
+ * own. Whoever asks there has what setup_ask says; the room must outlive it. */
+Setup setup_beside(const Setup *of, const ReviewRequest *request, Arena *arena, Arena room,
+                   SetupOther *other);
 
-/* reading_take of an aim that this stage's context has. */
-Reading stage_ask(const Stage *stage, const ProbeAim *aim, const ReadingGoal *goal,
+/* reading_take of an aim that this setup's context has. */
+Reading setup_ask(const Setup *setup, const ProbeAim *aim, const ReadingGoal *goal,
                   Arena scratch);
 
-/* Lights a stage beside another for its own levels, for who asks for more than readings; until
- * stage_unlight no other may be asked. */
-Stage stage_lit(const Stage *stage);
-void  stage_unlight(const Stage *stage);
+/* Lights a setup beside another for its own levels, for who asks for more than readings; until
+ * setup_unlight no other may be asked. */
+Setup setup_lit(const Setup *setup);
+void  setup_unlight(const Setup *setup);
 
 /* The level at which a display stands now. */
-double stage_level(const Stage *stage, int display_id);
+double setup_level(const Setup *setup, int display_id);
 
 /* What it is set to by a level of the request (NULL: as the scene says), with what a variant
  * makes of it. name: as the review calls it; sensor_lux: counts for a curve only. */
-double stage_level_of(const Stage *stage, const ReviewLevel *level, int display_id,
+double setup_level_of(const Setup *setup, const ReviewLevel *level, int display_id,
                       const char *name, double sensor_lux);

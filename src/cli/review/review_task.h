@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* review_pin.h -- a review that is a job's, or a part of one: what was planned of it. */
+/* review_task.h -- a review that is a job's, or a part of one: what was planned of it. */
 #pragma once
 #include "review/run/job.h"
 
 /* A review, or a part of one, that was planned. */
-typedef struct ReviewPin {
+typedef struct ReviewTask {
     const char  *name;        /* of the part, for messages */
     const char  *identity;    /* what its conditions have to be of */
     const char  *isa;         /* taken where the words name none */
@@ -17,4 +17,4 @@ typedef struct ReviewPin {
     const char  *responses;   /* where the parts' are, unless the words name a folder; and what
                                  they learnt */
     const char  *resume_line; /* the command that goes on with it */
-} ReviewPin;
+} ReviewTask;

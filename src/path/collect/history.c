@@ -1,0 +1,149 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* HOT: no allocation, no lock, no libm. */
+#include "path/collect/history.h"
+
+#include "path/emitted.h"
+
+/* What HistoryCollector and ImageCollector begin with. */
+typedef struct HistoryBase {
+    PathCollector base;
+    PathHistory   history;
+} HistoryBase;
+
+static PathHistory *history_of(PathCollector *c)
+{
+    return &((HistoryBase *)c)->history;
+}
+
+static PathHistory history_start(void)
+{
+    return (PathHistory){.pane_id = NO_ID, .reached_by = NO_ID};
+}
+
+/* ---- the way so far ---------------------------------------------------------------------- */
+
+static void add_step(PathHistory *history, const Surface *surface, PathEvent event)
+{
+    if (history->count < PATH_STEPS_MAX)
+        history->step[history->count] =
+            (PathStep){surface->part_id, event, history->reached_by, surface->position};
+    history->count++;
+    history->reached_by = NO_ID;
+}
+
+static void start(PathCollector *c, PathState *path)
+{
+    history_of(c)->towards = path->ray.direction;
+}
+
+static void meet(PathCollector *c, PathState *path)
+{
+    (void)path;
+    history_of(c)->reached_by = history_of(c)->pane_id;
+}
+
+static void behind(PathCollector *c, PathState *path, const Surface *surface)
+{
+    (void)path;
+    history_of(c)->pane_id = surface->part_id;
+}
+
+static void turn(PathCollector *c, PathState *path, const Surface *surface, Vec3 wo,
+                 const BsdfSample *next)
+{
+    (void)path, (void)wo;
+    PathHistory *history = history_of(c);
+    bool      is_across = next->wi.z * surface->local_wo.z < 0;
+    if (surface->part_id == NO_ID) return;
+    add_step(history, surface, !next->is_delta ? PATH_SCATTERS
+                            : is_across     ? PATH_TRANSMITS
+                                            : PATH_REFLECTS);
+    history->pane_id = NO_ID;
+}
+
+/* ---- light ------------------------------------------------------------------------------- */
+
+/* The last sheet that a shadow ray passed. */
+static int last_pane(const ShadowRay *ray)
+{
+    const Scene *scene = ray->path->context->scene;
+    if (!ray->hit_count) return NO_ID;
+    const Hit *hit = &ray->recent[(ray->hit_count - 1) % SHADOW_HITS];
+    return (int)scene->triangles[hit->triangle].part_id;
+}
+
+/* A light sample: the surface scatters it, after a mirror maybe. */
+static void add_sample(const PathFound *light, PathHistory *history)
+{
+    history->pane_id = last_pane(light->shadow);
+    if (light->by->part_id != NO_ID) add_step(history, light->by, PATH_SCATTERS);
+    else history->towards = light->mirror ? light->mirror->light.wi : vec3_neg(light->way);
+    if (!light->mirror) return;
+    history->reached_by = history->pane_id;
+    add_step(history, &light->mirror->surface, PATH_REFLECTS);
+    history->pane_id = last_pane(light->beyond);
+}
+
+static PathLight light_of(const PathFound *found)
+{
+    PathLight light = {.radiance = found->radiance};
+    for (int i = 0; i < 3 && found->xyz; i++) light.xyz[i] = found->share * found->xyz[i];
+    return light;
+}
+
+static void on_light(PathCollector *c, PathState *path, const PathFound *found)
+{
+    const PathListener *listener = ((HistoryCollector *)c)->listener;
+    if (found->set != LIGHTS_EMITTERS && listener->of_emitters) return;
+    PathLight   light = light_of(found);
+    PathHistory history = *history_of(c);
+    Spectrum    lanes = light.radiance;
+    float       xyz[3];
+    if (found->by) add_sample(found, &history);
+    if (found->xyz && listener->with_lanes)
+        lanes = path->throughput * spectrum_all(found->weight) *
+                emitted_seen(path, found->met, found->triangle, found->way);
+    history.source = found->set;
+    history.source_id = found->source_id;
+    history.from = found->from;
+    history.is_far = found->is_far;
+    history.lanes = found->xyz && !listener->with_lanes ? NULL : (const float *)&lanes;
+    history.wavelengths = path->wavelengths;
+    path_light_to_xyz(&light, path->wavelengths, xyz);
+    listener->on_light(listener->user, &history, xyz);
+}
+
+HistoryCollector history_collector(const PathListener *listener, PathCollector *next)
+{
+    static const CollectorKind kind = {
+        .size = sizeof(HistoryCollector), .start = start, .meet = meet, .behind = behind,
+        .turn = turn, .on_light = on_light};
+    return (HistoryCollector){{&kind, next}, history_start(), listener};
+}
+
+/* ---- mirror images ----------------------------------------------------------------------- */
+
+static bool refuse_scattered(PathCollector *c, PathState *path, const Surface *surface,
+                             const BsdfSample *next)
+{
+    (void)c, (void)path, (void)surface;
+    return !next->is_delta;
+}
+
+static bool add_image(PathCollector *c, PathState *path)
+{
+    const PathImages *images = ((ImageCollector *)c)->images;
+    if (path->last.is_delta)
+        images->add(images->user, history_of(c), path->ray.direction,
+                    (const float *)&path->throughput);
+    return true;
+}
+
+ImageCollector image_collector(const PathImages *images)
+{
+    static const CollectorKind kind = {
+        .size = sizeof(ImageCollector), .start = start, .meet = meet, .behind = behind,
+        .turn = turn, .vertex = collector_asks_nobody, .refuse = refuse_scattered,
+        .escape = add_image};
+    return (ImageCollector){{&kind, NULL}, history_start(), images};
+}

@@ -1,0 +1,123 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "review/run/sun_figures.h"
+
+#include <math.h>
+
+#include "base/parallel.h"
+#include "review/judge.h"
+#include "review/suns/failures.h"
+
+/* ---- reading them ------------------------------------------------------------------------ */
+
+static double level_for(const Sweep *sweep, const Sight *sight, int sun)
+{
+    double lux = sweep->sensor ? sweep->sensor->lux[sun] + sweep->sensor->own.lamps : 0;
+    return setup_level_of(sweep->setup, sweep->level, sight->symbol->display.display_id,
+                          sight->symbol->display_name, lux);
+}
+
+/* The figures of a case under one sun; limits are judged by whoever asks. */
+static ReviewCase case_at(const Sweep *sweep, const Sight *sight, const FarTools *tools,
+                          int sun)
+{
+    FarReading light =
+        sight->read ? sight->read[sun] : far_probe_read(&sight->probe, tools, sun);
+    double     level = level_for(sweep, sight, sun);
+    double     own = sight->own.lamps + level * sight->own.displays;
+    double     reflected = far_reading_sum(light) + own;
+    ReviewCase c = {.level = level, .limit_id = -1, .visible_share = sight->seen.visible_share,
+                    .height_arcmin = sight->height_arcmin};
+    c.display_lux = sight->face->lux[sun] + sight->face->own.lamps +
+                    level * sight->face->own.displays;
+    c.luminance_cd_m2 = (CaseLuminances){
+        level * sight->shown.foreground, level * sight->shown.background, reflected,
+        light.mirror, reflected - light.mirror, (double)NAN};
+    judge_contrasts(&c, (Range){fmax(light.interval.low + own, 0), light.interval.high + own});
+    judge_ambient(&c, sweep->run->profile, light.sun_first > CASE_SUNLIT * reflected);
+    return c;
+}
+
+/* ---- what is told of them ---------------------------------------------------------------- */
+
+SunFigures sun_figures_start(int count, Arena *arena)
+{
+    float *numbers = ARENA_NEW(arena, float, 8 * (size_t)count);
+    return (SunFigures){numbers, numbers + count, numbers + 2 * count, numbers + 3 * count,
+                        numbers + 4 * count, numbers + 5 * count, numbers + 6 * count,
+                        numbers + 7 * count,
+                        ARENA_NEW(arena, unsigned char, count),
+                        ARENA_NEW(arena, unsigned char, count), -1};
+}
+
+/* Worse: by its verdict, then by its margin, then by its contrast. */
+bool sun_figures_is_worse(const SunFigures *figures, int sun, int than)
+{
+    if (than < 0) return true;
+    int rank = verdict_rank(figures->verdict[sun]);
+    int other = verdict_rank(figures->verdict[than]);
+    if (rank != other) return rank > other;
+    float margin = figures->margin[sun], before = figures->margin[than];
+    if (!isnan(margin) && !isnan(before) && margin != before) return margin < before;
+    return figures->contrast[sun] < figures->contrast[than];
+}
+
+#define JUDGE_CHUNK 256 /* suns of one piece of work */
+#define JUDGE_BYTES ((size_t)1 << 20) /* scratch of a worker */
+
+typedef struct JudgeWork {
+    const Sweep    *sweep;
+    const Sight    *sight;
+    const FarTools *tools;
+    SunFigures     *figures;
+    Arena          *scratch; /* one a worker */
+} JudgeWork;
+
+static void judge_sun(const JudgeWork *work, int sun, Arena scratch)
+{
+    SunFigures *figures = work->figures;
+    ReviewCase c = case_at(work->sweep, work->sight, work->tools, sun);
+    judge_case(&c, work->sweep->run->profile, &scratch);
+    figures->contrast[sun] = (float)c.contrast_ratio;
+    figures->low[sun] = (float)c.contrast_low;
+    figures->high[sun] = (float)c.contrast_high;
+    figures->margin[sun] = (float)c.margin;
+    figures->reflected[sun] = (float)c.luminance_cd_m2.reflected;
+    figures->mirror[sun] = (float)c.luminance_cd_m2.mirror;
+    figures->level[sun] = (float)c.level;
+    figures->lux[sun] = (float)c.display_lux;
+    figures->verdict[sun] = (unsigned char)c.verdict;
+    figures->ambient[sun] = (unsigned char)c.ambient;
+}
+
+static void judge_chunk(void *user, int item, int worker)
+{
+    const JudgeWork *work = user;
+    int first = item * JUDGE_CHUNK, end = first + JUDGE_CHUNK, count = work->sweep->suns.count;
+    for (int sun = first; sun < end && sun < count; sun++)
+        judge_sun(work, sun, work->scratch[worker]);
+}
+
+void sun_figures_judge(const Sweep *sweep, const Sight *sight, const FarTools *tools,
+                       SunFigures *figures, Arena room)
+{
+    int      count = sweep->suns.count, threads = sweep->run->threads;
+    JudgeWork work = {sweep, sight, tools, figures, NULL};
+    work.scratch = ARENA_NEW(&room, Arena, threads);
+    for (int i = 0; i < threads; i++) work.scratch[i] = arena_reserve(JUDGE_BYTES);
+    parallel_for(threads, (count + JUDGE_CHUNK - 1) / JUDGE_CHUNK, judge_chunk, &work);
+    for (int i = 0; i < threads; i++) arena_release(&work.scratch[i]);
+    for (int sun = 0; sun < count; sun++)
+        if (sun_figures_is_worse(figures, sun, figures->worst)) figures->worst = sun;
+}
+
+/* By its figure, and for sure. */
+static StepState state_of(const SunFigures *figures, int sun)
+{
+    if (figures->verdict[sun] == VERDICT_FAIL) return STEP_FAILS_SURELY;
+    return figures->margin[sun] < 0 ? STEP_FAILS : STEP_PASSES;
+}
+
+void sun_figures_states(const SunFigures *figures, int count, unsigned char *states)
+{
+    for (int i = 0; i < count; i++) states[i] = (unsigned char)state_of(figures, i);
+}
