@@ -182,10 +182,10 @@ static void ask(const ProbeAim *aim, int path, PathCollector *collector,
     go(aim, &one);
 }
 
-static void ask_far(const ProbeAim *aim, int path, const PathFar *far,
-                    PathStatistics *statistics)
+static void ask_distant(const ProbeAim *aim, int path, const PathDistant *distant,
+                        PathStatistics *statistics)
 {
-    FarQuestions questions = far_questions(far);
+    DistantCollector questions = distant_collector(distant);
     ask(aim, path, &questions.base, statistics);
 }
 
@@ -275,11 +275,12 @@ void probe_ask_cells(const ProbeAim *asked, const ProbeCells *cells, int first, 
     PathContext context;
     ProbeAim    own = aim_of_first(asked, &context), *aim = &own;
     CellSums to = {cells, out->sums};
-    PathFar  far = {.towards = out->towards, .count = cells->asked_count, .add = add_cell,
-                    .add_escaped = add_escaped_cell, .user = &to, .has_ways = true};
+    PathDistant distant = {.towards = out->towards, .count = cells->asked_count,
+                           .add = add_cell,
+                           .add_escaped = add_escaped_cell, .user = &to, .has_ways = true};
     for (int path = first; path < end; path++) {
         draw_cells(aim, cells, path, out->towards);
-        ask_far(aim, path, &far, statistics);
+        ask_distant(aim, path, &distant, statistics);
     }
 }
 
@@ -351,16 +352,16 @@ void probe_ask_suns(const ProbeAim *aim, const ProbeSuns *suns, int first, int e
     float       chord2 = (float)(4 * half * half);
     SunSums     to = {suns, chord2, out->sums, 1 / (PI_F * chord2)};
     int         count = suns->by_mirror ? 0 : suns->count;
-    PathFar     far = {.towards = out->towards, .count = count, .add = add_sun,
-                       .add_escaped = add_escaped_sun, .user = &to,
-                       .is_of_mirror = suns->by_mirror};
+    PathDistant distant = {.towards = out->towards, .count = count, .add = add_sun,
+                           .add_escaped = add_escaped_sun, .user = &to,
+                           .is_of_mirror = suns->by_mirror};
     PathContext once = *aim->context;
     ProbeAim    direct = *aim;
     once.max_bounces = 1;
     direct.context = &once;
     for (int path = first; path < end; path++) {
         if (!suns->by_mirror) draw_suns(aim, &to, path, out->towards);
-        ask_far(&direct, path, &far, statistics);
+        ask_distant(&direct, path, &distant, statistics);
     }
 }
 

@@ -11,7 +11,7 @@
 #pragma once
 #include "camera/camera.h"
 #include "hemisphere/geodesic.h"
-#include "path/collect/far.h"
+#include "path/collect/distant.h"
 #include "path/collect/history.h"
 #include "path/path.h"
 

@@ -142,10 +142,10 @@ static void find_sample(PathState *path, const Surface *surface, Vec3 wo,
         path->gathered.radiance += radiance;
         return;
     }
-    bool      is_far = !isfinite(light->distance);
+    bool      is_distant = !isfinite(light->distance);
     PathFound found = {
-        .set = light->set, .source_id = source_of(path, light), .is_far = is_far,
-        .from = is_far ? light->wi
+        .set = light->set, .source_id = source_of(path, light), .is_distant = is_distant,
+        .from = is_distant ? light->wi
                        : vec3_along(surface->position, light->wi, light->distance),
         .way = vec3_neg(light->wi), .radiance = radiance, .triangle = light->triangle,
         .point = light->set == LIGHTS_EMITTERS ? &light->point : NULL, .by = surface, .wo = wo,
@@ -227,7 +227,7 @@ static void find_mirrored(const MirrorWalk *asked, const SunMirror *mirror, Vec3
         path->gathered.radiance += radiance;
         return;
     }
-    PathFound found = {.set = LIGHTS_SUN, .from = to_sun, .is_far = true,
+    PathFound found = {.set = LIGHTS_SUN, .from = to_sun, .is_distant = true,
                        .way = vec3_neg(to_sun), .radiance = radiance, .by = asked->surface,
                        .wo = asked->wo, .local_wi = local_wi, .shadow = &rays->to_mirror,
                        .mirror = mirror, .beyond = &rays->to_sun,

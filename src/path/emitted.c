@@ -36,14 +36,14 @@ static void find_distant(PathState *path, LightSet set, Spectrum radiance)
         return;
     }
     Vec3      towards = path->ray.direction;
-    PathFound found = {.set = set, .from = towards, .is_far = true, .way = vec3_neg(towards),
-                       .radiance = radiance};
+    PathFound found = {.set = set, .from = towards, .is_distant = true,
+                       .way = vec3_neg(towards), .radiance = radiance};
     collect_count(path, &found);
     path->gathered.radiance += found.radiance;
     collect_light(path, &found);
 }
 
-void emitted_far(PathState *path)
+void emitted_distant(PathState *path)
 {
     if (collect_escape(path)) return;
     Spectrum radiance[2];

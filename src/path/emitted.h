@@ -11,7 +11,7 @@
 void emitted_add(PathState *path, const Surface *surface, const Hit *hit, Vec3 wo);
 
 /* The path leaves the scene. */
-void emitted_far(PathState *path);
+void emitted_distant(PathState *path);
 
 /* A point of the scene as who lights it asks. Solids keep their normal outside, whichever side
  * is seen. */

@@ -198,7 +198,7 @@ static void walk(PathState *path)
         Hit     hit;
         Surface surface;
         if (!next_hit(path, &hit)) {
-            emitted_far(path);
+            emitted_distant(path);
             return;
         }
         Vec3  wo = vec3_neg(path->ray.direction);

@@ -31,8 +31,8 @@ typedef struct ShadowRay {
 typedef struct PathFound {
     LightSet set;
     int      source_id; /* emitters: scene part; punctual: scene light; else 0 */
-    Vec3     from;      /* where it began, m, world; is_far: the unit direction towards it */
-    bool     is_far;
+    Vec3     from;      /* where it began, m, world; is_distant: the unit vector there */
+    bool     is_distant;
     Vec3     way;       /* unit: along which it left what emits it */
     Spectrum radiance;  /* per lane, as the eye gets it; of a display that is seen by its
                            measured XYZ instead: */

@@ -62,20 +62,20 @@ static void read_steps(SweepTrials *t, bool is_full, double own, unsigned seed,
                        Trial *out)
 {
     Arena    room = t->scratch;
-    FarTools tools = {.setup = t->setup, .table = &t->table,
-                      .paths = is_full ? FULL_PATHS : STEP_PATHS,
-                      .precision = is_full ? FULL_PRECISION : 0,
-                      .suns = {t->suns.angles, t->suns.count}, .sun_paths = SYMBOL_POINTS,
-                      .has_mirror = true};
-    FarProbe probe = {.aim = t->aim};
+    DistantTools tools = {.setup = t->setup, .table = &t->table,
+                          .paths = is_full ? FULL_PATHS : STEP_PATHS,
+                          .precision = is_full ? FULL_PRECISION : 0,
+                          .suns = {t->suns.angles, t->suns.count}, .sun_paths = SYMBOL_POINTS,
+                          .has_mirror = true};
+    DistantProbe probe = {.aim = t->aim};
     probe.aim.seed = seed;
-    far_probe_respond(&probe, &tools, &room);
+    distant_probe_respond(&probe, &tools, &room);
     Error err;
-    if (!far_probes_ask_skies((FarProbe *[]){&probe}, 1, &tools, &room, &err))
+    if (!distant_probes_ask_skies((DistantProbe *[]){&probe}, 1, &tools, &room, &err))
         trials_stop(&err);
-    far_probe_ask_suns(&probe, &tools, &room);
+    distant_probe_ask_suns(&probe, &tools, &room);
     for (int i = 0; i < t->suns.count; i++) {
-        FarReading r = far_probe_read(&probe, &tools, i);
+        DistantReading r = distant_probe_read(&probe, &tools, i);
         out[i] = (Trial){r.sky + r.sun_first + r.sun_rest + own, r.interval.low + own,
                          r.interval.high + own, probe.response.paths};
     }

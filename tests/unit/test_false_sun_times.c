@@ -120,9 +120,9 @@ TEST(a_facet_that_dazzles_for_minutes_a_year_is_found)
     FalseSuns     images;
     Sweep         sweep = {.run = &run, .setup = &setup, .false_suns = &images};
     DaylightInput clear = daylight_input_default(DAYLIGHT_CLEAR);
-    FarTools      tools = {.table = &sweep.table};
+    DistantTools  tools = {.table = &sweep.table};
     sweep.table = sky_table_start(&clear, 16, 36, &scratch);
-    assert_true(far_probes_ask_skies(NULL, 0, &tools, &scratch, &err));
+    assert_true(distant_probes_ask_skies(NULL, 0, &tools, &scratch, &err));
     for (int b = 0; b < LIGHT_BANDS; b++) bands[b] = 1;
     false_suns_search(&setup, vec3(0, 0, 0), &scratch, &rays);
     images = false_suns_of(&rays, bands, &scratch);

@@ -6,7 +6,7 @@
 #include "base/count.h"
 #include "base/sampler.h"
 #include "base/units.h"
-#include "review/light/far_probe.h"
+#include "review/light/distant_probe.h"
 
 #define ROUND 64
 #define UPPER (ROUND * ROUND)
@@ -179,9 +179,9 @@ TEST(the_sun_of_a_sky_table_is_the_atmospheres)
     Arena         arena = arena_reserve((size_t)1 << 30);
     DaylightInput like = daylight_input_default(DAYLIGHT_CLEAR);
     SkyTable      table = sky_table_start(&like, 0, 90, &arena);
-    FarTools      tools = {.table = &table};
+    DistantTools  tools = {.table = &table};
     Error         err = {0};
-    assert_true(far_probes_ask_skies(NULL, 0, &tools, &arena, &err));
+    assert_true(distant_probes_ask_skies(NULL, 0, &tools, &arena, &err));
     for (size_t i = 0; i < COUNT_OF(BETWEEN); i++) {
         DaylightInput input = like;
         Daylight      sky;

@@ -5,7 +5,7 @@
 #include "base/count.h"
 #include "base/units.h"
 #include "panel/query/panel_reflection.h"
-#include "review/light/far_probe.h"
+#include "review/light/distant_probe.h"
 #include "review/light/light_bands.h"
 #include "world_fixture.h"
 
@@ -377,12 +377,13 @@ TEST(a_response_to_a_clear_sky_is_what_paths_find_under_it)
     DaylightInput like = daylight_input_default(DAYLIGHT_CLEAR);
     like.threads = 2;
     SkyTable table = sky_table_start(&like, 30, 36, &world.arena);
-    FarTools tools = {&setup, &table, {suns, 4}, 16384, 0, 64, false, NULL};
-    FarProbe probe = {.aim = aim_of(&world)};
+    DistantTools tools = {&setup, &table, {suns, 4}, 16384, 0, 64, false, NULL};
+    DistantProbe probe = {.aim = aim_of(&world)};
     probe.aim.context = &setup.context;
-    far_probe_respond(&probe, &tools, &world.arena);
-    assert_true(far_probes_ask_skies((FarProbe *[]){&probe}, 1, &tools, &world.arena, &err));
-    far_probe_ask_suns(&probe, &tools, &world.arena);
+    distant_probe_respond(&probe, &tools, &world.arena);
+    assert_true(distant_probes_ask_skies((DistantProbe *[]){&probe}, 1, &tools, &world.arena,
+                                         &err));
+    distant_probe_ask_suns(&probe, &tools, &world.arena);
     for (int i = 0; i < 4; i++) {
         Lights *lights;
         world.scene->environment = clear_sky(suns[i].azimuth_deg, suns[i].elevation_deg, 0);
@@ -392,7 +393,7 @@ TEST(a_response_to_a_clear_sky_is_what_paths_find_under_it)
         ProbeAim aim = aim_of(&world);
         Reading  reading = read_all(&aim, world.arena);
         world.scene->environment = (Environment){.forward = vec3(0, 0, -1)};
-        double found = far_probe_read(&probe, &tools, i).sky;
+        double found = distant_probe_read(&probe, &tools, i).sky;
         double off = fabs(found - reading.reflected);
         if (!(off < 3.5 * reading.sigma + 0.01 * reading.reflected))
             fail_msg("sky %d: %g, paths %g +- %g", i, found, reading.reflected,

@@ -49,7 +49,7 @@ static void add_pane(ProbeWay *way, int part_id)
     if (part_id != NO_ID) add_bounce(way, "passes", part_id, NULL);
 }
 
-static bool is_far(const Scene *scene, const ChainKey *key)
+static bool is_distant(const Scene *scene, const ChainKey *key)
 {
     if (key->source == LIGHTS_EMITTERS) return false;
     return key->source != LIGHTS_PUNCTUAL ||
@@ -72,7 +72,7 @@ static ProbeWay way_of(const Probed *probed, const Chain *chain)
                    ray ? &ray->point[i + 1] : NULL);
     }
     add_pane(&way, key->pane_id);
-    way.has_from = ray && !ray->is_cut && !is_far(probed->chains.scene, key);
+    way.has_from = ray && !ray->is_cut && !is_distant(probed->chains.scene, key);
     if (way.has_from) way.from = ray->point[ray->count - 1];
     return way;
 }

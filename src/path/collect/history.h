@@ -31,9 +31,9 @@ typedef struct PathHistory {
     int      pane_id;               /* part of the last pane that the light passed on its way to
                                        the last step; NO_ID: none */
     int      reached_by;            /* as pane_id, to where the path is now */
-    Vec3     from;                  /* where it began, m, world; is_far: the unit direction
+    Vec3     from;                  /* where it began, m, world; is_distant: the unit direction
                                        towards it */
-    bool     is_far;
+    bool     is_distant;
     const float       *lanes;       /* its radiance, W m^-2 sr^-1 nm^-1 per lane; of a display
                                        that is seen by its measured XYZ NULL, unless wanted */
     const Wavelengths *wavelengths; /* of the lanes */

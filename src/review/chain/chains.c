@@ -113,7 +113,8 @@ static ChainRay ray_of(const ChainSearch *search, const PathHistory *history)
     ray.is_cut = history->count > kept;
     if (!ray.is_cut)
         ray.point[ray.count] =
-            history->is_far ? vec3_along(ray.point[ray.count - 1], history->from, search->far_m)
+            history->is_distant ? vec3_along(ray.point[ray.count - 1], history->from,
+                                             search->far_m)
                          : history->from;
     ray.count += !ray.is_cut;
     return ray;

@@ -5,7 +5,7 @@
  * the same for all of them, the face of a display for all eyes. A reading does not depend on
  * the others that are asked for beside it.
  *
- * Frame    angles as those of far_probe.h; a sun is known by their bits.
+ * Frame    angles as those of distant_probe.h; a sun is known by their bits.
  * Units    lx.
  * Memory   from the arena of the start, which others may use, too: 64 to 256 bytes a sun.
  * Threads  one at a time.

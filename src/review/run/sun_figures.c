@@ -17,14 +17,14 @@ static double level_for(const Sweep *sweep, const Sight *sight, int sun)
 }
 
 /* The figures of a case under one sun; limits are judged by whoever asks. */
-static ReviewCase case_at(const Sweep *sweep, const Sight *sight, const FarTools *tools,
+static ReviewCase case_at(const Sweep *sweep, const Sight *sight, const DistantTools *tools,
                           int sun)
 {
-    FarReading light =
-        sight->read ? sight->read[sun] : far_probe_read(&sight->probe, tools, sun);
+    DistantReading light =
+        sight->read ? sight->read[sun] : distant_probe_read(&sight->probe, tools, sun);
     double     level = level_for(sweep, sight, sun);
     double     own = sight->own.lamps + level * sight->own.displays;
-    double     reflected = far_reading_sum(light) + own;
+    double     reflected = distant_reading_sum(light) + own;
     ReviewCase c = {.level = level, .limit_id = -1, .visible_share = sight->seen.visible_share,
                     .height_arcmin = sight->height_arcmin};
     c.display_lux = sight->face->lux[sun] + sight->face->own.lamps +
@@ -67,7 +67,7 @@ bool sun_figures_is_worse(const SunFigures *figures, int sun, int than)
 typedef struct JudgeWork {
     const Sweep    *sweep;
     const Sight    *sight;
-    const FarTools *tools;
+    const DistantTools *tools;
     SunFigures     *figures;
     Arena          *scratch; /* one a worker */
 } JudgeWork;
@@ -97,7 +97,7 @@ static void judge_chunk(void *user, int item, int worker)
         judge_sun(work, sun, work->scratch[worker]);
 }
 
-void sun_figures_judge(const Sweep *sweep, const Sight *sight, const FarTools *tools,
+void sun_figures_judge(const Sweep *sweep, const Sight *sight, const DistantTools *tools,
                        SunFigures *figures, Arena room)
 {
     int      count = sweep->suns.count, threads = sweep->run->threads;

@@ -19,7 +19,7 @@ typedef struct SunFigures {
 SunFigures sun_figures_start(int count, Arena *arena);
 
 /* The sight, asked of the sweep's suns, tells of each. */
-void sun_figures_judge(const Sweep *sweep, const Sight *sight, const FarTools *tools,
+void sun_figures_judge(const Sweep *sweep, const Sight *sight, const DistantTools *tools,
                        SunFigures *figures, Arena room);
 
 bool sun_figures_is_worse(const SunFigures *figures, int sun, int than);

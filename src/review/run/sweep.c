@@ -80,7 +80,7 @@ typedef struct SightFigures {
 /* What a sweep does with each of its sights. */
 typedef struct SweepReport {
     Sweep           *sweep;
-    const FarTools  *tools;
+    const DistantTools *tools;
     const SweepSuns *suns;   /* kept */
     SightFigures    *sights; /* of those that have twins */
     SweepTable      *tables; /* one a sight; those without suns are none */
@@ -97,15 +97,15 @@ static SunFigures judge_others(const SweepReport *to, const Sight *sight, const 
                                Arena *scratch)
 {
     Sweep      sweep = *to->sweep;
-    FarTools   tools = *to->tools, of_meters;
+    DistantTools tools = *to->tools, of_meters;
     SweepMeter face = *sight->face, sensor;
     Sight      seen = *sight;
     seen.read = NULL;
     sweep.suns = *suns;
-    tools.suns = (FarSuns){suns->angles, suns->count};
+    tools.suns = (DistantSuns){suns->angles, suns->count};
     of_meters = tools;
     of_meters.has_mirror = false;
-    far_probe_ask_suns(&seen.probe, &tools, scratch);
+    distant_probe_ask_suns(&seen.probe, &tools, scratch);
     face.lux = sweep_meter_read(&face, &of_meters, scratch);
     seen.face = &face;
     if (sweep.sensor) {
@@ -506,7 +506,7 @@ static bool sweep_condition(Sweep *sweep, Arena scratch, Arena *arena, ReviewOut
     if (!make_skies(sweep, &scratch, err)) return false;
     if (!sweep_ask_light(sweep, &scratch, err)) return false;
     work_add(sweep->run->work, WORK_SKIES * sweep->sight_count);
-    FarTools   tools = sweep_tools(sweep);
+    DistantTools tools = sweep_tools(sweep);
     SweepSuns *suns = ARENA_NEW(arena, SweepSuns, 1);
     *suns = sweep->suns;
     SweepReport to = {.sweep = sweep, .tools = &tools, .suns = suns, .out = out, .arena = arena,

@@ -2,8 +2,8 @@
 /* sweep.h -- a condition that stands for many suns: all directions, the hours of a year, a
  * route.
  *
- * Each symbol, as each eye sees it, is a probe whose response is traced once (far_probe.h); its
- * face and the sensor of the level are luxmeters. The worst case of each is read again as a
+ * Each symbol, as each eye sees it, is a probe whose response is traced once (distant_probe.h);
+ * its face and the sensor of the level are luxmeters. The worst case of each is read again as a
  * moment, with all paths, so that what is told of it is not the response's.
  *
  * Approximate  an eye box counts by its middle; glints by way of a mirror that is no display

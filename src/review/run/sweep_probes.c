@@ -207,12 +207,12 @@ static void list_asks(Sweep *sweep, Arena *arena)
     }
 }
 
-FarTools sweep_tools(Sweep *sweep)
+DistantTools sweep_tools(Sweep *sweep)
 {
-    return (FarTools){.setup = sweep->setup, .table = &sweep->table,
-                      .hours = sweep->has_hours ? &sweep->hours : NULL,
-                      .suns = {sweep->suns.angles, sweep->suns.count},
-                      .sun_paths = SUN_PATHS, .has_mirror = true};
+    return (DistantTools){.setup = sweep->setup, .table = &sweep->table,
+                          .hours = sweep->has_hours ? &sweep->hours : NULL,
+                          .suns = {sweep->suns.angles, sweep->suns.count},
+                          .sun_paths = SUN_PATHS, .has_mirror = true};
 }
 
 /* What is known of a sight is known of its twin. */
@@ -226,10 +226,10 @@ static void copy_twins(Sweep *sweep)
     }
 }
 
-static bool ask_skies(Sweep *sweep, const FarTools *tools, Arena *arena, Error *err)
+static bool ask_skies(Sweep *sweep, const DistantTools *tools, Arena *arena, Error *err)
 {
     int        most = sweep->symbol_count + 1 + sweep->sight_count, count = 0;
-    FarProbe **probes = ARENA_NEW(arena, FarProbe *, most);
+    DistantProbe **probes = ARENA_NEW(arena, DistantProbe *, most);
     for (int i = 0; i < sweep->symbol_count; i++)
         if (!sweep->faces[i].is_left) probes[count++] = &sweep->faces[i].probe;
     if (sweep->sensor) probes[count++] = &sweep->sensor->probe;
@@ -238,7 +238,7 @@ static bool ask_skies(Sweep *sweep, const FarTools *tools, Arena *arena, Error *
         bool is_asked = !sight->is_left && sight->twin == NO_ID;
         if (is_asked && sight->probe.aim.target_count) probes[count++] = &sight->probe;
     }
-    if (!far_probes_ask_skies(probes, count, tools, arena, err)) return false;
+    if (!distant_probes_ask_skies(probes, count, tools, arena, err)) return false;
     copy_twins(sweep);
     return true;
 }
@@ -248,9 +248,9 @@ static bool ask_skies(Sweep *sweep, const FarTools *tools, Arena *arena, Error *
 #define READ_CHUNK 256 /* suns of one piece of work */
 
 typedef struct ReadWork {
-    const FarProbe *probe;
-    const FarTools *tools;
-    FarReading     *read;
+    const DistantProbe *probe;
+    const DistantTools *tools;
+    DistantReading *read;
 } ReadWork;
 
 static void read_chunk(void *user, int item, int worker)
@@ -259,35 +259,36 @@ static void read_chunk(void *user, int item, int worker)
     const ReadWork *work = user;
     int first = item * READ_CHUNK, end = first + READ_CHUNK, count = work->tools->suns.count;
     for (int sun = first; sun < end && sun < count; sun++)
-        work->read[sun] = far_probe_read(work->probe, work->tools, sun);
+        work->read[sun] = distant_probe_read(work->probe, work->tools, sun);
 }
 
 /* [sun] of a probe that was asked of them. */
-static const FarReading *read_suns(const FarProbe *probe, const FarTools *tools, Arena *arena)
+static const DistantReading *read_suns(const DistantProbe *probe, const DistantTools *tools,
+                                       Arena *arena)
 {
     int      count = tools->suns.count;
-    ReadWork work = {probe, tools, ARENA_NEW(arena, FarReading, count)};
+    ReadWork work = {probe, tools, ARENA_NEW(arena, DistantReading, count)};
     parallel_for(tools->setup->tools.threads, (count + READ_CHUNK - 1) / READ_CHUNK,
                  read_chunk, &work);
     return work.read;
 }
 
 /* lux: [sun] */
-static void ask_meter_suns(const SweepMeter *meter, const FarTools *tools, Arena room,
+static void ask_meter_suns(const SweepMeter *meter, const DistantTools *tools, Arena room,
                            double *lux)
 {
-    FarProbe probe = meter->probe;
-    far_probe_ask_suns(&probe, tools, &room);
-    const FarReading *read = read_suns(&probe, tools, &room);
-    for (int i = 0; i < tools->suns.count; i++) lux[i] = far_reading_sum(read[i]);
+    DistantProbe probe = meter->probe;
+    distant_probe_ask_suns(&probe, tools, &room);
+    const DistantReading *read = read_suns(&probe, tools, &room);
+    for (int i = 0; i < tools->suns.count; i++) lux[i] = distant_reading_sum(read[i]);
 }
 
 /* All suns whose reading is not kept are asked at once, and kept. */
-static void keep_missing(const SweepMeter *meter, const FarTools *tools, Arena room)
+static void keep_missing(const SweepMeter *meter, const DistantTools *tools, Arena room)
 {
     SunAngles *missing = ARENA_NEW(&room, SunAngles, tools->suns.count);
-    FarTools   of_missing = *tools;
-    of_missing.suns = (FarSuns){missing, 0};
+    DistantTools of_missing = *tools;
+    of_missing.suns = (DistantSuns){missing, 0};
     for (int i = 0; i < tools->suns.count; i++)
         if (!sun_readings_find(meter->kept, tools->suns.angles[i]))
             missing[of_missing.suns.count++] = tools->suns.angles[i];
@@ -299,7 +300,7 @@ static void keep_missing(const SweepMeter *meter, const FarTools *tools, Arena r
             sun_readings_add(meter->kept, missing[i], lux[i]);
 }
 
-const double *sweep_meter_read(const SweepMeter *meter, const FarTools *tools, Arena *arena)
+const double *sweep_meter_read(const SweepMeter *meter, const DistantTools *tools, Arena *arena)
 {
     double *lux = ARENA_NEW(arena, double, tools->suns.count);
     if (!meter->kept) {
@@ -313,7 +314,7 @@ const double *sweep_meter_read(const SweepMeter *meter, const FarTools *tools, A
 }
 
 /* Under the condition's own suns; others are kept from now on. */
-static void read_meter(SweepMeter *meter, const FarTools *tools, Arena *between,
+static void read_meter(SweepMeter *meter, const DistantTools *tools, Arena *between,
                        Arena *arena)
 {
     meter->kept = NULL;
@@ -324,7 +325,7 @@ static void read_meter(SweepMeter *meter, const FarTools *tools, Arena *between,
 
 bool sweep_ask_light(Sweep *sweep, Arena *arena, Error *err)
 {
-    FarTools tools = sweep_tools(sweep);
+    DistantTools tools = sweep_tools(sweep);
     Arena   *between = ARENA_NEW(arena, Arena, 1);
     *between = sweep->between;
     if (!ask_skies(sweep, &tools, arena, err)) return false;
@@ -339,13 +340,14 @@ bool sweep_ask_light(Sweep *sweep, Arena *arena, Error *err)
 
 Sight sweep_ask_sight(Sweep *sweep, const Sight *sight, Arena *arena)
 {
-    FarTools tools = sweep_tools(sweep);
+    DistantTools tools = sweep_tools(sweep);
     Sight    asked = *sight;
-    if (asked.probe.aim.target_count) far_probe_ask_suns(&asked.probe, &tools, arena);
+    if (asked.probe.aim.target_count) distant_probe_ask_suns(&asked.probe, &tools, arena);
     return asked;
 }
 
-const FarReading *sweep_read_sight(const Sight *asked, const FarTools *tools, Arena *arena)
+const DistantReading *sweep_read_sight(const Sight *asked, const DistantTools *tools,
+                                       Arena *arena)
 {
     return read_suns(&asked->probe, tools, arena);
 }

@@ -13,7 +13,7 @@
 
 typedef struct SweepMeter {
     LitPoint head;
-    FarProbe probe;
+    DistantProbe probe;
     OwnLight own;
     const double *lux; /* [sun of the condition in hand] all of its light but its own */
     SunReadings  *kept; /* of other suns of that condition; NULL: none are kept */
@@ -27,14 +27,14 @@ typedef struct Sight {
     SymbolVisibility   seen;
     CaseLuminances     shown;   /* foreground and background at level 1 */
     double             height_arcmin;
-    FarProbe           probe;
+    DistantProbe       probe;
     OwnLight           own;
     const SweepMeter  *face;
     int                twin;    /* an earlier sight from the same place, as an eye box about an
                                    eye is: what is asked of that holds for both; NO_ID: none */
     bool               has_twin; /* a later one has this for its twin */
     bool               is_left; /* as a meter */
-    const FarReading  *read;    /* [sun], where several ask for them; else NULL */
+    const DistantReading *read;    /* [sun], where several ask for them; else NULL */
 } Sight;
 
 /* The setup under the sun for which it was lit last: eyes that share a symbol often share its
@@ -94,10 +94,12 @@ bool sweep_ask_light(Sweep *sweep, Arena *arena, Error *err);
 Sight sweep_ask_sight(Sweep *sweep, const Sight *sight, Arena *arena);
 
 /* And read once for all who ask. */
-const FarReading *sweep_read_sight(const Sight *asked, const FarTools *tools, Arena *arena);
+const DistantReading *sweep_read_sight(const Sight *asked, const DistantTools *tools,
+                                       Arena *arena);
 
 /* What the meter reads under each of the tools' suns, asked where that is not kept. */
-const double *sweep_meter_read(const SweepMeter *meter, const FarTools *tools, Arena *arena);
+const double *sweep_meter_read(const SweepMeter *meter, const DistantTools *tools,
+                               Arena *arena);
 
 /* Of which they read these. */
-FarTools sweep_tools(Sweep *sweep);
+DistantTools sweep_tools(Sweep *sweep);

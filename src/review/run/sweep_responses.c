@@ -116,14 +116,14 @@ double responses_work(const ResponseAsk *ask, double own)
 bool responses_trace(const ReviewRun *run, const Setup *setup, ResponseAsk *asks, int count,
                      Arena *arena, Error *err)
 {
-    FarTools tools = {.setup = setup};
+    DistantTools tools = {.setup = setup};
     for (int i = 0; i < count; i++) {
         ResponseAsk *ask = &asks[i];
         if (ask->is_kept || ask->is_left) continue;
         if (!review_goes_on(setup->tools.journal, err)) return false;
         tools.paths = ask->paths;
         tools.precision = ask->precision;
-        far_probe_respond(ask->probe, &tools, arena);
+        distant_probe_respond(ask->probe, &tools, arena);
         if (!response_write(&ask->file, &ask->probe->response, ask->own, *arena, err))
             return false;
         work_add(run->work, responses_work(ask, 0));

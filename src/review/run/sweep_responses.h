@@ -10,14 +10,14 @@
  * Fails    when a file cannot be written, or the user asks to stop.
  */
 #pragma once
-#include "review/light/far_probe.h"
+#include "review/light/distant_probe.h"
 #include "review/light/response_file.h"
 #include "review/run/job.h"
 
 /* A probe whose aim is set, with room for its answers. */
 typedef struct ResponseAsk {
     const char  *name;      /* for people: "driver, speed" */
-    FarProbe    *probe;
+    DistantProbe *probe;
     OwnLight    *own;
     int          paths;     /* at most */
     double       precision; /* 0: all paths */

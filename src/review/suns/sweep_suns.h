@@ -6,7 +6,7 @@
  * Threads  const once made; the suns of a year are found by several; the same for any count.
  */
 #pragma once
-#include "review/light/far_probe.h"
+#include "review/light/distant_probe.h"
 #include "review/request/request.h"
 
 typedef struct SweepSun {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* far_probe.h -- a probe's readings for many suns, in clear skies or those of a weather file,
- * without a path for each.
+/* distant_probe.h -- a probe's readings for many suns, in clear skies or those of a weather
+ * file, without a path for each.
  *
  * A response (response.h) is traced once. Clear skies of a table of the sun's elevations are
  * summed over it for every azimuth of the sun; what lies between is interpolated. Skies of a
@@ -34,7 +34,7 @@ typedef struct SkyTable {
 } SkyTable;
 
 /* Elevations that reach from `low` to `high`; `like` says air and ground. Its skies are made
- * when probes ask for them (far_probes_ask_skies), one by one: each takes megabytes. */
+ * when probes ask for them (distant_probes_ask_skies), one by one: each takes megabytes. */
 SkyTable sky_table_start(const DaylightInput *like, double low_deg, double high_deg,
                          Arena *arena);
 
@@ -48,7 +48,7 @@ void sky_table_sun(const SkyTable *table, double elevation_deg, float bands[LIGH
 
 /* ---- probes ------------------------------------------------------------------------------ */
 
-typedef struct FarProbe {
+typedef struct DistantProbe {
     ProbeAim     aim;
     Response     response;
     const float *scattered, *mirror; /* of the first vertex: [sun][band], by lx */
@@ -56,46 +56,47 @@ typedef struct FarProbe {
     float       *sky_without; /* of each the same without each of the response's groups:
                                  [...][group]; by hours [group], as a share of any sky */
     BrightSamples *sky_bright; /* what each is the sum of; by hours one, of a sky of 1 */
-} FarProbe;
+} DistantProbe;
 
-typedef struct FarSuns {
+typedef struct DistantSuns {
     const SunAngles *angles; /* of the vehicle */
     int              count;
-} FarSuns;
+} DistantSuns;
 
-typedef struct FarTools {
+typedef struct DistantTools {
     const Setup    *setup;
     SkyTable       *table;
-    FarSuns         suns;
+    DistantSuns     suns;
     int             paths;       /* of the response, at most, */
     double          precision;   /* and when it ends before */
     int             sun_paths;   /* of the first vertex */
     bool            has_mirror;  /* it may be one: that is asked by paths of its own */
     const HourSkies *hours;     /* of a weather file: the table is not used; or NULL */
-} FarTools;
+} DistantTools;
 
 /* probe->aim is set: its response is made, for any table and suns. */
-void far_probe_respond(FarProbe *probe, const FarTools *tools, Arena *arena);
+void distant_probe_respond(DistantProbe *probe, const DistantTools *tools, Arena *arena);
 
 /* After that: what the tools' skies give them, and the table's suns. All at once, since a sky
  * is made and looked up but once for all of them. No probes: its suns alone. Fails as
  * daylight_build. */
-bool far_probes_ask_skies(FarProbe *const *probes, int count, const FarTools *tools,
-                          Arena *arena, Error *err);
+bool distant_probes_ask_skies(DistantProbe *const *probes, int count, const DistantTools *tools,
+                              Arena *arena, Error *err);
 
 /* The first vertex's answers to the tools' suns: after that the probe may be read; once more
  * for other suns of the same clear skies. */
-void far_probe_ask_suns(FarProbe *probe, const FarTools *tools, Arena *arena);
+void distant_probe_ask_suns(DistantProbe *probe, const DistantTools *tools, Arena *arena);
 
-typedef struct FarReading {
+typedef struct DistantReading {
     double sky, sun_first, sun_rest; /* they add up */
     double mirror;                   /* of sun_first */
     MeanInterval interval;           /* 95 %, of their sum */
-} FarReading;
+} DistantReading;
 
-static inline double far_reading_sum(FarReading reading)
+static inline double distant_reading_sum(DistantReading reading)
 {
     return reading.sky + reading.sun_first + reading.sun_rest;
 }
 
-FarReading far_probe_read(const FarProbe *probe, const FarTools *tools, int sun);
+DistantReading distant_probe_read(const DistantProbe *probe, const DistantTools *tools,
+                                  int sun);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* far.h -- light from infinitely far as a question: from where does it reach the eye, or a
+/* distant.h -- light from infinitely far as a question: from where does it reach the eye, or a
  * luxmeter, and how much? Instead of being lit a path asks.
  *
  * Threads  one thread's, like the path.
@@ -9,7 +9,7 @@
 
 #define PATH_WAYS 16 /* of a vertex: a ray or two each, beside hundreds of its questions */
 
-typedef struct PathFar {
+typedef struct PathDistant {
     const Vec3 *towards; /* unit; every scattering vertex asks all of them */
     int         count;
     /* share: of the radiance from towards[i], per steradian, what comes to the eye by way of
@@ -24,13 +24,13 @@ typedef struct PathFar {
     bool  is_of_mirror; /* where a display comes first, its mirror alone is followed */
     bool  has_ways; /* vertices send out PATH_WAYS rays each, which mirrors and sharp lobes lead
                        on: what leaves so is added for these, not for paths */
-} PathFar;
+} PathDistant;
 
-typedef struct FarQuestions {
+typedef struct DistantCollector {
     PathCollector  base;
-    const PathFar *far;
+    const PathDistant *distant;
     bool           sent_ways; /* from the last vertex that scattered; mirrors may lie between */
-} FarQuestions;
+} DistantCollector;
 
 /* Of a path that is dark (PathManner). */
-FarQuestions far_questions(const PathFar *far);
+DistantCollector distant_collector(const PathDistant *distant);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "review/light/far_probe.h"
+#include "review/light/distant_probe.h"
 
 #include <math.h>
 #include <string.h>
@@ -115,7 +115,7 @@ void sky_table_sun(const SkyTable *table, double elevation_deg, float bands[LIGH
 
 /* A probe and what of it sends anything. */
 typedef struct SkyProbe {
-    FarProbe    *of;
+    DistantProbe *of;
     const int   *cells;
     const float *shares; /* [i][band] of cells[i], first and rest together */
     int          count;
@@ -227,7 +227,7 @@ static SunAngles vehicle_angles(const Setup *setup, Vec3 direction)
     return angles;
 }
 
-static SkyProbe sky_probe(FarProbe *probe, bool *is_asked, Arena *scratch)
+static SkyProbe sky_probe(DistantProbe *probe, bool *is_asked, Arena *scratch)
 {
     const Response *response = &probe->response;
     int    all = response->cells.count;
@@ -254,7 +254,7 @@ static size_t answer_bytes(const SkyTable *table)
            (sizeof(double) + sizeof(BrightSamples) + RESPONSE_GROUPS * sizeof(float));
 }
 
-static void place_answers(FarProbe *probe, const SkyTable *table, Arena *arena)
+static void place_answers(DistantProbe *probe, const SkyTable *table, Arena *arena)
 {
     size_t places = (size_t)table->count * SKY_AZIMUTHS;
     probe->sky = arena_alloc(arena, 1, _Alignof(double), answer_bytes(table));
@@ -264,7 +264,7 @@ static void place_answers(FarProbe *probe, const SkyTable *table, Arena *arena)
 }
 
 /* All that decides a table's skies and suns, and where the vehicle points. */
-static const char *table_words(const FarTools *tools, const char *what, Arena *arena)
+static const char *table_words(const DistantTools *tools, const char *what, Arena *arena)
 {
     const SkyTable *table = tools->table;
     const double   *forward = tools->setup->request->forward;
@@ -279,7 +279,8 @@ static const char *table_words(const FarTools *tools, const char *what, Arena *a
     return text.data;
 }
 
-static JournalKey answers_key(const FarProbe *probe, const FarTools *tools, Arena scratch)
+static JournalKey answers_key(const DistantProbe *probe, const DistantTools *tools,
+                              Arena scratch)
 {
     const Response *response = &probe->response;
     double   numbers[] = {(double)response->paths, response->relative_error};
@@ -295,12 +296,12 @@ static size_t suns_bytes(const SkyTable *table)
 }
 
 /* NULL: nothing is kept. */
-static Journal *journal_of(const FarTools *tools)
+static Journal *journal_of(const DistantTools *tools)
 {
     return tools->setup ? tools->setup->tools.journal : NULL;
 }
 
-static bool find_suns(const FarTools *tools, Arena scratch)
+static bool find_suns(const DistantTools *tools, Arena scratch)
 {
     if (!journal_of(tools)) return false;
     JournalKey key = journal_key(table_words(tools, "suns of skies", &scratch));
@@ -308,7 +309,7 @@ static bool find_suns(const FarTools *tools, Arena scratch)
                         suns_bytes(tools->table));
 }
 
-static void keep_suns(const FarTools *tools, Arena scratch)
+static void keep_suns(const DistantTools *tools, Arena scratch)
 {
     if (!journal_of(tools)) return;
     JournalKey key = journal_key(table_words(tools, "suns of skies", &scratch));
@@ -316,11 +317,11 @@ static void keep_suns(const FarTools *tools, Arena scratch)
 }
 
 /* Those that are not known; *count: how many. */
-static FarProbe **probes_to_ask(FarProbe *const *probes, int *count, const FarTools *tools,
-                                Arena *arena)
+static DistantProbe **probes_to_ask(DistantProbe *const *probes, int *count,
+                                    const DistantTools *tools, Arena *arena)
 {
     const Journal *journal = journal_of(tools);
-    FarProbe     **list = ARENA_NEW(arena, FarProbe *, *count);
+    DistantProbe **list = ARENA_NEW(arena, DistantProbe *, *count);
     int            left = 0;
     for (int i = 0; i < *count; i++) {
         place_answers(probes[i], tools->table, arena);
@@ -332,7 +333,7 @@ static FarProbe **probes_to_ask(FarProbe *const *probes, int *count, const FarTo
     return list;
 }
 
-static void keep_answers(FarProbe *const *probes, int count, const FarTools *tools,
+static void keep_answers(DistantProbe *const *probes, int count, const DistantTools *tools,
                          Arena scratch)
 {
     Journal *journal = journal_of(tools);
@@ -343,8 +344,8 @@ static void keep_answers(FarProbe *const *probes, int count, const FarTools *too
 
 /* ---- skies that are asked ---------------------------------------------------------------- */
 
-static bool sum_skies(FarProbe *const *probes, int count, const FarTools *tools, Arena scratch,
-                      Error *err)
+static bool sum_skies(DistantProbe *const *probes, int count, const DistantTools *tools,
+                      Arena scratch, Error *err)
 {
     int rows = tools->table->count, threads = tools->setup->tools.threads;
     const Response *first = &probes[0]->response; /* all have the same triangles */
@@ -369,10 +370,10 @@ static bool sum_skies(FarProbe *const *probes, int count, const FarTools *tools,
     return true;
 }
 
-static bool ask_table(FarProbe *const *probes, int count, const FarTools *tools, Arena *arena,
-                      Error *err)
+static bool ask_table(DistantProbe *const *probes, int count, const DistantTools *tools,
+                      Arena *arena, Error *err)
 {
-    FarProbe **list = probes_to_ask(probes, &count, tools, arena);
+    DistantProbe **list = probes_to_ask(probes, &count, tools, arena);
     if (!count && find_suns(tools, *arena)) return true;
     if (count ? !sum_skies(list, count, tools, *arena, err)
               : !make_suns(tools->table, arena, err))
@@ -384,7 +385,7 @@ static bool ask_table(FarProbe *const *probes, int count, const FarTools *tools,
 
 /* ---- probes ------------------------------------------------------------------------------ */
 
-static Vec3 *sun_directions(const FarTools *tools, Arena *arena)
+static Vec3 *sun_directions(const DistantTools *tools, Arena *arena)
 {
     double heading = degrees_from_radians((double)tools->setup->scene->environment.heading);
     Vec3  *towards = ARENA_NEW(arena, Vec3, tools->suns.count);
@@ -396,7 +397,7 @@ static Vec3 *sun_directions(const FarTools *tools, Arena *arena)
     return towards;
 }
 
-void far_probe_respond(FarProbe *probe, const FarTools *tools, Arena *arena)
+void distant_probe_respond(DistantProbe *probe, const DistantTools *tools, Arena *arena)
 {
     const ReadingTools *with = &tools->setup->tools;
     ResponseOptions     options = {with->kernel, RESPONSE_LEVEL, tools->paths, with->threads,
@@ -404,7 +405,7 @@ void far_probe_respond(FarProbe *probe, const FarTools *tools, Arena *arena)
     response_trace(&probe->aim, &options, arena, &probe->response);
 }
 
-static const float *ask_suns(const FarProbe *probe, const ReadingTools *with,
+static const float *ask_suns(const DistantProbe *probe, const ReadingTools *with,
                              const ResponseOptions *options, const ProbeSuns *suns,
                              Arena *arena)
 {
@@ -436,7 +437,7 @@ static int *suns_that_reach(const Response *response, const ProbeSuns *suns, int
 }
 
 /* Of all suns, most of which stand behind a roof: only those that may light it are asked. */
-static const float *ask_scattered(const FarProbe *probe, const ReadingTools *with,
+static const float *ask_scattered(const DistantProbe *probe, const ReadingTools *with,
                                   const ResponseOptions *options, const ProbeSuns *all,
                                   Arena *arena)
 {
@@ -455,7 +456,7 @@ static const float *ask_scattered(const FarProbe *probe, const ReadingTools *wit
     return shares;
 }
 
-void far_probe_ask_suns(FarProbe *probe, const FarTools *tools, Arena *arena)
+void distant_probe_ask_suns(DistantProbe *probe, const DistantTools *tools, Arena *arena)
 {
     const ReadingTools *with = &tools->setup->tools;
     ResponseOptions options = {with->kernel, RESPONSE_LEVEL, tools->sun_paths, with->threads,
@@ -470,7 +471,7 @@ void far_probe_ask_suns(FarProbe *probe, const FarTools *tools, Arena *arena)
 }
 
 /* Skies of hours are many: their errors are those of an even one. */
-static void read_even_sky(FarProbe *probe, Arena *arena)
+static void read_even_sky(DistantProbe *probe, Arena *arena)
 {
     WhiteSamples white = {{{0}}};
     probe->sky_without = ARENA_NEW(arena, float, RESPONSE_GROUPS);
@@ -480,15 +481,15 @@ static void read_even_sky(FarProbe *probe, Arena *arena)
     probe->sky_bright[0] = read_white(&probe->response, &white, 1, probe->sky_without);
 }
 
-static void ask_hours(FarProbe *probe, const FarTools *tools, Arena *arena)
+static void ask_hours(DistantProbe *probe, const DistantTools *tools, Arena *arena)
 {
     probe->sky = hour_skies_read(tools->hours, &probe->response, sun_directions(tools, arena),
                                  tools->suns.count, tools->setup->tools.threads, arena);
     read_even_sky(probe, arena);
 }
 
-bool far_probes_ask_skies(FarProbe *const *probes, int count, const FarTools *tools,
-                          Arena *arena, Error *err)
+bool distant_probes_ask_skies(DistantProbe *const *probes, int count, const DistantTools *tools,
+                              Arena *arena, Error *err)
 {
     if (!tools->hours) return ask_table(probes, count, tools, arena, err);
     for (int i = 0; i < count; i++) ask_hours(probes[i], tools, arena);
@@ -515,7 +516,7 @@ static SkyPlaces sky_places(const SkyTable *table, SunAngles sun)
 }
 
 /* The sky's light, what it would be without each group, and its samples. */
-static double read_sky(const FarProbe *probe, const FarTools *tools, int sun,
+static double read_sky(const DistantProbe *probe, const DistantTools *tools, int sun,
                        double without[RESPONSE_GROUPS], BrightSamples *bright)
 {
     double sky = 0;
@@ -541,7 +542,7 @@ static double read_sky(const FarProbe *probe, const FarTools *tools, int sun,
     return sky;
 }
 
-static void sun_bands(const FarTools *tools, int sun, float bands[LIGHT_BANDS])
+static void sun_bands(const DistantTools *tools, int sun, float bands[LIGHT_BANDS])
 {
     const HourSkies *hours = tools->hours;
     if (!hours) {
@@ -552,7 +553,8 @@ static void sun_bands(const FarTools *tools, int sun, float bands[LIGHT_BANDS])
         bands[b] = hours->of_sun[sun] < 0 ? 0 : hours->list[hours->of_sun[sun]].sun_bands[b];
 }
 
-static void read_sun(const FarProbe *probe, const FarTools *tools, int sun, FarReading *to,
+static void read_sun(const DistantProbe *probe, const DistantTools *tools, int sun,
+                     DistantReading *to,
                      double without[RESPONSE_GROUPS], BrightSamples *bright)
 {
     SunAngles  angles = tools->suns.angles[sun];
@@ -567,11 +569,11 @@ static void read_sun(const FarProbe *probe, const FarTools *tools, int sun, FarR
                                 without, bright);
 }
 
-FarReading far_probe_read(const FarProbe *probe, const FarTools *tools, int sun)
+DistantReading distant_probe_read(const DistantProbe *probe, const DistantTools *tools, int sun)
 {
     BrightSamples bright = {0};
     double        without[RESPONSE_GROUPS], of_sun[RESPONSE_GROUPS] = {0};
-    FarReading    reading = {.sky = read_sky(probe, tools, sun, without, &bright)};
+    DistantReading reading = {.sky = read_sky(probe, tools, sun, without, &bright)};
     if (!(tools->suns.angles[sun].elevation_deg < -SUN_MEAN_RADIUS_DEG))
         read_sun(probe, tools, sun, &reading, of_sun, &bright);
     double sum = reading.sky + reading.sun_first + reading.sun_rest;

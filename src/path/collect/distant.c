@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* HOT: no allocation, no lock, no libm. */
-#include "path/collect/far.h"
+#include "path/collect/distant.h"
 
 #include "path/direct.h"
 #include "path/path.h"
@@ -15,18 +15,18 @@ static bool is_sharp(const Surface *surface)
 /* ---- ways -------------------------------------------------------------------------------- */
 
 /* A ray that a vertex sends out: it follows mirrors, and ends behind a sharp lobe. */
-typedef struct FarWay {
+typedef struct DistantWay {
     PathCollector  base;
-    const PathFar *far;
+    const PathDistant *distant;
     float          pdf; /* of its direction behind that lobe, sr^-1; 0: none yet */
-} FarWay;
+} DistantWay;
 
 /* Does the way end? Vertices behind a sharp lobe send out their own. */
 static bool refuse(PathCollector *c, PathState *path, const Surface *surface,
                    const BsdfSample *next)
 {
     (void)path;
-    FarWay *way = (FarWay *)c;
+    DistantWay *way = (DistantWay *)c;
     if (way->pdf > 0) return true;
     if (next->is_delta) return false;
     if (!is_sharp(surface)) return true;
@@ -36,22 +36,23 @@ static bool refuse(PathCollector *c, PathState *path, const Surface *surface,
 
 static bool leave_by_way(PathCollector *c, PathState *path)
 {
-    const FarWay *way = (const FarWay *)c;
+    const DistantWay *way = (const DistantWay *)c;
     if (path->last.is_delta || way->pdf > 0)
-        way->far->add_escaped(way->far->user, path->ray.direction, path->bounce,
-                              (const float *)&path->throughput, way->pdf);
+        way->distant->add_escaped(way->distant->user, path->ray.direction, path->bounce,
+                                  (const float *)&path->throughput, way->pdf);
     return true;
 }
 
-static const CollectorKind way_kind = {.size = sizeof(FarWay), .vertex = collector_asks_nobody,
+static const CollectorKind way_kind = {.size = sizeof(DistantWay),
+                                       .vertex = collector_asks_nobody,
                                        .refuse = refuse, .escape = leave_by_way};
 
 /* Towards what lies where the surface scatters to; its own mirror the path itself follows. */
-static void send_way(const FarQuestions *questions, const PathState *from,
+static void send_way(const DistantCollector *questions, const PathState *from,
                      const Surface *surface, Vec3 wo, const Guiding *guiding, int i)
 {
     PathState  path = *from;
-    FarWay     way = {{&way_kind, NULL}, questions->far, 0};
+    DistantWay way = {{&way_kind, NULL}, questions->distant, 0};
     SheetStack stack;
     Guiding    guidings[2] = {*guiding, *guiding};
     BsdfSample next;
@@ -74,23 +75,23 @@ static void send_way(const FarQuestions *questions, const PathState *from,
 /* A path that goes on by a mirror is one of few that do, and tells of one direction: sunlight
  * by way of a pane or of a satin ring would hang on a handful of paths. Ways cost a ray or two;
  * a vertex asks hundreds. */
-static void send_ways(const FarQuestions *questions, const PathState *path,
+static void send_ways(const DistantCollector *questions, const PathState *path,
                       const Surface *surface, Vec3 wo, const Guiding *guiding)
 {
-    if (!questions->far->has_ways || path->bounce + 1 >= path->context->max_bounces) return;
+    if (!questions->distant->has_ways || path->bounce + 1 >= path->context->max_bounces) return;
     for (int i = 0; i < PATH_WAYS; i++) send_way(questions, path, surface, wo, guiding, i);
 }
 
 /* ---- questions --------------------------------------------------------------------------- */
 
-static void ask_all(const FarQuestions *questions, PathState *path, const Surface *surface,
+static void ask_all(const DistantCollector *questions, PathState *path, const Surface *surface,
                     Vec3 wo, const Guiding *guiding)
 {
-    const PathFar *far = questions->far;
+    const PathDistant *distant = questions->distant;
     Vec3 local_wo = surface->local_wo;
     int  ways = questions->sent_ways && is_sharp(surface) ? PATH_WAYS : 0;
-    for (int i = 0; i < far->count; i++) {
-        LightSample light = {.wi = far->towards[i], .distance = INFINITY};
+    for (int i = 0; i < distant->count; i++) {
+        LightSample light = {.wi = distant->towards[i], .distance = INFINITY};
         Vec3        local_wi = frame_to_local(&surface->frame, light.wi);
         ShadowRay   ray;
         float       pdf;
@@ -101,15 +102,15 @@ static void ask_all(const FarQuestions *questions, PathState *path, const Surfac
         Spectrum share = path->throughput * passed *
                          bsdf_eval(&surface->bsdf, local_wo, local_wi, &pdf) *
                          spectrum_all(fabsf(local_wi.z));
-        far->add(far->user, i, path->bounce, (const float *)&share,
-                 ways ? (float)ways * guiding_pdf(guiding, light.wi, pdf) : 0);
+        distant->add(distant->user, i, path->bounce, (const float *)&share,
+                     ways ? (float)ways * guiding_pdf(guiding, light.wi, pdf) : 0);
     }
 }
 
 static bool ask(PathCollector *c, PathState *path, const Surface *surface, Vec3 wo,
                 const Guiding *guiding)
 {
-    const FarQuestions *questions = (const FarQuestions *)c;
+    const DistantCollector *questions = (const DistantCollector *)c;
     if (path->bounce < path->context->max_bounces && bsdf_scatters(&surface->bsdf)) {
         ask_all(questions, path, surface, wo, guiding);
         send_ways(questions, path, surface, wo, guiding);
@@ -123,7 +124,7 @@ static bool choose_mirror(PathCollector *c, PathState *path, const Surface *surf
                           BsdfSample *next)
 {
     Vec3 local_wo = surface->local_wo;
-    if (!((FarQuestions *)c)->far->is_of_mirror || path->bounce ||
+    if (!((DistantCollector *)c)->distant->is_of_mirror || path->bounce ||
         !surface_is_display(path->context->scene, surface))
         return false;
     *next = (BsdfSample){.wi = vec3(-local_wo.x, -local_wo.y, local_wo.z), .pdf = 1,
@@ -135,25 +136,25 @@ static void turn_from(PathCollector *c, PathState *path, const Surface *surface,
                       const BsdfSample *next)
 {
     (void)path, (void)surface, (void)wo;
-    FarQuestions *questions = (FarQuestions *)c;
-    if (questions->far->has_ways) questions->sent_ways |= !next->is_delta;
+    DistantCollector *questions = (DistantCollector *)c;
+    if (questions->distant->has_ways) questions->sent_ways |= !next->is_delta;
 }
 
 /* Vertices that scatter have asked for themselves. */
 static bool leave(PathCollector *c, PathState *path)
 {
-    const FarQuestions *questions = (const FarQuestions *)c;
-    const PathFar      *far = questions->far;
+    const DistantCollector *questions = (const DistantCollector *)c;
+    const PathDistant  *distant = questions->distant;
     if (!questions->sent_ways && path->last.is_delta)
-        far->add_escaped(far->user, path->ray.direction, path->bounce,
-                         (const float *)&path->throughput, 0);
+        distant->add_escaped(distant->user, path->ray.direction, path->bounce,
+                             (const float *)&path->throughput, 0);
     return true;
 }
 
-FarQuestions far_questions(const PathFar *far)
+DistantCollector distant_collector(const PathDistant *distant)
 {
-    static const CollectorKind kind = {.size = sizeof(FarQuestions), .vertex = ask,
+    static const CollectorKind kind = {.size = sizeof(DistantCollector), .vertex = ask,
                                        .choose = choose_mirror, .turn = turn_from,
                                        .escape = leave};
-    return (FarQuestions){{&kind, NULL}, far, false};
+    return (DistantCollector){{&kind, NULL}, distant, false};
 }
