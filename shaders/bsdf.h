@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* bsdf.h -- how one surface point scatters light, whatever its model.
+/* bsdf.h -- how one surface point scatters light, by any model.
  *
  * Frame    local: +z is the shading normal on the side of wo's surface (wo.z > 0 always holds
  *          for surfaces that do not transmit). wo points to the eye, wi to the light; both
@@ -56,45 +56,46 @@ static inline void bsdf_be_black(Bsdf *bsdf)
     bsdf->kind = BSDF_BLACK;
 }
 
-/* What one eye sees of a surface; its members are undefined until bsdf_look. */
+/* Memory for what bsdf_look computes for one wo; undefined before. */
 typedef union BsdfRoom {
     MetallicView metallic_roughness;
 } BsdfRoom;
 
-/* For whoever asks several questions about one wo: from then on they take less work. Their
- * answers, and those about other directions, are what they were. The room must outlive them,
- * and the surface must not change before the next look. */
+/* Prepares for several queries about one wo, which take less work from then on. All results,
+ * also for other directions, stay what they were. The room must outlive the queries, and the
+ * surface must not change before the next look. */
 void bsdf_look(Bsdf *bsdf, Vec3 wo, BsdfRoom *room);
 
-/* BSDF without its delta parts; *pdf: with which density bsdf_sample would choose wi through
- * its non-delta parts (including the probability of choosing them). */
+/* BSDF without its delta parts; *pdf: the density with which bsdf_sample would choose wi
+ * through its non-delta parts (including the probability of choosing them). */
 Spectrum bsdf_eval(const Bsdf *bsdf, Vec3 wo, Vec3 wi, float *pdf);
 
-/* False: eval is 0 there, told for little work. */
+/* False: eval is 0 there. A cheap test. */
 bool bsdf_reaches(const Bsdf *bsdf, Vec3 wo, Vec3 wi);
 
 /* False: absorbed. u in [0,1)^3. */
 bool bsdf_sample(const Bsdf *bsdf, Vec3 wo, const float u[3], BsdfSample *sample);
 
-/* What share of the light passes straight through from -wo to wo (thin windows); else 0. */
+/* Share of the light that passes straight through from -wo to wo (thin windows); else 0. */
 Spectrum bsdf_pass(const Bsdf *bsdf, Vec3 wo);
 
-/* What share of the light a smooth boundary about +z sends to wo from its mirror direction
- * (-wo.x, -wo.y, wo.z): with which bsdf_sample would choose it, times that choice's weight. */
+/* Share of the light that a smooth boundary about +z sends to wo from its mirror direction
+ * (-wo.x, -wo.y, wo.z): the probability with which bsdf_sample would choose it, times that
+ * choice's weight. */
 Spectrum bsdf_mirror(const Bsdf *bsdf, Vec3 wo);
 
-/* Of eval the part that a nearly smooth boundary's facets send on (GGX about +z, GLINT_ALPHA at
- * most): what is too narrow to be found by chance. */
+/* The part of eval that a nearly smooth boundary's facets send on (GGX about +z, GLINT_ALPHA
+ * at most): too narrow to be found by chance. */
 Spectrum bsdf_glint(const Bsdf *bsdf, Vec3 wo, Vec3 wi);
 
-/* Has any part that light sampling can hit? (false: only delta parts, or black) */
+/* Has it any part that light sampling can hit? (false: only delta parts, or black) */
 bool bsdf_scatters(const Bsdf *bsdf);
 
 /* The wide lobes on wo's side. */
 BsdfLobes bsdf_lobes(const Bsdf *bsdf, Vec3 wo);
 
-/* What scattering from way->wi to wo does to polarised light; of `way` wi, is_delta, passes and
- * along are looked at. False: what leaves is unpolarised, whatever came. */
+/* The effect of scattering from way->wi to wo on polarised light; of `way` wi, is_delta,
+ * passes and along are read. False: the light that leaves is unpolarised. */
 bool bsdf_polarise(const Bsdf *bsdf, Vec3 wo, const BsdfSample *way, BsdfPolarisation *out);
 
 bool bsdf_is(const Bsdf *bsdf, BsdfTrait trait);
@@ -102,27 +103,27 @@ bool bsdf_is(const Bsdf *bsdf, BsdfTrait trait);
 /* GGX alpha of its lobe; INFINITY: it has none. */
 float bsdf_sharpest(const Bsdf *bsdf);
 
-/* Of a boundary that refracts: the mean index behind it over that outside; 0: none. */
+/* Mean index behind a boundary that refracts, over that outside; 0: it refracts nothing. */
 float bsdf_index(const Bsdf *bsdf);
 
-/* By how far a ray that goes straight through a pane comes out along it, in the direction in
- * which it goes along it, m (below 0: back). cosine: of its angle to the normal, (0, 1]. 0: the
+/* Shift along a pane, m, of a ray that goes straight through it, in the direction in which the
+ * ray runs along the pane (below 0: back). cosine: of its angle to the normal, (0, 1]. 0: the
  * surface has no thickness. */
 float bsdf_shift(const Bsdf *bsdf, float cosine);
 
-/* From now on bsdf_sample leaves out what passes a pane: that is followed by itself. False: it
- * shows nothing but its mirror image. */
+/* From now on bsdf_sample leaves out the light that passes a pane, which is followed
+ * separately. False: the surface shows nothing but its mirror image. */
 bool bsdf_show_itself(Bsdf *bsdf);
 
-/* The light that comes to it, per lane, which must outlive it: who parts it by wavelength draws
- * a lane by that. */
+/* Sets the path's throughput, per lane, which must outlive it: a boundary of dispersive glass
+ * draws a lane by it. */
 void bsdf_carry(Bsdf *bsdf, const Spectrum *light);
 
 /* Does it send light diffusely to its other side? */
 bool bsdf_sends_across(const Bsdf *bsdf);
 
-/* Has it a lambertian part that is told by itself? And its share, per lane, of what it scatters
- * from wi: 0 to 1. */
+/* Has it a lambertian part that is known separately? And that part's share, per lane, of what
+ * the surface scatters from wi: 0 to 1. */
 bool     bsdf_has_lambertian(const Bsdf *bsdf);
 Spectrum bsdf_lambertian_share(const Bsdf *bsdf, Vec3 wo, Vec3 wi);
 

@@ -15,15 +15,14 @@
  * height-correlated shadowing. Radiance grows by (n_eye side / n_light side)^2 on crossing
  * (light is squeezed into a narrower cone); a path in and out of a solid has 1 in all.
  *
- * A coating interferes with itself (spectrum/thin_film.h). Its
- * R and T at every angle and wavelength stand in for Fresnel's; what is neither, it absorbs.
- * Typical: MgF2 on glass reflects 1.3 % a face, four layers 0.1 %, silver between two oxides
- * 19 % and absorbs 4 %.
+ * A coating interferes with itself (spectrum/thin_film.h). Its R and T at every angle and
+ * wavelength stand in for Fresnel's; what is neither, it absorbs. Typical: MgF2 on glass
+ * reflects 1.3 % a face, four layers 0.1 %, silver between two oxides 19 % and absorbs 4 %.
  *
  * A film (clear_film.h) takes nothing: what it does not reflect goes through, as much from
  * inside as from outside along one ray, and total reflection stays total. It is exact at every
- * wavelength and angle, also on facets and on glass that parts light. A soap bubble is a solid
- * of index 1 with a film of 1.33.
+ * wavelength and angle, also on facets and on dispersive glass. A soap bubble is a solid of
+ * index 1 with a film of 1.33.
  *
  * Where the index differs by wavelength each lane is a boundary of its own. One lane is drawn,
  * by what the lanes still count, and is asked where it goes. A mirror sends all of them there.
@@ -33,12 +32,12 @@
  * density.
  *
  * Polarised light is followed exactly where glass is bare; coated and filmed glass is taken as
- * bare for how it polarises, and glass that parts light as of one index.
+ * bare for how it polarises, and dispersive glass as of one index.
  *
  * What rough facets pass to one another comes out of the boundary without a direction of its
  * own, on both sides (solid_energy.h; of brushed ones by azimuth as well, brushed_loss.h): a
  * clear solid of any roughness returns what it gets, within 0.2 %, coated or filmed as well;
- * one that parts light within 0.6 %, and a brushed one whose alphas a texture changes within
+ * a dispersive one within 0.6 %, and a brushed one whose alphas a texture changes within
  * 1 %. Without that it would lose up to a third at alpha 1.
  *
  * Not modelled: sheen. A boundary between equal indices, filmed or not, is smooth.
@@ -125,12 +124,12 @@ static void smooth_part(const Dielectric *d, const SolidRay *s, bool reflects,
 
 /* ---- dispersion ------------------------------------------------------------------------- */
 
-/* A smooth boundary or a facet for every lane, or the like. */
+/* A smooth boundary, or a facet, as every lane finds it. */
 typedef struct LaneFacets {
     Spectrum chance;   /* of each lane to be drawn */
     Spectrum eta;      /* the other side's index over this side's */
     Spectrum mirror;   /* Fresnel's share */
-    Spectrum reflects; /* how probably it is reflected, where the lane is drawn */
+    Spectrum reflects; /* probability of reflection, where the lane is drawn */
     float    behind[SPECTRUM_LANES]; /* cosines of the refracted directions */
 } LaneFacets;
 
@@ -164,7 +163,7 @@ static void meet_lanes(const Dielectric *d, const SolidRay *s, float cosine, Lan
     if (solid_has_film(d)) film_lanes(d, *s, cosine, out);
 }
 
-/* Which lane's strip of [0, the sum) the place lies on; it becomes the place in the strip. */
+/* The lane on whose strip of [0, the sum) the place lies; it becomes the place in that. */
 static int lane_at(Spectrum strips, float *place)
 {
     int last = 0;
@@ -219,7 +218,7 @@ static Spectrum split_eval(const Dielectric *d, SolidRay s, float *pdf)
     return value;
 }
 
-/* Met straight on, no lane is bent away from the others. */
+/* At normal incidence no lane is bent away from the others. */
 static bool is_straight(Vec3 wo)
 {
     return wo.x * wo.x + wo.y * wo.y < 1e-12f;
@@ -268,7 +267,6 @@ static bool lane_choice(const Dielectric *d, const SolidRay *s, float cosine, fl
 
 /* ---- the model -------------------------------------------------------------------------- */
 
-/* Of a rough boundary. */
 static Spectrum rough_eval(const Dielectric *d, const SolidRay *s, float *pdf)
 {
     Spectrum value = d->index      ? split_eval(d, *s, pdf) :
@@ -287,7 +285,7 @@ static Spectrum solid_eval(const void *parameters, Vec3 wo, Vec3 wi, float *pdf)
     return rough_eval(d, &s, pdf);
 }
 
-/* Of one index. */
+/* For a boundary of one index. */
 static bool smooth_sample(const Dielectric *d, SolidRay *s, float u, BsdfSample *sample)
 {
     FacetShares f = solid_facet(d, s, s->wo.z);
@@ -301,7 +299,8 @@ static bool smooth_sample(const Dielectric *d, SolidRay *s, float u, BsdfSample 
     return true;
 }
 
-/* What a facet of a rough boundary does, u[2] its choice: of one index, or of a lane. */
+/* Chooses s->wi by a visible facet of a rough boundary, of one index or of a drawn lane. u[2]
+ * decides between reflection and refraction. False: the light is lost. */
 static bool facet_sample(const Dielectric *d, SolidRay *s, const float u[3])
 {
     Vec3  half = sample_facet(d, s->wo, u);

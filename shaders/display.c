@@ -148,7 +148,7 @@ static Spectrum model_albedo(const void *parameters, Vec3 wo)
            spectrum_all(haze_albedo_of(display, wo.z));
 }
 
-/* Of f, as eval gave it, the panel's lambertian part and no haze; 0 where f is 0. */
+/* Share of the panel's lambertian part, no haze, in f as eval gave it; 0 where f is 0. */
 static Spectrum model_lambertian(const void *parameters, Spectrum f, Vec3 wi)
 {
     const DisplaySurface *display = parameters;
@@ -158,7 +158,7 @@ static Spectrum model_lambertian(const void *parameters, Spectrum f, Vec3 wi)
     return lambertian / spectrum_max(f, spectrum_all(1e-30f));
 }
 
-/* A cover's glass; haze is scattered more than once. */
+/* The mirror polarises as the cover's glass does; haze is scattered more than once. */
 static bool model_polarise(const void *parameters, Vec3 wo, const BsdfSample *way,
                            BsdfPolarisation *out)
 {

@@ -13,7 +13,8 @@
  *
  *   layers       thickness (m), index of refraction, share of the light that a layer lets
  *                through along the normal. Float glass 1.52, PVB 1.485; 2.1 + 0.76 + 2.1 mm is
- *   usual wedge        radians, towards +u, -u, +v or -v: the pane grows thicker that way.
+ *                usual
+ *   wedge        radians, towards +u, -u, +v or -v: the pane grows thicker that way.
  *                Windscreens for head-up displays have 0.2 to 0.7 mrad towards their upper edge
  *   haze share   clean 0.001 to 0.005, dusty 0.02, dirty 0.05; width 1 to 30 degrees
  *   coatings     stacks of thin layers (coating.h) on the outside, the first layer's face and
@@ -49,7 +50,7 @@
 #include "spectrum/fresnel.h"
 
 #define ORDERS_MAX 16
-#define LEFT_OVER 1e-4f    /* of the light: weaker images are not told apart */
+#define LEFT_OVER 1e-4f    /* of the light: weaker images are merged */
 #define LEAST_COSINE 1e-4f /* met flatter, a pane is a mirror */
 
 /* One polarisation: what the near and the far face reflect. */
@@ -72,7 +73,7 @@ typedef struct Meeting {
     CoatedImages coated[2];     /* undefined where it is bare */
 } Meeting;
 
-/* Of the refracted direction. */
+/* The cosine of the refracted direction, by Snell's law. */
 static float cosine_inside(float cosine, float ior)
 {
     return safe_sqrtf(1 - (1 - cosine * cosine) / (ior * ior));
@@ -146,7 +147,7 @@ static Meeting meet(const GlazedWindow *window, Vec3 wo)
     return m;
 }
 
-/* Of the light of one order its successor has as much: r1 r2 t^2. */
+/* An image's share without absorption; each order has r1 r2 of the one before. */
 static float order_of_faces(Faces f, int order)
 {
     if (!order) return f.near_one;
@@ -176,8 +177,7 @@ static Spectrum order_share(const Meeting *m, int order)
 
 /* ---- images ------------------------------------------------------------------------------ */
 
-/* 2 d tan t' of all layers: how far along the pane light comes out that went to and fro once.
- * */
+/* 2 d tan t' of all layers: shift along the pane, m, of light that went to and fro once. */
 static float ghost_shift(const Glazing *pane, float cosine)
 {
     float sine = safe_sqrtf(1 - cosine * cosine), sum = 0;
@@ -385,7 +385,7 @@ static Spectrum window_albedo(const void *parameters, Vec3 wo)
 
 /* ---- polarisation ------------------------------------------------------------------------ */
 
-/* What order this image is of. */
+/* The order of the image with this shift along the pane. */
 static int order_at(const GlazedWindow *window, float cosine, float along)
 {
     float shift = ghost_shift(window->pane, cosine);

@@ -5,8 +5,8 @@
 #include "shaders/metallic/metallic_look.h"
 #include "shaders/polarisation.h"
 
-/* The base's facets, met at `cosine`, send so much. A metal without
- * n, k is taken for a perfect mirror. */
+/* Adds the base's facets, met at `cosine`, which send `all` in sum. A metal without n, k is
+ * taken for a perfect mirror. */
 static void add_facets(const MetallicView *view, float cosine, Spectrum all,
                        PolarisedParts *parts)
 {

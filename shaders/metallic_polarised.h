@@ -8,6 +8,6 @@
 #pragma once
 #include "shaders/bsdf_model.h"
 
-/* False: nothing is known of that way. */
+/* False: no matrix is known for that way. */
 bool metallic_polarised(const void *parameters, Vec3 wo, const BsdfSample *way,
                         BsdfPolarisation *out);

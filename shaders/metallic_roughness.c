@@ -59,7 +59,7 @@
  * the base is to one: f = across color / pi * in(wo) in(wi) / mean of in. Boundary and coat lie
  * on either side alike, so white paper, lacquered or not, returns what it gets; it passes
  * nothing straight.
- * A brushed base has two alphas (brushed.h); what its facets send back in all is told by
+ * A brushed base has two alphas (brushed.h); what its facets send back in all comes from
  * lobe_facets.h, so a white one, metal or plastic, returns what it gets within 0.2 % to 85
  * degrees too.
  * A coating's reflectance (coating.h) stands in for Fresnel's and Schlick's curves in all of
@@ -67,7 +67,7 @@
  *
  * A film (clear_film.h) does so at each wavelength, on a body that absorbs nothing and has the
  * base's reflectance at normal incidence: of the non-metal exact, of a metal approximate unless
- * its n, k are given. Energies of rough filmed faces are told by lobe_facets.h, to 0.2 %.
+ * its n, k are given. Energies of rough filmed faces come from lobe_facets.h, to 0.2 %.
  *
  * Sheen (sheen.h) lies on all but the coat, on both sides of a sheet alike. With E its albedo
  * and c the greatest of its colour, facets beneath are scaled by 1 - c max(E(wo), E(wi)), and
@@ -215,7 +215,7 @@ typedef enum Part {
     PART_NONE
 } Part;
 
-/* Which part u falls on; it becomes the place inside that part: directions of every part then
+/* Chooses the part that u falls on; u becomes the place inside it: so directions of every part
  * are spread as well as their share of u is. */
 static Part choose_part(const MetallicChoices *choices, float *u)
 {
@@ -314,7 +314,7 @@ static void lobe_shares(const MetallicView *view, float *nonmetal, float *metal,
     *face = spectrum_mean(view->coated);
 }
 
-/* A rough coat is left out: it is rare. Where light crosses nothing is said: lobes are on wo's
+/* A rough coat is left out: it is rare. Where light crosses there are none: lobes are on wo's
  * side, and light from behind would be left to few samples. */
 static void model_lobes(const void *parameters, Vec3 wo, BsdfLobes *lobes)
 {

@@ -4,7 +4,7 @@
  * Axes     of light that comes along wi and leaves along wo: x across the plane of both (where
  *          they lie in one line: across it and the normal), y = (where the light goes) cross x.
  *          x is the same before and after. Of Stokes' S1 light along x is positive, of S2 light
- *          half-way from x to y, of S3 light that turns clockwise for who looks against it.
+ *          half-way from x to y, of S3 light that turns clockwise as seen against it.
  * Matrix   Mueller's, over its first element: [1 d 0 0; d k 0 0; 0 0 c -t; 0 0 t c].
  * Sources  Born and Wolf, "Principles of Optics", 1.5.2 to 1.5.4 (fields as e^(ikx - iwt));
  *          Chipman, Lam, Young, "Polarized Light and Optical Systems", 2018, chapter 6.
@@ -54,7 +54,7 @@ static inline Waves waves_through(float cosine, float eta)
     return (Waves){1 - face.s, 1 - face.p, sqrtf((1 - face.s) * (1 - face.p)), 0};
 }
 
-/* Of a sheet with two equal faces, all orders: their fields add up by their shares. */
+/* A sheet with two equal faces, all orders: their fields add up by their shares. */
 static inline Waves waves_sheet_reflected(Waves face)
 {
     float lets = (1 - face.s) * (1 - face.p);
@@ -71,8 +71,8 @@ static inline Waves waves_sheet_through(Waves face)
                    lets / (1 - face.along * face.along), 0};
 }
 
-/* Parts of what a surface scatters, each by its own matrix, added up; what no part speaks for
- * loses its polarisation. Begins as {0}. */
+/* Parts of what a surface scatters, each by its own matrix, added up; light of no part is
+ * unpolarised. Begins as {0}. */
 typedef struct PolarisedParts {
     Spectrum share, difference, along, turned;
 } PolarisedParts;

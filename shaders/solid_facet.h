@@ -21,12 +21,12 @@ typedef struct Dielectric {
     const Wavelengths   *wavelengths; /* NULL where there is no coating, film or index */
     const Curve         *index;       /* by wavelength, 1 or more, in place of ior; NULL: it is
                                          the same for all. Without a coating */
-    /* What rough facets pass to one another, of that ior; where the index differs by wavelength
-     * of its least and its greatest; brushed facets need energy->brushed. NULL: it is lost; a
-     * smooth boundary has none. */
+    /* Light that rough facets pass to one another, by tables for that ior; where the index
+     * differs by wavelength, for its least and its greatest; brushed facets need
+     * energy->brushed. NULL: it is lost; a smooth boundary has none. */
     const SolidEnergy   *energy, *energy_most;
-    const Spectrum      *light;       /* of a path that is split: what its lanes still count,
-                                         >= 0; chance follows it. NULL: all alike */
+    const Spectrum      *light;       /* of a dispersive path: what its lanes still count, >= 0;
+                                         chance follows it. NULL: all alike */
 } Dielectric;
 
 /* Directions as seen from wo's side: z > 0 is that side; eta is the other side's index over
@@ -49,7 +49,7 @@ static inline bool solid_is_brushed(const Dielectric *d)
     return d->alpha_along > 0;
 }
 
-/* Of a brushed one; as they run along x and y. */
+/* The alphas of a brushed one along x and y. */
 static inline Vec2 solid_alphas(const Dielectric *d)
 {
     return (Vec2){d->alpha_along, d->alpha};
@@ -75,5 +75,5 @@ static inline float reflect_prob(float reflected, float through)
 /* cosine: to the facet on wo's side. */
 FacetShares solid_facet(const Dielectric *d, const SolidRay *s, float cosine);
 
-/* What a filmed facet reflects of one lane, at that lane's s->eta. */
+/* Reflectance of a filmed facet for one lane, at that lane's s->eta. */
 float solid_filmed_lane(const Dielectric *d, const SolidRay *s, int lane, float cosine);

@@ -44,7 +44,7 @@ static LostFacets mean_facets_by(const Dielectric *d, bool is_inside)
                solid_mean_facets(d->energy, is_inside, d->alpha);
 }
 
-/* Of bare facets. */
+/* Losses of bare facets. */
 static void lost_lanes(const Dielectric *d, bool is_inside, Vec3 w, Lost *lost, Spectrum *flux)
 {
     SolidLost loss = lost_by(d, d->energy, is_inside, w), most = loss;
@@ -64,13 +64,13 @@ typedef struct FacetChange {
     Spectrum passes; /* what all let through, over what bare ones do */
 } FacetChange;
 
-/* Where a facet is met that the light in the rarer medium meets at x. */
+/* The cosine at which light meets a facet that it meets at x in the rarer medium. */
 static float met_from(float x, float eta)
 {
     return eta >= 1 ? x : sqrtf(1 - (1 - x * x) * eta * eta);
 }
 
-/* Of glass that parts light, by its film. */
+/* Shares of dispersive glass under its film, and without it. */
 static void change_lanes(const Dielectric *d, const SolidRay *s, float x, FacetShares *out,
                          Spectrum *bare)
 {
@@ -118,7 +118,7 @@ static Spectrum changed_mean(const Dielectric *d, bool is_inside, const FacetCha
     return spectrum_max(mean, spectrum_all(0));
 }
 
-/* Both sides' of a boundary that is not bare: outside, inside. */
+/* Changes on both sides of a boundary that is not bare: outside, inside. */
 typedef struct Changes {
     FacetChange side[2];
 } Changes;
@@ -157,7 +157,7 @@ static Lost lost_on(const Dielectric *d, bool is_inside, Vec3 w, const Changes *
     return lost;
 }
 
-/* What of it is chosen, and of that what goes across. */
+/* Probability of choosing this light, and of sending it across then. */
 typedef struct LostChance {
     float any, across;
 } LostChance;

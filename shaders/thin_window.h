@@ -11,7 +11,7 @@
 typedef struct ThinWindow {
     Spectrum tint; /* [0, 1]: what the sheet's body lets through, at this angle */
     float    ior;  /* 1 or more */
-    /* Of a coated sheet, seen from wo's side; NULL: bare. The tint multiplies. */
+    /* Tables of a coated sheet, seen from wo's side; NULL: bare. The tint multiplies. */
     const CoatingTable *reflectance, *transmittance;
     const Wavelengths  *wavelengths; /* NULL where it is bare */
 } ThinWindow;

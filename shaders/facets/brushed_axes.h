@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* brushed_axes.h -- how directions above a brushed boundary stand in tables.
  *
- * Of alphas far below 1 only ratios matter: of the two, and of the cosine to the alpha along
+ * For alphas much below 1 only ratios matter: of the two, and of the cosine to the alpha along
  * the direction's own azimuth (Heitz 2014: G depends on nothing else), `own` below. So the axes
  * are the fourth roots of the greater alpha and of the ratio of both; the root of own from the
  * lesser (0) to the greater (1), `turn`; and facet_axis.

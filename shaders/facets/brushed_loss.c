@@ -159,7 +159,7 @@ static void add_facets(const BrushedEye *eye, Ways h, Spectrum share, FacetSum *
                  spectrum_select(bends, share * (one - passes), none));
 }
 
-/* Of light from a direction in the medium against which the other's index is eta. */
+/* For light from a direction in the medium against which the other's index is eta. */
 static void fill_node(const BrushedEye *eye, const LatticePoints *lattice, int points,
                       float *node)
 {
@@ -185,7 +185,7 @@ static BrushedAxis axis_of(float least, float most, float step)
     return (BrushedAxis){first, last, count < 4 ? 4 : count};
 }
 
-/* With nodes half-way between. */
+/* The same axis with nodes half-way between. */
 static BrushedAxis finer(BrushedAxis axis)
 {
     axis.count = 2 * axis.count - 1;
@@ -199,7 +199,7 @@ static float axis_value(BrushedAxis axis, int node)
     return fminf(root * root * root * root, 1);
 }
 
-/* The neighbours that count on an axis of one node or many. */
+/* The neighbours of a value on an axis of one node or many. */
 typedef struct BrushedKnot {
     FacetKnot knot;
     int       count;
@@ -219,7 +219,7 @@ static void add_node(float *sum, const float *node, int count, float share)
     for (int k = 0; k < count; k++) sum[k] += share * node[k];
 }
 
-/* Of light from a direction, in a table of one pair. */
+/* The neighbours of a direction in a table of one pair. */
 typedef struct DirectionKnots {
     FacetKnot turn, cosine;
 } DirectionKnots;
@@ -243,7 +243,7 @@ static void add_direction(const BrushedLoss *t, const float *pair, const Directi
     }
 }
 
-/* The pairs of alphas that count at one. */
+/* The neighbours of a pair of alphas. */
 typedef struct PairKnots {
     BrushedKnot alpha, ratio;
     int         ratios;
@@ -285,7 +285,7 @@ static void read_lost(const BrushedLoss *t, bool is_inside, Vec3 w, Vec2 alpha, 
     }
 }
 
-/* Of a table on the means' axes: the first `count` of each `width` numbers. */
+/* Reads a table on the means' axes: the first `count` of each node's `width` numbers. */
 static void read_mean(const BrushedLoss *t, const float *table, int width, Vec2 alpha,
                       float *sum, int count)
 {
@@ -354,8 +354,8 @@ static void fill_pair(const BrushedLoss *t, Vec2 alpha, float eta,
     }
 }
 
-/* Of one pair of the means' axes. pair: room for a table of one pair. Evenly in the cosine's
- * fourth root: what narrow lobes lose they lose at grazing. */
+/* Fills the means of one pair on the means' axes. pair: memory for a table of one pair. Evenly
+ * in the cosine's fourth root: what narrow lobes lose they lose at grazing. */
 static void fill_mean(const BrushedLoss *t, const float *node, Vec2 alpha, float *pair,
                       float *mean)
 {
@@ -392,7 +392,7 @@ static void fill_side(const BrushedLoss *t, float eta, BrushedSide *side, Arena 
                   side->mean + i * t->width);
 }
 
-/* As solid_energy.c's: as single facets let it across, as far as both sides agree. */
+/* As in solid_energy.c: as single facets let it across, as much as both sides allow. */
 static float flux_of(const float *outside, const float *inside, float ior)
 {
     return fminf(outside[1] / (1 - outside[0]) * outside[0],

@@ -19,7 +19,7 @@
 #include "base/vec.h"
 #include "shaders/facets/lost_facets.h"
 
-/* Of the greater alpha, and of the lesser over the greater; all in [SMOOTH_ALPHA, 1]. */
+/* Bounds in [SMOOTH_ALPHA, 1] of the greater alpha, and of the lesser over the greater. */
 typedef struct BrushedRange {
     float least, most, least_ratio, most_ratio;
 } BrushedRange;

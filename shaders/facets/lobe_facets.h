@@ -39,7 +39,7 @@ typedef struct FacetTable {
 
 extern const FacetTable common_facet_table;
 
-/* At which R is asked: 1/2 - 1/2 cos((k + 1/2) pi / LOBE_FACETS). */
+/* Cosines at which R is read: 1/2 - 1/2 cos((k + 1/2) pi / LOBE_FACETS). */
 extern const float facet_cosine[LOBE_FACETS];
 
 /* Lagrange's polynomials of the facets' cosines at one. */
@@ -57,5 +57,5 @@ static inline void facet_polynomials(double x, double value[LOBE_FACETS])
 /* w: a unit direction with z > 0. alpha: of x and y, each in [SMOOTH_ALPHA, 1]. */
 LobeFacets lobe_facets(const FacetTable *table, Vec3 w, Vec2 alpha);
 
-/* The same of light from everywhere, weighted by the cosine. */
+/* The same for light from everywhere, weighted by the cosine. */
 LobeFacets mean_facets(const FacetTable *table, Vec2 alpha);

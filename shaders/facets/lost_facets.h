@@ -5,7 +5,7 @@
 #pragma once
 #include "shaders/facets/lobe_facets.h"
 
-/* Of one side at one alpha, or one pair. */
+/* Losses of one side at one alpha, or at one pair of alphas. */
 typedef struct SolidLost {
     float lost; /* of light from that direction, [0, 1] */
     float mean; /* of lost over the hemisphere, weighted by the cosine; 0: nothing is lost */

@@ -50,7 +50,7 @@ static inline Vec3 refracted(Vec3 wo, Vec3 half, float eta, float cosine, float 
     return vec3_sub(vec3_scale(half, cosine / eta - behind), vec3_scale(wo, 1 / eta));
 }
 
-/* Of a Lambert surface: density z / pi. u in [0,1)^2. */
+/* A direction of a Lambert surface, with density z / pi. u in [0,1)^2. */
 static inline Vec3 microfacet_cosine(float u0, float u1)
 {
     float sine, cosine, radius = sqrtf(u1);

@@ -55,7 +55,7 @@ static void add_facet(Vec3 wo, Vec3 half, float eta, float alpha, float share, S
                  share * (1 - passes));
 }
 
-/* Of light from a cosine in the medium against which the other's index is eta. */
+/* Light sent on from a cosine in the medium against which the other's index is eta. */
 static Sent sent_on(float cosine, float eta, float alpha, bool has_facets)
 {
     Vec3 wo = vec3(safe_sqrtf(1 - cosine * cosine), 0, cosine);
@@ -81,8 +81,8 @@ static void add_facets(LostFacets *sum, const LostFacets *from, float share)
     }
 }
 
-/* What a node counts in the mean over the hemisphere of what is linear between nodes: with
- * cos = t^2 (energy.h) the integral of 4 t^3 times the hat about the node. */
+/* A node's weight in the mean over the hemisphere of a function linear between nodes: with t =
+ * sqrt(cos) (energy.h) the integral of 4 t^3 times the hat about the node. */
 static float node_weight(int node)
 {
     const float h = 1.0f / (ENERGY_COSINES - 1);
@@ -114,7 +114,7 @@ static float fill_row(SolidSide *side, int row, float eta)
     return (float)(through / (reflected + through));
 }
 
-/* Light lost crosses as single facets let it, as far as both sides agree: radiance runs both
+/* Lost light crosses as single facets let it, as much as both sides allow: radiance runs both
  * ways alike where the flux from inside is 1/ior^2 of that from outside. */
 static void fill_rows(SolidEnergy *out, int row)
 {

@@ -39,7 +39,7 @@ const SolidEnergy *solid_energy_build(float ior, float least, float most, bool h
 const SolidEnergy *solid_energy_brushed(const SolidEnergy *even, BrushedRange range,
                                         Arena *arena);
 
-/* Of one alpha: */
+/* Losses at one alpha. */
 SolidLost solid_lost(const SolidEnergy *energy, bool is_inside, float cosine, float alpha);
 
 /* The facets of that loss and of its mean. The table must have them. */

@@ -21,7 +21,7 @@ typedef struct ThinFilm {
 /* Index of a body that absorbs nothing and reflects so much at normal incidence, [0, 1]. */
 Spectrum clear_film_body(Spectrum reflectance);
 
-/* What it reflects. n, k: of the body. cosine: outside, [0, 1]. */
+/* Reflectance. n, k: of the body. cosine: outside, [0, 1]. */
 Spectrum clear_film_at(const ThinFilm *film, const Wavelengths *wavelengths, float cosine,
                        Spectrum n, Spectrum k);
 
@@ -31,8 +31,8 @@ typedef struct FilmCrossing {
     float in_air, in_body, n;
 } FilmCrossing;
 
-/* What it reflects from either side; the rest goes through. 1 where a cosine is 0: the ray
- * grazes or is reflected totally, which a clear film does not change. */
+/* Reflectance, the same from either side; the rest goes through. 1 where a cosine is 0: the
+ * ray grazes or is reflected totally, which a clear film does not change. */
 Spectrum clear_film_between(const ThinFilm *film, const Wavelengths *wavelengths,
                             const FilmCrossing *ray);
 float    clear_film_lane(const ThinFilm *film, float nm, const FilmCrossing *ray);

@@ -25,15 +25,15 @@ typedef struct CoatingTable {
 #define COATING_PER_OCTAVE 3 /* rows of alpha; octaves are energy.h's */
 #define COATING_ALPHAS (ENERGY_OCTAVES * COATING_PER_OCTAVE + 1)
 
-/* What a rough boundary of that reflectance sends back in all, as energy.h's tables. */
+/* Energies that a rough boundary of that reflectance sends back, as energy.h's tables. */
 typedef struct CoatingEnergy {
     int          count;       /* of cosines, as of the table; COATING_ENERGY_COSINES_MAX most */
     const Curve *directional; /* COATING_ALPHAS times count */
     Curve        average[COATING_ALPHAS];
 } CoatingEnergy;
 
-/* Of a boundary between two media, over the cosine in the one of the smaller index; of a sheet,
- * over the cosine outside. */
+/* Tables of a boundary between two media, over the cosine in the one of the smaller index; of
+ * a sheet, over the cosine outside. */
 typedef struct CoatingTables {
     const CoatingTable *front;   /* reflectance, seen from outside (sheet: from its front) */
     const CoatingTable *back;    /* seen from inside (sheet: from its back); NULL: a metal's */
@@ -51,20 +51,20 @@ typedef struct PaneCoating {
     const CoatingTables *face[2][2]; /* the front's, the back's; of light s and p */
 } PaneCoating;
 
-/* What a boundary reflects of light s and p, seen from outside, and what becomes of its phases
+/* A boundary's reflectance for light s and p, seen from outside, and the effect on its phases
  * (Waves of polarisation.h). */
 typedef struct CoatingWaves {
     const CoatingTable *s, *p, *along, *turned;
 } CoatingWaves;
 
-/* What a material's coating is to each share of it; NULL: that share is bare, or is none. */
+/* The coating of each share of a material; NULL: that share is bare, or is none. */
 typedef struct SurfaceCoating {
     const CoatingTables *metal, *face, *sheet; /* face: of opaque plastic and glass */
     const CoatingTables *solid; /* the boundary of a closed solid */
     const CoatingTables *cover; /* of a display */
     const PaneCoating   *pane;  /* of a laminated one */
-    const CoatingWaves  *metal_waves, *glass_waves; /* of metal; of face or cover; NULL: nobody
-                                                       asks how light is polarised */
+    const CoatingWaves  *metal_waves, *glass_waves; /* of metal; of face or cover; NULL:
+                                                       polarisation is not wanted */
 } SurfaceCoating;
 
 /* cosine in [0, 1]. */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "shaders/layers/coating_tables.h"
 
-/* What lies behind a stack: a metal or, where that is NULL, clear glass. */
+/* A stack and the body behind it: a metal or, where that is NULL, clear glass. */
 typedef struct CoatedBody {
     const LayerStack       *stack;
     const OpticalConstants *metal;
@@ -46,7 +46,7 @@ static double cosine_of_row(int row, int count)
 
 /* ---- one wavelength of each kind of table ----------------------------------------------- */
 
-/* What tables hold, the same three for all. */
+/* One value for each table of a kind. */
 typedef struct CoatingRow {
     double front, back, through;
 } CoatingRow;
@@ -231,7 +231,7 @@ static double bend_of(const Curve *row)
     return worst;
 }
 
-/* Twice the rows; returns how far the new ones lie from the straight line between the old. */
+/* Doubles the rows; returns how much new ones differ from straight lines between the old. */
 static double refine(Curve *table[KINDS], int *count, const CoatedBody *body, RowMaker *make,
                      Arena *arena)
 {
@@ -255,7 +255,7 @@ static double refine(Curve *table[KINDS], int *count, const CoatedBody *body, Ro
     return worst;
 }
 
-/* Of the finer rows the straight lines are four times nearer. */
+/* Between the old rows; the straight lines between the finer ones are four times nearer. */
 static const double BEND_ALLOWED = 1e-3;
 
 static const CoatingTable *table_of(const Curve *row, int count, Arena *arena)

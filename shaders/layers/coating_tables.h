@@ -15,7 +15,7 @@
 /* The boundary of a closed solid. */
 const CoatingTables *coating_of_solid(const LayerStack *stack, double ior, Arena *arena);
 
-/* A sheet in the medium outside, its glass clear; stack->faces say which carry it. */
+/* A sheet in the medium outside, its glass clear; stack->faces: those that are coated. */
 const CoatingTables *coating_of_sheet(const LayerStack *stack, double ior, Arena *arena);
 
 /* A metal seen from outside: front alone. */
@@ -38,8 +38,8 @@ const CoatingTables *coating_of_face(const LayerStack *stack, double ior, AlphaS
 const CoatingWaves *coating_waves(const LayerStack *stack, double ior,
                                   const OpticalConstants *metal, Arena *arena);
 
-/* By how much a coating on a display's cover changes the reflectance of its bare glass: front
- * alone, and no share of light: it may be above 1. */
+/* Reflectance of a display's coated cover over that of its bare glass: front alone; as no
+ * share of light it may be above 1. */
 const CoatingTables *coating_of_cover(const LayerStack *stack, double ior, Arena *arena);
 
 /* The faces of a laminated pane in air (Glazing: its outermost layers, its coatings, NULL where

@@ -23,8 +23,8 @@ typedef struct Origins {
     Spectrum open, kept;
 } Origins;
 
-/* Of all points: cosines to their facets, the share of the light and what gets out of it; what
- * a white mirror has to send, and what it does. */
+/* For all points: cosines to their facets, the share of the light and what gets out of it; the
+ * light that a white mirror must send, and what it does send. */
 typedef struct LobePoints {
     int      batches;
     Spectrum facet[MEAN_BATCHES], light[MEAN_BATCHES];
@@ -156,7 +156,7 @@ static float weighted_mean(const LobePoints *p, const Spectrum value[MEAN_BATCHE
 }
 
 /* Weights of the polynomial through the values at facet_cosine, by Chebyshev's polynomials, of
- * all points' light times how far `out` is from its mean. */
+ * all points' light times the difference of `out` from its mean. */
 static void add_differences(const LobePoints *p, float mean, LobeFacets *facets)
 {
     Spectrum moment[LOBE_FACETS] = {{0}};
@@ -185,8 +185,8 @@ static void add_differences(const LobePoints *p, float mean, LobeFacets *facets)
     }
 }
 
-/* facets: without a cover. The same points tell `white` and `mirror`: of a narrow lobe, which
- * loses little, they differ little. */
+/* facets: without a cover. `white` and `mirror` are of the same points: for a narrow lobe,
+ * which loses little, they differ little. */
 static CoveredLobe cover_facets(const LobePoints *p, LobeFacets facets)
 {
     float       all = 0, mean = weighted_mean(p, p->out);

@@ -8,8 +8,8 @@
  * light that coat and sheen let in along w, `lost` is what does not come back in that lobe.
  *
  * A table would have seven dimensions: it is integrated where it is asked for, over points of
- * the lobe, but only for how far t and the sheen differ from their means over it; the rest is
- * lobe_facets.h's. That takes some microseconds.
+ * the lobe, but only for the differences of t and the sheen from their means over it; the rest
+ * is lobe_facets.h's. That takes some microseconds.
  *
  * Errors   to 85 degrees 3e-4 of the light in the mean, at most 3e-3, beside lobe_facets.h's.
  * Threads  pure functions.  Fails  never.
@@ -20,13 +20,13 @@
 #include "shaders/facets/energy.h"
 #include "shaders/facets/lobe_facets.h"
 
-/* What lies over the facets, by the cosine (energy_cosine_knot). */
+/* Coat and sheen over the facets, by the cosine (energy_cosine_knot). */
 typedef struct Cover {
     Vec2  alpha;  /* of the facets, each in [SMOOTH_ALPHA, 1] */
     Vec3  normal; /* of the coat, unit */
     float open[ENERGY_COSINES]; /* t: what the coat lets pass */
     bool  has_sheen;
-    float kept[ENERGY_COSINES]; /* what it leaves of the light; the less of both counts */
+    float kept[ENERGY_COSINES]; /* what the sheen leaves; the lesser of both counts */
 } Cover;
 
 typedef struct CoveredLobe {
@@ -37,5 +37,5 @@ typedef struct CoveredLobe {
 /* w: a unit direction with z > 0. */
 CoveredLobe covered_lobe(const Cover *cover, Vec3 w);
 
-/* Of light from everywhere, weighted by the cosine; of facets, of what came to the coat. */
+/* Means over the hemisphere, cosine-weighted; facets: of light that came to the coat. */
 CoveredLobe covered_mean(const Cover *cover);

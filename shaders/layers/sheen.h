@@ -11,7 +11,7 @@
  * would send back more than it gets (2.9 times at 0.07): there it is divided by the greater of
  * what it would send along either direction.
  *
- * SheenShare tells its albedo, and what it takes from GGX facets beneath: a facet's light is
+ * SheenShare holds its albedo, and what it takes from GGX facets beneath: a facet's light is
  * scaled by 1 - c max(albedo(wo), albedo(wi)), c the greatest of the sheen's colour. Over all
  * of the facets' light from wo that is 1 - c `all`; `shape` is the same where each facet
  * reflects as the exact Fresnel curve's shape does (energy.h; of index 1.5, near enough for
@@ -39,7 +39,7 @@ typedef struct SheenShare {
     float albedo, all, shape;
 } SheenShare;
 
-/* Of facets: by how much all and shape are above the albedo; of the mean, they themselves. */
+/* For facets, all and shape less the albedo; for the mean, all and shape themselves. */
 typedef struct SheenExcess {
     float all, shape;
 } SheenExcess;
@@ -69,6 +69,6 @@ SheenShare sheen_share(const SheenTable *table, float cosine, float alpha, float
  * that the facets send. */
 SheenShare sheen_mean(const SheenTable *table, float alpha, float base);
 
-/* What a lacquer (coat.h) over them lets out of the light that fibres send, of that which comes
- * along a direction. */
+/* Share of the light which fibres send, of that from one direction, that a lacquer (coat.h)
+ * over them lets out. */
 float sheen_open(const SheenTable *table, float cosine, float alpha, float coat_alpha);

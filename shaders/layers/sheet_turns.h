@@ -10,12 +10,12 @@
 #pragma once
 #include "spectrum/spectrum.h"
 
-/* Of a sheet: its reflectance on the side of the eye and on the other one, and what passes. */
+/* A sheet's reflectance on the side of the eye and on the other one, and what passes. */
 typedef struct SheetFaces {
     Spectrum front, rear, through;
 } SheetFaces;
 
-/* Of the light that came on the side of the eye: there again, and on the other side. */
+/* Shares of the light that came on the eye's side: sent back there, and to the other side. */
 typedef struct SheetLight {
     Spectrum back, through;
 } SheetLight;

@@ -15,8 +15,8 @@ Spectrum base_lambert_albedo(const MetallicRoughness *m)
 
 /* ---- what comes to the Lambert base ------------------------------------------------------ */
 
-/* Neither in the sheen nor back from facets: what comes to the Lambert base. reflected: what a
- * coated or filmed face sends in all, without the sheen. */
+/* Share that comes to the Lambert base, sent neither by the sheen nor by facets. reflected:
+ * what a coated or filmed face sends back in all, without the sheen. */
 static Spectrum enters_below_sheen(const MetallicView *view, Spectrum reflected, Energy e,
                                    SheenShare share)
 {
@@ -84,7 +84,7 @@ static float bare_rebound_lobe(const MetallicView *view, Energy in)
     return (1 - view->energy.all) * (1 - in.all) / missing * INV_PI_F;
 }
 
-/* Of the light that gets past the sheen, what facets hide. */
+/* Share of the light that gets past the sheen and that facets hide. */
 static float hidden_below_sheen(const MetallicRoughness *m, Energy e, SheenShare share)
 {
     return fmaxf(1 - sheen_most(m) * share.albedo - sheen_lets_through(m, e, share).all, 0);

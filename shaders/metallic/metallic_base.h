@@ -19,28 +19,28 @@
 /* Albedo of what leaves on the other side. */
 Spectrum base_lambert_across(const MetallicRoughness *m);
 
-/* Of both sides. */
+/* Albedo of both sides together. */
 Spectrum base_lambert_albedo(const MetallicRoughness *m);
 
 /* Share of the light along w that comes to the Lambert base below film, coating or sheen. */
 Spectrum base_enters_layers(const MetallicView *view, Vec3 w, Energy e);
 
-/* The part of base_diffuse that wo tells. */
+/* The factor of base_diffuse that depends on wo. */
 Spectrum base_lambert_towards(const MetallicView *view);
 
 /* The rebound's share along wi, for reflectance 1. */
 float base_rebound_lobe(const MetallicView *view, Vec3 wi, Energy in);
 
-/* What a metal leaves of it. */
+/* The share of the rebound that a metal leaves. */
 Spectrum base_metal_rebound(const MetallicRoughness *m);
 
-/* A sheet parts it by its mean reflectance over the hemisphere. */
+/* A sheet's mean reflectance: its share of the rebound on the eye's side. */
 Spectrum base_pane_mean(const MetallicView *view);
 
-/* What it lets through, likewise. */
+/* A sheet's mean transmittance, likewise. */
 Spectrum base_pane_through(const MetallicView *view);
 
-/* Of metals and sheets, on the eye's side. */
+/* The rebound of metals and sheets on the eye's side. */
 Spectrum base_rebound(const MetallicView *view, Vec3 wi, Energy in);
 
 static inline Spectrum lambert_back(const MetallicRoughness *m)
@@ -53,13 +53,13 @@ static inline bool has_lambert(const MetallicRoughness *m)
     return (1 - m->metallic) * (1 - m->transmission) > 0;
 }
 
-/* Of metals and sheets: the non-metal's is the Lambert base's. */
+/* Only metals and sheets have one: the non-metal's is in the Lambert base. */
 static inline bool has_rebound(const MetallicRoughness *m)
 {
     return m->metallic > 0 || m->transmission > 0;
 }
 
-/* Is what lets light into the Lambert base more than a bare boundary? */
+/* Is the boundary over the Lambert base more than a bare one? */
 static inline bool has_layers(const MetallicRoughness *m)
 {
     return m->coating || has_film(m) || has_sheen(m);

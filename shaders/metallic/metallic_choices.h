@@ -8,5 +8,5 @@
 #pragma once
 #include "shaders/metallic/metallic_view.h"
 
-/* Of a view whose layers are known. */
+/* The view's layers must be known. */
 MetallicChoices metallic_choose(const MetallicView *view);

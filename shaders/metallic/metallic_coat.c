@@ -83,7 +83,7 @@ SheetLight coat_sheet_rebound(const MetallicView *view)
     return (SheetLight){light.back * share, light.through * share};
 }
 
-/* What both boundaries let into the Lambert base. */
+/* Share that both boundaries let into the Lambert base. */
 static inline Spectrum let_in_coated(const MetallicFace *b, Energy e, const ThroughCoat *t)
 {
     return let_in(b, (Energy){e.all - t->share.all, e.shape - t->share.shape}) *

@@ -15,10 +15,10 @@
 
 #define COAT_UPRIGHT 0.9999f /* z of a coat's normal that is not tilted */
 
-/* What the coats of both sides do to a sheet's light along these two: share that gets in and
- * out, and share of what the sheet sends that they hold back each time. A clear sheet then
- * sends pass / (1 - held), as much as a white metal's lobe under that coat: the boosts' product
- * (coat.h), or, of smooth sheets and of what its tables do not know, the lesser share. */
+/* The effect of both sides' coats on a sheet's light along two directions: share that gets in
+ * and out, and share of what the sheet sends that they hold back each time. A clear sheet then
+ * sends pass / (1 - held), as much as a white metal's lobe under that coat: the boosts'
+ * product (coat.h), or, for smooth sheets and beyond its tables, the lesser share. */
 typedef struct CoatOnSheet {
     float pass, held;
 } CoatOnSheet;
@@ -36,8 +36,8 @@ Frame coat_frame(const MetallicRoughness *m);
 /* Rough coat: *pdf of choosing wi by it. */
 float coat_eval(const MetallicRoughness *m, Vec3 wo, Vec3 wi, float *pdf);
 
-/* Of the light that goes in and out along these, with p = (t / u)^2 the share that a lobe's
- * light gets out with each time and r the base's albedo: t t / sqrt of both 1 - r (1 - p). */
+/* Factor for light in and out along these, t t / sqrt of both 1 - r (1 - p), where p = (t /
+ * u)^2 is the share that a lobe's light gets out with each time and r the base's albedo. */
 Spectrum coat_on_metal(const MetallicRoughness *m, const ThroughCoat *out,
                        const ThroughCoat *in);
 
@@ -49,12 +49,12 @@ Spectrum coat_on_mirror(Spectrum r, float t);
 CoatOnSheet coat_on_sheet(const MetallicRoughness *m, const ThroughCoat *out,
                           const ThroughCoat *in);
 
-/* What a facet of the sheet's share sends through the coats of light along these two. */
+/* Light along these two that a facet of the sheet's share sends through the coats. */
 SheetLight coat_sheet(const MetallicView *view, float cosine,
                       const ThroughCoat *below);
 
-/* What becomes of the light that the sheet's facets hide, turns between the coats in it: share
- * of the rebound's lobe on either side. */
+/* Light that the sheet's facets hide, turns between the coats in it: share of the rebound's
+ * lobe on either side. */
 SheetLight coat_sheet_rebound(const MetallicView *view);
 
 /* The Lambert base through it; albedo: of one side. */
@@ -72,7 +72,7 @@ static inline float coat_cosine(const MetallicRoughness *m, Vec3 w)
     return fabsf(vec3_dot(m->clearcoat_normal, w));
 }
 
-/* Is there a coat, over what coat.h's tables do not know? */
+/* Is there a coat over a base that coat.h's tables do not cover? */
 static inline bool is_covered(const MetallicRoughness *m)
 {
     return m->clearcoat > 0 &&

@@ -5,7 +5,7 @@
 #include "shaders/metallic/metallic_base.h"
 #include "shaders/metallic/metallic_coat.h"
 
-/* What fibres send out of the light that the coat let in along w. */
+/* Share that fibres send out of the light that the coat let in along w. */
 static float open_fibres(const MetallicRoughness *m, float cosine)
 {
     if (!has_sheen(m)) return 0;

@@ -9,10 +9,10 @@
 #pragma once
 #include "shaders/metallic/metallic_view.h"
 
-/* What the covered lobe leaves of light along w. */
+/* The light along w that the covered lobe leaves. */
 CoveredRest covered_rest(const MetallicView *view, Vec3 w);
 
-/* The view's `covered`, once its coat is known. */
+/* Sets the view's `covered`, once its coat is known. */
 void covered_set(MetallicView *view);
 
 /* The Lambert base through the coat, in: of wi; albedo: of one side. */

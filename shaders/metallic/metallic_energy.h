@@ -26,19 +26,19 @@ float energy_even_alpha(const MetallicRoughness *m);
 /* The roughness along a direction's own azimuth. */
 float energy_own_alpha(const MetallicRoughness *m, Vec3 w);
 
-/* What a coated face sends back in all. */
+/* Share that a coated face sends back in all. */
 Spectrum energy_coated(const MetallicRoughness *m, Vec3 w);
 
 Spectrum energy_coated_average(const MetallicRoughness *m);
 
-/* What a filmed face sends back in all. */
+/* Share that a filmed face sends back in all. */
 Spectrum energy_filmed(const MetallicView *view, Vec3 w);
 
-/* Of light from everywhere; a smooth face's is that of its narrowest lobe. */
+/* Its mean over the hemisphere; a smooth face's is that of its narrowest lobe. */
 Spectrum energy_filmed_average(const MetallicView *view, float alpha);
 
-/* Of a metal every further bounce takes its mean reflectance; the mean of Schlick's curve over
- * the hemisphere is f0 + (1 - f0) / 21. */
+/* A metal's mean reflectance, which every further bounce takes; the mean of Schlick's curve
+ * over the hemisphere is f0 + (1 - f0) / 21. */
 Spectrum energy_metal_mean(const MetallicRoughness *m);
 
 static inline bool is_brushed(const MetallicRoughness *m)
@@ -56,7 +56,7 @@ static inline Vec2 facet_alphas(const MetallicRoughness *m)
     return is_brushed(m) ? alphas(m) : (Vec2){m->alpha, m->alpha};
 }
 
-/* What the base's facets send back along a direction above it, and on average. */
+/* Energies that the base's facets send back along a direction above it, and on average. */
 static inline Energy base_energy(const MetallicRoughness *m, Vec3 w)
 {
     return is_brushed(m) ? energy_brushed(m, w) : energy_directional(m->energy, w.z, m->alpha);

@@ -5,7 +5,7 @@
 #include "shaders/metallic/metallic_base.h"
 #include "shaders/metallic/metallic_covered.h"
 
-/* Of a sheet's facets: their lobe turned over to the other side, and the cosine to them. */
+/* The lobe of a sheet's facets, turned over to the other side, and the cosine to them. */
 typedef struct SheetLobe {
     float value, cosine;
 } SheetLobe;
@@ -98,7 +98,7 @@ static Spectrum base_above(const MetallicView *view, Vec3 wi, float *pdf)
 
 /* ---- to the other side ------------------------------------------------------------------- */
 
-/* What a sheet's rebound sends across below the coats of both sides, from below. */
+/* The rebound of a sheet across, below the coats of both sides, from below. */
 static Spectrum rebound_below_coat(const MetallicView *view, Vec3 wi, Energy in,
                                    const ThroughCoat *below)
 {
@@ -115,8 +115,8 @@ static Spectrum rebound_below_coat(const MetallicView *view, Vec3 wi, Energy in,
     return lobe > 0 ? coat_sheet_rebound(view).through * spectrum_all(lobe) : spectrum_all(0);
 }
 
-/* What goes through a coated sheet, but for what a smooth one passes straight on. bare: what
- * would where no coat lies. lobe: of its facets; cosine: at which they are met. */
+/* Light through a coated sheet, but for what a smooth one passes straight on. bare: the same
+ * where no coat lies. lobe: of its facets; cosine: at which they are met. */
 static Spectrum below_coat(const MetallicView *view, Vec3 wi, Energy in, Spectrum bare,
                            const SheetLobe *lobe)
 {

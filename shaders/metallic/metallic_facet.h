@@ -24,10 +24,10 @@ Spectrum facet_sheet_at(const MetallicRoughness *m, float cosine);
 /* The non-metal's share, where it is coated. */
 Spectrum facet_coated(const MetallicRoughness *m, float cosine);
 
-/* A metal, whatever its share. */
+/* A metal, not times its share. */
 Spectrum facet_metal_at(const MetallicRoughness *m, float cosine);
 
-/* What the sheet's share lets through a facet met at `cosine`. */
+/* Light that the sheet's share lets through a facet met at `cosine`. */
 Spectrum facet_through(const MetallicRoughness *m, const MetallicFace *b,
                        float cosine);
 

@@ -9,8 +9,8 @@
 /* Filled where it stands: it is large, and a plain surface needs little of it. */
 void metallic_look(MetallicView *view, const MetallicRoughness *m, Vec3 wo);
 
-/* What was kept, if it is of this eye; else what is made now. A copy of the material may still
- * point at what was kept for the first. */
+/* The view that was kept, if it is of this eye; else one made now in *own. A copy of the
+ * material may still point at the view of the first. */
 static inline const MetallicView *metallic_seen(const MetallicRoughness *m, Vec3 wo,
                                                 MetallicView *own)
 {

@@ -12,22 +12,22 @@
 #pragma GCC diagnostic push /* inline: no vector goes from one file to another */
 #pragma GCC diagnostic ignored "-Wpsabi"
 
-/* No lane takes more than what lies beneath is made to miss. */
+/* The sheen's colour per lane, at most sheen_most: what lies beneath is scaled by that. */
 Spectrum sheen_tint(const MetallicRoughness *m);
 
-/* What fibres send along a direction, and facets beneath of it. */
+/* Share that fibres send along a direction, and that they take from facets beneath. */
 SheenShare sheen_towards(const MetallicRoughness *m, Vec3 w);
 
 /* Share of light along these two that a facet beneath keeps. */
 float sheen_leaves(const MetallicView *view, Vec3 wi);
 
-/* What facets send of light from a direction, or in the mean, through the sheen. */
+/* Energies that facets send through the sheen, from a direction or in the mean. */
 Energy sheen_lets_through(const MetallicRoughness *m, Energy e, SheenShare share);
 
 /* Share of light at a cosine that gets past the fibres. */
 float sheen_kept(const MetallicRoughness *m, float cosine);
 
-/* What fibres send from wi towards the eye. */
+/* The fibres' lobe from wi towards the eye. */
 Spectrum sheen_fibres(const MetallicView *view, Vec3 wi);
 
 static inline float sheen_most(const MetallicRoughness *m)

@@ -13,7 +13,7 @@
 
 struct MetallicView; /* metallic_view.h */
 
-/* All members are set by whoever builds it; metallic_roughness_default() is a start. */
+/* All members are set by the caller; metallic_roughness_default() is a start. */
 typedef struct MetallicRoughness {
     Spectrum base_color;       /* [0, 1]: albedo; of metals, reflectance at normal incidence */
     Spectrum specular_color;   /* >= 0: multiplies the dielectric's F0 */
@@ -33,7 +33,7 @@ typedef struct MetallicRoughness {
     const Wavelengths    *wavelengths;   /* NULL where coating is, without film, across and
                                              sheen */
     const OpticalConstants *film_metal; /* under a film; NULL: by the colour */
-    ThinFilm film;        /* where coating does not tell; share 0: none */
+    ThinFilm film;        /* where there is no coating; share 0: none */
     bool  seen_from_back;                /* of a coated sheet */
     float across;          /* [0, 1]: share of diffuse light that leaves on the other side */
     float across_color[3]; /* its albedo, linear Rec.709, [0, 1]; wants wavelengths */

@@ -19,14 +19,14 @@ typedef struct MetallicChoices {
     float coat, mirror, diffuse, through, across, sheen;
 } MetallicChoices;
 
-/* What the coat does to light along one direction. */
+/* The coat's effect on light along one direction. */
 typedef struct ThroughCoat {
     float     open; /* share that its boundary lets pass */
     CoatShare share;
 } ThroughCoat;
 
-/* What neither fibres nor facets of a white base send out through the coat: the Lambert base's
- * or, of a metal, the rebound's. */
+/* Light that neither fibres nor facets of a white base send out through the coat: the Lambert
+ * base's or, of a metal, the rebound's. */
 typedef struct CoveredRest {
     Spectrum base;
     float    metal;
@@ -49,7 +49,7 @@ typedef struct MetallicView {
     float           coat;   /* the coat's albedo towards wo, times its share */
     ThroughCoat     through; /* the coat, and of it all: */
     CoatMean        coat_mean;
-    Spectrum        lambert; /* of what leaves the Lambert base, the part that wo tells */
+    Spectrum        lambert; /* the factor of the Lambert base's light that depends on wo */
     Spectrum        coated;  /* what a coated or filmed face sends back towards wo */
     Spectrum        film[LOBE_FACETS]; /* filmed faces' reflectance at facet_cosine */
     SheenShare      sheen, sheen_mean; /* towards wo; over the hemisphere */

@@ -32,8 +32,8 @@ static float height_root(int height)
     return ((float)height + 0.5f) / HEIGHTS;
 }
 
-/* What is sent to each height. Light is thickest where it leaves on the near side: turns stand
- * closer there. Without a table it is not bounded. */
+/* Integrates what is sent to each height. Light is thickest where it leaves on the near side:
+ * turns stand closer there. Without a table it is not bounded. */
 static void integrate_heights(const SheenTable *table, float cosine, float alpha,
                               double sent[HEIGHTS])
 {

@@ -7,8 +7,8 @@
 
 #include "bvh/embree_version.h"
 
-/* Two geometries: opaque triangles, which nobody asks about, and the others, whose shadow rays
- * are put to BvhPasses. Scene.triangles holds them in this order. */
+/* Two geometries: opaque triangles, which always stop light, and the others, for which shadow
+ * rays call BvhPasses. Scene.triangles holds them in this order. */
 enum { GEOMETRY_OPAQUE, GEOMETRY_ASKED, GEOMETRY_COUNT };
 
 struct Bvh {
@@ -180,7 +180,7 @@ static RTCScene new_scene(RTCDevice device)
     return scene;
 }
 
-/* How much of the tree stands, told by any of Embree's threads. */
+/* Progress of the tree, reported by any of Embree's threads. */
 typedef struct TreeProgress {
     atomic_flag busy;
     Progress    progress;
@@ -202,7 +202,7 @@ static void commit(RTCScene tree, const char *what, double triangles, ProgressMo
     if (mode != PROGRESS_NONE) rtcSetSceneProgressMonitorFunction(tree, report, &building);
     rtcCommitScene(tree);
     rtcSetSceneProgressMonitorFunction(tree, NULL, NULL);
-    while (atomic_flag_test_and_set(&building.busy)) { /* what they wrote comes before now */
+    while (atomic_flag_test_and_set(&building.busy)) { /* now all they wrote is visible */
     }
     if (building.progress.shown_columns) progress_clear(&building.progress);
 }

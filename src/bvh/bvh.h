@@ -20,12 +20,12 @@ typedef struct Bvh Bvh;
 /* threads: for building, at least 1. isa: NULL (the best there is), "sse2", "sse4.2", "avx",
  * "avx2" or "avx512". */
 bool bvh_create(const Scene *scene, int threads, const char *isa, Bvh **out, Error *err);
-/* The same, and shows how far it is, until it is done. */
+/* The same with a progress line until it is done. */
 bool bvh_build(const Scene *scene, int threads, const char *isa, ProgressMode progress,
                Bvh **out, Error *err);
 void bvh_destroy(Bvh *bvh);
 
-/* How many threads it was built with: what else is made before the first path may have them. */
+/* Number of threads that it was built with: other work before the first path may use them. */
 int bvh_threads(const Bvh *bvh);
 
 /* The nearest hit in [t_min, t_max]; false: none. Both sides of a triangle are hit. Of
@@ -33,7 +33,7 @@ int bvh_threads(const Bvh *bvh);
  * may let light through are left out before this t. */
 bool bvh_intersect(const Bvh *bvh, Ray ray, float sheets_from, Hit *hit);
 
-/* Asked of every triangle that may let light through (Scene.triangles from opaque_count on)
+/* Called for every triangle that may let light through (Scene.triangles from opaque_count on)
  * that a shadow ray meets, in no order. True: go on behind it. */
 typedef bool BvhPasses(void *user, const Hit *hit);
 
@@ -45,11 +45,11 @@ bool bvh_occluded(const Bvh *bvh, Ray ray, BvhPasses *passes, void *user);
  * may only be called then. */
 bool bvh_has_sheets(const Bvh *bvh);
 
-/* Asks of every triangle in [t_min, t_max] that may let light through, whatever else is there,
- * until one says false. */
+/* Calls `asked` for every triangle in [t_min, t_max] that may let light through, past opaque
+ * ones too, until it returns false. */
 void bvh_ask_sheets(const Bvh *bvh, Ray ray, BvhPasses *asked, void *user);
 
-/* For measuring: every ray asked from now on is kept until the recorder is full, with whether
+/* For measuring: every ray traced from now on is kept until the recorder is full, with whether
  * it was a shadow ray. One thread only. NULL: stop. */
 typedef struct BvhRecorder {
     Ray    *rays;

@@ -18,7 +18,7 @@ typedef struct Hit {
     uint32_t triangle; /* index into Scene.triangles */
 } Hit;
 
-/* What a frame's pixel covers around a ray, as a cone: its width across the ray, m, is `width`
+/* The cone around a ray that a frame's pixel covers: its width across the ray, m, is `width`
  * at the ray's origin and grows by `spread` a metre. Both 0: the ray is of no frame. */
 typedef struct RayCone {
     float width, spread;

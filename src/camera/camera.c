@@ -57,7 +57,7 @@ SceneCamera camera_look_at(Vec3 eye, Vec3 target, float yfov)
 #define FRAMING_YFOV 0.7f
 #define FRAMING_MARGIN 1.15f
 
-/* Where the displays are and whereto they face: areas as vectors along their normals. */
+/* Where the displays are and which way they face: areas as vectors along their normals. */
 typedef struct DisplayView {
     Vec3  low, high;
     Vec3  facing, largest; /* m2: the sum, and that of the largest part */

@@ -21,7 +21,7 @@ Camera camera_from_scene(const SceneCamera *camera, int width, int height);
 /* x, y: film position in pixels, 0 <= x <= width. The direction has unit length. */
 Ray camera_ray(const Camera *camera, float x, float y);
 
-/* Of a ray through the middle of the frame; others' pixels are a little narrower. */
+/* A pixel's cone around the frame's middle ray; others are a little narrower. */
 RayCone camera_cone(const Camera *camera);
 
 /* A camera at `eye` that looks at `target`, both in the scene's metres, +Y up (-Z where it
@@ -31,5 +31,5 @@ SceneCamera camera_look_at(Vec3 eye, Vec3 target, float yfov);
 /* For scenes that have no camera: sees the displays from their front, at a distance at which
  * all of them are in view; else the whole scene from its front (+Z), slightly from above;
  * without triangles from the origin along -Z. Displays that face apart are seen from the front
- * of the largest; what stands between is not looked for. The camera's name says which. */
+ * of the largest; occlusion is not tested. The camera's name records which. */
 SceneCamera camera_frame_scene(const Scene *scene);

@@ -22,7 +22,7 @@ static void add_point(const Camera *camera, Vec3 seen, FilmBox *box)
                      fmaxf(box->y1, y)};
 }
 
-/* From a up to b, without b. */
+/* Adds the edge from a to b, without b. */
 static void add_edge(const Camera *camera, Vec3 a, Vec3 b, FilmBox *box)
 {
     bool sees_a = a.z >= NEAREST_M, sees_b = b.z >= NEAREST_M;

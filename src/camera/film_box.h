@@ -12,5 +12,5 @@ typedef struct FilmBox {
 } FilmBox;
 
 /* The smallest box around all of the part that faces the camera, within the frame; false where
- * nothing does. What stands before it is not looked for. */
+ * nothing does. Occlusion is not tested. */
 bool film_box_of_part(const Camera *camera, const Scene *scene, int part_id, FilmBox *out);

@@ -211,8 +211,8 @@ static const FilmLight *brightest_light(const FilmSample *sample)
     return most;
 }
 
-/* The brightest one has what the others leave of the sample: they add up to it. Where one of
- * them is out of range it has all. */
+/* The brightest group gets what the others leave of the sample, so that all add up to it;
+ * where one of them is out of range, it gets everything. */
 static void add_lights(const Film *film, PixelSums *sums, const FilmSample *sample)
 {
     const FilmLight *most = brightest_light(sample);

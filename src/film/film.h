@@ -33,7 +33,7 @@ Film *film_create(int width, int height, FilmRect crop, unsigned layers,
 size_t film_bytes(FilmRect crop, unsigned layers, int light_count);
 
 /* x, y: pixel inside the crop. Members that no layer asks for need not be set, but display_id
- * is always looked at when hit is true. */
+ * is always read when hit is true. */
 void film_add_sample(Film *film, int x, int y, const FilmSample *sample);
 
 /* ---- what is in it ----------------------------------------------------------------------- */
@@ -50,14 +50,14 @@ typedef struct FilmPixel {
 
 FilmPixel film_pixel(const Film *film, int x, int y);
 
-/* How sure the frame is: the mean over pixels of sigma / max(Y, Y_low). Y_low is half the
+/* The relative error: the mean over pixels of sigma / max(Y, Y_low). Y_low is half the
  * frame's key, the geometric mean of the luminances above zero (Reinhard et al. 2002): the
  * noise of deep shadows is judged against what an eye adapted to the frame sees, the same as
  * the 0.01 in the usual relMSE when the key is exposed to 0.18; a sun in view does not move it.
  * A pixel of fewer than two samples counts 1.
  * From 32 samples on sigma comes from the difference of two halves of the samples, in
  * interleaved blocks of 16: scrambled Sobol points are better than independent ones, and the
- * difference knows it. Below, from the samples' spread as if they were independent, taken as
+ * difference shows it. Below, from the samples' spread as if they were independent, taken as
  * 0.21 sigma_R + 0.72 sigma_G + 0.07 sigma_B: too much rather than too little. */
 typedef struct FilmError {
     double frame;

@@ -12,13 +12,13 @@
 #define CHANNELS_MAX 64 /* besides those of lights */
 #define FILL_PIXELS 64  /* whose sums stay in a cache while all layers read them */
 
-/* What a pixel shows: three numbers at most. */
+/* Reads at most three numbers of a pixel. */
 typedef void PixelReader(const Film *film, const PixelSums *sums, float values[3]);
 
-/* What else is read: XYZ of one light's group, or the mean of a layer's sums. */
+/* How a layer is read: by a PixelReader, as its sums' mean, or as XYZ of a group of lights. */
 typedef enum ChannelKind { KIND_READ, KIND_MEAN, KIND_LIGHT } ChannelKind;
 
-/* Where the values of a layer are from. */
+/* The source of a layer's values. */
 typedef struct ChannelSource {
     ChannelKind    kind;
     PixelReader *read;
@@ -90,7 +90,7 @@ static void read_mean(const Film *film, const PixelSums *sums, LayerSums layer, 
     else memcpy(v, mean, sizeof mean);
 }
 
-/* Of samples that had none of it too: a mean over all, as the frame's own. */
+/* A mean over all samples, also those without such light, as the frame's own. */
 static void read_light(const Film *film, const PixelSums *sums, int group, float v[3])
 {
     float xyz[3];
@@ -140,7 +140,7 @@ static void take_sums(const Film *film, const PixelSums *sums, LayerSums layer, 
     for (int i = 0; i < 3; i++) left[i] -= sums->layers[film->first[layer] + i];
 }
 
-/* What is not by way of the mirror. */
+/* Reflected light that did not come by way of the mirror. */
 static void read_scattered(const Film *film, const PixelSums *sums, float v[3])
 {
     Fixed left[3];
@@ -151,7 +151,7 @@ static void read_scattered(const Film *film, const PixelSums *sums, float v[3])
     rgb_from_xyz(xyz, v);
 }
 
-/* And of that, what is not the panel's lambertian part. */
+/* The same without the panel's lambertian part. */
 static void read_haze(const Film *film, const PixelSums *sums, float v[3])
 {
     Fixed left[3];
@@ -224,7 +224,7 @@ static void read_stokes(const Film *film, const PixelSums *sums, float v[3])
     if (!sums->samples) v[0] = v[1] = v[2] = 0;
 }
 
-/* Noise adds to it: S1, S2 and S3 are squared. */
+/* Noise raises it: S1, S2 and S3 are squared. */
 static void read_degree(const Film *film, const PixelSums *sums, float v[3])
 {
     float xyz[3], s[3];

@@ -34,12 +34,12 @@
  *   display.halves   the same of display.reflected, over the samples that saw a display. */
 FrameImage film_to_frame(const Film *film, int attribute_room, Arena *arena);
 
-/* Bytes that the frame of a film takes at most, whatever its layers. */
+/* An upper bound of the bytes that a film's frame takes. */
 size_t film_frame_bytes_most(const Film *film);
 
-/* What a viewer is shown: R, G, B, the layers if it has them, and error.Y: the standard error
- * of each pixel's luminance, as film_pixel has it (sigma_y), cd m^-2; NaN below two samples. */
+/* The frame for a viewer: R, G, B, the layers if has_layers, and error.Y, the standard error
+ * of each pixel's luminance, as film_pixel's sigma_y, cd m^-2; NaN below two samples. */
 FrameImage film_to_view(const Film *film, bool has_layers, Arena *arena);
 
-/* Its channels with layers, in their order, and not one pixel. */
+/* The channels of film_to_view with layers, in their order, without pixels. */
 FrameImage film_view_outline(const Film *film, Arena *arena);

@@ -30,7 +30,7 @@ static bool check_overlap(const FilmPart *a, const FilmPart *b, Error *err)
 
 /* ---- gaps -------------------------------------------------------------------------------- */
 
-/* What all parts together are to fill. */
+/* The pixels and samples that all parts together must fill. */
 static FilmPart hull(const FilmPart *parts, int count)
 {
     FilmPart all = parts[0];

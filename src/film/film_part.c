@@ -77,7 +77,7 @@ static void add_sum(NameList *list, const char *name)
         add_name(list, arena_format(list->arena, "%s.%d", name, word));
 }
 
-/* As the words of a pixel follow each other; how many makes no difference to the room. */
+/* Names of a pixel's words in their order; the room is that of all layers. */
 static ExrWords name_words(const FilmPart *part, Arena *arena)
 {
     unsigned layers = part->layers;
@@ -95,9 +95,9 @@ static ExrWords name_words(const FilmPart *part, Arena *arena)
     return (ExrWords){.name = PART_NAME, .count = list.count, .names = list.names};
 }
 
-/* ---- what is said of them ---------------------------------------------------------------- */
+/* ---- attributes -------------------------------------------------------------------------- */
 
-/* What the sums mean: another program's are refused when it differs. */
+/* The meaning of the sums: those of another program are refused when it differs. */
 static const char *layout_text(Arena *arena)
 {
     return arena_format(arena, "1: sums in steps of 2^%d, squares of 2^%d and from %a on 2^%d, "
@@ -129,7 +129,7 @@ static const char *cost_text(const FilmPart *part, Arena *arena)
                         (unsigned long long)part->shadow_rays);
 }
 
-/* A line each. */
+/* One name a line. */
 static const char *lights_text(const FilmLights *lights, Arena *arena)
 {
     const char *text = "";
@@ -164,7 +164,7 @@ static void make_texts(const FilmPart *part, const char *texts[TEXT_COUNT], Aren
 
 /* ---- the checksum ------------------------------------------------------------------------ */
 
-/* Of what is said; the sums of its rows are added, in any order. */
+/* Checksum of the attributes; those of the rows are added to it, in any order. */
 static uint64_t checksum_of_texts(const FilmPart *part, const char *const texts[TEXT_COUNT])
 {
     uint64_t checksum = part->layers;
@@ -259,7 +259,7 @@ static bool is_there(const char *name, const FilmLights *lights)
     return false;
 }
 
-/* The lines of the text. */
+/* One name a line, none twice. */
 static bool read_lights(const char *text, Arena *arena, FilmLights *out)
 {
     const char **names = ARENA_NEW(arena, const char *, FILM_LIGHTS_MAX);

@@ -21,7 +21,7 @@
  *          and words that are one channel each: samples, hits, displayHits, odd.samples, the
  *          lowest sample index that hit a part, or saw a display, and which (4294967295: none):
  *          part.sample, part.id, display.sample, display.id.
- *          Attributes say the sizes of the steps, the layers, the samples' range, what was
+ *          Attributes state the sizes of the steps, the layers, the samples' range, what was
  *          dropped, what it cost, and a checksum of all of it; with groups of lights also their
  *          names, a line each.
  * Memory   the arena's; reading takes bands of rows, not the whole part.
@@ -47,7 +47,7 @@ typedef struct FilmPart {
 /* Pixels times samples. */
 uint64_t film_part_volume(const FilmPart *part);
 
-/* Of a film that has had samples [first_sample, end_sample); name and costs are left empty. */
+/* Describes a film of samples [first_sample, end_sample); name and costs are left empty. */
 FilmPart film_part_of(const Film *film, uint32_t first_sample, uint32_t end_sample);
 
 /* Lets the frame carry the film's sums into its file. The film must stay as it is until the
@@ -68,13 +68,13 @@ typedef struct FilmPartReader {
  * lights are the arena's. */
 bool film_part_open(const char *path, Arena *arena, FilmPartReader *out, Error *err);
 
-/* Adds the next band of rows to a film of the same layers whose crop holds the part's. With the
- * last band come the dropped samples and the look at the checksum: until then, and after a
- * failure, the film is worth nothing. */
+/* Adds the next band of rows to a film of the same layers whose crop holds the part's. With
+ * the last band come the dropped samples and the check of the checksum: until then, and after
+ * a failure, the film is worth nothing. */
 bool film_part_add_band(FilmPartReader *from, Film *to, Arena scratch, Error *err);
 
-/* Whether the file goes on to its end: reads the last rows alone. A look that costs little;
- * what lies before them is not compared with the checksum. */
+/* Whether the file goes on to its end: reads the last rows alone. This costs little; what lies
+ * before them is not compared with the checksum. */
 bool film_part_check_end(const FilmPartReader *from, Arena scratch, Error *err);
 
 void film_part_close(FilmPartReader *from);

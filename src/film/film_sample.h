@@ -8,14 +8,14 @@
 #define FILM_DROPPED_KEPT 8
 #define FILM_LIGHTS_MAX 256
 
-/* What one group of lights gave to a sample. */
+/* Light of one group in a sample. */
 typedef struct FilmLight {
     int   group; /* index into the film's */
     float xyz[3]; /* cd m^-2 */
 } FilmLight;
 
-/* What one sample of one pixel saw. Everything that belongs to a display is of the FIRST
- * surface the camera ray met (windows passed straight through do not count). */
+/* One sample of one pixel. Everything that belongs to a display is of the FIRST surface the
+ * camera ray met (windows passed straight through do not count). */
 typedef struct FilmSample {
     uint32_t sample_index; /* of the pixel: settles which id is shown, and the replay hint */
     float xyz[3];          /* cd m^-2 */

@@ -9,7 +9,7 @@
 
 _Static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "the lower bytes come first");
 
-/* Of a pixel with all layers. */
+/* Numbers of a pixel with all layers. */
 #define MOST_NUMBERS                                                                           \
     (sizeof(PixelSums) / sizeof(Fixed) + 4 * SUMS_COUNT + 3 * FILM_LIGHTS_MAX)
 

@@ -9,7 +9,7 @@
  *     widths   one byte a number, 0 to 16
  *     columns  for each number: its lower `width` bytes of every pixel, left to right
  *
- * Layout   the machine's own byte order and PixelSums: film_pixel_bytes and the layers say
+ * Layout   the machine's own byte order and PixelSums: film_pixel_bytes and the layers decide
  *          whether another program's rows can be meant for this one.
  * Memory   the caller's.  Threads  one film belongs to one thread.
  * Fails    on rows that no film packs, and on sums that no samples make.

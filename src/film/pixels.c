@@ -87,8 +87,8 @@ static double sigma_of_spread(const double variance_rgb[3])
            0.0722 * sqrt(variance_rgb[2]);
 }
 
-/* One difference d of two normal means says sigma only in the mean over pixels, where
- * E|d| = sqrt(2 / pi) sigma_d. */
+/* One difference d of two normal means gives sigma only in the mean over pixels, where E|d| =
+ * sqrt(2 / pi) sigma_d. */
 static double sigma_of_halves(double difference)
 {
     return 1.2533141373155003 * fabs(difference);

@@ -16,7 +16,7 @@ uint32_t guide_cell_at(const LightGuide *guide, Vec3 position)
     return guide->nodes[node].cell;
 }
 
-/* (1 - c)^5 of Schlick's Fresnel curve, about, for c^2: without a root. */
+/* (1 - c)^5 of Schlick's Fresnel curve, approximated from c^2 without a root. */
 static inline Spectrum grazing(Spectrum cosine2)
 {
     Spectrum rest = spectrum_all(1) - cosine2;

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* guide.h -- from where light comes, learnt for parts of the space: a field of directions that
- * paths are led by.
+ * guides paths.
  *
  * The scene's box is cut into cells by a tree of halves. A cell knows the radiance that arrives
- * from each of 256 bins of direction, from the sky that is seen there by itself and from all
- * else by itself: squares of the octahedral map of the whole sphere, on
- * which a direction d has the coordinates d / (|x| + |y| + |z|), the lower half turned up into
- * the corners (Cigolle et al. 2014, "A Survey of Efficient Representations for Independent Unit
- * Vectors"). A piece dA of the map is the solid angle (|x| + |y| + |z|)^3 dA.
+ * from each of 256 bins of direction, for the sky that is seen there and for all other light
+ * separately. Bins are squares of the octahedral map of the whole sphere, on which a direction
+ * d has the coordinates d / (|x| + |y| + |z|), the lower half turned up into the corners
+ * (Cigolle et al. 2014, "A Survey of Efficient Representations for Independent Unit Vectors").
+ * A piece dA of the map is the solid angle (|x| + |y| + |z|)^3 dA.
  * Besides, a cell knows how often a surface in it should sample each set of lights, and which
  * lamps light it.
  * A surface's own density is the product of that with what it scatters, bin by bin.
@@ -26,11 +26,10 @@
 
 #define GUIDE_LIGHTS 4 /* sets of lights that a surface may sample */
 
-/* What a surface looks for: light that comes by way of other surfaces, or the sky, straight or
- * through windows. */
+/* Light that a surface looks for: by other surfaces, or from the sky, also through windows. */
 typedef enum GuideAim { GUIDE_LIGHT, GUIDE_SKY, GUIDE_AIMS } GuideAim;
 
-/* Whole numbers: a view reads all bins, and as floats they would be twice as far to fetch. */
+/* Whole numbers: a view reads all bins, and floats would be twice as many bytes to fetch. */
 typedef uint16_t GuideRow __attribute__((vector_size(2 * GUIDE_SIDE), aligned(32)));
 
 /* Lamps that light a cell, and how much of their light arrives in it. */
@@ -72,7 +71,7 @@ typedef struct LightGuide {
 typedef struct GuideChoice {
     Spectrum weight[GUIDE_SIDE]; /* of every bin */
     Spectrum column;             /* their sums */
-    float    sum;                /* 0: nothing to go by */
+    float    sum;                /* 0: there are none */
 } GuideChoice;
 
 /* The guide as one surface sees it. */
@@ -83,7 +82,7 @@ typedef struct GuideView {
 /* Id of the cell in which a point lies; points outside belong to a cell at the edge. */
 uint32_t guide_cell_at(const LightGuide *guide, Vec3 position);
 
-/* A surface about, and the eye: what it scatters from every direction to wo. */
+/* A simplified surface and the eye's direction: its light from every direction to wo. */
 typedef struct GuideSurface {
     Vec3  ns, wo;          /* unit, world, on the same side */
     float diffuse;         /* Lambert's albedo */
@@ -93,13 +92,13 @@ typedef struct GuideSurface {
 void guide_view(const LightGuide *guide, uint32_t cell, const GuideSurface *surface,
                 GuideView *view);
 
-/* Of a unit direction: density with which guide_sample chooses it. */
+/* The density with which guide_sample chooses a unit direction. */
 float guide_pdf(const GuideChoice *choice, Vec3 wi);
 
 /* u0, u1 in [0, 1). The choice's sum must be above 0. */
 Vec3 guide_sample(const GuideChoice *choice, float u0, float u1);
 
-/* The middles of all bins. */
+/* Sets the middles of all bins. */
 void guide_place_bins(LightGuide *guide);
 
 /* A direction in a bin, for u0, u1 in [0, 1): its place in the square. */

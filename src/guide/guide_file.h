@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* guide_file.h -- a guide as a file, and as a number that tells it from others.
+/* guide_file.h -- a guide as a file, and its hash.
  *
  * The file: a head (magic, version, counts, hash), the tree's nodes, then every cell's bins,
  * probabilities and lamps; numbers little-endian as they lie. A reader takes nothing on trust:
@@ -12,12 +12,12 @@
 
 #define GUIDE_VERSION 3u
 
-/* All that decides where a guide leads; never 0. */
+/* A hash of all that decides a guide's choices; never 0. */
 uint64_t guide_hash(const LightGuide *guide);
 
 bool guide_write(const char *path, const LightGuide *guide, Arena scratch, Error *err);
 
-/* What the scene has, so that cells must ask for it now and then. */
+/* Lights of the scene: cells must ask for them now and then. */
 typedef struct GuideScene {
     bool has[GUIDE_LIGHTS]; /* lights of the set */
     int  light_count;       /* ids of lamps are below this, */

@@ -31,7 +31,7 @@ static int widest(const GuidePlace *places, uint32_t count)
            : variance[1] >= variance[2] ? 1 : 2;
 }
 
-/* Puts places below `plane` first; how many they are. Keeps no order. */
+/* Puts places below `plane` first; returns how many they are. Keeps no order. */
 static uint32_t below(GuidePlace *places, uint32_t count, int axis, float plane)
 {
     uint32_t low = 0;
@@ -44,7 +44,7 @@ static uint32_t below(GuidePlace *places, uint32_t count, int axis, float plane)
     return low;
 }
 
-/* The value in the middle of sorted ones: by halving the range of values. */
+/* The median, by halving the range of values. */
 static float median(const GuidePlace *places, uint32_t count, int axis)
 {
     float low = coordinate(&places[0], axis), high = low;
@@ -133,7 +133,7 @@ void guide_training_ask(GuideTraining *training, int round)
     }
 }
 
-/* Of the rays into a bin: the sum of the luminances they found, and how many they are. */
+/* Sum of the luminances that rays into a bin found, and the number of rays. */
 typedef struct BinFinds {
     double sum, count;
 } BinFinds;
@@ -143,8 +143,8 @@ static BinFinds finds_of(const GuideLesson *lesson, GuideAim aim, int bin)
     return (BinFinds){(double)lesson->sums[aim][bin], lesson->counts[bin]};
 }
 
-/* Few rays of its own find a small light by luck: the neighbours', who see much the same, count
- * a little too. */
+/* Few rays of its own find a small light by luck: those of neighbours, which see much the
+ * same, count a little, too. */
 static BinFinds with_neighbours(const GuideTraining *training, uint32_t cell, GuideAim aim,
                                 int bin)
 {

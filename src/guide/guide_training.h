@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* guide_training.h -- a guide learns, cell by cell, from where light comes.
  *
- * First the places are told that paths from the camera come by: they make the tree, whose cells
- * hold about as many places each. Then, in rounds, light is looked for from some of the places
- * of every cell in all directions; what a round found leads the paths of the next. A cell's
- * lesson is one thread's, so that the threads decide nothing.
+ * First the places where paths from the camera scatter make the tree, whose cells hold about as
+ * many places each. Then, in rounds, light is looked for from some of the places of every cell
+ * in all directions; what a round found guides the paths of the next. A cell's lesson is one
+ * thread's, so that the threads decide nothing.
  *
  * Memory   from the arena.
  */
@@ -18,7 +18,7 @@ typedef struct GuidePlace {
 
 #define GUIDE_POINTS 4 /* of a cell in a round */
 
-/* What is asked of one cell in a round, and what was found. */
+/* Points of one cell that a round asks from, and what was found. */
 typedef struct GuideLesson {
     GuidePlace points[GUIDE_POINTS];
     int        point_count;
@@ -33,8 +33,8 @@ typedef struct GuideTraining {
     GuideLesson *lessons;
 } GuideTraining;
 
-/* A guide that leads nobody yet, of `count` places, which are put into another order. At most
- * `most` places a cell, as far as they lie apart. */
+/* A guide that is not trained yet, over `count` places, which are put into another order. At
+ * most `most` places a cell, unless they coincide or GUIDE_CELLS_MAX is reached. */
 GuideTraining *guide_training_start(GuidePlace *places, uint32_t count, uint32_t most,
                                     Arena *arena);
 
@@ -52,5 +52,5 @@ void guide_training_ask(GuideTraining *training, int round);
 /* Makes the guide of what was found so far. */
 void guide_training_learn(GuideTraining *training);
 
-/* Illuminance, lx, of the cell's points by what the lessons found but the sky, their mean. */
+/* Mean illuminance, lx, of the cell's points by what the lessons found, without the sky. */
 double guide_training_illuminance(const GuideTraining *training, uint32_t cell);

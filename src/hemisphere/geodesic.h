@@ -10,7 +10,7 @@
  * Octant    bit 0: x < 0, bit 1: y < 0; its corners are the x, y and z axis in this order. All
  *           octants are mirror images of octant 0, and so is the numbering inside them: a
  *           function that is symmetric in y needs octants 0 and 1 only (the lower half of ids).
- * Frame     +z is the pole. Directions need not be normalised unless said; z < 0 counts as 0.
+ * Frame     +z is the pole. Directions need not be normalised unless stated; z < 0 counts as 0.
  * Units     areas in sr.
  * Threads   a Geodesic is constant after geodesic_create.
  *
@@ -39,7 +39,7 @@ typedef struct GeodesicRatios {
     float of_child[4];
 } GeodesicRatios;
 
-/* What depends on the level only: built once, shared by every tree of this level or less. */
+/* Tables that depend on the level only, shared by every tree of this level or less. */
 typedef struct Geodesic {
     int                   level; /* of the finest triangles */
     const GeodesicEdges  *edges[GEODESIC_MAX_LEVEL + 1];  /* levels < level: 4^level each */
@@ -134,7 +134,7 @@ void geodesic_areas(int level, double *areas);
 uint32_t geodesic_neighbour(int level, uint32_t id, int corner);
 #define GEODESIC_NONE UINT32_MAX
 
-/* What drawing from a spherical triangle needs to know of it. area: of the triangle, sr. */
+/* Constants of a spherical triangle for sampling it. area: of the triangle, sr. */
 typedef struct GeodesicSampler {
     Vec3  a, b;   /* corners 0 and 1 */
     Vec3  across; /* unit, from corner 0 along the arc to corner 2 */

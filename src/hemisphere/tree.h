@@ -2,7 +2,7 @@
 /* tree.h -- a vector-valued function on the hemisphere as a compressed tree.
  *
  * Two bases stand behind one view: Haar trees (this header) and vertex trees (vertex_tree.h).
- * tree_open and tree_query.h take either; the blob's magic number says which one it is. Here is
+ * tree_open and tree_query.h take either; the blob's magic number distinguishes them. Here is
  * what both are made of; tree/tree_build.h and vertex/vertex_tree_build.h make them.
  *
  * tree_build transforms leaf values (haar.h), keeps the details that matter most, and writes
@@ -50,7 +50,7 @@ typedef struct TreeOptions {
     TreeRowFormat rows;
 } TreeOptions;
 
-/* What came out. Errors are weighted by component_scale, over leaves. */
+/* Errors are weighted by component_scale, over leaves. */
 typedef struct TreeReport {
     uint32_t leaves;      /* leaves of the source */
     uint32_t stored_rows; /* octant means and details */
@@ -82,7 +82,7 @@ typedef struct TreeNode {
     uint32_t rows;
 } TreeNode;
 
-/* Of TREE_ROWS_BLOCKS: which blocks of a row are stored, one bit each, and where the first one
+/* A row of TREE_ROWS_BLOCKS: which blocks are stored, one bit each, and where the first one
  * starts, in bytes from the first row. Blocks are always whole, the last one padded with 0. */
 typedef struct TreeRow {
     uint32_t blocks;
@@ -97,7 +97,7 @@ typedef struct Tree {
     TreeBasis       basis;
     int             level, octants, components;
 
-    /* Of vertex trees (vertex_tree.h). */
+    /* Vertex trees only (vertex_tree.h). */
     int                        base_level, level_count, depth_level, plane_level;
     uint32_t                   base_bytes;  /* of a base row */
     float                      base_factor; /* 2^base_exponent */
@@ -110,7 +110,7 @@ typedef struct Tree {
     const uint64_t            *blocks;
     const uint8_t             *details; /* all rows */
 
-    /* Of Haar trees. */
+    /* Haar trees only. */
     const TreeNode *nodes;
     const float    *means;  /* octants x stride */
     const float    *scales; /* level x stride, integer rows only; else NULL */
@@ -127,7 +127,7 @@ typedef struct Tree {
  * more that is written before it is known whether it is kept. */
 #define TREE_MAX_TAPS (3 * 11 * GEODESIC_MAX_LEVEL + 1)
 
-/* A value as a weighted sum of a tree's octant means and rows. Of a vertex tree: the rows are
+/* A value as a weighted sum of a tree's octant means and rows. For a vertex tree the rows are
  * places in bytes, levels are formats, and weights hold the powers of two that integers are
  * multiplied by. */
 typedef struct TreeTaps {

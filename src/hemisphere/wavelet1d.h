@@ -7,7 +7,7 @@
  *
  * Layout    values[0] the coarsest approximation, then the details, coarsest first.
  * Scaling   biorthogonal, low-pass gain 1: values[0] of a constant row is the constant. Details
- *           are not normalised; wavelet1d_norms says what each is worth.
+ *           are not normalised; wavelet1d_norms returns their norms.
  */
 #pragma once
 #include "base/arena.h"

@@ -207,7 +207,7 @@ bool import_request_skips(const ImportRequest *request, const char *file)
     return false;
 }
 
-/* Reads on when a file is refused, so that the message can say how many are. */
+/* Reads on when a file is refused, so that the message can count them. */
 static bool read_files(const char *const *file, int count, const ImportRequest *request,
                        ImportSet *set, Error *err)
 {

@@ -36,6 +36,6 @@ bool import_symmetry_named(const char *name, ImportSymmetry *out, Error *err);
 /* Is the file left out, by a pattern of the list or by its role? */
 bool import_request_skips(const ImportRequest *request, const char *file);
 
-/* Reads all files with what the request says and completes the set. */
+/* Reads all files with the options of the request and completes the set. */
 bool import_run(const char *const *file, int count, const ImportRequest *request,
                 ImportSet *set, Error *err);

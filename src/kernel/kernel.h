@@ -3,8 +3,8 @@
  *
  * Everything between a tile and its film samples (KERNEL_SOURCES of the build) is compiled for
  * several instruction sets; one is chosen when a render starts, together with Embree's. All of
- * them compute the same bits, but Embree's do not: pin the name to compare machines.
- * No vector type crosses this seam by value.
+ * them compute the same bits, but Embree's do not: choose one by name to compare machines.
+ * No vector type crosses this interface by value.
  */
 #pragma once
 #include "camera/camera.h"
@@ -16,7 +16,7 @@
 #include "path/collect/lesson.h"
 #include "path/path.h"
 
-/* Work on a rectangle of pixels: the seam between the render loop and the kernel. */
+/* Work on a rectangle of pixels: the interface between the render loop and the kernel. */
 typedef struct TileJob {
     const PathContext *context;
     const Camera      *camera;
@@ -29,9 +29,9 @@ typedef struct TileJob {
     uint32_t first_sample, end_sample; /* half-open */
 } TileJob;
 
-/* What a guide is taught by. */
+/* The work by which a guide is trained. */
 typedef struct LessonJob {
-    const PathContext *context; /* with the guide as far as it has learnt */
+    const PathContext *context; /* with the guide as trained so far */
     const Camera      *camera;
     uint32_t seed, index; /* of the paths' random numbers */
     Vec2     stretch;     /* pixels of the frame to a step of the raster, across and down */
@@ -47,11 +47,11 @@ typedef struct Kernel {
     void (*render)(const TileJob *job, FilmRect rect, PathStatistics *statistics);
     /* One path through every step of a rectangle of the raster: the places it comes by. */
     void (*find_places)(const LessonJob *job, FilmRect rect, PathStatistics *statistics);
-    /* Light that arrives in a cell from every direction. */
+    /* Measures the light that arrives in a cell from every direction. */
     void (*learn)(const LessonJob *job, uint32_t cell, PathStatistics *statistics);
-    /* What light samples find there: for the context's selection. */
+    /* Takes light samples in a cell: they decide how often it asks each set of lights. */
     void (*try_lights)(const LessonJob *job, uint32_t cell, PathStatistics *statistics);
-    /* What an eye sees outside a frame (probe.h). */
+    /* The functions of probe.h. */
     void (*look)(const ProbeAim *aim, int first, int end, ProbeLook *out,
                  PathStatistics *statistics);
     void (*trace)(const ProbeAim *aim, int first, int end, const PathListener *listener,

@@ -8,8 +8,8 @@
 #include "path/collect/seen.h"
 #include "path/path_features.h"
 
-/* place: two numbers in [0, 1), where a pixel's path has its place in the pixel. What chooses
- * the target leaves a number that is as even. */
+/* place: the pair in [0, 1)^2 that is a pixel path's place in the pixel. The choice of the
+ * target leaves a number that is as even. */
 static Vec3 target_of(const ProbeAim *aim, int path, Vec2 place)
 {
     int   target = path % aim->target_count;
@@ -62,7 +62,7 @@ static int display_of(const Scene *scene, int part_id)
     return scene->materials[scene->parts[part_id].material_id].display_id;
 }
 
-/* Where the light turned last, before it came to the eye: NULL: it came straight. */
+/* The light's last turn before it came to the eye; NULL: it came straight. */
 static const PathStep *turn_of(const PathHistory *history)
 {
     for (int i = 0; i < path_steps_kept(history); i++)
@@ -70,7 +70,7 @@ static const PathStep *turn_of(const PathHistory *history)
     return NULL;
 }
 
-/* Who adds up what displays send. */
+/* Sums of the light that displays send. */
 typedef struct OwnSums {
     const Scene *scene;
     bool         of_meter;
@@ -125,7 +125,7 @@ static void read_meter(const ProbeAim *aim, int path, ProbeLook *out,
     path_from_point(&own.start, *aim->meter, out->reflected);
 }
 
-/* A pixel's paths are those of its frame. */
+/* A pixel's paths are no probe's but those of its frame. */
 static ProbeAim aim_of_first(const ProbeAim *aim, PathContext *room)
 {
     ProbeAim own = *aim;
@@ -144,7 +144,7 @@ void probe_look(const ProbeAim *asked, int first, int end, ProbeLook *out,
         (aim.meter ? read_meter : look)(&aim, path, &out[path - first], statistics);
 }
 
-/* For collectors alone. */
+/* Traces the path for its collectors alone. */
 static void go(const ProbeAim *aim, const ProbePath *path)
 {
     float ignored[3];
@@ -171,7 +171,7 @@ void probe_trace(const ProbeAim *asked, int first, int end, const PathListener *
 
 /* ---- by light from anywhere -------------------------------------------------------------- */
 
-/* collector: who asks, instead of light. */
+/* Traces a dark path (PathManner), which asks for light by the collector. */
 static void ask(const ProbeAim *aim, int path, PathCollector *collector,
                 PathStatistics *statistics)
 {
@@ -194,7 +194,7 @@ static void add_lanes(float *sums, float weight, const float *share)
     for (int lane = 0; lane < SPECTRUM_LANES; lane++) sums[lane] += weight * share[lane];
 }
 
-/* The hemisphere of the triangles stands on the scene's y axis. */
+/* The z axis of the cells' hemisphere is the scene's y axis. */
 static Vec3 world_of_cells(Vec3 d)
 {
     return vec3(d.y, d.z, d.x);
@@ -330,7 +330,7 @@ static void add_escaped_sun(void *user, Vec3 direction, int bounce, const float 
     }
 }
 
-/* A place in the disc, the same in all of them: uniform over its solid angle. */
+/* Draws a place in the disc, the same in all of them: uniform over its solid angle. */
 static void draw_suns(const ProbeAim *aim, const SunSums *to, int path, Vec3 *towards)
 {
     const ProbeSuns *suns = to->suns;

@@ -6,7 +6,7 @@
  * Units    cd m^-2, or lx of a luxmeter; responses per lane of a path's wavelengths
  *          (spectrum/wavelengths.h): of the radiance, W m^-2 sr^-1 nm^-1, that comes from
  *          there.
- * Threads  const jobs; each call writes where its caller says.
+ * Threads  const jobs; each call writes to its caller's memory.
  */
 #pragma once
 #include "camera/camera.h"
@@ -26,7 +26,7 @@ typedef struct ProbePixel {
     int           x, y;
 } ProbePixel;
 
-#define PROBE_DISPLAYS 16 /* whose light looks can tell apart */
+#define PROBE_DISPLAYS 16 /* whose light looks can keep apart */
 
 /* An eye and the points that it looks at, one path each; more paths than points begin again. */
 typedef struct ProbeAim {
@@ -39,8 +39,8 @@ typedef struct ProbeAim {
     bool            is_spread; /* paths take points by chance, evenly, however few they are */
     const LitPoint *meter;     /* a luxmeter instead: eye and targets do not count; or NULL */
     const ProbePixel *pixel;   /* a frame's pixel instead of targets; or NULL */
-    bool            by_display; /* looks tell what displays send by themselves; of a scene
-                                       of at most PROBE_DISPLAYS of them */
+    bool            by_display; /* looks keep the light of each display apart; of a scene of at
+                                   most PROBE_DISPLAYS of them */
     uint32_t        seed;
 } ProbeAim;
 
@@ -49,7 +49,7 @@ typedef struct ProbeOwn {
     float reflected, mirror;
 } ProbeOwn;
 
-/* What one path found: XYZ. */
+/* The light that one path found, XYZ. */
 typedef struct ProbeLook {
     float reflected[3]; /* all but what the first surface emits; of a luxmeter all */
     float mirror[3];    /* of it, by way of a display's mirror */
@@ -58,11 +58,11 @@ typedef struct ProbeLook {
                                          the aim wants it; else 0 */
 } ProbeLook;
 
-/* HOT. Of paths [first, end): out[i - first]. */
+/* HOT. Path i of [first, end) fills out[i - first]. */
 void probe_look(const ProbeAim *aim, int first, int end, ProbeLook *out,
                 PathStatistics *statistics);
 
-/* HOT. Tells of paths [first, end) all light that they find. */
+/* HOT. Reports all light that paths [first, end) find. */
 void probe_trace(const ProbeAim *aim, int first, int end, const PathListener *listener,
                  PathStatistics *statistics);
 
@@ -100,7 +100,7 @@ typedef struct ProbeSuns {
     const Vec3 *towards; /* unit, world: their centres; by_mirror: their y rises */
     int   count;
     float radius;        /* radians, above 0 */
-    bool  by_mirror;     /* what the first vertex's mirror sends is asked, else what scatters */
+    bool  by_mirror;     /* the first vertex's mirror is asked, else what scatters */
 } ProbeSuns;
 
 /* HOT. Adds the sum over paths to sums[sun][lane]: what the first vertex sends to the eye of an
@@ -110,14 +110,15 @@ void probe_ask_suns(const ProbeAim *aim, const ProbeSuns *suns, int first, int e
 
 /* ---- mirror images ----------------------------------------------------------------------- */
 
-/* Is told of each way from the eye to far away that goes by smooth surfaces alone and turns
- * back at one of them at least: the part of the first such, where it leads to (unit, world),
- * which share of the radiance from there comes to the eye, per lane. */
+/* Called for each way from the eye out of the scene that meets smooth surfaces alone and is
+ * reflected by at least one of them: part_id is that of the first such, `direction` (unit,
+ * world) that in which the way leaves, share the part of the radiance from there that comes to
+ * the eye, per lane. */
 typedef struct ProbeImages {
     void (*found)(void *user, int part_id, Vec3 direction, const float *share);
     void  *user;
 } ProbeImages;
 
-/* HOT. Of paths [first, end) of an eye. */
+/* HOT. For paths [first, end) of an eye. */
 void probe_ask_images(const ProbeAim *aim, int first, int end, const ProbeImages *images,
                       PathStatistics *statistics);

@@ -37,8 +37,8 @@ static void add_features(const TileJob *job, const PathResult *result,
     sample->phi = features.phi;
 }
 
-/* For each sample that saw a display. Few samples place content's edges badly; many do so
- * themselves, and more rays would be wasted. */
+/* Rays for each sample that saw a display. A few samples place the edges of content badly;
+ * many place them well, and more rays would be wasted. */
 #define FINE_RAYS 8u
 #define FINE_SAMPLES 64u /* after which each has one */
 #define FINE_SEED 0x51a7c0deu
@@ -51,7 +51,7 @@ static void fine_range(uint32_t sample, uint32_t *first, uint32_t *count)
     *first = sample < FINE_SAMPLES ? sample * FINE_RAYS : sample + before;
 }
 
-/* What displays send through one place of the film, as `emitted` has it. */
+/* Adds what displays send through one place of the film, as `emitted` counts it. */
 static void add_fine_ray(const TileJob *job, Ray ray, const Wavelengths *wavelengths,
                          Sampler *sampler, FilmSample *out, PathStatistics *statistics)
 {
@@ -88,7 +88,7 @@ static void add_fine(const TileJob *job, int x, int y, const Wavelengths *wavele
 
 /* ---- groups of lights -------------------------------------------------------------------- */
 
-/* What they give to one sample. */
+/* The light of each group in one sample. */
 typedef struct LightSums {
     const LightGroups *groups;
     int       count;
@@ -109,7 +109,7 @@ static void lights_clear(LightSums *sums)
     sums->count = 0;
 }
 
-/* Paths that leave the scene report sun and sky, also where there is none: it is nothing. */
+/* Paths that leave the scene report sun and sky, also where there is none: it has no group. */
 static void lights_add(void *user, const PathHistory *history, const float xyz[3])
 {
     LightSums *sums = user;
@@ -201,7 +201,7 @@ static void lesson_find_places(const LessonJob *job, FilmRect rect, PathStatisti
         }
 }
 
-/* From every point of the lesson once into every bin above its horizon. */
+/* Sends one ray from every point of the lesson into every bin above its horizon. */
 static void lesson_learn(const LessonJob *job, uint32_t cell, PathStatistics *statistics)
 {
     const GuideLesson *lesson = &job->training->lessons[cell];

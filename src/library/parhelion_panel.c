@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What other programs call, over src/panel/query. */
+/* The interface for other programs, over src/panel/query. */
 #include "library/parhelion_panel.h"
 
 #include <stdbool.h>
@@ -23,7 +23,7 @@ struct ParhelionPanel {
     const Panel *panel;
 };
 
-/* Of the first version: what a caller has at least. */
+/* Sizes in the first version: no caller has less. */
 #define INFO_BYTES (offsetof(ParhelionPanelInfo, polarisation_azimuth) + sizeof(float))
 #define QUESTION_BYTES (offsetof(ParhelionPanelQuestions, nm) + sizeof(const float *))
 
@@ -209,7 +209,7 @@ size_t parhelion_panel_list(const ParhelionPanel *panel, int list, float *out, s
 
 /* ---- questions --------------------------------------------------------------------------- */
 
-/* What the questions must bring. */
+/* Arrays that the questions must have. */
 typedef enum Need {
     NEED_VIEWER = 1,
     NEED_LIGHT = 2,
@@ -228,7 +228,7 @@ static int check(const ParhelionPanelQuestions *q, int needs, const void *out)
     return lacks ? PARHELION_PANEL_MISSING : PARHELION_PANEL_OK;
 }
 
-/* What is nearly of length 1 stays as it is: the bits are those of the program. */
+/* A vector of nearly length 1 stays as it is, so that the bits are those of the program. */
 #define LENGTH_BEARS 1e-5f
 
 static Vec3 direction_at(const float *from, size_t i)

@@ -3,7 +3,7 @@
  * renderer. C99 to C23 and C++; no foreign types.
  *
  * A .panel file (`parhelion panel fit` makes it of measurements; `parhelion help panel-format`
- * tells it byte by byte) answers, at any place of the display and at any angle: the emission as
+ * describes its bytes) answers, at any place of the display and at any angle: the emission as
  * XYZ or as a spectrum, the BRDF, the mirror's reflectance, and directions to go on with.
  *
  * Frame    the display's own, right-handed: +z its normal, +x to the right and +y up as who
@@ -20,8 +20,8 @@
  * Memory   arrays belong to the caller. All of a panel is freed by closing it. Opening keeps
  *          address space for 4 GiB, of which pages are used as they are needed; where the
  *          system refuses memory the process ends with a line on stderr and status 3.
- * Errors   opening tells in words what is wrong with a file. Questions fail only where they are
- *          put wrongly (ParhelionPanelStatus), and then no array is written.
+ * Errors   opening reports in words what is wrong with a file. Questions fail only where they
+ *          are put wrongly (ParhelionPanelStatus), and then no array is written.
  * ABI      structs begin with their size in bytes, which the caller fills in (sizeof): members
  *          may come in behind, and a library fills and reads no more than that. Within one
  *          soname nothing else changes. The same questions get the same bits from every build
@@ -90,12 +90,12 @@ typedef struct ParhelionPanelInfo {
     uint32_t spots;              /* measured places */
     uint32_t map_pixels[2];      /* columns and rows of the uniformity map */
     uint32_t subpixel_layout;    /* 1 stripe, 2 pentile */
-    uint32_t display_pixels[2];  /* columns and rows, where the file tells sub-pixels */
+    uint32_t display_pixels[2];  /* columns and rows, where the file has sub-pixels */
     float    subpixel_fill;      /* share of the area that emits */
     float    emission_cone;      /* last measured angle to the normal; beyond: extrapolated */
     float    reflection_cone;    /* the same of leaving directions */
     float    last_incidence;     /* the same of the light */
-    float    emission_nm[2];     /* range in which spectra of the emission are told */
+    float    emission_nm[2];     /* range of the spectra of the emission */
     float    reflection_nm[2];   /* measured range of the reflection; the ends hold outside */
     float    polarisation;       /* linearly polarised share of the emission */
     float    polarisation_azimuth; /* in which it swings: 0 right, pi / 2 up */
@@ -115,8 +115,8 @@ typedef enum ParhelionPanelList {
     PARHELION_PANEL_SPOTS = 6        /* u, v of each */
 } ParhelionPanelList;
 
-/* What was measured, rising but for spots; writes as much as there is room for (floats) and
- * returns how much there is. 0: nothing, or an unknown list. */
+/* Measured values, rising but for spots; writes as many floats as there is room for and
+ * returns how many there are. 0: nothing, or an unknown list. */
 PARHELION_PANEL_API size_t parhelion_panel_list(const ParhelionPanel *panel, int list,
                                                 float *out, size_t room);
 
@@ -161,13 +161,13 @@ PARHELION_PANEL_API int parhelion_panel_mirror(const ParhelionPanel *panel,
                                                float *reflectance);
 
 /* Share of the light that the BRDF sends back, its luminous mean: viewer. albedo[count]. With
- * the mirror's share it tells how often to draw from which. */
+ * the mirror's share it gives the odds of drawing from each. */
 PARHELION_PANEL_API int parhelion_panel_albedo(const ParhelionPanel *panel,
                                                const ParhelionPanelQuestions *questions,
                                                float *albedo);
 
 /* Draws directions to the light as the BRDF times the cosine is distributed: viewer, random.
- * light[count][3]; density[count], sr^-1, what parhelion_panel_pdf says of it to rounding; 0:
+ * light[count][3]; density[count], sr^-1, as parhelion_panel_pdf returns it, to rounding; 0:
  * there is no direction. The mirror is not drawn. */
 PARHELION_PANEL_API int parhelion_panel_sample(const ParhelionPanel *panel,
                                                const ParhelionPanelQuestions *questions,

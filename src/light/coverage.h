@@ -4,7 +4,7 @@
 #include "light/emission.h"
 
 /* Vertex colour times base colour texture at the point, straight alpha in [3]; linear, the
- * material's factor left out. u, v: barycentric weights of vertices 1 and 2. */
+ * material's factor left out. */
 void coverage_texel(const Scene *scene, const Material *material, const Hit *hit,
                     const TrianglePoint *point, float texel[4]);
 

@@ -30,11 +30,11 @@ Vec2 slot_corner_uv(const Scene *scene, const TextureSlot *slot, uint32_t triang
 Frame display_frame(const Scene *scene, const Display *display, uint32_t triangle,
                     const TrianglePoint *point);
 
-/* Where on the panel's active area the point is (panel_place.h); of a panel that varies. */
+/* The point's place on the panel's active area (panel_place.h), for panels that vary. */
 void display_place(const Display *display, const TrianglePoint *point, float place[2]);
 
-/* What the display's panel sends there along `local`, a direction of display_frame, for codes;
- * its level is not in it. XYZ, cd m^-2, or spectral radiance. */
+/* Emission of the display's panel there along `local`, a direction of display_frame, for
+ * codes, without the display's level: XYZ, cd m^-2, or spectral radiance. */
 void display_panel_xyz(const Display *display, const TrianglePoint *point, Vec3 local,
                        const float codes[3], float xyz[3]);
 Spectrum display_panel_spectrum(const Display *display, const TrianglePoint *point, Vec3 local,
@@ -58,9 +58,10 @@ void emitted_rgb(const Scene *scene, const Material *material, const TrianglePoi
 bool triangle_emits_to(const Scene *scene, uint32_t triangle, const TrianglePoint *point,
                        Vec3 direction);
 
-/* Is what leaves the point along `direction` (unit, world) partly polarised? *degree: how far,
- * (0, 1]; *axis: unit, across the direction, along which the field swings. Of a display that
- * says so: its polariser takes what swings along its absorption axis, seen from there. */
+/* Is the light that leaves the point along `direction` (unit, world) partly polarised?
+ * *degree: in (0, 1]; *axis: unit, across the direction, along which the field oscillates.
+ * True of displays with a known polariser: it absorbs what oscillates along its absorption
+ * axis, seen from there. */
 bool triangle_polarisation(const Scene *scene, uint32_t triangle, const TrianglePoint *point,
                            Vec3 direction, Vec3 *axis, float *degree);
 

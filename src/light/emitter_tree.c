@@ -27,7 +27,7 @@ typedef struct Gathering {
     int      longest; /* axis along which the cells spread most */
 } Gathering;
 
-/* What the work asks of an emitter again and again. */
+/* Facts of an emitter that are used again and again. */
 typedef struct EmitterFacts {
     Vec3  normal;
     float edge;    /* m, the longest of a cell */
@@ -113,7 +113,7 @@ static EmitterFacts facts_about(const TreeWork *work, const Emitter *e)
     return facts;
 }
 
-/* Of cells, and of parts by power. */
+/* Sets the centroids of cells, and of parts weighted by power. */
 static void find_positions(TreeWork *work)
 {
     double *power = ARENA_NEW(work->arena, double, work->scene->part_count + 1);
@@ -168,7 +168,7 @@ static void measure(const TreeWork *work, Gathering *g)
 
 /* ---- which branches ---------------------------------------------------------------------- */
 
-/* Sorts the cells that lie below the centre along the longest axis to the front; how many.
+/* Sorts the cells below the centre along the longest axis to the front; returns how many.
  * by_parts: displays are kept whole, since the directions of a branch are those of one. */
 static uint32_t divide(TreeWork *work, const Gathering *g, bool by_parts)
 {
@@ -204,7 +204,7 @@ static bool split(TreeWork *work, Branches *branches, int i)
     return true;
 }
 
-/* Again and again the branch that power and extent make the worst one. */
+/* Splits again and again the branch with the greatest product of power and extent. */
 static void split_all(TreeWork *work, Branches *branches)
 {
     while (branches->count < EMITTER_BRANCHES) {
@@ -319,7 +319,7 @@ static Bounds bounds_of(const TreeWork *work, const Gathering *g, Vec3 centre, V
         const EmitterFacts *facts = facts_of(work, cell);
         const float *p = work->position[cell];
         Vec3  off = vec3_sub(centre, vec3(p[0], p[1], p[2]));
-        float far = vec3_length(off) + facts->edge; /* no corner is an edge from the middle */
+        float far = vec3_length(off) + facts->edge; /* corners are less than an edge away */
         float behind = vec3_dot(off, normal);
         float cosine = vec3_dot(facts->normal, normal);
         bounds.cosine = cosine < bounds.cosine ? cosine : bounds.cosine;
@@ -410,7 +410,7 @@ static EmitterNode *build_node(TreeWork *work, Gathering whole, int level)
     return node;
 }
 
-/* Once the order of cells is known: the choice among those of every branch. */
+/* Builds, once the order of cells is known, the choice among those of every branch. */
 static void finish_choices(EmitterNode *node, uint32_t end, const double *weight,
                            Arena *arena)
 {

@@ -3,7 +3,6 @@
 #pragma once
 #include "light/emitters.h"
 
-/* weight: luminance x area of every cell, the sum above 0. Fills the tree and what cells know
- * of it. */
+/* weight: luminance x area of every cell, the sum above 0. Fills the tree and cells' ranks. */
 void emitter_tree_build(const Scene *scene, const double *weight, Arena *arena,
                         Emitters *emitters);

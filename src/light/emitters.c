@@ -128,9 +128,9 @@ static Spectrum softened(Spectrum height, Spectrum spread2)
            (height + roots(height * height + spectrum_all(NEAR_SPREAD) * spread2));
 }
 
-/* About what the branches send towards `from`, intensity over power. From near, where its
+/* An estimate of what the branches send towards `from`, intensity over power. From near, where
  * cells are seen under all angles, and for cells that face different ways, directions count
- * less. d: from the centres; inverse: one over how far that is; near: 0 (far) to 1. */
+ * less. d: from the centres; inverse: of that distance; near: 0 (distant) to 1. */
 static Spectrum facing(const EmitterNode *node, const Spectrum d[3], Spectrum inverse,
                        Spectrum near)
 {
@@ -142,7 +142,7 @@ static Spectrum facing(const EmitterNode *node, const Spectrum d[3], Spectrum in
     return cosine * node->focus + spectrum_all(LOOSE) * (spectrum_all(1) - node->focus);
 }
 
-/* Branches that are one cell which looks large: what it sends is known better. */
+/* Branches of one cell that looks large: their light is known better. */
 static void weigh_large(const Emitters *emitters, const Scene *scene, const EmitterNode *node,
                         Vec3 from, SpectrumMask large, Spectrum *facing)
 {

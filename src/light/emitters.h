@@ -101,7 +101,7 @@ typedef struct EmitterPoint {
     float    u, v; /* barycentric weights of vertices 1 and 2 */
 } EmitterPoint;
 
-/* With which density a point was chosen: one of the two, the other is 0. */
+/* The density with which a point was chosen: one of the two; the other is 0. */
 typedef struct EmitterDensity {
     float on_area;     /* m^-2 */
     float on_sphere;   /* sr^-1, of directions from the lit point */

@@ -203,7 +203,7 @@ static const TextureSlot *slot_of(const Scene *scene, const Material *material)
     return material->unlit ? &material->base_color_texture : &material->emissive_texture;
 }
 
-/* How finely each triangle is cut: by its share of the part's area. */
+/* Cuts each triangle into cells, as many as its share of the part's area deserves. */
 static void cut_part(const Scene *scene, int part_id, Emitters *emitters)
 {
     const Part     *part = &scene->parts[part_id];
@@ -246,7 +246,7 @@ static void read_part(const Scene *scene, int part_id, const Vec2 *lattice,
             total += area;
         }
     }
-    double floor = FLOOR_SHARE * (sum > 0 ? sum / total : 1); /* lit where no point fell? */
+    double floor = FLOOR_SHARE * (sum > 0 ? sum / total : 1); /* light where no point fell */
     for (uint32_t t = 0; t < part->triangle_count; t++) {
         const Emitter *e = &first[t];
         double area = triangle_area(scene, e->triangle) / ((double)e->side * e->side);

@@ -8,8 +8,8 @@
 #include "light/sky.h"
 #include "spectrum/photometry.h"
 
-/* How often an emitter is chosen is no part of what it sends: displays that are so many times
- * as bright are chosen nearly as often as they should be. */
+/* How often an emitter is chosen changes the noise alone: displays that become up to so many
+ * times as bright are still chosen nearly as often as they should be. */
 #define LEVEL_CHANGE 4.0f
 
 struct Lights {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* light.h -- everything that emits: choose a point of light and tell its pdf.
+/* light.h -- everything that emits: chooses a point of light, with its pdf.
  *
  * Lights come in four sets, each sampled by its own rule: the sun (its disc), the environment
  * (constant or HDRI), emitters (emissive triangles and displays), and punctual lights, both
@@ -34,23 +34,22 @@ typedef struct Lights Lights;
 bool lights_build(const Scene *scene, Arena *arena, Lights **out, Error *err);
 
 /* The same lights after displays of the scene changed their levels; what is not theirs is
- * shared with `before`. Levels within four times and a quarter of those that emitters were
- * sorted by only choose them a little less well (nothing that is read moves but by noise): then
- * `before`. */
+ * shared with `before`. Returns `before` itself while all levels are within a quarter and four
+ * times those that emitters were sorted by: then only the noise is a little higher. */
 const Lights *lights_with_levels(const Lights *before, Arena *arena);
 
 /* Lights of the same scene under its environment as it is now. Emitters are shared with
- * `before` where no display has another level than they were sorted by: that takes long, and
- * does not hang on what was lit before. Fails as lights_build. */
+ * `before` where all displays have the levels that they were sorted by, since sorting takes
+ * long; the result does not depend on what was lit before. Fails as lights_build. */
 bool lights_under_sky(const Lights *before, Arena *arena, Lights **out, Error *err);
 
 /* Has this set anything that emits? */
 bool lights_has(const Lights *lights, LightSet set);
 
-/* LIGHTS_SUN is the moon, in its place. */
+/* Does the moon take the place of LIGHTS_SUN? */
 bool lights_sun_is_moon(const Lights *lights);
 
-/* How many punctual lights give any light. */
+/* Number of punctual lights that give any light. */
 int lights_lamp_count(const Lights *lights);
 
 typedef struct LightSample {
@@ -66,7 +65,7 @@ typedef struct LightSample {
     TrianglePoint point; /* and what is known of that */
     Vec2     at;       /* of the sky: where in its picture */
     int      light_id; /* of a punctual light: which, */
-    float    scale;    /* and what its intensity becomes at the point, by the choice's chance */
+    float    scale;    /* and lx per unit of its intensity, over its probability */
 } LightSample;
 
 /* One sample of one set as seen from `point`. u in [0,1)^3. False: nothing comes from there. */
@@ -81,7 +80,7 @@ bool lights_sample_known(const Lights *lights, const PunctualKnown *known, LitPo
  * 0. */
 void lights_sky_towards(const Lights *lights, Vec3 direction, Vec3 ns, LightSample *sample);
 
-/* What comes from there, asked once it is known to arrive: most samples are in shadow. */
+/* Radiance of a sample, to be asked once it is known to arrive: most are in shadow. */
 Spectrum lights_radiance(const Lights *lights, const LightSample *sample,
                          const Wavelengths *wavelengths);
 
@@ -90,8 +89,8 @@ Spectrum lights_radiance(const Lights *lights, const LightSample *sample,
 void lights_distant(const Lights *lights, Vec3 direction, Vec3 ns,
                     const Wavelengths *wavelengths, Spectrum radiance[2], float pdf[2]);
 
-/* Is the sky's light from a direction polarised? *degree: how far, [0, 1]; *axis: unit, along
- * which the field swings: across the plane of the direction and the sun (daylight.h). */
+/* Is the sky's light from a direction polarised? *degree: in [0, 1]; *axis: unit, along which
+ * the field oscillates: across the plane of the direction and the sun (daylight.h). */
 bool lights_sky_polarisation(const Lights *lights, Vec3 direction,
                              const Wavelengths *wavelengths, Vec3 *axis, Spectrum *degree);
 

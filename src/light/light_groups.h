@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* light_groups.h -- which lights of a scene are one to those who ask where light comes from.
+/* light_groups.h -- which lights of a scene count as one where light is kept apart by source.
  *
  * A group is the sun (or the moon), the sky, the lamps of one name, the emitting surfaces whose
  * materials have one name, or the displays whose materials do. Lamps and surfaces of one name
  * are one group: a lamp may have a body that shines.
  *
- * Names    for channels of a file: letters, digits, "_", "-", "+" and whatever is not ASCII
- *          stay, all else becomes "_", and 64 bytes are kept. Two groups whose names become the
- *          same get "_2", "_3" ... behind, and a warning says so. What has no name in its file
- *          is "light N" or "material N" (scene.h), and so "light_N" here.
+ * Names    for channels of a file: letters, digits, "_", "-", "+" and all that is not ASCII
+ *          stay, the rest becomes "_", and 64 bytes are kept. Of groups whose names become the
+ *          same the later ones get "_2", "_3" ... and a warning. A light without a name in its
+ *          file is "light N" or "material N" (scene.h), and so "light_N" here.
  * Memory   everything lives in the arena.
  * Threads  const once built.
  */

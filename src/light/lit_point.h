@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* lit_point.h -- a point that is lit, as far as lights ask. */
+/* lit_point.h -- what lights need to know of a point that is lit. */
 #pragma once
 #include "base/vec.h"
 

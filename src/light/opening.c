@@ -24,8 +24,8 @@ static Vec3 flat_point(OpeningShape shape, const float u[2])
 
 /* ---- bodies ------------------------------------------------------------------------------ */
 
-/* Each sampler draws a point with density n . e / opening_unit_area(e) on the unit body: as the
- * body is seen from far away in direction e. */
+/* Each sampler draws a point with density n . e / opening_unit_area(e) on the unit body: as
+ * the body is seen from infinity in direction e. */
 
 static BodyPoint box_point(Vec3 e, const float u[2])
 {
@@ -46,7 +46,7 @@ static BodyPoint box_point(Vec3 e, const float u[2])
     return (BodyPoint){vec3(a, b, sign), vec3(0, 0, sign)};
 }
 
-/* Of the round side the sine of the angle from where it faces e is uniform. */
+/* On the round side the sine of the angle from where it faces e is uniform. */
 static BodyPoint cylinder_point(Vec3 e, const float u[2])
 {
     float across = sqrtf(e.x * e.x + e.y * e.y);
@@ -90,8 +90,8 @@ static float share_towards(OpeningShape shape, Vec3 n, Vec3 e)
     return seen > 0 ? seen / opening_unit_area(shape, e) : 0;
 }
 
-/* Drawn as seen from far away in the direction of `from`, weighed as seen from there. What is
- * seen from near by faces that direction too, since the middle lies below its plane. */
+/* Drawn as seen from infinity in the direction of `from`, weighed as seen from there. A point
+ * visible from near by faces that direction too, since the middle lies below its plane. */
 Vec3 opening_sample(const LuminousOpening *opening, Vec3 from, const float u[2], float *weight)
 {
     OpeningShape shape = opening->shape;

@@ -91,7 +91,7 @@ static float cosine_above(float height, float distance, float radius)
     return LEAST_COSINE + (1 - LEAST_COSINE) * cosine;
 }
 
-/* By what a light is chosen at a point: above 0 wherever it may light, finite inside it. */
+/* A light's weight in the choice at a point: above 0 where it may light, finite inside it. */
 static float target_at(const PunctualLight *light, const LitPoint *point)
 {
     PunctualSample middle;
@@ -143,9 +143,9 @@ static float profile_at(const PunctualProfile *profile, Vec3 d)
     return lerpf(low, lerpf(row[PUNCTUAL_PROFILE_SIDE], row[PUNCTUAL_PROFILE_SIDE + 1], a), b);
 }
 
-/* What the branches send towards the point, intensity over power. The wider their lamps lie as
- * seen from there (near: about half the sine of that angle), the more they count as shining
- * evenly, since narrow cones from other places may meet there. d: from the centres. */
+/* Light that the branches send towards the point, intensity over power. The wider their lamps
+ * lie as seen from there (near: about half the sine of that angle), the more they count as
+ * shining evenly, since narrow cones from other places may meet there. d: from the centres. */
 static Spectrum sent(const PunctualNode *node, const Spectrum d[3], Spectrum near)
 {
     Spectrum value = spectrum_all(1);
@@ -191,12 +191,12 @@ static bool weigh(const PunctualNode *node, const LitPoint *point, Spectrum *pro
 
 typedef struct LampList {
     const int   *ids;
-    const float *arrives; /* share of each lamp's light; NULL: nobody knows */
+    const float *arrives; /* share of each lamp's light; NULL: not known */
     int          count;
 } LampList;
 
-/* One of the lights by what each gives; *prob_inverse makes the estimate unbiased. *pick is
- * a random number that is used up and left uniform. */
+/* Chooses one of the lights by what each gives; *prob_inverse makes the estimate unbiased.
+ * *pick is a random number that is used up and left uniform. */
 static int choose_among(const PunctualLights *lights, const LampList *list,
                         const LitPoint *point, float *pick, float *prob_inverse)
 {

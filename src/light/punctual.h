@@ -4,9 +4,9 @@
  * A few lamps are all asked what they give. Many lie in a tree whose nodes have up to 16
  * branches: a branch is chosen by about what its lamps give together (their intensity in that
  * direction over the squared distance, times the cosine), down to a few that are asked. Where
- * it is known which lamps light a place, most choices are among these, each weighed by what of
- * its light arrives, and the others' share is chosen as if nothing were known: what it finds of
- * the known ones counts nothing, so every lamp has one way to be found.
+ * it is known which lamps light a place, most choices are among these, each weighed by the
+ * share of its light that arrives. The rest are chosen as if nothing were known; known lamps
+ * that they find count nothing, so every lamp is found in one way only.
  *
  * Threads  const after punctual_build (punctual_build.h).
  */
@@ -48,7 +48,7 @@ typedef struct PunctualLights {
     PunctualNode *root;  /* NULL: few */
 } PunctualLights;
 
-/* What is known of a place: the lamps that light it, and how much of each arrives. */
+/* The lamps that are known to light a place, and how much of each one's light arrives. */
 #define PUNCTUAL_KNOWN_MAX 8
 typedef struct PunctualKnown {
     int   count; /* 0: nothing is known */
@@ -63,11 +63,12 @@ typedef struct PunctualSample {
     int   light_id;
     Vec3  wi;       /* unit, towards it or a point of its opening */
     float distance; /* m; INFINITY of directional lights */
-    float scale;    /* lx on a plane that faces it per unit of its colour's intensity, by the
-                       choice's chance */
+    float scale;    /* lx on a plane that faces it per unit of its colour's intensity, over the
+                       choice's probability */
 } PunctualSample;
 
-/* known: NULL, or what the choice goes by. u in [0,1)^3. False: nothing comes from there. */
+/* known: the lamps that most choices are among; may be NULL. u in [0,1)^3. False: nothing
+ * comes from there. */
 bool punctual_sample(const PunctualLights *lights, const PunctualKnown *known,
                      const LitPoint *point, const float u[3], PunctualSample *sample);
 

@@ -61,7 +61,7 @@ static double along(const PunctualLight *light, int axis)
                                                                : light->position.z);
 }
 
-/* At the centre, across the longest axis; lamps at one place are halved. */
+/* Splits at the centre, across the longest axis; lamps at one place are halved. */
 static void split(LampWork *work, LampGroup *g, LampGroup *rest)
 {
     int *order = work->order + g->first, below = 0;
@@ -80,8 +80,8 @@ static void split(LampWork *work, LampGroup *g, LampGroup *rest)
     measure(work, rest);
 }
 
-/* Again and again the branch that power and extent make the worst one; first those that are
- * too many to be asked one by one. */
+/* Splits again and again the branch with the greatest product of power and extent, among those
+ * with too many lamps to be asked one by one. */
 static int split_all(LampWork *work, LampGroup branch[PUNCTUAL_BRANCHES], int count)
 {
     int start = count - 1; /* directional lights stay together, before it */
@@ -175,7 +175,7 @@ static PunctualNode *build_node(LampWork *work, LampGroup branch[PUNCTUAL_BRANCH
     return node;
 }
 
-/* A far light's lux and a near light's candela meet at the scene's own size. */
+/* Directional lights' lux and other lights' candela are compared at the scene's own size. */
 static void set_distant(const Scene *scene, PunctualNode *root)
 {
     Vec3   size = vec3_sub(scene->bounds_max, scene->bounds_min);
@@ -186,7 +186,7 @@ static void set_distant(const Scene *scene, PunctualNode *root)
     root->is_distant[0] = -1;
 }
 
-/* Lamps that give light, directional ones first; how many those are. */
+/* Lists the lamps that give light, directional ones first; returns how many those are. */
 static int list_lights(const Scene *scene, PunctualLights *lights)
 {
     int distant = 0;

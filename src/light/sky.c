@@ -18,7 +18,7 @@ static void black_body_curve(double kelvin, Curve *out)
     for (int i = 0; i < CURVE_COUNT; i++) out->value[i] *= scale;
 }
 
-/* A disc of this radius at a place of the sky. */
+/* Puts a disc of this radius at a place of the sky. */
 static void place_sun(Sky *sky, double radius, float scene_azimuth, float elevation)
 {
     double half = sin_d(radius / 2);

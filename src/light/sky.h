@@ -3,7 +3,7 @@
  *
  * Compass  azimuth runs from north over east. At heading h the vehicle's forward vector points
  *          to azimuth h; the sky turns, the scene stays.
- * Sun      its irradiance on a plane that faces it is exact whatever its size: the disc's mean
+ * Sun      its irradiance on a plane that faces it is exact for any size: the disc's mean
  *          radiance is E / (pi sin^2 r), darkened to its limb (sky/sun_disc.h) in every
  *          environment. Of a model (cie, perez, sky) the spectrum is the model's, and the
  *          horizon cuts the disc; else that of a black body of 5500 K, close to a high sun's
@@ -37,7 +37,7 @@ typedef struct Sky {
     Vec3   moon_lit;       /* unit, scene: across the disc towards the side that is lit */
 } Sky;
 
-/* Fails on an environment that makes no sky, saying why. */
+/* Fails on an environment that makes no sky, with the reason. */
 bool sky_build(const Environment *environment, Arena *arena, Sky *out, Error *err);
 
 /* A direction towards the sky: what comes from there, and with which density sky_choose would
@@ -52,8 +52,8 @@ typedef struct SkySample {
 
 SkySample sky_seen(const Sky *sky, Vec3 direction, Vec3 ns, const Wavelengths *wavelengths);
 
-/* One to choose, for u0, u1 in [0, 1): all but its radiance, for which sky_radiance is asked
- * once it is known to arrive. False: nothing there. */
+/* Chooses one by u in [0, 1)^2: all but its radiance, for which sky_radiance is asked once it
+ * is known to arrive. False: nothing there. */
 bool sky_choose(const Sky *sky, Vec3 ns, const float u[2], SkySample *sample);
 
 /* As if sky_choose had chosen this direction, where there is a sky. */

@@ -50,7 +50,7 @@ static void fill_row(void *context, int row, int worker)
     (void)worker;
     for (int j = 0; j < SKY_MODEL_COLUMNS; j++)
         running += cell[j] = cell_luminance(model, row, j);
-    /* a hundredth evenly: a cell may be brighter than its nine places say */
+    /* a hundredth evenly: a cell may be brighter than its nine places show */
     double even = 0.01 * running / SKY_MODEL_COLUMNS + 1e-12, total = running * 1.01 + 1e-9;
     double sum = 0;
     for (int j = 0; j < SKY_MODEL_COLUMNS; j++)

@@ -33,8 +33,8 @@ float    sky_model_pdf(const SkyModel *model, Vec3 direction);
 Spectrum sky_model_seen(const SkyModel *model, Vec3 direction, const Wavelengths *wavelengths,
                         float *pdf);
 
-/* HOT. How far the light from a direction is linearly polarised, across the plane of it and the
- * sun; [0, 1]. */
+/* HOT. Degree of linear polarisation of the light from a direction, across the plane of it and
+ * the sun; [0, 1]. */
 Spectrum sky_model_polarisation(const SkyModel *model, Vec3 direction,
                                 const Wavelengths *wavelengths);
 

@@ -33,5 +33,5 @@ Vec2 sky_picture_place(const SkyPicture *picture, Vec3 direction, float *pdf);
 void sky_picture_sample(const SkyPicture *picture, float u0, float u1, Vec3 *direction,
                         Vec2 *at, float *pdf);
 
-/* HOT. What comes from there, bilinear between pixel centres. */
+/* HOT. Linear Rec.709 there, cd m^-2, bilinear between pixel centres. */
 void sky_picture_rgb(const SkyPicture *picture, Vec2 at, float rgb[3]);

@@ -46,7 +46,7 @@ static double histogram_median(const LuminanceHistogram *histogram)
     return bin ? ldexp(1 + share, bin / BINS_AN_OCTAVE + FIRST_OCTAVE) : 0;
 }
 
-/* One look at the pixels. */
+/* State of one pass over the pixels. */
 typedef struct Look {
     HdriLook           out;
     const Environment *environment;

@@ -2,8 +2,8 @@
 /* sky_picture_doubt.h -- does a picture of surroundings light the scene as what it shows would?
  *
  * Most pictures that are shared as HDRIs have no absolute scale: a sunset of 2 lx beside a
- * display of 500 cd/m2. Two kinds are told from the picture alone; E is its illuminance on a
- * horizontal plane:
+ * display of 500 cd/m2. Two kinds can be recognised from the picture alone; E is its
+ * illuminance on a horizontal plane:
  *
  * 1. Unit range: the largest stored value is above 0.25 and at most 1, so that the values are
  *    those of a picture for a display, and E is below 300 lx.
@@ -18,9 +18,9 @@
  *    - a sky over a ground: the dome's median is twice that of the lower half (below -15
  *      degrees) or more, nothing above the horizon is 1000 times the dome's median (a lamp
  *      would be), and E is 1 to 50 lx.
- * Nothing is said below 0.3 lx, a full moon's light, when the values are not in unit range; nor
- * of a picture whose scale the user set. A dusk of less than 300 lx looks like daylight without
- * its light, and is told of as well.
+ * There is no doubt below 0.3 lx, a full moon's light, when the values are not in unit range;
+ * nor of a picture whose scale the user set. A dusk of less than 300 lx looks like daylight
+ * without its light, and is reported as well.
  *
  * Units    lx, cd/m2, radians. Threads: no shared state. Memory: none.
  */
@@ -34,7 +34,7 @@ typedef enum HdriDoubt {
     HDRI_DIM_SKY
 } HdriDoubt;
 
-/* What the criterion looks at. All but the shares in the picture's scaled values. */
+/* Quantities of the criterion; luminances are in the picture's scaled values. */
 typedef struct HdriLook {
     double illuminance_lx;
     double largest_stored;                /* of R, G, B, as the file holds them */

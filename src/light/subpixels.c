@@ -16,7 +16,7 @@ typedef struct Opening {
     int   pixels;
 } Opening;
 
-/* Without libm, and for any number: those too large to have a fraction are whole. */
+/* Floor without libm, for any number: those too large to have a fraction are whole. */
 static float whole_below(float x)
 {
     if (!(fabsf(x) < 0x1p23f)) return x;
@@ -53,7 +53,7 @@ static Opening stripe_at(const PixelPlace *at, float fill)
                      .pixel = {{at->pixel[0], at->pixel[1]}}};
 }
 
-/* Of the diamond whose middle is nearest. */
+/* The diamond whose middle is nearest. */
 static Opening pentile_at(const PixelPlace *at, float fill)
 {
     float half = 0.5f * sqrtf(fill), pixel[2], x[2];
@@ -148,7 +148,7 @@ static float code_of_pixel(const CloseView *view, const float pixel[2], int prim
     return codes[primary];
 }
 
-/* Black, and what a primary adds to it, `gain` times. */
+/* Adds black, and `gain` times what a primary adds to it. */
 static void add_opening(const CloseView *view, float share, SubpixelMix *out)
 {
     const Subpixels *subpixels = view->display->subpixels;

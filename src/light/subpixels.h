@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* subpixels.h -- a display's sub-pixels, as an eye sees them that comes close: the scene's, or
- * the panel's where the scene says nothing.
+ * the panel's where the scene states none.
  *
  * Stripe   red, green and blue stand side by side, left to right as someone facing the display
  *          sees them, in a third of the pixel each; the open areas are alike in shape.
@@ -28,7 +28,7 @@
 #define SUBPIXELS_WHOLE 0.25f
 #define SUBPIXELS_GONE 0.5f
 
-/* A point of a display with sub-pixels, looked at. */
+/* A point of a display with sub-pixels that an eye looks at. */
 typedef struct CloseView {
     const Scene         *scene;
     const Display       *display;

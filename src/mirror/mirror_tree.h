@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* mirror_tree.h -- the trees in which a scene's mirrors stand. What others
- * ask of them stands in mirrors.h.
+/* mirror_tree.h -- the trees in which a scene's mirrors stand; mirrors.h has the queries.
  *
  * Threads  const after mirrors_build. Units: metres, world.
  */
@@ -13,15 +12,15 @@
 #define MIRROR_PLANES 4
 #define MIRROR_NO_TREE UINT32_MAX
 
-/* A mirror that is asked for by points of a part; part_id may be NO_ID: by points of none. What
- * its smooth boundary does and what its rough one does are asked for apart. */
+/* A mirror that points of a part ask for; part_id may be NO_ID: points of no part. Its smooth
+ * boundary and its rough one are asked for separately. */
 typedef struct MirrorPair {
     int      part_id;
     bool     is_rough;
     uint32_t triangle;
 } MirrorPair;
 
-/* A piece of a triangle, bent so little that its normals can be told from others. */
+/* A piece of a triangle, bent so little that its normals can be bounded. */
 typedef struct MirrorPatch {
     MirrorTriangle corners;
     Vec2           uv[3]; /* of the corners in the triangle */
@@ -32,8 +31,8 @@ typedef struct MirrorPatch {
 typedef struct MirrorNode {
     Vec3     centre;       /* of the box of its patches, m */
     float    radius;       /* from there to the box's corners, m */
-    Vec3     plane[MIRROR_PLANES]; /* unit: no normal of it, turned to the side of `axis`, is
-                                      above one of these planes; zero: nothing is known */
+    Vec3     plane[MIRROR_PLANES]; /* unit: all normals, turned to the side of their mean, lie
+                                      below these planes; 0: nothing is known */
     uint32_t children;     /* the first of two; 0: it is a leaf, of */
     uint32_t patch;
     float    alpha;        /* the roughest patch's */

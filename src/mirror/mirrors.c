@@ -83,7 +83,7 @@ static bool may_be_normal(const MirrorNode *node, Vec3 h, float reach)
     return along || against;
 }
 
-/* A question on its way through the tree. */
+/* A query on its way through the tree. */
 typedef struct Asking {
     const MirrorQuery *query;
     float  lean;      /* by how much facets of alpha 1 lean; 0: of smooth mirrors */

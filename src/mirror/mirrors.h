@@ -2,9 +2,9 @@
 /* mirrors.h -- the smooth surfaces of a scene, in order, to find what they reflect.
  *
  * A mirror is a triangle whose material sends part of the light on by a smooth boundary about
- * the interpolated normal: glass, lacquer, polished metal, the glass of displays. What is bent
- * by a normal map, or smooth only where a texture says so, is none. Which mirrors are asked for
- * which part of the scene is the caller's choice.
+ * the interpolated normal: glass, lacquer, polished metal, the glass of displays. Surfaces bent
+ * by a normal map, or smooth only where a texture makes them so, are none. Which mirrors are
+ * asked for which part of the scene is the caller's choice.
  *
  * Memory   from the arena.  Threads  const after mirrors_build.  Fails  never.
  */
@@ -31,12 +31,12 @@ typedef struct MirrorQuery {
     Vec2  u;
 } MirrorQuery;
 
-/* Told of a reflection: which triangle of the scene, and where on it. Of rough mirrors spread
- * is the solid angle that the point sees by area of slopes, over their density. */
+/* Called for each reflection with its triangle of the scene and the point on it. For rough
+ * mirrors spread is solid angle seen from the point by area of slopes, over their density. */
 typedef void MirrorFound(void *user, uint32_t triangle, const ReflectionPoint *point);
 
-/* All points of the part's mirrors that turn light from `towards` to the point, in an order
- * that the scene alone decides. What stands between is not asked. Returns how many nodes of
- * the tree it took. */
+/* Finds all points of the part's mirrors that turn light from `towards` to the point, in an
+ * order that the scene alone decides. Occlusion is not tested. Returns the number of nodes
+ * that were visited. */
 uint32_t mirrors_find(const Mirrors *mirrors, const MirrorQuery *query, MirrorFound *found,
                       void *user);

@@ -8,7 +8,7 @@
 #define PATCH_CUTS 10     /* of one triangle to get there */
 #define NEAR_M 1.0f       /* a mirror this large is as bad to bound as a bend of one radian */
 #define WIDEST 0.2f       /* cosine between a node's axis and normals that are bounded at all */
-#define BOUND_MOST 64     /* patches of a node whose normals are asked one by one */
+#define BOUND_MOST 64     /* patches of a node whose normals are bounded one by one */
 
 /* ---- patches ---------------------------------------------------------------------------- */
 
@@ -198,7 +198,7 @@ static float widest_cosine(const MirrorBuilder *builder, uint32_t first, uint32_
     return cosine;
 }
 
-/* Slopes against the axis (x / z and y / z of the frame) at most so great. */
+/* Bounds the slopes against the axis (x / z and y / z of the frame) by planes. */
 static void set_planes(const Frame *frame, const float low[2], const float high[2],
                        MirrorNode *node)
 {
@@ -233,7 +233,7 @@ static void bound_normals(const MirrorBuilder *builder, uint32_t first, uint32_t
     bounds->cosine = widest_cosine(builder, first, count, frame.z);
 }
 
-/* cos(x + y) of two angles that a cosine and two unit vectors tell. */
+/* cos(x + y), x between the axis and the cone's, y the cone's half angle; -1: too wide. */
 static float cosine_about(Vec3 axis, const MirrorBounds *cone)
 {
     float c = clampf(vec3_dot(axis, cone->axis), -1, 1), k = clampf(cone->cosine, -1, 1);
@@ -262,7 +262,7 @@ static bool comes_before(const Item *a, const Item *b, int axis)
     return a->key[axis] < b->key[axis] || (a->key[axis] == b->key[axis] && a->patch < b->patch);
 }
 
-/* What the items differ most in. */
+/* The key in which the items differ most. */
 static int widest_axis(const Item *items, uint32_t count)
 {
     float widest = -1;

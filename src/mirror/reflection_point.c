@@ -5,7 +5,7 @@
  *
  * is n.n times d mirrored at n, and a reflection is where F points along s: F.a = F.b = 0 for
  * a, b across s, and F.s > 0. Over a triangle d and n are linear in the barycentric weights, so
- * F is a cubic, of which the corners' d and n tell the ten Bernstein coefficients: for corners
+ * F is a cubic, whose ten Bernstein coefficients follow from the corners' d and n: for corners
  * i, j, k (i = j and so on allowed) by the blossom
  *
  *     C_ijk = 1/3 sum over the three ways to split {i, j, k} into a pair p, q and a rest r of
@@ -16,8 +16,8 @@
  * Surfaces for CAGD, chapter 17). The derivative is such a mean of their differences; with P
  * the inverse of the derivative at the centre, q = max |P dF - 1| over the differences bounds
  * how far the patch is from linear. A small q means at most one root: it lies within q times
- * the patch of where the first of Newton's steps leads, and the steps, held in the patch, end
- * there. Other patches are cut in four.
+ * the patch of where the first of Newton's steps ends, and the steps, held in the patch, reach
+ * it. Other patches are cut in four.
  *
  * Spread, with N the cross product of the edges and ' for derivatives by (u, v): the light's
  * direction is F / |F| with |F| = (n.n) |d|, so |ds'| = |det (F.a, F.b)'| / |F|^2, while the
@@ -108,7 +108,7 @@ static D3 interpolate(D3 a, D3 b, D3 c, double u, double v)
     return d3_along(d3_along(a, d3_sub(b, a), u), d3_sub(c, a), v);
 }
 
-/* F.a, F.b and what of F they came from. */
+/* F.a and F.b, and the terms that they come from. */
 typedef struct Value {
     D2     f;
     D3     d, n;
@@ -178,8 +178,8 @@ static void coefficients(const Search *search, const Patch *patch, D2 out[BERNST
     }
 }
 
-/* All of one sign in a or in b, or all of them nothing: the whole patch sends its light to the
- * point, which a point on a focus does, and has no single one to tell. */
+/* All of one sign in a or in b; or all zero: then the point lies on a focus, the whole patch
+ * sends its light there, and no single point of it does. */
 static bool has_no_root(const D2 c[BERNSTEIN], double size)
 {
     int above[2] = {0}, below[2] = {0}, something = 0;
@@ -240,7 +240,7 @@ static void hold(double *u, double *v)
     if (*v < 0) *u = 1, *v = 0;
 }
 
-/* False: it has none. */
+/* False: there is no root. */
 static bool newton(const Search *search, const Patch *patch, double *u, double *v)
 {
     D2 step = {1, 1};
@@ -346,7 +346,7 @@ MirrorTriangle reflection_leaning(const MirrorTriangle *triangle, Vec2 slope)
     return leaning;
 }
 
-/* What of the half vector h = s - w, w = d / |d|, tells the slopes: g = h / h.z in the frame,
+/* The half vector h = s - w, w = d / |d|, from which slopes follow: g = h / h.z in the frame,
  * slope = n.z (g.x, g.y) - (n.x, n.y). */
 typedef struct HalfWay {
     D3     x, y, z; /* the frame */

@@ -21,11 +21,12 @@ typedef struct ReflectionPoint {
                      1 of a flat mirror, below of a convex one */
 } ReflectionPoint;
 
-#define REFLECTION_POINTS_MAX 9 /* two cubic curves meet no oftener (Bezout) */
+#define REFLECTION_POINTS_MAX 9 /* two cubic curves meet no more often (Bezout) */
 
-/* `from`: the point that is lit, off the triangle's plane; `towards`: unit, to the light. The
- * number of points in the triangle. Two points that are about to become one, nearer than 2^-16
- * of the triangle to each other, are left out: they carry less than that share of its light. */
+/* `from`: the point that is lit, off the triangle's plane; `towards`: unit, to the light.
+ * Returns the number of points in the triangle. Two points that are about to become one,
+ * nearer than 2^-16 of the triangle to each other, are left out: they carry less than that
+ * share of its light. */
 int reflection_points_find(const MirrorTriangle *triangle, Vec3 from, Vec3 towards,
                            ReflectionPoint out[REFLECTION_POINTS_MAX]);
 

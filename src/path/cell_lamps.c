@@ -3,8 +3,8 @@
 
 #include <math.h>
 
-/* What a few samples did not find may be there all the same: of a lamp's light, and of the
- * samples for lamps that are not kept. */
+/* Bounds on a lamp's share of light that arrives and on the share of samples for lamps that
+ * are not kept: a few samples may miss light that is there. */
 #define LEAST_ARRIVES 0.1
 #define LEAST_OTHERS 0.1
 #define MOST_OTHERS 0.9

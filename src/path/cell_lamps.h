@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* cell_lamps.h -- which lamps light a guide's cell, and how much of each one's light arrives.
  *
- * Samples of lamps as they are drawn where nothing is known tell of each lamp what it would
- * give a point and whether it does; the lamps that give a cell most are kept for it.
+ * Samples of lamps, drawn as where nothing is known, show what each lamp would give a point and
+ * whether its light arrives; the lamps that give a cell most are kept for it.
  *
  * Threads  plain values.
  */
@@ -27,8 +27,8 @@ typedef struct LampFinds {
  * new one gave more. */
 void lamp_finds_add(LampFinds *finds, LampFind find);
 
-/* What a neighbour found, at `weight` of its worth. */
+/* Adds a neighbour's finds, times `weight`. */
 void lamp_finds_join(LampFinds *finds, const LampFinds *neighbour, double weight);
 
-/* The lamps of a cell, of lamp_count that there are; none where no light of any arrived. */
+/* The lamps of a cell in a scene of lamp_count; none where no light of any arrived. */
 GuideLamps cell_lamps_keep(const LampFinds *finds, int lamp_count);

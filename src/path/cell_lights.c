@@ -3,11 +3,11 @@
 
 #include "base/units.h"
 
-/* A set is asked always whose samples' root mean square is a fifth of all light. */
+/* A set whose samples' root mean square is a fifth of all light is always asked. */
 #define GENEROSITY 5.0
 #define LEAST 0.1f
 
-/* How much of it chance does not find by itself: the weight that a path gives to the sample. */
+/* The MIS weight of a path's light sample: the share that BSDF samples do not find. */
 static double own_share(const Guiding *guiding, LitPoint point, const LightSample *light)
 {
     if (light->is_delta) return 1;

@@ -10,7 +10,7 @@
 #include "path/cell_lamps.h"
 #include "path/guiding.h"
 
-/* What light samples find in a cell: sums over so many points. */
+/* Sums of what light samples find at the points of a cell. */
 typedef struct LightFinds {
     double sum[LIGHT_SETS], squares[LIGHT_SETS]; /* illuminances, lx */
     double points;

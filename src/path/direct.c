@@ -16,7 +16,7 @@ void direct_absorb(const PathState *path, int medium_id, float distance, Spectru
         (*light)[i] *= pow_f(left[i], distance / m->attenuation_distance_m);
 }
 
-/* A translucent solid takes its part of what a lamp inside sends to its boundary. */
+/* A translucent solid absorbs part of what a lamp inside sends to its boundary. */
 static void absorb_sample(const PathState *path, const Surface *surface,
                           const LightSample *light, Spectrum *passed)
 {
@@ -50,7 +50,7 @@ static bool passes(void *user, const Hit *hit)
     return !spectrum_is_zero(ray->passed);
 }
 
-/* Of sheets about the emitter: those that lie over it take their share. */
+/* Sheets in the emitter's plane absorb light only where they lie over it. */
 static bool passes_before_emitter(void *user, const Hit *hit)
 {
     const ShadowRay   *ray = user;
@@ -126,14 +126,14 @@ static int source_of(const PathState *path, const LightSample *light)
     return light->set == LIGHTS_PUNCTUAL ? light->light_id : 0;
 }
 
-/* A light was asked for from a surface, with this probability. */
+/* A light sample that a surface takes with probability `prob`. */
 typedef struct LightAsked {
     LightSample light;
     Vec3        local_wi;
     float       prob;
 } LightAsked;
 
-/* The surface scatters the sample's light. */
+/* Adds a sample's light as the surface scatters it. */
 static void find_sample(PathState *path, const Surface *surface, Vec3 wo,
                         const LightAsked *asked, const ShadowRay *ray, Spectrum radiance)
 {
@@ -155,8 +155,7 @@ static void find_sample(PathState *path, const Surface *surface, Vec3 wo,
     collect_light(path, &found);
 }
 
-/* Most samples end in shadow: what the light sends and how the surface scatters it is asked
- * once the ray has arrived. */
+/* Most samples end in shadow: radiance and BSDF are evaluated once the ray has arrived. */
 static void add_arriving(PathState *path, const Surface *surface, Vec3 wo,
                          const Guiding *guiding,
                          LightAsked *asked)
@@ -205,7 +204,7 @@ static void add_light_sample(PathState *path, const Surface *surface, Vec3 wo,
 
 /* ---- the sun by way of one mirror -------------------------------------------------------- */
 
-/* A lit surface on its way through its mirrors. */
+/* A lit surface that asks its mirrors one by one. */
 typedef struct MirrorWalk {
     PathState        *path;
     const Surface    *surface;
@@ -213,7 +212,7 @@ typedef struct MirrorWalk {
     SunMirrorQuestion question;
 } MirrorWalk;
 
-/* The stretches of one way. */
+/* The two shadow rays of light by way of a mirror. */
 typedef struct MirrorRays {
     ShadowRay to_mirror, to_sun;
 } MirrorRays;
@@ -259,7 +258,7 @@ static void add_mirrored_sun(void *user, uint32_t triangle, const ReflectionPoin
     find_mirrored(asked, &mirror, local_wi, &rays, share);
 }
 
-/* u: of the sun's disc. */
+/* u: chooses the direction on the sun's disc. */
 static void ask_mirrors(PathState *path, const Surface *surface, Vec3 wo, const float u[4],
                         float prob)
 {

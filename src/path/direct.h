@@ -5,19 +5,18 @@
 #pragma once
 #include "path/path_collector.h"
 
-/* The lights are asked from the surface, which the path came to against wo. */
+/* Adds the light samples of the surface, which the path reached against wo. */
 void direct_add(PathState *path, const Surface *surface, Vec3 wo, const Guiding *guiding);
 
 /* A direction must lie on the same side of the triangle as of the shading normal's plane, or
  * light would leak through the surface. */
 bool direct_sides_agree(const Surface *surface, Vec3 local_wi, Vec3 wi, Vec3 wo);
 
-/* Share of the light sample that arrives at the surface; *ray: by which ways. */
+/* Share of the light sample that arrives at the surface; *ray: the sheets that it passed. */
 Spectrum direct_visibility(PathState *path, const Surface *surface, const LightSample *light,
                     ShadowRay *ray);
 
-/* The share of the sun, which the path may meet by way of `next`, that the vertex before did
- * not ask for. */
+/* Share of the sun, if the path meets it by `next`, that the vertex before did not ask for. */
 Spectrum direct_sun_share(const PathState *path, const Surface *surface, Vec3 wo,
                    const BsdfSample *next);
 

@@ -5,8 +5,8 @@
 #include "light/subpixels.h"
 #include "path/path_collector.h"
 
-/* How much of emitted light that the last vertex met by chance is counted: the rest belongs to
- * its light samples, which find the same light with density light_pdf. */
+/* MIS weight of emitted light that the last vertex met by chance: the rest belongs to its
+ * light samples, which find the same light with density light_pdf. */
 static float emission_weight(const PathState *path, LightSet set, float light_pdf)
 {
     const PathContext *context = path->context;
@@ -63,8 +63,8 @@ void emitted_distant(PathState *path)
 
 /* ---- emitters ---------------------------------------------------------------------------- */
 
-/* Is this a display with sub-pixels, seen by the eye itself, straight, in mirrors or through
- * clear glass? What surfaces that scatter see is its even light. */
+/* Is this a display with sub-pixels, seen by the eye itself: straight, in mirrors or through
+ * clear glass? Surfaces that scatter see its even light. */
 static bool comes_close(const PathState *path, const Surface *surface, uint32_t triangle,
                         Vec3 wo, CloseView *out)
 {
@@ -122,7 +122,7 @@ static void add_display_xyz(PathState *path, const Surface *surface, const Hit *
     collect_light(path, &found);
 }
 
-/* Of the light samples of the last vertex; nothing asks for it behind a mirror. */
+/* Density of the last vertex's light samples there, sr^-1; 0, unused, behind a mirror. */
 static float emitter_pdf(const PathState *path, const Surface *surface, const Hit *hit)
 {
     Hit seen = {path->straight, hit->u, hit->v, hit->triangle};

@@ -7,17 +7,17 @@
 #pragma once
 #include "path/path_state.h"
 
-/* What the hit sends towards wo. */
+/* Adds what the hit emits towards wo. */
 void emitted_add(PathState *path, const Surface *surface, const Hit *hit, Vec3 wo);
 
-/* The path leaves the scene. */
+/* Adds sun and sky where the path leaves the scene. */
 void emitted_distant(PathState *path);
 
-/* A point of the scene as who lights it asks. Solids keep their normal outside, whichever side
- * is seen. */
+/* The surface's point as lights need it. Solids keep their outward normal, seen from inside
+ * too. */
 LitPoint emitted_lit_point(const PathState *path, const Surface *surface);
 
-/* Radiance that a triangle's point sends towards wo, as this path sees it: of a display's
- * sub-pixels, where it comes close. */
+/* Radiance that a triangle's point emits towards wo, as this path sees it: a display's
+ * sub-pixels where it comes close. */
 Spectrum emitted_seen(const PathState *path, const Surface *surface, uint32_t triangle,
                        Vec3 wo);

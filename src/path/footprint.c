@@ -2,7 +2,7 @@
 /* HOT: footprints. No allocation, no lock, no libm. */
 #include "path/footprint.h"
 
-/* A shading normal that was bent towards the eye says nothing of those beside it. */
+/* The change of a shading normal that was bent towards the eye is not known. */
 #define LEAST_AGREEMENT 0.9999f
 
 RayFootprint footprint_of_cone(RayCone cone, Vec3 direction)

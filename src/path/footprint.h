@@ -6,8 +6,8 @@
  * right angles. Exact to first order, curved boundaries included: there the normal changes over
  * a triangle as that between its corners' does.
  *
- * Left out: what the thickness of a pane moves an image by (as good as the same for all rays
- * nearby), and of glass that parts light how far its index differs from the mean one.
+ * Left out: the shift of an image by the thickness of a pane (nearly the same for all rays
+ * nearby), and in dispersive glass the difference of an index from the mean one.
  *
  * Frame    world, m.
  * Threads  plain values. HOT: no allocation, no libm.
@@ -20,15 +20,15 @@ typedef struct RayFootprint {
     Vec3 way[2];   /* of the unit direction, across it */
 } RayFootprint;
 
-/* Of a camera's ray. */
+/* The footprint at the start of a camera's ray. */
 RayFootprint footprint_of_cone(RayCone cone, Vec3 direction);
 
-/* The place's changes at so many m along the ray, in the axes of a frame. */
+/* The place's changes at `distance` m along the ray, in the axes of a frame. */
 void footprint_across(const RayFootprint *footprint, float distance, const Frame *frame,
                       Vec3 across[2]);
 
-/* At a surface that the ray meets after `distance` m, coming from wo, and leaves by `next`
- * (local). False: it scatters there, or a texture bends its normal, and nothing is known any
- * more. */
+/* Turns it at a surface that the ray meets after `distance` m, coming from wo, and leaves by
+ * `next` (local). False: it scatters there, or a texture bends its normal, and the footprint
+ * is unknown from there on. */
 bool footprint_turn(RayFootprint *footprint, const Scene *scene, const Surface *surface,
                     Vec3 wo, const BsdfSample *next, float distance);

@@ -7,7 +7,7 @@
 
 #define COARSER 8         /* edge of a large cube by a small one's */
 #define FIRST_ROOM 4096
-#define ACROSS_M2 4.0f    /* by edge squared: the eight cubes at a plane show so much of it */
+#define ACROSS_M2 4.0f    /* times edge squared: area of a plane that one cube counts for */
 
 /* Odd numbers without a pattern: the bits of a place's coordinates mix by them. */
 #define MIX_X 0x9e3779b97f4a7c15u
@@ -16,7 +16,8 @@
 #define MIX_ROW 0xd6e8feb86659fd93u
 #define MIX_ALL 0xff51afd7ed558ccdu
 
-/* Of a cube's key; 32 bits tell cubes apart well enough, for light is only guessed by them. */
+/* Hashes a cube's key to 32 bits: now and then two cubes share one, which is good enough for a
+ * mere estimate of light. */
 static uint32_t tag_of(uint64_t key)
 {
     key = (key ^ key >> 32) * MIX_ALL;
@@ -42,7 +43,7 @@ static void grow(GlintTable *table, Arena *arena)
     *table = larger;
 }
 
-/* `shift` edges to the lower side. */
+/* Index of the cube along one axis, for a place moved down by `shift` edges. */
 static uint64_t coordinate(float m, float per_m, float shift)
 {
     return (uint64_t)(int64_t)floorf(clampf(m * per_m - shift, -1e18f, 1e18f));

@@ -31,8 +31,7 @@ typedef struct GlintMap {
     GlintTable size[GLINT_SIZES]; /* fine, coarse */
 } GlintMap;
 
-/* row: a number that tells the sides of parts apart; edge_m: above 0, of its fine cubes, the
- * same whenever the row is named. */
+/* row: a number for each side of a part; edge_m: of its fine cubes, > 0, fixed for a row. */
 typedef struct GlintPlace {
     uint32_t row;
     float    edge_m;

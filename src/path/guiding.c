@@ -6,7 +6,7 @@
 #define GUIDE_SHARE 0.4f /* of the directions of a surface's wide lobes */
 #define SKY_SHARE 0.9f   /* of the samples of a sky that is seen from the cell */
 
-/* How often lights are asked where no guide knows it. */
+/* How often lights are asked where no guide has learnt it. */
 static void ask_as_side(const PathContext *context, const Surface *surface, Vec3 wo, int bounce,
                         Guiding *guiding)
 {
@@ -15,7 +15,7 @@ static void ask_as_side(const PathContext *context, const Surface *surface, Vec3
     guiding->often = bounce < DEEP_BOUNCE ? 1 : DEEP_SHARE;
 }
 
-/* prob: of the surface's wide lobes. */
+/* prob: that the surface samples its wide lobes. */
 static void look(const LightGuide *guide, uint32_t cell, const GuideSurface *surface,
                  float prob, Guiding *guiding)
 {

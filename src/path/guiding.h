@@ -3,9 +3,9 @@
  *
  * Where the surface scatters widely and there is a guide, a direction is the guide's choice
  * with the probability `mix`, else the surface's own: one-sample multiple importance sampling
- * (Veach 1997, 9.2.4). The guide's cell then tells how often each set of lights is asked, too,
- * and the sky is asked where the cell sees it: with the probability `sky_mix` its direction is
- * the guide's choice, else the sky's own.
+ * (Veach 1997, 9.2.4). The guide's cell then decides how often each set of lights is asked,
+ * too, and where the cell sees the sky: with the probability `sky_mix` a direction to the sky
+ * is the guide's choice, else the sky's own.
  *
  * Threads  plain values; the context must outlive them.
  */
@@ -22,26 +22,25 @@ _Static_assert(LIGHT_SETS == GUIDE_LIGHTS, "cells of a guide know all sets of li
 typedef struct Guiding {
     float        mix;
     bool         is_wide; /* the surface scatters widely, and there is a guide */
-    const float *asked;   /* how often each set of lights is sampled, times this: */
+    const float *asked;   /* probability of sampling each set of lights, times this: */
     float        often;
     float        sky_mix;
-    PunctualKnown lamps; /* that light the place; count 0: nobody knows */
-    GuideView    view;    /* unless both are 0 */
+    PunctualKnown lamps; /* that light the place; count 0: not known */
+    GuideView    view;    /* unset where both mixes are 0 */
 } Guiding;
 
 /* wo: unit, world. bounce: scattering vertices before this one. */
 void guiding_at(const PathContext *context, const Surface *surface, Vec3 wo, int bounce,
                 Guiding *guiding);
 
-/* Where no guide knows the way: lights are always asked. */
+/* Guiding without a guide: lights are always asked. */
 void guiding_none(const PathContext *context, Guiding *guiding);
 
-/* Of a white surface that faces ns, in a cell of the context's guide. */
+/* Guiding at a white surface that faces ns, in a cell of the context's guide. */
 void guiding_of_white(const PathContext *context, uint32_t cell, Vec3 ns, Guiding *guiding);
 
-/* HOT. As lights_sample, but that the guide leads to the sky and to lamps, and that the
- * sample's pdf is right only after guiding_weigh_light: what does not arrive need not know
- * it. */
+/* HOT. As lights_sample, but the guide chooses directions to the sky and lamps, and the
+ * sample's pdf is right only after guiding_weigh_light: samples in shadow do not need it. */
 bool guiding_choose_light(const Guiding *guiding, const Lights *lights, LightSet set,
                           LitPoint point, const float u[3], LightSample *sample);
 void guiding_weigh_light(const Guiding *guiding, const Lights *lights, LitPoint point,

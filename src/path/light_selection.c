@@ -37,7 +37,7 @@ double light_selection_lx(const Lights *lights, LitPoint point, const LightSampl
     return isfinite(xyz[1]) ? (double)xyz[1] : 0;
 }
 
-/* Of one sample of the set. */
+/* Illuminance, lx, by one sample of the set; 0 where it does not arrive. */
 static double sample_illuminance(const Bvh *bvh, const Lights *lights, LightSet set,
                                  LitPoint point, Sampler *sampler)
 {
@@ -82,7 +82,7 @@ static void share_out(const Lights *lights, const double lx[LIGHT_SETS], float p
     }
 }
 
-/* What lets light through is lit from both of its sides, whichever is seen. */
+/* A part that lets light through is lit from both of its sides, whichever is seen. */
 static void weigh_part(const Scene *scene, const Bvh *bvh, const Lights *lights, int part_id,
                        float prob[2][LIGHT_SETS], float all_lx[2])
 {
@@ -107,7 +107,7 @@ typedef struct Weighing {
     LightSelection selection;
 } Weighing;
 
-/* Parts have rows and random numbers of their own. */
+/* Each part has its own rows and random numbers, so the threads decide nothing. */
 static void weigh_some(void *context, int item, int worker)
 {
     const Weighing *w = context;

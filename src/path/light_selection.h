@@ -26,12 +26,12 @@ LightSelection light_selection_build(const Scene *scene, const Bvh *bvh, const L
 /* Does the light sample arrive at a point that faces point.ns? */
 bool light_selection_arrives(const Bvh *bvh, LitPoint point, const LightSample *light);
 
-/* Illuminance, lx, of one that does; u in [0, 1): for the wavelengths. */
+/* Illuminance, lx, by a sample that arrives; u in [0, 1) chooses the wavelengths. */
 double light_selection_lx(const Lights *lights, LitPoint point, const LightSample *light,
                           float u);
 
-/* part_id may be NO_ID. is_back: seen from the side where the triangle's normal does not point.
- * The row lives as long as the selection. */
+/* part_id may be NO_ID. is_back: seen from the side that the triangle's normal points away
+ * from. The row lives as long as the selection. */
 static inline const float *light_selection_of_side(const LightSelection *selection, int part_id,
                                                    bool is_back)
 {

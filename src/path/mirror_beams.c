@@ -9,31 +9,31 @@
 #include "shaders/facets/microfacet.h"
 #include "spectrum/photometry.h"
 
-#define LEAST_RAYS 8       /* to every mirror, and by its area in all of theirs */
+#define LEAST_RAYS 8       /* to every mirror's triangle, and by its share of all their area: */
 #define RAYS_BY_AREA 100000
-#define FIRST_ROOM 1024    /* for pairs */
+#define FIRST_ROOM 1024    /* of pairs, of glints */
 #define SHEETS_PASSED 16   /* by one ray behind its mirror */
-#define GENEROSITY 0.2f    /* by the root of their light over all other, of one mirror's part */
-#define LEAST 0.0075f      /* the same where none came */
+#define GENEROSITY 0.2f    /* times the root of mirrored over other light, of one mirror */
+#define LEAST 0.0075f      /* probability where no ray came */
 #define CUBES 128          /* along the longest edge of a part's box, and at least so large: */
 #define LEAST_EDGE_M 1e-4f
 #define LEAST_LX 1e-6f     /* of other light */
 
-/* Where a ray of the sun falls behind a mirror. */
+/* Where a ray of the sun lands behind a mirror. */
 typedef struct Glint {
     GlintPlace place;
     float      lm;
 } Glint;
 
-/* What some of the rays find; another thread may follow others. */
+/* Finds of some of the rays; other threads may follow others. */
 typedef struct Beams {
     const BeamTools *tools;
-    Arena           *arena; /* nobody else takes of it in between */
+    Arena           *arena; /* nothing else allocates from it meanwhile */
     MirrorPair      *pairs;
     uint32_t         count, room;
     Glint           *glints;
     uint32_t         glint_count, glint_room;
-    const BeamSide  *sides; /* as MirrorBeams's */
+    const BeamSide  *sides; /* as in MirrorBeams */
 } Beams;
 
 /* One ray of the sun behind its mirror. */
@@ -74,7 +74,7 @@ static void add_glint(Beams *beams, Glint glint)
     beams->glints[beams->glint_count++] = glint;
 }
 
-/* What scatters into less than a rough mirror does finds the sun in it by itself. */
+/* A part that scatters more narrowly than a rough mirror finds the sun in it by itself. */
 static bool is_asked_of(const Scene *scene, int part_id, const Beam *beam)
 {
     const Material *m = &scene->materials[scene->parts[part_id].material_id];
@@ -123,7 +123,7 @@ static Vec3 facet_normal(Vec3 ns, float alpha, Vec2 u)
     return vec3_normalize(frame_to_world(&frame, vec3(lean * cosine, lean * sine, 1)));
 }
 
-/* By a mirror's triangle: smooth where alpha is 0. */
+/* A mirror's triangle that rays are sent to; alpha 0: smooth. */
 typedef struct Aim {
     uint32_t triangle;
     float    alpha;
@@ -171,8 +171,8 @@ static double area_m2(const Scene *scene, uint32_t triangle)
     return 0.5 * (double)vec3_length(vec3_cross(vec3_sub(p[1], p[0]), vec3_sub(p[2], p[0])));
 }
 
-/* More to large ones; a small one that is dark at four well spread places is left alone.
- * all_m2: of all that are aimed at. */
+/* Sends more rays to large triangles; a small one that is dark at four well spread places is
+ * left alone. all_m2: area of all mirrors. */
 static void send_rays(Beams *beams, Aim aim, double all_m2)
 {
     double   own = area_m2(beams->tools->scene, aim.triangle);
@@ -187,7 +187,7 @@ static void send_rays(Beams *beams, Aim aim, double all_m2)
 #define PIECES 64 /* of the rays; the same for any number of threads */
 #define WORKER_BYTES ((size_t)1 << 30) /* address space: what is not touched costs nothing */
 
-/* What of each material is smooth, then what is rough, triangle by triangle. */
+/* Lists every mirror's triangle: as a smooth one, then as a rough one, if its material is. */
 static Aim *list_aims(const Scene *scene, int *count, double *all_m2, Arena *arena)
 {
     Arena scratch = *arena;
@@ -225,7 +225,7 @@ static void send_piece(void *user, int item, int worker)
         send_rays(&work->pieces[item], work->aims[i], work->all_m2);
 }
 
-/* The pieces one after the other: as one thread finds them. */
+/* Joins the pieces in order: the result is that of a single thread. */
 static void join_pieces(const Beams *pieces, Beams *out, GlintMap *map, Arena *arena)
 {
     for (int p = 0; p < PIECES; p++) out->count += pieces[p].count;
@@ -268,7 +268,7 @@ static float longest_edge(const Scene *scene, const Part *part)
     return fmaxf(fmaxf(size.x, size.y), size.z);
 }
 
-/* What lets light through is lit from both of its sides: they have one row. */
+/* The two sides of a part that lets light through share a row: it is lit from both. */
 static void measure_sides(const Scene *scene, BeamSide *sides)
 {
     for (int id = 0; id < scene->part_count; id++) {

@@ -3,8 +3,8 @@
  *
  * Before the first path some rays of the sun are followed to every mirror, and by it to what
  * they light. A part asks those mirrors alone whose rays came to it: any other light by way of
- * a mirror is rare, and left to chance. Where these rays bring little light to a place, by that
- * of the lights themselves, mirrors are asked less often there, and count more when they are.
+ * a mirror is rare, and left to chance. Where these rays bring a place little light beside the
+ * lights themselves, mirrors are asked less often there, and count more when they are.
  *
  * Memory   from the arena. Threads: const after mirror_beams_build.
  */
@@ -14,9 +14,9 @@
 #include "path/light_selection.h"
 #include "path/surface.h"
 
-/* Of one side of a part. */
+/* How often one side of a part asks its mirrors. */
 typedef struct BeamSide {
-    uint32_t row; /* in the map */
+    uint32_t row; /* in the glint map */
     float    edge_m;
     float    least;   /* probability of asking where no ray came; 0: it has no mirrors */
     float    by_root; /* more of it by the root of what the rays bring, lx */
@@ -28,7 +28,6 @@ typedef struct MirrorBeams {
     GlintMap        map;     /* where the rays came */
 } MirrorBeams;
 
-/* What a scene's rays and lights are asked with. */
 typedef struct BeamTools {
     const Scene         *scene;
     const Bvh           *bvh;
@@ -40,6 +39,6 @@ typedef struct BeamTools {
 MirrorBeams mirror_beams_build(const BeamTools *tools, const LightSelection *selection,
                                Arena *arena);
 
-/* HOT. Of asking a part's mirrors, in [0, 1], seen from the side, as of
+/* HOT. Probability of asking a part's mirrors, in [0, 1]; is_back: as of
  * light_selection_of_side; 0: it has none. */
 float mirror_beams_prob(const MirrorBeams *beams, int part_id, bool is_back, Vec3 position);

@@ -31,13 +31,13 @@ static bool roulette(PathState *path)
     return true;
 }
 
-/* What the first surface reflects is asked for, be it ever so dark. */
+/* Does light by way of the first surface count, however dark that is? */
 static bool asks_the_first(const PathState *path, const Surface *surface)
 {
     return path->context->is_probe || surface_is_display(path->context->scene, surface);
 }
 
-/* At the first surface: what comes from now on came by way of a display's mirror. */
+/* At the first surface: what is found from now on came by way of a display's mirror. */
 static void note_mirror(PathState *path, const Surface *surface, const BsdfSample *next)
 {
     PathFirst *first = &path->first;
@@ -47,8 +47,7 @@ static void note_mirror(PathState *path, const Surface *surface, const BsdfSampl
     first->before = path->gathered;
 }
 
-/* The path goes on, towards wi, on the other side of the surface: of a solid that is inside or
- * outside. */
+/* The path crosses the surface towards wi; of a solid it is inside or outside then. */
 static void cross(PathState *path, const Surface *surface, Vec3 local_wi, Vec3 wi)
 {
     bool refracts = bsdf_is(&surface->bsdf, BSDF_REFRACTS);
@@ -114,7 +113,7 @@ static Step scatter(PathState *path, const Surface *surface, Vec3 wo)
 
 /* ---- what it meets ----------------------------------------------------------------------- */
 
-/* What the ray meets; of what lies in one plane, one after the other. */
+/* The next surface along the ray; those that lie in one plane come one after the other. */
 static bool next_hit(PathState *path, Hit *hit)
 {
     const PathContext *context = path->context;
@@ -153,7 +152,7 @@ static void record_first(PathState *path, const Hit *hit, float distance, Vec3 w
     first->direction = vec3_neg(wo);
 }
 
-/* What happens at a surface that is there: it shines, is lit, and sends the path on. */
+/* At a surface that is no hole: adds its emission and its light samples, then goes on. */
 static Step shade(PathState *path, const Surface *surface, const Hit *hit, Vec3 wo)
 {
     Guiding *guiding = path->spare;
@@ -177,8 +176,8 @@ static Step show_sheet(PathState *sheet, const Surface *surface, const Hit *hit,
     return turn(sheet, surface, wo, &mirror);
 }
 
-/* What a thin sheet itself shows: its mirror image, or what of it is not a hole; then what lies
- * behind it. */
+/* First the light of a thin sheet itself: its mirror image, or its part that is no hole; then
+ * what lies behind it. */
 static void follow_both(PathState *path, const Surface *surface, const Hit *hit, Vec3 wo)
 {
     SheetRoom room;
@@ -190,7 +189,7 @@ static void follow_both(PathState *path, const Surface *surface, const Hit *hit,
     sheet_pass(path, surface, wo);
 }
 
-/* What is hit, what it emits, what the lights send it, where the path goes on. */
+/* The loop: find the hit, add what it emits, ask the lights, choose where the path goes on. */
 static void walk(PathState *path)
 {
     const PathContext *context = path->context;
@@ -261,7 +260,7 @@ PathContext path_context_relight(const PathContext *before, const Lights *lights
 
 /* ---- from a ray, from a point ------------------------------------------------------------ */
 
-/* What a path needs room for besides. */
+/* Memory that a PathState points to. */
 typedef struct PathRoom {
     SheetStack stack;
     Guiding    guidings[2];
@@ -316,7 +315,7 @@ void path_from_ray(const PathStart *start, Ray ray, PathResult *out)
     if (out) report(&path, out);
 }
 
-/* A white surface sends pi-th parts of its illuminance. */
+/* A white surface sends back a pi-th part of its illuminance: the throughput begins at pi. */
 void path_from_point(const PathStart *start, LitPoint point, float xyz_lx[3])
 {
     PathRoom  room;

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* path.h -- light along one ray: the loop that everyone reads first.
  *
- * A path starts from a ray or from a point that is lit. Who wants more of it than its light
- * hangs collectors on it (path_collector.h, collect/).
+ * A path starts from a ray or from a point that is lit. Collectors (path_collector.h, collect/)
+ * take from it what is wanted besides its light.
  *
  * Units    spectral radiance in W m^-2 sr^-1 nm^-1 inside; the result is CIE XYZ in cd m^-2.
  * Threads  const context; one PathStatistics a thread.
@@ -18,7 +18,7 @@ PathContext path_context_build(const Scene *scene, const Bvh *bvh, const Lights 
 /* The same scene under other lights; what surfaces need is shared with `before`. */
 PathContext path_context_relight(const PathContext *before, const Lights *lights, Arena *arena);
 
-/* Where a path begins, and for whom. */
+/* Where a path begins, and its inputs. */
 typedef struct PathStart {
     const PathContext    *context;
     const Wavelengths    *wavelengths;
@@ -30,25 +30,25 @@ typedef struct PathStart {
                                    density of 1 per steradian; NULL: it comes to an eye */
 } PathStart;
 
-/* What one path found. */
+/* The result of one path. */
 typedef struct PathResult {
     float    xyz[3];    /* cd m^-2, along the ray against its direction */
     bool     hit;       /* the ray met a surface (windows passed and holes do not count): */
     Hit      first;     /* t counted from the ray's origin */
     Vec3     direction; /* of the ray there */
-    Spectrum through;   /* share per lane of what it sends that the panes before it let pass */
+    Spectrum through;   /* share of its light that the panes before it let pass, per lane */
     float    mirror[3]; /* of xyz: what came by way of that surface's mirror, if it is a
                            display; else 0 */
 } PathResult;
 
-/* Radiance along `ray` as tristimulus values, and what the eye itself sees there. out NULL:
- * nobody asks but the collectors. */
+/* Radiance along `ray` as tristimulus values, and the first surface that the eye sees there.
+ * out may be NULL, where only collectors want anything. */
 void path_from_ray(const PathStart *start, Ray ray, PathResult *out);
 
 /* Illuminance of a plane at the point, facing its normal, as tristimulus values in lx: what a
  * white Lambert surface would send back, times pi. */
 void path_from_point(const PathStart *start, LitPoint point, float xyz_lx[3]);
 
-/* For a collector that follows a way besides, from a state of its own: the path goes on by
- * `next` from the surface, which it came to against wo, to its end. */
+/* For collectors that follow another path from a state of its own: it leaves the surface,
+ * which it reached against wo, by `next` and is traced to its end. */
 void path_follow(PathState *path, const Surface *surface, Vec3 wo, const BsdfSample *next);

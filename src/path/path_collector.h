@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* path_collector.h -- what somebody wants from a path besides its light.
+/* path_collector.h -- takes results from a path besides its light.
  *
- * A path calls its collectors, one after the other, at the places named below. Those of plain
+ * A path calls its collectors, one after the other, at the places named below. Paths of plain
  * frames have none and pay nothing. A collector is a structure that begins with PathCollector;
  * where a path is followed two ways (path/windows.h) each way has its own copy, so what both
  * add to is pointed at.
@@ -13,7 +13,7 @@
 #include "path/path_state.h"
 #include "path/sun_mirror.h"
 
-#define SHADOW_HITS 16 /* that a shadow ray remembers */
+#define SHADOW_HITS 16 /* that a shadow ray keeps */
 
 /* A ray from a surface to what lights it, and the sheets that it passed. */
 typedef struct ShadowRay {
@@ -21,9 +21,9 @@ typedef struct ShadowRay {
     const LightSample *light;
     Spectrum passed;
     float    step;     /* by which it starts off its surface, m */
-    float    end;      /* m along it, to the emitter; and how well that is known, */
-    float    rounding; /* across its plane */
-    int      hit_count; /* of more than there is room for, the last ones are there: */
+    float    end;      /* m along it, to the emitter; */
+    float    rounding; /* uncertainty of that, m across the emitter's plane */
+    int      hit_count; /* sheets met; without room for all the last ones are kept: */
     Hit      recent[SHADOW_HITS]; /* number i at i % SHADOW_HITS, in the ray tracer's order */
 } ShadowRay;
 
@@ -31,29 +31,28 @@ typedef struct ShadowRay {
 typedef struct PathFound {
     LightSet set;
     int      source_id; /* emitters: scene part; punctual: scene light; else 0 */
-    Vec3     from;      /* where it began, m, world; is_distant: the unit vector there */
+    Vec3     from;      /* where it began, m, world; is_distant: unit, towards it */
     bool     is_distant;
-    Vec3     way;       /* unit: along which it left what emits it */
-    Spectrum radiance;  /* per lane, as the eye gets it; of a display that is seen by its
+    Vec3     way;       /* unit: its direction where it left its source */
+    Spectrum radiance;  /* per lane, as it comes to the eye; of a display that counts by its
                            measured XYZ instead: */
-    const float *xyz;   /* these; NULL: it is none */
-    float    share;     /* and so much of them */
-    float    weight;    /* of what the path met itself, beside light samples */
-    uint32_t             triangle; /* of an emitter, */
-    const TrianglePoint *point;    /* and where on it; NULL: it is none */
-    const Surface   *met; /* an emitter that the path met itself; NULL: it is none */
-    const Surface   *by;  /* a light sample: the surface that scatters it, seen from wo; NULL:
-                             it is none */
+    const float *xyz;   /* these; NULL: `radiance` counts */
+    float    share;     /* and the share of them */
+    float    weight;    /* of an emitter that the path met itself: its MIS weight */
+    uint32_t             triangle; /* of an emitter; */
+    const TrianglePoint *point;    /* and the point there; NULL: no emitter */
+    const Surface   *met; /* the emitter's surface, if the path met it itself; else NULL */
+    const Surface   *by;  /* the surface that scatters a light sample towards wo; else NULL */
     Vec3             wo, local_wi;
     const ShadowRay *shadow; /* from there to the light, or to the mirror */
-    const SunMirror *mirror; /* NULL: it came straight */
+    const SunMirror *mirror; /* NULL: it came directly */
     const ShadowRay *beyond; /* from the mirror to the sun */
-    bool             by_rough; /* facets of a rough mirror */
+    bool             by_rough; /* reflected by facets of a rough mirror */
 } PathFound;
 
 typedef struct PathCollector PathCollector;
 
-/* When a collector is called; what is NULL is not. */
+/* The calls of a collector; NULL: not called. */
 typedef struct CollectorKind {
     size_t size; /* of the whole structure */
     void (*start)(PathCollector *c, PathState *path); /* its first ray is known */
@@ -61,10 +60,10 @@ typedef struct CollectorKind {
     /* The surface that the eye itself sees, before it is shaded. */
     void (*see)(PathCollector *c, PathState *path, const Surface *surface, Vec3 wo,
                 uint32_t triangle);
-    /* A vertex, before it asks the lights. True: it shall not. */
+    /* A vertex, before it asks the lights. True: it does not. */
     bool (*vertex)(PathCollector *c, PathState *path, const Surface *surface, Vec3 wo,
                    const Guiding *guiding);
-    /* True: where the path goes on is *next, instead of what the surface chooses. */
+    /* True: the path goes on by *next, not by a choice of the surface. */
     bool (*choose)(PathCollector *c, PathState *path, const Surface *surface,
                    BsdfSample *next);
     /* It leaves by `next`, straight on included; the throughput has its weight. */
@@ -74,15 +73,15 @@ typedef struct CollectorKind {
     bool (*refuse)(PathCollector *c, PathState *path, const Surface *surface,
                    const BsdfSample *next);
     void (*turn)(PathCollector *c, PathState *path, const Surface *surface, Vec3 wo,
-                 const BsdfSample *next); /* it is turned; the stretch before is still there */
+                 const BsdfSample *next); /* it is turned; the segment before is still there */
     void (*pass)(PathCollector *c, PathState *path, const Surface *pane, Vec3 wo); /* it is
                   followed straight through a window whose own light is followed besides */
     void (*behind)(PathCollector *c, PathState *path, const Surface *surface); /* it goes on
                   straight behind, through a hole or a window */
     bool (*escape)(PathCollector *c, PathState *path); /* it leaves the scene. True: sun and sky
                   are not asked for */
-    void (*sky)(PathCollector *c, PathState *path, Spectrum *radiance); /* of the sky there */
-    void (*count)(PathCollector *c, PathState *path, PathFound *light); /* how much counts */
+    void (*sky)(PathCollector *c, PathState *path, Spectrum *radiance); /* may change it */
+    void (*count)(PathCollector *c, PathState *path, PathFound *light); /* may change it */
     void (*on_light)(PathCollector *c, PathState *path, const PathFound *light); /* it counts */
     void (*finish)(PathCollector *c, PathState *path); /* all is found */
     const RayFootprint *(*footprint)(const PathCollector *c); /* of the ray; NULL: not known */
@@ -93,11 +92,11 @@ struct PathCollector {
     PathCollector       *next;
 };
 
-/* All that hang on one path copy themselves into this, each from a multiple of 64 bytes on. */
+/* Room for copies of all collectors of one path, each from a multiple of 64 bytes on. */
 #define COLLECTORS_MAX_BYTES 4096
 #define COLLECTOR_ROOM(Type) ((sizeof(Type) + 63) / 64 * 64)
 
-/* As `vertex`: the lights are asked by nobody. */
+/* A `vertex` after which the lights are not asked. */
 static inline bool collector_asks_nobody(PathCollector *c, PathState *path,
                                          const Surface *surface, Vec3 wo,
                                          const Guiding *guiding)

@@ -24,14 +24,13 @@ typedef struct PathContext {
     LightSelection       selection;
     int                  max_bounces; /* 0: emission only, 1: plus direct light */
     PathStrategy         strategy;
-    const LightGuide    *guide; /* leads wide scattering; NULL: the surfaces alone decide */
+    const LightGuide    *guide; /* guides wide scattering; NULL: the surfaces alone decide */
     bool without_mirrored_sun; /* the sun in the mirror of a display that the eye sees is left
-                                  out: who asks knows it */
-    bool is_probe; /* what the first surface reflects is asked for, be it ever so dark: which
-                      paths are dim counts from there; of a frame's those that a display
-                      starts */
-    bool    has_subpixels; /* some display: the frame's rays carry what its pixels cover */
-    RayCone cone; /* of the frame whose rays these are: displays with sub-pixels show them to a
-                     ray of a frame that sees them large enough */
+                                  out: the caller adds it */
+    bool is_probe; /* light by way of the first surface counts, however dark that is: roulette
+                      compares with the throughput behind it; in a frame only behind displays */
+    bool    has_subpixels; /* some display has: the frame's rays carry a footprint */
+    RayCone cone; /* the frame's pixel: displays with sub-pixels show them to its rays where it
+                     is narrow enough; zero: these are no frame's rays */
     const PolarisedEye *eye; /* rays from it carry how light is polarised; NULL: unpolarised */
 } PathContext;

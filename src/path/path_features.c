@@ -14,7 +14,7 @@ static void albedo_rgb(Spectrum albedo, const Wavelengths *wavelengths, float rg
     rgb_from_xyz(xyz, rgb);
 }
 
-/* A display, as a path comes upon it. */
+/* A display as a path meets it. */
 typedef struct SeenDisplay {
     const Display     *display;
     const TrianglePoint *point;
@@ -35,7 +35,7 @@ static SeenDisplay view_of(const PathContext *context, const PathResult *path,
                          frame_to_local(&frame, vec3_neg(path->direction)), path, wavelengths};
 }
 
-/* What it sends to the eye for these codes: the very sum that the path adds. */
+/* XYZ that it sends to the eye for these codes: the same sum that the path adds. */
 static void emission_seen(const SeenDisplay *view, const float codes[3], float xyz[3])
 {
     const Display *display = view->display;
@@ -52,7 +52,7 @@ static void emission_seen(const SeenDisplay *view, const float codes[3], float x
     spectrum_add_xyz(view->wavelengths, through * sent, xyz);
 }
 
-/* Its sub-pixels, for an eye that is close. */
+/* The same of its sub-pixels, for an eye that is close. */
 static void subpixels_of_content(const PathContext *context, const SeenDisplay *view,
                                  float xyz[3])
 {

@@ -16,8 +16,8 @@ typedef struct PathFeatures {
     float theta, phi;  /* radians, display frame, phi in [0, 2 pi) */
 } PathFeatures;
 
-/* What a display sends to the eye through the panes before it, XYZ, cd m^-2, of a path whose
- * first surface is one; false: it is none, or its back. */
+/* XYZ, cd m^-2, that a display sends to the eye through the panes before it, where it is the
+ * path's first surface; false: that is none, or a display's back. */
 bool path_display_emission(const PathContext *context, const PathResult *result,
                            const Wavelengths *wavelengths, float xyz[3]);
 

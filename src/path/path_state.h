@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* path_state.h -- a path on its way: what it is, whoever wants what of it (path_collector.h).
+/* path_state.h -- the state of a path on its way; collectors (path_collector.h) see it, too.
  *
  * Units    metres, world; spectral radiance per lane.
  * Threads  one thread's.
@@ -17,9 +17,9 @@ typedef struct PathStatistics {
     uint64_t camera_rays, bounce_rays, shadow_rays;
 } PathStatistics;
 
-/* The numbers of a sample by their purpose: every surface that a path meets has its own, so
- * that what one sample spends shifts nothing in the samples beside it. Sheets that are followed
- * besides count on from far off. */
+/* The sampler's numbers by their purpose: every surface that a path meets has its own, so that
+ * what one sample spends shifts nothing in the samples beside it. A path that follows a sheet
+ * besides counts on from STEPS_FAR further. */
 enum {
     NUMBERS_LIGHTS = 0, /* two pairs a set */
     NUMBERS_MIRRORS = 2 * LIGHT_SETS,
@@ -39,25 +39,25 @@ typedef struct PathVertex {
     int      part_id;   /* NO_ID: an eye or a luxmeter */
     float    pdf;       /* with which the direction was chosen, sr^-1 */
     bool     is_delta;  /* no light sample could have found what comes now */
-    Spectrum sun_share; /* of the sun met now; the vertex before it got the rest */
+    Spectrum sun_share; /* of the sun, if met next; the vertex before asked for the rest */
 } PathVertex;
 
 /* The first surface that an eye sees: windows passed and holes do not count. */
 typedef struct PathFirst {
-    bool     is_awaited; /* it comes yet, and somebody asks for it */
+    bool     is_awaited; /* it is wanted, and not met yet */
     bool     is_met;
     Hit      hit;        /* t counted from the ray's origin */
     Vec3     direction;  /* of the ray there */
-    Spectrum through;    /* what the panes before it let pass */
+    Spectrum through;    /* share of its light that the panes before it let pass */
     bool     by_mirror;  /* it is a display, from whose mirror the path goes on: */
-    PathLight before;    /* what it had found till then */
+    PathLight before;    /* found until then */
 } PathFirst;
 
-/* What a path does otherwise than one that light is gathered by. */
+/* Departures of a path from the plain one that gathers light. */
 typedef struct PathManner {
-    bool is_dark;   /* what emits counts nothing: light is asked for, from far away */
+    bool is_dark;   /* emission does not count: the path asks for distant light */
     bool is_spared; /* no roulette ends it */
-    bool has_sheets; /* what thin sheets themselves show is followed always, not now and then */
+    bool has_sheets; /* thin sheets' own light is followed in every sample, not in some */
 } PathManner;
 
 struct PathCollector;
@@ -70,17 +70,17 @@ typedef struct PathState {
     struct PathCollector *collector; /* NULL: the light alone is wanted */
     PathManner manner;
     Ray        ray;
-    Spectrum   throughput; /* what the path so far lets through, per lane */
+    Spectrum   throughput; /* of the path so far, per lane */
     PathLight  gathered;   /* found so far */
     PathFirst  first;
     PathVertex last;
-    Guiding   *guiding;    /* with which that looked for light; and room for the next one */
+    Guiding   *guiding;    /* the last vertex's; and room for the next one's */
     Guiding   *spare;
     float      straight;   /* m since the last vertex (windows do not scatter) */
-    float      bright;     /* what a path lets through that is not dim; 1 but of a probe's and
-                              behind a display */
+    float      bright;     /* the throughput that roulette takes as full; not 1 behind a probe's
+                              first surface or a display */
     int        bounce;     /* scattering vertices so far */
-    int        first_bounce; /* before which sheets are followed both ways */
+    int        first_bounce; /* at which sheets are followed both ways */
     int        steps;      /* surfaces met so far */
     int        splits_left; /* thin sheets that may still be followed both ways */
     int        medium_id;  /* material of the solid that the ray is in; NO_ID: air */
@@ -88,7 +88,7 @@ typedef struct PathState {
     float      sheets_from; /* m along the ray: sheets before it were in the stack */
 } PathState;
 
-/* The next numbers asked for are those of this purpose, at the surface met last. */
+/* The sampler's next numbers are those of this purpose, at the surface met last. */
 static inline void numbers_for(PathState *path, int purpose)
 {
     path->sampler->dimension =

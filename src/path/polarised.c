@@ -12,7 +12,7 @@ static void turn_row(PolarisedRow *row, float cosine2, float sine2)
     row->q[0] = q1;
 }
 
-/* Cosine and sine of twice the angle from one axis to another, counter-clockwise for who looks
+/* Cosine and sine of twice the angle from one axis to another, counter-clockwise as seen
  * against the light. */
 static void twice_between(Vec3 from, Vec3 to, Vec3 way, float *cosine2, float *sine2)
 {
@@ -30,7 +30,7 @@ static void turn_axis(Polarised *light, Vec3 to, Vec3 way)
     light->axis = to;
 }
 
-/* The row times the matrix; what its first weight becomes over what it was. */
+/* Multiplies the row by the matrix. Returns its first weight over what that was. */
 static Spectrum times_matrix(PolarisedRow *row, const BsdfPolarisation *m)
 {
     Spectrum *q = row->q, zero = spectrum_all(0);
@@ -45,7 +45,7 @@ static Spectrum times_matrix(PolarisedRow *row, const BsdfPolarisation *m)
     return first;
 }
 
-/* No analyser counts more than twice what all light does. */
+/* No analyser weighs light more than twice as much as the eye does. */
 static void scale_analyser(PolarisedRow *row, Spectrum first, Spectrum own)
 {
     Spectrum scale = row->scale * first / spectrum_max(own, spectrum_all(LEAST));
@@ -60,7 +60,7 @@ static void apply(Polarised *light, const BsdfPolarisation *matrix)
         scale_analyser(&light->row[i], times_matrix(&light->row[i], matrix), own);
 }
 
-/* Nothing of how light is polarised is left behind such a surface. */
+/* Behind such a surface light counts alike, however polarised. */
 static void forget(Polarised *light)
 {
     for (int i = 0; i < light->row_count; i++)
@@ -77,7 +77,8 @@ static bool axis_across(Vec3 wo, Vec3 other, Vec3 *axis)
     return true;
 }
 
-/* Rows of an eye that counts light along (x, y) of its axes by `lets`, across by `blocks`. */
+/* The row of an analyser that weighs light along its axis by `lets`, across it by `blocks`;
+ * cosine2, sine2: of twice that axis's angle. */
 static PolarisedRow analyser(float cosine2, float sine2, float lets, float blocks)
 {
     float difference = lets + blocks > 0 ? (lets - blocks) / (lets + blocks) : 0;

@@ -9,7 +9,7 @@
  * more, of analysers, each with its first weight over that of the eye's.
  *
  * Axes     of light that travels along k: x = `axis`, y = k cross x; S1 > 0 along x, S2 > 0
- *          half-way from x to y, S3 > 0 clockwise for who looks against the light.
+ *          half-way from x to y, S3 > 0 clockwise as seen against the light.
  * Source   Chipman, Lam, Young, "Polarized Light and Optical Systems", 2018, chapters 3 and 6.
  * Threads  plain values.
  */
@@ -54,9 +54,9 @@ void polarised_turn(Polarised *light, const Surface *surface, Vec3 wo, const Bsd
 /* HOT. It goes straight through, by holes and by what the surface lets pass. */
 void polarised_pass(Polarised *light, const Surface *surface, Vec3 wo);
 
-/* HOT. What has not been taken of the eye's first weight. */
+/* HOT. The factor of the eye's first weight since it was last taken. */
 Spectrum polarised_take(Polarised *light);
 
-/* HOT. By how much more than unpolarised light this counts, that travels along `way` (unit,
- * world), for one of the rows; for analysers over the eye's own path. NULL: unpolarised. */
+/* HOT. The weight of this light, which travels along `way` (unit, world), for one of the rows,
+ * over that of unpolarised light; for analysers over the eye's own. NULL: unpolarised. */
 Spectrum polarised_seen(const Polarised *light, int row, Vec3 way, const PolarisedLight *from);

@@ -8,8 +8,8 @@ float sheets_rounding(Vec3 position)
     return 0.125f * ray_offset_step(position);
 }
 
-/* Corners of a that b has too, by position, since seams of textures part vertices; *apart: the
- * last one that it has not. */
+/* Counts the corners of a that b has too, by position, since texture seams split vertices;
+ * *apart: a's last corner that b has not. */
 static int shared_corners(const Scene *scene, uint32_t a, uint32_t b, Vec3 *apart)
 {
     int count = 0;
@@ -44,7 +44,7 @@ bool sheets_are_one(const Scene *scene, uint32_t triangle, uint32_t other)
                     vec3_cross(along, vec3_sub(of_b, edge[0]))) < 0;
 }
 
-/* t of its hits: depth behind the plane of the one that was met. */
+/* The t of its hits is their depth behind the plane of the hit that was met. */
 typedef struct SheetSearch {
     const Scene *scene;
     SheetStack  *out;

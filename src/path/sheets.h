@@ -3,10 +3,10 @@
  *
  * A sheet is a triangle that may let light through (MASK, BLEND, thin windows). Modellers lay
  * legends, films and masks exactly onto one another and onto what carries them, and a ray
- * tracer then reports any of them. The rule here: as far as depth can be told, the nearer comes
- * first; else what comes later in the file is seen over what comes earlier, from either side,
- * and every sheet over what is opaque. It is what a rasteriser shows that draws in the file's
- * order.
+ * tracer then reports any of them. The rule here: where depths can be distinguished, the nearer
+ * comes first; else what comes later in the file is seen over what comes earlier, from either
+ * side, and every sheet over what is opaque. A rasteriser that draws in the file's order shows
+ * the same.
  *
  * Threads  const arguments.
  */
@@ -15,7 +15,7 @@
 
 #define SHEETS_MAX 16 /* at one place; of more, those that come last in the file count */
 
-/* What a ray meets at one place, in this order. */
+/* The hits of a ray at one place, in this order. */
 typedef struct SheetStack {
     Hit hit[SHEETS_MAX];
     int count, next; /* next: the first that the ray has not come to */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "path/sun_mirror.h"
 
-/* A normal that was bent towards the eye moved by more than its square. */
+/* Squared: a normal that was bent towards the eye has moved by more. */
 #define UNBENT2 1e-8f
 
 /* Is the mirror's normal the interpolated one, and light in front of it in air? */

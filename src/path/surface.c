@@ -11,7 +11,7 @@
 /* A shading normal is bent until the eye is above its plane by this much. */
 #define LOWEST_COSINE 1e-3f
 
-/* A rough solid's: of its index; where that differs by wavelength of the least and the most. */
+/* Tables of a rough solid's index; where that varies by wavelength, of its least and most. */
 typedef struct SolidTables {
     const SolidEnergy *least, *most; /* NULL: smooth; of one index */
 } SolidTables;
@@ -30,19 +30,19 @@ static bool is_rough_solid(const Material *m)
            (m->brushing || !is_smooth(m->roughness * m->roughness));
 }
 
-/* Seen by the solid's surroundings: a coating may stand in another medium than air. */
+/* The index relative to the surroundings: a coating may stand in another medium than air. */
 static float index_of(const Material *m, float absolute)
 {
     return m->coating ? (float)((double)absolute / m->coating->outside) : absolute;
 }
 
-/* GGX, along the brushing. */
+/* GGX alpha along the brushing; alpha: across it. */
 static float alpha_brushed(float alpha, float strength)
 {
     return lerpf(alpha, 1, strength * strength);
 }
 
-/* least, most: of alpha across the brushing. A texture weakens it to nothing. */
+/* least, most: of alpha across the brushing. A texture may weaken the brushing to nothing. */
 static BrushedRange brushed_range(const Brushing *b, float least, float most)
 {
     float weakest = b->texture.texture_id == NO_ID ? b->strength : 0;
@@ -152,8 +152,7 @@ static Spectrum colour_spectrum(const Scene *scene, int curve_id, const float fa
 
 /* ---- shading normals -------------------------------------------------------------------- */
 
-/* The tangent of the vertices across a normal there, and the sense of the bitangent; false:
- * they tell none. */
+/* The vertices' tangent, made perpendicular to n, and the bitangent's sense; false: none. */
 static bool tangent_at(const Scene *scene, const Hit *hit, Vec3 n, Vec3 *along, float *side)
 {
     const Tangent *tangents = scene_part(scene, hit->triangle)->tangents;
@@ -186,7 +185,7 @@ static Vec3 mapped_normal(const Scene *scene, const TextureSlot *slot, float sca
     return vec3_dot(bent, bent) > 0.5f ? bent : n;
 }
 
-/* Turned to the side that `side` is on, and bent until `above` is above its plane. */
+/* ns, turned to the side that `side` is on, and bent until `above` is above its plane. */
 static Vec3 oriented_normal(Vec3 ns, Vec3 side, Vec3 above)
 {
     if (vec3_dot(ns, side) < 0) ns = vec3_neg(ns);
@@ -196,8 +195,8 @@ static Vec3 oriented_normal(Vec3 ns, Vec3 side, Vec3 above)
                : vec3_normalize(vec3_along(ns, above, LOWEST_COSINE * 2 - cosine));
 }
 
-/* The direction in the triangle's plane, world and unit, in which set 0's u or v grows; 0 where
- * the texture coordinates tell none. */
+/* The direction in the triangle's plane, world and unit, in which set 0's u or v grows; 0
+ * where the texture coordinates define none. */
 static Vec3 texture_axis(const Scene *scene, uint32_t triangle, bool is_v)
 {
     Vec2 uv[3];
@@ -404,8 +403,8 @@ static void set_window(const Site *site, Surface *surface)
     window->wavelengths = site->wavelengths;
 }
 
-/* How the shading normal grows along the frame's x and y: over a triangle both it, but for its
- * length, and the place are linear. A flat pane's stays exactly 0. */
+/* Sets how the shading normal changes along the frame's x and y: over a triangle both it, but
+ * for its length, and the place are linear. A flat pane's stays exactly 0. */
 static void set_bend(const Site *site, const Surface *surface, GlazedWindow *model)
 {
     const Scene *scene = site->scene;
@@ -467,7 +466,7 @@ static void set_bsdf(const Site *site, Surface *surface)
     }
 }
 
-/* One panel, or what several make at a place. */
+/* One panel, or the mix of several that holds at the point. */
 static void set_display_panel(const Site *site, const Display *display,
                               const TrianglePoint *point, DisplaySurface *out)
 {
@@ -520,7 +519,7 @@ void surface_at(const Scene *scene, const SurfaceTables *tables, const Hit *hit,
     bool keeps_outside = m->is_solid && !material_is_translucent_solid(m);
     Vec3 side = vec3_dot(out->ng, wo) < 0 && !keeps_outside ? vec3_neg(out->ng) : out->ng;
     Vec3 eye = vec3_dot(side, wo) < 0 ? vec3_neg(wo) : wo;
-    Vec3 ns = m->display_id != NO_ID /* a panel was measured with what its surface is */
+    Vec3 ns = m->display_id != NO_ID /* a panel was measured with its surface */
                   ? out->point.ns
                   : mapped_normal(scene, &m->normal_texture, m->normal_scale, hit, &out->point);
     out->frame = frame_from_z(oriented_normal(ns, side, eye));

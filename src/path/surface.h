@@ -13,8 +13,8 @@
 /* Energy tables of the scene's indices of refraction. */
 typedef struct SurfaceTables SurfaceTables;
 
-/* is_polarised: also what polarised light asks of coatings and metals. Everything comes from
- * the arena. */
+/* is_polarised: with the tables of coatings and metals that polarised light needs. Everything
+ * comes from the arena. */
 const SurfaceTables *surface_tables_build(const Scene *scene, bool is_polarised, Arena *arena);
 
 typedef struct Surface {
@@ -24,7 +24,7 @@ typedef struct Surface {
     Vec3  local_wo;    /* wo in it */
     int   part_id, material_id;
     uint32_t triangle; /* undefined where part_id is NO_ID */
-    float alpha;       /* 1: all there; below: light passes this point as if it were a hole */
+    float alpha;       /* 1: all there; below: the share 1 - alpha passes as by a hole */
     bool  emits;       /* towards wo */
     TrianglePoint point;
     Bsdf  bsdf;
@@ -43,6 +43,6 @@ void surface_at(const Scene *scene, const SurfaceTables *tables, const Hit *hit,
 /* A white Lambert point that faces `normal` (unit, world): a luxmeter's head. */
 void surface_white(const SurfaceTables *tables, Vec3 position, Vec3 normal, Surface *out);
 
-/* What share of light passes the triangle straight on, per lane: holes and thin windows. */
+/* Share of light, per lane, that passes the triangle straight on by holes and thin windows. */
 Spectrum surface_pass(const Scene *scene, const SurfaceTables *tables, const Hit *hit,
                       Vec3 direction, const Wavelengths *wavelengths);

@@ -5,7 +5,7 @@
 
 #include "shaders/layers/coating_tables.h"
 
-/* Which tables a material asks for: its factors, and textures that may lower them. */
+/* Which tables a material needs, by its factors and the textures that may lower them. */
 typedef struct CoatingNeeds {
     bool metal, face, sheet, solid, cover, pane;
 } CoatingNeeds;
@@ -45,7 +45,7 @@ static bool same_metal(const OpticalConstants *a, const OpticalConstants *b)
     return a == b || (a && b && memcmp(a, b, sizeof *a) == 0);
 }
 
-/* A texture scales the roughness by any share. */
+/* A texture scales the roughness by any factor in [0, 1]. */
 static AlphaSpan alphas_of(const Material *m)
 {
     float most = m->roughness * m->roughness;

@@ -8,6 +8,7 @@
 #include "scene/scene.h"
 #include "shaders/layers/coating.h"
 
-/* One a material; NULL: neither coated nor of a measured metal. NULL in all: no material is. */
+/* One for each material; NULL: neither coated nor of a measured metal. Returns NULL where no
+ * material needs any. */
 const SurfaceCoating *const *surface_coatings_build(const Scene *scene, bool is_polarised,
                                                     Arena *arena);

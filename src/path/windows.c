@@ -5,11 +5,11 @@
 #include <string.h>
 
 #define SHEET_SHARE 0.5f /* of an eye's samples that follow what a thin sheet itself shows */
-#define OFF_PANE 0.05f /* of an image's shift: so far along its way its ray starts */
+#define OFF_PANE 0.05f /* of an image's shift: by which its ray starts off along its way */
 
 /* ---- images of panes --------------------------------------------------------------------- */
 
-/* Along the surface from where it was met, towards wi, by so much: images of a pane's far face
+/* The point `along` m along the surface from the hit, towards wi: images of a pane's far face
  * start there, and what is seen through a pane goes on there. A pane may be curved: the ray
  * starts a little along its way. */
 static Vec3 beside(const Surface *surface, Vec3 wi, float along)
@@ -26,8 +26,8 @@ static bool lets_pass(void *user, const Hit *hit)
     return true;
 }
 
-/* Near the rim that is under the frame, or beyond it. Asked along the ray: a pane goes on under
- * its seal. along: above 0. */
+/* Does the image start under the pane's frame or beyond its rim? Tested along the ray: a pane
+ * goes on under its seal. along: above 0. */
 static bool is_framed(const PathState *path, const Surface *surface, Vec3 wi, float along)
 {
     float cosine = vec3_dot(wi, surface->frame.z), flat2 = 1 - cosine * cosine;
@@ -44,7 +44,7 @@ bool pane_image_start(const PathState *path, const Surface *surface, Vec3 wi, fl
     return !is_framed(path, surface, wi, along);
 }
 
-/* Only what the eye itself sees through a pane is moved: no light sample has asked for it. */
+/* Only the eye's own view through a pane is shifted: no light sample has asked for it. */
 static void start_behind_pane(PathState *path, const Surface *surface)
 {
     Vec3  way = path->ray.direction;
@@ -89,7 +89,7 @@ bool sheet_is_followed(PathState *path, const Surface *surface)
     return true;
 }
 
-/* Copies of them all, one after the other in the room. */
+/* Copies all of them into the room, one after the other. */
 static PathCollector *copy_collectors(const PathCollector *from, char *room)
 {
     PathCollector *first = NULL, **link = &first;
@@ -105,7 +105,7 @@ static PathCollector *copy_collectors(const PathCollector *from, char *room)
 
 bool sheet_is_shown(PathState *path, const Surface *surface, SheetRoom *room, PathState *sheet)
 {
-    float share = path->manner.has_sheets ? 1 : SHEET_SHARE; /* of samples that ask */
+    float share = path->manner.has_sheets ? 1 : SHEET_SHARE; /* of samples that follow it */
     numbers_for(path, NUMBERS_SPLIT);
     if (!(sampler_1d(path->sampler) < share)) return false;
     *sheet = *path;

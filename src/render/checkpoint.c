@@ -62,7 +62,7 @@ static CheckpointHead head_of(const Checkpoint *what, size_t pixel_bytes)
     return head;
 }
 
-/* NULL, errno 0: there is something else than a file. Nothing waits for a pipe's writer. */
+/* NULL with errno 0: it is no regular file. Opening a pipe would wait for its writer. */
 static FILE *open_file(const char *path)
 {
     struct stat info;
@@ -83,7 +83,7 @@ bool checkpoint_is_there(const char *path)
 
 /* ---- writing ----------------------------------------------------------------------------- */
 
-/* A file and the checksum of what went through. */
+/* A file and the checksum of what was written to it. */
 typedef struct CheckpointOutput {
     FileWriter   writer;
     XXH3_state_t hash;
@@ -95,7 +95,7 @@ static bool add(CheckpointOutput *output, const void *bytes, size_t size, Error 
     return file_writer_add(&output->writer, bytes, size, err);
 }
 
-/* Each row stands behind its size. */
+/* Each row is preceded by its size. */
 static bool add_rows(CheckpointOutput *output, const Film *film, FilmRect crop,
                      unsigned char *buffer, Error *err)
 {
@@ -194,7 +194,7 @@ static bool damaged_head(const char *path, const char *what, Error *err)
     return error_at(err, ERROR_INPUT, path, "", "is damaged: its %s cannot be", what);
 }
 
-/* What must be known before any other byte means anything. */
+/* Checks first what decides the meaning of every other byte: magic, byte order, version. */
 static bool check_kind(const Input *input, const CheckpointHead *head, size_t got, Error *err)
 {
     if (got < sizeof head->magic || memcmp(head->magic, MAGIC, sizeof head->magic) != 0)

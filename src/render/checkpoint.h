@@ -13,14 +13,14 @@
  * Threads  one at a time.
  * Writing  a checkpoint replaces the one before when it is whole and on the disk: a process
  *          that is killed, or a full disk, leaves the old one as it was.
- * Fails    every fault of a file is told in one line that names it.
+ * Fails    every fault of a file is reported in one line that names it.
  */
 #pragma once
 #include "film/film_part.h"
 
 #define CHECKPOINT_VERSION 1
 
-/* What a checkpoint says of the sums that it holds. */
+/* A checkpoint's description of the sums that it holds. */
 typedef struct Checkpoint {
     const char *path;
     const char *identity;
@@ -36,7 +36,7 @@ bool checkpoint_is_there(const char *path);
 /* what->done and the film are of the same pixels, layers and samples. */
 bool checkpoint_write(const Checkpoint *what, const Film *film, Arena scratch, Error *err);
 
-/* Reads everything but the sums. The whole file is looked at: what is cut off or damaged is
+/* Reads everything but the sums. The whole file is checked: a truncated or damaged one is
  * refused here. */
 bool checkpoint_open(const char *path, Arena *arena, Checkpoint *out, Error *err);
 

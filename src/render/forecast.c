@@ -8,15 +8,15 @@
 
 #define GROWTH_DECAY 0.6
 #define GROWTH_MAX 0.5
-#define HALVES_FROM 32 /* samples from which halves tell the error (film.h): less of it */
+#define HALVES_FROM 32 /* samples from which halves give the error (film.h): less of it */
 
 static bool is_of_halves(uint32_t samples)
 {
     return samples >= HALVES_FROM;
 }
 
-/* Readings a doubling apart tell the growth; where the way of reading changed in between, the
- * growth before goes on. */
+/* Readings a doubling apart give the growth; where the method of reading changed in between,
+ * the growth before decays on. */
 static void watch(Forecast *forecast, uint32_t done, double wanted)
 {
     if (forecast->samples && done < 2 * (uint64_t)forecast->samples) return;
@@ -30,7 +30,7 @@ static void watch(Forecast *forecast, uint32_t done, double wanted)
     forecast->wanted = wanted;
 }
 
-/* The sum of what all doublings to come will add, as a factor. */
+/* The factor by which all doublings to come will raise the count. */
 static double growth_to_come(const Forecast *forecast, uint32_t done, double wanted)
 {
     double doublings = fmax(log2_d(wanted / (double)done), 0);

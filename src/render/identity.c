@@ -88,7 +88,7 @@ static void add_files(Text *text, const Scene *scene)
                   (unsigned long long)decoded_pictures(scene));
 }
 
-/* What the command line put into the scene: contents, then displays as they are. */
+/* Adds contents from the command line, then all displays as they are. */
 static void add_displays(Text *text, const SceneOptions *options, const Scene *scene)
 {
     Arena *arena = text->arena;
@@ -213,7 +213,6 @@ static void add_state(Text *text, const SceneState *state)
                       state->animations[i]);
 }
 
-/* What is tried out. */
 static void add_changes(Text *text, const SceneOptions *options)
 {
     for (int i = 0; i < options->change_count; i++) {

@@ -4,7 +4,7 @@
  *
  * One line for each thing, "name<TAB>value\n", always in the same order. Files stand with their
  * name and the hash of their bytes, without their folder, so that a folder may move. Numbers
- * are exact (every digit that tells a float or a double from its neighbours).
+ * are exact (all digits that distinguish a float or a double from its neighbours).
  *
  * Memory   the text's arena.  Threads  no shared state.  Fails  never.
  */
@@ -26,7 +26,7 @@ void identity_add_program(Text *text, const Kernel *kernel);
  * which it was loaded. */
 void identity_add_scene(Text *text, const SceneOptions *options, const Scene *scene);
 
-/* Of a sky by daylight. */
+/* Time, place and parameters of a daylight sky. */
 void identity_add_daylight(Text *text, const DaylightInput *daylight);
 
 /* The scene's surroundings as they are now. */

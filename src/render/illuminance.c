@@ -20,7 +20,7 @@ typedef struct Meter {
     IlluminanceSums           sums[BATCHES];
 } Meter;
 
-/* Of the options' samples; the first batches have one more. */
+/* Samples of a batch; the first batches have one more. */
 static long batch_samples(const IlluminanceOptions *options, int batch)
 {
     return (options->samples - batch + BATCHES - 1) / BATCHES;
@@ -47,7 +47,7 @@ static void measure_batch(void *user, int batch, int worker)
     }
 }
 
-/* Batches of different lengths: each by what it has more than the mean's share of it. */
+/* Batches differ in length: each counts by how much its sum exceeds its share of the total. */
 static Illuminance add_batches(const Meter *meter)
 {
     Illuminance   total = {0};

@@ -86,7 +86,7 @@ static PathStatistics with_earlier(PathStatistics sum, const Checkpoint *resume)
 
 /* ---- all passes -------------------------------------------------------------------------- */
 
-/* What the passes need and change. */
+/* The state of all passes of a render. */
 typedef struct Run {
     const RenderOptions *options;
     TileJob       job;
@@ -97,7 +97,7 @@ typedef struct Run {
     RenderResult  result;
 } Run;
 
-/* Enough samples and little enough noise? Also tells the progress how long it may take. */
+/* Enough samples and little enough noise? Also sets the progress's total by the forecast. */
 static bool noise_reached(Run *run)
 {
     const RenderOptions *options = run->options;
@@ -133,8 +133,8 @@ static void take_snapshot(Run *run)
     options->snapshot(options->user, &run->result);
 }
 
-/* One that is being stopped or is complete is left to the caller. The interval begins when the
- * writing ends. */
+/* The checkpoint of a render that is stopped or complete is left to the caller. The interval
+ * begins when the writing ends. */
 static void keep_checkpoint(Run *run)
 {
     const RenderOptions *options = run->options;
@@ -253,7 +253,7 @@ static bool read_field(RenderSetup *setup, const char *path, Arena *arena, Error
     return guide_read(path, &scene, arena, &setup->context.guide, err);
 }
 
-/* The field comes from its file, or is learnt, and kept there if there is to be one. */
+/* Reads the field from its file, or trains it and writes that file, if one is named. */
 static bool find_field(RenderSetup *setup, const RenderOptions *options, Arena *arena,
                        Error *err)
 {

@@ -35,8 +35,8 @@ typedef struct RenderOptions {
     const char *field;         /* what was learnt: read from this file if it is there, else kept
                                   there; NULL: neither */
     int      max_bounces;      /* 0: emission only, 1: plus direct light */
-    const PolarisedEye *eye;   /* how light is polarised counts for it (its directions are the
-                                  camera's, whatever stands there); NULL: unpolarised */
+    const PolarisedEye *eye;   /* how light is polarised counts for it (its directions are
+                                  replaced by the camera's); NULL: unpolarised */
     bool     no_mirrors;       /* sunlight by way of mirrors is left to chance */
     unsigned layers;           /* FilmLayer bits; */
     const LightGroups *lights; /* of LAYER_LIGHT; NULL: none */
@@ -48,8 +48,8 @@ typedef struct RenderOptions {
     void   (*snapshot)(void *user, const RenderResult *so_far); /* NULL: none */
     void   (*checkpoint)(void *user, const RenderResult *so_far); /* NULL: none */
     double   checkpoint_interval_s; /* at least this between two, after the pass in hand */
-    /* For those who watch: after a pass that is not the last; `shown` is to be cleared before a
-     * line is printed. And often meanwhile, by the thread that called. Both NULL: nobody */
+    /* For viewers: after a pass that is not the last; `shown` is to be cleared before a line
+     * is printed. And often meanwhile, by the thread that called. Both NULL: none */
     void   (*pass_ended)(void *user, const RenderResult *so_far, const Progress *shown);
     void   (*tile_ended)(void *user);
     void    *user;             /* of all */
@@ -58,8 +58,8 @@ typedef struct RenderOptions {
 
 #define RENDER_LEAST_SAMPLES 16
 
-/* Twelve hexadecimal digits that change with every source file that decides a pixel: two builds
- * of one version that may differ are told apart. Made by hash_sources.cmake. */
+/* Twelve hexadecimal digits that change with every source file that decides a pixel: they
+ * distinguish builds of one version. Made by hash_sources.cmake. */
 extern const char SOURCES_HASH[];
 
 struct RenderResult {
@@ -68,7 +68,7 @@ struct RenderResult {
     uint32_t       samples;    /* a pixel, with those done before */
     uint32_t       resumed_samples; /* done before this session; 0: it began */
     bool           has_features; /* the samples' first surfaces were looked at */
-    long           refused_pixels; /* of the surroundings' picture: negative or not finite, 0 */
+    long           refused_pixels; /* of the sky's picture: negative or not finite, as 0 */
     double         seconds;    /* of rendering alone, over all sessions */
     double         build_seconds; /* of the ray tracer's and the lights' structures, now */
     uint64_t       field_hash;    /* of what was learnt; 0: nothing */
@@ -88,14 +88,14 @@ typedef struct RenderSetup {
     Bvh           *bvh;
     PathContext    context;
     Camera         camera;
-    uint64_t       field_hash; /* 0: no field leads the paths */
+    uint64_t       field_hash; /* 0: no field guides the paths */
     double         build_seconds, training_seconds;
     PathStatistics training;
     double         build_peak_bytes;
 } RenderSetup;
 
-/* The options' samples, layers and checkpoint do not matter yet. To be ended; the scene must
- * outlive it. */
+/* The options' samples, layers and checkpoint do not matter yet. Ended by render_setup_end;
+ * the scene must outlive it. */
 bool render_prepare(const Scene *scene, const SceneCamera *camera, const RenderOptions *options,
                     Arena *arena, RenderSetup *out, Error *err);
 
@@ -107,7 +107,7 @@ typedef struct CheckpointName {
     const char *path, *identity;
 } CheckpointName;
 
-/* Keeps what is done so far, in place of what was kept before. */
+/* Writes what is done so far, in place of the checkpoint before. */
 bool render_write_checkpoint(const CheckpointName *name, const RenderOptions *options,
                              const RenderResult *so_far, Arena scratch, Error *err);
 

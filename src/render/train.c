@@ -61,10 +61,10 @@ static void try_lights(void *context, int item, int worker)
 }
 
 #define NEIGHBOURS 4 /* on either side in the tree's order */
-#define NEAR_LAMPS 0.25 /* worth of what lamps gave a neighbour, by what they gave the cell */
+#define NEAR_LAMPS 0.25 /* weight of what lamps gave a neighbour, by that of the cell's own */
 #define DOUBT 8      /* points of them that count as the cell's own */
 
-/* What the neighbours' light samples find may come into the cell, too. */
+/* Light that the neighbours' samples find may reach the cell, too. */
 static LightFinds with_neighbours(const LightFinds *finds, int cell, int cells)
 {
     LightFinds own = finds[cell], all = {0};

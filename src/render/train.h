@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* train.h -- a guide learns the scene before the first sample that counts.
  *
- * Paths of a coarse raster over the whole frame, whatever the crop; always the same ones, so
- * that the guide depends on scene, camera and the frame's size alone.
+ * It learns from paths of a coarse raster over the whole frame, not the crop; always the same
+ * ones, so that the guide depends on scene, camera and the frame's size alone.
  *
  * Memory   the guide comes from the arena.
  */
@@ -16,7 +16,7 @@ typedef struct TrainOptions {
     int           threads;
 } TrainOptions;
 
-/* What a guide that was kept for this light has to fit. */
+/* The facts of this light that a guide from a file must match. */
 GuideScene train_guide_scene(const PathContext *context);
 
 /* context: without a guide. */

@@ -35,7 +35,7 @@ static bool check_header(const SamplingHeader *h, size_t size, Error *err)
     return true;
 }
 
-/* What a walk in depth makes. */
+/* State of the depth-first walk that expands the structure. */
 typedef struct Expand {
     const SamplingHeader *header;
     const Geodesic       *geodesic;

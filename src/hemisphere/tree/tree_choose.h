@@ -26,7 +26,7 @@ typedef struct TreeChoice {
     float             *scales;     /* level x components */
     float              byte_limit; /* rounding to 8 bits may cost this much */
     int                byte_level; /* from which level rows have 8 bits; 0: none */
-    uint32_t          *kept;       /* per place: bit b says that block b stays */
+    uint32_t          *kept;       /* per place: bit b is set: block b stays */
 } TreeChoice;
 
 typedef struct TreeDeviation {
@@ -37,11 +37,11 @@ typedef struct TreeDeviation {
 bool tree_choose(const TreeOptions *options, const float *leaves, Arena *arena, TreeChoice *out,
                  Error *err);
 
-/* Of choice->work from the source. */
+/* Deviation of choice->work from the source. */
 TreeDeviation tree_deviation(const TreeChoice *choice);
 
-/* Level of the father whose child's detail stands at a place: the place's trailing zero digits
- * say how far above the leaves the child is. Octant means have none (-1). */
+/* Level of the father whose child's detail stands at a place: the child is as many levels
+ * above the leaves as the place has trailing zero digits. Octant means have none (-1). */
 static inline int tree_father_level(const HaarShape *shape, uint32_t place)
 {
     uint32_t in_octant = place & ((1u << 2 * shape->level) - 1);

@@ -83,7 +83,7 @@ static bool check_row_table(const Tree *tree, uint64_t *bytes, Error *err)
     return true;
 }
 
-/* The nodes say how many rows have 8 bits, and with that how long the rows are. */
+/* The nodes determine how many rows have 8 bits, and so how long the rows are. */
 static bool check_size(const TreeHeader *h, const Tree *tree, Error *err)
 {
     uint64_t bytes = 4ull * h->components * h->row_count;

@@ -132,8 +132,8 @@ typedef struct Ring {
 } Ring;
 
 /* A corner of a leaf was made as the midpoint of an edge of some larger triangle; below that,
- * every triangle at the corner has it in the same place, so that the trailing digits corner + 1
- * of the leaf's id tell how far up that was. Only the octants' corners never were midpoints. */
+ * every triangle at the corner has it in the same place, so that it is as many levels up as the
+ * leaf's id has trailing digits corner + 1. Only the octants' corners never were midpoints. */
 static Ring ring_around(int level, uint32_t id, uint32_t corner)
 {
     uint32_t differ = (id ^ 0x55555555u * (corner + 1)) & ((1u << 2 * level) - 1);
@@ -293,9 +293,9 @@ static void visit_triangle(const Tree *tree, const Leaves *leaves, Visit triangl
     visit_below(tree, leaves, queue, 1, taps);
 }
 
-/* What interpolation inside one leaf needs. In the leaf's barycentric coordinates (u, v, w)
- * with the least one m, the triangle between the centre and two corners gives the centre 3m and
- * the corners u-m, v-m, w-m, one of which is 0. */
+/* Weights of the interpolation inside one leaf. In the leaf's barycentric coordinates (u, v,
+ * w) with the least one m, the triangle between the centre and two corners gives the centre
+ * 3m and the corners u-m, v-m, w-m, one of which is 0. */
 typedef struct Stencil {
     uint32_t leaf;
     float    center_weight;

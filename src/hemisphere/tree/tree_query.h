@@ -19,10 +19,10 @@
  * the value. */
 void tree_walk_mean(const Tree *tree, int level, Vec3 direction, TreeTaps *taps);
 
-/* Continuous interpolation. Of a vertex tree: barycentric between the vertices around. Of a
- * Haar tree, between its leaves: a leaf's centre keeps the leaf's value, each corner
- * takes the area mean of the leaves around it, linear in between (over the three triangles
- * between centre and corners, in barycentric coordinates). Reproduces constants. */
+/* Continuous interpolation. Vertex tree: barycentric between the vertices around. Haar tree:
+ * between its leaves; a leaf's centre keeps the leaf's value, each corner takes the area mean
+ * of the leaves around it, linear in between (over the three triangles between centre and
+ * corners, in barycentric coordinates). Reproduces constants. */
 void tree_walk_interpolated(const Tree *tree, Vec3 direction, TreeTaps *taps);
 
 /* Walk and sum of all components. */

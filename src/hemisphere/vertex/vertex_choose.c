@@ -176,7 +176,7 @@ static float *component(Four *row, uint32_t vertex, int j)
     return (float *)&row[vertex] + j % 4;
 }
 
-/* What the tree has at a vertex now. */
+/* The tree's current values at a vertex. */
 static void fitted_row(const Chooser *c, uint32_t vertex, float *row)
 {
     for (int j = 0; j < c->k; j++) row[j] = *component(c->group[j / 4].fitted, vertex, j);
@@ -184,7 +184,7 @@ static void fitted_row(const Chooser *c, uint32_t vertex, float *row)
 
 /* ---- what is missed ---------------------------------------------------------------------- */
 
-/* Marks what is not accepted with the slack, and makes it heavier; how many. */
+/* Marks vertices not accepted with the slack and raises their weights; returns how many. */
 static uint32_t find_missed(Chooser *c)
 {
     uint32_t missed = 0;
@@ -198,7 +198,7 @@ static uint32_t find_missed(Chooser *c)
     return missed;
 }
 
-/* What a vertex's detail would take off the weighted squares. */
+/* By how much a vertex's detail would reduce the weighted squares. */
 static float gain_of(const Chooser *c, uint32_t vertex)
 {
     float sum = 0;
@@ -239,7 +239,7 @@ typedef struct Wish {
     float             gain;
 } Wish;
 
-/* Of the details of levels first .. last - 1 around a vertex, and its own (of level `own`). */
+/* The best detail of levels first .. last - 1 around a vertex, or its own (of level `own`). */
 static Wish best_around(const Chooser *c, const VertexEdge *at, int own, int first, int last)
 {
     uint32_t around[3];
@@ -291,7 +291,7 @@ static void add_for_missed(Chooser *c, int first, int last, Arena scratch)
         if (c->missed[wishes[i].at->vertex]) grant(c, &wishes[i]);
 }
 
-/* Adds details until nearly all is accepted: what is left the coder mends with a detail of its
+/* Adds details until nearly all is accepted: the coder mends the rest with details of its
  * own. Returns about how many details that makes. */
 static uint32_t mend(Chooser *c, Arena scratch)
 {
@@ -390,7 +390,7 @@ static Chooser start(VertexJudge *judge, int base_level, Arena *arena)
     return c;
 }
 
-/* What a round has found, to come back to. What is missed keeps its value. */
+/* Saves a round's choice to return to. Missed vertices keep their own values. */
 static void keep(const Chooser *c, VertexChoice *out)
 {
     size_t k = (size_t)c->k;

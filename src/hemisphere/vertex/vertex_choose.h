@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* vertex_choose.h -- which vertices a tree stores, and towards which values.
  *
- * Memory   scratch by value; the choice is the caller's. Threads: as many as the options say.
+ * Memory   scratch by value; the choice is the caller's. Threads: as many as the options allow.
  */
 #pragma once
 #include "hemisphere/vertex/vertex_judge.h"

@@ -3,7 +3,7 @@
 #pragma once
 #include "hemisphere/vertex/vertex_tree.h"
 
-/* What is stored of a function: integers for every vertex of the lattice. */
+/* A coded function: integers for every vertex of the lattice. */
 typedef struct VertexCode {
     VertexLattice lattice;
     int           components;

@@ -8,9 +8,9 @@
 #include "hemisphere/vertex/vertex.h"
 
 /* The triangle on the way down has its corner c at (x, y) in units of the finest size, and is
- * turned around (corners a and b towards -x and -y of c) when `turned` is -1, else 0. The bits
- * of 3 and 5 say which children, 0..3, have c in the middle of (c, a) or (a, b), and of (b, c)
- * or (a, b). */
+ * turned around (corners a and b towards -x and -y of c) when `turned` is -1, else 0. The
+ * bits of 3 and 5 mark the children, 0..3, that have c in the middle of (c, a) or (a, b), and
+ * of (b, c) or (a, b). */
 static inline VertexPlace map_place(const Geodesic *geodesic, int plane_level, Vec3 direction)
 {
     GeodesicWalk walk = geodesic_walk_start(direction);

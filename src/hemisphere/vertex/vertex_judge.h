@@ -6,9 +6,9 @@
 #pragma once
 #include "hemisphere/vertex/vertex_options.h"
 
-/* Asks the caller's question and remembers: what lies well within a distance from the value
- * that was accepted once is taken as accepted, whatever its direction. The finished tree is
- * checked without that. */
+/* Asks the caller and remembers: what lies well within a distance from the value that was
+ * accepted once is taken as accepted, in any direction. The finished tree is checked without
+ * that. */
 typedef struct VertexJudge {
     const VertexTreeOptions *options;
     const float             *values; /* vertices x components */

@@ -159,7 +159,7 @@ static bool check_levels(const Tree *tree, const VertexHeader *h, Error *err)
     return true;
 }
 
-/* Integers times these are finite whatever they are. */
+/* Any integer times these is finite. */
 static bool check_scales(const Tree *tree, Error *err)
 {
     for (int c = 0; c < tree->components; c++)

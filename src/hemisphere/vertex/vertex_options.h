@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* vertex_options.h -- how a function is to be compressed in the vertex basis.
  *
- * Memory   plain data. Threads: `accepts` is asked by as many as `threads` says.
+ * Memory   plain data. Threads: `accepts` is called by up to `threads` of them.
  */
 #pragma once
 #include "hemisphere/tree.h"
@@ -16,8 +16,8 @@ typedef struct VertexTreeOptions {
     int            components; /* 1..TREE_MAX_COMPONENTS; the largest first pack best */
     VertexAccepts *accepts;
     const void    *context;
-    /* What one component's rounding may cost in its own unit, where that matters beyond
-     * `accepts`: the coarsest step that the coder may use; NULL: it chooses. */
+    /* The coarsest step that the coder may use for each component, in its own unit, where
+     * that matters beyond `accepts`; NULL: it chooses. */
     const float   *coarsest_step;
     int            threads; /* 0 and 1: the caller's alone; the bytes do not depend on it */
 } VertexTreeOptions;

@@ -76,7 +76,7 @@ static inline uint32_t find_block(const Tree *tree, const VertexLevel *level, ui
     return level->first_block + tree->ranks[index] + vertex_count_bits(word & (below - 1));
 }
 
-/* What a block's taps share. */
+/* Common to all taps of a block. */
 typedef struct Block {
     uint64_t bits;
     uint32_t first, row_bytes; /* byte of the first row */

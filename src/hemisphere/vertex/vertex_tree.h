@@ -10,7 +10,7 @@
  * too, so that no error adds up over levels.
  *
  * The blob is opened by tree_open and read by tree_query.h like a Haar tree's; its magic number
- * says which one it is.
+ * distinguishes them.
  */
 #pragma once
 #include "hemisphere/tree.h"
@@ -29,10 +29,10 @@
  *           i = base_level + l. A new vertex (x, y), in steps of level i + 1, belongs to the
  *           cell (floor(x/2), floor(y/2)), as one of its three edges: 0 along x (y even), 1
  *           along y (x even), 2 the diagonal. 4 x 4 cells are a block: bit 12 row + 3 column +
- *           edge says that there is a detail. The upper 16 bits, times 2^shift bytes after the
- *           level's first, say where the block's rows start; they follow each other in order of
- *           the bits. A directory word has a bit for each of 32 blocks of the level's window,
- *           row by row, that is not empty; its rank counts the level's blocks before the word.
+ *           edge is set where there is a detail. The upper 16 bits, times 2^shift bytes after
+ *           the level's first, are where the block's rows start; they follow in order of the
+ *           bits. A directory word has a bit for each of 32 blocks of the level's window, row
+ *           by row, that is not empty; its rank counts the level's blocks before the word.
  * Rows      of integers, times scale * 2^exponent. An integer is the sum of 16^p times the
  *           signed 4 bits of plane p = 0..3; plane p of a row has `pairs[p]` bytes, the first
  *           components in order, two a byte, the even one in the low bits; other components

@@ -79,8 +79,8 @@ static bool search_near(Coder *c, uint32_t vertex, const float *prediction, floa
     return false;
 }
 
-/* Stores a vertex as prediction plus integers: of its target; where rounding leads out of what
- * is accepted, of its value. False: not even neighbours are accepted. */
+/* Stores a vertex as prediction plus integers: of its target; where rounding leaves what is
+ * accepted, of its value. False: not even neighbours are accepted. */
 static bool store(Coder *c, uint32_t vertex, const float *prediction, float factor)
 {
     size_t   k = (size_t)c->code.components;
@@ -286,8 +286,8 @@ static uint32_t count_stored(const Coder *c)
     return sum;
 }
 
-/* One way to code the choice: shorter than *size, it replaces the blob. False, and *err says
- * why: not possible so. */
+/* One way to code the choice: if shorter than best->size, it replaces the blob. False, with
+ * the reason in *err: not possible. */
 static bool try_coding(Coder *c, int base_level, float coarseness, Trial *best, Error *err)
 {
     Arena scratch = best->scratch;

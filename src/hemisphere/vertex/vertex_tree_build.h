@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* vertex_tree_build.h -- compresses values at the vertices of a lattice (vertex_tree.h).
  *
- * Memory   the blob from the arena. Threads: as many as the options say.
+ * Memory   the blob from the arena. Threads: as many as the options allow.
  */
 #pragma once
 #include "base/error.h"

@@ -43,7 +43,7 @@ static bool skip_lines(LuminaireScan *in, const char *what, int count)
     return true;
 }
 
-/* Of C0, C90, C180, C270; a line without a number is 0. */
+/* The largest at C0, C90, C180, C270; a line without a number is 0. */
 static bool read_heights(LuminaireScan *in, double *largest)
 {
     for (int i = 0; i < 4; i++) {

@@ -182,7 +182,7 @@ static bool read_head(LuminaireScan *in, IesHead *head)
 
 /* ---- angles and intensities -------------------------------------------------------------- */
 
-/* The range of horizontal angles tells the symmetry. */
+/* The range of horizontal angles determines the symmetry. */
 static bool find_symmetry(LuminaireScan *in, Luminaire *out)
 {
     double first = out->c_deg[0], last = out->c_deg[out->planes - 1];
@@ -219,7 +219,7 @@ typedef struct TippedTable {
     bool    is_mirrored; /* H from 0: the other side is the same */
 } TippedTable;
 
-/* LM-63 has H from 0 (the sides are alike) or -90, V from -90. Of V from 0 it does not say
+/* LM-63 has H from 0 (the sides are alike) or -90, V from -90. For V from 0 it leaves open
  * whether the lower half is dark or as the upper one. */
 static bool read_tipped_angles(LuminaireScan *in, TippedTable *table)
 {
@@ -281,7 +281,7 @@ static bool read_tipped(LuminaireScan *in, const IesHead *head, double scale, Lu
     return true;
 }
 
-/* From 1995 on the ballast-lamp factor is 1; in 2019 its place tells how the file was made. */
+/* From 1995 on the ballast-lamp factor is 1; in 2019 its place holds the generation type. */
 static double intensity_scale(const IesHead *head, int year)
 {
     return head->multiplier * head->ballast * (year >= 2019 ? 1 : head->lamp_factor);

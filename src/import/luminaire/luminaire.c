@@ -80,7 +80,7 @@ static double ring_integral(double a, double b, double at_a, double at_b)
     return at_a * cos_d(a) - at_b * cos_d(b) + slope * (sin_d(b) - sin_d(a));
 }
 
-/* Of one plane from gamma 0 up to a limit, lm a radian of azimuth. */
+/* Flux of one plane from gamma 0 up to a limit, lm per radian of azimuth. */
 static double plane_flux(const Luminaire *in, int plane, double limit_deg)
 {
     const double *intensity = in->intensity_cd + (size_t)plane * (size_t)in->gammas;

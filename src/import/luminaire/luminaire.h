@@ -21,7 +21,7 @@
 
 #define LUMINAIRE_ANGLES_MAX 4096
 
-/* What is left of the lamps' light when they are tilted (LM-63). */
+/* Factors on the lamps' light when they are tilted (LM-63). */
 typedef struct LuminaireTilt {
     const char *file;   /* TILT=FILE: where the rest stands, as the luminaire's file writes it;
                            NULL: here, or nowhere */
@@ -40,13 +40,13 @@ typedef struct Luminaire {
     double *intensity_cd;      /* planes x gammas */
     bool    is_round;          /* one plane that serves every azimuth */
     double  mirror_deg[2];     /* planes about which the rest is mirrored; < 0: none */
-    LuminousOpening opening;   /* a point where the file does not say */
-    const char *opening_fault; /* why it is taken for a point although it says; else NULL */
-    double  area_m2;           /* that it shows to the front; 0: the file does not say */
+    LuminousOpening opening;   /* a point where the file has none */
+    const char *opening_fault; /* why the file's is taken for a point; else NULL */
+    double  area_m2;           /* that it shows to the front; 0: not in the file */
     double  stated_lm;         /* light of the luminaire that the file states; 0: none */
     const char *stated_as;     /* "lamp flux x light output ratio" */
-    double  cct_k;             /* colour temperature; 0: the file does not plainly say */
-    const char *cct_text;      /* what it says of the light's colour; "": nothing */
+    double  cct_k;             /* colour temperature; 0: the file states no clear one */
+    const char *cct_text;      /* the file's text about colour; "": none */
     LuminaireTilt tilt;
 } Luminaire;
 

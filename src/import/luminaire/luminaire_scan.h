@@ -43,11 +43,11 @@ typedef enum CctSource {
     CCT_OF_LAMP    /* a lamp's name, in which other numbers stand as well */
 } CctSource;
 
-/* What a text (NULL: none) says of the colour temperature, while none is known: into
- * out->cct_k, and into out->cct_text the text that did, else the first one about colour.
- * Understood are kelvins ("4000", "4000 K"; in a lamp's name with their K) and colour codes, a
- * digit for the colour rendering and two for hundreds of kelvins ("840"; in a lamp's name
- * behind a slash: "LED/930"), as long as the text names one temperature only. */
+/* Finds the colour temperature in a text (NULL: none), while none is known: into out->cct_k,
+ * and the text into out->cct_text; without one, the first text about colour. Understood are
+ * kelvins ("4000", "4000 K"; in a lamp's name with their K) and colour codes, a digit for the
+ * colour rendering and two for hundreds of kelvins ("840"; in a lamp's name behind a slash:
+ * "LED/930"), as long as the text names one temperature only. */
 void luminaire_scan_cct(const char *text, CctSource source, Luminaire *out);
 
 /* An error at the current line. Always false. */

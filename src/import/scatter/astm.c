@@ -31,7 +31,7 @@ typedef struct Astm {
     int     angle[ANGLES];        /* column of each, -1: none */
     int     value[COLUMNS_MAX];   /* columns of the channels, in the order of the table */
     int     channels;
-    float  *nm;                   /* NULL: the file does not say */
+    float  *nm;                   /* NULL: not in the file */
     bool    is_rgb, is_xyz;
     double *cell; /* rows x columns */
 } Astm;

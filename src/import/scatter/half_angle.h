@@ -8,8 +8,8 @@
 #pragma once
 #include "import/scatter/scatter.h"
 
-/* Of the half vector: from the normal and around it. Of the light in the frame of the half
- * vector, whose first axis leads down from the normal and whose second one runs around it. */
+/* half: the half vector, from the normal and around it. diff: the light in the frame of the
+ * half vector, whose first axis points down from the normal and whose second runs around it. */
 typedef struct HalfAngles {
     double half_theta, half_phi, diff_theta, diff_phi; /* degrees; phi in (-180, 180] */
 } HalfAngles;
@@ -29,7 +29,7 @@ typedef struct AngleInterval {
     double weight; /* of high */
 } AngleInterval;
 
-/* Of x in a rising list; the ends hold, unless the list goes round after `period` (0: not). */
+/* Finds x in a rising list; the ends hold, unless the list repeats after `period` (0: not). */
 AngleInterval angle_interval(const double *list, int count, double x, double period);
 
 typedef struct BrdfSource {

@@ -4,7 +4,7 @@
  *
  * The scatter angles are about the NORMAL: ScatterRadial from it, ScatterAzimuth around it,
  * with the light of POI 0 at azimuth 90. That zero, and that POI turns the light
- * counter-clockwise, is known from another program's reader alone: a note says so. */
+ * counter-clockwise, is known from another program's reader alone, as a note states. */
 #include <string.h>
 #include <strings.h>
 
@@ -41,7 +41,7 @@ static bool read_symmetry(LightTools *in, Error *err)
     return scan_fail(&in->scan, err, "Symmetry is '%s', wanted Asymmetric", word ? word : "");
 }
 
-/* Entries that say nothing of the values (Source, ...) are passed over with their line. */
+/* Entries that do not concern the values (Source, ...) are skipped with their line. */
 static bool read_header(LightTools *in, Error *err)
 {
     WordScan *scan = &in->scan;

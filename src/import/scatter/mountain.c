@@ -2,9 +2,9 @@
 /* pab advanced technologies' "Mountain" text, one file a direction of the light: header lines
  * that begin with #, then lines of theta, phi and the value (or X, Y and Z).
  *
- * #intheta and #inphi (or #incident_angle) say where the light COMES from, in the frame of the
+ * #intheta and #inphi (or #incident_angle) are where the light COMES from, in the frame of the
  * rows: the mirror direction is at inphi + 180. A DSF holds the cosine of the leaving angle and
- * is divided by it. Layout as the manual of Radiance's pabopto2bsdf tells it. */
+ * is divided by it. Layout as in the manual of Radiance's pabopto2bsdf. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

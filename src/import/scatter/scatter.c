@@ -109,7 +109,7 @@ static bool is_turned(const ImportSet *set, double azimuth_deg)
     return false;
 }
 
-/* Of a file whose material the user calls isotropic one azimuth of the light is enough. */
+/* One azimuth of the light per file is enough for a material that the user calls isotropic. */
 static bool is_spared(ImportSet *set, const char *file, ScatterLight light, float nm)
 {
     for (int i = 0; i < set->count && set->is_isotropic; i++) {

@@ -65,18 +65,18 @@ const float *scatter_band(double nm, ImportSet *set);
 const float *scatter_wavelength(const ImportOptions *options, const char *file, ImportSet *set,
                                 Error *err);
 
-/* The wavelength that a file tells (0: it does not), unless --wavelength is given. */
+/* The wavelength that a file states (0: none), unless --wavelength is given. */
 const float *scatter_stated_wavelength(double stated_nm, const ImportOptions *options,
                                        const char *file, ImportSet *set, Error *err);
 
-/* Photopic values (CIE Y) stand at one wavelength, and a note says so; --wavelength wins. Of
- * X, Y and Z another note says that Y alone is taken. */
+/* Photopic values (CIE Y) stand at one wavelength, with a note; --wavelength wins. For X, Y
+ * and Z another note states that Y alone is taken. */
 #define PHOTOPIC_NM 555.0f
 const float *scatter_photopic(const ImportOptions *options, const char *file, ImportSet *set);
 const float *scatter_xyz(const ImportOptions *options, const char *file, ImportSet *set);
 
 /* RGB values stand as three bands near the dominant wavelengths of the primaries of Rec. 709,
- * blue first since wavelengths rise; a note says so. */
+ * blue first since wavelengths rise; a note states it. */
 #define RGB_BANDS 3
 const float *scatter_rgb_bands(const char *file, ImportSet *set);
 

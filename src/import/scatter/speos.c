@@ -60,7 +60,7 @@ static void find_reference(const Speos *in, const SpeosTable *out[2])
     if (!out[1]) out[1] = out[0];
 }
 
-/* What makes of a value and a reflectance a BRDF. */
+/* The factor from value times reflectance to BRDF: 1 / H, interpolated between incidences. */
 static bool find_scale(const Speos *in, Arena scratch, double *scale, Error *err)
 {
     const SpeosTable *table[2];

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The text form of Speos' .anisotropicbsdf and .brdf, version 8 and later, as the manual of
- * Speos Labs tells its rows. */
+/* The text form of Speos' .anisotropicbsdf and .brdf, version 8 and later, with rows as in
+ * the manual of Speos Labs. */
 #include "import/scatter/speos_text.h"
 
 #include <string.h>

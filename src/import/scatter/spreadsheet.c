@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Workbooks of spreadsheet programs, by their first bytes: an OLE compound file (.xls) or a zip
- * archive (.xlsx). Their cells mean what a laboratory's template says, so they are refused,
+/* Workbooks of spreadsheet programs, by their first bytes: an OLE compound file (.xls) or a
+ * zip archive (.xlsx). Only a laboratory's template defines their cells, so they are refused,
  * with what can be given instead. */
 #include <string.h>
 #include <strings.h>

@@ -233,7 +233,7 @@ static void put_about_mirror(ImportRows *rows, double incidence_deg, double radi
     scatter_put_measured(rows, theta_deg, phi_deg, value);
 }
 
-/* Every azimuth tells the mirror direction's value again: their mean is taken. */
+/* Every azimuth repeats the mirror direction's value: their mean is taken. */
 static void put_radial(const Zemax *in, ImportRows *rows, const double *value,
                        double incidence_deg, int i)
 {

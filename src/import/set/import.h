@@ -53,7 +53,7 @@ typedef struct ImportTable {
     const double *theta_deg, *phi_deg; /* rows; theta in [0, 90], any phi */
     const double *value;             /* rows x channels */
     int           masked;            /* directions marked as not measured: left out */
-    const double *masked_theta_deg, *masked_phi_deg; /* masked of them, or NULL: not told */
+    const double *masked_theta_deg, *masked_phi_deg; /* masked of them, or NULL: not known */
 } ImportTable;
 
 /* Spectra of the primaries, relative. */
@@ -63,7 +63,7 @@ typedef struct ImportSpectra {
     const double *value[4]; /* red, green, blue, black (may be NULL) */
 } ImportSpectra;
 
-/* What the user says of the sample: what was not measured is filled from its image. */
+/* The sample's symmetry as the user states it: unmeasured parts are filled from their image. */
 typedef enum ImportSymmetry {
     IMPORT_NO_SYMMETRY, IMPORT_LEFT_RIGHT, IMPORT_UP_DOWN, IMPORT_BOTH, IMPORT_HALF_TURN
 } ImportSymmetry;
@@ -74,9 +74,9 @@ typedef struct ImportSet {
     int           count;
     bool          is_anisotropic;    /* reflection depends on the light's azimuth; tables of
                                         several azimuths make it so */
-    bool          is_isotropic;      /* the user says that it does not, whatever the tables */
+    bool          is_isotropic;      /* the user states that it does not, against any tables */
     ImportSymmetry symmetry;
-    bool          black_is_zero;     /* the user says that the black pattern was subtracted */
+    bool          black_is_zero;     /* the user states that black was subtracted */
     const char   *panel, *instrument; /* names for the manifest; NULL: the file's */
     double        white_reflectance; /* of the reference: Lambertian, 0 to 1 (default 1) */
     ImportSpectra spectra;
@@ -97,11 +97,11 @@ bool import_add(ImportSet *set, const ImportTable *table, Error *err);
 /* A note that stands there already is not repeated. */
 void import_note(ImportSet *set, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/* ---- what the user says ------------------------------------------------------------------ */
+/* ---- options of the user ----------------------------------------------------------------- */
 
 typedef struct ImportOptions {
-    const char *format;      /* name of an importer; NULL: told by the file itself */
-    double      wavelength_nm; /* for files that do not say; 0: not given */
+    const char *format;      /* name of an importer; NULL: by the file itself */
+    double      wavelength_nm; /* for files that state none; 0: not given */
     double      area_mm[2];  /* luminous area for luminaire files; 0: the file's */
     const struct TextOptions *text; /* of text tables (text_options.h); NULL: none */
 } ImportOptions;

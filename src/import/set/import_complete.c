@@ -73,7 +73,7 @@ static const ImportTable *full(const ImportSet *set, ImportSource source)
     return found;
 }
 
-/* Notes how far a measured white is from the sum of the primaries. */
+/* Notes by how much a measured white differs from the sum of the primaries. */
 static void note_white(ImportSet *set)
 {
     const ImportTable *white = full(set, IMPORT_WHITE);
@@ -124,7 +124,7 @@ static int count_of(const ImportSet *set, ImportSource source)
     return count;
 }
 
-/* Where the user says that black was subtracted: zeros at the directions of a red table. */
+/* Where the user states that black was subtracted: zeros at the directions of a red table. */
 static bool add_zero_black(ImportSet *set, Error *err)
 {
     ImportTable black = *first_of(set, IMPORT_RED);

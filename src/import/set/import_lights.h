@@ -8,7 +8,7 @@
 #include "import/set/import.h"
 
 /* Several azimuths of light that is not normal make the material anisotropic, unless the user
- * says otherwise; one is as good as any other and becomes 180. */
+ * states otherwise; one is as good as any other and becomes 180. */
 void import_find_anisotropy(ImportSet *set);
 
 /* Fills directions and lights by the set's symmetry. */

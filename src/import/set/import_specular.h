@@ -10,7 +10,7 @@
 #include "import/set/import.h"
 #include "panel/set/specular_table.h"
 
-/* What is asked; file NULL and no gloss: nothing. */
+/* file NULL and no gloss: nothing is added. */
 typedef struct ImportSpecular {
     const char *file;
     double      aperture_deg; /* full angle; 0: the mirror alone */

@@ -202,7 +202,7 @@ static void append_once(json_t *list, double value)
     json_array_insert_new(list, i, number(value));
 }
 
-/* What a set has of the mirror besides its tables. */
+/* The set's specular measurements, which its tables do not hold. */
 static void add_specular(const ImportSet *set, json_t *object)
 {
     json_t *list = json_array();
@@ -246,7 +246,7 @@ static json_t *reflection_object(const ImportSet *set)
     return object;
 }
 
-/* What the files say; else the name of the folder they come from, or of the only file. */
+/* The name in the files or of the user; else that of their folder, or of the only file. */
 static const char *panel_name(SetOutput *out)
 {
     const char *file = out->set->table[0].file, *name = path_name(file);

@@ -253,7 +253,7 @@ Role role_from_words(const char *words, double level_max, bool *is_ambiguous)
     return *role;
 }
 
-/* ---- telling ----------------------------------------------------------------------------- */
+/* ---- names and agreement ----------------------------------------------------------------- */
 
 const char *role_text(const Role *role, Arena *arena)
 {

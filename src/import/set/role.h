@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* role.h -- what a file is in a measurement set: which primary at which level, which light.
  *
- * Told by an option ("red:255", "brdf:20:90:550"), by words inside the file ("Sample;blue 127")
- * or by its name ("R_031.csv", "i10_w550.txt").
+ * Stated by an option ("red:255", "brdf:20:90:550"), by words inside the file ("Sample;blue
+ * 127") or by its name ("R_031.csv", "i10_w550.txt").
  *
  * Memory   none. Threads: no shared state.
  */
@@ -19,14 +19,14 @@ typedef struct Role {
     bool         has_incidence, has_azimuth;
     double       incidence_deg;
     double       azimuth_deg;  /* of the light, in the file's own azimuths */
-    double       wavelength_nm; /* 0: not told */
+    double       wavelength_nm; /* 0: not stated */
 } Role;
 
 /* "red[:LEVEL[:X|Y|Z]]", "black", "white", "brdf:INCIDENCE[:AZIMUTH[:WAVELENGTH]]", "dark",
  * "reference[:INCIDENCE[:AZIMUTH[:WAVELENGTH]]]", "skip". Levels go up to level_max. */
 bool role_parse(const char *text, double level_max, Role *out, Error *err);
 
-/* Words and letters with numbers, in any case. Not told when nothing is found; *is_ambiguous
+/* Words and letters with numbers, in any case. Not known when nothing is found; *is_ambiguous
  * when more than one thing is. */
 Role role_from_words(const char *words, double level_max, bool *is_ambiguous);
 

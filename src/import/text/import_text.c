@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Text of any layout: columns or matrices, as the user and the file say it. */
+/* Text of any layout: columns or matrices, as the user and the file state. */
 #include <math.h>
 #include <string.h>
 
@@ -53,7 +53,7 @@ static const char *name_without_ending(TextReader *in)
     return arena_string(in->set->arena, name, length ? length : strlen(name));
 }
 
-/* The role of a reflection table whose own text says the incidence. */
+/* The role of a reflection table whose own text states the incidence. */
 static Role stated_light(const TextReader *in)
 {
     return (Role){.is_known = in->metadata.has_incidence, .source = IMPORT_REFLECTION,
@@ -112,7 +112,7 @@ static void index_columns(TextReader *in)
         in->column[in->raw->column[c].name.quantity] = c;
 }
 
-/* A matrix without a label: --quantity says what it holds, or a component in role or name. */
+/* A matrix without a label: --quantity names what it holds, or a component in role or name. */
 static bool name_unlabelled(TextReader *in)
 {
     int c = in->column[QUANTITY_NONE];

@@ -80,7 +80,7 @@ double *text_blocks_row(TextBlocks *blocks, int line, Error *err)
 
 /* ---- which angle runs down --------------------------------------------------------------- */
 
-/* What the corner calls the first column and the first row: "Incl\Azim". */
+/* The names of the first column and the first row in the corner: "Incl\Azim". */
 static void corner_names(const char *corner, ColumnName name[2])
 {
     size_t first = strcspn(corner, "\\/|,;");

@@ -6,8 +6,7 @@
 #pragma once
 #include "import/text/text_reader.h"
 
-/* Finds them from what the file says, what the user says, and the defaults; a contradiction is
- * an error. */
+/* Finds them from the file, the options and the defaults; a contradiction is an error. */
 bool text_conventions_find(TextReader *in);
 
 /* The file's angles in degrees of the set's frame, theta in [0, 180]. Two raw angles: theta and

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* text_lines.h -- a foreign text file as lines of cells, whatever its encoding, line ends,
- * delimiter and decimal sign.
+/* text_lines.h -- a foreign text file as lines of cells, for any encoding, line ends, delimiter
+ * and decimal sign.
  *
  * Memory   the arena's; lines and cells are views into the decoded text.
  * Threads  no shared state.
@@ -68,7 +68,7 @@ bool text_number(TextCell cell, char decimal, double *out);
 /* Marks of a value that was not measured: nothing, "---", "NaN", "n/a", "***". */
 bool text_is_masked(TextCell cell);
 
-/* Finds what the user did not say: the delimiter and decimal sign under which most lines
- * are rows of numbers. */
+/* Finds what the user did not give: the delimiter and decimal sign under which most lines are
+ * rows of numbers. */
 bool text_find_dialect(const TextFile *text, int first_line, Arena scratch,
                        TextDialect *dialect, Error *err);

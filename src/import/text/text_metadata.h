@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* text_metadata.h -- what a file says of itself in the lines around its numbers.
+/* text_metadata.h -- the metadata in the lines around a file's numbers.
  *
  * Memory   the arena's. Threads: no shared state.
  */
 #pragma once
 #include "import/text/text_names.h"
 
-/* What stands beside the numbers; a line index is -1 when nothing is. */
+/* A line index is -1 where the file states nothing. */
 typedef struct TextMetadata {
     AzimuthWords azimuth;
     int          zero_line, sense_line, side_line;

@@ -30,8 +30,8 @@ typedef enum AngleUnit { ANGLE_AUTO, ANGLE_DEGREES, ANGLE_RADIANS } AngleUnit;
 
 typedef struct ColumnName {
     Quantity  quantity;
-    double    wavelength_nm; /* of a reflection column; 0: not told */
-    ValueUnit unit;          /* UNIT_AUTO: not told */
+    double    wavelength_nm; /* of a reflection column; 0: not stated */
+    ValueUnit unit;          /* UNIT_AUTO: not stated */
     AngleUnit angle;
     bool      is_ambiguous;  /* "u": CIE 1960 or 1976? */
 } ColumnName;
@@ -58,7 +58,7 @@ typedef struct AzimuthWords {
     bool   is_behind; /* seen from behind the panel */
 } AzimuthWords;
 
-/* Of a line about azimuths: "0 = 12 o'clock; clockwise". */
+/* Reads a line about azimuths: "0 = 12 o'clock; clockwise". */
 AzimuthWords azimuth_words(TextLine line);
 
 /* Is the text there, in any case? */

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* text_options.h -- what a user says of text tables: layout, units, azimuths, roles.
+/* text_options.h -- the user's options for text tables: layout, units, azimuths, roles.
  *
- * Every member has a value for "not told"; what the file itself says is then taken, and where
- * neither says it, either this project's own convention holds (azimuth 0 right, counter-
- * clockwise, degrees, cd/m2: a note tells) or the file is refused with the option to give.
+ * Every member has a value for "not given"; the file's own statement is then taken. Where
+ * there is none, either this project's own convention holds (azimuth 0 right, counter-
+ * clockwise, degrees, cd/m2: with a note) or the file is refused with the option to give.
  *
  * Memory   texts stay the caller's. Threads: const while files are read.
  */
@@ -46,8 +46,8 @@ typedef struct TextList {
 
 typedef struct TextOptions {
     TableLayout  layout;
-    const char  *columns;     /* "theta,phi,X,Y,Z"; "-" skips one; NULL: the header says */
-    const char  *quantity;    /* of a matrix: "X", "L", "brdf", ...; NULL: not told */
+    const char  *columns;     /* "theta,phi,X,Y,Z"; "-" skips one; NULL: as in the header */
+    const char  *quantity;    /* of a matrix: "X", "L", "brdf", ...; NULL: not given */
     TextDialect  dialect;
     TextEncoding encoding;
     int          skip_lines;
@@ -59,10 +59,10 @@ typedef struct TextOptions {
     ValueUnit    unit;
     bool         has_azimuth_zero, has_light_azimuth;
     double       azimuth_zero_deg;   /* where the file's azimuth 0 points, 0 right, 90 up */
-    int          azimuth_sense;      /* 1 counter-clockwise, -1 clockwise, 0 not told */
-    int          seen_from;          /* 1 the viewer's side, -1 behind the panel, 0 not told */
+    int          azimuth_sense;      /* 1 counter-clockwise, -1 clockwise, 0 not given */
+    int          seen_from;          /* 1 the viewer's side, -1 behind the panel, 0 not given */
     double       light_azimuth_deg;  /* of all reflection tables, in the file's azimuths */
-    double       white_reflectance;  /* 0: not told */
+    double       white_reflectance;  /* 0: not given */
     double       level_max;          /* the panel's highest code; 0: 255 */
     RoleRow      role[TEXT_ENTRIES_MAX];
     int          role_count;

@@ -20,7 +20,7 @@ typedef struct NamedColumn {
     int         from; /* cell of a row */
 } NamedColumn;
 
-/* What lists and matrices both become. */
+/* The common form of lists and matrices. */
 typedef struct NamedRows {
     const char *file;
     NamedColumn column[TEXT_COLUMNS_MAX];

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* text_scan.h -- a text file's numbers as rows of named columns, and what it says of itself.
+/* text_scan.h -- a text file's numbers as rows of named columns, and its metadata.
  *
  * Lists and matrices (one or more labelled blocks over one grid) both become one table of rows.
  *

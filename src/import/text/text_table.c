@@ -15,7 +15,7 @@
 #define DIRECTIONS_MIN 3 /* fewer are no angular table */
 #define KEYS_MAX 3
 
-/* The rows of one pattern or light: what they share in the columns that tell it. */
+/* The rows of one pattern or light: what they share in the columns that identify it. */
 typedef struct RowGroup {
     double key[KEYS_MAX];
     int    row;
@@ -156,7 +156,7 @@ static bool emission_values(const TextReader *in, const TextChannels *channels, 
     return true;
 }
 
-/* To sr^-1 without the cosine. Of a cosine-corrected value at the horizon nothing is left. */
+/* To sr^-1 without the cosine. A cosine-corrected value at the horizon is masked. */
 static void reflection_values(const TextReader *in, const TextChannels *channels, int row,
                               double theta_deg, double *value, bool *is_masked)
 {

@@ -106,8 +106,8 @@ static bool finish_bytes(const FitParts *parts, FitTarget *out, Arena *arena, js
     return out->bytes && !is_refused;
 }
 
-/* The sampling, a section of the file or the promise that opening makes it, follows from what
- * the reflection says when it is queried. */
+/* The sampling, a section of the file or the promise that opening makes it, follows from the
+ * reflection's answers to queries. */
 static bool sample_reflection(const FitParts *parts, ReflectionResult *reflection, Arena *arena,
                               Error *err)
 {
@@ -126,7 +126,7 @@ static bool sample_reflection(const FitParts *parts, ReflectionResult *reflectio
 
 #define STEPS 4 /* of a panel */
 
-/* What a fit of one panel or of several has at hand. */
+/* State of a fit of one panel or of several. */
 typedef struct FitRun {
     const FitOptions *options;
     const char       *path; /* of the file to be */
@@ -171,7 +171,7 @@ static bool fit_parts(FitRun *run, const Measurement *set, FitParts *parts)
 
 /* ---- spots ------------------------------------------------------------------------------- */
 
-/* What the whole file's report says of a spot's panel. */
+/* A spot's entry in the whole file's report. */
 static json_t *spot_report(const MeasuredSpot *spot, const json_t *report, size_t bytes)
 {
     const json_t *total = json_object_get(report, "total");

@@ -86,7 +86,7 @@ static void write_subpixels(FitWriter *writer, const Measurement *set)
     if (stated->layout != SUBPIXELS_NONE) write_section(writer, PANEL_SUBPIXELS, 0, &piece, 1);
 }
 
-/* A section of what goes without saying is left out. */
+/* A section of default values is left out. */
 static bool has_surface(const ReflectionResult *r)
 {
     return r->surface.frame != PANEL_FRAME_SPECULAR ||

@@ -19,7 +19,7 @@ typedef struct FitParts {
     const ReflectionResult *reflection; /* NULL: none */
     FitNotes               *notes;
     const FitPlaces        *places; /* NULL: one panel everywhere */
-    const json_t           *spots;  /* what the report says of its panels; NULL: nothing */
+    const json_t           *spots;  /* its panels' entries in the report; NULL: none */
     const void             *tables; /* of the report, packed (panel_report.h); NULL: not yet */
     size_t                  tables_size;
 } FitParts;

@@ -13,7 +13,7 @@
 #include "panel/fit/fit_table.h"
 #include "panel/fit/judge_reason.h"
 
-/* What all tables together miss by. */
+/* Deviations summed over all tables. */
 typedef struct FitDeviations {
     FitErrors emission, reflection;
 } FitDeviations;

@@ -89,7 +89,7 @@ void fit_places_plan(const Measurement *set, Arena *arena, FitPlaces *out)
     out->sizes = ARENA_NEW(arena, size_t, set->spot_count);
     out->spot = ARENA_NEW(arena, PanelSpotStored, set->spot_count);
     for (int i = 0; i < set->spot_count; i++) plan_spot(set, i, lender, out);
-    if (!out->panels) out->spots = 0; /* all say the same: one panel everywhere */
+    if (!out->panels) out->spots = 0; /* all are the same: one panel everywhere */
 }
 
 size_t fit_places_bytes(const FitPlaces *places)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* fit_places.h -- what a set says of places becomes sections of a panel file (panel_file.h:
+/* fit_places.h -- the spots and the map of a set as sections of a panel file (panel_file.h:
  * PANEL_SPOTS, PANEL_SPOT_FILE, PANEL_MAP).
  *
  * The file's own panel is the set's own tables. Where the set has none, it is those of the spot

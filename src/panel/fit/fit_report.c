@@ -127,7 +127,7 @@ static int count_falling(const Panel *panel)
     return count;
 }
 
-/* What was chosen for the emission, and what it takes. */
+/* The emission's parameters, and its size in bytes. */
 static json_t *describe_emission(const FitParts *parts, const FitTable *total, int falling)
 {
     const EmissionResult *e = parts->emission;
@@ -180,7 +180,7 @@ static void hash_table(XXH3_state_t *hash, const AngleTable *table)
     XXH3_64bits_update(hash, table->value, sizeof(float) * rows * (size_t)table->channels);
 }
 
-/* Of all measured numbers, so that a panel can be told from another set's of the same name. */
+/* Distinguishes sets of the same name by what was measured at their first place. */
 static uint64_t source_hash(const Measurement *set)
 {
     XXH3_state_t hash;
@@ -189,7 +189,8 @@ static uint64_t source_hash(const Measurement *set)
     for (int p = 0; p < 3; p++)
         for (int i = 0; i < set->primary[p].level_count; i++)
             hash_table(&hash, &set->primary[p].table[i]);
-    for (int i = 0; i < set->incidence_count; i++) hash_table(&hash, &set->brdf[i]);
+    for (int i = 0; i < set->incidence_count * set->azimuth_count; i++)
+        hash_table(&hash, &set->brdf[i]);
     if (set->has_spectra) XXH3_64bits_update(&hash, set->spectrum, sizeof set->spectrum);
     return XXH3_64bits_digest(&hash);
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* fit_report.h -- how well a fitted panel says again what was measured.
+/* fit_report.h -- how well a fitted panel reproduces what was measured.
  *
  * A ratio of sizes means nothing without the error that it cost: every table states both, and
  * so does the total. Errors are relative, at every measured sample.

@@ -137,7 +137,7 @@ static json_t *parts_json(const FitParts *parts, const Panel *panel)
     return list;
 }
 
-/* How it is read; what goes without saying is left out. */
+/* How it is read; default values are left out. */
 static void add_surface(const PanelSurfaceStored *s, json_t *out)
 {
     static const char *const frames[] = {"", "slopes", "direction cosines"};

@@ -9,5 +9,5 @@
 void fit_report_reflection_tables(const FitParts *parts, const Panel *panel, json_t *tables,
                                   FitTable *total, FitErrors *all);
 
-/* What was chosen, and the parts at every incidence, as "reflection" in *out. */
+/* Adds the parameters, and the parts at every incidence, to *out as "reflection". */
 void fit_report_reflection(const FitParts *parts, const Panel *panel, json_t *out);

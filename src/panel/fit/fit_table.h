@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* fit_table.h -- how well a panel says one measured table again, as a row of the report. */
+/* fit_table.h -- how well a panel reproduces one measured table, as a row of the report. */
 #pragma once
 #include <jansson.h>
 #include <stddef.h>

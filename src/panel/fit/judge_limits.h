@@ -18,9 +18,9 @@
 #define JUDGE_RMS_CARE 0.1
 #define JUDGE_RMS_UNUSABLE 0.5
 
-/* Of a table's hemispherical integral: luminous flux, or albedo. It decides how much light
- * comes into the room: 5 % is the uncertainty of an integrating sphere in a good laboratory, 25
- * % is a third of a stop. */
+/* Error of a table's hemispherical integral: luminous flux, or albedo. It decides how much
+ * light comes into the room: 5 % is the uncertainty of an integrating sphere in a good
+ * laboratory, 25 % is a third of a stop. */
 #define JUDGE_INTEGRAL_CARE 0.05
 #define JUDGE_INTEGRAL_UNUSABLE 0.25
 
@@ -33,8 +33,8 @@
 /* Below a thousandth a panel is blacker than the blackest coatings that are sold. */
 #define JUDGE_ALBEDO_LEAST 0.001
 
-/* Noise that the tables themselves show, relative: it is told apart from the panel's own
- * structure up to here, and beyond a half nothing is. */
+/* Noise that the tables themselves show, relative: up to here it can be separated from the
+ * panel's own structure, beyond a half nothing can. */
 #define JUDGE_NOISE_CARE 0.05
 #define JUDGE_NOISE_UNUSABLE 0.5
 
@@ -48,7 +48,7 @@
 #define JUDGE_ZEROS_UNUSABLE 0.95
 
 /* Between azimuths further apart than this (eight around the circle) two-lobed and four-lobed
- * patterns cannot be told; not asked where all azimuths agree within 5 % and the noise. */
+ * patterns cannot be resolved; not asked where all azimuths agree within 5 % and the noise. */
 #define JUDGE_GAP_DEG 45.0
 #define JUDGE_GAP_ISOTROPIC 0.05
 
@@ -70,8 +70,8 @@
 /* Each primary's share of white: blue, the least, has 3 to 10 %. */
 #define JUDGE_PRIMARY_LEAST 0.003
 
-/* What the BRDF near the mirror direction may miss between its samples, as samples that were
- * left out tell: what is asked of mirror and haze too. */
+/* Error of the BRDF near the mirror direction between its samples, estimated from samples
+ * left out: the limit for mirror and haze too. */
 #define JUDGE_HELD_OUT_CARE 0.05
 
 /* How reasons begin that name what the instrument could not see. */

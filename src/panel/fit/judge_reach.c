@@ -151,7 +151,7 @@ static void judge_held_out(Judge *judge, const FitParts *parts)
     json_object_set_new(judge->figures, "held_out_error", json_real(most->error));
 }
 
-/* What the panel makes of its tables between their rows. */
+/* Compares the panel with the fitted haze between the tables' rows. */
 static void judge_between(Judge *judge, const FitParts *parts)
 {
     const ReflectionResult *r = parts->reflection;

@@ -23,7 +23,7 @@ static double inner_luminance(const AngleTable *table)
 
 static const char *const colour[] = {"red", "green", "blue"};
 
-/* What a level adds to black. */
+/* Luminance that a level adds to black. */
 static double added(const Measurement *set, int p, int level)
 {
     double black = set->has_black ? inner_luminance(&set->black) : 0;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* judge_set.h -- what a measurement set itself says against it: units, levels, azimuths.
+/* judge_set.h -- faults that a measurement set shows by itself: units, levels, azimuths.
  *
  * Frame    the display's. Memory: the judge's. Threads: one at a time. Fails: never.
  */

@@ -16,7 +16,7 @@ typedef struct Panel Panel; /* opaque: the file's layout is private to src/panel
 /* How far the emitted light is linearly polarised, and along which azimuth its electric field
  * swings: radians in [0, pi), 0 right, pi/2 up as someone facing the display sees it. */
 typedef struct PanelPolarisation {
-    float degree;  /* 0 to 1; 0: unpolarised, or the file does not say */
+    float degree;  /* 0 to 1; 0: unpolarised, or not in the file */
     float azimuth; /* 0 with degree 0 */
 } PanelPolarisation;
 

@@ -38,7 +38,7 @@ void panel_components_add_spline(const PanelSpline *spline, Vec3 d, float log_co
 
 float panel_components_beam_place(const PanelBeam *beam, Vec3 direction)
 {
-    Vec3  v = vec3_sub(direction, beam->centre); /* a cosine near 1 would tell too little */
+    Vec3  v = vec3_sub(direction, beam->centre); /* a cosine near 1 would be too coarse */
     float along = vec3_dot(beam->narrow, v);
     float squares = vec3_dot(v, v) + along * along;
     return log_f(1 + squares * beam->core_squares) * (1 / PANEL_BEAM_STEP);

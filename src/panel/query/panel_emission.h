@@ -21,10 +21,10 @@ bool panel_emission_xyz(const Panel *panel, Vec3 direction, const float rgb[3], 
 Spectrum panel_emission_spectrum(const Panel *panel, Vec3 direction, const float rgb[3],
                                  const Wavelengths *wavelengths);
 
-/* Of the emitted light, at every angle, code and wavelength. */
+/* The same at every angle, code and wavelength. */
 PanelPolarisation panel_polarisation(const Panel *panel);
 
-/* SUBPIXELS_NONE, and all else 0: the file does not say. */
+/* SUBPIXELS_NONE, and all else 0: not in the file. */
 Subpixels panel_subpixels(const Panel *panel);
 
 /* Luminance in cd m^-2 averaged over the hemisphere with the cosine (luminous exitance / pi),

@@ -84,7 +84,7 @@ typedef struct PanelPrimariesHead {
 } PanelPrimariesHead;
 #define PANEL_SPECTRUM_MAX 1024
 
-/* What a panel reflects. A table is the haze measured with the light at one azimuth and one
+/* A panel's reflection. A table is the haze measured with the light at one azimuth and one
  * incidence; table = azimuth * incidences + incidence. In the specular-following frame
  *     ln (f / F(theta_i)) at wavelength w = mean[table][w] + sum over k of basis[k][w] *
  *         sum over c of loading[table][k][c] * (the tree's component c),
@@ -119,7 +119,7 @@ typedef enum PanelFrameKind {
     PANEL_FRAME_COSINES = 2   /* surface_frame.h, of direction cosines */
 } PanelFrameKind;
 
-/* What the haze beyond the last measured incidence depends on (panel_reference.h). */
+/* The variables of the haze beyond the last measured incidence (panel_reference.h). */
 typedef enum PanelBeyondKind {
     PANEL_BEYOND_COSINES = 0,
     PANEL_BEYOND_SLOPES = 1
@@ -155,9 +155,9 @@ typedef struct PanelSubpixelsStored {
 #define PANEL_PIXELS_MAX 65536
 
 /* A display that is not the same everywhere. Panel 0 is what the file holds itself, panel k the
- * file in section PANEL_SPOT_FILE of index k; spots say which of them was measured there, and
- * between spots the panels count as spot_ground.h says. Places are of the active area, as
- * there.
+ * file in section PANEL_SPOT_FILE of index k; spots state which of them was measured there, and
+ * between spots the panels have the weights of spot_ground.h. Places are of the active area,
+ * as there.
  *
  * Section   PanelSpotsHead | PanelSpotStored[spots]. Without spots the file's own panel is
  *           everywhere, and PANEL_MAP is there. */

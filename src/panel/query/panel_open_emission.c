@@ -17,7 +17,7 @@ _Static_assert(sizeof(PanelPrimariesHead) == 24, "the file's layout");
 
 /* ---- the section ------------------------------------------------------------------------ */
 
-/* What is left of a section while it is read. */
+/* The unread rest of a section. */
 typedef struct Rest {
     const unsigned char *at;
     size_t               size;
@@ -293,7 +293,7 @@ static bool is_nearest(const PanelEmission *e, int beam, Vec3 d)
     return true;
 }
 
-/* What one direction of a beam adds to the light, w steradians. */
+/* Adds a beam's light at one direction of w steradians. */
 static void add_beam_direction(const Panel *panel, Vec3 d, double w, float *logs, double *light)
 {
     const PanelEmission *e = panel->emission;
@@ -304,8 +304,8 @@ static void add_beam_direction(const Panel *panel, Vec3 d, double w, float *logs
     }
 }
 
-/* What a beam adds to the light over the hemisphere, on rings around its centre: even in the
- * profile's own variable; a ring's area is pi times the change of the chord's square. */
+/* Adds a beam's light over the hemisphere, on rings around its centre: even in the profile's
+ * own variable; a ring's area is pi times the change of the chord's square. */
 static void add_beam_light(const Panel *panel, int beam, float *logs, Clouds *clouds,
                            double *light)
 {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* panel_open_emission.h -- what a panel file says of emission, checked and expanded for
- * queries. Private to src/panel.
+/* panel_open_emission.h -- a panel file's emission, checked and expanded for queries. Private
+ * to src/panel.
  *
  * Memory   the arena's. Fails: in bytes->err (panel_section.h).
  */

@@ -212,7 +212,7 @@ static double mirror_ratio(const PanelReflection *r, const ReflectionLayout *fro
     return fmin(most, fmax(value, 0.5 * fmin(ratio[0], ratio[1])));
 }
 
-/* Beyond the last incidence: a bare face whose index the measured ones tell. */
+/* Beyond the last incidence: a bare face with the index of the measured ones. */
 static double mirror_beyond(const PanelReflection *r, const ReflectionLayout *from,
                             uint32_t wavelength, double cosine)
 {

@@ -27,7 +27,7 @@ static bool check_thetas(const PanelBytes *at, const PanelSampling *s)
            panel_refuse(at, "sampling", "incidences do not rise");
 }
 
-/* What the file leaves out. */
+/* Makes the section that the file omits. */
 static bool make_section(const Panel *panel, Arena *arena, PanelBytes *at)
 {
     SamplingSection made;

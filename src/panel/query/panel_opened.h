@@ -21,7 +21,7 @@
 
 #define PANEL_ANGLES 181 /* nodes of tables over theta: 0, 0.5, ... 90 degrees */
 
-/* The emission as numbers: what the section says, and what queries read instead. */
+/* The emission as numbers: those of the section, and those that queries read instead. */
 typedef struct PanelEmission {
     int    components, stride; /* stride: components rounded up to four */
     int    channels, level_count[3];
@@ -103,7 +103,7 @@ typedef struct PanelMap {
     bool            has_black;
 } PanelMap;
 
-/* What a panel is by place (PANEL_SPOTS). */
+/* A panel that varies by place (PANEL_SPOTS, PANEL_MAP). */
 typedef struct PanelPlaces {
     int              panels; /* [0] is the file's own */
     const Panel    **panel;
@@ -112,7 +112,7 @@ typedef struct PanelPlaces {
     SpotGround       ground;
     const uint16_t  *emission, *reflection; /* panel of each spot */
     const PanelMap  *map; /* NULL: none */
-    /* Of each panel, what the map says where it was measured, and its black over its white
+    /* For each panel, the map's values where it was measured, and its black over its white
      * along the normal; X, Y, Z. */
     const float    (*white)[3], (*black)[3], (*dark)[3];
 } PanelPlaces;

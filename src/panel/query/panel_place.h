@@ -5,8 +5,8 @@
  * spots around a place count with the weights of spot_ground.h: the light of all adds up, so do
  * their BRDFs and mirror parts, and directions are drawn from the mixture of their densities.
  * A sum of weights one of panels that reflect no more than they get reflects no more either.
- * The map scales what each panel emits: by what it says there over what it says where that
- * panel was measured, white by white's and the black pattern by black's; what the codes add is
+ * The map scales what each panel emits: by its value there over its value where that panel
+ * was measured, white by white's and the black pattern by black's; what the codes add is
  * white less black. Colours of the map turn the primaries' spectra as angles do.
  *
  * Frame    places: u from 0 at the left to 1 at the right, v from 0 at the top to 1 at the
@@ -29,10 +29,9 @@ typedef struct PanelMix {
     float        weight[PANEL_MIX_MAX];
 } PanelMix;
 
-/* False: it is the same everywhere, and panel_emission.h and panel_reflection.h say all. */
+/* False: it is the same everywhere; panel_emission.h and panel_reflection.h suffice. */
 bool panel_varies(const Panel *panel);
 
-/* What reflects at a place. */
 PanelMix panel_place_reflection(const Panel *panel, const float place[2]);
 
 /* As panel_emission_xyz and panel_emission_spectrum, at a place. */
@@ -41,8 +40,8 @@ bool panel_place_emission_xyz(const Panel *panel, const float place[2], Vec3 dir
 Spectrum panel_place_emission_spectrum(const Panel *panel, const float place[2], Vec3 direction,
                                        const float rgb[3], const Wavelengths *wavelengths);
 
-/* As the functions of panel_reflection.h and panel_sampling.h. brdf: what panel_mix_brdf said
- * for wi. */
+/* As the functions of panel_reflection.h and panel_sampling.h. brdf: what panel_mix_brdf
+ * returned for wi. */
 Spectrum panel_mix_brdf(const PanelMix *mix, Vec3 wo, Vec3 wi, const Wavelengths *wavelengths);
 Spectrum panel_mix_lambertian(const PanelMix *mix, Spectrum brdf, Vec3 wi,
                               const Wavelengths *wavelengths);

@@ -23,7 +23,7 @@ static inline float panel_facet_cosine(Vec3 wi, Vec3 wo)
     return clampf(safe_sqrtf(0.5f * (1 + vec3_dot(wi, wo))), 0, 1);
 }
 
-/* Of a frame other than the specular-following one. */
+/* For frames other than the specular-following one. */
 static inline float panel_reference(PanelFrameKind frame, float index, Vec3 wi, Vec3 wo)
 {
     if (frame == PANEL_FRAME_COSINES)

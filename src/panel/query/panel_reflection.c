@@ -103,7 +103,7 @@ static Cubic azimuth_weights(const PanelReflection *r, float phi)
     return cubic;
 }
 
-/* Of an isotropic panel: a table for each incidence, always in the specular-following frame. */
+/* Isotropic panels: a table for each incidence, always in the specular-following frame. */
 static TableMix isotropic_mix(const PanelReflection *r, const Cubic *incidence)
 {
     TableMix mix;
@@ -216,7 +216,7 @@ static Spectrum spread_between(const Panel *panel, const float *rows, int first,
     return low + (high - low) * spectrum_all(t);
 }
 
-/* Of rows of the tables; those that are not at the lanes yet are mixed before they go there. */
+/* Mixes rows that are not at the lanes yet before they go there. */
 static Spectrum mixed_at_lanes(const PanelReflection *r, const TableMix *mix,
                                const float *rows, const PanelLanes *lanes)
 {
@@ -332,7 +332,7 @@ static Spectrum spectrum_root(Spectrum a)
     return root;
 }
 
-/* What the energy leaves room for at an incidence beyond the measured ones. */
+/* Factor that conserves energy at an incidence beyond the measured ones. */
 static Spectrum held_factor(const Panel *panel, float theta, const PanelLanes *lanes)
 {
     const PanelReflection *r = panel->reflection;
@@ -389,9 +389,8 @@ static PanelPair last_pair(const PanelReflection *r, const PanelPair *pair)
                        from, r->last_theta};
 }
 
-/* What the haze is higher by than where it was read. Of fine roughness the root of the
- * surface's reflectances at theta_i and theta_o; of facets their reflectance and
- * G / (cos cos). */
+/* The haze's height over that where it was read. For fine roughness the root of the surface's
+ * reflectances at theta_i and theta_o; for facets their reflectance and G / (cos cos). */
 static Spectrum haze_ratio(const Panel *panel, const PanelPair *now, const PanelPair *then,
                            const PanelLanes *lanes)
 {

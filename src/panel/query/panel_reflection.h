@@ -32,11 +32,11 @@ void panel_lanes(const Panel *panel, const Wavelengths *wavelengths, PanelLanes 
 Spectrum panel_brdf_at(const Panel *panel, Vec3 wo, Vec3 wi, const PanelLanes *lanes);
 Spectrum panel_mirror_at(const Panel *panel, float cos_theta, const PanelLanes *lanes);
 
-/* Of a BRDF that panel_brdf_at gave for light from wi, the panel's lambertian part, sr^-1 per
- * lane, 0 to brdf; what is left is haze. It is the floor that the panel file keeps for each
+/* The lambertian part of a BRDF that panel_brdf_at returned for light from wi, sr^-1 per
+ * lane, 0 to brdf; the rest is haze. It is the floor that the panel file keeps for each
  * incidence of the light: nearly the least that was measured within 60 degrees of the normal
- * (src/panel/fit). One for all wo, and thus not reciprocal by itself; beyond the last measured
- * incidence it follows the light that enters the face. */
+ * (src/panel/fit). One for all wo, and thus not reciprocal by itself; beyond the last
+ * measured incidence it follows the light that enters the face. */
 Spectrum panel_lambertian_at(const Panel *panel, Spectrum brdf, Vec3 wi,
                              const PanelLanes *lanes);
 

@@ -45,8 +45,8 @@ static inline size_t reflection_layout(const PanelReflectionStored *s, Reflectio
     return (size_t)((const char *)u - (const char *)s);
 }
 
-/* What a wavelength counts in luminous means, up to a factor: the observer's y, and a little
- * so that no wavelength counts nothing. */
+/* Weight of a wavelength in luminous means, up to a factor: the observer's y, and a little so
+ * that none has weight 0. */
 static inline double panel_luminous_weight(float nm)
 {
     int i = (int)((double)nm + 0.5) - SPECTRAL_FIRST_NM;

@@ -218,7 +218,7 @@ json_t *panel_report_open_tables(const void *bytes, size_t size)
 
 /* ---- the whole report -------------------------------------------------------------------- */
 
-/* What a file need not say; panel_report says it again. */
+/* Usual values, which a file omits; panel_report adds them again. */
 static json_t *unsaid(void)
 {
     return json_pack("{s:s, s:s, s:[f,f], s:[f,f]}", "instrument", "", "note", "", "pixels",

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* panel_report.h -- what a fit found, as a panel file keeps it: JSON without what goes without
- * saying, and its tables in a few bytes a number.
+/* panel_report.h -- what a fit found, as a panel file keeps it: JSON without default values,
+ * and its tables in a few bytes a number.
  *
  * Stored     uint16 rows, uint8 columns | per column: uint8 kind, uint8 length, its key | per
  *            row: uint8 length, its name | numbers row by row: kind 'i' uint32, 'f' float32,

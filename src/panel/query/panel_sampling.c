@@ -19,7 +19,7 @@ static int node_below(const float *node, int count, float x, float *t)
     return i;
 }
 
-/* Of the azimuth of wo: nodes stand evenly over the turn, the first at 0. */
+/* The same for the azimuth of wo: nodes stand evenly over the turn, the first at 0. */
 static int azimuth_below(int azimuths, Vec3 wo, float *t)
 {
     bool  is_normal = wo.x * wo.x + wo.y * wo.y < 1e-12f; /* panel_turned takes 180 degrees */

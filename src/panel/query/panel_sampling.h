@@ -13,6 +13,6 @@
  * part; the discrete mirror lobe is the caller's). Integrates to one over the hemisphere. */
 float panel_pdf(const Panel *panel, Vec3 wo, Vec3 wi);
 
-/* Chooses wi for wo; u in [0,1)^3. *pdf is what panel_pdf says of wi, to rounding. False: no
- * direction (wo below the surface, no data). */
+/* Chooses wi for wo; u in [0,1)^3. *pdf is panel_pdf of wi, to rounding. False: no direction
+ * (wo below the surface, no data). */
 bool panel_sample(const Panel *panel, Vec3 wo, const float u[3], Vec3 *wi, float *pdf);

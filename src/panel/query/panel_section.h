@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* panel_section.h -- the sections of a panel file while it is opened. Private to src/panel.
  *
- * Every function that fails says so in bytes->err, naming the file and the place.
+ * Every function that fails reports it in bytes->err, naming the file and the place.
  */
 #pragma once
 #include <stdbool.h>

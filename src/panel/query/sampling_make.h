@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* sampling_make.h -- the sampling section that follows from what a panel says when its
- * reflection is queried: at which incidences and azimuths a tree of directions is wanted, and
- * the tree.
- * Private to src/panel.
+/* sampling_make.h -- the sampling section that follows from queries of a panel's reflection: at
+ * which incidences and azimuths a tree of directions is wanted, and the tree. Private to
+ * src/panel.
  *
  * The same bytes on every machine. Some milliseconds for each incidence and azimuth; a panel
  * of one table, for which the section would be half of the file, has it made when opened.

@@ -115,7 +115,7 @@ static void keep_row(const RawTable *raw, const Row *row, AngleTable *table, flo
     table->rows++;
 }
 
-#define POLE_ROWS 4      /* so many tell which of them is wrong */
+#define POLE_ROWS 4      /* so many show which of them is wrong */
 #define POLE_LIMIT 0.284f /* e^0.25 - 1: further from the median is a hot or dead pixel */
 
 static float pole_median(const RawTable *raw, int count, size_t channel, Arena scratch)
@@ -127,7 +127,7 @@ static float pole_median(const RawTable *raw, int count, size_t channel, Arena s
     return list[count / 2];
 }
 
-/* Emission at theta 0: rows that are far from the median in any component. */
+/* Emission at theta 0: rows that are off the median in any component. */
 static void find_pole_outliers(const RawTable *raw, int count, AngleTable *table, Arena *arena)
 {
     float median[3];

@@ -25,12 +25,12 @@ double closed_form_brdf(const SyntheticPanel *panel, double theta_i, double thet
 /* The delta part's reflectance. */
 double closed_form_mirror(const SyntheticPanel *panel, double theta, double nm);
 
-/* What the instrument reads: closed_form_brdf plus the mirror's image, as wide as the
+/* The instrument's reading: closed_form_brdf plus the mirror's image, as wide as the
  * instrument. */
 double closed_form_instrument_brdf(const SyntheticPanel *panel, double theta_i, double theta_o,
                                    double phi, double nm);
 
-/* What comes back within a round aperture (full angle) around the mirror direction: the mirror
- * part, and what haze and lambertian part send there. */
+/* Reflectance within a round aperture (full angle) around the mirror direction: the mirror
+ * part, and the haze and lambertian part there. */
 double closed_form_specular(const SyntheticPanel *panel, double theta, double aperture,
                             double nm);

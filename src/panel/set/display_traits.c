@@ -55,7 +55,7 @@ static bool read_layout(const JsonView *view, SubpixelLayout *out, Error *err)
                     "is \"%.40s\", wanted \"stripe\" or \"pentile\"", word);
 }
 
-/* A number of pixels is told here and under "pixels": it must be the same. */
+/* A number of pixels stands here and under "pixels": it must be the same. */
 static bool read_count(const JsonView *root, const JsonView *view, const char *key,
                        double *pixels, Error *err)
 {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* display_traits.h -- what manifests and recipes say of a display in the same words: how its
- * light is polarised, and how its pixels are divided.
+/* display_traits.h -- keys that manifests and recipes share: how a display's light is
+ * polarised, and how its pixels are divided.
  *
  * Both hold for the whole display, at every angle and place.
  * Fails    with file, JSON path, found and wanted.
@@ -12,18 +12,18 @@
 typedef struct DisplayTraits {
     double    polarisation_degree;      /* linear, 0 to 1; 0: unpolarised */
     double    polarisation_azimuth_deg; /* -360 to 360: 0 right, 90 up */
-    Subpixels subpixels;                /* SUBPIXELS_NONE: not told. Its pixels are 0: the
-                                           display's are told beside it */
+    Subpixels subpixels;                /* SUBPIXELS_NONE: not stated. Its pixels are 0: the
+                                           display's stand beside it */
 } DisplayTraits;
 
 /* "polarisation" and "subpixels" of a document; what is absent keeps its value. pixels: the
  * display's columns and rows as its key "pixels" gave them, if there is one; "subpixels" may
- * tell them in its place. */
+ * state them in its place. */
 bool display_traits_read(const JsonView *root, double pixels[2], DisplayTraits *out,
                          Error *err);
 
 /* The first of these keys that is there; NULL: none. */
 const char *display_traits_key(const JsonView *root);
 
-/* "stripe" or "pentile", as files say it. */
+/* "stripe" or "pentile", as in files. */
 const char *display_traits_layout(SubpixelLayout layout);

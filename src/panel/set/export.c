@@ -136,7 +136,7 @@ static bool write_all_emission(Export *export, json_t *manifest)
 
 /* ---- reflection ------------------------------------------------------------------------ */
 
-/* Width of the instrument that is said to have seen the mirror part; 0: left out. */
+/* Width of the instrument that is declared to have seen the mirror part; 0: left out. */
 static double mirror_fwhm(const Export *export)
 {
     PolarGrid grid = grid_of(export->options, 0, true);
@@ -277,7 +277,7 @@ static void add_subpixels(const Panel *panel, json_t *manifest)
                                   "fill", round((double)stated.fill * 1e6) / 1e6));
 }
 
-/* What the panel's report says of where it comes from. */
+/* The panel's names, sizes and note, from its report. */
 static bool add_names(Export *export, const char *name, json_t *manifest)
 {
     static const char *const keys[] = {"panel", "instrument", "pixels", "size_mm"};
@@ -316,7 +316,7 @@ static bool write_parts(Export *export, bool emits, bool reflects, json_t *to)
            (!reflects || write_all_brdf(export, to));
 }
 
-/* What belongs to the whole set though a spot's tables brought it. */
+/* Moves a key that a spot's tables brought, but that belongs to the whole set. */
 static void lift(json_t *spot, const char *key, json_t *manifest)
 {
     json_t *value = json_object_get(spot, key);

@@ -9,7 +9,7 @@
  * fit takes it out again.
  *
  * Units    degrees; XYZ with Y in cd m^-2; sr^-1 without the cosine; nm. Decimal figures enough
- *          for float32. Every file says so in a comment.
+ *          for float32. Every file states them in a comment.
  * Fails    with the folder or file that cannot be written; a folder that holds something
  *          already is left as it is. Nothing half-written stays.
  */

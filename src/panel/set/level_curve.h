@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* level_curve.h -- the rows of a gamma table that a panel needs for its level curve.
  *
- * A panel keeps at most LEVEL_CURVE_MAX levels a primary and interpolates between them as
- * panel/shape/panel_levels.h says (Fritsch and Butland's monotone cubic pieces of the logarithm
+ * A panel keeps at most LEVEL_CURVE_MAX levels a primary and interpolates between them as in
+ * panel/shape/panel_levels.h (Fritsch and Butland's monotone cubic pieces of the logarithm
  * over ln code). Kept are the lowest row with more light than black, full level, and then, one
  * by one, the row that is missed most, until no row is missed by more than LEVEL_CURVE_MISS of
  * its luminance.

@@ -71,7 +71,7 @@ static int place_of(const PlaceWord *known, int count, const char *word, int len
     return -1;
 }
 
-/* What a column of that name holds; -1: nothing that counts. */
+/* The Place of a column of that name; -1: none. */
 static int column_place(const char *name)
 {
     int length = next_word(&name);

@@ -184,7 +184,7 @@ static bool read_emission(const JsonView *root, Measurement *out, Error *err)
 
 /* ---- reflection ------------------------------------------------------------------------ */
 
-/* What a file's name is made of; nm negative: of all wavelengths. */
+/* Numbers in a file's name; nm negative: all wavelengths in one file. */
 typedef struct SlicePlace {
     double incidence, azimuth, nm; /* degrees, degrees, nm */
 } SlicePlace;

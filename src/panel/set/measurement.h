@@ -51,8 +51,8 @@ typedef struct Measurement {
     const UniformityMap *map; /* NULL: none */
 } Measurement;
 
-/* What was measured at a place of the active area. What a spot leaves out, the set's own tables
- * say there; they are there then. */
+/* Measurements at a place of the active area. The set's own tables, which then exist, stand
+ * in for those that a spot lacks. */
 typedef struct MeasuredSpot {
     double       at[2]; /* u from 0 at the left to 1 at the right, v from 0 at the top to 1 */
     bool         has_emission, has_reflection;

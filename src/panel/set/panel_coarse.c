@@ -35,7 +35,7 @@ void panel_coarse_range(const Panel *panel, int *least, int *most)
     }
 }
 
-/* What is found of differences of logarithms. */
+/* Sums over differences of logarithms; squares: of the relative ones. */
 typedef struct Differences {
     double largest, squares, count;
 } Differences;
@@ -50,7 +50,7 @@ static double rms(const Differences *d)
     return d->count > 0 ? sqrt(d->squares / d->count) : 0;
 }
 
-/* Of the components at all points: the level's less the whole tree's. */
+/* Components at all points: the level's less the whole tree's. */
 static float *component_differences(const Tree *tree, int level, uint32_t *points,
                                     Arena *arena)
 {

@@ -142,8 +142,8 @@ static bool has_mirror(const SyntheticPanel *panel)
     return panel->reflection.exists && panel->reflection.haze_share < 1;
 }
 
-/* What a reflectometer with the instrument's aperture says of the mirror. It is written behind
- * all tables, whose noise is numbered by their order. */
+/* The mirror as a reflectometer with the instrument's aperture reads it. Written behind all
+ * tables, whose noise is numbered by their order. */
 static bool write_specular(Instrument *instrument)
 {
     const SyntheticPanel *panel = instrument->panel;
@@ -261,7 +261,7 @@ static void add_uniformity(Text *text, const SyntheticPlaces *places)
     text_add(text, "}");
 }
 
-/* White and black of one pixel, as the camera sees them from far before the middle. */
+/* White and black of one pixel, as a distant camera in front of the middle sees them. */
 static void add_pixel(Instrument *instrument, Text *text, int column, int row)
 {
     const SyntheticPanel *panel = instrument->panel;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* specular_table.h -- what a reflectometer or a gloss meter says of a panel's mirror: the share
- * of the light that comes back within an aperture around the mirror direction.
+/* specular_table.h -- readings of a panel's mirror by a reflectometer or a gloss meter: the
+ * share of the light that comes back within an aperture around the mirror direction.
  *
  * Between its incidences reflectance over Fresnel's (index 1.5) is linear, beyond them it is
  * held; along the wavelengths it is linear and held.
@@ -40,7 +40,7 @@ typedef struct Gloss {
     double geometry_deg[GLOSS_METERS], gu[GLOSS_METERS];
 } Gloss;
 
-/* One more; what the error says stands behind the name of where the reading is from. */
+/* Adds one; the error's text follows the name of the reading's source. */
 bool specular_gloss_add(Gloss *gloss, double geometry_deg, double gu, Error *err);
 
 /* The key `gloss` of an object: a list of {geometry_deg, gu}. */

@@ -2,7 +2,7 @@
 /* synthetic_panel.h -- a synthetic panel whose every value is known in closed form.
  *
  * It stands where a laboratory's panel would stand: `panel simulate` measures it with a
- * virtual instrument, and tests compare what a fit says with its closed form (closed_form.h).
+ * virtual instrument, and tests compare a fit with its closed form (closed_form.h).
  *
  * Frame    the display's: theta from the normal, phi 0 right, 90 up (radians here).
  * Units    XYZ with Y in cd m^-2; BRDF in sr^-1 without the cosine; angles in files in degrees.
@@ -34,8 +34,8 @@
  *   gain by 1 + lobe_slope x, share by 1 + haze_slope x (at most 1 at both edges)
  * A bend turns the local normal from -bend/2 at the left edge to bend/2 at the right one about
  * the vertical axis; all angles count from the local normal, and the instrument is set square
- * on every spot. The camera that makes the map stands far before the middle and sees each
- * place under the angle of its bend.
+ * on every spot. The camera that makes the map is distant, in front of the middle, and sees
+ * each place under the angle of its bend.
  */
 #pragma once
 #include "base/arena.h"

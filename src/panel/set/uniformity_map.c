@@ -13,13 +13,12 @@
 #include "openexr/exr_file.h"
 #include "text/csv_table.h"
 
-/* Planes as a file has them; channels 0: it says nothing of them. */
+/* Planes as a file has them; channels 0: none. */
 typedef struct MapPlanes {
     int    channels; /* 1 or 3 */
     float *value[3];
 } MapPlanes;
 
-/* What one file says. */
 typedef struct MapFile {
     const char *path;
     int         width, height;
@@ -241,7 +240,7 @@ static bool check_values(const MapFile *file, const MapPlanes *planes, const cha
     return true;
 }
 
-/* Grey: one plane says all. */
+/* Grey: one plane suffices. */
 static void fold_grey(const MapFile *file, MapPlanes *planes)
 {
     size_t bytes = pixels_of(file) * sizeof(float);

@@ -27,13 +27,13 @@ typedef struct UniformityMap {
     const float *value[6];                 /* planes of white, then of black; from 0 up */
     /* The camera saw all places from one point, and not each along its own normal: */
     bool   is_seen;
-    double camera_mm; /* that point's distance from the middle, along the normal; 0: far away */
+    double camera_mm; /* the camera's distance from the middle, along the normal; 0: infinite */
     double bend;      /* radians: angle between the normals at the left and right edge, of a
                          display bent around its vertical axis; above 0: towards the viewer
                          (concave) */
 } UniformityMap;
 
 /* view->object NULL: there is none and *out stays NULL. size_mm: of the active area, 0 where
- * the manifest does not say. */
+ * the manifest has none. */
 bool uniformity_map_read(const JsonView *view, const double size_mm[2],
                          const UniformityMap **out, Error *err);

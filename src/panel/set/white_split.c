@@ -71,8 +71,8 @@ static void nearest_shares(const AngleTable *table, float share[3])
     for (int p = 0; p < 3; p++) share[p] /= sum;
 }
 
-/* What primary p has of a direction's XYZ: in Rec.709's colours; where those cannot carry the
- * table (one of a saturated primary, say) a constant share of the table's own colour. */
+/* Primary p's part of a direction's XYZ: in Rec.709's colours; where those cannot carry the
+ * table (as of a saturated primary) a constant share of the table's own colour. */
 static void part_of_white(const float xyz[3], const float *share, int p, float part[3])
 {
     float amount[3];
@@ -86,7 +86,7 @@ static void part_of_white(const float xyz[3], const float *share, int p, float p
 /* Without a table of levels: full level alone, and no black. */
 static const LevelCurve full_level = {.count = 1, .level = {255}, .share = {1}};
 
-/* What a table of the split is made of. */
+/* Inputs of a table of the split. */
 typedef struct WhiteSplit {
     const AngleTable *white;
     const float      *share; /* of the primaries; NULL: amounts of Rec.709's */

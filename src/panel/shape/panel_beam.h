@@ -5,7 +5,7 @@
  * A beam adds to component k a cubic B-spline over u = ln(1 + r^2 / core^2), r the chord from
  * the centre, longer along `narrow`: r^2 = |v|^2 + (narrow . v)^2, v = direction - centre.
  * Knots are PANEL_BEAM_STEP apart from u = 0 on. Over u a Gaussian bends as little as a power
- * law does, and whatever depends on u is even and smooth at the centre. Behind the last stored
+ * law does, and every function of u is even and smooth at the centre. Behind the last stored
  * coefficient they are 0, so a beam ends with its first two derivatives.
  *
  * Stored     PanelBeamHead | float step[components], 0: the component has none | int16
@@ -50,8 +50,8 @@ static inline void panel_beam_weights(float t, float weight[4])
     weight[3] = t * t * t * (1.0f / 6);
 }
 
-/* What is stored of coefficients [components][knots]; step[k]: the rounding that component k
- * bears, coarser where 16 bits ask for it. *bytes in the arena; returns their number. */
+/* Packs coefficients [components][knots]; step[k]: the rounding that component k bears,
+ * coarser where 16 bits need it. *bytes in the arena; returns their number. */
 size_t panel_beam_pack(const PanelBeamHead *head, const float *coefficient, const float *step,
                        int components, Arena *arena, const void **bytes);
 

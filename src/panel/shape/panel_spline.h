@@ -53,8 +53,8 @@ typedef struct PanelSpline {
 void panel_spline_expand(const uint8_t *term, int terms, int components, const float *numbers,
                          Arena *arena, PanelSpline *out);
 
-/* What is stored of such numbers; where a block is not worth a step it stays out, terms without
- * blocks too. step[k]: the coarsest rounding that component k bears. *bytes in the arena. */
+/* Packs such numbers; blocks not worth a step are left out, and terms without blocks too.
+ * step[k]: the coarsest rounding that component k bears. *bytes in the arena. */
 typedef struct PanelSplineNumbers {
     const uint8_t *term; /* rising */
     int            terms, components;

@@ -147,7 +147,7 @@ static double warp_rest(const double moment[3][3], const double ratio[2], double
     return fmax(fabs(rest[0]), fabs(rest[1]));
 }
 
-/* Newton from c, which holds the result. Of the same luminance, the spectrum must nowhere be
+/* Newton from c, which holds the result. At the same luminance, the spectrum must nowhere be
  * four times as high as its highest peak was: extreme coefficients blow up the tails. */
 static bool warp_to(const WarpSource *source, const double ratio[2], double c[3])
 {

@@ -92,7 +92,7 @@ static double area_of(const SpotGround *g, int a, int b, int c)
     return u1 * v2 - u2 * v1;
 }
 
-#define LEAST_AREA 1e-7 /* below: the three lie on a line, as far as floats tell */
+#define LEAST_AREA 1e-7 /* below: the three lie on a line, to the precision of floats */
 
 /* Does the plane through three lifted places leave all others above it? */
 static bool is_delaunay(const SpotGround *g, int a, int b, int c)

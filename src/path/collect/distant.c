@@ -47,7 +47,8 @@ static const CollectorKind way_kind = {.size = sizeof(DistantWay),
                                        .vertex = collector_asks_nobody,
                                        .refuse = refuse, .escape = leave_by_way};
 
-/* Towards what lies where the surface scatters to; its own mirror the path itself follows. */
+/* Sends a way into a direction that the surface scatters to; its mirror direction is followed
+ * by the path itself. */
 static void send_way(const DistantCollector *questions, const PathState *from,
                      const Surface *surface, Vec3 wo, const Guiding *guiding, int i)
 {
@@ -72,9 +73,8 @@ static void send_way(const DistantCollector *questions, const PathState *from,
     path_follow(&path, surface, wo, &next);
 }
 
-/* A path that goes on by a mirror is one of few that do, and tells of one direction: sunlight
- * by way of a pane or of a satin ring would hang on a handful of paths. Ways cost a ray or two;
- * a vertex asks hundreds. */
+/* Few paths go on by a mirror, each in one direction: sunlight by way of a pane or of a satin
+ * ring would depend on a handful of paths. Ways cost a ray or two; a vertex asks hundreds. */
 static void send_ways(const DistantCollector *questions, const PathState *path,
                       const Surface *surface, Vec3 wo, const Guiding *guiding)
 {
@@ -118,8 +118,8 @@ static bool ask(PathCollector *c, PathState *path, const Surface *surface, Vec3 
     return true;
 }
 
-/* The way by a first display's mirror, of which nothing is left to chance; false: that is not
- * what is asked. */
+/* Chooses the mirror direction of a first display, so that chance leaves none of it out;
+ * false: the mirror alone is not asked for, or this is no such display. */
 static bool choose_mirror(PathCollector *c, PathState *path, const Surface *surface,
                           BsdfSample *next)
 {

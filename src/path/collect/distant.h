@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* distant.h -- light from infinitely far as a question: from where does it reach the eye, or a
- * luxmeter, and how much? Instead of being lit a path asks.
+/* distant.h -- distant light as a question: from which directions does it reach the eye, or a
+ * luxmeter, and how much of it? The path asks instead of being lit.
  *
  * Threads  one thread's, like the path.
  */
 #pragma once
 #include "path/path_collector.h"
 
-#define PATH_WAYS 16 /* of a vertex: a ray or two each, beside hundreds of its questions */
+#define PATH_WAYS 16 /* from a vertex: a ray or two each, beside hundreds of its questions */
 
 typedef struct PathDistant {
     const Vec3 *towards; /* unit; every scattering vertex asks all of them */
@@ -22,8 +22,8 @@ typedef struct PathDistant {
     void (*add_escaped)(void *user, Vec3 direction, int bounce, const float *share, float pdf);
     void *user;
     bool  is_of_mirror; /* where a display comes first, its mirror alone is followed */
-    bool  has_ways; /* vertices send out PATH_WAYS rays each, which mirrors and sharp lobes lead
-                       on: what leaves so is added for these, not for paths */
+    bool  has_ways; /* vertices send out PATH_WAYS rays each, which follow mirrors and sharp
+                       lobes: what leaves the scene so is added for these, not for paths */
 } PathDistant;
 
 typedef struct DistantCollector {
@@ -32,5 +32,5 @@ typedef struct DistantCollector {
     bool           sent_ways; /* from the last vertex that scattered; mirrors may lie between */
 } DistantCollector;
 
-/* Of a path that is dark (PathManner). */
+/* The path must be dark (PathManner). */
 DistantCollector distant_collector(const PathDistant *distant);

@@ -4,7 +4,7 @@
 
 #include "path/emitted.h"
 
-/* What HistoryCollector and ImageCollector begin with. */
+/* The members that HistoryCollector and ImageCollector begin with. */
 typedef struct HistoryBase {
     PathCollector base;
     PathHistory   history;
@@ -20,7 +20,7 @@ static PathHistory history_start(void)
     return (PathHistory){.pane_id = NO_ID, .reached_by = NO_ID};
 }
 
-/* ---- the way so far ---------------------------------------------------------------------- */
+/* ---- the steps of a path ----------------------------------------------------------------- */
 
 static void add_step(PathHistory *history, const Surface *surface, PathEvent event)
 {
@@ -72,7 +72,7 @@ static int last_pane(const ShadowRay *ray)
     return (int)scene->triangles[hit->triangle].part_id;
 }
 
-/* A light sample: the surface scatters it, after a mirror maybe. */
+/* Adds a light sample's steps: the surface that scatters it, then its mirror if any. */
 static void add_sample(const PathFound *light, PathHistory *history)
 {
     history->pane_id = last_pane(light->shadow);

@@ -8,7 +8,7 @@
 #pragma once
 #include "path/path_collector.h"
 
-/* What a path's light did on its way, as the eye's ray meets it. */
+/* How light went on at a surface. */
 typedef enum PathEvent { PATH_SCATTERS, PATH_REFLECTS, PATH_TRANSMITS } PathEvent;
 
 typedef struct PathStep {
@@ -20,7 +20,7 @@ typedef struct PathStep {
 
 #define PATH_STEPS_MAX 6
 
-/* One way by which light came, and where it began. */
+/* The way by which a piece of light came, and where it began. */
 typedef struct PathHistory {
     PathStep step[PATH_STEPS_MAX]; /* the first of them; panes that the eye looks straight
                                        through count too */
@@ -72,5 +72,5 @@ typedef struct ImageCollector {
     const PathImages *images;
 } ImageCollector;
 
-/* Of a path that is dark (PathManner). */
+/* The path must be dark (PathManner). */
 ImageCollector image_collector(const PathImages *images);

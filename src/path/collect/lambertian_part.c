@@ -2,19 +2,19 @@
 /* HOT: no allocation, no lock, no libm. */
 #include "path/collect/lambertian_part.h"
 
-/* Is this what is asked about? */
+/* Is this the first surface, and has it a Lambertian part? */
 static bool is_asked(const PathState *path, const Surface *surface)
 {
     return path->first.is_awaited && bsdf_has_lambertian(&surface->bsdf);
 }
 
-/* Of what a display scatters from local_wi. */
+/* Share of the Lambertian part in what a display scatters from local_wi, per lane. */
 static Spectrum share_of(const Surface *surface, Vec3 local_wi)
 {
     return bsdf_lambertian_share(&surface->bsdf, surface->local_wo, local_wi);
 }
 
-/* The surface scatters light of its own samples. */
+/* Light samples of that surface. */
 static void on_light(PathCollector *c, PathState *path, const PathFound *found)
 {
     LambertianPart *part = (LambertianPart *)c;
@@ -33,8 +33,8 @@ static void turn(PathCollector *c, PathState *path, const Surface *surface, Vec3
     part->share = next->is_delta ? spectrum_all(0) : share_of(surface, next->wi);
 }
 
-/* What measured XYZ come by a display on which nothing depends on wavelength: one lane's share
- * is all lanes'. */
+/* Measured XYZ come only by displays on which nothing depends on wavelength: the share of one
+ * lane is that of all. */
 static void finish(PathCollector *c, PathState *path)
 {
     const LambertianPart *part = (const LambertianPart *)c;

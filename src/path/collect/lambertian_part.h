@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* lambertian_part.h -- what a display that the eye sees scatters by its lambertian part, told
+/* lambertian_part.h -- what a display that the eye sees scatters by its lambertian part, apart
  * from its haze.
  *
  * Units    XYZ, cd m^-2.

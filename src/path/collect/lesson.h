@@ -20,11 +20,11 @@ typedef struct LessonPlaces {
     PathPlaces   *out;
 } LessonPlaces;
 
-/* The context must have a guide, lit or not. */
+/* The context must have a guide, trained or not. */
 LessonPlaces lesson_places(PathPlaces *out);
 
-/* Of a path to a point (PathStart.from) the sky that is seen there is kept by itself: its
- * luminance, cd m^-2, and 0 where there is none. The path's own light is all else. */
+/* Keeps the luminance, cd m^-2, of the sky that a path to a point (PathStart.from) sees
+ * straight from there; 0: none. The path's own light is all other. */
 typedef struct LessonSky {
     PathCollector base;
     float        *sky_cd_m2;

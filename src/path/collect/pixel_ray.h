@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* pixel_ray.h -- what a pixel covers along a frame's ray (path/footprint.h), until it scatters:
- * displays with sub-pixels want to know.
+/* pixel_ray.h -- the footprint of a pixel along a frame's ray (path/footprint.h), until that
+ * scatters: for displays with sub-pixels.
  *
  * Threads  one thread's, like the path.
  */
@@ -13,7 +13,7 @@ typedef struct PixelRay {
     bool          is_known;
 } PixelRay;
 
-/* Does the context's frame have rays of which that is to be known? */
+/* Do the context's rays need a footprint? */
 bool pixel_ray_is_wanted(const PathContext *context);
 
 PixelRay pixel_ray(PathCollector *next);

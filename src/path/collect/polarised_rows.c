@@ -9,7 +9,7 @@ static Polarised *light_of(PathCollector *c)
 
 /* ---- the path's own way ------------------------------------------------------------------ */
 
-/* Into the path's throughput. */
+/* Moves the first weight into the path's throughput. */
 static void take(PathCollector *c, PathState *path)
 {
     path->throughput *= polarised_take(light_of(c));
@@ -34,7 +34,7 @@ static void pass(PathCollector *c, PathState *path, const Surface *pane, Vec3 wo
     take(c, path);
 }
 
-/* What leaves a triangle's point along `way` (unit); NULL: it is unpolarised. */
+/* Polarisation of what leaves a triangle's point along `way` (unit); NULL: unpolarised. */
 static const PolarisedLight *emitter_light(const PathState *path, uint32_t triangle,
                                            const TrianglePoint *point, Vec3 way,
                                            PolarisedLight *out)
@@ -46,7 +46,7 @@ static const PolarisedLight *emitter_light(const PathState *path, uint32_t trian
     return out;
 }
 
-/* What counts of light that a surface sends to the eye itself. */
+/* Weighs the light that the first surface sends to the eye. */
 static void see(PathCollector *c, PathState *path, const Surface *surface, Vec3 wo,
                 uint32_t triangle)
 {
@@ -78,7 +78,7 @@ static void pass_panes(const ShadowRay *ray, Vec3 direction, Polarised *light)
     }
 }
 
-/* A light sample's way is gone once more, for what surface, panes and mirror do. */
+/* Follows a light sample's way once more, for what surface, panes and mirror do to it. */
 static void go_again(const PathFound *found, Polarised *light)
 {
     const SunMirror *mirror = found->mirror;
@@ -94,7 +94,7 @@ static void go_again(const PathFound *found, Polarised *light)
     pass_panes(found->beyond, to_light, light);
 }
 
-/* How the light is polarised where it begins; NULL: it is not. */
+/* Polarisation of the light where it begins; NULL: unpolarised. */
 static const PolarisedLight *origin_of(const PathState *path, const PathFound *found,
                                        PolarisedLight *room)
 {
@@ -106,7 +106,7 @@ static const PolarisedLight *origin_of(const PathState *path, const PathFound *f
     return is_some ? room : NULL;
 }
 
-/* By how much a display's XYZ count, all lanes being the same. */
+/* Weighs a display's XYZ; all lanes are the same. */
 static void count_display(const PolarisedRows *rows, const Polarised *light,
                           const PolarisedLight *from, PathFound *found)
 {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* seen.h -- what an eye or a frame's pixel sees along a ray, by all that its context says:
- * polarised light, sub-pixels; and what is asked besides.
+/* seen.h -- what an eye or a frame's pixel sees along a ray, with all that its context has:
+ * polarised light, sub-pixels; and what is asked for besides.
  *
  * Threads  one thread's, like the path.
  */
@@ -9,8 +9,8 @@
 #include "path/path.h"
 
 typedef struct SeenAsk {
-    bool                with_lambertian; /* of a display that the eye sees, from the haze */
-    const PathListener *listener;        /* NULL: nobody */
+    bool                with_lambertian; /* of a display that the eye sees, without haze */
+    const PathListener *listener;        /* NULL: none */
 } SeenAsk;
 
 typedef struct SeenLight {
@@ -21,5 +21,5 @@ typedef struct SeenLight {
                                  lambertian part, where that was asked; else 0 */
 } SeenLight;
 
-/* start: without collectors. Whatever is asked, the path is the same. */
+/* start: without collectors. The path does not depend on what is asked. */
 void path_seen(const PathStart *start, Ray ray, const SeenAsk *ask, SeenLight *out);

@@ -10,9 +10,9 @@
 #include "scene/load/material_data.h"
 
 #define ROUND 64          /* chunks at a time */
-#define CHUNK_ROOM 512    /* of a chunk's table: a power of two */
+#define CHUNK_ROOM 512    /* places in a chunk's table: a power of two */
 #define CHUNK_CHAINS 400  /* that one chunk keeps apart */
-#define ROOM 16384        /* of all: a power of two */
+#define ROOM 16384        /* places in the table of all: a power of two */
 #define CHAINS_KEPT 10000 /* that are kept apart */
 
 /* ---- one chunk of paths ------------------------------------------------------------------ */
@@ -30,25 +30,24 @@ typedef struct ChainChunk {
     ChunkChain *table;   /* [CHUNK_ROOM] */
     int         count;
     double      all, mirror, own;
-    BrightSamples bright; /* of all */
+    BrightSamples bright; /* as all */
     double     *by_part;
     ChainGroups groups;
     uint32_t    draws;
 } ChainChunk;
 
-/* What all chunks share. */
+/* Shared by all chunks. */
 typedef struct ChainSearch {
     const ChainAsk *ask;
     const Scene    *scene;
     const int      *alike;
-    const bool     *has_data; /* of each part */
-    float           far_m; /* how long a ray is drawn towards what is far off */
+    const bool     *has_data; /* [part] */
+    float           far_m; /* length of a ray drawn towards a distant source */
     int             chunks, batches;
     int             first; /* chunk of this round */
-    ChainChunk      *sums;  /* of the round's chunks */
+    ChainChunk      *sums;  /* one a chunk of the round */
 } ChainSearch;
 
-/* Who listens to a chunk. */
 typedef struct ChunkListener {
     const ChainSearch *search;
     ChainChunk         *sums;
@@ -152,7 +151,7 @@ static void add_parts(const ChunkListener *to, const PathHistory *history, doubl
     if (history->count) add_part(to, history->pane_id, parts, &count, y);
 }
 
-/* What shines there by itself: an emitter is a thing that is met. */
+/* A source by itself; an emitter counts as a surface that is met. */
 static void add_straight(const ChunkListener *to, const PathHistory *history, double y)
 {
     ChainGroups *groups = &to->sums->groups;
@@ -212,7 +211,7 @@ static void on_light(void *user, const PathHistory *history, const float xyz[3])
     draw_ray(to, chain, history, y);
 }
 
-/* Whose chunks follow each other in a stream of their own. */
+/* A batch's chunks follow each other in a random stream of its own. */
 static int batch_of(const ChainSearch *search, int chunk)
 {
     return chunk % search->batches;
@@ -238,7 +237,7 @@ static void trace_chunk(void *user, int item, int worker)
 
 /* ---- all chunks -------------------------------------------------------------------------- */
 
-/* Of all chunks, and of each batch's. */
+/* Over all chunks, and over each batch's. */
 typedef struct FoundSums {
     double sum, by_batch[CHAIN_BATCHES];
     BrightSamples bright;
@@ -246,7 +245,7 @@ typedef struct FoundSums {
 
 typedef struct FoundChain {
     Chain     chain;
-    double    draw[CHAIN_RAYS]; /* of its rays, rising */
+    double    draw[CHAIN_RAYS]; /* its rays', rising */
     FoundSums sums;
     double    sure;             /* its mean less one standard error: one lucky path has 0 */
     int       id;
@@ -398,7 +397,7 @@ static int by_sureness(const void *a, const void *b)
     return compare(x->sure, y->sure, x, y);
 }
 
-/* What comes by chains that are not kept. */
+/* Light by chains that are not kept. */
 static ChainFigure rest_of(const FoundChains *found, const ChainSearch *search)
 {
     FoundSums rest = {.sum = 0, .bright = found->all.bright};

@@ -28,7 +28,7 @@
 typedef struct ChainLink {
     int part_id; /* the first of those that count as one */
     int event;   /* PathEvent */
-    int pane_id; /* of the last pane before it; NO_ID: none; at the first link only if asked */
+    int pane_id; /* the last pane before it; NO_ID: none; at the first link only if asked */
 } ChainLink;
 
 /* Plain numbers, zero behind count: keys are compared as bytes. */
@@ -41,7 +41,7 @@ typedef struct ChainKey {
     int source_id; /* as a PathHistory's */
 } ChainKey;
 
-/* From the eye over the surfaces to where the light began; what comes from far off ends some
+/* From the eye over the surfaces to where the light began; for a distant source it ends some
  * way towards it. */
 typedef struct ChainRay {
     Vec3 point[CHAIN_POINTS];
@@ -81,13 +81,13 @@ typedef struct Chains {
     Chain      *list;   /* the greatest, greatest first */
     int         count;
     int         others; /* how many more there are */
-    ChainFigure rest;   /* of those */
+    ChainFigure rest;   /* theirs */
     ChainFigure all, mirror; /* mirror: by way of the mirror of a display that is seen first */
     double      own;    /* cd m^-2 of `all` that began at the display that is seen first */
     double     *by_part; /* cd m^-2 that came by each part of the scene, surface or pane, behind
                             what is seen first; of parts that count as one at their first */
     ChainGroups groups;
-    const int  *alike;  /* of each part: the first of those that count as one */
+    const int  *alike;  /* [part] the first of those that count as one */
     long        paths;
 } Chains;
 
@@ -97,7 +97,7 @@ typedef struct ChainAsk {
     long                paths;       /* at least CHAIN_PATHS_LEAST; rounded up to a chunk */
     int                 most;        /* chains that are kept */
     bool                with_direct; /* sources that the eye sees by themselves count, too */
-    bool                with_first_pane; /* the eye looks through a pane: that is told */
+    bool                with_first_pane; /* a pane before the first surface is in the key */
 } ChainAsk;
 
 #define CHAIN_PATHS_LEAST (2 * CHAIN_CHUNK) /* an error takes two batches */

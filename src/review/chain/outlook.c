@@ -10,14 +10,14 @@
 #include "review/chain/chain_words.h"
 
 #define SIZE OUTLOOK_SIZE
-#define PATHS 12     /* of a pixel */
-#define PASSES 4096  /* of the luxmeter that tells of sun and lamps */
+#define PATHS 12     /* in a pixel */
+#define PASSES 4096  /* of the luxmeter for sun and lamps */
 #define SEED 0x6f75746cu
 #define RIM 1.5703   /* radians: pixels on the rim look no further down */
-#define THINGS 64    /* that one row tells apart */
+#define THINGS 64    /* that one row keeps apart */
 #define ALL_THINGS 1024
 
-/* What is seen first, or a source that is seen by itself. */
+/* A thing that is seen first, or a source that is seen by itself. */
 typedef struct Thing {
     int    part_id;   /* NO_ID: the source */
     int    source, source_id, pane_id;
@@ -34,7 +34,7 @@ typedef struct OutlookWork {
     Frame      frame;   /* x right, y up, z along the normal */
     Vec3       mirror;  /* towards what the eye sees mirrored */
     ProbeAim   aim;
-    Vec3      *targets; /* of the picture's paths */
+    Vec3      *targets; /* one a path of the picture */
     ThingList *rows;
     float     *cd_m2;
 } OutlookWork;
@@ -155,7 +155,7 @@ static void see_row(void *user, int row, int worker)
 
 /* ---- sun and lamps ----------------------------------------------------------------------- */
 
-/* They are too small for pixels: light samples tell of them. */
+/* They are too small for pixels: light samples find them. */
 typedef struct SmallLights {
     ThingList things;
     Vec3      sun;   /* sum of directions by lux */

@@ -4,7 +4,7 @@
  *
  * The picture is that of a fisheye that looks out along the normal: equidistant, the normal in
  * the middle, the surface's own plane along the rim, `up` upwards. The sun's disc is not in it,
- * nor are lamps without a body: of those the shares tell.
+ * nor are lamps without a body: the shares have those.
  *
  * Units    cd m^-2, lx; pixels of the picture, row 0 at the top; unit vectors, world.
  * Memory   what is kept lives in the arena.
@@ -16,15 +16,15 @@
 typedef struct OutlookAsk {
     const PathContext  *context;
     const ReadingTools *tools;
-    Vec3 point, ng; /* of the surface; ng on the side that looks */
+    Vec3 point, ng; /* on the surface; ng on the side that looks */
     Vec3 up;        /* not along ng */
-    Vec3 eye;       /* who sees the surface: its mirror image is marked; in front of it */
+    Vec3 eye;       /* sees the surface from its front: its mirror image is marked */
 } OutlookAsk;
 
 /* One thing that is seen first, by node and material, or a source, by way of a pane. */
 typedef struct OutlookShare {
     const char *what;  /* "sky through Window_FL (glass)" */
-    double      share; /* of the illuminance of the surface */
+    double      share; /* of the surface's illuminance */
     double      lux;
 } OutlookShare;
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* outlook_picture.h -- what a surface sees, shown and said.
+/* outlook_picture.h -- what a surface sees, as a picture and in words.
  *
  * Memory   from the arena.  Threads  pure functions.
  */

@@ -22,7 +22,7 @@ typedef struct LightSearch {
     ChunkLight     *chunks;
 } LightSearch;
 
-/* What a lane's radiance counts for in its band: wavelength_steps is the integral of the
+/* Weight of a lane's radiance in its band: wavelength_steps is the integral of the
  * density, in 2^-24, and the density constant within a nanometre (wavelengths.c). */
 static double lane_weight(double nm, int *band)
 {

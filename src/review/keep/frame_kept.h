@@ -15,7 +15,7 @@ enum { FRAME_FILES_MOST = 4 };
 typedef struct FrameKept {
     Journal    *journal;    /* NULL: nothing is kept */
     const char *unfinished; /* folder */
-    const char *identity;   /* what decides the frame (render/identity.h) */
+    const char *identity;   /* all that decides the frame (render/identity.h) */
     const char *files[FRAME_FILES_MOST]; /* the frame, its pictures */
     int         file_count;
     Arena      *arena;

@@ -38,7 +38,7 @@ struct Journal {
     const char   *path;
     Arena        *arena;
     int           file;
-    uint64_t      end;    /* of what counts */
+    uint64_t      end;    /* of the entries that count */
     JournalPlace *places; /* a hash table */
     size_t        room;
     int           count;
@@ -128,7 +128,7 @@ static uint64_t sum_of(const JournalEntry *entry, const void *answer)
     return XXH3_64bits_digest(&sum);
 }
 
-/* Of an answer that lies in the file; false: it cannot be read. */
+/* The checksum of an answer in the file; false: it cannot be read. */
 static bool sum_in_file(const Journal *journal, const JournalEntry *entry, uint64_t offset,
                         uint64_t *out)
 {

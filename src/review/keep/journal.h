@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* journal.h -- answers that were found, on the disk as soon as they are: who asks again, after
- * a kill, is told at once.
+/* journal.h -- answers that were found, on the disk as soon as they are: asked for again, after
+ * a kill, they are there at once.
  *
  * An answer is a row of bytes under a key, which is a hash of everything that decides it. So
  * work that is done once more from the beginning costs nothing up to where it was.
@@ -13,7 +13,7 @@
  *          counts: it and all behind it are dropped when the file is opened.
  * Memory   an index in the arena; answers are read when they are asked for.
  * Threads  one at a time. Two processes never have one file: the second is refused.
- * Fails    as said. What cannot be written (a full disk) is remembered and told by journal_ok;
+ * Fails    as stated. A failed write (a full disk) is remembered and reported by journal_ok;
  *          the file keeps what it had.
  */
 #pragma once
@@ -25,7 +25,7 @@ typedef struct JournalKey {
     uint64_t low, high;
 } JournalKey;
 
-/* Of a text that says all that decides the answer. */
+/* The hash of a text that holds all that decides the answer. */
 JournalKey journal_key(const char *text);
 
 typedef struct Journal Journal;
@@ -40,7 +40,7 @@ bool journal_find(const Journal *journal, JournalKey key, void *answer, size_t s
 /* Keeps it; of a key that is there already the first answer counts. NULL is fine. */
 void journal_add(Journal *journal, JournalKey key, const void *answer, size_t size);
 
-/* False: something could not be written, and *err says what. NULL is fine. */
+/* False: something could not be written, and *err has it. NULL is fine. */
 bool journal_ok(const Journal *journal, Error *err);
 
 /* Adds the answers of another journal's file, those that are whole: somebody may be at work

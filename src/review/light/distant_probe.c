@@ -39,7 +39,7 @@ SkyTable sky_table_start(const DaylightInput *like, double low_deg, double high_
 void sky_table_between(SkyTable *table, double low_deg, double high_deg)
 {
     int first = (int)floor(low_deg / 360 * SKY_AZIMUTHS);
-    int last = (int)floor(high_deg / 360 * SKY_AZIMUTHS) + 1; /* what lies between two */
+    int last = (int)floor(high_deg / 360 * SKY_AZIMUTHS) + 1; /* to interpolate */
     if (last - first + 1 >= SKY_AZIMUTHS) return;
     table->first_azimuth = (first % SKY_AZIMUTHS + SKY_AZIMUTHS) % SKY_AZIMUTHS;
     table->azimuths = last - first + 1;
@@ -76,7 +76,7 @@ static bool make_suns(SkyTable *table, const Arena *arena, Error *err)
     return true;
 }
 
-/* The table's row at or below an elevation, and how far it lies towards the next. */
+/* The table's row at or below an elevation, and its share 0..1 of the way to the next. */
 static int row_of(const SkyTable *table, double elevation_deg, double *share)
 {
     int row = 0;
@@ -88,7 +88,7 @@ static int row_of(const SkyTable *table, double elevation_deg, double *share)
     return row;
 }
 
-/* How far an elevation lies from row to next by the air that the sun's light passes. */
+/* The share of the way to the next row in the air mass that the sun's light passes. */
 static double share_by_air(const SkyTable *table, int row, double elevation_deg)
 {
     double low = daylight_air_mass(table->elevation_deg[row]);
@@ -123,7 +123,7 @@ typedef struct SkyProbe {
 
 /* A row of the table over all probes, so that each sky is looked up once. */
 typedef struct SkySum {
-    const Daylight  *sky;      /* of the row */
+    const Daylight  *sky;      /* the row's */
     const SkyProbe  *probes;
     int              probe_count, row, cell_count, first_azimuth;
     const bool      *is_asked; /* [cell] by any of the probes */
@@ -131,7 +131,7 @@ typedef struct SkySum {
     float           *bands;    /* [worker][cell][band], cd m^-2 */
 } SkySum;
 
-/* What is left of a total without each group, by what white light gives of them. */
+/* A total without each of the groups in turn, by their parts of white light. */
 static void shares_without(const Response *response, const double white[RESPONSE_GROUPS],
                            double total, float out[RESPONSE_GROUPS])
 {
@@ -142,7 +142,7 @@ static void shares_without(const Response *response, const double white[RESPONSE
                                  : total);
 }
 
-/* What white light gives of a response: samples of it, which add up to its groups. */
+/* A response to white light as samples by class and group; they add up to its groups. */
 typedef struct WhiteSamples {
     double of[RESPONSE_CLASSES][RESPONSE_GROUPS];
 } WhiteSamples;
@@ -218,7 +218,7 @@ static bool sends_anything(const Response *response, int cell)
     return false;
 }
 
-/* Of the vehicle, whatever its heading. */
+/* Relative to the vehicle, for any heading. */
 static SunAngles vehicle_angles(const Setup *setup, Vec3 direction)
 {
     SunAngles angles = setup_angles(setup, direction);
@@ -436,7 +436,7 @@ static int *suns_that_reach(const Response *response, const ProbeSuns *suns, int
     return list;
 }
 
-/* Of all suns, most of which stand behind a roof: only those that may light it are asked. */
+/* Asks only suns that may light it: most of them stand behind a roof. */
 static const float *ask_scattered(const DistantProbe *probe, const ReadingTools *with,
                                   const ResponseOptions *options, const ProbeSuns *all,
                                   Arena *arena)

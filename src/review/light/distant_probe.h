@@ -20,7 +20,7 @@
 
 /* ---- skies ------------------------------------------------------------------------------- */
 
-#define SKY_AZIMUTHS 72 /* of the sun */
+#define SKY_AZIMUTHS 72 /* of the sun in a turn */
 
 /* Clear skies by the sun's elevation. */
 typedef struct SkyTable {
@@ -28,22 +28,22 @@ typedef struct SkyTable {
     const double *elevation_deg; /* rising */
     float       (*sun_bands)[LIGHT_BANDS]; /* lx; 0 before its skies were made */
     int           count;
-    int           first_azimuth, azimuths; /* of SKY_AZIMUTHS, on from the first: those that are
-                                              made; no other may be read */
+    int           first_azimuth, azimuths; /* those of SKY_AZIMUTHS that are made, on from the
+                                              first; no other may be read */
     Inherited    *inherited; /* where its skies are found and kept; NULL: they are not */
 } SkyTable;
 
-/* Elevations that reach from `low` to `high`; `like` says air and ground. Its skies are made
+/* Elevations that reach from `low` to `high`; `like` gives air and ground. Its skies are made
  * when probes ask for them (distant_probes_ask_skies), one by one: each takes megabytes. */
 SkyTable sky_table_start(const DaylightInput *like, double low_deg, double high_deg,
                          Arena *arena);
 
-/* Of the sun's azimuths, of the vehicle, only those from low to high; before its skies are
+/* Keeps only the sun's azimuths from low to high, relative to the vehicle; before its skies are
  * made. */
 void sky_table_between(SkyTable *table, double low_deg, double high_deg);
 
-/* What the sun's bands give at an elevation within the table's, lx: within 1 % from 2 degrees
- * on, 3 % or 1 lx below. */
+/* The sun's bands at an elevation within the table's, lx: within 1 % from 2 degrees on, 3 % or
+ * 1 lx below. */
 void sky_table_sun(const SkyTable *table, double elevation_deg, float bands[LIGHT_BANDS]);
 
 /* ---- probes ------------------------------------------------------------------------------ */
@@ -51,15 +51,15 @@ void sky_table_sun(const SkyTable *table, double elevation_deg, float bands[LIGH
 typedef struct DistantProbe {
     ProbeAim     aim;
     Response     response;
-    const float *scattered, *mirror; /* of the first vertex: [sun][band], by lx */
+    const float *scattered, *mirror; /* the first vertex's: [sun][band], by lx */
     double      *sky;  /* [elevation of the table][SKY_AZIMUTHS]; by hours [sun] */
-    float       *sky_without; /* of each the same without each of the response's groups:
+    float       *sky_without; /* the same without each of the response's groups:
                                  [...][group]; by hours [group], as a share of any sky */
-    BrightSamples *sky_bright; /* what each is the sum of; by hours one, of a sky of 1 */
+    BrightSamples *sky_bright; /* samples of each; by hours one, of a sky of 1 */
 } DistantProbe;
 
 typedef struct DistantSuns {
-    const SunAngles *angles; /* of the vehicle */
+    const SunAngles *angles; /* relative to the vehicle */
     int              count;
 } DistantSuns;
 
@@ -67,11 +67,11 @@ typedef struct DistantTools {
     const Setup    *setup;
     SkyTable       *table;
     DistantSuns     suns;
-    int             paths;       /* of the response, at most, */
+    int             paths;       /* the response's, at most, */
     double          precision;   /* and when it ends before */
-    int             sun_paths;   /* of the first vertex */
+    int             sun_paths;   /* the first vertex's */
     bool            has_mirror;  /* it may be one: that is asked by paths of its own */
-    const HourSkies *hours;     /* of a weather file: the table is not used; or NULL */
+    const HourSkies *hours;     /* a weather file's, read instead of the table; or NULL */
 } DistantTools;
 
 /* probe->aim is set: its response is made, for any table and suns. */
@@ -89,7 +89,7 @@ void distant_probe_ask_suns(DistantProbe *probe, const DistantTools *tools, Aren
 
 typedef struct DistantReading {
     double sky, sun_first, sun_rest; /* they add up */
-    double mirror;                   /* of sun_first */
+    double mirror;                   /* part of sun_first */
     MeanInterval interval;           /* 95 %, of their sum */
 } DistantReading;
 

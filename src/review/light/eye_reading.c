@@ -17,13 +17,13 @@
 #define SHIFT_SEED 0x73686966u
 #define FROM_DEG DISABILITY_GLARE_MIN_DEG
 #define TO_DEG 89.9
-#define UPRIGHT 0.9999f /* of a unit direction: nearer the vertical the head has no top */
+#define UPRIGHT 0.9999f /* |y| of a unit direction: above it the head has no top */
 
-/* What one path hears. The veil of lamps, displays and the sun that the eye sees by themselves
- * is read by light samples, which find small ones too. */
+/* The light that one path finds. The veil of lamps, displays and the sun that the eye sees by
+ * themselves is read by light samples, which find small ones too. */
 typedef struct EyePath {
     double seen;               /* cd m^-2, without the sun's disc; */
-    double apart[EYE_SOURCES]; /* of it, what light samples do not read; */
+    double apart[EYE_SOURCES]; /* of it, the part that light samples do not read; */
     double images;             /* and of the glints the sun's */
 } EyePath;
 
@@ -32,7 +32,7 @@ typedef struct EyePath {
 typedef struct EyePaths {
     const Setup *setup;
     ProbeAim     aim;
-    int          count;           /* of all rounds' paths */
+    int          count;           /* paths of all rounds */
     Vec3         gaze, right, up; /* unit: the head's axes */
     HumanEye     whose;
     Vec3        *targets;         /* one a path; the rest likewise: */
@@ -188,7 +188,7 @@ static double position_of(const EyePaths *paths, Vec3 d)
 
 typedef struct EyeSums {
     EyeReading   reading;
-    double       veils[EYE_ROUNDS_MOST]; /* of each round */
+    double       veils[EYE_ROUNDS_MOST]; /* one a round */
     double       image_variance;
     GlareSource *sources;
     int          count;
@@ -297,7 +297,7 @@ static void add_pupils(const EyePaths *paths, const PupilSums *pupils, EyeSums *
     add_sun(paths, sun_lx, sums);
 }
 
-/* Of the mean of so many. */
+/* The mean's; NaN for fewer than two values. */
 static double standard_error(const double *values, int count)
 {
     double mean = 0, squares = 0;

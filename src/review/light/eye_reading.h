@@ -27,7 +27,7 @@
  * in nothing but chance. */
 typedef struct EyeLook {
     Vec3 eye;     /* m, world */
-    Vec3 towards; /* of any length but 0 */
+    Vec3 towards; /* any length but 0 */
     int  rounds;  /* 1 .. EYE_ROUNDS_MOST */
     const FalseSuns *images; /* from there; NULL: nobody looked */
 } EyeLook;
@@ -46,8 +46,8 @@ typedef enum EyeSource {
 typedef struct EyeReading {
     double veil;               /* cd m^-2 */
     double veil_sigma;         /* its standard error; NaN of one round */
-    double parts[EYE_SOURCES]; /* of the veil; they add up to it */
-    double vertical_lx;        /* of the pupil's plane, all light */
+    double parts[EYE_SOURCES]; /* the veil's; they add up to it */
+    double vertical_lx;        /* on the pupil's plane, all light */
     double dgp, ugr;           /* ugr: NaN without a source */
 } EyeReading;
 

@@ -10,7 +10,7 @@
 #define SEED 0x66616c73u
 #define BLOCK 10       /* rays along each side of a block: BLOCK_DEG by FALSE_SUN_STEP_DEG */
 #define ENOUGH 5       /* images a ray, on the average, that are wanted of a block */
-#define RAYS_MOST 32   /* of a direction */
+#define RAYS_MOST 32   /* rays a direction */
 
 /* ---- rays -------------------------------------------------------------------------------- */
 
@@ -37,8 +37,8 @@ typedef struct SearchRay {
     const ImageSearch *search;
     Arena        *found;
     Vec3          seen;
-    double        sr;     /* of the field of view */
-    int           count;  /* of images that were found */
+    double        sr;     /* in the field of view */
+    int           count;  /* images that were found */
 } SearchRay;
 
 static void add_image(void *user, int part_id, Vec3 direction, const float *share)
@@ -245,7 +245,7 @@ static double share_in_disc(Vec3 ray, Vec3 towards)
     return fmin(fmax(inside, 0), 1);
 }
 
-/* Who is told of a sun's images. */
+/* The visitor of one sun's images. */
 typedef struct SunVisit {
     Vec3          towards;
     FalseSunVisitor *visit;

@@ -7,10 +7,10 @@
  * radiance, so that an image gives the eye the sun's illuminance by the share of the sun's disc
  * that the image covers in the field of view, times what mirror and panes leave.
  *
- * Field        whatever lies within FALSE_SUN_FIELD_DEG of straight ahead.
+ * Field        all that lies within FALSE_SUN_FIELD_DEG of straight ahead.
  * Approximate  a mirror narrower than FALSE_SUN_STEP_DEG, as the eye sees it, may be missed; of
  *              glass that mirrors little the illuminance is known within some 10 %.
- * Not told     rough mirrors (satin), and what a display's haze spreads: they have no image.
+ * Left out     rough mirrors (satin), and what a display's haze spreads: they have no image.
  * Memory       96 bytes a ray that leaves by a mirror, and 32 a spectrum: 35,000 rays of the
  *              driver of scenes/car_dashboard.gltf, 3.4 and 1.1 MB.
  * Threads      a search starts its own; the same figures for any count.
@@ -20,18 +20,18 @@
 
 #define FALSE_SUN_STEP_DEG 0.1
 #define FALSE_SUN_FIELD_DEG 100
-#define FALSE_SUN_CELLS (180 * 360) /* of the sun's direction */
+#define FALSE_SUN_CELLS (180 * 360) /* by the sun's direction */
 
 /* One ray. */
 typedef struct FalseSunRay {
     Vec3  sun;     /* unit, world: where the sun's point stands */
     Vec3  seen;    /* unit, world: where the eye sees it */
-    float share[LIGHT_BANDS]; /* of the radiance that mirror and panes leave */
-    float sr;      /* of the field of view */
+    float share[LIGHT_BANDS]; /* of the radiance, left by mirror and panes */
+    float sr;      /* in the field of view */
     int   part_id; /* the first mirror's */
 } FalseSunRay;
 
-/* What an eye sees of a scene, whatever sun stands in its sky. */
+/* The rays from an eye in a scene, for any sun in its sky. */
 typedef struct FalseSunRays {
     const FalseSunRay *list;  /* by cells of the sun's direction */
     const int         *first; /* [cell]; and one more: the end */
@@ -44,7 +44,7 @@ void false_suns_search(const Setup *setup, Vec3 eye, Arena *arena, FalseSunRays 
 /* A ray under suns of one spectrum. */
 typedef struct FalseSun {
     Vec3  sun, seen; /* the ray's */
-    float sr;        /* of the field of view, times what is left of the light */
+    float sr;        /* in the field of view, times the share of light left */
     int   part_id;
 } FalseSun;
 
@@ -54,11 +54,11 @@ typedef struct FalseSuns {
     int             count;
 } FalseSuns;
 
-/* `bands`: of the sun (light_bands.h). The rays must outlive what comes of them. */
+/* `bands`: the sun's (light_bands.h). The rays must outlive the result. */
 FalseSuns false_suns_of(const FalseSunRays *rays, const float bands[LIGHT_BANDS], Arena *arena);
 
-/* Is told of a ray that leaves to the sun: `share` of it leaves to the disc, its rim's by a
- * part. */
+/* Called for a ray that leaves to the sun; `share` of it leaves to the disc, below 1 at the
+ * rim. */
 typedef void FalseSunVisitor(void *user, const FalseSun *image, double share);
 
 /* towards: the sun, unit, world. */
@@ -68,7 +68,7 @@ void false_suns_each(const FalseSuns *suns, Vec3 towards, FalseSunVisitor *visit
 typedef struct FalseSunSight {
     double share;   /* of the sun's illuminance that comes to the eye, on a plane that faces the
                        image; 0: there is none */
-    int    part_id; /* of the mirror that throws most, */
+    int    part_id; /* the mirror that throws most, */
     Vec3   seen;    /* and where it stands */
 } FalseSunSight;
 

@@ -99,7 +99,7 @@ static void read_chunk(void *user, int item, int worker)
                                       &statistics);
 }
 
-/* Of one figure: over the chunks so far. */
+/* One figure over the chunks so far. */
 typedef struct GazeSum {
     double sum, squares; /* of the chunks' means */
 } GazeSum;
@@ -146,7 +146,7 @@ static void read_cone(const Setup *setup, const GazeGoal *goal, const ProbeAim *
 
 /* ---- from where -------------------------------------------------------------------------- */
 
-/* What is mirrored, by scene part: the pane's, and that of what it shows; behind the parts one
+/* Mirrored light by scene part: the pane's, and that of the part it shows; behind the parts one
  * place for each set of lights. */
 typedef struct GazeTally {
     const Scene *scene;

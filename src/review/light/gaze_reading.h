@@ -18,7 +18,7 @@
 
 typedef struct GazeGoal {
     Vec3   eye;       /* m, world */
-    Vec3   towards;   /* of any length but 0 */
+    Vec3   towards;   /* any length but 0 */
     double precision; /* relative standard error of both figures, above 0, */
     int    most;      /* unless it takes more paths than that */
 } GazeGoal;

@@ -7,7 +7,7 @@
 #include "base/parallel.h"
 #include "sky/sun_disc.h"
 
-#define SUNS_AT_ONCE 64 /* of one piece of work */
+#define SUNS_AT_ONCE 64 /* in one piece of work */
 
 /* ---- hours ------------------------------------------------------------------------------- */
 

@@ -23,9 +23,9 @@
 typedef struct HourSky {
     SkyShape shape;
     float    scale;                    /* cd m^-2 per unit of the shape */
-    float    sky_bands[LIGHT_BANDS];   /* of a sky of 1 cd m^-2 */
+    float    sky_bands[LIGHT_BANDS];   /* for a sky of 1 cd m^-2 */
     float    floor_bands[LIGHT_BANDS]; /* whole */
-    float    sun_bands[LIGHT_BANDS];   /* of that part of the disc that is up */
+    float    sun_bands[LIGHT_BANDS];   /* the part of the disc that is up */
 } HourSky;
 
 /* Those of a sweep. */
@@ -43,6 +43,6 @@ typedef struct HourInputs {
 bool hour_skies_build(const HourInputs *inputs, int threads, Arena *arena, const HourSky **out,
                       int *failed, Error *err);
 
-/* What a response reads of sky and floor under each of `count` suns: [sun]. */
+/* A response's readings of sky and floor under each of `count` suns: [sun]. */
 double *hour_skies_read(const HourSkies *skies, const Response *response,
                               const Vec3 *suns, int count, int threads, Arena *arena);

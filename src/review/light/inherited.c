@@ -21,7 +21,7 @@ typedef struct KeptSky {
 struct Inherited {
     const ReviewRequest *request;
     Arena      arena;
-    Arena      beyond; /* of a sky that is not kept */
+    Arena      beyond; /* for a sky that is not kept */
     KeptGuide *guides; /* [condition] */
     KeptSky    skies[SKIES_MAX];
     int        sky_count;

@@ -16,13 +16,13 @@
 void light_bands_sky(const Daylight *daylight, float elevation, float azimuth,
                      float bands[LIGHT_BANDS]);
 
-/* Of a spectral radiance as a curve. */
+/* A spectral radiance as a curve. */
 void light_bands_curve(const Curve *curve, float bands[LIGHT_BANDS]);
 
-/* Of equal-energy white; they add up to 1. */
+/* Equal-energy white; they add up to 1. */
 void light_bands_white(float bands[LIGHT_BANDS]);
 
-/* What a response's shares make of a light: their sum over bands. */
+/* A response's reading of a light: the sum of the products over bands. */
 double light_bands_sum(const float shares[LIGHT_BANDS], const float bands[LIGHT_BANDS]);
 
 /* The sun's disc; all 0 where it is down. */

@@ -10,9 +10,9 @@
 #include "kernel/kernel.h"
 #include "review/keep/journal.h"
 
-/* What is asked, besides: its kind and numbers. */
+/* All that decides the answer besides the aim and the light. */
 typedef struct Question {
-    JournalKey    base; /* of the program, the files of the scene and the request */
+    JournalKey    base; /* program, scene and the files that the request names */
     const char   *kind;
     const double *numbers;
     int           number_count;

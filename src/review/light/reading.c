@@ -15,13 +15,13 @@
 #define BATCHES READING_BATCHES
 #define PIECE 64 /* paths that are looked at together */
 
-/* Of light x that no level changes and light y of displays: sums of x^i y^k over paths, for
- * the squares and fourths of x + y at any level. */
+/* Moments of light x that no level changes and light y of displays: sums of x^i y^k over paths,
+ * for the squares and fourths of x + y at any level. */
 #define MOMENTS 8
 static const int MOMENT[MOMENTS][2] = {{2, 0}, {1, 1}, {0, 2}, {4, 0},
                                        {3, 1}, {2, 2}, {1, 3}, {0, 4}};
 
-/* Of displays. */
+/* The light of one display. */
 typedef struct Own {
     double reflected, mirror; /* sums */
 } Own;
@@ -30,8 +30,8 @@ typedef struct Batch {
     double reflected, mirror; /* sums */
     long   found;
     BrightSamples bright;
-    double moments[MOMENTS];          /* of a shared reading, */
-    Own    display[PROBE_DISPLAYS];   /* and of its scene's displays */
+    double moments[MOMENTS];          /* a shared reading's, */
+    Own    display[PROBE_DISPLAYS];   /* and its scene's displays' */
 } Batch;
 
 /* Paths that go on where they ended. */
@@ -100,14 +100,14 @@ static void add_known(double known, Reading *to)
     to->interval.high += known + 2 * error;
 }
 
-/* Of the light that the found paths bring, of so many times the reading's. */
+/* bright_missing of the paths that found the display; repeated: so many times the paths. */
 static double missing(const Reading *reading, double repeated)
 {
     return bright_missing(&reading->bright, (double)reading->paths * reading->found_share,
                           repeated);
 }
 
-/* Of batches with so many paths each. */
+/* paths: in each batch. */
 static Reading reading_of(const Batch batches[BATCHES], int paths, double known)
 {
     BatchSums sums = {0};
@@ -168,7 +168,7 @@ static bool is_decided(const Reading *reading, const ReadingGoal *goal, Arena sc
 /* All that a shared reading is made of. */
 typedef struct ReadingParts {
     Batch  pilot[BATCHES], fresh[BATCHES];
-    int    pilot_paths, paths; /* of every batch */
+    int    pilot_paths, paths; /* in every batch */
     double seconds;
 } ReadingParts;
 
@@ -238,8 +238,8 @@ static Reading take_plain(const ProbeAim *aim, const ReadingGoal *goal,
 
 /* ---- a pilot, and what it asks for ------------------------------------------------------- */
 
-/* What a fresh reading by so many paths may be expected to say, as far as the pilot knows: its
- * interval is as wide as paths make it, and lies somewhere in the pilot's. */
+/* The fresh reading by so many paths that the pilot predicts: its interval is as wide as paths
+ * make it, and lies somewhere in the pilot's. */
 static Reading expected(const Reading *pilot, const ReadingGoal *goal, long paths)
 {
     double  scale = sqrt((double)pilot->paths / (double)paths);
@@ -266,8 +266,8 @@ static long paths_wanted(const Reading *pilot, const ReadingGoal *goal, Arena sc
     return paths;
 }
 
-/* A pilot grows until it asks for no more than so many times its own paths: what it says of
- * fewer is known too badly, and a longer one would cost more than it saves. */
+/* A pilot grows until it asks for no more than so many times its own paths: the number that a
+ * shorter one finds is too uncertain, and a longer one would cost more than it saves. */
 #define PILOT_REACH 4
 #define PILOT_SEED 0x70696c6fu
 
@@ -320,7 +320,7 @@ static JournalKey key_of(const ProbeAim *aim, const ReadingGoal *goal,
     return question_key(&question, aim, scratch);
 }
 
-/* Of a shared reading: what is emitted, and how many paths it takes, are not in it. */
+/* Without emitted light and number of paths, in which shared readings differ. */
 static JournalKey parts_key(const ProbeAim *aim, const ReadingGoal *goal,
                             const ReadingTools *tools, Arena scratch)
 {
@@ -393,7 +393,7 @@ static bool find_parts(const Journal *journal, JournalKey key, int displays,
     return true;
 }
 
-/* A reading that was kept before anybody shared it is taken again: it says the same. */
+/* A reading that was kept before anybody shared it is taken again, with the same result. */
 static Reading take_shared(const ProbeAim *aim, const ReadingGoal *goal,
                            const ReadingTools *tools, Arena scratch)
 {

@@ -2,10 +2,10 @@
 /* reading.h -- what a probe reads under the light that is there.
  *
  * Paths go out in rounds, each as long as all before it, until the reading is sure enough.
- * Where something hangs on it, these are a pilot only: it says how many paths will do, be it
- * because the answer is clear then or because the reading is sure enough, and so many others,
- * fresh ones, are what is told. Who stops when it pleases is wrong more often than its interval
- * says; so fresh paths, whose number hangs on nothing that they find, have an interval that
+ * Where a decision depends on it, these are a pilot only: it finds how many paths will do,
+ * because the answer is clear then or the reading is sure enough, and so many others, fresh
+ * ones, make the reading. One that stops when it pleases is wrong more often than its interval
+ * states; so fresh paths, whose number depends on nothing that they find, have an interval that
  * means 95 %. Intervals come from the means of independent batches of paths, and their upper
  * ends from the brightest paths, too (confidence.h).
  *
@@ -19,7 +19,7 @@
 #include "review/keep/journal.h"
 #include "base/confidence.h"
 
-/* What hangs on a reading: a verdict, say. */
+/* A decision that depends on a reading, such as a verdict. */
 typedef struct ReadingQuestion {
     /* Is the answer the same wherever in the interval the true reading lies? The scratch is
      * that of whoever takes the reading, behind what it still needs: an asker that kept scratch
@@ -38,11 +38,11 @@ typedef struct ReadingGoal {
     double brighter, darker; /* emitted, cd m^-2; both 0: the reading itself counts */
     double precision;        /* relative, above 0 */
     long   most;             /* paths, at most */
-    int    times;            /* of one on which something hangs: so many times the paths that
-                                would do, for a difference to another reading; 0 is 1 */
-    long   least;            /* of the same: no fewer, as many as that other one has; 0 as a
+    int    times;            /* with a question: so many times the paths that would do, for
+                                a difference to another reading; 0 is 1 */
+    long   least;            /* likewise: no fewer, as many as that other one has; 0 as a
                                 rule */
-    double known;            /* of the reading, by the display's mirror: paths leave it out
+    double known;            /* the part by the display's mirror: paths leave it out
                                 (path_context.h); it is added, with the error of
                                 response_mirror_paths */
     bool   is_shared;        /* reading_scaled will be asked: what it needs is kept. Counts of
@@ -53,8 +53,8 @@ typedef struct ReadingGoal {
 typedef struct ReadingTools {
     const Kernel *kernel;
     int           threads;
-    Journal      *journal; /* of readings that were taken before; NULL: none is kept */
-    JournalKey    base;    /* of the journal's keys: program, scene, request (question.h) */
+    Journal      *journal; /* readings that were taken before; NULL: none is kept */
+    JournalKey    base;    /* in the journal's keys (question.h) */
 } ReadingTools;
 
 #define READING_BATCHES 32 /* batches are alike and independent: each has a seed of its own, its
@@ -64,27 +64,26 @@ typedef struct Reading {
     double reflected;      /* Y; of a luxmeter the illuminance */
     double sigma;          /* its standard error */
     MeanInterval interval; /* 95 %, whether there was a question or not */
-    double mirror;         /* of it, by way of the display's mirror */
+    double mirror;         /* part by way of the display's mirror */
     double found_share;    /* paths whose first surface was a display */
     BrightSamples bright;  /* its paths, by the light that each found */
-    double batches[READING_BATCHES]; /* what each batch says by itself: they have `reflected`
-                                        for a mean */
+    double batches[READING_BATCHES]; /* of each batch by itself; their mean is `reflected` */
     double reached;        /* by how much of itself one standard error moves what counts */
     long   paths;          /* that it was read from; a pilot's do not count */
     double seconds;        /* that it took when it was taken, the pilot's too */
 } Reading;
 
 #define READING_LEAST 1024       /* paths of any reading */
-#define READING_PILOT 2048       /* of a pilot, at least */
-#define READING_ASKED_LEAST 4096 /* of one on which something hangs: light that only one path in
-                                    hundreds finds must have been met */
+#define READING_PILOT 2048       /* paths of a pilot, at least */
+#define READING_ASKED_LEAST 4096 /* with a question: light that only one path in hundreds finds
+                                    must have been met */
 
 Reading reading_take(const ProbeAim *aim, const ReadingGoal *goal, const ReadingTools *tools,
                      Arena scratch);
 
-/* What the same paths say of displays whose light counts scale[display] times: of a reading
- * that was shared, by its aim and goal but for what is emitted and how it may be decided. Its
- * paths do not hang on what it says: the pilot asks for as many, or it is not told. False: it
- * is not known, or takes more paths. */
+/* The reading by the same paths with light of displays times scale[display]: of a reading that
+ * was shared, by its aim and goal but for emitted light and how it may be decided. Its paths do
+ * not depend on its result: the pilot asks for as many, or it is not returned. False: it is not
+ * known, or takes more paths. */
 bool reading_scaled(const ProbeAim *aim, const ReadingGoal *goal, const double *scale,
                     const ReadingTools *tools, Arena scratch, Reading *out);

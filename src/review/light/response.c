@@ -17,7 +17,7 @@
  * so many times as many paths, whose noise is greater than that of directions within a
  * triangle. */
 #define OFTEN RESPONSE_CLASSES
-#define SELDOM (8 * OFTEN) /* what none of those found */
+#define SELDOM (8 * OFTEN) /* a cell that none of those found */
 
 /* ---- which triangles are asked ----------------------------------------------------------- */
 
@@ -48,9 +48,9 @@ static void set_every(const bool *is_open, ProbeCells *cells, float *every)
     cells->every = every;
 }
 
-/* Of a chunk: some of the open ones for all of them, a few of the others for many. Cells that
- * follow each other are neighbours and are asked by different chunks; later by others again,
- * since chunks come back to the same points of a symbol. asked: room for all. */
+/* A chunk's cells: some of the open ones for all of them, a few of the others for many. Cells
+ * that follow each other are neighbours and are asked by different chunks; later by others
+ * again, since chunks come back to the same points of a symbol. asked: room for all. */
 static ProbeCells ask_for(const ProbeCells *cells, int chunk, int *asked)
 {
     ProbeCells asks = *cells;
@@ -92,12 +92,12 @@ typedef struct Trace {
     const ProbeAim        *aim;
     const ResponseOptions *options;
     const ProbeCells *cells;
-    int         first_chunk, chunks; /* of the wave */
+    int         first_chunk, chunks; /* the wave's */
     int        *asked[WAVE];     /* cells of a chunk, */
     Vec3       *towards[WAVE];
     float      *tables[WAVE];    /* its sums, */
     double      sent[WAVE];      /* and all of them */
-    double     *sums;            /* of all chunks */
+    double     *sums;            /* over all chunks */
     double     *groups;          /* as a response's, sums */
     double      reading[RESPONSE_GROUPS]; /* under a uniform sky */
     float       white[RESPONSE_BANDS];
@@ -157,7 +157,7 @@ static void trace_chunk(void *user, int item, int worker)
     for (size_t i = 0; i < size; i++) trace->sent[item] += (double)trace->tables[item][i];
 }
 
-#define ADD_CELLS 512 /* of one piece of work */
+#define ADD_CELLS 512 /* in one piece of work */
 
 static void add_chunk(Trace *trace, int chunk, int first, int end)
 {
@@ -292,7 +292,7 @@ void response_trace(const ProbeAim *aim, const ResponseOptions *options, Arena *
  * slopes. Without slopes a direction that lies to one side of its cells would read what those
  * send. */
 typedef struct PlaneFit {
-    double moment[3][3], sum[3]; /* of 1, x, y; of these times the value */
+    double moment[3][3], sum[3]; /* products of 1, x, y; of these and the value */
     double least, most;
 } PlaneFit;
 
@@ -394,13 +394,13 @@ static double fit_of(const NearCell *near, int count, const double *values)
     return fit_value(&fit);
 }
 
-/* What each group gives of white light by way of further vertices. */
+/* Each group's part of white light by way of further vertices. */
 static const float *rest_groups(const Response *response, int cell)
 {
     return response->groups + ((size_t)cell * 2 + 1) * RESPONSE_GROUPS;
 }
 
-/* Of white light; group: that is left out, or none. */
+/* The fit for white light. group: left out; RESPONSE_GROUPS: none. */
 static double white_fit(const Response *response, const NearCell *near, int count, int group)
 {
     double values[NEAR_MOST] = {0};
@@ -414,8 +414,8 @@ static double white_fit(const Response *response, const NearCell *near, int coun
     return fit_of(near, count, values);
 }
 
-/* What groups gave to a reading by way of each triangle: a wave asks that with the paths of one
- * chunk. */
+/* The groups' parts of a reading by way of each triangle: a wave asks that with the paths of
+ * one chunk. */
 static void add_samples(const Response *response, const NearCell *near, int count,
                         double reading, BrightSamples *to)
 {
@@ -467,7 +467,7 @@ bool response_reaches(const Response *response, Vec3 towards)
 /* Paths of one piece of work: pieces are added in order. By mirror a path reaches few suns. */
 #define SUN_CHUNK 4
 #define MIRROR_CHUNK 1024
-#define SUN_BYTES ((size_t)16 << 20) /* of what is not added yet */
+#define SUN_BYTES ((size_t)16 << 20) /* tables that are not added yet */
 
 typedef struct SunTrace {
     const ProbeAim        *aim;
@@ -475,7 +475,7 @@ typedef struct SunTrace {
     const ProbeSuns       *suns;
     float *tables;
     Vec3  *towards;
-    int    first, paths; /* of the pieces in hand */
+    int    first, paths; /* first path of the pieces in hand; all paths */
     int    chunk;
 } SunTrace;
 
@@ -494,7 +494,7 @@ static void trace_suns(void *user, int item, int worker)
                                      &statistics);
 }
 
-#define MIRROR_HITS 1024.0 /* of the sun's image, which paths meet evenly: 0.6 % */
+#define MIRROR_HITS 1024.0 /* paths that meet the sun's image, evenly: 0.6 % */
 #define MIRROR_PATHS_LEAST 4096.0
 #define MIRROR_PATHS_MOST 4194304.0
 

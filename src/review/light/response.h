@@ -8,12 +8,12 @@
  * vertices is a mean over the triangle and those about it, as wide as the triangles are.
  *
  * Approximate  glints by way of a further mirror are spread over that width.
- * Spectrum     16 bands, those of the lanes of a path. Light is told by what each of its bands
- *              gives of the luminance (light_bands.h), so that bands add up to it; a response
- *              is the share of that, a mean over the band.
+ * Spectrum     16 bands, those of the lanes of a path. Light is given by the luminance of each
+ *              of its bands (light_bands.h), so that bands add up to it; a response is the
+ *              share of that, a mean over the band.
  * Errors       paths come in up to RESPONSE_GROUPS independent groups, each of whole waves that
- *              ask every triangle equally often; what each gives of white light is kept:
- *              readings without one of them tell how sure they are.
+ *              ask every triangle equally often; each one's part of white light is kept:
+ *              readings without one of them give the interval (a jackknife).
  * Units        shares: cd m^-2 by cd m^-2 (of a luxmeter lx by cd m^-2); of a sun cd m^-2 by
  *              lx on a plane that faces it.
  * Memory       from the arena: 256 bytes a triangle; some 20 times that while tracing.
@@ -28,7 +28,7 @@
 
 typedef struct ResponseOptions {
     const Kernel *kernel;
-    int level;       /* of the triangles */
+    int level;       /* subdivision of the triangles */
     int paths;       /* at most; at least RESPONSE_CHUNK: whole chunks are traced */
     int threads;
     double precision; /* response_trace ends when relative_error is no more; 0: never before */
@@ -36,8 +36,8 @@ typedef struct ResponseOptions {
 
 #define RESPONSE_CHUNK 16
 #define RESPONSE_GROUPS 16
-#define RESPONSE_CLASSES 16 /* of the triangles that get light those whose numbers differ by a
-                               multiple of it are asked by the same paths, others by others */
+#define RESPONSE_CLASSES 16 /* triangles that get light are asked by the same paths where their
+                               numbers differ by a multiple of it, else by others */
 
 #define RESPONSE_SLABS 128
 
@@ -49,8 +49,8 @@ typedef struct Response {
     int        paths;
     const float *first; /* [cell][band], of the whole triangle: by the first vertex */
     const float *rest;  /* by all further ones */
-    const float *groups; /* [cell][2][group] of white light what each group gives of all, and of
-                            the rest: they add up to it */
+    const float *groups; /* [cell][2][group] each group's part of white light, of all and of the
+                            rest: they add up to it */
     double relative_error; /* standard error of the reading under a uniform white sky */
 } Response;
 
@@ -71,7 +71,7 @@ double response_sun(const Response *response, Vec3 towards, const float bands[RE
  * points as the response has paths? Where not, no sun there lights it. */
 bool response_reaches(const Response *response, Vec3 towards);
 
-/* What is left of a sum without one group, by what that gave to it. */
+/* A sum without one group and its part `of_group`, scaled to as many paths. */
 double response_without(const Response *response, int group, double sum, double of_group);
 
 /* The 95 % interval of a reading, by what it would be without each group. Of fewer paths than
@@ -79,7 +79,7 @@ double response_without(const Response *response, int group, double sum, double 
 MeanInterval response_interval(const Response *response, double reading,
                                const double without[RESPONSE_GROUPS]);
 
-/* Paths that tell what an aim's mirror sends of a sun of that radius (radians) within 1 %,
+/* Paths that find what an aim's mirror sends of a sun of that radius (radians) within 1 %,
  * wherever in its patches the sun's image lies; of patches that fill more than 0.3 sr, and of a
  * convex display, less closely. A target without a patch is in the image or not. */
 #define RESPONSE_MIRROR_ERROR 0.01

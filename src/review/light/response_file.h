@@ -6,21 +6,21 @@
  * Memory   the arena's.
  * Threads  one at a time.
  * Writing  seen when it is whole and on the disk (base/file_write.h).
- * Fails    every fault of a file is told in one line that names it.
+ * Fails    every fault of a file is reported in one line that names it.
  */
 #pragma once
 #include "review/light/response.h"
 
 #define RESPONSE_VERSION 3
 
-/* What a probe reads of the scene's own light, whatever the sky. */
+/* A probe's reading of the scene's own light, under any sky. */
 typedef struct OwnLight {
     double lamps, displays; /* at level 1 */
 } OwnLight;
 
 typedef struct ResponseFile {
     const char *path;
-    const char *identity; /* what decides it: render/identity.h's lines */
+    const char *identity; /* all that decides it: render/identity.h's lines */
     size_t      bytes;    /* set by writing and reading */
 } ResponseFile;
 

@@ -35,7 +35,7 @@ static bool is_material(const char *display)
     return strncmp(display, "node:", 5) != 0;
 }
 
-/* Contents that are to be shown, the first that is said of a display first of all. */
+/* Contents to be shown; the first that is added for a display counts. */
 typedef struct ContentList {
     SceneOverride *list;
     int            count;
@@ -49,7 +49,7 @@ static void add_content(ContentList *to, const char *display, const char *path,
     to->list[to->count++] = (SceneOverride){display, path, said};
 }
 
-/* A variant's word holds, then the condition's, then the symbols'. */
+/* A variant's contents count first, then the condition's, then the symbols'. */
 static SceneOverride *all_contents(const SetupOptions *options, int *count, Arena *arena)
 {
     const ReviewRequest   *request = options->request;
@@ -93,8 +93,8 @@ static void add_inputs(const ReviewRequest *request, bool with_request, Text *te
                           (unsigned long long)request->inputs[i].hash);
 }
 
-/* Of the setup's scene; for keys of all files; for plans the request itself, too: what is asked
- * stands in the keys, so that who changes a word of it is not asked for all anew. */
+/* The identity has the setup's scene; keys other files, too; plans the request as well. What is
+ * asked stands in each key, so that a changed word of the request keeps the other answers. */
 static void identify(Setup *setup, const SceneOptions *options, Arena *arena)
 {
     Text own = {.arena = arena}, files = {.arena = arena}, all = {.arena = arena};

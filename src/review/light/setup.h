@@ -23,7 +23,7 @@ typedef struct SetupOther {
     const double *scale;  /* [display] of the setup's; NULL: a display is off there */
     PathContext   context;
     bool          is_lit; /* the context is, for these levels */
-    Arena         room;   /* of the context */
+    Arena         room;   /* the context's */
 } SetupOther;
 
 typedef struct Setup {
@@ -34,13 +34,13 @@ typedef struct Setup {
     Bvh         *bvh;
     PathContext  context;
     double       sensor_lux;   /* NaN: no level follows the light */
-    double      *scene_levels; /* of the displays, before the condition's */
+    double      *scene_levels; /* the displays', before the condition's */
     const char  *identity;     /* program and scene (render/identity.h), not its light */
     const char  *lessons;      /* SetupOptions' */
     Inherited   *inherited;
-    JournalKey   planned;      /* of program, files and request */
+    JournalKey   planned;      /* program, files and request */
     bool         is_shared;    /* its readings will be asked for under other levels, too */
-    SetupOther  *other;        /* what is asked is asked under these; NULL: as it is lit */
+    SetupOther  *other;        /* levels for readings; NULL: as it is lit */
 } Setup;
 
 typedef struct SetupOptions {
@@ -50,10 +50,10 @@ typedef struct SetupOptions {
     SceneState             state;     /* scene.h's */
     int                    threads;
     const char            *isa;       /* kernel.h's; NULL: the best */
-    Journal               *journal;   /* of readings; NULL: none is kept */
+    Journal               *journal;   /* for readings; NULL: none is kept */
     const char            *lessons;   /* folder of what paths are taught (run/cases.h); NULL:
                                          it is not kept */
-    Inherited             *inherited; /* of the review and its variants, or NULL */
+    Inherited             *inherited; /* the review's and its variants', or NULL */
 } SetupOptions;
 
 /* The scene with the condition's files, contents and occupants, in the dark. Warnings go to
@@ -98,7 +98,7 @@ SunAngles setup_angles(const Setup *setup, Vec3 towards);
 Vec3 setup_direction(const Setup *setup, SunAngles angles);
 
 /* The setup under another request's levels, which must be all in which that differs from its
- * own. Whoever asks there has what setup_ask says; the room must outlive it. */
+ * own. Readings are taken there by setup_ask; the room must outlive it. */
 Setup setup_beside(const Setup *of, const ReviewRequest *request, Arena *arena, Arena room,
                    SetupOther *other);
 
@@ -114,7 +114,7 @@ void  setup_unlight(const Setup *setup);
 /* The level at which a display stands now. */
 double setup_level(const Setup *setup, int display_id);
 
-/* What it is set to by a level of the request (NULL: as the scene says), with what a variant
- * makes of it. name: as the review calls it; sensor_lux: counts for a curve only. */
+/* The level by one of the request (NULL: the scene's own), times a variant's brightness.
+ * name: as the review calls it; sensor_lux: counts for a curve only. */
 double setup_level_of(const Setup *setup, const ReviewLevel *level, int display_id,
                       const char *name, double sensor_lux);

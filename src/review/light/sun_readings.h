@@ -31,5 +31,5 @@ SunReadings sun_readings_start(Arena *arena);
 /* NULL: that sun has not been read. */
 const double *sun_readings_find(const SunReadings *readings, SunAngles at);
 
-/* Of a sun that is not there yet. */
+/* The sun must not be there yet. */
 void sun_readings_add(SunReadings *readings, SunAngles at, double lux);

@@ -6,7 +6,7 @@
 #define BYTES ((size_t)1 << 34) /* address space: what is not touched costs nothing */
 
 struct SunSearch {
-    const char      *identity; /* of the scene */
+    const char      *identity; /* the scene's */
     Vec3             eye;
     FalseSunRays     rays;
     const SunSearch *before;

@@ -13,7 +13,7 @@
 
 typedef struct SunSearch SunSearch;
 
-/* Of one request. */
+/* For one request. */
 typedef struct SunSearches {
     Arena      arena;
     SunSearch *last;

@@ -3,7 +3,7 @@
  * scene, in its metres.
  *
  * Each cause is a mesh of its own (mode LINES), with its own colour, or its light's, and its
- * chain as the node's name; `extras` of the node say its share, its cd/m^2 and the contrast
+ * chain as the node's name; `extras` of the node hold its share, its cd/m^2 and the contrast
  * without it.
  * NAME.gltf holds its numbers itself; NAME.glb is the binary form.
  *
@@ -20,5 +20,5 @@ bool ray_file_check(const char *path, Error *err);
 
 bool ray_file_write(const ReviewCase *c, const char *path, Error *err);
 
-/* sRGB of cause i, 0..1: told apart without colour vision by their order in lightness, too. */
+/* sRGB of cause i, 0..1: distinct without colour vision, too, by their order in lightness. */
 void ray_colour(int i, float srgb[3]);

@@ -38,7 +38,7 @@ const char *review_summary_name(const char *symbol, Arena *arena)
 
 /* ---- the line --------------------------------------------------------------------------- */
 
-/* What leads to the worst case. */
+/* Words before the worst case; "": none. */
 static const char *answer_words(const Review *review, const ReviewCase *worst)
 {
     if (!review->pass) return worst->verdict == VERDICT_PASS ? "the worst is " : "";
@@ -102,7 +102,7 @@ static const ReviewCase *worst_of(const Grid *grid, const char *symbol, const ch
     return NULL;
 }
 
-/* What fails by its height or stroke says so, not its contrast. */
+/* A case that fails by its height or stroke names that, not its contrast. */
 static const char *found_words(const ReviewCase *c, Arena *arena)
 {
     const LimitVerdict *limit = case_worst_limit(c);
@@ -140,7 +140,7 @@ static void add_cell(Text *html, const Review *review, const ReviewCase *c, Aren
     text_add(html, "</a></td>");
 }
 
-/* It leads to what fits on one page of paper. */
+/* Links to the symbol's summary, which fits on one page of paper. */
 static void add_symbol(Text *html, const Review *review, const char *symbol, Arena *arena)
 {
     if (!review->has_summaries || review->whole) {
@@ -252,7 +252,7 @@ static void add_why(Text *html, const ReviewAnswer *answer, const ReviewCase *c,
     if (without[0]) add_fact(html, "No data", without);
 }
 
-/* What changes the contrast by more than its interval. */
+/* A remedy must raise the contrast above its interval. */
 static bool mends(const ReviewCase *c, const CaseRemedy *r)
 {
     return r->contrast_ratio > c->contrast_high;
@@ -277,7 +277,7 @@ static void add_mend(Text *html, int *listed, const char *words)
     ++*listed;
 }
 
-/* What was tried on all of it goes before what is reckoned of this case alone. */
+/* Changes tried on the whole review go before those estimated for this case alone. */
 static void add_tried(Text *html, const Review *review, int *listed, Arena *arena)
 {
     for (int i = 0; i < review->mend_count; i++)

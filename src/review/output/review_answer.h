@@ -13,7 +13,7 @@
 
 typedef struct ReviewAnswer {
     const Review        *review;
-    const ReviewPicture *pictures; /* of the page */
+    const ReviewPicture *pictures; /* the page's */
     int                  picture_count;
     const ReviewMap     *maps;
     int                  map_count;
@@ -21,9 +21,9 @@ typedef struct ReviewAnswer {
 
 bool review_answer_add(Text *html, const ReviewAnswer *answer, Arena *arena, Error *err);
 
-/* What the azimuth of a case's sun counts from: words_directions, or NULL. */
+/* words_directions for a case's sun; NULL: what its azimuth counts from is not known. */
 const char *const *review_answer_directions(const ReviewAnswer *answer, const ReviewCase *c,
                                             Arena *arena);
 
-/* The page that tells of one symbol alone: "summary-speed.html". */
+/* File of the page on one symbol alone: "summary-speed.html". */
 const char *review_summary_name(const char *symbol, Arena *arena);

@@ -58,7 +58,7 @@ typedef struct Bars {
     BarPart bright[PARTS], dark[PARTS];
     double  dark_sum;  /* that contrast is taken of */
     double  most;      /* the end of the scale */
-    double  wanted;    /* of contrast; NaN: none that can be drawn */
+    double  wanted;    /* contrast ratio; NaN: none that can be drawn */
 } Bars;
 
 static double or_zero(double value)
@@ -71,8 +71,8 @@ static bool is_close(double a, double b)
     return fabs(a - b) <= 1e-4 * fabs(b);
 }
 
-/* The contrast ratio that a limit stands for, told from how its figure follows from the case's:
- * the ratio R itself, Weber's R - 1 or Michelson's (R - 1) / (R + 1). */
+/* The contrast ratio that a limit stands for, by how its figure follows from the case's: the
+ * ratio R itself, Weber's R - 1 or Michelson's (R - 1) / (R + 1). NaN: by none of these. */
 static double ratio_of_limit(const LimitVerdict *limit, double contrast)
 {
     double weber = contrast - 1, michelson = (contrast - 1) / (contrast + 1);
@@ -156,7 +156,7 @@ static void add_figure(Text *html, const char *kind, const char *name, double cd
                 words_figure(cd_m2, arena));
 }
 
-/* Written out below the bars: the bars alone tell no numbers. */
+/* Below the bars, which show no numbers. */
 static void add_figures(Text *html, const CaseLuminances *l, Arena *arena)
 {
     text_add(html, "<ul class=\"parts\">\n");

@@ -17,6 +17,6 @@ void review_bar_add_margin(Text *html, const LimitVerdict *limit);
 /* A share 0..1 as a thin bar. */
 void review_bar_add_share(Text *html, double share);
 
-/* What the eye gets from the bright and from the dark part of a symbol, stacked by where it
- * comes from, with a mark where the bright part would reach the limit; then all figures. */
+/* Luminances of the bright and the dark part of a symbol as the eye gets them, stacked by
+ * origin, with a mark where the bright part would reach the limit; then all figures. */
 void review_bar_add_luminances(Text *html, const ReviewCase *c, Arena *arena);

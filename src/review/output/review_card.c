@@ -120,7 +120,7 @@ static void add_limit(Text *html, const LimitVerdict *l, Arena *arena)
     page_row_end(html);
 }
 
-/* What the program has no figure of is named behind the table. */
+/* Limits without a figure are named behind the table. */
 static void add_limits(Text *html, const ReviewCase *c, Arena *arena)
 {
     static const PageColumn COLUMNS[] = {
@@ -231,7 +231,7 @@ static void add_causes(Text *html, const ReviewCard *card, Arena *arena)
     text_add(html, "</div>\n");
 }
 
-/* What follows the remedy's own words: what it gives. */
+/* The remedy's effect, behind its own words. */
 static const char *remedy_result(const CaseRemedy *r, Arena *arena)
 {
     const char *ratio = arena_format(arena, "contrast %s",

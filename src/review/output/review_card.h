@@ -19,7 +19,7 @@ typedef struct ReviewPicture {
     const char       *file;    /* PNG or JPEG by its ending; goes into the page as it stands */
     const char       *beside;  /* its name from the page on goes there instead; or NULL */
     bool              is_frame; /* the frame itself: review_look.js shows it in its stead */
-    const char       *id;      /* of a file that several cards show: it stands in the first */
+    const char       *id;      /* a file's that several cards show: it stands in the first */
     bool              is_again; /* of them, and this is another; NULL: one card shows it */
 } ReviewPicture;
 
@@ -27,8 +27,8 @@ typedef struct ReviewCard {
     const ReviewCase    *of;
     const char          *id;      /* review_card_id */
     bool                 is_open;
-    const char *const   *directions; /* of its sun: words_directions, or NULL */
-    const ReviewPicture *pictures;   /* of the page: those of other cases are passed over */
+    const char *const   *directions; /* for its sun: words_directions, or NULL */
+    const ReviewPicture *pictures;   /* the page's; those of other cases are passed over */
     int                  picture_count;
 } ReviewCard;
 

@@ -22,14 +22,14 @@ const ReviewSweep *review_sweep_of(const Review *review, const ReviewCase *c);
 
 ReviewCounts review_count(const Review *review);
 
-/* A sweep fails where its worst does or some of its time did. */
+/* Its worst's, which fresh paths decide: steps may fail where that does not. */
 Verdict sweep_verdict(const ReviewSweep *sweep);
 
-/* Of all: fail; too close, where nothing fails but something is; pass, also where something is
- * not visible. A strict review that does not pass fails. */
+/* The whole review's: fail; too close, where nothing fails but something is; pass, also where
+ * something is not visible. A strict review that does not pass fails. */
 Verdict review_verdict(const Review *review);
 
-/* The limit that made the case's verdict: of those that say the same the one with the least
+/* The limit that made the case's verdict: of those with that verdict the one with the least
  * margin; else that of the contrast. NULL: no limit counts. */
 const LimitVerdict *case_worst_limit(const ReviewCase *c);
 
@@ -44,8 +44,8 @@ const ReviewCase *review_worst(const Review *review, Arena scratch);
 /* The case of the same condition, eye and symbol: a moment's or a sweep's worst; or NULL. */
 const ReviewCase *review_case_like(const Review *review, const ReviewCase *like);
 
-/* Of an eye that is a box or an ellipse and a symbol: where the fewest of its places can read
- * it, moments and the worst of sweeps. */
+/* The case in which the fewest points of a box or ellipse eye can read a symbol, of moments and
+ * the worst of sweeps. */
 typedef struct ReviewPlaces {
     const ReviewCase *at;
     double            read_share; /* 0..1 of its points */

@@ -15,7 +15,7 @@ const char *const diff_names[7] = {"broken", "mended", "worse", "better",
 
 /* ---- what changed ----------------------------------------------------------------------- */
 
-/* Of two verdicts. Nothing is worse than what has come to be hidden. */
+/* Nothing is worse than a symbol that has come to be hidden. */
 static DiffKind verdict_change(Verdict before, Verdict after)
 {
     static const int BADNESS[4] = {[VERDICT_PASS] = 0, [VERDICT_TOO_CLOSE] = 1,

@@ -47,7 +47,7 @@ typedef struct ReviewDiff {
     int           sweep_count;
     GazeDiff     *gazes;
     int           gaze_count;
-    int           count[7]; /* of all, by DiffKind */
+    int           count[7]; /* in all, by DiffKind */
 } ReviewDiff;
 
 ReviewDiff review_diff(const Review *before, const Review *after, const char *before_name,

@@ -9,7 +9,7 @@
 
 /* ---- the worst first --------------------------------------------------------------------- */
 
-/* What is not known comes last; findings alike stay as they came. */
+/* Unknown contrast (NaN) comes last; equal findings keep their order. */
 static int by_contrast(const void *a, const void *b)
 {
     const GazeFinding *x = *(const GazeFinding *const *)a, *y = *(const GazeFinding *const *)b;
@@ -48,7 +48,7 @@ static const char *first_part(const GazeVeil *parts)
     return value[most] > 0 ? WORDS[most] : "";
 }
 
-/* What is near the gaze is looked at, and no veil. */
+/* Light near the gaze is what the eye looks at, no veil. */
 static double far_veil(const GazeFinding *g)
 {
     return g->veil - g->veil_parts.near;

@@ -4,7 +4,7 @@
  * Figures have six significant digits; what is not a finite number is null. The same review
  * gives the same bytes. Texts that are no UTF-8 lose what is not ASCII (text/json_text.h).
  *
- * Units    as in verdict.h; keys say them.
+ * Units    as in verdict.h; keys name them.
  * Memory   documents are jansson's: whoever gets one releases it.
  * Threads  pure.
  */

@@ -232,7 +232,7 @@ static bool read_names(const JsonView *view, ReviewCase *c, Error *err)
     return true;
 }
 
-/* Reviews of before it was told have none. */
+/* Figures that older reviews do not have. */
 static bool read_since(const JsonView *view, ReviewCase *c, Error *err)
 {
     c->reflected_range = (Range){(double)NAN, (double)NAN};
@@ -275,7 +275,7 @@ static bool read_figures(const JsonView *view, ReviewCase *c, Error *err)
            read_number(view, "margin", &c->margin, err);
 }
 
-/* "limit" repeats one of "limits": the first that says the same. */
+/* "limit" repeats one of "limits": the first that is equal. */
 static bool read_limit_id(const JsonView *view, ReviewCase *c, Error *err)
 {
     json_t *limit = json_object_get(view->object, "limit");

@@ -10,5 +10,5 @@
 #include "base/error.h"
 #include "review/verdict.h"
 
-/* What review_json wrote: every figure to its six digits, null as NaN. */
+/* Reads a file of review_json: every figure to its six digits, null as NaN. */
 bool review_json_read(const char *file, Arena *arena, Review *out, Error *err);

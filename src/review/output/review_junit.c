@@ -6,7 +6,7 @@
 #include "text/escape.h"
 #include "text/text.h"
 
-/* What a case counts for: only what fails the review is a failure. */
+/* Only a verdict that fails the review is a failure. */
 static bool is_failure(const Review *review, Verdict verdict)
 {
     return verdict == VERDICT_FAIL || (review->is_strict && verdict != VERDICT_PASS);

@@ -3,7 +3,7 @@
  * case and each sweep, failed with its reason; a verdict that fails only under --strict is
  * "skipped" otherwise.
  *
- * Well-formed whatever the names are. Threads: pure.
+ * Well-formed for any names. Threads: pure.
  * Fails    when the file cannot be written.
  */
 #pragma once

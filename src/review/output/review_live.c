@@ -75,13 +75,12 @@ typedef struct Writer {
     Error *err;
 } Writer;
 
-/* Of which the page tells. */
 typedef struct LiveFound {
     const Review     *review;
     const ReviewLive *live;
 } LiveFound;
 
-/* What is no number is null. */
+/* Null unless finite. */
 static void add_figure(Text *html, const char *name, double value)
 {
     if (isfinite(value)) text_format(html, ",\"%s\":%.9g", name, value);
@@ -141,8 +140,8 @@ static const float *display_numbers(const LiveSweep *sweep, bool is_lux)
     return is_lux ? sweep->lux : sweep->level;
 }
 
-/* What belongs to a display is the same for all of its symbols and eyes: it stands in the first
- * sweep alone, and the others say which one that is. */
+/* A display's numbers are the same for all of its symbols and eyes: they stand in the first
+ * sweep alone, and the others hold its index. */
 static bool add_display_numbers(const Writer *to, const LiveSweep *sweeps, int at, bool is_lux)
 {
     const char  *name = is_lux ? "lux" : "level";

@@ -25,7 +25,7 @@
 
 typedef struct LiveSun {
     double azimuth_deg, elevation_deg;
-    int    step, heading_id; /* of time, and of the headings */
+    int    step, heading_id; /* step in time; into headings_deg */
 } LiveSun;
 
 /* Shared by the sweeps of a condition. */
@@ -34,14 +34,14 @@ typedef struct LiveSky {
     int            count;
     bool           is_route;     /* in its order of time */
     int            year;         /* 0: its suns have no date */
-    double         step_minutes; /* of a year, from 1 January 0:00 UTC on */
+    double         step_minutes; /* a year's, from 1 January 0:00 UTC on */
     const double  *headings_deg;
     int            heading_count;
 } LiveSky;
 
 /* Arrays of sky->count. */
 typedef struct LiveSweep {
-    int                  sweep_id; /* of the review */
+    int                  sweep_id; /* into the review's */
     const LiveSky       *sky;
     int                  worst;    /* sun */
     const float         *reflected, *mirror, *level, *lux;
@@ -52,7 +52,7 @@ typedef struct LiveSweep {
 
 /* ---- pictures ---------------------------------------------------------------------------- */
 
-#define LIVE_LAYER_ERROR 0.0043 /* of a luminance above 1e-5 cd m^-2, relative */
+#define LIVE_LAYER_ERROR 0.0043 /* relative, above 1e-5 cd m^-2 */
 
 /* R, G, B of Rec.709 in planes. Returns the packed layer, or NULL. */
 const char *live_layer_pack(const float *const rgb[3], size_t count, Arena *arena, Error *err);
@@ -65,8 +65,8 @@ typedef struct LivePicture {
     const char *beside; /* a script's name from the page on, which has the layers
                            (live_layers_write); NULL: they stand in the page */
     double      grey_cd_m2;               /* shown as middle grey at first */
-    double      low, high;                /* of false colours, cd m^-2 */
-    double      age_years, pigment;       /* of the eye */
+    double      low, high;                /* ends of the false colours, cd m^-2 */
+    double      age_years, pigment;       /* the eye's */
 } LivePicture;
 
 /* The script that picture->beside names. */
@@ -79,7 +79,7 @@ typedef struct ReviewLive {
     int                sweep_count;
     const LivePicture *pictures;
     int                picture_count;
-    const char        *colours; /* of the false colours: 256 of three bytes, base64 */
+    const char        *colours; /* the false colours: 256 of three bytes, base64 */
     const char        *beside;  /* a script's name from the page on, which has all of it
                                    (review_live_write); NULL: it stands in the page */
 } ReviewLive;

@@ -47,7 +47,7 @@ bool review_map_add(Text *html, const ReviewMap *map, Arena *arena, Error *err);
 typedef struct ReviewCalendar {
     const ReviewSweep *of;
     int                year, days, steps_a_day; /* days from 1 January on */
-    const char        *clock;        /* what the hours are of: "UTC", "UTC+02:00" */
+    const char        *clock;        /* time zone of the hours: "UTC", "UTC+02:00" */
     int                headings;
     const float       *failed_share; /* 0..1; NaN: the sun is down, or no answer */
 } ReviewCalendar;

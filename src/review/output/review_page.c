@@ -13,15 +13,15 @@
 #include "review/output/review_words.h"
 #include "text/escape.h"
 
-#define PAGE_BYTES ((size_t)4 << 30) /* of address space, for the text */
+#define PAGE_BYTES ((size_t)4 << 30) /* address space for the text */
 #define WORDS_BYTES ((size_t)1 << 30)
 #define OPEN_SWEEPS 1
 #define RENEWED_S 15 /* a page to which something is to come */
-#define SUMMARY_ROWS 5 /* of verdicts, so that it fits on one page of paper */
+#define SUMMARY_ROWS 5 /* verdicts that fit on one page of paper */
 
 /* review.css and review.js beside this file; the build embeds them. */
 extern const char REVIEW_STYLE[], REVIEW_SCRIPT[];
-/* What the reader may move: review_live.css, review_live.js, review_look.js. */
+/* The interactive parts: review_live.css, review_live.js, review_look.js. */
 extern const char LIVE_STYLE[], LIVE_SCRIPT[], LOOK_SCRIPT[];
 
 /* ---- the answer ------------------------------------------------------------------------- */
@@ -215,7 +215,7 @@ static void add_how_often(Text *html, const Review *review, Arena *arena)
     page_more_end(html);
 }
 
-/* The worst is open; all else is told by a line. */
+/* The worst is open; all others are a line each. */
 static bool add_sweeps(Text *html, const ReviewPage *page, Arena *arena, Error *err)
 {
     const Review *review = page->review;
@@ -397,7 +397,7 @@ static bool add_beside(Text *html, const ReviewPage *page, Arena *arena, Error *
 
 /* ---- one symbol alone ------------------------------------------------------------------- */
 
-/* What the review says of a symbol. */
+/* The review of one symbol alone. */
 static Review part_of(const Review *whole, const char *symbol, Arena *arena)
 {
     Review part = *whole;
@@ -448,7 +448,7 @@ static ReviewPage page_of_part(const ReviewPage *page, const Review *part, Arena
     return out;
 }
 
-/* Of the sweep whose worst comes first. */
+/* The map of the sweep whose worst case comes first. */
 static bool add_worst_map(Text *html, const ReviewPage *page, Arena *arena, Error *err)
 {
     CardList cards = list_cards(page->review, true, arena);

@@ -41,13 +41,13 @@ typedef struct ReviewPage {
     const char *const    *commands; /* that make this page again, and look further */
     int                   command_count;
     const ReviewDiff     *diff;     /* NULL: none */
-    const ReviewLive     *live;     /* what the reader may move; NULL: nothing */
-    bool                  is_dark;  /* whatever the reader has */
+    const ReviewLive     *live;     /* the interactive parts; NULL: none */
+    bool                  is_dark;  /* for readers with a light scheme, too */
 } ReviewPage;
 
 bool review_page_write(const ReviewPage *page, const char *path, Error *err);
 
-/* What it says of one symbol, on one page of paper: verdicts, its worst, why, a map. Its links
- * lead to index.html, pictures stay where they are. */
+/* The review of one symbol on one page of paper: verdicts, its worst, why, a map. Its links go
+ * to index.html, pictures stay where they are. */
 bool review_page_write_summary(const ReviewPage *page, const char *symbol, const char *path,
                                Error *err);

@@ -8,9 +8,10 @@
 #include "text/escape.h"
 
 #define NEAR_M 0.02    /* nothing nearer to the eye is drawn */
-#define RIM_APART 0.01 /* of a picture's width, between a symbol and its line */
+#define RIM_APART 0.01 /* share of a picture's width between a symbol and its line */
 
-/* Of a frame: x to the right, y down in pixels; z metres before the eye. */
+/* In a picture x is to the right and y down, pixels; before the eye right and up, metres. z is
+ * metres before the eye in both. */
 typedef struct SeenPoint {
     double x, y, z;
 } SeenPoint;
@@ -30,7 +31,7 @@ static SeenPoint in_picture(const CaseView *view, SeenPoint p)
     return (SeenPoint){x, y, p.z};
 }
 
-/* Of the stretch, by its shares 0..1, what lies in 0..size along one axis. */
+/* Narrows `kept`, shares 0..1 of the stretch, to what lies in 0..size along one axis. */
 static void keep_within(double from, double to, double size, double kept[2])
 {
     double step = to - from, low = -from / step, high = (size - from) / step;

@@ -238,7 +238,7 @@ static void add_limit_cells(Text *html, const ReviewCase *c, Arena *arena)
 static void add_list_row(Text *html, const Review *review, const ReviewCase *c, Arena *arena)
 {
     const char *id = review_card_id(review, c, arena);
-    bool        is_worst = id[0] == 's'; /* of a sweep, whose verdict may be worse */
+    bool        is_worst = id[0] == 's'; /* a sweep's */
     Verdict     verdict = is_worst ? sweep_verdict(&review->sweeps[atoi(id + 1)]) : c->verdict;
     page_row_begin(html, "");
     text_format(html, "<td><span class=\"chip %s\">%s</span></td><td>", words_class(verdict),

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* review_table.h -- the tables of a review's page: all verdicts, the limits, what changed.
  *
- * Rows lead to the cards of their cases (review_card_id).
+ * Rows link to the cards of their cases (review_card_id).
  *
  * Memory   the arena's. Threads: pure. Fails: never.
  */
@@ -22,5 +22,5 @@ void review_table_add_list(Text *html, const Review *review, int most, Arena *ar
 /* Every limit that was asked, once, with where its value was read. */
 void review_table_add_limits(Text *html, const Review *review, Arena *arena);
 
-/* What a change of the design did. */
+/* Effects of a change of the design. */
 void review_table_add_diff(Text *html, const ReviewDiff *diff, Arena *arena);

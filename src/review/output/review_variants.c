@@ -11,7 +11,7 @@
 
 /* ---- the order --------------------------------------------------------------------------- */
 
-/* Of all sweeps, that fail most of their time; -1: there is none. */
+/* The greatest failed share of all sweeps; -1: there is none. */
 static double most_failed(const Review *review)
 {
     double most = -1;
@@ -58,8 +58,8 @@ static bool is_small(const ReviewDifference *d)
     return fabs(100 * d->margin) < 0.05 && half < 0.05;
 }
 
-/* In percent of the limit: "+20.8 ± 0.5 %"; what may be nothing, or is less than is shown, says
- * so. */
+/* In percent of the limit: "+20.8 ± 0.5 %"; "none" below what is shown, "none above 0.5 %"
+ * where it may be 0. */
 static const char *difference_words(const ReviewDifference *d, Arena *arena)
 {
     double half = 50 * (d->margin_range.high - d->margin_range.low);
@@ -254,7 +254,7 @@ static bool add_variants(Text *html, const Review *review, const ReviewPicture *
 #define BAR_WIDTH 300
 #define BAR_HEIGHT 22
 
-/* Of one step, in percent of the limit. */
+/* The effect of one step, in percent of the limit. */
 static double effect(const ReviewSensitivity *s, const ReviewSlope *slope)
 {
     return 100 * s->step * slope->slope;
@@ -290,7 +290,7 @@ static void add_effect_bar(Text *html, const ReviewSensitivity *s, const ReviewS
                 "</svg></td>", middle, BAR_HEIGHT, fmax(low, 0), fmin(high, BAR_WIDTH));
 }
 
-/* "+1.03 ± 0.01 % per mm"; what may be nothing, or is less than is shown, says so. */
+/* "+1.03 ± 0.01 % per mm"; "none" below what is shown, "none above ..." where it may be 0. */
 static const char *slope_words(const ReviewSensitivity *s, const ReviewSlope *slope,
                                Arena *arena)
 {
@@ -348,8 +348,8 @@ static void add_slopes(Text *html, const Review *review, const ReviewSensitivity
     page_table_end(html);
 }
 
-/* What moves the least margin most comes first; symbols whose margin is not the least are
- * folded. */
+/* The parameter that moves the least margin most comes first; symbols whose margin is not the
+ * least are folded. */
 static void add_sensitivities(Text *html, const Review *review, Arena *arena)
 {
     static const int LEAST[2] = {0, 1}, OTHERS[2] = {1, INT_MAX};

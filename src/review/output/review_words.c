@@ -266,7 +266,7 @@ const char *words_without_data(const Review *review, const ReviewCase *c, Arena 
                         count == 1 ? "" : "s", review->without_data);
 }
 
-/* Of the trials the one at a value; fresh paths' word goes before. */
+/* The last trial at a value: one by fresh paths overrides. NULL: there is none. */
 static const ReviewTrial *trial_at(const ReviewMend *mend, double value)
 {
     const ReviewTrial *found = NULL;

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* review_words.h -- how a review is said in words that a meeting understands; private to the
- * output.
+/* review_words.h -- a review in words that a meeting understands; private to the output.
  *
  * Memory   the arena's. Texts are UTF-8 and not escaped. Threads: pure. Fails: never.
  */
@@ -17,7 +16,7 @@ const char *words_figure(double value, Arena *arena);
 /* The same with no more digits than its interval allows, where it has one. */
 const char *words_within(double value, double low, double high, Arena *arena);
 
-/* Of a case, so: "1.64 : 1"; "–" where it is not visible. */
+/* A case's: "1.64 : 1"; "–" where it is not visible. */
 const char *words_contrast(const ReviewCase *c, Arena *arena);
 
 /* "1.64 : 1"; "–" for NaN. */
@@ -35,7 +34,7 @@ const char *words_margin(double margin, Arena *arena);
 /* As somebody would write it who chose it: "2", "0.65". */
 const char *words_number(double value, Arena *arena);
 
-/* What was found for a limit, in its unit: "1.64 : 1", "14 arc min", "320 cd/m²". */
+/* The figure found for a limit, in its unit: "1.64 : 1", "14 arc min", "320 cd/m²". */
 const char *words_found(const LimitVerdict *limit, Arena *arena);
 
 /* "3 min", "1 h 25 min"; "–" for NaN. */
@@ -57,7 +56,7 @@ const char *words_often(const ReviewSweep *sweep, Arena *arena);
 /* "of the time"; of a sweep of directions alone "of the sun's directions". */
 const char *words_of_what(const ReviewSweep *sweep);
 
-/* The two together, where a share is told: "0.5 % of the time". */
+/* The two together, where there is a share: "0.5 % of the time". */
 const char *words_how_often(const ReviewSweep *sweep, Arena *arena);
 
 /* Seen without colours too: "✓", "✗", "≈", "∅". */
@@ -80,17 +79,17 @@ const char *words_sun(const ReviewCase *c, const char *const *directions, Arena 
 const char *words_case(const ReviewCase *c, Arena *arena);
 
 /* "wheel (leather) hides 62 %, rim (steel) hides 3.1 %, others 1.0 %"; "": nothing is hidden,
- * or nobody told. */
+ * or that is not known. */
 const char *words_hiders(const ReviewCase *c, Arena *arena);
 
 /* Why the case has its verdict: "contrast 1.64 : 1, wanted at least 2 : 1". */
 const char *words_reason(const ReviewCase *c, Arena *arena);
 
-/* "; known within 2.3 %, 1.0 % was asked", behind what is told of a case; "" where that was
+/* "; known within 2.3 %, 1.0 % was asked", behind the figures of a case; "" where that was
  * reached. */
 const char *words_precision(const ReviewCase *c, Arena *arena);
 
-/* " 62 % of it by way of 9 materials without data: ..."; "" where all have some. */
+/* " 62 % of it came by way of 9 materials without optical data ..."; "" where all have some. */
 const char *words_without_data(const Review *review, const ReviewCase *c, Arena *arena);
 
 /* "glass Window_FL: through → seat FrontSeat_L: scatters" */

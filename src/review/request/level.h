@@ -19,7 +19,7 @@ typedef struct ReviewLevel {
     int               fixed_count;
     /* or, of all displays, a curve: */
     bool    is_curve;
-    double  position_m[3], normal[3]; /* of the sensor, scene's frame; normal is unit */
+    double  position_m[3], normal[3]; /* the sensor's, scene's frame; normal is unit */
     double *lux, *level;              /* [point_count]: lux rises, level does not fall */
     int     point_count;
 } ReviewLevel;

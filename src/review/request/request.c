@@ -25,7 +25,7 @@ static double share_of(int i, int n)
 /* Along each axis, in halves of it: point i of an ellipse. */
 static void ellipse_shares(int i, double share[3])
 {
-    static const double root = 0.57735026918962576; /* of a third */
+    static const double root = 0.57735026918962576; /* sqrt(1/3) */
     for (int axis = 0; axis < 3; axis++) share[axis] = 0;
     if (i >= 7)
         for (int axis = 0; axis < 3; axis++) share[axis] = (i - 7) >> axis & 1 ? root : -root;

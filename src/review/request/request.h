@@ -3,7 +3,7 @@
  *
  * request_read.h reads it, request_check.h holds it against the scene.
  *
- * Units    as the names say: degrees, metres, lx, cd m^-2 (this is a file's border). Azimuths
+ * Units    as in the names: degrees, metres, lx, cd m^-2 (this is a file's border). Azimuths
  *          and headings from north over east. Positions and directions in the scene's frame
  *          (+Y up).
  * Files    paths stand as seen from the working folder: those of the file are resolved beside
@@ -33,11 +33,11 @@ typedef struct ReviewEye {
     double        axes_m[3];      /* ellipse: their lengths ahead, across and up */
     double        tilt_deg;       /* ellipse: its front down, about the axis across */
     double        half_axes_m[3][3]; /* ellipse: half of each, scene's frame */
-    double        move_m[3];      /* of a variant: from there, scene's frame */
+    double        move_m[3];      /* a variant's offset, scene's frame; else 0 */
 } ReviewEye;
 
-/* Of an ellipse, as SAE J941 has it for the eyes of drivers: its middle, the ends of its axes
- * and the points halfway between those of all three, on its surface. */
+/* Points of a drivers' eye ellipse (SAE J941): its middle, the ends of its axes and the points
+ * halfway between those of all three, on its surface. */
 #define ELLIPSE_POINTS 15
 
 /* A box has grid[0] * grid[1] * grid[2] points, x fastest; an ellipse ELLIPSE_POINTS, its
@@ -59,12 +59,12 @@ typedef struct ReviewGaze {
 
 typedef struct ReviewObserver {
     double age_years; /* 10..100 */
-    double pigment;   /* of the iris: 0 black, 0.5 brown, 1.2 very light */
+    double pigment;   /* the iris's: 0 black, 0.5 brown, 1.2 very light */
 } ReviewObserver;
 
 /* ---- what is read ------------------------------------------------------------------------ */
 
-/* What of the content is the foreground: AUTO is told from the rectangle itself. */
+/* Which part of the content is the foreground; AUTO: found from the rectangle itself. */
 typedef enum ReviewPolarity {
     POLARITY_AUTO, POLARITY_LIGHT_ON_DARK, POLARITY_DARK_ON_LIGHT
 } ReviewPolarity;
@@ -111,7 +111,7 @@ typedef struct ReviewContent {
 typedef struct ReviewCondition {
     const char         *name;
     ReviewConditionKind kind;
-    bool        has_environment; /* moment without: as the scene's files say. Route and sweeps:
+    bool        has_environment; /* moment without: as in the scene's files. Route and sweeps:
                                     air and ground of a clear sky, whose sun is replaced */
     Environment environment;     /* its heading as below, forward as the request's */
     const char **lights;         /* more files of the scene */
@@ -119,9 +119,9 @@ typedef struct ReviewCondition {
     bool         has_heading;    /* none: a moment's environment's own; sun sweep: the azimuths
                                     are the vehicle's, 0 ahead and 90 right */
     double       heading_deg;
-    int          level_id;       /* into levels; NO_ID: as the scene says */
+    int          level_id;       /* into levels; NO_ID: the scene's own */
     int          with_id;        /* into withs; NO_ID: nobody */
-    ReviewPolarity *polarity;    /* [symbol_count]: the symbol's own where none is said */
+    ReviewPolarity *polarity;    /* [symbol_count]: the symbol's own where none is given */
     ReviewContent  *contents;    /* shown instead of the symbols' and the scene's */
     int             content_count;
     /* route */
@@ -147,24 +147,24 @@ typedef struct ReviewWeather {
 
 /* ---- variants ---------------------------------------------------------------------------- */
 
-/* What is other than in the review itself. Of names that it does not say all stays as it is. */
+/* Differences from the review itself; what is not named stays as it is. */
 typedef struct ReviewChange {
-    const char          *place;    /* JSON path of what says it */
+    const char          *place;    /* JSON path of the variant or parameter */
     const SceneChange   *scene;    /* nodes, materials, hoods */
     int                  scene_count;
     const SceneOverride *panels;   /* by display: a file */
     int                  panel_count;
     const ReviewContent *contents; /* in every condition */
     int                  content_count;
-    const ReviewFixedLevel *brightness; /* multiplies the level that a display has, whatever
-                                           says it; the display's own name counts first, then
+    const ReviewFixedLevel *brightness; /* multiplies the level that a display has from
+                                           anywhere; the display's own name counts first, then
                                            its material's, then "*" */
     int                  brightness_count;
 } ReviewChange;
 
 typedef struct ReviewVariant {
     const char *name;
-    const char **words; /* what it changes, for people, one text a change */
+    const char **words; /* its changes in words, one text a change */
     int          word_count;
     ReviewChange change;
     ReviewLevel *levels;       /* take the places of those of their names */
@@ -197,13 +197,13 @@ typedef struct ReviewParameter {
     const char **with;       /* nodes that move along */
     int          with_count;
     double       direction[3]; /* unit */
-    double       at;         /* where it stands now: 0; brightness 1; reflectance as said */
-    double       step;       /* of the slope, above 0 */
-    double       low, high;  /* what may be tried */
+    double       at;         /* where it stands now: 0; brightness 1; reflectance as given */
+    double       step;       /* for the slope, above 0 */
+    double       low, high;  /* range that may be tried */
     const char  *place;      /* JSON path */
 } ReviewParameter;
 
-#define BARE_REFLECTANCE 0.0425 /* of glass of index 1.52 at the normal, just below */
+#define BARE_REFLECTANCE 0.0425 /* just below glass of index 1.52 at normal incidence */
 
 /* Where a display's surface is: all parts of its material, or those of one node. */
 typedef struct ReviewDisplay {
@@ -250,39 +250,39 @@ typedef struct ReviewRequest {
     int              weather_count;
     double           precision_contrast; /* relative standard error wanted */
     double           precision_clear;    /* enough where the verdict is clear; at least that */
-    bool             decides; /* what is too close is read on: DECIDE_TIMES (run/cases.c) */
-    int              precision_paths;    /* of one reading at most: what is not sure then has a
-                                            wider interval */
-    uint32_t         seed;    /* of the random numbers: another one takes other paths of the
-                                 same light; 0 as a rule */
+    bool             decides; /* reads on where too close to call: DECIDE_TIMES (run/cases.c) */
+    int              precision_paths;    /* at most for one reading; one that is not sure then
+                                            has a wider interval */
+    uint32_t         seed;    /* random seed: another one takes other paths of the same light;
+                                 0 as a rule */
     ReviewFrames     frames;
     ReviewVariant   *variants;
     int              variant_count;
-    ReviewParameter *parameters; /* of "sensitivity" */
+    ReviewParameter *parameters; /* "sensitivity" in the file */
     int              parameter_count;
     bool             is_compared; /* has variants or parameters that change more than levels, or
                                      is one of them: read from more paths (run/cases.c) */
-    const ReviewChange *change;  /* of the variant that this is; NULL: the review itself */
+    const ReviewChange *change;  /* this variant's; NULL: the review itself */
     ReviewInput     *inputs;     /* the file itself, routes, weathers, skies' pictures */
     int              input_count;
 } ReviewRequest;
 
-/* What a probe's random numbers begin with, of which `base` alone is usual: another seed of the
- * request takes others, so that luck shows. */
+/* A probe's random seed: `base`, hashed with the request's seed unless that is 0. Other seeds
+ * show how much of a result is chance. */
 uint32_t review_seed(const ReviewRequest *request, uint32_t base);
 
 /* The request as a variant has it, with no variants of its own. */
 ReviewRequest review_request_variant(const ReviewRequest *request, const ReviewVariant *variant,
                                      Arena *arena);
 
-/* Does it change levels of displays and nothing else, so that they alone tell it from the
- * request's own light? A curve that looks from elsewhere changes more. */
+/* Does it change levels of displays and nothing else, so that they are all in which its light
+ * differs from the request's? A curve whose sensor is elsewhere changes more. */
 bool review_variant_is_of_levels(const ReviewRequest *request, const ReviewVariant *variant);
 
 /* Whether anything that is to be compared changes more than levels. */
 bool review_is_compared(const ReviewRequest *request);
 
-/* What multiplies the level of a display; 1 where no change says it. */
+/* The factor on a display's level; 1 where no change sets it. */
 double review_brightness(const ReviewRequest *request, ReviewDisplayName display);
 
 /* NULL: there is none. */

@@ -62,7 +62,7 @@ static int find_display(const Scene *scene, const char *name)
     return NO_ID;
 }
 
-/* Its parts, those of one node where the name says which. */
+/* The display's parts; for a name "node:NAME" those of that node. */
 static ReviewDisplay collect_parts(const Scene *scene, const char *name, int display_id,
                                    Arena *arena)
 {
@@ -223,7 +223,7 @@ static void check_contents(const RequestCheck *check, int condition)
     }
 }
 
-/* Of a variant: names of displays that its change has and the loader does not look for. */
+/* Names of displays in a variant's brightness, which the loader does not look for. */
 static void check_change(const RequestCheck *check, const ReviewChange *change)
 {
     ReviewDisplay display;

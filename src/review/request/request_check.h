@@ -2,18 +2,18 @@
 /* request_check.h -- what a review's request names, found in its scene.
  *
  * Memory   the arena's. Threads: const data.
- * Fails    as said; places are the file and the JSON path of the request.
+ * Fails    as stated; places are the file and the JSON path of the request.
  */
 #pragma once
 #include "base/problems.h"
 #include "review/request/request.h"
 
-/* The display of that name ("cluster", "node:NAME"); what is wrong is said without a place:
- * no such display (and which there are), no panel, several nodes share it. */
+/* The display of that name ("cluster", "node:NAME"). Errors name no place: no such display
+ * (and which there are), no panel, several nodes share it. */
 bool review_display_find(const Scene *scene, const char *name, Arena *arena,
                          ReviewDisplay *out, Error *err);
 
-/* The camera of an eye of that kind; what is wrong is said without a place. */
+/* The camera of an eye of that kind. Errors name no place. */
 bool review_camera_find(const Scene *scene, const ReviewEye *eye, Arena scratch, int *camera_id,
                         Error *err);
 

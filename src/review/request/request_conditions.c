@@ -49,7 +49,7 @@ static int find_symbol(const ReviewRequest *request, const char *name)
     return NO_ID;
 }
 
-/* Of each symbol by its name. */
+/* An object with symbols' names as keys. */
 static bool read_polarities(const RequestReading *reading, const JsonView *view,
                             ReviewCondition *condition, Error *err)
 {
@@ -124,7 +124,7 @@ static bool read_route(RequestReading *reading, const JsonView *view,
            request_weather_read(reading, view, &condition->weather_id, err);
 }
 
-/* Keys that mean nothing beside others: said, not skipped. */
+/* Keys that mean nothing beside others are errors, not skipped. */
 static bool check_together(const JsonView *view, Error *err)
 {
     if (has(view, "route") && has(view, "sweep"))

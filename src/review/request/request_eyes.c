@@ -11,7 +11,7 @@
 #define GRID_MAX 33
 #define METRES_MAX 1e6
 #define BOX_METRES_MAX 10
-#define UPRIGHT 1e-6 /* of a unit vector's level part: less is vertical */
+#define UPRIGHT 1e-6 /* horizontal length of a unit vector: less is vertical */
 
 /* ---- eyes -------------------------------------------------------------------------------- */
 

@@ -10,7 +10,7 @@
 #include "text/uri.h"
 
 #define FILES_MAX 256
-#define LENGTH_LEAST 1e-9 /* of a vector that has a direction */
+#define LENGTH_LEAST 1e-9 /* shorter vectors have no direction */
 
 bool field_fails(const JsonView *view, const char *key, Error *err, const char *format, ...)
 {

@@ -2,7 +2,7 @@
 /* request_fields.h -- kinds of members of REVIEW.json that text/json_view.h does not read:
  * lists, objects by name, words out of a few, directions, files.
  *
- * Absent members keep what *out holds unless they are said to be wanted.
+ * Absent members leave *out as it is unless they are marked as wanted.
  *
  * Memory   the view's arena. Threads: one at a time.
  * Fails    with file and JSON path, as json_view.h.
@@ -21,7 +21,7 @@ typedef struct FieldWords {
     int                count;
 } FieldWords;
 
-/* A fault of a member: "..., wanted ..." is the caller's to say. Always false. */
+/* Reports a fault of a member; the format is "..., wanted ...". Always false. */
 bool field_fails(const JsonView *view, const char *key, Error *err, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 
@@ -57,7 +57,7 @@ bool field_item(const JsonView *view, const char *key, int i, FieldWords keys, J
 /* An object whose members' names are the user's: its members in the file's order. Absent:
  * *count is 0. One that is there has some, and none of their names is empty. */
 typedef struct FieldMembers {
-    JsonView     view; /* of the object */
+    JsonView     view; /* the object's */
     const char **name;
     int          count;
 } FieldMembers;

@@ -4,7 +4,7 @@
 #include "base/units.h"
 #include "scene/load/environment_text.h"
 
-/* Where the vehicle points to is said once for the file, its heading once for the condition. */
+/* `forward` stands once at the top of the file, a heading once in the condition. */
 static bool check_directions(const JsonView *view, const JsonView *environment,
                              const ReviewCondition *condition, Error *err)
 {
@@ -22,7 +22,7 @@ static bool check_directions(const JsonView *view, const JsonView *environment,
     return true;
 }
 
-/* Beside a route or a sweep it says what the air is like: a clear sky's. */
+/* Beside a route or a sweep the environment gives a clear sky's air. */
 static bool check_kind(const JsonView *environment, const ReviewCondition *condition,
                        Error *err)
 {

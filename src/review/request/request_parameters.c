@@ -9,7 +9,7 @@
 #define PARAMETERS_MAX 100
 #define WITH_MAX 1000
 #define GLASS 1.52
-#define QUARTER_WAVE_NM 137.5 /* of 550 nm, by the layer's index */
+#define QUARTER_WAVE_NM 137.5 /* 550 nm / 4, to be divided by the layer's index */
 
 /* Each kind by the key that holds its step. */
 static const struct {
@@ -79,7 +79,7 @@ static bool read_range(const JsonView *view, ReviewParameter *out, Error *err)
     return true;
 }
 
-/* A coating's own value cannot be told from its layers: it is said. */
+/* A coating's reflectance is not derived from its layers: `at` gives it. */
 static bool read_at(const JsonView *view, ReviewParameter *out, Error *err)
 {
     if (out->kind != PARAMETER_REFLECTANCE) return true;
@@ -202,7 +202,7 @@ static const char *coating_patch(double reflectance, Arena *arena)
                         "\"thickness_nm\":%.9g}]}}}", n, QUARTER_WAVE_NM / n);
 }
 
-/* What was there goes first: it is replaced, not merged. */
+/* The old coating is removed first: it is replaced, not merged. */
 static int coating_changes(const ReviewParameter *p, double value, SceneChange *out,
                            Arena *arena)
 {

@@ -24,7 +24,7 @@ void request_note_input(RequestReading *reading, const char *path, uint64_t hash
 /* The same, of a file whose bytes are to be hashed. */
 bool request_note_file(RequestReading *reading, const char *path, Error *err);
 
-/* The place of a name among those of a list that is defined elsewhere in the document (`what`:
- * "levels"); what else there is, is said. */
+/* The index of a name in a list that is defined elsewhere in the document (`what`: "levels").
+ * The error names what else there is. */
 bool request_find_name(const JsonView *view, const char *key, FieldWords names,
                        const char *what, int *out, Error *err);

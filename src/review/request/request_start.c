@@ -15,7 +15,7 @@
 #include "text/uri.h"
 
 #define UV_STEPS 10000 /* coordinates are written to four digits */
-#define UV_SLACK 0.01  /* of such a step: what floats may miss */
+#define UV_SLACK 0.01  /* of such a step: rounding error of floats */
 #define DIGITS 10
 
 /* ---- the scene's files ------------------------------------------------------------------- */
@@ -81,7 +81,7 @@ static bool is_among(const char *const *names, int count, const char *name)
     return found;
 }
 
-/* Of a model's own cameras some see it from outside: who wishes names those in its seats. */
+/* Some of a model's own cameras see it from outside: wishes name those in its seats. */
 static bool is_eye(const ReviewWishes *wishes, const char *name)
 {
     return !wishes || is_among(wishes->eyes, wishes->eye_count, name);
@@ -129,8 +129,8 @@ static bool is_shared(const Scene *scene, int material)
     return false;
 }
 
-/* What of its content a part shows: left, top, right, bottom, within 0..1. Empty (left above
- * right) without triangles. */
+/* The rectangle of its content that a part shows: left, top, right, bottom, within 0..1. Empty
+ * (left above right) without triangles. */
 static void measure_uv(const Scene *scene, const TextureSlot *slot, const Part *part,
                        double uv[4])
 {
@@ -192,7 +192,7 @@ static bool add_symbols(json_t *document, const ReviewStart *start, const Scene 
 /* ---- levels and conditions --------------------------------------------------------------- */
 
 #define START_YEAR 2026
-#define HOUR_DEG 15.0 /* of longitude */
+#define HOUR_DEG 15.0 /* longitude */
 
 static const double start_headings_deg[] = {0, 45, 90, 135, 180, 225, 270, 315};
 

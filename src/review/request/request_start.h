@@ -4,7 +4,7 @@
  *
  * Every perspective camera is an eye. Every display that shows something has one symbol,
  * "find": "text" over what it shows of its content; one whose material several nodes wear has
- * one a node. Wishes say more, and put a sweep over every sun beside the noon.
+ * one a node. Wishes set more, and put a sweep over every sun beside the noon.
  *
  * Memory   the arena's. Threads: one at a time.
  * Fails    ERROR_INPUT when the scene has no such display or camera, or lies where the file may

@@ -9,11 +9,11 @@
 #define SUNS_MAX 10000000
 #define STEP_LEAST 1e-4 /* degrees */
 #define HEADINGS_MAX 3600
-#define WHOLE 1e-6 /* of a step: how far its multiples may miss the last value */
+#define WHOLE 1e-6 /* of a step: how much its multiples may miss the last value by */
 
 /* ---- over the sun's direction ------------------------------------------------------------ */
 
-/* The step next to the one that was written which leads from first to last. */
+/* The step nearest to the written one that divides first to last into whole steps. */
 static double fitting_step(const double value[3])
 {
     double length = value[1] - value[0];

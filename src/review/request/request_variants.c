@@ -124,7 +124,7 @@ static bool read_brightness(VariantReading *v, Error *err)
 
 /* ---- materials --------------------------------------------------------------------------- */
 
-/* What a material's JSON becomes as a patch of it. */
+/* Takes the patch. The text is the arena's. */
 static const char *patch_text(VariantReading *v, json_t *patch)
 {
     char       *text = json_dumps(patch, JSON_COMPACT | JSON_ENCODE_ANY);
@@ -164,7 +164,7 @@ static bool read_extension(VariantReading *v, const char *key, const char *exten
             return json_view_wrong_kind(&members.view, name, value,
                                         takes_names ? "an object, a stack's name or null"
                                                     : "an object or null", err);
-        /* what was there goes first: it is replaced, not merged */
+        /* the old one is removed first: it is replaced, not merged */
         add_change(v, CHANGE_MATERIAL, &members, i)->patch = patch_text(
             v, json_pack("{s:{s:n}, s:{s:n}}", "extensions", extension, "extras", extension));
         json_t *inside = stack ? json_pack("{s:s}", "stack", stack) : json_incref(value);
@@ -319,7 +319,7 @@ static bool read_files(VariantReading *v, Error *err)
 
 /* ---- a variant --------------------------------------------------------------------------- */
 
-/* The most that it may say: members of members. */
+/* An upper bound of its changes: the members of its members. */
 static size_t room_for(const JsonView *view)
 {
     const char *key;

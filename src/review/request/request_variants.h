@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* request_variants.h -- the variants of REVIEW.json, and what its sensitivities are made of.
  *
- * A variant says what is other than in the review: panels, contents, levels, brightness,
- * coatings, glazings, materials, nodes, hoods, eyes, scene files.
+ * A variant differs from the review in panels, contents, levels, brightness, coatings,
+ * glazings, materials, nodes, hoods, eyes, scene files.
  *
  * Memory   the root view's arena. Threads: one at a time.
  * Fails    as request_read.h; names of the scene are found when it is loaded.

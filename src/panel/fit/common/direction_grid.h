@@ -6,7 +6,7 @@
  * nearest neighbours, and so are all cells of a table without a grid's order. Between cells a
  * cubic through four rings and four azimuths each (Hermite, parabolic slopes) reads the value;
  * it runs through the pole to the opposite azimuth, and phi is periodic. Two sections only
- * (azimuths 0 and 90, say) are a grid of four azimuths and are read by the same cubic, which
+ * (such as azimuths 0 and 90) are a grid of four azimuths and are read by the same cubic, which
  * makes an ellipse-like ring of them.
  *
  * Units    radians. Memory: the arena's. Threads: const once built. Fails: never.

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* How noisy a table is, told by high differences of neighbours: smooth data leave nearly
- * nothing of them, noise of deviation s leaves s times the root of the sum of squared
- * binomials. */
+/* How noisy a table is, by high differences of neighbours: smooth data leave nearly nothing
+ * of them, noise of deviation s leaves s times the root of the sum of squared binomials. */
 #include "panel/fit/common/table_noise.h"
 
 #include <math.h>
@@ -24,8 +23,8 @@ typedef struct NoiseQuestion {
     int    channel;
     double from, to; /* theta, radians */
     bool   is_relative; /* to the mean of the rows */
-    bool   has_zero; /* differences of 0 count: darkness has no noise. Else rows are copies of
-                        each other, which tells nothing */
+    bool   has_zero; /* differences of 0 count: darkness has no noise. Else rows are copies
+                        of each other, without information */
 } NoiseQuestion;
 
 /* Differences of rows along one of their neighbourhoods. */

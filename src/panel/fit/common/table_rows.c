@@ -4,7 +4,7 @@
 #include "base/mathd.h"
 #include "base/units.h"
 
-#define NEIGHBOUR_DEG 13.0 /* azimuths further apart than this tell nothing of noise */
+#define NEIGHBOUR_DEG 13.0 /* azimuths further apart than this do not show noise */
 
 Vec3 table_direction(double theta, double phi)
 {

@@ -12,7 +12,7 @@
 #include "panel/shape/panel_beam.h"
 #include "panel/query/panel_turn.h"
 
-#define WINDOW 1.3          /* of the samples that tell it, over a beam's reach */
+#define WINDOW 1.3          /* of the samples that determine it, over a beam's reach */
 #define CLIMB_DEG 3.0       /* from the worst sample to the top */
 #define NARROW_DEG 1.5      /* a tree resolves what is wider at half its (log) height */
 #define LEAST_HEIGHT 0.05   /* of ln E */
@@ -26,10 +26,10 @@
 #define CURVATURE 0.1       /* second differences of coefficients that are expected */
 #define CORE_LEAST_DEG 0.01
 #define CORE_MOST_DEG 2.0
-#define CORE_STEPS 1.5      /* of the samples: less, and no sample would tell the first knots */
+#define CORE_STEPS 1.5      /* of the samples: less, and none would fix the first knots */
 #define TURN_MOST 60.0      /* of narrow^2 */
 #define KNOTS_LEAST 4       /* of a profile: a cubic spline has no fewer */
-#define RIDGE 1e-12         /* of the samples' weight, on the diagonal: all unknowns are told */
+#define RIDGE 1e-12         /* of the samples' weight, on the diagonal: no unknown is free */
 
 /* The search: a first core with a first walk of the centre, then the core that fits, then the
  * ellipse. Steps grow after a gain and shrink without one. */
@@ -61,8 +61,8 @@ typedef struct BeamWindow {
     Frame   frame;
 } BeamWindow;
 
-/* What is sought: the shift of the centre (chord), the ellipse as narrow^2 times cos and sin of
- * twice its azimuth, the core (chord). */
+/* Unknowns of the search: the shift of the centre (chord), the ellipse as narrow^2 times cos
+ * and sin of twice its azimuth, the core (chord). */
 typedef struct BeamShape {
     double shift[2], turn[2];
     double core;
@@ -229,7 +229,7 @@ static void add_differences(const double *difference, int count, double weight,
                     weight * difference[a] * difference[b];
 }
 
-/* Coefficients that samples do not tell, or only through noise, are even ones; the last
+/* Coefficients that samples do not determine, or only through noise, are even ones; the last
  * differences are against the zeros behind. */
 static void add_smoothness(const BeamWindow *w, BeamEquations *out)
 {
@@ -347,7 +347,7 @@ static double profile_at(const double *coefficient, int knots, double u)
     return sum;
 }
 
-/* Narrow, high, and told by more than a few samples. */
+/* Narrow, high, and determined by more than a few samples. */
 static bool is_beam(const BeamSearch *search, double before, double *width)
 {
     const BeamWindow *w = search->window;

@@ -299,7 +299,7 @@ static void choose_following(EmissionEdges *e, Arena scratch)
 
 /* ---- all -------------------------------------------------------------------------------- */
 
-/* E of every channel at the rows, as the components say it. */
+/* E of every channel at the rows, by the components. */
 static float *light_of_rows(const EmissionModel *model, Arena *arena)
 {
     const EmissionSamples *s = model->samples;

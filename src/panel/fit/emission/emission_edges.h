@@ -24,7 +24,7 @@
 typedef struct EmissionEdges {
     const EmissionModel *model;
     DirectionGrid grid;
-    int           channels, bright; /* bright: the channel of Y that tells where edges are */
+    int           channels, bright; /* bright: the channel of Y whose edges count */
     double        rest;      /* radians: so near a sample its value stands */
     int           nodes;     /* of a profile */
     double       *theta;     /* nodes */

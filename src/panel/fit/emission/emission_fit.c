@@ -71,7 +71,7 @@ static void find_score_noise(EmissionModel *model, Arena *arena)
         model->score_noise[k] = (float)table_noise_plain(&table, k, *arena);
 }
 
-/* What the scores' noise does to a channel; the median of all. */
+/* Noise of a channel due to the scores' noise; the median of all. */
 static double channel_noise(const EmissionModel *model, Arena scratch)
 {
     const EmissionRank *rank = model->rank;
@@ -92,7 +92,7 @@ static double choose_tolerance(const EmissionModel *model, const FitOptions *opt
     return fmax(TOLERANCE, SIGMAS * model->noise);
 }
 
-/* What a component's rounding may cost: all together a sixth of the tolerance. */
+/* Rounding steps of the components: together they may cost a sixth of the tolerance. */
 static void choose_steps(EmissionModel *model, Arena *arena)
 {
     const EmissionRank *rank = model->rank;

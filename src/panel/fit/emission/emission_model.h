@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* emission_model.h -- what the stages before the tree have fixed of an emission: components,
+/* emission_model.h -- what the steps before the tree have fixed of an emission: components,
  * smooth part and beams, everything as it will be read again from the file.
  *
  * Threads  pure functions of a constant model. Fails: never.

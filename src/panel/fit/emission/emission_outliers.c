@@ -69,8 +69,8 @@ static int neighbours(const OutlierSearch *search, int row, int begin, int end, 
     return count;
 }
 
-/* What the neighbours say: of pairs their means; of three neighbours also the median. Every one
- * must be far from a value that stands out. */
+/* Levels that the neighbours predict: the means of pairs; of three neighbours also the
+ * median. An outlier is beyond the limit of every one. */
 typedef struct Expected {
     int    count;
     double level[3], limit[3];
@@ -169,7 +169,7 @@ static void add_flag(EmissionFlags *flags, EmissionFlag flag)
     flags->count++;
 }
 
-/* The median over a ring, of rings that have rows enough to tell; else it stays 0. */
+/* The median over a ring, of rings that have rows enough; else it stays 0. */
 static void find_ring(OutlierSearch *search, int begin, int end, Arena scratch)
 {
     double *list = ARENA_NEW(&scratch, double, end - begin);

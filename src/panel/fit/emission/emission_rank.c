@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Few components for all tables: a model of low rank of the logarithms, fitted to the numbers
  * themselves with their own noise, so that what drowns in noise (or is below the black pattern)
- * says little and is told by what it has in common with the rest.
+ * weighs little and is determined by what it has in common with the rest.
  *
  * Gauss-Newton on M = M_black + exp(model), directions and channels in turn, with Huber's
  * weights against rows that stand out. */
@@ -22,7 +22,7 @@
 #define PATIENCE 3 /* so many more components without any gain are enough */
 #define ASKED_ROWS 5000 /* loadings are found from about so many */
 #define HUBER 4.0       /* sigmas */
-#define UNKNOWN_BLACK 0.1f /* how far off a black that neighbours tell may be */
+#define UNKNOWN_BLACK 0.1f /* relative error of a black estimated from neighbours */
 #define STRAY 0.3       /* a sample this far off, */
 #define STRAYS 1e-3     /* and with few like it, is none that a component is made for */
 #define SCORE_MOST 1e3
@@ -123,7 +123,7 @@ static float *start_logs(const EmissionSamples *s, float power, double *weight, 
 
 /* ---- one step -------------------------------------------------------------------------- */
 
-/* What a number wants the model's logarithm to become, and its weight (1/variance). */
+/* The step of the model's logarithm towards a number, and its weight (1/variance). */
 typedef struct RankWish {
     double step, weight;
 } RankWish;

@@ -58,7 +58,7 @@ static bool resample(const Resampler *from, float theta, float phi, float value[
 /* Even a table without noise is not to be followed further than this share of the tolerance. */
 #define LEAST_SIGMA 0.05
 
-/* What is read between a table's own directions is not known better. */
+/* Relative sigma, at least, of values interpolated between a table's directions. */
 #define RESAMPLED_SIGMA 0.002
 
 
@@ -162,7 +162,7 @@ static void put_table(EmissionSamples *out, const AngleTable *table, int channel
     }
 }
 
-/* What is unknown starts from the rows before and behind it. */
+/* Unknown numbers start from the known rows before and behind them. */
 static void fill_unknown(EmissionSamples *out, int channel)
 {
     size_t step = (size_t)out->channels, known = SIZE_MAX;

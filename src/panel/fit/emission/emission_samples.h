@@ -45,15 +45,15 @@ typedef struct EmissionTable {
 /* Table `index` of a set in the order of channels; has_black: the pattern is one of them. */
 EmissionTable emission_samples_table(const Measurement *set, bool has_black, int index);
 
-/* What errors of a table's channel are relative to at least: a share of its largest value that
- * outlier (NULL: none) leaves. */
+/* The least value that errors of a table's channel are relative to: a share of its largest
+ * value in rows that outlier (NULL: none) does not mark. */
 double emission_samples_floor(const AngleTable *table, int channel, const uint8_t *outlier,
                               double share);
 
-/* outlier[table]: rows that are not to be believed. Of *out tolerance, floor_share
- * and held_share are given. */
+/* outlier[table]: rows that are not to be believed. In *out tolerance, floor_share and
+ * held_share are given. */
 void emission_samples_gather(const Measurement *set, bool has_black, uint8_t *const *outlier,
                              Arena *arena, EmissionSamples *out);
 
-/* What the samples' grid does not say. */
+/* Notes wide gaps between azimuths, and directions without a grid's order. */
 void emission_samples_note(const EmissionSamples *samples, Arena scratch, FitNotes *notes);

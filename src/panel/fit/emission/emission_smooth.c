@@ -21,12 +21,12 @@
 #define POWER_PENALTY 1e-7
 #define LEAST_PENALTY 1e-12
 
-/* What is expected of scores of variance 1: steps of STEP / (1 + m^2) between coefficients of
- * harmonic m, sizes of SIZE / (1 + m^2). Noise is believed against that. */
+/* Prior of scores of variance 1: steps of STEP / (1 + m^2) between coefficients of harmonic
+ * m, sizes of SIZE / (1 + m^2). Noise is weighed against it. */
 #define STEP 0.3
 #define SIZE 1.0
 
-/* The terms that so many azimuths on a ring can tell apart. */
+/* The terms that so many azimuths on a ring can distinguish. */
 static int choose_terms(int azimuths, uint8_t term[PANEL_SPLINE_TERMS_MAX])
 {
     int count = 0;
@@ -38,7 +38,7 @@ static int choose_terms(int azimuths, uint8_t term[PANEL_SPLINE_TERMS_MAX])
     return count;
 }
 
-/* What a direction reads: taps of the unknowns [term][number]. */
+/* A direction's weights on the unknowns [term][number]. */
 typedef struct Taps {
     int    count;
     int    at[TAPS_MAX];

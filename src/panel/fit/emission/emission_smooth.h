@@ -4,7 +4,7 @@
 #pragma once
 #include "panel/fit/emission/emission_model.h"
 
-/* Of what the beams leave of the scores, into the model. False: it cannot be stored. */
+/* Fits the scores less the beams, into the model. False: it cannot be stored. */
 bool emission_smooth_fit(EmissionModel *model, Arena *arena);
 
 /* No smooth part. False: that cannot be stored. */

@@ -29,7 +29,7 @@ static void lit_range(const Measurement *set, int *first, int *last)
             }
 }
 
-/* Do samples every `step` nm from `first` on say everything in between? */
+/* Do samples every `step` nm from `first` on determine everything in between? */
 static bool is_told_by(const Measurement *set, int first, int last, int step)
 {
     for (int p = 0; p < 3; p++) {

@@ -202,8 +202,9 @@ static double uncoded_error(const EmissionCoder *coder, int *row)
 #define DARK_ROUNDS 5
 #define DARK_RAISE 8.0f
 
-/* A row below the floor says little, for its logarithm may be anywhere down there; but where
- * the surface passes far above it, it says much. Counts such rows and raises their weight. */
+/* A row below the floor has little weight, for its logarithm may be anywhere down there; but
+ * where the surface passes far above it, it matters. Counts such rows and raises their
+ * weight. */
 static int believe_dark_rows(const EmissionCoder *coder)
 {
     const EmissionSamples *s = coder->model->samples;
@@ -285,8 +286,7 @@ static bool code_once(EmissionCoder *coder, Arena *arena, EmissionTree *out, Tre
 #define ATTEMPTS 10
 #define HORIZON 0.01f /* cosine: nobody measures along the panel */
 
-/* What the coder cannot do is asked for less of: nothing along the panel, twice the limits
- * elsewhere, until it can. */
+/* Loosens limits until the coder succeeds: none along the panel, twice as wide elsewhere. */
 static bool code_first(EmissionCoder *coder, Arena *arena, EmissionTree *out, Tree *tree,
                        Error *err)
 {
@@ -403,7 +403,7 @@ static int edge_level(const EmissionSamples *s, const FitOptions *options)
     return level;
 }
 
-/* Vertex values are what the edges say, less the smooth part. */
+/* Vertex values are the edges' components less the smooth part. */
 static void fill_from_edges(EmissionCoder *coder, const EmissionEdges *edges)
 {
     size_t n = (size_t)coder->model->rank->components;
@@ -498,7 +498,7 @@ typedef struct Start {
     int           worst;
 } Start;
 
-/* What a start is made of. */
+/* Inputs of start(). */
 typedef struct Plan {
     EmissionModel *model;
     int            level, threads;

@@ -8,8 +8,8 @@
 #include "hemisphere/vertex/vertex_find.h"
 #include "hemisphere/vertex/vertex_fit.h"
 
-/* What is known of curvature: noise^2 / (rows * the rest's expected curvature^2) is where a
- * detail's own evidence and the expectation that it is small weigh the same. */
+/* The ridge: noise^2 / (rows * the rest's expected curvature^2) is where a detail's own
+ * evidence and the expectation that it is small weigh the same. */
 static double ridge_of(const EmissionModel *model, const float *rest, int component)
 {
     const EmissionSamples *s = model->samples;

@@ -13,7 +13,7 @@
 
 #include "panel/fit/reflection/peak_window.h"
 
-#define PEAK_RANGE_ROWS 8 /* fewer rows say nothing of a model with five numbers */
+#define PEAK_RANGE_ROWS 8 /* fewer rows do not determine a model with five numbers */
 
 /* Least and most of each, means over the wavelengths. */
 typedef struct PeakRange {
@@ -22,7 +22,7 @@ typedef struct PeakRange {
     double fwhm[2];   /* of the haze, across the plane of incidence */
     double spread;    /* half of what the haze may vary by, relative: the largest one from the
                          mirror direction to two steps of the rows from it */
-    bool   has_model; /* false: too few rows; only the mirror's range is told then */
+    bool   has_model; /* false: too few rows; only the mirror's range is set then */
 } PeakRange;
 
 /* sigma: by what a row may miss the model, relative. step: of the rows, radians. */

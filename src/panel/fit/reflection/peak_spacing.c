@@ -9,8 +9,8 @@
 #include "panel/fit/common/table_rows.h"
 #include "panel/fit/reflection/peak_window.h"
 
-#define RING_ROWS 4     /* fewer on a ring: no grid, the density of the rows tells */
-#define DENSITY_ROWS 16 /* nearest rows that tell it */
+#define RING_ROWS 4     /* fewer on a ring: no grid, the rows' density is taken */
+#define DENSITY_ROWS 16 /* nearest rows for it */
 
 /* Between the azimuths on both sides of the mirror direction. */
 static double ring_gap(const AngleTable *table, int begin, int end)
@@ -27,7 +27,7 @@ static double ring_gap(const AngleTable *table, int begin, int end)
     return nearest < 1e-6 ? next : fmin(left + right, 2 * nearest);
 }
 
-/* Of rows without a grid: the side of the square that each has for itself. */
+/* Rows without a grid: the side of the square that each has for itself. */
 static double density_gap(const AngleTable *table, double incidence, Arena scratch)
 {
     double *angle = ARENA_NEW(&scratch, double, table->rows);

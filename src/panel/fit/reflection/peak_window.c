@@ -114,7 +114,7 @@ static double aperture_shape(const PeakWindow *window, const PeakModel *model)
     return sum;
 }
 
-/* What the lambertian part sends into the aperture, over its value along the normal. */
+/* The lambertian part's light in the aperture, per unit of `lambertian`. */
 static double aperture_leaving(const PeakWindow *window)
 {
     double cosine = cos_d(window->incidence), radius = 0.5 * window->specular->aperture;
@@ -155,7 +155,7 @@ static void normal_equations(const PeakWindow *window, int wavelength, double la
     if (window->specular) add_specular(window, wavelength, lambertian, model, m);
 }
 
-/* What the specular measurement misses by, squared, as rows' rests are. */
+/* The specular measurement's weighted squared residual, like the rows'. */
 static double specular_rest(const PeakWindow *window, int wavelength, double lambertian,
                             const PeakModel *model)
 {

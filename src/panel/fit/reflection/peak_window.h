@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* peak_window.h -- the rows of a table near the mirror direction, and the model that tells a
- * peak from the haze under it.
+/* peak_window.h -- the rows of a table near the mirror direction, and the model that
+ * separates a peak from the haze under it.
  *
  * Model    f = R image + (a + t tilt) haze + lambertian leaving; image a Gaussian of a given
  *          width, haze = gain (1 + b2 / width^2)^-power, b the distance of the directions'
@@ -23,7 +23,7 @@ typedef struct PeakRow {
     double mean;  /* over the wavelengths */
 } PeakRow;
 
-/* What comes back within an aperture around the mirror direction: one more equation. */
+/* Reflectance within an aperture around the mirror direction: one more equation. */
 typedef struct PeakSpecular {
     double        aperture; /* full angle, radians; 0: the mirror alone */
     double        weight;   /* of the equation, relative to a row's */
@@ -59,7 +59,7 @@ PeakWindow peak_window_collect(const AngleTable *slice, double incidence, double
 /* How wide the image is. */
 void peak_window_set_image(PeakWindow *window, double fwhm);
 
-/* Of the slice alone, at a wavelength, over `leaving`. */
+/* Lambertian part by the slice alone, at a wavelength, over `leaving`. */
 double peak_window_lambertian(const AngleTable *slice, int wavelength);
 
 double peak_model_haze(const PeakModel *model, const PeakRow *spot);
@@ -69,7 +69,7 @@ double peak_model_haze(const PeakModel *model, const PeakRow *spot);
 double peak_window_solve(const PeakWindow *window, int wavelength, double lambertian,
                          PeakModel *model);
 
-/* Of r and a at the model's width and power, from rows that err by all of f (1). */
+/* Variances of r and a at the model's width and power, for rows of relative error 1. */
 void peak_window_variances(const PeakWindow *window, PeakModel *model, double variance[2]);
 
 /* By how much a model misses the specular measurement, relative to it. */

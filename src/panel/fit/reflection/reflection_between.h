@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* reflection_between.h -- does the tree say between the rows what the rows say?
+/* reflection_between.h -- does the tree agree with the table between its rows?
  *
  * At samples the coder sees what the tree misses; between the rows of a coarse table only this
  * does. It compares the tree with reading the table (and its guide), near the mirror direction,

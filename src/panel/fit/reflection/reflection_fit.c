@@ -21,7 +21,7 @@
 #define PLACES_BYTES ((size_t)5 << 29) /* of values at most: memory is bounded */
 #define TRIAL_BYTES ((size_t)32 << 30) /* address space; pages cost nothing until touched */
 
-/* What the user asked for; else 2 %, and 2.5 % where there is noise. */
+/* The user's bound; else 2 %, and 2.5 % where there is noise. */
 static double choose_bound(const FitOptions *options, const ReflectionParts *parts)
 {
     if (options->bound > 0) return (double)options->bound;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* reflection_fit.h -- from the tables of a reflection to the sections of a panel file.
  *
- * Mirror, lobe and haze told apart -> the haze's logarithm in the specular-following frame ->
+ * Mirror, lobe and haze separated -> the haze's logarithm in the specular-following frame ->
  * few spectra and few components for all tables -> one tree -> section, integrals as measured
  * and energy held.
  * Memory   the arena's. Threads: options->threads; the bytes do not depend on how many.
@@ -26,6 +26,6 @@ typedef struct ReflectionResult {
     float             frame_exponent;
 } ReflectionResult;
 
-/* All but the sampling, which follows from what the panel says when it is queried. */
+/* All but the sampling, which follows from the panel's answers to queries. */
 bool reflection_fit(const Measurement *set, const FitOptions *options, Arena *arena,
                     FitNotes *notes, ReflectionResult *out, Error *err);

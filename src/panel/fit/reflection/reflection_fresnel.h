@@ -6,7 +6,7 @@
 
 #define REFLECTION_REFRACTIVE_INDEX 1.5
 
-/* Of any cosine; rounding may have left its range. */
+/* The cosine is clamped, since rounding may have left its range. */
 static inline double reflection_fresnel(double cosine)
 {
     return fresnel_unpolarised_d(fmin(1, fmax(0, cosine)), REFLECTION_REFRACTIVE_INDEX);

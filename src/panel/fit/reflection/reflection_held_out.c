@@ -70,7 +70,7 @@ static bool is_guided(const Thinned *thinned)
     return thinned->model->guide[thinned->table].is_used;
 }
 
-/* Is a row left out? Ways 0 and 1: every second ring; 2 and 3: every second azimuth. Of a
+/* Is a row left out? Ways 0 and 1: every second ring; 2 and 3: every second azimuth. In a
  * guided table every second azimuth of every second ring, four ways. The pole never. */
 static bool is_out(const Thinned *thinned, int row, int way)
 {
@@ -140,7 +140,7 @@ static double guide_log(const Thinned *thinned, double theta, double phi)
     return thinned->guide.is_used ? reflection_guide_log(&thinned->guide, theta, phi) : 0;
 }
 
-/* What is filled where rows are missing is what they have over the guide. */
+/* Cells hold values over the guide, so that missing rows are filled relative to it. */
 static void build_cells(Thinned *thinned)
 {
     const AngleTable *kept = &thinned->kept;

@@ -134,7 +134,7 @@ static double incidence_of(const Measurement *set, int table)
 
 #define GLOSS_WEIGHT 0.25 /* a gloss meter is taken for one of twice the error of a row */
 
-/* What the specular measurement says at a table's incidence and wavelengths. */
+/* The specular measurement at a table's incidence and wavelengths. */
 static PeakSpecular specular_of(const Measurement *set, int t, Arena *arena)
 {
     PeakSpecular out = {.weight = set->specular->is_gloss ? GLOSS_WEIGHT : 1};
@@ -231,7 +231,7 @@ static void separate_lobe(PartsPass *pass, int threads, Arena *arena)
     }
 }
 
-/* The lobe is the instrument's image of the mirror: the user says so. */
+/* The user states that the lobe is the instrument's image of the mirror. */
 static void take_lobe_for_mirror(ReflectionParts *out)
 {
     double *none = out->reflectance;

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* reflection_parts.h -- the parts of a reflection told apart: mirror, lobe, and what is left
- * for the haze.
+/* reflection_parts.h -- the parts of a reflection: mirror, lobe, and what is left for the haze.
  *
  * Tables   one a measured incidence and azimuth of the light: azimuth * incidences + incidence;
  *          rows over wavelengths.

@@ -25,7 +25,7 @@
 #define LEAST_MIRROR 0.002   /* a smaller one need not be known better than this one */
 #define SEARCH_DEG 6.0   /* a lobe's top is nearer to the mirror direction than this */
 
-/* The peak of every wavelength out of `value`, its height told by a model for the haze. */
+/* The peak of every wavelength out of `value`, its height by a model for the haze. */
 static void take_out(const PeakWindow *window, double fwhm, PeakModel model,
                      double *reflectance,
                      float *value)
@@ -131,8 +131,8 @@ static bool stands_out(const PeakTask *task, const PeakModel *model, double lamb
     return height_of(task, model->r) > LEAST_PEAK * (model->a + lambertian);
 }
 
-/* Rows as near as the image's width alone: what fine tables need. True: they tell the mirror,
- * or that there is none. */
+/* Rows as near as the image's width alone: what fine tables need. True: they determine the
+ * mirror, or show that there is none. */
 static bool take_near(const PeakTask *task, Arena *arena, PeakMirror *mirror, float *value)
 {
     PeakWindow window = peak_window_collect(task->slice, task->incidence,
@@ -172,7 +172,7 @@ static bool take_far(const PeakTask *task, Arena *arena, PeakMirror *mirror, flo
     return is_known(mirror);
 }
 
-/* By how much the specular measurement differs from what samples told without it. */
+/* By how much the specular measurement differs from what samples give without it. */
 static double specular_miss(const PeakTask *task, const PeakMirror *mirror, Arena *arena)
 {
     PeakWindow window = open_window(task, 0, arena);
@@ -208,7 +208,7 @@ static double row_angle(const AngleTable *slice, int row, double incidence)
 }
 
 /* Full width at half of the largest value near the mirror direction; 0: the largest value is
- * not there. The outermost row above half of it tells, or the grid's step if that is wider. */
+ * not there. By the outermost row above half of it, or the grid's step if that is wider. */
 static double guess_width(const AngleTable *slice, double incidence)
 {
     double top = 0, reach = radians_from_degrees(SEARCH_DEG), half = 0, nearest = 1;
@@ -225,7 +225,7 @@ static double guess_width(const AngleTable *slice, double incidence)
     return half > 0.8 * reach ? 0 : 2 * fmax(half, nearest);
 }
 
-/* What a width leaves, with the haze that suits it best. */
+/* The residual at a width, with the haze that suits it best. */
 static double rest_of_width(PeakWindow *window, double fwhm, double haze, PeakModel *model)
 {
     peak_window_set_image(window, fwhm);

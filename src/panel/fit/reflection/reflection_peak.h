@@ -9,7 +9,7 @@
 #include "panel/fit/reflection/peak_range.h"
 #include "panel/fit/reflection/peak_spacing.h"
 
-/* What is known of a table before its mirror's image is looked for. */
+/* Inputs of the search for the mirror's image in a table. */
 typedef struct PeakTask {
     const AngleTable   *slice;
     double              incidence, fwhm; /* of the instrument */
@@ -17,7 +17,7 @@ typedef struct PeakTask {
     const PeakSpecular *specular;        /* NULL: not measured */
 } PeakTask;
 
-/* What tells the mirror. */
+/* Data that determine the mirror's reflectance. */
 typedef enum PeakSource {
     PEAK_SAMPLES,  /* the samples: within 5 % of it, or of the least that matters */
     PEAK_SPECULAR, /* the samples and the specular measurement */

@@ -26,7 +26,7 @@
 #define ALBEDO_MOST 0.995   /* haze, lobe and mirror together */
 #define ALBEDO_LEVEL 6
 #define LAMBERTIAN_QUANTILE 100 /* one row in so many is dimmer than the lambertian part */
-#define LAMBERTIAN_DEG 60.0     /* rows further from the normal say nothing of it */
+#define LAMBERTIAN_DEG 60.0     /* rows further from the normal do not count */
 #define NODES 7
 #define SIDES_MOST 8 /* azimuths of the light beyond the last incidence */
 #define FAR 1.13 /* radians: where measurements usually end before; else nodes are even */
@@ -98,7 +98,7 @@ static void match_lobe(IntegralPass *pass, int t)
     }
 }
 
-/* What the means of a table must change by, so that its rows add up to what the haze does. */
+/* The change of a table's means by which its rows add up to the same as the haze. */
 static void match_integrals(void *context, int t, int worker)
 {
     IntegralPass          *pass = context;
@@ -147,7 +147,7 @@ static bool settle_integrals(ReflectionModel *model, Error *err)
 
 /* ---- the lambertian part ----------------------------------------------------------------- */
 
-/* What is left far from the peak: nearly the least value inside 60 degrees. */
+/* The level away from the peak: nearly the least value inside 60 degrees. */
 static double lambertian_of(const AngleTable *table, int wavelength, double *list)
 {
     int count = 0;

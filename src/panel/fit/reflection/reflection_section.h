@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* reflection_section.h -- the reflection's section of a panel file: integrals and energy are
- * settled on what the file will say itself. */
+ * settled on the numbers as the file will hold them. */
 #pragma once
 #include "panel/fit/reflection/reflection_model.h"
 

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What a query multiplies is rounded first, so that everything behind counts with the file's
- * own numbers. */
+/* A query's factors are rounded first, so that all later steps use the file's own numbers. */
 #include "panel/fit/reflection/reflection_spectra.h"
 
 #include <math.h>
@@ -177,7 +176,7 @@ static void place_coefficients(const ReflectionModel *model, const double *inver
 
 /* ---- components that all tables share ---------------------------------------------------- */
 
-/* What an error of a coefficient is worth in logarithms: the rms of its row. */
+/* Weights of the coefficients' errors in logarithms: the rms of their rows. */
 static double *coefficient_weights(const ReflectionModel *model, Arena *arena)
 {
     int     n = model->wavelengths, m = model->coefficients;

@@ -14,7 +14,7 @@
 #define TRIPLES_ENOUGH 48  /* tables predicted from two neighbours */
 #define TRIAL_EXPONENT 1.5f /* of the specular-following frame, where it is judged */
 #define MUST_HELP 0.8      /* another frame is taken if it misses less than this share */
-#define FAR_ABOVE 3        /* rows brighter than this times the dimmest say how haze moves */
+#define FAR_ABOVE 3        /* rows brighter than this times the dimmest show how haze moves */
 #define INDEX_LEAST 1.2
 #define INDEX_MOST 2.6
 #define INDEX_REST 0.02    /* rms of logarithms: what more leaves unexplained is no bare face */
@@ -170,8 +170,8 @@ static double face_step(const FaceCurve *curve, double n)
                  fresnel_unpolarised_d(curve->cosine[last - 1], n));
 }
 
-/* R / F of ordinary glass on a straight line over F through the two before the last: what it
- * says of the last, as a logarithm. */
+/* Error at the last incidence, as a logarithm, of R / F of ordinary glass on a straight line
+ * over F through the two before it. */
 static double line_miss(const FaceCurve *curve)
 {
     int    last = curve->count - 1;
@@ -184,7 +184,7 @@ static double line_miss(const FaceCurve *curve)
     return fabs(log_d(fmax(line, 1e-9) / ratio[2]));
 }
 
-/* The mirror part: a bare face where that tells the last incidence better than the line. */
+/* The mirror part: a bare face where that predicts the last incidence better than the line. */
 static void choose_mirror(ReflectionModel *model)
 {
     FaceCurve curve = {0};
@@ -209,7 +209,7 @@ static Vec3 mirror_direction(double theta)
     return vec3((float)sin_d(theta), 0, (float)cos_d(theta));
 }
 
-/* Of peaks, less masking and the facets' spread. */
+/* Refractive index by the haze's peaks over incidences, less masking; 0: none fits. */
 static double haze_index(const ReflectionModel *model, SurfaceAxes roughness)
 {
     FaceCurve curve = {0};

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* reflection_tree.h -- the reflection's tree, and whether what it says again is good enough at
- * every place and at every measured sample. */
+/* reflection_tree.h -- the reflection's tree, and whether it is good enough at every place and
+ * measured sample. */
 #pragma once
 #include "panel/fit/reflection/reflection_model.h"
 

@@ -27,5 +27,5 @@ Vec3 reflection_view_local(const ReflectionView *view, Vec3 stored);
 Vec3 reflection_view_from_local(Vec3 light, Vec3 local);
 Vec3 reflection_view_to_local(Vec3 light, Vec3 towards);
 
-/* What f is divided by at a local direction. */
+/* The divisor of f at a local direction. */
 double reflection_view_reference(const ReflectionView *view, Vec3 local);
