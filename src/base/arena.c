@@ -35,8 +35,8 @@ static size_t space_left(void)
     return limit.rlim_cur > taken ? (size_t)limit.rlim_cur - taken : 0;
 }
 
-/* What one arena may have: libraries and further arenas need addresses too, and a file that
- * asks for more than the machine has shall meet the arena's end, not the system's. */
+/* The most that one arena may take: libraries and further arenas need addresses too, and a
+ * file that asks for more than the machine has should exhaust the arena, not the system. */
 static size_t most_bytes(void)
 {
     size_t machine = (size_t)sysconf(_SC_PHYS_PAGES) * (size_t)sysconf(_SC_PAGESIZE);

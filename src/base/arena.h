@@ -4,7 +4,7 @@
  * Memory   arena_reserve maps address space; pages cost nothing until they are touched.
  * Threads  one arena belongs to one thread at a time.
  * Fails    running out is one exit path: on_full is called and must not return. The one that
- *          arena_reserve sets says so in a line and ends the process with status 3.
+ *          arena_reserve sets prints one line and ends the process with status 3.
  *
  * A function that keeps memory takes an `Arena *`; one that needs only scratch takes an
  * `Arena` by value: the copy is dropped at return, and the memory is back.  Scratch that was

@@ -3,8 +3,8 @@
  * allocations. Private to arena.c.
  *
  * Builds for fuzzing define ARENA_GUARD (CMakeLists.txt): then some bytes behind every
- * allocation are poisoned, and a mark at the beginning of an arena's memory tells how far that
- * reached, through copies of the arena as well. In every other build all of this is nothing.
+ * allocation are poisoned, and a mark at the beginning of an arena's memory records how far
+ * that reached, through copies of the arena as well. In other builds all of this is nothing.
  */
 #pragma once
 #include <stdbool.h>
@@ -16,7 +16,7 @@
 
 enum { GUARD_ALIGN = 8, GUARD_BYTES = 32 };
 
-/* What stands at the beginning of an arena's memory. */
+/* The header at the beginning of an arena's memory. */
 typedef struct GuardMark {
     char  *reached;
     size_t tag; /* the mark's address with some bits turned: arena_reserve made this arena */
@@ -61,7 +61,7 @@ static inline void guard_lift(char *memory, size_t bytes)
     __asan_unpoison_memory_region(memory, bytes);
 }
 
-/* Before the memory goes back: whoever gets it next may touch it. */
+/* Before the memory goes back: its next owner may touch it. */
 static inline void guard_end(Arena *arena)
 {
     GuardMark *mark = guard_mark(arena);

@@ -34,13 +34,13 @@ void bright_add(BrightSamples *samples, double light)
 }
 
 /* Light that few paths find, and that then is bright, is missing from most means, and their
- * spread does not know of it; but the light about it tells. With q and f the sums of squares
- * and of fourth powers, q^2/f samples make most of the spread, each of the light sqrt(f/q).
- * Where the brightest go with rank i as i^-k these are 1.2 samples for k = 2 (a lamp in a
- * glossy edge, whose lobe falls with the fourth power of the angle), 2.5 for k = 1, and more
- * and more where the spread is finite (k < 1/2). As many such may be missing: for k = 2 those
- * up to 50 times as bright as the brightest, 2 (sqrt(50) - 1) = 12; for k = 1 log(50) = 4 to 7;
- * of many that are alike what an interval of Poisson's has more than a normal one, 1. */
+ * spread does not show it; but the light around it does. With q and f the sums of squares and
+ * of fourth powers, q^2/f samples make most of the spread, each of the light sqrt(f/q). Where
+ * the brightest go with rank i as i^-k these are 1.2 samples for k = 2 (a lamp in a glossy
+ * edge, whose lobe falls with the fourth power of the angle), 2.5 for k = 1, and more and more
+ * where the spread is finite (k < 1/2). As many such may be missing: for k = 2 those up to 50
+ * times as bright as the brightest, 2 (sqrt(50) - 1) = 12; for k = 1 log(50) = 4 to 7; of many
+ * that are alike what an interval of Poisson's has more than a normal one, 1. */
 double bright_missing(const BrightSamples *samples, double count, double repeated)
 {
     double q = samples->squares, f = samples->fourths;
@@ -70,8 +70,8 @@ static double cube_root(double x)
     return x != 0 ? copysign(exp_d(log_d(fabs(x)) / 3), x) : 0;
 }
 
-/* What Hall's transformation makes `t` of: t + a t^2 / 3 + a^2 t^3 / 27 + a / 6 is its value,
- * a the skewness by the root of the count. */
+/* The inverse t of Hall's transformation: t + a t^2 / 3 + a^2 t^3 / 27 + a / 6 is `value`, a
+ * the skewness over the square root of the count. */
 static double untransformed(double value, double a)
 {
     if (fabs(a) < 1e-6) return value;

@@ -15,7 +15,7 @@
 #define NORMAL_QUANTILE 1.959963984540054 /* that a normal variable lies farther out, on either
                                              side: erfc(z / sqrt 2) */
 
-/* Of batches' means, all of as many samples. */
+/* Power sums of batch means; every batch has the same number of samples. */
 typedef struct BatchSums {
     double count, sum, squares, cubes;
 } BatchSums;
@@ -32,15 +32,15 @@ typedef struct MeanInterval {
     double low, high;
 } MeanInterval;
 
-/* Of single samples that are light: 0 or more. */
+/* Power sums of single samples of light, each 0 or more. */
 typedef struct BrightSamples {
     double squares, fourths; /* sums */
 } BrightSamples;
 
 void bright_add(BrightSamples *samples, double light);
 
-/* What a mean over so many samples may lack for want of bright ones: the upper end of its
- * interval has this more. repeated: of so many times these samples. */
+/* The light that a mean over `count` samples may lack for want of bright ones: the upper end
+ * of its interval has this more. repeated: the mean is over so many times these samples. */
 double bright_missing(const BrightSamples *samples, double count, double repeated);
 
 /* Misses the true mean with CONFIDENCE_MISS, both sides together. */

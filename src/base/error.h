@@ -13,7 +13,7 @@
 extern "C" {
 #endif
 
-/* What failed, in the words of the command line's exit status. */
+/* Kinds of failure; the values are the exit status, unless another one is stated. */
 typedef enum ErrorCode {
     ERROR_NONE = 0,
     ERROR_DIFFERENT = 1,     /* done, and the answer is no */

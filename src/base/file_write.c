@@ -33,7 +33,7 @@ static bool is_protected(const char *path)
 /* ---- names beside a path ----------------------------------------------------------------- */
 
 /* A folder that several machines share may see the same process number twice: FNV-1a, 32 bits,
- * of the machine's name tells them apart. */
+ * of the machine's name distinguishes them. */
 static unsigned machine_number(void)
 {
     char     name[256] = "";
@@ -79,7 +79,7 @@ static bool fits_name(const char *path)
 /* ---- a file that nobody sees until it is whole ------------------------------------------- */
 
 /* A file without a name in the path's folder: it vanishes with the process. -1 where the file
- * system, or a system without /proc, has no such thing; errno says so. */
+ * system, or a system without /proc, has no such thing; the reason is in errno. */
 static int open_unnamed(const char *path)
 {
     char folder[PATH_BYTES], proc[64];

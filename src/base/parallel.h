@@ -21,8 +21,8 @@ typedef void ParallelWork(void *context, int item, int worker);
  * more than PARALLEL_THREADS_MAX count as that many. */
 void parallel_for(int thread_count, int item_count, ParallelWork *work, void *context);
 
-/* The same of items that may fail, each with an error of its own: that of the first item which
- * did is told when all are done. */
+/* The same for items that may fail, each with an error of its own. When all are done, the
+ * error of the first item that failed is returned. */
 typedef bool ParallelTry(void *context, int item, Error *err);
 bool parallel_try(int thread_count, int item_count, ParallelTry *work, void *context,
                   Arena scratch, Error *err);

@@ -37,5 +37,6 @@ void problems_add_list(Problems *problems, Severity severity, const char *file,
 /* An Error as an entry. */
 void problems_add_error(Problems *problems, const Error *error);
 
-/* False when there is an error in the list: *err is the first one, and says how many more. */
+/* False when there is an error in the list: *err is the first one, with the number of the
+ * others. */
 bool problems_verdict(const Problems *problems, Error *err);

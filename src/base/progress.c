@@ -40,7 +40,7 @@ Progress progress_start(ProgressMode mode, const char *what, const char *unit, d
                       .has_colour = is_live && !(no_colour && *no_colour)};
 }
 
-/* 0:07, 12:30, 1:02:03; "?" when nobody can tell. */
+/* 0:07, 12:30, 1:02:03; "?" when it is not known. */
 static void print_time(char *buffer, size_t size, double seconds)
 {
     if (!(seconds < 360000)) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* progress.h -- tells a waiting person how far long work has come.
+/* progress.h -- shows a waiting person how much of long work is done.
  *
  * On a terminal a bar with percent, rate, elapsed and remaining time; in a pipe, a file or a
  * terminal that cannot write a line anew (TERM dumb or missing) a plain line now and then,
@@ -23,10 +23,9 @@ struct Progress {
     const char  *what;   /* "render": a verb or a file's name */
     const char  *unit;   /* what is counted, for the rate: "samples" */
     double       total;  /* how much there is to do; may be changed between updates */
-    double       done;   /* as the last update said */
+    double       done;   /* as of the last update */
     double       first;  /* done before it began: counts for the share, not for the rate */
-    double       expected_s; /* so long the rate is thought to be 1 a second before much is
-                                known of it; 0: nothing is thought */
+    double       expected_s; /* a prior for the rate: 1 a second over this time; 0: none */
     double       begun_s, shown_s; /* seconds of the monotonic clock */
     double       interval_s;       /* wanted between two lines */
     bool         has_colour;

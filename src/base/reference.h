@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* reference.h -- where a path leads that stands inside a file, and how far it may lead.
+/* reference.h -- resolves a path that stands inside a file, and limits where it may point.
  *
- * Whoever sends a scene or a measurement set must not be able to make the program read what
+ * The sender of a scene or a measurement set must not be able to make the program read what
  * they cannot see themselves. So a file may name only what lies, symbolic links followed, in
  * the parent of its own folder or below; the user may add one more folder (--root DIR). What
  * the user names on the command line is not limited.
@@ -9,7 +9,7 @@
  * Memory   paths lie in the arena.
  * Threads  no shared state.
  * Fails    ERROR_INPUT with the path as it was written and what is wanted; file and place are
- *          the caller's to add. What does not exist passes: opening it tells more.
+ *          the caller's to add. What does not exist passes: opening it fails later.
  */
 #pragma once
 #include "base/arena.h"

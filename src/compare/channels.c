@@ -25,7 +25,7 @@ static bool is_one_of(const char *name, const char *const *layers, int count)
     return false;
 }
 
-/* NaN is no accident in what the first surface says: there may be none. */
+/* NaN is no fault in layers of the first surface: there may be none. */
 static bool is_surface_layer(const char *name)
 {
     static const char *const LAYERS[] = {"display", "depth", "position", "normal",
@@ -180,7 +180,7 @@ static void report_nonfinite(const ChannelDifference *c, Lines *reasons)
                       c->first[side][0], c->first[side][1]);
 }
 
-/* All channels of a kind of surface have the same gaps: they are said together. */
+/* All channels of a kind of surface have the same gaps: they are reported together. */
 static void report_gaps(const ChannelDifferences *channels, Lines *reasons)
 {
     char   names[256] = "";

@@ -5,7 +5,7 @@
  * surface (display.*, depth, position, normal, albedo, uv) they mean "nothing there" and must
  * stand at the same places; frames whose noise differs may disagree at the rim of a surface,
  * where one pixel was hit by a few samples only. In layers of the noise itself (variance,
- * halves, display.halves) they mean "too few samples to tell".
+ * halves, display.halves) they mean "too few samples".
  *
  * Memory   from the arena. Threads: pure.
  */

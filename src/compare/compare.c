@@ -17,7 +17,8 @@ static double level_of(const CompareOptions *options)
     return options->level > 0 ? options->level : 0.01;
 }
 
-/* What has to be computed: what was asked for, what limits name, what the judge needs. */
+/* The metrics to compute: those asked for, those that limits name, those that the judge
+ * needs. */
 static unsigned groups_of(const CompareOptions *options)
 {
     unsigned groups = options->groups ? options->groups : GROUP_ALL;
@@ -154,7 +155,7 @@ static const char *same_verdict(const CompareOptions *options, const Comparison 
                         level_of(options), limits[0] ? "; " : "", limits);
 }
 
-/* What a display lost comes first: that is what a reviewer looks for. */
+/* A display's change of contrast comes first: reviewers look for it. */
 static const char *different_verdict(const Comparison *out, Arena *arena)
 {
     int         more = out->reasons.count - 1;
@@ -164,8 +165,8 @@ static const char *different_verdict(const Comparison *out, Arena *arena)
     return arena_format(arena, "%s; and %d more reason%s", text, more, more > 1 ? "s" : "");
 }
 
-/* Whether the mean moved or only the noise: what a reviewer asks first. The statistic's own
- * verdict has said it already. */
+/* Whether the mean moved or only the noise: what a reviewer asks first. Empty where the
+ * statistic's own verdict states it already. */
 static const char *mean_sentence(const CompareOptions *options, const Comparison *out,
                                  Arena *arena)
 {
@@ -230,7 +231,7 @@ static bool compare_pixels(const CompareOptions *options, Arena *arena, Comparis
 /* Measured with all metrics: 126 bytes for each further pixel of frames of R, G and B. */
 #define FRAME_PIXEL_BYTES 130.0
 
-/* Frames are compared whole: what cannot fit is told before minutes of work. */
+/* Frames are compared whole: one that cannot fit is refused before minutes of work. */
 static bool has_room(const CompareInput *frame, Error *err)
 {
     double pixels = (double)frame->light.width * frame->light.height;

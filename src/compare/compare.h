@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* compare.h -- are two frames or pictures the same, given their noise?
  *
- * What is different whatever the limits: sizes, windows, channels, metadata that decides what
+ * Different under any limits: sizes, windows, channels, metadata that decides what
  * the picture shows, NaN and infinity in light. Beyond that the limits that were set decide;
- * without any, frames that tell their noise are judged by the statistical test, and all others
+ * without any, frames that state their noise are judged by the statistical test, and all others
  * must be equal in every pixel.
  *
  * Memory   results come from the arena that is passed in.

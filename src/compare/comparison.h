@@ -18,7 +18,7 @@ typedef struct CompareOptions {
     unsigned groups;      /* of metrics to compute; 0: all */
     const Threshold *thresholds;
     int      threshold_count;
-    bool     wants_stat;  /* the statistical test judges, whatever the limits */
+    bool     wants_stat;  /* the statistical test judges, under any limits */
     double   level;       /* of that test; 0: 0.01 */
     CompareRules   rules;
     SelectionRequest selection;
@@ -33,12 +33,12 @@ typedef struct CompareOptions {
 /* How a display's contrast changed. */
 typedef struct ContrastChange {
     const char *display;
-    bool        has; /* both frames tell it */
+    bool        has; /* both frames state it */
     FrameMeasurement reference, test;
     Measured    ratio; /* test over reference, with its 95 % interval's half width */
 } ContrastChange;
 
-/* What the verdict rests on. */
+/* The basis of the verdict. */
 typedef enum JudgedBy { JUDGED_BY_LIMITS, JUDGED_BY_STATISTIC, JUDGED_BY_EQUALITY } JudgedBy;
 
 typedef struct Comparison {
@@ -46,7 +46,7 @@ typedef struct Comparison {
     bool        same;
     JudgedBy    judged_by;
     const char *verdict; /* one sentence, without "same" or "different" before it */
-    const char *mean;    /* whether the mean moved or only the noise; "" when that is said */
+    const char *mean;    /* whether the mean moved or only the noise; "" when that is stated */
     Lines       reasons, notes;
     Structure   structure;
     bool        has_pixels; /* one size: everything below was made */

@@ -43,7 +43,7 @@ static bool read_frame(FileBytes bytes, Arena *arena, CompareInput *input, Error
            view_light(input, arena, err);
 }
 
-/* Floats without metadata become a frame of R, G, B, and A where it says something. */
+/* Floats without metadata become a frame of R, G, B, and A where it is not 1 everywhere. */
 static bool frame_from_floats(const Image *image, Arena *arena, CompareInput *input, Error *err)
 {
     const float *rgba = image->pixels;

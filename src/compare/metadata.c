@@ -25,7 +25,8 @@ bool metadata_ignores(const CompareRules *rules, const char *name)
     return false;
 }
 
-/* What decides the picture, by the whole name or, with a dot at the end, by its beginning. */
+/* Attributes that decide the picture, by their whole names or, with a dot at the end,
+ * prefixes. */
 static const char *const DECIDING[] = {
     "chromaticities",      "whiteLuminance",       "adoptedNeutral",    "worldToCamera",
     "worldToNDC",          "pixelAspectRatio",     "screenWindowWidth", "parhelion:unit",
@@ -77,7 +78,8 @@ static bool same_value(const ExrAttribute *a, const ExrAttribute *b)
     return true;
 }
 
-/* What a file means when it says nothing: writing it down changes no picture. */
+/* Whether it has the value that a missing attribute stands for: such a one changes no
+ * picture. */
 static bool is_default(const ExrAttribute *attribute)
 {
     if (!strcmp(attribute->name, "chromaticities"))
@@ -93,7 +95,7 @@ static bool has_attributes(const FrameImage *frame, const char *prefix)
     return false;
 }
 
-/* The names of a layer's numbers, which a frame without that layer does not tell at all. */
+/* The names of a layer's numbers, which a frame without that layer lacks. */
 static bool names_missing_layer(const char *name, const FrameImage *other)
 {
     static const char *const PREFIXES[] = {"parhelion:part.", "parhelion:display."};

@@ -20,7 +20,7 @@ typedef struct MetadataRow {
 } MetadataRow;
 
 /* Does one of the rules leave this channel or key out? A layer's name means all its channels,
- * and "parhelion:" need not be said. */
+ * and "parhelion:" may be left out. */
 bool metadata_ignores(const CompareRules *rules, const char *name);
 
 /* Every key of either frame, once each, those of the reference first. */

@@ -74,7 +74,7 @@ static bool next_input(const char **list, InputLine *out)
     return true;
 }
 
-/* Whether the list has a file of this name, in whatever folder; *same: with these contents. */
+/* Whether the list has a file of this name, in any folder; *same: with these contents. */
 static bool has_input(const char *list, const InputLine *wanted, bool *same)
 {
     InputLine line;

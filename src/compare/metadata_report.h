@@ -7,8 +7,8 @@
 #include "compare/lines.h"
 #include "compare/metadata.h"
 
-/* One reason for all rows that decide what the picture shows, one note (with `strict` a reason)
- * for all that explain it. A single row is told with both values; of more the names, some
- * values, and how many there are. */
+/* One reason for all rows that decide what the picture shows, one note (with `strict` a
+ * reason) for all that explain it. A single row is reported with both values; of several, the
+ * names, some values and their number. */
 void metadata_report(const MetadataRow *rows, int count, bool strict, Lines *reasons,
                      Lines *notes);

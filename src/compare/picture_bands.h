@@ -13,8 +13,8 @@
 #pragma once
 #include "compare/comparison.h"
 
-/* What channels_compare finds, without its map of differing pixels. `out` has its sides and its
- * selection. */
+/* The findings of channels_compare, without its map of differing pixels. `out` has its sides
+ * and its selection. */
 ChannelDifferences picture_bands_channels(const CompareOptions *options, const Comparison *out,
                                           Arena *arena);
 

@@ -6,7 +6,7 @@
  * has are a note each, unless `strict`.
  *
  * Memory   texts come from the arena that is passed in. Threads: pure.
- * Fails    never: what differs is said.
+ * Fails    never: what differs is reported.
  */
 #pragma once
 #include "compare/input.h"
@@ -15,7 +15,7 @@
 
 typedef struct Structure {
     bool         same_pixels; /* one size, and frames one data window */
-    bool         shares_noise; /* frames that say so: one seed and the same samples */
+    bool         shares_noise; /* frames that state one seed and the same samples */
     MetadataRow *metadata;
     int          metadata_count;
 } Structure;

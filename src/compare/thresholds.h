@@ -28,7 +28,7 @@ typedef enum Metric {
     METRIC_COUNT
 } Metric;
 
-/* What is computed together. */
+/* Groups of metrics that are computed together. */
 enum {
     GROUP_FLIP = 1, GROUP_PSNR = 2, GROUP_SSIM = 4, GROUP_DELTAE = 8, GROUP_MSE = 16,
     GROUP_STAT = 32, GROUP_CONTRAST = 64, GROUP_ALL = 127

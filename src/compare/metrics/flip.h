@@ -31,7 +31,7 @@ typedef struct FlipOptions {
 void flip_ldr(const Planes *reference, const Planes *test, const FlipOptions *options,
               Arena scratch, float *map);
 
-/* What HDR-FLIP used. */
+/* The exposures that HDR-FLIP used. */
 typedef struct FlipExposures {
     double start_ev, stop_ev;
     int    count;

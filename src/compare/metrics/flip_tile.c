@@ -233,7 +233,7 @@ static void feature_column(const FlipJob *job, const RingRow *ring, int y, Filte
     }
 }
 
-/* What is left of a pixel's colour after the eye's filters, for colour_distance. */
+/* A pixel's colour after the eye's filters, for colour_distance. */
 static void seen_lab(const FlipJob *job, const Filtered *filtered, int x, double lab[3])
 {
     double y = filtered->channel[GREY][x], rgb[3];
@@ -264,7 +264,8 @@ static double length(double x, double y)
     return sqrt(x * x + y * y);
 }
 
-/* Of edges or of points, whichever changed more; 1 for the sharpest that can be. */
+/* The difference of edges or of points, whichever is greater; 1 for the sharpest possible
+ * ones. */
 static double feature_difference(const FlipScratch *scratch, int x)
 {
     const Filtered *r = &scratch->filtered[REFERENCE], *t = &scratch->filtered[TEST];

@@ -27,7 +27,7 @@ typedef struct FlipJob {
     FlipToneMapper tone_mapper;  /* these three: HDR */
     int            exposures;    /* LDR: 1 */
     const double  *gains;        /* 2^ev, one per exposure */
-    float         *map;          /* zeroed by whoever starts the tiles */
+    float         *map;          /* zeroed before the tiles start */
     float         *exposure_map; /* zeroed, or NULL */
 } FlipJob;
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* pixel_errors.h -- metrics of the difference between two pictures of one size.
  *
- * Pictures must be finite: whoever calls has looked for NaN and infinity first.
+ * Pictures must be finite: the caller has looked for NaN and infinity first.
  * Masked pixels count for nothing; no pixel at all gives NaN.
  * Threads  pure functions.
  */
@@ -26,8 +26,8 @@ typedef struct PixelErrors {
                          both are black, infinite when only the reference is */
 } PixelErrors;
 
-/* What the errors are made of: sums over pixels, one after the other, so that a picture that is
- * added in pieces from its top gives the same bits as one that is added whole. */
+/* Sums over pixels, one after the other, so that a picture that is added in pieces from its
+ * top gives the same bits as one that is added whole. */
 typedef struct PixelErrorSums {
     double luminance[2], members; /* reference, test; pixels */
     double floor;                 /* e of rel_mse */

@@ -3,7 +3,7 @@
  *
  * Units    linear Rec.709: cd m^-2 for frames, 0 .. 1 of the display's white for pictures.
  * Layout   row 0 at the top, pixel (x, y) at y * width + x.
- * Memory   a view: the planes belong to whoever made them.
+ * Memory   a view: the planes belong to their creator.
  */
 #pragma once
 #include <stddef.h>

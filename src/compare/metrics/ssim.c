@@ -5,7 +5,7 @@
 
 enum { RADIUS = SSIM_RADIUS, TAPS = 2 * RADIUS + 1 };
 
-/* What is averaged over a window: the weight itself and the moments of the two lumas. */
+/* Quantities averaged over a window: the weight itself and the moments of the two lumas. */
 enum { WEIGHT, R, T, RR, TT, RT, MOMENTS };
 
 /* The windows' sums along x of the last rows, row y at y % TAPS; then those along y are taken

@@ -12,8 +12,8 @@
 #include "base/arena.h"
 #include "compare/metrics/planes.h"
 
-/* Of pixels one after the other, so that rows that are added piece by piece from the top give
- * the same bits as a whole picture. */
+/* A sum over pixels, one after the other, so that rows that are added piece by piece from the
+ * top give the same bits as a whole picture. */
 typedef struct SsimSum {
     double sum, members; /* the mean is their quotient */
 } SsimSum;

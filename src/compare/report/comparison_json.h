@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* comparison_json.h -- a comparison as JSON; the keys are promised to scripts.
  *
- * Memory   documents are jansson's: whoever gets one releases it. Threads: pure.
+ * Memory   documents are jansson's: the caller releases them. Threads: pure.
  */
 #pragma once
 #include <jansson.h>

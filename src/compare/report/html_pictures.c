@@ -224,7 +224,7 @@ static const float *make_difference(const Comparison *c, Arena *arena, Shot *out
 #define BLOCK 8        /* pixels along a side: as the statistical test's small ones */
 #define DARK 0.01f     /* of the mean luminance: darker blocks are taken relative to this */
 
-/* Of the mean luminance of a block, in percent. */
+/* The change of a block's mean luminance, in percent. */
 static float change_of_block(const Comparison *c, PixelBlock b, float dark)
 {
     const Planes *reference = &c->light[0], *test = &c->light[1];

@@ -14,7 +14,7 @@ typedef enum ShotKind {
     SHOT_DELTAE, SHOT_COUNT
 } ShotKind;
 
-/* What a map's colours mean: low at the left end of the ramp, high at the right. */
+/* The colour scale of a map: low at the left end of the ramp, high at the right. */
 typedef struct ShotScale {
     bool        is_signed; /* the ramp with a neutral middle */
     double      low, high;

@@ -129,7 +129,7 @@ static void add_verdict(Text *html, const Comparison *c)
     escape_markup(html, c->verdict);
     text_add(html, "</h1>\n");
     if (c->mean[0]) page_element(html, "p class=\"mean\"", c->mean);
-    if (c->reasons.count > 1) /* the verdict says the first */
+    if (c->reasons.count > 1) /* the verdict states the first */
         page_list(html, "reasons", c->reasons.list + 1, c->reasons.count - 1);
     text_add(html, "</div>\n");
 }
@@ -166,7 +166,7 @@ static bool add_pair(Text *html, const Comparison *c, const CompareOptions *opti
 
 /* ---- folders ----------------------------------------------------------------------------- */
 
-/* What a card says below its picture; `more` is markup. */
+/* The text below a card's picture; `more` is markup. */
 static void add_card_text(Text *html, const char *name, const char *answer, const char *why,
                           const char *more)
 {

@@ -206,7 +206,7 @@ static void add_metadata_row(Text *html, const MetadataRow *row)
     page_row_end(html);
 }
 
-/* Of the rows that differ or of those that do not. */
+/* Either the rows that differ or those that do not. */
 static void add_metadata_table(Text *html, const Structure *structure, bool differing)
 {
     static const PageColumn COLUMNS[] = {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* junit.h -- the answer of a comparison as JUnit XML, which every CI service shows.
  *
- * Well-formed whatever the names are. Memory: owns the address space of its text until
+ * Well-formed for any names. Memory: owns the address space of its text until
  * junit_release. Threads: one thread at a time.
  * Fails    when the file cannot be written.
  */

@@ -164,8 +164,8 @@ static double value_of(const NoisyPair *pair, int side, size_t i, NoisyChannel c
                                      : noisy_pair_luminance(pair, side, i, channel);
 }
 
-/* Of the frame's own layer. R, G and B rise and fall together: the most the luminance's can
- * be. */
+/* From the frame's own layer. R, G and B count as fully correlated, which gives the greatest
+ * variance that the luminance can have. */
 static double stated_variance(const NoisySide *side, size_t i, NoisyChannel channel)
 {
     if (channel < NOISY_LUMINANCE) return (double)side->variance[channel][i];

@@ -5,7 +5,7 @@
  * Layout   pixels of the data window, row 0 at the top.
  * Memory   a view of the frames.
  * Threads  pure.
- * Fails    for frames without a layer that tells their noise, or of different windows.
+ * Fails    for frames without a layer that states their noise, or of different windows.
  */
 #pragma once
 #include "compare/statistic/sign_flip.h"
@@ -33,7 +33,7 @@ typedef struct NoisyPair {
     bool      shares_noise;
 } NoisyPair;
 
-/* Whether both say that they have one seed and the same samples. */
+/* Whether both state one seed and the same samples. */
 bool noisy_pair_shares_noise(const FrameImage *reference, const FrameImage *test);
 
 bool noisy_pair_open(const FrameImage *reference, const FrameImage *test,

@@ -11,10 +11,10 @@
  * cumulant of the sum is -2 / terms, so its tail is the thinner one; that it comes in steps
  * makes it 1.6 times the normal one at the worst place of 16 equal terms. */
 #define MANY_TERMS 16
-/* The quotient is at most the root of the terms: with so many it can say all there is to say,
- * and the second one is not asked. */
+/* The quotient is at most the root of the terms: with so many that limits nothing, and the
+ * second one is not used. */
 #define SURE_TERMS 64
-/* Pixels from which the halves tell what Sobol points gain, and the most they are believed. */
+/* Pixels from which the halves show what Sobol points gain, and the greatest gain accepted. */
 #define MANY_PIXELS 100
 #define LEAST_GAIN 0.1
 
@@ -45,8 +45,8 @@ void sign_flip_join(SignFlipSum *sum, const SignFlipSum *other)
 
 /* ---- denominators ------------------------------------------------------------------------ */
 
-/* Of noise of two laws: the larger of what is seen between the frames and what a sample's
- * variance in both together lets expect, times the share of it that the halves show. */
+/* For noise of two laws: the larger of the variance seen between the frames and the one
+ * expected from both frames' samples, times the share of it that the halves show. */
 static double larger_variance(const SignFlipSum *sum, NoiseLaw law)
 {
     double expected = law.has_variance ? sum->variance : sum->stated;

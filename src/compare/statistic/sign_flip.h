@@ -4,8 +4,7 @@
  *
  * src/compare/README.md has the reasons. Sums of disjoint pixels add up.
  *
- * Units    whatever the differences have; c is a factor that exchanging the frames leaves as
- *          it is.
+ * Units    those of the differences; c is a factor that exchanging the frames does not change.
  * Threads  plain data, pure functions.
  */
 #pragma once
@@ -30,7 +29,7 @@ typedef struct SignFlipSum {
     double light;    /* of c times the size of the mean */
 } SignFlipSum;
 
-/* What the two frames' noise has in common. */
+/* Properties of the two frames' noise together. */
 typedef struct NoiseLaw {
     bool is_same;      /* exchanging the frames changes nothing */
     bool has_variance; /* NoisyNumber.variance is known and comes from both frames together */
@@ -57,7 +56,7 @@ double sign_flip_p(const SignFlipSum *sum, NoiseLaw law);
 /* Standard error of `sum` when only the noise differs. */
 double sign_flip_sigma(const SignFlipSum *sum, NoiseLaw law);
 
-/* Of the least of `count` independent p-values. */
+/* The p-value of the least of `count` independent ones. */
 double sidak_p(double least, double count);
 
 /* The level of one test for which `count` of them have the level together. */

@@ -39,7 +39,7 @@ static void make_map(const BlockGrid *grid, NoiseLaw law, Arena *arena, Statisti
     for (int i = 0; i < count; i++) out->block_p[i] = statistic_block_p(grid, i, law);
 }
 
-/* What would make the test see more. */
+/* Names the layers that would make the test more sensitive. */
 static void take_note(const NoisyPair *pair, char *note, size_t size)
 {
     if (!pair->knows_samples)

@@ -6,7 +6,7 @@
  * exchanging the two frames changes nothing. So, with any factors c that do not change by that
  * exchange (areas, or weights made of both frames alike), the sum of c d divided by the root of
  * the sum of (c d)^2 is a weighted sum of fair random signs: its square has the expectation 1
- * exactly and its tail lies below 3.18 times the normal one, whatever the noise: fireflies,
+ * exactly and its tail lies below 3.18 times the normal one, for any noise: fireflies,
  * glints, edges (Bentkus and Dzindzalieta 2015, "A tight Gaussian bound for weighted sums of
  * Rademacher random variables", Bernoulli 21(2)). It needs no estimate of the noise, and what
  * scrambled Sobol points gain over independent ones counts. A second quotient has the root of
@@ -24,12 +24,12 @@
  * together (a reference of few samples that missed all glints knows nothing of them), times
  * what the halves show that Sobol points gain; weights come from the pixels around.
  * Frames of one seed and range share their noise: differences are those of the scene, or of
- * paths that rounding turned elsewhere; the same quotients tell whether the mean moved.
+ * paths that rounding turned elsewhere; the same quotients show whether the mean moved.
  *
  * Units    linear Rec.709 in cd m^-2; probabilities 0 .. 1.
  * Memory   maps come from the arena.
  * Threads  pure.
- * Fails    when the frames lack the layers that it needs: the text says what to render again.
+ * Fails    when the frames lack the layers that it needs: the text names what to render again.
  */
 #pragma once
 #include "compare/statistic/statistic_result.h"

@@ -20,7 +20,7 @@ static void append(char *text, size_t size, const char *format, ...)
     va_end(args);
 }
 
-/* Of displays that moved the surest, since they are what people look for; else of all. */
+/* The surest region of displays that moved, since people look for them; else of all. */
 static const StatisticRegion *surest_region(const StatisticResult *r)
 {
     const StatisticRegion *best = &r->regions[0];
@@ -31,7 +31,7 @@ static const StatisticRegion *surest_region(const StatisticResult *r)
     return best;
 }
 
-/* Whether the change in proportion says what the plain mean says, only surer. */
+/* Whether the change in proportion agrees with the plain mean's. */
 static bool is_proportional(const StatisticRegion *region)
 {
     double apart = fabs(region->change - region->shift);

@@ -54,7 +54,7 @@ static int list_regions(const NoisyPair *pair, const FrameImage *frame, Arena *a
 
 /* test = (1 + change) reference is estimated best with the factors mean / variance. The
  * variance is the frames' own where they state it, for that comes from all samples; but not
- * where the difference says that it is much more (all samples of a pixel were alike by
+ * where the difference shows that it is much more (all samples of a pixel were alike by
  * chance): a factor that shrinks with every difference makes the change too small. What a
  * display reflects is the mean of fewer samples at its edges: there the difference counts. */
 static double factor_of(const NoisyNumber *n, NoisyChannel channel)

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* statistic_result.h -- what the statistical test is asked, and what it answers; statistic.h
- * says how it does it.
+ * describes the method.
  *
  * Units    linear Rec.709 in cd m^-2; probabilities 0 .. 1.
  * Threads  plain data.
