@@ -89,7 +89,7 @@ static Vec3 brightest_of(const PunctualLight *light)
                       light->axis_z, d.z);
 }
 
-/* Of a luminaire as its file has it: what level and colour make of it. */
+/* The factor that level, tilt and colour apply to a luminaire's file. */
 static float share_of(const PunctualLight *light)
 {
     return light->level * light->tilt_factor * luminance_from_rgb(light->color);

@@ -12,7 +12,7 @@
 #include "compare/report/junit.h"
 #include "text/json_text.h"
 
-/* What is collected on the way, for every kind of answer. */
+/* Results so far, for every kind of answer. */
 typedef struct CompareRun {
     const CompareRequest *request;
     Arena     *arena;

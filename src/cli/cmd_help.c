@@ -19,7 +19,7 @@
 #define NAMES_MAX 128 /* commands and guides */
 #define SUMMARY "physically correct frames of dashboards with measured displays"
 
-/* What help is asked for, and how. */
+/* The command line of `help`. */
 typedef struct HelpWords {
     Cli      cli;
     HelpForm form;

@@ -19,7 +19,6 @@ typedef struct MeasureWords {
     Cli             cli;
 } MeasureWords;
 
-/* What is asked of a frame. */
 static bool read_frame_request(const double region[4], MeasureWords *out, Error *err)
 {
     MeasureRequest *r = &out->request;

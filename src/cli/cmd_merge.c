@@ -132,7 +132,7 @@ static bool parse(int argc, char **argv, MergeRun *work, Error *err)
     return file_check_writable(work->output, err);
 }
 
-/* ---- what the parts say of themselves ---------------------------------------------------- */
+/* ---- the parts' attributes --------------------------------------------------------------- */
 
 static bool same_attribute(const ExrAttribute *a, const ExrAttribute *b)
 {
@@ -167,7 +167,7 @@ static const ExrAttribute *find_near(const ExrPicture *picture, const char *name
     return NULL;
 }
 
-/* Keeps of the common attributes what this part says as well. */
+/* Keeps those common attributes that this part shares. */
 static void keep_common(FrameImage *common, const ExrPicture *picture)
 {
     int kept = 0, place = 0;
@@ -363,7 +363,7 @@ static void set_lines(const MergeRun *work, FrameImage *frame, Arena *arena)
     if (!line) frame_set_string(frame, "parhelion:parts", list_lines(work, arena), arena);
 }
 
-/* What no further part can be added to, as far as one can know. */
+/* Can no further part be added, as far as one can know? */
 static bool is_whole(const MergeRun *work)
 {
     const FilmPart *whole = &work->whole;

@@ -3,7 +3,7 @@
  * wherever the folder is.
  *
  * It may be run any number of times, also twice at once: the part's file appears whole or not
- * at all, and has the same bits whoever wrote it. */
+ * at all, and has the same bits from any writer. */
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -55,7 +55,7 @@ static bool read_index(PartRun *work, Error *err)
     return true;
 }
 
-/* A file that is damaged is told of and made again. */
+/* A damaged file is reported and made again. */
 static bool is_done(const PartRun *work)
 {
     Error why;
@@ -98,8 +98,8 @@ static bool run_one(PartRun *work, Error *err)
                 : render(work, &folder, err));
 }
 
-/* What a task keeps of how it failed. Who was stopped did not fail; and who lost the race to
- * another that did the same part has no reason to complain. */
+/* Notes why a task failed. One that was stopped did not fail; nor did one that lost the race
+ * to another that did the same part. */
 static bool end_badly(PartRun *work, Error *err)
 {
     Error ignored;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* parhelion sky: draws a sky and tells its figures. */
+/* parhelion sky: draws a sky and prints its figures. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -109,7 +109,7 @@ static void draw(SkyRun *work)
 
 /* ---- figures ----------------------------------------------------------------------------- */
 
-/* Of a picture or a constant sky, which have no model: the sky above the horizontal. */
+/* The sky above the horizontal, for a picture or a constant sky, which have no model. */
 static double horizontal_lux(const SkyRun *work)
 {
     double sum = 0;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What `parhelion compare` says to people. */
+/* The printed answer of `parhelion compare`. */
 #include <math.h>
 #include <stdio.h>
 

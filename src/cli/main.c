@@ -45,7 +45,7 @@ static void ignore_deadly_signals(void)
 
 /* Where standard streams are closed, a frame that is opened must not become one of them. True:
  * stdout was open. If not it becomes one that refuses what is written: an answer that nobody
- * can have is told of, as that of a full disk is. */
+ * can have is reported, as on a full disk. */
 static bool fill_streams(void)
 {
     bool has_stdout = fcntl(STDOUT_FILENO, F_GETFD) >= 0;
@@ -56,7 +56,7 @@ static bool fill_streams(void)
     return has_stdout;
 }
 
-/* What was printed to a full disk or a closed pipe has not been said. */
+/* Reports output that was lost to a full disk or a closed pipe. */
 static bool check_stdout(Error *err)
 {
     errno = 0;

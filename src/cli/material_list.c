@@ -6,7 +6,7 @@
 
 #include "text/json_text.h"
 
-/* What is known of one material. */
+/* The nodes, meshes and areas of one material. */
 typedef struct MaterialUse {
     const char **nodes, **meshes; /* each name once */
     int    node_count, mesh_count;
@@ -93,7 +93,7 @@ static bool has_uv(const MaterialUse *use)
     return use->area_m2 > 0 && use->uv_area_m2 > 0.9 * use->area_m2;
 }
 
-/* What modellers do who put a screen into a model: a flat sheet that glows with a picture. */
+/* Modellers put a screen into a model as a flat sheet that glows with a picture. */
 static bool looks_like_screen(const Scene *scene, int material_id, const MaterialUse *use)
 {
     return glows_with_texture(scene, material_id) && use->is_flat && has_uv(use);

@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-/* What was found, with its 95 % interval. */
+/* A figure with its 95 % interval. */
 typedef struct Figure {
     double found, low, high;
 } Figure;

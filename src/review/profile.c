@@ -65,7 +65,7 @@ static bool read_number(const JsonView *view, const char *key, double *out, Erro
     return true;
 }
 
-/* Where it was read: every number of a profile says so. */
+/* The source, which every number of a profile must name. */
 static bool read_source(const JsonView *view, const char **source, bool *was_read, Error *err)
 {
     return read_text(view, "source", source, err) &&
@@ -243,7 +243,7 @@ static bool read_limits(const JsonView *root, Profile *out, Error *err)
     return true;
 }
 
-/* ---- what else it says ------------------------------------------------------------------- */
+/* ---- facts ------------------------------------------------------------------------------- */
 
 static bool read_fact(const JsonView *view, ProfileFact *out, Error *err)
 {

@@ -4,7 +4,7 @@
  * A profile is a JSON file (assets/schemas/profile.md). Those of assets/profiles are inside the
  * program; any other is named by its path.
  *
- * Units    as each kind of limit says; lx.
+ * Units    those of each kind of limit; lx.
  * Memory   texts and lists live in the arena.
  * Threads  plain data.
  * Fails    loading does, with file, place, found and wanted.
@@ -16,7 +16,7 @@
 
 enum { AMBIENT_COUNT = 4 };
 
-/* What a limit is held against. */
+/* The quantity that a limit bounds. */
 typedef enum LimitKind {
     LIMIT_CONTRAST_RATIO,     /* brighter over darker, what is reflected included */
     LIMIT_LUMINANCE_CONTRAST, /* the same less one: (L2 - L1)/L1 */
@@ -53,8 +53,7 @@ typedef struct ProfileLimit {
     bool        read_in_the_standard;
 } ProfileLimit;
 
-/* What else the standard says, for readers: light under which it measures, names that it
- * uses. */
+/* Further content of the standard, for readers: its measuring light, its terms. */
 typedef struct ProfileFact {
     const char *name, *text, *unit; /* text: its meaning, or ""; unit: "" without a value */
     double      value;              /* NaN: none */
@@ -81,5 +80,5 @@ bool profile_load(const char *name_or_path, Arena *arena, const Profile **out, E
 /* The names of those inside the program, with commas. */
 const char *profile_names(Arena *arena);
 
-/* Direct sun on the display is AMBIENT_SUN; else its illuminance tells. */
+/* Direct sun on the display is AMBIENT_SUN; else its illuminance decides. */
 Ambient profile_ambient(const Profile *profile, double display_lux, bool sun_on_display);

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* verdict.h -- what a glare review says: of one symbol, seen by one eye under one condition; of
- * a sweep over many suns; of all of them.
+/* verdict.h -- the results of a glare review: for one symbol, seen by one eye under one
+ * condition; for a sweep over many suns; for all of them.
  *
  * Units    cd m^-2, arc minutes, degrees. Azimuths from north over east.
- * Memory   whoever fills it owns it; texts and lists live in the review's arena.
+ * Memory   its maker owns it; texts and lists live in the review's arena.
  * Threads  plain data.
  */
 #pragma once
@@ -63,13 +63,13 @@ typedef struct CaseCause {
                                  own */
 } CaseCause;
 
-/* What one thing has of the reflected light. */
+/* The share of one thing in the reflected light. */
 typedef struct CaseShare {
     const char *what;
     double      share, cd_m2; /* 0..1 */
 } CaseShare;
 
-/* What hides a share of a symbol's rectangle from an eye, 0..1. */
+/* A thing that hides a share, 0..1, of a symbol's rectangle from an eye. */
 typedef struct CaseHider {
     const char *what; /* a node and its material, or that it shows its back */
     double      share;
@@ -104,7 +104,7 @@ typedef struct Range {
     double low, high;
 } Range;
 
-/* What would mend it: NaN where a figure has no meaning. */
+/* A change that would mend the case. NaN: the figure has no meaning. */
 typedef struct CaseRemedy {
     const char *what;
     double contrast_ratio, level;
@@ -122,8 +122,8 @@ typedef struct CaseLuminances {
 typedef struct ReviewCase {
     const char *condition, *eye, *symbol, *display;
     Ambient ambient;
-    const char *when;            /* of a sweep's worst: date, time, heading; NULL: the condition
-                                    says it */
+    const char *when;            /* of a sweep's worst: date, time, heading; NULL: the
+                                    condition's */
     bool    has_sun;             /* above the horizon */
     double  sun_azimuth_deg, sun_elevation_deg; /* of a sweep's worst: of the vehicle */
     CaseLuminances luminance_cd_m2;
@@ -139,13 +139,13 @@ typedef struct ReviewCase {
                                     sees of strokes that wide (Barten) */
     double  dgp, ugr;            /* discomfort of this gaze: secondary figures */
     long    paths;               /* that what is reflected was read from */
-    const double *batches;       /* [CASE_BATCHES] what independent batches of them say, cd
-                                    m^-2, with luminance_cd_m2.reflected for a mean; NULL: not
+    const double *batches;       /* [CASE_BATCHES] estimates by independent batches of them, cd
+                                    m^-2, whose mean is luminance_cd_m2.reflected; NULL: not
                                     known */
     double  precision_asked;     /* of the contrast, relative: coarser where the verdict is
                                     clear; NaN: nothing is visible */
     double  precision_reached;   /* its standard error, relative; NaN likewise */
-    double  paths_to_decide;     /* of a case that is too close: about as many would say; NaN */
+    double  paths_to_decide;     /* of a case that is too close: about how many decide; NaN */
     double  minutes_to_decide;   /* as fast as its reading went, here; NaN: not known */
     double  visible_share;       /* of the rectangle, 0..1 */
     const CaseHider *hiders;     /* of all else, greatest first: with it they add up to 1 */
@@ -174,7 +174,7 @@ typedef struct ReviewCase {
     const char *outlook_words;   /* what is in it */
 } ReviewCase;
 
-/* Of the veil in the eye, by where its light begins: they add up to it. */
+/* The veil in the eye, by where its light begins: the parts add up to it. */
 typedef struct GazeVeil {
     double sun, sky, lamps; /* seen straight or through glass; lamps: displays too */
     double glints;          /* sun, lamps and displays by way of mirrors and panes alone */
@@ -182,8 +182,8 @@ typedef struct GazeVeil {
     double near;            /* sky and surfaces within 1 degree: what the eye looks at */
 } GazeVeil;
 
-/* What an eye sees, and what is lost to it, that looks elsewhere than at a symbol, such as at
- * the road. */
+/* The view of an eye that looks elsewhere than at a symbol, such as at the road, and what is
+ * lost to it. */
 typedef struct GazeFinding {
     const char *condition, *eye, *gaze;
     double   sun_deg;        /* between the gaze and the sun, seen or not; NaN: none is up */
@@ -196,20 +196,20 @@ typedef struct GazeFinding {
     Range    mirrored_range;
     const char *mirrored_by; /* the pane that mirrors most; NULL: nothing is mirrored */
     const char *mirrored_from; /* what most of it shows; NULL likewise */
-    /* Of a distant object's contrast: both veils add to the object and to its background alike
-     * (CIE S 017, "equivalent veiling luminance": of disability glare or of veiling
-     * reflections), so that Weber's contrast (L - B)/B keeps B/(B + veils) of itself. What is
-     * near is the background B, and no veil. NaN: no light. */
+    /* Shares of a distant object's contrast: both veils add to the object and to its
+     * background alike (CIE S 017, "equivalent veiling luminance": of disability glare or of
+     * veiling reflections), so that Weber's contrast (L - B)/B keeps B/(B + veils) of itself.
+     * What is near is the background B, and no veil. NaN: no light. */
     double   contrast_behind_glass; /* what the mirrored light leaves; 1: all */
     double   contrast_left;         /* and the veil in the eye with it */
     Range    contrast_range;        /* of the latter */
     double   dgp, ugr;              /* secondary figures; ugr: NaN without a source */
 } GazeFinding;
 
-/* Contrast left of which less is told at once: half is lost. No limit. */
+/* Contrast left below which a gaze is marked as poor: half is lost. No limit. */
 #define GAZE_POOR 0.5
 
-/* Of one symbol and eye over many suns. */
+/* One symbol and eye over many suns. */
 typedef struct ReviewSweep {
     const char *condition, *eye, *symbol;
     long        cases;
@@ -239,13 +239,13 @@ typedef struct ReviewFalseSun {
 
 typedef struct ReviewResponse {
     const char *probe;
-    const char *file;  /* "responses/NAME.response", or where it is kept else; NULL: not told */
+    const char *file;  /* "responses/NAME.response", or where it is kept else; NULL: unknown */
     long        paths;
     size_t      bytes; /* of the file */
     double      relative_error;
 } ReviewResponse;
 
-/* What a variant changes of one symbol and eye, in a moment or at a sweep's worst. */
+/* A variant's change of one symbol and eye, in a moment or at a sweep's worst. */
 typedef struct ReviewDifference {
     const ReviewCase  *before, *after;
     const ReviewSweep *sweep_before, *sweep_after; /* NULL: a moment */
@@ -300,7 +300,7 @@ typedef struct ReviewMend {
     const char  *name, *unit;
     double       at;           /* where it stands, */
     bool         is_found;
-    double       value;        /* and where all passes, told by fresh paths, too; else the value
+    double       value;        /* and where all passes, confirmed by fresh paths; else the value
                                   that came nearest */
     double       outside;      /* the nearest value that was tried and does not pass; NaN: all
                                   passes as it stands */
@@ -339,6 +339,6 @@ struct Review {
     int             main_cards;   /* of its page: so many of the worst cases and sweeps have
                                      their cards there, the others on a page beside; 0: all */
     bool            is_beside;    /* this is about that page */
-    const Review   *whole;        /* this is what it says of one symbol: cards stand on its
+    const Review   *whole;        /* this is its part about one symbol: cards stand on its
                                      pages; NULL: it is no part */
 };

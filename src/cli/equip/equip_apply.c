@@ -17,7 +17,7 @@
 #include "text/json_text.h"
 #include "text/uri.h"
 
-#define DIGITS 9 /* tell any two floats apart */
+#define DIGITS 9 /* distinguish any two floats */
 
 /* ---- before anything is written ---------------------------------------------------------- */
 
@@ -64,7 +64,7 @@ static bool name_files(const EquipOrder *order, const Equip *equip, EquipFiles *
     return true;
 }
 
-/* Who names a part, a material or a camera must mean one thing. */
+/* The name of a part, a material or a camera must be unambiguous. */
 static bool is_in_model(const Scene *scene, const char *name)
 {
     for (int i = 0; i < scene->part_count; i++)
@@ -111,7 +111,7 @@ static bool check_output(const EquipOrder *order, const char *path, Error *err)
 
 /* ---- the document ------------------------------------------------------------------------ */
 
-/* What is at work. */
+/* The state of one order. */
 typedef struct Applying {
     const EquipOrder *order;
     Equip             equip;
@@ -137,7 +137,7 @@ static bool name_bin(Applying *at, Error *err)
     return true;
 }
 
-/* What the model says of who wrote it stays; who changed it is added. */
+/* Keeps the model's "generator" and adds this program to it. */
 static void sign(json_t *document, Arena scratch)
 {
     json_t     *asset = json_object_get(document, "asset");
@@ -161,7 +161,7 @@ static bool make_document(Applying *at, Error *err)
 
 /* ---- writing ----------------------------------------------------------------------------- */
 
-/* What shows nothing has nothing to read. */
+/* Without content there is nothing for a review to read. */
 static bool has_content(const Equip *equip)
 {
     bool found = false;
@@ -185,7 +185,7 @@ static bool start_review(const Applying *at, const Scene *scene, Error *err)
     return review_request_start(&start, scene, at->arena, err);
 }
 
-/* What is said of a draft is said of the file that it becomes. */
+/* A draft's problems are reported for the file that it becomes. */
 static void rename_draft(Problems *problems, const char *draft, const char *output)
 {
     for (int i = 0; i < problems->count; i++)

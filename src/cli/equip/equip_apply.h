@@ -16,7 +16,7 @@
 typedef struct EquipOrder {
     const char *model, *with, *output;
     const char *root;       /* --root; NULL: none */
-    bool        overwrites; /* what has the outputs' names */
+    bool        overwrites; /* files with the outputs' names */
 } EquipOrder;
 
 typedef struct EquipResult {

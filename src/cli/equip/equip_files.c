@@ -176,7 +176,7 @@ static bool refer_members(EquipFiles *files, json_t *object, Error *err)
     return true;
 }
 
-/* Below an extension: whatever text is a file's name. */
+/* Below an extension: any member that names a file gets its new name. */
 static bool refer_value(EquipFiles *files, json_t *value, Error *err)
 {
     json_t *item;

@@ -36,7 +36,7 @@ bool equip_files_open(const char *model, const char *output, const char *root, A
 /* The new file's name without its ending, with another one: "car" + ".bin". */
 const char *equip_files_beside(const EquipFiles *files, const char *ending);
 
-/* What the new file calls the file at `path`. */
+/* The URI by which the new file names the file at `path`. */
 bool equip_files_uri(EquipFiles *files, const char *path, const char **uri, Error *err);
 
 /* Every file that the model's document names is called as the new file has to: those of buffers

@@ -16,7 +16,7 @@ typedef struct EquipModel {
     FileBytes   bin; /* a .glb's BIN chunk; data NULL: none */
 } EquipModel;
 
-/* Of a file that scene_load took. */
+/* path: a file that scene_load took. */
 bool equip_model_read(const char *path, Arena *arena, EquipModel *out, Error *err);
 
 /* NULL documents are fine. */

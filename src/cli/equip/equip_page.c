@@ -124,7 +124,7 @@ static void mean_colour(const Scene *scene, const Material *m, double out[4])
     for (int c = 0; c < 4; c++) out[c] = sum[c] * (double)m->base_color[c];
 }
 
-/* Of a picture with holes most has to be hole. */
+/* A picture with holes is glass only when most of it is hole. */
 static bool is_glass(const Material *m, double mean_alpha)
 {
     bool is_clear = m->alpha_mode != ALPHA_OPAQUE &&

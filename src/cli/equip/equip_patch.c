@@ -215,7 +215,7 @@ static void add_eye(json_t *document, const EquipEye *eye, const double forward[
 
 /* ---- materials --------------------------------------------------------------------------- */
 
-/* What tells of its shape stays: a normal map, whether the back is a front. */
+/* Keeps what describes its shape: a normal map, whether the back is a front. */
 static json_t *material_of(json_t *document, const EquipMaterial *m, const json_t *old)
 {
     const char *const kept[] = {"name", "doubleSided", "normalTexture"};

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* usual_material.h -- what the surfaces of a cabin usually are, for models that do not say.
+/* usual_material.h -- usual materials of a cabin's surfaces, for models that lack them.
  *
  * Figures as glTF's metallic-roughness takes them: linear Rec.709 reflectances, glTF's own
  * roughness. They are typical, none is measured on the user's part: each names its source.

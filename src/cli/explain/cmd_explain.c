@@ -85,7 +85,7 @@ static bool read_scene(ExplainWords *words, Arena *arena, Error *err)
            scene_options_read(&words->scene_words, &words->cli, arena, &scene->scene, err);
 }
 
-/* An option that a review says itself; NULL: none is there. */
+/* An option that a review sets itself; NULL: none is there. */
 static const char *option_of_scene(const ExplainWords *words)
 {
     const CameraChoice *camera = &words->scene.camera;

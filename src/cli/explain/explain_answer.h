@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* explain_answer.h -- what `parhelion explain` says, in words or as JSON. */
+/* explain_answer.h -- the answer of `parhelion explain`, in words or as JSON. */
 #pragma once
 #include "cli/options/cli.h"
 #include "review/run/explain.h"

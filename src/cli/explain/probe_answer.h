@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* probe_answer.h -- what `parhelion probe` says, in words or as JSON, and its rays.
+/* probe_answer.h -- the answer of `parhelion probe`, in words or as JSON, and its rays.
  *
  * Units    cd m^-2; metres; W m^-2 sr^-1 nm^-1. Errors are standard errors.
  */
@@ -8,7 +8,7 @@
 #include "light/light_groups.h"
 #include "review/chain/pixel_light.h"
 
-/* What one pixel sees. */
+/* The light of one pixel. */
 typedef struct Probed {
     int  pixel[2], size[2];
     Vec3 eye;

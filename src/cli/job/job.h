@@ -1,13 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* job.h -- one frame, or one review, shared among machines: a folder that lists its parts, and
- * holds each as soon as it is done. No process watches over it: what is there tells what is
- * left.
+ * holds each as soon as it is done. No process watches over it: its files show what is left.
  *
  *     manifest.json             what is made, and its parts (assets/schemas/job.md)
  *     array.sbatch              Slurm's array job, and the job that merges
  *     merge.sbatch
  *     commands.txt              the same parts as commands, one a line
- *     logs/                     what Slurm's tasks say
+ *     logs/                     what Slurm's tasks print
  *     part-0003.exr             a part that is done; of a review part-0003.answers
  *     part-0003.HOST-PID.checkpoint   what a task has done of it so far
  *     part-0003.failed          the status and the line with which it failed last
@@ -25,8 +24,7 @@
 
 typedef enum JobKind { JOB_FRAME, JOB_REVIEW, JOB_KINDS } JobKind;
 
-/* Of a frame. A review's part answers every part_count-th of its questions (review/run/
- * share.h). */
+/* A part of a frame; how a review is cut: review/share.h. */
 typedef struct JobPart {
     FilmRect crop;
     uint32_t first_sample, end_sample; /* half-open */
@@ -37,7 +35,7 @@ typedef struct SharedJob {
     const char  *dir;      /* the job's folder, absolute */
     const char  *program;  /* that planned it, absolute */
     const char  *folder;   /* from where the names below are seen, absolute */
-    const char  *line;     /* the command of one run, as frames say it (command_line.h) */
+    const char  *line;     /* the command of one run, as in frames (command_line.h) */
     const char  *output;   /* the frame, or the review's folder, as typed */
     const char  *identity; /* of all parts, but for what is learnt (render_identity.h); of a
                               review that of each condition */

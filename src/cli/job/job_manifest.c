@@ -153,7 +153,7 @@ static bool check_index(const JsonView *view, int index, Error *err)
                      "is %g, wanted %d", number, index));
 }
 
-/* Of a frame. */
+/* Reads a part of a frame. */
 static bool read_part(const JsonView *view, const SharedJob *job, JobPart *out, Error *err)
 {
     double samples[2], crop[4];
@@ -213,7 +213,7 @@ static bool read_kind(const JsonView *view, JobKind *out, Error *err)
                     "is '%.80s', wanted 'frame' or 'review'", kind);
 }
 
-/* What a frame has beside all that jobs have. */
+/* Reads what only a frame's job has. */
 static bool read_frame(const JsonView *view, SharedJob *job, Error *err)
 {
     double  size[2];

@@ -13,7 +13,7 @@
 /* The document, with a newline; the same for the same job. */
 const char *job_manifest_text(const SharedJob *job, Arena *arena);
 
-/* Whether the folder holds one, of whatever content. */
+/* Whether the folder holds one, valid or not. */
 bool job_manifest_is_there(const char *dir, Arena scratch);
 
 /* dir: as the user named it. */

@@ -27,10 +27,10 @@ static void add_job_name(Text *text, const SharedJob *job, const char *ending)
     text_format(text, "%s\n", ending);
 }
 
-/* What happens around a task. The last 60 s of its time begin with a TERM to this shell alone
+/* The shell around a task. The last 60 s of its time begin with a TERM to this shell alone
  * (B:), which hands it on. A task that is cancelled, or must make room for another, gets it as
  * well as its shell: the second one ends the program at once, and what it did since its last
- * checkpoint, a minute at most, is lost. `squeue` tells a task that comes to its limit from one
+ * checkpoint, a minute at most, is lost. `squeue` distinguishes a task at its limit from one
  * that was cancelled, which must not come back. Bad input (2, 3) fails the same way again and
  * is not tried again; a full disk (4) may be gone. */
 static const char task[] =

@@ -18,7 +18,7 @@
 #include "text/json_text.h"
 #include "text/utf8.h"
 
-/* What became of it. */
+/* The job and its submission. */
 typedef struct Share {
     const ShareRequest *request;
     SharedJob           job;

@@ -3,7 +3,7 @@
  *
  * Memory   the arena's.
  * Fails    ERROR_OUTPUT where the folder cannot be made, or is another job's; ERROR_INPUT where
- *          sbatch is asked for and fails: the folder stays, and the line says how to go on.
+ *          sbatch is asked for and fails: the folder stays, and the line explains how to go on.
  */
 #pragma once
 #include <jansson.h>
@@ -17,7 +17,7 @@ typedef struct ShareRequest {
     const char *split_name; /* how it is cut, for scripts */
     const char *dir;     /* the job's folder; without --job OUTPUT.parts */
     bool        submits; /* runs sbatch */
-    int         threads; /* of each task, as --threads says; 0: it does not */
+    int         threads; /* of each task: --threads; 0: not given */
     const char **words;  /* that all parts have */
     int         word_count;
 } ShareRequest;

@@ -36,15 +36,15 @@ JobPartReport job_part_report(const SharedJob *job, const JobFolder *folder, int
                               Arena *arena);
 
 /* Whether the part's file is there and is that part, whole. with_sums: every sum is read, and
- * the checksum compared; else its end alone. False: *err says what it is instead; of a file
- * that is not there the text is empty. */
+ * the checksum compared; else its end alone. False: *err is what it is instead; its text is
+ * empty where the file is not there. */
 bool job_part_is_done(const SharedJob *job, int index, bool with_sums, Arena scratch,
                       Error *err);
 
-/* What a review's part that is done has under this key, behind all its answers. */
+/* The key of the entry that marks a review's part as done, behind all its answers. */
 JournalKey job_part_mark(const SharedJob *job, int index, Arena scratch);
 
-/* Is it a checkpoint of the part, whoever wrote it? */
+/* Is it a checkpoint of the part, from any writer? */
 bool job_is_checkpoint(const char *name, int index);
 
 /* The checkpoint's name for a task of this process. */
@@ -55,10 +55,10 @@ const char *job_own_checkpoint(const SharedJob *job, int index, Arena *arena);
 const char *job_take_checkpoint(const SharedJob *job, const JobFolder *folder, int index,
                                 Arena *arena);
 
-/* Of a part that is done: all its checkpoints, and the failure before. */
+/* Removes a finished part's checkpoints and its earlier failure. */
 void job_part_clean(const SharedJob *job, int index, Arena scratch);
 
-/* Of one that is begun again. */
+/* Removes the failure of a part that is begun again. */
 void job_part_forget_failure(const SharedJob *job, int index, Arena scratch);
 
 /* Keeps why it failed; a folder that cannot be written is no further error. */

@@ -13,7 +13,7 @@
 
 extern char **environ;
 
-/* What sbatch says, stdout and stderr as they come; the rest of it is dropped. */
+/* Reads sbatch's stdout and stderr as they come; beyond SAID_MAX they are dropped. */
 static void listen_to(int handle, char said[SAID_MAX])
 {
     size_t  size = 0;

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* camera_options.h -- the options that say from where a scene is seen, for the commands that
- * look at one.
+/* camera_options.h -- the options for the place from which a scene is seen, for the commands
+ * that look at one.
  *
- * The rows only keep what was typed; who chooses the camera checks it.
+ * The rows only keep what was typed; render_setup.h checks it.
  */
 #pragma once
 #include "cli/options/cli.h"
 
-/* What the command line says; NULL and false: as the scene says. */
+/* The command line's choice; NULL and false: the scene's. */
 typedef struct CameraChoice {
     const char *name;              /* a node's, a camera's, or an index */
     double eye[3], look_at[3];     /* m, scene */

@@ -26,14 +26,14 @@
 #include "base/progress.h"
 #include "cli/options/option.h"
 
-/* What cli_parse found besides the values. */
+/* Results of cli_parse besides the values. */
 typedef struct Cli {
     bool         help_shown; /* help, or the version, was asked for and is printed: done */
     bool         json, quiet;
     ProgressMode progress;   /* PROGRESS_NONE when quiet */
     int          threads;    /* at least 1 */
     bool         threads_given;
-    const char **arguments;  /* what is not an option */
+    const char **arguments;  /* words that are no options */
     int          argument_count;
 } Cli;
 
@@ -42,8 +42,8 @@ typedef struct Cli {
 bool cli_parse(const CliCommand *command, int argc, char **argv, Arena *arena, Cli *out,
                Error *err);
 
-/* What a word that asks for help wants printed: of --help and -h the text, of --help=man the
- * source of a manual page, of --help=completion what shells complete by (completion.h). */
+/* The help that a word asks for: --help and -h the text, --help=man the source of a manual
+ * page, --help=completion what shells complete by (completion.h). */
 typedef enum HelpForm { HELP_NONE, HELP_TEXT, HELP_MAN, HELP_COMPLETION } HelpForm;
 
 HelpForm cli_help_form(const char *word);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* data_warning.h -- says which materials of a scene carry no optical data
+/* data_warning.h -- reports which materials of a scene carry no optical data
  * (scene/load/material_data.h).
  */
 #pragma once

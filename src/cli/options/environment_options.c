@@ -76,8 +76,7 @@ static bool set_hdri(Change *change, const char *path, Error *err)
     return true;
 }
 
-/* A model of its own kind keeps what the scene said of it, its time and place whatever it was.
- */
+/* A model of its own kind keeps the scene's settings; any model keeps its time and place. */
 static void become(Change *change, EnvironmentKind kind, DaylightKind daylight)
 {
     Environment *environment = change->environment;

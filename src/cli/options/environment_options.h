@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* environment_options.h -- what a command line says about the surroundings: render and sky.
+/* environment_options.h -- the command line's options for the surroundings: render and sky.
  *
  * Memory   the command's arena. Fails: ERROR_USAGE with the option, ERROR_INPUT with a file.
  */
@@ -7,7 +7,7 @@
 #include "cli/options/cli.h"
 #include "scene/scene.h"
 
-/* What the command line changes; NULL and false: as the scene says. */
+/* The command line's changes; NULL and false: the scene's. */
 typedef struct EnvironmentChange {
     const char *environment; /* "constant:CD_M2", "hdri:FILE", "sky:clear", "cie:N[:LUX]",
                                 "perez:DNI,DHI" */

@@ -5,7 +5,7 @@
  * Memory   the filtered frame's planes come from the arena.
  * Threads  one at a time; the filter has its own.
  * Fails    for a word that is no eye, a frame without R, G, B, and one whose field of view is
- *          not known: its metadata have it (parhelion:yfov_deg), else --fov says it.
+ *          not known: its metadata have it (parhelion:yfov_deg), else --fov has it.
  */
 #pragma once
 #include "image/frame.h"

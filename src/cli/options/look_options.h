@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* look_options.h -- the options that say how a frame becomes a picture, for the commands that
+/* look_options.h -- the options for how a frame becomes a picture, for the commands that
  * develop one.
  *
- * The rows only name where the words go; develop.h says what they mean and checks them. What
+ * The rows only name where the words go; develop.h defines and checks them. What
  * they ask for is done here, since a frame is denoised, and seen by an eye, before it is
  * developed.
  */
@@ -33,7 +33,7 @@
      "filters the noise of few samples away: a preview, not for figures",                      \
      .out = &(look)->is_denoised}
 
-/* What the picture says of itself besides develop.h's report. */
+/* The report on a picture, with develop.h's. */
 typedef struct LookReport {
     DevelopReport develop;
     DenoiseReport denoise; /* when develop.is_denoised */
@@ -52,7 +52,7 @@ typedef struct LookRequest {
 bool look_options_develop(const LookRequest *request, Arena scratch, LookReport *report,
                           Error *err);
 
-/* What stands behind the line of a picture: "", or ", denoised (...), locally adapted, light as
+/* The words behind the line of a picture: "", or ", denoised (...), locally adapted, light as
  * in an eye of ...". */
 const char *look_options_words(const LookReport *report, Arena *arena);
 

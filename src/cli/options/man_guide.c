@@ -139,7 +139,7 @@ static void print_cell(const char *text, size_t length, bool is_block)
     if (is_block) printf("\nT}");
 }
 
-/* The line of tbl that says how wide columns are; bold for the first row. */
+/* The format line of tbl, with the columns' widths; bold for the first row. */
 static void print_columns(const size_t widths[COLUMNS_MAX], int count, bool is_bold)
 {
     for (int i = 0; i < count; i++) {

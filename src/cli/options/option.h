@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* option.h -- a command and its options as a table: what is parsed, told by --help, printed as
- * a manual page and completed by shells.
+/* option.h -- a command and its options as a table: what is parsed, shown by --help, printed
+ * as a manual page and completed by shells.
  */
 #pragma once
 #include <stdbool.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* scene_options.h -- what a command line says about a scene besides its files, for the commands
+/* scene_options.h -- the command line's options for a scene besides its files, for the commands
  * that put light into one: render, and measure --illuminance.
  *
  * Memory   the command's arena.

@@ -19,7 +19,7 @@
 #include "panel/query/panel_reflection.h"
 #include "panel/query/panel_report.h"
 
-/* What is asked for, and how the answer shall look. */
+/* The command line of `panel eval`. */
 typedef struct EvalRequest {
     PanelQuestion question;
     const char   *batch, *grid;

@@ -15,7 +15,7 @@
 #include "panel/fit/fit.h"
 #include "panel/query/panel_open.h"
 
-/* What the process took. */
+/* The memory and CPU time of the process. */
 static void add_usage(json_t *report)
 {
     struct timespec now;
@@ -26,7 +26,7 @@ static void add_usage(json_t *report)
                         json_real((double)now.tv_sec + 1e-9 * (double)now.tv_nsec));
 }
 
-/* What the command line says. */
+/* The command line of `panel fit`. */
 typedef struct FitWords {
     Cli         cli;
     const char *output, *root, *levels;
@@ -126,7 +126,7 @@ static FitOptions options_of(const FitWords *words)
     return fit;
 }
 
-/* Of the file as it was written. */
+/* Read back from the file that was written. */
 static bool add_facts(const char *path, json_t *report, Arena *arena, Error *err)
 {
     Panel *panel = NULL;

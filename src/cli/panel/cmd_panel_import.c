@@ -80,7 +80,7 @@ static void print_summary(const ImportSet *set, const char *manifest, Arena *are
 #define KEYS_MAX 32
 #define OPTIONS_MAX (KEYS_MAX + 24)
 
-/* What the command line holds before it is put on top of the declaration file. */
+/* The command line before it is put on top of the declaration file. */
 typedef struct Words {
     const char *output, *layout, *root, *primaries, *levels, *panel, *instrument, *format,
         *symmetry;

@@ -17,7 +17,7 @@
 #define LEAST_SIZE 160
 #define LARGEST_SIZE 20000
 
-/* What the command line asks for. */
+/* The command line of `panel plot`. */
 typedef struct PlotRequest {
     const char *panel, *measured, *root, *picture, *report, *contours, *ambient;
     PlotOptions options;

@@ -9,7 +9,7 @@
 #include "panel/set/closed_form.h"
 #include "panel/set/simulate.h"
 
-/* The closed form at one direction: what a perfect fit would say. */
+/* The closed form at one direction: the answer of a perfect fit. */
 static bool print_closed_form(const SyntheticPanel *panel, const double at[5], Error *err)
 {
     double  xyz[3], angles[2] = {radians_from_degrees(at[0]), radians_from_degrees(at[1])};

@@ -53,7 +53,7 @@ bool panel_grid_parse(const char *text, PanelGrid *out, Error *err)
 
 /* ---- CSV ------------------------------------------------------------------------------- */
 
-/* What the numbers below are. */
+/* Describes the numbers below it. */
 static void print_comment(const PanelQuestion *q)
 {
     if (q->is_brdf)

@@ -26,7 +26,7 @@ typedef struct PanelGrid {
 /* "THETA0:THETA1:STEP,PHI0:PHI1:STEP"; theta within 0..90, phi within -360..360. */
 bool panel_grid_parse(const char *text, PanelGrid *out, Error *err);
 
-/* What a matrix shows: the names of --quantity. */
+/* The quantities of a matrix: the names of --quantity. */
 #define PANEL_QUANTITIES "X|Y|Z|u|v|brdf"
 
 /* question: everything but theta and phi. quantity: index of PANEL_QUANTITIES. */

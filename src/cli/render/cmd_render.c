@@ -134,8 +134,8 @@ static bool identify(RenderRun *work, Error *err)
                                   &options->resume, err);
 }
 
-/* What the frame's samples are of, but for what is learnt: that takes a while, and follows from
- * the rest. *kernel: the one that will be used. */
+/* The identity of the frame's samples, without what is learnt: that takes a while, and follows
+ * from the rest. *kernel: the one that will be used. */
 static bool identify_plan(const RenderRun *work, const Kernel **kernel, const char **identity,
                           Error *err)
 {
@@ -195,7 +195,7 @@ static void warn(RenderRun *work, const char *text)
     problems_add(&work->problems, SEVERITY_WARNING, "", "", "%s", text);
 }
 
-/* What the render goes on without. */
+/* A warning of an error that the render survives. */
 static void warn_of(RenderRun *work, const Error *err)
 {
     char line[2048];
@@ -215,7 +215,7 @@ static void warn_of_dropped(RenderRun *work, const RenderResult *result)
                             dropped.first[0].sample_index));
 }
 
-/* A picture that the scene names was cleaned, and told of, when it was loaded. */
+/* A picture that the scene names was cleaned, and reported, when it was loaded. */
 static void warn_of_picture(RenderRun *work, const RenderResult *result)
 {
     if (!result->refused_pixels || work->request.replays) return;

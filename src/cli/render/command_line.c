@@ -11,8 +11,8 @@
 /* ---- words ------------------------------------------------------------------------------- */
 
 /* How many words, this one first, leave every pixel as it is, since they only name files, make
- * a picture of the frame as well, or say how the run goes: frames that are the same say the
- * same, whatever they are called and however often the render was interrupted. */
+ * a picture of the frame as well, or control the run: equal frames have equal words, under any
+ * name and however often the render was interrupted. */
 static int idle_words(const char *word)
 {
     static const struct {

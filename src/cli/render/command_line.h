@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* command_line.h -- command lines as a shell would take them again: frames tell how they were
- * made, and a frame that was merged tells how one run would have made it.
+/* command_line.h -- command lines as a shell would take them again: frames record how they were
+ * made, and a merged frame how one run would have made it.
  *
  * Memory   the arena's.  Threads  no shared state.  Fails  never.
  */
@@ -11,9 +11,9 @@
  * outputs, what concerns the picture beside the frame, threads, progress, checkpoints. */
 const char *command_line_join(int argc, char **argv, bool with_idle, Arena *arena);
 
-/* The words of a `render` that its parts have in common, without its name (argv[0]): what names
- * outputs, says how the run goes, or which samples and pixels, is left out. Lists of the arena,
- * texts of argv. */
+/* The words of a `render` that its parts have in common, without its name (argv[0]): what
+ * names outputs, controls the run, or chooses samples and pixels, is left out. Lists of the
+ * arena, texts of argv. */
 const char **command_line_part_words(int argc, char **argv, Arena *arena, int *count);
 
 /* The `parhelion render` of a part, changed to render `whole`: its range and crop go in, or out

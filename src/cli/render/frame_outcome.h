@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* frame_outcome.h -- what a frame says of how it came out: the same words from a render and
+/* frame_outcome.h -- the attributes of how a frame came out: the same from a render and
  * from a merge of its parts.
  *
  * Memory   the arena's.  Threads  no shared state.  Fails  never.

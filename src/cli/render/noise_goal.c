@@ -15,7 +15,7 @@ static bool is_inside(const double corner[4], FilmRect crop)
            corner[1] >= crop.y0 && corner[1] < corner[3] && corner[3] <= crop.y1;
 }
 
-/* What stands before the last colon. */
+/* area: the text before the last colon. */
 static bool parse_area(const char *area, FilmRect crop, NoiseGoal *goal, Error *err)
 {
     double corner[4];

@@ -24,5 +24,5 @@ bool noise_goal_parse(const char *text, FilmRect crop, Arena *arena, NoiseGoal *
 /* Finds the named display in the loaded scene. */
 bool noise_goal_find(const Scene *scene, Arena scratch, NoiseGoal *goal, Error *err);
 
-/* The pixels that count, as one would say it: "the frame", "the displays". */
+/* The pixels that count, in words: "the frame", "the displays". */
 const char *noise_goal_words(const NoiseGoal *goal, Arena *arena);

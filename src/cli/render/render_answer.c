@@ -65,7 +65,7 @@ static void set_names(FrameImage *frame, const Scene *scene, unsigned layers, Ar
                          scene->displays[i].name, arena);
 }
 
-/* What is approximate stands with the frame. */
+/* Records the approximations with the frame. */
 static void set_eye(FrameImage *frame, const PolarisedEye *eye, Arena *arena)
 {
     frame_set_string(frame, "parhelion:polarised",
@@ -175,7 +175,7 @@ static json_t *worst_pixels(const Film *film)
     return list;
 }
 
-/* What was learnt before the first sample; null: nothing. */
+/* The training before the first sample; null: none. */
 static json_t *training_document(const RenderResult *result)
 {
     char hash[17];

@@ -13,8 +13,8 @@
  *
  * One line for each thing, "name<TAB>value\n", always in the same order, no name twice. Files
  * stand with their name but without their folder, so that a folder may move. Numbers are exact
- * (every digit that tells a float or a double from its neighbours). What decides which samples
- * are taken, and how they are shown, is not in it: crop, samples, noise, threads, look, names.
+ * (all digits of a float or a double). What decides which samples are taken, and how they are
+ * shown, is not in it: crop, samples, noise, threads, look, names.
  *
  * Memory   the arena's.  Threads  no shared state.  Fails  never.
  */

@@ -109,8 +109,8 @@ static void spend(TimeShare *time, double begun_s)
     time_share_spend(time, monotonic_seconds() - begun_s);
 }
 
-/* What there is time for; NULL: nothing. The picture comes first: what it took says what all
- * layers will. */
+/* The update that there is time for; NULL: none. The picture comes first: its time predicts
+ * that of all layers. */
 static TimeShare *affordable(RenderLive *live, double now_s)
 {
     TimeShare *picture = &live->picture_time, *layers = &live->layers_time;

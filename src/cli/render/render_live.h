@@ -7,7 +7,7 @@
  *          for 2, as soon as these are enough; besides them the last frame, which has all and
  *          cannot be put off. The file is written at most every ten seconds and gets a
  *          twentieth.
- *          viewer.h says how long a viewer may hold up the ends of a render.
+ *          viewer.h states how long a viewer may hold up the ends of a render.
  * Memory   scratch; and the viewer's queue until render_live_close.
  * Threads  the one that called render_prepared.
  * Fails    once each: with why the viewer is lost or the file is not written; from then on

@@ -178,7 +178,7 @@ static bool check_live(const RenderRequest *request, Error *err)
 
 /* ---- a frame that is shared out ---------------------------------------------------------- */
 
-/* What belongs to one run cannot be shared; `why` begins after the option. */
+/* Refuses an option that belongs to one run; `why` follows it in the text. */
 static bool refuse_shared(const char *option, const char *why, Error *err)
 {
     return error_set(err, ERROR_USAGE, "%s does not go with --slurm: %s", option, why);

@@ -10,8 +10,8 @@
 /* Before anything is done: can it be written, and is what stands there a checkpoint? */
 bool render_check_checkpoint(const RenderRequest *request, Error *err);
 
-/* What --resume goes on from; *out is NULL where nothing is there yet, and a line says so. One
- * of another render, or of other pixels or samples, is refused by what differs. */
+/* The checkpoint that --resume goes on from; NULL, with a line printed, where none is there
+ * yet. One of another render, or of other pixels or samples, is refused by what differs. */
 bool render_find_checkpoint(const RenderRequest *request, const char *identity, Arena *arena,
                             const Checkpoint **out, Error *err);
 

@@ -9,7 +9,7 @@
 #include "scene/scene.h"
 
 /* From --eye to --look-at; else by a node's name, then a camera's, then an index; else the
- * first. A scene without a camera is framed (camera_frame_scene), and a warning says so. */
+ * first. A scene without a camera is framed (camera_frame_scene), with a warning. */
 bool render_choose_camera(const Scene *scene, const CameraChoice *choice, Problems *problems,
                           SceneCamera *out, Error *err);
 

@@ -42,7 +42,7 @@ typedef struct ReviewWords {
     Cli         cli;
     const ReviewTask *task; /* NULL: the user's own command */
     bool        watches;  /* --watch */
-    ReviewWatch *watch;   /* that is told of files; NULL: nobody watches */
+    ReviewWatch *watch;   /* gets the files to watch; NULL: nobody watches */
 } ReviewWords;
 
 static bool parse(int argc, char **argv, Arena *arena, ReviewWords *out, Error *err)
@@ -129,7 +129,7 @@ static bool print_plan(const Cli *cli, const ReviewRequest *r, const ReviewPlan 
     return true;
 }
 
-/* Of a review that was stopped. */
+/* Points to the remains of a review that was stopped. */
 static void print_unfinished(const ReviewFolder *folder, Arena *arena)
 {
     const char *journal = arena_format(arena, "%s/unfinished/journal", folder->target);
@@ -226,7 +226,7 @@ static bool write_so_far(void *user, const ReviewOutcome *outcome, int done, Err
 
 /* ---- all of it --------------------------------------------------------------------------- */
 
-/* What follows when all conditions are reviewed, in turn. */
+/* A step after all conditions are reviewed; they run in turn. */
 typedef struct Later {
     bool (*make)(const ReviewRun *run, const ReviewFolder *folder, ReviewOutcome *outcome,
                  Arena *arena, Error *err);
@@ -275,7 +275,7 @@ static const char *still_to_come(const Later *later, int first, int count, Arena
     return any ? words.data : NULL;
 }
 
-/* Each is told as soon as it is known. Frames take long: all else is safe before, and names
+/* Each is written as soon as it is known. Frames take long: all else is safe before, and names
  * them after. */
 static bool make_later(const ReviewRun *run, ReviewFolder *folder, ReviewOutcome *outcome,
                        Arena *arena, Error *err)
@@ -323,7 +323,7 @@ static bool make_all(ReviewRun *run, ReviewFolder *folder, ReviewWatch *watch,
     return ok;
 }
 
-/* Of a job that is merged: what its parts found. */
+/* For a job that is merged: takes its parts' findings. */
 static bool take_found(const ReviewFolder *folder, const ReviewTask *task, Arena scratch,
                        Error *err)
 {
@@ -460,7 +460,7 @@ static bool review(const ReviewWords *words, Arena *arena, Error *err)
 
 /* ---- again and again --------------------------------------------------------------------- */
 
-/* A review that fails is told of, and its files are watched: the next save may mend it. */
+/* A review that fails is reported, and its files are watched: the next save may mend it. */
 static bool review_once(const ReviewWords *words, Error *err)
 {
     Arena once = arena_reserve(machine_memory_bytes());

@@ -117,7 +117,7 @@ static bool has_ending(const char *name, const char *ending)
     return !strcmp(path_ending(name), ending);
 }
 
-/* What a writer that was killed left behind. */
+/* Did a writer that was killed leave it behind? */
 static bool is_leftover(const char *name)
 {
     return has_ending(name, ".part") || has_ending(name, ".parhelion-part");
@@ -130,7 +130,7 @@ static bool starts_with(const char *text, const char *start)
 
 /* ---- what a review names ----------------------------------------------------------------- */
 
-/* A frame is told of by its picture: NAME.png stands for NAME.exr and NAME-outlook.png, too. */
+/* A frame is named by its picture: NAME.png stands for NAME.exr and NAME-outlook.png, too. */
 static bool is_of_frame(const char *name, const char *frame)
 {
     size_t length = frame ? (size_t)(path_ending(frame) - frame) : 0;
@@ -172,8 +172,8 @@ static bool is_among(const DraftFiles *files, const char *name)
     return false;
 }
 
-/* Of the earlier review, if one stands there: tables and frames that it names, and what not
- * every review has. A damaged one names nothing. */
+/* Removes an earlier review's tables and frames, as it names them, and what not every review
+ * has, unless published. A damaged one names nothing. */
 static void remove_earlier(const ReviewDraft *draft, const Review *review,
                            const DraftFiles *published)
 {

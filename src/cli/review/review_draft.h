@@ -28,7 +28,7 @@ typedef struct ReviewDraft {
     Journal    *journal;
 } ReviewDraft;
 
-/* Makes the folders that are not there. Whatever was done before goes on. */
+/* Makes the folders that are not there. Work that was begun before goes on. */
 bool review_draft_open(const char *target, Arena *arena, Problems *problems, ReviewDraft *out,
                        Error *err);
 

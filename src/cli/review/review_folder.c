@@ -137,7 +137,7 @@ static void add_charts(const ReviewFolder *folder, const ReviewOutcome *outcome,
 
 /* ---- the page ---------------------------------------------------------------------------- */
 
-/* What a frame's pictures are, for a reader. */
+/* Titles and captions of a frame's pictures. */
 static const struct {
     const char *title, *caption;
 } VIEWS[] = {
@@ -308,7 +308,7 @@ static bool put_layers_beside(const ReviewFolder *folder, ReviewLive *live, Aren
     return true;
 }
 
-/* What a page is made of besides the review. */
+/* Fills all of the page but the review. */
 static bool fill_page(const ReviewFolder *folder, const ReviewOutcome *outcome,
                       ReviewPage *page, Arena *arena, Error *err)
 {

@@ -43,7 +43,7 @@ bool review_take_responses(const char *folder, const ReviewTask *task, Arena scr
     return ok;
 }
 
-/* The mark is all that tells a part that is done from one that was stopped. */
+/* The mark alone distinguishes a part that is done from one that was stopped. */
 static bool answer(ReviewRun *run, const ReviewTask *task, Arena *arena, Error *err)
 {
     ReviewOutcome ignored;

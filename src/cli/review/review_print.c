@@ -47,7 +47,7 @@ static void print_sweep(const ReviewSweep *s, Arena scratch)
     putchar('\n');
 }
 
-/* What takes half of what there is to be seen. */
+/* Prints a gaze that keeps less than half of the contrast. */
 static void print_gaze(const GazeFinding *g, Arena scratch)
 {
     if (!(g->contrast_left < GAZE_POOR)) return;

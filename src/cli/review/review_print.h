@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* review_print.h -- what a review says on stdout: a line a case, or review.json.
+/* review_print.h -- a review's answer on stdout: a line a case, or review.json.
  *
  * Memory   scratch only. Threads: one at a time. Fails: when stdout cannot be written.
  */

@@ -37,7 +37,7 @@ static double distance_m(const SkyPlace *from, const SkyPlace *to)
     return 2 * EARTH_M * asin_d(fmin(1, sqrt(up * up + cos_d(p) * cos_d(q) * along * along)));
 }
 
-/* Points [first, last) head so, unless the file says another heading of theirs. */
+/* Sets the heading of points [first, last), unless the file gives their own. */
 static void set_headings(RoutePoint *points, int first, int last, double heading_deg)
 {
     for (int i = first; i < last; i++)
@@ -64,7 +64,7 @@ static bool find_headings(RoutePoint *points, int count)
     return has_moved;
 }
 
-/* What the file leaves out needs a move to tell it. */
+/* Headings that the file leaves out follow from movement, so some points must move. */
 static bool fill_headings(const RoutePoints *points, Error *err)
 {
     bool has_moved = find_headings(points->list, points->count), is_said = true;

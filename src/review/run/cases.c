@@ -27,13 +27,13 @@
 #define FACE_SEED 0x66616365u
 #define EYE_SEED 0x65796573u
 #define SUN_PATHS SYMBOL_POINTS
-/* Of a case that is too close, where that is to be decided: afresh, by so many more paths. */
+/* Where a case that is too close is to be decided: so many more paths a round, read afresh. */
 #define DECIDE_TIMES 8
 #define DECIDE_ROUNDS 2
 #define DECIDE_SEED 0x64656369u
-/* Of a review with variants, and of those: their differences are then known twice as well as
- * two such reviews would know them even where nothing is common to both, as with another panel,
- * whose lobes send paths elsewhere. */
+/* Times the paths of a review with variants, and of those: their differences are then known
+ * twice as well as two such reviews would know them even where nothing is common to both, as
+ * with another panel, whose lobes send paths elsewhere. */
 #define COMPARED_TIMES 4
 #define COARSE_PRECISION 0.05
 #define COARSE_PATHS 8192
@@ -88,7 +88,7 @@ static double face_lux(const CaseTools *tools, const SetupSymbol *symbol, Arena 
     return setup_ask(setup, &aim, &goal, scratch).reflected;
 }
 
-/* What the display sends to the eye straight from the sun, cd m^-2. */
+/* The display's luminance to the eye by direct sun alone, cd m^-2. */
 typedef struct DirectSun {
     double scattered, mirror;
 } DirectSun;
@@ -157,7 +157,7 @@ typedef struct VerdictAsk {
     DirectSun         direct; /* of the reflected light */
 } VerdictAsk;
 
-/* Would each limit that counts say the same, wherever in the interval the light lies? */
+/* Is each limit that counts met, or missed, wherever in the interval the light lies? */
 static bool is_verdict_clear(void *user, MeanInterval reflected, Arena scratch)
 {
     const VerdictAsk *ask = user;
@@ -199,7 +199,7 @@ static const char *name_of(const VerdictAsk *ask, Arena *arena)
     return text.data;
 }
 
-/* Of the same case of the review that this is a variant of: a sweep's worst, or a moment's. */
+/* For a variant: paths of its review's same case, a sweep's worst or a moment's; else 0. */
 static long base_paths(const VerdictAsk *ask)
 {
     const Review     *review = ask->tools->base;
@@ -283,8 +283,8 @@ static const double *keep_batches(const Reading *reading, Arena *arena)
     return kept;
 }
 
-/* What does not depend on the eye is set. The aim has no targets where nothing is visible;
- * *direct: of what is reflected. */
+/* *c holds all that does not depend on the eye. The aim has no targets where nothing is
+ * visible; *direct: of what is reflected. */
 static ProbeAim see_symbol(const CaseTools *tools, const CaseLook *look, ReviewCase *c,
                            DirectSun *direct, Arena *arena)
 {
@@ -355,7 +355,7 @@ static ReviewCase start_case(const CaseTools *tools, const ReviewEye *eye,
     return c;
 }
 
-/* What is asked of one symbol and one eye. */
+/* The question of one symbol and one eye. */
 typedef struct CaseAsk {
     const ReviewEye   *eye;
     const SetupSymbol *symbol;
@@ -376,7 +376,7 @@ static ProbeAim judge_look(const CaseTools *tools, const CaseLook *look, ReviewC
     return aim;
 }
 
-/* Of the points of an eye; and how many of them fail. */
+/* The index of an eye's worst point; sets the share of points that fail. */
 static int worst_point(const CaseTools *tools, const CaseLook *look, const Vec3 *points,
                        int count, ReviewCase *c, Arena scratch)
 {
@@ -423,7 +423,7 @@ static bool case_of(const CaseTools *tools, const CaseAsk *ask, Arena *arena, Re
 
 /* ---- before all cases -------------------------------------------------------------------- */
 
-/* What a lesson looks at: a picture about the symbols. */
+/* The picture from which guides are trained: one about the symbols. */
 #define LESSON_WIDTH 480
 #define LESSON_HEIGHT 270
 #define LESSON_DEG 60.0
@@ -466,7 +466,7 @@ static void take_lesson(Setup *setup, Vec3 eye, Vec3 towards, Arena *arena)
     const char    *file = setup->lessons ? lesson_file(setup, eye, towards, arena) : NULL;
     if (file && read_lesson(setup, file, arena)) return;
     setup->context.guide = train_guide(&setup->context, &camera, &train, arena, &cost);
-    Error ignored; /* who cannot keep it teaches it again: the same lesson, of the same seed */
+    Error ignored; /* unkept, it is trained again: the same lesson, of the same seed */
     if (file) guide_write(file, setup->context.guide, *arena, &ignored);
 }
 
@@ -475,7 +475,7 @@ static bool is_variant(const Setup *setup)
     return setup->request->change != NULL;
 }
 
-/* What the review itself was taught under this condition. */
+/* Takes the guide that the review itself trained under this condition. */
 static bool inherit_lesson(Setup *setup)
 {
     GuideScene scene = train_guide_scene(&setup->context);

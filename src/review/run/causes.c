@@ -46,7 +46,7 @@ static CaseCause all_other(const Chains *chains, const ReviewCase *c, Arena *are
     return cause;
 }
 
-/* Of surfaces or of panes the one by which most light comes. */
+/* Adds the surface or (of_panes) the pane by which most light comes. */
 static void add_part(const Chains *chains, bool of_panes, CauseFacts *facts, Arena *arena)
 {
     const Scene *scene = chains->scene;
@@ -75,7 +75,7 @@ static CauseFacts facts_of(const Chains *chains, Arena *arena)
 
 /* ---- groups ------------------------------------------------------------------------------ */
 
-/* As many are told as have so much of the light, and no more than so many. */
+/* The greatest are listed up to this share of the light, and up to this count. */
 #define GROUP_LISTED 0.97
 #define GROUP_MOST 24
 
@@ -87,7 +87,7 @@ typedef struct Growing {
     Arena     *arena;
 } Growing;
 
-/* What has the same name counts as one: a row of street lamps. */
+/* Things of the same name count as one: a row of street lamps. */
 static void add(Growing *to, const char *what, double cd_m2)
 {
     int i = 0;
@@ -151,7 +151,7 @@ static int compare(const void *a, const void *b)
     return strcmp(x->what, y->what);
 }
 
-/* One that is all that is left is told by its name. */
+/* A single one that is left is listed by its name, not as "other". */
 static CaseGroup listed(Growing *group)
 {
     double sum = 0, other = 0;

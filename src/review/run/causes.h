@@ -24,26 +24,26 @@ typedef struct CauseAsk {
     long                paths;
     int                 rays;        /* of each cause, at most CHAIN_RAYS */
     bool                with_direct; /* what the eye sees by itself counts, too */
-    bool                sets_luminances; /* the case has no reading: what is reflected is what
-                                            these paths tell */
+    bool                sets_luminances; /* the case has no reading: these paths give what is
+                                            reflected */
 } CauseAsk;
 
-/* What could be made black. */
+/* A surface or pane that could be made black. */
 typedef struct CausePart {
     const char *what;  /* to do with it */
     double      cd_m2; /* all reflected light that comes by it */
 } CausePart;
 
-/* What the remedies need besides the case. */
+/* Input of the remedies besides the case. */
 typedef struct CauseFacts {
     double      own_cd_m2;  /* reflected light that began at the display itself */
-    ChainFigure all, mirror; /* of what these paths tell; and by the display's mirror */
+    ChainFigure all, mirror; /* of these paths; and by the display's mirror */
     CausePart   parts[2];    /* the surface and the pane by which most of it comes */
     int         part_count;
 } CauseFacts;
 
 /* Sets the case's causes: the greatest CAUSES_MOST, and "all other ways", which add up to the
- * reflected light as these paths tell it, and the groups; that light itself where asked. */
+ * reflected light by these paths, and the groups; that light itself where asked. */
 CauseFacts case_causes(const CauseAsk *ask, ReviewCase *c, Arena *arena);
 
 /* Sets its remedies, from its figures and causes: nothing is traced. Where its limit is kept

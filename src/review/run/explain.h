@@ -2,11 +2,11 @@
 /* explain.h -- why one thing looks as it does: a symbol of a review under one condition, a
  * display, or a part of a camera's picture.
  *
- * What is told is a ReviewCase with its causes, by more paths than a review takes, and with
- * more of their rays.
+ * The answer is a ReviewCase with its causes, by more paths than a review takes, and with more
+ * of their rays.
  *
  * Units    verdict.h's.
- * Memory   what is told lives in the arena.
+ * Memory   the answer lives in the arena.
  * Threads  starts its own; the same figures for any count.
  * Fails    where a name is missing or not known: the text lists those that there are.
  */
@@ -38,7 +38,7 @@ typedef struct Explained {
     long        paths;
 } Explained;
 
-/* What a symbol's middle sees; the eye stands before it. */
+/* The half space that a symbol's middle faces; the eye stands before it. */
 Outlook setup_outlook(const Setup *setup, const SetupSymbol *symbol, Vec3 eye, Arena *arena);
 
 bool explain_review(const ReviewRequest *request, const ExplainOptions *options, Arena *arena,

@@ -48,7 +48,7 @@ static bool meet(const ExplainPlace *place, Vec3 target, bool wants_display, Hit
     return false;
 }
 
-/* What the display there sends towards the eye, in white, in black and as it is. */
+/* Adds the Y that the display there sends towards the eye, in white, in black and as it is. */
 static bool add_sent(const ExplainPlace *place, Vec3 target, double sent[3], int *display_id)
 {
     static const float codes[2][3] = {{255, 255, 255}, {0, 0, 0}};

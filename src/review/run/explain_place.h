@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* explain_place.h -- the same for a display or a part of a picture, without a review.
  *
- * Units    explain.h's.  Memory  what is told lives in the arena.
+ * Units    explain.h's.  Memory  the answer lives in the arena.
  * Threads  starts its own; the same figures for any count.
  */
 #pragma once

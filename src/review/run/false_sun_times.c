@@ -70,7 +70,7 @@ static Veil worst_veil(const Gazes *gazes, HumanEye whose, Vec3 seen, double lux
     return worst;
 }
 
-/* What one mirror does to one eye. */
+/* The sun in one mirror as one eye sees it. */
 typedef struct Tally {
     int    part_id;
     double minutes, suns, longest;
@@ -186,7 +186,7 @@ static void watch_all(const Watch *watch, const SweepSuns *suns)
             watch_heading(watch, suns, &condition->headings_deg[h]);
 }
 
-/* ---- what is told ------------------------------------------------------------------------ */
+/* ---- results ----------------------------------------------------------------------------- */
 
 static int by_veil(const void *a, const void *b)
 {

@@ -7,8 +7,8 @@
  *
  * What counts  images that lay a veil of FALSE_SUN_VEIL_CD_M2 at least over what the eye looks
  *              at: the symbols, and the request's gazes.
- * Approximate  as light/false_suns.h says; skies are clear, whatever the weather; an eye box
- *              counts by its middle; mirrors take colours as those of a sun at 30 degrees are.
+ * Approximate  as light/false_suns.h; skies are clear in any weather; an eye box counts by its
+ *              middle; mirrors take colours as those of a sun at 30 degrees are.
  * Memory       from the arena. Threads: the same figures for any count.
  */
 #pragma once

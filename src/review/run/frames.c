@@ -62,7 +62,7 @@ static RenderOptions options_of(const FrameAsk *ask)
         .within_weight = ask->exposure ? work_of_pair(request) : work_of_frame(request)};
 }
 
-/* As frames of a render say it, where it is known here. */
+/* The attributes of a rendered frame, as far as they are known here. */
 static void set_words(FrameImage *frame, const FrameAsk *ask, const SceneCamera *camera,
                       const RenderResult *result, Arena *arena)
 {
@@ -131,7 +131,7 @@ static bool write_file(void *context, int item, Error *err)
     return ok;
 }
 
-/* Of a pair, the picture alone. */
+/* A pair has the picture alone. */
 static int views_of(const FrameAsk *ask)
 {
     return ask->exposure ? 1 : FRAME_VIEWS;

@@ -69,7 +69,7 @@ static Range range_of(double mean, double half)
     return (Range){fmax(mean - half, 0), mean + half};
 }
 
-/* Of through / all, all = through + veils, by its derivatives: they are read by themselves. */
+/* Standard error of through / all, all = through + veils; the three are read independently. */
 static double contrast_sigma(const GazeReading *along, double all, double veil_sigma)
 {
     double by_veils = along->through * hypot(along->mirrored_sigma, veil_sigma);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* job.h -- what a review is made of and into: shared by the run and its sweeps.
  *
- * Memory   the review lives in the arena of whoever makes it.
+ * Memory   the review lives in the arena of its maker.
  * Threads  plain data.
  */
 #pragma once
@@ -18,9 +18,9 @@
 
 typedef struct ReviewOutcome ReviewOutcome;
 
-/* Whoever wants to know what is known so far: after each condition, with how many are done. It
- * must change nothing. NULL: nobody. Fails: what it says ends the review. And which files
- * scenes are made of, once they are read; NULL: the same. */
+/* Callbacks of a running review; NULL: none. on_condition: after each condition, with how many
+ * are done; it must change nothing, and its failure ends the review. read: gets each scene,
+ * whose files are known then. */
 typedef struct ReviewNews {
     bool (*on_condition)(void *user, const ReviewOutcome *so_far, int done, Error *err);
     void (*read)(void *user, const Scene *scene);
@@ -65,7 +65,7 @@ typedef struct ReviewRun {
 /* A variant's run, by its request, held against that. */
 ReviewRun review_run_of(const ReviewRun *run, const ReviewRequest *request, const Review *base);
 
-/* What a sweep found of each of its suns: one symbol, one eye. */
+/* A sweep's results under each of its suns: one symbol, one eye. */
 typedef struct SweepTable {
     int              sweep_id;  /* of the review */
     int              worst;     /* sun; -1: none */

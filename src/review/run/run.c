@@ -195,7 +195,7 @@ static bool check_planned(const ReviewRun *run, const Setup *setup, Arena scratc
                     setup->condition->name);
 }
 
-/* Of the scene that has most of them. */
+/* Keeps the list of the scene that has most of them. */
 static void report_without_data(const Scene *scene, Review *review, Arena scratch, Arena *arena)
 {
     int  count;

@@ -8,11 +8,11 @@
 #pragma once
 #include "review/run/job.h"
 
-/* Of a run that has a share the journal is what comes out, and responses; *out says nothing. */
+/* A run that has a share yields its journal and responses; *out is then meaningless. */
 bool review_run(const ReviewRun *run, Arena *arena, ReviewOutcome *out, Error *err);
 
-/* What is there already of the work that is asked. Every scene is loaded, and its symbols are
- * found, so that what would end the review later is told now. */
+/* How much of the work is done already. Every scene is loaded, and its symbols are found, so
+ * that what would end the review later is reported now. */
 typedef struct ReviewPlan {
     int responses, responses_kept; /* of sweeps; those in the run's folder */
     const char *identity; /* what decides the answers: the program, and a line a condition */

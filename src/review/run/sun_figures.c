@@ -16,7 +16,7 @@ static double level_for(const Sweep *sweep, const Sight *sight, int sun)
                           sight->symbol->display_name, lux);
 }
 
-/* The figures of a case under one sun; limits are judged by whoever asks. */
+/* The figures of a case under one sun; the caller judges its limits. */
 static ReviewCase case_at(const Sweep *sweep, const Sight *sight, const DistantTools *tools,
                           int sun)
 {
@@ -37,7 +37,7 @@ static ReviewCase case_at(const Sweep *sweep, const Sight *sight, const DistantT
     return c;
 }
 
-/* ---- what is told of them ---------------------------------------------------------------- */
+/* ---- all suns ---------------------------------------------------------------------------- */
 
 SunFigures sun_figures_start(int count, Arena *arena)
 {

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* sun_figures.h -- what one sight of a sweep says of every sun: its case, in figures.
+/* sun_figures.h -- the case of one sight of a sweep under every sun, in figures.
  *
  * Units    verdict.h's.
  * Memory   from the arena.
- * Threads  told_tell starts its own; the same figures for any count.
+ * Threads  sun_figures_judge starts its own; the same figures for any count.
  */
 #pragma once
 #include "review/run/sweep_probes.h"
@@ -18,7 +18,7 @@ typedef struct SunFigures {
 
 SunFigures sun_figures_start(int count, Arena *arena);
 
-/* The sight, asked of the sweep's suns, tells of each. */
+/* Judges the case under each of the sweep's suns, of which the sight was asked. */
 void sun_figures_judge(const Sweep *sweep, const Sight *sight, const DistantTools *tools,
                        SunFigures *figures, Arena room);
 

@@ -16,8 +16,8 @@
 #include "review/run/sweep_weather.h"
 
 #define WORST_READ 3          /* steps that are read again, at most */
-#define WORST_APART_DEG 5.0   /* the suns of two of them, at least: as wide as what a response
-                                 tells apart */
+#define WORST_APART_DEG 5.0   /* the suns of two of them, at least: a response's angular
+                                 resolution */
 #define PICK_SEED 0x40000000u
 #define SWEEP_BYTES ((size_t)1 << 36) /* address space: what is not touched costs nothing */
 
@@ -32,7 +32,7 @@ static DaylightInput air_of(const ReviewCondition *condition)
     return air;
 }
 
-/* Of a sweep without times: every sun counts alike. */
+/* For a sweep without times: every sun counts alike. */
 static double failed_share(const SweepSuns *suns, const SunFigures *figures)
 {
     double failed = 0;
@@ -42,7 +42,7 @@ static double failed_share(const SweepSuns *suns, const SunFigures *figures)
 
 /* ---- the worst, read again as a moment --------------------------------------------------- */
 
-/* Of a weather file: none when it is dark. */
+/* Sets a weather file's sky: none when it is dark. */
 static void set_weather(const Setup *setup, const SweepSun *sun, Environment *environment)
 {
     bool is_lit = sweep_weather_light(setup->request, setup->condition, sun,
@@ -71,13 +71,13 @@ Environment sweep_environment(const Setup *setup, const SweepSun *sun)
     return environment;
 }
 
-/* What a sight says of every sun, which holds for its twin, too. */
+/* A sight's figures under every sun, which hold for its twin, too. */
 typedef struct SightFigures {
     SunFigures figures;
     double failed_share, longest_failure_minutes;
 } SightFigures;
 
-/* What a sweep does with each of its sights. */
+/* The state of reporting a sweep's sights. */
 typedef struct SweepReport {
     Sweep           *sweep;
     const DistantTools *tools;
@@ -130,7 +130,7 @@ static SweepSun refine(const SweepReport *to, const Sight *sight, SweepSun sun)
     }
 }
 
-/* Who is asked between steps. */
+/* User data of states_between. */
 typedef struct Between {
     const SweepReport *to;
     const Sight   *sight;
@@ -165,7 +165,7 @@ static void set_failures(const SweepReport *to, const Sight *sight, const SunFig
     out->longest_failure_minutes = found.longest_minutes;
 }
 
-/* picks: to choose it; with other paths than those that are told, by explain too. */
+/* picks: to choose it, by other paths than those of the reported reading and of explain. */
 static bool read_worst(SweepReport *to, const Sight *sight, const SweepSun *sun, bool picks,
                        ReviewCase *out, Error *err)
 {
@@ -253,10 +253,10 @@ static int next_failing(const SweepReport *to, const SunFigures *figures, const 
     return next;
 }
 
-/* The worst of many steps is the one with the worst luck, too: what is told is read afresh.
- * Where that does not fail, though steps do, so are others of them, until one does. Chosen for
- * that by paths of its own, it is read once more, and this is told whatever it says: who picks
- * the reading that fails of three is wrong three times as often. */
+/* The worst of many steps has the worst luck, too: the reported one is read afresh. Where that
+ * does not fail, though steps do, so are others of them, until one does. Chosen for that by
+ * paths of its own, it is read once more and reported in any case: picking the reading that
+ * fails of three is wrong three times as often. */
 static bool find_worst(SweepReport *to, const Sight *sight, const SunFigures *figures,
                        SweepSun *worst, ReviewCase *out, Error *err)
 {
@@ -283,7 +283,7 @@ static void add_table(const SweepReport *to, const Sight *sight, const SunFigure
                       const SweepSun *worst)
 {
     int id = (int)(sight - to->sweep->sights);
-    if (to->sweep->run->base) return; /* of a variant no table is told */
+    if (to->sweep->run->base) return; /* variants have no tables */
     to->tables[id] = (SweepTable){
         to->first + id, figures->worst, *worst, to->suns, figures->contrast, figures->low,
         figures->high, figures->margin, figures->reflected, figures->mirror, figures->level,
@@ -291,8 +291,8 @@ static void add_table(const SweepReport *to, const Sight *sight, const SunFigure
         sight->shown.background,         limits_asked(to, sight)};
 }
 
-/* Of a variant, whose tables nobody asks for, it lasts as long as the scratch. asked: the sight
- * with its suns. */
+/* A variant's figures, whose tables nobody asks for, last as long as the scratch. asked: the
+ * sight with its suns. */
 static SunFigures figures_of(SweepReport *to, const Sight *sight, const Sight *asked,
                              ReviewSweep *out)
 {
@@ -328,14 +328,14 @@ static bool report_sight(SweepReport *to, const Sight *sight, const Sight *asked
     return true;
 }
 
-/* Of its suns and its worst. */
+/* Its suns and its worst. */
 static double work_of_sight(const SweepSuns *suns)
 {
     return WORK_SUN * suns->count + WORK_WORST;
 }
 
 /* A sight for the review, then for its riders: its suns are asked, and forgotten when all is
- * told of them. */
+ * reported. */
 static bool report_asked(Sweep *sweep, SweepReport *to, int count, const Sight *sight,
                          Arena room, Error *err)
 {

@@ -4,12 +4,12 @@
  *
  * Each symbol, as each eye sees it, is a probe whose response is traced once (distant_probe.h);
  * its face and the sensor of the level are luxmeters. The worst case of each is read again as a
- * moment, with all paths, so that what is told of it is not the response's.
+ * moment, with all paths, so that its figures are not the response's.
  *
  * Approximate  an eye box counts by its middle; glints by way of a mirror that is no display
  *              are spread over the width of a response's triangle; clear skies between two
  *              elevations of the table are interpolated.
- * Memory       what is told lives in the arena; the rest is given back.
+ * Memory       the results live in the arena; the rest is given back.
  * Threads      starts its own; the same figures for any count.
  */
 #pragma once

@@ -17,6 +17,6 @@ bool sweep_table_write(const SweepTable *table, const ReviewCondition *condition
 ReviewMap sweep_map(const SweepTable *table, const ReviewSweep *sweep, double step_deg,
                     Arena *arena);
 
-/* Of a year. */
+/* For a year sweep. */
 ReviewCalendar sweep_calendar(const SweepTable *table, const ReviewSweep *sweep,
                               const ReviewCondition *condition, Arena *arena);

@@ -215,7 +215,7 @@ DistantTools sweep_tools(Sweep *sweep)
                           .sun_paths = SUN_PATHS, .has_mirror = true};
 }
 
-/* What is known of a sight is known of its twin. */
+/* Copies each sight's readings to its twin. */
 static void copy_twins(Sweep *sweep)
 {
     for (int i = 0; i < sweep->sight_count; i++) {
@@ -379,7 +379,7 @@ static bool find_false_suns(Sweep *sweep, Arena *arena, Error *err)
     return true;
 }
 
-/* For whoever puts the parts together: of the eyes that are this part's. */
+/* For the merge: searches for the eyes that are this part's. */
 static bool search_own_suns(Sweep *sweep, Arena scratch, Error *err)
 {
     const ReviewRun *run = sweep->run;
@@ -393,7 +393,7 @@ static bool search_own_suns(Sweep *sweep, Arena scratch, Error *err)
     return true;
 }
 
-/* A variant tells of none. */
+/* A variant reports none. */
 static bool find_suns(Sweep *sweep, Arena *arena, Error *err)
 {
     const ReviewRun *run = sweep->run;

@@ -97,9 +97,9 @@ Sight sweep_ask_sight(Sweep *sweep, const Sight *sight, Arena *arena);
 const DistantReading *sweep_read_sight(const Sight *asked, const DistantTools *tools,
                                        Arena *arena);
 
-/* What the meter reads under each of the tools' suns, asked where that is not kept. */
+/* The meter's readings under each of the tools' suns, asked where they are not kept. */
 const double *sweep_meter_read(const SweepMeter *meter, const DistantTools *tools,
                                Arena *arena);
 
-/* Of which they read these. */
+/* For the skies and suns of the condition in hand. */
 DistantTools sweep_tools(Sweep *sweep);

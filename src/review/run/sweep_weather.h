@@ -16,7 +16,7 @@
 bool sweep_weather_light(const ReviewRequest *request, const ReviewCondition *condition,
                          const SweepSun *sun, DaylightInput *out);
 
-/* What the file says of it: "512 W/m2 direct, 81 diffuse". */
+/* The file's irradiances at that step: "512 W/m2 direct, 81 diffuse". */
 const char *sweep_weather_text(const ReviewRequest *request, const ReviewCondition *condition,
                                const SweepSun *sun, Arena *arena);
 
@@ -27,5 +27,5 @@ bool sweep_weather_check(const ReviewRequest *request, const ReviewCondition *co
 bool sweep_weather_skies(const Setup *setup, const SweepSuns *suns, Arena *arena,
                          HourSkies *out, Error *err);
 
-/* What a reader must know of a file: where its rows' instants lie, and how well that fits. */
+/* A note for readers: where the instants of the file's rows lie, and how well that fits. */
 const char *sweep_weather_note(const ReviewWeather *weather, Arena *arena);

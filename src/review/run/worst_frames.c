@@ -53,7 +53,7 @@ static Candidate *candidates(ReviewOutcome *outcome, int *count, Arena *arena)
     return list;
 }
 
-/* What is in a frame: the same eye under the same light. */
+/* Are they seen in one frame: the same eye under the same light? */
 static bool is_one_view(const Candidate *a, const Candidate *b)
 {
     return a->table == b->table && !strcmp(a->of->eye, b->of->eye) &&
@@ -141,14 +141,14 @@ static bool add_sights(const FrameAsk *ask, ReviewCase *c, Arena *arena, Error *
 
 /* ---- one frame --------------------------------------------------------------------------- */
 
-/* Who is lit, and looks, as in a frame. */
+/* A frame to make: its eye and its light. */
 typedef struct FrameWork {
     const ReviewRun *run; /* of the review, or of a variant of it */
     const Candidate *of;
     const char      *name, *exposure; /* FrameAsk's */
 } FrameWork;
 
-/* A variant is seen as the review is, whatever became of the symbol. */
+/* A variant keeps the review's view, wherever its symbol is. */
 static bool aim(const FrameWork *work, const Setup *setup, FrameAsk *ask, Arena scratch,
                 Error *err)
 {
@@ -174,8 +174,7 @@ static bool make_lit(const FrameWork *work, Setup *setup, FrameAsk *ask, Arena *
            frame_make(ask, scratch, made, err);
 }
 
-/* *made: the picture's name, in the arena. of: its case is told what the frame shows; NULL:
- * nobody. */
+/* *made: the picture's name, in the arena. of: gets what the frame shows; NULL: not wanted. */
 static bool make_frame(const FrameWork *work, ReviewCase *of, Arena *arena, const char **made,
                        Error *err)
 {

@@ -11,7 +11,7 @@
  *          of its interval.
  * Units    minutes.
  * Memory   scratch only.
- * Threads  those of whoever is asked.
+ * Threads  those of the FailureAsk.
  */
 #pragma once
 #include "review/suns/sweep_suns.h"
@@ -29,6 +29,6 @@ typedef struct Failures {
     double longest_minutes; /* of the stretches */
 } Failures;
 
-/* Of a sweep that has times. ask: NULL: a stretch ends with its steps. */
+/* For sweeps that have times. ask NULL: a stretch ends with its steps. */
 Failures sweep_failures(const ReviewCondition *condition, const SweepSuns *suns,
                         const unsigned char *states, const FailureAsk *ask, Arena scratch);

@@ -29,7 +29,7 @@ typedef struct SweepSuns {
                                                    then of the next */
 } SweepSuns;
 
-/* Of a step of a year (UTC; the condition's steps or others) or a route: when it is. */
+/* The time of a step: of a year (UTC; the condition's steps or others) or of a route. */
 SkyTime sweep_time(const ReviewCondition *condition, double step_minutes, double step);
 
 /* Those that are up, and with `with_night` all. A route's places differ; the air is that of the
@@ -43,8 +43,8 @@ SweepSuns sweep_suns(const ReviewCondition *condition, int threads, Arena *arena
 SweepSuns sweep_suns_about(const ReviewCondition *condition, const SweepSun *sun, int round,
                            Arena *arena);
 
-/* Of a year: where suns stand `later_minutes` after their steps' middles, also when they are
- * down then; the places in `list` are set, which lives as long as what is returned. */
+/* A year's suns `later_minutes` after their steps' middles, also below the horizon. Sets the
+ * places in `list`, which must outlive the result. */
 SweepSuns sweep_suns_later(const ReviewCondition *condition, SweepSun *list, int count,
                            Arena *arena);
 

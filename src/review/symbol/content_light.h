@@ -21,8 +21,8 @@ typedef struct ContentLight {
     float *cd_m2;
 } ContentLight;
 
-/* uv: left, top, right, bottom. Fails when it leaves 0..1, is not left < right and
- * top < bottom, or holds no pixel's centre; the text does not say whose rectangle it is. */
+/* uv: left, top, right, bottom. Fails when it leaves 0..1, is not left < right and top <
+ * bottom, or holds no pixel's centre; the text does not name the rectangle's owner. */
 bool content_light(const Panel *panel, const Image *content, const double uv[4], Arena *arena,
                    ContentLight *out, Error *err);
 

@@ -6,7 +6,7 @@
  * that has a neighbour of its own class clearly farther from it (by a twentieth of the classes'
  * distance) is covered in part only: it is left out of both, so that anti-aliased edges do not
  * lower the contrast. Of a stroke too thin to fill a pixel the best ones stay. A mask, where
- * one is given, says the classes instead: white foreground, black background; grey (a quarter
+ * one is given, sets the classes instead: white foreground, black background; grey (a quarter
  * to three quarters) and transparent are left out.
  *
  * Units    pixels of the content; uv of the content, v down; cd m^-2 along the panel's normal
@@ -26,8 +26,8 @@ typedef struct SymbolQuestion {
     const Image   *content;  /* NULL: full white, in which there is no symbol */
     const Image   *mask;     /* of the content's size; NULL: none */
     double         uv[4];    /* left, top, right, bottom */
-    ReviewPolarity polarity; /* AUTO: the smaller class is the foreground; with a mask, what
-                                the mask says */
+    ReviewPolarity polarity; /* AUTO: the smaller class is the foreground; with a mask, the
+                                mask's */
 } SymbolQuestion;
 
 typedef struct SymbolSplit {

@@ -18,7 +18,7 @@ static float share_at(const SymbolDrawing *d, int x, int y)
     return d->share[(size_t)y * (size_t)d->width + (size_t)x];
 }
 
-/* Of at least one. */
+/* Sorts the values; count: at least 1. */
 static double median(float *values, long count)
 {
     sort_floats(values, count);

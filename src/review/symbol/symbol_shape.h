@@ -6,7 +6,7 @@
 #pragma once
 #include "base/arena.h"
 
-/* Of each pixel the share that is drawn on: 1 is whole, less is an edge. */
+/* The share of each pixel that is drawn on: 1 is whole, less is an edge. */
 typedef struct SymbolDrawing {
     int width, height;
     const float *share; /* width * height, row by row; at least one is whole */

@@ -121,7 +121,7 @@ SymbolVisibility symbol_visibility(const SymbolSurface *surface, const PathConte
     return (SymbolVisibility){seen / surface->area_m2, passed / seen};
 }
 
-/* Of a look that is hidden, the part by which it first is. */
+/* The first part that hides a look, which must be hidden. */
 static uint32_t hiding_part(Ray look, SightQuestion *question, float step)
 {
     const Scene *scene = question->context->scene;
@@ -185,7 +185,7 @@ SymbolPatch symbol_patch_seen(const SymbolSurface *surface, int point,
 
 /* ---- light ------------------------------------------------------------------------------- */
 
-/* What the pixel sends to the eye; false: it turns its back. */
+/* Adds the XYZ that the pixel sends to the eye; false: it turns its back. */
 static bool add_pixel(const SymbolSurface *surface, const ContentLight *light, size_t pixel,
                       Vec3 eye, double sum[3])
 {

@@ -26,18 +26,18 @@ typedef struct SymbolVisibility {
 SymbolVisibility symbol_visibility(const SymbolSurface *surface, const PathContext *context,
                                    Vec3 eye, bool *is_visible);
 
-/* What hides the rest, as shares of the rectangle's area: with the visible one they add up to
- * 1. It is what the look from the eye meets first of all that lets too little through. */
+/* The hidden shares of the rectangle's area, by the first thing on the look from the eye that
+ * lets too little through: with the visible share they add up to 1. */
 typedef struct SymbolHiding {
     double *by_part;    /* [scene->part_count], from the arena */
-    double  turned_away; /* shows its back, whatever stands before it */
+    double  turned_away; /* shows its back, covered or not */
 } SymbolHiding;
 
 SymbolHiding symbol_hiding(const SymbolSurface *surface, const PathContext *context, Vec3 eye,
                            Arena *arena);
 
-/* Of a visible point its patch, when the eye sees the corners of that, too; else the point by
- * itself: paths to a patch that something covers in part would tell of what covers it. */
+/* A visible point's patch, when the eye sees its corners, too; else the point by itself: paths
+ * to a patch that something covers in part would measure what covers it. */
 SymbolPatch symbol_patch_seen(const SymbolSurface *surface, int point,
                               const PathContext *context, Vec3 eye);
 
@@ -48,7 +48,6 @@ typedef struct SymbolEmission {
     double foreground_xyz[3], background_xyz[3];
 } SymbolEmission;
 
-/* Who looks at what, with how many threads. */
 typedef struct SymbolLook {
     const SymbolSurface *surface;
     const SymbolSplit   *split;

@@ -151,7 +151,7 @@ static bool place_points(SymbolSurface *surface, Error *err)
     return true;
 }
 
-/* Of 2^n points in Hammersley's order every cell of a grid of so many has one. */
+/* Every cell of a grid of 2^n cells has one of 2^n points in Hammersley's order. */
 bool symbol_patch_box(const SymbolSurface *surface, int point, double uv[4])
 {
     const double *box = surface->uv;

@@ -56,8 +56,8 @@ typedef struct SymbolSurface {
 bool symbol_surface_build(const SymbolPlace *place, Arena *arena, SymbolSurface *out,
                           Error *err);
 
-/* What a point stands for: a part of the rectangle that no other's overlaps, all of them
- * together the rectangle. */
+/* The part of the rectangle that a point stands for: patches do not overlap, and together they
+ * are the rectangle. */
 typedef struct SymbolPatch {
     Vec3 middle, along, down; /* m; the last two are edges: 0 where the display shows some of it
                                  nowhere, and for counts that are no power of two */

@@ -15,7 +15,7 @@ typedef struct FoundLines {
     int       count;
 } FoundLines;
 
-/* The root of luminance is nearer to what an eye tells apart: dim text counts too. */
+/* The root of luminance is nearer to perceived lightness: dim text counts too. */
 static float *lightness_of(const ContentLight *light, Arena *arena)
 {
     size_t all = (size_t)light->width * (size_t)light->height;

@@ -4,7 +4,7 @@
  * The content is cut at 15 levels of lightness; at each, the connected parts that are lighter,
  * and those that are darker, and are shaped like characters are gathered into lines. Of lines
  * that lie over each other the one with more, larger and sharper characters stays: so each text
- * is found by a level of its own, whatever ground it stands on.
+ * is found by a level of its own, on any ground.
  *
  * Not found: a single letter; characters below 7 pixels or above a third of the rectangle's
  * height, or that touch its border, or whose pieces are apart (seven segments). What a person

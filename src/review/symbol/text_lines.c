@@ -21,7 +21,7 @@ static int height_of(const TextPart *p)
     return p->bottom - p->top + 1;
 }
 
-/* Of rows. */
+/* In rows; 0 or less: they share none. */
 static int shared_height(const TextPart *a, const TextPart *b)
 {
     int top = a->top > b->top ? a->top : b->top;

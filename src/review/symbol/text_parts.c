@@ -6,7 +6,7 @@
 
 #include "review/symbol/connected.h"
 
-/* What a character may be, in its own height. */
+/* Limits of a character's shape, in its own height. */
 #define LEAST_HEIGHT_PX 7
 #define IN_LAYER 3        /* so often goes it into the layer's height */
 #define WIDEST 2.5
@@ -30,7 +30,7 @@ static uint8_t *pixels_of(const TextLayer *layer, Arena *arena)
     return set;
 }
 
-/* Of a pixel that is not on the border. */
+/* at: a pixel that is not on the border. */
 static double range_about(const TextLayer *layer, size_t at)
 {
     float low = INFINITY, high = -INFINITY;

@@ -10,7 +10,7 @@
 
 #include "base/arena.h"
 
-/* What is above a threshold of lightness, or below. */
+/* The pixels above a threshold of lightness, or below it. */
 typedef struct TextLayer {
     int          width, height;
     const float *lightness; /* width * height, row by row */

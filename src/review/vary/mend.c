@@ -138,7 +138,7 @@ static bool confirm(Mending *m, Side *side, double found, Error *err)
     return true;
 }
 
-/* Of all that were tried, where the least margin is greatest. */
+/* Takes the trial whose least margin is greatest. */
 static void take_nearest(Mending *m)
 {
     double best = -(double)INFINITY;

@@ -14,6 +14,6 @@
 #pragma once
 #include "review/run/job.h"
 
-/* Of a review that is whole. parameter: one of the request's; adds to outcome->review.mends. */
+/* The review must be complete. parameter: the request's; adds to outcome->review.mends. */
 bool review_mend(const ReviewRun *run, const ReviewParameter *parameter,
                  ReviewOutcome *outcome, Arena *arena, Error *err);

@@ -8,10 +8,10 @@
 #pragma once
 #include "review/run/job.h"
 
-/* Of the request's variants, and of both ends of what its sensitivities ask for, those that can
- * ride: run->riders. with_parameters: sensitivities are wanted. */
+/* Sets run->riders: the variants, and both ends of the sensitivities' ranges, that can ride.
+ * with_parameters: sensitivities are wanted. */
 void review_riders_start(ReviewRun *run, bool with_parameters, Arena *arena);
 void review_riders_end(ReviewRun *run);
 
-/* Who rides for the variant; NULL: it is run by itself. */
+/* The variant's rider; NULL: it is run by itself. */
 const ReviewRider *review_rider_of(const ReviewRun *run, const ReviewVariant *variant);

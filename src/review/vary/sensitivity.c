@@ -48,8 +48,8 @@ static void list_symbols(const Review *review, ReviewSensitivity *to, Arena *are
 
 /* ---- one parameter ----------------------------------------------------------------------- */
 
-/* The review with the parameter there; where it stands it is the review itself, but for a
- * coating, which stands as its own layers say. NULL: it failed. */
+/* The review with the parameter at `value`. At the present value it is `base`, but for a
+ * coating, which its own layers define. NULL: it failed. */
 static const Review *review_at(const ReviewRun *run, const ReviewParameter *p, double value,
                                const Review *base, Arena *arena, Error *err)
 {

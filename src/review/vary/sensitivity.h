@@ -11,6 +11,6 @@
 #pragma once
 #include "review/run/job.h"
 
-/* Of a review that is whole: sets outcome->review.sensitivities. */
+/* The review must be complete. Sets outcome->review.sensitivities. */
 bool review_sensitivities(const ReviewRun *run, ReviewOutcome *outcome, Arena *arena,
                           Error *err);

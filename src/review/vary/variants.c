@@ -29,7 +29,7 @@ static double margin_with(const ReviewCase *of, double reflected, const Profile 
     return c.margin;
 }
 
-/* What all batches but one say; all of them where batches are not known. */
+/* The jackknife's margin, without one batch; by all where batches are not known. */
 static double margin_without(const ReviewCase *of, int batch, const Profile *profile,
                              Arena scratch)
 {

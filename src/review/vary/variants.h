@@ -2,7 +2,7 @@
 /* variants.h -- the review once more for each of its variants, and what they differ by.
  *
  * A variant is read by the same random numbers as the review itself, from no fewer paths, and
- * told by the light alone: no causes, gazes, false suns, pictures. What its change does not
+ * judged by the light alone: no causes, gazes, false suns, pictures. What its change does not
  * reach is not traced again: responses and readings are found by what decides them
  * (sweep_responses.h, light/question.h); guides and clear skies are the review's
  * (light/inherited.h). Responses end half as long: how long it fails hangs on them alone.
@@ -22,7 +22,7 @@
  * looked for. */
 bool review_variants_check(const ReviewRun *run, Error *err);
 
-/* Of a review that is whole: sets outcome->review.variants. */
+/* The review must be complete. Sets outcome->review.variants. */
 bool review_variants(const ReviewRun *run, ReviewOutcome *outcome, Arena *arena, Error *err);
 
 /* A request that is another's but for a change, run for its verdicts, and held against that. */
