@@ -45,7 +45,7 @@ bool file_text(const char *path, const FileBytes *bytes, const char **out, Error
 /* True when something that can be opened for reading stands there. */
 bool file_exists(const char *path);
 
-/* True when both names lead to one file that is there. */
+/* True when both names are of one file that is there. */
 bool file_is_same(const char *a, const char *b);
 
 /* ---- names ----------------------------------------------------------------------------- */

@@ -87,7 +87,7 @@ static double odd_samples(long first, long end)
     return (double)odd;
 }
 
-/* False without halves: fewer than 8 samples in one, or a frame that tells no samples. */
+/* False without halves: fewer than 8 samples in one, or a frame that states no samples. */
 static bool find_shares(const FrameImage *frame, float share[2])
 {
     const char *samples = frame_string(frame, "parhelion:samples");
@@ -118,7 +118,8 @@ static bool is_whole_display(const Layers *layers, size_t i)
     return true;
 }
 
-/* What displays send is known better than from the pixel's samples. */
+/* Whether layers give the light that displays send more exactly than the pixel's own
+ * samples. */
 static bool has_fine(const Layers *layers, size_t i)
 {
     return layers->coverage[0] && isfinite(layers->coverage[0][i]) &&

@@ -8,9 +8,9 @@
  *   light    the rest, which is filtered: the pixel without what its own samples saw of it,
  *            emitted times coverage. Their edges, which few samples place badly, go with it.
  * Frames without the last two layers have display.emitted for base, the noise of its edges
- * included. What a display covers in part is then told by emitted + reflected not being the
- * pixel; such pixels belong, as those that are not finite always do, to no kind: they stay as
- * they are (base is all of them), and they filter nothing.
+ * included. Where a display covers a pixel in part, emitted + reflected is then not the pixel;
+ * such pixels belong, as those that are not finite always do, to no kind: they stay as they are
+ * (base is all of them), and they filter nothing.
  *
  * Units    light in cd m^-2 over albedo, linear Rec.709.
  * Layout   the data window, row by row.
@@ -21,7 +21,7 @@
 #include "base/mathf.h"
 #include "image/frame.h"
 
-/* What the filter goes by, as --layers names it. */
+/* The layers that the filter needs, as --layers names them. */
 #define DENOISE_LAYERS \
     "variance,halves,normal,albedo,depth,display.emitted,display.reflected,display.fine"
 

@@ -136,9 +136,9 @@ static void join_halves(const Filtering *work, float *const light[3])
                           b->share[1] * work->wide[1].light[c][i];
 }
 
-/* Lines may say less than nothing, and are let: without those that do, what is left of the
- * noise would be brighter than what was there. Of their mean all is cut that the frame has
- * not itself. */
+/* Single fits may be negative: without those that are, what is left of the noise would be
+ * brighter than what was there. Their mean is cut at 0, or at the frame's own value where that
+ * is negative. */
 static void keep_positive(const DenoiseBuffers *b, float *const light[3])
 {
     for (size_t i = 0; i < (size_t)b->width * (size_t)b->height; i++)

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* denoise.h -- a frame without most of its noise, for a picture to look at.
  *
- * Never for figures: what is measured, compared or judged is the frame itself. README.md says
- * how it is done and what it costs.
+ * Never for figures: what is measured, compared or judged is the frame itself. README.md
+ * describes the method and its cost.
  *
  * Units    cd m^-2.
  * Memory   the new frame comes from the arena; 250 bytes a pixel of scratch.

@@ -6,10 +6,10 @@
 
 #include "base/mathf.h"
 
-#define REACH 4           /* pixels around that tell how much the samples' spread overstates */
+#define REACH 4           /* pixels around that show how much the samples' spread overstates */
 #define DISPLAY_REACH 2
 #define WIDE_SHARE 0.3f   /* of the mean around: no pixel is surer because no light found it */
-#define RATIO_LEAST 0.05f /* of what the halves say to what the samples' spread says */
+#define RATIO_LEAST 0.05f /* of the halves' variance to that of the samples' spread */
 #define RATIO_MOST 1.5f
 
 /* The difference of the halves, scaled so that its square has the variance for its mean. */
@@ -20,8 +20,8 @@ static float halves_at(const DenoiseBuffers *b, int c, size_t i)
 
 /* ---- displays ---------------------------------------------------------------------------- */
 
-/* What a display shows has edges inside pixels, which are spread but no noise of what it
- * reflects: the median of the variances around is that of the reflection alone. */
+/* A display's content has edges inside pixels, which widen the spread but are no noise of its
+ * reflection: the median of the variances around is that of the reflection alone. */
 static float median_around(const DenoiseBuffers *b, const float *variance, size_t pixel)
 {
     PixelWindow w = buffers_window(b, pixel, DISPLAY_REACH);
@@ -50,8 +50,8 @@ static void add_bend(const DenoiseBuffers *b, int c, size_t pixel, size_t step, 
     sum[1]++;
 }
 
-/* The variance of the reflection as its neighbours tell it; that of the samples is spread by
- * content too, wherever there is fine content all over the window of the median. */
+/* The variance of the reflection from its neighbours; that of the samples is spread by content
+ * too, wherever there is fine content all over the window of the median. */
 static float bent_around(const DenoiseBuffers *b, int c, size_t pixel)
 {
     PixelWindow w = buffers_window(b, pixel, REACH);

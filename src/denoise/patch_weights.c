@@ -84,7 +84,6 @@ static void sum_patches(PatchScratch *s)
         }
 }
 
-/* Of one pixel of the tile. */
 static float weight_of(const PatchScratch *s, int u, int v)
 {
     float distance = 0, counted = 0;

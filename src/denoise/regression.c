@@ -7,7 +7,7 @@
 #define RIDGE 1e-3 /* of all weights: features that hardly vary are not followed */
 
 /* Normal equations: the sums of w f f' and, in the columns of light, of w f L; features and
- * light are told from the middle pixel's own. */
+ * light are relative to the middle pixel's own. */
 typedef struct Equations {
     BufferRow row[ROW_FEATURES];
 } Equations;
@@ -21,7 +21,7 @@ static size_t middle_of(const RegressionWindow *window)
     return (size_t)window->y * (size_t)window->buffers->width + (size_t)window->x;
 }
 
-/* The row of a place of the window, told from the middle; returns its pixel. */
+/* The row of a place of the window, relative to the middle; returns its pixel. */
 static size_t row_at(const RegressionWindow *window, int place, BufferRow *out)
 {
     const DenoiseBuffers *b = window->buffers;

@@ -22,5 +22,5 @@ typedef struct RegressionSums {
     float *light[3], *weight;
 } RegressionSums;
 
-/* Fits the half's light in the window and adds what the fit says of its pixels. */
+/* Fits the half's light in the window and adds the fitted values of its pixels. */
 void regression_add(const RegressionWindow *window, int half, const RegressionSums *sums);

@@ -4,14 +4,14 @@
  * What a filter made of one half of the samples is held against the other half, whose noise it
  * does not have: it differs from it by that noise, the same for both filters, and by the
  * filter's own error (Rousselle, Knaus and Zwicker 2012). Over the pixels around, the smaller
- * difference tells the better filter.
+ * difference marks the better filter.
  *
  * Threads  as many as asked; the same bits for any number.
  */
 #pragma once
 #include "denoise/buffers.h"
 
-/* What two filters made of each half: R, G, B. */
+/* Both filters' results for each half: R, G, B. */
 typedef struct Candidates {
     float *wide[2][3], *narrow[2][3];
 } Candidates;

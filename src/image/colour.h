@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* colour.h -- changes between colour spaces that are told by their primaries.
+/* colour.h -- changes between colour spaces that are given by their primaries.
  *
  * Units    linear light; no chromatic adaptation: a colour keeps its XYZ.
  * Threads  pure functions.

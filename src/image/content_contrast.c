@@ -12,7 +12,7 @@
 #define LEAST_DISTANCE 6.0    /* standard errors of a pixel, between the halves */
 #define OUTLIERS 0.005        /* at either end */
 
-/* What is summed over the pixels of one half. */
+/* Sums over the pixels of one half. */
 typedef struct Half {
     double sum, variance, noise; /* variance: of the sum; noise: edges included */
     long   pixels, counted;
@@ -40,7 +40,7 @@ static void clip(float *values, long count)
     }
 }
 
-/* Of a pixel, the mean over the region; 0 where it is not known. */
+/* The variance of a pixel's noise, as a mean over the region; 0 where it is not known. */
 static double noise_variance(const ContentPixels *pixels)
 {
     double sum = 0;

@@ -12,7 +12,7 @@
  * not known: 0.64, two luminances: 1), or lie less than 6 standard errors of a pixel from each
  * other, where some pixels would be counted to the wrong half.
  *
- * Units    luminance in cd m^-2. Intervals: 95 %, of the noise that the variances tell.
+ * Units    luminance in cd m^-2. Intervals: 95 %, of the noise that the variances state.
  * Memory   scratch only.  Threads  pure functions.  Fails  never.
  */
 #pragma once

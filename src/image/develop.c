@@ -73,7 +73,7 @@ static bool apply_view(Picture *picture, const DevelopOptions *options, DevelopR
     return ok;
 }
 
-/* What middle grey is, in cd m^-2. */
+/* Finds the luminance of middle grey, in cd m^-2. */
 static bool find_exposure(const LayerView *view, const char *exposure, Arena scratch,
                           double *grey, Error *err)
 {
@@ -125,7 +125,7 @@ static bool set_range(const DevelopOptions *options, LayerView *view, Error *err
     return true;
 }
 
-/* What makes a picture pleasant makes its numbers wrong. */
+/* Local adaptation changes luminances: false colours and other layers exclude it. */
 static bool check_adapt(const DevelopOptions *options, const LayerView *view, Error *err)
 {
     if (options->adapt == DEVELOP_ADAPT_NONE) return true;

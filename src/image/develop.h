@@ -17,14 +17,14 @@ enum { DEVELOP_ADAPT_NONE, DEVELOP_ADAPT_LOCAL };
 typedef struct DevelopOptions {
     const char *exposure; /* NULL "auto"; see exposure.h */
     const char *config;   /* OpenColorIO: a file, else $OCIO, else the project's own */
-    bool        own_config; /* the project's own whatever $OCIO says: the same on any machine */
+    bool        own_config; /* the project's own even with $OCIO: the same on any machine */
     const char *display, *view; /* NULL: the configuration's defaults */
     const char *layer;    /* NULL: R, G, B of the frame itself */
     bool        false_colour; /* luminance on a logarithmic scale */
     double      range[2];     /* of false colours; both 0: what fits the frame */
     int         adapt;    /* DEVELOP_ADAPT_NONE or _LOCAL: adapt.h */
-    bool        is_denoised; /* the frame is a filtered one: said with the picture */
-    const char *eye;         /* as whose eye sees the frame, in words: said as well */
+    bool        is_denoised; /* the frame is a filtered one: noted with the picture */
+    const char *eye;         /* as whose eye sees the frame, in words: noted as well */
     int         bits;     /* 0 or 8, or 16 */
     const char *frame_name; /* for messages about its layers; may be NULL */
 } DevelopOptions;

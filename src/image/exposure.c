@@ -92,8 +92,8 @@ static double mean_log2(const Histogram *h, double low, double high)
  *
  *   key   the geometric mean of the darker pixels: those between the 5th and the 60th
  *         percentile of all that are above zero. The view through the windows is brighter
- *         than the cabin by orders of magnitude and has no say.
- *   shown at 0.12 rather than 0.18 (trim is dark, and shall look it): grey = key * 0.18/0.12.
+ *         than the cabin by orders of magnitude and does not count.
+ *   shown at 0.12 rather than 0.18 (trim is dark, and should look it): grey = key * 0.18/0.12.
  *   guard at night the key is close to nothing and the displays would burn out: grey is at
  *         least p99 / G with G = 16 max(1, sqrt(p99 / 300 cd/m2)); the 99th percentile stays
  *         within four stops above middle grey at night, six to seven by day.

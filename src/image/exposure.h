@@ -30,6 +30,6 @@ typedef struct ExposureRequest {
 /* "auto", a number of EV, or "white:CD_M2". */
 bool exposure_parse(const char *text, ExposureRequest *out, Error *err);
 
-/* What a request makes middle grey, cd m^-2. */
+/* The luminance that a request makes middle grey, cd m^-2. */
 double exposure_grey(ExposureRequest request, const float *luminance_cd_m2, size_t count,
                      Arena scratch);

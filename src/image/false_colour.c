@@ -44,7 +44,8 @@ static float luminance_from_lightness(float lightness)
     return f * f * f;
 }
 
-/* Of the colours of one hue (its cosine and sine) and chroma the one with this luminance. */
+/* Finds the colour of this luminance among those of one hue (its cosine and sine) and
+ * chroma. */
 static void colour_of_luminance(float luminance, float cosine, float sine, float chroma,
                                 float rgb[3])
 {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* frame.h -- a frame: named float channels over a data window, and a note of what made it.
  *
- * Units    R, G, B linear Rec.709/D65 in cd m^-2; the other channels as the table says.
+ * Units    R, G, B linear Rec.709/D65 in cd m^-2; the other channels as in the table.
  * Layout   planar, row 0 at the top; windows are half-open, the display window starts at 0, 0
  *          in frames that this program writes.
  * Memory   names, values and attributes come from the arena that is passed in.
@@ -43,19 +43,19 @@
  *   "parhelion:display.N"  name of display N (its material)
  *   "parhelion:light.NAME" what the scene calls the group of lights NAME
  * A frame of some samples or pixels, that can be merged with others, has a second part in its
- * file for `words` (film/film_part.h says what they are); readers take the first and leave
+ * file for `words` (film/film_part.h describes them); readers take the first and leave
  * `words` NULL.
  */
 #pragma once
 #include "base/arena.h"
 #include "openexr/exr_file.h"
 
-/* What an OpenEXR file holds; `Frame` is an orthonormal frame (base/vec.h). */
+/* The contents of an OpenEXR file; `Frame` is an orthonormal frame (base/vec.h). */
 typedef ExrPicture FrameImage;
 
 /* An empty frame of width x height pixels whose data window is `data`, with room for some
- * channels and attributes; more may be added than said. It carries the chromaticities of
- * Rec.709 and whiteLuminance 1 already. */
+ * channels and attributes; more may be added. It carries the chromaticities of Rec.709 and
+ * whiteLuminance 1 already. */
 FrameImage frame_create(int width, int height, ExrWindow data, int channel_room,
                         int attribute_room, Arena *arena);
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* icc_profile.h -- a small ICC profile that says what a picture's code values mean.
+/* icc_profile.h -- a small ICC profile that defines a picture's code values.
  *
  * Memory   the bytes come from the arena. Threads: a pure function. Fails: never.
  */

@@ -19,7 +19,8 @@ enum {
 };
 #define MAX_FILE_BYTES ((size_t)1 << 30)
 
-/* A format is told by its first bytes; the name's ending decides only where there are none. */
+/* A format is recognised by its first bytes; the name's ending decides only where there are
+ * none. */
 typedef struct Signature {
     const char *format, *bytes;
     size_t      offset, length;
@@ -74,7 +75,7 @@ static bool is_png_head(const unsigned char *part)
 }
 
 /* The library stops at the last row, so that a picture cut behind it would pass as whole; and
- * what it finds damaged it tells stderr as well. */
+ * it prints what is damaged to stderr as well. */
 static bool check_png(const unsigned char *bytes, size_t size, Error *err)
 {
     for (size_t at = 8; size - at >= 12;) {
@@ -106,7 +107,7 @@ static bool check_jpeg(const unsigned char *bytes, size_t size, Error *err)
 }
 
 /* The library takes memory for as many bytes of user data as the header states (SMPTE 268M, at
- * byte 32, in the byte order of the first four; all ones: not told). */
+ * byte 32, in the byte order of the first four; all ones: not stated). */
 static bool check_dpx(const unsigned char *bytes, size_t size, Error *err)
 {
     enum { USER_BYTES_AT = 32 };
@@ -126,7 +127,7 @@ typedef struct Tiff {
     bool   is_big_endian, is_wide;
 } Tiff;
 
-/* What is not there is 0. */
+/* 0 where the file does not hold all of its bytes. */
 static uint64_t tiff_number(const Tiff *tiff, uint64_t at, unsigned width)
 {
     uint64_t value = 0;
@@ -177,7 +178,7 @@ static bool check_tiff(const unsigned char *bytes, size_t size, Error *err)
     return true;
 }
 
-/* What the libraries let pass. */
+/* Refuses damage that the libraries let pass. */
 static bool check_whole(const char *format, const void *bytes, size_t size, Error *err)
 {
     if (!strcmp(format, "png")) return check_png(bytes, size, err);
@@ -396,7 +397,7 @@ static void place_pixels(const ExrPlanes *from, const ColourMatrix *to_rec709, f
     }
 }
 
-/* False when the file's colours are Rec.709 already, as they are when it says nothing. */
+/* False when the file's colours are Rec.709 already, as they are when it states none. */
 static bool needs_rec709(const ExrPicture *picture, ColourMatrix *matrix)
 {
     for (int i = 0; i < picture->attribute_count; i++) {

@@ -46,7 +46,7 @@ static size_t pixel_count(const LayerView *view)
 
 /* ---- which channels a name means ----------------------------------------------------- */
 
-/* What is known of layers by name; `show` of the others follows from their channels. */
+/* The properties of known layers; `show` of the others follows from their channels. */
 typedef struct KnownLayer {
     const char *name, *channels; /* one letter each after the dot */
     LayerShow   show;
@@ -225,7 +225,7 @@ static const float *luminance_variance(const LayerView *view, Arena *arena)
     return out;
 }
 
-/* Of the difference of two halves: how large, whichever half was the brighter one. */
+/* The size of the halves' difference, whichever half was the brighter one. */
 static const float *luminance_size(const LayerView *view, Arena *arena)
 {
     float *out = layer_view_luminance(view, arena);

@@ -19,7 +19,7 @@
 #pragma once
 #include "image/frame.h"
 
-/* What a display sends to the eye. */
+/* The light that a display sends to the eye, cd m^-2. */
 typedef struct DisplayLight {
     double white, black;          /* luminances */
     double shown[3], reflected[3]; /* XYZ */
@@ -47,7 +47,7 @@ const LegibilityLayer *legibility_layer(const char *name);
  * holds; "" when there are none. */
 const char *legibility_names(const FrameImage *frame, Arena *arena);
 
-/* One number for each pixel of the data window; NULL, with the text that says what is missing,
+/* One number for each pixel of the data window; NULL, with a text that names what is missing,
  * when the frame lacks a layer. */
 const float *legibility_plane(const FrameImage *frame, const LegibilityLayer *layer,
                               Arena *arena, Error *err);

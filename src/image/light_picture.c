@@ -94,7 +94,7 @@ static bool begins(const char *text, const char *with)
     return !strncmp(text, with, strlen(with));
 }
 
-/* Lines that are indented tell of pictures that this one was made from, and do not count. */
+/* Lines that are indented describe pictures that this one was made from, and do not count. */
 static bool read_variable(const RadianceHeader *in, LightScale *out)
 {
     if (begins(in->text, "EXPOSURE="))

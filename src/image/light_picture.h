@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* light_picture.h -- a picture of surroundings as light: pixels in cd m^-2, by what its file
- * says of its own scale and colours.
+/* light_picture.h -- a picture of surroundings as light: pixels in cd m^-2, by the scale and
+ * the colours that its file states.
  *
  * Radiance (.hdr) holds radiance, W m^-2 sr^-1, times all its EXPOSURE= and COLORCORR= (several
  * multiply; each is divided out again), in the primaries of PRIMARIES=; times 179 lm/W it is
@@ -24,6 +24,6 @@ typedef struct LightPicture {
 } LightPicture;
 
 /* A picture of codes (image.format other than IMAGE_RGBA32F) comes back as it is: whether it
- * may serve as light is the caller's to say. */
+ * may serve as light is the caller's decision. */
 bool light_picture_read(const void *bytes, size_t size, const char *name, Arena *arena,
                         LightPicture *out, Error *err);

@@ -20,7 +20,7 @@ typedef struct PixelNoise {
     long   pixels;
 } PixelNoise;
 
-/* What is summed over the pixels. */
+/* Sums over the pixels. */
 typedef struct Sums {
     double rgb[3]; /* of the channels */
     PixelNoise noise, by_halves;
@@ -33,7 +33,7 @@ typedef struct Sums {
     double least, greatest;
 } Sums;
 
-/* The planes that are looked at; has_... tells which the frame has. */
+/* The planes that are looked at; has_... states which the frame has. */
 typedef struct RegionPlanes {
     LayerView    light, variance, halves, white, black, reflected, shown, mirror, lambertian;
     LayerView    display_halves;
@@ -189,7 +189,7 @@ static void add_pixel_noise(const RegionPlanes *planes, size_t i, bool on_displa
 }
 
 #define HALVES_FREEDOM 16   /* of the halves' squares, at least: */
-#define REFLECTED_FREEDOM 4 /* what is reflected has no other layer that tells its noise */
+#define REFLECTED_FREEDOM 4 /* no other layer has the noise of what is reflected */
 
 /* Halves' squares are those of normal variables, as many as count: 3 (sum d^2)^2 / sum d^4.
  * Student's factor is put into the variances. False where they are too few, or some pixel has
@@ -275,7 +275,8 @@ static void measure_colour(const double rgb[3], const double variance[3], FrameM
             mean[k], out->has_variance ? SIGMAS_95 * sqrt(spread[k]) : (double)NAN);
 }
 
-/* Of what falls as the reflected light, which alone is noisy, rises from r.low to r.high. */
+/* The interval of a figure that falls as the reflected light, the only noisy one, rises from
+ * r.low to r.high. */
 static Measured falling(double (*figure)(const DisplayLight *light), const DisplayLight *light,
                         Measured r)
 {
@@ -501,7 +502,7 @@ static const char *layer_of(const char *channel, Arena *arena)
     return arena_string(arena, channel, length - tail);
 }
 
-/* What is no number comes last. */
+/* NaN sorts last. */
 static double rank_of(const LightShare *light)
 {
     return isnan(light->cd_m2) ? -(double)INFINITY : light->cd_m2;

@@ -3,7 +3,7 @@
  *
  * Units    luminance in cd m^-2; CIE 1931 x, y and CIE 1976 u', v'.
  * Intervals are 95 % confidence intervals of the render's noise; pixels are independent. From
- *          the frame's layer of halves where that tells enough: what well-spread samples leave.
+ *          the frame's layer of halves where that suffices: what well-spread samples leave.
  *          Else from its variance layer, as if samples were independent, R, G and B of a pixel
  *          taken to rise and fall together for luminance and contrast: both too wide. They
  *          count as independent for chromaticity. What a display reflects has halves of its own
@@ -12,7 +12,7 @@
  *          end of that light's to the other; the upper end of that light has what few bright
  *          samples may have left out (confidence.h).
  * Threads  pure functions.
- * Fails    when the frame lacks what is asked for: the text says what to render again.
+ * Fails    when the frame lacks what is asked for: the text names what to render again.
  */
 #pragma once
 #include "image/content_contrast.h"
@@ -51,7 +51,7 @@ bool measure_frame(const FrameImage *frame, const MeasureRequest *request, Arena
 
 /* ---- groups of lights -------------------------------------------------------------------- */
 
-/* What one of them gives to a part of a frame. */
+/* The contribution of one group of lights to a part of a frame. */
 typedef struct LightShare {
     const char *layer; /* "light.sun" */
     const char *name;  /* as its scene has it */
@@ -64,7 +64,7 @@ typedef struct LightShares {
     int         count; /* 0: the frame has no layers of lights */
 } LightShares;
 
-/* Of a request that measure_frame answers, over the pixels that it takes. The list and its
+/* For a request that measure_frame answers, over the pixels that it takes. The list and its
  * names live in the arena. */
 LightShares measure_lights(const FrameImage *frame, const MeasureRequest *request,
                            Arena *arena);

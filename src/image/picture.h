@@ -27,7 +27,7 @@ static inline float *picture_pixel(const Picture *picture, int x, int y)
 
 typedef struct PictureFile {
     int         bits;        /* 8 or 16; JPEG has 8 */
-    bool        is_srgb;     /* says so in the file */
+    bool        is_srgb;     /* stated in the file */
     IccProfile  icc;         /* else this does, when there is one */
     const char *description; /* goes into the file; NULL: none */
 } PictureFile;

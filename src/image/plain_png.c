@@ -21,7 +21,7 @@ static void take(png_structp png, png_bytep to, size_t count)
     source->left -= count;
 }
 
-/* A warning too: the file is not plain, and its faults are the other library's to tell. */
+/* A warning too: the file is not plain, and its faults are the other library's to report. */
 static void give_up(png_structp png, png_const_charp why)
 {
     (void)why;

@@ -2,7 +2,7 @@
 /* plain_png.h -- decodes the commonest pictures at once: PNG files of 8 bits that are grey or
  * RGB, with or without alpha, not interlaced, without a palette or a transparent colour.
  *
- * Whatever is unusual about a file, damage above all, makes it not plain: it is then for the
+ * Anything unusual about a file, damage above all, makes it not plain: it is then for the
  * library for all pictures (openimageio/image_file.h), which takes a fifth of a second to load,
  * and its reasons.
  *

@@ -8,7 +8,7 @@
  * Memory   what waits to be taken is on the heap, as much as the largest frame that was
  *          offered; viewer_close releases it.
  * Threads  one at a time.
- * Fails    once: viewer_check tells why the viewer is lost, and everything is idle from then.
+ * Fails    once: viewer_check reports why the viewer is lost, and everything is idle from then.
  */
 #pragma once
 #include "live/tev_packets.h"
@@ -26,7 +26,7 @@ typedef struct Viewer {
     size_t      room;       /* of the queue */
     size_t      size;       /* that is in it */
     size_t      sent;       /* of that */
-    Error       loss;       /* why it is lost, until that is told */
+    Error       loss;       /* why it is lost, until that is reported */
     bool        is_lost;
 } Viewer;
 
@@ -56,7 +56,7 @@ void viewer_finish(Viewer *viewer);
 /* False with the reason, once, when it is lost. */
 bool viewer_check(Viewer *viewer, Error *err);
 
-/* Gives it up; viewer->loss says why. */
+/* Gives it up; viewer->loss holds the reason already. */
 void viewer_lose(Viewer *viewer);
 
 void viewer_close(Viewer *viewer);

@@ -52,7 +52,8 @@ void viewer_socket_wait(int handle, double *patience_s)
 
 /* ---- names ------------------------------------------------------------------------------- */
 
-/* What a thread looks up. Its memory is the heap's: it may outlive everything. */
+/* The look-up of a name in a thread of its own; on the heap, since it may outlive
+ * everything. */
 typedef struct NameLookup {
     char  host[256], port[8];
     int   ready[2];          /* a pipe whose other end is closed when the rest is there */

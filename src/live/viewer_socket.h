@@ -2,8 +2,8 @@
 /* viewer_socket.h -- the only part of the program that talks to another one: bytes go out to a
  * viewer that waits somewhere, and none are ever read.
  *
- * Nothing here waits for longer than its caller says, and a viewer that is gone is an error and
- * no signal. What opening takes, the look-up of a name included, is taken off *patience_s.
+ * Nothing here waits for longer than its caller allows; a viewer that is gone is an error, no
+ * signal. What opening takes, the look-up of a name included, is taken off *patience_s.
  *
  * Memory   a handle each, to be closed. A look-up that outlasts the patience is left behind
  *          with its thread: the system's resolver cannot be interrupted.

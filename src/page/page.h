@@ -17,7 +17,7 @@
 typedef struct PageHead {
     const char *title;   /* of the window */
     const char *style;   /* the report's own CSS */
-    bool        is_dark; /* whatever the reader has */
+    bool        is_dark; /* for every reader */
     int         renewed_s; /* the file is written anew: it is asked for after so long; 0: not */
 } PageHead;
 
@@ -66,7 +66,7 @@ void page_cell(Text *page, const char *kind, const char *text);
 void page_cell_format(Text *page, const char *kind, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
-/* Of any length: it scrolls in its cell. */
+/* A text of any length, which scrolls in its cell. */
 void page_cell_long(Text *page, const char *text);
 
 /* ---- pictures --------------------------------------------------------------------------- */

@@ -3,7 +3,7 @@
  *
  * Filled by scene_load (load/scene_load.h), checked once, then const. Elements refer to each
  * other by id; NO_ID is "none". Everything is in world space (metres, +Y up): node trees are
- * flattened, skins, morph targets and animations as SceneState says, at rest without it.
+ * flattened, skins, morph targets and animations as in SceneState, at rest without it.
  *
  * Memory   everything lives in the arena given to scene_load, and dies with it; the panels are
  *          closed by scene_close.
@@ -50,7 +50,7 @@ typedef struct Part {
     int      material_id; /* always valid: glTF's default material has an id too */
     uint32_t first_triangle, triangle_count;
     uint32_t first_vertex;
-    /* Of its vertices, from first_vertex on: what nobody would ask for is NULL. */
+    /* Per vertex, from first_vertex on; arrays that nothing would read are NULL. */
     Vec3        *normals;  /* unit, world; outside kept outside under mirroring. NULL: flat */
     Tangent     *tangents; /* of the file, or of a texture's coordinates */
     Vec2        *uv[SCENE_UV_SETS]; /* NULL: all zero */
@@ -64,9 +64,9 @@ typedef struct TextureSlot {
     float uv_from_uv[6]; /* KHR_texture_transform: u' = a u + b v + c, v' = d u + e v + f */
 } TextureSlot;
 
-/* How far from the origin, along an axis and in metres, whatever is shown or sees may stand:
- * beyond 4e9 squares of triangles' areas are no floats any more, and light is lost without a
- * word; beyond 1.8e18 Embree takes no ray. */
+/* The largest coordinate, in metres, of all that is shown, sees or shines: beyond 4e9 squares
+ * of triangles' areas overflow, and light is silently lost; beyond 1.8e18 Embree takes no
+ * ray. */
 #define SCENE_MOST_M 1e9f
 
 /* The most that a scene may have shine on it: above it samples would overflow. */
@@ -109,7 +109,7 @@ typedef struct Material {
     float normal_scale;
     float emissive_cd_m2[3]; /* factor * KHR_materials_emissive_strength, linear Rec.709 */
     TextureSlot emissive_texture;
-    AlphaMode alpha_mode; /* OPAQUE also where the file says otherwise but alpha is always 1 */
+    AlphaMode alpha_mode; /* OPAQUE also where the file states another but alpha is always 1 */
     float alpha_cutoff;
     bool  double_sided; /* decides only whether the back emits */
     bool  unlit;        /* shows base colour as cd/m2, scatters nothing */
@@ -152,7 +152,7 @@ typedef struct Display {
     const char *panel_path; /* resolved path */
     const Panel *panel;
     int   material_id;
-    TextureSlot content;    /* NO_ID: full white is shown, said in a warning */
+    TextureSlot content;    /* NO_ID: full white is shown, with a warning */
     float level;            /* multiplies all emission, >= 0 */
     float place_from_uv[4]; /* of a panel that varies: a place of its active area
                                (panel_place.h) is {u [0] + [1], v [2] + [3]} of the content's */
@@ -185,7 +185,7 @@ typedef struct PunctualLight {
     float color[3];          /* luminaire: linear Rec.709, multiplies too */
     float cct_k;             /* luminaire: 0: white (D65) */
     const char *cct_text;    /* luminaire: its file's text about that, understood if cct_k > 0;
-                                "": it has none; NULL: --light-cct said it */
+                                "": it has none; NULL: from --light-cct */
     const Curve *white;      /* of cct_k, 1 cd m^-2; NULL: D65 */
 } PunctualLight;
 
@@ -294,7 +294,7 @@ typedef struct SceneState {
     int animation_count;
 } SceneState;
 
-/* What is tried out on a scene whose files stay as they are. */
+/* Kinds of change that are tried out on a scene whose files stay as they are. */
 typedef enum SceneChangeKind { CHANGE_NODES, CHANGE_MATERIAL, CHANGE_HOOD } SceneChangeKind;
 
 typedef struct SceneChange {

@@ -48,7 +48,7 @@ typedef struct AirRay {
     double direction[2];  /* x and z */
 } AirRay;
 
-/* A place on the ray, whatever the sun. */
+/* A place on the ray, for any sun. */
 typedef struct AirPoint {
     double up[2];    /* the local zenith, x and z */
     double altitude;
@@ -160,7 +160,7 @@ static Spectrum step_source(const Builder *b, Step *step, int light, float azimu
     return source;
 }
 
-/* What a step sends to the eye under one sun, into place `slot` of the tables. */
+/* Adds what a step sends to the eye under one sun to place `slot` of the tables. */
 static void add_step(const Builder *b, Step *step, const AirSun *sun, size_t slot)
 {
     Atmosphere *a = b->atmosphere;
@@ -365,7 +365,7 @@ bool atmosphere_build(const AtmosphereInput *input, Arena *arena, Atmosphere *ou
     return true;
 }
 
-/* What the tables hold for a direction, and its cosine to the sun. */
+/* The values of the tables in a direction, and its cosine to the sun. */
 typedef struct SkyParts {
     Spectrum molecules, aerosol, rest;
     float    cosine;

@@ -59,7 +59,7 @@ bool atmosphere_build(const AtmosphereInput *input, Arena *arena, Atmosphere *ou
 /* Sky or floor in a direction; the sun's disc is not part of it. */
 Spectrum atmosphere_radiance(const Atmosphere *atmosphere, float elevation, float azimuth);
 
-/* Of that radiance the part that is linearly polarised, across the plane of sun and direction:
+/* The part of that radiance that is linearly polarised, across the plane of sun and direction:
  * light that molecules scattered once, sin^2 / (1 + cos^2) of it for the angle to the sun
  * (Rayleigh). What aerosol scatters, and light scattered more often, counts as unpolarised. */
 Spectrum atmosphere_polarised(const Atmosphere *atmosphere, float elevation, float azimuth);

@@ -107,7 +107,7 @@ static Air sea_level_air(const DaylightInput *in)
                  floor_albedo(in)};
 }
 
-/* What lies above an altitude, for SPECTRL2. */
+/* The air above the observer, for SPECTRL2. */
 static Air air_above(const DaylightInput *in)
 {
     Air       air = sea_level_air(in);
@@ -268,7 +268,7 @@ static bool build_perez(Daylight *out, Error *err)
     out->metrics.direct_normal_w_m2 = in->direct_w_m2 * sun_share(out);
     out->metrics.diffuse_horizontal_lx = 1;
     sky_spectrum(out, fmin(1, (state.clearness - 1) / 3.5), &ground);
-    /* sky_spectrum told the watts of one lux */
+    /* sky_spectrum set the watts of one lux */
     out->metrics.diffuse_horizontal_lx =
         in->diffuse_w_m2 / out->metrics.diffuse_horizontal_w_m2;
     out->metrics.diffuse_horizontal_w_m2 = in->diffuse_w_m2;
@@ -343,7 +343,7 @@ static void report_night(const Night *night, DaylightMetrics *f)
         sky_lx + n->moon_normal_lx * fmax(0, sin_d(night->moon_elevation));
 }
 
-/* What lies above the horizontal, and the floor, of the sun and of the night. */
+/* Figures of the sky above the horizontal and of the floor, by the sun and by the night. */
 static void report_light(Daylight *out)
 {
     DaylightMetrics  *f = &out->metrics;

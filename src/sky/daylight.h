@@ -99,8 +99,8 @@ Spectrum daylight_radiance(const Daylight *daylight, float elevation, float azim
                            const Wavelengths *wavelengths);
 
 /* HOT. How far that is linearly polarised, across the plane of sun and direction, [0, 1]: the
- * sun's light in the clear atmosphere (atmosphere_polarised); the moon's and the night's own is
- * taken as unpolarised. Shapes say nothing: 0. */
+ * sun's light in the clear atmosphere (atmosphere_polarised); the moon's and the night's own
+ * is taken as unpolarised. Shapes have none: 0. */
 Spectrum daylight_polarisation(const Daylight *daylight, float elevation, float azimuth,
                                const Wavelengths *wavelengths);
 

@@ -122,8 +122,8 @@ static bool read_hour(EpwReader *reader, char *field[], int count, const Weather
     return true;
 }
 
-/* What the header says before the rows: PVGIS's comment, and how many rows an hour has (DATA
- * PERIODS, number of periods, rows in an hour). True at the last header line. */
+/* Reads from the header PVGIS's comment and the number of rows an hour has (DATA PERIODS,
+ * number of periods, rows in an hour). True at the last header line. */
 static bool read_header(char *field[], int count, Weather *out)
 {
     static const char offset[] = "Irradiance Time Offset (h):";

@@ -7,7 +7,7 @@
  *           weather_clock.h's question.
  * Memory    the arena's. Threads: const once read.
  * Fails     with file and line, what was found and what was wanted. Missing values (9999) are
- *           told by has_light = false.
+ *           marked by has_light = false.
  */
 #pragma once
 #include "base/arena.h"

@@ -27,7 +27,7 @@ Spectrum lit_air_radiance(const LitAir *air, float elevation, float azimuth,
 Spectrum lit_air_polarisation(const LitAir *air, float elevation, float azimuth,
                               const Wavelengths *wavelengths);
 
-/* Of a relative quantity at the lanes of air.h: its spectrum at every nm, and its luminance
+/* For a relative quantity at the lanes of air.h: its spectrum at every nm, and its luminance
  * (illuminance, where it is an irradiance). */
 void   lit_air_curve(const LitAir *air, Spectrum relative, Curve *out);
 double lit_air_luminance(const LitAir *air, Spectrum relative);

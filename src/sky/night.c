@@ -85,7 +85,7 @@ static bool light_moon(const NightInput *in, const Curve *beam, Arena *arena, Ni
     return true;
 }
 
-/* What the eye loses straight up. */
+/* The optical depth of the air straight above the observer, at EYE_LANE. */
 static double vertical_depth(const AtmosphereInput *in)
 {
     AirOptics optics = air_optics(&in->air);

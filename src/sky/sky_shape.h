@@ -26,7 +26,7 @@ typedef struct PerezInput {
     int    day;                  /* of the year, from 1 */
 } PerezInput;
 
-/* What the model makes of its input. */
+/* The parameters that the model derives from its input. */
 typedef struct PerezState {
     double air_mass, brightness, clearness; /* m, Delta, epsilon */
     int    bin;                             /* 1..8 */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* sun_disc.h -- the sun's disc as a source: its size, its edge, its spectrum.
  *
- * The irradiance on a plane that faces the sun is exact whatever the disc looks like: radiance
+ * The irradiance on a plane that faces the sun is exact for any look of the disc: radiance
  * is irradiance over pi sin^2 r, shaped by the limb's darkening over its own mean.
  *
  * Source    limb darkening: fifth-order fits in mu of Neckel and Labs's kind at the eleven

@@ -7,14 +7,14 @@
 #include "base/mathd.h"
 #include "base/units.h"
 
-#define ROWS_LEAST 24     /* fewer say nothing for sure */
+#define ROWS_LEAST 24     /* fewer are not enough to be sure */
 #define ROWS_MOST 20000
 #define NEAR_H (5 / 60.0) /* closure's own uncertainty: instruments, sky around the sun */
 #define CLOSES_SHARE 0.1
 #define DIRECT_LEAST_W_M2 1.0
 #define HALF_HOUR_MIN 30.5 /* and a little */
 
-/* What one row says: sin(elevation) at an offset turned into an angle w is
+/* The closure of one row: sin(elevation) at an offset turned into an angle w is
  * a + b cos w - c sin w, since within a day only the hour angle moves much. */
 typedef struct ClosureRow {
     double a, b, c;

@@ -3,9 +3,9 @@
  *
  * By the format's word a row holds the means of the hour that ends at its label: the sun stands
  * as at the label less half an hour. Many files hold the light of an instant instead. The file
- * itself tells: GHI = DHI + DNI sin(elevation of the sun) holds at the right instant only
+ * itself shows it: GHI = DHI + DNI sin(elevation of the sun) holds at the right instant only
  * ("closure"), so that is searched minute by minute over a day. A comment "Irradiance Time
- * Offset (h):" (PVGIS) tells the minutes more finely; it counts from another hour than the
+ * Offset (h):" (PVGIS) gives the minutes more finely; it counts from another hour than the
  * label in files that were seen, so its whole hour is the closure's.
  *
  * Units     hours from the label to the instant (hour means: -0.5); W m^-2.
@@ -25,18 +25,18 @@ typedef enum WeatherClockSource {
 typedef struct WeatherClock {
     WeatherClockSource source;
     double offset_h;
-    int    rows;              /* that told; 0: too few have sun and all three irradiances */
+    int    rows;              /* that count; 0: too few have sun and all three irradiances */
     bool   closes;            /* within a tenth of mean_global_w_m2, somewhere */
     double closure_w_m2;      /* mean of |GHI - DHI - DNI sin el| at offset_h */
     double means_closure_w_m2; /* the same, read as means that end at the label */
     double best_offset_h, best_closure_w_m2;
-    double mean_global_w_m2;  /* of the rows that told */
+    double mean_global_w_m2;  /* of the rows that count */
 } WeatherClock;
 
 /* given_h: the user's offset, or NULL. scratch: 48 bytes a row. */
 WeatherClock weather_clock_find(const Weather *weather, const double *given_h, Arena scratch);
 
-/* The row whose instant is nearest to a moment, by month, day and clock, whatever its year (of
+/* The row whose instant is nearest to a moment, by month, day and clock, of any year (of
  * equally near ones that of the same year). 29 February is read as the 28th where the file has
  * none. *apart_min: minutes from the moment to the row's instant. NULL: none within half an
  * hour. */

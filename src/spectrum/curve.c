@@ -107,7 +107,7 @@ static const char *next_line(const char *text, char *line, size_t size)
     return text + length + (text[length] == '\n');
 }
 
-/* Wavelengths in um or m, or of a range nobody sees, would say the same everywhere. */
+/* Wavelengths in um or m, or of an invisible range, would give the same value everywhere. */
 static bool check_visible(const Points *points, const char *path, Error *err)
 {
     double first = points->nm[0], last = points->nm[points->count - 1];

@@ -23,7 +23,7 @@ void curve_from_points(const double *nm, const double *value, int count, Curve *
 
 #define CURVE_FILE_BYTES_MAX ((size_t)16 << 20)
 
-/* What a curve's values may be. */
+/* The permitted values of a curve. */
 typedef enum CurveRange {
     CURVE_NUMBERS, /* any */
     CURVE_AMOUNTS, /* 0 and up */

@@ -22,7 +22,7 @@ typedef struct Glazing {
                                               * where their vertices run counter-clockwise */
     int   layer_count;
     Curve absorbance;    /* -ln of what all layers let through along the normal, no faces */
-    float absorbing_ior; /* of what absorbs, a mean: tells how much longer a slanted way is */
+    float absorbing_ior; /* of what absorbs, a mean: for the length of a slanted way */
     float wedge[2];      /* by how much the thickness grows per length towards +u and +v */
     float wedge_ior;     /* of the layer that has the wedge */
     float haze_share;    /* of the light that passes: scattered forward */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* intensity_web.h -- luminous intensity over all directions, as a luminaire file tells it.
+/* intensity_web.h -- luminous intensity over all directions, as a luminaire file gives it.
  *
  * Bilinear between the file's angles. Type C (CIE 121, IES LM-63): gamma from the axis, C
  * around it. In the luminaire's frame gamma = 0 is -Z, C = 0 is +X and C = 90 is +Y:

@@ -63,7 +63,7 @@ static inline Vec3 opening_stretched(Vec3 half, Vec3 d)
     return vec3(half.y * half.z * d.x, half.z * half.x * d.y, half.x * half.y * d.z);
 }
 
-/* What the unit body shows towards e, times the length of e. */
+/* The area that the unit body shows towards e, times the length of e. */
 static inline float opening_unit_area(OpeningShape shape, Vec3 e)
 {
     switch (shape) {

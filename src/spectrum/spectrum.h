@@ -3,7 +3,7 @@
  *
  * A Spectrum is a compiler vector; +, -, *, / work lane by lane, also with itself. C has no
  * scalar broadcast and no ?: for vectors: spectrum_all and spectrum_select cover both.
- * Which wavelength a lane stands for is told by a Wavelengths (wavelengths.h).
+ * Which wavelength a lane stands for is given by a Wavelengths (wavelengths.h).
  * The unit is the quantity's own: radiance in W m^-2 sr^-1 nm^-1, reflectance without unit.
  */
 #pragma once

@@ -30,7 +30,7 @@ static inline void put_columns(const Quarter row[4], float *const to[4])
     for (int k = 0; k < 4; k++) memcpy(to[k], &column[k], sizeof column[k]);
 }
 
-/* What the lanes' rows say: value[quantity], eight of them. */
+/* The interpolated rows of all lanes: value[quantity], eight of them. */
 static inline void read_rows(const SpectrumMask *cell, const Spectrum *t,
                              float value[8][SPECTRUM_LANES])
 {

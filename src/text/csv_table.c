@@ -80,7 +80,7 @@ static bool read_names(Scan *scan, CsvTable *table, Error *err)
                     "has more than %d columns", CSV_COLUMNS_MAX);
 }
 
-/* Whoever asks for a name would be given the first of two. */
+/* Refuses a repeated name: a search would find the first of two only. */
 static bool check_names(const Scan *scan, const CsvTable *table, Error *err)
 {
     for (int c = 1; c < table->columns; c++)

@@ -6,7 +6,7 @@
 
 #include "text/text.h"
 
-#define ASIDE 0.2         /* of the half width: further from the middle both ends are told */
+#define ASIDE 0.2         /* of the half width: further from the middle both ends are given */
 #define DECIMALS_MOST 20
 
 static double ten_to(int place)
@@ -17,7 +17,7 @@ static double ten_to(int place)
     return power;
 }
 
-/* Of the first digit of a figure above 0. */
+/* The decimal exponent of a figure above 0. */
 static int place_of(double value)
 {
     int place = 0;

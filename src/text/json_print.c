@@ -7,7 +7,7 @@
 
 #define LINE_CHARS 92
 #define INDENT 2
-#define MOST_DIGITS 17 /* tell any two doubles apart */
+#define MOST_DIGITS 17 /* distinguish any two doubles */
 
 /* Where a value stands: of its own lines, and how many letters stand before it in the first. */
 typedef struct PrintPlace {
@@ -101,7 +101,7 @@ static void print_members(const Printer *out, const json_t *value, int indent)
     }
 }
 
-/* What is too long for a line is taken back. The document itself never stands in one. */
+/* A value too long for one line is taken back. The document itself always has several. */
 static void print(const Printer *out, const json_t *value, PrintPlace place)
 {
     size_t before = out->text->size;

@@ -15,7 +15,7 @@
 
 typedef struct JsonDigits {
     int  digits; /* 1 to 17 */
-    bool is_cut; /* no more than that, whatever it loses */
+    bool is_cut; /* no more than that, even with a loss */
 } JsonDigits;
 
 /* All of it, with a line's end. */

@@ -40,7 +40,7 @@ bool json_view_child(const JsonView *view, const char *key, bool required, JsonV
 bool json_view_number(const JsonView *view, const char *key, double low, double high,
                       double *out, Error *err);
 
-/* What an array of numbers may hold. */
+/* The permitted size and values of an array of numbers. */
 typedef struct JsonRange {
     double low, high;
     int    capacity; /* 1 to so many numbers */

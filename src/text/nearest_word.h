@@ -20,8 +20,8 @@ const char *nearest_word_within(const char *word, const char *const *known, int 
  * that length. NULL when none is. */
 const char *nearest_word_meant(const char *word, const char *const *known, int count);
 
-/* What would be right instead of `word`, for an error's text: the one that may be meant, then
- * all in the order given, as far as they fit:
+/* Advice on an unknown `word`, for an error's text: the name that may be meant, then all in the
+ * order given, as far as they fit:
  *     did you mean cluster? There are cluster, "leather black" and 41 more
  * Names with blanks, commas or nothing in them stand in quotes. Fills and returns buffer, which
  * holds at least size chars; size at least 64. */

@@ -29,7 +29,7 @@ typedef struct ConvolutionKernel {
     bool          is_mirrored_x, is_mirrored_y;
 } ConvolutionKernel;
 
-/* What a term is made of. */
+/* A term of the sum: a kernel, and the light that it is convolved with. */
 typedef struct ConvolutionTerm {
     ConvolutionKernel kernel;
     const void       *context;

@@ -3,7 +3,7 @@
  * they were fitted to rooms with windows and luminaires, not to cockpits in the sun.
  *
  * Both square the luminance and take the solid angle only once, so that small bright sources
- * (the sun, its glints) weigh more than people say, and as much more as pixels are smaller.
+ * (the sun, its glints) weigh more than people report, and as much more as pixels are smaller.
  * Print them with the smallest solid angle among the sources; never let them decide.
  *
  * Units    cd m^-2, sr, lx, m^2.
@@ -38,6 +38,6 @@ double discomfort_ugr(double background_cd_m2, const GlareSource *sources, int c
  * disturbing, above it intolerable. */
 double discomfort_dgp(double vertical_lx, const GlareSource *sources, int count);
 
-/* What evalglare (NREL/Radiance) multiplies it by in less than 1000 lx:
+/* The factor of evalglare (NREL/Radiance) on it below 1000 lx:
  * exp(0.024 Ev - 4)/(1 + exp(0.024 Ev - 4)); 1 from there on. */
 double discomfort_dgp_low_light(double vertical_lx);

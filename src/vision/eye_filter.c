@@ -11,7 +11,7 @@
 #include "vision/convolution.h"
 #include "vision/eye_spread.h"
 
-/* What a light at s sends to p depends on s and on the offset d = p - s; were it on d alone,
+/* The light that s sends to p depends on s and on the offset d = p - s; were it on d alone,
  * the sum over s would be one convolution. For a given d it is a smooth function of s: f of the
  * angle, which is that of two directions (x, y, 1) whose lengths are as smooth. Such a function
  * is its values at Chebyshev's nodes n, interpolated:
@@ -19,7 +19,7 @@
  * each term a convolution of l_n times the light with the kernel that belongs to the node. The
  * lengths vanish at x = +-i, so that over tangents of -t to t the error falls as r^-count with
  * r = (1 + sqrt(1 + t^2))/t (Bernstein's ellipse through +-i): 6 nodes across a view of 66
- * degrees, 11 across one of 120. What is left is below 0.4 % (tests/unit/test_eye_filter.c). */
+ * degrees, 11 across one of 120. The error is below 0.4 % (tests/unit/test_eye_filter.c). */
 #define INTERPOLATION_BOUND 1e-2
 enum { NODES_MAX = 48 };
 
@@ -44,7 +44,7 @@ static void tangents(const EyeView *view, double x, double y, double out[2])
     out[1] = (y - view->axis_y) * view->pixel;
 }
 
-/* Between the directions (a, 1) and (b, 1). Their cross product tells small angles exactly. */
+/* Between the directions (a, 1) and (b, 1). Their cross product gives small angles exactly. */
 static double angle_deg(const double a[2], const double b[2])
 {
     double dx = b[0] - a[0], dy = b[1] - a[1], turn = a[0] * b[1] - a[1] * b[0];
@@ -123,7 +123,7 @@ static double node_weight(const Nodes *nodes, int node, double place)
     return weight;
 }
 
-/* Of every pixel of a row or column. */
+/* The node's weight at every pixel of a row or column. */
 static void set_weights(const Nodes *nodes, int node, int size, double *out)
 {
     for (int i = 0; i < size; i++) out[i] = node_weight(nodes, node, i + 0.5);
@@ -243,7 +243,7 @@ static double plane_at(const Convolution *sums, int plane, int x, int y)
     return convolution_row(sums, plane / 2, y)[2 * x + plane % 2];
 }
 
-/* What arrived minus what went, of one row. */
+/* Adds what arrived in a row and takes off what went. */
 static void exchange_row(const NodeWork *work, const Convolution *sums, int y)
 {
     int width = work->filter->view.width;

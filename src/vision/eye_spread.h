@@ -19,7 +19,7 @@
 /* The CIE's function as it is published: its integral is up to 7 % above one. */
 double eye_spread_published(double angle_deg, HumanEye eye);
 
-/* Of the published function over the hemisphere, by quadrature (within 1e-6). */
+/* The integral of the published function over the hemisphere, by quadrature (within 1e-6). */
 double eye_spread_integral(HumanEye eye);
 
 /* Spencer's; its integral is 0.9996. At 10 degrees it is 1.6 to 1.8 times the CIE's for a young

@@ -11,7 +11,7 @@ static const double ABOVE[] = {-1.3011877, 8.0242636e-2, 1.3646699e-1, -2.546840
                                1.3635334e-3};
 static const double BELOW[] = {1, -2.5840191e-2, -1.0320229e-1, 2.8745620e-2, -3.1978977e-3,
                                1.2992634e-4};
-/* Of powers of log10 L. */
+/* The coefficients of powers of log10 L. */
 static const double INVERSE[] = {71.498068, 94.593053, 41.912053, 9.8247004, 0.28175407,
                                  -1.1878455, -0.18014349, 0.14710899, -0.017046845};
 

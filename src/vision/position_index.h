@@ -26,7 +26,7 @@ double position_index_above(double tau_deg, double sigma_deg);
  * along it: R/D = tan sigma, counted as 3 where it is more. sigma_deg: 0 to 180. */
 double position_index_below(double sigma_deg);
 
-/* Of a source in a direction of any length, in the head's axes: `forward` along the line of
- * sight, `up` perpendicular to it. At the height of the line of sight it counts as above; what
- * lies behind the eyes has POSITION_INDEX_MAX. */
+/* The index of a source in a direction of any length, in the head's axes: `forward` along the
+ * line of sight, `up` perpendicular to it. At the height of the line of sight it counts as
+ * above; what lies behind the eyes has POSITION_INDEX_MAX. */
 double position_index(double right, double up, double forward);

@@ -29,7 +29,7 @@ size_t draco_mesh_triangles(const DracoMesh *mesh);
 /* out: three vertices a triangle; each is below the number of vertices. */
 bool draco_mesh_corners(const DracoMesh *mesh, uint32_t *out, Error *err);
 
-/* An attribute by its unique id, as glTF's component type (5120 ... 5126) says: out holds
+/* An attribute by its unique id, in glTF's component type (5120 ... 5126): out holds
  * `components` such numbers a vertex, without gaps. False: it is not there, has another number
  * of components, or values that the type cannot hold. */
 bool draco_mesh_values(const DracoMesh *mesh, uint32_t id, int component_type, int components,

@@ -17,10 +17,10 @@ extern "C" {
 
 typedef struct ViewTransform ViewTransform; /* owns a C++ object */
 
-/* What is asked for. With config_path NULL the text own_config serves, whose role
+/* A request for a transform. With config_path NULL the text own_config serves, whose role
  * scene_linear is linear Rec.709. A user's configuration is entered through its role
- * aces_interchange, or cie_xyz_d65_interchange if that is a scene-referred space; one that
- * has neither is refused, since its scene_linear may be anything. */
+ * aces_interchange, or cie_xyz_d65_interchange if that is a scene-referred space; one that has
+ * neither is refused, since its scene_linear may be anything. */
 typedef struct ViewRequest {
     const char *config_path;
     const char *own_config;
@@ -30,8 +30,7 @@ typedef struct ViewRequest {
 
 bool view_transform_create(const ViewRequest *request, ViewTransform **out, Error *err);
 
-/* What was chosen: the configuration's name or path with its fingerprint, the display, the
- * view. */
+/* The chosen configuration (name or path, with its fingerprint), display and view. */
 const char *view_transform_config(const ViewTransform *transform);
 const char *view_transform_display(const ViewTransform *transform);
 const char *view_transform_view(const ViewTransform *transform);

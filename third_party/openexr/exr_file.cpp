@@ -173,7 +173,7 @@ static bool check_picture(const ExrPicture &p, Error *err)
     return true;
 }
 
-/* Attributes that say how a part is stored, not what the picture is. */
+/* Attributes of how a part is stored, not of what the picture is. */
 static bool is_of_storage(const std::string &name)
 {
     return name == "name" || name == "type" || name == "chunkCount";

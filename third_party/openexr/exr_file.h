@@ -80,8 +80,8 @@ bool exr_reader_create(const char *name, const void *bytes, size_t size, ExrRead
 /* The same for a file on disk, which is read as pixels are asked for. */
 bool exr_reader_open(const char *path, ExrReader **out, Error *err);
 
-/* Channels without values; lives as long as the reader. What a file says of its parts ("name",
- * "type", "chunkCount") is not among the attributes. */
+/* Channels without values; lives as long as the reader. What a file states of its parts
+ * ("name", "type", "chunkCount") is not among the attributes. */
 const ExrPicture *exr_reader_picture(const ExrReader *reader);
 
 /* planes: one array of (data window) floats for each channel, in the picture's order; NULL

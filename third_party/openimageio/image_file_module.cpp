@@ -143,7 +143,7 @@ static OIIO::ImageSpec output_spec(const char *format, const ImageToEncode *imag
         spec.attribute("ICCProfile",
                        OIIO::TypeDesc(OIIO::TypeDesc::UINT8, (int)image->icc_profile_size),
                        image->icc_profile);
-    /* For a TIFF the library would say it in an Exif directory, and 2.4.7 writes a file that
+    /* For a TIFF the library would state it in an Exif directory, and 2.4.7 writes a file that
      * cannot be read when it does so in memory. */
     if (image->is_srgb && std::string(format) != "tiff")
         spec.attribute("oiio:ColorSpace", "sRGB");

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* image_file_types.h -- what is known of a picture file, and what is to become one.
- * image_file.h says how they are used.
+ * image_file.h has the functions on them.
  */
 #pragma once
 #include <stdbool.h>
@@ -17,14 +17,14 @@ typedef struct ImageFileInfo {
 
 typedef struct ImageDecoder ImageDecoder; /* owns a C++ object */
 
-/* What is to be encoded. U8 and U16 only. */
+/* A picture to be encoded. U8 and U16 only. */
 typedef struct ImageToEncode {
     int         width, height;
     int         channels; /* 1 grey, 3 RGB, 4 RGB and straight alpha */
     PixelType   type;
     const void *pixels;
     int         jpeg_quality;       /* 1 .. 100 for "jpeg", else 0 */
-    bool        is_srgb;            /* the file says that its codes are sRGB (not a TIFF) */
+    bool        is_srgb;            /* the file states that its codes are sRGB (not a TIFF) */
     const void *icc_profile;        /* valid, or NULL */
     size_t      icc_profile_size;
     const char *description;        /* a text that goes into the file, or NULL */

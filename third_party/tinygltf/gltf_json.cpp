@@ -212,7 +212,7 @@ Json json_from_number(double number)
     return number;
 }
 
-/* What tinygltf has no use for, and what may be large. */
+/* Members that tinygltf has no use for, and that may be large. */
 bool is_unused(const char *key)
 {
     for (const char *unused : {"name", "extras", "extensions", "min", "max"})

@@ -36,7 +36,7 @@ static void cell_edges(const Tracer *t, int row, int column, int edge[4])
     edge[3] = 2 * here + 1;
 }
 
-/* One or two segments; at a saddle the centre's mean says which corners hang together. */
+/* One or two segments; at a saddle the centre's mean decides which corners are joined. */
 static void march_cell(Tracer *t, int row, int column)
 {
     double v[4] = {above(t, row, column), above(t, row, column + 1),

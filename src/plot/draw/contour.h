@@ -24,6 +24,6 @@ typedef struct ContourSet {
     ContourLine *line;
 } ContourSet;
 
-/* value: side x side, row by row. A cell with a value that is not finite has no line. Crossings
- * lie where the linear interpolation along the cell's edge says. */
+/* value: side x side, row by row. A cell with a value that is not finite has no line.
+ * Crossings are interpolated linearly along the cell's edge. */
 ContourSet contour_lines(const float *value, int side, double level, Arena *arena);

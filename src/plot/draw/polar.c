@@ -22,7 +22,7 @@ static uint32_t pixel_of(const PolarMap *map, double value, uint32_t nothing)
     return pixel;
 }
 
-/* Colours by table: 1024 of them are more than eight bits can tell apart. */
+/* Colours by table: 1024 of them are more than eight bits can resolve. */
 typedef struct Palette {
     uint32_t colour[1024], nothing;
 } Palette;

@@ -46,7 +46,7 @@ double polar_disc_position(const PolarMap *map, double value);
 /* Black or white, whichever reads on the colour of the value. */
 Ink polar_disc_ink(const PolarDisc *disc, double value);
 
-/* Of the numbers inside the disc. */
+/* For the numbers inside the disc. */
 double polar_disc_letter_size(const PolarDisc *disc);
 
 /* Marks a place as taken / asks whether it is free. */

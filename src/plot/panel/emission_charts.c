@@ -22,7 +22,7 @@ static void note_map(PanelChartMap *out, const PolarMap *map, PolarPlace place)
                        .unit = map->unit};
 }
 
-/* Round levels inside (low, high), not so near the ends or the strong level that they say
+/* Round levels inside (low, high), not so near the ends or the strong level that they show
  * nothing. */
 static void choose_levels(PolarMap *map, double low, double high, int most)
 {

@@ -51,8 +51,8 @@ static double residual_percent(const PlotData *s, const FitTableRef *ref, int ro
     return 100 * (xyz[1] - measured) / fmax(0.025 * peak, measured);
 }
 
-/* What the fit was asked for, percent; of a file that does not say the largest error of its
- * emission tables. */
+/* The bound that was asked of the fit, percent; for a file that states none, the largest error
+ * of its emission tables. */
 static double stated_bound_percent(const PlotData *s)
 {
     const json_t *report = s->source.report;

@@ -50,7 +50,8 @@ typedef struct PanelChartList {
     PanelChart chart[PANEL_CHARTS_MAX];
 } PanelChartList;
 
-/* A chart of primaries or levels of a set that is white only says so and leaves the sheet. */
+/* A chart of primaries or levels of a set that is white only states so and leaves the
+ * sheet. */
 void panel_chart_add(PanelChartList *list, const PanelChart *chart);
 
 /* The ink of the i-th of so many curves that stand in an order. */

@@ -32,7 +32,7 @@ bool plot_write(const PlotInput *input, const PlotOptions *options, const char *
                 Arena *arena, int *charts, Error *err);
 
 /* Asks the panel for what options->kind shows; *report is the caller's to release. NULL: *err
- * says why. */
+ * has the reason. */
 PlotData *plot_ask(const PlotInput *input, const PlotOptions *options, Arena *arena,
                        json_t **report, Error *err);
 

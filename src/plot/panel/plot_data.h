@@ -20,7 +20,7 @@ typedef enum Pattern {
 
 #define PLOT_REFLECTANCES 91
 
-/* What of the panel is drawn. */
+/* The panel and what is drawn of it. */
 typedef struct PlotSource {
     const Panel       *panel;
     const char        *file;     /* as the user named it */

@@ -12,7 +12,7 @@
 
 #define INCIDENCES_SHOWN 7
 
-/* Of the measured incidences all, or so many spread over them; degrees. */
+/* All measured incidences, or INCIDENCES_SHOWN spread over them; degrees. */
 static int chosen_incidences(const PlotData *s, double deg[INCIDENCES_SHOWN])
 {
     int count = s->incidence_count < INCIDENCES_SHOWN ? s->incidence_count : INCIDENCES_SHOWN;

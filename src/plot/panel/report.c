@@ -22,7 +22,7 @@
 /* report.css and report.js beside this file; the build embeds them. */
 extern const char PANEL_STYLE[], PANEL_SCRIPT[];
 
-/* ---- what a figure tells the pointer ---------------------------------------------------- */
+/* ---- values of a figure at the pointer -------------------------------------------------- */
 
 #define READ_ROWS 46    /* every 2 degrees of theta */
 #define READ_COLUMNS 60 /* every 6 degrees of phi */

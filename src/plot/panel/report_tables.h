@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* report_tables.h -- a panel's own report (JSON) as tables of an HTML page.
  *
- * Whatever the report holds is shown: known words get readable names and units, unknown ones
+ * All that the report holds is shown: known words get readable names and units, unknown ones
  * stand as they are.
  *
  * Memory   the text's. Threads: one at a time. Fails: never.

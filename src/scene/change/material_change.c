@@ -109,7 +109,7 @@ static void add_used(GltfFile *file, const GltfValue *patch)
         const char *name = added->items[i].key;
         if (added->items[i].kind == GLTF_NULL || document_uses(file, name)) continue;
         GltfValue *used = list_of_used(file, arena);
-        if (used->kind != GLTF_ARRAY) return; /* the check says so */
+        if (used->kind != GLTF_ARRAY) return; /* the check reports it */
         with_room(used, 1, arena)[used->count] =
             (GltfValue){.kind = GLTF_STRING, .text = name};
         used->count++;

@@ -2,7 +2,7 @@
 /* node_change.h -- nodes are turned and moved once their places in the world are known.
  *
  * A change names one node, which it turns about the middle of its surface, and others of the
- * same file that move along: a display with its glass and its rim. Whatever hangs below a moved
+ * same file that move along: a display with its glass and its rim. All that hangs below a moved
  * node, lights and cameras among it, moves with it.
  *
  * Frame    the surface's: its normal is the mean of the surface (right-handed triangles, each

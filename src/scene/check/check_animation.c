@@ -10,7 +10,7 @@
 #define BYTE_CODE 5121
 #define FLOAT_CODE 5126
 
-/* What a channel of this path is made of. */
+/* The format of the values of a path. */
 typedef struct ChannelPath {
     const char *type;
     bool may_be_integer; /* normalised */
@@ -95,7 +95,7 @@ static void check_output(const DocumentCheck *check, const GltfValue *channel,
                     tree_number(output, "count", 0), tree_number(input, "count", 0), wanted);
 }
 
-/* What is not played is told by name; where the file requires that it is, it is refused. */
+/* Reports a channel that is not played; an error where the file requires that it is. */
 static void check_unplayed(const DocumentCheck *check, const GltfValue *channel)
 {
     const GltfValue *root = check->file->root;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What tables cannot say about buffer views and accessors: everything lies inside. */
+/* Rules on buffer views and accessors that tables cannot express: everything lies inside. */
 #include "scene/check/check_bytes.h"
 
 #include <stdio.h>
@@ -8,7 +8,7 @@
 #include "scene/gltf/accessor.h"
 #include "scene/gltf/document.h"
 
-/* Numbers here are below 2^53 each (the tables say so), so that sums of doubles are exact. */
+/* Numbers here are below 2^53 each, by the tables, so that sums of doubles are exact. */
 
 static void check_stride(const DocumentCheck *check, const GltfValue *view, double stride,
                          double length)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* check_coating.h -- what tables cannot say about coatings and measured metals. */
+/* check_coating.h -- rules that tables cannot express, on coatings and measured metals. */
 #pragma once
 #include "scene/check/check.h"
 

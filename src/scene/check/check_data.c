@@ -76,7 +76,7 @@ static void check_sparse_order(GltfFile *file, const GltfValue *value,
     }
 }
 
-/* Integers are finite: what is left is their bounds, where those are told. */
+/* Integers are finite: what is left is their bounds, where they are stated. */
 static bool has_nothing_to_check(const GltfValue *value, const GltfAccessor *accessor)
 {
     return !accessor_is_float(accessor) && !tree_member(value, "min") &&
@@ -272,7 +272,7 @@ static void check_animation_data(GltfFile *file, const GltfValue *animation)
     }
 }
 
-/* Places that no turn tells are not guessed. */
+/* An instance whose rotation is no unit quaternion is an error: its place is not guessed. */
 static void check_instances(GltfFile *file, const GltfValue *node)
 {
     const GltfValue *turns = tree_member(

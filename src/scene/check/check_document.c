@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What tables cannot say about the document's small objects. */
+/* Rules on the document's small objects that tables cannot express. */
 #include "scene/check/check_document.h"
 
 #include <stdio.h>
@@ -71,7 +71,7 @@ static void check_pointer(const DocumentCheck *check, const GltfValue *pointer)
     }
 }
 
-/* Of two variants with one name only the first can be asked for. */
+/* Only the first of two variants with one name can be asked for. */
 void check_variant_names(const DocumentCheck *check, const GltfValue *extension)
 {
     const GltfValue *variants = tree_member(extension, "variants");
@@ -213,7 +213,7 @@ void check_display(const DocumentCheck *check, const GltfValue *display)
     check_fails(check, display, "\"panel\" is missing, and --panel names none");
 }
 
-/* What an environment of a type must have, and what else it may have. */
+/* The members that an environment of a type must have and may have. */
 typedef struct EnvironmentType {
     const char *name;
     const char *needed[2];

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* check_document.h -- what tables cannot say about a document's small objects. */
+/* check_document.h -- rules that tables cannot express, on a document's small objects. */
 #pragma once
 #include "scene/check/check.h"
 

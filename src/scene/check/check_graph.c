@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What tables cannot say about nodes, scenes and skins. */
+/* Rules on nodes, scenes and skins that tables cannot express. */
 #include "scene/check/check_graph.h"
 
 #include <string.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* check_index.h -- what tables cannot say about indices of refraction by wavelength. */
+/* check_index.h -- rules that tables cannot express, on indices of refraction by wavelength. */
 #pragma once
 #include "scene/check/check.h"
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What tables cannot say about materials and textures. */
+/* Rules on materials and textures that tables cannot express. */
 #include "scene/check/check_material.h"
 
 #include <stdio.h>
@@ -96,7 +96,7 @@ void check_glazing_layer(const DocumentCheck *check, const GltfValue *layer)
                     "a wedge without \"wedge_toward\": +u, -u, +v or -v is wanted");
 }
 
-/* What other viewers do not need beside a pane, and is not seen here. */
+/* Warns of properties that are not rendered on a pane and that other viewers do not need. */
 static void check_beside_glazing(const DocumentCheck *check, const GltfValue *material)
 {
     static const char *const HIDDEN[] = {"KHR_materials_volume", "KHR_materials_clearcoat",
@@ -108,7 +108,7 @@ static void check_beside_glazing(const DocumentCheck *check, const GltfValue *ma
     }
 }
 
-/* A pane's face says by its name which it is, and stands in air. */
+/* A pane's face is identified by its name, and it lies in air. */
 static void check_face_coating(const DocumentCheck *check, const GltfValue *coating)
 {
     const GltfValue *faces = tree_member(coating, "faces");
@@ -188,7 +188,7 @@ static int missing_set(const GltfValue *value, const GltfValue *attributes)
     return NO_ID;
 }
 
-/* A wedge's direction is told by texture coordinates. */
+/* A wedge's direction is given by texture coordinates. */
 static bool has_wedge(const GltfValue *material)
 {
     const GltfValue *layers =
@@ -198,7 +198,7 @@ static bool has_wedge(const GltfValue *material)
     return false;
 }
 
-/* Grooves and normal maps turn with the surface; only a normal map says how to find that. */
+/* Grooves and normal maps turn with the surface; only a normal map defines that frame. */
 static void check_tangents(const DocumentCheck *check, const GltfValue *primitive,
                            const GltfValue *material, const char *name)
 {

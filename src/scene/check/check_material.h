@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* check_material.h -- what tables cannot say about materials and textures. */
+/* check_material.h -- rules that tables cannot express, on materials and textures. */
 #pragma once
 #include "scene/check/check.h"
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What tables cannot say about primitives: formats, counts and names of attributes. */
+/* Rules on primitives that tables cannot express: formats, counts and names of attributes. */
 #include "scene/check/check_mesh.h"
 
 #include <stdio.h>
@@ -9,7 +9,7 @@
 #include "scene/check/check_material.h"
 #include "scene/gltf/document.h"
 
-/* What an attribute may be made of. Component types as bits: 1 << (code - 5120). */
+/* The formats that an attribute may have. Component types as bits: 1 << (code - 5120). */
 typedef struct Format {
     const char *prefix; /* "TEXCOORD_": a number follows; "POSITION": the whole name */
     const char *types;

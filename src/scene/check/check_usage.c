@@ -11,16 +11,16 @@ static const char VERTICES[] = "vertices", INDICES[] = "indices", PICTURE[] = "a
                   MATRICES[] = "inverse bind matrices", TIMES[] = "times of an animation",
                   VALUES[] = "values of an animation", SPARSE[] = "sparse values";
 
-/* What each accessor and each buffer view was found to be; NULL: not used yet. */
+/* The use of each accessor and each buffer view; NULL: not used yet. */
 typedef struct Usage {
     const DocumentCheck *check;
     const GltfValue *accessors, *views; /* NULL: the document has none */
     const char **accessor_use, **view_use;
     int *vertex_accessor; /* the first that a view's vertices belong to, plus one */
-    bool *is_shared;      /* told already */
+    bool *is_shared;      /* reported already */
 } Usage;
 
-/* Of animations: one view may hold times and values. */
+/* One view may hold the times and the values of an animation. */
 static const char *kind_of_bytes(const char *use)
 {
     return use == TIMES || use == VALUES ? "key frames" : use;
@@ -38,7 +38,7 @@ static void use_view(Usage *usage, const GltfValue *at, int view, const char *us
     if (!before || strcmp(before, use) == 0) return;
     check_warns(usage->check, at, "%s stand%s in a buffer view for %s (/bufferViews/%d)", use,
                 use == PICTURE || use == PROFILE ? "s" : "", before, view);
-    usage->view_use[view] = use; /* told once */
+    usage->view_use[view] = use; /* reported once */
 }
 
 /* Interleaved attributes need a stride. */

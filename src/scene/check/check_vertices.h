@@ -8,5 +8,5 @@
 #pragma once
 #include "scene/gltf/loader.h"
 
-/* Of every primitive of a document whose structure and accessors passed. */
+/* Checks every primitive of a document whose structure and accessors passed. */
 void check_vertices(GltfFile *file);

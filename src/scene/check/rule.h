@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* rule.h -- what a glTF document must look like, as tables.
  *
- * The tables (schema_core.c, schema_extensions.c) say for every object which members it may
- * have, of which kind and range, and which list an index refers to. What tables cannot say
+ * The tables (schema_core.c, schema_extensions.c) state for every object which members it may
+ * have, of which kind and range, and which list an index refers to. What tables cannot express
  * (cycles, bounds, agreement between objects) is in the check_*.c files.
  */
 #pragma once
@@ -20,7 +20,7 @@ typedef enum RuleKind {
     RULE_INDICES, /* an array of such places, none twice */
     RULE_NUMBERS, /* an array of least .. most numbers, each in min .. max */
     RULE_TEXTS,   /* an array of texts, none twice */
-    RULE_OBJECT,  /* as `schema` says */
+    RULE_OBJECT,  /* as in `schema` */
     RULE_OBJECTS, /* an array of such objects */
     RULE_MAP,     /* an object whose members are all indices into `of` */
     RULE_ANY
@@ -50,11 +50,11 @@ typedef struct Rule {
 } Rule;
 
 typedef struct Schema {
-    const char *name; /* "node": what extensions are asked by, and what messages say */
+    const char *name; /* "node": extensions and messages refer to it */
     const Rule *rules;
     int rule_count;
     bool is_ours; /* PARHELION_*: an unknown member is an error, not a warning */
-    /* NULL: the table says all. */
+    /* NULL: the table suffices. */
     void (*more)(const DocumentCheck *check, const GltfValue *value);
 } Schema;
 

@@ -14,7 +14,7 @@
 
 #define MEMBERS_MAX 64 /* of one object that are compared with an unknown one */
 
-/* What stands there, for "is ..., ... is wanted". */
+/* The value found, for "is ..., ... is wanted". */
 static const char *describe(const GltfValue *value, char *buffer, size_t size)
 {
     switch (value->kind) {
@@ -275,7 +275,7 @@ static void check_extension(const DocumentCheck *check, const GltfValue *extensi
     if (rule && rule->schema) schema_check(&inner, extension, rule->schema);
 }
 
-/* Of extras only what is named as our extensions are is ours to judge; more may follow. */
+/* Checks only those extras that are named as our extensions are; others may be there. */
 static void check_extras(const DocumentCheck *check, const GltfValue *extras, const char *host)
 {
     const GltfValue *extensions = tree_member(extras->parent, "extensions");

@@ -120,7 +120,7 @@ static const Rule VOLUME[] = {
 static const Schema SCHEMA_VOLUME = {"KHR_materials_volume", VOLUME, COUNT_OF(VOLUME), false,
                                      NULL};
 
-/* What is larger is told from an infinite one no more in single precision. */
+/* A larger one cannot be distinguished from an infinite one in single precision. */
 #define IOR_MAX 1e5
 
 static const Rule IOR[] = {{.name = "ior", .kind = RULE_NUMBER, .flags = RULE_FROM_MIN}};
@@ -419,12 +419,12 @@ static const ExtensionRule EXTENSIONS[] = {
     {"PARHELION_coating", "material", &SCHEMA_COATING},
     {"OpenMaterial_material_parameters", "material", NULL}, /* check_index.c looks into it */
     {"OpenMaterial_asset_info", NULL, NULL},
-    /* Of no picture: who made it, what a hand may do with a node. */
+    /* Without effect on the picture: who made it, what a hand may do with a node. */
     {"KHR_xmp_json_ld", NULL, NULL},
     {"KHR_node_selectability", NULL, NULL},
     {"KHR_node_hoverability", NULL, NULL},
     {"KHR_mesh_quantization", "", NULL}, /* it only widens what accessors may hold */
-    /* Known, so that a wrong place or value can be told, but not honoured: */
+    /* Known, so that a wrong place or value can be reported, but not honoured: */
     {"KHR_materials_pbrSpecularGlossiness", "material", &SCHEMA_GLOSSINESS},
     {"KHR_texture_basisu", "texture", &SCHEMA_BASISU},
 };

@@ -6,7 +6,7 @@
 /* The rule for an extension on this host; *is_known: it may stand on some object. */
 const ExtensionRule *extension_rule(const char *name, const char *host, bool *is_known);
 
-/* What the program honours, so that it may be required. */
+/* Whether the program honours it, so that it may be required. */
 bool extension_is_supported(const char *name);
 
 /* extensionsUsed and extensionsRequired of the document. */

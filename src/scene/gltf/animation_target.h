@@ -31,5 +31,5 @@ extern const char *const animation_path_names[MOVES_COUNT];
  * checked. */
 bool animation_target(const GltfValue *root, const GltfValue *channel, AnimationTarget *out);
 
-/* What a channel moves, for messages: the pointer, or the path. */
+/* The pointer or the path that a channel moves, for messages. */
 const char *animation_target_text(const GltfValue *channel);

@@ -260,7 +260,7 @@ bool document_uses(const GltfFile *file, const char *extension)
     return false;
 }
 
-/* Of bytes for readers that cannot unpack (EXT_meshopt_compression). */
+/* The buffer is for readers that cannot unpack (EXT_meshopt_compression). */
 static bool is_fallback(const GltfValue *buffer)
 {
     return tree_boolean(tree_extension(buffer, MESHOPT_EXTENSION), "fallback", false);

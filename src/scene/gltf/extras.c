@@ -5,8 +5,8 @@
 
 #include "scene/gltf/document.h"
 
-/* A text becomes what it holds, in its place: it keeps its name and its way up, so that a fault
- * inside is told by the pointer that a reader of the file can follow. */
+/* A text becomes what it holds, in its place: it keeps its name and its way up, so that a
+ * fault inside is reported with the pointer that a reader of the file can follow. */
 static void unfold(GltfFile *file, GltfValue *text)
 {
     Error            err;

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* packed_mesh.h -- the accessors of meshes that are packed (KHR_draco_mesh_compression).
  *
- * A primitive that is packed says which buffer view holds the packed bytes and which attribute
- * of them is which of its own; its accessors say of how many numbers of which type. Unpacked,
+ * A primitive that is packed states which buffer view holds the packed bytes and which
+ * attribute of them is which of its own; its accessors state the counts and types. Unpacked,
  * each of these accessors reads a view of its own behind the document's; what they read without
- * the extension is not looked at. The corners are those of triangles, whatever the mode.
+ * the extension is not looked at. The corners are those of triangles, in any mode.
  *
  * Source   github.com/KhronosGroup/glTF, extensions/2.0/Khronos/KHR_draco_mesh_compression
  * Memory   unpacked bytes lie in the loader's scratch.

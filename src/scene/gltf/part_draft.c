@@ -58,7 +58,7 @@ void draft_any_tangents(PartDraft *draft, Arena *scratch)
     }
 }
 
-/* What makes two vertices one for tangents. */
+/* Vertices with equal keys count as one for tangents. */
 typedef struct WeldKey {
     Vec3 position, normal;
     Vec2 uv;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* tree.h -- reads values out of a glTF document, each with its default.
  *
- * The readers take a missing value or one of a wrong kind for the default: whatever is wrong
+ * The readers take a missing value or one of a wrong kind for the default: what is wrong
  * has been reported before by the check (schema.h), and a document with errors is not built.
  *
  * Threads  const data.

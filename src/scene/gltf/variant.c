@@ -14,7 +14,7 @@ static bool is_chosen(const SceneState *state, const char *name)
     return false;
 }
 
-/* Of several with one name the first is meant: the check warns of them. */
+/* The first of several with one name is meant: the check warns of them. */
 static bool is_repeated(const GltfValue *variants, int index, const char *name)
 {
     for (int i = 0; i < index; i++)

@@ -7,6 +7,6 @@
 #pragma once
 #include "scene/gltf/loader.h"
 
-/* Of a PARHELION_coating, or the coating of a pane's face, that the check has found well
- * formed; NULL: none, or reported. */
+/* Reads a PARHELION_coating, or the coating of a pane's face, that the check has found well
+ * formed; NULL: there is none, or an error was reported. */
 const LayerStack *coating_read(GltfFile *file, const GltfValue *extension);

@@ -37,7 +37,7 @@ static SubpixelLayout layout_of(const GltfValue *given)
     return strcmp(word, "pentile") == 0 ? SUBPIXELS_PENTILE : SUBPIXELS_NONE;
 }
 
-/* NULL: the scene says nothing, the panel decides (displays_finish). */
+/* NULL: the scene states none, the panel decides (displays_finish). */
 static const Subpixels *subpixels_build(Loader *load, const GltfValue *given)
 {
     if (!given) return NULL;
@@ -353,7 +353,7 @@ static void find_place(Loader *load, int id)
     }
     for (int k = 0; k < 2; k++) {
         float low = box[2 * k], size = box[2 * k + 1] - low;
-        bool  is_area = size > 0 && size < INFINITY; /* else an error is told elsewhere */
+        bool  is_area = size > 0 && size < INFINITY; /* else an error is reported elsewhere */
         display->place_from_uv[2 * k] = is_area ? 1 / size : 0;
         display->place_from_uv[2 * k + 1] = is_area ? -low / size : 0.5f;
     }

@@ -9,6 +9,6 @@ void display_build(GltfFile *file, const GltfValue *extension, int material_id);
 /* The command line's --panel, --content and --display-level. */
 void displays_override(Loader *load);
 
-/* What can be checked only when all files are read: panels that open, coordinates that are not
- * mirrored. */
+/* After all files are read: opens the panels, sets what follows from them, and checks that no
+ * coordinates are mirrored. */
 void displays_finish(Loader *load);

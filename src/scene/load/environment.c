@@ -21,7 +21,7 @@ static EnvironmentKind kind_from_text(const char *type)
     return ENVIRONMENT_NONE;
 }
 
-/* A colour tells the hue only: its luminance is taken off. */
+/* A colour gives the hue only: its luminance is taken off. */
 static void read_color(GltfFile *file, const GltfValue *extension, float out[3])
 {
     float color[3] = {1, 1, 1};
@@ -48,7 +48,7 @@ static void read_sun(const GltfValue *sun, Environment *out)
         out->sun_angular_radius = radians(sun, "angular_radius_deg");
 }
 
-/* Light is not negative: such pixels (ringing of a filter, say) and NaN count as 0. */
+/* Light is not negative: such pixels (ringing of a filter) and NaN count as 0. */
 static void clean_pixels(GltfFile *file, const GltfValue *uri, const Image *image)
 {
     float *values = (float *)image->pixels;

@@ -11,7 +11,7 @@
 
 #define LEAST_TRANSMITTANCE 1e-12 /* black: its logarithm is still a number */
 
-/* What one layer lets through, as a curve; without a word of it all. */
+/* The transmittance of one layer; 1 for a layer that states none. */
 static void read_transmission(GltfFile *file, const GltfValue *layer, Curve *out)
 {
     const GltfValue *value = tree_member(layer, "transmission");

@@ -24,7 +24,7 @@ static Transform from_matrix(const float m[16])
                        vec3(m[12], m[13], m[14])};
 }
 
-/* pose: what animations say; NULL: at rest. */
+/* pose: the values of animations; NULL: at rest. */
 static Transform parent_from_node(const GltfValue *node, const NodePose *pose)
 {
     float matrix[16], t[3] = {0, 0, 0}, q[4] = {0, 0, 0, 1}, s[3] = {1, 1, 1};
@@ -211,7 +211,7 @@ static bool last_has_place(const Loader *load)
     return light->kind != LIGHT_DIRECTIONAL;
 }
 
-/* What sees and what shines; of meshes the place is checked vertex by vertex. */
+/* Adds cameras and lights; the places of meshes are checked vertex by vertex. */
 static void add_sights(GltfFile *file, const GltfValue *node, const Transform *world)
 {
     const Loader *load = file->load;
@@ -237,7 +237,7 @@ static void add_mesh(GltfFile *file, const GltfValue *node, const Transform *wor
                             &primitives->items[i]);
 }
 
-/* For whoever asks for a node by its name. */
+/* For options that ask for a node by its name. */
 static void note_name(GltfFile *file, const GltfValue *node)
 {
     Loader     *load = file->load;

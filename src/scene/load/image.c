@@ -81,7 +81,7 @@ static const char *sniffed_type(FileBytes bytes)
     return "";
 }
 
-/* What the bytes are against what the file says they are. Only PNG and JPEG are core glTF. */
+/* Compares the type of the bytes with the declared one. Only PNG and JPEG are core glTF. */
 static void check_type(GltfFile *file, const GltfValue *image, const char *declared,
                        FileBytes bytes, bool is_webp)
 {

@@ -14,5 +14,5 @@ typedef struct Instances {
     int count;
 } Instances;
 
-/* One, at `world`, unless the node says otherwise. The document has passed the check. */
+/* One, at `world`, unless the node states others. The document has passed the check. */
 Instances instances_of(GltfFile *file, const GltfValue *node, const Transform *world);

@@ -6,7 +6,7 @@
  * +Y, as EXT_lights_ies has it; scale changes neither intensities nor opening, and a mirrored
  * node mirrors them. Factors for tilted lamps (TILT=) count with the scene's -Y as down.
  *
- * --light makes all nodes of the name lamps, in the place of whatever light the file gives
+ * --light makes all nodes of the name lamps, in the place of any light that the file gives
  * them; EXT_lights_ies in the place of KHR_lights_punctual's on the same node, since exporters
  * write both for one lamp. The light has the file's colour temperature, else D65, times the
  * color.

@@ -185,7 +185,7 @@ static int read_curve(GltfFile *file, const GltfValue *uri, CurveRange range)
     return load->curves.count - 1;
 }
 
-/* An emission spectrum tells the colour; emissiveFactor and its strength tell how much. */
+/* An emission spectrum gives the colour; emissiveFactor and its strength give the amount. */
 static void make_unit_luminance(GltfFile *file, const GltfValue *at, int curve_id)
 {
     Curve *curve = list_item(&file->load->curves, curve_id);

@@ -12,5 +12,5 @@ int material_default(GltfFile *file);
 /* The id of a new material that only scatters: linear Rec.709 of all three, 0..1. */
 int material_add_matt(Loader *load, const char *name, float reflectance);
 
-/* What follows from the other members, when all that may change them is done. */
+/* Sets what follows from the other members; after the last change of these. */
 void material_derive_flags(Material *material);

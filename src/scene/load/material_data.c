@@ -42,7 +42,7 @@ static bool has_data(const Material *m)
            has_layer(m) || lets_through(m);
 }
 
-/* Vertices without a colour of their own are white, and so are those that say so. */
+/* Vertices without a colour of their own are white, as are those whose colour is white. */
 static bool is_white(VertexColor color)
 {
     for (int c = 0; c < 4; c++)

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* material_data.h -- which materials say nothing about what they reflect.
+/* material_data.h -- which materials state nothing about what they reflect.
  *
  * A material that is left at glTF's defaults is perfectly white; nothing is, so it was not
  * described. One is taken as without data when its base colour is 1, 1, 1 without a texture
- * or a measured curve, and nothing else tells what it does with light: it is no display,
+ * or a measured curve, and nothing else states what it does with light: it is no display,
  * glazing or coating, no conductor of measured constants; lets no light through; has no sheen,
  * iridescence, clearcoat or specular colour of its own; is no lamp and not unlit. That some
  * roughness or metalness was given alone does not count: exporters write both. Nor does a trace
@@ -16,7 +16,8 @@
 #include "base/arena.h"
 #include "scene/scene.h"
 
-/* Of its material, or of its vertices: their colours (COLOR_0) are multiplied with its. */
+/* Whether its material has data, or its vertices colours other than white (COLOR_0), which
+ * multiply the material's. */
 bool part_has_data(const Scene *scene, int part_id);
 
 /* Ids of those without data that some part has which has none itself. */

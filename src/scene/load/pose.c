@@ -151,7 +151,7 @@ static void play_channel(GltfFile *file, const GltfValue *samplers, const GltfVa
     Keys keys;
     AnimationTarget moved;
     Arena *scratch = &file->load->scratch;
-    if (!animation_target(file->root, channel, &moved)) return; /* told by the check */
+    if (!animation_target(file->root, channel, &moved)) return; /* reported by the check */
     size_t width = width_of(file, &moved);
     if (!width || !claim(file, channel, &moved)) return;
     float *value = ARENA_NEW(scratch, float, width);

@@ -13,7 +13,7 @@
 #pragma once
 #include "scene/gltf/loader.h"
 
-/* What animations say of a node; NULL: as the node itself says. */
+/* The values that animations give a node; NULL: the node's own. */
 typedef struct NodePose {
     const float *translation; /* 3, m */
     const float *rotation;    /* 4: x, y, z, w; a unit quaternion to within rounding */
@@ -26,6 +26,6 @@ typedef struct NodePose {
 /* Notes the file's animations and sets file->poses. The document has passed the check. */
 void pose_build(GltfFile *file);
 
-/* What the options ask for and no file has: names of variants and animations, or any animation
- * at all. After the last file. */
+/* Reports what the options ask for and no file has: names of variants and animations, or any
+ * animation at all. After the last file. */
 void pose_report_missing(Loader *load);

@@ -248,7 +248,7 @@ static bool has_area(Vec3 a, Vec3 b, Vec3 c)
     return x * x + y * y + z * z > 1e-24 * edges;
 }
 
-/* Packed corners are those of triangles, whatever the mode. */
+/* Packed corners are those of triangles, in any mode. */
 static int mode_of(const GltfValue *primitive)
 {
     return tree_extension(primitive, DRACO_EXTENSION)
@@ -326,8 +326,8 @@ static void finish_shading(PartDraft *draft, const Material *material, Arena *sc
         draft_any_tangents(draft, scratch);
 }
 
-/* A buffer may lack its bytes (no uri, or one that leads elsewhere), but not when something of
- * it is shown. */
+/* A buffer may lack its bytes (no uri, or one that points elsewhere), but not when something
+ * of it is shown. */
 static bool has_bytes(GltfFile *file, const GltfValue *primitive, const GltfValue *at)
 {
     const GltfAccessor *accessor = accessor_get(file, tree_whole(at, NO_ID));

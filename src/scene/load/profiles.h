@@ -16,12 +16,12 @@ typedef struct LightProfile {
     const IntensityWeb *web; /* NULL: could not be read, which was reported */
     LuminousOpening opening;
     LuminaireTilt tilt;
-    float cct_k;             /* 0: not told */
-    const char *cct_text;    /* what tells it, or does not: "" */
+    float cct_k;             /* 0: not stated */
+    const char *cct_text;    /* the file's text about it; "": none */
 } LightProfile;
 
-/* What bytes tell; out->file names them in messages, and with has_folder it is a path, beside
- * which a file that TILT= names may stand. */
+/* Reads a profile's bytes; out->file names them in messages, and with has_folder it is a path,
+ * beside which a file that TILT= names may stand. */
 bool profile_read(Loader *load, FileBytes bytes, bool has_folder, LightProfile *out,
                   Error *err);
 

@@ -32,7 +32,7 @@
 #include "scene/load/profiles.h"
 #include "text/nearest_word.h"
 
-/* ---- materials that say BLEND or MASK but are opaque everywhere ------------------------ */
+/* ---- materials marked BLEND or MASK that are opaque everywhere ------------------------- */
 
 /* Exporters mark whole models so; asking such surfaces at every ray costs time for nothing. */
 
@@ -308,7 +308,8 @@ static Loader loader_start(const SceneOptions *options, Arena *arena, Problems *
 
 /* ---- what is tried out ------------------------------------------------------------------ */
 
-/* Of all nodes that are shown, or of all materials. */
+/* The names that a change can refer to: nodes that are shown, materials, or those of
+ * displays. */
 static const char **names_for(Loader *load, SceneChangeKind kind, int *count)
 {
     if (kind == CHANGE_NODES) {

@@ -86,7 +86,7 @@ static int choose_material(Loader *load, const char *option, const char *word)
     return NO_ID;
 }
 
-/* Nodes of one name cannot be told apart by it. */
+/* Nodes of one name cannot be distinguished by it. */
 static bool is_one_node(Loader *load, const char *option, const char *word)
 {
     char names[NAMES_MAX] = "";

@@ -122,7 +122,7 @@ static void check_sum(IndexFile *from, const GltfValue *data, const OpticalConst
                               "wanted");
 }
 
-/* NULL: reported, or it says nothing of visible light. */
+/* NULL: reported, or it has no visible wavelength. */
 static const OpticalConstants *read_table(GltfFile *file, const GltfValue *uri)
 {
     IndexFile from = {.file = file, .uri = uri, .ok = true};
@@ -192,7 +192,7 @@ void measured_index_build(GltfFile *file, const GltfValue *material, Material *o
     bool is_measured = uri && uri->text[0];
     const OpticalConstants *table = is_measured ? read_table(file, uri) : NULL;
     if (table) wear_table(file, uri, table, out);
-    if (!is_measured) spread(file, dispersion, out); /* else check_index.c tells of it */
+    if (!is_measured) spread(file, dispersion, out); /* else check_index.c reports it */
     if (out->index && is_constant(out->index)) out->index = NULL;
     if (!(out->is_solid && out->transmission > 0)) out->index = NULL;
 }

@@ -22,7 +22,7 @@ typedef struct PhaseModes {
     float from_sun[2][DIFFUSE_MODES][DIRECTIONS];
 } PhaseModes;
 
-/* What a layer does to light that crosses it at a slant. */
+/* Coefficients for light that crosses a layer at a slant. */
 typedef struct Crossing {
     Spectrum pass;      /* the share of what came in */
     Spectrum near, far; /* weights of the source where light comes in, and leaves */
@@ -248,7 +248,7 @@ static float add_order(Solver *s)
     return most;
 }
 
-/* What all orders together scatter into the output directions. */
+/* The source of all orders together in the output directions. */
 static void fill_source(Solver *s)
 {
     for (int k = 0; k < DIFFUSE_LEVELS; k++)

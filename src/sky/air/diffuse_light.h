@@ -24,8 +24,8 @@ typedef struct DiffuseLight {
     double sun_cosine, top_m;
     int    level_count;
     double level_m[DIFFUSE_LEVELS]; /* rising from the floor to the top, as diffuse_level_m */
-    /* What is scattered into a direction at a level, m^-1 sr^-1, from light that was scattered
-     * or reflected before: [level][cosine][mode]; sum over modes of source cos(mode * azimuth),
+    /* Scattered into a direction at a level, m^-1 sr^-1, from light that was scattered or
+     * reflected before: [level][cosine][mode]; sum over modes of source cos(mode * azimuth),
      * azimuth between its travel and the beam's: that between a look along it and the sun. */
     Spectrum *source;
     float rise; /* logarithm of the next sun angle's light over this one's, where that is how
@@ -52,7 +52,7 @@ typedef struct DiffusePlace {
     float weight[4]; /* of both cosines at the level, and at the next */
 } DiffusePlace;
 
-/* Of an altitude and a direction of travel, by its cosine to the zenith. */
+/* The place of an altitude and a direction of travel. cosine: of that to the zenith. */
 DiffusePlace diffuse_light_place(const DiffuseLight *light, double altitude_m, float cosine);
 
 /* The source there, as a series in the azimuth. */

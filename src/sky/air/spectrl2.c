@@ -88,7 +88,7 @@ double aerosol_depth_from_turbidity(double turbidity)
     return fmax(0, beta) * pow_d(0.5, -1.3);
 }
 
-/* What passes through a path of relative air mass m. */
+/* Transmittances of a path of relative air mass m. */
 typedef struct Passing {
     double rayleigh, water, ozone, mixed;
     double aerosol, scattered, absorbed; /* of aerosol: all, by scattering alone, absorption */

@@ -4,15 +4,15 @@
  * Source    Bird and Riordan, "Simple Solar Spectral Model for Direct and Diffuse Irradiance on
  *           Horizontal and Tilted Planes at the Earth's Surface for Cloudless Atmospheres",
  *           SERI/TR-215-2436 (1984), with the constants of NREL's program of that name
- * (Rayleigh 1.3366, mixed gases 118.3); relative air mass of Kasten and Young (1989). Units
- * irradiance in W m^-2 nm^-1 at 122 wavelengths, 300 to 4000 nm. Threads   pure functions.
- * Fails: never; the sun at or below the horizon gives zeros.
+ *           (Rayleigh 1.3366, mixed gases 118.3); relative air mass of Kasten and Young (1989).
+ * Units     irradiance in W m^-2 nm^-1 at 122 wavelengths, 300 to 4000 nm.
+ * Threads   pure functions. Fails: never; the sun at or below the horizon gives zeros.
  */
 #pragma once
 
 #define SPECTRL2_COUNT 122
 
-/* What the air holds. */
+/* The air above a place, and the ground's albedo. */
 typedef struct Air {
     double pressure_mbar;
     double water_cm;      /* precipitable */

@@ -299,7 +299,7 @@ static void fill_radiance(void *context, int item, int worker)
         }
 }
 
-/* What a level scatters of an order's radiance. */
+/* A level's source from an order's radiance; adds it to the total. */
 static void fill_source(void *context, int level, int worker)
 {
     Sphere *s = context;
@@ -368,7 +368,8 @@ static void fill_phase(Sphere *s)
     }
 }
 
-/* Of the angle between a node's ray and the sun, which no straight ray changes. */
+/* Phase functions at the angle between a node's ray and the sun, which is constant along a
+ * straight ray. */
 static void fill_beam_phase(Sphere *s)
 {
     for (int i = 0; i < DIRECTIONS; i++)
