@@ -153,8 +153,9 @@ static void trace_chunk(void *user, int item, int worker)
     ProbeAnswers   answers = {trace->tables[item], trace->towards[item]};
     trace->options->kernel->ask_cells(&aim, &asks, first, first + RESPONSE_CHUNK, &answers,
                                       &statistics);
-    trace->sent[item] = 0;
-    for (size_t i = 0; i < size; i++) trace->sent[item] += (double)trace->tables[item][i];
+    double sent = 0;
+    for (size_t i = 0; i < size; i++) sent += (double)trace->tables[item][i];
+    trace->sent[item] = sent;
 }
 
 #define ADD_CELLS 512 /* in one piece of work */

@@ -120,7 +120,7 @@ static const Rule VOLUME[] = {
 static const Schema SCHEMA_VOLUME = {"KHR_materials_volume", VOLUME, COUNT_OF(VOLUME), false,
                                      NULL};
 
-/* A larger one cannot be distinguished from an infinite one in single precision. */
+/* Reflects all but 4e-5 of the light: a larger one would look like an infinite one. */
 #define IOR_MAX 1e5
 
 static const Rule IOR[] = {{.name = "ior", .kind = RULE_NUMBER, .flags = RULE_FROM_MIN}};
