@@ -183,7 +183,6 @@ static void samples_follow_pdf(const Model *model, Vec3 wo)
 
 TEST(samples_are_distributed_as_their_pdf_says)
 {
-    (void)state;
     for_all(samples_follow_pdf);
 }
 
@@ -221,13 +220,11 @@ static void sample_agrees(const Model *model, Vec3 wo)
 
 TEST(weight_is_eval_times_cosine_over_pdf)
 {
-    (void)state;
     for_all(sample_agrees);
 }
 
 TEST(what_does_not_scatter_or_reach_evaluates_to_nothing)
 {
-    (void)state;
     for (int m = 0; m < model_count; m++)
         for (int i = 0; i < EYE_COUNT; i++)
             for (int k = 0; k < EYE_COUNT; k++) {
@@ -282,7 +279,6 @@ static void energy_holds(const Model *model, Vec3 wo)
 
 TEST(no_surface_sends_back_more_than_it_gets)
 {
-    (void)state;
     for_all(energy_holds);
 }
 
@@ -300,7 +296,6 @@ static void albedo_is_near(const Model *model, Vec3 wo)
 
 TEST(albedo_is_a_fair_estimate)
 {
-    (void)state;
     for_all(albedo_is_near);
 }
 
@@ -334,7 +329,6 @@ static void check_reciprocity(const Model *model, Vec3 wo, Vec3 wi)
 
 TEST(light_goes_back_the_way_it_came)
 {
-    (void)state;
     for (int m = 0; m < model_count; m++)
         for (uint32_t i = 0; i < 2000; i++) {
             Sampler sampler = sampler_start(17, m, 0, i);
@@ -349,7 +343,6 @@ TEST(light_goes_back_the_way_it_came)
 
 TEST(what_passes_a_pane_is_what_shadow_rays_see)
 {
-    (void)state;
     int panes = 0;
     for (int m = 0; m < model_count; m++)
         for (int i = 0; i < EYE_COUNT; i++) {

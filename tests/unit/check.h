@@ -2,8 +2,8 @@
 /* check.h -- what every unit test includes: cmocka with its prerequisites, the list of a
  * program's cases, and closeness.
  *
- * TEST(name) { ... } is a case that gets `void **state`; run_cases runs all of a program's in
- * the order of its file.
+ * TEST(name) { ... } is a case that gets `void **state`, which it may leave unused; run_cases
+ * runs all of a program's in the order of its file.
  */
 #pragma once
 #include <math.h>
@@ -49,7 +49,7 @@ static inline void test_add(struct CMUnitTest test, int line)
     {                                                                                          \
         test_add((struct CMUnitTest){#name, name, set_up, tear_down, NULL}, __LINE__);         \
     }                                                                                          \
-    static void name(void **state)
+    static void name(__attribute__((unused)) void **state)
 
 #define TEST(name) TEST_WITH(name, NULL, NULL)
 

@@ -27,7 +27,6 @@ TEST(a_uniform_picture_follows_the_global_curve)
 
 TEST(the_curve_rises_and_leaves_shadows)
 {
-    (void)state;
     assert_true(adapt_stops(-5) == -5 && adapt_stops(0) == 0);
     for (float s = -4; s < 20; s += 0.01f) {
         float rise = adapt_stops(s + 0.01f) - adapt_stops(s);

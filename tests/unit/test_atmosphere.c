@@ -41,7 +41,6 @@ static DaylightInput clear_day(const char *when, double altitude_m)
 
 TEST(columns_add_up_over_altitude_and_slant)
 {
-    (void)state;
     AirOptics optics = air_optics(&usual);
     double    whole[AIR_PARTS], low[AIR_PARTS], high[AIR_PARTS], slant[AIR_PARTS];
     air_vertical(&optics, 0, AIR_TOP_M, whole);
@@ -61,7 +60,6 @@ TEST(columns_add_up_over_altitude_and_slant)
 
 TEST(density_is_the_columns_derivative)
 {
-    (void)state;
     AirOptics optics = air_optics(&usual);
     for (int p = 0; p < AIR_PARTS; p++) {
         double sum = 0, step = 25, column[AIR_PARTS];
@@ -76,7 +74,6 @@ TEST(density_is_the_columns_derivative)
  * atmosphere meets the next, too. */
 TEST(the_pressure_has_no_step_between_layers)
 {
-    (void)state;
     static const double bases[7] = {11000, 20000, 32000, 47000, 51000, 71000, 84852};
     AirOptics optics = air_optics(&usual);
     optics.top_m = AIR_HIGHEST_TOP_M;
@@ -90,7 +87,6 @@ TEST(the_pressure_has_no_step_between_layers)
 
 TEST(phase_functions_integrate_to_one)
 {
-    (void)state;
     double sum[2] = {0, 0};
     for (int i = 0; i < 20000; i++) {
         float c = -1 + 2 * ((float)i + 0.5f) / 20000;

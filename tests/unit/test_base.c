@@ -18,7 +18,6 @@
 
 TEST(sine_and_cosine_are_within_their_stated_error)
 {
-    (void)state;
     double most = 0;
     for (int i = -400000; i <= 400000; i++) {
         float t = (float)i * 1e-5f, sine, cosine;
@@ -36,7 +35,6 @@ TEST(sine_and_cosine_are_within_their_stated_error)
 
 TEST(exponential_is_within_its_stated_error)
 {
-    (void)state;
     double most = 0;
     for (int i = -870000; i <= 880000; i++) {
         float x = (float)i * 1e-4f;
@@ -48,7 +46,6 @@ TEST(exponential_is_within_its_stated_error)
 
 TEST(logarithm_is_within_its_stated_error)
 {
-    (void)state;
     double most = 0;
     for (uint32_t bits = 1; bits < 0x7f800000u; bits += 2039) {
         float  x = float_from_bits(bits);
@@ -61,7 +58,6 @@ TEST(logarithm_is_within_its_stated_error)
 
 TEST(powers_are_within_their_stated_error)
 {
-    (void)state;
     for (int e = -40; e <= 40; e++)
         for (int i = 1; i < 2000; i++) {
             float  base = (float)i * 0.0021f, exponent = (float)e * 0.13f;
@@ -74,7 +70,6 @@ TEST(powers_are_within_their_stated_error)
 
 TEST(inverse_tangent_and_cosine_are_within_their_stated_error)
 {
-    (void)state;
     double most = 0;
     for (int i = 0; i < 200000; i++) {
         double angle = (i + 0.5) / 200000 * 2 * PI - PI, size = i % 7 == 0 ? 1e-20 : 3.7;
@@ -93,7 +88,6 @@ TEST(inverse_tangent_and_cosine_are_within_their_stated_error)
 
 TEST(roots_and_clamps_hold_at_their_ends)
 {
-    (void)state;
     assert_true(safe_sqrtf(-1) == 0 && safe_sqrtf(4) == 2 && safe_sqrtf(NAN) == 0);
     assert_true(clampf(-1, 0, 1) == 0 && clampf(2, 0, 1) == 1 && clampf(0.5f, 0, 1) == 0.5f);
     assert_true(lerpf(2, 4, 0) == 2 && lerpf(2, 4, 1) == 4);
@@ -119,7 +113,6 @@ static void assert_vector(Vec3 a, Vec3 b, double within)
 
 TEST(frames_are_orthonormal_and_right_handed)
 {
-    (void)state;
     uint32_t seed = 5;
     for (int i = 0; i < 10000; i++) {
         Vec3 z = vec3_normalize(random_vector(&seed));
@@ -145,7 +138,6 @@ static Transform random_transform(uint32_t *seed)
 
 TEST(composed_transforms_act_one_after_the_other)
 {
-    (void)state;
     uint32_t seed = 9;
     for (int i = 0; i < 1000; i++) {
         Transform a = random_transform(&seed), b = random_transform(&seed);
@@ -163,7 +155,6 @@ TEST(composed_transforms_act_one_after_the_other)
 
 TEST(transformed_normals_stay_normal_and_outside)
 {
-    (void)state;
     uint32_t seed = 21;
     for (int i = 0; i < 1000; i++) {
         Transform t = random_transform(&seed);
@@ -178,7 +169,6 @@ TEST(transformed_normals_stay_normal_and_outside)
 
 TEST(the_zero_vector_has_no_direction)
 {
-    (void)state;
     assert_vector(vec3_normalize(vec3(0, 0, 0)), vec3(0, 0, 0), 0);
     assert_true(vec3_is_within(vec3(1, -2, 3), 3) && !vec3_is_within(vec3(1, -2, 3), 2.9f));
     assert_false(vec3_is_within(vec3(1, NAN, 3), INFINITY));
@@ -210,7 +200,6 @@ static void assert_net(int x, int dimension, uint32_t first, int log_count)
 
 TEST(every_pair_is_a_0_2_sequence_over_a_pixel_s_samples)
 {
-    (void)state;
     for (int x = 0; x < 6; x++)
         for (int dimension = 0; dimension < 5; dimension++)
             for (int log_count = 0; log_count <= 10; log_count += 2)
@@ -229,7 +218,6 @@ static double grid_deviate(const double histogram[256], int count)
 
 TEST(pairs_are_independent_of_each_other)
 {
-    (void)state;
     for (int other = 1; other < 8; other++) {
         double histogram[256] = {0};
         for (int pixel = 0; pixel < 4096; pixel++)
@@ -245,7 +233,6 @@ TEST(pairs_are_independent_of_each_other)
 
 TEST(neighbouring_pixels_and_seeds_are_independent)
 {
-    (void)state;
     for (int step = 1; step < 5; step++) {
         double histogram[256] = {0};
         for (int x = 0; x < 256; x++)
@@ -261,7 +248,6 @@ TEST(neighbouring_pixels_and_seeds_are_independent)
 
 TEST(numbers_depend_on_nothing_but_their_place)
 {
-    (void)state;
     for (uint32_t i = 0; i < 100; i++) {
         Sampler a = sampler_start(1, 10, 20, i), b = sampler_start(1, 10, 20, i);
         for (int d = 0; d < 10; d++) {
@@ -275,7 +261,6 @@ TEST(numbers_depend_on_nothing_but_their_place)
 
 TEST(two_pairs_at_once_are_two_pairs)
 {
-    (void)state;
     for (uint32_t i = 0; i < 100; i++) {
         Sampler a = sampler_start(1, 10, 20, i), b = a;
         for (int d = 0; d < 10; d++) {
@@ -291,7 +276,6 @@ TEST(two_pairs_at_once_are_two_pairs)
  * either outcome fills [0, 1) evenly: none of 100 equal bins is off by more than its ends. */
 TEST(a_choice_leaves_an_even_number)
 {
-    (void)state;
     const float probs[] = {0, 0.1f, 0.5f, 0.99f, 1};
     for (int i = 0; i < 5; i++) {
         const int steps = 1 << 20;
@@ -315,7 +299,6 @@ TEST(a_choice_leaves_an_even_number)
  * still have one in each of their 32 strips, along the number that chose and across it. */
 TEST(points_of_a_choice_stay_spread)
 {
-    (void)state;
     for (int pixel = 0; pixel < 100; pixel++) {
         int along[2][32] = {{0}}, across[2][32] = {{0}};
         for (uint32_t i = 0; i < 64; i++) {
@@ -355,7 +338,6 @@ static void assert_probabilities_exact(const double *weights, int count)
 
 TEST(alias_tables_know_their_exact_probabilities)
 {
-    (void)state;
     static double weights[100000];
     uint32_t      seed = 3;
     assert_probabilities_exact((double[]){7}, 1);
@@ -372,7 +354,6 @@ TEST(alias_tables_know_their_exact_probabilities)
 
 TEST(a_list_grows_at_its_place_or_moves)
 {
-    (void)state;
     Arena arena = arena_reserve(1 << 20);
     int  *list = ARENA_GROW(&arena, int, NULL, 0, 3);
     for (int i = 0; i < 3; i++) list[i] = i + 1;
@@ -387,7 +368,6 @@ TEST(a_list_grows_at_its_place_or_moves)
 
 TEST(arena_memory_is_aligned_and_zeroed)
 {
-    (void)state;
     Arena arena = arena_reserve(1 << 20);
     for (size_t align = 1; align <= 4096; align *= 2) {
         char *memory = arena_alloc(&arena, 3, align, 7);
@@ -411,7 +391,6 @@ static char *scratch_of(Arena scratch)
 
 TEST(scratch_is_back_after_the_call)
 {
-    (void)state;
     Arena arena = arena_reserve(1 << 16);
     char *first = scratch_of(arena);
     assert_ptr_equal(scratch_of(arena), first);
@@ -430,7 +409,6 @@ static void note_full(size_t bytes_wanted, size_t bytes_left)
 
 TEST(a_full_arena_says_what_was_wanted_and_left)
 {
-    (void)state;
     Arena arena = arena_reserve(1 << 16);
     arena.on_full = note_full;
     arena_alloc(&arena, 1, 1, 65000);
@@ -451,7 +429,6 @@ TEST(a_full_arena_says_what_was_wanted_and_left)
 
 TEST(arena_texts_are_terminated_copies)
 {
-    (void)state;
     Arena arena = arena_reserve(1 << 16);
     char  source[] = "windscreen";
     char *copy = arena_string(&arena, source, 4);
@@ -465,7 +442,6 @@ TEST(arena_texts_are_terminated_copies)
 /* Bytes made behind scratch, moved to where the scratch began, over each other. */
 TEST(what_is_kept_lies_where_the_arena_was)
 {
-    (void)state;
     Arena arena = arena_reserve(1 << 16), scratch = arena;
     ARENA_NEW(&scratch, char, 3);
     char *made = arena_string(&scratch, "0123456789", 10), *before = arena.next;
@@ -481,7 +457,6 @@ TEST(what_is_kept_lies_where_the_arena_was)
 
 TEST(an_error_s_line_has_file_place_and_text)
 {
-    (void)state;
     Error err;
     char  line[2048];
     assert_false(error_set(&err, ERROR_USAGE, "size %d", 3));
@@ -502,7 +477,6 @@ TEST(an_error_s_line_has_file_place_and_text)
 /* What a file holds may be quoted; it may neither break the line nor command a terminal. */
 TEST(a_message_is_one_line_whatever_it_quotes)
 {
-    (void)state;
     Error err;
     char  line[2048];
     Arena arena = arena_reserve(1 << 16);
@@ -520,7 +494,6 @@ TEST(a_message_is_one_line_whatever_it_quotes)
 
 TEST(a_long_error_is_cut_and_stays_a_string)
 {
-    (void)state;
     Error err;
     char  word[2000], line[64];
     memset(word, 'x', sizeof word - 1);
@@ -536,7 +509,6 @@ TEST(a_long_error_is_cut_and_stays_a_string)
 
 TEST(exit_statuses_follow_the_codes)
 {
-    (void)state;
     assert_int_equal(error_exit_status(ERROR_NONE), 0);
     assert_int_equal(error_exit_status(ERROR_DIFFERENT), 1);
     assert_int_equal(error_exit_status(ERROR_USAGE), 2);
@@ -550,7 +522,6 @@ TEST(exit_statuses_follow_the_codes)
 
 TEST(problems_keep_their_order_and_their_texts)
 {
-    (void)state;
     Arena    arena = arena_reserve(1 << 20);
     Problems problems = problems_start(&arena);
     Error    err;
@@ -580,7 +551,6 @@ TEST(problems_keep_their_order_and_their_texts)
 
 TEST(a_single_error_is_its_own_verdict)
 {
-    (void)state;
     Arena    arena = arena_reserve(1 << 16);
     Problems problems = problems_start(&arena);
     Error    err;

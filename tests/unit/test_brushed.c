@@ -10,7 +10,6 @@
 
 TEST(equal_alphas_are_the_even_lobe)
 {
-    (void)state;
     static const float alphas[] = {0.002f, 0.05f, 0.3f, 1};
     for (int k = 0; k < 4; k++)
         for (uint32_t i = 0; i < 200; i++) {
@@ -34,7 +33,6 @@ TEST(equal_alphas_are_the_even_lobe)
  * hidden where eye and light stand above. */
 TEST(the_lobe_is_longer_along_the_brushing)
 {
-    (void)state;
     const Vec2 alpha = {0.4f, 0.05f};
     const Vec3 up = {0, 0, 1};
     double     peak = 1 / (4 * PI * 0.4 * 0.05);
@@ -95,13 +93,11 @@ static void check_all(float coat, int step)
 
 TEST(a_white_furnace_stays_white)
 {
-    (void)state;
     check_all(0, 7);
 }
 
 TEST(under_a_lacquer_it_stays_white)
 {
-    (void)state;
     check_all(1, 29);
 }
 

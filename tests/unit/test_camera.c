@@ -11,7 +11,6 @@ static SceneCamera perspective(float yfov)
 
 TEST(the_middle_of_the_film_looks_along_minus_z)
 {
-    (void)state;
     SceneCamera scene_camera = perspective(0.8f);
     Camera camera = camera_from_scene(&scene_camera, 640, 360);
     Ray    ray = camera_ray(&camera, 320, 180);
@@ -22,7 +21,6 @@ TEST(the_middle_of_the_film_looks_along_minus_z)
 
 TEST(the_upper_edge_is_half_the_field_of_view_up)
 {
-    (void)state;
     for (int degrees = 5; degrees <= 150; degrees += 5) {
         SceneCamera scene_camera = perspective((float)(degrees * 3.14159265358979 / 180));
         Camera camera = camera_from_scene(&scene_camera, 100, 50);
@@ -34,7 +32,6 @@ TEST(the_upper_edge_is_half_the_field_of_view_up)
 
 TEST(the_width_follows_the_frame_and_left_is_left)
 {
-    (void)state;
     SceneCamera scene_camera = perspective(0.8f);
     Camera camera = camera_from_scene(&scene_camera, 1000, 500);
     Ray    left = camera_ray(&camera, 0, 250);
@@ -45,7 +42,6 @@ TEST(the_width_follows_the_frame_and_left_is_left)
 
 TEST(an_orthographic_ray_starts_on_the_film)
 {
-    (void)state;
     SceneCamera scene_camera = {.ymag = 1.5f, .world_from_camera = transform_identity()};
     scene_camera.world_from_camera.origin = vec3(1, 2, 3);
     Camera camera = camera_from_scene(&scene_camera, 200, 100);
@@ -58,7 +54,6 @@ TEST(an_orthographic_ray_starts_on_the_film)
 
 TEST(an_eye_looks_at_its_point_with_y_up)
 {
-    (void)state;
     static const Vec3 EYES[] = {{3, 4, 5}, {-2, 0, 1}, {0, 9, 0}, {0, -9, 0}};
     const Vec3 target = vec3(0, 0, 0);
     for (int i = 0; i < 4; i++) {
@@ -101,7 +96,6 @@ static bool is_in_view(const SceneCamera *seen, Vec3 p)
 
 TEST(displays_without_a_camera_are_seen_whole_and_from_the_front)
 {
-    (void)state;
     static const Vec3 NORMALS[] = {
         {0, 0, 1}, {0.6f, 0, -0.8f}, {0, 1, 0}, {-0.48f, 0.6f, 0.64f}};
     for (int i = 0; i < 4; i++) {

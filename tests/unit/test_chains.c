@@ -89,7 +89,6 @@ static Chains find(World *world, uint32_t seed, long paths, int threads)
 
 TEST(chains_add_up_to_what_is_seen)
 {
-    (void)state;
     World  world = room(grey, 1);
     enum { PATHS = 4096, BATCH = PATHS / CHAIN_BATCHES };
     static ProbeLook looks[PATHS];
@@ -120,7 +119,6 @@ TEST(chains_add_up_to_what_is_seen)
 
 TEST(threads_change_nothing)
 {
-    (void)state;
     World world = room(grey, 1);
     world_ready(&world, 16);
     Chains a = find(&world, 5, 2048, 1), b = find(&world, 5, 2048, 3);
@@ -149,7 +147,6 @@ static bool has_chain(const Chains *chains, const char *wanted, Arena *arena)
 
 TEST(chains_name_what_light_meets)
 {
-    (void)state;
     World world = room(grey, 1);
     world_ready(&world, 16);
     Chains chains = find(&world, 5, 4096, 2);
@@ -166,7 +163,6 @@ TEST(chains_name_what_light_meets)
 
 TEST(rays_lead_from_the_eye_over_what_is_named)
 {
-    (void)state;
     World world = room(grey, 1);
     world_ready(&world, 16);
     Chains chains = find(&world, 5, 4096, 2);
@@ -201,7 +197,6 @@ static ChainFigure same_chain(const Chains *chains, const ChainKey *key)
 
 TEST(intervals_cover)
 {
-    (void)state;
     enum { RUNS = 120, CHAINS = 3 };
     World world = room(grey, 1);
     int   covered[CHAINS + 1] = {0};
@@ -245,7 +240,6 @@ static Chains find_in(World *world, uint32_t seed)
 
 TEST(without_a_part_what_came_by_it_is_missing)
 {
-    (void)state;
     World  world = room(grey, 1);
     Chains whole = find_in(&world, 2);
     for (int part = 0; part < PARTS; part++) {
@@ -265,7 +259,6 @@ TEST(without_a_part_what_came_by_it_is_missing)
 
 TEST(own_light_grows_with_brightness)
 {
-    (void)state;
     World  world = room(grey, 1), brighter = room(grey, 3);
     Chains one = find_in(&world, 2), three = find_in(&brighter, 3);
     assert_true(one.own > 0.01 * one.all.cd_m2);
@@ -278,7 +271,6 @@ TEST(own_light_grows_with_brightness)
 /* Light that meets the display's mirror twice is hardly any. */
 TEST(a_coating_takes_its_share_of_the_mirror)
 {
-    (void)state;
     World  world = room(grey, 0), coated = room(grey, 0);
     Chains plain = find_in(&world, 2);
     const PanelReflection *reflection = coated.panel->reflection;
@@ -310,7 +302,6 @@ static Outlook look_out(World *world)
 
 TEST(an_outlook_is_what_a_luxmeter_reads)
 {
-    (void)state;
     World world = room(grey, 0);
     world_ready(&world, 16);
     Outlook     outlook = look_out(&world);
@@ -336,7 +327,6 @@ TEST(an_outlook_is_what_a_luxmeter_reads)
 
 TEST(under_a_sky_alone_all_is_sky)
 {
-    (void)state;
     World world = world_start();
     builder_part(world.scene, builder_material(0.5f));
     builder_quad(world.scene, vec3(0, 0, 0), vec3(0.2f, 0, 0), vec3(0, 0.1f, 0));

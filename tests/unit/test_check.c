@@ -57,7 +57,6 @@ static const char *lit_scene(void)
 
 TEST_WITH(people_read_everything_with_its_unit, maker_reset, NULL)
 {
-    (void)state;
     Outcome outcome = run(lit_scene(), NULL);
     static const char *const LINES[] = {
         "triangles    1 (1 opaque) in 1 parts",
@@ -76,7 +75,6 @@ TEST_WITH(people_read_everything_with_its_unit, maker_reset, NULL)
 
 TEST_WITH(scripts_read_one_document, maker_reset, NULL)
 {
-    (void)state;
     Outcome outcome = run(lit_scene(), "--json");
     json_t *document = json_loads(outcome.text, 0, NULL);
     assert_true(outcome.is_ok);
@@ -100,7 +98,6 @@ TEST_WITH(scripts_read_one_document, maker_reset, NULL)
 
 TEST_WITH(all_problems_are_told_and_the_status_is_3, maker_reset, NULL)
 {
-    (void)state;
     const char *path = maker_gltf(NULL, 0, "'nodes':[{'mesh':5},{'camera':1,'colour':2}]");
     Outcome plain = run(path, NULL);
     assert_false(plain.is_ok);

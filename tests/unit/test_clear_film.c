@@ -18,7 +18,6 @@ static int make_wavelengths(void **state)
  * d = 4 pi n t / nm. */
 TEST(straight_on_it_is_airys_formula)
 {
-    (void)state;
     ThinFilm film = {.share = 1, .ior = 1.38f, .thickness_nm = 410};
     Spectrum n = spectrum_all(1.52f), k = spectrum_all(0);
     Spectrum r = clear_film_at(&film, &wavelengths, 1, n, k);
@@ -32,7 +31,6 @@ TEST(straight_on_it_is_airys_formula)
 /* At every angle, on clear and absorbing bodies, it is one layer of spectrum/thin_film.h. */
 TEST(at_any_angle_it_is_the_transfer_matrix)
 {
-    (void)state;
     static const double bodies[][2] = {{1.5, 0}, {2.4, 0}, {1.2, 0}, {0.06, 3.6}, {2.9, 3.1}};
     for (int i = 0; i < 5 * 20 * 3; i++) {
         int    body = i % 5, lane = i / 5 % 3 * 7; /* three wavelengths */
@@ -53,7 +51,6 @@ TEST(at_any_angle_it_is_the_transfer_matrix)
 /* A film of no thickness leaves the body's own reflectance. */
 TEST(a_body_reflects_what_it_was_made_of)
 {
-    (void)state;
     ThinFilm film = {.share = 1, .ior = 1.3f, .thickness_nm = 0};
     for (float f0 = 0; f0 < 1; f0 += 0.125f) {
         Spectrum n = clear_film_body(spectrum_all(f0));
@@ -97,7 +94,6 @@ static void check_films(float metallic, float clearcoat, int step, double allowe
 
 TEST(a_white_furnace_stays_white)
 {
-    (void)state;
     check_films(0, 0, 1, 2.2e-3);
     check_films(1, 0, 1, 2e-3);
     check_films(0.5f, 0, 1, 2e-3);
@@ -105,7 +101,6 @@ TEST(a_white_furnace_stays_white)
 
 TEST(under_a_lacquer_it_stays_white)
 {
-    (void)state;
     check_films(0, 1, 2, 2e-3);
     check_films(1, 1, 7, 2e-3);
 }
@@ -127,7 +122,6 @@ static Vec3 at_cosine(double cosine)
 /* From both sides, also beyond the critical angle, where all of it comes back. */
 TEST(a_clear_solid_reflects_by_the_transfer_matrix)
 {
-    (void)state;
     static const double bodies[] = {1, 1.2, 1.33, 1.5, 2.4};
     int total = 0;
     for (int i = 0; i < 5 * 40 * 3; i++) {
@@ -158,7 +152,6 @@ TEST(a_clear_solid_reflects_by_the_transfer_matrix)
 /* Whichever way it goes, along conjugate angles: to the last digits. */
 TEST(a_film_reflects_as_much_from_within)
 {
-    (void)state;
     Bsdf bsdf = filmed_solid(1.5f, (ThinFilm){.share = 0.7f, .ior = 1.9f, .thickness_nm = 520});
     for (int i = 1; i <= 90; i++) {
         double   outside = i / 90.0, inside = sqrt(1 - (1 - outside * outside) / (1.5 * 1.5));
@@ -193,7 +186,6 @@ static void check_shares(const Bsdf *bsdf, Vec3 wo, const Spectrum *index)
 
 TEST(what_a_film_does_not_reflect_goes_through)
 {
-    (void)state;
     Curve index;
     ThinFilm film = {.share = 1, .ior = 2, .thickness_nm = 300};
     for (int i = 0; i < CURVE_COUNT; i++) index.value[i] = 1.5f + 1e-3f * (float)(i % 200);
@@ -212,7 +204,6 @@ TEST(what_a_film_does_not_reflect_goes_through)
 /* Of a glass that parts light each lane has the film on its own index. */
 TEST(each_lane_of_a_prism_has_its_own_film)
 {
-    (void)state;
     Curve index;
     for (int i = 0; i < CURVE_COUNT; i++) index.value[i] = 1.8f - 6e-4f * (float)i;
     for (int i = 0; i < 80; i++) {
@@ -232,7 +223,6 @@ TEST(each_lane_of_a_prism_has_its_own_film)
 
 TEST(a_share_of_the_film_leaves_the_rest_bare)
 {
-    (void)state;
     ThinFilm film = {.share = 1, .ior = 1.7f, .thickness_nm = 280};
     Bsdf     all = filmed_solid(1.5f, film), bare = all, some = all;
     bare.dielectric.film.share = 0;

@@ -218,7 +218,6 @@ TEST(pairs_are_cut_at_the_first_equals_sign)
 
 TEST(an_error_line_puts_the_place_before_the_advice)
 {
-    (void)state;
     Error err;
     char  line[512];
     error_at(&err, ERROR_INPUT, "a.gltf", "/materials/3",

@@ -97,7 +97,6 @@ TEST(develop_writes_what_it_says)
 
 TEST(develop_answers_in_json)
 {
-    (void)state;
     Outcome o = run("develop f.exr -o b.png --exposure 10 --json");
     json_t *j = answer(&o);
     assert_int_equal(o.status, 0);
@@ -182,7 +181,6 @@ TEST(an_eye_needs_a_view)
 
 TEST(other_endings_work)
 {
-    (void)state;
     assert_int_equal(run("develop f.exr -o c.tif --bits 16").status, 0);
     assert_int_equal(run("develop f.exr -o d.jpg --view 'ACES SDR'").status, 0);
     assert_true(file_exists(in_folder("c.tif")) && file_exists(in_folder("d.jpg")));
@@ -190,7 +188,6 @@ TEST(other_endings_work)
 
 TEST(wrong_uses_have_their_status)
 {
-    (void)state;
     assert_int_equal(run("develop f.exr").status, 2);
     assert_int_equal(run("develop f.exr -o x.gif").status, 2);
     assert_int_equal(run("develop f.exr -o x.jpg --bits 16").status, 2);
@@ -266,7 +263,6 @@ TEST(looks_that_are_no_figures_say_so)
 /* Nothing that gives figures takes a filtered or adapted frame. */
 TEST(figures_are_of_the_frame_alone)
 {
-    (void)state;
     static const char *const WORDS[] = {
         "measure n.exr --display cluster --denoise", "measure n.exr --adapt local",
         "compare n.exr n.exr --denoise", "compare n.exr n.exr --adapt local",
@@ -286,7 +282,6 @@ TEST(figures_are_of_the_frame_alone)
 
 TEST(help_tells_the_options)
 {
-    (void)state;
     Outcome o = run("develop --help");
     assert_int_equal(o.status, 0);
     assert_non_null(strstr(o.out, "--exposure auto|EV|white:CD_M2"));
@@ -297,7 +292,6 @@ TEST(help_tells_the_options)
 
 TEST(measure_gives_the_figures_of_a_display)
 {
-    (void)state;
     Outcome o = run("measure f.exr --display cluster --json");
     json_t *j = answer(&o), *contrast = json_object_get(j, "contrast");
     assert_int_equal(o.status, 0);
@@ -314,7 +308,6 @@ TEST(measure_gives_the_figures_of_a_display)
 
 TEST(measure_gives_the_figures_of_a_region)
 {
-    (void)state;
     Outcome o = run("measure f.exr --region 6,0,12,8 --json");
     json_t *j = answer(&o);
     assert_close(number(j, "luminance_cd_m2"), 300, 1e-5);

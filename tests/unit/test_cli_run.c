@@ -112,7 +112,6 @@ static void assert_same_pixels(const FrameImage *a, const FrameImage *b)
 
 TEST(a_wrong_line_is_status_2)
 {
-    (void)state;
     Outcome o;
     RUN(&o, "rendr");
     assert_int_equal(o.status, 2);
@@ -134,7 +133,6 @@ TEST(a_wrong_line_is_status_2)
 
 TEST(an_hdri_that_is_missing_or_not_linear_is_named)
 {
-    (void)state;
     Outcome o;
     RUN(&o, "render", "scene.gltf", "-o", "a.exr", "--environment", "hdri:nowhere.exr");
     assert_int_equal(o.status, 3);
@@ -147,7 +145,6 @@ TEST(an_hdri_that_is_missing_or_not_linear_is_named)
 
 TEST(a_frame_too_large_is_refused_before_it_fills_the_memory)
 {
-    (void)state;
     Outcome o;
     RUN(&o, "render", "scene.gltf", "-o", "a.exr", "--size", "65536x65536", "--crop",
         "0,0,4,4");
@@ -163,7 +160,6 @@ TEST(a_frame_too_large_is_refused_before_it_fills_the_memory)
 
 TEST(a_missing_input_is_status_3_and_named)
 {
-    (void)state;
     Outcome o;
     RUN(&o, "render", "nowhere.gltf", "-o", "a.exr", "--json");
     assert_int_equal(o.status, 3);
@@ -197,7 +193,6 @@ TEST(a_picture_with_negative_light_is_told_of)
 /* One command renders with the layers that the filter goes by, and filters the picture only. */
 TEST(render_makes_a_denoised_picture_at_once)
 {
-    (void)state;
     Outcome o;
     RUN(&o, "render", "scene.gltf", "-o", "a.exr", "--size", "8x6", "--spp", "2", "--png",
         "a.png", "--denoise", "--adapt", "local");
@@ -213,7 +208,6 @@ TEST(render_makes_a_denoised_picture_at_once)
 
 TEST(an_output_that_cannot_be_written_is_status_4_at_once)
 {
-    (void)state;
     Outcome o;
     RUN(&o, "render", "scene.gltf", "-o", "nowhere/a.exr", "--spp", "1000000");
     assert_int_equal(o.status, 4);
@@ -226,7 +220,6 @@ TEST(an_output_that_cannot_be_written_is_status_4_at_once)
 
 TEST(version_and_help_need_nothing)
 {
-    (void)state;
     Outcome o;
     RUN(&o, "--version");
     assert_int_equal(o.status, 0);
@@ -342,7 +335,6 @@ TEST(noise_stops_before_spp)
 
 TEST(noise_that_is_not_reached_is_said)
 {
-    (void)state;
     Outcome o;
     RUN(&o, "render", "scene.gltf", "-o", "n.exr", "--size", "16x12", "--spp", "2", "--noise",
         "0.0001", "--quiet");
@@ -364,7 +356,6 @@ TEST(noise_that_is_not_reached_is_said)
  * is told. */
 TEST(noise_of_an_area_decides_alone)
 {
-    (void)state;
     Outcome o;
     RUN(&o, "render", "scene.gltf", "-o", "n.exr", "--size", "16x12", "--spp", "64", "--noise",
         "2,2,9,8:0.9", "--quiet", "--json");
@@ -380,7 +371,6 @@ TEST(noise_of_an_area_decides_alone)
 
 TEST(a_picture_is_developed_as_well)
 {
-    (void)state;
     Outcome o;
     RUN(&o, "render", "scene.gltf", "-o", "p.exr", "--size", "16x12", "--spp", "1", "--png",
         "p.png", "--quiet");
@@ -391,7 +381,6 @@ TEST(a_picture_is_developed_as_well)
 
 TEST(a_scene_without_a_camera_is_framed_whole_with_a_warning)
 {
-    (void)state;
     Outcome o;
     RUN(&o, "render", "blind.gltf", "-o", "b.exr", "--size", "16x12", "--spp", "1", "--quiet");
     assert_int_equal(o.status, 0);
@@ -455,7 +444,6 @@ TEST(an_interrupted_render_leaves_a_frame_marked_incomplete)
 
 TEST(a_second_signal_ends_at_once_and_leaves_nothing)
 {
-    (void)state;
     FILE *out = tmpfile(), *err = tmpfile();
     pid_t child = start_long_render("k.exr", out, err);
     kill(child, SIGSTOP);

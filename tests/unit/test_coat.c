@@ -51,7 +51,6 @@ static void check_coated(float metallic, float alpha, double theta_deg)
 
 TEST(a_coat_keeps_a_white_furnace_white)
 {
-    (void)state;
     static const float  alphas[] = {0, 0.01f, 0.1f, 0.35f, 1};
     static const double thetas_deg[] = {0, 30, 60, 75, 80, 85};
     for (int a = 0; a < 5; a++)
@@ -64,7 +63,6 @@ TEST(a_coat_keeps_a_white_furnace_white)
  * above tell of so narrow a lobe is 0.35 % off by themselves. */
 TEST(a_coat_keeps_it_white_between_its_tables_rows)
 {
-    (void)state;
     static const float alphas[] = {0.022f, 0.16f};
     for (int k = 0; k < 16; k++) {
         MetallicRoughness m = metallic_roughness_default(glass);
@@ -104,7 +102,6 @@ static MetallicRoughness layered(int layers, float metallic, float alpha,
 
 TEST(it_stays_white_over_all_layers_together)
 {
-    (void)state;
     static const float  coats[] = {0, 0.1f, 0.5f}, alphas[] = {0.02f, 0.15f, 0.6f};
     static const double thetas_deg[] = {20, 60, 75, 85};
     const SurfaceCoating four = {.face = coating_of_face(stack_four(&arena), 1.5, ALPHA_ALL,
@@ -126,7 +123,6 @@ TEST(it_stays_white_over_all_layers_together)
 /* The layer of albedo takes part in the turns: a coat makes a grey plastic darker. */
 TEST(the_albedo_of_coated_plastic_is_what_it_sends_back)
 {
-    (void)state;
     for (int k = 0; k < 24; k++) {
         MetallicRoughness m = metallic_roughness_default(glass);
         m.metallic = 0;
@@ -150,7 +146,6 @@ TEST(the_albedo_of_coated_plastic_is_what_it_sends_back)
 /* A mirror under a smooth coat is what the series of their turns gives, whatever its colour. */
 TEST(a_coated_mirror_sums_up_its_turns)
 {
-    (void)state;
     for (float colour = 0; colour <= 1; colour += 0.25f)
         for (int i = 1; i <= 10; i++) {
             MetallicRoughness m = metallic_roughness_default(glass);
@@ -177,7 +172,6 @@ TEST(a_coated_mirror_sums_up_its_turns)
 
 TEST(the_programs_own_tables_are_those_that_a_run_would_make)
 {
-    (void)state;
     assert_float_equal(CLEARCOAT_IOR, 1.5f, 0);
     assert_memory_equal(&common_energy_table, glass, sizeof *glass);
     assert_memory_equal(&common_coat_table, lacquer, sizeof *lacquer);

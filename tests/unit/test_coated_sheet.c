@@ -64,7 +64,6 @@ static void follow_turns(double front, double rear, double through, double open,
 
 TEST(turns_are_summed_up)
 {
-    (void)state;
     for (int i = 0; i < 625; i++) {
         double front = 0.25 * (i % 5), rear = 0.25 * (i / 5 % 5), held = 0.2 * (i / 125 % 5);
         double through = 0.25 * (i / 25 % 5) * (1 - fmax(front, rear)), sent[2];
@@ -82,7 +81,6 @@ TEST(turns_are_summed_up)
  * own table's affair, what it reflects itself, Fresnel's. */
 TEST(a_smooth_sheet_is_a_stack_of_its_boundaries)
 {
-    (void)state;
     for (int i = 0; i < 60; i++) {
         float cosine = i % 20 ? 0.05f * (float)(i % 20) : 0.02f, share = i / 20 ? 0.6f : 1;
         float tint = i / 20 == 2 ? 0.5f : 1;
@@ -120,7 +118,6 @@ static void check_white(const MetallicRoughness *m, double theta_deg, double tol
 
 TEST(a_coat_keeps_a_clear_and_a_frosted_sheet_white)
 {
-    (void)state;
     for (int i = 0; i < 150; i++) {
         MetallicRoughness m = sheet(alphas[i % 5], coats[i / 5 % 5]);
         if (i % 3 == 1) m.specular = 0;
@@ -149,7 +146,6 @@ static MetallicRoughness layered(int layers, float alpha, float coat_alpha)
 
 TEST(it_keeps_layered_sheets_white)
 {
-    (void)state;
     for (int i = 0; i < 32; i++) {
         int   layers = i % 32;
         float alpha = alphas[(i * 7 + i / 32) % 5];
@@ -175,7 +171,6 @@ static Spectrum across(MetallicRoughness m, Vec3 wo, Vec3 wi, bool from_back)
 /* Also where the sheet's faces are unlike: its coat lies on both alike. */
 TEST(as_much_goes_through_from_either_side)
 {
-    (void)state;
     for (int i = 0; i < 1000; i++) {
         Sampler sampler = sampler_start(3, i, 0, 0);
         Vec3    wo = random_direction(&sampler), wi = random_direction(&sampler);

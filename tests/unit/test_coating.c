@@ -87,7 +87,6 @@ static LayerStack *mirror_of_twenty(void)
 
 TEST(tables_are_within_their_stated_error)
 {
-    (void)state;
     for (int side = 0; side < 2; side++) {
         assert_true(worst_error(stack_of(0, NULL, &arena), side) < 3e-4);
         assert_true(worst_error(stack_of(1, (ThinMedium[]){{1.38, 0, 99.6}}, &arena), side) <
@@ -100,7 +99,6 @@ TEST(tables_are_within_their_stated_error)
 
 TEST(bare_tables_are_fresnels_curve)
 {
-    (void)state;
     const CoatingTables *tables = coating_of_sheet(NULL, 1.52, &arena);
     for (int i = 1; i <= 90; i++) {
         float   cosine = (float)i / 90;
@@ -130,7 +128,6 @@ static Vec3 at_cosine(float z)
 /* 1.26 % comes back from magnesium fluoride on glass; a lane stands close to 550 nm. */
 TEST(a_quarter_wave_on_glass_reflects_what_it_should)
 {
-    (void)state;
     LayerStack *stack = stack_of(1, (ThinMedium[]){{1.38, 0, 550 / (4 * 1.38)}}, &arena);
     Bsdf        bsdf = coated_solid(stack, 0);
     int         lane = lane_near(550);
@@ -146,7 +143,6 @@ TEST(a_quarter_wave_on_glass_reflects_what_it_should)
 /* At every angle, from both sides, and beyond the critical angle. */
 TEST(a_clear_coating_loses_no_light)
 {
-    (void)state;
     Bsdf bsdf = coated_solid(stack_four(&arena), 0);
     for (int i = 1; i <= 200; i++)
         for (int side = -1; side <= 1; side += 2) {
@@ -158,7 +154,6 @@ TEST(a_clear_coating_loses_no_light)
 
 TEST(silver_absorbs_and_total_reflection_is_then_not_total)
 {
-    (void)state;
     Bsdf bsdf = coated_solid(stack_silver(&arena), 0);
     for (int i = 1; i <= 100; i++) {
         Vec3     wo = at_cosine((float)i / 100);
@@ -176,7 +171,6 @@ TEST(silver_absorbs_and_total_reflection_is_then_not_total)
 /* Both faces' turns summed up one by one, for each polarisation. */
 TEST(a_coated_sheet_sums_up_its_turns)
 {
-    (void)state;
     LayerStack *stack = stack_silver(&arena);
     for (int faces = COATED_BOTH; faces <= COATED_BACK; faces++) {
         stack->faces = (CoatedFaces)faces;
@@ -236,7 +230,6 @@ static Bsdf bsdf_with(const SurfaceCoating *coating, float metallic, float alpha
 /* F0 = ((n - 1)^2 + k^2) / ((n + 1)^2 + k^2), a lane at a time. */
 TEST(a_measured_metal_mirrors_by_its_n_and_k)
 {
-    (void)state;
     OpticalConstants *metal = constants_of(0, 0, &arena);
     for (int i = 0; i < CURVE_COUNT; i++) {
         metal->n.value[i] = 0.2f + 0.004f * (float)i;
@@ -291,7 +284,6 @@ static void check_furnace(const Bsdf *bsdf, const char *name, float alpha, int s
 
 TEST(coated_white_keeps_the_furnace_white)
 {
-    (void)state;
     static const float alphas[] = {0, 0.01f, 0.05f, 0.022f, 0.1f, 0.35f, 0.6f, 1};
     const LayerStack *stacks[] = {stack_four(&arena),
                                   stack_of(1, (ThinMedium[]){{1.38, 0, 700}}, &arena),
@@ -312,7 +304,6 @@ TEST(coated_white_keeps_the_furnace_white)
 
 TEST(energies_of_few_alphas_are_those_of_all)
 {
-    (void)state;
     static const AlphaSpan spans[] = {{0, 0}, {0.055f, 0.055f}, {0.1f, 0.4f}, {1, 1}};
     const LayerStack *four = stack_four(&arena);
     const CoatingEnergy *all = coating_of_face(four, 1.5, ALPHA_ALL, &arena)->energy;
@@ -333,7 +324,6 @@ TEST(energies_of_few_alphas_are_those_of_all)
 
 TEST(a_coated_frosted_sheet_loses_no_light)
 {
-    (void)state;
     static const float alphas[] = {0.05f, 0.1f, 0.35f, 1};
     SurfaceCoating coating = {.sheet = coating_of_sheet(stack_four(&arena), 1.5, &arena)};
     for (int a = 0; a < 4; a++) {
@@ -347,7 +337,6 @@ TEST(a_coated_frosted_sheet_loses_no_light)
 
 TEST(a_covers_factor_is_coated_over_bare)
 {
-    (void)state;
     LayerStack          *stack = stack_four(&arena);
     const CoatingTables *cover = coating_of_cover(stack, 1.5, &arena);
     for (int i = 1; i <= 40; i++) {

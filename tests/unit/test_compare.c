@@ -274,7 +274,6 @@ TEST(noise_may_be_unknown)
 
 TEST(limits_hold_in_their_direction)
 {
-    (void)state;
     assert_true(threshold_holds((Threshold){METRIC_FLIP, 0.1}, 0.1));
     assert_false(threshold_holds((Threshold){METRIC_FLIP, 0.1}, 0.11));
     assert_true(threshold_holds((Threshold){METRIC_PSNR, 30}, INFINITY));
@@ -329,7 +328,6 @@ TEST(only_what_is_asked_for_is_computed)
 
 TEST(exposures_are_the_ones_of_develop)
 {
-    (void)state;
     for (double ev = -4; ev < 20; ev += 3) {
         assert_near(ev_of_stops(stops_of_ev(ev)), ev, 1e-9);
         /* What EV e makes middle grey is 0.125 * 2^e cd/m2 (ISO 2720, K = 12.5). */
@@ -397,7 +395,6 @@ TEST(bands_give_the_figures_of_whole_pictures)
 
 TEST(a_data_window_places_values)
 {
-    (void)state;
     FrameImage frame = {.display = {10, 20, 22, 28}, .data = {14, 18, 24, 26}};
     assert_int_equal(selection_place(&frame, 0), -1);         /* row 18 is above */
     assert_int_equal(selection_place(&frame, 20), 4);         /* 14,20 */
@@ -434,7 +431,6 @@ TEST(regions_select_and_displays_are_known)
 /* Sizes alone decide it: nothing of the pixels is asked. */
 TEST(frames_that_cannot_fit_are_refused_by_a_line)
 {
-    (void)state;
     Error          err = {0};
     Comparison     out;
     CompareOptions options = {.threads = 1};

@@ -133,7 +133,6 @@ static void refused(const char *word, const char *value, const char *part)
 
 TEST(wrong_options_say_what_is_wanted)
 {
-    (void)state;
     refused("--max", "flop=1", "there is no figure flop — did you mean flip?");
     refused("--max", "qqqqqqqq=1", "there are flip, flip_median,");
     refused("--max", "flip", "wanted NAME=VALUE");

@@ -43,7 +43,6 @@ static BatchSums batches_of(int shape, int samples, uint32_t *random)
 /* 93 to 97 % of many runs; of 4,000 the standard deviation is 0.35 %. */
 TEST(intervals_hold_the_mean_as_often_as_they_say)
 {
-    (void)state;
     uint32_t random = 1;
     for (int shape = 0; shape < 3; shape++)
         for (int samples = shape < 2 ? 1 : 8; samples <= 32; samples *= 4) {
@@ -96,7 +95,6 @@ static void try_lobe(int k, uint32_t *random, int *bare, int *held)
  * nothing is known. Of 800 runs a standard deviation of the difference is 0.9 %. */
 TEST(what_may_be_missing_is_in_the_interval)
 {
-    (void)state;
     enum { TRIES = 800 };
     uint32_t random = 5;
     for (int k = 1; k <= 2; k++) {
@@ -110,7 +108,6 @@ TEST(what_may_be_missing_is_in_the_interval)
 /* Of samples that are alike next to nothing is missing, and of more samples less. */
 TEST(little_is_missing_of_many_alike)
 {
-    (void)state;
     BrightSamples bright = {0};
     for (int i = 0; i < 1000; i++) bright_add(&bright, 3);
     double missing = bright_missing(&bright, 1000, 1);
@@ -121,7 +118,6 @@ TEST(little_is_missing_of_many_alike)
 
 TEST(without_skewness_the_interval_is_students)
 {
-    (void)state;
     BatchSums sums = {0};
     double    error = sqrt(1.25 / 7); /* of 0.5 1.5 ... about 0 */
     for (int i = 0; i < 8; i++) batch_add(&sums, i % 4 - 1.5);

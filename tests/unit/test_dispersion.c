@@ -37,7 +37,6 @@ static double at(const Curve *curve, double nm)
 
 TEST_WITH(an_abbe_number_gives_the_index_of_every_wavelength, maker_reset, NULL)
 {
-    (void)state;
     for (int abbe = 20; abbe <= 80; abbe += 20)
         for (int i = 0; i < 2; i++) {
             double nd = i ? 1.9 : 1.5;
@@ -54,7 +53,6 @@ TEST_WITH(an_abbe_number_gives_the_index_of_every_wavelength, maker_reset, NULL)
 
 TEST_WITH(what_spreads_nothing_has_one_index, maker_reset, NULL)
 {
-    (void)state;
     assert_null(glass_of(1.5, 0, "'thicknessFactor':1")->index);
     assert_null(glass_of(1, 1, "'thicknessFactor':1")->index);
     assert_null(glass_of(0, 1, "'thicknessFactor':1")->index);
@@ -117,7 +115,6 @@ static int only_lane(Spectrum weight)
 /* By the lane that goes on: Snell's angle to 1e-4, both ways through the boundary. */
 TEST(each_wavelength_is_refracted_as_snell_says)
 {
-    (void)state;
     Bsdf bsdf = boundary(0);
     int  seen[3] = {0};
     for (int degrees = 10; degrees <= 80; degrees += 10)
@@ -142,7 +139,6 @@ TEST(each_wavelength_is_refracted_as_snell_says)
 /* Mean over the choice: Fresnel's shares, a mirror with all lanes in one sample. */
 TEST(lanes_get_fresnels_shares_in_the_mean)
 {
-    (void)state;
     Bsdf bsdf = boundary(0);
     const int count = 4096;
     for (int degrees = 0; degrees <= 80; degrees += 20) {
@@ -171,7 +167,6 @@ TEST(lanes_get_fresnels_shares_in_the_mean)
 /* A path that has but one lane keeps it, and loses nothing to the others. */
 TEST(a_split_path_keeps_its_lane)
 {
-    (void)state;
     Spectrum light = spectrum_all(0);
     light[4] = 7; /* 4 % 3: the d line */
     for (int rough = 0; rough < 2; rough++) {

@@ -103,7 +103,6 @@ static Seen look(const World *world, Vec3 at, Vec3 towards, int count)
 /* 3 primaries x 9 levels x 25 directions in a black room. */
 TEST(a_frame_shows_what_the_panel_emits)
 {
-    (void)state;
     for (int p = 0; p < PANEL_COUNT; p++) {
         uint8_t pixel[4] = {0, 0, 0, 255};
         World   world = world_of_pixel(PANELS[p], pixel);
@@ -133,7 +132,6 @@ TEST(a_frame_shows_what_the_panel_emits)
 /* Light of the display on a white wall: the spectral way must carry the same luminance. */
 TEST(the_display_lights_a_wall_with_its_measured_luminance)
 {
-    (void)state;
     World world = world_open(PANELS[0]);
     const float codes[3] = {255, 180, 60};
     uint8_t pixel[4] = {255, 180, 60, 255};
@@ -162,7 +160,6 @@ TEST(the_display_lights_a_wall_with_its_measured_luminance)
 /* A picture whose four corners differ is seen upright and not mirrored. */
 TEST(the_picture_stands_upright)
 {
-    (void)state;
     World world = world_open(PANELS[0]);
     static const uint8_t picture[16] = {255, 0,   0,   255, /* upper left red */
                                         0,   255, 0,   255, /* upper right green */
@@ -184,7 +181,6 @@ TEST(the_picture_stands_upright)
 /* phi as someone facing the display sees it: 0 right, 90 up; and it turns with the picture. */
 TEST(angles_are_those_of_someone_who_faces_the_display)
 {
-    (void)state;
     uint8_t pixel[4] = {255, 255, 255, 255};
     World   world = world_of_pixel(PANELS[0], pixel);
     for (int turned = 0; turned < 2; turned++) {
@@ -251,7 +247,6 @@ static Spectrum reflected_sky(const World *world, const Wavelengths *w, const vo
 
 TEST(a_display_under_a_uniform_sky_reflects_its_brdfs_integral)
 {
-    (void)state;
     for (int p = 0; p < PANEL_COUNT; p++) {
         uint8_t pixel[4] = {0, 0, 0, 255};
         World   world = world_of_pixel(PANELS[p], pixel);
@@ -319,7 +314,6 @@ static Spectrum sun_irradiance(const World *world, const Wavelengths *w)
 
 TEST(a_display_under_the_sun_reflects_its_brdf_over_the_disc)
 {
-    (void)state;
     for (int p = 0; p < PANEL_COUNT; p++)
         for (int away = 2; away <= 30; away += 7) {
             World world = world_open(PANELS[p]);
@@ -403,14 +397,12 @@ static void check_side(bool is_double_sided, bool is_inside_out, float blue, flo
 
 TEST(the_back_of_a_display_is_dark)
 {
-    (void)state;
     for (int i = 0; i < 16; i++) check_side(i & 1, i & 2, i & 4 ? 0.5f : 1, i & 8 ? 1 : -1);
 }
 
 /* The same light of a display for every strategy, on its front; none behind. */
 TEST(the_back_of_a_display_lights_nothing)
 {
-    (void)state;
     LitPoint before = {vec3(0.2f, 0, 2), vec3(0, 0, -1), false};
     LitPoint behind = {vec3(0.2f, 0, -2), vec3(0, 0, 1), false};
     for (int i = 0; i < 4; i++) {

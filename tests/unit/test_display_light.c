@@ -126,7 +126,6 @@ static Estimate illuminance(const Scene *scene, const Emitters *emitters, bool i
 
 TEST(displays_are_chosen_by_angle_and_by_content)
 {
-    (void)state;
     for (int has_content = 0; has_content < 2; has_content++) {
         Arena    arena = arena_reserve((size_t)1 << 30);
         Scene   *scene = four_displays(&arena, has_content);
@@ -174,7 +173,6 @@ static Estimate of_display(const Scene *scene, const Emitters *emitters, const L
 /* A display of 1920 x 1080 pixels below a windscreen that leans over it: 40 points of that. */
 TEST(a_large_picture_lights_a_windscreen_with_a_fifth_of_the_variance)
 {
-    (void)state;
     Arena    arena = arena_reserve((size_t)1 << 30);
     Scene   *scene = builder_scene(&arena);
     show_lines(scene, 1920, 1080, &arena);
@@ -202,7 +200,6 @@ TEST(a_large_picture_lights_a_windscreen_with_a_fifth_of_the_variance)
 /* The same light, whether light samples, the wall's own samples or both find it. */
 TEST(every_strategy_finds_the_same_light_of_displays)
 {
-    (void)state;
     static const PathStrategy strategies[] = {PATH_LIGHTS_ONLY, PATH_BSDF_ONLY, PATH_MIS};
     static const int counts[] = {20000, 400000, 20000};
     Arena  arena = arena_reserve((size_t)1 << 30);

@@ -9,7 +9,6 @@
 /* From a cube's corner, an octant of the sphere; half a face from the cube's middle. */
 TEST(solid_angles_are_those_of_the_sphere)
 {
-    (void)state;
     const Vec3 octant[3] = {{1, 0, 0}, {0, 2, 0}, {0, 0, 30}};
     const Vec3 face[3] = {{-1, -1, 1}, {1, -1, 1}, {1, 1, 1}};
     const Vec3 small[3] = {{0, 0, 5}, {0.1f, 0, 5}, {0, 0.1f, 5}};
@@ -26,7 +25,6 @@ TEST(solid_angles_are_those_of_the_sphere)
  * large: by the solid angles of 64 x 64 smaller triangles, gathered by rows. */
 TEST(points_are_uniform_in_the_solid_angle)
 {
-    (void)state;
     enum { SIDE = 8, CELLS = SIDE * SIDE, COUNT = 400000 };
     static const Vec3 seen[][3] = {
         {{1, 0, 0.1f}, {0, 2, 0.1f}, {-1, -1, 0.1f}},          /* nearly half of all */

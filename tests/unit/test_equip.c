@@ -320,7 +320,6 @@ TEST(a_page_holds_the_model_and_asks_for_nothing)
 
 TEST(usual_materials_can_be_told_apart_and_are_physical)
 {
-    (void)state;
     for (int i = 0; i < usual_material_count; i++) {
         const UsualMaterial *m = &usual_materials[i];
         for (int c = 0; c < 3; c++) assert_true(m->base_color[c] > 0 && m->base_color[c] <= 1);

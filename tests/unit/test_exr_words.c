@@ -239,7 +239,6 @@ TEST(a_word_that_is_missing_is_named)
 
 TEST(what_is_no_openexr_file_is_told)
 {
-    (void)state;
     ExrReader *reader;
     Error      err = {0};
     assert_false(exr_reader_open("no/such.exr", &reader, &err));

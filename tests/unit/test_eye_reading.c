@@ -53,7 +53,6 @@ static World dark_world(void)
 
 TEST(a_small_source_veils_by_its_illuminance_of_the_pupil)
 {
-    (void)state;
     static const double angles[] = {1, 2, 5, 10, 30, 60, 85};
     for (size_t i = 0; i < sizeof angles / sizeof *angles; i++) {
         World    world = dark_world();
@@ -73,7 +72,6 @@ TEST(a_small_source_veils_by_its_illuminance_of_the_pupil)
 
 TEST(a_lamp_without_a_body_veils_alike)
 {
-    (void)state;
     World world = dark_world();
     world.scene->lights[world.scene->light_count++] =
         (PunctualLight){.name = "lamp", .kind = LIGHT_POINT, .position = at_angle(20),
@@ -88,7 +86,6 @@ TEST(a_lamp_without_a_body_veils_alike)
 
 TEST(the_sun_veils_by_its_own_angle)
 {
-    (void)state;
     World world = dark_world();
     world.scene->environment.has_sun = true;
     world.scene->environment.sun_elevation = (float)radians_from_degrees(15);
@@ -105,7 +102,6 @@ TEST(the_sun_veils_by_its_own_angle)
 /* Before the eye, from in front of it to above it: it takes and mirrors a share of the sun. */
 TEST(glass_takes_what_it_mirrors_of_the_sun)
 {
-    (void)state;
     static const double passed = 0.902528; /* of 1.52 at 45 degrees: Fresnel, both faces */
     World    world = dark_world();
     Material window = builder_material(1);
@@ -129,7 +125,6 @@ TEST(glass_takes_what_it_mirrors_of_the_sun)
  * the gaze; paths would find it by luck. Some 22 rays look into the disc, one more or less. */
 TEST(an_image_of_the_sun_veils_by_its_illuminance)
 {
-    (void)state;
     const Kernel *kernel;
     Error     err = {0};
     float     bands[LIGHT_BANDS];
@@ -173,7 +168,6 @@ static void light_sky(World *world, float luminance)
 /* f L cos theta over the half space in front, by quadrature. */
 TEST(a_uniform_sky_veils_by_the_integral)
 {
-    (void)state;
     World  world = dark_world();
     double sum = 0, step = 0.01;
     light_sky(&world, 100);
@@ -205,7 +199,6 @@ static World lit_world(void)
 
 TEST(parts_of_a_veil_add_up_and_rounds_agree)
 {
-    (void)state;
     World      world = lit_world();
     EyeReading once = read_towards(&world, at, 1), often = read_towards(&world, at, 16);
     double     sum = 0;
@@ -222,7 +215,6 @@ TEST(parts_of_a_veil_add_up_and_rounds_agree)
 
 TEST(an_older_eye_has_more_veil)
 {
-    (void)state;
     World  world = lit_world();
     double last = 0;
     for (int age = 20; age <= 80; age += 30) {
@@ -237,7 +229,6 @@ TEST(an_older_eye_has_more_veil)
 
 TEST(eyes_look_straight_up_and_down)
 {
-    (void)state;
     World world = lit_world();
     for (int sign = -1; sign <= 1; sign += 2) {
         EyeReading found = read_towards(&world, vec3(0, (float)sign, 0), 1);

@@ -55,7 +55,6 @@ static Failures failures_of(Daily daily, bool with_ask)
 
 TEST(hours_find_the_minutes_of_a_failure)
 {
-    (void)state;
     for (double minutes = 75; minutes < 240; minutes += 41) {
         Failures found = failures_of((Daily){557, minutes, 0.618, 60, true, 0}, true);
         assert_near(found.share, 365 * minutes, 365);
@@ -67,7 +66,6 @@ TEST(hours_find_the_minutes_of_a_failure)
 /* Every step is asked once; 1,460 edges to a minute would take 8,760 more. */
 TEST(many_failures_are_told_by_fewer_questions)
 {
-    (void)state;
     asked = 0;
     Failures found = failures_of((Daily){557, 130, 0.618, 60, true, 100}, true);
     int      more = asked - steps_told;
@@ -85,7 +83,6 @@ TEST(many_failures_are_told_by_fewer_questions)
 /* Shorter than a step: few are met, and count for those that are not. */
 TEST(failures_between_steps_are_counted_by_those_that_are_met)
 {
-    (void)state;
     for (double minutes = 5; minutes < 60; minutes += 15) {
         Failures found = failures_of((Daily){600, minutes, 0.61803398875, 60, true, 0}, true);
         assert_near(found.share, 365 * minutes, 0.03 * 365 * minutes);
@@ -95,7 +92,6 @@ TEST(failures_between_steps_are_counted_by_those_that_are_met)
 
 TEST(steps_are_whole_where_nobody_is_asked)
 {
-    (void)state;
     Failures found = failures_of((Daily){600, 180, 0, 60, true, 0}, false);
     assert_near(found.share, 365 * 180, 1e-6);
     assert_near(found.longest_minutes, 180, 1e-9);
@@ -103,7 +99,6 @@ TEST(steps_are_whole_where_nobody_is_asked)
 
 TEST(what_fails_by_its_figure_alone_does_not_count)
 {
-    (void)state;
     Failures found = failures_of((Daily){600, 180, 0.3, 60, false, 0}, true);
     assert_near(found.share, 0, 0);
     assert_near(found.longest_minutes, 0, 0);
@@ -112,7 +107,6 @@ TEST(what_fails_by_its_figure_alone_does_not_count)
 /* Four points, of which the middle two fail: each stands for the time to the next. */
 TEST(a_route_fails_for_the_time_of_its_points)
 {
-    (void)state;
     Arena     arena = arena_reserve((size_t)1 << 20);
     SweepSun  list[4];
     const double minutes[] = {4, 7, 2, 0};

@@ -20,7 +20,6 @@ static double luminance_of_code(const float srgb[3])
 
 TEST(false_colours_grow_lighter_all_the_way)
 {
-    (void)state;
     double last = -1;
     for (int i = 0; i <= 200; i++) {
         float rgb[3];
@@ -101,7 +100,6 @@ TEST(letters_are_drawn_as_wide_as_they_are_said_to_be)
 
 TEST(primaries_give_the_published_matrix)
 {
-    (void)state;
     /* ITU-R BT.709 with D65, as in IEC 61966-2-1 to four digits. */
     static const double WANT[3][3] = {
         {0.4124, 0.3576, 0.1805}, {0.2126, 0.7152, 0.0722}, {0.0193, 0.1192, 0.9505}};

@@ -91,7 +91,6 @@ static void add_facet(World *world, const Facet *facet)
 /* An hour's sweep would see it once in many years. */
 TEST(a_facet_that_dazzles_for_minutes_a_year_is_found)
 {
-    (void)state;
     World           world = world_start();
     Arena           scratch = arena_reserve((size_t)1 << 30);
     Error           err = {0};

@@ -87,7 +87,6 @@ static void assert_whole_about_zenith(const FalseSuns *suns)
 /* A wide flat mirror shows all of the sun: its whole illuminance, less what silver takes. */
 TEST(a_wide_mirror_shows_the_whole_sun)
 {
-    (void)state;
     Found found = {.world = world_start()};
     add_facet(&found.world, 20, 35, 8, 8);
     add_facet(&found.world, 45, 90, 8, 8);
@@ -136,7 +135,6 @@ static const FalseSunRays *ask_twice(SunSearches *kept, const World *world)
  * sun of two colours gets from a blue mirror what either gets. */
 TEST(all_suns_together_see_the_facets_solid_angle)
 {
-    (void)state;
     World       world = world_start();
     SunSearches kept = sun_searches_start();
     double      wide = radians_from_degrees(3), high = radians_from_degrees(1);
@@ -161,7 +159,6 @@ TEST(all_suns_together_see_the_facets_solid_angle)
  * the facet's size and the sun's away, and by the part of the disc that the facet covers. */
 TEST(a_small_facet_is_found_where_it_stands)
 {
-    (void)state;
     Found  found = {.world = world_start()};
     double side = 0.4, covered = side * side / (PI * radius * radius);
     add_facet(&found.world, 25, 30, side, side);
@@ -181,7 +178,6 @@ TEST(a_small_facet_is_found_where_it_stands)
 /* Rough walls have no image, and what stands before the sun hides it. */
 TEST(walls_have_no_image_and_hide_the_sun)
 {
-    (void)state;
     Found open = {.world = world_start()}, closed = {.world = world_start()};
     builder_part(open.world.scene, builder_material(0.8f));
     builder_quad(open.world.scene, vec3(0, 0, -1), vec3(1, 0, 0), vec3(0, 1, 0));
@@ -200,7 +196,6 @@ TEST(walls_have_no_image_and_hide_the_sun)
  * of its own: by Fresnel's equations of both faces. */
 TEST(a_pane_throws_what_its_faces_reflect)
 {
-    (void)state;
     Found    found = {.world = world_start()};
     Material pane = builder_material(1);
     double   face = 0.04, both = 2 * face / (1 + face); /* at normal incidence, n = 1.5 */

@@ -73,7 +73,6 @@ static void assert_content(const char *path, const char *wanted)
 
 TEST(nobody_sees_a_file_before_it_is_whole)
 {
-    (void)state;
     Error       err;
     FileWriter  writer;
     const char *path = in_folder("w.bin");
@@ -103,7 +102,6 @@ TEST(nobody_sees_a_file_before_it_is_whole)
 
 TEST(what_a_killed_writer_leaves_is_cleared)
 {
-    (void)state;
     Error       err;
     const char *path = in_folder("k.bin");
     pid_t       child = fork();
@@ -161,7 +159,6 @@ static int write_without_unnamed_files(const char *path)
 
 TEST(file_systems_without_unnamed_files_get_named_ones)
 {
-    (void)state;
     const char *path = in_folder("n.bin");
     pid_t       child = fork();
     if (child == 0) _exit(write_without_unnamed_files(path));
@@ -205,7 +202,6 @@ static int make_thousand(void)
 
 TEST(processes_make_the_same_folders_at_once)
 {
-    (void)state;
     Error err;
     pid_t children[4];
     assert_true(folder_make(in_folder("many"), &err));
@@ -226,7 +222,6 @@ TEST(processes_make_the_same_folders_at_once)
 
 TEST(a_file_is_no_folder)
 {
-    (void)state;
     Error       err;
     const char *path = in_folder("file");
     assert_true(file_write(path, "x", 1, &err));
@@ -255,7 +250,6 @@ TEST(paths_are_joined_and_measured)
 
 TEST(schemes_are_told_from_paths)
 {
-    (void)state;
     assert_int_equal(uri_scheme_length("http://x"), 4);
     assert_int_equal(uri_scheme_length("C:/x"), 1);
     assert_int_equal(uri_scheme_length("a/b:c"), 0);

@@ -205,7 +205,6 @@ TEST(variance_needs_two_samples)
 
 TEST(relative_error_is_the_mean_of_sigma_over_luminance)
 {
-    (void)state;
     enum { SIDE = 100 };
     static const uint32_t counts[] = {20, 64, 200};
     for (int c = 0; c < 3; c++) {
@@ -491,7 +490,6 @@ TEST(a_crop_is_the_data_window)
 
 TEST(film_bytes_is_what_a_film_takes)
 {
-    (void)state;
     for (unsigned layers = 0; layers <= LAYER_ALL; layers += 193) {
         Arena arena = arena_reserve(1 << 20);
         film_create(WIDTH, HEIGHT, whole, layers, NULL, &arena);

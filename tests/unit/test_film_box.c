@@ -74,7 +74,6 @@ TEST(a_box_ends_where_the_camera_sees_the_corners)
 
 TEST(a_back_has_no_box)
 {
-    (void)state;
     for (int is_perspective = 0; is_perspective < 2; is_perspective++) {
         Camera   camera = camera_of(is_perspective);
         BoxScene all;

@@ -72,7 +72,6 @@ static Mean look(const World *world, Vec3 from, Vec3 to, int count)
 /* A closed ball, also one that parts light. */
 TEST(a_filmed_ball_is_not_seen_in_a_furnace)
 {
-    (void)state;
     static const float balls[][4] = {/* ior, share, film's ior, nm */
                                      {1.5f, 1, 1.8f, 400}, {1.33f, 0.5f, 1.33f, 900},
                                      {1, 1, 1.33f, 350}, {2.4f, 1, 1.3f, 120}};
@@ -165,7 +164,6 @@ static World box_world(bool has_film, bool is_brushed)
 
 TEST(every_strategy_finds_the_same_light)
 {
-    (void)state;
     for (int i = 1; i < 4; i++) {
         World world = box_world(i & 1, i & 2);
         Mean  found[3];
@@ -201,7 +199,6 @@ static double aside(Vec3 lamp, float turn)
 
 TEST(a_brushed_face_blurs_along_its_brushing)
 {
-    (void)state;
     Vec3   along_x = vec3(1, 1, 0), along_z = vec3(0, 1, 1);
     double with_x = aside(along_x, 0), across_x = aside(along_z, 0);
     double with_z = aside(along_z, 0.5f * 3.14159265f), across_z = aside(along_x, 1.57079633f);

@@ -69,7 +69,6 @@ static const UniformPair PAIRS[] = {
 /* Even surfaces have no edges: what is left is the colour difference, in closed form. */
 TEST(even_surfaces_follow_the_closed_form)
 {
-    (void)state;
     for (size_t i = 0; i < sizeof PAIRS / sizeof *PAIRS; i++) {
         const UniformPair p = PAIRS[i];
         Arena             arena = arena_reserve(FIXTURE_ARENA_BYTES);
@@ -107,7 +106,6 @@ static double worst_against_slow(const Canvas *r, const Canvas *t, double ppd, A
 
 TEST(noise_agrees_with_the_slow_twin)
 {
-    (void)state;
     const double noises[] = {0.5, 0.1, 0.001};
     for (int i = 0; i < 3; i++) {
         Arena        arena = arena_reserve(FIXTURE_ARENA_BYTES);
@@ -282,7 +280,6 @@ TEST(filters_keep_their_sums)
 
 TEST(a_summary_keeps_to_its_mask)
 {
-    (void)state;
     float         map[100];
     unsigned char mask[100];
     for (int i = 0; i < 100; i++) {
@@ -317,7 +314,6 @@ static const FlipToneMapper MAPPERS[] = {FLIP_ACES, FLIP_REINHARD, FLIP_HABLE};
 /* Greys: the tone curves of all three are those of one number. */
 TEST(even_light_follows_the_closed_form)
 {
-    (void)state;
     for (int m = 0; m < 3; m++) {
         Arena        arena = arena_reserve(FIXTURE_ARENA_BYTES);
         const Canvas r = canvas_uniform(40, 40, 40, &arena);
@@ -363,7 +359,6 @@ static Canvas tone_mapped(const Canvas *source, double ev, FlipToneMapper mapper
 /* Not to the last bit: here the tone-mapped pictures are rounded to floats. */
 TEST(one_exposure_is_the_tone_mapped_picture)
 {
-    (void)state;
     for (int m = 0; m < 3; m++) {
         Arena        arena = arena_reserve(FIXTURE_ARENA_BYTES);
         const Canvas r0 = canvas_scene(50, 40, 0.2, 1, &arena);
@@ -420,7 +415,6 @@ static Canvas known_luminances(Arena *arena)
 
 TEST(the_range_shows_the_brightest_and_the_median)
 {
-    (void)state;
     for (int m = 0; m < 3; m++) {
         Arena         arena = arena_reserve(FIXTURE_ARENA_BYTES);
         const Canvas  r = known_luminances(&arena);

@@ -262,7 +262,6 @@ TEST(survives_flipped_bits)
 /* The corpus of the library's own makers: files found by fuzzing. */
 TEST(damaged_files_are_read_or_refused)
 {
-    (void)state;
     char name[200], path[600];
     int  refused = 0, total = 0;
     snprintf(name, sizeof name, "%s/exr/Damaged", SHARED_DATA_DIR);

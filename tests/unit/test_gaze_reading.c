@@ -93,7 +93,6 @@ static void assert_mirrored(const GazeReading *found, double wanted)
 
 TEST(a_pane_mirrors_the_dashboard_by_fresnel)
 {
-    (void)state;
     /* Both faces and all that goes to and fro between them, each polarisation by itself. */
     static const double degrees[] = {45, 60, 70};
     static const double passed[] = {0.902528, 0.843471, 0.724713};
@@ -113,7 +112,6 @@ TEST(a_pane_mirrors_the_dashboard_by_fresnel)
 /* Polarisation is not followed inside a solid: (1 - R)/(1 + R) of the mean R passes. */
 TEST(a_pane_with_thickness_mirrors_by_both_faces)
 {
-    (void)state;
     World world = sunny_world();
     add_dashboard(&world);
     add_solid_pane(&world);
@@ -126,7 +124,6 @@ TEST(a_pane_with_thickness_mirrors_by_both_faces)
 
 TEST(what_lies_behind_a_pane_comes_through_it)
 {
-    (void)state;
     World    world = world_start();
     Material wall = builder_material(0);
     for (int k = 0; k < 3; k++) wall.emissive_cd_m2[k] = 500;
@@ -143,7 +140,6 @@ TEST(what_lies_behind_a_pane_comes_through_it)
 /* Chrome is what the eye looks at, not something that lies before it. */
 TEST(a_mirror_is_no_pane)
 {
-    (void)state;
     World    world = sunny_world();
     Material chrome = builder_material(1);
     chrome.metallic = 1;
@@ -160,7 +156,6 @@ TEST(a_mirror_is_no_pane)
 /* The sun's disc within the cone is no background; all else is. */
 TEST(the_sun_itself_is_not_looked_at)
 {
-    (void)state;
     World world = sunny_world();
     add_dashboard(&world);
     world.scene->environment.sun_azimuth = 0;
@@ -173,7 +168,6 @@ TEST(the_sun_itself_is_not_looked_at)
 /* Nor through a windscreen, with a thickness or without. */
 TEST(the_sun_behind_a_pane_is_not_looked_at)
 {
-    (void)state;
     for (int is_solid = 0; is_solid < 2; is_solid++) {
         World world = sunny_world();
         world.scene->environment.sun_azimuth = 0;
@@ -217,7 +211,6 @@ static double camera_luminance(const World *world, double *sigma)
 
 TEST(both_add_up_to_what_a_camera_sees)
 {
-    (void)state;
     World world = sunny_world();
     add_dashboard(&world);
     world.scene->environment.kind = ENVIRONMENT_CONSTANT;

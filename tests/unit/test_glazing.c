@@ -169,7 +169,6 @@ static void compare_all(const PaneCase *c)
 
 TEST(images_of_a_curved_pane_leave_as_rays_through_two_faces_do)
 {
-    (void)state;
     const double radii[] = {1, 2, 5, 12}, turns[] = {-1, 0, 35, 90};
     for (int i = 0; i < 64; i++) {
         PaneCase c = {.radius = (i & 1 ? -1 : 1) * radii[i / 2 % 4], .turn = turns[i / 8 % 4],
@@ -180,7 +179,6 @@ TEST(images_of_a_curved_pane_leave_as_rays_through_two_faces_do)
 
 TEST(a_wedge_adds_to_what_curvature_does)
 {
-    (void)state;
     for (int i = 0; i < 8; i++) {
         PaneCase c = {.radius = i & 1 ? -5 : 5, .turn = i & 2 ? 60 : -1, .slope = 5e-4,
                       .is_below = i >= 4};
@@ -191,7 +189,6 @@ TEST(a_wedge_adds_to_what_curvature_does)
 /* Head on nothing is moved, so nothing turns. */
 TEST(an_image_along_the_normal_comes_back)
 {
-    (void)state;
     PaneCase   c = {.radius = 1, .turn = -1};
     Bsdf       bsdf = bsdf_of(&c);
     BsdfSample sample;
@@ -205,7 +202,6 @@ TEST(an_image_along_the_normal_comes_back)
 /* Normals that turn by radians within a pane's thickness: no image may be lost in NaN. */
 TEST(crumpled_normals_give_unit_directions_or_none)
 {
-    (void)state;
     const float bends[] = {1e2f, -1e3f, 1e6f, -1e20f, 1e38f, INFINITY, NAN};
     for (int i = 0; i < 7 * TRIES; i++) {
         Bsdf       bsdf = {.kind = BSDF_GLAZED_WINDOW};

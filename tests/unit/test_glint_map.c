@@ -27,7 +27,6 @@ static GlintMap lit_square(uint32_t row, float edge_m, uint32_t rays, Arena *are
 /* Of a plane between cubes, and of planes within them. */
 TEST(even_light_is_found_as_it_is)
 {
-    (void)state;
     Arena arena = arena_reserve(ROOM);
     const float edges[] = {0.02f, 0.031f, 0.05f};
     for (int k = 0; k < 3; k++) {
@@ -43,7 +42,6 @@ TEST(even_light_is_found_as_it_is)
 
 TEST(nothing_is_found_off_the_light_or_in_another_row)
 {
-    (void)state;
     Arena    arena = arena_reserve(ROOM);
     GlintMap none = {{{0}}}, map = lit_square(7, 0.02f, 20000, &arena);
     GlintPlace lit = {7, 0.02f, vec3(1, 0.3f, 1)}, row = lit, above = lit, beside = lit;
@@ -62,7 +60,6 @@ TEST(nothing_is_found_off_the_light_or_in_another_row)
  * cube are no fault. */
 TEST(one_landing_is_known_where_it_is_and_around)
 {
-    (void)state;
     Arena    arena = arena_reserve(ROOM);
     GlintMap map = {{{0}}};
     GlintPlace at = {3, 0.01f, vec3(-5, 1, 2)}, near = at, far = {4, 1e-4f, vec3(1e30f, 0, 0)};
@@ -82,7 +79,6 @@ TEST(one_landing_is_known_where_it_is_and_around)
 /* Each landing is found again, and each counts eight times. */
 TEST(a_growing_map_keeps_all_its_light)
 {
-    (void)state;
     Arena    arena = arena_reserve(ROOM);
     GlintMap map = lit_square(1, 0.002f, 100000, &arena);
     assert_true(map.size[0].count > 300000);

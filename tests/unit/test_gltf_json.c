@@ -15,7 +15,6 @@ static const GltfValue *parse(const char *text)
 
 TEST(values_keep_their_kind_and_order)
 {
-    (void)state;
     const GltfValue *root = parse(
         "{\"z\":[null,true,-2,2.5,1e3,\"\\u00e9\\n\"],\"a\":{},\"big\":9007199254740993}");
     assert_int_equal(root->kind, GLTF_OBJECT);
@@ -36,7 +35,6 @@ TEST(values_keep_their_kind_and_order)
 
 TEST(values_know_their_place)
 {
-    (void)state;
     char pointer[64];
     const GltfValue *root = parse("{\"a/b\":[{},{\"m~n\":[0,1,2]}]}");
     const GltfValue *inner = tree_member(tree_item(tree_member(root, "a/b"), 1), "m~n");
@@ -50,7 +48,6 @@ TEST(values_know_their_place)
 
 TEST(readers_take_the_default_for_what_is_not_there)
 {
-    (void)state;
     float numbers[2] = {7, 8};
     const GltfValue *root =
         parse("{\"n\":1,\"t\":\"x\",\"l\":[1,2],\"mixed\":[1,\"2\"],\"f\":1.5}");
@@ -84,14 +81,12 @@ static bool parses_depth(int depth)
 
 TEST(nesting_has_a_limit)
 {
-    (void)state;
     assert_true(parses_depth(GLTF_MAX_DEPTH));
     assert_false(parses_depth(GLTF_MAX_DEPTH + 1));
 }
 
 TEST(faults_name_line_and_column)
 {
-    (void)state;
     Error err;
     const GltfValue *root;
     static const char TEXT[] = "{\n  \"a\" \"b\"}";
@@ -115,7 +110,6 @@ static GltfData data_of(const char *text)
 
 TEST(accessors_come_as_plain_arrays)
 {
-    (void)state;
     GltfData data =
         data_of("{\"bufferViews\":[{\"buffer\":0,\"byteLength\":64,\"byteOffset\":4,"
                 "\"byteStride\":16}],"
@@ -145,7 +139,6 @@ TEST(accessors_come_as_plain_arrays)
 
 TEST(what_tinygltf_refuses_comes_back_as_an_error)
 {
-    (void)state;
     Error err;
     GltfData data = {.view_count = 77};
     const GltfValue *root;

@@ -64,7 +64,6 @@ enum { SURFACES = sizeof surfaces / sizeof *surfaces };
 
 TEST(densities_integrate_to_one)
 {
-    (void)state;
     Arena  arena = arena_reserve((size_t)1 << 24);
     LightGuide *guide = odd_guide(&arena);
     for (int s = 0; s < SURFACES; s++) {
@@ -96,7 +95,6 @@ static int cell_of(Vec3 d)
 
 TEST(samples_follow_the_density)
 {
-    (void)state;
     enum { SAMPLES = 400000, FINE = 40 };
     Arena  arena = arena_reserve((size_t)1 << 24);
     LightGuide *guide = odd_guide(&arena);
@@ -137,7 +135,6 @@ TEST(samples_follow_the_density)
 
 TEST(a_direction_of_a_bin_lies_there_and_a_view_of_darkness_is_empty)
 {
-    (void)state;
     Arena     arena = arena_reserve((size_t)1 << 24);
     LightGuide    *guide = odd_guide(&arena);
     GuideView view;
@@ -198,7 +195,6 @@ static Material emitter(float cd_m2)
 
 TEST(a_furnace_shows_one_wherever_a_guide_leads)
 {
-    (void)state;
     World    world = world_start();
     Material wall = emitter(0.5f);
     for (int i = 0; i < 3; i++) wall.base_color[i] = 0.5f;
@@ -240,7 +236,6 @@ static World floor_world(float roughness, float clearcoat)
 
 TEST(every_strategy_finds_the_same_light_with_a_guide_and_without)
 {
-    (void)state;
     static const float looks[][2] = {{0.45f, 0}, {0.7f, 1}, {1, 0}};
     for (int i = 0; i < 3; i++) {
         World    world = floor_world(looks[i][0], looks[i][1]);
@@ -276,7 +271,6 @@ static GuideTraining *taught(Arena *arena)
 
 TEST(cells_part_the_places_among_them)
 {
-    (void)state;
     Arena          arena = arena_reserve((size_t)1 << 28);
     GuideTraining *training = taught(&arena);
     const LightGuide   *guide = &training->guide;
@@ -293,7 +287,6 @@ TEST(cells_part_the_places_among_them)
 
 TEST(a_cell_leads_to_where_its_lesson_found_light)
 {
-    (void)state;
     Arena          arena = arena_reserve((size_t)1 << 28);
     GuideTraining *training = taught(&arena);
     Vec3           bright = direction_to(40, 70);
@@ -334,7 +327,6 @@ static void refused(const char *path, const GuideScene *scene, const char *words
 
 TEST(a_field_comes_back_from_its_file_or_not_at_all)
 {
-    (void)state;
     Arena        arena = arena_reserve((size_t)1 << 26);
     LightGuide       *guide = odd_guide(&arena);
     const LightGuide *back;
@@ -362,7 +354,6 @@ TEST(a_field_comes_back_from_its_file_or_not_at_all)
 
 TEST(a_field_that_never_asks_a_light_is_of_another_scene)
 {
-    (void)state;
     static const GuideScene scene = {{true, true, false, false}, 9, 9};
     Arena  arena = arena_reserve((size_t)1 << 26);
     LightGuide *guide = odd_guide(&arena);
@@ -377,7 +368,6 @@ TEST(a_field_that_never_asks_a_light_is_of_another_scene)
 
 TEST(a_field_with_impossible_lamps_is_refused)
 {
-    (void)state;
     static const GuideLamps wrong[] = {
         {9, {0}, {1}, 0.1f}, {-1, {0}, {1}, 0.1f}, {1, {-2}, {1}, 0.1f}, {1, {2}, {0}, 0.1f},
         {1, {2}, {1.5f}, 0.1f}, {2, {2, 2}, {1, 1}, 0.1f}, {1, {2}, {1}, -0.1f},

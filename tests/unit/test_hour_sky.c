@@ -102,7 +102,6 @@ static void make_hours(Hours *out, Arena *arena)
  * of small windows and a reflecting floor, each with colours of its own. */
 TEST(hours_read_as_their_whole_skies)
 {
-    (void)state;
     static Hours    hours;
     static Daylight sky;
     Arena    arena = arena_reserve((size_t)1 << 28);
@@ -139,7 +138,6 @@ TEST(hours_read_as_their_whole_skies)
 
 TEST(a_dark_hour_reads_nothing_and_threads_change_nothing)
 {
-    (void)state;
     static Hours hours;
     Arena    arena = arena_reserve((size_t)1 << 28);
     Response response = sphere(&arena);
@@ -157,7 +155,6 @@ TEST(a_dark_hour_reads_nothing_and_threads_change_nothing)
 
 TEST(an_hour_that_is_no_sky_is_told)
 {
-    (void)state;
     Arena         arena = arena_reserve((size_t)1 << 24);
     Error         err = {0};
     int           failed = -1;
@@ -173,7 +170,6 @@ TEST(an_hour_that_is_no_sky_is_told)
 /* Also between its elevations; below 2 degrees light changes faster. */
 TEST(the_sun_of_a_sky_table_is_the_atmospheres)
 {
-    (void)state;
     static const double BETWEEN[] = {0.3, 0.75, 1.2, 1.7,  2.2,  3.5, 4.5,
                                      6.8, 9,    11.5, 14.5, 18,  33};
     Arena         arena = arena_reserve((size_t)1 << 30);

@@ -197,7 +197,6 @@ TEST(refuses_a_bomb_before_decoding_it)
 
 TEST(says_when_memory_is_too_small)
 {
-    (void)state;
     Arena arena = arena_reserve(1 << 20);
     Image image;
     Error err = {0};
@@ -376,7 +375,6 @@ TEST(what_is_encoded_reads_back)
 
 TEST(the_same_picture_makes_the_same_bytes)
 {
-    (void)state;
     static const char *const FORMATS[] = {"png", "jpeg", "tiff"};
     uint8_t codes[300];
     for (int i = 0; i < 300; i++) codes[i] = (uint8_t)(i * 37);

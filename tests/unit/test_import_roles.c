@@ -6,7 +6,6 @@
 
 TEST(names_tell_the_pattern_or_the_light)
 {
-    (void)state;
     static const struct { const char *name; ImportSource source; double number;
     } cases[] = {{"R_031", IMPORT_RED, 31},
                  {"red_255", IMPORT_RED, 255},
@@ -42,7 +41,6 @@ TEST(names_tell_the_pattern_or_the_light)
 
 TEST(names_tell_the_rest_too)
 {
-    (void)state;
     bool mixed;
     Role role = role_from_words("i10_a45_w550", 255, &mixed);
     assert_true(role.has_azimuth);
@@ -57,7 +55,6 @@ TEST(names_tell_the_rest_too)
 
 TEST(what_a_name_does_not_tell_is_not_guessed)
 {
-    (void)state;
     static const struct { const char *name; bool is_ambiguous;
     } cases[] = {{"measurement 12", false}, {"truth_emission", false}, {"R", false},
                  {"oled_phi0_90", false},   {"red_and_blue", true},    {"R2_G_255 b31", true},
@@ -74,7 +71,6 @@ TEST(what_a_name_does_not_tell_is_not_guessed)
 
 TEST(a_role_is_written_with_colons)
 {
-    (void)state;
     Role  role;
     Error err = {0};
     assert_true(role_parse("red:127:X", 255, &role, &err));
