@@ -76,6 +76,8 @@ start 'another renderer, less noise' renderer-long \
     python3 tests/library/other_renderer.py .build/release --samples 1024
 of "$light tests/structure tests/unit CONTRIBUTING.md"
 start 'a surface model more, in six files' exercise-long python3 tests/structure/exercise.py
+of "$all tests/unit tests/structure"
+start 'planted faults are found by the units' planted-long python3 tests/structure/planted.py
 of "$render scenes tests/image tests/hostile"
 start 'a hundred kills' resume-long python3 tests/hostile/resume.py --kills 100 $program
 start 'parts of every kind' merge-long python3 tests/image/merge.py --all $program

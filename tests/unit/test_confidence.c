@@ -130,6 +130,27 @@ TEST(without_skewness_the_interval_is_students)
     assert_near(student_quantile(1e9), NORMAL_QUANTILE, 1e-8);
 }
 
+/* An end u errors from the mean: u + a u^2 / 3 + a^2 u^3 / 27 + a / 6 is Student's t, a the
+ * skewness over the root of the count (Hall 1992). */
+TEST(with_skewness_the_ends_are_halls)
+{
+    const double means[] = {1, 1, 1, 2, 1, 1, 2, 9};
+    BatchSums sums = {0};
+    double    mean = 18 / 8.0, square = 0, cube = 0;
+    for (int i = 0; i < 8; i++) {
+        batch_add(&sums, means[i]);
+        square += pow(means[i] - mean, 2) / 8;
+        cube += pow(means[i] - mean, 3) / 8;
+    }
+    double       a = cube / pow(square, 1.5) / sqrt(8), error = sqrt(square / 7);
+    MeanInterval in = batch_interval(&sums);
+    const double ends[2] = {(mean - in.low) / error, (mean - in.high) / error};
+    for (int i = 0; i < 2; i++) {
+        double u = ends[i], t = u + a * u * u / 3 + a * a * u * u * u / 27 + a / 6;
+        assert_close(t, (i ? -1 : 1) * student_quantile(7), 1e-9);
+    }
+}
+
 int main(void)
 {
     return run_cases(NULL, NULL);

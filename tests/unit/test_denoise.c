@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "denoise/denoise.h"
+#include "denoise/regression.h"
 
 enum { WIDTH = 70, HEIGHT = 50, COUNT = WIDTH * HEIGHT, SAMPLES = 24 };
 
@@ -389,6 +390,42 @@ TEST(what_few_samples_saw_of_a_display_gives_way_to_more_rays)
     }
     FrameImage out = denoised(&frame, 2, &report, &arena);
     for (size_t i = 0; i < COUNT; i++) assert_close(green(&out)[i], fine[1][i] + 20, 1e-4);
+}
+
+/* ---- the fit ----------------------------------------------------------------------------- */
+
+/* Light that is linear in features, which go together, and in the place: a window of equal
+ * weights gives it back but for what the ridge takes. */
+TEST(linear_light_is_fitted)
+{
+    enum { SIDE = 9, PIXELS = SIDE * SIDE };
+    Arena    arena = test_arena(state);
+    uint32_t random = 4;
+    float    weights[PIXELS];
+    DenoiseBuffers b = {.width = SIDE, .height = SIDE,
+                        .rows = ARENA_NEW(&arena, BufferRow, PIXELS)};
+    RegressionWindow window = {&b, SIDE / 2, SIDE / 2, SIDE / 2, weights};
+    RegressionSums   sums = {.weight = ARENA_NEW(&arena, float, PIXELS)};
+    for (int c = 0; c < 3; c++) {
+        b.light[1][c] = ARENA_NEW(&arena, float, PIXELS);
+        sums.light[c] = ARENA_NEW(&arena, float, PIXELS);
+    }
+    for (int i = 0; i < PIXELS; i++) {
+        float tilt = (float)uniform(&random), albedo = 0.7f * tilt + (float)uniform(&random);
+        weights[i] = 0.5f;
+        b.rows[i][ROW_NORMAL] = tilt;
+        b.rows[i][ROW_ALBEDO + 1] = albedo;
+        for (int c = 0; c < 3; c++) {
+            float light = 5 + 4 * tilt - (float)c * albedo + 0.3f * (float)(i % SIDE);
+            b.rows[i][ROW_LIGHT + 3 + c] = b.light[1][c][i] = light;
+        }
+    }
+    regression_add(&window, 1, &sums);
+    for (int i = 0; i < PIXELS; i++) {
+        assert_near(sums.weight[i], 0.5, 0);
+        for (int c = 0; c < 3; c++)
+            assert_near(sums.light[c][i], 0.5f * b.light[1][c][i], 0.05);
+    }
 }
 
 /* ---- any frame --------------------------------------------------------------------------- */

@@ -104,6 +104,25 @@ FIXTURE_TEST(ssdd_specular_angles_count_from_the_mirror_direction)
     assert_noted(f, "a block of transmission or of mirror reflectance is left out");
 }
 
+/* The light in the half vector's frame, turned by theta_h about y, then by phi_h about z. */
+TEST(half_and_difference_angles_come_back)
+{
+    for (int half_phi = -150; half_phi <= 180; half_phi += 30)
+        for (int diff_phi = -140; diff_phi < 180; diff_phi += 40) {
+            double    h = 20 * RAD, p = half_phi * RAD, d = 35 * RAD, q = diff_phi * RAD;
+            double    x = sin(d) * cos(q), y = sin(d) * sin(q), z = cos(d);
+            double    down = x * cos(h) + z * sin(h);
+            Direction half = {sin(h) * cos(p), sin(h) * sin(p), cos(h)};
+            Direction light = {down * cos(p) - y * sin(p), down * sin(p) + y * cos(p),
+                               z * cos(h) - x * sin(h)};
+            HalfAngles found = half_angles(light, half_angle_mirror(light, half));
+            assert_near(found.half_theta, 20, 1e-9);
+            assert_near(found.half_phi, half_phi, 1e-9);
+            assert_near(found.diff_theta, 35, 1e-9);
+            assert_near(found.diff_phi, diff_phi, 1e-9);
+        }
+}
+
 /* Linear in each angle, so that the interpolation is exact: brdf = 1 + theta_h / 90 +
  * 2 theta_d / 90 (phi_d does not matter). Binary. */
 FIXTURE_TEST(ssdd_half_difference_angles_are_evaluated)

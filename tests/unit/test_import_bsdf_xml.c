@@ -96,6 +96,8 @@ FIXTURE_TEST(klems_columns_are_incident_and_rows_leaving)
     assert_near(value_at(table_at(f, 18, 270), 36.5, 0, 0), 1 + 3 + 1200, 0);
     /* Leaving patch 15, azimuth 180, is 90 degrees on. */
     assert_near(value_at(table_at(f, 18, 270), 36.5, 90, 0), 1 + 3 + 1500, 0);
+    /* Azimuth 30 lies in the patch about 45, incident patch 2. */
+    assert_near(value_at(table_at(f, 18, 210), 36.5, 0, 0), 1 + 2 + 1000, 0);
     assert_near(value_at(table_at(f, 0, 180), 0, 0, 0), 1, 0);
     assert_reads(f, document(&f->arena, "Rows", "Reflection Front", quarter_bases,
                              matrix(&f->arena, numbered)), "window");
