@@ -2,8 +2,9 @@
 /* check.h -- what every unit test includes: cmocka with its prerequisites, the list of a
  * program's cases, and closeness.
  *
- * TEST(name) { ... } is a case that gets `void **state`, which it may leave unused; run_cases
- * runs all of a program's in the order of its file.
+ * TEST(name) { ... } is a case that gets `void **state`, which it need not use;
+ * TEST_PROGRAM(set_up, tear_down) is the main that runs all of a file's in their order, by
+ * run_cases.
  */
 #pragma once
 #include <math.h>
@@ -59,6 +60,12 @@ static inline int run_cases(CMFixtureFunction set_up, CMFixtureFunction tear_dow
     return _cmocka_run_group_tests("tests", cases->test, (size_t)cases->count, set_up,
                                    tear_down);
 }
+
+#define TEST_PROGRAM(set_up, tear_down)                                                        \
+    int main(void)                                                                             \
+    {                                                                                          \
+        return run_cases(set_up, tear_down);                                                   \
+    }
 
 /* Relative; also fails on NaN. An expected zero needs assert_near. */
 #define assert_close(actual, expected, relative)                                               \

@@ -20,7 +20,6 @@ static double farthest(const Energy *a, const Energy *b, int count)
 
 TEST(a_nodes_table_has_the_bits_of_the_whole_computation)
 {
-    (void)state;
     for (int i = 0; i < INDEX_NODES; i += 4) {
         const EnergyTable *whole = energy_table_build(index_nodes[i], &arena);
         assert_memory_equal(energy_table_of(index_nodes[i], &arena), whole, sizeof *whole);
@@ -32,7 +31,6 @@ TEST(a_nodes_table_has_the_bits_of_the_whole_computation)
 
 TEST(outside_the_nodes_tables_are_computed)
 {
-    (void)state;
     const float outside[3] = {0, 1.1f, 3};
     for (int i = 0; i < 3; i++)
         assert_memory_equal(energy_table_of(outside[i], &arena),
@@ -41,7 +39,6 @@ TEST(outside_the_nodes_tables_are_computed)
 
 TEST(between_the_nodes_no_shape_is_off_by_more_than_is_said)
 {
-    (void)state;
     for (int i = 0; i + 1 < INDEX_NODES; i++) {
         float ior = 0.5f * (index_nodes[i] + index_nodes[i + 1]);
         const EnergyTable *whole = energy_table_build(ior, &arena);
@@ -70,7 +67,4 @@ static int drop_arena(void **state)
     return 0;
 }
 
-int main(void)
-{
-    return run_cases(take_arena, drop_arena);
-}
+TEST_PROGRAM(take_arena, drop_arena)

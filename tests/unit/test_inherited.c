@@ -18,7 +18,6 @@ TEST(a_guide_is_inherited_where_files_and_lights_are_the_same)
     GuideScene    lamps = scene, sky = scene;
     LightGuide    guide = {.node_count = 1};
     Inherited    *inherited = inherited_start(&request);
-    (void)state;
     bus.scenes = other;
     more.scenes = two;
     more.scene_count = 2;
@@ -80,7 +79,6 @@ TEST(a_sky_that_cannot_be_is_an_error_and_leaves_none)
     Inherited    *inherited = inherited_start(&request);
     DaylightInput input = sun_at(20, 2.5);
     Error         err = {0};
-    (void)state;
     input.where.altitude_m = 90000;
     assert_null(inherited_sky(inherited, &input, &err));
     assert_true(err.text[0] != 0);
@@ -89,7 +87,4 @@ TEST(a_sky_that_cannot_be_is_an_error_and_leaves_none)
     inherited_end(inherited);
 }
 
-int main(void)
-{
-    return run_cases(make_arena, drop_arena);
-}
+TEST_PROGRAM(make_arena, drop_arena)

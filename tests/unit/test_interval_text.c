@@ -16,7 +16,6 @@ static void assert_says(double value, double low, double high, const char *wante
 
 TEST(digits_end_where_the_interval_does)
 {
-    (void)state;
     assert_says(417.486, 392.3, 442.7, "417 +- 25");
     assert_says(441.2, 436, 446.4, "441 +- 5");
     assert_says(2.9501, 2.91, 3.024, "2.95 (2.91 to 3.02)");
@@ -31,7 +30,6 @@ TEST(digits_end_where_the_interval_does)
 /* What is read is what was written, within half of the last digit, over many sizes. */
 TEST(what_is_read_is_what_was_written)
 {
-    (void)state;
     for (int i = 0; i < 2000; i++) {
         double size = pow(10, i % 17 - 8), value = size * (1 + i / 7.0);
         double half = value * pow(10, -(i % 5) - 0.3 * (i % 3)), read, around;

@@ -87,7 +87,4 @@ TEST(more_parts_than_there_is_to_share_are_refused)
     }
 }
 
-int main(void)
-{
-    return run_cases(make_arena, drop_arena);
-}
+TEST_PROGRAM(make_arena, drop_arena)

@@ -226,7 +226,4 @@ TEST(what_is_cut_off_is_taken_as_far_as_it_is_whole)
     assert_false(journal_file_has("nowhere", key_of(1), arena));
 }
 
-int main(void)
-{
-    return run_cases(start, clear_folder);
-}
+TEST_PROGRAM(start, clear_folder)

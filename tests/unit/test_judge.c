@@ -319,7 +319,4 @@ TEST(the_ambient_comes_from_the_display_s_light)
     assert_int_equal(c.ambient, AMBIENT_SUN);
 }
 
-int main(void)
-{
-    return run_cases(make_arena, drop_arena);
-}
+TEST_PROGRAM(make_arena, drop_arena)

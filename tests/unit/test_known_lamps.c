@@ -111,7 +111,6 @@ TEST(where_all_lamps_are_known_no_sample_looks_for_others)
 
 TEST(a_cell_keeps_the_lamps_of_which_most_arrives)
 {
-    (void)state;
     LampFinds finds = {0};
     for (int round = 0; round < 2; round++)
         for (int i = 0; i < 12; i++)
@@ -127,7 +126,6 @@ TEST(a_cell_keeps_the_lamps_of_which_most_arrives)
 
 TEST(a_cell_with_many_lamps_leaves_samples_to_the_rest)
 {
-    (void)state;
     LampFinds finds = {0};
     for (int i = 0; i < 40; i++) lamp_finds_add(&finds, (LampFind){i, 2, 1 + 0.01 * i});
     assert_int_equal(finds.count, LAMP_FINDS);
@@ -142,7 +140,6 @@ TEST(a_cell_with_many_lamps_leaves_samples_to_the_rest)
 
 TEST(a_cell_of_few_lamps_keeps_the_dark_ones_too)
 {
-    (void)state;
     LampFinds  finds = {0};
     GuideLamps none;
     lamp_finds_add(&finds, (LampFind){0, 5, 0});
@@ -161,7 +158,4 @@ TEST(a_cell_of_few_lamps_keeps_the_dark_ones_too)
     assert_near(joined.lamp[1].arrived, 1, 1e-12);
 }
 
-int main(void)
-{
-    return run_cases(make_arena, drop_arena);
-}
+TEST_PROGRAM(make_arena, drop_arena)

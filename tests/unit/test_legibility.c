@@ -21,7 +21,6 @@ static DisplayLight grey(double white, double black, double shown, double reflec
 
 TEST(the_ambient_contrast_of_a_worked_example)
 {
-    (void)state;
     /* 1 % of 5 klx of sky, luminance factor 1.5 % of 45 klx of sun, over pi */
     double       reflected = (0.01 * 5000 + 0.015 * 45000) / acos(-1);
     DisplayLight light = grey(1000, 1, 500, reflected);
@@ -35,7 +34,6 @@ TEST(the_ambient_contrast_of_a_worked_example)
 
 TEST(contrasts_follow_from_each_other)
 {
-    (void)state;
     for (double reflected = 0; reflected < 5000; reflected = 3 * reflected + 0.7) {
         DisplayLight light = grey(400, 0.5, 30, reflected);
         double       ratio = legibility_contrast(&light);
@@ -46,7 +44,6 @@ TEST(contrasts_follow_from_each_other)
 
 TEST(what_is_seen_as_it_is_shown_has_no_error)
 {
-    (void)state;
     DisplayLight dark = grey(400, 0, 0, 0), bright = grey(400, 0.5, 30, 0);
     assert_true(legibility_luminance_error(&dark) == 0);
     assert_true(legibility_luminance_error(&bright) == 0);
@@ -59,7 +56,6 @@ TEST(what_is_seen_as_it_is_shown_has_no_error)
  * X + 15 Y + 3 Z, so that equal sums meet in the middle. */
 TEST(the_error_of_colour_is_the_way_in_u_and_v)
 {
-    (void)state;
     DisplayLight light = {1, 0, {1, 0, 0}, {0, 1 / 15.0, 0}};
     /* X alone has u' 4, v' 0, Y alone 0 and 0.6 */
     assert_near(legibility_colour_error(&light), hypot(4, 0.6) / 2, 1e-12);
@@ -113,7 +109,4 @@ TEST(what_a_figure_lacks_is_told)
                                   "\"display.weber\" follows; render it with --layers display");
 }
 
-int main(void)
-{
-    return run_cases(make_arena, drop_arena);
-}
+TEST_PROGRAM(make_arena, drop_arena)

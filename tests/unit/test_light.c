@@ -7,7 +7,6 @@
 
 TEST(the_suns_irradiance_is_exact_whatever_its_size)
 {
-    (void)state;
     const float radius[] = {0.0005f, 0.00465f, 0.05f};
     for (int i = 0; i < 3; i++) {
         Arena arena = arena_reserve(1 << 28);
@@ -509,7 +508,4 @@ TEST(an_area_light_gives_its_configuration_factor)
                                &sample)); /* its back is dark */
 }
 
-int main(void)
-{
-    return run_cases(make_arena, drop_arena);
-}
+TEST_PROGRAM(make_arena, drop_arena)

@@ -113,7 +113,4 @@ TEST(names_are_those_of_channels)
     assert_memory_equal(groups.names[1], longest, 63);
 }
 
-int main(void)
-{
-    return run_cases(make_arena, drop_arena);
-}
+TEST_PROGRAM(make_arena, drop_arena)

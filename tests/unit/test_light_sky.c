@@ -276,7 +276,4 @@ TEST(the_moon_lights_as_the_disc_when_the_sun_is_down)
     assert_true(vec3_dot(sun, sky.moon_lit) > 0);
 }
 
-int main(void)
-{
-    return run_cases(make_arena, drop_arena);
-}
+TEST_PROGRAM(make_arena, drop_arena)

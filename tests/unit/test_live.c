@@ -25,7 +25,6 @@ static double spent_after(double share, double pass_s, double cost_s, int passes
 TEST(what_is_shown_takes_its_share_and_no_more)
 {
     static const double costs[] = {1e-4, 1e-3, 0.01, 0.1, 1, 10};
-    (void)state;
     for (int i = 0; i < (int)(sizeof costs / sizeof *costs); i++) {
         double taken = spent_after(0.005, 0.3, costs[i], 1000000);
         assert_true(taken <= 0.005 && taken > 0);
@@ -36,7 +35,6 @@ TEST(what_is_shown_takes_its_share_and_no_more)
 TEST(the_first_is_shown_at_once_and_dear_ones_are_waited_for)
 {
     TimeShare time = {.share = 0.01, .begun_s = 50};
-    (void)state;
     assert_true(time_share_allows(&time, 50));
     time_share_begin(&time);
     time_share_spend(&time, 0.5);
@@ -60,7 +58,6 @@ static bool wants_file(double ago_s, double spent_s)
 TEST(the_file_is_written_every_ten_seconds)
 {
     RenderLive live = {.has_file = true};
-    (void)state;
     assert_true(render_live_wants_file(&live));
     assert_false(wants_file(5, 10));
     assert_true(wants_file(11, 10));
@@ -77,7 +74,6 @@ TEST(addresses_are_taken_apart)
                  {"10.0.0.7:65535", "10.0.0.7", "65535"}, {"[::1]", "::1", "14158"},
                  {"[fe80::12:34]:00080", "fe80::12:34", "00080"},
                  {"[::ffff:10.0.0.7]:9", "::ffff:10.0.0.7", "9"}};
-    (void)state;
     for (int i = 0; i < (int)(sizeof cases / sizeof *cases); i++) {
         ViewerAddress address;
         Error         err;
@@ -87,13 +83,4 @@ TEST(addresses_are_taken_apart)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_is_shown_takes_its_share_and_no_more),
-        cmocka_unit_test(the_first_is_shown_at_once_and_dear_ones_are_waited_for),
-        cmocka_unit_test(the_file_is_written_every_ten_seconds),
-        cmocka_unit_test(addresses_are_taken_apart),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TEST_PROGRAM(NULL, NULL)

@@ -282,7 +282,4 @@ TEST(lights_are_told_by_their_brightness)
     assert_true(isnan(shares.list[3].cd_m2));
 }
 
-int main(void)
-{
-    return run_cases(make_arena, drop_arena);
-}
+TEST_PROGRAM(make_arena, drop_arena)

@@ -40,7 +40,6 @@ static Vec3 mirrored(const MirrorTriangle *t, Vec3 from, float u, float v)
 
 TEST(no_point_that_reflects_is_missed_and_every_one_told_does)
 {
-    (void)state;
     const float bends[] = {0, 0.05f, 0.3f, 0.6f, 1};
     int found = 0, more = 0;
     for (int i = 0; i < 20000; i++) {
@@ -70,7 +69,6 @@ TEST(no_point_that_reflects_is_missed_and_every_one_told_does)
  * summed over all those, spread is the triangle's solid angle (van Oosterom, Strackee 1983). */
 TEST(spread_adds_up_to_the_solid_angle)
 {
-    (void)state;
     const float bends[] = {0, 0.1f, 0.5f};
     enum { DIRECTIONS = 400000 };
     for (int i = 0; i < 9; i++) {
@@ -165,7 +163,6 @@ static void cylinder(Scene *scene, double a, double b, int columns)
  * equation's tangential focus): spread is one over that. */
 TEST(a_concave_cylinder_focuses_as_the_mirror_equation_says)
 {
-    (void)state;
     Arena  arena = arena_reserve((size_t)1 << 28);
     Scene *scene = builder_scene(&arena);
     builder_part(scene, mirror_material());
@@ -224,7 +221,6 @@ static void cap(Scene *scene, Vec3 n)
 
 TEST(a_convex_sphere_spreads_as_the_mirror_equation_says)
 {
-    (void)state;
     Vec3 towards = vec3(0, 0, 1);
     for (int i = 1; i < 8; i++) {
         Arena  arena = arena_reserve((size_t)1 << 28);
@@ -267,7 +263,6 @@ static double asked_nodes(int rings, uint32_t *triangles)
 
 TEST(a_hundred_times_the_triangles_take_at_most_twice_the_nodes)
 {
-    (void)state;
     uint32_t few, many;
     double   of_few = asked_nodes(16, &few), of_many = asked_nodes(158, &many);
     print_message("[          ] %u triangles %.1f nodes, %u triangles %.1f\n", few, of_few,
@@ -276,7 +271,4 @@ TEST(a_hundred_times_the_triangles_take_at_most_twice_the_nodes)
     assert_true(of_many < 2 * of_few);
 }
 
-int main(void)
-{
-    return run_cases(NULL, NULL);
-}
+TEST_PROGRAM(NULL, NULL)

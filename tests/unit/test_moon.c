@@ -36,7 +36,6 @@ static MoonPosition moon_at(const char *text, SkyPlace place)
 /* Meeus, Astronomical Algorithms, example 47.a: 1992 April 12, 0h dynamical time. */
 TEST(the_published_example_holds)
 {
-    (void)state;
     MoonPosition p = moon_position(2448724.5 - 59.0 / 86400, 59, &anywhere);
     assert_float_equal(p.longitude_deg, 133.162655, 1e-6);
     assert_float_equal(p.latitude_deg, -3.229126, 1e-6);
@@ -55,7 +54,6 @@ TEST(published_phases_come_in_their_minute)
         {"2019-01-27T21:10Z", 270}, {"2019-07-02T19:16Z", 0},   {"2019-07-16T21:38Z", 180},
         {"2019-11-04T10:23Z", 90},  {"2019-12-26T05:13Z", 0},   {"2024-01-25T17:54Z", 180},
         {"2024-04-08T18:21Z", 0},   {"2000-01-21T04:40Z", 180}, {"2000-07-31T02:25Z", 0}};
-    (void)state;
     for (size_t i = 0; i < sizeof phase / sizeof *phase; i++) {
         double day = day_of(phase[i].when), delta = sky_delta_t_s(day);
         MoonPosition p = moon_position(day, delta, &anywhere);
@@ -75,7 +73,6 @@ TEST(total_eclipses_of_the_sun_are_seen_where_they_were)
         {"2024-04-08T18:17:18Z", {25.29, -104.14, 0}},
         {"2024-04-08T18:42:40Z", {32.78, -96.8, 0}}, /* Dallas */
         {"2026-08-12T17:45:51Z", {65.22, -25.23, 0}}};
-    (void)state;
     for (size_t i = 0; i < sizeof eclipse / sizeof *eclipse; i++) {
         MoonPosition p = moon_at(eclipse[i].when, eclipse[i].place);
         double moon = degrees_from_radians(moon_angular_radius(p.topocentric_km));
@@ -92,7 +89,6 @@ TEST(total_eclipses_of_the_moon_stand_opposite_the_sun)
 {
     static const char *const when[] = {"2018-07-27T20:21:44Z", "2019-01-21T05:12:16Z",
                                        "2022-11-08T10:59:11Z", "2025-03-14T06:58:43Z"};
-    (void)state;
     for (size_t i = 0; i < sizeof when / sizeof *when; i++) {
         double day = day_of(when[i]), delta = sky_delta_t_s(day);
         MoonPosition p = moon_position(day, delta, &anywhere);
@@ -108,7 +104,6 @@ TEST(total_eclipses_of_the_moon_stand_opposite_the_sun)
  * its elevation, and nearer by what the place is closer to it. */
 TEST(the_place_shifts_the_moon_by_its_parallax)
 {
-    (void)state;
     for (int i = 0; i < 2000; i++) {
         SkyPlace place = {180 * random_unit() - 90, 360 * random_unit() - 180, 0};
         double day = 2451545 + 20000 * (random_unit() - 0.5);
@@ -136,7 +131,6 @@ TEST(the_place_shifts_the_moon_by_its_parallax)
 /* Sun, moon and observer make a triangle. */
 TEST(phase_and_elongation_agree)
 {
-    (void)state;
     for (int i = 0; i < 500; i++) {
         double day = 2451545 + 20000 * (random_unit() - 0.5);
         MoonPosition p = moon_position(day, sky_delta_t_s(day), &anywhere);
@@ -163,7 +157,6 @@ static double ratio_at(double phase_deg, double km, double au)
 
 TEST(moonlight_falls_with_phase_and_distance)
 {
-    (void)state;
     double full = ratio_at(0, 384400, 1);
     assert_in(full * 133000, 0.30, 0.35); /* lx above the air */
     assert_in(ratio_at(90, 384400, 1) / full, 0.08, 0.12);
@@ -177,7 +170,6 @@ TEST(moonlight_falls_with_phase_and_distance)
 TEST(moonlight_is_redder_than_sunlight)
 {
     Curve ratio;
-    (void)state;
     moon_over_sun(&(MoonDistances){30, 384400, 1}, &ratio);
     double b = (double)ratio.value[445 - CURVE_FIRST_NM];
     double v = (double)ratio.value[551 - CURVE_FIRST_NM];
@@ -187,7 +179,6 @@ TEST(moonlight_is_redder_than_sunlight)
 
 TEST(the_disc_keeps_its_light_and_is_dark_beyond_the_terminator)
 {
-    (void)state;
     for (int a = 0; a <= 170; a += 10) {
         double   phase = radians_from_degrees(a), sum = 0;
         MoonDisc disc = moon_disc(phase);
@@ -211,7 +202,4 @@ TEST(the_disc_keeps_its_light_and_is_dark_beyond_the_terminator)
         assert_close((double)moon_disc_shade(&full, 0, (float)i / 100), 1, 5e-5);
 }
 
-int main(void)
-{
-    return run_cases(NULL, NULL);
-}
+TEST_PROGRAM(NULL, NULL)

@@ -36,7 +36,6 @@ static NightBackground background_of(double depth)
 
 TEST(the_background_is_that_of_a_dark_place)
 {
-    (void)state;
     NightBackground b = background_of(0.11);
     assert_in(night_background_luminance(&b, 0.5f * PI_F), 1.7e-4f, 2.3e-4f);
     assert_in(b.horizontal_lx, 6e-4, 1e-3);
@@ -50,7 +49,6 @@ TEST(the_background_is_that_of_a_dark_place)
  * horizon where little air takes it back. */
 TEST(the_background_grows_towards_the_horizon)
 {
-    (void)state;
     NightBackground b = background_of(0.11);
     double zenith = (double)night_background_luminance(&b, 0.5f * PI_F);
     double lower = (double)night_background_luminance(&b, (float)asin(1 / 1.5));
@@ -64,7 +62,6 @@ TEST(the_background_grows_towards_the_horizon)
 
 TEST(the_backgrounds_illuminance_is_its_integral)
 {
-    (void)state;
     for (int k = 0; k < 5; k++) {
         NightBackground b = background_of(0.1 * k);
         double sum = 0;
@@ -286,7 +283,4 @@ TEST(the_moon_sets_without_a_step)
     assert_true(before < 2e-3 * background_of(0.3).horizontal_lx);
 }
 
-int main(void)
-{
-    return run_cases(make_arena, drop_arena);
-}
+TEST_PROGRAM(make_arena, drop_arena)

@@ -50,7 +50,6 @@ static Mean sampled(const LuminousOpening *opening, Vec3 from, Vec3 facing)
 
 TEST(far_away_it_is_the_measured_intensity)
 {
-    (void)state;
     uint32_t random = 3;
     for (int i = 0; i < OPENING_COUNT; i++) {
         Vec3   d = direction_of(&random);
@@ -119,7 +118,6 @@ static double integrated(const LuminousOpening *opening, Vec3 from, Vec3 facing)
 
 TEST(near_by_it_is_the_integral_over_the_surface)
 {
-    (void)state;
     uint32_t random = 8;
     for (int i = 0; i < OPENING_COUNT; i++)
         for (int k = 0; k < 3; k++) {
@@ -135,7 +133,6 @@ TEST(near_by_it_is_the_integral_over_the_surface)
 /* L = I / pi r^2 all over: pi L (r/d)^2 on a plane that faces its middle, however near. */
 TEST(an_even_sphere_is_the_inverse_square_down_to_its_surface)
 {
-    (void)state;
     const LuminousOpening ball = {OPENING_ELLIPSOID, 2, false, {0.3f, 0.3f, 0.3f}};
     for (int i = 0; i < 3; i++) {
         float    distance = 0.33f + 0.4f * (float)i;
@@ -164,7 +161,6 @@ static float off_surface(OpeningShape shape, Vec3 p)
 
 TEST(points_lie_on_the_surface_and_flat_ones_everywhere_on_it)
 {
-    (void)state;
     uint32_t random = 21;
     for (int i = 0; i < OPENING_COUNT; i++)
         for (int k = 0; k < 2000; k++) {
@@ -189,7 +185,6 @@ TEST(points_lie_on_the_surface_and_flat_ones_everywhere_on_it)
  * stays finite. */
 TEST(inside_it_is_dark_and_nothing_is_infinite)
 {
-    (void)state;
     const float u[2] = {0.3f, 0.8f};
     for (int i = 0; i < OPENING_COUNT; i++) {
         const float *h = OPENINGS[i].half;
@@ -202,7 +197,4 @@ TEST(inside_it_is_dark_and_nothing_is_infinite)
     }
 }
 
-int main(void)
-{
-    return run_cases(NULL, NULL);
-}
+TEST_PROGRAM(NULL, NULL)

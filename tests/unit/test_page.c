@@ -46,7 +46,6 @@ static Text small_page(bool is_dark)
 
 TEST(every_text_is_escaped)
 {
-    (void)state;
     Text page = small_page(false);
     assert_int_equal(count_of(page.data, "<b>&\""), 0);
     assert_int_equal(count_of(page.data, TAME), 11);
@@ -57,7 +56,6 @@ TEST(every_text_is_escaped)
 
 TEST(a_page_is_whole_and_asks_nobody)
 {
-    (void)state;
     const char *page = small_page(false).data;
     static const char *const ONCE[] = {"<!DOCTYPE html>", "<style>", "</style>", "<script>",
                                        "</script>", "</html>", ".own{}", "var own=1;",
@@ -73,7 +71,6 @@ TEST(a_page_is_whole_and_asks_nobody)
 
 TEST(pictures_lie_in_the_page)
 {
-    (void)state;
     Error   err = {0};
     Text    page = {.arena = &arena};
     Picture picture = picture_create(2, 2, &arena);
@@ -84,7 +81,6 @@ TEST(pictures_lie_in_the_page)
 
 TEST(parts_become_one_file)
 {
-    (void)state;
     Error       err = {0};
     FileBytes   bytes;
     Text        a = {.arena = &arena}, b = {.arena = &arena}, none = {.arena = &arena};

@@ -54,7 +54,6 @@ static double error_at_samples(const AngleTable *table, const float rgb[3])
 
 TEST(a_fit_stays_within_its_printed_error_at_the_samples)
 {
-    (void)state;
     for (int p = 0; p < 3; p++)
         for (int i = 0; i < ips.set->primary[p].level_count; i++) {
             const AngleTable *table = &ips.set->primary[p].table[i];
@@ -70,7 +69,6 @@ TEST(a_fit_stays_within_its_printed_error_at_the_samples)
 
 TEST(emission_follows_the_truth_between_samples_and_levels)
 {
-    (void)state;
     uint32_t random = 1;
     for (int i = 0; i < 4000; i++) {
         double theta = 84 * steady_random(&random), phi = 360 * steady_random(&random);
@@ -90,7 +88,6 @@ TEST(emission_follows_the_truth_between_samples_and_levels)
 
 TEST(black_is_counted_once)
 {
-    (void)state;
     for (int i = 0; i < 8; i++) {
         Vec3   d = direction_deg(10.0 * i, 33.0 * i);
         float  black[3], white[3], one[3], dark[3] = {0, 0, 0}, rgb[3] = {200, 130, 60};
@@ -112,7 +109,6 @@ TEST(black_is_counted_once)
 
 TEST(more_code_is_more_light)
 {
-    (void)state;
     for (int p = 0; p < 3; p++)
         for (int a = 0; a < 6; a++) {
             float before[3] = {0, 0, 0}, rgb[3] = {0, 0, 0};
@@ -132,7 +128,6 @@ TEST(more_code_is_more_light)
 
 TEST(the_lowest_code_adds_next_to_nothing)
 {
-    (void)state;
     float black[3], xyz[3], dark[3] = {0, 0, 0}, faint[3] = {0.01f, 0.01f, 0.01f};
     panel_emission_xyz(ips.panel, direction_deg(20, 0), dark, black);
     panel_emission_xyz(ips.panel, direction_deg(20, 0), faint, xyz);
@@ -142,7 +137,6 @@ TEST(the_lowest_code_adds_next_to_nothing)
 
 TEST(below_the_surface_nothing_is_emitted)
 {
-    (void)state;
     float xyz[3], rgb[3] = {255, 255, 255};
     assert_false(panel_emission_xyz(ips.panel, vec3(0.6f, 0, -0.8f), rgb, xyz));
     assert_true(xyz[0] == 0 && xyz[1] == 0 && xyz[2] == 0);
@@ -154,7 +148,6 @@ TEST(below_the_surface_nothing_is_emitted)
 
 TEST(beyond_the_cone_is_flagged_and_falls)
 {
-    (void)state;
     float rgb[3] = {255, 255, 255}, inside[3], outside[3];
     assert_true(panel_emission_xyz(ips.panel, direction_deg(87.9, 10), rgb, inside));
     assert_false(panel_emission_xyz(ips.panel, direction_deg(89.5, 10), rgb, outside));
@@ -163,7 +156,6 @@ TEST(beyond_the_cone_is_flagged_and_falls)
 
 TEST(mean_luminance_is_the_cosine_mean)
 {
-    (void)state;
     float  rgb[3] = {255, 127, 40};
     double sum = 0;
     for (int t = 0; t < 90; t++)
@@ -196,7 +188,6 @@ static void integrate_spectrum(Vec3 d, const float rgb[3], double xyz[3], float 
 
 TEST(spectra_integrate_to_the_measured_colour)
 {
-    (void)state;
     static const float pixels[][3] = {{255, 0, 0}, {0, 255, 0}, {0, 0, 255}, {255, 255, 255},
                                       {0, 0, 0}, {100, 180, 30}};
     for (int i = 0; i < 6; i++)
@@ -225,7 +216,6 @@ static double true_brdf(double incidence_deg, double theta_deg, double phi_deg, 
 
 TEST(the_peak_stands_at_the_mirror_direction_and_has_no_ghosts)
 {
-    (void)state;
     Wavelengths w = even_wavelengths(420, 15);
     for (int incidence = 5; incidence <= 60; incidence += 5) {
         float  before = 0, best = 0;
@@ -253,7 +243,6 @@ TEST(the_peak_stands_at_the_mirror_direction_and_has_no_ghosts)
 
 TEST(reflection_follows_the_truth_between_incidences)
 {
-    (void)state;
     Wavelengths w = even_wavelengths(420, 15);
     for (int incidence = 5; incidence <= 60; incidence += 5) {
         double miss = 0, all = 0;
@@ -275,7 +264,6 @@ TEST(reflection_follows_the_truth_between_incidences)
 
 TEST(only_the_difference_of_azimuths_counts)
 {
-    (void)state;
     Wavelengths w = even_wavelengths(420, 15);
     for (int turn = 0; turn < 360; turn += 45)
         assert_turns(ips.panel, (double[]){36, 15}, 33, turn, &w, 3);
@@ -283,7 +271,6 @@ TEST(only_the_difference_of_azimuths_counts)
 
 TEST(the_mirror_part_is_told_from_the_haze)
 {
-    (void)state;
     Wavelengths w = even_wavelengths(420, 15);
     for (int incidence = 0; incidence <= 60; incidence += 5) {
         double   theta = radians_from_degrees(incidence);
@@ -295,7 +282,6 @@ TEST(the_mirror_part_is_told_from_the_haze)
 
 TEST(the_reciprocity_defect_is_reported_and_small)
 {
-    (void)state;
     json_t *defect = json_object_get(json_object_get(ips.report, "reflection"),
                                      "reciprocity_defect");
     assert_true(json_is_number(defect));
@@ -304,7 +290,6 @@ TEST(the_reciprocity_defect_is_reported_and_small)
 
 TEST(no_more_comes_back_than_falls_in)
 {
-    (void)state;
     Wavelengths w = even_wavelengths(400, 20);
     for (int incidence = 0; incidence <= 89; incidence += 4) {
         Spectrum sum = panel_mirror(ips.panel,
@@ -325,7 +310,6 @@ TEST(no_more_comes_back_than_falls_in)
 
 TEST(the_report_has_what_scripts_rely_on)
 {
-    (void)state;
     static const char *const keys[] = {"name", "source_bytes_text", "source_bytes_float32",
         "stored_values", "bytes", "ratio", "max_error", "rms_error", "integral_error", "noise"};
     Error   err = {0};
@@ -342,7 +326,6 @@ TEST(the_report_has_what_scripts_rely_on)
 
 TEST(a_fit_gives_the_same_bytes_again)
 {
-    (void)state;
     Error      err = {0};
     FitOptions options = fit_options_default();
     FileBytes  before, after;
@@ -362,7 +345,6 @@ TEST(a_fit_gives_the_same_bytes_again)
 
 TEST(a_lobe_at_phi_90_is_seen_from_above)
 {
-    (void)state;
     Fixture    lobe;
     FitOptions options = fit_options_default();
     fixture_start(&lobe, "{\"panel\": \"lobe\", \"emission\": {" FIXTURE_SPECTRA
@@ -384,7 +366,6 @@ TEST(a_lobe_at_phi_90_is_seen_from_above)
 
 TEST(a_true_black_stays_black)
 {
-    (void)state;
     Fixture    oled;
     FitOptions options = fit_options_default();
     fixture_start(&oled, "{\"panel\": \"oled\", \"emission\": {" FIXTURE_SPECTRA
@@ -403,7 +384,6 @@ TEST(a_true_black_stays_black)
 
 TEST(a_white_only_table_of_two_sections_becomes_a_panel)
 {
-    (void)state;
     static const struct { double theta, phi, y; } seen[] = {
         {0, 0, 848.3}, {20, 0, 881.34}, {45, 0, 510.18}, {50, 180, 375.96}, {20, 90, 552.28}};
     const char *path = SHARED_DATA_DIR "/display/viewing_angle_oled_phi0_90.csv";
@@ -429,7 +409,6 @@ TEST(a_white_only_table_of_two_sections_becomes_a_panel)
  * they were measured, mostly from the primary next to them. */
 TEST(a_lone_table_keeps_a_colour_outside_of_rec_709)
 {
-    (void)state;
     Fixture    red;
     FitOptions options = fit_options_default();
     fixture_folder(&red);
@@ -492,12 +471,8 @@ static void check_shipped(const char *name)
 
 TEST(shipped_panels_say_what_their_recipes_say)
 {
-    (void)state;
     check_shipped("ips_cluster");
     check_shipped("oled_centre");
 }
 
-int main(void)
-{
-    return run_cases(start_ips, fixture_group_end);
-}
+TEST_PROGRAM(start_ips, fixture_group_end)

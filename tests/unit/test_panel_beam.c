@@ -198,7 +198,6 @@ static double true_mean(const Beam *b)
 
 TEST(beams_keep_the_bound)
 {
-    (void)state;
     const char *all = getenv("PARHELION_BEAMS");
     for (int i = 0; i < (all ? BEAM_COUNT : SHORT_COUNT); i++) {
         Fixture     f;
@@ -240,7 +239,6 @@ static const PanelBeamHead round_beam = {{0.6f, 0, 0.8f}, {0, 0, 0}, 0.01f, KNOT
 
 TEST(a_stored_beam_comes_back)
 {
-    (void)state;
     Arena       arena = arena_reserve((size_t)1 << 20);
     const void *bytes;
     size_t      used, size = pack(&arena, &round_beam, &bytes);
@@ -264,7 +262,6 @@ TEST(a_stored_beam_comes_back)
 
 TEST(damaged_beams_are_refused)
 {
-    (void)state;
     Arena         arena = arena_reserve((size_t)1 << 20);
     const void   *bytes;
     PanelBeam     beam;
@@ -297,7 +294,4 @@ TEST(damaged_beams_are_refused)
     arena_release(&arena);
 }
 
-int main(void)
-{
-    return run_cases(NULL, NULL);
-}
+TEST_PROGRAM(NULL, NULL)

@@ -84,7 +84,6 @@ static void compare(const Panel *a, const Panel *b, int asked, double found[2])
 
 TEST(the_finest_level_is_the_panel_to_the_bit)
 {
-    (void)state;
     for (int p = 0; p < 2; p++) {
         Panel      *whole = opened(NAMES[p]), *same = opened(NAMES[p]);
         PanelCoarse coarse;
@@ -106,7 +105,6 @@ TEST(the_finest_level_is_the_panel_to_the_bit)
 /* 1e-5: what rounding of a sum of logarithms adds. */
 TEST(stated_errors_hold_and_fall_with_the_level)
 {
-    (void)state;
     for (int p = 0; p < 2; p++) {
         Panel      *whole = opened(NAMES[p]);
         PanelCoarse last = {.reflection_max = 1e30, .reflection_rms = 1e30};
@@ -145,7 +143,4 @@ static int end(void **state)
     return 0;
 }
 
-int main(void)
-{
-    return run_cases(start, end);
-}
+TEST_PROGRAM(start, end)

@@ -68,7 +68,6 @@ static double largest_error(const double found[3], const double wanted[3])
 
 TEST(the_bound_holds_between_the_samples)
 {
-    (void)state;
     static const float codes[3][3] = {{0, 0, 0}, {255, 255, 255}, {127, 0, 0}};
     double   fit[3][BANDS] = {{0}}, grid[3][BANDS] = {{0}};
     uint32_t random = 1;
@@ -96,7 +95,4 @@ TEST(the_bound_holds_between_the_samples)
                          grid[colour][b]);
 }
 
-int main(void)
-{
-    return run_cases(start, fixture_group_end);
-}
+TEST_PROGRAM(start, fixture_group_end)

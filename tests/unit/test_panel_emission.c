@@ -117,7 +117,6 @@ static int end_all(void **state)
 
 TEST(every_sample_keeps_the_bound_that_was_asked_for)
 {
-    (void)state;
     for (int r = 0; r < 4; r++) {
         Fixture    f;
         FitOptions options = fit_options_default();
@@ -136,7 +135,6 @@ TEST(every_sample_keeps_the_bound_that_was_asked_for)
 
 TEST(between_samples_the_truth_is_near)
 {
-    (void)state;
     for (int r = 0; r < 4; r++) {
         Misses m = misses(&fitted[r], 80, 20, 25000);
         if (!(m.luminance < 0.02) || !(m.colour < 0.0015))
@@ -146,7 +144,6 @@ TEST(between_samples_the_truth_is_near)
 
 TEST(beyond_the_cone_light_falls)
 {
-    (void)state;
     float rgb[3] = {255, 255, 255}, edge[3], before[3], xyz[3];
     for (int r = 0; r < 4; r++)
         for (int phi = 0; phi < 360; phi += 15) {
@@ -164,7 +161,6 @@ TEST(beyond_the_cone_light_falls)
 
 TEST(noise_is_smoothed_not_stored)
 {
-    (void)state;
     Fixture    clean, noisy;
     FitOptions options = fit_options_default();
     fixture_measure(&clean,
@@ -188,7 +184,6 @@ TEST(noise_is_smoothed_not_stored)
 
 TEST(sets_and_lone_tables_take_few_bytes)
 {
-    (void)state;
     Fixture    f;
     Error      err = {0};
     FitOptions options = fit_options_default();
@@ -208,7 +203,6 @@ TEST(sets_and_lone_tables_take_few_bytes)
 
 TEST(a_table_is_as_bright_as_it_was_measured_on_the_whole)
 {
-    (void)state;
     for (int r = 0; r < 4; r++) {
         size_t  i;
         json_t *table;
@@ -228,7 +222,6 @@ static AngleTable *table_of(Fixture *f, int primary, int level)
 
 TEST(hot_pixels_are_found_listed_and_not_followed)
 {
-    (void)state;
     Fixture    f;
     FitOptions options = fit_options_default();
     int        hot[][3] = {{0, 2, 100}, {1, 3, 555}, {2, 1, 640}, {1, 0, 2}};
@@ -265,7 +258,6 @@ static void drop_row(AngleTable *t, int row)
 
 TEST(holes_are_listed_and_filled_by_what_is_known)
 {
-    (void)state;
     Fixture    f;
     FitOptions options = fit_options_default();
     fixture_measure(&f, RECIPE(FOUR CHECK_EMISSION, COARSE));
@@ -280,7 +272,6 @@ TEST(holes_are_listed_and_filled_by_what_is_known)
 
 TEST(tables_may_have_grids_of_their_own)
 {
-    (void)state;
     Fixture    f, other;
     FitOptions options = fit_options_default();
     fixture_measure(&f, RECIPE(FOUR CHECK_EMISSION, COARSE));
@@ -302,7 +293,6 @@ TEST(tables_may_have_grids_of_their_own)
 
 TEST(two_sections_are_met_where_they_were_measured)
 {
-    (void)state;
     Fixture    f;
     FitOptions options = fit_options_default();
     options.bound = 0.01f;
@@ -322,7 +312,6 @@ TEST(two_sections_are_met_where_they_were_measured)
 
 TEST(both_bases_answer_the_same_query)
 {
-    (void)state;
     Fixture    haar;
     FitOptions options = fit_options_default();
     options.basis = FIT_HAAR;
@@ -337,7 +326,6 @@ TEST(both_bases_answer_the_same_query)
 
 TEST(a_surface_that_only_reflects_emits_nothing)
 {
-    (void)state;
     Fixture    f;
     Error      err = {0};
     FitOptions options = fit_options_default();
@@ -368,7 +356,6 @@ TEST(a_surface_that_only_reflects_emits_nothing)
 
 TEST(a_level_left_out_is_predicted)
 {
-    (void)state;
     for (int left = 1; left <= 6; left += 5) {
         Fixture    f;
         FitOptions options = fit_options_default();
@@ -399,7 +386,6 @@ TEST(a_level_left_out_is_predicted)
 
 TEST(level_weights_reproduce_the_mean_curve)
 {
-    (void)state;
     static const float codes[] = {16, 31, 80, 127, 200, 255};
     float x[6], y[6];
     for (int i = 0; i < 6; i++) {
@@ -424,7 +410,6 @@ TEST(level_weights_reproduce_the_mean_curve)
 
 TEST(fractions_of_codes_lie_between_whole_ones)
 {
-    (void)state;
     const Panel *panel = fitted[0].panel;
     for (int code = 0; code < 255; code += 3)
         for (int p = 0; p < 3; p++) {
@@ -449,7 +434,6 @@ TEST(fractions_of_codes_lie_between_whole_ones)
 
 TEST(a_smooth_part_comes_back_as_it_was_packed)
 {
-    (void)state;
     Arena    arena = arena_reserve((size_t)64 << 20);
     uint8_t  term[4] = {0, 1, 3, 8};
     float    step[5] = {1e-3f, 2e-3f, 0.01f, 0.05f, 0.1f};
@@ -478,7 +462,6 @@ TEST(a_smooth_part_comes_back_as_it_was_packed)
 
 TEST(stated_figures_are_never_rounded_down)
 {
-    (void)state;
     Arena   arena = arena_reserve((size_t)1 << 20);
     json_t *tables = json_array();
     for (int i = 0; i < 50; i++)
@@ -504,7 +487,4 @@ TEST(stated_figures_are_never_rounded_down)
     arena_release(&arena);
 }
 
-int main(void)
-{
-    return run_cases(start_all, end_all);
-}
+TEST_PROGRAM(start_all, end_all)

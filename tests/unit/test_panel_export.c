@@ -64,7 +64,6 @@ static Vec3 row_direction(const AngleTable *table, int row)
 /* Numbers, not errors: what is written has figures enough for float32. */
 TEST(exported_emission_is_what_the_panel_says)
 {
-    (void)state;
     for (int p = 0; p < 3; p++) {
         assert_int_equal(again.set->primary[p].level_count, 3);
         for (int i = 0; i < 3; i++) {
@@ -85,7 +84,6 @@ TEST(exported_emission_is_what_the_panel_says)
 
 TEST(a_fit_of_the_export_is_within_its_bound)
 {
-    (void)state;
     float codes[4][3] = {{0, 0, 0}, {255, 255, 255}, {127, 63, 255}, {63, 0, 0}};
     for (int r = 0; r < again.set->black.rows; r += 11)
         for (int c = 0; c < 4; c++) {
@@ -113,7 +111,6 @@ static double seen(const AngleTable *table, int row, double theta_i, double nm)
 
 TEST(a_fit_of_the_exported_reflection_is_near_its_bound)
 {
-    (void)state;
     for (int i = 0; i < 2; i++)
         for (int r = 0; r < again.set->brdf[i].rows; r += 11)
             assert_close(seen(&again.set->brdf[i], r, i ? 50 : 20, 550),
@@ -123,7 +120,6 @@ TEST(a_fit_of_the_exported_reflection_is_near_its_bound)
 /* The mirror part is drawn as the declared instrument sees it, and taken out again. */
 TEST(the_mirror_part_survives)
 {
-    (void)state;
     Wavelengths w = even_wavelengths(450, 12.5f);
     for (int t = 20; t <= 50; t += 30) {
         float  cosine = (float)cos(radians_from_degrees(t));
@@ -194,7 +190,6 @@ static double deviation(const Panel *panel, const Measurement *set)
 
 TEST(every_azimuth_of_the_light_is_exported)
 {
-    (void)state;
     Error   err = {0};
     Fixture from, back;
     double  phi[PANEL_INFO_AZIMUTHS_MAX];
@@ -227,7 +222,6 @@ TEST(every_azimuth_of_the_light_is_exported)
 
 TEST(levels_over_a_true_black_are_exported)
 {
-    (void)state;
     Error      err = {0};
     FitOptions fit = options();
     Fixture    from, back;
@@ -255,7 +249,6 @@ TEST(levels_over_a_true_black_are_exported)
 
 TEST(a_folder_with_files_is_left_alone)
 {
-    (void)state;
     Error err = {0};
     int   before = folder_count(first.folder);
     assert_false(panel_export(first.panel, "x.panel", &coarse, first.folder, &err));
@@ -270,7 +263,6 @@ TEST(a_folder_with_files_is_left_alone)
 
 TEST(an_empty_folder_is_filled)
 {
-    (void)state;
     Error       err = {0};
     const char *empty = fixture_path(&first, "empty");
     ExportOptions wide = {.theta_step_deg = 30, .phi_step_deg = 90, .extrapolates = true,
@@ -286,7 +278,6 @@ TEST(an_empty_folder_is_filled)
 
 TEST(single_tables_are_named_as_in_info)
 {
-    (void)state;
     static const struct { const char *name; int columns; } tables[] = {
         {"black", 5}, {"white 255", 5}, {"red 127.5", 5}, {"brdf 20 deg", 5}, {"brdf 33", 5},
         {"brdf 20 at 90", 5}, {"primaries", 4}};
@@ -310,7 +301,4 @@ TEST(single_tables_are_named_as_in_info)
     }
 }
 
-int main(void)
-{
-    return run_cases(start, end);
-}
+TEST_PROGRAM(start, end)

@@ -268,7 +268,6 @@ static bool try_bytes(const unsigned char *bytes, size_t size, const Kind *kind)
 /* Only what an older program would misread has the new version. */
 TEST(files_keep_the_version_that_older_programs_read)
 {
-    (void)state;
     for (int k = 0; k < KIND_COUNT; k++) {
         PanelHeader header;
         const char *name = kinds[k].name;
@@ -285,7 +284,6 @@ TEST(files_keep_the_version_that_older_programs_read)
 /* The checksum stands behind the version. */
 TEST(a_version_that_the_contents_do_not_bear_out_is_refused)
 {
-    (void)state;
     for (int k = 0; k < KIND_COUNT; k++) {
         unsigned char *copy = malloc(kinds[k].size);
         uint32_t       version;
@@ -303,7 +301,6 @@ TEST(a_version_that_the_contents_do_not_bear_out_is_refused)
 
 TEST(every_prefix_of_a_panel_is_refused)
 {
-    (void)state;
     for (int k = 0; k < KIND_COUNT; k++) {
         size_t step = 1 + kinds[k].size / 4000; /* of a long file: its head, then samples */
         for (size_t n = 0; n < kinds[k].size; n += n < 3000 ? 1 : step) {
@@ -319,7 +316,6 @@ TEST(every_prefix_of_a_panel_is_refused)
 /* As if the rest had never been written: size and checksum fit. */
 TEST(every_shortened_panel_is_refused_or_read_within_its_bytes)
 {
-    (void)state;
     for (int k = 0; k < KIND_COUNT; k++)
         for (size_t n = sizeof(PanelHeader); n < kinds[k].size; n += 1 + kinds[k].size / 300) {
             unsigned char *copy = malloc(n);
@@ -375,7 +371,6 @@ static void mutate(unsigned char *bytes, size_t size, uint32_t *random)
 
 TEST(every_mutation_is_refused)
 {
-    (void)state;
     uint32_t random = 11;
     for (int k = 0; k < KIND_COUNT; k++) {
         const Kind    *kind = &kinds[k];
@@ -394,7 +389,6 @@ TEST(every_mutation_is_refused)
 /* As if somebody had written the file with ill intent: the checksum fits. */
 TEST(a_forged_checksum_leads_nobody_astray)
 {
-    (void)state;
     uint32_t random = 5;
     for (int k = 0; k < KIND_COUNT; k++) {
         const Kind    *kind = &kinds[k];
@@ -417,7 +411,6 @@ TEST(a_forged_checksum_leads_nobody_astray)
 /* Two files spliced: the head of one kind, the rest of another. */
 TEST(spliced_panels_lead_nobody_astray)
 {
-    (void)state;
     uint32_t random = 3;
     for (int i = 0; i < 300; i++) {
         const Kind *a = &kinds[(int)(steady_random(&random) * KIND_COUNT)];
@@ -449,7 +442,6 @@ static void expect_line(const Error *err, const char *part, const char *other)
 
 TEST(other_files_are_no_panels)
 {
-    (void)state;
     Panel *panel;
     Error  err = {0};
     assert_false(panel_open("/no/such.panel", &folder.arena, &panel, &err));
@@ -468,7 +460,6 @@ TEST(other_files_are_no_panels)
 
 TEST(an_unwritable_output_is_named)
 {
-    (void)state;
     Error        err = {0};
     json_t      *report = NULL;
     FitOptions   options = small_options(FIT_VERTEX);
@@ -515,7 +506,6 @@ static int status_with(size_t bytes, bool fits, const char *output)
 /* Whatever the memory, it is a clean end: done, or out of memory and nothing written. */
 TEST(running_out_of_memory_is_a_clean_end)
 {
-    (void)state;
     const char *output = fixture_path(&folder, "memory.panel");
     for (int fits = 0; fits < 2; fits++) {
         int  full = 0, status = FULL_STATUS;
@@ -532,7 +522,4 @@ TEST(running_out_of_memory_is_a_clean_end)
     }
 }
 
-int main(void)
-{
-    return run_cases(start, fixture_group_end);
-}
+TEST_PROGRAM(start, fixture_group_end)

@@ -154,7 +154,6 @@ static void expect(JudgeGrade least, JudgeGrade most, const char *word)
 
 TEST(good_sets_are_good)
 {
-    (void)state;
     Fault plain = {.factor = 1, .phi_step = 15};
     fit(&plain, WHITE, false);
     expect(JUDGE_GOOD, JUDGE_GOOD, "[]");
@@ -166,7 +165,6 @@ TEST(good_sets_are_good)
 
 TEST(an_emission_in_another_unit_is_named)
 {
-    (void)state;
     const double factors[] = {1000, 0.001, 1e6};
     for (int i = 0; i < 3; i++) {
         Fault fault = {.factor = factors[i], .phi_step = 15};
@@ -177,7 +175,6 @@ TEST(an_emission_in_another_unit_is_named)
 
 TEST(a_reflection_in_another_unit_is_named)
 {
-    (void)state;
     const double factors[] = {1000, 0.001};
     for (int i = 0; i < 2; i++) {
         Fault fault = {.factor = factors[i]};
@@ -194,7 +191,6 @@ TEST(a_reflection_in_another_unit_is_named)
 
 TEST(noise_is_named)
 {
-    (void)state;
     Fault fault = {.factor = 1, .phi_step = 15, .noise = 0.4};
     fit(&fault, WHITE, true);
     expect(JUDGE_CARE, JUDGE_UNUSABLE, "noise");
@@ -202,7 +198,6 @@ TEST(noise_is_named)
 
 TEST(zeros_are_named)
 {
-    (void)state;
     Fault fault = {.factor = 1, .zeros = 0.5};
     fit(&fault, REFLECTION, true);
     expect(JUDGE_CARE, JUDGE_UNUSABLE, "zero or negative");
@@ -210,7 +205,6 @@ TEST(zeros_are_named)
 
 TEST(what_is_not_usable_is_not_written_unless_forced)
 {
-    (void)state;
     Fault fault = {.factor = 1000};
     fit(&fault, REFLECTION, false);
     assert_false(work.written);
@@ -252,7 +246,6 @@ static double error_between(const Fault *fault, double phi)
 
 TEST(a_panel_of_two_azimuths_names_the_gap_and_its_cost)
 {
-    (void)state;
     const double corners[] = {0.25, 1};
     for (int i = 0; i < 2; i++) {
         Fault fault = {.factor = 1, .phi_step = 90, .corners = corners[i]};
@@ -270,7 +263,6 @@ TEST(a_panel_of_two_azimuths_names_the_gap_and_its_cost)
 
 TEST(a_missing_sector_is_named_and_a_round_panel_does_not_need_it)
 {
-    (void)state;
     Fault fault = {.factor = 1, .phi_step = 15, .corners = 0.5, .gap_from = 20, .gap_to = 100};
     fit(&fault, WHITE, false);
     expect(JUDGE_CARE, JUDGE_CARE, "between the azimuths 15 and 105 degrees");
@@ -384,7 +376,6 @@ TEST(lamps_are_fitted_with_darkness_around_them)
         {"ellipse", ellipse_lamp, 2.5, 10, 0.005, 0.0025, 0.015},
         {"flood", flood_lamp, 2.5, 30, 0.01, 0.005, 0.01},
         {"batwing", batwing_lamp, 2.5, 30, 0.01, 0.005, 0.001}};
-    (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         fit_lamp(cases[i].lamp, cases[i].step, cases[i].phi_step);
         if (!work.written) fail_msg("%s: %s", cases[i].name, work.err.text);
@@ -404,7 +395,6 @@ TEST(lamps_are_fitted_with_darkness_around_them)
  * stated, and less than at the same theta. */
 TEST(turning_edges_are_followed_and_what_azimuths_miss_is_stated)
 {
-    (void)state;
     fit_lamp(turning_lamp, 2.5, 22.5);
     char  *notes = json_dumps(json_object_get(work.report, "notes"), 0);
     double missed = NAN, still = NAN;
@@ -420,7 +410,6 @@ TEST(turning_edges_are_followed_and_what_azimuths_miss_is_stated)
 
 TEST(the_report_says_what_decided)
 {
-    (void)state;
     Fault fault = {.factor = 1, .phi_step = 15};
     fit(&fault, WHITE, false);
     const json_t *judged = json_object_get(work.report, "judged");
@@ -431,7 +420,4 @@ TEST(the_report_says_what_decided)
     work.report = NULL;
 }
 
-int main(void)
-{
-    return run_cases(open_folder, close_folder);
-}
+TEST_PROGRAM(open_folder, close_folder)

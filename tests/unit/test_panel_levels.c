@@ -204,7 +204,6 @@ static void assert_known(const Fixture *known)
 
 TEST(a_known_gamma_comes_back_from_white_and_its_table)
 {
-    (void)state;
     Fixture    known;
     Error      err = {0};
     FitOptions options = fit_options_default();
@@ -223,7 +222,6 @@ TEST(a_known_gamma_comes_back_from_white_and_its_table)
 
 TEST(a_manifest_may_name_the_table)
 {
-    (void)state;
     Fixture    known;
     FitOptions options = fit_options_default();
     fixture_measure(&known, KNOWN);
@@ -239,7 +237,6 @@ TEST(a_manifest_may_name_the_table)
 
 TEST(a_table_of_another_white_or_set_is_refused)
 {
-    (void)state;
     Fixture known;
     Error   err = {0};
     fixture_measure(&known, KNOWN);
@@ -264,7 +261,4 @@ TEST(a_table_of_another_white_or_set_is_refused)
     fixture_end(&known);
 }
 
-int main(void)
-{
-    return run_cases(make_folder, clear_folder);
-}
+TEST_PROGRAM(make_folder, clear_folder)

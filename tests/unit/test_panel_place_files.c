@@ -102,7 +102,6 @@ static bool try_manifest(const char *text, const char *panel, Panel **out, FileB
 
 TEST(what_is_wrong_with_places_is_named)
 {
-    (void)state;
     static const struct { const char *text, *parts[3]; } cases[] = {
         {"{\"spots\": 3}", {"/spots", "is a number", "a list"}},
         {"{\"spots\": []}", {"/spots", "0 spots", "1 to 49"}},
@@ -196,7 +195,6 @@ TEST(what_is_wrong_with_places_is_named)
 /* One spot, or spots that leave nothing to choose, and no map: the file of old. */
 TEST(one_spot_is_a_plain_panel_to_the_byte)
 {
-    (void)state;
     Error     err;
     Panel    *plain, *spot;
     FileBytes old, now;
@@ -219,7 +217,6 @@ TEST(one_spot_is_a_plain_panel_to_the_byte)
 /* Where a spot leaves a part out, the manifest's own serves there. */
 TEST(the_manifests_own_tables_serve_where_a_spot_has_none)
 {
-    (void)state;
     Error       err;
     Panel      *panel;
     FileBytes   bytes;
@@ -243,7 +240,6 @@ TEST(the_manifests_own_tables_serve_where_a_spot_has_none)
  * shares are the same. Black without a map of its own follows white. */
 TEST(a_map_counts_relative_to_where_the_panel_was_measured)
 {
-    (void)state;
     Error     err;
     Panel    *panel;
     FileBytes bytes;
@@ -283,7 +279,6 @@ static void write_png(const char *name, int first, int step, int bits)
 /* The same map as numbers, as OpenEXR and as 16-bit pictures; 8 bits are refused. */
 TEST(a_map_is_the_same_in_every_format)
 {
-    (void)state;
     static const char *const maps[3] = {MAP("\"file\": \"m.csv\""), MAP("\"file\": \"m.exr\""),
                                         MAP("\"file\": \"m.png\", \"black\": \"k.png\"")};
     Error     err;
@@ -321,7 +316,6 @@ TEST(a_map_is_the_same_in_every_format)
 /* A bent display and a camera close by: what only the angle made is taken out again. */
 TEST(what_the_camera_saw_under_an_angle_is_no_mura)
 {
-    (void)state;
     Error     err;
     Panel    *panel;
     FileBytes bytes;
@@ -364,7 +358,6 @@ TEST(what_the_camera_saw_under_an_angle_is_no_mura)
 /* What is exported is fitted to the same display again. */
 TEST(an_export_of_places_says_the_same)
 {
-    (void)state;
     Fixture       f;
     Error         err = {0};
     FitOptions    fit = fit_options_default();
@@ -395,7 +388,4 @@ TEST(an_export_of_places_says_the_same)
     fixture_end(&f);
 }
 
-int main(void)
-{
-    return run_cases(start, fixture_group_end);
-}
+TEST_PROGRAM(start, fixture_group_end)

@@ -67,7 +67,6 @@ static void all_weights(const SpotGround *ground, const float place[2], double *
 
 TEST(weights_are_shares_of_one_and_a_spots_own_is_one)
 {
-    (void)state;
     for (int c = 0; c < GROUNDS; c++) {
         SpotGround ground;
         double     weight[SPOT_GROUND_MAX];
@@ -89,7 +88,6 @@ TEST(weights_are_shares_of_one_and_a_spots_own_is_one)
 /* A small step changes every weight by little; across the border too. */
 TEST(weights_have_no_jumps)
 {
-    (void)state;
     for (int c = 0; c < GROUNDS; c++) {
         SpotGround ground;
         double     weight[2][SPOT_GROUND_MAX];
@@ -111,7 +109,6 @@ TEST(weights_have_no_jumps)
 /* Between spots a linear function of the place is followed; on a grid u v too. */
 TEST(linear_functions_are_followed_between_spots)
 {
-    (void)state;
     for (int c = 0; c < GROUNDS; c++) {
         SpotGround ground;
         double     weight[SPOT_GROUND_MAX];
@@ -169,7 +166,6 @@ static void expect_truth(const Fixture *f, const float place[2], double bound)
  * not, which adds 0.02 %): within 0.5 % everywhere, off the spots too. */
 TEST(nine_spots_say_the_truth_everywhere)
 {
-    (void)state;
     Fixture    f;
     FitOptions fit = fit_options_default();
     uint32_t   random = 3;
@@ -187,7 +183,6 @@ TEST(nine_spots_say_the_truth_everywhere)
  * and angles are a product is followed everywhere, between few spots too. */
 TEST(the_map_says_what_lies_between_spots)
 {
-    (void)state;
     static const char *const recipes[2] = {
         "{" EMITTER "," INSTRUMENT ", \"places\": {" MURA ", \"slope\": [0.3, -0.2]}}",
         "{" EMITTER "," INSTRUMENT ", \"places\": {\"u\": [0.1, 0.9, 0.4], \"v\": [0.2, 0.3, "
@@ -221,7 +216,6 @@ TEST(the_map_says_what_lies_between_spots)
 /* The spectrum has the colour and the light that XYZ have, by place too. */
 TEST(spectra_have_the_places_colour)
 {
-    (void)state;
     Fixture    f;
     FitOptions fit = fit_options_default();
     fixture_start(&f, "{" EMITTER "," INSTRUMENT ", \"places\": {" MURA
@@ -289,7 +283,6 @@ static void fill_probabilities(const PanelMix *mix, Vec3 wo, Bin *bin)
 /* Directions are drawn as the density says, which is that of the mixture. */
 TEST(a_mixture_is_the_sum_of_its_panels)
 {
-    (void)state;
     Fixture     f;
     FitOptions  fit = fit_options_default();
     const float middle[2] = {0.5f, 0.5f};
@@ -346,7 +339,6 @@ TEST(a_mixture_is_the_sum_of_its_panels)
  * the albedo says. Truth in the middle: the BRDF is linear in the share of haze. */
 TEST(a_mixture_reflects_as_the_display_does)
 {
-    (void)state;
     Fixture     f;
     FitOptions  fit = fit_options_default();
     const float place[2] = {0.3f, 0.3f};
@@ -379,7 +371,4 @@ TEST(a_mixture_reflects_as_the_display_does)
     fixture_end(&f);
 }
 
-int main(void)
-{
-    return run_cases(start, fixture_group_end);
-}
+TEST_PROGRAM(start, fixture_group_end)

@@ -119,7 +119,6 @@ TEST(a_lobe_narrower_than_the_grid_is_open)
 /* At the normal R hardly changes over the aperture: the haze's integral is closed. */
 TEST(the_specular_closed_form_is_mirror_and_haze_within_the_aperture)
 {
-    (void)state;
     for (int k = 0; k < 4; k++) {
         double lobe = k < 2 ? 2 : 0.3, aperture = radians_from_degrees(k % 2 ? 1.2 : 4);
         SyntheticPanel panel = panel_of(lobe, 0.01);
@@ -307,7 +306,4 @@ TEST(a_table_of_a_diagonal_is_refused)
     assert_non_null(strstr(err.text, "has 50000 incidences and 50000 wavelengths in 50000"));
 }
 
-int main(void)
-{
-    return run_cases(make_folder, clear_folder);
-}
+TEST_PROGRAM(make_folder, clear_folder)

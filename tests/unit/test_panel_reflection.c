@@ -105,7 +105,6 @@ static double largest_error(const Fitted *f, double incidence_deg, double phi_i,
 
 TEST(the_bound_holds_at_every_sample_and_wavelength)
 {
-    (void)state;
     for (int i = 0; i < HAZY_INCIDENCES; i++) {
         double worst = largest_error(&shared, HAZY.incidence_deg[i], PI, 0);
         if (!(worst <= 0.0205))
@@ -115,7 +114,6 @@ TEST(the_bound_holds_at_every_sample_and_wavelength)
 
 TEST(between_incidences_the_peak_has_moved_and_keeps_its_height)
 {
-    (void)state;
     Wavelengths w = even_wavelengths(400, 20);
     for (double incidence = 10; incidence <= 60; incidence += 10) {
         double best = 0, at = 0, truth = 0;
@@ -135,7 +133,6 @@ TEST(between_incidences_the_peak_has_moved_and_keeps_its_height)
 
 TEST(light_from_any_azimuth_reads_the_same)
 {
-    (void)state;
     Wavelengths w = even_wavelengths(400, 20);
     for (double turn = 0; turn < 360; turn += 37)
         assert_turns(shared.fit.panel, (double[]){40, 12}, 30, turn, &w, 5);
@@ -143,7 +140,6 @@ TEST(light_from_any_azimuth_reads_the_same)
 
 TEST(at_the_normal_the_azimuth_does_not_matter)
 {
-    (void)state;
     Wavelengths w = even_wavelengths(400, 20);
     Spectrum a = panel_brdf(shared.fit.panel, direction_deg(9, 0), direction_deg(0, 0), &w);
     for (double p = 0; p < 360; p += 30) {
@@ -155,7 +151,6 @@ TEST(at_the_normal_the_azimuth_does_not_matter)
 
 TEST(wavelengths_between_the_measured_ones_lie_between_their_values)
 {
-    (void)state;
     Wavelengths at = even_wavelengths(400, 20), between = even_wavelengths(410, 20);
     Spectrum a =
         panel_brdf(shared.fit.panel, direction_deg(30, 20), direction_deg(35, 180), &at);
@@ -176,7 +171,6 @@ static bool is_measured(double incidence_deg, double theta_deg)
 
 TEST(extrapolation_is_continuous_and_flagged)
 {
-    (void)state;
     Wavelengths w = even_wavelengths(400, 20);
     for (double theta = 0; theta < 84; theta += 7)
         for (double phi = 0; phi <= 180; phi += 45) {
@@ -192,7 +186,6 @@ TEST(extrapolation_is_continuous_and_flagged)
 
 TEST(beyond_the_measured_incidences_haze_follows_fresnel)
 {
-    (void)state;
     Wavelengths w = even_wavelengths(400, 20);
     for (double theta = 68; theta <= 80; theta += 4) {
         Spectrum f = panel_brdf(shared.fit.panel, direction_deg(theta, 0),
@@ -220,7 +213,6 @@ static double albedo_at(const Panel *panel, double incidence_deg, int lane)
 
 TEST(a_white_furnace_gives_no_more_than_it_gets)
 {
-    (void)state;
     Fitted f = fit_surface(white, (Grid){.wavelengths = 2}, quick());
     for (double i = 0; i < 90; i += 8.9)
         if (!(albedo_at(f.fit.panel, i, 0) <= 1.001))
@@ -230,7 +222,6 @@ TEST(a_white_furnace_gives_no_more_than_it_gets)
 
 TEST(the_albedo_is_the_integral)
 {
-    (void)state;
     const char *const key = "integral_error";
     size_t  i;
     json_t *table;
@@ -248,7 +239,6 @@ TEST(the_albedo_is_the_integral)
 
 TEST(every_spectral_basis_and_both_hemispherical_ones_hold_the_bound)
 {
-    (void)state;
     static const struct {
         const char *name;
         FitBasis    basis;
@@ -284,7 +274,6 @@ static const json_t *part_at(const Fitted *f, size_t incidence)
 
 TEST(a_lobe_on_haze_is_told_apart_and_stays_one_lobe_between_incidences)
 {
-    (void)state;
     Fitted f =
         fit_surface(lobed, (Grid){.wavelengths = 3, .theta_step = 1, .phi_step = 3}, quick());
     for (size_t i = 0; i < HAZY_INCIDENCES; i++) {
@@ -306,7 +295,6 @@ TEST(a_lobe_on_haze_is_told_apart_and_stays_one_lobe_between_incidences)
 
 TEST(an_image_as_wide_as_the_instrument_becomes_the_mirror)
 {
-    (void)state;
     Wavelengths w = even_wavelengths(400, 20);
     Fitted f = fit_surface(lobed,
                            (Grid){.wavelengths = 4,
@@ -328,7 +316,6 @@ TEST(an_image_as_wide_as_the_instrument_becomes_the_mirror)
 
 TEST(a_lobe_becomes_the_mirror_only_when_asked)
 {
-    (void)state;
     FitOptions  options = quick();
     Wavelengths w = even_wavelengths(400, 20);
     options.lobe_is_mirror = true;
@@ -364,7 +351,6 @@ static double floor_at(const Panel *panel, Vec3 wo, Vec3 wi)
 
 TEST(the_lambertian_part_is_a_share_of_the_whole)
 {
-    (void)state;
     Wavelengths w = even_wavelengths(395, 21);
     for (double incidence = 0; incidence < 90; incidence += 7.3)
         for (double theta = 0; theta < 90; theta += 11)
@@ -382,7 +368,6 @@ TEST(the_lambertian_part_is_a_share_of_the_whole)
 /* Above it by the haze that is left far from the mirror direction, 3e-4 at most here. */
 TEST(the_lambertian_part_is_the_floor_below_the_haze)
 {
-    (void)state;
     for (double incidence = 0; incidence <= 65; incidence += 2.5) {
         Vec3   wi = direction_deg(incidence, 180);
         double mirror = floor_at(shared.fit.panel, direction_deg(incidence, 0), wi);
@@ -394,7 +379,6 @@ TEST(the_lambertian_part_is_the_floor_below_the_haze)
 
 TEST(beyond_the_measured_incidences_the_floor_follows_the_light_that_enters)
 {
-    (void)state;
     Vec3   wo = direction_deg(10, 0);
     double last = floor_at(shared.fit.panel, wo, direction_deg(65, 180));
     assert_close(floor_at(shared.fit.panel, wo, direction_deg(65.01, 180)), last, 0.01);
@@ -414,7 +398,6 @@ static double matt(double theta_i, double phi_i, double theta, double phi, doubl
 
 TEST(a_face_alike_to_all_sides_has_no_haze)
 {
-    (void)state;
     Wavelengths w = even_wavelengths(400, 20);
     Fitted f = fit_surface(matt, (Grid){.wavelengths = 4, .azimuths = 4, .incidences = 3},
                            quick());
@@ -432,7 +415,6 @@ TEST(a_face_alike_to_all_sides_has_no_haze)
 
 TEST(a_brushed_surface_is_told_between_azimuths)
 {
-    (void)state;
     Fitted f = fit_surface(brushed,
                            (Grid){.wavelengths = 1,
                                   .azimuths = 16,
@@ -452,7 +434,6 @@ TEST(a_brushed_surface_is_told_between_azimuths)
 
 TEST(an_isotropic_surface_stored_with_azimuths_answers_the_same)
 {
-    (void)state;
     Fitted f =
         fit_surface(hazy, (Grid){.wavelengths = 1, .azimuths = 4, .incidences = 3}, quick());
     for (double turn = 0; turn < 360; turn += 51) {
@@ -473,7 +454,6 @@ static double with_zeros(double theta_i, double phi_i, double theta, double phi,
 
 TEST(zeros_and_negative_values_are_held_counted_and_told)
 {
-    (void)state;
     Fitted f = fit_surface(with_zeros, (Grid){.wavelengths = 1, .incidences = 1}, quick());
     json_t *reflection = json_object_get(f.fit.report, "reflection");
     long    masked = 0;
@@ -496,7 +476,4 @@ static int start(void **state)
     return 0;
 }
 
-int main(void)
-{
-    return run_cases(start, fixture_group_end);
-}
+TEST_PROGRAM(start, fixture_group_end)

@@ -176,7 +176,6 @@ static double density_integral(const Panel *panel, double theta, double phi)
 
 TEST(the_density_integrates_to_one)
 {
-    (void)state;
     for (int c = 0; c < case_count; c++)
         for (int k = 0; k < 16; k++) {
             double theta = radians_from_degrees(0.5 + 5.9 * k);
@@ -228,7 +227,6 @@ static double compare_bins(const double *bins, const int *counts, int drawn)
 
 TEST(samples_fall_as_the_density_says)
 {
-    (void)state;
     Arena           scratch = ips.arena;
     const Geodesic *geodesic = geodesic_create(BIN_LEVEL, &scratch);
     uint32_t        random = 7;
@@ -261,7 +259,6 @@ TEST(samples_fall_as_the_density_says)
  * incidences, each for blue, green and red light. */
 TEST(displays_draw_mirror_and_haze_as_they_say)
 {
-    (void)state;
     Arena           scratch = ips.arena;
     const Geodesic *geodesic = geodesic_create(BIN_LEVEL, &scratch);
     uint32_t        random = 99;
@@ -298,7 +295,6 @@ TEST(displays_draw_mirror_and_haze_as_they_say)
 /* What panel_sample says of its density is what panel_pdf says of the direction. */
 TEST(samples_know_their_density)
 {
-    (void)state;
     uint32_t random = 77;
     for (int c = 0; c < case_count; c++) {
         int unlike = 0;
@@ -361,7 +357,6 @@ static Weights draw_weights(const Panel *panel, double theta, double phi, int dr
 /* At incidences that have a tree and half way between: 0.035 up to 65 degrees, 0.1 to 80. */
 TEST(weights_vary_little_at_every_incidence)
 {
-    (void)state;
     for (int c = 0; c < case_count; c++) {
         const PanelSampling *s = &cases[c].panel->sampling;
         double worst[2] = {0, 0}, furnace = 0, lane = 0;
@@ -388,7 +383,6 @@ TEST(weights_vary_little_at_every_incidence)
 /* f cos / pdf averages to the albedo: wherever there is light the density is above zero. */
 TEST(weights_average_to_the_albedo)
 {
-    (void)state;
     Wavelengths w = even_wavelengths(400, 20);
     uint32_t    random = 3;
     for (int k = 0; k <= 8; k++) {
@@ -448,7 +442,6 @@ static void expect_finite(Vec3 wo, Vec3 wi, const Wavelengths *w)
 /* Poles, axes, exact mirror directions, and the horizon from very near. */
 TEST(answers_are_finite_in_every_corner)
 {
-    (void)state;
     Wavelengths w = even_wavelengths(360, 31.3f);
     static const float heights[] = {1, 0.9999999f, 0.999f, 0.7f, 0.05f, 1e-3f, 1e-5f, 1e-20f};
     Vec3 corner[8 * 9];
@@ -495,7 +488,6 @@ static void expect_forged_is_refused(bool is_emptied, const char *why)
 /* Nothing of a reflection without its sampling: the file would light a scene wrongly. */
 TEST(a_panel_without_its_sampling_is_refused)
 {
-    (void)state;
     expect_forged_is_refused(false, "without its sampling tree");
     expect_forged_is_refused(true, "is empty beside several tables");
 }
@@ -503,7 +495,6 @@ TEST(a_panel_without_its_sampling_is_refused)
 /* A file of one table holds no sampling; opening makes what fitting would have stored. */
 TEST(one_table_is_sampled_without_a_byte_of_the_file)
 {
-    (void)state;
     Error        err = {0};
     FitOptions   options = fit_options_default();
     Fixture      one;
@@ -529,7 +520,4 @@ TEST(one_table_is_sampled_without_a_byte_of_the_file)
     fixture_end(&one);
 }
 
-int main(void)
-{
-    return run_cases(start_panels, end_panels);
-}
+TEST_PROGRAM(start_panels, end_panels)

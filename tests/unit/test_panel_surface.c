@@ -106,7 +106,6 @@ static void expect_near(double found, double most, const char *what, double thet
  * mirror direction and 5 % elsewhere. */
 TEST(a_brushed_lobe_is_told_between_azimuths_and_incidences)
 {
-    (void)state;
     uint32_t random = 5;
     Errors   most = {0, 0, 0};
     for (double theta = 35; theta <= 50; theta += 7.5)
@@ -123,7 +122,6 @@ TEST(a_brushed_lobe_is_told_between_azimuths_and_incidences)
 
 TEST(its_axes_and_its_frame_are_reported)
 {
-    (void)state;
     const json_t *r = json_object_get(brushed.fit.report, "reflection");
     const json_t *alpha = json_object_get(r, "facet_alpha");
     assert_string_equal(json_string_value(json_object_get(r, "frame")), "slopes");
@@ -136,7 +134,6 @@ TEST(its_axes_and_its_frame_are_reported)
 /* Both directions exchanged; also through the normal, where azimuths jump. */
 TEST(it_stays_reciprocal_and_has_no_seam_at_the_normal)
 {
-    (void)state;
     Wavelengths w = even_wavelengths(400, 20);
     for (double phi = 0; phi < 360; phi += 24) {
         Vec3   a = direction_deg(40, phi), b = direction_deg(47, phi + 170);
@@ -153,7 +150,6 @@ TEST(it_stays_reciprocal_and_has_no_seam_at_the_normal)
  * than the light. */
 TEST(its_samples_average_to_the_albedo)
 {
-    (void)state;
     Wavelengths w = even_wavelengths(400, 20);
     uint32_t    random = 9;
     for (double theta = 5; theta < 50; theta += 14) {
@@ -186,7 +182,6 @@ TEST(its_samples_average_to_the_albedo)
 /* At grazing light no side sends back more than it gets. */
 TEST(it_goes_on_without_making_light)
 {
-    (void)state;
     Wavelengths w = even_wavelengths(400, 20);
     for (double theta = 60; theta < 89; theta += 14)
         for (double phi = 0; phi < 180; phi += 45) {
@@ -221,7 +216,6 @@ static double error_off(const Fitted *f, double incidence, double off_theta, dou
 /* Peak, 3 degrees inside and outside of it and aside. */
 TEST(rough_dielectrics_go_on_to_85_degrees)
 {
-    (void)state;
     static const double cases[][2] = {{0.05, 1.5}, {0.3, 1.4}};
     static const double off[][2] = {{0, 0}, {-3, 0}, {3, 0}, {0, 1.5}};
     for (int c = 0; c < 2; c++) {
@@ -250,7 +244,6 @@ static double narrow(double theta_i, double phi_i, double theta, double phi, dou
 
 TEST(tails_of_narrow_haze_go_on)
 {
-    (void)state;
     Tables tables = ROUGH;
     tables.surface = narrow;
     Fitted f;
@@ -276,7 +269,6 @@ static double smooth(double theta_i, double phi_i, double theta, double phi, dou
 
 TEST(smooth_dielectrics_go_on_by_their_own_index)
 {
-    (void)state;
     static const double indices[] = {1.33, 1.5, 1.75};
     Wavelengths w = even_wavelengths(400, 20);
     for (int k = 0; k < 3; k++) {
@@ -304,7 +296,4 @@ static int start(void **state)
     return 0;
 }
 
-int main(void)
-{
-    return run_cases(start, fixture_group_end);
-}
+TEST_PROGRAM(start, fixture_group_end)

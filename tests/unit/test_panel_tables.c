@@ -44,7 +44,6 @@ static Error bad_file(const char *name, const char *text)
 
 TEST(tables_name_file_line_and_value)
 {
-    (void)state;
     static const struct { const char *text, *parts[3]; } cases[] = {
         {"theta,phi,X,Y,Z\n0,0,1,1,1\n10,0,1,nan,1\n",
          {"table.csv: line 3", "column 'Y' holds 'nan'", "a finite number"}},
@@ -72,7 +71,6 @@ TEST(tables_name_file_line_and_value)
 
 TEST(every_prefix_of_a_table_is_read_or_refused)
 {
-    (void)state;
     const char *text = "theta,phi,X,Y,Z\n0,0,1,1,1\n# c\n10,0,1.5e0,2,1\n10,90,1,2,3\n";
     for (size_t n = 0; n < strlen(text); n++) {
         Error        err = {0};
@@ -85,7 +83,6 @@ TEST(every_prefix_of_a_table_is_read_or_refused)
 
 TEST(rows_at_the_normal_are_averaged_and_equal_doubles_pass)
 {
-    (void)state;
     Error        err = {0};
     Measurement *set = ARENA_NEW(&folder.arena, Measurement, 1);
     const char  *path = fixture_file(&folder, "table.csv",
@@ -110,7 +107,6 @@ TEST(rows_at_the_normal_are_averaged_and_equal_doubles_pass)
 
 TEST(manifests_name_the_key)
 {
-    (void)state;
     static const struct { const char *text, *parts[3]; } cases[] = {
         {"{\"panel\": \"x\", \"emision\": {}}", {"/emision", "unknown key", "'emission'"}},
         {"{\"panel\": \"x\"}", {"MANIFEST.json", "'emission' is missing", ""}},
@@ -203,7 +199,6 @@ static Panel *fitted(const char *manifest, FileBytes *bytes)
 
 TEST(polarisation_is_kept_and_costs_nothing_where_there_is_none)
 {
-    (void)state;
     static const struct { const char *text; float degree, azimuth_deg; } cases[] = {
         {POLARISED("{\"degree\": 0.995, \"azimuth_deg\": 45}"), 0.995f, 45},
         {POLARISED("{\"degree\": 1, \"azimuth_deg\": -60}"), 1, 120},
@@ -231,7 +226,6 @@ TEST(polarisation_is_kept_and_costs_nothing_where_there_is_none)
 /* "pixels" may be told as columns and rows. */
 TEST(sub_pixels_are_kept_with_the_displays_pixels)
 {
-    (void)state;
     static const struct { const char *text; Subpixels wanted; } cases[] = {
         {DIVIDED("{\"layout\": \"stripe\"}"), {SUBPIXELS_STRIPE, 1, {0, 0}}},
         {DIVIDED_OF("[1920, 720]", "{\"layout\": \"pentile\", \"fill\": 0.25}"),
@@ -283,7 +277,6 @@ static const char *refusal_of(unsigned char *copy, size_t size, Subpixels *found
 /* Every byte of the section, at values that matter: what is accepted is what stands there. */
 TEST(sub_pixels_of_a_file_are_in_range_or_refused)
 {
-    (void)state;
     static const unsigned char values[] = {0, 1, 2, 3, 0x3c, 0x3f, 0x7f, 0x80, 0xbf, 0xff};
     int           accepted = 0, count = (int)(sizeof(PanelSubpixelsStored) * sizeof values);
     PanelSection *toc;
@@ -325,7 +318,6 @@ TEST(sub_pixels_of_a_file_are_in_range_or_refused)
 
 TEST(recipes_name_the_key)
 {
-    (void)state;
     static const struct { const char *text, *parts[2]; } cases[] = {
         {"{\"emission\": {\"red\": {\"peaks_nm\": [600], \"fwhm_nm\": [1], \"weights\": [1]}}}",
          {"/emission/red/fwhm_nm", "wanted a number from 2 to 400"}},
@@ -370,7 +362,6 @@ TEST(recipes_name_the_key)
  * shadow of missing directions. It must say what the plain layout says. */
 TEST(other_layouts_say_the_same)
 {
-    (void)state;
     Error  err = {0};
     char   text[40000] = "";
     for (int j = 0; j < 3; j++) {
@@ -419,7 +410,6 @@ TEST(other_layouts_say_the_same)
 
 TEST(one_file_a_wavelength_is_one_table)
 {
-    (void)state;
     Error        err = {0};
     Measurement *set = ARENA_NEW(&folder.arena, Measurement, 1);
     const char  *manifest = "{\"emission\": {\"white\": \"good.csv\"}, \"reflection\": {"
@@ -443,7 +433,4 @@ TEST(one_file_a_wavelength_is_one_table)
     EXPECT_LINE(err, "header line", "column 'reflectance' is no wavelength of the manifest");
 }
 
-int main(void)
-{
-    return run_cases(start, fixture_group_end);
-}
+TEST_PROGRAM(start, fixture_group_end)

@@ -62,7 +62,6 @@ static void set_sky(World *world, float cd_m2)
 
 TEST(a_furnace_of_albedo_and_emission_one_half_shows_one)
 {
-    (void)state;
     World world = world_start();
     Material wall = emitter(0.5f);
     for (int i = 0; i < 3; i++) wall.base_color[i] = 0.5f;
@@ -80,7 +79,6 @@ TEST(a_furnace_of_albedo_and_emission_one_half_shows_one)
 
 TEST(a_lambert_plane_under_the_sun_has_its_luminance)
 {
-    (void)state;
     World world = world_start();
     builder_part(world.scene, builder_material(0.5f));
     builder_quad(world.scene, vec3(0, 0, 0), vec3(5, 0, 0), vec3(0, 0, -5));
@@ -98,7 +96,6 @@ TEST(a_lambert_plane_under_the_sun_has_its_luminance)
 /* A glossy floor, a lamp, a sky: every way to reach the light gives the same mean. */
 TEST(light_samples_bsdf_samples_and_mis_agree)
 {
-    (void)state;
     const float roughness[] = {0.3f, 0.6f, 1.0f};
     for (int i = 0; i < 3; i++) {
         World world = world_start();
@@ -140,7 +137,6 @@ static Material window_material(float ior)
 /* The slab's transmittance, seen directly and by the light it lets fall on a wall. */
 TEST(a_window_passes_what_a_slab_passes)
 {
-    (void)state;
     const double degrees[] = {0, 30, 45, 60, 75},
                  slab[] = {0.918318, 0.915957, 0.902528, 0.843471, 0.614805};
     for (int i = 0; i < 5; i++) {
@@ -162,7 +158,6 @@ TEST(a_window_passes_what_a_slab_passes)
 
 TEST(the_sun_lights_a_wall_through_a_window)
 {
-    (void)state;
     World world = world_start();
     builder_part(world.scene, builder_material(0.5f));
     builder_quad(world.scene, vec3(0, 0, 0), vec3(5, 0, 0), vec3(0, 0, -5));
@@ -181,7 +176,6 @@ TEST(the_sun_lights_a_wall_through_a_window)
 
 TEST(a_mirror_of_metal_shows_its_reflectance_times_what_is_there)
 {
-    (void)state;
     for (int degrees = 0; degrees <= 80; degrees += 20) {
         World world = world_start();
         Material mirror = builder_material(0.8f);
@@ -202,7 +196,6 @@ TEST(a_mirror_of_metal_shows_its_reflectance_times_what_is_there)
 
 TEST(a_clear_ball_in_a_uniform_sky_is_invisible)
 {
-    (void)state;
     World world = world_start();
     Material glass = window_material(1.5f);
     glass.is_solid = true;
@@ -218,7 +211,6 @@ TEST(a_clear_ball_in_a_uniform_sky_is_invisible)
 
 TEST(half_there_shows_half_of_what_is_behind)
 {
-    (void)state;
     World world = world_start();
     Material veil = emitter(0);
     builder_part(world.scene, emitter(100));
@@ -236,7 +228,6 @@ TEST(half_there_shows_half_of_what_is_behind)
 
 TEST(bounces_are_counted_as_documented)
 {
-    (void)state;
     World world = world_start();
     builder_part(world.scene, builder_material(0.5f));
     builder_quad(world.scene, vec3(0, 0, 0), vec3(1000, 0, 0), vec3(0, 0, -1000));
@@ -252,7 +243,6 @@ TEST(bounces_are_counted_as_documented)
 
 TEST(the_back_of_a_one_sided_emitter_is_dark)
 {
-    (void)state;
     World world = world_start();
     builder_part(world.scene, emitter(100));
     builder_quad(world.scene, vec3(0, 0, -1), vec3(1, 0, 0), vec3(0, -1, 0));
@@ -283,7 +273,6 @@ static double illuminance(const World *world, Vec3 position, Vec3 normal, int co
 
 TEST(a_luxmeter_reads_what_falls_on_it)
 {
-    (void)state;
     World world = world_start();
     builder_part(world.scene, builder_material(0));
     builder_quad(world.scene, vec3(0, -1, 0), vec3(9000, 0, 0), vec3(0, 0, -9000));
@@ -303,7 +292,6 @@ TEST(a_luxmeter_reads_what_falls_on_it)
 /* The ray meets the diagonal that both triangles of the pane share: one pane, tinted once. */
 TEST(a_pane_is_passed_once_on_the_edge_of_its_triangles)
 {
-    (void)state;
     World world = world_start();
     builder_part(world.scene, builder_material(0));
     builder_quad(world.scene, vec3(0, -1, 0), vec3(5, 0, 0), vec3(0, 0, -5));
@@ -316,7 +304,4 @@ TEST(a_pane_is_passed_once_on_the_edge_of_its_triangles)
     world_end(&world);
 }
 
-int main(void)
-{
-    return run_cases(NULL, NULL);
-}
+TEST_PROGRAM(NULL, NULL)

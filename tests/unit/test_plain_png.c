@@ -120,7 +120,6 @@ static void assert_as_the_library(const Bytes *png)
 
 TEST(pixels_are_the_librarys_for_every_filter_size_and_kind)
 {
-    (void)state;
     static const int COLOUR_TYPES[4] = {0, 2, 4, 6};
     uint32_t dice = 0000000;
     for (int kind = 0; kind < 4; kind++)
@@ -136,7 +135,6 @@ TEST(pixels_are_the_librarys_for_every_filter_size_and_kind)
 
 TEST(parts_that_mean_nothing_here_change_nothing)
 {
-    (void)state;
     uint32_t dice = 1000000;
     Wish    wish = {9, 9, 2, 8, .filter = -1, .extra = "teSt"};
     assert_as_the_library(make_png(&wish, &dice));
@@ -152,7 +150,6 @@ static void assert_left(Wish wish)
 
 TEST(what_is_unusual_or_damaged_is_left_to_the_library)
 {
-    (void)state;
     assert_left((Wish){9, 9, 2, 16, .filter = 0});
     assert_left((Wish){9, 9, 2, 8, .interlaced = 1});
     assert_left((Wish){9, 9, 2, 8, .extra = "tRNS"});
@@ -168,7 +165,6 @@ TEST(what_is_unusual_or_damaged_is_left_to_the_library)
 
 TEST(a_file_that_is_cut_anywhere_is_left)
 {
-    (void)state;
     static unsigned char rows[BYTES_MAX];
     uint32_t dice = 3000000;
     PlainPng head;
@@ -181,7 +177,4 @@ TEST(a_file_that_is_cut_anywhere_is_left)
     }
 }
 
-int main(void)
-{
-    return run_cases(NULL, NULL);
-}
+TEST_PROGRAM(NULL, NULL)

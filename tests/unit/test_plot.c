@@ -36,7 +36,6 @@ static Field theta_field(int side)
 
 TEST(a_function_of_theta_has_circles)
 {
-    (void)state;
     enum { SIDE = 301 };
     Field field = theta_field(SIDE);
     for (int deg = 10; deg <= 80; deg += 10) {
@@ -54,7 +53,6 @@ TEST(a_function_of_theta_has_circles)
 /* Every point lies where the bilinear function has the level, whatever the function. */
 TEST(lines_lie_on_their_level)
 {
-    (void)state;
     enum { SIDE = 61 };
     Field field = field_new(SIDE, PI / 2, test_memory());
     for (int i = 0; i < SIDE * SIDE; i++)
@@ -74,7 +72,6 @@ TEST(lines_lie_on_their_level)
 /* No edge with a crossing is left out and none counts twice. */
 TEST(every_crossing_is_on_one_line)
 {
-    (void)state;
     enum { SIDE = 40 };
     float    value[SIDE * SIDE];
     unsigned random = 1;
@@ -97,7 +94,6 @@ TEST(every_crossing_is_on_one_line)
 
 TEST(holes_have_no_lines)
 {
-    (void)state;
     enum { SIDE = 41 };
     Field field = theta_field(SIDE);
     for (int row = 0; row < SIDE; row++)
@@ -112,7 +108,6 @@ TEST(holes_have_no_lines)
 
 TEST(ticks_are_round_inside_and_few)
 {
-    (void)state;
     for (int k = 0; k < 400; k++) {
         double low = -3 + 0.037 * k, high = low + pow(10, -4 + 0.02 * k);
         for (int most = 2; most <= 12; most++) {
@@ -132,7 +127,6 @@ TEST(ticks_are_round_inside_and_few)
 
 TEST(a_unit_range_has_fifths)
 {
-    (void)state;
     Ticks ticks = ticks_linear(0, 1, 6);
     char  text[32];
     assert_int_equal(ticks.count, 6);
@@ -144,7 +138,6 @@ TEST(a_unit_range_has_fifths)
 
 TEST(logarithmic_ticks_are_decades)
 {
-    (void)state;
     Ticks ticks = ticks_log(1e-4, 10, 8);
     int   labelled = 0;
     for (int i = 0; i < ticks.count; i++) {
@@ -167,7 +160,6 @@ TEST(logarithmic_ticks_are_decades)
 
 TEST(figures_have_three_digits)
 {
-    (void)state;
     char text[32];
     assert_string_equal(figure_text(906.4, text), "906");
     assert_string_equal(figure_text(1298, text), "1298");
@@ -180,7 +172,6 @@ TEST(figures_have_three_digits)
 
 TEST(round_numbers_enclose)
 {
-    (void)state;
     for (double v = 1e-5; v < 1e6; v *= 1.37) {
         assert_true(round_up(v) >= v * (1 - 1e-8) && round_up(v) <= 2.5 * v * (1 + 1e-8));
         assert_true(round_down(v) <= v * (1 + 1e-8) && round_down(v) >= v / 2.5 * (1 - 1e-8));
@@ -207,7 +198,6 @@ static double lightness_at(ColourMap map, double t)
 
 TEST(lightness_follows_the_number)
 {
-    (void)state;
     for (int map = 0; map < MAP_COUNT; map++) {
         if (map == MAP_SIGNED) continue;
         double first = lightness_at((ColourMap)map, 0), last = lightness_at((ColourMap)map, 1);
@@ -222,7 +212,6 @@ TEST(lightness_follows_the_number)
 
 TEST(signed_colours_are_even_on_both_sides)
 {
-    (void)state;
     for (int i = 1; i <= 100; i++) {
         double t = i / 200.0;
         assert_true(lightness_at(MAP_SIGNED, t) > lightness_at(MAP_SIGNED, t - 0.005));
@@ -237,7 +226,6 @@ TEST(signed_colours_are_even_on_both_sides)
 
 TEST(light_and_white_have_their_lightness)
 {
-    (void)state;
     assert_near(lightness_from_srgb((double[3]){1, 1, 1}), 100, 1e-9);
     assert_near(lightness_from_srgb((double[3]){0, 0, 0}), 0, 1e-12);
     double grey = 0.46613; /* linear 0.18419: L* 50 */
@@ -300,7 +288,6 @@ static double line_radius(const Picture8 *picture, PolarPlace disc, double phi, 
 
 TEST(the_ring_of_50_degrees_is_at_five_ninths)
 {
-    (void)state;
     Field    field = theta_field(301);
     PolarMap map = {.field = &field, .map = MAP_AMOUNT, .high = 40, .strong = NAN,
                     .level_count = 1, .level = {radians_from_degrees(50)},
@@ -318,7 +305,6 @@ TEST(the_ring_of_50_degrees_is_at_five_ninths)
 
 TEST(what_was_not_measured_is_dimmed_and_hatched)
 {
-    (void)state;
     Field field = field_new(61, PI / 2, test_memory());
     for (int i = 0; i < 61 * 61; i++) field.value[i] = 0.1f;
     PolarMap map = {.field = &field, .map = MAP_AMOUNT, .high = 1, .strong = NAN,
@@ -345,7 +331,6 @@ TEST(what_was_not_measured_is_dimmed_and_hatched)
 
 TEST(a_grid_point_looks_where_it_stands)
 {
-    (void)state;
     Field field = field_new(91, PI / 2, test_memory());
     for (int deg = 0; deg < 360; deg += 30) {
         double column, row, phi = radians_from_degrees(deg);
@@ -362,7 +347,6 @@ TEST(a_grid_point_looks_where_it_stands)
 
 TEST(quantiles_and_ranges_agree)
 {
-    (void)state;
     Field      field = theta_field(101);
     FieldRange range = field_range(&field, radians_from_degrees(45));
     assert_near(range.low, 0, 1e-6);
@@ -375,7 +359,6 @@ TEST(quantiles_and_ranges_agree)
 
 TEST(axes_put_values_where_they_belong)
 {
-    (void)state;
     Picture8 picture = picture_start();
     Chart chart = chart_open(&picture.canvas, (Box){0, 0, SIZE, SIZE},
                              (AxisSpec){.low = -90, .high = 90, .title = "x"},
@@ -392,7 +375,6 @@ TEST(axes_put_values_where_they_belong)
 
 TEST(ids_are_renamed_alike_and_apart)
 {
-    (void)state;
     char text[] = "<?xml version=\"1.0\"?>\n<svg><g id=\"glyph0-1\"/><clipPath id=\"clip7\"/>"
                   "<use xlink:href=\"#glyph0-1\"/><g clip-path=\"url(#clip7)\"/>"
                   "<path d=\"M 1.23456 2.000001 L 3 4.5\"/></svg>";
@@ -406,7 +388,6 @@ TEST(ids_are_renamed_alike_and_apart)
 
 TEST(data_without_spread_have_a_picture)
 {
-    (void)state;
     Picture8 picture = picture_start();
     Field    field = field_new(31, PI / 2, test_memory());
     for (int pass = 0; pass < 3; pass++) {
@@ -422,7 +403,4 @@ TEST(data_without_spread_have_a_picture)
     picture_end(&picture);
 }
 
-int main(void)
-{
-    return run_cases(make_arena, drop_arena);
-}
+TEST_PROGRAM(make_arena, drop_arena)

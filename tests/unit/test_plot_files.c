@@ -168,7 +168,6 @@ static void assert_ids_are_whole(const char *text)
 
 TEST(every_kind_draws_svg)
 {
-    (void)state;
     for (int kind = 0; kind < PLOT_KIND_COUNT; kind++) {
         if (kind == PLOT_FIT || kind == PLOT_UNIFORMITY) continue; /* of other files */
         RUN_OK(ips.panel_path, "-o", fixture_path(&ips, "k.svg"), "--kind",
@@ -183,7 +182,6 @@ TEST(every_kind_draws_svg)
 
 TEST(names_of_kinds_agree_with_the_option)
 {
-    (void)state;
     char names[256] = "";
     for (int kind = 0; kind < PLOT_KIND_COUNT; kind++) {
         if (kind > 0) strcat(names, "|");
@@ -194,7 +192,6 @@ TEST(names_of_kinds_agree_with_the_option)
 
 TEST(png_opens_with_the_size_asked_for)
 {
-    (void)state;
     Error err = {0};
     Image image;
     RUN_OK(ips.panel_path, "-o", fixture_path(&ips, "s.png"), "--size", "801x603", "--kind",
@@ -214,7 +211,6 @@ TEST(png_opens_with_the_size_asked_for)
 
 TEST(the_fit_shows_samples_over_curves)
 {
-    (void)state;
     RUN_OK(ips.panel_path, "-o", fixture_path(&ips, "f.svg"), "--kind", "fit", "--measured",
            fixture_path(&ips, "MANIFEST.json"));
     assert_true(assert_well_formed(
@@ -224,7 +220,6 @@ TEST(the_fit_shows_samples_over_curves)
 
 TEST(the_same_call_writes_the_same_bytes)
 {
-    (void)state;
     static const char *const NAMES[][2] = {
         {"1.svg", "2.svg"}, {"1.png", "2.png"}, {"1.html", "2.html"}};
     Fixture *fixture = &reflects_nothing;
@@ -244,7 +239,6 @@ TEST(the_same_call_writes_the_same_bytes)
 
 TEST(the_report_stands_alone)
 {
-    (void)state;
     RUN_OK(reflects_nothing.panel_path, "--report", fixture_path(&reflects_nothing, "r.html"),
            "--measured", fixture_path(&reflects_nothing, "MANIFEST.json"));
     const char *html = (const char *)read_bytes(fixture_path(&reflects_nothing, "r.html"),
@@ -266,7 +260,6 @@ TEST(the_report_stands_alone)
 /* Both angle brackets inside the script would end up as tags here; it is taken out first. */
 TEST(the_report_is_well_formed)
 {
-    (void)state;
     RUN_OK(ips.panel_path, "--report", fixture_path(&ips, "w.html"));
     char *html = (char *)read_bytes(fixture_path(&ips, "w.html"), &ips.arena).data;
     char *script = strstr(html, "<script>"), *after = strstr(html, "</script>");
@@ -282,7 +275,6 @@ TEST(the_report_is_well_formed)
 
 TEST(a_wrong_command_line_says_what_is_wanted)
 {
-    (void)state;
     Error       err;
     const char *svg = fixture_path(&ips, "e.svg"), *panel = ips.panel_path;
     RUN_FAILS(err, ERROR_USAGE, "luminanz", panel, "-o", svg, "--kind", "luminanz");
@@ -299,7 +291,6 @@ TEST(a_wrong_command_line_says_what_is_wanted)
 
 TEST(what_a_panel_lacks_is_said)
 {
-    (void)state;
     Error       err;
     const char *panel = reflects_nothing.panel_path;
     const char *svg = fixture_path(&reflects_nothing, "e.svg");
@@ -316,7 +307,6 @@ TEST(what_a_panel_lacks_is_said)
 /* A surface that was only lit: paper, a switched-off screen. */
 TEST(a_panel_that_only_reflects_is_drawn)
 {
-    (void)state;
     Error        err = {0};
     json_t      *report = NULL;
     FitOptions   options = fit_options_default();
@@ -350,7 +340,6 @@ static int files_in(const char *folder)
 
 TEST(a_target_that_cannot_be_written_leaves_nothing)
 {
-    (void)state;
     Error err;
     int   before = files_in(ips.folder);
     RUN_FAILS(err, ERROR_OUTPUT, "", ips.panel_path, "-o", fixture_path(&ips, "none/x.png"),
@@ -362,7 +351,4 @@ TEST(a_target_that_cannot_be_written_leaves_nothing)
     assert_int_equal(files_in(ips.folder), before);
 }
 
-int main(void)
-{
-    return run_cases(start, end);
-}
+TEST_PROGRAM(start, end)

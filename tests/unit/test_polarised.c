@@ -26,7 +26,6 @@ static void amplitudes(double cosine, double n, double complex *s, double comple
 
 TEST(the_waves_that_a_face_reflects_are_fresnels)
 {
-    (void)state;
     for (int i = 0; i < INDEX_COUNT; i++)
         for (int k = 1; k <= 200; k++) {
             double cosine = k / 200.0;
@@ -45,7 +44,6 @@ TEST(the_waves_that_a_face_reflects_are_fresnels)
 /* Born and Wolf, 1.5.4 (60): tan(d / 2) = cos i sqrt(sin^2 i - n^2) / sin^2 i. */
 TEST(total_reflection_puts_the_waves_out_of_step)
 {
-    (void)state;
     const double n = 1 / 1.5;
     for (int degrees = 45; degrees < 90; degrees += 5) {
         double angle = degrees * PI / 180, sine2 = sin(angle) * sin(angle);
@@ -62,7 +60,6 @@ TEST(total_reflection_puts_the_waves_out_of_step)
 /* As grazing as floats go, at every index: shares, and numbers. */
 TEST(waves_at_the_horizon_are_numbers)
 {
-    (void)state;
     const float all[] = {0, 0.5f, 0.999999f, 1, 1.000001f, 1.5f, 2.5f};
     for (int i = 0; i < COUNT_OF(all); i++)
         for (float cosine = 1; cosine > 1e-30f; cosine *= 0.7f) {
@@ -79,7 +76,6 @@ TEST(waves_at_the_horizon_are_numbers)
 /* R = 2r / (1 + r) of each, at 1.52. */
 TEST(a_sheet_reflects_each_polarisation_by_itself)
 {
-    (void)state;
     static const double table[][3] = {{45, 0.1764, 0.0185}, {56.66, 0.2709, 0},
                                       {62, 0.3366, 0.0086}, {65, 0.3815, 0.0243},
                                       {70, 0.4708, 0.0798}};
@@ -114,7 +110,6 @@ static float through_glasses(const PolarisedEye *eye, Vec3 direction,
 /* Straight ahead, 1 / 2 (1 + e) of unpolarised light and cos^2 + e sin^2 of polarised light. */
 TEST(glasses_let_through_what_malus_says)
 {
-    (void)state;
     for (int axis = -90; axis <= 90; axis += 15)
         for (int light = 0; light <= 90; light += 15)
             for (float blocks = 0; blocks <= 0.1f; blocks += 0.05f) {
@@ -132,7 +127,6 @@ TEST(glasses_let_through_what_malus_says)
 /* Off their axis two polarisers cross where their absorption axes do as the ray meets them. */
 TEST(glasses_met_at_an_angle_count_their_absorption_axis)
 {
-    (void)state;
     for (int axis = 0; axis <= 90; axis += 15)
         for (int i = 0; i < 12; i++) {
             float polar = 0.1f * (float)i, azimuth = 0.7f * (float)i;
@@ -240,7 +234,6 @@ static float counted_by(Frame world, uint32_t index)
 /* Next to the critical angle a reflectance's slope has no bound: there rounding shows. */
 TEST(turning_the_world_and_the_eye_together_changes_nothing)
 {
-    (void)state;
     Frame upright = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     Vec3  z = vec3_normalize(vec3(0.3f, -0.5f, 0.8f));
     Vec3  x = vec3_normalize(vec3_cross(vec3(0.2f, 0.9f, 0.1f), z));
@@ -261,7 +254,6 @@ TEST(turning_the_world_and_the_eye_together_changes_nothing)
 /* S1^2 + S2^2 + S3^2 <= S0^2 of any light after any chain. */
 TEST(no_chain_makes_light_more_than_wholly_polarised)
 {
-    (void)state;
     Frame  upright = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     double worst = 0, mean = 0;
     const uint32_t count = 400000; /* of 16 lanes and more than one light each */
@@ -286,7 +278,4 @@ TEST(no_chain_makes_light_more_than_wholly_polarised)
     assert_true(mean / (25.0 * count) > 0.3); /* chains do polarise */
 }
 
-int main(void)
-{
-    return run_cases(NULL, NULL);
-}
+TEST_PROGRAM(NULL, NULL)

@@ -228,7 +228,4 @@ TEST(what_is_not_there_is_told_with_what_is)
     assert_null(profile);
 }
 
-int main(void)
-{
-    return run_cases(make_folder, clear_folder);
-}
+TEST_PROGRAM(make_folder, clear_folder)

@@ -11,7 +11,6 @@ static Progress shown(double total)
 
 TEST(a_part_counts_as_its_weight)
 {
-    (void)state;
     Progress all = shown(10);
     Progress first = progress_part(&all, 4, 8);
     progress_update(&first, 2);
@@ -34,7 +33,6 @@ TEST(a_part_counts_as_its_weight)
 /* Who finds more to do than was thought goes on more slowly, not back. */
 TEST(a_part_that_grows_does_not_run_back)
 {
-    (void)state;
     Progress all = shown(10);
     Progress part = progress_part(&all, 10, 4);
     progress_update(&part, 3);
@@ -48,7 +46,4 @@ TEST(a_part_that_grows_does_not_run_back)
     assert_near(all.done, 10, 1e-12);
 }
 
-int main(void)
-{
-    return run_cases(NULL, NULL);
-}
+TEST_PROGRAM(NULL, NULL)

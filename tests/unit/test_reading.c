@@ -55,7 +55,6 @@ static double converged(const World *world)
 /* At fixed paths 93 to 97 % of many runs; of 400 the standard deviation is 1.1 %. */
 TEST(intervals_hold_the_converged_reading)
 {
-    (void)state;
     World       world = closed_ball();
     ReadingGoal goal = {.precision = 1e-9, .most = READING_LEAST};
     double      truth = converged(&world);
@@ -89,7 +88,6 @@ static Reading read_against(const World *world, uint32_t seed, double limit)
 
 TEST(paths_go_where_the_answer_is_not_clear)
 {
-    (void)state;
     World   world = closed_ball();
     double  truth = converged(&world);
     Reading far = read_against(&world, 5, 3 * truth), near = read_against(&world, 5, truth);
@@ -105,7 +103,6 @@ TEST(paths_go_where_the_answer_is_not_clear)
  * 1.1 %. */
 TEST(intervals_of_what_a_question_ends_hold_as_often)
 {
-    (void)state;
     World  world = closed_ball();
     double truth = converged(&world);
     static const double LIMITS[] = {0.9, 0.97, 1.01, 1.05, 1.3};
@@ -143,7 +140,6 @@ static bool is_clear_with_scratch(void *user, MeanInterval in, Arena scratch)
 
 TEST(an_askers_scratch_is_not_the_readings)
 {
-    (void)state;
     World           world = closed_ball();
     double          limit = converged(&world);
     ReadingQuestion question = {is_clear_of, &limit, 0.05, "limit"}, other = question;
@@ -160,7 +156,6 @@ TEST(an_askers_scratch_is_not_the_readings)
 /* Never more paths than without: a question ends a reading, it does not prolong it. */
 TEST(a_question_costs_no_paths)
 {
-    (void)state;
     World       world = closed_ball();
     double      truth = converged(&world);
     long        paths = read_against(&world, 6, truth).paths; /* that nothing decides */
@@ -171,7 +166,6 @@ TEST(a_question_costs_no_paths)
 
 TEST(readings_are_the_same_for_any_threads)
 {
-    (void)state;
     World        world = closed_ball();
     ReadingGoal  goal = {.precision = 0.02, .most = 1 << 14};
     ReadingTools one = with_threads(1), five = with_threads(5);
@@ -182,7 +176,4 @@ TEST(readings_are_the_same_for_any_threads)
     world_end(&world);
 }
 
-int main(void)
-{
-    return run_cases(NULL, NULL);
-}
+TEST_PROGRAM(NULL, NULL)

@@ -105,7 +105,6 @@ static Reading scaled(const ProbeAim *aim, const ReadingGoal *goal, const double
 
 TEST(who_tells_displays_apart_tells_the_same)
 {
-    (void)state;
     enum { PATHS = 2048 };
     static ProbeLook plain[PATHS], apart[PATHS];
     World          world = room();
@@ -139,7 +138,6 @@ TEST(who_tells_displays_apart_tells_the_same)
 
 TEST(a_scale_of_one_is_the_reading_and_light_is_linear)
 {
-    (void)state;
     static const double SCALE[4][2] = {{0, 0}, {1, 1}, {2, 2}, {1, 3}};
     World        world = room();
     Journal     *journal = open_journal(&world);
@@ -168,7 +166,6 @@ TEST(a_scale_of_one_is_the_reading_and_light_is_linear)
 /* Against a long reading under those levels, made for them. */
 TEST(intervals_under_other_levels_hold_the_converged_reading)
 {
-    (void)state;
     static const double LEVELS[2] = {0.5, 3};
     ReadingGoal  longer = {.precision = 1e-9, .most = 1 << 19};
     World        world = room(), other = room();
@@ -208,7 +205,6 @@ static bool is_clear_of(void *user, MeanInterval in, Arena scratch)
 /* Far from the limit few paths do; scaled to it they are too few. */
 TEST(who_takes_more_paths_is_not_told)
 {
-    (void)state;
     static const double SCALE[2] = {0.2, 0.2};
     double          limit = 0;
     World           world = room();
@@ -234,7 +230,6 @@ TEST(who_takes_more_paths_is_not_told)
 /* Who asks for the first time whether it is shared is told the same as before. */
 TEST(a_reading_that_was_kept_before_is_shared_later)
 {
-    (void)state;
     static const double SCALE[2] = {2, 2};
     World        world = room();
     Journal     *journal = open_journal(&world);
@@ -265,7 +260,6 @@ static const Lights *changed(World *world, const double then[2], const double no
 
 TEST(emitters_are_sorted_again_where_a_display_changes_four_times)
 {
-    (void)state;
     static const struct {
         double then[2], now[2];
         bool   is_again;
@@ -284,7 +278,6 @@ TEST(emitters_are_sorted_again_where_a_display_changes_four_times)
 /* Which emitters are chosen how often is no part of the light: both say the same of it. */
 TEST(emitters_of_other_levels_tell_the_same_light)
 {
-    (void)state;
     static const double ONE[2] = {1, 1}, LEVELS[2] = {0.25, 4}, FAR[2] = {8, 0.05};
     ReadingGoal  longer = {.precision = 1e-9, .most = 1 << 17};
     World        world = room();
@@ -307,7 +300,4 @@ TEST(emitters_of_other_levels_tell_the_same_light)
     world_end(&world);
 }
 
-int main(void)
-{
-    return run_cases(make_folder, clear_folder);
-}
+TEST_PROGRAM(make_folder, clear_folder)

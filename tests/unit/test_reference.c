@@ -81,7 +81,6 @@ TEST(the_folder_may_be_unnamed)
 
 TEST(a_root_must_be_a_folder)
 {
-    (void)state;
     Error err = {0};
     assert_true(reference_check_root(NULL, &err));
     assert_true(reference_check_root(in_folder("secret"), &err));
@@ -94,7 +93,6 @@ TEST(a_root_must_be_a_folder)
 
 TEST(an_output_is_looked_at_first)
 {
-    (void)state;
     Error err = {0};
     assert_true(file_check_writable(in_folder("new"), &err));
     assert_int_equal(access(in_folder("new"), F_OK), -1); /* nothing is left */
@@ -133,7 +131,4 @@ TEST(an_arena_leaves_room)
     assert_int_equal(status, 0);
 }
 
-int main(void)
-{
-    return run_cases(make_tree, clear_folder);
-}
+TEST_PROGRAM(make_tree, clear_folder)

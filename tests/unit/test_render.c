@@ -16,11 +16,59 @@
 #include "render/render.h"
 #include "render/signals.h"
 
+/* ---- signals ----------------------------------------------------------------------------- */
+
+/* The thread sanitizer delivers a signal at the next call that may block. */
+static void raise_and_wait(int number)
+{
+    raise(number);
+    usleep(1000);
+}
+
+/* The life of a process that is interrupted twice: `test_render raise NUMBER`. */
+static int raise_twice(int number)
+{
+    signals_watch();
+    if (signals_stop_requested()) return 1;
+    raise_and_wait(number);
+    if (signals_stop_requested() != number) return 2;
+    raise_and_wait(number);
+    return 3;
+}
+
+/* A program of its own: the thread sanitizer loses signals between fork and exec. The first
+ * case, for it wants a fork before any thread, too. */
+TEST(the_first_interrupt_asks_and_the_second_ends)
+{
+    static const int numbers[] = {SIGINT, SIGTERM};
+    for (int i = 0; i < 2; i++) {
+        char  text[16];
+        snprintf(text, sizeof text, "%d", numbers[i]);
+        pid_t child = fork();
+        if (child == 0) {
+            execl("/proc/self/exe", "test_render", "raise", text, (char *)NULL);
+            _exit(4);
+        }
+        int status;
+        assert_int_equal(waitpid(child, &status, 0), child);
+        assert_true(WIFEXITED(status));
+        assert_int_equal(WEXITSTATUS(status), 128 + numbers[i]);
+    }
+}
+
+TEST(a_snapshot_is_taken_once)
+{
+    signals_watch();
+    assert_false(signals_take_snapshot());
+    raise_and_wait(SIGUSR1);
+    assert_true(signals_take_snapshot());
+    assert_false(signals_take_snapshot());
+}
+
 /* ---- tiles and passes -------------------------------------------------------------------- */
 
-static void tiles_cover_every_pixel_of_the_crop_once(void **state)
+TEST(tiles_cover_every_pixel_of_the_crop_once)
 {
-    (void)state;
     static const FilmRect crops[] = {
         {0, 0, 1, 1}, {0, 0, 64, 48}, {5, 7, 86, 60}, {3, 2, 19, 18}};
     for (size_t c = 0; c < sizeof crops / sizeof *crops; c++) {
@@ -39,9 +87,8 @@ static void tiles_cover_every_pixel_of_the_crop_once(void **state)
     }
 }
 
-static void passes_double_and_then_stay(void **state)
+TEST(passes_double_and_then_stay)
 {
-    (void)state;
     static const uint32_t wanted[] = {1, 1, 2, 4, 8, 16, 16, 16, 16, 16};
     uint32_t              done = 0;
     for (int i = 0; i < 10; i++) {
@@ -53,9 +100,8 @@ static void passes_double_and_then_stay(void **state)
 }
 
 /* Noise whose measured error is all there is from the first pass on: the first answer stays. */
-static void honest_noise_is_foretold_at_once(void **state)
+TEST(honest_noise_is_foretold_at_once)
 {
-    (void)state;
     Forecast forecast = {0};
     for (uint32_t done = 2; done <= 192; done += render_pass_samples(done, 4096))
         assert_true(fabs(forecast_samples(&forecast, done, sqrt(190.0 / done)) - 190) < 1e-9);
@@ -63,9 +109,8 @@ static void honest_noise_is_foretold_at_once(void **state)
 
 /* Rare light that is found late: the wanted samples grow by 40 % with the first doubling, and
  * by 0.6 of that with each further one. */
-static void noise_that_grows_is_foretold(void **state)
+TEST(noise_that_grows_is_foretold)
 {
-    (void)state;
     Forecast forecast = {0};
     double   wanted[9] = {0, 100};
     for (int k = 2; k <= 8; k++) wanted[k] = wanted[k - 1] * (1 + 0.4 * pow(0.6, k - 2));
@@ -76,9 +121,8 @@ static void noise_that_grows_is_foretold(void **state)
     }
 }
 
-static void forecasts_of_nothing_and_of_no_end(void **state)
+TEST(forecasts_of_nothing_and_of_no_end)
 {
-    (void)state;
     Forecast forecast = {0};
     assert_true(isinf(forecast_samples(&forecast, 4, (double)NAN)));
     assert_true(isinf(forecast_samples(&forecast, 4, (double)INFINITY)));
@@ -86,9 +130,8 @@ static void forecasts_of_nothing_and_of_no_end(void **state)
 }
 
 /* A render that goes on from any number of samples decides where one that began decides. */
-static void passes_end_at_the_same_samples_wherever_one_begins(void **state)
+TEST(passes_end_at_the_same_samples_wherever_one_begins)
 {
-    (void)state;
     static const size_t pixels[] = {1, 4096, 600000, (size_t)1280 * 720, (size_t)1 << 23};
     for (size_t p = 0; p < sizeof pixels / sizeof *pixels; p++) {
         uint32_t end = 0;
@@ -121,9 +164,8 @@ static void count_item(void *context, int item, int worker)
     atomic_fetch_sub(&counting->busy[worker], 1);
 }
 
-static void every_item_is_done_once_for_any_number_of_threads(void **state)
+TEST(every_item_is_done_once_for_any_number_of_threads)
 {
-    (void)state;
     static const int threads[] = {1, 2, 3, 16, 200};
     for (size_t t = 0; t < sizeof threads / sizeof *threads; t++) {
         Counting *counting = calloc(1, sizeof *counting);
@@ -142,9 +184,8 @@ static bool fails_at(void *context, int item, Error *err)
     return item % 10 != 7 || error_set(err, ERROR_OUTPUT, "of %d", item);
 }
 
-static void the_first_item_that_fails_is_told_when_all_are_done(void **state)
+TEST(the_first_item_that_fails_is_told_when_all_are_done)
 {
-    (void)state;
     Arena arena = arena_reserve(1 << 20);
     for (int threads = 1; threads < 4; threads++) {
         Counting *counting = calloc(1, sizeof *counting);
@@ -160,63 +201,12 @@ static void the_first_item_that_fails_is_told_when_all_are_done(void **state)
     arena_release(&arena);
 }
 
-static void no_items_is_no_work(void **state)
+TEST(no_items_is_no_work)
 {
-    (void)state;
     Counting counting = {.threads = 4};
     parallel_for(4, 0, count_item, &counting);
     assert_int_equal(counting.items[0], 0);
     assert_in_range(parallel_default_threads(), 1, PARALLEL_THREADS_MAX);
-}
-
-/* ---- signals ----------------------------------------------------------------------------- */
-
-/* The thread sanitizer delivers a signal at the next call that may block. */
-static void raise_and_wait(int number)
-{
-    raise(number);
-    usleep(1000);
-}
-
-/* The life of a process that is interrupted twice: `test_render raise NUMBER`. */
-static int raise_twice(int number)
-{
-    signals_watch();
-    if (signals_stop_requested()) return 1;
-    raise_and_wait(number);
-    if (signals_stop_requested() != number) return 2;
-    raise_and_wait(number);
-    return 3;
-}
-
-/* A program of its own: the thread sanitizer loses signals between fork and exec. */
-static void the_first_interrupt_asks_and_the_second_ends(void **state)
-{
-    (void)state;
-    static const int numbers[] = {SIGINT, SIGTERM};
-    for (int i = 0; i < 2; i++) {
-        char  text[16];
-        snprintf(text, sizeof text, "%d", numbers[i]);
-        pid_t child = fork();
-        if (child == 0) {
-            execl("/proc/self/exe", "test_render", "raise", text, (char *)NULL);
-            _exit(4);
-        }
-        int status;
-        assert_int_equal(waitpid(child, &status, 0), child);
-        assert_true(WIFEXITED(status));
-        assert_int_equal(WEXITSTATUS(status), 128 + numbers[i]);
-    }
-}
-
-static void a_snapshot_is_taken_once(void **state)
-{
-    (void)state;
-    signals_watch();
-    assert_false(signals_take_snapshot());
-    raise_and_wait(SIGUSR1);
-    assert_true(signals_take_snapshot());
-    assert_false(signals_take_snapshot());
 }
 
 /* ---- progress ---------------------------------------------------------------------------- */
@@ -258,9 +248,8 @@ static void progress_output(ProgressMode mode, char *text, size_t size)
     release_stderr(held, text, size);
 }
 
-static void progress_shows_percent_rate_elapsed_and_remaining(void **state)
+TEST(progress_shows_percent_rate_elapsed_and_remaining)
 {
-    (void)state;
     char text[2048];
     progress_output(PROGRESS_AUTO, text, sizeof text);
     assert_string_equal(text,
@@ -273,9 +262,8 @@ static void progress_shows_percent_rate_elapsed_and_remaining(void **state)
     assert_string_equal(text, "");
 }
 
-static void what_was_done_before_counts_for_the_share_alone(void **state)
+TEST(what_was_done_before_counts_for_the_share_alone)
 {
-    (void)state;
     char     text[512];
     Held     held = hold_stderr();
     Progress progress = progress_start(PROGRESS_PLAIN, "render", "samples", 200);
@@ -287,9 +275,8 @@ static void what_was_done_before_counts_for_the_share_alone(void **state)
                         "parhelion: render 75%, 5 samples/s, 0:10 elapsed, 0:10 left\n");
 }
 
-static void json_progress_is_one_object_a_line(void **state)
+TEST(json_progress_is_one_object_a_line)
 {
-    (void)state;
     char text[2048];
     progress_output(PROGRESS_JSON, text, sizeof text);
     assert_non_null(strstr(text, "{\"progress\":{\"what\":\"render\",\"unit\":\"samples\","
@@ -297,9 +284,8 @@ static void json_progress_is_one_object_a_line(void **state)
     assert_non_null(strstr(text, "\"elapsed_s\":10.0,\"remaining_s\":30.0}}\n"));
 }
 
-static void rates_have_three_digits(void **state)
+TEST(rates_have_three_digits)
 {
-    (void)state;
     char text[32];
     rate_text(950, text, (int)sizeof text);
     assert_string_equal(text, "950 ");
@@ -312,23 +298,5 @@ static void rates_have_three_digits(void **state)
 int main(int argc, char **argv)
 {
     if (argc == 3 && !strcmp(argv[1], "raise")) return raise_twice(atoi(argv[2]));
-    const struct CMUnitTest tests[] = {
-        /* first: the thread sanitizer wants a fork before any thread */
-        cmocka_unit_test(the_first_interrupt_asks_and_the_second_ends),
-        cmocka_unit_test(tiles_cover_every_pixel_of_the_crop_once),
-        cmocka_unit_test(passes_double_and_then_stay),
-        cmocka_unit_test(passes_end_at_the_same_samples_wherever_one_begins),
-        cmocka_unit_test(honest_noise_is_foretold_at_once),
-        cmocka_unit_test(noise_that_grows_is_foretold),
-        cmocka_unit_test(forecasts_of_nothing_and_of_no_end),
-        cmocka_unit_test(every_item_is_done_once_for_any_number_of_threads),
-        cmocka_unit_test(the_first_item_that_fails_is_told_when_all_are_done),
-        cmocka_unit_test(no_items_is_no_work),
-        cmocka_unit_test(a_snapshot_is_taken_once),
-        cmocka_unit_test(progress_shows_percent_rate_elapsed_and_remaining),
-        cmocka_unit_test(what_was_done_before_counts_for_the_share_alone),
-        cmocka_unit_test(json_progress_is_one_object_a_line),
-        cmocka_unit_test(rates_have_three_digits),
-    };
-    return cmocka_run_group_tests_name("render", tests, NULL, NULL);
+    return run_cases(NULL, NULL);
 }

@@ -105,7 +105,6 @@ static double uniform_reading(const Response *response, const float bands[LIGHT_
 
 TEST(bands_add_up_to_the_luminance)
 {
-    (void)state;
     float  bands[LIGHT_BANDS];
     double sum = 0;
     d65_bands(bands);
@@ -115,7 +114,6 @@ TEST(bands_add_up_to_the_luminance)
 
 TEST(a_luxmeter_in_the_open_responds_with_pi)
 {
-    (void)state;
     World world = world_start();
     builder_part(world.scene, builder_material(0));
     builder_quad(world.scene, vec3(0, -100, 0), vec3(1, 0, 0), vec3(0, 0, -1));
@@ -174,7 +172,6 @@ static void check_under_a_uniform_sky(World world)
 
 TEST(a_response_to_a_uniform_sky_is_what_paths_find_under_it)
 {
-    (void)state;
     check_under_a_uniform_sky(niche());
     check_under_a_uniform_sky(mirrored_niche());
 }
@@ -209,7 +206,6 @@ static void set_sun(World *world, Vec3 towards)
 
 TEST(a_response_to_a_sun_is_what_paths_find_under_it)
 {
-    (void)state;
     World world = niche();
     Vec3  suns[64];
     int   count = suns_about(suns);
@@ -280,7 +276,6 @@ static double mirror_sum(const Panel *panel, float cosine)
  * anywhere, also between the tiles' middles, which lie further apart than the disc is wide. */
 TEST(a_sun_in_a_display_is_as_bright_as_its_mirror_says)
 {
-    (void)state;
     enum { SUNS = 24 };
     World world = world_start();
     Vec3  middles[TILES * TILES], suns[SUNS], at[SUNS];
@@ -318,7 +313,6 @@ TEST(a_sun_in_a_display_is_as_bright_as_its_mirror_says)
 /* The sun in a tile of 20 x 10 mm: by luck, and as what is known of it beside all else. */
 TEST(a_reading_knows_of_the_sun_in_a_display)
 {
-    (void)state;
     World      world = world_start();
     Vec3       at = vec3(0.02f, 0.01f, 0), to = vec3_normalize(vec3_sub(at, eye)), towards;
     ProbePatch patch = {vec3(0.02f, 0, 0), vec3(0, -0.01f, 0)};
@@ -366,7 +360,6 @@ static Environment clear_sky(double azimuth_deg, double elevation_deg, float lux
 
 TEST(a_response_to_a_clear_sky_is_what_paths_find_under_it)
 {
-    (void)state;
     static const SunAngles suns[] = {{270, 33}, {180, 30}, {0, 36}, {90, 30}};
     static const ReviewRequest request = {.forward = {0, 0, -1}};
     World world = niche();
@@ -419,7 +412,6 @@ static Vec3 *suns_all_round(Arena *arena)
 
 TEST(a_response_reaches_all_suns_that_light_it)
 {
-    (void)state;
     World world = niche();
     int   left = 0, lit = 0;
     world_ready(&world, 8);
@@ -445,7 +437,6 @@ TEST(a_response_reaches_all_suns_that_light_it)
 
 TEST(an_even_response_is_the_same_for_suns_anywhere)
 {
-    (void)state;
     World    world = niche();
     float    bands[LIGHT_BANDS];
     uint32_t random = 1;
@@ -472,7 +463,6 @@ TEST(an_even_response_is_the_same_for_suns_anywhere)
 /* As many samples alike, and one that is all of the light. */
 TEST(a_sun_tells_the_samples_it_is_made_of)
 {
-    (void)state;
     World world = niche();
     float bands[LIGHT_BANDS];
     world_ready(&world, 4);
@@ -507,7 +497,6 @@ TEST(a_sun_tells_the_samples_it_is_made_of)
 /* So that what is kept of one asking is what another would find. */
 TEST(a_sun_is_answered_alike_beside_any_others)
 {
-    (void)state;
     World world = niche();
     world_ready(&world, 8);
     ProbeAim  aim = aim_of(&world);
@@ -533,7 +522,6 @@ TEST(a_sun_is_answered_alike_beside_any_others)
 
 TEST(responses_are_the_same_for_any_threads)
 {
-    (void)state;
     World world = niche();
     world_ready(&world, 64);
     ProbeAim  aim = aim_of(&world);
@@ -562,7 +550,6 @@ static void on_light(void *user, const PathHistory *history, const float xyz[3])
 
 TEST(what_a_listener_hears_adds_up_to_the_light)
 {
-    (void)state;
     World world = niche();
     set_uniform_sky(&world);
     world.scene->displays[0].level = 1;
@@ -581,7 +568,4 @@ TEST(what_a_listener_hears_adds_up_to_the_light)
     world_end(&world);
 }
 
-int main(void)
-{
-    return run_cases(NULL, NULL);
-}
+TEST_PROGRAM(NULL, NULL)

@@ -132,7 +132,4 @@ TEST(another_question_is_told_by_what_differs)
                         "is the response of something else: eye: 0 1 2 there, 0 1 3 here");
 }
 
-int main(void)
-{
-    return run_cases(start, clear_folder);
-}
+TEST_PROGRAM(start, clear_folder)

@@ -317,7 +317,4 @@ TEST(shipped_reviews_fit_their_scenes)
     }
 }
 
-int main(void)
-{
-    return run_cases(start, clear_folder);
-}
+TEST_PROGRAM(start, clear_folder)

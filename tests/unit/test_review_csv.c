@@ -111,7 +111,6 @@ static void assert_gaze_csv_says(const Review *review)
 
 TEST(gazes_are_a_table_too)
 {
-    (void)state;
     Review odd = fixture_odd_review(&arena), plain = fixture_review(&arena), none = {0};
     assert_gaze_csv_says(&odd);
     assert_gaze_csv_says(&plain);
@@ -120,7 +119,6 @@ TEST(gazes_are_a_table_too)
 
 TEST(csv_says_the_same)
 {
-    (void)state;
     Review odd = fixture_odd_review(&arena), plain = fixture_review(&arena), none = {0};
     assert_csv_says(&odd);
     assert_csv_says(&plain);
@@ -129,7 +127,6 @@ TEST(csv_says_the_same)
 
 TEST(csv_tells_every_false_sun)
 {
-    (void)state;
     Review reviews[] = {fixture_odd_review(&arena), fixture_review(&arena)};
     const char *cell[CSV_COLUMNS];
     int count = 0;

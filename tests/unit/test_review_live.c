@@ -284,7 +284,4 @@ TEST(an_eye_keeps_the_light)
     assert_true(split.displays.rgb[1][39] > 0 && split.displays.rgb[1][10] < 40);
 }
 
-int main(void)
-{
-    return run_cases(make_arena, drop_arena);
-}
+TEST_PROGRAM(make_arena, drop_arena)

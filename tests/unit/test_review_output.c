@@ -243,7 +243,6 @@ static void assert_same_review(const Review *a, const Review *b)
 /* Read back it is the same to six digits, and written again the same to the byte. */
 TEST(json_is_read_back)
 {
-    (void)state;
     Review reviews[] = {fixture_review(&arena), fixture_odd_review(&arena),
                         {.title = "", .pass = true}};
     for (size_t i = 0; i < sizeof reviews / sizeof *reviews; i++) {
@@ -257,7 +256,6 @@ TEST(json_is_read_back)
 /* Reached or not: what paths did not do stands beside what was asked. */
 TEST(a_precision_that_was_not_reached_is_named)
 {
-    (void)state;
     ReviewCase c = {.precision_asked = 0.01, .precision_reached = 0.0234};
     assert_string_equal(words_precision(&c, &arena), "; known within 2.3 %, 1.0 % was asked");
     c.precision_reached = 0.01;
@@ -269,7 +267,6 @@ TEST(a_precision_that_was_not_reached_is_named)
 /* Scripts hold on to these keys. */
 TEST(json_has_the_promised_keys)
 {
-    (void)state;
     static const char *const KEYS[] = {
         "condition", "eye", "symbol", "display", "ambient", "sun", "luminance_cd_m2",
         "contrast_ratio", "contrast_interval", "reflected_interval", "paths_to_decide",
@@ -313,7 +310,6 @@ static void assert_refused(const char *from, const char *to, const char *path, c
 
 TEST(a_foreign_json_is_refused_in_one_line)
 {
-    (void)state;
     assert_refused("\"pass\": false", "\"pass\": 1", "/pass", "wanted true or false");
     assert_refused("\"strict\": false,", "", "", "key 'strict' is missing");
     assert_refused("\"ambient\": \"night\"", "\"ambient\": \"nigth\"", "/cases/0/ambient",
@@ -371,7 +367,6 @@ static int assert_keys_are_wanted(json_t *root, json_t *object)
 
 TEST(every_key_is_wanted)
 {
-    (void)state;
     Review  review = fixture_review(&arena);
     json_t *root = review_json(&review);
     json_t *c = json_array_get(json_object_get(root, "cases"), 2);
@@ -428,7 +423,6 @@ static void assert_junit(const Review *review, int failures, int skipped)
 
 TEST(junit_has_a_case_for_each)
 {
-    (void)state;
     Review       odd = fixture_odd_review(&arena), plain = fixture_review(&arena), none = {0};
     ReviewCounts counts = review_count(&plain);
     int doubtful = counts.of[VERDICT_TOO_CLOSE] + counts.of[VERDICT_NOT_VISIBLE];
@@ -449,7 +443,6 @@ static ReviewCase case_with(Verdict verdict, double margin)
 
 TEST(a_review_passes_when_nothing_fails)
 {
-    (void)state;
     static const bool PASSES[2][4] = {{true, false, true, true}, {true, false, false, false}};
     for (int strict = 0; strict < 2; strict++)
         for (int verdict = 0; verdict < 4; verdict++) {
@@ -471,7 +464,6 @@ TEST(a_review_passes_when_nothing_fails)
 
 TEST(the_worst_comes_first)
 {
-    (void)state;
     ReviewCase list[] = {
         case_with(VERDICT_PASS, NAN),  case_with(VERDICT_PASS, 0.1),
         case_with(VERDICT_TOO_CLOSE, 0.0), case_with(VERDICT_NOT_VISIBLE, NAN),
@@ -492,7 +484,6 @@ TEST(the_worst_comes_first)
 /* Advice and what is not measured may say worse than the case, and are not its reason. */
 TEST(the_reason_is_a_limit_that_counts)
 {
-    (void)state;
     LimitVerdict limits[] = {
         {.name = "a", .verdict = VERDICT_PASS, .margin = 0.1},
         {.name = "b", .verdict = VERDICT_FAIL, .margin = -0.5, .is_advice = true},
@@ -512,7 +503,6 @@ TEST(the_reason_is_a_limit_that_counts)
 
 TEST(a_review_differs_from_itself_in_nothing)
 {
-    (void)state;
     Review     review = fixture_review(&arena);
     ReviewDiff diff = review_diff(&review, &review, "a", "b", &arena);
     assert_int_equal(diff.case_count, review.case_count);
@@ -522,7 +512,6 @@ TEST(a_review_differs_from_itself_in_nothing)
 
 TEST(gazes_differ_by_the_contrast_that_is_left)
 {
-    (void)state;
     static const DiffKind KINDS[] = {DIFF_WORSE, DIFF_SAME, DIFF_NEW, DIFF_GONE};
     Review before = fixture_review(&arena), after = fixture_review(&arena);
     after.gazes[0].contrast_range.high = before.gazes[0].contrast_range.low * 0.999;
@@ -540,7 +529,6 @@ TEST(gazes_differ_by_the_contrast_that_is_left)
 
 TEST(differences_are_named_and_come_first)
 {
-    (void)state;
     Review before = fixture_review(&arena), after = fixture_review(&arena);
     static const DiffKind KINDS[] = {DIFF_BROKEN, DIFF_MENDED, DIFF_WORSE, DIFF_BETTER,
                                      DIFF_GONE, DIFF_NEW};
@@ -567,7 +555,6 @@ TEST(differences_are_named_and_come_first)
 
 TEST(differences_as_json)
 {
-    (void)state;
     Review before = fixture_review(&arena), after = fixture_review(&arena);
     after.cases[3].contrast_ratio *= 2;
     after.cases[3].contrast_low *= 2;

@@ -120,7 +120,6 @@ static const char *full_page(const Review *review)
 
 TEST(a_page_is_well_formed_whatever_the_names_are)
 {
-    (void)state;
     static const char *const NOT_NUMBERS[] = {">nan", "\"nan", "nan%", "nan "};
     Review reviews[] = {fixture_odd_review(&arena), fixture_review(&arena)};
     for (int i = 0; i < 2; i++) {
@@ -135,7 +134,6 @@ TEST(a_page_is_well_formed_whatever_the_names_are)
 
 TEST(a_page_of_nothing_says_so)
 {
-    (void)state;
     Review      none = {.pass = true};
     const char *page = page_of(&(ReviewPage){.review = &none});
     assert_well_formed(page);
@@ -146,7 +144,6 @@ TEST(a_page_of_nothing_says_so)
 
 TEST(a_page_holds_every_case)
 {
-    (void)state;
     enum { CASES = 200 };
     Review one = fixture_review(&arena), many = one;
     many.cases = ARENA_NEW(&arena, ReviewCase, CASES);
@@ -191,7 +188,6 @@ static const char *summary_of(const Review *review, const char *symbol)
 
 TEST(many_cases_take_two_pages)
 {
-    (void)state;
     enum { CASES = 9, HERE = 4 };
     Review review = fixture_review(&arena), both;
     ReviewCase *cases = ARENA_NEW(&arena, ReviewCase, CASES);
@@ -234,7 +230,6 @@ TEST(many_cases_take_two_pages)
 /* Behind a table that leads to each. What fails is open, what passes lies in a fold. */
 TEST(sweeps_that_fail_come_first)
 {
-    (void)state;
     Review review = fixture_review(&arena);
     review.sweeps[0].failed_share = 0;
     review.sweeps[0].worst.verdict = VERDICT_PASS;
@@ -257,7 +252,6 @@ TEST(sweeps_that_fail_come_first)
 /* Top: the answer, the worst symbol, when, why; the limit that nobody read is marked. */
 TEST(the_first_screen_says_it_all)
 {
-    (void)state;
     Review            review = fixture_review(&arena);
     const ReviewCase *worst = review_worst(&review, arena);
     const char       *page = page_of(&(ReviewPage){.review = &review});
@@ -276,7 +270,6 @@ TEST(the_first_screen_says_it_all)
 
 TEST(the_worst_gaze_comes_first)
 {
-    (void)state;
     Review      review = fixture_review(&arena);
     const char *page = page_of(&(ReviewPage){.review = &review});
     const char *worst = strstr(page, "Worst: driver, looking at road");
@@ -293,7 +286,6 @@ TEST(the_worst_gaze_comes_first)
 
 TEST(what_changed_is_on_the_page)
 {
-    (void)state;
     Review     before = fixture_review(&arena), after = fixture_review(&arena);
     after.cases[3].contrast_ratio = 77.5;
     after.cases[3].contrast_low = after.cases[3].contrast_high = 77.5;
@@ -309,7 +301,6 @@ TEST(what_changed_is_on_the_page)
 
 TEST(a_page_that_cannot_be_written_is_an_error)
 {
-    (void)state;
     Error  err = {0};
     Review none = {0};
     assert_false(review_page_write(&(ReviewPage){.review = &none}, "/nowhere/at/all", &err));
@@ -331,7 +322,6 @@ static double attribute_of(const char *svg, const char *class, const char *name)
  * end over the mark is the contrast over the limit. */
 TEST(the_bright_bar_reaches_the_mark_when_contrast_does)
 {
-    (void)state;
     Review review = fixture_review(&arena);
     for (int i = 0; i < 20; i++) {
         Text              html = {.arena = &arena};
@@ -346,7 +336,6 @@ TEST(the_bright_bar_reaches_the_mark_when_contrast_does)
 
 TEST(the_mark_follows_the_kind_of_the_limit)
 {
-    (void)state;
     static const struct { double found, value, ratio; } FORMS[] = {
         {3, 2, 2}, {2, 1.5, 2.5}, {0.5, 0.6, 4}, {2.5, 2, 2}}; /* the last with the veil */
     for (int i = 0; i < 4; i++) {
@@ -364,7 +353,6 @@ TEST(the_mark_follows_the_kind_of_the_limit)
 
 TEST(margins_grow_by_octaves)
 {
-    (void)state;
     static const double MARGINS[] = {1, 0.4142135623730951, 0, -0.2928932188134524, -0.5, -0.9};
     static const double PLACES[] = {88, 66, 44, 22, 0, 0};
     for (int i = 0; i < 6; i++) {
@@ -385,7 +373,6 @@ TEST(margins_grow_by_octaves)
  * nothing fails outside. */
 TEST(the_border_encloses_what_fails)
 {
-    (void)state;
     static const struct { int cell; const char *path; } CASES[] = {
         {4, "d=\"M1 2H2M1 1H2M1 2V1M2 2V1\""}, {0, "d=\"M0 3H1M0 2H1M0 3V2M1 3V2\""}};
     static const float contrast[9] = {1, 1, 1, 1, 1, 1, 1, 1, 1};
@@ -437,7 +424,6 @@ static void assert_red_at(const Cells *cells, int column, int row)
 /* Azimuths run to the right and elevations upwards; days to the right and hours upwards. */
 TEST(cells_lie_where_their_axes_say)
 {
-    (void)state;
     Error         err = {0};
     float         ratio[12], share[12];
     unsigned char verdict[12] = {0};
@@ -478,7 +464,6 @@ static const unsigned char *values_behind(const char *at, size_t cells)
 /* What script tells at the pointer is the map's contrast within 0.06 %, and its verdict. */
 TEST(the_pointer_reads_what_the_map_shows)
 {
-    (void)state;
     Error          err = {0};
     ReviewMap      map = fixture_map(&arena, NULL);
     ReviewCalendar calendar = fixture_calendar(&arena, NULL);

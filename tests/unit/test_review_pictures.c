@@ -5,7 +5,6 @@
 
 TEST(pictures_go_into_the_page_as_they_stand)
 {
-    (void)state;
     Error         err = {0};
     Review        review = fixture_review(&arena);
     const char   *file = fresh_name(".png");
@@ -42,7 +41,6 @@ static void show_twice(ReviewPicture shown[2], const Review *review, const char 
  * all the same. */
 TEST(pictures_beside_the_page_are_named)
 {
-    (void)state;
     Error         err = {0};
     Review        review = fixture_review(&arena);
     const char   *file = fresh_name(".png");
@@ -63,7 +61,6 @@ TEST(pictures_beside_the_page_are_named)
  * second. */
 TEST(a_variants_pair_stands_before_its_cases)
 {
-    (void)state;
     Error         err = {0};
     Review        review = fixture_review(&arena);
     const char   *file = fresh_name(".png");
@@ -105,7 +102,6 @@ static const CaseView VIEW = {.right = {1, 0, 0}, .up = {0, 1, 0}, .forward = {0
 
 TEST(rays_of_a_cause_lie_over_its_frame)
 {
-    (void)state;
     static const Vec3 AHEAD[] = {{0, 0, 0}, {0, 0, -1}, {0.5f, 0.25f, -1}, {1, 0, -1}};
     static const Vec3 BEHIND[] = {{0, 0, 0}, {-0.5f, 0, -1}, {-0.5f, 0, 1}};
     static const CaseRay  RAYS[] = {{AHEAD, 4}, {BEHIND, 3}};
@@ -135,7 +131,6 @@ TEST(rays_of_a_cause_lie_over_its_frame)
 /* A symbol a tenth of the picture wide: its line runs a hundredth of that further out. */
 TEST(the_first_screen_has_a_line_around_its_symbol)
 {
-    (void)state;
     static const Vec3 RIM[] = {{-0.1f, -0.05f, -1}, {0.1f, -0.05f, -1}, {0.1f, 0.05f, -1},
                                {-0.1f, 0.05f, -1}};
     static const Vec3 BEHIND[] = {{-0.1f, -0.05f, -1}, {0.1f, -0.05f, -1}, {0.1f, 0.05f, 1}};
@@ -161,7 +156,6 @@ TEST(the_first_screen_has_a_line_around_its_symbol)
 
 TEST(a_picture_of_several_cards_stands_once)
 {
-    (void)state;
     Review        review = fixture_review(&arena);
     const char   *file = fresh_name(".png");
     ReviewPicture shown[2];

@@ -391,7 +391,4 @@ TEST(what_is_no_document_is_refused)
     assert_text_has(err.file, "none.json");
 }
 
-int main(void)
-{
-    return run_cases(start, clear_folder);
-}
+TEST_PROGRAM(start, clear_folder)

@@ -140,7 +140,6 @@ TEST(what_is_not_said_has_defaults)
 /* Its points are symmetric about the centre, reach the faces, and are all different. */
 TEST(an_eye_box_is_a_grid_with_both_ends)
 {
-    (void)state;
     ReviewEye eye = {.kind = EYE_BOX, .position_m = {1, 2, 3}, .half_size_m = {0.1, 0.2, 0.3},
                      .grid = {3, 1, 2}};
     double sum[3] = {0}, low[3] = {9, 9, 9}, high[3] = {-9, -9, -9};
@@ -278,7 +277,4 @@ TEST(running_out_of_memory_is_a_clean_end)
     assert_true(full > 20); /* else the test would test nothing */
 }
 
-int main(void)
-{
-    return run_cases(start, clear_folder);
-}
+TEST_PROGRAM(start, clear_folder)

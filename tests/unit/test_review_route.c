@@ -31,7 +31,6 @@ static double bearing(double lat0, double lon0, double lat1, double lon1)
 
 TEST(bearings_are_those_of_great_circles)
 {
-    (void)state;
     assert_near(bearing(0, 0, 1, 0), 0, 1e-12);
     assert_near(bearing(0, 0, 0, 1), 90, 1e-12);
     assert_near(bearing(1, 0, 0, 0), 180, 1e-12);
@@ -48,7 +47,6 @@ TEST(bearings_are_those_of_great_circles)
 /* There and back differ by half a turn and the meridians' convergence, which is small. */
 TEST(there_and_back_are_opposite)
 {
-    (void)state;
     for (int i = 0; i < 36; i++) {
         double turn = i * M_PI / 18, lat = 48 + 1e-3 * cos(turn), lon = 11 + 1e-3 * sin(turn);
         double apart = bearing(48, 11, lat, lon) - bearing(lat, lon, 48, 11);
@@ -229,7 +227,6 @@ static const ReviewLevel curve = {.is_curve = true, .lux = lux_of, .level = leve
 
 TEST(a_level_curve_goes_through_its_points)
 {
-    (void)state;
     for (int i = 0; i < 4; i++)
         assert_close(review_level_of_lux(&curve, lux_of[i]), level_of[i], 1e-12);
     assert_near(review_level_of_lux(&curve, -5), 0.02, 0);
@@ -239,7 +236,6 @@ TEST(a_level_curve_goes_through_its_points)
 /* Halfway in log-log the level is the geometric mean; next to 0 lx the piece is linear. */
 TEST(a_level_curve_is_a_power_law_between_points)
 {
-    (void)state;
     assert_close(review_level_of_lux(&curve, sqrt(50.0 * 1000)), sqrt(0.08 * 0.4), 1e-12);
     assert_close(review_level_of_lux(&curve, sqrt(1000.0 * 20000)), sqrt(0.4), 1e-12);
     double whole = review_level_of_lux(&curve, 4000) / review_level_of_lux(&curve, 2000);
@@ -250,7 +246,6 @@ TEST(a_level_curve_is_a_power_law_between_points)
 
 TEST(a_level_curve_does_not_fall)
 {
-    (void)state;
     double last = 0;
     for (double lux = 0; lux < 30000; lux = lux * 1.003 + 0.01) {
         double level = review_level_of_lux(&curve, lux);
@@ -261,7 +256,6 @@ TEST(a_level_curve_does_not_fall)
 
 TEST(fixed_levels_go_by_name_material_and_the_rest)
 {
-    (void)state;
     ReviewFixedLevel  fixed[] = {{"*", 0.5}, {"windows", 0.2}, {"node:alt", 0.1}};
     ReviewLevel       level = {.fixed = fixed, .fixed_count = 3};
     ReviewDisplayName alt = {"node:alt", "windows"}, hdg = {"node:hdg", "windows"};
@@ -274,7 +268,4 @@ TEST(fixed_levels_go_by_name_material_and_the_rest)
     assert_near(review_level_at(&curve, other, 7, 1000), 0.4, 1e-12);
 }
 
-int main(void)
-{
-    return run_cases(make_folder, clear_folder);
-}
+TEST_PROGRAM(make_folder, clear_folder)

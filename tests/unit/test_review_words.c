@@ -11,7 +11,6 @@ static Arena arena;
 
 TEST(figures_are_said_in_words)
 {
-    (void)state;
     LimitVerdict ratio = {.kind = "contrast_ratio", .unit = "1", .value = 2};
     LimitVerdict height = {.kind = "character_height", .unit = "arcmin", .value = 12};
     assert_string_equal(words_figure(NAN, &arena), "–");
@@ -35,7 +34,6 @@ TEST(figures_are_said_in_words)
 
 TEST(what_is_not_visible_says_what_hides_it)
 {
-    (void)state;
     Review            review = fixture_review(&arena);
     const ReviewCase *hidden = &review.cases[20];
     assert_string_equal(words_reason(hidden, &arena),
@@ -49,7 +47,6 @@ TEST(what_is_not_visible_says_what_hides_it)
 /* No more digits than the interval allows, and four at most. */
 TEST(digits_follow_the_interval)
 {
-    (void)state;
     assert_string_equal(words_within(417.486, 380, 455, &arena), "420");
     assert_string_equal(words_interval(380.2, 455.1, &arena), "380 to 460");
     assert_string_equal(words_within(94.5257, 94.52, 94.53, &arena), "94.53");
@@ -62,7 +59,6 @@ TEST(digits_follow_the_interval)
 
 TEST(the_sun_is_named_by_its_direction)
 {
-    (void)state;
     static const struct { double azimuth; const char *world, *vehicle; } SUNS[] = {
         {0, "north", "ahead"}, {359, "north", "ahead"},
         {-46, "north-west", "ahead on the left"},

@@ -59,7 +59,6 @@ static double kept_bytes(uint32_t squares)
  * that grows with them stays, so one array that is kept twice would show. */
 TEST_WITH(a_scene_keeps_no_array_twice, maker_reset, NULL)
 {
-    (void)state;
     double few = kept_bytes(1000), many = kept_bytes(21000);
     double triangles = 40000, vertices = 40000;
     assert_true(fabs(many - few - 16 * triangles - 24 * vertices) < 512);
@@ -99,7 +98,6 @@ static Scene *square(int index_type, bool is_interleaved)
 
 TEST_WITH(numbers_are_the_same_however_they_are_stored, maker_reset, NULL)
 {
-    (void)state;
     const Scene *first = square(5125, false);
     assert_int_equal(first->triangle_count, 2);
     assert_true(first->positions[3].z == 0.3f);
@@ -130,7 +128,6 @@ static void note(void *user, size_t done, size_t size)
 
 TEST_WITH(reading_a_long_file_is_told_of, maker_reset, NULL)
 {
-    (void)state;
     Error     err;
     FileBytes bytes;
     BytesTold      told = {0};
@@ -168,7 +165,6 @@ static LightSelection selection_of(const Scene *scene, int threads, Arena *arena
  * other shares of the two. */
 TEST(light_selection_is_the_same_for_any_number_of_threads)
 {
-    (void)state;
     Arena  arena = arena_reserve((size_t)1 << 28);
     Scene *scene = builder_scene(&arena);
     scene->environment.kind = ENVIRONMENT_CONSTANT;
@@ -189,7 +185,4 @@ TEST(light_selection_is_the_same_for_any_number_of_threads)
     arena_release(&arena);
 }
 
-int main(void)
-{
-    return run_cases(maker_start, maker_end);
-}
+TEST_PROGRAM(maker_start, maker_end)

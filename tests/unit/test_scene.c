@@ -101,7 +101,6 @@ static void check_component(int type, bool is_normalized)
 
 TEST_WITH(every_component_type_keeps_its_values, maker_reset, NULL)
 {
-    (void)state;
     for (int type = 5120; type <= 5123; type++) {
         check_component(type, false);
         check_component(type, true);
@@ -111,7 +110,6 @@ TEST_WITH(every_component_type_keeps_its_values, maker_reset, NULL)
 
 TEST_WITH(the_smallest_signed_code_is_minus_one, maker_reset, NULL)
 {
-    (void)state;
     static const signed char BYTES[12] = {-128, 0, 0, 0, 127, 0, 0, 0, 0, 127, 0, 0};
     Scene *scene =
         maker_load(BYTES, sizeof BYTES,
@@ -127,7 +125,6 @@ TEST_WITH(the_smallest_signed_code_is_minus_one, maker_reset, NULL)
 /* Vertex 1 of the triangle is replaced, once over bytes and once over zeros. */
 TEST_WITH(sparse_values_replace_the_base, maker_reset, NULL)
 {
-    (void)state;
     struct {
         float base[9];
         uint16_t index[2];
@@ -206,7 +203,6 @@ static void assert_same_triangles(const Scene *a, const Scene *b)
 
 TEST_WITH(strips_and_fans_are_their_triangles, maker_reset, NULL)
 {
-    (void)state;
     static const float ZIGZAG[15] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 2, 0};
     static const uint8_t ORDER[5] = {0, 1, 2, 3, 4};
     static const uint8_t STRIP[9] = {0, 1, 2, 2, 1, 3, 2, 3, 4};
@@ -220,7 +216,6 @@ TEST_WITH(strips_and_fans_are_their_triangles, maker_reset, NULL)
 
 TEST_WITH(nodes_move_their_meshes, maker_reset, NULL)
 {
-    (void)state;
     Scene *scene = load_triangle(
         MESH "'scenes':[{'nodes':[0]}],'nodes':[{'children':[1],"
              "'translation':[10,0,0]},{'mesh':0,'rotation':[0,0,0.70710678,0.70710678],"
@@ -233,7 +228,6 @@ TEST_WITH(nodes_move_their_meshes, maker_reset, NULL)
 
 TEST_WITH(a_matrix_says_the_same_as_its_parts, maker_reset, NULL)
 {
-    (void)state;
     Scene *parts = load_triangle(
         MESH "'scenes':[{'nodes':[0]}],'nodes':[{'mesh':0,"
              "'rotation':[0,0,0.70710678,0.70710678],'scale':[2,3,1],'translation':[1,2,3]}]");
@@ -248,7 +242,6 @@ TEST_WITH(a_matrix_says_the_same_as_its_parts, maker_reset, NULL)
 /* Mirrored by one axis or by three, the front stays where the shape has it. */
 TEST_WITH(mirroring_keeps_the_front_outside, maker_reset, NULL)
 {
-    (void)state;
     struct {
         float points[9], normals[9];
     } data = {{0, 0, 0, 1, 0, 0, 0, 1, 0}, {0, 0, 1, 0, 0, 1, 0, 0, 1}};
@@ -273,7 +266,6 @@ TEST_WITH(mirroring_keeps_the_front_outside, maker_reset, NULL)
 
 TEST_WITH(hidden_nodes_are_left_out, maker_reset, NULL)
 {
-    (void)state;
     Scene *scene = load_triangle(
         MESH
         "'extensionsUsed':['KHR_node_visibility'],"
@@ -284,7 +276,6 @@ TEST_WITH(hidden_nodes_are_left_out, maker_reset, NULL)
 
 TEST_WITH(cameras_come_in_the_order_of_their_nodes, maker_reset, NULL)
 {
-    (void)state;
     Scene *scene = maker_load(
         NULL, 0,
         "'cameras':[{'type':'orthographic','orthographic':{'xmag':2,'ymag':1,'znear':0,'zfar':"
@@ -311,7 +302,6 @@ TEST_WITH(cameras_come_in_the_order_of_their_nodes, maker_reset, NULL)
 
 TEST_WITH(morph_weights_of_the_node_win, maker_reset, NULL)
 {
-    (void)state;
     struct {
         float points[9], change[9];
     } data = {{0, 0, 0, 1, 0, 0, 0, 1, 0}, {0, 0, 1, 0, 0, 2, 0, 0, 4}};
@@ -336,7 +326,6 @@ TEST_WITH(morph_weights_of_the_node_win, maker_reset, NULL)
 /* Vertex 0 follows joint A, 1 joint B, 2 half each; the mesh's own node does not matter. */
 TEST_WITH(skinned_vertices_follow_their_joints, maker_reset, NULL)
 {
-    (void)state;
     struct {
         float points[9];
         uint8_t joints[12];
@@ -366,7 +355,6 @@ TEST_WITH(skinned_vertices_follow_their_joints, maker_reset, NULL)
 
 TEST_WITH(vertex_colours_of_every_format_agree, maker_reset, NULL)
 {
-    (void)state;
     static const int TYPES[] = {5121, 5123, 5126};
     for (int t = 0; t < 3; t++)
         for (int components = 3; components <= 4; components++) {
@@ -427,7 +415,6 @@ static Scene *load_with_normal_map(bool is_mirrored)
  * of each one's own. What the file lacks or nobody asks for is not there. */
 TEST_WITH(what_a_hit_does_not_need_is_not_kept, maker_reset, NULL)
 {
-    (void)state;
     struct {
         float   points[12], normals[12], tangents[16], uv[8];
         uint8_t indices[8];
@@ -469,7 +456,6 @@ TEST_WITH(what_a_hit_does_not_need_is_not_kept, maker_reset, NULL)
 /* right x up = normal, where up is the picture's. */
 TEST_WITH(tangents_point_to_the_pictures_right, maker_reset, NULL)
 {
-    (void)state;
     for (int is_mirrored = 0; is_mirrored < 2; is_mirrored++) {
         Scene *scene = load_with_normal_map(is_mirrored);
         for (int c = 0; c < 3; c++) {
@@ -484,7 +470,6 @@ TEST_WITH(tangents_point_to_the_pictures_right, maker_reset, NULL)
 /* Along an edge where the picture folds back, either side keeps its own tangent. */
 TEST_WITH(a_mirrored_seam_splits_its_vertices, maker_reset, NULL)
 {
-    (void)state;
     struct {
         float points[12], normals[12], uv[8];
         uint8_t indices[8];
@@ -532,7 +517,6 @@ static void assert_maps(const float *m, float u, float v, float to_u, float to_v
 
 TEST_WITH(texture_transforms_scale_turn_and_shift, maker_reset, NULL)
 {
-    (void)state;
     const float *m = slot_matrix("");
     assert_maps(m, 0.25f, 0.75f, 0.25f, 0.75f);
     m = slot_matrix(
@@ -549,7 +533,6 @@ TEST_WITH(texture_transforms_scale_turn_and_shift, maker_reset, NULL)
 
 TEST_WITH(two_uv_sets_of_any_number_are_carried, maker_reset, NULL)
 {
-    (void)state;
     struct {
         float points[9], uv[3][6];
     } data = {{0, 0, 0, 1, 0, 0, 0, 1, 0}, {{0}, {1, 1, 1, 1, 1, 1}, {2, 2, 2, 2, 2, 2}}};
@@ -571,7 +554,4 @@ TEST_WITH(two_uv_sets_of_any_number_are_carried, maker_reset, NULL)
     assert_near(scene_corner_uv(scene, 0, 0, m->emissive_texture.uv_set).x, 2, 0);
 }
 
-int main(void)
-{
-    return run_cases(maker_start, maker_end);
-}
+TEST_PROGRAM(maker_start, maker_end)

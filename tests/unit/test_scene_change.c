@@ -105,7 +105,6 @@ static SceneChange turn(float tilt, float about_up, float roll)
 
 TEST(a_tilt_turns_the_face_up_about_its_middle)
 {
-    (void)state;
     const Scene *scene = load(turn(ANGLE, 0, 0));
     double c = cos((double)ANGLE), s = sin((double)ANGLE);
     assert_at(scene, "face", 0, 0, 0.5 - 0.5 * c, 0.5 * s);
@@ -116,7 +115,6 @@ TEST(a_tilt_turns_the_face_up_about_its_middle)
 
 TEST(a_turn_goes_to_the_right_of_who_faces_it_and_a_roll_clockwise)
 {
-    (void)state;
     double c = cos((double)ANGLE), s = sin((double)ANGLE);
     const Scene *turned = load(turn(0, ANGLE, 0)), *rolled = load(turn(0, 0, ANGLE));
     assert_at(turned, "face", 1, 0.5 + 0.5 * c, 0, -0.5 * s); /* its right edge goes back */
@@ -129,7 +127,6 @@ TEST(a_turn_goes_to_the_right_of_who_faces_it_and_a_roll_clockwise)
 /* Lengths stay, and the middle goes where it is moved. */
 TEST(turns_are_rigid)
 {
-    (void)state;
     for (int i = 0; i < 20; i++) {
         Arena       begun = maker.arena;
         SceneChange change = turn(0.1f * (float)i, 0.7f - 0.13f * (float)i, 0.05f * (float)i);
@@ -151,7 +148,6 @@ TEST(turns_are_rigid)
 
 TEST(what_hangs_below_and_what_is_named_moves_along)
 {
-    (void)state;
     static const char *const WITH[] = {"rim"};
     SceneChange change = turn(ANGLE, 0.1f, 0);
     change.with = WITH, change.with_count = 1;
@@ -168,7 +164,6 @@ TEST(what_hangs_below_and_what_is_named_moves_along)
 /* Of a surface that faces up the axes are the vehicle's. */
 TEST(a_desk_is_tilted_as_the_vehicle_stands)
 {
-    (void)state;
     SceneChange change = turn(ANGLE, 0, 0);
     change.name = "desk";
     const Scene *scene = load(change);
@@ -180,7 +175,6 @@ TEST(a_desk_is_tilted_as_the_vehicle_stands)
 
 TEST(nodes_that_are_not_there_or_not_alone_are_refused)
 {
-    (void)state;
     static const char *const WITH[] = {"rimm"};
     SceneChange change = turn(ANGLE, 0, 0);
     change.name = "fase";
@@ -205,7 +199,6 @@ static SceneChange patch(const char *text)
 
 TEST(a_patch_merges_and_leaves_what_it_does_not_say)
 {
-    (void)state;
     const Scene *scene = load(patch("{'pbrMetallicRoughness':{'roughnessFactor':0.5}}"));
     assert_near(scene->materials[0].roughness, 0.5, 1e-7);
     assert_near(scene->materials[0].metallic, 0, 1e-7);
@@ -215,7 +208,6 @@ TEST(a_patch_merges_and_leaves_what_it_does_not_say)
 
 TEST(null_takes_away_and_new_extensions_are_used)
 {
-    (void)state;
     const Scene *bare = load(patch("{'extensions':{'PARHELION_coating':null}}"));
     assert_null(bare->materials[0].coating);
     scene_close((Scene *)bare);
@@ -231,7 +223,6 @@ TEST(null_takes_away_and_new_extensions_are_used)
 /* What is merged is checked as the file's own. */
 TEST(a_patch_that_is_wrong_is_refused_at_its_place)
 {
-    (void)state;
     static const struct {
         const char *patch, *place, *text;
     } WRONG[] = {
@@ -277,7 +268,6 @@ static double volume_of(const Scene *scene, const Part *part)
  * narrow to the plate's thickness. */
 TEST(a_hood_is_a_plate_and_two_cheeks)
 {
-    (void)state;
     SceneChange  change = {.kind = CHANGE_HOOD, .name = "screen", .depth_m = DEPTH};
     const Scene *scene = load(change);
     double plate = (1 + 2 * (GAP + THICK)) * THICK * DEPTH;
@@ -305,7 +295,6 @@ TEST(a_hood_is_a_plate_and_two_cheeks)
 
 TEST(a_hood_needs_an_upper_edge)
 {
-    (void)state;
     assert_refused((SceneChange){.kind = CHANGE_HOOD, .name = "lying", .depth_m = DEPTH},
                    "lies flat");
     assert_refused((SceneChange){.kind = CHANGE_HOOD, .name = "both", .depth_m = DEPTH},
@@ -314,7 +303,4 @@ TEST(a_hood_needs_an_upper_edge)
                    "no display is named \"skreen\" — did you mean screen?");
 }
 
-int main(void)
-{
-    return run_cases(maker_start, maker_end);
-}
+TEST_PROGRAM(maker_start, maker_end)

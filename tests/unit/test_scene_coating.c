@@ -59,7 +59,6 @@ static const FaultCase FAULTS[] = {
 
 TEST_WITH(every_fault_is_named_with_its_place, maker_reset, NULL)
 {
-    (void)state;
     maker_expect_faults(FAULTS, COUNT_OF(FAULTS), NULL, 0);
 }
 
@@ -72,7 +71,6 @@ static const Material *coated(const char *body)
 
 TEST_WITH(layers_are_read_from_outside_inwards, maker_reset, NULL)
 {
-    (void)state;
     const LayerStack *stack =
         coated("'layers':[{'n':1.38,'thickness_nm':100},{'n':2,'k':0.5,'thickness_nm':20}],"
                "'outside':1.33,'faces':'back'")->coating;
@@ -88,7 +86,6 @@ TEST_WITH(layers_are_read_from_outside_inwards, maker_reset, NULL)
 
 TEST_WITH(the_programs_own_stacks_are_whole, maker_reset, NULL)
 {
-    (void)state;
     const LayerStack *silver = coated("'stack':'ir_windscreen'")->coating;
     assert_int_equal(silver->count, 3);
     assert_int_equal(silver->faces, COATED_BOTH);
@@ -100,7 +97,4 @@ TEST_WITH(the_programs_own_stacks_are_whole, maker_reset, NULL)
     assert_int_equal(coated("'stack':'broadband_ar'")->coating->count, 4);
 }
 
-int main(void)
-{
-    return run_cases(maker_start, maker_end);
-}
+TEST_PROGRAM(maker_start, maker_end)

@@ -102,7 +102,6 @@ static void visit_reported(const char *path, void *data)
 
 TEST(the_validator_s_verdicts_are_ours)
 {
-    (void)state;
     Tally tally = {0};
     need_corpus();
     walk_folder(CORPUS "/validator-corpus", &(Walk){visit_reported, &tally});
@@ -148,7 +147,6 @@ static void visit_other(const char *path, void *data)
 
 TEST(other_importers_models_load_or_are_refused_by_name)
 {
-    (void)state;
     static const char *const FOLDERS[] = {"tinygltf", "assimp", "3dc", "compressed"};
     Tally tally = {0};
     need_corpus();
@@ -165,7 +163,6 @@ TEST(other_importers_models_load_or_are_refused_by_name)
 
 TEST(the_vehicles_load_whole)
 {
-    (void)state;
     need_corpus();
     Verdict cessna = verdict_of(CORPUS "/cockpit/c172p_cockpit.glb");
     assert_int_equal(cessna.errors + cessna.warnings, 0);
@@ -175,7 +172,4 @@ TEST(the_vehicles_load_whole)
     assert_int_equal(car.triangles, 4029);
 }
 
-int main(void)
-{
-    return run_cases(NULL, NULL);
-}
+TEST_PROGRAM(NULL, NULL)

@@ -101,7 +101,6 @@ static void assert_whole(const char *path)
 
 TEST_WITH(packed_meshes_are_what_was_packed, maker_reset, NULL)
 {
-    (void)state;
     Sheet other = sheet_of(EDGEBREAKER, sizeof EDGEBREAKER);
     assert_whole(write_sheet(&WHOLE));
     assert_whole(write_sheet(&other));
@@ -110,7 +109,6 @@ TEST_WITH(packed_meshes_are_what_was_packed, maker_reset, NULL)
 /* A strip's corners are triangles when they are unpacked. */
 TEST_WITH(packed_strips_are_triangles, maker_reset, NULL)
 {
-    (void)state;
     Sheet strip = sheet_of(EDGEBREAKER, sizeof EDGEBREAKER);
     strip.mode = ",'mode':5";
     strip.corners = 46;
@@ -138,7 +136,6 @@ static void assert_told(const Sheet *sheet, const char *text)
 
 TEST_WITH(members_that_do_not_fit_are_told, maker_reset, NULL)
 {
-    (void)state;
     Sheet s = WHOLE;
     s.vertices = 26;
     assert_told(&s, "has 26 elements, the packed mesh has 25 vertices");
@@ -167,7 +164,6 @@ TEST_WITH(members_that_do_not_fit_are_told, maker_reset, NULL)
 /* One byte of the packed ones is another; how much they hold is told before it is unpacked. */
 TEST_WITH(headers_are_refused_before_anything_is_unpacked, maker_reset, NULL)
 {
-    (void)state;
     static const struct {
         int at, value;
         const char *text;
@@ -197,7 +193,6 @@ static bool is_refused(const unsigned char *bytes, size_t size)
 
 TEST_WITH(cut_meshes_are_refused_and_changed_ones_too_or_read, maker_reset, NULL)
 {
-    (void)state;
     uint32_t chance = 99;
     for (size_t size = 1; size < sizeof EDGEBREAKER; size += 3)
         if (!is_refused(EDGEBREAKER, size)) fail_msg("%zu bytes are enough", size);
@@ -214,7 +209,4 @@ TEST_WITH(cut_meshes_are_refused_and_changed_ones_too_or_read, maker_reset, NULL
     assert_in_range(refused, 30, 297);
 }
 
-int main(void)
-{
-    return run_cases(maker_start, maker_end);
-}
+TEST_PROGRAM(maker_start, maker_end)

@@ -203,7 +203,6 @@ static const FaultCase FAULTS[] = {
 
 TEST_WITH(every_fault_is_named_with_its_place, maker_reset, NULL)
 {
-    (void)state;
     maker_expect_faults(FAULTS, COUNT_OF(FAULTS), &BYTES, sizeof BYTES);
 }
 
@@ -217,7 +216,6 @@ static void assert_text(const char *text, const char *place, const char *message
 
 TEST_WITH(documents_that_are_none_are_refused, maker_reset, NULL)
 {
-    (void)state;
     assert_text("", "", "not valid JSON: parse error at line 1, column 1");
     assert_text("{\"asset\":", "", "not valid JSON: parse error at line 1, column 10");
     assert_text("[]", "", "the document is no JSON object");
@@ -232,7 +230,6 @@ TEST_WITH(documents_that_are_none_are_refused, maker_reset, NULL)
 
 TEST_WITH(a_buffer_without_bytes_is_told, maker_reset, NULL)
 {
-    (void)state;
     static const char TEXT[] =
         "{\"asset\":{\"version\":\"2.0\"},\"buffers\":[{\"byteLength\":36}],"
         "\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}],\"accessors\":[{\"bufferView\":0,"
@@ -245,7 +242,6 @@ TEST_WITH(a_buffer_without_bytes_is_told, maker_reset, NULL)
 
 TEST_WITH(deep_nesting_is_refused, maker_reset, NULL)
 {
-    (void)state;
     const int depth = 200000;
     char *text = ARENA_NEW(&maker.arena, char, depth + 1);
     memset(text, '[', (size_t)depth);
@@ -254,7 +250,6 @@ TEST_WITH(deep_nesting_is_refused, maker_reset, NULL)
 
 TEST_WITH(all_problems_are_reported_not_the_first, maker_reset, NULL)
 {
-    (void)state;
     Found found = maker_survey_file(
         maker_gltf(NULL, 0,
                    "'nodes':[{'mesh':5},{'camera':1}],'scene':3,'materials':[{'alphaMode':1}],"
@@ -264,7 +259,6 @@ TEST_WITH(all_problems_are_reported_not_the_first, maker_reset, NULL)
 
 TEST_WITH(the_first_error_reaches_the_command_line, maker_reset, NULL)
 {
-    (void)state;
     Error err;
     Scene *scene = NULL;
     Problems problems = problems_start(&maker.arena);
@@ -306,7 +300,6 @@ static Found survey_display(const float uv[6], const SceneOptions *more)
 
 TEST_WITH(mirrored_displays_are_errors, maker_reset, NULL)
 {
-    (void)state;
     static const float UPRIGHT[6] = {0, 1, 1, 1, 0, 0}, MIRRORED[6] = {1, 1, 0, 1, 1, 0};
     static const float NOWHERE[6] = {0, 0, 0, 0, 0, 0};
     const SceneOptions none = {0};
@@ -321,7 +314,6 @@ TEST_WITH(mirrored_displays_are_errors, maker_reset, NULL)
 
 TEST_WITH(overrides_reach_displays_by_the_material_s_name, maker_reset, NULL)
 {
-    (void)state;
     static const float UPRIGHT[6] = {0, 1, 1, 1, 0, 0};
     const SceneOverride levels[] = {
         {"cluster", "30", NULL}, {"dash", "30", NULL}, {"trim", "5", NULL},
@@ -375,7 +367,6 @@ static int parts_wearing(const Scene *scene, const char *name)
 
 TEST_WITH(a_screen_is_named_by_its_node_where_two_share_a_material, maker_reset, NULL)
 {
-    (void)state;
     const SceneOverride panels[] = {{"node:left", "a.panel", NULL},
                                     {"node:right", "b.panel", NULL}};
     const SceneOverride levels[] = {{"node:right", "30", NULL}};
@@ -396,7 +387,6 @@ TEST_WITH(a_screen_is_named_by_its_node_where_two_share_a_material, maker_reset,
 
 TEST_WITH(a_shared_display_is_split_by_what_one_node_shows, maker_reset, NULL)
 {
-    (void)state;
     const SceneOverride panels[] = {{"glass", "a.panel", NULL}};
     const SceneOverride levels[] = {{"node:left", "50", NULL}};
     Found found = survey_shared(&(SceneOptions){
@@ -411,7 +401,6 @@ TEST_WITH(a_shared_display_is_split_by_what_one_node_shows, maker_reset, NULL)
 
 TEST_WITH(what_a_node_s_name_leaves_open_is_told, maker_reset, NULL)
 {
-    (void)state;
     static const struct {
         const char *word, *text;
     } CASES[] = {
@@ -526,7 +515,6 @@ static void leave_when_full(size_t bytes_wanted, size_t bytes_left)
  * taken. (The loader's own scratch is left mapped each time, which is why there are few.) */
 TEST_WITH(running_out_of_memory_takes_the_one_exit, maker_reset, NULL)
 {
-    (void)state;
     unsigned char bytes[1024];
     const char *path = maker_file(bytes, small_glb(bytes), ".glb");
     volatile int refused = 0, loaded = 0;
@@ -548,7 +536,4 @@ TEST_WITH(running_out_of_memory_takes_the_one_exit, maker_reset, NULL)
     assert_true(refused > 3);
 }
 
-int main(void)
-{
-    return run_cases(maker_start, maker_end);
-}
+TEST_PROGRAM(maker_start, maker_end)

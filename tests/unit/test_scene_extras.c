@@ -71,7 +71,6 @@ static const FaultCase FAULTS[] = {
 
 TEST_WITH(every_fault_is_named_with_its_place, maker_reset, NULL)
 {
-    (void)state;
     maker_expect_faults(FAULTS, COUNT_OF(FAULTS), NULL, 0);
 }
 
@@ -90,7 +89,6 @@ static const Display *shown(const char *members)
 
 TEST_WITH(a_display_is_the_same_whichever_way_it_is_written, maker_reset, NULL)
 {
-    (void)state;
 #define LIST                                                                                   \
     "'panel':'none.panel','level':0.25,'subpixels':{'layout':'stripe','columns':9,'rows':4}"
     static const char *const ways[] = {
@@ -112,7 +110,6 @@ TEST_WITH(a_display_is_the_same_whichever_way_it_is_written, maker_reset, NULL)
 
 TEST_WITH(a_scenes_light_is_read_from_extras, maker_reset, NULL)
 {
-    (void)state;
     const Scene *scene = maker_load(
         NULL, 0,
         "'scene':0,'scenes':[{'extras':{'PARHELION_environment':'{" Q "type" Q ":" Q
@@ -124,7 +121,6 @@ TEST_WITH(a_scenes_light_is_read_from_extras, maker_reset, NULL)
 /* Extras of others are nobody's business, whatever they look like. */
 TEST_WITH(other_extras_say_nothing, maker_reset, NULL)
 {
-    (void)state;
     Found found = maker_survey_file(maker_gltf(
         NULL, 0,
         "'materials':[{'extras':{'display':'{','PARHELION':[1],'parhelion_display':3}},"
@@ -133,7 +129,4 @@ TEST_WITH(other_extras_say_nothing, maker_reset, NULL)
     assert_int_equal(found.scene->display_count, 0);
 }
 
-int main(void)
-{
-    return run_cases(maker_start, maker_end);
-}
+TEST_PROGRAM(maker_start, maker_end)

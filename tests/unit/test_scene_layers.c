@@ -34,7 +34,6 @@ static void assert_transformed(const TextureSlot *slot)
 
 TEST_WITH(brushing_has_strength_and_direction, maker_reset, NULL)
 {
-    (void)state;
     const Brushing *b = load_material(
         ANISOTROPY, "'anisotropyStrength':0.6,'anisotropyRotation':0.5")->brushing;
     assert_close(b->strength, 0.6, 1e-6);
@@ -49,7 +48,6 @@ TEST_WITH(brushing_has_strength_and_direction, maker_reset, NULL)
 
 TEST_WITH(without_strength_nothing_is_brushed, maker_reset, NULL)
 {
-    (void)state;
     assert_null(load_material(ANISOTROPY, "'anisotropyRotation':1")->brushing);
     assert_null(load_material("KHR_materials_ior", "")->brushing);
 }
@@ -58,7 +56,6 @@ TEST_WITH(without_strength_nothing_is_brushed, maker_reset, NULL)
 
 TEST_WITH(a_film_has_the_defaults_of_its_extension, maker_reset, NULL)
 {
-    (void)state;
     const Iridescence *film =
         load_material(IRIDESCENCE, "'iridescenceFactor':0.5")->iridescence;
     assert_near(film->share, 0.5, 0);
@@ -72,7 +69,6 @@ TEST_WITH(a_film_has_the_defaults_of_its_extension, maker_reset, NULL)
 
 TEST_WITH(every_member_of_a_film_arrives, maker_reset, NULL)
 {
-    (void)state;
     const Iridescence *film =
         load_material(IRIDESCENCE, "'iridescenceFactor':1,'iridescenceIor':1.75,"
                                    "'iridescenceThicknessMinimum':50,"
@@ -91,7 +87,6 @@ TEST_WITH(every_member_of_a_film_arrives, maker_reset, NULL)
 
 TEST_WITH(sheen_has_the_defaults_of_its_extension, maker_reset, NULL)
 {
-    (void)state;
     const SheenLayer *sheen = load_material(SHEEN, "'sheenColorFactor':[0,0.5,0]")->sheen;
     assert_near(sheen->color[1], 0.5, 0);
     assert_near(sheen->roughness, 0, 0);
@@ -103,7 +98,6 @@ TEST_WITH(sheen_has_the_defaults_of_its_extension, maker_reset, NULL)
 
 TEST_WITH(every_member_of_sheen_arrives, maker_reset, NULL)
 {
-    (void)state;
     const SheenLayer *sheen =
         load_material(SHEEN, "'sheenColorFactor':[0.25,0.5,1],'sheenRoughnessFactor':0.75,"
                              "'sheenColorTexture':" TURNED)->sheen;
@@ -141,7 +135,6 @@ static const struct {
 
 TEST_WITH(each_wrong_member_is_told, maker_reset, NULL)
 {
-    (void)state;
     for (size_t i = 0; i < sizeof WRONG / sizeof *WRONG; i++) {
         char text[1024], place[128];
         snprintf(text, sizeof text,
@@ -173,7 +166,6 @@ static const struct {
 
 TEST_WITH(what_has_no_effect_is_told, maker_reset, NULL)
 {
-    (void)state;
     for (size_t i = 0; i < sizeof HIDDEN / sizeof *HIDDEN; i++) {
         char text[1024], place[128];
         snprintf(text, sizeof text, "'materials':[{'extensions':{%s}}]", HIDDEN[i].extensions);
@@ -185,7 +177,6 @@ TEST_WITH(what_has_no_effect_is_told, maker_reset, NULL)
 
 TEST_WITH(solids_of_glass_are_filmed_and_brushed_without_a_word, maker_reset, NULL)
 {
-    (void)state;
     Found found = maker_survey_file(maker_gltf(
         NULL, 0,
         "'extensionsUsed':['" IRIDESCENCE "','" ANISOTROPY "','KHR_materials_transmission',"
@@ -221,7 +212,6 @@ static const struct {
 
 TEST_WITH(what_clear_solids_do_not_show_is_told, maker_reset, NULL)
 {
-    (void)state;
     for (size_t i = 0; i < sizeof NOT_ON_SOLIDS / sizeof *NOT_ON_SOLIDS; i++) {
         char text[1024], place[128];
         snprintf(text, sizeof text,
@@ -241,7 +231,6 @@ TEST_WITH(what_clear_solids_do_not_show_is_told, maker_reset, NULL)
 
 TEST_WITH(a_solid_that_is_half_clear_is_told, maker_reset, NULL)
 {
-    (void)state;
     Found found = maker_survey_file(maker_gltf(
         NULL, 0,
         "'extensionsUsed':['KHR_materials_transmission','KHR_materials_volume'],"
@@ -272,7 +261,6 @@ static Found survey_brushed(const char *attributes)
 
 TEST_WITH(brushing_without_tangents_tells_what_is_taken, maker_reset, NULL)
 {
-    (void)state;
     const char *place = "/meshes/0/primitives/0";
     Found found = survey_brushed(",'TEXCOORD_0':1");
     assert_non_null(maker_find(&found, place, "its texture's coordinates are taken"));
@@ -282,7 +270,4 @@ TEST_WITH(brushing_without_tangents_tells_what_is_taken, maker_reset, NULL)
     assert_null(found.scene->parts[0].tangents);
 }
 
-int main(void)
-{
-    return run_cases(maker_start, maker_end);
-}
+TEST_PROGRAM(maker_start, maker_end)

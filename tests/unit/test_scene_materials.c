@@ -24,7 +24,6 @@ static const Material *load_material(const char *members)
 
 TEST_WITH(an_empty_material_has_the_defaults, maker_reset, NULL)
 {
-    (void)state;
     const Material *m = load_material("");
     assert_string_equal(m->name, "material 0");
     for (int i = 0; i < 4; i++) assert_near(m->base_color[i], 1, 0);
@@ -81,7 +80,6 @@ static const NumberCase NUMBERS[] = {
 
 TEST_WITH(every_factor_arrives, maker_reset, NULL)
 {
-    (void)state;
     for (size_t i = 0; i < sizeof NUMBERS / sizeof *NUMBERS; i++) {
         const Material *m = load_material(NUMBERS[i].members);
         assert_close(*(const float *)((const char *)m + NUMBERS[i].offset), NUMBERS[i].value,
@@ -115,7 +113,6 @@ static const struct {
 
 TEST_WITH(every_texture_arrives_in_its_own_slot, maker_reset, NULL)
 {
-    (void)state;
     const size_t count = sizeof SLOTS / sizeof *SLOTS;
     for (size_t i = 0; i < count; i++) {
         const char *m = (const char *)load_material(SLOTS[i].members);
@@ -127,7 +124,6 @@ TEST_WITH(every_texture_arrives_in_its_own_slot, maker_reset, NULL)
 
 TEST_WITH(flags_follow_from_the_numbers, maker_reset, NULL)
 {
-    (void)state;
     assert_true(load_material("'emissiveFactor':[0,0,0.1]")->is_emitter);
     static const char HALF[] = ",'pbrMetallicRoughness':{'baseColorFactor':[1,1,1,0.5]}";
     char blend[128], mask[128];
@@ -150,7 +146,6 @@ TEST_WITH(flags_follow_from_the_numbers, maker_reset, NULL)
 
 TEST_WITH(punctual_lights_keep_their_units_and_place, maker_reset, NULL)
 {
-    (void)state;
     Scene *scene = maker_load(
         NULL, 0,
         "'extensionsUsed':['KHR_lights_punctual'],'extensions':{'KHR_lights_punctual':{'lights'"
@@ -188,7 +183,6 @@ TEST_WITH(punctual_lights_keep_their_units_and_place, maker_reset, NULL)
 
 TEST_WITH(a_constant_sky_has_its_luminance, maker_reset, NULL)
 {
-    (void)state;
     const Environment *e =
         &maker_load(NULL, 0,
                     ENVIRONMENT(
@@ -213,7 +207,6 @@ TEST_WITH(a_constant_sky_has_its_luminance, maker_reset, NULL)
 
 TEST_WITH(a_scene_without_environment_is_dark, maker_reset, NULL)
 {
-    (void)state;
     const Environment *e = &maker_load(NULL, 0, "'scenes':[{}]")->environment;
     assert_int_equal(e->kind, ENVIRONMENT_NONE);
     assert_false(e->has_sun);
@@ -224,7 +217,6 @@ TEST_WITH(a_scene_without_environment_is_dark, maker_reset, NULL)
  * 179 lm/W. */
 TEST_WITH(a_picture_of_the_sky_is_read_beside_the_scene, maker_reset, NULL)
 {
-    (void)state;
     static const char PIXELS[] =
         "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n\x80\x80\x80\x81\x80\x80\x80\x82";
     const char *picture = maker_file(PIXELS, sizeof PIXELS - 1, ".hdr");
@@ -255,7 +247,6 @@ static const float TRIANGLE[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
 
 TEST_WITH(several_files_are_one_scene, maker_reset, NULL)
 {
-    (void)state;
     char first[2048], second[2048];
     snprintf(first, sizeof first,
              SHAPE "'materials':[{'name':'a'}]," ENVIRONMENT("'type':'constant','luminance':1"),
@@ -289,7 +280,6 @@ TEST_WITH(several_files_are_one_scene, maker_reset, NULL)
 
 TEST_WITH(opaque_triangles_come_first, maker_reset, NULL)
 {
-    (void)state;
     const Scene *scene = maker_load(
         TRIANGLE, sizeof TRIANGLE,
         "'bufferViews':[{'buffer':0,'byteLength':36}],'accessors':[{'bufferView':0,"
@@ -315,7 +305,6 @@ TEST_WITH(opaque_triangles_come_first, maker_reset, NULL)
 /* BLEND with an alpha of 1 everywhere needs no asking; a vertex that is not full does. */
 TEST_WITH(what_is_opaque_everywhere_is_opaque, maker_reset, NULL)
 {
-    (void)state;
     struct {
         float points[9];
         uint8_t colors[12];
@@ -337,7 +326,6 @@ TEST_WITH(what_is_opaque_everywhere_is_opaque, maker_reset, NULL)
 
 TEST_WITH(triangles_without_area_are_dropped_and_counted, maker_reset, NULL)
 {
-    (void)state;
     static const float POINTS[18] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 0, 1, 1, 1, 2, 2, 2};
     Found found = maker_survey_file(
         maker_gltf(POINTS, sizeof POINTS,
@@ -350,7 +338,4 @@ TEST_WITH(triangles_without_area_are_dropped_and_counted, maker_reset, NULL)
     assert_non_null(maker_find(&found, "/meshes", "1 primitive of points or lines skipped"));
 }
 
-int main(void)
-{
-    return run_cases(maker_start, maker_end);
-}
+TEST_PROGRAM(maker_start, maker_end)

@@ -153,7 +153,6 @@ static void assert_same_shape(const Scene *found, const Sheet *sheet, float allo
 
 TEST_WITH(packed_vertices_and_triangles_keep_their_bits, maker_reset, NULL)
 {
-    (void)state;
     Sheet sheet = make_sheet();
     for (int is_sequence = 0; is_sequence < 2; is_sequence++) {
         Bytes bytes = {.size = 0};
@@ -173,7 +172,6 @@ TEST_WITH(packed_vertices_and_triangles_keep_their_bits, maker_reset, NULL)
 
 TEST_WITH(exponential_filters_round_to_their_bits, maker_reset, NULL)
 {
-    (void)state;
     Sheet    sheet = make_sheet();
     uint32_t filtered[3 * VERTICES];
     for (int bits = 8; bits <= 24; bits += 8) {
@@ -194,7 +192,6 @@ TEST_WITH(exponential_filters_round_to_their_bits, maker_reset, NULL)
 
 TEST_WITH(octahedral_filters_round_directions_to_their_bits, maker_reset, NULL)
 {
-    (void)state;
     Sheet sheet = make_sheet();
     unsigned char filtered[8 * VERTICES];
     for (int stride = 4; stride <= 8; stride += 4) {
@@ -219,7 +216,6 @@ TEST_WITH(octahedral_filters_round_directions_to_their_bits, maker_reset, NULL)
 /* A turn of an animation: four shorts. */
 TEST_WITH(quaternion_filters_round_turns_to_their_bits, maker_reset, NULL)
 {
-    (void)state;
     static const float TRIANGLE[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0}, TIMES[2] = {0, 1};
     const float turns[8] = {0, 0, 0, 1, 0.5f, -0.1f, 0.7f, 0.5f}; /* of length 1 */
     unsigned char filtered[16], packed[256];
@@ -295,7 +291,6 @@ static const char *change_text(const char *text, const View *was, const Wrong *w
 
 TEST_WITH(numbers_that_do_not_fit_are_told, maker_reset, NULL)
 {
-    (void)state;
     Sheet sheet = make_sheet();
     Bytes bytes = {.size = 0};
     View  views[2] = {pack_vertices(&bytes, sheet.positions, 12),
@@ -319,7 +314,6 @@ TEST_WITH(numbers_that_do_not_fit_are_told, maker_reset, NULL)
  * end are no fewer elements but others: they may be read, or refused. */
 TEST_WITH(cut_and_changed_bytes_are_read_or_refused, maker_reset, NULL)
 {
-    (void)state;
     Sheet    sheet = make_sheet();
     uint32_t chance = 12345;
     int      refused = 0;
@@ -374,7 +368,6 @@ static Found survey_texture(const char *texture, const char *required)
 /* Image 0, which is for other readers, is no picture at all. */
 TEST_WITH(a_webp_picture_is_shown_before_the_one_for_other_readers, maker_reset, NULL)
 {
-    (void)state;
     Found found = survey_texture(
         "'source':0,'extensions':{'EXT_texture_webp':{'source':1}}",
         ",'extensionsRequired':['EXT_texture_webp']");
@@ -388,7 +381,6 @@ TEST_WITH(a_webp_picture_is_shown_before_the_one_for_other_readers, maker_reset,
 
 TEST_WITH(webp_pictures_that_are_cut_are_refused, maker_reset, NULL)
 {
-    (void)state;
     Image image;
     Error err;
     assert_true(image_read_memory(WEBP, sizeof WEBP, "a.webp", &maker.arena, &image, &err));
@@ -404,7 +396,6 @@ TEST_WITH(webp_pictures_that_are_cut_are_refused, maker_reset, NULL)
 
 TEST_WITH(a_ktx2_picture_is_told_by_name, maker_reset, NULL)
 {
-    (void)state;
     Found alone = survey_texture("'extensions':{'KHR_texture_basisu':{'source':0}}", "");
     assert_non_null(maker_find(&alone, "/materials/0/pbrMetallicRoughness/baseColorTexture",
                                "texture 0 has a KTX2 picture alone (KHR_texture_basisu)"));
@@ -419,7 +410,4 @@ TEST_WITH(a_ktx2_picture_is_told_by_name, maker_reset, NULL)
     assert_int_equal(beside.scene->textures[0].image.width, 3);
 }
 
-int main(void)
-{
-    return run_cases(maker_start, maker_end);
-}
+TEST_PROGRAM(maker_start, maker_end)

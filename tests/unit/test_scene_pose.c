@@ -92,7 +92,6 @@ static Moving sliding(void)
 
 TEST_WITH(lines_join_key_frames_and_the_ends_are_kept, maker_reset, NULL)
 {
-    (void)state;
     static const double AT[][4] = {{0, 1, 0, 0}, {1, 1, 0, 0},   {1.5, 2, 0, 4}, {2, 3, 0, 8},
                                    {3, 3, 2, 4}, {3.5, 3, 3, 2}, {4, 3, 4, 0},   {99, 3, 4, 0}};
     Moving data = sliding();
@@ -103,7 +102,6 @@ TEST_WITH(lines_join_key_frames_and_the_ends_are_kept, maker_reset, NULL)
 
 TEST_WITH(steps_hold_until_the_next_key_frame, maker_reset, NULL)
 {
-    (void)state;
     static const double AT[][4] = {{0, 1, 0, 0}, {1.999, 1, 0, 0}, {2, 3, 0, 8},
                                    {3.999, 3, 0, 8}, {4, 3, 4, 0}, {5, 3, 4, 0}};
     Moving data = sliding();
@@ -127,7 +125,6 @@ static double slope(double t, int axis)
 /* Between keys of any distance a spline is the cubic that its values and tangents come from. */
 TEST_WITH(a_spline_reproduces_a_cubic, maker_reset, NULL)
 {
-    (void)state;
     static const float TIMES[3] = {0.25f, 1, 3};
     Moving data = STANDING;
     memcpy(data.times, TIMES, sizeof TIMES);
@@ -170,7 +167,6 @@ static void check_half_turn(double angle, float sign)
 
 TEST_WITH(a_turn_goes_along_the_shorter_arc_at_an_even_pace, maker_reset, NULL)
 {
-    (void)state;
     static const double ANGLES[] = {0, 1e-7, 0.001, 0.5, 1.5707963, 3, 3.14};
     for (size_t i = 0; i < sizeof ANGLES / sizeof *ANGLES; i++) {
         check_half_turn(ANGLES[i], 1);
@@ -180,7 +176,6 @@ TEST_WITH(a_turn_goes_along_the_shorter_arc_at_an_even_pace, maker_reset, NULL)
 
 TEST_WITH(scales_move_and_a_node_keeps_what_is_not_moved, maker_reset, NULL)
 {
-    (void)state;
     Moving data = STANDING;
     const float values[6] = {1, 1, 1, 3, 5, 1};
     data.times[1] = 1;
@@ -197,7 +192,6 @@ TEST_WITH(scales_move_and_a_node_keeps_what_is_not_moved, maker_reset, NULL)
 
 TEST_WITH(a_morph_of_weight_one_is_the_target, maker_reset, NULL)
 {
-    (void)state;
     Moving data = STANDING;
     const float change[9] = {0, 0, 1, 0, 2, 0, 5, 0, 0};
     data.times[1] = 1;
@@ -221,7 +215,6 @@ TEST_WITH(a_morph_of_weight_one_is_the_target, maker_reset, NULL)
 
 TEST_WITH(without_a_time_the_pose_at_rest_is_shown, maker_reset, NULL)
 {
-    (void)state;
     Moving data = sliding();
     Motion motion = SLIDE;
     motion.node = ",'translation':[7,7,7]";
@@ -238,7 +231,6 @@ TEST_WITH(without_a_time_the_pose_at_rest_is_shown, maker_reset, NULL)
 
 TEST_WITH(a_pointer_to_a_node_is_the_node, maker_reset, NULL)
 {
-    (void)state;
     Moving data = sliding();
     Motion motion = SLIDE;
     motion.target = POINTS("/nodes/0/translation");
@@ -247,7 +239,6 @@ TEST_WITH(a_pointer_to_a_node_is_the_node, maker_reset, NULL)
 
 TEST_WITH(a_pointer_shows_and_hides, maker_reset, NULL)
 {
-    (void)state;
     Moving data = sliding();
     memcpy(data.values, (unsigned char[3]){1, 0, 1}, 3);
     Motion motion = {"STEP", "BYTES", 3, 3,
@@ -268,7 +259,6 @@ TEST_WITH(a_pointer_shows_and_hides, maker_reset, NULL)
 
 TEST_WITH(a_pointer_elsewhere_is_told_by_name, maker_reset, NULL)
 {
-    (void)state;
     Moving data = sliding();
     Motion motion = SLIDE;
     motion.target = POINTS("/cameras/0/perspective/yfov");
@@ -310,7 +300,6 @@ static const Fault FAULTS[] = {
 
 TEST_WITH(faults_of_animations_fail_when_they_are_played, maker_reset, NULL)
 {
-    (void)state;
     Moving data = sliding();
     for (size_t i = 0; i < sizeof FAULTS / sizeof *FAULTS; i++) {
         const Fault *fault = &FAULTS[i];
@@ -360,7 +349,6 @@ static Found survey_chosen(const char *path, const char *const *names, int count
 
 TEST_WITH(animations_are_played_together_unless_they_move_the_same, maker_reset, NULL)
 {
-    (void)state;
     const char *path = write_three();
     Found both = survey_chosen(path, (const char *const[]){"side", "animation 2"}, 2);
     assert_int_equal(both.problems.error_count, 0);
@@ -380,7 +368,6 @@ TEST_WITH(animations_are_played_together_unless_they_move_the_same, maker_reset,
 
 TEST_WITH(a_time_needs_an_animation, maker_reset, NULL)
 {
-    (void)state;
     Found found = survey_at(maker_gltf(STANDING.triangle, 36, ""), 2);
     assert_non_null(maker_find(&found, "", "2 s, but no file of the scene has an animation"));
 }
@@ -391,7 +378,6 @@ TEST_WITH(a_time_needs_an_animation, maker_reset, NULL)
  * it is where it would be without a skin, and joint 1 takes its corners along. */
 TEST_WITH(a_skin_at_bind_pose_changes_nothing_and_joints_take_along, maker_reset, NULL)
 {
-    (void)state;
     struct {
         float triangle[9];
         unsigned char joints[12];
@@ -463,7 +449,6 @@ static const char *write_instances(const void *data, size_t size, const char *mo
 
 TEST_WITH(instances_stand_in_their_places_below_the_node, maker_reset, NULL)
 {
-    (void)state;
     const float half = sqrtf(0.5f);
     struct {
         float triangle[9], moves[6], turns[8], scales[6];
@@ -491,7 +476,6 @@ TEST_WITH(instances_stand_in_their_places_below_the_node, maker_reset, NULL)
 
 TEST_WITH(turns_of_instances_that_are_none_are_named, maker_reset, NULL)
 {
-    (void)state;
     struct {
         float triangle[9], moves[6], turns[8], scales[6];
     } data = {{0, 0, 0, 1, 0, 0, 0, 1, 0}, {0}, {0, 0, 0, 1, 0, 0, 0.7f, 0.7f}, {0}};
@@ -548,7 +532,6 @@ static const char *worn(const Scene *scene, int part)
 
 TEST_WITH(a_variant_changes_the_materials_that_it_maps_alone, maker_reset, NULL)
 {
-    (void)state;
     static const char *const WORN[][2] = {{"soft", "cloth"}, {"warm", "wood"},
                                           {"old", "wood"},   {"bare", "steel"}};
     const char *path = write_variants(NAMES);
@@ -566,7 +549,6 @@ TEST_WITH(a_variant_changes_the_materials_that_it_maps_alone, maker_reset, NULL)
 
 TEST_WITH(variants_that_cannot_be_worn_are_told, maker_reset, NULL)
 {
-    (void)state;
     const char *path = write_variants(NAMES);
     Found unknown = survey_worn(path, (const char *const[]){"worm"}, 1);
     assert_non_null(maker_find(&unknown, "",
@@ -583,7 +565,4 @@ TEST_WITH(variants_that_cannot_be_worn_are_told, maker_reset, NULL)
                                "is \"a\", as variant 0 is called already"));
 }
 
-int main(void)
-{
-    return run_cases(maker_start, maker_end);
-}
+TEST_PROGRAM(maker_start, maker_end)

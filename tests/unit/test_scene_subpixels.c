@@ -43,7 +43,6 @@ static const FaultCase FAULTS[] = {
 
 TEST_WITH(every_fault_is_named_with_its_place, maker_reset, NULL)
 {
-    (void)state;
     maker_expect_faults(FAULTS, COUNT_OF(FAULTS), NULL, 0);
 }
 
@@ -70,7 +69,6 @@ static const Display *shown(const char *body)
 
 TEST_WITH(pixels_are_the_contents_unless_they_are_counted, maker_reset, NULL)
 {
-    (void)state;
     const Subpixels *own = shown(",'subpixels':{'layout':'pentile'}")->subpixels;
     assert_int_equal(own->layout, SUBPIXELS_PENTILE);
     assert_near(own->fill, 1, 0);
@@ -140,7 +138,6 @@ static Found with_panel(int panel, const char *members)
 
 TEST_WITH(the_panels_sub_pixels_hold_unless_the_scene_says_other, maker_reset, NULL)
 {
-    (void)state;
 #define CONTENT "'content':{'index':0}"
 #define SCENE_SAYS(text) CONTENT ",'subpixels':{" text "}"
     static const struct {
@@ -175,7 +172,4 @@ TEST_WITH(the_panels_sub_pixels_hold_unless_the_scene_says_other, maker_reset, N
     assert_non_null(maker_find(&found, "", "neither panel nor content tells them"));
 }
 
-int main(void)
-{
-    return run_cases(start, end);
-}
+TEST_PROGRAM(start, end)

@@ -79,7 +79,6 @@ static void remove_all(void)
 
 TEST(a_whole_set_has_its_names_at_the_end)
 {
-    (void)state;
     Error     err = {0};
     SetWriter writer;
     assert_true(set_writer_open(in_folder("set/MANIFEST.json"), &writer, &err));
@@ -99,7 +98,6 @@ TEST(a_whole_set_has_its_names_at_the_end)
 
 TEST(a_set_that_is_not_whole_goes_again)
 {
-    (void)state;
     Error     err = {0};
     SetWriter writer;
     assert_true(set_writer_open(in_folder("set/MANIFEST.json"), &writer, &err));
@@ -110,7 +108,6 @@ TEST(a_set_that_is_not_whole_goes_again)
 
 TEST(a_file_where_a_folder_is_wanted_is_named)
 {
-    (void)state;
     write_text(in_folder("set"), "a file");
     refused("set/emission", "cannot be made: Not a directory");
     assert_true(holds("set", "a file"));
@@ -125,7 +122,6 @@ TEST(a_file_where_a_folder_is_wanted_is_named)
 
 TEST(a_folder_where_a_file_is_wanted_is_named)
 {
-    (void)state;
     Error err = {0};
     assert_true(write_all(&err));
     assert_int_equal(remove(in_folder("set/brdf/i30.csv")), 0);
@@ -143,7 +139,6 @@ TEST(a_folder_where_a_file_is_wanted_is_named)
 /* What happens between the tables and their names: the first one has its name already. */
 TEST(names_that_were_given_are_taken_back)
 {
-    (void)state;
     Error     err = {0};
     SetWriter writer;
     assert_true(set_writer_open(in_folder("set/MANIFEST.json"), &writer, &err));
@@ -159,7 +154,6 @@ TEST(names_that_were_given_are_taken_back)
 
 TEST(a_full_disk_leaves_what_stood_there)
 {
-    (void)state;
     Error         err = {0};
     struct rlimit before, limit;
     assert_true(write_all(&err));
@@ -181,14 +175,10 @@ TEST(a_full_disk_leaves_what_stood_there)
 /* The superuser may write everywhere: then there is nothing to see. */
 TEST(a_read_only_folder_is_named)
 {
-    (void)state;
     if (geteuid() == 0) skip();
     assert_int_equal(mkdir(in_folder("set"), 0555), 0);
     refused("set/emission", "cannot be made: Permission denied");
     assert_int_equal(rmdir(in_folder("set")), 0);
 }
 
-int main(void)
-{
-    return run_cases(make_folder, remove_folder);
-}
+TEST_PROGRAM(make_folder, remove_folder)

@@ -42,7 +42,6 @@ static const FresnelRow FRESNEL_TABLE[] = {
 
 TEST(glass_reflects_as_fresnel_says)
 {
-    (void)state;
     for (size_t i = 0; i < sizeof FRESNEL_TABLE / sizeof *FRESNEL_TABLE; i++) {
         const FresnelRow *row = &FRESNEL_TABLE[i];
         float      cosine = (float)cos(radians_from_degrees(row->deg)), behind;
@@ -61,7 +60,6 @@ TEST(glass_reflects_as_fresnel_says)
 
 TEST(light_is_totally_reflected_beyond_the_critical_angle)
 {
-    (void)state;
     float critical = sqrtf(1 - 1 / (1.5f * 1.5f)), behind;
     assert_near(fresnel_mean(fresnel_dielectric(critical - 1e-4f, 1 / 1.5f, &behind)), 1, 0);
     assert_near(behind, 0, 0);
@@ -92,7 +90,6 @@ static Bsdf smooth_bsdf(float metallic)
 
 TEST(smooth_metal_reflects_its_colour_at_normal_incidence)
 {
-    (void)state;
     Bsdf bsdf = smooth_bsdf(1);
     bsdf.metallic_roughness.base_color = ramp(0.2f, 0.95f);
     Spectrum f = delta_part(&bsdf, vec3(0, 0, 1), vec3(0, 0, 1));
@@ -107,7 +104,6 @@ TEST(smooth_metal_reflects_its_colour_at_normal_incidence)
 
 TEST(plastic_reflects_between_f0_and_specular)
 {
-    (void)state;
     Bsdf bsdf = smooth_bsdf(0);
     bsdf.metallic_roughness.specular = 0.5f;
     bsdf.metallic_roughness.specular_color = ramp(0.5f, 30);
@@ -123,7 +119,6 @@ TEST(plastic_reflects_between_f0_and_specular)
 
 TEST(plain_plastic_mirrors_by_the_exact_curve)
 {
-    (void)state;
     Bsdf bsdf = smooth_bsdf(0);
     for (int i = 0; i < EYE_COUNT; i++) {
         Vec3     wo = eye(i);
@@ -134,7 +129,6 @@ TEST(plain_plastic_mirrors_by_the_exact_curve)
 
 TEST(crossing_a_solid_twice_restores_radiance)
 {
-    (void)state;
     Bsdf glass_face = {.kind = BSDF_DIELECTRIC,
                        .dielectric = {.tint = spectrum_all(1), .ior = 1.5f}};
     Vec3 wo = vec3(0.6f, 0, 0.8f), inside = vec3(-0.4f, 0, -sqrtf(1 - 0.16f));
@@ -148,7 +142,6 @@ TEST(crossing_a_solid_twice_restores_radiance)
 
 TEST(tabulated_energy_is_the_lobe_s_own)
 {
-    (void)state;
     const float alphas[] = {0.003f, 0.02f, 0.1f, 0.33f, 0.6f, 0.95f};
     for (int a = 0; a < 6; a++)
         for (int c = 0; c < 40; c++) {
@@ -175,7 +168,6 @@ TEST(tabulated_energy_is_the_lobe_s_own)
 
 TEST(visible_facets_are_all_there_is_to_see)
 {
-    (void)state;
     const float alphas[] = {0.05f, 0.3f, 1};
     for (int a = 0; a < 3; a++)
         for (int i = 0; i < 4; i++) { /* the projected area of visible facets is wo.z */
@@ -196,7 +188,4 @@ TEST(visible_facets_are_all_there_is_to_see)
         }
 }
 
-int main(void)
-{
-    return run_cases(build_table, drop_table);
-}
+TEST_PROGRAM(build_table, drop_table)

@@ -204,7 +204,6 @@ static int drop_models(void **state)
 /* Roughness just above and just below the threshold must look alike. */
 TEST(a_narrow_lobe_sends_what_a_mirror_sends)
 {
-    (void)state;
     for (int metallic = 0; metallic < 2; metallic++)
         for (int i = 0; i < 4; i++) {
             Model mirror = {.bsdf.kind = BSDF_METALLIC_ROUGHNESS}, narrow;
@@ -239,7 +238,6 @@ static void mirror_is_where_it_belongs(const Model *model, Vec3 wo)
 
 TEST(shipped_displays_obey_the_same_laws)
 {
-    (void)state;
     static const char *const names[] = {"ips_cluster", "oled_centre"};
     int         found = 0;
     for (int i = 0; i < 2; i++) {
@@ -275,7 +273,4 @@ TEST(shipped_displays_obey_the_same_laws)
     }
     if (!found) skip();
 }
-int main(void)
-{
-    return run_cases(make_models, drop_models);
-}
+TEST_PROGRAM(make_models, drop_models)

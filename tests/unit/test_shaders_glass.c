@@ -226,7 +226,4 @@ static int drop_models(void **state)
     return 0;
 }
 
-int main(void)
-{
-    return run_cases(make_models, drop_models);
-}
+TEST_PROGRAM(make_models, drop_models)

@@ -18,7 +18,6 @@ static int owners_of(int parts, int place, int moments, int at, int count)
 
 TEST(each_question_of_a_moment_is_of_one_part)
 {
-    (void)state;
     for (int parts = 1; parts <= 13; parts++)
         for (int moments = 1; moments <= 7; moments++)
             for (int place = 0; place < moments; place++)
@@ -30,7 +29,6 @@ TEST(each_question_of_a_moment_is_of_one_part)
 /* Questions of moments of one size differ by one at most. */
 TEST(parts_of_moments_are_of_one_size)
 {
-    (void)state;
     enum { MOMENTS = 5, COUNT = 12, PARTS = 7 };
     int least = MOMENTS * COUNT, most = 0;
     for (int i = 0; i < PARTS; i++) {
@@ -48,7 +46,6 @@ TEST(parts_of_moments_are_of_one_size)
 /* Few moments are opened: those in which a part has something, and at most one beyond. */
 TEST(a_part_opens_few_moments)
 {
-    (void)state;
     enum { MOMENTS = 40, PARTS = 10 };
     for (int i = 0; i < PARTS; i++) {
         int opened = 0;
@@ -60,7 +57,6 @@ TEST(a_part_opens_few_moments)
 
 TEST(each_sight_of_a_sweep_is_of_one_part_and_all_are_of_who_shares_nothing)
 {
-    (void)state;
     for (int parts = 1; parts <= 9; parts++)
         for (int at = 0; at < 20; at++) {
             int owners = 0;
@@ -73,7 +69,4 @@ TEST(each_sight_of_a_sweep_is_of_one_part_and_all_are_of_who_shares_nothing)
     assert_true(moment_share_has_any(&(MomentShare){{0, 0}, 3, 9}));
 }
 
-int main(void)
-{
-    return run_cases(NULL, NULL);
-}
+TEST_PROGRAM(NULL, NULL)

@@ -58,7 +58,6 @@ static const double roughnesses[] = {0.07, 0.1, 0.16, 0.25, 0.4, 0.55, 0.7, 0.9,
 
 TEST(the_lobe_is_the_extensions_formula)
 {
-    (void)state;
     for (int i = 0; i < ROUGHNESSES * 400; i++) {
         double alpha = roughnesses[i % ROUGHNESSES] * roughnesses[i % ROUGHNESSES], o[3], w[3];
         direction(0.1 + 0.9 * fmod(i * 0.618034, 1), 0, o);
@@ -73,7 +72,6 @@ TEST(the_lobe_is_the_extensions_formula)
 
 TEST(nothing_comes_from_below)
 {
-    (void)state;
     Vec3 up = vec3(0.6f, 0, 0.8f), down = vec3(0.6f, 0, -0.8f);
     assert_true(sheen_lobe(&common_sheen_table, up, down, 0.3f) == 0);
     assert_true(sheen_lobe(&common_sheen_table, down, up, 0.3f) == 0);
@@ -98,7 +96,6 @@ static double albedo_of(double cosine, double alpha)
 
 TEST(its_albedo_is_as_tabulated)
 {
-    (void)state;
     for (int i = 0; i < ROUGHNESSES; i++)
         for (int k = 0; k < 9; k++) {
             static const double cosines[] = {0.005, 0.02, 0.045, 0.1, 0.17, 0.3, 0.5, 0.8, 1};
@@ -150,7 +147,6 @@ static void check_cloths(float metallic, float clearcoat, int step)
 
 TEST(a_white_furnace_stays_white)
 {
-    (void)state;
     check_cloths(0, 0, 1);
     check_cloths(1, 0, 1);
     check_cloths(0.5f, 0, 1);
@@ -158,7 +154,6 @@ TEST(a_white_furnace_stays_white)
 
 TEST(under_a_lacquer_it_stays_white)
 {
-    (void)state;
     check_cloths(0, 1, 17);
     check_cloths(1, 1, 19);
 }
@@ -166,7 +161,6 @@ TEST(under_a_lacquer_it_stays_white)
 /* A coloured sheen takes from a white base what its strongest primary reflects. */
 TEST(a_coloured_sheen_darkens_what_is_beneath)
 {
-    (void)state;
     MetallicRoughness m = cloth(0, 1, 0.6);
     m.sheen_color[0] = 0.5f;
     m.sheen_color[1] = m.sheen_color[2] = 0;
@@ -176,7 +170,4 @@ TEST(a_coloured_sheen_darkens_what_is_beneath)
     assert_near(sent, 1 + own * ((double)tint[7] - 0.5), 2e-3);
 }
 
-int main(void)
-{
-    return run_cases(make_wavelengths, NULL);
-}
+TEST_PROGRAM(make_wavelengths, NULL)

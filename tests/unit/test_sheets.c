@@ -165,7 +165,6 @@ static void check_cell(const World *world, const Place *place, int sheets, int c
 
 TEST(of_masks_in_one_plane_the_last_that_is_there_is_seen)
 {
-    (void)state;
     for (int p = 0; p < PLACE_COUNT; p++)
         for (int sheets = 2; sheets <= SHEETS; sheets += 2) {
             World world = masks_on_board(&PLACES[p], sheets);
@@ -178,7 +177,6 @@ TEST(of_masks_in_one_plane_the_last_that_is_there_is_seen)
 /* Two masks and the board as one mesh, the same four corners each. */
 TEST(sheets_of_one_mesh_are_seen_too)
 {
-    (void)state;
     World    world = world_start();
     uint8_t  texels[8] = {0, 0, 0, 255, 0, 0, 0, 0}; /* left there, right a hole */
     Material mask = film(1, 20);
@@ -243,7 +241,6 @@ static void check_films(const Place *place, int sheets, bool has_pane)
 
 TEST(films_in_one_plane_each_take_their_share)
 {
-    (void)state;
     for (int p = 0; p < PLACE_COUNT; p++)
         for (int sheets = 2; sheets <= SHEETS; sheets += 3) {
             check_films(&PLACES[p], sheets, false);
@@ -284,7 +281,6 @@ static void check_covered(const Place *place, float gap, float own_alpha)
 
 TEST(what_shines_under_films_lights_as_it_is_seen)
 {
-    (void)state;
     for (int p = 0; p < PLACE_COUNT; p++) {
         check_covered(&PLACES[p], 0, 1);
         check_covered(&PLACES[p], 0, 0.6f);
@@ -297,7 +293,6 @@ TEST(what_shines_under_films_lights_as_it_is_seen)
  * file is the nearest here. */
 TEST(a_sheet_that_is_nearer_by_more_than_rounding_is_seen_first)
 {
-    (void)state;
     for (float gap = 4e-6f; gap < 1e-3f; gap *= 2) {
         World world = world_start();
         for (int i = 0; i < 3; i++) {
@@ -312,7 +307,4 @@ TEST(a_sheet_that_is_nearer_by_more_than_rounding_is_seen_first)
     }
 }
 
-int main(void)
-{
-    return run_cases(NULL, NULL);
-}
+TEST_PROGRAM(NULL, NULL)

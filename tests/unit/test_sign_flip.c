@@ -14,7 +14,6 @@ static double unit(uint32_t *state)
 /* Every one of the 2^12 signs of a sum: as many of them as p says, or fewer, reach as far. */
 TEST(the_tail_of_random_signs_is_never_heavier_than_stated)
 {
-    (void)state;
     enum { TERMS = 12, SIGNS = 1 << TERMS };
     static double quotient[SIGNS], p[SIGNS];
     uint32_t      random = 5;
@@ -45,7 +44,6 @@ TEST(the_tail_of_random_signs_is_never_heavier_than_stated)
 
 TEST(the_square_of_random_signs_has_the_stated_variance)
 {
-    (void)state;
     static const double SIZE[4] = {1, 2, 2, 5};
     double              fourth = 0;
     const NoiseLaw      law = {.is_same = true};
@@ -63,7 +61,6 @@ TEST(the_square_of_random_signs_has_the_stated_variance)
 
 TEST(tails_have_their_closed_forms)
 {
-    (void)state;
     assert_close(2 * normal_tail(1.959964), 0.05, 1e-6);
     assert_close(normal_tail(6), 9.865876e-10, 1e-6);
     /* chi square of 2 is exponential: exp(-x / 2); of 100, the table's 5 % and 0.1 % */
@@ -77,7 +74,4 @@ TEST(tails_have_their_closed_forms)
     assert_close(sidak_p(sidak_level(0.01, 5000), 5000), 0.01, 1e-9);
 }
 
-int main(void)
-{
-    return run_cases(NULL, NULL);
-}
+TEST_PROGRAM(NULL, NULL)

@@ -112,7 +112,6 @@ TEST(a_furnace_does_not_show_rough_solids)
 {
     static const float iors[] = {1.05f, 1.5f, 2.42f, 0.75f};
     static const float alphas[] = {0.02f, 0.11f, 0.4f, 0.71f, 0.9f, 1};
-    (void)state;
     for (int i = 0; i < 24; i++) {
         float ior = iors[i / 6], alpha = alphas[i % 6];
         Bsdf  bare = boundary(ior, alpha, solid_energy_build(ior, alpha, alpha, false, &arena));
@@ -124,7 +123,6 @@ TEST(nor_coated_and_filmed_ones)
 {
     static const float alphas[] = {0.1f, 0.4f, 1};
     const CoatingTables *four = coating_of_solid(stack_four(&arena), 1.52, &arena);
-    (void)state;
     for (int i = 0; i < 3; i++) {
         float alpha = alphas[i];
         Bsdf  bsdf = boundary(1.52f, alpha, solid_energy_build(1.52f, alpha, alpha, true,
@@ -140,7 +138,6 @@ TEST(nor_coated_and_filmed_ones)
 /* Of glTF's strongest dispersion. */
 TEST(hardly_those_that_part_light)
 {
-    (void)state;
     for (int i = 0; i < 4; i++) {
         Curve *index = ARENA_NEW(&arena, Curve, 1);
         float  alpha = i % 2 ? 0.8f : 0.3f;
@@ -169,7 +166,6 @@ TEST(nor_brushed_ones)
 {
     static const float iors[] = {1.05f, 1.5f, 2.42f, 0.75f};
     static const double phis_deg[] = {0, 25, 60, 80, 90};
-    (void)state;
     for (int i = 0; i < 12; i++) {
         float ior = iors[i % 4], along = pairs[i % 6][0], across = pairs[i % 6][1];
         Bsdf  bsdf = boundary(ior, across, brushed_energy(ior, along, across, false, &arena));
@@ -184,7 +180,6 @@ TEST(hardly_brushed_ones_of_many_alphas)
     const BrushedRange all = {.least = 0.04f, .most = 1, .least_ratio = 0.04f, .most_ratio = 1};
     const SolidEnergy *even = solid_energy_build(1.5f, 0.04f, 1, false, &arena);
     const SolidEnergy *energy = solid_energy_brushed(even, all, &arena);
-    (void)state;
     for (int i = 0; i < 6; i++) {
         Bsdf bsdf = boundary(1.5f, pairs[i][1], energy);
         bsdf.dielectric.alpha_along = pairs[i][0];
@@ -195,7 +190,6 @@ TEST(hardly_brushed_ones_of_many_alphas)
 TEST(nor_brushed_ones_under_coatings_and_films)
 {
     const CoatingTables *four = coating_of_solid(stack_four(&arena), 1.52, &arena);
-    (void)state;
     for (int i = 0; i < 3; i++) {
         float along = pairs[i][0], across = pairs[i][1];
         Bsdf  bsdf = boundary(1.52f, across,
@@ -209,7 +203,4 @@ TEST(nor_brushed_ones_under_coatings_and_films)
     }
 }
 
-int main(void)
-{
-    return run_cases(reserve, release);
-}
+TEST_PROGRAM(reserve, release)

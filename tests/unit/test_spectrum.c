@@ -30,7 +30,6 @@ static void estimate_xyz(Spectrum (*radiance)(const Wavelengths *), double xyz[3
 
 TEST(equal_energy_has_its_luminance)
 {
-    (void)state;
     float one[SPECTRAL_COUNT];
     for (int i = 0; i < SPECTRAL_COUNT; i++) one[i] = 1;
     assert_close(luminance_cd_m2(one, SPECTRAL_COUNT, 360, 1), 683.002 * 106.8569, 1e-6);
@@ -42,7 +41,6 @@ TEST(equal_energy_has_its_luminance)
 
 TEST(equal_energy_is_white_of_e)
 {
-    (void)state;
     float  one[SPECTRAL_COUNT];
     double xyz[3];
     for (int i = 0; i < SPECTRAL_COUNT; i++) one[i] = 1;
@@ -53,7 +51,6 @@ TEST(equal_energy_is_white_of_e)
 
 TEST(nothing_is_seen_outside_360_to_830)
 {
-    (void)state;
     float one[200];
     for (int i = 0; i < 200; i++) one[i] = 1;
     assert_near(luminance_cd_m2(one, 200, 150, 1), 0, 0);
@@ -63,7 +60,6 @@ TEST(nothing_is_seen_outside_360_to_830)
 
 TEST(a_black_body_radiates_sigma_t4)
 {
-    (void)state;
     for (double kelvin = 1000; kelvin < 12000; kelvin *= 1.7) {
         double sum = 0; /* in ln(lambda): 10 nm to 1 mm */
         for (int i = 0; i < 20000; i++) {
@@ -76,7 +72,6 @@ TEST(a_black_body_radiates_sigma_t4)
 
 TEST(illuminant_a_is_a_black_body_of_2856_kelvin)
 {
-    (void)state;
     double ratio = (double)spectral_row(560).illuminant_a / black_body_radiance(560, 2855.5);
     for (int nm = 380; nm <= 780; nm += 40)
         assert_close(spectral_row(nm).illuminant_a, ratio * black_body_radiance(nm, 2855.5),
@@ -85,7 +80,6 @@ TEST(illuminant_a_is_a_black_body_of_2856_kelvin)
 
 TEST(d65_has_its_chromaticity)
 {
-    (void)state;
     float d65[SPECTRAL_COUNT], xyz[3], xy[2];
     double sum[3];
     for (int i = 0; i < SPECTRAL_COUNT; i++) d65[i] = spectral_table[i].d65;
@@ -109,7 +103,6 @@ static float wavelengths_pdf(float nm)
 
 TEST(wavelengths_cover_the_range_once)
 {
-    (void)state;
     double integral = 0;
     for (int i = 0; i < 47000; i++)
         integral += (double)wavelengths_pdf(360.005f + 0.01f * (float)i) * 0.01;
@@ -127,7 +120,6 @@ TEST(wavelengths_cover_the_range_once)
 
 TEST(wavelengths_follow_their_density)
 {
-    (void)state;
     double histogram[47] = {0}, expected[47] = {0};
     for (int i = 0; i < OFFSETS; i++) {
         Wavelengths w;
@@ -154,7 +146,6 @@ static Spectrum spike(const Wavelengths *w)
 
 TEST(spiky_spectra_are_integrated_without_bias)
 {
-    (void)state;
     spike_width_nm = 2;
     for (spike_nm = 380; spike_nm < 720; spike_nm += 17.3f) {
         double xyz[3], sum[3] = {0, 0, 0};
@@ -174,7 +165,6 @@ TEST(spiky_spectra_are_integrated_without_bias)
 
 TEST(one_offset_already_sees_the_luminance_of_daylight)
 {
-    (void)state;
     double squares = 0, xyz[3];
     estimate_xyz(curve_of_d65, xyz);
     assert_close(xyz[0], d65_white_xyz[0], 2e-5);
@@ -192,7 +182,6 @@ TEST(one_offset_already_sees_the_luminance_of_daylight)
 
 TEST(rgb_reflectances_sum_to_one_and_stay_within_it)
 {
-    (void)state;
     for (int i = 0; i < SPECTRAL_COUNT; i++) {
         const SpectralRow *row = &spectral_table[i];
         assert_near((double)row->red + (double)row->green + (double)row->blue, 1, 2e-7);
@@ -210,7 +199,6 @@ static Spectrum emission_of_wanted(const Wavelengths *w)
 
 TEST(rgb_survives_the_way_through_spectra)
 {
-    (void)state;
     srand(7);
     for (int i = 0; i < 24; i++) {
         double xyz[3];
@@ -227,7 +215,6 @@ TEST(rgb_survives_the_way_through_spectra)
 
 TEST(rec709_primaries_are_where_the_standard_has_them)
 {
-    (void)state;
     const float xy[3][2] = {{0.64f, 0.33f}, {0.30f, 0.60f}, {0.15f, 0.06f}};
     for (int p = 0; p < 3; p++) {
         float rgb[3] = {p == 0, p == 1, p == 2}, xyz[3], seen[2], back[3];
@@ -247,7 +234,6 @@ TEST(rec709_primaries_are_where_the_standard_has_them)
 
 TEST(black_has_the_chromaticity_of_d65)
 {
-    (void)state;
     float xy[2];
     xy_from_xyz((float[]){0, 0, 0}, xy);
     assert_near(xy[0], 0.312727, 1e-5);
@@ -255,7 +241,6 @@ TEST(black_has_the_chromaticity_of_d65)
 
 TEST(the_observer_is_the_published_table)
 {
-    (void)state;
     FILE *file = fopen(SHARED_DATA_DIR "/spectra/cie1931_2deg_cmf_1nm.csv", "r");
     if (!file) skip();
     char line[256];
@@ -275,7 +260,6 @@ TEST(the_observer_is_the_published_table)
 
 TEST(a_curve_passes_through_its_points_and_holds_its_ends)
 {
-    (void)state;
     double nm[4] = {400, 500.5, 600, 700}, value[4] = {0.1, 0.5, 0.2, 0.9};
     static Curve curve;
     curve_from_points(nm, value, 4, &curve);
@@ -309,7 +293,6 @@ static bool curve_read(const char *path, Curve *out, Error *err)
 
 TEST(a_curve_file_may_have_comments_and_a_header)
 {
-    (void)state;
     static Curve curve;
     Error        err;
     const char  *path = in_folder("curve.csv");
@@ -324,7 +307,6 @@ TEST(a_curve_file_may_have_comments_and_a_header)
 
 TEST(a_bad_curve_file_is_refused_with_its_line)
 {
-    (void)state;
     const struct {
         const char *text, *message;
     } cases[] = {
@@ -361,7 +343,6 @@ TEST(a_bad_curve_file_is_refused_with_its_line)
 
 TEST(a_value_out_of_range_is_refused_with_its_line)
 {
-    (void)state;
     static Curve curve;
     Error        err;
     char         line[2048];
@@ -380,7 +361,6 @@ TEST(a_value_out_of_range_is_refused_with_its_line)
 
 TEST(a_file_of_indices_has_three_columns_and_is_refused_with_its_line)
 {
-    (void)state;
     static Curve n, k;
     Error        err;
     assert_true(curve_parse_index("nm,n,k\n400,0.5,2\n500 1 4\n", "metal.csv", &n, &k, &err));
@@ -411,7 +391,6 @@ TEST(a_file_of_indices_has_three_columns_and_is_refused_with_its_line)
 
 TEST(lane_operations_agree_with_loops)
 {
-    (void)state;
     Spectrum a, b;
     float    sum = 0, most = -1e9f;
     for (int i = 0; i < SPECTRUM_LANES; i++) {
@@ -451,7 +430,6 @@ TEST(lane_operations_agree_with_loops)
 /* D65 lies at 6500 K times 1.4388 / 1.4380 (CIE 15); the table has it from 1 nm data. */
 TEST(daylight_of_6504_kelvin_is_d65)
 {
-    (void)state;
     Curve curve;
     cct_curve(6500 * 1.4388 / 1.4380, &curve);
     for (int nm = 360; nm <= 830; nm += 10)
@@ -461,7 +439,6 @@ TEST(daylight_of_6504_kelvin_is_d65)
 /* x and y of CIE 15's D50, D55, D75, and of illuminant A below 4000 K. */
 TEST(a_colour_temperature_has_the_chromaticity_of_its_illuminant)
 {
-    (void)state;
     static const double white[][3] = {{2855.5, 0.44758, 0.40745}, {5002.8, 0.34567, 0.35850},
                                       {5503.1, 0.33242, 0.34743}, {7504.2, 0.29902, 0.31485}};
     for (int i = 0; i < 4; i++) {
@@ -476,7 +453,4 @@ TEST(a_colour_temperature_has_the_chromaticity_of_its_illuminant)
     }
 }
 
-int main(void)
-{
-    return run_cases(make_folder, remove_folder);
-}
+TEST_PROGRAM(make_folder, remove_folder)

@@ -35,7 +35,6 @@ static Alarms count_alarms(Maker *reference, Maker *test)
 
 TEST(noise_of_any_kind_keeps_the_level)
 {
-    (void)state;
     static const int SAMPLES[] = {1, 2, 8};
     for (Noise noise = NOISE_GAUSSIAN; noise <= NOISE_FIREFLIES; noise++)
         for (int s = 0; s < 3; s++) {
@@ -57,7 +56,6 @@ TEST(noise_of_any_kind_keeps_the_level)
 /* A reference of few samples saw hardly a firefly; or it is the test that did not. */
 TEST(different_sample_counts_keep_the_level)
 {
-    (void)state;
     for (Noise noise = NOISE_GAUSSIAN; noise <= NOISE_FIREFLIES; noise++)
         for (int swap = 0; swap < 2; swap++) {
             Maker few = {.noise = noise, .samples = 2}, many = {.noise = noise, .samples = 20};
@@ -72,7 +70,6 @@ TEST(different_sample_counts_keep_the_level)
 /* A program that finds light better makes less noise of the same mean. */
 TEST(less_noise_of_the_same_mean_is_no_change)
 {
-    (void)state;
     Maker before = {.noise = NOISE_EXPONENTIAL, .samples = 8};
     Maker after = {.noise = NOISE_GAUSSIAN, .samples = 8};
     plain_scene(&before);
@@ -305,7 +302,4 @@ TEST(frames_that_do_not_tell_their_noise_are_refused)
                    "holds pixels 1,0,49,32, the reference 0,0,48,32: wanted the same");
 }
 
-int main(void)
-{
-    return run_cases(make_arena, drop_arena);
-}
+TEST_PROGRAM(make_arena, drop_arena)

@@ -105,7 +105,4 @@ TEST(small_changes_everywhere_are_seen_together)
     assert_true(by_histogram >= 10);
 }
 
-int main(void)
-{
-    return run_cases(make_arena, drop_arena);
-}
+TEST_PROGRAM(make_arena, drop_arena)

@@ -118,7 +118,6 @@ static void panel_mean(const Shown *shown, const int box[4], double xyz[3])
 /* Pentile with content: up to a fill of a quarter no diamond reaches over its pixel. */
 TEST(the_mean_over_a_pixel_is_what_the_panel_sends)
 {
-    (void)state;
     static const struct {
         SubpixelLayout layout;
         float          fill;
@@ -165,7 +164,6 @@ static void assert_opening(const Shown *shown, double x, double y, int primary, 
 
 TEST(stripes_stand_from_red_at_the_left_to_blue_at_the_right)
 {
-    (void)state;
     Shown shown;
     show(&shown, SUBPIXELS_STRIPE, 0.25f, false);
     for (int p = 0; p < 3; p++) {
@@ -179,7 +177,6 @@ TEST(stripes_stand_from_red_at_the_left_to_blue_at_the_right)
 
 TEST(diamonds_have_green_in_every_pixel_and_red_and_blue_in_turn)
 {
-    (void)state;
     Shown shown;
     show(&shown, SUBPIXELS_PENTILE, 0.25f, false);
     for (int y = -1; y <= 1; y++)
@@ -196,7 +193,6 @@ TEST(diamonds_have_green_in_every_pixel_and_red_and_blue_in_turn)
 /* In units of a display pixel; the view is slanted by 20 degrees. */
 TEST(from_far_the_light_is_even_to_the_bit)
 {
-    (void)state;
     const float pixel = SIZE_M / SIDE;
     for (int layout = SUBPIXELS_STRIPE; layout <= SUBPIXELS_PENTILE; layout++) {
         Shown shown;
@@ -226,7 +222,6 @@ TEST(from_far_the_light_is_even_to_the_bit)
  * sqrt(1 + (tan 20 cos 30)^2) along the rows. */
 TEST(the_layout_fades_as_a_pixel_of_the_frame_widens)
 {
-    (void)state;
     Shown        shown;
     const double stretch = sqrt(1 + pow(tan(0.34906585) * cos(0.52359878), 2));
     show(&shown, SUBPIXELS_STRIPE, 0.25f, false);
@@ -250,7 +245,6 @@ TEST(the_layout_fades_as_a_pixel_of_the_frame_widens)
 
 TEST(spectra_carry_the_same_light)
 {
-    (void)state;
     Shown shown;
     show(&shown, SUBPIXELS_PENTILE, 0.7f, true);
     for (int i = 0; i < 60; i++) {
@@ -355,7 +349,6 @@ static void take_frame(Shown *shown, double parts, Layout layout, Pixels *out)
 /* The middle of a frame's pixel that lies in the middle of a stripe. */
 TEST(a_frame_from_close_shows_red_green_and_blue_from_left_to_right)
 {
-    (void)state;
     static Pixels close, plain;
     static const int column[3] = {2, 7, 13}; /* of 16 a display pixel */
     Shown  shown;
@@ -406,7 +399,6 @@ static double unrest(const Pixels *frame, const Pixels *plain)
  * That the measure sees moire: without the fade it is there. */
 TEST(frames_of_no_distance_show_moire)
 {
-    (void)state;
     static Pixels frame, plain;
     static const double covered[] = {0.27, 0.351, 0.394, 0.453, 0.49, 0.62, 0.953, 1.26};
     for (int layout = SUBPIXELS_STRIPE; layout <= SUBPIXELS_PENTILE; layout++) {
@@ -461,7 +453,6 @@ static const Stand unfolded = {{2 * MIRROR_X - 0.005f, 0, 0.03f}, {0, 0, 0}, 0.0
 /* In a flat mirror all is as from the camera's image, right and left changed. */
 TEST(a_mirror_shows_what_its_image_of_the_camera_sees)
 {
-    (void)state;
     static Pixels mirrored, direct;
     static const double parts[] = {2, 4, 0.2 * FRAME};
     for (int i = 0; i < COUNT_OF(parts); i++) {
@@ -494,7 +485,6 @@ TEST(a_mirror_shows_what_its_image_of_the_camera_sees)
  * pixels lie in one of the frame's. */
 TEST(mirrors_that_shrink_a_display_show_no_moire_either)
 {
-    (void)state;
     static Pixels frame, plain;
     static const double covered[] = {0.113, 0.121, 0.131, 0.141, 0.151, 0.2, 0.3};
     const double radius = 0.03; /* three times as many columns in a pixel as upright and flat */
@@ -524,7 +514,4 @@ TEST(mirrors_that_shrink_a_display_show_no_moire_either)
     }
 }
 
-int main(void)
-{
-    return run_cases(start_ips, fixture_group_end);
-}
+TEST_PROGRAM(start_ips, fixture_group_end)

@@ -19,7 +19,6 @@ static SunBeam beam_at(double altitude_m, double elevation_deg)
 /* Watts, lux and air mass change together and without steps, through the horizontal too. */
 TEST(a_setting_sun_fades_smoothly_at_every_altitude)
 {
-    (void)state;
     for (size_t k = 0; k < sizeof altitudes_m / sizeof *altitudes_m; k++) {
         double  edge = -horizon_dip_deg(altitudes_m[k]), before_step[3] = {1, 1, 1};
         SunBeam before = beam_at(altitudes_m[k], 10);
@@ -45,7 +44,6 @@ TEST(a_setting_sun_fades_smoothly_at_every_altitude)
 
 TEST(a_high_sun_has_spectrl2s_beam)
 {
-    (void)state;
     for (int elevation = 20; elevation <= 90; elevation += 10) {
         SunBeam  beam = beam_at(0, elevation);
         Spectrl2 ground = spectrl2(&clear_air, 90 - elevation, 1);
@@ -86,7 +84,4 @@ TEST(the_figures_of_a_sun_below_the_horizontal_agree)
     }
 }
 
-int main(void)
-{
-    return run_cases(make_arena, drop_arena);
-}
+TEST_PROGRAM(make_arena, drop_arena)

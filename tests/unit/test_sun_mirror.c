@@ -78,7 +78,6 @@ static void set_sun(World *world, double elevation_degrees, double radius_degree
 /* An upright mirror at the back of a floor: the head looks at it and sees the sun there. */
 TEST(a_flat_mirror_gives_the_suns_illuminance_times_reflectance_and_cosine)
 {
-    (void)state;
     for (int degrees = 10; degrees <= 70; degrees += 20) {
         World world = world_start();
         builder_part(world.scene, chrome(0.6f));
@@ -123,7 +122,6 @@ static World ring_world(double sun_radius_degrees)
  * alone finds. The sun is made large, so that chance finds it. */
 TEST(asking_mirrors_leaves_the_mean_as_it_is)
 {
-    (void)state;
     for (int i = 0; i < 6; i++) {
         World world = world_start();
         Material shiny = builder_material(0.3f), glossy = builder_material(0.5f);
@@ -174,7 +172,6 @@ TEST(asking_mirrors_leaves_the_mean_as_it_is)
 /* 200 pixels of one view that differ by their seeds alone. */
 TEST(no_pixel_is_a_firefly)
 {
-    (void)state;
     enum { SEEDS = 200 };
     World  world = ring_world(0.26645);
     double pixel[SEEDS], mean = 0, variance = 0;
@@ -194,7 +191,6 @@ TEST(no_pixel_is_a_firefly)
 /* The variance tells the samples that an error takes. */
 TEST(a_rings_caustic_takes_a_thirtieth_of_the_samples)
 {
-    (void)state;
     World    world = ring_world(0.26645);
     Vec3     eye = vec3(0, 2, 1), to = vec3(0.1f, 0, -0.8f);
     Estimate asked = luminance(&world, eye, to, 0.01f, 1, 20000);
@@ -212,7 +208,6 @@ TEST(a_rings_caustic_takes_a_thirtieth_of_the_samples)
 /* Inside the ring the table lies in its light; outside and below nothing comes. */
 TEST(mirrors_are_asked_where_their_light_falls)
 {
-    (void)state;
     World world = ring_world(0.26645);
     const MirrorBeams *beams = &world.context.beams;
     float least = mirror_beams_prob(beams, 0, false, vec3(1.7f, 0, 1.7f));
@@ -228,7 +223,4 @@ TEST(mirrors_are_asked_where_their_light_falls)
     world_end(&world);
 }
 
-int main(void)
-{
-    return run_cases(NULL, NULL);
-}
+TEST_PROGRAM(NULL, NULL)

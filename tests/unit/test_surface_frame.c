@@ -46,7 +46,6 @@ static void check_round_trip(const SurfaceFrame *frame, Vec3 wi)
 
 TEST(stored_directions_lead_back)
 {
-    (void)state;
     for_all(check_round_trip);
 }
 
@@ -62,7 +61,6 @@ static void check_ends(const SurfaceFrame *frame, Vec3 wi)
 
 TEST(the_mirror_direction_is_the_pole_and_the_horizon_the_horizon)
 {
-    (void)state;
     for_all(check_ends);
 }
 
@@ -70,7 +68,6 @@ TEST(the_mirror_direction_is_the_pole_and_the_horizon_the_horizon)
  * far away; so a lobe of facets neither turns nor moves. */
 TEST(near_the_peak_a_facet_stays_where_it_is)
 {
-    (void)state;
     SurfaceFrame frame = surface_frame(false, (SurfaceAxes){20, 3, 6}, 3000);
     for (double azimuth = 0; azimuth < 360; azimuth += 45) {
         Vec3 facet = vec3_normalize(vec3(0.02f, 0.03f, 1));
@@ -104,11 +101,7 @@ static void check_finite(const SurfaceFrame *frame, Vec3 wi)
 
 TEST(answers_are_finite_in_every_corner)
 {
-    (void)state;
     for_all(check_finite);
 }
 
-int main(void)
-{
-    return run_cases(NULL, NULL);
-}
+TEST_PROGRAM(NULL, NULL)

@@ -16,7 +16,6 @@ static SweepSuns suns_of(ReviewCondition condition, Arena *arena)
  * refraction and the altitude of the pole add. */
 TEST(a_year_has_its_hours_of_sun_for_every_heading)
 {
-    (void)state;
     Arena  arena = arena_reserve((size_t)1 << 28);
     double headings[] = {0, 90, 200};
     SweepSuns suns = suns_of((ReviewCondition){.kind = CONDITION_YEAR_SWEEP, .year = 2026,
@@ -42,7 +41,6 @@ TEST(a_year_has_its_hours_of_sun_for_every_heading)
 
 TEST(a_grid_of_suns_is_the_vehicles)
 {
-    (void)state;
     Arena arena = arena_reserve((size_t)1 << 24);
     ReviewCondition condition = {.kind = CONDITION_SUN_SWEEP, .azimuth_deg = {0, 350, 10, 36},
                                  .elevation_deg = {5, 45, 20, 3}, .has_heading = true,
@@ -61,7 +59,6 @@ TEST(a_grid_of_suns_is_the_vehicles)
 /* Closer about one of them, as far as its neighbours and a tenth of a degree apart. */
 TEST(suns_about_one_are_a_tenth_of_a_degree_apart)
 {
-    (void)state;
     Arena  arena = arena_reserve((size_t)1 << 28);
     double heading = 90;
     ReviewCondition year = {.kind = CONDITION_YEAR_SWEEP, .year = 2026, .weather_id = NO_ID,
@@ -109,7 +106,6 @@ TEST(suns_about_one_are_a_tenth_of_a_degree_apart)
 /* Points of a drive at noon in summer: each stands for the time to the next. */
 TEST(a_route_gives_each_point_its_time)
 {
-    (void)state;
     Arena      arena = arena_reserve((size_t)1 << 24);
     RoutePoint points[3];
     for (int i = 0; i < 3; i++)
@@ -131,7 +127,6 @@ TEST(a_route_gives_each_point_its_time)
 /* Each is found with its own reading, and no other is, however many there are. */
 TEST(kept_readings_are_found_by_their_suns)
 {
-    (void)state;
     enum { MANY = 5000 };
     Arena       arena = arena_reserve((size_t)1 << 28);
     SunReadings of[2] = {sun_readings_start(&arena), sun_readings_start(&arena)};
@@ -150,7 +145,4 @@ TEST(kept_readings_are_found_by_their_suns)
     arena_release(&arena);
 }
 
-int main(void)
-{
-    return run_cases(NULL, NULL);
-}
+TEST_PROGRAM(NULL, NULL)

@@ -48,7 +48,6 @@ static Fixture *drive(int steps)
 
 TEST(each_step_has_the_light_of_its_row)
 {
-    (void)state;
     for (int steps = 1; steps <= 4; steps += 3) {
         Fixture  *f = drive(steps);
         Error     err;
@@ -74,7 +73,6 @@ TEST(each_step_has_the_light_of_its_row)
 /* All headings of an hour share its sky; dark ones have none. */
 TEST(skies_are_made_once_an_hour)
 {
-    (void)state;
     Fixture  *f = drive(1);
     Error     err = {0};
     double    headings[3] = {0, 10, 200};
@@ -100,7 +98,6 @@ TEST(skies_are_made_once_an_hour)
  * that belongs to no hour. */
 TEST(a_sun_is_traced_under_its_hour)
 {
-    (void)state;
     Fixture *f = drive(1);
     Setup    setup = {.request = &f->request, .condition = &f->condition};
     SweepSun noon = {.elevation_deg = 60, .heading_deg = 90, .step = 11};
@@ -129,7 +126,6 @@ static void lose_noon(Fixture *f)
 
 TEST(gaps_by_day_are_told)
 {
-    (void)state;
     static const struct {
         Harm       *harm;
         const char *path, *words;
@@ -155,7 +151,6 @@ TEST(gaps_by_day_are_told)
 
 TEST(gaps_by_night_matter_to_none)
 {
-    (void)state;
     Fixture *f = drive(1);
     Error    err;
     f->hours[0].has_light = f->hours[23].has_light = false;
@@ -168,7 +163,4 @@ TEST(gaps_by_night_matter_to_none)
     arena_release(&f->arena);
 }
 
-int main(void)
-{
-    return run_cases(NULL, NULL);
-}
+TEST_PROGRAM(NULL, NULL)

@@ -247,7 +247,4 @@ TEST(what_holds_no_symbol_is_said_in_a_line)
     easel->arena = easel->fresh;
 }
 
-int main(void)
-{
-    return run_cases(easel_open, easel_close);
-}
+TEST_PROGRAM(easel_open, easel_close)

@@ -518,7 +518,4 @@ TEST(a_mirrored_display_is_seen_from_its_front)
     easel->arena = easel->fresh;
 }
 
-int main(void)
-{
-    return run_cases(easel_open, easel_close);
-}
+TEST_PROGRAM(easel_open, easel_close)

@@ -83,7 +83,6 @@ TEST(names_become_utf8)
 
 TEST(characters_make_the_round_trip)
 {
-    (void)state;
     static const unsigned CODES[] = {0,      0x41,   0x7f,   0x80,    0x7ff,   0x800,
                                      0xd7ff, 0xe000, 0xffff, 0x10000, 0x10ffff};
     for (size_t i = 0; i < sizeof CODES / sizeof *CODES; i++) {
@@ -99,7 +98,6 @@ TEST(characters_make_the_round_trip)
 
 TEST(any_text_becomes_json)
 {
-    (void)state;
     json_t *good = json_text("é"), *bad = json_text("a\xc3\xa9\xff");
     assert_string_equal(json_string_value(good), "é");
     assert_string_equal(json_string_value(bad), "a???");
@@ -128,7 +126,6 @@ TEST(base64_makes_the_round_trip)
 
 TEST(the_nearest_word_is_found)
 {
-    (void)state;
     static const char *const words[] = {"wavelengths", "incidence_deg", "files"};
     assert_string_equal(nearest_word("file", words, 3), "files");
     assert_string_equal(nearest_word("incidence", words, 3), "incidence_deg");
@@ -141,7 +138,6 @@ TEST(the_nearest_word_is_found)
 
 TEST(the_word_that_is_meant_is_near_or_there_is_none)
 {
-    (void)state;
     static const char *const words[] = {"render", "develop", "panel", "check", "measure"};
     assert_string_equal(nearest_word_meant("rendr", words, 5), "render");
     assert_string_equal(nearest_word_meant("mesure", words, 5), "measure");
@@ -152,7 +148,6 @@ TEST(the_word_that_is_meant_is_near_or_there_is_none)
 
 TEST(advice_names_the_near_one_and_as_many_as_fit)
 {
-    (void)state;
     static const char *const words[] = {"cluster", "leather black", "a,b", "", "centre"};
     char text[400];
     assert_string_equal(nearest_word_advice("clster", words, 5, text, 400),
@@ -173,7 +168,4 @@ TEST(advice_names_the_near_one_and_as_many_as_fit)
     }
 }
 
-int main(void)
-{
-    return run_cases(make_folder, remove_folder);
-}
+TEST_PROGRAM(make_folder, remove_folder)

@@ -267,7 +267,4 @@ TEST(the_same_content_gives_the_same_list)
     easel->arena = easel->fresh;
 }
 
-int main(void)
-{
-    return run_cases(easel_open, easel_close);
-}
+TEST_PROGRAM(easel_open, easel_close)

@@ -20,7 +20,6 @@ static Texture texture_of(const void *pixels, ImageFormat format, int width, int
 
 TEST(colours_are_decoded_from_srgb)
 {
-    (void)state;
     float rgba[4];
     for (int code = 0; code < 256; code++) {
         uint8_t p8[4] = {(uint8_t)code, (uint8_t)code, (uint8_t)code, (uint8_t)code};
@@ -39,7 +38,6 @@ TEST(colours_are_decoded_from_srgb)
 
 TEST(codes_come_back_exactly)
 {
-    (void)state;
     float rgb[3];
     for (int code = 0; code < 256; code++) {
         uint8_t  p8[4] = {(uint8_t)code, 0, 255, 255};
@@ -70,7 +68,6 @@ static float row_at(TextureWrap wrap, bool nearest, float u)
 
 TEST(between_texels_the_value_is_linear)
 {
-    (void)state;
     for (int wrap = WRAP_REPEAT; wrap <= WRAP_MIRROR; wrap++) {
         assert_near(row_at((TextureWrap)wrap, false, 0.125f), 0, 1e-5); /* a texel's centre */
         assert_near(row_at((TextureWrap)wrap, false, 0.375f), 10, 1e-5);
@@ -90,7 +87,6 @@ TEST(between_texels_the_value_is_linear)
 
 TEST(over_the_edge_the_wrap_mode_decides)
 {
-    (void)state;
     assert_near(row_at(WRAP_REPEAT, false, 0), 20, 1e-4); /* half of 40 and half of 0 */
     assert_near(row_at(WRAP_CLAMP, false, 0), 0, 1e-5);
     assert_near(row_at(WRAP_MIRROR, false, 0), 0, 1e-5);
@@ -109,7 +105,6 @@ TEST(over_the_edge_the_wrap_mode_decides)
 
 TEST(no_coordinate_leaves_the_texture)
 {
-    (void)state;
     static const float WILD[] = {NAN, INFINITY, -INFINITY, 1e38f, -1e38f, 1e-45f, -1e-45f,
                                  4194304, -4194304, 2147483648.0f, 0.99999994f, -5.9e-8f};
     uint8_t *pixels = malloc(3 * 5 * 4);
@@ -128,7 +123,4 @@ TEST(no_coordinate_leaves_the_texture)
     free(pixels);
 }
 
-int main(void)
-{
-    return run_cases(NULL, NULL);
-}
+TEST_PROGRAM(NULL, NULL)

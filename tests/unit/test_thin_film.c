@@ -20,7 +20,6 @@ static ThinMedia media_of(double nm, int count, const ThinMedium *medium)
 
 TEST(a_quarter_wave_of_1_38_on_glass_reflects_1_26_percent)
 {
-    (void)state;
     ThinMedia media = media_of(
         550, 3, (ThinMedium[]){{1, 0, 0}, {1.38, 0, 550 / (4 * 1.38)}, {1.52, 0, 0}});
     double    wanted = pow((1.52 - 1.38 * 1.38) / (1.52 + 1.38 * 1.38), 2);
@@ -33,7 +32,6 @@ TEST(a_quarter_wave_of_1_38_on_glass_reflects_1_26_percent)
 /* Born and Wolf, 1.5.2. */
 TEST(no_layer_on_glass_is_fresnel)
 {
-    (void)state;
     static const double indices[] = {1.0001, 1.33, 1.52, 2.4, 0.6579, 0.4};
     for (int i = 0; i < 6; i++)
         for (int c = 0; c < COSINE_COUNT; c++) {
@@ -63,7 +61,6 @@ TEST(no_layer_on_glass_is_fresnel)
  * a^2 + b^2 = |q^2 - sin^2| and a^2 - b^2 = n^2 - k^2 - sin^2. */
 TEST(no_layer_on_metal_is_fresnel)
 {
-    (void)state;
     static const double metals[][2] = {{0.06, 3.6}, {0.96, 6.7}, {3.1, 3.3}, {1.5, 0.01}};
     for (int i = 0; i < 4; i++)
         for (int c = 0; c < COSINE_COUNT; c++) {
@@ -84,7 +81,6 @@ TEST(no_layer_on_metal_is_fresnel)
 /* At its own angle a half wave is as if it were not there. */
 TEST(a_half_wave_is_absent)
 {
-    (void)state;
     for (int c = 0; c < COSINE_COUNT; c++)
         for (int m = 1; m <= 3; m++) {
             double inside = sqrt(2.1 * 2.1 - 1 + COSINES[c] * COSINES[c]);
@@ -117,7 +113,6 @@ static double airy(double nm, double cosine, double film, double thickness_nm, d
 
 TEST(one_film_is_airys_sum_at_three_wavelengths)
 {
-    (void)state;
     static const double wavelengths_nm[] = {450, 550, 650};
     for (int w = 0; w < 3; w++)
         for (int c = 0; c < COSINE_COUNT; c++)
@@ -136,7 +131,6 @@ TEST(one_film_is_airys_sum_at_three_wavelengths)
  * Filters", quarter-wave stacks. */
 TEST(a_quarter_wave_mirror_of_2n_layers_follows_its_formula)
 {
-    (void)state;
     for (int pairs = 0; pairs <= 10; pairs++) {
         ThinMedia media = {.nm = 600, .count = 2 * pairs + 2};
         media.medium[0] = (ThinMedium){1, 0, 0};
@@ -168,7 +162,6 @@ static ThinMedia some_stack(int seed, bool is_lossless)
 
 TEST(no_light_is_made_and_without_absorption_none_is_lost)
 {
-    (void)state;
     for (int seed = 0; seed < 200; seed++)
         for (int c = 0; c < COSINE_COUNT; c++) {
             ThinMedia  clear = some_stack(seed, true), dark = some_stack(seed, false);
@@ -185,7 +178,6 @@ TEST(no_light_is_made_and_without_absorption_none_is_lost)
 
 TEST(turned_round_a_stack_lets_the_same_through)
 {
-    (void)state;
     int asked = 0, lossy = 0;
     for (int seed = 0; seed < 200; seed += 2)
         for (int c = 0; c < COSINE_COUNT; c++) {
@@ -207,7 +199,6 @@ TEST(turned_round_a_stack_lets_the_same_through)
 /* However thick a layer is. */
 TEST(a_thick_metal_layer_is_the_metal)
 {
-    (void)state;
     for (int c = 0; c < COSINE_COUNT; c++) {
         ThinMedia bare = media_of(550, 2, (ThinMedium[]){{1, 0, 0}, {0.06, 3.6, 0}});
         ThinMedia film = media_of(
@@ -219,7 +210,4 @@ TEST(a_thick_metal_layer_is_the_metal)
     }
 }
 
-int main(void)
-{
-    return run_cases(NULL, NULL);
-}
+TEST_PROGRAM(NULL, NULL)

@@ -244,7 +244,4 @@ TEST(bending_keeps_the_light)
     assert_close(sum, edge, 0.06);
 }
 
-int main(void)
-{
-    return run_cases(make_arena, drop_arena);
-}
+TEST_PROGRAM(make_arena, drop_arena)

@@ -62,7 +62,6 @@ static double eye_spread(double angle_deg, HumanEye eye)
 
 TEST(disability_glare_has_its_values)
 {
-    (void)state;
     for (int i = 0; i < COUNT_OF(GLARE); i++) {
         const GlareRow *r = &GLARE[i];
         assert_close(disability_glare(r->angle, r->eye), r->general, 6e-5);
@@ -78,7 +77,6 @@ TEST(disability_glare_has_its_values)
 TEST(disability_glare_keeps_its_ranges)
 {
     const HumanEye eye = {40, 0.5};
-    (void)state;
     assert_true(isfinite(disability_glare(0.1, eye)) && isfinite(disability_glare(100, eye)));
     assert_true(isnan(disability_glare(0.0999, eye)) && isnan(disability_glare(100.1, eye)));
     assert_true(isfinite(disability_glare_small_angle(30, 40)));
@@ -92,7 +90,6 @@ TEST(disability_glare_keeps_its_ranges)
 
 TEST(older_and_lighter_eyes_scatter_more)
 {
-    (void)state;
     for (double angle = 0.1; angle <= 90; angle *= 1.3) {
         assert_true(disability_glare(angle, (HumanEye){70, 0.5}) >
                     disability_glare(angle, (HumanEye){30, 0.5}));
@@ -108,7 +105,6 @@ TEST(veil_of_the_sun)
 {
     static const double ROWS[][3] = {{5, 28700, 45400}, {10, 6470, 10810}, {20, 1630, 2760},
                                      {30, 760, 1260}};
-    (void)state;
     for (int i = 0; i < COUNT_OF(ROWS); i++) {
         double lux = 97100 * cos(radians_from_degrees(ROWS[i][0]));
         assert_close(lux * disability_glare(ROWS[i][0], (HumanEye){25, 0.5}), ROWS[i][1], 6e-3);
@@ -123,7 +119,6 @@ TEST(eye_spread_has_its_values)
     static const double ROWS[][2] = {{0.1, 11685}, {0.5, 135.95}, {1, 19.267}, {2, 2.9451},
                                      {5, 0.29524}, {10, 0.061606}, {30, 0.0077692},
                                      {60, 0.0032553}, {90, 0.0024829}};
-    (void)state;
     for (int i = 0; i < COUNT_OF(ROWS); i++)
         assert_close(eye_spread_published(ROWS[i][0], (HumanEye){25, 0.5}), ROWS[i][1], 4e-5);
     assert_close(eye_spread_integral((HumanEye){24, 0}), 1.0049, 5e-5);
@@ -160,7 +155,6 @@ static double ring_integral(double (*spread)(double))
 
 TEST(eye_spread_makes_no_light)
 {
-    (void)state;
     assert_near(ring_integral(spread_of_25), 1, 1e-3);
     assert_near(ring_integral(spread_of_80), 1, 1e-3);
     assert_near(ring_integral(eye_spread_spencer), 0.9996, 1e-4);
@@ -168,7 +162,6 @@ TEST(eye_spread_makes_no_light)
 
 TEST(spencer_has_its_values)
 {
-    (void)state;
     assert_close(eye_spread_spencer(0), 2.277e6, 2e-4);
     assert_close(eye_spread_spencer(0.1), 6478, 1e-4);
     assert_close(eye_spread_spencer(1), 19.02, 2e-4);
@@ -181,7 +174,6 @@ TEST(spencer_has_its_values)
 /* Two fits of the same measurements. */
 TEST(glare_and_spread_agree)
 {
-    (void)state;
     for (double age = 20; age <= 80; age += 15) {
         for (double angle = 1; angle <= 90; angle *= 1.2) {
             HumanEye eye = {age, 0.5};
@@ -199,7 +191,6 @@ TEST(position_index_has_its_values)
     static const double VALUES[3][4] = {{1.4345, 2.1460, 3.3481, 9.2442},
                                         {1.2655, 1.6905, 2.3833, 5.5706},
                                         {1.0898, 1.2386, 1.4681, 2.3396}};
-    (void)state;
     for (int i = 0; i < 12; i++)
         assert_near(position_index_above(TAUS[i / 4], SIGMAS[i % 4]), VALUES[i / 4][i % 4],
                     5.1e-5);
@@ -216,7 +207,6 @@ TEST(position_index_jumps_at_the_horizontal)
 {
     static const double ROWS[][3] = {{10, 1.0898, 1.1411}, {20, 1.2386, 1.2912},
                                      {30, 1.4681, 1.4619}, {50, 2.3396, 2.4301}};
-    (void)state;
     for (int i = 0; i < COUNT_OF(ROWS); i++) {
         double sigma = radians_from_degrees(ROWS[i][0]), s = sin(sigma), c = cos(sigma);
         assert_close(position_index(s, 0, c), ROWS[i][1], 4e-5);
@@ -231,7 +221,6 @@ TEST(position_index_jumps_at_the_horizontal)
 
 TEST(position_index_of_a_direction)
 {
-    (void)state;
     double s = radians_from_degrees(20);
     assert_close(position_index(0, sin(s), cos(s)), 2.1460, 3e-5);
     assert_close(position_index(0, 7 * sin(s), 7 * cos(s)), 2.1460, 3e-5);
@@ -249,7 +238,6 @@ TEST(position_index_of_a_direction)
 TEST(ugr_has_its_value)
 {
     const GlareSource one = {5000, 0.01, 1.5, 0}, two[] = {one, one};
-    (void)state;
     assert_close(discomfort_ugr(40, &one, 1), 22.7331, 3e-6);
     assert_close(discomfort_ugr(40, two, 2), 22.7331 + 8 * log10(2), 3e-6);
     assert_true(discomfort_ugr(40, NULL, 0) == -INFINITY);
@@ -264,7 +252,6 @@ TEST(small_sources_count_by_their_intensity)
     GlareSource small = {luminance, area / (distance * distance), 1, area};
     double intensity = luminance * area;
     double squared = intensity / distance * (intensity / distance);
-    (void)state;
     assert_close(discomfort_ugr(40, &small, 1), 8 * log10(0.25 / 40 * 200 * squared), 1e-12);
     small.area_m2 = 0.00499999;
     GlareSource plain = small;
@@ -277,7 +264,6 @@ TEST(small_sources_count_by_their_intensity)
 TEST(dgp_has_its_values)
 {
     const GlareSource source = {1e5, 0.001, 1.5, 0};
-    (void)state;
     assert_close(discomfort_dgp(3000, NULL, 0), 0.335100, 2e-6);
     assert_close(discomfort_dgp(3000, &source, 1), 0.370051, 2e-6);
     assert_close(discomfort_dgp(200, NULL, 0), 0.17074, 4e-6);
@@ -290,7 +276,6 @@ TEST(dgp_has_its_values)
 TEST(dgp_is_less_in_low_light)
 {
     static const double ROWS[][2] = {{100, 0.168}, {200, 0.690}, {300, 0.961}, {380, 0.994}};
-    (void)state;
     for (int i = 0; i < COUNT_OF(ROWS); i++)
         assert_near(discomfort_dgp_low_light(ROWS[i][0]), ROWS[i][1], 5e-4);
     assert_near(discomfort_dgp_low_light(999.999), 1, 1e-8); /* no step at 1000 lx */
@@ -306,7 +291,6 @@ TEST(contrast_sensitivity_has_its_values)
     static const double VALUES[3][5] = {{410.67, 633.74, 426.12, 169.38, 30.60},
                                         {277.47, 172.37, 84.83, 27.87, 3.37},
                                         {415.43, 724.77, 564.79, 242.64, 46.18}};
-    (void)state;
     for (int i = 0; i < 15; i++)
         assert_near(contrast_sensitivity(U[i % 5], L[i / 5], 10), VALUES[i / 5][i % 5], 6e-3);
     assert_true(isnan(contrast_sensitivity(0, 100, 10)));
@@ -318,7 +302,6 @@ TEST(grey_steps_have_their_values)
 {
     static const double ROWS[][2] = {{1, 0.04998}, {100, 1.85083}, {200, 8.21785},
                                      {500, 119.13179}, {800, 933.18743}, {1023, 3993.330}};
-    (void)state;
     for (int i = 0; i < COUNT_OF(ROWS); i++)
         assert_close(grey_steps_luminance(ROWS[i][0]), ROWS[i][1], 4e-5);
     assert_near(grey_steps_of(grey_steps_luminance(200)), 200.021, 5e-4);
@@ -327,7 +310,6 @@ TEST(grey_steps_have_their_values)
 TEST(grey_steps_go_there_and_back)
 {
     double previous = 0;
-    (void)state;
     for (int step = 1; step <= 1023; step++) {
         double luminance = grey_steps_luminance(step);
         assert_true(luminance > previous);
@@ -343,7 +325,6 @@ TEST(grey_steps_go_there_and_back)
 
 TEST(grey_steps_keep_their_range)
 {
-    (void)state;
     assert_true(isnan(grey_steps_luminance(0.9)) && isnan(grey_steps_luminance(1024)));
     assert_true(isnan(grey_steps_of(0.049)) && isnan(grey_steps_of(4000)));
     assert_true(isnan(grey_steps_of(0)) && isnan(grey_steps_between(10, 5000)));
@@ -356,7 +337,6 @@ TEST(eyes_are_read)
 {
     HumanEye eye = {0, 0};
     Error    err = {0};
-    (void)state;
     assert_true(human_eye_parse("60", &eye, &err));
     assert_true(eye.age_years == 60 && eye.pigment == HUMAN_EYE_PIGMENT_USUAL);
     assert_true(human_eye_parse("24.5,1.2", &eye, &err));
@@ -368,7 +348,6 @@ TEST(what_is_no_eye_is_refused)
     static const char *const WRONG[] = {"", "old", "9", "101", "40,", "40,1.3", "40,-1", "40 ",
                                         "40,0.5,1", "-40", "nan", "40,nan", "0x20", "4e9",
                                         "+40"};
-    (void)state;
     for (int i = 0; i < COUNT_OF(WRONG); i++) {
         HumanEye eye = {1, 2};
         Error    err = {0};
@@ -380,7 +359,4 @@ TEST(what_is_no_eye_is_refused)
     }
 }
 
-int main(void)
-{
-    return run_cases(NULL, NULL);
-}
+TEST_PROGRAM(NULL, NULL)

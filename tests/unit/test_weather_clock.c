@@ -339,7 +339,4 @@ TEST(a_sun_about_to_rise_has_a_perez_sky_without_direct_light)
     }
 }
 
-int main(void)
-{
-    return run_cases(make_folder, remove_folder);
-}
+TEST_PROGRAM(make_folder, remove_folder)
