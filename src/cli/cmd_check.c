@@ -10,8 +10,7 @@
 #include "cli/material_list.h"
 #include "cli/options/answer.h"
 #include "cli/options/cli.h"
-#include "cli/options/data_warning.h"
-#include "cli/options/hdri_warning.h"
+#include "cli/options/scene_warnings.h"
 #include "cli/options/scene_options.h"
 #include "scene/load/scene_load.h"
 #include "spectrum/photometry.h"
@@ -393,7 +392,7 @@ static bool run_check(int argc, char **argv, Arena *arena, Error *err)
     bool materials = false, is_strict = false;
     SceneWords words = {0};
     const Option options[] = {
-        {"--root", OPTION_TEXT, "DIR", ROOT_HELP, &root, .given = NULL},
+        {"--root", OPTION_TEXT, "DIR", ROOT_HELP, &root},
         {"--materials", OPTION_FLAG, NULL,
          "which materials there are, on which nodes, how large, and which look like screens",
          &materials},

@@ -2,8 +2,6 @@
 /* parhelion help: the commands and the guides, or one of them. */
 #include "cli/cmd_help.h"
 
-#include <string.h>
-
 #include "base/count.h"
 #include "base/program.h"
 #include "cli/commands.h"
@@ -11,7 +9,6 @@
 #include "cli/options/cli.h"
 #include "cli/options/completion.h"
 #include "cli/options/guides.h"
-#include "cli/options/man_guide.h"
 #include "cli/options/man_page.h"
 #include "text/nearest_word.h"
 

@@ -6,11 +6,69 @@
 
 #include "base/count.h"
 #include "cli/commands.h"
-#include "cli/measure_illuminance.h"
 #include "cli/options/answer.h"
+#include "cli/options/scene_options.h"
 #include "image/measure.h"
+#include "render/illuminance.h"
+#include "scene/load/scene_load.h"
+#include "spectrum/photometry.h"
 #include "text/interval_text.h"
 #include "text/json_text.h"
+
+/* ---- a luxmeter at a point of a scene ---------------------------------------------------- */
+
+/* A luxmeter in a scene. */
+typedef struct LuxmeterRequest {
+    bool   given;
+    double place[6]; /* x, y, z in metres, then where the head faces */
+    long   samples;
+    SceneOptions      scene;
+    EnvironmentChange environment;
+} LuxmeterRequest;
+
+static bool print_illuminance(const Cli *cli, const IlluminanceOptions *options,
+                              const Illuminance *e, Error *err)
+{
+    float xyz[3], xy[2];
+    for (int k = 0; k < 3; k++) xyz[k] = (float)e->xyz_lx[k];
+    xy_from_xyz(xyz, xy);
+    if (cli->json)
+        return cli_print_json(
+            json_pack("{s:f, s:[f,f], s:[f,f], s:I}", "illuminance_lx", e->xyz_lx[1],
+                      "illuminance_interval", e->low_lx, e->high_lx, "xy", (double)xy[0],
+                      (double)xy[1], "samples", (json_int_t)options->samples),
+            err);
+    printf("illuminance  %.6g +- %.2g lx\nx, y         %.4f, %.4f\n", e->xyz_lx[1],
+           0.5 * (e->high_lx - e->low_lx), (double)xy[0], (double)xy[1]);
+    return true;
+}
+
+/* Loads the scene, changed as asked, and prints the illuminance there. */
+static bool measure_illuminance(const Cli *cli, const LuxmeterRequest *request, Arena *arena,
+                                Error *err)
+{
+    Problems     problems = problems_start(arena);
+    const double *n = request->place + 3;
+    Scene       *scene;
+    Illuminance  measured;
+    IlluminanceOptions options = {
+        .point = {vec3((float)request->place[0], (float)request->place[1],
+                       (float)request->place[2]),
+                  vec3_normalize(vec3((float)n[0], (float)n[1], (float)n[2]))},
+        .samples = request->samples, .max_bounces = 64, .threads = cli->threads};
+    if (!(vec3_dot(options.point.ns, options.point.ns) > 0.5f))
+        return error_set(err, ERROR_USAGE, "--illuminance: the normal (%g, %g, %g) has no "
+                         "direction", n[0], n[1], n[2]);
+    const SceneAsked asked = {&request->scene, &request->environment, cli->progress};
+    if (!scene_options_load(&asked, arena, &problems, &scene, err)) return false;
+    cli_print_warnings(&problems);
+    bool ok = illuminance_measure(scene, &options, arena, &measured, err) &&
+              print_illuminance(cli, &options, &measured, err);
+    scene_close(scene);
+    return ok;
+}
+
+/* ---- the command line -------------------------------------------------------------------- */
 
 typedef struct MeasureWords {
     MeasureRequest  request;
@@ -162,17 +220,11 @@ static void print_lights(const LightShares *lights)
 
 /* ---- as JSON ----------------------------------------------------------------------------- */
 
-/* JSON has no NaN and no infinity. */
-static json_t *number(double value)
-{
-    return isfinite(value) ? json_real(value) : json_null();
-}
-
 /* One without an upper end: of a contrast where nothing may be reflected on black. */
 static json_t *interval(Measured figure)
 {
     if (!isfinite(figure.low) || !isfinite(figure.value)) return json_null();
-    return json_pack("[o,o]", number(figure.low), number(figure.high));
+    return json_pack("[o,o]", json_figure(figure.low), json_figure(figure.high));
 }
 
 static void set_pair(json_t *answer, const char *key, json_t *first, json_t *second)
@@ -191,7 +243,7 @@ static json_t *missing(const FrameMeasurement *m)
 static void set_figure(json_t *object, const char *key, const char *interval_key,
                        Measured figure)
 {
-    json_object_set_new(object, key, number(figure.value));
+    json_object_set_new(object, key, json_figure(figure.value));
     json_object_set_new(object, interval_key, interval(figure));
 }
 
@@ -199,18 +251,19 @@ static json_t *json_contrast(const FrameMeasurement *m)
 {
     if (!m->has_contrast) return json_null();
     json_t *out = json_pack("{s:o, s:o, s:o, s:o, s:o, s:I}", "value",
-                            number(m->contrast.value), "interval", interval(m->contrast),
-                            "white_cd_m2", number(m->white), "black_cd_m2", number(m->black),
-                            "reflected_cd_m2", number(m->reflected), "pixels",
-                            (json_int_t)m->display_pixels);
-    json_object_set_new(out, "mirror_cd_m2", number(m->mirror));
-    json_object_set_new(out, "scattered_cd_m2", number(m->reflected - m->mirror));
-    json_object_set_new(out, "haze_cd_m2", number(m->reflected - m->mirror - m->lambertian));
-    json_object_set_new(out, "lambertian_cd_m2", number(m->lambertian));
+                            json_figure(m->contrast.value), "interval", interval(m->contrast),
+                            "white_cd_m2", json_figure(m->white), "black_cd_m2",
+                            json_figure(m->black), "reflected_cd_m2", json_figure(m->reflected),
+                            "pixels", (json_int_t)m->display_pixels);
+    json_object_set_new(out, "mirror_cd_m2", json_figure(m->mirror));
+    json_object_set_new(out, "scattered_cd_m2", json_figure(m->reflected - m->mirror));
+    json_object_set_new(out, "haze_cd_m2", json_figure(m->reflected - m->mirror -
+                                                       m->lambertian));
+    json_object_set_new(out, "lambertian_cd_m2", json_figure(m->lambertian));
     set_figure(out, "weber", "weber_interval", m->weber);
     set_figure(out, "michelson", "michelson_interval", m->michelson);
     if (!m->has_errors) return out;
-    json_object_set_new(out, "shown_cd_m2", number(m->shown));
+    json_object_set_new(out, "shown_cd_m2", json_figure(m->shown));
     set_figure(out, "luminance_error", "luminance_error_interval", m->luminance_error);
     set_figure(out, "colour_error_uv", "colour_error_uv_interval", m->colour_error);
     return out;
@@ -220,8 +273,8 @@ static json_t *json_content(const ContentContrast *c)
 {
     const char *reason = content_reason(c->verdict);
     json_t     *out = json_pack("{s:s?, s:o, s:o}", "missing", reason, "separability",
-                                number(c->separability), "noise_sigmas",
-                                number(c->noise_sigmas));
+                                json_figure(c->separability), "noise_sigmas",
+                                json_figure(c->noise_sigmas));
     if (reason) return out;
     set_figure(out, "ratio", "ratio_interval", c->ratio);
     set_figure(out, "michelson", "michelson_interval", c->michelson);
@@ -242,8 +295,8 @@ static json_t *json_lights(const LightShares *lights)
         json_array_append_new(out, json_pack("{s:o, s:o, s:o, s:o}", "name",
                                              json_text(light->name), "layer",
                                              json_text(light->layer), "cd_m2",
-                                             number(light->cd_m2), "share",
-                                             number(light->share)));
+                                             json_figure(light->cd_m2), "share",
+                                             json_figure(light->share)));
     }
     return out;
 }
@@ -255,12 +308,13 @@ static bool print_json(const MeasureWords *typed, const FrameMeasurement *m,
     json_t *answer = json_pack(
         "{s:o, s:I, s:I, s:[o,o,o], s:o, s:o, s:o, s:o}", "frame", json_text(r->frame_name),
         "pixels", (json_int_t)m->pixels, "nonfinite_pixels", (json_int_t)m->nonfinite, "XYZ",
-        number(m->xyz[0]), number(m->xyz[1]), number(m->xyz[2]), "luminance_cd_m2",
-        number(m->luminance.value), "luminance_interval", interval(m->luminance),
-        "luminance_min_cd_m2", number(m->least), "luminance_max_cd_m2", number(m->greatest));
-    set_pair(answer, "xy", number(m->x.value), number(m->y.value));
+        json_figure(m->xyz[0]), json_figure(m->xyz[1]), json_figure(m->xyz[2]),
+        "luminance_cd_m2", json_figure(m->luminance.value), "luminance_interval",
+        interval(m->luminance), "luminance_min_cd_m2", json_figure(m->least),
+        "luminance_max_cd_m2", json_figure(m->greatest));
+    set_pair(answer, "xy", json_figure(m->x.value), json_figure(m->y.value));
     set_pair(answer, "xy_interval", interval(m->x), interval(m->y));
-    set_pair(answer, "uv", number(m->u.value), number(m->v.value));
+    set_pair(answer, "uv", json_figure(m->u.value), json_figure(m->v.value));
     set_pair(answer, "uv_interval", interval(m->u), interval(m->v));
     json_object_set_new(answer, "contrast", json_contrast(m));
     if (m->has_content) json_object_set_new(answer, "content", json_content(&m->content));
@@ -272,6 +326,8 @@ static bool print_json(const MeasureWords *typed, const FrameMeasurement *m,
                                                         r->region.x1, r->region.y1));
     return cli_print_json(answer, err);
 }
+
+/* ---- the command ------------------------------------------------------------------------- */
 
 static bool measure(const MeasureWords *typed, Arena *arena, Error *err)
 {

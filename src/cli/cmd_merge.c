@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* parhelion merge: parts of a frame become the frame, with the bits of one run; the parts of a
- * review the review (job_review.h). */
-#include <errno.h>
-#include <math.h>
+ * review the review (job_run.h). */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -15,11 +13,11 @@
 #include "cli/commands.h"
 #include "cli/job/job_manifest.h"
 #include "cli/job/job_state.h"
-#include "cli/job_review.h"
+#include "cli/job_run.h"
 #include "cli/options/answer.h"
 #include "cli/options/cli.h"
 #include "cli/render/command_line.h"
-#include "cli/render/frame_outcome.h"
+#include "cli/render/render_answer.h"
 #include "render/identity.h"
 #include "film/film_frame.h"
 #include "film/film_merge.h"
@@ -403,8 +401,7 @@ static bool print_json(const MergeRun *work, Error *err)
         (json_int_t)whole->end_sample, "samples",
         (json_int_t)(whole->end_sample - whole->first_sample), "seconds", work->seconds,
         "nonfinite_samples", (json_int_t)whole->dropped.count, "relative_error",
-        isfinite(work->error.frame) ? json_real(work->error.frame) : json_null(), "complete",
-        true, "is_part", work->keeps_sums);
+        json_figure(work->error.frame), "complete", true, "is_part", work->keeps_sums);
     json_object_set_new(answer, "rays",
                         json_integer((json_int_t)(whole->camera_rays + whole->bounce_rays +
                                                   whole->shadow_rays)));

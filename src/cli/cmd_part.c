@@ -7,15 +7,13 @@
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "base/count.h"
 #include "base/file.h"
 #include "cli/commands.h"
 #include "cli/job/job_manifest.h"
 #include "cli/job/job_state.h"
-#include "cli/job_review.h"
-#include "cli/job_words.h"
+#include "cli/job_run.h"
 #include "cli/options/answer.h"
 #include "cli/options/cli.h"
 #include "cli/render/cmd_render.h"
@@ -67,7 +65,7 @@ static bool is_done(const PartRun *work)
     return false;
 }
 
-static bool render(PartRun *work, const JobFolder *folder, Error *err)
+static bool render(PartRun *work, const Lines *folder, Error *err)
 {
     const SharedJob *job = &work->job;
     const JobPart   *part = &job->parts[work->index];
@@ -90,7 +88,7 @@ static bool render(PartRun *work, const JobFolder *folder, Error *err)
 static bool run_one(PartRun *work, Error *err)
 {
     const SharedJob   *job = &work->job;
-    JobFolder          folder;
+    Lines          folder;
     const JobReviewPart part = {work->index, work->name, &folder};
     return job_enter(job, err) && job_folder_list(job, work->arena, &folder, err) &&
            (job->kind == JOB_REVIEW

@@ -1,9 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* parhelion status: how far a job is that `--slurm` shared out, and what is left. */
 #include <stdio.h>
-#include <string.h>
 
-#include "base/count.h"
 #include "base/file.h"
 #include "cli/commands.h"
 #include "cli/job/job_manifest.h"
@@ -37,7 +35,7 @@ static bool parse(int argc, char **argv, StatusRun *work, Error *err)
 
 static bool look(StatusRun *work, Error *err)
 {
-    JobFolder folder;
+    Lines folder;
     if (!job_manifest_read(work->cli.arguments[0], work->arena, &work->job, err) ||
         !job_folder_list(&work->job, work->arena, &folder, err))
         return false;
@@ -67,16 +65,9 @@ static json_t *part_json(const StatusRun *work, int index)
         "{s:i, s:s, s:I, s:o, s:o, s:o}", "index", index, "state", state_names[report->state],
         is_frame ? "samples_kept" : "answers_kept", (json_int_t)report->kept, "status",
         report->reason ? json_integer(report->status) : json_null(), "error",
-        report->reason ? json_text(report->reason) : json_null(), "command",
+        json_text_or_null(report->reason), "command",
         json_text(job_part_command(&work->job, index, work->arena)));
-    if (!is_frame) return item;
-    const JobPart *part = &work->job.parts[index];
-    const FilmRect crop = part->crop;
-    json_object_set_new(item, "samples",
-                        json_pack("[I,I]", (json_int_t)part->first_sample,
-                                  (json_int_t)part->end_sample));
-    json_object_set_new(item, "crop",
-                        json_pack("[i,i,i,i]", crop.x0, crop.y0, crop.x1, crop.y1));
+    if (is_frame) job_manifest_add_part(item, &work->job.parts[index]);
     return item;
 }
 

@@ -5,7 +5,7 @@
 #include "cli/equip/cmd_equip.h"
 #include "cli/explain/cmd_explain.h"
 #include "cli/panel/panel_commands.h"
-#include "cli/render/render_commands.h"
+#include "cli/render/cmd_render.h"
 #include "cli/review/cmd_review.h"
 
 const Command *const command_table[] = {

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* The command line of `parhelion compare`. */
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/count.h"

@@ -13,7 +13,6 @@
 #include "cli/commands.h"
 #include "cli/options/answer.h"
 #include "cli/options/cli.h"
-#include "cli/options/version.h"
 #include "openimageio/image_file.h"
 
 static bool run_command(int argc, char **argv, Error *err)

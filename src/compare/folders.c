@@ -8,7 +8,7 @@
 #include <sys/stat.h>
 
 #include "compare/input.h"
-#include "compare/lines.h"
+#include "base/lines.h"
 
 #define MOST_LEVELS 64 /* of folders in folders: links may go round in circles */
 

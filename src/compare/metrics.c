@@ -119,7 +119,7 @@ void metrics_set_errors(const PixelErrors *errors, unsigned groups, Comparison *
     }
 }
 
-void metrics_set_flip(const FlipSummary *flip, Comparison *out)
+void metrics_set_flip(const MapSummary *flip, Comparison *out)
 {
     out->value[METRIC_FLIP] = flip->mean;
     out->value[METRIC_FLIP_MEDIAN] = flip->median;
@@ -127,7 +127,7 @@ void metrics_set_flip(const FlipSummary *flip, Comparison *out)
     out->value[METRIC_FLIP_MAX] = flip->max;
 }
 
-void metrics_set_deltae(const DeltaE *deltae, Comparison *out)
+void metrics_set_deltae(const MapSummary *deltae, Comparison *out)
 {
     out->value[METRIC_DELTAE_MEAN] = deltae->mean;
     out->value[METRIC_DELTAE_P95] = deltae->p95;
@@ -176,7 +176,7 @@ static void measure_flip(const CompareOptions *options, Arena *arena, Comparison
     } else {
         flip_ldr(&out->light[0], &out->light[1], &flip, *arena, out->flip_map);
     }
-    FlipSummary s = flip_summary(out->flip_map, count, out->mask);
+    MapSummary s = map_summary(out->flip_map, count, out->mask);
     metrics_set_flip(&s, out);
 }
 
@@ -187,7 +187,7 @@ static void measure_colour(Arena *arena, Comparison *out)
     Arena  scratch = *arena;
     Planes a = is_frame ? shown_light(&out->reference.codes, &scratch) : out->light[0];
     Planes b = is_frame ? shown_light(&out->test.codes, &scratch) : out->light[1];
-    DeltaE e = deltae_pictures(&a, &b, out->mask, out->deltae_map);
+    MapSummary e = deltae_pictures(&a, &b, out->mask, out->deltae_map);
     metrics_set_deltae(&e, out);
 }
 

@@ -21,8 +21,8 @@ bool metrics_measure(const CompareOptions *options, unsigned groups, Arena *aren
 
 /* Errors, FLIP and colour differences among the values of `out`, the groups' ones. */
 void metrics_set_errors(const PixelErrors *errors, unsigned groups, Comparison *out);
-void metrics_set_flip(const FlipSummary *flip, Comparison *out);
-void metrics_set_deltae(const DeltaE *deltae, Comparison *out);
+void metrics_set_flip(const MapSummary *flip, Comparison *out);
+void metrics_set_deltae(const MapSummary *deltae, Comparison *out);
 
 /* EV of a factor 2^stops of light, and back: 18 % grey of exposure.h becomes 0.18. */
 double ev_of_stops(double stops);

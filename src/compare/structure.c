@@ -1,10 +1,242 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "compare/structure.h"
 
+#include <ctype.h>
+#include <stdio.h>
 #include <string.h>
 
-#include "compare/metadata_report.h"
+#include "base/lines.h"
+#include "compare/metadata.h"
 #include "compare/statistic/noisy_pair.h"
+
+/* ---- differences of metadata in words: one line, however many they are ------------------- */
+
+#define SHOWN 72       /* letters of a value in a line of its own */
+#define SHOWN_SHORT 24 /* letters of one among many */
+#define NAMED 8        /* keys of a list */
+#define NAMED_INPUTS 2 /* among other keys */
+
+/* ---- lists ------------------------------------------------------------------------------- */
+
+/* The first of a list with commas, and how many more there are. */
+static const char *joined(const Lines *list, int most)
+{
+    const char *text = "";
+    for (int i = 0; i < list->count && i < most; i++)
+        text = arena_format(list->arena, "%s%s%s", text, i ? ", " : "", list->list[i]);
+    if (list->count <= most) return text;
+    return arena_format(list->arena, "%s and %d more", text, list->count - most);
+}
+
+/* ---- values ------------------------------------------------------------------------------ */
+
+/* The line of a text that begins at `at`, from `from` of its letters on, cut to what fits. */
+static void shorten(const char *at, size_t from, char out[SHOWN + 12])
+{
+    size_t length = strcspn(at, "\n");
+    if (from > length) from = length;
+    while (from > 0 && ((unsigned char)at[from] & 0xc0) == 0x80) from--;
+    size_t rest = length - from > SHOWN ? SHOWN : length - from;
+    while (rest > 0 && rest < length - from && ((unsigned char)at[from + rest] & 0xc0) == 0x80)
+        rest--;
+    snprintf(out, SHOWN + 12, "%s%.*s%s", from ? "…" : "", (int)rest, at + from,
+             rest < length - from ? "…" : "");
+}
+
+/* Both values where they begin to differ: the first such line, and of a long one the part from
+ * shortly before. */
+static void shorten_both(const char *a, const char *b, char out_a[SHOWN + 12],
+                         char out_b[SHOWN + 12])
+{
+    size_t line = 0, same = 0;
+    while (a[same] && a[same] == b[same]) {
+        if (a[same] == '\n') line = same + 1;
+        same++;
+    }
+    size_t column = same - line, from = column > SHOWN - 24 ? column - 16 : 0;
+    shorten(a + line, from, out_a);
+    shorten(b + line, from, out_b);
+}
+
+/* ---- inputs ------------------------------------------------------------------------------ */
+
+/* One line "HASH  PATH" of the list of inputs. */
+typedef struct InputLine {
+    const char *hash, *name; /* name: behind the path's last slash */
+    int         hash_length, name_length;
+} InputLine;
+
+/* The line at *list, which moves on to the next one; false at the end. */
+static bool next_input(const char **list, InputLine *out)
+{
+    const char *line = *list;
+    size_t      length = strcspn(line, "\n"), hash = strcspn(line, " \n");
+    if (!*line) return false;
+    const char *end = line + length, *name = hash + 2 <= length ? line + hash + 2 : end;
+    for (const char *mark = name; mark < end; mark++)
+        if (*mark == '/') name = mark + 1;
+    *out = (InputLine){line, name, (int)hash, (int)(end - name)};
+    *list = *end ? end + 1 : end;
+    return true;
+}
+
+/* Whether the list has a file of this name, in any folder; *same: with these contents. */
+static bool has_input(const char *list, const InputLine *wanted, bool *same)
+{
+    InputLine line;
+    bool      found = false;
+    *same = false;
+    while (!*same && next_input(&list, &line)) {
+        if (line.name_length != wanted->name_length ||
+            memcmp(line.name, wanted->name, (size_t)line.name_length) != 0)
+            continue;
+        found = true;
+        *same = line.hash_length == wanted->hash_length &&
+                !memcmp(line.hash, wanted->hash, (size_t)line.hash_length);
+    }
+    return found;
+}
+
+/* Adds which input files changed, or are on one side only. Folders make no difference: two
+ * checkouts of one scene have the same inputs. */
+static void add_inputs(const char *from, const char *other, bool is_reference, Lines *to)
+{
+    InputLine line;
+    bool      same;
+    while (next_input(&from, &line))
+        if (!has_input(other, &line, &same))
+            lines_add(to, "%.*s is only in the %s", line.name_length, line.name,
+                      is_reference ? "reference" : "test");
+        else if (is_reference && !same)
+            lines_add(to, "%.*s has changed", line.name_length, line.name);
+}
+
+static bool is_inputs(const MetadataRow *row)
+{
+    return !strcmp(row->name, "parhelion:inputs") && row->reference && row->test;
+}
+
+/* "" when only the folders differ. */
+static const char *inputs_text(const MetadataRow *row, int most, Arena *arena)
+{
+    Lines list = {.arena = arena};
+    add_inputs(row->reference, row->test, true, &list);
+    add_inputs(row->test, row->reference, false, &list);
+    return joined(&list, most);
+}
+
+/* ---- one row ----------------------------------------------------------------------------- */
+
+static const char *plain_name(const char *name)
+{
+    return strncmp(name, "parhelion:", 10) ? name : name + 10;
+}
+
+/* The only one: with both values. */
+static const char *whole_text(const MetadataRow *row, Arena *arena)
+{
+    char a[SHOWN + 12], b[SHOWN + 12];
+    if (is_inputs(row))
+        return arena_format(arena, "inputs: %s", inputs_text(row, NAMED, arena));
+    if (!row->reference || !row->test)
+        return arena_format(arena, "metadata %s is missing in the %s", plain_name(row->name),
+                            row->reference ? "test" : "reference");
+    shorten_both(row->reference, row->test, a, b);
+    return arena_format(arena, "metadata %s differs: %s in the reference, %s in the test",
+                        plain_name(row->name), a, b);
+}
+
+static bool is_short(const char *value)
+{
+    return strlen(value) <= SHOWN_SHORT && !strchr(value, '\n');
+}
+
+/* One among many: its values where they are short. */
+static const char *short_text(const MetadataRow *row, Arena *arena)
+{
+    const char *name = plain_name(row->name);
+    if (is_inputs(row)) return arena_format(arena, "inputs (%s)",
+                            inputs_text(row, NAMED_INPUTS, arena));
+    if (!row->reference || !row->test)
+        return arena_format(arena, "%s (only in the %s)", name,
+                            row->reference ? "reference" : "test");
+    if (!is_short(row->reference) || !is_short(row->test)) return name;
+    return arena_format(arena, "%s (%s, now %s)", name, row->reference, row->test);
+}
+
+/* ---- all rows ---------------------------------------------------------------------------- */
+
+/* The letters of a name up to the number at its end; 0 without one. */
+static size_t stem_of(const char *name)
+{
+    size_t length = strlen(name), stem = length;
+    while (stem > 0 && isdigit((unsigned char)name[stem - 1])) stem--;
+    return stem < length && stem > 0 && name[stem - 1] == '.' ? stem : 0;
+}
+
+/* Rows of the list with the same stem, row i among them; *is_first: none stands before it. */
+static int kin_of(const MetadataRow *const *rows, int count, int i, bool *is_first)
+{
+    size_t stem = stem_of(rows[i]->name);
+    int    kin = 0;
+    *is_first = true;
+    if (!stem) return 1;
+    for (int k = 0; k < count; k++) {
+        if (stem_of(rows[k]->name) != stem ||
+            strncmp(rows[k]->name, rows[i]->name, stem) != 0)
+            continue;
+        if (k < i) *is_first = false;
+        kin++;
+    }
+    return kin;
+}
+
+static const char *rows_text(const MetadataRow *const *rows, int count, Arena *arena)
+{
+    Lines list = {.arena = arena};
+    for (int i = 0; i < count; i++) {
+        bool        is_first;
+        int         kin = kin_of(rows, count, i, &is_first);
+        const char *name = plain_name(rows[i]->name);
+        if (!is_first) continue;
+        if (kin > 1)
+            lines_add(&list, "%.*s* (%d of them)", (int)stem_of(name), name, kin);
+        else
+            lines_add(&list, "%s", short_text(rows[i], arena));
+    }
+    return joined(&list, NAMED);
+}
+
+static bool is_listed(const MetadataRow *row, bool decides, Arena scratch)
+{
+    if (!row->differs || row->is_ignored || row->decides != decides) return false;
+    return !is_inputs(row) || inputs_text(row, NAMED, &scratch)[0];
+}
+
+static void report(const MetadataRow *rows, int count, bool decides, const char *why,
+                   Lines *to)
+{
+    Arena              *arena = to->arena;
+    const MetadataRow **listed = ARENA_NEW(arena, const MetadataRow *, count);
+    int                 n = 0;
+    for (int i = 0; i < count; i++)
+        if (is_listed(&rows[i], decides, *arena)) listed[n++] = &rows[i];
+    if (n == 1) lines_add(to, "%s%s", whole_text(listed[0], arena), why);
+    if (n > 1)
+        lines_add(to, "metadata differs in %d keys%s: %s%s; all values: --json or --report", n,
+                  decides ? " that decide what the picture shows" : "",
+                  rows_text(listed, n, arena), why);
+}
+
+/* One reason for all rows that decide what the picture shows, one note (with `strict` a
+ * reason) for all that explain it. A single row is reported with both values; of several, the
+ * names, some values and their number. */
+static void metadata_report(const MetadataRow *rows, int count, bool strict, Lines *reasons,
+                            Lines *notes)
+{
+    report(rows, count, true, "", reasons);
+    report(rows, count, false, strict ? " (--strict)" : "", strict ? reasons : notes);
+}
 
 /* ---- sizes and windows ------------------------------------------------------------------- */
 

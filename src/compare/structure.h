@@ -10,7 +10,7 @@
  */
 #pragma once
 #include "compare/input.h"
-#include "compare/lines.h"
+#include "base/lines.h"
 #include "compare/metadata.h"
 
 typedef struct Structure {

@@ -3,10 +3,8 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 #include "base/mathf.h"
-#include "image/layer_view.h"
 
 #define ALBEDO_LEAST 0.02f /* what reflects less is taken as this: noise must not be raised */
 #define DEPTH_SCALE 4      /* a step of 25 % in depth counts as one in a normal */

@@ -3,15 +3,188 @@
 
 #include <math.h>
 
+#include "base/mathf.h"
 #include "base/parallel.h"
-#include "denoise/correction.h"
+#include "denoise/buffers.h"
 #include "denoise/fireflies.h"
 #include "denoise/noise.h"
 #include "denoise/patch_weights.h"
 #include "denoise/regression.h"
-#include "denoise/selection.h"
 
 enum { COARSE = 6, FINE = 2 }; /* reaches of the corrections */
+
+/* ---- of a wide and a narrow filter, each pixel's better one ------------------------------ */
+
+/* What a filter made of one half of the samples is held against the other half, whose noise it
+ * does not have: it differs from it by that noise, the same for both filters, and by the
+ * filter's own error (Rousselle, Knaus and Zwicker 2012). Over the pixels around, the smaller
+ * difference marks the better filter. */
+
+/* Both filters' results for each half: R, G, B. */
+typedef struct Candidates {
+    float *wide[2][3], *narrow[2][3];
+} Candidates;
+
+enum { REACH = 4 };
+
+typedef struct FilterChoice {
+    const DenoiseBuffers *buffers;
+    const Candidates     *candidates;
+    float                *gain; /* a pixel: how much closer the narrow filter came */
+    float                *share; /* of the narrow filter, 0 to 1 */
+} FilterChoice;
+
+static float square(float value)
+{
+    return value * value;
+}
+
+/* In units of the light's variance, so that bright pixels do not decide for dark ones. */
+static float gain_of(const FilterChoice *work, size_t i)
+{
+    const DenoiseBuffers *b = work->buffers;
+    float                 gain = 0;
+    for (int half = 0; half < 2; half++)
+        for (int c = 0; c < 3; c++) {
+            float other = b->light[1 - half][c][i];
+            float wide = work->candidates->wide[half][c][i];
+            float narrow = work->candidates->narrow[half][c][i];
+            float unit = b->variance[c][i] + 1e-6f * square(buffers_mean(b, c, i)) + 1e-20f;
+            gain += (square(wide - other) - square(narrow - other)) / unit;
+        }
+    return gain;
+}
+
+static void fill_gains(void *context, int y, int worker)
+{
+    const FilterChoice   *work = context;
+    const DenoiseBuffers *b = work->buffers;
+    (void)worker;
+    for (int x = 0; x < b->width; x++) {
+        size_t i = (size_t)y * (size_t)b->width + (size_t)x;
+        if (b->kind[i] != PIXEL_LEFT) work->gain[i] = gain_of(work, i);
+    }
+}
+
+/* The gains around by their own uncertainty: nothing below no gain, all from one standard
+ * error on. Not on displays, where what is shown makes the halves differ too. */
+static float share_at(const FilterChoice *work, size_t pixel)
+{
+    const DenoiseBuffers *b = work->buffers;
+    PixelWindow           w = buffers_window(b, pixel, REACH);
+    float                 sum = 0, squares = 0;
+    for (int y = w.y0; y < w.y1; y++)
+        for (int x = w.x0; x < w.x1; x++) {
+            size_t i = (size_t)y * (size_t)b->width + (size_t)x;
+            if (b->kind[i] != b->kind[pixel]) continue;
+            float like = buffers_likeness(b, pixel, i);
+            sum += like * work->gain[i];
+            squares += square(like * work->gain[i]);
+        }
+    return sum > 0 ? fminf(sum / sqrtf(squares), 1) : 0;
+}
+
+static void fill_shares(void *context, int y, int worker)
+{
+    const FilterChoice   *work = context;
+    const DenoiseBuffers *b = work->buffers;
+    (void)worker;
+    for (int x = 0; x < b->width; x++) {
+        size_t i = (size_t)y * (size_t)b->width + (size_t)x;
+        if (b->kind[i] == PIXEL_SURFACE || b->kind[i] == PIXEL_VOID)
+            work->share[i] = share_at(work, i);
+    }
+}
+
+/* Puts into the wide one, of both halves, the better of the two, and a mean of both where it is
+ * unsure. The buffers have halves. */
+static void selection_apply(const DenoiseBuffers *b, const Candidates *candidates, int threads,
+                            Arena scratch)
+{
+    size_t       count = (size_t)b->width * (size_t)b->height;
+    FilterChoice work = {b, candidates, ARENA_NEW(&scratch, float, count),
+                         ARENA_NEW(&scratch, float, count)};
+    parallel_for(threads, b->height, fill_gains, &work);
+    parallel_for(threads, b->height, fill_shares, &work);
+    for (int half = 0; half < 2; half++)
+        for (int c = 0; c < 3; c++)
+            for (size_t i = 0; i < count; i++)
+                candidates->wide[half][c][i] +=
+                    work.share[i] *
+                    (candidates->narrow[half][c][i] - candidates->wide[half][c][i]);
+}
+
+/* ---- what the filter took away and noise cannot have been -------------------------------- */
+
+#define STRICTNESS 1.5f /* squared standard errors that are not believed */
+
+typedef struct Correction {
+    const DenoiseBuffers *buffers;
+    float *const         *light;
+    float                *add[3];
+    int                   reach;
+} Correction;
+
+typedef struct Residual {
+    float sum[3], variance[3], weight;
+} Residual;
+
+static Residual residual_around(const Correction *work, size_t pixel, int x0, int y0)
+{
+    const DenoiseBuffers *b = work->buffers;
+    PixelWindow w = buffers_window(b, pixel, work->reach);
+    Residual    r = {{0}, {0}, 0};
+    float       narrow = -2 / (float)(work->reach * work->reach);
+    for (int y = w.y0; y < w.y1; y++)
+        for (int x = w.x0; x < w.x1; x++) {
+            size_t i = (size_t)y * (size_t)b->width + (size_t)x;
+            if (b->kind[i] != b->kind[pixel]) continue;
+            float distance = (float)((x - x0) * (x - x0) + (y - y0) * (y - y0));
+            float weight = exp_f(narrow * distance -
+                                 BUFFERS_UNLIKE * buffers_feature_distance(b, pixel, i));
+            for (int c = 0; c < 3; c++) {
+                r.sum[c] += weight * (buffers_mean(b, c, i) - work->light[c][i]);
+                r.variance[c] += weight * weight * b->variance[c][i];
+            }
+            r.weight += weight;
+        }
+    return r;
+}
+
+/* The positive part of James and Stein's shrinkage: nothing of a difference within its standard
+ * error, all of one far beyond. */
+static void correct_row(void *context, int y, int worker)
+{
+    const Correction     *work = context;
+    const DenoiseBuffers *b = work->buffers;
+    (void)worker;
+    for (int x = 0; x < b->width; x++) {
+        size_t i = (size_t)y * (size_t)b->width + (size_t)x;
+        if (b->kind[i] == PIXEL_LEFT) continue;
+        Residual r = residual_around(work, i, x, y);
+        float    sigma[3];
+        for (int c = 0; c < 3; c++) sigma[c] = sqrtf(r.variance[c]);
+        float error = buffers_luminance(sigma), found = buffers_luminance(r.sum);
+        float unsure = STRICTNESS * error * error, square = found * found;
+        if (!(square > unsure)) continue;
+        for (int c = 0; c < 3; c++)
+            work->add[c][i] = (1 - unsure / square) * r.sum[c] / r.weight;
+    }
+}
+
+/* light: the filtered light, R, G, B. The difference between it and the buffers' own, averaged
+ * over pixels of like features at most `reach` away, is added as far as it is larger than its
+ * standard error lets expect. */
+static void correction_add(const DenoiseBuffers *b, float *const light[3], int reach,
+                           int threads, Arena scratch)
+{
+    size_t     count = (size_t)b->width * (size_t)b->height;
+    Correction work = {.buffers = b, .light = light, .reach = reach};
+    for (int c = 0; c < 3; c++) work.add[c] = ARENA_NEW(&scratch, float, count);
+    parallel_for(threads, b->height, correct_row, &work);
+    for (int c = 0; c < 3; c++)
+        for (size_t i = 0; i < count; i++) light[c][i] += work.add[c][i];
+}
 
 typedef struct Scratch {
     PatchScratch *patches;

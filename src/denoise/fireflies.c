@@ -2,7 +2,6 @@
 #include "denoise/fireflies.h"
 
 #include <math.h>
-#include <string.h>
 
 #include "base/mathf.h"
 

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "denoise/patch_weights.h"
 
-#include <math.h>
 #include <string.h>
 
 #include "base/mathf.h"

@@ -135,32 +135,27 @@ static void read_contrast(const Film *film, const PixelSums *sums, float v[3])
     v[0] = (white[1] + reflected[1]) / (black[1] + reflected[1]);
 }
 
-static void take_sums(const Film *film, const PixelSums *sums, LayerSums layer, Fixed left[3])
+/* Reflected light without the first `count` of these parts. */
+static void read_rest(const Film *film, const PixelSums *sums, int count, float v[3])
 {
-    for (int i = 0; i < 3; i++) left[i] -= sums->layers[film->first[layer] + i];
+    static const LayerSums parts[] = {SUMS_MIRROR, SUMS_LAMBERTIAN};
+    Fixed left[3];
+    float xyz[3];
+    memcpy(left, sums->layers + film->first[SUMS_REFLECTED], sizeof left);
+    for (int k = 0; k < count; k++)
+        for (int i = 0; i < 3; i++) left[i] -= sums->layers[film->first[parts[k]] + i];
+    mean_of(left, 3, sums->display_hits, xyz);
+    rgb_from_xyz(xyz, v);
 }
 
-/* Reflected light that did not come by way of the mirror. */
 static void read_scattered(const Film *film, const PixelSums *sums, float v[3])
 {
-    Fixed left[3];
-    float xyz[3];
-    memcpy(left, sums->layers + film->first[SUMS_REFLECTED], sizeof left);
-    take_sums(film, sums, SUMS_MIRROR, left);
-    mean_of(left, 3, sums->display_hits, xyz);
-    rgb_from_xyz(xyz, v);
+    read_rest(film, sums, 1, v);
 }
 
-/* The same without the panel's lambertian part. */
 static void read_haze(const Film *film, const PixelSums *sums, float v[3])
 {
-    Fixed left[3];
-    float xyz[3];
-    memcpy(left, sums->layers + film->first[SUMS_REFLECTED], sizeof left);
-    take_sums(film, sums, SUMS_MIRROR, left);
-    take_sums(film, sums, SUMS_LAMBERTIAN, left);
-    mean_of(left, 3, sums->display_hits, xyz);
-    rgb_from_xyz(xyz, v);
+    read_rest(film, sums, 2, v);
 }
 
 static void read_coverage(const Film *film, const PixelSums *sums, float v[3])
@@ -177,27 +172,28 @@ static void read_variance(const Film *film, const PixelSums *sums, float v[3])
     for (int i = 0; i < 3; i++) v[i] = (float)variance[i];
 }
 
+static void rgb_of_halves(bool is_known, const double halves[3], float v[3])
+{
+    float xyz[3];
+    for (int i = 0; i < 3; i++) xyz[i] = is_known ? (float)halves[i] : NAN;
+    rgb_from_xyz(xyz, v);
+}
+
 static void read_halves(const Film *film, const PixelSums *sums, float v[3])
 {
     (void)film;
     double halves[3];
-    float  xyz[3];
-    if (!pixel_halves(sums, BLOCK_LEAST, halves))
-        halves[0] = halves[1] = halves[2] = (double)NAN;
-    for (int i = 0; i < 3; i++) xyz[i] = (float)halves[i];
-    rgb_from_xyz(xyz, v);
+    rgb_of_halves(pixel_halves(sums, BLOCK_LEAST, halves), halves, v);
 }
 
 static void read_display_halves(const Film *film, const PixelSums *sums, float v[3])
 {
     const Fixed *layers = sums->layers;
     double       halves[3];
-    float        xyz[3];
-    if (!pixel_display_halves(sums, layers + film->first[SUMS_REFLECTED],
-                              layers + film->first[SUMS_ODD], BLOCK_LEAST, halves))
-        halves[0] = halves[1] = halves[2] = (double)NAN;
-    for (int i = 0; i < 3; i++) xyz[i] = (float)halves[i];
-    rgb_from_xyz(xyz, v);
+    bool         is_known = pixel_display_halves(sums, layers + film->first[SUMS_REFLECTED],
+                                                 layers + film->first[SUMS_ODD], BLOCK_LEAST,
+                                                 halves);
+    rgb_of_halves(is_known, halves, v);
 }
 
 static void read_samples(const Film *film, const PixelSums *sums, float v[3])

@@ -9,7 +9,6 @@
  * Threads  one.
  */
 #pragma once
-#include <stddef.h>
 
 #include "base/arena.h"
 

@@ -14,14 +14,6 @@
 
 static const double ONE = 1;
 
-/* A list of `size`-byte items with room for more than `room` of them. */
-static void *grown(const void *list, size_t size, int count, int *room, Arena *arena)
-{
-    *room = *room * 2 + 4;
-    void *longer = arena_alloc(arena, size, _Alignof(max_align_t), (size_t)*room);
-    return count ? memcpy(longer, list, size * (size_t)count) : longer;
-}
-
 FrameImage frame_create(int width, int height, ExrWindow data, int channel_room,
                         int attribute_room, Arena *arena)
 {
@@ -38,9 +30,11 @@ FrameImage frame_create(int width, int height, ExrWindow data, int channel_room,
 float *frame_add_channel(FrameImage *frame, const char *name, bool is_whole, Arena *arena)
 {
     assert(!frame_channel(frame, name));
-    if (frame->channel_count == frame->channel_room)
-        frame->channels = grown(frame->channels, sizeof *frame->channels, frame->channel_count,
-                                &frame->channel_room, arena);
+    if (frame->channel_count == frame->channel_room) {
+        frame->channel_room = 2 * frame->channel_room + 4;
+        frame->channels = ARENA_GROW(arena, ExrChannel, frame->channels, frame->channel_count,
+                                     frame->channel_room);
+    }
     float *values = ARENA_NEW(arena, float, frame_pixel_count(frame));
     frame->channels[frame->channel_count++] =
         (ExrChannel){arena_string(arena, name, strlen(name)), is_whole, values};
@@ -52,9 +46,11 @@ static ExrAttribute *attribute_slot(FrameImage *frame, const char *name, Arena *
 {
     for (int i = 0; i < frame->attribute_count; i++)
         if (!strcmp(frame->attributes[i].name, name)) return &frame->attributes[i];
-    if (frame->attribute_count == frame->attribute_room)
-        frame->attributes = grown(frame->attributes, sizeof *frame->attributes,
-                                  frame->attribute_count, &frame->attribute_room, arena);
+    if (frame->attribute_count == frame->attribute_room) {
+        frame->attribute_room = 2 * frame->attribute_room + 4;
+        frame->attributes = ARENA_GROW(arena, ExrAttribute, frame->attributes,
+                                       frame->attribute_count, frame->attribute_room);
+    }
     ExrAttribute *slot = &frame->attributes[frame->attribute_count++];
     slot->name = arena_string(arena, name, strlen(name));
     return slot;

@@ -1,15 +1,17 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "base/count.h"
 #include "image/image.h"
 
 #include <ctype.h>
+#include <stddef.h>
 #include <string.h>
+#include <webp/decode.h>
 #include <zlib.h>
 
+#include "base/count.h"
+#include "base/error.h"
 #include "base/file.h"
 #include "image/colour.h"
 #include "image/plain_png.h"
-#include "image/webp.h"
 #include "openexr/exr_file.h"
 #include "openimageio/image_file.h"
 
@@ -316,6 +318,36 @@ static bool decode_plain(const Encoded *file, Arena *arena, Image *out)
     *arena = kept;
     *out = (Image){png.width, png.height, IMAGE_RGBA8, pixels};
     return true;
+}
+
+/* ---- WebP, lossy and lossless, not animated ---------------------------------------------- */
+
+/* By libwebp: the library for all pictures (openimageio/image_file.h) would multiply colours by
+ * alpha and round them, which cannot be undone. */
+
+/* width, height: 1 to 16384 each. Only the file's beginning is looked at. */
+static bool webp_size(const void *bytes, size_t size, int *width, int *height, Error *err)
+{
+    WebPBitstreamFeatures found;
+    if (WebPGetFeatures(bytes, size, &found) != VP8_STATUS_OK || found.width < 1 ||
+        found.height < 1)
+        return error_set(err, ERROR_INPUT, "damaged webp picture: its beginning is wrong");
+    if (found.has_animation)
+        return error_set(err, ERROR_INPUT, "a webp picture that moves; one that stands still "
+                         "is wanted");
+    *width = found.width;
+    *height = found.height;
+    return true;
+}
+
+/* rgba: 4 * width * height bytes, from the top, alpha straight. */
+static bool webp_read(const void *bytes, size_t size, unsigned char *rgba, Error *err)
+{
+    int width, height;
+    if (!webp_size(bytes, size, &width, &height, err)) return false;
+    size_t row = 4 * (size_t)width;
+    return WebPDecodeRGBAInto(bytes, size, rgba, row * (size_t)height, (int)row) ||
+           error_set(err, ERROR_INPUT, "damaged webp picture: its pixels cannot be decoded");
 }
 
 static bool decode_webp(const Encoded *file, Arena *arena, Image *out, Error *err)

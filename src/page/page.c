@@ -7,7 +7,7 @@
 
 #include "base/file_write.h"
 #include "text/base64.h"
-#include "text/escape.h"
+#include "text/text.h"
 
 /* page.css and page.js beside this file; the build embeds them. */
 extern const char PAGE_STYLE[], PAGE_SCRIPT[];

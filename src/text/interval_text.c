@@ -4,8 +4,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "text/text.h"
-
 #define ASIDE 0.2         /* of the half width: further from the middle both ends are given */
 #define DECIMALS_MOST 20
 

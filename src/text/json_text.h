@@ -1,17 +1,34 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* json_text.h -- a text of any bytes, a number of any kind as a value of a JSON document.
+/* json_text.h -- a text of any bytes, a number of any kind as a value of a JSON document; and a
+ * document as a text.
  *
  * Memory   the caller's reference (jansson). Threads: no shared state.
  */
 #pragma once
 #include <jansson.h>
 
+#include "text/text.h"
+
 /* Bytes beyond ASCII become '?' in a text that is not UTF-8: names of files may hold
  * anything. */
 json_t *json_text(const char *text);
 
-/* A list of them. */
+/* The same; null for NULL. */
+json_t *json_text_or_null(const char *text);
+
+/* A list of texts. */
 json_t *json_texts(const char *const *texts, int count);
 
 /* null where it is not finite: JSON has neither NaN nor infinity. */
 json_t *json_figure(double value);
+
+/* A number has `digits` digits where they are enough to give the same double again, else as
+ * many as it takes, 17 at most; or `digits` of them at most. */
+typedef struct JsonDigits {
+    int  digits; /* 1 to 17 */
+    bool is_cut; /* no more than that, even with a loss */
+} JsonDigits;
+
+/* A document as people like to read and to change it: what fits into a line stands in one,
+ * members are indented by two. All of it, with a line's end. */
+void json_print(Text *text, const json_t *document, JsonDigits digits);

@@ -29,7 +29,7 @@ static void work_flip(Inputs *in)
 {
     const FlipOptions options = {.threads = 1};
     flip_ldr(&in->reference, &in->test, &options, in->scratch, in->map);
-    in->sink += flip_summary(in->map, PIXELS, NULL).mean;
+    in->sink += map_summary(in->map, PIXELS, NULL).mean;
 }
 
 static void work_hdr_flip(Inputs *in)
@@ -37,7 +37,7 @@ static void work_hdr_flip(Inputs *in)
     const FlipOptions options = {.threads = 1, .has_range = true, .start_ev = -6, .stop_ev = 3,
                                  .exposures = 10};
     flip_hdr(&in->reference, &in->test, &options, in->scratch, in->map, NULL);
-    in->sink += flip_summary(in->map, PIXELS, NULL).mean;
+    in->sink += map_summary(in->map, PIXELS, NULL).mean;
 }
 
 static void work_ssim(Inputs *in)

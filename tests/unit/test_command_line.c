@@ -6,7 +6,7 @@
 
 #include "base/count.h"
 #include "cli/render/command_line.h"
-#include "text/escape.h"
+#include "text/text.h"
 
 static FilmPart box(FilmRect crop, uint32_t first, uint32_t end)
 {

@@ -9,7 +9,7 @@
 #include "compare/report/html_report.h"
 #include "compare/report/junit.h"
 #include "text/base64.h"
-#include "text/escape.h"
+#include "text/text.h"
 
 /* ---- answers ----------------------------------------------------------------------------- */
 

@@ -27,7 +27,7 @@ static float *ldr_map(const Canvas *reference, const Canvas *test, Arena *arena)
 static double mean_of(const Canvas *reference, const Canvas *test, Arena arena)
 {
     const float *map = ldr_map(reference, test, &arena);
-    return flip_summary(map, planes_pixel_count(&reference->planes), NULL).mean;
+    return map_summary(map, planes_pixel_count(&reference->planes), NULL).mean;
 }
 
 static void assert_all_near(const float *map, size_t count, double expected, double absolute)
@@ -235,7 +235,7 @@ TEST(nothing_leaves_0_to_1)
                 pictures[p].rgb[c][i] = fixture_random(&seed) < 0.5 ? 0 : 1;
     }
     const float      *map = ldr_map(&pictures[0], &pictures[1], &arena);
-    const FlipSummary all = flip_summary(map, 90 * 70, NULL);
+    const MapSummary all = map_summary(map, 90 * 70, NULL);
     for (int i = 0; i < 90 * 70; i++) assert_true(map[i] >= 0 && map[i] <= 1);
     assert_true(all.max > 0.5 && all.median < all.p95 && all.p95 < all.max);
 }
@@ -286,7 +286,7 @@ TEST(a_summary_keeps_to_its_mask)
         map[i] = (float)((i * 37) % 100) / 100; /* every hundredth once */
         mask[i] = map[i] < 0.5f;
     }
-    const FlipSummary all = flip_summary(map, 100, NULL), half = flip_summary(map, 100, mask);
+    const MapSummary all = map_summary(map, 100, NULL), half = map_summary(map, 100, mask);
     assert_near(all.mean, 0.495, 1e-7);
     assert_near(all.median, 0.49, 1e-7);
     assert_near(all.p95, 0.94, 1e-7);
@@ -295,7 +295,7 @@ TEST(a_summary_keeps_to_its_mask)
     assert_near(half.median, 0.24, 1e-7);
     assert_near(half.max, 0.49, 1e-7);
     memset(mask, 0, sizeof mask);
-    const FlipSummary none = flip_summary(map, 100, mask);
+    const MapSummary none = map_summary(map, 100, mask);
     assert_true(isnan(none.mean) && isnan(none.median) && isnan(none.p95) && isnan(none.max));
 }
 
@@ -493,7 +493,7 @@ TEST(the_unit_of_light_does_not_matter)
     assert_near(a.start_ev - b.start_ev, 12, 1e-9);
     assert_int_equal(a.count, b.count);
     for (int i = 0; i < 40 * 30; i++) assert_near(small[i], large[i], 1e-6);
-    assert_true(flip_summary(small, 40 * 30, NULL).mean > 0.05);
+    assert_true(map_summary(small, 40 * 30, NULL).mean > 0.05);
 }
 
 /* Light as strong as a float can hold must not become NaN in a tone curve. */

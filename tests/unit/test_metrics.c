@@ -167,8 +167,8 @@ TEST(masked_pixels_count_for_nothing)
                 ssim_mean(&r.planes, &spoilt.planes, mask, NULL, arena), 0);
     assert_near(ssim_mean(&t.planes, &r.planes, mask, NULL, arena),
                 ssim_mean(&spoilt.planes, &r.planes, mask, NULL, arena), 0);
-    DeltaE e = deltae_pictures(&r.planes, &t.planes, mask, map);
-    DeltaE f = deltae_pictures(&r.planes, &spoilt.planes, mask, map);
+    MapSummary e = deltae_pictures(&r.planes, &t.planes, mask, map);
+    MapSummary f = deltae_pictures(&r.planes, &spoilt.planes, mask, map);
     assert_memory_equal(&e, &f, sizeof e);
     assert_true(a.mse > 0.01 && e.mean > 1);
     assert_true(errors_of(&r, &spoilt, NULL, true, arena).mse > 2 * a.mse);
@@ -181,7 +181,7 @@ TEST(no_pixel_gives_no_number)
     unsigned char *mask = ARENA_NEW(&arena, unsigned char, 12 * 9);
     float          map[12 * 9];
     PixelErrors    e = errors_of(&r, &r, mask, true, arena);
-    DeltaE         d = deltae_pictures(&r.planes, &r.planes, mask, map);
+    MapSummary     d = deltae_pictures(&r.planes, &r.planes, mask, map);
     assert_true(isnan(e.mae) && isnan(e.mse) && isnan(e.rel_mse) && isnan(e.max_difference));
     assert_true(isnan(e.psnr_db) && isnan(e.peak) && isnan(e.mean_shift));
     assert_true(isnan(errors_of(&r, &r, mask, false, arena).psnr_db));
@@ -412,7 +412,7 @@ TEST(pictures_have_their_difference)
         for (int c = 0; c < 3; c++) mixed.rgb[c][i] = 0.125f;
     double step = 100 - 42, from_grey = (71.0 - 50) * (71 - 50);
     double expected = step / (1 + 0.015 * from_grey / sqrt(20 + from_grey));
-    DeltaE d = deltae_pictures(&white.planes, &mixed.planes, NULL, map);
+    MapSummary d = deltae_pictures(&white.planes, &mixed.planes, NULL, map);
     assert_close(d.mean, expected * 10 / 108, 1e-6);
     assert_close(d.max, expected, 1e-6);
     assert_close(d.p95, expected, 1e-6); /* ten of 108 are more than a twentieth */

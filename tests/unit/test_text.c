@@ -3,7 +3,6 @@
 #include "fixture.h"
 
 #include "text/base64.h"
-#include "text/escape.h"
 #include "text/json_text.h"
 #include "text/nearest_word.h"
 #include "text/text.h"

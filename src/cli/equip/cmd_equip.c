@@ -14,7 +14,7 @@
 #include "cli/options/answer.h"
 #include "cli/options/cli.h"
 #include "scene/load/scene_load.h"
-#include "text/escape.h"
+#include "text/text.h"
 #include "text/json_text.h"
 
 #define SUMMARY "displays, eyes and materials for a model, clicked in a page"
@@ -93,8 +93,8 @@ static bool print_result(const EquipWords *words, const EquipResult *r, Arena *a
     if (words->cli.json)
         return cli_print_json(
             json_pack("{s:o, s:o, s:o, s:o, s:i, s:i, s:i, s:i}", "scene", json_text(r->scene),
-                      "bin", r->bin ? json_text(r->bin) : json_null(), "review",
-                      r->review ? json_text(r->review) : json_null(), "copies",
+                      "bin", json_text_or_null(r->bin), "review",
+                      json_text_or_null(r->review), "copies",
                       json_texts(r->copies, r->copy_count), "displays", r->display_count,
                       "eyes", r->eye_count, "materials", r->material_count, "without_data",
                       r->without_data),

@@ -7,7 +7,6 @@
 #include "cli/equip/usual_material.h"
 #include "review/profile.h"
 #include "review/request/request_fields.h"
-#include "text/nearest_word.h"
 
 #define METRES_MAX 1e4
 #define LEAST_M 0.001   /* a display's side */
@@ -35,13 +34,6 @@ static bool wanted_number(const JsonView *view, const char *key, const double ra
 {
     return field_wanted(view, key, err) &&
            json_view_number(view, key, range[0], range[1], out, err);
-}
-
-void equip_display_normal(const EquipDisplay *display, double out[3])
-{
-    const double *r = display->right, *u = display->up;
-    for (int i = 0; i < 3; i++)
-        out[i] = r[(i + 1) % 3] * u[(i + 2) % 3] - r[(i + 2) % 3] * u[(i + 1) % 3];
 }
 
 /* ---- displays ---------------------------------------------------------------------------- */

@@ -55,6 +55,3 @@ typedef struct Equip {
 } Equip;
 
 bool equip_file_read(const char *file, Arena *arena, Equip *out, Error *err);
-
-/* The direction that a display shows its picture in: right x up. */
-void equip_display_normal(const EquipDisplay *display, double out[3]);

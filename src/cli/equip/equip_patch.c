@@ -177,7 +177,7 @@ static void add_display(json_t *document, const EquipDisplay *display, const Equ
 {
     double  normal[3], centre[3], scale[3] = {display->width_m, display->height_m, 1};
     json_t *primitive = json_deep_copy(rectangle);
-    equip_display_normal(display, normal);
+    cross(display->right, display->up, normal);
     for (int i = 0; i < 3; i++)
         centre[i] = display->centre_m[i] + display->before_m * normal[i];
     json_object_set_new(primitive, "material",

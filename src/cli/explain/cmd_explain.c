@@ -4,19 +4,127 @@
 #include "cli/explain/cmd_explain.h"
 
 #include <math.h>
-#include <string.h>
+#include <stdio.h>
 #include <strings.h>
 
 #include "base/count.h"
 #include "base/file.h"
 #include "base/file_write.h"
-#include "cli/explain/explain_answer.h"
-#include "cli/explain/explain_scene.h"
+#include "camera/camera.h"
 #include "cli/explain/ray_option.h"
 #include "cli/options/answer.h"
+#include "cli/options/cli.h"
+#include "cli/options/scene_options.h"
+#include "cli/render/render_setup.h"
 #include "review/chain/outlook_picture.h"
 #include "review/output/ray_file.h"
+#include "review/output/review_json.h"
+#include "review/output/review_words.h"
+#include "review/request/request_check.h"
 #include "review/request/request_read.h"
+#include "review/run/explain.h"
+#include "review/run/explain_place.h"
+#include "review/run/symbols.h"
+#include "scene/load/scene_load.h"
+#include "text/interval_text.h"
+#include "text/json_text.h"
+
+/* ---- what of a scene is to be explained -------------------------------------------------- */
+
+typedef struct SceneQuestion {
+    CameraChoice      camera;
+    SceneOptions      scene;
+    EnvironmentChange environment;
+    const char       *display; /* "cluster", "node:NAME"; NULL: pixels */
+    double            uv[4];   /* of the content: left, top, right, bottom */
+    double            region[4]; /* pixels: X0, Y0, X1, Y1 */
+    int               size[2];
+    const char       *isa;
+    long              paths;
+    int               threads;
+    ProgressMode      progress; /* of loading */
+    bool              with_outlook;
+    Problems         *problems;
+} SceneQuestion;
+
+#define BOUNCES 64
+#define SIDE 32 /* of the raster of a region */
+
+/* Points along the looks of a raster. */
+static void aim_at_region(const SceneQuestion *question, const SceneCamera *camera,
+                          Arena *arena, ProbeAim *aim)
+{
+    const double *r = question->region;
+    Camera seen = camera_from_scene(camera, question->size[0], question->size[1]);
+    Vec3  *targets = ARENA_NEW(arena, Vec3, SIDE * SIDE);
+    for (int i = 0; i < SIDE * SIDE; i++) {
+        double u = (i + 0.5) / (SIDE * SIDE), v = reverse_bits((uint32_t)i) * 0x1p-32;
+        Ray    ray = camera_ray(&seen, (float)(r[0] + u * (r[2] - r[0])),
+                                (float)(r[1] + (v + 0.5 / (SIDE * SIDE)) * (r[3] - r[1])));
+        targets[i] = vec3_add(aim->eye, ray.direction);
+    }
+    aim->targets = targets;
+    aim->target_count = SIDE * SIDE;
+}
+
+static bool aim_at_display(const SceneQuestion *question, Arena *arena, ProbeAim *aim,
+                           Error *err)
+{
+    const Scene  *scene = aim->context->scene;
+    const double *uv = question->uv;
+    ReviewDisplay display;
+    SymbolSurface surface;
+    if (!review_display_find(scene, question->display, arena, &display, err))
+        return error_prefix(err, "--display %s", question->display);
+    SymbolPlace place = {.scene = scene, .display = &display,
+                         .uv = {uv[0], uv[1], uv[2], uv[3]}, .point_count = SYMBOL_POINTS};
+    if (!symbol_surface_build(&place, arena, &surface, err))
+        return error_prefix(err, "--display %s", question->display);
+    bool *is_visible = ARENA_NEW(arena, bool, surface.point_count);
+    symbol_visibility(&surface, aim->context, aim->eye, is_visible);
+    symbol_aim(&surface, is_visible, arena, aim);
+    return aim->target_count > 0 ||
+           error_set(err, ERROR_USAGE, "--display %s: the eye sees nothing of it",
+                     question->display);
+}
+
+static bool explain_lit(const SceneQuestion *question, const PathContext *context,
+                        const ReadingTools *tools, Arena *arena, Explained *out, Error *err)
+{
+    SceneCamera camera;
+    if (!render_choose_camera(context->scene, &question->camera, question->problems, &camera,
+                              err))
+        return false;
+    ProbeAim aim = {.context = context, .eye = camera.world_from_camera.origin};
+    if (!question->display) aim_at_region(question, &camera, arena, &aim);
+    else if (!aim_at_display(question, arena, &aim, err)) return false;
+    ExplainPlace place = {tools, aim, question->paths, question->with_outlook};
+    explain_place(&place, arena, out);
+    return true;
+}
+
+static bool explain_scene(const SceneQuestion *question, Arena *arena, Explained *out,
+                          Error *err)
+{
+    ReadingTools tools = {NULL, question->threads};
+    Scene       *scene;
+    Bvh         *bvh = NULL;
+    Lights      *lights;
+    const SceneAsked asked = {&question->scene, &question->environment, question->progress};
+    if (!kernel_choose(question->isa, &tools.kernel, err) ||
+        !scene_options_load(&asked, arena, question->problems, &scene, err))
+        return false;
+    render_warn_of_darkness(scene, question->problems);
+    bool ok = bvh_create(scene, question->threads, question->isa, &bvh, err) &&
+              lights_build(scene, arena, &lights, err);
+    if (ok) {
+        PathContext context = path_context_build(scene, bvh, lights, BOUNCES, arena);
+        ok = explain_lit(question, &context, &tools, arena, out, err);
+    }
+    bvh_destroy(bvh);
+    scene_close(scene);
+    return ok;
+}
 
 typedef struct ExplainWords {
     SceneQuestion scene;
@@ -30,6 +138,205 @@ typedef struct ExplainWords {
 static bool is_review(const ExplainWords *words)
 {
     return !strcasecmp(path_ending(words->cli.arguments[0]), ".json");
+}
+
+/* ---- the answer -------------------------------------------------------------------------- */
+
+/* ---- as text ----------------------------------------------------------------------------- */
+
+static void print_where(const ReviewCase *c)
+{
+    if (c->symbol)
+        printf("symbol     %s on %s, seen by %s, %s\n", c->symbol, c->display, c->eye,
+               c->condition);
+    else if (c->display) printf("display    %s\n", c->display);
+    printf("eye        %.3f, %.3f, %.3f m\n", (double)c->eye_m.x, (double)c->eye_m.y,
+           (double)c->eye_m.z);
+}
+
+static void print_light(const Explained *explained, Arena scratch)
+{
+    const ReviewCase     *c = &explained->of;
+    const CaseLuminances *l = &c->luminance_cd_m2;
+    const char *light = c->display ? "reflected" : "luminance";
+    if (c->symbol)
+        printf("sends      %.4g cd/m2 foreground, %.4g background\n", l->foreground,
+               l->background);
+    else if (c->display)
+        printf("sends      %.4g cd/m2; white %.4g, black %.4g\n", explained->shown,
+               l->foreground, l->background);
+    printf("%-10s %s cd/m2", light,
+           interval_text(l->reflected, c->reflected_range.low, c->reflected_range.high,
+                         &scratch));
+    if (c->display) printf(": mirror %.4g, scattered %.4g", l->mirror, l->scattered);
+    printf("\n");
+    if (c->display)
+        printf("contrast   %s : 1; %.4g : 1 if nothing were reflected\n",
+               interval_text(c->contrast_ratio, c->contrast_low, c->contrast_high, &scratch),
+               luminance_contrast(l->foreground, l->background, 0));
+}
+
+static void print_cause(const CaseCause *cause, bool has_contrast, Arena scratch)
+{
+    printf("%6.1f %%  %8s  %8s to %-8s", 100 * cause->share,
+           words_within(cause->cd_m2, cause->low, cause->high, &scratch),
+           words_within(cause->low, cause->low, cause->high, &scratch),
+           words_within(cause->high, cause->low, cause->high, &scratch));
+    if (has_contrast) printf("  %7.3g : 1", cause->contrast_without);
+    for (int i = 0; i < cause->links; i++)
+        printf("%s%s", i ? " > " : "  ", cause->chain[i]);
+    printf("\n");
+}
+
+/* Each adds up to all of the light. */
+static void print_groups(const ReviewCase *c)
+{
+    static const char *const NAMES[CAUSE_GROUPS] = {"began at", "came by", "met at"};
+    for (int g = 0; g < CAUSE_GROUPS; g++) {
+        const CaseGroup *group = &c->groups[g];
+        for (int i = 0; i < group->count; i++)
+            printf("%s%.3g %% %s", i ? ", " : g ? "\n" : "", 100 * group->list[i].share,
+                   group->list[i].what);
+        if (group->count) printf(" (%s)", NAMES[g]);
+    }
+    printf("\n");
+}
+
+static void print_causes(const ReviewCase *c, Arena scratch)
+{
+    bool has_contrast = c->display != NULL;
+    if (!c->cause_count) return;
+    printf("\n   share     cd/m2   95 %% interval     %s  by way of\n",
+           has_contrast ? "without it " : "");
+    for (int i = 0; i < c->cause_count; i++) print_cause(&c->causes[i], has_contrast, scratch);
+}
+
+static void print_remedies(const ReviewCase *c)
+{
+    if (c->remedy_count) printf("\n");
+    for (int i = 0; i < c->remedy_count; i++)
+        printf("would mend %s: contrast %.3g : 1\n", c->remedies[i].what,
+               c->remedies[i].contrast_ratio);
+}
+
+static void print_text(const Explained *explained, Arena *arena)
+{
+    print_where(&explained->of);
+    if (explained->of.hider_count)
+        printf("hidden     %s\n", words_hiders(&explained->of, arena));
+    if (!(explained->of.visible_share > 0)) {
+        printf("not visible\n");
+        return;
+    }
+    print_light(explained, *arena);
+    print_groups(&explained->of);
+    print_causes(&explained->of, *arena);
+    print_remedies(&explained->of);
+    if (explained->has_outlook) printf("\nsees       %s\n", outlook_words(&explained->outlook,
+                                                                          arena));
+}
+
+/* ---- as JSON ----------------------------------------------------------------------------- */
+
+static json_t *point(Vec3 p)
+{
+    return json_pack("[f,f,f]", (double)p.x, (double)p.y, (double)p.z);
+}
+
+static json_t *json_rays(const CaseCause *cause)
+{
+    json_t *out = json_array();
+    for (int i = 0; i < cause->ray_count; i++) {
+        json_t *ray = json_array();
+        for (int k = 0; k < cause->rays[i].count; k++)
+            json_array_append_new(ray, point(cause->rays[i].points[k]));
+        json_array_append_new(out, ray);
+    }
+    return out;
+}
+
+static json_t *json_chains(const ReviewCase *c)
+{
+    json_t *out = json_array();
+    for (int i = 0; i < c->cause_count; i++) {
+        const CaseCause *cause = &c->causes[i];
+        double lost = cause->contrast_without - c->contrast_ratio;
+        json_array_append_new(out, json_pack(
+            "{s:o, s:o, s:o, s:[o,o], s:o, s:o, s:o}", "chain",
+            json_texts(cause->chain, cause->links), "share", json_figure(cause->share), "cd_m2",
+            json_figure(cause->cd_m2), "interval", json_figure(cause->low),
+            json_figure(cause->high), "contrast_without", json_figure(cause->contrast_without),
+            "contrast_lost", json_figure(lost), "rays", json_rays(cause)));
+    }
+    return out;
+}
+
+static json_t *json_light(const Explained *explained)
+{
+    const CaseLuminances *l = &explained->of.luminance_cd_m2;
+    if (!explained->of.display) return json_pack("{s:o}", "all", json_figure(l->reflected));
+    json_t *out = json_pack("{s:o, s:o, s:o}", "reflected", json_figure(l->reflected), "mirror",
+                            json_figure(l->mirror), "scattered", json_figure(l->scattered));
+    bool is_symbol = explained->of.symbol != NULL;
+    json_object_set_new(out, is_symbol ? "foreground" : "white", json_figure(l->foreground));
+    json_object_set_new(out, is_symbol ? "background" : "black", json_figure(l->background));
+    if (!is_symbol) json_object_set_new(out, "emitted", json_figure(explained->shown));
+    return out;
+}
+
+static json_t *json_remedies(const ReviewCase *c)
+{
+    json_t *out = json_array();
+    for (int i = 0; i < c->remedy_count; i++)
+        json_array_append_new(out, json_pack(
+            "{s:o, s:o, s:o}", "what", json_text(c->remedies[i].what), "contrast_ratio",
+            json_figure(c->remedies[i].contrast_ratio), "level",
+            json_figure(c->remedies[i].level)));
+    return out;
+}
+
+static json_t *json_outlook(const Explained *explained)
+{
+    const Outlook *o = &explained->outlook;
+    if (!explained->has_outlook) return json_null();
+    json_t *shares = json_array();
+    for (int i = 0; i < o->share_count; i++)
+        json_array_append_new(shares, json_pack("{s:o, s:o, s:o}", "what",
+                                                json_text(o->shares[i].what), "share",
+                                                json_figure(o->shares[i].share), "lux",
+                                                json_figure(o->shares[i].lux)));
+    return json_pack("{s:o, s:o, s:o, s:{s:o, s:o}}", "lux", json_figure(o->lux), "shares",
+                     shares, "rest", json_figure(o->rest), "mirror", "what",
+                     json_text_or_null(o->mirror_what), "cd_m2", json_figure(o->mirror_cd_m2));
+}
+
+static bool print_json(const Explained *explained, Error *err)
+{
+    const ReviewCase *c = &explained->of;
+    json_t *out = json_pack(
+        "{s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:[o,o], s:I}", "condition",
+        json_text_or_null(c->condition), "eye", json_text_or_null(c->eye), "symbol",
+        json_text_or_null(c->symbol), "display", json_text_or_null(c->display), "eye_m",
+        point(c->eye_m), "luminance_cd_m2", json_light(explained), "contrast_ratio",
+        json_figure(c->contrast_ratio), "contrast_interval", json_figure(c->contrast_low),
+        json_figure(c->contrast_high), "paths", (json_int_t)explained->paths);
+    json_object_set_new(out, "visible_share", json_figure(c->visible_share));
+    json_object_set_new(out, "hidden_by", review_hiders_json(c));
+    json_object_set_new(out, "reflected_interval",
+                        json_pack("[o,o]", json_figure(c->reflected_range.low),
+                                  json_figure(c->reflected_range.high)));
+    json_object_set_new(out, "cause_groups", review_groups_json(c));
+    json_object_set_new(out, "chains", json_chains(c));
+    json_object_set_new(out, "remedies", json_remedies(c));
+    json_object_set_new(out, "outlook", json_outlook(explained));
+    return cli_print_json(out, err);
+}
+
+static bool explain_answer(const Cli *cli, const Explained *explained, Arena *arena, Error *err)
+{
+    if (cli->json) return print_json(explained, err);
+    print_text(explained, arena);
+    return true;
 }
 
 /* ---- the command line -------------------------------------------------------------------- */

@@ -15,9 +15,10 @@
  *
  * Memory   the arena's.
  * Threads  one at a time.
- * Fails    never.
+ * Fails    never but in job_split.
  */
 #pragma once
+#include "base/error.h"
 #include "film/film.h"
 
 #define JOB_PARTS_MAX 100000
@@ -67,3 +68,18 @@ const char *job_output_file(const SharedJob *job, Arena *arena);
 /* The command that does part `index`, or the rest of it, for a shell. */
 const char *job_part_command(const SharedJob *job, int index, Arena *arena);
 const char *job_merge_command(const SharedJob *job, Arena *arena);
+
+/* ---- how a frame is cut ------------------------------------------------------------------ */
+
+typedef enum JobSplit {
+    JOB_SPLIT_SAMPLES, /* every part has all pixels: equal work; each holds a whole film */
+    JOB_SPLIT_ROWS     /* all samples of some rows: little memory and small files */
+} JobSplit;
+
+/* The names of --split, in the order of JobSplit. */
+#define JOB_SPLITS "samples|rows"
+
+/* `count` parts of `whole`, in order, whose sizes differ by one at most. ERROR_USAGE: there are
+ * fewer samples, or rows. */
+bool job_split(const JobPart *whole, JobSplit how, int count, Arena *arena, JobPart **out,
+               Error *err);

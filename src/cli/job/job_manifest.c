@@ -18,19 +18,22 @@
 
 /* ---- writing ----------------------------------------------------------------------------- */
 
-static json_t *part_json(const SharedJob *job, int index, Arena scratch)
+void job_manifest_add_part(json_t *item, const JobPart *part)
 {
-    const char *file = job_part_file(job, index, job_part_ending(job), &scratch);
-    json_t     *item = json_pack("{s:i, s:s, s:s}", "index", index, "file", path_name(file),
-                                 "command", job_part_command(job, index, &scratch));
-    if (job->kind != JOB_FRAME) return item;
-    const JobPart *part = &job->parts[index];
     const FilmRect crop = part->crop;
     json_object_set_new(item, "samples",
                         json_pack("[I,I]", (json_int_t)part->first_sample,
                                   (json_int_t)part->end_sample));
     json_object_set_new(item, "crop",
                         json_pack("[i,i,i,i]", crop.x0, crop.y0, crop.x1, crop.y1));
+}
+
+static json_t *part_json(const SharedJob *job, int index, Arena scratch)
+{
+    const char *file = job_part_file(job, index, job_part_ending(job), &scratch);
+    json_t     *item = json_pack("{s:i, s:s, s:s}", "index", index, "file", path_name(file),
+                                 "command", job_part_command(job, index, &scratch));
+    if (job->kind == JOB_FRAME) job_manifest_add_part(item, &job->parts[index]);
     return item;
 }
 

@@ -5,6 +5,8 @@
  * Fails    ERROR_INPUT with the file, the place in it, what is there and what was wanted.
  */
 #pragma once
+#include <jansson.h>
+
 #include "base/error.h"
 #include "cli/job/job.h"
 
@@ -12,6 +14,9 @@
 
 /* The document, with a newline; the same for the same job. */
 const char *job_manifest_text(const SharedJob *job, Arena *arena);
+
+/* Sets "samples" and "crop" of a part of a frame. */
+void job_manifest_add_part(json_t *item, const JobPart *part);
 
 /* Whether the folder holds one, valid or not. */
 bool job_manifest_is_there(const char *dir, Arena scratch);

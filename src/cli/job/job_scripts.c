@@ -2,7 +2,6 @@
 #include "cli/job/job_scripts.h"
 
 #include "base/file.h"
-#include "text/escape.h"
 #include "text/text.h"
 
 /* A path inside a line of #SBATCH, where % begins a pattern. Quotes and backslashes do not come

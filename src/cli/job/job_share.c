@@ -14,7 +14,7 @@
 #include "cli/job/job_state.h"
 #include "cli/job/sbatch.h"
 #include "render/identity.h"
-#include "text/escape.h"
+#include "text/text.h"
 #include "text/json_text.h"
 #include "text/utf8.h"
 
@@ -79,17 +79,17 @@ static bool find_places(const ShareRequest *share, SharedJob *job, Arena *arena,
 static bool check_is_free(const SharedJob *job, Arena scratch, Error *err)
 {
     static const char *const ours[] = {".", "..", JOB_LOGS, JOB_ARRAY, JOB_MERGE, JOB_COMMANDS};
-    JobFolder folder;
+    Lines folder;
     if (!job_folder_list(job, &scratch, &folder, err)) return false;
     for (int i = 0; i < folder.count; i++) {
         bool is_ours = false;
         for (int j = 0; j < COUNT_OF(ours); j++)
-            is_ours = is_ours || !strcmp(folder.names[i], ours[j]);
+            is_ours = is_ours || !strcmp(folder.list[i], ours[j]);
         if (!is_ours)
             return error_at(err, ERROR_OUTPUT, job->dir, "",
                             "is no folder of a job and holds %.200s — name another by "
                             "--job DIR",
-                            folder.names[i]);
+                            folder.list[i]);
     }
     return true;
 }
@@ -143,11 +143,6 @@ static bool submit(Share *work, Arena *arena, Error *err)
 
 /* ---- the answer -------------------------------------------------------------------------- */
 
-static json_t *id_json(const char *id)
-{
-    return id ? json_text(id) : json_null();
-}
-
 static json_t *answer_json(const Share *work, Arena *arena)
 {
     const SharedJob *job = &work->job;
@@ -158,8 +153,8 @@ static json_t *answer_json(const Share *work, Arena *arena)
         json_text(job_file(job, JOB_MANIFEST, arena)), "commands",
         json_text(job_file(job, JOB_COMMANDS, arena)), "array",
         json_text(job_file(job, JOB_ARRAY, arena)), "merge",
-        json_text(job_file(job, JOB_MERGE, arena)), "array_job", id_json(work->array_id),
-        "merge_job", id_json(work->merge_id));
+        json_text(job_file(job, JOB_MERGE, arena)), "array_job",
+        json_text_or_null(work->array_id), "merge_job", json_text_or_null(work->merge_id));
 }
 
 static void print_lines(const Share *work, Arena *arena)

@@ -6,7 +6,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include "base/file.h"
@@ -22,25 +21,15 @@
 
 /* ---- the folder -------------------------------------------------------------------------- */
 
-bool job_folder_list(const SharedJob *job, Arena *arena, JobFolder *out, Error *err)
+bool job_folder_list(const SharedJob *job, Arena *arena, Lines *out, Error *err)
 {
-    JobFolder folder = {0};
-    int       room = 0;
-    DIR      *names = opendir(job->dir);
+    Lines folder = {.arena = arena};
+    DIR  *names = opendir(job->dir);
     if (!names)
         return error_at(err, ERROR_INPUT, job->dir, "", "cannot be opened: %s",
                         strerror(errno));
-    for (struct dirent *entry; (entry = readdir(names));) {
-        const char *name = arena_string(arena, entry->d_name, strlen(entry->d_name));
-        if (folder.count == room) {
-            int          more = room ? 2 * room : 256;
-            const char **list = ARENA_NEW(arena, const char *, more);
-            if (room) memcpy(list, folder.names, sizeof *list * (size_t)room);
-            folder.names = list;
-            room = more;
-        }
-        folder.names[folder.count++] = name;
-    }
+    for (struct dirent *entry; (entry = readdir(names));)
+        lines_put(&folder, arena_string(arena, entry->d_name, strlen(entry->d_name)));
     closedir(names);
     *out = folder;
     return true;
@@ -136,14 +125,14 @@ static uint32_t kept_in(const SharedJob *job, int index, const char *path, Arena
 }
 
 /* The path of the furthest one, or NULL. removes: those that are worth nothing. */
-static const char *furthest(const SharedJob *job, const JobFolder *folder, int index,
+static const char *furthest(const SharedJob *job, const Lines *folder, int index,
                             bool removes, uint32_t *kept, Arena *arena)
 {
     const char *best = NULL;
     *kept = 0;
     for (int i = 0; i < folder->count; i++) {
-        if (!job_is_checkpoint(folder->names[i], index)) continue;
-        const char *path = job_file(job, folder->names[i], arena);
+        if (!job_is_checkpoint(folder->list[i], index)) continue;
+        const char *path = job_file(job, folder->list[i], arena);
         uint32_t    found = kept_in(job, index, path, *arena);
         if (!found && removes) file_remove(path);
         if (found <= *kept) continue;
@@ -173,7 +162,7 @@ const char *job_own_checkpoint(const SharedJob *job, int index, Arena *arena)
 
 /* By a rename: of two tasks that begin together one gets it, and the other begins anew. A task
  * that still writes to it, since its node was only thought dead, writes a new one. */
-const char *job_take_checkpoint(const SharedJob *job, const JobFolder *folder, int index,
+const char *job_take_checkpoint(const SharedJob *job, const Lines *folder, int index,
                                 Arena *arena)
 {
     uint32_t    kept;
@@ -185,13 +174,13 @@ const char *job_take_checkpoint(const SharedJob *job, const JobFolder *folder, i
 
 void job_part_clean(const SharedJob *job, int index, Arena scratch)
 {
-    JobFolder folder;
+    Lines folder;
     Error     ignored;
     job_part_forget_failure(job, index, scratch);
     if (!job_folder_list(job, &scratch, &folder, &ignored)) return;
     for (int i = 0; i < folder.count; i++)
-        if (job_is_checkpoint(folder.names[i], index))
-            file_remove(job_file(job, folder.names[i], &scratch));
+        if (job_is_checkpoint(folder.list[i], index))
+            file_remove(job_file(job, folder.list[i], &scratch));
 }
 
 /* ---- failures ---------------------------------------------------------------------------- */
@@ -225,7 +214,7 @@ static const char *failure_of(const SharedJob *job, int index, int *status, Aren
     return end;
 }
 
-JobPartReport job_part_report(const SharedJob *job, const JobFolder *folder, int index,
+JobPartReport job_part_report(const SharedJob *job, const Lines *folder, int index,
                               Arena *arena)
 {
     JobPartReport report = {0};

@@ -6,6 +6,7 @@
  */
 #pragma once
 #include "base/error.h"
+#include "base/lines.h"
 #include "cli/job/job.h"
 #include "review/keep/journal.h"
 
@@ -25,14 +26,9 @@ typedef struct JobPartReport {
 } JobPartReport;
 
 /* The names that lie in the folder. */
-typedef struct JobFolder {
-    const char **names;
-    int          count;
-} JobFolder;
+bool job_folder_list(const SharedJob *job, Arena *arena, Lines *out, Error *err);
 
-bool job_folder_list(const SharedJob *job, Arena *arena, JobFolder *out, Error *err);
-
-JobPartReport job_part_report(const SharedJob *job, const JobFolder *folder, int index,
+JobPartReport job_part_report(const SharedJob *job, const Lines *folder, int index,
                               Arena *arena);
 
 /* Whether the part's file is there and is that part, whole. with_sums: every sum is read, and
@@ -52,7 +48,7 @@ const char *job_own_checkpoint(const SharedJob *job, int index, Arena *arena);
 
 /* That one, of a frame: the furthest of those that are there becomes it. Damaged ones are
  * removed. */
-const char *job_take_checkpoint(const SharedJob *job, const JobFolder *folder, int index,
+const char *job_take_checkpoint(const SharedJob *job, const Lines *folder, int index,
                                 Arena *arena);
 
 /* Removes a finished part's checkpoints and its earlier failure. */

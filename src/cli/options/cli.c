@@ -1,5 +1,4 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "base/count.h"
 #include "cli/options/cli.h"
 
 #include <errno.h>
@@ -7,14 +6,15 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
+#include "base/count.h"
 #include "base/file.h"
 #include "base/parallel.h"
+#include "bvh/bvh.h"
 #include "cli/options/completion.h"
 #include "cli/options/guides.h"
 #include "cli/options/man_page.h"
-#include "cli/options/version.h"
+#include "render/render.h"
 #include "text/nearest_word.h"
 
 #define NUMBERS_MAX 8
@@ -161,11 +161,9 @@ static bool read_choice(const Parser *in, const Option *option, const char *text
 static void append_text(CliTexts *texts, const char *text, Arena *arena)
 {
     if (texts->count == texts->capacity) {
-        int          capacity = texts->capacity ? 2 * texts->capacity : 8;
-        const char **list = ARENA_NEW(arena, const char *, capacity);
-        if (texts->count) memcpy(list, texts->list, sizeof *list * (size_t)texts->count);
-        texts->list = list;
-        texts->capacity = capacity;
+        texts->capacity = 2 * texts->capacity + 8;
+        texts->list = ARENA_GROW(arena, const char *, texts->list, texts->count,
+                                 texts->capacity);
     }
     texts->list[texts->count++] = text;
 }
@@ -362,16 +360,15 @@ bool cli_parse(const CliCommand *command, int argc, char **argv, Arena *arena, C
     int  progress = PROGRESS_AUTO;
     long threads = parallel_default_threads();
     const Option common[] = {
-        {"--json", OPTION_FLAG, NULL, "the answer as one JSON document on stdout", &cli.json,
-         0, 0, 0, NULL},
-        {"--quiet", OPTION_FLAG, NULL, "no progress", &cli.quiet, 0, 0, 0, NULL},
+        {"--json", OPTION_FLAG, NULL, "the answer as one JSON document on stdout", &cli.json},
+        {"--quiet", OPTION_FLAG, NULL, "no progress", &cli.quiet},
         {"--progress", OPTION_CHOICE, "auto|bar|plain|json|none",
-         "how progress is shown on stderr (default auto)", &progress, 0, 0, 0, NULL},
+         "how progress is shown on stderr (default auto)", &progress},
         {"--threads", OPTION_INTEGER, "N", "threads (default: what the scheduler allows)",
          &threads, 1, PARALLEL_THREADS_MAX, 0, &cli.threads_given},
-        {"--help", OPTION_FLAG, NULL, "this text; also -h", &cli.help_shown, 0, 0, 0, NULL},
+        {"--help", OPTION_FLAG, NULL, "this text; also -h", &cli.help_shown},
         {"--version", OPTION_FLAG, NULL, "of the program and its libraries; also -V",
-         &cli.help_shown, 0, 0, 0, NULL},
+         &cli.help_shown},
     };
     Parser in = {command, common, COUNT_OF(common), argc, 1, argv, arena,
                  err};
@@ -389,4 +386,14 @@ bool cli_parse(const CliCommand *command, int argc, char **argv, Arena *arena, C
     cli.argument_count = arguments.count;
     *out = cli;
     return true;
+}
+
+void version_print(void)
+{
+    const Kernel *kernel;
+    Error         err;
+    bool          chosen = kernel_choose(NULL, &kernel, &err);
+    printf("parhelion %s\nsources: %s\ninstruction set: %s\nlibraries: %s, %s\n",
+           PARHELION_VERSION, SOURCES_HASH, chosen ? kernel->isa : "none", bvh_library(),
+           LIBRARY_VERSIONS);
 }

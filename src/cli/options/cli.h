@@ -24,7 +24,7 @@
 #include "base/arena.h"
 #include "base/error.h"
 #include "base/progress.h"
-#include "cli/options/option.h"
+#include "cli/options/command.h"
 
 /* Results of cli_parse besides the values. */
 typedef struct Cli {
@@ -71,3 +71,6 @@ bool cli_name_value(const char *option, const char *text, Arena *arena, const ch
 
 /* The last line of a command's help: the guide (cli/options/guides.h) that names it, if any. */
 void cli_print_guide(const char *command);
+
+/* The program's version, its sources, the instruction set in use and the libraries. */
+void version_print(void);

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* command.h -- sub-commands: each a constant in its own file, listed in a table.
+/* command.h -- sub-commands: each a constant in its own file, listed in a table; and a
+ * command's options as a table: what is parsed, shown by --help, printed as a manual page and
+ * completed by shells.
  *
  * Adding one touches its file, the header of its folder that declares it, and the table that
  * lists it (cli/commands.c, cli/panel/cmd_panel.c).
@@ -26,3 +28,43 @@ typedef struct Command {
  * commands, NULL for the program's. */
 const Command *command_find(const Command *const *list, int count, const char *within,
                             const char *name, Error *err);
+
+typedef enum OptionKind {
+    OPTION_FLAG,    /* bool: no value */
+    OPTION_TEXT,    /* const char * */
+    OPTION_NUMBER,  /* double in [low, high] */
+    OPTION_INTEGER, /* long in [low, high] */
+    OPTION_NUMBERS, /* double[count]: exactly count numbers with commas, each in [low, high] */
+    OPTION_SIZE,    /* int[2]: WxH, each in [1, 65536] */
+    OPTION_CHOICE,  /* int: index of the value among the names in `value`, "a|b|c" */
+    OPTION_TEXTS    /* CliTexts: may be given many times */
+} OptionKind;
+
+/* Every value of an OPTION_TEXTS, in the order given. */
+typedef struct CliTexts {
+    const char **list;
+    int          count, capacity;
+} CliTexts;
+
+typedef struct Option {
+    const char *name;  /* as typed: "--size", "-o" */
+    OptionKind  kind;
+    const char *value; /* what stands for the value in the help: "WxH"; NULL for a flag */
+    const char *help;  /* one line, with the unit and the default */
+    void       *out;   /* the type that belongs to the kind */
+    double      low, high; /* limits of numbers; both 0: none */
+    int         count; /* OPTION_NUMBERS: how many, at most 8 */
+    bool       *given; /* set when the option was there; NULL: not asked */
+} Option;
+
+typedef struct CliCommand {
+    const char   *name;    /* "render", "panel fit" */
+    const char   *summary; /* one line, lower case, no full stop */
+    const char   *usage;   /* arguments: "SCENE.gltf [LIGHTS.gltf ...] -o FRAME.exr" */
+    const char   *example; /* a whole command line that works on the shipped files */
+    const Option *options;
+    int           option_count;
+    int           min_arguments, max_arguments; /* max -1: any number */
+    const char   *rows_title; /* of what the help lists besides: "formats"; NULL: nothing */
+    void        (*each_row)(void (*print)(const char *name, const char *text));
+} CliCommand;

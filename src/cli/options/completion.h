@@ -5,7 +5,6 @@
  */
 #pragma once
 #include "cli/options/command.h"
-#include "cli/options/option.h"
 
 /* A row: options that take a value and those that take none, values from lists, files. */
 void completion_print_command(const CliCommand *command, const Option *common,

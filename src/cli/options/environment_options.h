@@ -4,6 +4,9 @@
  * Memory   the command's arena. Fails: ERROR_USAGE with the option, ERROR_INPUT with a file.
  */
 #pragma once
+#include <jansson.h>
+
+#include "base/problems.h"
 #include "cli/options/cli.h"
 #include "scene/scene.h"
 
@@ -59,3 +62,10 @@ typedef struct EnvironmentChange {
  * inputs. What was taken as a default goes to *problems as a warning. */
 bool environment_change(const EnvironmentChange *change, Scene *scene, Arena *arena,
                         Problems *problems, Error *err);
+
+/* "line 4123 (06-21, hour 12), ...": for the sky's figures and a frame's metadata. NULL: there
+ * was no weather file. */
+const char *weather_option_text(const Environment *environment, Arena *arena);
+
+/* The same as an object; null without a weather file. */
+json_t *weather_option_json(const Environment *environment);

@@ -2,17 +2,22 @@
 /* look_options.h -- the options for how a frame becomes a picture, for the commands that
  * develop one.
  *
- * The rows only name where the words go; develop.h defines and checks them. What
- * they ask for is done here, since a frame is denoised, and seen by an eye, before it is
- * developed.
+ * The rows only name where the words go; develop.h defines and checks them. What they ask for
+ * is done here, since a frame is denoised, and seen by an eye (--eye: as it arrives on the
+ * retina, vision/eye_filter.h), before it is developed.
+ *
+ * Memory   the filtered frame's planes come from the arena.
+ * Threads  one at a time; the filters have their own.
+ * Fails    for a word that is no eye, a frame without R, G, B, and one whose field of view is
+ *          not known: its metadata have it (parhelion:yfov_deg), else --fov has it.
  */
 #pragma once
 #include <jansson.h>
 
 #include "cli/options/cli.h"
-#include "cli/options/eye_option.h"
 #include "denoise/denoise.h"
 #include "image/develop.h"
+#include "vision/human_eye.h"
 
 /* Rows of an option table; `look` is a DevelopOptions *. */
 #define LOOK_OPTIONS(look)                                                                     \
@@ -33,6 +38,22 @@
      "filters the noise of few samples away: a preview, not for figures",                      \
      .out = &(look)->is_denoised}
 
+typedef struct EyeOption {
+    const char *words;   /* of --eye; NULL: not asked */
+    double      fov_deg; /* of --fov: the display window's height as an angle; 0: not given */
+    HumanEye    eye;     /* by eye_option_check */
+} EyeOption;
+
+/* Rows of an option table; `option` is an EyeOption *. */
+#define EYE_OPTIONS(option)                                                                    \
+    {"--eye", OPTION_TEXT, "AGE[,PIGMENT]",                                                    \
+     "light spread as in the eye of somebody so old, iris 0 (dark) to 1.2 (light blue; "       \
+     "default 0.5, brown), by the CIE's point spread",                                         \
+     .out = &(option)->words},                                                                 \
+    {"--fov", OPTION_NUMBER, "DEG",                                                            \
+     "with --eye, of a frame that does not say it: the picture's height as an angle",          \
+     .out = &(option)->fov_deg, .low = 0.01, .high = 170}
+
 /* The report on a picture, with develop.h's. */
 typedef struct LookReport {
     DevelopReport develop;
@@ -47,6 +68,9 @@ typedef struct LookRequest {
     int                   threads;
     const EyeOption      *eye; /* NULL: the command has no such option */
 } LookRequest;
+
+/* Before anything is read. */
+bool eye_option_check(EyeOption *option, Error *err);
 
 /* develop_frame, of the denoised frame if that is asked for, as an eye sees it if that is. */
 bool look_options_develop(const LookRequest *request, Arena scratch, LookReport *report,

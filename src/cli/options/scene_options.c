@@ -3,8 +3,7 @@
 
 #include "base/count.h"
 #include "base/reference.h"
-#include "cli/options/data_warning.h"
-#include "cli/options/hdri_warning.h"
+#include "cli/options/scene_warnings.h"
 #include "scene/load/scene_load.h"
 
 static bool parse_overrides(const char *option, const CliTexts *texts, Arena *arena,
@@ -95,4 +94,33 @@ const char *scene_options_given(const SceneWords *words, const EnvironmentChange
     for (int i = 0; i < COUNT_OF(all); i++)
         if (all[i].is_given) return all[i].name;
     return NULL;
+}
+
+bool state_options_read(const StateWords *words, SceneState *out, Error *err)
+{
+    if (words->animations.count && !words->has_time)
+        return error_set(err, ERROR_USAGE, "--animation %s: at which --time?",
+                         words->animations.list[0]);
+    *out = (SceneState){.variants = words->variants.list,
+                        .variant_count = words->variants.count,
+                        .has_time = words->has_time,
+                        .time_s = words->time_s,
+                        .animations = words->animations.list,
+                        .animation_count = words->animations.count};
+    return true;
+}
+
+static const char *add_texts(const char *before, const char *option, const char *const *list,
+                             int count, Arena *arena)
+{
+    for (int i = 0; i < count; i++)
+        before = arena_format(arena, "%s %s '%s'", before, option, list[i]);
+    return before;
+}
+
+const char *state_options_text(const SceneState *state, Arena *arena)
+{
+    const char *text = add_texts("", "--variant", state->variants, state->variant_count, arena);
+    if (state->has_time) text = arena_format(arena, "%s --time %.17g", text, state->time_s);
+    return add_texts(text, "--animation", state->animations, state->animation_count, arena);
 }

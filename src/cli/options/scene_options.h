@@ -1,14 +1,31 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* scene_options.h -- the command line's options for a scene besides its files, for the commands
- * that put light into one: render, and measure --illuminance.
+/* scene_options.h -- the command line's options for a scene besides its files: for the commands
+ * that put light into one, as render and measure --illuminance; and, wherever one is loaded,
+ * which of the things that its files can be it is (--variant, --time and --animation).
  *
- * Memory   the command's arena.
+ * Memory   the command's arena, and argv.
  * Fails    ERROR_USAGE with the option, or as scene_load and environment_change do.
  */
 #pragma once
 #include "cli/options/cli.h"
 #include "cli/options/environment_options.h"
-#include "cli/options/state_options.h"
+
+/* As typed. */
+typedef struct StateWords {
+    CliTexts variants, animations;
+    double   time_s;
+    bool     has_time;
+} StateWords;
+
+/* Rows of an option table: StateWords *. */
+#define STATE_OPTIONS(words)                                                                   \
+    {"--variant", OPTION_TEXTS, "NAME", "wears the materials of that variant (default: none)", \
+     &(words)->variants},                                                                      \
+    {"--time", OPTION_NUMBER, "S",                                                             \
+     "plays animations up to S seconds, 0 is their first frame (default: at rest)",            \
+     &(words)->time_s, .low = 0, .high = 1e6, .given = &(words)->has_time},                    \
+    {"--animation", OPTION_TEXTS, "NAME", "plays that one (default: all there are)",           \
+     &(words)->animations}
 
 /* As typed, NAME=VALUE each. */
 typedef struct SceneWords {
@@ -53,3 +70,8 @@ bool scene_options_load(const SceneAsked *asked, Arena *arena, Problems *problem
 
 /* Something about the scene's light was said: the first such option's name, or NULL. */
 const char *scene_options_given(const SceneWords *words, const EnvironmentChange *change);
+
+bool state_options_read(const StateWords *words, SceneState *out, Error *err);
+
+/* The same as on a command line, each option with a blank before it; "" where none is given. */
+const char *state_options_text(const SceneState *state, Arena *arena);

@@ -7,7 +7,6 @@
 #include "cli/options/cli.h"
 #include "cli/options/completion.h"
 #include "cli/options/man_page.h"
-#include "cli/options/version.h"
 #include "cli/panel/panel_commands.h"
 
 static const Command *const commands[] = {

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* panel fit: from files of a laboratory to a panel file. */
-#include <stdio.h>
 #include <time.h>
 
 #include "base/count.h"
@@ -11,7 +10,6 @@
 #include "cli/options/cli.h"
 #include "cli/panel/panel_commands.h"
 #include "cli/panel/panel_facts.h"
-#include "cli/panel/panel_print.h"
 #include "panel/fit/fit.h"
 #include "panel/query/panel_open.h"
 
@@ -39,45 +37,40 @@ typedef struct FitWords {
 static bool parse(int argc, char **argv, Arena *arena, FitWords *out, Error *err)
 {
     const Option options[] = {
-        {"-o", OPTION_TEXT, "X.panel", "the file to write", &out->output, .given = NULL},
-        {"--root", OPTION_TEXT, "DIR", ROOT_HELP, &out->root, .given = NULL},
+        {"-o", OPTION_TEXT, "X.panel", "the file to write", &out->output},
+        {"--root", OPTION_TEXT, "DIR", ROOT_HELP, &out->root},
         {"--levels", OPTION_TEXT, "FILE.csv", "gamma table of a set of white alone: columns "
-         "level and luminance (or red, green, blue), cd/m2 on the axis", &out->levels,
-         .given = NULL},
+         "level and luminance (or red, green, blue), cd/m2 on the axis", &out->levels},
         {"--basis", OPTION_CHOICE, "vertex|haar",
-         "basis on the hemisphere (default vertex)", &out->basis, .given = NULL},
+         "basis on the hemisphere (default vertex)", &out->basis},
         {"--weights", OPTION_CHOICE, "area|equal",
-         "Haar's means by area or equal (default area)", &out->weights, .given = NULL},
+         "Haar's means by area or equal (default area)", &out->weights},
         {"--level", OPTION_INTEGER, "N",
          "subdivision level of the trees (default: what the samples need, up to 9)",
-         &out->level, 2, 9, .given = NULL},
+         &out->level, 2, 9},
         {"--keep", OPTION_NUMBER, "SHARE", "share of coefficients to keep, instead of a bound",
-         &out->keep, 1e-5, 1, .given = NULL},
+         &out->keep, 1e-5, 1},
         {"--max-error", OPTION_NUMBER, "R",
          "relative error allowed at every sample besides its noise (default: 0.0025 for "
-         "emission, 0.02 for reflection, or what the noise asks for)", &out->max_error, 1e-5, 1,
-         .given = NULL},
+         "emission, 0.02 for reflection, or what the noise asks for)", &out->max_error, 1e-5,
+         1},
         {"--error-floor", OPTION_NUMBER, "PERCENT",
          "of an emission table's largest value: errors of what is less are relative to it "
-         "(default 0.1)", &out->error_floor, 1e-4, 10, .given = NULL},
+         "(default 0.1)", &out->error_floor, 1e-4, 10},
         {"--mask-outliers", OPTION_FLAG, NULL,
-         "errors leave out hot and dead pixels of emission tables", &out->masks_outliers,
-         .given = NULL},
+         "errors leave out hot and dead pixels of emission tables", &out->masks_outliers},
         {"--lobe-is-mirror", OPTION_FLAG, NULL,
          "a narrow peak on the haze is the mirror's image as wide as the instrument, where the "
-         "set does not declare that width", &out->lobe_is_mirror, .given = NULL},
+         "set does not declare that width", &out->lobe_is_mirror},
         {"--wavelet", OPTION_CHOICE, "principal|haar|cdf53|cdf97",
          "basis along the wavelengths: a few principal spectra, or a wavelet (default "
-         "principal)", &out->wavelet, .given = NULL},
+         "principal)", &out->wavelet},
         {"--frame", OPTION_NUMBER, "K",
-         "specular frame's exponent, 1 to 3 (default: the least error)", &out->frame, 1, 3,
-         .given = NULL},
+         "specular frame's exponent, 1 to 3 (default: the least error)", &out->frame, 1, 3},
         {"--incidence", OPTION_CHOICE, "cubic|linear",
-         "between incidences: four slices or two (default cubic)", &out->incidence,
-         .given = NULL},
+         "between incidences: four slices or two (default cubic)", &out->incidence},
         {"--force", OPTION_FLAG, NULL,
-         "write the panel also where it is judged not usable; its report says so", &out->force,
-         .given = NULL},
+         "write the panel also where it is judged not usable; its report says so", &out->force},
     };
     const CliCommand command = {"panel fit", "measurement files to one compressed panel file",
         "MANIFEST.json|TABLE.csv -o X.panel [options]",

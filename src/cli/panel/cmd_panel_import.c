@@ -110,42 +110,39 @@ static int list_options(Words *words, Option *option, Arena *arena)
 {
     const Option fixed[] = {
         {"-o", OPTION_TEXT, "MANIFEST.json", "the set to write, with its tables beside it",
-         &words->output, .given = NULL},
+         &words->output},
         {"--layout", OPTION_TEXT, "DECLARATION.json",
-         "all of the following, written once (keys: src/import/README.md)", &words->layout,
-         .given = NULL},
-        {"--root", OPTION_TEXT, "DIR", ROOT_HELP, &words->root, .given = NULL},
+         "all of the following, written once (keys: src/import/README.md)", &words->layout},
+        {"--root", OPTION_TEXT, "DIR", ROOT_HELP, &words->root},
         {"--role", OPTION_TEXTS, "PATTERN=ROLE", "what files are: red:255, black, white, "
-         "brdf:INCIDENCE[:AZIMUTH[:NM]], dark, reference[:INCIDENCE], skip", &words->roles,
-         .given = NULL},
-        {"--skip", OPTION_TEXTS, "PATTERN", "files to leave out", &words->skip, .given = NULL},
+         "brdf:INCIDENCE[:AZIMUTH[:NM]], dark, reference[:INCIDENCE], skip", &words->roles},
+        {"--skip", OPTION_TEXTS, "PATTERN", "files to leave out", &words->skip},
         {"--format", OPTION_TEXT, "NAME", "the files' format (default: told by each file)",
-         &words->format, .given = NULL},
+         &words->format},
         {"--wavelength", OPTION_NUMBER, "NM", "of reflection files that do not say theirs",
-         &words->wavelength_nm, 360, 830, .given = NULL},
+         &words->wavelength_nm, 360, 830},
         {"--primaries", OPTION_TEXT, "FILE", "spectra: columns nm, red, green, blue",
-         &words->primaries, .given = NULL},
+         &words->primaries},
         {"--levels", OPTION_TEXT, "FILE.csv", "gamma table of white alone: columns level and "
-         "luminance (or red, green, blue), cd/m2 on the axis", &words->levels, .given = NULL},
+         "luminance (or red, green, blue), cd/m2 on the axis", &words->levels},
         {"--specular", OPTION_TEXT, "FILE.csv", "specular reflectance: columns incidence, "
-         "wavelength and reflectance (0 to 1)", &words->specular, .given = NULL},
+         "wavelength and reflectance (0 to 1)", &words->specular},
         {"--specular-aperture", OPTION_NUMBER, "DEG", "full angle that --specular was measured "
          "in, degrees (default: the mirror alone)", &words->aperture_deg, 0,
-         SPECULAR_APERTURE_MOST_DEG, .given = NULL},
+         SPECULAR_APERTURE_MOST_DEG},
         {"--gloss", OPTION_TEXTS, "DEG=GU", "a gloss meter's reading at 20, 60 or 85 degrees",
-         &words->gloss, .given = NULL},
+         &words->gloss},
         {"--area-mm", OPTION_NUMBERS, "W,H", "luminous area for luminaire files",
          words->area_mm, 1e-3, 1e6, 2, &words->has_area},
         {"--isotropic", OPTION_FLAG, NULL, "the light's azimuth makes no difference",
-         &words->is_isotropic, .given = NULL},
+         &words->is_isotropic},
         {"--symmetry", OPTION_TEXT, "left-right|up-down|both|half-turn",
-         "of the sample: fills what was not measured", &words->symmetry, .given = NULL},
+         "of the sample: fills what was not measured", &words->symmetry},
         {"--no-black", OPTION_FLAG, NULL, "the black pattern was subtracted already",
-         &words->black_is_zero, .given = NULL},
-        {"--panel", OPTION_TEXT, "NAME", "the panel's name in the manifest", &words->panel,
-         .given = NULL},
+         &words->black_is_zero},
+        {"--panel", OPTION_TEXT, "NAME", "the panel's name in the manifest", &words->panel},
         {"--instrument", OPTION_TEXT, "NAME", "the instrument's name in the manifest",
-         &words->instrument, .given = NULL},
+         &words->instrument},
     };
     int count = COUNT_OF(fixed);
     memcpy(option, fixed, sizeof fixed);
@@ -154,8 +151,7 @@ static int list_options(Words *words, Option *option, Arena *arena)
         option[count++] = (Option){option_name(text_keys[i].key, arena),
                                    many ? OPTION_TEXTS : OPTION_TEXT, text_keys[i].values,
                                    text_keys[i].help,
-                                   many ? (void *)&words->list[i] : (void *)&words->key[i],
-                                   .given = NULL};
+                                   many ? (void *)&words->list[i] : (void *)&words->key[i]};
     }
     return count;
 }

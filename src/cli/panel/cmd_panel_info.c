@@ -6,7 +6,6 @@
 #include "cli/options/cli.h"
 #include "cli/panel/panel_commands.h"
 #include "cli/panel/panel_facts.h"
-#include "cli/panel/panel_print.h"
 #include "panel/query/panel.h"
 #include "panel/query/panel_info.h"
 #include "panel/query/panel_open.h"

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* panel plot: pictures of a panel. */
-#include <stdio.h>
 
 #include "base/count.h"
 #include "base/reference.h"
@@ -122,29 +121,24 @@ static bool run_plot(int argc, char **argv, Arena *arena, Error *err)
     int     kind = 0, size[2] = {0, 0};
     double  incidence_phi = 180;
     const Option options[] = {
-        {"-o", OPTION_TEXT, "X.svg|X.png", "the picture to write", &request.picture,
-         .given = NULL},
-        {"--kind", OPTION_CHOICE, PLOT_KINDS, "what to draw (default all: one sheet)", &kind,
-         .given = NULL},
+        {"-o", OPTION_TEXT, "X.svg|X.png", "the picture to write", &request.picture},
+        {"--kind", OPTION_CHOICE, PLOT_KINDS, "what to draw (default all: one sheet)", &kind},
         {"--measured", OPTION_TEXT, "MANIFEST.json",
          "the set that the panel was fitted from: its points over the curves, and the errors",
-         &request.measured, .given = NULL},
-        {"--root", OPTION_TEXT, "DIR", ROOT_HELP, &request.root, .given = NULL},
+         &request.measured},
+        {"--root", OPTION_TEXT, "DIR", ROOT_HELP, &request.root},
         {"--report", OPTION_TEXT, "X.html", "one page with every figure and all numbers",
-         &request.report, .given = NULL},
+         &request.report},
         {"--contour", OPTION_TEXT, "V[,V...]",
          "lines of luminance (cd/m2) or contrast at these values, with % of that on the axis",
-         &request.contours, .given = NULL},
+         &request.contours},
         {"--ambient", OPTION_TEXT, "LUX[,LUX...]",
-         "contrast also in even diffuse light of this illuminance", &request.ambient,
-         .given = NULL},
+         "contrast also in even diffuse light of this illuminance", &request.ambient},
         {"--incidence-phi", OPTION_NUMBER, "DEG",
          "azimuth of the light for reflection (default 180: from the left)", &incidence_phi,
-         -360, 360, .given = NULL},
-        {"--size", OPTION_SIZE, "WxH", "of the picture, pixels (default: as it needs)", size,
-         .given = NULL},
-        {"--dark", OPTION_FLAG, NULL, "light lines on a dark ground", &request.options.is_dark,
-         .given = NULL},
+         -360, 360},
+        {"--size", OPTION_SIZE, "WxH", "of the picture, pixels (default: as it needs)", size},
+        {"--dark", OPTION_FLAG, NULL, "light lines on a dark ground", &request.options.is_dark},
     };
     const CliCommand command = {"panel plot",
         "pictures of a panel: luminance, contrast, colour, grey levels, reflection, fit",

@@ -64,8 +64,7 @@ static bool run_simulate(int argc, char **argv, Arena *arena, Error *err)
     double      place[2] = {0.5, 0.5};
     bool        wants_truth = false, has_grid = false, has_place = false;
     const Option options[] = {
-        {"-o", OPTION_TEXT, "DIR", "folder for MANIFEST.json and its tables", &folder,
-         .given = NULL},
+        {"-o", OPTION_TEXT, "DIR", "folder for MANIFEST.json and its tables", &folder},
         {"--truth", OPTION_NUMBERS, "THETA,PHI,R,G,B",
          "print the recipe's exact value instead: degrees and codes", at, -360, 360, 5,
          &wants_truth},
@@ -73,7 +72,7 @@ static bool run_simulate(int argc, char **argv, Arena *arena, Error *err)
          "of --truth: place on the active area, 0 to 1 from its upper left corner, right and "
          "down (default 0.5,0.5)", place, 0, 1, 2, &has_place},
         {"--noise", OPTION_CHOICE, "recipe|off", "the instrument's noise (default recipe)",
-         &noise, .given = NULL},
+         &noise},
         {"--grid", OPTION_SIZE, "RINGSxAZIMUTHS",
          "directions of every table up to the cone, instead of the recipe's steps", grid,
          .given = &has_grid},

@@ -8,10 +8,8 @@
 #include "base/units.h"
 #include "panel/query/panel_emission.h"
 #include "panel/query/panel_place.h"
-#include "panel/query/panel_reflection.h"
 
-/* Unit vector of a direction in degrees. */
-static Vec3 panel_direction(double theta_deg, double phi_deg)
+Vec3 panel_direction(double theta_deg, double phi_deg)
 {
     double t = radians_from_degrees(theta_deg), p = radians_from_degrees(phi_deg);
     return vec3((float)(sin(t) * cos(p)), (float)(sin(t) * sin(p)), (float)cos(t));

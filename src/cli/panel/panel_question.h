@@ -30,6 +30,9 @@ typedef struct PanelReflected {
     bool  is_measured;
 } PanelReflected;
 
+/* Unit vector of a direction in degrees. */
+Vec3 panel_direction(double theta_deg, double phi_deg);
+
 /* The member that an option or a column of that name fills; NULL: there is none. */
 double *panel_question_member(PanelQuestion *question, const char *name);
 

@@ -12,12 +12,11 @@
 #include "cli/options/look_options.h"
 #include "cli/render/noise_goal.h"
 #include "cli/render/render_answer.h"
-#include "cli/render/render_commands.h"
 #include "cli/render/render_identity.h"
 #include "cli/render/render_live.h"
+#include "cli/render/render_request.h"
 #include "cli/render/render_resume.h"
 #include "cli/render/render_setup.h"
-#include "cli/render/render_share.h"
 #include "render/identity.h"
 #include "render/signals.h"
 #include "scene/load/scene_load.h"
@@ -35,6 +34,30 @@ typedef struct RenderRun {
     RenderLive    live;
     const RenderTask *task;  /* NULL: the user's own command */
 } RenderRun;
+
+/* ---- a frame that is shared out ---------------------------------------------------------- */
+
+/* identity: of the frame, without what is learnt; isa: the one that its parts take. The answer
+ * goes to stdout. */
+static bool render_share(const RenderRequest *request, const char *identity, const char *isa,
+                         Arena *arena, Error *err)
+{
+    static const char *const splits[] = {[JOB_SPLIT_SAMPLES] = "samples",
+                                         [JOB_SPLIT_ROWS] = "rows"};
+    const RenderOptions *options = &request->render;
+    const JobPart whole = {options->crop, options->first_sample, options->end_sample};
+    ShareRequest  share = request->share;
+    json_t       *answer = NULL;
+    SharedJob     job = {.kind = JOB_FRAME, .line = request->command_line,
+                         .output = request->output, .identity = identity, .isa = isa,
+                         .width = options->width, .height = options->height,
+                         .keeps_sums = request->is_part};
+    share.split_name = splits[request->split];
+    return job_split(&whole, (JobSplit)request->split, (int)share.parts, arena, &job.parts,
+                     err) &&
+           job_share(&share, &job, arena, request->cli.json ? &answer : NULL, err) &&
+           (!answer || cli_print_json(answer, err));
+}
 
 /* ---- before ------------------------------------------------------------------------------ */
 

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* cmd_render.h -- `parhelion render` for another command, which knows what has to come out.
+/* cmd_render.h -- `parhelion render`, also for another command, which knows what has to come
+ * out.
  *
  * Memory   the command's arena.  Fails as the command does.
  */
 #pragma once
-#include "base/arena.h"
-#include "base/error.h"
+#include "cli/options/command.h"
 
 /* A render that is a part of something planned. */
 typedef struct RenderTask {
@@ -19,3 +19,5 @@ typedef struct RenderTask {
  * be what was planned (ERROR_INPUT), only a whole frame is written, no snapshot, and there is
  * no answer. */
 bool cmd_render_run(int argc, char **argv, const RenderTask *task, Arena *arena, Error *err);
+
+extern const Command command_render;

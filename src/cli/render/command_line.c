@@ -6,7 +6,7 @@
 
 #include "cli/options/cli.h"
 #include "cli/options/look_options.h"
-#include "text/escape.h"
+#include "text/text.h"
 
 /* ---- words ------------------------------------------------------------------------------- */
 

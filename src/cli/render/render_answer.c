@@ -1,17 +1,16 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "cli/render/render_answer.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
+#include <stdlib.h>
+#include <time.h>
 
 #include "base/machine.h"
 #include "base/progress.h"
 #include "base/units.h"
 #include "cli/options/answer.h"
-#include "cli/options/weather_option.h"
-#include "cli/render/frame_outcome.h"
+#include "cli/options/environment_options.h"
 #include "cli/render/render_identity.h"
 #include "film/film_frame.h"
 #include "film/film_part.h"
@@ -269,11 +268,6 @@ static json_t *triple(const FrameImage *frame, const char *a, const char *b, con
                      json_figure(value_of(frame, c)));
 }
 
-static json_t *name_or_null(const char *name)
-{
-    return name ? json_text(name) : json_null();
-}
-
 static const char *part_name(const Scene *scene, int id)
 {
     return id >= 0 && id < scene->part_count ? scene->parts[id].name : NULL;
@@ -299,7 +293,7 @@ bool render_print_replay(const RenderRequest *request, const Scene *scene,
                       "finite", is_finite, "XYZ", triple(&frame, "xyz.X", "xyz.Y", "xyz.Z"),
                       "RGB", triple(&frame, "R", "G", "B"), "depth_m",
                       json_figure(value_of(&frame, "depth.Z")), "part",
-                      name_or_null(part), "display", name_or_null(display)),
+                      json_text_or_null(part), "display", json_text_or_null(display)),
             err);
     printf("pixel %d,%d sample %u: ", options->crop.x0, options->crop.y0,
            options->first_sample);
@@ -313,4 +307,30 @@ bool render_print_replay(const RenderRequest *request, const Scene *scene,
         printf("first surface: %s%s%s at %.6g m\n", part, display ? ", display " : "",
                display ? display : "", value_of(&frame, "depth.Z"));
     return true;
+}
+
+static void set_time(FrameImage *frame, Arena *arena)
+{
+    const char *epoch = getenv("SOURCE_DATE_EPOCH");
+    if (!epoch) return;
+    char     *end;
+    time_t    seconds = (time_t)strtoll(epoch, &end, 10);
+    struct tm date;
+    char      text[32];
+    if (end == epoch || *end || !gmtime_r(&seconds, &date)) return;
+    strftime(text, sizeof text, "%Y:%m:%d %H:%M:%S", &date);
+    frame_set_string(frame, "capDate", text, arena);
+    frame_set_values(frame, "utcOffset", EXR_FLOAT, (const double[]){0}, arena);
+}
+
+void frame_set_outcome(FrameImage *frame, const FrameOutcome *outcome, Arena *arena)
+{
+    frame_set_string(frame, "parhelion:samples",
+                     arena_format(arena, "%u:%u", outcome->first_sample, outcome->end_sample),
+                     arena);
+    frame_set_whole(frame, "parhelion:complete", outcome->complete, arena);
+    frame_set_number(frame, "parhelion:relativeError", outcome->relative_error, arena);
+    frame_set_number(frame, "parhelion:droppedSamples", (double)outcome->dropped_samples,
+                     arena);
+    set_time(frame, arena);
 }

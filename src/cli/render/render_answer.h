@@ -19,3 +19,17 @@ bool render_print_answer(const RenderRequest *request, const RenderResult *resul
 /* The value of the one sample that was replayed, on stdout. */
 bool render_print_replay(const RenderRequest *request, const Scene *scene,
                          const RenderResult *result, Arena *arena, Error *err);
+
+/* How a frame came out: the same from a render and from a merge of its parts. */
+typedef struct FrameOutcome {
+    uint32_t first_sample, end_sample; /* half-open, of every pixel */
+    bool     complete;       /* all samples that were asked for, or the wanted noise */
+    double   relative_error; /* film.h's, of the frame */
+    uint64_t dropped_samples;
+} FrameOutcome;
+
+/* Sets "parhelion:samples", "parhelion:complete", "parhelion:relativeError" and
+ * "parhelion:droppedSamples"; and the time, "capDate" with "utcOffset", when SOURCE_DATE_EPOCH
+ * gives one (reproducible-builds.org). It is left out otherwise, so that the same render gives
+ * the same file. */
+void frame_set_outcome(FrameImage *frame, const FrameOutcome *outcome, Arena *arena);

@@ -14,7 +14,6 @@
  *          there is none.
  */
 #pragma once
-#include "base/progress.h"
 #include "camera/camera.h"
 #include "cli/render/render_request.h"
 #include "live/time_share.h"

@@ -8,8 +8,7 @@
 
 #include "cli/options/look_options.h"
 #include "cli/render/command_line.h"
-#include "cli/render/guiding_options.h"
-#include "cli/render/polarised_options.h"
+#include "cli/render/path_options.h"
 #include "text/nearest_word.h"
 
 #define DEFAULT_WIDTH 1280

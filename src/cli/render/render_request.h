@@ -4,11 +4,11 @@
  * Memory   everything lives in the command's arena.
  */
 #pragma once
-#include "cli/options/camera_options.h"
+#include "cli/render/render_setup.h"
 #include "cli/options/cli.h"
 #include "cli/options/scene_options.h"
 #include "cli/job/job_share.h"
-#include "cli/job/job_split.h"
+#include "cli/job/job.h"
 #include "cli/render/noise_goal.h"
 #include "image/develop.h"
 #include "live/viewer_address.h"

@@ -11,6 +11,7 @@
 #include "base/count.h"
 #include "base/file.h"
 #include "base/file_write.h"
+#include "base/lines.h"
 #include "review/output/review_card.h"
 #include "review/output/review_json_read.h"
 
@@ -78,24 +79,8 @@ bool review_draft_open(const char *target, Arena *arena, Problems *problems, Rev
 
 /* ---- files of a draft -------------------------------------------------------------------- */
 
-typedef struct DraftFiles {
-    Arena       *arena;
-    const char **names; /* within the folder: "index.html", "sweeps/a.csv" */
-    int          count, room;
-} DraftFiles;
-
-static void add_name(DraftFiles *files, const char *name)
-{
-    if (files->count == files->room) {
-        files->names = ARENA_GROW(files->arena, const char *, files->names, files->count,
-                                  2 * files->room + 16);
-        files->room = 2 * files->room + 16;
-    }
-    files->names[files->count++] = name;
-}
-
-/* Those of its folders, too. prefix: "" or "sweeps/". */
-static void list_files(DraftFiles *files, const char *folder, const char *prefix)
+/* Names within the folder, "index.html", "sweeps/a.csv". prefix: "" or "sweeps/". */
+static void list_files(Lines *files, const char *folder, const char *prefix)
 {
     DIR *open = opendir(arena_format(files->arena, "%s/%s", folder, prefix));
     if (!open) return;
@@ -105,7 +90,7 @@ static void list_files(DraftFiles *files, const char *folder, const char *prefix
         if (!strcmp(entry->d_name, ".") || !strcmp(entry->d_name, "..") ||
             lstat(arena_format(files->arena, "%s/%s", folder, name), &info) != 0)
             continue;
-        if (!S_ISDIR(info.st_mode)) add_name(files, name);
+        if (!S_ISDIR(info.st_mode)) lines_put(files, name);
         else if (!*prefix)
             list_files(files, folder, arena_format(files->arena, "%s/", name));
     }
@@ -165,23 +150,23 @@ static bool move(const ReviewDraft *draft, const char *name, Arena scratch, Erro
            error_at(err, ERROR_OUTPUT, to, "", "cannot be written: %s", strerror(errno));
 }
 
-static bool is_among(const DraftFiles *files, const char *name)
+static bool is_among(const Lines *files, const char *name)
 {
     for (int i = 0; i < files->count; i++)
-        if (!strcmp(files->names[i], name)) return true;
+        if (!strcmp(files->list[i], name)) return true;
     return false;
 }
 
 /* Removes an earlier review's tables and frames, as it names them, and what not every review
  * has, unless published. A damaged one names nothing. */
 static void remove_earlier(const ReviewDraft *draft, const Review *review,
-                           const DraftFiles *published)
+                           const Lines *published)
 {
     static const char *const seldom[] = {"diff.json", "false_suns.csv", "gazes.csv",
                                          "cases.csv", "junit.xml",      "run.json",
                                          "live.js",   REVIEW_PAGE_BESIDE};
     Arena       scratch = *published->arena;
-    DraftFiles  files = {.arena = &scratch};
+    Lines  files = {.arena = &scratch};
     Review      earlier;
     Error       err;
     const char *old = arena_format(&scratch, "%s/review.json", draft->target);
@@ -191,25 +176,25 @@ static void remove_earlier(const ReviewDraft *draft, const Review *review,
             unlink(arena_format(&scratch, "%s/%s", draft->target, seldom[i]));
     list_files(&files, draft->target, "");
     for (int i = 0; i < files.count; i++)
-        if (starts_with(files.names[i], "summary-") && !is_among(published, files.names[i]))
-            unlink(arena_format(&scratch, "%s/%s", draft->target, files.names[i]));
+        if (starts_with(files.list[i], "summary-") && !is_among(published, files.list[i]))
+            unlink(arena_format(&scratch, "%s/%s", draft->target, files.list[i]));
     files.count = 0;
     list_files(&files, draft->target, "sweeps/");
     list_files(&files, draft->target, "frames/");
     for (int i = 0; i < files.count; i++)
-        if (is_named(&earlier, files.names[i]) &&
-            (!is_named(review, files.names[i]) ||
-             (has_ending(files.names[i], ".js") && !is_among(published, files.names[i]))))
-            unlink(arena_format(&scratch, "%s/%s", draft->target, files.names[i]));
+        if (is_named(&earlier, files.list[i]) &&
+            (!is_named(review, files.list[i]) ||
+             (has_ending(files.list[i], ".js") && !is_among(published, files.list[i]))))
+            unlink(arena_format(&scratch, "%s/%s", draft->target, files.list[i]));
 }
 
 bool review_draft_publish(const ReviewDraft *draft, const Review *review, Arena scratch,
                           Error *err)
 {
-    DraftFiles files = {.arena = &scratch};
+    Lines files = {.arena = &scratch};
     list_files(&files, draft->folder, "");
     for (int i = 0; i < files.count; i++) {
-        const char *name = files.names[i];
+        const char *name = files.list[i];
         if (!strcmp(name, "review.json") || is_leftover(name) ||
             (starts_with(name, "frames/") && !is_named(review, name)))
             continue;
@@ -222,13 +207,13 @@ bool review_draft_publish(const ReviewDraft *draft, const Review *review, Arena 
 void review_draft_finish(ReviewDraft *draft)
 {
     Arena      scratch = *draft->arena;
-    DraftFiles files = {.arena = &scratch};
+    Lines files = {.arena = &scratch};
     list_files(&files, draft->unfinished, "new/sweeps/");
     list_files(&files, draft->unfinished, "new/frames/");
     list_files(&files, draft->unfinished, "new/");
     list_files(&files, draft->unfinished, "");
     for (int i = 0; i < files.count; i++) {
-        const char *name = files.names[i];
+        const char *name = files.list[i];
         if (starts_with(name, "new/") || has_ending(name, ".checkpoint") ||
             has_ending(name, ".lesson") || is_leftover(name))
             unlink(arena_format(&scratch, "%s/%s", draft->unfinished, name));

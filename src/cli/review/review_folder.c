@@ -9,8 +9,7 @@
 #include "base/machine.h"
 #include "base/parallel.h"
 #include "base/progress.h"
-#include "cli/options/state_options.h"
-#include "cli/options/version.h"
+#include "cli/options/scene_options.h"
 #include "render/render.h"
 #include "review/run/frames.h"
 #include "review/run/live.h"
@@ -20,7 +19,7 @@
 #include "review/output/review_json.h"
 #include "review/output/review_json_read.h"
 #include "review/output/review_junit.h"
-#include "text/escape.h"
+#include "text/text.h"
 
 #define MAP_STEP_DEG 5
 #define MAIN_CARDS 20 /* of the page itself: it stays below 3 MB */

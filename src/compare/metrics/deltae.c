@@ -98,22 +98,9 @@ void deltae_map(const Planes *reference, const Planes *test, float *map)
     }
 }
 
-DeltaE deltae_summary(const float *map, size_t count, PixelMask mask)
-{
-    double sum = 0;
-    size_t members = 0;
-    for (size_t i = 0; i < count; i++) {
-        if (mask && !mask[i]) continue;
-        sum += (double)map[i];
-        members++;
-    }
-    return (DeltaE){.mean = members ? sum / (double)members : NAN,
-                    .p95 = (double)rank_value(map, count, mask, 0.95),
-                    .max = (double)rank_value(map, count, mask, 1)};
-}
-
-DeltaE deltae_pictures(const Planes *reference, const Planes *test, PixelMask mask, float *map)
+MapSummary deltae_pictures(const Planes *reference, const Planes *test, PixelMask mask,
+                           float *map)
 {
     deltae_map(reference, test, map);
-    return deltae_summary(map, planes_pixel_count(reference), mask);
+    return map_summary(map, planes_pixel_count(reference), mask);
 }

@@ -6,19 +6,14 @@
  * Threads  pure.
  */
 #pragma once
-#include "compare/metrics/planes.h"
+#include "compare/metrics/rank.h"
 
 /* Symmetric within rounding; 0 only for equal colours. */
 double deltae_2000(const double reference[3], const double test[3]);
 
-typedef struct DeltaE {
-    double mean, p95, max; /* over the pixels that count; NaN when none does */
-} DeltaE;
-
 /* Linear Rec.709 of displayed pictures, 0 .. 1 (developed frames). map: one value a pixel. */
 void deltae_map(const Planes *reference, const Planes *test, float *map);
 
-DeltaE deltae_summary(const float *map, size_t count, PixelMask mask);
-
-/* Both: the map holds the masked pixels too. */
-DeltaE deltae_pictures(const Planes *reference, const Planes *test, PixelMask mask, float *map);
+/* It and its summary: the map holds the masked pixels too. */
+MapSummary deltae_pictures(const Planes *reference, const Planes *test, PixelMask mask,
+                           float *map);

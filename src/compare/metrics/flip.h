@@ -14,7 +14,7 @@
 
 #include "base/arena.h"
 #include "compare/metrics/flip_tone.h"
-#include "compare/metrics/planes.h"
+#include "compare/metrics/rank.h"
 
 #define FLIP_PIXELS_PER_DEGREE 67.0206432766 /* 0.7 m from a screen of 0.7 m and 3840 pixels */
 
@@ -42,15 +42,8 @@ typedef struct FlipExposures {
  * shows its greatest luminance as 0.85 to the one that does so with its median (of what is not
  * black, where half of it is). With the sun in view nearly all exposures are black, so give a
  * range. A black reference has none: from 0 to 1.
- * exposure_map (may be NULL): the index of the exposure that decided. */
+ * exposure_map (may be NULL): the index of the exposure that decided.
+ * What a pixel has around it counts in its value, masked or not: who wants to keep a region out
+ * of a map's summary altogether makes it alike in both pictures. */
 FlipExposures flip_hdr(const Planes *reference, const Planes *test, const FlipOptions *options,
                        Arena scratch, float *map, float *exposure_map);
-
-typedef struct FlipSummary {
-    double mean, median, p95, max;
-} FlipSummary;
-
-/* Over the pixels that count; NaN when none does. Percentiles are values of the map
- * (rank.h). What a pixel has around it counts in its value, masked or not: who wants to keep
- * a region out altogether makes it alike in both pictures. */
-FlipSummary flip_summary(const float *map, size_t count, PixelMask mask);

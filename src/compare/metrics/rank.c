@@ -64,3 +64,17 @@ float rank_value(const float *values, size_t count, PixelMask mask, double fract
     }
     return float_of_ordered(found);
 }
+
+MapSummary map_summary(const float *map, size_t count, PixelMask mask)
+{
+    double sum = 0, members = 0;
+    for (size_t i = 0; i < count; i++) {
+        if (mask && !mask[i]) continue;
+        sum += (double)map[i];
+        members++;
+    }
+    return (MapSummary){.mean = sum / members, /* 0 / 0: no pixel, NaN as promised */
+                        .median = (double)rank_value(map, count, mask, 0.5),
+                        .p95 = (double)rank_value(map, count, mask, 0.95),
+                        .max = (double)rank_value(map, count, mask, 1)};
+}

@@ -2,16 +2,9 @@
 #include "compare/report/comparison_json.h"
 
 #include <math.h>
-#include <string.h>
 
 #include "compare/metrics.h"
 #include "text/json_text.h"
-
-/* JSON has no NaN. */
-static json_t *number(double value)
-{
-    return isfinite(value) ? json_real(value) : json_null();
-}
 
 /* ---- metrics ----------------------------------------------------------------------------- */
 
@@ -23,10 +16,10 @@ static json_t *regions_json(const StatisticResult *s)
         json_array_append_new(
             list, json_pack("{s:o, s:I, s:o, s:o, s:o, s:o, s:o, s:b}", "name",
                             json_text(r->name), "pixels", (json_int_t)r->pixels,
-                            "reference_cd_m2", number(r->reference), "test_cd_m2",
-                            number(r->test), "shift", number(r->shift), "shift_sigma",
-                            number(r->shift_sigma), "p_value", number(r->p_value), "moved",
-                            r->moved));
+                            "reference_cd_m2", json_figure(r->reference), "test_cd_m2",
+                            json_figure(r->test), "shift", json_figure(r->shift), "shift_sigma",
+                            json_figure(r->shift_sigma), "p_value", json_figure(r->p_value),
+                            "moved", r->moved));
     }
     return list;
 }
@@ -37,12 +30,12 @@ static json_t *stat_json(const StatisticResult *s)
                                            [STATISTIC_SAME] = "same",
                                            [STATISTIC_DIFFERENT] = "different"};
     return json_pack("{s:o, s:o, s:o, s:s, s:o, s:o, s:o, s:b, s:i, s:o, s:o}", "p_value",
-                     number(s->p_value), "fraction_failed", number(s->fraction_failed),
-                     "mean_shift", number(s->mean_shift), "verdict", VERDICTS[s->verdict],
-                     "p_blocks", number(s->p_blocks), "p_histogram", number(s->p_histogram),
-                     "p_regions", number(s->p_regions), "shares_noise", s->shares_noise,
-                     "block_side", s->block_side, "regions", regions_json(s), "reason",
-                     json_text(s->reason));
+                     json_figure(s->p_value), "fraction_failed",
+                     json_figure(s->fraction_failed), "mean_shift", json_figure(s->mean_shift),
+                     "verdict", VERDICTS[s->verdict], "p_blocks", json_figure(s->p_blocks),
+                     "p_histogram", json_figure(s->p_histogram), "p_regions",
+                     json_figure(s->p_regions), "shares_noise", s->shares_noise, "block_side",
+                     s->block_side, "regions", regions_json(s), "reason", json_text(s->reason));
 }
 
 static json_t *interval(Measured range)
@@ -53,7 +46,7 @@ static json_t *interval(Measured range)
 
 static json_t *pair_of(double a, double b)
 {
-    return json_pack("[o,o]", number(a), number(b));
+    return json_pack("[o,o]", json_figure(a), json_figure(b));
 }
 
 static json_t *contrast_json(const Comparison *c)
@@ -64,8 +57,8 @@ static json_t *contrast_json(const Comparison *c)
         const FrameMeasurement *a = &d->reference, *b = &d->test;
         json_t *name = json_text(d->display);
         json_t *entry = json_pack(
-            "{s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "reference", number(a->contrast.value),
-            "test", number(b->contrast.value), "ratio", number(d->ratio.value),
+            "{s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "reference", json_figure(a->contrast.value),
+            "test", json_figure(b->contrast.value), "ratio", json_figure(d->ratio.value),
             "ratio_interval", interval(d->ratio), "white_cd_m2", pair_of(a->white, b->white),
             "black_cd_m2", pair_of(a->black, b->black), "reflected_cd_m2",
             pair_of(a->reflected, b->reflected));
@@ -81,15 +74,16 @@ static json_t *metrics_json(const Comparison *c)
     for (int i = 0; i < METRIC_COUNT; i++) {
         bool is_stat = metric_info((Metric)i)->group == GROUP_STAT;
         if (!isnan(c->value[i]) && !is_stat)
-            json_object_set_new(metrics, metric_info((Metric)i)->name, number(c->value[i]));
+            json_object_set_new(metrics, metric_info((Metric)i)->name,
+                                json_figure(c->value[i]));
     }
     if (!isnan(c->value[METRIC_PSNR]))
-        json_object_set_new(metrics, "psnr_peak", number(c->psnr_peak));
+        json_object_set_new(metrics, "psnr_peak", json_figure(c->psnr_peak));
     if (c->flip_map && c->reference.kind == INPUT_FRAME)
         json_object_set_new(metrics, "flip_exposures",
                             json_pack("{s:o, s:o, s:i}", "low_ev",
-                                      number(ev_of_stops(c->exposures.stop_ev)), "high_ev",
-                                      number(ev_of_stops(c->exposures.start_ev)), "count",
+                                      json_figure(ev_of_stops(c->exposures.stop_ev)), "high_ev",
+                                      json_figure(ev_of_stops(c->exposures.start_ev)), "count",
                                       c->exposures.count));
     if (c->has_stat) json_object_set_new(metrics, "stat", stat_json(&c->stat));
     if (c->contrast_count > 0) json_object_set_new(metrics, "contrast", contrast_json(c));
@@ -107,7 +101,7 @@ static json_t *limits_json(const Comparison *c, const CompareOptions *options)
         double            value = c->value[t.metric];
         json_array_append_new(list, json_pack("{s:s, s:s, s:f, s:o, s:b}", "metric", info->name,
                                               "kind", info->is_min ? "min" : "max", "limit",
-                                              t.limit, "value", number(value), "holds",
+                                              t.limit, "value", json_figure(value), "holds",
                                               threshold_holds(t, value)));
     }
     return list;
@@ -120,9 +114,10 @@ static json_t *channels_json(const ChannelDifferences *channels)
         const ChannelDifference *c = &channels->list[i];
         json_array_append_new(
             list, json_pack("{s:o, s:I, s:o, s:o, s:[I,I], s:I}", "name", json_text(c->name),
-                            "differing", (json_int_t)c->differing, "mean", number(c->mean),
-                            "max", number(c->max), "nonfinite", (json_int_t)c->nonfinite[0],
-                            (json_int_t)c->nonfinite[1], "gaps", (json_int_t)c->gaps));
+                            "differing", (json_int_t)c->differing, "mean", json_figure(c->mean),
+                            "max", json_figure(c->max), "nonfinite",
+                            (json_int_t)c->nonfinite[0], (json_int_t)c->nonfinite[1], "gaps",
+                            (json_int_t)c->gaps));
     }
     return list;
 }
@@ -135,10 +130,9 @@ static json_t *metadata_json(const Structure *structure)
         if (!row->differs) continue;
         json_array_append_new(
             list, json_pack("{s:o, s:o, s:o, s:b, s:b}", "name", json_text(row->name),
-                            "reference", row->reference ? json_text(row->reference)
-                                                        : json_null(),
-                            "test", row->test ? json_text(row->test) : json_null(),
-                            "decides", row->decides, "ignored", row->is_ignored));
+                            "reference", json_text_or_null(row->reference), "test",
+                            json_text_or_null(row->test), "decides", row->decides, "ignored",
+                            row->is_ignored));
     }
     return list;
 }
@@ -168,7 +162,7 @@ json_t *comparison_json(const Comparison *c, const CompareOptions *options)
                         json_integer((json_int_t)c->channels.differing));
     json_object_set_new(out, "channels", channels_json(&c->channels));
     if (c->reference.kind == INPUT_FRAME) {
-        json_object_set_new(out, "shown_ev", number(c->shown_ev));
+        json_object_set_new(out, "shown_ev", json_figure(c->shown_ev));
         json_object_set_new(out, "shown_with", json_text(c->shown_with));
     }
     return out;

@@ -4,7 +4,7 @@
 #include <math.h>
 
 #include "page/page.h"
-#include "text/escape.h"
+#include "text/text.h"
 
 #define MOST_BYTES ((size_t)16 << 30)  /* of address space, for the cases */
 #define FRAME_BYTES ((size_t)1 << 20) /* and for what stands around them */

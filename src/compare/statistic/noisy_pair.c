@@ -2,7 +2,6 @@
 #include "compare/statistic/noisy_pair.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 

@@ -8,8 +8,15 @@
  * Fails    for frames without a layer that states their noise, or of different windows.
  */
 #pragma once
+#include "compare/metrics/planes.h"
 #include "compare/statistic/sign_flip.h"
-#include "compare/statistic/statistic_result.h"
+#include "image/frame.h"
+
+typedef struct StatisticOptions {
+    double level;       /* of the whole verdict: the share of false alarms; 0: 0.01 */
+    PixelMask mask;     /* over the display window; NULL: every pixel */
+    const char *reference_name, *test_name; /* for messages */
+} StatisticOptions;
 
 typedef enum NoisyChannel {
     NOISY_R, NOISY_G, NOISY_B, NOISY_LUMINANCE,

@@ -2,15 +2,500 @@
 #include "compare/statistic/statistic.h"
 
 #include <math.h>
+#include <stdarg.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
-#include "compare/statistic/statistic_blocks.h"
-#include "compare/statistic/statistic_reason.h"
-#include "compare/statistic/statistic_regions.h"
+#include "base/arena.h"
+#include "compare/statistic/noisy_pair.h"
 
 #define LEVEL 0.01
 #define FAMILIES 3
+
+/* ---- the blocks' families ---------------------------------------------------------------- */
+
+#define BLOCK_SIDE 8
+#define WIDE_BLOCK 4 /* blocks along a side of a wide one */
+
+/* Blocks of one size over the data window. */
+typedef struct BlockGrid {
+    int side;   /* pixels */
+    int columns, rows;
+    SignFlipSum (*sums)[3]; /* R, G, B; a count of 0: nothing of it counts */
+} BlockGrid;
+
+typedef struct BlockFinding {
+    int    grid, index, channel; /* of the least p */
+    double least;
+    double tests, failed; /* blocks x channels, those beyond the corrected level */
+    double p_least;       /* after Sidak */
+    double p_squares;     /* too many small p */
+    double mean_square;   /* over the small blocks' quotients */
+} BlockFinding;
+
+static BlockGrid make_grid(int width, int height, int side, Arena *arena)
+{
+    BlockGrid grid = {side, (width + side - 1) / side, (height + side - 1) / side, NULL};
+    grid.sums = arena_alloc(arena, sizeof *grid.sums, _Alignof(SignFlipSum),
+                            (size_t)grid.columns * (size_t)grid.rows);
+    return grid;
+}
+
+static size_t block_count(const BlockGrid *grid)
+{
+    return (size_t)grid->columns * (size_t)grid->rows;
+}
+
+static void add_to_block(const NoisyPair *pair, int x, int y, SignFlipSum sums[3])
+{
+    if (!noisy_pair_counts(pair, x, y)) return;
+    for (int c = 0; c < 3; c++) {
+        NoisyNumber number;
+        if (noisy_pair_number(pair, noisy_pair_index(pair, x, y), (NoisyChannel)c, 1, &number))
+            sign_flip_add(&sums[c], &number, 1);
+    }
+}
+
+static void add_to_blocks(const NoisyPair *pair, int width, int height, BlockGrid *grid)
+{
+    for (int y = 0; y < height; y++)
+        for (int x = 0; x < width; x++)
+            add_to_block(pair, x, y,
+                         grid->sums[y / grid->side * grid->columns + x / grid->side]);
+}
+
+/* grids: small blocks and wide ones. */
+static void statistic_blocks(const NoisyPair *pair, Arena *arena, BlockGrid grids[2])
+{
+    int width = pair->data.x1 - pair->data.x0, height = pair->data.y1 - pair->data.y0;
+    grids[0] = make_grid(width, height, BLOCK_SIDE, arena);
+    grids[1] = make_grid(width, height, BLOCK_SIDE * WIDE_BLOCK, arena);
+    add_to_blocks(pair, width, height, &grids[0]);
+    for (int y = 0; y < grids[0].rows; y++)
+        for (int x = 0; x < grids[0].columns; x++) {
+            SignFlipSum *to = grids[1].sums[y / WIDE_BLOCK * grids[1].columns + x / WIDE_BLOCK];
+            for (int c = 0; c < 3; c++)
+                sign_flip_join(&to[c], &grids[0].sums[y * grids[0].columns + x][c]);
+        }
+}
+
+/* ---- single blocks ----------------------------------------------------------------------- */
+
+/* The least p of a block's channels; NaN where nothing counts. */
+static float statistic_block_p(const BlockGrid *grid, int index, NoiseLaw law)
+{
+    double least = 1;
+    for (int c = 0; c < 3; c++) least = fmin(least, sign_flip_p(&grid->sums[index][c], law));
+    return grid->sums[index][0].count ? (float)least : NAN;
+}
+
+static void find_least(const BlockGrid grids[2], NoiseLaw law, BlockFinding *out)
+{
+    out->least = 2;
+    for (int g = 0; g < 2; g++)
+        for (size_t i = 0; i < block_count(&grids[g]); i++)
+            for (int c = 0; c < 3; c++) {
+                if (!grids[g].sums[i][c].count) continue;
+                double p = sign_flip_p(&grids[g].sums[i][c], law);
+                out->tests++;
+                if (!(p < out->least)) continue;
+                out->least = p;
+                out->grid = g;
+                out->index = (int)i;
+                out->channel = c;
+            }
+}
+
+static double count_failed(const BlockGrid grids[2], NoiseLaw law, double level)
+{
+    double failed = 0;
+    for (int g = 0; g < 2; g++)
+        for (size_t i = 0; i < block_count(&grids[g]); i++)
+            for (int c = 0; c < 3; c++)
+                failed += sign_flip_p(&grids[g].sums[i][c], law) < level;
+    return failed;
+}
+
+/* ---- all of them ------------------------------------------------------------------------- */
+
+/* The sum over blocks of the mean over channels of the quotient's square. Its expectation is
+ * the number of blocks; its variance at most the sum of each block's largest. */
+typedef struct Squares {
+    double blocks, sum, variance;
+} Squares;
+
+static void add_squares(const SignFlipSum sums[3], NoiseLaw law, Squares *to)
+{
+    double squares = 0, variance = 0, channels = 0;
+    for (int c = 0; c < 3; c++) {
+        if (!(sums[c].square > 0)) continue;
+        double quotient = sign_flip_quotient(&sums[c], law);
+        squares += quotient * quotient;
+        variance = fmax(variance, sign_flip_square_variance(&sums[c]));
+        channels++;
+    }
+    if (channels == 0) return;
+    to->blocks++;
+    to->sum += squares / channels;
+    to->variance += variance;
+}
+
+static Squares squares_of_grid(const BlockGrid *grid, NoiseLaw law)
+{
+    Squares out = {0, 0, 0};
+    for (size_t i = 0; i < block_count(grid); i++) add_squares(grid->sums[i], law, &out);
+    return out;
+}
+
+static double p_of_squares(Squares squares)
+{
+    return gamma_tail(squares.sum, squares.blocks, squares.variance);
+}
+
+static BlockFinding statistic_block_finding(const BlockGrid grids[2], NoiseLaw law,
+                                            double level)
+{
+    BlockFinding out = {.mean_square = NAN};
+    Squares      small = squares_of_grid(&grids[0], law);
+    double       least = p_of_squares(small);
+    find_least(grids, law, &out);
+    out.p_least = out.tests > 0 ? sidak_p(out.least, out.tests) : 1;
+    if (out.tests > 0)
+        out.failed = count_failed(grids, law, sidak_level(level, out.tests));
+    if (small.blocks > 0) out.mean_square = small.sum / small.blocks;
+    least = fmin(least, p_of_squares(squares_of_grid(&grids[1], law)));
+    out.p_squares = sidak_p(least, 2);
+    return out;
+}
+
+/* ---- the regions' family: the frame, every display, what each reflects ------------------- */
+
+#define DISPLAY_PREFIX "parhelion:display."
+/* Pixels surer than this share of their light weigh no more for it: a region is more than its
+ * least noisy corner. */
+#define SUREST 0.02
+
+typedef struct Region {
+    int          display; /* id; -1: the frame */
+    NoisyChannel channel;
+    SignFlipSum  plain, weighted;
+    double       light[2]; /* sums of luminance: reference, test */
+    double       weight;   /* of c times the mean */
+    double       trial;    /* a change that the reference is given to see what it does ... */
+    double       tried;    /* ... to weighted.sum */
+} Region;
+
+/* ---- which there are --------------------------------------------------------------------- */
+
+static int display_of(const ExrAttribute *a)
+{
+    bool is_display = a->kind == EXR_STRING &&
+                      !strncmp(a->name, DISPLAY_PREFIX, sizeof DISPLAY_PREFIX - 1);
+    return is_display ? atoi(a->name + sizeof DISPLAY_PREFIX - 1) : -1;
+}
+
+static int list_regions(const NoisyPair *pair, const FrameImage *frame, Arena *arena,
+                        Region **regions, const char ***names)
+{
+    int room = 1 + 2 * frame->attribute_count, count = 0;
+    *regions = ARENA_NEW(arena, Region, room);
+    *names = ARENA_NEW(arena, const char *, room);
+    (*names)[count] = "frame";
+    (*regions)[count++] = (Region){.display = -1, .channel = NOISY_LUMINANCE};
+    for (int i = 0; pair->display && i < frame->attribute_count; i++) {
+        int         id = display_of(&frame->attributes[i]);
+        const char *name = frame->attributes[i].text;
+        if (id < 0) continue;
+        (*names)[count] = name;
+        (*regions)[count++] = (Region){.display = id, .channel = NOISY_LUMINANCE};
+        if (!pair->has_reflected) continue;
+        (*names)[count] = arena_format(arena, "%s reflected", name);
+        (*regions)[count++] = (Region){.display = id, .channel = NOISY_REFLECTED};
+    }
+    return count;
+}
+
+/* ---- sums -------------------------------------------------------------------------------- */
+
+/* test = (1 + change) reference is estimated best with the factors mean / variance. The
+ * variance is the frames' own where they state it, for that comes from all samples; but not
+ * where the difference shows that it is much more (all samples of a pixel were alike by
+ * chance): a factor that shrinks with every difference makes the change too small. What a
+ * display reflects is the mean of fewer samples at its edges: there the difference counts. */
+static double factor_of(const NoisyNumber *n, NoisyChannel channel)
+{
+    double variance = n->variance, square = n->difference * n->difference;
+    if (!(variance > 2 * n->stated)) variance = n->stated;
+    if (isnan(variance)) variance = n->halves + square;
+    if (channel == NOISY_REFLECTED) variance += square / 2;
+    double least = SUREST * n->mean;
+    variance += least * least;
+    return variance > 0 ? n->mean / variance : 0;
+}
+
+/* The factor that the pixels around have in the mean. */
+static double factor_around(const NoisyPair *pair, size_t i, const Region *region, double scale)
+{
+    int    width = pair->data.x1 - pair->data.x0, height = pair->data.y1 - pair->data.y0;
+    int    column = (int)(i % (size_t)width), row = (int)(i / (size_t)width);
+    double mean = 0, variance = 0, count = 0;
+    for (int y = row > 0 ? row - 1 : 0; y <= row + 1 && y < height; y++)
+        for (int x = column > 0 ? column - 1 : 0; x <= column + 1 && x < width; x++) {
+            NoisyNumber n;
+            size_t      k = noisy_pair_index(pair, x, y);
+            bool is_inside = region->display < 0 || pair->display[k] == (float)region->display;
+            if (k == i || !is_inside || !noisy_pair_counts(pair, x, y) ||
+                !noisy_pair_number(pair, k, region->channel, scale, &n))
+                continue;
+            double c = factor_of(&n, region->channel);
+            if (!(c > 0)) continue;
+            mean += n.mean;
+            variance += n.mean / c;
+            count++;
+        }
+    return count > 0 ? mean / variance : 0;
+}
+
+/* Factors must not change when the frames are exchanged, and in noise of two laws they must
+ * not know the pixel itself: a bright sample makes a pixel's own variance large, so that
+ * weighing by it makes noisy frames darker. */
+static double factor(const NoisyPair *pair, size_t i, const Region *region, double scale,
+                     const NoisyNumber *n)
+{
+    return pair->law.is_same ? factor_of(n, region->channel)
+                             : factor_around(pair, i, region, scale);
+}
+
+static void add_pixel(const NoisyPair *pair, size_t i, Region *region)
+{
+    NoisyNumber n;
+    if (!noisy_pair_number(pair, i, region->channel, 1, &n)) return;
+    double c = factor(pair, i, region, 1, &n);
+    sign_flip_add(&region->plain, &n, 1);
+    if (isfinite(c)) {
+        sign_flip_add(&region->weighted, &n, c);
+        region->weight += c * n.mean;
+    }
+    for (int s = 0; s < 2; s++)
+        region->light[s] += noisy_pair_luminance(pair, s, i, region->channel);
+}
+
+/* The weighted sum when the reference's light has changed already by the trial. */
+static void try_pixel(const NoisyPair *pair, size_t i, Region *region)
+{
+    NoisyNumber n;
+    double      scale = 1 + region->trial;
+    if (!noisy_pair_number(pair, i, region->channel, scale, &n)) return;
+    double c = factor(pair, i, region, scale, &n);
+    if (isfinite(c)) region->tried += c * n.difference;
+}
+
+typedef void RegionPixel(const NoisyPair *pair, size_t i, Region *region);
+
+static void for_pixels(const NoisyPair *pair, RegionPixel *work, Region *regions, int count)
+{
+    int width = pair->data.x1 - pair->data.x0, height = pair->data.y1 - pair->data.y0;
+    for (int y = 0; y < height; y++)
+        for (int x = 0; x < width; x++) {
+            if (!noisy_pair_counts(pair, x, y)) continue;
+            size_t i = noisy_pair_index(pair, x, y);
+            float  display = pair->display ? pair->display[i] : -1;
+            work(pair, i, &regions[0]);
+            for (int r = 1; display >= 0 && r < count; r++)
+                if ((float)regions[r].display == display) work(pair, i, &regions[r]);
+        }
+}
+
+/* ---- estimates --------------------------------------------------------------------------- */
+
+/* A difference of d times the mean of both is a ratio of (1 + d / 2) / (1 - d / 2): a first
+ * guess of the change, as factors that depend on the light give brighter frames less weight. */
+#define LEAST_TRIAL 1e-3
+
+static double first_guess(const Region *region)
+{
+    double d = region->weighted.sum / region->weight;
+    double guess = fabs(d) < 1 ? (1 + d / 2) / (1 - d / 2) - 1 : 0; /* false for NaN */
+    return fabs(guess) > LEAST_TRIAL ? guess : LEAST_TRIAL;
+}
+
+/* The change that the reference must be given for the weighted sum to vanish: then both frames
+ * are alike, and so are their weights. The sum is taken to be straight between none and the
+ * trial. */
+static void estimate_change(const Region *region, NoiseLaw law, StatisticRegion *out)
+{
+    double slope = (region->weighted.sum - region->tried) / region->trial;
+    bool   is_steep = slope > 0.1 * region->weight; /* else: changes that are no proportion */
+    out->change = is_steep ? region->weighted.sum / slope : (double)NAN;
+    out->change_sigma = (double)NAN;
+    if (is_steep) out->change_sigma = sign_flip_sigma(&region->weighted, law) / slope;
+}
+
+static StatisticRegion figures_of(const Region *region, const char *name, NoiseLaw law)
+{
+    if (region->channel == NOISY_REFLECTED && law.is_same) law.has_variance = false;
+    double          n = (double)region->plain.count;
+    StatisticRegion out = {.name = name, .pixels = region->plain.count,
+                           .reference = region->light[0] / n, .test = region->light[1] / n};
+    bool            is_lit = fabs(region->light[0]) > 0;
+    out.shift = is_lit ? region->light[1] / region->light[0] - 1 : (double)NAN;
+    out.shift_sigma = sign_flip_sigma(&region->plain, law) / fabs(region->light[0]);
+    if (!is_lit) out.shift_sigma = (double)NAN;
+    estimate_change(region, law, &out);
+    out.p_value = sidak_p(fmin(sign_flip_p(&region->plain, law),
+                               sign_flip_p(&region->weighted, law)), 2);
+    return out;
+}
+
+/* Fills regions, region_count, mean_shift and p_regions of `out`; level is the family's. The
+ * names are those of the frame's attributes. */
+static void statistic_regions(const NoisyPair *pair, const FrameImage *reference, double level,
+                              Arena *arena, StatisticResult *out)
+{
+    Region      *regions;
+    const char **names;
+    double       least = 1;
+    int          listed = list_regions(pair, reference, arena, &regions, &names), count = 0;
+    for_pixels(pair, add_pixel, regions, listed);
+    for (int r = 0; r < listed; r++) regions[r].trial = first_guess(&regions[r]);
+    for_pixels(pair, try_pixel, regions, listed);
+    out->regions = ARENA_NEW(arena, StatisticRegion, listed);
+    for (int r = 0; r < listed; r++) {
+        if (regions[r].plain.count == 0) continue;
+        out->regions[count] = figures_of(&regions[r], names[r], pair->law);
+        least = fmin(least, out->regions[count++].p_value);
+    }
+    out->region_count = count;
+    if (count == 0) {
+        out->p_regions = 1;
+        out->mean_shift = NAN;
+        return;
+    }
+    out->p_regions = sidak_p(least, count);
+    out->mean_shift = out->regions[0].shift;
+    for (int r = 0; r < count; r++)
+        out->regions[r].moved = out->regions[r].p_value < sidak_level(level, count);
+}
+
+/* ---- the answer in words ----------------------------------------------------------------- */
+
+static const char *const CHANNELS[3] = {"red", "green", "blue"};
+
+static void append(char *text, size_t size, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+static void append(char *text, size_t size, const char *format, ...)
+{
+    size_t  length = strlen(text);
+    va_list args;
+    va_start(args, format);
+    vsnprintf(text + length, size - length, format, args);
+    va_end(args);
+}
+
+/* The surest region of displays that moved, since people look for them; else of all. */
+static const StatisticRegion *surest_region(const StatisticResult *r)
+{
+    const StatisticRegion *best = &r->regions[0];
+    for (int i = 1; i < r->region_count; i++) {
+        bool is_first_display = r->regions[i].moved && best == &r->regions[0];
+        if (is_first_display || r->regions[i].p_value < best->p_value) best = &r->regions[i];
+    }
+    return best;
+}
+
+/* Whether the change in proportion agrees with the plain mean's. */
+static bool is_proportional(const StatisticRegion *region)
+{
+    double apart = fabs(region->change - region->shift);
+    return apart < 3 * (region->shift_sigma + region->change_sigma); /* false for NaN */
+}
+
+static void append_shift(const StatisticRegion *region, char *text, size_t size)
+{
+    bool is_surer = fabs(region->change) / region->change_sigma >
+                    fabs(region->shift) / region->shift_sigma;
+    if (isnan(region->shift))
+        append(text, size, "%.3g cd/m2 instead of 0", region->test);
+    else if (is_surer && is_proportional(region))
+        append(text, size, "%+.3g %% +- %.2g %%", 100 * region->change,
+               100 * region->change_sigma);
+    else
+        append(text, size, "%+.3g %% +- %.2g %%", 100 * region->shift,
+               100 * region->shift_sigma);
+    if (is_surer && !is_proportional(region))
+        append(text, size, ", where its pixels are known best %+.3g %% +- %.2g %%",
+               100 * region->change, 100 * region->change_sigma);
+}
+
+/* "display 'cluster': reflected light +1.02 % +- 0.21 %" */
+static void append_region(const StatisticRegion *region, bool is_frame, char *text, size_t size)
+{
+    static const char REFLECTED[] = " reflected";
+    size_t length = strlen(region->name), tail = sizeof REFLECTED - 1;
+    bool   is_reflected = !is_frame && length > tail &&
+                        !strcmp(region->name + length - tail, REFLECTED);
+    if (is_reflected) length -= tail;
+    if (is_frame)
+        append(text, size, "the frame");
+    else
+        append(text, size, "display '%.*s'", (int)(length < 60 ? length : 60), region->name);
+    append(text, size, ": %s ", is_reflected ? "reflected light" : "mean luminance");
+    append_shift(region, text, size);
+}
+
+/* "block at x 120..128, y 40..48: green -12.1 %" in pixels of the display window. */
+static void append_block(const NoisyPair *pair, const BlockGrid *grid,
+                         const BlockFinding *found, char *text, size_t size)
+{
+    const ExrWindow    d = pair->data, w = pair->display_window;
+    const SignFlipSum *sum = &grid->sums[found->index][found->channel];
+    int                x = d.x0 - w.x0 + found->index % grid->columns * grid->side;
+    int                y = d.y0 - w.y0 + found->index / grid->columns * grid->side;
+    int                right = d.x1 - w.x0, bottom = d.y1 - w.y0;
+    double             change = sum->light > 0 ? sum->sum / (sum->light - 0.5 * sum->sum) : 0;
+    append(text, size, "block at x %d..%d, y %d..%d: %s ", x,
+           x + grid->side < right ? x + grid->side : right, y,
+           y + grid->side < bottom ? y + grid->side : bottom, CHANNELS[found->channel]);
+    if (fabs(change) < 10)
+        append(text, size, "%+.3g %%", 100 * change);
+    else
+        append(text, size, "%+.3g cd/m2", sum->sum / (double)sum->count);
+}
+
+static void append_shared(const StatisticResult *r, char *text, size_t size)
+{
+    append(text, size, "one seed and the same samples: %ld of %ld pixels differ", r->differing,
+           r->pixels);
+    if (r->verdict != STATISTIC_DIFFERENT)
+        append(text, size, r->differing ? ", the mean did not move (p = %.2g)"
+                                        : " by more than rounding (p = %.2g)", r->p_value);
+    else
+        append(text, size, "; ");
+}
+
+/* Fills `reason` of a result that is otherwise complete. */
+static void statistic_reason(const NoisyPair *pair, const BlockGrid grids[2],
+                             const BlockFinding *found, double level, StatisticResult *out)
+{
+    char  *text = out->reason;
+    size_t size = sizeof out->reason;
+    text[0] = '\0';
+    if (out->verdict == STATISTIC_EQUAL || out->region_count == 0) return;
+    if (out->shares_noise) append_shared(out, text, size);
+    if (out->verdict != STATISTIC_DIFFERENT) return;
+    const StatisticRegion *region = surest_region(out);
+    double family_level = sidak_level(level, 3);
+    bool   has_region = out->p_regions < family_level;
+    bool   has_block = out->p_blocks < family_level;
+    if (has_region) append_region(region, region == &out->regions[0], text, size);
+    if (has_region && has_block) append(text, size, "; ");
+    if (has_block) append_block(pair, &grids[found->grid], found, text, size);
+    if (!has_region && !has_block)
+        append(text, size, "small changes all over the frame: the blocks' squared deviations "
+               "are %.3g of what noise makes (p = %.2g)", out->mean_square, out->p_histogram);
+}
 
 static void count_pixels(const NoisyPair *pair, StatisticResult *out, bool *is_equal)
 {

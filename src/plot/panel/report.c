@@ -13,7 +13,7 @@
 #include "plot/panel/sheet.h"
 #include "plot/panel/plot_answer.h"
 #include "plot/panel/report_tables.h"
-#include "text/escape.h"
+#include "text/text.h"
 
 #define CHART_WIDTH 420
 #define CHART_HEIGHT 344

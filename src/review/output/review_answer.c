@@ -8,7 +8,7 @@
 #include "review/output/review_decide.h"
 #include "review/output/review_rays.h"
 #include "review/output/review_words.h"
-#include "text/escape.h"
+#include "text/text.h"
 
 #define GRID_ROWS 7
 #define GRID_EYES 4

@@ -5,7 +5,7 @@
 
 #include "base/mathd.h"
 #include "review/output/review_words.h"
-#include "text/escape.h"
+#include "text/text.h"
 
 /* ---- margins and shares ----------------------------------------------------------------- */
 

@@ -13,7 +13,7 @@
 #include "review/output/review_rays.h"
 #include "review/output/review_words.h"
 #include "text/base64.h"
-#include "text/escape.h"
+#include "text/text.h"
 
 #define FIRST_CAUSES 4
 #define PICTURE_BYTES_MAX ((size_t)64 << 20)

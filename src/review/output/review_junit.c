@@ -3,7 +3,6 @@
 
 #include "review/output/review_decide.h"
 #include "review/output/review_words.h"
-#include "text/escape.h"
 #include "text/text.h"
 
 /* Only a verdict that fails the review is a failure. */

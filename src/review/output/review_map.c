@@ -10,7 +10,7 @@
 #include "page/page.h"
 #include "review/output/review_words.h"
 #include "text/base64.h"
-#include "text/escape.h"
+#include "text/text.h"
 
 /* ---- colours ---------------------------------------------------------------------------- */
 

@@ -11,7 +11,7 @@
 #include "review/output/review_table.h"
 #include "review/output/review_variants.h"
 #include "review/output/review_words.h"
-#include "text/escape.h"
+#include "text/text.h"
 
 #define PAGE_BYTES ((size_t)4 << 30) /* address space for the text */
 #define WORDS_BYTES ((size_t)1 << 30)

@@ -5,7 +5,7 @@
 
 #include "review/output/ray_file.h"
 #include "review/output/review_words.h"
-#include "text/escape.h"
+#include "text/text.h"
 
 #define NEAR_M 0.02    /* nothing nearer to the eye is drawn */
 #define RIM_APART 0.01 /* share of a picture's width between a symbol and its line */

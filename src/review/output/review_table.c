@@ -10,7 +10,7 @@
 #include "review/output/review_card.h"
 #include "review/output/review_decide.h"
 #include "review/output/review_words.h"
-#include "text/escape.h"
+#include "text/text.h"
 
 #define MATRIX_COLUMNS 10
 #define MATRIX_ROWS 60

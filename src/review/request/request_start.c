@@ -10,7 +10,6 @@
 
 #include "base/count.h"
 #include "base/file.h"
-#include "text/json_print.h"
 #include "text/json_text.h"
 #include "text/uri.h"
 

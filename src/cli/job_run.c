@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "cli/job_review.h"
+#include "cli/job_run.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -9,15 +9,45 @@
 
 #include "base/count.h"
 #include "cli/job/job_scripts.h"
-#include "cli/job_words.h"
 #include "cli/review/cmd_review.h"
+
+static const char *progress_word(const Cli *cli, Arena *arena)
+{
+    static const char *const names[] = {
+        [PROGRESS_AUTO] = "auto", [PROGRESS_BAR] = "bar", [PROGRESS_PLAIN] = "plain",
+        [PROGRESS_JSON] = "json", [PROGRESS_NONE] = "none"};
+    return cli->quiet ? "--quiet" : arena_format(arena, "--progress=%s", names[cli->progress]);
+}
+
+static void add(JobWords *words, const char *text, Arena *arena)
+{
+    words->list[words->count++] = arena_string(arena, text, strlen(text));
+}
+
+JobWords job_words(const SharedJob *job, const Cli *cli, const char *const *own, int own_count,
+                   Arena *arena)
+{
+    JobWords words = {ARENA_NEW(arena, char *, own_count + job->word_count + 3), 0};
+    for (int i = 0; i < own_count; i++) add(&words, own[i], arena);
+    add(&words, arena_format(arena, "--threads=%d", cli->threads), arena);
+    add(&words, progress_word(cli, arena), arena);
+    for (int i = 0; i < job->word_count; i++) add(&words, job->words[i], arena);
+    return words;
+}
+
+bool job_enter(const SharedJob *job, Error *err)
+{
+    return chdir(job->folder) == 0 ||
+           error_at(err, ERROR_INPUT, job->folder, "",
+                    "cannot be entered: %s — the job was planned there", strerror(errno));
+}
 
 /* The mark comes last, and then the file gets its name. */
 bool job_review_part(const SharedJob *job, const Cli *cli, const JobReviewPart *part,
                      Arena *arena, Error *err)
 {
     const char *own[] = {"review", "-o", job->output};
-    const JobFolder *folder = part->folder;
+    const Lines *folder = part->folder;
     JobWords       words = job_words(job, cli, own, COUNT_OF(own), arena);
     const char *answers = job_own_checkpoint(job, part->index, arena);
     const char *done = job_part_file(job, part->index, job_part_ending(job), arena);
@@ -28,8 +58,8 @@ bool job_review_part(const SharedJob *job, const Cli *cli, const JobReviewPart *
                         .responses = job_file(job, JOB_RESPONSES, arena),
                         .resume_line = job_part_command(job, part->index, arena)};
     for (int i = 0; i < folder->count; i++)
-        if (job_is_checkpoint(folder->names[i], part->index))
-            task.found[task.found_count++] = job_file(job, folder->names[i], arena);
+        if (job_is_checkpoint(folder->list[i], part->index))
+            task.found[task.found_count++] = job_file(job, folder->list[i], arena);
     if (!cmd_review_run(words.count, words.list, &task, arena, err)) return false;
     return rename(answers, done) == 0 ||
            error_at(err, ERROR_OUTPUT, done, "", "cannot be written: %s", strerror(errno));

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "cli/render/polarised_options.h"
+#include "cli/render/path_options.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -58,4 +58,11 @@ bool polarised_options_read(const PolarisedWords *words, bool wants_all, unsigne
     if (eye->with_stokes) *layers |= LAYER_STOKES;
     *out = eye;
     return true;
+}
+
+bool guiding_options_check(const RenderOptions *render, Error *err)
+{
+    return !(render->field && render->no_guiding) ||
+           error_set(err, ERROR_USAGE, "--field %s keeps what is learnt — leave out "
+                                       "--no-guiding", render->field);
 }

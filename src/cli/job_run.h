@@ -1,0 +1,38 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* job_run.h -- the command lines by which parts of a job are done; and a review that is shared
+ * among machines: its parts answer questions (review/share.h), and the merge is the review
+ * itself, which finds them answered.
+ *
+ * Memory   the arena's.  Threads  one at a time.
+ * Fails    as the review does; ERROR_OUTPUT where a file of the job cannot be written.
+ */
+#pragma once
+#include "cli/job/job_state.h"
+#include "cli/options/cli.h"
+
+typedef struct JobWords {
+    char **list;
+    int    count;
+} JobWords;
+
+/* `own`, the command's name first, then threads and progress as typed for this run, then the
+ * job's words: a `--` among them ends the options. */
+JobWords job_words(const SharedJob *job, const Cli *cli, const char *const *own, int own_count,
+                   Arena *arena);
+
+/* Enters the folder from which the job's names are seen. Fails: ERROR_INPUT. */
+bool job_enter(const SharedJob *job, Error *err);
+
+typedef struct JobReviewPart {
+    int              index;
+    const char      *name;   /* for messages */
+    const Lines *folder; /* what others left of the part is taken over */
+} JobReviewPart;
+
+/* The job's folder of names has been entered. */
+bool job_review_part(const SharedJob *job, const Cli *cli, const JobReviewPart *part,
+                     Arena *arena, Error *err);
+
+/* All parts are done. output: as typed; NULL: the job's. Its status is the review's. */
+bool job_review_merge(const SharedJob *job, const Cli *cli, const char *output, Arena *arena,
+                      Error *err);
