@@ -6,10 +6,10 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include "base/arena_guard.h"
+#include "base/machine.h"
 
 /* Threads may still be at work: their libraries' tables must not be taken down under them. */
 static void exit_when_full(size_t bytes_wanted, size_t bytes_left)
@@ -22,25 +22,12 @@ static void exit_when_full(size_t bytes_wanted, size_t bytes_left)
 
 #define PAGE ((size_t)1 << 16)
 
-/* Address space that the process may still take (ulimit -v, batch systems). */
-static size_t space_left(void)
-{
-    struct rlimit limit;
-    unsigned long pages = 0; /* proc(5), statm: the program's size comes first */
-    if (getrlimit(RLIMIT_AS, &limit) || limit.rlim_cur == RLIM_INFINITY) return SIZE_MAX;
-    FILE *file = fopen("/proc/self/statm", "r");
-    if (file && fscanf(file, "%lu", &pages) != 1) pages = 0;
-    if (file) fclose(file);
-    size_t taken = pages * (size_t)sysconf(_SC_PAGESIZE);
-    return limit.rlim_cur > taken ? (size_t)limit.rlim_cur - taken : 0;
-}
-
 /* The most that one arena may take: libraries and further arenas need addresses too, and a
  * file that asks for more than the machine has should exhaust the arena, not the system. */
 static size_t most_bytes(void)
 {
     size_t machine = (size_t)sysconf(_SC_PHYS_PAGES) * (size_t)sysconf(_SC_PAGESIZE);
-    size_t space = space_left() / 2, memory = machine / 4 * 3;
+    size_t space = machine_address_space_left() / 2, memory = machine / 4 * 3;
     return (space < memory ? space : memory) / PAGE * PAGE;
 }
 

@@ -8,6 +8,7 @@
 #include "base/file.h"
 #include "cli/equip/equip_shipped.h"
 #include "cli/equip/usual_material.h"
+#include "cli/options/answer.h"
 #include "image/picture.h"
 #include "page/page.h"
 #include "page/page_data.h"
@@ -172,11 +173,6 @@ static json_t *parts_json(const Scene *scene)
     return list;
 }
 
-static json_t *vector_json(Vec3 v)
-{
-    return json_pack("[f,f,f]", (double)v.x, (double)v.y, (double)v.z);
-}
-
 static json_t *cameras_json(const Scene *scene)
 {
     json_t *list = json_array();
@@ -186,8 +182,8 @@ static json_t *cameras_json(const Scene *scene)
         json_array_append_new(
             list, json_pack("{s:o, s:b, s:o, s:o}", "name", json_text(name), "perspective",
                             c->is_perspective, "position",
-                            vector_json(c->world_from_camera.origin), "ahead",
-                            vector_json(vec3_neg(c->world_from_camera.z))));
+                            cli_json_vector(c->world_from_camera.origin), "ahead",
+                            cli_json_vector(vec3_neg(c->world_from_camera.z))));
     }
     return list;
 }
@@ -249,7 +245,7 @@ static json_t *data_json(const Scene *scene, const char *model, const char *comm
         "{s:o, s:o, s:I, s:I, s:i, s:o, s:o}", "model", json_text(path_name(model)), "command",
         json_text(command), "vertices", (json_int_t)scene->vertex_count, "triangles",
         (json_int_t)scene->triangle_count, "index_bytes", index_bytes(scene), "low",
-        vector_json(scene->bounds_min), "high", vector_json(scene->bounds_max));
+        cli_json_vector(scene->bounds_min), "high", cli_json_vector(scene->bounds_max));
     json_object_set_new(data, "parts", parts_json(scene));
     json_object_set_new(data, "materials", materials_json(scene, *arena));
     json_object_set_new(data, "textures", textures_json(scene, *arena));

@@ -238,18 +238,13 @@ static void print_text(const Explained *explained, Arena *arena)
 
 /* ---- as JSON ----------------------------------------------------------------------------- */
 
-static json_t *point(Vec3 p)
-{
-    return json_pack("[f,f,f]", (double)p.x, (double)p.y, (double)p.z);
-}
-
 static json_t *json_rays(const CaseCause *cause)
 {
     json_t *out = json_array();
     for (int i = 0; i < cause->ray_count; i++) {
         json_t *ray = json_array();
         for (int k = 0; k < cause->rays[i].count; k++)
-            json_array_append_new(ray, point(cause->rays[i].points[k]));
+            json_array_append_new(ray, cli_json_vector(cause->rays[i].points[k]));
         json_array_append_new(out, ray);
     }
     return out;
@@ -317,7 +312,7 @@ static bool print_json(const Explained *explained, Error *err)
         "{s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:[o,o], s:I}", "condition",
         json_text_or_null(c->condition), "eye", json_text_or_null(c->eye), "symbol",
         json_text_or_null(c->symbol), "display", json_text_or_null(c->display), "eye_m",
-        point(c->eye_m), "luminance_cd_m2", json_light(explained), "contrast_ratio",
+        cli_json_vector(c->eye_m), "luminance_cd_m2", json_light(explained), "contrast_ratio",
         json_figure(c->contrast_ratio), "contrast_interval", json_figure(c->contrast_low),
         json_figure(c->contrast_high), "paths", (json_int_t)explained->paths);
     json_object_set_new(out, "visible_share", json_figure(c->visible_share));

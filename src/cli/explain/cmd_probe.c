@@ -198,8 +198,7 @@ static void print_text(const Probed *probed, Arena scratch)
 
 static json_t *json_point(bool is_there, Vec3 p)
 {
-    return is_there ? json_pack("[f,f,f]", (double)p.x, (double)p.y, (double)p.z)
-                    : json_null();
+    return is_there ? cli_json_vector(p) : json_null();
 }
 
 static json_t *json_bounces(const Probed *probed, const ProbeWay *way)
@@ -223,7 +222,7 @@ static json_t *json_rays(const Chain *chain)
     for (int i = 0; i < chain->ray_count; i++) {
         json_t *ray = json_array();
         for (int k = 0; k < chain->rays[i].count; k++)
-            json_array_append_new(ray, json_point(true, chain->rays[i].point[k]));
+            json_array_append_new(ray, cli_json_vector(chain->rays[i].point[k]));
         json_array_append_new(out, ray);
     }
     return out;
@@ -266,7 +265,7 @@ static bool print_json(const Probed *probed, Error *err)
                   "s:o}",
                   "pixel", probed->pixel[0], probed->pixel[1], "size", probed->size[0],
                   probed->size[1], "paths", (json_int_t)chains->paths, "eye_m",
-                  json_point(true, probed->eye), "XYZ", xyz[0].mean, xyz[1].mean, xyz[2].mean,
+                  cli_json_vector(probed->eye), "XYZ", xyz[0].mean, xyz[1].mean, xyz[2].mean,
                   "luminance_cd_m2", xyz[1].mean, "standard_error_cd_m2", xyz[1].sigma, "ways",
                   ways, "other_ways", "count", chains->others, "cd_m2", chains->rest.cd_m2,
                   "standard_error_cd_m2", chains->rest.sigma, "spectrum",

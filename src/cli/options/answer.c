@@ -78,3 +78,8 @@ json_t *cli_json_problems(const Problems *problems, Severity severity)
     }
     return list;
 }
+
+json_t *cli_json_vector(Vec3 v)
+{
+    return json_pack("[f,f,f]", (double)v.x, (double)v.y, (double)v.z);
+}

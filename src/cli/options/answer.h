@@ -11,6 +11,7 @@
 
 #include "base/error.h"
 #include "base/problems.h"
+#include "base/vec.h"
 
 /* Prints the document to stdout with a newline, and releases it. False: stdout is full. */
 bool cli_print_json(json_t *document, Error *err);
@@ -26,3 +27,6 @@ void cli_print_warnings(const Problems *problems);
 
 /* The same warnings as a JSON list of {"file","path","severity","message"}. */
 json_t *cli_json_problems(const Problems *problems, Severity severity);
+
+/* A point or a direction as a list of three numbers. */
+json_t *cli_json_vector(Vec3 v);
