@@ -65,6 +65,7 @@ TEST(an_eye_looks_at_its_point_with_y_up)
         assert_true(vec3_length(miss) < 1e-5f);
         assert_close(transform_determinant(t), 1, 1e-5);
         if (i < 2) assert_true(t->x.y == 0 && t->y.y > 0); /* the horizon is level */
+        else assert_near(t->y.z, -1, 1e-6); /* -Z is up */
     }
 }
 

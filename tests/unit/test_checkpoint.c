@@ -292,6 +292,7 @@ TEST(each_fault_has_its_line)
         {AT_IDENTITY, 1 << 20, true, "is damaged: its identity cannot be"},
         {AT_CROP, 6, true, "is damaged: its crop cannot be"},
         {AT_CROP + 8, 8, true, "is damaged: its crop cannot be"},
+        {AT_CROP + 12, 6, true, "is damaged: its crop cannot be"},
         {AT_CROP + 4, 0xffffffff, true, "is damaged: its crop cannot be"},
         {AT_FIRST, FIRST + SAMPLES, true, "is damaged: its range of samples cannot be"},
         {AT_ASKED, 4, true, "is damaged: its range of samples cannot be"},

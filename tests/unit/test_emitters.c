@@ -2,6 +2,7 @@
 /* Emitters that are near, many, or hidden below the horizon. */
 #include "light_fixture.h"
 
+#include "light/coverage.h"
 #include "light/solid_angle.h"
 
 /* ---- triangles as a point sees them ------------------------------------------------------ */
@@ -177,6 +178,18 @@ TEST(lamps_that_cannot_be_seen_are_not_chosen)
         below += sample.wi.y < 0;
     }
     assert_true(below > 850); /* the third is turned away, but for a blind share */
+}
+
+/* ---- masks ------------------------------------------------------------------------------- */
+
+TEST(a_mask_is_there_from_its_cutoff_on)
+{
+    Material mask = lamp(1);
+    mask.alpha_mode = ALPHA_MASK;
+    mask.alpha_cutoff = 0.25f;
+    mask.base_color[3] = 0.5f;
+    assert_near(coverage_alpha(&mask, 0.5f), 1, 0);
+    assert_near(coverage_alpha(&mask, 0.499f), 0, 0);
 }
 
 /* ---- many lamps -------------------------------------------------------------------------- */

@@ -5,6 +5,8 @@
 #include "base/units.h"
 #include "review/light/eye_reading.h"
 #include "vision/disability_glare.h"
+#include "vision/discomfort.h"
+#include "vision/position_index.h"
 #include "world_fixture.h"
 
 static ReviewRequest  request = {.forward = {0, 0, -1}, .observer = {50, 0.5}};
@@ -99,6 +101,24 @@ TEST(the_sun_veils_by_its_own_angle)
     world_end(&world);
 }
 
+/* Wienold's formula of one source, seen above the gaze and below it. */
+TEST(the_sun_is_a_source_of_the_size_of_its_disc)
+{
+    World  world = dark_world();
+    double disc = PI * pow(sin(radians_from_degrees(SUN_MEAN_RADIUS_DEG)), 2);
+    world.scene->environment.has_sun = true;
+    world.scene->environment.sun_elevation = (float)radians_from_degrees(15);
+    world.scene->environment.sun_illuminance_lx = 1200;
+    for (int below = 0; below < 2; below++) {
+        EyeReading  found = read_towards(&world, at_angle(below ? 30 : 0), 1);
+        double      lux = 1200 * cos(radians_from_degrees(15));
+        double      index = below ? position_index_below(15) : position_index_above(0, 15);
+        GlareSource sun = {1200 / disc, disc, index, 0};
+        assert_near(found.dgp, discomfort_dgp(lux, &sun, 1), 1e-4);
+    }
+    world_end(&world);
+}
+
 /* Before the eye, from in front of it to above it: it takes and mirrors a share of the sun. */
 TEST(glass_takes_what_it_mirrors_of_the_sun)
 {
@@ -179,6 +199,8 @@ TEST(a_uniform_sky_veils_by_the_integral)
     EyeReading found = read_eye(&world);
     if (!(fabs(found.veil / (100 * sum) - 1) < 0.01))
         fail_msg("veil %g, wanted %g", found.veil, 100 * sum);
+    assert_near(found.dgp, discomfort_dgp(found.vertical_lx, NULL, 0) *
+                               discomfort_dgp_low_light(found.vertical_lx), 1e-9);
     if (!(fabs(found.vertical_lx / (100 * PI) - 1) < 0.01))
         fail_msg("%g lx", found.vertical_lx);
     world_end(&world);

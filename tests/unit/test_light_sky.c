@@ -60,6 +60,7 @@ TEST(a_half_set_sun_gives_half_its_light)
         LightSample sample;
         LitPoint point = {vec3(0, 0, 0), facing, false};
         assert_true(lights_sample(lights, LIGHTS_SUN, point, u, &sample));
+        assert_true(vec3_dot(sample.wi, facing) > 0.9999f); /* where the heading puts it */
         sum[sample.wi.y >= 0] += (double)spectrum_sum(lights_radiance(lights, &sample, &lanes));
     }
     assert_true(sum[0] == 0 && sum[1] > 0);

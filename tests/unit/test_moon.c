@@ -160,6 +160,10 @@ TEST(moonlight_falls_with_phase_and_distance)
     double full = ratio_at(0, 384400, 1);
     assert_in(full * 133000, 0.30, 0.35); /* lx above the air */
     assert_in(ratio_at(90, 384400, 1) / full, 0.08, 0.12);
+    for (int a = 30; a <= 150; a += 30) { /* Allen's magnitudes */
+        double fainter = 0.026 * a + 4e-9 * pow(a, 4);
+        assert_close(ratio_at(a, 384400, 1) / full, pow(10, -0.4 * fainter), 1e-5);
+    }
     assert_close(ratio_at(40, 384400 * 0.93, 1) * 0.93 * 0.93, ratio_at(40, 384400, 1), 1e-6);
     assert_close(ratio_at(40, 384400, 1.01) * 1.01 * 1.01, ratio_at(40, 384400, 1), 1e-6);
     for (int a = 1; a <= 180; a++)

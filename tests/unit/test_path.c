@@ -209,6 +209,29 @@ TEST(a_clear_ball_in_a_uniform_sky_is_invisible)
     world_end(&world);
 }
 
+/* A pane met at 70 degrees, and a film that shines as the sky does. */
+TEST(sheets_in_a_uniform_sky_are_invisible)
+{
+    World    world = world_start();
+    Material film = emitter(100);
+    double   a = radians_from_degrees(70);
+    film.alpha_mode = ALPHA_BLEND;
+    film.base_color[3] = 0.4f;
+    film.lets_light_through = film.double_sided = true;
+    builder_part(world.scene, window_material(1.5f));
+    builder_quad(world.scene, vec3(0, 0, -1), vec3(0.5f, 0, 0),
+                 vec3(0, (float)(0.5 * cos(a)), (float)(-0.5 * sin(a))));
+    builder_part(world.scene, film);
+    builder_quad(world.scene, vec3(0, 0, 1), vec3(0.5f, 0, 0), vec3(0, 0.5f, 0));
+    set_sky(&world, 100);
+    world_ready(&world, BOUNCES);
+    for (int way = -1; way <= 1; way += 2) {
+        Vec3 ahead = vec3(0, 0, (float)way);
+        assert_luminance("sheet", luminance(&world, vec3(0, 0, 0), ahead, 0.1f, 20000), 100);
+    }
+    world_end(&world);
+}
+
 TEST(half_there_shows_half_of_what_is_behind)
 {
     World world = world_start();

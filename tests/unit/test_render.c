@@ -121,6 +121,14 @@ TEST(noise_that_grows_is_foretold)
     }
 }
 
+TEST(growth_is_that_of_a_doubling_however_far_readings_are_apart)
+{
+    Forecast forecast = {0};
+    forecast_samples(&forecast, 2, sqrt(100.0 / 2));
+    forecast_samples(&forecast, 16, sqrt(100.0 * 1.2 * 1.2 * 1.2 / 16));
+    assert_near(forecast.growth, 0.2, 1e-9);
+}
+
 TEST(forecasts_of_nothing_and_of_no_end)
 {
     Forecast forecast = {0};

@@ -16,7 +16,8 @@ static const Material *load_material(const char *members)
              PICTURE
              "'extensionsUsed':['KHR_materials_ior',"
              "'KHR_materials_specular','KHR_materials_transmission','KHR_materials_clearcoat',"
-             "'KHR_materials_volume','KHR_materials_unlit','KHR_materials_emissive_strength'],"
+             "'KHR_materials_volume','KHR_materials_unlit','KHR_materials_emissive_strength',"
+             "'PARHELION_glazing'],"
              "'materials':[{%s}]",
              members);
     return &maker_load(NULL, 0, text)->materials[0];
@@ -85,6 +86,17 @@ TEST_WITH(every_factor_arrives, maker_reset, NULL)
         assert_close(*(const float *)((const char *)m + NUMBERS[i].offset), NUMBERS[i].value,
                      1e-6);
     }
+}
+
+/* A layer that lets all light through has no say in the index that light is absorbed by. */
+TEST_WITH(a_pane_absorbs_by_the_index_of_what_absorbs, maker_reset, NULL)
+{
+    const Material *m = load_material(
+        EXTENSION("PARHELION_glazing", "'layers':[{'thickness_m':0.002,'ior':1.9},"
+                  "{'thickness_m':0.001,'ior':1.6,'transmission':0.25},"
+                  "{'thickness_m':0.002,'ior':1.3,'transmission':0.5}]"));
+    assert_close(m->glazing->absorbing_ior, (2 * 1.6 + 1.3) / 3, 1e-6);
+    assert_close(m->glazing->absorbance.value[0], log(8), 1e-6);
 }
 
 /* A texture of a material, and where it is named. */

@@ -289,6 +289,25 @@ TEST(what_shines_under_films_lights_as_it_is_seen)
     check_covered(&PLACES[0], 5e-5f, 0.6f);
 }
 
+/* A film just before a small lamp: what meets the lamp by chance counts with the density of the
+ * whole way from the lit point. */
+TEST(a_film_does_not_shorten_the_way_to_a_lamp)
+{
+    World    world = world_start();
+    LitPoint point = {vec3(0, 0, 1), vec3(0, 0, -1), false};
+    builder_part(world.scene, emitter(100));
+    builder_quad(world.scene, vec3(0, 0, 0), vec3(0.2f, 0, 0), vec3(0, 0.2f, 0));
+    builder_part(world.scene, film(0.1f, 0));
+    builder_quad(world.scene, vec3(0, 0, 0.02f), vec3(0.9f, 0, 0), vec3(0, 0.9f, 0));
+    world_ready(&world, BOUNCES);
+    Mean both = mean_of(&world, NULL, point, 20000);
+    world.context.strategy = PATH_LIGHTS_ONLY;
+    Mean lights = mean_of(&world, NULL, point, 20000);
+    assert_near(both.value, lights.value, 4 * hypot(both.sigma, lights.sigma));
+    assert_true(both.sigma < 0.01 * both.value);
+    world_end(&world);
+}
+
 /* Sheets whose distance can be told keep their order, whatever the file's: the first in the
  * file is the nearest here. */
 TEST(a_sheet_that_is_nearer_by_more_than_rounding_is_seen_first)
