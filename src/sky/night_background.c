@@ -4,7 +4,6 @@
 #include <math.h>
 
 #include "base/count.h"
-#include "base/mathd.h"
 #include "base/units.h"
 #include "spectrum/photometry.h"
 
