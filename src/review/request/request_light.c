@@ -2,7 +2,7 @@
 #include "review/request/request_light.h"
 
 #include "base/units.h"
-#include "scene/load/environment_text.h"
+#include "scene/load/environment.h"
 
 /* `forward` stands once at the top of the file, a heading once in the condition. */
 static bool check_directions(const JsonView *view, const JsonView *environment,

@@ -5,9 +5,7 @@
 #include <string.h>
 
 #include "base/mathd.h"
-#include "base/mathf.h"
 #include "scene/gltf/accessor.h"
-#include "scene/gltf/document.h"
 #include "text/nearest_word.h"
 
 #define FACES 0.5f       /* of its area: less in one direction is a closed body */
@@ -75,8 +73,7 @@ static NodeSurface surface_of(GltfFile *file, const int *parent, int top)
     Arena            begun = file->load->scratch;
     surface.high = vec3_neg(surface.low);
     for (int i = 0; i < nodes->count; i++) {
-        const GltfValue *mesh =
-            tree_element(file->root, "meshes", tree_int(&nodes->items[i], "mesh", NO_ID));
+        const GltfValue *mesh = tree_referred(tree_member(&nodes->items[i], "mesh"), "meshes");
         const GltfValue *primitives = tree_member(mesh, "primitives");
         if (!primitives || !is_below(parent, i, top)) continue;
         for (int k = 0; k < primitives->count; k++)

@@ -22,25 +22,23 @@ static const ChannelPath PATHS[MOVES_COUNT] = {[MOVES_TRANSLATION] = {"VEC3", fa
                                                [MOVES_WEIGHTS] = {"SCALAR", true},
                                                [MOVES_VISIBLE] = {"SCALAR", false}};
 
-static const GltfValue *accessor_of(const DocumentCheck *check, const GltfValue *sampler,
-                                    const char *name)
+static const GltfValue *accessor_of(const GltfValue *sampler, const char *name)
 {
-    return tree_element(check->file->root, "accessors", tree_int(sampler, name, NO_ID));
+    return tree_referred(tree_member(sampler, name), "accessors");
 }
 
-static bool has_stride(const DocumentCheck *check, const GltfValue *accessor)
+static bool has_stride(const GltfValue *accessor)
 {
-    const GltfValue *view =
-        tree_element(check->file->root, "bufferViews", tree_int(accessor, "bufferView", NO_ID));
+    const GltfValue *view = tree_referred(tree_member(accessor, "bufferView"), "bufferViews");
     return tree_member(view, "byteStride") != NULL;
 }
 
 static void check_sampler(const DocumentCheck *check, const GltfValue *sampler)
 {
-    const GltfValue *input = accessor_of(check, sampler, "input");
-    const GltfValue *output = accessor_of(check, sampler, "output");
+    const GltfValue *input = accessor_of(sampler, "input");
+    const GltfValue *output = accessor_of(sampler, "output");
     bool is_cubic = strcmp(tree_text(sampler, "interpolation", "LINEAR"), "CUBICSPLINE") == 0;
-    if (has_stride(check, input) || has_stride(check, output))
+    if (has_stride(input) || has_stride(output))
         check_warns(check, sampler, "the buffer view of an animation has a byteStride");
     if (input && (!tree_member(input, "min") || !tree_member(input, "max")))
         check_warns(check, sampler, "the accessor of the times has no min and max");
@@ -52,10 +50,9 @@ static void check_sampler(const DocumentCheck *check, const GltfValue *sampler)
                     tree_number(input, "count", 2));
 }
 
-static int morph_targets(const DocumentCheck *check, const GltfValue *node)
+static int morph_targets(const GltfValue *node)
 {
-    const GltfValue *mesh =
-        tree_element(check->file->root, "meshes", tree_int(node, "mesh", NO_ID));
+    const GltfValue *mesh = tree_referred(tree_member(node, "mesh"), "meshes");
     return tree_count(tree_item(tree_member(mesh, "primitives"), 0), "targets");
 }
 
@@ -73,8 +70,8 @@ static bool is_component(const GltfValue *output, AnimationPath path, bool is_po
 static void check_output(const DocumentCheck *check, const GltfValue *channel,
                          const GltfValue *sampler, AnimationPath path, int values)
 {
-    const GltfValue *input = accessor_of(check, sampler, "input");
-    const GltfValue *output = accessor_of(check, sampler, "output");
+    const GltfValue *input = accessor_of(sampler, "input");
+    const GltfValue *output = accessor_of(sampler, "output");
     const char *how = tree_text(sampler, "interpolation", "LINEAR");
     const char *name = animation_path_names[path], *type = PATHS[path].type;
     bool is_cubic = strcmp(how, "CUBICSPLINE") == 0;
@@ -98,18 +95,16 @@ static void check_output(const DocumentCheck *check, const GltfValue *channel,
 /* Reports a channel that is not played; an error where the file requires that it is. */
 static void check_unplayed(const DocumentCheck *check, const GltfValue *channel)
 {
-    const GltfValue *root = check->file->root;
     const GltfValue *target = tree_member(channel, "target");
     bool is_pointed = tree_extension(target, "KHR_animation_pointer");
     if (!check->file->load->options->state.has_time) return;
     if (tree_member(target, "node") && !is_pointed &&
-        !tree_element(root, "nodes", tree_int(target, "node", NO_ID)))
+        !tree_referred(tree_member(target, "node"), "nodes"))
         return; /* reported by the table */
-    const GltfValue *required = tree_member(root, "extensionsRequired");
+    const GltfValue *required = tree_member(check->file->root, "extensionsRequired");
     DocumentCheck milder = {check->file, SEVERITY_WARNING};
-    for (int i = 0; is_pointed && required && i < required->count; i++)
-        if (strcmp(required->items[i].text, "KHR_animation_pointer") == 0)
-            milder.severity = check->severity;
+    if (is_pointed && tree_lists(required, "KHR_animation_pointer"))
+        milder.severity = check->severity;
     check_fails(&milder, channel,
                 "moves \"%.100s\", which is not played: only nodes, their morph weights and "
                 "their visibility are",
@@ -134,7 +129,7 @@ static void check_channel(const DocumentCheck *check, const GltfValue *animation
     const GltfValue *node = tree_element(check->file->root, "nodes", moved.node);
     if (moved.path <= MOVES_SCALE && tree_member(node, "matrix"))
         check_fails(check, target, "moves a node that has a matrix");
-    int targets = morph_targets(check, node);
+    int targets = morph_targets(node);
     if (moved.path == MOVES_WEIGHTS && !targets)
         check_warns(check, target, "moves morph weights of a node without morph targets");
     check_output(check, channel, sampler, moved.path,
@@ -161,11 +156,9 @@ static void check_targets(const DocumentCheck *check, const GltfValue *channels)
 
 void check_animation(const DocumentCheck *check, const GltfValue *animation)
 {
-    const GltfValue *samplers = tree_member(animation, "samplers");
-    const GltfValue *channels = tree_member(animation, "channels");
-    for (int i = 0; samplers && i < samplers->count; i++)
-        check_sampler(check, &samplers->items[i]);
-    for (int i = 0; channels && i < channels->count; i++)
-        check_channel(check, animation, &channels->items[i]);
-    check_targets(check, channels);
+    for (const GltfValue *s = tree_items(animation, "samplers"); s; s = tree_next(s))
+        check_sampler(check, s);
+    for (const GltfValue *c = tree_items(animation, "channels"); c; c = tree_next(c))
+        check_channel(check, animation, c);
+    check_targets(check, tree_member(animation, "channels"));
 }

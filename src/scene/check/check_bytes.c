@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Rules on buffer views and accessors that tables cannot express: everything lies inside. */
 #include "scene/check/check_bytes.h"
 
-#include <stdio.h>
 #include <string.h>
 
 #include "scene/gltf/accessor.h"
@@ -23,23 +21,28 @@ static void check_stride(const DocumentCheck *check, const GltfValue *view, doub
         check_warns(check, at, "only vertices may have a stride, the target says indices");
 }
 
-void check_buffer_view(const DocumentCheck *check, const GltfValue *view)
+void check_place_in_buffer(const DocumentCheck *check, const GltfValue *view)
 {
-    const GltfValue *buffer =
-        tree_element(check->file->root, "buffers", tree_int(view, "buffer", NO_ID));
+    const GltfValue *buffer = tree_referred(tree_member(view, "buffer"), "buffers");
     double offset = tree_number(view, "byteOffset", 0);
     double length = tree_number(view, "byteLength", 0);
-    double stride = tree_number(view, "byteStride", 4);
     double whole = tree_number(buffer, "byteLength", -1);
     if (buffer && whole >= 0 && offset + length > whole)
         check_fails(check, view, "takes bytes %.15g to %.15g of a buffer of %.15g bytes",
                     offset, offset + length, whole);
+}
+
+void check_buffer_view(const DocumentCheck *check, const GltfValue *view)
+{
+    const GltfValue *buffer = tree_referred(tree_member(view, "buffer"), "buffers");
+    check_place_in_buffer(check, view);
     bool has_chunk = buffer && buffer->index == 0 && check->file->bin.data;
     bool is_packed = tree_extension(view, MESHOPT_EXTENSION) != NULL;
     if (buffer && !tree_member(buffer, "uri") && !has_chunk && !check->file->is_binary &&
         !is_packed)
         check_warns(check, view, "its buffer has no \"uri\", so there are no bytes to read");
-    check_stride(check, view, stride, length);
+    check_stride(check, view, tree_number(view, "byteStride", 4),
+                 tree_number(view, "byteLength", 0));
 }
 
 static int components_of(const char *type)
@@ -92,16 +95,10 @@ static void check_run(const DocumentCheck *check, const ByteRun *run)
                     run->offset, run->align);
 }
 
-static const GltfValue *view_of(const DocumentCheck *check, const GltfValue *object)
-{
-    return tree_element(check->file->root, "bufferViews",
-                        tree_int(object, "bufferView", NO_ID));
-}
-
 /* run: count, extent, stride and align are set. */
 static void check_sparse_part(const DocumentCheck *check, const GltfValue *part, ByteRun run)
 {
-    const GltfValue *view = view_of(check, part);
+    const GltfValue *view = tree_referred(tree_member(part, "bufferView"), "bufferViews");
     if (!view || !run.stride) return;
     if (tree_member(view, "byteStride"))
         check_warns(check, tree_member(part, "bufferView"),
@@ -165,7 +162,7 @@ static bool has_packed_meshes(const DocumentCheck *check)
 
 static void check_in_view(const DocumentCheck *check, const GltfValue *accessor, ByteRun run)
 {
-    const GltfValue *view = view_of(check, accessor);
+    const GltfValue *view = tree_referred(tree_member(accessor, "bufferView"), "bufferViews");
     double count = tree_number(accessor, "count", 1), size = run.stride;
     double stride = tree_number(view, "byteStride", size);
     if (!view && !tree_member(accessor, "bufferView") && !has_packed_meshes(check) &&

@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The bytes behind the accessors: finite, within their bounds, indices that exist. */
 #include "scene/check/check_data.h"
 
-#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -10,7 +8,6 @@
 #include "scene/gltf/accessor.h"
 #include "scene/gltf/animation_target.h"
 #include "scene/gltf/document.h"
-#include "scene/gltf/load_progress.h"
 
 /* ---- numbers --------------------------------------------------------------------------- */
 
@@ -134,7 +131,7 @@ static void check_vertex_indices(GltfFile *file, const GltfValue *primitive)
 static void check_joint_indices(GltfFile *file, const GltfValue *node,
                                 const GltfValue *primitive)
 {
-    const GltfValue *skin = tree_element(file->root, "skins", tree_int(node, "skin", NO_ID));
+    const GltfValue *skin = tree_referred(tree_member(node, "skin"), "skins");
     uint32_t count = (uint32_t)tree_count(skin, "joints");
     for (int n = 0; n < 8 && count; n++) {
         char name[24];
@@ -154,12 +151,10 @@ static void check_joint_indices(GltfFile *file, const GltfValue *node,
 
 static void check_primitives(GltfFile *file)
 {
-    const GltfValue *meshes = tree_member(file->root, "meshes");
-    for (int m = 0; meshes && m < meshes->count; m++) {
-        const GltfValue *list = tree_member(&meshes->items[m], "primitives");
-        for (int p = 0; list && p < list->count; p++) {
+    for (const GltfValue *m = tree_items(file->root, "meshes"); m; m = tree_next(m)) {
+        for (const GltfValue *p = tree_items(m, "primitives"); p; p = tree_next(p)) {
             Arena saved = file->load->scratch;
-            check_vertex_indices(file, &list->items[p]);
+            check_vertex_indices(file, p);
             file->load->scratch = saved;
         }
         load_progress_add(file->load, 1);
@@ -168,15 +163,13 @@ static void check_primitives(GltfFile *file)
 
 static void check_skinned_nodes(GltfFile *file)
 {
-    const GltfValue *nodes = tree_member(file->root, "nodes");
-    for (int i = 0; nodes && i < nodes->count; i++) {
-        const GltfValue *node = &nodes->items[i];
-        const GltfValue *mesh =
-            tree_element(file->root, "meshes", tree_int(node, "mesh", NO_ID));
-        const GltfValue *list = tree_member(mesh, "primitives");
-        for (int p = 0; list && tree_member(node, "skin") && p < list->count; p++) {
+    const GltfValue *node = tree_items(file->root, "nodes");
+    for (; node; node = tree_next(node)) {
+        const GltfValue *mesh = tree_referred(tree_member(node, "mesh"), "meshes");
+        if (!tree_member(node, "skin")) continue;
+        for (const GltfValue *p = tree_items(mesh, "primitives"); p; p = tree_next(p)) {
             Arena saved = file->load->scratch;
-            check_joint_indices(file, node, &list->items[p]);
+            check_joint_indices(file, node, p);
             file->load->scratch = saved;
         }
     }
@@ -207,17 +200,10 @@ static bool is_unit(const float q[4])
     return fabsf(sqrtf(square) - 1) <= 0.00788f;
 }
 
-/* A fault that leaves open where something stands, when animations are played. */
-static void report_played(GltfFile *file, const GltfValue *at, const char *format, ...)
-    __attribute__((format(printf, 3, 4)));
-
-static void report_played(GltfFile *file, const GltfValue *at, const char *format, ...)
+/* Of a fault that leaves open where something stands, when animations are played. */
+static Severity if_played(const GltfFile *file)
 {
-    va_list args;
-    va_start(args, format);
-    bool is_played = file->load->options->state.has_time;
-    file_report(file, is_played ? SEVERITY_ERROR : SEVERITY_WARNING, at, format, args);
-    va_end(args);
+    return file->load->options->state.has_time ? SEVERITY_ERROR : SEVERITY_WARNING;
 }
 
 static void check_turns(GltfFile *file, const GltfValue *animation, const GltfValue *channel)
@@ -234,8 +220,8 @@ static void check_turns(GltfFile *file, const GltfValue *animation, const GltfVa
     const float *q = accessor_floats(file, id);
     for (size_t i = is_cubic; i < accessor->count; i += is_cubic ? 3 : 1)
         if (!is_unit(q + 4 * i)) {
-            report_played(file, channel, "quaternion %zu of the rotation is not of length 1",
-                          i);
+            file_problem(file, if_played(file), channel,
+                         "quaternion %zu of the rotation is not of length 1", i);
             return;
         }
 }
@@ -251,23 +237,22 @@ static void check_times(GltfFile *file, const GltfValue *sampler)
         if (i == 0 && times[0] < 0)
             file_warning(file, sampler, "time 0 is %g, at least 0 is wanted", (double)times[0]);
         if (i == 0 || times[i] > times[i - 1]) continue;
-        report_played(file, sampler, "time %zu is %g after %g; times that rise are wanted", i,
-                      (double)times[i], (double)times[i - 1]);
+        file_problem(file, if_played(file), sampler,
+                     "time %zu is %g after %g; times that rise are wanted", i,
+                     (double)times[i], (double)times[i - 1]);
         return;
     }
 }
 
 static void check_animation_data(GltfFile *file, const GltfValue *animation)
 {
-    const GltfValue *samplers = tree_member(animation, "samplers");
-    const GltfValue *channels = tree_member(animation, "channels");
     Arena saved = file->load->scratch;
-    for (int i = 0; samplers && i < samplers->count; i++) {
-        check_times(file, &samplers->items[i]);
+    for (const GltfValue *s = tree_items(animation, "samplers"); s; s = tree_next(s)) {
+        check_times(file, s);
         file->load->scratch = saved;
     }
-    for (int i = 0; channels && i < channels->count; i++) {
-        check_turns(file, animation, &channels->items[i]);
+    for (const GltfValue *c = tree_items(animation, "channels"); c; c = tree_next(c)) {
+        check_turns(file, animation, c);
         file->load->scratch = saved;
     }
 }
@@ -294,16 +279,15 @@ static void check_instances(GltfFile *file, const GltfValue *node)
 
 static void check_matrices(GltfFile *file)
 {
-    const GltfValue *nodes = tree_member(file->root, "nodes");
-    const GltfValue *skins = tree_member(file->root, "skins");
-    const GltfValue *animations = tree_member(file->root, "animations");
+    const GltfValue *root = file->root;
     Arena saved = file->load->scratch;
-    for (int i = 0; skins && i < skins->count; i++) check_bind_matrices(file, &skins->items[i]);
+    for (const GltfValue *skin = tree_items(root, "skins"); skin; skin = tree_next(skin))
+        check_bind_matrices(file, skin);
     file->load->scratch = saved;
-    for (int a = 0; animations && a < animations->count; a++)
-        check_animation_data(file, &animations->items[a]);
-    for (int i = 0; nodes && i < nodes->count; i++) {
-        check_instances(file, &nodes->items[i]);
+    for (const GltfValue *a = tree_items(root, "animations"); a; a = tree_next(a))
+        check_animation_data(file, a);
+    for (const GltfValue *node = tree_items(root, "nodes"); node; node = tree_next(node)) {
+        check_instances(file, node);
         file->load->scratch = saved;
     }
 }

@@ -1,5 +1,4 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Rules on the document's small objects that tables cannot express. */
 #include "scene/check/check_document.h"
 
 #include <stdio.h>
@@ -90,9 +89,9 @@ void check_variant_names(const DocumentCheck *check, const GltfValue *extension)
 static bool is_mapped_before(const GltfValue *mappings, int mapping, double variant)
 {
     for (int m = 0; m < mapping; m++) {
-        const GltfValue *list = tree_member(&mappings->items[m], "variants");
-        for (int i = 0; list && i < list->count; i++)
-            if (list->items[i].number == variant) return true;
+        const GltfValue *named = tree_items(&mappings->items[m], "variants");
+        for (; named; named = tree_next(named))
+            if (named->number == variant) return true;
     }
     return false;
 }
@@ -101,11 +100,10 @@ void check_variants(const DocumentCheck *check, const GltfValue *extension)
 {
     const GltfValue *mappings = tree_member(extension, "mappings");
     for (int m = 1; m < tree_count(extension, "mappings"); m++) {
-        const GltfValue *list = tree_member(tree_item(mappings, m), "variants");
-        for (int i = 0; list && i < list->count; i++)
-            if (is_mapped_before(mappings, m, list->items[i].number))
-                check_warns(check, &list->items[i], "variant %g stands in two mappings",
-                            list->items[i].number);
+        const GltfValue *named = tree_items(tree_item(mappings, m), "variants");
+        for (; named; named = tree_next(named))
+            if (is_mapped_before(mappings, m, named->number))
+                check_warns(check, named, "variant %g stands in two mappings", named->number);
     }
 }
 
@@ -131,9 +129,7 @@ static void check_source(const DocumentCheck *check, const GltfValue *object, co
     if ((uri != NULL) == (view != NULL))
         check_fails(check, object, "has %s; either \"uri\" or \"bufferView\" is wanted",
                     uri ? "both" : "neither");
-    const GltfValue *target =
-        tree_element(check->file->root, "bufferViews", tree_int(object, "bufferView", NO_ID));
-    if (tree_member(target, "byteStride"))
+    if (tree_member(tree_referred(view, "bufferViews"), "byteStride"))
         check_warns(check, view, "the buffer view of %s has a byteStride", what);
 }
 

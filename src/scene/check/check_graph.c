@@ -1,5 +1,4 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Rules on nodes, scenes and skins that tables cannot express. */
 #include "scene/check/check_graph.h"
 
 #include <string.h>
@@ -9,11 +8,6 @@
 #define BYTE_ROUNDING 0.00788f
 #define QUATERNION_ALLOWED 2e-4f
 #define SKEW_ALLOWED 1e-4 /* cosine: matrices are written with few digits */
-
-static const GltfValue *mesh_of(const DocumentCheck *check, const GltfValue *node)
-{
-    return tree_element(check->file->root, "meshes", tree_int(node, "mesh", NO_ID));
-}
 
 static const GltfValue *first_primitive(const GltfValue *mesh)
 {
@@ -86,16 +80,16 @@ static void check_weights(const DocumentCheck *check, const GltfValue *owner,
 /* How many of a mesh's primitives name joints. */
 static int bent_primitives(const GltfValue *mesh)
 {
-    const GltfValue *list = tree_member(mesh, "primitives");
     int count = 0;
-    for (int i = 0; i < tree_count(mesh, "primitives"); i++)
-        count += tree_member(tree_member(tree_item(list, i), "attributes"), "JOINTS_0") != NULL;
+    for (const GltfValue *p = tree_items(mesh, "primitives"); p; p = tree_next(p))
+        count += tree_member(tree_member(p, "attributes"), "JOINTS_0") != NULL;
     return count;
 }
 
 void check_node(const DocumentCheck *check, const GltfValue *node)
 {
-    const GltfValue *mesh = mesh_of(check, node), *skin = tree_member(node, "skin");
+    const GltfValue *mesh = tree_referred(tree_member(node, "mesh"), "meshes");
+    const GltfValue *skin = tree_member(node, "skin");
     if (tree_member(node, "matrix")) check_matrix(check, node);
     check_rotation(check, node);
     if (!mesh) return;
@@ -120,8 +114,7 @@ static const InstanceAttribute INSTANCE_ATTRIBUTES[] = {
 static void check_instance_format(const DocumentCheck *check, const GltfValue *at,
                                   const InstanceAttribute *wanted)
 {
-    const GltfValue *accessor =
-        tree_element(check->file->root, "accessors", tree_whole(at, NO_ID));
+    const GltfValue *accessor = tree_referred(at, "accessors");
     const char *type = tree_text(accessor, "type", "");
     int code = tree_int(accessor, "componentType", 0);
     bool is_integer = (code == 5120 || code == 5122) && wanted->may_be_integer &&
@@ -140,9 +133,7 @@ void check_instancing(const DocumentCheck *check, const GltfValue *extension)
         check_fails(check, extension, "the node has a skin, which stands where its joints do");
     for (int i = 0; i < tree_count(extension, "attributes"); i++) {
         const GltfValue *at = &attributes->items[i];
-        const GltfValue *accessor =
-            tree_element(check->file->root, "accessors", tree_whole(at, NO_ID));
-        double own = tree_number(accessor, "count", count);
+        double own = tree_number(tree_referred(at, "accessors"), "count", count);
         if (count >= 0 && own != count)
             check_fails(check, at, "%.60s has %.0f elements, others have %.0f", at->key, own,
                         count);
@@ -172,8 +163,7 @@ void check_mesh(const DocumentCheck *check, const GltfValue *mesh)
 void check_skin(const DocumentCheck *check, const GltfValue *skin)
 {
     const GltfValue *value = tree_member(skin, "inverseBindMatrices");
-    const GltfValue *accessor = tree_element(check->file->root, "accessors",
-                                             tree_int(skin, "inverseBindMatrices", NO_ID));
+    const GltfValue *accessor = tree_referred(value, "accessors");
     int joints = tree_count(skin, "joints");
     if (!joints && tree_member(skin, "joints")) check_fails(check, skin, "has no joints");
     if (!accessor) return;
@@ -184,8 +174,7 @@ void check_skin(const DocumentCheck *check, const GltfValue *skin)
     if (tree_number(accessor, "count", 0) < joints)
         check_fails(check, value, "has %g matrices for %d joints",
                     tree_number(accessor, "count", 0), joints);
-    const GltfValue *view =
-        tree_element(check->file->root, "bufferViews", tree_int(accessor, "bufferView", NO_ID));
+    const GltfValue *view = tree_referred(tree_member(accessor, "bufferView"), "bufferViews");
     if (tree_member(view, "byteStride"))
         check_warns(check, value, "the buffer view of inverse bind matrices has a byteStride");
 }
@@ -202,12 +191,12 @@ static void find_parents(const DocumentCheck *check, const GltfValue *nodes, int
 {
     for (int i = 0; i < nodes->count; i++) parent[i] = NO_ID;
     for (int i = 0; i < nodes->count; i++) {
-        const GltfValue *children = tree_member(&nodes->items[i], "children");
-        for (int c = 0; children && c < children->count; c++) {
-            int child = index_of(&children->items[c], nodes->count);
+        const GltfValue *c = tree_items(&nodes->items[i], "children");
+        for (; c; c = tree_next(c)) {
+            int child = index_of(c, nodes->count);
             if (child == NO_ID) continue;
             if (parent[child] != NO_ID && parent[child] != i)
-                check_fails(check, &children->items[c],
+                check_fails(check, c,
                             "node %d has two parents, nodes %d and %d", child, parent[child],
                             i);
             parent[child] = i;
@@ -233,18 +222,13 @@ static void find_cycles(const DocumentCheck *check, const GltfValue *nodes, cons
 static void check_roots(const DocumentCheck *check, const GltfValue *root, const int *parent,
                         int count)
 {
-    const GltfValue *scenes = tree_member(root, "scenes");
-    for (int s = 0; scenes && s < scenes->count; s++) {
-        const GltfValue *list = tree_member(&scenes->items[s], "nodes");
-        for (int i = 0; list && i < list->count; i++) {
-            int node = index_of(&list->items[i], count);
+    for (const GltfValue *s = tree_items(root, "scenes"); s; s = tree_next(s))
+        for (const GltfValue *n = tree_items(s, "nodes"); n; n = tree_next(n)) {
+            int node = index_of(n, count);
             if (node != NO_ID && parent[node] != NO_ID)
-                check_fails(check, &list->items[i],
-                            "node %d is a child of node %d, a scene lists "
-                            "roots only",
+                check_fails(check, n, "node %d is a child of node %d, a scene lists roots only",
                             node, parent[node]);
         }
-    }
 }
 
 static int root_of(const int *parent, int node, int count)
@@ -258,18 +242,16 @@ static void check_joints(const DocumentCheck *check, const GltfValue *root, cons
 {
     const GltfValue *nodes = tree_member(root, "nodes"), *scenes = tree_member(root, "scenes");
     for (int i = 0; scenes && i < nodes->count; i++) {
-        const GltfValue *skin =
-            tree_element(root, "skins", tree_int(&nodes->items[i], "skin", -1));
+        const GltfValue *skin = tree_referred(tree_member(&nodes->items[i], "skin"), "skins");
         int joint = index_of(tree_item(tree_member(skin, "joints"), 0), nodes->count);
         if (joint == NO_ID) continue;
         int own = root_of(parent, i, nodes->count), far = root_of(parent, joint, nodes->count);
         bool is_shown = false, is_complete = false;
-        for (int s = 0; s < scenes->count; s++) {
-            const GltfValue *list = tree_member(&scenes->items[s], "nodes");
+        for (const GltfValue *s = tree_items(root, "scenes"); s; s = tree_next(s)) {
             bool has_own = false, has_far = false;
-            for (int k = 0; list && k < list->count; k++) {
-                has_own |= index_of(&list->items[k], nodes->count) == own;
-                has_far |= index_of(&list->items[k], nodes->count) == far;
+            for (const GltfValue *n = tree_items(s, "nodes"); n; n = tree_next(n)) {
+                has_own |= index_of(n, nodes->count) == own;
+                has_far |= index_of(n, nodes->count) == far;
             }
             is_shown |= has_own;
             is_complete |= has_own && has_far;

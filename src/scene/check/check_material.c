@@ -1,13 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Rules on materials and textures that tables cannot express. */
 #include "scene/check/check_material.h"
 
 #include <stdio.h>
 #include <string.h>
 
-#include "scene/check/check_coating.h"
-#include "scene/check/check_index.h"
-#include "scene/check/check_solid.h"
+#include "scene/check/check_optics.h"
 #include "scene/gltf/extras.h"
 #include "scene/gltf/variant.h"
 
@@ -16,8 +13,7 @@
 static void check_source(const DocumentCheck *check, const GltfValue *holder, const char *types)
 {
     const GltfValue *source = tree_member(holder, "source");
-    const GltfValue *image =
-        tree_element(check->file->root, "images", tree_int(holder, "source", NO_ID));
+    const GltfValue *image = tree_referred(source, "images");
     const char *type = tree_text(image, "mimeType", "");
     if (type[0] && !strstr(types, type))
         check_warns(check, source, "names a picture of the type %.40s, %s is wanted", type,

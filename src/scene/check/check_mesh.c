@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Rules on primitives that tables cannot express: formats, counts and names of attributes. */
 #include "scene/check/check_mesh.h"
 
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -51,11 +49,6 @@ static const Format *format_of(const char *name)
     return NULL;
 }
 
-static const GltfValue *accessor_of(const DocumentCheck *check, const GltfValue *reference)
-{
-    return tree_element(check->file->root, "accessors", tree_whole(reference, NO_ID));
-}
-
 static bool is_type(const char *types, const char *type)
 {
     return strcmp(types, type) == 0 ||
@@ -67,7 +60,7 @@ static bool is_type(const char *types, const char *type)
 static void check_format(const DocumentCheck *check, const GltfValue *attribute, bool is_target)
 {
     const Format *format = format_of(attribute->key);
-    const GltfValue *accessor = accessor_of(check, attribute);
+    const GltfValue *accessor = tree_referred(attribute, "accessors");
     if (!accessor) return;
     int code = tree_int(accessor, "componentType", 0);
     unsigned bit = code >= 5120 && code <= 5126 ? 1u << (code - 5120) : 0;
@@ -95,10 +88,9 @@ static void check_format(const DocumentCheck *check, const GltfValue *attribute,
                     attribute->key);
 }
 
-static const GltfValue *view_of(const DocumentCheck *check, const GltfValue *reference)
+static const GltfValue *view_of(const GltfValue *accessor)
 {
-    return tree_element(check->file->root, "bufferViews",
-                        tree_int(accessor_of(check, reference), "bufferView", NO_ID));
+    return tree_referred(tree_member(accessor, "bufferView"), "bufferViews");
 }
 
 /* Bytes of one tight element; 0 of a type that is not known. */
@@ -115,8 +107,8 @@ static double tight_size(const GltfValue *accessor)
 /* glTF 2.0, 3.6.2.4: each vertex begins at a multiple of four bytes. Here it need not. */
 static void check_alignment(const DocumentCheck *check, const GltfValue *attribute)
 {
-    const GltfValue *accessor = accessor_of(check, attribute);
-    const GltfValue *view = view_of(check, attribute);
+    const GltfValue *accessor = tree_referred(attribute, "accessors");
+    const GltfValue *view = view_of(accessor);
     double start = tree_number(accessor, "byteOffset", 0);
     double stride = tree_number(view, "byteStride", tight_size(accessor));
     if (!view) return;
@@ -130,14 +122,14 @@ static void check_alignment(const DocumentCheck *check, const GltfValue *attribu
 
 static void check_position_bounds(const DocumentCheck *check, const GltfValue *position)
 {
-    const GltfValue *accessor = accessor_of(check, position);
+    const GltfValue *accessor = tree_referred(position, "accessors");
     if (accessor && (!tree_member(accessor, "min") || !tree_member(accessor, "max")))
         check_warns(check, position, "the accessor of POSITION has no min and max");
 }
 
 static void check_count(const DocumentCheck *check, const GltfValue *attribute, double wanted)
 {
-    double count = tree_number(accessor_of(check, attribute), "count", wanted);
+    double count = tree_number(tree_referred(attribute, "accessors"), "count", wanted);
     if (wanted >= 0 && count != wanted)
         check_fails(check, attribute, "%s has %.0f elements, POSITION has %.0f", attribute->key,
                     count, wanted);
@@ -166,7 +158,7 @@ static void check_numbering(const DocumentCheck *check, const GltfValue *attribu
 
 static void check_indices(const DocumentCheck *check, const GltfValue *indices)
 {
-    const GltfValue *accessor = accessor_of(check, indices);
+    const GltfValue *accessor = tree_referred(indices, "accessors");
     int code = tree_int(accessor, "componentType", 0);
     bool is_unsigned = code == 5121 || code == 5123 || code == 5125;
     if (!accessor) return;
@@ -177,7 +169,7 @@ static void check_indices(const DocumentCheck *check, const GltfValue *indices)
                     tree_text(accessor, "type", "?"), code);
     else if (tree_boolean(accessor, "normalized", false))
         check_fails(check, indices, "are normalised, which indices cannot be");
-    if (tree_member(view_of(check, indices), "byteStride"))
+    if (tree_member(view_of(accessor), "byteStride"))
         check_warns(check, indices, "the buffer view of indices has a byteStride");
 }
 
@@ -189,7 +181,7 @@ static bool is_of_joints(const char *name)
 static void check_displacement(const DocumentCheck *check, const GltfValue *attribute,
                                const GltfValue *base, double count)
 {
-    if (!accessor_of(check, attribute))
+    if (!tree_referred(attribute, "accessors"))
         check_fails(check, attribute, "an index into accessors is wanted");
     if (!tree_member(base, attribute->key))
         check_warns(check, attribute, "%s displaces what the primitive does not have",
@@ -227,8 +219,8 @@ static void check_mode(const DocumentCheck *check, const GltfValue *primitive, d
 {
     static const int LEAST[] = {1, 2, 2, 2, 3, 3, 3};
     int mode = tree_int(primitive, "mode", 4);
-    double count =
-        tree_number(accessor_of(check, tree_member(primitive, "indices")), "count", vertices);
+    const GltfValue *accessor = tree_referred(tree_member(primitive, "indices"), "accessors");
+    double count = tree_number(accessor, "count", vertices);
     if (mode < 0 || mode > 6 || count < 0) return;
     bool is_odd = (mode == 4 && fmod(count, 3) != 0) || (mode == 1 && fmod(count, 2) != 0);
     if (count < LEAST[mode] || is_odd)
@@ -247,7 +239,7 @@ void check_primitive(const DocumentCheck *check, const GltfValue *primitive)
         return;
     }
     const GltfValue *position = tree_member(attributes, "POSITION");
-    double count = tree_number(accessor_of(check, position), "count", -1);
+    double count = tree_number(tree_referred(position, "accessors"), "count", -1);
     if (!position) check_warns(check, attributes, "has no POSITION: the primitive is skipped");
     for (int i = 0; i < attributes->count; i++) {
         check_format(check, &attributes->items[i], false);

@@ -78,14 +78,11 @@ static void use_all(Usage *usage, const GltfValue *map)
 
 static void use_mesh(Usage *usage, const GltfValue *mesh)
 {
-    const GltfValue *list = tree_member(mesh, "primitives");
-    for (int p = 0; p < tree_count(mesh, "primitives"); p++) {
-        const GltfValue *primitive = tree_item(list, p);
-        const GltfValue *targets = tree_member(primitive, "targets");
-        use_accessor(usage, tree_member(primitive, "indices"), INDICES);
-        use_all(usage, tree_member(primitive, "attributes"));
-        for (int t = 0; t < tree_count(primitive, "targets"); t++)
-            use_all(usage, tree_item(targets, t));
+    for (const GltfValue *p = tree_items(mesh, "primitives"); p; p = tree_next(p)) {
+        use_accessor(usage, tree_member(p, "indices"), INDICES);
+        use_all(usage, tree_member(p, "attributes"));
+        for (const GltfValue *t = tree_items(p, "targets"); t; t = tree_next(t))
+            use_all(usage, t);
     }
 }
 
@@ -96,37 +93,35 @@ static void use_skin(Usage *usage, const GltfValue *skin)
 
 static void use_animation(Usage *usage, const GltfValue *animation)
 {
-    const GltfValue *samplers = tree_member(animation, "samplers");
-    for (int i = 0; i < tree_count(animation, "samplers"); i++) {
-        use_accessor(usage, tree_member(tree_item(samplers, i), "input"), TIMES);
-        use_accessor(usage, tree_member(tree_item(samplers, i), "output"), VALUES);
+    for (const GltfValue *s = tree_items(animation, "samplers"); s; s = tree_next(s)) {
+        use_accessor(usage, tree_member(s, "input"), TIMES);
+        use_accessor(usage, tree_member(s, "output"), VALUES);
     }
+}
+
+static void use_view_of(Usage *usage, const GltfValue *object, const char *use)
+{
+    const GltfValue *view = tree_member(object, "bufferView");
+    if (view) use_view(usage, view, tree_whole(view, NO_ID), use);
 }
 
 static void use_image(Usage *usage, const GltfValue *image)
 {
-    const GltfValue *view = tree_member(image, "bufferView");
-    if (view) use_view(usage, view, tree_int(image, "bufferView", NO_ID), PICTURE);
+    use_view_of(usage, image, PICTURE);
 }
 
 static void use_profiles(Usage *usage, const GltfValue *root)
 {
     const GltfValue *extension = tree_extension(root, "EXT_lights_ies");
-    for (int i = 0; i < tree_count(extension, "lights"); i++) {
-        const GltfValue *profile = tree_item(tree_member(extension, "lights"), i);
-        const GltfValue *view = tree_member(profile, "bufferView");
-        if (view) use_view(usage, view, tree_int(profile, "bufferView", NO_ID), PROFILE);
-    }
+    for (const GltfValue *p = tree_items(extension, "lights"); p; p = tree_next(p))
+        use_view_of(usage, p, PROFILE);
 }
 
 static void use_sparse(Usage *usage, const GltfValue *accessor)
 {
     static const char *const PARTS[] = {"indices", "values"};
     const GltfValue *sparse = tree_member(accessor, "sparse");
-    for (int i = 0; i < 2; i++) {
-        const GltfValue *view = tree_member(tree_member(sparse, PARTS[i]), "bufferView");
-        if (view) use_view(usage, view, tree_int(view->parent, "bufferView", NO_ID), SPARSE);
-    }
+    for (int i = 0; i < 2; i++) use_view_of(usage, tree_member(sparse, PARTS[i]), SPARSE);
 }
 
 static void use_each(Usage *usage, const GltfValue *root, const char *collection,

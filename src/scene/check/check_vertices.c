@@ -1,5 +1,4 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The numbers at vertices: unit vectors, colours, weights. */
 #include "scene/check/check_vertices.h"
 
 #include <stdio.h>
@@ -7,7 +6,6 @@
 
 #include "scene/gltf/accessor.h"
 #include "scene/gltf/document.h"
-#include "scene/gltf/load_progress.h"
 
 /* A unit vector of three numbers rounded to signed bytes is off by at most sqrt(3) * 0.5/127 in
  * length. */
@@ -155,8 +153,8 @@ static void check_weights(GltfFile *file, const Bending *bending)
 static void check_primitive(GltfFile *file, const GltfValue *primitive, bool *is_seen)
 {
     const GltfValue *attributes = tree_member(primitive, "attributes");
-    for (int i = 0; i < tree_count(primitive, "attributes"); i++)
-        check_attribute(file, &attributes->items[i], is_seen);
+    for (const GltfValue *a = tree_items(primitive, "attributes"); a; a = tree_next(a))
+        check_attribute(file, a, is_seen);
     const GltfValue *weights = tree_member(attributes, "WEIGHTS_0");
     if (!weights || is_seen[(int)weights->number]) return;
     is_seen[(int)weights->number] = true;
@@ -168,12 +166,10 @@ static void check_primitive(GltfFile *file, const GltfValue *primitive, bool *is
 
 void check_vertices(GltfFile *file)
 {
-    const GltfValue *meshes = tree_member(file->root, "meshes");
     bool *is_seen = ARENA_NEW(&file->load->scratch, bool, file->data.accessor_count);
-    for (int m = 0; m < tree_count(file->root, "meshes"); m++) {
-        const GltfValue *list = tree_member(&meshes->items[m], "primitives");
-        for (int p = 0; p < tree_count(&meshes->items[m], "primitives"); p++)
-            check_primitive(file, &list->items[p], is_seen);
+    for (const GltfValue *m = tree_items(file->root, "meshes"); m; m = tree_next(m)) {
+        for (const GltfValue *p = tree_items(m, "primitives"); p; p = tree_next(p))
+            check_primitive(file, p, is_seen);
         load_progress_add(file->load, 1);
     }
 }

@@ -31,18 +31,17 @@ enum {
     RULE_ABOVE_MIN = 2, /* min itself is not allowed */
     RULE_MAY_BE_EMPTY = 4,
     RULE_WARNS = 8,      /* this member and what is below it only warn */
-    RULE_HAS_RANGE = 16, /* min and max hold; otherwise any number will do */
-    RULE_FROM_MIN = 32,  /* min holds, there is no max */
-    RULE_CLOSED = 64,    /* no extension adds words to this list */
-    RULE_WARNS_AT_REST = 128, /* RULE_WARNS, unless animations are played (--time) */
-    RULE_ANY_SIZE = 256 /* beyond floats, too: other numbers are held to them */
+    RULE_FROM_MIN = 16,  /* min holds, there is no max */
+    RULE_CLOSED = 32,    /* no extension adds words to this list */
+    RULE_WARNS_AT_REST = 64, /* RULE_WARNS, unless animations are played (--time) */
+    RULE_ANY_SIZE = 128 /* beyond floats, too: other numbers are held to them */
 };
 
 typedef struct Rule {
     const char *name;
     RuleKind kind;
     unsigned flags;
-    double min, max;
+    double min, max; /* both 0, and not RULE_FROM_MIN: any number will do */
     int least, most; /* items of an array; most 0: as many as there are */
     const char *of;
     const struct Schema *schema;
@@ -51,12 +50,16 @@ typedef struct Rule {
 
 typedef struct Schema {
     const char *name; /* "node": extensions and messages refer to it */
-    const Rule *rules;
-    int rule_count;
     bool is_ours; /* PARHELION_*: an unknown member is an error, not a warning */
     /* NULL: the table suffices. */
     void (*more)(const DocumentCheck *check, const GltfValue *value);
+    const Rule *rules; /* RULES(...): up to one without a name */
 } Schema;
+
+#define NO_RULES (const Rule[]){{.name = NULL}}
+#define RULES(...) (const Rule[]){__VA_ARGS__, {.name = NULL}}
+
+#define RULE_MOST_BYTES 9007199254740992.0 /* 2^53: what a double counts exactly */
 
 /* An extension on one kind of object. */
 typedef struct ExtensionRule {

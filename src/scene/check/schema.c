@@ -4,7 +4,6 @@
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "scene/check/schema_extensions.h"
@@ -37,9 +36,9 @@ static void fails_as(const DocumentCheck *check, const GltfValue *value, const c
 
 /* ---- single values --------------------------------------------------------------------- */
 
-static bool has_range(const Rule *rule)
+static bool has_max(const Rule *rule)
 {
-    return rule->flags & (RULE_HAS_RANGE | RULE_FROM_MIN);
+    return rule->max > rule->min;
 }
 
 /* A scene's numbers are kept as floats. */
@@ -51,10 +50,10 @@ static bool is_too_large(const Rule *rule, double number)
 static bool in_range(const Rule *rule, double number)
 {
     if (is_too_large(rule, number)) return false;
-    if (!has_range(rule)) return true;
+    if (!has_max(rule) && !(rule->flags & RULE_FROM_MIN)) return true;
     if (rule->flags & RULE_ABOVE_MIN ? !(number > rule->min) : !(number >= rule->min))
         return false;
-    return rule->flags & RULE_FROM_MIN || number <= rule->max;
+    return !has_max(rule) || number <= rule->max;
 }
 
 static void check_number(const DocumentCheck *check, const GltfValue *value, const Rule *rule)
@@ -64,13 +63,13 @@ static void check_number(const DocumentCheck *check, const GltfValue *value, con
     const char *noun = is_integer ? "an integer" : "a number";
     char wanted[128];
     if (is_kind && in_range(rule, value->number)) return;
-    if (is_kind && is_too_large(rule, value->number) && !(rule->flags & RULE_HAS_RANGE))
+    if (is_kind && is_too_large(rule, value->number) && !has_max(rule))
         snprintf(wanted, sizeof wanted, "%s within 3.4e38, as far as floats go,", noun);
-    else if (!has_range(rule))
-        snprintf(wanted, sizeof wanted, "%s", noun);
     else if (rule->flags & RULE_FROM_MIN)
         snprintf(wanted, sizeof wanted, "%s %s %.16g", noun,
                  rule->flags & RULE_ABOVE_MIN ? "above" : "of at least", rule->min);
+    else if (!has_max(rule))
+        snprintf(wanted, sizeof wanted, "%s", noun);
     else
         snprintf(wanted, sizeof wanted, "%s %s %.16g %s %.16g", noun,
                  rule->flags & RULE_ABOVE_MIN ? "above" : "from", rule->min,
@@ -233,15 +232,16 @@ static void check_value(const DocumentCheck *check, const GltfValue *value, cons
 static const char *nearest_name(const Schema *schema, const char *name)
 {
     const char *names[MEMBERS_MAX];
-    int count = schema->rule_count < MEMBERS_MAX ? schema->rule_count : MEMBERS_MAX;
-    for (int i = 0; i < count; i++) names[i] = schema->rules[i].name;
+    int count = 0;
+    for (const Rule *rule = schema->rules; rule->name && count < MEMBERS_MAX; rule++)
+        names[count++] = rule->name;
     return nearest_word_within(name, names, count, 3);
 }
 
 static const Rule *find_rule(const Schema *schema, const char *name)
 {
-    for (int i = 0; i < schema->rule_count; i++)
-        if (strcmp(schema->rules[i].name, name) == 0) return &schema->rules[i];
+    for (const Rule *rule = schema->rules; rule->name; rule++)
+        if (strcmp(rule->name, name) == 0) return rule;
     return NULL;
 }
 
@@ -326,11 +326,9 @@ void schema_check(const DocumentCheck *check, const GltfValue *value, const Sche
         fails_as(check, value, "an object");
         return;
     }
-    for (int i = 0; i < schema->rule_count; i++) {
-        const Rule *rule = &schema->rules[i];
+    for (const Rule *rule = schema->rules; rule->name; rule++)
         if (rule->flags & RULE_REQUIRED && !tree_member(value, rule->name))
             check_fails(check, value, "\"%s\" is missing", rule->name);
-    }
     for (int i = 0; i < value->count; i++) {
         const GltfValue *member = &value->items[i];
         const Rule *rule = find_rule(schema, member->key);

@@ -1,129 +1,84 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The extensions: where each may stand, what it holds, and which are honoured. */
 #include "scene/check/schema_extensions.h"
 
 #include <string.h>
 
 #include "base/count.h"
-#include "scene/check/check_coating.h"
+#include "scene/check/check_bytes.h"
 #include "scene/check/check_document.h"
 #include "scene/check/check_graph.h"
 #include "scene/check/check_material.h"
-#include "scene/check/check_packed.h"
+#include "scene/check/check_optics.h"
 #include "scene/check/schema_core.h"
 #include "scene/gltf/document.h"
 
 /* ---- lights ---------------------------------------------------------------------------- */
 
-static const Rule SPOT[] = {
-    {.name = "innerConeAngle", .kind = RULE_NUMBER, .flags = RULE_HAS_RANGE,
-     .max = 1.5707963267948966},
-    {.name = "outerConeAngle", .kind = RULE_NUMBER, .flags = RULE_HAS_RANGE | RULE_ABOVE_MIN,
-     .max = 1.5707963267948968},
-};
-static const Schema SCHEMA_SPOT = {"light.spot", SPOT, COUNT_OF(SPOT), false, NULL};
+static const Schema SCHEMA_SPOT = {"light.spot", false, NULL, RULES(
+    {"innerConeAngle", RULE_NUMBER, .max = 1.5707963267948966},
+    {"outerConeAngle", RULE_NUMBER, .flags = RULE_ABOVE_MIN, .max = 1.5707963267948968})};
 
-static const Rule LIGHT[] = {
-    {.name = "color", .kind = RULE_NUMBERS, .flags = RULE_HAS_RANGE, .max = 1, .least = 3,
-     .most = 3},
-    {.name = "intensity", .kind = RULE_NUMBER, .flags = RULE_FROM_MIN},
-    {.name = "spot", .kind = RULE_OBJECT, .schema = &SCHEMA_SPOT},
-    {.name = "type", .kind = RULE_TEXT, .flags = RULE_REQUIRED},
-    {.name = "range", .kind = RULE_NUMBER, .flags = RULE_FROM_MIN | RULE_ABOVE_MIN},
-};
-static const Schema SCHEMA_LIGHT = {"light", LIGHT, COUNT_OF(LIGHT), false, check_light};
+static const Schema SCHEMA_LIGHT = {"light", false, check_light, RULES(
+    {"color", RULE_NUMBERS, .max = 1, .least = 3, .most = 3},
+    {"intensity", RULE_NUMBER, .flags = RULE_FROM_MIN},
+    {"spot", RULE_OBJECT, .schema = &SCHEMA_SPOT},
+    {"type", RULE_TEXT, .flags = RULE_REQUIRED},
+    {"range", RULE_NUMBER, .flags = RULE_FROM_MIN | RULE_ABOVE_MIN})};
 
-static const Rule LIGHTS[] = {
-    {.name = "lights", .kind = RULE_OBJECTS, .flags = RULE_REQUIRED, .schema = &SCHEMA_LIGHT}};
-static const Schema SCHEMA_LIGHTS = {"KHR_lights_punctual", LIGHTS, COUNT_OF(LIGHTS), false,
-                                     NULL};
+static const Schema SCHEMA_LIGHTS = {"KHR_lights_punctual", false, NULL, RULES(
+    {"lights", RULE_OBJECTS, .flags = RULE_REQUIRED, .schema = &SCHEMA_LIGHT})};
 
-static const Rule NODE_LIGHT[] = {{.name = "light",
-                                   .kind = RULE_INDEX,
-                                   .flags = RULE_REQUIRED,
-                                   .of = "extensions/KHR_lights_punctual/lights"}};
-static const Schema SCHEMA_NODE_LIGHT = {"KHR_lights_punctual", NODE_LIGHT,
-                                         COUNT_OF(NODE_LIGHT), false, NULL};
+static const Schema SCHEMA_NODE_LIGHT = {"KHR_lights_punctual", false, NULL, RULES(
+    {"light", RULE_INDEX, .flags = RULE_REQUIRED,
+     .of = "extensions/KHR_lights_punctual/lights"})};
 
-static const Rule PROFILE[] = {
-    {.name = "uri", .kind = RULE_TEXT},
-    {.name = "mimeType", .kind = RULE_CHOICE, .of = "application/x-ies-lm-63"},
-    {.name = "bufferView", .kind = RULE_INDEX, .of = "bufferViews", .needs = "mimeType"},
-};
-static const Schema SCHEMA_PROFILE = {"light profile", PROFILE, COUNT_OF(PROFILE), false,
-                                      check_profile};
+static const Schema SCHEMA_PROFILE = {"light profile", false, check_profile, RULES(
+    {"uri", .kind = RULE_TEXT},
+    {"mimeType", RULE_CHOICE, .of = "application/x-ies-lm-63"},
+    {"bufferView", RULE_INDEX, .of = "bufferViews", .needs = "mimeType"})};
 
-static const Rule PROFILES[] = {{.name = "lights",
-                                 .kind = RULE_OBJECTS,
-                                 .flags = RULE_REQUIRED,
-                                 .schema = &SCHEMA_PROFILE}};
-static const Schema SCHEMA_PROFILES = {"EXT_lights_ies", PROFILES, COUNT_OF(PROFILES), false,
-                                       NULL};
+static const Schema SCHEMA_PROFILES = {"EXT_lights_ies", false, NULL, RULES(
+    {"lights", RULE_OBJECTS, .flags = RULE_REQUIRED, .schema = &SCHEMA_PROFILE})};
 
-static const Rule NODE_PROFILE[] = {
-    {.name = "light", .kind = RULE_INDEX, .flags = RULE_REQUIRED,
-     .of = "extensions/EXT_lights_ies/lights"},
-    {.name = "multiplier", .kind = RULE_NUMBER, .flags = RULE_FROM_MIN},
-    {.name = "color", .kind = RULE_NUMBERS, .flags = RULE_HAS_RANGE, .max = 1, .least = 3,
-     .most = 3},
-};
-static const Schema SCHEMA_NODE_PROFILE = {"EXT_lights_ies", NODE_PROFILE,
-                                           COUNT_OF(NODE_PROFILE), false, NULL};
+static const Schema SCHEMA_NODE_PROFILE = {"EXT_lights_ies", false, NULL, RULES(
+    {"light", RULE_INDEX, .flags = RULE_REQUIRED, .of = "extensions/EXT_lights_ies/lights"},
+    {"multiplier", RULE_NUMBER, .flags = RULE_FROM_MIN},
+    {"color", RULE_NUMBERS, .max = 1, .least = 3, .most = 3})};
 
 /* ---- materials ------------------------------------------------------------------------- */
 
-static const Rule EMISSIVE_STRENGTH[] = {
-    {.name = "emissiveStrength", .kind = RULE_NUMBER, .flags = RULE_FROM_MIN}};
-static const Schema SCHEMA_EMISSIVE_STRENGTH = {"KHR_materials_emissive_strength",
-                                                EMISSIVE_STRENGTH, COUNT_OF(EMISSIVE_STRENGTH),
-                                                false, NULL};
+static const Schema SCHEMA_EMISSIVE_STRENGTH = {
+    "KHR_materials_emissive_strength", false, NULL, RULES(
+    {"emissiveStrength", RULE_NUMBER, .flags = RULE_FROM_MIN})};
 
-static const Schema SCHEMA_UNLIT = {"KHR_materials_unlit", NULL, 0, false, NULL};
+static const Schema SCHEMA_UNLIT = {"KHR_materials_unlit", false, NULL, NO_RULES};
 
-static const Rule SPECULAR[] = {
-    {.name = "specularFactor", .kind = RULE_NUMBER, .flags = RULE_HAS_RANGE, .max = 1},
-    {.name = "specularTexture", .kind = RULE_OBJECT, .schema = &SCHEMA_TEXTURE_INFO},
-    {.name = "specularColorFactor", .kind = RULE_NUMBERS, .flags = RULE_FROM_MIN, .least = 3,
-     .most = 3},
-    {.name = "specularColorTexture", .kind = RULE_OBJECT, .schema = &SCHEMA_TEXTURE_INFO},
-};
-static const Schema SCHEMA_SPECULAR = {"KHR_materials_specular", SPECULAR, COUNT_OF(SPECULAR),
-                                       false, NULL};
+static const Schema SCHEMA_SPECULAR = {"KHR_materials_specular", false, NULL, RULES(
+    {"specularFactor", RULE_NUMBER, .max = 1},
+    {"specularTexture", RULE_OBJECT, .schema = &SCHEMA_TEXTURE_INFO},
+    {"specularColorFactor", RULE_NUMBERS, .flags = RULE_FROM_MIN, .least = 3, .most = 3},
+    {"specularColorTexture", RULE_OBJECT, .schema = &SCHEMA_TEXTURE_INFO})};
 
-static const Rule TRANSMISSION[] = {
-    {.name = "transmissionFactor", .kind = RULE_NUMBER, .flags = RULE_HAS_RANGE, .max = 1},
-    {.name = "transmissionTexture", .kind = RULE_OBJECT, .schema = &SCHEMA_TEXTURE_INFO},
-};
-static const Schema SCHEMA_TRANSMISSION = {"KHR_materials_transmission", TRANSMISSION,
-                                           COUNT_OF(TRANSMISSION), false, NULL};
+static const Schema SCHEMA_TRANSMISSION = {"KHR_materials_transmission", false, NULL, RULES(
+    {"transmissionFactor", RULE_NUMBER, .max = 1},
+    {"transmissionTexture", RULE_OBJECT, .schema = &SCHEMA_TEXTURE_INFO})};
 
-static const Rule CLEARCOAT[] = {
-    {.name = "clearcoatFactor", .kind = RULE_NUMBER, .flags = RULE_HAS_RANGE, .max = 1},
-    {.name = "clearcoatTexture", .kind = RULE_OBJECT, .schema = &SCHEMA_TEXTURE_INFO},
-    {.name = "clearcoatRoughnessFactor", .kind = RULE_NUMBER, .flags = RULE_HAS_RANGE,
-     .max = 1},
-    {.name = "clearcoatRoughnessTexture", .kind = RULE_OBJECT, .schema = &SCHEMA_TEXTURE_INFO},
-    {.name = "clearcoatNormalTexture", .kind = RULE_OBJECT,
-     .schema = &SCHEMA_NORMAL_TEXTURE_INFO},
-};
-static const Schema SCHEMA_CLEARCOAT = {"KHR_materials_clearcoat", CLEARCOAT,
-                                        COUNT_OF(CLEARCOAT), false, NULL};
+static const Schema SCHEMA_CLEARCOAT = {"KHR_materials_clearcoat", false, NULL, RULES(
+    {"clearcoatFactor", RULE_NUMBER, .max = 1},
+    {"clearcoatTexture", RULE_OBJECT, .schema = &SCHEMA_TEXTURE_INFO},
+    {"clearcoatRoughnessFactor", RULE_NUMBER, .max = 1},
+    {"clearcoatRoughnessTexture", RULE_OBJECT, .schema = &SCHEMA_TEXTURE_INFO},
+    {"clearcoatNormalTexture", RULE_OBJECT, .schema = &SCHEMA_NORMAL_TEXTURE_INFO})};
 
-static const Rule VOLUME[] = {
-    {.name = "thicknessFactor", .kind = RULE_NUMBER, .flags = RULE_FROM_MIN},
-    {.name = "thicknessTexture", .kind = RULE_OBJECT, .schema = &SCHEMA_TEXTURE_INFO},
-    {.name = "attenuationDistance", .kind = RULE_NUMBER,
-     .flags = RULE_FROM_MIN | RULE_ABOVE_MIN},
-    {.name = "attenuationColor", .kind = RULE_NUMBERS, .flags = RULE_HAS_RANGE, .max = 1,
-     .least = 3, .most = 3},
-};
-static const Schema SCHEMA_VOLUME = {"KHR_materials_volume", VOLUME, COUNT_OF(VOLUME), false,
-                                     NULL};
+static const Schema SCHEMA_VOLUME = {"KHR_materials_volume", false, NULL, RULES(
+    {"thicknessFactor", RULE_NUMBER, .flags = RULE_FROM_MIN},
+    {"thicknessTexture", RULE_OBJECT, .schema = &SCHEMA_TEXTURE_INFO},
+    {"attenuationDistance", RULE_NUMBER, .flags = RULE_FROM_MIN | RULE_ABOVE_MIN},
+    {"attenuationColor", RULE_NUMBERS, .max = 1, .least = 3, .most = 3})};
 
 /* Reflects all but 4e-5 of the light: a larger one would look like an infinite one. */
 #define IOR_MAX 1e5
 
-static const Rule IOR[] = {{.name = "ior", .kind = RULE_NUMBER, .flags = RULE_FROM_MIN}};
 static void check_ior(const DocumentCheck *check, const GltfValue *extension)
 {
     double ior = tree_number(extension, "ior", 1.5);
@@ -132,109 +87,78 @@ static void check_ior(const DocumentCheck *check, const GltfValue *extension)
                     "is %.9g, 0 (which means infinite) or a number from 1 to %.9g is wanted",
                     ior, IOR_MAX);
 }
-static const Schema SCHEMA_IOR = {"KHR_materials_ior", IOR, COUNT_OF(IOR), false, check_ior};
+static const Schema SCHEMA_IOR = {"KHR_materials_ior", false, check_ior, RULES(
+    {"ior", RULE_NUMBER, .flags = RULE_FROM_MIN})};
 
-static const Rule ANISOTROPY[] = {
-    {.name = "anisotropyStrength", .kind = RULE_NUMBER, .flags = RULE_HAS_RANGE, .max = 1},
-    {.name = "anisotropyRotation", .kind = RULE_NUMBER},
-    {.name = "anisotropyTexture", .kind = RULE_OBJECT, .schema = &SCHEMA_TEXTURE_INFO},
-};
-static const Schema SCHEMA_ANISOTROPY = {"KHR_materials_anisotropy", ANISOTROPY,
-                                         COUNT_OF(ANISOTROPY), false, NULL};
+static const Schema SCHEMA_ANISOTROPY = {"KHR_materials_anisotropy", false, NULL, RULES(
+    {"anisotropyStrength", RULE_NUMBER, .max = 1},
+    {"anisotropyRotation", .kind = RULE_NUMBER},
+    {"anisotropyTexture", RULE_OBJECT, .schema = &SCHEMA_TEXTURE_INFO})};
 
-#define TEXTURE(member)                                                                        \
-    {.name = (member), .kind = RULE_OBJECT, .schema = &SCHEMA_TEXTURE_INFO}
-#define UNIT_NUMBER(member)                                                                    \
-    {.name = (member), .kind = RULE_NUMBER, .flags = RULE_HAS_RANGE, .max = 1}
-#define UNIT_NUMBERS(member, size)                                                             \
-    {.name = (member), .kind = RULE_NUMBERS, .flags = RULE_HAS_RANGE, .max = 1,                \
-     .least = (size), .most = (size)}
+static const Schema SCHEMA_IRIDESCENCE = {"KHR_materials_iridescence", false, NULL, RULES(
+    {"iridescenceFactor", RULE_NUMBER, .max = 1},
+    {"iridescenceTexture", RULE_OBJECT, .schema = &SCHEMA_TEXTURE_INFO},
+    {"iridescenceIor", RULE_NUMBER, .min = 1, .max = IOR_MAX},
+    {"iridescenceThicknessMinimum", RULE_NUMBER, .max = 1e6},
+    {"iridescenceThicknessMaximum", RULE_NUMBER, .max = 1e6},
+    {"iridescenceThicknessTexture", RULE_OBJECT, .schema = &SCHEMA_TEXTURE_INFO})};
 
-static const Rule IRIDESCENCE[] = {
-    UNIT_NUMBER("iridescenceFactor"),
-    TEXTURE("iridescenceTexture"),
-    {.name = "iridescenceIor", .kind = RULE_NUMBER, .flags = RULE_HAS_RANGE, .min = 1,
-     .max = IOR_MAX},
-    {.name = "iridescenceThicknessMinimum", .kind = RULE_NUMBER, .flags = RULE_HAS_RANGE,
-     .max = 1e6},
-    {.name = "iridescenceThicknessMaximum", .kind = RULE_NUMBER, .flags = RULE_HAS_RANGE,
-     .max = 1e6},
-    TEXTURE("iridescenceThicknessTexture"),
-};
-static const Schema SCHEMA_IRIDESCENCE = {"KHR_materials_iridescence", IRIDESCENCE,
-                                          COUNT_OF(IRIDESCENCE), false, NULL};
+static const Schema SCHEMA_SHEEN = {"KHR_materials_sheen", false, NULL, RULES(
+    {"sheenColorFactor", RULE_NUMBERS, .max = 1, .least = 3, .most = 3},
+    {"sheenColorTexture", RULE_OBJECT, .schema = &SCHEMA_TEXTURE_INFO},
+    {"sheenRoughnessFactor", RULE_NUMBER, .max = 1},
+    {"sheenRoughnessTexture", RULE_OBJECT, .schema = &SCHEMA_TEXTURE_INFO})};
 
-static const Rule SHEEN[] = {UNIT_NUMBERS("sheenColorFactor", 3), TEXTURE("sheenColorTexture"),
-                             UNIT_NUMBER("sheenRoughnessFactor"),
-                             TEXTURE("sheenRoughnessTexture")};
-static const Schema SCHEMA_SHEEN = {"KHR_materials_sheen", SHEEN, COUNT_OF(SHEEN), false, NULL};
+static const Schema SCHEMA_DISPERSION = {"KHR_materials_dispersion", false, NULL, RULES(
+    {"dispersion", RULE_NUMBER, .flags = RULE_FROM_MIN})};
 
-static const Rule DISPERSION[] = {
-    {.name = "dispersion", .kind = RULE_NUMBER, .flags = RULE_FROM_MIN}};
-static const Schema SCHEMA_DISPERSION = {"KHR_materials_dispersion", DISPERSION,
-                                         COUNT_OF(DISPERSION), false, NULL};
+static const Schema SCHEMA_DIFFUSE_TRANSMISSION = {
+    "KHR_materials_diffuse_transmission", false, NULL, RULES(
+    {"diffuseTransmissionFactor", RULE_NUMBER, .max = 1},
+    {"diffuseTransmissionTexture", RULE_OBJECT, .schema = &SCHEMA_TEXTURE_INFO},
+    {"diffuseTransmissionColorFactor", RULE_NUMBERS, .max = 1, .least = 3, .most = 3},
+    {"diffuseTransmissionColorTexture", RULE_OBJECT, .schema = &SCHEMA_TEXTURE_INFO})};
 
-static const Rule DIFFUSE_TRANSMISSION[] = {
-    UNIT_NUMBER("diffuseTransmissionFactor"), TEXTURE("diffuseTransmissionTexture"),
-    UNIT_NUMBERS("diffuseTransmissionColorFactor", 3),
-    TEXTURE("diffuseTransmissionColorTexture")};
-static const Schema SCHEMA_DIFFUSE_TRANSMISSION = {"KHR_materials_diffuse_transmission",
-                                                   DIFFUSE_TRANSMISSION,
-                                                   COUNT_OF(DIFFUSE_TRANSMISSION), false, NULL};
-
-static const Rule GLOSSINESS[] = {UNIT_NUMBERS("diffuseFactor", 4), TEXTURE("diffuseTexture"),
-                                  UNIT_NUMBERS("specularFactor", 3),
-                                  UNIT_NUMBER("glossinessFactor"),
-                                  TEXTURE("specularGlossinessTexture")};
-static const Schema SCHEMA_GLOSSINESS = {"KHR_materials_pbrSpecularGlossiness", GLOSSINESS,
-                                         COUNT_OF(GLOSSINESS), false, NULL};
+static const Schema SCHEMA_GLOSSINESS = {
+    "KHR_materials_pbrSpecularGlossiness", false, NULL, RULES(
+    {"diffuseFactor", RULE_NUMBERS, .max = 1, .least = 4, .most = 4},
+    {"diffuseTexture", RULE_OBJECT, .schema = &SCHEMA_TEXTURE_INFO},
+    {"specularFactor", RULE_NUMBERS, .max = 1, .least = 3, .most = 3},
+    {"glossinessFactor", RULE_NUMBER, .max = 1},
+    {"specularGlossinessTexture", RULE_OBJECT, .schema = &SCHEMA_TEXTURE_INFO})};
 
 /* ---- the rest of Khronos' -------------------------------------------------------------- */
 
-static const Rule TEXTURE_TRANSFORM[] = {
-    {.name = "offset", .kind = RULE_NUMBERS, .least = 2, .most = 2},
-    {.name = "rotation", .kind = RULE_NUMBER},
-    {.name = "scale", .kind = RULE_NUMBERS, .least = 2, .most = 2},
-    {.name = "texCoord", .kind = RULE_INTEGER, .flags = RULE_HAS_RANGE, .max = 65535},
-};
-static const Schema SCHEMA_TEXTURE_TRANSFORM = {"KHR_texture_transform", TEXTURE_TRANSFORM,
-                                                COUNT_OF(TEXTURE_TRANSFORM), false, NULL};
+static const Schema SCHEMA_TEXTURE_TRANSFORM = {"KHR_texture_transform", false, NULL, RULES(
+    {"offset", RULE_NUMBERS, .least = 2, .most = 2},
+    {"rotation", .kind = RULE_NUMBER},
+    {"scale", RULE_NUMBERS, .least = 2, .most = 2},
+    {"texCoord", RULE_INTEGER, .max = 65535})};
 
-static const Rule OTHER_SOURCE[] = {{.name = "source", .kind = RULE_INDEX, .of = "images"}};
-static const Schema SCHEMA_WEBP = {"EXT_texture_webp", OTHER_SOURCE, COUNT_OF(OTHER_SOURCE),
-                                   false, NULL};
-static const Schema SCHEMA_BASISU = {"KHR_texture_basisu", OTHER_SOURCE,
-                                     COUNT_OF(OTHER_SOURCE), false, NULL};
+static const Schema SCHEMA_WEBP = {"EXT_texture_webp", false, NULL, RULES(
+    {"source", RULE_INDEX, .of = "images"})};
+static const Schema SCHEMA_BASISU = {"KHR_texture_basisu", false, NULL, RULES(
+    {"source", RULE_INDEX, .of = "images"})};
 
-static const Rule VARIANT[] = {{.name = "name", .kind = RULE_TEXT, .flags = RULE_REQUIRED}};
-static const Schema SCHEMA_VARIANT = {"variant", VARIANT, COUNT_OF(VARIANT), false, NULL};
-static const Rule VARIANTS[] = {{.name = "variants",
-                                 .kind = RULE_OBJECTS,
-                                 .flags = RULE_REQUIRED,
-                                 .schema = &SCHEMA_VARIANT}};
-static const Schema SCHEMA_VARIANTS = {"KHR_materials_variants", VARIANTS, COUNT_OF(VARIANTS),
-                                       false, check_variant_names};
+static const Schema SCHEMA_VARIANT = {"variant", false, NULL, RULES(
+    {"name", RULE_TEXT, .flags = RULE_REQUIRED})};
+static const Schema SCHEMA_VARIANTS = {
+    "KHR_materials_variants", false, check_variant_names, RULES(
+    {"variants", RULE_OBJECTS, .flags = RULE_REQUIRED, .schema = &SCHEMA_VARIANT})};
 
-static const Rule MAPPING[] = {
-    {.name = "variants", .kind = RULE_INDICES, .flags = RULE_REQUIRED,
+static const Schema SCHEMA_MAPPING = {"mapping", false, NULL, RULES(
+    {"variants", RULE_INDICES, .flags = RULE_REQUIRED,
      .of = "extensions/KHR_materials_variants/variants"},
-    {.name = "material", .kind = RULE_INDEX, .flags = RULE_REQUIRED, .of = "materials"},
-};
-static const Schema SCHEMA_MAPPING = {"mapping", MAPPING, COUNT_OF(MAPPING), false, NULL};
-static const Rule MAPPINGS[] = {{.name = "mappings",
-                                 .kind = RULE_OBJECTS,
-                                 .flags = RULE_REQUIRED,
-                                 .schema = &SCHEMA_MAPPING}};
-static const Schema SCHEMA_MAPPINGS = {"KHR_materials_variants", MAPPINGS, COUNT_OF(MAPPINGS),
-                                       false, check_variants};
+    {"material", RULE_INDEX, .flags = RULE_REQUIRED, .of = "materials"})};
+static const Schema SCHEMA_MAPPINGS = {"KHR_materials_variants", false, check_variants, RULES(
+    {"mappings", RULE_OBJECTS, .flags = RULE_REQUIRED, .schema = &SCHEMA_MAPPING})};
 
-static const Rule POINTER[] = {{.name = "pointer", .kind = RULE_TEXT, .flags = RULE_REQUIRED}};
-static const Schema SCHEMA_POINTER = {"KHR_animation_pointer", POINTER, COUNT_OF(POINTER),
-                                      false, check_animation_pointer};
+static const Schema SCHEMA_POINTER = {
+    "KHR_animation_pointer", false, check_animation_pointer, RULES(
+    {"pointer", RULE_TEXT, .flags = RULE_REQUIRED})};
 
-static const Rule VISIBILITY[] = {{.name = "visible", .kind = RULE_BOOLEAN}};
-static const Schema SCHEMA_VISIBILITY = {"KHR_node_visibility", VISIBILITY,
-                                         COUNT_OF(VISIBILITY), false, NULL};
+static const Schema SCHEMA_VISIBILITY = {"KHR_node_visibility", false, NULL, RULES(
+    {"visible", .kind = RULE_BOOLEAN})};
 
 /* ---- ours (formats: files that users write) -------------------------------------------- */
 
@@ -253,135 +177,180 @@ static void check_subpixels(const DocumentCheck *check, const GltfValue *subpixe
     }
 }
 
-static const Rule SUBPIXELS[] = {
-    {.name = "layout", .kind = RULE_CHOICE, .flags = RULE_REQUIRED | RULE_CLOSED,
-     .of = "stripe|pentile|none"},
-    {.name = "fill", .kind = RULE_NUMBER, .flags = RULE_HAS_RANGE, .min = 0.01, .max = 1},
-    {.name = "columns", .kind = RULE_INTEGER, .flags = RULE_HAS_RANGE, .min = 1, .max = 65536},
-    {.name = "rows", .kind = RULE_INTEGER, .flags = RULE_HAS_RANGE, .min = 1, .max = 65536},
-};
-static const Schema SCHEMA_SUBPIXELS = {"subpixels", SUBPIXELS, COUNT_OF(SUBPIXELS), true,
-                                        check_subpixels};
+static const Schema SCHEMA_SUBPIXELS = {"subpixels", true, check_subpixels, RULES(
+    {"layout", RULE_CHOICE, .flags = RULE_REQUIRED | RULE_CLOSED, .of = "stripe|pentile|none"},
+    {"fill", RULE_NUMBER, .min = 0.01, .max = 1},
+    {"columns", RULE_INTEGER, .min = 1, .max = 65536},
+    {"rows", RULE_INTEGER, .min = 1, .max = 65536})};
 
-static const Rule DISPLAY[] = {
-    {.name = "panel", .kind = RULE_TEXT},
-    {.name = "content", .kind = RULE_OBJECT, .schema = &SCHEMA_TEXTURE_INFO},
-    {.name = "level", .kind = RULE_NUMBER, .flags = RULE_FROM_MIN},
-    {.name = "subpixels", .kind = RULE_OBJECT, .schema = &SCHEMA_SUBPIXELS},
-};
-static const Schema SCHEMA_DISPLAY = {"PARHELION_display", DISPLAY, COUNT_OF(DISPLAY), true,
-                                      check_display};
+static const Schema SCHEMA_DISPLAY = {"PARHELION_display", true, check_display, RULES(
+    {"panel", .kind = RULE_TEXT},
+    {"content", RULE_OBJECT, .schema = &SCHEMA_TEXTURE_INFO},
+    {"level", RULE_NUMBER, .flags = RULE_FROM_MIN},
+    {"subpixels", RULE_OBJECT, .schema = &SCHEMA_SUBPIXELS})};
 
-static const Rule SUN[] = {
-    {.name = "azimuth_deg", .kind = RULE_NUMBER, .flags = RULE_REQUIRED | RULE_HAS_RANGE,
-     .min = -360, .max = 360},
-    {.name = "elevation_deg", .kind = RULE_NUMBER, .flags = RULE_REQUIRED | RULE_HAS_RANGE,
-     .min = -90, .max = 90},
-    {.name = "illuminance_lx", .kind = RULE_NUMBER, .flags = RULE_REQUIRED | RULE_HAS_RANGE,
-     .max = SCENE_MOST_LX},
-    {.name = "angular_radius_deg", .kind = RULE_NUMBER,
-     .flags = RULE_HAS_RANGE | RULE_ABOVE_MIN, .max = 45},
-};
-static const Schema SCHEMA_SUN = {"sun", SUN, COUNT_OF(SUN), true, NULL};
+static const Schema SCHEMA_SUN = {"sun", true, NULL, RULES(
+    {"azimuth_deg", RULE_NUMBER, .flags = RULE_REQUIRED, .min = -360, .max = 360},
+    {"elevation_deg", RULE_NUMBER, .flags = RULE_REQUIRED, .min = -90, .max = 90},
+    {"illuminance_lx", RULE_NUMBER, .flags = RULE_REQUIRED, .max = SCENE_MOST_LX},
+    {"angular_radius_deg", RULE_NUMBER, .flags = RULE_ABOVE_MIN, .max = 45})};
 
-static const Rule ENVIRONMENT[] = {
-    {.name = "type", .kind = RULE_CHOICE, .flags = RULE_REQUIRED | RULE_CLOSED,
+static const Schema SCHEMA_ENVIRONMENT = {
+    "PARHELION_environment", true, check_environment, RULES(
+    {"type", RULE_CHOICE, .flags = RULE_REQUIRED | RULE_CLOSED,
      .of = "constant|hdri|cie|perez|sky"},
-    {.name = "heading_deg", .kind = RULE_NUMBER, .flags = RULE_HAS_RANGE, .min = -360,
-     .max = 360},
-    {.name = "forward", .kind = RULE_NUMBERS, .least = 3, .most = 3},
-    {.name = "sun", .kind = RULE_OBJECT, .schema = &SCHEMA_SUN},
-    {.name = "luminance", .kind = RULE_NUMBER, .flags = RULE_HAS_RANGE,
-     .max = SCENE_MOST_CD_M2},
-    {.name = "color", .kind = RULE_NUMBERS, .flags = RULE_FROM_MIN, .least = 3, .most = 3},
-    {.name = "uri", .kind = RULE_TEXT},
-    {.name = "rotation_deg", .kind = RULE_NUMBER, .flags = RULE_HAS_RANGE, .min = -360,
-     .max = 360},
-    {.name = "scale", .kind = RULE_NUMBER, .flags = RULE_HAS_RANGE, .max = SCENE_MOST_CD_M2},
-    {.name = "horizontal_illuminance_lx", .kind = RULE_NUMBER,
-     .flags = RULE_HAS_RANGE | RULE_ABOVE_MIN, .max = SCENE_MOST_LX},
-    {.name = "sky", .kind = RULE_INTEGER, .flags = RULE_HAS_RANGE, .min = 1, .max = 15},
-    {.name = "diffuse_horizontal_lx", .kind = RULE_NUMBER, .flags = RULE_HAS_RANGE,
-     .max = SCENE_MOST_LX},
-    {.name = "direct_normal_w_m2", .kind = RULE_NUMBER, .flags = RULE_HAS_RANGE,
-     .max = SCENE_MOST_W_M2},
-    {.name = "diffuse_horizontal_w_m2", .kind = RULE_NUMBER, .flags = RULE_HAS_RANGE,
-     .max = SCENE_MOST_W_M2},
-    {.name = "when", .kind = RULE_TEXT},
-    {.name = "where", .kind = RULE_NUMBERS, .least = 2, .most = 3},
-    {.name = "turbidity", .kind = RULE_NUMBER, .flags = RULE_HAS_RANGE, .min = 1, .max = 30},
-    {.name = "visibility_km", .kind = RULE_NUMBER, .flags = RULE_FROM_MIN | RULE_ABOVE_MIN},
-    {.name = "ozone_atm_cm", .kind = RULE_NUMBER, .flags = RULE_HAS_RANGE, .max = 2},
-    {.name = "water_cm", .kind = RULE_NUMBER, .flags = RULE_HAS_RANGE, .max = 20},
-    {.name = "albedo", .kind = RULE_NUMBER, .flags = RULE_HAS_RANGE, .max = 1},
-    {.name = "ground", .kind = RULE_CHOICE, .flags = RULE_CLOSED, .of = "land|sea|cloud"},
-    {.name = "cloud_top_m", .kind = RULE_NUMBER, .flags = RULE_FROM_MIN},
-    {.name = "moon", .kind = RULE_BOOLEAN},
-};
-static const Schema SCHEMA_ENVIRONMENT = {"PARHELION_environment", ENVIRONMENT,
-                                          COUNT_OF(ENVIRONMENT), true, check_environment};
+    {"heading_deg", RULE_NUMBER, .min = -360, .max = 360},
+    {"forward", RULE_NUMBERS, .least = 3, .most = 3},
+    {"sun", RULE_OBJECT, .schema = &SCHEMA_SUN},
+    {"luminance", RULE_NUMBER, .max = SCENE_MOST_CD_M2},
+    {"color", RULE_NUMBERS, .flags = RULE_FROM_MIN, .least = 3, .most = 3},
+    {"uri", .kind = RULE_TEXT},
+    {"rotation_deg", RULE_NUMBER, .min = -360, .max = 360},
+    {"scale", RULE_NUMBER, .max = SCENE_MOST_CD_M2},
+    {"horizontal_illuminance_lx", RULE_NUMBER, .flags = RULE_ABOVE_MIN, .max = SCENE_MOST_LX},
+    {"sky", RULE_INTEGER, .min = 1, .max = 15},
+    {"diffuse_horizontal_lx", RULE_NUMBER, .max = SCENE_MOST_LX},
+    {"direct_normal_w_m2", RULE_NUMBER, .max = SCENE_MOST_W_M2},
+    {"diffuse_horizontal_w_m2", RULE_NUMBER, .max = SCENE_MOST_W_M2},
+    {"when", .kind = RULE_TEXT},
+    {"where", RULE_NUMBERS, .least = 2, .most = 3},
+    {"turbidity", RULE_NUMBER, .min = 1, .max = 30},
+    {"visibility_km", RULE_NUMBER, .flags = RULE_FROM_MIN | RULE_ABOVE_MIN},
+    {"ozone_atm_cm", RULE_NUMBER, .max = 2},
+    {"water_cm", RULE_NUMBER, .max = 20},
+    {"albedo", RULE_NUMBER, .max = 1},
+    {"ground", RULE_CHOICE, .flags = RULE_CLOSED, .of = "land|sea|cloud"},
+    {"cloud_top_m", RULE_NUMBER, .flags = RULE_FROM_MIN},
+    {"moon", .kind = RULE_BOOLEAN})};
 
-static const Rule SPECTRUM[] = {{.name = "baseColor", .kind = RULE_TEXT},
-                                {.name = "transmission", .kind = RULE_TEXT},
-                                {.name = "specular", .kind = RULE_TEXT},
-                                {.name = "conductor", .kind = RULE_TEXT},
-                                {.name = "emission", .kind = RULE_TEXT}};
-static const Schema SCHEMA_SPECTRUM = {"PARHELION_spectrum", SPECTRUM, COUNT_OF(SPECTRUM), true,
-                                       NULL};
+static const Schema SCHEMA_SPECTRUM = {"PARHELION_spectrum", true, NULL, RULES(
+    {"baseColor", .kind = RULE_TEXT},
+    {"transmission", .kind = RULE_TEXT},
+    {"specular", .kind = RULE_TEXT},
+    {"conductor", .kind = RULE_TEXT},
+    {"emission", .kind = RULE_TEXT})};
 
-static const Rule THIN_LAYER[] = {
-    {.name = "n", .kind = RULE_ANY, .flags = RULE_REQUIRED},
-    {.name = "k", .kind = RULE_ANY},
-    {.name = "thickness_nm", .kind = RULE_NUMBER, .flags = RULE_REQUIRED | RULE_HAS_RANGE,
-     .max = 1e6},
-};
-static const Schema SCHEMA_THIN_LAYER = {"layer", THIN_LAYER, COUNT_OF(THIN_LAYER), true,
-                                         check_layer};
+static const Schema SCHEMA_THIN_LAYER = {"layer", true, check_layer, RULES(
+    {"n", RULE_ANY, .flags = RULE_REQUIRED},
+    {"k", .kind = RULE_ANY},
+    {"thickness_nm", RULE_NUMBER, .flags = RULE_REQUIRED, .max = 1e6})};
 
-static const Rule COATING[] = {
-    {.name = "layers", .kind = RULE_OBJECTS, .flags = RULE_MAY_BE_EMPTY,
-     .schema = &SCHEMA_THIN_LAYER},
-    {.name = "stack", .kind = RULE_TEXT},
-    {.name = "outside", .kind = RULE_NUMBER, .flags = RULE_HAS_RANGE, .min = 1, .max = 10},
-    {.name = "faces", .kind = RULE_CHOICE, .flags = RULE_CLOSED, .of = "both|front|back"},
-};
-static const Schema SCHEMA_COATING = {"PARHELION_coating", COATING, COUNT_OF(COATING), true,
-                                      check_coating};
+static const Schema SCHEMA_COATING = {"PARHELION_coating", true, check_coating, RULES(
+    {"layers", RULE_OBJECTS, .flags = RULE_MAY_BE_EMPTY, .schema = &SCHEMA_THIN_LAYER},
+    {"stack", .kind = RULE_TEXT},
+    {"outside", RULE_NUMBER, .min = 1, .max = 10},
+    {"faces", RULE_CHOICE, .flags = RULE_CLOSED, .of = "both|front|back"})};
 
-static const Rule LAYER[] = {
-    {.name = "thickness_m", .kind = RULE_NUMBER,
-     .flags = RULE_REQUIRED | RULE_HAS_RANGE | RULE_ABOVE_MIN, .max = 0.1},
-    {.name = "ior", .kind = RULE_NUMBER, .flags = RULE_REQUIRED | RULE_HAS_RANGE, .min = 1,
-     .max = 4},
-    {.name = "transmission", .kind = RULE_ANY},
-    {.name = "wedge_rad", .kind = RULE_NUMBER, .flags = RULE_HAS_RANGE, .max = 0.01},
-    {.name = "wedge_toward", .kind = RULE_CHOICE, .flags = RULE_CLOSED, .of = "+u|-u|+v|-v",
-     .needs = "wedge_rad"},
-};
-static const Schema SCHEMA_LAYER = {"layer", LAYER, COUNT_OF(LAYER), true,
-                                    check_glazing_layer};
+static const Schema SCHEMA_LAYER = {"layer", true, check_glazing_layer, RULES(
+    {"thickness_m", RULE_NUMBER, .flags = RULE_REQUIRED | RULE_ABOVE_MIN, .max = 0.1},
+    {"ior", RULE_NUMBER, .flags = RULE_REQUIRED, .min = 1, .max = 4},
+    {"transmission", .kind = RULE_ANY},
+    {"wedge_rad", RULE_NUMBER, .max = 0.01},
+    {"wedge_toward", RULE_CHOICE, .flags = RULE_CLOSED, .of = "+u|-u|+v|-v",
+     .needs = "wedge_rad"})};
 
-static const Rule HAZE[] = {
-    {.name = "share", .kind = RULE_NUMBER, .flags = RULE_REQUIRED | RULE_HAS_RANGE, .max = 1},
-    {.name = "width_deg", .kind = RULE_NUMBER, .flags = RULE_REQUIRED | RULE_HAS_RANGE,
-     .min = 0.1, .max = 60},
-};
-static const Schema SCHEMA_HAZE = {"haze", HAZE, COUNT_OF(HAZE), true, NULL};
+static const Schema SCHEMA_HAZE = {"haze", true, NULL, RULES(
+    {"share", RULE_NUMBER, .flags = RULE_REQUIRED, .max = 1},
+    {"width_deg", RULE_NUMBER, .flags = RULE_REQUIRED, .min = 0.1, .max = 60})};
 
-static const Rule GLAZING[] = {
-    {.name = "layers", .kind = RULE_OBJECTS, .flags = RULE_REQUIRED, .schema = &SCHEMA_LAYER,
-     .least = 1, .most = GLAZING_LAYERS_MAX},
-    {.name = "haze", .kind = RULE_OBJECT, .schema = &SCHEMA_HAZE},
-    {.name = "coating_outside", .kind = RULE_OBJECT, .schema = &SCHEMA_COATING},
-    {.name = "coating_inside", .kind = RULE_OBJECT, .schema = &SCHEMA_COATING},
-};
-static const Schema SCHEMA_GLAZING = {"PARHELION_glazing", GLAZING, COUNT_OF(GLAZING), true,
-                                      check_glazing};
+static const Schema SCHEMA_GLAZING = {"PARHELION_glazing", true, check_glazing, RULES(
+    {"layers", RULE_OBJECTS, .flags = RULE_REQUIRED, .least = 1, .most = GLAZING_LAYERS_MAX,
+     .schema = &SCHEMA_LAYER},
+    {"haze", RULE_OBJECT, .schema = &SCHEMA_HAZE},
+    {"coating_outside", RULE_OBJECT, .schema = &SCHEMA_COATING},
+    {"coating_inside", RULE_OBJECT, .schema = &SCHEMA_COATING})};
 
-static const Rule INSTANCING[] = {
-    {.name = "attributes", .kind = RULE_MAP, .flags = RULE_REQUIRED, .of = "accessors"}};
-static const Schema SCHEMA_INSTANCING = {INSTANCING_EXTENSION, INSTANCING,
-                                         COUNT_OF(INSTANCING), false, check_instancing};
+static const Schema SCHEMA_INSTANCING = {INSTANCING_EXTENSION, false, check_instancing, RULES(
+    {"attributes", RULE_MAP, .flags = RULE_REQUIRED, .of = "accessors"})};
+
+/* ---- EXT_meshopt_compression (the list under "JSON schema updates") ---------------------- */
+
+static void check_stride(const DocumentCheck *check, const GltfValue *packed, double stride)
+{
+    const GltfValue *at = tree_member(packed, "byteStride");
+    const char *mode = tree_text(packed, "mode", ""), *filter = tree_text(packed, "filter", "");
+    bool is_vertices = strcmp(mode, "ATTRIBUTES") == 0;
+    if (is_vertices && fmod(stride, 4) != 0)
+        check_fails(check, at, "is %g, with ATTRIBUTES a multiple of 4 is wanted", stride);
+    if (!is_vertices && stride != 2 && stride != 4)
+        check_fails(check, at, "is %g, with %.20s 2 or 4 is wanted", stride, mode);
+    if (strcmp(filter, "OCTAHEDRAL") == 0 && stride != 4 && stride != 8)
+        check_fails(check, at, "is %g, with OCTAHEDRAL 4 or 8 is wanted", stride);
+    if (strcmp(filter, "QUATERNION") == 0 && stride != 8)
+        check_fails(check, at, "is %g, with QUATERNION 8 is wanted", stride);
+}
+
+static void check_meshopt(const DocumentCheck *check, const GltfValue *packed)
+{
+    const GltfValue *view = packed->parent->parent, *filter = tree_member(packed, "filter");
+    const char *mode = tree_text(packed, "mode", "");
+    double count = tree_number(packed, "count", 0);
+    double stride = tree_number(packed, "byteStride", 0);
+    double length = tree_number(view, "byteLength", count * stride);
+    double own = tree_number(view, "byteStride", stride);
+    check_place_in_buffer(check, packed);
+    check_stride(check, packed, stride);
+    if (own != stride)
+        check_fails(check, packed, "unpacks to a byteStride of %g, the buffer view has %g",
+                    stride, own);
+    if (length != count * stride)
+        check_fails(check, packed, "unpacks to %.15g bytes, the buffer view has %.15g",
+                    count * stride, length);
+    if (strcmp(mode, "TRIANGLES") == 0 && fmod(count, 3) != 0)
+        check_fails(check, tree_member(packed, "count"),
+                    "is %.15g, with TRIANGLES a multiple of 3 is wanted", count);
+    if (filter && strcmp(mode, "ATTRIBUTES") != 0 && strcmp(filter->text, "NONE") != 0)
+        check_fails(check, filter, "is \"%.20s\", with %.20s only NONE is wanted",
+                    filter->text, mode);
+}
+
+static const Schema SCHEMA_MESHOPT = {MESHOPT_EXTENSION, false, check_meshopt, RULES(
+    {"buffer", RULE_INDEX, .flags = RULE_REQUIRED, .of = "buffers"},
+    {"byteOffset", RULE_INTEGER, .max = RULE_MOST_BYTES},
+    {"byteLength", RULE_INTEGER, .flags = RULE_REQUIRED, .min = 1, .max = RULE_MOST_BYTES},
+    {"byteStride", RULE_INTEGER, .flags = RULE_REQUIRED, .min = 1, .max = 256},
+    {"count", RULE_INTEGER, .flags = RULE_REQUIRED, .min = 1, .max = LOAD_MAX_ELEMENTS},
+    {"mode", RULE_CHOICE, .flags = RULE_REQUIRED | RULE_CLOSED,
+     .of = "ATTRIBUTES|TRIANGLES|INDICES"},
+    {"filter", RULE_CHOICE, .flags = RULE_CLOSED,
+     .of = "NONE|OCTAHEDRAL|QUATERNION|EXPONENTIAL"})};
+static const Schema SCHEMA_MESHOPT_BUFFER = {MESHOPT_EXTENSION, false, NULL, RULES(
+    {"fallback", .kind = RULE_BOOLEAN})};
+
+/* ---- KHR_draco_mesh_compression ---------------------------------------------------------- */
+
+static void check_ids(const DocumentCheck *check, const GltfValue *ids, const GltfValue *own)
+{
+    for (int i = 0; i < ids->count; i++) {
+        const GltfValue *id = &ids->items[i];
+        if (!tree_is_integer(id) || id->number < 0 || id->number > 4294967295.0)
+            check_fails(check, id, "the id of an attribute is wanted, 0 to 4294967295");
+        if (!tree_member(own, id->key))
+            check_fails(check, id, "the primitive has no %.60s", id->key);
+    }
+}
+
+static void check_draco(const DocumentCheck *check, const GltfValue *packed)
+{
+    const GltfValue *primitive = packed->parent->parent;
+    const GltfValue *ids = tree_member(packed, "attributes");
+    const GltfValue *mode = tree_member(primitive, "mode");
+    double code = tree_number(primitive, "mode", 4);
+    if (ids && ids->kind == GLTF_OBJECT)
+        check_ids(check, ids, tree_member(primitive, "attributes"));
+    else if (ids)
+        check_fails(check, ids, "an object of attributes is wanted");
+    if (ids && !tree_member(ids, "POSITION"))
+        check_fails(check, ids, "\"POSITION\" is missing");
+    if (code != 4 && code != 5)
+        check_fails(check, mode, "is %g, packed meshes are of mode 4 or 5", code);
+    if (!tree_member(primitive, "indices"))
+        check_fails(check, primitive, "\"indices\" is missing, which packed meshes have");
+}
+
+static const Schema SCHEMA_DRACO = {DRACO_EXTENSION, false, check_draco, RULES(
+    {"bufferView", RULE_INDEX, .flags = RULE_REQUIRED, .of = "bufferViews"},
+    {"attributes", RULE_ANY, .flags = RULE_REQUIRED})};
 
 /* ---- where they stand ------------------------------------------------------------------ */
 
@@ -417,7 +386,7 @@ static const ExtensionRule EXTENSIONS[] = {
     {"PARHELION_spectrum", "material", &SCHEMA_SPECTRUM},
     {"PARHELION_glazing", "material", &SCHEMA_GLAZING},
     {"PARHELION_coating", "material", &SCHEMA_COATING},
-    {"OpenMaterial_material_parameters", "material", NULL}, /* check_index.c looks into it */
+    {"OpenMaterial_material_parameters", "material", NULL}, /* check_optics.c looks into it */
     {"OpenMaterial_asset_info", NULL, NULL},
     /* Without effect on the picture: who made it, what a hand may do with a node. */
     {"KHR_xmp_json_ld", NULL, NULL},
@@ -452,32 +421,24 @@ bool extension_is_supported(const char *name)
 
 /* ---- extensionsUsed and extensionsRequired --------------------------------------------- */
 
-static bool lists(const GltfValue *array, const char *text)
-{
-    for (int i = 0; array && array->kind == GLTF_ARRAY && i < array->count; i++)
-        if (strcmp(array->items[i].text, text) == 0) return true;
-    return false;
-}
-
 void check_extensions(const DocumentCheck *check, const GltfValue *root)
 {
     const GltfValue *used = tree_member(root, "extensionsUsed");
     const GltfValue *required = tree_member(root, "extensionsRequired");
-    for (int i = 0; required && i < required->count; i++) {
-        const GltfValue *name = &required->items[i];
+    const GltfValue *name = tree_items(root, "extensionsRequired");
+    for (; name; name = tree_next(name)) {
         if (name->kind != GLTF_STRING) continue;
         if (!extension_is_supported(name->text))
             check_fails(check, name,
                         "the file requires the extension \"%.80s\", which is not "
                         "supported",
                         name->text);
-        if (!lists(used, name->text))
+        if (!tree_lists(used, name->text))
             check_warns(check, name, "\"%.80s\" is required but not listed in extensionsUsed",
                         name->text);
     }
-    for (int i = 0; used && i < used->count; i++) {
-        const GltfValue *name = &used->items[i];
-        if (name->kind != GLTF_STRING || lists(required, name->text)) continue;
+    for (name = tree_items(root, "extensionsUsed"); name; name = tree_next(name)) {
+        if (name->kind != GLTF_STRING || tree_lists(required, name->text)) continue;
         if (!extension_is_supported(name->text))
             check_warns(check, name,
                         "the extension \"%.80s\" is not supported: what it adds is "

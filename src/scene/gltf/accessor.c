@@ -73,6 +73,13 @@ bool accessor_has_bytes(const GltfFile *file, const GltfAccessor *accessor)
                            document_view(file, accessor->sparse_value_view).data));
 }
 
+bool accessor_claim_bytes(GltfFile *file, int accessor, const GltfValue *at, const char *what)
+{
+    const GltfAccessor *claimed = accessor_get(file, accessor);
+    return !claimed || accessor_has_bytes(file, claimed) ||
+           file_error(file, at, "the bytes of %s are missing: their buffer is not there", what);
+}
+
 static inline uint32_t integer_at(const unsigned char *bytes, int component_type)
 {
     switch (component_type) {

@@ -12,6 +12,9 @@ const GltfAccessor *accessor_get(const GltfFile *file, int accessor);
 /* False: its buffer, or that of its sparse values, is not there; its numbers are zeros then. An
  * accessor without a buffer view needs no bytes. */
 bool accessor_has_bytes(const GltfFile *file, const GltfAccessor *accessor);
+/* The same, and reported at `at` as the bytes of `what` where they are not; true where there is
+ * no such accessor. */
+bool accessor_claim_bytes(GltfFile *file, int accessor, const GltfValue *at, const char *what);
 
 /* Bytes of one element, columns of matrices padded to four bytes. */
 size_t accessor_element_size(const GltfAccessor *accessor);

@@ -25,15 +25,12 @@ static bool find_packed(GltfFile *file, const GltfValue *at, Packed *out)
     *out = (Packed){.at = at,
                     .count = (size_t)tree_number(at, "count", 0),
                     .stride = (size_t)tree_number(at, "byteStride", 0)};
-    if (!buffer.data) {
-        file_error(file, at, "the packed bytes are missing: their buffer is not there");
-        return false;
-    }
+    if (!buffer.data)
+        return file_error(file, at, "the packed bytes are missing: their buffer is not there");
     out->bytes = (FileBytes){buffer.data + offset, (size_t)tree_number(at, "byteLength", 0)};
-    if (out->count * out->stride / MOST_UNPACKED <= out->bytes.size) return true;
-    file_error(file, at, "%zu packed bytes are too few for %zu elements of %zu bytes",
-               out->bytes.size, out->count, out->stride);
-    return false;
+    return out->count * out->stride / MOST_UNPACKED <= out->bytes.size ||
+           file_error(file, at, "%zu packed bytes are too few for %zu elements of %zu bytes",
+                      out->bytes.size, out->count, out->stride);
 }
 
 static bool unpack(const Packed *packed, const char *mode, void *out)

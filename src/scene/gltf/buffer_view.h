@@ -6,7 +6,7 @@
  * readers without the extension, are not looked at.
  *
  * Source   github.com/KhronosGroup/glTF, extensions/2.0/Vendor/EXT_meshopt_compression; that
- *          its numbers fit each other is checked by check/check_packed.h
+ *          its numbers fit each other is checked by check/schema_extensions.c
  * Memory   unpacked bytes lie in the loader's scratch.
  * Fails    into the loader's problems, with the view.
  * Threads  one at a time.

@@ -3,7 +3,6 @@
 
 #include <stdarg.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 
@@ -11,7 +10,6 @@
 #include <xxhash.h>
 
 #include "base/reference.h"
-#include "scene/gltf/load_progress.h"
 #include "text/uri.h"
 
 /* ---- problems -------------------------------------------------------------------------- */
@@ -24,12 +22,29 @@ void file_report(GltfFile *file, Severity severity, const GltfValue *at, const c
     problems_add_list(file->load->problems, severity, file->path, pointer, format, args);
 }
 
-void file_error(GltfFile *file, const GltfValue *at, const char *format, ...)
+void file_problem(GltfFile *file, Severity severity, const GltfValue *at, const char *format,
+                  ...)
+{
+    va_list args;
+    va_start(args, format);
+    file_report(file, severity, at, format, args);
+    va_end(args);
+}
+
+bool file_error(GltfFile *file, const GltfValue *at, const char *format, ...)
 {
     va_list args;
     va_start(args, format);
     file_report(file, SEVERITY_ERROR, at, format, args);
     va_end(args);
+    return false;
+}
+
+bool file_error_within(GltfFile *file, const GltfValue *at, const Error *err)
+{
+    char line[1024];
+    error_line(err, line, sizeof line);
+    return file_error(file, at, "%s", line);
 }
 
 void file_warning(GltfFile *file, const GltfValue *at, const char *format, ...)
@@ -55,12 +70,34 @@ static bool frame_error(GltfFile *file, const char *place, const char *format, .
 
 /* ---- files ----------------------------------------------------------------------------- */
 
+const char *load_keep(Loader *load, const char *text)
+{
+    return arena_string(load->arena, text, strlen(text));
+}
+
+const char *load_name(Loader *load, const GltfValue *value, const char *noun)
+{
+    const char *name = tree_text(value, "name", "");
+    return name[0] ? load_keep(load, name)
+                   : arena_format(load->arena, "%s %d", noun, value->index);
+}
+
+void load_note(Loader *load, ItemList *texts, const char *text)
+{
+    *(const char **)list_add(texts, &load->scratch) = load_keep(load, text);
+}
+
+bool load_is_among(const char *name, const char *const *names, int count)
+{
+    for (int i = 0; i < count; i++)
+        if (strcmp(names[i], name) == 0) return true;
+    return false;
+}
+
 static void note_input(Loader *load, const char *path, FileBytes bytes)
 {
-    for (int i = 0; i < load->inputs.count; i++)
-        if (strcmp(*(const char **)list_item(&load->inputs, i), path) == 0) return;
-    *(const char **)list_add(&load->inputs, &load->scratch) =
-        arena_string(load->arena, path, strlen(path));
+    if (load_is_among(path, load->inputs.items, load->inputs.count)) return;
+    load_note(load, &load->inputs, path);
     *(uint64_t *)list_add(&load->input_hashes, &load->scratch) =
         XXH3_64bits(bytes.data, bytes.size);
 }
@@ -85,30 +122,17 @@ bool load_read(Loader *load, const char *path, Arena *arena, FileBytes *out, Err
     return true;
 }
 
-static void report(GltfFile *file, Severity severity, const GltfValue *at, const char *format,
-                   ...) __attribute__((format(printf, 4, 5)));
-
-static void report(GltfFile *file, Severity severity, const GltfValue *at, const char *format,
-                   ...)
-{
-    va_list args;
-    va_start(args, format);
-    file_report(file, severity, at, format, args);
-    va_end(args);
-}
-
 bool document_is_elsewhere(GltfFile *file, const GltfValue *uri, Severity severity)
 {
     size_t scheme = uri_scheme_length(uri->text);
     if (scheme)
-        report(file, severity, uri,
-               "the URI's scheme is \"%.*s:\"; only data: and relative paths are "
-               "read",
-               (int)(scheme < 40 ? scheme : 40), uri->text);
+        file_problem(file, severity, uri,
+                     "the URI's scheme is \"%.*s:\"; only data: and relative paths are read",
+                     (int)(scheme < 40 ? scheme : 40), uri->text);
     else if (uri->text[0] == '/')
-        report(file, severity, uri,
-               "\"%.200s\" is an absolute path; only data: and relative paths are read",
-               uri->text);
+        file_problem(file, severity, uri,
+                     "\"%.200s\" is an absolute path; only data: and relative paths are read",
+                     uri->text);
     return scheme || uri->text[0] == '/';
 }
 
@@ -117,15 +141,10 @@ bool document_resolve(GltfFile *file, const GltfValue *uri, const char **path)
     Error err;
     char *relative;
     if (document_is_elsewhere(file, uri, SEVERITY_ERROR)) return false;
-    if (!uri_decode(uri->text, &file->load->scratch, &relative, &err)) {
-        file_error(file, uri, "%s", err.text);
-        return false;
-    }
-    if (reference_resolve(file->path, relative, file->load->options->root,
-                          &file->load->scratch, path, &err))
-        return true;
-    file_error(file, uri, "%s", err.text);
-    return false;
+    return (uri_decode(uri->text, &file->load->scratch, &relative, &err) &&
+            reference_resolve(file->path, relative, file->load->options->root,
+                              &file->load->scratch, path, &err)) ||
+           file_error(file, uri, "%s", err.text);
 }
 
 /* ---- a .glb's frame (glTF 2.0, section 4) ---------------------------------------------- */
@@ -226,18 +245,13 @@ bool document_read(GltfFile *file)
         file->json = (const char *)bytes.data;
         file->json_size = bytes.size;
     }
-    if (file->json_size > LOAD_MAX_JSON_BYTES) {
-        file_error(file, NULL, "the JSON has %zu bytes, at most %zu are read", file->json_size,
-                   LOAD_MAX_JSON_BYTES);
-        return false;
-    }
-    if (!gltf_json_parse(file->json, file->json_size, &load->scratch, &file->root, &err)) {
-        file_error(file, NULL, "%s", err.text);
-        return false;
-    }
-    if (file->root->kind == GLTF_OBJECT) return true;
-    file_error(file, NULL, "the document is no JSON object");
-    return false;
+    if (file->json_size > LOAD_MAX_JSON_BYTES)
+        return file_error(file, NULL, "the JSON has %zu bytes, at most %zu are read",
+                          file->json_size, LOAD_MAX_JSON_BYTES);
+    if (!gltf_json_parse(file->json, file->json_size, &load->scratch, &file->root, &err))
+        return file_error(file, NULL, "%s", err.text);
+    return file->root->kind == GLTF_OBJECT ||
+           file_error(file, NULL, "the document is no JSON object");
 }
 
 /* ---- buffers --------------------------------------------------------------------------- */
@@ -254,10 +268,7 @@ static void check_buffer_type(GltfFile *file, const GltfValue *uri, const char *
 
 bool document_uses(const GltfFile *file, const char *extension)
 {
-    const GltfValue *used = tree_member(file->root, "extensionsUsed");
-    for (int i = 0; used && used->kind == GLTF_ARRAY && i < used->count; i++)
-        if (strcmp(used->items[i].text, extension) == 0) return true;
-    return false;
+    return tree_lists(tree_member(file->root, "extensionsUsed"), extension);
 }
 
 /* The buffer is for readers that cannot unpack (EXT_meshopt_compression). */
@@ -282,18 +293,15 @@ static bool buffer_bytes(GltfFile *file, const GltfValue *buffer, FileBytes *out
     }
     if (uri_is_data(uri->text)) {
         const char *type;
-        if (data_uri_decode(uri->text, scratch, out, &type, &err)) {
-            check_buffer_type(file, uri, type);
-            return true;
-        }
-        file_error(file, uri, "%s", err.text);
-        return false;
+        if (!data_uri_decode(uri->text, scratch, out, &type, &err))
+            return file_error(file, uri, "%s", err.text);
+        check_buffer_type(file, uri, type);
+        return true;
     }
     if (document_is_elsewhere(file, uri, SEVERITY_WARNING)) return false;
     if (!document_resolve(file, uri, &path)) return false;
-    if (load_read(file->load, path, scratch, out, &err)) return true;
-    file_error(file, uri, "%s: %s", path, err.text);
-    return false;
+    return load_read(file->load, path, scratch, out, &err) ||
+           file_error(file, uri, "%s: %s", path, err.text);
 }
 
 void document_load_buffers(GltfFile *file)

@@ -11,13 +11,27 @@
 #define INSTANCING_EXTENSION "EXT_mesh_gpu_instancing" /* meshes in many places */
 #define DRACO_EXTENSION "KHR_draco_mesh_compression" /* packed meshes (gltf/packed_mesh.h) */
 
-/* A fault or warning at a place of the document (NULL: the file as a whole). */
-void file_error(GltfFile *file, const GltfValue *at, const char *format, ...)
+/* A fault or warning at a place of the document (NULL: the file as a whole). file_error is
+ * always false. */
+bool file_error(GltfFile *file, const GltfValue *at, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 void file_warning(GltfFile *file, const GltfValue *at, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
+void file_problem(GltfFile *file, Severity severity, const GltfValue *at, const char *format,
+                  ...) __attribute__((format(printf, 4, 5)));
 void file_report(GltfFile *file, Severity severity, const GltfValue *at, const char *format,
                  va_list args) __attribute__((format(printf, 4, 0)));
+
+/* A text in the scene's memory; the name of a value there, "NOUN 3" where it has none; a text
+ * there, in a list of texts. */
+const char *load_keep(Loader *load, const char *text);
+const char *load_name(Loader *load, const GltfValue *value, const char *noun);
+void load_note(Loader *load, ItemList *texts, const char *text);
+
+bool load_is_among(const char *name, const char *const *names, int count);
+
+/* A fault of a file that a place of the document names, with its own place. Always false. */
+bool file_error_within(GltfFile *file, const GltfValue *at, const Error *err);
 
 /* Reads a file, hashes it and notes it among the scene's inputs. */
 bool load_read(Loader *load, const char *path, Arena *arena, FileBytes *out, Error *err);

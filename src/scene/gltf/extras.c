@@ -26,17 +26,12 @@ static void unfold(GltfFile *file, GltfValue *text)
 /* The tree lies in the loader's scratch and is this program's own until it is checked. */
 static void unfold_all(GltfFile *file, const char *collection)
 {
-    const GltfValue *list = tree_member(file->root, collection);
-    for (int i = 0; list && i < list->count; i++) {
-        const GltfValue *extras = tree_member(&list->items[i], "extras");
-        for (int k = 0; extras && k < extras->count; k++) {
-            const GltfValue *own = &extras->items[k];
-            if (!extras_is_ours(own)) continue;
-            *(const char **)list_add(&file->load->extensions, &file->load->scratch) =
-                arena_string(file->load->arena, own->key, strlen(own->key));
-            if (own->kind == GLTF_STRING) unfold(file, (GltfValue *)own);
+    for (const GltfValue *one = tree_items(file->root, collection); one; one = tree_next(one))
+        for (const GltfValue *e = tree_items(one, "extras"); e; e = tree_next(e)) {
+            if (!extras_is_ours(e)) continue;
+            load_note(file->load, &file->load->extensions, e->key);
+            if (e->kind == GLTF_STRING) unfold(file, (GltfValue *)e);
         }
-    }
 }
 
 void extras_unfold(GltfFile *file)

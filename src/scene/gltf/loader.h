@@ -48,7 +48,7 @@ typedef struct Loader {
     ItemList animations;     /* SceneAnimation, of all files */
     int *change_uses;        /* one a change: how often its name was found */
     struct LuminaireDraft *luminaires; /* one a --light (load/luminaire.c) */
-    ProgressMode progress_mode; /* of gltf/load_progress.h, which has the three below */
+    ProgressMode progress_mode; /* of load_progress_begin, which has the three below */
     Progress progress;
     double progress_done;
     bool has_step;
@@ -75,3 +75,17 @@ typedef struct GltfFile {
     int default_material_id;             /* NO_ID until it is needed */
     int skipped_count, degenerate_count; /* primitives; triangles */
 } GltfFile;
+
+/* ---- progress ---------------------------------------------------------------------------- */
+
+/* Shows how far the loading of a large scene has come, step by step. Nothing is shown of a step
+ * that ends soon, nor at all where load->progress_mode is PROGRESS_NONE; what was shown is
+ * blanked out when its step ends.
+ *
+ * A step begins; both texts must outlive the loader. */
+void load_progress_begin(Loader *load, const char *what, const char *unit, double total);
+
+/* So much more of it is done; outside of steps nothing happens. */
+void load_progress_add(Loader *load, double more);
+
+void load_progress_end(Loader *load);

@@ -75,17 +75,14 @@ static bool unpack_corners(Unpacking *work, const GltfValue *primitive, const Dr
     size_t count = 3 * draco_mesh_triangles(mesh);
     GltfAccessor *indices = &work->accessors[id];
     if (is_unpacked(work, id)) return true;
-    if (indices->count != count && !is_strip(primitive)) {
-        file_error(work->file, tree_member(primitive, "indices"),
-                   "has %zu indices, the packed mesh has %zu", indices->count, count);
-        return false;
-    }
+    if (indices->count != count && !is_strip(primitive))
+        return file_error(work->file, tree_member(primitive, "indices"),
+                          "has %zu indices, the packed mesh has %zu", indices->count, count);
     uint32_t *corners = ARENA_NEW(&work->file->load->scratch, uint32_t, count);
     indices->component_type = 5125;
     give_bytes(work, id, corners, count);
-    if (draco_mesh_corners(mesh, corners, &err)) return true;
-    file_error(work->file, primitive, "%s", err.text);
-    return false;
+    return draco_mesh_corners(mesh, corners, &err) ||
+           file_error(work->file, primitive, "%s", err.text);
 }
 
 static bool unpack_attribute(Unpacking *work, const GltfValue *primitive,
@@ -96,21 +93,18 @@ static bool unpack_attribute(Unpacking *work, const GltfValue *primitive,
     const GltfAccessor *accessor = &work->accessors[id];
     size_t count = draco_mesh_vertices(mesh);
     if (is_unpacked(work, id)) return true;
-    if (accessor->count != count || accessor->matrix_rows || !accessor->component_count) {
-        file_error(work->file, tree_member(tree_member(primitive, "attributes"), packed->key),
-                   "has %zu elements, the packed mesh has %zu vertices", accessor->count,
-                   count);
-        return false;
-    }
+    if (accessor->count != count || accessor->matrix_rows || !accessor->component_count)
+        return file_error(work->file,
+                          tree_member(tree_member(primitive, "attributes"), packed->key),
+                          "has %zu elements, the packed mesh has %zu vertices",
+                          accessor->count, count);
     void *values = arena_alloc(&work->file->load->scratch, accessor_element_size(accessor), 16,
                                count);
-    if (draco_mesh_values(mesh, (uint32_t)packed->number, accessor->component_type,
-                          accessor->component_count, values, &err)) {
-        give_bytes(work, id, values, count);
-        return true;
-    }
-    file_error(work->file, packed, "%s", err.text);
-    return false;
+    if (!draco_mesh_values(mesh, (uint32_t)packed->number, accessor->component_type,
+                           accessor->component_count, values, &err))
+        return file_error(work->file, packed, "%s", err.text);
+    give_bytes(work, id, values, count);
+    return true;
 }
 
 static void unpack_primitive(Unpacking *work, const GltfValue *primitive)
@@ -163,14 +157,11 @@ static void check_empty(const Unpacking *work)
 
 void packed_meshes_build(GltfFile *file)
 {
-    const GltfValue *meshes = tree_member(file->root, "meshes");
     if (!document_uses(file, DRACO_EXTENSION)) return;
     Unpacking work = begin(file);
-    for (int m = 0; m < tree_count(file->root, "meshes"); m++) {
-        const GltfValue *list = tree_member(&meshes->items[m], "primitives");
-        for (int p = 0; p < tree_count(&meshes->items[m], "primitives"); p++)
-            unpack_primitive(&work, &list->items[p]);
-    }
+    for (const GltfValue *m = tree_items(file->root, "meshes"); m; m = tree_next(m))
+        for (const GltfValue *p = tree_items(m, "primitives"); p; p = tree_next(p))
+            unpack_primitive(&work, p);
     for (int i = 0; i < work.view_count; i++) draco_mesh_destroy(work.meshes[i]);
     check_empty(&work);
 }

@@ -24,6 +24,32 @@ const GltfValue *tree_element(const GltfValue *root, const char *collection, int
     return tree_item(tree_member(root, collection), index);
 }
 
+const GltfValue *tree_items(const GltfValue *object, const char *name)
+{
+    const GltfValue *list = tree_member(object, name);
+    return list && list->count ? list->items : NULL;
+}
+
+const GltfValue *tree_next(const GltfValue *item)
+{
+    const GltfValue *list = item->parent;
+    return item + 1 < list->items + list->count ? item + 1 : NULL;
+}
+
+const GltfValue *tree_referred(const GltfValue *index, const char *collection)
+{
+    const GltfValue *root = index;
+    while (root && root->parent) root = root->parent;
+    return tree_element(root, collection, tree_whole(index, -1));
+}
+
+bool tree_lists(const GltfValue *array, const char *text)
+{
+    for (int i = 0; array && array->kind == GLTF_ARRAY && i < array->count; i++)
+        if (strcmp(array->items[i].text, text) == 0) return true;
+    return false;
+}
+
 const GltfValue *tree_extension(const GltfValue *object, const char *name)
 {
     const GltfValue *own = tree_member(tree_member(object, "extensions"), name);

@@ -18,12 +18,22 @@ const GltfValue *tree_item(const GltfValue *array, int index);
 
 /* The item with this index in a collection of the document's root ("nodes", "meshes" ...). */
 const GltfValue *tree_element(const GltfValue *root, const char *collection, int index);
+/* The same of a value of the document that is the index; NULL of any other, or none. */
+const GltfValue *tree_referred(const GltfValue *index, const char *collection);
 
 #define TREE_OURS "PARHELION_" /* what the names of our own extensions begin with */
 
 /* `object`'s extension, NULL where it has none. One of ours is also found in its extras
  * (gltf/extras.h). */
 const GltfValue *tree_extension(const GltfValue *object, const char *name);
+
+/* The first item of an array or object that `object` has by this name, and the item behind one;
+ * NULL: none. */
+const GltfValue *tree_items(const GltfValue *object, const char *name);
+const GltfValue *tree_next(const GltfValue *item);
+
+/* Whether a text stands in an array. */
+bool tree_lists(const GltfValue *array, const char *text);
 
 /* How many items the member has; 0 unless it is an array or object. */
 int tree_count(const GltfValue *object, const char *name);

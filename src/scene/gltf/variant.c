@@ -7,13 +7,6 @@
 
 #define EXTENSION "KHR_materials_variants"
 
-static bool is_chosen(const SceneState *state, const char *name)
-{
-    for (int i = 0; i < state->variant_count; i++)
-        if (strcmp(state->variants[i], name) == 0) return true;
-    return false;
-}
-
 /* The first of several with one name is meant: the check warns of them. */
 static bool is_repeated(const GltfValue *variants, int index, const char *name)
 {
@@ -25,15 +18,15 @@ static bool is_repeated(const GltfValue *variants, int index, const char *name)
 void variant_choose(GltfFile *file)
 {
     Loader *load = file->load;
+    const SceneState *state = &load->options->state;
     const GltfValue *variants = tree_member(tree_extension(file->root, EXTENSION), "variants");
     const char *before = NULL;
     file->variant_id = NO_ID;
     for (int i = 0; variants && variants->kind == GLTF_ARRAY && i < variants->count; i++) {
         const char *name = tree_text(&variants->items[i], "name", "");
         if (!name[0] || is_repeated(variants, i, name)) continue;
-        *(const char **)list_add(&load->variants, &load->scratch) =
-            arena_string(load->arena, name, strlen(name));
-        if (!is_chosen(&load->options->state, name)) continue;
+        load_note(load, &load->variants, name);
+        if (!load_is_among(name, state->variants, state->variant_count)) continue;
         if (before)
             file_error(file, variants,
                        "--variant chooses \"%.80s\" and \"%.80s\" of this file; one is wanted",
@@ -45,9 +38,8 @@ void variant_choose(GltfFile *file)
 
 static bool names_variant(const GltfValue *mapping, int variant)
 {
-    const GltfValue *list = tree_member(mapping, "variants");
-    for (int i = 0; list && i < list->count; i++)
-        if (tree_whole(&list->items[i], NO_ID) == variant) return true;
+    for (const GltfValue *v = tree_items(mapping, "variants"); v; v = tree_next(v))
+        if (tree_whole(v, NO_ID) == variant) return true;
     return false;
 }
 

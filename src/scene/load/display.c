@@ -16,17 +16,12 @@
 #include "scene/load/wearer.h"
 #include "text/nearest_word.h"
 
-static const char *kept(Loader *load, const char *text)
-{
-    return arena_string(load->arena, text, strlen(text));
-}
-
 static int add_display(Loader *load, Display display, const char *file, const char *pointer)
 {
     Material *material = list_item(&load->materials, display.material_id);
     *(Display *)list_add(&load->displays, &load->scratch) = display;
     *(DisplayPlace *)list_add(&load->display_places, &load->scratch) =
-        (DisplayPlace){file, kept(load, pointer)};
+        (DisplayPlace){file, load_keep(load, pointer)};
     return material->display_id = load->displays.count - 1;
 }
 
@@ -60,7 +55,7 @@ void display_build(GltfFile *file, const GltfValue *extension, int material_id)
     add_display(load,
                 (Display){.name = material->name,
                           .material_id = material_id,
-                          .panel_path = kept(load, path),
+                          .panel_path = load_keep(load, path),
                           .content = texture_slot(file, tree_member(extension, "content")),
                           .level = tree_float(extension, "level", 1),
                           .subpixels = subpixels_build(load, tree_member(extension,
@@ -131,7 +126,7 @@ typedef void ApplyOverride(Loader *load, int display_id, const char *option,
 static void set_panel(Loader *load, int display_id, const char *option, const char *value)
 {
     Display *display = list_item(&load->displays, display_id);
-    display->panel_path = kept(load, value);
+    display->panel_path = load_keep(load, value);
     *(DisplayPlace *)list_item(&load->display_places, display_id) =
         (DisplayPlace){option, ""};
 }

@@ -1,16 +1,14 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "scene/load/graph.h"
 
-#include <stdio.h>
 #include <string.h>
 
 #include "base/mathd.h"
 #include "base/units.h"
 #include "scene/change/node_change.h"
+#include "scene/gltf/accessor.h"
 #include "scene/gltf/document.h"
-#include "scene/gltf/load_progress.h"
 #include "scene/load/environment.h"
-#include "scene/load/instances.h"
 #include "scene/load/luminaire.h"
 #include "scene/load/node_transform.h"
 #include "scene/load/pose.h"
@@ -18,17 +16,11 @@
 
 /* ---- transforms ------------------------------------------------------------------------ */
 
-static Transform from_matrix(const float m[16])
-{
-    return (Transform){vec3(m[0], m[1], m[2]), vec3(m[4], m[5], m[6]), vec3(m[8], m[9], m[10]),
-                       vec3(m[12], m[13], m[14])};
-}
-
 /* pose: the values of animations; NULL: at rest. */
 static Transform parent_from_node(const GltfValue *node, const NodePose *pose)
 {
     float matrix[16], t[3] = {0, 0, 0}, q[4] = {0, 0, 0, 1}, s[3] = {1, 1, 1};
-    if (tree_floats(node, "matrix", 16, matrix)) return from_matrix(matrix);
+    if (tree_floats(node, "matrix", 16, matrix)) return transform_from_matrix(matrix);
     tree_floats(node, "translation", 3, t);
     tree_floats(node, "rotation", 4, q);
     tree_floats(node, "scale", 3, s);
@@ -97,11 +89,9 @@ static int *parents_of(GltfFile *file, const GltfValue *nodes)
     int *parent = ARENA_NEW(&file->load->scratch, int, nodes->count);
     for (int i = 0; i < nodes->count; i++) parent[i] = NO_ID;
     for (int i = 0; i < nodes->count; i++) {
-        const GltfValue *children = tree_member(&nodes->items[i], "children");
-        for (int c = 0; children && c < children->count; c++) {
-            int child = (int)children->items[c].number;
-            if (child >= 0 && child < nodes->count) parent[child] = i;
-        }
+        const GltfValue *c = tree_items(&nodes->items[i], "children");
+        for (; c; c = tree_next(c))
+            if (c->number >= 0 && c->number < nodes->count) parent[(int)c->number] = i;
     }
     return parent;
 }
@@ -130,35 +120,28 @@ static NodeOrder nodes_of_scene(GltfFile *file, const GltfValue *nodes, const in
     order.skips_hidden = true;
     const GltfValue *scene =
         tree_element(file->root, "scenes", tree_int(file->root, "scene", 0));
-    const GltfValue *roots = tree_member(scene, "nodes");
     if (!scene) {
         file_warning(file, NULL, "the file has no scene; all its nodes are shown");
         for (int i = 0; i < nodes->count; i++)
             if (parent[i] == NO_ID) order_below(&order, nodes, i);
     }
-    for (int i = 0; roots && i < roots->count; i++)
-        order_below(&order, nodes, (int)roots->items[i].number);
+    for (const GltfValue *r = tree_items(scene, "nodes"); r; r = tree_next(r))
+        order_below(&order, nodes, (int)r->number);
     return order;
 }
 
 /* ---- cameras and lights ---------------------------------------------------------------- */
 
-static const char *kept_text(GltfFile *file, const char *text)
-{
-    return arena_string(file->load->arena, text, strlen(text));
-}
-
 static void add_camera(GltfFile *file, const GltfValue *node, const Transform *world)
 {
-    const GltfValue *camera =
-        tree_element(file->root, "cameras", tree_int(node, "camera", NO_ID));
+    const GltfValue *camera = tree_referred(tree_member(node, "camera"), "cameras");
     const GltfValue *eye = tree_member(camera, "perspective");
     const GltfValue *flat = tree_member(camera, "orthographic");
     if (!eye && !flat) return; /* of a type that an extension adds */
     float xmag = fabsf(tree_float(flat, "xmag", 1)), ymag = fabsf(tree_float(flat, "ymag", 1));
     *(SceneCamera *)list_add(&file->load->cameras, &file->load->scratch) =
-        (SceneCamera){.node_name = kept_text(file, tree_text(node, "name", "")),
-                      .camera_name = kept_text(file, tree_text(camera, "name", "")),
+        (SceneCamera){.node_name = load_keep(file->load, tree_text(node, "name", "")),
+                      .camera_name = load_keep(file->load, tree_text(camera, "name", "")),
                       .is_perspective = eye != NULL,
                       .yfov = tree_float(eye, "yfov", 0),
                       .ymag = ymag,
@@ -175,7 +158,7 @@ static void add_light(GltfFile *file, const GltfValue *node, const Transform *wo
         tree_member(tree_extension(file->root, "KHR_lights_punctual"), "lights");
     const GltfValue *light = tree_item(
         lights, tree_int(tree_extension(node, "KHR_lights_punctual"), "light", NO_ID));
-    const char *type = tree_text(light, "type", ""), *name = tree_text(light, "name", "");
+    const char *type = tree_text(light, "type", ""), *name = tree_text(node, "name", "");
     bool is_spot = strcmp(type, "spot") == 0, is_beam = strcmp(type, "directional") == 0;
     if (!light || (!is_spot && !is_beam && strcmp(type, "point") != 0)) return;
     const GltfValue *cone = tree_member(light, "spot");
@@ -191,9 +174,9 @@ static void add_light(GltfFile *file, const GltfValue *node, const Transform *wo
         .cos_inner = cos_of(is_spot ? tree_float(cone, "innerConeAngle", 0) : 0),
         .cos_outer = cos_of(is_spot ? tree_float(cone, "outerConeAngle", PI_F / 4) : PI_F)};
     for (int i = 0; i < 3; i++) out->intensity[i] = color[i] * intensity;
-    if (!name[0]) name = tree_text(node, "name", "");
-    out->name = name[0] ? kept_text(file, name)
-                        : arena_format(file->load->arena, "light %d", light->index);
+    bool is_named = tree_text(light, "name", "")[0];
+    out->name = is_named || !name[0] ? load_name(file->load, light, "light")
+                                     : load_keep(file->load, name);
 }
 
 static void claim_near(GltfFile *file, const GltfValue *node, const char *what, Vec3 p)
@@ -223,11 +206,61 @@ static void add_sights(GltfFile *file, const GltfValue *node, const Transform *w
         claim_near(file, node, "light", world->origin);
 }
 
+/* ---- meshes ---------------------------------------------------------------------------- */
+
+/* The places in which a node's mesh stands, in scratch. */
+typedef struct Instances {
+    Transform *world_from_mesh;
+    int count;
+} Instances;
+
+/* One of the attributes, or NULL: the default for all. */
+static bool read_attribute(GltfFile *file, const GltfValue *attributes, const char *name,
+                           const float **out, int *count)
+{
+    const GltfValue *at = tree_member(attributes, name);
+    int id = tree_whole(at, NO_ID);
+    const GltfAccessor *accessor = accessor_get(file, id);
+    *out = NULL;
+    if (!accessor) return true;
+    if (!accessor_claim_bytes(file, id, at, name)) return false;
+    *out = accessor_floats(file, id);
+    *count = (int)accessor->count;
+    return true;
+}
+
+/* One, at `world`, unless the node states others (EXT_mesh_gpu_instancing); none where bytes
+ * are missing. */
+static Instances instances_of(GltfFile *file, const GltfValue *node, const Transform *world)
+{
+    static const float ORIGIN[3] = {0, 0, 0}, UPRIGHT[4] = {0, 0, 0, 1}, SAME[3] = {1, 1, 1};
+    Arena *scratch = &file->load->scratch;
+    Instances out = {ARENA_NEW(scratch, Transform, 1), 1};
+    const GltfValue *attributes =
+        tree_member(tree_extension(node, INSTANCING_EXTENSION), "attributes");
+    const float *moves, *turns, *scales;
+    out.world_from_mesh[0] = *world;
+    if (!attributes) return out;
+    out.count = 0;
+    if (!read_attribute(file, attributes, "TRANSLATION", &moves, &out.count) ||
+        !read_attribute(file, attributes, "ROTATION", &turns, &out.count) ||
+        !read_attribute(file, attributes, "SCALE", &scales, &out.count))
+        return (Instances){NULL, 0};
+    out.world_from_mesh = ARENA_NEW(scratch, Transform, out.count);
+    for (int i = 0; i < out.count; i++) {
+        Transform own = transform_from_trs(moves ? moves + 3 * i : ORIGIN,
+                                           turns ? turns + 4 * i : UPRIGHT,
+                                           scales ? scales + 3 * i : SAME);
+        out.world_from_mesh[i] = transform_compose(world, &own);
+    }
+    return out;
+}
+
 /* ---- all of it ------------------------------------------------------------------------- */
 
 static void add_mesh(GltfFile *file, const GltfValue *node, const Transform *world)
 {
-    const GltfValue *mesh = tree_element(file->root, "meshes", tree_int(node, "mesh", NO_ID));
+    const GltfValue *mesh = tree_referred(tree_member(node, "mesh"), "meshes");
     const GltfValue *primitives = tree_member(mesh, "primitives");
     if (!primitives) return;
     Instances instances = instances_of(file, node, world);
@@ -243,7 +276,7 @@ static void note_name(GltfFile *file, const GltfValue *node)
     Loader     *load = file->load;
     const char *name = tree_text(node, "name", "");
     if (name[0] && (load->options->light_count || load->options->change_count))
-        *(const char **)list_add(&load->node_names, &load->scratch) = kept_text(file, name);
+        load_note(load, &load->node_names, name);
 }
 
 static void build_environment(GltfFile *file)

@@ -6,13 +6,13 @@
 
 #include "scene/gltf/part_draft.h"
 #include "scene/load/material.h"
+#include "scene/load/wearer.h"
 
 #define REFLECTANCE 0.04f
 #define THICK_M 0.002f
 #define GAP_M 0.002f
 #define FLAT 0.985f /* cosine of 10 degrees between normal and vertical */
 #define FACING 0.5f /* less is a closed body */
-#define NODE "node:"
 
 /* The display's box in axes of its own: right and up of who faces it, and its normal. */
 typedef struct Face {
@@ -28,8 +28,8 @@ static bool is_of(const Loader *load, const PartDraft *draft, const char *name)
 {
     const Material *m = list_item(&load->materials, draft->part.material_id);
     if (m->display_id == NO_ID) return false;
-    if (!strncmp(name, NODE, strlen(NODE)))
-        return !strcmp(draft->part.node_name, name + strlen(NODE));
+    if (!strncmp(name, WEARER_NODE, strlen(WEARER_NODE)))
+        return !strcmp(draft->part.node_name, name + strlen(WEARER_NODE));
     return !strcmp(m->name, name);
 }
 
@@ -133,16 +133,16 @@ static void add_cheek(Loader *load, const Face *face, int material_id, float dep
 
 static void build_hood(Loader *load, const SceneChange *change, const Face *face)
 {
-    if (!(face->facing > FACING)) {
+    const char *fault = !(face->facing > FACING)
+                            ? "faces nowhere: it is a closed body, wanted a surface that a "
+                              "hood could stand over"
+                        : fabsf(face->normal.y) > FLAT
+                            ? "lies flat: no edge of it is the upper one, along which a hood "
+                              "could stand"
+                            : NULL;
+    if (fault) {
         problems_add(load->problems, SEVERITY_ERROR, change->file, change->place,
-                     "display \"%.100s\" faces nowhere: it is a closed body, wanted a surface "
-                     "that a hood could stand over", change->name);
-        return;
-    }
-    if (fabsf(face->normal.y) > FLAT) {
-        problems_add(load->problems, SEVERITY_ERROR, change->file, change->place,
-                     "display \"%.100s\" lies flat: no edge of it is the upper one, along "
-                     "which a hood could stand", change->name);
+                     "display \"%.100s\" %s", change->name, fault);
         return;
     }
     int id = material_add_matt(load, "hood", REFLECTANCE);

@@ -1,12 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "scene/load/image.h"
 
-#include <stdio.h>
 #include <string.h>
 #include <strings.h>
 
 #include "scene/gltf/document.h"
-#include "scene/gltf/load_progress.h"
 #include "scene/gltf/variant.h"
 #include "text/uri.h"
 
@@ -30,18 +28,15 @@ static void mark_textures(const GltfValue *value, bool *is_used, int count)
 static void mark_shown(const GltfFile *file, bool *is_used, int count, Arena scratch)
 {
     const GltfValue *materials = tree_member(file->root, "materials");
-    const GltfValue *meshes = tree_member(file->root, "meshes");
     bool *is_marked = ARENA_NEW(&scratch, bool, tree_count(file->root, "materials"));
-    for (int m = 0; m < tree_count(file->root, "meshes"); m++) {
-        const GltfValue *list = tree_member(&meshes->items[m], "primitives");
-        for (int p = 0; p < tree_count(&meshes->items[m], "primitives"); p++) {
-            int id = variant_material(file, &list->items[p]);
+    for (const GltfValue *m = tree_items(file->root, "meshes"); m; m = tree_next(m))
+        for (const GltfValue *p = tree_items(m, "primitives"); p; p = tree_next(p)) {
+            int id = variant_material(file, p);
             const GltfValue *material = tree_item(materials, id);
             if (!material || is_marked[id]) continue;
             is_marked[id] = true;
             mark_textures(material, is_used, count);
         }
-    }
 }
 
 /* How an image is used. */
@@ -115,16 +110,13 @@ static bool image_bytes(GltfFile *file, const GltfValue *image, FileBytes *bytes
         if (!bytes->data && is_used) file_error(file, image, "its bytes are missing");
         return bytes->data != NULL;
     }
-    if (uri_is_data(uri->text)) {
-        if (data_uri_decode(uri->text, scratch, bytes, declared, &err)) return true;
-        file_error(file, uri, "%s", err.text);
-        return false;
-    }
+    if (uri_is_data(uri->text))
+        return data_uri_decode(uri->text, scratch, bytes, declared, &err) ||
+               file_error(file, uri, "%s", err.text);
     if (document_is_elsewhere(file, uri, severity)) return false;
     if (!document_resolve(file, uri, name)) return false;
-    if (load_read(file->load, *name, scratch, bytes, &err)) return true;
-    file_error(file, uri, "%s: %s", *name, err.text);
-    return false;
+    return load_read(file->load, *name, scratch, bytes, &err) ||
+           file_error(file, uri, "%s: %s", *name, err.text);
 }
 
 static void load_one_image(GltfFile *file, const GltfValue *image, ImageUse use, Image *out)
@@ -172,17 +164,13 @@ void images_load(GltfFile *file)
     file->texture_base = file->load->textures.count;
     for (int i = 0; textures && i < textures->count; i++) {
         const GltfValue *texture = &textures->items[i];
-        const GltfValue *sampler =
-            tree_element(file->root, "samplers", tree_int(texture, "sampler", NO_ID));
+        const GltfValue *sampler = tree_referred(tree_member(texture, "sampler"), "samplers");
         int source = texture_source(texture);
-        texture_add(
-            file->load,
-            (Texture){
-                .image = source >= 0 && source < image_count ? decoded[source] : (Image){0},
-                .wrap_u = wrap_from_gl(tree_int(sampler, "wrapS", 10497)),
-                .wrap_v = wrap_from_gl(tree_int(sampler, "wrapT", 10497)),
-                .nearest = tree_int(sampler, "magFilter", 9729) == 9728,
-            });
+        texture_add(file->load, (Texture){
+            .image = source >= 0 && source < image_count ? decoded[source] : (Image){0},
+            .wrap_u = wrap_from_gl(tree_int(sampler, "wrapS", 10497)),
+            .wrap_v = wrap_from_gl(tree_int(sampler, "wrapT", 10497)),
+            .nearest = tree_int(sampler, "magFilter", 9729) == 9728});
     }
 }
 

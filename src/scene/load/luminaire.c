@@ -1,16 +1,13 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "scene/load/luminaire.h"
 
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "scene/gltf/document.h"
 #include "scene/load/profiles.h"
+#include "scene/load/wearer.h"
 #include "spectrum/illuminant.h"
-
-#define NODE "node:"
-enum { NAMES_MAX = 480 };
 
 struct LuminaireDraft {
     bool         is_readable, is_found;
@@ -19,8 +16,8 @@ struct LuminaireDraft {
 
 static const char *node_of(const SceneOverride *one)
 {
-    bool has_prefix = !strncmp(one->material, NODE, strlen(NODE));
-    return one->material + (has_prefix ? strlen(NODE) : 0);
+    bool has_prefix = !strncmp(one->material, WEARER_NODE, strlen(WEARER_NODE));
+    return one->material + (has_prefix ? strlen(WEARER_NODE) : 0);
 }
 
 void luminaires_start(Loader *load)
@@ -55,11 +52,10 @@ static PunctualLight *add_lamp(Loader *load, const char *name, const LightProfil
                                const Transform *world)
 {
     PunctualLight *out = list_add(&load->lights, &load->scratch);
-    const char *path = profile->file;
     *out = (PunctualLight){.kind = LIGHT_LUMINAIRE,
                            .name = name,
                            .node_name = name,
-                           .file = arena_string(load->arena, path, strlen(path)),
+                           .file = load_keep(load, profile->file),
                            .position = world->origin,
                            .direction = vec3_normalize(vec3_neg(world->z)),
                            .web = profile->web,
@@ -95,10 +91,9 @@ static bool place_profile(GltfFile *file, const GltfValue *node, const Transform
     if (!profile) return false;
     warn_of_both(file, node);
     if (!profile->web) return true; /* reported when it was read */
-    const char *name = tree_text(node, "name", ""), *kept;
-    kept = name[0] ? arena_string(load->arena, name, strlen(name)) : profile->name;
-    PunctualLight *light = add_lamp(load, kept, profile, world);
-    if (!name[0]) light->node_name = "";
+    const char *name = load_keep(load, tree_text(node, "name", ""));
+    PunctualLight *light = add_lamp(load, name[0] ? name : profile->name, profile, world);
+    light->node_name = name;
     light->level = tree_float(extension, "multiplier", 1);
     tree_floats(extension, "color", 3, light->color);
     return true;
@@ -111,7 +106,7 @@ static bool place_by_name(GltfFile *file, const GltfValue *node, const Transform
     const SceneOptions *o = load->options;
     const char *text = tree_text(node, "name", "");
     if (!o->light_count || !text[0]) return false;
-    const char *name = arena_string(load->arena, text, strlen(text));
+    const char *name = load_keep(load, text);
     for (int i = o->light_count; i-- > 0;) {
         if (strcmp(node_of(&o->lights[i]), name) != 0) continue;
         for (int k = 0; k <= i; k++)
@@ -130,20 +125,11 @@ bool luminaire_place(GltfFile *file, const GltfValue *node, const Transform *wor
 
 /* ---- behind the last file ---------------------------------------------------------------- */
 
-static void add_name(char names[NAMES_MAX], const char *name)
-{
-    char quoted[80];
-    size_t length = strlen(names);
-    snprintf(quoted, sizeof quoted, "\"%.70s\"", name);
-    if (strstr(names, quoted) || length + strlen(quoted) + 3 > NAMES_MAX) return;
-    snprintf(names + length, NAMES_MAX - length, "%s%s", length ? ", " : "", quoted);
-}
-
 static void report_unknown(Loader *load, const char *name)
 {
-    char names[NAMES_MAX] = "";
+    char names[WEARER_NAMES_MAX] = "";
     for (int i = 0; i < load->node_names.count; i++)
-        add_name(names, *(const char **)list_item(&load->node_names, i));
+        wearer_list_name(names, *(const char **)list_item(&load->node_names, i));
     problems_add(load->problems, SEVERITY_ERROR, "--light", "",
                  "no node is named \"%.100s\"; there are %s", name,
                  names[0] ? names : "none with names");
@@ -183,7 +169,7 @@ static const LampOption CCT = {"--light-cct", "K",
 
 static void apply(Loader *load, const LampOption *option, const SceneOverride *one)
 {
-    char   names[NAMES_MAX] = "";
+    char   names[WEARER_NAMES_MAX] = "";
     double value;
     bool   is_found = false;
     if (!read_number(one->value, option->unit, option->low, option->high, &value)) {
@@ -194,7 +180,7 @@ static void apply(Loader *load, const LampOption *option, const SceneOverride *o
     for (int i = 0; i < load->lights.count; i++) {
         PunctualLight *light = list_item(&load->lights, i);
         if (light->kind != LIGHT_LUMINAIRE) continue;
-        add_name(names, light->node_name);
+        wearer_list_name(names, light->node_name);
         if (strcmp(one->material, "*") && strcmp(node_of(one), light->node_name)) continue;
         is_found = true;
         option->set(light, value);

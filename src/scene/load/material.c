@@ -231,10 +231,7 @@ static int add_material(Loader *load, Material material, const int sets[SCENE_UV
 static void build_material(GltfFile *file, const GltfValue *value)
 {
     Loader *load = file->load;
-    const char *name = tree_text(value, "name", "");
-    Material m =
-        default_material(name[0] ? arena_string(load->arena, name, strlen(name))
-                                 : arena_format(load->arena, "material %d", value->index));
+    Material m = default_material(load_name(load, value, "material"));
     int id = load->materials.count, sets[SCENE_UV_SETS];
     const GltfValue *display = tree_extension(value, "PARHELION_display");
     read_core(file, value, &m);
@@ -254,11 +251,10 @@ static void build_material(GltfFile *file, const GltfValue *value)
 
 void materials_build(GltfFile *file)
 {
-    const GltfValue *materials = tree_member(file->root, "materials");
     file->material_base = file->load->materials.count;
     file->default_material_id = NO_ID;
-    for (int i = 0; materials && i < materials->count; i++)
-        build_material(file, &materials->items[i]);
+    for (const GltfValue *m = tree_items(file->root, "materials"); m; m = tree_next(m))
+        build_material(file, m);
 }
 
 int material_default(GltfFile *file)
@@ -271,7 +267,7 @@ int material_default(GltfFile *file)
 
 int material_add_matt(Loader *load, const char *name, float reflectance)
 {
-    Material m = default_material(arena_string(load->arena, name, strlen(name)));
+    Material m = default_material(load_keep(load, name));
     for (int i = 0; i < 3; i++) m.base_color[i] = reflectance;
     m.metallic = 0;
     m.specular = 0;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* node_transform.h -- a place from a translation, a rotation and a scale (glTF 2.0, 3.5.3).
+/* node_transform.h -- a place from a matrix, or from a translation, a rotation and a scale
+ * (glTF 2.0, 3.5.3).
  *
  * Units    m. Fails never. Threads: no state.
  */
@@ -7,6 +8,13 @@
 #include <math.h>
 
 #include "base/vec.h"
+
+/* Column by column; the last row is (0, 0, 0, 1). */
+static inline Transform transform_from_matrix(const float m[16])
+{
+    return (Transform){vec3(m[0], m[1], m[2]), vec3(m[4], m[5], m[6]), vec3(m[8], m[9], m[10]),
+                       vec3(m[12], m[13], m[14])};
+}
 
 /* T R S; q = (x, y, z, w) is a unit quaternion to within rounding: it is normalised here. */
 static inline Transform transform_from_trs(const float t[3], const float q[4],

@@ -88,20 +88,13 @@ static void interpolate(const Keys *keys, AnimationPath path, double time_s, flo
 
 /* ---- a channel --------------------------------------------------------------------------- */
 
-static bool has_bytes(GltfFile *file, const GltfValue *sampler, const char *name)
-{
-    const GltfAccessor *accessor = accessor_get(file, tree_int(sampler, name, NO_ID));
-    if (accessor_has_bytes(file, accessor)) return true;
-    file_error(file, sampler, "the bytes of the %s are missing: their buffer is not there",
-               name);
-    return false;
-}
-
 static bool read_keys(GltfFile *file, const GltfValue *sampler, size_t width, Keys *out)
 {
     const char *how = tree_text(sampler, "interpolation", "LINEAR");
     int input = tree_int(sampler, "input", NO_ID), output = tree_int(sampler, "output", NO_ID);
-    if (!has_bytes(file, sampler, "input") || !has_bytes(file, sampler, "output")) return false;
+    if (!accessor_claim_bytes(file, input, sampler, "the input") ||
+        !accessor_claim_bytes(file, output, sampler, "the output"))
+        return false;
     *out = (Keys){.interpolation = strcmp(how, "STEP") == 0          ? STEP
                                    : strcmp(how, "CUBICSPLINE") == 0 ? CUBIC
                                                                      : LINEAR,
@@ -118,16 +111,8 @@ static size_t width_of(const GltfFile *file, const AnimationTarget *moved)
     static const size_t WIDTHS[MOVES_COUNT] = {3, 4, 3, 0, 1};
     if (moved->path != MOVES_WEIGHTS) return WIDTHS[moved->path];
     const GltfValue *node = tree_element(file->root, "nodes", moved->node);
-    const GltfValue *mesh = tree_element(file->root, "meshes", tree_int(node, "mesh", NO_ID));
-    int targets = tree_count(tree_item(tree_member(mesh, "primitives"), 0), "targets");
-    return (size_t)targets;
-}
-
-static const char *animation_name(GltfFile *file, const GltfValue *animation)
-{
-    const char *name = tree_text(animation, "name", "");
-    return name[0] ? arena_string(file->load->arena, name, strlen(name))
-                   : arena_format(file->load->arena, "animation %d", animation->index);
+    const GltfValue *mesh = tree_referred(tree_member(node, "mesh"), "meshes");
+    return (size_t)tree_count(tree_item(tree_member(mesh, "primitives"), 0), "targets");
 }
 
 /* False, and reported: another animation moves that already. */
@@ -136,14 +121,13 @@ static bool claim(GltfFile *file, const GltfValue *channel, const AnimationTarge
     NodePose *pose = &file->poses[moved->node];
     const GltfValue *before = pose->movers[moved->path];
     pose->movers[moved->path] = channel;
-    if (!before) return true;
-    file_error(file, channel,
-               "animations \"%.80s\" and \"%.80s\" both move the %s of node %d: --animation "
-               "chooses one",
-               animation_name(file, before->parent->parent),
-               animation_name(file, channel->parent->parent),
-               animation_path_names[moved->path], moved->node);
-    return false;
+    return !before ||
+           file_error(file, channel,
+                      "animations \"%.80s\" and \"%.80s\" both move the %s of node %d: "
+                      "--animation chooses one",
+                      load_name(file->load, before->parent->parent, "animation"),
+                      load_name(file->load, channel->parent->parent, "animation"),
+                      animation_path_names[moved->path], moved->node);
 }
 
 static void play_channel(GltfFile *file, const GltfValue *samplers, const GltfValue *channel)
@@ -168,19 +152,11 @@ static void play_channel(GltfFile *file, const GltfValue *samplers, const GltfVa
 
 /* ---- the animations of a file ------------------------------------------------------------ */
 
-static bool is_chosen(const SceneState *state, const char *name)
-{
-    for (int i = 0; i < state->animation_count; i++)
-        if (strcmp(state->animations[i], name) == 0) return true;
-    return state->animation_count == 0;
-}
-
 static double end_of(GltfFile *file, const GltfValue *animation)
 {
     double end = 0;
-    const GltfValue *samplers = tree_member(animation, "samplers");
-    for (int i = 0; i < tree_count(animation, "samplers"); i++) {
-        int id = tree_int(&samplers->items[i], "input", NO_ID);
+    for (const GltfValue *s = tree_items(animation, "samplers"); s; s = tree_next(s)) {
+        int id = tree_int(s, "input", NO_ID);
         const GltfAccessor *times = accessor_get(file, id);
         Arena begun = file->load->scratch;
         if (!times || times->component_count != 1) continue;
@@ -192,9 +168,8 @@ static double end_of(GltfFile *file, const GltfValue *animation)
 
 static void play(GltfFile *file, const GltfValue *animation)
 {
-    const GltfValue *channels = tree_member(animation, "channels");
-    for (int i = 0; i < tree_count(animation, "channels"); i++)
-        play_channel(file, tree_member(animation, "samplers"), &channels->items[i]);
+    for (const GltfValue *c = tree_items(animation, "channels"); c; c = tree_next(c))
+        play_channel(file, tree_member(animation, "samplers"), c);
 }
 
 void pose_build(GltfFile *file)
@@ -207,20 +182,16 @@ void pose_build(GltfFile *file)
         file->poses = ARENA_NEW(&load->scratch, NodePose, tree_count(file->root, "nodes"));
     for (int i = 0; i < count; i++) {
         const GltfValue *animation = &animations->items[i];
-        SceneAnimation named = {animation_name(file, animation), end_of(file, animation)};
+        SceneAnimation named = {load_name(load, animation, "animation"),
+                                end_of(file, animation)};
         *(SceneAnimation *)list_add(&load->animations, &load->scratch) = named;
-        if (file->poses && is_chosen(state, named.name)) play(file, animation);
+        bool is_chosen = !state->animation_count ||
+                         load_is_among(named.name, state->animations, state->animation_count);
+        if (file->poses && is_chosen) play(file, animation);
     }
 }
 
 /* ---- what was asked for and is not there ------------------------------------------------- */
-
-static bool is_among(const char *name, const char *const *known, int count)
-{
-    for (int i = 0; i < count; i++)
-        if (strcmp(known[i], name) == 0) return true;
-    return false;
-}
 
 static void report_unknown(Loader *load, const char *noun, const char *const *asked,
                            int asked_count, const char *const *known, int known_count)
@@ -228,7 +199,7 @@ static void report_unknown(Loader *load, const char *noun, const char *const *as
     char advice[600], option[16];
     snprintf(option, sizeof option, "--%s", noun);
     for (int i = 0; i < asked_count; i++) {
-        if (is_among(asked[i], known, known_count)) continue;
+        if (load_is_among(asked[i], known, known_count)) continue;
         if (known_count)
             nearest_word_advice(asked[i], known, known_count, advice, (int)sizeof advice);
         else

@@ -2,14 +2,14 @@
 #include "scene/load/primitive.h"
 
 #include <stdio.h>
-#include <string.h>
 
 #include "scene/gltf/accessor.h"
 #include "scene/gltf/document.h"
 #include "scene/gltf/variant.h"
 #include "scene/load/material.h"
-#include "scene/gltf/part_draft.h"
+#include "scene/load/node_transform.h"
 #include "scene/load/pose.h"
+#include "scene/gltf/part_draft.h"
 #include "scene/load/texture_slot.h"
 
 /* ---- morph targets: base + sum of weight * displacement -------------------------------- */
@@ -125,9 +125,7 @@ static Transform *bind_transforms(GltfFile *file, const GltfValue *skin, int joi
     for (int i = 0; i < joint_count; i++) {
         out[i] = file->world_from_node[(int)joints->items[i].number];
         if (!inverse) continue;
-        const float *m = inverse + 16 * i;
-        Transform bind = {vec3(m[0], m[1], m[2]), vec3(m[4], m[5], m[6]),
-                          vec3(m[8], m[9], m[10]), vec3(m[12], m[13], m[14])};
+        Transform bind = transform_from_matrix(inverse + 16 * i);
         out[i] = transform_compose(&out[i], &bind);
     }
     return out;
@@ -137,7 +135,7 @@ static Skin read_skin(GltfFile *file, const GltfValue *node, const GltfValue *pr
 {
     Skin skin = {0};
     const GltfValue *names = tree_member(primitive, "attributes");
-    const GltfValue *value = tree_element(file->root, "skins", tree_int(node, "skin", NO_ID));
+    const GltfValue *value = tree_referred(tree_member(node, "skin"), "skins");
     skin.joint_count = tree_count(value, "joints");
     if (!skin.joint_count) return skin;
     for (int n = 0; n < 8; n++) {
@@ -283,19 +281,10 @@ static void list_triangles(GltfFile *file, const GltfValue *primitive, bool is_m
 
 /* ---- a part ---------------------------------------------------------------------------- */
 
-static const char *kept_name(GltfFile *file, const GltfValue *value)
+static const char *part_name(Loader *load, const GltfValue *node, const GltfValue *mesh)
 {
-    const char *name = tree_text(value, "name", "");
-    return arena_string(file->load->arena, name, strlen(name));
-}
-
-static const char *part_name(GltfFile *file, const GltfValue *node, const GltfValue *mesh)
-{
-    Arena *arena = file->load->arena;
-    const char *name = tree_text(node, "name", "");
-    if (!name[0]) name = tree_text(mesh, "name", "");
-    if (!name[0]) return arena_format(arena, "node %d", node->index);
-    return arena_string(arena, name, strlen(name));
+    const char *own = tree_text(node, "name", ""), *name = tree_text(mesh, "name", "");
+    return !own[0] && name[0] ? load_keep(load, name) : load_name(load, node, "node");
 }
 
 static bool stands_near(GltfFile *file, const GltfValue *primitive,
@@ -304,11 +293,10 @@ static bool stands_near(GltfFile *file, const GltfValue *primitive,
     for (uint32_t i = 0; i < draft->vertex_count; i++) {
         Vec3 p = draft->positions[i];
         if (vec3_is_within(p, SCENE_MOST_M)) continue;
-        file_error(file, primitive,
-                   "vertex %u stands at (%g, %g, %g) in the scene; numbers within %g m are "
-                   "wanted",
-                   i, (double)p.x, (double)p.y, (double)p.z, (double)SCENE_MOST_M);
-        return false;
+        return file_error(file, primitive,
+                          "vertex %u stands at (%g, %g, %g) in the scene; numbers within %g m "
+                          "are wanted",
+                          i, (double)p.x, (double)p.y, (double)p.z, (double)SCENE_MOST_M);
     }
     return true;
 }
@@ -330,24 +318,17 @@ static void finish_shading(PartDraft *draft, const Material *material, Arena *sc
  * of it is shown. */
 static bool has_bytes(GltfFile *file, const GltfValue *primitive, const GltfValue *at)
 {
-    const GltfAccessor *accessor = accessor_get(file, tree_whole(at, NO_ID));
-    if (!accessor || accessor_has_bytes(file, accessor)) return true;
-    file_error(file, primitive, "the bytes of %s are missing: their buffer is not there",
-               at->key);
-    return false;
+    return !at || accessor_claim_bytes(file, tree_whole(at, NO_ID), primitive, at->key);
 }
 
 static bool has_all_bytes(GltfFile *file, const GltfValue *primitive)
 {
-    const GltfValue *attributes = tree_member(primitive, "attributes");
     if (!has_bytes(file, primitive, tree_member(primitive, "indices"))) return false;
-    for (int i = 0; i < tree_count(primitive, "attributes"); i++)
-        if (!has_bytes(file, primitive, &attributes->items[i])) return false;
-    for (int t = 0; t < tree_count(primitive, "targets"); t++) {
-        const GltfValue *target = tree_item(tree_member(primitive, "targets"), t);
-        for (int i = 0; i < target->count; i++)
-            if (!has_bytes(file, primitive, &target->items[i])) return false;
-    }
+    for (const GltfValue *a = tree_items(primitive, "attributes"); a; a = tree_next(a))
+        if (!has_bytes(file, primitive, a)) return false;
+    for (const GltfValue *t = tree_items(primitive, "targets"); t; t = tree_next(t))
+        for (int i = 0; i < t->count; i++)
+            if (!has_bytes(file, primitive, &t->items[i])) return false;
     return true;
 }
 
@@ -355,9 +336,9 @@ static bool fits(GltfFile *file, const GltfValue *primitive, size_t count)
 {
     Loader *load = file->load;
     load->vertex_total += count;
-    if (load->vertex_total <= LOAD_MAX_ELEMENTS) return true;
-    file_error(file, primitive, "the scene has more than %zu vertices", LOAD_MAX_ELEMENTS);
-    return false;
+    return load->vertex_total <= LOAD_MAX_ELEMENTS ||
+           file_error(file, primitive, "the scene has more than %zu vertices",
+                      LOAD_MAX_ELEMENTS);
 }
 
 /* Everything that it needs in between lies in scratch. False: there is nothing to show. */
@@ -395,9 +376,9 @@ void primitive_build(GltfFile *file, const GltfValue *node, const Transform *wor
     int material_id = material >= 0 ? file->material_base + material : material_default(file);
     Arena begun = load->scratch;
     PartDraft draft = {
-        .part = {.name = part_name(file, node, mesh),
-                 .node_name = kept_name(file, node),
-                 .mesh_name = kept_name(file, mesh),
+        .part = {.name = part_name(load, node, mesh),
+                 .node_name = load_keep(load, tree_text(node, "name", "")),
+                 .mesh_name = load_keep(load, tree_text(mesh, "name", "")),
                  .material_id = material_id},
         .vertex_count = (uint32_t)position->count,
         .file = file,

@@ -18,10 +18,8 @@ static const GltfValue *profile_list(const GltfFile *file)
 
 static bool is_shown(const GltfFile *file, int index)
 {
-    const GltfValue *nodes = tree_member(file->root, "nodes");
-    for (int i = 0; nodes && i < nodes->count; i++)
-        if (tree_int(tree_extension(&nodes->items[i], EXTENSION), "light", NO_ID) == index)
-            return true;
+    for (const GltfValue *node = tree_items(file->root, "nodes"); node; node = tree_next(node))
+        if (tree_int(tree_extension(node, EXTENSION), "light", NO_ID) == index) return true;
     return false;
 }
 
@@ -70,8 +68,7 @@ bool profile_read(Loader *load, FileBytes bytes, bool has_folder, LightProfile *
     out->opening = luminaire.opening;
     out->tilt = luminaire.tilt;
     out->cct_k = (float)luminaire.cct_k;
-    out->cct_text =
-        arena_string(load->arena, luminaire.cct_text, strlen(luminaire.cct_text));
+    out->cct_text = load_keep(load, luminaire.cct_text);
     if (luminaire.opening_fault)
         problems_add(load->problems, SEVERITY_WARNING, out->file, "", "%s",
                      luminaire.opening_fault);
@@ -84,10 +81,8 @@ static bool data_bytes(GltfFile *file, const GltfValue *uri, FileBytes *bytes)
 {
     Error err;
     const char *type;
-    if (!data_uri_decode(uri->text, &file->load->scratch, bytes, &type, &err)) {
-        file_error(file, uri, "%s", err.text);
-        return false;
-    }
+    if (!data_uri_decode(uri->text, &file->load->scratch, bytes, &type, &err))
+        return file_error(file, uri, "%s", err.text);
     if (strcmp(type, MEDIA_TYPE) != 0)
         file_warning(file, uri, "the media type is \"%.60s\"; " MEDIA_TYPE " is wanted", type);
     return true;
@@ -100,15 +95,12 @@ static bool file_bytes(GltfFile *file, const GltfValue *uri, FileBytes *bytes,
     Severity severity = is_shown(file, uri->parent->index) ? SEVERITY_ERROR : SEVERITY_WARNING;
     if (document_is_elsewhere(file, uri, severity)) return false;
     if (!document_resolve(file, uri, name)) return false;
-    if (luminaire_is_eulumdat(*name)) {
-        file_error(file, uri,
-                   "%s is EULUMDAT, " EXTENSION " has IES LM-63 (.ies) only: give it with "
-                   "--light NODE=FILE.ldt", *name);
-        return false;
-    }
-    if (load_read(file->load, *name, &file->load->scratch, bytes, &err)) return true;
-    file_error(file, uri, "%s: %s", *name, err.text);
-    return false;
+    if (luminaire_is_eulumdat(*name))
+        return file_error(file, uri,
+                          "%s is EULUMDAT, " EXTENSION " has IES LM-63 (.ies) only: give it "
+                          "with --light NODE=FILE.ldt", *name);
+    return load_read(file->load, *name, &file->load->scratch, bytes, &err) ||
+           file_error(file, uri, "%s: %s", *name, err.text);
 }
 
 /* *name: of a file its path; of bytes inside the scene where they are. */
@@ -124,8 +116,7 @@ static bool profile_bytes(GltfFile *file, const GltfValue *profile, FileBytes *b
     int view = tree_int(profile, "bufferView", NO_ID);
     *bytes = view >= 0 && view < file->data.view_count ? document_view(file, view)
                                                        : (FileBytes){0};
-    if (!bytes->data) file_error(file, profile, "its bytes are missing");
-    return bytes->data != NULL;
+    return bytes->data || file_error(file, profile, "its bytes are missing");
 }
 
 /* ---- all of them ------------------------------------------------------------------------- */
@@ -144,9 +135,7 @@ static void load_profile(GltfFile *file, const GltfValue *value, LightProfile *o
     Error err = {0};
     FileBytes bytes;
     Loader *load = file->load;
-    const char *name = tree_text(value, "name", "");
-    out->name = name[0] ? arena_string(load->arena, name, strlen(name))
-                        : arena_format(load->arena, "light profile %d", value->index);
+    out->name = load_name(load, value, "light profile");
     if (!profile_bytes(file, value, &bytes, &out->file)) return;
     const GltfValue *uri = tree_member(value, "uri");
     bool has_folder = uri && !uri_is_data(uri->text);

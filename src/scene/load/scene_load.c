@@ -228,10 +228,8 @@ static Scene *assemble(Loader *load)
 
 static void note_extensions(GltfFile *file)
 {
-    const GltfValue *used = tree_member(file->root, "extensionsUsed");
-    for (int i = 0; used && i < used->count; i++)
-        *(const char **)list_add(&file->load->extensions, &file->load->scratch) =
-            arena_string(file->load->arena, used->items[i].text, strlen(used->items[i].text));
+    for (const GltfValue *e = tree_items(file->root, "extensionsUsed"); e; e = tree_next(e))
+        load_note(file->load, &file->load->extensions, e->text);
 }
 
 static void check_structure(GltfFile *file)
@@ -247,10 +245,8 @@ static void check_structure(GltfFile *file)
 static bool read_data(GltfFile *file)
 {
     Error err;
-    if (gltf_json_data(file->root, &file->load->scratch, &file->data, &err))
-        return true;
-    file_error(file, NULL, "%s", err.text);
-    return false;
+    return gltf_json_data(file->root, &file->load->scratch, &file->data, &err) ||
+           file_error(file, NULL, "%s", err.text);
 }
 
 /* One file: read, check, and, when nothing is wrong, build. */
@@ -259,7 +255,7 @@ static void load_file(Loader *load, const char *path)
     const Problems *problems = load->problems;
     int before = problems->error_count;
     GltfFile *file = ARENA_NEW(&load->scratch, GltfFile, 1);
-    *file = (GltfFile){.load = load, .path = arena_string(load->arena, path, strlen(path))};
+    *file = (GltfFile){.load = load, .path = load_keep(load, path)};
     if (!document_read(file)) return;
     extras_unfold(file);
     materials_change(file);

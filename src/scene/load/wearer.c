@@ -4,20 +4,20 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "scene/gltf/document.h"
 #include "scene/gltf/part_draft.h"
 
-#define NODE "node:"
 #define MESH "mesh:"
-enum { NAMES_MAX = 480, PREFIX = 5 };
+enum { PREFIX = 5 };
 
 bool wearer_is_named(const char *word)
 {
-    return strncmp(word, NODE, PREFIX) == 0 || strncmp(word, MESH, PREFIX) == 0;
+    return strncmp(word, WEARER_NODE, PREFIX) == 0 || strncmp(word, MESH, PREFIX) == 0;
 }
 
 static const char *name_of(const PartDraft *draft, const char *word)
 {
-    bool by_node = strncmp(word, NODE, PREFIX) == 0;
+    bool by_node = strncmp(word, WEARER_NODE, PREFIX) == 0;
     return by_node ? draft->part.node_name : draft->part.mesh_name;
 }
 
@@ -33,19 +33,23 @@ static const PartDraft *part_at(const Loader *load, int index)
 
 /* ---- lists of names, for messages ------------------------------------------------------- */
 
-/* Once each, as long as there is room. */
-static void add_name(char names[NAMES_MAX], const char *name)
+void wearer_list_name(char names[WEARER_NAMES_MAX], const char *name)
 {
     char quoted[80];
     size_t length = strlen(names);
     snprintf(quoted, sizeof quoted, "\"%.70s\"", name);
-    if (!name[0] || strstr(names, quoted) || length + strlen(quoted) + 3 > NAMES_MAX) return;
-    snprintf(names + length, NAMES_MAX - length, "%s%s", length ? ", " : "", quoted);
+    if (strstr(names, quoted) || length + strlen(quoted) + 3 > WEARER_NAMES_MAX) return;
+    snprintf(names + length, WEARER_NAMES_MAX - length, "%s%s", length ? ", " : "", quoted);
+}
+
+static void add_name(char names[WEARER_NAMES_MAX], const char *name)
+{
+    if (name[0]) wearer_list_name(names, name);
 }
 
 static int unknown(Loader *load, const char *option, const char *word)
 {
-    char names[NAMES_MAX] = "";
+    char names[WEARER_NAMES_MAX] = "";
     for (int i = 0; i < load->parts.count; i++)
         add_name(names, name_of(part_at(load, i), word));
     problems_add(load->problems, SEVERITY_ERROR, option, "",
@@ -65,7 +69,7 @@ static bool may_be_screen(const Loader *load, int material_id)
 /* The one material of the parts that are meant, or the one of them that may be a screen. */
 static int choose_material(Loader *load, const char *option, const char *word)
 {
-    char names[NAMES_MAX] = "";
+    char names[WEARER_NAMES_MAX] = "";
     int first = NO_ID, screen = NO_ID, count = 0, screens = 0;
     for (int i = 0; i < load->parts.count; i++) {
         const PartDraft *draft = part_at(load, i);
@@ -86,20 +90,29 @@ static int choose_material(Loader *load, const char *option, const char *word)
     return NO_ID;
 }
 
-/* Nodes of one name cannot be distinguished by it. */
-static bool is_one_node(Loader *load, const char *option, const char *word)
+/* Whether the parts that are meant (word NULL: that wear the material) hang on one node, and
+ * the names of their meshes (of their nodes). */
+static bool hang_on_one_node(const Loader *load, const char *word, int material_id,
+                             char names[WEARER_NAMES_MAX])
 {
-    char names[NAMES_MAX] = "";
     const PartDraft *first = NULL;
     bool is_one = true;
-    if (strncmp(word, NODE, PREFIX) != 0) return true;
     for (int i = 0; i < load->parts.count; i++) {
         const PartDraft *draft = part_at(load, i);
-        if (!is_meant(draft, word)) continue;
-        add_name(names, draft->part.mesh_name);
+        if (word ? !is_meant(draft, word) : draft->part.material_id != material_id) continue;
+        add_name(names, word ? draft->part.mesh_name : draft->part.node_name);
         if (!first) first = draft;
         is_one &= draft->node == first->node;
     }
+    return is_one;
+}
+
+/* Nodes of one name cannot be distinguished by it. */
+static bool is_one_node(Loader *load, const char *option, const char *word)
+{
+    char names[WEARER_NAMES_MAX] = "";
+    if (strncmp(word, WEARER_NODE, PREFIX) != 0) return true;
+    bool is_one = hang_on_one_node(load, word, NO_ID, names);
     if (!is_one)
         problems_add(load->problems, SEVERITY_ERROR, option, "",
                      "several nodes are named \"%.100s\"; mesh:NAME tells them apart where "
@@ -119,14 +132,14 @@ static bool is_shared(const Loader *load, int material_id, const char *word)
     return false;
 }
 
-static const char *free_name(const Loader *load, const char *word)
+static const char *free_name(Loader *load, const char *word)
 {
     const char *name = word + PREFIX;
     for (int i = 0; i < load->materials.count; i++) {
         const Material *material = list_item(&load->materials, i);
         if (strcmp(material->name, word + PREFIX) == 0) name = word;
     }
-    return arena_string(load->arena, name, strlen(name));
+    return load_keep(load, name);
 }
 
 static void copy_display(Loader *load, Material *material, int material_id)
@@ -169,18 +182,9 @@ int wearer_material(Loader *load, const char *option, const char *word)
 
 void wearer_warn_of_sharing(Loader *load, const char *option, int material_id)
 {
-    char names[NAMES_MAX] = "";
+    char names[WEARER_NAMES_MAX] = "";
     const Material *material = list_item(&load->materials, material_id);
-    const PartDraft *first = NULL;
-    bool is_one = true;
-    for (int i = 0; i < load->parts.count; i++) {
-        const PartDraft *draft = part_at(load, i);
-        if (draft->part.material_id != material_id) continue;
-        add_name(names, draft->part.node_name);
-        if (!first) first = draft;
-        is_one &= draft->node == first->node;
-    }
-    if (!is_one)
+    if (!hang_on_one_node(load, NULL, material_id, names))
         problems_add(load->problems, SEVERITY_WARNING, option, "",
                      "\"%.100s\" is worn by several nodes, which become one display%s%s: "
                      "node:NAME or mesh:NAME means one of them",

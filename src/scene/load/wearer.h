@@ -8,6 +8,12 @@
 #pragma once
 #include "scene/gltf/loader.h"
 
+#define WEARER_NODE "node:"
+
+/* Adds a name to a list for messages, once and as long as there is room. */
+enum { WEARER_NAMES_MAX = 480 };
+void wearer_list_name(char names[WEARER_NAMES_MAX], const char *name);
+
 /* Whether `word` has one of the two forms. */
 bool wearer_is_named(const char *word);
 

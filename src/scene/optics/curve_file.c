@@ -4,13 +4,6 @@
 #include "base/file.h"
 #include "scene/gltf/document.h"
 
-static void report(GltfFile *file, const GltfValue *uri, const Error *err)
-{
-    char line[1024];
-    error_line(err, line, sizeof line);
-    file_error(file, uri, "%s", line);
-}
-
 /* A file that a scene names, as text. */
 typedef struct CurveText {
     const char *path, *text;
@@ -22,21 +15,18 @@ static bool read_text(GltfFile *file, const GltfValue *uri, CurveText *out)
     FileBytes bytes;
     Loader   *load = file->load;
     if (!document_resolve(file, uri, &out->path)) return false;
-    if (load_read(load, out->path, &load->scratch, &bytes, &err) &&
-        file_text(out->path, &bytes, &out->text, &err))
-        return true;
-    report(file, uri, &err);
-    return false;
+    return (load_read(load, out->path, &load->scratch, &bytes, &err) &&
+            file_text(out->path, &bytes, &out->text, &err)) ||
+           file_error_within(file, uri, &err);
 }
 
 bool curve_file_read(GltfFile *file, const GltfValue *uri, CurveRange range, Curve *out)
 {
     Error     err;
     CurveText from;
-    if (!read_text(file, uri, &from)) return false;
-    if (curve_parse(from.text, from.path, range, out, &err)) return true;
-    report(file, uri, &err);
-    return false;
+    return read_text(file, uri, &from) &&
+           (curve_parse(from.text, from.path, range, out, &err) ||
+            file_error_within(file, uri, &err));
 }
 
 const OpticalConstants *curve_file_index(GltfFile *file, const GltfValue *uri)
@@ -46,6 +36,6 @@ const OpticalConstants *curve_file_index(GltfFile *file, const GltfValue *uri)
     if (!uri || !read_text(file, uri, &from)) return NULL;
     OpticalConstants *out = ARENA_NEW(file->load->arena, OpticalConstants, 1);
     if (curve_parse_index(from.text, from.path, &out->n, &out->k, &err)) return out;
-    report(file, uri, &err);
+    file_error_within(file, uri, &err);
     return NULL;
 }

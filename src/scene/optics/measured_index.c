@@ -19,14 +19,14 @@ typedef struct IndexFile {
     bool             ok;
 } IndexFile;
 
-/* A fault at a place of the table file. */
-static void fails(IndexFile *from, const GltfValue *at, const char *what)
+/* A fault at a place of the table file. Always false. */
+static bool fails(IndexFile *from, const GltfValue *at, const char *what)
 {
     char place[256];
     tree_pointer(at, place, sizeof place);
     file_error(from->file, from->uri, "%s: %s%s%s", from->path, place, place[0] ? ": " : "",
                what);
-    from->ok = false;
+    return from->ok = false;
 }
 
 /* [wavelength in m, value] */
@@ -47,15 +47,11 @@ static bool read_curve(IndexFile *from, const GltfValue *list, Curve *out)
     double *nm = ARENA_NEW(scratch, double, list->count);
     double *value = ARENA_NEW(scratch, double, list->count);
     for (int i = 0; i < list->count; i++) {
-        if (!read_pair(&list->items[i], &nm[i], &value[i])) {
-            fails(from, &list->items[i],
-                  "a pair of a wavelength in m, above 0, and a number from 0 to 100 is wanted");
-            return false;
-        }
-        if (i && !(nm[i] > nm[i - 1])) {
-            fails(from, &list->items[i], "wavelengths that rise are wanted");
-            return false;
-        }
+        if (!read_pair(&list->items[i], &nm[i], &value[i]))
+            return fails(from, &list->items[i], "a pair of a wavelength in m, above 0, and a "
+                                                "number from 0 to 100 is wanted");
+        if (i && !(nm[i] > nm[i - 1]))
+            return fails(from, &list->items[i], "wavelengths that rise are wanted");
     }
     curve_from_points(nm, value, list->count, out);
     return nm[0] <= CURVE_LAST_NM && nm[list->count - 1] >= CURVE_FIRST_NM;
@@ -99,18 +95,12 @@ static bool parse_table(IndexFile *from, const GltfValue **root)
 {
     Error     err;
     FileBytes bytes;
-    char      line[1024];
     Loader   *load = from->file->load;
     if (!document_resolve(from->file, from->uri, &from->path)) return false;
-    if (!load_read(load, from->path, &load->scratch, &bytes, &err)) {
-        error_line(&err, line, sizeof line);
-        file_error(from->file, from->uri, "%s", line);
-        return false;
-    }
-    if (gltf_json_parse((const char *)bytes.data, bytes.size, &load->scratch, root, &err))
-        return true;
-    file_error(from->file, from->uri, "%s: %s", from->path, err.text);
-    return false;
+    if (!load_read(load, from->path, &load->scratch, &bytes, &err))
+        return file_error_within(from->file, from->uri, &err);
+    return gltf_json_parse((const char *)bytes.data, bytes.size, &load->scratch, root, &err) ||
+           file_error(from->file, from->uri, "%s: %s", from->path, err.text);
 }
 
 /* No body has neither. */
@@ -192,7 +182,7 @@ void measured_index_build(GltfFile *file, const GltfValue *material, Material *o
     bool is_measured = uri && uri->text[0];
     const OpticalConstants *table = is_measured ? read_table(file, uri) : NULL;
     if (table) wear_table(file, uri, table, out);
-    if (!is_measured) spread(file, dispersion, out); /* else check_index.c reports it */
+    if (!is_measured) spread(file, dispersion, out); /* else check_optics.c reports it */
     if (out->index && is_constant(out->index)) out->index = NULL;
     if (!(out->is_solid && out->transmission > 0)) out->index = NULL;
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "scene/gltf/load_progress.h"
+#include "scene/gltf/loader.h"
 
 void load_progress_begin(Loader *load, const char *what, const char *unit, double total)
 {
