@@ -10,7 +10,6 @@
 #include "import/importers.h"
 #include "import/primaries.h"
 #include "import/set/import_complete.h"
-#include "import/set/import_levels.h"
 #include "text/json_view.h"
 
 #define KEYS_MAX 64
@@ -243,6 +242,6 @@ bool import_run(const char *const *file, int count, const ImportRequest *request
     if (request->primaries && !primaries_read(request->primaries, &request->text, set, err))
         return false;
     return read_files(file, count, request, set, err) && import_complete(set, err) &&
-           (!request->levels || import_levels(request->levels, set, err)) &&
-           import_specular(&request->specular, set, err);
+           (!request->levels || import_beside_levels(request->levels, set, err)) &&
+           import_beside_specular(&request->specular, set, err);
 }

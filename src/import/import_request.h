@@ -6,7 +6,7 @@
  * Fails    with the file, the JSON path, what was found and what was wanted.
  */
 #pragma once
-#include "import/set/import_specular.h"
+#include "import/set/import_beside.h"
 #include "import/text/text_options.h"
 
 /* Called with the number of files done. */

@@ -8,7 +8,6 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "text/json_view.h"
 #include "text/nearest_word.h"
 
 #define HEAD_BYTES 4096

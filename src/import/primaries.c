@@ -2,7 +2,6 @@
 #include "import/primaries.h"
 
 #include <string.h>
-#include <strings.h>
 
 #define COLUMNS 5 /* wavelength, red, green, blue, black */
 

@@ -1,12 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "light/light.h"
 
-#include "base/units.h"
 #include "light/coverage.h"
 #include "light/emitters_build.h"
 #include "light/punctual_build.h"
 #include "light/sky.h"
-#include "spectrum/photometry.h"
 
 /* How often an emitter is chosen changes the noise alone: displays that become up to so many
  * times as bright are still chosen nearly as often as they should be. */

@@ -3,7 +3,6 @@
 #include "light/punctual_build.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 #include "spectrum/photometry.h"
 

@@ -2,13 +2,11 @@
 /* EULUMDAT (.ldt): one value a line, in the order that A. Stockmar laid down in 1990. */
 #include "import/luminaire/eulumdat.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 
 #include "base/file.h"
-#include "base/units.h"
 #include "import/luminaire/luminaire_opening.h"
 #include "import/luminaire/luminaire_scan.h"
 
@@ -19,17 +17,23 @@ static bool next_line(LuminaireScan *in, const char *what, TextLine *out)
     return is_there || luminaire_scan_fail(in, "the file ends before %s", what);
 }
 
-/* A number at the beginning of a line; some writers put a decimal comma or a unit behind. */
+/* The number at the beginning of a line; some writers put a decimal comma or a unit behind.
+ * False: there is none, *out is 0. */
+static bool number_of(TextLine line, double *out)
+{
+    char digits[40] = {0}, *after;
+    for (int i = 0; i < line.length && i < 39; i++)
+        digits[i] = line.text[i] == ',' ? '.' : line.text[i];
+    *out = strtod(digits, &after);
+    return after != digits;
+}
+
 static bool next_number(LuminaireScan *in, const char *what, double low, double high,
                         double *out)
 {
     TextLine line;
-    char     digits[40] = {0}, *after;
     if (!next_line(in, what, &line)) return false;
-    for (int i = 0; i < line.length && i < 39; i++)
-        digits[i] = line.text[i] == ',' ? '.' : line.text[i];
-    *out = strtod(digits, &after);
-    if (after == digits || !(*out >= low && *out <= high))
+    if (!number_of(line, out) || !(*out >= low && *out <= high))
         return luminaire_scan_fail(in, "%s is '%.*s', wanted a number from %g to %g", what,
                                    line.length < 40 ? line.length : 40, line.text, low, high);
     return true;
@@ -48,11 +52,9 @@ static bool read_heights(LuminaireScan *in, double *largest)
 {
     for (int i = 0; i < 4; i++) {
         TextLine line;
-        char     digits[40] = {0};
+        double   height;
         if (!next_line(in, "the heights of the luminous area", &line)) return false;
-        for (int k = 0; k < line.length && k < 39; k++)
-            digits[k] = line.text[k] == ',' ? '.' : line.text[k];
-        double height = strtod(digits, NULL);
+        number_of(line, &height);
         if (height > *largest && height <= 1e6) *largest = height;
     }
     return true;

@@ -3,14 +3,12 @@
  * with blanks or commas between them. */
 #include "import/luminaire/ies.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 
 #include "base/count.h"
 #include "base/file.h"
-#include "base/units.h"
 #include "import/luminaire/luminaire_opening.h"
 #include "import/luminaire/luminaire_scan.h"
 #include "import/text/text_names.h"

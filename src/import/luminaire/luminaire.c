@@ -2,7 +2,6 @@
 #include "import/luminaire/luminaire.h"
 
 #include <math.h>
-#include <string.h>
 
 #include "base/file.h"
 #include "base/mathd.h"

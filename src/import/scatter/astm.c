@@ -6,7 +6,6 @@
  * frame: the mirror direction is at phi_i + 180. Angles are radians in the files of Cornell's
  * gonioreflectometer; a file with a theta above 1.6 or a phi above 6.3 is in degrees. */
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
@@ -15,7 +14,6 @@
 #include "base/units.h"
 #include "import/scatter/scan.h"
 #include "import/scatter/scatter.h"
-#include "import/set/word_list.h"
 #include "panel/set/measurement.h"
 
 #define COLUMNS_MAX (4 + MEASUREMENT_WAVELENGTHS_MAX)
@@ -52,7 +50,7 @@ static bool is_wavelength(const char *name, double *nm)
 static bool note_angle(Astm *in, const char *name, int column)
 {
     static const char *const names[] = {"theta_i", "phi_i", "theta_s", "phi_s", NULL};
-    int which = word_list_find(names, name);
+    int which = import_word_find(names, name);
     if (which >= 0) in->angle[which] = column;
     return which >= 0;
 }
@@ -270,7 +268,7 @@ static const float *name_bands(const Astm *in, const ImportOptions *options, Imp
     if (in->nm) return in->nm;
     if (in->is_rgb) return scatter_rgb_bands(file, set);
     return in->is_xyz ? scatter_xyz(options, file, set)
-                      : scatter_wavelength(options, file, set, err);
+                      : scatter_wavelength(0, options, file, set, err);
 }
 
 static bool read_astm(const char *file, const ImportOptions *options, ImportSet *set,

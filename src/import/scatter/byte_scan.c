@@ -2,7 +2,6 @@
 #include "import/scatter/byte_scan.h"
 
 #include <stdarg.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "base/file.h"

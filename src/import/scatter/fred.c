@@ -153,7 +153,7 @@ static bool read_fred(const char *file, const ImportOptions *options, ImportSet 
 {
     Fred in = {.scale = 1};
     if (!scan_open(file, set->arena, &in.scan, err) || !scan_check_end(&in.scan, err) ||
-        !(in.nm = scatter_wavelength(options, file, set, err)) || !read_lines(&in, set, err))
+        !(in.nm = scatter_wavelength(0, options, file, set, err)) || !read_lines(&in, set, err))
         return false;
     if (!in.has_light)
         return scan_fail(&in.scan, err, "the file ends before the two angles of the light");

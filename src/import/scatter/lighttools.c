@@ -5,9 +5,9 @@
  * The scatter angles are about the NORMAL: ScatterRadial from it, ScatterAzimuth around it,
  * with the light of POI 0 at azimuth 90. That zero, and that POI turns the light
  * counter-clockwise, is known from another program's reader alone, as a note states. */
-#include <string.h>
 #include <strings.h>
 
+#include "base/count.h"
 #include "base/file.h"
 #include "import/scatter/scan.h"
 #include "import/scatter/scatter.h"
@@ -75,60 +75,46 @@ static bool read_header(LightTools *in, Error *err)
 
 /* ---- blocks ------------------------------------------------------------------------------ */
 
-/* One of two words. */
-static bool read_choice(LightTools *in, const char *what, const char *const choice[2],
-                        bool *is_first, Error *err)
-{
-    const char *word = scan_word(&in->scan);
-    *is_first = word && !strcasecmp(word, choice[0]);
-    if (*is_first || (word && !strcasecmp(word, choice[1]))) return true;
-    return scan_fail(&in->scan, err, "%s is '%s', wanted %s or %s", what, word ? word : "",
-                     choice[0], choice[1]);
-}
-
-static bool read_tristimulus(LightTools *in, LightToolsBlock *block, Error *err)
-{
-    const char *word = scan_word(&in->scan);
-    block->is_y = word && !strcasecmp(word, "TrisY");
-    if (block->is_y || (word && (!strcasecmp(word, "TrisX") || !strcasecmp(word, "TrisZ"))))
-        return true;
-    return scan_fail(&in->scan, err, "TristimulusValue is '%s', wanted TrisX, TrisY or TrisZ",
-                     word ? word : "");
-}
+/* One of several words, of which the first matters. */
+typedef struct BlockChoice {
+    const char *name, *words[4], *wanted;
+    bool       *is_first;
+} BlockChoice;
 
 /* Up to and with the TIS, whose values follow; *found is false at the end of the data. */
 static bool read_block_head(LightTools *in, LightToolsBlock *block, bool *found, Error *err)
 {
-    static const char *const sides[] = {"Front", "Back"}, *const kinds[] = {"BRDF", "BTDF"};
+    const struct { const char *name; double *out; } numbers[] = {
+        {"AOI", &block->aoi}, {"POI", &block->poi}, {"Wavelength", &block->nm}};
+    const BlockChoice choices[] = {
+        {"Side", {"Front", "Back"}, "Front or Back", &block->is_front},
+        {"ScatterType", {"BRDF", "BTDF"}, "BRDF or BTDF", &block->is_reflection},
+        {"TristimulusValue", {"TrisY", "TrisX", "TrisZ"}, "TrisX, TrisY or TrisZ",
+         &block->is_y}};
     WordScan *scan = &in->scan;
     *block = (LightToolsBlock){.is_front = true, .is_reflection = true, .is_y = true};
     *found = false;
     for (bool begun = false;; begun = true) {
-        bool ok;
-        if (scan_accept(scan, "AOI"))
-            ok = scan_number(scan, "AOI", &block->aoi, err);
-        else if (scan_accept(scan, "POI"))
-            ok = scan_number(scan, "POI", &block->poi, err);
-        else if (scan_accept(scan, "Side"))
-            ok = read_choice(in, "Side", sides, &block->is_front, err);
-        else if (scan_accept(scan, "Wavelength"))
-            ok = scan_number(scan, "Wavelength", &block->nm, err);
-        else if (scan_accept(scan, "ScatterType"))
-            ok = read_choice(in, "ScatterType", kinds, &block->is_reflection, err);
-        else if (scan_accept(scan, "TristimulusValue"))
-            ok = read_tristimulus(in, block, err);
-        else if (scan_accept(scan, "TIS")) {
-            *found = true;
-            return scan_number(scan, "TIS", &block->tis, err);
-        } else if (!begun && scan_accept(scan, "DataEnd"))
-            return true;
-        else {
-            const char *word = scan_peek(scan);
-            return scan_fail(scan, err, "%.40s stands where an entry of a block (AOI, POI, "
-                             "Side, Wavelength, ScatterType, TIS) or DataEnd is wanted",
-                             word ? word : "the end of the file");
+        bool is_entry = false;
+        for (int i = 0; i < COUNT_OF(numbers) && !is_entry; i++)
+            if ((is_entry = scan_accept(scan, numbers[i].name)) &&
+                !scan_number(scan, numbers[i].name, numbers[i].out, err))
+                return false;
+        for (int i = 0; i < COUNT_OF(choices) && !is_entry; i++) {
+            const BlockChoice *choice = &choices[i];
+            if (!(is_entry = scan_accept(scan, choice->name))) continue;
+            int word = scan_choice(scan, choice->name, choice->words, choice->wanted, err);
+            if (word < 0) return false;
+            *choice->is_first = word == 0;
         }
-        if (!ok) return false;
+        if (is_entry) continue;
+        *found = scan_accept(scan, "TIS");
+        if (*found) return scan_number(scan, "TIS", &block->tis, err);
+        if (!begun && scan_accept(scan, "DataEnd")) return true;
+        const char *word = scan_peek(scan);
+        return scan_fail(scan, err, "%.40s stands where an entry of a block (AOI, POI, Side, "
+                         "Wavelength, ScatterType, TIS) or DataEnd is wanted",
+                         word ? word : "the end of the file");
     }
 }
 
@@ -173,7 +159,7 @@ static bool read_block(LightTools *in, const ImportOptions *options, ImportSet *
     if (!block.is_front || !block.is_reflection || !block.is_y) return true;
     const char  *file = in->scan.file;
     const float *nm = in->is_xyz ? scatter_photopic(options, file, set)
-                                 : scatter_stated_wavelength(block.nm, options, file, set, err);
+                                 : scatter_wavelength(block.nm, options, file, set, err);
     return nm && add_block(in, &block, nm, set, totals, err);
 }
 

@@ -12,11 +12,11 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/count.h"
 #include "base/file.h"
 #include "base/units.h"
 #include "import/scatter/half_angle.h"
 #include "import/scatter/tensor_file.h"
-#include "panel/set/measurement.h"
 
 #define LIST_MAX 4096
 /* Nearer to the horizon the cosine cannot be divided out. */
@@ -70,20 +70,19 @@ static bool check_shapes(Rgl *in, Error *err)
 {
     size_t channels = in->is_rgb ? RGB_BANDS : in->wavelengths->count;
     size_t thetas = in->theta_i->count, phis = in->phi_i->count;
-    if (thetas < 1 || thetas > LIST_MAX)
-        return wrong_shape(in, in->theta_i, err, "1 to 4096 angles");
-    if (phis < 1 || phis > LIST_MAX)
-        return wrong_shape(in, in->phi_i, err, "1 to 4096 angles");
-    if (channels < 1 || channels > LIST_MAX)
-        return wrong_shape(in, in->wavelengths, err, "1 to 4096 wavelengths");
-    if (!is_grid(in->ndf, 0)) return wrong_shape(in, in->ndf, err, "at least 2 x 2");
-    if (!is_grid(in->sigma, 0)) return wrong_shape(in, in->sigma, err, "at least 2 x 2");
-    if (!is_grid(in->vndf, 2) || in->vndf->shape[0] != phis || in->vndf->shape[1] != thetas)
-        return wrong_shape(in, in->vndf, err, "phi_i x theta_i x a grid of at least 2 x 2");
-    if (!is_grid(in->values, 3) || in->values->shape[0] != phis ||
-        in->values->shape[1] != thetas || in->values->shape[2] != channels)
-        return wrong_shape(in, in->values, err, "phi_i x theta_i x channels x a grid of at "
-                           "least 2 x 2");
+    const struct { const TensorField *field; bool fits; const char *wanted; } shapes[] = {
+        {in->theta_i, thetas >= 1 && thetas <= LIST_MAX, "1 to 4096 angles"},
+        {in->phi_i, phis >= 1 && phis <= LIST_MAX, "1 to 4096 angles"},
+        {in->wavelengths, channels >= 1 && channels <= LIST_MAX, "1 to 4096 wavelengths"},
+        {in->ndf, is_grid(in->ndf, 0), "at least 2 x 2"},
+        {in->sigma, is_grid(in->sigma, 0), "at least 2 x 2"},
+        {in->vndf, is_grid(in->vndf, 2) && in->vndf->shape[0] == phis &&
+         in->vndf->shape[1] == thetas, "phi_i x theta_i x a grid of at least 2 x 2"},
+        {in->values, is_grid(in->values, 3) && in->values->shape[0] == phis &&
+         in->values->shape[1] == thetas && in->values->shape[2] == channels,
+         "phi_i x theta_i x channels x a grid of at least 2 x 2"}};
+    for (int i = 0; i < COUNT_OF(shapes); i++)
+        if (!shapes[i].fits) return wrong_shape(in, shapes[i].field, err, shapes[i].wanted);
     in->thetas = (int)thetas;
     in->phis = (int)phis;
     in->channels = (int)channels;

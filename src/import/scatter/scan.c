@@ -3,7 +3,6 @@
 
 #include <math.h>
 #include <stdarg.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
@@ -143,13 +142,22 @@ bool scan_counted_list(WordScan *scan, const char *what, int most, int *count, d
     return scan_count(scan, what, most, count, err) && scan_list(scan, what, *count, out, err);
 }
 
-bool scan_spectral_content(WordScan *scan, bool *is_xyz, Error *err)
+int scan_choice(WordScan *scan, const char *what, const char *const *list, const char *wanted,
+                Error *err)
 {
     const char *word = scan_word(scan);
-    *is_xyz = word && !strcasecmp(word, "XYZ");
-    if (*is_xyz || (word && !strcasecmp(word, "Monochrome"))) return true;
-    return scan_fail(scan, err, "SpectralContent is '%s', wanted Monochrome or XYZ",
-                     word ? word : "");
+    int found = word ? import_word_find(list, word) : -1;
+    if (found < 0)
+        scan_fail(scan, err, "%s is '%s', wanted %s", what, word ? word : "", wanted);
+    return found;
+}
+
+bool scan_spectral_content(WordScan *scan, bool *is_xyz, Error *err)
+{
+    static const char *const names[] = {"Monochrome", "XYZ", NULL};
+    int found = scan_choice(scan, "SpectralContent", names, "Monochrome or XYZ", err);
+    *is_xyz = found == 1;
+    return found >= 0;
 }
 
 int scan_lines_left(const WordScan *scan)

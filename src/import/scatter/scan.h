@@ -51,6 +51,11 @@ bool scan_list(WordScan *scan, const char *what, int count, double **out, Error 
 bool scan_counted_list(WordScan *scan, const char *what, int most, int *count, double **out,
                        Error *err);
 
+/* The next word's place in a list that ends with NULL (case does not matter); or -1 and an
+ * error, "WHAT is '...', wanted WANTED". */
+int scan_choice(WordScan *scan, const char *what, const char *const *list, const char *wanted,
+                Error *err);
+
 /* The word behind a "SpectralContent" keyword of .bsdf texts: Monochrome or XYZ. */
 bool scan_spectral_content(WordScan *scan, bool *is_xyz, Error *err);
 

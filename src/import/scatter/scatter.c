@@ -147,14 +147,8 @@ const float *scatter_band(double nm, ImportSet *set)
     return band;
 }
 
-const float *scatter_wavelength(const ImportOptions *options, const char *file, ImportSet *set,
-                                Error *err)
-{
-    return scatter_stated_wavelength(0, options, file, set, err);
-}
-
-const float *scatter_stated_wavelength(double stated_nm, const ImportOptions *options,
-                                       const char *file, ImportSet *set, Error *err)
+const float *scatter_wavelength(double stated_nm, const ImportOptions *options,
+                                const char *file, ImportSet *set, Error *err)
 {
     double nm = options->wavelength_nm > 0 ? options->wavelength_nm : stated_nm;
     if (nm > 0) return scatter_band(nm, set);

@@ -61,13 +61,10 @@ bool scatter_add(ImportSet *set, const char *file, const ImportRows *rows,
 /* One band. */
 const float *scatter_band(double nm, ImportSet *set);
 
-/* --wavelength, or an error that asks for it (NULL). */
-const float *scatter_wavelength(const ImportOptions *options, const char *file, ImportSet *set,
-                                Error *err);
-
-/* The wavelength that a file states (0: none), unless --wavelength is given. */
-const float *scatter_stated_wavelength(double stated_nm, const ImportOptions *options,
-                                       const char *file, ImportSet *set, Error *err);
+/* --wavelength, else the one that the file states (0: none); or an error that asks for it
+ * (NULL). */
+const float *scatter_wavelength(double stated_nm, const ImportOptions *options,
+                                const char *file, ImportSet *set, Error *err);
 
 /* Photopic values (CIE Y) stand at one wavelength, with a note; --wavelength wins. For X, Y
  * and Z another note states that Y alone is taken. */

@@ -24,6 +24,14 @@
 #define FIRST_NM 360.0
 #define LAST_NM 830.0
 
+/* The table's integral of value * cos. */
+static double table_integral(const SpeosTable *table, Arena scratch)
+{
+    ScatterGrid grid = {table->thetas, table->phis, table->theta_deg, table->phi_deg,
+                        table->value, 0, false};
+    return scatter_grid_integral(&grid, scratch);
+}
+
 /* ---- scale ------------------------------------------------------------------------------- */
 
 /* Divides the cosine out. At the horizon the value of the last theta before it is repeated: it
@@ -65,8 +73,8 @@ static bool find_scale(const Speos *in, Arena scratch, double *scale, Error *err
 {
     const SpeosTable *table[2];
     find_reference(in, table);
-    double low = speos_table_integral(table[0], scratch);
-    double high = speos_table_integral(table[1], scratch);
+    double low = table_integral(table[0], scratch);
+    double high = table_integral(table[1], scratch);
     if (!(low > 0 && high > 0))
         return error_at(err, ERROR_INPUT, in->file, "", "the table at incidence %g integrates "
                         "to %g, wanted above 0", table[0]->incidence_deg, low > 0 ? high : low);
@@ -189,7 +197,7 @@ static bool add_spectral(const Speos *in, ImportSet *set, Error *err)
     TotalsNote totals = {{0}, 0};
     for (int i = 0; i < in->tables; i++) {
         const SpeosTable *table = &in->table[i];
-        double            total = speos_table_integral(table, *set->arena);
+        double            total = table_integral(table, *set->arena);
         if (!(total > 0))
             return error_at(err, ERROR_INPUT, in->file, "", "the table at incidence %g and %g "
                             "nm integrates to %g, wanted above 0", table->incidence_deg,

@@ -193,9 +193,7 @@ static bool read_table(SpeosBinary *in, SpeosTable *table, Error *err)
         !read_block(in, (size_t)table->phis, &table->phi_deg, err) ||
         !read_block(in, (size_t)table->thetas * (size_t)table->phis, &rows, err))
         return false;
-    table->value = ARENA_NEW(in->arena, double, (size_t)table->thetas * (size_t)table->phis);
-    speos_table_turn(table, rows);
-    return speos_table_check(in->out->file, table, err);
+    return speos_table_fill(in->out->file, table, rows, in->arena, err);
 }
 
 bool speos_binary_read(const char *file, Arena *arena, Speos *out, Error *err)

@@ -31,11 +31,7 @@ typedef struct Speos {
 #define SPEOS_ANGLES_MAX 4096
 #define SPEOS_TABLES_MAX 4096
 
-/* Are the angles of a table rising and in range? */
-bool speos_table_check(const char *file, const SpeosTable *table, Error *err);
-
-/* Rows down in theta, as the files have them, to phis x thetas. */
-void speos_table_turn(SpeosTable *table, const double *rows);
-
-/* The table's integral of value * cos. */
-double speos_table_integral(const SpeosTable *table, Arena scratch);
+/* Fills table->value from rows, down in theta as the files have them, and checks that the
+ * angles rise and are in range. */
+bool speos_table_fill(const char *file, SpeosTable *table, const double *rows, Arena *arena,
+                      Error *err);

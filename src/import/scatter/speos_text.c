@@ -60,9 +60,7 @@ static bool read_table(SpeosText *in, SpeosTable *table, Error *err)
             if (!scan_number(scan, "a value of the table", &rows[i * table->phis + j], err))
                 return false;
     }
-    table->value = ARENA_NEW(in->arena, double, size);
-    speos_table_turn(table, rows);
-    return speos_table_check(scan->file, table, err);
+    return speos_table_fill(scan->file, table, rows, in->arena, err);
 }
 
 /* The rest of the file is transmission, which is not read, or nothing. */

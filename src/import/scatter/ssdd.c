@@ -14,7 +14,6 @@
 #include "import/scatter/byte_scan.h"
 #include "import/scatter/half_angle.h"
 #include "import/scatter/scan.h"
-#include "import/set/word_list.h"
 #include "panel/set/measurement.h"
 
 #define PARAMS 4
@@ -85,7 +84,7 @@ static bool read_system(Ssdd *in, const char *text, Error *err)
     static const char *const names[] = {"spherical_coordinate_system",
                                         "specular_coordinate_system",
                                         "half_difference_coordinate_system", NULL};
-    int at = word_list_find(names, text);
+    int at = import_word_find(names, text);
     in->system = (SsddSystem)(SYSTEM_SPHERICAL + at);
     return at >= 0 || scan_fail(&in->scan, err, "PARAM_TYPE '%.40s' is not known here", text);
 }
@@ -93,7 +92,7 @@ static bool read_system(Ssdd *in, const char *text, Error *err)
 static bool read_colour(Ssdd *in, const char *text, Error *err)
 {
     static const char *const names[] = {"monochrome", "rgb", "xyz", "spectrum", NULL};
-    int at = word_list_find(names, text);
+    int at = import_word_find(names, text);
     if (at < 0)
         return scan_fail(&in->scan, err, "COLOR_MODEL is '%.40s', wanted monochrome, rgb, xyz "
                          "or spectrum", text);
@@ -119,7 +118,7 @@ static bool start_block(Ssdd *in, const char *text, Error *err)
 {
     static const char *const names[] = {"brdf", "btdf", "specular_reflectance",
                                         "specular_transmittance", NULL};
-    int kind = word_list_find(names, text);
+    int kind = import_word_find(names, text);
     *in = (Ssdd){.scan = in->scan, .is_brdf = kind == 0, .is_table = kind == 0 || kind == 1};
     return kind >= 0 || scan_fail(&in->scan, err, "DATA_TYPE '%.40s' is not known here", text);
 }
@@ -248,7 +247,7 @@ static const float *name_bands(const Ssdd *in, const ImportOptions *options, Imp
     switch (in->colour) {
     case COLOUR_RGB:  return scatter_rgb_bands(file, set);
     case COLOUR_XYZ:  return scatter_xyz(options, file, set);
-    case COLOUR_MONO: return scatter_wavelength(options, file, set, err);
+    case COLOUR_MONO: return scatter_wavelength(0, options, file, set, err);
     default:          return in->nm;
     }
 }

@@ -13,8 +13,6 @@
 #include <strings.h>
 
 #include "base/file.h"
-#include "import/scatter/scatter.h"
-#include "import/set/word_list.h"
 
 #define BASES_MAX 16
 
@@ -231,7 +229,7 @@ static bool read_structure(const Document *in, const xmlNode *layer, WindowXml *
                                         NULL};
     const xmlNode *definition = child(layer, "DataDefinition");
     const char    *name = text_of(in, definition, "IncidentDataStructure");
-    int            found = word_list_find(names, name);
+    int            found = import_word_find(names, name);
     if (found >= 0) {
         out->structure = (WindowStructure)found;
         return true;

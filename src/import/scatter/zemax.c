@@ -14,7 +14,6 @@
 #include "base/file.h"
 #include "import/scatter/scan.h"
 #include "import/scatter/scatter.h"
-#include "import/set/word_list.h"
 
 #define ANGLES_MAX 4096
 #define BLOCKS_MAX 4096 /* sample rotations x incidences */
@@ -34,14 +33,13 @@ typedef struct Zemax {
 
 static bool read_symmetry(Zemax *in, Error *err)
 {
-    const char *word = scan_word(&in->scan);
+    static const char *const names[] = {"PlaneSymmetrical", "Asymmetrical", "Asymmetrical4D",
+                                        NULL};
+    int found = scan_choice(&in->scan, "Symmetry", names, "PlaneSymmetrical, Asymmetrical or "
+                            "ASymmetrical4D", err);
     in->has_symmetry = true;
-    in->is_half = word && !strcasecmp(word, "PlaneSymmetrical");
-    if (in->is_half || (word && (!strcasecmp(word, "Asymmetrical") ||
-                                 !strcasecmp(word, "Asymmetrical4D"))))
-        return true;
-    return scan_fail(&in->scan, err, "Symmetry is '%s', wanted PlaneSymmetrical, Asymmetrical "
-                     "or ASymmetrical4D", word ? word : "");
+    in->is_half = found == 0;
+    return found >= 0;
 }
 
 static bool read_type(Zemax *in, Error *err)
@@ -149,7 +147,7 @@ static bool read_data(Zemax *in, Error *err)
     bool is_ended = false;
     if (!allocate(in, err)) return false;
     for (const char *word; (word = scan_word(&in->scan));) {
-        if ((found = word_list_find(components, word)) >= 0) {
+        if ((found = import_word_find(components, word)) >= 0) {
             component = found;
             is_ended = false;
         } else if (!strcasecmp(word, "DataBegin")) {
@@ -219,7 +217,7 @@ static const float *find_wavelength(const Zemax *in, const ImportOptions *option
     double stated = comment_wavelength(text, in->scan.end);
     if (!(options->wavelength_nm > 0) && stated > 0)
         import_note(set, "%s: %g nm is read from the file's comments", path_name(file), stated);
-    return scatter_stated_wavelength(stated, options, file, set, err);
+    return scatter_wavelength(stated, options, file, set, err);
 }
 
 /* ---- tables ------------------------------------------------------------------------------ */

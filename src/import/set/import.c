@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The set of tables while files are read. */
 #include "import/set/import.h"
 
 #include <math.h>
 #include <stdarg.h>
 #include <string.h>
+#include <strings.h>
 
 #include "base/file.h"
 
@@ -15,10 +15,24 @@ const char *import_source_name(ImportSource source)
     return names[source];
 }
 
+int import_word_find(const char *const *list, const char *word)
+{
+    for (int i = 0; list[i]; i++)
+        if (!strcasecmp(list[i], word)) return i;
+    return -1;
+}
+
 ImportSet import_set(Arena *arena)
 {
     return (ImportSet){.arena = arena, .white_reflectance = 1,
                        .table = ARENA_NEW(arena, ImportTable, IMPORT_TABLES_MAX)};
+}
+
+const ImportTable *import_first(const ImportSet *set, ImportSource source)
+{
+    for (int i = 0; i < set->count; i++)
+        if (set->table[i].source == source) return &set->table[i];
+    return NULL;
 }
 
 void import_note(ImportSet *set, const char *format, ...)

@@ -88,7 +88,13 @@ typedef struct ImportSet {
     int           note_count;
 } ImportSet;
 
+/* The place of a word, in any case, in a list that ends with NULL; or -1. */
+int import_word_find(const char *const *list, const char *word);
+
 ImportSet import_set(Arena *arena);
+
+/* The first table of a source; NULL: none. */
+const ImportTable *import_first(const ImportSet *set, ImportSource source);
 
 /* Copies the table's fields (not its arrays) into the set. Refuses angles out of range, numbers
  * that are not finite, wavelengths that do not rise. */

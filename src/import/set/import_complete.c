@@ -7,7 +7,6 @@
 
 #include "import/set/import_join.h"
 #include "import/set/import_lights.h"
-#include "import/set/import_parts.h"
 #include "import/set/import_reference.h"
 #include "panel/set/measurement.h"
 
@@ -110,13 +109,6 @@ static void note_white(ImportSet *set)
 
 /* ---- is it a set? ------------------------------------------------------------------------ */
 
-static const ImportTable *first_of(const ImportSet *set, ImportSource source)
-{
-    for (int i = 0; i < set->count; i++)
-        if (set->table[i].source == source) return &set->table[i];
-    return NULL;
-}
-
 static int count_of(const ImportSet *set, ImportSource source)
 {
     int count = 0;
@@ -127,7 +119,7 @@ static int count_of(const ImportSet *set, ImportSource source)
 /* Where the user states that black was subtracted: zeros at the directions of a red table. */
 static bool add_zero_black(ImportSet *set, Error *err)
 {
-    ImportTable black = *first_of(set, IMPORT_RED);
+    ImportTable black = *import_first(set, IMPORT_RED);
     black.source = IMPORT_BLACK;
     black.level = 0;
     black.masked = 0;
@@ -140,14 +132,14 @@ static bool add_zero_black(ImportSet *set, Error *err)
 /* Primaries with their black, or white alone: what both have too much of is left out. */
 static bool check_sources(ImportSet *set, Error *err)
 {
-    bool primaries = first_of(set, IMPORT_RED) || first_of(set, IMPORT_GREEN) ||
-                     first_of(set, IMPORT_BLUE);
-    bool white = first_of(set, IMPORT_WHITE) != NULL, black = first_of(set, IMPORT_BLACK);
+    bool primaries = import_first(set, IMPORT_RED) || import_first(set, IMPORT_GREEN) ||
+                     import_first(set, IMPORT_BLUE);
+    bool white = import_first(set, IMPORT_WHITE), black = import_first(set, IMPORT_BLACK);
     if (!primaries && !white && black)
-        return error_at(err, ERROR_INPUT, first_of(set, IMPORT_BLACK)->file, "",
+        return error_at(err, ERROR_INPUT, import_first(set, IMPORT_BLACK)->file, "",
                         "is a black pattern alone, wanted also red, green and blue, or white");
     for (ImportSource p = IMPORT_RED; primaries && p <= IMPORT_BLUE; p++) {
-        if (!first_of(set, p))
+        if (!import_first(set, p))
             return error_set(err, ERROR_INPUT,
                              "no file is %s — name one as --role FILE=%s:LEVEL",
                              import_source_name(p), import_source_name(p));
@@ -157,7 +149,7 @@ static bool check_sources(ImportSet *set, Error *err)
                              MEASUREMENT_LEVELS_MAX);
     }
     if (primaries && black && set->black_is_zero)
-        return error_at(err, ERROR_INPUT, first_of(set, IMPORT_BLACK)->file, "",
+        return error_at(err, ERROR_INPUT, import_first(set, IMPORT_BLACK)->file, "",
                         "is a black pattern, and --no-black says that there is none");
     if (primaries && !black && set->black_is_zero) return add_zero_black(set, err);
     if (primaries && !black)

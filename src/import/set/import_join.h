@@ -14,17 +14,14 @@ bool import_same_channels(const ImportTable *a, const ImportTable *b);
 /* For each row of `table` the row of `other` at the same direction, or -1; from the arena. */
 int *import_match_rows(const ImportTable *table, const ImportTable *other, Arena *arena);
 
-/* The channels of `count` tables (indices into the set) side by side, at the directions that
- * all of them have; by rising wavelength for reflection. */
-bool import_join_tables(ImportSet *set, const int *part, int count, ImportTable *joined,
-                        Error *err);
-
-/* The rows of `count` tables one after the other. */
-void import_append_tables(ImportSet *set, const int *part, int count, ImportTable *joined);
-
-/* Removes the tables of the list but `keep`, or all of a source. */
-void import_remove_tables(ImportSet *set, const int *part, int count, int keep);
+/* Removes all tables of a source. */
 void import_remove_source(ImportSet *set, ImportSource source);
+
+/* Joins files that hold parts of one table (sections of one azimuth, one of X, Y and Z, one
+ * wavelength), so that every pattern and light has one. Luminance alone gets the chromaticity
+ * of the primaries' spectra, or that of D65. Fails with the file that has a part twice or lacks
+ * one. */
+bool import_join_parts(ImportSet *set, Error *err);
 
 /* A direction that stands more than once in a table becomes the mean of its values; theta 0
  * is left alone. */

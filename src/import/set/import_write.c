@@ -5,7 +5,6 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 #include <sys/stat.h>
 
 #include "base/file.h"
@@ -144,22 +143,12 @@ static bool write_spectra(SetOutput *out)
     return set_writer_add(&out->writer, "primaries.csv", &text);
 }
 
-static bool write_levels(SetOutput *out)
+/* What stands beside the tables; `content` lies in the scratch. */
+static bool write_text(SetOutput *out, const char *name, const char *content)
 {
-    Arena arena = out->scratch;
-    Text  text = {.arena = &arena};
-    if (!out->set->levels) return true;
-    text_add(&text, level_table_text(out->set->levels, &arena));
-    return set_writer_add(&out->writer, LEVELS_FILE, &text);
-}
-
-static bool write_specular(SetOutput *out)
-{
-    Arena arena = out->scratch;
-    Text  text = {.arena = &arena};
-    if (!out->set->specular) return true;
-    text_add(&text, specular_table_text(out->set->specular, &arena));
-    return set_writer_add(&out->writer, SPECULAR_FILE, &text);
+    Text text = {.arena = &out->scratch};
+    text_add(&text, content);
+    return set_writer_add(&out->writer, name, &text);
 }
 
 /* ---- the manifest ------------------------------------------------------------------------ */
@@ -293,7 +282,11 @@ bool import_write(const ImportSet *set, const char *manifest, Error *err)
     out.scratch = arena;
     bool ok = spares_sources(&out);
     for (int i = 0; i < set->count && ok; i++) ok = write_table(&out, &set->table[i]);
-    ok = ok && write_spectra(&out) && write_levels(&out) && write_specular(&out) &&
+    ok = ok && write_spectra(&out) &&
+         (!set->levels || write_text(&out, LEVELS_FILE,
+                                     level_table_text(set->levels, &out.scratch))) &&
+         (!set->specular || write_text(&out, SPECULAR_FILE,
+                                       specular_table_text(set->specular, &out.scratch))) &&
          write_manifest(&out);
     ok = set_writer_close(&out.writer, ok);
     arena_release(&arena);

@@ -7,9 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "import/set/word_list.h"
-
-
 #define WORDS_MAX 64
 #define WORD_LENGTH 24
 
@@ -147,7 +144,7 @@ static int colour_of(const RoleWord *word, bool before_number)
         {"white", "weiss", "wei\xC3\x9F", "blanc", NULL}};
     static const char letters[] = "rgbkw";
     for (int c = 0; c < 5; c++) {
-        if (word_list_find(words[c], word->text) >= 0) return c;
+        if (import_word_find(words[c], word->text) >= 0) return c;
         if (before_number && word->text[0] == letters[c] && !word->text[1]) return c;
     }
     return -1;
@@ -175,18 +172,19 @@ static bool read_light_word(WordReader *in, int i)
     static const char *const wavelength[] = {"w", "wl", "wave", "wavelength", "lambda", NULL};
     const char *text = in->word[i].text;
     double      number = in->word[i + 1].number;
-    if (word_list_find(incidence, text) >= 0 && number < 90) {
+    if (import_word_find(incidence, text) >= 0 && number < 90) {
         in->role.incidence_deg = number;
         in->role.has_incidence = true;
         in->lights++;
         return true;
     }
-    if (in->lights && word_list_find(azimuth, text) >= 0 && number <= 360) {
+    if (in->lights && import_word_find(azimuth, text) >= 0 && number <= 360) {
         in->role.azimuth_deg = number;
         in->role.has_azimuth = true;
         return true;
     }
-    if (in->lights && word_list_find(wavelength, text) >= 0 && number >= 300 && number < 3000) {
+    bool is_nm = number >= 300 && number < 3000;
+    if (in->lights && import_word_find(wavelength, text) >= 0 && is_nm) {
         in->role.wavelength_nm = number;
         return true;
     }

@@ -4,8 +4,6 @@
 #include <string.h>
 
 #include "base/file.h"
-#include "import/text/text_conventions.h"
-#include "import/text/text_scan.h"
 #include "import/text/text_table.h"
 
 /* ---- what the file is -------------------------------------------------------------------- */

@@ -2,7 +2,6 @@
 #include "import/text/text_conventions.h"
 
 #include <math.h>
-#include <string.h>
 
 #include "base/mathd.h"
 #include "base/units.h"

@@ -7,7 +7,6 @@
  * Fails    with the file, the line, what was found and what was wanted.
  */
 #pragma once
-#include <stddef.h>
 
 #include "base/arena.h"
 #include "base/error.h"

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "import/set/word_list.h"
+#include "import/set/import.h"
 
 #define KEY_LENGTH 48
 
@@ -34,7 +34,7 @@ static KeyValue cut_key(TextLine line)
 
 static bool key_is(const KeyValue *pair, const char *const *names)
 {
-    return word_list_find(names, pair->key) >= 0;
+    return import_word_find(names, pair->key) >= 0;
 }
 
 /* The number at the value's beginning, with a decimal point or comma. */

@@ -19,22 +19,32 @@ typedef struct Parts {
 
 /* ---- units ------------------------------------------------------------------------------- */
 
-typedef struct UnitName {
-    const char *name; /* lower case without blanks, ^, brackets */
-    ValueUnit   unit;
-} UnitName;
+/* One quantity or unit, and what files call it. */
+typedef struct WordMeaning {
+    int         meaning;
+    const char *word[18]; /* up to NULL */
+} WordMeaning;
 
-static const UnitName unit_names[] = {
-    {"cd/m2", UNIT_CD_M2}, {"cdm-2", UNIT_CD_M2}, {"cdm2", UNIT_CD_M2}, {"nit", UNIT_NIT},
-    {"nits", UNIT_NIT}, {"nt", UNIT_NIT}, {"fl", UNIT_FOOT_LAMBERT},
-    {"ftl", UNIT_FOOT_LAMBERT}, {"ft-l", UNIT_FOOT_LAMBERT},
-    {"footlambert", UNIT_FOOT_LAMBERT}, {"footlamberts", UNIT_FOOT_LAMBERT},
-    {"kcd/m2", UNIT_KCD_M2}, {"cd/ft2", UNIT_CD_FT2}, {"1/sr", UNIT_BRDF},
-    {"sr-1", UNIT_BRDF}, {"/sr", UNIT_BRDF}, {"sr", UNIT_BRDF}, {"brdf", UNIT_BRDF},
-    {"bsdf", UNIT_BRDF}, {"brdf*cos", UNIT_BRDF_COS}, {"bsdf*cos", UNIT_BRDF_COS},
-    {"brdfcos", UNIT_BRDF_COS}, {"ccbrdf", UNIT_BRDF_COS}, {"ccbsdf", UNIT_BRDF_COS},
-    {"brf", UNIT_FACTOR}, {"factor", UNIT_FACTOR}, {"radiancefactor", UNIT_FACTOR},
-    {"reflectancefactor", UNIT_FACTOR}, {"signal", UNIT_SIGNAL}, {"counts", UNIT_SIGNAL},
+/* 0: the word stands in no row. */
+static int meaning_of(const WordMeaning *table, int count, const char *word)
+{
+    for (int i = 0; i < count; i++)
+        for (const char *const *one = table[i].word; *one; one++)
+            if (!strcmp(*one, word)) return table[i].meaning;
+    return 0;
+}
+
+/* In lower case without blanks, ^, brackets. */
+static const WordMeaning unit_names[] = {
+    {UNIT_CD_M2, {"cd/m2", "cdm-2", "cdm2"}},
+    {UNIT_NIT, {"nit", "nits", "nt"}},
+    {UNIT_FOOT_LAMBERT, {"fl", "ftl", "ft-l", "footlambert", "footlamberts"}},
+    {UNIT_KCD_M2, {"kcd/m2"}},
+    {UNIT_CD_FT2, {"cd/ft2"}},
+    {UNIT_BRDF, {"1/sr", "sr-1", "/sr", "sr", "brdf", "bsdf"}},
+    {UNIT_BRDF_COS, {"brdf*cos", "bsdf*cos", "brdfcos", "ccbrdf", "ccbsdf"}},
+    {UNIT_FACTOR, {"brf", "factor", "radiancefactor", "reflectancefactor"}},
+    {UNIT_SIGNAL, {"signal", "counts"}},
 };
 
 ValueUnit value_unit(TextCell cell)
@@ -52,9 +62,7 @@ ValueUnit value_unit(TextCell cell)
         }
     }
     plain[n] = 0;
-    for (int i = 0; i < COUNT_OF(unit_names); i++)
-        if (!strcmp(unit_names[i].name, plain)) return unit_names[i].unit;
-    return UNIT_AUTO;
+    return (ValueUnit)meaning_of(unit_names, COUNT_OF(unit_names), plain);
 }
 
 const char *value_unit_name(ValueUnit unit)
@@ -148,71 +156,47 @@ static void split_unit(Parts *parts)
     }
 }
 
-typedef struct QuantityName {
-    const char *name;
-    Quantity    quantity;
-} QuantityName;
-
 /* In any case, with blanks, underscores and hyphens left out. */
-static const QuantityName loose_names[] = {
-    {"theta", QUANTITY_THETA}, {"inclination", QUANTITY_THETA}, {"incl", QUANTITY_THETA},
-    {"inclin", QUANTITY_THETA}, {"polar", QUANTITY_THETA}, {"polarangle", QUANTITY_THETA},
-    {"zenith", QUANTITY_THETA}, {"\xCE\xB8", QUANTITY_THETA}, {"thetao", QUANTITY_THETA},
-    {"thetaout", QUANTITY_THETA}, {"thetas", QUANTITY_THETA}, {"thetar", QUANTITY_THETA},
-    {"neigung", QUANTITY_THETA},
-    {"inclinaison", QUANTITY_THETA}, {"viewz", QUANTITY_THETA},
-    {"viewtheta", QUANTITY_THETA}, {"thetaview", QUANTITY_THETA},
-    {"phi", QUANTITY_PHI}, {"azimuth", QUANTITY_PHI}, {"azim", QUANTITY_PHI},
-    {"azimut", QUANTITY_PHI}, {"azi", QUANTITY_PHI}, {"az", QUANTITY_PHI},
-    {"\xCF\x86", QUANTITY_PHI},
-    {"\xCF\x95", QUANTITY_PHI}, {"phio", QUANTITY_PHI}, {"phiout", QUANTITY_PHI},
-    {"phis", QUANTITY_PHI}, {"phir", QUANTITY_PHI}, {"viewa", QUANTITY_PHI},
-    {"viewphi", QUANTITY_PHI}, {"phiview", QUANTITY_PHI}, {"azimuthangle", QUANTITY_PHI},
-    {"thetah", QUANTITY_HORIZONTAL}, {"horizontal", QUANTITY_HORIZONTAL},
-    {"horizontalangle", QUANTITY_HORIZONTAL}, {"hangle", QUANTITY_HORIZONTAL},
-    {"thetav", QUANTITY_VERTICAL}, {"vertical", QUANTITY_VERTICAL},
-    {"verticalangle", QUANTITY_VERTICAL}, {"vangle", QUANTITY_VERTICAL},
-    {"thetai", QUANTITY_INCIDENCE}, {"thetain", QUANTITY_INCIDENCE},
-    {"incidence", QUANTITY_INCIDENCE}, {"incidenceangle", QUANTITY_INCIDENCE},
-    {"angleofincidence", QUANTITY_INCIDENCE}, {"aoi", QUANTITY_INCIDENCE},
-    {"thetainc", QUANTITY_INCIDENCE}, {"srcz", QUANTITY_INCIDENCE},
-    {"phii", QUANTITY_LIGHT_PHI}, {"phiin", QUANTITY_LIGHT_PHI},
-    {"phiinc", QUANTITY_LIGHT_PHI}, {"incidencephi", QUANTITY_LIGHT_PHI},
-    {"incidenceazimuth", QUANTITY_LIGHT_PHI}, {"srca", QUANTITY_LIGHT_PHI},
-    {"wavelength", QUANTITY_WAVELENGTH}, {"lambda", QUANTITY_WAVELENGTH},
-    {"wavelengthnm", QUANTITY_WAVELENGTH}, {"wl", QUANTITY_WAVELENGTH},
-    {"luminance", QUANTITY_LUMINANCE}, {"lum", QUANTITY_LUMINANCE},
-    {"lv", QUANTITY_LUMINANCE}, {"leuchtdichte", QUANTITY_LUMINANCE},
-    {"tristimulusx", QUANTITY_X}, {"tristimulusy", QUANTITY_Y}, {"tristimulusz", QUANTITY_Z},
-    {"ciex", QUANTITY_CHROMA_X}, {"ciey", QUANTITY_CHROMA_Y},
-    {"brdf", QUANTITY_REFLECTION}, {"bsdf", QUANTITY_REFLECTION},
-    {"brf", QUANTITY_REFLECTION}, {"reflectance", QUANTITY_REFLECTION},
-    {"reflectancefactor", QUANTITY_REFLECTION}, {"fr", QUANTITY_REFLECTION},
+static const WordMeaning loose_names[] = {
+    {QUANTITY_THETA, {"theta", "inclination", "incl", "inclin", "polar", "polarangle", "zenith",
+                      "\xCE\xB8", "thetao", "thetaout", "thetas", "thetar", "neigung",
+                      "inclinaison", "viewz", "viewtheta", "thetaview"}},
+    {QUANTITY_PHI, {"phi", "azimuth", "azim", "azimut", "azi", "az", "\xCF\x86", "\xCF\x95",
+                    "phio", "phiout", "phis", "phir", "viewa", "viewphi", "phiview",
+                    "azimuthangle"}},
+    {QUANTITY_HORIZONTAL, {"thetah", "horizontal", "horizontalangle", "hangle"}},
+    {QUANTITY_VERTICAL, {"thetav", "vertical", "verticalangle", "vangle"}},
+    {QUANTITY_INCIDENCE, {"thetai", "thetain", "incidence", "incidenceangle",
+     "angleofincidence", "aoi", "thetainc", "srcz"}},
+    {QUANTITY_LIGHT_PHI, {"phii", "phiin", "phiinc", "incidencephi", "incidenceazimuth",
+     "srca"}},
+    {QUANTITY_WAVELENGTH, {"wavelength", "lambda", "wavelengthnm", "wl"}},
+    {QUANTITY_LUMINANCE, {"luminance", "lum", "lv", "leuchtdichte"}},
+    {QUANTITY_X, {"tristimulusx"}}, {QUANTITY_Y, {"tristimulusy"}},
+    {QUANTITY_Z, {"tristimulusz"}}, {QUANTITY_CHROMA_X, {"ciex"}},
+    {QUANTITY_CHROMA_Y, {"ciey"}},
+    {QUANTITY_REFLECTION, {"brdf", "bsdf", "brf", "reflectance", "reflectancefactor", "fr"}},
 };
 
 /* Where the case counts: X is no x. */
-static const QuantityName exact_names[] = {
-    {"X", QUANTITY_X}, {"Y", QUANTITY_Y}, {"Z", QUANTITY_Z}, {"L", QUANTITY_LUMINANCE},
-    {"x", QUANTITY_CHROMA_X}, {"y", QUANTITY_CHROMA_Y}, {"u'", QUANTITY_UPRIME},
-    {"v'", QUANTITY_VPRIME}, {"u\xE2\x80\x99", QUANTITY_UPRIME},
-    {"v\xE2\x80\x99", QUANTITY_VPRIME}, {"u\xE2\x80\xB2", QUANTITY_UPRIME},
-    {"v\xE2\x80\xB2", QUANTITY_VPRIME}, {"u_prime", QUANTITY_UPRIME},
-    {"v_prime", QUANTITY_VPRIME}, {"uprime", QUANTITY_UPRIME}, {"vprime", QUANTITY_VPRIME},
-    {"R", QUANTITY_CODE_R}, {"G", QUANTITY_CODE_G}, {"B", QUANTITY_CODE_B},
+static const WordMeaning exact_names[] = {
+    {QUANTITY_X, {"X"}}, {QUANTITY_Y, {"Y"}}, {QUANTITY_Z, {"Z"}}, {QUANTITY_LUMINANCE, {"L"}},
+    {QUANTITY_CHROMA_X, {"x"}}, {QUANTITY_CHROMA_Y, {"y"}},
+    {QUANTITY_UPRIME, {"u'", "u\xE2\x80\x99", "u\xE2\x80\xB2", "u_prime", "uprime"}},
+    {QUANTITY_VPRIME, {"v'", "v\xE2\x80\x99", "v\xE2\x80\xB2", "v_prime", "vprime"}},
+    {QUANTITY_CODE_R, {"R"}}, {QUANTITY_CODE_G, {"G"}}, {QUANTITY_CODE_B, {"B"}},
 };
 
 static Quantity named_quantity(const char *base)
 {
     char loose[NAME_LENGTH];
     int  n = 0;
-    for (int i = 0; i < COUNT_OF(exact_names); i++)
-        if (!strcmp(exact_names[i].name, base)) return exact_names[i].quantity;
+    int  exact = meaning_of(exact_names, COUNT_OF(exact_names), base);
+    if (exact) return (Quantity)exact;
     for (const char *c = base; *c; c++)
         if (!strchr(" _-", *c)) loose[n++] = (char)tolower((unsigned char)*c);
     loose[n] = 0;
-    for (int i = 0; i < COUNT_OF(loose_names); i++)
-        if (!strcmp(loose_names[i].name, loose)) return loose_names[i].quantity;
-    return QUANTITY_NONE;
+    return (Quantity)meaning_of(loose_names, COUNT_OF(loose_names), loose);
 }
 
 /* "400", "400 nm", "R_400nm", "brdf 550": a wavelength with words that may stand before it. */

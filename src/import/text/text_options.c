@@ -8,7 +8,6 @@
 
 #include "base/count.h"
 #include "base/file.h"
-#include "text/json_view.h"
 #include "text/nearest_word.h"
 
 

@@ -4,9 +4,7 @@
  * Memory   the arena's. Threads: no shared state.
  */
 #pragma once
-#include "import/text/text_names.h"
-
-#define TEXT_COLUMNS_MAX 2048
+#include "import/text/text_options.h"
 
 typedef struct TextRows {
     int     width, count, capacity;
@@ -28,4 +26,15 @@ typedef struct NamedRows {
 } NamedRows;
 
 /* Room for one more row of `width` cells. */
-double *text_rows_add(TextRows *rows, int line, Arena *arena);
+static inline double *text_rows_add(TextRows *rows, int line, Arena *arena)
+{
+    size_t width = (size_t)rows->width, count = (size_t)rows->count;
+    if (rows->count == rows->capacity) {
+        rows->capacity = rows->capacity ? 2 * rows->capacity : 256;
+        rows->cell = ARENA_GROW(arena, double, rows->cell, width * count,
+                                width * (size_t)rows->capacity);
+        rows->line = ARENA_GROW(arena, int, rows->line, count, rows->capacity);
+    }
+    rows->line[rows->count++] = line;
+    return rows->cell + width * count;
+}

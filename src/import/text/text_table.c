@@ -9,7 +9,6 @@
 #include "base/mathd.h"
 #include "base/units.h"
 #include "import/set/import_rows.h"
-#include "import/text/text_conventions.h"
 
 #define CHANNELS_MAX TEXT_COLUMNS_MAX
 #define DIRECTIONS_MIN 3 /* fewer are no angular table */
@@ -50,20 +49,14 @@ static bool emission_channels(TextReader *in, TextChannels *out)
 {
     Quantity luminance = has(in, QUANTITY_Y) ? QUANTITY_Y : QUANTITY_LUMINANCE;
     static const char letters[] = "XYZ";
+    const Quantity colours[3][3] = {{QUANTITY_X, QUANTITY_Y, QUANTITY_Z},
+                                    {luminance, QUANTITY_CHROMA_X, QUANTITY_CHROMA_Y},
+                                    {luminance, QUANTITY_UPRIME, QUANTITY_VPRIME}};
     out->count = 3;
-    if (has(in, QUANTITY_X) && has(in, QUANTITY_Y) && has(in, QUANTITY_Z)) {
-        memcpy(out->source, (Quantity[]){QUANTITY_X, QUANTITY_Y, QUANTITY_Z},
-               sizeof out->source);
-        return true;
-    }
-    if (has(in, luminance) && has(in, QUANTITY_CHROMA_X) && has(in, QUANTITY_CHROMA_Y)) {
-        memcpy(out->source, (Quantity[]){luminance, QUANTITY_CHROMA_X, QUANTITY_CHROMA_Y},
-               sizeof out->source);
-        return true;
-    }
-    if (has(in, luminance) && has(in, QUANTITY_UPRIME) && has(in, QUANTITY_VPRIME)) {
-        memcpy(out->source, (Quantity[]){luminance, QUANTITY_UPRIME, QUANTITY_VPRIME},
-               sizeof out->source);
+    for (int k = 0; k < 3; k++) {
+        const Quantity *colour = colours[k];
+        if (!has(in, colour[0]) || !has(in, colour[1]) || !has(in, colour[2])) continue;
+        memcpy(out->source, colour, sizeof out->source);
         return true;
     }
     int found = 0;
@@ -116,12 +109,6 @@ static bool reflection_channels(TextReader *in, TextChannels *out)
 
 /* ---- values of a row --------------------------------------------------------------------- */
 
-static bool bad_chromaticity(const TextReader *in, int row, double x, double y)
-{
-    return error_at(in->err, ERROR_INPUT, in->file, row_place(in, row),
-                    "chromaticity is %g, %g, wanted a point of the CIE diagram", x, y);
-}
-
 /* Luminance and chromaticity (CIE 15) to X, Y, Z; a row without light may have any. */
 static bool xyz_from_chromaticity(const TextReader *in, int row, bool is_uv, double xyz[3])
 {
@@ -132,7 +119,9 @@ static bool xyz_from_chromaticity(const TextReader *in, int row, bool is_uv, dou
         memset(xyz, 0, 3 * sizeof *xyz);
         return true;
     }
-    if (!is_valid) return bad_chromaticity(in, row, a, b);
+    if (!is_valid)
+        return error_at(in->err, ERROR_INPUT, in->file, row_place(in, row),
+                        "chromaticity is %g, %g, wanted a point of the CIE diagram", a, b);
     xyz[0] = is_uv ? luminance * 9 * a / (4 * b) : luminance * a / b;
     xyz[1] = luminance;
     xyz[2] = is_uv ? luminance * (12 - 3 * a - 20 * b) / (4 * b) : luminance * (1 - a - b) / b;

@@ -5,7 +5,7 @@
  * Fails    with the file, the line, what was found and what was wanted.
  */
 #pragma once
-#include "import/text/text_reader.h"
+#include "import/text/text_conventions.h"
 
 /* One table for each pattern or light; the conventions are found already. */
 bool text_table_add(TextReader *in);
