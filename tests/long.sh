@@ -43,11 +43,11 @@ native_panels()
         .build/native/parhelion
 }
 
-# mutations: 100,000 mutated panel files under the sanitizers
+# mutations SEED: of 100,000 mutated panel files a third, under the sanitizers
 mutations()
 {
-    PARHELION_MUTATIONS=100000
-    export PARHELION_MUTATIONS
+    PARHELION_MUTATIONS=33334 PARHELION_MUTATIONS_SEED=$1
+    export PARHELION_MUTATIONS PARHELION_MUTATIONS_SEED
     units .build/asan --timeout 10800 -R '^panel_files$'
 }
 
@@ -67,8 +67,10 @@ needs 'release all'
 of "$panels tests/unit"
 run 'every narrow beam' beams-long beams
 of "$tables tests/bench"
-start 'what grids can see of a panel' panel-coarse-long \
-    python3 tests/bench/panel_coarse.py $program --jobs 1
+for share in 1 2 3; do
+    start "what grids can see of a panel, $share of 3" panel-coarse-$share \
+        python3 tests/bench/panel_coarse.py $program --share $share/3 --jobs 1
+done
 of "$panels tests/library"
 start 'a second reader, 100,000 questions' agreement-long \
     python3 tests/library/agreement.py .build/release --queries 100000
@@ -144,7 +146,9 @@ needs 'asan all'
 of "$all tests/unit"
 run 'unit tests, address sanitizer' unit-asan units .build/asan --timeout 10800
 of "$panels tests/unit"
-start '100,000 broken panels' panels-long mutations
+for share in 1 2 3; do
+    start "100,000 broken panels, $share of 3" panels-$share mutations $share
+done
 of "$render scenes tests/hostile"
 start 'thousands of broken models' hostile-long \
     python3 tests/hostile/run.py --all .build/asan/parhelion

@@ -9,16 +9,16 @@ mkdir -p $logs
 
 # ---- counting ----
 
-# counts FILE: "PASSED FAILED SKIPPED" from the last line "N passed, N failed[, N skipped]", or
-# from what cmocka says under ctest
+# counts FILE: "PASSED FAILED SKIPPED" from the lines "N passed, N failed[, N skipped]" and from
+# what cmocka says under ctest
 counts()
 {
-    awk '/^[0-9]+ passed, [0-9]+ failed/ { line = $1 " " $3 " " $5 + 0 }
+    awk '/^[0-9]+ passed, [0-9]+ failed/ { passed += $1; failed += $3; skipped += $5 }
          /\[  PASSED  \]/ { passed += number() }
          /\[  FAILED  \] [0-9]+ test/ { failed += number() }
          /\[  SKIPPED \] [0-9]+ test/ { skipped += number() }
          function number(  rest) { rest = $0; sub(/.*\] /, "", rest); return rest + 0 }
-         END { print line ? line : passed + 0 " " failed + 0 " " skipped + 0 }' "$1"
+         END { print passed + 0 " " failed + 0 " " skipped + 0 }' "$1"
 }
 
 # processor_seconds FILE: of a shell's children, from what `times` wrote

@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
-"""panel_coarse.py PARHELION [--cases all|some|few] [--jobs N] -- does a panel's verdict know
-what its grid saw?
+"""panel_coarse.py PARHELION [--cases all|some|few] [--share K/N] [--jobs N] -- does a panel's
+verdict know what its grid saw?
 
 For grids, lobes and mirrors of every width: simulate, fit, ask, and compare with the closed
 form. A row of the table is WRONG, and the status 1, when anything asked is more than 5 % off
 and the verdict is "good" all the same. few: the cases of every day.
+--share: of N shares of them the Kth.
 
 The panel   haze (1 + b^2 / w^2)^-1.8, whose full width at half is the lobe's; it takes 3 % of
             the light at the normal at 550 nm, the mirror its own share besides; a lambertian
@@ -186,7 +187,8 @@ def main():
     arguments = sys.argv[1:]
     jobs = int(panels.take_option(arguments, "--jobs", os.cpu_count()))
     kind = panels.take_option(arguments, "--cases", "all")
-    cases = cases_of(kind)
+    share, shares = map(int, panels.take_option(arguments, "--share", "1/1").split("/"))
+    cases = cases_of(kind)[share - 1::shares]
     wrong, counts = 0, {}
     print(f"{'grid':>11} {'lobe':>5} {'mirror':>7} {'BRDF err':>10} {'mirror err':>10}  "
           "verdict")

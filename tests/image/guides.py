@@ -1,17 +1,19 @@
 # SPDX-License-Identifier: Apache-2.0
-"""guides.py PARHELION [PAGE ...] -- the guides and the README do what they say.
+"""guides.py [--keep FOLDER] PARHELION [PAGE ...] -- the guides and the README do what they say.
 
 Every ```sh block of assets/guides/*.md and of README.md (but for building and installing, which
 other tests do) runs as written, each page in a folder of its own where scenes/
 and assets/ lie. A command ends with status 0, or with the one that the page states behind it:
 `# status 1`. What it is to write is there afterwards, but for one that is refused (2 to 4), and
-so is every file that a page names.
+so is every file that a page names. --keep: what the first page makes stays in the folder.
 """
+import contextlib
 import glob
 import json
 import os
 import re
 import shlex
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -51,10 +53,18 @@ def outputs(command):
     return [after for word, after in zip(words, words[1:]) if word in OUTPUTS]
 
 
-def run_page(program, name, text):
+@contextlib.contextmanager
+def kept(folder):
+    """An empty folder that stays."""
+    shutil.rmtree(folder, ignore_errors=True)
+    os.makedirs(folder)
+    yield folder
+
+
+def run_page(program, name, text, keep=None):
     """(claim, message) of every command of a page, in order; it ends at the first failure."""
     claims, begun = [], time.monotonic()
-    with tempfile.TemporaryDirectory(prefix="guide-") as folder:
+    with kept(keep) if keep else tempfile.TemporaryDirectory(prefix="guide-") as folder:
         os.mkdir(os.path.join(folder, "bin"))
         os.symlink(os.path.abspath(program), os.path.join(folder, "bin", "parhelion"))
         for shared in ("scenes", "assets"):
@@ -76,9 +86,11 @@ def run_page(program, name, text):
     return claims
 
 
-def check_pages(report, program, pages):
+def check_pages(report, program, pages, keep):
+    keeps = [keep] + [None] * len(pages)
     with ThreadPoolExecutor(2) as pool:
-        for claims in pool.map(lambda page: run_page(program, page, read(page)), pages):
+        for claims in pool.map(lambda page, keep: run_page(program, page, read(page), keep),
+                               pages, keeps):
             for holds, message in claims:
                 report.claim(holds, message)
     for page in pages:
@@ -138,13 +150,16 @@ def check_can_fail(report, program):
 
 def main():
     report = Report()
-    program = os.path.abspath(sys.argv[1])
+    words, keep = sys.argv[1:], None
+    if words[0] == "--keep":
+        keep, words = os.path.abspath(words[1]), words[2:]
+    program = os.path.abspath(words[0])
     guides = [os.path.relpath(path, ROOT)
               for path in sorted(glob.glob(os.path.join(ROOT, "assets/guides/*.md")))]
     report.claim(len(guides) >= 5, "assets/guides holds too few pages")
     check_can_fail(report, program)
     check_help(report, program, guides)
-    check_pages(report, program, sys.argv[2:] or ["README.md", *guides])
+    check_pages(report, program, words[1:] or ["README.md", *guides], keep)
     report.finish()
 
 

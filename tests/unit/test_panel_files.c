@@ -4,7 +4,8 @@
  * not. They are refused with a text, or queried without a read outside their bytes (they lie in
  * a block of exactly their size, which the address sanitizer watches).
  *
- * PARHELION_MUTATIONS in the environment: how many mutations; tests/long.sh asks for 100,000.
+ * PARHELION_MUTATIONS in the environment: how many mutations, PARHELION_MUTATIONS_SEED: which;
+ * tests/long.sh asks for 100,000.
  */
 #include "panel_fixture.h"
 #include "panel_bytes.h"
@@ -328,11 +329,22 @@ TEST(every_shortened_panel_is_refused_or_read_within_its_bytes)
         }
 }
 
+/* A number above 0 of the environment. */
+static int asked_for(const char *name, int otherwise)
+{
+    const char *wanted = getenv(name);
+    int         number = wanted ? atoi(wanted) : 0;
+    return number > 0 ? number : otherwise;
+}
+
 static int mutation_count(void)
 {
-    const char *wanted = getenv("PARHELION_MUTATIONS");
-    int         count = wanted ? atoi(wanted) : 0;
-    return (count > 0 ? count : MUTATIONS) / KIND_COUNT + 1;
+    return asked_for("PARHELION_MUTATIONS", MUTATIONS) / KIND_COUNT + 1;
+}
+
+static uint32_t mutation_seed(void)
+{
+    return (uint32_t)asked_for("PARHELION_MUTATIONS_SEED", 11);
 }
 
 /* A place: half of them in headers, counts and offsets. */
@@ -371,7 +383,7 @@ static void mutate(unsigned char *bytes, size_t size, uint32_t *random)
 
 TEST(every_mutation_is_refused)
 {
-    uint32_t random = 11;
+    uint32_t random = mutation_seed();
     for (int k = 0; k < KIND_COUNT; k++) {
         const Kind    *kind = &kinds[k];
         unsigned char *copy = malloc(kind->size);
@@ -389,7 +401,7 @@ TEST(every_mutation_is_refused)
 /* As if somebody had written the file with ill intent: the checksum fits. */
 TEST(a_forged_checksum_leads_nobody_astray)
 {
-    uint32_t random = 5;
+    uint32_t random = mutation_seed() + 5;
     for (int k = 0; k < KIND_COUNT; k++) {
         const Kind    *kind = &kinds[k];
         unsigned char *copy = malloc(kind->size);
