@@ -3,6 +3,8 @@
  * program's cases, and closeness.
  *
  * TEST(name) { ... } is a case that gets `void **state`, which it need not use;
+ * TEST_ON(name, set_up, tear_down, parameter, argument) one that gets what it stands on as a
+ * parameter of its type, made of the state by `argument`, an expression;
  * TEST_PROGRAM(set_up, tear_down) is the main that runs all of a file's in their order, by
  * run_cases.
  */
@@ -53,6 +55,14 @@ static inline void test_add(struct CMUnitTest test, int line)
     static void name(__attribute__((unused)) void **state)
 
 #define TEST(name) TEST_WITH(name, NULL, NULL)
+
+#define TEST_ON(name, set_up, tear_down, parameter, argument)                                  \
+    static void name##_holds(__attribute__((unused)) parameter);                               \
+    TEST_WITH(name, set_up, tear_down)                                                         \
+    {                                                                                          \
+        name##_holds(argument);                                                                \
+    }                                                                                          \
+    static void name##_holds(__attribute__((unused)) parameter)
 
 static inline int run_cases(CMFixtureFunction set_up, CMFixtureFunction tear_down)
 {

@@ -47,6 +47,12 @@ static inline int drop_arena(void **state)
     return 0;
 }
 
+/* A case with `Arena arena`, a copy of its own. */
+#define ARENA_TEST(name) TEST_ON(name, NULL, NULL, Arena arena, test_arena(state))
+
+/* A case with `Arena *arena`, the program's. */
+#define MEMORY_TEST(name) TEST_ON(name, NULL, NULL, Arena *arena, *state)
+
 /* ---- folders ----------------------------------------------------------------------------- */
 
 enum { FOLDER_BYTES = 512 };

@@ -142,4 +142,5 @@ static inline void mutate(char *bytes, size_t size, uint32_t *seed)
     }
 }
 
-#define HEMISPHERE_TEST(name) TEST_WITH(name, set_up, tear_down)
+/* A case with `Fixture *f`. */
+#define HEMISPHERE_TEST(name) TEST_ON(name, set_up, tear_down, Fixture *f, *state)

@@ -179,4 +179,5 @@ static inline const char *shared_bsdf(Fixture *f, const char *name)
     return path;
 }
 
-#define FIXTURE_TEST(name) TEST_WITH(name, fixture_setup, fixture_teardown)
+/* A case with `Fixture *f`. */
+#define FIXTURE_TEST(name) TEST_ON(name, fixture_setup, fixture_teardown, Fixture *f, *state)

@@ -116,4 +116,5 @@ static inline bool lab_noted(const Lab *lab, const char *words)
     return false;
 }
 
-#define LAB_TEST(name) TEST_WITH(name, lab_setup, lab_teardown)
+/* A case with `Lab *lab`. */
+#define LAB_TEST(name) TEST_ON(name, lab_setup, lab_teardown, Lab *lab, *state)

@@ -13,9 +13,8 @@ static float *gains_of(const float *luminance, int width, int height, Arena *are
 }
 
 /* Above middle grey a uniform picture follows the curve of one pixel, below it stays. */
-TEST(a_uniform_picture_follows_the_global_curve)
+ARENA_TEST(a_uniform_picture_follows_the_global_curve)
 {
-    Arena arena = test_arena(state);
     float *luminance = ARENA_NEW(&arena, float, COUNT);
     for (int stops = -6; stops <= 12; stops += 3) {
         for (int i = 0; i < COUNT; i++) luminance[i] = 10 * exp2f((float)stops);
@@ -36,9 +35,8 @@ TEST(the_curve_rises_and_leaves_shadows)
 }
 
 /* A street beside a cabin, seven stops apart; and steps of other sizes and places. */
-TEST(a_step_has_no_halo)
+ARENA_TEST(a_step_has_no_halo)
 {
-    Arena arena = test_arena(state);
     float *luminance = ARENA_NEW(&arena, float, COUNT);
     const float brights[] = {20, 40, 1280, 40960};
     for (int k = 0; k < 4; k++)
@@ -55,9 +53,8 @@ TEST(a_step_has_no_halo)
 }
 
 /* Of small contrasts inside a bright view at least nine tenths stay. */
-TEST(contrast_inside_a_bright_view_stays)
+ARENA_TEST(contrast_inside_a_bright_view_stays)
 {
-    Arena arena = test_arena(state);
     float *luminance = ARENA_NEW(&arena, float, COUNT);
     for (int i = 0; i < COUNT; i++)
         luminance[i] = (i % WIDTH / 2 + i / WIDTH / 2) % 2 ? 1000 : 900;
@@ -69,9 +66,8 @@ TEST(contrast_inside_a_bright_view_stays)
     assert_true(fabs(log(ratio)) < 1.001 * log(1000 / 900.0));
 }
 
-TEST(gains_never_brighten_and_bad_pixels_harm_no_other)
+ARENA_TEST(gains_never_brighten_and_bad_pixels_harm_no_other)
 {
-    Arena arena = test_arena(state);
     float *luminance = ARENA_NEW(&arena, float, COUNT);
     for (int i = 0; i < COUNT; i++) luminance[i] = 500;
     const float bad[] = {NAN, INFINITY, 0, -1, -INFINITY};
@@ -86,9 +82,8 @@ TEST(gains_never_brighten_and_bad_pixels_harm_no_other)
 }
 
 /* The same factor for R, G and B, and words in the report. */
-TEST(hues_stay_and_the_report_says_so)
+ARENA_TEST(hues_stay_and_the_report_says_so)
 {
-    Arena          arena = test_arena(state);
     FrameImage     frame = uniform_frame(8, 8, 0, &arena);
     DevelopOptions options = {.exposure = "white:100", .view = "raw",
                               .adapt = DEVELOP_ADAPT_LOCAL, .own_config = true};
@@ -111,7 +106,4 @@ TEST(hues_stay_and_the_report_says_so)
     assert_non_null(strstr(err.text, "--adapt local and --false-colour exclude each other"));
 }
 
-int main(void)
-{
-    return run_cases(make_arena, drop_arena);
-}
+TEST_PROGRAM(make_arena, drop_arena)

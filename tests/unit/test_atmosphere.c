@@ -101,9 +101,8 @@ TEST(phase_functions_integrate_to_one)
 
 /* Air that absorbs nothing over a white floor gives back all light: what comes down on the
  * floor, times 1 - albedo, is what does not leave at the top. */
-TEST(air_without_absorption_keeps_the_light)
+ARENA_TEST(air_without_absorption_keeps_the_light)
 {
-    Arena     arena = test_arena(state);
     Air       air = usual;
     air.ozone_atm_cm = 0;
     AirOptics optics = air_optics(&air);
@@ -121,9 +120,8 @@ TEST(air_without_absorption_keeps_the_light)
     }
 }
 
-TEST(orders_of_scattering_add_up_to_the_whole)
+ARENA_TEST(orders_of_scattering_add_up_to_the_whole)
 {
-    Arena     arena = test_arena(state);
     AirOptics optics = air_optics(&usual);
     float     before = 0;
     for (int orders = 1; orders <= 8; orders++) {
@@ -180,9 +178,8 @@ static AirOptics only_aerosol(void)
 
 /* Against a sum over directions that knows no series: haze scatters forwards, so its second
  * order, too, is brighter towards the sun. */
-TEST(the_second_order_lies_towards_the_sun)
+ARENA_TEST(the_second_order_lies_towards_the_sun)
 {
-    Arena        arena = test_arena(state);
     AirOptics    optics = only_aerosol();
     DiffuseLight light;
     const double sun[3] = {cos(0.6), 0, sin(0.6)};
@@ -210,9 +207,8 @@ TEST(the_second_order_lies_towards_the_sun)
 }
 
 /* The same in the drawn sky, by flat layers and by spherical air. */
-TEST(light_scattered_often_is_brighter_towards_the_sun)
+ARENA_TEST(light_scattered_often_is_brighter_towards_the_sun)
 {
-    Arena arena = test_arena(state);
     static const double elevation_deg[] = {20, -6};
     for (int i = 0; i < 2; i++) {
         Arena      scratch = arena;
@@ -227,9 +223,8 @@ TEST(light_scattered_often_is_brighter_towards_the_sun)
 
 /* ---- figures ----------------------------------------------------------------------------- */
 
-TEST(the_sky_gives_what_spectrl2_says)
+ARENA_TEST(the_sky_gives_what_spectrl2_says)
 {
-    Arena arena = test_arena(state);
     static const double zenith_deg[] = {0, 30, 48.2, 60, 75};
     for (int i = 0; i < 5; i++) {
         Arena      scratch = arena;
@@ -252,9 +247,8 @@ TEST(the_sky_gives_what_spectrl2_says)
     }
 }
 
-TEST(steps_and_tables_have_converged)
+ARENA_TEST(steps_and_tables_have_converged)
 {
-    Arena arena = test_arena(state);
     for (int low = 0; low <= 1; low++) {
         AtmosphereInput input = {usual, low ? 11000 : 0, 0, low ? 0.03 : 0.7, 2, 0};
         Atmosphere coarse, fine;
@@ -275,9 +269,8 @@ TEST(steps_and_tables_have_converged)
     }
 }
 
-TEST(the_sky_darkens_with_altitude_and_the_sun_gains)
+ARENA_TEST(the_sky_darkens_with_altitude_and_the_sun_gains)
 {
-    Arena  arena = test_arena(state);
     double zenith = 1e9, sun = 0;
     for (double altitude = 0; altitude <= 15000; altitude += 3000) {
         Arena      scratch = arena;
@@ -289,9 +282,8 @@ TEST(the_sky_darkens_with_altitude_and_the_sun_gains)
     }
 }
 
-TEST(an_airliner_sees_126_klx_of_sun_and_a_dipped_horizon)
+ARENA_TEST(an_airliner_sees_126_klx_of_sun_and_a_dipped_horizon)
 {
-    Arena        arena = test_arena(state);
     DaylightInput input = daylight_input_default(DAYLIGHT_CLEAR);
     Daylight     *out = arena_alloc(&arena, sizeof *out, 64, 1);
     Error        err;
@@ -307,9 +299,8 @@ TEST(an_airliner_sees_126_klx_of_sun_and_a_dipped_horizon)
     assert_true(daylight_luminance(out, -0.06f, 1) > 3000);
 }
 
-TEST(the_drawn_sky_integrates_to_its_stated_illuminance)
+ARENA_TEST(the_drawn_sky_integrates_to_its_stated_illuminance)
 {
-    Arena arena = test_arena(state);
     for (int kind = 0; kind < 5; kind++) {
         Arena        scratch = arena;
         Daylight     *out = arena_alloc(&scratch, sizeof *out, 64, 1);
@@ -334,9 +325,8 @@ TEST(the_drawn_sky_integrates_to_its_stated_illuminance)
     }
 }
 
-TEST(spectral_radiance_has_the_stated_luminance)
+ARENA_TEST(spectral_radiance_has_the_stated_luminance)
 {
-    Arena arena = test_arena(state);
     for (int kind = 0; kind < 3; kind++) {
         Arena        scratch = arena;
         Daylight     *out = arena_alloc(&scratch, sizeof *out, 64, 1);
@@ -364,9 +354,8 @@ TEST(spectral_radiance_has_the_stated_luminance)
     }
 }
 
-TEST(twilight_fades_and_night_is_told)
+ARENA_TEST(twilight_fades_and_night_is_told)
 {
-    Arena arena = test_arena(state);
     static const double elevation_deg[] = {0, -2, -4, -6};
     double before = 3000;
     for (int i = 0; i < 4; i++) {
@@ -394,9 +383,8 @@ TEST(twilight_fades_and_night_is_told)
     assert_non_null(strstr(err.text, "below the horizon"));
 }
 
-TEST(what_makes_no_sky_is_refused)
+ARENA_TEST(what_makes_no_sky_is_refused)
 {
-    Arena        arena = test_arena(state);
     Daylight     *out = arena_alloc(&arena, sizeof *out, 64, 1);
     DaylightInput input = daylight_input_default(DAYLIGHT_CLEAR);
     Error        err;
@@ -411,7 +399,4 @@ TEST(what_makes_no_sky_is_refused)
     assert_false(daylight_build(&input, &arena, out, &err));
 }
 
-int main(void)
-{
-    return run_cases(make_arena, drop_arena);
-}
+TEST_PROGRAM(make_arena, drop_arena)

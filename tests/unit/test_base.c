@@ -562,7 +562,4 @@ TEST(a_single_error_is_its_own_verdict)
     arena_release(&arena);
 }
 
-int main(void)
-{
-    return run_cases(NULL, NULL);
-}
+TEST_PROGRAM(NULL, NULL)

@@ -101,7 +101,4 @@ TEST(under_a_lacquer_it_stays_white)
     check_all(1, 29);
 }
 
-int main(void)
-{
-    return run_cases(NULL, NULL);
-}
+TEST_PROGRAM(NULL, NULL)

@@ -65,9 +65,8 @@ static int hits(const Scene *scene, uint32_t triangle, Ray ray, double *t)
     return u >= 0 && v >= 0 && u + v <= 1 && *t > 0;
 }
 
-TEST(the_nearest_of_all_triangles_is_hit)
+ARENA_TEST(the_nearest_of_all_triangles_is_hit)
 {
-    Arena arena = test_arena(state);
     Scene *scene = soup(&arena, 300, 100);
     Bvh *bvh;
     Error err;
@@ -105,9 +104,8 @@ static bool half_passes(void *user, const Hit *hit)
     return true;
 }
 
-TEST(a_shadow_ray_asks_every_window_once)
+ARENA_TEST(a_shadow_ray_asks_every_window_once)
 {
-    Arena arena = test_arena(state);
     Scene *scene = builder_scene(&arena);
     Material window = builder_material(1);
     Bvh *bvh;
@@ -128,9 +126,8 @@ TEST(a_shadow_ray_asks_every_window_once)
     bvh_destroy(bvh);
 }
 
-TEST(rays_that_are_not_finite_hit_nothing_and_light_nothing)
+ARENA_TEST(rays_that_are_not_finite_hit_nothing_and_light_nothing)
 {
-    Arena arena = test_arena(state);
     Scene *scene = soup(&arena, 50, 0);
     Bvh *bvh;
     Error err;
@@ -154,9 +151,8 @@ TEST(rays_that_are_not_finite_hit_nothing_and_light_nothing)
     bvh_destroy(bvh);
 }
 
-TEST(an_empty_scene_is_hit_nowhere)
+ARENA_TEST(an_empty_scene_is_hit_nowhere)
 {
-    Arena arena = test_arena(state);
     Scene *scene = builder_scene(&arena);
     Bvh *bvh;
     Error err;
@@ -167,7 +163,4 @@ TEST(an_empty_scene_is_hit_nowhere)
     bvh_destroy(NULL);
 }
 
-int main(void)
-{
-    return run_cases(make_arena, drop_arena);
-}
+TEST_PROGRAM(make_arena, drop_arena)

@@ -122,7 +122,4 @@ TEST(displays_without_a_camera_are_seen_whole_and_from_the_front)
     }
 }
 
-int main(void)
-{
-    return run_cases(NULL, NULL);
-}
+TEST_PROGRAM(NULL, NULL)

@@ -342,7 +342,4 @@ TEST(under_a_sky_alone_all_is_sky)
     world_end(&world);
 }
 
-int main(void)
-{
-    return run_cases(NULL, NULL);
-}
+TEST_PROGRAM(NULL, NULL)

@@ -117,7 +117,4 @@ TEST_WITH(all_problems_are_told_and_the_status_is_3, maker_reset, NULL)
     json_decref(document);
 }
 
-int main(void)
-{
-    return run_cases(maker_start, maker_end);
-}
+TEST_PROGRAM(maker_start, maker_end)

@@ -72,9 +72,8 @@ static void assert_same_films(const Film *a, const Film *b)
 
 /* ---- rows -------------------------------------------------------------------------------- */
 
-TEST(packed_rows_hold_every_bit)
+MEMORY_TEST(packed_rows_hold_every_bit)
 {
-    Arena *arena = *state;
     Error  err;
     for (int i = 0; i < 2; i++) {
         unsigned layers = i ? LAYER_ALL : 0;
@@ -99,9 +98,8 @@ TEST(packed_rows_hold_every_bit)
     }
 }
 
-TEST(rows_that_no_film_packs_are_refused)
+MEMORY_TEST(rows_that_no_film_packs_are_refused)
 {
-    Arena *arena = *state;
     Error  err;
     Film  *film = make_film(0, arena);
     Film  *to = film_create(WIDTH, HEIGHT, crop, 0, &groups, arena);
@@ -143,9 +141,8 @@ static void write_one(Arena *arena)
     if (!checkpoint_write(&what, film, *arena, &err)) fail_msg("%s", err.text);
 }
 
-TEST(what_is_kept_comes_back)
+MEMORY_TEST(what_is_kept_comes_back)
 {
-    Arena     *arena = *state;
     Error      err = {0};
     Checkpoint found;
     Film      *film = make_film(LAYER_ALL, arena);
@@ -168,9 +165,8 @@ TEST(what_is_kept_comes_back)
     assert_same_films(film, again);
 }
 
-TEST(it_fits_the_same_pixels_and_as_many_samples_or_more)
+MEMORY_TEST(it_fits_the_same_pixels_and_as_many_samples_or_more)
 {
-    Arena     *arena = *state;
     Error      err = {0};
     Checkpoint found;
     write_one(arena);
@@ -228,9 +224,8 @@ static bool goes_on(Arena scratch, Error *err)
     return done;
 }
 
-TEST(every_prefix_is_refused)
+MEMORY_TEST(every_prefix_is_refused)
 {
-    Arena *arena = *state;
     Error  err;
     write_one(arena);
     FileBytes bytes = read_file(arena);
@@ -246,9 +241,8 @@ TEST(every_prefix_is_refused)
     assert_true(goes_on(*arena, &err));
 }
 
-TEST(every_changed_byte_is_refused)
+MEMORY_TEST(every_changed_byte_is_refused)
 {
-    Arena   *arena = *state;
     Error    err;
     uint32_t random = 1;
     write_one(arena);
@@ -275,7 +269,7 @@ enum { AT_ORDER = 8, AT_VERSION = 12, AT_BYTES = 16, AT_IDENTITY = 24, AT_CROP =
        AT_FIRST = 64, AT_ASKED = 72, AT_DROPPED = 112, AT_SECONDS = 120, AT_KEPT = 224,
        HEAD_BYTES = 232 };
 
-TEST(each_fault_has_its_line)
+MEMORY_TEST(each_fault_has_its_line)
 {
     static const struct {
         size_t      at;
@@ -306,7 +300,6 @@ TEST(each_fault_has_its_line)
         {AT_FIRST, FIRST + SAMPLES - 1, true,
          "damaged sums: pixel 1,2 has sums that 1 samples"},
     };
-    Arena *arena = *state;
     Error  err;
     write_one(arena);
     FileBytes      bytes = read_file(arena);
@@ -323,9 +316,8 @@ TEST(each_fault_has_its_line)
     assert_true(goes_on(*arena, &err));
 }
 
-TEST(what_is_no_file_is_no_checkpoint)
+MEMORY_TEST(what_is_no_file_is_no_checkpoint)
 {
-    Arena     *arena = *state;
     Error      err;
     Checkpoint found;
     unlink(path);
@@ -343,9 +335,8 @@ TEST(what_is_no_file_is_no_checkpoint)
 
 /* ---- a full disk ------------------------------------------------------------------------- */
 
-TEST(a_full_disk_leaves_the_old_one_untouched)
+MEMORY_TEST(a_full_disk_leaves_the_old_one_untouched)
 {
-    Arena        *arena = *state;
     Error         err;
     struct rlimit kept, little;
     write_one(arena);
@@ -369,7 +360,4 @@ TEST(a_full_disk_leaves_the_old_one_untouched)
     assert_int_equal(files_in_folder(), 1); /* the old one */
 }
 
-int main(void)
-{
-    return run_cases(make_checkpoint_path, remove_path);
-}
+TEST_PROGRAM(make_checkpoint_path, remove_path)

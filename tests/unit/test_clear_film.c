@@ -236,7 +236,4 @@ TEST(a_share_of_the_film_leaves_the_rest_bare)
     }
 }
 
-int main(void)
-{
-    return run_cases(make_wavelengths, NULL);
-}
+TEST_PROGRAM(make_wavelengths, NULL)

@@ -75,9 +75,8 @@ static bool parse(const char *const *words, Arena *arena, Values *out)
 
 #define WORDS(...) ((const char *const[]){__VA_ARGS__, NULL})
 
-TEST(values_come_after_the_option_or_after_an_equals_sign)
+MEMORY_TEST(values_come_after_the_option_or_after_an_equals_sign)
 {
-    Arena *arena = *state;
     Values v;
     assert_true(
         parse(WORDS("file", "--number", "-0.5", "--size=640x480", "--flag"), arena, &v));
@@ -95,9 +94,8 @@ TEST(values_come_after_the_option_or_after_an_equals_sign)
     assert_true(v.numbers[0] == 1 && v.numbers[1] == -20 && v.numbers[2] == 0.5);
 }
 
-TEST(what_is_left_out_keeps_its_value)
+MEMORY_TEST(what_is_left_out_keeps_its_value)
 {
-    Arena *arena = *state;
     Values v;
     assert_true(parse(WORDS("file"), arena, &v));
     assert_true(!v.flag && !v.number_given && v.number == 7 && v.integer == 7 && v.choice == 7);
@@ -108,9 +106,8 @@ TEST(what_is_left_out_keeps_its_value)
     assert_false(v.cli.json);
 }
 
-TEST(every_command_has_the_common_options)
+MEMORY_TEST(every_command_has_the_common_options)
 {
-    Arena *arena = *state;
     Values v;
     assert_true(parse(WORDS("file", "--json", "--threads", "3", "--progress", "plain"), arena,
                       &v));
@@ -121,9 +118,8 @@ TEST(every_command_has_the_common_options)
     assert_int_equal(v.cli.progress, PROGRESS_NONE);
 }
 
-TEST(repeatable_options_keep_their_order)
+MEMORY_TEST(repeatable_options_keep_their_order)
 {
-    Arena *arena = *state;
     Values v;
     assert_true(parse(WORDS("--pair", "a=1", "--pair=b=2", "--pair", "c=3", "x"), arena, &v));
     assert_int_equal(v.texts.count, 3);
@@ -132,9 +128,8 @@ TEST(repeatable_options_keep_their_order)
     assert_string_equal(v.texts.list[2], "c=3");
 }
 
-TEST(two_dashes_end_the_options_and_one_dash_is_an_argument)
+MEMORY_TEST(two_dashes_end_the_options_and_one_dash_is_an_argument)
 {
-    Arena *arena = *state;
     Values v;
     assert_true(parse(WORDS("-", "--", "--flag"), arena, &v));
     assert_false(v.flag);
@@ -143,7 +138,7 @@ TEST(two_dashes_end_the_options_and_one_dash_is_an_argument)
     assert_string_equal(v.cli.arguments[1], "--flag");
 }
 
-TEST(errors_name_the_option_the_value_and_what_is_wanted)
+MEMORY_TEST(errors_name_the_option_the_value_and_what_is_wanted)
 {
     static const struct {
         const char *words[4], *text;
@@ -185,7 +180,6 @@ TEST(errors_name_the_option_the_value_and_what_is_wanted)
         {{"x", "y", "z"}, "too many arguments — usage: parhelion try ARGUMENT [MORE]"},
         {{"x", "--threads", "0"}, "--threads: 0 is out of range, wanted 1 to 1024"},
     };
-    Arena *arena = *state;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         Values v;
         assert_false(parse(cases[i].words, arena, &v));
@@ -194,17 +188,15 @@ TEST(errors_name_the_option_the_value_and_what_is_wanted)
     }
 }
 
-TEST(help_wins_over_everything_else_on_the_line)
+MEMORY_TEST(help_wins_over_everything_else_on_the_line)
 {
-    Arena *arena = *state;
     Values v;
     assert_true(parse(WORDS("--nonsense", "--help"), arena, &v));
     assert_true(v.cli.help_shown);
 }
 
-TEST(pairs_are_cut_at_the_first_equals_sign)
+MEMORY_TEST(pairs_are_cut_at_the_first_equals_sign)
 {
-    Arena      *arena = *state;
     const char *name, *value;
     Error       err;
     assert_true(cli_name_value("--content", "map=a=b.png", arena, &name, &value, &err));
@@ -233,9 +225,8 @@ TEST(an_error_line_puts_the_place_before_the_advice)
     assert_string_equal(line, "parhelion: no output");
 }
 
-TEST(warnings_are_listed_once_each)
+MEMORY_TEST(warnings_are_listed_once_each)
 {
-    Arena   *arena = *state;
     Problems problems = problems_start(arena);
     problems_add(&problems, SEVERITY_WARNING, "a", "/b", "odd");
     problems_add(&problems, SEVERITY_WARNING, "a", "/b", "odd");
@@ -252,7 +243,4 @@ TEST(warnings_are_listed_once_each)
     json_decref(errors);
 }
 
-int main(void)
-{
-    return run_cases(make_arena, drop_arena);
-}
+TEST_PROGRAM(make_arena, drop_arena)

@@ -51,7 +51,6 @@ static const Measurement *read_set(Lab *lab)
 
 LAB_TEST(options_reach_the_files)
 {
-    Lab        *lab = *state;
     const char *printed;
     lab_write(lab, "m1.txt", TABLE);
     if (!RUN(lab, &printed, "@m1.txt", "--role", "m1*=white", "--azimuth-zero", "top",
@@ -72,7 +71,6 @@ LAB_TEST(options_reach_the_files)
 
 LAB_TEST(the_command_line_stands_above_the_declaration)
 {
-    Lab        *lab = *state;
     const char *printed;
     lab_write(lab, "m1.txt", TABLE);
     lab_write(lab, "d.json", "{\"mask\": [-999], \"unit\": \"fL\","
@@ -87,7 +85,6 @@ LAB_TEST(the_command_line_stands_above_the_declaration)
 
 LAB_TEST(the_answer_is_one_json_document)
 {
-    Lab         *lab = *state;
     const char  *printed;
     json_error_t error;
     lab_write(lab, "white.txt", TABLE);
@@ -106,7 +103,6 @@ LAB_TEST(the_answer_is_one_json_document)
 
 LAB_TEST(mistakes_have_their_status)
 {
-    Lab        *lab = *state;
     const char *printed;
     lab_write(lab, "white.txt", TABLE);
     lab_write(lab, "out", "a file");
@@ -132,7 +128,4 @@ LAB_TEST(mistakes_have_their_status)
     assert_non_null(strstr(printed, "eulumdat"));
 }
 
-int main(void)
-{
-    return run_cases(NULL, NULL);
-}
+TEST_PROGRAM(NULL, NULL)

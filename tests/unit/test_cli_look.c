@@ -79,10 +79,9 @@ static double number(const json_t *document, const char *key)
     return json_number_value(value);
 }
 
-TEST(develop_writes_what_it_says)
+ARENA_TEST(develop_writes_what_it_says)
 {
     Outcome o = run("develop f.exr -o a.png --exposure white:500 --view untonemapped");
-    Arena   arena = test_arena(state);
     Image   image;
     Error   err = {0};
     assert_int_equal(o.status, 0);
@@ -122,9 +121,8 @@ static int code_at(const char *picture, int x, int y, Arena *arena)
 }
 
 /* The frame does not say how high it is; once it does, --fov must agree. */
-TEST(develop_sees_as_an_eye)
+ARENA_TEST(develop_sees_as_an_eye)
 {
-    Arena   arena = test_arena(state);
     Outcome o = run("develop f.exr -o b.png --eye 70 2>&1");
     assert_int_equal(o.status, 2);
     assert_non_null(strstr(o.out, "f.exr: does not say its field of view"));
@@ -153,9 +151,8 @@ TEST(develop_sees_as_an_eye)
     json_decref(j);
 }
 
-TEST(an_eye_needs_a_view)
+ARENA_TEST(an_eye_needs_a_view)
 {
-    Arena      arena = test_arena(state);
     FrameImage frame = frame_create(4, 4, (ExrWindow){0, 0, 4, 4}, 3, 5, &arena);
     Error      err = {0};
     for (int c = 0; c < 3; c++) frame_add_channel(&frame, (char[]){"RGB"[c], 0}, false, &arena);
@@ -318,7 +315,4 @@ TEST(measure_gives_the_figures_of_a_region)
     assert_non_null(strstr(o.out, "100 to 300 cd/m2"));
 }
 
-int main(void)
-{
-    return run_cases(write_frame, remove_pictures);
-}
+TEST_PROGRAM(write_frame, remove_pictures)

@@ -6,7 +6,7 @@
 #include "cli/render/render_request.h"
 #include "cli/render/render_setup.h"
 
-TEST(values_of_render_are_checked_before_anything_is_read)
+MEMORY_TEST(values_of_render_are_checked_before_anything_is_read)
 {
     static const struct {
         const char *option, *value, *text;
@@ -36,7 +36,6 @@ TEST(values_of_render_are_checked_before_anything_is_read)
         {"--content", "cluster", "--content cluster: wanted NAME=VALUE, both not empty"},
         {"--view", "raw", "a look is asked for, but no picture — add --png FILE"},
     };
-    Arena *arena = *state;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         RenderRequest request;
         Error         err = {0};
@@ -48,7 +47,7 @@ TEST(values_of_render_are_checked_before_anything_is_read)
     }
 }
 
-TEST(values_of_the_surroundings_are_checked)
+MEMORY_TEST(values_of_the_surroundings_are_checked)
 {
     static const struct {
         EnvironmentChange change;
@@ -87,7 +86,6 @@ TEST(values_of_the_surroundings_are_checked)
          "--forward 0,1,0: wanted a vector that is "
          "not vertical"},
     };
-    Arena *arena = *state;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         Scene scene = {0};
         Error err = {0};
@@ -98,9 +96,8 @@ TEST(values_of_the_surroundings_are_checked)
     }
 }
 
-TEST(the_line_overrides_single_members_of_the_surroundings)
+MEMORY_TEST(the_line_overrides_single_members_of_the_surroundings)
 {
-    Arena            *arena = *state;
     Scene             scene = {.environment = {.has_sun = true, .sun_illuminance_lx = 5000,
                                                .sun_angular_radius = 0.01f}};
     EnvironmentChange change = {.environment = "constant:250", .sun = "90,30",
@@ -122,9 +119,8 @@ TEST(the_line_overrides_single_members_of_the_surroundings)
     assert_true(e->luminance_cd_m2 == 250);
 }
 
-TEST(a_sky_is_asked_for_by_its_kind_time_and_place)
+MEMORY_TEST(a_sky_is_asked_for_by_its_kind_time_and_place)
 {
-    Arena   *arena = *state;
     Problems problems = problems_start(arena);
     Scene    scene = {0};
     Error    err;
@@ -155,7 +151,7 @@ TEST(a_sky_is_asked_for_by_its_kind_time_and_place)
     assert_int_equal(problems.count, 1); /* the illuminance that was taken */
 }
 
-TEST(what_makes_no_sky_is_refused_by_name)
+MEMORY_TEST(what_makes_no_sky_is_refused_by_name)
 {
     static const struct {
         EnvironmentChange change;
@@ -181,7 +177,6 @@ TEST(what_makes_no_sky_is_refused_by_name)
         {{.environment = "sky:clear", .sun = "0,9", .has_weather_offset = true},
          "add --weather"},
     };
-    Arena *arena = *state;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         Scene    scene = {0};
         Error    err = {0};
@@ -253,7 +248,4 @@ TEST(a_camera_is_found_by_node_then_by_camera_then_by_place)
     assert_true(found.yfov > 0 && found.world_from_camera.origin.z == 0);
 }
 
-int main(void)
-{
-    return run_cases(make_arena, drop_arena);
-}
+TEST_PROGRAM(make_arena, drop_arena)

@@ -172,11 +172,10 @@ TEST(a_missing_input_is_status_3_and_named)
     json_decref(answer);
 }
 
-TEST(a_picture_with_negative_light_is_told_of)
+ARENA_TEST(a_picture_with_negative_light_is_told_of)
 {
     Outcome    o;
     Error      err = {0};
-    Arena      arena = test_arena(state);
     FrameImage picture = frame_create(8, 4, (ExrWindow){0, 0, 8, 4}, 3, 8, &arena);
     for (int c = 0; c < 3; c++) {
         float *values = frame_add_channel(&picture, c == 0 ? "R" : c == 1 ? "G" : "B", false,
@@ -237,9 +236,8 @@ TEST(version_and_help_need_nothing)
 
 /* ---- frames ------------------------------------------------------------------------------ */
 
-TEST(a_frame_says_how_to_make_it_again)
+MEMORY_TEST(a_frame_says_how_to_make_it_again)
 {
-    Arena  *arena = *state;
     Outcome o;
     RUN(&o, "render", "scene.gltf", "-o", "a.exr", "--size", "16x12", "--spp", "3", "--seed",
         "9", "--quiet", "--layers", "id,samples");
@@ -263,9 +261,8 @@ TEST(a_frame_says_how_to_make_it_again)
     assert_true(frame_channel(&frame, "samples.N")[5] == 3);
 }
 
-TEST(the_time_is_told_when_the_build_system_fixes_it)
+MEMORY_TEST(the_time_is_told_when_the_build_system_fixes_it)
 {
-    Arena  *arena = *state;
     Outcome o;
     setenv("SOURCE_DATE_EPOCH", "86400", 1);
     RUN(&o, "render", "scene.gltf", "-o", "t.exr", "--size", "4x4", "--spp", "1", "--quiet");
@@ -274,9 +271,8 @@ TEST(the_time_is_told_when_the_build_system_fixes_it)
     assert_string_equal(frame_string(&frame, "capDate"), "1970:01:02 00:00:00");
 }
 
-TEST(threads_do_not_change_a_bit_and_a_crop_is_a_part)
+MEMORY_TEST(threads_do_not_change_a_bit_and_a_crop_is_a_part)
 {
-    Arena  *arena = *state;
     Outcome o;
     RUN(&o, "render", "scene.gltf", "-o", "one.exr", "--size", "50x40", "--spp", "5",
         "--threads", "1", "--quiet");
@@ -294,9 +290,8 @@ TEST(threads_do_not_change_a_bit_and_a_crop_is_a_part)
                             frame_channel(&crop, "G") + (y - 9) * 24, 24 * sizeof(float));
 }
 
-TEST(a_replayed_sample_is_the_one_that_was_rendered)
+MEMORY_TEST(a_replayed_sample_is_the_one_that_was_rendered)
 {
-    Arena  *arena = *state;
     Outcome o;
     RUN(&o, "render", "scene.gltf", "-o", "s.exr", "--size", "16x12", "--samples", "6:7",
         "--quiet");
@@ -312,9 +307,8 @@ TEST(a_replayed_sample_is_the_one_that_was_rendered)
     json_decref(answer);
 }
 
-TEST(noise_stops_before_spp)
+MEMORY_TEST(noise_stops_before_spp)
 {
-    Arena  *arena = *state;
     Outcome o;
     RUN(&o, "render", "scene.gltf", "-o", "n.exr", "--size", "16x12", "--spp", "100000",
         "--noise", "0.2", "--json", "--quiet");
@@ -413,13 +407,12 @@ static pid_t start_long_render(const char *output, FILE *out, FILE *err)
     return child;
 }
 
-TEST(an_interrupted_render_leaves_a_frame_marked_incomplete)
+MEMORY_TEST(an_interrupted_render_leaves_a_frame_marked_incomplete)
 {
     static const struct {
         int         number, status;
         const char *name;
     } cases[] = {{SIGINT, 130, "INT"}, {SIGTERM, 143, "TERM"}, {SIGHUP, 129, "HUP"}};
-    Arena *arena = *state;
     for (int i = 0; i < 3; i++) {
         Outcome o;
         char    text[64];
@@ -457,9 +450,8 @@ TEST(a_second_signal_ends_at_once_and_leaves_nothing)
     fclose(err);
 }
 
-TEST(usr1_writes_a_snapshot_and_goes_on)
+MEMORY_TEST(usr1_writes_a_snapshot_and_goes_on)
 {
-    Arena *arena = *state;
     FILE  *out = tmpfile(), *err = tmpfile();
     pid_t  child = start_long_render("u.exr", out, err);
     kill(child, SIGUSR1);
@@ -494,7 +486,4 @@ static int write_scenes(void **state)
     return 0;
 }
 
-int main(void)
-{
-    return run_cases(write_scenes, clear_folder);
-}
+TEST_PROGRAM(write_scenes, clear_folder)

@@ -177,7 +177,4 @@ TEST(the_programs_own_tables_are_those_that_a_run_would_make)
     assert_memory_equal(&common_coat_table, lacquer, sizeof *lacquer);
 }
 
-int main(void)
-{
-    return run_cases(make_tables, drop_tables);
-}
+TEST_PROGRAM(make_tables, drop_tables)

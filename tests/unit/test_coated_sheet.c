@@ -195,7 +195,4 @@ TEST(as_much_goes_through_from_either_side)
     }
 }
 
-int main(void)
-{
-    return run_cases(make_tables, drop_tables);
-}
+TEST_PROGRAM(make_tables, drop_tables)

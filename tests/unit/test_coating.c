@@ -352,7 +352,4 @@ TEST(a_covers_factor_is_coated_over_bare)
     }
 }
 
-int main(void)
-{
-    return run_cases(start, stop);
-}
+TEST_PROGRAM(start, stop)

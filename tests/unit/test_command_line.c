@@ -14,23 +14,21 @@ static FilmPart box(FilmRect crop, uint32_t first, uint32_t end)
                       .end_sample = end, .asked_end = end};
 }
 
-TEST(words_are_quoted_as_a_shell_needs_it)
+ARENA_TEST(words_are_quoted_as_a_shell_needs_it)
 {
     static const char *const words[][2] = {
         {"plain-1.exr", "plain-1.exr"}, {"", "''"}, {"a b", "'a b'"}, {"$HOME", "'$HOME'"},
         {"it's", "'it'\\''s'"}, {"'", "''\\'''"}, {"*=50", "'*=50'"}};
-    Arena arena = test_arena(state);
     for (size_t i = 0; i < sizeof words / sizeof *words; i++)
         assert_string_equal(escape_shell(words[i][0], &arena), words[i][1]);
 }
 
-TEST(idle_words_are_left_out_on_request)
+ARENA_TEST(idle_words_are_left_out_on_request)
 {
     char *words[] = {"render", "a b.gltf", "--threads", "3", "--quiet", "--progress=none",
                      "--spp", "8", "-o", "f.exr", "--png=f.png", "--exposure", "auto",
                      "--checkpoint", "x y", "--resume", "--tev", "[::1]:5", "--live=l.exr",
                      "--", "--quiet"};
-    Arena arena = test_arena(state);
     assert_string_equal(command_line_join(COUNT_OF(words), words, false, &arena),
                         "parhelion render 'a b.gltf' --spp 8 -- --quiet");
     assert_string_equal(command_line_join(COUNT_OF(words), words, true, &arena),
@@ -70,7 +68,7 @@ TEST(what_parts_have_in_common_is_without_outputs_and_ranges)
     }
 }
 
-TEST(a_part_s_line_becomes_the_whole_s)
+ARENA_TEST(a_part_s_line_becomes_the_whole_s)
 {
     static const FilmRect all = {0, 0, 64, 48}, half = {0, 0, 32, 48};
     const struct {
@@ -95,7 +93,6 @@ TEST(a_part_s_line_becomes_the_whole_s)
         {"parhelion render -o a.exr --samples 0:4 -- --crop -o", all, 0, 4,
          "parhelion render --spp 4 -- --crop -o"},
     };
-    Arena arena = test_arena(state);
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         FilmPart    whole = box(cases[i].crop, cases[i].first, cases[i].end);
         const char *line = command_line_of_whole(cases[i].line, &whole, &arena);
@@ -108,7 +105,4 @@ TEST(a_part_s_line_becomes_the_whole_s)
                                       &whole, &arena));
 }
 
-int main(void)
-{
-    return run_cases(make_arena, drop_arena);
-}
+TEST_PROGRAM(make_arena, drop_arena)

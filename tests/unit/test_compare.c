@@ -6,9 +6,8 @@
 
 /* ---- reading ----------------------------------------------------------------------------- */
 
-TEST(a_written_frame_is_read_as_light)
+ARENA_TEST(a_written_frame_is_read_as_light)
 {
-    Arena        arena = test_arena(state);
     Error        err = {0};
     CompareInput made = frame_input("x", &arena), read, again;
     const char  *path = in_folder("a.exr");
@@ -27,9 +26,8 @@ TEST(a_written_frame_is_read_as_light)
 }
 
 /* 8-bit codes and the same ones in 16 bits are the same fractions, bit for bit. */
-TEST(codes_of_8_and_16_bits_agree)
+ARENA_TEST(codes_of_8_and_16_bits_agree)
 {
-    Arena        arena = test_arena(state);
     Error        err = {0};
     Picture      picture = picture_create(16, 16, &arena);
     CompareInput read[2];
@@ -53,9 +51,8 @@ TEST(codes_of_8_and_16_bits_agree)
     assert_true(c.same && has_note(&c, "8 bits, the test 16"));
 }
 
-TEST(a_frame_against_a_picture_is_refused)
+ARENA_TEST(a_frame_against_a_picture_is_refused)
 {
-    Arena          arena = test_arena(state);
     Error          err = {0};
     CompareInput   frame = frame_input("f.exr", &arena);
     CompareInput   picture = picture_input("p.png", 8, &arena);
@@ -72,9 +69,8 @@ TEST(a_frame_against_a_picture_is_refused)
 
 /* ---- structure --------------------------------------------------------------------------- */
 
-TEST(metadata_that_decides_fails_and_the_rest_explains)
+ARENA_TEST(metadata_that_decides_fails_and_the_rest_explains)
 {
-    Arena        arena = test_arena(state);
     CompareInput a = frame_input("a", &arena), b = frame_input("b", &arena);
     frame_set_string(&b.frame, "parhelion:seed", "2", &arena);
     frame_set_string(&b.frame, "parhelion:inputs", "00ac  a.gltf\n00cc  c.png\n", &arena);
@@ -111,9 +107,8 @@ TEST(metadata_that_decides_fails_and_the_rest_explains)
 }
 
 /* However many keys differ, they are one line of what decides and one of what explains. */
-TEST(many_differences_of_metadata_are_two_lines)
+ARENA_TEST(many_differences_of_metadata_are_two_lines)
 {
-    Arena        arena = test_arena(state);
     CompareInput a = frame_input("a", &arena), b = frame_input("b", &arena);
     for (int i = 0; i < 300; i++) {
         const char *part = arena_format(&arena, "parhelion:part.%d", i);
@@ -133,10 +128,9 @@ TEST(many_differences_of_metadata_are_two_lines)
 }
 
 /* A file that does not tell its primaries has those of Rec.709. */
-TEST(what_is_implied_need_not_be_said)
+ARENA_TEST(what_is_implied_need_not_be_said)
 {
     static const double XYZ[8] = {1, 0, 0, 1, 0, 0, 1 / 3.0, 1 / 3.0};
-    Arena               arena = test_arena(state);
     CompareInput        a = frame_input("a", &arena), b = frame_input("b", &arena);
     for (int i = 0; i < a.frame.attribute_count; i++)
         if (!strcmp(a.frame.attributes[i].name, "chromaticities"))
@@ -149,9 +143,8 @@ TEST(what_is_implied_need_not_be_said)
 }
 
 /* Long values are shown where they begin to differ, and never steer a terminal. */
-TEST(long_values_are_shown_where_they_differ)
+ARENA_TEST(long_values_are_shown_where_they_differ)
 {
-    Arena        arena = test_arena(state);
     CompareInput a = frame_input("a", &arena), b = frame_input("b", &arena);
     char         text[300];
     memset(text, 'x', sizeof text);
@@ -166,9 +159,8 @@ TEST(long_values_are_shown_where_they_differ)
 }
 
 /* Layers of one side are one line and no failure; a picture without one of its colours is. */
-TEST(layers_of_one_side_are_left_out)
+ARENA_TEST(layers_of_one_side_are_left_out)
 {
-    Arena        arena = test_arena(state);
     CompareInput a = frame_input("a", &arena), b = frame_input("b", &arena);
     for (const char *x = "BGR"; *x; x++) {
         frame_add_channel(&a.frame, arena_format(&arena, "light.sun.%c", *x), 0, &arena);
@@ -194,9 +186,8 @@ TEST(layers_of_one_side_are_left_out)
     assert_reason(&c, "channels are missing in the reference: A");
 }
 
-TEST(windows_and_sizes_must_agree)
+ARENA_TEST(windows_and_sizes_must_agree)
 {
-    Arena        arena = test_arena(state);
     CompareInput a = frame_input("a", &arena), b = frame_input("b", &arena);
     b.frame.display = (ExrWindow){1, 0, WIDTH + 1, HEIGHT};
     Comparison c = compared(&a, &b, LOOSE, &arena);
@@ -210,9 +201,8 @@ TEST(windows_and_sizes_must_agree)
 
 /* ---- NaN and infinity -------------------------------------------------------------------- */
 
-TEST(what_is_no_number_in_light_always_fails)
+ARENA_TEST(what_is_no_number_in_light_always_fails)
 {
-    Arena       arena = test_arena(state);
     const float wrong[] = {NAN, INFINITY, -INFINITY};
     for (int k = 0; k < 9; k++) {
         CompareInput a = frame_input("a", &arena), b = frame_input("b", &arena);
@@ -232,9 +222,8 @@ TEST(what_is_no_number_in_light_always_fails)
 
 /* Off displays NaN is legal. Frames of other noise may disagree at a rim (one pixel beside the
  * display), and where a sliver shows; not about an area, here of 3 x 3 pixels. */
-TEST(gaps_of_surface_layers_must_coincide)
+ARENA_TEST(gaps_of_surface_layers_must_coincide)
 {
-    Arena        arena = test_arena(state);
     CompareInput a = frame_input("a", &arena);
     assert_true(compared(&a, &a, LOOSE, &arena).same);
     for (int area = 0; area < 2; area++) {
@@ -253,10 +242,9 @@ TEST(gaps_of_surface_layers_must_coincide)
 }
 
 /* Too few samples to tell the noise are no fault of the light. */
-TEST(noise_may_be_unknown)
+ARENA_TEST(noise_may_be_unknown)
 {
     static const char *const LAYERS[] = {"halves.R", "display.halves.R"};
-    Arena arena = test_arena(state);
     for (int i = 0; i < 2; i++) {
         CompareInput a = frame_input("a", &arena), b = frame_input("b", &arena);
         frame_add_channel(&a.frame, LAYERS[i], false, &arena)[7] = NAN;
@@ -290,9 +278,8 @@ TEST(limits_hold_in_their_direction)
 }
 
 /* One code of one channel is off by d: mse = d^2 / (3 n). */
-TEST(figures_of_pictures_are_those_of_codes)
+ARENA_TEST(figures_of_pictures_are_those_of_codes)
 {
-    Arena        arena = test_arena(state);
     CompareInput a = picture_input("a", 8, &arena), b = picture_input("b", 8, &arena);
     ((float *)b.codes.rgb[2])[30] += 0.25f;
     ((float *)b.light.rgb[2])[30] = linear_from_srgb(b.codes.rgb[2][30]);
@@ -309,9 +296,8 @@ TEST(figures_of_pictures_are_those_of_codes)
     assert_true(c.same && isinf(c.value[METRIC_PSNR]) && c.value[METRIC_FLIP] == 0);
 }
 
-TEST(only_what_is_asked_for_is_computed)
+ARENA_TEST(only_what_is_asked_for_is_computed)
 {
-    Arena        arena = test_arena(state);
     CompareInput a = picture_input("a", 8, &arena);
     Comparison   c = compared(&a, &a, (CompareOptions){.groups = GROUP_MSE}, &arena);
     assert_true(isnan(c.value[METRIC_FLIP]) && isnan(c.value[METRIC_PSNR]));
@@ -356,10 +342,9 @@ static const char *write_picture(const char *name, int change, Arena *arena)
 }
 
 /* In bands, of however many rows, all figures have the bits of whole pictures. */
-TEST(bands_give_the_figures_of_whole_pictures)
+ARENA_TEST(bands_give_the_figures_of_whole_pictures)
 {
     static const int ROWS[] = {1, 7, 16, 61, 100};
-    Arena       arena = test_arena(state);
     Error       err = {0};
     const char *a = write_picture("a.png", 0, &arena), *b = write_picture("b.png", 9, &arena);
     CompareOptions options = {.threads = 2};
@@ -403,9 +388,8 @@ TEST(a_data_window_places_values)
     assert_int_equal(selection_place(&frame, 30), 12 + 4);
 }
 
-TEST(regions_select_and_displays_are_known)
+ARENA_TEST(regions_select_and_displays_are_known)
 {
-    Arena            arena = test_arena(state);
     Error            err = {0};
     Selection        selection;
     CompareInput     a = frame_input("a.exr", &arena);
@@ -445,7 +429,4 @@ TEST(frames_that_cannot_fit_are_refused_by_a_line)
     assert_error_has(&err, "GB; compare crops, or developed pictures");
 }
 
-int main(void)
-{
-    return run_cases(make_folder, remove_folder);
-}
+TEST_PROGRAM(make_folder, remove_folder)

@@ -15,9 +15,8 @@
 
 static const char WILD[] = "a<b>&\"'\x01\xff]]>\xef\xbf\xbf.png";
 
-TEST(markup_escapes_and_encodes)
+ARENA_TEST(markup_escapes_and_encodes)
 {
-    Arena arena = test_arena(state);
     Text  text = {.arena = &arena};
     escape_markup(&text, WILD);
     text_add(&text, " ");
@@ -35,9 +34,8 @@ TEST(markup_escapes_and_encodes)
     }
 }
 
-TEST(junit_is_well_formed_whatever_the_names_are)
+ARENA_TEST(junit_is_well_formed_whatever_the_names_are)
 {
-    Arena        arena = test_arena(state);
     Error        err = {0};
     CompareInput a = picture_input(WILD, 8, &arena), b = picture_input("b", 8, &arena);
     ((float *)b.codes.rgb[0])[3] = 1;
@@ -68,9 +66,8 @@ TEST(junit_is_well_formed_whatever_the_names_are)
     assert_int_equal(err.code, ERROR_OUTPUT);
 }
 
-TEST(json_has_the_promised_keys)
+ARENA_TEST(json_has_the_promised_keys)
 {
-    Arena          arena = test_arena(state);
     CompareInput   a = picture_input(WILD, 8, &arena), b = picture_input("b", 8, &arena);
     CompareOptions options = {.threads = 1};
     ((float *)b.codes.rgb[0])[3] = 1;
@@ -89,9 +86,8 @@ TEST(json_has_the_promised_keys)
 }
 
 /* Whatever a name holds, it stands in the page as text; both sides and three maps are there. */
-TEST(a_report_is_whole_and_escaped)
+ARENA_TEST(a_report_is_whole_and_escaped)
 {
-    Arena          arena = test_arena(state);
     Error          err = {0};
     FileBytes      page;
     CompareOptions options = {.threads = 1};
@@ -149,9 +145,8 @@ TEST(wrong_options_say_what_is_wanted)
     refused("--level", "0", "--level");
 }
 
-TEST(limits_and_lists_are_read)
+ARENA_TEST(limits_and_lists_are_read)
 {
-    Arena          arena = test_arena(state);
     Error          err = {0};
     CompareRequest r = {0};
     const char *argv[] = {"compare", "a", "b", "--max", "flip=0.5", "--min", "ssim=0.9",
@@ -172,7 +167,4 @@ TEST(limits_and_lists_are_read)
     assert_true(r.options.wants_stat);
 }
 
-int main(void)
-{
-    return run_cases(make_folder, remove_folder);
-}
+TEST_PROGRAM(make_folder, remove_folder)

@@ -151,7 +151,4 @@ TEST(with_skewness_the_ends_are_halls)
     }
 }
 
-int main(void)
-{
-    return run_cases(NULL, NULL);
-}
+TEST_PROGRAM(NULL, NULL)

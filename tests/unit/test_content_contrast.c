@@ -58,9 +58,8 @@ static ContentContrast read_page(Page page, bool knows_noise, unsigned *seed, Ar
     return content_contrast(&pixels, arena);
 }
 
-TEST(text_without_noise_has_its_contrast)
+ARENA_TEST(text_without_noise_has_its_contrast)
 {
-    Arena    arena = test_arena(state);
     unsigned seed = 1;
     static const double pairs[][2] = {{400, 4}, {4, 400}, {100, 80}, {1, 0.001}, {1e4, 9e3}};
     for (int i = 0; i < 5; i++) {
@@ -81,9 +80,8 @@ TEST(text_without_noise_has_its_contrast)
 }
 
 /* A firefly, or a hole, among 9600 pixels does not move the split. */
-TEST(single_pixels_do_not_move_the_split)
+ARENA_TEST(single_pixels_do_not_move_the_split)
 {
-    Arena         arena = test_arena(state);
     unsigned      seed = 1;
     Page          page = {200, 20, 4, 0, 0, false};
     ContentPixels pixels = print_page(&page, false, &seed, &arena);
@@ -95,9 +93,8 @@ TEST(single_pixels_do_not_move_the_split)
     assert_close(m.ground.value, 20, 0.01);
 }
 
-TEST(strokes_too_thin_are_told_and_understate)
+ARENA_TEST(strokes_too_thin_are_told_and_understate)
 {
-    Arena           arena = test_arena(state);
     unsigned        seed = 1;
     ContentContrast m = read_page((Page){300, 10, 0, 0, 0, false}, false, &seed, arena);
     assert_int_equal(m.verdict, CONTENT_FOUND);
@@ -106,10 +103,9 @@ TEST(strokes_too_thin_are_told_and_understate)
 }
 
 /* The noise's interval holds 95 of 100 times, for every figure. */
-TEST(the_intervals_cover)
+ARENA_TEST(the_intervals_cover)
 {
     enum { TRIALS = 400 };
-    Arena      arena = test_arena(state);
     unsigned   seed = 11;
     const Page pages[] = {{100, 20, 4, 8, 0, false}, {20, 100, 4, 8, 0, false}};
     for (int p = 0; p < 2; p++) {
@@ -128,9 +124,8 @@ TEST(the_intervals_cover)
     }
 }
 
-TEST(noise_and_slopes_are_no_text)
+ARENA_TEST(noise_and_slopes_are_no_text)
 {
-    Arena    arena = test_arena(state);
     unsigned seed = 3;
     Page     uniform = {100, 100, 4, 5, 0, false}, slope = {100, 100, 3, 0, 1, false};
     assert_int_equal(read_page(uniform, true, &seed, arena).verdict, CONTENT_NOISY);
@@ -149,9 +144,8 @@ TEST(noise_and_slopes_are_no_text)
 }
 
 /* Text on a ground that is brighter at one side: the mean ground counts. */
-TEST(a_ground_that_is_not_even_has_its_mean)
+ARENA_TEST(a_ground_that_is_not_even_has_its_mean)
 {
-    Arena           arena = test_arena(state);
     unsigned        seed = 5;
     ContentContrast m = read_page((Page){200, 20, 4, 1, 0.4, false}, true, &seed, arena);
     assert_int_equal(m.verdict, CONTENT_FOUND);
@@ -159,7 +153,4 @@ TEST(a_ground_that_is_not_even_has_its_mean)
     assert_close(m.characters.value, 200, 0.01);
 }
 
-int main(void)
-{
-    return run_cases(make_arena, drop_arena);
-}
+TEST_PROGRAM(make_arena, drop_arena)

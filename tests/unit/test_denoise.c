@@ -120,9 +120,8 @@ static double variance_of(const float *values, size_t count)
 
 /* ---- what stays -------------------------------------------------------------------------- */
 
-TEST(a_constant_picture_stays_however_noisy_it_is_said_to_be)
+ARENA_TEST(a_constant_picture_stays_however_noisy_it_is_said_to_be)
 {
-    Arena         arena = test_arena(state);
     DenoiseReport report;
     const float   variances[] = {0, 1, 1e4f};
     for (int k = 0; k < 3; k++) {
@@ -135,9 +134,8 @@ TEST(a_constant_picture_stays_however_noisy_it_is_said_to_be)
     }
 }
 
-TEST(a_frame_without_noise_stays)
+ARENA_TEST(a_frame_without_noise_stays)
 {
-    Arena         arena = test_arena(state);
     FrameImage    frame = whole_wall(&arena);
     DenoiseReport report;
     uint32_t      random = 3;
@@ -157,9 +155,8 @@ TEST(a_frame_without_noise_stays)
 }
 
 /* A step of light that the halves agree on stays a step. */
-TEST(a_shadow_s_edge_stays_where_it_is)
+ARENA_TEST(a_shadow_s_edge_stays_where_it_is)
 {
-    Arena         arena = test_arena(state);
     FrameImage    frame = noise("0:24", &arena);
     DenoiseReport report;
     for (const char *c = "RGB"; *c; c++)
@@ -206,9 +203,8 @@ static void turn_left_half(FrameImage *frame, Arena *arena)
     }
 }
 
-TEST(a_narrow_shadow_stays_narrow_and_dark)
+ARENA_TEST(a_narrow_shadow_stays_narrow_and_dark)
 {
-    Arena         arena = test_arena(state);
     FrameImage    frame = noise("0:24", &arena);
     DenoiseReport report;
     scale_columns(&frame, 30, 32, 0.4f, &arena);
@@ -218,9 +214,8 @@ TEST(a_narrow_shadow_stays_narrow_and_dark)
     assert_near(mean_of_columns(green(&out), 33, 34), 100, 10);
 }
 
-TEST(light_stays_on_its_side_of_a_silhouette)
+ARENA_TEST(light_stays_on_its_side_of_a_silhouette)
 {
-    Arena         arena = test_arena(state);
     FrameImage    frame = noise("0:24", &arena);
     DenoiseReport report;
     turn_left_half(&frame, &arena);
@@ -233,9 +228,8 @@ TEST(light_stays_on_its_side_of_a_silhouette)
 
 /* ---- what goes --------------------------------------------------------------------------- */
 
-TEST(noise_goes_and_light_stays)
+ARENA_TEST(noise_goes_and_light_stays)
 {
-    Arena         arena = test_arena(state);
     FrameImage    frame = noise("0:24", &arena);
     DenoiseReport report;
     FrameImage    out = denoised(&frame, 2, &report, &arena);
@@ -244,9 +238,8 @@ TEST(noise_goes_and_light_stays)
     assert_close(report.energy_ratio, 1, 0.01);
 }
 
-TEST(few_samples_are_filtered_without_halves)
+ARENA_TEST(few_samples_are_filtered_without_halves)
 {
-    Arena         arena = test_arena(state);
     FrameImage    frame = noise("0:8", &arena);
     DenoiseReport report;
     set(&frame, "halves", "RGB", NAN, &arena);
@@ -256,9 +249,8 @@ TEST(few_samples_are_filtered_without_halves)
     assert_close(report.energy_ratio, 1, 0.02);
 }
 
-TEST(a_firefly_is_spread_and_not_lost)
+ARENA_TEST(a_firefly_is_spread_and_not_lost)
 {
-    Arena         arena = test_arena(state);
     FrameImage    frame = noise("0:24", &arena);
     DenoiseReport report;
     const size_t  middle = (size_t)HEIGHT / 2 * WIDTH + WIDTH / 2;
@@ -273,9 +265,8 @@ TEST(a_firefly_is_spread_and_not_lost)
     for (size_t i = 0; i < COUNT; i++) assert_true(green(&out)[i] < 1500);
 }
 
-TEST(a_firefly_s_light_stays_on_its_surface)
+ARENA_TEST(a_firefly_s_light_stays_on_its_surface)
 {
-    Arena         arena = test_arena(state);
     FrameImage    frame = noise("0:24", &arena);
     DenoiseReport report;
     const size_t  near = (size_t)HEIGHT / 2 * WIDTH + WIDTH / 2 - 2;
@@ -312,9 +303,8 @@ static FrameImage display(Arena *arena)
     return frame;
 }
 
-TEST(what_a_display_shows_stays_sharp_and_what_it_reflects_is_filtered)
+ARENA_TEST(what_a_display_shows_stays_sharp_and_what_it_reflects_is_filtered)
 {
-    Arena         arena = test_arena(state);
     FrameImage    frame = display(&arena);
     DenoiseReport report;
     FrameImage    out = denoised(&frame, 2, &report, &arena);
@@ -330,9 +320,8 @@ TEST(what_a_display_shows_stays_sharp_and_what_it_reflects_is_filtered)
 
 /* Edges of content inside pixels spread the samples and part the halves, a hundred times as
  * much as the reflection has light. */
-TEST(what_a_display_shows_casts_no_glow_on_what_it_reflects)
+ARENA_TEST(what_a_display_shows_casts_no_glow_on_what_it_reflects)
 {
-    Arena         arena = test_arena(state);
     FrameImage    frame = display(&arena);
     DenoiseReport report;
     uint32_t      random = 5;
@@ -350,9 +339,8 @@ TEST(what_a_display_shows_casts_no_glow_on_what_it_reflects)
     assert_close(report.energy_ratio, 1, 0.002);
 }
 
-TEST(the_edge_of_a_display_is_left_as_it_is)
+ARENA_TEST(the_edge_of_a_display_is_left_as_it_is)
 {
-    Arena         arena = test_arena(state);
     FrameImage    frame = display(&arena);
     DenoiseReport report;
     for (const char *c = "RGB"; *c; c++)
@@ -365,9 +353,8 @@ TEST(the_edge_of_a_display_is_left_as_it_is)
 
 /* What the samples place badly, in pixels that a display fills and in those that it covers in
  * part, is not in display.fine; a steady reflection is what is left of them. */
-TEST(what_few_samples_saw_of_a_display_gives_way_to_more_rays)
+ARENA_TEST(what_few_samples_saw_of_a_display_gives_way_to_more_rays)
 {
-    Arena         arena = test_arena(state);
     FrameImage    frame = display(&arena);
     DenoiseReport report;
     uint32_t      random = 9;
@@ -430,9 +417,8 @@ TEST(linear_light_is_fitted)
 
 /* ---- any frame --------------------------------------------------------------------------- */
 
-TEST(any_number_of_threads_makes_the_same_bits)
+ARENA_TEST(any_number_of_threads_makes_the_same_bits)
 {
-    Arena         arena = test_arena(state);
     FrameImage    frame = noise("0:24", &arena);
     DenoiseReport report;
     FrameImage    one = denoised(&frame, 1, &report, &arena);
@@ -444,9 +430,8 @@ TEST(any_number_of_threads_makes_the_same_bits)
     }
 }
 
-TEST(a_pixel_that_is_not_finite_harms_no_other)
+ARENA_TEST(a_pixel_that_is_not_finite_harms_no_other)
 {
-    Arena         arena = test_arena(state);
     FrameImage    frame = noise("0:24", &arena);
     DenoiseReport report;
     const size_t  bad[] = {0, 5 * WIDTH + 9, 20 * WIDTH + 33, COUNT - 1};
@@ -467,9 +452,8 @@ TEST(a_pixel_that_is_not_finite_harms_no_other)
     assert_close(report.energy_ratio, 1, 0.02);
 }
 
-TEST(small_frames_and_crops_are_filtered)
+ARENA_TEST(small_frames_and_crops_are_filtered)
 {
-    Arena           arena = test_arena(state);
     DenoiseReport   report;
     const ExrWindow windows[] = {{0, 0, 1, 1}, {0, 0, 1, 40}, {3, 2, 40, 3}, {30, 20, 66, 49},
                                  {-5, -5, 30, 30}};
@@ -482,9 +466,8 @@ TEST(small_frames_and_crops_are_filtered)
     }
 }
 
-TEST(black_stays_black)
+ARENA_TEST(black_stays_black)
 {
-    Arena         arena = test_arena(state);
     FrameImage    frame = whole_wall(&arena);
     DenoiseReport report;
     set(&frame, "", "RGB", 0, &arena);
@@ -494,9 +477,8 @@ TEST(black_stays_black)
     assert_true(report.energy_ratio == 1);
 }
 
-TEST(missing_layers_are_named)
+ARENA_TEST(missing_layers_are_named)
 {
-    Arena         arena = test_arena(state);
     FrameImage    frame = frame_create(2, 2, (ExrWindow){0, 0, 2, 2}, 8, 0, &arena), out;
     DenoiseReport report;
     Error         err = {0};
@@ -511,7 +493,4 @@ TEST(missing_layers_are_named)
                         DENOISE_LAYERS);
 }
 
-int main(void)
-{
-    return run_cases(make_arena, drop_arena);
-}
+TEST_PROGRAM(make_arena, drop_arena)

@@ -135,13 +135,12 @@ TEST(a_configuration_that_is_too_new_is_refused)
 }
 
 /* The studios' own ACES configuration agrees with ours. */
-TEST(a_users_configuration_is_entered_by_its_interchange_role)
+ARENA_TEST(a_users_configuration_is_entered_by_its_interchange_role)
 {
     char path[512];
     snprintf(path, sizeof path, "%s/ocio/cg-config-v1.0.0_aces-v1.3_ocio-v2.1.ocio",
              SHARED_DATA_DIR);
     if (!file_exists(path)) skip();
-    Arena         arena = test_arena(state);
     FrameImage    frame = uniform_frame(2, 2, 18, &arena);
     DevelopReport report;
     Picture p = develop(&frame, (DevelopOptions){.config = path, .exposure = "white:100"},
@@ -209,9 +208,8 @@ TEST(bad_exposures_are_told)
 
 /* ---- pictures ---------------------------------------------------------------------------- */
 
-TEST(a_frame_becomes_the_codes_it_should)
+ARENA_TEST(a_frame_becomes_the_codes_it_should)
 {
-    Arena          arena = test_arena(state);
     FrameImage     frame = uniform_frame(8, 5, 90, &arena);
     DevelopOptions options = {.exposure = "white:500", .view = "untonemapped"};
     Error          err = {0};
@@ -234,9 +232,8 @@ TEST(a_frame_becomes_the_codes_it_should)
     assert_near(((const uint8_t *)image.pixels)[0], 255 * 0.461356, 2);
 }
 
-TEST(the_same_frame_makes_the_same_picture_file)
+ARENA_TEST(the_same_frame_makes_the_same_picture_file)
 {
-    Arena          arena = test_arena(state);
     FrameImage     frame = uniform_frame(8, 5, 90, &arena);
     DevelopOptions options = {.false_colour = true};
     FileBytes      bytes[2];
@@ -249,9 +246,8 @@ TEST(the_same_frame_makes_the_same_picture_file)
     assert_memory_equal(bytes[0].data, bytes[1].data, bytes[0].size);
 }
 
-TEST(a_range_makes_frames_comparable)
+ARENA_TEST(a_range_makes_frames_comparable)
 {
-    Arena          arena = test_arena(state);
     FrameImage     frame = uniform_frame(8, 5, 90, &arena);
     DevelopOptions options = {.false_colour = true, .range = {0.9, 900}};
     DevelopReport  report;
@@ -269,9 +265,8 @@ TEST(a_range_makes_frames_comparable)
     assert_error_has(&err, "only false colours have a range");
 }
 
-TEST(what_is_not_finite_is_cleaned_and_counted)
+ARENA_TEST(what_is_not_finite_is_cleaned_and_counted)
 {
-    Arena      arena = test_arena(state);
     FrameImage frame = uniform_frame(4, 1, 90, &arena);
     frame.channels[0].values[0] = NAN;
     frame.channels[1].values[1] = INFINITY;
@@ -282,9 +277,8 @@ TEST(what_is_not_finite_is_cleaned_and_counted)
     for (int i = 0; i < 12; i++) assert_true(isfinite(p.rgb[i]));
 }
 
-TEST(a_crop_stands_in_its_frame)
+ARENA_TEST(a_crop_stands_in_its_frame)
 {
-    Arena      arena = test_arena(state);
     FrameImage frame = uniform_frame(4, 2, 90, &arena);
     frame.display = (ExrWindow){0, 0, 10, 6};
     frame.data = (ExrWindow){3, 1, 7, 3};
@@ -300,9 +294,8 @@ TEST(a_crop_stands_in_its_frame)
         }
 }
 
-TEST(a_picture_that_fails_leaves_nothing)
+ARENA_TEST(a_picture_that_fails_leaves_nothing)
 {
-    Arena          arena = test_arena(state);
     FrameImage     frame = uniform_frame(64, 64, 90, &arena);
     DevelopOptions options = {.bits = 16};
     Error          err = {0};
@@ -329,7 +322,7 @@ TEST(a_picture_that_fails_leaves_nothing)
 
 /* ---- layers ------------------------------------------------------------------------------ */
 
-TEST(every_layer_can_be_looked_at)
+ARENA_TEST(every_layer_can_be_looked_at)
 {
     static const char *const CHANNELS[] = {
         "xyz.X", "xyz.Y", "xyz.Z", "depth.Z", "position.X", "position.Y", "position.Z",
@@ -342,7 +335,6 @@ TEST(every_layer_can_be_looked_at)
         "xyz", "depth", "depth.Z", "position", "normal", "albedo", "id", "id.display", "uv",
         "variance", "variance.G", "halves", "halves.G", "samples", "light.sun",
         "display.emitted", "display.theta", "display.contrast", "R", "light.sun.B", NULL};
-    Arena      arena = test_arena(state);
     FrameImage frame = uniform_frame(40, 30, 90, &arena);
     for (size_t k = 0; k < sizeof CHANNELS / sizeof *CHANNELS; k++) {
         float *plane = frame_add_channel(&frame, CHANNELS[k], false, &arena);
@@ -361,9 +353,8 @@ TEST(every_layer_can_be_looked_at)
     }
 }
 
-TEST(directions_and_albedo_have_their_closed_forms)
+ARENA_TEST(directions_and_albedo_have_their_closed_forms)
 {
-    Arena      arena = test_arena(state);
     FrameImage frame = uniform_frame(2, 1, 90, &arena);
     for (int c = 0; c < 3; c++) {
         char normal[] = "normal.X", albedo[] = "albedo.R";
@@ -378,9 +369,8 @@ TEST(directions_and_albedo_have_their_closed_forms)
     assert_near(p.rgb[0], 0.461356, 1e-5);
 }
 
-TEST(a_grey_frame_is_light_as_well)
+ARENA_TEST(a_grey_frame_is_light_as_well)
 {
-    Arena         arena = test_arena(state);
     FrameImage    frame = frame_create(1, 1, (ExrWindow){0, 0, 1, 1}, 1, 0, &arena);
     DevelopReport report;
     Picture       picture;
@@ -397,9 +387,8 @@ TEST(a_grey_frame_is_light_as_well)
     assert_near(picture.rgb[2], 0.461356, 1e-5);
 }
 
-TEST(an_unknown_layer_is_told_with_those_there_are)
+ARENA_TEST(an_unknown_layer_is_told_with_those_there_are)
 {
-    Arena          arena = test_arena(state);
     FrameImage     frame = uniform_frame(2, 1, 90, &arena);
     DevelopOptions options = {.layer = "norml", .frame_name = "f.exr"};
     Picture        picture;
@@ -415,9 +404,8 @@ TEST(an_unknown_layer_is_told_with_those_there_are)
 }
 
 /* Where a display's layer has nothing the frame shows, grey and dim. */
-TEST(figures_of_displays_stand_over_the_frame)
+ARENA_TEST(figures_of_displays_stand_over_the_frame)
 {
-    Arena      arena = test_arena(state);
     FrameImage frame = frame_create(8, 8, (ExrWindow){0, 0, 8, 8}, 8, 0, &arena);
     DevelopOptions options = {.layer = "display.contrast", .range = {1, 100}};
     Picture    picture;

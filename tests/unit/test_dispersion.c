@@ -189,7 +189,4 @@ TEST(a_split_path_keeps_its_lane)
     }
 }
 
-int main(void)
-{
-    return run_cases(maker_start, maker_end);
-}
+TEST_PROGRAM(maker_start, maker_end)

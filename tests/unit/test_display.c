@@ -421,7 +421,4 @@ TEST(the_back_of_a_display_lights_nothing)
     }
 }
 
-int main(void)
-{
-    return run_cases(NULL, NULL);
-}
+TEST_PROGRAM(NULL, NULL)

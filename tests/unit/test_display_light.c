@@ -238,7 +238,4 @@ TEST(every_strategy_finds_the_same_light_of_displays)
     arena_release(&arena);
 }
 
-int main(void)
-{
-    return run_cases(start_narrow, fixture_group_end);
-}
+TEST_PROGRAM(start_narrow, fixture_group_end)

@@ -123,9 +123,8 @@ static double corner_factor(double a, double b, double h)
 /* Before a large lamp light comes from everywhere: uniform directions of the hemisphere have
  * a variance of 1/3, whatever the distance. A tenth of the choices is blind and seldom of use,
  * some go to neighbours on the horizon: 4/3 / 0.85 - 1 = 0.57. */
-TEST(a_lamp_near_at_hand_is_chosen_by_solid_angle)
+ARENA_TEST(a_lamp_near_at_hand_is_chosen_by_solid_angle)
 {
-    Arena    arena = test_arena(state);
     Scene   *scene = builder_scene(&arena);
     builder_part(scene, lamp(1000));
     builder_quad(scene, vec3(0, 0, 0), vec3(0.5f, 0, 0), vec3(0, 0, -0.5f));
@@ -148,9 +147,8 @@ TEST(a_lamp_near_at_hand_is_chosen_by_solid_angle)
 }
 
 /* Nothing is chosen that lies below the horizon, nor a lamp that shows its back. */
-TEST(lamps_that_cannot_be_seen_are_not_chosen)
+ARENA_TEST(lamps_that_cannot_be_seen_are_not_chosen)
 {
-    Arena    arena = test_arena(state);
     Scene   *scene = builder_scene(&arena);
     uint32_t random = 9;
     builder_part(scene, lamp(10));
@@ -257,7 +255,4 @@ TEST(a_thousand_lamps_are_hardly_noisier_than_one)
         }
 }
 
-int main(void)
-{
-    return run_cases(make_arena, drop_arena);
-}
+TEST_PROGRAM(make_arena, drop_arena)

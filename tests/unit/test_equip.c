@@ -169,9 +169,8 @@ static void check_materials(const Scene *scene)
     assert_near(own->ior, 1.4, 1e-6);
 }
 
-TEST(what_is_applied_is_found_again)
+ARENA_TEST(what_is_applied_is_found_again)
 {
-    Arena       arena = test_arena(state);
     Error       err = {0};
     EquipResult result;
     const char *model = write_glb("m.glb");
@@ -203,9 +202,8 @@ TEST(what_is_applied_is_found_again)
     assert_error_has(&err, "is the model itself");
 }
 
-TEST(files_of_the_model_come_along)
+ARENA_TEST(files_of_the_model_come_along)
 {
-    Arena       arena = test_arena(state);
     Error       err = {0};
     EquipResult result;
     const char *model = write_far();
@@ -227,9 +225,8 @@ TEST(files_of_the_model_come_along)
     assert_text_has(read_text(in_folder("a/n.gltf"), &arena), "\"b/some%20bytes.bin\"");
 }
 
-TEST(without_content_there_is_no_review)
+ARENA_TEST(without_content_there_is_no_review)
 {
-    Arena       arena = test_arena(state);
     Error       err = {0};
     EquipResult result;
     const char *model = write_glb("m.glb");
@@ -296,9 +293,8 @@ TEST(a_wrong_file_is_refused_and_leaves_nothing)
 
 /* ---- the page ---------------------------------------------------------------------------- */
 
-TEST(a_page_holds_the_model_and_asks_for_nothing)
+ARENA_TEST(a_page_holds_the_model_and_asks_for_nothing)
 {
-    Arena       arena = test_arena(state);
     Error       err = {0};
     const char *model = write_glb("<script>.glb"), *page = in_folder("page.html");
     Scene      *scene = load(model, &arena);
@@ -330,7 +326,4 @@ TEST(usual_materials_can_be_told_apart_and_are_physical)
     }
 }
 
-int main(void)
-{
-    return run_cases(make_folder, clear_folder);
-}
+TEST_PROGRAM(make_folder, clear_folder)

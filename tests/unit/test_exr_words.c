@@ -59,9 +59,8 @@ static ExrReader *open_bytes(FileBytes file)
 
 /* ---- what is written is read ------------------------------------------------------------- */
 
-TEST(every_word_comes_back_in_the_order_asked_for)
+ARENA_TEST(every_word_comes_back_in_the_order_asked_for)
 {
-    Arena           arena = test_arena(state);
     const ExrWords *words = make_words(&arena), *found;
     const uint32_t *written = words->values;
     ExrReader      *reader = open_bytes(encode(words, &arena));
@@ -90,9 +89,8 @@ TEST(every_word_comes_back_in_the_order_asked_for)
     exr_reader_destroy(reader);
 }
 
-TEST(attributes_of_the_words_are_their_own)
+ARENA_TEST(attributes_of_the_words_are_their_own)
 {
-    Arena           arena = test_arena(state);
     ExrReader      *reader = open_bytes(encode(make_words(&arena), &arena));
     const ExrWords *found;
     Error           err = {0};
@@ -111,9 +109,8 @@ TEST(attributes_of_the_words_are_their_own)
     exr_reader_destroy(reader);
 }
 
-TEST(the_picture_is_the_same_with_and_without)
+ARENA_TEST(the_picture_is_the_same_with_and_without)
 {
-    Arena      arena = test_arena(state);
     FileBytes  with = encode(make_words(&arena), &arena), without = encode(NULL, &arena);
     FileBytes  again = encode(make_words(&arena), &arena);
     FrameImage a, b;
@@ -132,9 +129,8 @@ TEST(the_picture_is_the_same_with_and_without)
     assert_memory_equal(with.data, again.data, with.size);
 }
 
-TEST(a_file_on_disk_is_read_too)
+ARENA_TEST(a_file_on_disk_is_read_too)
 {
-    Arena           arena = test_arena(state);
     const ExrWords *words = make_words(&arena), *found;
     FileBytes       file = encode(words, &arena);
     ExrReader      *reader;
@@ -172,9 +168,8 @@ static bool read_all(const void *bytes, size_t size, const ExrWords *words, uint
     return ok;
 }
 
-TEST(every_prefix_is_refused)
+ARENA_TEST(every_prefix_is_refused)
 {
-    Arena           arena = test_arena(state);
     const ExrWords *words = make_words(&arena);
     FileBytes       file = encode(words, &arena);
     uint32_t       *rows = ARENA_NEW(&arena, uint32_t, WIDTH * HEIGHT * WORDS);
@@ -189,9 +184,8 @@ TEST(every_prefix_is_refused)
     }
 }
 
-TEST(flipped_bits_are_survived)
+ARENA_TEST(flipped_bits_are_survived)
 {
-    Arena           arena = test_arena(state);
     const ExrWords *words = make_words(&arena);
     FileBytes       file = encode(words, &arena);
     uint32_t       *rows = ARENA_NEW(&arena, uint32_t, WIDTH * HEIGHT * WORDS), seed = 1;
@@ -205,9 +199,8 @@ TEST(flipped_bits_are_survived)
     }
 }
 
-TEST(a_part_of_another_kind_is_refused)
+ARENA_TEST(a_part_of_another_kind_is_refused)
 {
-    Arena           arena = test_arena(state);
     FileBytes       file = encode(make_words(&arena), &arena);
     unsigned char  *bytes = (unsigned char *)file.data;
     unsigned char  *entry = memmem(bytes, file.size, "count\0\0\0\0\0", 10); /* UINT is 0 */
@@ -222,11 +215,10 @@ TEST(a_part_of_another_kind_is_refused)
     exr_reader_destroy(reader);
 }
 
-TEST(a_word_that_is_missing_is_named)
+ARENA_TEST(a_word_that_is_missing_is_named)
 {
     static const char *const names[] = {"count", "sum.Z.0"};
     const ExrWords  wanted = {"film", 2, names, NULL, 0, NULL};
-    Arena           arena = test_arena(state);
     uint32_t       *rows = ARENA_NEW(&arena, uint32_t, WIDTH * HEIGHT * 2);
     ExrReader      *reader = open_bytes(encode(make_words(&arena), &arena));
     const ExrWords *found;
@@ -253,7 +245,4 @@ TEST(what_is_no_openexr_file_is_told)
     unlink(in_folder("a.txt"));
 }
 
-int main(void)
-{
-    return run_cases(make_folder, remove_folder);
-}
+TEST_PROGRAM(make_folder, remove_folder)

@@ -101,25 +101,25 @@ static void check_point(const EyeFilter *filter, int sx, int sy, double bound, A
     assert_true(leak < 1e-6 * 0.002 * lux); /* of the faintest veil, that at 90 degrees */
 }
 
-TEST(a_light_spreads_as_in_the_eye)
+ARENA_TEST(a_light_spreads_as_in_the_eye)
 {
     const EyeFilter narrow = {whole_view(64, 36, 10), {30, 0.5}, 2};
     const EyeFilter usual = {whole_view(96, 54, 40), {60, 1.2}, 2};
     const EyeFilter wide = {whole_view(64, 36, 59), {25, 0}, 2};   /* 90 degrees across */
     const EyeFilter wider = {whole_view(64, 36, 90), {80, 1.2}, 2}; /* 121 */
-    check_point(&narrow, 32, 18, 5e-3, test_arena(state));
-    check_point(&narrow, 0, 3, 5e-3, test_arena(state));
-    check_point(&usual, 50, 20, 5e-3, test_arena(state));
-    check_point(&usual, 95, 53, 5e-3, test_arena(state));
-    check_point(&wide, 30, 18, 5e-3, test_arena(state));
-    check_point(&wide, 0, 0, 5e-3, test_arena(state));
-    check_point(&wide, 60, 30, 5e-3, test_arena(state));
-    check_point(&wider, 0, 0, 5e-3, test_arena(state));
-    check_point(&wider, 33, 20, 5e-3, test_arena(state));
+    check_point(&narrow, 32, 18, 5e-3, arena);
+    check_point(&narrow, 0, 3, 5e-3, arena);
+    check_point(&usual, 50, 20, 5e-3, arena);
+    check_point(&usual, 95, 53, 5e-3, arena);
+    check_point(&wide, 30, 18, 5e-3, arena);
+    check_point(&wide, 0, 0, 5e-3, arena);
+    check_point(&wide, 60, 30, 5e-3, arena);
+    check_point(&wider, 0, 0, 5e-3, arena);
+    check_point(&wider, 33, 20, 5e-3, arena);
 }
 
 /* A crop of a picture: the axis lies outside of it. */
-TEST(a_crop_keeps_its_angles)
+ARENA_TEST(a_crop_keeps_its_angles)
 {
     EyeView crop = whole_view(96, 54, 40);
     crop.width = 30;
@@ -127,32 +127,30 @@ TEST(a_crop_keeps_its_angles)
     crop.axis_x -= 60;
     crop.axis_y -= 30;
     const EyeFilter filter = {crop, {40, 0.5}, 1};
-    check_point(&filter, 15, 10, 5e-3, test_arena(state));
-    check_point(&filter, 29, 0, 5e-3, test_arena(state));
+    check_point(&filter, 15, 10, 5e-3, arena);
+    check_point(&filter, 29, 0, 5e-3, arena);
 }
 
-TEST(one_row_and_one_pixel_are_pictures)
+ARENA_TEST(one_row_and_one_pixel_are_pictures)
 {
     const EyeFilter row = {whole_view(40, 1, 0.5), {40, 0.5}, 1};
     const EyeFilter one = {whole_view(1, 1, 20), {40, 0.5}, 1};
-    check_point(&row, 7, 0, 5e-3, test_arena(state));
-    check_point(&one, 0, 0, 5e-3, test_arena(state));
+    check_point(&row, 7, 0, 5e-3, arena);
+    check_point(&one, 0, 0, 5e-3, arena);
 }
 
 /* Up to the border: what leaves the picture is kept where it came from. */
-TEST(an_even_picture_stays_even)
+ARENA_TEST(an_even_picture_stays_even)
 {
     const EyeFilter filter = {whole_view(60, 40, 50), {70, 0.5}, 2};
-    Arena  arena = test_arena(state);
     Planes out = filtered(&filter, make_planes(&filter.view, 321, &arena), &arena);
     for (int c = 0; c < 3; c++)
         for (int i = 0; i < 60 * 40; i++) assert_close(out.rgb[c][i], 321, 1e-6);
 }
 
-TEST(light_adds_up)
+ARENA_TEST(light_adds_up)
 {
     const EyeFilter filter = {whole_view(48, 32, 30), {50, 0.5}, 1};
-    Arena  arena = test_arena(state);
     Planes one = make_planes(&filter.view, 2, &arena);
     Planes other = make_planes(&filter.view, 0, &arena);
     Planes both = make_planes(&filter.view, 2, &arena);
@@ -175,10 +173,9 @@ TEST(light_adds_up)
     assert_close(after, before, 1e-4);
 }
 
-TEST(what_is_not_finite_stays_and_spreads_nothing)
+ARENA_TEST(what_is_not_finite_stays_and_spreads_nothing)
 {
     const EyeFilter filter = {whole_view(24, 16, 30), {50, 0.5}, 1};
-    Arena  arena = test_arena(state);
     Planes in = make_planes(&filter.view, 10, &arena);
     in.rgb[0][5 * 24 + 6] = INFINITY;
     in.rgb[2][9 * 24 + 20] = NAN;
@@ -193,10 +190,9 @@ TEST(what_is_not_finite_stays_and_spreads_nothing)
 }
 
 /* Of one view, whose kernels are made once; a hole in one is a hole in both. */
-TEST(layers_spread_together_as_they_do_alone)
+ARENA_TEST(layers_spread_together_as_they_do_alone)
 {
     const EyeFilter filter = {whole_view(48, 30, 40), {50, 0.5}, 2};
-    Arena  arena = test_arena(state);
     Planes in[2], alone[2], together[2];
     for (int k = 0; k < 2; k++) {
         in[k] = make_planes(&filter.view, 3, &arena);
@@ -223,10 +219,9 @@ TEST(layers_spread_together_as_they_do_alone)
     assert_close(together[0].rgb[2][77], in[0].rgb[2][77], 0);
 }
 
-TEST(threads_change_no_bit)
+ARENA_TEST(threads_change_no_bit)
 {
     EyeFilter filter = {whole_view(40, 24, 35), {50, 0.5}, 1};
-    Arena  arena = test_arena(state);
     Planes in = make_planes(&filter.view, 1, &arena);
     for (int i = 0; i < 40 * 24; i++) in.rgb[i % 3][i] = (float)(i % 17) * 3;
     Planes alone = filtered(&filter, in, &arena);
@@ -236,7 +231,4 @@ TEST(threads_change_no_bit)
         assert_memory_equal(alone.rgb[c], together.rgb[c], 40 * 24 * sizeof(float));
 }
 
-int main(void)
-{
-    return run_cases(make_arena, drop_arena);
-}
+TEST_PROGRAM(make_arena, drop_arena)

@@ -259,7 +259,4 @@ TEST(eyes_look_straight_up_and_down)
     world_end(&world);
 }
 
-int main(void)
-{
-    return run_cases(NULL, NULL);
-}
+TEST_PROGRAM(NULL, NULL)

@@ -120,7 +120,4 @@ TEST(a_route_fails_for_the_time_of_its_points)
     arena_release(&arena);
 }
 
-int main(void)
-{
-    return run_cases(NULL, NULL);
-}
+TEST_PROGRAM(NULL, NULL)

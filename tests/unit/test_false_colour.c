@@ -32,9 +32,8 @@ TEST(false_colours_grow_lighter_all_the_way)
     assert_true(last > 0.8);
 }
 
-TEST(false_colours_show_the_value_by_the_scale)
+ARENA_TEST(false_colours_show_the_value_by_the_scale)
 {
-    Arena       arena = test_arena(state);
     const float values[6] = {0.1f, 1, 10, 100, 1000, NAN};
     ScaleRange  range = {0.1f, 1000, true};
     Picture     p = false_colour_picture(values, 6, 1, range, "cd/m^2", &arena);
@@ -49,11 +48,10 @@ TEST(false_colours_show_the_value_by_the_scale)
     assert_true(scale_position(range, INFINITY) == 1);
 }
 
-TEST(a_scale_has_round_ends_around_the_values)
+ARENA_TEST(a_scale_has_round_ends_around_the_values)
 {
     enum { N = 10000 };
     static float values[N];
-    Arena        arena = test_arena(state);
     for (int i = 0; i < N; i++) values[i] = (float)exp(log(0.03) + i * log(7000 / 0.03) / N);
     ScaleRange r = scale_range_of(values, N, true, arena);
     assert_close(r.low, 0.05, 1e-5); /* the 5th percentile is 0.056 */
@@ -70,10 +68,9 @@ TEST(a_scale_has_round_ends_around_the_values)
     assert_true(r.low > 0 && r.high > r.low);
 }
 
-TEST(letters_are_drawn_as_wide_as_they_are_said_to_be)
+ARENA_TEST(letters_are_drawn_as_wide_as_they_are_said_to_be)
 {
     static const char TEXT[] = "0123456789.-+/:%()abcdefghijklmnopqrstuvwxyz";
-    Arena     arena = test_arena(state);
     StrokeFont font = {24, {1, 1, 1}};
     for (size_t i = 0; i + 1 < sizeof TEXT; i++) {
         char    text[2] = {TEXT[i], 0};
@@ -132,12 +129,11 @@ static double icc_value(IccProfile profile, const char *tag, int i)
 }
 
 /* The columns of sRGB adapted to D50, as the ICC's own sRGB profiles have them. */
-TEST(the_profile_holds_the_published_primaries)
+ARENA_TEST(the_profile_holds_the_published_primaries)
 {
     static const char *const TAGS[3] = {"rXYZ", "gXYZ", "bXYZ"};
     static const double      WANT[3][3] = {
         {0.4361, 0.2225, 0.0139}, {0.3851, 0.7169, 0.0971}, {0.1431, 0.0606, 0.7141}};
-    Arena      arena = test_arena(state);
     IccProfile p = icc_profile_create(REC709_CHROMATICITIES, ICC_CURVE_SRGB, "test", &arena);
     assert_int_equal(u32_at(p.bytes), p.size);
     for (int c = 0; c < 3; c++) {
@@ -151,7 +147,4 @@ TEST(the_profile_holds_the_published_primaries)
     assert_near(icc_value(p, "gTRC", 1), 2.4, 1e-4); /* behind the curve's kind */
 }
 
-int main(void)
-{
-    return run_cases(make_arena, drop_arena);
-}
+TEST_PROGRAM(make_arena, drop_arena)

@@ -150,7 +150,4 @@ TEST(a_facet_that_dazzles_for_minutes_a_year_is_found)
     world_end(&world);
 }
 
-int main(void)
-{
-    return run_cases(NULL, NULL);
-}
+TEST_PROGRAM(NULL, NULL)

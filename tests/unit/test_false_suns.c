@@ -210,7 +210,4 @@ TEST(a_pane_throws_what_its_faces_reflect)
     world_end(&found.world);
 }
 
-int main(void)
-{
-    return run_cases(NULL, NULL);
-}
+TEST_PROGRAM(NULL, NULL)

@@ -14,9 +14,8 @@
 
 #include "text/uri.h"
 
-TEST(what_was_written_is_read_back)
+ARENA_TEST(what_was_written_is_read_back)
 {
-    Arena arena = test_arena(state);
     Error err;
     FileBytes bytes;
     const char *path = in_folder("a.bin");
@@ -28,9 +27,8 @@ TEST(what_was_written_is_read_back)
     unlink(path);
 }
 
-TEST(the_start_is_read_of_a_file_of_any_length)
+ARENA_TEST(the_start_is_read_of_a_file_of_any_length)
 {
-    Arena arena = test_arena(state);
     Error     err;
     FileBytes bytes;
     const char *path = in_folder("long.bin");
@@ -47,9 +45,8 @@ TEST(the_start_is_read_of_a_file_of_any_length)
     assert_non_null(strstr(err.text, "is a folder, a file is wanted"));
 }
 
-TEST(a_file_that_cannot_be_written_leaves_nothing)
+ARENA_TEST(a_file_that_cannot_be_written_leaves_nothing)
 {
-    Arena arena = test_arena(state);
     Error err;
     assert_false(file_write(in_folder("none/a.bin"), "x", 1, &err));
     assert_int_equal(err.code, ERROR_OUTPUT);
@@ -170,9 +167,8 @@ TEST(file_systems_without_unnamed_files_get_named_ones)
     unlink(path);
 }
 
-TEST(reading_names_what_is_wrong)
+ARENA_TEST(reading_names_what_is_wrong)
 {
-    Arena arena = test_arena(state);
     Error err;
     FileBytes bytes;
     const char *path = in_folder("c.bin");
@@ -232,9 +228,8 @@ TEST(a_file_is_no_folder)
     unlink(path);
 }
 
-TEST(paths_are_joined_and_measured)
+ARENA_TEST(paths_are_joined_and_measured)
 {
-    Arena arena = test_arena(state);
     assert_string_equal(path_beside("a/b/c.gltf", "d.bin", &arena), "a/b/d.bin");
     assert_string_equal(path_beside("c.gltf", "d.bin", &arena), "d.bin");
     assert_string_equal(path_beside("a/c.gltf", "/d.bin", &arena), "/d.bin");
@@ -259,9 +254,8 @@ TEST(schemes_are_told_from_paths)
     assert_false(uri_is_data("date:,x"));
 }
 
-TEST(percent_escapes_are_taken_out)
+ARENA_TEST(percent_escapes_are_taken_out)
 {
-    Arena arena = test_arena(state);
     Error err;
     char *text;
     assert_true(uri_decode("a%20b%c3%A9c", &arena, &text, &err));
@@ -273,9 +267,8 @@ TEST(percent_escapes_are_taken_out)
 }
 
 /* RFC 4648, section 10. */
-TEST(base64_data_are_decoded)
+ARENA_TEST(base64_data_are_decoded)
 {
-    Arena arena = test_arena(state);
     static const char *const ENCODED[] = {"",         "Zg==",     "Zm8=",     "Zm9v",
                                           "Zm9vYg==", "Zm9vYmE=", "Zm9vYmFy", "Zm9vYg"};
     static const char *const PLAIN[] = {"",     "f",     "fo",     "foo",
@@ -296,9 +289,8 @@ TEST(base64_data_are_decoded)
     assert_string_equal(type, "");
 }
 
-TEST(broken_data_uris_are_refused)
+ARENA_TEST(broken_data_uris_are_refused)
 {
-    Arena arena = test_arena(state);
     static const char *const BROKEN[] = {
         "data:text/plain;base64", "data:;base64,Z",        "data:;base64,Zm9*",
         "data:a/b;;base64,Zg==",  "data:;base64,Zg==Zg==", "file:,x"};
@@ -308,7 +300,4 @@ TEST(broken_data_uris_are_refused)
         assert_false(data_uri_decode(BROKEN[i], &arena, &bytes, NULL, &err));
 }
 
-int main(void)
-{
-    return run_cases(make_folder, remove_folder);
-}
+TEST_PROGRAM(make_folder, remove_folder)

@@ -50,10 +50,9 @@ static void assert_same_frames(const FrameImage *a, const FrameImage *b)
 
 /* ---- exactness --------------------------------------------------------------------------- */
 
-TEST(any_order_of_adding_gives_the_same_bits)
+ARENA_TEST(any_order_of_adding_gives_the_same_bits)
 {
     enum { COUNT = 500 };
-    Arena      arena = test_arena(state);
     FilmSample samples[COUNT];
     uint32_t   random = 1;
     for (uint32_t i = 0; i < COUNT; i++) samples[i] = random_sample(&random, i);
@@ -74,10 +73,9 @@ TEST(any_order_of_adding_gives_the_same_bits)
     }
 }
 
-TEST(the_mean_is_that_of_long_doubles)
+ARENA_TEST(the_mean_is_that_of_long_doubles)
 {
     static const float scales[] = {1e-6f, 1e-2f, 1, 1e4f, 1e12f};
-    Arena    arena = test_arena(state);
     uint32_t random = 7;
     for (size_t k = 0; k < sizeof scales / sizeof *scales; k++) {
         Film       *film = film_create(WIDTH, HEIGHT, whole, 0, NULL, &arena);
@@ -97,9 +95,8 @@ TEST(the_mean_is_that_of_long_doubles)
     }
 }
 
-TEST(a_millionth_candela_survives_beside_a_tera_candela)
+ARENA_TEST(a_millionth_candela_survives_beside_a_tera_candela)
 {
-    Arena arena = test_arena(state);
     Film *film = film_create(WIDTH, HEIGHT, whole, 0, NULL, &arena);
     add_grey(film, 0, 0, 0, 1e12f);
     add_grey(film, 0, 0, 1, 1e-6f);
@@ -109,11 +106,10 @@ TEST(a_millionth_candela_survives_beside_a_tera_candela)
 
 /* The worst sample's steps, times the most samples a pixel takes, fit 128 bits: white, and the
  * colours that have the largest R, G and B; just below the split of the squares, too. */
-TEST(the_largest_sums_do_not_overflow)
+ARENA_TEST(the_largest_sums_do_not_overflow)
 {
     static const float worst[][3] = {{1, 1, 1}, {1, -1, -1}, {-1, 1, 1}, {1, -1, 1}};
     static const float sizes[] = {0x1p47f, 0x1.3p16f, 0x1.ep16f};
-    Arena arena = test_arena(state);
     for (size_t k = 0; k < sizeof worst / sizeof *worst * 3; k++) {
         Film      *film = film_create(WIDTH, HEIGHT, whole, 0, NULL, &arena);
         FilmSample s = {.display_id = -1};
@@ -131,9 +127,8 @@ TEST(the_largest_sums_do_not_overflow)
     }
 }
 
-TEST(losses_are_counted_and_the_smallest_kept_in_any_order)
+ARENA_TEST(losses_are_counted_and_the_smallest_kept_in_any_order)
 {
-    Arena arena = test_arena(state);
     Film *film = film_create(WIDTH, HEIGHT, whole, 0, NULL, &arena);
     static const float bad[] = {NAN, INFINITY, -INFINITY, 0x1.8p47f};
     for (int i = 0; i < 40; i++) {
@@ -156,10 +151,9 @@ TEST(losses_are_counted_and_the_smallest_kept_in_any_order)
 /* ---- variance and error ------------------------------------------------------------------ */
 
 /* n samples, half of them a, half b: the variance of the mean is (a-b)^2 / 4 / (n-1). */
-TEST(variance_has_its_closed_form_at_every_scale)
+ARENA_TEST(variance_has_its_closed_form_at_every_scale)
 {
     static const float scales[] = {1e-5f, 1, 1e4f, 1e9f, 1e13f};
-    Arena arena = test_arena(state);
     for (size_t k = 0; k < sizeof scales / sizeof *scales; k++) {
         Film *film = film_create(WIDTH, HEIGHT, whole, 0, NULL, &arena);
         float low = scales[k], high = 3 * scales[k], xyz[3] = {1, 1, 1}, rgb[3];
@@ -174,9 +168,8 @@ TEST(variance_has_its_closed_form_at_every_scale)
     }
 }
 
-TEST(variance_spans_both_windows_of_squares)
+ARENA_TEST(variance_spans_both_windows_of_squares)
 {
-    Arena  arena = test_arena(state);
     Film  *film = film_create(WIDTH, HEIGHT, whole, 0, NULL, &arena);
     float  values[] = {1, 100, 8000, 200000, 1e6f};
     double sum = 0, squares = 0;
@@ -192,9 +185,8 @@ TEST(variance_spans_both_windows_of_squares)
                  1e-6);
 }
 
-TEST(variance_needs_two_samples)
+ARENA_TEST(variance_needs_two_samples)
 {
-    Arena arena = test_arena(state);
     Film *film = film_create(WIDTH, HEIGHT, whole, 0, NULL, &arena);
     assert_true(isnan(film_pixel(film, 0, 0).variance_rgb[0]));
     add_grey(film, 0, 0, 0, 1);
@@ -228,9 +220,8 @@ TEST(relative_error_is_the_mean_of_sigma_over_luminance)
 }
 
 /* Samples whose errors cancel within every block: the mean is sure, whatever their spread. */
-TEST(relative_error_knows_that_even_samples_are_better)
+ARENA_TEST(relative_error_knows_that_even_samples_are_better)
 {
-    Arena arena = test_arena(state);
     Film *film = film_create(WIDTH, HEIGHT, whole, 0, NULL, &arena);
     for (int p = 0; p < WIDTH * HEIGHT; p++)
         for (uint32_t i = 0; i < 64; i++)
@@ -240,9 +231,8 @@ TEST(relative_error_knows_that_even_samples_are_better)
 }
 
 /* Five pixels of 100 without noise and one of 1 with sigma 0.1: judged against half the key. */
-TEST(relative_error_judges_shadows_against_half_the_key)
+ARENA_TEST(relative_error_judges_shadows_against_half_the_key)
 {
-    Arena  arena = test_arena(state);
     Film  *film = film_create(WIDTH, HEIGHT, whole, 0, NULL, &arena);
     double key = pow(100, 5.0 / 6);
     for (uint32_t i = 0; i < 26; i++)
@@ -251,10 +241,9 @@ TEST(relative_error_judges_shadows_against_half_the_key)
     assert_close(film_relative_error(film).frame, 0.1 / (key / 2) / 6, 1e-3);
 }
 
-TEST(relative_error_of_displays_counts_their_pixels_only)
+ARENA_TEST(relative_error_of_displays_counts_their_pixels_only)
 {
     enum { SIDE = 100 };
-    Arena    arena = test_arena(state);
     FilmRect square = {0, 0, SIDE, SIDE};
     Film    *film = film_create(SIDE, SIDE, square, 0, NULL, &arena);
     for (int p = 0; p < SIDE * SIDE; p++)
@@ -284,9 +273,8 @@ TEST(relative_error_of_displays_counts_their_pixels_only)
 }
 
 /* Pixel p swings by p % 4 tenths around 100: of equals the first comes first. */
-TEST(the_worst_pixels_come_in_order)
+ARENA_TEST(the_worst_pixels_come_in_order)
 {
-    Arena     arena = test_arena(state);
     FilmRect  crop = {2, 1, 6, 4};
     Film     *film = film_create(8, 5, crop, 0, NULL, &arena);
     FilmWorst worst[20];
@@ -310,9 +298,8 @@ TEST(the_worst_pixels_come_in_order)
 
 /* ---- layers ------------------------------------------------------------------------------ */
 
-TEST(a_frame_has_the_channels_asked_for_and_no_others)
+ARENA_TEST(a_frame_has_the_channels_asked_for_and_no_others)
 {
-    Arena      arena = test_arena(state);
     Film      *film = film_create(WIDTH, HEIGHT, whole, LAYER_DEPTH | LAYER_ID, NULL, &arena);
     FrameImage frame = film_to_frame(film, 0, &arena);
     assert_int_equal(frame.channel_count, 6);
@@ -326,9 +313,8 @@ TEST(a_frame_has_the_channels_asked_for_and_no_others)
                      3 + 3 + 1 + 3 + 3 + 3 + 2 + 2 + 3 + 3 + 1 + 9 * 3 + 2 + 1 + 3 + 1);
 }
 
-TEST(layers_are_means_over_the_samples_that_hit)
+ARENA_TEST(layers_are_means_over_the_samples_that_hit)
 {
-    Arena      arena = test_arena(state);
     Film      *film = film_create(WIDTH, HEIGHT, whole, LAYER_ALL, NULL, &arena);
     FilmSample near_hit = {.sample_index = 5, .hit = true, .depth = 1, .position = {1, 2, 3},
                            .normal = {0, 1, 0}, .albedo = {1, 0, 0}, .uv = {0.25f, 0},
@@ -357,9 +343,8 @@ TEST(layers_are_means_over_the_samples_that_hit)
     assert_true(at(&frame, "R", 0) == 0);
 }
 
-TEST(features_that_are_not_finite_leave_the_light_alone)
+ARENA_TEST(features_that_are_not_finite_leave_the_light_alone)
 {
-    Arena      arena = test_arena(state);
     Film      *film = film_create(WIDTH, HEIGHT, whole, LAYER_ALL, NULL, &arena);
     FilmSample s = {
         .xyz = {4, 4, 4}, .hit = true, .depth = NAN, .part_id = 1, .display_id = -1};
@@ -371,9 +356,8 @@ TEST(features_that_are_not_finite_leave_the_light_alone)
     assert_int_equal(film_dropped(film).count, 0);
 }
 
-TEST(contrast_is_the_ratio_of_mean_luminances_with_the_reflection)
+ARENA_TEST(contrast_is_the_ratio_of_mean_luminances_with_the_reflection)
 {
-    Arena      arena = test_arena(state);
     Film      *film = film_create(WIDTH, HEIGHT, whole, LAYER_ALL, NULL, &arena);
     FilmSample s = display_sample(0, 0.5f, 1);
     film_add_sample(film, 0, 0, &s);
@@ -395,9 +379,8 @@ TEST(contrast_is_the_ratio_of_mean_luminances_with_the_reflection)
     assert_true(at(&frame, "id.display", 0) == 1);
 }
 
-TEST(mirror_haze_and_lambertian_make_up_the_reflected)
+ARENA_TEST(mirror_haze_and_lambertian_make_up_the_reflected)
 {
-    Arena      arena = test_arena(state);
     unsigned   parts = LAYER_DISPLAY_MIRROR | LAYER_DISPLAY_SCATTERED | LAYER_NEEDS_LAMBERTIAN;
     Film      *film = film_create(WIDTH, HEIGHT, whole, parts, NULL, &arena);
     FilmSample s = display_sample(0, 0.5f, 1);
@@ -424,9 +407,8 @@ TEST(mirror_haze_and_lambertian_make_up_the_reflected)
     }
 }
 
-TEST(fine_emission_is_a_mean_over_the_samples_that_saw_a_display)
+ARENA_TEST(fine_emission_is_a_mean_over_the_samples_that_saw_a_display)
 {
-    Arena      arena = test_arena(state);
     Film      *film = film_create(WIDTH, HEIGHT, whole, LAYER_DISPLAY_FINE, NULL, &arena);
     FilmSample on = display_sample(0, 0.3f, 0), off = {.sample_index = 3, .display_id = -1};
     float      rgb[3], xyz[3];
@@ -447,9 +429,8 @@ TEST(fine_emission_is_a_mean_over_the_samples_that_saw_a_display)
     assert_true(isnan(at(&frame, "display.fine.G", 1)));
 }
 
-TEST(phi_is_averaged_as_a_direction)
+ARENA_TEST(phi_is_averaged_as_a_direction)
 {
-    Arena      arena = test_arena(state);
     Film      *film = film_create(WIDTH, HEIGHT, whole, LAYER_DISPLAY_ANGLES, NULL, &arena);
     float      turn = (float)(2 * PI);
     FilmSample before = display_sample(0, 0.3f, turn - 0.02f);
@@ -460,9 +441,8 @@ TEST(phi_is_averaged_as_a_direction)
     assert_close(at(&frame, "display.phi", 0), degrees_from_radians(0.01), 1e-3);
 }
 
-TEST(a_pixel_half_on_a_display_reports_the_display_half)
+ARENA_TEST(a_pixel_half_on_a_display_reports_the_display_half)
 {
-    Arena      arena = test_arena(state);
     Film      *film = film_create(WIDTH, HEIGHT, whole, LAYER_ALL, NULL, &arena);
     FilmSample on = display_sample(1, 0.1f, 0), off = {.xyz = {9, 9, 9}, .hit = true,
                                                        .depth = 4, .display_id = -1};
@@ -473,9 +453,8 @@ TEST(a_pixel_half_on_a_display_reports_the_display_half)
     assert_close(at(&frame, "depth.Z", 0), 3, 1e-6);
 }
 
-TEST(a_crop_is_the_data_window)
+ARENA_TEST(a_crop_is_the_data_window)
 {
-    Arena      arena = test_arena(state);
     FilmRect   crop = {1, 1, 3, 2};
     Film      *film = film_create(WIDTH, HEIGHT, crop, LAYER_XYZ, NULL, &arena);
     add_grey(film, 2, 1, 0, 8);
@@ -499,7 +478,4 @@ TEST(film_bytes_is_what_a_film_takes)
     }
 }
 
-int main(void)
-{
-    return run_cases(make_arena, drop_arena);
-}
+TEST_PROGRAM(make_arena, drop_arena)

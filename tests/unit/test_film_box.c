@@ -60,7 +60,6 @@ static void assert_box(FilmBox box, FilmBox wanted)
 TEST(a_box_ends_where_the_camera_sees_the_corners)
 {
     static const FilmBox wanted = {40, 25, 250, 180};
-    (void)state;
     for (int is_perspective = 0; is_perspective < 2; is_perspective++) {
         Camera   camera = camera_of(is_perspective);
         BoxScene all;
@@ -91,7 +90,6 @@ TEST(a_box_ends_with_the_frame)
     BoxScene all;
     Vec3     corners[4];
     FilmBox  box;
-    (void)state;
     quad_at(&camera, (FilmBox){-90, 100, 100, 500}, corners);
     assert_true(film_box_of_part(&camera, scene_of(&all, corners), 0, &box));
     assert_box(box, (FilmBox){0, 100, 100, 200});
@@ -109,7 +107,6 @@ TEST(what_reaches_behind_the_eye_reaches_the_edge_of_the_frame)
     FilmBox     box;
     const Vec3  floor[4] = {{-1, 0, 5}, {1, 0, 5}, {1, 0, -4}, {-1, 0, -4}};
     const Vec3  behind[4] = {{-1, 0, 5}, {1, 0, 5}, {1, 0, 2}, {-1, 0, 2}};
-    (void)state;
     assert_true(film_box_of_part(&camera, scene_of(&all, floor), 0, &box));
     double horizon = 100 + 100 / tan(0.45) / 4; /* 1 m below the eye, 4 m away */
     assert_near(box.y0, horizon, 10 * PIXELS);

@@ -6,9 +6,8 @@
 #include "spectrum/photometry.h"
 
 /* 80 samples in blocks of 16, the second and fourth of which are odd: 32 against 48. */
-TEST(halves_are_the_difference_of_interleaved_blocks)
+ARENA_TEST(halves_are_the_difference_of_interleaved_blocks)
 {
-    Arena arena = test_arena(state);
     Film *film = film_create(WIDTH, HEIGHT, whole, LAYER_HALVES, NULL, &arena);
     for (uint32_t i = 80; i-- > 0;) add_grey(film, 0, 0, i, i / 16 % 2 ? 9.0f : 4.0f);
     for (uint32_t i = 0; i < 23; i++) add_grey(film, 1, 0, i, 4); /* the odd half is short */
@@ -27,9 +26,8 @@ TEST(halves_are_the_difference_of_interleaved_blocks)
 
 /* What a display emits differs from sample to sample, and is not in them; nor are samples that
  * saw no display, 20 of the 48 even ones. */
-TEST(display_halves_are_those_of_the_reflected)
+ARENA_TEST(display_halves_are_those_of_the_reflected)
 {
-    Arena      arena = test_arena(state);
     Film      *film = film_create(WIDTH, HEIGHT, whole, LAYER_DISPLAY_HALVES, NULL, &arena);
     FilmSample s = display_sample(0, 0.5f, 1);
     for (uint32_t i = 0; i < 80; i++) {
@@ -52,10 +50,9 @@ TEST(display_halves_are_those_of_the_reflected)
 }
 
 /* Over many pixels of independent samples the square of `halves` is their variance. */
-TEST(halves_squared_are_the_variance_of_independent_samples)
+ARENA_TEST(halves_squared_are_the_variance_of_independent_samples)
 {
     enum { SIDE = 60 };
-    Arena    arena = test_arena(state);
     FilmRect square = {0, 0, SIDE, SIDE};
     Film    *film =
         film_create(SIDE, SIDE, square, LAYER_HALVES | LAYER_VARIANCE, NULL, &arena);
@@ -70,7 +67,4 @@ TEST(halves_squared_are_the_variance_of_independent_samples)
     assert_close(squares, variance, 0.08); /* 3 sigma: 3600 squares of a normal number */
 }
 
-int main(void)
-{
-    return run_cases(make_arena, drop_arena);
-}
+TEST_PROGRAM(make_arena, drop_arena)

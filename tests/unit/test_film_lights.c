@@ -36,9 +36,8 @@ static Fixed sum_of_groups(const Film *film, const PixelSums *sums, int c)
 }
 
 /* Of a sample that has no group nothing is kept apart. */
-TEST(groups_of_lights_add_up_to_the_frame_to_the_step)
+ARENA_TEST(groups_of_lights_add_up_to_the_frame_to_the_step)
 {
-    Arena arena = test_arena(state);
     Film *film = film_create(2, 1, two_pixels, LAYER_LIGHT, &groups, &arena);
     Fixed left[3] = {0, 0, 0}, all[3] = {0, 0, 0};
     long  unequal = 0;
@@ -58,9 +57,8 @@ TEST(groups_of_lights_add_up_to_the_frame_to_the_step)
 }
 
 /* What rounding leaves goes where the most is; the others keep what they were told. */
-TEST(rounding_goes_to_the_brightest_group)
+ARENA_TEST(rounding_goes_to_the_brightest_group)
 {
-    Arena      arena = test_arena(state);
     Film      *film = film_create(2, 1, two_pixels, LAYER_LIGHT, &groups, &arena);
     FilmLight  lights[] = {{2, {1, 1, 1}}, {0, {7.000001f, 7, 7.000002f}}, {1, {2, 2, 2}}};
     FilmSample sample = {.xyz = {10, 10, 10}, .lights = lights, .light_count = 3};
@@ -77,9 +75,8 @@ TEST(rounding_goes_to_the_brightest_group)
 }
 
 /* Huge light that one group takes away from another is nobody's but the brightest's. */
-TEST(groups_that_are_out_of_range_spoil_no_other)
+ARENA_TEST(groups_that_are_out_of_range_spoil_no_other)
 {
-    Arena      arena = test_arena(state);
     Film      *film = film_create(2, 1, two_pixels, LAYER_LIGHT, &groups, &arena);
     FilmLight  lights[] = {{0, {3, 3, 3}}, {1, {INFINITY, 1, 1}}, {2, {1, NAN, 1}}};
     FilmSample sample = {.xyz = {5, 5, 5}, .lights = lights, .light_count = 3};
@@ -91,7 +88,4 @@ TEST(groups_that_are_out_of_range_spoil_no_other)
     }
 }
 
-int main(void)
-{
-    return run_cases(make_arena, drop_arena);
-}
+TEST_PROGRAM(make_arena, drop_arena)

@@ -114,9 +114,8 @@ static int cut_up(Cut cuts[27], uint32_t *random)
 
 /* ---- exactness --------------------------------------------------------------------------- */
 
-TEST(parts_in_any_split_and_order_make_the_same_bits)
+ARENA_TEST(parts_in_any_split_and_order_make_the_same_bits)
 {
-    Arena    arena = test_arena(state);
     uint32_t random = 1;
     Film    *expected = make_film(whole, 0, SAMPLES, LAYER_ALL, &arena);
     Error    err = {0};
@@ -138,9 +137,8 @@ TEST(parts_in_any_split_and_order_make_the_same_bits)
 }
 
 /* (a + b) + c against a + (b + c). */
-TEST(grouping_makes_no_difference)
+ARENA_TEST(grouping_makes_no_difference)
 {
-    Arena arena = test_arena(state);
     Error err = {0};
     Film *expected = make_film(whole, 0, SAMPLES, LAYER_DEPTH, &arena);
     for (int left = 0; left < 2; left++) {
@@ -199,11 +197,10 @@ static void assert_same_parts(const FilmPart *a, const FilmPart *b)
     assert_true(a->bounce_rays == b->bounce_rays && a->shadow_rays == b->shadow_rays);
 }
 
-TEST(files_carry_every_bit)
+ARENA_TEST(files_carry_every_bit)
 {
     static const unsigned layers[] = {0, LAYER_ALL, LAYER_UV | LAYER_DISPLAY_CONTRAST};
     static const FilmRect crops[] = {{0, 0, WIDTH, HEIGHT}, {2, 3, 7, 22}, {8, 22, 9, 23}};
-    Arena arena = test_arena(state);
     for (int i = 0; i < 9; i++) {
         Film    *film = make_film(crops[i % 3], 3, SAMPLES, layers[i / 3], &arena);
         Film    *back =
@@ -227,10 +224,9 @@ TEST(files_carry_every_bit)
 }
 
 /* More than one band: rows of 1.1 MB, of which 48 (three chunks) fit into 64 MB. */
-TEST(long_parts_are_read_in_bands)
+ARENA_TEST(long_parts_are_read_in_bands)
 {
     enum { WIDE = 5000, HIGH = 64 };
-    Arena    arena = test_arena(state);
     FilmRect all = {0, 0, WIDE, HIGH};
     Film    *film = film_create(WIDE, HIGH, all, 0, &groups, &arena);
     Film    *back = film_create(WIDE, HIGH, all, 0, &groups, &arena);
@@ -252,7 +248,7 @@ TEST(long_parts_are_read_in_bands)
 }
 
 /* The names are what strangers read: a sample of Y = 1 is 2^48 steps, in word 1. */
-TEST(words_have_the_names_that_the_header_says)
+ARENA_TEST(words_have_the_names_that_the_header_says)
 {
     static const char *const names[] = {"xyz.Y.0", "xyz.Y.1", "xyz.Z.3", "samples", "part.id",
                                         "display.sample", "odd.samples", "odd.X.1", "depth.Z.1",
@@ -260,7 +256,6 @@ TEST(words_have_the_names_that_the_header_says)
     static const uint32_t values[] = {0, 1 << 16, 0xffffffffu, 1, 4, 0xffffffffu, 1, 2 << 16,
                                       3 << 16, 0, 0, 5 << 16};
     static const FilmRect one = {0, 0, 1, 1};
-    Arena      arena = test_arena(state);
     Film      *film = film_create(1, 1, one, LAYER_ALL, &groups, &arena);
     FilmSample sample = {.sample_index = 16, .xyz = {2, 1, -1}, .hit = true, .depth = 3,
                          .uv = {0, 5}, .part_id = 4, .display_id = -1};
@@ -307,9 +302,8 @@ static void patch(size_t at, const void *bytes, size_t size)
     close(file);
 }
 
-TEST(a_flipped_bit_is_refused_or_changes_nothing)
+ARENA_TEST(a_flipped_bit_is_refused_or_changes_nothing)
 {
-    Arena    arena = test_arena(state);
     Written  w = write_small(LAYER_DEPTH, &arena);
     uint32_t random = 5;
     int      refused = 0;
@@ -338,9 +332,8 @@ TEST(a_flipped_bit_is_refused_or_changes_nothing)
     assert_true(refused > 700);
 }
 
-TEST(every_prefix_is_refused)
+ARENA_TEST(every_prefix_is_refused)
 {
-    Arena   arena = test_arena(state);
     Written w = write_small(LAYER_DEPTH, &arena);
     for (size_t size = w.bytes.size; size > 100; size -= size < 4000 ? 7 : 101) {
         Arena    scratch = arena;
@@ -375,9 +368,8 @@ static void assert_refused(const Written *w, const char *from, const char *to,
     arena_release(&scratch);
 }
 
-TEST(what_is_said_of_the_sums_must_hold)
+ARENA_TEST(what_is_said_of_the_sums_must_hold)
 {
-    Arena   arena = test_arena(state);
     Written w = write_small(LAYER_DEPTH, &arena);
     assert_refused(&w, "0:4", "0:3", "damaged sums: parhelion:askedSamples cannot be read");
     assert_refused(&w, "0:4", "0:5", "damaged sums: their checksum is ");
@@ -394,9 +386,8 @@ TEST(what_is_said_of_the_sums_must_hold)
                    "damaged sums: parhelion:layers cannot be read");
 }
 
-TEST(names_of_lights_must_be_such_as_a_film_has)
+ARENA_TEST(names_of_lights_must_be_such_as_a_film_has)
 {
-    Arena   arena = test_arena(state);
     Written w = write_small(LAYER_LIGHT, &arena);
     static const char *const bad[] = {"\nun\nlamp\nsky\n", "sky\nlamp\nsky\n",
                                       "sun\nlamp\nsky!"};
@@ -411,9 +402,8 @@ TEST(names_of_lights_must_be_such_as_a_film_has)
                    "damaged sums: parhelion:lights cannot be read");
 }
 
-TEST(the_checksum_knows_in_which_row_a_sum_stands)
+ARENA_TEST(the_checksum_knows_in_which_row_a_sum_stands)
 {
-    Arena       arena = test_arena(state);
     const char *checksums[2];
     for (int y = 0; y < 2; y++) {
         Film      *film = film_create(WIDTH, HEIGHT, whole, 0, &groups, &arena);
@@ -429,9 +419,8 @@ TEST(the_checksum_knows_in_which_row_a_sum_stands)
     assert_string_not_equal(checksums[0], checksums[1]);
 }
 
-TEST(another_set_of_layers_does_not_fit_the_words)
+ARENA_TEST(another_set_of_layers_does_not_fit_the_words)
 {
-    Arena    arena = test_arena(state);
     Film    *film = film_create(WIDTH, HEIGHT, whole, LAYER_DEPTH, &groups, &arena);
     FilmPart part = film_part_of(film, 0, 1), found;
     FrameImage frame = film_to_frame(film, 0, &arena);
@@ -449,9 +438,8 @@ TEST(another_set_of_layers_does_not_fit_the_words)
     assert_error_has(&err, "carries no sums, only means: it cannot be merged");
 }
 
-TEST(sums_that_no_samples_make_are_refused)
+ARENA_TEST(sums_that_no_samples_make_are_refused)
 {
-    Arena arena = test_arena(state);
     Film *sum = film_create(WIDTH, HEIGHT, whole, LAYER_UV, &groups, &arena);
     for (int i = 0; i < 7; i++) {
         Film      *film = make_film(whole, 0, 3, LAYER_UV, &arena);
@@ -477,9 +465,8 @@ static FilmPart box(const char *name, FilmRect crop, uint32_t first, uint32_t en
                       .first_sample = first, .end_sample = end, .asked_end = end};
 }
 
-TEST(parts_that_fill_a_box_are_a_whole)
+ARENA_TEST(parts_that_fill_a_box_are_a_whole)
 {
-    Arena    arena = test_arena(state);
     uint32_t random = 9;
     for (int round = 0; round < 50; round++) {
         Cut      cuts[27];
@@ -501,9 +488,8 @@ TEST(parts_that_fill_a_box_are_a_whole)
     }
 }
 
-TEST(overlaps_are_named)
+ARENA_TEST(overlaps_are_named)
 {
-    Arena    arena = test_arena(state);
     FilmPart parts[] = {box("a.exr", (FilmRect){0, 0, 5, 6}, 0, 4),
                         box("b.exr", (FilmRect){5, 0, 9, 6}, 0, 4),
                         box("c.exr", (FilmRect){3, 2, 8, 9}, 3, 9)}, all;
@@ -515,10 +501,9 @@ TEST(overlaps_are_named)
     assert_error_has(&err, "pixels 3,2,5,6, samples 3:4 are in a.exr as well — leave one");
 }
 
-TEST(gaps_are_named)
+ARENA_TEST(gaps_are_named)
 {
     static const FilmRect left = {0, 0, 4, HEIGHT}, right = {4, 0, WIDTH, HEIGHT};
-    Arena    arena = test_arena(state);
     FilmPart all, parts[] = {box("a.exr", left, 0, 4), box("b.exr", right, 0, 4),
                              box("c.exr", left, 4, 8), box("d.exr", right, 6, 8)};
     Error    err = {0};
@@ -542,9 +527,8 @@ TEST(gaps_are_named)
 }
 
 /* Also when what it was asked for makes the range that all are to have. */
-TEST(a_part_that_was_stopped_may_be_filled_by_others)
+ARENA_TEST(a_part_that_was_stopped_may_be_filled_by_others)
 {
-    Arena    arena = test_arena(state);
     FilmPart all, parts[] = {box("a.exr", whole, 0, 4), box("b.exr", whole, 4, 6),
                              box("c.exr", whole, 6, 8)};
     Error    err = {0};
@@ -560,7 +544,4 @@ TEST(a_part_that_was_stopped_may_be_filled_by_others)
     assert_error_has(&err, "no part has samples 3:4 of pixels 0,0,9,23");
 }
 
-int main(void)
-{
-    return run_cases(make_part_path, remove_path);
-}
+TEST_PROGRAM(make_part_path, remove_path)

@@ -129,7 +129,6 @@ static Brushing *brushing_of(World *world, float turn)
 TEST(a_brushed_box_is_not_seen_in_a_furnace)
 {
     static const float roughness[] = {0.3f, 0.6f, 0, 0.5f};
-    (void)state;
     for (int i = 0; i < 4; i++) {
         World    world = world_start();
         Material box = glass(1.5f, roughness[i]);
@@ -207,7 +206,4 @@ TEST(a_brushed_face_blurs_along_its_brushing)
     assert_close(across_x, across_z, 0.02);
 }
 
-int main(void)
-{
-    return run_cases(NULL, NULL);
-}
+TEST_PROGRAM(NULL, NULL)

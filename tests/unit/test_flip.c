@@ -35,9 +35,8 @@ static void assert_all_near(const float *map, size_t count, double expected, dou
     for (size_t i = 0; i < count; i++) assert_near(map[i], expected, absolute);
 }
 
-TEST(equal_pictures_have_none)
+ARENA_TEST(equal_pictures_have_none)
 {
-    Arena        arena = test_arena(state);
     const Canvas scene = canvas_scene(150, 40, 0.3, 1, &arena);
     const size_t count = planes_pixel_count(&scene.planes);
     assert_all_near(ldr_map(&scene, &scene, &arena), count, 0, 0);
@@ -79,9 +78,8 @@ TEST(even_surfaces_follow_the_closed_form)
     }
 }
 
-TEST(light_beyond_the_display_is_clamped)
+ARENA_TEST(light_beyond_the_display_is_clamped)
 {
-    Arena        arena = test_arena(state);
     const Canvas a = canvas_uniform(0, 1, 0, &arena), b = canvas_uniform(-3, 7, -1, &arena);
     assert_near(mean_of(&a, &b, arena), 0, 0);
 }
@@ -116,9 +114,8 @@ TEST(noise_agrees_with_the_slow_twin)
     }
 }
 
-TEST(other_screens_agree_with_the_slow_twin)
+ARENA_TEST(other_screens_agree_with_the_slow_twin)
 {
-    Arena        arena = test_arena(state);
     const Canvas r = canvas_scene(14, 11, 0.2, 1, &arena);
     const Canvas t = canvas_scene(14, 11, 0.2, 2, &arena);
     assert_near(worst_against_slow(&r, &t, 10, arena), 0, 5e-6);
@@ -128,9 +125,8 @@ TEST(other_screens_agree_with_the_slow_twin)
 
 /* Lighter everywhere by the same: edges that did not change must not show as changed. (Their
  * difference goes through a square root, which makes 1e-4 of a float's 1e-8.) */
-TEST(unchanged_edges_agree_with_the_slow_twin)
+ARENA_TEST(unchanged_edges_agree_with_the_slow_twin)
 {
-    Arena        arena = test_arena(state);
     const Canvas noisy = canvas_scene(24, 18, 0.1, 1, &arena);
     const Canvas r = canvas_scaled(&noisy, 0.5, &arena), t = canvas_scaled(&r, 1, &arena);
     for (int c = 0; c < 3; c++)
@@ -139,9 +135,8 @@ TEST(unchanged_edges_agree_with_the_slow_twin)
 }
 
 /* The borders of tiles lie at 128: pixels about them. */
-TEST(tiles_have_no_seams)
+ARENA_TEST(tiles_have_no_seams)
 {
-    Arena        arena = test_arena(state);
     const Canvas r = canvas_scene(140, 135, 0.2, 1, &arena);
     const Canvas t = canvas_scene(140, 135, 0.2, 2, &arena);
     const float *map = ldr_map(&r, &t, &arena);
@@ -157,9 +152,8 @@ TEST(tiles_have_no_seams)
     free(slow);
 }
 
-TEST(threads_change_no_bit)
+ARENA_TEST(threads_change_no_bit)
 {
-    Arena        arena = test_arena(state);
     const Canvas r = canvas_scene(260, 140, 0.2, 1, &arena);
     const Canvas t = canvas_scene(260, 140, 0.2, 2, &arena);
     const size_t bytes = planes_pixel_count(&r.planes) * sizeof(float);
@@ -173,9 +167,8 @@ TEST(threads_change_no_bit)
     }
 }
 
-TEST(reference_and_test_may_change_places)
+ARENA_TEST(reference_and_test_may_change_places)
 {
-    Arena        arena = test_arena(state);
     const Canvas r = canvas_scene(40, 30, 0.4, 1, &arena);
     const Canvas t = canvas_scene(40, 30, 0.4, 2, &arena);
     assert_memory_equal(ldr_map(&r, &t, &arena), ldr_map(&t, &r, &arena),
@@ -193,9 +186,8 @@ static Canvas transposed(const Canvas *source, Arena *arena)
     return out;
 }
 
-TEST(rows_and_columns_may_change_places)
+ARENA_TEST(rows_and_columns_may_change_places)
 {
-    Arena        arena = test_arena(state);
     const Canvas r = canvas_scene(40, 25, 0.2, 1, &arena);
     const Canvas t = canvas_scene(40, 25, 0.2, 2, &arena);
     const Canvas rt = transposed(&r, &arena), tt = transposed(&t, &arena);
@@ -204,9 +196,8 @@ TEST(rows_and_columns_may_change_places)
         for (int x = 0; x < 40; x++) assert_near(map[y * 40 + x], turned[x * 25 + y], 1e-6);
 }
 
-TEST(more_difference_gives_more)
+ARENA_TEST(more_difference_gives_more)
 {
-    Arena        arena = test_arena(state);
     const Canvas grey = canvas_uniform(0.2f, 0.2f, 0.2f, &arena);
     const Canvas clean = canvas_scene(60, 50, 0, 1, &arena);
     double       last_step = 0, last_noise = 0;
@@ -223,9 +214,8 @@ TEST(more_difference_gives_more)
 }
 
 /* Colours of a cube's corners, at random: the most that a picture can do. */
-TEST(nothing_leaves_0_to_1)
+ARENA_TEST(nothing_leaves_0_to_1)
 {
-    Arena    arena = test_arena(state);
     uint64_t seed = 5;
     Canvas   pictures[2];
     for (int p = 0; p < 2; p++) {
@@ -240,9 +230,8 @@ TEST(nothing_leaves_0_to_1)
     assert_true(all.max > 0.5 && all.median < all.p95 && all.p95 < all.max);
 }
 
-TEST(one_pixel_is_a_picture)
+ARENA_TEST(one_pixel_is_a_picture)
 {
-    Arena        arena = test_arena(state);
     const Canvas a = canvas_create(1, 1, &arena), b = canvas_create(1, 1, &arena);
     canvas_fill(&a, 0, 1, 0);
     canvas_fill(&b, 0, 0, 1);
@@ -256,11 +245,10 @@ static double sum_of_filter(const FlipFilter *f)
     return sum;
 }
 
-TEST(filters_keep_their_sums)
+ARENA_TEST(filters_keep_their_sums)
 {
     const double screens[] = {1, 4, 30, FLIP_PIXELS_PER_DEGREE, 300};
     for (int i = 0; i < 5; i++) {
-        Arena             arena = arena_reserve(1 << 20);
         const FlipFilters f = flip_filters_create(screens[i], &arena);
         double slope = 0, b0 = sum_of_filter(&f.blue_yellow[0]);
         double b1 = sum_of_filter(&f.blue_yellow[1]);
@@ -271,9 +259,7 @@ TEST(filters_keep_their_sums)
         assert_near(b0 * b0 + b1 * b1, 1, 1e-14);
         assert_near(slope, f.slope.radius ? 1 : 0, 1e-14);
         assert_near(sum_of_filter(&f.curve), f.slope.radius ? 0 : -1, 1e-14);
-        arena_release(&arena);
     }
-    Arena arena = test_arena(state);
     assert_int_equal(flip_filters_create(FLIP_PIXELS_PER_DEGREE, &arena).radius, 10);
     assert_int_equal(flip_filters_create(FLIP_PIXELS_PER_DEGREE, &arena).gauss.radius, 9);
 }
@@ -378,9 +364,8 @@ TEST(one_exposure_is_the_tone_mapped_picture)
 }
 
 /* Three exposures against each for itself. */
-TEST(the_greatest_exposure_counts)
+ARENA_TEST(the_greatest_exposure_counts)
 {
-    Arena        arena = test_arena(state);
     const Canvas r = canvas_scene(150, 40, 0.2, 1, &arena);
     const Canvas t = canvas_scene(150, 40, 0.2, 2, &arena);
     const size_t count = planes_pixel_count(&r.planes);
@@ -435,9 +420,8 @@ static FlipExposures range_of(const Canvas *reference, Arena arena)
     return flip_hdr(&reference->planes, &reference->planes, &DEFAULTS, arena, map, NULL);
 }
 
-TEST(an_even_reference_has_one_exposure)
+ARENA_TEST(an_even_reference_has_one_exposure)
 {
-    Arena         arena = test_arena(state);
     const Canvas  r = canvas_uniform(7, 7, 7, &arena);
     FlipExposures used = range_of(&r, arena);
     assert_int_equal(used.count, 1);
@@ -445,9 +429,8 @@ TEST(an_even_reference_has_one_exposure)
 }
 
 /* The authors' median would be 0 here, and their range endless. */
-TEST(black_halves_leave_the_median_of_the_rest)
+ARENA_TEST(black_halves_leave_the_median_of_the_rest)
 {
-    Arena  arena = test_arena(state);
     Canvas r = known_luminances(&arena);
     for (int c = 0; c < 3; c++)
         for (int i = 40; i < 100; i++) r.rgb[c][i] = 0;
@@ -455,9 +438,8 @@ TEST(black_halves_leave_the_median_of_the_rest)
     assert_near(used.stop_ev - used.start_ev, 3, 1e-6);
 }
 
-TEST(a_black_reference_has_a_range)
+ARENA_TEST(a_black_reference_has_a_range)
 {
-    Arena         arena = test_arena(state);
     const Canvas  black = canvas_uniform(0, 0, 0, &arena);
     const Canvas  grey = canvas_uniform(0.3f, 0.3f, 0.3f, &arena);
     float        *map = new_map(&black.planes, &arena);
@@ -470,9 +452,8 @@ TEST(a_black_reference_has_a_range)
     assert_all_near(map, planes_pixel_count(&black.planes), expected, 2e-6);
 }
 
-TEST(negative_light_is_black)
+ARENA_TEST(negative_light_is_black)
 {
-    Arena        arena = test_arena(state);
     const Canvas a = canvas_uniform(5, 0, 5, &arena), b = canvas_uniform(5, -9, 5, &arena);
     float       *map = new_map(&a.planes, &arena);
     FlipExposures of_a = flip_hdr(&a.planes, &b.planes, &DEFAULTS, arena, map, NULL);
@@ -481,9 +462,8 @@ TEST(negative_light_is_black)
 }
 
 /* The range goes with the reference, so the unit of light does not matter. */
-TEST(the_unit_of_light_does_not_matter)
+ARENA_TEST(the_unit_of_light_does_not_matter)
 {
-    Arena        arena = test_arena(state);
     const Canvas r = canvas_scene(40, 30, 0.2, 1, &arena);
     const Canvas t = canvas_scene(40, 30, 0.2, 2, &arena);
     const Canvas r8 = canvas_scaled(&r, 4096, &arena), t8 = canvas_scaled(&t, 4096, &arena);
@@ -497,9 +477,8 @@ TEST(the_unit_of_light_does_not_matter)
 }
 
 /* Light as strong as a float can hold must not become NaN in a tone curve. */
-TEST(the_strongest_light_is_white)
+ARENA_TEST(the_strongest_light_is_white)
 {
-    Arena        arena = test_arena(state);
     const Canvas r = canvas_uniform(1, 1, 1, &arena);
     const Canvas t = canvas_uniform(3e38f, 3e38f, 3e38f, &arena);
     float       *map = new_map(&r.planes, &arena);
@@ -509,7 +488,4 @@ TEST(the_strongest_light_is_white)
                     slow_colour_difference((double[3]){a, a, a}, white), 2e-6);
 }
 
-int main(void)
-{
-    return run_cases(make_arena, drop_arena);
-}
+TEST_PROGRAM(make_arena, drop_arena)

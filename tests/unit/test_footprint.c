@@ -294,7 +294,4 @@ TEST(nothing_is_known_behind_what_scatters_or_has_a_normal_map)
     assert_true(footprint_turn(&footprint, scene, &surface, up, &rough, 1));
 }
 
-int main(void)
-{
-    return run_cases(make_arena, drop_arena);
-}
+TEST_PROGRAM(make_arena, drop_arena)

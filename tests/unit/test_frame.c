@@ -63,10 +63,9 @@ static void assert_same_channels(const FrameImage *a, const FrameImage *b)
     }
 }
 
-TEST(every_bit_comes_back)
+ARENA_TEST(every_bit_comes_back)
 {
     static const int SIZES[][2] = {{1, 1}, {7, 3}, {64, 33}, {200, 70}};
-    Arena arena = test_arena(state);
     for (int i = 0; i < 4; i++) {
         int w = SIZES[i][0], h = SIZES[i][1];
         FrameImage frame = make_frame(w, h, (ExrWindow){0, 0, w, h}, &arena);
@@ -76,9 +75,8 @@ TEST(every_bit_comes_back)
     }
 }
 
-TEST(a_crop_keeps_its_place)
+ARENA_TEST(a_crop_keeps_its_place)
 {
-    Arena      arena = test_arena(state);
     ExrWindow  crop = {13, 5, 40, 30};
     FrameImage frame = make_frame(64, 48, crop, &arena), back = write_and_read(&frame, &arena);
     assert_memory_equal(&back.data, &crop, sizeof crop);
@@ -87,9 +85,8 @@ TEST(a_crop_keeps_its_place)
     assert_same_channels(&frame, &back);
 }
 
-TEST(attributes_come_back)
+ARENA_TEST(attributes_come_back)
 {
-    Arena      arena = test_arena(state);
     FrameImage frame = make_frame(4, 4, (ExrWindow){0, 0, 4, 4}, &arena);
     FrameImage back = write_and_read(&frame, &arena);
     assert_string_equal(frame_string(&back, "parhelion:version"), "new");
@@ -112,9 +109,8 @@ TEST(attributes_come_back)
     assert_int_equal(frame_id_of(&back, "part", "cluster"), -1);
 }
 
-TEST(layers_are_found_by_name)
+ARENA_TEST(layers_are_found_by_name)
 {
-    Arena        arena = test_arena(state);
     FrameImage   frame = make_frame(4, 4, (ExrWindow){0, 0, 4, 4}, &arena);
     const float *rgb[3];
     assert_true(frame_rgb(&frame, "", rgb));
@@ -123,9 +119,8 @@ TEST(layers_are_found_by_name)
     assert_null(frame_channel(&frame, "depth"));
 }
 
-TEST(the_same_frame_makes_the_same_bytes)
+ARENA_TEST(the_same_frame_makes_the_same_bytes)
 {
-    Arena      arena = test_arena(state);
     FrameImage frame = make_frame(90, 400, (ExrWindow){0, 0, 90, 400}, &arena);
     FileBytes  bytes[2];
     Error      err = {0};
@@ -146,9 +141,8 @@ TEST(the_same_frame_makes_the_same_bytes)
 
 /* ---- writing that fails ------------------------------------------------------------------ */
 
-TEST(a_full_disk_leaves_nothing)
+ARENA_TEST(a_full_disk_leaves_nothing)
 {
-    Arena         arena = test_arena(state);
     FrameImage    frame = make_frame(90, 40, (ExrWindow){0, 0, 90, 40}, &arena);
     struct rlimit before, small;
     Error         err = {0};
@@ -167,9 +161,8 @@ TEST(a_full_disk_leaves_nothing)
     assert_int_equal(files_in_folder(), files);
 }
 
-TEST(a_device_that_is_full_says_so)
+ARENA_TEST(a_device_that_is_full_says_so)
 {
-    Arena      arena = test_arena(state);
     FrameImage frame = make_frame(90, 40, (ExrWindow){0, 0, 90, 40}, &arena);
     Error      err = {0};
     struct stat info;
@@ -180,9 +173,8 @@ TEST(a_device_that_is_full_says_so)
     assert_true(S_ISCHR(info.st_mode));
 }
 
-TEST(a_missing_folder_and_a_bad_window_are_told)
+ARENA_TEST(a_missing_folder_and_a_bad_window_are_told)
 {
-    Arena      arena = test_arena(state);
     FrameImage frame = make_frame(9, 4, (ExrWindow){0, 0, 9, 4}, &arena);
     Error      err = {0};
     assert_false(frame_write("no/such/folder/a.exr", &frame, &err));
@@ -196,9 +188,8 @@ TEST(a_missing_folder_and_a_bad_window_are_told)
 
 /* ---- reading what is broken -------------------------------------------------------------- */
 
-TEST(refuses_every_prefix)
+ARENA_TEST(refuses_every_prefix)
 {
-    Arena      arena = test_arena(state);
     FrameImage frame = make_frame(5, 20, (ExrWindow){0, 0, 5, 20}, &arena), back;
     FileBytes  whole;
     Error      err = {0};
@@ -219,9 +210,8 @@ TEST(refuses_every_prefix)
 }
 
 /* The library would take memory for what a file says, before it finds that it is not there. */
-TEST(an_attribute_larger_than_the_file_is_refused)
+ARENA_TEST(an_attribute_larger_than_the_file_is_refused)
 {
-    Arena      arena = test_arena(state);
     FrameImage frame = make_frame(5, 20, (ExrWindow){0, 0, 5, 20}, &arena), back;
     FileBytes  whole;
     Error      err = {0};
@@ -238,9 +228,8 @@ TEST(an_attribute_larger_than_the_file_is_refused)
     assert_string_equal(err.file, "large.exr");
 }
 
-TEST(survives_flipped_bits)
+ARENA_TEST(survives_flipped_bits)
 {
-    Arena      arena = test_arena(state);
     FrameImage frame = make_frame(5, 20, (ExrWindow){0, 0, 5, 20}, &arena), back;
     FileBytes  whole;
     Error      err = {0};
@@ -286,9 +275,8 @@ TEST(damaged_files_are_read_or_refused)
     assert_true(total > 50 && refused > total / 2);
 }
 
-TEST(what_cannot_be_shown_flat_is_refused)
+ARENA_TEST(what_cannot_be_shown_flat_is_refused)
 {
-    Arena      arena = test_arena(state);
     FrameImage frame;
     Error      err = {0};
     char       path[512];
@@ -302,9 +290,8 @@ TEST(what_cannot_be_shown_flat_is_refused)
 }
 
 /* The sampling of channel G in the header becomes 2 x 2, as in luminance-chroma coding. */
-TEST(coarse_channels_are_refused)
+ARENA_TEST(coarse_channels_are_refused)
 {
-    Arena      arena = test_arena(state);
     FrameImage frame = make_frame(8, 4, (ExrWindow){0, 0, 8, 4}, &arena), back;
     FileBytes  file;
     Error      err = {0};
@@ -319,9 +306,9 @@ TEST(coarse_channels_are_refused)
     assert_error_has(&err, "channel G is sampled every 2 x 2 pixels");
 }
 
-TEST(a_file_larger_than_the_arena_is_refused)
+ARENA_TEST(a_file_larger_than_the_arena_is_refused)
 {
-    Arena      arena = test_arena(state), small = arena_reserve(1 << 21);
+    Arena small = arena_reserve(1 << 21);
     FrameImage frame = make_frame(300, 300, (ExrWindow){0, 0, 300, 300}, &arena), back;
     Error      err = {0};
     assert_true(frame_write(in_folder("large.exr"), &frame, &err));
@@ -331,7 +318,4 @@ TEST(a_file_larger_than_the_arena_is_refused)
     arena_release(&small);
 }
 
-int main(void)
-{
-    return run_cases(make_folder, clear_folder);
-}
+TEST_PROGRAM(make_folder, clear_folder)

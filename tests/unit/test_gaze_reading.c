@@ -229,7 +229,4 @@ TEST(both_add_up_to_what_a_camera_sees)
     world_end(&world);
 }
 
-int main(void)
-{
-    return run_cases(NULL, NULL);
-}
+TEST_PROGRAM(NULL, NULL)

@@ -215,7 +215,4 @@ TEST(crumpled_normals_give_unit_directions_or_none)
     }
 }
 
-int main(void)
-{
-    return run_cases(NULL, NULL);
-}
+TEST_PROGRAM(NULL, NULL)

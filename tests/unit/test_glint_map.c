@@ -93,7 +93,4 @@ TEST(a_growing_map_keeps_all_its_light)
     arena_release(&arena);
 }
 
-int main(void)
-{
-    return run_cases(NULL, NULL);
-}
+TEST_PROGRAM(NULL, NULL)

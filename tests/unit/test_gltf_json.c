@@ -155,7 +155,4 @@ TEST(what_tinygltf_refuses_comes_back_as_an_error)
     assert_non_null(strstr(err.text, "'indices' not found"));
 }
 
-int main(void)
-{
-    return run_cases(make_arena, drop_arena);
-}
+TEST_PROGRAM(make_arena, drop_arena)

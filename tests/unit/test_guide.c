@@ -391,7 +391,4 @@ TEST(a_field_with_impossible_lamps_is_refused)
     arena_release(&arena);
 }
 
-int main(void)
-{
-    return run_cases(NULL, NULL);
-}
+TEST_PROGRAM(NULL, NULL)

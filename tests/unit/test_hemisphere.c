@@ -8,7 +8,6 @@
 
 HEMISPHERE_TEST(a_level_has_4_to_the_level_plus_1_triangles)
 {
-    Fixture *f = *state;
     for (int level = 0; level <= 6; level++) {
         uint32_t count = geodesic_count(level);
         assert_int_equal(count, (uint32_t)lrint(pow(4, level + 1)));
@@ -25,7 +24,6 @@ HEMISPHERE_TEST(a_level_has_4_to_the_level_plus_1_triangles)
 
 HEMISPHERE_TEST(areas_of_a_level_sum_to_the_hemisphere)
 {
-    Fixture *f = *state;
     for (int level = 0; level <= 8; level++) {
         Arena   scratch = f->arena;
         double *areas = ARENA_NEW(&scratch, double, 1u << 2 * level), sum = 0;
@@ -36,9 +34,8 @@ HEMISPHERE_TEST(areas_of_a_level_sum_to_the_hemisphere)
     }
 }
 
-HEMISPHERE_TEST(children_cover_their_father_exactly)
+TEST(children_cover_their_father_exactly)
 {
-    (void)state;
     for (int level = 0; level < 6; level++)
         for (uint32_t id = 0; id < geodesic_count(level); id += 7) {
             double sum = 0;
@@ -49,7 +46,6 @@ HEMISPHERE_TEST(children_cover_their_father_exactly)
 
 HEMISPHERE_TEST(tables_agree_with_geometry)
 {
-    Fixture *f = *state;
     for (int level = 0; level < LEVEL; level++)
         for (uint32_t id = 0; id < 1u << 2 * level; id += 5) {
             const float     *cosines = f->geodesic->edges[level][id].half_cos;
@@ -68,7 +64,6 @@ HEMISPHERE_TEST(tables_agree_with_geometry)
 
 HEMISPHERE_TEST(the_leaf_of_a_leafs_centre_is_that_leaf)
 {
-    Fixture *f = *state;
     for (int level = 0; level <= LEVEL; level++)
         for (uint32_t id = 0; id < geodesic_count(level); id++) {
             GeodesicPoint p = geodesic_find(f->geodesic, level, geodesic_center(level, id));
@@ -79,7 +74,6 @@ HEMISPHERE_TEST(the_leaf_of_a_leafs_centre_is_that_leaf)
 
 HEMISPHERE_TEST(a_found_leaf_holds_its_direction)
 {
-    Fixture *f = *state;
     uint32_t seed = 1;
     for (int i = 0; i < 20000; i++) {
         Vec3             d = random_direction(&seed);
@@ -100,16 +94,14 @@ HEMISPHERE_TEST(a_found_leaf_holds_its_direction)
     }
 }
 
-HEMISPHERE_TEST(ids_below_half_have_y_of_at_least_0)
+TEST(ids_below_half_have_y_of_at_least_0)
 {
-    (void)state;
     for (uint32_t id = 0; id < geodesic_count(4); id++)
         assert_int_equal(geodesic_center(4, id).y > 0, id < geodesic_count(4) / 2);
 }
 
 HEMISPHERE_TEST(mirrored_directions_have_mirrored_leaves)
 {
-    Fixture *f = *state;
     uint32_t seed = 2;
     for (int i = 0; i < 1000; i++) {
         Vec3     d = random_direction(&seed);
@@ -120,9 +112,8 @@ HEMISPHERE_TEST(mirrored_directions_have_mirrored_leaves)
 }
 
 /* Two triangles touch in an edge when they share exactly two corners. */
-HEMISPHERE_TEST(neighbours_share_an_edge_and_are_neighbours_of_each_other)
+TEST(neighbours_share_an_edge_and_are_neighbours_of_each_other)
 {
-    (void)state;
     const int level = 4;
     int       borders = 0;
     for (uint32_t id = 0; id < geodesic_count(level); id++)
@@ -145,7 +136,6 @@ HEMISPHERE_TEST(neighbours_share_an_edge_and_are_neighbours_of_each_other)
 
 HEMISPHERE_TEST(sampling_a_triangle_is_uniform_and_inverts)
 {
-    Fixture *f = *state;
     uint32_t seed = 3;
     for (int level = 0; level <= LEVEL; level++)
         for (int trial = 0; trial < 3; trial++) {
@@ -183,7 +173,6 @@ HEMISPHERE_TEST(sampling_a_triangle_is_uniform_and_inverts)
 
 HEMISPHERE_TEST(the_haar_transform_inverts_exactly)
 {
-    Fixture *f = *state;
     for (int octants = 2; octants <= 4; octants += 2)
         for (size_t w = 0; w < 2; w++) {
             Arena     scratch = f->arena;
@@ -202,7 +191,6 @@ HEMISPHERE_TEST(the_haar_transform_inverts_exactly)
 
 HEMISPHERE_TEST(area_weighted_octant_means_are_integral_means)
 {
-    Fixture  *f = *state;
     Arena     scratch = f->arena;
     HaarShape shape = {LEVEL, 4, 1, HAAR_AREA};
     float    *values = leaves_of_signals(&shape, &scratch);
@@ -217,7 +205,6 @@ HEMISPHERE_TEST(area_weighted_octant_means_are_integral_means)
 
 HEMISPHERE_TEST(equal_weights_give_plain_means)
 {
-    Fixture  *f = *state;
     Arena     scratch = f->arena;
     HaarShape shape = {1, 4, 1, HAAR_EQUAL};
     float     values[16];
@@ -235,7 +222,6 @@ HEMISPHERE_TEST(equal_weights_give_plain_means)
 /* Dropping one detail changes the square integral by (detail * norm)^2. */
 HEMISPHERE_TEST(norms_say_what_a_detail_is_worth)
 {
-    Fixture *f = *state;
     for (size_t w = 0; w < 2; w++) {
         Arena     scratch = f->arena;
         HaarShape shape = {3, 4, 1, WEIGHTS[w]};
@@ -261,9 +247,8 @@ HEMISPHERE_TEST(norms_say_what_a_detail_is_worth)
 
 static const WaveletKind KINDS[] = {WAVELET_HAAR, WAVELET_CDF53, WAVELET_CDF97};
 
-HEMISPHERE_TEST(one_dimensional_wavelets_invert_at_every_length)
+TEST(one_dimensional_wavelets_invert_at_every_length)
 {
-    (void)state;
     uint32_t seed = 4;
     for (size_t k = 0; k < 3; k++)
         for (int count = 1; count <= 130; count++) {
@@ -275,9 +260,8 @@ HEMISPHERE_TEST(one_dimensional_wavelets_invert_at_every_length)
         }
 }
 
-HEMISPHERE_TEST(constants_have_no_details)
+TEST(constants_have_no_details)
 {
-    (void)state;
     for (size_t k = 0; k < 3; k++)
         for (int count = 1; count <= 65; count += 4) {
             float row[65];
@@ -289,9 +273,8 @@ HEMISPHERE_TEST(constants_have_no_details)
 }
 
 /* A change at one end reaches only a few coefficients at the other (the coarse ones). */
-HEMISPHERE_TEST(finest_details_are_local)
+TEST(finest_details_are_local)
 {
-    (void)state;
     for (size_t k = 0; k < 3; k++)
         for (int count = 64; count <= 65; count++) {
             float row[65] = {0}, changed[65] = {1};
@@ -305,9 +288,8 @@ HEMISPHERE_TEST(finest_details_are_local)
 }
 
 /* Vanishing moments: straight lines for 5/3, cubics for 9/7, away from the ends. */
-HEMISPHERE_TEST(smooth_rows_have_small_details)
+TEST(smooth_rows_have_small_details)
 {
-    (void)state;
     float line[64], cubic[64];
     for (int i = 0; i < 64; i++) {
         float x = ((float)i - 32) / 32;
@@ -320,9 +302,8 @@ HEMISPHERE_TEST(smooth_rows_have_small_details)
     for (int i = 35; i < 61; i++) assert_near(cubic[i], 0, 1e-6);
 }
 
-HEMISPHERE_TEST(wavelet_norms_are_positive_and_haars_are_known)
+TEST(wavelet_norms_are_positive_and_haars_are_known)
 {
-    (void)state;
     float norms[8];
     wavelet1d_norms(WAVELET_HAAR, 8, norms);
     assert_close(norms[0], sqrt(8), 1e-6);
@@ -337,9 +318,8 @@ HEMISPHERE_TEST(wavelet_norms_are_positive_and_haars_are_known)
 
 static const float EXPONENTS[] = {1, 2, 1.5f};
 
-HEMISPHERE_TEST(the_specular_frame_round_trips)
+TEST(the_specular_frame_round_trips)
 {
-    (void)state;
     uint32_t seed = 10;
     for (int k = 0; k < 3; k++)
         for (int theta = 0; theta <= 89; theta++) {
@@ -355,9 +335,8 @@ HEMISPHERE_TEST(the_specular_frame_round_trips)
         }
 }
 
-HEMISPHERE_TEST(the_horizon_stays_the_horizon_and_the_peak_is_the_pole)
+TEST(the_horizon_stays_the_horizon_and_the_peak_is_the_pole)
 {
-    (void)state;
     for (int k = 0; k < 3; k++)
         for (int theta = 0; theta <= 80; theta += 10) {
             float         angle = (float)radians_from_degrees(theta);
@@ -376,9 +355,8 @@ HEMISPHERE_TEST(the_horizon_stays_the_horizon_and_the_peak_is_the_pole)
 }
 
 /* J is the area of the image of a small stored square over that of the square. */
-HEMISPHERE_TEST(the_jacobian_agrees_with_differences)
+TEST(the_jacobian_agrees_with_differences)
 {
-    (void)state;
     uint32_t seed = 11;
     for (int i = 0; i < 2000; i++) {
         float theta = (float)radians_from_degrees(85 * (double)random_unit(&seed));
@@ -396,9 +374,8 @@ HEMISPHERE_TEST(the_jacobian_agrees_with_differences)
     }
 }
 
-HEMISPHERE_TEST(both_at_once_agrees_with_one_by_one)
+TEST(both_at_once_agrees_with_one_by_one)
 {
-    (void)state;
     uint32_t seed = 19;
     for (int i = 0; i < 3000; i++) {
         float         theta = 1.5f * random_unit(&seed), jacobian;
@@ -414,7 +391,6 @@ HEMISPHERE_TEST(both_at_once_agrees_with_one_by_one)
 /* The integral of J over the stored hemisphere is the outer hemisphere. */
 HEMISPHERE_TEST(the_jacobian_integrates_to_the_hemisphere)
 {
-    Fixture *f = *state;
     for (int k = 0; k < 3; k++)
         for (int theta = 0; theta <= 75; theta += 15) {
             SpecularFrame frame =
@@ -428,7 +404,4 @@ HEMISPHERE_TEST(the_jacobian_integrates_to_the_hemisphere)
 }
 
 
-int main(void)
-{
-    return run_cases(NULL, NULL);
-}
+TEST_PROGRAM(NULL, NULL)

@@ -38,7 +38,6 @@ static void try_tree(const Fixture *f, const char *blob, size_t size, int *opene
 
 HEMISPHERE_TEST(mutated_trees_are_refused_or_harmless)
 {
-    Fixture *f = *state;
     f->geodesic = geodesic_create(3, &f->arena); /* not a level more than the tree's */
     for (int rows = 0; rows <= TREE_ROWS_BLOCKS; rows++) {
         HaarShape   shape = {3, 4, rows == TREE_ROWS_BLOCKS ? 19 : 2, HAAR_AREA};
@@ -81,7 +80,6 @@ static const void *small_tree(Fixture *f, float keep_share)
 /* A header with fewer levels than the nodes have, and one with fewer rows. */
 HEMISPHERE_TEST(trees_deeper_than_their_header_are_refused)
 {
-    Fixture    *f = *state;
     const void *blob = small_tree(f, 0.2f);
     size_t      size = tree_size(blob);
     TreeHeader *copy = arena_alloc(&f->arena, 1, 16, size);
@@ -99,7 +97,6 @@ HEMISPHERE_TEST(trees_deeper_than_their_header_are_refused)
 
 HEMISPHERE_TEST(a_bad_header_is_named)
 {
-    Fixture    *f = *state;
     const void *blob = small_tree(f, 0.5f);
     Error       err;
     Tree        tree;
@@ -117,7 +114,4 @@ HEMISPHERE_TEST(a_bad_header_is_named)
     assert_tree_refused(f, copy, size, "version is 7, wanted 1");
 }
 
-int main(void)
-{
-    return run_cases(NULL, NULL);
-}
+TEST_PROGRAM(NULL, NULL)

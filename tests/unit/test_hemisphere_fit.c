@@ -29,7 +29,6 @@ static VertexSamples smooth_samples(int count, float lowest, Arena *arena)
 
 HEMISPHERE_TEST(fits_recover_smooth_functions)
 {
-    Fixture      *f = *state;
     VertexLattice l = {5, 4};
     uint32_t      count = vertex_count(l);
     Vec3         *d = ARENA_NEW(&f->arena, Vec3, count);
@@ -45,7 +44,6 @@ HEMISPHERE_TEST(fits_recover_smooth_functions)
 /* No samples below 53 degrees: the values go on smoothly and stay in sight. */
 HEMISPHERE_TEST(fits_stay_smooth_in_gaps)
 {
-    Fixture      *f = *state;
     VertexLattice l = {5, 4};
     uint32_t      count = vertex_count(l);
     float        *values = ARENA_NEW(&f->arena, float, 2 * count);
@@ -63,7 +61,6 @@ HEMISPHERE_TEST(fits_stay_smooth_in_gaps)
 
 HEMISPHERE_TEST(fits_of_constants_are_constant)
 {
-    Fixture      *f = *state;
     VertexLattice l = {4, 2};
     uint32_t      count = vertex_count(l);
     float        *values = ARENA_NEW(&f->arena, float, count);
@@ -78,7 +75,6 @@ HEMISPHERE_TEST(fits_of_constants_are_constant)
 /* Weights of 0 hide samples; mirrored samples of half lattices are one. */
 HEMISPHERE_TEST(fits_weigh_and_mirror)
 {
-    Fixture      *f = *state;
     VertexLattice l = {3, 2};
     float        *values = ARENA_NEW(&f->arena, float, vertex_count(l));
     const Vec3    d[3] = {{0.6f, 0.48f, 0.64f}, {0.6f, -0.48f, 0.64f}, {0.6f, 0.48f, 0.64f}};
@@ -91,7 +87,6 @@ HEMISPHERE_TEST(fits_weigh_and_mirror)
 
 HEMISPHERE_TEST(fits_refuse_what_is_no_number)
 {
-    Fixture      *f = *state;
     VertexLattice l = {2, 4};
     float         values[64];
     const Vec3    d[2] = {{0, 0, 1}, {0.6f, 0, 0.8f}};
@@ -109,7 +104,4 @@ HEMISPHERE_TEST(fits_refuse_what_is_no_number)
     assert_non_null(strstr(err.text, "sample 0 is nan, wanted a finite number"));
 }
 
-int main(void)
-{
-    return run_cases(NULL, NULL);
-}
+TEST_PROGRAM(NULL, NULL)

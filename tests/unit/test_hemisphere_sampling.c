@@ -53,7 +53,6 @@ static SamplingMix mix_of(int functions)
 
 HEMISPHERE_TEST(the_pdf_integrates_to_1)
 {
-    Fixture *f = *state;
     for (int variant = 0; variant < 12; variant++) {
         int             functions = 1 + variant % 3;
         SamplingOptions options = {.level = 6, .octants = variant % 2 ? 2 : 4,
@@ -78,7 +77,6 @@ static SamplingResult draw(const SamplingTree *tree, const SamplingMix *mix, uin
 
 HEMISPHERE_TEST(samples_follow_the_pdf)
 {
-    Fixture  *f = *state;
     uint32_t  seed = 12;
     const int count = 200000;
     for (int variant = 0; variant < 9; variant++) {
@@ -118,7 +116,6 @@ HEMISPHERE_TEST(samples_follow_the_pdf)
 
 HEMISPHERE_TEST(the_density_is_positive_where_the_function_is)
 {
-    Fixture        *f = *state;
     uint32_t        seed = 13;
     SamplingMix     only = sampling_only(0);
     SamplingOptions options = {.level = 6, .octants = 4, .functions = 1, .cells = 60};
@@ -140,7 +137,6 @@ HEMISPHERE_TEST(the_density_is_positive_where_the_function_is)
  * find the neighbour, whose density may be 0. */
 HEMISPHERE_TEST(samples_on_edges_keep_a_density)
 {
-    Fixture        *f = *state;
     SamplingMix     only = sampling_only(0);
     SamplingOptions options = {.level = 5, .octants = 4, .functions = 1, .cells = 4096};
     SamplingTree    tree = sampler_of(f, options, SIGNALS + 2);
@@ -156,7 +152,6 @@ HEMISPHERE_TEST(samples_on_edges_keep_a_density)
 /* Importance sampling beats cosine sampling by far on a narrow peak. */
 HEMISPHERE_TEST(weights_of_importance_samples_vary_little)
 {
-    Fixture        *f = *state;
     uint32_t        seed = 14;
     SamplingMix     only = sampling_only(0);
     SamplingOptions options = {.level = 7, .octants = 4, .functions = 1, .cells = 655};
@@ -182,7 +177,6 @@ HEMISPHERE_TEST(weights_of_importance_samples_vary_little)
 /* As few cells as a variance asks for, and the variance is what is then measured. */
 HEMISPHERE_TEST(cells_are_spent_until_the_variance_is_reached)
 {
-    Fixture     *f = *state;
     uint32_t     last = 0;
     const float  wanted[] = {0.2f, 0.05f, 0.0125f};
     for (int k = 0; k < 3; k++) {
@@ -212,7 +206,6 @@ HEMISPHERE_TEST(cells_are_spent_until_the_variance_is_reached)
 /* Functions that are alike cost little more than one of them. */
 HEMISPHERE_TEST(functions_that_are_alike_take_few_bytes)
 {
-    Fixture        *f = *state;
     const void     *one, *four;
     Error           err;
     Signal          signals[4] = {peak_signal, peak_signal, peak_signal, peak_signal};
@@ -264,7 +257,6 @@ static const void *small_blob(Fixture *f, Arena *arena, size_t *size)
 
 HEMISPHERE_TEST(mutated_sampling_trees_are_refused_or_harmless)
 {
-    Fixture    *f = *state;
     uint32_t    seed = 16;
     int         opened = 0;
     size_t      size;
@@ -291,7 +283,6 @@ static void assert_refused(const Fixture *f, const void *blob, size_t size, cons
 
 HEMISPHERE_TEST(what_does_not_fit_the_header_is_named)
 {
-    Fixture        *f = *state;
     size_t          size;
     const void     *blob = small_blob(f, &f->arena, &size);
     SamplingHeader *copy = arena_alloc(&f->arena, 1, 16, size);
@@ -316,7 +307,6 @@ HEMISPHERE_TEST(what_does_not_fit_the_header_is_named)
 
 HEMISPHERE_TEST(functions_that_cannot_be_sampled_are_named)
 {
-    Fixture        *f = *state;
     float           integrals[16] = {0};
     SamplingOptions options = {.level = 1, .octants = 4, .functions = 1, .cells = 8};
     const void     *blob;
@@ -335,7 +325,4 @@ HEMISPHERE_TEST(functions_that_cannot_be_sampled_are_named)
 }
 
 
-int main(void)
-{
-    return run_cases(NULL, NULL);
-}
+TEST_PROGRAM(NULL, NULL)

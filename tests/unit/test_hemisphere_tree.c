@@ -10,7 +10,6 @@
 
 HEMISPHERE_TEST(a_query_equals_the_inverted_tree_at_every_leaf)
 {
-    Fixture *f = *state;
     for (int variant = 0; variant < 8; variant++) {
         Arena       keep = f->arena;
         HaarShape   shape = {6, variant & 1 ? 2 : 4, 3, WEIGHTS[variant >> 1 & 1]};
@@ -43,7 +42,6 @@ HEMISPHERE_TEST(a_query_equals_the_inverted_tree_at_every_leaf)
 
 HEMISPHERE_TEST(a_tree_with_everything_kept_is_its_source)
 {
-    Fixture    *f = *state;
     HaarShape   shape = {5, 4, 3, HAAR_AREA};
     TreeOptions options = {.shape = shape, .keep_share = 1};
     TreeReport  report;
@@ -60,7 +58,6 @@ HEMISPHERE_TEST(a_tree_with_everything_kept_is_its_source)
 /* With everything kept, 16 bits are the only error; it is reported, and small. */
 HEMISPHERE_TEST(quantisation_is_part_of_the_report)
 {
-    Fixture    *f = *state;
     HaarShape   shape = {5, 4, 1, HAAR_AREA};
     TreeOptions options = {.shape = shape, .keep_share = 1, .rows = TREE_ROWS_INT16};
     TreeReport  report;
@@ -105,13 +102,12 @@ static void check_8_bits(Fixture *f, TreeRowFormat rows)
 
 HEMISPHERE_TEST(fine_details_take_8_bits)
 {
-    check_8_bits(*state, TREE_ROWS_INT16);
-    check_8_bits(*state, TREE_ROWS_BLOCKS);
+    check_8_bits(f, TREE_ROWS_INT16);
+    check_8_bits(f, TREE_ROWS_BLOCKS);
 }
 
 HEMISPHERE_TEST(blocks_of_components_are_kept_by_themselves)
 {
-    Fixture    *f = *state;
     HaarShape   shape = {6, 2, 19, HAAR_AREA};
     TreeOptions blocks = {.shape = shape, .max_error = 0.1f, .rows = TREE_ROWS_BLOCKS};
     TreeOptions rows = {.shape = shape, .max_error = 0.1f, .rows = TREE_ROWS_INT16};
@@ -141,7 +137,6 @@ HEMISPHERE_TEST(blocks_of_components_are_kept_by_themselves)
 
 HEMISPHERE_TEST(a_share_of_blocks_is_a_share)
 {
-    Fixture    *f = *state;
     HaarShape   shape = {5, 4, 19, HAAR_EQUAL};
     TreeOptions options = {.shape = shape, .keep_share = 0.1f, .rows = TREE_ROWS_BLOCKS};
     TreeReport  report;
@@ -184,7 +179,6 @@ static Detail *sorted_details(const float *coefficients, const float *norms, uin
  * (sum a_i d_i)^2 / a_0, at most three times the sum of squares of normalised details. */
 HEMISPHERE_TEST(thresholding_keeps_the_l2_bound)
 {
-    Fixture  *f = *state;
     HaarShape shape = {6, 4, 1, HAAR_AREA};
     uint32_t  count = haar_leaf_count(&shape);
     float    *source = leaves_of_signals(&shape, &f->arena);
@@ -220,7 +214,6 @@ HEMISPHERE_TEST(thresholding_keeps_the_l2_bound)
 /* Pruning whole triangles first needs fewer rows than a share with the same largest error. */
 HEMISPHERE_TEST(an_error_bound_costs_fewer_rows_than_significance_alone)
 {
-    Fixture    *f = *state;
     HaarShape   shape = {6, 4, 3, HAAR_AREA};
     TreeOptions bound = {.shape = shape, .max_error = 2}, share = {.shape = shape};
     TreeReport  by_bound, by_share;
@@ -234,7 +227,6 @@ HEMISPHERE_TEST(an_error_bound_costs_fewer_rows_than_significance_alone)
 
 HEMISPHERE_TEST(an_error_bound_holds_at_every_leaf)
 {
-    Fixture *f = *state;
     for (int rows = 0; rows < 2; rows++) {
         Arena       keep = f->arena;
         HaarShape   shape = {5, 2, 2, HAAR_AREA};
@@ -258,7 +250,6 @@ HEMISPHERE_TEST(an_error_bound_holds_at_every_leaf)
 
 HEMISPHERE_TEST(an_unreachable_bound_is_refused_in_words)
 {
-    Fixture    *f = *state;
     Arena       scratch = f->arena;
     HaarShape   shape = {4, 4, 1, HAAR_AREA};
     TreeOptions options = {.shape = shape, .max_error = 1e-6f, .rows = TREE_ROWS_INT16};
@@ -287,7 +278,6 @@ HEMISPHERE_TEST(an_unreachable_bound_is_refused_in_words)
 /* Every mean of the tree is the exact mean of its leaves. */
 HEMISPHERE_TEST(a_mean_at_any_level_is_the_mean_of_its_leaves)
 {
-    Fixture    *f = *state;
     HaarShape   shape = {6, 4, 1, HAAR_AREA};
     TreeOptions options = {.shape = shape, .keep_share = 0.03f};
     uint32_t    count = haar_leaf_count(&shape);
@@ -358,15 +348,14 @@ static void check_interpolation(Fixture *f, int level, int directions)
 
 HEMISPHERE_TEST(interpolation_follows_its_definition)
 {
-    for (int level = 0; level < 3; level++) check_interpolation(*state, level, 100);
-    check_interpolation(*state, 3, 400);
+    for (int level = 0; level < 3; level++) check_interpolation(f, level, 100);
+    check_interpolation(f, 3, 400);
 }
 
 /* Where a tree ends early, the answer must not depend on the short ways that are then taken:
  * the same values, with every detail stored. */
 HEMISPHERE_TEST(a_small_tree_interpolates_like_its_expansion)
 {
-    Fixture    *f = *state;
     HaarShape   shape = {5, 4, 1, HAAR_AREA};
     TreeOptions options = {.shape = shape, .keep_share = 0.03f}, all = options;
     uint32_t    count = haar_leaf_count(&shape), seed = 17;
@@ -388,7 +377,6 @@ HEMISPHERE_TEST(a_small_tree_interpolates_like_its_expansion)
 /* A tree of 2 octants is the tree of 4 of the function mirrored at y = 0. */
 HEMISPHERE_TEST(half_trees_equal_whole_trees_of_symmetric_functions)
 {
-    Fixture    *f = *state;
     HaarShape   half = {5, 2, 1, HAAR_AREA}, whole = {5, 4, 1, HAAR_AREA};
     uint32_t    count = haar_leaf_count(&half), seed = 6;
     float      *source = ARENA_NEW(&f->arena, float, 2 * count);
@@ -412,7 +400,6 @@ HEMISPHERE_TEST(half_trees_equal_whole_trees_of_symmetric_functions)
 
 HEMISPHERE_TEST(interpolation_keeps_centres_and_constants)
 {
-    Fixture    *f = *state;
     HaarShape   shape = {6, 4, 3, HAAR_AREA};
     TreeOptions options = {.shape = shape, .keep_share = 0.05f};
     uint32_t    count = haar_leaf_count(&shape), seed = 7;
@@ -446,7 +433,6 @@ static Vec3 on_half_circle(int line, float turns)
 /* Steps of 4e-5 radian across many edges never jump; the piecewise constant value does. */
 HEMISPHERE_TEST(interpolation_is_continuous)
 {
-    Fixture    *f = *state;
     HaarShape   shape = {6, 4, 1, HAAR_AREA};
     TreeOptions options = {.shape = shape, .keep_share = 0.02f};
     Tree        tree = build_and_open(f, &options, leaves_of_signals(&shape, &f->arena), NULL);
@@ -470,7 +456,4 @@ HEMISPHERE_TEST(interpolation_is_continuous)
     }
 }
 
-int main(void)
-{
-    return run_cases(NULL, NULL);
-}
+TEST_PROGRAM(NULL, NULL)

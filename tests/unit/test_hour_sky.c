@@ -199,7 +199,4 @@ TEST(the_sun_of_a_sky_table_is_the_atmospheres)
     arena_release(&arena);
 }
 
-int main(void)
-{
-    return run_cases(NULL, NULL);
-}
+TEST_PROGRAM(NULL, NULL)

@@ -123,9 +123,8 @@ static const char *identity_of(Subject *s, Arena *arena)
     return render_identity(&s->request, &s->scene, &s->camera, &s->kernel, arena);
 }
 
-TEST(what_decides_a_sample_is_in_it_and_nothing_else)
+MEMORY_TEST(what_decides_a_sample_is_in_it_and_nothing_else)
 {
-    Arena  *arena = *state;
     Subject one;
     fill(&one);
     const char *there = identity_of(&one, arena);
@@ -146,9 +145,8 @@ TEST(what_decides_a_sample_is_in_it_and_nothing_else)
     }
 }
 
-TEST(a_name_cannot_begin_a_line)
+MEMORY_TEST(a_name_cannot_begin_a_line)
 {
-    Arena  *arena = *state;
     Subject one;
     fill(&one);
     one.display.name = "x\nseed\t9";
@@ -157,7 +155,7 @@ TEST(a_name_cannot_begin_a_line)
 
 /* ---- comparing --------------------------------------------------------------------------- */
 
-TEST(the_first_line_that_differs_is_named)
+MEMORY_TEST(the_first_line_that_differs_is_named)
 {
     static const struct {
         const char *there, *here, *text;
@@ -177,7 +175,6 @@ TEST(the_first_line_that_differs_is_named)
         {"a\t1", "a\t1\n", NULL},
         {"\n\n", "a\t1\n", "a: none there, 1 here"},
     };
-    Arena *arena = *state;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         const char *text = identity_difference(cases[i].there, cases[i].here, arena);
         if (!text != !cases[i].text || (text && strcmp(text, cases[i].text) != 0))
@@ -187,9 +184,8 @@ TEST(the_first_line_that_differs_is_named)
 
 /* ---- a checkpoint of another program ----------------------------------------------------- */
 
-TEST(another_version_is_refused_by_name)
+MEMORY_TEST(another_version_is_refused_by_name)
 {
-    Arena     *arena = *state;
     Error      err = {0};
     const char *path = in_folder("a.checkpoint");
     Film      *film = film_create(2, 1, (FilmRect){0, 0, 2, 1}, 0, NULL, arena);
@@ -216,7 +212,4 @@ TEST(another_version_is_refused_by_name)
     assert_true(same && found);
 }
 
-int main(void)
-{
-    return run_cases(make_folder, remove_folder);
-}
+TEST_PROGRAM(make_folder, remove_folder)

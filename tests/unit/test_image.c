@@ -104,9 +104,8 @@ static void assert_pixel8(const Image *image, int at, int r, int g, int b, int a
     for (int c = 0; c < 4; c++) assert_int_equal(p[c], want[c]);
 }
 
-TEST(every_kind_of_png_becomes_rgba)
+ARENA_TEST(every_kind_of_png_becomes_rgba)
 {
-    Arena arena = test_arena(state);
     const unsigned char grey[] = {0, 7, 200}, bits[] = {0, 0xa0};
     Image i = read_png(make_png((PngKind){2, 1, 8, 0, NULL, 0}, grey, 3), &arena);
     assert_pixel8(&i, 1, 200, 200, 200, 255);
@@ -126,9 +125,8 @@ TEST(every_kind_of_png_becomes_rgba)
 }
 
 /* A kilobyte of header may not take a gigabyte. */
-TEST(user_data_larger_than_a_dpx_is_refused)
+ARENA_TEST(user_data_larger_than_a_dpx_is_refused)
 {
-    Arena arena = test_arena(state);
     Image image;
     Error err = {0};
     unsigned char little[64] = "XPDS", big[64] = "SDPX";
@@ -141,18 +139,16 @@ TEST(user_data_larger_than_a_dpx_is_refused)
     assert_error_has(&err, "damaged dpx picture: cut off in its header");
 }
 
-TEST(alpha_stays_straight)
+ARENA_TEST(alpha_stays_straight)
 {
-    Arena arena = test_arena(state);
     unsigned char row[] = {0, 200, 100, 50, 128, 200, 100, 50, 0};
     Image i = read_png(make_png((PngKind){2, 1, 8, 6, NULL, 0}, row, 9), &arena);
     assert_pixel8(&i, 0, 200, 100, 50, 128);
     assert_pixel8(&i, 1, 200, 100, 50, 0);
 }
 
-TEST(sixteen_bits_stay_sixteen_bits)
+ARENA_TEST(sixteen_bits_stay_sixteen_bits)
 {
-    Arena arena = test_arena(state);
     unsigned char row[] = {0, 0x12, 0x34, 0xff, 0xfe, 0, 1};
     Image i = read_png(make_png((PngKind){1, 1, 16, 2, NULL, 0}, row, 7), &arena);
     const uint16_t *p = i.pixels;
@@ -165,9 +161,8 @@ TEST(sixteen_bits_stay_sixteen_bits)
 
 /* ---- what must be refused ------------------------------------------------------------ */
 
-TEST(a_frame_without_colours_is_no_picture)
+ARENA_TEST(a_frame_without_colours_is_no_picture)
 {
-    Arena      arena = test_arena(state);
     FrameImage frame = frame_create(2, 2, (ExrWindow){0, 0, 2, 2}, 1, 0, &arena);
     char       path[] = "depth-XXXXXX";
     Image      image;
@@ -180,9 +175,9 @@ TEST(a_frame_without_colours_is_no_picture)
     unlink(path);
 }
 
-TEST(refuses_a_bomb_before_decoding_it)
+ARENA_TEST(refuses_a_bomb_before_decoding_it)
 {
-    Arena arena = test_arena(state), before = arena;
+    Arena before = arena;
     Image image = {.width = -7};
     Error err = {0};
     const PngKind bomb = {40000, 40000, 8, 0, NULL, 0};
@@ -207,9 +202,9 @@ TEST(says_when_memory_is_too_small)
     arena_release(&arena);
 }
 
-TEST(refuses_every_prefix_of_a_png)
+ARENA_TEST(refuses_every_prefix_of_a_png)
 {
-    Arena arena = test_arena(state), before = arena;
+    Arena before = arena;
     unsigned char row[] = {0, 200, 100, 50, 128, 9, 9, 9, 0};
     Bytes png = *make_png((PngKind){2, 1, 8, 6, NULL, 0}, row, 9);
     for (size_t size = 0; size < png.size; size++) {
@@ -227,11 +222,11 @@ TEST(refuses_every_prefix_of_a_png)
 }
 
 /* Every prefix of what this program writes, and of a Radiance picture. */
-TEST(refuses_every_prefix_of_other_formats)
+ARENA_TEST(refuses_every_prefix_of_other_formats)
 {
     static const char HDR[] = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n12341234";
     static const char *const FORMATS[] = {"jpeg", "tiff", "hdr"};
-    Arena   arena = test_arena(state), scratch;
+    Arena scratch;
     uint8_t codes[8 * 8 * 3];
     for (size_t i = 0; i < sizeof codes; i++) codes[i] = (uint8_t)(i * 37);
     for (int f = 0; f < 3; f++) {
@@ -295,9 +290,8 @@ static const Bytes *make_tiff(bool is_big_endian, bool is_wide)
     return &out;
 }
 
-TEST(refuses_every_prefix_of_a_tiff_whose_pixels_are_last)
+ARENA_TEST(refuses_every_prefix_of_a_tiff_whose_pixels_are_last)
 {
-    Arena arena = test_arena(state);
     for (int kind = 0; kind < 4; kind++) {
         const Bytes *tiff = make_tiff(kind & 1, kind & 2);
         Image image;
@@ -311,9 +305,8 @@ TEST(refuses_every_prefix_of_a_tiff_whose_pixels_are_last)
     }
 }
 
-TEST(names_what_cannot_be_read)
+ARENA_TEST(names_what_cannot_be_read)
 {
-    Arena arena = test_arena(state);
     Image image;
     Error err = {0};
     assert_false(image_read_memory("hello, world", 12, "a.txt", &arena, &image, &err));
@@ -328,11 +321,10 @@ TEST(names_what_cannot_be_read)
 
 /* ---- other formats ----------------------------------------------------------------------- */
 
-TEST(reads_radiance_pictures)
+ARENA_TEST(reads_radiance_pictures)
 {
     static const char HDR[] = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n"
                               "\x80\x40\x20\x81\x80\x80\x80\x8b";
-    Arena arena = test_arena(state);
     Image image;
     Error err = {0};
     assert_true(image_read_memory(HDR, sizeof HDR - 1, "a.hdr", &arena, &image, &err));
@@ -345,10 +337,9 @@ TEST(reads_radiance_pictures)
     assert_true(p[3] == 1 && p[7] == 1);
 }
 
-TEST(what_is_encoded_reads_back)
+ARENA_TEST(what_is_encoded_reads_back)
 {
     static const char *const FORMATS[] = {"png", "tiff"};
-    Arena arena = test_arena(state);
     for (int k = 0; k < 4; k++) {
         uint16_t codes[12];
         for (int i = 0; i < 12; i++) codes[i] = (uint16_t)(i * 5461);
@@ -404,12 +395,11 @@ TEST(the_same_picture_makes_the_same_bytes)
 }
 
 /* Whatever comes of it: no crash, and one line of reasons when it is refused. */
-TEST(survives_flipped_bits)
+ARENA_TEST(survives_flipped_bits)
 {
     static const char *const FORMATS[] = {"png", "jpeg", "tiff"};
     uint8_t  codes[16 * 16 * 3];
     unsigned seed = 3;
-    Arena    arena = test_arena(state);
     for (size_t i = 0; i < sizeof codes; i++) codes[i] = (uint8_t)(i * i >> 3);
     for (int f = 0; f < 3; f++) {
         ImageToEncode in = {.width = 16, .height = 16, .channels = 3, .type = PIXEL_U8,
@@ -449,9 +439,8 @@ static Image read_shared(const char *name, Arena *arena)
     return image;
 }
 
-TEST(negative_values_of_environments_are_kept)
+ARENA_TEST(negative_values_of_environments_are_kept)
 {
-    Arena arena = test_arena(state);
     Image image = read_shared("hdri/blender/interior.exr", &arena);
     const float *p = image.pixels;
     long negative = 0;
@@ -460,9 +449,8 @@ TEST(negative_values_of_environments_are_kept)
     assert_int_equal(negative, 8980);
 }
 
-TEST(the_orientation_picture_can_be_read)
+ARENA_TEST(the_orientation_picture_can_be_read)
 {
-    Arena arena = test_arena(state);
     Image image = read_shared("hdri/openexr-env/OrientationLatLong.exr", &arena);
     const float *p = image.pixels;
     assert_int_equal(image.width, 1024);
@@ -470,9 +458,8 @@ TEST(the_orientation_picture_can_be_read)
     for (int i = 0; i < 1024 * 512 * 4; i++) assert_true(p[i] >= 0 && p[i] <= 1);
 }
 
-TEST(a_data_window_is_placed_in_the_display_window)
+ARENA_TEST(a_data_window_is_placed_in_the_display_window)
 {
-    Arena arena = test_arena(state);
     Image whole = read_shared("exr/DisplayWindow/t01.exr", &arena);
     Image part = read_shared("exr/DisplayWindow/t05.exr", &arena); /* shows 30,20 .. 370,280 */
     assert_int_equal(part.width, 340);
@@ -483,9 +470,8 @@ TEST(a_data_window_is_placed_in_the_display_window)
 }
 
 /* The same scene is stored once in Rec.709 and once as XYZ. */
-TEST(the_primaries_of_a_file_are_honoured)
+ARENA_TEST(the_primaries_of_a_file_are_honoured)
 {
-    Arena arena = test_arena(state);
     Image a = read_shared("exr/Chromaticities/Rec709.exr", &arena);
     Image b = read_shared("exr/Chromaticities/XYZ.exr", &arena);
     const float *p = a.pixels, *q = b.pixels;
@@ -493,7 +479,4 @@ TEST(the_primaries_of_a_file_are_honoured)
         assert_near(q[i], p[i], 0.004 + 0.01 * (double)fabsf(p[i])); /* both are halves */
 }
 
-int main(void)
-{
-    return run_cases(make_arena, drop_arena);
-}
+TEST_PROGRAM(make_arena, drop_arena)

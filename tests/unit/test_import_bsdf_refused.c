@@ -24,8 +24,7 @@ static void check_refusals(Fixture *f, const Importer *importer, const Refusal *
     }
 }
 
-#define CHECK(importer, rows)                                                                  \
-    check_refusals(*state, &importer, rows, sizeof rows / sizeof *rows)
+#define CHECK(importer, rows) check_refusals(f, &importer, rows, sizeof rows / sizeof *rows)
 
 #define ZEMAX                                                                                  \
     "Symmetry Asymmetrical\nSpectralContent Monochrome\nScatterType BRDF\n"                    \
@@ -240,12 +239,8 @@ FIXTURE_TEST(xml_refusals)
          XML_DATA("1 2") XML_END, "more numbers than 1 x 1 follow"},
     };
     CHECK(importer_window, rows);
-    Fixture *f = *state;
     assert_false(fixture_read(f, "<WindowElement\0/>", 17, "window"));
     assert_string_equal(f->err.text, "has zero bytes, wanted XML in UTF-8");
 }
 
-int main(void)
-{
-    return run_cases(NULL, NULL);
-}
+TEST_PROGRAM(NULL, NULL)

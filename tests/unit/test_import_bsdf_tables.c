@@ -16,7 +16,6 @@
 
 FIXTURE_TEST(astm_mirror_lies_opposite_the_light)
 {
-    Fixture *f = *state;
     assert_reads(f, ASTM, "astm");
     assert_int_equal(f->set.count, 2);
     const ImportTable *t = table_at(f, 0.5 / RAD, 0);
@@ -33,7 +32,6 @@ FIXTURE_TEST(astm_mirror_lies_opposite_the_light)
 
 FIXTURE_TEST(astm_in_plane_lists_and_degrees)
 {
-    Fixture *f = *state;
     assert_reads(f, "VARS theta_i,theta_s,brdf\n30,30,5\n30,-60,6\n", "astm");
     const ImportTable *t = table_at(f, 30, 180);
     assert_near(value_at(t, 30, 0, 0), 5, 0);
@@ -47,7 +45,6 @@ FIXTURE_TEST(astm_in_plane_lists_and_degrees)
 
 FIXTURE_TEST(astm_errors_name_the_line)
 {
-    Fixture        *f = *state;
     const Importer *i = &importer_astm;
     assert_refused(f, "NUM_POINTS 2\nVARS theta_i,theta_s,brdf\n30,30,5\n", i,
                    "line 3: there are 1 rows, and NUM_POINTS is 2");
@@ -71,7 +68,6 @@ FIXTURE_TEST(astm_errors_name_the_line)
 
 FIXTURE_TEST(ssdd_spherical_angles_and_their_order)
 {
-    Fixture *f = *state;
     assert_reads(f, SSDD_HEAD "PARAM_TYPE spherical_coordinate_system\nPARAM0_LIST 20 40\n"
                     "PARAM2_LIST 0 30\nPARAM3_LIST 0 90 180 270\nDATA ascii\n"
                     "# PARAM3 0\n1 101\n2 102\n3 103\n4 104\n5 105\n6 106\n7 107\n8 108\n"
@@ -85,7 +81,6 @@ FIXTURE_TEST(ssdd_spherical_angles_and_their_order)
 
 FIXTURE_TEST(ssdd_specular_angles_count_from_the_mirror_direction)
 {
-    Fixture *f = *state;
     assert_reads(f, "VERSION 0.2\nDATA_TYPE btdf\nCOLOR_MODEL monochrome\n"
                     "PARAM_TYPE spherical_coordinate_system\nPARAM0_LIST 0\nPARAM2_LIST 0\n"
                     "PARAM3_LIST 0\nDATA ascii\n0.5\n"
@@ -127,7 +122,6 @@ TEST(half_and_difference_angles_come_back)
  * 2 theta_d / 90 (phi_d does not matter). Binary. */
 FIXTURE_TEST(ssdd_half_difference_angles_are_evaluated)
 {
-    Fixture *f = *state;
     char     bytes[512] = "VERSION 0.2\nDATA_TYPE brdf\nCOLOR_MODEL monochrome\n"
                           "PARAM_TYPE half_difference_coordinate_system\n"
                           "REDUCTION_TYPE bilateral_symmetry reciprocity\nPARAM0_LIST 0 90\n"
@@ -157,7 +151,6 @@ FIXTURE_TEST(ssdd_half_difference_angles_are_evaluated)
 
 FIXTURE_TEST(ssdd_errors_name_the_line)
 {
-    Fixture        *f = *state;
     const Importer *i = &importer_ssdd;
     assert_refused(f, "DATA_TYPE brdf\n", i,
                    "line 1: the file begins with 'DATA_TYPE', wanted VERSION");
@@ -194,7 +187,6 @@ static char *speos_text(Arena *arena, bool is_bsdf)
 
 FIXTURE_TEST(speos_values_are_scaled_to_the_stated_reflectance)
 {
-    Fixture *f = *state;
     for (int is_bsdf = 0; is_bsdf < 2; is_bsdf++) {
         assert_reads(f, speos_text(&f->arena, is_bsdf), "speos");
         assert_int_equal(f->set.count, 4);
@@ -214,7 +206,6 @@ FIXTURE_TEST(speos_values_are_scaled_to_the_stated_reflectance)
 
 FIXTURE_TEST(speos_spectral_tables_have_their_own_reflectance)
 {
-    Fixture *f = *state;
     assert_reads(f, "OPTIS - BRDF surface file v8.0\n0\nComment\n0\n\n1 0\n1\n1 2\n30\n"
                     "450 650\n40\n3 2\n0 180\n0 2 2\n45 2 2\n90 2 2\n"
                     "20\n3 2\n0 180\n0 5 5\n45 5 5\n90 5 5\n", "speos");
@@ -227,7 +218,6 @@ FIXTURE_TEST(speos_spectral_tables_have_their_own_reflectance)
 
 FIXTURE_TEST(speos_errors_name_the_line)
 {
-    Fixture        *f = *state;
     const Importer *i = &importer_speos;
     assert_refused(f, "OPTIS - Anisotropic BSDF surface file v7.0\n0\n", i,
                    "line 2: the version is 'v7.0', wanted v8.0 or later");
@@ -324,7 +314,6 @@ static size_t speos_binary(unsigned char *bytes)
 
 FIXTURE_TEST(speos_binary_holds_what_its_text_would)
 {
-    Fixture      *f = *state;
     unsigned char bytes[4096];
     size_t        size = speos_binary(bytes);
     assert_true(fixture_read(f, bytes, size, "speos"));
@@ -358,7 +347,6 @@ FIXTURE_TEST(speos_binary_refusals)
         {129, 0x20, "a packed block is not sound"},
         {77, 0xFF, ""},
     };
-    Fixture      *f = *state;
     unsigned char bytes[4096];
     for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
         size_t size = speos_binary(bytes);
@@ -380,7 +368,6 @@ FIXTURE_TEST(speos_binary_refusals)
  * (30, 0), times cosine; H(5) = 0.61736, H(10) = 0.62309 and R(6) = 62.27%. */
 FIXTURE_TEST(a_real_measurement_of_speos_has_its_values)
 {
-    Fixture    *f = *state;
     const char *file = shared_bsdf(f, "speos/R_test.anisotropicbsdf");
     assert_true(fixture_read_file(f, file, "speos"));
     assert_int_equal(f->set.count, 19);
@@ -411,7 +398,6 @@ FIXTURE_TEST(packed_blocks_that_are_not_sound_are_refused)
 {
     enum { MATCH = 0, OFFSET = 2 };
     const unsigned char good[] = {0x16, 0, 1, 0, 0x50, 0, 0, 0x80, 0x56, 0x40};
-    Fixture *f = *state;
     assert_true(reads_packed(f, good, sizeof good));
     assert_int_equal(f->set.count, 4);
     table_at(f, 50, 90);
@@ -427,7 +413,4 @@ FIXTURE_TEST(packed_blocks_that_are_not_sound_are_refused)
     }
 }
 
-int main(void)
-{
-    return run_cases(NULL, NULL);
-}
+TEST_PROGRAM(NULL, NULL)

@@ -121,7 +121,6 @@ static double leaning(double theta_o, int channel)
 
 FIXTURE_TEST(rgl_values_lose_their_cosine)
 {
-    Fixture *f = *state;
     Builder *b = malloc(sizeof *b);
     build_rgl(b, lambertian, "spectra");
     assert_true(fixture_read(f, b->bytes, b->data, "rgl"));
@@ -139,7 +138,6 @@ FIXTURE_TEST(rgl_values_lose_their_cosine)
  * the half vector on its side the light leaves at 15 degrees, towards the light. */
 FIXTURE_TEST(rgl_samples_are_warped_to_half_vectors)
 {
-    Fixture *f = *state;
     Builder *b = malloc(sizeof *b);
     build_rgl(b, leaning, "rgb");
     assert_true(fixture_read(f, b->bytes, b->data, "rgl"));
@@ -155,7 +153,6 @@ FIXTURE_TEST(rgl_samples_are_warped_to_half_vectors)
 
 FIXTURE_TEST(rgl_errors_name_the_field)
 {
-    Fixture        *f = *state;
     const Importer *i = &importer_rgl;
     Builder        *b = malloc(sizeof *b);
     build_rgl(b, lambertian, "spectra");
@@ -222,7 +219,6 @@ FIXTURE_TEST(rgl_refusals)
         {{"spectra", 10, SHAPE(1, 2, 1, 1, 2), LIST(1, 1, 1, 1)}, "has the wrong shape"},
         {{"", 0, NULL, NULL}, NULL},
     };
-    Fixture *f = *state;
     Builder *b = malloc(sizeof *b);
     for (int i = 0; row[i].words; i++) {
         build_but(b, row[i].field);
@@ -239,7 +235,6 @@ FIXTURE_TEST(rgl_refusals)
 FIXTURE_TEST(rgl_of_a_symmetric_material_is_refused)
 {
     static double ones[3 * 2 * 4] = {0};
-    Fixture *f = *state;
     Builder *b = malloc(sizeof *b);
     for (int i = 0; i < 24; i++) ones[i] = 1;
     for (int is_whole = 0; is_whole < 2; is_whole++) {
@@ -274,7 +269,6 @@ FIXTURE_TEST(tensor_files_that_are_not_sound_are_refused)
         {29, 12, "field 'theta_i' has a type of number 12, wanted 1 to 11"},
         {36, 1, "field 'theta_i' begins behind the file's end"},
     };
-    Fixture *f = *state;
     Builder *b = malloc(sizeof *b);
     for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
         build_but(b, (Field){"", 0, NULL, NULL});
@@ -315,7 +309,6 @@ static void build_pbsdf(Builder *b, bool has_angles)
 
 FIXTURE_TEST(kaist_first_element_is_evaluated)
 {
-    Fixture *f = *state;
     Builder *b = malloc(sizeof *b);
     build_pbsdf(b, true);
     assert_true(fixture_read(f, b->bytes, b->data, "pbsdf"));
@@ -339,7 +332,6 @@ FIXTURE_TEST(kaist_first_element_is_evaluated)
 
 FIXTURE_TEST(the_real_reduced_file_says_why_it_is_not_read)
 {
-    Fixture *f = *state;
     assert_false(fixture_read_file(f, shared_bsdf(f, "mitsuba/spectralon_lowres.pbsdf"),
                                    "pbsdf"));
     assert_string_equal(f->err.path, "phi_d");
@@ -378,7 +370,6 @@ static bool inside(double x)
 
 FIXTURE_TEST(merl_cells_are_found_by_half_and_difference_angles)
 {
-    Fixture       *f = *state;
     const int      side[3] = {30, 30, 60};
     size_t         size;
     unsigned char *bytes = build_merl(side, false, &size);
@@ -407,7 +398,6 @@ FIXTURE_TEST(merl_cells_are_found_by_half_and_difference_angles)
 /* The narrowest cell of theta_h is 0.011 degrees: the rows near the mirror direction follow. */
 FIXTURE_TEST(merl_of_full_size_and_its_unmeasured_cells)
 {
-    Fixture       *f = *state;
     const int      side[3] = {90, 90, 180};
     size_t         size;
     unsigned char *bytes = build_merl(side, true, &size);
@@ -428,8 +418,7 @@ FIXTURE_TEST(merl_of_full_size_and_its_unmeasured_cells)
 
 FIXTURE_TEST(merl_errors_name_the_byte)
 {
-    assert_refused(*state, "abc", &importer_merl, "byte 0: the file ends inside its header");
-    Fixture *f = *state;
+    assert_refused(f, "abc", &importer_merl, "byte 0: the file ends inside its header");
     unsigned char bytes[12 + 24] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
     const double  infinite = INFINITY, unmeasured = -1;
     fixture_write(f, bytes, 20);
@@ -457,7 +446,6 @@ FIXTURE_TEST(merl_errors_name_the_byte)
 FIXTURE_TEST(a_workbook_is_refused_with_what_to_give_instead)
 {
     static const char magic[] = "\xD0\xCF\x11\xE0\xA1\xB1\x1A\xE1 workbook";
-    Fixture *f = *state;
     assert_false(fixture_read(f, magic, sizeof magic, "spreadsheet"));
     assert_string_equal(f->err.text, "is a workbook of a spreadsheet program — export its "
                                      "tables as CSV; of a scatterometer (RT-300S) give the "
@@ -466,7 +454,4 @@ FIXTURE_TEST(a_workbook_is_refused_with_what_to_give_instead)
         f, shared_bsdf(f, "loft-rt300s/raw/NiTE_on_invar_v1o0A_20250915.xls"), "spreadsheet"));
 }
 
-int main(void)
-{
-    return run_cases(NULL, NULL);
-}
+TEST_PROGRAM(NULL, NULL)

@@ -18,7 +18,6 @@
 
 FIXTURE_TEST(zemax_angles_count_from_the_mirror_direction)
 {
-    Fixture *f = *state;
     f->options.wavelength_nm = 0;
     assert_reads(f, ZEMAX, "zemax");
     assert_int_equal(f->set.count, 2);
@@ -44,7 +43,6 @@ FIXTURE_TEST(zemax_angles_count_from_the_mirror_direction)
 FIXTURE_TEST(zemax_wavelength_stands_in_the_comments)
 {
     static const char *const line[] = {"# laser, 532nm wide", "#Wavelength (nm) = 532.0"};
-    Fixture *f = *state;
     f->options.wavelength_nm = 0;
     for (int i = 0; i < 2; i++) {
         assert_reads(f, arena_format(&f->arena, "%s\nSymmetry PlaneSymmetrical\n"
@@ -58,7 +56,6 @@ FIXTURE_TEST(zemax_wavelength_stands_in_the_comments)
 
 FIXTURE_TEST(zemax_azimuth_runs_counter_clockwise)
 {
-    Fixture *f = *state;
     assert_reads(f, "Source Measured\nSymmetry ASymmetrical\nSpectralContent Monochrome\n"
                     "ScatterType BRDF\nSampleRotation 1\n0\nAngleOfIncidence 1\n0\n"
                     "ScatterAzimuth 4\n0 90 180 270\nScatterRadial 2\n0 30\n\nMonochrome\n"
@@ -74,7 +71,6 @@ FIXTURE_TEST(zemax_azimuth_runs_counter_clockwise)
 
 FIXTURE_TEST(zemax_sample_rotations_are_azimuths_of_the_light)
 {
-    Fixture *f = *state;
     assert_reads(f, "Symmetry ASymmetrical4D\nSpectralContent Monochrome\nScatterType BRDF\n"
                     "SampleRotation 2\n0 90\nAngleOfIncidence 1\n30\nScatterAzimuth 1\n0\n"
                     "ScatterRadial 1\n10\nMonochrome\nDataBegin\nTIS 0 7\nTIS 0 8\nDataEnd\n",
@@ -100,7 +96,6 @@ FIXTURE_TEST(zemax_sample_rotations_are_azimuths_of_the_light)
 
 FIXTURE_TEST(zemax_of_xyz_keeps_y)
 {
-    Fixture *f = *state;
     f->options.wavelength_nm = 0;
     assert_reads(f, "Symmetry PlaneSymmetrical\nSpectralContent XYZ\nScatterType BRDF\n"
                     "SampleRotation 1\n0\nAngleOfIncidence 1\n30\nScatterAzimuth 1\n0\n"
@@ -115,7 +110,6 @@ FIXTURE_TEST(zemax_of_xyz_keeps_y)
 /* A Lambertian surface of reflectance 0.6: brdf 0.6 / pi about any mirror direction. */
 FIXTURE_TEST(zemax_totals_are_told_beside_the_tables_own)
 {
-    Fixture *f = *state;
     char     text[16384];
     int      n = snprintf(text, sizeof text,
                           "Symmetry PlaneSymmetrical\nSpectralContent Monochrome\n"
@@ -135,7 +129,6 @@ FIXTURE_TEST(zemax_totals_are_told_beside_the_tables_own)
 
 FIXTURE_TEST(zemax_zeros_are_directions_without_a_measurement)
 {
-    Fixture *f = *state;
     assert_reads(f, "Symmetry PlaneSymmetrical\nSpectralContent Monochrome\nScatterType BRDF\n"
                     "SampleRotation 1\n0\nAngleOfIncidence 1\n30\nScatterAzimuth 1\n0\n"
                     "ScatterRadial 3\n0 10 20\nMonochrome\nDataBegin\nTIS 0 7 0 8\nDataEnd\n",
@@ -147,7 +140,6 @@ FIXTURE_TEST(zemax_zeros_are_directions_without_a_measurement)
 
 FIXTURE_TEST(zemax_errors_name_the_line)
 {
-    Fixture        *f = *state;
     const Importer *z = &importer_zemax;
     assert_refused(f, ZEMAX_HEAD "TIS 0.5\n9 1 2\n9 x 4\n", z,
                    "line 19: a value of the block is 'x', wanted a number");
@@ -169,13 +161,12 @@ FIXTURE_TEST(zemax_errors_name_the_line)
 
 FIXTURE_TEST(zemax_prefixes_are_refused)
 {
-    assert_prefixes_refused(*state, ZEMAX, strlen(ZEMAX) - 1, 1, &importer_zemax);
+    assert_prefixes_refused(f, ZEMAX, strlen(ZEMAX) - 1, 1, &importer_zemax);
 }
 
 /* Values read off the file: line 39 is azimuth 0 of incidence 10, line 47 azimuth 80. */
 FIXTURE_TEST(a_real_black_coating_of_zemax_has_its_values)
 {
-    Fixture *f = *state;
     f->options.wavelength_nm = 0;
     const char *file = shared_bsdf(f, "loft-rt300s/AnoBlackEC1onAlum.bsdf");
     assert_true(fixture_read_file(f, file, "zemax"));
@@ -201,7 +192,6 @@ FIXTURE_TEST(a_real_black_coating_of_zemax_has_its_values)
 
 FIXTURE_TEST(fred_angles_count_from_the_mirrors_azimuth)
 {
-    Fixture *f = *state;
     assert_reads(f, FRED, "fred");
     assert_int_equal(f->set.count, 2);
     const ImportTable *t = table_at(f, 30, 180);
@@ -218,7 +208,6 @@ FIXTURE_TEST(fred_angles_count_from_the_mirrors_azimuth)
 
 FIXTURE_TEST(fred_errors_name_the_line)
 {
-    Fixture        *f = *state;
     const Importer *i = &importer_fred;
     assert_refused(f, "type bsdf_data\n10 20 30\n", i, "line 2: a row of three numbers stands "
                    "before the two angles of the light");
@@ -236,7 +225,6 @@ FIXTURE_TEST(fred_errors_name_the_line)
 
 FIXTURE_TEST(real_tables_of_fred_have_their_values)
 {
-    Fixture    *f = *state;
     const char *file = shared_bsdf(f, "loft-rt300s/AnoBlackEC1onAlum_fullAz.fred.txt");
     assert_true(fixture_read_file(f, file, "fred"));
     const ImportTable *t = table_at(f, 10, 180);
@@ -261,7 +249,6 @@ FIXTURE_TEST(real_tables_of_fred_have_their_values)
 
 FIXTURE_TEST(mountain_light_comes_from_the_incident_angle)
 {
-    Fixture *f = *state;
     assert_reads(f, MOUNTAIN, "mountain");
     const ImportTable *t = table_at(f, 30, 90);
     assert_int_equal(t->rows, 3);
@@ -277,7 +264,6 @@ FIXTURE_TEST(mountain_light_comes_from_the_incident_angle)
 
 FIXTURE_TEST(mountain_patterns_of_one_light_are_one_table)
 {
-    Fixture *f = *state;
     assert_reads(f, MOUNTAIN, "mountain");
     fixture_write(f, "#format: theta phi BSDF\n#incident_angle 30 90\n10 270 4\n", 55);
     assert_true(importer_mountain.read(f->file, &f->options, &f->set, &f->err));
@@ -293,7 +279,6 @@ FIXTURE_TEST(mountain_patterns_of_one_light_are_one_table)
 /* DSF = rho / pi cos theta: the table is rho / pi. */
 FIXTURE_TEST(mountain_lambertian_loses_its_cosine)
 {
-    Fixture *f = *state;
     char     text[4096];
     int      n = sprintf(text, "#format: theta phi DSF\n#incident_angle 40 0\n");
     for (int i = 0; i <= 85; i += 5)
@@ -305,7 +290,6 @@ FIXTURE_TEST(mountain_lambertian_loses_its_cosine)
 
 FIXTURE_TEST(mountain_errors_name_the_line)
 {
-    Fixture        *f = *state;
     const Importer *i = &importer_mountain;
     assert_refused(f, "#format: theta phi BSDF\n1 2 3\n", i,
                    "line 2: the header has no #intheta");
@@ -335,7 +319,6 @@ FIXTURE_TEST(mountain_errors_name_the_line)
 
 FIXTURE_TEST(lighttools_mirror_lies_opposite_the_light)
 {
-    Fixture *f = *state;
     f->options.wavelength_nm = 0;
     assert_reads(f, LIGHTTOOLS, "lighttools");
     assert_int_equal(f->set.count, 1);
@@ -350,7 +333,6 @@ FIXTURE_TEST(lighttools_mirror_lies_opposite_the_light)
 
 FIXTURE_TEST(lighttools_errors_name_the_line)
 {
-    Fixture        *f = *state;
     const Importer *i = &importer_lighttools;
     assert_refused(f, "SpectralContent Monochrome\nScatterAzimuth 1\n0\nScatterRadial 1\n0\n"
                       "DataBegin\nAOI 30\nTIS 0\n1\nDataBreak\n", i,
@@ -363,7 +345,4 @@ FIXTURE_TEST(lighttools_errors_name_the_line)
     assert_prefixes_refused(f, LIGHTTOOLS, strlen(LIGHTTOOLS) - 1, 1, i);
 }
 
-int main(void)
-{
-    return run_cases(NULL, NULL);
-}
+TEST_PROGRAM(NULL, NULL)

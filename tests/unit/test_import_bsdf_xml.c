@@ -70,7 +70,6 @@ static double rotating(int row, int column)
 
 FIXTURE_TEST(klems_lambertian_is_isotropic)
 {
-    Fixture *f = *state;
     f->options.wavelength_nm = 0;
     assert_reads(f, document(&f->arena, "Columns", "Reflection Front", quarter_bases,
                              matrix(&f->arena, lambertian)), "window");
@@ -86,7 +85,6 @@ FIXTURE_TEST(klems_lambertian_is_isotropic)
 
 FIXTURE_TEST(klems_columns_are_incident_and_rows_leaving)
 {
-    Fixture *f = *state;
     assert_reads(f, document(&f->arena, "Columns", "Reflection Front", quarter_bases,
                              matrix(&f->arena, numbered)), "window");
     assert_true(f->set.is_anisotropic);
@@ -106,7 +104,6 @@ FIXTURE_TEST(klems_columns_are_incident_and_rows_leaving)
 
 FIXTURE_TEST(klems_turning_together_is_isotropic)
 {
-    Fixture *f = *state;
     assert_reads(f, document(&f->arena, "Columns", "Reflection Back", quarter_bases,
                              matrix(&f->arena, rotating)), "window");
     assert_int_equal(f->set.count, 5);
@@ -118,7 +115,6 @@ FIXTURE_TEST(klems_turning_together_is_isotropic)
 
 FIXTURE_TEST(klems_bases_of_the_files_own)
 {
-    Fixture *f = *state;
     assert_reads(f, "<WindowElement><Optical><Layer><DataDefinition>"
                     "<IncidentDataStructure>Columns</IncidentDataStructure><AngleBasis>"
                     "<AngleBasisName>own</AngleBasisName>"
@@ -145,7 +141,6 @@ FIXTURE_TEST(klems_bases_of_the_files_own)
  * degrees of incidence... all real light lies in its first half; the last one runs fastest. */
 FIXTURE_TEST(tensor_tree_of_rank_3)
 {
-    Fixture *f = *state;
     assert_reads(f, document(&f->arena, "TensorTree3", "Reflection Front", tree_basis,
                              "{ 1 2 3 4 5 6 7 8 }"), "window");
     assert_int_equal(f->set.count, 9);
@@ -161,7 +156,6 @@ FIXTURE_TEST(tensor_tree_of_rank_3)
 /* The first dimension of a branch is the lowest bit of the child's number. */
 FIXTURE_TEST(tensor_tree_branches_and_depth)
 {
-    Fixture *f = *state;
     assert_reads(f, document(&f->arena, "TensorTree3", "Reflection Front", tree_basis,
                              "{{{1}{2}{1}{2}{1}{2}{1}{2}}{0}{3}{0}{4}{0}{5}{0}}"), "window");
     /* Within the first eighth (light in [0, .5), x and y low) the halves of the light differ:
@@ -177,7 +171,6 @@ FIXTURE_TEST(tensor_tree_branches_and_depth)
 
 FIXTURE_TEST(tensor_tree_lambertian_is_isotropic)
 {
-    Fixture *f = *state;
     assert_reads(f, document(&f->arena, "TensorTree4", "Reflection Front", tree_basis,
                              "{ 0.25 }"), "window");
     assert_int_equal(f->set.count, 9);
@@ -188,7 +181,6 @@ FIXTURE_TEST(tensor_tree_lambertian_is_isotropic)
 
 FIXTURE_TEST(a_tensor_tree_of_rank_4_has_its_values)
 {
-    Fixture    *f = *state;
     const char *file = shared_bsdf(f, "window-xml/simple_tensor_d2_refl.xml");
     assert_true(fixture_read_file(f, file, "window"));
     assert_true(f->set.is_anisotropic);
@@ -208,7 +200,6 @@ FIXTURE_TEST(a_tensor_tree_of_rank_4_has_its_values)
 
 FIXTURE_TEST(a_real_klems_file_has_its_spot)
 {
-    Fixture    *f = *state;
     const char *file = shared_bsdf(f, "window-xml/simple_klems_spot_front_refl.xml");
     assert_true(fixture_read_file(f, file, "window"));
     /* 42 at (0, 0), (9, 9) and (10, 10) of the matrix, which is latitude 20 at azimuth 0 and
@@ -226,7 +217,6 @@ FIXTURE_TEST(a_real_klems_file_has_its_spot)
 
 FIXTURE_TEST(files_without_reflection_are_refused)
 {
-    Fixture    *f = *state;
     const char *file = shared_bsdf(f, "window-xml/simple_klems_spot_trans.xml");
     assert_false(fixture_read_file(f, file, "window"));
     assert_string_equal(f->err.text,
@@ -244,7 +234,6 @@ FIXTURE_TEST(files_without_reflection_are_refused)
 
 FIXTURE_TEST(xml_errors_name_the_line)
 {
-    Fixture        *f = *state;
     const Importer *i = &importer_window;
     assert_refused(f, "<!DOCTYPE a [<!ENTITY b \"c\">]><WindowElement/>", i,
                    "has a document type (<!DOCTYPE), which is not taken");
@@ -272,7 +261,4 @@ FIXTURE_TEST(xml_errors_name_the_line)
     assert_prefixes_refused(f, text, strlen(text) - 1, 1, i);
 }
 
-int main(void)
-{
-    return run_cases(NULL, NULL);
-}
+TEST_PROGRAM(NULL, NULL)

@@ -47,7 +47,6 @@ static const ImportTable *import_ldt(Lab *lab, const Ldt *ldt)
 /* 100 cd/klm, 2000 lm, 0.02 m2: 10,000 cd/m2 everywhere; flux pi I0 = 628 lm of 1600. */
 LAB_TEST(a_lambertian_luminaire_is_equally_bright_everywhere)
 {
-    Lab *lab = *state;
     const ImportTable *white = import_ldt(lab, &plain);
     assert_int_equal(white->rows, 36 * 18); /* not the horizon */
     for (int i = 0; i < white->rows; i++) assert_close(white->value[3 * i + 1], 10000, 1e-6);
@@ -58,7 +57,6 @@ LAB_TEST(a_lambertian_luminaire_is_equally_bright_everywhere)
 
 LAB_TEST(area_factor_and_absolute_flux_count)
 {
-    Lab *lab = *state;
     Ldt  round = plain, factor = plain, absolute = plain;
     round.width_mm = 0;
     assert_close(lab_value(import_ldt(lab, &round), 0, 0, 1), 200 / (PI * 0.01), 1e-6);
@@ -79,7 +77,6 @@ LAB_TEST(symmetries_fill_the_other_planes)
         {2, 3, {1, 2, 3, 2}},  /* C0, C90, C180 */
         {3, 3, {2, 3, 2, 1}},  /* C270, C0, C90 */
         {4, 2, {1, 2, 1, 2}}}; /* C0, C90 */
-    Lab *lab = *state;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         Ldt ldt = plain;
         ldt.symmetry = cases[i].symmetry;
@@ -99,7 +96,6 @@ LAB_TEST(symmetries_fill_the_other_planes)
 
 LAB_TEST(eulumdat_is_refused_with_its_line)
 {
-    Lab *lab = *state;
     Ldt  no_area = plain, odd = plain, dark = plain;
     no_area.length_mm = no_area.width_mm = 0;
     lab_write(lab, "lamp.ldt", ldt_text(lab, &no_area));
@@ -137,7 +133,6 @@ static void no_prefix_is_taken(Lab *lab, const char *name, const char *text, siz
 
 LAB_TEST(a_cut_eulumdat_is_refused)
 {
-    Lab  *lab = *state;
     Ldt   small = plain;
     small.gammas = 7;
     char *text = ldt_text(lab, &small);
@@ -164,7 +159,6 @@ static const ImportTable *import_ies(Lab *lab, const char *text)
 
 LAB_TEST(intensity_over_area_times_cosine_is_luminance)
 {
-    Lab *lab = *state;
     const ImportTable *white = import_ies(lab, IES_HEAD "1 400 2 4 1 1 2 .5 .2 0\n"
                                                "1.1 1 60\n" GAMMAS "0\n" PLANE_1);
     assert_close(lab_value(white, 0, 0, 1), 2200, 1e-6);
@@ -181,7 +175,6 @@ LAB_TEST(sizes_may_be_feet_and_circles)
         {"2 -.2 0 0", PI * 0.01}, {"2 -.4 -.2 0", PI * 0.02},
         {"2 -.1 .5 .1", PI / 4 * 0.05}, {"2 0 .5 -.1", 0.05}, {"2 -.2 -.3 -.4", PI / 4 * 0.06},
         {"2 .1 -.5 -.3", 0.05}, {"2 .5 .2 .3", 0.1}};
-    Lab *lab = *state;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         const ImportTable *white = import_ies(lab, arena_format(&lab->arena, IES_HEAD
             "1 -1 1 4 1 1 %s\n1 1 60\n" GAMMAS "0\n" PLANE_1, cases[i].sizes));
@@ -199,7 +192,6 @@ LAB_TEST(the_range_of_horizontal_angles_tells_the_symmetry)
          PLANE_1, {1, 2, 3, 2}},
         {"4 1 2 1 1 0\n1 1 9\n" GAMMAS "0, 90, 180, 270\n" PLANE_1 PLANE_3 PLANE_2 PLANE_2,
          {1, 3, 2, 2}}};
-    Lab *lab = *state;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         const ImportTable *white = import_ies(lab, arena_format(&lab->arena, IES_HEAD
                                               "1 -1 1 4 %s", cases[i].planes));
@@ -212,7 +204,6 @@ LAB_TEST(the_range_of_horizontal_angles_tells_the_symmetry)
 /* A panel is not tilted: the factor at 0 counts. */
 LAB_TEST(the_factor_of_no_tilt_counts_and_light_behind_is_told)
 {
-    Lab *lab = *state;
     const ImportTable *white = import_ies(lab,
         "IESNA91\nTILT=INCLUDE\n1\n3\n0 45 90\n.5 .9\n.8\n1 1000 1 3 1 1 2 1 1 0\n1 1 9\n"
         "0 90 180\n0\n200\n200 200\n");
@@ -234,7 +225,7 @@ LAB_TEST(the_factor_of_no_tilt_counts_and_light_behind_is_told)
     lab_refused(lab, "a.tlt: line 5: the file ends before a tilt factor");
 }
 
-LAB_TEST(what_is_tilted_is_the_lamp)
+TEST(what_is_tilted_is_the_lamp)
 {
     static double angle[3] = {0, 60, 90}, factor[3] = {1, 0.7, 0.4};
     static const struct { int geometry; WebType type; Vec3 down; double tilted, factor; }
@@ -245,7 +236,6 @@ LAB_TEST(what_is_tilted_is_the_lamp)
                {2, WEB_C, {-0.5f, 0, -0.8660254f}, 30, 0.85}, {3, WEB_C, {1, 0, 0}, 0, 1},
                {3, WEB_C, {0, 0.5f, -0.8660254f}, 30, 0.85}, {1, WEB_A, {-1, 0, 0}, 0, 1},
                {2, WEB_A, {0, 0, -1}, 90, 0.4}, {0, WEB_C, {0, 1, 0}, 0, 1}};
-    (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         LuminaireTilt tilt = {NULL, cases[i].geometry, 3, angle, factor};
         double tilted;
@@ -326,7 +316,6 @@ LAB_TEST(types_a_b_and_c_of_one_lamp_are_one_lamp)
 {
     static const Tipped cases[] = {{WEB_C, 0, 1}, {WEB_B, -90, 1}, {WEB_A, -90, 1},
                                    {WEB_C, 0, 0}, {WEB_B, 0, 0},   {WEB_A, 0, 0}};
-    Lab *lab = *state;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         IntensityWeb web = tipped_web(lab, &cases[i]);
         assert_true(web.type == cases[i].type);
@@ -346,7 +335,6 @@ LAB_TEST(types_a_b_and_c_of_one_lamp_are_one_lamp)
 /* As the viewer sees them V runs up, H to the left, and nothing is resampled. */
 LAB_TEST(types_a_and_b_are_panels_at_their_own_directions)
 {
-    Lab *lab = *state;
     for (int type = WEB_B; type <= WEB_A; type++) {
         Tipped t = {(WebType)type, -90, 1};
         const ImportTable *white = import_ies(lab, tipped_text(&lab->arena, &t));
@@ -361,7 +349,7 @@ LAB_TEST(types_a_and_b_are_panels_at_their_own_directions)
 
 /* ---- openings ---------------------------------------------------------------------------- */
 
-LAB_TEST(sizes_tell_the_shape)
+TEST(sizes_tell_the_shape)
 {
     static const struct { int year; WebType type; double size[3]; OpeningShape shape;
                           int axis; double x, y, z; } cases[] = {
@@ -385,7 +373,6 @@ LAB_TEST(sizes_tell_the_shape)
         {2002, WEB_A, {-2, 0, -2}, OPENING_CYLINDER, 2, 2, 2, 0},
         {2002, WEB_A, {2, 0, 4}, OPENING_BOX, 2, 4, 2, 0},
         {2002, WEB_A, {2, 3, 4}, OPENING_BOX, 2, 4, 2, 3}};
-    (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         LuminousOpening o;
         assert_null(opening_of_ies(cases[i].year, cases[i].type, cases[i].size, &o));
@@ -440,7 +427,6 @@ LAB_TEST(ies_is_refused_with_its_line)
                  {IES_HEAD "1 -1 1 2 1 1 2 1 1 0\n1 1 9\n90 180\n0\n0 5\n",
                   "lamp.ies: shines nothing within 90 degrees of gamma 0, wanted a luminaire "
                   "that lights in front of its face"}};
-    Lab *lab = *state;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         lab_write(lab, "lamp.ies", cases[i].text);
         lab_refused(lab, cases[i].message);
@@ -450,7 +436,7 @@ LAB_TEST(ies_is_refused_with_its_line)
 LAB_TEST(a_cut_ies_is_refused)
 {
     static const char text[] = IES_HEAD "1 -1 1 4 1 1 2 1 1 0\n1 1 9\n" GAMMAS "0\n100 86 50 ";
-    no_prefix_is_taken(*state, "lamp.ies", text, sizeof text);
+    no_prefix_is_taken(lab, "lamp.ies", text, sizeof text);
 }
 
 /* ---- real files -------------------------------------------------------------------------- */
@@ -482,7 +468,6 @@ LAB_TEST(real_luminaires_add_up_to_their_lumens)
         {"Indoor_60W_5300lm.ies", 0, 5300, 0.001}, {"threejs_007cfb.ies", 0, 321, 0.001},
         {"ASA_15M_R2.ies", 0.735, 0, 0.002}, {"examp1.ies", 0.913, 0, 0.002},
         {"ABSOLUTE_LED.ies", 0, 0, 0}};
-    Lab *lab = *state;
     if (!file_exists(SHARED_DATA_DIR "/photometry/road_luminaire.ldt")) skip();
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         lab->file[0] = arena_format(&lab->arena, "%s/photometry/%s", SHARED_DATA_DIR,
@@ -500,7 +485,4 @@ LAB_TEST(real_luminaires_add_up_to_their_lumens)
     lab_import(lab);
 }
 
-int main(void)
-{
-    return run_cases(NULL, NULL);
-}
+TEST_PROGRAM(NULL, NULL)

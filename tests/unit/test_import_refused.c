@@ -18,7 +18,6 @@ typedef struct Refusal {
 
 LAB_TEST(cells_and_rows_that_do_not_fit)
 {
-    Lab *lab = *state;
     static const Refusal rows[] = {
         {"theta,phi,X,Y,Z\n0,0,1,2,3\n10,0,1,abc,3\n",
          "white.csv: line 3: column 'Y' holds 'abc', wanted a number or a mark of what was "
@@ -54,7 +53,6 @@ LAB_TEST(cells_and_rows_that_do_not_fit)
 
 LAB_TEST(headers_that_do_not_say_enough)
 {
-    Lab *lab = *state;
     static const Refusal rows[] = {
         {"theta,phi,X,Y\n0,0,1,2\n10,0,1,2\n20,0,1,2\n",
          "white.csv: header line: has not what makes a colour: X, Y, Z; or luminance with x, "
@@ -93,7 +91,6 @@ LAB_TEST(headers_that_do_not_say_enough)
 
 LAB_TEST(matrices_that_do_not_say_enough)
 {
-    Lab *lab = *state;
     static const Refusal rows[] = {
         {"L\n,0,30\n0,10,20\n60,10,30\n",
          "white.csv: line 2: does not tell whether theta runs down or across — say --table "
@@ -131,12 +128,10 @@ LAB_TEST(contradictions_of_file_and_user)
          "white.csv: line 1: says how azimuths run, and --azimuth-sense says otherwise"},
         {"unit", "fL", "white.csv: line 2: says cd/m2, and --unit says otherwise"}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        Lab *lab = *state;
         lab->request->text = (TextOptions){.layout = LAYOUT_AUTO};
         lab_declare(lab, cases[i].key, cases[i].value);
         refuse(lab, SAYS, cases[i].message);
     }
-    Lab *lab = *state;
     lab->request->text = (TextOptions){.layout = LAYOUT_AUTO};
     lab_declare(lab, "azimuth_zero", "top");
     lab_declare(lab, "azimuth_sense", "cw");
@@ -151,7 +146,6 @@ LAB_TEST(contradictions_of_file_and_user)
 
 LAB_TEST(declarations_that_are_wrong)
 {
-    Lab *lab = *state;
     TextOptions *text = &lab->request->text;
     assert_false(text_options_set(text, "azimuth_zreo", "top", &lab->err));
     assert_non_null(strstr(lab->err.text, "'azimuth_zreo' is no key of a declaration — did you "
@@ -219,7 +213,6 @@ static void run_quietly(Lab *lab, const void *bytes, size_t size)
 
 LAB_TEST(every_prefix_is_refused_or_valid)
 {
-    Lab *lab = *state;
     lab_write(lab, "white.csv", "");
     for (size_t s = 0; s <= SAMPLES; s++) {
         char   bytes[1024];
@@ -230,7 +223,6 @@ LAB_TEST(every_prefix_is_refused_or_valid)
 
 LAB_TEST(no_changed_byte_crashes)
 {
-    Lab     *lab = *state;
     char     bytes[1024];
     uint32_t random = 1;
     lab_write(lab, "white.csv", "");
@@ -249,7 +241,6 @@ LAB_TEST(no_changed_byte_crashes)
 
 LAB_TEST(hostile_sizes_are_bounded)
 {
-    Lab  *lab = *state;
     char *wide = ARENA_NEW(&lab->arena, char, 20000);
     memset(wide, ',', 19998);
     lab_write(lab, "white.csv", "");
@@ -268,7 +259,6 @@ LAB_TEST(hostile_sizes_are_bounded)
 /* Light beyond the last angle of a set is left out, but never all of it. */
 LAB_TEST(light_that_only_grazes)
 {
-    Lab *lab = *state;
     lab->request->options.wavelength_nm = 550;
     lab_write(lab, "sheet.txt", "type bsdf_data\nformat angles=deg bsdf=value scale=1\n89.5 0\n"
                                 "0 0 0.1\n20 90 0.1\n20 180 0.1\n20 270 0.1\n");
@@ -276,7 +266,4 @@ LAB_TEST(light_that_only_grazes)
                      "of 0 to 89 degrees");
 }
 
-int main(void)
-{
-    return run_cases(NULL, NULL);
-}
+TEST_PROGRAM(NULL, NULL)

@@ -97,7 +97,6 @@ TEST(a_role_is_written_with_colons)
 
 LAB_TEST(a_files_own_words_tell_its_pattern)
 {
-    Lab *lab = *state;
     lab_write(lab, "m1.csv", "Sample: blue 127\n" TABLE);
     lab_write(lab, "m2.csv", "# pattern = red 255\n" TABLE);
     lab_write(lab, "m3.csv", "Colour,Green\nLevel,63\n" TABLE);
@@ -111,7 +110,6 @@ LAB_TEST(a_files_own_words_tell_its_pattern)
 
 LAB_TEST(words_and_name_must_not_contradict)
 {
-    Lab *lab = *state;
     lab_write(lab, "red_255.csv", "Sample: blue 127\n" TABLE);
     lab_refused(lab, "red_255.csv: line 1: is blue 127 by its contents and red 255 by its name "
                      "— say which with --role red_255.csv=...");
@@ -122,7 +120,6 @@ LAB_TEST(words_and_name_must_not_contradict)
 
 LAB_TEST(a_file_that_does_not_tell_is_named_with_the_option)
 {
-    Lab *lab = *state;
     lab_write(lab, "m1.csv", TABLE);
     lab_refused(lab, "m1.csv: does not tell, by its contents or its name, which pattern it "
                      "shows — say it with --role m1.csv=red:255 (or green, blue, black, "
@@ -141,7 +138,6 @@ LAB_TEST(a_file_that_does_not_tell_is_named_with_the_option)
 
 LAB_TEST(one_message_counts_all_refused_files)
 {
-    Lab *lab = *state;
     lab_write(lab, "m1.csv", TABLE);
     lab_write(lab, "white.csv", TABLE);
     lab_write(lab, "m2.csv", TABLE);
@@ -153,7 +149,6 @@ LAB_TEST(one_message_counts_all_refused_files)
 
 LAB_TEST(levels_scale_from_the_panels_highest_code)
 {
-    Lab *lab = *state;
     lab_declare(lab, "level_max", "1023");
     lab->request->black_is_zero = true;
     lab_write(lab, "R_1023.csv", TABLE);
@@ -167,7 +162,6 @@ LAB_TEST(levels_scale_from_the_panels_highest_code)
 
 LAB_TEST(files_are_left_out_as_asked)
 {
-    Lab *lab = *state;
     lab_write(lab, "white.csv", TABLE);
     lab_write(lab, "truth_1.csv", "no table\n");
     lab_write(lab, "notes.txt", "no table\n");
@@ -177,7 +171,4 @@ LAB_TEST(files_are_left_out_as_asked)
     assert_true(lab_noted(lab, "2 files were left out as asked"));
 }
 
-int main(void)
-{
-    return run_cases(NULL, NULL);
-}
+TEST_PROGRAM(NULL, NULL)

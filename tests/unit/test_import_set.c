@@ -42,7 +42,6 @@ static Measurement *read_back(Lab *lab)
 
 LAB_TEST(what_is_written_reads_as_it_was_to_the_last_bit)
 {
-    Lab *lab = *state;
     write_primaries(lab);
     lab_write(lab, "K_000.csv", TABLE);
     lab_write(lab, "BRDF_20.csv", BRDF);
@@ -69,7 +68,6 @@ LAB_TEST(what_is_written_reads_as_it_was_to_the_last_bit)
 
 LAB_TEST(any_float_survives_the_text)
 {
-    Lab     *lab = *state;
     char    *text = ARENA_NEW(&lab->arena, char, 1 << 20);
     size_t   at = (size_t)sprintf(text, "theta,phi,L\n");
     uint32_t random = 7;
@@ -101,7 +99,6 @@ LAB_TEST(any_float_survives_the_text)
 
 LAB_TEST(anisotropic_tables_are_named_by_azimuth)
 {
-    Lab *lab = *state;
     lab_write(lab, "i0.csv", BRDF);
     lab_write(lab, "i30_a0.csv", BRDF);
     lab_write(lab, "i30_a90.csv", BRDF);
@@ -118,7 +115,6 @@ LAB_TEST(anisotropic_tables_are_named_by_azimuth)
 
 LAB_TEST(a_black_that_was_subtracted_is_written_as_zero)
 {
-    Lab *lab = *state;
     write_primaries(lab);
     lab->request->black_is_zero = true;
     lab_import(lab);
@@ -131,7 +127,6 @@ LAB_TEST(a_black_that_was_subtracted_is_written_as_zero)
 
 LAB_TEST(what_a_set_needs_is_said)
 {
-    Lab *lab = *state;
     lab_refused(lab, "the files hold no table of a panel");
     lab_write(lab, "red.csv", TABLE);
     lab_refused(lab, "no file is green — name one as --role FILE=green:LEVEL");
@@ -176,7 +171,6 @@ LAB_TEST(what_a_set_needs_is_said)
 
 LAB_TEST(what_cannot_be_noise_below_zero_is_refused)
 {
-    Lab *lab = *state;
     lab_write(lab, "white.csv", "theta,phi,L\n0,0,100\n30,90,-0.4\n40,0,90\n");
     lab_import(lab);
     lab_write(lab, "white.csv", "theta,phi,L\n0,0,100\n30,90,-2\n40,0,90\n");
@@ -192,7 +186,6 @@ LAB_TEST(what_cannot_be_noise_below_zero_is_refused)
 
 LAB_TEST(wavelengths_that_nobody_sees_are_left_out)
 {
-    Lab *lab = *state;
     lab_write(lab, "i10.csv",
               "theta,phi,300nm,550nm,1064nm\n0,0,1,2,3\n30,0,1,2,3\n9,9,1,2,3\n");
     lab_import(lab);
@@ -206,7 +199,6 @@ LAB_TEST(wavelengths_that_nobody_sees_are_left_out)
 
 LAB_TEST(a_declared_symmetry_fills_what_was_not_measured)
 {
-    Lab *lab = *state;
     lab_write(lab, "white.csv", "theta,phi,L\n0,0,9\n30,0,1\n30,30,2\n30,90,3\n");
     lab->request->symmetry = IMPORT_BOTH;
     lab_import(lab);
@@ -224,7 +216,6 @@ LAB_TEST(a_declared_symmetry_fills_what_was_not_measured)
 /* The sample's image is the sample: light and leaving direction mirrored, the same value. */
 LAB_TEST(mirrored_lights_keep_the_mirrored_values)
 {
-    Lab *lab = *state;
     static const char text[] = "theta,phi,550nm\n0,0,1\n30,20,2\n40,200,3\n50,300,4\n";
     static const char *const names[] = {"i30_a0.csv", "i30_a50.csv", "i30_a90.csv"};
     for (int i = 0; i < 3; i++) lab_write(lab, names[i], text);
@@ -247,7 +238,6 @@ LAB_TEST(mirrored_lights_keep_the_mirrored_values)
 
 LAB_TEST(white_is_compared_with_the_sum_of_the_primaries)
 {
-    Lab *lab = *state;
     static const char *const names[] = {"red.csv", "green.csv", "blue.csv", "black.csv",
                                         "white.csv"};
     static const double level[] = {11, 21, 31, 1, 60};
@@ -263,7 +253,6 @@ LAB_TEST(white_is_compared_with_the_sum_of_the_primaries)
 
 LAB_TEST(nothing_half_written_stays)
 {
-    Lab *lab = *state;
     struct stat status;
     lab_write(lab, "white.csv", TABLE);
     lab_write(lab, "i10.csv", BRDF);
@@ -286,7 +275,6 @@ LAB_TEST(nothing_half_written_stays)
 
 LAB_TEST(a_source_is_not_written_over)
 {
-    Lab *lab = *state;
     assert_int_equal(mkdir(arena_format(&lab->arena, "%s/out", lab->folder), 0777), 0);
     const char *inside = arena_format(&lab->arena, "%s/out/emission", lab->folder);
     assert_int_equal(mkdir(inside, 0777), 0);
@@ -312,7 +300,6 @@ static const char *beside(Lab *lab, const char *name, const char *text)
 
 LAB_TEST(a_gamma_table_goes_into_the_set)
 {
-    Lab *lab = *state;
     lab_write(lab, "white.csv", WHITE);
     lab->request->levels = beside(lab, "gamma.csv", "level,L\n0,1\n0.5,25\n1,103\n");
     lab_import(lab);
@@ -338,7 +325,6 @@ static void levels_refused(Lab *lab, const char *text, const char *place, const 
 
 LAB_TEST(a_gamma_table_that_does_not_fit_is_refused)
 {
-    Lab *lab = *state;
     lab_write(lab, "white.csv", WHITE);
     levels_refused(lab, "level,L\n0,1\n255,106\n", "line 3",
                    "full level has 106 cd/m2, but the set's white on the axis 100 (");
@@ -353,7 +339,6 @@ LAB_TEST(a_gamma_table_that_does_not_fit_is_refused)
 
 LAB_TEST(a_gamma_table_is_not_written_over)
 {
-    Lab *lab = *state;
     assert_int_equal(mkdir(arena_format(&lab->arena, "%s/out", lab->folder), 0777), 0);
     const char *inside = arena_format(&lab->arena, "%s/out/emission", lab->folder);
     assert_int_equal(mkdir(inside, 0777), 0);
@@ -380,7 +365,6 @@ static bool read_layout(Lab *lab, const char *text)
 
 LAB_TEST(a_declaration_file_holds_all_options)
 {
-    Lab *lab = *state;
     assert_true(read_layout(lab,
         "{\"columns\": [\"theta\", \"phi\", \"-\", \"L\"], \"delimiter\": \"semicolon\","
         " \"decimal\": \"comma\", \"skip_lines\": 1, \"azimuth_zero\": \"top\","
@@ -402,7 +386,6 @@ LAB_TEST(a_declaration_file_holds_all_options)
 
 LAB_TEST(a_declaration_files_mistakes_are_named)
 {
-    Lab *lab = *state;
     static const char *const wrong[][2] = {
         {"{\"azimut_zero\": \"top\"}", "azimuth_zero"},
         {"{\"azimuth_zero\": \"north\"}", "wanted right|top|left|bottom|DEG"},
@@ -428,7 +411,6 @@ LAB_TEST(a_declaration_files_mistakes_are_named)
 
 LAB_TEST(spectra_go_into_the_set)
 {
-    Lab *lab = *state;
     write_primaries(lab);
     lab_write(lab, "black.csv", TABLE);
     int count = lab->count;
@@ -464,7 +446,6 @@ LAB_TEST(spectra_go_into_the_set)
 
 LAB_TEST(the_readme_names_every_key_and_format)
 {
-    Lab      *lab = *state;
     FileBytes readme;
     assert_true(file_read(PROJECT_DIR "/src/import/README.md", 1 << 20, &lab->arena, &readme,
                           &lab->err));
@@ -478,7 +459,4 @@ LAB_TEST(the_readme_names_every_key_and_format)
             fail_msg("no format %s", importers[i]->name);
 }
 
-int main(void)
-{
-    return run_cases(NULL, NULL);
-}
+TEST_PROGRAM(NULL, NULL)

@@ -46,7 +46,6 @@ static void compare_list(const ImportTable *table)
 
 LAB_TEST(set_a_is_what_it_was)
 {
-    Lab *lab = *state;
     add_files(lab, PANELS "/set-a/*.csv");
     lab->request->skip.text[lab->request->skip.count++] = "truth_*";
     lab_import(lab);
@@ -62,7 +61,6 @@ LAB_TEST(set_a_is_what_it_was)
 
 LAB_TEST(the_truth_files_are_no_tables_and_are_named)
 {
-    Lab *lab = *state;
     add_files(lab, PANELS "/set-a/truth_*.csv");
     assert_false(lab_run(lab));
     assert_non_null(strstr(lab->err.file, "truth_brdf.csv"));
@@ -125,7 +123,6 @@ static int compare_matrices(Lab *lab, const ImportTable *table)
 
 LAB_TEST(set_b_is_turned_to_the_viewers_right)
 {
-    Lab *lab = *state;
     add_files(lab, PANELS "/set-b/*.txt");
     lab_import(lab);
     assert_int_equal(lab->set.count, 25);
@@ -145,7 +142,6 @@ LAB_TEST(set_b_is_turned_to_the_viewers_right)
 /* Both sets are of one display: their luminances agree where their grids meet. */
 LAB_TEST(both_sets_show_the_same_display)
 {
-    Lab *lab = *state;
     add_files(lab, PANELS "/set-a/[RGBK]_*.csv");
     lab_import(lab);
     ImportSet a = lab->set;
@@ -173,7 +169,6 @@ LAB_TEST(both_sets_show_the_same_display)
 
 LAB_TEST(a_viewing_angle_table_needs_but_its_role)
 {
-    Lab *lab = *state;
     add_files(lab, DISPLAY "/viewing_angle_oled_phi0_90.csv");
     assert_false(lab_run(lab));
     assert_non_null(strstr(lab->err.text, "--role viewing_angle_oled_phi0_90.csv=red:255"));
@@ -191,7 +186,6 @@ LAB_TEST(every_primaries_file_is_read)
 {
     static const char *const names[] = {"OLED-SonyPVM-2541", "apple_studio_display_lcd",
                                         "typical_crt_brainard1997"};
-    Lab *lab = *state;
     for (int i = 0; i < 3; i++) {
         const char *path = arena_format(&lab->arena, "%s/%s_primaries.csv", DISPLAY, names[i]);
         if (!file_exists(path)) skip();
@@ -205,13 +199,9 @@ LAB_TEST(every_primaries_file_is_read)
 /* A reflectance factor at one leaving direction an incidence is no angular table. */
 LAB_TEST(single_directions_are_no_table)
 {
-    Lab *lab = *state;
     add_files(lab, SHARED_DATA_DIR "/bsdf/loft-blacklab/20250210_S7_sample_final.txt");
     assert_false(lab_run(lab));
     assert_non_null(strstr(lab->err.text, "wanted an angular table of at least 3"));
 }
 
-int main(void)
-{
-    return run_cases(NULL, NULL);
-}
+TEST_PROGRAM(NULL, NULL)

@@ -47,14 +47,13 @@ LAB_TEST(delimiters_and_decimal_signs_are_found)
         "\n",
     };
     for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
-        import_white(*state, texts[i]);
-        check_white(*state);
+        import_white(lab, texts[i]);
+        check_white(lab);
     }
 }
 
 LAB_TEST(encodings_are_found)
 {
-    Lab *lab = *state;
     static const char latin[] = "# Leuchtdichte in cd/m\xB2\n" WHITE;
     static const char marked[] = "\xEF\xBB\xBF" WHITE;
     char wide[2][2 * sizeof WHITE];
@@ -82,7 +81,6 @@ LAB_TEST(encodings_are_found)
 
 LAB_TEST(comments_and_lines_before_the_header_are_passed_over)
 {
-    Lab *lab = *state;
     import_white(lab, "! a comment\n% another\n// a third\n\nSerial 17, batch 2\n\n" WHITE
                       "# end\n");
     check_white(lab);
@@ -99,7 +97,6 @@ LAB_TEST(comments_and_lines_before_the_header_are_passed_over)
 
 LAB_TEST(columns_stand_in_any_order_and_others_are_left)
 {
-    Lab *lab = *state;
     import_white(lab, "no,Z,Azimuth (deg),when,Y [cd/m2],Inclination [deg],X\n"
                       "1,109,0,10:31,100,0,95\n2,98,0,10:32,90,30,85\n3,87,90,10:33,80,30,75\n"
                       "4,76,180,10:34,70,30,65\n");
@@ -113,7 +110,6 @@ LAB_TEST(columns_stand_in_any_order_and_others_are_left)
 
 LAB_TEST(incidence_is_the_viewing_angle_of_luminances)
 {
-    Lab *lab = *state;
     import_white(lab, "Incidence angle;Azimuth angle;X;Y;Z\n0;0;95;100;109\n30;0;85;90;98\n"
                       "30;90;75;80;87\n30;180;65;70;76\n");
     check_white(lab);
@@ -124,7 +120,6 @@ LAB_TEST(incidence_is_the_viewing_angle_of_luminances)
 /* CIE 15: X = Y x/y, Z = Y (1-x-y)/y; X = 9 Y u'/(4v'), Z = Y (12-3u'-20v')/(4v'). */
 LAB_TEST(chromaticities_become_tristimulus_values)
 {
-    Lab *lab = *state;
     import_white(lab, "theta,phi,Y,x,y\n0,0,100,0.3,0.4\n10,0,50,0.25,0.5\n20,0,0,0,0\n");
     const ImportTable *white = lab_table(lab, IMPORT_WHITE, 255);
     assert_close(lab_value(white, 0, 0, 0), 75, 1e-12);
@@ -141,7 +136,6 @@ LAB_TEST(chromaticities_become_tristimulus_values)
 
 LAB_TEST(luminance_alone_has_the_colour_of_the_spectra_or_of_daylight)
 {
-    Lab *lab = *state;
     import_white(lab, "theta,phi,L\n0,0,100\n10,0,90\n20,0,80\n");
     const ImportTable *white = lab_table(lab, IMPORT_WHITE, 255);
     assert_close(lab_value(white, 10, 0, 0), 0.95047 * 90, 1e-9);
@@ -170,7 +164,6 @@ LAB_TEST(units_of_luminance_become_candela_a_square_metre)
         {"theta,phi,L (cd/m2)", 1}, {"theta,phi,L [nit]", 1}, {"theta,phi,L_fL", 3.4262590996},
         {"theta,phi,Luminance [kcd/m\xC2\xB2]", 1000}, {"theta,phi,Lv (cd/m^2)", 1},
         {"theta,phi,L (cd/ft2)", 10.763910417}};
-    Lab *lab = *state;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         import_white(lab, arena_format(&lab->arena, "%s\n0,0,10\n5,0,9\n10,0,8\n",
                                        cases[i].header));
@@ -197,7 +190,6 @@ LAB_TEST(azimuths_are_turned_to_the_viewers_right)
         {"bottom", "ccw", "viewer", 300}, {"45", "ccw", "viewer", 75},
         {"top", "cw", "behind", 120}, {"right", "ccw", "behind", 150}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        Lab *lab = *state;
         lab_declare(lab, "azimuth_zero", cases[i].zero);
         lab_declare(lab, "azimuth_sense", cases[i].sense);
         lab_declare(lab, "azimuth_seen_from", cases[i].side);
@@ -210,7 +202,6 @@ LAB_TEST(azimuths_are_turned_to_the_viewers_right)
 
 LAB_TEST(a_file_says_its_own_azimuths_and_units)
 {
-    Lab *lab = *state;
     import_white(lab, "[Conoscope export]\nPanel;Type 7\nInstrument;Cone 88\n"
                       "Azimuth;0 = 12 o'clock; clockwise\nUnit;fL\n\n"
                       "theta;phi;X;Y;Z\n0;0;1;2;3\n40;30;4;5;6\n40;60;7;8;9\n");
@@ -226,7 +217,6 @@ LAB_TEST(a_file_says_its_own_azimuths_and_units)
 
 LAB_TEST(radians_are_told_from_degrees_by_their_name)
 {
-    Lab *lab = *state;
     import_white(lab, "theta_rad,phi_rad,X,Y,Z\n0,0,1,2,3\n0.5235987755982988,"
                       "1.5707963267948966,4,5,6\n0.1,0,7,8,9\n");
     assert_near(lab_value(lab_table(lab, IMPORT_WHITE, 255), 30, 90, 1), 5, 0);
@@ -248,7 +238,6 @@ LAB_TEST(horizontal_and_vertical_angles_become_theta_and_phi)
     theta[2] = acos(cos(v) * cos(h)) / r, phi[2] = atan2(sin(v), cos(v) * sin(h)) / r;
     theta[3] = acos(cos(v) * cos(h)) / r, phi[3] = atan2(cos(h) * sin(v), sin(h)) / r;
     for (int i = 0; i < 4; i++) {
-        Lab *lab = *state;
         lab_declare(lab, "angles", cases[i].angles);
         import_white(lab, "theta_H,theta_V,X,Y,Z\n20,0,1,2,3\n0,20,4,5,6\n30,30,7,8,9\n"
                           "-20,0,10,11,12\n");
@@ -264,7 +253,6 @@ LAB_TEST(horizontal_and_vertical_angles_become_theta_and_phi)
 
 LAB_TEST(matrices_read_down_and_across)
 {
-    Lab *lab = *state;
     import_white(lab, "[X]\ntheta\\phi;0;90;180;\n0;1;1;1;\n30;2;3;4;\n\n"
                       "[Y]\ntheta\\phi;0;90;180;\n0;10;10;10;\n30;20;30;40;\n\n"
                       "[Z]\ntheta\\phi;0;90;180;\n0;100;100;100;\n30;200;300;400;\n");
@@ -283,7 +271,6 @@ LAB_TEST(matrices_read_down_and_across)
 
 LAB_TEST(a_matrix_without_names_is_told_by_its_range)
 {
-    Lab *lab = *state;
     lab_declare(lab, "quantity", "L");
     import_white(lab, ",0,120,240\n0,10,10,10\n30,20,30,40\n");
     assert_near(lab_value(lab_table(lab, IMPORT_WHITE, 255), 30, 240, 1), 40, 0);
@@ -296,7 +283,6 @@ LAB_TEST(a_matrix_without_names_is_told_by_its_range)
 
 LAB_TEST(a_matrix_may_have_horizontal_and_vertical_angles)
 {
-    Lab *lab = *state;
     lab_declare(lab, "angles", "equidistant");
     import_white(lab, "[L]\ntheta_V\\theta_H;-30;0;40\n-20;1;2;3\n0;4;5;6\n");
     const ImportTable *white = lab_table(lab, IMPORT_WHITE, 255);
@@ -311,7 +297,6 @@ LAB_TEST(a_matrix_may_have_horizontal_and_vertical_angles)
 
 LAB_TEST(one_file_a_component_is_joined)
 {
-    Lab *lab = *state;
     static const char matrix[] = "theta\\phi,0,120,240\n0,1,1,1\n30,2,3,4\n";
     lab_write(lab, "white_255_X.csv", matrix);
     lab_write(lab, "white_255_Y.csv", matrix);
@@ -326,7 +311,6 @@ LAB_TEST(one_file_a_component_is_joined)
 
 LAB_TEST(marks_are_left_out_and_counted)
 {
-    Lab *lab = *state;
     lab_declare(lab, "mask", "-999");
     import_white(lab, "theta;phi;X;Y;Z\n0;0;1;2;3\n10;0;---;5;6\n10;90;NaN;;6\n"
                       "10;180;4;5;n/a\n10;270;4;-999;6\n20;0;4;5;6\n20;90;4;5;6\n");
@@ -339,7 +323,6 @@ LAB_TEST(marks_are_left_out_and_counted)
 
 LAB_TEST(directions_beyond_the_horizon_are_left_out_and_told)
 {
-    Lab *lab = *state;
     import_white(lab, "theta,phi,L\n0,0,3\n80,0,2\n90,0,1\n100,0,1\n180,0,1\n");
     assert_int_equal(lab_table(lab, IMPORT_WHITE, 255)->rows, 3);
     assert_true(lab_noted(lab, "2 of 5 directions lie beyond 90 degrees"));
@@ -347,7 +330,6 @@ LAB_TEST(directions_beyond_the_horizon_are_left_out_and_told)
 
 LAB_TEST(a_direction_that_stands_twice_becomes_the_mean)
 {
-    Lab *lab = *state;
     import_white(lab, "theta,phi,X,Y,Z\n0,0,1,2,3\n0,90,2,3,4\n30,0,10,20,30\n30,360,12,24,36\n"
                       "30,90,5,6,7\n");
     const ImportTable *white = lab_table(lab, IMPORT_WHITE, 255);
@@ -360,7 +342,6 @@ LAB_TEST(a_direction_that_stands_twice_becomes_the_mean)
 
 LAB_TEST(sections_of_one_pattern_make_one_table)
 {
-    Lab *lab = *state;
     lab_declare(lab, "section", "*_hor*=0");
     lab_declare(lab, "section", "*_ver*=90");
     lab_declare(lab, "azimuth_zero", "left");
@@ -386,7 +367,6 @@ LAB_TEST(sections_of_one_pattern_make_one_table)
 
 LAB_TEST(reflection_has_a_column_a_wavelength)
 {
-    Lab *lab = *state;
     lab_write(lab, "BRDF_20.csv", "theta,phi,550 nm,R_450nm\n0,0,2,1\n30,0,4,3\n30,90,6,5\n");
     lab_write(lab, "BRDF_40.csv", BRDF);
     lab_import(lab);
@@ -402,7 +382,6 @@ LAB_TEST(reflection_has_a_column_a_wavelength)
 
 LAB_TEST(one_file_a_wavelength_is_joined)
 {
-    Lab *lab = *state;
     lab_write(lab, "i10_w550.csv", "theta,phi,brdf\n0,0,2\n30,0,4\n30,90,6\n");
     lab_write(lab, "i10_w450.csv", "theta,phi,brdf\n0,0,1\n30,0,3\n30,90,5\n");
     lab_import(lab);
@@ -415,7 +394,6 @@ LAB_TEST(one_file_a_wavelength_is_joined)
 
 LAB_TEST(long_lists_are_cut_into_tables)
 {
-    Lab *lab = *state;
     lab_write(lab, "all.csv",
               "theta_i,phi_i,theta,phi,wavelength,brdf\n"
               "0,0,0,0,450,1\n0,0,10,0,450,2\n0,0,20,0,450,3\n"
@@ -444,7 +422,6 @@ LAB_TEST(scatter_units_become_brdf)
     static const char *const units[] = {"brdf", "brdf-cos", "factor"};
     double wanted[] = {0.5, 0.5 / cos(60 * pi / 180), 0.5 * 0.98 / pi};
     for (int i = 0; i < 3; i++) {
-        Lab *lab = *state;
         lab_declare(lab, "unit", units[i]);
         lab_declare(lab, "white_reflectance", "0.98");
         lab_write(lab, "BRDF_20.csv", "theta,phi,550nm\n0,0,1\n30,0,1\n60,0,0.5\n");
@@ -456,7 +433,6 @@ LAB_TEST(scatter_units_become_brdf)
 
 LAB_TEST(signals_are_divided_by_the_white_reference_without_the_dark)
 {
-    Lab *lab = *state;
     lab_declare(lab, "unit", "signal");
     lab_declare(lab, "white_reflectance", "0.99");
     lab_write(lab, "BRDF_20.csv", "theta,phi,550nm\n0,0,11\n30,0,21\n60,0,31\n70,0,5\n");
@@ -473,7 +449,6 @@ LAB_TEST(signals_are_divided_by_the_white_reference_without_the_dark)
 
 LAB_TEST(one_reading_of_a_reference_serves_every_direction)
 {
-    Lab *lab = *state;
     lab_declare(lab, "unit", "signal");
     lab_write(lab, "BRDF_20.csv", "theta,phi,550nm\n0,0,11\n30,0,21\n60,0,31\n");
     lab_write(lab, "ref.csv", "theta,phi,550nm\n0,0,101\n");
@@ -489,7 +464,6 @@ LAB_TEST(one_reading_of_a_reference_serves_every_direction)
 
 LAB_TEST(azimuths_of_the_light_make_an_anisotropic_set)
 {
-    Lab *lab = *state;
     static const char table[] = "theta,phi,550nm\n0,0,1\n30,180,9\n30,270,3\n60,0,4\n";
     lab_write(lab, "i0.csv", table);
     lab_write(lab, "i30_a0.csv", table);
@@ -507,7 +481,4 @@ LAB_TEST(azimuths_of_the_light_make_an_anisotropic_set)
                      "and so has i30_a0.csv");
 }
 
-int main(void)
-{
-    return run_cases(NULL, NULL);
-}
+TEST_PROGRAM(NULL, NULL)
