@@ -43,6 +43,15 @@ static void for_all(void (*law)(const Model *, Vec3))
         }
 }
 
+/* The case `name` of all models, and what it asks of one that is looked at from wo. */
+#define LAW(name, law)                                                                         \
+    static void law(const Model *model, Vec3 wo);                                              \
+    TEST(name)                                                                                 \
+    {                                                                                          \
+        for_all(law);                                                                          \
+    }                                                                                          \
+    static void law(const Model *model, Vec3 wo)
+
 /* ---- sampling matches its density ---------------------------------------------------- */
 
 #define SAMPLES 20000
@@ -146,7 +155,7 @@ static double integrate_cell(const Model *model, Vec3 wo, const Chart *chart, in
     return sum;
 }
 
-static void samples_follow_pdf(const Model *model, Vec3 wo)
+LAW(samples_are_distributed_as_their_pdf_says, samples_follow_pdf)
 {
     if (fabsf(wo.z) < 0.1f && model->width < 0.03f) return; /* a needle no chart resolves */
     static double expected[CELLS], found[CELLS + 1];
@@ -181,14 +190,9 @@ static void samples_follow_pdf(const Model *model, Vec3 wo)
                  model->name, (double)wo.z, chi2, degrees, total);
 }
 
-TEST(samples_are_distributed_as_their_pdf_says)
-{
-    for_all(samples_follow_pdf);
-}
-
 /* ---- a sample agrees with eval ------------------------------------------------------- */
 
-static void sample_agrees(const Model *model, Vec3 wo)
+LAW(weight_is_eval_times_cosine_over_pdf, sample_agrees)
 {
     for (uint32_t i = 0; i < 400; i++) {
         Sampler    sampler = sampler_start(3, 1, 2, i);
@@ -216,11 +220,6 @@ static void sample_agrees(const Model *model, Vec3 wo)
                         4e-3 * (double)s.weight[k] + 1e-6);
         }
     }
-}
-
-TEST(weight_is_eval_times_cosine_over_pdf)
-{
-    for_all(sample_agrees);
 }
 
 TEST(what_does_not_scatter_or_reach_evaluates_to_nothing)
@@ -266,7 +265,7 @@ static Spectrum furnace(const Model *model, Vec3 wo, uint32_t count)
     return sum / spectrum_all((float)count);
 }
 
-static void energy_holds(const Model *model, Vec3 wo)
+LAW(no_surface_sends_back_more_than_it_gets, energy_holds)
 {
     Spectrum sent = furnace(model, wo, 16384);
     for (int k = 0; k < SPECTRUM_LANES; k += 5) {
@@ -277,12 +276,7 @@ static void energy_holds(const Model *model, Vec3 wo)
     }
 }
 
-TEST(no_surface_sends_back_more_than_it_gets)
-{
-    for_all(energy_holds);
-}
-
-static void albedo_is_near(const Model *model, Vec3 wo)
+LAW(albedo_is_a_fair_estimate, albedo_is_near)
 {
     bool tilted =
         strstr(model->name, "tilted") != NULL; /* loses light, by how much is not told */
@@ -292,11 +286,6 @@ static void albedo_is_near(const Model *model, Vec3 wo)
         if (!(fabsf(sent[k] - told[k]) < 0.12f))
             fail_msg("%s, cos %g: albedo %g, furnace %g", model->name, (double)wo.z,
                      (double)told[k], (double)sent[k]);
-}
-
-TEST(albedo_is_a_fair_estimate)
-{
-    for_all(albedo_is_near);
 }
 
 /* ---- reciprocity --------------------------------------------------------------------- */

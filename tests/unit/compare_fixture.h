@@ -77,16 +77,13 @@ static inline Comparison compared(const CompareInput *a, const CompareInput *b,
 static inline void assert_reason(const Comparison *c, const char *part)
 {
     assert_false(c->same);
-    for (int i = 0; i < c->reasons.count; i++)
-        if (strstr(c->reasons.list[i], part)) return;
+    if (lines_have(c->reasons.list, c->reasons.count, part)) return;
     fail_msg("no reason has \"%s\"; the verdict is \"%s\"", part, c->verdict);
 }
 
 static inline bool has_note(const Comparison *c, const char *part)
 {
-    for (int i = 0; i < c->notes.count; i++)
-        if (strstr(c->notes.list[i], part)) return true;
-    return false;
+    return lines_have(c->notes.list, c->notes.count, part);
 }
 
 /* Nothing but what fails whatever the limits are. */

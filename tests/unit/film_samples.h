@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* film_samples.h -- for tests of a film's pixels: samples of it, and what its frame says. */
 #pragma once
-#include "fixture.h"
+#include "film_fixture.h"
 
-#include "base/sampler.h"
 #include "film/film_frame.h"
 
 #define WIDTH 3

@@ -190,6 +190,38 @@ static inline const char *read_text(const char *path, Arena *arena)
         assert_null(strchr((err)->text, '\n'));                                                \
     } while (0)
 
+/* A call that may fail, with &err for its last argument: an Error of the macro's own. */
+#define assert_done(call)                                                                      \
+    do {                                                                                       \
+        Error err = {0};                                                                       \
+        if (!(call)) fail_msg("%s: %s: %s", #call, err.file, err.text);                        \
+    } while (0)
+
+/* It fails, of `code_wanted`, and its message has the part. */
+#define assert_fails_as(call, code_wanted, part)                                               \
+    do {                                                                                       \
+        Error err = {0};                                                                       \
+        if (call) fail_msg("%s is done, wanted \"%s\"", #call, part);                          \
+        assert_int_equal(err.code, code_wanted);                                               \
+        assert_error_has(&err, part);                                                          \
+    } while (0)
+
+/* The same of any code. */
+#define assert_fails(call, part)                                                               \
+    do {                                                                                       \
+        Error err = {0};                                                                       \
+        if (call) fail_msg("%s is done, wanted \"%s\"", #call, part);                          \
+        assert_error_has(&err, part);                                                          \
+    } while (0)
+
+/* The same, with this message and no more. */
+#define assert_fails_with(call, text_wanted)                                                   \
+    do {                                                                                       \
+        Error err = {0};                                                                       \
+        if (call) fail_msg("%s is done, wanted \"%s\"", #call, text_wanted);                   \
+        assert_string_equal(err.text, text_wanted);                                            \
+    } while (0)
+
 /* Words that may be told in one of several lines (notes, reasons, warnings). */
 static inline bool lines_have(const char *const *line, int count, const char *part)
 {

@@ -2,7 +2,7 @@
 /* hemisphere_fixture.h -- what the tests of src/hemisphere share: an arena and a geodesic for
  * every case, a stream of numbers that is always the same, and three functions to store. */
 #pragma once
-#include "check.h"
+#include "fixture.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -39,6 +39,24 @@ static inline void fixture_write(Fixture *f, const void *bytes, size_t size)
     write_bytes(f->file, bytes, size);
 }
 
+/* Reads bytes by an importer, whoever recognises them. */
+static inline bool fixture_import(Fixture *f, const void *bytes, size_t size,
+                                  const Importer *importer)
+{
+    fixture_write(f, bytes, size);
+    f->set = import_set(&f->arena);
+    f->err = (Error){.code = ERROR_NONE};
+    return importer->read(f->file, &f->options, &f->set, &f->err);
+}
+
+/* With this message. */
+static inline void assert_bytes_refused(Fixture *f, const void *bytes, size_t size,
+                                        const Importer *importer, const char *message)
+{
+    assert_false(fixture_import(f, bytes, size, importer));
+    assert_string_equal(f->err.text, message);
+}
+
 /* Reads `file` by the importer that recognises it, which must be `name`. */
 static inline bool fixture_read_file(Fixture *f, const char *file, const char *name)
 {
@@ -79,10 +97,7 @@ static inline void assert_refused(Fixture *f, const char *text, const Importer *
                                   const char *message)
 {
     char line[2048];
-    fixture_write(f, text, strlen(text));
-    f->set = import_set(&f->arena);
-    f->err = (Error){.code = ERROR_NONE};
-    assert_false(importer->read(f->file, &f->options, &f->set, &f->err));
+    assert_false(fixture_import(f, text, strlen(text), importer));
     error_line(&f->err, line, sizeof line);
     assert_memory_equal(line, f->file, strlen(f->file));
     assert_string_equal(line + strlen(f->file) + 2, message);
@@ -94,10 +109,7 @@ static inline void assert_prefixes_refused(Fixture *f, const void *bytes, size_t
 {
     for (size_t n = 0; n < size; n += step) {
         Arena before = f->arena;
-        fixture_write(f, bytes, n);
-        f->set = import_set(&f->arena);
-        f->err = (Error){.code = ERROR_NONE};
-        if (importer->read(f->file, &f->options, &f->set, &f->err))
+        if (fixture_import(f, bytes, n, importer))
             fail_msg("a prefix of %zu of %zu bytes was taken", n, size);
         assert_true(f->err.code != ERROR_NONE && f->err.text[0]);
         f->arena = before;
@@ -159,9 +171,7 @@ static inline int brightest_row(const ImportTable *table)
 
 static inline bool has_note(const Fixture *f, const char *words)
 {
-    for (int i = 0; i < f->set.note_count; i++)
-        if (strstr(f->set.note[i], words)) return true;
-    return false;
+    return lines_have(f->set.note, f->set.note_count, words);
 }
 
 static inline void assert_noted(const Fixture *f, const char *words)

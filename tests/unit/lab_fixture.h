@@ -111,9 +111,7 @@ static inline double lab_value(const ImportTable *table, double theta, double ph
 
 static inline bool lab_noted(const Lab *lab, const char *words)
 {
-    for (int i = 0; i < lab->set.note_count; i++)
-        if (strstr(lab->set.note[i], words)) return true;
-    return false;
+    return lines_have(lab->set.note, lab->set.note_count, words);
 }
 
 /* A case with `Lab *lab`. */

@@ -48,6 +48,24 @@ static inline Material builder_material(float albedo)
                       .emission_curve_id = NO_ID};
 }
 
+/* Black, of its own light. */
+static inline Material builder_lamp(float cd_m2)
+{
+    Material material = builder_material(0);
+    material.is_emitter = true;
+    for (int i = 0; i < 3; i++) material.emissive_cd_m2[i] = cd_m2;
+    return material;
+}
+
+/* Metal without a colour of its own, as smooth as the product has it. */
+static inline Material builder_mirror(float reflectance)
+{
+    Material material = builder_material(reflectance);
+    material.metallic = 1;
+    material.roughness = 0;
+    return material;
+}
+
 static inline Scene *builder_scene(Arena *arena)
 {
     Scene *scene = ARENA_NEW(arena, Scene, 1);
@@ -66,6 +84,14 @@ static inline Scene *builder_scene(Arena *arena)
     scene->bounds_min = vec3(INFINITY, INFINITY, INFINITY);
     scene->bounds_max = vec3(-INFINITY, -INFINITY, -INFINITY);
     return scene;
+}
+
+/* Surroundings that are white and equally bright everywhere. */
+static inline void builder_sky(Scene *scene, float cd_m2)
+{
+    scene->environment.kind = ENVIRONMENT_CONSTANT;
+    scene->environment.luminance_cd_m2 = cd_m2;
+    for (int i = 0; i < 3; i++) scene->environment.color[i] = 1;
 }
 
 /* Starts a part with a material; triangles that follow belong to it. Opaque parts come first.

@@ -89,21 +89,19 @@ ARENA_TEST(hues_stay_and_the_report_says_so)
                               .adapt = DEVELOP_ADAPT_LOCAL, .own_config = true};
     DevelopReport  report;
     Picture        picture;
-    Error          err = {0};
     const float    rgb[3] = {400, 800, 200};
     for (int c = 0; c < 3; c++) {
         float *plane = (float *)(uintptr_t)frame_channel(&frame, (char[]){"RGB"[c], 0});
         for (int i = 0; i < 64; i++) plane[i] = rgb[c];
     }
-    assert_true(develop_picture(&frame, &options, &arena, &picture, &report, &err));
+    assert_done(develop_picture(&frame, &options, &arena, &picture, &report, &err));
     assert_true(report.is_adapted && !report.is_denoised);
     float stops = log2f((0.2126f * 400 + 0.7152f * 800 + 0.0722f * 200) / 18);
     float gain = exp2f(adapt_stops(stops) - stops);
     for (int c = 0; c < 3; c++) assert_close(picture.rgb[c], rgb[c] / 100 * gain, 1e-3);
     options.false_colour = true;
-    assert_false(develop_picture(&frame, &options, &arena, &picture, &report, &err));
-    assert_int_equal(err.code, ERROR_USAGE);
-    assert_non_null(strstr(err.text, "--adapt local and --false-colour exclude each other"));
+    assert_fails_as(develop_picture(&frame, &options, &arena, &picture, &report, &err),
+                    ERROR_USAGE, "--adapt local and --false-colour exclude each other");
 }
 
 TEST_PROGRAM(make_arena, drop_arena)

@@ -20,20 +20,18 @@ static Atmosphere build(double observer_m, double floor_m, double albedo, double
     AtmosphereInput input = {usual, observer_m, floor_m, radians_from_degrees(elevation_deg),
                              2,     0};
     Atmosphere      atmosphere;
-    Error           err;
     input.air.ground_albedo = albedo;
-    assert_true(atmosphere_build(&input, arena, &atmosphere, &err));
+    assert_done(atmosphere_build(&input, arena, &atmosphere, &err));
     return atmosphere;
 }
 
 static DaylightInput clear_day(const char *when, double altitude_m)
 {
     DaylightInput input = daylight_input_default(DAYLIGHT_CLEAR);
-    Error        err;
     input.has_time = true;
     input.threads = 2;
     input.where = (SkyPlace){48.14, 11.58, altitude_m};
-    assert_true(sky_time_parse(when, "", &input.when, &err));
+    assert_done(sky_time_parse(when, "", &input.when, &err));
     return input;
 }
 
@@ -252,11 +250,10 @@ ARENA_TEST(steps_and_tables_have_converged)
     for (int low = 0; low <= 1; low++) {
         AtmosphereInput input = {usual, low ? 11000 : 0, 0, low ? 0.03 : 0.7, 2, 0};
         Atmosphere coarse, fine;
-        Error      err;
         double     worst = 0;
-        assert_true(atmosphere_build(&input, &arena, &coarse, &err));
+        assert_done(atmosphere_build(&input, &arena, &coarse, &err));
         input.steps = 400;
-        assert_true(atmosphere_build(&input, &arena, &fine, &err));
+        assert_done(atmosphere_build(&input, &arena, &fine, &err));
         for (float e = -1.5f; e < 1.55f; e += 0.11f)
             for (float az = 0; az < 3.1f; az += 0.4f) {
                 Spectrum a = atmosphere_radiance(&coarse, e, az);
@@ -286,13 +283,12 @@ ARENA_TEST(an_airliner_sees_126_klx_of_sun_and_a_dipped_horizon)
 {
     DaylightInput input = daylight_input_default(DAYLIGHT_CLEAR);
     Daylight     *out = arena_alloc(&arena, sizeof *out, 64, 1);
-    Error        err;
     input.has_sun = true;
     input.threads = 2;
     input.sun_elevation = PI / 2;
     input.where.altitude_m = 10668;
     input.floor = FLOOR_CLOUD;
-    assert_true(daylight_build(&input, &arena, out, &err));
+    assert_done(daylight_build(&input, &arena, out, &err));
     assert_close(out->metrics.direct_normal_lx, 126092, 0.01);
     assert_in(out->metrics.horizon_deg, -3.1, -2.9);  /* of the deck, 2000 m high */
     assert_in(out->metrics.floor_cd_m2, 24000, 33000); /* AS8034's forward field: 34,300 */
@@ -305,13 +301,12 @@ ARENA_TEST(the_drawn_sky_integrates_to_its_stated_illuminance)
         Arena        scratch = arena;
         Daylight     *out = arena_alloc(&scratch, sizeof *out, 64, 1);
         DaylightInput input = clear_day("2026-06-21T08:30+02:00", kind == 4 ? 9000 : 520);
-        Error        err;
         double       sum = 0;
         input.kind = kind < 2 ? DAYLIGHT_CIE : kind < 3 ? DAYLIGHT_PEREZ : DAYLIGHT_CLEAR;
         input.cie_type = kind ? 12 : 1;
         input.diffuse_lux = 12000;
         input.direct_w_m2 = 700, input.diffuse_w_m2 = 120;
-        assert_true(daylight_build(&input, &scratch, out, &err));
+        assert_done(daylight_build(&input, &scratch, out, &err));
         const int rows = 500, columns = 500;
         for (int i = 0; i < rows; i++)
             for (int j = 0; j < columns; j++) {
@@ -331,12 +326,11 @@ ARENA_TEST(spectral_radiance_has_the_stated_luminance)
         Arena        scratch = arena;
         Daylight     *out = arena_alloc(&scratch, sizeof *out, 64, 1);
         DaylightInput input = clear_day("2026-03-21T17:30+01:00", 520);
-        Error        err;
         double       y = 0, sun = 0;
         input.kind = (DaylightKind)kind;
         input.sun_lux = kind == DAYLIGHT_CIE ? 50000 : -1;
         input.direct_w_m2 = 700, input.diffuse_w_m2 = 120;
-        assert_true(daylight_build(&input, &scratch, out, &err));
+        assert_done(daylight_build(&input, &scratch, out, &err));
         for (int i = 0; i < 256; i++) {
             Wavelengths lanes;
             wavelengths_sample(((float)i + 0.5f) / 256, &lanes);
@@ -387,16 +381,13 @@ ARENA_TEST(what_makes_no_sky_is_refused)
 {
     Daylight     *out = arena_alloc(&arena, sizeof *out, 64, 1);
     DaylightInput input = daylight_input_default(DAYLIGHT_CLEAR);
-    Error        err;
-    assert_false(daylight_build(&input, &arena, out, &err));
-    assert_non_null(strstr(err.text, "time and a place"));
+    assert_fails(daylight_build(&input, &arena, out, &err), "time and a place");
     input.has_sun = true;
     input.floor = FLOOR_CLOUD;
-    assert_false(daylight_build(&input, &arena, out, &err)); /* under the deck */
-    assert_non_null(strstr(err.text, "cloud deck"));
+    assert_fails(daylight_build(&input, &arena, out, &err), "cloud deck"); /* under the deck */
     input = daylight_input_default(DAYLIGHT_CIE);
     input.cie_type = 17;
-    assert_false(daylight_build(&input, &arena, out, &err));
+    assert_fails(daylight_build(&input, &arena, out, &err), "");
 }
 
 TEST_PROGRAM(make_arena, drop_arena)

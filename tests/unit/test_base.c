@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* The ground floor: numbers, vectors, samples, memory and messages. */
-#include "check.h"
+#include "fixture.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -318,9 +318,8 @@ TEST(points_of_a_choice_stay_spread)
 /* ---- alias tables -------------------------------------------------------------------- */
 
 /* Draws every number there is, once. */
-static void assert_probabilities_exact(const double *weights, int count)
+static void assert_probabilities_exact(const double *weights, int count, Arena arena)
 {
-    Arena      arena = arena_reserve((size_t)64 << 20);
     AliasTable table = alias_build(weights, count, &arena);
     uint32_t  *drawn = ARENA_NEW(&arena, uint32_t, count);
     double     sum = 0, total = 0;
@@ -333,28 +332,26 @@ static void assert_probabilities_exact(const double *weights, int count)
         total += (double)table.prob[i];
     }
     assert_near(total, 1, 1e-6);
-    arena_release(&arena);
 }
 
-TEST(alias_tables_know_their_exact_probabilities)
+ARENA_TEST(alias_tables_know_their_exact_probabilities)
 {
     static double weights[100000];
     uint32_t      seed = 3;
-    assert_probabilities_exact((double[]){7}, 1);
-    assert_probabilities_exact((double[]){0, 1, 0, 3, 0}, 5);
+    assert_probabilities_exact((double[]){7}, 1, arena);
+    assert_probabilities_exact((double[]){0, 1, 0, 3, 0}, 5, arena);
     for (int i = 0; i < 100000; i++)
         weights[i] = pow((double)unit_float(seed = hash_u32(seed + 1)), 6);
     weights[77] = 1e4; /* the sun among stars */
     weights[78] = 0;
-    assert_probabilities_exact(weights, 1000);
-    assert_probabilities_exact(weights, 100000);
+    assert_probabilities_exact(weights, 1000, arena);
+    assert_probabilities_exact(weights, 100000, arena);
 }
 
 /* ---- arena --------------------------------------------------------------------------- */
 
-TEST(a_list_grows_at_its_place_or_moves)
+ARENA_TEST(a_list_grows_at_its_place_or_moves)
 {
-    Arena arena = arena_reserve(1 << 20);
     int  *list = ARENA_GROW(&arena, int, NULL, 0, 3);
     for (int i = 0; i < 3; i++) list[i] = i + 1;
     int *longer = ARENA_GROW(&arena, int, list, 3, 100);
@@ -363,7 +360,6 @@ TEST(a_list_grows_at_its_place_or_moves)
     int *moved = ARENA_GROW(&arena, int, longer, 100, 200);
     assert_ptr_not_equal(moved, longer);
     for (int i = 0; i < 200; i++) assert_int_equal(moved[i], i < 3 ? i + 1 : 0);
-    arena_release(&arena);
 }
 
 TEST(arena_memory_is_aligned_and_zeroed)
@@ -389,12 +385,10 @@ static char *scratch_of(Arena scratch)
     return memory;
 }
 
-TEST(scratch_is_back_after_the_call)
+ARENA_TEST(scratch_is_back_after_the_call)
 {
-    Arena arena = arena_reserve(1 << 16);
     char *first = scratch_of(arena);
     assert_ptr_equal(scratch_of(arena), first);
-    arena_release(&arena);
 }
 
 static jmp_buf when_full;
@@ -427,22 +421,20 @@ TEST(a_full_arena_says_what_was_wanted_and_left)
     arena_release(&arena);
 }
 
-TEST(arena_texts_are_terminated_copies)
+ARENA_TEST(arena_texts_are_terminated_copies)
 {
-    Arena arena = arena_reserve(1 << 16);
     char  source[] = "windscreen";
     char *copy = arena_string(&arena, source, 4);
     source[0] = 'W';
     assert_string_equal(copy, "wind");
     assert_string_equal(arena_format(&arena, "%s %d of %g", "lamp", 3, 0.5), "lamp 3 of 0.5");
     assert_string_equal(arena_string(&arena, "", 0), "");
-    arena_release(&arena);
 }
 
 /* Bytes made behind scratch, moved to where the scratch began, over each other. */
-TEST(what_is_kept_lies_where_the_arena_was)
+ARENA_TEST(what_is_kept_lies_where_the_arena_was)
 {
-    Arena arena = arena_reserve(1 << 16), scratch = arena;
+    Arena scratch = arena;
     ARENA_NEW(&scratch, char, 3);
     char *made = arena_string(&scratch, "0123456789", 10), *before = arena.next;
     const char *kept = arena_keep(&arena, made, 11, 16);
@@ -450,7 +442,6 @@ TEST(what_is_kept_lies_where_the_arena_was)
     assert_int_equal((uintptr_t)kept % 16, 0);
     assert_in_range(kept - before, 0, 15);
     assert_true(arena.next >= kept + 11);
-    arena_release(&arena);
 }
 
 /* ---- errors and problems ------------------------------------------------------------- */
@@ -475,11 +466,10 @@ TEST(an_error_s_line_has_file_place_and_text)
 }
 
 /* What a file holds may be quoted; it may neither break the line nor command a terminal. */
-TEST(a_message_is_one_line_whatever_it_quotes)
+ARENA_TEST(a_message_is_one_line_whatever_it_quotes)
 {
     Error err;
     char  line[2048];
-    Arena arena = arena_reserve(1 << 16);
     Problems problems = problems_start(&arena);
     error_at(&err, ERROR_INPUT, "a\nb", "/x\r", "found \"%s\"", "\033[2J\t\177\n\303\244");
     error_prefix(&err, "%s", "in\n");
@@ -489,7 +479,6 @@ TEST(a_message_is_one_line_whatever_it_quotes)
     assert_string_equal(problems.list[0].file, "a?b");
     assert_string_equal(problems.list[0].path, "/x?");
     assert_string_equal(problems.list[0].message, "c?d");
-    arena_release(&arena);
 }
 
 TEST(a_long_error_is_cut_and_stays_a_string)
@@ -509,20 +498,18 @@ TEST(a_long_error_is_cut_and_stays_a_string)
 
 TEST(exit_statuses_follow_the_codes)
 {
-    assert_int_equal(error_exit_status(ERROR_NONE), 0);
-    assert_int_equal(error_exit_status(ERROR_DIFFERENT), 1);
-    assert_int_equal(error_exit_status(ERROR_USAGE), 2);
-    assert_int_equal(error_exit_status(ERROR_INPUT), 3);
-    assert_int_equal(error_exit_status(ERROR_OUTPUT), 4);
-    assert_int_equal(error_exit_status(ERROR_LIBRARY), 3);
-    assert_int_equal(error_exit_status(ERROR_MEMORY), 3);
-    assert_int_equal(error_exit_status(ERROR_INTERRUPTED), 130);
-    assert_int_equal(error_exit_status(ERROR_TERMINATED), 143);
+    static const struct { ErrorCode code; int status; } cases[] = {
+        {ERROR_NONE, 0}, {ERROR_DIFFERENT, 1}, {ERROR_USAGE, 2}, {ERROR_INPUT, 3},
+        {ERROR_OUTPUT, 4}, {ERROR_LIBRARY, 3}, {ERROR_MEMORY, 3}, {ERROR_INTERRUPTED, 130},
+        {ERROR_TERMINATED, 143}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
+        if (error_exit_status(cases[i].code) != cases[i].status)
+            fail_msg("code %d: status %d, wanted %d", (int)cases[i].code,
+                     error_exit_status(cases[i].code), cases[i].status);
 }
 
-TEST(problems_keep_their_order_and_their_texts)
+ARENA_TEST(problems_keep_their_order_and_their_texts)
 {
-    Arena    arena = arena_reserve(1 << 20);
     Problems problems = problems_start(&arena);
     Error    err;
     char     path[32], line[2048];
@@ -546,12 +533,10 @@ TEST(problems_keep_their_order_and_their_texts)
     error_line(&err, line, sizeof line);
     assert_string_equal(line,
                         "a.gltf: /nodes/0: bad 0 (and 100 more: see `parhelion check`)");
-    arena_release(&arena);
 }
 
-TEST(a_single_error_is_its_own_verdict)
+ARENA_TEST(a_single_error_is_its_own_verdict)
 {
-    Arena    arena = arena_reserve(1 << 16);
     Problems problems = problems_start(&arena);
     Error    err;
     char     line[2048];
@@ -559,7 +544,6 @@ TEST(a_single_error_is_its_own_verdict)
     assert_false(problems_verdict(&problems, &err));
     error_line(&err, line, sizeof line);
     assert_string_equal(line, "empty scene");
-    arena_release(&arena);
 }
 
-TEST_PROGRAM(NULL, NULL)
+TEST_PROGRAM(make_arena, drop_arena)

@@ -69,10 +69,9 @@ ARENA_TEST(the_nearest_of_all_triangles_is_hit)
 {
     Scene *scene = soup(&arena, 300, 100);
     Bvh *bvh;
-    Error err;
     int disagree = 0;
     uint32_t random = 3;
-    assert_true(bvh_create(scene, 1, NULL, &bvh, &err));
+    assert_done(bvh_create(scene, 1, NULL, &bvh, &err));
     for (int i = 0; i < 3000; i++) {
         Ray ray = {random_point(&random, 3), vec3_normalize(random_point(&random, 2)), 0,
                    INFINITY};
@@ -109,14 +108,13 @@ ARENA_TEST(a_shadow_ray_asks_every_window_once)
     Scene *scene = builder_scene(&arena);
     Material window = builder_material(1);
     Bvh *bvh;
-    Error err;
     window.lets_light_through = true;
     builder_part(scene, builder_material(0.5f));
     builder_quad(scene, vec3(0, 0, -20), vec3(1, 0, 0), vec3(0, 1, 0));
     builder_part(scene, window);
     for (int i = 1; i <= 10; i++)
         builder_quad(scene, vec3(0, 0, (float)-i), vec3(1, 0, 0), vec3(0, 1, 0));
-    assert_true(bvh_create(scene, 2, NULL, &bvh, &err));
+    assert_done(bvh_create(scene, 2, NULL, &bvh, &err));
     Asked asked = {scene, 0, 1};
     Ray ray = {vec3(0.3f, 0.1f, 0), vec3(0, 0, -1), 0, 15};
     assert_false(bvh_occluded(bvh, ray, half_passes, &asked));
@@ -130,7 +128,6 @@ ARENA_TEST(rays_that_are_not_finite_hit_nothing_and_light_nothing)
 {
     Scene *scene = soup(&arena, 50, 0);
     Bvh *bvh;
-    Error err;
     Hit hit;
     const Ray bad[] = {
         {vec3(NAN, 0, 0), vec3(0, 0, 1), 0, INFINITY},
@@ -143,7 +140,7 @@ ARENA_TEST(rays_that_are_not_finite_hit_nothing_and_light_nothing)
         {vec3(0, -2e18f, 0), vec3(0, 0, 1), 0, INFINITY},
         {vec3(0, 0, 0), vec3(0, 3e38f, 1), 0, INFINITY},
     };
-    assert_true(bvh_create(scene, 1, NULL, &bvh, &err));
+    assert_done(bvh_create(scene, 1, NULL, &bvh, &err));
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
         assert_false(bvh_intersect(bvh, bad[i], 0, &hit));
         assert_true(bvh_occluded(bvh, bad[i], NULL, NULL));
@@ -155,9 +152,8 @@ ARENA_TEST(an_empty_scene_is_hit_nowhere)
 {
     Scene *scene = builder_scene(&arena);
     Bvh *bvh;
-    Error err;
     Hit hit;
-    assert_true(bvh_create(scene, 1, NULL, &bvh, &err));
+    assert_done(bvh_create(scene, 1, NULL, &bvh, &err));
     assert_false(bvh_intersect(bvh, (Ray){vec3(0, 0, 0), vec3(0, 0, 1), 0, INFINITY}, 0, &hit));
     bvh_destroy(bvh);
     bvh_destroy(NULL);

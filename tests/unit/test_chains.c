@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Chains of objects: they add up, their intervals hold, what they foretell comes true; and what
  * a display sees. */
-#include "check.h"
+#include "fixture.h"
 
 #include "base/sampler.h"
 #include "base/units.h"
@@ -25,18 +25,14 @@ static World room(const float wall[PARTS], float level)
     static const char *const names[] = {"floor", "side", "back", "lamp", "screen", "pane"};
     World    world = world_start();
     Scene   *scene = world.scene;
-    Error    err = {0};
-    Material lamp = builder_material(0), pane = builder_material(1);
-    Material display = builder_material(0);
+    Material pane = builder_material(1), display = builder_material(0);
     builder_part(scene, builder_material(wall[FLOOR]));
     builder_quad(scene, vec3(0, -0.3f, 0.5f), vec3(0.6f, 0, 0), vec3(0, 0, -0.6f));
     builder_part(scene, builder_material(wall[SIDE]));
     builder_quad(scene, vec3(-0.6f, 0, 0.5f), vec3(0, 0, -0.6f), vec3(0, 0.3f, 0));
     builder_part(scene, builder_material(wall[BACK]));
     builder_quad(scene, vec3(0, 0, 1.1f), vec3(-0.6f, 0, 0), vec3(0, 0.3f, 0));
-    for (int k = 0; k < 3; k++) lamp.emissive_cd_m2[k] = 4000;
-    lamp.is_emitter = true;
-    builder_part(scene, lamp);
+    builder_part(scene, builder_lamp(4000));
     builder_quad(scene, vec3(0.2f, 0.4f, 0.5f), vec3(0.1f, 0, 0), vec3(0, 0, 0.1f));
     display.display_id = 0;
     display.is_emitter = true;
@@ -49,15 +45,12 @@ static World room(const float wall[PARTS], float level)
     builder_part(scene, wall[PANE] > 0 ? pane : builder_material(0));
     builder_quad(scene, vec3(0.6f, 0, 0.5f), vec3(0, 0, 0.6f), vec3(0, 0.3f, 0));
     for (int i = 0; i < PARTS; i++) scene->parts[i].name = names[i];
-    if (!panel_open(PROJECT_DIR "/assets/panels/ips_cluster.panel", &world.arena, &world.panel,
-                    &err))
-        fail_msg("%s", err.text);
+    assert_done(panel_open(PROJECT_DIR "/assets/panels/ips_cluster.panel", &world.arena,
+                    &world.panel, &err));
     scene->displays[scene->display_count++] =
         (Display){.name = "display", .panel = world.panel, .material_id = material_id,
                   .level = level, .content = builder_no_texture()};
-    scene->environment.kind = ENVIRONMENT_CONSTANT;
-    scene->environment.luminance_cd_m2 = 1000;
-    for (int i = 0; i < 3; i++) scene->environment.color[i] = 1;
+    builder_sky(scene, 1000);
     return world;
 }
 
@@ -66,8 +59,7 @@ static const float grey[PARTS] = {[FLOOR] = 0.5f, [SIDE] = 0.5f, [BACK] = 0.5f, 
 static ReadingTools tools_of(int threads)
 {
     ReadingTools tools = {.threads = threads};
-    Error        err = {0};
-    assert_true(kernel_choose(NULL, &tools.kernel, &err));
+    assert_done(kernel_choose(NULL, &tools.kernel, &err));
     return tools;
 }
 
@@ -89,7 +81,7 @@ static Chains find(World *world, uint32_t seed, long paths, int threads)
 
 TEST(chains_add_up_to_what_is_seen)
 {
-    World  world = room(grey, 1);
+    SCOPED_WORLD world = room(grey, 1);
     enum { PATHS = 4096, BATCH = PATHS / CHAIN_BATCHES };
     static ProbeLook looks[PATHS];
     PathStatistics   statistics = {0};
@@ -114,19 +106,17 @@ TEST(chains_add_up_to_what_is_seen)
     assert_close((kept + chains.rest.cd_m2) / chains.all.cd_m2, 1, 1e-9);
     for (int i = 1; i < chains.count; i++)
         assert_true(chains.list[i].figure.cd_m2 <= chains.list[i - 1].figure.cd_m2);
-    world_end(&world);
 }
 
 TEST(threads_change_nothing)
 {
-    World world = room(grey, 1);
+    SCOPED_WORLD world = room(grey, 1);
     world_ready(&world, 16);
     Chains a = find(&world, 5, 2048, 1), b = find(&world, 5, 2048, 3);
     assert_int_equal(a.count, b.count);
     assert_memory_equal(&a.rest, &b.rest, sizeof a.rest);
     for (int i = 0; i < a.count; i++)
         assert_memory_equal(&a.list[i], &b.list[i], sizeof a.list[i]);
-    world_end(&world);
 }
 
 /* ---- what they are called ---------------------------------------------------------------- */
@@ -147,7 +137,7 @@ static bool has_chain(const Chains *chains, const char *wanted, Arena *arena)
 
 TEST(chains_name_what_light_meets)
 {
-    World world = room(grey, 1);
+    SCOPED_WORLD world = room(grey, 1);
     world_ready(&world, 16);
     Chains chains = find(&world, 5, 4096, 2);
     static const char *const wanted[] = {
@@ -158,12 +148,11 @@ TEST(chains_name_what_light_meets)
         "display display: scatters > back (test): scatters > sky"};
     for (size_t i = 0; i < sizeof wanted / sizeof *wanted; i++)
         if (!has_chain(&chains, wanted[i], &world.arena)) fail_msg("no %s", wanted[i]);
-    world_end(&world);
 }
 
 TEST(rays_lead_from_the_eye_over_what_is_named)
 {
-    World world = room(grey, 1);
+    SCOPED_WORLD world = room(grey, 1);
     world_ready(&world, 16);
     Chains chains = find(&world, 5, 4096, 2);
     for (int i = 0; i < chains.count; i++) {
@@ -182,7 +171,6 @@ TEST(rays_lead_from_the_eye_over_what_is_named)
             if (!on_one) fail_msg("%g, %g, %g", (double)wall.x, (double)wall.y, (double)wall.z);
         }
     }
-    world_end(&world);
 }
 
 /* ---- their intervals --------------------------------------------------------------------- */
@@ -198,7 +186,7 @@ static ChainFigure same_chain(const Chains *chains, const ChainKey *key)
 TEST(intervals_cover)
 {
     enum { RUNS = 120, CHAINS = 3 };
-    World world = room(grey, 1);
+    SCOPED_WORLD world = room(grey, 1);
     int   covered[CHAINS + 1] = {0};
     world_ready(&world, 16);
     Chains truth = find(&world, 1, 1 << 18, 2);
@@ -217,7 +205,6 @@ TEST(intervals_cover)
         print_message("covered %d of %d\n", covered[i], RUNS);
         if (covered[i] < 0.90 * RUNS) fail_msg("%d: covered %d of %d", i, covered[i], RUNS);
     }
-    world_end(&world);
 }
 
 /* ---- what they foretell ------------------------------------------------------------------ */
@@ -240,38 +227,34 @@ static Chains find_in(World *world, uint32_t seed)
 
 TEST(without_a_part_what_came_by_it_is_missing)
 {
-    World  world = room(grey, 1);
+    SCOPED_WORLD world = room(grey, 1);
     Chains whole = find_in(&world, 2);
     for (int part = 0; part < PARTS; part++) {
         float less[PARTS];
         if (!(grey[part] > 0)) continue;
         memcpy(less, grey, sizeof less);
         less[part] = 0;
-        World  other = room(less, 1);
+        SCOPED_WORLD other = room(less, 1);
         Chains left = find_in(&other, 3);
         assert_true(whole.by_part[part] > 0.01 * whole.all.cd_m2);
         assert_foretold(world.scene->parts[part].name, whole.all.cd_m2 - whole.by_part[part],
                         whole.all.sigma, &left.all);
-        world_end(&other);
     }
-    world_end(&world);
 }
 
 TEST(own_light_grows_with_brightness)
 {
-    World  world = room(grey, 1), brighter = room(grey, 3);
+    SCOPED_WORLD world = room(grey, 1), brighter = room(grey, 3);
     Chains one = find_in(&world, 2), three = find_in(&brighter, 3);
     assert_true(one.own > 0.01 * one.all.cd_m2);
     assert_foretold("three times as bright", one.all.cd_m2 + 2 * one.own, one.all.sigma,
                     &three.all);
-    world_end(&world);
-    world_end(&brighter);
 }
 
 /* Light that meets the display's mirror twice is hardly any. */
 TEST(a_coating_takes_its_share_of_the_mirror)
 {
-    World  world = room(grey, 0), coated = room(grey, 0);
+    SCOPED_WORLD world = room(grey, 0), coated = room(grey, 0);
     Chains plain = find_in(&world, 2);
     const PanelReflection *reflection = coated.panel->reflection;
     size_t count = (size_t)PANEL_ANGLES * reflection->padded_wavelengths;
@@ -285,8 +268,6 @@ TEST(a_coating_takes_its_share_of_the_mirror)
     assert_true(plain.mirror.cd_m2 > 0.05 * plain.all.cd_m2);
     assert_foretold("a coating", plain.all.cd_m2 - 0.75 * plain.mirror.cd_m2, plain.all.sigma,
                     &left.all);
-    world_end(&world);
-    world_end(&coated);
 }
 
 /* ---- what a display sees ----------------------------------------------------------------- */
@@ -302,7 +283,7 @@ static Outlook look_out(World *world)
 
 TEST(an_outlook_is_what_a_luxmeter_reads)
 {
-    World world = room(grey, 0);
+    SCOPED_WORLD world = room(grey, 0);
     world_ready(&world, 16);
     Outlook     outlook = look_out(&world);
     LitPoint    head = {vec3(0, 0, 1e-4f), vec3(0, 0, 1), false};
@@ -322,24 +303,20 @@ TEST(an_outlook_is_what_a_luxmeter_reads)
         fail_msg("%g lx, a luxmeter reads %g", outlook.lux, lux.reflected);
     assert_string_equal(outlook.mirror_what, "back (test)");
     assert_true(outlook.mirror_y > OUTLOOK_SIZE / 2); /* the eye is above */
-    world_end(&world);
 }
 
 TEST(under_a_sky_alone_all_is_sky)
 {
-    World world = world_start();
+    SCOPED_WORLD world = world_start();
     builder_part(world.scene, builder_material(0.5f));
     builder_quad(world.scene, vec3(0, 0, 0), vec3(0.2f, 0, 0), vec3(0, 0.1f, 0));
-    world.scene->environment.kind = ENVIRONMENT_CONSTANT;
-    world.scene->environment.luminance_cd_m2 = 100;
-    for (int i = 0; i < 3; i++) world.scene->environment.color[i] = 1;
+    builder_sky(world.scene, 100);
     world_ready(&world, 4);
     Outlook outlook = look_out(&world);
     assert_int_equal(outlook.share_count, 1);
     assert_string_equal(outlook.shares[0].what, "sky");
     assert_close(outlook.lux / (100 * PI), 1, 0.002);
     assert_close(outlook.mirror_cd_m2, 100, 0.5);
-    world_end(&world);
 }
 
 TEST_PROGRAM(NULL, NULL)

@@ -76,7 +76,7 @@ TEST_WITH(people_read_everything_with_its_unit, maker_reset, NULL)
 TEST_WITH(scripts_read_one_document, maker_reset, NULL)
 {
     Outcome outcome = run(lit_scene(), "--json");
-    json_t *document = json_loads(outcome.text, 0, NULL);
+    json_auto_t *document = json_loads(outcome.text, 0, NULL);
     assert_true(outcome.is_ok);
     assert_non_null(document);
     assert_true(json_is_true(json_object_get(document, "ok")));
@@ -93,7 +93,6 @@ TEST_WITH(scripts_read_one_document, maker_reset, NULL)
     assert_int_equal(json_array_size(json_object_get(document, "displays")), 0);
     assert_int_equal(json_array_size(json_object_get(document, "lights")), 2);
     assert_int_equal(json_array_size(json_object_get(document, "extensions")), 2);
-    json_decref(document);
 }
 
 TEST_WITH(all_problems_are_told_and_the_status_is_3, maker_reset, NULL)
@@ -107,14 +106,13 @@ TEST_WITH(all_problems_are_told_and_the_status_is_3, maker_reset, NULL)
     assert_non_null(strstr(plain.text, "(/nodes/1/camera)"));
     assert_non_null(strstr(plain.text, "NOT OK: 2 errors, 1 warnings"));
     Outcome outcome = run(path, "--json");
-    json_t *document = json_loads(outcome.text, 0, NULL);
+    json_auto_t *document = json_loads(outcome.text, 0, NULL);
     json_t *first = json_array_get(json_object_get(document, "problems"), 0);
     assert_true(json_is_false(json_object_get(document, "ok")));
     assert_string_equal(json_string_value(json_object_get(first, "file")), path);
     assert_string_equal(json_string_value(json_object_get(first, "path")), "/nodes/0/mesh");
     assert_string_equal(json_string_value(json_object_get(first, "severity")), "error");
     assert_int_equal(json_array_size(json_object_get(document, "problems")), 3);
-    json_decref(document);
 }
 
 TEST_PROGRAM(maker_start, maker_end)

@@ -74,7 +74,6 @@ static void assert_same_films(const Film *a, const Film *b)
 
 MEMORY_TEST(packed_rows_hold_every_bit)
 {
-    Error  err;
     for (int i = 0; i < 2; i++) {
         unsigned layers = i ? LAYER_ALL : 0;
         Film    *film = make_film(layers, arena);
@@ -89,7 +88,7 @@ MEMORY_TEST(packed_rows_hold_every_bit)
             size_t size = film_pack_row(film, y, row);
             assert_int_equal(size, film_packed_bytes(film, y));
             PackedRow packed = {row, size};
-            assert_true(film_unpack_row(again, y, packed, SAMPLES, *arena, &err));
+            assert_done(film_unpack_row(again, y, packed, SAMPLES, *arena, &err));
             bytes += size;
         }
         assert_true(bytes < 15 * film_pixel_bytes(film) * 2 / 3);
@@ -100,22 +99,20 @@ MEMORY_TEST(packed_rows_hold_every_bit)
 
 MEMORY_TEST(rows_that_no_film_packs_are_refused)
 {
-    Error  err;
     Film  *film = make_film(0, arena);
     Film  *to = film_create(WIDTH, HEIGHT, crop, 0, &groups, arena);
     size_t max = film_packed_bytes_max(film);
     unsigned char *row = ARENA_NEW(arena, unsigned char, max);
     size_t size = film_pack_row(film, 3, row);
     for (size_t cut = 0; cut < size; cut++) {
-        assert_false(film_unpack_row(to, 3, (PackedRow){row, cut}, SAMPLES, *arena, &err));
-        assert_string_equal(err.text, "damaged sums: row 3 is not as a film packs it");
+        assert_fails_with(film_unpack_row(to, 3, (PackedRow){row, cut}, SAMPLES, *arena, &err),
+                          "damaged sums: row 3 is not as a film packs it");
     }
     row[0] = 17;
-    assert_false(film_unpack_row(to, 3, (PackedRow){row, size}, SAMPLES, *arena, &err));
+    assert_fails(film_unpack_row(to, 3, (PackedRow){row, size}, SAMPLES, *arena, &err), "");
     film_pack_row(film, 3, row);
-    assert_false(film_unpack_row(to, 3, (PackedRow){row, size}, 7, *arena, &err));
-    assert_string_equal(err.text,
-                        "damaged sums: pixel 1,3 has sums that 7 samples cannot have made");
+    assert_fails_with(film_unpack_row(to, 3, (PackedRow){row, size}, 7, *arena, &err),
+                      "damaged sums: pixel 1,3 has sums that 7 samples cannot have made");
 }
 
 /* ---- files ------------------------------------------------------------------------------- */
@@ -135,22 +132,20 @@ static Checkpoint description(const Film *film)
 
 static void write_one(Arena *arena)
 {
-    Error      err = {0};
     Film      *film = make_film(0, arena);
     Checkpoint what = description(film);
-    if (!checkpoint_write(&what, film, *arena, &err)) fail_msg("%s", err.text);
+    assert_done(checkpoint_write(&what, film, *arena, &err));
 }
 
 MEMORY_TEST(what_is_kept_comes_back)
 {
-    Error      err = {0};
     Checkpoint found;
     Film      *film = make_film(LAYER_ALL, arena);
     Checkpoint what = description(film);
     assert_false(checkpoint_is_there(path));
-    assert_true(checkpoint_write(&what, film, *arena, &err));
+    assert_done(checkpoint_write(&what, film, *arena, &err));
     assert_true(checkpoint_is_there(path));
-    assert_true(checkpoint_open(path, arena, &found, &err));
+    assert_done(checkpoint_open(path, arena, &found, &err));
     assert_string_equal(found.identity, what.identity);
     assert_true(found.has_features && found.seconds == 12.5);
     assert_int_equal(found.done.first_sample, FIRST);
@@ -161,7 +156,7 @@ MEMORY_TEST(what_is_kept_comes_back)
     assert_true(found.done.paths == 1 && found.done.camera_rays == 2 &&
                 found.done.bounce_rays == 3 && found.done.shadow_rays == 4);
     Film *again = film_create(WIDTH, HEIGHT, crop, LAYER_ALL, &groups, arena);
-    assert_true(checkpoint_load(&found, again, *arena, &err));
+    assert_done(checkpoint_load(&found, again, *arena, &err));
     assert_same_films(film, again);
 }
 
@@ -193,8 +188,7 @@ MEMORY_TEST(it_fits_the_same_pixels_and_as_many_samples_or_more)
 static FileBytes read_file(Arena *arena)
 {
     FileBytes bytes;
-    Error     err;
-    assert_true(file_read(path, 1 << 20, arena, &bytes, &err));
+    assert_done(file_read(path, 1 << 20, arena, &bytes, &err));
     return bytes;
 }
 
@@ -318,19 +312,17 @@ MEMORY_TEST(each_fault_has_its_line)
 
 MEMORY_TEST(what_is_no_file_is_no_checkpoint)
 {
-    Error      err;
     Checkpoint found;
     unlink(path);
-    assert_false(checkpoint_open(path, arena, &found, &err));
-    assert_string_equal(err.text, "cannot be opened: No such file or directory");
+    assert_fails_with(checkpoint_open(path, arena, &found, &err),
+                      "cannot be opened: No such file or directory");
     assert_int_equal(mkfifo(path, 0600), 0); /* nobody waits for its writer */
     assert_false(checkpoint_is_there(path));
-    assert_false(checkpoint_open(path, arena, &found, &err));
-    assert_string_equal(err.text, "is not a checkpoint");
+    assert_fails_with(checkpoint_open(path, arena, &found, &err), "is not a checkpoint");
     unlink(path);
     assert_false(checkpoint_is_there(test_folder()));
-    assert_false(checkpoint_open(test_folder(), arena, &found, &err));
-    assert_string_equal(err.text, "is not a checkpoint");
+    assert_fails_with(checkpoint_open(test_folder(), arena, &found, &err),
+                      "is not a checkpoint");
 }
 
 /* ---- a full disk ------------------------------------------------------------------------- */

@@ -89,7 +89,7 @@ LAB_TEST(the_answer_is_one_json_document)
     json_error_t error;
     lab_write(lab, "white.txt", TABLE);
     assert_true(RUN(lab, &printed, "@white.txt", "--mask=-999", "--json", "-o", "@out/M.json"));
-    json_t *answer = json_loads(printed, 0, &error);
+    json_auto_t *answer = json_loads(printed, 0, &error);
     assert_non_null(answer);
     json_t *table = json_array_get(json_object_get(answer, "tables"), 0);
     assert_int_equal(json_integer_value(json_object_get(table, "rows")), 3);
@@ -98,7 +98,6 @@ LAB_TEST(the_answer_is_one_json_document)
     assert_near(json_number_value(json_array_get(hole, 0)), 40, 0);
     assert_near(json_number_value(json_object_get(answer, "masked")), 1, 0);
     assert_true(json_array_size(json_object_get(answer, "notes")) >= 3);
-    json_decref(answer);
 }
 
 LAB_TEST(mistakes_have_their_status)

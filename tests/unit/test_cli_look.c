@@ -26,6 +26,15 @@ static Outcome run(const char *words)
     return outcome;
 }
 
+/* With this status. */
+static Outcome run_as(int wanted, const char *words)
+{
+    Outcome outcome = run(words);
+    if (outcome.status != wanted)
+        fail_msg("%s: status %d, wanted %d", words, outcome.status, wanted);
+    return outcome;
+}
+
 static void add(FrameImage *frame, const char *name, float left, float right, Arena *arena)
 {
     float *plane = frame_add_channel(frame, name, !strncmp(name, "id", 2), arena);
@@ -83,11 +92,10 @@ ARENA_TEST(develop_writes_what_it_says)
 {
     Outcome o = run("develop f.exr -o a.png --exposure white:500 --view untonemapped");
     Image   image;
-    Error   err = {0};
     assert_int_equal(o.status, 0);
     assert_non_null(strstr(o.out, "a.png: sRGB, untonemapped, middle grey 90 cd/m2"));
     assert_non_null(strstr(o.out, "parhelion-1"));
-    assert_true(image_read(in_folder("a.png"), &arena, &image, &err));
+    assert_done(image_read(in_folder("a.png"), &arena, &image, &err));
     assert_int_equal(image.width, 12);
     /* 100/500 and 300/500 through the sRGB curve */
     assert_int_equal(((const uint8_t *)image.pixels)[0], 124);
@@ -96,9 +104,8 @@ ARENA_TEST(develop_writes_what_it_says)
 
 TEST(develop_answers_in_json)
 {
-    Outcome o = run("develop f.exr -o b.png --exposure 10 --json");
+    Outcome o = run_as(0, "develop f.exr -o b.png --exposure 10 --json");
     json_t *j = answer(&o);
-    assert_int_equal(o.status, 0);
     assert_string_equal(json_string_value(json_object_get(j, "output")), "b.png");
     assert_string_equal(json_string_value(json_object_get(j, "view")), "photographic");
     assert_close(number(j, "exposure_ev"), 10, 1e-9);
@@ -115,20 +122,18 @@ TEST(develop_answers_in_json)
 static int code_at(const char *picture, int x, int y, Arena *arena)
 {
     Image image;
-    Error err = {0};
-    if (!image_read(in_folder(picture), arena, &image, &err)) fail_msg("%s", err.text);
+    assert_done(image_read(in_folder(picture), arena, &image, &err));
     return ((const uint8_t *)image.pixels)[4 * (y * image.width + x)];
 }
 
 /* The frame does not say how high it is; once it does, --fov must agree. */
 ARENA_TEST(develop_sees_as_an_eye)
 {
-    Outcome o = run("develop f.exr -o b.png --eye 70 2>&1");
-    assert_int_equal(o.status, 2);
+    Outcome o = run_as(2, "develop f.exr -o b.png --eye 70 2>&1");
     assert_non_null(strstr(o.out, "f.exr: does not say its field of view"));
     assert_non_null(strstr(o.out, "--fov DEG"));
-    o = run("develop f.exr -o b.png --eye 70 --fov 2 --exposure white:500 --view untonemapped");
-    assert_int_equal(o.status, 0);
+    o = run_as(0, "develop f.exr -o b.png --eye 70 --fov 2 --exposure white:500 "
+                  "--view untonemapped");
     assert_non_null(strstr(o.out, "light as in an eye of 70 years, pigment 0.5; of what lies"));
     /* 124 and 203 without an eye; it mixes them at the edge between, at the border less. */
     int dark = code_at("b.png", 5, 4, &arena), bright = code_at("b.png", 6, 4, &arena);
@@ -154,52 +159,48 @@ ARENA_TEST(develop_sees_as_an_eye)
 ARENA_TEST(an_eye_needs_a_view)
 {
     FrameImage frame = frame_create(4, 4, (ExrWindow){0, 0, 4, 4}, 3, 5, &arena);
-    Error      err = {0};
     for (int c = 0; c < 3; c++) frame_add_channel(&frame, (char[]){"RGB"[c], 0}, false, &arena);
     frame_set_number(&frame, "parhelion:yfov_deg", 40, &arena);
-    assert_true(frame_write(in_folder("n.exr"), &frame, &err));
-    assert_int_equal(run("develop n.exr -o n.png --eye 30").status, 0);
-    assert_int_equal(run("develop n.exr -o n.png --eye 30 --fov 40").status, 0);
-    Outcome o = run("develop n.exr -o n.png --eye 30 --fov 41 2>&1");
-    assert_int_equal(o.status, 2);
+    assert_done(frame_write(in_folder("n.exr"), &frame, &err));
+    run_as(0, "develop n.exr -o n.png --eye 30");
+    run_as(0, "develop n.exr -o n.png --eye 30 --fov 40");
+    Outcome o = run_as(2, "develop n.exr -o n.png --eye 30 --fov 41 2>&1");
     assert_non_null(strstr(o.out, "n.exr: says itself that it is 40 degrees high"));
-    assert_int_equal(run("develop n.exr -o n.png --eye 30 --layer R").status, 2);
+    run_as(2, "develop n.exr -o n.png --eye 30 --layer R");
     frame_set_number(&frame, "parhelion:yfov_deg", 190, &arena);
-    assert_true(frame_write(in_folder("n.exr"), &frame, &err));
-    o = run("develop n.exr -o n.png --eye 30 2>&1");
-    assert_int_equal(o.status, 3);
+    assert_done(frame_write(in_folder("n.exr"), &frame, &err));
+    o = run_as(3, "develop n.exr -o n.png --eye 30 2>&1");
     assert_non_null(strstr(o.out, "yfov_deg is 190, wanted degrees between 0 and 180"));
     frame_set_number(&frame, "parhelion:ymag_m", 1, &arena);
-    assert_true(frame_write(in_folder("n.exr"), &frame, &err));
-    o = run("develop n.exr -o n.png --eye 30 2>&1");
-    assert_int_equal(o.status, 3);
+    assert_done(frame_write(in_folder("n.exr"), &frame, &err));
+    o = run_as(3, "develop n.exr -o n.png --eye 30 2>&1");
     assert_non_null(strstr(o.out, "orthographic"));
 }
 
 TEST(other_endings_work)
 {
-    assert_int_equal(run("develop f.exr -o c.tif --bits 16").status, 0);
-    assert_int_equal(run("develop f.exr -o d.jpg --view 'ACES SDR'").status, 0);
+    run_as(0, "develop f.exr -o c.tif --bits 16");
+    run_as(0, "develop f.exr -o d.jpg --view 'ACES SDR'");
     assert_true(file_exists(in_folder("c.tif")) && file_exists(in_folder("d.jpg")));
 }
 
 TEST(wrong_uses_have_their_status)
 {
-    assert_int_equal(run("develop f.exr").status, 2);
-    assert_int_equal(run("develop f.exr -o x.gif").status, 2);
-    assert_int_equal(run("develop f.exr -o x.jpg --bits 16").status, 2);
-    assert_int_equal(run("develop f.exr -o x.png --exposure bright").status, 2);
-    assert_int_equal(run("develop f.exr -o x.png --layer nothing").status, 2);
-    assert_int_equal(run("develop f.exr -o x.png --view nothing").status, 2);
-    assert_int_equal(run("develop f.exr -o x.png --false-colour hue").status, 2);
-    assert_int_equal(run("develop none.exr -o x.png").status, 3);
-    assert_int_equal(run("develop f.exr -o x.png --config none.ocio").status, 3);
-    assert_int_equal(run("develop f.exr -o none/x.png").status, 4);
-    assert_int_equal(run("measure none.exr").status, 3);
-    assert_int_equal(run("measure f.exr --region 0,0,13,8").status, 2);
-    assert_int_equal(run("measure f.exr --region 0,0,1.5,8").status, 2);
-    assert_int_equal(run("measure f.exr --display other").status, 2);
-    assert_int_equal(run("measure").status, 2);
+    run_as(2, "develop f.exr");
+    run_as(2, "develop f.exr -o x.gif");
+    run_as(2, "develop f.exr -o x.jpg --bits 16");
+    run_as(2, "develop f.exr -o x.png --exposure bright");
+    run_as(2, "develop f.exr -o x.png --layer nothing");
+    run_as(2, "develop f.exr -o x.png --view nothing");
+    run_as(2, "develop f.exr -o x.png --false-colour hue");
+    run_as(3, "develop none.exr -o x.png");
+    run_as(3, "develop f.exr -o x.png --config none.ocio");
+    run_as(4, "develop f.exr -o none/x.png");
+    run_as(3, "measure none.exr");
+    run_as(2, "measure f.exr --region 0,0,13,8");
+    run_as(2, "measure f.exr --region 0,0,1.5,8");
+    run_as(2, "measure f.exr --display other");
+    run_as(2, "measure");
     Outcome o = run("develop none.exr -o x.png 2>&1");
     assert_string_equal(o.out, "parhelion: none.exr: cannot be opened: No such file or "
                                "directory\n");
@@ -213,22 +214,20 @@ static void write_layers(void **state)
                                         "halves.G", "halves.B"};
     Arena      arena = test_arena(state);
     FrameImage frame;
-    Error      err = {0};
-    assert_true(frame_read(in_folder("f.exr"), &arena, &frame, &err));
+    assert_done(frame_read(in_folder("f.exr"), &arena, &frame, &err));
     for (size_t i = 0; i < sizeof GIVEN / sizeof *GIVEN; i++)
         add(&frame, GIVEN[i], 0.5f, 0.5f, &arena);
     for (const char *c = "RGB"; *c; c++)
         add(&frame, arena_format(&arena, "display.emitted.%c", *c), 96, NAN, &arena);
-    assert_true(frame_write(in_folder("n.exr"), &frame, &err));
+    assert_done(frame_write(in_folder("n.exr"), &frame, &err));
 }
 
 static bool picture_says(const char *name, const char *words)
 {
     Arena     arena = arena_reserve(1 << 20);
     FileBytes bytes;
-    Error     err = {0};
     bool      found = false;
-    if (!file_read(in_folder(name), 1 << 19, &arena, &bytes, &err)) fail_msg("%s", err.text);
+    assert_done(file_read(in_folder(name), 1 << 19, &arena, &bytes, &err));
     for (size_t i = 0; i + strlen(words) <= bytes.size; i++)
         found = found || !memcmp((const char *)bytes.data + i, words, strlen(words));
     arena_release(&arena);
@@ -238,9 +237,8 @@ static bool picture_says(const char *name, const char *words)
 TEST(looks_that_are_no_figures_say_so)
 {
     write_layers(state);
-    Outcome o = run("develop n.exr -o n.png --denoise --adapt local --json");
+    Outcome o = run_as(0, "develop n.exr -o n.png --denoise --adapt local --json");
     json_t *j = answer(&o), *denoised = json_object_get(j, "denoised");
-    assert_int_equal(o.status, 0);
     assert_close(number(denoised, "energy_ratio"), 1, 1e-4);
     assert_true(json_is_false(json_object_get(denoised, "halves")));
     assert_string_equal(json_string_value(json_object_get(j, "adapt")), "local");
@@ -269,9 +267,8 @@ TEST(figures_are_of_the_frame_alone)
         "develop n.exr -o n.png --adapt local --layer normal",
         "develop n.exr -o n.png --adapt global", "merge n.exr -o m.exr --denoise"};
     for (size_t i = 0; i < sizeof WORDS / sizeof *WORDS; i++)
-        assert_int_equal(run(WORDS[i]).status, 2);
-    Outcome o = run("develop f.exr -o n.png --denoise 2>&1");
-    assert_int_equal(o.status, 3);
+        run_as(2, WORDS[i]);
+    Outcome o = run_as(3, "develop f.exr -o n.png --denoise 2>&1");
     assert_non_null(strstr(o.out, "parhelion: f.exr: has not what --denoise goes by (missing: "
                                   "halves, normal, albedo, depth, display.emitted) — render "
                                   "it with --layers variance,halves,"));
@@ -279,19 +276,16 @@ TEST(figures_are_of_the_frame_alone)
 
 TEST(help_tells_the_options)
 {
-    Outcome o = run("develop --help");
-    assert_int_equal(o.status, 0);
+    Outcome o = run_as(0, "develop --help");
     assert_non_null(strstr(o.out, "--exposure auto|EV|white:CD_M2"));
-    o = run("measure --help");
-    assert_int_equal(o.status, 0);
+    o = run_as(0, "measure --help");
     assert_non_null(strstr(o.out, "--region X0,Y0,X1,Y1"));
 }
 
 TEST(measure_gives_the_figures_of_a_display)
 {
-    Outcome o = run("measure f.exr --display cluster --json");
+    Outcome o = run_as(0, "measure f.exr --display cluster --json");
     json_t *j = answer(&o), *contrast = json_object_get(j, "contrast");
-    assert_int_equal(o.status, 0);
     assert_true(number(j, "pixels") == 48);
     assert_close(number(j, "luminance_cd_m2"), 100, 1e-5);
     assert_close(json_number_value(json_array_get(json_object_get(j, "luminance_interval"), 1)),
@@ -306,10 +300,9 @@ TEST(measure_gives_the_figures_of_a_display)
 TEST(measure_gives_the_figures_of_a_region)
 {
     Outcome o = run("measure f.exr --region 6,0,12,8 --json");
-    json_t *j = answer(&o);
+    json_auto_t *j = answer(&o);
     assert_close(number(j, "luminance_cd_m2"), 300, 1e-5);
     assert_true(json_is_null(json_object_get(j, "contrast")));
-    json_decref(j);
     o = run("measure f.exr --region 3,0,9,8");
     assert_non_null(strstr(o.out, "luminance    200.00 +- 0.28 cd/m2"));
     assert_non_null(strstr(o.out, "100 to 300 cd/m2"));

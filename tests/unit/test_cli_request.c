@@ -88,8 +88,8 @@ MEMORY_TEST(values_of_the_surroundings_are_checked)
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         Scene scene = {0};
-        Error err = {0};
         Problems problems = problems_start(arena);
+        Error err = {0};
         assert_false(environment_change(&cases[i].change, &scene, arena, &problems, &err));
         assert_int_equal(err.code, ERROR_USAGE);
         assert_string_equal(err.text, cases[i].text);
@@ -102,9 +102,8 @@ MEMORY_TEST(the_line_overrides_single_members_of_the_surroundings)
                                                .sun_angular_radius = 0.01f}};
     EnvironmentChange change = {.environment = "constant:250", .sun = "90,30",
                                 .has_heading = true, .heading_deg = 180};
-    Error             err;
     Problems problems = problems_start(arena);
-    assert_true(environment_change(&change, &scene, arena, &problems, &err));
+    assert_done(environment_change(&change, &scene, arena, &problems, &err));
     const Environment *e = &scene.environment;
     assert_int_equal(e->kind, ENVIRONMENT_CONSTANT);
     assert_true(e->luminance_cd_m2 == 250 && e->color[2] == 1);
@@ -114,7 +113,7 @@ MEMORY_TEST(the_line_overrides_single_members_of_the_surroundings)
     assert_close(e->heading, PI, 1e-6);
     assert_true(e->forward.z == -1);
     EnvironmentChange off = {.sun = "off"};
-    assert_true(environment_change(&off, &scene, arena, &problems, &err));
+    assert_done(environment_change(&off, &scene, arena, &problems, &err));
     assert_false(e->has_sun);
     assert_true(e->luminance_cd_m2 == 250);
 }
@@ -123,11 +122,10 @@ MEMORY_TEST(a_sky_is_asked_for_by_its_kind_time_and_place)
 {
     Problems problems = problems_start(arena);
     Scene    scene = {0};
-    Error    err;
     EnvironmentChange clear = {.environment = "sky:clear", .when = "2026-06-21T08:30+02:00",
                                .where = "48.14,11.58,520", .has_visibility = true,
                                .visibility_km = 23};
-    assert_true(environment_change(&clear, &scene, arena, &problems, &err));
+    assert_done(environment_change(&clear, &scene, arena, &problems, &err));
     const Environment *e = &scene.environment;
     assert_int_equal(e->kind, ENVIRONMENT_SKY);
     assert_true(e->daylight.has_time && !e->has_sun && e->daylight.when.hour == 8);
@@ -136,18 +134,18 @@ MEMORY_TEST(a_sky_is_asked_for_by_its_kind_time_and_place)
     assert_false(e->daylight.no_moon);
     EnvironmentChange later = {.no_moon = true,
                                .when = "2026-06-21T09:30+02:00", .sun = "auto"};
-    assert_true(environment_change(&later, &scene, arena, &problems, &err));
+    assert_done(environment_change(&later, &scene, arena, &problems, &err));
     assert_true(e->daylight.when.hour == 9 && e->daylight.where.altitude_m == 520);
     assert_true(e->daylight.no_moon);
     EnvironmentChange cie = {.environment = "cie:12:15000", .sun = "180,35,90000"};
-    assert_true(environment_change(&cie, &scene, arena, &problems, &err));
+    assert_done(environment_change(&cie, &scene, arena, &problems, &err));
     assert_true(e->kind == ENVIRONMENT_CIE && e->daylight.cie_type == 12);
     assert_true(e->has_sun && e->sun_illuminance_lx == 90000 &&
                 e->daylight.diffuse_lux == 15000);
     assert_int_equal(problems.count, 0);
     EnvironmentChange bare = {.environment = "cie:3"};
     Scene other = {0};
-    assert_true(environment_change(&bare, &other, arena, &problems, &err));
+    assert_done(environment_change(&bare, &other, arena, &problems, &err));
     assert_int_equal(problems.count, 1); /* the illuminance that was taken */
 }
 
@@ -179,11 +177,9 @@ MEMORY_TEST(what_makes_no_sky_is_refused_by_name)
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         Scene    scene = {0};
-        Error    err = {0};
         Problems problems = problems_start(arena);
-        assert_false(environment_change(&cases[i].change, &scene, arena, &problems, &err));
-        assert_int_equal(err.code, ERROR_USAGE);
-        if (!strstr(err.text, cases[i].part)) fail_msg("%s", err.text);
+        assert_fails_as(environment_change(&cases[i].change, &scene, arena, &problems, &err),
+                        ERROR_USAGE, cases[i].part);
     }
 }
 
@@ -225,24 +221,22 @@ TEST(a_camera_is_found_by_node_then_by_camera_then_by_place)
     Scene       scene = {.cameras = cameras, .camera_count = 3};
     Problems    problems = problems_start(*state);
     SceneCamera found;
-    Error       err;
     static const struct {
         const char *wanted;
         int         index;
     } cases[] = {{NULL, 0}, {"left", 0}, {"1", 0}, {"right", 1}, {"lens", 2}, {"2", 2}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         const CameraChoice choice = {.name = cases[i].wanted};
-        assert_true(render_choose_camera(&scene, &choice, &problems, &found, &err));
+        assert_done(render_choose_camera(&scene, &choice, &problems, &found, &err));
         assert_ptr_equal(found.camera_name, cameras[cases[i].index].camera_name);
     }
-    assert_false(
-        render_choose_camera(&scene, &(CameraChoice){.name = "3"}, &problems, &found, &err));
-    assert_string_equal(err.text,
-                        "--camera 3: no camera has this name or index — the scene has 0 "
-                        "'left', 1 'right', 2 'lens'");
+    assert_fails_with(render_choose_camera(&scene, &(CameraChoice){.name = "3"}, &problems,
+                          &found, &err),
+                      "--camera 3: no camera has this name or index — the scene has 0 'left', "
+                      "1 'right', 2 'lens'");
     assert_int_equal(problems.count, 0);
     Scene empty = {0};
-    assert_true(render_choose_camera(&empty, &(CameraChoice){0}, &problems, &found, &err));
+    assert_done(render_choose_camera(&empty, &(CameraChoice){0}, &problems, &found, &err));
     assert_int_equal(problems.count, 1);
     assert_non_null(strstr(problems.list[0].message, "neither a camera nor triangles"));
     assert_true(found.yfov > 0 && found.world_from_camera.origin.z == 0);

@@ -79,11 +79,18 @@ static void run(const char *const *words, Outcome *outcome)
 
 #define RUN(outcome, ...) run((const char *const[]){__VA_ARGS__, NULL}, (outcome))
 
+/* With this status. */
+#define RUN_AS(wanted, outcome, ...)                                                           \
+    do {                                                                                       \
+        RUN(outcome, __VA_ARGS__);                                                             \
+        if ((outcome)->status != (wanted))                                                     \
+            fail_msg("status %d, wanted %d: %s", (outcome)->status, wanted, (outcome)->err);   \
+    } while (0)
+
 static FrameImage read_frame(const char *name, Arena *arena)
 {
     FrameImage frame = {0};
-    Error      err = {0};
-    if (!frame_read(in_folder(name), arena, &frame, &err)) fail_msg("%s", err.text);
+    assert_done(frame_read(in_folder(name), arena, &frame, &err));
     return frame;
 }
 
@@ -113,15 +120,12 @@ static void assert_same_pixels(const FrameImage *a, const FrameImage *b)
 TEST(a_wrong_line_is_status_2)
 {
     Outcome o;
-    RUN(&o, "rendr");
-    assert_int_equal(o.status, 2);
+    RUN_AS(2, &o, "rendr");
     assert_non_null(strstr(o.err, "parhelion: unknown command rendr — did you mean render? "
                                   "There are render, develop, panel, "));
-    RUN(&o, "render", "scene.gltf");
-    assert_int_equal(o.status, 2);
+    RUN_AS(2, &o, "render", "scene.gltf");
     assert_string_equal(o.err, "parhelion: no output — add -o FRAME.exr\n");
-    RUN(&o, "render", "scene.gltf", "-o", "a.exr", "--sppp", "3");
-    assert_int_equal(o.status, 2);
+    RUN_AS(2, &o, "render", "scene.gltf", "-o", "a.exr", "--sppp", "3");
     assert_non_null(strstr(o.err, "did you mean --spp?"));
     RUN(&o, "render", "scene.gltf", "-o", "a.png");
     assert_string_equal(o.err, "parhelion: -o a.png: wanted a name that ends in .exr\n");
@@ -134,11 +138,9 @@ TEST(a_wrong_line_is_status_2)
 TEST(an_hdri_that_is_missing_or_not_linear_is_named)
 {
     Outcome o;
-    RUN(&o, "render", "scene.gltf", "-o", "a.exr", "--environment", "hdri:nowhere.exr");
-    assert_int_equal(o.status, 3);
+    RUN_AS(3, &o, "render", "scene.gltf", "-o", "a.exr", "--environment", "hdri:nowhere.exr");
     assert_non_null(strstr(o.err, "parhelion: nowhere.exr: "));
-    RUN(&o, "render", "scene.gltf", "-o", "a.exr", "--png", "x.gif");
-    assert_int_equal(o.status, 2);
+    RUN_AS(2, &o, "render", "scene.gltf", "-o", "a.exr", "--png", "x.gif");
     assert_non_null(strstr(o.err, "parhelion: x.gif: "));
     assert_false(exists("a.exr"));
 }
@@ -146,14 +148,13 @@ TEST(an_hdri_that_is_missing_or_not_linear_is_named)
 TEST(a_frame_too_large_is_refused_before_it_fills_the_memory)
 {
     Outcome o;
-    RUN(&o, "render", "scene.gltf", "-o", "a.exr", "--size", "65536x65536", "--crop",
-        "0,0,4,4");
-    assert_int_equal(o.status, 2);
+    RUN_AS(2, &o, "render", "scene.gltf", "-o", "a.exr", "--size", "65536x65536", "--crop",
+           "0,0,4,4");
     assert_string_equal(o.err, "parhelion: --size 65536x65536: 4294967296 pixels, at most "
                                "268435456 are supported\n");
     if ((double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE) > 160e9) return;
-    RUN(&o, "render", "scene.gltf", "-o", "a.exr", "--size", "16384x16384", "--layers", "all");
-    assert_int_equal(o.status, 3);
+    RUN_AS(3, &o, "render", "scene.gltf", "-o", "a.exr", "--size", "16384x16384", "--layers",
+           "all");
     assert_non_null(strstr(o.err, "parhelion: the film of 16384x16384 pixels needs 231.9 GB, "
                                   "there are "));
 }
@@ -161,8 +162,7 @@ TEST(a_frame_too_large_is_refused_before_it_fills_the_memory)
 TEST(a_missing_input_is_status_3_and_named)
 {
     Outcome o;
-    RUN(&o, "render", "nowhere.gltf", "-o", "a.exr", "--json");
-    assert_int_equal(o.status, 3);
+    RUN_AS(3, &o, "render", "nowhere.gltf", "-o", "a.exr", "--json");
     assert_non_null(strstr(o.err, "parhelion: nowhere.gltf: "));
     json_t *answer = json_loads(o.out, 0, NULL), *error = json_object_get(answer, "error");
     assert_int_equal(json_integer_value(json_object_get(error, "status")), 3);
@@ -198,38 +198,32 @@ TEST(render_makes_a_denoised_picture_at_once)
     if (o.status) fail_msg("%s", o.err);
     assert_non_null(strstr(o.out, ", denoised ("));
     assert_non_null(strstr(o.out, ", locally adapted\n"));
-    RUN(&o, "develop", "a.exr", "-o", "a.png", "--denoise");
-    assert_int_equal(o.status, 0);
-    RUN(&o, "render", "scene.gltf", "-o", "a.exr", "--size", "8x6", "--spp", "2", "--denoise");
-    assert_int_equal(o.status, 2);
+    RUN_AS(0, &o, "develop", "a.exr", "-o", "a.png", "--denoise");
+    RUN_AS(2, &o, "render", "scene.gltf", "-o", "a.exr", "--size", "8x6", "--spp", "2",
+           "--denoise");
     assert_non_null(strstr(o.err, "a look is asked for, but no picture"));
 }
 
 TEST(an_output_that_cannot_be_written_is_status_4_at_once)
 {
     Outcome o;
-    RUN(&o, "render", "scene.gltf", "-o", "nowhere/a.exr", "--spp", "1000000");
-    assert_int_equal(o.status, 4);
+    RUN_AS(4, &o, "render", "scene.gltf", "-o", "nowhere/a.exr", "--spp", "1000000");
     assert_string_equal(o.err, "parhelion: nowhere/a.exr: cannot be written: No such file or "
                                "directory\n");
-    RUN(&o, "render", "scene.gltf", "-o", "a.exr", "--png", "nowhere/a.png", "--spp",
-        "1000000");
-    assert_int_equal(o.status, 4);
+    RUN_AS(4, &o, "render", "scene.gltf", "-o", "a.exr", "--png", "nowhere/a.png", "--spp",
+           "1000000");
 }
 
 TEST(version_and_help_need_nothing)
 {
     Outcome o;
-    RUN(&o, "--version");
-    assert_int_equal(o.status, 0);
+    RUN_AS(0, &o, "--version");
     assert_non_null(strstr(o.out, "parhelion " PARHELION_VERSION "\nsources: "));
     assert_non_null(strstr(o.out, "Embree "));
     assert_non_null(strstr(o.out, "OpenColorIO "));
-    RUN(&o, "--help");
-    assert_int_equal(o.status, 0);
+    RUN_AS(0, &o, "--help");
     assert_non_null(strstr(o.out, "  render "));
-    RUN(&o, "render", "--help");
-    assert_int_equal(o.status, 0);
+    RUN_AS(0, &o, "render", "--help");
     assert_non_null(strstr(o.out, "example:\n  parhelion render scenes/"));
     assert_string_equal(o.err, "");
 }
@@ -239,9 +233,8 @@ TEST(version_and_help_need_nothing)
 MEMORY_TEST(a_frame_says_how_to_make_it_again)
 {
     Outcome o;
-    RUN(&o, "render", "scene.gltf", "-o", "a.exr", "--size", "16x12", "--spp", "3", "--seed",
-        "9", "--quiet", "--layers", "id,samples");
-    assert_int_equal(o.status, 0);
+    RUN_AS(0, &o, "render", "scene.gltf", "-o", "a.exr", "--size", "16x12", "--spp", "3",
+           "--seed", "9", "--quiet", "--layers", "id,samples");
     assert_string_equal(o.err, "");
     assert_non_null(strstr(o.out, "a.exr: 16x12, 3 samples a pixel, "));
     FrameImage frame = read_frame("a.exr", arena);
@@ -296,24 +289,21 @@ MEMORY_TEST(a_replayed_sample_is_the_one_that_was_rendered)
     RUN(&o, "render", "scene.gltf", "-o", "s.exr", "--size", "16x12", "--samples", "6:7",
         "--quiet");
     FrameImage frame = read_frame("s.exr", arena);
-    RUN(&o, "render", "scene.gltf", "--size", "16x12", "--replay", "8,6,6", "--json");
-    assert_int_equal(o.status, 0);
-    json_t *answer = json_loads(o.out, 0, NULL);
+    RUN_AS(0, &o, "render", "scene.gltf", "--size", "16x12", "--replay", "8,6,6", "--json");
+    json_auto_t *answer = json_loads(o.out, 0, NULL);
     json_t *green = json_array_get(json_object_get(answer, "RGB"), 1);
     assert_close(json_number_value(green), (double)frame_channel(&frame, "G")[6 * 16 + 8],
                  1e-8);
     assert_true(json_number_value(green) > 0);
     assert_string_equal(json_string_value(json_object_get(answer, "part")), "wall");
-    json_decref(answer);
 }
 
 MEMORY_TEST(noise_stops_before_spp)
 {
     Outcome o;
-    RUN(&o, "render", "scene.gltf", "-o", "n.exr", "--size", "16x12", "--spp", "100000",
-        "--noise", "0.2", "--json", "--quiet");
-    assert_int_equal(o.status, 0);
-    json_t *answer = json_loads(o.out, 0, NULL);
+    RUN_AS(0, &o, "render", "scene.gltf", "-o", "n.exr", "--size", "16x12", "--spp", "100000",
+           "--noise", "0.2", "--json", "--quiet");
+    json_auto_t *answer = json_loads(o.out, 0, NULL);
     double  error = json_number_value(json_object_get(answer, "relative_error"));
     int     samples = (int)json_integer_value(json_object_get(answer, "samples"));
     assert_true(error > 0 && error <= 0.2);
@@ -322,7 +312,6 @@ MEMORY_TEST(noise_stops_before_spp)
     assert_true(json_integer_value(json_object_get(answer, "rays")) > 16 * 12 * samples / 2);
     assert_true(json_number_value(json_object_get(answer, "peak_memory_bytes")) > 1e6);
     assert_int_equal(json_array_size(json_object_get(answer, "warnings")), 0);
-    json_decref(answer);
     FrameImage frame = read_frame("n.exr", arena);
     assert_close(whole_attribute(&frame, "parhelion:relativeError"), error, 1e-6);
 }
@@ -330,9 +319,8 @@ MEMORY_TEST(noise_stops_before_spp)
 TEST(noise_that_is_not_reached_is_said)
 {
     Outcome o;
-    RUN(&o, "render", "scene.gltf", "-o", "n.exr", "--size", "16x12", "--spp", "2", "--noise",
-        "0.0001", "--quiet");
-    assert_int_equal(o.status, 0);
+    RUN_AS(0, &o, "render", "scene.gltf", "-o", "n.exr", "--size", "16x12", "--spp", "2",
+           "--noise", "0.0001", "--quiet");
     assert_non_null(strstr(o.err, "parhelion: warning: the relative error of the frame is 0."));
     assert_non_null(
         strstr(o.err, ", not the 0.0001 of --noise, after all 2 samples a pixel\n"));
@@ -341,9 +329,8 @@ TEST(noise_that_is_not_reached_is_said)
     assert_string_equal(o.err,
                         "parhelion: warning: nothing of the displays is in view: --noise had "
                         "nothing to go by\n");
-    json_t *answer = json_loads(o.out, 0, NULL);
+    json_auto_t *answer = json_loads(o.out, 0, NULL);
     assert_int_equal(json_array_size(json_object_get(answer, "warnings")), 1);
-    json_decref(answer);
 }
 
 /* The corner of the room that has no noise decides, not the rest; a name that is no display's
@@ -351,24 +338,20 @@ TEST(noise_that_is_not_reached_is_said)
 TEST(noise_of_an_area_decides_alone)
 {
     Outcome o;
-    RUN(&o, "render", "scene.gltf", "-o", "n.exr", "--size", "16x12", "--spp", "64", "--noise",
-        "2,2,9,8:0.9", "--quiet", "--json");
-    assert_int_equal(o.status, 0);
-    json_t *answer = json_loads(o.out, 0, NULL);
+    RUN_AS(0, &o, "render", "scene.gltf", "-o", "n.exr", "--size", "16x12", "--spp", "64",
+           "--noise", "2,2,9,8:0.9", "--quiet", "--json");
+    json_auto_t *answer = json_loads(o.out, 0, NULL);
     assert_int_equal(json_integer_value(json_object_get(answer, "samples")), 16);
-    json_decref(answer);
-    RUN(&o, "render", "scene.gltf", "-o", "n.exr", "--size", "16x12", "--noise",
-        "display:cluster:0.1", "--quiet");
-    assert_int_equal(o.status, 2);
+    RUN_AS(2, &o, "render", "scene.gltf", "-o", "n.exr", "--size", "16x12", "--noise",
+           "display:cluster:0.1", "--quiet");
     assert_non_null(strstr(o.err, "--noise display:cluster: no display has this name"));
 }
 
 TEST(a_picture_is_developed_as_well)
 {
     Outcome o;
-    RUN(&o, "render", "scene.gltf", "-o", "p.exr", "--size", "16x12", "--spp", "1", "--png",
-        "p.png", "--quiet");
-    assert_int_equal(o.status, 0);
+    RUN_AS(0, &o, "render", "scene.gltf", "-o", "p.exr", "--size", "16x12", "--spp", "1",
+           "--png", "p.png", "--quiet");
     assert_true(exists("p.exr") && exists("p.png"));
     assert_non_null(strstr(o.out, "p.png: "));
 }
@@ -376,8 +359,8 @@ TEST(a_picture_is_developed_as_well)
 TEST(a_scene_without_a_camera_is_framed_whole_with_a_warning)
 {
     Outcome o;
-    RUN(&o, "render", "blind.gltf", "-o", "b.exr", "--size", "16x12", "--spp", "1", "--quiet");
-    assert_int_equal(o.status, 0);
+    RUN_AS(0, &o, "render", "blind.gltf", "-o", "b.exr", "--size", "16x12", "--spp", "1",
+           "--quiet");
     assert_true(strstr(o.err, "parhelion: warning: blind.gltf: the scene has no camera: it is "
                               "framed whole, seen from the front, from ") == o.err);
     assert_non_null(strstr(o.err, " — another place with --eye and --look-at"));

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Clear coat: what it holds back from the base comes out in the end. */
+#include "fixture.h"
 #include "furnace_fixture.h"
 #include "layer_fixture.h"
 
@@ -7,25 +8,16 @@
 #include "shaders/facets/common_tables.h"
 #include "spectrum/fresnel.h"
 
-static Arena arena;
 static const EnergyTable *glass;
 static const CoatTable   *lacquer;
 static Wavelengths        wavelengths;
 
 static int make_tables(void **state)
 {
-    (void)state;
-    arena = arena_reserve((size_t)1 << 30);
-    glass = energy_table_build(1.5f, &arena);
-    lacquer = coat_table_build(glass, glass, &arena);
+    make_arena(state);
+    glass = energy_table_build(1.5f, test_memory());
+    lacquer = coat_table_build(glass, glass, test_memory());
     wavelengths_sample(0.4f, &wavelengths);
-    return 0;
-}
-
-static int drop_tables(void **state)
-{
-    (void)state;
-    arena_release(&arena);
     return 0;
 }
 
@@ -100,7 +92,7 @@ static MetallicRoughness layered(int layers, float metallic, float alpha,
     return m;
 }
 
-TEST(it_stays_white_over_all_layers_together)
+ARENA_TEST(it_stays_white_over_all_layers_together)
 {
     static const float  coats[] = {0, 0.1f, 0.5f}, alphas[] = {0.02f, 0.15f, 0.6f};
     static const double thetas_deg[] = {20, 60, 75, 85};
@@ -177,4 +169,4 @@ TEST(the_programs_own_tables_are_those_that_a_run_would_make)
     assert_memory_equal(&common_coat_table, lacquer, sizeof *lacquer);
 }
 
-TEST_PROGRAM(make_tables, drop_tables)
+TEST_PROGRAM(make_tables, drop_arena)

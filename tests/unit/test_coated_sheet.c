@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* A clear coat on both sides of a thin sheet: what their turns send back and on. */
+#include "fixture.h"
 #include "furnace_fixture.h"
 #include "layer_fixture.h"
 
@@ -8,25 +9,16 @@
 #include "shaders/layers/sheet_turns.h"
 #include "spectrum/fresnel.h"
 
-static Arena arena;
 static Wavelengths    wavelengths;
 static SurfaceCoating one_sided; /* silver on the front alone */
 
 static int make_tables(void **state)
 {
-    (void)state;
-    arena = arena_reserve((size_t)1 << 30);
-    LayerStack *silver = stack_silver(&arena);
+    make_arena(state);
+    LayerStack *silver = stack_silver(test_memory());
     silver->faces = COATED_FRONT;
-    one_sided.sheet = coating_of_sheet(silver, 1.52, &arena);
+    one_sided.sheet = coating_of_sheet(silver, 1.52, test_memory());
     wavelengths_sample(0.4f, &wavelengths);
-    return 0;
-}
-
-static int drop_tables(void **state)
-{
-    (void)state;
-    arena_release(&arena);
     return 0;
 }
 
@@ -195,4 +187,4 @@ TEST(as_much_goes_through_from_either_side)
     }
 }
 
-TEST_PROGRAM(make_tables, drop_tables)
+TEST_PROGRAM(make_tables, drop_arena)

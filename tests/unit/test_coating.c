@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Coated surfaces: tables against their stacks, closed forms, and the white furnace. */
-#include "check.h"
-
+#include "fixture.h"
 #include "layer_fixture.h"
 
 #include "base/sampler.h"
@@ -11,22 +10,12 @@
 #include "shaders/facets/common_tables.h"
 #include "spectrum/fresnel.h"
 
-static Arena       arena;
 static Wavelengths wavelengths;
 
-static int start(void **state)
+static int make_wavelengths(void **state)
 {
-    (void)state;
-    arena = arena_reserve((size_t)1 << 30);
     wavelengths_sample(0.3f, &wavelengths);
-    return 0;
-}
-
-static int stop(void **state)
-{
-    (void)state;
-    arena_release(&arena);
-    return 0;
+    return make_arena(state);
 }
 
 /* The lane nearest to a wavelength. */
@@ -57,7 +46,7 @@ static void mean_shares(const LayerStack *stack, ThinMedium body, double nm, dou
 /* Largest error over angles between the nodes and all lanes. */
 static double worst_error(const LayerStack *stack, bool is_inside)
 {
-    const CoatingTables *tables = coating_of_solid(stack, 1.52, &arena);
+    const CoatingTables *tables = coating_of_solid(stack, 1.52, test_memory());
     double worst = 0;
     for (int i = 0; i < 400; i++) {
         double cosine = (i + 0.37) / 400;
@@ -82,24 +71,24 @@ static LayerStack *mirror_of_twenty(void)
         double n = i & 1 ? 1.46 : 2.35;
         media[i] = (ThinMedium){n, 0, 550 / (4 * n)};
     }
-    return stack_of(20, media, &arena);
+    return stack_of(20, media, test_memory());
 }
 
 TEST(tables_are_within_their_stated_error)
 {
     for (int side = 0; side < 2; side++) {
-        assert_true(worst_error(stack_of(0, NULL, &arena), side) < 3e-4);
-        assert_true(worst_error(stack_of(1, (ThinMedium[]){{1.38, 0, 99.6}}, &arena), side) <
-                    3e-4);
-        assert_true(worst_error(stack_four(&arena), side) < 3e-4);
-        assert_true(worst_error(stack_silver(&arena), side) < 3e-4);
+        assert_true(worst_error(stack_of(0, NULL, test_memory()), side) < 3e-4);
+        LayerStack *one = stack_of(1, (ThinMedium[]){{1.38, 0, 99.6}}, test_memory());
+        assert_true(worst_error(one, side) < 3e-4);
+        assert_true(worst_error(stack_four(test_memory()), side) < 3e-4);
+        assert_true(worst_error(stack_silver(test_memory()), side) < 3e-4);
         assert_true(worst_error(mirror_of_twenty(), side) < 2e-2);
     }
 }
 
 TEST(bare_tables_are_fresnels_curve)
 {
-    const CoatingTables *tables = coating_of_sheet(NULL, 1.52, &arena);
+    const CoatingTables *tables = coating_of_sheet(NULL, 1.52, test_memory());
     for (int i = 1; i <= 90; i++) {
         float   cosine = (float)i / 90;
         Fresnel face = fresnel_dielectric(cosine, 1.52f, NULL);
@@ -116,7 +105,7 @@ static Bsdf coated_solid(const LayerStack *stack, float alpha)
 {
     return (Bsdf){.kind = BSDF_DIELECTRIC,
                   .dielectric = {.tint = spectrum_all(1), .ior = 1.52f, .alpha = alpha,
-                                 .coating = coating_of_solid(stack, 1.52, &arena),
+                                 .coating = coating_of_solid(stack, 1.52, test_memory()),
                                  .wavelengths = &wavelengths}};
 }
 
@@ -128,7 +117,7 @@ static Vec3 at_cosine(float z)
 /* 1.26 % comes back from magnesium fluoride on glass; a lane stands close to 550 nm. */
 TEST(a_quarter_wave_on_glass_reflects_what_it_should)
 {
-    LayerStack *stack = stack_of(1, (ThinMedium[]){{1.38, 0, 550 / (4 * 1.38)}}, &arena);
+    LayerStack *stack = stack_of(1, (ThinMedium[]){{1.38, 0, 550 / (4 * 1.38)}}, test_memory());
     Bsdf        bsdf = coated_solid(stack, 0);
     int         lane = lane_near(550);
     double      r, t;
@@ -143,7 +132,7 @@ TEST(a_quarter_wave_on_glass_reflects_what_it_should)
 /* At every angle, from both sides, and beyond the critical angle. */
 TEST(a_clear_coating_loses_no_light)
 {
-    Bsdf bsdf = coated_solid(stack_four(&arena), 0);
+    Bsdf bsdf = coated_solid(stack_four(test_memory()), 0);
     for (int i = 1; i <= 200; i++)
         for (int side = -1; side <= 1; side += 2) {
             Vec3     wo = at_cosine((float)i / 200);
@@ -154,13 +143,13 @@ TEST(a_clear_coating_loses_no_light)
 
 TEST(silver_absorbs_and_total_reflection_is_then_not_total)
 {
-    Bsdf bsdf = coated_solid(stack_silver(&arena), 0);
+    Bsdf bsdf = coated_solid(stack_silver(test_memory()), 0);
     for (int i = 1; i <= 100; i++) {
         Vec3     wo = at_cosine((float)i / 100);
         Spectrum out = bsdf_albedo(&bsdf, wo), in = bsdf_albedo(&bsdf, vec3(wo.x, 0, -wo.z));
         for (int k = 0; k < SPECTRUM_LANES; k++) {
             double r, t;
-            mean_shares(stack_silver(&arena), (ThinMedium){1.52, 0, 0},
+            mean_shares(stack_silver(test_memory()), (ThinMedium){1.52, 0, 0},
                         (double)wavelengths.nm[k], (double)wo.z, true, &r, &t);
             assert_true(out[k] < 1.0002f && in[k] < 0.999f && in[k] > 0.1f);
             assert_near(in[k], r + t, 1e-3);
@@ -171,10 +160,10 @@ TEST(silver_absorbs_and_total_reflection_is_then_not_total)
 /* Both faces' turns summed up one by one, for each polarisation. */
 TEST(a_coated_sheet_sums_up_its_turns)
 {
-    LayerStack *stack = stack_silver(&arena);
+    LayerStack *stack = stack_silver(test_memory());
     for (int faces = COATED_BOTH; faces <= COATED_BACK; faces++) {
         stack->faces = (CoatedFaces)faces;
-        const CoatingTables *sheet = coating_of_sheet(stack, 1.52, &arena);
+        const CoatingTables *sheet = coating_of_sheet(stack, 1.52, test_memory());
         LayerStack none = {.outside = 1};
         for (int i = 1; i <= 20; i++) {
             double    cosine = i / 20.0;
@@ -230,12 +219,12 @@ static Bsdf bsdf_with(const SurfaceCoating *coating, float metallic, float alpha
 /* F0 = ((n - 1)^2 + k^2) / ((n + 1)^2 + k^2), a lane at a time. */
 TEST(a_measured_metal_mirrors_by_its_n_and_k)
 {
-    OpticalConstants *metal = constants_of(0, 0, &arena);
+    OpticalConstants *metal = constants_of(0, 0, test_memory());
     for (int i = 0; i < CURVE_COUNT; i++) {
         metal->n.value[i] = 0.2f + 0.004f * (float)i;
         metal->k.value[i] = 2 + 0.01f * (float)i;
     }
-    SurfaceCoating coating = {.metal = coating_of_metal(NULL, metal, &arena)};
+    SurfaceCoating coating = {.metal = coating_of_metal(NULL, metal, test_memory())};
     Bsdf           bsdf = bsdf_with(&coating, 1, 0);
     Spectrum       mirror = bsdf_mirror(&bsdf, vec3(0, 0, 1));
     static const double asked_nm[] = {450, 550, 650};
@@ -285,13 +274,13 @@ static void check_furnace(const Bsdf *bsdf, const char *name, float alpha, int s
 TEST(coated_white_keeps_the_furnace_white)
 {
     static const float alphas[] = {0, 0.01f, 0.05f, 0.022f, 0.1f, 0.35f, 0.6f, 1};
-    const LayerStack *stacks[] = {stack_four(&arena),
-                                  stack_of(1, (ThinMedium[]){{1.38, 0, 700}}, &arena),
+    const LayerStack *stacks[] = {stack_four(test_memory()),
+                                  stack_of(1, (ThinMedium[]){{1.38, 0, 700}}, test_memory()),
                                   mirror_of_twenty()};
-    const OpticalConstants *ideal = constants_of(0, 4, &arena);
+    const OpticalConstants *ideal = constants_of(0, 4, test_memory());
     for (int i = 0; i < 3; i++) {
-        SurfaceCoating coating = {.metal = coating_of_metal(stacks[i], ideal, &arena)};
-        if (i < 2) coating.face = coating_of_face(stacks[i], 1.5, ALPHA_ALL, &arena);
+        SurfaceCoating coating = {.metal = coating_of_metal(stacks[i], ideal, test_memory())};
+        if (i < 2) coating.face = coating_of_face(stacks[i], 1.5, ALPHA_ALL, test_memory());
         for (int a = 0; a < 8; a++)
             for (int metallic = i == 2; metallic < 2; metallic++) {
                 bool is_narrow = alphas[a] > 0 && alphas[a] < 0.03f;
@@ -305,10 +294,10 @@ TEST(coated_white_keeps_the_furnace_white)
 TEST(energies_of_few_alphas_are_those_of_all)
 {
     static const AlphaSpan spans[] = {{0, 0}, {0.055f, 0.055f}, {0.1f, 0.4f}, {1, 1}};
-    const LayerStack *four = stack_four(&arena);
-    const CoatingEnergy *all = coating_of_face(four, 1.5, ALPHA_ALL, &arena)->energy;
+    const LayerStack *four = stack_four(test_memory());
+    const CoatingEnergy *all = coating_of_face(four, 1.5, ALPHA_ALL, test_memory())->energy;
     for (int i = 0; i < 4; i++) {
-        const CoatingEnergy *few = coating_of_face(four, 1.5, spans[i], &arena)->energy;
+        const CoatingEnergy *few = coating_of_face(four, 1.5, spans[i], test_memory())->energy;
         for (int k = 0; k < 21; k++) {
             float alpha = lerpf(spans[i].least, spans[i].most, (float)k / 20);
             float cosine = (float)k / 20;
@@ -325,7 +314,8 @@ TEST(energies_of_few_alphas_are_those_of_all)
 TEST(a_coated_frosted_sheet_loses_no_light)
 {
     static const float alphas[] = {0.05f, 0.1f, 0.35f, 1};
-    SurfaceCoating coating = {.sheet = coating_of_sheet(stack_four(&arena), 1.5, &arena)};
+    SurfaceCoating coating = {.sheet = coating_of_sheet(stack_four(test_memory()), 1.5,
+                                                        test_memory())};
     for (int a = 0; a < 4; a++) {
         Bsdf bsdf = bsdf_with(&coating, 0, alphas[a]);
         bsdf.metallic_roughness.transmission = 1;
@@ -337,8 +327,8 @@ TEST(a_coated_frosted_sheet_loses_no_light)
 
 TEST(a_covers_factor_is_coated_over_bare)
 {
-    LayerStack          *stack = stack_four(&arena);
-    const CoatingTables *cover = coating_of_cover(stack, 1.5, &arena);
+    LayerStack          *stack = stack_four(test_memory());
+    const CoatingTables *cover = coating_of_cover(stack, 1.5, test_memory());
     for (int i = 1; i <= 40; i++) {
         float    cosine = (float)i / 40;
         Spectrum factor = coating_at(cover->front, &wavelengths, cosine);
@@ -352,4 +342,4 @@ TEST(a_covers_factor_is_coated_over_bare)
     }
 }
 
-TEST_PROGRAM(start, stop)
+TEST_PROGRAM(make_wavelengths, drop_arena)

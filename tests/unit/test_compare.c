@@ -8,35 +8,32 @@
 
 ARENA_TEST(a_written_frame_is_read_as_light)
 {
-    Error        err = {0};
     CompareInput made = frame_input("x", &arena), read, again;
     const char  *path = in_folder("a.exr");
-    assert_true(frame_write(path, &made.frame, &err));
-    assert_true(input_read(path, 0, &arena, &read, &err));
+    assert_done(frame_write(path, &made.frame, &err));
+    assert_done(input_read(path, 0, &arena, &read, &err));
     assert_int_equal(read.kind, INPUT_FRAME);
     assert_true(read.has_metadata);
     for (int i = 0; i < COUNT; i++) assert_near(read.light.rgb[0][i], i, 0);
-    assert_true(input_read(path, 0, &arena, &again, &err));
+    assert_done(input_read(path, 0, &arena, &again, &err));
     Comparison c = compared(&read, &again, (CompareOptions){0}, &arena);
     assert_true(c.same);
     assert_string_equal(c.verdict, "equal in every pixel");
     unlink(path);
-    assert_false(input_read(path, 0, &arena, &read, &err));
-    assert_int_equal(err.code, ERROR_INPUT);
+    assert_fails_as(input_read(path, 0, &arena, &read, &err), ERROR_INPUT, "");
 }
 
 /* 8-bit codes and the same ones in 16 bits are the same fractions, bit for bit. */
 ARENA_TEST(codes_of_8_and_16_bits_agree)
 {
-    Error        err = {0};
     Picture      picture = picture_create(16, 16, &arena);
     CompareInput read[2];
     for (int i = 0; i < 16 * 16 * 3; i++) picture.rgb[i] = (float)(i % 256) / 255;
     for (int k = 0; k < 2; k++) {
         const char *path = in_folder(k ? "16.png" : "8.png");
         PictureFile file = {.bits = k ? 16 : 8, .is_srgb = true};
-        assert_true(picture_write(path, &picture, file, arena, &err));
-        assert_true(input_read(path, 0, &arena, &read[k], &err));
+        assert_done(picture_write(path, &picture, file, arena, &err));
+        assert_done(input_read(path, 0, &arena, &read[k], &err));
         assert_int_equal(read[k].bits, k ? 16 : 8);
         unlink(path);
     }
@@ -325,7 +322,6 @@ TEST(exposures_are_the_ones_of_develop)
 static const char *write_picture(const char *name, int change, Arena *arena)
 {
     enum { ROWS = 61, COLUMNS = 150 };
-    Error       err = {0};
     const char *path = in_folder(name);
     Picture     picture = picture_create(COLUMNS, ROWS, arena);
     uint32_t    chance = 1;
@@ -337,7 +333,7 @@ static const char *write_picture(const char *name, int change, Arena *arena)
         if (change && (x + y) % 7 == 0) picture.rgb[i] += (float)change / 255;
     }
     const PictureFile file = {.bits = 8, .is_srgb = true};
-    if (!picture_write(path, &picture, file, *arena, &err)) fail_msg("%s", err.text);
+    assert_done(picture_write(path, &picture, file, *arena, &err));
     return path;
 }
 
@@ -345,7 +341,6 @@ static const char *write_picture(const char *name, int change, Arena *arena)
 ARENA_TEST(bands_give_the_figures_of_whole_pictures)
 {
     static const int ROWS[] = {1, 7, 16, 61, 100};
-    Error       err = {0};
     const char *a = write_picture("a.png", 0, &arena), *b = write_picture("b.png", 9, &arena);
     CompareOptions options = {.threads = 2};
     Comparison     whole, bands;
@@ -353,11 +348,11 @@ ARENA_TEST(bands_give_the_figures_of_whole_pictures)
         options.selection.has_region = region;
         options.selection.region = (ExrWindow){3, 5, 140, 50};
         options.whole_pixels = 0;
-        assert_true(compare_files(a, b, &options, &arena, &whole, &err));
+        assert_done(compare_files(a, b, &options, &arena, &whole, &err));
         for (int k = 0; k < COUNT_OF(ROWS); k++) {
             options.whole_pixels = 1;
             options.band_rows = ROWS[k];
-            assert_true(compare_files(a, b, &options, &arena, &bands, &err));
+            assert_done(compare_files(a, b, &options, &arena, &bands, &err));
             assert_true(input_is_packed(&bands.reference) && !input_is_packed(&whole.test));
             for (int m = 0; m < METRIC_COUNT; m++)
                 if (!isnan(whole.value[m]) || !isnan(bands.value[m]))
@@ -390,25 +385,23 @@ TEST(a_data_window_places_values)
 
 ARENA_TEST(regions_select_and_displays_are_known)
 {
-    Error            err = {0};
     Selection        selection;
     CompareInput     a = frame_input("a.exr", &arena);
     SelectionRequest request = {.has_region = true, .region = {2, 1, 5, 3}};
-    assert_true(selection_make(&a, &request, &arena, &selection, &err));
+    assert_done(selection_make(&a, &request, &arena, &selection, &err));
     assert_int_equal(selection.pixels, 6);
     assert_true(selection.counts[WIDTH + 2] && !selection.counts[WIDTH + 5]);
     request.region.x1 = WIDTH + 1;
-    assert_false(selection_make(&a, &request, &arena, &selection, &err));
-    assert_non_null(strstr(err.text, "inside the pixels 0,0,12,8 of a.exr"));
+    assert_fails(selection_make(&a, &request, &arena, &selection, &err),
+                 "inside the pixels 0,0,12,8 of a.exr");
     request = (SelectionRequest){.display = "cluster"};
-    assert_false(selection_make(&a, &request, &arena, &selection, &err));
-    assert_non_null(strstr(err.text, "has no display \"cluster\"; its displays: none"));
+    assert_fails(selection_make(&a, &request, &arena, &selection, &err),
+                 "has no display \"cluster\"; its displays: none");
     frame_set_string(&a.frame, "parhelion:display.3", "cluster", &arena);
-    assert_false(selection_make(&a, &request, &arena, &selection, &err));
-    assert_non_null(strstr(err.text, "--layers id,display"));
+    assert_fails(selection_make(&a, &request, &arena, &selection, &err), "--layers id,display");
     float *id = frame_add_channel(&a.frame, "id.display", true, &arena);
     for (int i = 0; i < COUNT; i++) id[i] = i < 7 ? 3 : -1;
-    assert_true(selection_make(&a, &request, &arena, &selection, &err));
+    assert_done(selection_make(&a, &request, &arena, &selection, &err));
     assert_int_equal(selection.pixels, 7);
 }
 

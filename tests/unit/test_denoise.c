@@ -95,8 +95,7 @@ static FrameImage denoised(const FrameImage *frame, int threads, DenoiseReport *
                            Arena *arena)
 {
     FrameImage out;
-    Error      err = {0};
-    if (!denoise_frame(frame, threads, arena, &out, report, &err)) fail_msg("%s", err.text);
+    assert_done(denoise_frame(frame, threads, arena, &out, report, &err));
     assert_memory_equal(&out.data, &frame->data, sizeof out.data);
     assert_memory_equal(&out.display, &frame->display, sizeof out.display);
     assert_int_equal(out.channel_count, 3);

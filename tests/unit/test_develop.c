@@ -19,9 +19,7 @@ static Picture develop(const FrameImage *frame, DevelopOptions options, Arena *a
                        DevelopReport *report)
 {
     Picture picture;
-    Error   err = {0};
-    if (!develop_picture(frame, &options, arena, &picture, report, &err))
-        fail_msg("%s", err.text);
+    assert_done(develop_picture(frame, &options, arena, &picture, report, &err));
     return picture;
 }
 
@@ -36,10 +34,9 @@ static float grey_through(const char *display, const char *view, float grey)
 {
     ViewTransform *transform;
     ViewRequest    request = {NULL, OWN_OCIO_CONFIG, display, view};
-    Error          err = {0};
     float          rgb[3] = {grey, grey, grey};
-    if (!view_transform_create(&request, &transform, &err)) fail_msg("%s", err.text);
-    assert_true(view_transform_apply(transform, rgb, 1, &err));
+    assert_done(view_transform_create(&request, &transform, &err));
+    assert_done(view_transform_apply(transform, rgb, 1, &err));
     assert_near(rgb[1], rgb[0], 2e-6); /* grey stays grey */
     assert_near(rgb[2], rgb[0], 2e-6);
     view_transform_destroy(transform);
@@ -160,8 +157,7 @@ static double grey_of(const char *text, const float *luminance, size_t count)
 {
     Arena           arena = arena_reserve(ARENA_BYTES);
     ExposureRequest request;
-    Error           err = {0};
-    if (!exposure_parse(text, &request, &err)) fail_msg("%s", err.text);
+    assert_done(exposure_parse(text, &request, &err));
     double grey = exposure_grey(request, luminance, count, arena);
     arena_release(&arena);
     return grey;
@@ -199,10 +195,8 @@ TEST(bad_exposures_are_told)
                                       "white:nan", "1e9", "3 ", "inf", "auto1"};
     for (size_t i = 0; i < sizeof BAD / sizeof *BAD; i++) {
         ExposureRequest request;
-        Error           err = {0};
-        assert_false(exposure_parse(BAD[i], &request, &err));
-        assert_int_equal(err.code, ERROR_USAGE);
-        assert_error_has(&err, "wanted auto, an exposure value");
+        assert_fails_as(exposure_parse(BAD[i], &request, &err), ERROR_USAGE,
+                        "wanted auto, an exposure value");
     }
 }
 
@@ -212,23 +206,21 @@ ARENA_TEST(a_frame_becomes_the_codes_it_should)
 {
     FrameImage     frame = uniform_frame(8, 5, 90, &arena);
     DevelopOptions options = {.exposure = "white:500", .view = "untonemapped"};
-    Error          err = {0};
     Image          image;
-    if (!develop_frame(&frame, &options, in_folder("a.png"), arena, NULL, &err))
-        fail_msg("%s", err.text);
-    assert_true(image_read(in_folder("a.png"), &arena, &image, &err));
+    assert_done(develop_frame(&frame, &options, in_folder("a.png"), arena, NULL, &err));
+    assert_done(image_read(in_folder("a.png"), &arena, &image, &err));
     assert_int_equal(image.width, 8);
     assert_int_equal(((const uint8_t *)image.pixels)[0], (int)(255 * 0.461356 + 0.5));
     options.bits = 16;
-    assert_true(develop_frame(&frame, &options, in_folder("a.png"), arena, NULL, &err));
-    assert_true(image_read(in_folder("a.png"), &arena, &image, &err));
+    assert_done(develop_frame(&frame, &options, in_folder("a.png"), arena, NULL, &err));
+    assert_done(image_read(in_folder("a.png"), &arena, &image, &err));
     assert_near(((const uint16_t *)image.pixels)[0], 65535 * 0.461356, 1);
-    assert_true(develop_frame(&frame, &options, in_folder("a.tif"), arena, NULL, &err));
-    if (!image_read(in_folder("a.tif"), &arena, &image, &err)) fail_msg("%s", err.text);
+    assert_done(develop_frame(&frame, &options, in_folder("a.tif"), arena, NULL, &err));
+    assert_done(image_read(in_folder("a.tif"), &arena, &image, &err));
     assert_near(((const uint16_t *)image.pixels)[0], 65535 * 0.461356, 1);
     options.bits = 8;
-    assert_true(develop_frame(&frame, &options, in_folder("a.jpg"), arena, NULL, &err));
-    assert_true(image_read(in_folder("a.jpg"), &arena, &image, &err));
+    assert_done(develop_frame(&frame, &options, in_folder("a.jpg"), arena, NULL, &err));
+    assert_done(image_read(in_folder("a.jpg"), &arena, &image, &err));
     assert_near(((const uint8_t *)image.pixels)[0], 255 * 0.461356, 2);
 }
 
@@ -237,9 +229,8 @@ ARENA_TEST(the_same_frame_makes_the_same_picture_file)
     FrameImage     frame = uniform_frame(8, 5, 90, &arena);
     DevelopOptions options = {.false_colour = true};
     FileBytes      bytes[2];
-    Error          err = {0};
     for (int i = 0; i < 2; i++) {
-        assert_true(develop_frame(&frame, &options, in_folder("same.png"), arena, NULL, &err));
+        assert_done(develop_frame(&frame, &options, in_folder("same.png"), arena, NULL, &err));
         bytes[i] = read_bytes(in_folder("same.png"), &arena);
     }
     assert_int_equal(bytes[0].size, bytes[1].size);
@@ -253,16 +244,15 @@ ARENA_TEST(a_range_makes_frames_comparable)
     DevelopReport  report;
     Picture        p = develop(&frame, options, &arena, &report);
     float          want[3];
-    Error          err = {0};
     false_colour_of(2 / 3.0f, want);
     for (int c = 0; c < 3; c++) assert_near(p.rgb[c], want[c], 5e-3);
     assert_string_equal(report.scale, "0.9 to 900 cd/m^2, logarithmic");
     options.range[0] = 0;
-    assert_false(develop_picture(&frame, &options, &arena, &p, NULL, &err));
-    assert_error_has(&err, "--range 0,900: wanted LOW,HIGH with LOW < HIGH and LOW above 0");
+    assert_fails(develop_picture(&frame, &options, &arena, &p, NULL, &err),
+                 "--range 0,900: wanted LOW,HIGH with LOW < HIGH and LOW above 0");
     options.false_colour = false;
-    assert_false(develop_picture(&frame, &options, &arena, &p, NULL, &err));
-    assert_error_has(&err, "only false colours have a range");
+    assert_fails(develop_picture(&frame, &options, &arena, &p, NULL, &err),
+                 "only false colours have a range");
 }
 
 ARENA_TEST(what_is_not_finite_is_cleaned_and_counted)
@@ -374,12 +364,11 @@ ARENA_TEST(a_grey_frame_is_light_as_well)
     FrameImage    frame = frame_create(1, 1, (ExrWindow){0, 0, 1, 1}, 1, 0, &arena);
     DevelopReport report;
     Picture       picture;
-    Error         err = {0};
     float        *depth = frame_add_channel(&frame, "depth.Z", false, &arena);
     depth[0] = 1;
     DevelopOptions plain = {0};
-    assert_false(develop_picture(&frame, &plain, &arena, &picture, &report, &err));
-    assert_error_has(&err, "has no channels R, G, B or Y; it has: depth");
+    assert_fails(develop_picture(&frame, &plain, &arena, &picture, &report, &err),
+                 "has no channels R, G, B or Y; it has: depth");
     frame_add_channel(&frame, "Y", false, &arena)[0] = 18;
     picture = develop(&frame, (DevelopOptions){.exposure = "white:100", .view = "untonemapped"},
                       &arena, &report);
@@ -409,7 +398,6 @@ ARENA_TEST(figures_of_displays_stand_over_the_frame)
     FrameImage frame = frame_create(8, 8, (ExrWindow){0, 0, 8, 8}, 8, 0, &arena);
     DevelopOptions options = {.layer = "display.contrast", .range = {1, 100}};
     Picture    picture;
-    Error      err = {0};
     float     *contrast, *light[3];
     for (int c = 0; c < 3; c++)
         light[c] = frame_add_channel(&frame, (char[]){"RGB"[c], 0}, false, &arena);
@@ -418,7 +406,7 @@ ARENA_TEST(figures_of_displays_stand_over_the_frame)
         contrast[i] = i % 8 < 4 ? 10 : NAN;
         for (int c = 0; c < 3; c++) light[c][i] = i < 32 ? 40 * (float)(c + 1) : 4000;
     }
-    assert_true(develop_picture(&frame, &options, &arena, &picture, NULL, &err));
+    assert_done(develop_picture(&frame, &options, &arena, &picture, NULL, &err));
     float want[3], *dim = picture_pixel(&picture, 6, 1);
     float *bright = picture_pixel(&picture, 6, 6);
     false_colour_of(0.5f, want);

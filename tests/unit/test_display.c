@@ -105,7 +105,7 @@ TEST(a_frame_shows_what_the_panel_emits)
 {
     for (int p = 0; p < PANEL_COUNT; p++) {
         uint8_t pixel[4] = {0, 0, 0, 255};
-        World   world = world_of_pixel(PANELS[p], pixel);
+        SCOPED_WORLD world = world_of_pixel(PANELS[p], pixel);
         world_ready(&world, BOUNCES);
         for (int primary = 0; primary < 3; primary++)
             for (int level = 0; level < 9; level++)
@@ -125,14 +125,13 @@ TEST(a_frame_shows_what_the_panel_emits)
                     assert_near(uv[0], wanted_uv[0], 1e-4);
                     assert_near(uv[1], wanted_uv[1], 1e-4);
                 }
-        world_end(&world);
     }
 }
 
 /* Light of the display on a white wall: the spectral way must carry the same luminance. */
 TEST(the_display_lights_a_wall_with_its_measured_luminance)
 {
-    World world = world_open(PANELS[0]);
+    SCOPED_WORLD world = world_open(PANELS[0]);
     const float codes[3] = {255, 180, 60};
     uint8_t pixel[4] = {255, 180, 60, 255};
     double expected = 0;
@@ -154,13 +153,12 @@ TEST(the_display_lights_a_wall_with_its_measured_luminance)
     Seen seen = gather(&world, &ray, (LitPoint){0}, 40000);
     assert_near(seen.xyz[1], expected * 0.5 / PI, 4 * seen.sigma_y + 2e-3 * seen.xyz[1]);
     assert_true(seen.sigma_y < 3e-3 * seen.xyz[1]);
-    world_end(&world);
 }
 
 /* A picture whose four corners differ is seen upright and not mirrored. */
 TEST(the_picture_stands_upright)
 {
-    World world = world_open(PANELS[0]);
+    SCOPED_WORLD world = world_open(PANELS[0]);
     static const uint8_t picture[16] = {255, 0,   0,   255, /* upper left red */
                                         0,   255, 0,   255, /* upper right green */
                                         0,   0,   255, 255, /* lower left blue */
@@ -175,14 +173,13 @@ TEST(the_picture_stands_upright)
         Seen seen = look(&world, at, vec3(0, 0, 1), 1);
         for (int k = 0; k < 3; k++) assert_near(seen.xyz[k], expected[k], 1e-3 * expected[1]);
     }
-    world_end(&world);
 }
 
 /* phi as someone facing the display sees it: 0 right, 90 up; and it turns with the picture. */
 TEST(angles_are_those_of_someone_who_faces_the_display)
 {
     uint8_t pixel[4] = {255, 255, 255, 255};
-    World   world = world_of_pixel(PANELS[0], pixel);
+    SCOPED_WORLD world = world_of_pixel(PANELS[0], pixel);
     for (int turned = 0; turned < 2; turned++) {
         if (turned) /* the content by 90 degrees: its right is the scene's up */
             for (uint32_t i = 0; i < 4; i++) {
@@ -205,7 +202,6 @@ TEST(angles_are_those_of_someone_who_faces_the_display)
         bvh_destroy(world.bvh);
         world.bvh = NULL;
     }
-    world_end(&world);
 }
 
 /* Luminance that a spectrum per lane has, averaged over many sets of wavelengths. */
@@ -249,11 +245,9 @@ TEST(a_display_under_a_uniform_sky_reflects_its_brdfs_integral)
 {
     for (int p = 0; p < PANEL_COUNT; p++) {
         uint8_t pixel[4] = {0, 0, 0, 255};
-        World   world = world_of_pixel(PANELS[p], pixel);
+        SCOPED_WORLD world = world_of_pixel(PANELS[p], pixel);
         world.scene->displays[0].level = 0;
-        world.scene->environment.kind = ENVIRONMENT_CONSTANT;
-        world.scene->environment.luminance_cd_m2 = 1000;
-        for (int i = 0; i < 3; i++) world.scene->environment.color[i] = 1;
+        builder_sky(world.scene, 1000);
         world_ready(&world, BOUNCES);
         for (int theta = 10; theta <= 60; theta += 25) {
             Vec3 wo = direction(theta, 40);
@@ -264,7 +258,6 @@ TEST(a_display_under_a_uniform_sky_reflects_its_brdfs_integral)
             assert_true(seen.sigma_y < 2e-3 * expected);
             assert_close(seen.xyz[1], expected, 5e-3);
         }
-        world_end(&world);
     }
 }
 
@@ -316,7 +309,7 @@ TEST(a_display_under_the_sun_reflects_its_brdf_over_the_disc)
 {
     for (int p = 0; p < PANEL_COUNT; p++)
         for (int away = 2; away <= 30; away += 7) {
-            World world = world_open(PANELS[p]);
+            SCOPED_WORLD world = world_open(PANELS[p]);
             uint8_t pixel[4] = {0, 0, 0, 255};
             Environment *environment = &world.scene->environment;
             world_show(&world, pixel, 1, 1);
@@ -345,7 +338,6 @@ TEST(a_display_under_the_sun_reflects_its_brdf_over_the_disc)
                           p, away, seen.xyz[1], seen.sigma_y, expected);
             assert_true(seen.sigma_y < 2e-3 * expected);
             assert_close(seen.xyz[1], expected, 5e-3);
-            world_end(&world);
         }
 }
 
@@ -378,7 +370,7 @@ static void add_sheet(World *world, Vec3 centre, bool is_pane, float blue)
 /* From one side, through a pane and in a mirror: bright from the front, dark from behind. */
 static void check_side(bool is_double_sided, bool is_inside_out, float blue, float side)
 {
-    World world = world_of_faces(is_double_sided, is_inside_out);
+    SCOPED_WORLD world = world_of_faces(is_double_sided, is_inside_out);
     Vec3  eye = vec3(3, 0, 2 * side), image = vec3(0.3f, 0.1f, 16 * side);
     add_sheet(&world, vec3(0, 0, 8 * side), false, blue);
     add_sheet(&world, vec3(0, 0, side), true, blue);
@@ -392,7 +384,6 @@ static void check_side(bool is_double_sided, bool is_inside_out, float blue, flo
         Seen seen = look(&world, vec3(0.3f, 0.1f, 0), towards, 64);
         assert_true(side > 0 ? seen.xyz[1] > 1 : seen.xyz[1] == 0);
     }
-    world_end(&world);
 }
 
 TEST(the_back_of_a_display_is_dark)
@@ -406,7 +397,7 @@ TEST(the_back_of_a_display_lights_nothing)
     LitPoint before = {vec3(0.2f, 0, 2), vec3(0, 0, -1), false};
     LitPoint behind = {vec3(0.2f, 0, -2), vec3(0, 0, 1), false};
     for (int i = 0; i < 4; i++) {
-        World world = world_of_faces(i & 1, i & 2);
+        SCOPED_WORLD world = world_of_faces(i & 1, i & 2);
         Seen  lit[3];
         world_ready(&world, BOUNCES);
         for (PathStrategy s = PATH_MIS; s <= PATH_BSDF_ONLY; s++) {
@@ -417,7 +408,6 @@ TEST(the_back_of_a_display_lights_nothing)
             assert_near(lit[s].xyz[1], lit[0].xyz[1], 4 * sigma);
         }
         assert_true(lit[0].sigma_y < 0.02 * lit[0].xyz[1]);
-        world_end(&world);
     }
 }
 

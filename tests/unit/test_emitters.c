@@ -72,14 +72,6 @@ TEST(points_are_uniform_in_the_solid_angle)
 
 /* ---- lamps ------------------------------------------------------------------------------- */
 
-static Material lamp(float luminance)
-{
-    Material material = builder_material(0);
-    material.is_emitter = true;
-    for (int i = 0; i < 3; i++) material.emissive_cd_m2[i] = luminance;
-    return material;
-}
-
 /* Mean of `count` samples, without the noise of wavelengths; their variance is added. */
 static double illuminance_of(const Lights *lights, LightSet set, LitPoint point, int count,
                              double *variance)
@@ -126,7 +118,7 @@ static double corner_factor(double a, double b, double h)
 ARENA_TEST(a_lamp_near_at_hand_is_chosen_by_solid_angle)
 {
     Scene   *scene = builder_scene(&arena);
-    builder_part(scene, lamp(1000));
+    builder_part(scene, builder_lamp(1000));
     builder_quad(scene, vec3(0, 0, 0), vec3(0.5f, 0, 0), vec3(0, 0, -0.5f));
     const Lights *lights = build(scene, &arena);
     const float away[] = {0.3f, 0.03f, 3e-3f, 3e-4f};
@@ -151,11 +143,11 @@ ARENA_TEST(lamps_that_cannot_be_seen_are_not_chosen)
 {
     Scene   *scene = builder_scene(&arena);
     uint32_t random = 9;
-    builder_part(scene, lamp(10));
+    builder_part(scene, builder_lamp(10));
     builder_quad(scene, vec3(0, 2, 0), vec3(0.1f, 0, 0), vec3(0, 0, 0.1f)); /* seen */
-    builder_part(scene, lamp(1e6f));
+    builder_part(scene, builder_lamp(1e6f));
     builder_quad(scene, vec3(0, -2, 0), vec3(0.1f, 0, 0), vec3(0, 0, -0.1f)); /* below */
-    builder_part(scene, lamp(1e6f));
+    builder_part(scene, builder_lamp(1e6f));
     builder_quad(scene, vec3(1, 2, 0), vec3(0.1f, 0, 0), vec3(0, 0, -0.1f)); /* turned away */
     const Lights *lights = build(scene, &arena);
     LitPoint      point = {vec3(0, 0, 0), vec3(0, 1, 0), false};
@@ -220,7 +212,7 @@ static const Lights *lamps_on_grid(LampKind kind, int count, Arena *arena)
     int      columns = count > 1 ? count / 10 : 1;
     uint32_t random = 5;
     scene->lights = ARENA_NEW(arena, PunctualLight, count);
-    builder_part(scene, lamp(1000));
+    builder_part(scene, builder_lamp(1000));
     for (int i = 0; i < count; i++)
         add_lamp(scene, kind,
                  vec3(6 * ((float)(i % columns) + 0.5f) / (float)columns, 2.9f,

@@ -105,10 +105,9 @@ static bool apply(const char *model, const char *output, bool overwrites, Arena 
 static Scene *load(const char *path, Arena *arena)
 {
     Scene       *scene = NULL;
-    Error        err;
     Problems     problems = problems_start(arena);
     SceneOptions options = {.paths = &path, .path_count = 1};
-    if (!scene_load(&options, arena, &problems, &scene, &err)) fail_msg("%s", err.text);
+    assert_done(scene_load(&options, arena, &problems, &scene, &err));
     return scene;
 }
 
@@ -227,11 +226,10 @@ ARENA_TEST(files_of_the_model_come_along)
 
 ARENA_TEST(without_content_there_is_no_review)
 {
-    Error       err = {0};
     EquipResult result;
     const char *model = write_glb("m.glb");
     write_changed("\"content\": \"cluster\", ", "", &arena);
-    assert_true(apply(model, in_folder("bare.gltf"), false, &arena, &result, &err));
+    assert_done(apply(model, in_folder("bare.gltf"), false, &arena, &result, &err));
     assert_null(result.review);
     assert_false(file_exists(in_folder("bare.review.json")));
 }
@@ -295,10 +293,9 @@ TEST(a_wrong_file_is_refused_and_leaves_nothing)
 
 ARENA_TEST(a_page_holds_the_model_and_asks_for_nothing)
 {
-    Error       err = {0};
     const char *model = write_glb("<script>.glb"), *page = in_folder("page.html");
     Scene      *scene = load(model, &arena);
-    assert_true(equip_page_write(scene, model, "parhelion equip m", page, &arena, &err));
+    assert_done(equip_page_write(scene, model, "parhelion equip m", page, &arena, &err));
     scene_close(scene);
     const char *text = read_text(page, &arena);
     assert_text_has(text, "\"model\":\"\\u003cscript>.glb\"");
@@ -307,11 +304,11 @@ ARENA_TEST(a_page_holds_the_model_and_asks_for_nothing)
     assert_null(strstr(text, "<script src"));
     assert_null(strstr(text, "<link"));
     scene = ARENA_NEW(&arena, Scene, 1);
-    assert_false(equip_page_write(scene, model, "parhelion equip m", page, &arena, &err));
-    assert_error_has(&err, "has no triangles, so no face to click");
+    assert_fails(equip_page_write(scene, model, "parhelion equip m", page, &arena, &err),
+                 "has no triangles, so no face to click");
     scene->triangle_count = EQUIP_TRIANGLES_MAX + 1;
-    assert_false(equip_page_write(scene, model, "parhelion equip m", page, &arena, &err));
-    assert_error_has(&err, "a page takes at most 4000000");
+    assert_fails(equip_page_write(scene, model, "parhelion equip m", page, &arena, &err),
+                 "a page takes at most 4000000");
 }
 
 TEST(usual_materials_can_be_told_apart_and_are_physical)

@@ -31,8 +31,7 @@ static FileBytes encode(const ExrWords *words, Arena *arena)
     frame.words = words;
     ExrBytes  *encoded;
     FileBytes  file;
-    Error      err = {0};
-    if (!exr_encode(&frame, &encoded, &err)) fail_msg("%s", err.text);
+    assert_done(exr_encode(&frame, &encoded, &err));
     const void *bytes = exr_bytes(encoded, &file.size);
     file.data = memcpy(ARENA_NEW(arena, unsigned char, file.size), bytes, file.size);
     exr_bytes_destroy(encoded);
@@ -51,9 +50,7 @@ static const ExrWords *make_words(Arena *arena)
 static ExrReader *open_bytes(FileBytes file)
 {
     ExrReader *reader;
-    Error      err = {0};
-    if (!exr_reader_create("a.exr", file.data, file.size, &reader, &err))
-        fail_msg("%s", err.text);
+    assert_done(exr_reader_create("a.exr", file.data, file.size, &reader, &err));
     return reader;
 }
 
@@ -64,10 +61,9 @@ ARENA_TEST(every_word_comes_back_in_the_order_asked_for)
     const ExrWords *words = make_words(&arena), *found;
     const uint32_t *written = words->values;
     ExrReader      *reader = open_bytes(encode(words, &arena));
-    Error           err = {0};
     static const char *const two[] = {"sum.X.0", "sum.Y.1"};
     const ExrWords  wanted = {"film", 2, two, NULL, 0, NULL};
-    assert_true(exr_reader_words(reader, "film", &found, &err));
+    assert_done(exr_reader_words(reader, "film", &found, &err));
     assert_int_equal(found->count, WORDS);
     assert_string_equal(found->name, "film");
     assert_string_equal(found->names[0], "a.0"); /* files sort them */
@@ -75,12 +71,12 @@ ARENA_TEST(every_word_comes_back_in_the_order_asked_for)
         int       y1 = y0 + 10 < HEIGHT ? y0 + 10 : HEIGHT;
         uint32_t *rows = ARENA_NEW(&arena, uint32_t, WIDTH * 10 * WORDS);
         uint32_t *pair = ARENA_NEW(&arena, uint32_t, WIDTH * 10 * 2);
-        assert_true(exr_reader_read_words(reader, words, CROP.y0 + y0, CROP.y0 + y1, rows,
-                                          &err));
+        assert_done(exr_reader_read_words(reader, words, CROP.y0 + y0, CROP.y0 + y1, rows,
+                        &err));
         assert_memory_equal(rows, written + y0 * WIDTH * WORDS,
                             (size_t)((y1 - y0) * WIDTH * WORDS) * sizeof *rows);
-        assert_true(exr_reader_read_words(reader, &wanted, CROP.y0 + y0, CROP.y0 + y1, pair,
-                                          &err));
+        assert_done(exr_reader_read_words(reader, &wanted, CROP.y0 + y0, CROP.y0 + y1, pair,
+                        &err));
         for (int i = 0; i < (y1 - y0) * WIDTH; i++) {
             assert_int_equal(pair[2 * i], written[(y0 * WIDTH + i) * WORDS + 4]);
             assert_int_equal(pair[2 * i + 1], written[(y0 * WIDTH + i) * WORDS + 1]);
@@ -114,9 +110,8 @@ ARENA_TEST(the_picture_is_the_same_with_and_without)
     FileBytes  with = encode(make_words(&arena), &arena), without = encode(NULL, &arena);
     FileBytes  again = encode(make_words(&arena), &arena);
     FrameImage a, b;
-    Error      err = {0};
-    assert_true(frame_read_memory(with.data, with.size, "with.exr", &arena, &a, &err));
-    assert_true(frame_read_memory(without.data, without.size, "without", &arena, &b, &err));
+    assert_done(frame_read_memory(with.data, with.size, "with.exr", &arena, &a, &err));
+    assert_done(frame_read_memory(without.data, without.size, "without", &arena, &b, &err));
     assert_memory_equal(a.channels[0].values, b.channels[0].values,
                         WIDTH * HEIGHT * sizeof(float));
     assert_int_equal(a.channel_count, 1);
@@ -135,18 +130,17 @@ ARENA_TEST(a_file_on_disk_is_read_too)
     FileBytes       file = encode(words, &arena);
     ExrReader      *reader;
     uint32_t       *rows = ARENA_NEW(&arena, uint32_t, WIDTH * HEIGHT * WORDS);
-    Error           err = {0};
-    assert_true(file_write(in_folder("a.exr"), file.data, file.size, &err));
-    assert_true(exr_reader_open(in_folder("a.exr"), &reader, &err));
-    assert_true(exr_reader_words(reader, "film", &found, &err));
-    assert_true(exr_reader_read_words(reader, words, CROP.y0, CROP.y1, rows, &err));
+    assert_done(file_write(in_folder("a.exr"), file.data, file.size, &err));
+    assert_done(exr_reader_open(in_folder("a.exr"), &reader, &err));
+    assert_done(exr_reader_words(reader, "film", &found, &err));
+    assert_done(exr_reader_read_words(reader, words, CROP.y0, CROP.y1, rows, &err));
     assert_memory_equal(rows, words->values, WIDTH * HEIGHT * WORDS * sizeof *rows);
     exr_reader_destroy(reader);
-    assert_true(exr_reader_open(in_folder("a.exr"), &reader, &err));
-    assert_true(exr_reader_words(reader, "film", &found, &err));
+    assert_done(exr_reader_open(in_folder("a.exr"), &reader, &err));
+    assert_done(exr_reader_words(reader, "film", &found, &err));
     assert_int_equal(truncate(in_folder("a.exr"), (off_t)file.size - 100), 0);
-    assert_false(exr_reader_read_words(reader, words, CROP.y0, CROP.y1, rows, &err));
-    assert_error_has(&err, "damaged OpenEXR file");
+    assert_fails(exr_reader_read_words(reader, words, CROP.y0, CROP.y1, rows, &err),
+                 "damaged OpenEXR file");
     exr_reader_destroy(reader);
     unlink(in_folder("a.exr"));
 }
@@ -205,13 +199,11 @@ ARENA_TEST(a_part_of_another_kind_is_refused)
     unsigned char  *bytes = (unsigned char *)file.data;
     unsigned char  *entry = memmem(bytes, file.size, "count\0\0\0\0\0", 10); /* UINT is 0 */
     const ExrWords *found;
-    Error           err = {0};
     assert_non_null(entry);
     entry[6] = 2; /* FLOAT */
     ExrReader *reader = open_bytes(file);
-    assert_false(exr_reader_words(reader, "film", &found, &err));
-    assert_error_has(&err,
-                    "its part \"film\" does not hold 32-bit words of the picture's pixels");
+    assert_fails(exr_reader_words(reader, "film", &found, &err),
+                 "its part \"film\" does not hold 32-bit words of the picture's pixels");
     exr_reader_destroy(reader);
 }
 
@@ -222,10 +214,9 @@ ARENA_TEST(a_word_that_is_missing_is_named)
     uint32_t       *rows = ARENA_NEW(&arena, uint32_t, WIDTH * HEIGHT * 2);
     ExrReader      *reader = open_bytes(encode(make_words(&arena), &arena));
     const ExrWords *found;
-    Error           err = {0};
-    assert_true(exr_reader_words(reader, "film", &found, &err));
-    assert_false(exr_reader_read_words(reader, &wanted, CROP.y0, CROP.y1, rows, &err));
-    assert_error_has(&err, "its part \"film\" has no words sum.Z.0");
+    assert_done(exr_reader_words(reader, "film", &found, &err));
+    assert_fails(exr_reader_read_words(reader, &wanted, CROP.y0, CROP.y1, rows, &err),
+                 "its part \"film\" has no words sum.Z.0");
     exr_reader_destroy(reader);
 }
 

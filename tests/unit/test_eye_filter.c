@@ -34,8 +34,7 @@ static Planes filtered(const EyeFilter *filter, Planes in, Arena *arena)
 {
     Planes out = make_planes(&filter->view, -1, arena);
     EyeLayer layer = layer_of(in, out);
-    Error    err = {0};
-    if (!eye_filter(filter, &layer, 1, *arena, &err)) fail_msg("%s", err.text);
+    assert_done(eye_filter(filter, &layer, 1, *arena, &err));
     return out;
 }
 
@@ -206,8 +205,7 @@ ARENA_TEST(layers_spread_together_as_they_do_alone)
     in[0].rgb[1][77] = NAN; /* where the other one has it */
     in[1].rgb[0][77] = NAN;
     const EyeLayer layers[2] = {layer_of(in[0], together[0]), layer_of(in[1], together[1])};
-    Error err = {0};
-    if (!eye_filter(&filter, layers, 2, arena, &err)) fail_msg("%s", err.text);
+    assert_done(eye_filter(&filter, layers, 2, arena, &err));
     for (int k = 0; k < 2; k++) {
         alone[k] = filtered(&filter, in[k], &arena);
         for (int c = 0; c < 3; c++)

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* The veil that stray light lays over a gaze point, against its formula. */
-#include "check.h"
+#include "fixture.h"
 
 #include "base/units.h"
 #include "review/light/eye_reading.h"
@@ -16,8 +16,7 @@ static const Vec3     at = {0, 0, -1}; /* looked at from the origin */
 static EyeReading read_towards(World *world, Vec3 towards, int rounds)
 {
     const Kernel *kernel;
-    Error         err = {0};
-    assert_true(kernel_choose(NULL, &kernel, &err));
+    assert_done(kernel_choose(NULL, &kernel, &err));
     if (!world->bvh) world_ready(world, 16); /* a test may look twice */
     Setup setup = {.request = &request, .tools = {.kernel = kernel, .threads = 2},
                    .scene = world->scene, .context = world->context};
@@ -57,24 +56,20 @@ TEST(a_small_source_veils_by_its_illuminance_of_the_pupil)
 {
     static const double angles[] = {1, 2, 5, 10, 30, 60, 85};
     for (size_t i = 0; i < sizeof angles / sizeof *angles; i++) {
-        World    world = dark_world();
-        Material lamp = builder_material(0);
+        SCOPED_WORLD world = dark_world();
         double   half = 0.0005, t = radians_from_degrees(angles[i]);
-        for (int k = 0; k < 3; k++) lamp.emissive_cd_m2[k] = 1e5f;
-        lamp.is_emitter = true;
-        builder_part(world.scene, lamp);
+        builder_part(world.scene, builder_lamp(1e5f));
         Vec3 d = at_angle(angles[i]);
         Vec3 up = vec3(0, (float)(half * cos(t)), (float)(half * sin(t)));
         builder_quad(world.scene, d, vec3((float)half, 0, 0), up);
         if (vec3_dot(vec3_cross(vec3(1, 0, 0), up), d) > 0) fail_msg("the lamp looks away");
         assert_veil(read_eye(&world), angles[i], 1e5 * 4 * half * half * cos(t));
-        world_end(&world);
     }
 }
 
 TEST(a_lamp_without_a_body_veils_alike)
 {
-    World world = dark_world();
+    SCOPED_WORLD world = dark_world();
     world.scene->lights[world.scene->light_count++] =
         (PunctualLight){.name = "lamp", .kind = LIGHT_POINT, .position = at_angle(20),
                         .intensity = {300, 300, 300}, .level = 1};
@@ -83,12 +78,11 @@ TEST(a_lamp_without_a_body_veils_alike)
     assert_veil(found, 20, lux);
     assert_near(found.vertical_lx, lux, 0.01 * lux);
     assert_near(found.parts[EYE_LAMPS], found.veil, 1e-9 * found.veil);
-    world_end(&world);
 }
 
 TEST(the_sun_veils_by_its_own_angle)
 {
-    World world = dark_world();
+    SCOPED_WORLD world = dark_world();
     world.scene->environment.has_sun = true;
     world.scene->environment.sun_elevation = (float)radians_from_degrees(15);
     world.scene->environment.sun_illuminance_lx = 50000;
@@ -98,7 +92,6 @@ TEST(the_sun_veils_by_its_own_angle)
     if (!(fabs(found.vertical_lx / lux - 1) < 0.01)) fail_msg("%g lx", found.vertical_lx);
     assert_near(found.parts[EYE_SUN], found.veil, 1e-9 * found.veil);
     assert_true(found.dgp > 0.45 && found.dgp <= 1);
-    world_end(&world);
 }
 
 /* Wienold's formula of one source, seen above the gaze and below it. */
@@ -123,7 +116,7 @@ TEST(the_sun_is_a_source_of_the_size_of_its_disc)
 TEST(glass_takes_what_it_mirrors_of_the_sun)
 {
     static const double passed = 0.902528; /* of 1.52 at 45 degrees: Fresnel, both faces */
-    World    world = dark_world();
+    SCOPED_WORLD world = dark_world();
     Material window = builder_material(1);
     double   a = radians_from_degrees(15 + 45);
     window.transmission = 1;
@@ -138,7 +131,6 @@ TEST(glass_takes_what_it_mirrors_of_the_sun)
     world.scene->environment.sun_illuminance_lx = 90000;
     EyeReading found = read_eye(&world);
     assert_veil(found, 15, 90000 * passed * cos(radians_from_degrees(15)));
-    world_end(&world);
 }
 
 /* A mirror of a metre, 2 m away, shows the sun that stands behind the eye at 20 degrees from
@@ -146,21 +138,17 @@ TEST(glass_takes_what_it_mirrors_of_the_sun)
 TEST(an_image_of_the_sun_veils_by_its_illuminance)
 {
     const Kernel *kernel;
-    Error     err = {0};
     float     bands[LIGHT_BANDS];
     Vec3      towards, d = at_angle(20);
     FalseSunRays rays;
-    World     world = dark_world();
-    Material  chrome = builder_material(0.8f);
-    chrome.metallic = 1;
-    chrome.roughness = 0;
-    builder_part(world.scene, chrome);
+    SCOPED_WORLD world = dark_world();
+    builder_part(world.scene, builder_mirror(0.8f));
     builder_quad(world.scene, vec3_scale(d, 2), vec3(0.5f, 0, 0), vec3(0, 0.5f, 0));
     world.scene->environment.has_sun = true;
     world.scene->environment.sun_azimuth = (float)PI;
     world.scene->environment.sun_elevation = (float)radians_from_degrees(20);
     world.scene->environment.sun_illuminance_lx = 60000;
-    assert_true(kernel_choose(NULL, &kernel, &err));
+    assert_done(kernel_choose(NULL, &kernel, &err));
     world_ready(&world, 16);
     Setup setup = {.request = &request, .tools = {.kernel = kernel, .threads = 2},
                    .scene = world.scene, .context = world.context};
@@ -175,22 +163,14 @@ TEST(an_image_of_the_sun_veils_by_its_illuminance)
     assert_near(found.veil, wanted, wanted / 22);
     assert_near(found.vertical_lx, lux, lux / 22);
     assert_true(found.veil_sigma > 0 && found.veil_sigma < 0.3 * wanted);
-    world_end(&world);
-}
-
-static void light_sky(World *world, float luminance)
-{
-    world->scene->environment.kind = ENVIRONMENT_CONSTANT;
-    world->scene->environment.luminance_cd_m2 = luminance;
-    for (int i = 0; i < 3; i++) world->scene->environment.color[i] = 1;
 }
 
 /* f L cos theta over the half space in front, by quadrature. */
 TEST(a_uniform_sky_veils_by_the_integral)
 {
-    World  world = dark_world();
+    SCOPED_WORLD world = dark_world();
     double sum = 0, step = 0.01;
-    light_sky(&world, 100);
+    builder_sky(world.scene, 100);
     for (double d = DISABILITY_GLARE_MIN_DEG + step / 2; d < 90; d += step) {
         double t = radians_from_degrees(d);
         sum += disability_glare(d, whose) * cos(t) * sin(t) * radians_from_degrees(step) *
@@ -203,7 +183,6 @@ TEST(a_uniform_sky_veils_by_the_integral)
                                discomfort_dgp_low_light(found.vertical_lx), 1e-9);
     if (!(fabs(found.vertical_lx / (100 * PI) - 1) < 0.01))
         fail_msg("%g lx", found.vertical_lx);
-    world_end(&world);
 }
 
 /* A sky, a lamp and a white floor that both light. */
@@ -212,7 +191,7 @@ static World lit_world(void)
     World world = world_start();
     builder_part(world.scene, builder_material(0.8f));
     builder_quad(world.scene, vec3(0, -1, 0), vec3(3, 0, 0), vec3(0, 0, -3));
-    light_sky(&world, 100);
+    builder_sky(world.scene, 100);
     world.scene->lights[world.scene->light_count++] =
         (PunctualLight){.name = "lamp", .kind = LIGHT_POINT, .position = at_angle(20),
                         .intensity = {300, 300, 300}, .level = 1};
@@ -221,7 +200,7 @@ static World lit_world(void)
 
 TEST(parts_of_a_veil_add_up_and_rounds_agree)
 {
-    World      world = lit_world();
+    SCOPED_WORLD world = lit_world();
     EyeReading once = read_towards(&world, at, 1), often = read_towards(&world, at, 16);
     double     sum = 0;
     for (int i = 0; i < EYE_SOURCES; i++) sum += often.parts[i];
@@ -232,12 +211,11 @@ TEST(parts_of_a_veil_add_up_and_rounds_agree)
     assert_true(isnan(once.veil_sigma) && often.veil_sigma > 0);
     assert_true(often.veil_sigma < 0.002 * often.veil);
     assert_near(once.veil, often.veil, 5 * 4 * often.veil_sigma); /* a round's: 4 times */
-    world_end(&world);
 }
 
 TEST(an_older_eye_has_more_veil)
 {
-    World  world = lit_world();
+    SCOPED_WORLD world = lit_world();
     double last = 0;
     for (int age = 20; age <= 80; age += 30) {
         request.observer.age_years = age;
@@ -246,17 +224,15 @@ TEST(an_older_eye_has_more_veil)
         last = veil;
     }
     request.observer.age_years = 50;
-    world_end(&world);
 }
 
 TEST(eyes_look_straight_up_and_down)
 {
-    World world = lit_world();
+    SCOPED_WORLD world = lit_world();
     for (int sign = -1; sign <= 1; sign += 2) {
         EyeReading found = read_towards(&world, vec3(0, (float)sign, 0), 1);
         assert_true(found.veil > 0 && found.dgp > 0);
     }
-    world_end(&world);
 }
 
 TEST_PROGRAM(NULL, NULL)

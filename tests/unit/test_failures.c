@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* For how long a sweep fails, between its steps. */
-#include "check.h"
+#include "fixture.h"
 
 #include "review/suns/failures.h"
 
@@ -105,9 +105,8 @@ TEST(what_fails_by_its_figure_alone_does_not_count)
 }
 
 /* Four points, of which the middle two fail: each stands for the time to the next. */
-TEST(a_route_fails_for_the_time_of_its_points)
+ARENA_TEST(a_route_fails_for_the_time_of_its_points)
 {
-    Arena     arena = arena_reserve((size_t)1 << 20);
     SweepSun  list[4];
     const double minutes[] = {4, 7, 2, 0};
     const unsigned char states[] = {STEP_PASSES, STEP_FAILS_SURELY, STEP_FAILS, STEP_PASSES};
@@ -117,7 +116,6 @@ TEST(a_route_fails_for_the_time_of_its_points)
     Failures  found = sweep_failures(&route, &suns, states, NULL, arena);
     assert_near(found.share, 9.0 / 13, 1e-12);
     assert_near(found.longest_minutes, 9, 1e-12);
-    arena_release(&arena);
 }
 
-TEST_PROGRAM(NULL, NULL)
+TEST_PROGRAM(make_arena, drop_arena)

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* When a mirror throws the sun into an eye, against the sun's way and plane geometry. */
-#include "check.h"
+#include "fixture.h"
 
 #include "base/units.h"
 #include "review/run/false_sun_times.h"
@@ -76,10 +76,8 @@ static Brute brute_force(const Setup *setup, const Facet *facet, const SweepSuns
 
 static void add_facet(World *world, const Facet *facet)
 {
-    Material silver = builder_material(0.9f);
+    Material silver = builder_mirror(0.9f);
     silver.name = "chrome";
-    silver.metallic = 1;
-    silver.roughness = 0;
     builder_part(world->scene, silver);
     builder_quad(world->scene, facet->at, vec3_scale(facet->right, SIDE_M / 2),
                  vec3_scale(facet->up, SIDE_M / 2));
@@ -91,9 +89,8 @@ static void add_facet(World *world, const Facet *facet)
 /* An hour's sweep would see it once in many years. */
 TEST(a_facet_that_dazzles_for_minutes_a_year_is_found)
 {
-    World           world = world_start();
+    SCOPED_WORLD world = world_start();
     Arena           scratch = arena_reserve((size_t)1 << 30);
-    Error           err = {0};
     const Kernel   *kernel;
     ReviewCondition condition = year_condition(), minutes = condition;
     ReviewRun       run = {.request = &request};
@@ -108,7 +105,7 @@ TEST(a_facet_that_dazzles_for_minutes_a_year_is_found)
     Facet facet = facet_for(setup_direction(&setup, suns.angles[at]));
     add_facet(&world, &facet);
     world_ready(&world, 16);
-    assert_true(kernel_choose(NULL, &kernel, &err));
+    assert_done(kernel_choose(NULL, &kernel, &err));
     setup.tools = (ReadingTools){.kernel = kernel, .threads = 2};
     setup.context = world.context;
     Brute brute = brute_force(&setup, &facet, &suns);
@@ -121,7 +118,7 @@ TEST(a_facet_that_dazzles_for_minutes_a_year_is_found)
     DaylightInput clear = daylight_input_default(DAYLIGHT_CLEAR);
     DistantTools  tools = {.table = &sweep.table};
     sweep.table = sky_table_start(&clear, 16, 36, &scratch);
-    assert_true(distant_probes_ask_skies(NULL, 0, &tools, &scratch, &err));
+    assert_done(distant_probes_ask_skies(NULL, 0, &tools, &scratch, &err));
     for (int b = 0; b < LIGHT_BANDS; b++) bands[b] = 1;
     false_suns_search(&setup, vec3(0, 0, 0), &scratch, &rays);
     images = false_suns_of(&rays, bands, &scratch);
@@ -147,7 +144,6 @@ TEST(a_facet_that_dazzles_for_minutes_a_year_is_found)
                      (2 * PI * (1 - cos(radians_from_degrees(SUN_MEAN_RADIUS_DEG))));
     assert_true(reported[0].lux > 0.5 * covered * sun_lx && reported[0].lux < covered * 130000);
     arena_release(&scratch);
-    world_end(&world);
 }
 
 TEST_PROGRAM(NULL, NULL)

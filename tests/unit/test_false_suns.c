@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Where the sun has to stand for a mirror to throw it into an eye, against plane geometry. */
-#include "check.h"
+#include "fixture.h"
 
 #include "base/units.h"
 #include "review/light/sun_searches.h"
@@ -17,8 +17,7 @@ typedef struct Found {
 static Setup setup_of(const World *world)
 {
     const Kernel *kernel;
-    Error         err = {0};
-    assert_true(kernel_choose(NULL, &kernel, &err));
+    assert_done(kernel_choose(NULL, &kernel, &err));
     return (Setup){.request = &request, .tools = {.kernel = kernel, .threads = 2},
                    .scene = world->scene, .context = world->context};
 }
@@ -41,15 +40,6 @@ static void search(Found *found)
     found->suns = under(&rays, 0, LIGHT_BANDS, arena);
 }
 
-/* Metal without a colour of its own, as smooth as the product has it. */
-static Material silver(float reflectance)
-{
-    Material m = builder_material(reflectance);
-    m.metallic = 1;
-    m.roughness = 0;
-    return m;
-}
-
 /* A mirror 1 m ahead of the eye, below the line of sight by `below` degrees, whose normal
  * halves the way to a sun at elevation `sun` behind it; sides in degrees as the eye sees
  * them. */
@@ -61,7 +51,7 @@ static void add_facet(World *world, double below, double sun, double wide, doubl
     Vec3   normal = vec3_normalize(vec3_sub(towards, at));
     Vec3   right = vec3(1, 0, 0), up = vec3_cross(normal, right);
     float  slant = -vec3_dot(at, normal);
-    builder_part(world->scene, silver(1));
+    builder_part(world->scene, builder_mirror(1));
     builder_quad(world->scene, at,
                  vec3_scale(right, (float)tan(radians_from_degrees(wide / 2))),
                  vec3_scale(up, (float)tan(radians_from_degrees(high / 2)) / slant));
@@ -135,7 +125,7 @@ static const FalseSunRays *ask_twice(SunSearches *kept, const World *world)
  * sun of two colours gets from a blue mirror what either gets. */
 TEST(all_suns_together_see_the_facets_solid_angle)
 {
-    World       world = world_start();
+    SCOPED_WORLD world = world_start();
     SunSearches kept = sun_searches_start();
     double      wide = radians_from_degrees(3), high = radians_from_degrees(1);
     add_facet(&world, 10, 50, 3, 1);
@@ -152,7 +142,6 @@ TEST(all_suns_together_see_the_facets_solid_angle)
     assert_close(by_blue + by_red, 2 * all_sr(&white, 1), 1e-6);
     if (!(by_red < 0.8 * by_blue)) fail_msg("%g of red, %g of blue light", by_red, by_blue);
     sun_searches_end(&kept);
-    world_end(&world);
 }
 
 /* A facet of 0.4 degrees, which the sun crosses in minutes: it lights the eye from no more than

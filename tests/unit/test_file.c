@@ -29,72 +29,67 @@ ARENA_TEST(what_was_written_is_read_back)
 
 ARENA_TEST(the_start_is_read_of_a_file_of_any_length)
 {
-    Error     err;
     FileBytes bytes;
     const char *path = in_folder("long.bin");
-    assert_true(file_write(path, "abcdef", 6, &err));
-    assert_true(file_read_start(path, 4, &arena, &bytes, &err));
+    assert_done(file_write(path, "abcdef", 6, &err));
+    assert_done(file_read_start(path, 4, &arena, &bytes, &err));
     assert_int_equal(bytes.size, 4);
     assert_memory_equal(bytes.data, "abcd", 5); /* and a zero behind */
-    assert_true(file_read_start(path, 9, &arena, &bytes, &err));
+    assert_done(file_read_start(path, 9, &arena, &bytes, &err));
     assert_int_equal(bytes.size, 6);
     unlink(path);
-    assert_false(file_read_start(path, 4, &arena, &bytes, &err));
-    assert_non_null(strstr(err.text, "cannot be opened: No such file"));
-    assert_false(file_read_start(test_folder(), 4, &arena, &bytes, &err));
-    assert_non_null(strstr(err.text, "is a folder, a file is wanted"));
+    assert_fails(file_read_start(path, 4, &arena, &bytes, &err),
+                 "cannot be opened: No such file");
+    assert_fails(file_read_start(test_folder(), 4, &arena, &bytes, &err),
+                 "is a folder, a file is wanted");
 }
 
 ARENA_TEST(a_file_that_cannot_be_written_leaves_nothing)
 {
-    Error err;
-    assert_false(file_write(in_folder("none/a.bin"), "x", 1, &err));
-    assert_int_equal(err.code, ERROR_OUTPUT);
-    assert_non_null(strstr(err.text, "cannot be created: No such file or directory"));
+    assert_fails_as(file_write(in_folder("none/a.bin"), "x", 1, &err), ERROR_OUTPUT,
+                    "cannot be created: No such file or directory");
     char *temporary = file_temporary_name(in_folder("b.bin"), &arena);
     FILE *file = fopen(temporary, "wb");
     assert_non_null(file);
     fclose(file);
-    assert_false(file_commit(temporary, in_folder("none/b.bin"), &err));
+    assert_fails(file_commit(temporary, in_folder("none/b.bin"), &err), "");
     assert_false(file_exists(temporary));
 }
 
 /* What stands in the file at `path`, read anew. */
 static void assert_content(const char *path, const char *wanted)
 {
-    Error     err;
     FileBytes bytes;
-    assert_true(file_read(path, 100, test_memory(), &bytes, &err));
+    assert_done(file_read(path, 100, test_memory(), &bytes, &err));
     assert_string_equal((const char *)bytes.data, wanted);
 }
 
 TEST(nobody_sees_a_file_before_it_is_whole)
 {
-    Error       err;
     FileWriter  writer;
     const char *path = in_folder("w.bin");
     for (int i = 0; i < 2; i++) { /* the second time there is one to replace */
-        assert_true(file_writer_open(path, &writer, &err));
-        assert_true(file_writer_add(&writer, "pie", 3, &err));
+        assert_done(file_writer_open(path, &writer, &err));
+        assert_done(file_writer_add(&writer, "pie", 3, &err));
         assert_int_equal(files_in_folder(), i);
-        assert_true(file_writer_add(&writer, i ? "ces" : "ce", 2 + (size_t)i, &err));
-        assert_true(file_writer_commit(&writer, &err));
+        assert_done(file_writer_add(&writer, i ? "ces" : "ce", 2 + (size_t)i, &err));
+        assert_done(file_writer_commit(&writer, &err));
         assert_int_equal(files_in_folder(), 1);
         assert_content(path, i ? "pieces" : "piece");
     }
-    assert_true(file_writer_open(path, &writer, &err));
-    assert_true(file_writer_add(&writer, "other", 5, &err));
+    assert_done(file_writer_open(path, &writer, &err));
+    assert_done(file_writer_add(&writer, "other", 5, &err));
     file_writer_discard(&writer);
     assert_content(path, "pieces");
-    assert_true(file_check_writable(path, &err));
+    assert_done(file_check_writable(path, &err));
     assert_int_equal(files_in_folder(), 1);
     unlink(path);
     char name[300]; /* too long for its temporary names, found before anything is written */
     memset(name, 'x', sizeof name - 1);
     name[sizeof name - 1] = '\0';
     name[250] = '\0';
-    assert_false(file_writer_open(in_folder(name), &writer, &err));
-    assert_string_equal(err.text, "cannot be created: File name too long");
+    assert_fails_with(file_writer_open(in_folder(name), &writer, &err),
+                      "cannot be created: File name too long");
 }
 
 TEST(what_a_killed_writer_leaves_is_cleared)
@@ -198,9 +193,8 @@ static int make_thousand(void)
 
 TEST(processes_make_the_same_folders_at_once)
 {
-    Error err;
     pid_t children[4];
-    assert_true(folder_make(in_folder("many"), &err));
+    assert_done(folder_make(in_folder("many"), &err));
     for (int i = 0; i < 4; i++)
         if (!(children[i] = fork())) _exit(make_thousand());
     for (int i = 0; i < 4; i++) {
@@ -218,13 +212,11 @@ TEST(processes_make_the_same_folders_at_once)
 
 TEST(a_file_is_no_folder)
 {
-    Error       err;
     const char *path = in_folder("file");
-    assert_true(file_write(path, "x", 1, &err));
-    assert_false(folder_make(path, &err));
-    assert_non_null(strstr(err.text, "cannot be made: Not a directory"));
-    assert_false(folder_make(in_folder("none/inner"), &err));
-    assert_non_null(strstr(err.text, "cannot be made: No such file or directory"));
+    assert_done(file_write(path, "x", 1, &err));
+    assert_fails(folder_make(path, &err), "cannot be made: Not a directory");
+    assert_fails(folder_make(in_folder("none/inner"), &err),
+                 "cannot be made: No such file or directory");
     unlink(path);
 }
 
@@ -273,18 +265,17 @@ ARENA_TEST(base64_data_are_decoded)
                                           "Zm9vYg==", "Zm9vYmE=", "Zm9vYmFy", "Zm9vYg"};
     static const char *const PLAIN[] = {"",     "f",     "fo",     "foo",
                                         "foob", "fooba", "foobar", "foob"};
-    Error err;
     FileBytes bytes;
     const char *type;
     for (int i = 0; i < 8; i++) {
         char uri[64];
         snprintf(uri, sizeof uri, "data:text/plain;base64,%s", ENCODED[i]);
-        assert_true(data_uri_decode(uri, &arena, &bytes, &type, &err));
+        assert_done(data_uri_decode(uri, &arena, &bytes, &type, &err));
         assert_int_equal(bytes.size, strlen(PLAIN[i]));
         assert_string_equal((const char *)bytes.data, PLAIN[i]);
         assert_string_equal(type, "text/plain");
     }
-    assert_true(data_uri_decode("data:,a%20b", &arena, &bytes, &type, &err));
+    assert_done(data_uri_decode("data:,a%20b", &arena, &bytes, &type, &err));
     assert_string_equal((const char *)bytes.data, "a b");
     assert_string_equal(type, "");
 }
@@ -294,10 +285,9 @@ ARENA_TEST(broken_data_uris_are_refused)
     static const char *const BROKEN[] = {
         "data:text/plain;base64", "data:;base64,Z",        "data:;base64,Zm9*",
         "data:a/b;;base64,Zg==",  "data:;base64,Zg==Zg==", "file:,x"};
-    Error err;
     FileBytes bytes;
     for (int i = 0; i < 6; i++)
-        assert_false(data_uri_decode(BROKEN[i], &arena, &bytes, NULL, &err));
+        assert_fails(data_uri_decode(BROKEN[i], &arena, &bytes, NULL, &err), "");
 }
 
 TEST_PROGRAM(make_folder, remove_folder)

@@ -8,12 +8,6 @@
 #include "film/pixels.h"
 #include "spectrum/photometry.h"
 
-static float random_unit(uint32_t *state)
-{
-    *state = hash_u32(*state + 0x9e3779b9u);
-    return unit_float(*state);
-}
-
 /* Samples over 18 powers of ten, negative ones too, with every layer set. */
 static FilmSample random_sample(uint32_t *state, uint32_t index)
 {
@@ -200,7 +194,7 @@ TEST(relative_error_is_the_mean_of_sigma_over_luminance)
     enum { SIDE = 100 };
     static const uint32_t counts[] = {20, 64, 200};
     for (int c = 0; c < 3; c++) {
-        Arena    arena = arena_reserve(1 << 23);
+        Arena    arena = *test_memory();
         FilmRect square = {0, 0, SIDE, SIDE};
         Film    *film = film_create(SIDE, SIDE, square, 0, NULL, &arena);
         assert_close(film_relative_error(film).frame, 1, 1e-15);
@@ -215,7 +209,6 @@ TEST(relative_error_is_the_mean_of_sigma_over_luminance)
             expected += (1 + x) / fmax(2.0 * (1 + x), key / 2) / SIDE / sqrt(counts[c]);
         assert_close(film_relative_error(film).frame, expected, 0.03);
         assert_true(isnan(film_relative_error(film).displays));
-        arena_release(&arena);
     }
 }
 
@@ -470,11 +463,10 @@ ARENA_TEST(a_crop_is_the_data_window)
 TEST(film_bytes_is_what_a_film_takes)
 {
     for (unsigned layers = 0; layers <= LAYER_ALL; layers += 193) {
-        Arena arena = arena_reserve(1 << 20);
+        Arena arena = *test_memory();
         film_create(WIDTH, HEIGHT, whole, layers, NULL, &arena);
         assert_in_range(arena.next - arena.begin, film_bytes(whole, layers, 0),
                         film_bytes(whole, layers, 0) + 32);
-        arena_release(&arena);
     }
 }
 

@@ -116,13 +116,4 @@ TEST(what_reaches_behind_the_eye_reaches_the_edge_of_the_frame)
     assert_false(film_box_of_part(&camera, scene_of(&all, behind), 0, &box));
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_box_ends_where_the_camera_sees_the_corners),
-        cmocka_unit_test(a_back_has_no_box),
-        cmocka_unit_test(a_box_ends_with_the_frame),
-        cmocka_unit_test(what_reaches_behind_the_eye_reaches_the_edge_of_the_frame),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TEST_PROGRAM(NULL, NULL)

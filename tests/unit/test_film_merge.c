@@ -118,7 +118,6 @@ ARENA_TEST(parts_in_any_split_and_order_make_the_same_bits)
 {
     uint32_t random = 1;
     Film    *expected = make_film(whole, 0, SAMPLES, LAYER_ALL, &arena);
-    Error    err = {0};
     assert_true(expected->dropped.count > FILM_DROPPED_KEPT);
     for (int round = 0; round < 5; round++) {
         Arena scratch = arena;
@@ -128,8 +127,8 @@ ARENA_TEST(parts_in_any_split_and_order_make_the_same_bits)
         for (int i = 0; i < count; i++) {
             Film *part = make_film(cuts[i].crop, cuts[i].first, cuts[i].end, LAYER_ALL,
                                    &scratch);
-            assert_true(film_add_pixels(sum, part->crop, part->pixels,
-                                        cuts[i].end - cuts[i].first, &err));
+            assert_done(film_add_pixels(sum, part->crop, part->pixels,
+                            cuts[i].end - cuts[i].first, &err));
             film_add_dropped(sum, &part->dropped);
         }
         assert_same_films(sum, expected);
@@ -139,7 +138,6 @@ ARENA_TEST(parts_in_any_split_and_order_make_the_same_bits)
 /* (a + b) + c against a + (b + c). */
 ARENA_TEST(grouping_makes_no_difference)
 {
-    Error err = {0};
     Film *expected = make_film(whole, 0, SAMPLES, LAYER_DEPTH, &arena);
     for (int left = 0; left < 2; left++) {
         Film *part[] = {make_film(whole, 0, 7, LAYER_DEPTH, &arena),
@@ -147,9 +145,9 @@ ARENA_TEST(grouping_makes_no_difference)
                         make_film(whole, 30, SAMPLES, LAYER_DEPTH, &arena)};
         Film *inner = part[left ? 0 : 1], *outer = part[left ? 2 : 0];
         Film *added = part[left ? 1 : 2];
-        assert_true(film_add_pixels(inner, whole, added->pixels, SAMPLES, &err));
+        assert_done(film_add_pixels(inner, whole, added->pixels, SAMPLES, &err));
         film_add_dropped(inner, &added->dropped);
-        assert_true(film_add_pixels(outer, whole, inner->pixels, SAMPLES, &err));
+        assert_done(film_add_pixels(outer, whole, inner->pixels, SAMPLES, &err));
         film_add_dropped(outer, &inner->dropped);
         assert_same_films(outer, expected);
     }
@@ -160,9 +158,8 @@ ARENA_TEST(grouping_makes_no_difference)
 static void write_part(const Film *film, const FilmPart *part, Arena scratch)
 {
     FrameImage frame = film_to_frame(film, 0, &scratch);
-    Error      err = {0};
     film_part_attach(&frame, film, part, &scratch);
-    if (!frame_write(path, &frame, &err)) fail_msg("%s", err.text);
+    assert_done(frame_write(path, &frame, &err));
 }
 
 static bool read_part(Film *to, FilmPart *part, Arena scratch, Error *err)
@@ -206,14 +203,13 @@ ARENA_TEST(files_carry_every_bit)
         Film    *back =
             film_create(WIDTH, HEIGHT, crops[i % 3], layers[i / 3], &groups, &arena);
         FilmPart part = film_part_of(film, 3, SAMPLES), found;
-        Error    err = {0};
         part.asked_end = 99;
         part.paths = 1;
         part.camera_rays = 1ull << 63;
         part.bounce_rays = 3;
         part.shadow_rays = 4;
         write_part(film, &part, arena);
-        if (!read_part(back, &found, arena, &err)) fail_msg("%s", err.text);
+        assert_done(read_part(back, &found, arena, &err));
         assert_same_films(back, film);
         assert_string_equal(found.name, path);
         assert_int_equal(found.lights.count, layers[i / 3] & LAYER_LIGHT ? 3 : 0);
@@ -236,12 +232,11 @@ ARENA_TEST(long_parts_are_read_in_bands)
     }
     FilmPart       part = film_part_of(film, 0, 1);
     FilmPartReader from;
-    Error          err = {0};
     int            bands = 0;
     write_part(film, &part, arena);
-    assert_true(film_part_open(path, &arena, &from, &err));
+    assert_done(film_part_open(path, &arena, &from, &err));
     for (; from.next_y < HIGH; bands++)
-        if (!film_part_add_band(&from, back, arena, &err)) fail_msg("%s", err.text);
+        assert_done(film_part_add_band(&from, back, arena, &err));
     film_part_close(&from);
     assert_int_equal(bands, 2);
     assert_same_films(back, film);
@@ -264,12 +259,11 @@ ARENA_TEST(words_have_the_names_that_the_header_says)
     ExrReader *reader;
     const ExrWords *found, wanted = {"film", 12, names, NULL, 0, NULL};
     uint32_t   read[12];
-    Error      err = {0};
     write_part(film, &part, arena);
-    assert_true(exr_reader_open(path, &reader, &err));
-    assert_true(exr_reader_words(reader, "film", &found, &err));
+    assert_done(exr_reader_open(path, &reader, &err));
+    assert_done(exr_reader_words(reader, "film", &found, &err));
     assert_int_equal(found->count * 4, film->stride);
-    assert_true(exr_reader_read_words(reader, &wanted, 0, 1, read, &err));
+    assert_done(exr_reader_read_words(reader, &wanted, 0, 1, read, &err));
     for (int i = 0; i < 12; i++)
         if (read[i] != values[i]) fail_msg("%s is %x, not %x", names[i], read[i], values[i]);
     exr_reader_destroy(reader);
@@ -286,11 +280,10 @@ typedef struct Written {
 static Written write_small(unsigned layers, Arena *arena)
 {
     static const FilmRect crop = {2, 3, 6, 20};
-    Error   err = {0};
     Written w = {.film = make_film(crop, 0, 4, layers, arena)};
     w.part = film_part_of(w.film, 0, 4);
     write_part(w.film, &w.part, *arena);
-    assert_true(file_read(path, 1 << 24, arena, &w.bytes, &err));
+    assert_done(file_read(path, 1 << 24, arena, &w.bytes, &err));
     return w;
 }
 
@@ -357,13 +350,11 @@ static void assert_refused(const Written *w, const char *from, const char *to,
     const char *place = memmem(words, w->bytes.size - before, from, length);
     Arena       scratch = arena_reserve(1 << 22);
     Film       *back = film_create(WIDTH, HEIGHT, whole, w->part.layers, &groups, &scratch);
-    Error       err = {0};
     FilmPart    found;
     if (!place || strlen(to) != length) fail_msg("no place for %s", to);
     size_t      at = (size_t)(place - (const char *)w->bytes.data);
     patch(at, to, length);
-    assert_false(read_part(back, &found, scratch, &err));
-    assert_error_has(&err, message);
+    assert_fails(read_part(back, &found, scratch, &err), message);
     patch(at, from, length);
     arena_release(&scratch);
 }
@@ -424,18 +415,17 @@ ARENA_TEST(another_set_of_layers_does_not_fit_the_words)
     Film    *film = film_create(WIDTH, HEIGHT, whole, LAYER_DEPTH, &groups, &arena);
     FilmPart part = film_part_of(film, 0, 1), found;
     FrameImage frame = film_to_frame(film, 0, &arena);
-    Error    err = {0};
     film_part_attach(&frame, film, &part, &arena);
     ExrWords fewer = *frame.words;
     fewer.count -= 4;
     frame.words = &fewer;
-    assert_true(frame_write(path, &frame, &err));
-    assert_false(read_part(film, &found, arena, &err));
-    assert_error_has(&err, "damaged sums: 56 words a pixel, its layers have 60");
+    assert_done(frame_write(path, &frame, &err));
+    assert_fails(read_part(film, &found, arena, &err),
+                 "damaged sums: 56 words a pixel, its layers have 60");
     frame.words = NULL;
-    assert_true(frame_write(path, &frame, &err));
-    assert_false(read_part(film, &found, arena, &err));
-    assert_error_has(&err, "carries no sums, only means: it cannot be merged");
+    assert_done(frame_write(path, &frame, &err));
+    assert_fails(read_part(film, &found, arena, &err),
+                 "carries no sums, only means: it cannot be merged");
 }
 
 ARENA_TEST(sums_that_no_samples_make_are_refused)
@@ -444,7 +434,6 @@ ARENA_TEST(sums_that_no_samples_make_are_refused)
     for (int i = 0; i < 7; i++) {
         Film      *film = make_film(whole, 0, 3, LAYER_UV, &arena);
         PixelSums *pixel = film_sums(film, 4, 5);
-        Error      err = {0};
         if (i == 0) pixel->xyz[1] = (Fixed)4 << 96;
         if (i == 1) pixel->odd_xyz[2] = -((Fixed)4 << 96);
         if (i == 2) pixel->layers[1] = (Fixed)1 << 126;
@@ -452,8 +441,8 @@ ARENA_TEST(sums_that_no_samples_make_are_refused)
         if (i == 4) pixel->hits = 4;
         if (i == 5) pixel->display_hits = 4;
         if (i == 6) pixel->odd_samples = 4;
-        assert_false(film_add_pixels(sum, whole, film->pixels, 3, &err));
-        assert_error_has(&err, "damaged sums: pixel 4,5 has sums that 3 samples cannot have");
+        assert_fails(film_add_pixels(sum, whole, film->pixels, 3, &err),
+                     "damaged sums: pixel 4,5 has sums that 3 samples cannot have");
     }
 }
 
@@ -471,20 +460,18 @@ ARENA_TEST(parts_that_fill_a_box_are_a_whole)
     for (int round = 0; round < 50; round++) {
         Cut      cuts[27];
         FilmPart parts[27], all;
-        Error    err = {0};
         int      count = cut_up(cuts, &random);
         for (int i = 0; i < count; i++)
             parts[i] = box("a.exr", cuts[i].crop, cuts[i].first + 5, cuts[i].end + 5);
-        if (!film_merge_check(parts, count, arena, &all, &err)) fail_msg("%s", err.text);
+        assert_done(film_merge_check(parts, count, arena, &all, &err));
         assert_memory_equal(&all.crop, &whole, sizeof whole);
         assert_int_equal(all.first_sample, 5);
         assert_int_equal(all.end_sample, SAMPLES + 5);
         assert_int_equal(all.asked_end, SAMPLES + 5);
         parts[round % 26] = parts[26]; /* one is missing; another is there twice, at the end */
-        assert_false(film_merge_check(parts, count - 1, arena, &all, &err));
-        assert_error_has(&err, "no part has samples ");
-        assert_false(film_merge_check(parts, count, arena, &all, &err));
-        assert_error_has(&err, "are in a.exr as well");
+        assert_fails(film_merge_check(parts, count - 1, arena, &all, &err),
+                     "no part has samples ");
+        assert_fails(film_merge_check(parts, count, arena, &all, &err), "are in a.exr as well");
     }
 }
 

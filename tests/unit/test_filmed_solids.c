@@ -26,47 +26,10 @@ static Iridescence *film_of(World *world, float share, float ior, float nm)
     return film;
 }
 
-static Material emitter(float cd_m2)
-{
-    Material material = builder_material(0);
-    material.is_emitter = true;
-    for (int i = 0; i < 3; i++) material.emissive_cd_m2[i] = cd_m2;
-    return material;
-}
-
-static void set_sky(World *world, float cd_m2)
-{
-    Environment *outside = &world->scene->environment;
-    outside->kind = ENVIRONMENT_CONSTANT;
-    outside->luminance_cd_m2 = cd_m2;
-    for (int i = 0; i < 3; i++) outside->color[i] = 1;
-}
-
-typedef struct Mean {
-    double value, sigma;
-} Mean;
-
 /* Luminance of a narrow cone. */
-static Mean look(const World *world, Vec3 from, Vec3 to, int count)
+static WorldMean look(const World *world, Vec3 from, Vec3 to, int count)
 {
-    double sum = 0, squares = 0;
-    Frame  frame = frame_from_z(vec3_normalize(vec3_sub(to, from)));
-    PathStatistics statistics = {0};
-    for (int i = 0; i < count; i++) {
-        Sampler sampler = sampler_start(3, 0, 0, (uint32_t)i);
-        Vec2    at = sampler_2d(&sampler);
-        Wavelengths w;
-        PathResult  result;
-        wavelengths_sample(sampler_1d(&sampler), &w);
-        Vec3 local = vec3(0.1f * (at.x - 0.5f), 0.1f * (at.y - 0.5f), 1);
-        Ray  ray = {from, vec3_normalize(frame_to_world(&frame, local)), 0, INFINITY};
-        PathStart start = {.context = &world->context, .wavelengths = &w, .sampler = &sampler,
-                           .statistics = &statistics};
-        path_from_ray(&start, ray, &result);
-        sum += (double)result.xyz[1] / count;
-        squares += (double)result.xyz[1] * (double)result.xyz[1] / count;
-    }
-    return (Mean){sum, sqrt(fmax(squares - sum * sum, 0) / count)};
+    return world_luminance(world, &(WorldLook){from, vec3_sub(to, from), 0.1f, 3, count});
 }
 
 /* A closed ball, also one that parts light. */
@@ -76,7 +39,7 @@ TEST(a_filmed_ball_is_not_seen_in_a_furnace)
                                      {1.5f, 1, 1.8f, 400}, {1.33f, 0.5f, 1.33f, 900},
                                      {1, 1, 1.33f, 350}, {2.4f, 1, 1.3f, 120}};
     for (int i = 0; i < 8; i++) {
-        World    world = world_start();
+        SCOPED_WORLD world = world_start();
         Material ball = glass(balls[i / 2][0], 0);
         Curve   *index = ARENA_NEW(&world.arena, Curve, 1);
         for (int k = 0; k < CURVE_COUNT; k++)
@@ -85,13 +48,12 @@ TEST(a_filmed_ball_is_not_seen_in_a_furnace)
         if (i % 2) ball.index = index;
         builder_part(world.scene, ball);
         builder_sphere(world.scene, vec3(0, 0, 0), 1, 48, 0);
-        set_sky(&world, 1000);
+        builder_sky(world.scene, 1000);
         world_ready(&world, BOUNCES);
-        Mean seen = look(&world, vec3(0.5f, 0.3f, 3), vec3(0.5f, 0.3f, 0),
+        WorldMean seen = look(&world, vec3(0.5f, 0.3f, 3), vec3(0.5f, 0.3f, 0),
                          i % 2 ? 200000 : 40000);
-        if (!(fabs(seen.value - 1000) < 3.5 * seen.sigma + 0.5 && seen.sigma < 2))
-            fail_msg("ball %d: %g +- %g", i, seen.value, seen.sigma);
-        world_end(&world);
+        if (!(fabs(seen.mean - 1000) < 3.5 * seen.sigma + 0.5 && seen.sigma < 2))
+            fail_msg("ball %d: %g +- %g", i, seen.mean, seen.sigma);
     }
 }
 
@@ -130,18 +92,17 @@ TEST(a_brushed_box_is_not_seen_in_a_furnace)
 {
     static const float roughness[] = {0.3f, 0.6f, 0, 0.5f};
     for (int i = 0; i < 4; i++) {
-        World    world = world_start();
+        SCOPED_WORLD world = world_start();
         Material box = glass(1.5f, roughness[i]);
         box.brushing = brushing_of(&world, 0.4f);
         if (i == 1) box.iridescence = film_of(&world, 0.8f, 1.9f, 450);
         add_box(&world, box);
         if (i == 3) world.scene->parts[world.scene->part_count - 1].tangents = NULL;
-        set_sky(&world, 1000);
+        builder_sky(world.scene, 1000);
         world_ready(&world, 1000);
-        Mean seen = look(&world, vec3(0, 1, 1.5f), vec3(0, 0, 0), 60000);
-        if (!(fabs(seen.value - 1000) < 3.5 * seen.sigma + 2 && seen.sigma < 4))
-            fail_msg("box %d: %g +- %g", i, seen.value, seen.sigma);
-        world_end(&world);
+        WorldMean seen = look(&world, vec3(0, 1, 1.5f), vec3(0, 0, 0), 60000);
+        if (!(fabs(seen.mean - 1000) < 3.5 * seen.sigma + 2 && seen.sigma < 4))
+            fail_msg("box %d: %g +- %g", i, seen.mean, seen.sigma);
     }
 }
 
@@ -152,11 +113,11 @@ static World box_world(bool has_film, bool is_brushed)
     Material box = glass(1.5f, 0.6f);
     if (has_film) box.iridescence = film_of(&world, 0.8f, 1.9f, 450);
     if (is_brushed) box.brushing = brushing_of(&world, 0.4f);
-    builder_part(world.scene, emitter(500));
+    builder_part(world.scene, builder_lamp(500));
     builder_quad(world.scene, vec3(0.3f, 1.5f, -1), vec3(1, 0, 0), vec3(0, 0, 1));
     builder_quad(world.scene, vec3(0, -1.2f, 0.2f), vec3(1, 0, 0), vec3(0, 0, -1));
     add_box(&world, box);
-    set_sky(&world, 40);
+    builder_sky(world.scene, 40);
     world_ready(&world, 6);
     return world;
 }
@@ -164,35 +125,33 @@ static World box_world(bool has_film, bool is_brushed)
 TEST(every_strategy_finds_the_same_light)
 {
     for (int i = 1; i < 4; i++) {
-        World world = box_world(i & 1, i & 2);
-        Mean  found[3];
+        SCOPED_WORLD world = box_world(i & 1, i & 2);
+        WorldMean  found[3];
         for (PathStrategy s = PATH_MIS; s <= PATH_BSDF_ONLY; s++) {
             world.context.strategy = s;
             found[s] = look(&world, vec3(0, 1, 1.5f), vec3(0, 0, 0), 150000);
         }
         for (int s = 1; s < 3; s++)
-            if (!(fabs(found[s].value - found[0].value) <
+            if (!(fabs(found[s].mean - found[0].mean) <
                       3.5 * hypot(found[s].sigma, found[0].sigma) &&
-                  found[s].sigma < 0.02 * found[s].value))
+                  found[s].sigma < 0.02 * found[s].mean))
                 fail_msg("film %d, brushed %d, strategy %d: %g +- %g, both %g +- %g", i & 1,
-                         i >> 1, s, found[s].value, found[s].sigma, found[0].value,
+                         i >> 1, s, found[s].mean, found[s].sigma, found[0].mean,
                          found[0].sigma);
-        world_end(&world);
     }
 }
 
 /* A small lamp aside of the mirror's way is seen by facets that lean to it. */
 static double aside(Vec3 lamp, float turn)
 {
-    World    world = world_start();
+    SCOPED_WORLD world = world_start();
     Material box = glass(1.5f, 0.3f);
     box.brushing = brushing_of(&world, turn);
-    builder_part(world.scene, emitter(1e4f));
+    builder_part(world.scene, builder_lamp(1e4f));
     builder_quad(world.scene, lamp, vec3(0.2f, 0, 0), vec3(0, 0, 0.2f));
     add_box(&world, box);
     world_ready(&world, 1);
-    double seen = look(&world, vec3(0, 1, 0), vec3(0, 0, 0), 20000).value;
-    world_end(&world);
+    double seen = look(&world, vec3(0, 1, 0), vec3(0, 0, 0), 20000).mean;
     return seen;
 }
 

@@ -70,11 +70,10 @@ TEST(even_surfaces_follow_the_closed_form)
 {
     for (size_t i = 0; i < sizeof PAIRS / sizeof *PAIRS; i++) {
         const UniformPair p = PAIRS[i];
-        Arena             arena = arena_reserve(FIXTURE_ARENA_BYTES);
+        Arena             arena = *test_memory();
         const Canvas      a = canvas_uniform(p.a[0], p.a[1], p.a[2], &arena);
         const Canvas      b = canvas_uniform(p.b[0], p.b[1], p.b[2], &arena);
         assert_all_near(ldr_map(&a, &b, &arena), planes_pixel_count(&a.planes), p.flip, 2e-6);
-        arena_release(&arena);
     }
 }
 
@@ -106,11 +105,10 @@ TEST(noise_agrees_with_the_slow_twin)
 {
     const double noises[] = {0.5, 0.1, 0.001};
     for (int i = 0; i < 3; i++) {
-        Arena        arena = arena_reserve(FIXTURE_ARENA_BYTES);
+        Arena        arena = *test_memory();
         const Canvas r = canvas_scene(24, 18, noises[i], 1, &arena);
         const Canvas t = canvas_scene(24, 18, noises[i], 2, &arena);
         assert_near(worst_against_slow(&r, &t, FLIP_PIXELS_PER_DEGREE, arena), 0, 5e-6);
-        arena_release(&arena);
     }
 }
 
@@ -301,7 +299,7 @@ static const FlipToneMapper MAPPERS[] = {FLIP_ACES, FLIP_REINHARD, FLIP_HABLE};
 TEST(even_light_follows_the_closed_form)
 {
     for (int m = 0; m < 3; m++) {
-        Arena        arena = arena_reserve(FIXTURE_ARENA_BYTES);
+        Arena        arena = *test_memory();
         const Canvas r = canvas_uniform(40, 40, 40, &arena);
         const Canvas t = canvas_uniform(90, 90, 90, &arena);
         const FlipOptions options = {.threads = 1, .tone_mapper = MAPPERS[m], .has_range = true,
@@ -323,7 +321,6 @@ TEST(even_light_follows_the_closed_form)
         assert_int_equal(used.count, 8);
         assert_near(used.start_ev, -9, 0);
         assert_near(used.stop_ev, -2, 0);
-        arena_release(&arena);
     }
 }
 
@@ -346,7 +343,7 @@ static Canvas tone_mapped(const Canvas *source, double ev, FlipToneMapper mapper
 TEST(one_exposure_is_the_tone_mapped_picture)
 {
     for (int m = 0; m < 3; m++) {
-        Arena        arena = arena_reserve(FIXTURE_ARENA_BYTES);
+        Arena        arena = *test_memory();
         const Canvas r0 = canvas_scene(50, 40, 0.2, 1, &arena);
         const Canvas r = canvas_scaled(&r0, 300, &arena);
         const Canvas t0 = canvas_scene(50, 40, 0.2, 2, &arena);
@@ -359,7 +356,6 @@ TEST(one_exposure_is_the_tone_mapped_picture)
         FlipExposures used = flip_hdr(&r.planes, &t.planes, &options, arena, hdr, NULL);
         assert_int_equal(used.count, 1);
         for (int i = 0; i < 50 * 40; i++) assert_near(hdr[i], ldr[i], 1e-5);
-        arena_release(&arena);
     }
 }
 
@@ -401,7 +397,7 @@ static Canvas known_luminances(Arena *arena)
 TEST(the_range_shows_the_brightest_and_the_median)
 {
     for (int m = 0; m < 3; m++) {
-        Arena         arena = arena_reserve(FIXTURE_ARENA_BYTES);
+        Arena         arena = *test_memory();
         const Canvas  r = known_luminances(&arena);
         float        *map = new_map(&r.planes, &arena);
         FlipOptions   options = {.threads = 1, .tone_mapper = MAPPERS[m]};
@@ -410,7 +406,6 @@ TEST(the_range_shows_the_brightest_and_the_median)
         assert_near(slow_tone(MAPPERS[m], 100 * exp2(used.stop_ev)), 0.85, 1e-6);
         assert_near(used.stop_ev - used.start_ev, 3, 1e-6);
         assert_in_range(used.count, 3, 4); /* ceil of 3 and a rounding */
-        arena_release(&arena);
     }
 }
 

@@ -46,9 +46,8 @@ static FrameImage make_frame(int width, int height, ExrWindow data, Arena *arena
 static FrameImage write_and_read(const FrameImage *frame, Arena *arena)
 {
     FrameImage back;
-    Error      err = {0};
-    if (!frame_write(in_folder("a.exr"), frame, &err)) fail_msg("%s", err.text);
-    if (!frame_read(in_folder("a.exr"), arena, &back, &err)) fail_msg("%s", err.text);
+    assert_done(frame_write(in_folder("a.exr"), frame, &err));
+    assert_done(frame_read(in_folder("a.exr"), arena, &back, &err));
     return back;
 }
 
@@ -123,7 +122,6 @@ ARENA_TEST(the_same_frame_makes_the_same_bytes)
 {
     FrameImage frame = make_frame(90, 400, (ExrWindow){0, 0, 90, 400}, &arena);
     FileBytes  bytes[2];
-    Error      err = {0};
     cpu_set_t all, one;
     assert_int_equal(sched_getaffinity(0, sizeof all, &all), 0);
     CPU_ZERO(&one);
@@ -131,7 +129,7 @@ ARENA_TEST(the_same_frame_makes_the_same_bytes)
         if (CPU_ISSET(c, &all)) CPU_SET(c, &one);
     for (int i = 0; i < 2; i++) {
         sched_setaffinity(0, sizeof one, i ? &one : &all); /* then with one thread */
-        assert_true(frame_write(in_folder("same.exr"), &frame, &err));
+        assert_done(frame_write(in_folder("same.exr"), &frame, &err));
         bytes[i] = read_bytes(in_folder("same.exr"), &arena);
     }
     sched_setaffinity(0, sizeof all, &all);
@@ -164,11 +162,9 @@ ARENA_TEST(a_full_disk_leaves_nothing)
 ARENA_TEST(a_device_that_is_full_says_so)
 {
     FrameImage frame = make_frame(90, 40, (ExrWindow){0, 0, 90, 40}, &arena);
-    Error      err = {0};
     struct stat info;
     if (stat("/dev/full", &info) != 0 || !S_ISCHR(info.st_mode)) skip();
-    assert_false(frame_write("/dev/full", &frame, &err));
-    assert_error_has(&err, "No space left");
+    assert_fails(frame_write("/dev/full", &frame, &err), "No space left");
     assert_int_equal(stat("/dev/full", &info), 0);
     assert_true(S_ISCHR(info.st_mode));
 }
@@ -257,7 +253,7 @@ TEST(damaged_files_are_read_or_refused)
     DIR *dir = opendir(name);
     if (!dir) skip();
     for (struct dirent *e; (e = readdir(dir));) {
-        Arena      arena = arena_reserve((size_t)1 << 30);
+        Arena      arena = *test_memory();
         FrameImage frame;
         Error      err = {0};
         if (e->d_name[0] == '.') continue;
@@ -268,7 +264,6 @@ TEST(damaged_files_are_read_or_refused)
             assert_string_equal(err.file, path);
             assert_true(err.text[0] && !strchr(err.text, '\n'));
         }
-        arena_release(&arena);
     }
     closedir(dir);
     print_message("%d of %d damaged files are refused\n", refused, total);
@@ -294,27 +289,24 @@ ARENA_TEST(coarse_channels_are_refused)
 {
     FrameImage frame = make_frame(8, 4, (ExrWindow){0, 0, 8, 4}, &arena), back;
     FileBytes  file;
-    Error      err = {0};
-    assert_true(frame_write(in_folder("fine.exr"), &frame, &err));
+    assert_done(frame_write(in_folder("fine.exr"), &frame, &err));
     file = read_bytes(in_folder("fine.exr"), &arena);
     unsigned char *bytes = ARENA_NEW(&arena, unsigned char, file.size), *entry;
     memcpy(bytes, file.data, file.size);
     entry = memmem(bytes, file.size, "\0G\0\2\0\0\0", 7); /* name, then FLOAT */
     assert_non_null(entry);
     entry[11] = entry[15] = 2;
-    assert_false(frame_read_memory(bytes, file.size, "coarse.exr", &arena, &back, &err));
-    assert_error_has(&err, "channel G is sampled every 2 x 2 pixels");
+    assert_fails(frame_read_memory(bytes, file.size, "coarse.exr", &arena, &back, &err),
+                 "channel G is sampled every 2 x 2 pixels");
 }
 
 ARENA_TEST(a_file_larger_than_the_arena_is_refused)
 {
     Arena small = arena_reserve(1 << 21);
     FrameImage frame = make_frame(300, 300, (ExrWindow){0, 0, 300, 300}, &arena), back;
-    Error      err = {0};
-    assert_true(frame_write(in_folder("large.exr"), &frame, &err));
-    assert_false(frame_read(in_folder("large.exr"), &small, &back, &err));
-    assert_int_equal(err.code, ERROR_MEMORY);
-    assert_error_has(&err, "8 channels of 90000 pixels");
+    assert_done(frame_write(in_folder("large.exr"), &frame, &err));
+    assert_fails_as(frame_read(in_folder("large.exr"), &small, &back, &err), ERROR_MEMORY,
+                    "8 channels of 90000 pixels");
     arena_release(&small);
 }
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* What an eye sees along its gaze, and what a pane mirrors over it, against closed forms. */
-#include "check.h"
+#include "fixture.h"
 
 #include "base/units.h"
 #include "review/light/gaze_reading.h"
@@ -15,8 +15,7 @@ static const ReviewRequest request = {.forward = {0, 0, -1}, .observer = {50, 0.
 static GazeReading read_gaze(World *world)
 {
     const Kernel *kernel;
-    Error         err = {0};
-    assert_true(kernel_choose(NULL, &kernel, &err));
+    assert_done(kernel_choose(NULL, &kernel, &err));
     world_ready(world, 16);
     Setup    setup = {.request = &request, .tools = {.kernel = kernel, .threads = 2},
                       .scene = world->scene, .context = world->context};
@@ -97,7 +96,7 @@ TEST(a_pane_mirrors_the_dashboard_by_fresnel)
     static const double degrees[] = {45, 60, 70};
     static const double passed[] = {0.902528, 0.843471, 0.724713};
     for (int i = 0; i < 3; i++) {
-        World world = sunny_world();
+        SCOPED_WORLD world = sunny_world();
         add_dashboard(&world);
         add_pane(&world, degrees[i]);
         GazeReading found = read_gaze(&world);
@@ -105,71 +104,60 @@ TEST(a_pane_mirrors_the_dashboard_by_fresnel)
         assert_true(found.through == 0);
         assert_int_equal(found.most.pane_id, 1);
         assert_int_equal(found.most.part_id, 0);
-        world_end(&world);
     }
 }
 
 /* Polarisation is not followed inside a solid: (1 - R)/(1 + R) of the mean R passes. */
 TEST(a_pane_with_thickness_mirrors_by_both_faces)
 {
-    World world = sunny_world();
+    SCOPED_WORLD world = sunny_world();
     add_dashboard(&world);
     add_solid_pane(&world);
     GazeReading found = read_gaze(&world);
     assert_mirrored(&found, (1 - 0.830693) * dashboard_cd_m2());
     assert_int_equal(found.most.pane_id, 1);
     assert_int_equal(found.most.part_id, 0);
-    world_end(&world);
 }
 
 TEST(what_lies_behind_a_pane_comes_through_it)
 {
-    World    world = world_start();
-    Material wall = builder_material(0);
-    for (int k = 0; k < 3; k++) wall.emissive_cd_m2[k] = 500;
-    wall.is_emitter = true;
-    builder_part(world.scene, wall);
+    SCOPED_WORLD world = world_start();
+    builder_part(world.scene, builder_lamp(500));
     builder_quad(world.scene, vec3(0, 0, -3), vec3(1, 0, 0), vec3(0, 1, 0));
     add_pane(&world, 60);
     GazeReading found = read_gaze(&world);
     assert_near(found.through, 500 * 0.843471, 500 * 0.843471 * 0.01);
     assert_true(found.mirrored == 0 && found.most.pane_id == NO_ID);
-    world_end(&world);
 }
 
 /* Chrome is what the eye looks at, not something that lies before it. */
 TEST(a_mirror_is_no_pane)
 {
-    World    world = sunny_world();
-    Material chrome = builder_material(1);
-    chrome.metallic = 1;
-    chrome.roughness = 0;
+    SCOPED_WORLD world = sunny_world();
     add_dashboard(&world);
-    builder_part(world.scene, chrome);
+    builder_part(world.scene, builder_mirror(1));
     add_sheet(&world, 60, 0, true);
     GazeReading found = read_gaze(&world);
     assert_true(found.mirrored == 0 && found.most.pane_id == NO_ID);
     assert_near(found.through, dashboard_cd_m2(), 0.01 * dashboard_cd_m2());
-    world_end(&world);
 }
 
 /* The sun's disc within the cone is no background; all else is. */
 TEST(the_sun_itself_is_not_looked_at)
 {
-    World world = sunny_world();
+    SCOPED_WORLD world = sunny_world();
     add_dashboard(&world);
     world.scene->environment.sun_azimuth = 0;
     world.scene->environment.sun_elevation = (float)radians_from_degrees(0.5);
     GazeReading found = read_gaze(&world);
     assert_true(found.through == 0 && found.mirrored == 0);
-    world_end(&world);
 }
 
 /* Nor through a windscreen, with a thickness or without. */
 TEST(the_sun_behind_a_pane_is_not_looked_at)
 {
     for (int is_solid = 0; is_solid < 2; is_solid++) {
-        World world = sunny_world();
+        SCOPED_WORLD world = sunny_world();
         world.scene->environment.sun_azimuth = 0;
         world.scene->environment.sun_elevation = (float)radians_from_degrees(0.5);
         if (is_solid) add_solid_pane(&world);
@@ -177,7 +165,6 @@ TEST(the_sun_behind_a_pane_is_not_looked_at)
         GazeReading found = read_gaze(&world);
         if (!(found.through == 0))
             fail_msg("%s: %g cd/m2", is_solid ? "solid" : "thin", found.through);
-        world_end(&world);
     }
 }
 
@@ -211,11 +198,9 @@ static double camera_luminance(const World *world, double *sigma)
 
 TEST(both_add_up_to_what_a_camera_sees)
 {
-    World world = sunny_world();
+    SCOPED_WORLD world = sunny_world();
     add_dashboard(&world);
-    world.scene->environment.kind = ENVIRONMENT_CONSTANT;
-    world.scene->environment.luminance_cd_m2 = 2000;
-    for (int i = 0; i < 3; i++) world.scene->environment.color[i] = 1;
+    builder_sky(world.scene, 2000);
     add_pane(&world, 60);
     add_pane(&world, 62);
     GazeReading found = read_gaze(&world);
@@ -226,7 +211,6 @@ TEST(both_add_up_to_what_a_camera_sees)
         fail_msg("%g + %g, a camera sees %g +- %g", found.through, found.mirrored, wanted,
                  sigma);
     assert_true(found.through > 0 && found.mirrored > 0);
-    world_end(&world);
 }
 
 TEST_PROGRAM(NULL, NULL)

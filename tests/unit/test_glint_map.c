@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "check.h"
+#include "fixture.h"
 
 #include "base/sampler.h"
 #include "path/glint_map.h"
@@ -25,9 +25,8 @@ static GlintMap lit_square(uint32_t row, float edge_m, uint32_t rays, Arena *are
 }
 
 /* Of a plane between cubes, and of planes within them. */
-TEST(even_light_is_found_as_it_is)
+ARENA_TEST(even_light_is_found_as_it_is)
 {
-    Arena arena = arena_reserve(ROOM);
     const float edges[] = {0.02f, 0.031f, 0.05f};
     for (int k = 0; k < 3; k++) {
         GlintMap map = lit_square(7, edges[k], 200000, &arena);
@@ -37,12 +36,10 @@ TEST(even_light_is_found_as_it_is)
             assert_close((double)glint_map_lx(&map, &place), 1000, 0.2);
         }
     }
-    arena_release(&arena);
 }
 
-TEST(nothing_is_found_off_the_light_or_in_another_row)
+ARENA_TEST(nothing_is_found_off_the_light_or_in_another_row)
 {
-    Arena    arena = arena_reserve(ROOM);
     GlintMap none = {{{0}}}, map = lit_square(7, 0.02f, 20000, &arena);
     GlintPlace lit = {7, 0.02f, vec3(1, 0.3f, 1)}, row = lit, above = lit, beside = lit;
     row.row = 8;
@@ -53,14 +50,12 @@ TEST(nothing_is_found_off_the_light_or_in_another_row)
     assert_true(glint_map_lx(&map, &above) == 0);
     assert_true(glint_map_lx(&map, &beside) == 0);
     assert_true(glint_map_lx(&none, &lit) == 0);
-    arena_release(&arena);
 }
 
 /* A small glint is as bright as it is, one ray is known all around it, and a far and a tiny
  * cube are no fault. */
-TEST(one_landing_is_known_where_it_is_and_around)
+ARENA_TEST(one_landing_is_known_where_it_is_and_around)
 {
-    Arena    arena = arena_reserve(ROOM);
     GlintMap map = {{{0}}};
     GlintPlace at = {3, 0.01f, vec3(-5, 1, 2)}, near = at, far = {4, 1e-4f, vec3(1e30f, 0, 0)};
     glint_map_add(&map, &at, 0.5f, &arena);
@@ -73,13 +68,11 @@ TEST(one_landing_is_known_where_it_is_and_around)
     assert_true(glint_map_lx(&map, &near) < glint_map_lx(&map, &at));
     assert_true(glint_map_lx(&map, &near) > 0);
     assert_true(glint_map_lx(&map, &far) > 0);
-    arena_release(&arena);
 }
 
 /* Each landing is found again, and each counts eight times. */
-TEST(a_growing_map_keeps_all_its_light)
+ARENA_TEST(a_growing_map_keeps_all_its_light)
 {
-    Arena    arena = arena_reserve(ROOM);
     GlintMap map = lit_square(1, 0.002f, 100000, &arena);
     assert_true(map.size[0].count > 300000);
     assert_true(map.size[0].room < 2 * map.size[0].count);
@@ -90,7 +83,6 @@ TEST(a_growing_map_keeps_all_its_light)
         GlintPlace place = {1, 0.002f, on_square(i, 2)};
         assert_true(glint_map_lx(&map, &place) >= 4000.0f / 100000 / (4 * 4e-6f) * 0.999f);
     }
-    arena_release(&arena);
 }
 
-TEST_PROGRAM(NULL, NULL)
+TEST_PROGRAM(make_arena, drop_arena)

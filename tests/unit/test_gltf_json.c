@@ -6,10 +6,8 @@
 
 static const GltfValue *parse(const char *text)
 {
-    Error err;
     const GltfValue *root = NULL;
-    if (!gltf_json_parse(text, strlen(text), test_memory(), &root, &err))
-        fail_msg("%s", err.text);
+    assert_done(gltf_json_parse(text, strlen(text), test_memory(), &root, &err));
     return root;
 }
 
@@ -87,14 +85,13 @@ TEST(nesting_has_a_limit)
 
 TEST(faults_name_line_and_column)
 {
-    Error err;
     const GltfValue *root;
     static const char TEXT[] = "{\n  \"a\" \"b\"}";
-    assert_false(gltf_json_parse(TEXT, sizeof TEXT - 1, test_memory(), &root, &err));
-    assert_non_null(strstr(err.text, "not valid JSON: parse error at line 2, column 9"));
-    assert_false(gltf_json_parse("{\"a\":1,\"a\":2}", 13, test_memory(), &root, &err));
-    assert_string_equal(err.text, "the name \"a\" stands twice in one object");
-    assert_false(gltf_json_parse("\"\xff\"", 3, test_memory(), &root, &err)); /* no UTF-8 */
+    assert_fails(gltf_json_parse(TEXT, sizeof TEXT - 1, test_memory(), &root, &err),
+                 "not valid JSON: parse error at line 2, column 9");
+    assert_fails_with(gltf_json_parse("{\"a\":1,\"a\":2}", 13, test_memory(), &root, &err),
+                      "the name \"a\" stands twice in one object");
+    assert_fails(gltf_json_parse("\"\xff\"", 3, test_memory(), &root, &err), ""); /* no UTF-8 */
 }
 
 static GltfData data_of(const char *text)

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* A guide's samples follow its density, whatever it has learnt the light stays what it is, and
  * its file is taken back as it was or not at all. */
-#include "check.h"
+#include "fixture.h"
 
 #include <string.h>
 #include <unistd.h>
@@ -62,9 +62,8 @@ enum { SURFACES = sizeof surfaces / sizeof *surfaces };
 
 /* ---- density ----------------------------------------------------------------------------- */
 
-TEST(densities_integrate_to_one)
+ARENA_TEST(densities_integrate_to_one)
 {
-    Arena  arena = arena_reserve((size_t)1 << 24);
     LightGuide *guide = odd_guide(&arena);
     for (int s = 0; s < SURFACES; s++) {
         GuideView view;
@@ -79,7 +78,6 @@ TEST(densities_integrate_to_one)
             }
         if (!(fabs(sum - 1) < 2e-3)) fail_msg("surface %d: %g", s, sum);
     }
-    arena_release(&arena);
 }
 
 /* Which of 12 x 24 cells of equal solid angle, for a count that knows nothing of the map. */
@@ -93,10 +91,9 @@ static int cell_of(Vec3 d)
     return (row < ROWS ? row : ROWS - 1) * COLUMNS + (column < COLUMNS ? column : 0);
 }
 
-TEST(samples_follow_the_density)
+ARENA_TEST(samples_follow_the_density)
 {
     enum { SAMPLES = 400000, FINE = 40 };
-    Arena  arena = arena_reserve((size_t)1 << 24);
     LightGuide *guide = odd_guide(&arena);
     for (int s = 0; s < SURFACES; s++) {
         static double expected[ROWS * COLUMNS], found[ROWS * COLUMNS];
@@ -130,12 +127,10 @@ TEST(samples_follow_the_density)
         double v = 2 / (9 * degrees), deviate = (cbrt(chi2 / degrees) - (1 - v)) / sqrt(v);
         if (!(deviate < 4)) fail_msg("surface %d: chi2 %g of %g degrees", s, chi2, degrees);
     }
-    arena_release(&arena);
 }
 
-TEST(a_direction_of_a_bin_lies_there_and_a_view_of_darkness_is_empty)
+ARENA_TEST(a_direction_of_a_bin_lies_there_and_a_view_of_darkness_is_empty)
 {
-    Arena     arena = arena_reserve((size_t)1 << 24);
     LightGuide    *guide = odd_guide(&arena);
     GuideView view;
     for (int bin = 0; bin < GUIDE_BINS; bin++) {
@@ -153,50 +148,19 @@ TEST(a_direction_of_a_bin_lies_there_and_a_view_of_darkness_is_empty)
     guide->cells[0].is_lit = 0;
     guide_view(guide, 0, &surfaces[0], &view);
     for (int aim = 0; aim < GUIDE_AIMS; aim++) assert_true(view.towards[aim].sum == 0);
-    arena_release(&arena);
 }
 
 /* ---- light ------------------------------------------------------------------------------- */
 
-typedef struct Estimate {
-    double mean, sigma;
-} Estimate;
-
-static Estimate luminance(const World *world, Vec3 from, Vec3 direction, int count)
+static WorldMean luminance(const World *world, Vec3 from, Vec3 direction, int count)
 {
-    double sum = 0, squares = 0;
-    Frame  frame = frame_from_z(vec3_normalize(direction));
-    PathStatistics statistics = {0};
-    for (int i = 0; i < count; i++) {
-        Sampler sampler = sampler_start(1, 0, 0, (uint32_t)i);
-        Vec2    at = sampler_2d(&sampler);
-        Wavelengths w;
-        PathResult  result;
-        wavelengths_sample(sampler_1d(&sampler), &w);
-        Vec3 local = vec3(0.2f * (at.x - 0.5f), 0.2f * (at.y - 0.5f), 1);
-        Ray  ray = {from, vec3_normalize(frame_to_world(&frame, local)), 0, INFINITY};
-        PathStart start = {.context = &world->context, .wavelengths = &w, .sampler = &sampler,
-                           .statistics = &statistics};
-        path_from_ray(&start, ray, &result);
-        sum += (double)result.xyz[1];
-        squares += (double)result.xyz[1] * (double)result.xyz[1];
-    }
-    double mean = sum / count;
-    return (Estimate){mean, sqrt(fmax(squares / count - mean * mean, 0) / count)};
-}
-
-static Material emitter(float cd_m2)
-{
-    Material material = builder_material(0);
-    material.is_emitter = true;
-    for (int i = 0; i < 3; i++) material.emissive_cd_m2[i] = cd_m2;
-    return material;
+    return world_luminance(world, &(WorldLook){from, direction, 0.2f, 1, count});
 }
 
 TEST(a_furnace_shows_one_wherever_a_guide_leads)
 {
-    World    world = world_start();
-    Material wall = emitter(0.5f);
+    SCOPED_WORLD world = world_start();
+    Material wall = builder_lamp(0.5f);
     for (int i = 0; i < 3; i++) wall.base_color[i] = 0.5f;
     builder_part(world.scene, wall);
     builder_sphere(world.scene, vec3(0, 0, 0), 1, 24, 1);
@@ -204,11 +168,10 @@ TEST(a_furnace_shows_one_wherever_a_guide_leads)
     world.context.guide = odd_guide(&world.arena);
     for (PathStrategy s = PATH_MIS; s <= PATH_BSDF_ONLY; s++) {
         world.context.strategy = s;
-        Estimate e = luminance(&world, vec3(0.2f, 0.1f, 0), vec3(0, 0.3f, -1), 40000);
+        WorldMean e = luminance(&world, vec3(0.2f, 0.1f, 0), vec3(0, 0.3f, -1), 40000);
         if (!(fabs(e.mean - 1) <= 3.5 * e.sigma + 1e-4 && e.sigma < 0.02))
             fail_msg("strategy %d: %g +- %g", s, e.mean, e.sigma);
     }
-    world_end(&world);
 }
 
 /* A glossy floor under a lamp, a sky and a sun, lacquered or not. */
@@ -221,12 +184,10 @@ static World floor_world(float roughness, float clearcoat)
     floor.clearcoat = clearcoat;
     builder_part(world.scene, floor);
     builder_quad(world.scene, vec3(0, 0, 0), vec3(5, 0, 0), vec3(0, 0, -5));
-    builder_part(world.scene, emitter(500));
+    builder_part(world.scene, builder_lamp(500));
     builder_quad(world.scene, vec3(0, 1.5f, -1), vec3(1, 0, 0), vec3(0, 0, 1));
     Environment *outside = &world.scene->environment;
-    outside->kind = ENVIRONMENT_CONSTANT;
-    outside->luminance_cd_m2 = 40;
-    for (int i = 0; i < 3; i++) outside->color[i] = 1;
+    builder_sky(world.scene, 40);
     outside->has_sun = true;
     outside->sun_elevation = 0.6f;
     outside->sun_illuminance_lx = 300;
@@ -238,18 +199,17 @@ TEST(every_strategy_finds_the_same_light_with_a_guide_and_without)
 {
     static const float looks[][2] = {{0.45f, 0}, {0.7f, 1}, {1, 0}};
     for (int i = 0; i < 3; i++) {
-        World    world = floor_world(looks[i][0], looks[i][1]);
-        Estimate plain = luminance(&world, vec3(0, 1, 2), vec3(0, -0.5f, -1), 60000);
+        SCOPED_WORLD world = floor_world(looks[i][0], looks[i][1]);
+        WorldMean plain = luminance(&world, vec3(0, 1, 2), vec3(0, -0.5f, -1), 60000);
         world.context.guide = odd_guide(&world.arena);
         for (PathStrategy s = PATH_MIS; s <= PATH_LIGHTS_ONLY; s++) {
             world.context.strategy = s;
-            Estimate e = luminance(&world, vec3(0, 1, 2), vec3(0, -0.5f, -1), 120000);
+            WorldMean e = luminance(&world, vec3(0, 1, 2), vec3(0, -0.5f, -1), 120000);
             if (!(fabs(e.mean - plain.mean) <= 3.5 * hypot(e.sigma, plain.sigma) &&
                   e.sigma < 0.02 * e.mean))
                 fail_msg("look %d, strategy %d: %g +- %g, without a guide %g +- %g", i, s,
                          e.mean, e.sigma, plain.mean, plain.sigma);
         }
-        world_end(&world);
     }
 }
 
@@ -269,9 +229,8 @@ static GuideTraining *taught(Arena *arena)
     return guide_training_start(places, PLACES, MOST, arena);
 }
 
-TEST(cells_part_the_places_among_them)
+ARENA_TEST(cells_part_the_places_among_them)
 {
-    Arena          arena = arena_reserve((size_t)1 << 28);
     GuideTraining *training = taught(&arena);
     const LightGuide   *guide = &training->guide;
     assert_true(guide->cell_count >= PLACES / MOST && guide->cell_count < 4 * PLACES / MOST);
@@ -282,12 +241,10 @@ TEST(cells_part_the_places_among_them)
             assert_int_equal(guide_cell_at(guide, training->places[i].position), c);
     }
     assert_int_equal(training->first_place[guide->cell_count], PLACES);
-    arena_release(&arena);
 }
 
-TEST(a_cell_leads_to_where_its_lesson_found_light)
+ARENA_TEST(a_cell_leads_to_where_its_lesson_found_light)
 {
-    Arena          arena = arena_reserve((size_t)1 << 28);
     GuideTraining *training = taught(&arena);
     Vec3           bright = direction_to(40, 70);
     GuideView      view;
@@ -306,7 +263,6 @@ TEST(a_cell_leads_to_where_its_lesson_found_light)
     assert_true(guide_pdf(&view.towards[GUIDE_SKY], direction_to(40, 250)) > 0.15f);
     assert_true(training->guide.cells[2].is_lit > 0 && training->guide.cells[6].is_lit > 0);
     assert_true(!(training->guide.cells[7].is_lit > 0));
-    arena_release(&arena);
 }
 
 /* ---- the file ---------------------------------------------------------------------------- */
@@ -325,70 +281,61 @@ static void refused(const char *path, const GuideScene *scene, const char *words
         fail_msg("'%s' says nothing of '%s' or '%s'", line, words, path);
 }
 
-TEST(a_field_comes_back_from_its_file_or_not_at_all)
+ARENA_TEST(a_field_comes_back_from_its_file_or_not_at_all)
 {
-    Arena        arena = arena_reserve((size_t)1 << 26);
     LightGuide       *guide = odd_guide(&arena);
     const LightGuide *back;
-    Error        err = {0};
     FileBytes    file;
     char         path[] = "test_guide.field";
-    assert_true(guide_write(path, guide, arena, &err));
-    assert_true(guide_read(path, &has_none, &arena, &back, &err));
+    assert_done(guide_write(path, guide, arena, &err));
+    assert_done(guide_read(path, &has_none, &arena, &back, &err));
     assert_true(guide_hash(back) == guide_hash(guide) && back->asks);
-    assert_true(file_read(path, 1 << 20, &arena, &file, &err));
+    assert_done(file_read(path, 1 << 20, &arena, &file, &err));
     for (size_t size = 0; size < file.size; size += 1 + size / 7) {
-        assert_true(file_write(path, file.data, size, &err));
+        assert_done(file_write(path, file.data, size, &err));
         refused(path, &has_none, size < 32 ? "not a field" : "damaged", arena);
     }
     unsigned char *bytes = ARENA_NEW(&arena, unsigned char, file.size);
     for (size_t at = 0; at < file.size; at += at < 200 ? 1 : 37) {
         memcpy(bytes, file.data, file.size);
         bytes[at] ^= 0x41;
-        assert_true(file_write(path, bytes, file.size, &err));
+        assert_done(file_write(path, bytes, file.size, &err));
         refused(path, &has_none, "field", arena);
     }
     unlink(path);
-    arena_release(&arena);
 }
 
-TEST(a_field_that_never_asks_a_light_is_of_another_scene)
+ARENA_TEST(a_field_that_never_asks_a_light_is_of_another_scene)
 {
     static const GuideScene scene = {{true, true, false, false}, 9, 9};
-    Arena  arena = arena_reserve((size_t)1 << 26);
     LightGuide *guide = odd_guide(&arena);
-    Error  err = {0};
     char   path[] = "test_guide.field";
     guide->cells[1].asked[1] = 0;
-    assert_true(guide_write(path, guide, arena, &err));
+    assert_done(guide_write(path, guide, arena, &err));
     refused(path, &scene, "a kind of light that this scene has", arena);
     unlink(path);
-    arena_release(&arena);
 }
 
-TEST(a_field_with_impossible_lamps_is_refused)
+ARENA_TEST(a_field_with_impossible_lamps_is_refused)
 {
     static const GuideLamps wrong[] = {
         {9, {0}, {1}, 0.1f}, {-1, {0}, {1}, 0.1f}, {1, {-2}, {1}, 0.1f}, {1, {2}, {0}, 0.1f},
         {1, {2}, {1.5f}, 0.1f}, {2, {2, 2}, {1, 1}, 0.1f}, {1, {2}, {1}, -0.1f},
         {1, {2}, {1}, 1}, {1, {2}, {NAN}, 0.1f}, {1, {2}, {1}, NAN}};
     static const GuideScene fewer = {.light_count = 8, .lamp_count = 8};
-    Arena       arena = arena_reserve((size_t)1 << 26);
     LightGuide *guide = odd_guide(&arena);
-    Error       err = {0};
     char        path[] = "test_guide.field";
-    assert_true(guide_write(path, guide, arena, &err));
+    assert_done(guide_write(path, guide, arena, &err));
     refused(path, &fewer, "cell 1 knows lamp 8, the scene has 8", arena);
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         guide->cells[1].lamps = wrong[i];
-        assert_true(guide_write(path, guide, arena, &err));
+        assert_done(guide_write(path, guide, arena, &err));
         refused(path, &has_none, "cell 1 knows impossible lamps", arena);
     }
     guide->cells[1].lamps = (GuideLamps){2, {2, 5}, {1, 1}, 0};
-    assert_true(guide_write(path, guide, arena, &err));
+    assert_done(guide_write(path, guide, arena, &err));
     refused(path, &has_none, "cell 1 looks for 2 lamps alone, the scene has 9", arena);
     unlink(path);
-    arena_release(&arena);
 }
 
-TEST_PROGRAM(NULL, NULL)
+TEST_PROGRAM(make_arena, drop_arena)

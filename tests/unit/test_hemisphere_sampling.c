@@ -33,13 +33,10 @@ static SamplingTree sampler_of(Fixture *f, SamplingOptions options, const Signal
 {
     const void  *blob;
     SamplingTree tree;
-    Error        err;
-    if (!sampling_tree_build(&options, integrals_of(f, &options, signals), &f->arena, &blob,
-                             &err))
-        fail_msg("%s", err.text);
-    if (!sampling_tree_open(blob, sampling_tree_size(blob), f->geodesic, &f->arena, &tree,
-                            &err))
-        fail_msg("%s", err.text);
+    assert_done(sampling_tree_build(&options, integrals_of(f, &options, signals), &f->arena,
+                    &blob, &err));
+    assert_done(sampling_tree_open(blob, sampling_tree_size(blob), f->geodesic, &f->arena,
+                    &tree, &err));
     return tree;
 }
 
@@ -207,15 +204,14 @@ HEMISPHERE_TEST(cells_are_spent_until_the_variance_is_reached)
 HEMISPHERE_TEST(functions_that_are_alike_take_few_bytes)
 {
     const void     *one, *four;
-    Error           err;
     Signal          signals[4] = {peak_signal, peak_signal, peak_signal, peak_signal};
     SamplingOptions options = {.level = 6, .octants = 2, .functions = 1, .cells = 500};
     float          *integrals = integrals_of(f, &options, signals);
-    assert_true(sampling_tree_build(&options, integrals, &f->arena, &one, &err));
+    assert_done(sampling_tree_build(&options, integrals, &f->arena, &one, &err));
     assert_true(sampling_tree_size(one) < 700);
     options.functions = 4;
     integrals = integrals_of(f, &options, signals);
-    assert_true(sampling_tree_build(&options, integrals, &f->arena, &four, &err));
+    assert_done(sampling_tree_build(&options, integrals, &f->arena, &four, &err));
     assert_true(sampling_tree_size(four) < sampling_tree_size(one) + 3 * 70);
 }
 
@@ -248,9 +244,8 @@ static const void *small_blob(Fixture *f, Arena *arena, size_t *size)
     for (int i = 0; i < 512; i++) integrals[i] = random_unit(&seed);
     SamplingOptions options = {.level = 3, .octants = 4, .functions = 2, .cells = 100};
     const void     *blob;
-    Error           err;
     f->geodesic = geodesic_create(3, arena);
-    assert_true(sampling_tree_build(&options, integrals, arena, &blob, &err));
+    assert_done(sampling_tree_build(&options, integrals, arena, &blob, &err));
     *size = sampling_tree_size(blob);
     return blob;
 }
@@ -310,18 +305,17 @@ HEMISPHERE_TEST(functions_that_cannot_be_sampled_are_named)
     float           integrals[16] = {0};
     SamplingOptions options = {.level = 1, .octants = 4, .functions = 1, .cells = 8};
     const void     *blob;
-    Error           err;
-    assert_false(sampling_tree_build(&options, integrals, &f->arena, &blob, &err));
-    assert_non_null(strstr(err.text, "that is 0 cannot be sampled"));
+    assert_fails(sampling_tree_build(&options, integrals, &f->arena, &blob, &err),
+                 "that is 0 cannot be sampled");
     integrals[5] = -1;
-    assert_false(sampling_tree_build(&options, integrals, &f->arena, &blob, &err));
-    assert_non_null(strstr(err.text, "leaf 5 is -1"));
+    assert_fails(sampling_tree_build(&options, integrals, &f->arena, &blob, &err),
+                 "leaf 5 is -1");
     options.cells = 3;
-    assert_false(sampling_tree_build(&options, integrals, &f->arena, &blob, &err));
-    assert_non_null(strstr(err.text, "cells are 3"));
+    assert_fails(sampling_tree_build(&options, integrals, &f->arena, &blob, &err),
+                 "cells are 3");
     options.functions = 0;
-    assert_false(sampling_tree_build(&options, integrals, &f->arena, &blob, &err));
-    assert_non_null(strstr(err.text, "functions are 0"));
+    assert_fails(sampling_tree_build(&options, integrals, &f->arena, &blob, &err),
+                 "functions are 0");
 }
 
 

@@ -140,11 +140,9 @@ static Tree build_example(Fixture *f, const Example *e, const float **values,
     VertexTreeOptions options = options_of(e->lattice, &bound);
     const void       *blob;
     Tree              tree;
-    Error             err;
-    if (!vertex_tree_build(&options, *values, &f->arena, &blob, report, &err))
-        fail_msg("%s", err.text);
+    assert_done(vertex_tree_build(&options, *values, &f->arena, &blob, report, &err));
     assert_int_equal(report->bytes, tree_size(blob));
-    if (!tree_open(blob, tree_size(blob), f->geodesic, &tree, &err)) fail_msg("%s", err.text);
+    assert_done(tree_open(blob, tree_size(blob), f->geodesic, &tree, &err));
     return tree;
 }
 
@@ -412,9 +410,7 @@ static const void *example_blob(Fixture *f, const Example *e)
     Bound             bound = {values, e->components, e->tolerance};
     VertexTreeOptions options = options_of(e->lattice, &bound);
     const void       *blob;
-    Error             err;
-    if (!vertex_tree_build(&options, values, &f->arena, &blob, NULL, &err))
-        fail_msg("%s", err.text);
+    assert_done(vertex_tree_build(&options, values, &f->arena, &blob, NULL, &err));
     return blob;
 }
 
@@ -425,8 +421,7 @@ HEMISPHERE_TEST(every_prefix_is_refused)
         for (size_t size = 0; size < tree_size(blob); size++) {
             void *copy = exact_copy(blob, size);
             Tree  tree;
-            Error err;
-            assert_false(tree_open(copy, size, f->geodesic, &tree, &err));
+            assert_fails(tree_open(copy, size, f->geodesic, &tree, &err), "");
             free(copy);
         }
     }
@@ -463,15 +458,14 @@ HEMISPHERE_TEST(a_bad_header_is_named)
     const void *blob = example_blob(f, &BLOBS[0]);
     size_t      size = tree_size(blob);
     char       *copy = exact_copy(blob, size);
-    Error       err;
     Tree        tree;
     ((VertexHeader *)(void *)copy)->version = 7;
     assert_tree_refused(f, copy, size, "version is 7, wanted 1");
     memcpy(copy, blob, size);
     ((VertexHeader *)(void *)copy)->octants = 3;
     assert_tree_refused(f, copy, size, "octant count is 3, wanted 4");
-    assert_false(tree_open(blob, size, geodesic_create(3, &f->arena), &tree, &err));
-    assert_non_null(strstr(err.text, "level of the geodesic is 3, wanted 4"));
+    assert_fails(tree_open(blob, size, geodesic_create(3, &f->arena), &tree, &err),
+                 "level of the geodesic is 3, wanted 4");
     memcpy(copy, blob, size);
     ((float *)(void *)(copy + sizeof(VertexHeader)))[2] = NAN;
     assert_tree_refused(f, copy, size, "scale 2 is nan");

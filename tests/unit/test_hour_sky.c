@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Skies of a weather file's hours over a response: those of daylight_build, only
  * quicker. Suns of the table of clear skies. */
-#include "check.h"
+#include "fixture.h"
 
 #include "base/count.h"
 #include "base/sampler.h"
@@ -100,11 +100,10 @@ static void make_hours(Hours *out, Arena *arena)
 
 /* Two responses: that of a luxmeter in the open, which reads what the hour's light is, and one
  * of small windows and a reflecting floor, each with colours of its own. */
-TEST(hours_read_as_their_whole_skies)
+ARENA_TEST(hours_read_as_their_whole_skies)
 {
     static Hours    hours;
     static Daylight sky;
-    Arena    arena = arena_reserve((size_t)1 << 28);
     Response open = sphere(&arena), windows = sphere(&arena);
     float   *lux = ARENA_NEW(&arena, float, 2 * UPPER * LIGHT_BANDS), *shares[2];
     for (int i = 0; i < UPPER * LIGHT_BANDS; i++)
@@ -123,9 +122,8 @@ TEST(hours_read_as_their_whole_skies)
     const double *behind =
         hour_skies_read(&hours.skies, &windows, hours.suns, HOURS, 2, &arena);
     for (int i = 0; i < HOURS; i++) {
-        Error  err = {0};
         double sun = 0;
-        assert_true(daylight_build(&hours.inputs[i], &arena, &sky, &err));
+        assert_done(daylight_build(&hours.inputs[i], &arena, &sky, &err));
         for (int b = 0; b < LIGHT_BANDS; b++) sun += (double)hours.skies.list[i].sun_bands[b];
         assert_close(behind[i], whole_reading(&sky, &windows), 1e-3);
         assert_close(in_open[i], sky.metrics.diffuse_horizontal_lx, 5e-3);
@@ -133,13 +131,11 @@ TEST(hours_read_as_their_whole_skies)
         assert_near(sun, sky.metrics.direct_normal_lx,
                     (i < 4 ? 1e-2 : 3e-3) * sky.metrics.direct_normal_lx + 1e-9);
     }
-    arena_release(&arena);
 }
 
-TEST(a_dark_hour_reads_nothing_and_threads_change_nothing)
+ARENA_TEST(a_dark_hour_reads_nothing_and_threads_change_nothing)
 {
     static Hours hours;
-    Arena    arena = arena_reserve((size_t)1 << 28);
     Response response = sphere(&arena);
     float   *shares = ARENA_NEW(&arena, float, 2 * UPPER * LIGHT_BANDS);
     for (int i = 0; i < 2 * UPPER * LIGHT_BANDS; i++) shares[i] = (float)random_unit();
@@ -150,12 +146,10 @@ TEST(a_dark_hour_reads_nothing_and_threads_change_nothing)
     const double *many = hour_skies_read(&hours.skies, &response, hours.suns, HOURS, 5, &arena);
     assert_memory_equal(one, many, HOURS * sizeof *one);
     for (int i = 0; i < HOURS; i++) assert_true(i == 4 ? one[i] == 0 : one[i] > 0);
-    arena_release(&arena);
 }
 
-TEST(an_hour_that_is_no_sky_is_told)
+ARENA_TEST(an_hour_that_is_no_sky_is_told)
 {
-    Arena         arena = arena_reserve((size_t)1 << 24);
     Error         err = {0};
     int           failed = -1;
     const HourSky *list;
@@ -164,20 +158,17 @@ TEST(an_hour_that_is_no_sky_is_told)
     assert_false(hour_skies_build(&(HourInputs){inputs, 3}, 2, &arena, &list, &failed, &err));
     assert_int_equal(failed, 1);
     assert_non_null(strstr(err.text, "a Perez sky wants a diffuse irradiance above 0"));
-    arena_release(&arena);
 }
 
 /* Also between its elevations; below 2 degrees light changes faster. */
-TEST(the_sun_of_a_sky_table_is_the_atmospheres)
+ARENA_TEST(the_sun_of_a_sky_table_is_the_atmospheres)
 {
     static const double BETWEEN[] = {0.3, 0.75, 1.2, 1.7,  2.2,  3.5, 4.5,
                                      6.8, 9,    11.5, 14.5, 18,  33};
-    Arena         arena = arena_reserve((size_t)1 << 30);
     DaylightInput like = daylight_input_default(DAYLIGHT_CLEAR);
     SkyTable      table = sky_table_start(&like, 0, 90, &arena);
     DistantTools  tools = {.table = &table};
-    Error         err = {0};
-    assert_true(distant_probes_ask_skies(NULL, 0, &tools, &arena, &err));
+    assert_done(distant_probes_ask_skies(NULL, 0, &tools, &arena, &err));
     for (size_t i = 0; i < COUNT_OF(BETWEEN); i++) {
         DaylightInput input = like;
         Daylight      sky;
@@ -186,7 +177,7 @@ TEST(the_sun_of_a_sky_table_is_the_atmospheres)
         input.has_sun = input.no_moon = true;
         input.sun_elevation = radians_from_degrees(BETWEEN[i]);
         input.sun_lux = -1;
-        assert_true(daylight_build(&input, &arena, &sky, &err));
+        assert_done(daylight_build(&input, &arena, &sky, &err));
         light_bands_sun(&sky, wanted);
         sky_table_sun(&table, BETWEEN[i], bands);
         for (int b = 0; b < LIGHT_BANDS; b++) {
@@ -196,7 +187,6 @@ TEST(the_sun_of_a_sky_table_is_the_atmospheres)
         if (!(fabs(off) < (BETWEEN[i] < 2 ? 0.03 * sum + 1 : 0.01 * sum)))
             fail_msg("%g degrees: %g lx, %+g", BETWEEN[i], sum, off);
     }
-    arena_release(&arena);
 }
 
-TEST_PROGRAM(NULL, NULL)
+TEST_PROGRAM(make_arena, drop_arena)

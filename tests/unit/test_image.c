@@ -90,9 +90,7 @@ static const Bytes *make_png(PngKind kind, const unsigned char *rows, size_t siz
 static Image read_png(const Bytes *png, Arena *arena)
 {
     Image image;
-    Error err = {0};
-    if (!image_read_memory(png->data, png->size, "test.png", arena, &image, &err))
-        fail_msg("%s", err.text);
+    assert_done(image_read_memory(png->data, png->size, "test.png", arena, &image, &err));
     return image;
 }
 
@@ -128,15 +126,14 @@ ARENA_TEST(every_kind_of_png_becomes_rgba)
 ARENA_TEST(user_data_larger_than_a_dpx_is_refused)
 {
     Image image;
-    Error err = {0};
     unsigned char little[64] = "XPDS", big[64] = "SDPX";
     little[35] = big[32] = 0x58;
-    assert_false(image_read_memory(little, 64, "a.dpx", &arena, &image, &err));
-    assert_error_has(&err, "1476395008 bytes of user data are stated, the file has 64");
-    assert_false(image_read_memory(big, 64, "a.dpx", &arena, &image, &err));
-    assert_error_has(&err, "1476395008 bytes of user data are stated, the file has 64");
-    assert_false(image_read_memory(big, 35, "a.dpx", &arena, &image, &err));
-    assert_error_has(&err, "damaged dpx picture: cut off in its header");
+    assert_fails(image_read_memory(little, 64, "a.dpx", &arena, &image, &err),
+                 "1476395008 bytes of user data are stated, the file has 64");
+    assert_fails(image_read_memory(big, 64, "a.dpx", &arena, &image, &err),
+                 "1476395008 bytes of user data are stated, the file has 64");
+    assert_fails(image_read_memory(big, 35, "a.dpx", &arena, &image, &err),
+                 "damaged dpx picture: cut off in its header");
 }
 
 ARENA_TEST(alpha_stays_straight)
@@ -166,12 +163,11 @@ ARENA_TEST(a_frame_without_colours_is_no_picture)
     FrameImage frame = frame_create(2, 2, (ExrWindow){0, 0, 2, 2}, 1, 0, &arena);
     char       path[] = "depth-XXXXXX";
     Image      image;
-    Error      err = {0};
     close(mkstemp(path));
     frame_add_channel(&frame, "depth.Z", false, &arena);
-    assert_true(frame_write(path, &frame, &err));
-    assert_false(image_read(path, &arena, &image, &err));
-    assert_error_has(&err, "no channel R; R, G, B or Y are wanted");
+    assert_done(frame_write(path, &frame, &err));
+    assert_fails(image_read(path, &arena, &image, &err),
+                 "no channel R; R, G, B or Y are wanted");
     unlink(path);
 }
 
@@ -194,11 +190,9 @@ TEST(says_when_memory_is_too_small)
 {
     Arena arena = arena_reserve(1 << 20);
     Image image;
-    Error err = {0};
     const Bytes *png = make_png((PngKind){2000, 2000, 8, 6, NULL, 0}, (unsigned char[]){0}, 1);
-    assert_false(image_read_memory(png->data, png->size, "big.png", &arena, &image, &err));
-    assert_int_equal(err.code, ERROR_MEMORY);
-    assert_error_has(&err, "MB are left");
+    assert_fails_as(image_read_memory(png->data, png->size, "big.png", &arena, &image, &err),
+                    ERROR_MEMORY, "MB are left");
     arena_release(&arena);
 }
 
@@ -296,8 +290,7 @@ ARENA_TEST(refuses_every_prefix_of_a_tiff_whose_pixels_are_last)
         const Bytes *tiff = make_tiff(kind & 1, kind & 2);
         Image image;
         Error err = {0};
-        if (!image_read_memory(tiff->data, tiff->size, "a.tif", &arena, &image, &err))
-            fail_msg("%s", err.text);
+        assert_true(image_read_memory(tiff->data, tiff->size, "a.tif", &arena, &image, &err));
         assert_int_equal(((const uint16_t *)image.pixels)[4 * 3 + 1], 4000);
         for (size_t size = 0; size < tiff->size; size++)
             assert_false(image_read_memory(tiff->data, size, "a.tif", &arena, &image, &err));
@@ -326,8 +319,7 @@ ARENA_TEST(reads_radiance_pictures)
     static const char HDR[] = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n"
                               "\x80\x40\x20\x81\x80\x80\x80\x8b";
     Image image;
-    Error err = {0};
-    assert_true(image_read_memory(HDR, sizeof HDR - 1, "a.hdr", &arena, &image, &err));
+    assert_done(image_read_memory(HDR, sizeof HDR - 1, "a.hdr", &arena, &image, &err));
     const float *p = image.pixels;
     assert_int_equal(image.format, IMAGE_RGBA32F);
     assert_close(p[0], 1, 0.01); /* mantissa 0x80 / 256 * 2^(0x81 - 128) */
@@ -348,13 +340,11 @@ ARENA_TEST(what_is_encoded_reads_back)
                             .type = wide ? PIXEL_U16 : PIXEL_U8, .pixels = codes,
                             .is_srgb = true, .description = "a picture"};
         EncodedImage *encoded;
-        Error  err = {0};
         Image  image;
         size_t size;
-        assert_true(image_encode(FORMATS[k / 2], &in, &encoded, &err));
+        assert_done(image_encode(FORMATS[k / 2], &in, &encoded, &err));
         const void *bytes = encoded_image_bytes(encoded, &size);
-        if (!image_read_memory(bytes, size, "x", &arena, &image, &err))
-            fail_msg("%s", err.text);
+        assert_done(image_read_memory(bytes, size, "x", &arena, &image, &err));
         for (int i = 0; i < 12; i++) {
             int at = i / 3 * 4 + i % 3;
             if (wide) assert_int_equal(((const uint16_t *)image.pixels)[at], codes[i]);
@@ -372,12 +362,11 @@ TEST(the_same_picture_makes_the_same_bytes)
     ImageToEncode in = {.width = 10, .height = 10, .channels = 3, .type = PIXEL_U8,
                         .pixels = codes, .jpeg_quality = 95, .description = "made so"};
     EncodedImage *encoded[2][3];
-    Error err = {0};
     for (int run = 0; run < 2; run++) {
         in.jpeg_quality = 0;
         for (int f = 0; f < 3; f++) {
             in.jpeg_quality = f == 1 ? 95 : 0;
-            assert_true(image_encode(FORMATS[f], &in, &encoded[run][f], &err));
+            assert_done(image_encode(FORMATS[f], &in, &encoded[run][f], &err));
         }
         if (run == 0) usleep(1100000); /* a time of day in the file would differ now */
     }
@@ -390,8 +379,7 @@ TEST(the_same_picture_makes_the_same_bytes)
         encoded_image_destroy(encoded[0][f]);
         encoded_image_destroy(encoded[1][f]);
     }
-    assert_false(image_encode("nonsense", &in, &encoded[0][0], &err));
-    assert_error_has(&err, "nonsense");
+    assert_fails(image_encode("nonsense", &in, &encoded[0][0], &err), "nonsense");
 }
 
 /* Whatever comes of it: no crash, and one line of reasons when it is refused. */

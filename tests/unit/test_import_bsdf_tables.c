@@ -351,17 +351,14 @@ FIXTURE_TEST(speos_binary_refusals)
     for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
         size_t size = speos_binary(bytes);
         bytes[row[i].at] = (unsigned char)row[i].value;
-        fixture_write(f, bytes, size);
-        f->set = import_set(&f->arena);
-        bool ok = importer_speos.read(f->file, &f->options, &f->set, &f->err);
+        bool ok = fixture_import(f, bytes, size, &importer_speos);
         if (*row[i].words && (ok || !strstr(f->err.text, row[i].words)))
             fail_msg("byte %d: %s, wanted %s", row[i].at, ok ? "taken" : f->err.text,
                      row[i].words);
     }
     size_t size = speos_binary(bytes);
-    fixture_write(f, bytes, size + 1);
-    assert_false(importer_speos.read(f->file, &f->options, &f->set, &f->err));
-    assert_string_equal(f->err.text, "138 bytes follow the tables, wanted 137");
+    assert_bytes_refused(f, bytes, size + 1, &importer_speos,
+                         "138 bytes follow the tables, wanted 137");
 }
 
 /* Worked out from the file by an independent reading: the table at 5 degrees has 0.172308 at

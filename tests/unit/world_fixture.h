@@ -42,3 +42,44 @@ static inline void world_end(World *world)
     panel_close(world->panel);
     arena_release(&world->arena);
 }
+
+/* One that ends with its scope: SCOPED_WORLD world = world_start(). */
+#define SCOPED_WORLD __attribute__((cleanup(world_end))) World
+
+/* ---- what is seen of it ------------------------------------------------------------------ */
+
+/* From a point, in a pyramid that is `width` wide a metre away. */
+typedef struct WorldLook {
+    Vec3     from, direction;
+    float    width;
+    uint32_t seed;
+    int      count; /* paths */
+} WorldLook;
+
+typedef struct WorldMean {
+    double mean, sigma; /* of the mean */
+} WorldMean;
+
+/* cd m^-2 */
+static inline WorldMean world_luminance(const World *world, const WorldLook *look)
+{
+    double sum = 0, squares = 0;
+    Frame  frame = frame_from_z(vec3_normalize(look->direction));
+    PathStatistics statistics = {0};
+    for (int i = 0; i < look->count; i++) {
+        Sampler sampler = sampler_start(look->seed, 0, 0, (uint32_t)i);
+        Vec2    at = sampler_2d(&sampler);
+        Wavelengths w;
+        PathResult  result;
+        wavelengths_sample(sampler_1d(&sampler), &w);
+        Vec3 local = vec3(look->width * (at.x - 0.5f), look->width * (at.y - 0.5f), 1);
+        Ray  ray = {look->from, vec3_normalize(frame_to_world(&frame, local)), 0, INFINITY};
+        PathStart start = {.context = &world->context, .wavelengths = &w, .sampler = &sampler,
+                           .statistics = &statistics};
+        path_from_ray(&start, ray, &result);
+        sum += (double)result.xyz[1];
+        squares += (double)result.xyz[1] * (double)result.xyz[1];
+    }
+    double mean = sum / look->count;
+    return (WorldMean){mean, sqrt(fmax(squares / look->count - mean * mean, 0) / look->count)};
+}
