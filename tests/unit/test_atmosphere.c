@@ -1,7 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* The scattering atmosphere and the skies made of it: energy, known figures, convergence. */
-#include <stdlib.h>
-#include <string.h>
 
 #include "base/units.h"
 #include "fixture.h"

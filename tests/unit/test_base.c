@@ -2,9 +2,6 @@
 /* The ground floor: numbers, vectors, samples, memory and messages. */
 #include "fixture.h"
 
-#include <stdlib.h>
-#include <string.h>
-
 #include "base/alias.h"
 #include "base/arena.h"
 #include "base/error.h"

@@ -2,8 +2,6 @@
 /* The command line of a part becomes that of the whole. */
 #include "fixture.h"
 
-#include <string.h>
-
 #include "base/count.h"
 #include "cli/render/command_line.h"
 #include "text/text.h"

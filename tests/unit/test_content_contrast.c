@@ -2,8 +2,6 @@
 /* The contrast of what a picture shows, on made-up text of known luminance. */
 #include "fixture.h"
 
-#include <math.h>
-
 #include "image/content_contrast.h"
 
 enum { WIDTH = 156, HEIGHT = 60 };

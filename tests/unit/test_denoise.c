@@ -3,8 +3,6 @@
  * lost on the way. */
 #include "fixture.h"
 
-#include <string.h>
-
 #include "denoise/denoise.h"
 #include "denoise/regression.h"
 
@@ -382,10 +380,9 @@ ARENA_TEST(what_few_samples_saw_of_a_display_gives_way_to_more_rays)
 
 /* Light that is linear in features, which go together, and in the place: a window of equal
  * weights gives it back but for what the ridge takes. */
-TEST(linear_light_is_fitted)
+ARENA_TEST(linear_light_is_fitted)
 {
     enum { SIDE = 9, PIXELS = SIDE * SIDE };
-    Arena    arena = test_arena(state);
     uint32_t random = 4;
     float    weights[PIXELS];
     DenoiseBuffers b = {.width = SIDE, .height = SIDE,

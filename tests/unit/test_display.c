@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* A measured display in a scene: what the path tracer shows is what the panel says. */
-#include "check.h"
 
 #include "base/units.h"
 #include "panel/query/panel_emission.h"

@@ -2,8 +2,6 @@
 /* The film: exact sums, variance, layers. */
 #include "film_samples.h"
 
-#include <string.h>
-
 #include "base/units.h"
 #include "film/pixels.h"
 #include "spectrum/photometry.h"

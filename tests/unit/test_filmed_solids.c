@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Solids of glass with a thin film, or brushed, in a scene: nobody sees them in a furnace,
  * light samples and chance find the same light, and a brushed face blurs along its brushing. */
-#include "check.h"
 
 #include "world_fixture.h"
 

@@ -2,9 +2,6 @@
 /* FLIP and HDR-FLIP: closed forms, symmetries, and a slow twin that shares no line with it. */
 #include "fixture.h"
 
-#include <stdlib.h>
-#include <string.h>
-
 #include "compare/metrics/flip.h"
 #include "compare/metrics/flip_filters.h"
 #include "planes_fixture.h"

@@ -3,11 +3,6 @@
  * its file is taken back as it was or not at all. */
 #include "fixture.h"
 
-#include <string.h>
-#include <unistd.h>
-
-#include "base/file.h"
-#include "base/file_write.h"
 #include "base/units.h"
 #include "guide/guide_file.h"
 #include "guide/guide_training.h"
