@@ -174,7 +174,7 @@ ARENA_TEST(lamps_that_cannot_be_seen_are_not_chosen)
 
 TEST(a_mask_is_there_from_its_cutoff_on)
 {
-    Material mask = lamp(1);
+    Material mask = builder_lamp(1);
     mask.alpha_mode = ALPHA_MASK;
     mask.alpha_cutoff = 0.25f;
     mask.base_color[3] = 0.5f;
