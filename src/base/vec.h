@@ -30,6 +30,11 @@ static inline Vec3 vec3(float x, float y, float z)
     return (Vec3){x, y, z};
 }
 
+static inline Vec3 vec3_from_doubles(const double v[3])
+{
+    return vec3((float)v[0], (float)v[1], (float)v[2]);
+}
+
 static inline Vec3 vec3_add(Vec3 a, Vec3 b)
 {
     return vec3(a.x + b.x, a.y + b.y, a.z + b.z);

@@ -11,8 +11,20 @@
  * Fails    once: viewer_check reports why the viewer is lost, and everything is idle from then.
  */
 #pragma once
+#include "base/error.h"
 #include "live/tev_packets.h"
-#include "live/viewer_address.h"
+
+#define VIEWER_PORT "14158" /* tev's, where none is given */
+
+typedef struct ViewerAddress {
+    char host[256]; /* without brackets */
+    char port[8];
+} ViewerAddress;
+
+/* HOST or HOST:PORT as a user types it: HOST is a name, an IPv4 address or an IPv6 address in
+ * brackets; PORT is 1 to 65535. Fails with ERROR_USAGE, what is wrong in the text and what is
+ * wanted; whether a name is one of a machine is not asked here. */
+bool viewer_address_parse(const char *text, ViewerAddress *out, Error *err);
 
 #define VIEWER_PATIENCE_S 3.0
 

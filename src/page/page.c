@@ -4,6 +4,7 @@
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
+#include <zlib.h>
 
 #include "base/file_write.h"
 #include "text/base64.h"
@@ -61,6 +62,12 @@ void page_element(Text *page, const char *element, const char *text)
     text_format(page, "<%s>", element);
     escape_markup(page, text);
     text_format(page, "</%.*s>\n", (int)strcspn(element, " "), element);
+}
+
+void page_fact(Text *page, const char *name, const char *value)
+{
+    page_element(page, "dt", name);
+    page_element(page, "dd", value);
 }
 
 void page_list(Text *page, const char *kind, const char *const *texts, int count)
@@ -163,5 +170,28 @@ bool page_picture(Text *page, const char *alt, const Picture *picture, bool is_j
     text_format(page, "src=\"data:image/%s;base64,", is_jpeg ? "jpeg" : "png");
     base64_encode(page, bytes.data, bytes.size);
     text_add(page, "\">");
+    return true;
+}
+
+/* ---- numbers for the script ------------------------------------------------------------- */
+
+#define LEVEL 9 /* pages are written once and read often */
+
+bool page_data_add(Text *page, const uint32_t *values, size_t count, int bytes, Arena scratch,
+                   Error *err)
+{
+    size_t size = count * (size_t)bytes;
+    uLong  room = compressBound((uLong)size);
+    unsigned char *planes = ARENA_NEW(&scratch, unsigned char, size);
+    unsigned char *packed = ARENA_NEW(&scratch, unsigned char, room);
+    for (size_t at = 0; at < size; at++) {
+        size_t   i = at % count;
+        unsigned shift = 8 * (unsigned)(at / count);
+        uint32_t before = i > 0 ? values[i - 1] >> shift : 0;
+        planes[at] = (unsigned char)((values[i] >> shift) - before);
+    }
+    if (compress2(packed, &room, planes, (uLong)size, LEVEL) != Z_OK)
+        return error_set(err, ERROR_MEMORY, "memory is out: numbers of the page");
+    base64_encode(page, packed, room);
     return true;
 }

@@ -11,6 +11,9 @@
  * Fails    for a picture that cannot be encoded and a file that cannot be written.
  */
 #pragma once
+#include <stdint.h>
+
+#include "base/error.h"
 #include "image/picture.h"
 #include "text/text.h"
 
@@ -33,6 +36,9 @@ bool page_write(const Text *const *parts, int count, const char *path, Error *er
 
 /* <element>text</element>; an element is a name, with attributes if need be. */
 void page_element(Text *page, const char *element, const char *text);
+
+/* A name and its value, between <dl> and </dl>. */
+void page_fact(Text *page, const char *name, const char *value);
 
 /* kind: the list's class. */
 void page_list(Text *page, const char *kind, const char *const *texts, int count);
@@ -74,3 +80,15 @@ void page_cell_long(Text *page, const char *text);
 /* <img alt="..." src="data:...">, as PNG or JPEG. */
 bool page_picture(Text *page, const char *alt, const Picture *picture, bool is_jpeg,
                   Arena scratch, Error *err);
+
+/* ---- numbers for the page's script ------------------------------------------------------- */
+
+/* Packed: whole numbers of 1 to 4 bytes, as base64 of a zlib stream (RFC 1950) of their bytes
+ * in planes: the lowest byte of all numbers, then the next of all, ...; of each plane the first
+ * byte, then every byte less the one before it, modulo 256. What changes little from number to
+ * number is short so. A script unpacks it by DecompressionStream('deflate').
+ *
+ * values: the lowest `bytes` of each go in. scratch: twice the numbers' bytes. The same numbers
+ * give the same text (of one version of zlib). Fails when memory is out. */
+bool page_data_add(Text *page, const uint32_t *values, size_t count, int bytes, Arena scratch,
+                   Error *err);

@@ -14,7 +14,7 @@ void judge_ambient(ReviewCase *review_case, const Profile *profile, bool sun_on_
         profile_ambient(profile, review_case->display_lux, sun_on_display);
 }
 
-void judge_contrasts(ReviewCase *review_case, Range reflected)
+void judge_contrasts(ReviewCase *review_case, MeanInterval reflected)
 {
     ReviewCase           *c = review_case;
     const CaseLuminances *l = &c->luminance_cd_m2;

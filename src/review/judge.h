@@ -21,7 +21,7 @@ void judge_ambient(ReviewCase *review_case, const Profile *profile, bool sun_on_
 /* The one place where contrasts are made: from the case's luminances and the interval of what
  * is reflected. Sets reflected_range, contrast_ratio, contrast_low, contrast_high and
  * contrast_with_veil (of no veil, NaN: contrast_ratio). */
-void judge_contrasts(ReviewCase *review_case, Range reflected);
+void judge_contrasts(ReviewCase *review_case, MeanInterval reflected);
 
 /* Sets paths_to_decide of a case that was judged, from its paths and intervals: errors fall as
  * the root of the paths, and a reading is as long as a pilot of its own length asks for, so

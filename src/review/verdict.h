@@ -10,6 +10,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "base/confidence.h"
 #include "base/vec.h"
 
 typedef enum Verdict {
@@ -99,11 +100,6 @@ typedef struct CaseView {
     int    width, height;           /* pixels */
 } CaseView;
 
-/* A 95 % interval. */
-typedef struct Range {
-    double low, high;
-} Range;
-
 /* A change that would mend the case. NaN: the figure has no meaning. */
 typedef struct CaseRemedy {
     const char *what;
@@ -127,7 +123,7 @@ typedef struct ReviewCase {
     bool    has_sun;             /* above the horizon */
     double  sun_azimuth_deg, sun_elevation_deg; /* of a sweep's worst: of the vehicle */
     CaseLuminances luminance_cd_m2;
-    Range   reflected_range;     /* 95 %, of sampling alone; of a sweep's steps of the response
+    MeanInterval reflected_range; /* of sampling alone; of a sweep's steps of the response
                                     too. The contrasts are made of these luminances
                                     (judge_contrasts) */
     double  contrast_ratio;      /* (brighter + reflected) / (darker + reflected) */
@@ -188,12 +184,12 @@ typedef struct GazeFinding {
     const char *condition, *eye, *gaze;
     double   sun_deg;        /* between the gaze and the sun, seen or not; NaN: none is up */
     double   veil;           /* cd m^-2, that stray light lays over the gaze, in the eye */
-    Range    veil_range;
+    MeanInterval veil_range;
     GazeVeil veil_parts;
     double   cornea_lux;     /* of the pupil's plane */
     double   through;        /* cd m^-2 along the gaze: what it looks at, as it arrives; */
     double   mirrored;       /* what a pane before it mirrors over that */
-    Range    mirrored_range;
+    MeanInterval mirrored_range;
     const char *mirrored_by; /* the pane that mirrors most; NULL: nothing is mirrored */
     const char *mirrored_from; /* what most of it shows; NULL likewise */
     /* Shares of a distant object's contrast: both veils add to the object and to its
@@ -202,7 +198,7 @@ typedef struct GazeFinding {
      * What is near is the background B, and no veil. NaN: no light. */
     double   contrast_behind_glass; /* what the mirrored light leaves; 1: all */
     double   contrast_left;         /* and the veil in the eye with it */
-    Range    contrast_range;        /* of the latter */
+    MeanInterval contrast_range;        /* of the latter */
     double   dgp, ugr;              /* secondary figures; ugr: NaN without a source */
 } GazeFinding;
 
@@ -241,7 +237,7 @@ typedef struct ReviewResponse {
     const char *probe;
     const char *file;  /* "responses/NAME.response", or where it is kept else; NULL: unknown */
     long        paths;
-    size_t      bytes; /* of the file */
+    long        bytes; /* of the file */
     double      relative_error;
 } ReviewResponse;
 
@@ -250,7 +246,7 @@ typedef struct ReviewDifference {
     const ReviewCase  *before, *after;
     const ReviewSweep *sweep_before, *sweep_after; /* NULL: a moment */
     double margin;       /* after less before, of the contrast's margin; NaN: one has none */
-    Range  margin_range; /* 95 %: both were read by the same random numbers, whose luck they
+    MeanInterval margin_range; /* both were read by the same random numbers, whose luck they
                             share; NaN likewise */
 } ReviewDifference;
 
@@ -274,7 +270,7 @@ typedef struct ReviewVariantFound {
 typedef struct ReviewSlope {
     const ReviewCase *of;    /* of the review itself */
     double            slope; /* margin by unit of the parameter; NaN: it is not seen there */
-    Range             range; /* 95 %, by the same random numbers on both sides */
+    MeanInterval range; /* 95 %, by the same random numbers on both sides */
 } ReviewSlope;
 
 typedef struct ReviewSensitivity {

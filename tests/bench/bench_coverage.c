@@ -225,7 +225,8 @@ static void cover(const Moment *m, const char *ways, Arena arena)
 static void cover_moment(ReviewRequest *request, const ReviewCondition *c, const char *ways,
                          int runs, Problems *problems)
 {
-    SetupOptions options = {.request = request, .condition = c, .root = "/", .threads = 1};
+    SetupOptions options = {.request = request, .condition = c,
+                            .means = {.root = "/", .threads = 1}};
     Arena        arena = arena_reserve((size_t)1 << 36);
     Setup        setup;
     SetupSymbol *symbols;

@@ -261,7 +261,7 @@ static void tell_year(Brute *b, double heading_deg)
 static void open_first(Brute *b, const ReviewRequest *request, Problems *problems, Arena *arena)
 {
     SetupOptions options = {.request = request, .condition = &request->conditions[0],
-                            .threads = parallel_default_threads()};
+                            .means.threads = parallel_default_threads()};
     SetupSymbol *symbols;
     int          count;
     Vec3         eye;

@@ -191,7 +191,8 @@ static void make_table(SweepTrials *t, Arena *arena)
 static void cover_sweep(ReviewRequest *request, const ReviewCondition *c, const char *ways,
                         int runs, Problems *problems)
 {
-    SetupOptions options = {.request = request, .condition = c, .root = "/", .threads = 1};
+    SetupOptions options = {.request = request, .condition = c,
+                            .means = {.root = "/", .threads = 1}};
     Arena        arena = arena_reserve((size_t)1 << 36);
     SweepTrials  t = {.request = request, .runs = runs,
                       .scratch = arena_reserve((size_t)1 << 34)};

@@ -84,7 +84,8 @@ static void try_moment(ReviewRequest *request, const ReviewCondition *c, int tri
                        Problems *problems)
 {
     static const double margins[] = {-10, -5, -2, -1, 1, 2, 5, 10};
-    SetupOptions options = {.request = request, .condition = c, .root = "/", .threads = 1};
+    SetupOptions options = {.request = request, .condition = c,
+                            .means = {.root = "/", .threads = 1}};
     Arena        arena = arena_reserve((size_t)1 << 36);
     Verdicts     v = {.request = request, .trials = trials,
                       .scratch = arena_reserve((size_t)1 << 33)};

@@ -286,7 +286,7 @@ def check_eye(report, look):
 # ---- pictures a second ----
 
 def decoded(text, size):
-    """Four planes of bytes: page_data.h."""
+    """Four planes of bytes: page.h."""
     data = zlib.decompress(base64.b64decode(text))
     planes = []
     for plane in range(4):

@@ -6,7 +6,7 @@
 #include "base/sampler.h"
 #include "base/units.h"
 #include "panel/query/panel_opened.h"
-#include "review/chain/chain_words.h"
+#include "review/chain/chains.h"
 #include "review/chain/outlook.h"
 #include "world_fixture.h"
 

@@ -6,9 +6,9 @@
 #include <jansson.h>
 #include <zlib.h>
 
-#include "page/page_data.h"
+#include "page/page.h"
 #include "review/output/review_live.h"
-#include "review/run/live_frame.h"
+#include "review/run/live.h"
 #include "text/base64.h"
 #include "verdict_fixture.h"
 
@@ -195,7 +195,7 @@ TEST(light_comes_back)
 
 /* ---- a frame's two parts ----------------------------------------------------------------- */
 
-static FrameImage display_frame(Arena *arena)
+static FrameImage shown_frame(Arena *arena)
 {
     ExrWindow  whole = {0, 0, 40, 30};
     FrameImage frame = frame_create(40, 30, whole, 8, 0, arena);
@@ -224,7 +224,7 @@ static double mean_of(const float *values, int count)
 TEST(parts_add_up)
 {
     Arena      arena = test_arena(state);
-    FrameImage frame = display_frame(&arena);
+    FrameImage frame = shown_frame(&arena);
     LiveFrame  split;
     Error      err = {0};
     const float *rgb[3];
@@ -251,7 +251,7 @@ TEST(a_frame_without_displays_layers_is_refused)
 TEST(smaller_is_as_bright)
 {
     Arena      arena = test_arena(state);
-    FrameImage frame = display_frame(&arena);
+    FrameImage frame = shown_frame(&arena);
     LiveFrame  split;
     Error      err = {0};
     assert_true(live_frame_split(&frame, &arena, &split, &err));
@@ -273,7 +273,7 @@ TEST(smaller_is_as_bright)
 TEST(an_eye_keeps_the_light)
 {
     Arena      arena = test_arena(state);
-    FrameImage frame = display_frame(&arena);
+    FrameImage frame = shown_frame(&arena);
     LiveFrame  split;
     Error      err = {0};
     assert_true(live_frame_split(&frame, &arena, &split, &err));

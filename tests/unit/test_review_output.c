@@ -12,7 +12,6 @@
 #include "base/file_write.h"
 #include "review/output/review_json.h"
 #include "review/output/review_words.h"
-#include "review/output/review_json_read.h"
 #include "review/output/review_junit.h"
 #include "verdict_fixture.h"
 
@@ -175,7 +174,7 @@ static void assert_same_false_sun(const ReviewFalseSun *a, const ReviewFalseSun 
     assert_same(a->veil_cd_m2, b->veil_cd_m2);
 }
 
-static void assert_same_range(Range a, Range b)
+static void assert_same_range(MeanInterval a, MeanInterval b)
 {
     assert_same(a.low, b.low);
     assert_same(a.high, b.high);

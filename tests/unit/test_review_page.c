@@ -290,7 +290,7 @@ TEST(what_changed_is_on_the_page)
     after.cases[3].contrast_ratio = 77.5;
     after.cases[3].contrast_low = after.cases[3].contrast_high = 77.5;
     after.gazes[0].mirrored = 123;
-    after.gazes[0].contrast_range = (Range){0, 0.1};
+    after.gazes[0].contrast_range = (MeanInterval){0, 0.1};
     ReviewDiff  diff = review_diff(&before, &after, "old", "new", &arena);
     const char *page = page_of(&(ReviewPage){.review = &after, .diff = &diff});
     assert_non_null(strstr(page, "→ 77.5 : 1"));

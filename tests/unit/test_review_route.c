@@ -3,7 +3,7 @@
  * that move; levels that follow the light. */
 #include "fixture.h"
 
-#include "review/request/level.h"
+#include "review/request/request.h"
 #include "review/route/route.h"
 
 static bool read_route(const char *text, Arena *arena, Route *out, Error *err)

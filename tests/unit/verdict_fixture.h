@@ -163,8 +163,8 @@ static inline void fixture_gazes(Arena *arena, Review *review)
                          .through = THROUGH[i], .mirrored = MIRRORED[i],
                          .cornea_lux = 3 * THROUGH[i], .dgp = 0.2 + 0.2 * i, .ugr = 18.5};
         g.veil = g.veil_parts.sun + REST[i];
-        g.veil_range = (Range){0.98 * g.veil, 1.02 * g.veil};
-        g.mirrored_range = (Range){0.99 * g.mirrored, 1.01 * g.mirrored};
+        g.veil_range = (MeanInterval){0.98 * g.veil, 1.02 * g.veil};
+        g.mirrored_range = (MeanInterval){0.99 * g.mirrored, 1.01 * g.mirrored};
         if (g.mirrored > 0) {
             g.mirrored_by = "windscreen (windscreen glass)";
             g.mirrored_from = "dashboard pad (leather black)";
@@ -172,7 +172,7 @@ static inline void fixture_gazes(Arena *arena, Review *review)
         g.contrast_behind_glass = g.through / (g.through + g.mirrored);
         double veils = g.mirrored + g.veil - g.veil_parts.near;
         g.contrast_left = g.through / (g.through + veils);
-        g.contrast_range = (Range){0.99 * g.contrast_left, 1.01 * g.contrast_left};
+        g.contrast_range = (MeanInterval){0.99 * g.contrast_left, 1.01 * g.contrast_left};
         review->gazes[i] = g;
     }
 }

@@ -11,7 +11,6 @@
 #include "cli/options/answer.h"
 #include "image/picture.h"
 #include "page/page.h"
-#include "page/page_data.h"
 #include "review/profile_table.h"
 #include "scene/load/material_data.h"
 #include "text/base64.h"

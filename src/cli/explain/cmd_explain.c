@@ -16,14 +16,13 @@
 #include "cli/options/cli.h"
 #include "cli/options/scene_options.h"
 #include "cli/render/render_setup.h"
-#include "review/chain/outlook_picture.h"
+#include "review/chain/outlook.h"
 #include "review/output/ray_file.h"
 #include "review/output/review_json.h"
 #include "review/output/review_words.h"
 #include "review/request/request_check.h"
 #include "review/request/request_read.h"
 #include "review/run/explain.h"
-#include "review/run/explain_place.h"
 #include "review/run/symbols.h"
 #include "scene/load/scene_load.h"
 #include "text/interval_text.h"
@@ -496,9 +495,9 @@ static bool review_question(const ExplainWords *words, Arena *arena, Explained *
     const char     *root = scene->scene.root, *sun = scene->environment.sun;
     ReviewRequest   request;
     ExplainOptions  options = {.condition = words->condition, .eye = words->eye,
-                               .symbol = words->symbol, .has_sun = sun != NULL, .root = root,
-                               .state = scene->scene.state,
-                               .isa = scene->isa, .threads = scene->threads,
+                               .symbol = words->symbol, .has_sun = sun != NULL,
+                               .means = {.root = root, .state = scene->scene.state,
+                                         .isa = scene->isa, .threads = scene->threads},
                                .paths = scene->paths, .with_outlook = scene->with_outlook,
                                .problems = scene->problems};
     if (sun && !read_sun(sun, options.sun_deg, err)) return false;

@@ -13,7 +13,7 @@
 #include "cli/render/render_setup.h"
 #include "light/light_groups.h"
 #include "render/render.h"
-#include "review/chain/chain_words.h"
+#include "review/chain/chains.h"
 #include "review/chain/pixel_light.h"
 #include "review/output/ray_file.h"
 #include "scene/load/scene_load.h"

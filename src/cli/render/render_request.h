@@ -11,7 +11,7 @@
 #include "cli/job/job.h"
 #include "cli/render/noise_goal.h"
 #include "image/develop.h"
-#include "live/viewer_address.h"
+#include "live/viewer.h"
 #include "render/render.h"
 #include "scene/scene.h"
 

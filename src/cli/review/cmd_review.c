@@ -24,7 +24,6 @@
 #include "review/run/worst_frames.h"
 #include "review/vary/mend.h"
 #include "review/vary/sensitivity.h"
-#include "review/vary/riders.h"
 #include "review/vary/variants.h"
 #include "scene/load/scene_load.h"
 #include "text/nearest_word.h"
@@ -313,11 +312,11 @@ static bool make_all(ReviewRun *run, ReviewFolder *folder, ReviewWatch *watch,
                      ReviewOutcome *outcome, Arena *arena, Error *err)
 {
     Inherited *inherited = run->request->is_compared ? inherited_start(run->request) : NULL;
-    run->inherited = inherited;
+    run->means.inherited = inherited;
     review_riders_start(run, !folder->is_alone, arena);
     bool ok = make_watched(run, folder, watch, outcome, arena, err);
     review_riders_end(run);
-    run->inherited = NULL;
+    run->means.inherited = NULL;
     inherited_end(inherited);
     return ok;
 }
@@ -345,8 +344,8 @@ static bool make(const ReviewWords *words, ReviewFolder *folder, ReviewRun *run,
     run->unfinished = folder->draft.unfinished;
     run->responses = folder->responses;
     run->responses_shown = folder->responses_shown;
-    run->journal = folder->draft.journal;
-    if (!run->lessons) run->lessons = folder->draft.unfinished;
+    run->means.journal = folder->draft.journal;
+    if (!run->means.lessons) run->means.lessons = folder->draft.unfinished;
     if (!take_found(folder, words->task, *arena, err) ||
         !make_all(run, folder, words->watch, &outcome, arena, err)) {
         progress_clear(run->work);
@@ -441,13 +440,13 @@ static bool review(const ReviewWords *words, Arena *arena, Error *err)
     Progress work = progress_start(words->cli.progress, "review", "steps",
                                    work_of_review(&request, folder.mend != NULL));
     work.expected_s = PACE_KNOWN_S;
-    ReviewRun run = {.request = &request, .profile = profile, .root = words->root,
-                     .state = words->state,
-                     .threads = words->cli.threads, .isa = words->isa,
+    ReviewRun run = {.request = &request, .profile = profile,
+                     .means = {.root = words->root, .state = words->state,
+                               .threads = words->cli.threads, .isa = words->isa},
                      .problems = &problems, .work = &work};
     if (words->task) {
         run.identity = words->task->identity;
-        run.lessons = words->task->responses;
+        run.means.lessons = words->task->responses;
     }
     if (words->task && words->task->share.count)
         return review_part(&run, words->task, words->responses, arena, err);

@@ -17,8 +17,8 @@
 #include "review/output/review_csv.h"
 #include "review/output/review_decide.h"
 #include "review/output/review_json.h"
-#include "review/output/review_json_read.h"
 #include "review/output/review_junit.h"
+#include "review/output/review_words.h"
 #include "text/text.h"
 
 #define MAP_STEP_DEG 5
@@ -108,7 +108,7 @@ bool review_folder_write_tables(const ReviewFolder *folder, ReviewOutcome *outco
     FolderTables work = {folder, outcome};
     for (int i = 0; i < count; i++) {
         ReviewSweep *sweep = sweep_of(outcome, i);
-        const char  *name = file_name_of(
+        const char  *name = words_file_name(
             arena_format(arena, "%d-%s-%s-%s", outcome->tables[i].sweep_id + 1,
                          sweep->condition, sweep->eye, sweep->symbol), arena);
         sweep->table = arena_format(arena, "sweeps/%s.csv", name);

@@ -50,12 +50,12 @@ static bool answer(ReviewRun *run, const ReviewTask *task, Arena *arena, Error *
 {
     ReviewOutcome ignored;
     const char    done = 1;
-    review_take_answers(run->journal, task, *arena);
+    review_take_answers(run->means.journal, task, *arena);
     bool is_run = review_run(run, arena, &ignored, err);
     cli_print_warnings(run->problems);
     if (!is_run) return false;
-    journal_add(run->journal, task->mark, &done, sizeof done);
-    return journal_ok(run->journal, err);
+    journal_add(run->means.journal, task->mark, &done, sizeof done);
+    return journal_ok(run->means.journal, err);
 }
 
 static void report_stopped(const ReviewTask *task, Error *err)
@@ -72,14 +72,14 @@ bool review_part(ReviewRun *run, const ReviewTask *task, const char *responses, 
     run->share = task->share;
     run->responses = responses ? responses : task->responses;
     run->responses_shown = "";
-    run->lessons = task->responses;
-    if (!folder_make(run->responses, err) || !folder_make(run->lessons, err) ||
-        !journal_open(task->answers, arena, run->problems, &run->journal, err))
+    run->means.lessons = task->responses;
+    if (!folder_make(run->responses, err) || !folder_make(run->means.lessons, err) ||
+        !journal_open(task->answers, arena, run->problems, &run->means.journal, err))
         return false;
     run->work->total = work_of_conditions(run->request, false) / run->share.count;
     bool ok = answer(run, task, arena, err);
     if (ok) progress_end(run->work, run->work->total);
-    journal_close(run->journal);
+    journal_close(run->means.journal);
     if (!ok && err->code > 128) report_stopped(task, err);
     return ok;
 }
@@ -134,7 +134,8 @@ bool review_share(const ShareRequest *share, ReviewFolder *folder, ReviewRun *ru
     review_folder_responses(folder, arena);
     run->responses = folder->responses;
     run->responses_shown = "";
-    bool ok = review_plan(run, arena, &found, err) && kernel_choose(run->isa, &kernel, err);
+    bool ok = review_plan(run, arena, &found, err) &&
+              kernel_choose(run->means.isa, &kernel, err);
     cli_print_warnings(run->problems);
     if (!ok) return false;
     SharedJob job = {.kind = JOB_REVIEW, .line = review_folder_command(folder, arena),

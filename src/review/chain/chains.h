@@ -103,3 +103,14 @@ typedef struct ChainAsk {
 #define CHAIN_PATHS_LEAST (2 * CHAIN_CHUNK) /* an error takes two batches */
 
 Chains chains_find(const ChainAsk *ask, Arena *arena);
+
+/* A chain in words, in the order in which the eye's ray meets it: "display cluster: reflects",
+ * "Window_FL (glass): through", "sky". Texts and list live in the arena. */
+const char *const *chain_words(const Scene *scene, const ChainKey *key, int *links,
+                               Arena *arena);
+
+/* "FrontSeat_L (leather)" */
+const char *chain_part_words(const Scene *scene, int part_id, Arena *arena);
+
+/* "sky", "sun", "lamp NAME", or a part's words. */
+const char *chain_source_words(const Scene *scene, int source, int source_id, Arena *arena);

@@ -11,6 +11,7 @@
  * Threads  starts its own; the same figures for any count.
  */
 #pragma once
+#include "image/picture.h"
 #include "review/light/reading.h"
 
 typedef struct OutlookAsk {
@@ -50,3 +51,9 @@ typedef struct Outlook {
 Vec3 outlook_up(Vec3 ng);
 
 Outlook outlook_take(const OutlookAsk *ask, Arena *arena);
+
+/* In false colour with its scale; the mirror direction is ringed, the sun a disc with rays. */
+Picture outlook_picture(const Outlook *outlook, Arena *arena);
+
+/* "41 % sky through Windscreen (glass), 22 % sun ...; the mirror image is FrontSeat_L ..." */
+const char *outlook_words(const Outlook *outlook, Arena *arena);

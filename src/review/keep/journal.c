@@ -10,6 +10,8 @@
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
+#include "render/signals.h"
+
 #define MAGIC "PRHLJRNL"
 #define BYTE_ORDER_MARK 0x01020304u
 #define VERSION 1
@@ -346,4 +348,13 @@ void journal_close(Journal *journal)
     if (!journal) return;
     if (!journal->count) unlink(journal->path);
     close(journal->file);
+}
+
+/* ---- whether a review goes on ------------------------------------------------------------ */
+
+bool review_goes_on(const Journal *journal, Error *err)
+{
+    int stop = signals_stop_requested();
+    if (stop) return error_set(err, (ErrorCode)(128 + stop), "stopped");
+    return journal_ok(journal, err);
 }

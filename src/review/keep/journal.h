@@ -58,3 +58,7 @@ int journal_count(const Journal *journal);
 
 /* A file without answers is removed. NULL is fine. */
 void journal_close(Journal *journal);
+
+/* False: INT, TERM or HUP asked to stop, and the error's code is 128 and the signal's number;
+ * or the journal could not keep what was found. */
+bool review_goes_on(const Journal *journal, Error *err);

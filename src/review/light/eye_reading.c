@@ -215,8 +215,7 @@ static void add_veil(const EyePaths *paths, int round, EyeSource source, double 
 /* Within the field in which images were looked for? */
 static bool has_images(const EyePaths *paths, Vec3 d)
 {
-    const double *to = paths->setup->request->forward;
-    Vec3 ahead = vec3((float)to[0], (float)to[1], (float)to[2]);
+    Vec3 ahead = vec3_from_doubles(paths->setup->request->forward);
     return paths->images && degrees_between(d, ahead) < FALSE_SUN_FIELD_DEG;
 }
 
@@ -328,8 +327,7 @@ static EyeReading sum_up(const EyePaths *paths, const PupilSums *pupils, Arena s
  * from looking ahead. */
 static void set_head(EyePaths *paths)
 {
-    const double *ahead = paths->setup->request->forward;
-    Vec3 forward = vec3((float)ahead[0], (float)ahead[1], (float)ahead[2]);
+    Vec3 forward = vec3_from_doubles(paths->setup->request->forward);
     Vec3 top = vec3(0, 1, 0);
     if (fabsf(paths->gaze.y) > UPRIGHT)
         top = paths->gaze.y > 0 ? vec3_neg(forward) : forward;
@@ -339,10 +337,9 @@ static void set_head(EyePaths *paths)
 
 static EyeReading read_eye(const Setup *setup, const EyeLook *look, Arena scratch)
 {
-    const ReviewObserver *observer = &setup->request->observer;
     int      count = look->rounds * PATHS;
     EyePaths paths = {.setup = setup, .count = count, .gaze = vec3_normalize(look->towards),
-                      .whose = {observer->age_years, observer->pigment},
+                      .whose = setup->request->observer,
                       .images = look->images,
                       .targets = ARENA_NEW(&scratch, Vec3, count),
                       .solid_angles = ARENA_NEW(&scratch, double, count),
@@ -361,7 +358,7 @@ static EyeReading read_eye(const Setup *setup, const EyeLook *look, Arena scratc
 EyeReading eye_read(const Setup *setup, const EyeLook *look, Arena scratch)
 {
     const ReadingTools   *tools = &setup->tools;
-    const ReviewObserver *observer = &setup->request->observer;
+    const HumanEye       *observer = &setup->request->observer;
     const double         *ahead = setup->request->forward;
     EyeReading reading;
     if (!tools->journal) return read_eye(setup, look, scratch);

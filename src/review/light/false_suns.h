@@ -74,3 +74,23 @@ typedef struct FalseSunSight {
 
 /* towards: the sun, unit, world. */
 FalseSunSight false_suns_at(const FalseSuns *suns, Vec3 towards);
+
+/* ---- searches that are kept -------------------------------------------------------------- */
+
+/* One serves all gazes, moments and sweeps in which the same eye sees the same scene: it takes
+ * some 2 million rays; neither the sun nor any other light has a part in it. Where lessons are
+ * kept, in a review that machines share, the setup's journal keeps it, too. One thread at a
+ * time. */
+typedef struct SunSearch SunSearch;
+
+/* For one request; the arena is that of what is kept, until sun_searches_end. */
+typedef struct SunSearches {
+    Arena      arena;
+    SunSearch *last;
+} SunSearches;
+
+SunSearches sun_searches_start(void);
+void        sun_searches_end(SunSearches *searches);
+
+/* The setup's scene, lit or dark, as the eye (m, world) sees it: found before, or now. */
+const FalseSunRays *sun_searches_ask(SunSearches *searches, const Setup *setup, Vec3 eye);

@@ -111,7 +111,7 @@ static void identify(Setup *setup, const SceneOptions *options, Arena *arena)
 
 static SceneOptions scene_options(const SetupOptions *options, Arena *arena)
 {
-    SceneOptions scene = {.root = options->root, .state = options->state};
+    SceneOptions scene = {.root = options->means.root, .state = options->means.state};
     scene.paths = all_paths(options, &scene.path_count, arena);
     scene.contents = all_contents(options, &scene.content_count, arena);
     set_change(options->request->change, &scene);
@@ -130,12 +130,13 @@ bool setup_open(const SetupOptions *options, Arena *arena, Problems *problems, S
 {
     SceneOptions scene = scene_options(options, arena);
     *out = (Setup){.request = options->request, .condition = options->condition,
-                   .tools = {.threads = options->threads, .journal = options->journal},
-                   .sensor_lux = (double)NAN, .lessons = options->lessons,
-                   .inherited = options->inherited};
-    if (!kernel_choose(options->isa, &out->tools.kernel, err)) return false;
+                   .tools = {.threads = options->means.threads,
+                             .journal = options->means.journal},
+                   .sensor_lux = (double)NAN, .lessons = options->means.lessons,
+                   .inherited = options->means.inherited};
+    if (!kernel_choose(options->means.isa, &out->tools.kernel, err)) return false;
     if (!scene_load(&scene, arena, problems, &out->scene, err)) return false;
-    if (!bvh_create(out->scene, options->threads, options->isa, &out->bvh, err)) {
+    if (!bvh_create(out->scene, options->means.threads, options->means.isa, &out->bvh, err)) {
         scene_close(out->scene);
         return false;
     }
@@ -168,14 +169,10 @@ bool setup_relight(Setup *setup, Arena *arena, Error *err)
     return true;
 }
 
-static Vec3 vec3_of(const double v[3])
-{
-    return vec3((float)v[0], (float)v[1], (float)v[2]);
-}
-
 static void read_sensor(Setup *setup, const ReviewLevel *level, Arena scratch)
 {
-    LitPoint    head = {vec3_of(level->position_m), vec3_of(level->normal), false};
+    LitPoint    head = {vec3_from_doubles(level->position_m),
+                        vec3_from_doubles(level->normal), false};
     ProbeAim    aim = {.context = &setup->context, .meter = &head,
                        .seed = review_seed(setup->request, SENSOR_SEED)};
     ReadingGoal goal = {.precision = SENSOR_PRECISION, .most = SENSOR_PATHS};
@@ -376,7 +373,7 @@ bool setup_sun(const Setup *setup, Vec3 *towards, float bands[LIGHT_BANDS])
 /* Forward on the horizontal, and to its right. */
 static void axes(const Setup *setup, Vec3 *ahead, Vec3 *right)
 {
-    Vec3 forward = vec3_of(setup->request->forward);
+    Vec3 forward = vec3_from_doubles(setup->request->forward);
     *ahead = vec3_normalize(vec3(forward.x, 0, forward.z));
     *right = vec3(-ahead->z, 0, ahead->x);
 }

@@ -43,17 +43,22 @@ typedef struct Setup {
     SetupOther  *other;        /* levels for readings; NULL: as it is lit */
 } Setup;
 
+/* By what means: the same for all setups of a review. */
+typedef struct SetupMeans {
+    const char *root;      /* --root, or NULL */
+    SceneState  state;     /* scene.h's */
+    int         threads;
+    const char *isa;       /* kernel.h's; NULL: the best */
+    Journal    *journal;   /* of readings that were taken before; NULL: none is kept */
+    const char *lessons;   /* folder of what paths were taught before (run/cases.h); NULL: it is
+                              not kept */
+    Inherited  *inherited; /* what variants take over from their review, or NULL */
+} SetupMeans;
+
 typedef struct SetupOptions {
     const ReviewRequest   *request;
     const ReviewCondition *condition; /* NULL: the request's own files, no light but theirs */
-    const char            *root;      /* --root, or NULL */
-    SceneState             state;     /* scene.h's */
-    int                    threads;
-    const char            *isa;       /* kernel.h's; NULL: the best */
-    Journal               *journal;   /* for readings; NULL: none is kept */
-    const char            *lessons;   /* folder of what paths are taught (run/cases.h); NULL:
-                                         it is not kept */
-    Inherited             *inherited; /* the review's and its variants', or NULL */
+    SetupMeans             means;
 } SetupOptions;
 
 /* The scene with the condition's files, contents and occupants, in the dark. Warnings go to

@@ -106,11 +106,6 @@ static json_t *material(int i)
                      "KHR_materials_unlit");
 }
 
-static json_t *figure(double value)
-{
-    return isfinite(value) ? json_real(value) : json_null();
-}
-
 typedef struct RayDocument {
     json_t *nodes, *meshes, *materials, *accessors;
 } RayDocument;
@@ -138,8 +133,8 @@ static void add_mesh(const RayDocument *to, const CaseCause *cause, const RayNum
     json_array_append_new(to->materials, material(cause->light ? cause->light - 1 : id));
     json_array_append_new(to->nodes, json_pack(
         "{s:o, s:i, s:{s:o, s:o, s:o}}", "name", json_text(name), "mesh", id, "extras", "share",
-        figure(cause->share), "cd_m2", figure(cause->cd_m2), "contrast_without",
-        figure(cause->contrast_without)));
+        json_figure(cause->share), "cd_m2", json_figure(cause->cd_m2), "contrast_without",
+        json_figure(cause->contrast_without)));
 }
 
 /* uri NULL: the binary form's own chunk. */

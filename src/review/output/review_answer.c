@@ -27,13 +27,8 @@ const char *const *review_answer_directions(const ReviewAnswer *answer, const Re
 
 const char *review_summary_name(const char *symbol, Arena *arena)
 {
-    char *name = arena_format(arena, "%s", symbol ? symbol : "");
-    for (char *c = name; *c; c++) {
-        bool is_plain = (*c >= 'a' && *c <= 'z') || (*c >= 'A' && *c <= 'Z') ||
-                        (*c >= '0' && *c <= '9') || *c == '_';
-        if (!is_plain) *c = '-';
-    }
-    return arena_format(arena, "summary-%s.html", name);
+    return arena_format(arena, "summary-%s.html",
+                        words_file_name(symbol ? symbol : "", arena));
 }
 
 /* ---- the line --------------------------------------------------------------------------- */
@@ -67,28 +62,17 @@ static void add_line(Text *html, const Review *review, const ReviewCase *worst, 
 typedef struct Grid {
     const ReviewCase **ranked; /* the worst first */
     int                count;
-    const char       **symbols, **eyes; /* in the order of their worst */
-    int                symbol_count, eye_count;
+    WordList           symbols, eyes; /* in the order of their worst */
 } Grid;
-
-static int add_name(const char **names, int count, const char *name)
-{
-    for (int i = 0; i < count; i++)
-        if (words_same(names[i], name)) return count;
-    names[count] = name ? name : "";
-    return count + 1;
-}
 
 static Grid make_grid(const Review *review, Arena *arena)
 {
-    int  count = review->case_count + review->sweep_count;
-    Grid grid = {.ranked = review_rank(review, arena), .count = count,
-                 .symbols = ARENA_NEW(arena, const char *, count),
-                 .eyes = ARENA_NEW(arena, const char *, count)};
+    int  count = review_case_count(review);
+    Grid grid = {review_rank(review, arena), count, words_list(count, arena),
+                 words_list(count, arena)};
     for (int i = 0; i < count; i++) {
-        const ReviewCase *c = grid.ranked[i];
-        grid.symbol_count = add_name(grid.symbols, grid.symbol_count, c->symbol);
-        grid.eye_count = add_name(grid.eyes, grid.eye_count, c->eye);
+        words_list_add(&grid.symbols, grid.ranked[i]->symbol);
+        words_list_add(&grid.eyes, grid.ranked[i]->eye);
     }
     return grid;
 }
@@ -128,11 +112,8 @@ static void add_cell(Text *html, const Review *review, const ReviewCase *c, Aren
         page_cell(html, "none", "–");
         return;
     }
-    text_format(html, "<td class=\"%s\"><a href=\"%s\" title=\"", words_class(c->verdict),
-                review_card_link(review, c, arena));
-    escape_markup(html, arena_format(arena, "%s: %s", words_verdict(c->verdict),
-                                     words_reason(c, arena)));
-    text_add(html, "\"><b>");
+    review_card_begin_cell(html, review, c, arena);
+    text_add(html, "<b>");
     escape_markup(html, arena_format(arena, "%s %s", words_mark(c->verdict),
                                      found_words(c, arena)));
     text_add(html, "</b>");
@@ -158,9 +139,10 @@ static void add_rows(Text *html, const Review *review, const Grid *grid, int row
 {
     for (int row = 0; row < rows; row++) {
         page_row_begin(html, "");
-        add_symbol(html, review, grid->symbols[row], arena);
+        add_symbol(html, review, grid->symbols.list[row], arena);
         for (int i = 0; i < eyes; i++)
-            add_cell(html, review, worst_of(grid, grid->symbols[row], grid->eyes[i]), arena);
+            add_cell(html, review,
+                     worst_of(grid, grid->symbols.list[row], grid->eyes.list[i]), arena);
         page_row_end(html);
     }
 }
@@ -187,38 +169,33 @@ static void add_grid(Text *html, const Review *review, Arena *arena)
 {
     Grid        grid = make_grid(review, arena);
     PageColumn  columns[GRID_EYES + 1] = {{"at its worst", false, NULL}};
-    int         eyes = grid.eye_count < GRID_EYES ? grid.eye_count : GRID_EYES;
-    int         rows = grid.symbol_count < GRID_ROWS ? grid.symbol_count : GRID_ROWS;
-    for (int i = 0; i < eyes; i++) columns[i + 1] = (PageColumn){grid.eyes[i], false, NULL};
+    int         eyes = grid.eyes.count < GRID_EYES ? grid.eyes.count : GRID_EYES;
+    int         rows = grid.symbols.count < GRID_ROWS ? grid.symbols.count : GRID_ROWS;
+    for (int i = 0; i < eyes; i++)
+        columns[i + 1] = (PageColumn){grid.eyes.list[i], false, NULL};
     text_add(html, "<div class=\"grid\">");
     page_table_begin(html, "", "matrix", columns, eyes + 1);
     add_rows(html, review, &grid, rows, eyes, arena);
     page_table_end(html);
-    if (rows < grid.symbol_count || eyes < grid.eye_count)
+    if (rows < grid.symbols.count || eyes < grid.eyes.count)
         page_element(html, "p class=\"sub\"",
                      arena_format(arena, "The worst %d of %d symbols, as the worst %d of %d "
-                                  "eyes see them; all stand below.", rows, grid.symbol_count,
-                                  eyes, grid.eye_count));
+                                  "eyes see them; all stand below.", rows, grid.symbols.count,
+                                  eyes, grid.eyes.count));
     page_element(html, "p class=\"sub\"", count_words(review, arena));
     text_add(html, "</div>\n");
 }
 
 /* ---- the worst case --------------------------------------------------------------------- */
 
-static void add_fact(Text *html, const char *name, const char *value)
-{
-    page_element(html, "dt", name);
-    page_element(html, "dd", value);
-}
-
 static void add_when(Text *html, const ReviewAnswer *answer, const ReviewCase *c, Arena *arena)
 {
     const ReviewSweep *sweep = review_sweep_of(answer->review, c);
     const char *sun = words_sun(c, review_answer_directions(answer, c, arena), arena);
     const char *when = c->when ? c->when : c->condition ? c->condition : "?";
-    add_fact(html, "When", arena_format(arena, "%s: %s", when,
-                                        c->has_sun ? sun : words_ambient(c->ambient)));
-    if (sweep) add_fact(html, "How often", words_how_often(sweep, arena));
+    page_fact(html, "When", arena_format(arena, "%s: %s", when,
+                                         c->has_sun ? sun : words_ambient(c->ambient)));
+    if (sweep) page_fact(html, "How often", words_how_often(sweep, arena));
 }
 
 /* All of it in whole percent that add up to 100, the small ones together. */
@@ -242,14 +219,14 @@ static void add_why(Text *html, const ReviewAnswer *answer, const ReviewCase *c,
 {
     static const char *const NAMES[CAUSE_GROUPS] = {"Light from", "… in through", "… off"};
     for (int g = 0; g < CAUSE_GROUPS; g++)
-        if (c->groups[g].count) add_fact(html, NAMES[g], group_words(&c->groups[g], arena));
+        if (c->groups[g].count) page_fact(html, NAMES[g], group_words(&c->groups[g], arena));
     if (!c->groups[GROUP_LIGHT].count && c->cause_count)
-        add_fact(html, "Why",
-                 arena_format(arena, "%s of what the display reflects comes by: %s",
-                              words_share(c->causes[0].share, arena),
-                              words_chain(&c->causes[0], arena)));
+        page_fact(html, "Why",
+                  arena_format(arena, "%s of what the display reflects comes by: %s",
+                               words_share(c->causes[0].share, arena),
+                               words_chain(&c->causes[0], arena)));
     const char *without = words_without_data(answer->review, c, arena);
-    if (without[0]) add_fact(html, "No data", without);
+    if (without[0]) page_fact(html, "No data", without);
 }
 
 /* A remedy must raise the contrast above its interval. */
@@ -264,16 +241,15 @@ static const CaseRemedy *next_mend(const ReviewCase *c, const bool *is_listed)
     const CaseRemedy *best = NULL;
     for (int i = 0; i < c->remedy_count; i++) {
         const CaseRemedy *r = &c->remedies[i];
-        if (!is_listed[i] && mends(c,
-                                   r) && !(best && best->contrast_ratio >= r->contrast_ratio))
-            best = r;
+        bool is_more = !best || !(best->contrast_ratio >= r->contrast_ratio);
+        if (!is_listed[i] && mends(c, r) && is_more) best = r;
     }
     return best;
 }
 
 static void add_mend(Text *html, int *listed, const char *words)
 {
-    add_fact(html, *listed ? "… or" : "What mends it", words);
+    page_fact(html, *listed ? "… or" : "What mends it", words);
     ++*listed;
 }
 

@@ -20,11 +20,17 @@
 
 /* ---- the line that opens it ------------------------------------------------------------- */
 
+void review_card_add_chip(Text *html, Verdict verdict)
+{
+    text_format(html, "<span class=\"chip %s\">%s</span>", words_class(verdict),
+                words_verdict(verdict));
+}
+
 static void add_summary(Text *html, const ReviewCase *c, Arena *arena)
 {
-    text_format(html, "<summary><span class=\"chip %s\">", words_class(c->verdict));
-    escape_markup(html, words_verdict(c->verdict));
-    text_add(html, "</span> <b>");
+    text_add(html, "<summary>");
+    review_card_add_chip(html, c->verdict);
+    text_add(html, " <b>");
     escape_markup(html, c->symbol);
     text_add(html, "</b> <span class=\"where\">");
     escape_markup(html, arena_format(arena, "seen by %s, %s", c->eye ? c->eye : "?",
@@ -35,12 +41,6 @@ static void add_summary(Text *html, const ReviewCase *c, Arena *arena)
 
 /* ---- figures ---------------------------------------------------------------------------- */
 
-static void add_fact(Text *html, const char *name, const char *value)
-{
-    page_element(html, "dt", name);
-    page_element(html, "dd", value);
-}
-
 static void add_light_facts(Text *html, const ReviewCard *card, Arena *arena)
 {
     const ReviewCase *c = card->of;
@@ -49,13 +49,13 @@ static void add_light_facts(Text *html, const ReviewCard *card, Arena *arena)
                                          words_ambient(c->ambient),
                                          words_figure(c->display_lux, arena))
                           : words_ambient(c->ambient);
-    if (c->when) add_fact(html, "When", c->when);
-    add_fact(html, "Light", lux);
-    add_fact(html, "Sun", words_sun(c, card->directions, arena));
-    add_fact(html, "Display", c->display ? c->display : "–");
+    if (c->when) page_fact(html, "When", c->when);
+    page_fact(html, "Light", lux);
+    page_fact(html, "Sun", words_sun(c, card->directions, arena));
+    page_fact(html, "Display", c->display ? c->display : "–");
     if (isfinite(c->level))
-        add_fact(html, "Brightness", arena_format(arena, "%s of what was measured",
-                                                  words_share(c->level, arena)));
+        page_fact(html, "Brightness", arena_format(arena, "%s of what was measured",
+                                                   words_share(c->level, arena)));
 }
 
 /* A figure in the middle of its words; nothing where there is none. */
@@ -63,29 +63,29 @@ static void add_figure(Text *html, const char *name, double value, const char *u
                        Arena *arena)
 {
     if (!isnan(value))
-        add_fact(html, name, arena_format(arena, "%s %s", words_figure(value, arena), unit));
+        page_fact(html, name, arena_format(arena, "%s %s", words_figure(value, arena), unit));
 }
 
 static void add_sight_facts(Text *html, const ReviewCase *c, Arena *arena)
 {
     if (!isnan(c->contrast_ratio))
-        add_fact(html, "Contrast",
-                 arena_format(arena, "%s, 95 %% sure between %s and %s",
-                              words_contrast(c, arena),
-                              words_within(c->contrast_low, c->contrast_low,
-                                           c->contrast_high, arena),
-                              words_within(c->contrast_high, c->contrast_low,
-                                           c->contrast_high, arena)));
+        page_fact(html, "Contrast",
+                  arena_format(arena, "%s, 95 %% sure between %s and %s",
+                               words_contrast(c, arena),
+                               words_within(c->contrast_low, c->contrast_low,
+                                            c->contrast_high, arena),
+                               words_within(c->contrast_high, c->contrast_low,
+                                            c->contrast_high, arena)));
     add_figure(html, "… with the eye's own veil", c->contrast_with_veil, ": 1", arena);
     add_figure(html, "Height", c->height_arcmin, "arc minutes", arena);
     add_figure(html, "Told apart by", c->jnd, "just noticeable steps", arena);
     add_figure(html, "Above the eye's threshold", c->visibility, "times", arena);
     if (!isnan(c->visible_share))
-        add_fact(html, "Can be seen", arena_format(arena, "%s of its area",
-                                                   words_share(c->visible_share, arena)));
-    if (c->hider_count) add_fact(html, "Hidden", words_hiders(c, arena));
+        page_fact(html, "Can be seen", arena_format(arena, "%s of its area",
+                                                    words_share(c->visible_share, arena)));
+    if (c->hider_count) page_fact(html, "Hidden", words_hiders(c, arena));
     if (!isnan(c->eye_failed_share))
-        add_fact(html, "Places of the eye that fail", words_share(c->eye_failed_share, arena));
+        page_fact(html, "Places of the eye that fail", words_share(c->eye_failed_share, arena));
     add_figure(html, "Daylight glare probability", c->dgp, "(a figure for rooms)", arena);
     if (isfinite(c->ugr))
         add_figure(html, "Unified glare rating", c->ugr, "(a figure for rooms)", arena);
@@ -369,9 +369,8 @@ const char *review_card_id(const Review *review, const ReviewCase *c, Arena *are
 
 bool review_card_is_here(const Review *review, const ReviewCase *c, Arena scratch)
 {
-    int                all = review->case_count + review->sweep_count;
     const ReviewCase **ranked = review_rank(review, &scratch);
-    for (int i = 0; review->main_cards && i < all; i++)
+    for (int i = 0; review->main_cards && i < review_case_count(review); i++)
         if (ranked[i] == c) return (i < review->main_cards) != review->is_beside;
     return true;
 }
@@ -387,6 +386,16 @@ const char *review_card_link(const Review *review, const ReviewCase *c, Arena *a
     if (!review_card_is_here(review, c, *arena))
         page = review->is_beside ? "index.html" : REVIEW_PAGE_BESIDE;
     return arena_format(arena, "%s#%s", page, review_card_id(review, c, arena));
+}
+
+void review_card_begin_cell(Text *html, const Review *review, const ReviewCase *c,
+                            Arena *arena)
+{
+    text_format(html, "<td class=\"%s\"><a href=\"%s\" title=\"", words_class(c->verdict),
+                review_card_link(review, c, arena));
+    escape_markup(html, arena_format(arena, "%s: %s", words_verdict(c->verdict),
+                                     words_reason(c, arena)));
+    text_add(html, "\">");
 }
 
 bool review_card_add(Text *html, const ReviewCard *card, Arena *arena, Error *err)

@@ -44,6 +44,14 @@ bool review_card_is_here(const Review *review, const ReviewCase *c, Arena scratc
 /* Where its card is: "#c3", or on the other page. */
 const char *review_card_link(const Review *review, const ReviewCase *c, Arena *arena);
 
+/* Opens a cell of a table that links to a case's card, and tells its verdict when pointed at:
+ * <td><a ...>. */
+void review_card_begin_cell(Text *html, const Review *review, const ReviewCase *c,
+                            Arena *arena);
+
+/* <span class="chip ...">Fails</span> */
+void review_card_add_chip(Text *html, Verdict verdict);
+
 /* The picture alone: <img ...>. */
 bool review_card_add_picture(Text *html, const ReviewPicture *picture, Arena scratch,
                              Error *err);

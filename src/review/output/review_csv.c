@@ -21,6 +21,11 @@ static void add_text(Text *csv, const char *text)
     text_add(csv, ",");
 }
 
+static void add_texts(Text *csv, const char *const *texts, int count)
+{
+    for (int i = 0; i < count; i++) add_text(csv, texts[i]);
+}
+
 static void add_number(Text *csv, double value)
 {
     if (isfinite(value)) text_format(csv, "%.6g", value);
@@ -47,10 +52,8 @@ static void add_limit(Text *csv, const ReviewCase *c)
     static const LimitVerdict NONE = {.value = NAN};
     bool has_limit = c->limit_id >= 0 && c->limit_id < c->limit_count;
     const LimitVerdict *limit = has_limit ? &c->limits[c->limit_id] : &NONE;
-    add_text(csv, limit->name);
-    add_text(csv, limit->kind);
-    add_text(csv, limit->unit);
-    add_text(csv, limit->source);
+    add_texts(csv, (const char *const[]){limit->name, limit->kind, limit->unit, limit->source},
+              4);
     add_number(csv, limit->value);
     add_number(csv, c->margin);
 }
@@ -70,11 +73,8 @@ static void add_cause(Text *csv, const ReviewCase *c, Arena scratch)
 static void add_case(Text *csv, const ReviewCase *c, Arena scratch)
 {
     const CaseLuminances *l = &c->luminance_cd_m2;
-    add_text(csv, c->condition);
-    add_text(csv, c->eye);
-    add_text(csv, c->symbol);
-    add_text(csv, c->display);
-    add_text(csv, ambient_names[c->ambient]);
+    add_texts(csv, (const char *const[]){c->condition, c->eye, c->symbol, c->display,
+                                         ambient_names[c->ambient]}, 5);
     add_number(csv, c->has_sun ? c->sun_azimuth_deg : NAN);
     add_number(csv, c->has_sun ? c->sun_elevation_deg : NAN);
     add_numbers(csv, (double[]){l->foreground, l->background, l->reflected, l->mirror,
@@ -126,9 +126,7 @@ static const char FALSE_SUNS_HEADER[] =
 
 static void add_false_sun(Text *csv, const ReviewFalseSun *f)
 {
-    add_text(csv, f->condition);
-    add_text(csv, f->eye);
-    add_text(csv, f->mirror);
+    add_texts(csv, (const char *const[]){f->condition, f->eye, f->mirror}, 3);
     add_numbers(csv, (double[]){f->share, f->minutes, f->longest_minutes}, 3);
     add_text(csv, f->when);
     add_numbers(csv, (double[]){f->sun_azimuth_deg, f->sun_elevation_deg, f->lux}, 3);
@@ -149,7 +147,7 @@ bool review_csv_write_false_suns(const Review *review, const char *path, Error *
     return write_table(review, FALSE_SUNS_HEADER, add_false_suns, path, err);
 }
 
-/* ---- gazes ------------------------------------------------------------------------------ */
+/* ---- gazes ------------------------------------------------------------------------------- */
 
 static const char GAZE_HEADER[] =
     "condition,eye,gaze,sun_from_gaze_deg,veil_cd_m2,veil_low,veil_high,veil_sun_cd_m2,"
@@ -160,15 +158,12 @@ static const char GAZE_HEADER[] =
 static void add_gaze(Text *csv, const GazeFinding *g)
 {
     const GazeVeil *v = &g->veil_parts;
-    add_text(csv, g->condition);
-    add_text(csv, g->eye);
-    add_text(csv, g->gaze);
+    add_texts(csv, (const char *const[]){g->condition, g->eye, g->gaze}, 3);
     add_numbers(csv, (double[]){g->sun_deg, g->veil, g->veil_range.low, g->veil_range.high,
                                 v->sun, v->sky, v->lamps, v->glints, v->surfaces, v->near,
                                 g->cornea_lux, g->through, g->mirrored, g->mirrored_range.low,
                                 g->mirrored_range.high}, 15);
-    add_text(csv, g->mirrored_by);
-    add_text(csv, g->mirrored_from);
+    add_texts(csv, (const char *const[]){g->mirrored_by, g->mirrored_from}, 2);
     add_numbers(csv, (double[]){g->contrast_behind_glass, g->contrast_range.low,
                                 g->contrast_range.high, g->dgp, g->ugr}, 5);
     if (isfinite(g->contrast_left)) text_format(csv, "%.6g", g->contrast_left);

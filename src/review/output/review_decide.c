@@ -17,12 +17,21 @@ const ReviewSweep *review_sweep_of(const Review *review, const ReviewCase *c)
     return NULL;
 }
 
+const ReviewCase *review_case_at(const Review *review, int i)
+{
+    int sweep = i - review->case_count;
+    return sweep < 0 ? &review->cases[i] : &review->sweeps[sweep].worst;
+}
+
+int review_case_count(const Review *review)
+{
+    return review->case_count + review->sweep_count;
+}
+
 ReviewCounts review_count(const Review *review)
 {
-    ReviewCounts counts = {.total = review->case_count + review->sweep_count};
-    for (int i = 0; i < review->case_count; i++) counts.of[review->cases[i].verdict]++;
-    for (int i = 0; i < review->sweep_count; i++)
-        counts.of[sweep_verdict(&review->sweeps[i])]++;
+    ReviewCounts counts = {.total = review_case_count(review)};
+    for (int i = 0; i < counts.total; i++) counts.of[review_case_at(review, i)->verdict]++;
     return counts;
 }
 
@@ -73,40 +82,29 @@ static double worst_margin(const ReviewCase *c)
 
 typedef struct Ranked {
     const ReviewCase *of;
-    Verdict           verdict; /* that is counted: a sweep's own */
-    int               place;   /* in the review */
+    int               place; /* in the review */
 } Ranked;
 
-static bool is_worse(const Ranked *a, const Ranked *b)
+static bool is_worse(const ReviewCase *a, const ReviewCase *b)
 {
     int more = verdict_rank(a->verdict) - verdict_rank(b->verdict);
-    return more > 0 || (more == 0 && is_less(worst_margin(a->of), worst_margin(b->of)));
+    return more > 0 || (more == 0 && is_less(worst_margin(a), worst_margin(b)));
 }
 
 static int compare_ranked(const void *a, const void *b)
 {
     const Ranked *first = a, *second = b;
-    if (is_worse(first, second)) return -1;
-    if (is_worse(second, first)) return 1;
+    if (is_worse(first->of, second->of)) return -1;
+    if (is_worse(second->of, first->of)) return 1;
     return first->place - second->place;
-}
-
-static Ranked ranked_at(const Review *review, int place)
-{
-    if (place < review->case_count) {
-        const ReviewCase *c = &review->cases[place];
-        return (Ranked){c, c->verdict, place};
-    }
-    const ReviewSweep *sweep = &review->sweeps[place - review->case_count];
-    return (Ranked){&sweep->worst, sweep_verdict(sweep), place};
 }
 
 const ReviewCase **review_rank(const Review *review, Arena *arena)
 {
-    int     count = review->case_count + review->sweep_count;
+    int     count = review_case_count(review);
     Ranked *ranked = ARENA_NEW(arena, Ranked, count);
     const ReviewCase **out = ARENA_NEW(arena, const ReviewCase *, count);
-    for (int i = 0; i < count; i++) ranked[i] = ranked_at(review, i);
+    for (int i = 0; i < count; i++) ranked[i] = (Ranked){review_case_at(review, i), i};
     if (count > 0) qsort(ranked, (size_t)count, sizeof *ranked, compare_ranked);
     for (int i = 0; i < count; i++) out[i] = ranked[i].of;
     return out;
@@ -114,23 +112,47 @@ const ReviewCase **review_rank(const Review *review, Arena *arena)
 
 const ReviewCase *review_worst(const Review *review, Arena scratch)
 {
-    int count = review->case_count + review->sweep_count;
-    return count > 0 ? review_rank(review, &scratch)[0] : NULL;
+    return review_case_count(review) > 0 ? review_rank(review, &scratch)[0] : NULL;
 }
 
-static bool is_like(const ReviewCase *a, const ReviewCase *b)
+/* ---- by names --------------------------------------------------------------------------- */
+
+static bool is_name(const char *a, const char *b)
 {
-    return !strcmp(a->condition, b->condition) && !strcmp(a->eye, b->eye) &&
-           !strcmp(a->symbol, b->symbol);
+    return !strcmp(a ? a : "", b ? b : "");
+}
+
+const ReviewCase *review_case_named(const Review *review, const char *condition,
+                                    const char *eye, const char *symbol)
+{
+    for (int i = 0; i < review->case_count; i++) {
+        const ReviewCase *c = &review->cases[i];
+        if (is_name(c->condition, condition) && is_name(c->eye, eye) &&
+            is_name(c->symbol, symbol))
+            return c;
+    }
+    return NULL;
+}
+
+const ReviewSweep *review_sweep_named(const Review *review, const char *condition,
+                                      const char *eye, const char *symbol)
+{
+    for (int i = 0; i < review->sweep_count; i++) {
+        const ReviewSweep *s = &review->sweeps[i];
+        if (is_name(s->condition, condition) && is_name(s->eye, eye) &&
+            is_name(s->symbol, symbol))
+            return s;
+    }
+    return NULL;
 }
 
 const ReviewCase *review_case_like(const Review *review, const ReviewCase *like)
 {
-    for (int i = 0; i < review->case_count; i++)
-        if (is_like(&review->cases[i], like)) return &review->cases[i];
-    for (int i = 0; i < review->sweep_count; i++)
-        if (is_like(&review->sweeps[i].worst, like)) return &review->sweeps[i].worst;
-    return NULL;
+    const ReviewCase *c = review_case_named(review, like->condition, like->eye, like->symbol);
+    if (c) return c;
+    const ReviewSweep *s =
+        review_sweep_named(review, like->condition, like->eye, like->symbol);
+    return s ? &s->worst : NULL;
 }
 
 static void add_places(const ReviewCase *c, ReviewPlaces *list, int *count)
@@ -148,11 +170,9 @@ static void add_places(const ReviewCase *c, ReviewPlaces *list, int *count)
 
 ReviewPlaces *review_places(const Review *review, int *count, Arena *arena)
 {
-    ReviewPlaces *list =
-        ARENA_NEW(arena, ReviewPlaces, review->case_count + review->sweep_count + 1);
+    int           all = review_case_count(review);
+    ReviewPlaces *list = ARENA_NEW(arena, ReviewPlaces, all + 1);
     *count = 0;
-    for (int i = 0; i < review->case_count; i++) add_places(&review->cases[i], list, count);
-    for (int i = 0; i < review->sweep_count; i++)
-        add_places(&review->sweeps[i].worst, list, count);
+    for (int i = 0; i < all; i++) add_places(review_case_at(review, i), list, count);
     return list;
 }

@@ -22,6 +22,16 @@ const ReviewSweep *review_sweep_of(const Review *review, const ReviewCase *c);
 
 ReviewCounts review_count(const Review *review);
 
+/* All cases, then the sweeps' worst, one by one; and how many that are. */
+const ReviewCase *review_case_at(const Review *review, int i);
+int               review_case_count(const Review *review);
+
+/* By names, of which NULL is ""; NULL: there is none. */
+const ReviewCase  *review_case_named(const Review *review, const char *condition,
+                                     const char *eye, const char *symbol);
+const ReviewSweep *review_sweep_named(const Review *review, const char *condition,
+                                      const char *eye, const char *symbol);
+
 /* Its worst's, which fresh paths decide: steps may fail where that does not. */
 Verdict sweep_verdict(const ReviewSweep *sweep);
 
@@ -35,7 +45,7 @@ const LimitVerdict *case_worst_limit(const ReviewCase *c);
 
 /* All cases and the sweeps' worst, the worst first: by verdict (fail, not visible, too close; a
  * sweep by its own), then by the margin of the worst limit, else in the review's order.
- * case_count + sweep_count pointers. */
+ * review_case_count pointers. */
 const ReviewCase **review_rank(const Review *review, Arena *arena);
 
 /* The first of them. NULL: there are none. */

@@ -11,6 +11,8 @@
 const char *const diff_names[7] = {"broken", "mended", "worse", "better",
                                    "gone",   "new",    "same"};
 
+const GazeFinding diff_no_gaze = {.contrast_left = NAN, .mirrored = NAN, .veil = NAN};
+
 #define LEAST_SHARE 0.0005 /* of time: below it a sweep counts as the same */
 
 /* ---- what changed ----------------------------------------------------------------------- */
@@ -61,26 +63,14 @@ static DiffKind gaze_change(const GazeFinding *before, const GazeFinding *after)
 
 /* ---- what belongs together -------------------------------------------------------------- */
 
-static int find_case(const Review *review, const ReviewCase *like)
+static const ReviewCase *find_case(const Review *review, const ReviewCase *like)
 {
-    for (int i = 0; i < review->case_count; i++) {
-        const ReviewCase *c = &review->cases[i];
-        if (words_same(c->condition, like->condition) && words_same(c->eye, like->eye) &&
-            words_same(c->symbol, like->symbol))
-            return i;
-    }
-    return -1;
+    return review_case_named(review, like->condition, like->eye, like->symbol);
 }
 
-static int find_sweep(const Review *review, const ReviewSweep *like)
+static const ReviewSweep *find_sweep(const Review *review, const ReviewSweep *like)
 {
-    for (int i = 0; i < review->sweep_count; i++) {
-        const ReviewSweep *s = &review->sweeps[i];
-        if (words_same(s->condition, like->condition) && words_same(s->eye, like->eye) &&
-            words_same(s->symbol, like->symbol))
-            return i;
-    }
-    return -1;
+    return review_sweep_named(review, like->condition, like->eye, like->symbol);
 }
 
 static const GazeFinding *find_gaze(const Review *review, const GazeFinding *like)
@@ -117,23 +107,18 @@ static void add_gaze(ReviewDiff *diff, const GazeFinding *before, const GazeFind
 
 static void pair_cases(ReviewDiff *diff, const Review *before, const Review *after)
 {
-    for (int i = 0; i < after->case_count; i++) {
-        int was = find_case(before, &after->cases[i]);
-        add_case(diff, was < 0 ? NULL : &before->cases[was], &after->cases[i]);
-    }
+    for (int i = 0; i < after->case_count; i++)
+        add_case(diff, find_case(before, &after->cases[i]), &after->cases[i]);
     for (int i = 0; i < before->case_count; i++)
-        if (find_case(after, &before->cases[i]) < 0) add_case(diff, &before->cases[i], NULL);
+        if (!find_case(after, &before->cases[i])) add_case(diff, &before->cases[i], NULL);
 }
 
 static void pair_sweeps(ReviewDiff *diff, const Review *before, const Review *after)
 {
-    for (int i = 0; i < after->sweep_count; i++) {
-        int was = find_sweep(before, &after->sweeps[i]);
-        add_sweep(diff, was < 0 ? NULL : &before->sweeps[was], &after->sweeps[i]);
-    }
+    for (int i = 0; i < after->sweep_count; i++)
+        add_sweep(diff, find_sweep(before, &after->sweeps[i]), &after->sweeps[i]);
     for (int i = 0; i < before->sweep_count; i++)
-        if (find_sweep(after, &before->sweeps[i]) < 0)
-            add_sweep(diff, &before->sweeps[i], NULL);
+        if (!find_sweep(after, &before->sweeps[i])) add_sweep(diff, &before->sweeps[i], NULL);
 }
 
 static void pair_gazes(ReviewDiff *diff, const Review *before, const Review *after)
@@ -172,33 +157,39 @@ ReviewDiff review_diff(const Review *before, const Review *after, const char *be
 
 /* ---- as JSON ---------------------------------------------------------------------------- */
 
+static json_t *two(double before, double after)
+{
+    return json_pack("[o,o]", json_figure(before), json_figure(after));
+}
+
 /* Both sides' figure; null where a side has no case. */
 static json_t *figures(const CaseDiff *d, size_t offset)
 {
     double value[2] = {NAN, NAN};
     if (d->before) value[0] = *(const double *)((const char *)d->before + offset);
     if (d->after) value[1] = *(const double *)((const char *)d->after + offset);
-    return json_pack("[o,o]", json_figure(value[0]), json_figure(value[1]));
+    return two(value[0], value[1]);
 }
 
 static json_t *interval(const ReviewCase *c)
 {
-    return c ? json_pack("[o,o]", json_figure(c->contrast_low), json_figure(c->contrast_high))
-             : json_null();
+    return c ? two(c->contrast_low, c->contrast_high) : json_null();
 }
 
-static json_t *names_json(const char *condition, const char *eye, const char *symbol,
-                          DiffKind kind)
+/* kind: "symbol" or "gaze", whose name is `what`. */
+static json_t *names_json(const char *condition, const char *eye, const char *kind,
+                          const char *what, DiffKind change)
 {
     return json_pack("{s:o, s:o, s:o, s:s}", "condition", json_text(condition ? condition : ""),
-                     "eye", json_text(eye ? eye : ""), "symbol",
-                     json_text(symbol ? symbol : ""), "change", diff_names[kind]);
+                     "eye", json_text(eye ? eye : ""), kind, json_text(what ? what : ""),
+                     "change", diff_names[change]);
 }
 
 static json_t *case_json(const CaseDiff *d)
 {
     const ReviewCase *either = d->after ? d->after : d->before;
-    json_t *out = names_json(either->condition, either->eye, either->symbol, d->kind);
+    json_t *out =
+        names_json(either->condition, either->eye, "symbol", either->symbol, d->kind);
     json_object_set_new(out, "verdict",
                         json_pack("[s?, s?]", d->before ? verdict_names[d->before->verdict]
                                                         : NULL,
@@ -214,31 +205,22 @@ static json_t *case_json(const CaseDiff *d)
 static json_t *sweep_json(const SweepDiff *d)
 {
     const ReviewSweep *b = d->before, *a = d->after, *either = a ? a : b;
-    json_t *out = names_json(either->condition, either->eye, either->symbol, d->kind);
-    json_object_set_new(out, "failed_share",
-                        json_pack("[o,o]", json_figure(b ? b->failed_share : NAN),
-                                  json_figure(a ? a->failed_share : NAN)));
+    json_t *out =
+        names_json(either->condition, either->eye, "symbol", either->symbol, d->kind);
+    json_object_set_new(out, "failed_share", two(b ? b->failed_share : NAN,
+                                                 a ? a->failed_share : NAN));
     json_object_set_new(out, "longest_failure_minutes",
-                        json_pack("[o,o]", json_figure(b ? b->longest_failure_minutes : NAN),
-                                  json_figure(a ? a->longest_failure_minutes : NAN)));
+                        two(b ? b->longest_failure_minutes : NAN,
+                            a ? a->longest_failure_minutes : NAN));
     return out;
-}
-
-static json_t *two(double before, double after)
-{
-    return json_pack("[o,o]", json_figure(before), json_figure(after));
 }
 
 static json_t *gaze_json(const GazeDiff *d)
 {
-    static const GazeFinding NONE = {.contrast_left = NAN, .mirrored = NAN, .veil = NAN};
     const GazeFinding *either = d->after ? d->after : d->before;
-    const GazeFinding *b = d->before ? d->before : &NONE, *a = d->after ? d->after : &NONE;
-    json_t *out = json_pack("{s:o, s:o, s:o, s:s}", "condition",
-                            json_text(either->condition ? either->condition : ""), "eye",
-                            json_text(either->eye ? either->eye : ""), "gaze",
-                            json_text(either->gaze ? either->gaze : ""), "change",
-                            diff_names[d->kind]);
+    const GazeFinding *b = d->before ? d->before : &diff_no_gaze;
+    const GazeFinding *a = d->after ? d->after : &diff_no_gaze;
+    json_t *out = names_json(either->condition, either->eye, "gaze", either->gaze, d->kind);
     json_object_set_new(out, "contrast_left", two(b->contrast_left, a->contrast_left));
     json_object_set_new(out, "mirrored_cd_m2", two(b->mirrored, a->mirrored));
     json_object_set_new(out, "veil_cd_m2", two(b->veil, a->veil));

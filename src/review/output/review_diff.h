@@ -38,6 +38,8 @@ typedef struct GazeDiff {
     const GazeFinding *before, *after;
 } GazeDiff;
 
+extern const GazeFinding diff_no_gaze; /* figures of a side that has none: NaN */
+
 typedef struct ReviewDiff {
     const char   *before_name, *after_name; /* folders, as the user named them */
     const Review *before, *after;

@@ -5,12 +5,199 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/count.h"
 #include "base/file_write.h"
 #include "review/output/review_decide.h"
 #include "text/json_text.h"
+#include "text/json_view.h"
+#include "text/nearest_word.h"
 
 #define DIGITS 6
 #define PLACES_BYTES ((size_t)1 << 26)
+
+/* ---- which keys hold which members ------------------------------------------------------- */
+
+typedef enum MemberKind {
+    MEMBER_FIGURE,  /* double; NaN is null */
+    MEMBER_TEXT,    /* NULL is null */
+    MEMBER_RANGE,   /* two doubles, one behind the other */
+    MEMBER_FLAG,
+    MEMBER_COUNT,   /* long, 0 or more */
+    MEMBER_VERDICT,
+    MEMBER_AMBIENT,
+    MEMBER_OBJECT,  /* members of the same struct, or of one in it */
+    MEMBER_IF,      /* the same; null where the bool at `count` is false */
+    MEMBER_TEXTS,   /* a pointer, and an int at `count` */
+    MEMBER_LIST,    /* likewise */
+    MEMBER_LIMIT    /* of a case: the limit that limit_id means, or null */
+} MemberKind;
+
+/* Older reviews may lack it; it is written and not read back. */
+typedef enum MemberUse { ALWAYS, SINCE, WRITTEN } MemberUse;
+
+/* A table of them ends with a key that is NULL. */
+typedef struct Member {
+    const char   *key;
+    MemberKind    kind;
+    size_t        offset;
+    MemberUse     use;
+    const struct Member *of; /* what is in an object, or in a list's items, */
+    size_t        count;     /* offset, */
+    size_t        size;      /* bytes of an item */
+} Member;
+
+/* A member under a key; and under its own name. */
+#define AS(key, KIND, Type, member) {key, MEMBER_##KIND, .offset = offsetof(Type, member)}
+#define OWN(KIND, Type, member) AS(#member, KIND, Type, member)
+#define LIST(key, Type, member, number, table, Item)                                           \
+    {key, MEMBER_LIST, offsetof(Type, member), ALWAYS, table, offsetof(Type, number),          \
+     sizeof(Item)}
+
+static const Member LIMIT[] = {
+    OWN(TEXT, LimitVerdict, name), OWN(TEXT, LimitVerdict, kind),
+    OWN(FIGURE, LimitVerdict, value), OWN(TEXT, LimitVerdict, unit),
+    OWN(TEXT, LimitVerdict, source), OWN(FLAG, LimitVerdict, read_in_the_standard),
+    AS("upper", FLAG, LimitVerdict, is_upper), AS("advice", FLAG, LimitVerdict, is_advice),
+    OWN(FIGURE, LimitVerdict, found), AS("interval", RANGE, LimitVerdict, low),
+    OWN(FIGURE, LimitVerdict, margin), OWN(VERDICT, LimitVerdict, verdict), {0}};
+
+static const Member CAUSE[] = {
+    {"chain", MEMBER_TEXTS, offsetof(CaseCause, chain), .count = offsetof(CaseCause, links)},
+    OWN(FIGURE, CaseCause, share), OWN(FIGURE, CaseCause, cd_m2),
+    AS("interval", RANGE, CaseCause, low), OWN(FIGURE, CaseCause, contrast_without), {0}};
+
+static const Member SHARE[] = {OWN(TEXT, CaseShare, what), OWN(FIGURE, CaseShare, share),
+                               OWN(FIGURE, CaseShare, cd_m2), {0}};
+
+static const Member GROUPS[] = {
+    LIST("light", ReviewCase, groups[GROUP_LIGHT].list, groups[GROUP_LIGHT].count, SHARE,
+         CaseShare),
+    LIST("opening", ReviewCase, groups[GROUP_OPENING].list, groups[GROUP_OPENING].count, SHARE,
+         CaseShare),
+    LIST("surface", ReviewCase, groups[GROUP_SURFACE].list, groups[GROUP_SURFACE].count, SHARE,
+         CaseShare), {0}};
+
+static const Member HIDER[] = {OWN(TEXT, CaseHider, what), OWN(FIGURE, CaseHider, share),
+                               {0}};
+
+static const Member REMEDY[] = {OWN(TEXT, CaseRemedy, what),
+                                OWN(FIGURE, CaseRemedy, contrast_ratio),
+                                OWN(FIGURE, CaseRemedy, level), {0}};
+
+static const Member LUMINANCE[] = {
+    OWN(FIGURE, CaseLuminances, foreground), OWN(FIGURE, CaseLuminances, background),
+    OWN(FIGURE, CaseLuminances, reflected), OWN(FIGURE, CaseLuminances, mirror),
+    OWN(FIGURE, CaseLuminances, scattered), OWN(FIGURE, CaseLuminances, veil), {0}};
+
+/* Of a case, and of a false sun. */
+static const Member SUN[] = {{"azimuth_deg", MEMBER_FIGURE, .offset = 0},
+                             {"elevation_deg", MEMBER_FIGURE, .offset = sizeof(double)}, {0}};
+
+static const Member CASE[] = {
+    OWN(TEXT, ReviewCase, condition), OWN(TEXT, ReviewCase, eye), OWN(TEXT, ReviewCase, symbol),
+    OWN(TEXT, ReviewCase, display), OWN(AMBIENT, ReviewCase, ambient),
+    {"sun", MEMBER_IF, offsetof(ReviewCase, sun_azimuth_deg), .of = SUN,
+     .count = offsetof(ReviewCase, has_sun)},
+    {"luminance_cd_m2", MEMBER_OBJECT, offsetof(ReviewCase, luminance_cd_m2), .of = LUMINANCE},
+    OWN(FIGURE, ReviewCase, contrast_ratio),
+    AS("contrast_interval", RANGE, ReviewCase, contrast_low),
+    {"reflected_interval", MEMBER_RANGE, offsetof(ReviewCase, reflected_range), .use = SINCE},
+    OWN(COUNT, ReviewCase, paths),
+    {"precision_asked", MEMBER_FIGURE, offsetof(ReviewCase, precision_asked), .use = SINCE},
+    {"precision_reached", MEMBER_FIGURE, offsetof(ReviewCase, precision_reached), .use = SINCE},
+    {"paths_to_decide", MEMBER_FIGURE, offsetof(ReviewCase, paths_to_decide), .use = SINCE},
+    OWN(FIGURE, ReviewCase, contrast_with_veil), OWN(FIGURE, ReviewCase, height_arcmin),
+    OWN(FIGURE, ReviewCase, jnd), OWN(FIGURE, ReviewCase, visibility),
+    OWN(FIGURE, ReviewCase, dgp), OWN(FIGURE, ReviewCase, ugr),
+    OWN(FIGURE, ReviewCase, eye_failed_share), OWN(FIGURE, ReviewCase, visible_share),
+    {"hidden_by", MEMBER_LIST, offsetof(ReviewCase, hiders), SINCE, HIDER,
+     offsetof(ReviewCase, hider_count), sizeof(CaseHider)},
+    OWN(FIGURE, ReviewCase, level), OWN(FIGURE, ReviewCase, display_lux),
+    {"limit", MEMBER_LIMIT, .of = LIMIT},
+    LIST("limits", ReviewCase, limits, limit_count, LIMIT, LimitVerdict),
+    OWN(FIGURE, ReviewCase, margin), OWN(VERDICT, ReviewCase, verdict),
+    LIST("causes", ReviewCase, causes, cause_count, CAUSE, CaseCause),
+    {"cause_groups", MEMBER_OBJECT, .use = WRITTEN, .of = GROUPS},
+    {"without_data_share", MEMBER_FIGURE, offsetof(ReviewCase, without_data_share),
+     .use = WRITTEN},
+    LIST("remedies", ReviewCase, remedies, remedy_count, REMEDY, CaseRemedy),
+    OWN(TEXT, ReviewCase, frame), OWN(TEXT, ReviewCase, outlook), OWN(TEXT, ReviewCase, when),
+    {0}};
+
+#define FOLLOWS(Type, second, first)                                                           \
+    _Static_assert(offsetof(Type, second) == offsetof(Type, first) + sizeof(double), "a pair")
+FOLLOWS(ReviewCase, contrast_high, contrast_low);
+FOLLOWS(ReviewCase, sun_elevation_deg, sun_azimuth_deg);
+FOLLOWS(ReviewFalseSun, sun_elevation_deg, sun_azimuth_deg);
+FOLLOWS(LimitVerdict, high, low);
+FOLLOWS(CaseCause, high, low);
+
+static const Member SWEEP[] = {
+    OWN(TEXT, ReviewSweep, condition), OWN(TEXT, ReviewSweep, eye),
+    OWN(TEXT, ReviewSweep, symbol),
+    {"verdict", MEMBER_VERDICT, offsetof(ReviewSweep, worst.verdict), .use = WRITTEN},
+    OWN(COUNT, ReviewSweep, cases), OWN(FIGURE, ReviewSweep, failed_share),
+    OWN(FIGURE, ReviewSweep, longest_failure_minutes),
+    {"worst", MEMBER_OBJECT, offsetof(ReviewSweep, worst), .of = CASE},
+    OWN(TEXT, ReviewSweep, table), {0}};
+
+static const Member VEIL[] = {OWN(FIGURE, GazeVeil, sun), OWN(FIGURE, GazeVeil, sky),
+                              OWN(FIGURE, GazeVeil, lamps), OWN(FIGURE, GazeVeil, glints),
+                              OWN(FIGURE, GazeVeil, surfaces), OWN(FIGURE, GazeVeil, near),
+                              {0}};
+
+static const Member GAZE[] = {
+    OWN(TEXT, GazeFinding, condition), OWN(TEXT, GazeFinding, eye),
+    OWN(TEXT, GazeFinding, gaze), AS("sun_from_gaze_deg", FIGURE, GazeFinding, sun_deg),
+    AS("veil_cd_m2", FIGURE, GazeFinding, veil),
+    AS("veil_interval", RANGE, GazeFinding, veil_range),
+    {"veil_parts_cd_m2", MEMBER_OBJECT, offsetof(GazeFinding, veil_parts), .of = VEIL},
+    AS("cornea_lx", FIGURE, GazeFinding, cornea_lux),
+    AS("through_cd_m2", FIGURE, GazeFinding, through),
+    AS("mirrored_cd_m2", FIGURE, GazeFinding, mirrored),
+    AS("mirrored_interval", RANGE, GazeFinding, mirrored_range),
+    OWN(TEXT, GazeFinding, mirrored_by), OWN(TEXT, GazeFinding, mirrored_from),
+    OWN(FIGURE, GazeFinding, contrast_behind_glass), OWN(FIGURE, GazeFinding, contrast_left),
+    AS("contrast_interval", RANGE, GazeFinding, contrast_range),
+    OWN(FIGURE, GazeFinding, dgp), OWN(FIGURE, GazeFinding, ugr), {0}};
+
+static const Member RESPONSE[] = {
+    OWN(TEXT, ReviewResponse, probe), OWN(TEXT, ReviewResponse, file),
+    OWN(COUNT, ReviewResponse, paths), OWN(COUNT, ReviewResponse, bytes),
+    OWN(FIGURE, ReviewResponse, relative_error), {0}};
+
+static const Member FALSE_SUN[] = {
+    OWN(TEXT, ReviewFalseSun, condition), OWN(TEXT, ReviewFalseSun, eye),
+    OWN(TEXT, ReviewFalseSun, mirror), OWN(FIGURE, ReviewFalseSun, share),
+    OWN(FIGURE, ReviewFalseSun, minutes), OWN(FIGURE, ReviewFalseSun, longest_minutes),
+    OWN(TEXT, ReviewFalseSun, when),
+    {"sun", MEMBER_OBJECT, offsetof(ReviewFalseSun, sun_azimuth_deg), .of = SUN},
+    OWN(FIGURE, ReviewFalseSun, lux), OWN(TEXT, ReviewFalseSun, gaze),
+    OWN(FIGURE, ReviewFalseSun, angle_deg), OWN(FIGURE, ReviewFalseSun, veil_cd_m2), {0}};
+
+static const Member TRIAL[] = {
+    OWN(FIGURE, ReviewTrial, value), OWN(VERDICT, ReviewTrial, verdict),
+    AS("least_margin", FIGURE, ReviewTrial, margin), AS("of", TEXT, ReviewTrial, worst),
+    AS("fresh", FLAG, ReviewTrial, is_fresh), {0}};
+
+static const Member MEND[] = {
+    OWN(TEXT, ReviewMend, name), OWN(TEXT, ReviewMend, unit), OWN(FIGURE, ReviewMend, at),
+    AS("found", FLAG, ReviewMend, is_found), OWN(FIGURE, ReviewMend, value),
+    OWN(FIGURE, ReviewMend, outside),
+    LIST("trials", ReviewMend, trials, trial_count, TRIAL, ReviewTrial), {0}};
+
+/* What is read back of a whole review. */
+static const Member REVIEW[] = {
+    OWN(FLAG, Review, pass), AS("strict", FLAG, Review, is_strict), OWN(TEXT, Review, title),
+    OWN(TEXT, Review, profile), LIST("cases", Review, cases, case_count, CASE, ReviewCase),
+    LIST("sweeps", Review, sweeps, sweep_count, SWEEP, ReviewSweep),
+    LIST("gazes", Review, gazes, gaze_count, GAZE, GazeFinding),
+    LIST("responses", Review, responses, response_count, RESPONSE, ReviewResponse),
+    LIST("false_suns", Review, false_suns, false_sun_count, FALSE_SUN, ReviewFalseSun),
+    {"notes", MEMBER_TEXTS, offsetof(Review, notes), .count = offsetof(Review, note_count)},
+    {0}};
+
+/* ---- writing ----------------------------------------------------------------------------- */
 
 static json_t *pair(double low, double high)
 {
@@ -22,95 +209,64 @@ static json_t *text(const char *string)
     return string ? json_text(string) : json_null();
 }
 
-/* ---- one case --------------------------------------------------------------------------- */
+static json_t *object_json(const Member *table, const void *item);
 
-static json_t *limit_json(const LimitVerdict *l)
+static json_t *list_json(const Member *table, size_t size, const void *items, int count)
 {
-    return json_pack("{s:o, s:o, s:o, s:o, s:o, s:b, s:b, s:b, s:o, s:o, s:o, s:s}", "name",
-                     text(l->name), "kind", text(l->kind), "value", json_figure(l->value),
-                     "unit", text(l->unit), "source", text(l->source), "read_in_the_standard",
-                     l->read_in_the_standard, "upper", l->is_upper, "advice", l->is_advice,
-                     "found", json_figure(l->found), "interval", pair(l->low, l->high),
-                     "margin", json_figure(l->margin), "verdict", verdict_names[l->verdict]);
-}
-
-static json_t *limits_json(const ReviewCase *c)
-{
-    json_t *list = json_array();
-    for (int i = 0; i < c->limit_count; i++)
-        json_array_append_new(list, limit_json(&c->limits[i]));
+    json_t     *list = json_array();
+    const char *item = items;
+    for (int i = 0; i < count; i++, item += size)
+        json_array_append_new(list, object_json(table, item));
     return list;
 }
 
-static json_t *causes_json(const ReviewCase *c)
+static json_t *limit_json(const ReviewCase *c)
 {
-    json_t *list = json_array();
-    for (int i = 0; i < c->cause_count; i++) {
-        const CaseCause *cause = &c->causes[i];
-        json_array_append_new(
-            list, json_pack("{s:o, s:o, s:o, s:o, s:o}", "chain",
-                            json_texts(cause->chain, cause->links), "share",
-                            json_figure(cause->share), "cd_m2", json_figure(cause->cd_m2),
-                            "interval", pair(cause->low, cause->high), "contrast_without",
-                            json_figure(cause->contrast_without)));
+    bool has_limit = c->limit_id >= 0 && c->limit_id < c->limit_count;
+    return has_limit ? object_json(LIMIT, &c->limits[c->limit_id]) : json_null();
+}
+
+/* Pointers of any kind are copied as what they are to. */
+static json_t *member_json(const Member *member, const void *item)
+{
+    const void   *at = (const char *)item + member->offset, *pointer;
+    const void   *count = (const char *)item + member->count;
+    const double *figure = at;
+    memcpy(&pointer, at, sizeof pointer);
+    switch (member->kind) {
+    case MEMBER_FIGURE: return json_figure(*figure);
+    case MEMBER_TEXT: return text(pointer);
+    case MEMBER_RANGE: return pair(figure[0], figure[1]);
+    case MEMBER_FLAG: return json_boolean(*(const bool *)at);
+    case MEMBER_COUNT: return json_integer(*(const long *)at);
+    case MEMBER_VERDICT: return json_string(verdict_names[*(const Verdict *)at]);
+    case MEMBER_AMBIENT: return json_string(ambient_names[*(const Ambient *)at]);
+    case MEMBER_IF: return *(const bool *)count ? object_json(member->of, at) : json_null();
+    case MEMBER_OBJECT: return object_json(member->of, at);
+    case MEMBER_TEXTS: return json_texts(pointer, *(const int *)count);
+    case MEMBER_LIST: return list_json(member->of, member->size, pointer, *(const int *)count);
+    default: return limit_json(item);
     }
-    return list;
 }
 
-static json_t *group_json(const CaseGroup *group)
+static json_t *object_json(const Member *table, const void *item)
 {
-    json_t *list = json_array();
-    for (int i = 0; i < group->count; i++) {
-        const CaseShare *share = &group->list[i];
-        json_array_append_new(list, json_pack("{s:o, s:o, s:o}", "what", text(share->what),
-                                              "share", json_figure(share->share), "cd_m2",
-                                              json_figure(share->cd_m2)));
-    }
-    return list;
+    json_t *object = json_object();
+    for (const Member *member = table; member->key; member++)
+        json_object_set_new(object, member->key, member_json(member, item));
+    return object;
 }
+
+#define LIST_OF(table, items, count) list_json(table, sizeof *(items), items, count)
 
 json_t *review_groups_json(const ReviewCase *c)
 {
-    return json_pack("{s:o, s:o, s:o}", "light", group_json(&c->groups[GROUP_LIGHT]),
-                     "opening", group_json(&c->groups[GROUP_OPENING]), "surface",
-                     group_json(&c->groups[GROUP_SURFACE]));
-}
-
-static json_t *remedies_json(const ReviewCase *c)
-{
-    json_t *list = json_array();
-    for (int i = 0; i < c->remedy_count; i++) {
-        const CaseRemedy *remedy = &c->remedies[i];
-        json_array_append_new(
-            list, json_pack("{s:o, s:o, s:o}", "what", text(remedy->what), "contrast_ratio",
-                            json_figure(remedy->contrast_ratio), "level",
-                            json_figure(remedy->level)));
-    }
-    return list;
+    return object_json(GROUPS, c);
 }
 
 json_t *review_hiders_json(const ReviewCase *c)
 {
-    json_t *list = json_array();
-    for (int i = 0; i < c->hider_count; i++)
-        json_array_append_new(list, json_pack("{s:o, s:o}", "what", text(c->hiders[i].what),
-                                              "share", json_figure(c->hiders[i].share)));
-    return list;
-}
-
-static json_t *sun_json(const ReviewCase *c)
-{
-    if (!c->has_sun) return json_null();
-    return json_pack("{s:o, s:o}", "azimuth_deg", json_figure(c->sun_azimuth_deg),
-                     "elevation_deg", json_figure(c->sun_elevation_deg));
-}
-
-static json_t *luminance_json(CaseLuminances l)
-{
-    return json_pack("{s:o, s:o, s:o, s:o, s:o, s:o}", "foreground",
-                     json_figure(l.foreground), "background", json_figure(l.background),
-                     "reflected", json_figure(l.reflected), "mirror", json_figure(l.mirror),
-                     "scattered", json_figure(l.scattered), "veil", json_figure(l.veil));
+    return LIST_OF(HIDER, c->hiders, c->hider_count);
 }
 
 static void set(json_t *object, const char *key, json_t *value)
@@ -118,161 +274,28 @@ static void set(json_t *object, const char *key, json_t *value)
     json_object_set_new(object, key, value);
 }
 
-static json_t *case_json(const ReviewCase *c)
+/* Some of a case's; NULL behind the last. */
+static void set_members(json_t *object, const ReviewCase *c, const char *const *keys)
 {
-    bool    has_limit = c->limit_id >= 0 && c->limit_id < c->limit_count;
-    json_t *out = json_pack("{s:o, s:o, s:o, s:o, s:s, s:o, s:o}", "condition",
-                            text(c->condition), "eye", text(c->eye), "symbol", text(c->symbol),
-                            "display", text(c->display), "ambient", ambient_names[c->ambient],
-                            "sun", sun_json(c), "luminance_cd_m2",
-                            luminance_json(c->luminance_cd_m2));
-    set(out, "contrast_ratio", json_figure(c->contrast_ratio));
-    set(out, "contrast_interval", pair(c->contrast_low, c->contrast_high));
-    set(out, "reflected_interval", pair(c->reflected_range.low, c->reflected_range.high));
-    set(out, "paths", json_integer((json_int_t)c->paths));
-    set(out, "precision_asked", json_figure(c->precision_asked));
-    set(out, "precision_reached", json_figure(c->precision_reached));
-    set(out, "paths_to_decide", json_figure(c->paths_to_decide));
-    set(out, "contrast_with_veil", json_figure(c->contrast_with_veil));
-    set(out, "height_arcmin", json_figure(c->height_arcmin));
-    set(out, "jnd", json_figure(c->jnd));
-    set(out, "visibility", json_figure(c->visibility));
-    set(out, "dgp", json_figure(c->dgp));
-    set(out, "ugr", json_figure(c->ugr));
-    set(out, "eye_failed_share", json_figure(c->eye_failed_share));
-    set(out, "visible_share", json_figure(c->visible_share));
-    set(out, "hidden_by", review_hiders_json(c));
-    set(out, "level", json_figure(c->level));
-    set(out, "display_lux", json_figure(c->display_lux));
-    set(out, "limit", has_limit ? limit_json(&c->limits[c->limit_id]) : json_null());
-    set(out, "limits", limits_json(c));
-    set(out, "margin", json_figure(c->margin));
-    set(out, "verdict", json_string(verdict_names[c->verdict]));
-    set(out, "causes", causes_json(c));
-    set(out, "cause_groups", review_groups_json(c));
-    set(out, "without_data_share", json_figure(c->without_data_share));
-    set(out, "remedies", remedies_json(c));
-    set(out, "frame", text(c->frame));
-    set(out, "outlook", text(c->outlook));
-    set(out, "when", text(c->when));
-    return out;
+    for (; *keys; keys++)
+        for (const Member *member = CASE; member->key; member++)
+            if (!strcmp(member->key, *keys)) set(object, *keys, member_json(member, c));
 }
 
-/* ---- the review ------------------------------------------------------------------------- */
-
-static json_t *sweeps_json(const Review *review)
-{
-    json_t *list = json_array();
-    for (int i = 0; i < review->sweep_count; i++) {
-        const ReviewSweep *s = &review->sweeps[i];
-        json_array_append_new(
-            list, json_pack("{s:o, s:o, s:o, s:s, s:I, s:o, s:o, s:o, s:o}", "condition",
-                            text(s->condition), "eye", text(s->eye), "symbol", text(s->symbol),
-                            "verdict", verdict_names[sweep_verdict(s)],
-                            "cases", (json_int_t)s->cases, "failed_share",
-                            json_figure(s->failed_share), "longest_failure_minutes",
-                            json_figure(s->longest_failure_minutes), "worst",
-                            case_json(&s->worst), "table", text(s->table)));
-    }
-    return list;
-}
-
-static json_t *gaze_json(const GazeFinding *g)
-{
-    GazeVeil v = g->veil_parts;
-    json_t  *out = json_pack("{s:o, s:o, s:o, s:o}", "condition", text(g->condition), "eye",
-                            text(g->eye), "gaze", text(g->gaze), "sun_from_gaze_deg",
-                            json_figure(g->sun_deg));
-    set(out, "veil_cd_m2", json_figure(g->veil));
-    set(out, "veil_interval", pair(g->veil_range.low, g->veil_range.high));
-    set(out, "veil_parts_cd_m2",
-        json_pack("{s:o, s:o, s:o, s:o, s:o, s:o}", "sun", json_figure(v.sun), "sky",
-                  json_figure(v.sky), "lamps", json_figure(v.lamps), "glints",
-                  json_figure(v.glints), "surfaces", json_figure(v.surfaces), "near",
-                  json_figure(v.near)));
-    set(out, "cornea_lx", json_figure(g->cornea_lux));
-    set(out, "through_cd_m2", json_figure(g->through));
-    set(out, "mirrored_cd_m2", json_figure(g->mirrored));
-    set(out, "mirrored_interval", pair(g->mirrored_range.low, g->mirrored_range.high));
-    set(out, "mirrored_by", text(g->mirrored_by));
-    set(out, "mirrored_from", text(g->mirrored_from));
-    set(out, "contrast_behind_glass", json_figure(g->contrast_behind_glass));
-    set(out, "contrast_left", json_figure(g->contrast_left));
-    set(out, "contrast_interval", pair(g->contrast_range.low, g->contrast_range.high));
-    set(out, "dgp", json_figure(g->dgp));
-    set(out, "ugr", json_figure(g->ugr));
-    return out;
-}
-
-static json_t *gazes_json(const Review *review)
-{
-    json_t *list = json_array();
-    for (int i = 0; i < review->gaze_count; i++)
-        json_array_append_new(list, gaze_json(&review->gazes[i]));
-    return list;
-}
-
-static json_t *responses_json(const Review *review)
-{
-    json_t *list = json_array();
-    for (int i = 0; i < review->response_count; i++) {
-        const ReviewResponse *r = &review->responses[i];
-        json_array_append_new(
-            list, json_pack("{s:o, s:o, s:I, s:I, s:o}", "probe", text(r->probe), "file",
-                            text(r->file), "paths",
-                            (json_int_t)r->paths, "bytes", (json_int_t)r->bytes,
-                            "relative_error", json_figure(r->relative_error)));
-    }
-    return list;
-}
-
-static json_t *false_suns_json(const Review *review)
-{
-    json_t *list = json_array();
-    for (int i = 0; i < review->false_sun_count; i++) {
-        const ReviewFalseSun *f = &review->false_suns[i];
-        json_t *out = json_pack("{s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "condition",
-                                text(f->condition), "eye", text(f->eye), "mirror",
-                                text(f->mirror), "share", json_figure(f->share), "minutes",
-                                json_figure(f->minutes), "longest_minutes",
-                                json_figure(f->longest_minutes), "when", text(f->when));
-        set(out, "sun", json_pack("{s:o, s:o}", "azimuth_deg", json_figure(f->sun_azimuth_deg),
-                                  "elevation_deg", json_figure(f->sun_elevation_deg)));
-        set(out, "lux", json_figure(f->lux));
-        set(out, "gaze", text(f->gaze));
-        set(out, "angle_deg", json_figure(f->angle_deg));
-        set(out, "veil_cd_m2", json_figure(f->veil_cd_m2));
-        json_array_append_new(list, out);
-    }
-    return list;
-}
-
-static json_t *cases_json(const Review *review)
-{
-    json_t *list = json_array();
-    for (int i = 0; i < review->case_count; i++)
-        json_array_append_new(list, case_json(&review->cases[i]));
-    return list;
-}
-
-/* ---- variants --------------------------------------------------------------------------- */
+/* ---- variants ---------------------------------------------------------------------------- */
 
 static json_t *difference_json(const ReviewDifference *d)
 {
-    const ReviewCase *c = d->after;
-    json_t *out = json_pack("{s:o, s:o, s:o, s:s, s:o, s:o}", "condition", text(c->condition),
-                            "eye", text(c->eye), "symbol", text(c->symbol), "verdict",
-                            verdict_names[c->verdict], "contrast_ratio",
-                            json_figure(c->contrast_ratio), "contrast_interval",
-                            pair(c->contrast_low, c->contrast_high));
-    set(out, "margin", json_figure(c->margin));
+    static const char *const FIRST[] = {"condition", "eye", "symbol", "verdict",
+                                        "contrast_ratio", "contrast_interval", "margin", NULL};
+    static const char *const LAST[] = {"level", "when", "sun", NULL};
+    json_t *out = json_object();
+    set_members(out, d->after, FIRST);
     set(out, "margin_before", json_figure(d->before ? d->before->margin : (double)NAN));
     set(out, "margin_difference", json_figure(d->margin));
     set(out, "margin_difference_interval", pair(d->margin_range.low, d->margin_range.high));
-    set(out, "reflected_cd_m2", json_figure(c->luminance_cd_m2.reflected));
-    set(out, "level", json_figure(c->level));
-    set(out, "when", text(c->when));
-    set(out, "sun", sun_json(c));
+    set(out, "reflected_cd_m2", json_figure(d->after->luminance_cd_m2.reflected));
+    set_members(out, d->after, LAST);
     if (!d->sweep_after) return out;
     const ReviewSweep *before = d->sweep_before;
     set(out, "failed_share", json_figure(d->sweep_after->failed_share));
@@ -300,21 +323,14 @@ static json_t *variant_json(const ReviewVariantFound *v)
     return out;
 }
 
-static json_t *variants_json(const Review *review)
-{
-    json_t *list = json_array();
-    for (int i = 0; i < review->variant_count; i++)
-        json_array_append_new(list, variant_json(&review->variants[i]));
-    return list;
-}
-
 static json_t *slope_json(const ReviewSlope *slope)
 {
-    const ReviewCase *c = slope->of;
-    return json_pack("{s:o, s:o, s:o, s:o, s:o, s:o}", "condition", text(c->condition), "eye",
-                     text(c->eye), "symbol", text(c->symbol), "margin", json_figure(c->margin),
-                     "margin_per_unit", json_figure(slope->slope), "interval",
-                     pair(slope->range.low, slope->range.high));
+    static const char *const KEYS[] = {"condition", "eye", "symbol", "margin", NULL};
+    json_t *out = json_object();
+    set_members(out, slope->of, KEYS);
+    set(out, "margin_per_unit", json_figure(slope->slope));
+    set(out, "interval", pair(slope->range.low, slope->range.high));
+    return out;
 }
 
 static json_t *sensitivities_json(const Review *review)
@@ -330,34 +346,6 @@ static json_t *sensitivities_json(const Review *review)
                             text(s->unit), "at", json_figure(s->at), "step",
                             json_figure(s->step), "compared", pair(s->low, s->high), "symbols",
                             slopes));
-    }
-    return list;
-}
-
-static json_t *trials_json(const ReviewMend *mend)
-{
-    json_t *list = json_array();
-    for (int i = 0; i < mend->trial_count; i++) {
-        const ReviewTrial *t = &mend->trials[i];
-        json_array_append_new(list, json_pack("{s:o, s:s, s:o, s:o, s:b}", "value",
-                                              json_figure(t->value), "verdict",
-                                              verdict_names[t->verdict], "least_margin",
-                                              json_figure(t->margin), "of", text(t->worst),
-                                              "fresh", t->is_fresh));
-    }
-    return list;
-}
-
-static json_t *mends_json(const Review *review)
-{
-    json_t *list = json_array();
-    for (int i = 0; i < review->mend_count; i++) {
-        const ReviewMend *m = &review->mends[i];
-        json_array_append_new(
-            list, json_pack("{s:o, s:o, s:o, s:b, s:o, s:o, s:o}", "name", text(m->name),
-                            "unit", text(m->unit), "at", json_figure(m->at), "found",
-                            m->is_found, "value", json_figure(m->value), "outside",
-                            json_figure(m->outside), "trials", trials_json(m)));
     }
     return list;
 }
@@ -388,15 +376,20 @@ json_t *review_json(const Review *review)
                             text(review->profile));
     if (review->is_partial) set(out, "provisional", json_true());
     if (review->to_come) set(out, "to_come", text(review->to_come));
-    set(out, "cases", cases_json(review));
-    set(out, "sweeps", sweeps_json(review));
-    set(out, "gazes", gazes_json(review));
-    set(out, "false_suns", false_suns_json(review));
-    if (review->variant_count) set(out, "variants", variants_json(review));
+    set(out, "cases", LIST_OF(CASE, review->cases, review->case_count));
+    set(out, "sweeps", LIST_OF(SWEEP, review->sweeps, review->sweep_count));
+    set(out, "gazes", LIST_OF(GAZE, review->gazes, review->gaze_count));
+    set(out, "false_suns",
+        LIST_OF(FALSE_SUN, review->false_suns, review->false_sun_count));
+    json_t *variants = review->variant_count ? json_array() : NULL;
+    for (int i = 0; i < review->variant_count; i++)
+        json_array_append_new(variants, variant_json(&review->variants[i]));
+    if (variants) set(out, "variants", variants);
     if (review->sensitivity_count) set(out, "sensitivity", sensitivities_json(review));
-    if (review->mend_count) set(out, "mends", mends_json(review));
+    if (review->mend_count)
+        set(out, "mends", LIST_OF(MEND, review->mends, review->mend_count));
     set(out, "eye_places", places_json(review));
-    set(out, "responses", responses_json(review));
+    set(out, "responses", LIST_OF(RESPONSE, review->responses, review->response_count));
     set(out, "without_data", text(review->without_data));
     set(out, "notes", json_texts(review->notes, review->note_count));
     return out;
@@ -411,5 +404,196 @@ bool review_json_write(json_t *document, const char *path, Error *err)
     text[size] = '\n';
     bool ok = file_write(path, text, size + 1, err);
     free(text);
+    return ok;
+}
+
+/* ---- reading ----------------------------------------------------------------------------- */
+
+static bool wrong(const JsonView *view, const char *key, const char *wanted, Error *err)
+{
+    return error_at(err, ERROR_INPUT, view->file, json_view_path(view, key), "wanted %s",
+                    wanted);
+}
+
+static bool read_pair(const JsonView *view, const char *key, double out[2], Error *err)
+{
+    json_t *list = json_object_get(view->object, key);
+    if (!json_is_array(list) || json_array_size(list) != 2)
+        return wrong(view, key, "[low, high]", err);
+    for (size_t i = 0; i < 2; i++) {
+        json_t *value = json_array_get(list, i);
+        if (!json_is_number(value) && !json_is_null(value))
+            return wrong(view, key, "two numbers or null", err);
+        out[i] = json_is_null(value) ? NAN : json_number_value(value);
+    }
+    return true;
+}
+
+static bool read_count(const JsonView *view, const char *key, long *out, Error *err)
+{
+    json_t *value = json_object_get(view->object, key);
+    if (!json_is_integer(value) || json_integer_value(value) < 0)
+        return wrong(view, key, "a whole number, 0 or more", err);
+    *out = (long)json_integer_value(value);
+    return true;
+}
+
+/* One of four words; *out is its place. */
+static bool read_word(const JsonView *view, const char *key, const char *const words[4],
+                      int *out, Error *err)
+{
+    const char *word = NULL;
+    char        advice[256];
+    if (!json_is_null(json_object_get(view->object, key)) &&
+        !json_view_text(view, key, &word, err))
+        return false;
+    for (int i = 0; word && i < 4; i++) {
+        if (strcmp(word, words[i]) != 0) continue;
+        *out = i;
+        return true;
+    }
+    return error_at(err, ERROR_INPUT, view->file, json_view_path(view, key),
+                    "is '%.60s'; %s", word ? word : "null",
+                    nearest_word_advice(word ? word : "", words, 4, advice, sizeof advice));
+}
+
+static bool read_object(const JsonView *view, const Member *table, void *item, Error *err);
+
+/* An array of objects; each has its index in its path. */
+static bool read_list(const JsonView *view, const Member *member, void **out, int *count,
+                      Error *err)
+{
+    json_t *list = json_object_get(view->object, member->key);
+    if (!json_is_array(list)) return wrong(view, member->key, "an array of objects", err);
+    size_t size = json_array_size(list);
+    char  *items = arena_alloc(view->arena, member->size, _Alignof(max_align_t), size);
+    for (size_t i = 0; i < size; i++) {
+        JsonView item = *view;
+        item.object = json_array_get(list, i);
+        item.path = arena_format(view->arena, "%s/%s/%zu", view->path, member->key, i);
+        if (!json_is_object(item.object))
+            return error_at(err, ERROR_INPUT, item.file, item.path, "wanted an object");
+        if (!read_object(&item, member->of, items + i * member->size, err)) return false;
+    }
+    *out = items;
+    *count = (int)size;
+    return true;
+}
+
+static bool read_texts(const JsonView *view, const char *key, void **out, int *count,
+                       Error *err)
+{
+    json_t *list = json_object_get(view->object, key);
+    if (!json_is_array(list)) return wrong(view, key, "an array of texts", err);
+    size_t       size = json_array_size(list);
+    const char **texts = ARENA_NEW(view->arena, const char *, size);
+    for (size_t i = 0; i < size; i++) {
+        json_t *text = json_array_get(list, i);
+        if (!json_is_string(text)) return wrong(view, key, "only texts", err);
+        texts[i] = arena_string(view->arena, json_string_value(text),
+                                json_string_length(text));
+    }
+    *out = texts;
+    *count = (int)size;
+    return true;
+}
+
+/* "limit" repeats one of "limits": the first that is equal. */
+static bool read_limit_id(const JsonView *view, ReviewCase *c, Error *err)
+{
+    json_t *limit = json_object_get(view->object, "limit");
+    json_t *limits = json_object_get(view->object, "limits");
+    c->limit_id = -1;
+    if (json_is_null(limit) || !json_is_array(limits)) return true; /* limits are read, too */
+    for (size_t i = 0; i < json_array_size(limits) && c->limit_id < 0; i++)
+        if (json_equal(limit, json_array_get(limits, i))) c->limit_id = (int)i;
+    return c->limit_id >= 0 || wrong(view, "limit", "one of 'limits', or null", err);
+}
+
+/* Figures that are not there are NaN. */
+static void clear_figures(const Member *table, void *item)
+{
+    for (const Member *member = table; member->key; member++) {
+        double *at = (void *)((char *)item + member->offset);
+        bool    is_range = member->kind == MEMBER_RANGE;
+        if (member->use == WRITTEN) continue;
+        if (is_range || member->kind == MEMBER_FIGURE) at[0] = at[is_range] = (double)NAN;
+    }
+}
+
+/* A member that is there, but not null. */
+static bool read_value(const JsonView *view, const Member *member, void *item, Error *err)
+{
+    void       *at = (char *)item + member->offset, *list = NULL;
+    void       *count = (char *)item + member->count;
+    const char *key = member->key;
+    int         word = 0;
+    JsonView    inside;
+    switch (member->kind) {
+    case MEMBER_FIGURE: return json_view_number(view, key, -HUGE_VAL, HUGE_VAL, at, err);
+    case MEMBER_TEXT: return json_view_text(view, key, at, err);
+    case MEMBER_RANGE: return read_pair(view, key, at, err);
+    case MEMBER_FLAG:
+        *(bool *)at = json_is_true(json_object_get(view->object, key));
+        return json_is_boolean(json_object_get(view->object, key)) ||
+               wrong(view, key, "true or false", err);
+    case MEMBER_COUNT: return read_count(view, key, at, err);
+    case MEMBER_VERDICT:
+        if (!read_word(view, key, verdict_names, &word, err)) return false;
+        *(Verdict *)at = (Verdict)word;
+        return true;
+    case MEMBER_AMBIENT:
+        if (!read_word(view, key, ambient_names, &word, err)) return false;
+        *(Ambient *)at = (Ambient)word;
+        return true;
+    case MEMBER_IF: *(bool *)count = true; /* fall through */
+    case MEMBER_OBJECT:
+        return json_view_child(view, key, true, &inside, err) &&
+               read_object(&inside, member->of, at, err);
+    case MEMBER_TEXTS:
+    case MEMBER_LIST:
+        if (!(member->of ? read_list(view, member, &list, count, err)
+                         : read_texts(view, key, &list, count, err)))
+            return false;
+        memcpy(at, &list, sizeof list);
+        return true;
+    default: return read_limit_id(view, item, err);
+    }
+}
+
+static bool may_be_null(MemberKind kind)
+{
+    return kind == MEMBER_FIGURE || kind == MEMBER_TEXT || kind == MEMBER_IF;
+}
+
+/* The item is all zeros. Keys of a later version are passed over. */
+static bool read_object(const JsonView *view, const Member *table, void *item, Error *err)
+{
+    clear_figures(table, item);
+    for (const Member *member = table; member->key; member++) {
+        const json_t *value = json_object_get(view->object, member->key);
+        if (member->use == WRITTEN || (!value && member->use == SINCE)) continue;
+        if (!value)
+            return error_at(err, ERROR_INPUT, view->file, view->path, "key '%s' is missing",
+                            member->key);
+        if (json_is_null(value) && may_be_null(member->kind)) {
+            if (member->kind == MEMBER_IF)
+                clear_figures(member->of, (char *)item + member->offset);
+            continue;
+        }
+        if (!read_value(view, member, item, err)) return false;
+    }
+    return true;
+}
+
+bool review_json_read(const char *file, Arena *arena, Review *out, Error *err)
+{
+    JsonView root;
+    Review   review = {0};
+    if (!json_view_open(file, arena, &root, err)) return false;
+    bool ok = read_object(&root, REVIEW, &review, err);
+    review.is_partial = json_is_true(json_object_get(root.object, "provisional"));
+    json_view_close(&root);
+    if (ok) *out = review;
     return ok;
 }

@@ -6,8 +6,9 @@
 
 #include "base/file_write.h"
 #include "base/mathd.h"
-#include "page/page_data.h"
+#include "page/page.h"
 #include "review/output/review_card.h"
+#include "review/output/review_decide.h"
 
 /* Sweeps beyond that much text stay as they are drawn: one minute a step over a year. */
 #define SWEEPS_BYTES ((size_t)6 << 20)
@@ -315,10 +316,8 @@ static void add_pictures(Text *html, const Review *review, const ReviewLive *liv
         add_picture(html, &live->pictures[i]);
     }
     text_add(html, "],\n\"cases\":[");
-    for (int i = 0; i < review->case_count + review->sweep_count; i++) {
-        const ReviewCase *c = i < review->case_count
-                                  ? &review->cases[i]
-                                  : &review->sweeps[i - review->case_count].worst;
+    for (int i = 0; i < review_case_count(review); i++) {
+        const ReviewCase *c = review_case_at(review, i);
         int picture = picture_of(live, c);
         if (picture < 0) continue;
         if (added++ > 0) text_add(html, ",");

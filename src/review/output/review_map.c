@@ -236,20 +236,15 @@ static void add_elevations(Text *html, const ReviewMap *map, Arena *arena)
     text_add(html, "</div>");
 }
 
-static bool holds(const ReviewMap *map, Verdict verdict)
-{
-    for (int e = 0; e < map->elevation_deg.count; e++)
-        for (int a = 0; a < map->azimuth_deg.count; a++)
-            if (has_answer(map, a, e) && map->verdict[map_index(map, a, e)] == verdict)
-                return true;
-    return false;
-}
+#define GAP (-1) /* instead of a verdict */
 
-static bool holds_gaps(const ReviewMap *map)
+static bool holds(const ReviewMap *map, int wanted)
 {
     for (int e = 0; e < map->elevation_deg.count; e++)
-        for (int a = 0; a < map->azimuth_deg.count; a++)
-            if (!has_answer(map, a, e)) return true;
+        for (int a = 0; a < map->azimuth_deg.count; a++) {
+            int here = has_answer(map, a, e) ? map->verdict[map_index(map, a, e)] : GAP;
+            if (here == wanted) return true;
+        }
     return false;
 }
 
@@ -262,7 +257,7 @@ static void add_map_keys(Text *html, const ReviewMap *map)
     add_key(html, PASSING, "just above");
     add_key(html, BEST, "twice the limit or more");
     if (holds(map, VERDICT_NOT_VISIBLE)) add_key(html, HIDDEN, "not visible");
-    if (holds_gaps(map)) add_key(html, NONE, "no answer");
+    if (holds(map, GAP)) add_key(html, NONE, "no answer");
     text_add(html, "</div>\n");
 }
 
@@ -274,11 +269,10 @@ static void add_map_labels(Text *html, const ReviewMap *map, Arena *arena)
     add_azimuths(html, map);
     text_add(html, "</div>\n");
     add_map_keys(html, map);
-    page_element(html, "figcaption", map->path_count > 0
-        ? "Contrast against its limit, with the sun at every place of the sky; inside the dark "
-          "line it fails. Dashed: the sun's way over the sky on these days."
-        : "Contrast against its limit, with the sun at every place of the sky; inside the dark "
-          "line it fails.");
+    page_element(html, "figcaption", arena_format(
+        arena, "Contrast against its limit, with the sun at every place of the sky; inside the "
+        "dark line it fails.%s", map->path_count > 0
+        ? " Dashed: the sun's way over the sky on these days." : ""));
 }
 
 /* Contrast of 1 to 10,000 by its logarithm, within 0.06 %. */

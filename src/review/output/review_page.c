@@ -6,7 +6,6 @@
 #include "page/page.h"
 #include "review/output/review_answer.h"
 #include "review/output/review_decide.h"
-#include "review/output/review_false_suns.h"
 #include "review/output/review_gaze.h"
 #include "review/output/review_table.h"
 #include "review/output/review_variants.h"
@@ -32,12 +31,20 @@ static ReviewAnswer answer_of(const ReviewPage *page)
                           page->map_count};
 }
 
+/* Returns its title. */
+static const char *begin_page(Text *html, const ReviewPage *page, int renewed_s, Arena *arena)
+{
+    const char *given = page->review->title;
+    const char *title = given && given[0] ? given : "Glare review";
+    page_begin(html, &(PageHead){title, arena_format(arena, "%s%s", REVIEW_STYLE, LIVE_STYLE),
+                               page->is_dark, renewed_s});
+    return title;
+}
+
 static bool add_head(Text *html, const ReviewPage *page, Arena *arena, Error *err)
 {
     const Review *review = page->review;
-    const char   *title = review->title && review->title[0] ? review->title : "Glare review";
-    page_begin(html, &(PageHead){title, arena_format(arena, "%s%s", REVIEW_STYLE, LIVE_STYLE),
-                               page->is_dark, review->to_come ? RENEWED_S : 0});
+    const char   *title = begin_page(html, page, review->to_come ? RENEWED_S : 0, arena);
     if (review->to_come)
         page_element(html, "p class=\"provisional\" role=\"status\"",
                      arena_format(arena, "Provisional: %s. This page renews itself until all "
@@ -56,7 +63,7 @@ static bool add_head(Text *html, const ReviewPage *page, Arena *arena, Error *er
 static void add_verdicts(Text *html, const ReviewPage *page, Arena *arena)
 {
     const Review *review = page->review;
-    int           rows = review->case_count + review->sweep_count;
+    int           rows = review_case_count(review);
     if (rows == 0) return;
     page_more_begin(html, arena_format(arena, "Every verdict: %d", rows));
     text_add(html, "<p class=\"sub\">Contrast is how many times brighter the bright part of "
@@ -108,7 +115,7 @@ typedef struct CardList {
 
 static CardList list_cards(const Review *review, bool of_sweeps, Arena *arena)
 {
-    int                all = review->case_count + review->sweep_count;
+    int                all = review_case_count(review);
     const ReviewCase **ranked = review_rank(review, arena);
     CardList           cards = {.list = ARENA_NEW(arena, const ReviewCase *, all)};
     for (int i = 0; i < all; i++) {
@@ -179,9 +186,10 @@ static bool add_sweep_figures(Text *html, const ReviewPage *page, const ReviewSw
 static void add_sweep_line(Text *html, const ReviewSweep *s, bool is_open, Arena *arena)
 {
     Verdict verdict = sweep_verdict(s);
-    text_format(html, "<details class=\"case %s\"%s><summary><span class=\"chip %s\">%s"
-                "</span> ", words_class(verdict), is_open ? " open" : "", words_class(verdict),
-                words_verdict(verdict));
+    text_format(html, "<details class=\"case %s\"%s><summary>", words_class(verdict),
+                is_open ? " open" : "");
+    review_card_add_chip(html, verdict);
+    text_add(html, " ");
     page_element(html, "b", s->symbol ? s->symbol : "?");
     page_element(html, "span class=\"where\"",
                  arena_format(arena, "seen by %s: %s", s->eye ? s->eye : "?",
@@ -245,7 +253,7 @@ static bool add_sweeps(Text *html, const ReviewPage *page, Arena *arena, Error *
 
 /* ---- what stands behind it -------------------------------------------------------------- */
 
-static const char *size_words(size_t bytes, Arena *arena)
+static const char *size_words(long bytes, Arena *arena)
 {
     double size = (double)bytes;
     return size < 1e6 ? arena_format(arena, "%s kB", words_figure(size / 1e3, arena))
@@ -283,10 +291,8 @@ static void add_provenance(Text *html, const ReviewPage *page, Arena *arena)
     review_table_add_limits(html, review, arena);
     page_element(html, "h2", "What it was made of");
     text_add(html, "<dl class=\"facts made\">\n");
-    for (int i = 0; i < page->fact_count; i++) {
-        page_element(html, "dt", page->facts[i].name);
-        page_element(html, "dd", page->facts[i].value);
-    }
+    for (int i = 0; i < page->fact_count; i++)
+        page_fact(html, page->facts[i].name, page->facts[i].value);
     text_add(html, "</dl>\n");
     add_responses(html, review, arena);
     if (page->command_count) page_element(html, "h3", "Commands");
@@ -342,10 +348,8 @@ static void add_glossary(Text *html)
                                  "tell (DICOM's scale)."}};
     page_more_begin(html, "The words on this page");
     text_add(html, "<dl class=\"facts made\">\n");
-    for (size_t i = 0; i < sizeof WORDS / sizeof *WORDS; i++) {
-        page_element(html, "dt", WORDS[i][0]);
-        page_element(html, "dd", WORDS[i][1]);
-    }
+    for (size_t i = 0; i < sizeof WORDS / sizeof *WORDS; i++)
+        page_fact(html, WORDS[i][0], WORDS[i][1]);
     text_add(html, "</dl>\n");
     page_more_end(html);
 }
@@ -372,7 +376,7 @@ static bool add_page(Text *html, const ReviewPage *page, Arena *arena, Error *er
     add_verdicts(html, page, arena);
     if (!add_cases(html, page, arena, err)) return false;
     review_gaze_add(html, page->review, arena);
-    review_false_suns_add(html, page->review, arena);
+    review_gaze_add_false_suns(html, page->review, arena);
     add_notes(html, page->review, arena);
     add_provenance(html, page, arena);
     add_glossary(html);
@@ -383,10 +387,7 @@ static bool add_page(Text *html, const ReviewPage *page, Arena *arena, Error *er
 /* The cards that the page itself leaves out. */
 static bool add_beside(Text *html, const ReviewPage *page, Arena *arena, Error *err)
 {
-    const Review *review = page->review;
-    const char   *title = review->title && review->title[0] ? review->title : "Glare review";
-    page_begin(html, &(PageHead){title, arena_format(arena, "%s%s", REVIEW_STYLE, LIVE_STYLE),
-                               page->is_dark, 0});
+    const char *title = begin_page(html, page, 0, arena);
     page_element(html, "h1", arena_format(arena, "%s: all other cases", title));
     text_add(html, "<p class=\"sub\"><a href=\"index.html\">The answer, and the worst of "
              "them</a></p>\n");
@@ -473,31 +474,33 @@ static bool add_summary(Text *html, const ReviewPage *page, Arena *arena, Error 
     return true;
 }
 
-bool review_page_write_summary(const ReviewPage *page, const char *symbol, const char *path,
-                               Error *err)
+/* ---- as a file -------------------------------------------------------------------------- */
+
+typedef bool AddPage(Text *html, const ReviewPage *page, Arena *arena, Error *err);
+
+static bool write_page(const ReviewPage *page, AddPage *add, Arena *words, const char *path,
+                       Error *err)
 {
-    Arena own = arena_reserve(PAGE_BYTES), words = arena_reserve(WORDS_BYTES);
+    Arena own = arena_reserve(PAGE_BYTES);
     Text  html = {.arena = &own};
-    Review     part = part_of(page->review, symbol, &words);
-    ReviewPage alone = page_of_part(page, &part, &words);
-    bool  ok = add_summary(&html, &alone, &words, err) &&
+    bool  ok = add(&html, page, words, err) &&
               page_write((const Text *const[]){&html}, 1, path, err);
-    arena_release(&words);
+    arena_release(words);
     arena_release(&own);
     return ok;
 }
 
-/* ---- as a file -------------------------------------------------------------------------- */
+bool review_page_write_summary(const ReviewPage *page, const char *symbol, const char *path,
+                               Error *err)
+{
+    Arena      words = arena_reserve(WORDS_BYTES);
+    Review     part = part_of(page->review, symbol, &words);
+    ReviewPage alone = page_of_part(page, &part, &words);
+    return write_page(&alone, add_summary, &words, path, err);
+}
 
 bool review_page_write(const ReviewPage *page, const char *path, Error *err)
 {
-    Arena own = arena_reserve(PAGE_BYTES), words = arena_reserve(WORDS_BYTES);
-    Text  html = {.arena = &own};
-    bool  is_made = page->review->is_beside ? add_beside(&html, page, &words, err)
-                                            : add_page(&html, page, &words, err);
-    bool  ok = is_made &&
-              page_write((const Text *const[]){&html}, 1, path, err);
-    arena_release(&words);
-    arena_release(&own);
-    return ok;
+    Arena words = arena_reserve(WORDS_BYTES);
+    return write_page(page, page->review->is_beside ? add_beside : add_page, &words, path, err);
 }

@@ -66,12 +66,15 @@ static void add_stretch(Text *html, const CaseView *view, SeenPoint a, SeenPoint
                 p.y + kept[1] * (q.y - p.y));
 }
 
-/* All but the first stretch, which runs along the look. */
-static void add_ray(Text *html, const CaseView *view, const CaseRay *ray)
+/* A cause's, all but the first stretch of each, which runs along the look. */
+static void add_rays(Text *html, const CaseView *view, const CaseCause *cause)
 {
-    for (int i = 1; i + 1 < ray->count; i++)
-        add_stretch(html, view, before_eye(view, ray->points[i]),
-                    before_eye(view, ray->points[i + 1]));
+    for (int k = 0; k < cause->ray_count; k++) {
+        const CaseRay *ray = &cause->rays[k];
+        for (int i = 1; i + 1 < ray->count; i++)
+            add_stretch(html, view, before_eye(view, ray->points[i]),
+                        before_eye(view, ray->points[i + 1]));
+    }
 }
 
 static void add_place(Text *html, const CaseView *view, const CaseRay *ray)
@@ -166,9 +169,9 @@ void review_rays_add(Text *html, const ReviewCase *c, const char *card_id, Arena
                     (int)(255 * rgb[1] + 0.5f), (int)(255 * rgb[2] + 0.5f));
         escape_markup(html, words_chain(cause, arena));
         text_add(html, "</title><path class=\"under\" d=\"");
-        for (int k = 0; k < cause->ray_count; k++) add_ray(html, view, &cause->rays[k]);
+        add_rays(html, view, cause);
         text_add(html, "\"/><path d=\"");
-        for (int k = 0; k < cause->ray_count; k++) add_ray(html, view, &cause->rays[k]);
+        add_rays(html, view, cause);
         text_add(html, "\"/>");
         for (int k = 0; k < cause->ray_count; k++) add_place(html, view, &cause->rays[k]);
         text_add(html, "</g>");

@@ -2,7 +2,6 @@
 #include "review/output/review_table.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "page/page.h"
@@ -26,46 +25,35 @@ static void add_link(Text *html, const Review *review, const ReviewCase *c, cons
 
 /* ---- the matrix ------------------------------------------------------------------------- */
 
-typedef struct MatrixNames {
-    const char **list;
-    int          count;
-} MatrixNames;
-
-static void add_name(MatrixNames *names, const char *name)
-{
-    for (int i = 0; i < names->count; i++)
-        if (words_same(names->list[i], name)) return;
-    names->list[names->count++] = name ? name : "";
-}
-
+/* Names from left to right and down, and the cell where two meet. */
 typedef struct Matrix {
     const Review *review;
-    const char   *eye;
-    MatrixNames         symbols, conditions;
+    const char   *title, *corner;
+    const char   *of; /* what all cells have in common: the eye, or the sweep's condition */
+    WordList      across, down;
+    bool          turned;
+    void        (*add_cell)(Text *html, const struct Matrix *m, const char *across,
+                            const char *down, Arena *arena);
 } Matrix;
 
-static Matrix make_matrix(const Review *review, const char *eye, Arena *arena)
+/* Nothing where there are too many. */
+static void add_matrix(Text *html, const Matrix *m, Arena *arena)
 {
-    Matrix out = {review, eye, {NULL, 0}, {NULL, 0}};
-    out.symbols.list = ARENA_NEW(arena, const char *, review->case_count);
-    out.conditions.list = ARENA_NEW(arena, const char *, review->case_count);
-    for (int i = 0; i < review->case_count; i++) {
-        if (!words_same(review->cases[i].eye, eye)) continue;
-        add_name(&out.symbols, review->cases[i].symbol);
-        add_name(&out.conditions, review->cases[i].condition);
+    PageColumn columns[MATRIX_COLUMNS + 1] = {{m->corner, false, NULL}};
+    if (m->across.count > MATRIX_COLUMNS || m->down.count > MATRIX_ROWS) return;
+    for (int i = 0; i < m->across.count; i++)
+        columns[i + 1] = (PageColumn){m->across.list[i], false, NULL};
+    text_add(html, "<div>");
+    page_table_begin(html, m->title, "matrix", columns, m->across.count + 1);
+    for (int row = 0; row < m->down.count; row++) {
+        page_row_begin(html, "");
+        page_cell(html, "", m->down.list[row]);
+        for (int i = 0; i < m->across.count; i++)
+            m->add_cell(html, m, m->across.list[i], m->down.list[row], arena);
+        page_row_end(html);
     }
-    return out;
-}
-
-static const ReviewCase *case_of(const Matrix *m, const char *symbol, const char *condition)
-{
-    for (int i = 0; i < m->review->case_count; i++) {
-        const ReviewCase *c = &m->review->cases[i];
-        if (words_same(c->eye, m->eye) && words_same(c->symbol, symbol) &&
-            words_same(c->condition, condition))
-            return c;
-    }
-    return NULL;
+    page_table_end(html);
+    text_add(html, "</div>\n");
 }
 
 /* The limit that a case is shown with: that of the contrast, else the worst. */
@@ -84,18 +72,18 @@ static void add_cell_limit(Text *html, const LimitVerdict *limit, Arena *arena)
                                              words_limit(limit, arena)));
 }
 
-static void add_matrix_cell(Text *html, const Matrix *m, const ReviewCase *c, Arena *arena)
+static void add_case_cell(Text *html, const Matrix *m, const char *across, const char *down,
+                          Arena *arena)
 {
+    const ReviewCase *c = review_case_named(m->review, m->turned ? down : across, m->of,
+                                            m->turned ? across : down);
     if (!c) {
         page_cell(html, "none", "–");
         return;
     }
     const LimitVerdict *limit = c->verdict == VERDICT_NOT_VISIBLE ? NULL : shown_limit(c);
-    text_format(html, "<td class=\"%s\"><a href=\"%s\" title=\"", words_class(c->verdict),
-                review_card_link(m->review, c, arena));
-    escape_markup(html, arena_format(arena, "%s: %s", words_verdict(c->verdict),
-                                     words_reason(c, arena)));
-    text_format(html, "\"><div><b>%s %s</b>", words_mark(c->verdict),
+    review_card_begin_cell(html, m->review, c, arena);
+    text_format(html, "<div><b>%s %s</b>", words_mark(c->verdict),
                 c->verdict == VERDICT_NOT_VISIBLE ? "not visible"
                                                   : words_contrast(c, arena));
     if (limit) text_format(html, "<em>%s</em>", words_margin(limit->margin, arena));
@@ -105,39 +93,28 @@ static void add_matrix_cell(Text *html, const Matrix *m, const ReviewCase *c, Ar
 }
 
 /* Conditions from left to right, unless there are more of them than symbols. */
-static void add_matrix(Text *html, const Matrix *m, Arena *arena)
+static Matrix matrix_of_eye(const Review *review, const char *eye, Arena *arena)
 {
-    bool  turned = m->conditions.count > m->symbols.count;
-    MatrixNames across = turned ? m->symbols : m->conditions;
-    MatrixNames down = turned ? m->conditions : m->symbols;
-    if (across.count > MATRIX_COLUMNS || down.count > MATRIX_ROWS) return;
-    PageColumn columns[MATRIX_COLUMNS + 1] = {{turned ? "condition" : "symbol", false, NULL}};
-    for (int i = 0; i < across.count; i++)
-        columns[i + 1] = (PageColumn){across.list[i], false, NULL};
-    text_add(html, "<div>");
-    page_table_begin(html, arena_format(arena, "Seen by %s", m->eye), "matrix", columns,
-                     across.count + 1);
-    for (int row = 0; row < down.count; row++) {
-        page_row_begin(html, "");
-        page_cell(html, "", down.list[row]);
-        for (int i = 0; i < across.count; i++) {
-            const char *symbol = turned ? across.list[i] : down.list[row];
-            const char *condition = turned ? down.list[row] : across.list[i];
-            add_matrix_cell(html, m, case_of(m, symbol, condition), arena);
-        }
-        page_row_end(html);
+    WordList symbols = words_list(review->case_count, arena);
+    WordList conditions = words_list(review->case_count, arena);
+    for (int i = 0; i < review->case_count; i++) {
+        if (!words_same(review->cases[i].eye, eye)) continue;
+        words_list_add(&symbols, review->cases[i].symbol);
+        words_list_add(&conditions, review->cases[i].condition);
     }
-    page_table_end(html);
-    text_add(html, "</div>\n");
+    bool turned = conditions.count > symbols.count;
+    return (Matrix){review, arena_format(arena, "Seen by %s", eye),
+                    turned ? "condition" : "symbol", eye, turned ? symbols : conditions,
+                    turned ? conditions : symbols, turned, add_case_cell};
 }
 
 void review_table_add_matrix(Text *html, const Review *review, Arena *arena)
 {
-    MatrixNames eyes = {ARENA_NEW(arena, const char *, review->case_count), 0};
-    for (int i = 0; i < review->case_count; i++) add_name(&eyes, review->cases[i].eye);
+    WordList eyes = words_list(review->case_count, arena);
+    for (int i = 0; i < review->case_count; i++) words_list_add(&eyes, review->cases[i].eye);
     text_add(html, "<div class=\"eyes\">\n");
     for (int i = 0; i < eyes.count; i++) {
-        Matrix matrix = make_matrix(review, eyes.list[i], arena);
+        Matrix matrix = matrix_of_eye(review, eyes.list[i], arena);
         add_matrix(html, &matrix, arena);
     }
     text_add(html, "</div>\n");
@@ -145,21 +122,10 @@ void review_table_add_matrix(Text *html, const Review *review, Arena *arena)
 
 /* ---- sweeps at a glance ----------------------------------------------------------------- */
 
-static const ReviewSweep *sweep_of(const Review *review, const char *condition,
-                                   const char *symbol, const char *eye)
-{
-    for (int i = 0; i < review->sweep_count; i++) {
-        const ReviewSweep *s = &review->sweeps[i];
-        if (words_same(s->condition, condition) && words_same(s->symbol, symbol) &&
-            words_same(s->eye, eye))
-            return s;
-    }
-    return NULL;
-}
-
-static void add_sweep_cell(Text *html, const Review *review, const ReviewSweep *s,
+static void add_sweep_cell(Text *html, const Matrix *m, const char *across, const char *down,
                            Arena *arena)
 {
+    const ReviewSweep *s = review_sweep_named(m->review, m->of, across, down);
     if (!s) {
         page_cell(html, "none", "–");
         return;
@@ -167,7 +133,7 @@ static void add_sweep_cell(Text *html, const Review *review, const ReviewSweep *
     Verdict             verdict = sweep_verdict(s);
     const LimitVerdict *limit = shown_limit(&s->worst);
     text_format(html, "<td class=\"%s\"><a href=\"%s\"><b>%s %s</b>", words_class(verdict),
-                review_card_link(review, &s->worst, arena), words_mark(verdict),
+                review_card_link(m->review, &s->worst, arena), words_mark(verdict),
                 words_often(s, arena));
     page_element(html, "small",
                  arena_format(arena, "%s%s%s", words_contrast(&s->worst, arena),
@@ -176,43 +142,29 @@ static void add_sweep_cell(Text *html, const Review *review, const ReviewSweep *
     text_add(html, "</a></td>");
 }
 
-static void add_sweep_matrix(Text *html, const Review *review, const char *condition,
-                             Arena *arena)
+static Matrix matrix_of_sweeps(const Review *review, const char *condition, Arena *arena)
 {
-    MatrixNames symbols = {ARENA_NEW(arena, const char *, review->sweep_count), 0};
-    MatrixNames eyes = {ARENA_NEW(arena, const char *, review->sweep_count), 0};
+    Matrix out = {review, condition, "symbol", condition,
+                  words_list(review->sweep_count, arena),
+                  words_list(review->sweep_count, arena), false, add_sweep_cell};
     for (int i = 0; i < review->sweep_count; i++) {
         if (!words_same(review->sweeps[i].condition, condition)) continue;
-        add_name(&symbols, review->sweeps[i].symbol);
-        add_name(&eyes, review->sweeps[i].eye);
+        words_list_add(&out.across, review->sweeps[i].eye);
+        words_list_add(&out.down, review->sweeps[i].symbol);
     }
-    if (eyes.count > MATRIX_COLUMNS || symbols.count > MATRIX_ROWS) return;
-    PageColumn columns[MATRIX_COLUMNS + 1] = {{"symbol", false, NULL}};
-    for (int i = 0; i < eyes.count; i++)
-        columns[i + 1] = (PageColumn){eyes.list[i], false, NULL};
-    text_add(html, "<div>");
-    page_table_begin(html, condition, "matrix", columns, eyes.count + 1);
-    for (int row = 0; row < symbols.count; row++) {
-        page_row_begin(html, "");
-        page_cell(html, "", symbols.list[row]);
-        for (int i = 0; i < eyes.count; i++)
-            add_sweep_cell(html, review,
-                           sweep_of(review, condition, symbols.list[row], eyes.list[i]),
-                           arena);
-        page_row_end(html);
-    }
-    page_table_end(html);
-    text_add(html, "</div>\n");
+    return out;
 }
 
 void review_table_add_sweeps(Text *html, const Review *review, Arena *arena)
 {
-    MatrixNames conditions = {ARENA_NEW(arena, const char *, review->sweep_count), 0};
+    WordList conditions = words_list(review->sweep_count, arena);
     for (int i = 0; i < review->sweep_count; i++)
-        add_name(&conditions, review->sweeps[i].condition);
+        words_list_add(&conditions, review->sweeps[i].condition);
     text_add(html, "<div class=\"eyes\">\n");
-    for (int i = 0; i < conditions.count; i++)
-        add_sweep_matrix(html, review, conditions.list[i], arena);
+    for (int i = 0; i < conditions.count; i++) {
+        Matrix matrix = matrix_of_sweeps(review, conditions.list[i], arena);
+        add_matrix(html, &matrix, arena);
+    }
     text_add(html, "</div>\n");
 }
 
@@ -237,12 +189,11 @@ static void add_limit_cells(Text *html, const ReviewCase *c, Arena *arena)
 
 static void add_list_row(Text *html, const Review *review, const ReviewCase *c, Arena *arena)
 {
-    const char *id = review_card_id(review, c, arena);
-    bool        is_worst = id[0] == 's'; /* a sweep's */
-    Verdict     verdict = is_worst ? sweep_verdict(&review->sweeps[atoi(id + 1)]) : c->verdict;
+    bool is_worst = review_sweep_of(review, c) != NULL;
     page_row_begin(html, "");
-    text_format(html, "<td><span class=\"chip %s\">%s</span></td><td>", words_class(verdict),
-                words_verdict(verdict));
+    text_add(html, "<td>");
+    review_card_add_chip(html, c->verdict);
+    text_add(html, "</td><td>");
     add_link(html, review, c, c->symbol && c->symbol[0] ? c->symbol : "?", arena);
     if (c->verdict == VERDICT_NOT_VISIBLE && c->hider_count)
         page_element(html, "small", words_hiders(c, arena));
@@ -269,7 +220,7 @@ void review_table_add_list(Text *html, const Review *review, int most, Arena *ar
         {"Margin", true, "how far above or below the limit"},
         {"half ← limit → twice", false, NULL}};
     const ReviewCase **ranked = review_rank(review, arena);
-    int all = review->case_count + review->sweep_count;
+    int all = review_case_count(review);
     int listed = most && most < all ? most : all;
     page_table_begin(html, "", "list", COLUMNS, 9);
     for (int i = 0; i < listed; i++) add_list_row(html, review, ranked[i], arena);
@@ -342,10 +293,8 @@ void review_table_add_limits(Text *html, const Review *review, Arena *arena)
                                          {"Read in the standard", false, NULL},
                                          {"Where the value comes from", false, NULL}};
     LimitRows rows = {NULL, 0, 0};
-    for (int i = 0; i < review->case_count; i++)
-        gather_limits(&rows, &review->cases[i], arena);
-    for (int i = 0; i < review->sweep_count; i++)
-        gather_limits(&rows, &review->sweeps[i].worst, arena);
+    for (int i = 0; i < review_case_count(review); i++)
+        gather_limits(&rows, review_case_at(review, i), arena);
     if (rows.count == 0) {
         page_element(html, "p", "No limit was asked: nothing could fail.");
         return;
@@ -357,27 +306,20 @@ void review_table_add_limits(Text *html, const Review *review, Arena *arena)
 
 /* ---- what changed ----------------------------------------------------------------------- */
 
-static const char *diff_words(DiffKind kind)
-{
-    static const char *const WORDS[7] = {"worse verdict", "better verdict", "less contrast",
-                                         "more contrast", "only before",    "only now",
-                                         "same"};
-    return WORDS[kind];
-}
-
-static const char *diff_class(DiffKind kind)
+/* Its kind, and the names of what is compared: symbol or gaze, condition, eye. */
+static void begin_diff_row(Text *html, DiffKind kind, bool is_sweep, const char *const names[3])
 {
     static const char *const CLASSES[7] = {"chip bad", "chip good", "bad", "good",
                                            "sub",      "sub",       "sub"};
-    return CLASSES[kind];
-}
-
-static void add_kind(Text *html, DiffKind kind, bool is_sweep)
-{
-    const char *words = diff_words(kind);
+    static const char *const WORDS[7] = {"worse verdict", "better verdict", "less contrast",
+                                         "more contrast", "only before",    "only now",
+                                         "same"};
+    const char *words = WORDS[kind];
     if (is_sweep && kind == DIFF_WORSE) words = "fails more often";
     if (is_sweep && kind == DIFF_BETTER) words = "fails less often";
-    text_format(html, "<td><span class=\"%s\">%s</span></td>", diff_class(kind), words);
+    page_row_begin(html, "");
+    text_format(html, "<td><span class=\"%s\">%s</span></td>", CLASSES[kind], words);
+    for (int i = 0; i < 3; i++) page_cell(html, "", names[i]);
 }
 
 /* "a → b" */
@@ -400,11 +342,8 @@ static const char *ratio_of(const ReviewCase *c, Arena *arena)
 static void add_diff_row(Text *html, const CaseDiff *d, Arena *arena)
 {
     const ReviewCase *either = d->after ? d->after : d->before;
-    page_row_begin(html, "");
-    add_kind(html, d->kind, false);
-    page_cell(html, "", either->symbol);
-    page_cell(html, "", either->condition);
-    page_cell(html, "", either->eye);
+    begin_diff_row(html, d->kind, false,
+                   (const char *const[3]){either->symbol, either->condition, either->eye});
     add_change(html, verdict_of(d->before), verdict_of(d->after), arena);
     add_change(html, ratio_of(d->before, arena), ratio_of(d->after, arena), arena);
     add_change(html, d->before ? words_margin(d->before->margin, arena) : "–",
@@ -436,11 +375,8 @@ static void add_diff_sweeps(Text *html, const ReviewDiff *diff, Arena *arena)
     for (int i = 0; i < diff->sweep_count; i++) {
         const SweepDiff   *d = &diff->sweeps[i];
         const ReviewSweep *b = d->before, *a = d->after, *either = a ? a : b;
-        page_row_begin(html, "");
-        add_kind(html, d->kind, true);
-        page_cell(html, "", either->symbol);
-        page_cell(html, "", either->condition);
-        page_cell(html, "", either->eye);
+        begin_diff_row(html, d->kind, true,
+                       (const char *const[3]){either->symbol, either->condition, either->eye});
         add_change(html, words_share(b ? b->failed_share : NAN, arena),
                    words_share(a ? a->failed_share : NAN, arena), arena);
         add_change(html, words_minutes(b ? b->longest_failure_minutes : NAN, arena),
@@ -458,14 +394,11 @@ static const char *figure_change(double before, double after, Arena *arena)
 
 static void add_gaze_row(Text *html, const GazeDiff *d, Arena *arena)
 {
-    static const GazeFinding NONE = {.contrast_left = NAN, .mirrored = NAN, .veil = NAN};
     const GazeFinding *either = d->after ? d->after : d->before;
-    const GazeFinding *b = d->before ? d->before : &NONE, *a = d->after ? d->after : &NONE;
-    page_row_begin(html, "");
-    add_kind(html, d->kind, false);
-    page_cell(html, "", either->gaze);
-    page_cell(html, "", either->condition);
-    page_cell(html, "", either->eye);
+    const GazeFinding *b = d->before ? d->before : &diff_no_gaze;
+    const GazeFinding *a = d->after ? d->after : &diff_no_gaze;
+    begin_diff_row(html, d->kind, false,
+                   (const char *const[3]){either->gaze, either->condition, either->eye});
     add_change(html, words_share(b->contrast_left, arena), words_share(a->contrast_left, arena),
                arena);
     page_cell(html, "n", figure_change(b->mirrored, a->mirrored, arena));

@@ -104,11 +104,11 @@ static const char *failed_words(const Review *review, Arena *arena)
 
 /* ---- the table of all -------------------------------------------------------------------- */
 
-static void add_verdict_cell(Text *html, const Review *review)
+static void add_verdict_cell(Text *html, Verdict verdict)
 {
-    Verdict verdict = review_verdict(review);
-    text_format(html, "<td><span class=\"chip %s\">%s</span></td>", words_class(verdict),
-                words_verdict(verdict));
+    text_add(html, "<td>");
+    review_card_add_chip(html, verdict);
+    text_add(html, "</td>");
 }
 
 static void add_name_cell(Text *html, const char *name, const char *below)
@@ -129,7 +129,7 @@ static void add_base_row(Text *html, const Review *review, const ReviewCase *lea
 {
     page_row_begin(html, "same");
     add_name_cell(html, "as it stands", "the review itself");
-    add_verdict_cell(html, review);
+    add_verdict_cell(html, review_verdict(review));
     page_cell(html, "n", least ? words_margin(least->margin, arena) : "–");
     page_cell(html, "n", "");
     page_cell(html, "n", counts_words(review, arena));
@@ -143,7 +143,7 @@ static void add_row(Text *html, const ReviewVariantFound *v, Arena *arena)
     const ReviewCase *worst = v->worst.after;
     page_row_begin(html, "");
     add_name_cell(html, v->name, changes_words(v, arena));
-    add_verdict_cell(html, v->review);
+    add_verdict_cell(html, review_verdict(v->review));
     page_cell(html, "n", worst ? words_margin(worst->margin, arena) : "–");
     page_cell(html, difference_class(&v->worst), difference_words(&v->worst, arena));
     page_cell(html, "n", counts_words(v->review, arena));
@@ -183,8 +183,7 @@ static void add_difference(Text *html, const ReviewDifference *d, Arena *arena)
     const ReviewCase *c = d->after;
     page_row_begin(html, "");
     page_cell(html, "", words_case(c, arena));
-    text_format(html, "<td><span class=\"chip %s\">%s</span></td>", words_class(c->verdict),
-                words_verdict(c->verdict));
+    add_verdict_cell(html, c->verdict);
     page_cell(html, "n", d->before ? words_margin(d->before->margin, arena) : "–");
     page_cell(html, "n", words_margin(c->margin, arena));
     page_cell(html, difference_class(d), difference_words(d, arena));

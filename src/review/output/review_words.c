@@ -15,6 +15,29 @@ bool words_same(const char *a, const char *b)
     return !strcmp(a ? a : "", b ? b : "");
 }
 
+WordList words_list(int most, Arena *arena)
+{
+    return (WordList){ARENA_NEW(arena, const char *, most), 0};
+}
+
+void words_list_add(WordList *names, const char *name)
+{
+    for (int i = 0; i < names->count; i++)
+        if (words_same(names->list[i], name)) return;
+    names->list[names->count++] = name ? name : "";
+}
+
+const char *words_file_name(const char *text, Arena *arena)
+{
+    char *name = arena_string(arena, text, strlen(text));
+    for (char *c = name; *c; c++) {
+        bool is_plain = (*c >= 'a' && *c <= 'z') || (*c >= 'A' && *c <= 'Z') ||
+                        (*c >= '0' && *c <= '9') || *c == '_';
+        if (!is_plain) *c = '-';
+    }
+    return name;
+}
+
 const char *words_figure(double value, Arena *arena)
 {
     char text[32];

@@ -10,6 +10,18 @@
 /* NULL is "". */
 bool words_same(const char *a, const char *b);
 
+/* Names, each once. */
+typedef struct WordList {
+    const char **list; /* room for all that are added */
+    int          count;
+} WordList;
+
+WordList words_list(int most, Arena *arena);
+void     words_list_add(WordList *names, const char *name);
+
+/* A file's name from texts of any kind: letters and digits stay, all else becomes '-'. */
+const char *words_file_name(const char *text, Arena *arena);
+
 /* Three significant digits; "–" for NaN, "∞". */
 const char *words_figure(double value, Arena *arena);
 

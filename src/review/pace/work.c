@@ -86,7 +86,7 @@ double work_of_conditions(const ReviewRequest *request, bool is_bare)
     return work;
 }
 
-/* Those that are run by themselves: what rides with the review (vary/riders.h) takes little. */
+/* Those run by themselves: what rides with the review (vary/variants.h) takes little. */
 static int varied(const ReviewRequest *request)
 {
     int count = 0;

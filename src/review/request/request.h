@@ -12,11 +12,49 @@
  * Threads  const after reading; pure functions.
  */
 #pragma once
-#include "review/request/level.h"
+#include <stdbool.h>
+
 #include "review/route/route.h"
 #include "scene/scene.h"
 #include "sky/epw.h"
 #include "sky/weather_clock.h"
+#include "vision/human_eye.h"
+
+/* ---- how bright displays are set --------------------------------------------------------- */
+
+/* A level of one display, or of all others ("*"). Levels multiply all that a display emits; 1:
+ * as its panel was measured. */
+typedef struct ReviewFixedLevel {
+    const char *display; /* a material's name, "node:NAME", or "*" */
+    double      level;
+} ReviewFixedLevel;
+
+typedef struct ReviewLevel {
+    const char       *name;
+    ReviewFixedLevel *fixed;
+    int               fixed_count;
+    /* or, of all displays, a curve: */
+    bool    is_curve;
+    double  position_m[3], normal[3]; /* the sensor's, scene's frame; normal is unit */
+    double *lux, *level;              /* [point_count]: lux rises, level does not fall */
+    int     point_count;
+} ReviewLevel;
+
+/* A display as a review calls it, and by its material where that is another name. */
+typedef struct ReviewDisplayName {
+    const char *name, *material;
+} ReviewDisplayName;
+
+/* sensor_lux counts for a curve only. Of fixed levels the one by the display's own name counts
+ * first, then its material's, then "*"; a display that is left out keeps `scene_level`. */
+double review_level_at(const ReviewLevel *level, ReviewDisplayName display, double scene_level,
+                       double sensor_lux);
+
+/* The curve's value at an illuminance. Between two points level = a lux^b, a straight line in
+ * log-log: points stand decades apart, as the eye's adaptation runs, and what makers draw on
+ * such paper must not sag at a decade's beginning as a line in lux would. Where a point is at 0
+ * lx or level 0 that has no logarithm, and the piece is linear. Beyond the ends: the end's. */
+double review_level_of_lux(const ReviewLevel *level, double lux);
 
 /* ---- eyes and where they look ------------------------------------------------------------ */
 
@@ -56,11 +94,6 @@ typedef struct ReviewGaze {
     double      direction[3]; /* unit; else */
     bool       *for_eye;      /* [eye_count]: whether that eye looks so */
 } ReviewGaze;
-
-typedef struct ReviewObserver {
-    double age_years; /* 10..100 */
-    double pigment;   /* the iris's: 0 black, 0.5 brown, 1.2 very light */
-} ReviewObserver;
 
 /* ---- what is read ------------------------------------------------------------------------ */
 
@@ -234,7 +267,7 @@ typedef struct ReviewRequest {
     ReviewEye       *eyes;
     int              eye_count;
     double           forward[3]; /* where the vehicle points: unit, not vertical */
-    ReviewObserver   observer;
+    HumanEye         observer;
     ReviewGaze      *gazes;
     int              gaze_count;
     ReviewWith      *withs;

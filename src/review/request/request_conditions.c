@@ -1,15 +1,269 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "review/request/request_conditions.h"
 
+#include <math.h>
 #include <string.h>
 
-#include "review/request/request_light.h"
-#include "review/request/request_sweep.h"
-#include "review/request/request_symbols.h"
-#include "review/request/request_weather.h"
+#include "base/file.h"
+#include "base/units.h"
+#include "review/request/request_eyes.h"
+#include "scene/load/environment.h"
+
+/* ---- weather ----------------------------------------------------------------------------- */
+
+static bool add_weather(RequestReading *reading, const char *path, Error *err)
+{
+    ReviewRequest *request = reading->request;
+    Arena         *arena = reading->root.arena;
+    ReviewWeather  found = {.path = path};
+    if (!weather_read(path, arena, &found.weather, err) ||
+        !request_note_file(reading, path, err))
+        return false;
+    found.clock = weather_clock_find(&found.weather, NULL, *arena);
+    if (request->weather_count == reading->weather_capacity) {
+        reading->weather_capacity = 2 * reading->weather_capacity + 4;
+        request->weathers = ARENA_GROW(arena, ReviewWeather, request->weathers,
+                                       request->weather_count, reading->weather_capacity);
+    }
+    request->weathers[request->weather_count++] = found;
+    return true;
+}
+
+/* "clear" or absent: NO_ID; else the file's place among the request's weathers. */
+static bool read_weather(RequestReading *reading, const JsonView *view, int *weather_id,
+                         Error *err)
+{
+    const ReviewRequest *request = reading->request;
+    const char          *text = "clear", *path = NULL;
+    *weather_id = NO_ID;
+    if (!json_view_text(view, "weather", &text, err)) return false;
+    if (!strcmp(text, "clear")) return true;
+    if (strcmp(path_ending(text), ".epw"))
+        return field_fails(view, "weather", err,
+                           "is '%.60s', wanted 'clear' or a weather file .epw", text);
+    if (!field_file(view, "weather", &path, err)) return false;
+    for (int i = 0; i < request->weather_count; i++)
+        if (!strcmp(request->weathers[i].path, path)) *weather_id = i;
+    if (*weather_id != NO_ID) return true;
+    *weather_id = request->weather_count;
+    return add_weather(reading, path, err);
+}
+
+#define RANGE_MAX 100000 /* values of one range */
+#define SUNS_MAX 10000000
+#define STEP_LEAST 1e-4 /* degrees */
+#define HEADINGS_MAX 3600
+#define WHOLE 1e-6 /* of a step: how much its multiples may miss the last value by */
+
+/* ---- over the sun's direction ------------------------------------------------------------ */
+
+/* The step nearest to the written one that divides first to last into whole steps. */
+static double fitting_step(const double value[3])
+{
+    double length = value[1] - value[0];
+    return length / fmax(1, round(length / value[2]));
+}
+
+static bool read_range(const JsonView *view, const char *key, JsonRange bounds,
+                       ReviewRange *out, Error *err)
+{
+    double value[3];
+    if (!field_wanted(view, key, err)) return false;
+    const json_t *step = json_array_get(json_object_get(view->object, key), 2);
+    if (json_array_size(json_object_get(view->object, key)) == 3 && json_is_number(step) &&
+        !(json_number_value(step) >= STEP_LEAST))
+        return field_fails(view, key, err, "has a step of %g, wanted at least %g",
+                           json_number_value(step), STEP_LEAST);
+    if (!field_numbers(view, key, bounds, value, NULL, err)) return false;
+    if (value[1] < value[0])
+        return field_fails(view, key, err,
+                           "goes from %g to %g, which is empty; wanted [first, last, step] "
+                           "with last not below first", value[0], value[1]);
+    double steps = (value[1] - value[0]) / value[2];
+    if (steps > RANGE_MAX)
+        return field_fails(view, key, err, "has %.0f values, wanted at most %d", steps + 1,
+                           RANGE_MAX);
+    if (fabs(steps - round(steps)) > WHOLE)
+        return field_fails(view, key, err,
+                           "does not come from %g to %g in steps of %g, wanted a step such as "
+                           "%.6g", value[0], value[1], value[2], fitting_step(value));
+    *out = (ReviewRange){value[0], value[1], value[2], (int)round(steps) + 1};
+    return true;
+}
+
+static bool read_suns(const JsonView *sweep, ReviewCondition *condition, Error *err)
+{
+    static const char *const keys[] = {"sun", "sky"}, *const skies[] = {"sky"};
+    static const char *const axes[] = {"azimuth_deg", "elevation_deg"};
+    JsonView sun;
+    int      sky = 0;
+    condition->kind = CONDITION_SUN_SWEEP;
+    if (!json_view_check_keys(sweep, keys, COUNT_OF(keys), err) ||
+        !json_view_child(sweep, "sun", true, &sun, err) ||
+        !json_view_check_keys(&sun, axes, COUNT_OF(axes), err) ||
+        !field_choice(sweep, "sky", (FieldWords){skies, 1}, &sky, err) ||
+        !read_range(&sun, axes[0], (JsonRange){-360, 720, 3}, &condition->azimuth_deg, err) ||
+        !read_range(&sun, axes[1], (JsonRange){-18, 90, 3}, &condition->elevation_deg, err))
+        return false;
+    if (condition->azimuth_deg.last - condition->azimuth_deg.first > 360)
+        return field_fails(&sun, axes[0], err, "spans %g degrees, wanted at most 360",
+                           condition->azimuth_deg.last - condition->azimuth_deg.first);
+    double suns = (double)condition->azimuth_deg.count * condition->elevation_deg.count;
+    return suns <= SUNS_MAX ||
+           error_at(err, ERROR_INPUT, sun.file, sun.path, "has %.0f suns, wanted at most %d",
+                    suns, SUNS_MAX);
+}
+
+/* ---- over a year ------------------------------------------------------------------------- */
+
+/* [latitude, longitude] or with an altitude. */
+static bool read_place(const JsonView *view, SkyPlace *out, bool *found, Error *err)
+{
+    double value[3] = {0, 0, 0};
+    int    count = 0;
+    if (!json_view_numbers(view, "where", (JsonRange){-500, 60000, 3}, value, &count, err))
+        return false;
+    *found = count > 0;
+    if (!count) return true;
+    if (count < 2 || fabs(value[0]) > 90 || fabs(value[1]) > 360)
+        return field_fails(view, "where", err,
+                           "is no place, wanted [latitude -90 to 90, longitude -360 to 360] in "
+                           "degrees north and east, and an altitude in m");
+    *out = (SkyPlace){value[0], value[1], value[2]};
+    return true;
+}
+
+static bool is_same_heading(double a, double b)
+{
+    return fabs(remainder(a - b, 360)) < 1e-9;
+}
+
+/* A heading that stands twice would count twice. */
+static bool check_headings(const JsonView *view, const ReviewCondition *condition, Error *err)
+{
+    for (int i = 0; i < condition->heading_count; i++)
+        for (int k = 0; k < i; k++)
+            if (is_same_heading(condition->headings_deg[i], condition->headings_deg[k]))
+                return field_fails(view, "headings_deg", err,
+                                   "holds %g and %g, wanted each heading once",
+                                   condition->headings_deg[k], condition->headings_deg[i]);
+    return true;
+}
+
+static bool read_headings(const JsonView *view, ReviewCondition *condition, Error *err)
+{
+    condition->headings_deg = ARENA_NEW(view->arena, double, HEADINGS_MAX);
+    condition->heading_count = 1; /* north */
+    return json_view_numbers(view, "headings_deg", (JsonRange){-360, 360, HEADINGS_MAX},
+                             condition->headings_deg, &condition->heading_count, err) &&
+           check_headings(view, condition, err);
+}
+
+static bool find_place(const RequestReading *reading, const JsonView *sweep,
+                       ReviewCondition *condition, Error *err)
+{
+    bool found;
+    if (!read_place(sweep, &condition->where, &found, err)) return false;
+    if (found) return true;
+    if (condition->weather_id == NO_ID) return field_wanted(sweep, "where", err);
+    condition->where = reading->request->weathers[condition->weather_id].weather.place;
+    return true;
+}
+
+static bool read_year(RequestReading *reading, const JsonView *sweep,
+                      ReviewCondition *condition, Error *err)
+{
+    static const char *const keys[] = {"year",         "where",   "step_minutes",
+                                       "headings_deg", "weather", "night"};
+    condition->kind = CONDITION_YEAR_SWEEP;
+    condition->step_minutes = 60;
+    return json_view_check_keys(sweep, keys, COUNT_OF(keys), err) &&
+           field_integer(sweep, "year", (FieldBounds){1900, 2100}, &condition->year, err) &&
+           json_view_number(sweep, "step_minutes", 0.5, 1440, &condition->step_minutes, err) &&
+           read_headings(sweep, condition, err) &&
+           field_boolean(sweep, "night", &condition->with_night, err) &&
+           read_weather(reading, sweep, &condition->weather_id, err) &&
+           find_place(reading, sweep, condition, err);
+}
+
+/* view: of the sweep. Sets the condition's kind and what belongs to it. */
+static bool read_sweep(RequestReading *reading, const JsonView *view,
+                       ReviewCondition *condition, Error *err)
+{
+    static const char *const keys[] = {"sun",   "sky",          "year",         "where",
+                                       "night", "step_minutes", "headings_deg", "weather"};
+    bool has_sun = json_object_get(view->object, "sun") != NULL;
+    bool has_year = json_object_get(view->object, "year") != NULL;
+    if (!json_view_check_keys(view, keys, COUNT_OF(keys), err)) return false;
+    if (has_sun == has_year)
+        return error_at(err, ERROR_INPUT, view->file, view->path,
+                        "has %s, wanted one of 'sun' and 'year'",
+                        has_sun ? "both" : "neither");
+    return has_sun ? read_suns(view, condition, err)
+                   : read_year(reading, view, condition, err);
+}
+
+/* ---- light ------------------------------------------------------------------------------- */
+
+/* `forward` stands once at the top of the file, a heading once in the condition. */
+static bool check_directions(const JsonView *view, const JsonView *environment,
+                             const ReviewCondition *condition, Error *err)
+{
+    bool has_heading = json_object_get(environment->object, "heading_deg") != NULL;
+    if (json_object_get(environment->object, "forward"))
+        return field_fails(environment, "forward", err,
+                           "stands in a condition, wanted it at the top of the file");
+    if (has_heading && condition->has_heading)
+        return field_fails(view, "heading_deg", err,
+                           "stands in 'environment' as well, wanted it once");
+    if (has_heading &&
+        (condition->kind == CONDITION_ROUTE || condition->kind == CONDITION_YEAR_SWEEP))
+        return field_fails(environment, "heading_deg", err,
+                           "stands in a condition that has headings of its own, wanted none");
+    return true;
+}
+
+/* Beside a route or a sweep the environment gives a clear sky's air. */
+static bool check_kind(const JsonView *environment, const ReviewCondition *condition,
+                       Error *err)
+{
+    if (condition->kind == CONDITION_MOMENT) return true;
+    if (condition->weather_id != NO_ID)
+        return error_at(err, ERROR_INPUT, environment->file, environment->path,
+                        "stands beside a weather file, wanted one of them");
+    return condition->environment.kind == ENVIRONMENT_SKY ||
+           field_fails(environment, "type", err,
+                       "is another one than 'sky', wanted that: a route and a sweep move the "
+                       "sun of a clear sky");
+}
+
+/* view: of condition i, whose time and heading are read already. */
+static bool read_light(RequestReading *reading, const JsonView *view, int i,
+                       ReviewCondition *condition, Error *err)
+{
+    EnvironmentFound found;
+    JsonView         environment;
+    if (!json_view_child(view, "environment", false, &environment, err)) return false;
+    if (!environment.object) return true;
+    const GltfValue *item = tree_item(tree_member(reading->tree, "conditions"), i);
+    EnvironmentText  text = {view->file, tree_member(item, "environment"), view->root};
+    if (!check_directions(view, &environment, condition, err) ||
+        !environment_text_read(&text, view->arena, reading->problems, &found, err))
+        return false;
+    condition->has_environment = true;
+    condition->environment = found.environment;
+    if (json_object_get(environment.object, "heading_deg")) {
+        condition->has_heading = true;
+        condition->heading_deg = json_number_value(json_object_get(environment.object,
+                                                                   "heading_deg"));
+    }
+    condition->environment.forward = vec3_from_doubles(reading->request->forward);
+    condition->environment.heading = (float)radians_from_degrees(condition->heading_deg);
+    if (found.picture) request_note_input(reading, found.picture, found.picture_hash);
+    return check_kind(&environment, condition, err);
+}
 
 #define CONDITIONS_MAX 10000
-#define CONTENTS_MAX 1000
 
 static const char *const KEYS[] = {"name",     "environment", "lights", "heading_deg", "level",
                                    "with",     "polarity",    "contents", "route",     "when",
@@ -42,13 +296,6 @@ static bool find_with(const RequestReading *reading, const JsonView *view,
                              &condition->with_id, err);
 }
 
-static int find_symbol(const ReviewRequest *request, const char *name)
-{
-    for (int i = 0; i < request->symbol_count; i++)
-        if (!strcmp(request->symbols[i].name, name)) return i;
-    return NO_ID;
-}
-
 /* An object with symbols' names as keys. */
 static bool read_polarities(const RequestReading *reading, const JsonView *view,
                             ReviewCondition *condition, Error *err)
@@ -59,12 +306,9 @@ static bool read_polarities(const RequestReading *reading, const JsonView *view,
     const char **names = ARENA_NEW(view->arena, const char *, request->symbol_count);
     for (int i = 0; i < request->symbol_count; i++) names[i] = request->symbols[i].name;
     if (!json_view_check_keys(&members.view, names, request->symbol_count, err)) return false;
-    for (int i = 0; i < members.count; i++) {
-        int symbol = find_symbol(request, members.name[i]);
-        if (!request_polarity_read(&members.view, members.name[i],
-                                   &condition->polarity[symbol], err))
+    for (int i = 0; i < request->symbol_count; i++)
+        if (!request_polarity_read(&members.view, names[i], &condition->polarity[i], err))
             return false;
-    }
     return true;
 }
 
@@ -80,20 +324,6 @@ static bool read_polarity(const RequestReading *reading, const JsonView *view,
     for (int i = 0; i < request->symbol_count; i++)
         if (!request_polarity_read(view, "polarity", &condition->polarity[i], err))
             return false;
-    return true;
-}
-
-static bool read_contents(const JsonView *view, ReviewCondition *condition, Error *err)
-{
-    FieldMembers members;
-    if (!field_members(view, "contents", CONTENTS_MAX, &members, err)) return false;
-    condition->contents = ARENA_NEW(view->arena, ReviewContent, members.count);
-    condition->content_count = members.count;
-    for (int i = 0; i < members.count; i++) {
-        condition->contents[i].display = members.name[i];
-        if (!field_file(&members.view, members.name[i], &condition->contents[i].path, err))
-            return false;
-    }
     return true;
 }
 
@@ -121,7 +351,7 @@ static bool read_route(RequestReading *reading, const JsonView *view,
            route_read(path, view->arena, &condition->route, err) &&
            request_note_file(reading, path, err) &&
            read_start(view, &condition->route, err) &&
-           request_weather_read(reading, view, &condition->weather_id, err);
+           read_weather(reading, view, &condition->weather_id, err);
 }
 
 /* Keys that mean nothing beside others are errors, not skipped. */
@@ -151,7 +381,7 @@ static bool read_time(RequestReading *reading, const JsonView *view,
         return false;
     if (has(view, "route")) return read_route(reading, view, condition, err);
     if (!sweep.object) return true;
-    return request_sweep_read(reading, &sweep, condition, err) &&
+    return read_sweep(reading, &sweep, condition, err) &&
            (condition->kind != CONDITION_YEAR_SWEEP || !has(view, "heading_deg") ||
             field_fails(view, "heading_deg", err, "stands beside the sweep of a year, wanted "
                         "'headings_deg' in it"));
@@ -183,9 +413,10 @@ static bool read_condition(RequestReading *reading, int i, Error *err)
            find_with(reading, &view, condition, err) &&
            field_files(&view, "lights", &condition->lights, &condition->light_count, err) &&
            read_polarity(reading, &view, condition, err) &&
-           read_contents(&view, condition, err) && read_heading(&view, condition, err) &&
+           request_contents_read(&view, &condition->contents, &condition->content_count, err) &&
+           read_heading(&view, condition, err) &&
            read_time(reading, &view, condition, err) &&
-           request_light_read(reading, &view, i, condition, err);
+           read_light(reading, &view, i, condition, err);
 }
 
 bool request_conditions_read(RequestReading *reading, Error *err)

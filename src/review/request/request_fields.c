@@ -3,6 +3,8 @@
 
 #include <math.h>
 #include <string.h>
+#define XXH_INLINE_ALL
+#include <xxhash.h>
 
 #include "base/file.h"
 #include "base/mathd.h"
@@ -10,6 +12,7 @@
 #include "text/uri.h"
 
 #define FILES_MAX 256
+#define NAMES_MAX 1000
 #define LENGTH_LEAST 1e-9 /* shorter vectors have no direction */
 
 bool field_fails(const JsonView *view, const char *key, Error *err, const char *format, ...)
@@ -117,6 +120,24 @@ bool field_list(const JsonView *view, const char *key, int most, int *count, Err
     return true;
 }
 
+bool field_names(const JsonView *view, const char *key, const char *what, const char ***out,
+                 int *count, Error *err)
+{
+    int length;
+    if (!field_list(view, key, NAMES_MAX, &length, err)) return false;
+    const char **names = ARENA_NEW(view->arena, const char *, length);
+    for (int i = 0; i < length; i++) {
+        const json_t *item = json_array_get(json_object_get(view->object, key), (size_t)i);
+        if (!json_is_string(item))
+            return json_view_wrong_kind(view, arena_format(view->arena, "%s/%d", key, i), item,
+                                        what, err);
+        names[i] = arena_string(view->arena, json_string_value(item), json_string_length(item));
+    }
+    *out = names;
+    *count = length;
+    return true;
+}
+
 bool field_item(const JsonView *view, const char *key, int i, FieldWords keys, JsonView *out,
                 Error *err)
 {
@@ -192,4 +213,63 @@ bool field_files(const JsonView *view, const char *key, const char ***out, int *
     *out = paths;
     *count = length;
     return true;
+}
+
+/* ---- while it is read -------------------------------------------------------------------- */
+
+#define INPUT_BYTES_MAX ((size_t)1 << 30)
+
+void request_note_input(RequestReading *reading, const char *path, uint64_t hash)
+{
+    ReviewRequest *request = reading->request;
+    for (int i = 0; i < request->input_count; i++)
+        if (!strcmp(request->inputs[i].path, path)) return;
+    if (request->input_count == reading->input_capacity) {
+        reading->input_capacity = 2 * reading->input_capacity + 8;
+        request->inputs = ARENA_GROW(reading->root.arena, ReviewInput, request->inputs,
+                                     request->input_count, reading->input_capacity);
+    }
+    const char *kept = arena_string(reading->root.arena, path, strlen(path));
+    request->inputs[request->input_count++] = (ReviewInput){kept, hash};
+}
+
+bool request_note_file(RequestReading *reading, const char *path, Error *err)
+{
+    FileBytes bytes;
+    Arena     scratch = *reading->root.arena;
+    if (!file_read(path, INPUT_BYTES_MAX, &scratch, &bytes, err)) return false;
+    request_note_input(reading, path, XXH3_64bits(bytes.data, bytes.size));
+    return true;
+}
+
+bool request_contents_read(const JsonView *view, ReviewContent **out, int *count, Error *err)
+{
+    FieldMembers members;
+    if (!field_members(view, "contents", NAMES_MAX, &members, err)) return false;
+    *out = ARENA_NEW(view->arena, ReviewContent, members.count);
+    *count = members.count;
+    for (int i = 0; i < members.count; i++) {
+        (*out)[i].display = members.name[i];
+        if (!field_file(&members.view, members.name[i], &(*out)[i].path, err)) return false;
+    }
+    return true;
+}
+
+bool request_find_name(const JsonView *view, const char *key, FieldWords names,
+                       const char *what, int *out, Error *err)
+{
+    const char *name = NULL;
+    char        advice[256];
+    if (!json_view_text(view, key, &name, err)) return false;
+    if (!name) return true;
+    for (int i = 0; i < names.count; i++)
+        if (!strcmp(names.word[i], name)) {
+            *out = i;
+            return true;
+        }
+    if (!names.count)
+        return field_fails(view, key, err, "is '%.60s', but the file has no '%s'", name, what);
+    return field_fails(view, key, err, "is '%.60s', wanted a name of '%s': %s", name, what,
+                       nearest_word_advice(name, names.word, names.count, advice,
+                                           sizeof advice));
 }

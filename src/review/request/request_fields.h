@@ -9,6 +9,9 @@
  */
 #pragma once
 #include "base/count.h"
+#include "base/problems.h"
+#include "review/request/request.h"
+#include "scene/gltf/tree.h"
 #include "text/json_view.h"
 
 typedef struct FieldBounds {
@@ -50,6 +53,10 @@ bool field_name(const JsonView *view, const char *key, const char **out, Error *
 /* A list: *count items, 0 when it is absent. One that is there has some. */
 bool field_list(const JsonView *view, const char *key, int most, int *count, Error *err);
 
+/* A list of texts; what: such as "a node's name". */
+bool field_names(const JsonView *view, const char *key, const char *what, const char ***out,
+                 int *count, Error *err);
+
 /* Item i of that list, an object with these keys only. */
 bool field_item(const JsonView *view, const char *key, int i, FieldWords keys, JsonView *out,
                 Error *err);
@@ -71,3 +78,28 @@ bool field_file(const JsonView *view, const char *key, const char **out, Error *
 /* A list of such URIs; wanted and absent files are errors alike. */
 bool field_files(const JsonView *view, const char *key, const char ***out, int *count,
                  Error *err);
+
+/* ---- a REVIEW.json while it is being read ------------------------------------------------ */
+
+/* What its parts are read from, and what they are put into. */
+typedef struct RequestReading {
+    JsonView         root;
+    const GltfValue *tree; /* the same document, for its environments */
+    Problems        *problems;
+    ReviewRequest   *request;
+    int              input_capacity, weather_capacity;
+} RequestReading;
+
+/* A file that was read, once. */
+void request_note_input(RequestReading *reading, const char *path, uint64_t hash);
+
+/* The same, of a file whose bytes are to be hashed. */
+bool request_note_file(RequestReading *reading, const char *path, Error *err);
+
+/* What displays show instead: "contents". */
+bool request_contents_read(const JsonView *view, ReviewContent **out, int *count, Error *err);
+
+/* The index of a name in a list that is defined elsewhere in the document (`what`: "levels").
+ * The error names what else there is. */
+bool request_find_name(const JsonView *view, const char *key, FieldWords names,
+                       const char *what, int *out, Error *err);

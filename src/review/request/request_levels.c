@@ -9,16 +9,16 @@
 
 /* ---- fixed ------------------------------------------------------------------------------- */
 
-static bool read_fixed(const FieldMembers *members, ReviewLevel *level, Error *err)
+bool request_levels_fixed(const FieldMembers *members, ReviewFixedLevel **out, Error *err)
 {
-    level->fixed = ARENA_NEW(members->view.arena, ReviewFixedLevel, members->count);
-    level->fixed_count = members->count;
+    ReviewFixedLevel *fixed = ARENA_NEW(members->view.arena, ReviewFixedLevel, members->count);
     for (int i = 0; i < members->count; i++) {
-        level->fixed[i].display = members->name[i];
-        if (!json_view_number(&members->view, members->name[i], 0, LEVEL_MAX,
-                              &level->fixed[i].level, err))
+        fixed[i].display = members->name[i];
+        if (!json_view_number(&members->view, members->name[i], 0, LEVEL_MAX, &fixed[i].level,
+                              err))
             return false;
     }
+    *out = fixed;
     return true;
 }
 
@@ -86,7 +86,9 @@ static bool read_level(const FieldMembers *members, int i, ReviewLevel *level, E
     if (!field_members(&members->view, level->name, FIXED_MAX, &parts, err)) return false;
     bool is_curve = json_object_get(parts.view.object, "sensor") ||
                     json_object_get(parts.view.object, "table_lx");
-    return is_curve ? read_curve(&parts.view, level, err) : read_fixed(&parts, level, err);
+    level->fixed_count = is_curve ? 0 : parts.count;
+    return is_curve ? read_curve(&parts.view, level, err)
+                    : request_levels_fixed(&parts, &level->fixed, err);
 }
 
 bool request_levels_of(const JsonView *view, ReviewLevel **out, int *count, Error *err)

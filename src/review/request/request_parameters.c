@@ -7,7 +7,6 @@
 #include "base/units.h"
 
 #define PARAMETERS_MAX 100
-#define WITH_MAX 1000
 #define GLASS 1.52
 #define QUARTER_WAVE_NM 137.5 /* 550 nm / 4, to be divided by the layer's index */
 
@@ -44,21 +43,6 @@ static bool find_kind(const JsonView *view, ReviewParameter *out, Error *err)
                     "'shift_m', 'hood_m', 'eye_m', 'brightness', 'reflectance'", found);
 }
 
-static bool read_with(const JsonView *view, ReviewParameter *out, Error *err)
-{
-    if (!field_list(view, "with", WITH_MAX, &out->with_count, err)) return false;
-    out->with = ARENA_NEW(view->arena, const char *, out->with_count);
-    for (int i = 0; i < out->with_count; i++) {
-        const json_t *item = json_array_get(json_object_get(view->object, "with"), (size_t)i);
-        if (!json_is_string(item))
-            return json_view_wrong_kind(view, arena_format(view->arena, "with/%d", i), item,
-                                        "a node's name", err);
-        out->with[i] =
-            arena_string(view->arena, json_string_value(item), json_string_length(item));
-    }
-    return true;
-}
-
 static bool read_range(const JsonView *view, ReviewParameter *out, Error *err)
 {
     double range[2] = {out->low, out->high};
@@ -90,11 +74,9 @@ static bool read_at(const JsonView *view, ReviewParameter *out, Error *err)
 static bool check_eye(const RequestReading *reading, const JsonView *view,
                       const ReviewParameter *parameter, Error *err)
 {
-    const ReviewRequest *request = reading->request;
-    if (parameter->kind != PARAMETER_EYE) return true;
-    for (int i = 0; i < request->eye_count; i++)
-        if (!strcmp(request->eyes[i].name, parameter->target)) return true;
-    return field_fails(view, "eye", err,
+    return parameter->kind != PARAMETER_EYE ||
+           review_eye_named(reading->request, parameter->target) ||
+           field_fails(view, "eye", err,
                        "is no eye of the review, wanted a name of its 'eyes'");
 }
 
@@ -122,7 +104,8 @@ static bool read_parameter(RequestReading *reading, const FieldMembers *members,
     if (!json_view_check_keys(&view, keys, count, err) ||
         !json_view_number(&view, keys[0], 1e-6, KINDS[out->kind].step_most, &out->step, err) ||
         !field_name(&view, keys[1], &out->target, err) || !read_at(&view, out, err) ||
-        !read_range(&view, out, err) || !read_with(&view, out, err))
+        !read_range(&view, out, err) ||
+        !field_names(&view, "with", "a node's name", &out->with, &out->with_count, err))
         return false;
     if (KINDS[out->kind].has_direction &&
         !field_unit_vector(&view, "direction", out->direction, &has_direction, err))

@@ -7,7 +7,7 @@
  * Threads  one at a time. Fails as request_read.h.
  */
 #pragma once
-#include "review/request/request_reading.h"
+#include "review/request/request_fields.h"
 
 bool request_parameters_read(RequestReading *reading, Error *err);
 

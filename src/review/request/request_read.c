@@ -11,7 +11,6 @@
 #include "review/request/request_eyes.h"
 #include "review/request/request_levels.h"
 #include "review/request/request_parameters.h"
-#include "review/request/request_symbols.h"
 #include "review/request/request_variants.h"
 #include "tinygltf/gltf_json.h"
 

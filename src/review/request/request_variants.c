@@ -11,10 +11,8 @@
 
 #define VARIANTS_MAX 100
 #define NAMES_MAX 1000
-#define WITH_MAX 1000
 #define METRES_MAX 100.0
 #define HOOD_MAX_M 2.0
-#define BRIGHTNESS_MAX 100.0
 
 static const char *const KEYS[] = {"panels",  "contents",  "levels", "brightness",
                                    "coatings", "glazings", "materials", "nodes", "hoods",
@@ -70,17 +68,14 @@ static bool read_panels(VariantReading *v, Error *err)
 
 static bool read_contents(VariantReading *v, Error *err)
 {
-    FieldMembers members;
-    if (!field_members(&v->view, "contents", NAMES_MAX, &members, err)) return false;
-    ReviewContent *contents = ARENA_NEW(arena_of(v), ReviewContent, members.count);
-    for (int i = 0; i < members.count; i++) {
-        contents[i].display = members.name[i];
-        if (!field_file(&members.view, members.name[i], &contents[i].path, err)) return false;
-        say(v, arena_format(arena_of(v), "%s shows %s", members.name[i],
+    ReviewContent *contents;
+    int            count;
+    if (!request_contents_read(&v->view, &contents, &count, err)) return false;
+    for (int i = 0; i < count; i++)
+        say(v, arena_format(arena_of(v), "%s shows %s", contents[i].display,
                             path_name(contents[i].path)));
-    }
     v->variant->change.contents = contents;
-    v->variant->change.content_count = members.count;
+    v->variant->change.content_count = count;
     return true;
 }
 
@@ -106,17 +101,15 @@ static bool read_levels(VariantReading *v, Error *err)
 
 static bool read_brightness(VariantReading *v, Error *err)
 {
-    FieldMembers members;
-    if (!field_members(&v->view, "brightness", NAMES_MAX, &members, err)) return false;
-    ReviewFixedLevel *list = ARENA_NEW(arena_of(v), ReviewFixedLevel, members.count);
-    for (int i = 0; i < members.count; i++) {
-        const char *name = members.name[i];
-        list[i].display = name;
-        if (!json_view_number(&members.view, name, 0, BRIGHTNESS_MAX, &list[i].level, err))
-            return false;
+    FieldMembers      members;
+    ReviewFixedLevel *list;
+    if (!field_members(&v->view, "brightness", NAMES_MAX, &members, err) ||
+        !request_levels_fixed(&members, &list, err))
+        return false;
+    for (int i = 0; i < members.count; i++)
         say(v, arena_format(arena_of(v), "%s %g times as bright",
-                            strcmp(name, "*") ? name : "every display", list[i].level));
-    }
+                            strcmp(list[i].display, "*") ? list[i].display : "every display",
+                            list[i].level));
     v->variant->change.brightness = list;
     v->variant->change.brightness_count = members.count;
     return true;
@@ -182,24 +175,6 @@ static bool read_extension(VariantReading *v, const char *key, const char *exten
 
 /* ---- geometry ---------------------------------------------------------------------------- */
 
-static bool read_with(const JsonView *view, SceneChange *change, Error *err)
-{
-    int count;
-    if (!field_list(view, "with", WITH_MAX, &count, err)) return false;
-    const char **names = ARENA_NEW(view->arena, const char *, count);
-    for (int i = 0; i < count; i++) {
-        const json_t *item = json_array_get(json_object_get(view->object, "with"), (size_t)i);
-        if (!json_is_string(item))
-            return json_view_wrong_kind(view, arena_format(view->arena, "with/%d", i), item,
-                                        "a node's name", err);
-        names[i] = arena_string(view->arena, json_string_value(item),
-                                json_string_length(item));
-    }
-    change->with = names;
-    change->with_count = count;
-    return true;
-}
-
 static void set_words(VariantReading *v, const SceneChange *c)
 {
     static const char *const WAYS[3] = {"tilted", "turned", "rolled"};
@@ -221,6 +196,7 @@ static bool read_node(VariantReading *v, const FieldMembers *members, int i, Err
     static const char *const keys[] = {"tilt_deg", "turn_deg", "roll_deg", "move_m", "with"};
     JsonView     view;
     double       angle[3] = {0, 0, 0}, move[3] = {0, 0, 0};
+    const char **with = NULL;
     SceneChange *change = add_change(v, CHANGE_NODES, members, i);
     if (!json_view_child(&members->view, members->name[i], true, &view, err) ||
         !json_view_check_keys(&view, keys, COUNT_OF(keys), err))
@@ -229,8 +205,9 @@ static bool read_node(VariantReading *v, const FieldMembers *members, int i, Err
         if (!json_view_number(&view, keys[k], -180, 180, &angle[k], err)) return false;
     if (!field_numbers(&view, "move_m", (JsonRange){-METRES_MAX, METRES_MAX, 3}, move, NULL,
                        err) ||
-        !read_with(&view, change, err))
+        !field_names(&view, "with", "a node's name", &with, &change->with_count, err))
         return false;
+    change->with = with;
     change->tilt = (float)radians_from_degrees(angle[0]);
     change->turn = (float)radians_from_degrees(angle[1]);
     change->roll = (float)radians_from_degrees(angle[2]);
@@ -278,18 +255,17 @@ static bool read_eye(VariantReading *v, const FieldMembers *members, int i, Erro
         !json_view_check_keys(&view, keys, COUNT_OF(keys), err) ||
         !field_wanted(&view, "move_m", err))
         return false;
-    for (int e = 0; e < request->eye_count; e++) {
-        if (strcmp(request->eyes[e].name, name) != 0) continue;
-        double *move = v->variant->eye_moves[e];
-        if (!field_numbers(&view, "move_m", (JsonRange){-METRES_MAX, METRES_MAX, 3}, move,
-                           NULL, err))
-            return false;
-        say(v, arena_format(arena_of(v), "%s moved by (%.4g, %.4g, %.4g) m", name, move[0],
-                            move[1], move[2]));
-        return true;
-    }
-    return field_fails(&members->view, name, err,
-                       "is no eye of the review, wanted a name of its 'eyes'");
+    const ReviewEye *eye = review_eye_named(request, name);
+    if (!eye)
+        return field_fails(&members->view, name, err,
+                           "is no eye of the review, wanted a name of its 'eyes'");
+    double *move = v->variant->eye_moves[eye - request->eyes];
+    if (!field_numbers(&view, "move_m", (JsonRange){-METRES_MAX, METRES_MAX, 3}, move, NULL,
+                       err))
+        return false;
+    say(v, arena_format(arena_of(v), "%s moved by (%.4g, %.4g, %.4g) m", name, move[0], move[1],
+                        move[2]));
+    return true;
 }
 
 static bool read_eyes(VariantReading *v, Error *err)

@@ -8,6 +8,6 @@
  * Fails    as request_read.h; names of the scene are found when it is loaded.
  */
 #pragma once
-#include "review/request/request_reading.h"
+#include "review/request/request_fields.h"
 
 bool request_variants_read(RequestReading *reading, Error *err);

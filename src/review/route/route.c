@@ -7,8 +7,8 @@
 #include "base/file.h"
 #include "base/mathd.h"
 #include "base/units.h"
-#include "review/route/route_csv.h"
 #include "review/route/route_gpx.h"
+#include "review/route/route_points.h"
 
 #define EARTH_M 6371008.8 /* mean radius (IUGG) */
 #define STANDING_M 1.0

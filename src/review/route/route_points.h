@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* route_points.h -- the points of a route while its file is read: texts become numbers.
+/* route_points.h -- the points of a route while its file is read: texts become numbers. And
+ * those of a table: a header line, then a line a point.
  *
+ * Columns  time, lat, lon wanted; heading and altitude_m may be missing, and their cells empty.
+ *          Commas, semicolons or tabs between cells; # comments and empty lines are skipped.
  * Memory   the arena's. Threads: one at a time.
  * Fails    with the file, the line, the value's name in the file, what was found and wanted.
  */
@@ -37,3 +40,5 @@ typedef struct RouteText {
 
 /* Adds a point; its time must not lie before the one of the last. */
 bool route_points_add(RoutePoints *points, const RouteText *text, Error *err);
+
+bool route_csv_read(const char *text, RoutePoints *points, Error *err);

@@ -11,11 +11,11 @@
 #include "render/identity.h"
 #include "render/train.h"
 #include "review/judge.h"
-#include "review/keep/go_on.h"
-#include "review/pace/work.h"
+#include "review/keep/journal.h"
 #include "review/light/eye_reading.h"
 #include "review/light/response.h"
 #include "review/output/review_decide.h"
+#include "review/pace/work.h"
 #include "review/request/request_check.h"
 #include "review/run/causes.h"
 #include "text/text.h"
@@ -41,20 +41,16 @@
 
 /* ---- eyes -------------------------------------------------------------------------------- */
 
-static Vec3 vec3_of(const double p[3])
-{
-    return vec3((float)p[0], (float)p[1], (float)p[2]);
-}
-
 bool setup_eye_middle(const Setup *setup, const ReviewEye *eye, Arena scratch, Vec3 *out,
                       Error *err)
 {
     int id;
-    *out = vec3_add(vec3_of(eye->position_m), vec3_of(eye->move_m));
+    *out = vec3_add(vec3_from_doubles(eye->position_m), vec3_from_doubles(eye->move_m));
     if (eye->kind != EYE_CAMERA) return true;
     if (!review_camera_find(setup->scene, eye, scratch, &id, err))
         return error_in_file(err, setup->request->file);
-    *out = vec3_add(setup->scene->cameras[id].world_from_camera.origin, vec3_of(eye->move_m));
+    *out = vec3_add(setup->scene->cameras[id].world_from_camera.origin,
+                    vec3_from_doubles(eye->move_m));
     return true;
 }
 
@@ -68,7 +64,7 @@ Vec3 *setup_eye_points(const Setup *setup, const ReviewEye *eye, int *count, Are
     for (int i = 0; i < *count; i++) {
         double p[3];
         review_eye_point(eye, i, p);
-        points[i] = vec3_of(p);
+        points[i] = vec3_from_doubles(p);
     }
     return points;
 }
@@ -125,7 +121,7 @@ static void set_contrasts(ReviewCase *c, MeanInterval reflected)
 {
     const CaseLuminances *l = &c->luminance_cd_m2;
     double veil = isnan(l->veil) ? 0 : l->veil;
-    judge_contrasts(c, (Range){reflected.low, reflected.high});
+    judge_contrasts(c, reflected);
     c->jnd = grey_steps_between(l->foreground + l->reflected + veil,
                                 l->background + l->reflected + veil);
 }
@@ -298,7 +294,7 @@ static ProbeAim see_symbol(const CaseTools *tools, const CaseLook *look, ReviewC
     *l = (CaseLuminances){(double)NAN, (double)NAN, (double)NAN, (double)NAN, (double)NAN,
                           (double)NAN};
     c->minutes_to_decide = c->precision_asked = c->precision_reached = (double)NAN;
-    c->reflected_range = (Range){(double)NAN, (double)NAN};
+    c->reflected_range = (MeanInterval){(double)NAN, (double)NAN};
     c->visible_share = seen.visible_share;
     if (seen.visible_share < 1 && !look->is_coarse)
         case_hiders(&symbol->surface, &setup->context, eye, c, arena);

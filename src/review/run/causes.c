@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "review/chain/chain_words.h"
+#include "review/chain/chains.h"
 
 #define LEAST_PART 0.01 /* of what is reflected: a part that is worth a word */
 #define COATED 0.25 /* of a mirror's light that a usual anti-reflection coating leaves */

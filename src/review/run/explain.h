@@ -20,9 +20,7 @@ typedef struct ExplainOptions {
     const char *condition, *eye, *symbol; /* NULL: there is only one */
     bool        has_sun;                  /* of a sweep: which of its suns, */
     double      sun_deg[2];               /* azimuth of the vehicle, elevation */
-    const char *root, *isa;               /* --root, kernel.h's; or NULL */
-    SceneState  state;                    /* scene.h's */
-    int         threads;
+    SetupMeans  means;
     long        paths;
     bool        with_outlook;
     const Profile *profile;               /* limits */
@@ -43,3 +41,16 @@ Outlook setup_outlook(const Setup *setup, const SetupSymbol *symbol, Vec3 eye, A
 
 bool explain_review(const ReviewRequest *request, const ExplainOptions *options, Arena *arena,
                     Explained *out, Error *err);
+
+/* A scene that is lit, and what is looked at in it. */
+typedef struct ExplainPlace {
+    const ReadingTools *tools;
+    ProbeAim            aim; /* along its targets the eye looks; a path each, and again */
+    long                paths;
+    bool                with_outlook;
+} ExplainPlace;
+
+/* Where at least half of the targets show a display, those of them count and the light is what
+ * it reflects, its contrast that of white and black as the display sends them; else all that
+ * comes to the eye. */
+void explain_place(const ExplainPlace *place, Arena *arena, Explained *out);

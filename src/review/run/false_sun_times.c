@@ -6,6 +6,7 @@
 
 #include "base/parallel.h"
 #include "base/units.h"
+#include "review/chain/chains.h"
 #include "vision/disability_glare.h"
 
 #define STEP_MINUTES 1
@@ -40,10 +41,9 @@ static Gazes gazes_of(const Sweep *sweep, int eye_id, Arena *arena)
     add_symbols(sweep, eye_id, &gazes);
     for (int i = 0; i < request->gaze_count; i++) {
         const ReviewGaze *gaze = &request->gazes[i];
-        const double     *d = gaze->direction;
         if (!gaze->at_symbols && gaze->for_eye[eye_id])
             gazes.list[gazes.count++] =
-                (Gaze){gaze->name, vec3((float)d[0], (float)d[1], (float)d[2])};
+                (Gaze){gaze->name, vec3_from_doubles(gaze->direction)};
     }
     return gazes;
 }
@@ -199,13 +199,11 @@ static ReviewFalseSun listed(const Watch *watch, const Tally *tally, const Sweep
                              Arena *arena)
 {
     const Setup *setup = watch->sweep->setup;
-    const Part  *part = &setup->scene->parts[tally->part_id];
     bool         timed = suns->has_time;
     double       all = timed ? watch->tallies->minutes : watch->tallies->suns;
     return (ReviewFalseSun){
         .condition = setup->condition->name,
-        .mirror = arena_format(arena, "%s (%s)", part->name,
-                               setup->scene->materials[part->material_id].name),
+        .mirror = chain_part_words(setup->scene, tally->part_id, arena),
         .share = (timed ? tally->minutes : tally->suns) / all,
         .minutes = timed ? tally->minutes : (double)NAN,
         .longest_minutes = timed ? tally->longest : (double)NAN,
@@ -242,16 +240,14 @@ static void watch_eye(void *context, int eye, int worker)
 
 void false_sun_times(const Sweep *sweep, Arena scratch, Arena *arena, Review *out)
 {
-    const ReviewRequest  *request = sweep->run->request;
-    const ReviewObserver *observer = &request->observer;
-    SweepSuns suns = closer_suns(sweep->setup->condition, sweep->run->threads, &scratch);
+    const ReviewRequest *request = sweep->run->request;
+    SweepSuns suns = closer_suns(sweep->setup->condition, sweep->run->means.threads, &scratch);
     Watching  watching = {ARENA_NEW(&scratch, Watch, request->eye_count), &suns};
     for (int e = 0; e < request->eye_count; e++)
         watching.eyes[e] =
             (Watch){sweep, &sweep->false_suns[e], gazes_of(sweep, e, &scratch),
-                    {observer->age_years, observer->pigment},
-                    ARENA_NEW(&scratch, Tallies, 1)};
-    parallel_for(sweep->run->threads, request->eye_count, watch_eye, &watching);
+                    request->observer, ARENA_NEW(&scratch, Tallies, 1)};
+    parallel_for(sweep->run->means.threads, request->eye_count, watch_eye, &watching);
     for (int e = 0; e < request->eye_count; e++)
         report(&watching.eyes[e], &request->eyes[e], &suns, arena, out);
 }

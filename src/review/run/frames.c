@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "review/run/frames.h"
 
-#include <string.h>
 
 #include "base/parallel.h"
 #include "base/units.h"
@@ -10,26 +9,15 @@
 #include "render/identity.h"
 #include "render/render.h"
 #include "render/train.h"
-#include "review/run/cases.h"
 #include "review/keep/frame_kept.h"
-#include "review/keep/go_on.h"
+#include "review/keep/journal.h"
 #include "review/pace/work.h"
 #include "review/request/request_check.h"
+#include "review/run/cases.h"
 
 #define YFOV_DEG 35 /* of an eye that is no camera */
 #define WORDS 16    /* of a frame's metadata, at most */
 #define FILES_BYTES ((size_t)1 << 36) /* address space: what is not touched costs nothing */
-
-const char *file_name_of(const char *text, Arena *arena)
-{
-    char *name = arena_string(arena, text, strlen(text));
-    for (char *c = name; *c; c++) {
-        bool is_plain = (*c >= 'a' && *c <= 'z') || (*c >= 'A' && *c <= 'Z') ||
-                        (*c >= '0' && *c <= '9') || *c == '_';
-        if (!is_plain) *c = '-';
-    }
-    return name;
-}
 
 bool frame_camera(const FrameAsk *ask, SceneCamera *out, Arena scratch, Error *err)
 {

@@ -49,6 +49,3 @@ bool frame_exposure(const char *exr, Arena *arena, const char **out, Error *err)
 
 /* *out: the picture's name within the folder. */
 bool frame_make(const FrameAsk *ask, Arena *arena, const char **out, Error *err);
-
-/* A file's name from texts of any kind: letters and digits stay, all else becomes '-'. */
-const char *file_name_of(const char *text, Arena *arena);

@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "base/units.h"
+#include "review/chain/chains.h"
 #include "review/light/eye_reading.h"
 #include "review/light/gaze_reading.h"
 #include "review/run/cases.h"
@@ -20,8 +21,7 @@
 
 static GazeGoal goal_of(Vec3 eye, const ReviewGaze *gaze, int most)
 {
-    const double *d = gaze->direction;
-    return (GazeGoal){eye, vec3((float)d[0], (float)d[1], (float)d[2]), PRECISION, most};
+    return (GazeGoal){eye, vec3_from_doubles(gaze->direction), PRECISION, most};
 }
 
 /* Light over the view, quickly. */
@@ -47,26 +47,20 @@ static Vec3 worst_point(const Setup *setup, const ReviewGaze *gaze, const Vec3 *
 
 /* ---- figures ----------------------------------------------------------------------------- */
 
-static const char *part_words(const Scene *scene, int part_id, Arena *arena)
-{
-    const Part *part = &scene->parts[part_id];
-    return arena_format(arena, "%s (%s)", part->name, scene->materials[part->material_id].name);
-}
-
 static void name_mirrored(const Setup *setup, const GazeMirrored *most, GazeFinding *out,
                           Arena *arena)
 {
     static const char *const SOURCES[LIGHT_SETS] = {"sun", "sky", "a display", "a lamp"};
     if (most->pane_id == NO_ID) return;
-    out->mirrored_by = part_words(setup->scene, most->pane_id, arena);
+    out->mirrored_by = chain_part_words(setup->scene, most->pane_id, arena);
     out->mirrored_from = most->part_id == NO_ID
                              ? SOURCES[most->source]
-                             : part_words(setup->scene, most->part_id, arena);
+                             : chain_part_words(setup->scene, most->part_id, arena);
 }
 
-static Range range_of(double mean, double half)
+static MeanInterval range_of(double mean, double half)
 {
-    return (Range){fmax(mean - half, 0), mean + half};
+    return (MeanInterval){fmax(mean - half, 0), mean + half};
 }
 
 /* Standard error of through / all, all = through + veils; the three are read independently. */
@@ -82,11 +76,11 @@ static void set_contrasts(const GazeReading *along, double veil_half, GazeFindin
     double all = seen + out->veil - out->veil_parts.near;
     out->contrast_behind_glass = seen > 0 ? along->through / seen : (double)NAN;
     out->contrast_left = all > 0 ? along->through / all : (double)NAN;
-    out->contrast_range = (Range){(double)NAN, (double)NAN};
+    out->contrast_range = (MeanInterval){(double)NAN, (double)NAN};
     if (!(all > 0)) return;
     double half =
         INTERVAL_SIGMAS * contrast_sigma(along, all, veil_half / INTERVAL_SIGMAS);
-    out->contrast_range = (Range){fmax(out->contrast_left - half, 0),
+    out->contrast_range = (MeanInterval){fmax(out->contrast_left - half, 0),
                                   fmin(out->contrast_left + half, 1)};
 }
 

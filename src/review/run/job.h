@@ -8,8 +8,8 @@
 #include "base/problems.h"
 #include "base/progress.h"
 #include "review/keep/journal.h"
+#include "review/light/false_suns.h"
 #include "review/light/inherited.h"
-#include "review/light/sun_searches.h"
 #include "review/profile.h"
 #include "review/request/request.h"
 #include "review/share.h"
@@ -39,23 +39,17 @@ typedef struct ReviewRider {
 typedef struct ReviewRun {
     const ReviewRequest *request;
     const Profile       *profile;
-    const char          *root;     /* --root, or NULL */
-    SceneState           state;    /* scene.h's */
-    int                  threads;
-    const char          *isa;      /* kernel.h's; NULL: the best */
+    SetupMeans           means;    /* inherited: what its variants will take over, or do */
     Progress            *work;     /* pace/work.h: of all that is left, or of a part in hand */
     const char          *folder;   /* of the frames, which is there; */
     const char          *unfinished; /* of checkpoints, */
     const char          *responses;  /* and of responses: as it is opened (plan: NULL: none), */
     const char          *responses_shown; /* and as the review names it */
-    Journal             *journal;  /* of readings that were taken before */
-    const char          *lessons;  /* folder of what was learnt before; NULL: none is kept */
     ReviewShare          share;    /* of its questions: the others' are left alone */
     const char          *identity; /* review_plan's, of what was planned; NULL: anything */
     ReviewNews           news;
     Problems            *problems; /* warnings of scenes, once each */
     SunSearches         *sun_searches; /* review_run's own */
-    Inherited           *inherited; /* what its variants will take over, or do; NULL: nothing */
     const Review        *base;     /* this is a variant of that, which is made before: verdicts
                                       alone are made (cases.h); NULL: the review itself */
     ReviewRider         *riders;   /* go with it; a share of one has none */
@@ -65,16 +59,20 @@ typedef struct ReviewRun {
 /* A variant's run, by its request, held against that. */
 ReviewRun review_run_of(const ReviewRun *run, const ReviewRequest *request, const Review *base);
 
+/* The case of one sight of a sweep under every sun: [sun] of each. */
+typedef struct SunFigures {
+    float *contrast, *low, *high; /* with its 95 % interval */
+    float *margin, *reflected, *mirror, *level, *lux;
+    unsigned char *verdict, *ambient;
+    int    worst; /* sun; -1: none */
+} SunFigures;
+
 /* A sweep's results under each of its suns: one symbol, one eye. */
 typedef struct SweepTable {
     int              sweep_id;  /* of the review */
-    int              worst;     /* sun; -1: none */
     SweepSun         worst_sun; /* where near that one it is worst */
     const SweepSuns *suns;      /* shared by the sweep's tables */
-    const float     *contrast, *low, *high; /* [suns->count], as all that follow: contrasts
-                                               with their 95 % interval */
-    const float     *margin, *reflected, *mirror, *level, *lux;
-    const unsigned char *verdict, *ambient;
+    SunFigures       figures;   /* [suns->count] */
     double           foreground, background; /* cd m^-2, emitted at level 1 */
     const LimitVerdict *const *asked; /* [4] the contrast limit of each ambient; NULL: none */
 } SweepTable;

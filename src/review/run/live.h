@@ -13,8 +13,34 @@
  * Fails    when a frame cannot be read, or memory is out.
  */
 #pragma once
+#include "image/frame.h"
 #include "review/output/review_live.h"
 #include "review/run/job.h"
+#include "vision/human_eye.h"
+
+/* ---- a frame as a sum: what displays emit to the eye, and the rest ----------------------- */
+
+/* cd m^-2, R, G, B of Rec.709. */
+typedef struct LivePlanes {
+    int    width, height;
+    float *rgb[3];
+} LivePlanes;
+
+typedef struct LiveFrame {
+    LivePlanes scene, displays; /* add up to the frame's R, G, B */
+} LiveFrame;
+
+/* Wants display.emitted and display.coverage. */
+bool live_frame_split(const FrameImage *frame, Arena *arena, LiveFrame *out, Error *err);
+
+/* At most so large, as it is or smaller: each pixel is the mean over its area. */
+LivePlanes live_frame_shrink(const LivePlanes *planes, int width, int height, Arena *arena);
+
+/* Both pictures. A perspective view, yfov_deg high. */
+bool live_frame_spread(LiveFrame *frame, double yfov_deg, HumanEye eye, int threads,
+                       Arena *arena, Error *err);
+
+/* ---- all of it --------------------------------------------------------------------------- */
 
 enum { LIVE_WIDTH = 960, LIVE_HEIGHT = 540 };
 

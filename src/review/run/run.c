@@ -3,19 +3,19 @@
 
 #include <string.h>
 
+#include "render/identity.h"
+#include "review/keep/journal.h"
+#include "review/output/review_decide.h"
+#include "review/pace/work.h"
+#include "review/request/request_check.h"
 #include "review/run/cases.h"
 #include "review/run/false_sun_times.h"
 #include "review/run/gazes.h"
-#include "review/keep/go_on.h"
-#include "review/pace/work.h"
-#include "review/output/review_decide.h"
-#include "review/request/request_check.h"
 #include "review/run/sweep.h"
 #include "review/run/sweep_probes.h"
 #include "review/run/sweep_weather.h"
-#include "render/identity.h"
-#include "text/text.h"
 #include "scene/load/material_data.h"
+#include "text/text.h"
 
 /* The most address space that a setup takes; what is not touched costs nothing. */
 #define SETUP_BYTES ((size_t)1 << 36)
@@ -209,9 +209,7 @@ static void report_without_data(const Scene *scene, Review *review, Arena scratc
 static bool run_condition(const ReviewRun *run, const ReviewCondition *condition,
                           const SweepGroup *group, Arena *arena, ReviewOutcome *out, Error *err)
 {
-    SetupOptions options = {run->request, condition, run->root,   run->state,
-                            run->threads, run->isa,  run->journal, run->lessons,
-                            run->inherited};
+    SetupOptions options = {run->request, condition, run->means};
     Arena scratch = arena_reserve(SETUP_BYTES);
     Setup setup;
     bool  ok = setup_open(&options, &scratch, run->problems, &setup, err);
@@ -266,7 +264,7 @@ static bool run_conditions(const ReviewRun *run, Arena *arena, ReviewOutcome *ou
         const ReviewCondition *condition = &request->conditions[i];
         SweepGroup group = {NULL, 0};
         if (is_done[i]) continue;
-        if (!review_goes_on(run->journal, err)) return false;
+        if (!review_goes_on(run->means.journal, err)) return false;
         bool is_moment = condition->kind == CONDITION_MOMENT;
         MomentShare share = share_of(run, condition);
         if (is_moment && !moment_share_has_any(&share)) continue;
@@ -297,10 +295,12 @@ static void mark_scene(const ReviewRequest *request, int first, int *done_by)
 static bool plan_condition(const ReviewRun *run, const ReviewCondition *condition,
                            ReviewPlan *plan, JournalKey *base, Error *err)
 {
-    SetupOptions options = {run->request, condition, run->root, run->state,
-                            run->threads, run->isa,  NULL, NULL, NULL};
+    SetupOptions options = {run->request, condition, run->means};
     Arena scratch = arena_reserve(SETUP_BYTES);
     Setup setup;
+    options.means.journal = NULL; /* nothing is read */
+    options.means.lessons = NULL;
+    options.means.inherited = NULL;
     bool  ok = setup_open(&options, &scratch, run->problems, &setup, err);
     if (ok) {
         Sweep        sweep = {.run = run, .setup = &setup};
@@ -330,7 +330,7 @@ bool review_plan(const ReviewRun *run, Arena *arena, ReviewPlan *out, Error *err
     JournalKey *bases = ARENA_NEW(arena, JournalKey, count);
     Text        identity = {.arena = arena};
     *out = (ReviewPlan){0};
-    if (!kernel_choose(run->isa, &kernel, err)) return false;
+    if (!kernel_choose(run->means.isa, &kernel, err)) return false;
     identity_add_program(&identity, kernel);
     for (int i = 0; i < count; i++) done_by[i] = -1;
     for (int i = 0; i < count; i++) {

@@ -32,7 +32,8 @@ static ReviewCase case_at(const Sweep *sweep, const Sight *sight, const DistantT
     c.luminance_cd_m2 = (CaseLuminances){
         level * sight->shown.foreground, level * sight->shown.background, reflected,
         light.mirror, reflected - light.mirror, (double)NAN};
-    judge_contrasts(&c, (Range){fmax(light.interval.low + own, 0), light.interval.high + own});
+    judge_contrasts(&c, (MeanInterval){fmax(light.interval.low + own, 0),
+                                       light.interval.high + own});
     judge_ambient(&c, sweep->run->profile, light.sun_first > CASE_SUNLIT * reflected);
     return c;
 }
@@ -100,7 +101,7 @@ static void judge_chunk(void *user, int item, int worker)
 void sun_figures_judge(const Sweep *sweep, const Sight *sight, const DistantTools *tools,
                        SunFigures *figures, Arena room)
 {
-    int      count = sweep->suns.count, threads = sweep->run->threads;
+    int      count = sweep->suns.count, threads = sweep->run->means.threads;
     JudgeWork work = {sweep, sight, tools, figures, NULL};
     work.scratch = ARENA_NEW(&room, Arena, threads);
     for (int i = 0; i < threads; i++) work.scratch[i] = arena_reserve(JUDGE_BYTES);

@@ -8,14 +8,6 @@
 #pragma once
 #include "review/run/sweep_probes.h"
 
-/* [sun] of each. */
-typedef struct SunFigures {
-    float *contrast, *low, *high; /* with its interval */
-    float *margin, *reflected, *mirror, *level, *lux;
-    unsigned char *verdict, *ambient;
-    int    worst; /* sun; -1: none */
-} SunFigures;
-
 SunFigures sun_figures_start(int count, Arena *arena);
 
 /* Judges the case under each of the sweep's suns, of which the sight was asked. */

@@ -7,13 +7,13 @@
 #include "base/parallel.h"
 #include "base/units.h"
 #include "review/judge.h"
-#include "review/suns/failures.h"
-#include "review/run/false_sun_times.h"
-#include "review/keep/go_on.h"
+#include "review/keep/journal.h"
 #include "review/pace/work.h"
-#include "review/run/sweep_probes.h"
+#include "review/run/false_sun_times.h"
 #include "review/run/sun_figures.h"
+#include "review/run/sweep_probes.h"
 #include "review/run/sweep_weather.h"
+#include "review/suns/failures.h"
 
 #define WORST_READ 3          /* steps that are read again, at most */
 #define WORST_APART_DEG 5.0   /* the suns of two of them, at least: a response's angular
@@ -52,9 +52,8 @@ static void set_weather(const Setup *setup, const SweepSun *sun, Environment *en
 
 Environment sweep_environment(const Setup *setup, const SweepSun *sun)
 {
-    const double *forward = setup->request->forward;
-    Environment   environment = {
-        .forward = vec3((float)forward[0], (float)forward[1], (float)forward[2]),
+    Environment environment = {
+        .forward = vec3_from_doubles(setup->request->forward),
         .heading = (float)radians_from_degrees(sun->heading_deg)};
     if (setup->condition->weather_id != NO_ID && sun->step >= 0) {
         set_weather(setup, sun, &environment);
@@ -284,11 +283,9 @@ static void add_table(const SweepReport *to, const Sight *sight, const SunFigure
 {
     int id = (int)(sight - to->sweep->sights);
     if (to->sweep->run->base) return; /* variants have no tables */
-    to->tables[id] = (SweepTable){
-        to->first + id, figures->worst, *worst, to->suns, figures->contrast, figures->low,
-        figures->high, figures->margin, figures->reflected, figures->mirror, figures->level,
-        figures->lux, figures->verdict, figures->ambient, sight->shown.foreground,
-        sight->shown.background,         limits_asked(to, sight)};
+    to->tables[id] = (SweepTable){to->first + id, *worst, to->suns, *figures,
+                                  sight->shown.foreground, sight->shown.background,
+                                  limits_asked(to, sight)};
 }
 
 /* A variant's figures, whose tables nobody asks for, last as long as the scratch. asked: the
@@ -361,7 +358,7 @@ static bool report_sights(Sweep *sweep, SweepReport *to, int count, Arena room, 
         int          eyes = sweep->sight_count / symbols;
         const Sight *sight = &sweep->sights[i % eyes * symbols + i / eyes];
         if (sight->is_left) continue;
-        if (!review_goes_on(sweep->run->journal, err) ||
+        if (!review_goes_on(sweep->run->means.journal, err) ||
             !report_asked(sweep, to, count, sight, room, err))
             return false;
         work_add(sweep->run->work, work_of_sight(&sweep->suns));
@@ -387,7 +384,7 @@ static void report_responses(const Sweep *sweep, Arena *arena, ReviewOutcome *ou
         review->responses[review->response_count++] = (ReviewResponse){
             arena_string(arena, ask->name, strlen(ask->name)),
             arena_string(arena, ask->shown, strlen(ask->shown)), response->paths,
-            ask->file.bytes, response->relative_error};
+            (long)ask->file.bytes, response->relative_error};
         out->responses_kept += ask->is_kept;
     }
 }
@@ -408,7 +405,7 @@ static bool make_skies(Sweep *sweep, Arena *scratch, Error *err)
     like.has_time = false;
     like.threads = setup->tools.threads;
     sweep->table = sky_table_start(&like, low, high, scratch);
-    sweep->table.inherited = sweep->run->inherited;
+    sweep->table.inherited = sweep->run->means.inherited;
     if (setup->condition->kind == CONDITION_SUN_SWEEP) {
         const ReviewRange *azimuths = &setup->condition->azimuth_deg;
         double             heading = sweep->suns.list[0].heading_deg; /* of all of them */
@@ -501,7 +498,7 @@ static bool report_with_riders(Sweep *sweep, const SweepReport *own, Arena room,
 static bool sweep_condition(Sweep *sweep, Arena scratch, Arena *arena, ReviewOutcome *out,
                             Error *err)
 {
-    sweep->suns = sweep_suns(sweep->setup->condition, sweep->run->threads, arena);
+    sweep->suns = sweep_suns(sweep->setup->condition, sweep->run->means.threads, arena);
     set_level(sweep);
     if (!make_skies(sweep, &scratch, err)) return false;
     if (!sweep_ask_light(sweep, &scratch, err)) return false;

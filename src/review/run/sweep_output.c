@@ -35,6 +35,7 @@ bool sweep_table_write(const SweepTable *table, const ReviewCondition *condition
 {
     Arena own = arena_reserve((size_t)1 << 32);
     Text  text = {.arena = &own};
+    const SunFigures *f = &table->figures;
     text_format(&text, "%ssun_azimuth_deg,sun_elevation_deg,heading_deg,vehicle_azimuth_deg,"
                        "minutes,level,display_lx,reflected_cd_m2,sun_by_mirror_cd_m2,"
                        "contrast_ratio,contrast_low,contrast_high,margin,verdict\n",
@@ -44,11 +45,11 @@ bool sweep_table_write(const SweepTable *table, const ReviewCondition *condition
         add_time(&text, table, condition, sun);
         text_format(&text, "%.2f,%.2f,%g,%.2f,%g,%.4g,%.5g,%.5g,%.5g,%.5g,%.5g,%.5g,",
                     sun->compass_deg, sun->elevation_deg, sun->heading_deg, sun->azimuth_deg,
-                    sun->minutes, (double)table->level[i], (double)table->lux[i],
-                    (double)table->reflected[i], (double)table->mirror[i],
-                    (double)table->contrast[i], (double)table->low[i], (double)table->high[i]);
-        if (!isnan(table->margin[i])) text_format(&text, "%.4g", (double)table->margin[i]);
-        text_format(&text, ",%s\n", verdict_names[table->verdict[i]]);
+                    sun->minutes, (double)f->level[i], (double)f->lux[i],
+                    (double)f->reflected[i], (double)f->mirror[i], (double)f->contrast[i],
+                    (double)f->low[i], (double)f->high[i]);
+        if (!isnan(f->margin[i])) text_format(&text, "%.4g", (double)f->margin[i]);
+        text_format(&text, ",%s\n", verdict_names[f->verdict[i]]);
     }
     bool ok = text_write(&text, path, err);
     arena_release(&own);
@@ -77,10 +78,10 @@ static ReviewMap empty_map(const ReviewSweep *sweep, ReviewAxis azimuth, ReviewA
 
 static void put_worst(const SweepTable *table, int sun, MapCells *cells, size_t at)
 {
-    if (table->contrast[sun] >= cells->contrast[at]) return;
-    cells->contrast[at] = table->contrast[sun];
-    cells->margin[at] = table->margin[sun];
-    cells->verdict[at] = table->verdict[sun];
+    if (table->figures.contrast[sun] >= cells->contrast[at]) return;
+    cells->contrast[at] = table->figures.contrast[sun];
+    cells->margin[at] = table->figures.margin[sun];
+    cells->verdict[at] = table->figures.verdict[sun];
 }
 
 static ReviewMap grid_map(const SweepTable *table, const ReviewSweep *sweep, Arena *arena)
@@ -130,7 +131,7 @@ ReviewCalendar sweep_calendar(const SweepTable *table, const ReviewSweep *sweep,
         int at = suns->list[i].step;
         if (at >= days * steps) continue;
         asked[at]++;
-        share[at] += table->verdict[i] == VERDICT_FAIL;
+        share[at] += table->figures.verdict[i] == VERDICT_FAIL;
     }
     for (int i = 0; i < days * steps; i++)
         share[i] = asked[i] ? share[i] / (float)asked[i] : NAN;

@@ -92,10 +92,10 @@ static void place_meters(Sweep *sweep, Arena *arena)
     const ReviewRequest *request = sweep->run->request;
     sweep->sensors = ARENA_NEW(arena, SweepMeter, request->level_count);
     for (int i = 0; i < request->level_count; i++) {
-        const double *at = request->levels[i].position_m, *to = request->levels[i].normal;
-        if (request->levels[i].is_curve)
-            sweep->sensors[i] = meter_at(vec3((float)at[0], (float)at[1], (float)at[2]),
-                                         vec3((float)to[0], (float)to[1], (float)to[2]));
+        const ReviewLevel *level = &request->levels[i];
+        if (level->is_curve)
+            sweep->sensors[i] = meter_at(vec3_from_doubles(level->position_m),
+                                         vec3_from_doubles(level->normal));
     }
 }
 

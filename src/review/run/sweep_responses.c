@@ -7,10 +7,10 @@
 
 #include "base/file.h"
 #include "render/identity.h"
+#include "review/keep/journal.h"
 #include "review/light/question.h"
-#include "review/run/frames.h"
-#include "review/keep/go_on.h"
 #include "review/pace/work.h"
+#include "review/output/review_words.h"
 
 #define OWN_PRECISION 0.02
 #define OWN_PATHS 8192
@@ -52,7 +52,8 @@ static void name_file(const ReviewRun *run, const Setup *setup, ResponseAsk *ask
     const char *identity = identity_of(setup, ask, arena);
     uint64_t    hash = XXH3_64bits(identity, strlen(identity));
     const char *name = arena_format(arena, "%.80s-%016llx.response",
-                                    file_name_of(ask->name, arena), (unsigned long long)hash);
+                                    words_file_name(ask->name, arena),
+                                    (unsigned long long)hash);
     ask->file = (ResponseFile){.path = arena_format(arena, "%s/%s", run->responses, name),
                                .identity = identity};
     ask->shown = arena_format(arena, "%s/%s", run->responses_shown, name);

@@ -5,9 +5,10 @@
 
 #include "base/file.h"
 #include "camera/camera.h"
-#include "review/chain/outlook_picture.h"
-#include "review/keep/go_on.h"
+#include "review/chain/outlook.h"
+#include "review/keep/journal.h"
 #include "review/output/review_decide.h"
+#include "review/output/review_words.h"
 #include "review/run/explain.h"
 #include "review/run/frames.h"
 #include "review/run/sweep.h"
@@ -34,7 +35,7 @@ static Candidate candidate_of(ReviewOutcome *outcome, const ReviewCase *c)
     for (int i = 0; i < outcome->table_count; i++) {
         const SweepTable *table = &outcome->tables[i];
         ReviewCase       *worst = &review->sweeps[table->sweep_id].worst;
-        if (c == worst && table->worst >= 0) return (Candidate){worst, table};
+        if (c == worst && table->figures.worst >= 0) return (Candidate){worst, table};
     }
     return (Candidate){NULL, NULL};
 }
@@ -42,7 +43,7 @@ static Candidate candidate_of(ReviewOutcome *outcome, const ReviewCase *c)
 /* In the order of the page, so that its first screen has a picture. */
 static Candidate *candidates(ReviewOutcome *outcome, int *count, Arena *arena)
 {
-    int                all = outcome->review.case_count + outcome->review.sweep_count;
+    int                all = review_case_count(&outcome->review);
     const ReviewCase **ranked = review_rank(&outcome->review, arena);
     Candidate         *list = ARENA_NEW(arena, Candidate, all);
     *count = 0;
@@ -180,11 +181,11 @@ static bool make_frame(const FrameWork *work, ReviewCase *of, Arena *arena, cons
 {
     const ReviewRun       *run = work->run;
     const ReviewCondition *c = review_condition_named(run->request, work->of->of->condition);
-    SetupOptions options = {run->request, c,        run->root,    run->state,
-                            run->threads, run->isa, run->journal, run->lessons, NULL};
+    SetupOptions options = {run->request, c, run->means};
     Problems     so_far = problems_start(arena);
     Arena scratch = arena_reserve(SETUP_BYTES);
     Setup setup;
+    options.means.inherited = NULL;
     bool  ok = setup_open(&options, &scratch, &so_far, &setup, err);
     if (ok) {
         FrameAsk ask = {&setup, review_eye_named(run->request, work->of->of->eye),
@@ -203,7 +204,7 @@ static bool make_worst(const ReviewRun *run, const Candidate *of, int number, Ar
                        Error *err)
 {
     FrameWork work = {run, of, NULL, NULL};
-    work.name = file_name_of(arena_format(arena, "%d-%s-%s", number, of->of->condition,
+    work.name = words_file_name(arena_format(arena, "%d-%s-%s", number, of->of->condition,
                                           of->of->eye), arena);
     return make_frame(&work, of->of, arena, &of->of->frame, err);
 }
@@ -228,7 +229,7 @@ static bool make_pair(const FrameWork *before, int number, ReviewVariantFound *v
     FrameWork work = *before;
     own.request = &request;
     work.run = &own;
-    work.name = file_name_of(arena_format(arena, "%s-variant-%d-%s", name, number + 1,
+    work.name = words_file_name(arena_format(arena, "%s-variant-%d-%s", name, number + 1,
                                           variant->name), arena);
     if (!make_frame(&work, NULL, arena, &variant->frame, err))
         return err->code > 128 ? false
@@ -247,7 +248,7 @@ static bool make_pairs(const ReviewRun *run, const Candidate *of, Review *review
               frame_exposure(arena_format(&scratch, "%s/frames/%s.exr", run->folder, work.name),
                              &scratch, &work.exposure, err);
     for (int i = 0; i < review->variant_count && ok; i++)
-        ok = review_goes_on(run->journal, err) &&
+        ok = review_goes_on(run->means.journal, err) &&
              make_pair(&work, i, &review->variants[i], arena, err);
     arena_release(&scratch);
     return ok;
@@ -267,7 +268,7 @@ bool review_frames(const ReviewRun *run, ReviewOutcome *outcome, Arena *arena, E
             list[i].of->frame = list[same].of->frame;
             list[i].of->view = list[same].of->view;
         } else if (made < run->request->frames.worst &&
-                 (!review_goes_on(run->journal, err) ||
+                 (!review_goes_on(run->means.journal, err) ||
                   !make_worst(run, &list[i], ++made, arena, err)))
             return false;
     }

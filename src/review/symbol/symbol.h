@@ -16,6 +16,7 @@
 #pragma once
 #include <stdint.h>
 
+#include "base/arena.h"
 #include "review/request/request.h"
 #include "review/symbol/content_light.h"
 

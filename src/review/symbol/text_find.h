@@ -10,7 +10,7 @@
  * height, or that touch its border, or whose pieces are apart (seven segments). What a person
  * reads as text is not known to it: marks and meshes of lines may be among the proposals.
  *
- * Units    uv of the content, v down; pixels of the content.
+ * Units    uv of the content, v down; pixels of the content; lightness 0..1.
  * Memory   from the arena.  Threads  pure function: the same content gives the same list.
  */
 #pragma once

@@ -11,12 +11,6 @@
 
 /* ---- the least margin of each symbol ----------------------------------------------------- */
 
-static const ReviewCase *case_at(const Review *review, int place)
-{
-    int sweep = place - review->case_count;
-    return sweep < 0 ? &review->cases[place] : &review->sweeps[sweep].worst;
-}
-
 /* Its place among the slopes; a new one where there is none. */
 static ReviewSlope *slope_of(ReviewSensitivity *to, const char *symbol)
 {
@@ -34,10 +28,10 @@ static int compare_margin(const void *a, const void *b)
 
 static void list_symbols(const Review *review, ReviewSensitivity *to, Arena *arena)
 {
-    int count = review->case_count + review->sweep_count;
+    int count = review_case_count(review);
     to->slopes = ARENA_NEW(arena, ReviewSlope, count);
     for (int i = 0; i < count; i++) {
-        const ReviewCase *c = case_at(review, i);
+        const ReviewCase *c = review_case_at(review, i);
         if (isnan(c->margin)) continue;
         ReviewSlope *slope = slope_of(to, c->symbol);
         if (!slope->of || c->margin < slope->of->margin) slope->of = c;
@@ -65,7 +59,7 @@ static void set_slope(const Profile *profile, const Review *below, const Review 
     ReviewDifference d = review_difference(profile, review_case_like(below, to->of),
                                            review_case_like(above, to->of));
     to->slope = d.margin / distance;
-    to->range = (Range){d.margin_range.low / distance, d.margin_range.high / distance};
+    to->range = (MeanInterval){d.margin_range.low / distance, d.margin_range.high / distance};
 }
 
 static bool find_slopes(const ReviewRun *run, const ReviewParameter *p, const Review *base,

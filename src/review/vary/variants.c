@@ -10,8 +10,68 @@
 #include "review/request/request_check.h"
 #include "review/request/request_parameters.h"
 #include "review/run/run.h"
-#include "review/vary/riders.h"
 #include "scene/load/scene_load.h"
+
+/* ---- riders ------------------------------------------------------------------------------ */
+
+#define ROOM_BYTES ((size_t)1 << 36) /* address space: what is not touched costs nothing */
+
+static void add_rider(ReviewRun *run, const ReviewVariant *variant, Arena *arena)
+{
+    ReviewRequest *request = ARENA_NEW(arena, ReviewRequest, 1);
+    ReviewRider   *rider = &run->riders[run->rider_count++];
+    *request = review_request_variant(run->request, variant, arena);
+    *rider = (ReviewRider){variant, request, ARENA_NEW(arena, ReviewOutcome, 1),
+                           arena_reserve(ROOM_BYTES)};
+}
+
+static void add_parameter(ReviewRun *run, const ReviewParameter *p, Arena *arena)
+{
+    double ends[2];
+    review_parameter_ends(p, ends);
+    if (p->kind != PARAMETER_BRIGHTNESS) return;
+    for (int i = 0; i < 2; i++) {
+        if (ends[i] == p->at) continue;
+        ReviewVariant *variant = ARENA_NEW(arena, ReviewVariant, 1);
+        *variant = review_parameter_at(run->request, p, ends[i], arena);
+        add_rider(run, variant, arena);
+    }
+}
+
+void review_riders_start(ReviewRun *run, bool with_parameters, Arena *arena)
+{
+    const ReviewRequest *request = run->request;
+    int parameters = with_parameters ? request->parameter_count : 0;
+    run->rider_count = 0;
+    run->riders = ARENA_NEW(arena, ReviewRider, request->variant_count + 2 * parameters);
+    for (int i = 0; i < request->variant_count; i++)
+        if (review_variant_is_of_levels(request, &request->variants[i]))
+            add_rider(run, &request->variants[i], arena);
+    for (int i = 0; i < parameters; i++) add_parameter(run, &request->parameters[i], arena);
+}
+
+void review_riders_end(ReviewRun *run)
+{
+    for (int i = 0; i < run->rider_count; i++) arena_release(&run->riders[i].room);
+    run->rider_count = 0;
+}
+
+/* A parameter's variant is made anew whenever one asks. */
+static bool is_same(const ReviewVariant *a, const ReviewVariant *b)
+{
+    const ReviewChange *one = &a->change, *other = &b->change;
+    return a == b || (one->place == other->place && one->brightness_count == 1 &&
+                      other->brightness_count == 1 &&
+                      one->brightness[0].level == other->brightness[0].level);
+}
+
+/* The variant's rider; NULL: it is run by itself. */
+static const ReviewRider *rider_of(const ReviewRun *run, const ReviewVariant *variant)
+{
+    for (int i = 0; i < run->rider_count; i++)
+        if (is_same(run->riders[i].variant, variant)) return &run->riders[i];
+    return NULL;
+}
 
 #define JUDGE_BYTES ((size_t)1 << 20)
 #define SCENE_BYTES ((size_t)1 << 36) /* address space: what is not touched costs nothing */
@@ -24,7 +84,7 @@ static double margin_with(const ReviewCase *of, double reflected, const Profile 
 {
     ReviewCase c = *of;
     c.luminance_cd_m2.reflected = reflected;
-    judge_contrasts(&c, (Range){reflected, reflected});
+    judge_contrasts(&c, (MeanInterval){reflected, reflected});
     judge_case(&c, profile, &scratch);
     return c.margin;
 }
@@ -52,7 +112,7 @@ static void set_difference(const Profile *profile, ReviewDifference *of, Arena s
     for (int i = 0; i < CASE_BATCHES; i++) squares += (each[i] - mean) * (each[i] - mean);
     double error = sqrt(squares * (CASE_BATCHES - 1) / CASE_BATCHES);
     double half = student_quantile(CASE_BATCHES - 1) * error;
-    of->margin_range = (Range){of->margin - half, of->margin + half};
+    of->margin_range = (MeanInterval){of->margin - half, of->margin + half};
 }
 
 ReviewDifference review_difference(const Profile *profile, const ReviewCase *before,
@@ -67,17 +127,13 @@ ReviewDifference review_difference(const Profile *profile, const ReviewCase *bef
     return d;
 }
 
-static void keep_least(const ReviewCase *c, const ReviewCase **least)
-{
-    if (isnan(c->margin)) return;
-    if (!*least || c->margin < (*least)->margin) *least = c;
-}
-
 const ReviewCase *review_least_margin(const Review *review)
 {
     const ReviewCase *least = NULL;
-    for (int i = 0; i < review->case_count; i++) keep_least(&review->cases[i], &least);
-    for (int i = 0; i < review->sweep_count; i++) keep_least(&review->sweeps[i].worst, &least);
+    for (int i = 0; i < review_case_count(review); i++) {
+        const ReviewCase *c = review_case_at(review, i);
+        if (!isnan(c->margin) && (!least || c->margin < least->margin)) least = c;
+    }
     return least;
 }
 
@@ -92,13 +148,11 @@ static void compare(const Profile *profile, const Review *base, ReviewVariantFou
                     Arena *arena)
 {
     const Review *review = found->review;
-    found->difference_count = review->case_count + review->sweep_count;
+    found->difference_count = review_case_count(review);
     found->differences = ARENA_NEW(arena, ReviewDifference, found->difference_count);
     for (int i = 0; i < found->difference_count; i++) {
-        int               sweep = i - review->case_count;
-        const ReviewCase *after =
-            sweep < 0 ? &review->cases[i] : &review->sweeps[sweep].worst;
-        ReviewDifference d =
+        const ReviewCase *after = review_case_at(review, i);
+        ReviewDifference  d =
             review_difference(profile, review_case_like(base, after), after);
         found->differences[i] = sweeps_of(d, base, review);
     }
@@ -114,8 +168,7 @@ static bool check_one(const ReviewRun *run, const ReviewVariant *variant, Error 
     Arena         scratch = arena_reserve(SCENE_BYTES);
     Problems      problems = problems_start(&scratch); /* warnings are the review's own */
     ReviewRequest request = review_request_variant(run->request, variant, &scratch);
-    SetupOptions  options = {.request = &request, .root = run->root, .state = run->state,
-                             .threads = run->threads, .isa = run->isa};
+    SetupOptions  options = {.request = &request, .means = run->means};
     Scene *scene;
     bool   ok = setup_scene(&options, &scratch, &problems, &scene, err);
     if (ok) {
@@ -160,7 +213,7 @@ static bool run_variant(const ReviewRun *run, const ReviewVariant *variant, cons
 bool review_variant(const ReviewRun *run, const ReviewVariant *variant, const Review *base,
                     Arena *arena, ReviewVariantFound *out, Error *err)
 {
-    const ReviewRider *rider = review_rider_of(run, variant);
+    const ReviewRider *rider = rider_of(run, variant);
     ReviewOutcome     *outcome = rider ? rider->outcome : ARENA_NEW(arena, ReviewOutcome, 1);
     if (!rider && !run_variant(run, variant, base, arena, outcome, err)) return false;
     *out = (ReviewVariantFound){.name = variant->name, .words = variant->words,

@@ -18,6 +18,15 @@
 #pragma once
 #include "review/run/job.h"
 
+/* Riders: variants that change levels of displays and nothing else. They go with the review,
+ * setup by setup, and are read from its paths, since light is linear in what shines. Each has a
+ * room until review_riders_end.
+ *
+ * Sets run->riders: the variants, and both ends of the sensitivities' ranges, that can ride.
+ * with_parameters: sensitivities are wanted. */
+void review_riders_start(ReviewRun *run, bool with_parameters, Arena *arena);
+void review_riders_end(ReviewRun *run);
+
 /* Before long work: the scenes of all variants and parameters are loaded, and what they name is
  * looked for. */
 bool review_variants_check(const ReviewRun *run, Error *err);
