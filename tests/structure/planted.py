@@ -122,6 +122,7 @@ def run_unplanted(report, tests):
     seconds = {}
     said = build(*(f"test_{test}" for test in tests))
     report.claim(not said, f"unplanted nothing is built: {said}")
+    print(f"{len(tests)} test programs are built", flush=True)
     for test in tests if not said else []:
         became, taken_s = run_test(test, 600)
         if report.claim(became == "passed", f"{test}: {became} with nothing planted"):
