@@ -17,7 +17,7 @@ import time
 from collections import namedtuple
 
 from layers import allowed_includes, folder_of
-from report import ROOT, Report, project_files, prune, read
+from report import ROOT, Report, project_files, prune, read, sources
 
 TABLE = "tests/structure/planted.txt"
 COPY = os.path.join(ROOT, ".build", "planted")
@@ -134,7 +134,9 @@ def try_row(report, row, limit_s):
     name = f"{row.file}, {row.what}"
     text = get(row.file)
     count = text.count(row.there)
-    if not report.claim(count == 1, f"{name}: {count} times {row.there!r}"):
+    if count != 1:
+        now = [file for file in sources(".c", ".h") if row.there in get(file)]
+        report.claim(False, f"{name}: {count} times {row.there!r}; now in {now or 'no file'}")
         return "does not fit"
     put(row.file, text.replace(row.there, row.planted))
     try:
