@@ -5,7 +5,60 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "bvh/embree_version.h"
+/* EMBREE_MAJOR comes from the build. */
+#if EMBREE_MAJOR >= 4
+#include <embree4/rtcore.h>
+#else
+#include <embree3/rtcore.h>
+#endif
+
+/* ---- what differs between Embree 3 and 4: the context, and the two queries --------------- */
+
+#if EMBREE_MAJOR >= 4
+typedef struct RTCRayQueryContext EmbreeContext;
+
+static inline void embree_intersect(RTCScene scene, EmbreeContext *context,
+                                    struct RTCRayHit *rayhit)
+{
+    struct RTCIntersectArguments arguments;
+    rtcInitIntersectArguments(&arguments);
+    arguments.context = context;
+    rtcIntersect1(scene, rayhit, &arguments);
+}
+
+static inline void embree_occluded(RTCScene scene, EmbreeContext *context, struct RTCRay *ray)
+{
+    struct RTCOccludedArguments arguments;
+    rtcInitOccludedArguments(&arguments);
+    arguments.context = context;
+    rtcOccluded1(scene, ray, &arguments);
+}
+
+static inline void embree_context_init(EmbreeContext *context)
+{
+    rtcInitRayQueryContext(context);
+}
+#else
+typedef struct RTCIntersectContext EmbreeContext;
+
+static inline void embree_intersect(RTCScene scene, EmbreeContext *context,
+                                    struct RTCRayHit *rayhit)
+{
+    rtcIntersect1(scene, context, rayhit);
+}
+
+static inline void embree_occluded(RTCScene scene, EmbreeContext *context, struct RTCRay *ray)
+{
+    rtcOccluded1(scene, context, ray);
+}
+
+static inline void embree_context_init(EmbreeContext *context)
+{
+    rtcInitIntersectContext(context);
+}
+#endif
+
+/* ---- asking ------------------------------------------------------------------------------ */
 
 /* Two geometries: opaque triangles, which always stop light, and the others, for which shadow
  * rays call BvhPasses. Scene.triangles holds them in this order. */

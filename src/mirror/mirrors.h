@@ -4,13 +4,59 @@
  * A mirror is a triangle whose material sends part of the light on by a smooth boundary about
  * the interpolated normal: glass, lacquer, polished metal, the glass of displays. Surfaces bent
  * by a normal map, or smooth only where a texture makes them so, are none. Which mirrors are
- * asked for which part of the scene is the caller's choice.
+ * asked for which part of the scene is the caller's choice. They stand in trees.
  *
  * Memory   from the arena.  Threads  const after mirrors_build.  Fails  never.
  */
 #pragma once
-#include "mirror/mirror_tree.h"
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "mirror/reflection_point.h"
 #include "scene/scene.h"
+
+#define MIRROR_PLANES 4
+#define MIRROR_NO_TREE UINT32_MAX
+
+/* A mirror that points of a part ask for; part_id may be NO_ID: points of no part. Its smooth
+ * boundary and its rough one are asked for separately. */
+typedef struct MirrorPair {
+    int      part_id;
+    bool     is_rough;
+    uint32_t triangle;
+} MirrorPair;
+
+/* A piece of a triangle, bent so little that its normals can be bounded. */
+typedef struct MirrorPatch {
+    MirrorTriangle corners;
+    Vec2           uv[3]; /* of the corners in the triangle */
+    uint32_t       id;    /* of the triangle, in Scene.triangles */
+    float          alpha; /* GGX, of its facets; 0: none that are asked */
+} MirrorPatch;
+
+typedef struct MirrorNode {
+    Vec3     centre;       /* of the box of its patches, m */
+    float    radius;       /* from there to the box's corners, m */
+    Vec3     plane[MIRROR_PLANES]; /* unit: all normals, turned to the side of their mean, lie
+                                      below these planes; 0: nothing is known */
+    uint32_t children;     /* the first of two; 0: it is a leaf, of */
+    uint32_t patch;
+    float    alpha;        /* the roughest patch's */
+} MirrorNode;
+
+typedef struct Mirrors {
+    const MirrorPair  *pairs;
+    uint32_t           pair_count;
+    const uint32_t    *roots; /* nodes, or MIRROR_NO_TREE; of mirror_root */
+    const MirrorPatch *patches;
+    const MirrorNode  *nodes;
+} Mirrors;
+
+/* Where a part's tree stands in Mirrors.roots. */
+static inline int mirror_root(int part_id, bool is_rough)
+{
+    return 2 * (part_id + 1) + is_rough;
+}
 
 /* Can the material's triangles be smooth mirrors? */
 bool mirrors_can_be(const Scene *scene, const Material *material);

@@ -2,7 +2,7 @@
 #include "mirror/mirrors_build.h"
 
 #include "base/mathf.h"
-#include "mirror/mirror_tree.h"
+#include "mirror/mirrors.h"
 
 #define BEND 0.16f        /* between normals of one patch's corners, at most */
 #define PATCH_CUTS 10     /* of one triangle to get there */
