@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "hemisphere/geodesic.h"
 
-#include "base/mathf.h"
 
 typedef struct DVec3 {
     double x, y, z;

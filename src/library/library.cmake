@@ -12,17 +12,15 @@ set(panel_library_sources src/library/parhelion_panel.c
   src/spectrum/spectral_table.c src/spectrum/wavelengths.c
   src/hemisphere/geodesic.c src/hemisphere/specular_frame.c src/hemisphere/surface_frame.c
   src/hemisphere/haar.c
-  src/hemisphere/vertex/vertex.c src/hemisphere/vertex/vertex_find.c
-  src/hemisphere/vertex/vertex_open.c src/hemisphere/vertex/vertex_query.c
-  src/hemisphere/vertex/vertex_sum.c
+  src/hemisphere/vertex/vertex.c src/hemisphere/vertex/vertex_open.c
+  src/hemisphere/vertex/vertex_query.c
   src/hemisphere/tree/tree_open.c src/hemisphere/tree/tree_query.c
   src/hemisphere/tree/tree_sum.c
   src/hemisphere/sampling/sampling_tree.c src/hemisphere/sampling/sampling_tree_build.c
-  src/hemisphere/sampling/sampling_tree_open.c
   src/panel/shape/panel_beam.c src/panel/shape/panel_levels.c src/panel/shape/panel_spline.c
   src/panel/shape/spectral_warp.c src/panel/shape/spot_ground.c)
-foreach(file components emission evenness info open open_emission open_places
-    open_reflection open_sampling place reflection sampling section sources)
+foreach(file components emission info open open_emission open_places open_reflection
+    place reflection sampling section)
   list(APPEND panel_library_sources src/panel/query/panel_${file}.c)
 endforeach()
 list(APPEND panel_library_sources src/panel/query/sampling_make.c)

@@ -9,9 +9,7 @@
 #include "base/arena.h"
 #include "base/error.h"
 #include "base/file.h"
-#include "base/mathf.h"
 #include "panel/query/panel_emission.h"
-#include "panel/query/panel_evenness.h"
 #include "panel/query/panel_info.h"
 #include "panel/query/panel_open.h"
 #include "panel/query/panel_place.h"
@@ -247,6 +245,13 @@ static void place_at(const ParhelionPanelQuestions *q, size_t i, float place[2])
     for (int k = 0; k < 2; k++) place[k] = q->place ? q->place[2 * i + (size_t)k] : 0.5f;
 }
 
+static PanelMix mix_at(const ParhelionPanel *panel, const ParhelionPanelQuestions *q, size_t i)
+{
+    float place[2];
+    place_at(q, i, place);
+    return panel_place_reflection(panel->panel, place);
+}
+
 /* Held in [0, most]; no number is 0. */
 static void held_at(const float *from, size_t i, float most, float out[3])
 {
@@ -372,11 +377,8 @@ int parhelion_panel_brdf(const ParhelionPanel *panel, const ParhelionPanelQuesti
         KeptLanes kept = {.panel = NULL};
         fill_block(q, w, &block);
         for (size_t i = 0; i < q->count; i++) {
-            float place[2];
-            place_at(q, i, place);
-            BrdfQuestion of = {panel_place_reflection(panel->panel, place),
-                               direction_at(q->viewer, i), direction_at(q->light, i),
-                               &block.wavelengths};
+            BrdfQuestion of = {mix_at(panel, q, i), direction_at(q->viewer, i),
+                               direction_at(q->light, i), &block.wavelengths};
             Spectrum all = brdf_of(&of, &kept), part;
             put(q, &block, i, &all, brdf);
             if (!lambertian) continue;
@@ -396,9 +398,7 @@ int parhelion_panel_mirror(const ParhelionPanel *panel,
         WaveBlock block;
         fill_block(q, w, &block);
         for (size_t i = 0; i < q->count; i++) {
-            float place[2];
-            place_at(q, i, place);
-            PanelMix mix = panel_place_reflection(panel->panel, place);
+            PanelMix mix = mix_at(panel, q, i);
             Spectrum share = panel_mix_mirror(&mix, direction_at(q->viewer, i).z,
                                               &block.wavelengths);
             put(q, &block, i, &share, reflectance);
@@ -413,9 +413,7 @@ int parhelion_panel_albedo(const ParhelionPanel *panel,
     const ParhelionPanelQuestions *q = questions;
     int status = check(q, NEED_VIEWER, albedo);
     for (size_t i = 0; !status && i < q->count; i++) {
-        float place[2];
-        place_at(q, i, place);
-        PanelMix mix = panel_place_reflection(panel->panel, place);
+        PanelMix mix = mix_at(panel, q, i);
         albedo[i] = panel_mix_haze_albedo(&mix, direction_at(q->viewer, i).z);
     }
     return status;
@@ -430,11 +428,10 @@ int parhelion_panel_sample(const ParhelionPanel *panel,
     const ParhelionPanelQuestions *q = questions;
     int status = check(q, NEED_VIEWER | NEED_RANDOM, light && density ? light : NULL);
     for (size_t i = 0; !status && i < q->count; i++) {
-        float place[2], u[3], pdf;
+        float u[3], pdf;
         Vec3  wi;
-        place_at(q, i, place);
         held_at(q->random, i, BELOW_ONE, u);
-        PanelMix mix = panel_place_reflection(panel->panel, place);
+        PanelMix mix = mix_at(panel, q, i);
         bool     drawn = panel_mix_sample(&mix, direction_at(q->viewer, i), u, &wi, &pdf);
         if (!drawn) wi = vec3(0, 0, 0);
         memcpy(light + 3 * i, (float[3]){wi.x, wi.y, wi.z}, 3 * sizeof *light);
@@ -449,9 +446,7 @@ int parhelion_panel_pdf(const ParhelionPanel *panel, const ParhelionPanelQuestio
     const ParhelionPanelQuestions *q = questions;
     int status = check(q, NEED_VIEWER | NEED_LIGHT, density);
     for (size_t i = 0; !status && i < q->count; i++) {
-        float place[2];
-        place_at(q, i, place);
-        PanelMix mix = panel_place_reflection(panel->panel, place);
+        PanelMix mix = mix_at(panel, q, i);
         density[i] = panel_mix_pdf(&mix, direction_at(q->viewer, i), direction_at(q->light, i));
     }
     return status;

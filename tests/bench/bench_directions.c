@@ -20,7 +20,7 @@
 #include "panel/query/panel.h"
 #include "panel/query/panel_emission.h"
 #include "panel/query/panel_reflection.h"
-#include "panel/set/closed_form.h"
+#include "panel/set/synthetic_panel.h"
 
 #define BANDS 46
 #define GRID_EVERY 4 /* directions that tell the grid's own error */

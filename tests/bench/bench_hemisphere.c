@@ -19,7 +19,6 @@
 #include "base/units.h"
 #include "hemisphere/sampling/sampling_tree.h"
 #include "hemisphere/sampling/sampling_tree_build.h"
-#include "hemisphere/sampling/sampling_tree_open.h"
 #include "hemisphere/specular_frame.h"
 #include "hemisphere/tree/tree_build.h"
 #include "hemisphere/tree/tree_open.h"

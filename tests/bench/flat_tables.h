@@ -7,7 +7,7 @@
 
 #include "base/mathf.h"
 #include "base/units.h"
-#include "panel/set/closed_form.h"
+#include "panel/set/synthetic_panel.h"
 #include "spectrum/spectrum.h"
 
 typedef float Float4 __attribute__((vector_size(16), aligned(4), may_alias));

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* test_hemisphere_sampling.c -- directions are drawn as their density says. */
 #include "hemisphere/sampling/sampling_tree_build.h"
-#include "hemisphere/sampling/sampling_tree_open.h"
 #include "hemisphere_fixture.h"
 
 #include <float.h>

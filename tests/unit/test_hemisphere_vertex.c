@@ -3,7 +3,6 @@
 #include "hemisphere/tree/tree_expand.h"
 #include "hemisphere/tree/tree_open.h"
 #include "hemisphere/tree/tree_sum.h"
-#include "hemisphere/vertex/vertex_find.h"
 #include "hemisphere/vertex/vertex_open.h"
 #include "hemisphere/vertex/vertex_tree_build.h"
 #include "hemisphere_fixture.h"

@@ -8,7 +8,7 @@
 #include "image/picture.h"
 #include "openexr/exr_file.h"
 #include "panel/query/panel_emission.h"
-#include "panel/query/panel_evenness.h"
+#include "panel/query/panel_info.h"
 #include "panel/query/panel_place.h"
 #include "panel/set/export.h"
 

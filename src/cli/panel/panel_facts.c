@@ -9,7 +9,6 @@
 #include "cli/options/answer.h"
 #include "cli/panel/panel_question.h"
 #include "panel/query/panel_emission.h"
-#include "panel/query/panel_evenness.h"
 #include "panel/query/panel_info.h"
 #include "panel/query/panel_place.h"
 #include "panel/query/panel_reflection.h"

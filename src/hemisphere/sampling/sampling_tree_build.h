@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* sampling_tree_build.h -- makes the blob of a sampling tree.
+/* sampling_tree_build.h -- makes the blob of a sampling tree, and opens one.
  *
- * Memory   the blob from the arena. Threads: pure functions.
+ * Memory   the arena's. Threads: pure functions. Fails: naming what is wrong.
  */
 #pragma once
 #include "base/error.h"
@@ -26,3 +26,7 @@ bool sampling_tree_build(const SamplingOptions *options, const float *integrals,
 
 /* Bytes of a blob that sampling_tree_build made. */
 size_t sampling_tree_size(const void *blob);
+
+/* Checks the blob and expands it. It may be freed afterwards; `geodesic` must stay. */
+bool sampling_tree_open(const void *blob, size_t size, const Geodesic *geodesic, Arena *arena,
+                        SamplingTree *out, Error *err);

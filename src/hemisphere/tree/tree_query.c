@@ -4,11 +4,10 @@
 #include <string.h>
 
 #include "base/mathf.h"
+#include "hemisphere/rows.h"
 #include "hemisphere/tree/tree_sum.h"
 #include "hemisphere/vertex/vertex_open.h"
 #include "hemisphere/vertex/vertex_query.h"
-
-typedef float Float4 __attribute__((vector_size(16)));
 
 static const uint32_t NO_NODE = UINT32_MAX;
 
@@ -34,13 +33,6 @@ static void start_taps(TreeTaps *taps)
 {
     taps->count = 0;
     for (int q = 0; q < 4; q++) taps->mean_weight[q] = 0;
-}
-
-static inline Float4 load_floats(const float *from)
-{
-    Float4 value;
-    memcpy(&value, from, sizeof value);
-    return value;
 }
 
 /* Writes a tap; it is kept when there is such a row and its weight is not 0. Whether that is so

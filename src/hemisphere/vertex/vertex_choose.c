@@ -1,6 +1,4 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "hemisphere/vertex/vertex_choose.h"
-
 /* Which vertices to store, and with what values.
  *
  * Interpolating a function at its own values is wasteful: where it curves, all errors between
@@ -9,13 +7,68 @@
  * are stored, from the coarse levels to the fine; where that is not accepted, the weights grow,
  * and the detail of the level that would help most (gradient^2 over diagonal) is added. In the
  * end the details that matter least are dropped as long as everything stays accepted. */
+#include "hemisphere/vertex/vertex_choose.h"
+
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/parallel.h"
 #include "hemisphere/vertex/vertex.h"
-#include "hemisphere/vertex/vertex_code.h"
-#include "hemisphere/vertex/vertex_judge.h"
+
+/* ---- what the caller accepts ------------------------------------------------------------- */
+
+static float distance(const VertexJudge *judge, uint32_t vertex, const float *row)
+{
+    const float *value = judge->values + (size_t)vertex * (size_t)judge->options->components;
+    float        most = 0;
+    for (int i = 0; i < judge->options->components; i++)
+        most = fmaxf(most, fabsf(row[i] - value[i]) / judge->unit[i]);
+    return most;
+}
+
+static void go_beyond(const VertexJudge *judge, uint32_t vertex, const float *row, float factor,
+                      float *farther)
+{
+    const float *value = judge->values + (size_t)vertex * (size_t)judge->options->components;
+    for (int i = 0; i < judge->options->components; i++)
+        farther[i] = value[i] + factor * (row[i] - value[i]);
+}
+
+static bool ask(const VertexJudge *judge, uint32_t vertex, const float *row)
+{
+    return judge->options->accepts(judge->options->context, vertex, row);
+}
+
+/* Queries add up in another order than the coder: what is near the bound is refused where that
+ * happened to matter. */
+static bool ask_strictly(const VertexJudge *judge, uint32_t vertex, const float *row)
+{
+    float farther[TREE_MAX_COMPONENTS];
+    go_beyond(judge, vertex, row, 1.001f, farther);
+    return ask(judge, vertex, row) && ask(judge, vertex, farther);
+}
+
+bool vertex_accepts(VertexJudge *judge, uint32_t vertex, const float *row)
+{
+    if (judge->safe[vertex] < 0) return ask_strictly(judge, vertex, row);
+    if (judge->is_exact) return ask(judge, vertex, row);
+    float reach = distance(judge, vertex, row);
+    if (reach <= 0.5f * judge->safe[vertex]) return true;
+    if (!ask(judge, vertex, row)) return false;
+    judge->safe[vertex] = fmaxf(judge->safe[vertex], reach);
+    return true;
+}
+
+/* The same for value + factor * (row - value). */
+static bool accepts_beyond(VertexJudge *judge, uint32_t vertex, const float *row, float factor)
+{
+    float farther[TREE_MAX_COMPONENTS];
+    go_beyond(judge, vertex, row, factor, farther);
+    return vertex_accepts(judge, vertex, farther);
+}
+
+/* ---- the choice -------------------------------------------------------------------------- */
 
 #define SLACK 0.85f /* of the tolerance: the rest is for rounding */
 #define STEPS 12    /* of conjugate gradients */
@@ -191,7 +244,7 @@ static uint32_t find_missed(Chooser *c)
     float    row[TREE_MAX_COMPONENTS];
     for (uint32_t v = 0; v < c->count; v++) {
         fitted_row(c, v, row);
-        c->missed[v] = !vertex_accepts_beyond(c->judge, v, row, 1 / SLACK);
+        c->missed[v] = !accepts_beyond(c->judge, v, row, 1 / SLACK);
         missed += c->missed[v];
         if (c->missed[v] && c->weight[v] < MOST_WEIGHT) c->weight[v] *= 2;
     }
@@ -343,8 +396,6 @@ static void drop_least(Chooser *c, float share, Arena scratch)
             c->group[j].detail[loss[i].vertex] = (Four){0, 0, 0, 0};
     }
 }
-
-/* ---- the whole --------------------------------------------------------------------------- */
 
 static Chooser start(VertexJudge *judge, int base_level, Arena *arena)
 {

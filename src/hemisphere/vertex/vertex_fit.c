@@ -5,8 +5,6 @@
 #include <string.h>
 
 #include "hemisphere/vertex/vertex.h"
-#include "hemisphere/vertex/vertex_code.h"
-#include "hemisphere/vertex/vertex_find.h"
 
 /* min over h of sum w (A S h - y)^2 / W + sum penalty h^2: A interpolates (three weights a
  * sample), S makes values of details. Conjugate gradients with a diagonal preconditioner, every

@@ -4,7 +4,6 @@
 #include "hemisphere/vertex/vertex_open.h"
 
 #include "hemisphere/vertex/vertex_query.h"
-#include "hemisphere/vertex/vertex_sum.h"
 #include "hemisphere/vertex/vertex_tree.h"
 
 _Static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "blobs are little-endian in place");

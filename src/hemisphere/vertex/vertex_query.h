@@ -11,3 +11,6 @@ void vertex_tree_walk(const Tree *tree, int level, Vec3 direction, TreeTaps *tap
 
 /* HOT. The same for a place (of octants that the tree has). */
 void vertex_tree_walk_place(const Tree *tree, int level, VertexPlace place, TreeTaps *taps);
+
+/* HOT. tree_sum: what a walk found in a vertex tree, summed up. */
+void vertex_tree_sum(const Tree *tree, const TreeTaps *taps, int first, int count, float *out);

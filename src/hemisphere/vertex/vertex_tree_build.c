@@ -8,8 +8,6 @@
 #include "base/mathd.h"
 #include "hemisphere/vertex/vertex.h"
 #include "hemisphere/vertex/vertex_choose.h"
-#include "hemisphere/vertex/vertex_code.h"
-#include "hemisphere/vertex/vertex_judge.h"
 #include "hemisphere/vertex/vertex_open.h"
 #include "hemisphere/vertex/vertex_tree_write.h"
 
@@ -215,8 +213,6 @@ static void measure_tolerances(Coder *c, float *tolerance)
             tolerance[i] = fminf(tolerance[i], tolerance_at(c, v, i, most));
     }
 }
-
-/* ---- the whole --------------------------------------------------------------------------- */
 
 static bool check_options(const VertexTreeOptions *o, const float *values, Error *err)
 {

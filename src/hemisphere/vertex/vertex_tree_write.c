@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "hemisphere/vertex/vertex.h"
-#include "hemisphere/vertex/vertex_code.h"
 #include "hemisphere/vertex/vertex_open.h"
 #include "hemisphere/vertex/vertex_tree.h"
 
@@ -202,8 +201,6 @@ static void mark_depth(BlobWriter *w, const VertexEdge *edge, int half, int dept
             if (!apart && *at < depth) *at = (uint8_t)depth;
         }
 }
-
-/* ---- the whole --------------------------------------------------------------------------- */
 
 static uint32_t stored_edges(const VertexCode *code, int level, VertexEdge *edges)
 {

@@ -2,11 +2,9 @@
 #include "panel/fit/fit.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 #include "base/file_write.h"
 #include "base/units.h"
-#include "panel/fit/emission/emission_spectra.h"
 #include "panel/fit/fit_judge.h"
 #include "panel/fit/fit_report.h"
 #include "panel/fit/fit_table.h"
@@ -31,7 +29,7 @@ static void note_limits(const Measurement *set, FitNotes *notes)
         if (set->primary[p].level_count &&
             set->primary[p].level[set->primary[p].level_count - 1] < 255)
             fit_note(notes, "%s is measured up to level %g only; above, its power law goes on",
-                     p == 0 ? "red" : p == 1 ? "green" : "blue",
+                     primary_names[p],
                      set->primary[p].level[set->primary[p].level_count - 1]);
     if (set->incidence_count)
         fit_note(notes, "reflection beyond %.0f degrees of incidence is extrapolated: the haze "
@@ -157,7 +155,7 @@ static bool fit_parts(FitRun *run, const Measurement *set, FitParts *parts)
     }
     step(run);
     if (parts->emission)
-        parts->primaries = emission_spectra_write(set, notes, arena, &parts->primaries_size);
+        parts->primaries = emission_fit_primaries(set, notes, arena, &parts->primaries_size);
     step(run);
     if (set->incidence_count) {
         parts->reflection = reflection;
@@ -216,8 +214,6 @@ static bool add_map(FitRun *run, const Measurement *set, const FitParts *parts,
     const Panel *panel = opened(parts, run->path, run->arena, &size, run->err);
     return panel && fit_places_add_map(set, panel, run->arena, places, run->err);
 }
-
-/* ---- all --------------------------------------------------------------------------------- */
 
 static bool fit_whole(FitRun *run, const Measurement *set, FitPlaces *places, json_t **report)
 {

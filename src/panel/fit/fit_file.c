@@ -89,15 +89,17 @@ static void write_subpixels(FitWriter *writer, const Measurement *set)
 /* A section of default values is left out. */
 static bool has_surface(const ReflectionResult *r)
 {
-    return r->surface.frame != PANEL_FRAME_SPECULAR ||
-           r->surface.beyond != PANEL_BEYOND_COSINES || r->surface.mirror_index > 0;
+    const PanelSurfaceStored *s = &r->model->surface.stored;
+    return s->frame != PANEL_FRAME_SPECULAR || s->beyond != PANEL_BEYOND_COSINES ||
+           s->mirror_index > 0;
 }
 
 static void write_reflection(FitWriter *writer, const ReflectionResult *r)
 {
     FitPiece section = {r->section.bytes, r->section.size};
-    FitPiece tree = {r->tree, tree_size(r->tree)}, sampling = {r->sampling, r->sampling_size};
-    FitPiece surface = {&r->surface, sizeof r->surface};
+    FitPiece tree = {r->model->tree, tree_size(r->model->tree)};
+    FitPiece sampling = {r->sampling, r->sampling_size};
+    FitPiece surface = {&r->model->surface.stored, sizeof r->model->surface.stored};
     write_section(writer, PANEL_REFLECTION, 0, &section, 1);
     write_section(writer, PANEL_REFLECTION_TREE, 0, &tree, 1);
     if (r->sampling) write_section(writer, PANEL_SAMPLING, 0, &sampling, 1);
@@ -147,7 +149,7 @@ void *fit_file_bytes(const FitParts *parts, const char *meta, Arena *arena, size
     if (parts->emission) write_emission(&writer, parts);
     if (parts->reflection) write_reflection(&writer, parts->reflection);
     if (parts->emission) write_polarised(&writer, &parts->set->traits);
-    bool has_frame = parts->reflection && parts->reflection->surface.frame;
+    bool has_frame = parts->reflection && parts->reflection->model->surface.stored.frame;
     bool has_places = parts->places && fit_places_are_there(parts->places);
     if (has_places) write_places(&writer, parts->places);
     if (parts->emission) write_subpixels(&writer, parts->set);

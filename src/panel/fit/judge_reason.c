@@ -7,6 +7,7 @@ void judge_reason_add(Judge *judge, JudgeGrade grade, const char *format, ...)
 {
     Arena   scratch = *judge->arena;
     va_list args;
+    if (grade == JUDGE_GOOD) return;
     va_start(args, format);
     json_array_append_new(judge->reasons[grade],
                           json_string(arena_format_list(&scratch, 511, format, args)));

@@ -6,9 +6,9 @@
 #include "base/mathd.h"
 #include "base/sort.h"
 #include "base/units.h"
-#include "panel/fit/common/table_noise.h"
+#include "panel/fit/common/direction_grid.h"
 #include "panel/fit/common/table_rows.h"
-#include "panel/fit/judge_limits.h"
+#include "panel/fit/judge_reason.h"
 
 /* ---- along the normal -------------------------------------------------------------------- */
 
@@ -20,8 +20,6 @@ static double inner_luminance(const AngleTable *table)
     for (int i = 0; i < end; i++) sum += (double)table->value[3 * i + 1];
     return sum / end;
 }
-
-static const char *const colour[] = {"red", "green", "blue"};
 
 /* Luminance that a level adds to black. */
 static double added(const Measurement *set, int p, int level)
@@ -39,14 +37,14 @@ static void judge_step(Judge *judge, const Measurement *set, int p, int level)
                                          log_d(m->level[level + 1] / m->level[level]) : 0;
     if (high + black < JUDGE_FALLING * (low + black))
         judge_reason_add(judge, JUDGE_CARE, "%s %g shows %.3g cd/m2, less than %s %g with "
-                         "%.3g: check the unit and the level of these tables", colour[p],
-                         m->level[level + 1], high + black, colour[p], m->level[level], low +
-                         black);
+                         "%.3g: check the unit and the level of these tables", primary_names[p],
+                         m->level[level + 1], high + black, primary_names[p],
+                         m->level[level], low + black);
     else if (power > JUDGE_POWER_MOST && high > JUDGE_BLACK_MOST * black)
         judge_reason_add(judge, JUDGE_CARE, "from %s %g to %g luminance rises with the power "
                          "%.3g of the level, wanted at most %g: check the unit and the level "
-                         "of these tables", colour[p], m->level[level], m->level[level + 1],
-                         power, JUDGE_POWER_MOST);
+                         "of these tables", primary_names[p], m->level[level],
+                         m->level[level + 1], power, JUDGE_POWER_MOST);
 }
 
 static void judge_white(Judge *judge, const Measurement *set, double white)
@@ -61,7 +59,7 @@ static void judge_white(Judge *judge, const Measurement *set, double white)
         if (one < JUDGE_PRIMARY_LEAST * white)
             judge_reason_add(judge, JUDGE_CARE, "%s has %.2g %% of white's luminance, wanted "
                              "at least %g %%: check the units of the primaries' tables",
-                             colour[p], 100 * one / white, 100 * JUDGE_PRIMARY_LEAST);
+                             primary_names[p], 100 * one / white, 100 * JUDGE_PRIMARY_LEAST);
     }
 }
 
@@ -89,17 +87,13 @@ typedef struct Azimuths {
 
 #define SAME_AZIMUTH 1e-3f
 
-static float folded(const Azimuths *azimuths, float phi)
-{
-    return azimuths->is_mirrored && phi > PI_F ? 2 * PI_F - phi : phi;
-}
-
 static Azimuths azimuths_of(const AngleTable *table, bool is_mirrored, Arena *arena)
 {
     Azimuths out = {0, ARENA_NEW(arena, float, table->rows), is_mirrored};
     int      rows = 0;
     for (int i = 0; i < table->rows; i++)
-        if (table->theta[i] > 0) out.phi[rows++] = folded(&out, table->phi[i]);
+        if (table->theta[i] > 0)
+            out.phi[rows++] = direction_grid_fold(table->phi[i], is_mirrored);
     sort_floats(out.phi, rows);
     for (int i = 0; i < rows; i++)
         if (!out.count || out.phi[i] - out.phi[out.count - 1] > SAME_AZIMUTH)
@@ -151,7 +145,7 @@ static void widen(RingSpread *spread, double low, double high, double theta, dou
 
 static bool is_at(const Azimuths *a, const AngleTable *table, int row, float phi)
 {
-    return fabsf(folded(a, table->phi[row]) - phi) <= SAME_AZIMUTH;
+    return fabsf(direction_grid_fold(table->phi[row], a->is_mirrored) - phi) <= SAME_AZIMUTH;
 }
 
 /* Over rings that hold both ends of a gap; NULL: over all azimuths. */

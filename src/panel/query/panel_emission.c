@@ -2,7 +2,7 @@
 /* HOT: what a panel emits. No allocation, no lock, no libm. */
 #include "panel/query/panel_emission.h"
 
-#include "panel/query/panel_sources.h"
+#include "panel/query/panel_components.h"
 
 bool panel_emission_xyz(const Panel *panel, Vec3 direction, const float rgb[3], float xyz[3])
 {

@@ -7,7 +7,6 @@
 #include "base/mathd.h"
 #include "base/units.h"
 #include "hemisphere/tree/tree_open.h"
-#include "hemisphere/tree/tree_query.h"
 #include "panel/query/panel_components.h"
 #include "panel/query/panel_emission.h"
 #include "panel/shape/panel_levels.h"
@@ -408,8 +407,6 @@ static void black_spectrum(const Panel *panel, PanelPrimaries *out)
     if (!panel_spectrum_normalise(out->spectrum[3]))
         memcpy(out->spectrum[3], out->spectrum[1], sizeof out->spectrum[3]);
 }
-
-/* ---- all -------------------------------------------------------------------------------- */
 
 bool panel_open_emission(const PanelBytes *bytes, const Geodesic *geodesic, Arena *arena,
                          Panel *panel)

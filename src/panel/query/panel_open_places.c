@@ -148,8 +148,6 @@ bool panel_read_places(const PanelBytes *bytes, Arena *arena, PanelPlaces **out)
     return true;
 }
 
-/* ---- together ---------------------------------------------------------------------------- */
-
 static bool check_panels(const PanelBytes *bytes, const PanelPlaces *places)
 {
     const Panel *own = places->panel[0];

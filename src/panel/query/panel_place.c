@@ -2,11 +2,11 @@
 /* HOT: a panel at a place. No allocation, no lock, no libm. */
 #include "panel/query/panel_place.h"
 
+#include "panel/query/panel_components.h"
 #include "panel/query/panel_emission.h"
 #include "panel/query/panel_opened.h"
 #include "panel/query/panel_reflection.h"
 #include "panel/query/panel_sampling.h"
-#include "panel/query/panel_sources.h"
 
 bool panel_varies(const Panel *panel)
 {

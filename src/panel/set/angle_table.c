@@ -2,7 +2,6 @@
 #include "panel/set/angle_table.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
@@ -10,8 +9,9 @@
 #include "base/sort.h"
 #include "base/units.h"
 #include "text/csv_table.h"
-#include "text/json_view.h"
 #include "text/nearest_word.h"
+
+const char *const primary_names[3] = {"red", "green", "blue"};
 
 /* Directions nearer than this are the same one. */
 #define SAME_DEG 1e-4f
@@ -435,4 +435,11 @@ bool angle_table_read_grid(const char *const files[3], const char *name, Arena *
     }
     raw.value = value;
     return finish_table(&raw, emission_noise, arena, out, err);
+}
+
+bool angle_table_same_rows(const AngleTable *a, const AngleTable *b)
+{
+    return a->rows == b->rows &&
+           !memcmp(a->theta, b->theta, sizeof *a->theta * (size_t)a->rows) &&
+           !memcmp(a->phi, b->phi, sizeof *a->phi * (size_t)a->rows);
 }

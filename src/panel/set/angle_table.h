@@ -46,3 +46,18 @@ bool angle_table_read_grid(const char *const files[3], const char *name, Arena *
 /* Columns theta, phi and one a wavelength ("brdf" when there is but one); without a name. */
 bool angle_table_read_brdf(const char *file, const float *wavelength_nm, int count,
                            Arena *arena, AngleTable *out, Error *err);
+
+/* True when both tables have the same directions. */
+bool angle_table_same_rows(const AngleTable *a, const AngleTable *b);
+
+/* "red", "green", "blue". */
+extern const char *const primary_names[3];
+
+/* The tables of one primary alone, level by level. */
+#define MEASUREMENT_LEVELS_MAX 64
+
+typedef struct MeasuredPrimary {
+    int        level_count;
+    double     level[MEASUREMENT_LEVELS_MAX]; /* rising, in (0, 255] */
+    AngleTable table[MEASUREMENT_LEVELS_MAX]; /* XYZ, black not subtracted */
+} MeasuredPrimary;

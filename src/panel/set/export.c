@@ -14,15 +14,13 @@
 #include "panel/query/panel_opened.h"
 #include "panel/query/panel_reflection.h"
 #include "panel/query/panel_report.h"
+#include "panel/set/angle_table.h"
 #include "panel/set/display_traits.h"
-#include "panel/set/polar_grid.h"
 #include "panel/set/set_writer.h"
 #include "spectrum/spectral_table.h"
 
 #define STEPS_OF_FWHM 2.4 /* how well the mirror's image is sampled */
 #define MOST_FWHM_DEG 15.0 /* that a manifest may declare */
-
-static const char *const primary_names[3] = {"red", "green", "blue"};
 
 typedef struct Export {
     const Panel         *panel;

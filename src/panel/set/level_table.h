@@ -12,6 +12,12 @@
  *   share(g) = (L(g) - L(0)) / (L(255) - L(0))     of what full level adds to black
  *   black    = L(0) / L(255)                       0 without a row of level 0
  *
+ * A panel keeps at most LEVEL_CURVE_MAX levels a primary and interpolates between them as in
+ * panel/shape/panel_levels.h (Fritsch and Butland's monotone cubic pieces of the logarithm
+ * over ln code). Kept are the lowest row with more light than black, full level, and then, one
+ * by one, the row that is missed most, until no row is missed by more than LEVEL_CURVE_MISS of
+ * its luminance.
+ *
  * Units    levels as codes in [0, 255]; luminance in cd m^-2; shares without unit.
  * Memory   the arena's. Threads: const once read.
  * Fails    with file, line, found and wanted: fewer than two rows, no or an unclear full level,
@@ -19,7 +25,19 @@
  */
 #pragma once
 #include "base/error.h"
-#include "panel/set/level_curve.h"
+#include "base/arena.h"
+
+#define LEVEL_CURVE_MAX 64
+#define LEVEL_CURVE_MISS 0.0005 /* of the luminance at any row, by levels left out */
+
+/* One level curve: the levels that are kept, and what they are of full level. */
+typedef struct LevelCurve {
+    int    count;
+    double level[LEVEL_CURVE_MAX]; /* codes, rising, above 0 up to 255 */
+    double share[LEVEL_CURVE_MAX]; /* rising to 1 */
+    double miss;                   /* largest error at a row that is left out, of its
+                                      luminance */
+} LevelCurve;
 
 #define LEVEL_TABLE_ROWS_MAX 65536
 #define LEVEL_TABLE_FULL_MISS 0.05 /* of full level to the set's white */

@@ -2,20 +2,15 @@
 #include "panel/set/measurement.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/count.h"
 #include "base/file.h"
 #include "base/units.h"
 #include "panel/set/primary_spectra.h"
 #include "panel/set/white_split.h"
 #include "text/json_view.h"
-#include "text/nearest_word.h"
-
-#define COUNT(list) ((int)(sizeof(list) / sizeof *(list)))
-
-static const char *const primary_names[3] = {"red", "green", "blue"};
 
 /* Reads the table that `value` names: a CSV's path, or {"X": ..., "Y": ..., "Z": ...}. */
 static bool read_emission_table(const JsonView *view, const char *key, const char *name,
@@ -167,7 +162,7 @@ static bool read_emission(const JsonView *root, Measurement *out, Error *err)
                   !json_object_get(root->object, "spots");
     if (!json_view_child(root, "emission", needed, &view, err)) return false;
     if (!view.object) return true; /* a surface that only reflects */
-    if (!json_view_check_keys(&view, keys, COUNT(keys), err)) return false;
+    if (!json_view_check_keys(&view, keys, COUNT_OF(keys), err)) return false;
     if (json_object_get(view.object, "white")) return read_white(&view, out, err);
     if (json_object_get(view.object, "levels"))
         return error_at(err, ERROR_INPUT, view.file, json_view_path(&view, "levels"),
@@ -200,8 +195,9 @@ static const char *fill_pattern(const char *pattern, SlicePlace place, Arena *ar
     const char *text = "";
     while (*pattern) {
         int k = 0;
-        while (k < COUNT(known) && strncmp(pattern, known[k].word, strlen(known[k].word))) k++;
-        if (k == COUNT(known)) {
+        while (k < COUNT_OF(known) && strncmp(pattern, known[k].word, strlen(known[k].word)))
+            k++;
+        if (k == COUNT_OF(known)) {
             text = arena_format(arena, "%s%c", text, *pattern++);
             continue;
         }
@@ -209,13 +205,6 @@ static const char *fill_pattern(const char *pattern, SlicePlace place, Arena *ar
         pattern += strlen(known[k].word);
     }
     return text;
-}
-
-static bool same_directions(const AngleTable *a, const AngleTable *b)
-{
-    return a->rows == b->rows &&
-           !memcmp(a->theta, b->theta, sizeof *a->theta * (size_t)a->rows) &&
-           !memcmp(a->phi, b->phi, sizeof *a->phi * (size_t)a->rows);
 }
 
 /* One file a wavelength becomes one table. */
@@ -236,7 +225,7 @@ static bool join_wavelengths(const JsonView *view, const char *pattern, SlicePla
             *out = one;
             out->text_bytes = 0;
             value = ARENA_NEW(arena, float, count * (size_t)one.rows);
-        } else if (!same_directions(out, &one)) {
+        } else if (!angle_table_same_rows(out, &one)) {
             return error_at(err, ERROR_INPUT, file, "", "has other directions than the table "
                             "of %g nm, wanted the same at every wavelength",
                             (double)set->wavelength_nm[0]);
@@ -307,8 +296,8 @@ static bool read_azimuths(const JsonView *view, const char *pattern, Measurement
     int    count = 0;
     out->azimuth_count = 1;
     out->azimuth[0] = 0;
-    if (!json_view_numbers(view, "incidence_phi_deg", (JsonRange){0, 359.999, COUNT(degrees)},
-                           degrees, &count, err))
+    if (!json_view_numbers(view, "incidence_phi_deg",
+                           (JsonRange){0, 359.999, COUNT_OF(degrees)}, degrees, &count, err))
         return false;
     if (!count) return true;
     if (!check_rising(view, "incidence_phi_deg", degrees, count, err)) return false;
@@ -334,10 +323,10 @@ static bool read_reflection(const JsonView *root, Measurement *out, Error *err)
     int         nm_count = 0, count = 0;
     if (!json_view_child(root, "reflection", false, &view, err)) return false;
     if (!view.object) return true;
-    if (!json_view_check_keys(&view, keys, COUNT(keys), err) ||
-        !json_view_numbers(&view, "wavelengths_nm", (JsonRange){360, 830, COUNT(nm)},
+    if (!json_view_check_keys(&view, keys, COUNT_OF(keys), err) ||
+        !json_view_numbers(&view, "wavelengths_nm", (JsonRange){360, 830, COUNT_OF(nm)},
                            nm, &nm_count, err) ||
-        !json_view_numbers(&view, "incidence_deg", (JsonRange){0, 89, COUNT(degrees)},
+        !json_view_numbers(&view, "incidence_deg", (JsonRange){0, 89, COUNT_OF(degrees)},
                            degrees, &count, err) ||
         !json_view_text(&view, "files", &pattern, err) ||
         !check_rising(&view, "wavelengths_nm", nm, nm_count, err) ||
@@ -396,7 +385,7 @@ static bool read_spot(const JsonView *root, const JsonView *view, const Measurem
                       MeasuredSpot *out, Error *err)
 {
     static const char *const keys[] = {"position", "position_mm", "emission", "reflection"};
-    if (!json_view_check_keys(view, keys, COUNT(keys), err) ||
+    if (!json_view_check_keys(view, keys, COUNT_OF(keys), err) ||
         !read_position(view, whole->size_mm, out->at, err))
         return false;
     out->has_emission = has_part(view, "emission");
@@ -485,8 +474,6 @@ static bool read_map(const JsonView *root, Measurement *out, Error *err)
     return uniformity_map_read(&view, out->size_mm, &out->map, err);
 }
 
-/* ---- all --------------------------------------------------------------------------------- */
-
 static bool check_traits(const JsonView *root, const Measurement *out, Error *err)
 {
     const char *key = display_traits_key(root);
@@ -508,7 +495,7 @@ static bool read_members(const JsonView *root, Measurement *out, Error *err)
         "instrument_fwhm_deg", "emission", "primaries", "reflection", "polarisation",
         "subpixels", "spots", "uniformity"};
     const char *primaries = NULL;
-    bool ok = json_view_check_keys(root, keys, COUNT(keys), err) &&
+    bool ok = json_view_check_keys(root, keys, COUNT_OF(keys), err) &&
         json_view_text(root, "panel", &out->panel, err) &&
         json_view_text(root, "instrument", &out->instrument, err) &&
         json_view_text(root, "note", &out->note, err) &&

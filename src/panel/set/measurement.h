@@ -11,7 +11,6 @@
 #include "panel/set/angle_table.h"
 #include "panel/set/display_traits.h"
 #include "panel/set/level_table.h"
-#include "panel/set/measured_primary.h"
 #include "panel/set/specular_table.h"
 #include "panel/set/uniformity_map.h"
 #include "spectrum/spectral_table.h"

@@ -1,11 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "panel/set/primary_spectra.h"
 
+#include "base/count.h"
+#include "panel/set/angle_table.h"
 #include "text/csv_table.h"
-
-#define COUNT(list) ((int)(sizeof(list) / sizeof *(list)))
-
-static const char *const primary_names[3] = {"red", "green", "blue"};
 
 /* Linear between measured wavelengths, zero outside them. */
 static void resample_spectrum(const CsvTable *csv, int nm_column, int column, float *out)
@@ -51,7 +49,7 @@ bool primary_spectra_read(const char *file, Arena *arena, float spectrum[3][SPEC
     static const char *const known[] = {"nm", "red", "green", "blue", "black"};
     CsvTable csv;
     if (!csv_table_read(file, arena, &csv, err)) return false;
-    if (!csv_table_check_columns(&csv, known, COUNT(known), err)) return false;
+    if (!csv_table_check_columns(&csv, known, COUNT_OF(known), err)) return false;
     int nm = csv_table_column(&csv, "nm");
     for (int i = 0; i < 4; i++)
         if (csv_table_column(&csv, known[i]) < 0)

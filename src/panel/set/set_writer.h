@@ -11,6 +11,7 @@
  * Fails    with the file or folder that cannot be made or written, and the system's reason.
  */
 #pragma once
+#include <math.h>
 #include <jansson.h>
 
 #include "base/error.h"
@@ -38,3 +39,28 @@ bool set_writer_add_manifest(SetWriter *writer, const json_t *root, int digits);
 /* is_whole: all that was wanted has been added. False, and nothing left, when it is not, or
  * when a file cannot get its name. */
 bool set_writer_close(SetWriter *writer, bool is_whole);
+
+/* The directions in which an instrument's table stands: rings of equal theta, degrees. */
+typedef struct PolarGrid {
+    double theta_step, phi_step;
+    int    rings, azimuths; /* without the normal, which stands once */
+} PolarGrid;
+
+/* phi_step becomes the nearest one that divides the circle. */
+static inline PolarGrid polar_grid(double theta_step, double phi_step, int rings)
+{
+    int azimuths = (int)round(360 / phi_step);
+    return (PolarGrid){theta_step, 360.0 / azimuths, rings, azimuths};
+}
+
+static inline int polar_grid_count(const PolarGrid *grid)
+{
+    return 1 + grid->rings * grid->azimuths;
+}
+
+/* Direction i, theta and phi; 0 is the normal. */
+static inline void polar_grid_direction(const PolarGrid *grid, int i, double degrees[2])
+{
+    degrees[0] = i ? ((i - 1) / grid->azimuths + 1) * grid->theta_step : 0;
+    degrees[1] = i ? (i - 1) % grid->azimuths * grid->phi_step : 0;
+}

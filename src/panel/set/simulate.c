@@ -3,16 +3,13 @@
 
 #include <math.h>
 
-#include "base/file.h"
 #include "base/mathd.h"
 #include "base/sampler.h"
 #include "base/units.h"
-#include "panel/set/closed_form.h"
-#include "panel/set/polar_grid.h"
+#include "panel/set/angle_table.h"
 #include "panel/set/set_writer.h"
+#include "panel/set/synthetic_panel.h"
 #include "spectrum/spectral_table.h"
-
-static const char *const primary_names[3] = {"red", "green", "blue"};
 
 typedef struct Instrument {
     const SyntheticPanel *panel; /* where it measures */

@@ -2,8 +2,6 @@
 #include "panel/set/specular_table.h"
 
 #include <math.h>
-#include <stdio.h>
-#include <string.h>
 
 #include "base/count.h"
 #include "base/file.h"

@@ -3,18 +3,18 @@
 
 #include <math.h>
 
+#include "base/count.h"
 #include "base/mathd.h"
 #include "base/units.h"
-#include "text/json_view.h"
+#include "spectrum/fresnel.h"
 #include "spectrum/spectral_table.h"
-
-#define COUNT(list) ((int)(sizeof(list) / sizeof *(list)))
+#include "text/json_view.h"
 
 static void default_levels(SyntheticEmission *emission)
 {
     static const double levels[] = {31, 63, 95, 127, 159, 191, 223, 255};
-    emission->level_count = COUNT(levels);
-    for (int i = 0; i < COUNT(levels); i++) emission->level[i] = levels[i];
+    emission->level_count = COUNT_OF(levels);
+    for (int i = 0; i < COUNT_OF(levels); i++) emission->level[i] = levels[i];
 }
 
 static SyntheticPanel synthetic_panel_defaults(void)
@@ -79,7 +79,7 @@ static bool read_primary(const JsonView *emission, const char *name, SyntheticPr
     int      counts[3] = {0, 0, 0}, shifts = 3;
     out->luminance_cd_m2 = 100;
     if (!json_view_child(emission, name, true, &view, err) ||
-        !json_view_check_keys(&view, keys, COUNT(keys), err) ||
+        !json_view_check_keys(&view, keys, COUNT_OF(keys), err) ||
         !json_view_number(&view, "luminance_cd_m2", 1e-3, 1e5, &out->luminance_cd_m2, err) ||
         !json_view_numbers(&view, "peaks_nm", (JsonRange){360, 830, SYNTHETIC_PEAKS_MAX},
                            out->peak_nm, &counts[0], err) ||
@@ -104,7 +104,7 @@ static bool read_lobe(const JsonView *emission, SyntheticEmission *out, Error *e
     JsonView view;
     double   theta = 40, phi = 90, width = 10;
     if (!json_view_child(emission, "lobe", false, &view, err) ||
-        !json_view_check_keys(&view, keys, COUNT(keys), err) ||
+        !json_view_check_keys(&view, keys, COUNT_OF(keys), err) ||
         !json_view_number(&view, "theta_deg", 0, 90, &theta, err) ||
         !json_view_number(&view, "phi_deg", -360, 360, &phi, err) ||
         !json_view_number(&view, "width_deg", 0.5, 90, &width, err) ||
@@ -136,7 +136,7 @@ static bool read_emission(const JsonView *root, SyntheticEmission *out, Error *e
     JsonView view;
     int      powers = 2;
     return json_view_child(root, "emission", true, &view, err) &&
-           json_view_check_keys(&view, keys, COUNT(keys), err) &&
+           json_view_check_keys(&view, keys, COUNT_OF(keys), err) &&
            read_primary(&view, "red", &out->primary[0], err) &&
            read_primary(&view, "green", &out->primary[1], err) &&
            read_primary(&view, "blue", &out->primary[2], err) &&
@@ -156,7 +156,7 @@ static bool read_reflection(const JsonView *root, SyntheticReflection *out, Erro
     JsonView view;
     if (!json_view_child(root, "reflection", false, &view, err)) return false;
     out->exists = view.object != NULL;
-    return json_view_check_keys(&view, keys, COUNT(keys), err) &&
+    return json_view_check_keys(&view, keys, COUNT_OF(keys), err) &&
            json_view_number(&view, "coating", 0.01, 1, &out->coating, err) &&
            json_view_number(&view, "coating_blue", 0, 1, &out->coating_blue, err) &&
            json_view_number(&view, "haze_share", 0, 1, &out->haze_share, err) &&
@@ -178,7 +178,7 @@ static bool read_instrument(const JsonView *root, SyntheticInstrument *out, Erro
         "noise_cd_m2", "noise_brdf_sr", "seed"};
     JsonView view;
     bool ok = json_view_child(root, "instrument", false, &view, err) &&
-        json_view_check_keys(&view, keys, COUNT(keys), err) &&
+        json_view_check_keys(&view, keys, COUNT_OF(keys), err) &&
         json_view_number(&view, "theta_max_deg", 10, 89.5, &out->theta_max_deg, err) &&
         json_view_number(&view, "theta_step_deg", 0.05, 10, &out->theta_step_deg, err) &&
         json_view_number(&view, "phi_step_deg", 0.05, 30, &out->phi_step_deg, err);
@@ -223,7 +223,7 @@ static bool read_places(const JsonView *root, SyntheticPlaces *out, Error *err)
     double   map[2] = {0, 0}, bend = 0;
     if (!json_view_child(root, "places", false, &view, err)) return false;
     if (!view.object) return true;
-    bool ok = json_view_check_keys(&view, keys, COUNT(keys), err) &&
+    bool ok = json_view_check_keys(&view, keys, COUNT_OF(keys), err) &&
         read_spots(&view, out, err) &&
         json_view_pair(&view, "map", 1, 2048, map, err) &&
         json_view_numbers(&view, "slope", (JsonRange){-0.9, 0.9, 2}, out->slope, &two, err) &&
@@ -264,7 +264,7 @@ static bool read_members(const JsonView *root, SyntheticPanel *out, Error *err)
     static const char *const keys[] = {"panel", "note", "pixels", "size_mm",
         "refractive_index", "emission", "reflection", "instrument", "places",
         "polarisation", "subpixels"};
-    return json_view_check_keys(root, keys, COUNT(keys), err) &&
+    return json_view_check_keys(root, keys, COUNT_OF(keys), err) &&
            json_view_text(root, "panel", &out->name, err) &&
            json_view_text(root, "note", &out->note, err) &&
            json_view_pair(root, "pixels", 1, 65536, out->pixels, err) &&
@@ -286,4 +286,145 @@ bool synthetic_panel_read(const char *file, Arena *arena, SyntheticPanel *out, E
     json_view_close(&root);
     if (ok) *out = panel;
     return ok;
+}
+
+/* ---- the exact values -------------------------------------------------------------------- */
+
+/* F of the cover, held where rounding leaves the range of a cosine. */
+static double cover_fresnel(const SyntheticPanel *panel, double cosine)
+{
+    return fresnel_unpolarised_d(fmin(1, fabs(cosine)), panel->refractive_index);
+}
+
+/* Angle between two directions, exact also when it is small. */
+static double angle_between(const double a[2], const double b[2])
+{
+    double dt = sin_d(0.5 * (a[0] - b[0])), dp = sin_d(0.5 * (a[1] - b[1]));
+    double h = dt * dt + sin_d(a[0]) * sin_d(b[0]) * dp * dp;
+    return 2 * asin_d(sqrt(h > 1 ? 1 : h));
+}
+
+/* A of synthetic_panel.h. */
+static double angular_falloff(const SyntheticPanel *panel, const double angles[2])
+{
+    const SyntheticEmission *e = &panel->emission;
+    double c = cos_d(angles[0]), cp = cos_d(angles[1]);
+    double power = e->cosine_power[0] * cp * cp + e->cosine_power[1] * (1 - cp * cp);
+    double through = (1 - cover_fresnel(panel, c)) / (1 - cover_fresnel(panel, 1));
+    double lobe = 0;
+    if (e->lobe_gain > 0) {
+        double d = angle_between(angles, (double[2]){e->lobe_theta, e->lobe_phi});
+        lobe = e->lobe_gain * exp_d(-0.5 * d * d / (e->lobe_width * e->lobe_width));
+    }
+    return pow_d(c > 0 ? c : 0, power) * through * (1 + lobe);
+}
+
+SyntheticPanel closed_form_at(const SyntheticPanel *panel, const double place[2])
+{
+    const SyntheticPlaces *p = &panel->places;
+    SyntheticPanel out = *panel;
+    double x = place[0] - 0.5, y = place[1] - 0.5;
+    double wave = cos_d(2 * PI * p->mura_cycles[0] * x) * cos_d(2 * PI * p->mura_cycles[1] * y);
+    double even = (1 + p->slope[0] * x + p->slope[1] * y) * (1 + p->mura * wave);
+    double tint[3] = {1 + p->tint * x, 1, 1 - p->tint * x};
+    for (int k = 0; k < 3; k++)
+        for (int j = 0; j < 3; j++) out.emission.primary[k].white_xyz[j] *= even * tint[j];
+    out.emission.black_cd_m2 *= even * (1 + p->clouding * 16 * x * x * y * y);
+    out.emission.lobe_gain *= 1 + p->lobe_slope * x;
+    out.reflection.haze_share *= 1 + p->haze_slope * x;
+    return out;
+}
+
+void closed_form_emission_xyz(const SyntheticPanel *panel, int primary, double code,
+                              const double angles[2], double xyz[3])
+{
+    const SyntheticEmission *e = &panel->emission;
+    const SyntheticPrimary  *p = &e->primary[primary];
+    double s = sin_d(angles[0]) * sin_d(angles[0]);
+    double level = code > 0 ? pow_d(code / 255, e->gamma - e->gamma_drop * s) : 0;
+    double a = angular_falloff(panel, angles);
+    for (int j = 0; j < 3; j++) xyz[j] = p->white_xyz[j] * level * a * exp_d(p->shift[j] * s);
+}
+
+void closed_form_black_xyz(const SyntheticPanel *panel, const double angles[2], double xyz[3])
+{
+    const SyntheticEmission *e = &panel->emission;
+    double white[3] = {0, 0, 0};
+    double s = sin_d(angles[0]) * sin_d(angles[0]), diagonal = sin_d(2 * angles[1]);
+    double value = e->black_cd_m2 * angular_falloff(panel, angles) *
+                   (1 + e->leak * s * s * diagonal * diagonal);
+    for (int p = 0; p < 3; p++)
+        for (int j = 0; j < 3; j++) white[j] += e->primary[p].white_xyz[j];
+    for (int j = 0; j < 3; j++) xyz[j] = value * white[j] / white[1];
+}
+
+/* R of synthetic_panel.h. */
+static double coated_reflectance(const SyntheticPanel *panel, double cos_theta, double nm)
+{
+    double f = cover_fresnel(panel, cos_theta);
+    double d = (nm - 550) / 150;
+    double c = panel->reflection.coating + panel->reflection.coating_blue * d * d;
+    if (c > 1) c = 1;
+    return f * (c + (1 - c) * f);
+}
+
+double closed_form_mirror(const SyntheticPanel *panel, double theta, double nm)
+{
+    return (1 - panel->reflection.haze_share) * coated_reflectance(panel, cos_d(theta), nm);
+}
+
+double closed_form_brdf(const SyntheticPanel *panel, double theta_i, double theta_o, double phi,
+                        double nm)
+{
+    const SyntheticReflection *r = &panel->reflection;
+    double ci = cos_d(theta_i), co = cos_d(theta_o);
+    if (ci <= 0 || co <= 0) return 0;
+    double si = sin_d(theta_i), so = sin_d(theta_o), w2 = r->haze_width * r->haze_width;
+    double sp = sin_d(0.5 * phi);
+    double b2 = (so - si) * (so - si) + 4 * so * si * sp * sp;
+    double k = (r->haze_power - 1) / (PI * w2) * pow_d(1 + b2 / w2, -r->haze_power);
+    double gloss = sqrt(coated_reflectance(panel, ci, nm) *
+                        coated_reflectance(panel, co, nm));
+    double under = (1 - cover_fresnel(panel, ci)) * (1 - cover_fresnel(panel, co));
+    return r->haze_share * gloss * k + r->lambertian_albedo / PI * under;
+}
+
+double closed_form_instrument_brdf(const SyntheticPanel *panel, double theta_i, double theta_o,
+                                   double phi, double nm)
+{
+    double sigma = radians_from_degrees(panel->instrument.fwhm_deg) / sqrt(8 * log_d(2));
+    double d = angle_between((double[2]){theta_o, phi}, (double[2]){theta_i, 0});
+    double image = exp_d(-0.5 * d * d / (sigma * sigma)) / (2 * PI * sigma * sigma);
+    return closed_form_brdf(panel, theta_i, theta_o, phi, nm) +
+           closed_form_mirror(panel, theta_i, nm) * image / cos_d(theta_i);
+}
+
+#define APERTURE_RINGS 32
+#define APERTURE_SECTORS 24
+
+/* BRDF times cosine in a direction at a distance from the mirror direction, turned about it. */
+static double towards_aperture(const SyntheticPanel *panel, double theta, double distance,
+                               double turn, double nm)
+{
+    double s = sin_d(distance), x = s * cos_d(turn), y = s * sin_d(turn), z = cos_d(distance);
+    double across = cos_d(theta) * x + sin_d(theta) * z;
+    double cosine = cos_d(theta) * z - sin_d(theta) * x;
+    if (!(cosine > 0)) return 0;
+    return cosine * closed_form_brdf(panel, theta, acos_d(fmin(1, cosine)), atan2_d(y, across),
+                                     nm);
+}
+
+/* Rings are closer where a narrow haze is: their radii go with a square. */
+double closed_form_specular(const SyntheticPanel *panel, double theta, double aperture,
+                            double nm)
+{
+    double sum = 0;
+    for (int i = 0; i < APERTURE_RINGS; i++) {
+        double x = (i + 0.5) / APERTURE_RINGS, radius = 0.5 * aperture * x * x;
+        double area = sin_d(radius) * aperture * x / APERTURE_RINGS;
+        for (int k = 0; k < APERTURE_SECTORS; k++)
+            sum += area * (2 * PI / APERTURE_SECTORS) *
+                   towards_aperture(panel, theta, radius, 2 * PI * k / APERTURE_SECTORS, nm);
+    }
+    return closed_form_mirror(panel, theta, nm) + sum;
 }

@@ -5,8 +5,6 @@
 
 #include "spectrum/spectral_table.h"
 
-static const char *const primary_names[3] = {"red", "green", "blue"};
-
 /* XYZ as non-negative amounts of the Rec.709 primaries: amounts below zero become zero and
  * the luminance is kept. */
 static void split_white(const float xyz[3], float amount[3])

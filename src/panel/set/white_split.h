@@ -12,7 +12,7 @@
  */
 #pragma once
 #include "panel/set/level_table.h"
-#include "panel/set/measured_primary.h"
+#include "panel/set/angle_table.h"
 
 /* levels: NULL for full level alone and no black, whose `rows` are then 0. Returns 0 where
  * Rec.709 carries every colour, else the share of the brightest one that it cannot. */

@@ -4,7 +4,7 @@
 #include <math.h>
 
 #include "base/units.h"
-#include "panel/query/panel_evenness.h"
+#include "panel/query/panel_info.h"
 #include "panel/query/panel_place.h"
 #include "plot/draw/colour_map.h"
 #include "plot/draw/ticks.h"

@@ -11,20 +11,15 @@
 #define SAME_ANGLE 2e-6f /* radians: two rings or azimuths nearer than this are one */
 #define NEAREST_COUNT 10 /* rows that fill a cell without a row */
 
-static int index_of(const float *sorted, int count, float value)
+int direction_grid_index(const float *sorted, int count, float value, float apart)
 {
     int low = 0, high = count - 1;
     while (low < high) {
         int middle = (low + high) / 2;
-        if (sorted[middle] < value - SAME_ANGLE) low = middle + 1;
+        if (sorted[middle] < value - apart) low = middle + 1;
         else high = middle;
     }
     return low;
-}
-
-static float folded_phi(float phi, bool mirrored)
-{
-    return mirrored && phi > PI_F ? 2 * PI_F - phi : phi;
 }
 
 /* Azimuths of all rows off the pole. */
@@ -32,7 +27,8 @@ static int row_azimuths(const AngleTable *table, bool mirrored, float *phi)
 {
     int count = 0;
     for (int i = 0; i < table->rows; i++)
-        if (table->theta[i] > SAME_ANGLE) phi[count++] = folded_phi(table->phi[i], mirrored);
+        if (table->theta[i] > SAME_ANGLE)
+            phi[count++] = direction_grid_fold(table->phi[i], mirrored);
     return count;
 }
 
@@ -121,7 +117,7 @@ static int nearest_rows(const AngleTable *table, bool mirrored, const float at[3
     int count = 0;
     for (int i = 0; i < table->rows; i++) {
         float there[3];
-        chord_axis(table->theta[i], folded_phi(table->phi[i], mirrored), there);
+        chord_axis(table->theta[i], direction_grid_fold(table->phi[i], mirrored), there);
         count = insert_near(list, count, (Near){squared_chord(at, there), i});
     }
     return count;
@@ -154,7 +150,7 @@ static void fill_weights(const AngleTable *table, bool mirrored, const float at[
     double scale = (double)list[count - 1].distance + 1e-12, sum = 0;
     for (int i = 0; i < count; i++) {
         double theta = (double)table->theta[list[i].row];
-        double phi = (double)folded_phi(table->phi[list[i].row], mirrored);
+        double phi = (double)direction_grid_fold(table->phi[list[i].row], mirrored);
         double turn = phi - (double)at[1];
         basis[i][0] = 1;
         basis[i][1] = (theta * cos_d(turn) - (double)at[0]) / sqrt(scale);
@@ -184,8 +180,9 @@ static CellRows place_rows(const AngleTable *table, const DirectionGrid *grid, A
     CellRows rows = {ARENA_NEW(arena, int, cells), ARENA_NEW(arena, int, cells)};
     for (int c = 0; c < cells; c++) rows.first[c] = rows.second[c] = -1;
     for (int i = 0; i < table->rows && !grid->is_scattered; i++) {
-        int t = index_of(grid->theta, grid->thetas, table->theta[i]);
-        int p = index_of(grid->phi, grid->phis, folded_phi(table->phi[i], grid->is_mirrored));
+        float phi = direction_grid_fold(table->phi[i], grid->is_mirrored);
+        int   t = direction_grid_index(grid->theta, grid->thetas, table->theta[i], SAME_ANGLE);
+        int   p = direction_grid_index(grid->phi, grid->phis, phi, SAME_ANGLE);
         bool is_pole = table->theta[i] <= SAME_ANGLE;
         for (int c = is_pole ? 0 : t * grid->phis + p, last = is_pole ? grid->phis - 1 : c;
              c <= last; c++) {
@@ -333,7 +330,7 @@ static void add_ring(const DirectionGrid *grid, int ring, float phi, float weigh
 static float wrapped_phi(const DirectionGrid *grid, float phi)
 {
     phi -= 2 * PI_F * floorf(phi / (2 * PI_F));
-    return folded_phi(phi, grid->is_mirrored);
+    return direction_grid_fold(phi, grid->is_mirrored);
 }
 
 void direction_grid_taps(const DirectionGrid *grid, float theta, float phi, GridTaps *taps)
@@ -374,11 +371,4 @@ void direction_grid_read(const GridTaps *taps, const float *cells, int channels,
         const float *cell = cells + (size_t)taps->cell[i] * (size_t)channels;
         for (int k = 0; k < channels; k++) out[k] += taps->weight[i] * cell[k];
     }
-}
-
-bool direction_grid_same_rows(const AngleTable *a, const AngleTable *b)
-{
-    return a->rows == b->rows &&
-           !memcmp(a->theta, b->theta, sizeof *a->theta * (size_t)a->rows) &&
-           !memcmp(a->phi, b->phi, sizeof *a->phi * (size_t)a->rows);
 }

@@ -15,6 +15,7 @@
 #include <stdbool.h>
 
 #include "base/arena.h"
+#include "base/units.h"
 #include "panel/set/angle_table.h"
 
 typedef struct DirectionGrid {
@@ -52,5 +53,11 @@ void direction_grid_taps(const DirectionGrid *grid, float theta, float phi, Grid
 /* Weighted sum of the cells' channels. */
 void direction_grid_read(const GridTaps *taps, const float *cells, int channels, float *out);
 
-/* True when both tables have the same directions, so that one grid serves them. */
-bool direction_grid_same_rows(const AngleTable *a, const AngleTable *b);
+/* The first of rising angles that is not below a value by `apart` or more; else the last. */
+int direction_grid_index(const float *rising, int count, float value, float apart);
+
+/* An azimuth of [0, 2 pi) in [0, pi], where values at -phi are those at phi. */
+static inline float direction_grid_fold(float phi, bool is_mirrored)
+{
+    return is_mirrored && phi > PI_F ? 2 * PI_F - phi : phi;
+}

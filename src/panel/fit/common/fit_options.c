@@ -1,8 +1,13 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "panel/fit/common/fit_options.h"
 
-FitOptions fit_options_default(void)
+#include <stdarg.h>
+
+void fit_note(FitNotes *notes, const char *format, ...)
 {
-    return (FitOptions){.max_error = 0.003f, .error_floor = 0.001f, .wavelet = WAVELET_CDF53,
-                        .weights = HAAR_AREA, .threads = 1, .progress = PROGRESS_NONE};
+    if (notes->count == FIT_NOTES_MAX) return;
+    va_list args;
+    va_start(args, format);
+    notes->text[notes->count++] = arena_format_list(notes->arena, 511, format, args);
+    va_end(args);
 }

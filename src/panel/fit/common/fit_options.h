@@ -1,8 +1,14 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* fit_options.h -- what a user may ask of a fit. */
+/* fit_options.h -- what a user may ask of a fit, and sentences that its report keeps: what was
+ * chosen, missed, assumed.
+ *
+ * Memory   the notes' arena. Threads: one at a time. Fails: never; beyond FIT_NOTES_MAX
+ * sentences, and 511 bytes of one, the rest is dropped.
+ */
 #pragma once
 #include <stdbool.h>
 
+#include "base/arena.h"
 #include "base/progress.h"
 #include "hemisphere/haar.h"
 #include "hemisphere/wavelet1d.h"
@@ -33,4 +39,19 @@ typedef struct FitOptions {
     ProgressMode progress;
 } FitOptions;
 
-FitOptions fit_options_default(void);
+static inline FitOptions fit_options_default(void)
+{
+    return (FitOptions){.max_error = 0.003f, .error_floor = 0.001f, .wavelet = WAVELET_CDF53,
+                        .weights = HAAR_AREA, .threads = 1, .progress = PROGRESS_NONE};
+}
+
+#define FIT_NOTES_MAX 32
+
+typedef struct FitNotes {
+    const char *text[FIT_NOTES_MAX];
+    int         count;
+    Arena      *arena;
+} FitNotes;
+
+/* As printf. */
+void fit_note(FitNotes *notes, const char *format, ...) __attribute__((format(printf, 2, 3)));

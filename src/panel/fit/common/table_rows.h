@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* table_rows.h -- where the rows of a measured table lie, and next to which others.
+/* table_rows.h -- where the rows of a measured table lie, next to which others, and how
+ * noisy it is.
  *
  * Rows are sorted by theta, then phi; a ring is the rows of one theta. Angles in radians.
  * Threads  pure functions. Fails: never.
@@ -24,3 +25,21 @@ typedef struct TableNeighbours {
     const int *ring, *inner;
 } TableNeighbours;
 TableNeighbours table_neighbours(const AngleTable *table, Arena *arena);
+
+/* ---- noise, estimated from a table alone --------------------------------------------------
+ *
+ * Smooth data leave nearly nothing of high differences of neighbours; noise of standard
+ * deviation s leaves s sqrt(sum of squared binomials), so the median of their sizes over that
+ * root and over a normal distribution's median is s. Structure only adds to a difference:
+ * the least over orders 3, 5 and 7, rings and meridians, values and logarithms is taken. 0 when
+ * fewer than 16 differences can be had. */
+
+/* Noise of a channel, relative to its values, inside 70 degrees. */
+double table_noise_relative(const AngleTable *table, int channel, Arena scratch);
+
+/* In the channel's unit on the dimmest rings (the last tenth of theta), where only what does
+ * not scale with light is left. */
+double table_noise_dim(const AngleTable *table, int channel, Arena scratch);
+
+/* In the channel's unit over all rows. */
+double table_noise_plain(const AngleTable *table, int channel, Arena scratch);

@@ -2,12 +2,11 @@
 #include "panel/fit/emission/emission_edges.h"
 
 #include <math.h>
-#include <string.h>
 
 #include "base/mathd.h"
 #include "base/mathf.h"
 #include "base/units.h"
-#include "panel/fit/common/least_squares.h"
+#include "panel/fit/common/small_matrix.h"
 #include "panel/query/panel_components.h"
 
 #define STEPS 16          /* nodes of a profile between two rings */
@@ -296,8 +295,6 @@ static void choose_following(EmissionEdges *e, Arena scratch)
                      (2 * light);
     }
 }
-
-/* ---- all -------------------------------------------------------------------------------- */
 
 /* E of every channel at the rows, by the components. */
 static float *light_of_rows(const EmissionModel *model, Arena *arena)

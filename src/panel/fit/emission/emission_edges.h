@@ -18,7 +18,7 @@
  */
 #pragma once
 #include "panel/fit/common/direction_grid.h"
-#include "panel/fit/common/fit_note.h"
+#include "panel/fit/common/fit_options.h"
 #include "panel/fit/emission/emission_model.h"
 
 typedef struct EmissionEdges {

@@ -2,13 +2,14 @@
 #include "panel/fit/emission/emission_fit.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "base/mathd.h"
 #include "base/sort.h"
-#include "panel/fit/common/table_noise.h"
+#include "panel/fit/common/table_rows.h"
 #include "panel/fit/emission/emission_beam.h"
-#include "panel/fit/emission/emission_section.h"
-#include "panel/fit/emission/emission_smooth.h"
+#include "panel/query/panel_file.h"
+#include "panel/shape/spectral_warp.h"
 
 #define TOLERANCE 0.0025 /* relative, where the noise does not ask for more */
 #define SIGMAS 4.0      /* of the noise that the components have left */
@@ -54,6 +55,218 @@ static void note_flags(const EmissionResult *e, FitNotes *notes)
     if (e->hole_count)
         fit_note(notes, "%d directions of the emission tables' grids are not measured; the "
                  "other tables and their neighbours fill them", e->hole_count);
+}
+
+/* ---- the section of the file (layout: panel_file.h) -------------------------------------- */
+
+static void put(unsigned char **to, const void *from, size_t bytes)
+{
+    memcpy(*to, from, bytes);
+    *to += bytes;
+}
+
+static void put_levels(unsigned char **to, const Measurement *set)
+{
+    for (int p = 0; p < 3; p++)
+        for (int i = 0; i < set->primary[p].level_count; i++) {
+            double   units = rint(set->primary[p].level[i] * (double)PANEL_LEVEL_UNIT);
+            uint16_t level = (uint16_t)fmax(1, fmin(255 * (double)PANEL_LEVEL_UNIT, units));
+            put(to, &level, sizeof level);
+        }
+}
+
+/* The step of a component's loadings: what is left of the rounding, times scores of up to five
+ * times their deviation, must not matter. */
+static int loading_exponent(const EmissionModel *model)
+{
+    double step = 2 * model->tolerance / (24 * 5 * sqrt((double)model->rank->components));
+    int    exponent = 0;
+    frexp(step, &exponent);
+    return 1 - exponent < 0 ? 0 : 1 - exponent > 20 ? 20 : 1 - exponent;
+}
+
+typedef struct LoadingCode {
+    uint8_t exponent, width;
+} LoadingCode;
+
+static LoadingCode loading_code(const EmissionModel *model, int component)
+{
+    const EmissionRank *rank = model->rank;
+    int   channels = model->samples->channels, e = loading_exponent(model);
+    float most = 0;
+    for (int c = 0; c < channels; c++)
+        most = fmaxf(most, fabsf(rank->loading[c * rank->components + component]));
+    while (e > 0 && most > ldexpf(32766, -e)) e--;
+    return (LoadingCode){(uint8_t)e, ldexpf(most, e) < 126.5f ? 1 : 2};
+}
+
+static int rounded_to(float value, int exponent)
+{
+    return (int)fminf(32767, fmaxf(-32767, rintf(ldexpf(value, exponent))));
+}
+
+/* Means and loadings become what the section holds. */
+static void round_model(EmissionModel *model)
+{
+    EmissionRank *rank = model->rank;
+    for (int c = 0; c < model->samples->channels; c++)
+        rank->mean[c] = ldexpf((float)rounded_to(rank->mean[c], PANEL_MEAN_BITS),
+                               -PANEL_MEAN_BITS);
+    for (int k = 0; k < rank->components; k++) {
+        LoadingCode code = loading_code(model, k);
+        for (int c = 0; c < model->samples->channels; c++) {
+            float *at = &rank->loading[c * rank->components + k];
+            *at = ldexpf((float)rounded_to(*at, code.exponent), -code.exponent);
+        }
+    }
+}
+
+static PanelEmissionHead section_head(const EmissionModel *model)
+{
+    const EmissionSamples *s = model->samples;
+    PanelEmissionHead head = {.components = (uint8_t)model->rank->components,
+        .has_black = s->black >= 0, .beams = (uint8_t)model->beams,
+        .cone_cos = fmaxf(0, (float)cos_d(s->cone)),
+        .level_power = 2.2f, .cosine_power = model->rank->cosine_power};
+    for (int p = 0; p < 3; p++)
+        head.level_count[p] = (uint8_t)s->set->primary[p].level_count;
+    return head;
+}
+
+static void put_loadings(unsigned char **to, const EmissionModel *model)
+{
+    const EmissionRank *rank = model->rank;
+    LoadingCode code[PANEL_COMPONENTS_MAX];
+    for (int k = 0; k < rank->components; k++) code[k] = loading_code(model, k);
+    for (int k = 0; k < rank->components; k++) put(to, &code[k].exponent, 1);
+    for (int k = 0; k < rank->components; k++) put(to, &code[k].width, 1);
+    for (int pass = 2; pass >= 1; pass--)
+        for (int k = 0; k < rank->components; k++)
+            for (int c = 0; c < model->samples->channels && code[k].width == pass; c++) {
+                int     value = rounded_to(rank->loading[c * rank->components + k],
+                                           code[k].exponent);
+                int16_t wide = (int16_t)value;
+                int8_t  narrow = (int8_t)value;
+                put(to, pass == 2 ? (const void *)&wide : (const void *)&narrow, (size_t)pass);
+            }
+}
+
+static const void *write_section(const EmissionModel *model, Arena *arena, size_t *size)
+{
+    size_t channels = (size_t)model->samples->channels;
+    size_t most = sizeof(PanelEmissionHead) + 4 * channels +
+                  (size_t)model->rank->components * (2 + 2 * channels) + model->spline_size;
+    for (int b = 0; b < model->beams; b++) most += model->beam[b].size;
+    unsigned char    *bytes = ARENA_NEW(arena, unsigned char, most), *at = bytes;
+    PanelEmissionHead head = section_head(model);
+    put(&at, &head, sizeof head);
+    put_levels(&at, model->samples->set);
+    for (size_t c = 0; c < channels; c++) {
+        int16_t mean = (int16_t)rounded_to(model->rank->mean[c], PANEL_MEAN_BITS);
+        put(&at, &mean, sizeof mean);
+    }
+    put_loadings(&at, model);
+    put(&at, model->spline_bytes, model->spline_size);
+    for (int b = 0; b < model->beams; b++) put(&at, model->beam[b].bytes, model->beam[b].size);
+    *size = (size_t)(at - bytes);
+    return bytes;
+}
+
+/* ---- the primaries' section -------------------------------------------------------------- */
+
+#define SPECTRA_STEPS 6
+
+static float most_of(const float *spectrum)
+{
+    float most = 0;
+    for (int i = 0; i < SPECTRAL_COUNT; i++) most = fmaxf(most, spectrum[i]);
+    return most;
+}
+
+/* Range of whole nm that hold light in any primary. */
+static void lit_range(const Measurement *set, int *first, int *last)
+{
+    *first = SPECTRAL_COUNT;
+    *last = 0;
+    for (int p = 0; p < 3; p++)
+        for (int i = 0; i < SPECTRAL_COUNT; i++)
+            if (set->spectrum[p][i] > 0) {
+                if (i < *first) *first = i;
+                if (i > *last) *last = i;
+            }
+}
+
+/* Do samples every `step` nm from `first` on determine everything in between? */
+static bool is_told_by(const Measurement *set, int first, int last, int step)
+{
+    for (int p = 0; p < 3; p++) {
+        const float *s = set->spectrum[p];
+        float small = 1e-5f * most_of(s);
+        for (int i = first; i <= last; i++) {
+            int   a = first + (i - first) / step * step, b = a + step;
+            float t = (float)(i - a) / (float)step;
+            if (b > last && i > a) return false;
+            if (b > last) continue;
+            if (fabsf(s[a] + (s[b] - s[a]) * t - s[i]) > small) return false;
+        }
+    }
+    return true;
+}
+
+static int choose_step(const Measurement *set, int first, int last)
+{
+    static const int steps[SPECTRA_STEPS] = {20, 10, 5, 4, 2, 1};
+    for (int k = 0; k < SPECTRA_STEPS; k++)
+        if ((last - first) % steps[k] == 0 && is_told_by(set, first, last, steps[k]))
+            return steps[k];
+    return 1;
+}
+
+/* A spectrum that is 0 at its ends may have begun and ended one step outside of the light. */
+static int widen(const Measurement *set, int *first, int *last)
+{
+    int best = choose_step(set, *first, *last), low = *first, high = *last;
+    for (int before = 0; before < 20 && low - before >= 0; before++)
+        for (int after = 0; after < 20 && high + after < SPECTRAL_COUNT; after++) {
+            int step = choose_step(set, low - before, high + after);
+            if (step <= best) continue;
+            best = step;
+            *first = low - before;
+            *last = high + after;
+        }
+    return best;
+}
+
+const void *emission_fit_primaries(const Measurement *set, FitNotes *notes, Arena *arena,
+                                   size_t *size)
+{
+    PanelPrimariesHead head = {.kind = PANEL_SPECTRA_STORED};
+    int first = 0, last = -1, step = 1;
+    if (set->has_spectra) {
+        lit_range(set, &first, &last);
+        step = widen(set, &first, &last);
+        if (last == first) last++;
+        head.first_nm = (float)(SPECTRAL_FIRST_NM + first);
+        head.step_nm = (float)step;
+        head.count = (uint16_t)((last - first) / step + 1);
+    } else {
+        head.kind = set->is_white_only ? PANEL_SPECTRA_REC709 : PANEL_SPECTRA_TYPICAL;
+        fit_note(notes, "no spectra of the primaries: %s, bent to the measured colours",
+                 set->is_white_only ? "the Rec.709 primaries' smooth spectra under D65"
+                                    : "typical ones (peaks at 625, 535 and 455 nm)");
+    }
+    *size = sizeof head + 6 * (size_t)head.count;
+    unsigned char *bytes = ARENA_NEW(arena, unsigned char, *size), *at = bytes + sizeof head;
+    for (int p = 0; p < 3; p++) {
+        head.scale[p] = fmaxf(most_of(set->spectrum[p]), 1e-30f) / 65535;
+        for (int i = first; i <= last && head.count; i += step) {
+            uint16_t value = (uint16_t)rintf(set->spectrum[p][i] / head.scale[p]);
+            memcpy(at, &value, sizeof value);
+            at += sizeof value;
+        }
+    }
+    memcpy(bytes, &head, sizeof head);
+    return bytes;
 }
 
 /* ---- the model ------------------------------------------------------------------------- */
@@ -138,33 +351,29 @@ static bool build_model(const Measurement *set, const FitOptions *options, Arena
     find_score_noise(model, arena);
     model->noise = channel_noise(model, *arena);
     model->tolerance = choose_tolerance(model, options);
-    emission_section_round(model);
+    round_model(model);
     choose_steps(model, arena);
-    return emission_smooth_fit(model, arena);
+    return emission_model_fit_smooth(model, arena);
 }
 
 bool emission_fit(const Measurement *set, const FitOptions *options, Arena *arena,
                   FitNotes *notes, EmissionResult *out, Error *err)
 {
-    EmissionModel model;
+    EmissionModel *model = ARENA_NEW(arena, EmissionModel, 1);
     out->has_black = black_shines(set);
     survey_tables(set, options, arena, out);
     note_flags(out, notes);
     if (set->has_black && !out->has_black)
         fit_note(notes, "the black pattern is below 0.0001 cd/m2 or noise: black is 0");
-    if (!build_model(set, options, arena, notes, out, &model))
+    if (!build_model(set, options, arena, notes, out, model))
         return error_set(err, ERROR_INPUT, "emission: the smooth part cannot be stored");
-    if (!emission_tree_build(&model, options, arena, &out->tree, err)) return false;
-    emission_beam_note(&model, notes);
+    if (!emission_tree_build(model, options, arena, &out->tree, err)) return false;
+    emission_beam_note(model, notes);
     if (out->tree.has_edges) emission_edges_note(&out->tree.edges, notes);
     if (out->tree.missed)
         fit_note(notes, "emission: %d of %d directions miss %.2g%% beyond 5 sigma of noise",
-                 out->tree.missed, model.samples->rows, 100 * model.tolerance);
-    out->section = emission_section_write(&model, arena, &out->section_size);
-    out->components = model.rank->components;
-    out->cone = model.samples->cone;
-    out->tolerance = model.tolerance;
-    out->floor_share = model.samples->floor_share;
-    out->rank_worst = model.rank->worst;
+                 out->tree.missed, model->samples->rows, 100 * model->tolerance);
+    out->section = write_section(model, arena, &out->section_size);
+    out->model = model;
     return true;
 }

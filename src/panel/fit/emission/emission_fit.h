@@ -14,11 +14,9 @@ typedef struct EmissionResult {
     const void   *section; /* as in the file */
     size_t        section_size;
     EmissionTree  tree;
-    int           components, table_count;
+    const EmissionModel *model; /* in the end */
+    int           table_count;
     bool          has_black;
-    double        cone, tolerance; /* cone: radians */
-    double        floor_share; /* as in EmissionSamples */
-    double        rank_worst; /* relative error that the components leave at the worst sample */
     double        noise[EMISSION_TABLES_MAX];  /* relative, per table; last: black */
     double        dim[EMISSION_TABLES_MAX][3]; /* cd m^-2, per table and channel */
     uint8_t      *outlier[EMISSION_TABLES_MAX]; /* per row */
@@ -26,6 +24,10 @@ typedef struct EmissionResult {
     int           outlier_count, hole_count;
     EmissionFlags outliers, holes;
 } EmissionResult;
+
+/* The primaries' section: their spectra at the sampling that they were measured with. */
+const void *emission_fit_primaries(const Measurement *set, FitNotes *notes, Arena *arena,
+                                   size_t *size);
 
 bool emission_fit(const Measurement *set, const FitOptions *options, Arena *arena,
                   FitNotes *notes, EmissionResult *out, Error *err);

@@ -2,7 +2,7 @@
 /* emission_model.h -- what the steps before the tree have fixed of an emission: components,
  * smooth part and beams, everything as it will be read again from the file.
  *
- * Threads  pure functions of a constant model. Fails: never.
+ * Threads  pure functions of a constant model; one fits it. Fails: where it says so.
  */
 #pragma once
 #include "base/vec.h"
@@ -42,3 +42,11 @@ void emission_model_bare_scores(const EmissionModel *model, int row, float *out)
 /* M of all channels from components. */
 void emission_model_totals(const EmissionModel *model, const float *components, Vec3 direction,
                            float *m);
+
+/* ---- the smooth part: cubic B-splines in theta times harmonics of the azimuth ------------ */
+
+/* Fits the scores less the beams, into the model. False: it cannot be stored. */
+bool emission_model_fit_smooth(EmissionModel *model, Arena *arena);
+
+/* No smooth part. False: that cannot be stored. */
+bool emission_model_clear_smooth(EmissionModel *model, Arena *arena);

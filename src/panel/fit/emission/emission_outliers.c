@@ -6,7 +6,6 @@
 #include "base/mathd.h"
 #include "base/sort.h"
 #include "base/units.h"
-#include "panel/fit/common/table_noise.h"
 #include "panel/fit/common/table_rows.h"
 #include "panel/fit/emission/emission_samples.h"
 

@@ -13,8 +13,7 @@
 #include "base/mathd.h"
 #include "base/mathf.h"
 #include "base/sort.h"
-#include "panel/fit/common/least_squares.h"
-#include "panel/fit/common/principal.h"
+#include "panel/fit/common/small_matrix.h"
 #include "panel/query/panel_components.h"
 
 #define COMPONENTS_MAX 24
@@ -340,12 +339,7 @@ static void straighten(const EmissionSamples *s, const double *weight, EmissionR
     turn_rows(rank->loading, s->channels, back, n);
     row_covariance(rank->loading, s->channels, weight, n, matrix);
     principal_axes(matrix, axes, n);
-    for (int i = 0; i < n; i++) {
-        int at = i;
-        for (; at > 0 && matrix[order[at - 1] * (n + 1)] < matrix[i * (n + 1)]; at--)
-            order[at] = order[at - 1];
-        order[at] = i;
-    }
+    principal_order(matrix, n, order);
     for (int j = 0; j < n; j++)
         for (int k = 0; k < n; k++) turn[j * n + k] = axes[j * n + order[k]];
     turn_rows(rank->score, s->rows, turn, n);

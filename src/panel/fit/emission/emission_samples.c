@@ -2,14 +2,12 @@
 #include "panel/fit/emission/emission_samples.h"
 
 #include <math.h>
-#include <string.h>
 
 #include "base/mathd.h"
 #include "base/mathf.h"
 #include "base/sort.h"
 #include "base/units.h"
 #include "panel/fit/common/direction_grid.h"
-#include "panel/fit/common/table_noise.h"
 #include "panel/fit/common/table_rows.h"
 
 EmissionTable emission_samples_table(const Measurement *set, bool has_black, int index)
@@ -240,7 +238,7 @@ static void find_master(const Measurement *set, bool has_black, Arena *arena,
         if (!out->master || table->rows > out->master->rows) out->master = table;
     }
     for (int i = 0; (table = emission_samples_table(set, has_black, i).table); i++)
-        if (!direction_grid_same_rows(out->master, table) &&
+        if (!angle_table_same_rows(out->master, table) &&
             is_on_grid(out->master, table, *arena))
             out->master = unite(out->master, table, arena);
     out->rows = out->master->rows;

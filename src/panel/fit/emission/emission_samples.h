@@ -8,7 +8,7 @@
  */
 #pragma once
 #include "base/vec.h"
-#include "panel/fit/common/fit_note.h"
+#include "panel/fit/common/fit_options.h"
 #include "panel/query/panel_file.h"
 #include "panel/set/measurement.h"
 

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* The tree of what the smooth part leaves: vertex values by least squares, coded so that every
  * channel of every table keeps the tolerance at every sample. */
-#include "base/mathf.h"
 #include "panel/fit/emission/emission_tree.h"
 
 #include <math.h>
@@ -12,12 +11,11 @@
 #include "hemisphere/tree/tree_build.h"
 #include "hemisphere/tree/tree_open.h"
 #include "hemisphere/tree/tree_query.h"
-#include "hemisphere/vertex/vertex_find.h"
+#include "hemisphere/vertex/vertex.h"
 #include "hemisphere/vertex/vertex_tree.h"
 #include "hemisphere/vertex/vertex_tree_build.h"
 #include "panel/fit/emission/emission_beam.h"
 #include "panel/fit/emission/emission_edges.h"
-#include "panel/fit/emission/emission_smooth.h"
 #include "panel/fit/emission/emission_values.h"
 #include "panel/shape/panel_beam.h"
 
@@ -160,32 +158,44 @@ static bool start_coder(EmissionModel *model, int level, const float *rest, Aren
     return fit_vertices(out, rest, *arena, err);
 }
 
+/* Adds the values at a point to components. */
+static void add_values(const EmissionCoder *coder, const VertexPoint *at, float *components)
+{
+    uint32_t n = (uint32_t)coder->model->rank->components;
+    for (int q = 0; q < 3; q++)
+        for (uint32_t k = 0; k < n; k++)
+            components[k] += at->weight[q] * coder->value[at->vertex[q] * n + k];
+}
+
 /* ---- against the samples ---------------------------------------------------------------- */
 
-/* The largest relative error beyond noise that vertex values leave of a row before they are
- * coded. */
-static double row_error(const EmissionCoder *coder, int row)
+/* The largest relative error of a row's channels, beyond so many sigmas of noise. */
+static float excess_of(const EmissionCoder *coder, int row, const float *components,
+                       float sigmas)
 {
-    const EmissionModel   *model = coder->model;
-    const EmissionSamples *s = model->samples;
-    int         n = model->rank->components;
-    double      worst = 0;
-    VertexPoint at = vertex_find(coder->geodesic, coder->lattice, s->direction[row]);
-    float       components[PANEL_COMPONENTS_MAX] = {0};
-    emission_model_add_smooth(model, s->direction[row], components);
-    for (int q = 0; q < 3; q++)
-        for (int k = 0; k < n; k++)
-            components[k] += at.weight[q] * coder->value[at.vertex[q] * (uint32_t)n +
-                                                         (uint32_t)k];
-    emission_model_totals(model, components, s->direction[row], coder->work);
+    const EmissionSamples *s = coder->model->samples;
+    float excess = 0;
+    emission_model_totals(coder->model, components, s->direction[row], coder->work);
     for (int c = 0; c < s->channels; c++) {
         size_t number = (size_t)row * (size_t)s->channels + (size_t)c;
         float  m = s->total[number], sigma = s->sigma[number];
         if (isinf(sigma)) continue;
-        float scale = fmaxf(m, coder->least[c]);
-        worst = fmax(worst, (double)((fabsf(coder->work[c] - m) - 5 * sigma) / scale));
+        float miss = fabsf(coder->work[c] - m) - sigmas * sigma;
+        excess = fmaxf(excess, miss / fmaxf(m, coder->least[c]));
     }
-    return worst;
+    return excess;
+}
+
+/* What vertex values leave of a row before they are coded. */
+static double row_error(const EmissionCoder *coder, int row)
+{
+    const EmissionModel *model = coder->model;
+    Vec3        direction = model->samples->direction[row];
+    VertexPoint at = vertex_find(coder->geodesic, coder->lattice, direction);
+    float       components[PANEL_COMPONENTS_MAX] = {0};
+    emission_model_add_smooth(model, direction, components);
+    add_values(coder, &at, components);
+    return (double)excess_of(coder, row, components, 5);
 }
 
 /* Over all rows: what no tightening mends. *row: where. */
@@ -248,17 +258,10 @@ static int tighten(EmissionCoder *coder, const Tree *tree)
     const EmissionSamples *s = model->samples;
     int missed = 0;
     for (int i = 0; i < s->rows; i++) {
-        float components[PANEL_COMPONENTS_MAX], excess = 0;
+        float components[PANEL_COMPONENTS_MAX];
         coded_components(model, tree, s->direction[i], components);
-        emission_model_totals(model, components, s->direction[i], coder->work);
-        for (int c = 0; c < s->channels; c++) {
-            size_t number = (size_t)i * (size_t)s->channels + (size_t)c;
-            float  m = s->total[number], sigma = s->sigma[number];
-            if (isinf(sigma)) continue;
-            float miss = fabsf(coder->work[c] - m) - (float)coder->pardon * sigma;
-            excess = fmaxf(excess, miss / fmaxf(m, coder->least[c]));
-        }
-        if (!(excess > (float)model->tolerance)) continue;
+        if (!(excess_of(coder, i, components, (float)coder->pardon) > (float)model->tolerance))
+            continue;
         missed++;
         VertexPoint at = vertex_find(coder->geodesic, coder->lattice, s->direction[i]);
         for (int q = 0; q < 3; q++) {
@@ -356,10 +359,7 @@ static bool code_haar(const EmissionCoder *coder, const FitOptions *options, Are
     for (size_t i = 0; i < leaves; i++) {
         VertexPoint at = vertex_find(coder->geodesic, coder->lattice,
                                      geodesic_center(level, (uint32_t)i));
-        for (int q = 0; q < 3; q++)
-            for (int k = 0; k < n; k++)
-                values[i * (size_t)n + (size_t)k] +=
-                    at.weight[q] * coder->value[at.vertex[q] * (uint32_t)n + (uint32_t)k];
+        add_values(coder, &at, values + i * (size_t)n);
     }
     for (int k = 0; k < n; k++) {
         scale[k] = 1e-6f;
@@ -467,7 +467,7 @@ static bool build_edged(EmissionModel *model, const FitOptions *options, Arena *
     EmissionCoder coder, finer;
     int           level = edge_level(model->samples, options), row;
     hold_tolerance(model);
-    if (!emission_smooth_clear(model, arena))
+    if (!emission_model_clear_smooth(model, arena))
         return error_set(err, ERROR_INPUT, "emission: the smooth part cannot be stored");
     start_edged(model, &out->edges, level, arena, &coder);
     double uncoded = uncoded_error(&coder, &row);
@@ -481,8 +481,6 @@ static bool build_edged(EmissionModel *model, const FitOptions *options, Arena *
     coder.threads = options->threads;
     return code(&coder, options, arena, out, err);
 }
-
-/* ---- all -------------------------------------------------------------------------------- */
 
 static int start_level(const EmissionSamples *s, const FitOptions *options)
 {
@@ -529,7 +527,7 @@ static bool add_beam(const Plan *plan, Arena *arena, Start *best, bool *found, E
         Start one;
         *model = before;
         if (!emission_beam_find(model, worst, reach[i], arena)) continue;
-        if (!emission_smooth_fit(model, arena))
+        if (!emission_model_fit_smooth(model, arena))
             return error_set(err, ERROR_INPUT, "emission: the smooth part cannot be stored");
         if (!start(plan, arena, &one, err)) return false;
         if (!*found || one.uncoded < best->uncoded) *best = one, chosen = *model;

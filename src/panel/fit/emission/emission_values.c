@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/mathf.h"
-#include "hemisphere/vertex/vertex_find.h"
+#include "hemisphere/vertex/vertex.h"
 #include "hemisphere/vertex/vertex_fit.h"
 
 /* The ridge: noise^2 / (rows * the rest's expected curvature^2) is where a detail's own

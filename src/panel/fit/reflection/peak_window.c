@@ -5,8 +5,9 @@
 #include <string.h>
 
 #include "base/mathd.h"
+#include "base/sort.h"
 #include "base/units.h"
-#include "panel/fit/reflection/reflection_fresnel.h"
+#include "panel/fit/common/table_rows.h"
 
 #define WINDOW_ROWS_MAX 60000
 #define ENOUGH_ROWS 1000 /* to choose widths from */
@@ -15,6 +16,12 @@ double peak_window_angle(double theta, double phi, double incidence)
 {
     double dt = sin_d(0.5 * (theta - incidence)), dp = sin_d(0.5 * phi);
     return 2 * asin_d(sqrt(fmin(1, dt * dt + sin_d(theta) * sin_d(incidence) * dp * dp)));
+}
+
+double peak_window_squares(double theta, double phi, double incidence)
+{
+    double so = sin_d(theta), si = sin_d(incidence), sp = sin_d(0.5 * phi);
+    return (so - si) * (so - si) + 4 * so * si * sp * sp;
 }
 
 double peak_window_row_mean(const AngleTable *slice, int row)
@@ -48,9 +55,8 @@ PeakWindow peak_window_collect(const AngleTable *slice, double incidence, double
         if (theta < radians_from_degrees(60))
             window.lambertian = fmin(window.lambertian, mean / leaving);
         if (angle > reach || window.count == WINDOW_ROWS_MAX) continue;
-        double so = sin_d(theta), si = sin_d(incidence), sp = sin_d(0.5 * phi);
         window.row[window.count++] = (PeakRow){
-            i, 0, (so - si) * (so - si) + 4 * so * si * sp * sp, theta - incidence,
+            i, 0, peak_window_squares(theta, phi, incidence), theta - incidence,
             sqrt(reflection_fresnel(cos_d(theta)) / reflection_fresnel(cos_d(incidence))),
             angle, leaving, mean};
     }
@@ -62,6 +68,11 @@ PeakWindow peak_window_collect(const AngleTable *slice, double incidence, double
 static double haze_shape(const PeakModel *model, const PeakRow *spot)
 {
     return spot->gain * pow_d(1 + spot->b2 / (model->width * model->width), -model->power);
+}
+
+double peak_model_fwhm(const PeakModel *model)
+{
+    return 2 * model->width * sqrt(pow_d(2, 1 / model->power) - 1);
 }
 
 double peak_model_haze(const PeakModel *model, const PeakRow *spot)
@@ -287,3 +298,54 @@ double peak_window_lambertian(const AngleTable *slice, int channel)
     return fmax(0, fmin(least, 1e29));
 }
 
+/* ---- how far apart rows are -------------------------------------------------------------- */
+
+#define RING_ROWS 4     /* fewer on a ring: no grid, the rows' density is taken */
+#define DENSITY_ROWS 16 /* nearest rows for it */
+
+/* Between the azimuths on both sides of the mirror direction. */
+static double ring_gap(const AngleTable *table, int begin, int end)
+{
+    double left = PI, right = PI, nearest = PI, next = PI;
+    for (int i = begin; i < end; i++) {
+        double phi = (double)table->phi[i], turn = phi > PI ? phi - 2 * PI : phi;
+        if (turn >= 0) right = fmin(right, turn);
+        if (turn <= 0) left = fmin(left, -turn);
+        double away = fabs(turn);
+        if (away < nearest) next = nearest, nearest = away;
+        else if (away > nearest) next = fmin(next, away);
+    }
+    return nearest < 1e-6 ? next : fmin(left + right, 2 * nearest);
+}
+
+/* Rows without a grid: the side of the square that each has for itself. */
+static double density_gap(const AngleTable *table, double incidence, Arena scratch)
+{
+    double *angle = ARENA_NEW(&scratch, double, table->rows);
+    for (int i = 0; i < table->rows; i++)
+        angle[i] = peak_window_angle((double)table->theta[i], (double)table->phi[i], incidence);
+    sort_doubles(angle, table->rows);
+    int rows = table->rows < DENSITY_ROWS ? table->rows : DENSITY_ROWS;
+    return angle[rows - 1] * sqrt(PI / rows);
+}
+
+PeakSpacing peak_window_spacing(const AngleTable *table, double incidence, Arena scratch)
+{
+    PeakSpacing out = {PI, PI, PI};
+    int    nearest = 0, end = 0;
+    double before = -1, best = PI, ring = 0;
+    for (int i = 0; i < table->rows; i = table_ring_end(table, i)) {
+        double theta = (double)table->theta[i], away = fabs(theta - incidence);
+        bool   is_beyond = before >= 0 && theta >= incidence - 1e-6 && out.theta == PI;
+        if (is_beyond) out.theta = theta - before;
+        if (away < best) best = away, nearest = i, ring = theta;
+        before = theta;
+    }
+    end = table_ring_end(table, nearest);
+    out.across = ring_gap(table, nearest, end) * sin_d(fmax(ring, incidence));
+    if (end - nearest < RING_ROWS && ring > 0)
+        out.theta = out.across = density_gap(table, incidence, scratch);
+    if (!(ring > 0)) out.across = out.theta;
+    out.widest = fmax(out.theta, out.across);
+    return out;
+}

@@ -10,6 +10,24 @@
  */
 #pragma once
 #include "panel/set/angle_table.h"
+#include "spectrum/fresnel.h"
+
+/* What tables are divided by: the unpolarised reflectance of a smooth face of ordinary glass.
+ * The cosine is clamped, since rounding may have left its range. */
+#define REFLECTION_REFRACTIVE_INDEX 1.5
+static inline double reflection_fresnel(double cosine)
+{
+    return fresnel_unpolarised_d(fmin(1, fmax(0, cosine)), REFLECTION_REFRACTIVE_INDEX);
+}
+
+/* How far apart a table's rows are around the mirror direction, radians. */
+typedef struct PeakSpacing {
+    double theta;  /* between rings */
+    double across; /* between azimuths, along the ring: times the sine of theta */
+    double widest; /* the larger of both: narrower things are not seen by every row */
+} PeakSpacing;
+
+PeakSpacing peak_window_spacing(const AngleTable *table, double incidence, Arena scratch);
 
 /* One row near the mirror direction. */
 typedef struct PeakRow {
@@ -49,6 +67,9 @@ typedef struct PeakModel {
 /* Angle between a direction of a table and the mirror direction. */
 double peak_window_angle(double theta, double phi, double incidence);
 
+/* Squared distance of their projections on the panel's plane. */
+double peak_window_squares(double theta, double phi, double incidence);
+
 /* Mean of a row over the wavelengths. */
 double peak_window_row_mean(const AngleTable *slice, int row);
 
@@ -63,6 +84,9 @@ void peak_window_set_image(PeakWindow *window, double fwhm);
 double peak_window_lambertian(const AngleTable *slice, int wavelength);
 
 double peak_model_haze(const PeakModel *model, const PeakRow *spot);
+
+/* Full width at half of the haze's height. */
+double peak_model_fwhm(const PeakModel *model);
 
 /* Least squares over r, a, t at the model's width and power, rows weighted with 1 / f^2;
  * wavelength -1: the mean. Returns the weighted rms rest. */

@@ -1,11 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "panel/fit/reflection/reflection_fit.h"
 
-#include <math.h>
 
 #include "base/parallel.h"
 #include "hemisphere/tree/tree_open.h"
-#include "panel/fit/reflection/reflection_between.h"
 #include "panel/fit/reflection/reflection_read.h"
 #include "panel/fit/reflection/reflection_spectra.h"
 #include "panel/fit/reflection/reflection_surface.h"
@@ -180,18 +178,9 @@ static void look_between(void *context, int t, int worker)
     HeldOutPass *pass = context;
     Arena        arena = arena_reserve(TRIAL_BYTES);
     (void)worker;
-    pass->held_out[t].between = reflection_between(pass->model, t, arena);
+    pass->held_out[t].between = reflection_held_out_between(pass->model, t, arena);
     arena_release(&arena);
 }
-
-static HeldOut *hold_out_all(const ReflectionModel *model)
-{
-    HeldOutPass pass = {model, ARENA_NEW(model->arena, HeldOut, model->tables)};
-    parallel_for(model->options->threads, model->tables, hold_out, &pass);
-    return pass.held_out;
-}
-
-/* ---- all --------------------------------------------------------------------------------- */
 
 bool reflection_fit(const Measurement *set, const FitOptions *options, Arena *arena,
                     FitNotes *notes, ReflectionResult *out, Error *err)
@@ -201,20 +190,13 @@ bool reflection_fit(const Measurement *set, const FitOptions *options, Arena *ar
     ReflectionMisses misses = {0};
     reflection_read_tables(model);
     reflection_surface_choose(model, notes);
-    HeldOutPass pass = {model, hold_out_all(model)};
+    HeldOutPass pass = {model, ARENA_NEW(arena, HeldOut, model->tables)};
+    parallel_for(options->threads, model->tables, hold_out, &pass);
     if (!choose_frame(model, err) || !code_frames(model, &misses, err)) return false;
     parallel_for(options->threads, model->tables, look_between, &pass);
     out->held_out = pass.held_out;
-    out->tree = model->tree;
-    out->tree_report = model->tree_report;
-    out->masked = model->masked;
-    out->bound = model->bound;
+    out->model = model;
     out->worst = misses.worst;
-    out->level = model->lattice.level;
-    out->frame_exponent = model->k;
-    out->surface = model->surface.stored;
-    out->components = model->components;
-    out->coefficients = model->coefficients;
     note_outcome(model, &misses, notes);
     return reflection_section_write(model, notes, &out->section, err);
 }

@@ -12,18 +12,13 @@
 #include "panel/fit/reflection/reflection_section.h"
 
 typedef struct ReflectionResult {
+    const ReflectionModel *model; /* in the end */
     ReflectionParts   parts;
     ReflectionSection section;
-    PanelSurfaceStored surface;
-    const void       *tree;
-    TreeReport        tree_report;
     const void       *sampling; /* the section's bytes; NULL: not yet built */
     size_t            sampling_size;
     const HeldOut    *held_out; /* per table */
-    int               masked; /* values below the least that counts */
-    double            bound, worst; /* error that was aimed at; largest error over it */
-    int               level, components, coefficients;
-    float             frame_exponent;
+    double            worst;    /* largest error over the bound */
 } ReflectionResult;
 
 /* All but the sampling, which follows from the panel's answers to queries. */

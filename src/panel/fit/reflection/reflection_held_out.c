@@ -6,7 +6,11 @@
 #include "base/mathd.h"
 #include "base/sort.h"
 #include "base/units.h"
+#include "hemisphere/tree/tree_open.h"
+#include "hemisphere/tree/tree_query.h"
+#include "panel/fit/common/table_rows.h"
 #include "panel/fit/reflection/reflection_read.h"
+#include "panel/fit/reflection/reflection_spectra.h"
 
 #define NEAR_DEG 15.0      /* rows nearer to the mirror direction than this */
 #define NEAR_STEPS 2.0     /* or than so many steps */
@@ -41,21 +45,15 @@ static float middle_value(const AngleTable *table, int row)
     return table->value[(size_t)row * (size_t)table->channels + (size_t)table->channels / 2];
 }
 
-static int place_of(const float *list, int count, float value)
-{
-    int low = 0, high = count - 1;
-    while (low < high) {
-        int middle = (low + high) / 2;
-        if (list[middle] < value - SAME_ANGLE) low = middle + 1;
-        else high = middle;
-    }
-    return low;
-}
-
 static float folded(const Thinned *thinned, float phi)
 {
-    bool is_mirrored = thinned->model->set->azimuth_count < 2;
-    return is_mirrored && phi > PI_F ? 2 * PI_F - phi : phi;
+    return direction_grid_fold(phi, thinned->model->set->azimuth_count < 2);
+}
+
+static int ring_of(const Thinned *thinned, int row)
+{
+    return direction_grid_index(thinned->ring, thinned->rings, rows_of(thinned)->theta[row],
+                                SAME_ANGLE);
 }
 
 static double angle_of(const Thinned *thinned, int row)
@@ -76,9 +74,9 @@ static bool is_out(const Thinned *thinned, int row, int way)
 {
     const AngleTable *table = rows_of(thinned);
     if (!(table->theta[row] > SAME_ANGLE)) return false;
-    int ring = place_of(thinned->ring, thinned->rings, table->theta[row]) % 2;
-    int azimuth = place_of(thinned->azimuth, thinned->azimuths,
-                           folded(thinned, table->phi[row])) % 2;
+    int ring = ring_of(thinned, row) % 2;
+    int azimuth = direction_grid_index(thinned->azimuth, thinned->azimuths,
+                                       folded(thinned, table->phi[row]), SAME_ANGLE) % 2;
     if (is_guided(thinned))
         return ring == way % 2 && azimuth == way / 2 && angle_of(thinned, row) < thinned->reach;
     return way < 2 ? ring == way : azimuth == way - 2;
@@ -166,11 +164,6 @@ static double predict(const Thinned *thinned, float theta, float phi)
     return exp_d((double)log + guide_log(thinned, (double)theta, (double)phi));
 }
 
-static bool is_steep(const Thinned *thinned, const bool *steep, int row)
-{
-    return steep[place_of(thinned->ring, thinned->rings, rows_of(thinned)->theta[row])];
-}
-
 /* Rings on which, near the mirror direction, the logarithm changes by much to the next one. */
 static bool *steep_rings(const Thinned *thinned)
 {
@@ -178,7 +171,7 @@ static bool *steep_rings(const Thinned *thinned)
     float *most = ARENA_NEW(thinned->arena, float, thinned->rings);
     bool  *steep = ARENA_NEW(thinned->arena, bool, thinned->rings);
     for (int i = 0; i < table->rows; i++) {
-        int ring = place_of(thinned->ring, thinned->rings, table->theta[i]);
+        int ring = ring_of(thinned, i);
         if (angle_of(thinned, i) < thinned->reach)
             most[ring] = fmaxf(most[ring], middle_value(table, i));
     }
@@ -201,7 +194,7 @@ static void compare(const Thinned *thinned, int way, double core, const bool *st
         double angle = angle_of(thinned, i), value = (double)middle_value(table, i);
         if (!is_out(thinned, i, way) || angle < core || angle > thinned->reach ||
             table->theta[i] < first || table->theta[i] > last ||
-            !is_steep(thinned, steep, i) ||
+            !steep[ring_of(thinned, i)] ||
             value < thinned->model->least_value[thinned->table])
             continue;
         double noise = NOISE_SIGMAS * reflection_parts_noise(parts, thinned->table, value);
@@ -218,7 +211,7 @@ HeldOut reflection_held_out(const ReflectionModel *model, int table, Arena scrat
     Thinned thinned = {.model = model, .table = table, .arena = &scratch,
                        .incidence = reflection_model_incidence(model, table)};
     if (model->grid[table].is_scattered) return out; /* no rings to leave out */
-    PeakSpacing spacing = peak_spacing_find(rows_of(&thinned), thinned.incidence, scratch);
+    PeakSpacing spacing = peak_window_spacing(rows_of(&thinned), thinned.incidence, scratch);
     double fwhm = radians_from_degrees(model->set->instrument_fwhm_deg);
     thinned.reach = fmax(radians_from_degrees(NEAR_DEG), NEAR_STEPS * spacing.widest);
     list_angles(&thinned);
@@ -235,4 +228,51 @@ HeldOut reflection_held_out(const ReflectionModel *model, int table, Arena scrat
     }
     out.estimate = out.error / (is_guided(&thinned) ? 1 : CUBIC_ORDER);
     return out;
+}
+
+/* ---- the tree between rows --------------------------------------------------------------- */
+
+/* A table beside the tree. */
+typedef struct BetweenCheck {
+    const ReflectionModel *model;
+    int            table;
+    ReflectionView view;
+    Tree           tree;
+    double         worst;
+} BetweenCheck;
+
+static double tree_log(const BetweenCheck *check, Vec3 local)
+{
+    float component[PANEL_REFLECTION_COMPONENTS_MAX], logs[MEASUREMENT_WAVELENGTHS_MAX];
+    tree_interpolate(&check->tree, reflection_view_stored(&check->view, local), component);
+    reflection_spectra_logs(check->model, check->table, component, logs);
+    return (double)logs[check->model->wavelengths / 2] +
+           log_d(reflection_view_reference(&check->view, local));
+}
+
+static void compare_between(void *context, double theta, double phi)
+{
+    BetweenCheck *check = context;
+    const ReflectionModel *model = check->model;
+    const ReflectionGuide *guide = &model->guide[check->table];
+    float logs[MEASUREMENT_WAVELENGTHS_MAX];
+    Vec3  local = table_direction(theta, phi);
+    if (peak_window_angle(theta, phi, guide->incidence) > guide->reach) return;
+    if (reflection_read_logs(model, check->table, local, logs) > 0) return;
+    double difference = tree_log(check, local) - (double)logs[model->wavelengths / 2];
+    check->worst = fmax(check->worst, fabs(exp_d(fmin(5, difference)) - 1));
+}
+
+double reflection_held_out_between(const ReflectionModel *model, int table, Arena scratch)
+{
+    BetweenCheck check = {.model = model, .table = table,
+                          .view = reflection_view(model, table)};
+    const Geodesic *geodesic = geodesic_create(model->lattice.level, &scratch);
+    Error err;
+    if (!model->guide[table].is_used ||
+        !tree_open(model->tree, tree_size(model->tree), geodesic, &check.tree, &err))
+        return 0;
+    compare_between(&check, model->guide[table].incidence, 0);
+    reflection_read_halfway(&model->grid[table], compare_between, &check);
+    return check.worst;
 }

@@ -10,11 +10,10 @@
 #pragma once
 #include "base/mathd.h"
 #include "base/vec.h"
+#include "hemisphere/specular_frame.h"
 #include "hemisphere/surface_frame.h"
 #include "hemisphere/vertex/vertex_tree.h"
 #include "panel/fit/common/direction_grid.h"
-#include "panel/fit/reflection/reflection_fresnel.h"
-#include "panel/fit/reflection/reflection_guide.h"
 #include "panel/fit/reflection/reflection_parts.h"
 #include "panel/query/panel_file.h"
 #include "spectrum/wavelengths.h"
@@ -24,6 +23,17 @@ typedef struct ReflectionSurface {
     PanelSurfaceStored stored;
     SurfaceFrame       frame; /* of stored's axes; where it is not the specular-following one */
 } ReflectionSurface;
+
+/* How a table goes on between its rows where they are too far apart for the peak: like the haze
+ * that was fitted under the mirror's image. What is read between rows is then the logarithm
+ * over the guide's, which is nearly even. A table whose rows are close enough has no guide. */
+typedef struct ReflectionGuide {
+    bool   is_used;
+    double incidence;
+    double width, power, a, lambertian; /* a (1 + b2 / width^2)^-power + lambertian */
+    double reach;  /* radians: so far from the mirror direction it was fitted */
+    double miss;   /* of reading without it: the largest difference between rows, relative */
+} ReflectionGuide;
 
 typedef struct ReflectionModel {
     const Measurement *set;
@@ -87,3 +97,23 @@ Vec3 reflection_model_light(const Measurement *set, int table);
 
 /* 16 of the measured wavelengths from `first` on; the last one repeats. */
 Wavelengths reflection_model_wavelengths(const Measurement *set, int first);
+
+/* ---- one table in the coordinates and over the reference in which its logarithm is stored  */
+
+/* "Local" is the table's frame: the mirror direction at azimuth 0. "Stored" is the tree's. */
+typedef struct ReflectionView {
+    const ReflectionSurface *surface;
+    SpecularFrame specular;
+    Vec3          light;   /* in the display's frame */
+    double        fresnel; /* F of its incidence */
+} ReflectionView;
+
+ReflectionView reflection_view(const ReflectionModel *model, int table);
+
+Vec3 reflection_view_stored(const ReflectionView *view, Vec3 local);
+
+/* The local direction of a stored one; where there is none above the horizon, one on it. */
+Vec3 reflection_view_local(const ReflectionView *view, Vec3 stored);
+
+/* The divisor of f at a local direction. */
+double reflection_view_reference(const ReflectionView *view, Vec3 local);

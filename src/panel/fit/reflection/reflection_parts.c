@@ -9,7 +9,7 @@
 #include "base/parallel.h"
 #include "base/sort.h"
 #include "base/units.h"
-#include "panel/fit/common/table_noise.h"
+#include "panel/fit/common/table_rows.h"
 #include "panel/fit/reflection/reflection_peak.h"
 #include "panel/query/panel_reflection_layout.h"
 

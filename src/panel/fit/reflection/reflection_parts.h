@@ -7,7 +7,6 @@
  * Fails    never.
  */
 #pragma once
-#include "panel/fit/common/fit_note.h"
 #include "panel/fit/common/fit_options.h"
 #include "panel/fit/reflection/reflection_peak.h"
 #include "panel/set/measurement.h"

@@ -6,8 +6,21 @@
  * Memory   the arena's. Threads: pure functions of an arena each. Fails: never.
  */
 #pragma once
-#include "panel/fit/reflection/peak_range.h"
-#include "panel/fit/reflection/peak_spacing.h"
+#include <stdbool.h>
+
+#include "panel/fit/reflection/peak_window.h"
+
+#define PEAK_RANGE_ROWS 8 /* fewer rows do not determine a model with five numbers */
+
+/* Least and most of each, means over the wavelengths. */
+typedef struct PeakRange {
+    double mirror[2];
+    double haze[2];   /* under the peak, with the lambertian part */
+    double fwhm[2];   /* of the haze, across the plane of incidence */
+    double spread;    /* half of what the haze may vary by, relative: the largest one from the
+                         mirror direction to two steps of the rows from it */
+    bool   has_model; /* false: too few rows; only the mirror's range is set then */
+} PeakRange;
 
 /* Inputs of the search for the mirror's image in a table. */
 typedef struct PeakTask {

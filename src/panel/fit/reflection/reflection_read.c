@@ -8,7 +8,7 @@
 #include "base/parallel.h"
 #include "base/units.h"
 #include "panel/fit/common/table_rows.h"
-#include "panel/fit/reflection/reflection_view.h"
+#include "panel/fit/reflection/peak_window.h"
 
 #define LEAST_SHARE 1e-6 /* of a table's largest value: values below it are held there */
 #define LEAST_VALUE 1e-8 /* sr^-1 */
@@ -43,6 +43,80 @@ static float *log_cells(ReflectionModel *model, int table)
     return cells;
 }
 
+/* ---- guides between rows ----------------------------------------------------------------- */
+
+#define GUIDE_MISS 0.02 /* relative: rows that miss less between them need no guide */
+#define WINDOW_STEPS 3.0
+
+/* The guide that a peak's model makes. */
+static ReflectionGuide guide_of(const PeakMirror *peak, double incidence)
+{
+    const PeakModel *model = &peak->model;
+    return (ReflectionGuide){.incidence = incidence, .width = model->width,
+        .power = model->power, .a = model->a, .lambertian = fmax(1e-9, peak->lambertian),
+        .reach = WINDOW_STEPS * peak->spacing.widest};
+}
+
+double reflection_guide_log(const ReflectionGuide *guide, double theta, double phi)
+{
+    double b2 = peak_window_squares(theta, phi, guide->incidence);
+    double haze = guide->a * pow_d(1 + b2 / (guide->width * guide->width), -guide->power);
+    return log_d(haze + guide->lambertian);
+}
+
+void reflection_read_halfway(const DirectionGrid *grid, ReflectionBetween *visit, void *context)
+{
+    for (int i = 0; i + 1 < grid->thetas; i++)
+        for (int k = 0; k < grid->phis; k++) {
+            double theta = (double)grid->theta[i], phi = (double)grid->phi[k], turn = phi;
+            double outer = 0.5 * (theta + (double)grid->theta[i + 1]);
+            if (k + 1 < grid->phis) turn = 0.5 * (phi + (double)grid->phi[k + 1]);
+            visit(context, outer, phi);
+            visit(context, theta, turn);
+            visit(context, outer, turn);
+        }
+}
+
+/* A direction between cells; the middle channel is what is compared there. */
+typedef struct GuideCheck {
+    const DirectionGrid *grid;
+    const float         *cells;
+    int                  channels;
+    ReflectionGuide     *guide;
+} GuideCheck;
+
+/* Both ways of reading, from the same cells. */
+static void compare_at(void *context, double theta, double phi)
+{
+    const GuideCheck    *at = context;
+    const DirectionGrid *grid = at->grid;
+    GridTaps taps;
+    double   plain = 0, rest = 0;
+    if (peak_window_angle(theta, phi, at->guide->incidence) > at->guide->reach) return;
+    direction_grid_taps(grid, (float)theta, (float)phi, &taps);
+    for (int i = 0; i < taps.count; i++) {
+        int    cell = taps.cell[i];
+        double log = (double)at->cells[(size_t)cell * (size_t)at->channels +
+                                       (size_t)at->channels / 2];
+        plain += (double)taps.weight[i] * log;
+        rest += (double)taps.weight[i] *
+                (log - reflection_guide_log(at->guide, (double)grid->theta[cell / grid->phis],
+                                            (double)grid->phi[cell % grid->phis]));
+    }
+    double guided = rest + reflection_guide_log(at->guide, theta, phi);
+    at->guide->miss = fmax(at->guide->miss, fabs(exp_d(fmin(5, plain - guided)) - 1));
+}
+
+/* Compares reading between the cells, which hold logarithms, with and without the guide, and
+ * decides; the middle channel is compared. */
+static void choose_guide(const DirectionGrid *grid, const float *cells, int channels,
+                         ReflectionGuide *guide)
+{
+    GuideCheck at = {grid, cells, channels, guide};
+    reflection_read_halfway(grid, compare_at, &at);
+    guide->is_used = guide->miss > GUIDE_MISS;
+}
+
 #define GUIDE_REST 0.02   /* relative, rms: a model that misses rows by more is no guide */
 #define GUIDE_SPREAD 0.25 /* relative: nor is one whose peak is anybody's guess */
 
@@ -57,8 +131,8 @@ static void guide_cells(ReflectionModel *model, int table)
         peak->range.spread > GUIDE_SPREAD ||
         peak->rest > fmax(GUIDE_REST, 2 * model->parts->noise[table]))
         return;
-    *guide = reflection_guide_of(peak, reflection_model_incidence(model, table));
-    reflection_guide_choose(grid, cells, model->wavelengths, guide);
+    *guide = guide_of(peak, reflection_model_incidence(model, table));
+    choose_guide(grid, cells, model->wavelengths, guide);
     for (int c = 0; c < grid->thetas * grid->phis && guide->is_used; c++) {
         float log = (float)reflection_guide_log(guide, (double)grid->theta[c / grid->phis],
                                                 (double)grid->phi[c % grid->phis]);
@@ -79,7 +153,7 @@ void reflection_read_tables(ReflectionModel *model)
         const AngleTable *table = &model->parts->haze[t];
         model->least_value[t] = reflection_read_least(table);
         model->masked += count_below(table, model->least_value[t]);
-        if (t > 0 && direction_grid_same_rows(table, &model->parts->haze[t - 1]))
+        if (t > 0 && angle_table_same_rows(table, &model->parts->haze[t - 1]))
             model->grid[t] = model->grid[t - 1];
         else direction_grid_build(table, mirrored, model->arena, &model->grid[t]);
         model->cells[t] = log_cells(model, t);

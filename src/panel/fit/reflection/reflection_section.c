@@ -2,7 +2,6 @@
 #include "panel/fit/reflection/reflection_section.h"
 
 #include <math.h>
-#include <string.h>
 
 #include "base/mathd.h"
 #include "base/parallel.h"
@@ -13,13 +12,10 @@
 #include "hemisphere/tree/tree_query.h"
 #include "panel/fit/common/table_rows.h"
 #include "panel/fit/reflection/reflection_spectra.h"
-#include "panel/fit/reflection/reflection_view.h"
-#include "panel/query/panel_open.h"
 #include "panel/query/panel_open_reflection.h"
 #include "panel/query/panel_opened.h"
 #include "panel/query/panel_reflection.h"
 #include "panel/query/panel_reflection_layout.h"
-#include "panel/query/panel_section.h"
 
 #define INTEGRAL_ROOM 0.5   /* of the bound: what the integrals may move all values by */
 #define LOBE_SQUARE 42.25   /* of the distance over sigma: where queries end the lobe */

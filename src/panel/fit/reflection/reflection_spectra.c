@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "base/mathd.h"
-#include "panel/fit/common/principal.h"
+#include "panel/fit/common/small_matrix.h"
 #include "panel/query/panel_components.h"
 
 #define PLACES_ENOUGH 17000 /* to find components from; what is left out is judged on all */

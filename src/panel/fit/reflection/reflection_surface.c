@@ -3,12 +3,11 @@
 
 #include <math.h>
 
-#include "base/units.h"
+#include "panel/fit/common/small_matrix.h"
 #include "panel/fit/common/table_rows.h"
-#include "panel/fit/reflection/reflection_axes.h"
 #include "panel/fit/reflection/reflection_read.h"
-#include "panel/fit/reflection/reflection_view.h"
 #include "panel/query/panel_reference.h"
+#include "panel/query/panel_turn.h"
 
 #define ROWS_ENOUGH 400    /* of a table, to judge a law by */
 #define TRIPLES_ENOUGH 48  /* tables predicted from two neighbours */
@@ -89,17 +88,146 @@ static double frame_misses(const ReflectionModel *model)
     return rms_of(misses);
 }
 
+/* ---- how wide the haze's lobe is, and along which axes ----------------------------------- */
+
+/* Around the mirror direction a lobe is taken for (1 + x^T M x)^-2 over slopes or direction
+ * cosines x, GGX's shape: fitted where a table is above a quarter of its peak, mean over the
+ * tables. Other shapes get the axes of what is about as wide. M is 1 / alpha^2 for facets. */
+#define CORE 4.0       /* rows above this part of the peak belong to the lobe's core */
+#define NEAR_COS 0.86  /* the peak is looked for within 30 degrees of the mirror direction */
+#define ROWS_LEAST 12
+#define WIDTH 0.2      /* where no table shows a lobe */
+#define NARROWEST 0.003
+#define WIDEST 2.0
+
+/* A symmetric 2 x 2 matrix in double precision. */
+typedef struct Symmetric {
+    double xx, xy, yy;
+} Symmetric;
+
+/* One row of a table as the lobe's fit sees it. */
+typedef struct LobeRow {
+    double x, y, height; /* height: f over the reference, mean over the wavelengths; of facets'
+                            density per slope instead of per direction */
+    bool   is_near;
+} LobeRow;
+
+static LobeRow lobe_row(const AngleTable *table, int row, PanelFrameKind frame, Vec3 light)
+{
+    Vec3   local = table_row_direction(table, row);
+    Vec3   wo = panel_turned_back(light, local);
+    double scale = frame == PANEL_FRAME_COSINES ? 1 : 1 / (double)(light.z + wo.z), sum = 0;
+    float  reference = panel_reference(frame, (float)REFLECTION_REFRACTIVE_INDEX, light, wo);
+    for (int w = 0; w < table->channels; w++)
+        sum += (double)table->value[(size_t)row * (size_t)table->channels + (size_t)w];
+    double x = (double)(light.x + wo.x) * scale, y = (double)(light.y + wo.y) * scale;
+    double spread = frame == PANEL_FRAME_SLOPES ? (1 + x * x + y * y) * (1 + x * x + y * y) : 1;
+    float  cosine = light.z * wo.z - light.x * wo.x - light.y * wo.y; /* to the mirror image */
+    return (LobeRow){x, y, sum / table->channels / (double)reference / spread,
+                     (double)cosine > NEAR_COS};
+}
+
+/* M of one table: sqrt (peak / height) = a (1 + x^T M x) by least squares. */
+static bool fit_table(const AngleTable *table, PanelFrameKind frame, Vec3 light, Symmetric *out)
+{
+    double matrix[16] = {0}, right[4] = {0}, peak = 0;
+    int    count = 0;
+    for (int i = 0; i < table->rows; i++) {
+        LobeRow row = lobe_row(table, i, frame, light);
+        if (row.is_near) peak = fmax(peak, row.height);
+    }
+    for (int i = 0; i < table->rows; i++) {
+        LobeRow row = lobe_row(table, i, frame, light);
+        if (!row.is_near || !(CORE * row.height > peak)) continue;
+        double terms[4] = {1, row.x * row.x, 2 * row.x * row.y, row.y * row.y};
+        double weight = table_row_weight(table, i), value = sqrt(peak / row.height);
+        for (int r = 0; r < 4; r++) {
+            right[r] += weight * terms[r] * value;
+            for (int c = 0; c < 4; c++) matrix[4 * r + c] += weight * terms[r] * terms[c];
+        }
+        count++;
+    }
+    if (count < ROWS_LEAST) return false;
+    least_squares_factor(matrix, 4);
+    least_squares_solve(matrix, right, 4);
+    *out = (Symmetric){right[1] / right[0], right[2] / right[0], right[3] / right[0]};
+    return right[0] > 0 && out->xx > 0 && out->yy > 0 &&
+           out->xx * out->yy > out->xy * out->xy;
+}
+
+/* The matrix with its eigenvalues raised to a power; as widths, eigenvalue^-1/2 is held between
+ * the narrowest and the widest. */
+static SurfaceAxes raised(Symmetric m, double power)
+{
+    double mean = 0.5 * (m.xx + m.yy), half = 0.5 * (m.xx - m.yy);
+    double root = sqrt(half * half + m.xy * m.xy), value[2];
+    double cosine = root > 0 ? half / root : 1, sine = root > 0 ? m.xy / root : 0;
+    for (int k = 0; k < 2; k++) {
+        double width = 1 / sqrt(fmax(1e-9, k ? mean - root : mean + root));
+        value[k] = pow_d(fmin(WIDEST, fmax(NARROWEST, width)), -2 * power);
+    }
+    double centre = 0.5 * (value[0] + value[1]), spread = 0.5 * (value[0] - value[1]);
+    return (SurfaceAxes){(float)(centre + spread * cosine), (float)(spread * sine),
+                         (float)(centre - spread * cosine)};
+}
+
+static Symmetric lobe_matrix(const ReflectionModel *model, PanelFrameKind frame)
+{
+    Symmetric sum = {0, 0, 0}, one;
+    int       count = 0;
+    for (int t = 0; t < model->tables; t++) {
+        Vec3 light = reflection_model_light(model->set, t);
+        if (!fit_table(&model->parts->haze[t], frame, light, &one)) continue;
+        sum.xx += one.xx, sum.xy += one.xy, sum.yy += one.yy;
+        count++;
+    }
+    if (!count) return (Symmetric){1 / (WIDTH * WIDTH), 0, 1 / (WIDTH * WIDTH)};
+    Symmetric mean = {sum.xx / count, sum.xy / count, sum.yy / count};
+    if (model->set->azimuth_count < 2) /* the same in all directions, but for the fit's noise */
+        mean = (Symmetric){0.5 * (mean.xx + mean.yy), 0, 0.5 * (mean.xx + mean.yy)};
+    return mean;
+}
+
+/* The root of M: makes the lobe round, and 1 wide at a quarter of its height. */
+static SurfaceAxes axes_of_lobe(const ReflectionModel *model, PanelFrameKind frame)
+{
+    return raised(lobe_matrix(model, frame), 0.5);
+}
+
+/* The inverse of M over slopes: squared GGX alphas. */
+static SurfaceAxes roughness_of(const ReflectionModel *model)
+{
+    return raised(lobe_matrix(model, PANEL_FRAME_SLOPES), -1);
+}
+
+/* The longest x of any row in these axes. */
+static float reach_in(const ReflectionModel *model, PanelFrameKind frame, SurfaceAxes axes)
+{
+    double most = 1;
+    for (int t = 0; t < model->tables; t++) {
+        const AngleTable *table = &model->parts->haze[t];
+        Vec3 light = reflection_model_light(model->set, t);
+        for (int i = 0; i < table->rows; i++) {
+            LobeRow row = lobe_row(table, i, frame, light);
+            double  x = (double)axes.xx * row.x + (double)axes.xy * row.y;
+            double  y = (double)axes.xy * row.x + (double)axes.yy * row.y;
+            most = fmax(most, hypot_d(x, y));
+        }
+    }
+    return (float)(1.001 * most);
+}
+
 /* ---- the frame --------------------------------------------------------------------------- */
 
 static ReflectionSurface surface_in(const ReflectionModel *model, PanelFrameKind frame)
 {
     ReflectionSurface surface = {{.frame = (uint8_t)frame}, {{0, 0, 0}, {0, 0, 0}, 0, false}};
     if (frame == PANEL_FRAME_SPECULAR) return surface;
-    SurfaceAxes axes = reflection_axes_of_lobe(model, frame);
+    SurfaceAxes axes = axes_of_lobe(model, frame);
     surface.stored.axes[0] = axes.xx;
     surface.stored.axes[1] = axes.xy;
     surface.stored.axes[2] = axes.yy;
-    surface.stored.reach = reflection_axes_reach(model, frame, axes);
+    surface.stored.reach = reach_in(model, frame, axes);
     surface.frame = surface_frame(frame == PANEL_FRAME_COSINES, axes, surface.stored.reach);
     return surface;
 }
@@ -266,10 +394,10 @@ static double beyond_misses(const ReflectionModel *model, const PanelSurfaceStor
     Misses misses = {0, 0};
     for (int i = 0; i < rows->rows; i += 1 + rows->rows / (16 * ROWS_ENOUGH)) {
         Vec3 local = table_row_direction(rows, i);
-        Vec3 wo = reflection_view_from_local(wi, local);
+        Vec3 wo = panel_turned_back(wi, local);
         Vec3 from = same_place(law, wi, wo, before);
         if (!(from.z > 0) || !read_log(model, last, local, &here) || exp_d(here) < least ||
-            !read_log(model, last - 1, reflection_view_to_local(before, from), &there))
+            !read_log(model, last - 1, panel_turned(before, from), &there))
             continue;
         double miss = here - there - beyond_log(law, wi, wo) + beyond_log(law, before, from);
         misses.squares += miss * miss;
@@ -284,7 +412,7 @@ static void choose_beyond(ReflectionModel *model)
 {
     PanelSurfaceStored *s = &model->surface.stored, facets;
     if (model->parts->has_lobe || model->set->incidence_count < 2) return;
-    SurfaceAxes roughness = reflection_axes_roughness(model);
+    SurfaceAxes roughness = roughness_of(model);
     double      n = haze_index(model, roughness);
     facets = *s;
     facets.beyond = PANEL_BEYOND_SLOPES;

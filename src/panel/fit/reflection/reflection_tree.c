@@ -9,11 +9,10 @@
 #include "hemisphere/tree/tree_build.h"
 #include "hemisphere/tree/tree_open.h"
 #include "hemisphere/tree/tree_query.h"
-#include "hemisphere/vertex/vertex_find.h"
+#include "hemisphere/vertex/vertex.h"
 #include "hemisphere/vertex/vertex_tree_build.h"
 #include "panel/fit/common/table_rows.h"
 #include "panel/fit/reflection/reflection_spectra.h"
-#include "panel/fit/reflection/reflection_view.h"
 
 #define PLACE_SHARE 0.8    /* of the bound, for places: the rest is for what lies between */
 #define PEAK_SHARE 0.35    /* of that where a table is within 1/e of its largest value */

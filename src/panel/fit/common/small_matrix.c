@@ -1,8 +1,35 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "panel/fit/common/principal.h"
+#include "panel/fit/common/small_matrix.h"
 
 #include <math.h>
 #include <string.h>
+
+void least_squares_factor(double *m, size_t n)
+{
+    for (size_t i = 0; i < n; i++)
+        for (size_t j = 0; j <= i; j++) {
+            double sum = m[i * n + j];
+            for (size_t k = 0; k < j; k++) sum -= m[i * n + k] * m[j * n + k];
+            m[i * n + j] = i == j ? sqrt(fmax(sum, 1e-300)) : sum / m[j * n + j];
+        }
+}
+
+double least_squares_solve(const double *m, double *right, size_t n)
+{
+    double gain = 0;
+    for (size_t i = 0; i < n; i++) {
+        for (size_t k = 0; k < i; k++) right[i] -= m[i * n + k] * right[k];
+        right[i] /= m[i * n + i];
+        gain += right[i] * right[i];
+    }
+    for (size_t i = n; i-- > 0;) {
+        for (size_t k = i + 1; k < n; k++) right[i] -= m[k * n + i] * right[k];
+        right[i] /= m[i * n + i];
+    }
+    return gain;
+}
+
+/* ---- principal components ---------------------------------------------------------------- */
 
 static void channel_means(const float *values, const double *row_weight, PrincipalShape shape,
                           float *mean)
@@ -78,8 +105,7 @@ void principal_axes(double *matrix, double *vector, int n)
     }
 }
 
-/* Indices of the eigenvalues, falling. */
-static void sort_falling(const double *matrix, int n, int *order)
+void principal_order(const double *matrix, int n, int *order)
 {
     for (int i = 0; i < n; i++) {
         int at = i;
@@ -119,7 +145,7 @@ Principal principal_components(const float *values, const double *row_weight,
     channel_means(values, row_weight, shape, out.mean);
     covariance(values, row_weight, weight, shape, out.mean, matrix);
     principal_axes(matrix, vector, n);
-    sort_falling(matrix, n, order);
+    principal_order(matrix, n, order);
     int count = out.components = choose_count(matrix, order, shape, &out.residual);
     out.loading = ARENA_NEW(arena, float, n * count);
     for (int c = 0; c < n; c++)
