@@ -8,7 +8,6 @@
 
 #include "base/units.h"
 #include "plot/draw/colour_map.h"
-#include "plot/draw/picture.h"
 #include "plot/draw/ticks.h"
 
 #define PAGE_W 1120.0
@@ -43,13 +42,7 @@ static void choose_scale(SkyDrawing *work)
     }
     work->high = round_up(fmax(most, 1e-6));
     work->low = round_down(fmin(fmax(least, work->high * 1e-4), work->high / 10));
-    for (int i = 0; i < 1024; i++) {
-        double srgb[3];
-        colour_map_at(MAP_AMOUNT, i / 1023.0, srgb);
-        work->colour[i] = 0xff000000;
-        for (int c = 0; c < 3; c++)
-            work->colour[i] |= (uint32_t)(srgb[c] * 255 + 0.5) << (16 - 8 * c);
-    }
+    for (int i = 0; i < 1024; i++) work->colour[i] = colour_map_pixel(MAP_AMOUNT, i / 1023.0);
 }
 
 /* Bilinear in the panorama; turns from north over east, share from the zenith to the nadir. */
@@ -67,30 +60,26 @@ static double luminance_at(const SkyPlot *plot, double turns, double share)
 
 typedef double Sample(const SkyDrawing *work, double x, double y);
 
-/* Paints w x h points whose colours come from places in [0, 1]^2; NaN: nothing there. */
+/* A picture whose colours come from places in [0, 1]^2; NaN: nothing there. */
+typedef struct SkyRaster {
+    const SkyDrawing *work;
+    Sample           *sample;
+    int               w, h;
+} SkyRaster;
+
+static uint32_t pixel_at(const void *context, int i, int j)
+{
+    const SkyRaster *raster = context;
+    double v = raster->sample(raster->work, (i + 0.5) / raster->w, (j + 0.5) / raster->h);
+    return isfinite(v) ? raster->work->colour[(int)(1023 * position(raster->work, v))] : 0;
+}
+
 static void paint(const SkyDrawing *work, Box box, Sample *sample)
 {
-    double scale = work->canvas->pixels_per_point;
-    int    w = (int)(box.w * scale), h = (int)(box.h * scale);
-    cairo_t *cr = work->canvas->cr;
-    cairo_surface_t *image = cairo_image_surface_create(CAIRO_FORMAT_ARGB32, w, h);
-    unsigned char   *bytes = cairo_image_surface_get_data(image);
-    if (!bytes) return;
-    for (int j = 0; j < h; j++) {
-        uint32_t *row = (uint32_t *)(void *)(bytes + j * cairo_image_surface_get_stride(image));
-        for (int i = 0; i < w; i++) {
-            double v = sample(work, (i + 0.5) / w, (j + 0.5) / h);
-            row[i] = isfinite(v) ? work->colour[(int)(1023 * position(work, v))] : 0;
-        }
-    }
-    cairo_surface_mark_dirty(image);
-    cairo_save(cr);
-    cairo_translate(cr, box.x, box.y);
-    cairo_scale(cr, box.w / w, box.h / h);
-    cairo_set_source_surface(cr, image, 0, 0);
-    cairo_paint(cr);
-    cairo_restore(cr);
-    cairo_surface_destroy(image);
+    double    scale = work->canvas->pixels_per_point;
+    SkyRaster raster = {work, sample, (int)(box.w * scale), (int)(box.h * scale)};
+    canvas_image(work->canvas, box, &(CanvasRaster){raster.w, raster.h, CAIRO_FORMAT_ARGB32,
+                                                    false, pixel_at, &raster});
 }
 
 /* ---- the chart of the dome --------------------------------------------------------------- */
@@ -106,13 +95,6 @@ typedef struct Disc {
     double x, y, r;
 } Disc;
 
-static void disc_place(const Disc *disc, double azimuth, double elevation, double *x, double *y)
-{
-    double r = disc->r * (1 - elevation / (PI / 2));
-    *x = disc->x + r * sin(azimuth);
-    *y = disc->y - r * cos(azimuth);
-}
-
 static void disc_rings(const SkyDrawing *work, const Disc *disc)
 {
     Canvas *canvas = work->canvas;
@@ -120,8 +102,7 @@ static void disc_rings(const SkyDrawing *work, const Disc *disc)
     for (int elevation = 30; elevation < 90; elevation += 30) {
         double r = disc->r * (1 - elevation / 90.0);
         char   text[16];
-        cairo_new_sub_path(canvas->cr);
-        cairo_arc(canvas->cr, disc->x, disc->y, r, 0, 2 * PI);
+        canvas_circle(canvas, disc->x, disc->y, r);
         canvas_stroke(canvas, thin);
         snprintf(text, sizeof text, "%d°", elevation);
         canvas_text(canvas, disc->x + 3, disc->y - r, (Letters){
@@ -133,8 +114,7 @@ static void disc_rings(const SkyDrawing *work, const Disc *disc)
         canvas_line(canvas, disc->x - disc->r * sin(a), disc->y + disc->r * cos(a),
                     disc->x + disc->r * sin(a), disc->y - disc->r * cos(a), thin);
     }
-    cairo_new_sub_path(canvas->cr);
-    cairo_arc(canvas->cr, disc->x, disc->y, disc->r, 0, 2 * PI);
+    canvas_circle(canvas, disc->x, disc->y, disc->r);
     canvas_stroke(canvas, (Stroke){canvas->theme.ink, 1, DASH_NONE});
 }
 
@@ -185,7 +165,10 @@ typedef void Place(const void *view, double azimuth, double elevation, double *x
 
 static void place_disc(const void *view, double azimuth, double elevation, double *x, double *y)
 {
-    disc_place(view, azimuth, elevation, x, y);
+    const Disc *disc = view;
+    double      r = disc->r * (1 - elevation / (PI / 2));
+    *x = disc->x + r * sin(azimuth);
+    *y = disc->y - r * cos(azimuth);
 }
 
 static void place_panorama(const void *view, double azimuth, double elevation, double *x,
@@ -199,11 +182,9 @@ static void place_panorama(const void *view, double azimuth, double elevation, d
 
 static void draw_disc(Canvas *canvas, double x, double y, Ink ink)
 {
-    cairo_new_sub_path(canvas->cr);
-    cairo_arc(canvas->cr, x, y, 5, 0, 2 * PI);
+    canvas_circle(canvas, x, y, 5);
     canvas_fill(canvas, ink);
-    cairo_new_sub_path(canvas->cr);
-    cairo_arc(canvas->cr, x, y, 5, 0, 2 * PI);
+    canvas_circle(canvas, x, y, 5);
     canvas_stroke(canvas, (Stroke){ink_hex(0x14181c), 1, DASH_NONE});
 }
 
@@ -231,8 +212,7 @@ static void draw_sun(const SkyDrawing *work, Place *place, const void *view, dou
         const SkyPlotSun *at = &plot->path[i];
         if (!at->label || at->elevation < plot->horizon) continue;
         place(view, at->azimuth, at->elevation, &x, &y);
-        cairo_new_sub_path(canvas->cr);
-        cairo_arc(canvas->cr, x, y, 1.8, 0, 2 * PI);
+        canvas_circle(canvas, x, y, 1.8);
         canvas_fill(canvas, white);
         canvas_text(canvas, x, y - 4, (Letters){.size = SIZE_SMALL, .ink = white, .across = 0.5,
                                                 .down = 1, .halo = ink_alpha(dark, 0.6)},

@@ -9,7 +9,7 @@
  */
 #pragma once
 #include "base/error.h"
-#include "plot/draw/svg_text.h"
+#include "plot/draw/picture.h"
 
 typedef struct SkyPlotSun {
     double      azimuth, elevation;

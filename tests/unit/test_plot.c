@@ -6,10 +6,9 @@
 #include "image/srgb.h"
 #include "plot/draw/chart.h"
 #include "plot/draw/colour_map.h"
-#include "plot/draw/contour.h"
 #include "plot/draw/field.h"
 #include "plot/draw/polar.h"
-#include "plot/draw/svg_text.h"
+#include "plot/draw/picture.h"
 #include "plot/draw/ticks.h"
 
 /* The leak sanitizer asks for this: the font library keeps what it has found until the end. */
@@ -379,7 +378,7 @@ TEST(ids_are_renamed_alike_and_apart)
                   "<use xlink:href=\"#glyph0-1\"/><g clip-path=\"url(#clip7)\"/>"
                   "<path d=\"M 1.23456 2.000001 L 3 4.5\"/></svg>";
     PlotBytes in = {(unsigned char *)text, sizeof text - 1};
-    PlotBytes out = svg_with_ids(in, "a", true, test_memory());
+    PlotBytes out = picture_with_ids(in, "a", true, test_memory());
     assert_string_equal((char *)out.data,
         "<svg><g id=\"a0\"/><clipPath id=\"a1\"/><use xlink:href=\"#a0\"/>"
         "<g clip-path=\"url(#a1)\"/><path d=\"M 1.234 2 L 3 4.5\"/></svg>");

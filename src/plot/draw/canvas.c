@@ -2,8 +2,8 @@
 #include "plot/draw/canvas.h"
 
 #include <math.h>
-#include <string.h>
 
+#include "base/units.h"
 #include "text/utf8.h"
 
 #define FACE "DejaVu Sans"
@@ -184,6 +184,36 @@ void canvas_line(Canvas *canvas, double x0, double y0, double x1, double y1, Str
     cairo_move_to(canvas->cr, x0, y0);
     cairo_line_to(canvas->cr, x1, y1);
     canvas_stroke(canvas, stroke);
+}
+
+void canvas_circle(Canvas *canvas, double x, double y, double radius)
+{
+    cairo_new_sub_path(canvas->cr);
+    cairo_arc(canvas->cr, x, y, radius, 0, 2 * PI);
+}
+
+void canvas_image(Canvas *canvas, Box box, const CanvasRaster *raster)
+{
+    int              columns = raster->columns, rows = raster->rows;
+    cairo_t         *cr = canvas->cr;
+    cairo_surface_t *image = cairo_image_surface_create(raster->format, columns, rows);
+    unsigned char   *bytes = cairo_image_surface_get_data(image);
+    for (int row = 0; row < rows && bytes; row++) {
+        uint32_t *pixel = (uint32_t *)(void *)(bytes +
+                                               row * cairo_image_surface_get_stride(image));
+        for (int column = 0; column < columns; column++)
+            pixel[column] = raster->pixel(raster->context, column, row);
+    }
+    cairo_surface_mark_dirty(image);
+    cairo_save(cr);
+    cairo_translate(cr, box.x, box.y);
+    cairo_scale(cr, box.w / columns, box.h / rows);
+    cairo_set_source_surface(cr, image, 0, 0);
+    if (raster->has_cells)
+        cairo_pattern_set_filter(cairo_get_source(cr), CAIRO_FILTER_NEAREST);
+    cairo_paint(cr);
+    cairo_restore(cr);
+    cairo_surface_destroy(image);
 }
 
 void canvas_hatch(Canvas *canvas, Box area)

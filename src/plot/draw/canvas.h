@@ -8,6 +8,7 @@
 #pragma once
 #include <cairo.h>
 #include <stdbool.h>
+#include <stdint.h>
 
 #include "base/arena.h"
 
@@ -80,6 +81,24 @@ void canvas_fill(Canvas *canvas, Ink ink);
 void canvas_polyline(Canvas *canvas, const double *x, const double *y, int count);
 
 void canvas_line(Canvas *canvas, double x0, double y0, double x1, double y1, Stroke stroke);
+
+/* Adds a whole circle to the path. */
+void canvas_circle(Canvas *canvas, double x, double y, double radius);
+
+/* A pixel of a raster, 0xAARRGGBB with the colours multiplied by alpha. */
+typedef uint32_t CanvasPixel(const void *context, int column, int row);
+
+/* Rasters are smooth between their pixels, or every pixel is a cell of its own. */
+typedef struct CanvasRaster {
+    int            columns, rows;
+    cairo_format_t format; /* CAIRO_FORMAT_RGB24 where all is opaque */
+    bool           has_cells;
+    CanvasPixel   *pixel;
+    const void    *context;
+} CanvasRaster;
+
+/* The raster, spread over the box. */
+void canvas_image(Canvas *canvas, Box box, const CanvasRaster *raster);
 
 /* The area inside the present clip is dimmed with paper and hatched: not measured. */
 void canvas_hatch(Canvas *canvas, Box area);

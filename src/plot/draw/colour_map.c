@@ -2,7 +2,6 @@
 #include "plot/draw/colour_map.h"
 
 #include <math.h>
-#include <stdint.h>
 
 #include "image/srgb.h"
 
@@ -96,6 +95,15 @@ void colour_map_at(ColourMap map, double t, double srgb[3])
     set_lightness(rgb, wanted_lightness(map, t));
     for (int c = 0; c < 3; c++)
         srgb[c] = srgb_from_linear_d(rgb[c] < 0 ? 0 : rgb[c] > 1 ? 1 : rgb[c]);
+}
+
+uint32_t colour_map_pixel(ColourMap map, double t)
+{
+    double   srgb[3];
+    uint32_t pixel = 0xff;
+    colour_map_at(map, t, srgb);
+    for (int c = 0; c < 3; c++) pixel = pixel << 8 | (uint32_t)(srgb[c] * 255 + 0.5);
+    return pixel;
 }
 
 int colour_map_wants_light_ink(ColourMap map, double t)

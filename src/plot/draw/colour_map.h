@@ -5,6 +5,7 @@
  * Threads  pure functions.
  */
 #pragma once
+#include <stdint.h>
 
 typedef enum ColourMap {
     MAP_AMOUNT,     /* dark violet, green, yellow: "viridis" */
@@ -17,6 +18,9 @@ typedef enum ColourMap {
 
 /* The colour at t. Along every map but MAP_SIGNED CIE L* is linear in t. */
 void colour_map_at(ColourMap map, double t, double srgb[3]);
+
+/* The same, as an opaque pixel 0xffRRGGBB. */
+uint32_t colour_map_pixel(ColourMap map, double t);
 
 /* Which ink reads on the colour at t, in black and white too: 1 light, 0 dark. */
 int colour_map_wants_light_ink(ColourMap map, double t);

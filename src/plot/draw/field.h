@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* field.h -- a quantity over the hemisphere as a square grid of the polar map.
+/* field.h -- a quantity over the hemisphere as a square grid of the polar map, and its lines.
  *
  * Frame    the map is a disc: theta grows evenly from its centre, phi counter-clockwise from
  *          the right as one sees the display. Grid row 0 is the top. Cells outside the disc
@@ -8,6 +8,8 @@
  * Memory   the arena's. Threads: const once filled.
  */
 #pragma once
+#include <stdbool.h>
+
 #include "base/arena.h"
 #include "base/vec.h"
 
@@ -39,3 +41,26 @@ double field_quantile(const Field *field, double theta_limit, double share, Aren
 
 /* theta_limit: only directions below it count. All NaN: low and high are 0. */
 FieldRange field_range(const Field *field, double theta_limit);
+
+/* ---- lines of equal value, by marching squares ---------------------------------------------
+ *
+ * Frame    grid units: x to the right 0 .. side - 1, y DOWN 0 .. side - 1 (row 0 on top). */
+
+typedef struct ContourPoint {
+    double x, y;
+} ContourPoint;
+
+typedef struct ContourLine {
+    int           count;
+    bool          is_closed; /* the last point is the first one again */
+    ContourPoint *point;
+} ContourLine;
+
+typedef struct ContourSet {
+    int          count;
+    ContourLine *line;
+} ContourSet;
+
+/* value: side x side, row by row. A cell with a value that is not finite has no line.
+ * Crossings are interpolated linearly along the cell's edge. */
+ContourSet contour_lines(const float *value, int side, double level, Arena *arena);

@@ -1,16 +1,13 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Colour: the chromaticity diagram, the white point over angle, the primaries' spectra. */
-#include "plot/panel/colour_charts.h"
-
 #include <math.h>
 #include <stdint.h>
-#include <string.h>
 
 #include "base/count.h"
 #include "base/units.h"
 #include "panel/query/panel_emission.h"
-#include "plot/draw/chart.h"
 #include "plot/draw/ticks.h"
+#include "plot/panel/panel_chart.h"
 #include "spectrum/photometry.h"
 
 /* ---- the diagram ------------------------------------------------------------------------ */
@@ -60,32 +57,27 @@ static uint32_t hint_of(const Canvas *canvas, double u, double v)
     return pixel;
 }
 
+#define HINTS 220
+#define HINTS_U 0.64 /* u' and v' up to here */
+#define HINTS_V 0.6
+
+static uint32_t hint_at(const void *canvas, int column, int row)
+{
+    return hint_of(canvas, (column + 0.5) / HINTS * HINTS_U,
+                   HINTS_V - (row + 0.5) / HINTS * HINTS_V);
+}
+
 static void paint_hints(const Chart *chart)
 {
-    enum { SIDE = 220 };
-    Canvas          *canvas = chart->canvas;
-    cairo_surface_t *image = cairo_image_surface_create(CAIRO_FORMAT_RGB24, SIDE, SIDE);
-    unsigned char   *bytes = cairo_image_surface_get_data(image);
-    if (!bytes) return;
-    double u0 = 0, u1 = 0.64, v0 = 0, v1 = 0.6;
-    for (int row = 0; row < SIDE; row++) {
-        uint32_t *pixel = (uint32_t *)(void *)(bytes + row * cairo_image_surface_get_stride(
-                                                              image));
-        for (int column = 0; column < SIDE; column++)
-            pixel[column] = hint_of(canvas, u0 + (column + 0.5) / SIDE * (u1 - u0),
-                                    v1 - (row + 0.5) / SIDE * (v1 - v0));
-    }
-    cairo_surface_mark_dirty(image);
+    Canvas *canvas = chart->canvas;
+    double  left = chart_x(chart, 0), top = chart_y(chart, HINTS_V);
     cairo_save(canvas->cr);
     locus_path(chart);
     cairo_clip(canvas->cr);
-    cairo_translate(canvas->cr, chart_x(chart, u0), chart_y(chart, v1));
-    cairo_scale(canvas->cr, (chart_x(chart, u1) - chart_x(chart, u0)) / SIDE,
-                (chart_y(chart, v0) - chart_y(chart, v1)) / SIDE);
-    cairo_set_source_surface(canvas->cr, image, 0, 0);
-    cairo_paint(canvas->cr);
+    canvas_image(canvas, (Box){left, top, chart_x(chart, HINTS_U) - left,
+                               chart_y(chart, 0) - top},
+                 &(CanvasRaster){HINTS, HINTS, CAIRO_FORMAT_RGB24, false, hint_at, canvas});
     cairo_restore(canvas->cr);
-    cairo_surface_destroy(image);
 }
 
 static void draw_locus(const Chart *chart)
@@ -141,16 +133,9 @@ static void gamut_uv(int i, double uv[3][2])
     for (int k = 0; k < 3; k++) uv_of_xy(GAMUTS[i].xy[k], uv[k]);
 }
 
-static void normal_uv(const PlotData *s, Pattern pattern, double uv[2])
-{
-    double xyz[3];
-    for (int c = 0; c < 3; c++) xyz[c] = (double)s->normal[pattern][c];
-    uv_of(xyz, uv);
-}
-
 static bool panel_triangle(const PlotData *s, double uv[3][2])
 {
-    for (int p = 0; p < 3; p++) normal_uv(s, (Pattern)(PATTERN_RED + p), uv[p]);
+    for (int p = 0; p < 3; p++) plot_data_normal_uv(s, (Pattern)(PATTERN_RED + p), uv[p]);
     return !s->is_white_only && isfinite(uv[0][0] + uv[1][0] + uv[2][0]) &&
            triangle_area(uv) > 1e-5;
 }
@@ -178,7 +163,7 @@ static void draw_paths(Chart *chart, const PlotData *s, Pattern pattern, Ink ink
         int count = angle_path(s, pattern, k * PI / 4, u, v);
         chart_curve(chart, u, v, count, (Stroke){ink, 1.3, DASH_NONE});
     }
-    normal_uv(s, pattern, uv);
+    plot_data_normal_uv(s, pattern, uv);
     chart_dot(chart, uv[0], uv[1], 3.6, chart->canvas->theme.paper);
     chart_dot(chart, uv[0], uv[1], 2.8, ink);
 }
@@ -233,7 +218,7 @@ static void draw_chromaticity(Canvas *canvas, Box box, const PanelChart *shown,
 static void add_chromaticity(PanelChartList *list, const PlotData *s)
 {
     double uv[3][2], white[2], srgb[3][2], p3[3][2];
-    normal_uv(s, PATTERN_WHITE, white);
+    plot_data_normal_uv(s, PATTERN_WHITE, white);
     gamut_uv(0, srgb);
     gamut_uv(1, p3);
     const char *area = panel_triangle(s, uv)
@@ -258,8 +243,7 @@ static void draw_steps(Chart *chart, const double at[2], double step)
     for (int k = 1; k <= 12; k++) {
         char   text[32];
         double r = chart_x(chart, at[0] + k * step) - chart_x(chart, at[0]);
-        cairo_new_sub_path(canvas->cr);
-        cairo_arc(canvas->cr, chart_x(chart, at[0]), chart_y(chart, at[1]), r, 0, 2 * PI);
+        canvas_circle(canvas, chart_x(chart, at[0]), chart_y(chart, at[1]), r);
         canvas_stroke(canvas, (Stroke){canvas->theme.faint, 0.7, DASH_SHORT});
         canvas_text(canvas, chart_x(chart, at[0]) - 0.7071 * r,
                     chart_y(chart, at[1]) - 0.7071 * r,
@@ -272,9 +256,8 @@ static void draw_steps(Chart *chart, const double at[2], double step)
 
 static Ink azimuth_ink(const Canvas *canvas, int k)
 {
-    double srgb[3], t = 0.05 + 0.8 * k / 3.0;
-    colour_map_at(MAP_AMOUNT, canvas->theme.is_dark ? 1 - 0.85 * t : 0.9 * t, srgb);
-    return (Ink){srgb[0], srgb[1], srgb[2], 1};
+    double t = 0.05 + 0.8 * k / 3.0;
+    return panel_chart_ink(MAP_AMOUNT, canvas->theme.is_dark ? 1 - 0.85 * t : 0.9 * t);
 }
 
 static void draw_white_point(Canvas *canvas, Box box, const PanelChart *shown,
@@ -284,7 +267,7 @@ static void draw_white_point(Canvas *canvas, Box box, const PanelChart *shown,
     static const char *const NAMES[] = {"φ 0°", "φ 90°", "φ 180°", "φ 270°"};
     double u[4][81], v[4][81], at[2], reach = 0.004;
     int    count[4];
-    normal_uv(s, PATTERN_WHITE, at);
+    plot_data_normal_uv(s, PATTERN_WHITE, at);
     for (int k = 0; k < 4; k++) {
         count[k] = angle_path(s, PATTERN_WHITE, k * PI / 2, u[k], v[k]);
         for (int i = 0; i < count[k]; i++)
@@ -387,7 +370,7 @@ static void draw_spectra(Canvas *canvas, Box box, const PanelChart *shown, Panel
     panel_chart_map_axes(out, &chart);
 }
 
-void colour_charts_add(PanelChartList *list, const PlotData *s)
+static void add_colour(PanelChartList *list, const PlotData *s)
 {
     if (!s->emits) return;
     add_chromaticity(list, s);
@@ -400,3 +383,5 @@ void colour_charts_add(PanelChartList *list, const PlotData *s)
         "Spectral radiance at the normal of each primary at full drive and of white.",
         draw_spectra, s, 0, SHEET_ALWAYS, true});
 }
+
+const PanelCharts colour_charts = {PLOT_CHROMATICITY, PLOT_SPECTRA, add_colour};

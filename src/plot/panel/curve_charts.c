@@ -1,14 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Luminance along two sections of the hemisphere, and over the grey levels. */
-#include "plot/panel/curve_charts.h"
-
 #include <math.h>
-#include <string.h>
 
 #include "base/units.h"
-#include "plot/draw/chart.h"
-#include "plot/draw/colour_map.h"
-#include "plot/draw/ticks.h"
+#include "plot/panel/panel_chart.h"
 
 /* ---- sections --------------------------------------------------------------------------- */
 
@@ -18,11 +13,6 @@ typedef struct Section {
     double angle_deg[SECTION_POINTS], value[SECTION_POINTS];
 } Section;
 
-static double section_angle_deg(int i)
-{
-    return -88 + i * 0.5;
-}
-
 static void fill_section(const PlotData *s, Pattern pattern, double phi, bool is_normalised,
                          Section *out)
 {
@@ -31,7 +21,7 @@ static void fill_section(const PlotData *s, Pattern pattern, double phi, bool is
     pattern_codes(pattern, rgb);
     for (int i = 0; i < SECTION_POINTS; i++) {
         double xyz[3];
-        out->angle_deg[i] = section_angle_deg(i);
+        out->angle_deg[i] = -88 + i * 0.5;
         plot_data_xyz(s, radians_from_degrees(out->angle_deg[i]), phi, rgb, xyz);
         out->value[i] = unit > 0 ? xyz[1] / unit : NAN;
     }
@@ -143,9 +133,7 @@ static void draw_section(Canvas *canvas, Box box, const PanelChart *shown, Panel
         (AxisSpec){.high = high * 1.1, .title = is_normalised
                    ? "Luminance over that at the normal" : "Luminance, cd/m²"},
         is_normalised ? 48 : 14);
-    double cone = degrees_from_radians(s->cone);
-    chart_hatch(&chart, -90, -cone);
-    chart_hatch(&chart, cone, 90);
+    panel_chart_hatch(&chart, s->cone);
     for (int p = count - 1; p >= 0; p--) {
         Ink ink = pattern_ink(canvas, (Pattern)p);
         chart_curve(&chart, section[p].angle_deg, section[p].value, SECTION_POINTS,
@@ -205,9 +193,8 @@ enum { ANGLES = sizeof GREY_ANGLES / sizeof *GREY_ANGLES };
 
 static Ink angle_ink(const Canvas *canvas, int i, int count)
 {
-    double srgb[3], t = (i + 0.15) / count * 0.82;
-    colour_map_at(MAP_AMOUNT, canvas->theme.is_dark ? 1 - t : t, srgb);
-    return (Ink){srgb[0], srgb[1], srgb[2], 1};
+    double t = (i + 0.15) / count * 0.82;
+    return panel_chart_ink(MAP_AMOUNT, canvas->theme.is_dark ? 1 - t : t);
 }
 
 enum { GREY_LINEAR, GREY_LOG, GREY_GAMMA };
@@ -346,9 +333,11 @@ static void add_grey(PanelChartList *list, const PlotData *s)
             draw_grey, s, i, i > 0 ? SHEET_ALWAYS : SHEET_SPARE, !s->has_gamma_table});
 }
 
-void curve_charts_add(PanelChartList *list, const PlotData *s)
+static void add_curve(PanelChartList *list, const PlotData *s)
 {
     if (!s->emits) return;
     add_sections(list, s);
     add_grey(list, s);
 }
+
+const PanelCharts curve_charts = {PLOT_GREY_LEVELS, PLOT_SECTIONS, add_curve};

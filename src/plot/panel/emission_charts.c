@@ -1,12 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Polar maps of what the panel emits: luminance, contrast, colour shift. */
-#include "plot/panel/emission_charts.h"
-
 #include <math.h>
 
 #include "base/units.h"
 #include "plot/draw/ticks.h"
-#include "plot/panel/ambient.h"
+#include "plot/panel/panel_chart.h"
 
 static const char *at_angles(Arena *arena, double theta, double phi)
 {
@@ -14,12 +12,6 @@ static const char *at_angles(Arena *arena, double theta, double phi)
     if (theta < radians_from_degrees(0.75)) return "at the normal";
     return arena_format(arena, "at θ %.0f°, φ %.0f°", degrees_from_radians(theta),
                         degrees < -0.5 ? degrees + 360 : fabs(degrees));
-}
-
-static void note_map(PanelChartMap *out, const PolarMap *map, PolarPlace place)
-{
-    *out = (PanelChartMap){.kind = PANEL_CHART_POLAR, .disc = place, .field = *map->field,
-                       .unit = map->unit};
 }
 
 /* Round levels inside (low, high), not so near the ends or the strong level that they show
@@ -60,18 +52,15 @@ static void draw_luminance(Canvas *canvas, Box box, const PanelChart *shown, Pan
     double low = range.low > 0.6 * range.high ? range.low : 0;
     PolarMap map = {.field = field, .map = MAP_AMOUNT, .low = low, .high = range.high,
                     .strong = NAN, .theta_measured = s->cone, .unit = "cd/m²"};
-    const PlotContours *wanted = &s->source.contours;
-    if (take_contours(canvas, &map, wanted, (double)s->normal[shown->index][1])) {
-        note_map(out, &map, polar_draw(canvas, box, &map));
-        return;
-    }
-    double half = 0.5 * (double)s->normal[shown->index][1];
-    if (shown->index != PATTERN_BLACK && range.low < half && half < range.high) {
+    double normal = (double)s->normal[shown->index][1], half = 0.5 * normal;
+    bool   is_labelled = take_contours(canvas, &map, &s->source.contours, normal);
+    if (!is_labelled && shown->index != PATTERN_BLACK && range.low < half &&
+        half < range.high) {
         map.strong = half;
         map.strong_text = "½";
     }
-    choose_levels(&map, fmax(range.low, low), range.high, 8);
-    note_map(out, &map, polar_draw(canvas, box, &map));
+    if (!is_labelled) choose_levels(&map, fmax(range.low, low), range.high, 8);
+    panel_chart_polar(canvas, box, &map, out);
 }
 
 static void add_luminance(PanelChartList *list, const PlotData *s, Pattern pattern)
@@ -80,16 +69,13 @@ static void add_luminance(PanelChartList *list, const PlotData *s, Pattern patte
     char       normal[32], high[32];
     if (!(range.high > 0)) return;
     double      at_normal = (double)s->normal[pattern][1];
-    const char *subtitle = arena_format(s->arena, "%s cd/m² at the normal%s%s%s%s",
-        figure_text(at_normal, normal), range.high > 1.002 * at_normal ? ", at most " : "",
-        range.high > 1.002 * at_normal ? figure_text(range.high, high) : "",
-        range.high > 1.002 * at_normal ? " " : "", range.high > 1.002 * at_normal
-        ? at_angles(s->arena, range.theta, range.phi) : "");
+    const char *subtitle = arena_format(s->arena, "%s cd/m² at the normal%s",
+        figure_text(at_normal, normal), range.high > 1.002 * at_normal
+            ? arena_format(s->arena, ", at most %s %s", figure_text(range.high, high),
+                           at_angles(s->arena, range.theta, range.phi)) : "");
     panel_chart_add(list, &(PanelChart){PLOT_LUMINANCE,
-        arena_format(s->arena, "Luminance, %s", pattern == PATTERN_WHITE ? "white" :
-                     pattern == PATTERN_RED ? "red" : pattern == PATTERN_GREEN ? "green" :
-                     pattern == PATTERN_BLUE ? "blue" : "black"),
-        subtitle, "Luminance in cd/m² over the viewing hemisphere: θ from the normal outwards, "
+        arena_format(s->arena, "Luminance, %s", pattern_word(pattern)), subtitle,
+        "Luminance in cd/m² over the viewing hemisphere: θ from the normal outwards, "
         "φ counter-clockwise from the viewer's right. The strong ring, where there is one, is "
         "half the luminance of the normal.", draw_luminance, s, pattern,
         SHEET_ALWAYS, pattern != PATTERN_WHITE && pattern != PATTERN_BLACK});
@@ -131,7 +117,7 @@ static void draw_contrast(Canvas *canvas, Box box, const PanelChart *shown, Pane
     for (int i = 0; i < 15 && !is_labelled; i++)
         if (LEVELS[i] > range.low && LEVELS[i] < range.high)
             map.level[map.level_count++] = LEVELS[i];
-    note_map(out, &map, polar_draw(canvas, box, &map));
+    panel_chart_polar(canvas, box, &map, out);
 }
 
 static void add_ambient(PanelChartList *list, const PlotData *s, int index)
@@ -154,10 +140,10 @@ static void add_contrast(PanelChartList *list, const PlotData *s)
     Field      field = plot_data_contrast(s, s->arena);
     FieldRange range = field_range(&field, s->cone);
     char       normal[32], low[32];
-    double at_normal = (double)(s->normal[PATTERN_WHITE][1] / s->normal[PATTERN_BLACK][1]);
     panel_chart_add(list, &(PanelChart){PLOT_CONTRAST, "Contrast ratio",
         arena_format(s->arena, "white over black: %s at the normal, at least %s",
-                     figure_text(at_normal, normal), figure_text(range.low, low)),
+                     figure_text(contrast_on_axis(s, 0), normal),
+                     figure_text(range.low, low)),
         "Luminance of white over that of black in a dark room, logarithmic colours.",
         draw_contrast, s, 0, SHEET_ALWAYS, false});
 }
@@ -179,7 +165,7 @@ static void draw_shift(Canvas *canvas, Box box, const PanelChart *shown, PanelCh
     for (int i = 0; i < 11; i++)
         if (SHIFT_LEVELS[i] < range.high && SHIFT_LEVELS[i] > range.high / 12)
             map.level[map.level_count++] = SHIFT_LEVELS[i];
-    note_map(out, &map, polar_draw(canvas, box, &map));
+    panel_chart_polar(canvas, box, &map, out);
 }
 
 static void add_shift(PanelChartList *list, const PlotData *s, Pattern pattern)
@@ -188,9 +174,7 @@ static void add_shift(PanelChartList *list, const PlotData *s, Pattern pattern)
     FieldRange range = field_range(&field, s->cone);
     char       high[32];
     panel_chart_add(list, &(PanelChart){PLOT_COLOUR_SHIFT,
-        arena_format(s->arena, "Colour shift, %s", pattern == PATTERN_WHITE ? "white" :
-                     pattern == PATTERN_RED ? "red" : pattern == PATTERN_GREEN ? "green"
-                                                                              : "blue"),
+        arena_format(s->arena, "Colour shift, %s", pattern_word(pattern)),
         arena_format(s->arena, "Δu′v′ from the normal, at most %s %s",
                      figure_text(range.high, high),
                      at_angles(s->arena, range.theta, range.phi)),
@@ -199,7 +183,7 @@ static void add_shift(PanelChartList *list, const PlotData *s, Pattern pattern)
         pattern == PATTERN_WHITE ? SHEET_ALWAYS : SHEET_NEVER, pattern != PATTERN_WHITE});
 }
 
-void emission_charts_add(PanelChartList *list, const PlotData *s)
+static void add_emission(PanelChartList *list, const PlotData *s)
 {
     if (!s->emits) return;
     add_luminance(list, s, PATTERN_WHITE);
@@ -209,3 +193,5 @@ void emission_charts_add(PanelChartList *list, const PlotData *s)
     add_shift(list, s, PATTERN_WHITE);
     for (int p = PATTERN_RED; p <= PATTERN_BLUE; p++) add_shift(list, s, (Pattern)p);
 }
+
+const PanelCharts emission_charts = {PLOT_LUMINANCE, PLOT_COLOUR_SHIFT, add_emission};

@@ -1,13 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Measured against fitted: the source's points over the curves, and what is left. */
-#include "plot/panel/fit_charts.h"
-
 #include <math.h>
 #include <string.h>
 
 #include "base/units.h"
-#include "plot/draw/chart.h"
 #include "plot/draw/ticks.h"
+#include "plot/panel/panel_chart.h"
 
 /* ---- comparing -------------------------------------------------------------------------- */
 
@@ -86,8 +84,7 @@ static void ring(Chart *chart, double x, double y, Ink ink)
     double px = chart_x(chart, x), py = chart_y(chart, y);
     Box    p = chart->plot;
     if (px < p.x - 1 || px > p.x + p.w + 1 || py < p.y - 1 || py > p.y + p.h + 1) return;
-    cairo_new_sub_path(chart->canvas->cr);
-    cairo_arc(chart->canvas->cr, px, py, 1.9, 0, 2 * PI);
+    canvas_circle(chart->canvas, px, py, 1.9);
     canvas_stroke(chart->canvas, (Stroke){ink, 0.8, DASH_NONE});
 }
 
@@ -130,9 +127,7 @@ static void draw_fit_section(Canvas *canvas, Box box, const PanelChart *shown,
         (AxisSpec){.low = -90, .high = 90, .step = 30, .suffix = "°",
                    .title = shown->index ? "θ along φ 270° to 90°" : "θ along φ 180° to 0°"},
         (AxisSpec){.high = 1.06 * high, .title = "Luminance, cd/m²"}, 48);
-    double cone = degrees_from_radians(s->cone);
-    chart_hatch(&chart, -90, -cone);
-    chart_hatch(&chart, cone, 90);
+    panel_chart_hatch(&chart, s->cone);
     for (int p = 0; p < 3; p++) {
         const MeasuredPrimary *primary = &set->primary[p];
         int   last = primary->level_count - 1;
@@ -333,9 +328,7 @@ static void draw_residual_map(Canvas *canvas, Box box, const PanelChart *shown,
     PolarMap map = {.field = field, .map = MAP_SIGNED, .low = -reach, .high = reach,
                     .is_cut = reach < 0.99 * r->most, .strong = NAN,
                     .theta_measured = s->cone, .unit = "%", .is_residual = true};
-    PolarPlace place = polar_draw(canvas, box, &map);
-    *out = (PanelChartMap){.kind = PANEL_CHART_POLAR, .disc = place, .field = *field,
-                           .unit = "%"};
+    panel_chart_polar(canvas, box, &map, out);
 }
 
 /* ---- reflection ------------------------------------------------------------------------- */
@@ -387,9 +380,9 @@ static void fill_brdf_points(const PlotData *s, int incidence, int channel, Brdf
     for (int i = 0; i < BRDF_FINE; i++) {
         double deg = -88 + 0.25 * i;
         out->fine_deg[i] = deg;
-        out->fitted[i] = plot_data_brdf_at(&turned, set->incidence[incidence],
-                                         radians_from_degrees(fabs(deg)), deg < 0 ? PI : 0,
-                                         (double)set->wavelength_nm[channel]);
+        out->fitted[i] = plot_data_brdf(&turned, set->incidence[incidence],
+                                        radians_from_degrees(fabs(deg)), deg < 0 ? PI : 0,
+                                        (double)set->wavelength_nm[channel]);
     }
 }
 
@@ -413,9 +406,7 @@ static void draw_fit_brdf(Canvas *canvas, Box box, const PanelChart *shown, Pane
                    .title = "leaving angle in the plane of incidence"},
         (AxisSpec){.low = low, .high = round_up(high * 1.3), .is_log = true,
                    .title = "BRDF, sr⁻¹"}, 14);
-    double cone = degrees_from_radians(s->brdf_cone);
-    chart_hatch(&chart, -90, -cone);
-    chart_hatch(&chart, cone, 90);
+    panel_chart_hatch(&chart, s->brdf_cone);
     for (int k = 0; k < count; k++) {
         Ink  ink = panel_chart_series_ink(canvas, k, count);
         bool taken[151] = {false}; /* rings no nearer than 1.2 degrees */
@@ -430,8 +421,6 @@ static void draw_fit_brdf(Canvas *canvas, Box box, const PanelChart *shown, Pane
     }
     panel_chart_map_axes(out, &chart);
 }
-
-/* ---- the list --------------------------------------------------------------------------- */
 
 static void add_emission_fit(PanelChartList *list, const PlotData *s)
 {
@@ -475,7 +464,7 @@ static const char *azimuth_text(const PlotData *s)
         degrees_from_radians(set->azimuth[nearest_azimuth(s)]));
 }
 
-void fit_charts_add(PanelChartList *list, const PlotData *s)
+static void add_all(PanelChartList *list, const PlotData *s)
 {
     const Measurement *set = s->source.measured;
     if (!set) return;
@@ -490,3 +479,5 @@ void fit_charts_add(PanelChartList *list, const PlotData *s)
             "instrument's image of the mirror part, which the file keeps apart.", draw_fit_brdf,
             s, 0, SHEET_ALWAYS, false});
 }
+
+const PanelCharts fit_charts = {PLOT_FIT, PLOT_FIT, add_all};

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "plot/panel/panel_chart.h"
 
-#include "plot/draw/chart.h"
+#include "base/units.h"
 
 void panel_chart_add(PanelChartList *list, const PanelChart *chart)
 {
@@ -26,11 +26,30 @@ void panel_chart_draw(Canvas *canvas, Box box, const PanelChart *chart, PanelCha
     chart->draw(canvas, (Box){box.x, box.y + 34, box.w, box.h - 34}, chart, map);
 }
 
+Ink panel_chart_ink(ColourMap map, double t)
+{
+    double srgb[3];
+    colour_map_at(map, t, srgb);
+    return (Ink){srgb[0], srgb[1], srgb[2], 1};
+}
+
 Ink panel_chart_series_ink(const Canvas *canvas, int i, int count)
 {
-    double srgb[3], t = count > 1 ? (double)i / (count - 1) : 0;
-    colour_map_at(MAP_SCATTER, canvas->theme.is_dark ? 0.42 + 0.5 * t : 0.12 + 0.6 * t, srgb);
-    return (Ink){srgb[0], srgb[1], srgb[2], 1};
+    double t = count > 1 ? (double)i / (count - 1) : 0;
+    return panel_chart_ink(MAP_SCATTER,
+                           canvas->theme.is_dark ? 0.42 + 0.5 * t : 0.12 + 0.6 * t);
+}
+
+void panel_chart_polar(Canvas *canvas, Box box, const PolarMap *polar, PanelChartMap *map)
+{
+    *map = (PanelChartMap){.kind = PANEL_CHART_POLAR, .disc = polar_draw(canvas, box, polar),
+                           .field = *polar->field, .unit = polar->unit};
+}
+
+void panel_chart_hatch(Chart *chart, double cone)
+{
+    chart_hatch(chart, -90, -degrees_from_radians(cone));
+    chart_hatch(chart, degrees_from_radians(cone), 90);
 }
 
 void panel_chart_map_axes(PanelChartMap *map, const Chart *chart)

@@ -5,9 +5,9 @@
  * Memory   the arena's. Threads: one thread a canvas.
  */
 #pragma once
+#include "plot/draw/chart.h"
 #include "plot/draw/polar.h"
 #include "plot/panel/plot_data.h"
-#include "plot/panel/plot_kind.h"
 
 struct PanelChart;
 
@@ -50,9 +50,22 @@ typedef struct PanelChartList {
     PanelChart chart[PANEL_CHARTS_MAX];
 } PanelChartList;
 
+/* The charts of some kinds: `add` adds those that the data allow. */
+typedef struct PanelCharts {
+    PlotKind first, last;
+    void   (*add)(PanelChartList *list, const PlotData *data);
+} PanelCharts;
+
+/* Each in the file of its name. */
+extern const PanelCharts emission_charts, curve_charts, colour_charts, reflection_charts,
+    fit_charts, place_charts;
+
 /* A chart of primaries or levels of a set that is white only states so and leaves the
  * sheet. */
 void panel_chart_add(PanelChartList *list, const PanelChart *chart);
+
+/* The ink at t of a map's colours. */
+Ink panel_chart_ink(ColourMap map, double t);
 
 /* The ink of the i-th of so many curves that stand in an order. */
 Ink panel_chart_series_ink(const Canvas *canvas, int i, int count);
@@ -60,6 +73,11 @@ Ink panel_chart_series_ink(const Canvas *canvas, int i, int count);
 /* Title, subtitle and the chart itself. */
 void panel_chart_draw(Canvas *canvas, Box box, const PanelChart *chart, PanelChartMap *map);
 
+/* Draws a polar map, and notes where it lies. */
+void panel_chart_polar(Canvas *canvas, Box box, const PolarMap *polar, PanelChartMap *map);
+
+/* Over angles in degrees: beyond the cone (radians) on both sides nothing was measured. */
+void panel_chart_hatch(Chart *chart, double cone);
+
 /* Notes the axes of a finished chart. */
-struct Chart;
-void panel_chart_map_axes(PanelChartMap *map, const struct Chart *chart);
+void panel_chart_map_axes(PanelChartMap *map, const Chart *chart);

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "plot/panel/place_charts.h"
-
+/* A panel that is not the same everywhere: white and black over the active area with the nine
+ * points, and the viewing angle by place. */
 #include <math.h>
 
 #include "base/units.h"
 #include "panel/query/panel_info.h"
 #include "panel/query/panel_place.h"
-#include "plot/draw/colour_map.h"
 #include "plot/draw/ticks.h"
+#include "plot/panel/panel_chart.h"
 
 #define COLUMNS 192
 #define ROWS 108
@@ -74,36 +74,18 @@ static double position(const SurfaceMap *map, double value)
     return map->high > map->low ? (value - map->low) / (map->high - map->low) : 0.5;
 }
 
-static uint32_t pixel_of(double t)
+static uint32_t pixel_at(const void *context, int x, int y)
 {
-    double   srgb[3];
-    uint32_t out = 0xff;
-    colour_map_at(MAP_AMOUNT, t, srgb);
-    for (int k = 0; k < 3; k++) out = out << 8 | (uint32_t)(255 * srgb[k] + 0.5);
-    return out;
+    const SurfaceMap *map = context;
+    return colour_map_pixel(MAP_AMOUNT,
+                            position(map, (double)map->value[y * map->columns + x]));
 }
 
 /* Colours, one a cell, into the box. */
 static void paint(Canvas *canvas, Box box, const SurfaceMap *map)
 {
-    cairo_surface_t *image = cairo_image_surface_create(CAIRO_FORMAT_ARGB32, map->columns,
-                                                        map->rows);
-    unsigned char   *data = cairo_image_surface_get_data(image);
-    int              stride = cairo_image_surface_get_stride(image);
-    for (int y = 0; y < map->rows && data; y++) {
-        uint32_t *row = (uint32_t *)(void *)(data + (size_t)y * (size_t)stride);
-        for (int x = 0; x < map->columns; x++)
-            row[x] = pixel_of(position(map, (double)map->value[y * map->columns + x]));
-    }
-    cairo_surface_mark_dirty(image);
-    cairo_save(canvas->cr);
-    cairo_translate(canvas->cr, box.x, box.y);
-    cairo_scale(canvas->cr, box.w / map->columns, box.h / map->rows);
-    cairo_set_source_surface(canvas->cr, image, 0, 0);
-    cairo_pattern_set_filter(cairo_get_source(canvas->cr), CAIRO_FILTER_NEAREST);
-    cairo_paint(canvas->cr);
-    cairo_restore(canvas->cr);
-    cairo_surface_destroy(image);
+    canvas_image(canvas, box, &(CanvasRaster){map->columns, map->rows, CAIRO_FORMAT_ARGB32,
+                                              true, pixel_at, map});
 }
 
 /* As wide as the display where its size is known. */
@@ -134,11 +116,9 @@ static void mark_spots(Canvas *canvas, const Box *box, const PlotData *s)
 {
     float place[PANEL_EVENNESS_SPOTS][2];
     int   map[2], count = panel_spots(s->source.panel, place, map);
-    for (int i = 0; i < count; i++) {
-        cairo_new_sub_path(canvas->cr);
-        cairo_arc(canvas->cr, box->x + (double)place[i][0] * box->w,
-                  box->y + (double)place[i][1] * box->h, 11, 0, 2 * PI);
-    }
+    for (int i = 0; i < count; i++)
+        canvas_circle(canvas, box->x + (double)place[i][0] * box->w,
+                      box->y + (double)place[i][1] * box->h, 11);
     canvas_stroke(canvas, (Stroke){ink_alpha(ink_hex(0xffffff), 0.8), 0.9, DASH_NONE});
 }
 
@@ -193,7 +173,7 @@ static void add_surface(PanelChartList *list, const PlotData *s, int index)
         index ? SHEET_NEVER : SHEET_ALWAYS, false});
 }
 
-void place_charts_add(PanelChartList *list, const PlotData *s)
+static void add_place(PanelChartList *list, const PlotData *s)
 {
     if (!s->emits || !panel_varies(s->source.panel)) return;
     add_surface(list, s, 0);
@@ -204,3 +184,5 @@ void place_charts_add(PanelChartList *list, const PlotData *s)
         "the luminance of the local normal; no more than was measured.", draw_surface, s, 2,
         SHEET_NEVER, false});
 }
+
+const PanelCharts place_charts = {PLOT_UNIFORMITY, PLOT_UNIFORMITY, add_place};

@@ -3,16 +3,10 @@
 
 #include <string.h>
 
+#include "base/count.h"
 #include "base/file.h"
 #include "base/file_write.h"
-#include "panel/fit/fit.h"
 #include "panel/query/panel_report.h"
-#include "plot/panel/colour_charts.h"
-#include "plot/panel/curve_charts.h"
-#include "plot/panel/emission_charts.h"
-#include "plot/panel/fit_charts.h"
-#include "plot/panel/place_charts.h"
-#include "plot/panel/reflection_charts.h"
 #include "plot/panel/sheet.h"
 
 static bool is_among(PlotKind kind, PlotKind first, PlotKind last)
@@ -22,13 +16,11 @@ static bool is_among(PlotKind kind, PlotKind first, PlotKind last)
 
 PanelChartList *plot_charts(const PlotData *data, PlotKind kind, Arena *arena)
 {
+    static const PanelCharts *const all[] = {&emission_charts, &curve_charts, &colour_charts,
+                                             &reflection_charts, &fit_charts, &place_charts};
     PanelChartList *list = ARENA_NEW(arena, PanelChartList, 1);
-    if (data->source.wants_maps) emission_charts_add(list, data);
-    if (is_among(kind, PLOT_GREY_LEVELS, PLOT_SECTIONS)) curve_charts_add(list, data);
-    if (is_among(kind, PLOT_CHROMATICITY, PLOT_SPECTRA)) colour_charts_add(list, data);
-    if (is_among(kind, PLOT_BRDF, PLOT_MIRROR)) reflection_charts_add(list, data);
-    if (is_among(kind, PLOT_FIT, PLOT_FIT)) fit_charts_add(list, data);
-    if (is_among(kind, PLOT_UNIFORMITY, PLOT_UNIFORMITY)) place_charts_add(list, data);
+    for (int i = 0; i < COUNT_OF(all); i++)
+        if (is_among(kind, all[i]->first, all[i]->last)) all[i]->add(list, data);
     return list;
 }
 
@@ -128,10 +120,9 @@ bool plot_write(const PlotInput *input, const PlotOptions *options, const char *
     PanelChartList *list = plot_charts(data, options->kind, arena);
     keep_kind(list, options->kind);
     SheetSpec spec = {list, data, options->kind, options->width, options->height,
-                     options->is_dark};
+                     options->is_dark, is_svg};
     bool ok = (list->count > 0 || fails_empty(data, options->kind, err)) &&
-              (is_svg ? sheet_svg(&spec, arena, &bytes, err)
-                      : sheet_png(&spec, arena, &bytes, err)) &&
+              sheet_picture(&spec, arena, &bytes, err) &&
               file_write(path, bytes.data, bytes.size, err);
     if (ok) *charts = list->count;
     json_decref(report);

@@ -6,8 +6,6 @@
 #include "base/count.h"
 #include "base/units.h"
 #include "page/page.h"
-#include "plot/draw/contour.h"
-#include "plot/panel/ambient.h"
 
 /* ---- lines ------------------------------------------------------------------------------ */
 
@@ -57,11 +55,11 @@ static void add_contours(json_t *out, const PlotData *s, const char *chart, cons
 
 static void add_luminance_contours(json_t *out, const PlotData *s)
 {
-    static const char *const names[PATTERN_COUNT] = {"luminance white", "luminance red",
-        "luminance green", "luminance blue", "luminance black"};
     for (int p = 0; p < PATTERN_COUNT; p++)
         if (s->normal[p][1] > 0)
-            add_contours(out, s, names[p], &s->xyz[p][1], (double)s->normal[p][1]);
+            add_contours(out, s, arena_format(s->arena, "luminance %s",
+                                              pattern_word((Pattern)p)),
+                         &s->xyz[p][1], (double)s->normal[p][1]);
 }
 
 static void add_contrast_contours(json_t *out, const PlotData *s)

@@ -7,7 +7,6 @@
 #include <jansson.h>
 
 #include "plot/panel/plot_data.h"
-#include "plot/panel/plot_kind.h"
 #include "text/text.h"
 
 /* "contours": one object for each chart and value, its lines as lists of [theta, phi];

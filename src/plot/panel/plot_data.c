@@ -1,7 +1,4 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "panel/query/panel_emission.h"
-#include "panel/query/panel_reflection.h"
-#include "panel/query/panel_sampling.h"
 #include "plot/panel/plot_data.h"
 
 #include <math.h>
@@ -9,8 +6,11 @@
 #include "base/file.h"
 #include "base/parallel.h"
 #include "base/units.h"
-#include "text/utf8.h"
+#include "panel/query/panel_emission.h"
+#include "panel/query/panel_reflection.h"
+#include "panel/query/panel_sampling.h"
 #include "spectrum/photometry.h"
+#include "text/utf8.h"
 
 #define SIDE 301 /* grid of the maps: 0.6 degrees a step */
 
@@ -28,6 +28,12 @@ const char *pattern_name(Pattern pattern)
     return NAMES[pattern];
 }
 
+const char *pattern_word(Pattern pattern)
+{
+    static const char *const WORDS[] = {"white", "red", "green", "blue", "black"};
+    return WORDS[pattern];
+}
+
 void pattern_codes(Pattern pattern, float rgb[3])
 {
     for (int c = 0; c < 3; c++)
@@ -41,14 +47,19 @@ void uv_of(const double xyz[3], double uv[2])
     uv[1] = d > 0 ? 9 * xyz[1] / d : NAN;
 }
 
-bool plot_data_xyz(const PlotData *data, double theta, double phi, const float rgb[3],
-                 double xyz[3])
+void plot_data_normal_uv(const PlotData *data, Pattern pattern, double uv[2])
+{
+    double xyz[3];
+    for (int c = 0; c < 3; c++) xyz[c] = (double)data->normal[pattern][c];
+    uv_of(xyz, uv);
+}
+
+void plot_data_xyz(const PlotData *data, double theta, double phi, const float rgb[3],
+                   double xyz[3])
 {
     float found[3];
-    Vec3  d = direction(theta, phi);
-    bool  measured = panel_emission_xyz(data->source.panel, d, rgb, found);
+    panel_emission_xyz(data->source.panel, direction(theta, phi), rgb, found);
     for (int c = 0; c < 3; c++) xyz[c] = (double)found[c];
-    return measured;
 }
 
 /* ---- sampling, row by row over the threads ---------------------------------------------- */
@@ -185,8 +196,7 @@ Field plot_data_shift(const PlotData *s, Pattern pattern, Arena *arena)
 {
     Field  field = field_new(SIDE, PI / 2, arena);
     double at_normal[2], uv[2], xyz[3];
-    for (int c = 0; c < 3; c++) xyz[c] = (double)s->normal[pattern][c];
-    uv_of(xyz, at_normal);
+    plot_data_normal_uv(s, pattern, at_normal);
     for (int i = 0; i < SIDE * SIDE; i++) {
         for (int c = 0; c < 3; c++) xyz[c] = (double)s->xyz[pattern][c].value[i];
         uv_of(xyz, uv);
@@ -211,13 +221,7 @@ static double panel_phi(const PlotData *s, double phi)
     return phi + s->source.incidence_phi - PI;
 }
 
-double plot_data_brdf(const PlotData *s, double incidence, double theta, double phi)
-{
-    return brdf(s, incidence, direction(theta, panel_phi(s, phi)), 0);
-}
-
-double plot_data_brdf_at(const PlotData *s, double incidence, double theta, double phi,
-                         double nm)
+double plot_data_brdf(const PlotData *s, double incidence, double theta, double phi, double nm)
 {
     return brdf(s, incidence, direction(theta, panel_phi(s, phi)), nm);
 }
@@ -254,4 +258,60 @@ double plot_data_mirror(const PlotData *data, double theta, double nm)
     Wavelengths wavelengths = lanes(nm);
     Spectrum r = panel_mirror(data->source.panel, (float)cos(theta), &wavelengths);
     return nm > 0 ? (double)r[0] : luminous_mean(r, &wavelengths);
+}
+
+/* ---- contrast under diffuse light -------------------------------------------------------- */
+
+double ambient_reflectance(const PlotData *data, double theta)
+{
+    double at = degrees_from_radians(fmin(fmax(theta, 0), PI / 2 - 1e-4));
+    int    i = (int)at < PLOT_REFLECTANCES - 2 ? (int)at : PLOT_REFLECTANCES - 2;
+    const double *diffuse = data->diffuse_reflectance;
+    return diffuse[i] + (diffuse[i + 1] - diffuse[i]) * (at - i) +
+           plot_data_mirror(data, theta, 0);
+}
+
+static double contrast_of(double white, double black, double reflected)
+{
+    return black + reflected > 0 ? (white + reflected) / (black + reflected) : NAN;
+}
+
+double ambient_contrast(const PlotData *data, double theta, double phi, double lux)
+{
+    double white[3], black[3];
+    plot_data_xyz(data, theta, phi, (float[3]){255, 255, 255}, white);
+    plot_data_xyz(data, theta, phi, (float[3]){0, 0, 0}, black);
+    return contrast_of(white[1], black[1], ambient_reflectance(data, fabs(theta)) * lux / PI);
+}
+
+/* R at every half degree: it depends on theta alone. */
+enum { AMBIENT_STEPS = 181 };
+
+static void fill_reflectance(const PlotData *data, double value[AMBIENT_STEPS])
+{
+    for (int i = 0; i < AMBIENT_STEPS; i++)
+        value[i] = ambient_reflectance(data, fmin(i * PI / (2 * (AMBIENT_STEPS - 1)),
+                                                  PI / 2 - 1e-4));
+}
+
+static double reflectance_at(const double value[AMBIENT_STEPS], double theta)
+{
+    double at = fmin(fmax(theta / (PI / 2) * (AMBIENT_STEPS - 1), 0), AMBIENT_STEPS - 1);
+    int    i = at < AMBIENT_STEPS - 2 ? (int)at : AMBIENT_STEPS - 2;
+    return value[i] + (value[i + 1] - value[i]) * (at - i);
+}
+
+Field ambient_contrast_field(const PlotData *data, double lux, Arena *arena)
+{
+    const Field *white = &data->xyz[PATTERN_WHITE][1], *black = &data->xyz[PATTERN_BLACK][1];
+    Field  field = field_new(white->side, white->theta_rim, arena);
+    double reflectance[AMBIENT_STEPS];
+    fill_reflectance(data, reflectance);
+    for (int i = 0; i < field.side * field.side; i++) {
+        Vec3   d = field_direction(&field, i / field.side, i % field.side);
+        double theta = atan2(hypot((double)d.x, (double)d.y), (double)d.z);
+        field.value[i] = (float)contrast_of((double)white->value[i], (double)black->value[i],
+                                            reflectance_at(reflectance, theta) * lux / PI);
+    }
+    return field;
 }

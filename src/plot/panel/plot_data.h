@@ -2,7 +2,7 @@
 /* plot_data.h -- the panel that is drawn, asked once for everything that several charts need.
  *
  * Frame    the display's: phi 0 right, 90 up. A polar map's rim is the horizon.
- * Units    radians, cd m^-2, sr^-1, nm.
+ * Units    radians, cd m^-2, sr^-1, nm, lux.
  * Memory   the arena's. Threads: the sampling uses `threads`; then const.
  */
 #pragma once
@@ -12,7 +12,7 @@
 #include "panel/query/panel.h"
 #include "panel/query/panel_info.h"
 #include "plot/draw/field.h"
-#include "plot/panel/plot_lists.h"
+#include "plot/panel/plot_choice.h"
 
 typedef enum Pattern {
     PATTERN_WHITE, PATTERN_RED, PATTERN_GREEN, PATTERN_BLUE, PATTERN_BLACK, PATTERN_COUNT
@@ -55,14 +55,15 @@ typedef struct PlotData {
 
 PlotData *plot_data_new(const PlotSource *source, Arena *arena);
 
-const char *pattern_name(Pattern pattern);
+const char *pattern_name(Pattern pattern); /* "White" */
+const char *pattern_word(Pattern pattern); /* "white" */
 void pattern_codes(Pattern pattern, float rgb[3]);
 
 /* ---- emission --------------------------------------------------------------------------- */
 
-/* XYZ at an angle; true where measured. Negative theta: the opposite azimuth. */
-bool plot_data_xyz(const PlotData *data, double theta, double phi, const float rgb[3],
-                 double xyz[3]);
+/* XYZ at an angle. Negative theta: the opposite azimuth. */
+void plot_data_xyz(const PlotData *data, double theta, double phi, const float rgb[3],
+                   double xyz[3]);
 
 /* Luminance of white over that of black; NaN where black is nothing. */
 Field plot_data_contrast(const PlotData *data, Arena *arena);
@@ -71,19 +72,48 @@ Field plot_data_contrast(const PlotData *data, Arena *arena);
 Field plot_data_shift(const PlotData *data, Pattern pattern, Arena *arena);
 
 void uv_of(const double xyz[3], double uv[2]);
+void plot_data_normal_uv(const PlotData *data, Pattern pattern, double uv[2]);
 
 /* ---- reflection ------------------------------------------------------------------------- */
 
-/* BRDF, sr^-1, weighted over wavelength as the eye weighs equal-energy light; the leaving
- * direction's phi counts from the mirror direction. */
-double plot_data_brdf(const PlotData *data, double incidence, double theta, double phi);
+/* BRDF, sr^-1, weighted over wavelength as the eye weighs equal-energy light (nm 0) or at a
+ * wavelength; the leaving direction's phi counts from the mirror direction. */
+double plot_data_brdf(const PlotData *data, double incidence, double theta, double phi,
+                      double nm);
 
-/* At one wavelength. */
-double plot_data_brdf_at(const PlotData *data, double incidence, double theta, double phi,
-                       double nm);
-
-/* The same over the hemisphere. */
+/* The weighted one over the hemisphere. */
 Field plot_data_brdf_field(const PlotData *data, double incidence, Arena *arena);
 
 /* Mirror reflectance, weighted by the eye (nm 0) or at a wavelength. */
 double plot_data_mirror(const PlotData *data, double theta, double nm);
+
+/* ---- contrast under diffuse light that comes evenly from the whole hemisphere --------------
+ *
+ *   C(d) = (L_white(d) + R(d) E / pi) / (L_black(d) + R(d) E / pi)
+ *
+ * E the illuminance on the panel, E / pi the luminance of the surround. R(d) is the panel's
+ * hemispherical-directional luminous reflectance: what it sends into direction d from a
+ * uniform surround, over what a perfect white diffuser would send,
+ *   R(d) = integral of f(d, w) cos theta_w over the hemisphere of w, plus the mirror part,
+ * f the panel's own BRDF (haze and lambertian part, as a renderer asks it), by 2048 directions
+ * drawn like it, to about 0.3 %; light from beyond the last measured incidence (beyond 70
+ * degrees 12 % of it) is extrapolated. The mirror part counts, since a uniform surround is
+ * mirrored too (specular included). Of an anisotropic panel the mean over eight azimuths of d.
+ * Weighted by V(lambda) for equal-energy light: lamps of other spectra change R where it
+ * depends on the wavelength. Source: E. F. Kelley, M. Lindfors, J. Penczek, Display daylight
+ * ambient contrast measurement methods and daylight readability, J. Soc. Inf. Display 14
+ * (2006); also SID's Information Display Measurements Standard. */
+
+#define AMBIENT_FORMULA                                                                        \
+    "(Lw + R E/π) / (Lb + R E/π): white and black at an angle, E the illuminance of an even "  \
+    "diffuse surround, R the panel's hemispherical-directional reflectance into that angle, "  \
+    "mirror included (Kelley, Lindfors, Penczek 2006)"
+
+/* R above, at theta. */
+double ambient_reflectance(const PlotData *data, double theta);
+
+/* C above at an angle. */
+double ambient_contrast(const PlotData *data, double theta, double phi, double lux);
+
+/* The same over the hemisphere. */
+Field ambient_contrast_field(const PlotData *data, double lux, Arena *arena);

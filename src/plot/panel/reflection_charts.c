@@ -1,13 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Reflection: sections of the BRDF, over wavelength, over the hemisphere; the mirror part. */
-#include "plot/panel/reflection_charts.h"
-
 #include <math.h>
 
 #include "base/count.h"
 #include "base/units.h"
-#include "plot/draw/chart.h"
 #include "plot/draw/ticks.h"
+#include "plot/panel/panel_chart.h"
 #include "spectrum/fresnel.h"
 
 #define INCIDENCES_SHOWN 7
@@ -51,7 +49,7 @@ static void fill_plane(const PlotData *s, double incidence_deg, PlaneCurve *out)
         double theta = radians_from_degrees(fabs(deg));
         out->deg[out->count] = deg;
         out->value[out->count] = plot_data_brdf(s, radians_from_degrees(incidence_deg), theta,
-                                              deg < 0 ? PI : 0);
+                                                deg < 0 ? PI : 0, 0);
         bool is_measured = theta <= s->brdf_cone + 1e-6;
         if (is_measured && out->value[out->count] > out->value[out->peak])
             out->peak = out->count;
@@ -75,13 +73,6 @@ static void brdf_range(const PlaneCurve *curve, int count, double *low, double *
     *high = round_up(*high * 1.8);
 }
 
-static void hatch_unmeasured(Chart *chart, const PlotData *s)
-{
-    double cone = degrees_from_radians(s->brdf_cone);
-    chart_hatch(chart, -90, -cone);
-    chart_hatch(chart, cone, 90);
-}
-
 static void draw_plane(Canvas *canvas, Box box, const PanelChart *shown, PanelChartMap *out)
 {
     const PlotData *s = shown->data;
@@ -95,7 +86,7 @@ static void draw_plane(Canvas *canvas, Box box, const PanelChart *shown, PanelCh
         (AxisSpec){.low = -90, .high = 90, .step = 30, .suffix = "°",
                    .title = "leaving angle in the plane of incidence, mirror side positive"},
         (AxisSpec){.low = low, .high = high, .is_log = true, .title = "BRDF, sr⁻¹"}, 14);
-    hatch_unmeasured(&chart, s);
+    panel_chart_hatch(&chart, s->brdf_cone);
     for (int k = count - 1; k >= 0; k--)
         chart_curve(&chart, curve[k].deg, curve[k].value, curve[k].count,
                     (Stroke){panel_chart_series_ink(canvas, k, count), 1.5,
@@ -133,9 +124,9 @@ static void fill_wavelengths(const PlotData *s, double incidence_deg, double asp
     double leaving = incidence_deg - aspecular_deg; /* towards the normal, then past it */
     for (int i = 0; i < WAVELENGTH_POINTS; i++) {
         out->nm[i] = first + (last - first) * i / (WAVELENGTH_POINTS - 1);
-        out->value[i] = plot_data_brdf_at(s, radians_from_degrees(incidence_deg),
-                                        radians_from_degrees(fabs(leaving)),
-                                        leaving < 0 ? PI : 0, out->nm[i]);
+        out->value[i] = plot_data_brdf(s, radians_from_degrees(incidence_deg),
+                                       radians_from_degrees(fabs(leaving)),
+                                       leaving < 0 ? PI : 0, out->nm[i]);
     }
 }
 
@@ -165,7 +156,7 @@ static void draw_wavelengths(Canvas *canvas, Box box, const PanelChart *shown,
                     (Stroke){ink, 1.4, DASH_NONE});
         for (int w = 0; w < s->wavelength_count && s->wavelength_count <= 40; w++) {
             double nm = (double)s->wavelength_nm[w], leaving = shown->index - ASPECULAR_DEG[k];
-            chart_dot(&chart, nm, plot_data_brdf_at(s, radians_from_degrees(shown->index),
+            chart_dot(&chart, nm, plot_data_brdf(s, radians_from_degrees(shown->index),
                       radians_from_degrees(fabs(leaving)), leaving < 0 ? PI : 0, nm), 1.5, ink);
         }
         chart_name_curve(&chart, curve[k].nm, curve[k].value, WAVELENGTH_POINTS, ink,
@@ -204,9 +195,7 @@ static void draw_map(Canvas *canvas, Box box, const PanelChart *shown, PanelChar
                 map.level_count < POLAR_LEVELS_MAX)
                 map.level[map.level_count++] = level;
         }
-    PolarPlace place = polar_draw(canvas, box, &map);
-    *out = (PanelChartMap){.kind = PANEL_CHART_POLAR, .disc = place, .field = *field,
-                           .unit = "sr⁻¹"};
+    panel_chart_polar(canvas, box, &map, out);
 }
 
 /* ---- the mirror part -------------------------------------------------------------------- */
@@ -247,8 +236,6 @@ static void draw_mirror(Canvas *canvas, Box box, const PanelChart *shown, PanelC
     panel_chart_map_axes(out, &chart);
 }
 
-/* ---- the list --------------------------------------------------------------------------- */
-
 static const char *light_text(const PlotData *s)
 {
     double deg = degrees_from_radians(s->source.incidence_phi);
@@ -275,7 +262,7 @@ static void add_maps(PanelChartList *list, const PlotData *s)
     }
 }
 
-void reflection_charts_add(PanelChartList *list, const PlotData *s)
+static void add_all(PanelChartList *list, const PlotData *s)
 {
     if (!s->reflects) return;
     int middle = incidence_near(s, 30);
@@ -299,3 +286,5 @@ void reflection_charts_add(PanelChartList *list, const PlotData *s)
             "reflectance of one surface of refractive index 1.5 (dashed), also scaled to the "
             "panel's value at the normal (dotted).", draw_mirror, s, 0, SHEET_ALWAYS, false});
 }
+
+const PanelCharts reflection_charts = {PLOT_BRDF, PLOT_MIRROR, add_all};

@@ -2,9 +2,7 @@
 #include "plot/panel/sheet.h"
 
 #include <math.h>
-#include <string.h>
 
-#include "base/file.h"
 #include "base/units.h"
 #include "text/utf8.h"
 
@@ -185,24 +183,12 @@ static void draw_sheet(Canvas *canvas, const void *context)
     draw_legend(canvas, sheet->spec, &sheet->layout);
 }
 
-static PictureSpec picture_of(const Sheet *sheet, bool is_svg)
+bool sheet_picture(const SheetSpec *spec, Arena *arena, PlotBytes *out, Error *err)
 {
-    return (PictureSpec){.width = sheet->layout.width, .height = sheet->layout.height,
-                         .scale = sheet->layout.scale, .is_svg = is_svg,
-                         .is_dark = sheet->spec->is_dark, .draw = draw_sheet, .context = sheet};
-}
-
-bool sheet_svg(const SheetSpec *spec, Arena *arena, PlotBytes *out, Error *err)
-{
-    Sheet       sheet = {spec, layout_of(spec, 1)};
-    PictureSpec picture = picture_of(&sheet, true);
-    return picture_draw(&picture, arena, out, err);
-}
-
-bool sheet_png(const SheetSpec *spec, Arena *arena, PlotBytes *out, Error *err)
-{
-    Sheet       sheet = {spec, layout_of(spec, 2)};
-    PictureSpec picture = picture_of(&sheet, false);
+    Sheet       sheet = {spec, layout_of(spec, spec->is_svg ? 1 : 2)};
+    PictureSpec picture = {.width = sheet.layout.width, .height = sheet.layout.height,
+                           .scale = sheet.layout.scale, .is_svg = spec->is_svg,
+                           .is_dark = spec->is_dark, .draw = draw_sheet, .context = &sheet};
     return picture_draw(&picture, arena, out, err);
 }
 

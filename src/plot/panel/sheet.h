@@ -15,12 +15,11 @@ typedef struct SheetSpec {
     const PlotData    *data;
     PlotKind kind;
     int      width, height; /* pixels; 0: chosen */
-    bool     is_dark;
+    bool     is_dark, is_svg; /* else a PNG */
 } SheetSpec;
 
 /* The picture of a whole page with heading and legend. */
-bool sheet_svg(const SheetSpec *spec, Arena *arena, PlotBytes *out, Error *err);
-bool sheet_png(const SheetSpec *spec, Arena *arena, PlotBytes *out, Error *err);
+bool sheet_picture(const SheetSpec *spec, Arena *arena, PlotBytes *out, Error *err);
 
 typedef struct SheetChartFrame {
     double      width, height; /* points */

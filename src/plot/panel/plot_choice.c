@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "plot/panel/plot_lists.h"
+#include "plot/panel/plot_choice.h"
 
-#include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #define LARGEST 1e7
 
@@ -39,18 +39,19 @@ static bool is_full(const char *option, int count, int most, Error *err)
     return true;
 }
 
-bool plot_contours_read(const char *text, PlotContours *out, Error *err)
+/* has_percent: % may stand behind a value. */
+static bool read_list(const char *option, const char *text, int most, bool has_percent,
+                      PlotContours *out, Error *err)
 {
-    static const char option[] = "--contour";
     const char  *at = text;
     PlotContours found = {.count = 0};
     bool         ok = false;
     do {
         int i = found.count;
-        if (is_full(option, i, PLOT_CONTOURS_MAX, err) ||
+        if (is_full(option, i, most, err) ||
             !next_number(option, text, &at, &found.value[i], err))
             return false;
-        found.is_percent[i] = *at == '%';
+        found.is_percent[i] = has_percent && *at == '%';
         at += found.is_percent[i];
         found.count++;
     } while (goes_on(option, text, &at, &ok, err));
@@ -58,23 +59,29 @@ bool plot_contours_read(const char *text, PlotContours *out, Error *err)
     return ok;
 }
 
+bool plot_contours_read(const char *text, PlotContours *out, Error *err)
+{
+    return read_list("--contour", text, PLOT_CONTOURS_MAX, true, out, err);
+}
+
 bool plot_ambient_read(const char *text, PlotAmbient *out, Error *err)
 {
-    static const char option[] = "--ambient";
-    const char *at = text;
-    PlotAmbient found = {.count = 0};
-    bool        ok = false;
-    do {
-        if (is_full(option, found.count, PLOT_AMBIENT_MAX, err) ||
-            !next_number(option, text, &at, &found.lux[found.count], err))
-            return false;
-        found.count++;
-    } while (goes_on(option, text, &at, &ok, err));
-    if (ok) *out = found;
-    return ok;
+    PlotContours found;
+    if (!read_list("--ambient", text, PLOT_AMBIENT_MAX, false, &found, err)) return false;
+    out->count = found.count;
+    memcpy(out->lux, found.value, sizeof out->lux);
+    return true;
 }
 
 double plot_contours_level(const PlotContours *contours, int i, double on_axis)
 {
     return contours->is_percent[i] ? contours->value[i] / 100 * on_axis : contours->value[i];
+}
+
+const char *plot_kind_name(PlotKind kind)
+{
+    static const char *const NAMES[] = {"all", "luminance", "contrast", "colour-shift",
+        "grey-levels", "sections", "chromaticity", "spectra", "brdf", "brdf-spectrum",
+        "brdf-map", "mirror", "fit", "uniformity"};
+    return NAMES[kind];
 }

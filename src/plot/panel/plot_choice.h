@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* plot_lists.h -- the values that a user wants lines at, and the light of contrasts.
+/* plot_choice.h -- what a user may want drawn of a panel: kinds of charts, lines at values,
+ * contrast in some light.
  *
  * Units    lux; a contour in the chart's own unit (cd m^-2, or a ratio), or in percent of the
  *          chart's value on the axis.
@@ -10,6 +11,19 @@
 #include <stdbool.h>
 
 #include "base/error.h"
+
+typedef enum PlotKind {
+    PLOT_ALL, PLOT_LUMINANCE, PLOT_CONTRAST, PLOT_COLOUR_SHIFT, PLOT_GREY_LEVELS, PLOT_SECTIONS,
+    PLOT_CHROMATICITY, PLOT_SPECTRA, PLOT_BRDF, PLOT_BRDF_SPECTRUM, PLOT_BRDF_MAP, PLOT_MIRROR,
+    PLOT_FIT, PLOT_UNIFORMITY, PLOT_KIND_COUNT
+} PlotKind;
+
+/* The names of the kinds in their order, as one types them: "all|luminance|...". */
+#define PLOT_KINDS                                                                             \
+    "all|luminance|contrast|colour-shift|grey-levels|sections|chromaticity|spectra|brdf|"      \
+    "brdf-spectrum|brdf-map|mirror|fit|uniformity"
+
+const char *plot_kind_name(PlotKind kind);
 
 #define PLOT_CONTOURS_MAX 16
 #define PLOT_AMBIENT_MAX 8
