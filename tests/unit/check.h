@@ -93,3 +93,14 @@ static inline int run_cases(CMFixtureFunction set_up, CMFixtureFunction tear_dow
             fail_msg("%s = %.9g, expected %.9g within %.2g", #actual, a_, e_,                  \
                      (double)(absolute));                                                      \
     } while (0)
+
+#define assert_in(value, low, high)                                                            \
+    do {                                                                                       \
+        double v_ = (double)(value), l_ = (double)(low), h_ = (double)(high);                  \
+        if (!(v_ >= l_ && v_ <= h_))                                                           \
+            fail_msg("%s = %.9g, expected %.9g to %.9g", #value, v_, l_, h_);                  \
+    } while (0)
+
+/* `ENDS_BY(world_end) World world = ...` calls world_end(&world) where its block ends; a case
+ * that fails leaves it at that. */
+#define ENDS_BY(end) __attribute__((cleanup(end)))

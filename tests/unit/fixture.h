@@ -175,6 +175,67 @@ static inline const char *read_text(const char *path, Arena *arena)
     return (const char *)read_bytes(path, arena).data;
 }
 
+/* ---- errors ------------------------------------------------------------------------------ */
+
+/* Where a call says why it failed, for what asks later: f(..., why()). */
+static inline Error *why(void)
+{
+    static Error err;
+    return &err;
+}
+
+static inline void fail_told(const char *call, const Error *err)
+{
+    char line[2048];
+    error_line(err, line, sizeof line);
+    fail_msg("%s: %s", line, call);
+}
+
+/* A call that may fail, with &err for its last argument: an Error of the macro's own. */
+#define assert_done(...)                                                                       \
+    do {                                                                                       \
+        Error err = {0};                                                                       \
+        if (!(__VA_ARGS__)) fail_told(#__VA_ARGS__, &err);                                     \
+    } while (0)
+
+/* It fails, of `code_wanted`, in one line that has the part; all that it told is in why(). */
+#define assert_fails_as(call, code_wanted, part)                                               \
+    do {                                                                                       \
+        Error err = {0};                                                                       \
+        if (call) fail_msg("%s is done, wanted \"%s\"", #call, part);                          \
+        *why() = err;                                                                          \
+        assert_int_equal(err.code, code_wanted);                                               \
+        assert_error_has(&err, part);                                                          \
+    } while (0)
+
+/* What the last call said: by this code, of this place in the file, in one line with words. */
+#define assert_told(wanted, place, words)                                                      \
+    do {                                                                                       \
+        const char *place_ = (place), *words_ = (words);                                       \
+        if (why()->code != (wanted) || strcmp(why()->path, place_) != 0 ||                     \
+            !strstr(why()->text, words_) || strchr(why()->text, '\n'))                         \
+            fail_msg("code %d, \"%s: %s\", wanted %d, \"%s: %s\"", (int)why()->code,           \
+                     why()->path, why()->text, (int)(wanted), place_, words_);                 \
+    } while (0)
+
+/* ---- processes that run out of memory ---------------------------------------------------- */
+
+#define FULL_STATUS 42
+
+static inline void leave_when_full(size_t wanted, size_t left)
+{
+    (void)wanted, (void)left;
+    _exit(FULL_STATUS);
+}
+
+/* The exit status of a forked process; 1000 and its signal when one ended it. */
+static inline int status_of(pid_t child)
+{
+    int status = 0;
+    assert_int_equal(waitpid(child, &status, 0), child);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + WTERMSIG(status);
+}
+
 /* ---- texts ------------------------------------------------------------------------------- */
 
 #define assert_text_has(text, part)                                                            \
@@ -190,23 +251,7 @@ static inline const char *read_text(const char *path, Arena *arena)
         assert_null(strchr((err)->text, '\n'));                                                \
     } while (0)
 
-/* A call that may fail, with &err for its last argument: an Error of the macro's own. */
-#define assert_done(call)                                                                      \
-    do {                                                                                       \
-        Error err = {0};                                                                       \
-        if (!(call)) fail_msg("%s: %s: %s", #call, err.file, err.text);                        \
-    } while (0)
-
-/* It fails, of `code_wanted`, and its message has the part. */
-#define assert_fails_as(call, code_wanted, part)                                               \
-    do {                                                                                       \
-        Error err = {0};                                                                       \
-        if (call) fail_msg("%s is done, wanted \"%s\"", #call, part);                          \
-        assert_int_equal(err.code, code_wanted);                                               \
-        assert_error_has(&err, part);                                                          \
-    } while (0)
-
-/* The same of any code. */
+/* It fails, of any code, in one line that has the part. */
 #define assert_fails(call, part)                                                               \
     do {                                                                                       \
         Error err = {0};                                                                       \
@@ -214,7 +259,7 @@ static inline const char *read_text(const char *path, Arena *arena)
         assert_error_has(&err, part);                                                          \
     } while (0)
 
-/* The same, with this message and no more. */
+/* It fails, with this message and no more. */
 #define assert_fails_with(call, text_wanted)                                                   \
     do {                                                                                       \
         Error err = {0};                                                                       \
@@ -222,10 +267,27 @@ static inline const char *read_text(const char *path, Arena *arena)
         assert_string_equal(err.text, text_wanted);                                            \
     } while (0)
 
+/* The whole line of what a user did wrong, its place too, has the parts. */
+static inline void assert_line_has(const Error *err, const char *const *part, int count)
+{
+    char line[2048];
+    error_line(err, line, sizeof line);
+    assert_int_equal(err->code, ERROR_INPUT);
+    for (int i = 0; i < count; i++) assert_text_has(line, part[i]);
+}
+
 /* Words that may be told in one of several lines (notes, reasons, warnings). */
 static inline bool lines_have(const char *const *line, int count, const char *part)
 {
     for (int i = 0; i < count; i++)
         if (strstr(line[i], part)) return true;
     return false;
+}
+
+/* How often a text holds another. */
+static inline int count_of(const char *text, const char *part)
+{
+    int count = 0;
+    for (const char *p = text; (p = strstr(p, part)); p++) count++;
+    return count;
 }

@@ -86,6 +86,25 @@ static inline char *maker_base64(const void *data, size_t size)
     return text;
 }
 
+#define maker_format(...) arena_format(&maker.arena, __VA_ARGS__)
+
+/* ---- members ----------------------------------------------------------------------------- */
+
+/* A view of buffer 0, from its beginning or from a byte; floats of a view, "VEC3" or so. */
+#define VIEW0(bytes) "{'buffer':0,'byteLength':" #bytes "}"
+#define VIEW(at, bytes) "{'buffer':0,'byteOffset':" #at ",'byteLength':" #bytes "}"
+#define FLOATS(view, count, type)                                                              \
+    "{'bufferView':" #view ",'componentType':5126,'count':" #count ",'type':'" type "'}"
+#define MESH_OF(attributes) "'meshes':[{'primitives':[{'attributes':{" attributes "}}]}],"
+#define ONE_NODE "'scenes':[{'nodes':[0]}],'nodes':[{'mesh':0}]"
+
+/* Of the size 1 x 1. */
+#define PICTURE                                                                                \
+    "'images':[{'uri':'data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAIAAACQd1Pe"     \
+    "AAAADElEQVR4nGNgYGAAAAAEAAH2FzhVAAAAAElFTkSuQmCC'}],'textures':[{'source':0}],"
+
+/* ---- files ------------------------------------------------------------------------------- */
+
 /* A document whose buffer 0 holds the bytes. `members` are the JSON members besides asset and
  * buffers, with ' for ", so that they read well in C. */
 static inline char *maker_text(const void *bytes, size_t size, const char *members)
@@ -127,13 +146,19 @@ static inline Found maker_survey_file(const char *path)
     return maker_survey(&(SceneOptions){.paths = &path, .path_count = 1});
 }
 
+/* Nothing is said of it but warnings. */
+static inline void maker_expect_whole(const Found *found)
+{
+    for (int i = 0; i < found->problems.count; i++)
+        if (found->problems.list[i].severity == SEVERITY_ERROR)
+            fail_msg("%s: %s", found->problems.list[i].path, found->problems.list[i].message);
+}
+
 /* A scene that must load without errors. */
 static inline Scene *maker_load(const void *bytes, size_t size, const char *members)
 {
     Found found = maker_survey_file(maker_gltf(bytes, size, members));
-    for (int i = 0; i < found.problems.count; i++)
-        if (found.problems.list[i].severity == SEVERITY_ERROR)
-            fail_msg("%s: %s", found.problems.list[i].path, found.problems.list[i].message);
+    maker_expect_whole(&found);
     return found.scene;
 }
 

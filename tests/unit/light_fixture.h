@@ -65,10 +65,41 @@ static inline Mean illuminance(const Lights *lights, LightSet set, Vec3 position
     return mean;
 }
 
+/* By the set's own samples at the origin, facing n. */
+static inline void assert_illuminance(const char *what, const Lights *lights, LightSet set,
+                                      Vec3 n, double expected)
+{
+    assert_mean(what, illuminance(lights, set, vec3(0, 0, 0), n), expected);
+}
+
 static inline const Lights *build(const Scene *scene, Arena *arena)
 {
     Lights *lights;
-    Error err = {0};
-    if (!lights_build(scene, arena, &lights, &err)) fail_msg("%s", err.text);
+    assert_done(lights_build(scene, arena, &lights, &err));
     return lights;
+}
+
+/* The expectation's own relative variance; how many cells must tell; and by how many standard
+ * deviations chi-square may lie above its mean. */
+typedef struct ChiLimits {
+    double variance;
+    int    cells;
+    double sigmas;
+} ChiLimits;
+
+/* Pearson's test, of the case `which`: what was found in cells against what was expected there,
+ * in samples, where that is ten or more. */
+static inline void assert_chi_square(int which, const double *found, const double *expected,
+                                     int count, ChiLimits limits)
+{
+    double chi = 0;
+    int    cells = 0;
+    for (int i = 0; i < count; i++) {
+        if (expected[i] < 10) continue;
+        chi += (found[i] - expected[i]) * (found[i] - expected[i]) /
+               (expected[i] + limits.variance * expected[i] * expected[i]);
+        cells++;
+    }
+    if (!(cells > limits.cells && chi < cells + limits.sigmas * sqrt(2.0 * cells)))
+        fail_msg("case %d: chi-square %.1f over %d cells", which, chi, cells);
 }

@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* panel_fixture.h -- small synthetic panels for tests: recipe, measurement set, fit, panel. */
 #pragma once
+#include "json_fixture.h"
+
+#include "base/file.h"
 #include "base/units.h"
-#include "fixture.h"
 #include "base/vec.h"
 #include "panel/fit/fit.h"
 #include "panel/query/panel_open.h"
@@ -67,31 +69,40 @@ static inline void fixture_folder(Fixture *fixture)
 /* Recipe text to its files in the fixture's folder; the path of their manifest. */
 static inline const char *fixture_simulate(Fixture *fixture, const char *recipe)
 {
-    Error err = {0};
     fixture_folder(fixture);
     const char *path = fixture_file(fixture, "recipe.json", recipe);
-    if (!synthetic_panel_read(path, &fixture->arena, &fixture->recipe, &err) ||
-        !simulate_measurement(&fixture->recipe, fixture->folder, PROGRESS_NONE, &err))
-        fail_msg("%s: %s: %s", err.file, err.path, err.text);
+    assert_done(synthetic_panel_read(path, &fixture->arena, &fixture->recipe, &err) &&
+                simulate_measurement(&fixture->recipe, fixture->folder, PROGRESS_NONE, &err));
     return fixture_path(fixture, "MANIFEST.json");
 }
 
 static inline void fixture_read(Fixture *fixture, const char *manifest)
 {
-    Error err = {0};
     fixture->set = ARENA_NEW(&fixture->arena, Measurement, 1);
-    if (!measurement_read(manifest, &fixture->arena, fixture->set, &err))
-        fail_msg("%s: %s: %s", err.file, err.path, err.text);
+    assert_done(measurement_read(manifest, &fixture->arena, fixture->set, &err));
 }
 
-/* The measurement to an opened panel. */
+/* The measurement to an opened panel; options NULL: the usual ones. */
 static inline void fixture_fit(Fixture *fixture, const FitOptions *options)
 {
-    Error err = {0};
-    if (!panel_fit(fixture->set, options, fixture->panel_path, &fixture->arena,
-                   &fixture->report, &err) ||
-        !panel_open(fixture->panel_path, &fixture->arena, &fixture->panel, &err))
-        fail_msg("%s: %s: %s", err.file, err.path, err.text);
+    FitOptions usual = fit_options_default();
+    assert_done(panel_fit(fixture->set, options ? options : &usual, fixture->panel_path,
+                          &fixture->arena, &fixture->report, &err) &&
+                panel_open(fixture->panel_path, &fixture->arena, &fixture->panel, &err));
+}
+
+/* A manifest, by its path, to the file of a panel and, where wanted, its bytes and itself. */
+static inline bool fixture_try(Fixture *fixture, const char *manifest,
+                               const FitOptions *options, const char *file, FileBytes *bytes,
+                               Panel **panel, Error *err)
+{
+    FitOptions   usual = fit_options_default();
+    json_auto_t *report = NULL;
+    Measurement *set = ARENA_NEW(&fixture->arena, Measurement, 1);
+    return measurement_read(manifest, &fixture->arena, set, err) &&
+           panel_fit(set, options ? options : &usual, file, &fixture->arena, &report, err) &&
+           (!bytes || file_read(file, (size_t)1 << 30, &fixture->arena, bytes, err)) &&
+           (!panel || panel_open(file, &fixture->arena, panel, err));
 }
 
 /* Recipe text to a measurement that has been read back. */

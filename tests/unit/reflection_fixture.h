@@ -73,6 +73,20 @@ static inline void fit_tables(Fitted *f, Tables tables, const FitOptions *option
     fixture_fit(&f->fit, options);
 }
 
+static inline void fitted_end(Fitted *f)
+{
+    fixture_end(&f->fit);
+}
+
+/* Of a lane of 400, 420 ... 700 nm: eye and light as {theta, phi}, degrees. */
+static inline double brdf_deg(const Panel *panel, const double eye[2], const double light[2],
+                              int lane)
+{
+    Wavelengths w = even_wavelengths(400, 20);
+    return (double)panel_brdf(panel, direction_deg(eye[0], eye[1]),
+                              direction_deg(light[0], light[1]), &w)[lane];
+}
+
 /* What most laws need: one frame, no search for it. */
 static inline FitOptions quick(void)
 {

@@ -1,42 +1,51 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* review_page_fixture.h -- a review's page as text, for tests of what stands on it. */
+/* review_page_fixture.h -- what is written of a review, as text. */
 #pragma once
-#include "check.h"
-
-#include <string.h>
-#include <unistd.h>
-
-#include "base/file.h"
-#include "base/file_write.h"
+#include "fixture.h"
 #include "verdict_fixture.h"
 
+/* Of a group whose setup is page_begin. */
 static Arena arena;
 
-static inline const char *fresh_name(const char *ending)
+static inline int page_begin(void **state)
 {
-    char name[64];
-    snprintf(name, sizeof name, "test_review_page_XXXXXX%s", ending);
-    int handle = mkstemps(name, (int)strlen(ending));
-    assert_true(handle >= 0);
-    close(handle);
-    return arena_format(&arena, "%s", name);
+    if (make_folder(state)) return -1;
+    arena = test_arena(state);
+    return 0;
 }
 
-static inline const char *page_of(const ReviewPage *page)
+/* A name that no file has. */
+static inline const char *fresh_name(const char *ending)
 {
-    Error       err = {0};
-    FileBytes   bytes;
-    const char *path = fresh_name(".html");
-    if (!review_page_write(page, path, &err)) fail_msg("%s", err.text);
-    assert_true(file_read(path, (size_t)1 << 28, &arena, &bytes, &err));
+    static int count;
+    return arena_format(&arena, "%s/%d%s", test_folder(), count++, ending);
+}
+
+/* The file's text; the file goes. */
+static inline const char *taken(const char *path)
+{
+    FileBytes bytes = read_bytes(path, &arena);
     remove(path);
     assert_int_equal(bytes.size, strlen((const char *)bytes.data));
     return (const char *)bytes.data;
 }
 
-static inline int count_of(const char *text, const char *part)
+static inline const char *page_of(const ReviewPage *page)
 {
-    int count = 0;
-    for (const char *p = text; (p = strstr(p, part)); p++) count++;
-    return count;
+    const char *path = fresh_name(".html");
+    assert_done(review_page_write(page, path, &err));
+    return taken(path);
+}
+
+/* ---- the same again ---------------------------------------------------------------------- */
+
+/* To six digits; what is not finite has no number. */
+static inline bool is_same(double a, double b)
+{
+    return isfinite(a) ? fabs(b - a) <= 1e-5 * fabs(a) + 1e-300 : isnan(b);
+}
+
+static inline void assert_same(double a, double b)
+{
+    if (!is_same(a, b)) fail_msg("%.9g became %.9g", a, b);
 }

@@ -66,6 +66,17 @@ static inline Material builder_mirror(float reflectance)
     return material;
 }
 
+/* A thin pane without colour. */
+static inline Material builder_pane(float ior)
+{
+    Material material = builder_material(1);
+    material.transmission = 1;
+    material.roughness = 0;
+    material.ior = ior;
+    material.lets_light_through = true;
+    return material;
+}
+
 static inline Scene *builder_scene(Arena *arena)
 {
     Scene *scene = ARENA_NEW(arena, Scene, 1);
@@ -92,6 +103,15 @@ static inline void builder_sky(Scene *scene, float cd_m2)
     scene->environment.kind = ENVIRONMENT_CONSTANT;
     scene->environment.luminance_cd_m2 = cd_m2;
     for (int i = 0; i < 3; i++) scene->environment.color[i] = 1;
+}
+
+/* Angles in radians. */
+static inline void builder_sun(Scene *scene, double azimuth, double elevation, float lx)
+{
+    scene->environment.has_sun = true;
+    scene->environment.sun_azimuth = (float)azimuth;
+    scene->environment.sun_elevation = (float)elevation;
+    scene->environment.sun_illuminance_lx = lx;
 }
 
 /* Starts a part with a material; triangles that follow belong to it. Opaque parts come first.

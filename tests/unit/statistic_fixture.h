@@ -56,13 +56,12 @@ static inline void plain_scene(Maker *maker)
     }
 }
 
-/* Two makers of that scene with noise of the same kind, the second one's of the next seed. */
-static inline void plain_scenes(Noise noise, uint32_t seed, Maker *maker, Maker *other)
+/* Of that scene. */
+static inline Maker plain_maker(Noise noise, int samples, uint32_t seed)
 {
-    *maker = (Maker){.noise = noise, .samples = 64, .seed = seed};
-    plain_scene(maker);
-    *other = *maker;
-    other->seed = seed + 1;
+    Maker maker = {.noise = noise, .samples = samples, .seed = seed};
+    plain_scene(&maker);
+    return maker;
 }
 
 /* The block of 8 x 8 pixels that begins there. */
@@ -142,9 +141,7 @@ static inline StatisticResult judge(const FrameImage *reference, const FrameImag
     StatisticOptions options = {.mask = mask, .reference_name = "a.exr",
                                 .test_name = "b.exr"};
     StatisticResult  result;
-    Error            err;
-    if (!statistic_compare(reference, test, &options, arena, &result, &err))
-        fail_msg("%s", err.text);
+    assert_done(statistic_compare(reference, test, &options, arena, &result, &err));
     return result;
 }
 
@@ -153,4 +150,13 @@ static inline StatisticResult judge_makers(const Maker *reference, const Maker *
 {
     FrameImage a = make_frame(reference, arena), b = make_frame(test, arena);
     return judge(&a, &b, NULL, arena);
+}
+
+/* The k-th pair of them, each of a seed that no other has. */
+static inline StatisticResult judge_pair(Maker *reference, Maker *test, uint32_t k,
+                                         Arena scratch)
+{
+    reference->seed = 2 * k;
+    test->seed = 2 * k + 1;
+    return judge_makers(reference, test, &scratch);
 }

@@ -1,12 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* symbol_fixture.h -- a picture that is drawn by shares of light, and the panel that shows it.
  *
- * Memory   easel_open is a group's setup, easel_close its end; state is the Easel.
+ * Memory   easel_open is a group's setup, easel_close its end.
  */
 #pragma once
-#include "check.h"
-
-#include <string.h>
+#include "fixture.h"
 
 #include "image/image.h"
 #include "panel/query/panel_emission.h"
@@ -21,11 +19,9 @@ static Easel the_easel;
 
 static int easel_open(void **state)
 {
-    Error err = {0};
     the_easel.arena = arena_reserve((size_t)2 << 30);
-    if (!panel_open(PROJECT_DIR "/assets/panels/ips_cluster.panel", &the_easel.arena,
-                    &the_easel.panel, &err))
-        fail_msg("%s: %s", err.file, err.text);
+    assert_done(panel_open(PROJECT_DIR "/assets/panels/ips_cluster.panel", &the_easel.arena,
+                           &the_easel.panel, &err));
     the_easel.fresh = the_easel.arena;
     *state = &the_easel;
     return 0;
@@ -38,6 +34,15 @@ static int easel_close(void **state)
     arena_release(&easel->arena);
     return 0;
 }
+
+static inline Easel *fresh_easel(void)
+{
+    the_easel.arena = the_easel.fresh;
+    return &the_easel;
+}
+
+/* A case with `Easel *easel`, all of its memory free. */
+#define EASEL_TEST(name) TEST_ON(name, NULL, NULL, Easel *easel, fresh_easel())
 
 /* On axis, cd m^-2. */
 static inline double easel_luminance(const Easel *easel, double code)

@@ -8,8 +8,6 @@
 #include "sky/sun_disc.h"
 #include "spectrum/photometry.h"
 
-#define assert_in(value, low, high) assert_true((value) >= (low) && (value) <= (high))
-
 static const Air usual = {1013.25, 1.42, 0.344, 0.1, 1.14, 0.2};
 
 static Atmosphere build(double observer_m, double floor_m, double albedo, double elevation_deg,

@@ -54,21 +54,19 @@ static void check_same(const Daylight *a, const Daylight *b)
     }
 }
 
-TEST(a_sky_is_made_once_and_is_the_sky_that_was_asked_for)
+ARENA_TEST(a_sky_is_made_once_and_is_the_sky_that_was_asked_for)
 {
     ReviewRequest request = {.scenes = own, .scene_count = 1, .condition_count = 1};
-    Arena         arena = test_arena(state);
     Inherited    *inherited = inherited_start(&request);
     DaylightInput low = sun_at(8, 2.5), high = sun_at(40, 2.5), hazy = sun_at(8, 5);
-    Error         err = {0};
     Daylight      alone;
-    const Daylight *first = inherited_sky(inherited, &low, &err);
+    const Daylight *first = inherited_sky(inherited, &low, why());
     assert_non_null(first);
-    assert_true(daylight_build(&low, &arena, &alone, &err));
+    assert_done(daylight_build(&low, &arena, &alone, &err));
     check_same(first, &alone);
-    assert_ptr_not_equal(inherited_sky(inherited, &high, &err), first);
-    assert_ptr_not_equal(inherited_sky(inherited, &hazy, &err), first);
-    assert_ptr_equal(inherited_sky(inherited, &low, &err), first);
+    assert_ptr_not_equal(inherited_sky(inherited, &high, why()), first);
+    assert_ptr_not_equal(inherited_sky(inherited, &hazy, why()), first);
+    assert_ptr_equal(inherited_sky(inherited, &low, why()), first);
     check_same(first, &alone);
     inherited_end(inherited);
 }
@@ -78,12 +76,11 @@ TEST(a_sky_that_cannot_be_is_an_error_and_leaves_none)
     ReviewRequest request = {.scenes = own, .scene_count = 1, .condition_count = 1};
     Inherited    *inherited = inherited_start(&request);
     DaylightInput input = sun_at(20, 2.5);
-    Error         err = {0};
     input.where.altitude_m = 90000;
-    assert_null(inherited_sky(inherited, &input, &err));
-    assert_true(err.text[0] != 0);
+    assert_null(inherited_sky(inherited, &input, why()));
+    assert_true(why()->text[0] != 0);
     input.where.altitude_m = 0;
-    assert_non_null(inherited_sky(inherited, &input, &err));
+    assert_non_null(inherited_sky(inherited, &input, why()));
     inherited_end(inherited);
 }
 

@@ -1,17 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Figures as people read them: with their interval, and no more digits than that allows. */
-#include "check.h"
-
-#include <stdlib.h>
-#include <string.h>
+#include "fixture.h"
 
 #include "text/interval_text.h"
 
-static Arena arena;
-
 static void assert_says(double value, double low, double high, const char *wanted)
 {
-    assert_string_equal(interval_text(value, low, high, &arena), wanted);
+    assert_string_equal(interval_text(value, low, high, test_memory()), wanted);
 }
 
 TEST(digits_end_where_the_interval_does)
@@ -33,7 +28,7 @@ TEST(what_is_read_is_what_was_written)
     for (int i = 0; i < 2000; i++) {
         double size = pow(10, i % 17 - 8), value = size * (1 + i / 7.0);
         double half = value * pow(10, -(i % 5) - 0.3 * (i % 3)), read, around;
-        const char *text = interval_text(value, value - half, value + half, &arena);
+        const char *text = interval_text(value, value - half, value + half, test_memory());
         char       *end;
         read = strtod(text, &end);
         assert_memory_equal(end, " +- ", 4);
@@ -45,8 +40,4 @@ TEST(what_is_read_is_what_was_written)
     }
 }
 
-int main(void)
-{
-    arena = arena_reserve((size_t)1 << 24);
-    return run_cases(NULL, NULL);
-}
+TEST_PROGRAM(make_arena, drop_arena)

@@ -37,10 +37,9 @@ TEST(parts_meet_and_are_of_one_size)
         for (size_t k = 0; k < sizeof counts / sizeof *counts; k++) {
             Arena    arena = test_arena(state);
             JobPart *parts = NULL;
-            Error    err = {0};
             int      count = counts[k];
             uint64_t least = size_of(&whole, how) / (uint64_t)count, sum = 0;
-            assert_true(job_split(&whole, how, count, &arena, &parts, &err));
+            assert_done(job_split(&whole, how, count, &arena, &parts, &err));
             for (int i = 0; i < count; i++) {
                 uint64_t size = size_of(&parts[i], how);
                 assert_in_range(size, least, least + 1);
@@ -54,13 +53,11 @@ TEST(parts_meet_and_are_of_one_size)
         }
 }
 
-TEST(as_many_samples_as_there_are_numbers_are_shared_without_loss)
+ARENA_TEST(as_many_samples_as_there_are_numbers_are_shared_without_loss)
 {
-    Arena    arena = test_arena(state);
     JobPart  all = {{0, 0, 1, 1}, 0, UINT32_MAX}, *parts = NULL;
-    Error    err = {0};
     uint64_t sum = 0;
-    assert_true(job_split(&all, JOB_SPLIT_SAMPLES, 100000, &arena, &parts, &err));
+    assert_done(job_split(&all, JOB_SPLIT_SAMPLES, 100000, &arena, &parts, &err));
     for (int i = 0; i < 100000; i++) sum += parts[i].end_sample - parts[i].first_sample;
     assert_int_equal(sum, UINT32_MAX);
     assert_int_equal(parts[99999].end_sample, UINT32_MAX);
@@ -79,10 +76,8 @@ TEST(more_parts_than_there_is_to_share_are_refused)
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         Arena    arena = test_arena(state);
         JobPart *parts = NULL;
-        Error    err = {0};
-        assert_false(job_split(&whole, cases[k].how, cases[k].count, &arena, &parts, &err));
-        assert_int_equal(err.code, ERROR_USAGE);
-        assert_non_null(strstr(err.text, cases[k].words));
+        assert_fails_as(job_split(&whole, cases[k].how, cases[k].count, &arena, &parts, &err),
+                        ERROR_USAGE, cases[k].words);
         assert_null(parts);
     }
 }

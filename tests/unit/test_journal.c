@@ -37,8 +37,7 @@ static Journal *open_journal(Arena *arena, int *warnings)
 {
     Problems problems = problems_start(arena);
     Journal *journal;
-    Error    err;
-    if (!journal_open(file, arena, &problems, &journal, &err)) fail_msg("%s", err.text);
+    assert_done(journal_open(file, arena, &problems, &journal, &err));
     *warnings = problems.count;
     return journal;
 }
@@ -73,9 +72,8 @@ static int count_known(const Journal *journal)
     return known;
 }
 
-TEST(what_was_kept_is_found_again)
+ARENA_TEST(what_was_kept_is_found_again)
 {
-    Arena arena = test_arena(state);
     int   warnings;
     unsigned char other[MOST] = {0};
     fill(&arena);
@@ -92,14 +90,12 @@ TEST(what_was_kept_is_found_again)
     journal_close(journal);
 }
 
-TEST(cut_off_anywhere_it_goes_on)
+ARENA_TEST(cut_off_anywhere_it_goes_on)
 {
-    Arena     arena = test_arena(state);
     FileBytes bytes;
-    Error     err;
     int       warnings, last = -1;
     fill(&arena);
-    assert_true(file_read(file, 1 << 20, &arena, &bytes, &err));
+    assert_done(file_read(file, 1 << 20, &arena, &bytes, &err));
     for (size_t size = 0; size <= bytes.size; size++) {
         Arena room = arena;
         write_bytes(file, bytes.data, size);
@@ -114,20 +110,18 @@ TEST(cut_off_anywhere_it_goes_on)
         }
         journal_close(journal);
         FileBytes again;
-        assert_true(file_read(file, 1 << 20, &room, &again, &err));
+        assert_done(file_read(file, 1 << 20, &room, &again, &err));
         assert_int_equal(again.size, bytes.size);
         assert_memory_equal(again.data, bytes.data, bytes.size);
     }
     assert_int_equal(last, ANSWERS);
 }
 
-TEST(a_damaged_byte_is_told_and_nothing_wrong_is_found)
+ARENA_TEST(a_damaged_byte_is_told_and_nothing_wrong_is_found)
 {
-    Arena     arena = test_arena(state);
     FileBytes bytes;
-    Error     err;
     fill(&arena);
-    assert_true(file_read(file, 1 << 20, &arena, &bytes, &err));
+    assert_done(file_read(file, 1 << 20, &arena, &bytes, &err));
     unsigned char *damaged = ARENA_NEW(&arena, unsigned char, bytes.size);
     for (size_t at = 0; at < bytes.size; at++) {
         Arena room = arena;
@@ -142,19 +136,16 @@ TEST(a_damaged_byte_is_told_and_nothing_wrong_is_found)
     }
 }
 
-TEST(two_at_once_are_refused_and_an_empty_one_leaves_nothing)
+ARENA_TEST(two_at_once_are_refused_and_an_empty_one_leaves_nothing)
 {
-    Arena    arena = test_arena(state);
     Problems problems = problems_start(&arena);
     Journal *second;
-    Error    err;
     int      warnings;
     unlink(file);
     Journal *journal = open_journal(&arena, &warnings);
-    assert_false(journal_open(file, &arena, &problems, &second, &err));
-    assert_int_equal(err.code, ERROR_OUTPUT);
-    assert_string_equal(err.file, file);
-    assert_true(strstr(err.text, "another review is at work in this folder"));
+    assert_fails_as(journal_open(file, &arena, &problems, &second, &err), ERROR_OUTPUT,
+                    "another review is at work in this folder");
+    assert_string_equal(why()->file, file);
     journal_close(journal);
     assert_false(file_exists(file));
 }
@@ -167,16 +158,14 @@ static Journal *open_other(Arena *arena)
 {
     Problems problems = problems_start(arena);
     Journal *journal;
-    Error    err;
     snprintf(other_file, sizeof other_file, "%s", in_folder("other"));
     unlink(other_file);
-    if (!journal_open(other_file, arena, &problems, &journal, &err)) fail_msg("%s", err.text);
+    assert_done(journal_open(other_file, arena, &problems, &journal, &err));
     return journal;
 }
 
-TEST(answers_of_another_are_taken_over_and_ones_own_count_first)
+ARENA_TEST(answers_of_another_are_taken_over_and_ones_own_count_first)
 {
-    Arena         arena = test_arena(state);
     int           warnings;
     unsigned char found[MOST], own[MOST] = {7};
     fill(&arena);
@@ -200,14 +189,12 @@ TEST(answers_of_another_are_taken_over_and_ones_own_count_first)
 }
 
 /* Of every prefix all whole answers count, and only the whole file is whole. */
-TEST(what_is_cut_off_is_taken_as_far_as_it_is_whole)
+ARENA_TEST(what_is_cut_off_is_taken_as_far_as_it_is_whole)
 {
-    Arena     arena = test_arena(state);
     FileBytes bytes;
-    Error     err;
     int       last = 0;
     fill(&arena);
-    if (!file_read(file, 1 << 20, &arena, &bytes, &err)) fail_msg("%s", err.text);
+    assert_done(file_read(file, 1 << 20, &arena, &bytes, &err));
     for (size_t size = 0; size < bytes.size; size++) {
         Arena room = arena;
         write_bytes(file, bytes.data, size);

@@ -53,9 +53,8 @@ static const Row ROWS[] = {
     {LIMIT_CHARACTER_HEIGHT, true, 60, 5, 60},
 };
 
-TEST(two_per_cent_decide)
+ARENA_TEST(two_per_cent_decide)
 {
-    Arena arena = test_arena(state);
     for (int i = 0; i < COUNT_OF(ROWS); i++) {
         for (int side = -1; side <= 1; side += 2) {
             const Row   *r = &ROWS[i];
@@ -76,9 +75,8 @@ TEST(two_per_cent_decide)
     }
 }
 
-TEST(margins_are_what_they_say)
+ARENA_TEST(margins_are_what_they_say)
 {
-    Arena        arena = test_arena(state);
     ProfileLimit least = limit_of(LIMIT_CONTRAST_RATIO, 3), most = least;
     ReviewCase   c = judged(case_of(3.6, 0), &least, 1, false, &arena);
     assert_close(c.margin, 0.2, 1e-12);
@@ -95,9 +93,8 @@ TEST(margins_are_what_they_say)
     assert_true(isnan(c.margin));
 }
 
-TEST(what_lies_on_the_limit_keeps_it)
+ARENA_TEST(what_lies_on_the_limit_keeps_it)
 {
-    Arena        arena = test_arena(state);
     ProfileLimit limits[] = {limit_of(LIMIT_CONTRAST_RATIO, 3),
                              limit_of(LIMIT_CONTRAST_RATIO, 3)};
     limits[1].is_upper = true;
@@ -107,9 +104,8 @@ TEST(what_lies_on_the_limit_keeps_it)
 
 /* ---- doubt ------------------------------------------------------------------------------- */
 
-TEST(an_interval_across_the_limit_is_too_close)
+ARENA_TEST(an_interval_across_the_limit_is_too_close)
 {
-    Arena arena = test_arena(state);
     for (int i = 0; i < COUNT_OF(ROWS); i++) {
         for (int side = -1; side <= 1; side += 2) {
             ProfileLimit limit = limit_of(ROWS[i].kind, ROWS[i].limit);
@@ -124,9 +120,8 @@ TEST(an_interval_across_the_limit_is_too_close)
     }
 }
 
-TEST(what_is_not_known_is_too_close)
+ARENA_TEST(what_is_not_known_is_too_close)
 {
-    Arena        arena = test_arena(state);
     ProfileLimit contrast = limit_of(LIMIT_CONTRAST_RATIO, 3);
     ProfileLimit height = limit_of(LIMIT_CHARACTER_HEIGHT, 12);
     ReviewCase   c = case_of(NAN, 0);
@@ -142,9 +137,8 @@ TEST(what_is_not_known_is_too_close)
     assert_int_equal(judged(c, &contrast, 1, false, &arena).verdict, VERDICT_TOO_CLOSE);
 }
 
-TEST(nothing_visible_is_no_verdict_on_legibility)
+ARENA_TEST(nothing_visible_is_no_verdict_on_legibility)
 {
-    Arena        arena = test_arena(state);
     ProfileLimit limit = limit_of(LIMIT_CONTRAST_RATIO, 3);
     ReviewCase   c = case_of(9, 0);
     c.visible_share = 0;
@@ -161,9 +155,8 @@ TEST(nothing_visible_is_no_verdict_on_legibility)
 
 /* ---- which limits ------------------------------------------------------------------------ */
 
-TEST(the_worst_that_counts_decides)
+ARENA_TEST(the_worst_that_counts_decides)
 {
-    Arena        arena = test_arena(state);
     ProfileLimit limits[] = {limit_of(LIMIT_CONTRAST_RATIO, 2),
                              limit_of(LIMIT_CONTRAST_RATIO, 6),
                              limit_of(LIMIT_CHARACTER_HEIGHT, 30)};
@@ -184,9 +177,8 @@ TEST(the_worst_that_counts_decides)
 }
 
 /* 0.7 of modulation is a ratio of 5.67, a luminance contrast of 5 one of 6. */
-TEST(the_contrast_that_is_asked_most_of_is_the_limit)
+ARENA_TEST(the_contrast_that_is_asked_most_of_is_the_limit)
 {
-    Arena        arena = test_arena(state);
     ProfileLimit limits[] = {
         limit_of(LIMIT_CHARACTER_HEIGHT, 12), limit_of(LIMIT_CONTRAST_RATIO, 5),
         limit_of(LIMIT_LUMINANCE_CONTRAST, 5), limit_of(LIMIT_MODULATION, 0.7)};
@@ -203,12 +195,10 @@ TEST(the_contrast_that_is_asked_most_of_is_the_limit)
     assert_string_equal(c.limits[c.limit_id].kind, "modulation");
 }
 
-TEST(limits_belong_to_their_light)
+ARENA_TEST(limits_belong_to_their_light)
 {
-    Arena          arena = test_arena(state);
     const Profile *profile;
-    Error          err = {0};
-    assert_true(profile_load("iso-15008", &arena, &profile, &err));
+    assert_done(profile_load("iso-15008", &arena, &profile, &err));
     for (int a = 0; a < AMBIENT_COUNT; a++) {
         const Verdict expected[] = {VERDICT_FAIL, VERDICT_FAIL, VERDICT_PASS, VERDICT_PASS};
         ReviewCase    c = case_of(4, 0.01);
@@ -220,13 +210,11 @@ TEST(limits_belong_to_their_light)
 }
 
 /* NUREG-0700: the smaller the characters, the more modulation, from 17 down to 10 minutes. */
-TEST(small_characters_need_more)
+ARENA_TEST(small_characters_need_more)
 {
     static const double HEIGHTS[] = {10, 12, 15, 17}, VALUES[] = {1, 0.86, 0.65, 0.51};
-    Arena          arena = test_arena(state);
     const Profile *profile;
-    Error          err = {0};
-    assert_true(profile_load("nureg-0700", &arena, &profile, &err));
+    assert_done(profile_load("nureg-0700", &arena, &profile, &err));
     for (int i = 0; i < COUNT_OF(HEIGHTS); i++) {
         ReviewCase c = case_of(8, 0);
         c.height_arcmin = HEIGHTS[i];
@@ -242,9 +230,8 @@ TEST(small_characters_need_more)
     }
 }
 
-TEST(strokes_are_listed_and_do_not_count)
+ARENA_TEST(strokes_are_listed_and_do_not_count)
 {
-    Arena        arena = test_arena(state);
     ProfileLimit limits[] = {limit_of(LIMIT_STROKE_RATIO, 0.1),
                              limit_of(LIMIT_WIDTH_RATIO, 0.65)};
     ReviewCase   c = judged(case_of(4, 0), limits, 2, false, &arena);
@@ -254,13 +241,11 @@ TEST(strokes_are_listed_and_do_not_count)
     assert_int_equal(c.limits[0].verdict, VERDICT_TOO_CLOSE);
 }
 
-TEST(without_limits_nothing_fails)
+ARENA_TEST(without_limits_nothing_fails)
 {
-    Arena arena = test_arena(state);
     for (int i = 0; i < profile_count; i++) {
         const Profile *profile;
-        Error          err = {0};
-        assert_true(profile_load(profile_table[i].name, &arena, &profile, &err));
+        assert_done(profile_load(profile_table[i].name, &arena, &profile, &err));
         ReviewCase c = case_of(1.01, 0);
         c.ambient = AMBIENT_SUN;
         judge_case(&c, profile, &arena);
@@ -273,9 +258,8 @@ TEST(without_limits_nothing_fails)
 /* ---- the veil ---------------------------------------------------------------------------- */
 
 /* 110 and 10 cd/m2 with 40 reflected: 3; below a veil of 50: 2. */
-TEST(a_veil_counts_where_the_profile_says_so)
+ARENA_TEST(a_veil_counts_where_the_profile_says_so)
 {
-    Arena        arena = test_arena(state);
     ProfileLimit limit = limit_of(LIMIT_CONTRAST_RATIO, 2.5);
     ReviewCase   c = case_of(3, 0.02);
     assert_close(c.luminance_cd_m2.reflected, 40, 1e-12);
@@ -302,13 +286,11 @@ TEST(a_veil_counts_where_the_profile_says_so)
 
 /* ---- the ambient ------------------------------------------------------------------------- */
 
-TEST(the_ambient_comes_from_the_display_s_light)
+ARENA_TEST(the_ambient_comes_from_the_display_s_light)
 {
-    Arena          arena = test_arena(state);
     const Profile *profile;
-    Error          err = {0};
     ReviewCase     c = case_of(4, 0);
-    assert_true(profile_load("iso-15008", &arena, &profile, &err));
+    assert_done(profile_load("iso-15008", &arena, &profile, &err));
     c.display_lux = 0.2;
     judge_ambient(&c, profile, false);
     assert_int_equal(c.ambient, AMBIENT_NIGHT);

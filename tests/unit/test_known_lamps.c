@@ -77,9 +77,8 @@ TEST(what_is_known_moves_no_mean)
 
 /* One way to each lamp: 0.9 of the samples go to the known two by their light times what
  * arrives of it, and what else finds them counts nothing. */
-TEST(known_lamps_are_chosen_by_what_arrives)
+ARENA_TEST(known_lamps_are_chosen_by_what_arrives)
 {
-    Arena    arena = test_arena(state);
     Scene   *scene = row_of_lamps(20, &arena);
     LitPoint point = FLOOR_POINT;
     int      chosen[20] = {0};
@@ -93,9 +92,8 @@ TEST(known_lamps_are_chosen_by_what_arrives)
     assert_near(chosen[8], 0.9 * SAMPLES * a / (a + b), soft * 0.2);
 }
 
-TEST(where_all_lamps_are_known_no_sample_looks_for_others)
+ARENA_TEST(where_all_lamps_are_known_no_sample_looks_for_others)
 {
-    Arena  arena = test_arena(state);
     Scene *scene = row_of_lamps(5, &arena);
     PunctualKnown known = {.count = 5, .id = {4, 3, 2, 1, 0}, .arrives = {1, 1, 0.5f, 1, 0.1f}};
     int    chosen[5] = {0}, all = 0;

@@ -77,35 +77,31 @@ static FrameImage a_frame(const char *const *layers, int count, Arena *arena)
     return frame;
 }
 
-TEST(a_frame_has_them_as_layers)
+ARENA_TEST(a_frame_has_them_as_layers)
 {
     static const char *const LAYERS[] = {"display.black", "display.reflected",
                                          "display.emitted", "display.white"};
-    Arena      arena = test_arena(state);
     FrameImage frame = a_frame(LAYERS, 4, &arena);
     LayerView  view;
-    Error      err = {0};
-    assert_true(layer_view_find(&frame, "display.weber", &arena, &view, &err));
+    assert_done(layer_view_find(&frame, "display.weber", &arena, &view, &err));
     assert_true(view.show == SHOW_NUMBER && view.has_gaps && view.is_log);
     for (int i = 0; i < WIDE - 1; i++) assert_near(view.planes[0][i], (4.0 - 1) / 3, 1e-6);
     assert_true(isnan(view.planes[0][WIDE - 1]));
-    assert_true(layer_view_find(&frame, "display.luminance_error", &arena, &view, &err));
+    assert_done(layer_view_find(&frame, "display.luminance_error", &arena, &view, &err));
     assert_near(view.planes[0][1], 2 / 3.0, 1e-6);
-    assert_true(layer_view_find(&frame, "display.colour_error", &arena, &view, &err));
+    assert_done(layer_view_find(&frame, "display.colour_error", &arena, &view, &err));
     assert_near(view.planes[0][1], 0, 1e-6);
-    assert_true(!layer_view_find(&frame, "display.webber", &arena, &view, &err));
-    assert_non_null(strstr(err.text, "display.white, display.contrast, display.weber"));
+    assert_fails_as(layer_view_find(&frame, "display.webber", &arena, &view, &err), ERROR_USAGE,
+                    "display.white, display.contrast, display.weber");
 }
 
-TEST(what_a_figure_lacks_is_told)
+ARENA_TEST(what_a_figure_lacks_is_told)
 {
     static const char *const LAYERS[] = {"display.black", "display.reflected"};
-    Arena      arena = test_arena(state);
     FrameImage frame = a_frame(LAYERS, 2, &arena);
     LayerView  view;
-    Error      err = {0};
-    assert_true(!layer_view_find(&frame, "display.weber", &arena, &view, &err));
-    assert_string_equal(err.text, "has no layer \"display.white\", from which "
+    assert_true(!layer_view_find(&frame, "display.weber", &arena, &view, why()));
+    assert_string_equal(why()->text, "has no layer \"display.white\", from which "
                                   "\"display.weber\" follows; render it with --layers display");
 }
 

@@ -3,60 +3,45 @@
 #include "light/emitters_build.h"
 #include "light/sky.h"
 #include "light_fixture.h"
-#include "spectrum/photometry.h"
 
 TEST(the_suns_irradiance_is_exact_whatever_its_size)
 {
     const float radius[] = {0.0005f, 0.00465f, 0.05f};
     for (int i = 0; i < 3; i++) {
-        Arena arena = arena_reserve(1 << 28);
+        ENDS_BY(arena_release) Arena arena = arena_reserve(1 << 28);
         Scene *scene = builder_scene(&arena);
-        scene->environment.has_sun = true;
+        builder_sun(scene, 1.1, 0.6, 90000);
         scene->environment.sun_angular_radius = radius[i];
-        scene->environment.sun_azimuth = 1.1f;
-        scene->environment.sun_elevation = 0.6f;
-        scene->environment.sun_illuminance_lx = 90000;
         const Lights *lights = build(scene, &arena);
         Vec3 to_sun =
             vec3((float)(cos(0.6) * sin(1.1)), (float)sin(0.6), (float)(-cos(0.6) * cos(1.1)));
-        assert_mean("facing the sun", illuminance(lights, LIGHTS_SUN, vec3(0, 0, 0), to_sun),
-                    90000);
-        assert_mean("on the ground",
-                    illuminance(lights, LIGHTS_SUN, vec3(0, 0, 0), vec3(0, 1, 0)),
-                    90000 * sin(0.6));
-        arena_release(&arena);
+        assert_illuminance("facing the sun", lights, LIGHTS_SUN, to_sun, 90000);
+        assert_illuminance("on the ground", lights, LIGHTS_SUN, vec3(0, 1, 0),
+                           90000 * sin(0.6));
     }
 }
 
-TEST(the_heading_turns_the_sun_and_not_the_scene)
+ARENA_TEST(the_heading_turns_the_sun_and_not_the_scene)
 {
-    Arena arena = test_arena(state);
     Scene *scene = builder_scene(&arena);
     Sky sky;
-    Error err;
-    scene->environment.has_sun = true;
-    scene->environment.sun_illuminance_lx = 1;
-    scene->environment.sun_azimuth = (float)(PI / 2); /* east */
-    assert_true(sky_build(&scene->environment, &arena, &sky, &err));
+    builder_sun(scene, PI / 2, 0, 1); /* east */
+    assert_done(sky_build(&scene->environment, &arena, &sky, &err));
     assert_near(sky.sun_direction.x, 1, 1e-6);
     scene->environment.heading = (float)(PI / 2); /* driving east: the sun is ahead */
-    assert_true(sky_build(&scene->environment, &arena, &sky, &err));
+    assert_done(sky_build(&scene->environment, &arena, &sky, &err));
     assert_near(sky.sun_direction.z, -1, 1e-6);
     scene->environment.forward = vec3(1, 0, 0);
-    assert_true(sky_build(&scene->environment, &arena, &sky, &err));
+    assert_done(sky_build(&scene->environment, &arena, &sky, &err));
     assert_near(sky.sun_direction.x, 1, 1e-6);
 }
 
-TEST(a_uniform_sky_of_luminance_l_gives_pi_l)
+ARENA_TEST(a_uniform_sky_of_luminance_l_gives_pi_l)
 {
-    Arena arena = test_arena(state);
     Scene *scene = builder_scene(&arena);
-    scene->environment.kind = ENVIRONMENT_CONSTANT;
-    scene->environment.luminance_cd_m2 = 1000;
-    for (int i = 0; i < 3; i++) scene->environment.color[i] = 1;
+    builder_sky(scene, 1000);
     const Lights *lights = build(scene, &arena);
-    assert_mean("uniform sky", illuminance(lights, LIGHTS_SKY, vec3(0, 0, 0), vec3(0, 1, 0)),
-                PI * 1000);
+    assert_illuminance("uniform sky", lights, LIGHTS_SKY, vec3(0, 1, 0), PI * 1000);
 }
 
 /* A picture with a soft gradient, a small sun, a dark half and a negative pixel. */
@@ -78,25 +63,21 @@ static Scene *picture_scene(Arena *arena, int width, int height)
     return scene;
 }
 
-TEST(a_picture_can_be_scaled_to_an_illuminance)
+ARENA_TEST(a_picture_can_be_scaled_to_an_illuminance)
 {
-    Arena arena = test_arena(state);
     Scene *scene = picture_scene(&arena, 64, 32);
     scene->environment.horizontal_illuminance_lx = 15000;
     const Lights *lights = build(scene, &arena);
     assert_int_equal(lights_refused_pixels(lights), 1);
-    assert_mean("scaled picture", illuminance(lights, LIGHTS_SKY, vec3(0, 0, 0), vec3(0, 1, 0)),
-                15000);
+    assert_illuminance("scaled picture", lights, LIGHTS_SKY, vec3(0, 1, 0), 15000);
 }
 
 /* North is the left edge, east a quarter, south (+Z) the middle; rotation adds to azimuth. */
-TEST(a_picture_hangs_the_right_way_round)
+ARENA_TEST(a_picture_hangs_the_right_way_round)
 {
-    Arena arena = test_arena(state);
     Scene *scene = builder_scene(&arena);
     float pixels[8 * 4 * 4] = {0}; /* 8 columns, 4 rows: column 0 north, 2 east ... */
     Sky sky;
-    Error err;
     Wavelengths lanes;
     wavelengths_sample(0.3f, &lanes);
     for (int y = 0; y < 4; y++)
@@ -107,7 +88,7 @@ TEST(a_picture_hangs_the_right_way_round)
     scene->environment.hdri = (Image){8, 4, IMAGE_RGBA32F, pixels};
     for (int turn = 0; turn < 4; turn++) {
         scene->environment.hdri_rotation = (float)(turn * PI / 2 + 0.35);
-        assert_true(sky_build(&scene->environment, &arena, &sky, &err));
+        assert_done(sky_build(&scene->environment, &arena, &sky, &err));
         for (int k = 0; k < 4; k++) {
             float angle = (float)(k * PI / 2 + 0.35 + PI / 4);
             Vec3 d = vec3((float)sin((double)angle), 0, (float)-cos((double)angle));
@@ -119,20 +100,18 @@ TEST(a_picture_hangs_the_right_way_round)
 }
 
 /* Pearson's test of a sampler against its density, both over a grid of directions. */
-TEST(picture_samples_follow_their_density)
+ARENA_TEST(picture_samples_follow_their_density)
 {
     enum { ROWS = 16, COLUMNS = 32, COUNT = 400000, FINE = 24 };
-    Arena arena = test_arena(state);
     Scene *scene = picture_scene(&arena, 64, 32);
     Sky sky;
-    Error err;
     uint32_t random = 5;
     int unlike = 0;
     static double found[ROWS * COLUMNS], expected[ROWS * COLUMNS];
     Wavelengths lanes;
     wavelengths_sample(0.3f, &lanes);
     scene->environment.hdri_rotation = (float)(2 * PI * 5 / 64); /* texels on the grid */
-    assert_true(sky_build(&scene->environment, &arena, &sky, &err));
+    assert_done(sky_build(&scene->environment, &arena, &sky, &err));
     for (int i = 0; i < COUNT; i++) {
         SkySample sample;
         Vec3 n = vec3(0, 1, 0);
@@ -146,8 +125,7 @@ TEST(picture_samples_follow_their_density)
         found[(row < ROWS ? row : ROWS - 1) * COLUMNS + column % COLUMNS]++;
     }
     assert_true(unlike < COUNT / 1000);
-    double total = 0, chi2 = 0;
-    int cells = 0;
+    double total = 0;
     for (int row = 0; row < ROWS * FINE; row++)
         for (int column = 0; column < COLUMNS * FINE; column++) {
             double theta = PI * (row + 0.5) / (ROWS * FINE);
@@ -160,45 +138,18 @@ TEST(picture_samples_follow_their_density)
             total += share;
         }
     assert_close(total, 1, 2e-3);
-    for (int i = 0; i < ROWS * COLUMNS; i++) {
-        if (expected[i] < 10) continue;
-        double spread = expected[i] + 2e-5 * expected[i] * expected[i]; /* grid's own error */
-        chi2 += (found[i] - expected[i]) * (found[i] - expected[i]) / spread;
-        cells++;
-    }
-    assert_true(cells > 100);
-    assert_true(chi2 < cells + 4 * sqrt(2.0 * cells));
+    assert_chi_square(0, found, expected, ROWS * COLUMNS, (ChiLimits){2e-5, 100, 4});
 }
 
-/* Pearson's sum for counts that should all be the same. */
-static double chi_square_of_equals(const int *counts, int cells, int samples)
-{
-    double expected = (double)samples / cells, sum = 0;
-    for (int i = 0; i < cells; i++)
-        sum += (counts[i] - expected) * (counts[i] - expected) / expected;
-    return sum;
-}
-
-static void assert_equal_cells(const char *what, const int *counts, int cells, int samples)
-{
-    double chi2 = chi_square_of_equals(counts, cells, samples);
-    if (chi2 > cells + 4 * sqrt(2.0 * cells))
-        fail_msg("%s: chi-square %.1f over %d equal cells", what, chi2, cells);
-}
-
-TEST(sun_samples_are_uniform_on_the_disc_and_never_off_it)
+ARENA_TEST(sun_samples_are_uniform_on_the_disc_and_never_off_it)
 {
     enum { RINGS = 8, SECTORS = 16 };
-    Arena    arena = test_arena(state);
     Scene   *scene = builder_scene(&arena);
     Sky      sky;
-    Error    err;
     uint32_t random = 3;
-    static int counts[RINGS * SECTORS];
-    scene->environment.has_sun = true;
-    scene->environment.sun_illuminance_lx = 1;
-    scene->environment.sun_elevation = 0.4f;
-    assert_true(sky_build(&scene->environment, &arena, &sky, &err));
+    static double counts[RINGS * SECTORS], even[RINGS * SECTORS];
+    builder_sun(scene, 0, 0.4f, 1);
+    assert_done(sky_build(&scene->environment, &arena, &sky, &err));
     Frame frame = frame_from_z(sky.sun_direction);
     for (int i = 0; i < SAMPLES; i++) {
         float u0 = random_unit(&random), u1 = random_unit(&random);
@@ -210,7 +161,8 @@ TEST(sun_samples_are_uniform_on_the_disc_and_never_off_it)
         int    ring = (int)(share * RINGS), sector = (int)(turns * SECTORS);
         counts[(ring < RINGS ? ring : RINGS - 1) * SECTORS + sector % SECTORS]++;
     }
-    assert_equal_cells("sun", counts, RINGS * SECTORS, SAMPLES);
+    for (int i = 0; i < RINGS * SECTORS; i++) even[i] = SAMPLES / (double)(RINGS * SECTORS);
+    assert_chi_square(0, counts, even, RINGS * SECTORS, (ChiLimits){0, 100, 4});
     assert_close(sky.sun_solid_angle, 2 * PI * (1 - cos((double)sky.sun_radius)), 1e-4);
 }
 
@@ -249,9 +201,7 @@ static Scene *lamp_scene(Arena *arena)
     static uint8_t picture[16 * 16 * 4];
     Scene *scene = builder_scene(arena);
     for (int lamp = 0; lamp < 3; lamp++) {
-        Material material = builder_material(0);
-        material.is_emitter = true;
-        for (int i = 0; i < 3; i++) material.emissive_cd_m2[i] = lamp ? 300.0f : 100.0f;
+        Material material = builder_lamp(lamp ? 300 : 100);
         if (lamp == 2) material.emissive_texture.texture_id = 0;
         builder_part(scene, material);
         builder_quad(scene, vec3(4.0f * (float)lamp, 2, 0), vec3(lamp ? 2.0f : 1.0f, 0, 0),
@@ -274,9 +224,8 @@ static const LitPoint LIT[] = {{{0, 0, 0}, {0, 1, 0}, false},
                                {{9, 5, 0}, {0, -1, 0}, false},
                                {{0, 0, 0}, {0, -1, 0}, false}};
 
-TEST(densities_of_emitters_integrate_to_one_from_anywhere)
+ARENA_TEST(densities_of_emitters_integrate_to_one_from_anywhere)
 {
-    Arena    arena = test_arena(state);
     Scene   *scene = lamp_scene(&arena);
     Emitters emitters = emitters_build(scene, &arena);
     assert_int_equal(emitters.count, 6);
@@ -292,16 +241,15 @@ TEST(densities_of_emitters_integrate_to_one_from_anywhere)
 }
 
 /* Points fall into strips of every triangle as the density says. */
-TEST(emitter_samples_follow_their_density)
+ARENA_TEST(emitter_samples_follow_their_density)
 {
     enum { STRIPS = 9, TRIANGLES = 6, FINE = 64 };
-    Arena    arena = test_arena(state);
     Scene   *scene = lamp_scene(&arena);
     Emitters emitters = emitters_build(scene, &arena);
     uint32_t random = 8;
     for (size_t p = 0; p < sizeof LIT / sizeof *LIT; p++) {
-        double found[TRIANGLES][STRIPS] = {{0}}, expected[TRIANGLES][STRIPS] = {{0}}, chi = 0;
-        int    cells = 0, unlike = 0;
+        double found[TRIANGLES * STRIPS] = {0}, expected[TRIANGLES * STRIPS] = {0};
+        int    unlike = 0;
         for (int i = 0; i < SAMPLES; i++) {
             float u[3];
             EmitterDensity density, seen;
@@ -312,35 +260,25 @@ TEST(emitter_samples_follow_their_density)
             seen = emitters_density(&emitters, scene, &LIT[p], at);
             unlike += seen.on_area != density.on_area || /* rounded into the next cell */
                       seen.on_sphere != density.on_sphere;
-            found[at.triangle][(int)(at.u * STRIPS * 0.99999f)]++;
+            found[at.triangle * STRIPS + (uint32_t)(at.u * STRIPS * 0.99999f)]++;
         }
-        for (uint32_t t = 0; t < TRIANGLES; t++) {
-            density_total(&emitters, scene, &LIT[p], t, STRIPS * FINE, STRIPS, expected[t]);
-            for (int k = 0; k < STRIPS; k++) {
-                double wanted = SAMPLES * expected[t][k];
-                if (wanted < 10) continue;
-                chi += (found[t][k] - wanted) * (found[t][k] - wanted) /
-                       (wanted + 4e-5 * wanted * wanted);
-                cells++;
-            }
-        }
-        assert_true(cells > 15 && unlike < SAMPLES / 1000);
-        if (!(chi < cells + 4.5 * sqrt(2.0 * cells)))
-            fail_msg("from point %zu: chi-square %.1f over %d strips", p, chi, cells);
+        for (uint32_t t = 0; t < TRIANGLES; t++)
+            density_total(&emitters, scene, &LIT[p], t, STRIPS * FINE, STRIPS,
+                          expected + t * STRIPS);
+        for (int i = 0; i < TRIANGLES * STRIPS; i++) expected[i] *= SAMPLES;
+        assert_chi_square((int)p, found, expected, TRIANGLES * STRIPS,
+                          (ChiLimits){4e-5, 15, 4.5});
+        assert_true(unlike < SAMPLES / 1000);
     }
 }
 
 /* From far away the choice is by power; from near it is the lamp at hand. */
-TEST(emitters_are_chosen_by_what_they_send_to_the_point)
+ARENA_TEST(emitters_are_chosen_by_what_they_send_to_the_point)
 {
-    Arena    arena = test_arena(state);
     Scene   *scene = builder_scene(&arena);
     uint32_t random = 3;
     for (int lamp = 0; lamp < 2; lamp++) {
-        Material material = builder_material(0);
-        material.is_emitter = true;
-        for (int i = 0; i < 3; i++) material.emissive_cd_m2[i] = lamp ? 300.0f : 100.0f;
-        builder_part(scene, material);
+        builder_part(scene, builder_lamp(lamp ? 300 : 100));
         builder_quad(scene, vec3(4.0f * (float)lamp, 2, 0), vec3(lamp ? 2.0f : 1.0f, 0, 0),
                      vec3(0, 0, lamp ? 2.0f : 1.0f));
     }
@@ -362,10 +300,9 @@ TEST(emitters_are_chosen_by_what_they_send_to_the_point)
 }
 
 /* Lit texels are found in proportion to their light. */
-TEST(bright_texels_are_chosen_more_often)
+ARENA_TEST(bright_texels_are_chosen_more_often)
 {
     enum { SIDE = 64 };
-    Arena    arena = test_arena(state);
     Scene   *scene = builder_scene(&arena);
     uint32_t random = 21;
     int      lit = 0;
@@ -375,9 +312,7 @@ TEST(bright_texels_are_chosen_more_often)
             picture[4 * i + k] = i % 8 == 3 && i / SIDE % 8 == 5 ? 255 : 12;
     scene->textures[0] =
         (Texture){{SIDE, SIDE, IMAGE_RGBA8, picture}, WRAP_CLAMP, WRAP_CLAMP, true};
-    Material material = builder_material(0);
-    material.is_emitter = true;
-    for (int i = 0; i < 3; i++) material.emissive_cd_m2[i] = 1000;
+    Material material = builder_lamp(1000);
     material.emissive_texture.texture_id = 0;
     builder_part(scene, material);
     builder_quad(scene, vec3(0, 2, 0), vec3(1, 0, 0), vec3(0, 0, 1));
@@ -396,15 +331,13 @@ TEST(bright_texels_are_chosen_more_often)
     assert_true(lit > SAMPLES / 2);
 }
 
-TEST(point_and_spot_follow_the_inverse_square_and_the_cone)
+ARENA_TEST(point_and_spot_follow_the_inverse_square_and_the_cone)
 {
-    Arena arena = test_arena(state);
     Scene *scene = builder_scene(&arena);
     scene->lights[scene->light_count++] = (PunctualLight){
         .kind = LIGHT_POINT, .position = {0, 3, 0}, .intensity = {1000, 1000, 1000}};
     const Lights *lights = build(scene, &arena);
-    assert_mean("1000 cd at 3 m",
-                illuminance(lights, LIGHTS_PUNCTUAL, vec3(0, 0, 0), vec3(0, 1, 0)), 111.111);
+    assert_illuminance("1000 cd at 3 m", lights, LIGHTS_PUNCTUAL, vec3(0, 1, 0), 111.111);
     scene->lights[0].kind = LIGHT_SPOT;
     scene->lights[0].direction = vec3(0, -1, 0);
     scene->lights[0].cos_inner = (float)cos(0.2);
@@ -419,9 +352,8 @@ TEST(point_and_spot_follow_the_inverse_square_and_the_cone)
         1000.0 / 9 * pow(cos(0.3), 3) * ramp * ramp);
 }
 
-TEST(many_lights_are_chosen_without_bias)
+ARENA_TEST(many_lights_are_chosen_without_bias)
 {
-    Arena arena = test_arena(state);
     Scene *scene = builder_scene(&arena);
     double expected = 0;
     for (int i = 0; i < 50; i++) {
@@ -433,10 +365,8 @@ TEST(many_lights_are_chosen_without_bias)
             (PunctualLight){.kind = LIGHT_POINT, .position = at, .intensity = {cd, cd, cd}};
         expected += (double)cd * (double)at.y / (d2 * sqrt(d2));
     }
-    assert_mean(
-        "fifty lamps",
-        illuminance(build(scene, &arena), LIGHTS_PUNCTUAL, vec3(0, 0, 0), vec3(0, 1, 0)),
-        expected);
+    assert_illuminance("fifty lamps", build(scene, &arena), LIGHTS_PUNCTUAL, vec3(0, 1, 0),
+                       expected);
 }
 
 /* Discs close to the point with beams so narrow that the middle of most sends nothing there:
@@ -477,21 +407,16 @@ TEST(lamps_with_openings_are_chosen_without_bias)
 }
 
 /* A square of half side a at height h over the point: E = L * 4 * (corner factor). */
-TEST(an_area_light_gives_its_configuration_factor)
+ARENA_TEST(an_area_light_gives_its_configuration_factor)
 {
-    Arena arena = test_arena(state);
     Scene *scene = builder_scene(&arena);
-    Material lamp = builder_material(0);
-    lamp.is_emitter = true;
-    for (int i = 0; i < 3; i++) lamp.emissive_cd_m2[i] = 2000;
-    builder_part(scene, lamp);
+    builder_part(scene, builder_lamp(2000));
     builder_quad(scene, vec3(0, 2, 0), vec3(1, 0, 0), vec3(0, 0, 1)); /* front looks down */
     double x = 0.5, root = sqrt(1 + x * x);
     double factor = 4 / (2 * PI) * 2 * (x / root * atan(x / root));
     const Lights *lights = build(scene, &arena);
-    assert_mean("square lamp",
-                illuminance(lights, LIGHTS_EMITTERS, vec3(0, 0, 0), vec3(0, 1, 0)),
-                PI * 2000 * factor);
+    assert_illuminance("square lamp", lights, LIGHTS_EMITTERS, vec3(0, 1, 0),
+                       PI * 2000 * factor);
     LightSample sample;
     float u[3] = {0.3f, 0.4f, 0.1f};
     assert_true(lights_sample(lights, LIGHTS_EMITTERS, LIT[0], u, &sample));

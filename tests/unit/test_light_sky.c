@@ -23,31 +23,27 @@ static Scene *sky_scene(EnvironmentKind kind, double elevation_deg, Arena *arena
     return scene;
 }
 
-TEST(a_modelled_sky_and_its_sun_give_the_stated_illuminance)
+ARENA_TEST(a_modelled_sky_and_its_sun_give_the_stated_illuminance)
 {
-    Arena arena = test_arena(state);
     for (int kind = ENVIRONMENT_CIE; kind <= ENVIRONMENT_SKY; kind++) {
         Arena   scratch = arena;
         Scene  *scene = sky_scene((EnvironmentKind)kind, 35, &scratch);
         Daylight *out = arena_alloc(&scratch, sizeof *out, 64, 1);
         DaylightInput input = scene->environment.daylight;
-        Error   err;
         input.has_sun = true;
         input.sun_elevation = 35 * PI / 180;
         input.sun_lux = kind == ENVIRONMENT_CIE ? 50000 : -1;
-        assert_true(daylight_build(&input, &scratch, out, &err));
+        assert_done(daylight_build(&input, &scratch, out, &err));
         const Lights *lights = build(scene, &scratch);
-        assert_mean("modelled sky",
-                    illuminance(lights, LIGHTS_SKY, vec3(0, 0, 0), vec3(0, 1, 0)),
-                    out->metrics.diffuse_horizontal_lx);
-        assert_mean("its sun", illuminance(lights, LIGHTS_SUN, vec3(0, 0, 0), vec3(0, 1, 0)),
-                    out->metrics.direct_normal_lx * sin(35 * PI / 180));
+        assert_illuminance("modelled sky", lights, LIGHTS_SKY, vec3(0, 1, 0),
+                           out->metrics.diffuse_horizontal_lx);
+        assert_illuminance("its sun", lights, LIGHTS_SUN, vec3(0, 1, 0),
+                           out->metrics.direct_normal_lx * sin(35 * PI / 180));
     }
 }
 
-TEST(a_half_set_sun_gives_half_its_light)
+ARENA_TEST(a_half_set_sun_gives_half_its_light)
 {
-    Arena  arena = test_arena(state);
     Scene *scene = sky_scene(ENVIRONMENT_SKY, 0, &arena);
     scene->environment.daylight.where.altitude_m = 0; /* the horizon is the horizontal */
     const Lights *lights = build(scene, &arena);
@@ -66,10 +62,9 @@ TEST(a_half_set_sun_gives_half_its_light)
     assert_true(sum[0] == 0 && sum[1] > 0);
 }
 
-TEST(modelled_sky_samples_follow_their_density)
+ARENA_TEST(modelled_sky_samples_follow_their_density)
 {
     enum { ROWS = 24, COLUMNS = 24, COUNT = 300000, FINE = 40 };
-    Arena arena = test_arena(state);
     Wavelengths lanes;
     wavelengths_sample(0.3f, &lanes);
     for (int kind = ENVIRONMENT_CIE; kind <= ENVIRONMENT_SKY; kind++) {
@@ -77,13 +72,12 @@ TEST(modelled_sky_samples_follow_their_density)
         Arena  scratch = arena;
         Scene *scene = sky_scene((EnvironmentKind)kind, 20, &scratch);
         Sky    sky;
-        Error  err;
         uint32_t random = 11;
-        double total = 0, chi2 = 0;
-        int    unlike = 0, cells = 0;
+        double total = 0;
+        int    unlike = 0;
         memset(found, 0, sizeof found);
         memset(expected, 0, sizeof expected);
-        assert_true(sky_build(&scene->environment, &scratch, &sky, &err));
+        assert_done(sky_build(&scene->environment, &scratch, &sky, &err));
         for (int i = 0; i < COUNT; i++) {
             SkySample sample;
             const float u[2] = {random_unit(&random), random_unit(&random)};
@@ -106,26 +100,18 @@ TEST(modelled_sky_samples_follow_their_density)
                 expected[row / FINE * COLUMNS + column / FINE] += share * COUNT;
                 total += share;
             }
-        for (int i = 0; i < ROWS * COLUMNS; i++) {
-            if (expected[i] < 10) continue;
-            chi2 += (found[i] - expected[i]) * (found[i] - expected[i]) / expected[i];
-            cells++;
-        }
         assert_int_equal(unlike, 0);
         assert_near(total, 1, 5e-3);
-        assert_true(chi2 < cells + 5 * sqrt(2.0 * cells));
+        assert_chi_square(kind, found, expected, ROWS * COLUMNS, (ChiLimits){0, 0, 5});
     }
 }
 
-TEST(a_sky_without_a_sun_to_stand_by_is_refused)
+ARENA_TEST(a_sky_without_a_sun_to_stand_by_is_refused)
 {
-    Arena arena = test_arena(state);
     Scene *scene = sky_scene(ENVIRONMENT_PEREZ, -5, &arena);
     Lights *lights;
-    Error err;
-    assert_false(lights_build(scene, &arena, &lights, &err));
-    assert_non_null(strstr(err.text, "5.00 degrees below the horizon"));
-    assert_int_equal(err.code, ERROR_INPUT);
+    assert_fails_as(lights_build(scene, &arena, &lights, &err), ERROR_INPUT,
+                    "5.00 degrees below the horizon");
 }
 
 /* ---- the disc ---------------------------------------------------------------------------- */
@@ -136,7 +122,6 @@ static void build_disc(EnvironmentKind kind, double radius_deg, Arena *arena, Sk
     Scene       *scene = sky_scene(kind < ENVIRONMENT_CIE ? ENVIRONMENT_CIE : kind, 40, arena);
     Environment *e = &scene->environment;
     float       *pixels = ARENA_NEW(arena, float, 4 * 8 * 4);
-    Error        err;
     for (int i = 0; i < 4 * 8 * 4; i++) pixels[i] = 1;
     e->kind = kind;
     e->sun_illuminance_lx = 100000;
@@ -146,7 +131,7 @@ static void build_disc(EnvironmentKind kind, double radius_deg, Arena *arena, Sk
     e->hdri = (Image){.format = IMAGE_RGBA32F, .width = 8, .height = 4, .pixels = pixels};
     e->hdri_path = "";
     e->hdri_scale = 1;
-    assert_true(sky_build(e, arena, sky, &err));
+    assert_done(sky_build(e, arena, sky, &err));
     assert_true(sky->has_sun);
 }
 
@@ -214,7 +199,7 @@ TEST(directions_to_the_sun_follow_their_density)
     for (int kind = ENVIRONMENT_CONSTANT; kind <= ENVIRONMENT_SKY; kind++) {
         Arena  arena = test_arena(state);
         Sky    sky;
-        double found[RINGS * SECTORS] = {0}, chi2 = 0;
+        double found[RINGS * SECTORS] = {0}, even[RINGS * SECTORS];
         uint32_t random = 5;
         build_disc((EnvironmentKind)kind, 0.26645, &arena, &sky);
         Frame frame = frame_from_z(sky.sun_direction);
@@ -230,20 +215,15 @@ TEST(directions_to_the_sun_follow_their_density)
         }
         assert_close((double)(sun_pdf(&sky, sky.sun_direction)) * PI *
                          pow(sin((double)sky.sun_radius), 2), 1, 1e-4);
-        for (int i = 0; i < RINGS * SECTORS; i++) {
-            double expected = (double)COUNT / (RINGS * SECTORS);
-            chi2 += (found[i] - expected) * (found[i] - expected) / expected;
-        }
-        assert_true(chi2 < RINGS * SECTORS + 5 * sqrt(2.0 * RINGS * SECTORS));
+        for (int i = 0; i < RINGS * SECTORS; i++) even[i] = (double)COUNT / (RINGS * SECTORS);
+        assert_chi_square(kind, found, even, RINGS * SECTORS, (ChiLimits){0, 100, 5});
     }
 }
 
 /* The half moon's disc as a light: its own samples give its illuminance, all from the side that
  * the sun lights; Munich, 2026 October 3, after midnight. */
-TEST(the_moon_lights_as_the_disc_when_the_sun_is_down)
+ARENA_TEST(the_moon_lights_as_the_disc_when_the_sun_is_down)
 {
-    Arena  arena = test_arena(state);
-    Error  err;
     Sky    sky;
     Scene *scene = sky_scene(ENVIRONMENT_SKY, 0, &arena);
     Environment *e = &scene->environment;
@@ -251,15 +231,15 @@ TEST(the_moon_lights_as_the_disc_when_the_sun_is_down)
     e->daylight.has_time = true;
     e->daylight.where = (SkyPlace){48.14, 11.58, 520};
     e->daylight.floor = FLOOR_LAND;
-    assert_true(sky_time_parse("2026-10-03T04:30+02:00", "", &e->daylight.when, &err));
+    assert_done(sky_time_parse("2026-10-03T04:30+02:00", "", &e->daylight.when, &err));
     const Lights *lights = build(scene, &arena);
-    assert_true(sky_build(e, &arena, &sky, &err));
+    assert_done(sky_build(e, &arena, &sky, &err));
     const NightMetrics *n = &sky.model->daylight->metrics.night;
     assert_true(sky.has_sun && sky.is_moon && n->illuminated > 0.4 && n->illuminated < 0.65);
-    assert_mean("the moon", illuminance(lights, LIGHTS_SUN, vec3(0, 0, 0), vec3(0, 1, 0)),
-                n->moon_normal_lx * sin(radians_from_degrees(n->moon_elevation_deg)));
-    assert_mean("its sky", illuminance(lights, LIGHTS_SKY, vec3(0, 0, 0), vec3(0, 1, 0)),
-                sky.model->daylight->metrics.diffuse_horizontal_lx);
+    assert_illuminance("the moon", lights, LIGHTS_SUN, vec3(0, 1, 0),
+                       n->moon_normal_lx * sin(radians_from_degrees(n->moon_elevation_deg)));
+    assert_illuminance("its sky", lights, LIGHTS_SKY, vec3(0, 1, 0),
+                       sky.model->daylight->metrics.diffuse_horizontal_lx);
     Wavelengths lanes;
     double side[2] = {0, 0};
     uint32_t random = 3;

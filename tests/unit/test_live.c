@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* How often a watched render shows itself, and to whom. Packets: tests/hostile/live_view.py. */
-#include "check.h"
+#include "fixture.h"
 
 #include <string.h>
 
@@ -76,8 +76,7 @@ TEST(addresses_are_taken_apart)
                  {"[::ffff:10.0.0.7]:9", "::ffff:10.0.0.7", "9"}};
     for (int i = 0; i < (int)(sizeof cases / sizeof *cases); i++) {
         ViewerAddress address;
-        Error         err;
-        assert_true(viewer_address_parse(cases[i].text, &address, &err));
+        assert_done(viewer_address_parse(cases[i].text, &address, &err));
         assert_string_equal(address.host, cases[i].host);
         assert_string_equal(address.port, cases[i].port);
     }

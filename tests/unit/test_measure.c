@@ -8,9 +8,8 @@
 static FrameMeasurement measure(const FrameImage *frame, MeasureRequest request, Arena arena)
 {
     FrameMeasurement m;
-    Error       err = {0};
     request.frame_name = "f.exr";
-    if (!measure_frame(frame, &request, arena, &m, &err)) fail_msg("%s", err.text);
+    assert_done(measure_frame(frame, &request, arena, &m, &err));
     return m;
 }
 
@@ -46,9 +45,8 @@ static void assert_interval(Measured figure, double low, double high)
     assert_close(figure.high, high, 1e-5);
 }
 
-TEST(a_region_has_the_mean_of_its_pixels)
+ARENA_TEST(a_region_has_the_mean_of_its_pixels)
 {
-    Arena      arena = test_arena(state);
     FrameImage frame = uniform_frame(10, 10, 100, &arena);
     for (int c = 0; c < 3; c++) frame.channels[c].values[0] = 500;
     MeasureRequest corner = {.has_region = true, .region = {0, 0, 2, 2}};
@@ -69,9 +67,8 @@ TEST(a_region_has_the_mean_of_its_pixels)
 }
 
 /* 100 pixels whose means have a variance of 4 each: 1.96 * 2 / sqrt(100). */
-TEST(intervals_follow_from_the_variance_layer)
+ARENA_TEST(intervals_follow_from_the_variance_layer)
 {
-    Arena      arena = test_arena(state);
     FrameImage frame = uniform_frame(10, 10, 100, &arena);
     add_layer(&frame, "variance", 4, &arena);
     FrameMeasurement m = measure(&frame, (MeasureRequest){0}, arena);
@@ -80,10 +77,9 @@ TEST(intervals_follow_from_the_variance_layer)
 }
 
 /* With channels that are independent and normal the interval of x holds 95 of 100 times. */
-TEST(the_interval_of_chromaticity_covers)
+ARENA_TEST(the_interval_of_chromaticity_covers)
 {
     enum { TRIALS = 2000 };
-    Arena    arena = test_arena(state);
     unsigned seed = 7;
     int      inside = 0;
     double   truth = 0;
@@ -106,9 +102,8 @@ TEST(the_interval_of_chromaticity_covers)
     assert_near(inside / (double)TRIALS, 0.95, 0.02);
 }
 
-TEST(a_display_has_its_contrast)
+ARENA_TEST(a_display_has_its_contrast)
 {
-    Arena      arena = test_arena(state);
     FrameImage frame = display_frame(4, 0.4f, &arena);
     add_layer(&frame, "display.emitted", 80, &arena);
     add_layer(&frame, "display.mirror", 5, &arena);
@@ -141,9 +136,8 @@ TEST(a_display_has_its_contrast)
 
 /* A contrast hangs on what is reflected alone: its halves count, not those of the pixel, which
  * differ by what the display emits, too. */
-TEST(a_contrast_has_the_noise_of_the_reflected)
+ARENA_TEST(a_contrast_has_the_noise_of_the_reflected)
 {
-    Arena      arena = test_arena(state);
     FrameImage frame = display_frame(4, 0.4f, &arena);
     add_layer(&frame, "halves", 2, &arena);
     FrameMeasurement whole = measure(&frame, (MeasureRequest){0}, arena);
@@ -157,9 +151,8 @@ TEST(a_contrast_has_the_noise_of_the_reflected)
 
 /* Where less than nothing might be reflected the lower end is nothing: of a display whose black
  * is dark no contrast is too great. */
-TEST(noise_beyond_the_reflected_leaves_no_upper_end)
+ARENA_TEST(noise_beyond_the_reflected_leaves_no_upper_end)
 {
-    Arena arena = test_arena(state);
     for (int k = 0; k < 2; k++) {
         FrameImage frame = display_frame(100 * 200 * 200, k ? 0 : 0.4f, &arena);
         FrameMeasurement m = measure(&frame, (MeasureRequest){0}, arena);
@@ -171,26 +164,24 @@ TEST(noise_beyond_the_reflected_leaves_no_upper_end)
     }
 }
 
-TEST(what_cannot_be_measured_is_told)
+ARENA_TEST(what_cannot_be_measured_is_told)
 {
-    Arena          arena = test_arena(state);
     FrameImage     frame = uniform_frame(10, 10, 100, &arena);
     MeasureRequest request = {"f.exr", true, {5, 5, 11, 8}, NULL};
     FrameMeasurement m;
-    Error          err = {0};
-    assert_false(measure_frame(&frame, &request, arena, &m, &err));
-    assert_error_has(&err, "inside the frame's pixels 0,0,10,10");
+    assert_fails_as(measure_frame(&frame, &request, arena, &m, &err), ERROR_USAGE,
+                    "inside the frame's pixels 0,0,10,10");
     frame_set_string(&frame, "parhelion:display.1", "cluster", &arena);
     request = (MeasureRequest){.frame_name = "f.exr", .display = "claster"};
-    assert_false(measure_frame(&frame, &request, arena, &m, &err));
-    assert_error_has(&err, "its displays: cluster");
+    assert_fails_as(measure_frame(&frame, &request, arena, &m, &err), ERROR_USAGE,
+                    "its displays: cluster");
     request.display = "cluster";
-    assert_false(measure_frame(&frame, &request, arena, &m, &err));
-    assert_error_has(&err, "--layers id");
+    assert_fails_as(measure_frame(&frame, &request, arena, &m, &err), ERROR_INPUT,
+                    "--layers id");
     float *id = frame_add_channel(&frame, "id.display", true, &arena);
     for (int i = 0; i < 100; i++) id[i] = -1;
-    assert_false(measure_frame(&frame, &request, arena, &m, &err));
-    assert_error_has(&err, "no pixel to measure on display cluster");
+    assert_fails_as(measure_frame(&frame, &request, arena, &m, &err), ERROR_INPUT,
+                    "no pixel to measure on display cluster");
 }
 
 static double uniform(unsigned *seed)
@@ -242,11 +233,10 @@ static void scatter_glints(FrameImage *frame, double glints, unsigned *seed)
 }
 
 /* Of a few bright samples, as of many: the interval of a contrast holds the true one. */
-TEST(the_interval_of_contrast_covers_glints)
+ARENA_TEST(the_interval_of_contrast_covers_glints)
 {
     enum { TRIALS = 2000 };
     static const double glints[] = {0, 4, 10, 40, 400};
-    Arena      arena = test_arena(state);
     unsigned   seed = 11;
     FrameImage frame = display_frame(100, 0.4f, &arena);
     add_layer(&frame, "display.halves", 0, &arena);
@@ -266,12 +256,11 @@ TEST(the_interval_of_contrast_covers_glints)
 }
 
 /* The brightest first, whatever order they stand in; those without a measure behind them. */
-TEST(lights_are_told_by_their_brightness)
+ARENA_TEST(lights_are_told_by_their_brightness)
 {
     static const char *const names[] = {"light.a", "light.b", "light.c", "light.d", "light.e"};
     const float light[] = {10, NAN, 30, NAN, 20};
     static const char *const wanted[] = {"light.c", "light.e", "light.a", "light.b", "light.d"};
-    Arena          arena = test_arena(state);
     FrameImage     frame = uniform_frame(4, 4, 60, &arena);
     MeasureRequest all = {.frame_name = "f.exr"};
     for (int i = 0; i < 5; i++) add_layer(&frame, names[i], light[i], &arena);

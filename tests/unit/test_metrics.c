@@ -55,9 +55,8 @@ static PixelErrors errors_of(const Canvas *r, const Canvas *t, PixelMask mask, b
     return pixel_errors_measure(&r->planes, &t->planes, mask, is_light, arena);
 }
 
-TEST(equal_pictures_have_no_error)
+ARENA_TEST(equal_pictures_have_no_error)
 {
-    Arena        arena = test_arena(state);
     const Canvas scene = canvas_scene(50, 40, 0.3, 1, &arena);
     PixelErrors  e = errors_of(&scene, &scene, NULL, false, arena);
     assert_near(e.mae, 0, 0);
@@ -70,9 +69,8 @@ TEST(equal_pictures_have_no_error)
 }
 
 /* Grey 0.5 against grey 0.75: e is a hundredth of 0.5. */
-TEST(even_pictures_follow_the_closed_forms)
+ARENA_TEST(even_pictures_follow_the_closed_forms)
 {
-    Arena        arena = test_arena(state);
     const Canvas r = canvas_uniform(0.5f, 0.5f, 0.5f, &arena);
     const Canvas t = canvas_uniform(0.75f, 0.75f, 0.75f, &arena);
     PixelErrors  e = errors_of(&r, &t, NULL, false, arena);
@@ -85,9 +83,8 @@ TEST(even_pictures_follow_the_closed_forms)
 }
 
 /* One channel in one pixel of 108 is off. */
-TEST(one_pixel_is_one_of_all)
+ARENA_TEST(one_pixel_is_one_of_all)
 {
-    Arena        arena = test_arena(state);
     const Canvas r = canvas_uniform(1, 1, 1, &arena), t = canvas_uniform(1, 1, 1, &arena);
     t.rgb[2][17] = -2;
     PixelErrors e = errors_of(&r, &t, NULL, false, arena);
@@ -99,9 +96,8 @@ TEST(one_pixel_is_one_of_all)
 }
 
 /* 999 of 1000 pixels are not above 40: the sun of 1e9 does not set the peak of a frame. */
-TEST(a_frame_has_its_own_peak)
+ARENA_TEST(a_frame_has_its_own_peak)
 {
-    Arena        arena = test_arena(state);
     const Canvas r = canvas_create(50, 20, &arena), t = canvas_create(50, 20, &arena);
     canvas_fill(&r, 40, 40, 40);
     canvas_fill(&t, 42, 42, 42);
@@ -113,9 +109,8 @@ TEST(a_frame_has_its_own_peak)
     assert_near(errors_of(&r, &t, NULL, false, arena).peak, 1, 0);
 }
 
-TEST(errors_grow_with_the_unit_of_light)
+ARENA_TEST(errors_grow_with_the_unit_of_light)
 {
-    Arena        arena = test_arena(state);
     const Canvas r = canvas_scene(50, 40, 0.3, 1, &arena);
     const Canvas t = canvas_scene(50, 40, 0.3, 2, &arena);
     const Canvas r4 = canvas_scaled(&r, 4, &arena), t4 = canvas_scaled(&t, 4, &arena);
@@ -129,9 +124,8 @@ TEST(errors_grow_with_the_unit_of_light)
     assert_true(a.rel_mse > 0.01);
 }
 
-TEST(a_black_reference_is_told_apart)
+ARENA_TEST(a_black_reference_is_told_apart)
 {
-    Arena        arena = test_arena(state);
     const Canvas black = canvas_uniform(0, 0, 0, &arena);
     const Canvas grey = canvas_uniform(1, 1, 1, &arena);
     PixelErrors  same = errors_of(&black, &black, NULL, true, arena);
@@ -146,9 +140,8 @@ TEST(a_black_reference_is_told_apart)
 }
 
 /* Whatever stands behind the mask: not one bit of any figure changes. */
-TEST(masked_pixels_count_for_nothing)
+ARENA_TEST(masked_pixels_count_for_nothing)
 {
-    Arena          arena = test_arena(state);
     const Canvas   r = canvas_scene(40, 30, 0.3, 1, &arena);
     const Canvas   t = canvas_scene(40, 30, 0.3, 2, &arena);
     const Canvas   spoilt = canvas_scene(40, 30, 0.3, 2, &arena);
@@ -174,9 +167,8 @@ TEST(masked_pixels_count_for_nothing)
     assert_true(errors_of(&r, &spoilt, NULL, true, arena).mse > 2 * a.mse);
 }
 
-TEST(no_pixel_gives_no_number)
+ARENA_TEST(no_pixel_gives_no_number)
 {
-    Arena          arena = test_arena(state);
     const Canvas   r = canvas_uniform(1, 2, 3, &arena);
     unsigned char *mask = ARENA_NEW(&arena, unsigned char, 12 * 9);
     float          map[12 * 9];
@@ -197,9 +189,8 @@ static double ssim_of(const Canvas *r, const Canvas *t, Arena arena)
     return ssim_mean(&r->planes, &t->planes, NULL, NULL, arena);
 }
 
-TEST(equal_pictures_are_similar)
+ARENA_TEST(equal_pictures_are_similar)
 {
-    Arena        arena = test_arena(state);
     const Canvas scene = canvas_scene(50, 40, 0.3, 1, &arena);
     float       *map = ARENA_NEW(&arena, float, 50 * 40);
     assert_near(ssim_mean(&scene.planes, &scene.planes, NULL, map, arena), 1, 0);
@@ -207,9 +198,8 @@ TEST(equal_pictures_are_similar)
 }
 
 /* A hole in a picture is no part of it, not a black one. */
-TEST(holes_do_not_show)
+ARENA_TEST(holes_do_not_show)
 {
-    Arena         arena = test_arena(state);
     const Canvas  r = canvas_uniform(0.5f, 0.5f, 0.5f, &arena);
     const Canvas  t = canvas_uniform(0.25f, 0.25f, 0.25f, &arena);
     unsigned char mask[12 * 9];
@@ -220,9 +210,8 @@ TEST(holes_do_not_show)
 }
 
 /* No contrast: what is left is (2 r t + C1) / (r^2 + t^2 + C1). */
-TEST(even_pictures_differ_by_luminance)
+ARENA_TEST(even_pictures_differ_by_luminance)
 {
-    Arena        arena = test_arena(state);
     const Canvas r = canvas_uniform(0.5f, 0.5f, 0.5f, &arena);
     const Canvas t = canvas_uniform(0.25f, 0.25f, 0.25f, &arena);
     assert_close(ssim_of(&r, &t, arena), 0.2501 / 0.3126, 1e-12);
@@ -234,9 +223,8 @@ TEST(even_pictures_differ_by_luminance)
 /* A pattern of greys about the same mean, with half of the contrast: wherever the window's mean
  * is m + d and its variance v, the test's are m + d / 2 and v / 4. For stripes of one pixel
  * the window sees all of the mean but 1e-3 of the amplitude. */
-TEST(contrast_counts_by_its_own_term)
+ARENA_TEST(contrast_counts_by_its_own_term)
 {
-    Arena        arena = test_arena(state);
     const Canvas r = canvas_create(41, 41, &arena), t = canvas_create(41, 41, &arena);
     float       *map = ARENA_NEW(&arena, float, 41 * 41);
     for (int i = 0; i < 41 * 41; i++)
@@ -278,9 +266,8 @@ static double direct_ssim(const Canvas *r, const Canvas *t, int px, int py)
     return luminance * (2 * cov + 9e-4) / (vr + vt + 9e-4);
 }
 
-TEST(windows_agree_with_direct_sums)
+ARENA_TEST(windows_agree_with_direct_sums)
 {
-    Arena        arena = test_arena(state);
     const Canvas r = canvas_scene(31, 23, 0.2, 1, &arena);
     const Canvas t = canvas_scene(31, 23, 0.2, 2, &arena);
     float       *map = ARENA_NEW(&arena, float, 31 * 23);
@@ -402,9 +389,8 @@ TEST(the_file_of_pairs_agrees)
 }
 
 /* White against grey: only the lightness term, (100 - L) / SL, is there. */
-TEST(pictures_have_their_difference)
+ARENA_TEST(pictures_have_their_difference)
 {
-    Arena        arena = test_arena(state);
     const Canvas white = canvas_uniform(1, 1, 1, &arena);
     const Canvas mixed = canvas_uniform(1, 1, 1, &arena);
     float        map[12 * 9];

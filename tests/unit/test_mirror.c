@@ -99,14 +99,6 @@ TEST(spread_adds_up_to_the_solid_angle)
 
 /* ---- whole surfaces --------------------------------------------------------------------- */
 
-static Material mirror_material(void)
-{
-    Material material = builder_material(1);
-    material.metallic = 1;
-    material.roughness = 0;
-    return material;
-}
-
 typedef struct Sum {
     const Scene *scene;
     Vec3   towards; /* the light: only fronts count */
@@ -163,9 +155,9 @@ static void cylinder(Scene *scene, double a, double b, int columns)
  * equation's tangential focus): spread is one over that. */
 TEST(a_concave_cylinder_focuses_as_the_mirror_equation_says)
 {
-    Arena  arena = arena_reserve((size_t)1 << 28);
+    ENDS_BY(arena_release) Arena arena = arena_reserve((size_t)1 << 28);
     Scene *scene = builder_scene(&arena);
-    builder_part(scene, mirror_material());
+    builder_part(scene, builder_mirror(1));
     cylinder(scene, -0.6, 0.6, 512);
     const Mirrors *mirrors = all_mirrors(scene, &arena);
     const double angles[] = {0.05, 0.2, 0.35, 0.5}, lengths[] = {0.2, 0.35, 0.6, 0.8};
@@ -193,11 +185,8 @@ TEST(a_concave_cylinder_focuses_as_the_mirror_equation_says)
             assert_int_equal(sum.count, roots);
             assert_close(sum.spread, expected, 5e-3);
         }
-    arena_release(&arena);
 }
 
-/* A sphere of radius 1 spreads a beam that meets it at incidence t, after l, by 1 + 2 l / cos t
- * across the plane's line and by 1 + 2 l cos t across the plane. */
 /* A piece of the unit sphere, 0.1 radians wide, about n. */
 static void cap(Scene *scene, Vec3 n)
 {
@@ -219,16 +208,18 @@ static void cap(Scene *scene, Vec3 n)
         }
 }
 
+/* A sphere of radius 1 spreads a beam that meets it at incidence t, after l, by 1 + 2 l / cos t
+ * across the plane's line and by 1 + 2 l cos t across the plane. */
 TEST(a_convex_sphere_spreads_as_the_mirror_equation_says)
 {
     Vec3 towards = vec3(0, 0, 1);
     for (int i = 1; i < 8; i++) {
-        Arena  arena = arena_reserve((size_t)1 << 28);
+        ENDS_BY(arena_release) Arena arena = arena_reserve((size_t)1 << 28);
         Scene *scene = builder_scene(&arena);
         double t = 0.18 * i, turn = 0.7 * i;
         Vec3   n = vec3((float)(sin(t) * cos(turn)), (float)(sin(t) * sin(turn)),
                         (float)cos(t));
-        builder_part(scene, mirror_material());
+        builder_part(scene, builder_mirror(1));
         cap(scene, n);
         const Mirrors *mirrors = all_mirrors(scene, &arena);
         for (int k = 0; k < 4; k++) {
@@ -238,17 +229,16 @@ TEST(a_convex_sphere_spreads_as_the_mirror_equation_says)
             assert_int_equal(sum.count, 1);
             assert_close(sum.spread, 1 / ((1 + 2 * l / cos(t)) * (1 + 2 * l * cos(t))), 5e-3);
         }
-        arena_release(&arena);
     }
 }
 
 /* Nodes that asking a sphere's mirrors from all around it takes, on the average. */
 static double asked_nodes(int rings, uint32_t *triangles)
 {
-    Arena  arena = arena_reserve((size_t)1 << 30);
+    ENDS_BY(arena_release) Arena arena = arena_reserve((size_t)1 << 30);
     Scene *scene = builder_scene(&arena);
     double sum = 0;
-    builder_part(scene, mirror_material());
+    builder_part(scene, builder_mirror(1));
     builder_sphere(scene, vec3(0, 0, 0), 1, rings, 0);
     *triangles = scene->triangle_count;
     const Mirrors *mirrors = all_mirrors(scene, &arena);
@@ -257,7 +247,6 @@ static double asked_nodes(int rings, uint32_t *triangles)
         Vec3    from = vec3_scale(random_direction(&at), 2);
         sum += ask(scene, mirrors, from, random_direction(&at)).nodes;
     }
-    arena_release(&arena);
     return sum / 2000;
 }
 

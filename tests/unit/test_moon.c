@@ -1,27 +1,15 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Where the moon stands, how much of it is lit, and what light it sends. */
-#include "base/units.h"
-#include "fixture.h"
+#include "sky_fixture.h"
 #include "sky/moon_light.h"
 #include "sky/moon_position.h"
 #include "sky/sun_disc.h"
 
-#define assert_in(value, low, high) assert_true((value) >= (low) && (value) <= (high))
-
 static const SkyPlace anywhere = {48.14, 11.58, 520};
-
-static double random_unit(void)
-{
-    static uint32_t seed = 7;
-    seed = seed * 1664525u + 1013904223u;
-    return (double)(seed >> 8) / 16777216.0;
-}
 
 static double day_of(const char *text)
 {
-    SkyTime time;
-    Error   err;
-    assert_true(sky_time_parse(text, "", &time, &err));
+    SkyTime time = moment(text);
     return sky_julian_day(&time);
 }
 

@@ -1,28 +1,15 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Clear nights: the moon as a weak sun, and the background that is always there. */
-#include "base/units.h"
-#include "fixture.h"
-#include "sky/daylight.h"
-
-#define assert_in(value, low, high) assert_true((value) >= (low) && (value) <= (high))
+#include "sky_fixture.h"
 
 static DaylightInput clear_moment(const char *when, SkyPlace where)
 {
     DaylightInput input = daylight_input_default(DAYLIGHT_CLEAR);
-    Error         err;
     input.has_time = true;
     input.threads = 2;
     input.where = where;
-    assert_true(sky_time_parse(when, "", &input.when, &err));
+    input.when = moment(when);
     return input;
-}
-
-static const Daylight *built(const DaylightInput *input, Arena *arena)
-{
-    Daylight *out = arena_alloc(arena, sizeof *out, 64, 1);
-    Error     err;
-    if (!daylight_build(input, arena, out, &err)) fail_msg("%s", err.text);
-    return out;
 }
 
 /* ---- the background ---------------------------------------------------------------------- */
@@ -104,11 +91,10 @@ static double spectral_luminance(const Daylight *sky, float elevation, float azi
 }
 
 /* The full moon near the zenith, 6 degrees of phase: Honolulu, 2024 January 25. */
-TEST(a_full_moon_overhead_gives_a_quarter_of_a_lux)
+ARENA_TEST(a_full_moon_overhead_gives_a_quarter_of_a_lux)
 {
-    Arena         arena = test_arena(state);
     DaylightInput input = clear_moment("2024-01-25T01:00-10:00", (SkyPlace){21.3, -157.86, 0});
-    const Daylight     *sky = built(&input, &arena);
+    const Daylight     *sky = daylight_of(&input, &arena);
     const NightMetrics *n = &sky->metrics.night;
     assert_in(n->moon_elevation_deg, 80, 90);
     assert_in(n->phase_angle_deg, 0, 10);
@@ -139,12 +125,11 @@ TEST(a_full_moon_overhead_gives_a_quarter_of_a_lux)
     assert_close(lux, n->moon_normal_lx, 3e-3);
 }
 
-TEST(without_the_moon_the_background_is_left)
+ARENA_TEST(without_the_moon_the_background_is_left)
 {
-    Arena         arena = test_arena(state);
     DaylightInput input = clear_moment("2024-01-25T01:00-10:00", (SkyPlace){21.3, -157.86, 0});
     input.no_moon = true;
-    const Daylight *sky = built(&input, &arena);
+    const Daylight *sky = daylight_of(&input, &arena);
     assert_true(sky->night && !sky->night->has_moon && !sky->metrics.night.has_moon);
     assert_close(sky->metrics.global_horizontal_lx, sky->metrics.night.background_lx, 1e-3);
     assert_in(sky->metrics.global_horizontal_lx, 6e-4, 1e-3);
@@ -153,32 +138,24 @@ TEST(without_the_moon_the_background_is_left)
 }
 
 /* A sun that is placed by hand has no date, and no moon. */
-TEST(a_placed_sun_knows_no_moon)
+ARENA_TEST(a_placed_sun_knows_no_moon)
 {
-    Arena         arena = test_arena(state);
-    DaylightInput input = daylight_input_default(DAYLIGHT_CLEAR);
-    input.has_sun = true;
-    input.threads = 2;
-    input.sun_elevation = radians_from_degrees(-40);
-    const Daylight *sky = built(&input, &arena);
+    DaylightInput input = sun_at_deg(-40);
+    const Daylight *sky = daylight_of(&input, &arena);
     assert_true(sky->night && !sky->metrics.night.has_moon);
     assert_close(sky->metrics.global_horizontal_lx, sky->metrics.night.background_lx, 1e-3);
 }
 
 /* In the deepest night the sun's light is not even sought: where that begins there is less than
  * a thousandth of the background's left, also in the glow that an airliner sees at the edge. */
-TEST(the_deep_night_begins_where_nothing_is_left)
+ARENA_TEST(the_deep_night_begins_where_nothing_is_left)
 {
-    Arena         arena = test_arena(state);
-    DaylightInput input = daylight_input_default(DAYLIGHT_CLEAR);
-    input.has_sun = true;
-    input.threads = 2;
+    DaylightInput input = sun_at_deg(-40);
     input.where.altitude_m = 11000;
-    input.sun_elevation = radians_from_degrees(-40);
-    double limit = built(&input, &arena)->horizon - radians_from_degrees(27);
+    double limit = daylight_of(&input, &arena)->horizon - radians_from_degrees(27);
     for (int is_dark = 0; is_dark <= 1; is_dark++) {
         input.sun_elevation = limit + (is_dark ? -1e-6 : 1e-6);
-        const Daylight *sky = built(&input, &arena);
+        const Daylight *sky = daylight_of(&input, &arena);
         double most = 0;
         for (float e = -1.5f; e < 1.5f; e += 0.01f)
             for (float azimuth = 0; azimuth < 3.2f; azimuth += 0.2f) {
@@ -192,11 +169,10 @@ TEST(the_deep_night_begins_where_nothing_is_left)
 }
 
 /* By day nothing of the night is looked up, so that no bit of a frame depends on it. */
-TEST(the_day_has_no_night)
+ARENA_TEST(the_day_has_no_night)
 {
-    Arena         arena = test_arena(state);
     DaylightInput input = clear_moment("2026-06-19T17:00+02:00", (SkyPlace){48.14, 11.58, 520});
-    const Daylight *sky = built(&input, &arena);
+    const Daylight *sky = daylight_of(&input, &arena);
     assert_true(sky->metrics.is_sun_up && !sky->night);
     assert_true(sky->metrics.night.has_moon && sky->metrics.night.is_moon_up);
     assert_true(sky->metrics.night.moon_normal_lx <= 0 && !sky->metrics.night.is_moon_lit);
@@ -235,9 +211,8 @@ static double moon_share(const DaylightInput *input)
 }
 
 /* What enters at sunset is less than a thousandth, on the worst evening of two years too. */
-TEST(night_falls_without_a_step)
+ARENA_TEST(night_falls_without_a_step)
 {
-    Arena         arena = test_arena(state);
     DaylightInput input = clear_moment("2025-01-01T12:00+01:00", (SkyPlace){48.14, 11.58, 520});
     SkyTime       noon = input.when, worst = noon;
     double        most = 0;
@@ -248,7 +223,7 @@ TEST(night_falls_without_a_step)
         if (share > most) most = share, worst = sunset;
     }
     input.when = worst;
-    const Daylight     *sky = built(&input, &arena);
+    const Daylight     *sky = daylight_of(&input, &arena);
     const NightMetrics *n = &sky->metrics.night;
     assert_true(!sky->metrics.is_sun_up && sky->night && n->is_moon_lit);
     double entered = n->moon_sky_lx + n->background_lx +
@@ -260,21 +235,19 @@ TEST(night_falls_without_a_step)
 }
 
 /* The moon's own setting: its light in the air ends where the background hides it. */
-TEST(the_moon_sets_without_a_step)
+ARENA_TEST(the_moon_sets_without_a_step)
 {
-    Arena arena = test_arena(state);
     double before = 1;
     static const double elevation_deg[] = {0, -3, -6, -8.99};
     for (int i = 0; i < 4; i++) {
         Arena scratch = arena;
         Night *night = arena_alloc(&scratch, sizeof *night, 64, 1);
-        Error  err;
         MoonPosition moon = {.elevation_deg = elevation_deg[i] - (i ? 0 : 0.5),
                              .topocentric_km = 384400, .sun_moon_au = 1,
                              .sun_elevation_deg = -20, .sun_azimuth_deg = 90};
         Air air = {1013.25, 1.4, 0.34, 0.17, 1.14, 0.2};
         NightInput input = {{air, 0, 0, 0, 2, 16}, air, 0, 0, &moon};
-        assert_true(night_build(&input, &scratch, night, &err));
+        assert_done(night_build(&input, &scratch, night, &err));
         assert_true(night->has_moonlight);
         assert_true(night->metrics.moon_sky_lx < before);
         before = night->metrics.moon_sky_lx;

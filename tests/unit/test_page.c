@@ -1,30 +1,16 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* The shared page of all reports: whole, escaped, without a network, one file of its parts. */
-#include "check.h"
+#include "fixture.h"
 
-#include <stdlib.h>
-#include <string.h>
-#include <unistd.h>
-
-#include "base/file.h"
 #include "page/page.h"
 
 static const char WILD[] = "a<b>&\"c'\xff";
 static const char TAME[] = "a&lt;b&gt;&amp;&quot;c&#39;?";
 
-static Arena arena;
-
-static int count_of(const char *text, const char *part)
-{
-    int count = 0;
-    for (const char *p = text; (p = strstr(p, part)); p++) count++;
-    return count;
-}
-
 static Text small_page(bool is_dark)
 {
     static const PageColumn COLUMNS[] = {{"name", false, NULL}, {"value", true, WILD}};
-    Text page = {.arena = &arena};
+    Text page = {.arena = test_memory()};
     page_begin(&page, &(PageHead){WILD, ".own{}\n", is_dark, 0});
     page_element(&page, "h1 class=\"x\"", WILD);
     page_list(&page, "notes", (const char *const[]){WILD, "b"}, 2);
@@ -71,35 +57,24 @@ TEST(a_page_is_whole_and_asks_nobody)
 
 TEST(pictures_lie_in_the_page)
 {
-    Error   err = {0};
-    Text    page = {.arena = &arena};
-    Picture picture = picture_create(2, 2, &arena);
-    assert_true(page_picture(&page, WILD, &picture, false, arena_reserve(1 << 24), &err));
+    Text    page = {.arena = test_memory()};
+    Picture picture = picture_create(2, 2, test_memory());
+    assert_done(page_picture(&page, WILD, &picture, false, arena_reserve(1 << 24), &err));
     assert_ptr_equal(strstr(page.data, "<img alt=\"a&lt;"), page.data);
     assert_non_null(strstr(page.data, " src=\"data:image/png;base64,iVBORw0KGgo"));
 }
 
 TEST(parts_become_one_file)
 {
-    Error       err = {0};
-    FileBytes   bytes;
-    Text        a = {.arena = &arena}, b = {.arena = &arena}, none = {.arena = &arena};
+    Arena      *arena = test_memory();
+    Text        a = {.arena = arena}, b = {.arena = arena}, none = {.arena = arena};
     const Text *parts[] = {&a, &none, &b};
-    char        path[] = "test_page_XXXXXX";
-    int         handle = mkstemp(path);
-    assert_true(handle >= 0);
-    close(handle);
+    const char *path = in_folder("page");
     text_add(&a, "one ");
     text_add(&b, "two");
-    assert_true(page_write(parts, 3, path, &err));
-    assert_true(file_read(path, 100, &arena, &bytes, &err));
-    assert_string_equal((const char *)bytes.data, "one two");
-    remove(path);
-    assert_false(page_write(parts, 3, "/nowhere/at/all", &err));
+    assert_done(page_write(parts, 3, path, &err));
+    assert_string_equal(read_text(path, test_memory()), "one two");
+    assert_false(page_write(parts, 3, "/nowhere/at/all", why()));
 }
 
-int main(void)
-{
-    arena = arena_reserve((size_t)1 << 30);
-    return run_cases(NULL, NULL);
-}
+TEST_PROGRAM(make_folder, clear_folder)

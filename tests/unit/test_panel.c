@@ -4,9 +4,7 @@
 
 #include "panel/query/panel_emission.h"
 #include "panel/query/panel_file.h"
-#include "panel/query/panel_open.h"
 #include "panel/query/panel_opened.h"
-#include "panel/query/panel_reflection.h"
 #include "panel/query/panel_report.h"
 #include "panel/query/panel_sampling.h"
 #include "spectrum/spectral_table.h"
@@ -28,7 +26,7 @@ static json_t *table_of(const char *name)
     size_t  i;
     json_t *table;
     json_array_foreach(json_object_get(ips.report, "tables"), i, table)
-        if (!strcmp(json_string_value(json_object_get(table, "name")), name)) return table;
+        if (!strcmp(json_text_at(table, "name"), name)) return table;
     fail_msg("no table '%s' in the report", name);
     return NULL;
 }
@@ -59,8 +57,7 @@ TEST(a_fit_stays_within_its_printed_error_at_the_samples)
             const AngleTable *table = &ips.set->primary[p].table[i];
             float rgb[3] = {0, 0, 0};
             rgb[p] = (float)ips.set->primary[p].level[i];
-            double printed =
-                json_number_value(json_object_get(table_of(table->name), "max_error"));
+            double printed = json_number_at(table_of(table->name), "max_error");
             double found = error_at_samples(table, rgb);
             if (!(found <= printed * 1.001 + 1e-6) || !(printed < 0.03))
                 fail_msg("%s: printed %g, found %g", table->name, printed, found);
@@ -282,10 +279,7 @@ TEST(the_mirror_part_is_told_from_the_haze)
 
 TEST(the_reciprocity_defect_is_reported_and_small)
 {
-    json_t *defect = json_object_get(json_object_get(ips.report, "reflection"),
-                                     "reciprocity_defect");
-    assert_true(json_is_number(defect));
-    assert_true(json_number_value(defect) < 0.04);
+    assert_true(json_number_at(ips.report, "reflection/reciprocity_defect") < 0.04);
 }
 
 TEST(no_more_comes_back_than_falls_in)
@@ -312,31 +306,24 @@ TEST(the_report_has_what_scripts_rely_on)
 {
     static const char *const keys[] = {"name", "source_bytes_text", "source_bytes_float32",
         "stored_values", "bytes", "ratio", "max_error", "rms_error", "integral_error", "noise"};
-    Error   err = {0};
-    json_t *report;
-    if (!panel_report(ips.panel, &report, &err)) fail_msg("%s", err.text);
+    json_auto_t *report;
+    assert_done(panel_report(ips.panel, &report, &err));
     assert_int_equal(json_array_size(json_object_get(report, "tables")), 31);
     for (size_t i = 0; i < sizeof keys / sizeof *keys; i++) {
-        assert_non_null(json_object_get(json_array_get(json_object_get(report, "tables"), 0),
-                                        keys[i]));
+        assert_non_null(json_object_get(json_at(report, "tables/0"), keys[i]));
         assert_non_null(json_object_get(json_object_get(report, "total"), keys[i]));
     }
-    json_decref(report);
 }
 
 TEST(a_fit_gives_the_same_bytes_again)
 {
-    Error      err = {0};
     FitOptions options = fit_options_default();
-    FileBytes  before, after;
-    json_t    *report;
+    json_auto_t *report;
     const char *path = fixture_path(&ips, "again.panel");
     options.frame_exponent = ips.panel->reflection->frame_exponent; /* what was chosen */
-    if (!panel_fit(ips.set, &options, path, &ips.arena, &report, &err) ||
-        !file_read(ips.panel_path, (size_t)1 << 30, &ips.arena, &before, &err) ||
-        !file_read(path, (size_t)1 << 30, &ips.arena, &after, &err))
-        fail_msg("%s", err.text);
-    json_decref(report);
+    assert_done(panel_fit(ips.set, &options, path, &ips.arena, &report, &err));
+    FileBytes before = read_bytes(ips.panel_path, &ips.arena);
+    FileBytes after = read_bytes(path, &ips.arena);
     assert_int_equal(before.size, after.size);
     assert_memory_equal(before.data, after.data, before.size);
 }
@@ -345,12 +332,11 @@ TEST(a_fit_gives_the_same_bytes_again)
 
 TEST(a_lobe_at_phi_90_is_seen_from_above)
 {
-    Fixture    lobe;
-    FitOptions options = fit_options_default();
+    ENDS_BY(fixture_end) Fixture lobe;
     fixture_start(&lobe, "{\"panel\": \"lobe\", \"emission\": {" FIXTURE_SPECTRA
                   "\"lobe\": {\"theta_deg\": 40, \"phi_deg\": 90, \"width_deg\": 12,"
                   "\"gain\": 4}},"
-                  "\"instrument\": {\"theta_step_deg\": 3, \"phi_step_deg\": 6}}", &options);
+                  "\"instrument\": {\"theta_step_deg\": 3, \"phi_step_deg\": 6}}", NULL);
     float rgb[3] = {255, 255, 255}, up[3], right[3], down[3], left[3];
     float up_by_hand = 0.6427876f; /* sin 40 degrees: +y is up, +x the viewer's right */
     panel_emission_xyz(lobe.panel, vec3(0, up_by_hand, 0.7660444f), rgb, up);
@@ -361,17 +347,15 @@ TEST(a_lobe_at_phi_90_is_seen_from_above)
     assert_close(right[1], left[1], 0.01);
     assert_true(up[1] > 4 * right[1]);
     assert_false(panel_reflects(lobe.panel));
-    fixture_end(&lobe);
 }
 
 TEST(a_true_black_stays_black)
 {
-    Fixture    oled;
-    FitOptions options = fit_options_default();
+    ENDS_BY(fixture_end) Fixture oled;
     fixture_start(&oled, "{\"panel\": \"oled\", \"emission\": {" FIXTURE_SPECTRA
                   "\"black_cd_m2\": 0}, \"instrument\": {\"theta_step_deg\": 3,"
                   "\"phi_step_deg\": 6, \"noise_cd_m2\": 0.0005, \"noise_relative\": 0.001}}",
-                  &options);
+                  NULL);
     float black[3], dark[3] = {0, 0, 0}, rgb[3] = {0, 200, 0}, xyz[3];
     panel_emission_xyz(oled.panel, direction_deg(30, 40), dark, black);
     panel_emission_xyz(oled.panel, direction_deg(30, 40), rgb, xyz);
@@ -379,7 +363,6 @@ TEST(a_true_black_stays_black)
     double truth[3];
     true_xyz_deg(&oled.recipe, 30, 40, rgb, truth);
     assert_close(xyz[1], truth[1], 0.005);
-    fixture_end(&oled);
 }
 
 TEST(a_white_only_table_of_two_sections_becomes_a_panel)
@@ -388,11 +371,10 @@ TEST(a_white_only_table_of_two_sections_becomes_a_panel)
         {0, 0, 848.3}, {20, 0, 881.34}, {45, 0, 510.18}, {50, 180, 375.96}, {20, 90, 552.28}};
     const char *path = SHARED_DATA_DIR "/display/viewing_angle_oled_phi0_90.csv";
     if (!file_exists(path)) skip();
-    Fixture    real;
-    FitOptions options = fit_options_default();
+    ENDS_BY(fixture_end) Fixture real;
     fixture_folder(&real);
     fixture_read(&real, path);
-    fixture_fit(&real, &options);
+    fixture_fit(&real, NULL);
     for (int i = 0; i < 5; i++) {
         float rgb[3] = {255, 255, 255}, xyz[3];
         panel_emission_xyz(real.panel, direction_deg(seen[i].theta, seen[i].phi), rgb, xyz);
@@ -402,15 +384,13 @@ TEST(a_white_only_table_of_two_sections_becomes_a_panel)
     panel_emission_xyz(real.panel, direction_deg(0, 0), rgb, xyz);
     assert_close(xyz[1], 848.3 * pow(128.0 / 255, 2.2), 0.005);
     assert_true(json_array_size(json_object_get(real.report, "notes")) >= 2);
-    fixture_end(&real);
 }
 
 /* A table alone may be any pattern's: colours that no three Rec.709 amounts make come back as
  * they were measured, mostly from the primary next to them. */
 TEST(a_lone_table_keeps_a_colour_outside_of_rec_709)
 {
-    Fixture    red;
-    FitOptions options = fit_options_default();
+    ENDS_BY(fixture_end) Fixture red;
     fixture_folder(&red);
     char *text = arena_alloc(&red.arena, 1, 1, 1 << 16), *at = text;
     at += sprintf(at, "theta,phi,X,Y,Z\n");
@@ -419,7 +399,7 @@ TEST(a_lone_table_keeps_a_colour_outside_of_rec_709)
             at += sprintf(at, "%d,%d,%g,%g,%g\n", t, p, 233.0 - t, 100 - 0.5 * t,
                           0.3 + 0.01 * t);
     fixture_read(&red, fixture_file(&red, "red.csv", text));
-    fixture_fit(&red, &options);
+    fixture_fit(&red, NULL);
     for (int t = 0; t <= 80; t += 10) {
         float full[3] = {255, 255, 255}, first[3] = {255, 0, 0}, xyz[3], alone[3];
         panel_emission_xyz(red.panel, direction_deg(t, 60), full, xyz);
@@ -432,23 +412,20 @@ TEST(a_lone_table_keeps_a_colour_outside_of_rec_709)
     char *report = json_dumps(red.report, 0);
     assert_non_null(strstr(report, "the primaries share the table's own colour"));
     free(report);
-    fixture_end(&red);
 }
 
 static void check_shipped(const char *name)
 {
-    Error    err = {0};
     SyntheticPanel recipe;
     Panel   *panel;
-    Arena    arena = arena_reserve((size_t)1 << 30);
+    ENDS_BY(arena_release) Arena arena = arena_reserve((size_t)1 << 30);
     uint32_t random = 9;
     char     path[512], recipe_path[512];
     snprintf(path, sizeof path, PROJECT_DIR "/assets/panels/%s.panel", name);
     snprintf(recipe_path, sizeof recipe_path, PROJECT_DIR "/assets/panels/%s.recipe.json",
              name);
-    if (!synthetic_panel_read(recipe_path, &arena, &recipe, &err) ||
-        !panel_open(path, &arena, &panel, &err))
-        fail_msg("%s: %s", err.file, err.text);
+    assert_done(synthetic_panel_read(recipe_path, &arena, &recipe, &err) &&
+                panel_open(path, &arena, &panel, &err));
     Wavelengths w = even_wavelengths(420, 15);
     for (int i = 0; i < 1000; i++) {
         double theta = 75 * steady_random(&random), phi = 360 * steady_random(&random);
@@ -466,7 +443,6 @@ static void check_shipped(const char *name)
         assert_close(f[7], closed_form_brdf(&recipe, angle, angle, 0, (double)w.nm[7]), 0.03);
     }
     panel_close(panel);
-    arena_release(&arena);
 }
 
 TEST(shipped_panels_say_what_their_recipes_say)

@@ -9,7 +9,6 @@
 #include "panel/query/panel_components.h"
 #include "panel/query/panel_emission.h"
 #include "panel/query/panel_file.h"
-#include "panel/query/panel_open.h"
 #include "panel/query/panel_opened.h"
 
 #define WIDTH 0.5    /* degrees, full width at half maximum */
@@ -60,7 +59,6 @@ static double nearly_none(double theta)
 {
     return cos(theta);
 }
-
 
 /* The last one ends in an edge between two rings, where ln E falls by 3: no grid tells its
  * place. The first two are what a short run fits. */
@@ -200,7 +198,7 @@ TEST(beams_keep_the_bound)
 {
     const char *all = getenv("PARHELION_BEAMS");
     for (int i = 0; i < (all ? BEAM_COUNT : SHORT_COUNT); i++) {
-        Fixture     f;
+        ENDS_BY(fixture_end) Fixture f;
         const Beam *b = &beams[i];
         fit_beam(&f, b);
         assert_int_equal(f.panel->emission->beams, 1);
@@ -215,7 +213,6 @@ TEST(beams_keep_the_bound)
         assert_true(f.panel->size < BYTES_MOST);
         Vec3 off = vec3_sub(f.panel->emission->beam[0].centre, direction_deg(b->theta, b->phi));
         assert_true(degrees_from_radians(sqrt((double)vec3_dot(off, off))) < 0.01 * WIDTH);
-        fixture_end(&f);
     }
 }
 
@@ -239,7 +236,7 @@ static const PanelBeamHead round_beam = {{0.6f, 0, 0.8f}, {0, 0, 0}, 0.01f, KNOT
 
 TEST(a_stored_beam_comes_back)
 {
-    Arena       arena = arena_reserve((size_t)1 << 20);
+    ENDS_BY(arena_release) Arena arena = arena_reserve((size_t)1 << 20);
     const void *bytes;
     size_t      used, size = pack(&arena, &round_beam, &bytes);
     PanelBeam   beam;
@@ -257,12 +254,11 @@ TEST(a_stored_beam_comes_back)
     panel_components_add_beam(&beam, beam.centre, out);
     const float *row = beam.coefficient;
     assert_true(fabsf(out[0] - (row[0] + 4 * row[4] + row[8]) / 6) < 1e-5f);
-    arena_release(&arena);
 }
 
 TEST(damaged_beams_are_refused)
 {
-    Arena         arena = arena_reserve((size_t)1 << 20);
+    ENDS_BY(arena_release) Arena arena = arena_reserve((size_t)1 << 20);
     const void   *bytes;
     PanelBeam     beam;
     PanelBeamHead bad[9];
@@ -291,7 +287,6 @@ TEST(damaged_beams_are_refused)
         memcpy(copy + sizeof(PanelBeamHead), &step[i], sizeof step[i]);
         assert_false(panel_beam_open(copy, size, COMPONENTS, &arena, &beam, &used));
     }
-    arena_release(&arena);
 }
 
 TEST_PROGRAM(NULL, NULL)

@@ -1,13 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Panels read at a coarser level: the finest is the panel itself to the bit, the stated errors
  * hold at random directions, and they fall from level to level. The panels that ship. */
-#include "check.h"
-
-#include <math.h>
-#include <stdio.h>
+#include "fixture.h"
 
 #include "base/sampler.h"
-#include "base/units.h"
 #include "panel/set/panel_coarse.h"
 #include "panel/query/panel_emission.h"
 #include "panel/query/panel_info.h"
@@ -16,16 +12,14 @@
 
 #define ASKED 100000
 
-static Arena arena;
 static const char *const NAMES[] = {"ips_cluster", "oled_centre"};
 
 static Panel *opened(const char *name)
 {
     char   path[1024];
     Panel *panel = NULL;
-    Error  err;
     snprintf(path, sizeof path, "%s/assets/panels/%s.panel", PROJECT_DIR, name);
-    if (!panel_open(path, &arena, &panel, &err)) fail_msg("%s", err.text);
+    assert_done(panel_open(path, test_memory(), &panel, &err));
     return panel;
 }
 
@@ -91,7 +85,7 @@ TEST(the_finest_level_is_the_panel_to_the_bit)
         double      found[2];
         panel_coarse_range(same, &least, &most);
         assert_true(least < most);
-        panel_coarsen(same, most, arena, &coarse);
+        panel_coarsen(same, most, *test_memory(), &coarse);
         assert_true(coarse.has_emission && coarse.has_reflection);
         assert_true(coarse.emission_max == 0 && coarse.emission_rms == 0);
         assert_true(coarse.reflection_max == 0 && coarse.reflection_rms == 0);
@@ -114,7 +108,7 @@ TEST(stated_errors_hold_and_fall_with_the_level)
             Panel      *panel = opened(NAMES[p]);
             PanelCoarse coarse;
             double      found[2];
-            panel_coarsen(panel, level, arena, &coarse);
+            panel_coarsen(panel, level, *test_memory(), &coarse);
             bool is_all = level == (least + most) / 2;
             compare(panel, whole, is_all ? ASKED : ASKED / 20, found);
             assert_true(found[0] <= coarse.emission_max + 1e-5);
@@ -129,18 +123,4 @@ TEST(stated_errors_hold_and_fall_with_the_level)
     }
 }
 
-static int start(void **state)
-{
-    (void)state;
-    arena = arena_reserve((size_t)4 << 30);
-    return 0;
-}
-
-static int end(void **state)
-{
-    (void)state;
-    arena_release(&arena);
-    return 0;
-}
-
-TEST_PROGRAM(start, end)
+TEST_PROGRAM(make_arena, drop_arena)

@@ -6,13 +6,12 @@
 #include "panel/query/panel_emission.h"
 #include "panel/query/panel_file.h"
 #include "panel/shape/panel_levels.h"
-#include "panel/query/panel_open.h"
 #include "panel/query/panel_opened.h"
-#include "panel/query/panel_reflection.h"
 #include "panel/query/panel_report.h"
 #include "panel/shape/panel_spline.h"
 
 #define COARSE "\"theta_step_deg\": 4, \"phi_step_deg\": 10"
+#define FINE "\"theta_step_deg\": 2, \"phi_step_deg\": 5"
 #define CHECK_EMISSION "\"gamma\": 2.2, \"gamma_drop\": 0.2, \"cosine_power\": [1.1, 1.6],"  \
     "\"black_cd_m2\": 0.7, \"leak\": 3"
 #define FOUR "\"levels\": [31, 95, 175, 255],"
@@ -34,8 +33,9 @@ typedef struct Misses {
     double luminance, colour; /* relative; u'v' */
 } Misses;
 
-/* At random directions up to `theta` and random codes of at least `code`. */
-static Misses misses(const Fixture *f, double theta, double code, int count)
+/* At random directions up to `theta` and random codes of at least `code` less than these. */
+static void expect_misses(const char *what, const Fixture *f, double theta, double code,
+                          int count, Misses allowed)
 {
     Misses   most = {0, 0};
     uint32_t random = 7;
@@ -51,14 +51,14 @@ static Misses misses(const Fixture *f, double theta, double code, int count)
         most.luminance = fmax(most.luminance, fabs((double)xyz[1] / truth[1] - 1));
         most.colour = fmax(most.colour, chromaticity_distance(truth, xyz));
     }
-    return most;
+    if (!(most.luminance < allowed.luminance) || !(most.colour < allowed.colour))
+        fail_msg("%s: luminance %g, u'v' %g, wanted less than %g, %g", what,
+                 most.luminance, most.colour, allowed.luminance, allowed.colour);
 }
 
 static double emission_figure(const Fixture *f, const char *key)
 {
-    json_t *value = json_object_get(json_object_get(f->report, "emission"), key);
-    assert_true(json_is_number(value));
-    return json_number_value(value);
+    return json_number_at(json_object_get(f->report, "emission"), key);
 }
 
 /* The largest |M - measured| / measured of a table's channels; less than 0.0001 cd/m2 counts as
@@ -101,9 +101,7 @@ static int start_all(void **state)
 {
     (void)state;
     for (int r = 0; r < 4; r++) {
-        FitOptions options = fit_options_default();
-        fixture_measure(&fitted[r], recipes[r]);
-        fixture_fit(&fitted[r], &options);
+        fixture_start(&fitted[r], recipes[r], NULL);
     }
     return 0;
 }
@@ -118,28 +116,24 @@ static int end_all(void **state)
 TEST(every_sample_keeps_the_bound_that_was_asked_for)
 {
     for (int r = 0; r < 4; r++) {
-        Fixture    f;
+        ENDS_BY(fixture_end) Fixture f;
         FitOptions options = fit_options_default();
         options.bound = r % 2 ? 0.005f : 0.02f;
-        fixture_measure(&f, recipes[r]);
-        fixture_fit(&f, &options);
+        fixture_start(&f, recipes[r], &options);
         double worst = worst_of_all(&f), said = emission_figure(&f, "bound");
         if (!(worst <= (double)options.bound) || !(worst <= said * 1.01 + 1e-5))
             fail_msg("recipe %d: %g, asked for %g, said %g", r, worst, (double)options.bound,
                      said);
         if (emission_figure(&f, "outliers") > 0 || emission_figure(&f, "holes") > 0)
             fail_msg("recipe %d: outliers or holes without any", r);
-        fixture_end(&f);
     }
 }
 
 TEST(between_samples_the_truth_is_near)
 {
-    for (int r = 0; r < 4; r++) {
-        Misses m = misses(&fitted[r], 80, 20, 25000);
-        if (!(m.luminance < 0.02) || !(m.colour < 0.0015))
-            fail_msg("recipe %d: luminance %g, u'v' %g", r, m.luminance, m.colour);
-    }
+    for (int r = 0; r < 4; r++)
+        expect_misses(recipes[r], &fitted[r], 80, 20, 25000,
+                      (Misses){0.02, 0.0015});
 }
 
 TEST(beyond_the_cone_light_falls)
@@ -161,44 +155,30 @@ TEST(beyond_the_cone_light_falls)
 
 TEST(noise_is_smoothed_not_stored)
 {
-    Fixture    clean, noisy;
-    FitOptions options = fit_options_default();
-    fixture_measure(&clean,
-                    RECIPE(FOUR CHECK_EMISSION, "\"theta_step_deg\": 2, \"phi_step_deg\": 5"));
-    fixture_fit(&clean, &options);
-    fixture_measure(&noisy,
-                    RECIPE(FOUR CHECK_EMISSION, "\"theta_step_deg\": 2, \"phi_step_deg\": 5,"
-                                                "\"noise_relative\": 0.003"));
-    fixture_fit(&noisy, &options);
-    Misses m = misses(&noisy, 75, 31, 5000);
-    if (!(m.luminance < 0.005) || !(m.colour < 0.001))
-        fail_msg("luminance %g, u'v' %g", m.luminance, m.colour);
+    ENDS_BY(fixture_end) Fixture clean, noisy;
+    fixture_start(&clean, RECIPE(FOUR CHECK_EMISSION, FINE), NULL);
+    fixture_start(&noisy, RECIPE(FOUR CHECK_EMISSION, FINE ", \"noise_relative\": 0.003"),
+                  NULL);
+    expect_misses("noisy", &noisy, 75, 31, 5000, (Misses){0.005, 0.001});
     assert_true(emission_figure(&noisy, "share_of_source") < 0.008);
     assert_true(emission_figure(&noisy, "bytes") < 1.5 * emission_figure(&clean, "bytes"));
-    double said = json_number_value(json_object_get(
-        json_array_get(json_object_get(noisy.report, "tables"), 5), "noise"));
-    assert_close(said, 0.003, 0.2);
-    fixture_end(&clean);
-    fixture_end(&noisy);
+    assert_close(json_number_at(noisy.report, "tables/5/noise"), 0.003, 0.2);
 }
 
 TEST(sets_and_lone_tables_take_few_bytes)
 {
-    Fixture    f;
-    Error      err = {0};
+    ENDS_BY(fixture_end) Fixture f;
     FitOptions options = fit_options_default();
     options.bound = 0.02f;
-    fixture_measure(&f, RECIPE(CHECK_EMISSION, "\"theta_step_deg\": 2, \"phi_step_deg\": 5"));
-    fixture_fit(&f, &options);
+    fixture_start(&f, RECIPE(CHECK_EMISSION, FINE), &options);
     assert_true(worst_of_all(&f) <= 0.02);
     assert_true(emission_figure(&f, "share_of_source") < 0.008);
     const char *lone = fixture_path(&f, "emission/green_255.csv");
     json_decref(f.report);
     panel_close(f.panel);
-    if (!measurement_read(lone, &f.arena, f.set, &err)) fail_msg("%s", err.text);
+    assert_done(measurement_read(lone, &f.arena, f.set, &err));
     fixture_fit(&f, &options);
     assert_true(emission_figure(&f, "share_of_source") < 0.015);
-    fixture_end(&f);
 }
 
 TEST(a_table_is_as_bright_as_it_was_measured_on_the_whole)
@@ -206,10 +186,10 @@ TEST(a_table_is_as_bright_as_it_was_measured_on_the_whole)
     for (int r = 0; r < 4; r++) {
         size_t  i;
         json_t *table;
-        json_array_foreach(json_object_get(fitted[r].report, "tables"), i, table)
-            if (!(fabs(json_number_value(json_object_get(table, "integral_error"))) < 0.001))
-                fail_msg("recipe %d, table %zu: %g", r, i, json_number_value(
-                    json_object_get(table, "integral_error")));
+        json_array_foreach(json_object_get(fitted[r].report, "tables"), i, table) {
+            double error = json_number_at(table, "integral_error");
+            if (!(fabs(error) < 0.001)) fail_msg("recipe %d, table %zu: %g", r, i, error);
+        }
     }
 }
 
@@ -222,7 +202,7 @@ static AngleTable *table_of(Fixture *f, int primary, int level)
 
 TEST(hot_pixels_are_found_listed_and_not_followed)
 {
-    Fixture    f;
+    ENDS_BY(fixture_end) Fixture f;
     FitOptions options = fit_options_default();
     int        hot[][3] = {{0, 2, 100}, {1, 3, 555}, {2, 1, 640}, {1, 0, 2}};
     fixture_measure(&f, RECIPE(FOUR CHECK_EMISSION, COARSE ", \"noise_relative\": 0.01"));
@@ -236,14 +216,12 @@ TEST(hot_pixels_are_found_listed_and_not_followed)
     json_t *list = json_object_get(f.report, "outliers");
     assert_int_equal(json_array_size(list), 4);
     for (size_t i = 0; i < 4; i++) {
-        double value = json_number_value(json_object_get(json_array_get(list, i), "value"));
-        double wanted = json_number_value(json_object_get(json_array_get(list, i), "expected"));
+        double value = json_number_at(json_array_get(list, i), "value");
+        double wanted = json_number_at(json_array_get(list, i), "expected");
         assert_true(value > 7 * wanted || value < 0.25 * wanted);
     }
     assert_true(emission_figure(&f, "bound") < 0.08); /* 1% noise: 5 sigma and the tolerance */
-    Misses m = misses(&f, 75, 31, 3000);
-    assert_true(m.luminance < 0.015 && m.colour < 0.004);
-    fixture_end(&f);
+    expect_misses("f", &f, 75, 31, 3000, (Misses){0.015, 0.004});
 }
 
 static void drop_row(AngleTable *t, int row)
@@ -258,42 +236,34 @@ static void drop_row(AngleTable *t, int row)
 
 TEST(holes_are_listed_and_filled_by_what_is_known)
 {
-    Fixture    f;
-    FitOptions options = fit_options_default();
+    ENDS_BY(fixture_end) Fixture f;
     fixture_measure(&f, RECIPE(FOUR CHECK_EMISSION, COARSE));
     for (int i = 0; i < 6; i++) drop_row(table_of(&f, i % 3, i % 4), 150 + 40 * i);
-    fixture_fit(&f, &options);
+    fixture_fit(&f, NULL);
     assert_int_equal(json_array_size(json_object_get(f.report, "holes")), 6);
     assert_true(emission_figure(&f, "outliers") == 0);
-    Misses m = misses(&f, 80, 20, 4000);
-    assert_true(m.luminance < 0.012 && m.colour < 0.0015);
-    fixture_end(&f);
+    expect_misses("f", &f, 80, 20, 4000, (Misses){0.012, 0.0015});
 }
 
 TEST(tables_may_have_grids_of_their_own)
 {
-    Fixture    f, other;
-    FitOptions options = fit_options_default();
+    ENDS_BY(fixture_end) Fixture f, other;
     fixture_measure(&f, RECIPE(FOUR CHECK_EMISSION, COARSE));
     fixture_measure(&other,
                     RECIPE(FOUR CHECK_EMISSION, "\"theta_step_deg\": 3, \"phi_step_deg\": 7.5,"
                                                 "\"theta_max_deg\": 78"));
     for (int i = 0; i < 2; i++) *table_of(&f, 1, i) = *table_of(&other, 1, i);
     f.set->black = other.set->black;
-    fixture_fit(&f, &options);
-    Misses m = misses(&f, 75, 20, 4000);
-    if (!(m.luminance < 0.02) || !(m.colour < 0.004))
-        fail_msg("luminance %g, u'v' %g", m.luminance, m.colour);
+    fixture_fit(&f, NULL);
+    expect_misses("f", &f, 75, 20, 4000, (Misses){0.02, 0.004});
     float rgb[3] = {255, 255, 255}, xyz[3];
     assert_true(panel_emission_xyz(f.panel, direction_deg(77, 10), rgb, xyz));
     assert_false(panel_emission_xyz(f.panel, direction_deg(80, 10), rgb, xyz));
-    fixture_end(&other);
-    fixture_end(&f);
 }
 
 TEST(two_sections_are_met_where_they_were_measured)
 {
-    Fixture    f;
+    ENDS_BY(fixture_end) Fixture f;
     FitOptions options = fit_options_default();
     options.bound = 0.01f;
     fixture_measure(&f, RECIPE("\"cosine_power\": [1.1, 1.6], \"black_cd_m2\": 0.2",
@@ -307,27 +277,21 @@ TEST(two_sections_are_met_where_they_were_measured)
     fixture_fit(&f, &options);
     assert_true(worst_of_all(&f) <= 0.01);
     assert_true(emission_figure(&f, "outliers") == 0);
-    fixture_end(&f);
 }
 
 TEST(both_bases_answer_the_same_query)
 {
-    Fixture    haar;
+    ENDS_BY(fixture_end) Fixture haar;
     FitOptions options = fit_options_default();
     options.basis = FIT_HAAR;
-    fixture_measure(&haar, recipes[3]);
-    fixture_fit(&haar, &options);
-    Misses m = misses(&haar, 75, 20, 4000);
-    if (!(m.luminance < 0.015) || !(m.colour < 0.002))
-        fail_msg("luminance %g, u'v' %g", m.luminance, m.colour);
+    fixture_start(&haar, recipes[3], &options);
+    expect_misses("haar", &haar, 75, 20, 4000, (Misses){0.015, 0.002});
     assert_true(emission_figure(&haar, "bytes") > emission_figure(&fitted[3], "bytes"));
-    fixture_end(&haar);
 }
 
 TEST(a_surface_that_only_reflects_emits_nothing)
 {
-    Fixture    f;
-    Error      err = {0};
+    ENDS_BY(fixture_end) Fixture f;
     FitOptions options = fit_options_default();
     options.frame_exponent = 1;
     fixture_measure(&f,
@@ -340,7 +304,7 @@ TEST(a_surface_that_only_reflects_emits_nothing)
     const char *manifest = fixture_file(&f, "reflects.json",
         "{\"panel\": \"matt\", \"reflection\": {\"wavelengths_nm\": [550],"
         "\"incidence_deg\": [20, 40], \"files\": \"brdf/i{incidence}.csv\"}}");
-    if (!measurement_read(manifest, &f.arena, f.set, &err)) fail_msg("%s", err.text);
+    assert_done(measurement_read(manifest, &f.arena, f.set, &err));
     fixture_fit(&f, &options);
     float rgb[3] = {255, 255, 255}, xyz[3];
     assert_false(panel_emission_xyz(f.panel, direction_deg(20, 0), rgb, xyz));
@@ -348,8 +312,7 @@ TEST(a_surface_that_only_reflects_emits_nothing)
     assert_true(panel_mean_luminance(f.panel, rgb) == 0);
     assert_true(panel_reflects(f.panel));
     const char *nothing = fixture_file(&f, "nothing.json", "{\"panel\": \"none\"}");
-    assert_false(measurement_read(nothing, &f.arena, f.set, &err));
-    fixture_end(&f);
+    assert_false(measurement_read(nothing, &f.arena, f.set, why()));
 }
 
 /* ---- levels ---------------------------------------------------------------------------- */
@@ -357,8 +320,7 @@ TEST(a_surface_that_only_reflects_emits_nothing)
 TEST(a_level_left_out_is_predicted)
 {
     for (int left = 1; left <= 6; left += 5) {
-        Fixture    f;
-        FitOptions options = fit_options_default();
+        ENDS_BY(fixture_end) Fixture f;
         fixture_measure(&f, recipes[0]);
         double code = f.set->primary[0].level[left];
         for (int p = 0; p < 3; p++) {
@@ -369,7 +331,7 @@ TEST(a_level_left_out_is_predicted)
             }
             from->level_count--;
         }
-        fixture_fit(&f, &options);
+        fixture_fit(&f, NULL);
         for (int i = 0; i < 200; i++) {
             double angles[2] = {radians_from_degrees(0.37 * i), 0.7 * i}, truth[3];
             float  rgb[3] = {(float)code, (float)code, (float)code}, xyz[3];
@@ -380,7 +342,6 @@ TEST(a_level_left_out_is_predicted)
             assert_close(xyz[1], truth[1], 0.01);
             assert_true(chromaticity_distance(truth, xyz) < 0.001);
         }
-        fixture_end(&f);
     }
 }
 
@@ -434,7 +395,7 @@ TEST(fractions_of_codes_lie_between_whole_ones)
 
 TEST(a_smooth_part_comes_back_as_it_was_packed)
 {
-    Arena    arena = arena_reserve((size_t)64 << 20);
+    ENDS_BY(arena_release) Arena arena = arena_reserve((size_t)64 << 20);
     uint8_t  term[4] = {0, 1, 3, 8};
     float    step[5] = {1e-3f, 2e-3f, 0.01f, 0.05f, 0.1f};
     float    numbers[4 * 5 * PANEL_SPLINE_NUMBERS];
@@ -457,34 +418,29 @@ TEST(a_smooth_part_comes_back_as_it_was_packed)
     }
     for (size_t cut = 0; cut < size; cut++)
         assert_false(panel_spline_open(bytes, cut, 5, &arena, &stored, &used) && used == size);
-    arena_release(&arena);
 }
 
 TEST(stated_figures_are_never_rounded_down)
 {
-    Arena   arena = arena_reserve((size_t)1 << 20);
-    json_t *tables = json_array();
+    ENDS_BY(arena_release) Arena arena = arena_reserve((size_t)1 << 20);
+    json_auto_t *tables = json_array();
     for (int i = 0; i < 50; i++)
         json_array_append_new(tables, json_pack("{s:s, s:f, s:I, s:f}", "name", "red 031",
             "max_error", 0.001 * i + 0.00012345, "source_bytes_float32", (json_int_t)(977 * i),
             "bytes", 12.5 * i + 1));
     const void *bytes;
     size_t      size = panel_report_pack_tables(tables, &arena, &bytes);
-    json_t     *back = panel_report_open_tables(bytes, size);
+    json_auto_t *back = panel_report_open_tables(bytes, size);
     assert_non_null(back);
     for (size_t i = 0; i < 50; i++) {
         json_t *a = json_array_get(tables, i), *b = json_array_get(back, i);
-        double  was = json_number_value(json_object_get(a, "max_error"));
-        double  is = json_number_value(json_object_get(b, "max_error"));
+        double  was = json_number_at(a, "max_error"), is = json_number_at(b, "max_error");
         assert_true(is >= was * (1 - 1e-7) && is <= was * 1.01);
         assert_true(json_equal(json_object_get(a, "source_bytes_float32"),
                                json_object_get(b, "source_bytes_float32")));
         assert_non_null(json_object_get(b, "ratio"));
     }
     for (size_t cut = 0; cut < size; cut++) assert_null(panel_report_open_tables(bytes, cut));
-    json_decref(tables);
-    json_decref(back);
-    arena_release(&arena);
 }
 
 TEST_PROGRAM(start_all, end_all)

@@ -3,7 +3,6 @@
 #include "panel_fixture.h"
 
 #include "panel/query/panel_emission.h"
-#include "panel/query/panel_reflection.h"
 #include "text/csv_table.h"
 #include "panel/set/export.h"
 #include "panel/query/panel_info.h"
@@ -33,16 +32,14 @@ static FitOptions options(void)
 static int start(void **state)
 {
     (void)state;
-    Error      err = {0};
     FitOptions fit = options();
     fixture_start(&first, RECIPE, &fit);
     fixture_folder(&again);
     snprintf(folder, sizeof folder, "%s/out", first.folder);
     const char *manifest = arena_format(&again.arena, "%s/MANIFEST.json", folder);
     again.set = ARENA_NEW(&again.arena, Measurement, 1);
-    if (!panel_export(first.panel, first.panel_path, &coarse, folder, &err) ||
-        !measurement_read(manifest, &again.arena, again.set, &err))
-        fail_msg("%s: %s: %s", err.file, err.path, err.text);
+    assert_done(panel_export(first.panel, first.panel_path, &coarse, folder, &err) &&
+                measurement_read(manifest, &again.arena, again.set, &err));
     fixture_fit(&again, &fit);
     return 0;
 }
@@ -190,8 +187,7 @@ static double deviation(const Panel *panel, const Measurement *set)
 
 TEST(every_azimuth_of_the_light_is_exported)
 {
-    Error   err = {0};
-    Fixture from, back;
+    ENDS_BY(fixture_end) Fixture from, back;
     double  phi[PANEL_INFO_AZIMUTHS_MAX];
     ExportOptions fine = {.theta_step_deg = 5, .phi_step_deg = 15, .mirror_fwhm_deg = 0,
                           .progress = PROGRESS_NONE};
@@ -202,7 +198,7 @@ TEST(every_azimuth_of_the_light_is_exported)
     assert_int_equal(panel_info_azimuths(from.panel, phi), AZIMUTHS);
     for (int i = 0; i < AZIMUTHS; i++) assert_near(degrees_from_radians(phi[i]), 60 * i, 1e-4);
     const char *out = fixture_path(&from, "out");
-    if (!panel_export(from.panel, "x.panel", &fine, out, &err)) fail_msg("%s", err.text);
+    assert_done(panel_export(from.panel, "x.panel", &fine, out, &err));
     fit_manifest(&back, arena_format(&from.arena, "%s/MANIFEST.json", out));
     assert_int_equal(back.set->azimuth_count, AZIMUTHS);
     /* the tables are what the panel says; the panel is near the source, its fit near both */
@@ -211,8 +207,6 @@ TEST(every_azimuth_of_the_light_is_exported)
     if (written > 1e-5 || source > BOUND || fitted > BOUND || both > 2.05 * BOUND)
         fail_msg("written %.3g source %.3g fitted %.3g both %.3g", written, source, fitted,
                  both);
-    fixture_end(&back);
-    fixture_end(&from);
 }
 
 #define TRUE_BLACK                                                                             \
@@ -222,9 +216,8 @@ TEST(every_azimuth_of_the_light_is_exported)
 
 TEST(levels_over_a_true_black_are_exported)
 {
-    Error      err = {0};
     FitOptions fit = options();
-    Fixture    from, back;
+    ENDS_BY(fixture_end) Fixture from, back;
     fixture_start(&from, TRUE_BLACK, &fit);
     fixture_folder(&back);
     float nothing[3] = {0, 0, 0}, black[3];
@@ -233,7 +226,7 @@ TEST(levels_over_a_true_black_are_exported)
         assert_true(black[0] == 0 && black[1] == 0 && black[2] == 0);
     }
     const char *out = fixture_path(&from, "out");
-    if (!panel_export(from.panel, "x.panel", &coarse, out, &err)) fail_msg("%s", err.text);
+    assert_done(panel_export(from.panel, "x.panel", &coarse, out, &err));
     fit_manifest(&back, arena_format(&from.arena, "%s/MANIFEST.json", out));
     for (int p = 0; p < 3; p++) assert_int_equal(back.set->primary[p].level_count, 2);
     for (int i = 0; i < 20; i++) {
@@ -243,35 +236,30 @@ TEST(levels_over_a_true_black_are_exported)
         panel_emission_xyz(back.panel, d, rgb, b);
         for (int j = 0; j < 3; j++) assert_close((double)b[j], (double)a[j], BOUND);
     }
-    fixture_end(&back);
-    fixture_end(&from);
 }
 
 TEST(a_folder_with_files_is_left_alone)
 {
-    Error err = {0};
     int   before = folder_count(first.folder);
-    assert_false(panel_export(first.panel, "x.panel", &coarse, first.folder, &err));
-    assert_int_equal(err.code, ERROR_OUTPUT);
-    assert_string_equal(err.file, first.folder);
-    assert_non_null(strstr(err.text, "holds something already"));
+    assert_fails_as(panel_export(first.panel, "x.panel", &coarse, first.folder, &err),
+                    ERROR_OUTPUT, "holds something already");
+    assert_string_equal(why()->file, first.folder);
     assert_int_equal(folder_count(first.folder), before);
-    assert_false(panel_export(first.panel, "x.panel", &coarse, "/no/such/place", &err));
-    assert_int_equal(err.code, ERROR_OUTPUT);
+    assert_false(panel_export(first.panel, "x.panel", &coarse, "/no/such/place", why()));
+    assert_int_equal(why()->code, ERROR_OUTPUT);
     assert_int_equal(folder_count(first.folder), before);
 }
 
 TEST(an_empty_folder_is_filled)
 {
-    Error       err = {0};
     const char *empty = fixture_path(&first, "empty");
     ExportOptions wide = {.theta_step_deg = 30, .phi_step_deg = 90, .extrapolates = true,
                           .progress = PROGRESS_NONE};
     assert_int_equal(mkdir(empty, 0777), 0);
-    assert_true(panel_export(first.panel, "x.panel", &wide, empty, &err));
+    assert_done(panel_export(first.panel, "x.panel", &wide, empty, &err));
     assert_int_equal(folder_count(empty), 4); /* manifest, primaries, emission, brdf */
     CsvTable table;
-    assert_true(csv_table_read(arena_format(&first.arena, "%s/emission/black.csv", empty),
+    assert_done(csv_table_read(arena_format(&first.arena, "%s/emission/black.csv", empty),
                                &first.arena, &table, &err));
     assert_int_equal(table.rows, 1 + 3 * 4); /* the normal, and rings at 30, 60 and 90 */
 }
@@ -282,22 +270,21 @@ TEST(single_tables_are_named_as_in_info)
         {"black", 5}, {"white 255", 5}, {"red 127.5", 5}, {"brdf 20 deg", 5}, {"brdf 33", 5},
         {"brdf 20 at 90", 5}, {"primaries", 4}};
     const char *file = fixture_path(&first, "one.csv");
-    Error       err = {0};
     for (size_t i = 0; i < sizeof tables / sizeof *tables; i++) {
         CsvTable  csv;
         FileBytes bytes;
-        if (!panel_export_table(first.panel, tables[i].name, &coarse, file, &err) ||
-            !csv_table_read(file, &first.arena, &csv, &err) ||
-            !file_read(file, 1u << 24, &first.arena, &bytes, &err))
-            fail_msg("%s: %s", tables[i].name, err.text);
+        if (!panel_export_table(first.panel, tables[i].name, &coarse, file, why()) ||
+            !csv_table_read(file, &first.arena, &csv, why()) ||
+            !file_read(file, 1u << 24, &first.arena, &bytes, why()))
+            fail_msg("%s: %s", tables[i].name, why()->text);
         assert_int_equal(csv.columns, tables[i].columns);
         assert_int_equal(bytes.data[0], '#'); /* units stand in front */
     }
     static const char *const wrong[] = {"", "red", "red 256", "pink 3", "brdf", "brdf 95",
                                         "brdf 20 at", "brdf 20 at 90 x", "black 3 4"};
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
-        assert_false(panel_export_table(first.panel, wrong[i], &coarse, file, &err));
-        assert_int_equal(err.code, ERROR_USAGE);
+        assert_false(panel_export_table(first.panel, wrong[i], &coarse, file, why()));
+        assert_int_equal(why()->code, ERROR_USAGE);
     }
 }
 

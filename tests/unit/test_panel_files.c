@@ -15,9 +15,7 @@
 
 #include "panel/query/panel_emission.h"
 #include "panel/query/panel_info.h"
-#include "panel/query/panel_open.h"
 #include "panel/query/panel_place.h"
-#include "panel/query/panel_reflection.h"
 #include "panel/query/panel_sampling.h"
 
 #define MUTATIONS 2400
@@ -107,11 +105,9 @@ static void copy_azimuths(void)
     static const int incidences[] = {20, 50};
     for (int i = 0; i < 2; i++) {
         FileBytes   bytes;
-        Error       err = {0};
         const char *from = arena_format(&folder.arena, "%s/brdf/i%d.csv", folder.folder,
                                         incidences[i]);
-        if (!file_read(from, (size_t)1 << 24, &folder.arena, &bytes, &err))
-            fail_msg("%s", err.text);
+        assert_done(file_read(from, (size_t)1 << 24, &folder.arena, &bytes, &err));
         for (int a = 0; a < 360; a += 90)
             fixture_file(&folder, arena_format(&folder.arena, "brdf/i%d_a%d.csv", incidences[i],
                                                a), (const char *)bytes.data);
@@ -186,16 +182,11 @@ static FitOptions small_options(FitBasis basis)
 
 static void fit_kind(Kind *kind)
 {
-    Error        err = {0};
-    FileBytes    bytes;
-    json_t      *report = NULL;
-    FitOptions   options = small_options(kind->basis);
-    Measurement *set = ARENA_NEW(&folder.arena, Measurement, 1);
-    if (!measurement_read(manifest_of(kind), &folder.arena, set, &err) ||
-        !panel_fit(set, &options, folder.panel_path, &folder.arena, &report, &err) ||
-        !file_read(folder.panel_path, (size_t)1 << 30, &folder.arena, &bytes, &err))
-        fail_msg("%s: %s: %s: %s", kind->name, err.file, err.path, err.text);
-    json_decref(report);
+    FileBytes  bytes;
+    FitOptions options = small_options(kind->basis);
+    if (!fixture_try(&folder, manifest_of(kind), &options, folder.panel_path, &bytes, NULL,
+                     why()))
+        fail_told(kind->name, why());
     kind->size = bytes.size;
     kind->bytes = arena_alloc(&folder.arena, 1, 64, bytes.size);
     memcpy(kind->bytes, bytes.data, bytes.size);
@@ -256,13 +247,13 @@ static bool try_bytes(const unsigned char *bytes, size_t size, const Kind *kind)
 {
     Arena  scratch = folder.arena;
     Panel *panel = NULL;
-    Error  err = {0};
-    if (panel_from_bytes(bytes, size, "x.panel", &scratch, &panel, &err)) {
+    if (panel_from_bytes(bytes, size, "x.panel", &scratch, &panel, why())) {
         ask_everything(panel);
         return true;
     }
-    if (err.code != ERROR_INPUT || strcmp(err.file, "x.panel") != 0 || !err.text[0])
-        fail_msg("%s: refused without saying why: '%s' '%s'", kind->name, err.file, err.text);
+    if (why()->code != ERROR_INPUT || strcmp(why()->file, "x.panel") != 0 || !why()->text[0])
+        fail_msg("%s: refused without saying why: '%s' '%s'", kind->name, why()->file,
+                 why()->text);
     return false;
 }
 
@@ -442,56 +433,38 @@ TEST(spliced_panels_lead_nobody_astray)
 
 /* ---- other files ------------------------------------------------------------------------- */
 
-/* The whole line of a failure holds the parts. */
-static void expect_line(const Error *err, const char *part, const char *other)
+static void expect_no_panel(const char *path, const char *part, const char *other)
 {
-    char line[2048];
-    error_line(err, line, sizeof line);
-    assert_int_equal(err->code, ERROR_INPUT);
-    if (!strstr(line, part) || !strstr(line, other))
-        fail_msg("'%s' or '%s' is missing in: %s", part, other, line);
+    Panel *panel;
+    assert_false(panel_open(path, &folder.arena, &panel, why()));
+    assert_line_has(why(), (const char *[]){part, other}, 2);
 }
 
 TEST(other_files_are_no_panels)
 {
-    Panel *panel;
-    Error  err = {0};
-    assert_false(panel_open("/no/such.panel", &folder.arena, &panel, &err));
-    expect_line(&err, "/no/such.panel", "cannot be opened");
-    assert_false(panel_open(folder.folder, &folder.arena, &panel, &err));
-    expect_line(&err, "is a folder, a file is wanted", "");
-    const char *path = fixture_file(&folder, "x.panel", "");
-    assert_false(panel_open(path, &folder.arena, &panel, &err));
-    expect_line(&err, "x.panel", "is no panel file, wanted one that `panel fit` wrote");
-    path = fixture_file(&folder, "x.panel", "PHPANEL\nxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxx"
-                        "xxxxxxxxxxxxxxxxxxxxxxxxxxxxxx");
-    assert_false(panel_open(path, &folder.arena, &panel, &err));
-    expect_line(&err, "x.panel: header: has version", "fit the panel again");
+    expect_no_panel("/no/such.panel", "/no/such.panel", "cannot be opened");
+    expect_no_panel(folder.folder, "is a folder, a file is wanted", "");
+    expect_no_panel(fixture_file(&folder, "x.panel", ""), "x.panel",
+                    "is no panel file, wanted one that `panel fit` wrote");
+    expect_no_panel(fixture_file(&folder, "x.panel", "PHPANEL\nxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxx"
+                                 "xxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxx"),
+                    "x.panel: header: has version", "fit the panel again");
     panel_close(NULL);
 }
 
 TEST(an_unwritable_output_is_named)
 {
-    Error        err = {0};
     json_t      *report = NULL;
     FitOptions   options = small_options(FIT_VERTEX);
     Measurement *set = ARENA_NEW(&folder.arena, Measurement, 1);
-    assert_true(measurement_read(manifest_of(&kinds[0]), &folder.arena, set, &err));
+    assert_done(measurement_read(manifest_of(&kinds[0]), &folder.arena, set, &err));
     assert_false(panel_fit(set, &options, "/no/such/folder/x.panel", &folder.arena, &report,
-                           &err));
-    assert_int_equal(err.code, ERROR_OUTPUT);
-    assert_non_null(strstr(err.file, "/no/such/folder/x.panel"));
+                           why()));
+    assert_int_equal(why()->code, ERROR_OUTPUT);
+    assert_non_null(strstr(why()->file, "/no/such/folder/x.panel"));
 }
 
 /* ---- memory ------------------------------------------------------------------------------ */
-
-#define FULL_STATUS 42
-
-static void leave_when_full(size_t wanted, size_t left)
-{
-    (void)wanted, (void)left;
-    _exit(FULL_STATUS);
-}
 
 /* Opens, asks and (if wanted) fits with an arena of so many bytes, as a process of its own:
  * running out is an exit, as in the program. */
@@ -499,20 +472,17 @@ static int status_with(size_t bytes, bool fits, const char *output)
 {
     pid_t child = fork();
     if (child == 0) {
-        Error  err = {0};
         Arena  arena = arena_reserve(bytes);
         Panel *panel = NULL;
         json_t *report = NULL;
         FitOptions options = small_options(FIT_VERTEX);
         arena.on_full = leave_when_full;
-        if (!fits) _exit(panel_open(folder.panel_path, &arena, &panel, &err) ? 0 : 3);
+        if (!fits) _exit(panel_open(folder.panel_path, &arena, &panel, why()) ? 0 : 3);
         Measurement *set = ARENA_NEW(&arena, Measurement, 1);
-        _exit(measurement_read(manifest_of(&kinds[0]), &arena, set, &err) &&
-              panel_fit(set, &options, output, &arena, &report, &err) ? 0 : 3);
+        _exit(measurement_read(manifest_of(&kinds[0]), &arena, set, why()) &&
+              panel_fit(set, &options, output, &arena, &report, why()) ? 0 : 3);
     }
-    int status = 0;
-    assert_int_equal(waitpid(child, &status, 0), child);
-    return WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + WTERMSIG(status);
+    return status_of(child);
 }
 
 /* Whatever the memory, it is a clean end: done, or out of memory and nothing written. */

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* A fit judges itself: a good set stays good, and each kind of fault is named. The sets are
  * closed forms written as tables. */
-#include "fixture.h"
-#include "base/mathd.h"
+#include "json_fixture.h"
+
 #include "base/units.h"
 #include "panel/fit/fit.h"
 #include "panel/fit/fit_judge.h"
@@ -21,35 +21,16 @@ typedef struct Fault {
     double zeros;   /* share of rows that are 0 */
 } Fault;
 
-typedef struct Judged {
-    Arena   arena;
-    char    folder[FOLDER_BYTES];
+/* What the last fit said; its panel is x.panel in the folder. */
+static struct {
     json_t *report;
     bool    written;
-    Error   err;
-} Judged;
+} work;
 
-static Judged work;
-
-static int open_folder(void **state)
+static int end(void **state)
 {
-    (void)state;
-    work.arena = arena_reserve((size_t)64 << 30);
-    assert_true(folder_create(work.folder));
-    return 0;
-}
-
-static int close_folder(void **state)
-{
-    (void)state;
-    folder_destroy(work.folder);
-    arena_release(&work.arena);
-    return 0;
-}
-
-static char *in_work(const char *name)
-{
-    return arena_format(&work.arena, "%s/%s", work.folder, name);
+    json_decref(work.report);
+    return clear_folder(state);
 }
 
 /* In [-1, 1], of a row's number. */
@@ -77,7 +58,7 @@ static bool is_missing(const Fault *fault, double phi)
 
 static void write_white(const Fault *fault)
 {
-    FILE *file = fopen(in_work("white.csv"), "w");
+    FILE *file = fopen(in_folder("white.csv"), "w");
     int   row = 0;
     assert_non_null(file);
     fprintf(file, "theta,phi,X,Y,Z\n");
@@ -98,7 +79,7 @@ static void write_brdf(const Fault *fault, double incidence)
     char  name[32];
     int   row = 0;
     snprintf(name, sizeof name, "i%g.csv", incidence);
-    FILE *file = fopen(in_work(name), "w");
+    FILE *file = fopen(in_folder(name), "w");
     assert_non_null(file);
     fprintf(file, "theta,phi,brdf\n");
     for (double theta = 0; theta < 81; theta += 5)
@@ -114,36 +95,40 @@ static void write_brdf(const Fault *fault, double incidence)
     fclose(file);
 }
 
-static const char *const WHITE = "{\"emission\": {\"white\": \"white.csv\"}}";
-static const char *const REFLECTION =
+static const char WHITE[] = "{\"emission\": {\"white\": \"white.csv\"}}";
+static const char REFLECTION[] =
     "{\"reflection\": {\"wavelengths_nm\": [550], \"incidence_deg\": [10, 35, 60],"
     " \"files\": \"i{incidence}.csv\"}}";
 
 /* Fits what the fault made of a set. */
 static void fit(const Fault *fault, const char *manifest, bool force)
 {
-    Measurement *set = ARENA_NEW(&work.arena, Measurement, 1);
+    Measurement *set = ARENA_NEW(test_memory(), Measurement, 1);
     FitOptions   options = fit_options_default();
-    const char  *path = in_work("MANIFEST.json"), *panel = in_work("x.panel");
+    const char  *path = in_folder("MANIFEST.json"), *panel = in_folder("x.panel");
     options.force = force;
     json_decref(work.report);
     work.report = NULL;
-    work.err = (Error){0};
     remove(panel);
     if (manifest == WHITE && fault) write_white(fault);
     else if (fault) for (int i = 0; i < 3; i++) write_brdf(fault, 10 + 25 * i);
     write_text(path, manifest);
-    if (!measurement_read(path, &work.arena, set, &work.err) ||
-        (!panel_fit(set, &options, panel, &work.arena, &work.report, &work.err) &&
-         work.err.code != ERROR_DIFFERENT))
-        fail_msg("%s: %s", work.err.file, work.err.text);
-    FILE *file = fopen(panel, "rb");
-    work.written = file != NULL;
-    if (file) fclose(file);
+    assert_done(measurement_read(path, test_memory(), set, &err));
+    if (!panel_fit(set, &options, panel, test_memory(), &work.report, why()) &&
+        why()->code != ERROR_DIFFERENT)
+        fail_told("panel_fit", why());
+    work.written = file_exists(panel);
+}
+
+static Panel *fitted_panel(void)
+{
+    Panel *panel = NULL;
+    assert_done(panel_open(in_folder("x.panel"), test_memory(), &panel, &err));
+    return panel;
 }
 
 /* The grade is no better than this, and a reason says the word. */
-static void expect(JudgeGrade least, JudgeGrade most, const char *word)
+static void expect_verdict(JudgeGrade least, JudgeGrade most, const char *word)
 {
     JudgeGrade grade = fit_judge_grade(work.report);
     char      *all = json_dumps(json_object_get(work.report, "reasons"), 0);
@@ -152,15 +137,21 @@ static void expect(JudgeGrade least, JudgeGrade most, const char *word)
     free(all);
 }
 
+/* The same of what a fault makes of a set. */
+static void expect(const Fault *fault, const char *manifest, JudgeGrade least, JudgeGrade most,
+                   const char *word)
+{
+    fit(fault, manifest, false);
+    expect_verdict(least, most, word);
+}
+
 TEST(good_sets_are_good)
 {
     Fault plain = {.factor = 1, .phi_step = 15};
-    fit(&plain, WHITE, false);
-    expect(JUDGE_GOOD, JUDGE_GOOD, "[]");
+    expect(&plain, WHITE, JUDGE_GOOD, JUDGE_GOOD, "[]");
     assert_true(work.written);
     plain.noise = 0.01;
-    fit(&plain, REFLECTION, false);
-    expect(JUDGE_GOOD, JUDGE_GOOD, "[]");
+    expect(&plain, REFLECTION, JUDGE_GOOD, JUDGE_GOOD, "[]");
 }
 
 TEST(an_emission_in_another_unit_is_named)
@@ -168,8 +159,7 @@ TEST(an_emission_in_another_unit_is_named)
     const double factors[] = {1000, 0.001, 1e6};
     for (int i = 0; i < 3; i++) {
         Fault fault = {.factor = factors[i], .phi_step = 15};
-        fit(&fault, WHITE, false);
-        expect(JUDGE_CARE, JUDGE_UNUSABLE, "unit");
+        expect(&fault, WHITE, JUDGE_CARE, JUDGE_UNUSABLE, "unit");
     }
 }
 
@@ -178,29 +168,27 @@ TEST(a_reflection_in_another_unit_is_named)
     const double factors[] = {1000, 0.001};
     for (int i = 0; i < 2; i++) {
         Fault fault = {.factor = factors[i]};
-        fit(&fault, REFLECTION, false);
-        expect(factors[i] > 1 ? JUDGE_UNUSABLE : JUDGE_CARE, JUDGE_UNUSABLE, "check the unit");
+        expect(&fault, REFLECTION, factors[i] > 1 ? JUDGE_UNUSABLE : JUDGE_CARE, JUDGE_UNUSABLE,
+               "check the unit");
     }
     Fault little = {.factor = 1};
     fit(&little, REFLECTION, false);
-    little.factor = 1.15 / json_number_value(json_object_get(
-        json_object_get(work.report, "judged"), "largest_albedo"));
-    fit(&little, REFLECTION, false);
-    expect(JUDGE_CARE, JUDGE_UNUSABLE, "albedo");
+    little.factor = 1.15 / json_number_at(work.report, "judged/largest_albedo");
+    expect(&little, REFLECTION, JUDGE_CARE, JUDGE_UNUSABLE, "albedo");
 }
 
 TEST(noise_is_named)
 {
     Fault fault = {.factor = 1, .phi_step = 15, .noise = 0.4};
     fit(&fault, WHITE, true);
-    expect(JUDGE_CARE, JUDGE_UNUSABLE, "noise");
+    expect_verdict(JUDGE_CARE, JUDGE_UNUSABLE, "noise");
 }
 
 TEST(zeros_are_named)
 {
     Fault fault = {.factor = 1, .zeros = 0.5};
     fit(&fault, REFLECTION, true);
-    expect(JUDGE_CARE, JUDGE_UNUSABLE, "zero or negative");
+    expect_verdict(JUDGE_CARE, JUDGE_UNUSABLE, "zero or negative");
 }
 
 TEST(what_is_not_usable_is_not_written_unless_forced)
@@ -208,37 +196,40 @@ TEST(what_is_not_usable_is_not_written_unless_forced)
     Fault fault = {.factor = 1000};
     fit(&fault, REFLECTION, false);
     assert_false(work.written);
-    assert_int_equal(work.err.code, ERROR_DIFFERENT);
-    assert_non_null(strstr(work.err.text, "--force"));
+    assert_int_equal(why()->code, ERROR_DIFFERENT);
+    assert_non_null(strstr(why()->text, "--force"));
     fit(&fault, REFLECTION, true);
     assert_true(work.written);
-    Panel  *panel = NULL;
-    json_t *kept = NULL;
-    assert_true(panel_open(in_work("x.panel"), &work.arena, &panel, &work.err));
-    assert_true(panel_report(panel, &kept, &work.err));
-    assert_string_equal(json_string_value(json_object_get(kept, "verdict")), "not usable");
+    json_auto_t *kept = NULL;
+    Panel  *panel = fitted_panel();
+    assert_done(panel_report(panel, &kept, &err));
+    assert_string_equal(json_text_at(kept, "verdict"), "not usable");
     assert_true(json_equal(json_object_get(kept, "reasons"),
                            json_object_get(work.report, "reasons")));
-    json_decref(kept);
     panel_close(panel);
 }
 
 /* ---- azimuths ---------------------------------------------------------------------------- */
 
+/* A white pixel's luminance in a direction, degrees. */
+static double white_at(const Panel *panel, double theta, double phi)
+{
+    double t = radians_from_degrees(theta), p = radians_from_degrees(phi);
+    Vec3   d = vec3((float)(sin(t) * cos(p)), (float)(sin(t) * sin(p)), (float)cos(t));
+    float  xyz[3], white[3] = {255, 255, 255};
+    panel_emission_xyz(panel, d, white, xyz);
+    return (double)xyz[1];
+}
+
 /* The largest error of the panel in the middle of what was not measured, relative to the truth,
  * where there is light. */
 static double error_between(const Fault *fault, double phi)
 {
-    Panel *panel = NULL;
+    Panel *panel = fitted_panel();
     double worst = 0;
-    assert_true(panel_open(in_work("x.panel"), &work.arena, &panel, &work.err));
     for (double theta = 4; theta < 77; theta += 4) {
-        double t = radians_from_degrees(theta), p = radians_from_degrees(phi);
-        Vec3   d = vec3((float)(sin(t) * cos(p)), (float)(sin(t) * sin(p)), (float)cos(t));
-        float  xyz[3], white[3] = {255, 255, 255};
         double truth = luminance(fault, theta, phi);
-        panel_emission_xyz(panel, d, white, xyz);
-        if (truth > 20) worst = fmax(worst, fabs((double)xyz[1] / truth - 1));
+        if (truth > 20) worst = fmax(worst, fabs(white_at(panel, theta, phi) / truth - 1));
     }
     panel_close(panel);
     return worst;
@@ -249,11 +240,10 @@ TEST(a_panel_of_two_azimuths_names_the_gap_and_its_cost)
     const double corners[] = {0.25, 1};
     for (int i = 0; i < 2; i++) {
         Fault fault = {.factor = 1, .phi_step = 90, .corners = corners[i]};
-        fit(&fault, WHITE, false);
-        expect(JUDGE_CARE, JUDGE_CARE, "azimuths");
+        expect(&fault, WHITE, JUDGE_CARE, JUDGE_CARE, "azimuths");
         const json_t *judged = json_object_get(work.report, "judged");
-        double cost = json_number_value(json_object_get(judged, "azimuth_gap_error"));
-        double gap = json_number_value(json_object_get(judged, "azimuth_gap_deg"));
+        double cost = json_number_at(judged, "azimuth_gap_error");
+        double gap = json_number_at(judged, "azimuth_gap_deg");
         double found = error_between(&fault, 45);
         assert_true(fabs(gap - 90) < 0.1);
         if (!(cost > 0.05 && cost >= 0.5 * found))
@@ -264,11 +254,9 @@ TEST(a_panel_of_two_azimuths_names_the_gap_and_its_cost)
 TEST(a_missing_sector_is_named_and_a_round_panel_does_not_need_it)
 {
     Fault fault = {.factor = 1, .phi_step = 15, .corners = 0.5, .gap_from = 20, .gap_to = 100};
-    fit(&fault, WHITE, false);
-    expect(JUDGE_CARE, JUDGE_CARE, "between the azimuths 15 and 105 degrees");
+    expect(&fault, WHITE, JUDGE_CARE, JUDGE_CARE, "between the azimuths 15 and 105 degrees");
     fault.corners = 0;
-    fit(&fault, WHITE, false);
-    expect(JUDGE_GOOD, JUDGE_GOOD, "[]");
+    expect(&fault, WHITE, JUDGE_GOOD, JUDGE_GOOD, "[]");
 }
 
 /* Luminances of lamps in a direction, degrees. */
@@ -324,7 +312,7 @@ static double ellipse_lamp(double theta, double phi)
 /* The fit of a lamp with default options; steps in degrees. */
 static void fit_lamp(Lamp *lamp, double step_deg, double phi_step_deg)
 {
-    FILE *file = fopen(in_work("white.csv"), "w");
+    FILE *file = fopen(in_folder("white.csv"), "w");
     assert_non_null(file);
     fprintf(file, "theta,phi,X,Y,Z\n");
     for (double theta = 0; theta < 89; theta += step_deg)
@@ -340,17 +328,13 @@ static void fit_lamp(Lamp *lamp, double step_deg, double phi_step_deg)
 /* Light that is missed between samples too, over all light: of the panel against the lamp. */
 static double light_missed(Lamp *lamp)
 {
-    Panel *panel = NULL;
+    Panel *panel = fitted_panel();
     double missed = 0, light = 0;
-    assert_true(panel_open(in_work("x.panel"), &work.arena, &panel, &work.err));
     for (double theta = 0.13; theta < 85; theta += 0.67)
         for (double phi = 0.21; phi < 360; phi += 1.7) {
-            double t = radians_from_degrees(theta), p = radians_from_degrees(phi);
-            double weight = sin(t) * cos(t), truth = lamp(theta, phi);
-            Vec3   d = vec3((float)(sin(t) * cos(p)), (float)(sin(t) * sin(p)), (float)cos(t));
-            float  xyz[3], white[3] = {255, 255, 255};
-            panel_emission_xyz(panel, d, white, xyz);
-            missed += weight * fabs((double)xyz[1] - truth);
+            double t = radians_from_degrees(theta), truth = lamp(theta, phi);
+            double weight = sin(t) * cos(t);
+            missed += weight * fabs(white_at(panel, theta, phi) - truth);
             light += weight * truth;
         }
     panel_close(panel);
@@ -378,11 +362,11 @@ TEST(lamps_are_fitted_with_darkness_around_them)
         {"batwing", batwing_lamp, 2.5, 30, 0.01, 0.005, 0.001}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         fit_lamp(cases[i].lamp, cases[i].step, cases[i].phi_step);
-        if (!work.written) fail_msg("%s: %s", cases[i].name, work.err.text);
+        if (!work.written) fail_msg("%s: %s", cases[i].name, why()->text);
         const json_t *total = json_object_get(work.report, "total");
-        double worst = json_number_value(json_object_get(total, "max_error"));
-        double flux = json_number_value(json_object_get(total, "integral_error"));
-        double rms = json_number_value(json_object_get(total, "rms_error"));
+        double worst = json_number_at(total, "max_error");
+        double flux = json_number_at(total, "integral_error");
+        double rms = json_number_at(total, "rms_error");
         double missed = light_missed(cases[i].lamp);
         if (!(worst < cases[i].worst) || !(rms < cases[i].rms) || !(fabs(flux) < 0.01) ||
             !(missed < cases[i].missed))
@@ -412,12 +396,9 @@ TEST(the_report_says_what_decided)
 {
     Fault fault = {.factor = 1, .phi_step = 15};
     fit(&fault, WHITE, false);
-    const json_t *judged = json_object_get(work.report, "judged");
-    assert_true(json_is_number(json_object_get(judged, "integral_error")));
-    assert_true(json_is_number(json_object_get(judged, "noise")));
-    assert_true(json_is_object(json_object_get(judged, "emission")));
-    json_decref(work.report);
-    work.report = NULL;
+    json_number_at(work.report, "judged/integral_error");
+    json_number_at(work.report, "judged/noise");
+    assert_true(json_is_object(json_at(work.report, "judged/emission")));
 }
 
-TEST_PROGRAM(open_folder, close_folder)
+TEST_PROGRAM(make_folder, end)

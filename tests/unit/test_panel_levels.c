@@ -12,14 +12,13 @@
 static LevelTable read_table(Arena *arena, const char *text)
 {
     LevelTable  table;
-    Error       err = {0};
     const char *path = in_folder("levels.csv");
     write_text(path, text);
-    if (!level_table_read(path, arena, &table, &err)) fail_msg("%s: %s", err.path, err.text);
+    assert_done(level_table_read(path, arena, &table, &err));
     return table;
 }
 
-TEST(codes_shares_and_percent_are_one_table)
+ARENA_TEST(codes_shares_and_percent_are_one_table)
 {
     static const char *const same[] = {
         "level,luminance_cd_m2\n0,1\n51,3\n255,101\n",
@@ -28,7 +27,6 @@ TEST(codes_shares_and_percent_are_one_table)
         "\xEF\xBB\xBFinput_%\twhite\n100\t101\n0\t1\n\n20\t3\n",
         "step,level,L_white,time_s\n0,0,1,9\n1,51,3,9\n2,255,101,9\n",
     };
-    Arena arena = test_arena(state);
     for (int i = 0; i < 5; i++) {
         LevelTable table = read_table(&arena, same[i]);
         assert_int_equal(table.rows, 3);
@@ -41,9 +39,8 @@ TEST(codes_shares_and_percent_are_one_table)
     }
 }
 
-TEST(primaries_have_curves_of_their_own)
+ARENA_TEST(primaries_have_curves_of_their_own)
 {
-    Arena arena = test_arena(state);
     LevelTable table = read_table(&arena, "level,R,G,B\n0,1,1,1\n128,11,16,3\n255,21,61,6\n");
     for (int p = 0; p < 3; p++) assert_int_equal(table.curve[p].count, 2);
     assert_near(table.curve[0].share[0], 0.5, 1e-7);
@@ -54,9 +51,8 @@ TEST(primaries_have_curves_of_their_own)
 }
 
 /* The table that a set keeps is read as the one it came from. */
-TEST(the_table_as_text_reads_the_same)
+ARENA_TEST(the_table_as_text_reads_the_same)
 {
-    Arena arena = test_arena(state);
     LevelTable table = read_table(&arena, "level,R,G,B,W\n0,.1,.1,.1,.1\n"
                                           "0.3,1.234567,2,3,6.1\n1,20,60,6,85.8\n");
     LevelTable again = read_table(&arena, level_table_text(&table, &arena));
@@ -70,9 +66,8 @@ TEST(the_table_as_text_reads_the_same)
 
 /* A power law over black is a straight line of the logarithms; a curve that is none needs more
  * levels, and no row may be missed by more than is promised. */
-TEST(as_few_levels_are_kept_as_every_row_needs)
+ARENA_TEST(as_few_levels_are_kept_as_every_row_needs)
 {
-    Arena arena = test_arena(state);
     Text  power = {.arena = &arena}, bent = {.arena = &arena};
     text_add(&power, "code,L\n0,0.5\n");
     text_add(&bent, "code,L\n0,0.5\n");
@@ -89,9 +84,8 @@ TEST(as_few_levels_are_kept_as_every_row_needs)
     assert_near(table.curve[0].share[table.curve[0].count - 1], 1, 1e-12);
 }
 
-TEST(levels_without_more_light_than_black_are_left_out)
+ARENA_TEST(levels_without_more_light_than_black_are_left_out)
 {
-    Arena arena = test_arena(state);
     LevelTable table = read_table(&arena, "level,L\n0,0.02\n1,0.02\n2,0.02\n64,6\n255,100\n");
     assert_int_equal(table.dark_rows, 2);
     assert_near(table.curve[0].level[0], 64, 0);
@@ -99,7 +93,7 @@ TEST(levels_without_more_light_than_black_are_left_out)
 
 /* ---- what is refused -------------------------------------------------------------------- */
 
-TEST(bad_tables_are_refused_by_line_and_words)
+ARENA_TEST(bad_tables_are_refused_by_line_and_words)
 {
     static const struct { const char *text, *place, *words; } bad[] = {
         {"level,L\n0,1\n128,30\n200,29.5\n255,100\n", "line 4", "29.5 cd/m2 at level 200 is"
@@ -128,18 +122,14 @@ TEST(bad_tables_are_refused_by_line_and_words)
         {"level,R,red,G,B\n0,1,1,1,1\n255,7,7,7,7\n", "header line", "'R' and 'red' hold the"},
         {"level,R,G,B\n0,1,1,1\n99,3,3,.5\n255,7,7,7\n", "line 3", "column 'B': 0.5 cd/m2 at"},
     };
-    Arena arena = test_arena(state);
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
         LevelTable  table;
-        Error       err = {0};
         const char *path = in_folder("bad.csv");
         write_text(path, bad[i].text);
-        if (level_table_read(path, &arena, &table, &err))
+        if (level_table_read(path, &arena, &table, why()))
             fail_msg("%s: was read", bad[i].text);
-        assert_int_equal(err.code, ERROR_INPUT);
-        assert_string_equal(err.file, path);
-        assert_string_equal(err.path, bad[i].place);
-        assert_error_has(&err, bad[i].words);
+        assert_string_equal(why()->file, path);
+        assert_told(ERROR_INPUT, bad[i].place, bad[i].words);
     }
 }
 
@@ -204,61 +194,53 @@ static void assert_known(const Fixture *known)
 
 TEST(a_known_gamma_comes_back_from_white_and_its_table)
 {
-    Fixture    known;
-    Error      err = {0};
-    FitOptions options = fit_options_default();
+    ENDS_BY(fixture_end) Fixture known;
     fixture_measure(&known, KNOWN);
     const char *levels = level_file(&known, "levels.csv", 1);
     fixture_read(&known, white_table(&known));
-    assert_true(measurement_read_levels(known.set, levels, &known.arena, &err));
-    fixture_fit(&known, &options);
+    assert_done(measurement_read_levels(known.set, levels, &known.arena, &err));
+    fixture_fit(&known, NULL);
     assert_known(&known);
     char *report = json_dumps(known.report, 0);
     assert_text_has(report, "levels from levels.csv: 18 rows, of which 2 keep all within 0.05");
     assert_text_has(report, "\"levels_measured\": true");
     free(report);
-    fixture_end(&known);
 }
 
 TEST(a_manifest_may_name_the_table)
 {
-    Fixture    known;
-    FitOptions options = fit_options_default();
+    ENDS_BY(fixture_end) Fixture known;
     fixture_measure(&known, KNOWN);
     level_file(&known, "levels.csv", 1.03); /* the set's white counts, not the table's */
     white_table(&known);
     fixture_read(&known, fixture_file(&known, "M.json", "{\"emission\": {\"white\": "
                                       "\"white.csv\", \"levels\": \"levels.csv\"}}"));
     assert_true(known.set->has_black);
-    fixture_fit(&known, &options);
+    fixture_fit(&known, NULL);
     assert_known(&known);
-    fixture_end(&known);
 }
 
 TEST(a_table_of_another_white_or_set_is_refused)
 {
-    Fixture known;
-    Error   err = {0};
+    ENDS_BY(fixture_end) Fixture known;
     fixture_measure(&known, KNOWN);
     const char *levels = level_file(&known, "levels.csv", 1.06);
-    assert_false(measurement_read_levels(known.set, levels, &known.arena, &err));
-    assert_error_has(&err, "its primaries' levels are measured");
+    assert_fails_as(measurement_read_levels(known.set, levels, &known.arena, &err), ERROR_INPUT,
+                    "its primaries' levels are measured");
     fixture_read(&known, white_table(&known));
-    err = (Error){0};
-    assert_false(measurement_read_levels(known.set, levels, &known.arena, &err));
-    assert_string_equal(err.file, levels);
-    assert_string_equal(err.path, "line 19");
-    assert_error_has(&err, "full level has 297.1");
-    assert_error_has(&err, "6 % apart, wanted within 5 %");
+    assert_fails_as(measurement_read_levels(known.set, levels, &known.arena, &err), ERROR_INPUT,
+                    "full level has 297.1");
+    assert_string_equal(why()->file, levels);
+    assert_string_equal(why()->path, "line 19");
+    assert_error_has(why(), "6 % apart, wanted within 5 %");
     assert_int_equal(known.set->primary[0].level_count, 1); /* as it was */
     assert_false(known.set->has_black);
     const char *both = fixture_file(&known, "M.json", "{\"emission\": {\"black\": \"b\", "
         "\"red\": {}, \"green\": {}, \"blue\": {}, \"levels\": \"levels.csv\"}}");
     Measurement set;
-    assert_false(measurement_read(both, &known.arena, &set, &err));
-    assert_string_equal(err.path, "/emission/levels");
-    assert_error_has(&err, "is for a set of 'white' alone");
-    fixture_end(&known);
+    assert_fails_as(measurement_read(both, &known.arena, &set, &err), ERROR_INPUT,
+                    "is for a set of 'white' alone");
+    assert_string_equal(why()->path, "/emission/levels");
 }
 
 TEST_PROGRAM(make_folder, clear_folder)

@@ -3,8 +3,6 @@
  * is written back. */
 #include "panel_fixture.h"
 
-#include "base/file.h"
-#include "base/file_write.h"
 #include "image/picture.h"
 #include "openexr/exr_file.h"
 #include "panel/query/panel_emission.h"
@@ -58,7 +56,6 @@ static void write_exr(const char *name, const char *const names[4])
     ExrChannel channel[4];
     float      plane[4][6];
     ExrBytes  *encoded;
-    Error      err = {0};
     size_t     size;
     for (int k = 0; k < 4; k++) {
         memcpy(plane[k], seen[k], sizeof plane[k]);
@@ -66,13 +63,11 @@ static void write_exr(const char *name, const char *const names[4])
     }
     ExrPicture picture = {.display = {0, 0, 3, 2}, .data = {0, 0, 3, 2}, .channel_count = 4,
                           .channels = channel};
-    if (!exr_encode(&picture, &encoded, &err)) fail_msg("%s", err.text);
+    assert_done(exr_encode(&picture, &encoded, &err));
     const void *bytes = exr_bytes(encoded, &size);
-    if (!file_write(fixture_path(&folder, name), bytes, size, &err)) fail_msg("%s", err.text);
+    assert_done(file_write(fixture_path(&folder, name), bytes, size, &err));
     exr_bytes_destroy(encoded);
 }
-
-/* Planes first to first + 2 as red, green, blue. */
 
 #define WHITE(file) "\"emission\": {\"white\": \"" file "\"}"
 #define SPOT(at, file) "{\"position\": [" at "], " WHITE(file) "}"
@@ -85,19 +80,11 @@ static void write_exr(const char *name, const char *const names[4])
 static bool try_manifest(const char *text, const char *panel, Panel **out, FileBytes *bytes,
                          Error *err)
 {
-    FitOptions   fit = fit_options_default();
-    json_t      *report = NULL;
-    Measurement *set = ARENA_NEW(&folder.arena, Measurement, 1);
-    const char  *path = fixture_file(&folder, "MANIFEST.json", text);
-    const char  *file = fixture_path(&folder, panel);
+    FitOptions  fit = fit_options_default();
+    const char *path = fixture_file(&folder, "MANIFEST.json", text);
     *err = (Error){0};
     fit.force = true;
-    bool ok = measurement_read(path, &folder.arena, set, err) &&
-              panel_fit(set, &fit, file, &folder.arena, &report, err) &&
-              file_read(file, (size_t)1 << 30, &folder.arena, bytes, err) &&
-              panel_open(file, &folder.arena, out, err);
-    json_decref(report);
-    return ok;
+    return fixture_try(&folder, path, &fit, fixture_path(&folder, panel), bytes, out, err);
 }
 
 TEST(what_is_wrong_with_places_is_named)
@@ -178,30 +165,23 @@ TEST(what_is_wrong_with_places_is_named)
     write_tables();
     write_exr("rgb.exr", (const char *const[4]){"R", "G", "B", "A"});
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        Error     err;
         Panel    *panel;
         FileBytes bytes;
-        char      line[2048];
-        if (try_manifest(cases[i].text, "wrong.panel", &panel, &bytes, &err))
+        if (try_manifest(cases[i].text, "wrong.panel", &panel, &bytes, why()))
             fail_msg("was accepted: %s", cases[i].text);
-        error_line(&err, line, sizeof line);
-        assert_int_equal(err.code, ERROR_INPUT);
-        for (int k = 0; k < 3; k++)
-            if (!strstr(line, cases[i].parts[k]))
-                fail_msg("'%s' is missing in: %s", cases[i].parts[k], line);
+        assert_line_has(why(), cases[i].parts, 3);
     }
 }
 
 /* One spot, or spots that leave nothing to choose, and no map: the file of old. */
 TEST(one_spot_is_a_plain_panel_to_the_byte)
 {
-    Error     err;
     Panel    *plain, *spot;
     FileBytes old, now;
     write_tables();
-    assert_true(try_manifest("{" WHITE("a.csv") ", " REFLECTION "}", "x.panel", &plain, &old,
+    assert_done(try_manifest("{" WHITE("a.csv") ", " REFLECTION "}", "x.panel", &plain, &old,
                              &err));
-    assert_true(try_manifest("{\"spots\": [{\"position\": [0.2, 0.7], " WHITE("a.csv") ", "
+    assert_done(try_manifest("{\"spots\": [{\"position\": [0.2, 0.7], " WHITE("a.csv") ", "
                              REFLECTION "}]}", "x.panel", &spot, &now, &err));
     assert_int_equal(now.size, old.size);
     assert_memory_equal(now.data, old.data, old.size);
@@ -217,16 +197,14 @@ TEST(one_spot_is_a_plain_panel_to_the_byte)
 /* Where a spot leaves a part out, the manifest's own serves there. */
 TEST(the_manifests_own_tables_serve_where_a_spot_has_none)
 {
-    Error       err;
     Panel      *panel;
     FileBytes   bytes;
     const float rgb[3] = {255, 255, 255}, places[3][2] = {{0, 0}, {1, 0}, {0.25f, 0}};
     const double wanted[3] = {100, 200, 125};
     write_tables();
-    if (!try_manifest("{" WHITE("a.csv") ", " REFLECTION ", \"spots\": [{\"position\": [0, 0], "
-                      REFLECTION "}, " SPOT("1, 0", "b.csv") "]}", "x.panel", &panel, &bytes,
-                      &err))
-        fail_msg("%s: %s", err.path, err.text);
+    assert_done(try_manifest("{" WHITE("a.csv") ", " REFLECTION ", \"spots\": ["
+                             "{\"position\": [0, 0], " REFLECTION "}, " SPOT("1, 0", "b.csv")
+                             "]}", "x.panel", &panel, &bytes, &err));
     for (int i = 0; i < 3; i++) {
         float xyz[3];
         panel_place_emission_xyz(panel, places[i], vec3(0, 0, 1), rgb, xyz);
@@ -240,7 +218,6 @@ TEST(the_manifests_own_tables_serve_where_a_spot_has_none)
  * shares are the same. Black without a map of its own follows white. */
 TEST(a_map_counts_relative_to_where_the_panel_was_measured)
 {
-    Error     err;
     Panel    *panel;
     FileBytes bytes;
     const float rgb[3] = {255, 255, 255};
@@ -250,8 +227,7 @@ TEST(a_map_counts_relative_to_where_the_panel_was_measured)
         {{0.25f, 0.75f}, 2 / 1.125}, {{0, 1}, 2 / 1.125}, {{0.5f, 0.25f}, 0.75 / 1.125},
     };
     write_tables();
-    if (!try_manifest(MAP("\"file\": \"map.csv\""), "x.panel", &panel, &bytes, &err))
-        fail_msg("%s: %s", err.path, err.text);
+    assert_done(try_manifest(MAP("\"file\": \"map.csv\""), "x.panel", &panel, &bytes, &err));
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         float xyz[3], middle[3];
         panel_emission_xyz(panel, vec3(0, 0, 1), rgb, middle);
@@ -267,13 +243,12 @@ TEST(a_map_counts_relative_to_where_the_panel_was_measured)
 
 static void write_png(const char *name, int first, int step, int bits)
 {
-    Error   err = {0};
     Picture picture = picture_create(3, 2, &folder.arena);
     for (int i = 0; i < 6; i++)
         for (int k = 0; k < 3; k++) picture.rgb[3 * i + k] = seen[first + step * k][i];
-    if (!picture_write(fixture_path(&folder, name), &picture, (PictureFile){.bits = bits},
-                       folder.arena, &err))
-        fail_msg("%s", err.text);
+    assert_done(picture_write(fixture_path(&folder, name), &picture, (PictureFile){.bits =
+                                                                                   bits},
+                              folder.arena, &err));
 }
 
 /* The same map as numbers, as OpenEXR and as 16-bit pictures; 8 bits are refused. */
@@ -281,7 +256,6 @@ TEST(a_map_is_the_same_in_every_format)
 {
     static const char *const maps[3] = {MAP("\"file\": \"m.csv\""), MAP("\"file\": \"m.exr\""),
                                         MAP("\"file\": \"m.png\", \"black\": \"k.png\"")};
-    Error     err;
     Panel    *panel[3];
     FileBytes bytes;
     char      text[1024];
@@ -297,8 +271,7 @@ TEST(a_map_is_the_same_in_every_format)
     write_png("k.png", 3, 0, 16);
     write_png("bad.png", 0, 1, 8);
     for (int k = 0; k < 3; k++)
-        if (!try_manifest(maps[k], "x.panel", &panel[k], &bytes, &err))
-            fail_msg("%s: %s: %s", err.file, err.path, err.text);
+        assert_done(try_manifest(maps[k], "x.panel", &panel[k], &bytes, &err));
     for (int i = 0; i < 30; i++) {
         float place[2] = {0.033f * (float)i, 1 - 0.021f * (float)i}, xyz[3][3];
         float rgb[3] = {i % 2 ? 255 : 0, i % 2 ? 200 : 0, 0};
@@ -309,14 +282,13 @@ TEST(a_map_is_the_same_in_every_format)
                 assert_near(xyz[k][j], xyz[0][j], 2e-4 * (double)xyz[0][j] + 1e-6);
     }
     for (int k = 0; k < 3; k++) panel_close(panel[k]);
-    assert_false(try_manifest(MAP("\"file\": \"bad.png\""), "x.panel", panel, &bytes, &err));
-    assert_non_null(strstr(err.text, "8 bits a channel"));
+    assert_fails_as(try_manifest(MAP("\"file\": \"bad.png\""), "x.panel", panel, &bytes, &err),
+                    ERROR_INPUT, "8 bits a channel");
 }
 
 /* A bent display and a camera close by: what only the angle made is taken out again. */
 TEST(what_the_camera_saw_under_an_angle_is_no_mura)
 {
-    Error     err;
     Panel    *panel;
     FileBytes bytes;
     char      text[16384], cosines[8192];
@@ -338,10 +310,10 @@ TEST(what_the_camera_saw_under_an_angle_is_no_mura)
         n += (size_t)snprintf(cosines + n, sizeof cosines - n, "%d,0,%.8g\n", i, c * c);
     }
     fixture_file(&folder, "seen.csv", cosines);
-    if (!try_manifest("{\"size_mm\": [300, 100], " WHITE("cosine.csv") ", \"uniformity\": {"
-                      "\"file\": \"seen.csv\", \"camera_mm\": 500, \"bend_deg\": "
-                      "57.29577951308232}}", "x.panel", &panel, &bytes, &err))
-        fail_msg("%s: %s", err.path, err.text);
+    assert_done(try_manifest("{\"size_mm\": [300, 100], " WHITE("cosine.csv")
+                             ", \"uniformity\": {\"file\": \"seen.csv\", \"camera_mm\": 500, "
+                             "\"bend_deg\": 57.29577951308232}}", "x.panel", &panel, &bytes,
+                             &err));
     PanelEvenness e = panel_evenness(panel, rgb);
     assert_true(panel_non_uniformity(e.least, e.most) < 2e-3);
     panel_close(panel);
@@ -358,23 +330,17 @@ TEST(what_the_camera_saw_under_an_angle_is_no_mura)
 /* What is exported is fitted to the same display again. */
 TEST(an_export_of_places_says_the_same)
 {
-    Fixture       f;
-    Error         err = {0};
-    FitOptions    fit = fit_options_default();
+    ENDS_BY(fixture_end) Fixture f;
     Panel        *again;
-    json_t       *report = NULL;
-    Measurement  *set = ARENA_NEW(&folder.arena, Measurement, 1);
     ExportOptions coarse = {.theta_step_deg = 2, .phi_step_deg = 6, .mirror_fwhm_deg = -1,
                             .progress = PROGRESS_NONE};
-    fixture_start(&f, PLACED, &fit);
+    fixture_start(&f, PLACED, NULL);
     const char *out = fixture_path(&f, "out"), *file = fixture_path(&f, "again.panel");
     const char *manifest = fixture_path(&f, "out/MANIFEST.json");
-    if (!panel_export(f.panel, "x.panel", &coarse, out, &err) ||
-        !measurement_read(manifest, &f.arena, set, &err) ||
-        !panel_fit(set, &fit, file, &f.arena, &report, &err) ||
-        !panel_open(file, &f.arena, &again, &err))
-        fail_msg("%s: %s: %s", err.file, err.path, err.text);
-    assert_int_equal(set->spot_count, 3);
+    assert_done(panel_export(f.panel, "x.panel", &coarse, out, &err) &&
+                fixture_try(&f, manifest, NULL, file, NULL, &again, &err));
+    fixture_read(&f, manifest);
+    assert_int_equal(f.set->spot_count, 3);
     for (int i = 0; i < 40; i++) {
         float place[2] = {0.025f * (float)i, 0.5f + 0.012f * (float)i}, rgb[3] = {255, 90, 180};
         float a[3], b[3];
@@ -383,9 +349,7 @@ TEST(an_export_of_places_says_the_same)
         panel_place_emission_xyz(again, place, d, rgb, b);
         for (int j = 0; j < 3; j++) assert_close((double)b[j], (double)a[j], 0.006);
     }
-    json_decref(report);
     panel_close(again);
-    fixture_end(&f);
 }
 
 TEST_PROGRAM(start, fixture_group_end)

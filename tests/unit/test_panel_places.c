@@ -3,9 +3,7 @@
  * whose truth is known at every place, and the weights between spots. */
 #include "panel_fixture.h"
 
-#include "panel/query/panel_emission.h"
 #include "panel/query/panel_place.h"
-#include "panel/query/panel_sampling.h"
 #include "panel/shape/spot_ground.h"
 #include "shaders/bsdf.h"
 
@@ -166,17 +164,15 @@ static void expect_truth(const Fixture *f, const float place[2], double bound)
  * not, which adds 0.02 %): within 0.5 % everywhere, off the spots too. */
 TEST(nine_spots_say_the_truth_everywhere)
 {
-    Fixture    f;
-    FitOptions fit = fit_options_default();
+    ENDS_BY(fixture_end) Fixture f;
     uint32_t   random = 3;
     fixture_start(&f, "{" EMITTER "," INSTRUMENT ", \"places\": {" NINE
-                  ", \"slope\": [0.3, -0.2], \"lobe_slope\": 0.4}}", &fit);
+                  ", \"slope\": [0.3, -0.2], \"lobe_slope\": 0.4}}", NULL);
     for (int i = 0; i < 60; i++) {
         float place[2] = {(float)steady_random(&random), (float)steady_random(&random)};
         expect_truth(&f, place, 0.005);
     }
     assert_int_equal(json_array_size(json_object_get(f.report, "spots")), 8);
-    fixture_end(&f);
 }
 
 /* White and black along the normal are the map's at every pixel's middle; a truth whose places
@@ -188,9 +184,8 @@ TEST(the_map_says_what_lies_between_spots)
         "{" EMITTER "," INSTRUMENT ", \"places\": {\"u\": [0.1, 0.9, 0.4], \"v\": [0.2, 0.3, "
         "0.9], " MURA ", \"slope\": [0.3, -0.2], \"bend_deg\": 60}}"};
     for (int r = 0; r < 2; r++) {
-        Fixture    f;
-        FitOptions fit = fit_options_default();
-        fixture_start(&f, recipes[r], &fit);
+        ENDS_BY(fixture_end) Fixture f;
+        fixture_start(&f, recipes[r], NULL);
         for (int i = 0; i < 48 * 27; i += 37) {
             float  place[2] = {((float)(i % 48) + 0.5f) / 48, ((float)(i / 48) + 0.5f) / 27};
             expect_truth(&f, place, 0.005);
@@ -209,17 +204,15 @@ TEST(the_map_says_what_lies_between_spots)
                              (double)(plane[pixel[0]] / plane[pixel[1]]), 5e-5);
             }
         }
-        fixture_end(&f);
     }
 }
 
 /* The spectrum has the colour and the light that XYZ have, by place too. */
 TEST(spectra_have_the_places_colour)
 {
-    Fixture    f;
-    FitOptions fit = fit_options_default();
+    ENDS_BY(fixture_end) Fixture f;
     fixture_start(&f, "{" EMITTER "," INSTRUMENT ", \"places\": {" MURA
-                  ", \"slope\": [0.3, -0.2]}}", &fit);
+                  ", \"slope\": [0.3, -0.2]}}", NULL);
     for (int i = 0; i < 6; i++) {
         float  place[2] = {0.19f * (float)i, 1 - 0.17f * (float)i}, rgb[3] = {255, 180, 220};
         float  xyz[3];
@@ -239,7 +232,6 @@ TEST(spectra_have_the_places_colour)
         assert_close((double)xyz[1], sum[1], 2e-3);
         assert_true(chromaticity_distance(sum, xyz) < 1e-3);
     }
-    fixture_end(&f);
 }
 
 /* ---- reflection -------------------------------------------------------------------------- */
@@ -283,11 +275,10 @@ static void fill_probabilities(const PanelMix *mix, Vec3 wo, Bin *bin)
 /* Directions are drawn as the density says, which is that of the mixture. */
 TEST(a_mixture_is_the_sum_of_its_panels)
 {
-    Fixture     f;
-    FitOptions  fit = fit_options_default();
+    ENDS_BY(fixture_end) Fixture f;
     const float middle[2] = {0.5f, 0.5f};
     const int   draws = 60000;
-    fixture_start(&f, GLOSSY, &fit);
+    fixture_start(&f, GLOSSY, NULL);
     PanelMix    mix = panel_place_reflection(f.panel, middle);
     Wavelengths w = even_wavelengths(450, 12.5f);
     assert_int_equal(mix.count, 2);
@@ -332,18 +323,16 @@ TEST(a_mixture_is_the_sum_of_its_panels)
         }
     }
     assert_true(panel_has_mirror(f.panel));
-    fixture_end(&f);
 }
 
 /* As a surface: what comes back is no more than came, and sampling finds the same energy as
  * the albedo says. Truth in the middle: the BRDF is linear in the share of haze. */
 TEST(a_mixture_reflects_as_the_display_does)
 {
-    Fixture     f;
-    FitOptions  fit = fit_options_default();
+    ENDS_BY(fixture_end) Fixture f;
     const float place[2] = {0.3f, 0.3f};
     const double at[2] = {0.3, 0.3};
-    fixture_start(&f, GLOSSY, &fit);
+    fixture_start(&f, GLOSSY, NULL);
     Wavelengths    w = even_wavelengths(450, 12.5f);
     SyntheticPanel local = closed_form_at(&f.recipe, at);
     Bsdf           bsdf = {.kind = BSDF_DISPLAY};
@@ -368,7 +357,6 @@ TEST(a_mixture_reflects_as_the_display_does)
         double wanted = closed_form_brdf(&local, theta[1], theta[0], 0, 550);
         assert_close((double)bsdf_eval(&bsdf, wo, wi, &pdf)[8], wanted, 0.05);
     }
-    fixture_end(&f);
 }
 
 TEST_PROGRAM(start, fixture_group_end)

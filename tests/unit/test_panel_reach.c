@@ -2,8 +2,8 @@
 /* What a grid cannot see the fit knows: a mirror that it calls told is true, every range holds
  * the truth, and a verdict that had to guess is coarse. Panels are closed forms
  * (synthetic_panel.h), tables are what the virtual instrument reads of them. */
-#include "fixture.h"
-#include "base/mathd.h"
+#include "json_fixture.h"
+
 #include "base/units.h"
 #include "panel/fit/fit.h"
 #include "panel/fit/fit_judge.h"
@@ -106,9 +106,8 @@ TEST(a_specular_measurement_tells_the_mirror_of_a_coarse_grid)
     }
 }
 
-TEST(a_lobe_narrower_than_the_grid_is_open)
+ARENA_TEST(a_lobe_narrower_than_the_grid_is_open)
 {
-    Arena arena = test_arena(state);
     SyntheticPanel panel = panel_of(0.2, 0.006);
     PeakMirror found = take(&panel, radians_from_degrees(40), steps[3], 0, &arena);
     assert_true(found.has_haze_open);
@@ -129,15 +128,13 @@ TEST(the_specular_closed_form_is_mirror_and_haze_within_the_aperture)
     }
 }
 
-TEST(gloss_is_a_hundredth_of_black_glass)
+ARENA_TEST(gloss_is_a_hundredth_of_black_glass)
 {
-    Arena  arena = test_arena(state);
     Gloss  gloss = {0};
-    Error  err;
     double aperture;
     SpecularTable table;
-    assert_true(specular_gloss_add(&gloss, 85, 100, &err));
-    assert_true(specular_gloss_add(&gloss, 60, 50, &err));
+    assert_done(specular_gloss_add(&gloss, 85, 100, &err));
+    assert_done(specular_gloss_add(&gloss, 60, 50, &err));
     specular_table_from_gloss(&gloss, "x", &arena, &table);
     double sixty = radians_from_degrees(60);
     assert_near(specular_table_at(&table, sixty, 450, &aperture), 0.5 * 0.10006, 1e-4);
@@ -161,11 +158,9 @@ static const char *const RECIPE =
 static SyntheticPanel simulate_set(Arena *arena)
 {
     SyntheticPanel panel;
-    Error err;
     write_text(in_folder("x.recipe.json"), RECIPE);
-    if (!synthetic_panel_read(in_folder("x.recipe.json"), arena, &panel, &err) ||
-        !simulate_measurement(&panel, test_folder(), PROGRESS_NONE, &err))
-        fail_msg("%s: %s", err.file, err.text);
+    assert_done(synthetic_panel_read(in_folder("x.recipe.json"), arena, &panel, &err) &&
+                simulate_measurement(&panel, test_folder(), PROGRESS_NONE, &err));
     return panel;
 }
 
@@ -181,55 +176,51 @@ static json_t *fit_set(const char *rest, Arena *arena)
     Measurement *set = ARENA_NEW(arena, Measurement, 1);
     FitOptions   options = fit_options_default();
     json_t      *report = NULL;
-    Error        err;
     write_text(in_folder("MANIFEST.json"), manifest(rest, arena));
-    if (!measurement_read(in_folder("MANIFEST.json"), arena, set, &err) ||
-        !panel_fit(set, &options, in_folder("x.panel"), arena, &report, &err))
-        fail_msg("%s: %s", err.file, err.text);
+    assert_done(measurement_read(in_folder("MANIFEST.json"), arena, set, &err) &&
+                panel_fit(set, &options, in_folder("x.panel"), arena, &report, &err));
     return report;
 }
 
-TEST(a_coarse_set_is_coarse_and_states_its_range)
+/* At the incidence that an entry of a report is about. */
+static double true_mirror(const SyntheticPanel *panel, const json_t *entry)
 {
-    Arena   arena = test_arena(state);
+    double theta = radians_from_degrees(json_number_at(entry, "incidence_deg"));
+    return closed_form_mirror(panel, theta, NM);
+}
+
+ARENA_TEST(a_coarse_set_is_coarse_and_states_its_range)
+{
     SyntheticPanel panel = simulate_set(&arena);
     json_t *report = fit_set("", &arena), *list, *one;
     size_t  i;
-    const json_t *reasons = json_object_get(report, "reasons");
-    const char   *reason = json_string_value(json_array_get(reasons, 0));
+    const char *reason = json_text_at(report, "reasons/0");
     assert_int_equal(fit_judge_grade(report), JUDGE_CARE);
     assert_true(json_is_true(json_object_get(report, "coarse")));
     assert_ptr_equal(strstr(reason, "coarse: "), reason);
     assert_non_null(strstr(reason, "measure the specular reflectance"));
-    list = json_object_get(json_object_get(report, "judged"), "coarse");
+    list = json_at(report, "judged/coarse");
     assert_true(json_array_size(list) > 0);
     json_array_foreach(list, i, one) {
-        double theta = radians_from_degrees(json_number_value(
-            json_object_get(one, "incidence_deg")));
-        double truth = closed_form_mirror(&panel, theta, NM);
-        const json_t *range = json_object_get(one, "mirror");
-        assert_true(json_number_value(json_array_get(range, 0)) <= truth);
-        assert_true(json_number_value(json_array_get(range, 1)) >= truth);
+        double truth = true_mirror(&panel, one);
+        assert_true(json_number_at(one, "mirror/0") <= truth);
+        assert_true(json_number_at(one, "mirror/1") >= truth);
     }
     json_decref(report);
 }
 
-TEST(the_same_set_with_its_specular_measurement_is_good)
+ARENA_TEST(the_same_set_with_its_specular_measurement_is_good)
 {
-    Arena   arena = test_arena(state);
     SyntheticPanel panel = simulate_set(&arena);
     json_t *report = fit_set(", \"specular\": {\"file\": \"specular.csv\", "
                              "\"aperture_deg\": 1.2}", &arena);
-    json_t *list = json_object_get(json_object_get(report, "reflection"), "mirror"), *one;
+    json_t *list = json_at(report, "reflection/mirror"), *one;
     size_t  i;
     assert_int_equal(fit_judge_grade(report), JUDGE_GOOD);
     assert_null(json_object_get(report, "coarse"));
     json_array_foreach(list, i, one) {
-        double theta = radians_from_degrees(json_number_value(
-            json_object_get(one, "incidence_deg")));
-        double truth = closed_form_mirror(&panel, theta, NM);
-        assert_near(json_number_value(json_object_get(one, "luminous_reflectance")), truth,
-                   0.05 * truth);
+        double truth = true_mirror(&panel, one);
+        assert_near(json_number_at(one, "luminous_reflectance"), truth, 0.05 * truth);
     }
     json_decref(report);
 }
@@ -281,29 +272,26 @@ TEST(malformed_measurements_are_refused_with_place_and_wish)
         Arena        arena = test_arena(state);
         const Wrong *wrong = &wrongs[i];
         Measurement *set = ARENA_NEW(&arena, Measurement, 1);
-        Error        err = {0};
         write_text(in_folder("s.csv"), wrong->table
             ? wrong->table : "incidence,wavelength,reflectance\n10,550,0.1\n");
         write_text(in_folder("MANIFEST.json"), manifest(wrong->keys, &arena));
-        if (measurement_read(in_folder("MANIFEST.json"), &arena, set, &err) ||
-            !strstr(err.path, wrong->place) || !strstr(err.text, wrong->text))
-            fail_msg("%s: place '%s', text '%s'", wrong->keys, err.path, err.text);
+        if (measurement_read(in_folder("MANIFEST.json"), &arena, set, why()) ||
+            !strstr(why()->path, wrong->place) || !strstr(why()->text, wrong->text))
+            fail_msg("%s: place '%s', text '%s'", wrong->keys, why()->path, why()->text);
     }
 }
 
 /* Their product is more than an int holds. */
-TEST(a_table_of_a_diagonal_is_refused)
+ARENA_TEST(a_table_of_a_diagonal_is_refused)
 {
-    Arena         arena = test_arena(state);
     Text          text = {.arena = &arena};
     SpecularTable table;
-    Error         err = {0};
     text_add(&text, "incidence,wavelength,reflectance\n");
     for (int i = 0; i < 50000; i++)
         text_format(&text, "%.6f,%.6f,0.01\n", i * 80.0 / 50000, 400 + i * 300.0 / 50000);
     write_text(in_folder("s.csv"), text.data);
-    assert_false(specular_table_read_file(in_folder("s.csv"), 1, &arena, &table, &err));
-    assert_non_null(strstr(err.text, "has 50000 incidences and 50000 wavelengths in 50000"));
+    assert_fails_as(specular_table_read_file(in_folder("s.csv"), 1, &arena, &table, &err),
+                    ERROR_INPUT, "has 50000 incidences and 50000 wavelengths in 50000");
 }
 
 TEST_PROGRAM(make_folder, clear_folder)

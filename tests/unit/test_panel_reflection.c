@@ -186,47 +186,40 @@ TEST(extrapolation_is_continuous_and_flagged)
 
 TEST(beyond_the_measured_incidences_haze_follows_fresnel)
 {
-    Wavelengths w = even_wavelengths(400, 20);
     for (double theta = 68; theta <= 80; theta += 4) {
-        Spectrum f = panel_brdf(shared.fit.panel, direction_deg(theta, 0),
-                                direction_deg(theta, 180), &w);
+        double f = brdf_deg(shared.fit.panel, (double[]){theta, 0}, (double[]){theta, 180}, 8);
         double angle = radians_from_degrees(theta);
-        double truth = hazy(angle, PI, angle, 0, 560);
-        assert_close(f[8], truth, 0.12);
+        assert_close(f, hazy(angle, PI, angle, 0, 560), 0.12);
     }
 }
 
 /* Haze integrated over the hemisphere, with the cosine. */
 static double albedo_at(const Panel *panel, double incidence_deg, int lane)
 {
-    Wavelengths w = even_wavelengths(400, 20);
     double sum = 0, step = radians_from_degrees(1);
     for (double a = 0.5; a < 90; a++)
         for (double p = 1; p < 360; p += 2) {
-            Spectrum f = panel_brdf(panel, direction_deg(a, p),
-                                    direction_deg(incidence_deg, 180), &w);
             double t = radians_from_degrees(a);
-            sum += (double)f[lane] * cos(t) * sin(t) * step * 2 * step;
+            sum += brdf_deg(panel, (double[]){a, p}, (double[]){incidence_deg, 180}, lane) *
+                   cos(t) * sin(t) * step * 2 * step;
         }
     return sum;
 }
 
 TEST(a_white_furnace_gives_no_more_than_it_gets)
 {
-    Fitted f = fit_surface(white, (Grid){.wavelengths = 2}, quick());
+    ENDS_BY(fitted_end) Fitted f = fit_surface(white, (Grid){.wavelengths = 2}, quick());
     for (double i = 0; i < 90; i += 8.9)
         if (!(albedo_at(f.fit.panel, i, 0) <= 1.001))
             fail_msg("%g degrees: %.5f", i, albedo_at(f.fit.panel, i, 0));
-    fixture_end(&f.fit);
 }
 
 TEST(the_albedo_is_the_integral)
 {
-    const char *const key = "integral_error";
     size_t  i;
     json_t *table;
     json_array_foreach(json_object_get(shared.fit.report, "tables"), i, table)
-        assert_near(json_number_value(json_object_get(table, key)), 0, 1e-3);
+        assert_near(json_number_at(table, "integral_error"), 0, 1e-3);
     for (double theta = 5; theta <= 65; theta += 15) { /* the luminous mean is near 560 nm */
         double albedo = albedo_at(shared.fit.panel, theta, 8);
         assert_close(
@@ -255,12 +248,11 @@ TEST(every_spectral_basis_and_both_hemispherical_ones_hold_the_bound)
         options.basis = CASES[i].basis;
         options.has_wavelet = CASES[i].has_wavelet;
         options.wavelet = CASES[i].wavelet;
-        Fitted f = fit_surface(
+        ENDS_BY(fitted_end) Fitted f = fit_surface(
             hazy, (Grid){.incidences = 2, .phi_step = 12, .theta_step = 3, .wavelengths = 8},
             options);
         double worst = fmax(largest_error(&f, 5, PI, 0), largest_error(&f, 20, PI, 0));
         if (!(worst <= CASES[i].most)) fail_msg("%s: %.4f", CASES[i].name, worst);
-        fixture_end(&f.fit);
     }
 }
 
@@ -268,20 +260,18 @@ TEST(every_spectral_basis_and_both_hemispherical_ones_hold_the_bound)
 
 static const json_t *part_at(const Fitted *f, size_t incidence)
 {
-    return json_array_get(
-        json_object_get(json_object_get(f->fit.report, "reflection"), "mirror"), incidence);
+    return json_array_get(json_at(f->fit.report, "reflection/mirror"), incidence);
 }
 
 TEST(a_lobe_on_haze_is_told_apart_and_stays_one_lobe_between_incidences)
 {
-    Fitted f =
+    ENDS_BY(fitted_end) Fitted f =
         fit_surface(lobed, (Grid){.wavelengths = 3, .theta_step = 1, .phi_step = 3}, quick());
     for (size_t i = 0; i < HAZY_INCIDENCES; i++) {
         const json_t *part = part_at(&f, i);
         double r = LOBE_SHARE * fresnel(cos(f.fit.set->incidence[i]));
-        assert_close(json_number_value(json_object_get(part, "lobe_fwhm_deg")), LOBE_FWHM_DEG,
-                     0.01);
-        assert_close(json_number_value(json_object_get(part, "lobe")), r, 0.02);
+        assert_close(json_number_at(part, "lobe_fwhm_deg"), LOBE_FWHM_DEG, 0.01);
+        assert_close(json_number_at(part, "lobe"), r, 0.02);
     }
     for (double incidence = 12; incidence < 60; incidence += 15) {
         Wavelengths w = even_wavelengths(400, 20);
@@ -290,19 +280,14 @@ TEST(a_lobe_on_haze_is_told_apart_and_stays_one_lobe_between_incidences)
         double theta = radians_from_degrees(incidence);
         assert_close(v[2], lobed(theta, PI, theta, 0, 440), 0.015);
     }
-    fixture_end(&f.fit);
 }
 
 TEST(an_image_as_wide_as_the_instrument_becomes_the_mirror)
 {
     Wavelengths w = even_wavelengths(400, 20);
-    Fitted f = fit_surface(lobed,
-                           (Grid){.wavelengths = 4,
-                                  .incidences = 3,
-                                  .theta_step = 1,
-                                  .phi_step = 3,
-                                  .instrument_fwhm_deg = LOBE_FWHM_DEG},
-                           quick());
+    Grid grid = {.wavelengths = 4, .incidences = 3, .theta_step = 1, .phi_step = 3,
+                 .instrument_fwhm_deg = LOBE_FWHM_DEG};
+    ENDS_BY(fitted_end) Fitted f = fit_surface(lobed, grid, quick());
     for (int i = 0; i < 3; i++) {
         double c = cos(f.fit.set->incidence[i]);
         assert_close(panel_mirror(f.fit.panel, (float)c, &w)[1], LOBE_SHARE * fresnel(c), 0.02);
@@ -311,7 +296,6 @@ TEST(an_image_as_wide_as_the_instrument_becomes_the_mirror)
         double theta = f.fit.set->incidence[i];
         assert_close(v[1], hazy(theta, PI, theta, 0, 420), 0.05);
     }
-    fixture_end(&f.fit);
 }
 
 TEST(a_lobe_becomes_the_mirror_only_when_asked)
@@ -319,7 +303,7 @@ TEST(a_lobe_becomes_the_mirror_only_when_asked)
     FitOptions  options = quick();
     Wavelengths w = even_wavelengths(400, 20);
     options.lobe_is_mirror = true;
-    Fitted f = fit_surface(
+    ENDS_BY(fitted_end) Fitted f = fit_surface(
         lobed, (Grid){.wavelengths = 1, .incidences = 2, .theta_step = 1, .phi_step = 3},
         options);
     for (int i = 0; i < 2; i++) {
@@ -330,7 +314,6 @@ TEST(a_lobe_becomes_the_mirror_only_when_asked)
                                 direction_deg(HAZY.incidence_deg[i], 180), &w);
         assert_close(v[0], hazy(theta, PI, theta, 0, 400), 0.05);
     }
-    fixture_end(&f.fit);
 }
 
 /* ---- the lambertian part ----------------------------------------------------------------- */
@@ -399,8 +382,8 @@ static double matt(double theta_i, double phi_i, double theta, double phi, doubl
 TEST(a_face_alike_to_all_sides_has_no_haze)
 {
     Wavelengths w = even_wavelengths(400, 20);
-    Fitted f = fit_surface(matt, (Grid){.wavelengths = 4, .azimuths = 4, .incidences = 3},
-                           quick());
+    Grid grid = {.wavelengths = 4, .azimuths = 4, .incidences = 3};
+    ENDS_BY(fitted_end) Fitted f = fit_surface(matt, grid, quick());
     for (double turn = 0; turn < 360; turn += 51)
         for (double incidence = 3; incidence < 35; incidence += 9) {
             Vec3     wo = direction_deg(30, 2 * turn), wi = direction_deg(incidence, turn);
@@ -408,33 +391,26 @@ TEST(a_face_alike_to_all_sides_has_no_haze)
             Spectrum part = lambertian(f.fit.panel, wo, wi, &w);
             for (int k = 0; k < 4; k++) assert_close(part[k], all[k], 0.021);
         }
-    fixture_end(&f.fit);
 }
 
 /* ---- azimuths of the light --------------------------------------------------------------- */
 
 TEST(a_brushed_surface_is_told_between_azimuths)
 {
-    Fitted f = fit_surface(brushed,
-                           (Grid){.wavelengths = 1,
-                                  .azimuths = 16,
-                                  .incidences = 2,
-                                  .theta_step = 3,
-                                  .phi_step = 9,
-                                  .theta_max = 81},
-                           quick());
+    Grid grid = {.wavelengths = 1, .azimuths = 16, .incidences = 2, .theta_step = 3,
+                 .phi_step = 9, .theta_max = 81};
+    ENDS_BY(fitted_end) Fitted f = fit_surface(brushed, grid, quick());
     for (int a = 0; a < 16; a += 5) {
         double at = largest_error(&f, 20, 2 * PI * a / 16, 0);
         double between = largest_error(&f, 20, 2 * PI * (a + 0.5) / 16, 0);
         if (!(at <= 0.0205)) fail_msg("azimuth %.1f: %.4f", 22.5 * a, at);
         if (!(between <= 0.06)) fail_msg("azimuth %.2f: %.4f", 22.5 * (a + 0.5), between);
     }
-    fixture_end(&f.fit);
 }
 
 TEST(an_isotropic_surface_stored_with_azimuths_answers_the_same)
 {
-    Fitted f =
+    ENDS_BY(fitted_end) Fitted f =
         fit_surface(hazy, (Grid){.wavelengths = 1, .azimuths = 4, .incidences = 3}, quick());
     for (double turn = 0; turn < 360; turn += 51) {
         double worst = largest_error(&f, 20, radians_from_degrees(turn), 0);
@@ -442,7 +418,6 @@ TEST(an_isotropic_surface_stored_with_azimuths_answers_the_same)
         worst = largest_error(&f, 3, radians_from_degrees(turn), 0);
         if (!(worst <= 0.05)) fail_msg("near the normal, turned by %g: %.4f", turn, worst);
     }
-    fixture_end(&f.fit);
 }
 
 /* ---- zeros ------------------------------------------------------------------------------- */
@@ -454,18 +429,15 @@ static double with_zeros(double theta_i, double phi_i, double theta, double phi,
 
 TEST(zeros_and_negative_values_are_held_counted_and_told)
 {
-    Fitted f = fit_surface(with_zeros, (Grid){.wavelengths = 1, .incidences = 1}, quick());
-    json_t *reflection = json_object_get(f.fit.report, "reflection");
-    long    masked = 0;
+    Grid grid = {.wavelengths = 1, .incidences = 1};
+    ENDS_BY(fitted_end) Fitted f = fit_surface(with_zeros, grid, quick());
+    long masked = 0;
     for (int i = 0; i < f.fit.set->brdf[0].rows; i++)
         masked += f.fit.set->brdf[0].value[i] < 0;
     assert_true(masked > 0);
-    assert_int_equal(json_integer_value(json_object_get(reflection, "zeros_masked")), masked);
-    Wavelengths w = even_wavelengths(400, 20);
+    assert_int_equal(json_number_at(f.fit.report, "reflection/zeros_masked"), masked);
     for (double a = 0; a < 90; a += 3)
-        assert_true(
-            panel_brdf(f.fit.panel, direction_deg(a, 180), direction_deg(5, 180), &w)[0] > 0);
-    fixture_end(&f.fit);
+        assert_true(brdf_deg(f.fit.panel, (double[]){a, 180}, (double[]){5, 180}, 0) > 0);
 }
 
 static int start(void **state)

@@ -2,21 +2,16 @@
 /* How a panel's reflection is sampled: densities that integrate to one and fit the samples. */
 #include "panel_fixture.h"
 
+#include "panel_bytes.h"
+
 #include <float.h>
-#include <stddef.h>
 
-#define XXH_INLINE_ALL
-#include <xxhash.h>
-
-#include "base/file_write.h"
 #include "base/sampler.h"
 #include "hemisphere/geodesic.h"
 #include "hemisphere/specular_frame.h"
 #include "panel/query/panel_emission.h"
 #include "panel/query/panel_file.h"
-#include "panel/query/panel_open.h"
 #include "panel/query/panel_opened.h"
-#include "panel/query/panel_reflection.h"
 #include "panel/query/panel_sampling.h"
 #include "panel/query/sampling_make.h"
 #include "shaders/display.h"
@@ -101,7 +96,6 @@ static int start_panels(void **state)
     (void)state;
     static const char *const paths[2] = {PROJECT_DIR "/assets/panels/ips_cluster.panel",
                                          PROJECT_DIR "/assets/panels/oled_centre.panel"};
-    Error      err = {0};
     FitOptions options = fit_options_default();
     options.level = 5;
     options.frame_exponent = 2;
@@ -115,10 +109,10 @@ static int start_panels(void **state)
     add_case("narrow", narrow.panel);
     shipped_arena = arena_reserve((size_t)1 << 30);
     for (int i = 0; i < 2; i++) {
-        if (panel_open(paths[i], &shipped_arena, &shipped[i], &err))
+        if (panel_open(paths[i], &shipped_arena, &shipped[i], why()))
             add_case(strrchr(paths[i], '/') + 1, shipped[i]);
         else
-            print_message("skipped: %s: %s: %s\n", err.file, err.path, err.text);
+            print_message("skipped: %s: %s: %s\n", why()->file, why()->path, why()->text);
     }
     return 0;
 }
@@ -457,14 +451,12 @@ TEST(answers_are_finite_in_every_corner)
 }
 
 /* The sampling section of the IPS panel renamed, or emptied, under a checksum that fits. */
-static void expect_forged_is_refused(bool is_emptied, const char *why)
+static void expect_forged_is_refused(bool is_emptied, const char *words)
 {
     Arena       scratch = ips.arena;
-    FileBytes   bytes;
-    Error       err = {0};
     Panel      *panel;
     PanelHeader header;
-    assert_true(file_read(ips.panel_path, (size_t)1 << 30, &scratch, &bytes, &err));
+    FileBytes   bytes = read_bytes(ips.panel_path, &scratch);
     unsigned char *copy = arena_alloc(&scratch, 1, 64, bytes.size);
     memcpy(copy, bytes.data, bytes.size);
     memcpy(&header, copy, sizeof header);
@@ -476,13 +468,10 @@ static void expect_forged_is_refused(bool is_emptied, const char *why)
         else if (section.kind == PANEL_SAMPLING) section.index = 1;
         memcpy(at, &section, sizeof section);
     }
-    size_t from = offsetof(PanelHeader, size);
-    header.checksum = XXH3_64bits(copy + from, bytes.size - from);
-    memcpy(copy, &header, sizeof header);
+    repair_checksum(copy, bytes.size);
     const char *path = arena_format(&scratch, "%s/without.panel", ips.folder);
-    assert_true(file_write(path, copy, bytes.size, &err));
-    assert_false(panel_open(path, &scratch, &panel, &err));
-    if (!strstr(err.text, why)) fail_msg("%s", err.text);
+    write_bytes(path, copy, bytes.size);
+    assert_fails_as(panel_open(path, &scratch, &panel, &err), ERROR_INPUT, words);
 }
 
 /* Nothing of a reflection without its sampling: the file would light a scene wrongly. */
@@ -495,9 +484,8 @@ TEST(a_panel_without_its_sampling_is_refused)
 /* A file of one table holds no sampling; opening makes what fitting would have stored. */
 TEST(one_table_is_sampled_without_a_byte_of_the_file)
 {
-    Error        err = {0};
     FitOptions   options = fit_options_default();
-    Fixture      one;
+    ENDS_BY(fixture_end) Fixture one;
     fixture_folder(&one);
     Measurement *set = one.set = ARENA_NEW(&one.arena, Measurement, 1);
     *set = *brushed.set;
@@ -514,10 +502,9 @@ TEST(one_table_is_sampled_without_a_byte_of_the_file)
                     1e-3);
     SamplingSection made[2];
     for (int i = 0; i < 2; i++)
-        assert_true(sampling_make(one.panel, &one.arena, &made[i], &err));
+        assert_done(sampling_make(one.panel, &one.arena, &made[i], &err));
     assert_int_equal(made[0].size, made[1].size);
     assert_memory_equal(made[0].bytes, made[1].bytes, made[0].size);
-    fixture_end(&one);
 }
 
 TEST_PROGRAM(start_panels, end_panels)

@@ -3,9 +3,7 @@
  * layout says the same. */
 #include "panel_fixture.h"
 #include "panel_bytes.h"
-#include "base/file.h"
 #include "panel/query/panel_emission.h"
-#include "panel/query/panel_open.h"
 
 static Fixture folder; /* a folder for files, nothing fitted */
 
@@ -16,20 +14,10 @@ static int start(void **state)
     return 0;
 }
 
-/* The whole line of a failure. */
-static void expect_line(const Error *err, const char *const parts[], int count)
-{
-    char line[2048];
-    error_line(err, line, sizeof line);
-    assert_int_equal(err->code, ERROR_INPUT);
-    for (int i = 0; i < count; i++)
-        if (!strstr(line, parts[i])) fail_msg("'%s' is missing in: %s", parts[i], line);
-}
-
 #define EXPECT_LINE(err, ...)                                                                  \
     do {                                                                                       \
         const char *const parts_[] = {__VA_ARGS__};                                            \
-        expect_line(&(err), parts_, (int)(sizeof parts_ / sizeof *parts_));                    \
+        assert_line_has(&(err), parts_, (int)(sizeof parts_ / sizeof *parts_));                \
     } while (0)
 
 /* Why a measurement whose file `name` holds this text is refused; it must be. */
@@ -65,7 +53,7 @@ TEST(tables_name_file_line_and_value)
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         Error err = bad_file("table.csv", cases[i].text);
-        expect_line(&err, cases[i].parts, 3);
+        assert_line_has(&err, cases[i].parts, 3);
     }
 }
 
@@ -73,22 +61,21 @@ TEST(every_prefix_of_a_table_is_read_or_refused)
 {
     const char *text = "theta,phi,X,Y,Z\n0,0,1,1,1\n# c\n10,0,1.5e0,2,1\n10,90,1,2,3\n";
     for (size_t n = 0; n < strlen(text); n++) {
-        Error        err = {0};
         Measurement *set = ARENA_NEW(&folder.arena, Measurement, 1);
         const char  *cut = arena_string(&folder.arena, text, n);
         const char  *path = fixture_file(&folder, "table.csv", cut);
+        Error        err = {0};
         if (!measurement_read(path, &folder.arena, set, &err)) assert_true(err.text[0] != 0);
     }
 }
 
 TEST(rows_at_the_normal_are_averaged_and_equal_doubles_pass)
 {
-    Error        err = {0};
     Measurement *set = ARENA_NEW(&folder.arena, Measurement, 1);
     const char  *path = fixture_file(&folder, "table.csv",
         "phi,theta,X,Y,Z\n0,0,95,100,108\n90,0,97,102,110\n-90,-10,90,95,99\n90,10,90,95,99\n"
         "0,10,91,96,100\n");
-    if (!measurement_read(path, &folder.arena, set, &err)) fail_msg("%s", err.text);
+    assert_done(measurement_read(path, &folder.arena, set, &err));
     const AngleTable *table = &set->primary[1].table[0];
     assert_int_equal(table->rows, 3);
     double sum = 0;
@@ -175,25 +162,16 @@ TEST(manifests_name_the_key)
     fixture_file(&folder, "p.csv", "nm,red,gren,blue\n500,1,1,1\n");
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         Error err = bad_file("MANIFEST.json", cases[i].text);
-        expect_line(&err, cases[i].parts, 3);
+        assert_line_has(&err, cases[i].parts, 3);
     }
 }
 
 /* The panel of a manifest, and the bytes of its file. */
 static Panel *fitted(const char *manifest, FileBytes *bytes)
 {
-    Error        err = {0};
-    FitOptions   options = fit_options_default();
-    json_t      *report = NULL;
-    Panel       *panel = NULL;
-    Measurement *set = ARENA_NEW(&folder.arena, Measurement, 1);
-    const char  *path = fixture_file(&folder, "MANIFEST.json", manifest);
-    if (!measurement_read(path, &folder.arena, set, &err) ||
-        !panel_fit(set, &options, folder.panel_path, &folder.arena, &report, &err) ||
-        !file_read(folder.panel_path, (size_t)1 << 30, &folder.arena, bytes, &err) ||
-        !panel_open(folder.panel_path, &folder.arena, &panel, &err))
-        fail_msg("%s: %s", err.path, err.text);
-    json_decref(report);
+    Panel      *panel = NULL;
+    const char *path = fixture_file(&folder, "MANIFEST.json", manifest);
+    assert_done(fixture_try(&folder, path, NULL, folder.panel_path, bytes, &panel, &err));
     return panel;
 }
 
@@ -350,11 +328,10 @@ TEST(recipes_name_the_key)
          {"/subpixels/columns", "is 8, but 'pixels' says 800"}},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        Error       err = {0};
         SyntheticPanel recipe;
         const char *path = fixture_file(&folder, "recipe.json", cases[i].text);
-        assert_false(synthetic_panel_read(path, &folder.arena, &recipe, &err));
-        expect_line(&err, cases[i].parts, 2);
+        assert_false(synthetic_panel_read(path, &folder.arena, &recipe, why()));
+        assert_line_has(why(), cases[i].parts, 2);
     }
 }
 
@@ -362,7 +339,6 @@ TEST(recipes_name_the_key)
  * shadow of missing directions. It must say what the plain layout says. */
 TEST(other_layouts_say_the_same)
 {
-    Error  err = {0};
     char   text[40000] = "";
     for (int j = 0; j < 3; j++) {
         size_t at = (size_t)snprintf(text, sizeof text, "theta\\phi,0,30,60,90,120,150,180,210,"
@@ -389,22 +365,13 @@ TEST(other_layouts_say_the_same)
         "{\"emission\": {\"white\": {\"X\": \"X.csv\", \"Y\": \"Y.csv\", \"Z\": \"Z.csv\"}}}",
         "{\"emission\": {\"white\": \"rows.csv\"}}"};
     for (int m = 0; m < 2; m++) {
-        FitOptions   options = fit_options_default();
-        Measurement *set = ARENA_NEW(&folder.arena, Measurement, 1);
-        Panel       *panel = NULL;
-        json_t      *report = NULL;
-        float        rgb[3] = {255, 255, 255}, xyz[3];
-        const char  *path = fixture_file(&folder, "MANIFEST.json", manifests[m]);
-        if (!measurement_read(path, &folder.arena, set, &err) ||
-            !panel_fit(set, &options, folder.panel_path, &folder.arena, &report, &err) ||
-            !panel_open(folder.panel_path, &folder.arena, &panel, &err))
-            fail_msg("%s: %s", err.path, err.text);
+        float  rgb[3] = {255, 255, 255}, xyz[3];
+        Panel *panel = fitted(manifests[m], NULL);
         for (int t = 0; t < 78; t += 6) {
             panel_emission_xyz(panel, direction_deg(t, 7.0 * t), rgb, xyz);
             assert_close(xyz[1], 200 * cos(radians_from_degrees(t)), 0.01);
         }
         panel_close(panel);
-        json_decref(report);
     }
 }
 

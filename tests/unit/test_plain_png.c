@@ -103,15 +103,14 @@ static void assert_as_the_library(const Bytes *png)
     static unsigned char rows[BYTES_MAX], pixels[BYTES_MAX];
     PlainPng      head;
     ImageDecoder *decoder;
-    Error         err;
     assert_true(read_plain(png, &head, rows));
-    assert_true(image_decoder_create("png", "test", png->data, png->size, &decoder, &err));
+    assert_done(image_decoder_create("png", "test", png->data, png->size, &decoder, &err));
     ImageFileInfo info = image_decoder_info(decoder);
     assert_int_equal(info.width, head.width);
     assert_int_equal(info.height, head.height);
     assert_int_equal(info.channels, head.channels);
     assert_int_equal(info.alpha_channel, head.channels % 2 ? -1 : head.channels - 1);
-    assert_true(image_decoder_read(decoder, pixels, &err));
+    assert_done(image_decoder_read(decoder, pixels, &err));
     for (int y = 0; y < head.height; y++)
         assert_memory_equal(rows + (size_t)y * head.row_bytes,
                             pixels + (size_t)y * head.row_bytes, head.row_bytes);

@@ -56,33 +56,20 @@ static int end(void **state)
 }
 
 /* Runs `panel plot` with these arguments; a list that ends in NULL. */
-static bool run(Error *err, ...)
+static bool run(Error *err, const char *first, ...)
 {
-    char   *argv[24] = {(char *)"plot"};
-    int     argc = 1;
+    char   *argv[24] = {(char *)"plot", (char *)first};
+    int     argc = 2;
     va_list list;
-    va_start(list, err);
+    va_start(list, first);
     for (char *a; (a = va_arg(list, char *)) && argc < 24; argc++) argv[argc] = a;
     va_end(list);
-    *err = (Error){0};
-    Arena arena = arena_reserve((size_t)1 << 32);
-    bool  ok = command_panel_plot.run(argc, argv, &arena, err);
-    arena_release(&arena);
-    return ok;
+    ENDS_BY(arena_release) Arena arena = arena_reserve((size_t)1 << 32);
+    return command_panel_plot.run(argc, argv, &arena, err);
 }
 
-#define RUN_FAILS(err, code_wanted, part, ...)                                                 \
-    do {                                                                                       \
-        assert_false(run(&(err), __VA_ARGS__, NULL));                                          \
-        assert_int_equal((err).code, code_wanted);                                             \
-        assert_text_has((err).text, part);                                                     \
-    } while (0)
-
-#define RUN_OK(...)                                                                            \
-    do {                                                                                       \
-        Error e_;                                                                              \
-        if (!run(&e_, __VA_ARGS__, NULL)) fail_msg("%s: %s", e_.file, e_.text);                \
-    } while (0)
+#define RUN_FAILS(code, part, ...) assert_fails_as(run(&err, __VA_ARGS__, NULL), code, part)
+#define RUN_OK(...) assert_done(run(&err, __VA_ARGS__, NULL))
 
 /* Tags nest, attributes are quoted, no stray & or <. Returns the number of elements. */
 static int assert_well_formed(const char *p)
@@ -172,8 +159,7 @@ TEST(every_kind_draws_svg)
         if (kind == PLOT_FIT || kind == PLOT_UNIFORMITY) continue; /* of other files */
         RUN_OK(ips.panel_path, "-o", fixture_path(&ips, "k.svg"), "--kind",
                plot_kind_name((PlotKind)kind));
-        const char *svg =
-            (const char *)read_bytes(fixture_path(&ips, "k.svg"), &ips.arena).data;
+        const char *svg = read_text(fixture_path(&ips, "k.svg"), &ips.arena);
         assert_true(assert_well_formed(svg) > 100);
         assert_non_null(strstr(svg, "<svg "));
         assert_ids_are_whole(svg);
@@ -192,19 +178,17 @@ TEST(names_of_kinds_agree_with_the_option)
 
 TEST(png_opens_with_the_size_asked_for)
 {
-    Error err = {0};
     Image image;
     RUN_OK(ips.panel_path, "-o", fixture_path(&ips, "s.png"), "--size", "801x603", "--kind",
            "sections");
-    if (!image_read(fixture_path(&ips, "s.png"), &ips.arena, &image, &err))
-        fail_msg("%s", err.text);
+    assert_done(image_read(fixture_path(&ips, "s.png"), &ips.arena, &image, &err));
     assert_int_equal(image.width, 801);
     assert_int_equal(image.height, 603);
     const unsigned char *pixel = image.pixels;
     assert_int_equal(pixel[0], 255); /* light ground */
     RUN_OK(ips.panel_path, "-o", fixture_path(&ips, "d.png"), "--size", "640x480", "--dark",
            "--kind", "luminance");
-    assert_true(image_read(fixture_path(&ips, "d.png"), &ips.arena, &image, &err));
+    assert_done(image_read(fixture_path(&ips, "d.png"), &ips.arena, &image, &err));
     pixel = image.pixels;
     assert_true(pixel[0] < 40);
 }
@@ -213,9 +197,7 @@ TEST(the_fit_shows_samples_over_curves)
 {
     RUN_OK(ips.panel_path, "-o", fixture_path(&ips, "f.svg"), "--kind", "fit", "--measured",
            fixture_path(&ips, "MANIFEST.json"));
-    assert_true(assert_well_formed(
-                    (const char *)read_bytes(fixture_path(&ips, "f.svg"), &ips.arena).data) >
-                500);
+    assert_true(assert_well_formed(read_text(fixture_path(&ips, "f.svg"), &ips.arena)) > 500);
 }
 
 TEST(the_same_call_writes_the_same_bytes)
@@ -225,9 +207,9 @@ TEST(the_same_call_writes_the_same_bytes)
     Fixture *fixture = &reflects_nothing;
     for (int i = 0; i < 3; i++) {
         for (int k = 0; k < 2; k++)
-            RUN_OK(fixture->panel_path, i == 2 ? "--report" : "-o",
-                   fixture_path(fixture, NAMES[i][k]), "--size", "640x480", "--kind",
-                   "luminance", "--threads", k ? "2" : "1");
+            RUN_OK(fixture->panel_path, i == 2 ? "--report" : "-o", fixture_path(fixture,
+                                                                                 NAMES[i][k]),
+                   "--size", "640x480", "--kind", "luminance", "--threads", k ? "2" : "1");
         FileBytes a = read_bytes(fixture_path(fixture, NAMES[i][0]), &fixture->arena);
         FileBytes b = read_bytes(fixture_path(fixture, NAMES[i][1]), &fixture->arena);
         assert_int_equal(a.size, b.size);
@@ -241,9 +223,8 @@ TEST(the_report_stands_alone)
 {
     RUN_OK(reflects_nothing.panel_path, "--report", fixture_path(&reflects_nothing, "r.html"),
            "--measured", fixture_path(&reflects_nothing, "MANIFEST.json"));
-    const char *html = (const char *)read_bytes(fixture_path(&reflects_nothing, "r.html"),
-                                                &reflects_nothing.arena)
-                           .data;
+    const char *html = read_text(fixture_path(&reflects_nothing, "r.html"),
+                                 &reflects_nothing.arena);
     assert_null(strstr(html, "src="));
     assert_null(strstr(html, "<link"));
     assert_null(strstr(html, "@import"));
@@ -275,31 +256,27 @@ TEST(the_report_is_well_formed)
 
 TEST(a_wrong_command_line_says_what_is_wanted)
 {
-    Error       err;
     const char *svg = fixture_path(&ips, "e.svg"), *panel = ips.panel_path;
-    RUN_FAILS(err, ERROR_USAGE, "luminanz", panel, "-o", svg, "--kind", "luminanz");
-    RUN_FAILS(err, ERROR_USAGE, "contrast", panel, "-o", svg, "--kind", "luminanz");
-    RUN_FAILS(err, ERROR_USAGE, "wants -o X.svg", panel);
-    RUN_FAILS(err, ERROR_USAGE, ".svg or .png", panel, "-o", fixture_path(&ips, "e.pdf"));
-    RUN_FAILS(err, ERROR_USAGE, "ends in .html", panel, "--report",
-              fixture_path(&ips, "e.txt"));
-    RUN_FAILS(err, ERROR_USAGE, "--size is 20x20, wanted 160 to 20000", panel, "-o", svg,
-              "--size", "20x20");
-    RUN_FAILS(err, ERROR_USAGE, "--measured MANIFEST.json", panel, "-o", svg, "--kind", "fit");
+    RUN_FAILS(ERROR_USAGE, "luminanz", panel, "-o", svg, "--kind", "luminanz");
+    RUN_FAILS(ERROR_USAGE, "contrast", panel, "-o", svg, "--kind", "luminanz");
+    RUN_FAILS(ERROR_USAGE, "wants -o X.svg", panel);
+    RUN_FAILS(ERROR_USAGE, ".svg or .png", panel, "-o", fixture_path(&ips, "e.pdf"));
+    RUN_FAILS(ERROR_USAGE, "ends in .html", panel, "--report", fixture_path(&ips, "e.txt"));
+    RUN_FAILS(ERROR_USAGE, "--size is 20x20, wanted 160 to 20000", panel, "-o", svg, "--size",
+              "20x20");
+    RUN_FAILS(ERROR_USAGE, "--measured MANIFEST.json", panel, "-o", svg, "--kind", "fit");
     assert_false(file_exists(svg));
 }
 
 TEST(what_a_panel_lacks_is_said)
 {
-    Error       err;
     const char *panel = reflects_nothing.panel_path;
     const char *svg = fixture_path(&reflects_nothing, "e.svg");
-    RUN_FAILS(err, ERROR_INPUT, "has no reflection data, wanted for --kind brdf-map", panel,
-              "-o", svg, "--kind", "brdf-map");
-    assert_string_equal(err.file, panel);
-    RUN_FAILS(err, ERROR_INPUT, "its black emits nothing", panel, "-o", svg, "--kind",
-              "contrast");
-    RUN_FAILS(err, ERROR_INPUT, "", fixture_path(&ips, "none.panel"), "-o", svg);
+    RUN_FAILS(ERROR_INPUT, "has no reflection data, wanted for --kind brdf-map", panel, "-o",
+              svg, "--kind", "brdf-map");
+    assert_string_equal(why()->file, panel);
+    RUN_FAILS(ERROR_INPUT, "its black emits nothing", panel, "-o", svg, "--kind", "contrast");
+    RUN_FAILS(ERROR_INPUT, "", fixture_path(&ips, "none.panel"), "-o", svg);
     assert_false(file_exists(svg));
     RUN_OK(panel, "-o", svg);
 }
@@ -307,10 +284,7 @@ TEST(what_a_panel_lacks_is_said)
 /* A surface that was only lit: paper, a switched-off screen. */
 TEST(a_panel_that_only_reflects_is_drawn)
 {
-    Error        err = {0};
-    json_t      *report = NULL;
-    FitOptions   options = fit_options_default();
-    Measurement *set = ARENA_NEW(&ips.arena, Measurement, 1);
+    FitOptions  options = fit_options_default();
     const char *panel = fixture_path(&ips, "paper.panel"),
                *svg = fixture_path(&ips, "paper.svg");
     const char  *manifest = fixture_file(&ips, "PAPER.json",
@@ -318,37 +292,22 @@ TEST(a_panel_that_only_reflects_is_drawn)
         " \"incidence_deg\": [20, 40, 60], \"files\": \"brdf/i{incidence}.csv\"}}");
     options.progress = PROGRESS_NONE;
     options.level = 5;
-    if (!measurement_read(manifest, &ips.arena, set, &err) ||
-        !panel_fit(set, &options, panel, &ips.arena, &report, &err))
-        fail_msg("%s: %s: %s", err.file, err.path, err.text);
-    json_decref(report);
+    assert_done(fixture_try(&ips, manifest, &options, panel, NULL, NULL, &err));
     RUN_OK(panel, "-o", svg, "--report", fixture_path(&ips, "paper.html"), "--measured",
            manifest);
-    RUN_FAILS(err, ERROR_INPUT, "has no emission data, wanted for --kind sections", panel, "-o",
-              svg, "--kind", "sections");
-}
-
-static int files_in(const char *folder)
-{
-    DIR *dir = opendir(folder);
-    int  count = 0;
-    assert_non_null(dir);
-    while (readdir(dir)) count++;
-    closedir(dir);
-    return count;
+    RUN_FAILS(ERROR_INPUT, "has no emission data, wanted for --kind sections", panel, "-o", svg,
+              "--kind", "sections");
 }
 
 TEST(a_target_that_cannot_be_written_leaves_nothing)
 {
-    Error err;
-    int   before = files_in(ips.folder);
-    RUN_FAILS(err, ERROR_OUTPUT, "", ips.panel_path, "-o", fixture_path(&ips, "none/x.png"),
+    int   before = folder_count(ips.folder);
+    RUN_FAILS(ERROR_OUTPUT, "", ips.panel_path, "-o", fixture_path(&ips, "none/x.png"),
               "--kind", "mirror");
-    RUN_FAILS(err, ERROR_OUTPUT, "", ips.panel_path, "-o", fixture_path(&ips, "none/x.svg"),
+    RUN_FAILS(ERROR_OUTPUT, "", ips.panel_path, "-o", fixture_path(&ips, "none/x.svg"),
               "--kind", "mirror");
-    RUN_FAILS(err, ERROR_OUTPUT, "", ips.panel_path, "--report",
-              fixture_path(&ips, "none/x.html"));
-    assert_int_equal(files_in(ips.folder), before);
+    RUN_FAILS(ERROR_OUTPUT, "", ips.panel_path, "--report", fixture_path(&ips, "none/x.html"));
+    assert_int_equal(folder_count(ips.folder), before);
 }
 
 TEST_PROGRAM(start, end)

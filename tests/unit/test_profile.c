@@ -9,8 +9,7 @@
 static const Profile *load(const char *name, Arena *arena)
 {
     const Profile *profile = NULL;
-    Error          err = {0};
-    if (!profile_load(name, arena, &profile, &err)) fail_msg("%s: %s", name, err.text);
+    if (!profile_load(name, arena, &profile, why())) fail_msg("%s: %s", name, why()->text);
     return profile;
 }
 
@@ -27,11 +26,10 @@ static const ProfileLimit *asked(const Profile *profile, LimitKind kind, Ambient
     return found;
 }
 
-TEST(every_profile_loads_and_says_where_it_was_read)
+ARENA_TEST(every_profile_loads_and_says_where_it_was_read)
 {
     static const char *const NAMES[] = {"as8034", "iso-15008", "iso-9241-7", "j1757-1",
                                         "mil-l-85762a", "nureg-0700", "un-r46"};
-    Arena arena = test_arena(state);
     assert_int_equal(profile_count, COUNT_OF(NAMES));
     for (int i = 0; i < profile_count; i++) {
         const Profile *p = load(NAMES[i], &arena);
@@ -54,9 +52,8 @@ TEST(every_profile_loads_and_says_where_it_was_read)
                         "un-r46");
 }
 
-TEST(shipped_limits_are_the_known_ones)
+ARENA_TEST(shipped_limits_are_the_known_ones)
 {
-    Arena          arena = test_arena(state);
     const double   car[AMBIENT_COUNT] = {5, 5, 3, 2}, monitor[AMBIENT_COUNT] = {5, 2, 3, 2};
     const Profile *iso = load("iso-15008", &arena), *un = load("un-r46", &arena);
     for (int a = 0; a < AMBIENT_COUNT; a++) {
@@ -79,9 +76,8 @@ TEST(shipped_limits_are_the_known_ones)
     assert_int_equal(load("as8034", &arena)->limit_count, 0);
 }
 
-TEST(light_tells_the_ambient)
+ARENA_TEST(light_tells_the_ambient)
 {
-    Arena          arena = test_arena(state);
     const Profile *p = load("iso-15008", &arena);
     assert_int_equal(profile_ambient(p, 0, false), AMBIENT_NIGHT);
     assert_int_equal(profile_ambient(p, p->night_below_lx * 0.999, false), AMBIENT_NIGHT);
@@ -108,9 +104,8 @@ static const char *write_profile(const char *text)
     return path;
 }
 
-TEST(a_house_has_its_own)
+ARENA_TEST(a_house_has_its_own)
 {
-    Arena          arena = test_arena(state);
     const Profile *p = load(
         write_profile("{" HEAD ", \"veil\": true, \"limits\": ["
                       "{\"ambient\": [\"day\", \"sun\"], " CONTRAST "\"value\": 4, " READ "},"
@@ -196,35 +191,27 @@ static const Wrong WRONG[] = {
      "key 'name' is missing"},
 };
 
-TEST(wrong_files_are_told_where_they_are_wrong)
+ARENA_TEST(wrong_files_are_told_where_they_are_wrong)
 {
-    Arena arena = test_arena(state);
     for (int i = 0; i < COUNT_OF(WRONG); i++) {
         const char    *path = write_profile(WRONG[i].text);
         const Profile *profile = NULL;
-        Error          err = {0};
-        if (profile_load(path, &arena, &profile, &err)) fail_msg("taken: %s", WRONG[i].text);
+        if (profile_load(path, &arena, &profile, why())) fail_msg("taken: %s", WRONG[i].text);
         assert_null(profile);
-        assert_int_equal(err.code, ERROR_INPUT);
-        assert_string_equal(err.file, path);
-        assert_string_equal(err.path, WRONG[i].place);
-        if (!strstr(err.text, WRONG[i].said))
-            fail_msg("\"%s\" does not say \"%s\"", err.text, WRONG[i].said);
-        assert_null(strchr(err.text, '\n'));
+        assert_string_equal(why()->file, path);
+        assert_told(ERROR_INPUT, WRONG[i].place, WRONG[i].said);
     }
 }
 
-TEST(what_is_not_there_is_told_with_what_is)
+ARENA_TEST(what_is_not_there_is_told_with_what_is)
 {
-    Arena          arena = test_arena(state);
     const Profile *profile = NULL;
-    Error          err = {0};
-    assert_false(profile_load("iso-1500", &arena, &profile, &err));
-    assert_non_null(strstr(err.text, "there is no profile \"iso-1500\""));
-    assert_non_null(strstr(err.text, "iso-15008, iso-9241-7"));
-    assert_false(profile_load(in_folder("none.json"), &arena, &profile, &err));
-    assert_string_equal(err.file, in_folder("none.json"));
-    assert_int_equal(err.code, ERROR_INPUT);
+    assert_fails_as(profile_load("iso-1500", &arena, &profile, &err), ERROR_INPUT,
+                    "there is no profile \"iso-1500\"");
+    assert_non_null(strstr(why()->text, "iso-15008, iso-9241-7"));
+    assert_false(profile_load(in_folder("none.json"), &arena, &profile, why()));
+    assert_string_equal(why()->file, in_folder("none.json"));
+    assert_int_equal(why()->code, ERROR_INPUT);
     assert_null(profile);
 }
 

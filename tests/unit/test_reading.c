@@ -1,34 +1,18 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Readings: how sure they are, and when they end. */
-#include "check.h"
-
-#include <string.h>
-
-#include "review/light/reading.h"
-#include "world_fixture.h"
+#include "reading_fixture.h"
 
 #define RUNS 400
-
-static ReadingTools with_threads(int threads)
-{
-    ReadingTools tools = {.threads = threads};
-    Error        err = {0};
-    assert_true(kernel_choose(NULL, &tools.kernel, &err));
-    return tools;
-}
 
 /* A luxmeter on the floor of a closed white ball, under a small lamp. */
 static const LitPoint head = {{0, -0.9f, 0}, {0, 1, 0}, false};
 
 static World closed_ball(void)
 {
-    World    world = world_start();
-    Material lamp = builder_material(0);
+    World world = world_start();
     builder_part(world.scene, builder_material(0.5f));
     builder_sphere(world.scene, vec3(0, 0, 0), 1, 12, 1);
-    lamp.is_emitter = true;
-    for (int i = 0; i < 3; i++) lamp.emissive_cd_m2[i] = 1e4f;
-    builder_part(world.scene, lamp);
+    builder_part(world.scene, builder_lamp(1e4f));
     builder_quad(world.scene, vec3(0.3f, 0.5f, 0), vec3(0.05f, 0, 0), vec3(0, 0, 0.05f));
     world_ready(&world, 16);
     return world;
@@ -42,7 +26,7 @@ static ProbeAim aim_of(const World *world, uint32_t seed)
 static Reading read_ball(const World *world, uint32_t seed, const ReadingGoal *goal)
 {
     ProbeAim     aim = aim_of(world, seed);
-    ReadingTools tools = with_threads(2);
+    ReadingTools tools = reading_tools(2, NULL);
     return reading_take(&aim, goal, &tools, world->arena);
 }
 
@@ -55,7 +39,7 @@ static double converged(const World *world)
 /* At fixed paths 93 to 97 % of many runs; of 400 the standard deviation is 1.1 %. */
 TEST(intervals_hold_the_converged_reading)
 {
-    World       world = closed_ball();
+    ENDS_BY(world_end) World world = closed_ball();
     ReadingGoal goal = {.precision = 1e-9, .most = READING_LEAST};
     double      truth = converged(&world);
     int         held = 0;
@@ -66,17 +50,9 @@ TEST(intervals_hold_the_converged_reading)
     }
     double share = (double)held / RUNS;
     if (!(share > 0.93 - 0.033 && share < 0.97 + 0.026)) fail_msg("%d of %d", held, RUNS);
-    world_end(&world);
 }
 
 /* ---- a question -------------------------------------------------------------------------- */
-
-static bool is_clear_of(void *user, MeanInterval in, Arena scratch)
-{
-    (void)scratch;
-    const double *limit = user;
-    return in.low > *limit || in.high < *limit;
-}
 
 /* limit: by the converged reading. */
 static Reading read_against(const World *world, uint32_t seed, double limit)
@@ -88,14 +64,13 @@ static Reading read_against(const World *world, uint32_t seed, double limit)
 
 TEST(paths_go_where_the_answer_is_not_clear)
 {
-    World   world = closed_ball();
+    ENDS_BY(world_end) World world = closed_ball();
     double  truth = converged(&world);
     Reading far = read_against(&world, 5, 3 * truth), near = read_against(&world, 5, truth);
     assert_true(far.paths < near.paths);
     assert_true(far.sigma <= 0.05 * far.reflected && far.interval.high < 3 * truth);
     assert_true(near.sigma <= 0.0015 * near.reflected || near.paths == 1 << 18); /* errors of 32
                                            batches are known within half of themselves */
-    world_end(&world);
 }
 
 /* How many paths there are hangs on none of those that are told: these mean 95 %, and who goes
@@ -103,7 +78,7 @@ TEST(paths_go_where_the_answer_is_not_clear)
  * 1.1 %. */
 TEST(intervals_of_what_a_question_ends_hold_as_often)
 {
-    World  world = closed_ball();
+    ENDS_BY(world_end) World world = closed_ball();
     double truth = converged(&world);
     static const double LIMITS[] = {0.9, 0.97, 1.01, 1.05, 1.3};
     for (int i = 0; i < 5; i++) {
@@ -121,7 +96,6 @@ TEST(intervals_of_what_a_question_ends_hold_as_often)
         if (!(share > 0.93 - 0.033 && share < 0.97 + 0.026) || wrong > 0.025 * RUNS)
             fail_msg("limit at %g: %d of %d held, %d wrong", LIMITS[i], held, RUNS, wrong);
     }
-    world_end(&world);
 }
 
 /* But for the time that each took. */
@@ -140,7 +114,7 @@ static bool is_clear_with_scratch(void *user, MeanInterval in, Arena scratch)
 
 TEST(an_askers_scratch_is_not_the_readings)
 {
-    World           world = closed_ball();
+    ENDS_BY(world_end) World world = closed_ball();
     double          limit = converged(&world);
     ReadingQuestion question = {is_clear_of, &limit, 0.05, "limit"}, other = question;
     ReadingGoal     goal = {.precision = 0.001, .most = 1 << 16, .question = &question};
@@ -150,30 +124,27 @@ TEST(an_askers_scratch_is_not_the_readings)
     Reading b = read_ball(&world, 8, &goal);
     assert_true(a.paths > READING_ASKED_LEAST); /* asked more than once */
     assert_same(a, b);
-    world_end(&world);
 }
 
 /* Never more paths than without: a question ends a reading, it does not prolong it. */
 TEST(a_question_costs_no_paths)
 {
-    World       world = closed_ball();
+    ENDS_BY(world_end) World world = closed_ball();
     double      truth = converged(&world);
     long        paths = read_against(&world, 6, truth).paths; /* that nothing decides */
     for (int i = 0; i < 4; i++)
         assert_true(read_against(&world, 6, (0.9 + 0.1 * i) * truth).paths <= paths);
-    world_end(&world);
 }
 
 TEST(readings_are_the_same_for_any_threads)
 {
-    World        world = closed_ball();
+    ENDS_BY(world_end) World world = closed_ball();
     ReadingGoal  goal = {.precision = 0.02, .most = 1 << 14};
-    ReadingTools one = with_threads(1), five = with_threads(5);
+    ReadingTools one = reading_tools(1, NULL), five = reading_tools(5, NULL);
     ProbeAim     aim = aim_of(&world, 9);
     Reading a = reading_take(&aim, &goal, &one, world.arena);
     Reading b = reading_take(&aim, &goal, &five, world.arena);
     assert_same(a, b);
-    world_end(&world);
 }
 
 TEST_PROGRAM(NULL, NULL)

@@ -1,10 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Readings of one set of paths under other levels of the displays. */
-#include "fixture.h"
 
 #include "panel/query/panel_opened.h"
-#include "review/light/reading.h"
-#include "world_fixture.h"
+#include "reading_fixture.h"
 
 #define RUNS 300
 
@@ -13,40 +11,21 @@ static const Vec3 targets[4] = {{-0.1f, -0.05f, 0}, {0.1f, 0.05f, 0}, {-0.1f, 0.
                                 {0.1f, -0.05f, 0}};
 static const LitPoint head = {{0, -0.2f, 0.5f}, {0, 1, 0}, false};
 
-static void add_display(World *world, Vec3 at, Vec3 along)
-{
-    Scene   *scene = world->scene;
-    Material material = builder_material(0);
-    int      id = scene->display_count++;
-    material.display_id = id;
-    material.is_emitter = true;
-    int material_id = builder_part(scene, material);
-    builder_quad(scene, at, along, vec3(0, 0.1f, 0));
-    scene->displays[id] = (Display){.name = "display", .panel = world->panel, .level = 1,
-                                    .material_id = material_id,
-                                    .content = builder_no_texture()};
-}
-
 /* A display that looks along +z, another to the side that shines on it, grey walls, a lamp. */
 static World room(void)
 {
     World    world = world_start();
     Scene   *scene = world.scene;
-    Error    err = {0};
-    Material lamp = builder_material(0);
-    if (!panel_open(PROJECT_DIR "/assets/panels/ips_cluster.panel", &world.arena, &world.panel,
-                    &err))
-        fail_msg("%s", err.text);
     builder_part(scene, builder_material(0.5f));
     builder_quad(scene, vec3(0, -0.3f, 0.5f), vec3(0.6f, 0, 0), vec3(0, 0, -0.6f));
     builder_part(scene, builder_material(0.5f));
     builder_quad(scene, vec3(0, 0, 1.1f), vec3(-0.6f, 0, 0), vec3(0, 0.3f, 0));
-    for (int k = 0; k < 3; k++) lamp.emissive_cd_m2[k] = 400;
-    lamp.is_emitter = true;
-    builder_part(scene, lamp);
+    builder_part(scene, builder_lamp(400));
     builder_quad(scene, vec3(0.2f, 0.4f, 0.5f), vec3(0.1f, 0, 0), vec3(0, 0, 0.1f));
-    add_display(&world, vec3(0, 0, 0), vec3(0.2f, 0, 0));
-    add_display(&world, vec3(-0.4f, 0, 0.4f), vec3(0.1f, 0, -0.1f));
+    world_display(&world);
+    builder_quad(scene, vec3(0, 0, 0), vec3(0.2f, 0, 0), vec3(0, 0.1f, 0));
+    world_display(&world);
+    builder_quad(scene, vec3(-0.4f, 0, 0.4f), vec3(0.1f, 0, -0.1f), vec3(0, 0.1f, 0));
     world_ready(&world, 8);
     return world;
 }
@@ -60,21 +39,11 @@ static void set_levels(World *world, const double level[2])
         &world->arena);
 }
 
-static ReadingTools tools_of(Journal *journal)
-{
-    ReadingTools tools = {.threads = 2, .journal = journal};
-    Error        err = {0};
-    assert_true(kernel_choose(NULL, &tools.kernel, &err));
-    return tools;
-}
-
 static Journal *open_journal(World *world)
 {
     Problems problems = problems_start(&world->arena);
     Journal *journal;
-    Error    err;
-    if (!journal_open(in_folder("journal"), &world->arena, &problems, &journal, &err))
-        fail_msg("%s", err.text);
+    assert_done(journal_open(in_folder("journal"), &world->arena, &problems, &journal, &err));
     return journal;
 }
 
@@ -107,14 +76,14 @@ TEST(who_tells_displays_apart_tells_the_same)
 {
     enum { PATHS = 2048 };
     static ProbeLook plain[PATHS], apart[PATHS];
-    World          world = room();
+    ENDS_BY(world_end) World world = room();
     PathStatistics statistics = {0};
     double         own[2] = {0, 0};
     for (int by_meter = 0; by_meter < 2; by_meter++) {
         ProbeAim aim = aim_of(&world, 3, by_meter);
-        tools_of(NULL).kernel->look(&aim, 0, PATHS, plain, &statistics);
+        reading_tools(2, NULL).kernel->look(&aim, 0, PATHS, plain, &statistics);
         aim.by_display = true;
-        tools_of(NULL).kernel->look(&aim, 0, PATHS, apart, &statistics);
+        reading_tools(2, NULL).kernel->look(&aim, 0, PATHS, apart, &statistics);
         for (int i = 0; i < PATHS; i++) {
             float all = apart[i].reflected[1], sum = 0, mirror = 0;
             assert_memory_equal(plain[i].reflected, apart[i].reflected, 3 * sizeof(float));
@@ -131,7 +100,6 @@ TEST(who_tells_displays_apart_tells_the_same)
         }
         assert_true(own[0] > 0 && own[1] > 0);
     }
-    world_end(&world);
 }
 
 /* ---- the same paths under other levels --------------------------------------------------- */
@@ -139,9 +107,9 @@ TEST(who_tells_displays_apart_tells_the_same)
 TEST(a_scale_of_one_is_the_reading_and_light_is_linear)
 {
     static const double SCALE[4][2] = {{0, 0}, {1, 1}, {2, 2}, {1, 3}};
-    World        world = room();
+    ENDS_BY(world_end) World world = room();
     Journal     *journal = open_journal(&world);
-    ReadingTools tools = tools_of(journal);
+    ReadingTools tools = reading_tools(2, journal);
     for (int by_meter = 0; by_meter < 2; by_meter++) {
         ProbeAim aim = aim_of(&world, 7, by_meter);
         Reading  base = reading_take(&aim, &PLAIN, &tools, world.arena), of[4];
@@ -160,7 +128,6 @@ TEST(a_scale_of_one_is_the_reading_and_light_is_linear)
                          1e-9);
     }
     journal_close(journal);
-    world_end(&world);
 }
 
 /* Against a long reading under those levels, made for them. */
@@ -168,9 +135,9 @@ TEST(intervals_under_other_levels_hold_the_converged_reading)
 {
     static const double LEVELS[2] = {0.5, 3};
     ReadingGoal  longer = {.precision = 1e-9, .most = 1 << 19};
-    World        world = room(), other = room();
+    ENDS_BY(world_end) World world = room(), other = room();
     Journal     *journal = open_journal(&world);
-    ReadingTools tools = tools_of(journal), plain = tools_of(NULL);
+    ReadingTools tools = reading_tools(2, journal), plain = reading_tools(2, NULL);
     set_levels(&other, LEVELS);
     for (int by_meter = 0; by_meter < 2; by_meter++) {
         ProbeAim of_other = aim_of(&other, 77, by_meter);
@@ -189,27 +156,18 @@ TEST(intervals_under_other_levels_hold_the_converged_reading)
             fail_msg("%d of %d", held, RUNS); /* a standard deviation is 3.8; it may widen */
     }
     journal_close(journal);
-    world_end(&other);
-    world_end(&world);
 }
 
 /* ---- what is not known ------------------------------------------------------------------- */
-
-static bool is_clear_of(void *user, MeanInterval in, Arena scratch)
-{
-    (void)scratch;
-    const double *limit = user;
-    return in.low > *limit || in.high < *limit;
-}
 
 /* Far from the limit few paths do; scaled to it they are too few. */
 TEST(who_takes_more_paths_is_not_told)
 {
     static const double SCALE[2] = {0.2, 0.2};
     double          limit = 0;
-    World           world = room();
+    ENDS_BY(world_end) World world = room();
     Journal        *journal = open_journal(&world);
-    ReadingTools    tools = tools_of(journal), none = tools_of(NULL);
+    ReadingTools    tools = reading_tools(2, journal), none = reading_tools(2, NULL);
     ReadingQuestion question = {is_clear_of, &limit, 0.05, "limit"};
     ReadingGoal     goal = {.precision = 0.0005, .most = 1 << 20, .is_shared = true,
                             .question = &question};
@@ -224,16 +182,15 @@ TEST(who_takes_more_paths_is_not_told)
     aim.seed++;
     assert_false(reading_scaled(&aim, &goal, SCALE, &tools, world.arena, &out));
     journal_close(journal);
-    world_end(&world);
 }
 
 /* Who asks for the first time whether it is shared is told the same as before. */
 TEST(a_reading_that_was_kept_before_is_shared_later)
 {
     static const double SCALE[2] = {2, 2};
-    World        world = room();
+    ENDS_BY(world_end) World world = room();
     Journal     *journal = open_journal(&world);
-    ReadingTools tools = tools_of(journal);
+    ReadingTools tools = reading_tools(2, journal);
     ReadingGoal  alone = PLAIN;
     Reading      out;
     ProbeAim     aim = aim_of(&world, 11, false);
@@ -245,7 +202,6 @@ TEST(a_reading_that_was_kept_before_is_shared_later)
     assert_true(before.reflected == after.reflected && before.paths == after.paths);
     assert_true(before.interval.high == after.interval.high);
     journal_close(journal);
-    world_end(&world);
 }
 
 /* ---- emitters that were sorted for other levels ----------------------------------------- */
@@ -268,10 +224,9 @@ TEST(emitters_are_sorted_again_where_a_display_changes_four_times)
                  {{1, 1}, {0, 1}, true},    {{0, 1}, {0, 1}, false},
                  {{0, 1}, {1e-6, 1}, true}};
     for (size_t i = 0; i < sizeof CASES / sizeof *CASES; i++) {
-        World         world = room();
+        ENDS_BY(world_end) World world = room();
         const Lights *lights = changed(&world, CASES[i].then, CASES[i].now);
         assert_int_equal(lights != world.context.lights, CASES[i].is_again);
-        world_end(&world);
     }
 }
 
@@ -280,8 +235,8 @@ TEST(emitters_of_other_levels_tell_the_same_light)
 {
     static const double ONE[2] = {1, 1}, LEVELS[2] = {0.25, 4}, FAR[2] = {8, 0.05};
     ReadingGoal  longer = {.precision = 1e-9, .most = 1 << 17};
-    World        world = room();
-    ReadingTools tools = tools_of(NULL);
+    ENDS_BY(world_end) World world = room();
+    ReadingTools tools = reading_tools(2, NULL);
     for (int by_meter = 0; by_meter < 2; by_meter++) {
         Reading  kept, own;
         ProbeAim aim = aim_of(&world, 5, by_meter);
@@ -297,7 +252,6 @@ TEST(emitters_of_other_levels_tell_the_same_light)
         assert_true(own.interval.low < kept.interval.high);
         assert_close(kept.reflected / own.reflected, 1, 0.01);
     }
-    world_end(&world);
 }
 
 TEST_PROGRAM(make_folder, clear_folder)

@@ -27,9 +27,8 @@ typedef struct Row {
     const char *relative, *root, *words; /* words NULL: it is taken */
 } Row;
 
-TEST(a_file_leads_to_its_neighbours_only)
+ARENA_TEST(a_file_leads_to_its_neighbours_only)
 {
-    Arena arena = test_arena(state);
     static const Row rows[] = {
         {"../beside/x", NULL, NULL},
         {"near", NULL, NULL},
@@ -50,14 +49,13 @@ TEST(a_file_leads_to_its_neighbours_only)
         {"out", "secre", "by a symbolic link"}, /* no folder of that name */
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        Error       err = {0};
         const char *path = NULL;
         const char *root = rows[i].root ? in_folder(rows[i].root) : NULL;
         bool taken = reference_resolve(in_folder("a/scenes/s.gltf"), rows[i].relative, root,
-                                       &arena, &path, &err);
-        if (taken != !rows[i].words) fail_msg("'%s': %s", rows[i].relative, err.text);
-        if (!taken && !strstr(err.text, rows[i].words))
-            fail_msg("'%s' says: %s", rows[i].relative, err.text);
+                                       &arena, &path, why());
+        if (taken != !rows[i].words) fail_msg("'%s': %s", rows[i].relative, why()->text);
+        if (!taken && !strstr(why()->text, rows[i].words))
+            fail_msg("'%s' says: %s", rows[i].relative, why()->text);
         if (taken)
             assert_string_equal(path, arena_format(&arena, "%s/a/scenes/%s", test_folder(),
                                                    rows[i].relative));
@@ -65,45 +63,40 @@ TEST(a_file_leads_to_its_neighbours_only)
 }
 
 /* A file that is named without a folder stands in the folder where the program was started. */
-TEST(the_folder_may_be_unnamed)
+ARENA_TEST(the_folder_may_be_unnamed)
 {
-    Arena arena = test_arena(state);
     char        before[4096];
     const char *path;
-    Error       err;
     assert_non_null(getcwd(before, sizeof before));
     assert_int_equal(chdir(in_folder("a/scenes")), 0);
-    assert_true(reference_resolve("s.gltf", "near", NULL, &arena, &path, &err));
+    assert_done(reference_resolve("s.gltf", "near", NULL, &arena, &path, &err));
     assert_string_equal(path, "near");
-    assert_false(reference_resolve("s.gltf", "out", NULL, &arena, &path, &err));
+    assert_false(reference_resolve("s.gltf", "out", NULL, &arena, &path, why()));
     assert_int_equal(chdir(before), 0);
 }
 
 TEST(a_root_must_be_a_folder)
 {
-    Error err = {0};
-    assert_true(reference_check_root(NULL, &err));
-    assert_true(reference_check_root(in_folder("secret"), &err));
-    assert_false(reference_check_root(in_folder("secret/x"), &err));
-    assert_string_equal(err.text, "--root wants a folder: Not a directory");
-    assert_false(reference_check_root(in_folder("nowhere"), &err));
-    assert_string_equal(err.text, "--root wants a folder: No such file or directory");
-    assert_int_equal(err.code, ERROR_INPUT);
+    assert_done(reference_check_root(NULL, &err));
+    assert_done(reference_check_root(in_folder("secret"), &err));
+    assert_false(reference_check_root(in_folder("secret/x"), why()));
+    assert_string_equal(why()->text, "--root wants a folder: Not a directory");
+    assert_false(reference_check_root(in_folder("nowhere"), why()));
+    assert_string_equal(why()->text, "--root wants a folder: No such file or directory");
+    assert_int_equal(why()->code, ERROR_INPUT);
 }
 
 TEST(an_output_is_looked_at_first)
 {
-    Error err = {0};
-    assert_true(file_check_writable(in_folder("new"), &err));
+    assert_done(file_check_writable(in_folder("new"), &err));
     assert_int_equal(access(in_folder("new"), F_OK), -1); /* nothing is left */
-    assert_true(file_check_writable(in_folder("secret/x"), &err));
-    assert_true(file_check_writable("/dev/null", &err));
-    assert_false(file_check_writable(in_folder("secret"), &err));
-    assert_string_equal(err.text, "cannot be written: Is a directory");
-    assert_false(file_check_writable(in_folder("nowhere/new"), &err));
-    assert_int_equal(err.code, ERROR_OUTPUT);
-    assert_non_null(strstr(err.text, "No such file or directory"));
-    assert_string_equal(err.file, in_folder("nowhere/new"));
+    assert_done(file_check_writable(in_folder("secret/x"), &err));
+    assert_done(file_check_writable("/dev/null", &err));
+    assert_false(file_check_writable(in_folder("secret"), why()));
+    assert_string_equal(why()->text, "cannot be written: Is a directory");
+    assert_fails_as(file_check_writable(in_folder("nowhere/new"), &err), ERROR_OUTPUT,
+                    "No such file or directory");
+    assert_string_equal(why()->file, in_folder("nowhere/new"));
 }
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
@@ -126,9 +119,7 @@ TEST(an_arena_leaves_room)
         size_t a = (size_t)(first.end - first.begin), b = (size_t)(second.end - second.begin);
         _exit(a <= gigabyte && a > gigabyte / 2 && b <= a / 2 + 65536 && b > a / 4 ? 0 : 2);
     }
-    int status = 0;
-    assert_int_equal(waitpid(child, &status, 0), child);
-    assert_int_equal(status, 0);
+    assert_int_equal(status_of(child), 0);
 }
 
 TEST_PROGRAM(make_tree, clear_folder)

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* The render loop's parts that need no scene: tiles, passes, workers, signals, progress. */
-#include "check.h"
+#include "fixture.h"
 
 #include <math.h>
 #include <signal.h>
@@ -49,10 +49,7 @@ TEST(the_first_interrupt_asks_and_the_second_ends)
             execl("/proc/self/exe", "test_render", "raise", text, (char *)NULL);
             _exit(4);
         }
-        int status;
-        assert_int_equal(waitpid(child, &status, 0), child);
-        assert_true(WIFEXITED(status));
-        assert_int_equal(WEXITSTATUS(status), 128 + numbers[i]);
+        assert_int_equal(status_of(child), 128 + numbers[i]);
     }
 }
 
@@ -194,19 +191,18 @@ static bool fails_at(void *context, int item, Error *err)
 
 TEST(the_first_item_that_fails_is_told_when_all_are_done)
 {
-    Arena arena = arena_reserve(1 << 20);
+    ENDS_BY(arena_release) Arena arena = arena_reserve(1 << 20);
     for (int threads = 1; threads < 4; threads++) {
         Counting *counting = calloc(1, sizeof *counting);
-        Error     err = {0};
-        assert_true(parallel_try(threads, 7, fails_at, counting, arena, &err));
-        assert_int_equal(err.code, 0);
-        assert_false(parallel_try(threads, 100, fails_at, counting, arena, &err));
-        assert_int_equal(err.code, ERROR_OUTPUT);
-        assert_string_equal(err.text, "of 7");
+        *why() = (Error){0};
+        assert_true(parallel_try(threads, 7, fails_at, counting, arena, why()));
+        assert_int_equal(why()->code, 0);
+        assert_false(parallel_try(threads, 100, fails_at, counting, arena, why()));
+        assert_int_equal(why()->code, ERROR_OUTPUT);
+        assert_string_equal(why()->text, "of 7");
         for (int i = 0; i < 100; i++) assert_int_equal(counting->items[i], i < 7 ? 2 : 1);
         free(counting);
     }
-    arena_release(&arena);
 }
 
 TEST(no_items_is_no_work)

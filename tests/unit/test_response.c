@@ -1,38 +1,17 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Probes and their responses: light adds up, however it is asked. */
-#include "check.h"
 
-#include "base/count.h"
 #include "base/units.h"
 #include "panel/query/panel_reflection.h"
 #include "review/light/distant_probe.h"
 #include "review/light/light_bands.h"
-#include "world_fixture.h"
-
-static const Kernel *kernel(void)
-{
-    const Kernel *chosen;
-    Error         err = {0};
-    assert_true(kernel_choose(NULL, &chosen, &err));
-    return chosen;
-}
+#include "reading_fixture.h"
 
 /* A display that looks along +z, 0.4 m wide, 0.2 m high. */
 static void add_display(World *world)
 {
-    Scene   *scene = world->scene;
-    Error    err = {0};
-    Material display = builder_material(0);
-    display.display_id = 0;
-    display.is_emitter = true;
-    int material_id = builder_part(scene, display);
-    builder_quad(scene, vec3(0, 0, 0), vec3(0.2f, 0, 0), vec3(0, 0.1f, 0));
-    if (!panel_open(PROJECT_DIR "/assets/panels/ips_cluster.panel", &world->arena,
-                    &world->panel, &err))
-        fail_msg("%s", err.text);
-    scene->displays[scene->display_count++] =
-        (Display){.name = "display", .panel = world->panel, .material_id = material_id,
-                  .level = 0, .content = builder_no_texture()};
+    world_display(world)->level = 0;
+    builder_quad(world->scene, vec3(0, 0, 0), vec3(0.2f, 0, 0), vec3(0, 0.1f, 0));
 }
 
 /* It stands in a white niche, open to the sky above and on the right. */
@@ -49,15 +28,6 @@ static World niche(void)
     return world;
 }
 
-/* D65, 1000 cd/m2. */
-static void set_uniform_sky(World *world)
-{
-    Environment *sky = &world->scene->environment;
-    sky->kind = ENVIRONMENT_CONSTANT;
-    sky->luminance_cd_m2 = 1000;
-    for (int i = 0; i < 3; i++) sky->color[i] = 1;
-}
-
 static const Vec3 eye = {0.1f, 0.1f, 0.7f};
 static const Vec3 targets[4] = {{-0.1f, -0.05f, 0}, {0.1f, 0.05f, 0}, {-0.1f, 0.05f, 0},
                                 {0.1f, -0.05f, 0}};
@@ -71,7 +41,7 @@ static ProbeAim aim_of(const World *world)
 static Reading read_all(const ProbeAim *aim, Arena scratch)
 {
     ReadingGoal  goal = {.precision = 0.01, .most = 1 << 16};
-    ReadingTools tools = {.kernel = kernel(), .threads = 2};
+    ReadingTools tools = reading_tools(2, NULL);
     return reading_take(aim, &goal, &tools, scratch);
 }
 
@@ -114,7 +84,7 @@ TEST(bands_add_up_to_the_luminance)
 
 TEST(a_luxmeter_in_the_open_responds_with_pi)
 {
-    World world = world_start();
+    ENDS_BY(world_end) World world = world_start();
     builder_part(world.scene, builder_material(0));
     builder_quad(world.scene, vec3(0, -100, 0), vec3(1, 0, 0), vec3(0, 0, -1));
     world_ready(&world, 8);
@@ -129,7 +99,6 @@ TEST(a_luxmeter_in_the_open_responds_with_pi)
     ResponseOptions options = {kernel(), 4, 16, 1, 0};
     const float *shares = response_suns(&aim, &options, &suns, &world.arena);
     for (int b = 0; b < LIGHT_BANDS; b++) assert_near(shares[b], sqrt(0.5), 2e-3);
-    world_end(&world);
 }
 
 /* The niche, with what ways follow: a wall that mirrors, one of satin metal, and a pane. */
@@ -137,17 +106,13 @@ static World mirrored_niche(void)
 {
     World    world = niche();
     Scene   *scene = world.scene;
-    Material metal = builder_material(0.8f), pane = builder_material(1);
-    metal.metallic = 1;
-    metal.roughness = 0;
+    Material metal = builder_mirror(0.8f), pane = builder_pane(1.5f);
     builder_part(scene, metal);
     builder_quad(scene, vec3(0, 0, -0.1f), vec3(0.6f, 0, 0), vec3(0, 0.3f, 0));
     metal.roughness = 0.35f;
     builder_part(scene, metal);
     builder_quad(scene, vec3(0, 0, 1), vec3(-0.6f, 0, 0), vec3(0, 0.3f, 0));
-    pane.specular = pane.transmission = 1;
-    pane.lets_light_through = true;
-    pane.roughness = 0;
+    pane.specular = 1;
     builder_part(scene, pane);
     builder_quad(scene, vec3(0.6f, 0, 0.5f), vec3(0, 0.3f, 0), vec3(0, 0, 0.6f));
     return world;
@@ -155,7 +120,7 @@ static World mirrored_niche(void)
 
 static void check_under_a_uniform_sky(World world)
 {
-    set_uniform_sky(&world);
+    builder_sky(world.scene, 1000);
     world_ready(&world, 64);
     ProbeAim aim = aim_of(&world);
     float    bands[LIGHT_BANDS];
@@ -189,24 +154,25 @@ static int suns_about(Vec3 *suns)
     return count;
 }
 
-/* Nothing else shines. */
-static void set_sun(World *world, Vec3 towards)
+static void light_again(World *world)
 {
-    Environment *sky = &world->scene->environment;
-    Lights      *lights;
-    Error        err = {0};
-    sky->has_sun = true;
-    sky->sun_azimuth = atan2f(towards.x, -towards.z);
-    sky->sun_elevation = asinf(towards.y);
-    sky->sun_illuminance_lx = 10000;
-    assert_true(lights_build(world->scene, &world->arena, &lights, &err));
+    Lights *lights;
+    assert_done(lights_build(world->scene, &world->arena, &lights, &err));
     world->context =
         path_context_build(world->scene, world->bvh, lights, 64, &world->arena);
 }
 
+/* Nothing else shines. */
+static void set_sun(World *world, Vec3 towards)
+{
+    builder_sun(world->scene, (double)atan2f(towards.x, -towards.z), (double)asinf(towards.y),
+                10000);
+    light_again(world);
+}
+
 TEST(a_response_to_a_sun_is_what_paths_find_under_it)
 {
-    World world = niche();
+    ENDS_BY(world_end) World world = niche();
     Vec3  suns[64];
     int   count = suns_about(suns);
     world_ready(&world, 64);
@@ -241,7 +207,6 @@ TEST(a_response_to_a_sun_is_what_paths_find_under_it)
     /* means over a triangle's width move what enters by edges */
     double rms = sqrt(squares / judged);
     if (!(judged > 20 && rms < 0.04)) fail_msg("%d suns, rms %g", judged, rms);
-    world_end(&world);
 }
 
 /* ---- the sun in the display itself ------------------------------------------------------- */
@@ -277,7 +242,7 @@ static double mirror_sum(const Panel *panel, float cosine)
 TEST(a_sun_in_a_display_is_as_bright_as_its_mirror_says)
 {
     enum { SUNS = 24 };
-    World world = world_start();
+    ENDS_BY(world_end) World world = world_start();
     Vec3  middles[TILES * TILES], suns[SUNS], at[SUNS];
     ProbePatch patches[TILES * TILES];
     add_display(&world);
@@ -307,13 +272,12 @@ TEST(a_sun_in_a_display_is_as_bright_as_its_mirror_says)
     }
     double rms = sqrt(squares / SUNS);
     if (!(rms < 0.01)) fail_msg("rms %g", rms);
-    world_end(&world);
 }
 
 /* The sun in a tile of 20 x 10 mm: by luck, and as what is known of it beside all else. */
 TEST(a_reading_knows_of_the_sun_in_a_display)
 {
-    World      world = world_start();
+    ENDS_BY(world_end) World world = world_start();
     Vec3       at = vec3(0.02f, 0.01f, 0), to = vec3_normalize(vec3_sub(at, eye)), towards;
     ProbePatch patch = {vec3(0.02f, 0, 0), vec3(0, -0.01f, 0)};
     float      bands[LIGHT_BANDS];
@@ -332,7 +296,7 @@ TEST(a_reading_knows_of_the_sun_in_a_display)
     ProbeAim     rest = aim;
     ReadingGoal  all = {.precision = 0.02, .most = 1 << 18};
     ReadingGoal  less = {.precision = 0.02, .most = 1 << 12, .known = known};
-    ReadingTools tools = {.kernel = kernel(), .threads = 2};
+    ReadingTools tools = reading_tools(2, NULL);
     without.without_mirrored_sun = true;
     rest.context = &without;
     Reading by_luck = reading_take(&aim, &all, &tools, world.arena);
@@ -345,7 +309,6 @@ TEST(a_reading_knows_of_the_sun_in_a_display)
     assert_true(knowing.sigma < by_luck.sigma && 32 * knowing.paths < by_luck.paths);
     assert_true(knowing.interval.low < knowing.reflected &&
                 knowing.reflected < knowing.interval.high);
-    world_end(&world);
 }
 
 static Environment clear_sky(double azimuth_deg, double elevation_deg, float lux)
@@ -362,8 +325,7 @@ TEST(a_response_to_a_clear_sky_is_what_paths_find_under_it)
 {
     static const SunAngles suns[] = {{270, 33}, {180, 30}, {0, 36}, {90, 30}};
     static const ReviewRequest request = {.forward = {0, 0, -1}};
-    World world = niche();
-    Error err = {0};
+    ENDS_BY(world_end) World world = niche();
     world_ready(&world, 64);
     Setup setup = {.request = &request, .tools = {.kernel = kernel(), .threads = 2},
                    .scene = world.scene, .context = world.context};
@@ -374,15 +336,12 @@ TEST(a_response_to_a_clear_sky_is_what_paths_find_under_it)
     DistantProbe probe = {.aim = aim_of(&world)};
     probe.aim.context = &setup.context;
     distant_probe_respond(&probe, &tools, &world.arena);
-    assert_true(distant_probes_ask_skies((DistantProbe *[]){&probe}, 1, &tools, &world.arena,
+    assert_done(distant_probes_ask_skies((DistantProbe *[]){&probe}, 1, &tools, &world.arena,
                                          &err));
     distant_probe_ask_suns(&probe, &tools, &world.arena);
     for (int i = 0; i < 4; i++) {
-        Lights *lights;
         world.scene->environment = clear_sky(suns[i].azimuth_deg, suns[i].elevation_deg, 0);
-        assert_true(lights_build(world.scene, &world.arena, &lights, &err));
-        world.context =
-            path_context_build(world.scene, world.bvh, lights, 64, &world.arena);
+        light_again(&world);
         ProbeAim aim = aim_of(&world);
         Reading  reading = read_all(&aim, world.arena);
         world.scene->environment = (Environment){.forward = vec3(0, 0, -1)};
@@ -392,7 +351,6 @@ TEST(a_response_to_a_clear_sky_is_what_paths_find_under_it)
             fail_msg("sky %d: %g, paths %g +- %g", i, found, reading.reflected,
                      reading.sigma);
     }
-    world_end(&world);
 }
 
 /* Where it does not none lights it, asked by itself. */
@@ -412,7 +370,7 @@ static Vec3 *suns_all_round(Arena *arena)
 
 TEST(a_response_reaches_all_suns_that_light_it)
 {
-    World world = niche();
+    ENDS_BY(world_end) World world = niche();
     int   left = 0, lit = 0;
     world_ready(&world, 8);
     ProbeAim  aim = aim_of(&world);
@@ -432,12 +390,11 @@ TEST(a_response_reaches_all_suns_that_light_it)
     }
     assert_true(lit > SUNS / 20);
     assert_true(left > SUNS / 2); /* behind the display, and walls */
-    world_end(&world);
 }
 
 TEST(an_even_response_is_the_same_for_suns_anywhere)
 {
-    World    world = niche();
+    ENDS_BY(world_end) World world = niche();
     float    bands[LIGHT_BANDS];
     uint32_t random = 1;
     world_ready(&world, 4);
@@ -457,13 +414,12 @@ TEST(an_even_response_is_the_same_for_suns_anywhere)
         Vec3 towards = vec3_normalize(vec3(v[0], v[1], v[2]));
         assert_close(response_sun(&even, towards, bands, NULL, NULL), 1, 1e-5);
     }
-    world_end(&world);
 }
 
 /* As many samples alike, and one that is all of the light. */
 TEST(a_sun_tells_the_samples_it_is_made_of)
 {
-    World world = niche();
+    ENDS_BY(world_end) World world = niche();
     float bands[LIGHT_BANDS];
     world_ready(&world, 4);
     ProbeAim aim = aim_of(&world);
@@ -491,13 +447,12 @@ TEST(a_sun_tells_the_samples_it_is_made_of)
     response_sun(&even, towards, bands, without, &one);
     assert_close(one.squares, 1, 1e-5);
     assert_close(one.fourths, 1, 1e-5);
-    world_end(&world);
 }
 
 /* So that what is kept of one asking is what another would find. */
 TEST(a_sun_is_answered_alike_beside_any_others)
 {
-    World world = niche();
+    ENDS_BY(world_end) World world = niche();
     world_ready(&world, 8);
     ProbeAim  aim = aim_of(&world);
     Vec3     *suns = suns_all_round(&world.arena);
@@ -517,12 +472,11 @@ TEST(a_sun_is_answered_alike_beside_any_others)
         }
     }
     assert_true(lit > SUNS / 7 / 20);
-    world_end(&world);
 }
 
 TEST(responses_are_the_same_for_any_threads)
 {
-    World world = niche();
+    ENDS_BY(world_end) World world = niche();
     world_ready(&world, 64);
     ProbeAim  aim = aim_of(&world);
     Response  one = respond(&aim, 512, 1, &world.arena);
@@ -532,7 +486,6 @@ TEST(responses_are_the_same_for_any_threads)
     assert_memory_equal(one.rest, five.rest,
                         (size_t)one.cells.count * LIGHT_BANDS * sizeof(float));
     assert_true(one.relative_error == five.relative_error);
-    world_end(&world);
 }
 
 typedef struct Heard {
@@ -550,8 +503,8 @@ static void on_light(void *user, const PathHistory *history, const float xyz[3])
 
 TEST(what_a_listener_hears_adds_up_to_the_light)
 {
-    World world = niche();
-    set_uniform_sky(&world);
+    ENDS_BY(world_end) World world = niche();
+    builder_sky(world.scene, 1000);
     world.scene->displays[0].level = 1;
     world_ready(&world, 64);
     ProbeAim       aim = aim_of(&world);
@@ -565,7 +518,6 @@ TEST(what_a_listener_hears_adds_up_to_the_light)
     for (int i = 0; i < 256; i++) seen += (double)looks[i].reflected[1];
     assert_close(heard.y, seen, 1e-6);
     assert_true(heard.count > 256);
-    world_end(&world);
 }
 
 TEST_PROGRAM(NULL, NULL)

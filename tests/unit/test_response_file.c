@@ -57,9 +57,8 @@ static FileBytes write_one(Arena *arena)
     Response     response = make_response(arena);
     ResponseFile file = {.path = path, .identity = identity};
     FileBytes    bytes;
-    Error        err;
-    if (!response_write(&file, &response, &light, *arena, &err)) fail_msg("%s", err.text);
-    assert_true(file_read(path, 1 << 24, arena, &bytes, &err));
+    assert_done(response_write(&file, &response, &light, *arena, &err));
+    assert_done(file_read(path, 1 << 24, arena, &bytes, &err));
     assert_int_equal(bytes.size, file.bytes);
     return bytes;
 }
@@ -75,15 +74,13 @@ static void assert_refused(const char *as, Arena arena, Error *err)
     assert_true(response.paths == 7 && own.lamps == 1);
 }
 
-TEST(what_was_written_is_read)
+ARENA_TEST(what_was_written_is_read)
 {
-    Arena        arena = test_arena(state);
     ResponseFile file = {.path = path, .identity = identity};
     Response     found, wanted = make_response(&arena);
     OwnLight     own;
-    Error        err;
     FileBytes    bytes = write_one(&arena);
-    if (!response_read(&file, &arena, &found, &own, &err)) fail_msg("%s", err.text);
+    assert_done(response_read(&file, &arena, &found, &own, &err));
     assert_same_responses(&found, &wanted);
     assert_memory_equal(&own, &light, sizeof own);
     assert_int_equal(file.bytes, bytes.size);
@@ -92,43 +89,37 @@ TEST(what_was_written_is_read)
     assert_true(bytes.size < whole); /* empty triangles take no room */
 }
 
-TEST(every_beginning_is_refused)
+ARENA_TEST(every_beginning_is_refused)
 {
-    Arena     arena = test_arena(state);
     FileBytes bytes = write_one(&arena);
-    Error     err;
     for (size_t size = 0; size < bytes.size; size++) {
         write_bytes(path, bytes.data, size);
-        assert_refused(identity, arena, &err);
-        assert_true(strstr(err.text, size < 8 ? "is not a response" : "is cut off"));
+        assert_refused(identity, arena, why());
+        assert_true(strstr(why()->text, size < 8 ? "is not a response" : "is cut off"));
     }
 }
 
-TEST(every_damaged_byte_is_refused)
+ARENA_TEST(every_damaged_byte_is_refused)
 {
-    Arena     arena = test_arena(state);
     FileBytes bytes = write_one(&arena);
     unsigned char *damaged = ARENA_NEW(&arena, unsigned char, bytes.size + 1);
-    Error     err;
     for (size_t at = 0; at < bytes.size; at++) {
         memcpy(damaged, bytes.data, bytes.size);
         damaged[at] ^= 1;
         write_bytes(path, damaged, bytes.size);
-        assert_refused(identity, arena, &err);
+        assert_refused(identity, arena, why());
     }
     memcpy(damaged, bytes.data, bytes.size);
     write_bytes(path, damaged, bytes.size + 1);
-    assert_refused(identity, arena, &err);
-    assert_true(strstr(err.text, "is damaged: has "));
+    assert_refused(identity, arena, why());
+    assert_true(strstr(why()->text, "is damaged: has "));
 }
 
-TEST(another_question_is_told_by_what_differs)
+ARENA_TEST(another_question_is_told_by_what_differs)
 {
-    Arena arena = test_arena(state);
-    Error err;
     write_one(&arena);
-    assert_refused("version\t1\neye\t0 1 3\nseed\t9\n", arena, &err);
-    assert_string_equal(err.text,
+    assert_refused("version\t1\neye\t0 1 3\nseed\t9\n", arena, why());
+    assert_string_equal(why()->text,
                         "is the response of something else: eye: 0 1 2 there, 0 1 3 here");
 }
 

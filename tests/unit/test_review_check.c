@@ -70,17 +70,15 @@ static Scene *make_scene(Arena *arena)
 
 /* ---- displays and cameras ---------------------------------------------------------------- */
 
-TEST(displays_are_found_by_material_and_node)
+ARENA_TEST(displays_are_found_by_material_and_node)
 {
-    Arena         arena = test_arena(state);
-    Error         err;
     ReviewDisplay found;
     const Scene  *scene = make_scene(&arena);
-    assert_true(review_display_find(scene, "cluster", &arena, &found, &err));
+    assert_done(review_display_find(scene, "cluster", &arena, &found, &err));
     assert_true(found.display_id == 0 && found.part_count == 1 && found.part_ids[0] == 1);
-    assert_true(review_display_find(scene, "node:dial", &arena, &found, &err));
+    assert_done(review_display_find(scene, "node:dial", &arena, &found, &err));
     assert_true(found.display_id == 0 && found.part_count == 1);
-    assert_true(review_display_find(scene, "node:screen left", &arena, &found, &err));
+    assert_done(review_display_find(scene, "node:screen left", &arena, &found, &err));
     assert_true(found.display_id == 1 && found.part_count == 2 && found.part_ids[1] == 4);
 }
 
@@ -99,56 +97,48 @@ TEST(displays_that_are_none_are_told)
     };
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         Arena         arena = test_arena(state);
-        Error         err;
         ReviewDisplay found;
-        assert_false(review_display_find(make_scene(&arena), wrong[i].name, &arena, &found,
-                                         &err));
-        assert_error_has(&err, wrong[i].words);
+        assert_fails_as(review_display_find(make_scene(&arena), wrong[i].name, &arena, &found,
+                                         &err), ERROR_INPUT, wrong[i].words);
     }
     Arena         arena = test_arena(state);
-    Error         err;
     ReviewDisplay found;
-    assert_false(review_display_find(&(Scene){0}, "x", &arena, &found, &err));
-    assert_error_has(&err, "the scene has no display, wanted a material with a panel");
+    assert_fails_as(review_display_find(&(Scene){0}, "x", &arena, &found, &err), ERROR_INPUT,
+                    "the scene has no display, wanted a material with a panel");
 }
 
-TEST(cameras_are_found_by_name_and_index)
+ARENA_TEST(cameras_are_found_by_name_and_index)
 {
-    Arena        arena = test_arena(state);
-    Error        err;
     int          id = NO_ID;
     const Scene *scene = make_scene(&arena);
     ReviewEye    named = {.kind = EYE_CAMERA, .camera = "plan", .camera_id = NO_ID};
     ReviewEye    counted = {.kind = EYE_CAMERA, .camera_id = 1};
-    assert_true(review_camera_find(scene, &named, arena, &id, &err) && id == 2);
-    assert_true(review_camera_find(scene, &counted, arena, &id, &err) && id == 1);
+    assert_true(review_camera_find(scene, &named, arena, &id, why()) && id == 2);
+    assert_true(review_camera_find(scene, &counted, arena, &id, why()) && id == 1);
     named.camera = "eey", counted.camera_id = 3;
-    assert_false(review_camera_find(scene, &named, arena, &id, &err));
-    assert_error_has(&err, "there is no camera 'eey': did you mean eye?");
-    assert_false(review_camera_find(scene, &counted, arena, &id, &err));
-    assert_error_has(&err, "there is no camera 3, wanted one of the scene's 3, counted from 0");
-    assert_false(review_camera_find(&(Scene){0}, &named, arena, &id, &err));
-    assert_error_has(&err, "the scene has no camera, wanted 'position_m'");
+    assert_fails_as(review_camera_find(scene, &named, arena, &id, &err), ERROR_INPUT,
+                    "there is no camera 'eey': did you mean eye?");
+    assert_fails_as(review_camera_find(scene, &counted, arena, &id, &err), ERROR_INPUT,
+                    "there is no camera 3, wanted one of the scene's 3, counted from 0");
+    assert_fails_as(review_camera_find(&(Scene){0}, &named, arena, &id, &err), ERROR_INPUT,
+                    "the scene has no camera, wanted 'position_m'");
 }
 
 /* ---- a whole request --------------------------------------------------------------------- */
 
 static void check(const char *from, const char *to, Problems *problems, Arena *arena)
 {
-    Error         err = {0};
     ReviewRequest request;
     char *text = review_changed(review_good, from, to, arena);
-    if (!review_read(review_changed(text, "node:screen", "node:screen right", arena), arena,
-                     &request, &err))
-        fail_msg("%s: %s", err.path, err.text);
+    assert_done(review_read(review_changed(text, "node:screen", "node:screen right", arena),
+                            arena, &request, &err));
     *problems = problems_start(arena);
     bool ok = review_request_check(&request, make_scene(arena), problems);
     assert_int_equal(ok, problems->error_count == 0);
 }
 
-TEST(a_request_that_fits_its_scene_has_no_problem)
+ARENA_TEST(a_request_that_fits_its_scene_has_no_problem)
 {
-    Arena    arena = test_arena(state);
     Problems problems;
     check(NULL, NULL, &problems, &arena);
     assert_int_equal(problems.count, 0);
@@ -180,15 +170,13 @@ TEST(what_does_not_fit_is_told_with_its_place)
     }
 }
 
-TEST(a_symbol_wants_content)
+ARENA_TEST(a_symbol_wants_content)
 {
-    Arena         arena = test_arena(state);
-    Error         err;
     ReviewRequest request;
     Scene        *scene = make_scene(&arena);
     Problems      problems = problems_start(&arena);
     char *text = review_changed(review_good, "node:screen", "node:screen right", &arena);
-    assert_true(review_read(text, &arena, &request, &err));
+    assert_done(review_read(text, &arena, &request, &err));
     for (int i = 0; i < scene->display_count; i++)
         scene->displays[i].content.texture_id = NO_ID;
     assert_false(review_request_check(&request, scene, &problems));
@@ -214,17 +202,14 @@ static bool begin(const Scene *scene, const char *output, Arena *arena, Error *e
 }
 
 /* What is written is taken, and fits the scene. */
-TEST(a_file_to_start_from_is_read_back)
+ARENA_TEST(a_file_to_start_from_is_read_back)
 {
-    Arena         arena = test_arena(state);
-    Error         err = {0};
     ReviewRequest r;
     const Scene  *scene = make_scene(&arena);
     const char   *output = in_folder("new.review.json");
     Problems      problems = problems_start(&arena);
-    if (!begin(scene, output, &arena, &err)) fail_msg("%s: %s", err.file, err.text);
-    if (!review_request_read(output, NULL, &arena, &problems, &r, &err))
-        fail_msg("%s: %s", err.path, err.text);
+    assert_done(begin(scene, output, &arena, &err));
+    assert_done(review_request_read(output, NULL, &arena, &problems, &r, &err));
     assert_true(review_request_check(&r, scene, &problems));
     assert_string_equal(r.title, "b c");
     assert_string_equal(r.scenes[0], in_folder("b c.gltf"));
@@ -246,51 +231,46 @@ TEST(a_file_to_start_from_is_read_back)
         line += *line == '\n';
         assert_true(strcspn(line, "\n") <= 96);
     }
-    assert_false(begin(scene, output, &arena, &err)); /* nothing is overwritten */
-    assert_int_equal(err.code, ERROR_OUTPUT);
-    assert_error_has(&err, "is there already, wanted the name of a new file");
+    assert_false(begin(scene, output, &arena, why())); /* nothing is overwritten */
+    assert_int_equal(why()->code, ERROR_OUTPUT);
+    assert_error_has(why(), "is there already, wanted the name of a new file");
     unlink(output);
 }
 
-TEST(a_folder_beside_the_scenes_will_do)
+ARENA_TEST(a_folder_beside_the_scenes_will_do)
 {
-    Arena         arena = test_arena(state);
-    Error         err = {0};
     ReviewRequest r;
     Problems      problems = problems_start(&arena);
     mkdir(in_folder("one"), 0700);
     mkdir(in_folder("one/two"), 0700);
     const char *near = in_folder("one/n.json");
     const char *far = arena_format(&arena, "%s", in_folder("one/two/f.json"));
-    if (!begin(make_scene(&arena), near, &arena, &err)) fail_msg("%s", err.text);
-    assert_true(review_request_read(near, NULL, &arena, &problems, &r, &err));
-    assert_false(begin(make_scene(&arena), far, &arena, &err));
-    assert_int_equal(err.code, ERROR_INPUT);
-    assert_error_has(&err, "lies outside the parent of the new file's folder, wanted");
+    assert_done(begin(make_scene(&arena), near, &arena, &err));
+    assert_done(review_request_read(near, NULL, &arena, &problems, &r, &err));
+    assert_fails_as(begin(make_scene(&arena), far, &arena, &err), ERROR_INPUT,
+                    "lies outside the parent of the new file's folder, wanted");
     assert_false(file_exists(far));
-    assert_false(begin_with_root(make_scene(&arena), far, in_folder("one"), &arena, &err));
+    assert_false(begin_with_root(make_scene(&arena), far, in_folder("one"), &arena, why()));
     assert_false(file_exists(far));
-    assert_true(begin_with_root(make_scene(&arena), far, in_folder("."), &arena, &err));
-    assert_false(review_request_read(far, NULL, &arena, &problems, &r, &err));
-    assert_true(review_request_read(far, in_folder("."), &arena, &problems, &r, &err));
+    assert_done(begin_with_root(make_scene(&arena), far, in_folder("."), &arena, &err));
+    assert_false(review_request_read(far, NULL, &arena, &problems, &r, why()));
+    assert_done(review_request_read(far, in_folder("."), &arena, &problems, &r, &err));
     assert_int_equal(r.scene_count, 2);
     unlink(far);
-    assert_false(begin(make_scene(&arena), in_folder("none/f.json"), &arena, &err));
-    assert_error_has(&err, "its folder cannot be found");
+    assert_fails_as(begin(make_scene(&arena), in_folder("none/f.json"), &arena, &err),
+                    ERROR_OUTPUT, "its folder cannot be found");
 }
 
-TEST(a_scene_without_eyes_or_displays_has_no_start)
+ARENA_TEST(a_scene_without_eyes_or_displays_has_no_start)
 {
-    Arena       arena = test_arena(state);
-    Error       err;
     Scene      *scene = make_scene(&arena);
     const char *output = in_folder("none.review.json");
     scene->display_count = 0;
-    assert_false(begin(scene, output, &arena, &err));
-    assert_error_has(&err, "has no display that shows content, wanted one to review");
+    assert_fails_as(begin(scene, output, &arena, &err), ERROR_INPUT,
+                    "has no display that shows content, wanted one to review");
     scene->camera_count = 0;
-    assert_false(begin(scene, output, &arena, &err));
-    assert_error_has(&err, "has no perspective camera, wanted one where an eye is");
+    assert_fails_as(begin(scene, output, &arena, &err), ERROR_INPUT,
+                    "has no perspective camera, wanted one where an eye is");
     assert_false(file_exists(output));
 }
 
@@ -302,14 +282,13 @@ TEST(shipped_reviews_fit_their_scenes)
                                         PROJECT_DIR "/scenes/cockpit.review.json"};
     for (int i = 0; i < 2; i++) {
         Arena         arena = test_arena(state);
-        Error         err = {0};
         ReviewRequest r;
         Scene        *scene;
         Problems      problems = problems_start(&arena);
-        if (!review_request_read(files[i], NULL, &arena, &problems, &r, &err))
-            fail_msg("%s: %s: %s", files[i], err.path, err.text);
+        if (!review_request_read(files[i], NULL, &arena, &problems, &r, why()))
+            fail_msg("%s: %s: %s", files[i], why()->path, why()->text);
         SceneOptions options = {.paths = r.scenes, .path_count = r.scene_count};
-        if (!scene_load(&options, &arena, &problems, &scene, &err)) fail_msg("%s", err.text);
+        assert_done(scene_load(&options, &arena, &problems, &scene, &err));
         if (!review_request_check(&r, scene, &problems))
             fail_msg("%s", problems.list[problems.count - 1].message);
         assert_int_equal(problems.count, 0);

@@ -1,29 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* What spreadsheets get from a review: its cases, its gazes and its false suns, whatever the
  * names are. */
-#include "fixture.h"
-
-#include <math.h>
-
 #include "review/output/review_csv.h"
-#include "verdict_fixture.h"
-
-static Arena arena;
-
-static const char *text_of(const char *path)
-{
-    Error     err = {0};
-    FileBytes bytes;
-    if (!file_read(path, (size_t)1 << 28, &arena, &bytes, &err)) fail_msg("%s", err.text);
-    assert_int_equal(bytes.size, strlen((const char *)bytes.data));
-    return (const char *)bytes.data;
-}
-
-static void assert_same(double a, double b)
-{
-    if (isnan(a) || isinf(a)) assert_true(isnan(b));
-    else assert_near(b, a, 1e-5 * fabs(a) + 1e-300);
-}
+#include "review_page_fixture.h"
 
 enum { CSV_COLUMNS = 39 };
 
@@ -58,11 +37,10 @@ static double number_of(const char *cell)
 
 static void assert_csv_says(const Review *review)
 {
-    Error       err = {0};
     const char *path = in_folder("t.csv"), *header[CSV_COLUMNS], *cell[CSV_COLUMNS];
     int         count = 0;
-    assert_true(review_csv_write(review, path, &err));
-    const char *at = read_record(text_of(path), header, &count);
+    assert_done(review_csv_write(review, path, &err));
+    const char *at = read_record(taken(path), header, &count);
     assert_int_equal(count, CSV_COLUMNS);
     assert_string_equal(header[9], "reflected_cd_m2");
     assert_string_equal(header[13], "contrast_ratio");
@@ -89,11 +67,10 @@ static void assert_csv_says(const Review *review)
 
 static void assert_gaze_csv_says(const Review *review)
 {
-    Error       err = {0};
     const char *path = in_folder("t.csv"), *cell[CSV_COLUMNS];
     int         count = 0, columns = 0;
-    assert_true(review_csv_write_gazes(review, path, &err));
-    const char *at = read_record(text_of(path), cell, &columns);
+    assert_done(review_csv_write_gazes(review, path, &err));
+    const char *at = read_record(taken(path), cell, &columns);
     assert_string_equal(cell[12], "veil_near_cd_m2");
     assert_string_equal(cell[16], "mirrored_low");
     for (int i = 0; i < review->gaze_count; i++) {
@@ -131,10 +108,9 @@ TEST(csv_tells_every_false_sun)
     const char *cell[CSV_COLUMNS];
     int count = 0;
     for (int k = 0; k < 2; k++) {
-        Error err = {0};
         const char *path = in_folder("t.csv");
-        assert_true(review_csv_write_false_suns(&reviews[k], path, &err));
-        const char *at = read_record(text_of(path), cell, &count);
+        assert_done(review_csv_write_false_suns(&reviews[k], path, &err));
+        const char *at = read_record(taken(path), cell, &count);
         for (int i = 0; i < reviews[k].false_sun_count; i++) {
             const ReviewFalseSun *f = &reviews[k].false_suns[i];
             at = read_record(at, cell, &count);
@@ -148,8 +124,4 @@ TEST(csv_tells_every_false_sun)
     }
 }
 
-int main(void)
-{
-    arena = arena_reserve((size_t)2 << 30);
-    return run_cases(make_folder, clear_folder);
-}
+TEST_PROGRAM(page_begin, clear_folder)

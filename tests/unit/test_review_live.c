@@ -17,13 +17,12 @@
 /* As page_data.h says it, back again. */
 static uint32_t *unpacked(const char *text, size_t count, int bytes, Arena *arena)
 {
-    Error  err = {0};
     size_t size;
     uLong  room = (uLong)(count * (size_t)bytes);
     unsigned char *packed = ARENA_NEW(arena, unsigned char, strlen(text));
     unsigned char *planes = ARENA_NEW(arena, unsigned char, room);
     uint32_t      *out = ARENA_NEW(arena, uint32_t, count);
-    assert_true(base64_decode(text, strlen(text), packed, &size, &err));
+    assert_done(base64_decode(text, strlen(text), packed, &size, &err));
     assert_int_equal(uncompress(planes, &room, packed, (uLong)size), Z_OK);
     assert_int_equal(room, count * (size_t)bytes);
     for (int plane = 0; plane < bytes; plane++) {
@@ -36,15 +35,13 @@ static uint32_t *unpacked(const char *text, size_t count, int bytes, Arena *aren
     return out;
 }
 
-TEST(numbers_come_back)
+ARENA_TEST(numbers_come_back)
 {
-    Arena    arena = test_arena(state);
     uint32_t values[1000];
     for (int bytes = 1; bytes <= 4; bytes++) {
         Text  text = {.arena = &arena};
-        Error err = {0};
         for (uint32_t i = 0; i < 1000; i++) values[i] = i * i * 2654435761u;
-        assert_true(page_data_add(&text, values, 1000, bytes, arena_reserve(1 << 20), &err));
+        assert_done(page_data_add(&text, values, 1000, bytes, arena_reserve(1 << 20), &err));
         uint32_t *back = unpacked(text.data, 1000, bytes, &arena);
         uint32_t  mask = (uint32_t)(((uint64_t)1 << 8 * bytes) - 1);
         for (int i = 0; i < 1000; i++) assert_int_equal(back[i], values[i] & mask);
@@ -68,15 +65,13 @@ static float *some_numbers(double low, double high, double turn, Arena *arena)
 static json_t *live_block(const Review *review, const ReviewLive *live, Arena *arena)
 {
     Text  html = {.arena = arena};
-    Error err = {0};
-    Arena scratch = arena_reserve((size_t)1 << 30);
-    assert_true(review_live_add(&html, review, live, &scratch, &err));
+    ENDS_BY(arena_release) Arena scratch = arena_reserve((size_t)1 << 30);
+    assert_done(review_live_add(&html, review, live, &scratch, &err));
     const char *start = strchr(html.data, '{'), *end = strstr(html.data, "</script>");
     assert_true(start && end);
     json_error_t error;
     json_t      *block = json_loadb(start, (size_t)(end - start), 0, &error);
     if (!block) fail_msg("%s", error.text);
-    arena_release(&scratch);
     return block;
 }
 
@@ -114,7 +109,7 @@ TEST(suns_come_back)
     sweeps[1].sweep_id = 1;
     sweeps[1].lux = some_numbers(1, 1e5, 0.71, &arena);
     ReviewLive live = {.sweeps = sweeps, .sweep_count = 2, .colours = ""};
-    json_t    *block = live_block(&review, &live, &arena);
+    json_auto_t *block = live_block(&review, &live, &arena);
     json_t    *first = json_array_get(json_object_get(block, "sweeps"), 0);
     json_t    *second = json_array_get(json_object_get(block, "sweeps"), 1);
     json_t    *places = json_array_get(json_object_get(block, "skies"), 0);
@@ -139,17 +134,14 @@ TEST(suns_come_back)
         assert_int_equal(step[i], 400 * i);
         assert_int_equal(state_of[i], verdict[i] | ambient[i] << 2);
     }
-    json_decref(block);
 }
 
-TEST(nothing_to_move_is_nothing_in_the_page)
+ARENA_TEST(nothing_to_move_is_nothing_in_the_page)
 {
-    Arena      arena = test_arena(state);
     Review     review = fixture_review(&arena);
     ReviewLive live = {.colours = ""};
     Text       html = {.arena = &arena};
-    Error      err = {0};
-    assert_true(review_live_add(&html, &review, &live, &arena, &err) && html.size == 0);
+    assert_true(review_live_add(&html, &review, &live, &arena, why()) && html.size == 0);
 }
 
 /* ---- light ------------------------------------------------------------------------------- */
@@ -159,11 +151,9 @@ static double luminance(double r, double g, double b)
     return 0.212639 * r + 0.715169 * g + 0.072192 * b;
 }
 
-TEST(light_comes_back)
+ARENA_TEST(light_comes_back)
 {
     enum { COUNT = 3000 };
-    Arena  arena = test_arena(state);
-    Error  err = {0};
     float *rgb[3];
     for (int c = 0; c < 3; c++) rgb[c] = ARENA_NEW(&arena, float, COUNT);
     for (int i = 0; i < COUNT; i++) {
@@ -175,7 +165,7 @@ TEST(light_comes_back)
     rgb[1][COUNT - 1] = NAN;
     rgb[0][COUNT - 2] = rgb[1][COUNT - 2] = rgb[2][COUNT - 2] = 0;
     const float *in[3] = {rgb[0], rgb[1], rgb[2]};
-    const char  *text = live_layer_pack(in, COUNT, &arena, &err);
+    const char  *text = live_layer_pack(in, COUNT, &arena, why());
     uint32_t    *codes = unpacked(text, COUNT, 4, &arena);
     for (int i = 0; i < COUNT - 2; i++) {
         double wanted = luminance((double)rgb[0][i], (double)rgb[1][i], (double)rgb[2][i]);
@@ -221,14 +211,12 @@ static double mean_of(const float *values, int count)
     return sum / count;
 }
 
-TEST(parts_add_up)
+ARENA_TEST(parts_add_up)
 {
-    Arena      arena = test_arena(state);
     FrameImage frame = shown_frame(&arena);
     LiveFrame  split;
-    Error      err = {0};
     const float *rgb[3];
-    assert_true(live_frame_split(&frame, &arena, &split, &err) && frame_rgb(&frame, "", rgb));
+    assert_true(live_frame_split(&frame, &arena, &split, why()) && frame_rgb(&frame, "", rgb));
     for (int c = 0; c < 3; c++)
         for (int i = 0; i < 1200; i++) {
             float shown = i % 40 < 19 ? 40 : i % 40 == 19 ? 10 : 0;
@@ -237,24 +225,20 @@ TEST(parts_add_up)
         }
 }
 
-TEST(a_frame_without_displays_layers_is_refused)
+ARENA_TEST(a_frame_without_displays_layers_is_refused)
 {
-    Arena      arena = test_arena(state);
     FrameImage frame = uniform_frame(4, 4, 1, &arena);
     LiveFrame  split;
-    Error      err = {0};
-    assert_false(live_frame_split(&frame, &arena, &split, &err));
-    assert_non_null(strstr(err.text, "display.coverage"));
+    assert_fails_as(live_frame_split(&frame, &arena, &split, &err), ERROR_INPUT,
+                    "display.coverage");
 }
 
 /* Smaller by whole numbers or not: the mean stays, and what is even stays even. */
-TEST(smaller_is_as_bright)
+ARENA_TEST(smaller_is_as_bright)
 {
-    Arena      arena = test_arena(state);
     FrameImage frame = shown_frame(&arena);
     LiveFrame  split;
-    Error      err = {0};
-    assert_true(live_frame_split(&frame, &arena, &split, &err));
+    assert_done(live_frame_split(&frame, &arena, &split, &err));
     static const int SIZES[][4] = {{20, 15, 20, 15}, {24, 30, 24, 18}, {64, 48, 40, 30},
                                    {7, 5, 7, 5}};
     for (int s = 0; s < 4; s++) {
@@ -270,16 +254,14 @@ TEST(smaller_is_as_bright)
 }
 
 /* An eye makes no light and loses none: a narrow view's pixels are all alike. */
-TEST(an_eye_keeps_the_light)
+ARENA_TEST(an_eye_keeps_the_light)
 {
-    Arena      arena = test_arena(state);
     FrameImage frame = shown_frame(&arena);
     LiveFrame  split;
-    Error      err = {0};
-    assert_true(live_frame_split(&frame, &arena, &split, &err));
+    assert_done(live_frame_split(&frame, &arena, &split, &err));
     double before = mean_of(split.displays.rgb[1], 1200);
     HumanEye eye = {70, 0.5};
-    assert_true(live_frame_spread(&split, 2, eye, 2, &arena, &err));
+    assert_done(live_frame_spread(&split, 2, eye, 2, &arena, &err));
     assert_float_equal(mean_of(split.displays.rgb[1], 1200), before, 1e-3 * before);
     assert_true(split.displays.rgb[1][39] > 0 && split.displays.rgb[1][10] < 40);
 }

@@ -1,242 +1,168 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* What scripts get from a review: the same again when it is read back, well formed whatever the
  * names are; its answer, and how it differs from another. test_review_page.c has the page. */
-#include "check.h"
-
 #include <libxml/parser.h>
 #include <libxml/xpath.h>
-#include <string.h>
-#include <unistd.h>
 
-#include "base/file.h"
-#include "base/file_write.h"
+#include "base/count.h"
 #include "review/output/review_json.h"
 #include "review/output/review_words.h"
 #include "review/output/review_junit.h"
-#include "verdict_fixture.h"
-
-static Arena arena;
-
-/* ---- files ------------------------------------------------------------------------------ */
-
-static const char *fresh_name(void)
-{
-    char path[] = "test_review_output_XXXXXX";
-    int  handle = mkstemp(path);
-    assert_true(handle >= 0);
-    close(handle);
-    return arena_format(&arena, "%s", path);
-}
-
-/* The file's bytes; the file goes. */
-static const char *take(const char *path)
-{
-    Error     err = {0};
-    FileBytes bytes;
-    if (!file_read(path, (size_t)1 << 28, &arena, &bytes, &err)) fail_msg("%s", err.text);
-    remove(path);
-    assert_int_equal(bytes.size, strlen((const char *)bytes.data));
-    return (const char *)bytes.data;
-}
+#include "review_page_fixture.h"
 
 static const char *json_of(const Review *review)
 {
-    Error       err = {0};
-    const char *path = fresh_name();
-    assert_true(review_json_write(review_json(review), path, &err));
-    return take(path);
-}
-
-static const char *file_of(const char *text)
-{
-    Error       err = {0};
-    const char *path = fresh_name();
-    assert_true(file_write(path, text, strlen(text), &err));
-    return path;
+    const char *path = fresh_name(".json");
+    assert_done(review_json_write(review_json(review), path, &err));
+    return taken(path);
 }
 
 static Review read_back(const char *json)
 {
-    Error       err = {0};
     Review      review = {0};
-    const char *path = file_of(json);
-    if (!review_json_read(path, &arena, &review, &err)) fail_msg("%s %s", err.path, err.text);
+    const char *path = fresh_name(".json");
+    write_text(path, json);
+    assert_done(review_json_read(path, &arena, &review, &err));
     remove(path);
     return review;
 }
 
 /* ---- JSON ------------------------------------------------------------------------------- */
 
-static void assert_same(double a, double b)
+typedef enum MemberKind { TEXT, NUMBER, WHOLE } MemberKind;
+
+/* Of a struct; a whole number has any width. */
+typedef struct Member {
+    const char *name;
+    MemberKind  kind;
+    size_t      offset, size;
+} Member;
+
+#define MEMBER(type, kind, member)                                                             \
+    {#member, kind, offsetof(type, member), sizeof(((type *)0)->member)}
+
+static long whole_at(const char *at, size_t size)
 {
-    if (isnan(a) || isinf(a)) assert_true(isnan(b));
-    else assert_near(b, a, 1e-5 * fabs(a) + 1e-300);
+    return size == 1 ? *at : size == sizeof(int) ? *(const int *)at : *(const long *)at;
 }
 
-static void assert_same_text(const char *a, const char *b)
+static void assert_same_text(const char *name, const char *a, const char *b)
 {
-    if (a) assert_string_equal(b, a);
-    else assert_null(b);
+    if (a ? !b || strcmp(a, b) != 0 : b != NULL)
+        fail_msg("%s: \"%s\" became \"%s\"", name, a ? a : "none", b ? b : "none");
 }
 
-static void assert_same_limit(const LimitVerdict *a, const LimitVerdict *b)
+static void assert_members(const void *a, const void *b, const Member *members, int count)
 {
-    assert_same_text(a->name, b->name);
-    assert_same_text(a->kind, b->kind);
-    assert_same_text(a->unit, b->unit);
-    assert_same_text(a->source, b->source);
-    assert_same(a->value, b->value);
-    assert_same(a->found, b->found);
-    assert_same(a->low, b->low);
-    assert_same(a->high, b->high);
-    assert_same(a->margin, b->margin);
-    assert_int_equal(a->read_in_the_standard, b->read_in_the_standard);
-    assert_int_equal(a->is_upper, b->is_upper);
-    assert_int_equal(a->is_advice, b->is_advice);
-    assert_int_equal(a->verdict, b->verdict);
+    for (const Member *m = members; m < members + count; m++) {
+        const char *x = (const char *)a + m->offset, *y = (const char *)b + m->offset;
+        if (m->kind == TEXT)
+            assert_same_text(m->name, *(char *const *)x, *(char *const *)y);
+        else if (m->kind == NUMBER && !is_same(*(const double *)x, *(const double *)y))
+            fail_msg("%s: %.9g became %.9g", m->name, *(const double *)x, *(const double *)y);
+        else if (m->kind == WHOLE && whole_at(x, m->size) != whole_at(y, m->size))
+            fail_msg("%s: %ld became %ld", m->name, whole_at(x, m->size), whole_at(y, m->size));
+    }
 }
 
-static void assert_same_lists(const ReviewCase *a, const ReviewCase *b)
-{
-    assert_int_equal(a->limit_count, b->limit_count);
-    assert_int_equal(a->cause_count, b->cause_count);
-    assert_int_equal(a->remedy_count, b->remedy_count);
-    for (int i = 0; i < a->limit_count; i++) assert_same_limit(&a->limits[i], &b->limits[i]);
-    for (int i = 0; i < a->cause_count; i++) {
-        assert_int_equal(a->causes[i].links, b->causes[i].links);
-        for (int k = 0; k < a->causes[i].links; k++)
-            assert_same_text(a->causes[i].chain[k], b->causes[i].chain[k]);
-        assert_same(a->causes[i].share, b->causes[i].share);
-        assert_same(a->causes[i].cd_m2, b->causes[i].cd_m2);
-        assert_same(a->causes[i].low, b->causes[i].low);
-        assert_same(a->causes[i].high, b->causes[i].high);
-    }
-    assert_int_equal(a->hider_count, b->hider_count);
-    for (int i = 0; i < a->hider_count; i++) {
-        assert_same_text(a->hiders[i].what, b->hiders[i].what);
-        assert_same(a->hiders[i].share, b->hiders[i].share);
-    }
-    for (int i = 0; i < a->remedy_count; i++) {
-        assert_same_text(a->remedies[i].what, b->remedies[i].what);
-        assert_same(a->remedies[i].contrast_ratio, b->remedies[i].contrast_ratio);
-        assert_same(a->remedies[i].level, b->remedies[i].level);
-    }
-}
+#define ASSERT_SAME(a, b, members) assert_members(a, b, members, COUNT_OF(members))
+
+#define OF(kind, member) MEMBER(LimitVerdict, kind, member)
+static const Member LIMIT[] = {
+    OF(TEXT, name), OF(TEXT, kind), OF(TEXT, unit), OF(TEXT, source), OF(NUMBER, value),
+    OF(NUMBER, found), OF(NUMBER, low), OF(NUMBER, high), OF(NUMBER, margin),
+    OF(WHOLE, read_in_the_standard), OF(WHOLE, is_upper), OF(WHOLE, is_advice),
+    OF(WHOLE, verdict)};
+#undef OF
+#define OF(kind, member) MEMBER(CaseCause, kind, member)
+static const Member CAUSE[] = {OF(WHOLE, links), OF(NUMBER, share), OF(NUMBER, cd_m2),
+                               OF(NUMBER, low), OF(NUMBER, high)};
+#undef OF
+static const Member HIDER[] = {MEMBER(CaseHider, TEXT, what), MEMBER(CaseHider, NUMBER, share)};
+static const Member REMEDY[] = {MEMBER(CaseRemedy, TEXT, what),
+                                MEMBER(CaseRemedy, NUMBER, contrast_ratio),
+                                MEMBER(CaseRemedy, NUMBER, level)};
+#define OF(kind, member) MEMBER(ReviewCase, kind, member)
+static const Member CASE[] = {
+    OF(TEXT, condition), OF(TEXT, eye), OF(TEXT, symbol), OF(TEXT, display), OF(TEXT, frame),
+    OF(TEXT, when), OF(WHOLE, ambient), OF(WHOLE, has_sun), OF(NUMBER, contrast_ratio),
+    OF(NUMBER, contrast_low), OF(NUMBER, contrast_high), OF(WHOLE, paths),
+    OF(NUMBER, contrast_with_veil), OF(NUMBER, height_arcmin), OF(NUMBER, jnd),
+    OF(NUMBER, visibility), OF(NUMBER, dgp), OF(NUMBER, ugr), OF(NUMBER, eye_failed_share),
+    OF(NUMBER, visible_share), OF(NUMBER, level), OF(NUMBER, display_lux), OF(NUMBER, margin),
+    OF(WHOLE, limit_id), OF(WHOLE, verdict), OF(WHOLE, limit_count), OF(WHOLE, cause_count),
+    OF(WHOLE, remedy_count), OF(WHOLE, hider_count)};
+#undef OF
+#define OF(kind, member) MEMBER(ReviewFalseSun, kind, member)
+static const Member FALSE_SUN[] = {
+    OF(TEXT, condition), OF(TEXT, eye), OF(TEXT, mirror), OF(TEXT, when), OF(TEXT, gaze),
+    OF(NUMBER, share), OF(NUMBER, minutes), OF(NUMBER, longest_minutes),
+    OF(NUMBER, sun_azimuth_deg), OF(NUMBER, sun_elevation_deg), OF(NUMBER, lux),
+    OF(NUMBER, angle_deg), OF(NUMBER, veil_cd_m2)};
+#undef OF
+#define OF(kind, member) MEMBER(GazeFinding, kind, member)
+static const Member GAZE[] = {
+    OF(TEXT, condition), OF(TEXT, eye), OF(TEXT, gaze), OF(TEXT, mirrored_by),
+    OF(TEXT, mirrored_from), OF(NUMBER, sun_deg), OF(NUMBER, veil), OF(NUMBER, cornea_lux),
+    OF(NUMBER, through), OF(NUMBER, mirrored), OF(NUMBER, contrast_behind_glass),
+    OF(NUMBER, contrast_left), OF(NUMBER, dgp), OF(NUMBER, ugr), OF(NUMBER, veil_range.low),
+    OF(NUMBER, veil_range.high), OF(NUMBER, mirrored_range.low),
+    OF(NUMBER, mirrored_range.high),
+    OF(NUMBER, contrast_range.low), OF(NUMBER, contrast_range.high)};
+#undef OF
+#define OF(kind, member) MEMBER(ReviewSweep, kind, member)
+static const Member SWEEP[] = {OF(TEXT, condition), OF(TEXT, eye), OF(TEXT, symbol),
+                               OF(TEXT, table), OF(WHOLE, cases), OF(NUMBER, failed_share),
+                               OF(NUMBER, longest_failure_minutes)};
+#undef OF
+#define OF(kind, member) MEMBER(ReviewResponse, kind, member)
+static const Member RESPONSE[] = {OF(TEXT, probe), OF(TEXT, file), OF(WHOLE, paths),
+                                  OF(WHOLE, bytes), OF(NUMBER, relative_error)};
+#undef OF
+#define OF(kind, member) MEMBER(Review, kind, member)
+static const Member REVIEW[] = {
+    OF(TEXT, title), OF(TEXT, profile), OF(WHOLE, pass), OF(WHOLE, is_strict),
+    OF(WHOLE, case_count), OF(WHOLE, sweep_count), OF(WHOLE, response_count),
+    OF(WHOLE, note_count), OF(WHOLE, false_sun_count), OF(WHOLE, gaze_count)};
+#undef OF
 
 static void assert_same_case(const ReviewCase *a, const ReviewCase *b)
 {
     const double *l = &a->luminance_cd_m2.foreground, *m = &b->luminance_cd_m2.foreground;
     for (size_t i = 0; i < sizeof a->luminance_cd_m2 / sizeof *l; i++) assert_same(l[i], m[i]);
-    assert_same_text(a->condition, b->condition);
-    assert_same_text(a->eye, b->eye);
-    assert_same_text(a->symbol, b->symbol);
-    assert_same_text(a->display, b->display);
-    assert_same_text(a->frame, b->frame);
-    assert_same_text(a->when, b->when);
-    assert_int_equal(a->ambient, b->ambient);
-    assert_int_equal(a->has_sun, b->has_sun);
+    ASSERT_SAME(a, b, CASE);
     assert_same(a->has_sun ? a->sun_azimuth_deg : NAN, b->sun_azimuth_deg);
     assert_same(a->has_sun ? a->sun_elevation_deg : NAN, b->sun_elevation_deg);
-    assert_same(a->contrast_ratio, b->contrast_ratio);
-    assert_same(a->contrast_low, b->contrast_low);
-    assert_same(a->contrast_high, b->contrast_high);
-    assert_int_equal(a->paths, b->paths);
-    assert_same(a->contrast_with_veil, b->contrast_with_veil);
-    assert_same(a->height_arcmin, b->height_arcmin);
-    assert_same(a->jnd, b->jnd);
-    assert_same(a->visibility, b->visibility);
-    assert_same(a->dgp, b->dgp);
-    assert_same(a->ugr, b->ugr);
-    assert_same(a->eye_failed_share, b->eye_failed_share);
-    assert_same(a->visible_share, b->visible_share);
-    assert_same(a->level, b->level);
-    assert_same(a->display_lux, b->display_lux);
-    assert_same(a->margin, b->margin);
-    assert_int_equal(a->limit_id, b->limit_id);
-    assert_int_equal(a->verdict, b->verdict);
-    assert_same_lists(a, b);
-}
-
-static void assert_same_false_sun(const ReviewFalseSun *a, const ReviewFalseSun *b)
-{
-    assert_same_text(a->condition, b->condition);
-    assert_same_text(a->eye, b->eye);
-    assert_same_text(a->mirror, b->mirror);
-    assert_same_text(a->when, b->when);
-    assert_same_text(a->gaze, b->gaze);
-    assert_same(a->share, b->share);
-    assert_same(a->minutes, b->minutes);
-    assert_same(a->longest_minutes, b->longest_minutes);
-    assert_same(a->sun_azimuth_deg, b->sun_azimuth_deg);
-    assert_same(a->sun_elevation_deg, b->sun_elevation_deg);
-    assert_same(a->lux, b->lux);
-    assert_same(a->angle_deg, b->angle_deg);
-    assert_same(a->veil_cd_m2, b->veil_cd_m2);
-}
-
-static void assert_same_range(MeanInterval a, MeanInterval b)
-{
-    assert_same(a.low, b.low);
-    assert_same(a.high, b.high);
-}
-
-static void assert_same_gaze(const GazeFinding *a, const GazeFinding *b)
-{
-    const double *v = &a->veil_parts.sun, *w = &b->veil_parts.sun;
-    for (size_t i = 0; i < sizeof a->veil_parts / sizeof *v; i++) assert_same(v[i], w[i]);
-    assert_same_text(a->condition, b->condition);
-    assert_same_text(a->eye, b->eye);
-    assert_same_text(a->gaze, b->gaze);
-    assert_same_text(a->mirrored_by, b->mirrored_by);
-    assert_same_text(a->mirrored_from, b->mirrored_from);
-    assert_same(a->sun_deg, b->sun_deg);
-    assert_same(a->veil, b->veil);
-    assert_same(a->cornea_lux, b->cornea_lux);
-    assert_same(a->through, b->through);
-    assert_same(a->mirrored, b->mirrored);
-    assert_same(a->contrast_behind_glass, b->contrast_behind_glass);
-    assert_same(a->contrast_left, b->contrast_left);
-    assert_same(a->dgp, b->dgp);
-    assert_same(a->ugr, b->ugr);
-    assert_same_range(a->veil_range, b->veil_range);
-    assert_same_range(a->mirrored_range, b->mirrored_range);
-    assert_same_range(a->contrast_range, b->contrast_range);
+    for (int i = 0; i < a->limit_count; i++) ASSERT_SAME(&a->limits[i], &b->limits[i], LIMIT);
+    for (int i = 0; i < a->cause_count; i++) {
+        ASSERT_SAME(&a->causes[i], &b->causes[i], CAUSE);
+        for (int k = 0; k < a->causes[i].links; k++)
+            assert_same_text("chain", a->causes[i].chain[k], b->causes[i].chain[k]);
+    }
+    for (int i = 0; i < a->hider_count; i++) ASSERT_SAME(&a->hiders[i], &b->hiders[i], HIDER);
+    for (int i = 0; i < a->remedy_count; i++)
+        ASSERT_SAME(&a->remedies[i], &b->remedies[i], REMEDY);
 }
 
 static void assert_same_review(const Review *a, const Review *b)
 {
-    assert_same_text(a->title, b->title);
-    assert_same_text(a->profile, b->profile);
-    assert_int_equal(a->pass, b->pass);
-    assert_int_equal(a->is_strict, b->is_strict);
-    assert_int_equal(a->case_count, b->case_count);
-    assert_int_equal(a->sweep_count, b->sweep_count);
-    assert_int_equal(a->response_count, b->response_count);
-    assert_int_equal(a->note_count, b->note_count);
+    ASSERT_SAME(a, b, REVIEW);
     for (int i = 0; i < a->case_count; i++) assert_same_case(&a->cases[i], &b->cases[i]);
-    for (int i = 0; i < a->note_count; i++) assert_same_text(a->notes[i], b->notes[i]);
+    for (int i = 0; i < a->note_count; i++) assert_same_text("note", a->notes[i], b->notes[i]);
     for (int i = 0; i < a->sweep_count; i++) {
-        assert_same_text(a->sweeps[i].condition, b->sweeps[i].condition);
-        assert_same_text(a->sweeps[i].eye, b->sweeps[i].eye);
-        assert_same_text(a->sweeps[i].symbol, b->sweeps[i].symbol);
-        assert_same_text(a->sweeps[i].table, b->sweeps[i].table);
-        assert_int_equal(a->sweeps[i].cases, b->sweeps[i].cases);
-        assert_same(a->sweeps[i].failed_share, b->sweeps[i].failed_share);
-        assert_same(a->sweeps[i].longest_failure_minutes, b->sweeps[i].longest_failure_minutes);
+        ASSERT_SAME(&a->sweeps[i], &b->sweeps[i], SWEEP);
         assert_same_case(&a->sweeps[i].worst, &b->sweeps[i].worst);
     }
-    assert_int_equal(a->false_sun_count, b->false_sun_count);
     for (int i = 0; i < a->false_sun_count; i++)
-        assert_same_false_sun(&a->false_suns[i], &b->false_suns[i]);
-    assert_int_equal(a->gaze_count, b->gaze_count);
-    for (int i = 0; i < a->gaze_count; i++) assert_same_gaze(&a->gazes[i], &b->gazes[i]);
-    for (int i = 0; i < a->response_count; i++) {
-        assert_same_text(a->responses[i].probe, b->responses[i].probe);
-        assert_same_text(a->responses[i].file, b->responses[i].file);
-        assert_int_equal(a->responses[i].paths, b->responses[i].paths);
-        assert_int_equal(a->responses[i].bytes, b->responses[i].bytes);
-        assert_same(a->responses[i].relative_error, b->responses[i].relative_error);
+        ASSERT_SAME(&a->false_suns[i], &b->false_suns[i], FALSE_SUN);
+    for (int i = 0; i < a->gaze_count; i++) {
+        const GazeFinding *g = &a->gazes[i], *h = &b->gazes[i];
+        const double      *v = &g->veil_parts.sun, *w = &h->veil_parts.sun;
+        ASSERT_SAME(g, h, GAZE);
+        for (size_t k = 0; k < sizeof g->veil_parts / sizeof *v; k++) assert_same(v[k], w[k]);
     }
+    for (int i = 0; i < a->response_count; i++)
+        ASSERT_SAME(&a->responses[i], &b->responses[i], RESPONSE);
 }
 
 /* Read back it is the same to six digits, and written again the same to the byte. */
@@ -290,21 +216,20 @@ TEST(json_has_the_promised_keys)
 static void assert_refused(const char *from, const char *to, const char *path, const char *text)
 {
     Review      review = fixture_review(&arena), out = {.title = "untouched"};
-    Error       err = {0};
     const char *good = json_of(&review), *at = strstr(good, from);
     assert_non_null(at);
-    const char *file = fresh_name();
+    const char *file = fresh_name(".json");
     Text bad = {.arena = &arena};
     text_add_bytes(&bad, good, (size_t)(at - good));
     text_add(&bad, to);
     text_add(&bad, at + strlen(from));
-    assert_true(text_write(&bad, file, &err));
-    assert_false(review_json_read(file, &arena, &out, &err));
+    assert_done(text_write(&bad, file, &err));
+    assert_false(review_json_read(file, &arena, &out, why()));
     remove(file);
-    if (strcmp(err.path, path) != 0 || !strstr(err.text, text) || strcmp(err.file, file) != 0)
-        fail_msg("%s: %s: %s", err.file, err.path, err.text);
+    assert_string_equal(why()->path, path);
+    assert_string_equal(why()->file, file);
+    assert_error_has(why(), text);
     assert_string_equal(out.title, "untouched");
-    assert_null(strchr(err.text, '\n'));
 }
 
 TEST(a_foreign_json_is_refused_in_one_line)
@@ -342,20 +267,19 @@ static bool is_optional(const char *key, const json_t *object)
 /* Takes each key of the object away, one at a time: the error names it. */
 static int assert_keys_are_wanted(json_t *root, json_t *object)
 {
-    Error       err = {0};
     int         count = 0;
     Review      out;
-    const char *path = fresh_name();
+    const char *path = fresh_name(".json");
     json_t     *copy = json_copy(object), *value;
     const char *key;
     assert_true(json_is_object(object));
     json_object_foreach(copy, key, value) {
         if (is_optional(key, copy)) continue;
         json_object_del(object, key);
-        assert_true(review_json_write(json_incref(root), path, &err));
-        assert_false(review_json_read(path, &arena, &out, &err));
-        if (!strstr(err.text, arena_format(&arena, "key '%s' is missing", key)))
-            fail_msg("without %s: %s %s", key, err.path, err.text);
+        assert_done(review_json_write(json_incref(root), path, &err));
+        assert_false(review_json_read(path, &arena, &out, why()));
+        if (!strstr(why()->text, arena_format(&arena, "key '%s' is missing", key)))
+            fail_msg("without %s: %s %s", key, why()->path, why()->text);
         json_object_set(object, key, value);
         count++;
     }
@@ -367,7 +291,7 @@ static int assert_keys_are_wanted(json_t *root, json_t *object)
 TEST(every_key_is_wanted)
 {
     Review  review = fixture_review(&arena);
-    json_t *root = review_json(&review);
+    json_auto_t *root = review_json(&review);
     json_t *c = json_array_get(json_object_get(root, "cases"), 2);
     int     count = assert_keys_are_wanted(root, root) + assert_keys_are_wanted(root, c);
     static const char *const OBJECTS[] = {"sun", "luminance_cd_m2"};
@@ -384,7 +308,6 @@ TEST(every_key_is_wanted)
                      json_object_get(gaze, "veil_parts_cd_m2")};
     for (int i = 0; i < 6; i++) count += assert_keys_are_wanted(root, all[i]);
     assert_int_equal(count, 10 + 29 + 2 + 6 + 12 + 5 + 3 + 8 + 5 + 12 + 2 + 18 + 6);
-    json_decref(root);
 }
 
 /* ---- JUnit ------------------------------------------------------------------------------ */
@@ -400,10 +323,9 @@ static int nodes_at(xmlXPathContextPtr context, const char *path)
 
 static void assert_junit(const Review *review, int failures, int skipped)
 {
-    Error       err = {0};
-    const char *path = fresh_name();
-    assert_true(review_junit_write(review, path, &err));
-    const char *xml = take(path);
+    const char *path = fresh_name(".json");
+    assert_done(review_junit_write(review, path, &err));
+    const char *xml = taken(path);
     xmlDocPtr   document = xmlReadMemory(xml, (int)strlen(xml), "junit.xml", NULL,
                                          XML_PARSE_NONET);
     assert_non_null(document);
@@ -573,8 +495,4 @@ TEST(differences_as_json)
     json_decref(json);
 }
 
-int main(void)
-{
-    arena = arena_reserve((size_t)2 << 30);
-    return run_cases(NULL, NULL);
-}
+TEST_PROGRAM(page_begin, clear_folder)

@@ -176,14 +176,10 @@ static int check_links(const char *page, const char *other, const char *name)
 
 static const char *summary_of(const Review *review, const char *symbol)
 {
-    Error       err = {0};
-    FileBytes   bytes;
     const char *path = fresh_name(".html");
     ReviewPage  page = {.review = review};
-    if (!review_page_write_summary(&page, symbol, path, &err)) fail_msg("%s", err.text);
-    assert_true(file_read(path, (size_t)1 << 28, &arena, &bytes, &err));
-    remove(path);
-    return (const char *)bytes.data;
+    assert_done(review_page_write_summary(&page, symbol, path, &err));
+    return taken(path);
 }
 
 TEST(many_cases_take_two_pages)
@@ -301,10 +297,9 @@ TEST(what_changed_is_on_the_page)
 
 TEST(a_page_that_cannot_be_written_is_an_error)
 {
-    Error  err = {0};
     Review none = {0};
-    assert_false(review_page_write(&(ReviewPage){.review = &none}, "/nowhere/at/all", &err));
-    assert_int_equal(err.code, ERROR_OUTPUT);
+    assert_false(review_page_write(&(ReviewPage){.review = &none}, "/nowhere/at/all", why()));
+    assert_int_equal(why()->code, ERROR_OUTPUT);
 }
 
 /* ---- drawings --------------------------------------------------------------------------- */
@@ -377,15 +372,13 @@ TEST(the_border_encloses_what_fails)
         {4, "d=\"M1 2H2M1 1H2M1 2V1M2 2V1\""}, {0, "d=\"M0 3H1M0 2H1M0 3V2M1 3V2\""}};
     static const float contrast[9] = {1, 1, 1, 1, 1, 1, 1, 1, 1};
     for (int i = 0; i < 2; i++) {
-        Error         err = {0};
         unsigned char verdict[9] = {0};
         Text          html = {.arena = &arena};
         verdict[CASES[i].cell] = VERDICT_FAIL;
         ReviewMap map = {.azimuth_deg = {0, 10, 3}, .elevation_deg = {0, 10, 3},
                          .contrast = contrast, .margin = contrast, .verdict = verdict};
-        Arena more = arena_reserve((size_t)1 << 24);
-        assert_true(review_map_add(&html, &map, &more, &err));
-        arena_release(&more);
+        ENDS_BY(arena_release) Arena more = arena_reserve((size_t)1 << 24);
+        assert_done(review_map_add(&html, &map, &more, &err));
         if (!strstr(html.data, CASES[i].path)) fail_msg("%s", strstr(html.data, "border"));
     }
 }
@@ -397,12 +390,11 @@ typedef struct Cells {
 
 static Cells cells_of(const char *html)
 {
-    Error          err = {0};
     Cells          out;
     size_t         size = 0;
     const char    *text = value_at(strstr(html, "base64,") + 7);
     unsigned char *bytes = ARENA_NEW(&arena, unsigned char, strlen(text)), *rows;
-    assert_true(base64_decode(text, strlen(text), bytes, &size, &err));
+    assert_done(base64_decode(text, strlen(text), bytes, &size, &err));
     assert_true(plain_png_open(bytes, size, &out.png));
     rows = ARENA_NEW(&arena, unsigned char, out.png.row_bytes * (size_t)out.png.height);
     assert_true(plain_png_read(&out.png, rows));
@@ -424,24 +416,22 @@ static void assert_red_at(const Cells *cells, int column, int row)
 /* Azimuths run to the right and elevations upwards; days to the right and hours upwards. */
 TEST(cells_lie_where_their_axes_say)
 {
-    Error         err = {0};
     float         ratio[12], share[12];
     unsigned char verdict[12] = {0};
     Text          html = {.arena = &arena}, more = {.arena = &arena};
-    Arena         scratch = arena_reserve((size_t)1 << 24);
+    ENDS_BY(arena_release) Arena scratch = arena_reserve((size_t)1 << 24);
     for (int i = 0; i < 12; i++) ratio[i] = 1, share[i] = 0;
     verdict[11] = VERDICT_FAIL; /* azimuth 3, elevation 2 of 4 x 3 */
     share[7] = 1;               /* day 1, step 3 of 3 x 4 */
-    assert_true(review_map_add(&html, &(ReviewMap){.azimuth_deg = {0, 1, 4},
-                                                   .elevation_deg = {0, 1, 3},
-                                                   .contrast = ratio, .margin = ratio,
-                                                   .verdict = verdict}, &scratch, &err));
-    assert_true(review_map_add_calendar(&more, &(ReviewCalendar){.year = 2026, .days = 3,
-                                                                 .steps_a_day = 4,
-                                                                 .clock = "UTC", .headings = 1,
+    assert_done(review_map_add(&html, &(ReviewMap){.azimuth_deg = {0, 1, 4}, .elevation_deg =
+                                                   {0, 1, 3}, .contrast = ratio, .margin =
+                                                   ratio, .verdict = verdict}, &scratch,
+                               &err));
+    assert_done(review_map_add_calendar(&more, &(ReviewCalendar){.year = 2026, .days = 3,
+                                                                 .steps_a_day = 4, .clock =
+                                                                 "UTC", .headings = 1,
                                                                  .failed_share = share},
                                         &scratch, &err));
-    arena_release(&scratch);
     Cells map = cells_of(html.data), calendar = cells_of(more.data);
     assert_int_equal(map.png.width * 100 + map.png.height, 403);
     assert_int_equal(calendar.png.width * 100 + calendar.png.height, 304);
@@ -452,11 +442,10 @@ TEST(cells_lie_where_their_axes_say)
 /* The bytes of the first data-values behind `at`: 16 bits a cell, low byte first. */
 static const unsigned char *values_behind(const char *at, size_t cells)
 {
-    Error          err = {0};
     size_t         size = 0;
     const char    *text = value_at(strstr(at, "data-values=\"") + 13);
     unsigned char *bytes = ARENA_NEW(&arena, unsigned char, strlen(text));
-    assert_true(base64_decode(text, strlen(text), bytes, &size, &err));
+    assert_done(base64_decode(text, strlen(text), bytes, &size, &err));
     assert_int_equal(size, 2 * cells);
     return bytes;
 }
@@ -464,14 +453,13 @@ static const unsigned char *values_behind(const char *at, size_t cells)
 /* What script tells at the pointer is the map's contrast within 0.06 %, and its verdict. */
 TEST(the_pointer_reads_what_the_map_shows)
 {
-    Error          err = {0};
     ReviewMap      map = fixture_map(&arena, NULL);
     ReviewCalendar calendar = fixture_calendar(&arena, NULL);
     Text           html = {.arena = &arena}, more = {.arena = &arena};
     int            cells = map.azimuth_deg.count * map.elevation_deg.count;
-    Arena          scratch = arena_reserve((size_t)1 << 26);
-    assert_true(review_map_add(&html, &map, &scratch, &err));
-    assert_true(review_map_add_calendar(&more, &calendar, &scratch, &err));
+    ENDS_BY(arena_release) Arena scratch = arena_reserve((size_t)1 << 26);
+    assert_done(review_map_add(&html, &map, &scratch, &err));
+    assert_done(review_map_add_calendar(&more, &calendar, &scratch, &err));
     const unsigned char *v = values_behind(html.data, (size_t)cells);
     for (int i = 0; i < cells; i++) {
         unsigned code = v[2 * i] + 256u * v[2 * i + 1];
@@ -488,11 +476,6 @@ TEST(the_pointer_reads_what_the_map_shows)
             if (isnan(share)) assert_int_equal(code, 0);
             else assert_near((code - 1) / 1e4, share, 1e-4);
         }
-    arena_release(&scratch);
 }
 
-int main(void)
-{
-    arena = arena_reserve((size_t)2 << 30);
-    return run_cases(NULL, NULL);
-}
+TEST_PROGRAM(page_begin, clear_folder)

@@ -1,26 +1,24 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Pictures of a review's page: in it or beside it, once each, and the lines over them. */
-#include "image/plain_png.h"
 #include "review_page_fixture.h"
 
 TEST(pictures_go_into_the_page_as_they_stand)
 {
-    Error         err = {0};
     Review        review = fixture_review(&arena);
     const char   *file = fresh_name(".png");
     ReviewPicture shown = {.of = &review.sweeps[1].worst, .title = "frame", .file = file};
     ReviewPage    page = {.review = &review, .pictures = &shown, .picture_count = 1};
-    assert_true(file_write(file, "Man", 3, &err));
+    assert_done(file_write(file, "Man", 3, &err));
     const char *text = page_of(&page);
     assert_int_equal(count_of(text, "src=\"data:image/png;base64,TWFu\""), 1);
     assert_true(strstr(text, "TWFu") > strstr(text, "id=\"s1\""));
     remove(file);
     const char *path = fresh_name(".html");
-    assert_false(review_page_write(&page, path, &err));
-    assert_string_equal(err.file, file);
+    assert_false(review_page_write(&page, path, why()));
+    assert_string_equal(why()->file, file);
     shown.file = "frame.exr";
-    assert_false(review_page_write(&page, path, &err));
-    assert_non_null(strstr(err.text, "wanted a picture ending in .png or .jpg"));
+    assert_fails_as(review_page_write(&page, path, &err), ERROR_INPUT,
+                    "wanted a picture ending in .png or .jpg");
     remove(path);
 }
 
@@ -28,9 +26,8 @@ TEST(pictures_go_into_the_page_as_they_stand)
 static void show_twice(ReviewPicture shown[2], const Review *review, const char *file,
                        const char *beside)
 {
-    Error   err = {0};
     Picture picture = picture_create(3, 2, &arena);
-    assert_true(picture_write(file, &picture, (PictureFile){.bits = 8}, arena, &err));
+    assert_done(picture_write(file, &picture, (PictureFile){.bits = 8}, arena, &err));
     shown[0] = shown[1] = (ReviewPicture){.of = &review->cases[0], .title = "frame",
                                           .file = file, .id = "p0", .beside = beside};
     shown[1].of = &review->sweeps[1].worst;
@@ -41,7 +38,6 @@ static void show_twice(ReviewPicture shown[2], const Review *review, const char 
  * all the same. */
 TEST(pictures_beside_the_page_are_named)
 {
-    Error         err = {0};
     Review        review = fixture_review(&arena);
     const char   *file = fresh_name(".png");
     ReviewPicture shown[2];
@@ -52,8 +48,8 @@ TEST(pictures_beside_the_page_are_named)
                                     "height=\"2\" src=\"frames/a&amp;b.png\">"), 2);
     assert_int_equal(count_of(text, "data:image/png"), 0);
     remove(file);
-    assert_false(review_page_write(&page, path, &err));
-    assert_string_equal(err.file, file);
+    assert_false(review_page_write(&page, path, why()));
+    assert_string_equal(why()->file, file);
     remove(path);
 }
 
@@ -61,7 +57,6 @@ TEST(pictures_beside_the_page_are_named)
  * second. */
 TEST(a_variants_pair_stands_before_its_cases)
 {
-    Error         err = {0};
     Review        review = fixture_review(&arena);
     const char   *file = fresh_name(".png");
     const char   *changes[] = {"display 3 degrees back"};
@@ -77,7 +72,7 @@ TEST(a_variants_pair_stands_before_its_cases)
                               .beside = "frames/a-variant-1.png"}};
     review.variants = &variant;
     review.variant_count = 1;
-    assert_true(picture_write(file, &picture, (PictureFile){.bits = 8}, arena, &err));
+    assert_done(picture_write(file, &picture, (PictureFile){.bits = 8}, arena, &err));
     ReviewPage  page = {.review = &review, .pairs = pair};
     const char *text = page_of(&page), *first = strstr(text, "src=\"frames/a.png\"");
     assert_non_null(first);
@@ -90,8 +85,8 @@ TEST(a_variants_pair_stands_before_its_cases)
     remove(file);
     pair[1].file = file;
     const char *path = fresh_name(".html");
-    assert_false(review_page_write(&page, path, &err));
-    assert_string_equal(err.file, file);
+    assert_false(review_page_write(&page, path, why()));
+    assert_string_equal(why()->file, file);
     remove(path);
 }
 
@@ -105,14 +100,13 @@ TEST(rays_of_a_cause_lie_over_its_frame)
     static const Vec3 AHEAD[] = {{0, 0, 0}, {0, 0, -1}, {0.5f, 0.25f, -1}, {1, 0, -1}};
     static const Vec3 BEHIND[] = {{0, 0, 0}, {-0.5f, 0, -1}, {-0.5f, 0, 1}};
     static const CaseRay  RAYS[] = {{AHEAD, 4}, {BEHIND, 3}};
-    Error         err = {0};
     Review        review = fixture_review(&arena);
     ReviewCase   *c = &review.cases[3];
     CaseCause     causes[2] = {c->causes[0], c->causes[1]};
     const char   *file = fresh_name(".png");
     ReviewPicture shown = {.of = c, .title = "frame", .file = file, .view = &VIEW};
     ReviewPage    page = {.review = &review, .pictures = &shown, .picture_count = 1};
-    assert_true(file_write(file, "Man", 3, &err));
+    assert_done(file_write(file, "Man", 3, &err));
     causes[0].rays = RAYS;
     causes[0].ray_count = 2;
     c->causes = causes;
@@ -134,14 +128,13 @@ TEST(the_first_screen_has_a_line_around_its_symbol)
     static const Vec3 RIM[] = {{-0.1f, -0.05f, -1}, {0.1f, -0.05f, -1}, {0.1f, 0.05f, -1},
                                {-0.1f, 0.05f, -1}};
     static const Vec3 BEHIND[] = {{-0.1f, -0.05f, -1}, {0.1f, -0.05f, -1}, {0.1f, 0.05f, 1}};
-    Error         err = {0};
     Review        review = fixture_review(&arena);
     ReviewCase   *c = (ReviewCase *)(void *)review_worst(&review, arena);
     const char   *file = fresh_name(".png");
     ReviewPicture shown = {.of = c, .title = "frame", .file = file, .view = &VIEW,
                            .is_frame = true};
     ReviewPage    page = {.review = &review, .pictures = &shown, .picture_count = 1};
-    assert_true(file_write(file, "Man", 3, &err));
+    assert_done(file_write(file, "Man", 3, &err));
     c->view = &VIEW;
     assert_int_equal(count_of(page_of(&page), "class=\"rim\""), 0);
     c->rim = RIM;
@@ -169,8 +162,4 @@ TEST(a_picture_of_several_cards_stands_once)
     remove(file);
 }
 
-int main(void)
-{
-    arena = arena_reserve((size_t)1 << 30);
-    return run_cases(NULL, NULL);
-}
+TEST_PROGRAM(page_begin, clear_folder)

@@ -21,16 +21,11 @@ static void check_all(const Wrong *wrong, int count, Arena arena)
 {
     for (int i = 0; i < count; i++) {
         Arena         scratch = arena;
-        Error         err = {0};
         ReviewRequest r;
         const Wrong  *w = &wrong[i];
         char *text = review_changed(review_good, w->from, w->to, &scratch);
-        if (review_read(text, &scratch, &r, &err)) fail_msg("%s was taken", w->to);
-        assert_int_equal(err.code, ERROR_INPUT);
-        if (strcmp(err.path, w->place) || !strstr(err.text, w->words))
-            fail_msg("%s: found \"%s: %s\", expected \"%s: %s\"", w->to, err.path, err.text,
-                     w->place, w->words);
-        assert_null(strchr(err.text, '\n'));
+        if (review_read(text, &scratch, &r, why())) fail_msg("%s was taken", w->to);
+        assert_told(ERROR_INPUT, w->place, w->words);
     }
 }
 
@@ -337,10 +332,8 @@ TEST(a_weather_file_is_there)
 }
 
 /* The station's place serves where none is said; air and ground come from one source. */
-TEST(a_weather_year_brings_its_place)
+ARENA_TEST(a_weather_year_brings_its_place)
 {
-    Arena         arena = test_arena(state);
-    Error         err;
     ReviewRequest r;
     const char   *shared = SHARED_DATA_DIR "/solar/NLD_Amsterdam062400_IWEC.epw";
     if (access(shared, R_OK)) {
@@ -352,14 +345,14 @@ TEST(a_weather_year_brings_its_place)
     char *text = review_changed(review_good, "'where':[48,11],", "", &arena);
     text = review_changed(text, "\"weather\":\"clear\",\"night\"",
                           "'weather':'year.epw','night'", &arena);
-    assert_false(review_read(text, &arena, &r, &err));
-    assert_string_equal(err.path, "/conditions/4/environment");
-    assert_error_has(&err, "stands beside a weather file, wanted one of them");
+    assert_fails_as(review_read(text, &arena, &r, &err), ERROR_INPUT,
+                    "stands beside a weather file, wanted one of them");
+    assert_string_equal(why()->path, "/conditions/4/environment");
     text = review_changed(text,
                           "\"environment\":{\"type\":\"sky\",\"turbidity\":4,"
                           "\"sun\":{\"azimuth_deg\":0,\"elevation_deg\":9,"
                           "\"illuminance_lx\":1}},", "", &arena);
-    if (!review_read(text, &arena, &r, &err)) fail_msg("%s: %s", err.path, err.text);
+    assert_done(review_read(text, &arena, &r, &err));
     assert_int_equal(r.weather_count, 1);
     assert_int_equal(r.conditions[4].weather_id, 0);
     assert_near(r.conditions[4].where.latitude_deg, 52.3, 1e-9);
@@ -377,18 +370,16 @@ TEST(what_is_no_document_is_refused)
                  {"{} x", "not valid JSON"}, {"{}", "key 'scene' is missing"}};
     for (int i = 0; i < 4; i++) {
         Arena         arena = test_arena(state);
-        Error         err;
         ReviewRequest r;
-        assert_false(review_read(wrong[i].text, &arena, &r, &err));
-        assert_error_has(&err, wrong[i].words);
+        assert_fails_as(review_read(wrong[i].text, &arena, &r, &err), ERROR_INPUT,
+                        wrong[i].words);
     }
     Arena         arena = test_arena(state);
-    Error         err;
     ReviewRequest r;
     Problems      problems = problems_start(&arena);
     assert_false(review_request_read(in_folder("none.json"), NULL, &arena, &problems, &r,
-                                     &err));
-    assert_text_has(err.file, "none.json");
+                                     why()));
+    assert_text_has(why()->file, "none.json");
 }
 
 TEST_PROGRAM(start, clear_folder)

@@ -13,18 +13,16 @@ static int start(void **state)
 
 static ReviewRequest good(Arena *arena)
 {
-    Error         err = {0};
     ReviewRequest request = {0};
-    if (!review_read(review_changed(review_good, NULL, NULL, arena), arena, &request, &err))
-        fail_msg("%s: %s", err.path, err.text);
+    assert_done(review_read(review_changed(review_good, NULL, NULL, arena), arena, &request,
+                            &err));
     return request;
 }
 
 /* ---- what arrives ------------------------------------------------------------------------ */
 
-TEST(eyes_and_where_they_look_arrive)
+ARENA_TEST(eyes_and_where_they_look_arrive)
 {
-    Arena         arena = test_arena(state);
     ReviewRequest r = good(&arena);
     assert_string_equal(r.title, "All of it");
     assert_int_equal(r.scene_count, 2);
@@ -43,9 +41,8 @@ TEST(eyes_and_where_they_look_arrive)
     assert_false(r.gazes[1].for_eye[1] || r.gazes[1].for_eye[3]);
 }
 
-TEST(symbols_levels_and_the_rest_arrive)
+ARENA_TEST(symbols_levels_and_the_rest_arrive)
 {
-    Arena         arena = test_arena(state);
     ReviewRequest r = good(&arena);
     assert_int_equal(r.symbol_count, 3);
     assert_string_equal(r.symbols[0].content, in_folder("p.png"));
@@ -68,9 +65,8 @@ TEST(symbols_levels_and_the_rest_arrive)
     assert_true(r.inputs[0].hash != r.inputs[1].hash);
 }
 
-TEST(conditions_arrive)
+ARENA_TEST(conditions_arrive)
 {
-    Arena         arena = test_arena(state);
     ReviewRequest r = good(&arena);
     const ReviewCondition *noon = &r.conditions[0], *night = &r.conditions[1];
     assert_int_equal(r.condition_count, 5);
@@ -90,9 +86,8 @@ TEST(conditions_arrive)
     assert_int_equal(night->polarity[2], POLARITY_AUTO);
 }
 
-TEST(routes_and_sweeps_arrive)
+ARENA_TEST(routes_and_sweeps_arrive)
 {
-    Arena         arena = test_arena(state);
     ReviewRequest r = good(&arena);
     const ReviewCondition *drive = &r.conditions[2], *suns = &r.conditions[3];
     const ReviewCondition *year = &r.conditions[4];
@@ -112,16 +107,14 @@ TEST(routes_and_sweeps_arrive)
     assert_true(year->has_environment && year->environment.daylight.turbidity == 4);
 }
 
-TEST(what_is_not_said_has_defaults)
+ARENA_TEST(what_is_not_said_has_defaults)
 {
-    Arena         arena = test_arena(state);
-    Error         err;
     ReviewRequest r;
     const char   *text = review_changed(
         "{'scene':['a.gltf'],'eyes':{'e':{'camera':0}},'profile':'p',"
         "'symbols':{'s':{'display':'d','uv':[0,0,1,1]}},'conditions':[{'name':'n'}]}",
         NULL, NULL, &arena);
-    if (!review_read(text, &arena, &r, &err)) fail_msg("%s: %s", err.path, err.text);
+    assert_done(review_read(text, &arena, &r, &err));
     assert_string_equal(r.title, "t.review.json");
     assert_true(r.forward[0] == 0 && r.forward[1] == 0 && r.forward[2] == -1);
     assert_true(r.observer.age_years == 50 && r.observer.pigment == 0.5);
@@ -166,14 +159,12 @@ TEST(an_eye_box_is_a_grid_with_both_ends)
 }
 
 /* Its points lie on an ellipsoid about its middle, whose front is down by the tilt. */
-TEST(an_ellipse_of_eyes_has_its_axes)
+ARENA_TEST(an_ellipse_of_eyes_has_its_axes)
 {
-    Arena         arena = test_arena(state);
-    Error         err = {0};
     ReviewRequest r;
     const char   *text = review_changed(review_good, "'half_size_m':[0.1,0.2,0],'grid':[2,3,1]",
                                         "'ellipse_m':[0.4,0.2,0.1],'tilt_deg':30", &arena);
-    assert_true(review_read(text, &arena, &r, &err));
+    assert_done(review_read(text, &arena, &r, &err));
     const ReviewEye *eye = &r.eyes[3];
     double c = sqrt(0.75), s = 0.5, middle[3], sum[3] = {0};
     assert_int_equal(review_eye_count(eye), ELLIPSE_POINTS);
@@ -194,76 +185,60 @@ TEST(an_ellipse_of_eyes_has_its_axes)
 
 /* ---- any bytes --------------------------------------------------------------------------- */
 
-TEST(every_prefix_is_refused_in_one_line)
+ARENA_TEST(every_prefix_is_refused_in_one_line)
 {
-    Arena  arena = test_arena(state);
     char  *text = review_changed(review_good, NULL, NULL, &arena);
     size_t length = strlen(text);
     for (size_t n = 0; n < length; n++) {
-        Error         err = {0};
         ReviewRequest r;
         Arena         scratch = arena;
         char         *part = arena_string(&scratch, text, n);
-        assert_false(review_read(part, &scratch, &r, &err));
-        assert_int_equal(err.code, ERROR_INPUT);
-        assert_true(err.text[0] && !strchr(err.text, '\n'));
-        assert_text_has(err.file, "t.review.json");
+        assert_false(review_read(part, &scratch, &r, why()));
+        assert_int_equal(why()->code, ERROR_INPUT);
+        assert_true(why()->text[0] && !strchr(why()->text, '\n'));
+        assert_text_has(why()->file, "t.review.json");
     }
 }
 
-TEST(damaged_bytes_do_no_harm)
+ARENA_TEST(damaged_bytes_do_no_harm)
 {
     static const char damage[] = " 9\"{}[],:-e\\\xff\x01";
-    Arena    arena = test_arena(state);
     char    *text = review_changed(review_good, NULL, NULL, &arena);
     size_t   length = strlen(text);
     unsigned random = 7;
     int      refused = 0;
     for (size_t n = 0; n < length; n++) {
-        Error         err = {0};
         ReviewRequest r;
         Arena         scratch = arena;
         char         *part = arena_string(&scratch, text, length);
         random = random * 1664525u + 1013904223u;
         part[n] = damage[(random >> 16) % (sizeof damage - 1)];
-        if (review_read(part, &scratch, &r, &err)) continue;
+        if (review_read(part, &scratch, &r, why())) continue;
         refused++;
-        assert_true(err.text[0] && !strchr(err.text, '\n'));
+        assert_true(why()->text[0] && !strchr(why()->text, '\n'));
     }
     assert_true(refused > (int)length / 3);
 }
 
 /* ---- memory ------------------------------------------------------------------------------ */
 
-#define FULL_STATUS 42
-
-static void leave_when_full(size_t wanted, size_t left)
-{
-    (void)wanted, (void)left;
-    _exit(FULL_STATUS);
-}
-
 /* As a process of its own: running out is an exit, as in the program. */
 static int status_with(size_t bytes, const char *file)
 {
     pid_t child = fork();
     if (child == 0) {
-        Error         err = {0};
         ReviewRequest r;
         Arena         arena = arena_reserve((size_t)1 << 22);
         if (arena.end > arena.next + bytes) arena.end = arena.next + bytes;
         arena.on_full = leave_when_full;
         Problems problems = problems_start(&arena);
-        _exit(review_request_read(file, NULL, &arena, &problems, &r, &err) ? 0 : 3);
+        _exit(review_request_read(file, NULL, &arena, &problems, &r, why()) ? 0 : 3);
     }
-    int status = 0;
-    assert_int_equal(waitpid(child, &status, 0), child);
-    return WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + WTERMSIG(status);
+    return status_of(child);
 }
 
-TEST(running_out_of_memory_is_a_clean_end)
+ARENA_TEST(running_out_of_memory_is_a_clean_end)
 {
-    Arena       arena = test_arena(state);
     const char *file = in_folder("t.review.json");
     int         full = 0, status = FULL_STATUS;
     write_text(file, review_changed(review_good, NULL, NULL, &arena));

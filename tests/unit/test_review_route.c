@@ -15,9 +15,8 @@ static bool read_route(const char *text, Arena *arena, Route *out, Error *err)
 
 static Route must_read(const char *text, Arena *arena)
 {
-    Error err = {0};
     Route route = {0};
-    if (!read_route(text, arena, &route, &err)) fail_msg("%s: %s", err.path, err.text);
+    assert_done(read_route(text, arena, &route, &err));
     return route;
 }
 
@@ -70,9 +69,8 @@ static const char csv_text[] =
     "\xEF\xBB\xBFlat,lon,time,altitude_m\n# a comment\n48,11,2026-06-21T06:00:00Z,520.5\n\n"
     "48.001 , 11,2026-06-21T08:00:10+02:00,521\r\n48.001,11.001,2026-06-21T06:00:30.5Z,\n";
 
-TEST(gpx_and_csv_are_the_same_route)
+ARENA_TEST(gpx_and_csv_are_the_same_route)
 {
-    Arena arena = test_arena(state);
     Route a = must_read(gpx_text, &arena), b = must_read(csv_text, &arena);
     assert_int_equal(a.count, 3);
     assert_int_equal(b.count, 3);
@@ -98,9 +96,8 @@ TEST(gpx_and_csv_are_the_same_route)
 #define AT(second, lat, lon, heading)                                                          \
     "2026-06-21T06:00:" second "Z," lat "," lon "," heading "\n"
 
-TEST(standing_still_keeps_the_last_heading)
+ARENA_TEST(standing_still_keeps_the_last_heading)
 {
-    Arena arena = test_arena(state);
     Route r = must_read("time,lat,lon,heading\n" AT("00", "0", "0", "") AT("01", "0", "0", "")
                         AT("02", "0", "0.001", "") AT("03", "0", "0.001", "")
                         AT("04", "0", "0.001", "") AT("05", "0.001", "0.001", "")
@@ -110,9 +107,8 @@ TEST(standing_still_keeps_the_last_heading)
 }
 
 /* Half a metre a second: no two neighbours are a metre apart. */
-TEST(creeping_is_moving)
+ARENA_TEST(creeping_is_moving)
 {
-    Arena arena = test_arena(state);
     char *text = arena_format(&arena, "time,lat,lon\n");
     for (int i = 0; i < 20; i++)
         text = arena_format(&arena, "%s2026-06-21T06:00:%02dZ,0,%.7f\n", text, i, i * 4.5e-6);
@@ -120,9 +116,8 @@ TEST(creeping_is_moving)
     for (int i = 0; i < 20; i++) assert_near(r.points[i].heading_deg, 90, 1e-6);
 }
 
-TEST(headings_of_the_file_count)
+ARENA_TEST(headings_of_the_file_count)
 {
-    Arena arena = test_arena(state);
     Route r = must_read("time,lat,lon,heading\n" AT("00", "0", "0", "-90")
                         AT("01", "0", "0.001", "") AT("02", "0.001", "0.001", "-359"), &arena);
     assert_near(r.points[0].heading_deg, 270, 1e-12);
@@ -134,9 +129,8 @@ TEST(headings_of_the_file_count)
 
 /* ---- times ------------------------------------------------------------------------------- */
 
-TEST(a_route_starts_when_it_is_said)
+ARENA_TEST(a_route_starts_when_it_is_said)
 {
-    Arena   arena = test_arena(state);
     Route   r = must_read(csv_text, &arena);
     SkyTime start = {2028, 2, 28, 23, 59, 45, 2};
     double  before = r.points[2].seconds;
@@ -194,12 +188,9 @@ TEST(what_is_wrong_is_said_with_its_line)
     };
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         Arena arena = test_arena(state);
-        Error err = {0};
         Route route;
-        if (read_route(wrong[i].text, &arena, &route, &err)) fail_msg("%s", wrong[i].text);
-        assert_int_equal(err.code, ERROR_INPUT);
-        assert_string_equal(err.path, wrong[i].place);
-        assert_error_has(&err, wrong[i].words);
+        if (read_route(wrong[i].text, &arena, &route, why())) fail_msg("%s", wrong[i].text);
+        assert_told(ERROR_INPUT, wrong[i].place, wrong[i].words);
     }
 }
 
@@ -209,13 +200,12 @@ TEST(every_prefix_is_read_or_refused)
     for (int k = 0; k < 2; k++)
         for (size_t n = 0; n < strlen(texts[k]); n++) {
             Arena arena = test_arena(state);
-            Error err = {0};
             Route route = {0};
             char *part = arena_string(&arena, texts[k], n);
-            if (read_route(part, &arena, &route, &err))
+            if (read_route(part, &arena, &route, why()))
                 assert_true(route.count > 0);
             else
-                assert_true(err.text[0] && !strchr(err.text, '\n'));
+                assert_true(why()->text[0] && !strchr(why()->text, '\n'));
         }
 }
 

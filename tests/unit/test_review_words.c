@@ -1,13 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* A review's figures as people read them. */
-#include "check.h"
-
-#include <string.h>
-
 #include "review/output/review_words.h"
-#include "verdict_fixture.h"
-
-static Arena arena;
+#include "review_page_fixture.h"
 
 TEST(figures_are_said_in_words)
 {
@@ -76,8 +70,4 @@ TEST(the_sun_is_named_by_its_direction)
                         "no sun above the horizon");
 }
 
-int main(void)
-{
-    arena = arena_reserve((size_t)2 << 30);
-    return run_cases(NULL, NULL);
-}
+TEST_PROGRAM(page_begin, clear_folder)

@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* What large scenes rely on: no array is kept twice, numbers are the same however they are
  * stored, long reading is told of, and threads do not change what is found. */
-#include "check.h"
+#include "fixture.h"
 #include "gltf_maker.h"
 #include "scene_builder.h"
 
-#include "base/file.h"
 #include "bvh/bvh.h"
 #include "path/light_selection.h"
 
@@ -83,14 +82,11 @@ static Scene *square(int index_type, bool is_interleaved)
     const char *stride = is_interleaved ? ",'byteStride':24" : "";
     const char *members = arena_format(
         &maker.arena,
-        "'bufferViews':[{'buffer':0,'byteLength':%d%s},"
-        "{'buffer':0,'byteOffset':%zu,'byteLength':%d%s},"
-        "{'buffer':0,'byteOffset':96,'byteLength':%d}],"
-        "'accessors':[{'bufferView':0,'componentType':5126,'type':'VEC3','count':4},"
-        "{'bufferView':1,'componentType':5126,'type':'VEC3','count':4},"
-        "{'bufferView':2,'componentType':%d,'type':'SCALAR','count':6}],"
-        "'meshes':[{'primitives':[{'attributes':{'POSITION':0,'NORMAL':1},'indices':2}]}],"
-        "'nodes':[{'mesh':0}],'scenes':[{'nodes':[0]}]",
+        "'bufferViews':[{'buffer':0,'byteLength':%d%s},{'buffer':0,'byteOffset':%zu,"
+        "'byteLength':%d%s},{'buffer':0,'byteOffset':96,'byteLength':%d}],'accessors':["
+        FLOATS(0, 4, "VEC3") "," FLOATS(1, 4, "VEC3") ",{'bufferView':2,'componentType':%d,"
+        "'type':'SCALAR','count':6}],'meshes':[{'primitives':[{'attributes':{'POSITION':0,"
+        "'NORMAL':1},'indices':2}]}],'nodes':[{'mesh':0}],'scenes':[{'nodes':[0]}]",
         is_interleaved ? 96 : 48, stride, normals, is_interleaved ? 84 : 48, stride, 6 * width,
         index_type);
     return maker_load(bytes, sizeof bytes, members);
@@ -128,7 +124,6 @@ static void note(void *user, size_t done, size_t size)
 
 TEST_WITH(reading_a_long_file_is_told_of, maker_reset, NULL)
 {
-    Error     err;
     FileBytes bytes;
     BytesTold      told = {0};
     size_t    size = ((size_t)20 << 20) + 5;
@@ -136,7 +131,7 @@ TEST_WITH(reading_a_long_file_is_told_of, maker_reset, NULL)
     content[size - 1] = 'x';
     FilePieces how = {.max_bytes = size, .on_bytes = note, .user = &told};
     const char *path = maker_file(content, size, ".glb");
-    if (!file_read_pieces(path, &how, &maker.arena, &bytes, &err)) fail_msg("%s", err.text);
+    assert_done(file_read_pieces(path, &how, &maker.arena, &bytes, &err));
     assert_int_equal(bytes.size, size);
     assert_memory_equal(bytes.data, content, size);
     assert_true(told.count >= 3);
@@ -150,11 +145,10 @@ enum { PARTS = 40 };
 
 static LightSelection selection_of(const Scene *scene, int threads, Arena *arena)
 {
-    Error   err = {0};
     Bvh    *bvh;
     Lights *lights;
-    if (!bvh_create(scene, threads, NULL, &bvh, &err)) fail_msg("%s", err.text);
-    if (!lights_build(scene, arena, &lights, &err)) fail_msg("%s", err.text);
+    assert_done(bvh_create(scene, threads, NULL, &bvh, &err));
+    assert_done(lights_build(scene, arena, &lights, &err));
     assert_int_equal(bvh_threads(bvh), threads);
     LightSelection selection = light_selection_build(scene, bvh, lights, arena);
     bvh_destroy(bvh);
@@ -165,7 +159,7 @@ static LightSelection selection_of(const Scene *scene, int threads, Arena *arena
  * other shares of the two. */
 TEST(light_selection_is_the_same_for_any_number_of_threads)
 {
-    Arena  arena = arena_reserve((size_t)1 << 28);
+    ENDS_BY(arena_release) Arena arena = arena_reserve((size_t)1 << 28);
     Scene *scene = builder_scene(&arena);
     scene->environment.kind = ENVIRONMENT_CONSTANT;
     scene->environment.luminance_cd_m2 = 100;
@@ -182,7 +176,6 @@ TEST(light_selection_is_the_same_for_any_number_of_threads)
     assert_memory_equal(one.prob, four.prob, sizeof one.prob[0] * 2 * PARTS);
     assert_memory_equal(one.lx, four.lx, sizeof one.lx[0] * 2 * PARTS);
     assert_true(one.lx[0] > 0 && one.lx[2 * PARTS - 1] > 0 && one.lx[0] != one.lx[2]);
-    arena_release(&arena);
 }
 
 TEST_PROGRAM(maker_start, maker_end)

@@ -1,22 +1,19 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* The laws of src/scene: shapes, transforms and materials come out as glTF says. */
 #include "check.h"
-#include "base/units.h"
 #include "gltf_maker.h"
 
 /* One triangle (0,0,0) (1,0,0) (0,1,0) facing +z, and its nodes. */
 static const float TRIANGLE[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
 
-#define ONE_VIEW(bytes) "'bufferViews':[{'buffer':0,'byteLength':" #bytes "}],"
-#define POSITIONS "'accessors':[{'bufferView':0,'componentType':5126,'count':3,'type':'VEC3'}],"
-#define MESH "'meshes':[{'primitives':[{'attributes':{'POSITION':0}}]}],"
-#define NODE "'scene':0,'scenes':[{'nodes':[0]}],'nodes':[{'mesh':0}]"
+#define MESH MESH_OF("'POSITION':0")
+#define NODE "'scene':0," ONE_NODE
 
 static Scene *load_triangle(const char *more)
 {
-    char members[4096];
-    snprintf(members, sizeof members, ONE_VIEW(36) POSITIONS "%s", more);
-    return maker_load(TRIANGLE, sizeof TRIANGLE, members);
+    return maker_load(TRIANGLE, sizeof TRIANGLE,
+                      maker_format("'bufferViews':[" VIEW0(36) "],'accessors':["
+                                   FLOATS(0, 3, "VEC3") "],%s", more));
 }
 
 static Tangent tangent(const Scene *scene, uint32_t triangle, int c)
@@ -72,7 +69,6 @@ static void check_component(int type, bool is_normalized)
 {
     static const double CODES[3][3] = {{0, 3, 1}, {120, 2, 7}, {5, 127, 90}};
     unsigned char bytes[36] = {0};
-    char members[1024];
     int stride = type == 5126 ? 12 : 8;
     double sign = type == 5120 || type == 5122 ? -1 : 1; /* signed types show it */
     for (int v = 0; v < 3; v++)
@@ -80,14 +76,14 @@ static void check_component(int type, bool is_normalized)
             size_t size = type < 5122 ? 1 : type < 5124 ? 2 : 4;
             put(bytes + v * stride + (int)size * c, type, sign * CODES[v][c]);
         }
-    snprintf(members, sizeof members,
-             "'extensionsUsed':['KHR_mesh_quantization'],"
-             "'extensionsRequired':['KHR_mesh_quantization'],"
-             "'bufferViews':[{'buffer':0,'byteLength':%d,'byteStride':%d}],"
-             "'accessors':[{'bufferView':0,'componentType':%d,'count':3,'type':'VEC3'%s}]," MESH
-                 NODE,
-             3 * stride, stride, type, is_normalized ? ",'normalized':true" : "");
-    Scene *scene = maker_load(bytes, (size_t)(3 * stride), members);
+    Scene *scene = maker_load(bytes, (size_t)(3 * stride),
+        maker_format(
+            "'extensionsUsed':['KHR_mesh_quantization'],"
+            "'extensionsRequired':['KHR_mesh_quantization'],"
+            "'bufferViews':[{'buffer':0,'byteLength':%d,'byteStride':%d}],"
+            "'accessors':[{'bufferView':0,'componentType':%d,'count':3,'type':'VEC3'%s}]," MESH
+            NODE,
+            3 * stride, stride, type, is_normalized ? ",'normalized':true" : ""));
     assert_int_equal(scene->triangle_count, 1);
     for (int v = 0; v < 3; v++) {
         Vec3 at = scene_corner(scene, 0, v);
@@ -132,12 +128,10 @@ TEST_WITH(sparse_values_replace_the_base, maker_reset, NULL)
     } data = {{0, 0, 0, 9, 9, 9, 0, 1, 0}, {1, 0}, {1, 0, 0}};
     Scene *scene = maker_load(
         &data, sizeof data,
-        "'bufferViews':[{'buffer':0,'byteLength':36},{'buffer':0,'byteOffset':36,'byteLength':"
-        "2},"
-        "{'buffer':0,'byteOffset':40,'byteLength':12}],'accessors':[{'bufferView':0,"
-        "'componentType':5126,'count':3,'type':'VEC3','sparse':{'count':1,"
-        "'indices':{'bufferView':1,'componentType':5123},'values':{'bufferView':2}}}]," MESH
-            NODE);
+        "'bufferViews':[" VIEW0(36) "," VIEW(36, 2) "," VIEW(40, 12) "],"
+        "'accessors':[{'bufferView':0,'componentType':5126,'count':3,'type':'VEC3',"
+        "'sparse':{'count':1,'indices':{'bufferView':1,'componentType':5123},"
+        "'values':{'bufferView':2}}}]," MESH NODE);
     assert_vec3(scene_corner(scene, 0, 1), 1, 0, 0);
     struct {
         uint8_t index[4];
@@ -145,11 +139,9 @@ TEST_WITH(sparse_values_replace_the_base, maker_reset, NULL)
     } over_zeros = {{1, 2}, {2, 0, 0, 0, 3, 0}};
     scene = maker_load(
         &over_zeros, sizeof over_zeros,
-        "'bufferViews':[{'buffer':0,'byteLength':2},{'buffer':0,'byteOffset':4,'byteLength':24}"
-        "],"
-        "'accessors':[{'componentType':5126,'count':3,'type':'VEC3','sparse':{'count':2,"
-        "'indices':{'bufferView':0,'componentType':5121},'values':{'bufferView':1}}}]," MESH
-            NODE);
+        "'bufferViews':[" VIEW0(2) "," VIEW(4, 24) "],'accessors':[{'componentType':5126,"
+        "'count':3,'type':'VEC3','sparse':{'count':2,'indices':{'bufferView':0,"
+        "'componentType':5121},'values':{'bufferView':1}}}]," MESH NODE);
     assert_vec3(scene_corner(scene, 0, 0), 0, 0, 0);
     assert_vec3(scene_corner(scene, 0, 1), 2, 0, 0);
     assert_vec3(scene_corner(scene, 0, 2), 0, 3, 0);
@@ -164,17 +156,15 @@ static Scene *load_mode(const uint8_t *indices, int count, int mode, const float
         float points[15];
         uint8_t indices[12];
     } data = {0};
-    char members[1024];
     memcpy(data.points, points, sizeof data.points);
     memcpy(data.indices, indices, (size_t)count);
-    snprintf(
-        members, sizeof members,
-        "'bufferViews':[{'buffer':0,'byteLength':60},{'buffer':0,'byteOffset':60,"
-        "'byteLength':12}],'accessors':[{'bufferView':0,'componentType':5126,'count':5,"
-        "'type':'VEC3'},{'bufferView':1,'componentType':5121,'count':%d,'type':'SCALAR'}],"
-        "'meshes':[{'primitives':[{'attributes':{'POSITION':0},'indices':1,'mode':%d}]}]," NODE,
-        count, mode);
-    return maker_load(&data, sizeof data, members);
+    return maker_load(&data, sizeof data,
+        maker_format(
+            "'bufferViews':[" VIEW0(60) "," VIEW(60, 12) "],'accessors':[" FLOATS(0, 5, "VEC3")
+            ",{'bufferView':1,'componentType':5121,'count':%d,'type':'SCALAR'}],"
+            "'meshes':[{'primitives':[{'attributes':{'POSITION':0},'indices':1,'mode':%d}]}],"
+            NODE,
+            count, mode));
 }
 
 static bool has_triangle(const Scene *scene, Vec3 a, Vec3 b, Vec3 c)
@@ -249,16 +239,12 @@ TEST_WITH(mirroring_keeps_the_front_outside, maker_reset, NULL)
     static const float FACING[] = {1, -1, -1, 1};
     for (int with_normals = 0; with_normals < 2; with_normals++)
         for (int i = 0; i < 4; i++) {
-            char members[1024];
-            snprintf(
-                members, sizeof members,
-                "'bufferViews':[{'buffer':0,'byteLength':36},{'buffer':0,'byteOffset':36,"
-                "'byteLength':36}],'accessors':[{'bufferView':0,'componentType':5126,"
-                "'count':3,'type':'VEC3'},{'bufferView':1,'componentType':5126,'count':3,"
-                "'type':'VEC3'}],'meshes':[{'primitives':[{'attributes':{'POSITION':0%s}}]}],"
-                "'scenes':[{'nodes':[0]}],'nodes':[{'mesh':0,'scale':%s}]",
-                with_normals ? ",'NORMAL':1" : "", SCALES[i]);
-            Scene *scene = maker_load(&data, sizeof data, members);
+            Scene *scene = maker_load(&data, sizeof data,
+                maker_format("'bufferViews':[" VIEW0(36) "," VIEW(36, 36) "],'accessors':["
+                             FLOATS(0, 3, "VEC3") "," FLOATS(1, 3, "VEC3") "],"
+                             "'meshes':[{'primitives':[{'attributes':{'POSITION':0%s}}]}],"
+                             "'scenes':[{'nodes':[0]}],'nodes':[{'mesh':0,'scale':%s}]",
+                             with_normals ? ",'NORMAL':1" : "", SCALES[i]));
             assert_vec3(front(scene, 0), 0, 0, FACING[i]);
             assert_vec3(normal(scene, 0, 0), 0, 0, FACING[i]);
         }
@@ -306,19 +292,17 @@ TEST_WITH(morph_weights_of_the_node_win, maker_reset, NULL)
         float points[9], change[9];
     } data = {{0, 0, 0, 1, 0, 0, 0, 1, 0}, {0, 0, 1, 0, 0, 2, 0, 0, 4}};
     static const char HEAD[] =
-        "'bufferViews':[{'buffer':0,'byteLength':36},{'buffer':0,'byteOffset':36,"
-        "'byteLength':36}],'accessors':[{'bufferView':0,'componentType':5126,'count':3,"
-        "'type':'VEC3'},{'bufferView':1,'componentType':5126,'count':3,'type':'VEC3'}],"
-        "'meshes':[{'weights':[0.5],'primitives':[{'attributes':{'POSITION':0},"
-        "'targets':[{'POSITION':1}]}]}],'scenes':[{'nodes':[0]}],'nodes':[{'mesh':0%s}]";
+        "'bufferViews':[" VIEW0(36) "," VIEW(36, 36) "],'accessors':[" FLOATS(0, 3, "VEC3")
+        "," FLOATS(1, 3, "VEC3") "],'meshes':[{'weights':[0.5],"
+        "'primitives':[{'attributes':{'POSITION':0},'targets':[{'POSITION':1}]}]}],"
+        "'scenes':[{'nodes':[0]}],'nodes':[{'mesh':0%s}]";
     static const struct {
         const char *weights;
         float factor;
     } CASES[] = {{"", 0.5f}, {",'weights':[2]", 2}, {",'weights':[0]", 0}};
     for (int i = 0; i < 3; i++) {
-        char members[1024];
-        snprintf(members, sizeof members, HEAD, CASES[i].weights);
-        Scene *scene = maker_load(&data, sizeof data, members);
+        Scene *scene = maker_load(&data, sizeof data,
+            maker_format(HEAD, CASES[i].weights));
         assert_vec3(scene_corner(scene, 0, 2), 0, 1, 4 * CASES[i].factor);
     }
 }
@@ -335,16 +319,12 @@ TEST_WITH(skinned_vertices_follow_their_joints, maker_reset, NULL)
               {1, 0, 0, 0, 1, 0, 0, 0, 0.5f, 0.5f, 0, 0}};
     Scene *scene = maker_load(
         &data, sizeof data,
-        "'bufferViews':[{'buffer':0,'byteLength':36},{'buffer':0,'byteOffset':36,'byteLength':"
-        "12},"
-        "{'buffer':0,'byteOffset':48,'byteLength':48}],'accessors':[{'bufferView':0,"
-        "'componentType':5126,'count':3,'type':'VEC3'},{'bufferView':1,'componentType':5121,"
-        "'count':3,'type':'VEC4'},{'bufferView':2,'componentType':5126,'count':3,'type':'VEC4'}"
-        "],"
-        "'meshes':[{'primitives':[{'attributes':{'POSITION':0,'JOINTS_0':1,'WEIGHTS_0':2}}]}],"
+        "'bufferViews':[" VIEW0(36) "," VIEW(36, 12) "," VIEW(48, 48) "],'accessors':["
+        FLOATS(0, 3, "VEC3") ",{'bufferView':1,'componentType':5121,'count':3,'type':'VEC4'},"
+        FLOATS(2, 3, "VEC4") "]," MESH_OF("'POSITION':0,'JOINTS_0':1,'WEIGHTS_0':2")
         "'skins':[{'joints':[1,2]}],'scenes':[{'nodes':[0,1]}],'nodes':[{'mesh':0,'skin':0,"
-        "'translation':[100,0,0]},{'translation':[0,0,1],'children':[2]},{'translation':[0,0,4]"
-        "}]");
+        "'translation':[100,0,0]},{'translation':[0,0,1],'children':[2]},{'translation':[0,0,"
+        "4]}]");
     assert_vec3(scene_corner(scene, 0, 0), 0, 0, 1);
     assert_vec3(scene_corner(scene, 0, 1), 1, 0, 5);
     assert_vec3(scene_corner(scene, 0, 2), 0, 1, 3);
@@ -359,7 +339,6 @@ TEST_WITH(vertex_colours_of_every_format_agree, maker_reset, NULL)
     for (int t = 0; t < 3; t++)
         for (int components = 3; components <= 4; components++) {
             unsigned char bytes[36 + 48] = {0};
-            char members[1024];
             memcpy(bytes, TRIANGLE, 36);
             int stride = TYPES[t] == 5121 ? 4 : TYPES[t] == 5123 ? 8 : 16;
             double whole = TYPES[t] == 5121 ? 255 : TYPES[t] == 5123 ? 65535 : 1;
@@ -369,15 +348,14 @@ TEST_WITH(vertex_colours_of_every_format_agree, maker_reset, NULL)
                         c == 3   ? whole / 5
                         : c == v ? whole
                                  : 0);
-            snprintf(members, sizeof members,
-                     "'bufferViews':[{'buffer':0,'byteLength':36},{'buffer':0,'byteOffset':36,"
-                     "'byteLength':48,'byteStride':%d}],'accessors':[{'bufferView':0,"
-                     "'componentType':5126,'count':3,'type':'VEC3'},{'bufferView':1,"
-                     "'componentType':%d,'count':3,'type':'VEC%d'%s}],'meshes':[{'primitives':"
-                     "[{'attributes':{'POSITION':0,'COLOR_0':1}}]}]," NODE,
-                     stride, TYPES[t], components,
-                     TYPES[t] == 5126 ? "" : ",'normalized':true");
-            Scene *scene = maker_load(bytes, sizeof bytes, members);
+            Scene *scene = maker_load(bytes, sizeof bytes,
+                maker_format(
+                    "'bufferViews':[" VIEW0(36) ",{'buffer':0,'byteOffset':36,"
+                    "'byteLength':48,'byteStride':%d}],'accessors':[" FLOATS(0, 3, "VEC3")
+                    ",{'bufferView':1,'componentType':%d,'count':3,'type':'VEC%d'%s}],"
+                    MESH_OF("'POSITION':0,'COLOR_0':1") NODE,
+                    stride, TYPES[t], components,
+                    TYPES[t] == 5126 ? "" : ",'normalized':true"));
             for (int v = 0; v < 3; v++) {
                 const Part *part = scene_part(scene, 0);
                 const uint16_t *color =
@@ -387,11 +365,6 @@ TEST_WITH(vertex_colours_of_every_format_agree, maker_reset, NULL)
             }
         }
 }
-
-/* A 1 x 1 PNG, so that textures have a picture. */
-#define PICTURE                                                                                \
-    "'images':[{'uri':'data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAIAAACQd1Pe"     \
-    "AAAADElEQVR4nGNgYGAAAAAEAAH2FzhVAAAAAElFTkSuQmCC'}],'textures':[{'source':0}],"
 
 /* u runs right and v down on a triangle that faces +z, or u runs left when mirrored. */
 static Scene *load_with_normal_map(bool is_mirrored)
@@ -403,10 +376,8 @@ static Scene *load_with_normal_map(bool is_mirrored)
         if (is_mirrored) data.uv[i] = 1 - data.uv[i];
     return maker_load(
         &data, sizeof data,
-        PICTURE
-        "'bufferViews':[{'buffer':0,'byteLength':36},{'buffer':0,'byteOffset':36,"
-        "'byteLength':24}],'accessors':[{'bufferView':0,'componentType':5126,'count':3,"
-        "'type':'VEC3'},{'bufferView':1,'componentType':5126,'count':3,'type':'VEC2'}],"
+        PICTURE "'bufferViews':[" VIEW0(36) "," VIEW(36, 24) "],'accessors':["
+        FLOATS(0, 3, "VEC3") "," FLOATS(1, 3, "VEC2") "],"
         "'materials':[{'normalTexture':{'index':0}}],'meshes':[{'primitives':[{'material':0,"
         "'attributes':{'POSITION':0,'TEXCOORD_0':1}}]}]," NODE);
 }
@@ -427,22 +398,15 @@ TEST_WITH(what_a_hit_does_not_need_is_not_kept, maker_reset, NULL)
         "", ",'NORMAL':2,'TANGENT':3,'TEXCOORD_0':4,'TEXCOORD_1':4"};
     for (int k = 0; k < 4; k++) {
         bool has_all = k % 2, is_mapped = k / 2;
-        char members[2048];
-        snprintf(members, sizeof members,
-                 PICTURE
-                 "'bufferViews':[{'buffer':0,'byteLength':48},{'buffer':0,'byteOffset':48,"
-                 "'byteLength':48},{'buffer':0,'byteOffset':96,'byteLength':64},{'buffer':0,"
-                 "'byteOffset':160,'byteLength':32},{'buffer':0,'byteOffset':192,"
-                 "'byteLength':8}],"
-                 "'accessors':[{'bufferView':0,'componentType':5126,'count':4,'type':'VEC3'},"
-                 "{'bufferView':4,'componentType':5121,'count':6,'type':'SCALAR'},"
-                 "{'bufferView':1,'componentType':5126,'count':4,'type':'VEC3'},"
-                 "{'bufferView':2,'componentType':5126,'count':4,'type':'VEC4'},"
-                 "{'bufferView':3,'componentType':5126,'count':4,'type':'VEC2'}],"
-                 "'materials':[{%s}],'meshes':[{'primitives':[{'material':0,'indices':1,"
-                 "'attributes':{'POSITION':0%s}}]}]," NODE,
-                 is_mapped ? "'normalTexture':{'index':0}" : "", ATTRIBUTES[has_all]);
-        Scene *scene = maker_load(&data, sizeof data, members);
+        Scene *scene = maker_load(&data, sizeof data,
+            maker_format(
+                PICTURE "'bufferViews':[" VIEW0(48) "," VIEW(48, 48) "," VIEW(96, 64) ","
+                VIEW(160, 32) "," VIEW(192, 8) "],'accessors':[" FLOATS(0, 4, "VEC3") ","
+                "{'bufferView':4,'componentType':5121,'count':6,'type':'SCALAR'},"
+                FLOATS(1, 4, "VEC3") "," FLOATS(2, 4, "VEC4") "," FLOATS(3, 4, "VEC2") "],"
+                "'materials':[{%s}],'meshes':[{'primitives':[{'material':0,'indices':1,"
+                "'attributes':{'POSITION':0%s}}]}]," NODE,
+                is_mapped ? "'normalTexture':{'index':0}" : "", ATTRIBUTES[has_all]));
         const Part *part = &scene->parts[0];
         assert_int_equal(scene->vertex_count, is_mapped && !has_all ? 6 : 4);
         assert_int_equal(part->normals != NULL, is_mapped || has_all);
@@ -479,15 +443,12 @@ TEST_WITH(a_mirrored_seam_splits_its_vertices, maker_reset, NULL)
               {0, 1, 2, 1, 3, 2}};
     Scene *scene = maker_load(
         &data, sizeof data,
-        PICTURE "'bufferViews':[{'buffer':0,'byteLength':48},{'buffer':0,'byteOffset':48,"
-                "'byteLength':48},{'buffer':0,'byteOffset':96,'byteLength':32},{'buffer':0,"
-                "'byteOffset':128,'byteLength':8}],'accessors':[{'bufferView':0,"
-                "'componentType':5126,'count':4,'type':'VEC3'},{'bufferView':1,"
-                "'componentType':5126,'count':4,'type':'VEC3'},{'bufferView':2,"
-                "'componentType':5126,'count':4,'type':'VEC2'},{'bufferView':3,"
-                "'componentType':5121,'count':6,'type':'SCALAR'}],'materials':["
-                "{'normalTexture':{'index':0}}],'meshes':[{'primitives':[{'material':0,"
-                "'indices':3,'attributes':{'POSITION':0,'NORMAL':1,'TEXCOORD_0':2}}]}]," NODE);
+        PICTURE "'bufferViews':[" VIEW0(48) "," VIEW(48, 48) "," VIEW(96, 32) "," VIEW(128, 8)
+        "],'accessors':[" FLOATS(0, 4, "VEC3") "," FLOATS(1, 4, "VEC3") ","
+        FLOATS(2, 4, "VEC2") ",{'bufferView':3,'componentType':5121,'count':6,"
+        "'type':'SCALAR'}],'materials':[{'normalTexture':{'index':0}}],"
+        "'meshes':[{'primitives':[{'material':0,'indices':3,'attributes':{'POSITION':0,"
+        "'NORMAL':1,'TEXCOORD_0':2}}]}]," NODE);
     assert_int_equal(scene->vertex_count, 6);
     for (int c = 0; c < 3; c++) {
         Tangent left = tangent(scene, 0, c), right = tangent(scene, 1, c);
@@ -500,12 +461,10 @@ TEST_WITH(a_mirrored_seam_splits_its_vertices, maker_reset, NULL)
 
 static const float *slot_matrix(const char *transform)
 {
-    char members[1024];
-    snprintf(members, sizeof members,
-             "'extensionsUsed':['KHR_texture_transform']," PICTURE
-             "'materials':[{'emissiveTexture':{'index':0,'texCoord':1%s}}]",
-             transform);
-    Scene *scene = maker_load(NULL, 0, members);
+    Scene *scene = maker_load(NULL, 0,
+        maker_format("'extensionsUsed':['KHR_texture_transform']," PICTURE
+                     "'materials':[{'emissiveTexture':{'index':0,'texCoord':1%s}}]",
+                     transform));
     return scene->materials[0].emissive_texture.uv_from_uv;
 }
 
@@ -538,17 +497,13 @@ TEST_WITH(two_uv_sets_of_any_number_are_carried, maker_reset, NULL)
     } data = {{0, 0, 0, 1, 0, 0, 0, 1, 0}, {{0}, {1, 1, 1, 1, 1, 1}, {2, 2, 2, 2, 2, 2}}};
     Scene *scene = maker_load(
         &data, sizeof data,
-        PICTURE
-        "'bufferViews':[{'buffer':0,'byteLength':36},{'buffer':0,'byteOffset':36,"
-        "'byteLength':24},{'buffer':0,'byteOffset':60,'byteLength':24},{'buffer':0,"
-        "'byteOffset':84,'byteLength':24}],'accessors':[{'bufferView':0,'componentType':5126,"
-        "'count':3,'type':'VEC3'},{'bufferView':1,'componentType':5126,'count':3,'type':'VEC2'}"
-        ","
-        "{'bufferView':2,'componentType':5126,'count':3,'type':'VEC2'},{'bufferView':3,"
-        "'componentType':5126,'count':3,'type':'VEC2'}],'materials':[{'emissiveTexture':"
-        "{'index':0,'texCoord':2},'pbrMetallicRoughness':{'baseColorTexture':{'index':0,"
-        "'texCoord':1}}}],'meshes':[{'primitives':[{'material':0,'attributes':{'POSITION':0,"
-        "'TEXCOORD_0':1,'TEXCOORD_1':2,'TEXCOORD_2':3}}]}]," NODE);
+        PICTURE "'bufferViews':[" VIEW0(36) "," VIEW(36, 24) "," VIEW(60, 24) "," VIEW(84, 24)
+        "],'accessors':[" FLOATS(0, 3, "VEC3") "," FLOATS(1, 3, "VEC2") ","
+        FLOATS(2, 3, "VEC2") "," FLOATS(3, 3, "VEC2") "],"
+        "'materials':[{'emissiveTexture':{'index':0,'texCoord':2},"
+        "'pbrMetallicRoughness':{'baseColorTexture':{'index':0,'texCoord':1}}}],"
+        "'meshes':[{'primitives':[{'material':0,'attributes':{'POSITION':0,'TEXCOORD_0':1,"
+        "'TEXCOORD_1':2,'TEXCOORD_2':3}}]}]," NODE);
     const Material *m = &scene->materials[0];
     assert_near(scene_corner_uv(scene, 0, 0, m->base_color_texture.uv_set).x, 1, 0);
     assert_near(scene_corner_uv(scene, 0, 0, m->emissive_texture.uv_set).x, 2, 0);

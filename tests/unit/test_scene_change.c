@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* The laws of what is tried out on a scene: nodes that turn, patches of materials, hoods. */
 #include "base/count.h"
-#include "base/units.h"
 #include "check.h"
 #include "gltf_maker.h"
 
@@ -58,9 +57,7 @@ static const Scene *load(SceneChange change)
     kept->file = "r.json", kept->place = "/variants/v";
     kept->ahead[2] = -1;
     Found found = survey(kept, 1);
-    for (int i = 0; i < found.problems.count; i++)
-        if (found.problems.list[i].severity == SEVERITY_ERROR)
-            fail_msg("%s: %s", found.problems.list[i].path, found.problems.list[i].message);
+    maker_expect_whole(&found);
     return found.scene;
 }
 

@@ -64,9 +64,8 @@ TEST_WITH(every_fault_is_named_with_its_place, maker_reset, NULL)
 
 static const Material *coated(const char *body)
 {
-    char text[1024];
-    snprintf(text, sizeof text, COATED("%s"), body);
-    return &maker_load(NULL, 0, text)->materials[0];
+    return &maker_load(NULL, 0,
+        maker_format(COATED("%s"), body))->materials[0];
 }
 
 TEST_WITH(layers_are_read_from_outside_inwards, maker_reset, NULL)

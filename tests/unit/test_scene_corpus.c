@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* The models of other projects: whole ones load, faulty ones are told. Skipped, and said so,
  * where the shared data are not there. */
-#include "check.h"
+#include "fixture.h"
 
 #include <dirent.h>
 #include <jansson.h>
@@ -9,7 +9,6 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "base/file.h"
 #include "scene/load/scene_load.h"
 
 #define CORPUS SHARED_DATA_DIR "/gltf"
@@ -56,20 +55,18 @@ typedef struct Verdict {
 static Verdict verdict_of(const char *path)
 {
     Verdict verdict = {0};
-    Error err;
     Scene *scene;
-    Arena arena = arena_reserve((size_t)4 << 30);
+    ENDS_BY(arena_release) Arena arena = arena_reserve((size_t)4 << 30);
     Problems problems = problems_start(&arena);
     if (scene_load(&(SceneOptions){.paths = &path, .path_count = 1}, &arena, &problems, &scene,
-                   &err)) {
+                   why())) {
         verdict.triangles = scene->triangle_count;
         scene_close(scene);
     } else {
-        snprintf(verdict.message, sizeof verdict.message, "%s", err.text);
+        snprintf(verdict.message, sizeof verdict.message, "%s", why()->text);
     }
     verdict.errors = problems.error_count;
     verdict.warnings = problems.count - problems.error_count;
-    arena_release(&arena);
     return verdict;
 }
 
@@ -83,11 +80,10 @@ static void visit_reported(const char *path, void *data)
     Tally *tally = data;
     char report[1100];
     snprintf(report, sizeof report, "%s.report.json", path);
-    json_t *document = json_load_file(report, 0, NULL);
+    json_auto_t *document = json_load_file(report, 0, NULL);
     json_t *count = json_object_get(json_object_get(document, "issues"), "numErrors");
     bool is_whole = json_integer_value(count) == 0;
     assert_true(json_is_integer(count));
-    json_decref(document);
     Verdict verdict = verdict_of(path);
     bool is_right = is_whole ? verdict.errors == 0 : verdict.errors + verdict.warnings > 0;
     tally->whole += is_whole;

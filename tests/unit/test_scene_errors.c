@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Everything that is wrong with a file is found, and said with its place. */
-#include "check.h"
+#include "fixture.h"
 #include "base/count.h"
 #include "gltf_maker.h"
 
@@ -11,10 +11,8 @@ static const struct {
     float broken[9];
 } BYTES = {{0, 0, 0, 1, 0, 0, 0, 1, 0}, {0, 1, 9, 0}, {0, 0, 0, NAN, 0, 0, 0, 1, 0}};
 
-#define VIEWS                                                                                  \
-    "'bufferViews':[{'buffer':0,'byteLength':36},{'buffer':0,'byteOffset':36,"                 \
-    "'byteLength':8},{'buffer':0,'byteOffset':44,'byteLength':36}],"
-#define POINTS "{'bufferView':0,'componentType':5126,'count':3,'type':'VEC3'}"
+#define VIEWS "'bufferViews':[" VIEW0(36) "," VIEW(36, 8) "," VIEW(44, 36) "],"
+#define POINTS FLOATS(0, 3, "VEC3")
 #define PRIMITIVE(body) VIEWS "'accessors':[" POINTS "],'meshes':[{'primitives':[{" body "}]}]"
 
 #define PROFILE_PLACE "/extensions/EXT_lights_ies/lights/0"
@@ -24,6 +22,15 @@ static const struct {
     "{'light':0}}}]"
 #define PROFILED_NODE(body)                                                                    \
     "'extensionsUsed':['EXT_lights_ies'],'nodes':[{'extensions':{'EXT_lights_ies':{" body "}}}]"
+
+#define SKY_PLACE "/scenes/0/extensions/PARHELION_environment"
+#define SKY(body)                                                                              \
+    "'extensionsUsed':['PARHELION_environment'],'scenes':[{'extensions':"                      \
+    "{'PARHELION_environment':{" body "}}}]"
+#define SHOWN_PLACE "/materials/0/extensions/PARHELION_display"
+#define SHOWN(name, body)                                                                      \
+    "'extensionsUsed':['PARHELION_display'],'materials':[{" name "'extensions':"               \
+    "{'PARHELION_display':{" body "}}}]"
 
 static const FaultCase FAULTS[] = {
     /* kinds and ranges */
@@ -55,7 +62,7 @@ static const FaultCase FAULTS[] = {
     {"'textures':[{'source':1}]", "/textures/0/source", "there are 0 in images"},
     {"'materials':[{'normalTexture':{'index':0}}]", "/materials/0/normalTexture/index",
      "there are 0 in textures"},
-    {VIEWS "'accessors':[{'bufferView':9,'componentType':5126,'count':1,'type':'SCALAR'}]",
+    {VIEWS "'accessors':[" FLOATS(9, 1, "SCALAR") "]",
      "/accessors/0/bufferView", "is 9, but there are 3 in bufferViews"},
     /* the tree of nodes */
     {"'nodes':[{'children':[1]},{'children':[0]}]", "/nodes/0", "is its own descendant"},
@@ -69,16 +76,16 @@ static const FaultCase FAULTS[] = {
      "has \"matrix\" and \"scale\""},
     {"'nodes':[{'rotation':[0,0,0.5,0.5]}]", "/nodes/0/rotation", "length is 0.707107"},
     /* bytes */
-    {"'bufferViews':[{'buffer':0,'byteOffset':70,'byteLength':36}]", "/bufferViews/0",
+    {"'bufferViews':[" VIEW(70, 36) "]", "/bufferViews/0",
      "takes bytes 70 to 106 of a buffer of 80 bytes"},
-    {VIEWS "'accessors':[{'bufferView':0,'componentType':5126,'count':4,'type':'VEC3'}]",
+    {VIEWS "'accessors':[" FLOATS(0, 4, "VEC3") "]",
      "/accessors/0", "needs bytes 0 to 48 of a buffer view of 36 bytes"},
     {VIEWS "'accessors':[{'bufferView':0,'byteOffset':2,'componentType':5126,'count':1,"
            "'type':'VEC3'}]",
      "/accessors/0", "starts at byte 2 of the buffer, a multiple of 4"},
     {"'bufferViews':[{'buffer':0,'byteLength':36,'byteStride':8}],'accessors':[" POINTS "]",
      "/accessors/0", "elements of 12 bytes in a buffer view whose byteStride is 8"},
-    {VIEWS "'accessors':[{'bufferView':2,'componentType':5126,'count':3,'type':'VEC3'}]",
+    {VIEWS "'accessors':[" FLOATS(2, 3, "VEC3") "]",
      "/accessors/0", "element 1 has the component nan"},
     {VIEWS "'accessors':[{'componentType':5126,'count':3,'type':'SCALAR','sparse':{'count':2,"
            "'indices':{'bufferView':1,'componentType':5123},'values':{'bufferView':0}}}],"
@@ -95,9 +102,8 @@ static const FaultCase FAULTS[] = {
      "'accessors':[" POINTS ",{'bufferView':1,'componentType':5123,'count':3,"
      "'type':'SCALAR'}],'meshes':[{'primitives':[{'attributes':{'POSITION':0},'indices':1}]}]",
      "/meshes/0/primitives/0/indices", "index 2 is 9, the primitive has 3 vertices"},
-    {VIEWS "'accessors':[" POINTS
-           ",{'bufferView':0,'componentType':5126,'count':2,'type':'VEC3'}],"
-           "'meshes':[{'primitives':[{'attributes':{'POSITION':0,'NORMAL':1}}]}]",
+    {VIEWS "'accessors':[" POINTS "," FLOATS(0, 2, "VEC3") "],"
+     "'meshes':[{'primitives':[{'attributes':{'POSITION':0,'NORMAL':1}}]}]",
      "/meshes/0/primitives/0/attributes/NORMAL", "NORMAL has 2 elements, POSITION has 3"},
     {PRIMITIVE("'attributes':{'POSITION':0,'TEXCOORD_0':0}"),
      "/meshes/0/primitives/0/attributes/TEXCOORD_0", "(VEC2 is wanted)"},
@@ -156,46 +162,23 @@ static const FaultCase FAULTS[] = {
     {"'extensionsUsed':['ACME_magic']", "/extensionsUsed/0", "\"ACME_magic\" is not supported"},
     {"'materials':[{'extensions':{'KHR_materials_ior':{'ior':1.4}}}]",
      "/materials/0/extensions/KHR_materials_ior", "not listed in extensionsUsed"},
-    {"'extensionsUsed':['PARHELION_display'],'materials':[{'name':'cluster','extensions':"
-     "{'PARHELION_display':{'panel':'none.panel','level':-1}}}]",
-     "/materials/0/extensions/PARHELION_display/level", "is -1, a number of at least 0"},
-    {"'extensionsUsed':['PARHELION_display'],'materials':[{'extensions':{'PARHELION_display':"
-     "{'panell':'x'}}}]",
-     "/materials/0/extensions/PARHELION_display/panell",
+    {SHOWN("'name':'cluster',", "'panel':'none.panel','level':-1"), SHOWN_PLACE "/level",
+     "is -1, a number of at least 0"},
+    {SHOWN("", "'panell':'x'"), SHOWN_PLACE "/panell",
      "is no member of PARHELION_display; is \"panel\" meant?"},
-    {"'extensionsUsed':['PARHELION_display'],'materials':[{'name':'cluster','extensions':"
-     "{'PARHELION_display':{'panel':'none.panel'}}}]",
-     "/materials/0/extensions/PARHELION_display/panel", "display \"cluster\": "},
-    {"'extensionsUsed':['PARHELION_display'],'materials':[{'extensions':{'PARHELION_display':{}"
-     "}}]",
-     "/materials/0/extensions/PARHELION_display",
-     "\"panel\" is missing, and --panel names none"},
-    {"'extensionsUsed':['PARHELION_environment'],'scenes':[{'extensions':{'PARHELION_"
-     "environment':"
-     "{'type':'hdri'}}}]",
-     "/scenes/0/extensions/PARHELION_environment",
-     "\"uri\" is missing in an environment of type \"hdri\""},
-    {"'extensionsUsed':['PARHELION_environment'],'scenes':[{'extensions':{'PARHELION_"
-     "environment':"
-     "{'type':'fog'}}}]",
-     "/scenes/0/extensions/PARHELION_environment/type",
-     "is \"fog\", one of constant|hdri|cie|perez|sky"},
-    {"'extensionsUsed':['PARHELION_environment'],'scenes':[{'extensions':{'PARHELION_"
-     "environment':"
-     "{'type':'constant','luminance':1,'sky':3}}}]",
-     "/scenes/0/extensions/PARHELION_environment/sky", "no meaning for an environment of type"},
-    {"'extensionsUsed':['PARHELION_environment'],'scenes':[{'extensions':{'PARHELION_"
-     "environment':"
-     "{'type':'sky','when':'2026-06-21T08:30+02:00','where':[48,11],'moon':'new'}}}]",
-     "/scenes/0/extensions/PARHELION_environment/moon", "is \"new\", true or false is wanted"},
-    {"'extensionsUsed':['PARHELION_environment'],'scenes':[{'extensions':{'PARHELION_"
-     "environment':"
-     "{'type':'sky','when':'yesterday','where':[95,0]}}}]",
-     "/scenes/0/extensions/PARHELION_environment/when", "is \"yesterday\", a time like"},
-    {"'extensionsUsed':['PARHELION_environment'],'scenes':[{'extensions':{'PARHELION_"
-     "environment':"
-     "{'type':'sky','when':'2026-06-21T08:30+02:00','where':[95,0]}}}]",
-     "/scenes/0/extensions/PARHELION_environment/where/0", "is 95, a latitude"},
+    {SHOWN("'name':'cluster',", "'panel':'none.panel'"), SHOWN_PLACE "/panel",
+     "display \"cluster\": "},
+    {SHOWN("", ""), SHOWN_PLACE, "\"panel\" is missing, and --panel names none"},
+    {SKY("'type':'hdri'"), SKY_PLACE, "\"uri\" is missing in an environment of type \"hdri\""},
+    {SKY("'type':'fog'"), SKY_PLACE "/type", "is \"fog\", one of constant|hdri|cie|perez|sky"},
+    {SKY("'type':'constant','luminance':1,'sky':3"), SKY_PLACE "/sky",
+     "no meaning for an environment of type"},
+    {SKY("'type':'sky','when':'2026-06-21T08:30+02:00','where':[48,11],'moon':'new'"),
+     SKY_PLACE "/moon", "is \"new\", true or false is wanted"},
+    {SKY("'type':'sky','when':'yesterday','where':[95,0]"), SKY_PLACE "/when",
+     "is \"yesterday\", a time like"},
+    {SKY("'type':'sky','when':'2026-06-21T08:30+02:00','where':[95,0]"), SKY_PLACE "/where/0",
+     "is 95, a latitude"},
     {"'extensionsUsed':['PARHELION_spectrum'],'materials':[{'extensions':{'PARHELION_spectrum':"
      "{'baseColor':'none.csv'}}}]",
      "/materials/0/extensions/PARHELION_spectrum/baseColor", "No such file"},
@@ -259,17 +242,16 @@ TEST_WITH(all_problems_are_reported_not_the_first, maker_reset, NULL)
 
 TEST_WITH(the_first_error_reaches_the_command_line, maker_reset, NULL)
 {
-    Error err;
     Scene *scene = NULL;
     Problems problems = problems_start(&maker.arena);
     const char *path = maker_gltf(NULL, 0, "'nodes':[{'mesh':5},{'camera':1}]");
     const SceneOptions options = {.paths = &path, .path_count = 1};
-    assert_false(scene_load(&options, &maker.arena, &problems, &scene, &err));
+    assert_false(scene_load(&options, &maker.arena, &problems, &scene, why()));
     assert_null(scene);
-    assert_int_equal(err.code, ERROR_INPUT);
-    assert_string_equal(err.file, path);
-    assert_string_equal(err.path, "/nodes/0/mesh");
-    assert_non_null(strstr(err.text, "and 1 more"));
+    assert_int_equal(why()->code, ERROR_INPUT);
+    assert_string_equal(why()->file, path);
+    assert_string_equal(why()->path, "/nodes/0/mesh");
+    assert_non_null(strstr(why()->text, "and 1 more"));
 }
 
 /* ---- displays and the command line's overrides
@@ -284,14 +266,12 @@ static Found survey_display(const float uv[6], const SceneOptions *more)
     memcpy(data.uv, uv, sizeof data.uv);
     const char *path = maker_gltf(
         &data, sizeof data,
-        "'bufferViews':[{'buffer':0,'byteLength':36},{'buffer':0,'byteOffset':36,"
-        "'byteLength':24}],'accessors':[{'bufferView':0,'componentType':5126,'count':3,"
-        "'type':'VEC3'},{'bufferView':1,'componentType':5126,'count':3,'type':'VEC2'}],"
-        "'extensionsUsed':['PARHELION_display'],'materials':[{'name':'cluster','extensions':"
-        "{'PARHELION_display':{'panel':'none.panel'}}},{'name':'trim'}],'meshes':[{'primitives'"
-        ":"
-        "[{'material':0,'attributes':{'POSITION':0,'TEXCOORD_0':1}}]}],"
-        "'scenes':[{'nodes':[0]}],'nodes':[{'mesh':0}]");
+        "'bufferViews':[" VIEW0(36) "," VIEW(36, 24) "],'accessors':[" FLOATS(0, 3, "VEC3")
+        "," FLOATS(1, 3, "VEC2") "],'extensionsUsed':['PARHELION_display'],"
+        "'materials':[{'name':'cluster',"
+        "'extensions':{'PARHELION_display':{'panel':'none.panel'}}},{'name':'trim'}],"
+        "'meshes':[{'primitives':[{'material':0,'attributes':{'POSITION':0,"
+        "'TEXCOORD_0':1}}]}]," ONE_NODE);
     SceneOptions options = *more;
     options.paths = &path;
     options.path_count = 1;
@@ -341,16 +321,15 @@ static Found survey_shared(const SceneOptions *more)
     } data = {{0, 0, 0, 1, 0, 0, 0, 1, 0}, {0, 1, 1, 1, 0, 0}};
     const char *path = maker_gltf(
         &data, sizeof data,
-        "'bufferViews':[{'buffer':0,'byteLength':36},{'buffer':0,'byteOffset':36,"
-        "'byteLength':24}],'accessors':[{'bufferView':0,'componentType':5126,'count':3,"
-        "'type':'VEC3','min':[0,0,0],'max':[1,1,0]},{'bufferView':1,'componentType':5126,"
-        "'count':3,'type':'VEC2'}],'materials':[{'name':'glass'},{'name':'trim'}],"
+        "'bufferViews':[" VIEW0(36) "," VIEW(36, 24) "],'accessors':[{'bufferView':0,"
+        "'componentType':5126,'count':3,'type':'VEC3','min':[0,0,0],'max':[1,1,0]},"
+        FLOATS(1, 3, "VEC2") "],'materials':[{'name':'glass'},{'name':'trim'}],"
         "'meshes':[{'name':'sheet','primitives':[{'material':0,'attributes':{'POSITION':0,"
-        "'TEXCOORD_0':1}}]},{'name':'frame','primitives':[{'material':0,'attributes':"
-        "{'POSITION':0,'TEXCOORD_0':1}},{'material':1,'attributes':{'POSITION':0,"
-        "'TEXCOORD_0':1}}]}],'scenes':[{'nodes':[0,1,2,3,4]}],'nodes':[{'mesh':0,"
-        "'name':'left'},{'mesh':0,'name':'right'},{'mesh':1,'name':'both'},{'mesh':0,"
-        "'name':'twin'},{'mesh':0,'name':'twin'}]");
+        "'TEXCOORD_0':1}}]},{'name':'frame','primitives':[{'material':0,"
+        "'attributes':{'POSITION':0,'TEXCOORD_0':1}},{'material':1,"
+        "'attributes':{'POSITION':0,'TEXCOORD_0':1}}]}],'scenes':[{'nodes':[0,1,2,3,4]}],"
+        "'nodes':[{'mesh':0,'name':'left'},{'mesh':0,'name':'right'},{'mesh':1,"
+        "'name':'both'},{'mesh':0,'name':'twin'},{'mesh':0,'name':'twin'}]");
     SceneOptions options = *more;
     options.paths = &path;
     options.path_count = 1;
@@ -471,9 +450,8 @@ TEST_WITH(every_prefix_of_a_gltf_is_refused, maker_reset, NULL)
 {
     char *whole = maker_text(
         BYTES.points, 36,
-        "'bufferViews':[{'buffer':0,'byteLength':36}],'accessors':[{'bufferView':0,"
-        "'componentType':5126,'count':3,'type':'VEC3'}],'meshes':[{'primitives':[{'attributes':"
-        "{'POSITION':0}}]}],'nodes':[{'mesh':0}],'scenes':[{'nodes':[0]}]");
+        "'bufferViews':[" VIEW0(36) "],'accessors':[" FLOATS(0, 3, "VEC3") "],"
+        MESH_OF("'POSITION':0") "'nodes':[{'mesh':0}],'scenes':[{'nodes':[0]}]");
     char text[1024];
     size_t size = strlen(whole);
     assert_true(size < sizeof text);
@@ -505,7 +483,7 @@ TEST_WITH(damaged_bytes_do_no_harm, maker_reset, NULL)
 
 static jmp_buf memory_is_out;
 
-static void leave_when_full(size_t bytes_wanted, size_t bytes_left)
+static void jump_when_full(size_t bytes_wanted, size_t bytes_left)
 {
     assert_true(bytes_wanted + 64 > bytes_left); /* alignment may need some */
     longjmp(memory_is_out, 1);
@@ -522,7 +500,7 @@ TEST_WITH(running_out_of_memory_takes_the_one_exit, maker_reset, NULL)
     for (; left < 1 << 16 && !loaded; left += left / 4 + 16) {
         Arena arena = maker.arena;
         arena.end = arena.next + left;
-        arena.on_full = leave_when_full;
+        arena.on_full = jump_when_full;
         if (setjmp(memory_is_out)) {
             refused++;
             continue;

@@ -1,24 +1,18 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Brushed metal, thin films, sheen: every member of these extensions arrives. */
 #include "check.h"
-#include "base/units.h"
 #include "gltf_maker.h"
 
-#define PICTURE                                                                                \
-    "'images':[{'uri':'data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAIAAACQd1Pe"     \
-    "AAAADElEQVR4nGNgYGAAAAAEAAH2FzhVAAAAAElFTkSuQmCC'}],'textures':[{'source':0}],"
 #define TURNED                                                                                 \
     "{'index':0,'extensions':{'KHR_texture_transform':{'offset':[0.25,0.5],'scale':[2,3]}}}"
 
 /* The material with one extension. */
 static const Material *load_material(const char *extension, const char *members)
 {
-    char text[2048];
-    snprintf(text, sizeof text,
-             PICTURE "'extensionsUsed':['%s','KHR_texture_transform'],"
+    return &maker_load(NULL, 0,
+        maker_format(PICTURE "'extensionsUsed':['%s','KHR_texture_transform'],"
                      "'materials':[{'extensions':{'%s':{%s}}}]",
-             extension, extension, members);
-    return &maker_load(NULL, 0, text)->materials[0];
+                     extension, extension, members))->materials[0];
 }
 
 static void assert_transformed(const TextureSlot *slot)
@@ -247,16 +241,15 @@ TEST_WITH(a_solid_that_is_half_clear_is_told, maker_reset, NULL)
 static Found survey_brushed(const char *attributes)
 {
     static const float points[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
-    char text[1024];
-    snprintf(text, sizeof text,
-             "'bufferViews':[{'buffer':0,'byteLength':36}],'accessors':[{'bufferView':0,"
-             "'componentType':5126,'count':3,'type':'VEC3','min':[0,0,0],'max':[1,1,0]},"
-             "{'bufferView':0,'componentType':5126,'count':3,'type':'VEC2'}],"
-             "'materials':[{'extensions':{'" ANISOTROPY "':{'anisotropyStrength':1}}}],"
-             "'meshes':[{'primitives':[{'attributes':{'POSITION':0%s},'material':0}]}],"
-             "'scenes':[{'nodes':[0]}],'nodes':[{'mesh':0}]",
-             attributes);
-    return maker_survey_file(maker_gltf(points, sizeof points, text));
+    return maker_survey_file(maker_gltf(points, sizeof points,
+        maker_format(
+            "'bufferViews':[" VIEW0(36) "],'accessors':[{'bufferView':0,"
+            "'componentType':5126,'count':3,'type':'VEC3','min':[0,0,0],'max':[1,1,0]},"
+            FLOATS(0, 3, "VEC2") "],'materials':[{'extensions':{'" ANISOTROPY
+            "':{'anisotropyStrength':1}}}],"
+            "'meshes':[{'primitives':[{'attributes':{'POSITION':0%s},'material':0}]}],"
+            ONE_NODE,
+            attributes)));
 }
 
 TEST_WITH(brushing_without_tangents_tells_what_is_taken, maker_reset, NULL)

@@ -4,23 +4,18 @@
 #include "base/units.h"
 #include "gltf_maker.h"
 
-#define PICTURE                                                                                \
-    "'images':[{'uri':'data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAIAAACQd1Pe"     \
-    "AAAADElEQVR4nGNgYGAAAAAEAAH2FzhVAAAAAElFTkSuQmCC'}],'textures':[{'source':0}],"
-
 /* The material whose members are these. */
 static const Material *load_material(const char *members)
 {
-    char text[2048];
-    snprintf(text, sizeof text,
-             PICTURE
-             "'extensionsUsed':['KHR_materials_ior',"
-             "'KHR_materials_specular','KHR_materials_transmission','KHR_materials_clearcoat',"
-             "'KHR_materials_volume','KHR_materials_unlit','KHR_materials_emissive_strength',"
-             "'PARHELION_glazing'],"
-             "'materials':[{%s}]",
-             members);
-    return &maker_load(NULL, 0, text)->materials[0];
+    return &maker_load(NULL, 0,
+        maker_format(
+            PICTURE
+            "'extensionsUsed':['KHR_materials_ior',"
+            "'KHR_materials_specular','KHR_materials_transmission','KHR_materials_clearcoat',"
+            "'KHR_materials_volume','KHR_materials_unlit','KHR_materials_emissive_strength',"
+            "'PARHELION_glazing'],"
+            "'materials':[{%s}]",
+            members))->materials[0];
 }
 
 TEST_WITH(an_empty_material_has_the_defaults, maker_reset, NULL)
@@ -232,12 +227,10 @@ TEST_WITH(a_picture_of_the_sky_is_read_beside_the_scene, maker_reset, NULL)
     static const char PIXELS[] =
         "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n\x80\x80\x80\x81\x80\x80\x80\x82";
     const char *picture = maker_file(PIXELS, sizeof PIXELS - 1, ".hdr");
-    char members[512];
-    snprintf(members, sizeof members,
-             ENVIRONMENT("'type':'hdri','uri':'%s','rotation_deg':45,"
-                         "'horizontal_illuminance_lx':20000"),
-             path_name(picture));
-    const Environment *e = &maker_load(NULL, 0, members)->environment;
+    const Environment *e = &maker_load(NULL, 0,
+        maker_format(ENVIRONMENT("'type':'hdri','uri':'%s','rotation_deg':45,"
+                     "'horizontal_illuminance_lx':20000"),
+                     path_name(picture)))->environment;
     assert_int_equal(e->kind, ENVIRONMENT_HDRI);
     assert_string_equal(e->hdri_path, picture);
     assert_int_equal(e->hdri.width, 2);
@@ -294,11 +287,9 @@ TEST_WITH(opaque_triangles_come_first, maker_reset, NULL)
 {
     const Scene *scene = maker_load(
         TRIANGLE, sizeof TRIANGLE,
-        "'bufferViews':[{'buffer':0,'byteLength':36}],'accessors':[{'bufferView':0,"
-        "'componentType':5126,'count':3,'type':'VEC3'}],'materials':[{'alphaMode':'BLEND','"
-        "pbrMetallicRoughness':"
-        "{'baseColorFactor':[1,1,1,0.5]}},{}],"
-        "'meshes':[{'primitives':[{'attributes':{'POSITION':0},'material':0},"
+        "'bufferViews':[" VIEW0(36) "],'accessors':[" FLOATS(0, 3, "VEC3") "],"
+        "'materials':[{'alphaMode':'BLEND','pbrMetallicRoughness':{'baseColorFactor':[1,1,1,"
+        "0.5]}},{}],'meshes':[{'primitives':[{'attributes':{'POSITION':0},'material':0},"
         "{'attributes':{'POSITION':0},'material':1},{'attributes':{'POSITION':0}}]}],"
         "'scenes':[{'nodes':[0]}],'nodes':[{'mesh':0,'translation':[0,0,2]}]");
     assert_int_equal(scene->triangle_count, 3);
@@ -326,12 +317,11 @@ TEST_WITH(what_is_opaque_everywhere_is_opaque, maker_reset, NULL)
         data.colors[11] = (uint8_t)alpha;
         const Scene *scene = maker_load(
             &data, sizeof data,
-            "'bufferViews':[{'buffer':0,'byteLength':36},{'buffer':0,'byteOffset':36,"
-            "'byteLength':12}],'accessors':[{'bufferView':0,'componentType':5126,'count':3,"
-            "'type':'VEC3'},{'bufferView':1,'componentType':5121,'normalized':true,'count':3,"
-            "'type':'VEC4'}],'materials':[{'alphaMode':'BLEND'}],'meshes':[{'primitives':"
-            "[{'attributes':{'POSITION':0,'COLOR_0':1},'material':0}]}],"
-            "'scenes':[{'nodes':[0]}],'nodes':[{'mesh':0}]");
+            "'bufferViews':[" VIEW0(36) "," VIEW(36, 12) "],'accessors':["
+            FLOATS(0, 3, "VEC3") ",{'bufferView':1,'componentType':5121,'normalized':true,"
+            "'count':3,'type':'VEC4'}],'materials':[{'alphaMode':'BLEND'}],"
+            "'meshes':[{'primitives':[{'attributes':{'POSITION':0,'COLOR_0':1},"
+            "'material':0}]}]," ONE_NODE);
         assert_int_equal(scene->opaque_count, alpha == 255);
     }
 }
@@ -341,10 +331,9 @@ TEST_WITH(triangles_without_area_are_dropped_and_counted, maker_reset, NULL)
     static const float POINTS[18] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 0, 1, 1, 1, 2, 2, 2};
     Found found = maker_survey_file(
         maker_gltf(POINTS, sizeof POINTS,
-                   "'bufferViews':[{'buffer':0,'byteLength':72}],'accessors':[{'bufferView':0,"
-                   "'componentType':5126,'count':6,'type':'VEC3'}],'meshes':[{'primitives':["
-                   "{'attributes':{'POSITION':0}},{'attributes':{'POSITION':0},'mode':0}]}],"
-                   "'scenes':[{'nodes':[0]}],'nodes':[{'mesh':0}]"));
+                   "'bufferViews':[" VIEW0(72) "],'accessors':[" FLOATS(0, 6, "VEC3") "],"
+                   "'meshes':[{'primitives':[{'attributes':{'POSITION':0}},"
+                   "{'attributes':{'POSITION':0},'mode':0}]}]," ONE_NODE));
     assert_int_equal(found.scene->triangle_count, 1);
     assert_non_null(maker_find(&found, "/meshes", "1 triangle without area dropped"));
     assert_non_null(maker_find(&found, "/meshes", "1 primitive of points or lines skipped"));

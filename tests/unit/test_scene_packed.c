@@ -3,7 +3,7 @@
  * rounding, and packed bytes that are cut or changed are refused or read, never more. */
 #include <meshoptimizer.h>
 
-#include "check.h"
+#include "fixture.h"
 #include "gltf_maker.h"
 
 enum { SIDE = 20, VERTICES = SIDE * SIDE, CORNERS = 6 * (SIDE - 1) * (SIDE - 1) };
@@ -125,9 +125,7 @@ static View pack_corners(Bytes *bytes, const uint32_t *corners, bool is_sequence
 static const Scene *load(const char *path)
 {
     Found found = maker_survey_file(path);
-    for (int i = 0; i < found.problems.count; i++)
-        if (found.problems.list[i].severity == SEVERITY_ERROR)
-            fail_msg("%s: %s", found.problems.list[i].path, found.problems.list[i].message);
+    maker_expect_whole(&found);
     return found.scene;
 }
 
@@ -229,14 +227,12 @@ TEST_WITH(quaternion_filters_round_turns_to_their_bits, maker_reset, NULL)
         bytes.data, bytes.size,
         arena_format(
             &maker.arena,
-            "'extensionsUsed':['EXT_meshopt_compression'],'bufferViews':[{'buffer':0,"
-            "'byteLength':36},{'buffer':0,'byteOffset':48,'byteLength':8},%s],'accessors':["
-            "{'bufferView':0,'componentType':5126,'count':3,'type':'VEC3'},"
-            "{'bufferView':1,'componentType':5126,'count':2,'type':'SCALAR'},"
-            "{'bufferView':2,'componentType':5122,'count':2,'type':'VEC4','normalized':true}],"
-            "'meshes':[{'primitives':[{'attributes':{'POSITION':0}}]}],'scene':0,'scenes':["
-            "{'nodes':[0]}],'nodes':[{'mesh':0}],'animations':[{'samplers':[{'input':1,"
-            "'output':2}],'channels':[{'sampler':0,'target':{'node':0,'path':'rotation'}}]}]",
+            "'extensionsUsed':['EXT_meshopt_compression'],'bufferViews':[" VIEW0(36) ","
+            VIEW(48, 8) ",%s],'accessors':[" FLOATS(0, 3, "VEC3") "," FLOATS(1, 2, "SCALAR")
+            ",{'bufferView':2,'componentType':5122,'count':2,'type':'VEC4',"
+            "'normalized':true}]," MESH_OF("'POSITION':0") "'scene':0," ONE_NODE ","
+            "'animations':[{'samplers':[{'input':1,'output':2}],'channels':[{'sampler':0,"
+            "'target':{'node':0,'path':'rotation'}}]}]",
             view_text(&view)));
     Found found = maker_survey(&(SceneOptions){
         .paths = &path, .path_count = 1, .state = {.has_time = true, .time_s = 1}});
@@ -352,16 +348,14 @@ static Found survey_texture(const char *texture, const char *required)
     return maker_survey_file(maker_gltf(
         bytes.data, bytes.size,
         arena_format(&maker.arena,
-                     "'bufferViews':[{'buffer':0,'byteLength':36},"
-                     "{'buffer':0,'byteOffset':48,'byteLength':62}],"
-                     "'accessors':[{'bufferView':0,'componentType':5126,"
-                     "'count':3,'type':'VEC3'}],"
-                     "'images':[{'bufferView':0,'mimeType':'image/png'},"
-                     "{'bufferView':1,'mimeType':'image/webp'}],'textures':[{%s}],'materials':["
-                     "{'pbrMetallicRoughness':{'baseColorTexture':{'index':0}}}],'meshes':["
-                     "{'primitives':[{'attributes':{'POSITION':0},'material':0}]}],'scene':0,"
-                     "'scenes':[{'nodes':[0]}],'nodes':[{'mesh':0}],'extensionsUsed':["
-                     "'EXT_texture_webp','KHR_texture_basisu']%s",
+                     "'bufferViews':[" VIEW0(36) "," VIEW(48, 62) "],'accessors':["
+                     FLOATS(0, 3, "VEC3") "],'images':[{'bufferView':0,"
+                     "'mimeType':'image/png'},{'bufferView':1,'mimeType':'image/webp'}],"
+                     "'textures':[{%s}],"
+                     "'materials':[{'pbrMetallicRoughness':{'baseColorTexture':{'index':0}}}],"
+                     "'meshes':[{'primitives':[{'attributes':{'POSITION':0},'material':0}]}],"
+                     "'scene':0," ONE_NODE ",'extensionsUsed':['EXT_texture_webp',"
+                     "'KHR_texture_basisu']%s",
                      texture, required)));
 }
 
@@ -382,13 +376,12 @@ TEST_WITH(a_webp_picture_is_shown_before_the_one_for_other_readers, maker_reset,
 TEST_WITH(webp_pictures_that_are_cut_are_refused, maker_reset, NULL)
 {
     Image image;
-    Error err;
-    assert_true(image_read_memory(WEBP, sizeof WEBP, "a.webp", &maker.arena, &image, &err));
+    assert_done(image_read_memory(WEBP, sizeof WEBP, "a.webp", &maker.arena, &image, &err));
     for (size_t size = 0; size < sizeof WEBP - 1; size++) {
         unsigned char *cut = malloc(size + 1); /* of this size, for the address sanitizer */
         memcpy(cut, WEBP, size);
         cut = realloc(cut, size ? size : 1);
-        if (image_read_memory(cut, size, "a.webp", &maker.arena, &image, &err))
+        if (image_read_memory(cut, size, "a.webp", &maker.arena, &image, why()))
             fail_msg("%zu bytes are taken for a picture", size);
         free(cut);
     }

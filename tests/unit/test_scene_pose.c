@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* The laws of what a file can be: animations at a time, and variants of materials. */
 #include "base/mathd.h"
-#include "check.h"
+#include "fixture.h"
 #include "gltf_maker.h"
 
 /* ---- a moving triangle ------------------------------------------------------------------- */
@@ -17,10 +17,7 @@ typedef struct Moving {
 static const Moving STANDING = {.triangle = {0, 0, 0, 1, 0, 0, 0, 1, 0}};
 
 #define VIEWS                                                                                  \
-    "'bufferViews':[{'buffer':0,'byteLength':36},"                                             \
-    "{'buffer':0,'byteOffset':36,'byteLength':16},"                                            \
-    "{'buffer':0,'byteOffset':52,'byteLength':160},"                                           \
-    "{'buffer':0,'byteOffset':212,'byteLength':36}],"
+    "'bufferViews':[" VIEW0(36) "," VIEW(36, 16) "," VIEW(52, 160) "," VIEW(212, 36) "],"
 #define SCENE "'scene':0,'scenes':[{'nodes':[0]}],"
 
 typedef struct Motion {
@@ -34,22 +31,19 @@ typedef struct Motion {
 /* Node 0 is the triangle, whose mesh has one morph target, and moves as said. */
 static const char *write_motion(const Moving *data, const Motion *motion)
 {
-    char members[4096];
-    snprintf(members, sizeof members,
-             VIEWS
-             "'extensionsUsed':['KHR_animation_pointer','KHR_node_visibility'],"
-             "'accessors':[{'bufferView':0,'componentType':5126,'count':3,'type':'VEC3'},"
-             "{'bufferView':1,'componentType':5126,'count':%d,'type':'SCALAR'},"
-             "{'bufferView':2,'componentType':5126,'count':%d,'type':'%s'},"
-             "{'bufferView':3,'componentType':5126,'count':3,'type':'VEC3'},"
-             "{'bufferView':2,'componentType':5121,'count':%d,'type':'SCALAR'}],"
-             "'meshes':[{'primitives':[{'attributes':{'POSITION':0},'targets':["
-             "{'POSITION':3}]}]}]," SCENE "'nodes':[{'mesh':0%s},{}],"
-             "'animations':[{'name':'wave','samplers':[{'input':1,'output':%d,"
-             "'interpolation':'%s'}],'channels':[{'sampler':0,'target':{%s}}]}]",
-             motion->keys, motion->values, motion->type, motion->values, motion->node,
-             strcmp(motion->type, "BYTES") == 0 ? 4 : 2, motion->how, motion->target);
-    return maker_gltf(data, sizeof *data, members);
+    return maker_gltf(data, sizeof *data,
+        maker_format(
+            VIEWS "'extensionsUsed':['KHR_animation_pointer','KHR_node_visibility'],"
+            "'accessors':[" FLOATS(0, 3, "VEC3") ",{'bufferView':1,'componentType':5126,"
+            "'count':%d,'type':'SCALAR'},{'bufferView':2,'componentType':5126,'count':%d,"
+            "'type':'%s'}," FLOATS(3, 3, "VEC3") ",{'bufferView':2,'componentType':5121,"
+            "'count':%d,'type':'SCALAR'}],"
+            "'meshes':[{'primitives':[{'attributes':{'POSITION':0},"
+            "'targets':[{'POSITION':3}]}]}]," SCENE "'nodes':[{'mesh':0%s},{}],"
+            "'animations':[{'name':'wave','samplers':[{'input':1,'output':%d,"
+            "'interpolation':'%s'}],'channels':[{'sampler':0,'target':{%s}}]}]",
+            motion->keys, motion->values, motion->type, motion->values, motion->node,
+            strcmp(motion->type, "BYTES") == 0 ? 4 : 2, motion->how, motion->target));
 }
 
 static Found survey_at(const char *path, double time_s)
@@ -61,9 +55,7 @@ static Found survey_at(const char *path, double time_s)
 static const Scene *load_at(const char *path, double time_s)
 {
     Found found = survey_at(path, time_s);
-    for (int i = 0; i < found.problems.count; i++)
-        if (found.problems.list[i].severity == SEVERITY_ERROR)
-            fail_msg("%s: %s", found.problems.list[i].path, found.problems.list[i].message);
+    maker_expect_whole(&found);
     return found.scene;
 }
 
@@ -247,8 +239,7 @@ TEST_WITH(a_pointer_shows_and_hides, maker_reset, NULL)
     char *path = (char *)write_motion(&data, &motion);
     /* The unused accessor of values would be of no type: it is one of bytes, too. */
     FileBytes text;
-    Error err;
-    assert_true(file_read(path, 1 << 20, &maker.arena, &text, &err));
+    assert_done(file_read(path, 1 << 20, &maker.arena, &text, &err));
     char *type = strstr((char *)text.data, "\"BYTES\"");
     memcpy(type, "\"VEC2\" ", 7);
     path = (char *)maker_file(text.data, text.size, ".gltf");
@@ -324,19 +315,16 @@ static const char *write_three(void)
     memcpy(data.values, values, sizeof values);
     return maker_gltf(
         &data, sizeof data,
-        VIEWS "'accessors':[{'bufferView':0,'componentType':5126,'count':3,'type':'VEC3'},"
-              "{'bufferView':1,'componentType':5126,'count':2,'type':'SCALAR'},"
-              "{'bufferView':2,'componentType':5126,'count':2,'type':'VEC3'},"
-              "{'bufferView':2,'byteOffset':24,'componentType':5126,'count':2,'type':'VEC3'},"
-              "{'bufferView':2,'byteOffset':48,'componentType':5126,'count':2,'type':'VEC3'}],"
-              "'meshes':[{'primitives':[{'attributes':{'POSITION':0}}]}],"
-              "'scene':0,'scenes':[{'nodes':[0,1]}],'nodes':[{'mesh':0},{'mesh':0}],"
-              "'animations':[{'name':'up','samplers':[{'input':1,'output':2}],'channels':["
-              "{'sampler':0,'target':{'node':0,'path':'translation'}}]},"
-              "{'name':'side','samplers':[{'input':1,'output':3}],'channels':["
-              "{'sampler':0,'target':{'node':0,'path':'translation'}}]},"
-              "{'samplers':[{'input':1,'output':4}],'channels':["
-              "{'sampler':0,'target':{'node':1,'path':'translation'}}]}]");
+        VIEWS "'accessors':[" FLOATS(0, 3, "VEC3") "," FLOATS(1, 2, "SCALAR") ","
+        FLOATS(2, 2, "VEC3") ",{'bufferView':2,'byteOffset':24,'componentType':5126,"
+        "'count':2,'type':'VEC3'},{'bufferView':2,'byteOffset':48,'componentType':5126,"
+        "'count':2,'type':'VEC3'}]," MESH_OF("'POSITION':0") "'scene':0,"
+        "'scenes':[{'nodes':[0,1]}],'nodes':[{'mesh':0},{'mesh':0}],"
+        "'animations':[{'name':'up','samplers':[{'input':1,'output':2}],"
+        "'channels':[{'sampler':0,'target':{'node':0,'path':'translation'}}]},{'name':'side',"
+        "'samplers':[{'input':1,'output':3}],'channels':[{'sampler':0,'target':{'node':0,"
+        "'path':'translation'}}]},{'samplers':[{'input':1,'output':4}],"
+        "'channels':[{'sampler':0,'target':{'node':1,'path':'translation'}}]}]");
 }
 
 static Found survey_chosen(const char *path, const char *const *names, int count)
@@ -394,23 +382,16 @@ TEST_WITH(a_skin_at_bind_pose_changes_nothing_and_joints_take_along, maker_reset
               {0, 0, 5, 0, 6, 5}};
     const char *path = maker_gltf(
         &data, sizeof data,
-        "'bufferViews':[{'buffer':0,'byteLength':36},"
-        "{'buffer':0,'byteOffset':36,'byteLength':12},"
-        "{'buffer':0,'byteOffset':48,'byteLength':48},"
-        "{'buffer':0,'byteOffset':96,'byteLength':128},"
-        "{'buffer':0,'byteOffset':224,'byteLength':32}],"
-        "'accessors':[{'bufferView':0,'componentType':5126,'count':3,'type':'VEC3'},"
-        "{'bufferView':1,'componentType':5121,'count':3,'type':'VEC4'},"
-        "{'bufferView':2,'componentType':5126,'count':3,'type':'VEC4'},"
-        "{'bufferView':3,'componentType':5126,'count':2,'type':'MAT4'},"
-        "{'bufferView':4,'componentType':5126,'count':2,'type':'SCALAR'},"
-        "{'bufferView':4,'byteOffset':8,'componentType':5126,'count':2,'type':'VEC3'}],"
-        "'meshes':[{'primitives':[{'attributes':{'POSITION':0,'JOINTS_0':1,'WEIGHTS_0':2}}]}],"
-        "'skins':[{'joints':[1,2],'inverseBindMatrices':3}],"
-        "'scene':0,'scenes':[{'nodes':[0,1]}],'nodes':[{'mesh':0,'skin':0},"
-        "{'translation':[2,3,4],'children':[2]},{'translation':[0,0,5]}],"
-        "'animations':[{'samplers':[{'input':4,'output':5}],'channels':["
-        "{'sampler':0,'target':{'node':2,'path':'translation'}}]}]");
+        "'bufferViews':[" VIEW0(36) "," VIEW(36, 12) "," VIEW(48, 48) "," VIEW(96, 128) ","
+        VIEW(224, 32) "],'accessors':[" FLOATS(0, 3, "VEC3") ",{'bufferView':1,"
+        "'componentType':5121,'count':3,'type':'VEC4'}," FLOATS(2, 3, "VEC4") ","
+        FLOATS(3, 2, "MAT4") "," FLOATS(4, 2, "SCALAR") ",{'bufferView':4,'byteOffset':8,"
+        "'componentType':5126,'count':2,'type':'VEC3'}],"
+        MESH_OF("'POSITION':0,'JOINTS_0':1,'WEIGHTS_0':2") "'skins':[{'joints':[1,2],"
+        "'inverseBindMatrices':3}],'scene':0,'scenes':[{'nodes':[0,1]}],'nodes':[{'mesh':0,"
+        "'skin':0},{'translation':[2,3,4],'children':[2]},{'translation':[0,0,5]}],"
+        "'animations':[{'samplers':[{'input':4,'output':5}],'channels':[{'sampler':0,"
+        "'target':{'node':2,'path':'translation'}}]}]");
     Found rest = maker_survey_file(path);
     assert_int_equal(rest.problems.error_count, 0);
     const Scene *shown[2] = {rest.scene, load_at(path, 0)};
@@ -432,17 +413,13 @@ static const char *write_instances(const void *data, size_t size, const char *mo
     return maker_gltf(
         data, size,
         arena_format(&maker.arena,
-                     "'bufferViews':[{'buffer':0,'byteLength':36},"
-                     "{'buffer':0,'byteOffset':36,'byteLength':80}],"
-                     "'accessors':[{'bufferView':0,'componentType':5126,'count':3,"
-                     "'type':'VEC3'},"
-                     "{'bufferView':1,'componentType':5126,'count':2,'type':'VEC3'},"
-                     "{'bufferView':1,'byteOffset':24,'componentType':5126,'count':2,"
-                     "'type':'VEC4'},{'bufferView':1,'byteOffset':56,'componentType':5126,"
-                     "'count':2,'type':'VEC3'},{'componentType':5126,'count':3,'type':'VEC3'}],"
-                     "'meshes':[{'primitives':[{'attributes':{'POSITION':0}}]}]," SCENE
-                     "'nodes':[{'mesh':0,'translation':[0,0,9],'extensions':{"
-                     "'EXT_mesh_gpu_instancing':{'attributes':{%s}}}}],"
+                     "'bufferViews':[" VIEW0(36) "," VIEW(36, 80) "],'accessors':["
+                     FLOATS(0, 3, "VEC3") "," FLOATS(1, 2, "VEC3") ",{'bufferView':1,"
+                     "'byteOffset':24,'componentType':5126,'count':2,'type':'VEC4'},"
+                     "{'bufferView':1,'byteOffset':56,'componentType':5126,'count':2,"
+                     "'type':'VEC3'},{'componentType':5126,'count':3,'type':'VEC3'}],"
+                     MESH_OF("'POSITION':0") SCENE "'nodes':[{'mesh':0,'translation':[0,0,9],"
+                     "'extensions':{'EXT_mesh_gpu_instancing':{'attributes':{%s}}}}],"
                      "'extensionsUsed':['EXT_mesh_gpu_instancing'],"
                      "'extensionsRequired':['EXT_mesh_gpu_instancing']", more));
 }
@@ -505,9 +482,7 @@ static const char *write_variants(const char *names)
     return maker_gltf(
         STANDING.triangle, 36,
         arena_format(&maker.arena,
-                     "'bufferViews':[{'buffer':0,'byteLength':36}],"
-                     "'accessors':[{'bufferView':0,'componentType':5126,'count':3,"
-                     "'type':'VEC3'}],"
+                     "'bufferViews':[" VIEW0(36) "],'accessors':[" FLOATS(0, 3, "VEC3") "],"
                      "'extensionsUsed':['KHR_materials_variants'],"
                      "'extensionsRequired':['KHR_materials_variants'],"
                      "'extensions':{'KHR_materials_variants':{'variants':[%s]}},"

@@ -47,7 +47,7 @@ TEST_WITH(every_fault_is_named_with_its_place, maker_reset, NULL)
 }
 
 /* A PNG of 3 x 2 pixels. */
-#define PICTURE                                                                                \
+#define SCREEN                                                                                 \
     "data:image/png;base64,"                                                                   \
     "iVBORw0KGgoAAAANSUhEUgAAAAMAAAACCAIAAAASFvFNAAAAEElEQVR42mP438AAQQxwFgBf0gj7"             \
     "ZoGl2gAAAABJRU5ErkJggg=="
@@ -55,13 +55,11 @@ TEST_WITH(every_fault_is_named_with_its_place, maker_reset, NULL)
 /* Of a display that shows it; its panel is not there, which is told. */
 static const Display *shown(const char *body)
 {
-    char text[2048];
-    snprintf(text, sizeof text,
-             "'extensionsUsed':['PARHELION_display'],'images':[{'uri':'" PICTURE "'}],"
-             "'textures':[{'source':0}],'materials':[{'name':'cluster','extensions':{"
-             "'PARHELION_display':{'panel':'none.panel','content':{'index':0}%s}}}]",
-             body);
-    Found found = maker_survey_file(maker_gltf(NULL, 0, text));
+    Found found = maker_survey_file(maker_gltf(NULL, 0,
+        maker_format("'extensionsUsed':['PARHELION_display'],'images':[{'uri':'" SCREEN "'}],"
+                     "'textures':[{'source':0}],'materials':[{'name':'cluster','extensions':{"
+                     "'PARHELION_display':{'panel':'none.panel','content':{'index':0}%s}}}]",
+                     body)));
     assert_int_equal(found.problems.count, 1);
     assert_non_null(maker_find(&found, PLACE "/panel", "display \"cluster\": "));
     return &found.scene->displays[0];
@@ -128,7 +126,7 @@ static Found with_panel(int panel, const char *members)
                                "'cluster','extensions':{'PARHELION_display':{%s}}}]", members)
                 : "'materials':[{'name':'cluster','emissiveTexture':{'index':0}}]";
     const char *path = maker_gltf(NULL, 0, arena_format(&maker.arena,
-                                  "'images':[{'uri':'" PICTURE "'}],'textures':[{'source':0}],"
+                                  "'images':[{'uri':'" SCREEN "'}],'textures':[{'source':0}],"
                                   "%s", material));
     SceneOverride over = {.material = "cluster", .value = panels[panel].panel_path};
     SceneOptions  options = {.paths = &path, .path_count = 1, .panels = &over,

@@ -62,11 +62,8 @@ static bool write_all(Error *err)
 
 static void refused(const char *name, const char *reason)
 {
-    Error err = {0};
-    assert_false(write_all(&err));
-    assert_int_equal(err.code, ERROR_OUTPUT);
-    assert_string_equal(err.file, in_folder(name));
-    assert_error_has(&err, reason);
+    assert_fails_as(write_all(&err), ERROR_OUTPUT, reason);
+    assert_string_equal(why()->file, in_folder(name));
 }
 
 static void remove_all(void)
@@ -79,9 +76,8 @@ static void remove_all(void)
 
 TEST(a_whole_set_has_its_names_at_the_end)
 {
-    Error     err = {0};
     SetWriter writer;
-    assert_true(set_writer_open(in_folder("set/MANIFEST.json"), &writer, &err));
+    assert_true(set_writer_open(in_folder("set/MANIFEST.json"), &writer, why()));
     assert_true(add_all(&writer));
     assert_true(add(&writer, "brdf/i30.csv", "again")); /* the last word counts */
     assert_false(stands("set/brdf/i30.csv"));
@@ -90,7 +86,7 @@ TEST(a_whole_set_has_its_names_at_the_end)
     assert_true(holds("set/brdf/i30.csv", "again"));
     assert_true(holds("set/MANIFEST.json", "{\n  \"third\": 0.333\n}\n"));
     assert_int_equal(entries_below(test_folder()), 6);
-    assert_true(write_all(&err)); /* over what stands there */
+    assert_true(write_all(why())); /* over what stands there */
     assert_true(holds("set/brdf/i30.csv", "reflection"));
     assert_int_equal(entries_below(test_folder()), 6);
     remove_all();
@@ -98,9 +94,8 @@ TEST(a_whole_set_has_its_names_at_the_end)
 
 TEST(a_set_that_is_not_whole_goes_again)
 {
-    Error     err = {0};
     SetWriter writer;
-    assert_true(set_writer_open(in_folder("set/MANIFEST.json"), &writer, &err));
+    assert_true(set_writer_open(in_folder("set/MANIFEST.json"), &writer, why()));
     assert_true(add_all(&writer));
     assert_false(set_writer_close(&writer, false));
     assert_int_equal(entries_below(test_folder()), 0);
@@ -122,8 +117,7 @@ TEST(a_file_where_a_folder_is_wanted_is_named)
 
 TEST(a_folder_where_a_file_is_wanted_is_named)
 {
-    Error err = {0};
-    assert_true(write_all(&err));
+    assert_done(write_all(&err));
     assert_int_equal(remove(in_folder("set/brdf/i30.csv")), 0);
     assert_int_equal(mkdir(in_folder("set/brdf/i30.csv"), 0777), 0);
     write_text(in_folder("set/emission/black.csv"), "the older one");
@@ -139,13 +133,12 @@ TEST(a_folder_where_a_file_is_wanted_is_named)
 /* What happens between the tables and their names: the first one has its name already. */
 TEST(names_that_were_given_are_taken_back)
 {
-    Error     err = {0};
     SetWriter writer;
-    assert_true(set_writer_open(in_folder("set/MANIFEST.json"), &writer, &err));
+    assert_true(set_writer_open(in_folder("set/MANIFEST.json"), &writer, why()));
     assert_true(add_all(&writer));
     assert_int_equal(mkdir(in_folder("set/brdf/i30.csv"), 0777), 0);
     assert_false(set_writer_close(&writer, true));
-    assert_string_equal(err.file, in_folder("set/brdf/i30.csv"));
+    assert_string_equal(why()->file, in_folder("set/brdf/i30.csv"));
     assert_int_equal(entries_below(test_folder()), 3); /* what is in the way, and its folders */
     assert_int_equal(remove(in_folder("set/brdf/i30.csv")), 0);
     assert_int_equal(rmdir(in_folder("set/brdf")), 0);
@@ -154,19 +147,18 @@ TEST(names_that_were_given_are_taken_back)
 
 TEST(a_full_disk_leaves_what_stood_there)
 {
-    Error         err = {0};
     struct rlimit before, limit;
-    assert_true(write_all(&err));
+    assert_done(write_all(&err));
     write_text(in_folder("set/emission/black.csv"), "old");
     assert_int_equal(getrlimit(RLIMIT_FSIZE, &before), 0);
     limit = (struct rlimit){8, before.rlim_max}; /* black.csv fits, i30.csv does not */
     signal(SIGXFSZ, SIG_IGN);
     assert_int_equal(setrlimit(RLIMIT_FSIZE, &limit), 0);
-    bool ok = write_all(&err);
+    bool ok = write_all(why());
     assert_int_equal(setrlimit(RLIMIT_FSIZE, &before), 0);
     assert_false(ok);
-    assert_string_equal(err.file, in_folder("set/brdf/i30.csv"));
-    assert_error_has(&err, "cannot be written: File too large");
+    assert_string_equal(why()->file, in_folder("set/brdf/i30.csv"));
+    assert_error_has(why(), "cannot be written: File too large");
     assert_true(holds("set/emission/black.csv", "old"));
     assert_int_equal(entries_below(test_folder()), 6);
     remove_all();

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Surface models against published values and closed forms. */
+#include "fixture.h"
+
 #include "shader_fixture.h"
 
 #include "base/arena.h"
-#include "base/sampler.h"
 #include "base/units.h"
 #include "shaders/bsdf.h"
 #include "spectrum/fresnel.h"
@@ -14,16 +15,9 @@ static const EnergyTable *glass;
 
 static int build_table(void **state)
 {
-    (void)state;
-    arena = arena_reserve((size_t)1 << 30);
+    make_arena(state);
+    arena = test_arena(state);
     glass = energy_table_build(1.5f, &arena);
-    return 0;
-}
-
-static int drop_table(void **state)
-{
-    (void)state;
-    arena_release(&arena);
     return 0;
 }
 
@@ -188,4 +182,4 @@ TEST(visible_facets_are_all_there_is_to_see)
         }
 }
 
-TEST_PROGRAM(build_table, drop_table)
+TEST_PROGRAM(build_table, drop_arena)

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* glTF's surface and displays among the models that obey all laws. */
 #include "bsdf_laws.h"
+#include "fixture.h"
 #include "layer_fixture.h"
 
-#include "base/units.h"
 #include "panel/query/panel_open.h"
 #include "shaders/bsdf.h"
 #include "shaders/layers/coating_tables.h"
@@ -173,8 +173,8 @@ static void add_coated_surfaces(void)
 #include "khr_models.h"
 static int make_models(void **state)
 {
-    (void)state;
-    arena = arena_reserve((size_t)1 << 30);
+    make_arena(state);
+    arena = test_arena(state);
     glass = energy_table_build(1.5f, &arena);
     diamond = energy_table_build(2.4f, &arena);
     perfect = energy_table_build(0, &arena);
@@ -191,13 +191,6 @@ static int make_models(void **state)
     add_films();
     add_cloths();
     add_lacquered_sheets();
-    return 0;
-}
-
-static int drop_models(void **state)
-{
-    (void)state;
-    arena_release(&arena);
     return 0;
 }
 
@@ -243,12 +236,11 @@ TEST(shipped_displays_obey_the_same_laws)
     for (int i = 0; i < 2; i++) {
         char   path[1024];
         Panel *panel;
-        Error  err;
         snprintf(path, sizeof path, "%s/assets/panels/%s.panel", PROJECT_DIR, names[i]);
         FILE *file = fopen(path, "rb");
         if (!file) continue;
         fclose(file);
-        if (!panel_open(path, &arena, &panel, &err)) fail_msg("%s", err.text);
+        assert_done(panel_open(path, &arena, &panel, &err));
         Model model = {.name = names[i], .width = 0.05f, .bsdf.kind = BSDF_DISPLAY,
                        .bsdf.display.panel = panel};
         panel_lanes(panel, &wavelengths, &model.bsdf.display.lanes);
@@ -273,4 +265,4 @@ TEST(shipped_displays_obey_the_same_laws)
     }
     if (!found) skip();
 }
-TEST_PROGRAM(make_models, drop_models)
+TEST_PROGRAM(make_models, drop_arena)

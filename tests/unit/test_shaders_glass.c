@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Glass and clear plastic among the models that obey all laws. */
+#include "fixture.h"
+
 #include "brushed_fixture.h"
 #include "bsdf_laws.h"
 #include "layer_fixture.h"
 
-#include "base/arena.h"
 #include "shaders/layers/coating_tables.h"
 #include "shaders/facets/microfacet.h"
 #include "spectrum/dispersion.h"
@@ -204,8 +205,8 @@ static void add_brushed_solids(void)
 
 static int make_models(void **state)
 {
-    (void)state;
-    arena = arena_reserve((size_t)1 << 30);
+    make_arena(state);
+    arena = test_arena(state);
     wavelengths_sample(0.3f, &wavelengths);
     add_glass();
     add_coated_glass();
@@ -219,11 +220,4 @@ static int make_models(void **state)
     return 0;
 }
 
-static int drop_models(void **state)
-{
-    (void)state;
-    arena_release(&arena);
-    return 0;
-}
-
-TEST_PROGRAM(make_models, drop_models)
+TEST_PROGRAM(make_models, drop_arena)

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Sheets that lie in one plane: masks, blended films and panes on one another and on what
  * carries them. All are seen, the later over the earlier, and all take their share of light. */
-#include "check.h"
 
 #include "world_fixture.h"
 
@@ -43,10 +42,9 @@ static void add_square(World *world, const Place *place, float half, float turn)
 
 static Material emitter(float cd_m2)
 {
-    Material material = builder_material(0);
+    Material material = builder_lamp(cd_m2);
     material.is_emitter = cd_m2 > 0;
     material.double_sided = true;
-    for (int i = 0; i < 3; i++) material.emissive_cd_m2[i] = cd_m2;
     return material;
 }
 
@@ -55,15 +53,6 @@ static Material film(float alpha, float cd_m2)
     Material material = emitter(cd_m2);
     material.alpha_mode = ALPHA_BLEND;
     material.base_color[3] = alpha;
-    material.lets_light_through = true;
-    return material;
-}
-
-static Material pane(void)
-{
-    Material material = builder_material(1);
-    material.transmission = 1;
-    material.roughness = 0;
     material.lets_light_through = true;
     return material;
 }
@@ -95,12 +84,8 @@ static float expected_in_cell(int sheets, int cell, float under)
     return under;
 }
 
-typedef struct Mean {
-    double value, sigma;
-} Mean;
-
 /* Luminance along the ray; without one, illuminance at the point. */
-static Mean mean_of(const World *world, const Ray *ray, LitPoint point, int count)
+static WorldMean mean_of(const World *world, const Ray *ray, LitPoint point, int count)
 {
     double         sum = 0, squares = 0;
     PathStatistics statistics = {0};
@@ -116,10 +101,10 @@ static Mean mean_of(const World *world, const Ray *ray, LitPoint point, int coun
         sum += (double)result.xyz[1] / count;
         squares += (double)result.xyz[1] * (double)result.xyz[1] / count;
     }
-    return (Mean){sum, sqrt(fmax(squares - sum * sum, 0) / count)};
+    return (WorldMean){sum, sqrt(fmax(squares - sum * sum, 0) / count), INFINITY};
 }
 
-static Mean look(const World *world, Vec3 from, Vec3 to, int count)
+static WorldMean look(const World *world, Vec3 from, Vec3 to, int count)
 {
     Ray ray = {from, vec3_normalize(vec3_sub(to, from)), 0, INFINITY};
     return mean_of(world, &ray, (LitPoint){0}, count);
@@ -132,12 +117,9 @@ static World masks_on_board(const Place *place, int sheets)
 {
     World world = world_start();
     Place mirror = {place->frame, at(place, 0, 0, 6)};
-    Material metal = builder_material(1);
-    metal.metallic = 1;
-    metal.roughness = 0;
     builder_part(world.scene, emitter(500));
     add_square(&world, place, 0.95f, 0.3f);
-    builder_part(world.scene, metal);
+    builder_part(world.scene, builder_mirror(1));
     add_square(&world, &mirror, 9, 0);
     for (int i = 0; i < sheets; i++) add_mask(&world, place, i, 0.7f * (float)i);
     world_ready(&world, BOUNCES);
@@ -154,30 +136,29 @@ static void check_cell(const World *world, const Place *place, int sheets, int c
     const Vec3 eyes[] = {at(place, x, y, 2), at(place, 2, -1, 1), at(place, -3, 1, 0.3f),
                          at(place, -1, 0.5f, -1.5f)};
     for (size_t e = 0; e < sizeof eyes / sizeof *eyes; e++) {
-        double seen = look(world, eyes[e], spot, 2).value;
+        double seen = look(world, eyes[e], spot, 2).mean;
         if (fabs(seen - (double)wanted) > 0.03 * (double)wanted)
             fail_msg("%d sheets, cell %d, eye %zu: %g cd/m2, wanted %g", sheets, cell, e, seen,
                      (double)wanted);
     }
     Vec3 image = at(place, x, y, 12);
-    assert_close(look(world, at(place, 1, 0.5f, 2), image, 2).value, (double)wanted, 0.03);
+    assert_close(look(world, at(place, 1, 0.5f, 2), image, 2).mean, (double)wanted, 0.03);
 }
 
 TEST(of_masks_in_one_plane_the_last_that_is_there_is_seen)
 {
     for (int p = 0; p < PLACE_COUNT; p++)
         for (int sheets = 2; sheets <= SHEETS; sheets += 2) {
-            World world = masks_on_board(&PLACES[p], sheets);
+            ENDS_BY(world_end) World world = masks_on_board(&PLACES[p], sheets);
             for (int cell = 1; cell < CELLS - 1; cell++)
                 check_cell(&world, &PLACES[p], sheets, cell);
-            world_end(&world);
         }
 }
 
 /* Two masks and the board as one mesh, the same four corners each. */
 TEST(sheets_of_one_mesh_are_seen_too)
 {
-    World    world = world_start();
+    ENDS_BY(world_end) World world = world_start();
     uint8_t  texels[8] = {0, 0, 0, 255, 0, 0, 0, 0}; /* left there, right a hole */
     Material mask = film(1, 20);
     mask.alpha_mode = ALPHA_MASK;
@@ -198,9 +179,8 @@ TEST(sheets_of_one_mesh_are_seen_too)
         }
     }
     world_ready(&world, BOUNCES);
-    assert_near(look(&world, vec3(-0.4f, 0.1f, 1), vec3(-0.4f, 0.1f, 0), 2).value, 0, 0);
-    assert_close(look(&world, vec3(0.4f, 0.1f, 1), vec3(0.4f, 0.1f, 0), 2).value, 20, 0.03);
-    world_end(&world);
+    assert_near(look(&world, vec3(-0.4f, 0.1f, 1), vec3(-0.4f, 0.1f, 0), 2).mean, 0, 0);
+    assert_close(look(&world, vec3(0.4f, 0.1f, 1), vec3(0.4f, 0.1f, 0), 2).mean, 20, 0.03);
 }
 
 /* ---- how much is let through ------------------------------------------------------------ */
@@ -214,7 +194,7 @@ static float alpha_of_film(int i)
  * and arrives at a luxmeter by light samples, chance hits and both; T of the pane besides. */
 static void check_films(const Place *place, int sheets, bool has_pane)
 {
-    World  world = world_start();
+    ENDS_BY(world_end) World world = world_start();
     Place  back = {place->frame, at(place, 0, 0, -2)};
     double share = has_pane ? 12.0 / 13 : 1; /* n = 1.5, straight: 2n / (n^2 + 1) */
     builder_part(world.scene, emitter(100));
@@ -224,19 +204,18 @@ static void check_films(const Place *place, int sheets, bool has_pane)
         add_square(&world, place, 0.9f, 0.9f * (float)i);
         share *= 1 - (double)alpha_of_film(i);
         if (i != sheets / 2 || !has_pane) continue;
-        builder_part(world.scene, pane());
+        builder_part(world.scene, builder_pane(1.5f));
         add_square(&world, place, 0.9f, 0.2f);
     }
     world_ready(&world, BOUNCES);
-    Mean seen = look(&world, at(place, 0, 0, 3), at(place, 0, 0, -2), 12000);
-    assert_near(seen.value, 100 * share, 4 * seen.sigma + 0.01);
+    WorldMean seen = look(&world, at(place, 0, 0, 3), at(place, 0, 0, -2), 12000);
+    assert_near(seen.mean, 100 * share, 4 * seen.sigma + 0.01);
     LitPoint point = {at(place, 0, 0, 3), vec3_neg(place->frame.z), false};
     double   lx = 100 * 0.08 / 25 * share; /* 0.1 % above, by the square's own size */
     for (PathStrategy s = PATH_MIS; s <= PATH_LIGHTS_ONLY; s++) {
         world.context.strategy = s;
-        assert_close(mean_of(&world, NULL, point, 4000).value, lx, 5e-3);
+        assert_close(mean_of(&world, NULL, point, 4000).mean, lx, 5e-3);
     }
-    world_end(&world);
 }
 
 TEST(films_in_one_plane_each_take_their_share)
@@ -252,7 +231,7 @@ TEST(films_in_one_plane_each_take_their_share)
  * same light by light samples, by chance and by both. */
 static void check_covered(const Place *place, float gap, float own_alpha)
 {
-    World  world = world_start();
+    ENDS_BY(world_end) World world = world_start();
     double lx[3], sigma[3];
     builder_part(world.scene, own_alpha < 1 ? film(own_alpha, 100) : emitter(100));
     add_square(&world, place, 0.9f, 0.1f);
@@ -265,8 +244,8 @@ static void check_covered(const Place *place, float gap, float own_alpha)
     for (PathStrategy s = PATH_MIS; s <= PATH_BSDF_ONLY; s++) {
         LitPoint point = {at(place, 0.1f, 0, 1), vec3_neg(place->frame.z), false};
         world.context.strategy = s;
-        Mean mean = mean_of(&world, NULL, point, 20000);
-        lx[s] = mean.value;
+        WorldMean mean = mean_of(&world, NULL, point, 20000);
+        lx[s] = mean.mean;
         sigma[s] = mean.sigma;
     }
     for (int s = 1; s < 3; s++)
@@ -274,9 +253,8 @@ static void check_covered(const Place *place, float gap, float own_alpha)
             fail_msg("gap %g, alpha %g: strategy %d gives %g +- %g lx, both %g +- %g",
                      (double)gap, (double)own_alpha, s, lx[s], sigma[s], lx[0], sigma[0]);
     double share = (double)own_alpha * (1 - 0.1) * (1 - 0.17);
-    Mean   seen = look(&world, at(place, 0.3f, 0, 1), at(place, 0, 0, 0), 6000);
-    assert_near(seen.value, 100 * share, 4 * seen.sigma);
-    world_end(&world);
+    WorldMean seen = look(&world, at(place, 0.3f, 0, 1), at(place, 0, 0, 0), 6000);
+    assert_near(seen.mean, 100 * share, 4 * seen.sigma);
 }
 
 TEST(what_shines_under_films_lights_as_it_is_seen)
@@ -293,19 +271,18 @@ TEST(what_shines_under_films_lights_as_it_is_seen)
  * whole way from the lit point. */
 TEST(a_film_does_not_shorten_the_way_to_a_lamp)
 {
-    World    world = world_start();
+    ENDS_BY(world_end) World world = world_start();
     LitPoint point = {vec3(0, 0, 1), vec3(0, 0, -1), false};
     builder_part(world.scene, emitter(100));
     builder_quad(world.scene, vec3(0, 0, 0), vec3(0.2f, 0, 0), vec3(0, 0.2f, 0));
     builder_part(world.scene, film(0.1f, 0));
     builder_quad(world.scene, vec3(0, 0, 0.02f), vec3(0.9f, 0, 0), vec3(0, 0.9f, 0));
     world_ready(&world, BOUNCES);
-    Mean both = mean_of(&world, NULL, point, 20000);
+    WorldMean both = mean_of(&world, NULL, point, 20000);
     world.context.strategy = PATH_LIGHTS_ONLY;
-    Mean lights = mean_of(&world, NULL, point, 20000);
-    assert_near(both.value, lights.value, 4 * hypot(both.sigma, lights.sigma));
-    assert_true(both.sigma < 0.01 * both.value);
-    world_end(&world);
+    WorldMean lights = mean_of(&world, NULL, point, 20000);
+    assert_near(both.mean, lights.mean, 4 * hypot(both.sigma, lights.sigma));
+    assert_true(both.sigma < 0.01 * both.mean);
 }
 
 /* Sheets whose distance can be told keep their order, whatever the file's: the first in the
@@ -313,16 +290,15 @@ TEST(a_film_does_not_shorten_the_way_to_a_lamp)
 TEST(a_sheet_that_is_nearer_by_more_than_rounding_is_seen_first)
 {
     for (float gap = 4e-6f; gap < 1e-3f; gap *= 2) {
-        World world = world_start();
+        ENDS_BY(world_end) World world = world_start();
         for (int i = 0; i < 3; i++) {
             Place place = {PLACES[0].frame, vec3(0, 0, 1 - gap * (float)i)};
             builder_part(world.scene, film(1, 10 * (float)(i + 1)));
             add_square(&world, &place, 0.9f, 0.4f * (float)i);
         }
         world_ready(&world, BOUNCES);
-        assert_close(look(&world, vec3(0.1f, 0.2f, 3), vec3(0, 0.1f, 1), 2).value, 10, 0.03);
-        assert_close(look(&world, vec3(0.1f, 0.2f, -3), vec3(0, 0.1f, 1), 2).value, 30, 0.03);
-        world_end(&world);
+        assert_close(look(&world, vec3(0.1f, 0.2f, 3), vec3(0, 0.1f, 1), 2).mean, 10, 0.03);
+        assert_close(look(&world, vec3(0.1f, 0.2f, -3), vec3(0, 0.1f, 1), 2).mean, 30, 0.03);
     }
 }
 

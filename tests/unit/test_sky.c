@@ -1,33 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Sun position, the sun's spectrum, sky shapes, weather files. */
-#include <math.h>
-
-#include "base/units.h"
-#include "fixture.h"
+#include "sky_fixture.h"
 #include "sky/epw.h"
 #include "sky/sky_shape.h"
 #include "sky/air/spectrl2.h"
 #include "sky/sun_disc.h"
 #include "sky/sun_position.h"
 #include "spectrum/spectral_table.h"
-
-#define assert_in(value, low, high) assert_true((value) >= (low) && (value) <= (high))
-
-static uint32_t seed = 7;
-
-static double random_unit(void)
-{
-    seed = seed * 1664525u + 1013904223u;
-    return (double)(seed >> 8) / 16777216.0;
-}
-
-static SkyTime moment(const char *text)
-{
-    SkyTime time;
-    Error   err;
-    assert_true(sky_time_parse(text, "", &time, &err));
-    return time;
-}
 
 /* ---- position --------------------------------------------------------------------------- */
 
@@ -180,10 +159,9 @@ TEST(a_moment_needs_its_zone_and_real_dates)
                                         "2026-06-21T08:30Zx",
                                         "noon"};
     SkyTime time;
-    Error   err;
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
-        assert_false(sky_time_parse(wrong[i], "lights.gltf", &time, &err));
-        assert_non_null(strstr(err.text, "2026-06-21T08:30+02:00"));
+        assert_fails_as(sky_time_parse(wrong[i], "lights.gltf", &time, &err), ERROR_INPUT,
+                        "2026-06-21T08:30+02:00");
     }
     assert_near(moment("2026-06-21T08:30:15.5-03:30").zone_h, -3.5, 1e-12);
     SkyTime a = moment("2026-06-21T00:30+02:00"), b = moment("2026-06-20T22:30Z");
@@ -309,8 +287,7 @@ TEST(perez_makes_the_known_skies)
         PerezInput input = {radians_from_degrees(in[i][0]), in[i][2], in[i][1], (int)in[i][3]};
         SkyShape   s;
         PerezState p;
-        Error      err;
-        assert_true(sky_shape_perez(&input, &s, &p, &err));
+        assert_done(sky_shape_perez(&input, &s, &p, &err));
         const double ours[11] = {p.air_mass,
                                  p.brightness,
                                  p.clearness,
@@ -342,9 +319,7 @@ TEST(irradiances_without_a_sky_are_refused)
 {
     PerezInput input = {0.5, 100, 0, 80};
     SkyShape   shape;
-    Error      err;
-    assert_false(sky_shape_perez(&input, &shape, NULL, &err));
-    assert_non_null(strstr(err.text, "above 0"));
+    assert_fails_as(sky_shape_perez(&input, &shape, NULL, &err), ERROR_INPUT, "above 0");
 }
 
 /* ---- weather ----------------------------------------------------------------------------- */
@@ -356,14 +331,12 @@ static const char weather_text[] =
     "77777,9,999999999,23,0.12\r\n"
     "1995,6,21,13,60,x,21.1,11.8,79,100100,0,1415,288,500,9999,9999,0,0,0,0\r\n";
 
-TEST(a_weather_file_tells_place_and_hours)
+ARENA_TEST(a_weather_file_tells_place_and_hours)
 {
-    Arena       arena = test_arena(state);
     const char *name = in_folder("weather.epw");
     write_text(name, weather_text);
     Weather     w;
-    Error       err;
-    assert_true(weather_read(name, &arena, &w, &err));
+    assert_done(weather_read(name, &arena, &w, &err));
     unlink(name);
     assert_string_equal(w.city, "Testville");
     assert_near(w.place.latitude_deg, 52.3, 1e-9);
@@ -378,35 +351,31 @@ TEST(a_weather_file_tells_place_and_hours)
     assert_false(w.hour[1].has_light || w.has_comment_offset);
 }
 
-TEST(every_prefix_of_a_weather_file_is_read_or_refused_by_line)
+ARENA_TEST(every_prefix_of_a_weather_file_is_read_or_refused_by_line)
 {
-    Arena arena = test_arena(state);
     for (size_t n = 0; n < sizeof weather_text - 1; n++) {
         char    text[sizeof weather_text];
         Arena   scratch = arena;
         Weather w;
-        Error   err;
         memcpy(text, weather_text, n);
         text[n] = 0;
         const char *name = in_folder("weather.epw");
         write_text(name, text);
-        if (!weather_read(name, &scratch, &w, &err))
-            assert_true(err.code == ERROR_INPUT && strstr(err.text, "wanted"));
+        if (!weather_read(name, &scratch, &w, why()))
+            assert_true(why()->code == ERROR_INPUT && strstr(why()->text, "wanted"));
         unlink(name);
     }
 }
 
-TEST(a_real_year_has_8760_hours)
+ARENA_TEST(a_real_year_has_8760_hours)
 {
-    Arena   arena = test_arena(state);
     Weather w;
-    Error   err;
     double  direct = 0;
     if (access(SHARED_DATA_DIR "/solar/NLD_Amsterdam062400_IWEC.epw", R_OK)) {
         print_message("skipped: no shared data\n");
         skip();
     }
-    assert_true(weather_read(SHARED_DATA_DIR "/solar/NLD_Amsterdam062400_IWEC.epw", &arena, &w,
+    assert_done(weather_read(SHARED_DATA_DIR "/solar/NLD_Amsterdam062400_IWEC.epw", &arena, &w,
                              &err));
     assert_int_equal(w.count, 8760);
     for (int i = 0; i < w.count; i++) direct += w.hour[i].direct_normal_w_m2;

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Rough boundaries of solids: light that facets pass to one another is not lost. */
+#include "fixture.h"
+
 #include "brushed_fixture.h"
 #include "layer_fixture.h"
 #include "shader_fixture.h"
@@ -14,16 +16,9 @@ static Wavelengths wavelengths;
 
 static int reserve(void **state)
 {
-    (void)state;
-    arena = arena_reserve((size_t)1 << 29);
+    make_arena(state);
+    arena = test_arena(state);
     wavelengths_sample(0.3f, &wavelengths);
-    return 0;
-}
-
-static int release(void **state)
-{
-    (void)state;
-    arena_release(&arena);
     return 0;
 }
 
@@ -203,4 +198,4 @@ TEST(nor_brushed_ones_under_coatings_and_films)
     }
 }
 
-TEST_PROGRAM(reserve, release)
+TEST_PROGRAM(reserve, drop_arena)

@@ -284,21 +284,19 @@ TEST(a_curve_passes_through_its_points_and_holds_its_ends)
 static bool curve_read(const char *path, Curve *out, Error *err)
 {
     FileBytes bytes;
-    Arena     arena = arena_reserve(1 << 20);
+    ENDS_BY(arena_release) Arena arena = arena_reserve(1 << 20);
     bool      ok = file_read(path, 1 << 16, &arena, &bytes, err) &&
               curve_parse((const char *)bytes.data, path, CURVE_NUMBERS, out, err);
-    arena_release(&arena);
     return ok;
 }
 
 TEST(a_curve_file_may_have_comments_and_a_header)
 {
     static Curve curve;
-    Error        err;
     const char  *path = in_folder("curve.csv");
     write_text(path, "\xef\xbb\xbf# glass\nnm,transmittance\n\n400,0.5\r\n500 ; 0.75\n"
                      "600\t0.25");
-    assert_true(curve_read(path, &curve, &err));
+    assert_done(curve_read(path, &curve, &err));
     remove(path);
     assert_close(curve.value[0], 0.5, 1e-6);
     assert_close(curve.value[450 - 360], 0.625, 1e-6);
@@ -325,45 +323,41 @@ TEST(a_bad_curve_file_is_refused_with_its_line)
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         static Curve curve;
-        Error        err;
         char         line[2048];
         const char  *path = in_folder("curve.csv");
         write_text(path, cases[i].text);
-        assert_false(curve_read(path, &curve, &err));
+        assert_false(curve_read(path, &curve, why()));
         remove(path);
-        error_line(&err, line, sizeof line);
+        error_line(why(), line, sizeof line);
         if (!strstr(line, cases[i].message) || strncmp(line, path, strlen(path)) != 0)
             fail_msg("\"%s\" does not name the file and say \"%s\"", line, cases[i].message);
-        assert_int_equal(err.code, ERROR_INPUT);
+        assert_int_equal(why()->code, ERROR_INPUT);
     }
-    Error err;
-    assert_false(curve_read("/nowhere/glass.csv", &(Curve){0}, &err));
-    assert_non_null(strstr(err.text, "cannot be opened: No such file"));
+    assert_fails_as(curve_read("/nowhere/glass.csv", &(Curve){0}, &err), ERROR_INPUT,
+                    "cannot be opened: No such file");
 }
 
 TEST(a_value_out_of_range_is_refused_with_its_line)
 {
     static Curve curve;
-    Error        err;
     char         line[2048];
     const char  *text = "nm,value\n400,0.5\n500,1.25\n600,-0.1\n";
     static const char *const MESSAGES[] = {
         [CURVE_AMOUNTS] = "x.csv: line 4: holds -0.1; 0 or more is wanted",
         [CURVE_SHARES] = "x.csv: line 3: holds 1.25; 0 to 1 is wanted"};
-    assert_true(curve_parse(text, "x.csv", CURVE_NUMBERS, &curve, &err));
+    assert_done(curve_parse(text, "x.csv", CURVE_NUMBERS, &curve, &err));
     for (int range = CURVE_AMOUNTS; range <= CURVE_SHARES; range++) {
-        assert_false(curve_parse(text, "x.csv", (CurveRange)range, &curve, &err));
-        error_line(&err, line, sizeof line);
+        assert_false(curve_parse(text, "x.csv", (CurveRange)range, &curve, why()));
+        error_line(why(), line, sizeof line);
         assert_string_equal(line, MESSAGES[range]);
     }
-    assert_true(curve_parse("400,0\n500,1\n", "x.csv", CURVE_SHARES, &curve, &err));
+    assert_done(curve_parse("400,0\n500,1\n", "x.csv", CURVE_SHARES, &curve, &err));
 }
 
 TEST(a_file_of_indices_has_three_columns_and_is_refused_with_its_line)
 {
     static Curve n, k;
-    Error        err;
-    assert_true(curve_parse_index("nm,n,k\n400,0.5,2\n500 1 4\n", "metal.csv", &n, &k, &err));
+    assert_done(curve_parse_index("nm,n,k\n400,0.5,2\n500 1 4\n", "metal.csv", &n, &k, &err));
     assert_close(n.value[450 - 360], 0.75, 1e-6);
     assert_close(k.value[450 - 360], 3, 1e-6);
     assert_close(k.value[CURVE_COUNT - 1], 4, 1e-6);
@@ -382,8 +376,8 @@ TEST(a_file_of_indices_has_three_columns_and_is_refused_with_its_line)
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         char line[2048];
-        assert_false(curve_parse_index(cases[i].text, "metal.csv", &n, &k, &err));
-        error_line(&err, line, sizeof line);
+        assert_false(curve_parse_index(cases[i].text, "metal.csv", &n, &k, why()));
+        error_line(why(), line, sizeof line);
         if (!strstr(line, cases[i].message) || strncmp(line, "metal.csv", 9) != 0)
             fail_msg("\"%s\" does not name the file and say \"%s\"", line, cases[i].message);
     }

@@ -15,13 +15,10 @@ typedef struct Alarms {
 
 static Alarms count_alarms(Maker *reference, Maker *test)
 {
-    Arena  arena = arena_reserve(1 << 26);
+    ENDS_BY(arena_release) Arena arena = arena_reserve(1 << 26);
     Alarms out = {0};
     for (uint32_t k = 0; k < PAIRS; k++) {
-        Arena scratch = arena;
-        reference->seed = 2 * k;
-        test->seed = 2 * k + 1;
-        StatisticResult r = judge_makers(reference, test, &scratch);
+        StatisticResult r = judge_pair(reference, test, k, arena);
         double          z = r.regions[0].shift / r.regions[0].shift_sigma;
         out.count += r.verdict == STATISTIC_DIFFERENT;
         out.squares += z * z / PAIRS;
@@ -29,7 +26,6 @@ static Alarms count_alarms(Maker *reference, Maker *test)
         out.blocks += (r.p_blocks < 0.2) / (double)PAIRS;
         out.histogram += (r.p_histogram < 0.2) / (double)PAIRS;
     }
-    arena_release(&arena);
     return out;
 }
 
@@ -38,9 +34,7 @@ TEST(noise_of_any_kind_keeps_the_level)
     static const int SAMPLES[] = {1, 2, 8};
     for (Noise noise = NOISE_GAUSSIAN; noise <= NOISE_FIREFLIES; noise++)
         for (int s = 0; s < 3; s++) {
-            Maker maker = {.noise = noise, .samples = SAMPLES[s]};
-            plain_scene(&maker);
-            Maker  other = maker;
+            Maker  maker = plain_maker(noise, SAMPLES[s], 0), other = maker;
             Alarms alarms = count_alarms(&maker, &other);
             if (alarms.count > FALSE_ALARMS)
                 fail_msg("noise %d, %d samples: %d false alarms of %d", (int)noise, SAMPLES[s],
@@ -58,9 +52,7 @@ TEST(different_sample_counts_keep_the_level)
 {
     for (Noise noise = NOISE_GAUSSIAN; noise <= NOISE_FIREFLIES; noise++)
         for (int swap = 0; swap < 2; swap++) {
-            Maker few = {.noise = noise, .samples = 2}, many = {.noise = noise, .samples = 20};
-            plain_scene(&few);
-            plain_scene(&many);
+            Maker few = plain_maker(noise, 2, 0), many = plain_maker(noise, 20, 0);
             Alarms alarms = swap ? count_alarms(&many, &few) : count_alarms(&few, &many);
             if (alarms.count > FALSE_ALARMS)
                 fail_msg("noise %d: %d false alarms of %d", (int)noise, alarms.count, PAIRS);
@@ -70,10 +62,8 @@ TEST(different_sample_counts_keep_the_level)
 /* A program that finds light better makes less noise of the same mean. */
 TEST(less_noise_of_the_same_mean_is_no_change)
 {
-    Maker before = {.noise = NOISE_EXPONENTIAL, .samples = 8};
-    Maker after = {.noise = NOISE_GAUSSIAN, .samples = 8};
-    plain_scene(&before);
-    plain_scene(&after);
+    Maker before = plain_maker(NOISE_EXPONENTIAL, 8, 0);
+    Maker after = plain_maker(NOISE_GAUSSIAN, 8, 0);
     assert_in_range(count_alarms(&before, &after).count, 0, FALSE_ALARMS);
     after.noise = NOISE_QUIET;
     assert_in_range(count_alarms(&after, &before).count, 0, FALSE_ALARMS);
@@ -89,13 +79,16 @@ static float *channel(FrameImage *frame, const char *layer, char letter)
     return NULL;
 }
 
-TEST(one_glint_in_one_frame_is_noise)
+static void of_one_seed(FrameImage *frame, Arena *arena)
 {
-    Arena arena = test_arena(state);
-    Maker maker = {.noise = NOISE_GAUSSIAN, .samples = 32}, other = maker;
+    frame_set_string(frame, "parhelion:seed", "5", arena);
+    frame_set_string(frame, "parhelion:samples", "0:64", arena);
+}
+
+ARENA_TEST(one_glint_in_one_frame_is_noise)
+{
+    Maker maker = plain_maker(NOISE_GAUSSIAN, 32, 0), other = maker;
     int   hit = 14 * WIDTH + 14, alarms = 0;
-    plain_scene(&maker);
-    plain_scene(&other);
     for (uint32_t k = 0; k < 20; k++) {
         Arena scratch = arena;
         maker.seed = 2 * k;
@@ -114,11 +107,9 @@ TEST(one_glint_in_one_frame_is_noise)
 
 /* ---- pixels without noise, rounding, equality -------------------------------------------- */
 
-TEST(frames_without_noise_differ_by_a_single_pixel)
+ARENA_TEST(frames_without_noise_differ_by_a_single_pixel)
 {
-    Arena arena = test_arena(state);
-    Maker maker = {.noise = NOISE_GAUSSIAN, .samples = 64, .seed = 3};
-    plain_scene(&maker);
+    Maker maker = plain_maker(NOISE_GAUSSIAN, 64, 3);
     FrameImage a = make_frame(&maker, &arena), b = make_frame(&maker, &arena);
     for (int side = 0; side < 2; side++)
         for (int i = 0; i < a.channel_count; i++) {
@@ -138,20 +129,16 @@ TEST(frames_without_noise_differ_by_a_single_pixel)
     assert_int_equal(r.differing, 1);
 }
 
-TEST(rounding_is_no_change)
+ARENA_TEST(rounding_is_no_change)
 {
-    Arena arena = test_arena(state);
-    Maker maker = {.noise = NOISE_QUIET, .samples = 64, .seed = 3};
-    plain_scene(&maker);
+    Maker maker = plain_maker(NOISE_QUIET, 64, 3);
     FrameImage a = make_frame(&maker, &arena), b = make_frame(&maker, &arena);
     for (int c = 0; c < 3; c++)
         for (int i = 0; i < PIXELS; i++)
             channel(&b, "", "RGB"[c])[i] *= 1 + 4e-6f;
     assert_int_equal(judge(&a, &b, NULL, &arena).verdict, STATISTIC_SAME);
-    frame_set_string(&a, "parhelion:seed", "5", &arena);
-    frame_set_string(&b, "parhelion:seed", "5", &arena);
-    frame_set_string(&a, "parhelion:samples", "0:64", &arena);
-    frame_set_string(&b, "parhelion:samples", "0:64", &arena);
+    of_one_seed(&a, &arena);
+    of_one_seed(&b, &arena);
     StatisticResult r = judge(&a, &b, NULL, &arena);
     assert_int_equal(r.verdict, STATISTIC_SAME);
     assert_true(r.shares_noise);
@@ -160,17 +147,13 @@ TEST(rounding_is_no_change)
 
 /* Frames of one seed: a few paths that went elsewhere are noise, one part in a thousand of all
  * light is not. */
-TEST(frames_that_share_their_noise_are_compared_pixel_by_pixel)
+ARENA_TEST(frames_that_share_their_noise_are_compared_pixel_by_pixel)
 {
-    Arena arena = test_arena(state);
-    Maker maker = {.noise = NOISE_EXPONENTIAL, .samples = 64, .seed = 3};
-    plain_scene(&maker);
+    Maker maker = plain_maker(NOISE_EXPONENTIAL, 64, 3);
     FrameImage a = make_frame(&maker, &arena), b = make_frame(&maker, &arena);
     float     *green = channel(&b, "", 'G');
-    frame_set_string(&a, "parhelion:seed", "5", &arena);
-    frame_set_string(&b, "parhelion:seed", "5", &arena);
-    frame_set_string(&a, "parhelion:samples", "0:64", &arena);
-    frame_set_string(&b, "parhelion:samples", "0:64", &arena);
+    of_one_seed(&a, &arena);
+    of_one_seed(&b, &arena);
     for (int i = 300; i < PIXELS; i += 100) green[i] *= i / 100 % 2 ? 1.03f : 0.96f;
     StatisticResult r = judge(&a, &b, NULL, &arena);
     assert_int_equal(r.verdict, STATISTIC_SAME);
@@ -183,14 +166,11 @@ TEST(frames_that_share_their_noise_are_compared_pixel_by_pixel)
 
 /* ---- masks, gaps, words ------------------------------------------------------------------ */
 
-TEST(what_the_mask_leaves_out_does_not_count)
+ARENA_TEST(what_the_mask_leaves_out_does_not_count)
 {
-    Arena arena = test_arena(state);
-    Maker maker = {.noise = NOISE_GAUSSIAN, .samples = 16, .seed = 3}, other = maker;
+    Maker maker = plain_maker(NOISE_GAUSSIAN, 16, 3);
+    Maker other = plain_maker(NOISE_GAUSSIAN, 16, 4);
     unsigned char mask[PIXELS];
-    plain_scene(&maker);
-    plain_scene(&other);
-    other.seed = 4;
     for (int i = 0; i < PIXELS; i++) {
         mask[i] = i % WIDTH >= 16;
         if (!mask[i]) other.light[i] *= 2;
@@ -211,11 +191,10 @@ TEST(what_the_mask_leaves_out_does_not_count)
 }
 
 /* A crop: the data window lies inside the display window, which the mask covers. */
-TEST(crops_have_their_place_in_the_frame)
+ARENA_TEST(crops_have_their_place_in_the_frame)
 {
-    Arena arena = test_arena(state);
-    Maker maker, other;
-    plain_scenes(NOISE_GAUSSIAN, 3, &maker, &other);
+    Maker maker = plain_maker(NOISE_GAUSSIAN, 64, 3);
+    Maker other = plain_maker(NOISE_GAUSSIAN, 64, 4);
     brighten_block(&other, 16, 0, 3);
     FrameImage a = make_frame(&maker, &arena), b = make_frame(&other, &arena);
     a.display = b.display = (ExrWindow){0, 0, 100, 100};
@@ -230,16 +209,13 @@ TEST(crops_have_their_place_in_the_frame)
     assert_int_equal(r.pixels, PIXELS - 64);
 }
 
-TEST(either_layer_of_noise_is_enough)
+ARENA_TEST(either_layer_of_noise_is_enough)
 {
     static const char *const LEFT_OUT[] = {"variance", "halves", "samples.N"};
-    Arena arena = test_arena(state);
     for (int k = 0; k < 3; k++)
         for (int change = 0; change < 2; change++) {
-            Maker maker = {.noise = NOISE_EXPONENTIAL, .samples = 64, .seed = 13};
-            plain_scene(&maker);
-            Maker other = maker;
-            other.seed = 14;
+            Maker maker = plain_maker(NOISE_EXPONENTIAL, 64, 13);
+            Maker other = plain_maker(NOISE_EXPONENTIAL, 64, 14);
             for (int i = 0; i < PIXELS; i++) other.light[i] *= change ? 1.05 : 1;
             FrameImage a = make_frame(&maker, &arena), b = make_frame(&other, &arena);
             without(&a, LEFT_OUT[k]);
@@ -250,12 +226,9 @@ TEST(either_layer_of_noise_is_enough)
         }
 }
 
-TEST(notes_say_what_would_help)
+ARENA_TEST(notes_say_what_would_help)
 {
-    Arena arena = test_arena(state);
-    Maker few = {.noise = NOISE_GAUSSIAN, .samples = 4}, many = {.samples = 16, .seed = 1};
-    plain_scene(&few);
-    plain_scene(&many);
+    Maker few = plain_maker(NOISE_GAUSSIAN, 4, 0), many = plain_maker(NOISE_GAUSSIAN, 16, 1);
     FrameImage a = make_frame(&few, &arena), b = make_frame(&many, &arena);
     assert_string_equal(judge(&a, &b, NULL, &arena).note, "");
     without(&a, "halves");
@@ -271,24 +244,20 @@ static void assert_refused(const FrameImage *a, const FrameImage *b, const char 
 {
     StatisticOptions options = {.reference_name = "a.exr", .test_name = "b.exr"};
     StatisticResult  result;
-    Error            err;
-    Arena            arena = arena_reserve(1 << 26);
-    assert_false(statistic_compare(a, b, &options, &arena, &result, &err));
-    assert_int_equal(err.code, ERROR_INPUT);
-    assert_string_equal(err.file, file);
-    assert_string_equal(err.text, text);
-    arena_release(&arena);
+    ENDS_BY(arena_release) Arena arena = arena_reserve(1 << 26);
+    assert_false(statistic_compare(a, b, &options, &arena, &result, why()));
+    assert_int_equal(why()->code, ERROR_INPUT);
+    assert_string_equal(why()->file, file);
+    assert_string_equal(why()->text, text);
 }
 
 #define TELLS_NOTHING                                                                          \
     "has neither layer variance nor halves, which tell its noise; "                            \
     "render it with --layers variance,halves,samples"
 
-TEST(frames_that_do_not_tell_their_noise_are_refused)
+ARENA_TEST(frames_that_do_not_tell_their_noise_are_refused)
 {
-    Arena arena = test_arena(state);
-    Maker maker = {.samples = 4};
-    plain_scene(&maker);
+    Maker maker = plain_maker(NOISE_GAUSSIAN, 4, 0);
     FrameImage a = make_frame(&maker, &arena), b = make_frame(&maker, &arena);
     without(&b, "variance");
     without(&b, "halves");

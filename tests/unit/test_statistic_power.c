@@ -4,20 +4,14 @@
 
 /* Gaussian pixels of relative sigma s = 0.5 / 4 in both frames: the best estimate of a change
  * in proportion has the standard error s sqrt(2 / n). */
-TEST(a_change_in_proportion_is_measured_as_well_as_can_be)
+ARENA_TEST(a_change_in_proportion_is_measured_as_well_as_can_be)
 {
-    Arena  arena = test_arena(state);
-    Maker  maker = {.noise = NOISE_GAUSSIAN, .samples = 16}, other;
+    Maker  maker = plain_maker(NOISE_GAUSSIAN, 16, 0), other = maker;
     double sigma = 0.5 / sqrt(16) * sqrt(2.0 / (PIXELS - 36)), mean = 0, stated = 0;
     int    found = 0;
-    plain_scene(&maker);
-    other = maker;
     for (int i = 0; i < PIXELS; i++) other.light[i] *= 1 + 6.2 * sigma;
     for (uint32_t k = 0; k < 100; k++) {
-        Arena scratch = arena;
-        maker.seed = 2 * k;
-        other.seed = 2 * k + 1;
-        StatisticResult r = judge_makers(&maker, &other, &scratch);
+        StatisticResult r = judge_pair(&maker, &other, k, arena);
         mean += r.regions[0].change / 100;
         stated += r.regions[0].change_sigma / 100;
         found += r.verdict == STATISTIC_DIFFERENT && r.regions[0].moved;
@@ -29,19 +23,13 @@ TEST(a_change_in_proportion_is_measured_as_well_as_can_be)
 }
 
 /* Weighing by the pixel's own variance makes bright pixels count less; the estimate knows. */
-TEST(a_change_is_estimated_without_bias_in_skewed_noise)
+ARENA_TEST(a_change_is_estimated_without_bias_in_skewed_noise)
 {
-    Arena  arena = test_arena(state);
-    Maker  maker = {.noise = NOISE_EXPONENTIAL, .samples = 16}, other;
+    Maker  maker = plain_maker(NOISE_EXPONENTIAL, 16, 0), other = maker;
     double mean = 0, squares = 0, stated = 0;
-    plain_scene(&maker);
-    other = maker;
     for (int i = 0; i < PIXELS; i++) other.light[i] *= 1.05;
     for (uint32_t k = 0; k < 100; k++) {
-        Arena scratch = arena;
-        maker.seed = 2 * k;
-        other.seed = 2 * k + 1;
-        StatisticRegion frame = judge_makers(&maker, &other, &scratch).regions[0];
+        StatisticRegion frame = judge_pair(&maker, &other, k, arena).regions[0];
         mean += frame.change / 100;
         stated += frame.change_sigma / 100;
         squares += (frame.change - 0.05) * (frame.change - 0.05) / 100;
@@ -50,11 +38,10 @@ TEST(a_change_is_estimated_without_bias_in_skewed_noise)
     assert_close(sqrt(squares), stated, 0.28); /* 4 / sqrt(2 * 100) */
 }
 
-TEST(a_display_is_named_with_how_much_it_moved)
+ARENA_TEST(a_display_is_named_with_how_much_it_moved)
 {
-    Arena arena = test_arena(state);
-    Maker maker, other;
-    plain_scenes(NOISE_GAUSSIAN, 7, &maker, &other);
+    Maker maker = plain_maker(NOISE_GAUSSIAN, 64, 7);
+    Maker other = plain_maker(NOISE_GAUSSIAN, 64, 8);
     for (int i = 0; i < PIXELS; i++) other.light[i] *= i % WIDTH < 24 ? 1.05 : 1;
     StatisticResult r = judge_makers(&maker, &other, &arena);
     assert_int_equal(r.verdict, STATISTIC_DIFFERENT);
@@ -64,11 +51,10 @@ TEST(a_display_is_named_with_how_much_it_moved)
     assert_text_has(r.reason, "display 'cluster': ");
 }
 
-TEST(a_block_is_named_with_its_place)
+ARENA_TEST(a_block_is_named_with_its_place)
 {
-    Arena arena = test_arena(state);
-    Maker maker, other;
-    plain_scenes(NOISE_EXPONENTIAL, 3, &maker, &other);
+    Maker maker = plain_maker(NOISE_EXPONENTIAL, 64, 3);
+    Maker other = plain_maker(NOISE_EXPONENTIAL, 64, 4);
     brighten_block(&other, 16, 8, 1.5);
     StatisticResult r = judge_makers(&maker, &other, &arena);
     assert_int_equal(r.verdict, STATISTIC_DIFFERENT);
@@ -81,9 +67,8 @@ TEST(a_block_is_named_with_its_place)
 
 /* Blocks that got brighter and darker by 1.4 of their standard errors, in turn: none of them
  * is beyond its limit, no mean moved. */
-TEST(small_changes_everywhere_are_seen_together)
+ARENA_TEST(small_changes_everywhere_are_seen_together)
 {
-    Arena arena = test_arena(state);
     Maker maker = {.noise = NOISE_GAUSSIAN, .samples = 16};
     int   found = 0, by_histogram = 0;
     for (int i = 0; i < PIXELS; i++) maker.light[i] = 10;
@@ -92,10 +77,7 @@ TEST(small_changes_everywhere_are_seen_together)
     for (int i = 0; i < PIXELS; i++)
         other.light[i] *= 1 + 2 * error * ((i / 8 + i / WIDTH / 8) % 2 ? 1 : -1);
     for (uint32_t k = 0; k < 20; k++) {
-        Arena scratch = arena;
-        maker.seed = 2 * k;
-        other.seed = 2 * k + 1;
-        StatisticResult r = judge_makers(&maker, &other, &scratch);
+        StatisticResult r = judge_pair(&maker, &other, k, arena);
         found += r.verdict == STATISTIC_DIFFERENT;
         if (r.p_blocks < 0.0034 || r.p_regions < 0.0034 || r.p_histogram > 0.003) continue;
         by_histogram++;

@@ -10,7 +10,6 @@
 #include "path/collect/seen.h"
 #include "path/path_features.h"
 #include "scene_builder.h"
-#include "spectrum/photometry.h"
 
 static Fixture ips;
 
@@ -56,6 +55,11 @@ static void show(Shown *shown, SubpixelLayout layout, float fill, bool has_conte
     scene->textures[0] = (Texture){{SIDE, SIDE, IMAGE_RGBA8, shown->picture}, WRAP_CLAMP,
                                    WRAP_CLAMP, true};
     shown->display->content.texture_id = 0;
+}
+
+static void shown_end(Shown *shown)
+{
+    arena_release(&shown->arena);
 }
 
 /* A frame's pixel that is so wide, about the view's direction. */
@@ -133,7 +137,7 @@ TEST(the_mean_over_a_pixel_is_what_the_panel_sends)
                 {SUBPIXELS_PENTILE, 0.364010f, false, {2, 2, 4, 4}, 1e-4},
                 {SUBPIXELS_PENTILE, 0.196544f, true, {2, 5, 4, 6}, 1e-4}};
     for (int i = 0; i < COUNT_OF(rows); i++) {
-        Shown  shown;
+        ENDS_BY(shown_end) Shown shown;
         double found[3], wanted[3];
         show(&shown, rows[i].layout, rows[i].fill, rows[i].has_content);
         double brightest = area_mean(&shown, rows[i].box, 1e-9f, found);
@@ -142,7 +146,6 @@ TEST(the_mean_over_a_pixel_is_what_the_panel_sends)
                       found[1] / wanted[1] - 1, found[2] / wanted[2] - 1);
         for (int k = 0; k < 3; k++) assert_close(found[k], wanted[k], rows[i].most);
         assert_true(brightest > 1.3 * wanted[1]);
-        arena_release(&shown.arena);
     }
 }
 
@@ -164,7 +167,7 @@ static void assert_opening(const Shown *shown, double x, double y, int primary, 
 
 TEST(stripes_stand_from_red_at_the_left_to_blue_at_the_right)
 {
-    Shown shown;
+    ENDS_BY(shown_end) Shown shown;
     show(&shown, SUBPIXELS_STRIPE, 0.25f, false);
     for (int p = 0; p < 3; p++) {
         assert_opening(&shown, (p + 0.5) / 3, 0.5, p, 12);
@@ -172,12 +175,11 @@ TEST(stripes_stand_from_red_at_the_left_to_blue_at_the_right)
         assert_opening(&shown, (p + 0.24) / 3, 0.5, -1, 0);
         assert_opening(&shown, (p + 0.5) / 3, 0.76, -1, 0);
     }
-    arena_release(&shown.arena);
 }
 
 TEST(diamonds_have_green_in_every_pixel_and_red_and_blue_in_turn)
 {
-    Shown shown;
+    ENDS_BY(shown_end) Shown shown;
     show(&shown, SUBPIXELS_PENTILE, 0.25f, false);
     for (int y = -1; y <= 1; y++)
         for (int x = -1; x <= 1; x++) { /* pixel (3, 2) is odd: blue */
@@ -187,7 +189,6 @@ TEST(diamonds_have_green_in_every_pixel_and_red_and_blue_in_turn)
             assert_opening(&shown, x + 0.75 + 0.11, y + 0.75 - 0.12, is_red ? 0 : 2, 16);
             assert_opening(&shown, x + 0.75 + 0.13, y + 0.75 - 0.14, -1, 0);
         }
-    arena_release(&shown.arena);
 }
 
 /* In units of a display pixel; the view is slanted by 20 degrees. */
@@ -195,7 +196,7 @@ TEST(from_far_the_light_is_even_to_the_bit)
 {
     const float pixel = SIZE_M / SIDE;
     for (int layout = SUBPIXELS_STRIPE; layout <= SUBPIXELS_PENTILE; layout++) {
-        Shown shown;
+        ENDS_BY(shown_end) Shown shown;
         show(&shown, (SubpixelLayout)layout, 0.5f, true);
         for (int i = 0; i < 400; i++) {
             TrianglePoint point;
@@ -214,7 +215,6 @@ TEST(from_far_the_light_is_even_to_the_bit)
             Spectrum sent = subpixels_spectrum(&view, &w);
             assert_memory_equal(&sent, &all, sizeof all);
         }
-        arena_release(&shown.arena);
     }
 }
 
@@ -222,7 +222,7 @@ TEST(from_far_the_light_is_even_to_the_bit)
  * sqrt(1 + (tan 20 cos 30)^2) along the rows. */
 TEST(the_layout_fades_as_a_pixel_of_the_frame_widens)
 {
-    Shown        shown;
+    ENDS_BY(shown_end) Shown shown;
     const double stretch = sqrt(1 + pow(tan(0.34906585) * cos(0.52359878), 2));
     show(&shown, SUBPIXELS_STRIPE, 0.25f, false);
     for (int i = 0; i <= 20; i++) {
@@ -240,12 +240,11 @@ TEST(the_layout_fades_as_a_pixel_of_the_frame_widens)
         assert_near(sum, 1, 1e-5);
         assert_near(found, even, 1e-4);
     }
-    arena_release(&shown.arena);
 }
 
 TEST(spectra_carry_the_same_light)
 {
-    Shown shown;
+    ENDS_BY(shown_end) Shown shown;
     show(&shown, SUBPIXELS_PENTILE, 0.7f, true);
     for (int i = 0; i < 60; i++) {
         enum { COUNT = 200 };
@@ -262,7 +261,6 @@ TEST(spectra_carry_the_same_light)
         for (int j = 0; j < 3; j++)
             assert_near(sum[j] / COUNT, xyz[j], 0.01 * (double)(xyz[0] + xyz[1] + xyz[2]));
     }
-    arena_release(&shown.arena);
 }
 
 /* ---- frames ------------------------------------------------------------------------------ */
@@ -295,17 +293,16 @@ typedef struct Stand {
 static void take_frame_at(Shown *shown, const Stand *stand, double parts, Layout layout,
                           Pixels *out)
 {
-    Error    err = {0};
     Bvh     *bvh;
     Lights  *lights;
-    Arena    arena = arena_reserve((size_t)1 << 30);
+    ENDS_BY(arena_release) Arena arena = arena_reserve((size_t)1 << 30);
     SceneCamera at = camera_look_at(stand->eye, stand->target,
                                     (float)(2 * atan(parts * SIZE_M / SIDE / 2 / stand->way)));
     Camera   camera = camera_from_scene(&at, FRAME, FRAME);
     shown->display->subpixels = layout == WITHOUT_LAYOUT ? NULL : &shown->subpixels;
-    if (!bvh_create(shown->scene, 1, NULL, &bvh, &err) ||
-        !lights_build(shown->scene, &arena, &lights, &err))
-        fail_msg("%s", err.text);
+    assert_done(bvh_create(shown->scene, 1, NULL, &bvh, &err) && lights_build(shown->scene,
+                                                                               &arena, &lights,
+                                                                               &err));
     PathContext context =
         path_context_build(shown->scene, bvh, lights, stand->bounces, &arena);
     context.cone = camera_cone(&camera);
@@ -337,7 +334,6 @@ static void take_frame_at(Shown *shown, const Stand *stand, double parts, Layout
         for (int k = 0; k < 3; k++) out->xyz[pixel][k] += (double)result.xyz[k] / SAMPLES;
     }
     bvh_destroy(bvh);
-    arena_release(&arena);
 }
 
 static void take_frame(Shown *shown, double parts, Layout layout, Pixels *out)
@@ -351,7 +347,7 @@ TEST(a_frame_from_close_shows_red_green_and_blue_from_left_to_right)
 {
     static Pixels close, plain;
     static const int column[3] = {2, 7, 13}; /* of 16 a display pixel */
-    Shown  shown;
+    ENDS_BY(shown_end) Shown shown;
     double sum[2] = {0};
     show(&shown, SUBPIXELS_STRIPE, 0.8f, false);
     take_frame(&shown, 2, WITH_LAYOUT, &close); /* the middle is a corner of four pixels */
@@ -369,7 +365,6 @@ TEST(a_frame_from_close_shows_red_green_and_blue_from_left_to_right)
             assert_true(p == 0 ? at[0] / all > 0.55
                                : p == 1 ? at[1] / all > 0.55 : at[2] / all > 0.55);
         }
-    arena_release(&shown.arena);
 }
 
 /* How much the light of red differs over the frame, when what repeats within about seven pixels
@@ -402,7 +397,7 @@ TEST(frames_of_no_distance_show_moire)
     static Pixels frame, plain;
     static const double covered[] = {0.27, 0.351, 0.394, 0.453, 0.49, 0.62, 0.953, 1.26};
     for (int layout = SUBPIXELS_STRIPE; layout <= SUBPIXELS_PENTILE; layout++) {
-        Shown shown;
+        ENDS_BY(shown_end) Shown shown;
         show(&shown, (SubpixelLayout)layout, 0.6f, false);
         shown.subpixels.pixels[0] = shown.subpixels.pixels[1] = 64;
         for (int i = 0; i < COUNT_OF(covered); i++) {
@@ -419,7 +414,6 @@ TEST(frames_of_no_distance_show_moire)
         take_frame(&shown, 0.93 * FRAME * SIDE / 64, LAYOUT_ANYWHERE, &frame);
         print_message("layout %d without the fade: %.2g\n", layout, unrest(&frame, NULL));
         assert_true(unrest(&frame, NULL) > 0.015);
-        arena_release(&shown.arena);
     }
 }
 
@@ -433,10 +427,7 @@ TEST(frames_of_no_distance_show_moire)
 static void add_mirror(Shown *shown, double radius)
 {
     Scene   *scene = shown->scene;
-    Material metal = builder_material(1);
-    metal.metallic = 1;
-    metal.roughness = 0;
-    builder_part(scene, metal);
+    builder_part(scene, builder_mirror(1));
     uint32_t first = scene->vertex_count;
     builder_quad(scene, vec3(MIRROR_X, 0, MIRROR_Z), vec3(0, 0, 0.01f), vec3(0, 0.01f, 0));
     for (uint32_t i = first; i < scene->vertex_count; i++) {
@@ -456,7 +447,7 @@ TEST(a_mirror_shows_what_its_image_of_the_camera_sees)
     static Pixels mirrored, direct;
     static const double parts[] = {2, 4, 0.2 * FRAME};
     for (int i = 0; i < COUNT_OF(parts); i++) {
-        Shown  shown;
+        ENDS_BY(shown_end) Shown shown;
         double sum[2] = {0}, most = 0, off = 0;
         show(&shown, i % 2 ? SUBPIXELS_PENTILE : SUBPIXELS_STRIPE, 0.6f, false);
         if (i == 2) shown.subpixels.pixels[0] = shown.subpixels.pixels[1] = 64;
@@ -477,7 +468,6 @@ TEST(a_mirror_shows_what_its_image_of_the_camera_sees)
         assert_close(sum[0], sum[1], 1e-3);
         assert_true(off < 0.05 * sum[1]); /* edges within the rounding of a ray's origin */
         assert_true(most > 1.1 * sum[1] / FRAME / FRAME);
-        arena_release(&shown.arena);
     }
 }
 
@@ -489,7 +479,7 @@ TEST(mirrors_that_shrink_a_display_show_no_moire_either)
     static const double covered[] = {0.113, 0.121, 0.131, 0.141, 0.151, 0.2, 0.3};
     const double radius = 0.03; /* three times as many columns in a pixel as upright and flat */
     for (int layout = SUBPIXELS_STRIPE; layout <= SUBPIXELS_PENTILE; layout++) {
-        Shown shown;
+        ENDS_BY(shown_end) Shown shown;
         int   alike = 0, others = 0;
         show(&shown, (SubpixelLayout)layout, 0.6f, false);
         shown.subpixels.pixels[0] = shown.subpixels.pixels[1] = 64;
@@ -510,7 +500,6 @@ TEST(mirrors_that_shrink_a_display_show_no_moire_either)
         take_frame_at(&shown, &by_mirror, 0.3 * FRAME * SIDE / 64, LAYOUT_ANYWHERE, &frame);
         print_message("layout %d without the fade: %.2g\n", layout, unrest(&frame, &plain));
         assert_true(unrest(&frame, &plain) > 0.01);
-        arena_release(&shown.arena);
     }
 }
 

@@ -1,10 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* The sun's direct beam above the horizon and, from the air, below the horizontal. */
-#include <math.h>
-
-#include "base/units.h"
-#include "fixture.h"
-#include "sky/daylight.h"
+#include "sky_fixture.h"
 #include "sky/sun_beam.h"
 
 static const Air clear_air = {1013.25, 1.4, 0.34, 0.17, 1.14, 0.2};
@@ -54,22 +50,15 @@ TEST(a_high_sun_has_spectrl2s_beam)
     assert_close(near.w_m2 * 0.98 * 0.98, beam_at(0, degrees_from_radians(1)).w_m2, 1e-9);
 }
 
-TEST(the_figures_of_a_sun_below_the_horizontal_agree)
+ARENA_TEST(the_figures_of_a_sun_below_the_horizontal_agree)
 {
-    Arena arena = test_arena(state);
     static const double elevation_deg[] = {0.1, -0.1, -3.1, -3.6, -3.9};
     double lux = 1e9, watts = 1e9, mass = 0;
     for (int i = 0; i < 5; i++) {
         Arena         scratch = arena;
-        Daylight     *out = arena_alloc(&scratch, sizeof *out, 64, 1);
-        DaylightInput input = daylight_input_default(DAYLIGHT_CLEAR);
-        Error         err;
-        input.has_sun = true;
-        input.threads = 2;
+        DaylightInput input = sun_at_deg(elevation_deg[i]);
         input.where.altitude_m = 12000;
-        input.sun_elevation = radians_from_degrees(elevation_deg[i]);
-        assert_true(daylight_build(&input, &scratch, out, &err));
-        const DaylightMetrics *f = &out->metrics;
+        const DaylightMetrics *f = &daylight_of(&input, &scratch)->metrics;
         bool is_up = i < 4; /* the dip is 3.51 degrees, the disc's radius 0.27 */
         printf("12 km, %.1f degrees: %.4g W/m2, %.4g lx, air mass %.1f\n", elevation_deg[i],
                f->direct_normal_w_m2, f->direct_normal_lx, f->air_mass);

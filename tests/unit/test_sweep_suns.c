@@ -16,7 +16,7 @@ static SweepSuns suns_of(ReviewCondition condition, Arena *arena)
  * refraction and the altitude of the pole add. */
 TEST(a_year_has_its_hours_of_sun_for_every_heading)
 {
-    Arena  arena = arena_reserve((size_t)1 << 28);
+    ENDS_BY(arena_release) Arena arena = arena_reserve((size_t)1 << 28);
     double headings[] = {0, 90, 200};
     SweepSuns suns = suns_of((ReviewCondition){.kind = CONDITION_YEAR_SWEEP, .year = 2026,
                                                .where = {48.14, 11.58, 520}, .step_minutes = 60,
@@ -36,12 +36,11 @@ TEST(a_year_has_its_hours_of_sun_for_every_heading)
     }
     assert_true(fabs(minutes / 3 / 60 / 8760 - 0.51) < 0.01);
     assert_true(fabs(highest - (90 - 48.14 + 23.44)) < 1.0);
-    arena_release(&arena);
 }
 
 TEST(a_grid_of_suns_is_the_vehicles)
 {
-    Arena arena = arena_reserve((size_t)1 << 24);
+    ENDS_BY(arena_release) Arena arena = arena_reserve((size_t)1 << 24);
     ReviewCondition condition = {.kind = CONDITION_SUN_SWEEP, .azimuth_deg = {0, 350, 10, 36},
                                  .elevation_deg = {5, 45, 20, 3}, .has_heading = true,
                                  .heading_deg = 90};
@@ -53,13 +52,12 @@ TEST(a_grid_of_suns_is_the_vehicles)
         assert_near(suns.list[i].azimuth_deg, 10 * (i % 36) - 90, 1e-9);
         assert_near(suns.angles[i].elevation_deg, 5 + 20 * (i / 36), 1e-9);
     }
-    arena_release(&arena);
 }
 
 /* Closer about one of them, as far as its neighbours and a tenth of a degree apart. */
 TEST(suns_about_one_are_a_tenth_of_a_degree_apart)
 {
-    Arena  arena = arena_reserve((size_t)1 << 28);
+    ENDS_BY(arena_release) Arena arena = arena_reserve((size_t)1 << 28);
     double heading = 90;
     ReviewCondition year = {.kind = CONDITION_YEAR_SWEEP, .year = 2026, .weather_id = NO_ID,
                             .where = {48.14, 11.58, 520}, .step_minutes = 60,
@@ -100,13 +98,12 @@ TEST(suns_about_one_are_a_tenth_of_a_degree_apart)
         reach = least;
     }
     assert_int_equal(sweep_suns_about(&grid, &one, 2, &arena).count, 1);
-    arena_release(&arena);
 }
 
 /* Points of a drive at noon in summer: each stands for the time to the next. */
 TEST(a_route_gives_each_point_its_time)
 {
-    Arena      arena = arena_reserve((size_t)1 << 24);
+    ENDS_BY(arena_release) Arena arena = arena_reserve((size_t)1 << 24);
     RoutePoint points[3];
     for (int i = 0; i < 3; i++)
         points[i] = (RoutePoint){.when = {2026, 6, 21, 12, 10 * i, 0, 1}, .seconds = 600 * i,
@@ -121,14 +118,13 @@ TEST(a_route_gives_each_point_its_time)
         assert_near(suns.list[i].heading_deg, 30 * i, 1e-9);
         assert_true(suns.list[i].step == i);
     }
-    arena_release(&arena);
 }
 
 /* Each is found with its own reading, and no other is, however many there are. */
 TEST(kept_readings_are_found_by_their_suns)
 {
     enum { MANY = 5000 };
-    Arena       arena = arena_reserve((size_t)1 << 28);
+    ENDS_BY(arena_release) Arena arena = arena_reserve((size_t)1 << 28);
     SunReadings of[2] = {sun_readings_start(&arena), sun_readings_start(&arena)};
     for (int i = 0; i < 2 * MANY; i++) {
         SunAngles at = {i % 100 * 3.6, i / 100 * 0.9};
@@ -142,7 +138,6 @@ TEST(kept_readings_are_found_by_their_suns)
         if (i >= 100) assert_null(sun_readings_find(&of[i % 2], beside));
     }
     assert_int_equal(of[0].count, MANY);
-    arena_release(&arena);
 }
 
 TEST_PROGRAM(NULL, NULL)

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Sweeps under a weather file: each step takes its row, and gaps are told. */
-#include "check.h"
+#include "fixture.h"
 
 #include "review/run/sweep.h"
 #include "review/run/sweep_weather.h"
@@ -26,7 +26,7 @@ static bool is_day(int label)
 static Fixture *drive(int steps)
 {
     static Fixture f;
-    f = (Fixture){.arena = arena_reserve((size_t)1 << 24)};
+    f = (Fixture){.arena = *test_memory()};
     for (int i = 0; i < DAY; i++)
         f.hours[i] = (WeatherHour){.line = 9 + i, .year = 1999, .month = 6, .day = 21,
                                    .label_h = i + 1, .has_light = true,
@@ -50,10 +50,9 @@ TEST(each_step_has_the_light_of_its_row)
 {
     for (int steps = 1; steps <= 4; steps += 3) {
         Fixture  *f = drive(steps);
-        Error     err;
         SweepSuns suns = sweep_suns(&f->condition, 2, &f->arena);
         assert_true(suns.count > 15 * steps);
-        assert_true(sweep_weather_check(&f->request, &f->condition, &suns, f->arena, &err));
+        assert_done(sweep_weather_check(&f->request, &f->condition, &suns, f->arena, &err));
         for (int i = 0; i < suns.count; i++) {
             const SweepSun *sun = &suns.list[i];
             DaylightInput   light;
@@ -66,7 +65,6 @@ TEST(each_step_has_the_light_of_its_row)
             assert_true(light.kind == DAYLIGHT_PEREZ && light.has_time && !light.has_sun &&
                         light.when.year == 2026 && light.when.hour == label - 1);
         }
-        arena_release(&f->arena);
     }
 }
 
@@ -74,7 +72,6 @@ TEST(each_step_has_the_light_of_its_row)
 TEST(skies_are_made_once_an_hour)
 {
     Fixture  *f = drive(1);
-    Error     err = {0};
     double    headings[3] = {0, 10, 200};
     HourSkies skies;
     f->condition = (ReviewCondition){.name = "year", .kind = CONDITION_YEAR_SWEEP, .year = 2026,
@@ -84,14 +81,13 @@ TEST(skies_are_made_once_an_hour)
     SweepSuns suns = sweep_suns(&f->condition, 2, &f->arena), day = suns;
     while (day.list->step < 171 * 24) day.list++;
     day.count = 3 * 15;
-    if (!sweep_weather_skies(&setup, &day, &f->arena, &skies, &err)) fail_msg("%s", err.text);
+    assert_done(sweep_weather_skies(&setup, &day, &f->arena, &skies, &err));
     for (int i = 0; i < day.count; i++) {
         int label = day.list[i].step - 171 * 24 + 1;
         assert_int_equal(skies.of_sun[i] >= 0, is_day(label));
         assert_int_equal(skies.of_sun[i], skies.of_sun[i - i % 3]);
         if (i >= 3 && skies.of_sun[i] >= 0) assert_true(skies.of_sun[i] >= skies.of_sun[i - 3]);
     }
-    arena_release(&f->arena);
 }
 
 /* What is traced in full: the hour's own sky, nothing in a dark one, and a clear sky for a sun
@@ -110,7 +106,6 @@ TEST(a_sun_is_traced_under_its_hour)
     assert_near(sky.heading, 1.5707963, 1e-6);
     assert_int_equal(sweep_environment(&setup, &dusk).kind, ENVIRONMENT_NONE);
     assert_int_equal(sweep_environment(&setup, &any).kind, ENVIRONMENT_SKY);
-    arena_release(&f->arena);
 }
 
 typedef void Harm(Fixture *f);
@@ -139,28 +134,23 @@ TEST(gaps_by_day_are_told)
     };
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         Fixture *f = drive(1);
-        Error    err = {0};
         wrong[i].harm(f);
         SweepSuns suns = sweep_suns(&f->condition, 2, &f->arena);
-        assert_false(sweep_weather_check(&f->request, &f->condition, &suns, f->arena, &err));
-        if (!strstr(err.text, wrong[i].words) || strcmp(err.path, wrong[i].path))
-            fail_msg("%s: %s", err.path, err.text);
-        arena_release(&f->arena);
+        assert_false(sweep_weather_check(&f->request, &f->condition, &suns, f->arena, why()));
+        assert_told(ERROR_INPUT, wrong[i].path, wrong[i].words);
     }
 }
 
 TEST(gaps_by_night_matter_to_none)
 {
     Fixture *f = drive(1);
-    Error    err;
     f->hours[0].has_light = f->hours[23].has_light = false;
     SweepSuns suns = sweep_suns(&f->condition, 2, &f->arena);
-    assert_true(sweep_weather_check(&f->request, &f->condition, &suns, f->arena, &err));
+    assert_done(sweep_weather_check(&f->request, &f->condition, &suns, f->arena, &err));
     f->condition.with_night = true;
     for (int i = 0; i < DAY; i++) f->points[i].where.latitude_deg = 62; /* no deep night */
     suns = sweep_suns(&f->condition, 2, &f->arena);
-    assert_false(sweep_weather_check(&f->request, &f->condition, &suns, f->arena, &err));
-    arena_release(&f->arena);
+    assert_false(sweep_weather_check(&f->request, &f->condition, &suns, f->arena, why()));
 }
 
-TEST_PROGRAM(NULL, NULL)
+TEST_PROGRAM(make_arena, drop_arena)

@@ -15,23 +15,20 @@ static SymbolQuestion question_about(const Easel *easel, const Image *content)
 static SymbolSplit split_of(Easel *easel, const SymbolQuestion *question)
 {
     SymbolSplit split;
-    Error       err = {0};
-    if (!symbol_split(question, &easel->arena, &split, &err)) fail_msg("%s", err.text);
+    assert_done(symbol_split(question, &easel->arena, &split, &err));
     return split;
 }
 
 static void assert_refused(Easel *easel, const SymbolQuestion *question, const char *text)
 {
     SymbolSplit split;
-    Error       err = {0};
-    if (symbol_split(question, &easel->arena, &split, &err)) fail_msg("no \"%s\"", text);
-    if (!strstr(err.text, text)) fail_msg("\"%s\" says not \"%s\"", err.text, text);
+    if (symbol_split(question, &easel->arena, &split, why())) fail_msg("no \"%s\"", text);
+    if (!strstr(why()->text, text)) fail_msg("\"%s\" says not \"%s\"", why()->text, text);
 }
 
 /* Edges at quarters of pixels: neither class has any of them. */
-TEST(edges_that_are_covered_in_part_are_in_neither_class)
+EASEL_TEST(edges_that_are_covered_in_part_are_in_neither_class)
 {
-    Easel  *easel = *state;
     Boxes   bars = {3, {{10.25, 12, 14.5, 60}, {20.75, 12.5, 26.25, 59.75}, {33, 20, 36, 50}}};
     double  white = easel_luminance(easel, 255), black = easel_luminance(easel, 0);
     Image   image = easel_draw(easel, 64, 72, LIGHT, boxes_coverage, &bars);
@@ -45,13 +42,11 @@ TEST(edges_that_are_covered_in_part_are_in_neither_class)
                      64 * 72);
     assert_true(split.edge_count > 0);
     assert_true(split.separability > SYMBOL_SEPARABLE);
-    easel->arena = easel->fresh;
 }
 
 /* The classes point at the pixels that were drawn. */
-TEST(each_pixel_has_its_class)
+EASEL_TEST(each_pixel_has_its_class)
 {
-    Easel  *easel = *state;
     Boxes   bar = {1, {{8, 8.5, 12, 24}}};
     Image   image = easel_draw(easel, 40, 32, LIGHT, boxes_coverage, &bar);
     SymbolQuestion question = question_about(easel, &image);
@@ -67,12 +62,10 @@ TEST(each_pixel_has_its_class)
                                               : SYMBOL_EDGE;
             assert_int_equal(split.class_of[36 * y + x], wanted);
         }
-    easel->arena = easel->fresh;
 }
 
-TEST(box_and_height_count_edges_by_their_share)
+EASEL_TEST(box_and_height_count_edges_by_their_share)
 {
-    Easel  *easel = *state;
     Boxes   bar = {1, {{10.25, 12.75, 30.5, 40.5}}};
     Image   image = easel_draw(easel, 60, 50, LIGHT, boxes_coverage, &bar);
     SymbolQuestion question = question_about(easel, &image);
@@ -83,13 +76,11 @@ TEST(box_and_height_count_edges_by_their_share)
     assert_near(60 * split.box[2], 30.5, 0.01);
     assert_near(50 * split.box[3], 40.5, 0.01);
     assert_near(50 * split.character_v, 27.75, 0.02);
-    easel->arena = easel->fresh;
 }
 
 /* Two lines: characters of 40 and 38 with a dot, and smaller ones below. */
-TEST(a_character_is_as_high_as_those_of_the_tallest_line)
+EASEL_TEST(a_character_is_as_high_as_those_of_the_tallest_line)
 {
-    Easel  *easel = *state;
     Boxes   text = {7, {{10, 10, 16, 50}, {25, 10, 31, 50}, {40, 12, 46, 50}, {55, 44, 61, 50},
                         {10, 70, 14, 90}, {20, 70, 24, 90}, {30, 70, 34, 90}}};
     Image   image = easel_draw(easel, 80, 100, LIGHT, boxes_coverage, &text);
@@ -97,13 +88,11 @@ TEST(a_character_is_as_high_as_those_of_the_tallest_line)
     SymbolSplit    split = split_of(easel, &question);
     assert_near(100 * split.character_v, 40, 1e-3);
     assert_near(100 * (split.box[3] - split.box[1]), 80, 1e-3);
-    easel->arena = easel->fresh;
 }
 
 /* The gaps between the segments of an E are a quarter of its strokes. */
-TEST(segments_make_one_character)
+EASEL_TEST(segments_make_one_character)
 {
-    Easel  *easel = *state;
     Boxes   text = {5, {{10, 10, 18, 43}, {10, 45, 18, 78}, {20, 2, 44, 10}, {20, 40, 44, 48},
                         {20, 78, 44, 86}}};
     Image   image = easel_draw(easel, 60, 100, LIGHT, boxes_coverage, &text);
@@ -111,13 +100,11 @@ TEST(segments_make_one_character)
     SymbolSplit    split = split_of(easel, &question);
     assert_near(split.stroke_px, 8, 1e-6);
     assert_near(100 * split.character_v, 84, 1e-3);
-    easel->arena = easel->fresh;
 }
 
 /* The shortest of four chords is at most 1 / cos 22.5 degrees too long. */
-TEST(strokes_have_the_width_that_was_drawn)
+EASEL_TEST(strokes_have_the_width_that_was_drawn)
 {
-    Easel *easel = *state;
     const double widths[] = {3, 4.6, 7.3}, degrees[] = {0, 10, 22.5, 45, 70, 90, 135};
     for (int w = 0; w < 3; w++)
         for (int a = 0; a < 7; a++) {
@@ -135,9 +122,8 @@ TEST(strokes_have_the_width_that_was_drawn)
 }
 
 /* A stroke of one pixel that lies over two keeps the better one. */
-TEST(a_stroke_thinner_than_a_pixel_keeps_what_it_shows)
+EASEL_TEST(a_stroke_thinner_than_a_pixel_keeps_what_it_shows)
 {
-    Easel  *easel = *state;
     Boxes   bar = {1, {{20.3, 5, 21.3, 45}}};
     double  white = easel_luminance(easel, 255), black = easel_luminance(easel, 0);
     Image   image = easel_draw(easel, 40, 50, LIGHT, boxes_coverage, &bar);
@@ -146,12 +132,10 @@ TEST(a_stroke_thinner_than_a_pixel_keeps_what_it_shows)
     assert_close(split.foreground_cd_m2, black + 0.7 * (white - black), 0.01);
     assert_close(split.background_cd_m2, black, 1e-6);
     assert_int_equal(split.foreground_count, 40);
-    easel->arena = easel->fresh;
 }
 
-TEST(the_smaller_class_is_the_foreground_unless_it_is_said)
+EASEL_TEST(the_smaller_class_is_the_foreground_unless_it_is_said)
 {
-    Easel  *easel = *state;
     Boxes   bar = {1, {{20, 5, 26, 45}}};
     double  white = easel_luminance(easel, 255), black = easel_luminance(easel, 0);
     Image   dark = easel_draw(easel, 60, 50, DARK, boxes_coverage, &bar);
@@ -169,7 +153,6 @@ TEST(the_smaller_class_is_the_foreground_unless_it_is_said)
     assert_true(split.is_light_on_dark);
     assert_close(split.foreground_cd_m2, white, 1e-6);
     assert_int_equal(split.foreground_count, 60 * 50 - 6 * 40);
-    easel->arena = easel->fresh;
 }
 
 /* White with a grey bar and alpha: left half told, right half left out. */
@@ -184,9 +167,8 @@ static Image mask_of(Easel *easel, int width, int height)
     return (Image){width, height, IMAGE_RGBA8, pixels};
 }
 
-TEST(a_mask_says_the_classes)
+EASEL_TEST(a_mask_says_the_classes)
 {
-    Easel  *easel = *state;
     Boxes   bar = {1, {{0, 0, 20, 30}}};
     double  ink_ground[2] = {0.5, 0.2};
     Image   image = easel_draw(easel, 60, 30, ink_ground, boxes_coverage, &bar);
@@ -212,12 +194,10 @@ TEST(a_mask_says_the_classes)
     assert_refused(easel, &question, "the mask is nowhere black there");
     mask.height = 20;
     assert_refused(easel, &question, "the mask has 60 x 20 pixels, its content 60 x 30");
-    easel->arena = easel->fresh;
 }
 
-TEST(what_holds_no_symbol_is_said_in_a_line)
+EASEL_TEST(what_holds_no_symbol_is_said_in_a_line)
 {
-    Easel *easel = *state;
     Boxes  bar = {1, {{20, 5, 26, 45}}};
     Image  image = easel_draw(easel, 60, 50, LIGHT, boxes_coverage, &bar);
     static const struct {
@@ -244,7 +224,6 @@ TEST(what_holds_no_symbol_is_said_in_a_line)
     assert_refused(easel, &question, "nearly everything in the rectangle has one luminance");
     question.content = NULL;
     assert_refused(easel, &question, "the display has no content: it shows white alone");
-    easel->arena = easel->fresh;
 }
 
 TEST_PROGRAM(easel_open, easel_close)

@@ -37,8 +37,7 @@ static SymbolSurface surface_of(World *world, const int *parts, int count, const
     ReviewDisplay display = {0, parts, count};
     SymbolPlace   place = {world->scene, &display, {uv[0], uv[1], uv[2], uv[3]}, POINTS};
     SymbolSurface surface;
-    Error         err = {0};
-    if (!symbol_surface_build(&place, &world->arena, &surface, &err)) fail_msg("%s", err.text);
+    assert_done(symbol_surface_build(&place, &world->arena, &surface, &err));
     return surface;
 }
 
@@ -60,9 +59,9 @@ static const double ALL[4] = {0, 0, 1, 1};
 
 /* ---- where it is ------------------------------------------------------------------------- */
 
-TEST(points_lie_where_the_content_is_shown)
+EASEL_TEST(points_lie_where_the_content_is_shown)
 {
-    World world = flat_world(*state);
+    ENDS_BY(world_end) World world = flat_world(easel);
     const double uv[4] = {0.25, 0.5, 0.5, 1};
     SymbolSurface surface = first_part(&world, uv);
     int    in_quarter = 0;
@@ -75,13 +74,12 @@ TEST(points_lie_where_the_content_is_shown)
         in_quarter += p->uv.x < 0.375f && p->uv.y < 0.75f;
     }
     assert_int_equal(in_quarter, POINTS / 4);
-    world_end(&world);
 }
 
 /* Every cell of 64 x 64 is the patch of one point, which lies in it. */
-TEST(patches_make_up_the_rectangle)
+EASEL_TEST(patches_make_up_the_rectangle)
 {
-    World world = flat_world(*state);
+    ENDS_BY(world_end) World world = flat_world(easel);
     const double uv[4] = {0.25, 0.5, 0.5, 1};
     SymbolSurface surface = first_part(&world, uv);
     char          seen[POINTS] = {0};
@@ -98,13 +96,12 @@ TEST(patches_make_up_the_rectangle)
         assert_true(column >= 0 && column < 64 && row >= 0 && row < 64);
         assert_int_equal(seen[row * 64 + column]++, 0);
     }
-    world_end(&world);
 }
 
 /* The texture's transform: the content's right half alone, upside down. */
-TEST(a_texture_transform_moves_the_symbol)
+EASEL_TEST(a_texture_transform_moves_the_symbol)
 {
-    World world = flat_world(*state);
+    ENDS_BY(world_end) World world = flat_world(easel);
     TextureSlot *slot = &world.scene->displays[0].content;
     const float  half_turned[6] = {0.5f, 0, 0.5f, 0, -1, 1};
     memcpy(slot->uv_from_uv, half_turned, sizeof half_turned);
@@ -115,31 +112,28 @@ TEST(a_texture_transform_moves_the_symbol)
     assert_near(point.position.x, -0.2, 1e-6);
     assert_near(point.position.y, -0.1, 1e-6);
     assert_close(surface.area_m2, 0.2 * 0.1, 1e-5);
-    world_end(&world);
 }
 
-TEST(a_symbol_outside_its_display_is_refused)
+EASEL_TEST(a_symbol_outside_its_display_is_refused)
 {
-    World world = flat_world(*state);
+    ENDS_BY(world_end) World world = flat_world(easel);
     int   parts[1] = {0};
     world.scene->displays[0].content.uv_from_uv[0] = 0.5f; /* shows the left half alone */
     ReviewDisplay display = {0, parts, 1};
     SymbolPlace   place = {world.scene, &display, {0.3, 0.2, 0.6, 0.4}, POINTS};
     SymbolSurface surface;
-    Error         err = {0};
-    assert_false(symbol_surface_build(&place, &world.arena, &surface, &err));
-    assert_string_equal(err.text, "the symbol lies outside its display, no part of which shows "
-                                  "uv [0.6, 0.2] of its content");
+    assert_false(symbol_surface_build(&place, &world.arena, &surface, why()));
+    assert_string_equal(why()->text, "the symbol lies outside its display, no part of which "
+                                     "shows uv [0.6, 0.2] of its content");
     place.uv[2] = 0.5;
-    assert_true(symbol_surface_build(&place, &world.arena, &surface, &err));
-    world_end(&world);
+    assert_done(symbol_surface_build(&place, &world.arena, &surface, &err));
 }
 
 /* Its corners are on the display; between its halves there is nothing. */
-TEST(a_gap_in_the_display_is_refused)
+EASEL_TEST(a_gap_in_the_display_is_refused)
 {
-    World world = world_start();
-    wear_display(&world, *state);
+    ENDS_BY(world_end) World world = world_start();
+    wear_display(&world, easel);
     const float x[4] = {-0.2f, -0.01f, 0.01f, 0.2f};
     for (int i = 0; i < 4; i++)
         for (int k = 0; k < 2; k++)
@@ -153,18 +147,16 @@ TEST(a_gap_in_the_display_is_refused)
     ReviewDisplay display = {0, parts, 1};
     SymbolPlace   place = {world.scene, &display, {0.1, 0.1, 0.9, 0.9}, POINTS};
     SymbolSurface surface;
-    Error         err = {0};
-    assert_false(symbol_surface_build(&place, &world.arena, &surface, &err));
-    assert_non_null(strstr(err.text, "the symbol lies outside its display"));
+    assert_fails_as(symbol_surface_build(&place, &world.arena, &surface, &err), ERROR_INPUT,
+                    "the symbol lies outside its display");
     place.uv[2] = 0.475;
-    assert_true(symbol_surface_build(&place, &world.arena, &surface, &err));
-    world_end(&world);
+    assert_done(symbol_surface_build(&place, &world.arena, &surface, &err));
 }
 
 /* Two nodes wear one material: each has the symbol in its own place. */
-TEST(the_parts_that_are_given_are_asked)
+EASEL_TEST(the_parts_that_are_given_are_asked)
 {
-    World world = flat_world(*state);
+    ENDS_BY(world_end) World world = flat_world(easel);
     same_material(&world);
     builder_quad(world.scene, vec3(1, 0, 0), vec3(0.2f, 0, 0), vec3(0, 0.1f, 0));
     for (int part = 0; part < 2; part++) {
@@ -172,20 +164,19 @@ TEST(the_parts_that_are_given_are_asked)
         for (int i = 0; i < surface.point_count; i++)
             assert_true((surface.points[i].position.x > 0.5f) == (part == 1));
     }
-    world_end(&world);
 }
 
 /* ---- how large --------------------------------------------------------------------------- */
 
 /* The display leans back by the angle: of its height h top and bottom lie at +-h/2 (0, cos,
  * -sin). From (0, 0, d) they stand atan((h/2 cos) / (d +- h/2 sin)) above and below. */
-TEST(arc_minutes_at_five_slants_are_the_closed_form)
+EASEL_TEST(arc_minutes_at_five_slants_are_the_closed_form)
 {
     const double slants[] = {0, 20, 40, 60, 80}, distance = 0.75, h = 0.2;
     for (int i = 0; i < 5; i++) {
-        World  world = world_start();
+        ENDS_BY(world_end) World world = world_start();
         double angle = radians_from_degrees(slants[i]), c = cos(angle), s = sin(angle);
-        wear_display(&world, *state);
+        wear_display(&world, easel);
         builder_quad(world.scene, vec3(0, 0, 0), vec3(0.2f, 0, 0),
                      vec3(0, (float)(h / 2 * c), (float)(-h / 2 * s)));
         SymbolSurface surface = first_part(&world, ALL);
@@ -197,7 +188,6 @@ TEST(arc_minutes_at_five_slants_are_the_closed_form)
             double found = symbol_height_arcmin(&surface, boxes[k], vec3(0, 0, 0.75f));
             assert_close(found, 60 * degrees_from_radians(expected), 5e-4);
         }
-        world_end(&world);
     }
 }
 
@@ -219,10 +209,9 @@ static void builder_arc(Scene *scene, double radius, double arc, int strips)
 }
 
 /* From the axis of a cylinder the height is the arc itself. */
-TEST(a_curved_display_has_the_angle_of_its_arc)
+EASEL_TEST(a_curved_display_has_the_angle_of_its_arc)
 {
-    World  world = world_start();
-    Easel *easel = *state;
+    ENDS_BY(world_end) World world = world_start();
     double arc = radians_from_degrees(50);
     wear_display(&world, easel);
     builder_arc(world.scene, 0.8, arc, 200);
@@ -232,7 +221,6 @@ TEST(a_curved_display_has_the_angle_of_its_arc)
     assert_close(found, 60 * degrees_from_radians(0.5 * arc), 5e-4);
     assert_close(surface.area_m2, 0.02 * 0.8 * arc, 1e-3);
     assert_near(surface.points[0].ng.z, cos(arc / 2), 0.02);
-    world_end(&world);
 }
 
 /* ---- how much of it ---------------------------------------------------------------------- */
@@ -255,13 +243,13 @@ static SymbolVisibility seen_from(World *world, Vec3 eye, bool *is_visible)
     return symbol_visibility(&surface, &world->context, eye, is_visible);
 }
 
-TEST(nothing_hides_a_free_display_and_from_behind_none_is_seen)
+EASEL_TEST(nothing_hides_a_free_display_and_from_behind_none_is_seen)
 {
-    World world = flat_world(*state);
+    World world = flat_world(easel);
     SymbolVisibility front = seen_from(&world, EYE, NULL);
     assert_true(front.visible_share == 1 && front.transmittance == 1);
     world_end(&world);
-    world = flat_world(*state);
+    world = flat_world(easel);
     SymbolVisibility behind = seen_from(&world, vec3(0.05f, 0.1f, -1), NULL);
     assert_true(behind.visible_share == 0 && isnan(behind.transmittance));
     SymbolSurface surface = first_part(&world, ALL);
@@ -272,11 +260,11 @@ TEST(nothing_hides_a_free_display_and_from_behind_none_is_seen)
 }
 
 /* Shares of the width that the plate covers. */
-TEST(a_plate_hides_the_share_that_it_covers)
+EASEL_TEST(a_plate_hides_the_share_that_it_covers)
 {
     const double shares[] = {0.5, 0.25, 0.9};
     for (int i = 0; i < 3; i++) {
-        World world = flat_world(*state);
+        ENDS_BY(world_end) World world = flat_world(easel);
         bool *is_visible = ARENA_NEW(&world.arena, bool, POINTS);
         add_plate(&world, builder_material(0.5f), 0.4 * shares[i] - 0.2);
         SymbolVisibility seen = seen_from(&world, EYE, is_visible);
@@ -290,14 +278,13 @@ TEST(a_plate_hides_the_share_that_it_covers)
         for (int k = 0; k < POINTS; k++)
             if (fabs((double)surface.points[k].uv.x - shares[i]) > 1e-4)
                 assert_true(is_visible[k] == ((double)surface.points[k].uv.x > shares[i]));
-        world_end(&world);
     }
 }
 
 /* An edge goes through the middle of a column of patches: they are points, all others whole. */
-TEST(a_patch_that_is_covered_in_part_is_a_point)
+EASEL_TEST(a_patch_that_is_covered_in_part_is_a_point)
 {
-    World world = flat_world(*state);
+    ENDS_BY(world_end) World world = flat_world(easel);
     bool *is_visible = ARENA_NEW(&world.arena, bool, POINTS);
     int   whole = 0, points = 0;
     add_plate(&world, builder_material(0.5f), 0.4 * 20.5 / 64 - 0.2);
@@ -313,24 +300,22 @@ TEST(a_patch_that_is_covered_in_part_is_a_point)
     }
     assert_int_equal(whole, 43 * 64);
     assert_true(points > 16 && points < 48); /* half of those of the column */
-    world_end(&world);
 }
 
 /* 0.05 mm over the display, 1 m from the eye. */
-TEST(a_bezel_that_lies_on_the_display_hides_it)
+EASEL_TEST(a_bezel_that_lies_on_the_display_hides_it)
 {
-    World world = flat_world(*state);
+    ENDS_BY(world_end) World world = flat_world(easel);
     builder_part(world.scene, builder_material(0.5f));
     builder_quad(world.scene, vec3(-0.15f, 0, 5e-5f), vec3(0.05f, 0, 0), vec3(0, 0.2f, 0));
     assert_near(seen_from(&world, EYE, NULL).visible_share, 0.75, 2e-3);
-    world_end(&world);
 }
 
 /* Points that stand for unlike areas: the content's left half is four times as large. */
-TEST(a_share_is_one_of_area)
+EASEL_TEST(a_share_is_one_of_area)
 {
-    World world = world_start();
-    wear_display(&world, *state);
+    ENDS_BY(world_end) World world = world_start();
+    wear_display(&world, easel);
     const float x[3] = {-0.4f, 0, 0.1f};
     for (int i = 0; i < 3; i++)
         for (int k = 0; k < 2; k++)
@@ -343,49 +328,37 @@ TEST(a_share_is_one_of_area)
     add_plate(&world, builder_material(0.5f), 0);
     SymbolVisibility seen = seen_from(&world, EYE, NULL);
     assert_near(seen.visible_share, 0.2, 2e-3);
-    world_end(&world);
-}
-
-/* A thin pane, white or grey. */
-static Material pane(float ior, float grey)
-{
-    Material material = builder_material(grey);
-    material.ior = ior;
-    material.transmission = 1;
-    material.roughness = 0;
-    material.lets_light_through = true;
-    return material;
 }
 
 /* Of an index of 1.5 each face reflects 4 %, seen nearly upright: (1 - R) / (1 + R) passes. */
-TEST(a_window_hides_nothing_and_says_what_it_takes)
+EASEL_TEST(a_window_hides_nothing_and_says_what_it_takes)
 {
     static const struct {
         float  ior, grey;
         double share, passes;
     } panes[] = {{1, 1, 1, 1}, {1.5f, 1, 1, 0.96 / 1.04}, {1, 0.5f, 1, 0.5}, {1, 0.001f, 0, 0}};
     for (int i = 0; i < 4; i++) {
-        World world = flat_world(*state);
-        add_plate(&world, pane(panes[i].ior, panes[i].grey), 0.4); /* before all of it */
+        ENDS_BY(world_end) World world = flat_world(easel);
+        Material pane = builder_pane(panes[i].ior);
+        for (int c = 0; c < 3; c++) pane.base_color[c] = panes[i].grey;
+        add_plate(&world, pane, 0.4); /* before all of it */
         SymbolVisibility seen = seen_from(&world, EYE, NULL);
         assert_true(seen.visible_share == panes[i].share);
         if (panes[i].share > 0) assert_close(seen.transmittance, panes[i].passes, 1e-3);
-        world_end(&world);
     }
 }
 
 /* A sheet with holes: alpha below its cutoff. */
-TEST(a_hole_hides_nothing)
+EASEL_TEST(a_hole_hides_nothing)
 {
     for (int k = 0; k < 2; k++) {
-        World    world = flat_world(*state);
+        ENDS_BY(world_end) World world = flat_world(easel);
         Material sheet = builder_material(0.5f);
         sheet.alpha_mode = ALPHA_MASK;
         sheet.base_color[3] = k ? 0.8f : 0.2f;
         sheet.lets_light_through = true;
         add_plate(&world, sheet, 0.4);
         assert_true(seen_from(&world, EYE, NULL).visible_share == (k ? 0 : 1));
-        world_end(&world);
     }
 }
 
@@ -403,8 +376,7 @@ static SymbolSplit split_halves(Easel *easel, const Image *content)
     SymbolQuestion question = {.panel = easel->panel, .content = content, .mask = &mask,
                                .uv = {0, 0, 1, 1}};
     SymbolSplit    split;
-    Error          err = {0};
-    if (!symbol_split(&question, &easel->arena, &split, &err)) fail_msg("%s", err.text);
+    assert_done(symbol_split(&question, &easel->arena, &split, &err));
     return split;
 }
 
@@ -419,14 +391,13 @@ static Image plain(Easel *easel, const uint8_t rgb[3], bool alternates)
 }
 
 /* From so far away that all pixels are seen along one direction. */
-TEST(one_colour_has_the_panels_own_light)
+EASEL_TEST(one_colour_has_the_panels_own_light)
 {
-    Easel *easel = *state;
     const uint8_t rgb[3] = {250, 120, 30};
     const float   codes[3] = {250, 120, 30};
     Image       content = plain(easel, rgb, false);
     SymbolSplit split = split_halves(easel, &content);
-    World       world = flat_world(easel);
+    ENDS_BY(world_end) World world = flat_world(easel);
     SymbolSurface surface = first_part(&world, ALL);
     for (int i = 0; i < 5; i++) {
         double t = radians_from_degrees(14 * i), p = radians_from_degrees(70 * i);
@@ -444,54 +415,45 @@ TEST(one_colour_has_the_panels_own_light)
     SymbolLook     back = {&surface, &split, vec3(0, 0, -1), 1};
     SymbolEmission behind = symbol_emission(&back, 1);
     assert_true(isnan(behind.foreground_xyz[1]));
-    world_end(&world);
-    easel->arena = easel->fresh;
 }
 
 /* Half of the pixels white, half black: half of white's light, not the light of half a code. */
-TEST(light_is_averaged_and_not_codes)
+EASEL_TEST(light_is_averaged_and_not_codes)
 {
-    Easel *easel = *state;
     const uint8_t white[3] = {255, 255, 255};
     Image       content = plain(easel, white, true);
     SymbolSplit split = split_halves(easel, &content);
-    World       world = flat_world(easel);
+    ENDS_BY(world_end) World world = flat_world(easel);
     SymbolSurface  surface = first_part(&world, ALL);
     SymbolLook     look = {&surface, &split, vec3(0, 0, 500), 2};
     SymbolEmission seen = symbol_emission(&look, 1);
     double half = 0.5 * (easel_luminance(easel, 255) + easel_luminance(easel, 0));
     assert_close(seen.foreground_xyz[1], half, 1e-3);
     assert_close(split.foreground_cd_m2, half, 1e-5);
-    world_end(&world);
-    easel->arena = easel->fresh;
 }
 
 /* Classes keep their places: left white, right black. */
-TEST(each_class_has_its_own_light)
+EASEL_TEST(each_class_has_its_own_light)
 {
-    Easel *easel = *state;
     Boxes  left = {1, {{0, 0, 30, 30}}};
     const double ink_ground[2] = {1, 0.3};
     Image       content = easel_draw(easel, 60, 30, ink_ground, boxes_coverage, &left);
     SymbolSplit split = split_halves(easel, &content);
-    World       world = flat_world(easel);
+    ENDS_BY(world_end) World world = flat_world(easel);
     SymbolSurface  surface = first_part(&world, ALL);
     SymbolLook     look = {&surface, &split, vec3(0, 0, 500), 2};
     SymbolEmission seen = symbol_emission(&look, 1);
     assert_close(seen.foreground_xyz[1], split.foreground_cd_m2, 1e-3);
     assert_close(seen.background_xyz[1], split.background_cd_m2, 1e-3);
     assert_true(seen.foreground_xyz[1] > 2 * seen.background_xyz[1]);
-    world_end(&world);
-    easel->arena = easel->fresh;
 }
 
 /* A mirrored node: u grows to the left, the front stays where the light is. */
-TEST(a_mirrored_display_is_seen_from_its_front)
+EASEL_TEST(a_mirrored_display_is_seen_from_its_front)
 {
-    Easel *easel = *state;
     const uint8_t rgb[3] = {200, 200, 200};
     const float   codes[3] = {200, 200, 200};
-    World  world = world_start();
+    ENDS_BY(world_end) World world = world_start();
     wear_display(&world, easel);
     const float corner[4][2] = {{1, 1}, {-1, 1}, {-1, -1}, {1, -1}}; /* from (u, v) = (0, 0) */
     for (int i = 0; i < 4; i++)
@@ -514,8 +476,6 @@ TEST(a_mirrored_display_is_seen_from_its_front)
     assert_close(seen.foreground_xyz[1], xyz[1], 1e-3);
     world_ready(&world, 1);
     assert_true(symbol_visibility(&surface, &world.context, EYE, NULL).visible_share == 1);
-    world_end(&world);
-    easel->arena = easel->fresh;
 }
 
 TEST_PROGRAM(easel_open, easel_close)

@@ -8,9 +8,8 @@
 #include "text/text.h"
 #include "text/utf8.h"
 
-TEST(a_text_grows_where_it_stands)
+ARENA_TEST(a_text_grows_where_it_stands)
 {
-    Arena arena = test_arena(state);
     Text text = {.arena = &arena};
     text_format(&text, "%d", 1);
     const char *place = text.data;
@@ -20,9 +19,8 @@ TEST(a_text_grows_where_it_stands)
     assert_string_equal(text.data + 99992, "123456789");
 }
 
-TEST(a_text_moves_when_something_lies_behind_it)
+ARENA_TEST(a_text_moves_when_something_lies_behind_it)
 {
-    Arena arena = test_arena(state);
     Text a = {.arena = &arena}, b = {.arena = &arena};
     char line[3001];
     memset(line, 'x', 3000);
@@ -39,27 +37,24 @@ TEST(a_text_moves_when_something_lies_behind_it)
     assert_int_equal(strspn(b.data, "x"), b.size);
 }
 
-TEST(a_text_becomes_a_file)
+ARENA_TEST(a_text_becomes_a_file)
 {
-    Arena arena = test_arena(state);
     Text      text = {.arena = &arena};
     FileBytes bytes;
-    Error     err;
     const char *path = in_folder("text");
-    assert_true(text_write(&text, path, &err));
-    assert_true(file_read(path, 100, &arena, &bytes, &err));
+    assert_done(text_write(&text, path, &err));
+    assert_done(file_read(path, 100, &arena, &bytes, &err));
     assert_int_equal(bytes.size, 0);
     text_add(&text, "line\n");
-    assert_true(text_write(&text, path, &err));
-    assert_true(file_read(path, 100, &arena, &bytes, &err));
+    assert_done(text_write(&text, path, &err));
+    assert_done(file_read(path, 100, &arena, &bytes, &err));
     assert_string_equal((const char *)bytes.data, "line\n");
     unlink(path);
-    assert_false(text_write(&text, "/nowhere/at/all", &err));
+    assert_false(text_write(&text, "/nowhere/at/all", why()));
 }
 
-TEST(texts_are_escaped)
+ARENA_TEST(texts_are_escaped)
 {
-    Arena arena = test_arena(state);
     Text text = {.arena = &arena};
     escape_markup(&text, "a<b>&\"c'");
     escape_markup(&text, NULL);
@@ -70,9 +65,8 @@ TEST(texts_are_escaped)
 }
 
 /* Names of files may be anything; cairo and a browser want UTF-8. */
-TEST(names_become_utf8)
+ARENA_TEST(names_become_utf8)
 {
-    Arena arena = test_arena(state);
     assert_string_equal(utf8_replace("display é µ ₂ 𝄞.panel", &arena), "display é µ ₂ 𝄞.panel");
     assert_string_equal(utf8_replace("a\xff\xc3(\xe2\x82" "b\n\xc0\x80", &arena),
                         "a?\?(?\?b???");
@@ -97,27 +91,23 @@ TEST(characters_make_the_round_trip)
 
 TEST(any_text_becomes_json)
 {
-    json_t *good = json_text("é"), *bad = json_text("a\xc3\xa9\xff");
+    json_auto_t *good = json_text("é"), *bad = json_text("a\xc3\xa9\xff");
     assert_string_equal(json_string_value(good), "é");
     assert_string_equal(json_string_value(bad), "a???");
-    json_decref(good);
-    json_decref(bad);
 }
 
 /* RFC 4648, section 10. */
-TEST(base64_makes_the_round_trip)
+ARENA_TEST(base64_makes_the_round_trip)
 {
-    Arena arena = test_arena(state);
     static const char *const DIGITS[] = {"",         "Zg==",     "Zm8=",    "Zm9v",
                                          "Zm9vYg==", "Zm9vYmE=", "Zm9vYmFy"};
     for (size_t i = 0; i < 7; i++) {
         Text          text = {.arena = &arena};
         unsigned char bytes[8];
         size_t        size;
-        Error         err;
         base64_encode(&text, "foobar", i);
         assert_string_equal(text.data, DIGITS[i]);
-        assert_true(base64_decode(text.data, text.size, bytes, &size, &err));
+        assert_done(base64_decode(text.data, text.size, bytes, &size, &err));
         assert_int_equal(size, i);
         assert_memory_equal(bytes, "foobar", i);
     }

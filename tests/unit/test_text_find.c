@@ -15,9 +15,7 @@ static Proposals proposals_in(Easel *easel, const Image *content, const double u
 {
     ContentLight light;
     Proposals    found;
-    Error        err = {0};
-    if (!content_light(easel->panel, content, uv, &easel->arena, &light, &err))
-        fail_msg("%s", err.text);
+    assert_done(content_light(easel->panel, content, uv, &easel->arena, &light, &err));
     found.count = text_find(&light, most, &easel->arena, &found.list);
     return found;
 }
@@ -27,10 +25,8 @@ static const double ALL[4] = {0, 0, 1, 1};
 static Image content_of(Easel *easel, const char *name)
 {
     Image image;
-    Error err = {0};
-    if (!image_read(arena_format(&easel->arena, PROJECT_DIR "/assets/content/%s", name),
-                    &easel->arena, &image, &err))
-        fail_msg("%s: %s", err.file, err.text);
+    assert_done(image_read(arena_format(&easel->arena, PROJECT_DIR "/assets/content/%s", name),
+                           &easel->arena, &image, &err));
     return image;
 }
 
@@ -66,9 +62,8 @@ static void add_word(Boxes *boxes, double x, double y, double height, int letter
     }
 }
 
-TEST(words_are_proposed_tallest_first)
+EASEL_TEST(words_are_proposed_tallest_first)
 {
-    Easel *easel = *state;
     for (int polarity = 0; polarity < 2; polarity++) {
         Boxes boxes = {0};
         const double ink_ground[2][2] = {{0.8, 0.05}, {0.05, 0.8}};
@@ -92,9 +87,8 @@ TEST(words_are_proposed_tallest_first)
 }
 
 /* Of a rectangle the proposals lie in the whole content's uv. */
-TEST(a_rectangle_has_its_own_texts_alone)
+EASEL_TEST(a_rectangle_has_its_own_texts_alone)
 {
-    Easel *easel = *state;
     Boxes  boxes = {0};
     const double ink_ground[2] = {1, 0}, left_half[4] = {0, 0, 0.35, 1};
     add_word(&boxes, 20, 30, 20, 2);
@@ -104,7 +98,6 @@ TEST(a_rectangle_has_its_own_texts_alone)
     assert_int_equal(found.count, 1);
     const double small[2][4] = {{20, 30, 53, 50}, {14, 24, 59, 56}};
     assert_int_equal(place_of(&found, &image, small[0], small[1]), 0);
-    easel->arena = easel->fresh;
 }
 
 static void add_frame(Boxes *boxes, double left, double top, double right, double bottom)
@@ -118,9 +111,8 @@ static void add_frame(Boxes *boxes, double left, double top, double right, doubl
 
 /* Two buttons beside each other: their frames, and the grounds within, would be lines of two
  * large letters. */
-TEST(words_win_over_the_frames_about_them)
+EASEL_TEST(words_win_over_the_frames_about_them)
 {
-    Easel *easel = *state;
     Boxes  boxes = {0};
     const double ink_ground[2] = {1, 0};
     add_frame(&boxes, 40, 80, 190, 150);
@@ -135,12 +127,10 @@ TEST(words_win_over_the_frames_about_them)
         const double word[2][4] = {{x, 100, x + 103, 130}, {x - 8, 92, x + 111, 138}};
         assert_int_equal(place_of(&found, &image, word[0], word[1]), i);
     }
-    easel->arena = easel->fresh;
 }
 
-TEST(a_point_belongs_to_its_number)
+EASEL_TEST(a_point_belongs_to_its_number)
 {
-    Easel *easel = *state;
     Boxes  boxes = {2, {{160, 134, 166, 140}, {250, 134, 256, 140}}}; /* near; far away */
     const double ink_ground[2] = {1, 0};
     add_word(&boxes, 80, 100, 40, 2);
@@ -150,7 +140,6 @@ TEST(a_point_belongs_to_its_number)
     assert_int_equal(found.count, 1);
     assert_int_equal(found.list[0].characters, 2);
     assert_int_equal(place_of(&found, &image, number[0], number[1]), 0);
-    easel->arena = easel->fresh;
 }
 
 /* Two zeros of 24 x 40 with strokes of 8, on a ground that is darkest inside them. */
@@ -162,16 +151,14 @@ static double zeros(const void *drawing, int x, int y)
     return in_x >= 8 && in_x < 16 && in_y >= 8 && in_y < 32 ? 0 : 1;
 }
 
-TEST(the_holes_of_letters_are_no_text)
+EASEL_TEST(the_holes_of_letters_are_no_text)
 {
-    Easel *easel = *state;
     const double ink_ground[2] = {1, 0};
     Image     image = easel_draw(easel, 300, 200, ink_ground, zeros, NULL);
     Proposals found = proposals_in(easel, &image, ALL, MOST);
     assert_int_equal(found.count, 1);
     assert_true(found.list[0].is_light_on_dark);
     assert_int_equal(found.list[0].height_px, 40);
-    easel->arena = easel->fresh;
 }
 
 /* A word of 2 % of the light of the brightest thing there. */
@@ -193,9 +180,8 @@ static double nothing(const void *drawing, int x, int y)
     return 0 * (x + y);
 }
 
-TEST(where_there_is_no_text_none_is_proposed)
+EASEL_TEST(where_there_is_no_text_none_is_proposed)
 {
-    Easel *easel = *state;
     const double ink_ground[2] = {1, 0};
     Image image = easel_draw(easel, 300, 200, ink_ground, slope, NULL);
     assert_int_equal(proposals_in(easel, &image, ALL, MOST).count, 0);
@@ -206,7 +192,6 @@ TEST(where_there_is_no_text_none_is_proposed)
     image = easel_draw(easel, 300, 200, ink_ground, nothing, NULL);
     assert_int_equal(proposals_in(easel, &image, ALL, MOST).count, 0);
     assert_int_equal(proposals_in(easel, NULL, ALL, MOST).count, 0);
-    easel->arena = easel->fresh;
 }
 
 /* ---- shipped contents -------------------------------------------------------------------- */
@@ -231,9 +216,8 @@ static const Readable READABLE[] = {
     {"engine.png", {53, 1065, 409, 1093}, true},    /* LDG LT RETRACTED */
 };
 
-TEST(what_the_shipped_contents_say_is_proposed)
+EASEL_TEST(what_the_shipped_contents_say_is_proposed)
 {
-    Easel    *easel = *state;
     Image     image = {0};
     Proposals found = {0};
     for (size_t i = 0; i < sizeof READABLE / sizeof *READABLE; i++) {
@@ -250,12 +234,10 @@ TEST(what_the_shipped_contents_say_is_proposed)
         if (at < 0) fail_msg("%s: nothing at %g, %g", r->content, r->box[0], r->box[1]);
         assert_true(found.list[at].is_light_on_dark == r->is_light_on_dark);
     }
-    easel->arena = easel->fresh;
 }
 
-TEST(the_same_content_gives_the_same_list)
+EASEL_TEST(the_same_content_gives_the_same_list)
 {
-    Easel *easel = *state;
     Image     image = content_of(easel, "cluster.png");
     Proposals a = proposals_in(easel, &image, ALL, MOST);
     Proposals b = proposals_in(easel, &image, ALL, MOST);
@@ -264,7 +246,6 @@ TEST(the_same_content_gives_the_same_list)
         assert_memory_equal(a.list[i].uv, b.list[i].uv, sizeof a.list[i].uv);
     for (int i = 1; i < a.count; i++)
         assert_true(a.list[i].height_px <= a.list[i - 1].height_px);
-    easel->arena = easel->fresh;
 }
 
 TEST_PROGRAM(easel_open, easel_close)

@@ -1,12 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Twilight: the published illuminances, the laws of its orders, and bent rays. */
-#include "base/units.h"
-#include "fixture.h"
+#include "sky_fixture.h"
 #include "sky/air/bent_ray.h"
-#include "sky/daylight.h"
 #include "sky/air/sphere_light.h"
-
-#define assert_in(value, low, high) assert_true((value) >= (low) && (value) <= (high))
 
 static const Air usual = {1013.25, 1.42, 0.344, 0.1, 1.14, 0.2};
 
@@ -31,16 +27,10 @@ static double published_lx(double altitude_deg)
 static const Daylight *sky_at(double elevation_deg, double altitude_m, double ozone_atm_cm,
                               Arena *arena)
 {
-    Daylight     *out = arena_alloc(arena, sizeof *out, 64, 1);
-    DaylightInput input = daylight_input_default(DAYLIGHT_CLEAR);
-    Error         err;
-    input.has_sun = true;
-    input.threads = 2;
-    input.sun_elevation = radians_from_degrees(elevation_deg);
+    DaylightInput input = sun_at_deg(elevation_deg);
     input.where.altitude_m = altitude_m;
     input.ozone_atm_cm = ozone_atm_cm;
-    assert_true(daylight_build(&input, arena, out, &err));
-    return out;
+    return daylight_of(&input, arena);
 }
 
 static double lux_at(double elevation_deg, Arena scratch)
@@ -53,9 +43,8 @@ static double lux_at(double elevation_deg, Arena scratch)
 /* The lowest of these are darker than published, more than the zenith is darker than measured
  * (below): a part lies with the published curve, one for all air, another with the 0.34 atm
  * cm of ozone. The bounds hold what is stated in atmosphere.h. */
-TEST(twilight_is_as_bright_as_published)
+ARENA_TEST(twilight_is_as_bright_as_published)
 {
-    Arena arena = test_arena(state);
     static const struct {
         double elevation_deg, low, high;
     } cases[] = {{0, 0.75, 1.25}, {-3, 0.75, 1.25}, {-6, 0.75, 1.25}, {-9, 0.75, 1.25},
@@ -82,9 +71,8 @@ static double measured_zenith_cd_m2(double elevation_deg)
 }
 
 /* Under the ozone of that place, a quarter less than the usual. */
-TEST(the_zenith_is_as_bright_as_measured)
+ARENA_TEST(the_zenith_is_as_bright_as_measured)
 {
-    Arena arena = test_arena(state);
     static const struct {
         double elevation_deg, low, high;
     } cases[] = {{-6, 0.9, 1.1}, {-9, 0.75, 0.9}, {-12, 0.67, 0.82}};
@@ -101,9 +89,8 @@ TEST(the_zenith_is_as_bright_as_measured)
 
 /* Also where twilight's own light takes over, at -2 and -4 degrees: a hair's breadth of the
  * sun's way is one of its light. */
-TEST(twilight_falls_without_a_step)
+ARENA_TEST(twilight_falls_without_a_step)
 {
-    Arena arena = test_arena(state);
     for (int deg = -4; deg <= -2; deg += 2) {
         double before = lux_at(deg + 1e-4, arena), after = lux_at(deg - 1e-4, arena);
         assert_in(after / before, 0.999, 1 - 1e-5);
@@ -112,18 +99,16 @@ TEST(twilight_falls_without_a_step)
 
 /* The blue hour is the ozone's: its Chappuis bands take the red out of the long way through the
  * stratosphere. */
-TEST(ozone_makes_the_hour_blue)
+ARENA_TEST(ozone_makes_the_hour_blue)
 {
-    Arena arena = test_arena(state);
     const Daylight *with = sky_at(-6, 0, 0.34, &arena), *without = sky_at(-6, 0, 0, &arena);
     assert_in(with->metrics.zenith_xy[0], 0.2, 0.27); /* the white point's: 0.31 */
     assert_true(with->metrics.zenith_xy[0] < without->metrics.zenith_xy[0] - 0.02);
     assert_true(with->metrics.diffuse_horizontal_lx < without->metrics.diffuse_horizontal_lx);
 }
 
-TEST(the_glow_stands_over_the_sun_also_for_an_airliner)
+ARENA_TEST(the_glow_stands_over_the_sun_also_for_an_airliner)
 {
-    Arena arena = test_arena(state);
     const Daylight *sky = sky_at(-7, 11000, 0.34, &arena);
     float low = (float)radians_from_degrees(5), before = 1e9f;
     for (int i = 0; i <= 6; i++) {
@@ -152,9 +137,8 @@ static void make_case(Case *c, double sun_zenith_deg, int orders, Arena *arena)
                              radians_from_degrees(1.5), 10, orders, 2};
 }
 
-TEST(each_order_adds_less_and_the_sum_is_reached)
+ARENA_TEST(each_order_adds_less_and_the_sum_is_reached)
 {
-    Arena        arena = test_arena(state);
     Case         c;
     DiffuseLight light[10];
     float        sum[5] = {0};
@@ -176,9 +160,8 @@ TEST(each_order_adds_less_and_the_sum_is_reached)
 }
 
 /* Under a sun that stands high enough flat layers are right, and the sphere agrees. */
-TEST(by_day_the_sphere_is_flat)
+ARENA_TEST(by_day_the_sphere_is_flat)
 {
-    Arena        arena = test_arena(state);
     Case         c;
     DiffuseLight sphere[10], flat;
     make_case(&c, 60, 0, &arena);
@@ -191,9 +174,8 @@ TEST(by_day_the_sphere_is_flat)
 
 /* ---- bent rays --------------------------------------------------------------------------- */
 
-TEST(the_horizon_is_lifted_by_half_a_degree)
+ARENA_TEST(the_horizon_is_lifted_by_half_a_degree)
 {
-    Arena     arena = test_arena(state);
     AirOptics optics = air_optics(&usual);
     BentAir   air = bent_air_build(&optics, &arena);
     double    column[AIR_PARTS], straight[AIR_PARTS];
@@ -207,9 +189,8 @@ TEST(the_horizon_is_lifted_by_half_a_degree)
 }
 
 /* A ray past the limb turns twice as far as one that ends there. */
-TEST(a_grazing_ray_turns_twice)
+ARENA_TEST(a_grazing_ray_turns_twice)
 {
-    Arena     arena = test_arena(state);
     AirOptics optics = air_optics(&usual);
     optics.top_m = AIR_HIGHEST_TOP_M;
     BentAir   air = bent_air_build(&optics, &arena);
@@ -222,9 +203,8 @@ TEST(a_grazing_ray_turns_twice)
 
 /* Bending moves light and makes none: over the whole sphere at a height, what passes through it
  * is what falls on the disc of its shadow (clear of the floor, without extinction). */
-TEST(bending_keeps_the_light)
+ARENA_TEST(bending_keeps_the_light)
 {
-    Arena     arena = test_arena(state);
     Air       none = usual;
     BeamTable bent;
     Spectrum  at;

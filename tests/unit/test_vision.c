@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* The formulas of the eye: published values, and laws. */
-#include "check.h"
+#include "fixture.h"
 
 #include <string.h>
 
@@ -336,10 +336,9 @@ TEST(grey_steps_keep_their_range)
 TEST(eyes_are_read)
 {
     HumanEye eye = {0, 0};
-    Error    err = {0};
-    assert_true(human_eye_parse("60", &eye, &err));
+    assert_done(human_eye_parse("60", &eye, &err));
     assert_true(eye.age_years == 60 && eye.pigment == HUMAN_EYE_PIGMENT_USUAL);
-    assert_true(human_eye_parse("24.5,1.2", &eye, &err));
+    assert_done(human_eye_parse("24.5,1.2", &eye, &err));
     assert_true(eye.age_years == 24.5 && eye.pigment == 1.2);
 }
 
@@ -350,12 +349,11 @@ TEST(what_is_no_eye_is_refused)
                                         "+40"};
     for (int i = 0; i < COUNT_OF(WRONG); i++) {
         HumanEye eye = {1, 2};
-        Error    err = {0};
-        assert_false(human_eye_parse(WRONG[i], &eye, &err));
+        assert_false(human_eye_parse(WRONG[i], &eye, why()));
         assert_true(eye.age_years == 1 && eye.pigment == 2);
-        assert_int_equal(err.code, ERROR_USAGE);
-        assert_true(strstr(err.text, WRONG[i]) == err.text);
-        assert_non_null(strstr(err.text, "wanted AGE or AGE,PIGMENT: 10 to 100 years"));
+        assert_int_equal(why()->code, ERROR_USAGE);
+        assert_true(strstr(why()->text, WRONG[i]) == why()->text);
+        assert_non_null(strstr(why()->text, "wanted AGE or AGE,PIGMENT: 10 to 100 years"));
     }
 }
 

@@ -88,9 +88,8 @@ static const char *make_file(const Made *made)
 
 static WeatherClock clock_of(const Made *made, const double *given_h, Arena *arena, Weather *w)
 {
-    Error       err;
     const char *name = make_file(made);
-    if (!weather_read(name, arena, w, &err)) fail_msg("%s", err.text);
+    assert_done(weather_read(name, arena, w, &err));
     unlink(name);
     return weather_clock_find(w, given_h, *arena);
 }
@@ -145,9 +144,8 @@ TEST(a_file_tells_the_instants_of_its_rows)
     }
 }
 
-TEST(a_file_that_closes_nowhere_is_told)
+ARENA_TEST(a_file_that_closes_nowhere_is_told)
 {
-    Arena        arena = test_arena(state);
     Weather      w;
     Made         made = {"broken", 48, 11, 1, .is_broken = true};
     WeatherClock clock = clock_of(&made, NULL, &arena, &w);
@@ -160,9 +158,8 @@ TEST(a_file_that_closes_nowhere_is_told)
     assert_near(clock.offset_h, 0.1761, 1e-9);
 }
 
-TEST(too_few_rows_tell_nothing)
+ARENA_TEST(too_few_rows_tell_nothing)
 {
-    Arena        arena = test_arena(state);
     Weather      w;
     Made         made = {"short", 48, 11, 1, .offset_h = -1, .day_step = 31, .hours_of_day = 7};
     WeatherClock clock = clock_of(&made, NULL, &arena, &w);
@@ -171,9 +168,8 @@ TEST(too_few_rows_tell_nothing)
     assert_int_equal(clock.source, WEATHER_CLOCK_MEANS);
 }
 
-TEST(the_users_offset_wins_and_its_closure_is_told)
+ARENA_TEST(the_users_offset_wins_and_its_closure_is_told)
 {
-    Arena        arena = test_arena(state);
     Weather      w;
     Made         made = {"given", 48, 11, 1, .offset_h = 0};
     double       given = -0.25;
@@ -188,8 +184,7 @@ TEST(the_users_offset_wins_and_its_closure_is_told)
 static SkyTime moment(const char *text)
 {
     SkyTime time;
-    Error   err;
-    assert_true(sky_time_parse(text, "", &time, &err));
+    assert_done(sky_time_parse(text, "", &time, &err));
     return time;
 }
 
@@ -201,9 +196,8 @@ static const WeatherHour *row_at(const Weather *w, double offset_h, const char *
     return weather_clock_row(w, &clock, &time, apart_min);
 }
 
-TEST(the_nearest_instant_is_taken_over_days_years_and_zones)
+ARENA_TEST(the_nearest_instant_is_taken_over_days_years_and_zones)
 {
-    Arena   arena = test_arena(state);
     Weather w;
     Made    made = {"year", 48, 11, 1, .day_step = 1};
     const struct {
@@ -238,7 +232,7 @@ TEST(the_nearest_instant_is_taken_over_days_years_and_zones)
     }
 }
 
-TEST(a_leap_day_is_its_own)
+ARENA_TEST(a_leap_day_is_its_own)
 {
     static const char text[] =
         "LOCATION,Leap,-,X,made,1,48,11,1,100\nDATA PERIODS,1,1,Data,Sunday,1/1,12/31\n"
@@ -252,13 +246,11 @@ TEST(a_leap_day_is_its_own)
     } rows[] = {{"2024-02-29T11:30+01:00", 29}, {"2024-02-28T11:30+01:00", 28},
                 {"2025-02-28T11:30+01:00", 28}, {"2025-03-01T11:30+01:00", 1},
                 {"2017-03-01T11:30+01:00", 2},  {"2016-03-01T11:30+01:00", 1}};
-    Arena       arena = test_arena(state);
     Weather     w;
-    Error       err;
     double      apart;
     const char *name = in_folder("leap.epw");
     write_text(name, text);
-    assert_true(weather_read(name, &arena, &w, &err));
+    assert_done(weather_read(name, &arena, &w, &err));
     unlink(name);
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         const WeatherHour *hour = row_at(&w, -0.5, rows[i].when, &apart);
@@ -286,28 +278,25 @@ static void assert_all_make_skies(const Weather *w, const WeatherClock *clock, i
             input.direct_w_m2 = hour->direct_normal_w_m2;
             input.diffuse_w_m2 = hour->diffuse_horizontal_w_m2;
             SkyShape   shape;
-            Error      err;
             SunPosition p = sun_position(sky_julian_day(&input.when), 67, &w->place);
             PerezInput perez = {fmin(1.569, PI / 2 - radians_from_degrees(p.elevation_deg)),
                                 input.direct_w_m2, input.diffuse_w_m2, 80};
             assert_true(p.elevation_deg > -4 || k);
-            if (!sky_shape_perez(&perez, &shape, NULL, &err)) fail_msg("%s", err.text);
+            assert_done(sky_shape_perez(&perez, &shape, NULL, &err));
             assert_true(shape.b <= 0 && sky_shape_integral(&shape, perez.sun_zenith, 20) > 0);
         }
     }
 }
 
-TEST(every_lit_row_of_a_real_year_makes_a_sky)
+ARENA_TEST(every_lit_row_of_a_real_year_makes_a_sky)
 {
-    Arena   arena = test_arena(state);
     Weather w;
-    Error   err;
     const char *file = SHARED_DATA_DIR "/solar/NLD_Amsterdam062400_IWEC.epw";
     if (access(file, R_OK)) {
         print_message("skipped: no shared data\n");
         skip();
     }
-    assert_true(weather_read(file, &arena, &w, &err));
+    assert_done(weather_read(file, &arena, &w, &err));
     WeatherClock clock = weather_clock_find(&w, NULL, arena);
     printf("Amsterdam: %+.2f h by %s, closes to %.2f W/m2 of %.0f\n", clock.offset_h,
            weather_clock_source_text(clock.source), clock.closure_w_m2, clock.mean_global_w_m2);
@@ -317,11 +306,9 @@ TEST(every_lit_row_of_a_real_year_makes_a_sky)
     assert_all_make_skies(&w, &clock, 7);
 }
 
-TEST(a_sun_about_to_rise_has_a_perez_sky_without_direct_light)
+ARENA_TEST(a_sun_about_to_rise_has_a_perez_sky_without_direct_light)
 {
-    Arena     arena = test_arena(state);
     Daylight *out = arena_alloc(&arena, sizeof *out, 64, 1);
-    Error     err;
     double    before = 0;
     for (int i = 0; i <= 12; i++) {
         DaylightInput input = daylight_input_default(DAYLIGHT_PEREZ);
@@ -329,7 +316,7 @@ TEST(a_sun_about_to_rise_has_a_perez_sky_without_direct_light)
         input.sun_elevation = radians_from_degrees(-3.9 + 0.5 * i);
         input.direct_w_m2 = 40;
         input.diffuse_w_m2 = 9;
-        if (!daylight_build(&input, &arena, out, &err)) fail_msg("%s", err.text);
+        assert_done(daylight_build(&input, &arena, out, &err));
         bool is_up = -3.9 + 0.5 * i > -0.27;
         assert_int_equal(out->metrics.direct_normal_w_m2 > 0, is_up);
         assert_int_equal(out->metrics.direct_normal_lx > 0, is_up);
