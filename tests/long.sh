@@ -59,6 +59,14 @@ beams()
     units .build/release -R '^panel_beam$'
 }
 
+# laws: of every surface model at every eye
+laws()
+{
+    PARHELION_LAWS=all
+    export PARHELION_LAWS
+    units .build/release -R '^shaders(_glass)?$'
+}
+
 export UBSAN_OPTIONS=print_stacktrace=1
 export TSAN_OPTIONS=ignore_noninstrumented_modules=1
 
@@ -66,6 +74,8 @@ export TSAN_OPTIONS=ignore_noninstrumented_modules=1
 needs 'release all'
 of "$panels tests/unit"
 run 'every narrow beam' beams-long beams
+of "$light tests/unit"
+run 'laws of surface models at every eye' laws-long laws
 of "$tables tests/bench"
 for share in 1 2 3; do
     start "what grids can see of a panel, $share of 3" panel-coarse-$share \
