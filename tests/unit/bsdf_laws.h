@@ -149,7 +149,7 @@ static double integrate_cell(const Model *model, Vec3 wo, const Chart *chart, in
     static const int fine[] = {4, 8, 16, 40}, turns[] = {9, 18, 36, 72};
     bool   is_narrow = fabsf(wo.z) < 0.1f || model->width < 0.03f;
     int    last = is_narrow ? 3 : 2;
-    double sum = gauss_cell(model, wo, chart, cell, 6);
+    double sum = is_narrow ? 0 : gauss_cell(model, wo, chart, cell, 6);
     if (!is_narrow && agree(sum, gauss_cell(model, wo, chart, cell, 4))) return sum;
     sum = 0;
     for (int level = 0; level <= last; level++) {
