@@ -1,35 +1,20 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "draco/draco_mesh.h"
 
+#include "guarded.hpp"
+
 #include <draco/compression/decode.h>
 #include <draco/core/varint_decoding.h>
 #include <draco/metadata/metadata_decoder.h>
 
 #include <cstring>
-#include <exception>
 #include <memory>
-#include <new>
 
 struct DracoMesh {
     std::unique_ptr<draco::Mesh> mesh;
 };
 
 namespace {
-
-/* No exception crosses into C, and none loses its message on the way. */
-template <typename Body>
-bool guarded(Error *err, Body body) noexcept
-{
-    try {
-        return body();
-    } catch (const std::bad_alloc &) {
-        return error_set(err, ERROR_MEMORY, "unpacking a mesh: out of memory");
-    } catch (const std::exception &e) {
-        return error_set(err, ERROR_LIBRARY, "unpacking a mesh: %s", e.what());
-    } catch (...) {
-        return error_set(err, ERROR_LIBRARY, "unpacking a mesh: unknown C++ exception");
-    }
-}
 
 struct Counts {
     uint32_t triangles, vertices; /* the latter before seams double some */
@@ -99,7 +84,7 @@ bool convert_to(int component_type, const draco::Mesh &mesh,
 extern "C" bool draco_mesh_decode(const void *bytes, size_t size, size_t most_triangles,
                                   size_t most_vertices, DracoMesh **out, Error *err)
 {
-    return guarded(err, [&] {
+    return guarded(err, ERROR_LIBRARY, "unpacking a mesh", [&] {
         Counts counts = {0, 0};
         draco::DecoderBuffer beginning, all;
         beginning.Init(static_cast<const char *>(bytes), size);
@@ -148,7 +133,7 @@ extern "C" bool draco_mesh_corners(const DracoMesh *mesh, uint32_t *out, Error *
 extern "C" bool draco_mesh_values(const DracoMesh *mesh, uint32_t id, int component_type,
                                   int components, void *out, Error *err)
 {
-    return guarded(err, [&] {
+    return guarded(err, ERROR_LIBRARY, "unpacking a mesh", [&] {
         const draco::PointAttribute *attribute = mesh->mesh->GetAttributeByUniqueId(id);
         if (!attribute)
             return error_set(err, ERROR_INPUT, "the packed mesh has no attribute %u", id);

@@ -1,13 +1,15 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "opencolorio/view_transform.h"
 
+#include "guarded.hpp"
+
 #include <OpenColorIO/OpenColorIO.h>
 
 #include <algorithm>
-#include <exception>
 #include <memory>
 #include <sstream>
 #include <string>
+#include <vector>
 
 namespace OCIO = OCIO_NAMESPACE;
 
@@ -21,32 +23,11 @@ std::string one_line(std::string text)
     return text;
 }
 
-/* No exception crosses into C, and none loses its message on the way. */
-template <typename Body>
-bool guarded(Error *err, ErrorCode code, const char *doing, Body body) noexcept
-{
-    try {
-        return body();
-    } catch (const std::bad_alloc &) {
-        return error_set(err, ERROR_MEMORY, "%s: out of memory", doing);
-    } catch (const std::exception &e) {
-        return error_set(err, code, "%s: %s", doing, one_line(e.what()).c_str());
-    } catch (...) {
-        return error_set(err, code, "%s: unknown C++ exception", doing);
-    }
-}
-
 OCIO::ConstConfigRcPtr load(const ViewRequest *request)
 {
     if (request->config_path) return OCIO::Config::CreateFromFile(request->config_path);
     std::istringstream text(request->own_config);
     return OCIO::Config::CreateFromStream(text);
-}
-
-/* The library prints warnings to stderr by itself otherwise; they belong to no one there. */
-void keep_quiet()
-{
-    OCIO::SetLoggingLevel(OCIO::LOGGING_LEVEL_NONE);
 }
 
 } // namespace
@@ -58,50 +39,49 @@ struct ViewTransform {
     std::string                  description, display, view;
 };
 
-static std::string displays_of(const OCIO::ConstConfigRcPtr &config)
+using Names = std::vector<std::string>;
+
+static Names displays_of(const OCIO::ConstConfigRcPtr &config)
 {
-    std::string names;
-    for (int i = 0; i < config->getNumDisplays(); i++)
-        names += (i ? ", " : "") + std::string(config->getDisplay(i));
+    Names names;
+    for (int i = 0; i < config->getNumDisplays(); i++) names.push_back(config->getDisplay(i));
     return names;
 }
 
-static std::string views_of(const OCIO::ConstConfigRcPtr &config, const char *display)
+static Names views_of(const OCIO::ConstConfigRcPtr &config, const char *display)
 {
-    std::string names;
+    Names names;
     for (int i = 0; i < config->getNumViews(display); i++)
-        names += (i ? ", " : "") + std::string(config->getView(display, i));
+        names.push_back(config->getView(display, i));
     return names;
 }
 
-static bool has_display(const OCIO::ConstConfigRcPtr &config, const std::string &display)
+static bool have(const Names &names, const std::string &name)
 {
-    for (int i = 0; i < config->getNumDisplays(); i++)
-        if (display == config->getDisplay(i)) return true;
-    return false;
+    return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-static bool has_view(const OCIO::ConstConfigRcPtr &config, const char *display,
-                     const std::string &view)
+static std::string listed(const Names &names)
 {
-    for (int i = 0; i < config->getNumViews(display); i++)
-        if (view == config->getView(display, i)) return true;
-    return false;
+    std::string list;
+    for (const std::string &name : names) list += (list.empty() ? "" : ", ") + name;
+    return list;
 }
 
 static bool choose_names(ViewTransform *t, const ViewRequest *request, Error *err)
 {
     t->display = request->display ? request->display : t->config->getDefaultDisplay();
-    if (!has_display(t->config, t->display)) {
+    Names displays = displays_of(t->config);
+    if (!have(displays, t->display)) {
         return error_set(err, ERROR_USAGE, "display \"%s\" is not in %s, which has: %s",
-                         t->display.c_str(), t->description.c_str(),
-                         displays_of(t->config).c_str());
+                         t->display.c_str(), t->description.c_str(), listed(displays).c_str());
     }
     const char *display = t->display.c_str();
     t->view = request->view ? request->view : t->config->getDefaultView(display);
-    if (has_view(t->config, display, t->view)) return true;
+    Names views = views_of(t->config, display);
+    if (have(views, t->view)) return true;
     return error_set(err, ERROR_USAGE, "view \"%s\" is not among those of display \"%s\": %s",
-                     t->view.c_str(), display, views_of(t->config, display).c_str());
+                     t->view.c_str(), display, listed(views).c_str());
 }
 
 /* The space of a user's configuration that light enters by, "" if there is none; *own_name is
@@ -149,7 +129,8 @@ static std::string describe(const OCIO::ConstConfigRcPtr &config, const char *pa
 
 bool view_transform_create(const ViewRequest *request, ViewTransform **out, Error *err)
 {
-    keep_quiet();
+    /* The library would print warnings to stderr by itself; they belong to no one there. */
+    OCIO::SetLoggingLevel(OCIO::LOGGING_LEVEL_NONE);
     bool ok = guarded(err, ERROR_INPUT, "OpenColorIO configuration", [&] {
         auto t = std::make_unique<ViewTransform>();
         t->config = load(request);
@@ -159,7 +140,7 @@ bool view_transform_create(const ViewRequest *request, ViewTransform **out, Erro
             return false;
         *out = t.release();
         return true;
-    });
+    }, one_line);
     if (!ok && request->config_path && err->code != ERROR_USAGE)
         error_in_file(err, request->config_path);
     return ok;
@@ -189,7 +170,7 @@ bool view_transform_apply(const ViewTransform *transform, float *rgb, size_t pix
         if (transform->to_config) transform->to_config->apply(pixels);
         transform->to_display->apply(pixels);
         return true;
-    });
+    }, one_line);
 }
 
 void view_transform_destroy(ViewTransform *transform)

@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 
 #include "base/file.h"
+#include "guarded.hpp"
 #include "openexr/exr_header.h"
 #include "openexr/memory_stream.hpp"
 
@@ -26,7 +27,6 @@
 #include <OpenEXR/OpenEXRConfig.h>
 
 #include <algorithm>
-#include <exception>
 #include <memory>
 #include <string>
 #include <thread>
@@ -43,21 +43,6 @@ std::string one_line(std::string text)
 {
     std::replace(text.begin(), text.end(), '\n', ' ');
     return text;
-}
-
-/* No exception crosses into C, and none loses its message on the way. */
-template <typename Body>
-bool guarded(Error *err, ErrorCode code, const char *doing, Body body) noexcept
-{
-    try {
-        return body();
-    } catch (const std::bad_alloc &) {
-        return error_set(err, ERROR_MEMORY, "%s: out of memory", doing);
-    } catch (const std::exception &e) {
-        return error_set(err, code, "%s: %s", doing, one_line(e.what()).c_str());
-    } catch (...) {
-        return error_set(err, code, "%s: unknown C++ exception", doing);
-    }
 }
 
 /* 0: this thread alone, which is also what a single processor does best. */
@@ -236,32 +221,36 @@ static bool check_file(const char *path, Error *err)
     return ok;
 }
 
+/* open: sets the reader's file. */
+template <typename OpenFile>
+static bool make_reader(OpenFile open, ExrReader **out, Error *err)
+{
+    return guarded(err, ERROR_INPUT, DAMAGED, [&] {
+        set_limits();
+        auto reader = std::make_unique<ExrReader>();
+        open(reader.get());
+        if (!describe(reader.get(), err)) return false;
+        *out = reader.release();
+        return true;
+    }, one_line);
+}
+
 bool exr_reader_create(const char *name, const void *bytes, size_t size, ExrReader **out,
                        Error *err)
 {
     if (!check_start(bytes, size, size, err)) return false;
-    return guarded(err, ERROR_INPUT, DAMAGED, [&] {
-        set_limits();
-        auto reader = std::make_unique<ExrReader>();
+    return make_reader([&](ExrReader *reader) {
         reader->memory = std::make_unique<MemoryInput>(name, bytes, size);
         reader->file = std::make_unique<Imf::MultiPartInputFile>(*reader->memory, 0, false);
-        if (!describe(reader.get(), err)) return false;
-        *out = reader.release();
-        return true;
-    });
+    }, out, err);
 }
 
 bool exr_reader_open(const char *path, ExrReader **out, Error *err)
 {
     if (!check_file(path, err)) return false;
-    return guarded(err, ERROR_INPUT, DAMAGED, [&] {
-        set_limits();
-        auto reader = std::make_unique<ExrReader>();
+    return make_reader([&](ExrReader *reader) {
         reader->file = std::make_unique<Imf::MultiPartInputFile>(path, coding_threads(), false);
-        if (!describe(reader.get(), err)) return false;
-        *out = reader.release();
-        return true;
-    });
+    }, out, err);
 }
 
 const ExrPicture *exr_reader_picture(const ExrReader *reader)
@@ -295,7 +284,7 @@ bool exr_reader_read(ExrReader *reader, float *const *planes, Error *err)
                             [](float v) { return v >= NONE_FROM_FILE; }, -1.0f);
         }
         return true;
-    });
+    }, one_line);
 }
 
 /* ---- words ------------------------------------------------------------------------------- */
@@ -339,7 +328,7 @@ bool exr_reader_words(ExrReader *reader, const char *name, const ExrWords **out,
         if (is_there && !describe_words(reader, part, err)) return false;
         *out = is_there ? &reader->words : nullptr;
         return true;
-    });
+    }, one_line);
 }
 
 /* A slice of a frame buffer for rows y0 and on of the words' part: word i of `count`. */
@@ -368,7 +357,7 @@ bool exr_reader_read_words(ExrReader *reader, const ExrWords *wanted, int y0, in
         part.setFrameBuffer(buffer);
         part.readPixels(y0, y1 - 1);
         return true;
-    });
+    }, one_line);
 }
 
 void exr_reader_destroy(ExrReader *reader)
@@ -477,7 +466,7 @@ bool exr_encode(const ExrPicture *p, ExrBytes **out, Error *err)
         else write_picture(*p, &stream);
         *out = encoded.release();
         return true;
-    });
+    }, one_line);
 }
 
 const void *exr_bytes(const ExrBytes *encoded, size_t *size)

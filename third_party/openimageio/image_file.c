@@ -66,7 +66,6 @@ static const ImageFileModule *loaded(void)
     return load(&never);
 }
 
-
 ImageFileInfo image_decoder_info(const ImageDecoder *decoder)
 {
     return loaded()->decoder_info(decoder);

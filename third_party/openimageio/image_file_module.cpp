@@ -1,31 +1,17 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "openimageio/image_file_module.h"
 
+#include "guarded.hpp"
+
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
-#include <exception>
 #include <memory>
 #include <string>
 #include <vector>
 
 namespace {
-
-/* No exception crosses into C, and none loses its message on the way. */
-template <typename Body>
-bool guarded(Error *err, const char *doing, Body body) noexcept
-{
-    try {
-        return body();
-    } catch (const std::bad_alloc &) {
-        return error_set(err, ERROR_MEMORY, "%s: out of memory", doing);
-    } catch (const std::exception &e) {
-        return error_set(err, ERROR_LIBRARY, "%s: %s", doing, e.what());
-    } catch (...) {
-        return error_set(err, ERROR_LIBRARY, "%s: unknown C++ exception", doing);
-    }
-}
 
 /* The library ends some messages with a newline, and joins several by newlines. */
 std::string one_line(std::string text)
@@ -89,7 +75,7 @@ static bool open_input(ImageDecoder *decoder, const char *format, const char *na
 static bool decoder_create(const char *format, const char *name, const void *bytes, size_t size,
                           ImageDecoder **out, Error *err)
 {
-    return guarded(err, "reading a picture", [&] {
+    return guarded(err, ERROR_LIBRARY, "reading a picture", [&] {
         auto decoder = std::make_unique<ImageDecoder>(bytes, size);
         if (!open_input(decoder.get(), format, name, err)) return false;
         *out = decoder.release();
@@ -104,7 +90,7 @@ static ImageFileInfo decoder_info(const ImageDecoder *decoder)
 
 static bool decoder_read(ImageDecoder *decoder, void *pixels, Error *err)
 {
-    return guarded(err, "reading a picture", [&] {
+    return guarded(err, ERROR_LIBRARY, "reading a picture", [&] {
         const ImageFileInfo &info = decoder->info;
         if (decoder->input->read_image(0, 0, 0, info.channels, library_type(info.type), pixels))
             return true;
@@ -153,7 +139,7 @@ static OIIO::ImageSpec output_spec(const char *format, const ImageToEncode *imag
 static bool encode(const char *format, const ImageToEncode *image, EncodedImage **out,
                   Error *err)
 {
-    return guarded(err, "encoding a picture", [&] {
+    return guarded(err, ERROR_LIBRARY, "encoding a picture", [&] {
         auto encoded = std::make_unique<EncodedImage>();
         OIIO::Filesystem::IOVecOutput sink(encoded->bytes);
         auto output = OIIO::ImageOutput::create(format);

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "tinygltf/gltf_json.h"
 
+#include "guarded.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <exception>
 #include <fstream>
 #include <set>
 #include <string>
@@ -26,20 +27,6 @@
 #pragma GCC diagnostic pop
 
 using Json = nlohmann::json;
-
-/* No exception crosses into C, and none loses its message on the way. */
-template <typename Body> static bool guarded(Error *err, const char *doing, Body body) noexcept
-{
-    try {
-        return body();
-    } catch (const std::bad_alloc &) {
-        return error_set(err, ERROR_MEMORY, "%s: out of memory", doing);
-    } catch (const std::exception &e) {
-        return error_set(err, ERROR_LIBRARY, "%s: %s", doing, e.what());
-    } catch (...) {
-        return error_set(err, ERROR_LIBRARY, "%s: unknown C++ exception", doing);
-    }
-}
 
 template <typename T> static T *arena_array(Arena *arena, size_t count)
 {
@@ -288,12 +275,7 @@ std::string data_document(const GltfValue &root)
 
 GltfBufferView view_from(const tinygltf::BufferView &view)
 {
-    GltfBufferView out{};
-    out.buffer = view.buffer;
-    out.offset = view.byteOffset;
-    out.length = view.byteLength;
-    out.stride = view.byteStride;
-    return out;
+    return {view.buffer, view.byteOffset, view.byteLength, view.byteStride};
 }
 
 GltfAccessor accessor_from(const tinygltf::Accessor &accessor)
@@ -328,7 +310,7 @@ GltfAccessor accessor_from(const tinygltf::Accessor &accessor)
 bool gltf_json_parse(const char *text, size_t size, Arena *arena, const GltfValue **root,
                      Error *err)
 {
-    return guarded(err, "JSON", [&] {
+    return guarded(err, ERROR_LIBRARY, "JSON", [&] {
         TreeBuilder builder(arena, err);
         if (!Json::sax_parse(text, text + size, &builder)) return false;
         GltfValue *value = arena_array<GltfValue>(arena, 1);
@@ -341,7 +323,7 @@ bool gltf_json_parse(const char *text, size_t size, Arena *arena, const GltfValu
 
 bool gltf_json_data(const GltfValue *root, Arena *arena, GltfData *out, Error *err)
 {
-    return guarded(err, "tinygltf", [&] {
+    return guarded(err, ERROR_LIBRARY, "tinygltf", [&] {
         tinygltf::TinyGLTF loader;
         tinygltf::Model model;
         std::string failure, warning, part = data_document(*root);
