@@ -6,6 +6,11 @@
 #include "base/mathd.h"
 #include "base/units.h"
 
+static double fourth_power(double x)
+{
+    return x * x * (x * x);
+}
+
 static bool is_angle(double angle_deg)
 {
     return angle_deg >= 0 && angle_deg <= 90;
@@ -24,7 +29,7 @@ double eye_spread_published(double angle_deg, HumanEye eye)
 {
     if (!is_angle(angle_deg)) return NAN;
     double t = angle_deg, p = eye.pigment;
-    double a = eye.age_years / 70, age = a * a * (a * a);
+    double age = fourth_power(eye.age_years / 70);
     double x = 1 + t / 0.1 * (t / 0.1);
     double core = 9.2e6 * peak(t, 0.0046) + 1.5e5 * peak(t, 0.045);
     double lens = 400 / x + 3e-8 * t * t;
@@ -57,4 +62,33 @@ double eye_spread_spencer(double angle_deg)
     double f1 = 20.91 / (far * far * far);
     double f2 = 72.37 / (far * far);
     return 0.384 * f0 + 0.478 * f1 + 0.138 * f2;
+}
+
+/* ---- veils ------------------------------------------------------------------------------- */
+
+static bool within(double angle, double low, double high)
+{
+    return angle >= low && angle <= high;
+}
+
+double disability_glare(double angle_deg, HumanEye eye)
+{
+    double t = angle_deg, p = eye.pigment;
+    if (!within(t, DISABILITY_GLARE_MIN_DEG, DISABILITY_GLARE_MAX_DEG)) return NAN;
+    double age = 1 + fourth_power(eye.age_years / 62.5);
+    return 10 / (t * t * t) + (5 / (t * t) + 0.1 * p / t) * age + 0.0025 * p;
+}
+
+double disability_glare_small_angle(double angle_deg, double age_years)
+{
+    double t = angle_deg;
+    if (!within(t, DISABILITY_GLARE_MIN_DEG, DISABILITY_GLARE_SMALL_MAX_DEG)) return NAN;
+    return 10 / (t * t * t) + 5 / (t * t) * (1 + fourth_power(age_years / 62.5));
+}
+
+double disability_glare_stiles_holladay(double angle_deg, double age_years)
+{
+    double t = angle_deg;
+    if (!within(t, STILES_HOLLADAY_MIN_DEG, STILES_HOLLADAY_MAX_DEG)) return NAN;
+    return 10 * (1 + fourth_power(age_years / 70)) / (t * t);
 }

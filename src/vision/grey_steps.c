@@ -41,3 +41,13 @@ double grey_steps_between(double one_cd_m2, double other_cd_m2)
 {
     return fabs(grey_steps_of(one_cd_m2) - grey_steps_of(other_cd_m2));
 }
+
+double contrast_sensitivity(double cycles_per_degree, double luminance_cd_m2, double size_deg)
+{
+    double u = cycles_per_degree, l = luminance_cd_m2, x = size_deg;
+    if (!(u > 0 && l > 0 && x > 0)) return NAN;
+    double optics = exp_d(-0.0016 * u * u * pow_d(1 + 100 / l, 0.08));
+    double area = 1 + 144 / (x * x) + 0.64 * u * u;
+    double noise = 63 / pow_d(l, 0.83) - 1 / expm1_d(-0.02 * u * u);
+    return 5200 * optics / sqrt(area * noise);
+}

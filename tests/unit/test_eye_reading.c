@@ -4,9 +4,8 @@
 
 #include "base/units.h"
 #include "review/light/eye_reading.h"
-#include "vision/disability_glare.h"
 #include "vision/discomfort.h"
-#include "vision/position_index.h"
+#include "vision/eye_spread.h"
 #include "world_fixture.h"
 
 static ReviewRequest  request = {.forward = {0, 0, -1}, .observer = {50, 0.5}};

@@ -4,7 +4,7 @@
 
 #include "base/units.h"
 #include "review/run/false_sun_times.h"
-#include "vision/disability_glare.h"
+#include "vision/eye_spread.h"
 #include "world_fixture.h"
 
 #define SIDE_M 0.004 /* of a facet, 0.7 m away */

@@ -2,7 +2,7 @@
 /* Boxes around parts of a scene on the film, against the camera's own rays. */
 #include "check.h"
 
-#include "camera/film_box.h"
+#include "camera/camera.h"
 
 #define PIXELS 1e-3 /* that floats may be off by */
 
@@ -66,7 +66,7 @@ TEST(a_box_ends_where_the_camera_sees_the_corners)
         Vec3     corners[4];
         FilmBox  box;
         quad_at(&camera, wanted, corners);
-        assert_true(film_box_of_part(&camera, scene_of(&all, corners), 0, &box));
+        assert_true(camera_box_of_part(&camera, scene_of(&all, corners), 0, &box));
         assert_box(box, wanted);
     }
 }
@@ -80,7 +80,7 @@ TEST(a_back_has_no_box)
         FilmBox  box;
         quad_at(&camera, (FilmBox){40, 25, 250, 180}, corners);
         Vec3 turned[4] = {corners[3], corners[2], corners[1], corners[0]};
-        assert_false(film_box_of_part(&camera, scene_of(&all, turned), 0, &box));
+        assert_false(camera_box_of_part(&camera, scene_of(&all, turned), 0, &box));
     }
 }
 
@@ -91,10 +91,10 @@ TEST(a_box_ends_with_the_frame)
     Vec3     corners[4];
     FilmBox  box;
     quad_at(&camera, (FilmBox){-90, 100, 100, 500}, corners);
-    assert_true(film_box_of_part(&camera, scene_of(&all, corners), 0, &box));
+    assert_true(camera_box_of_part(&camera, scene_of(&all, corners), 0, &box));
     assert_box(box, (FilmBox){0, 100, 100, 200});
     quad_at(&camera, (FilmBox){330, 20, 400, 90}, corners);
-    assert_false(film_box_of_part(&camera, scene_of(&all, corners), 0, &box));
+    assert_false(camera_box_of_part(&camera, scene_of(&all, corners), 0, &box));
 }
 
 /* A floor from before the eye to behind it, seen from above: a box without what is behind would
@@ -107,13 +107,13 @@ TEST(what_reaches_behind_the_eye_reaches_the_edge_of_the_frame)
     FilmBox     box;
     const Vec3  floor[4] = {{-1, 0, 5}, {1, 0, 5}, {1, 0, -4}, {-1, 0, -4}};
     const Vec3  behind[4] = {{-1, 0, 5}, {1, 0, 5}, {1, 0, 2}, {-1, 0, 2}};
-    assert_true(film_box_of_part(&camera, scene_of(&all, floor), 0, &box));
+    assert_true(camera_box_of_part(&camera, scene_of(&all, floor), 0, &box));
     double horizon = 100 + 100 / tan(0.45) / 4; /* 1 m below the eye, 4 m away */
     assert_near(box.y0, horizon, 10 * PIXELS);
     assert_near(box.y1, 200, PIXELS);
     assert_near(box.x0, 0, PIXELS);
     assert_near(box.x1, 320, PIXELS);
-    assert_false(film_box_of_part(&camera, scene_of(&all, behind), 0, &box));
+    assert_false(camera_box_of_part(&camera, scene_of(&all, behind), 0, &box));
 }
 
 TEST_PROGRAM(NULL, NULL)

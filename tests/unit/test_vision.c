@@ -6,12 +6,9 @@
 
 #include "base/count.h"
 #include "base/units.h"
-#include "vision/contrast_sensitivity.h"
 #include "vision/discomfort.h"
-#include "vision/disability_glare.h"
 #include "vision/eye_spread.h"
 #include "vision/grey_steps.h"
-#include "vision/position_index.h"
 
 /* ---- disability glare -------------------------------------------------------------------- */
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "cli/render/render_live.h"
 
-#include "camera/film_box.h"
+#include "camera/camera.h"
 #include "film/film_frame.h"
 
 #define PICTURE_SHARE 0.004
@@ -49,7 +49,7 @@ void render_live_find_displays(RenderLive *live, const Scene *scene, const Camer
     FilmBox box;
     live->boxes = ARENA_NEW(arena, TevBox, scene->part_count);
     for (int i = 0; i < scene->part_count; i++)
-        if (is_display(scene, i) && film_box_of_part(camera, scene, i, &box))
+        if (is_display(scene, i) && camera_box_of_part(camera, scene, i, &box))
             live->boxes[live->box_count++] =
                 (TevBox){box.x0, box.y0, box.x1 - box.x0, box.y1 - box.y0};
 }

@@ -7,9 +7,8 @@
 #include "base/parallel.h"
 #include "base/units.h"
 #include "review/light/question.h"
-#include "vision/disability_glare.h"
+#include "vision/eye_spread.h"
 #include "vision/discomfort.h"
-#include "vision/position_index.h"
 
 #define PATHS 4096
 #define CHUNK 64

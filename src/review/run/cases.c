@@ -19,7 +19,6 @@
 #include "review/request/request_check.h"
 #include "review/run/causes.h"
 #include "text/text.h"
-#include "vision/contrast_sensitivity.h"
 #include "vision/grey_steps.h"
 
 #define FACE_PRECISION 0.02

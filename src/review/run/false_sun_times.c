@@ -7,7 +7,7 @@
 #include "base/parallel.h"
 #include "base/units.h"
 #include "review/chain/chains.h"
-#include "vision/disability_glare.h"
+#include "vision/eye_spread.h"
 
 #define STEP_MINUTES 1
 #define STEP_DEG 0.25
