@@ -11,12 +11,11 @@
  */
 #pragma once
 #include "shaders/bsdf_model.h"
-#include "shaders/dielectric.h"
+#include "shaders/solid_facet.h"
 #include "shaders/thin_window.h"
 #include "shaders/display.h"
 #include "shaders/glazing.h"
 #include "shaders/metallic_roughness.h"
-#include "shaders/metallic/metallic_view.h"
 
 /* Every model once: MODEL(KIND, name, Parameters) makes the kind BSDF_KIND, the member `name`
  * of Bsdf, and the row of bsdf.c's table for `name_model`, which the model's file defines. */

@@ -42,13 +42,11 @@
  *
  * Not modelled: sheen. A boundary between equal indices, filmed or not, is smooth.
  */
-#include "shaders/dielectric.h"
+#include "shaders/solid_facet.h"
 
 #include "spectrum/fresnel.h"
-#include "shaders/facets/brushed.h"
+#include "shaders/facets/microfacet.h"
 #include "shaders/polarisation.h"
-#include "shaders/solid_facet.h"
-#include "shaders/solid_loss.h"
 
 /* Facets between equal media bend nothing, and would have no half-way normal to be found by. */
 static bool is_delta(const Dielectric *d)
@@ -70,12 +68,6 @@ static inline float facet_pdf(const Dielectric *d, Vec3 wo, Vec3 half)
                            ggx_visible_pdf(wo, half, d->alpha);
 }
 
-static inline Vec3 sample_facet(const Dielectric *d, Vec3 wo, const float u[3])
-{
-    return solid_is_brushed(d) ? brushed_sample_visible(wo, solid_alphas(d), u[0], u[1]) :
-                           ggx_sample_visible(wo, d->alpha, u[0], u[1]);
-}
-
 /* ---- one facet --------------------------------------------------------------------------- */
 
 static Spectrum eval_reflected(const Dielectric *d, const SolidRay *s, float *pdf)
@@ -87,39 +79,41 @@ static Spectrum eval_reflected(const Dielectric *d, const SolidRay *s, float *pd
     return f.reflected * spectrum_all(facets_send(d, s, half));
 }
 
+/* The facet that refracts light from wi to wo; out: wo.h; spread: |wi.h| / (wo.h + eta wi.h)^2.
+ * False: there is none. */
+typedef struct RefractingFacet {
+    Vec3  half;
+    float out, spread;
+} RefractingFacet;
+
+static bool refracting_facet(const SolidRay *s, RefractingFacet *at)
+{
+    at->half = vec3_normalize(vec3_along(s->wo, s->wi, s->eta));
+    if (at->half.z < 0) at->half = vec3_neg(at->half);
+    float in = vec3_dot(s->wi, at->half);
+    at->out = vec3_dot(s->wo, at->half);
+    float root = at->out + s->eta * in;
+    at->spread = -in / (root * root);
+    return at->out > 0 && in < 0 && at->spread <= 3e38f;
+}
+
 /* Walter 2007, equations 16, 17 and 21 for wo + eta wi along the facet's normal, with the
  * factor 1/eta^2 of radiance: f = |wi.h| |wo.h| T G D / (|wo.z| |wi.z| (wo.h + eta wi.h)^2). */
 static Spectrum eval_transmitted(const Dielectric *d, const SolidRay *s, float *pdf)
 {
-    Vec3 half = vec3_normalize(vec3_along(s->wo, s->wi, s->eta));
-    if (half.z < 0) half = vec3_neg(half);
-    float out = vec3_dot(s->wo, half), in = vec3_dot(s->wi, half);
+    RefractingFacet at;
     *pdf = 0;
-    if (!(out > 0 && in < 0)) return spectrum_all(0);
-    float root = out + s->eta * in;
-    float spread = -in / (root * root);
-    if (!(spread <= 3e38f)) return spectrum_all(0);
-    FacetShares f = solid_facet(d, s, out);
-    *pdf = (1 - f.prob) * facet_pdf(d, s->wo, half) * s->eta * s->eta * spread;
+    if (!refracting_facet(s, &at)) return spectrum_all(0);
+    FacetShares f = solid_facet(d, s, at.out);
+    *pdf = (1 - f.prob) * facet_pdf(d, s->wo, at.half) * s->eta * s->eta * at.spread;
     /* facets_send is D G2 / (4 zo zi). */
-    Spectrum lobe = spectrum_all(4 * facets_send(d, s, half));
-    return d->tint * (f.through * lobe * spectrum_all(out) * spectrum_all(spread));
+    Spectrum lobe = spectrum_all(4 * facets_send(d, s, at.half));
+    return d->tint * (f.through * lobe * spectrum_all(at.out) * spectrum_all(at.spread));
 }
 
 static Vec3 turn_back(const SolidRay *s, Vec3 wi)
 {
     return s->turned ? vec3(wi.x, wi.y, -wi.z) : wi;
-}
-
-static void smooth_part(const Dielectric *d, const SolidRay *s, bool reflects,
-                        const FacetShares *f, BsdfSample *sample)
-{
-    float    prob = reflects ? f->prob : 1 - f->prob;
-    Spectrum share = reflects ? f->reflected / spectrum_all(prob) :
-                                f->through / spectrum_all(prob * s->eta * s->eta);
-    *sample = (BsdfSample){.wi = turn_back(s, s->wi), .pdf = prob, .is_delta = true,
-                           .weight = share};
-    if (!reflects) sample->weight *= d->tint;
 }
 
 /* ---- dispersion ------------------------------------------------------------------------- */
@@ -128,7 +122,7 @@ static void smooth_part(const Dielectric *d, const SolidRay *s, bool reflects,
 typedef struct LaneFacets {
     Spectrum chance;   /* of each lane to be drawn */
     Spectrum eta;      /* the other side's index over this side's */
-    Spectrum mirror;   /* Fresnel's share */
+    Spectrum mirror;   /* Fresnel's share, or the film's */
     Spectrum reflects; /* probability of reflection, where the lane is drawn */
     float    behind[SPECTRUM_LANES]; /* cosines of the refracted directions */
 } LaneFacets;
@@ -136,16 +130,6 @@ typedef struct LaneFacets {
 static float lane_reflects(float mirror, float tint)
 {
     return reflect_prob(mirror, (1 - mirror) * tint);
-}
-
-/* The film's shares in place of the bare ones. */
-static void film_lanes(const Dielectric *d, SolidRay s, float cosine, LaneFacets *lanes)
-{
-    for (int i = 0; i < SPECTRUM_LANES; i++) {
-        s.eta = lanes->eta[i];
-        lanes->mirror[i] = solid_filmed_lane(d, &s, i, cosine);
-        lanes->reflects[i] = lane_reflects(lanes->mirror[i], d->tint[i]);
-    }
 }
 
 /* cosine: to the facet. */
@@ -156,11 +140,11 @@ static void meet_lanes(const Dielectric *d, const SolidRay *s, float cosine, Lan
                              spectrum_all(1.0f / SPECTRUM_LANES);
     out->eta = s->turned ? spectrum_all(1) / n : n;
     for (int i = 0; i < SPECTRUM_LANES; i++) {
-        float f = fresnel_mean(fresnel_dielectric(cosine, out->eta[i], &out->behind[i]));
-        out->mirror[i] = f;
-        out->reflects[i] = lane_reflects(f, d->tint[i]);
+        SolidRay own = {.eta = out->eta[i], .turned = s->turned};
+        float f = fresnel_mean(fresnel_dielectric(cosine, own.eta, &out->behind[i]));
+        out->mirror[i] = solid_has_film(d) ? solid_filmed_lane(d, &own, i, cosine) : f;
+        out->reflects[i] = lane_reflects(out->mirror[i], d->tint[i]);
     }
-    if (solid_has_film(d)) film_lanes(d, *s, cosine, out);
 }
 
 /* The lane on whose strip of [0, the sum) the place lies; it becomes the place in that. */
@@ -180,19 +164,15 @@ static int lane_at(Spectrum strips, float *place)
 /* One lane's facet, refracting: f, and the density if that lane is drawn (eval_transmitted). */
 static float lane_transmitted(const Dielectric *d, const SolidRay *s, int lane, float *pdf)
 {
-    Vec3 half = vec3_normalize(vec3_along(s->wo, s->wi, s->eta));
-    if (half.z < 0) half = vec3_neg(half);
-    float out = vec3_dot(s->wo, half), in = vec3_dot(s->wi, half);
+    RefractingFacet at;
+    float           tint = d->tint[lane];
     *pdf = 0;
-    if (!(out > 0 && in < 0)) return 0;
-    float root = out + s->eta * in;
-    float spread = -in / (root * root);
-    if (!(spread <= 3e38f)) return 0;
-    float tint = d->tint[lane];
-    float f = solid_has_film(d) ? solid_filmed_lane(d, s, lane, out) :
-                                  fresnel_unpolarised(out, s->eta);
-    *pdf = (1 - lane_reflects(f, tint)) * facet_pdf(d, s->wo, half) * s->eta * s->eta * spread;
-    return tint * (1 - f) * 4 * facets_send(d, s, half) * out * spread;
+    if (!refracting_facet(s, &at)) return 0;
+    float f = solid_has_film(d) ? solid_filmed_lane(d, s, lane, at.out) :
+                                  fresnel_unpolarised(at.out, s->eta);
+    *pdf = (1 - lane_reflects(f, tint)) * facet_pdf(d, s->wo, at.half) * s->eta * s->eta *
+           at.spread;
+    return tint * (1 - f) * 4 * facets_send(d, s, at.half) * at.out * at.spread;
 }
 
 static Spectrum split_eval(const Dielectric *d, SolidRay s, float *pdf)
@@ -295,7 +275,10 @@ static bool smooth_sample(const Dielectric *d, SolidRay *s, float u, BsdfSample 
     s->wi = reflects ? vec3(-s->wo.x, -s->wo.y, s->wo.z) :
                        vec3_normalize(refracted(s->wo, up, s->eta, s->wo.z, f.behind));
     if (!(reflects ? s->wi.z > 0 : s->wi.z < 0)) return false;
-    smooth_part(d, s, reflects, &f, sample);
+    float prob = reflects ? f.prob : 1 - f.prob;
+    *sample = (BsdfSample){.wi = turn_back(s, s->wi), .pdf = prob, .is_delta = true};
+    sample->weight = reflects ? f.reflected / spectrum_all(prob) :
+                                f.through / spectrum_all(prob * s->eta * s->eta) * d->tint;
     return true;
 }
 
@@ -303,7 +286,7 @@ static bool smooth_sample(const Dielectric *d, SolidRay *s, float u, BsdfSample 
  * decides between reflection and refraction. False: the light is lost. */
 static bool facet_sample(const Dielectric *d, SolidRay *s, const float u[3])
 {
-    Vec3  half = sample_facet(d, s->wo, u);
+    Vec3  half = brushed_sample_visible(s->wo, solid_alphas(d), u[0], u[1]);
     float cosine = vec3_dot(s->wo, half), behind, eta = s->eta;
     bool  reflects;
     if (!(cosine > 0)) return false;

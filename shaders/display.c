@@ -37,30 +37,10 @@ static Spectrum brdf_of(const DisplaySurface *display, Vec3 wo, Vec3 wi)
     return panel_brdf_at(display->panel, wo, wi, &display->lanes);
 }
 
-static Spectrum bare_mirror_of(const DisplaySurface *display, float cosine)
-{
-    if (display->mix.count)
-        return panel_mix_mirror(&display->mix, cosine, display->wavelengths);
-    return panel_mirror_at(display->panel, cosine, &display->lanes);
-}
-
 static float haze_albedo_of(const DisplaySurface *display, float cosine)
 {
     if (display->mix.count) return panel_mix_haze_albedo(&display->mix, cosine);
     return panel_haze_albedo(display->panel, cosine);
-}
-
-static float pdf_of(const DisplaySurface *display, Vec3 wo, Vec3 wi)
-{
-    if (display->mix.count) return panel_mix_pdf(&display->mix, wo, wi);
-    return panel_pdf(display->panel, wo, wi);
-}
-
-static bool sample_of(const DisplaySurface *display, Vec3 wo, const float u[3], Vec3 *wi,
-                      float *pdf)
-{
-    if (display->mix.count) return panel_mix_sample(&display->mix, wo, u, wi, pdf);
-    return panel_sample(display->panel, wo, u, wi, pdf);
 }
 
 /* ---- the model --------------------------------------------------------------------------- */
@@ -68,7 +48,9 @@ static bool sample_of(const DisplaySurface *display, Vec3 wo, const float u[3], 
 /* A coating that mirrors more than glass leaves the haze its light. */
 static Spectrum mirror_at(const DisplaySurface *display, float cosine)
 {
-    Spectrum mirror = bare_mirror_of(display, cosine);
+    Spectrum mirror = display->mix.count
+        ? panel_mix_mirror(&display->mix, cosine, display->wavelengths)
+        : panel_mirror_at(display->panel, cosine, &display->lanes);
     if (!display->cover) return mirror;
     Spectrum rest = spectrum_all(1 - haze_albedo_of(display, cosine));
     Spectrum coated = mirror * coating_at(display->cover, display->wavelengths, cosine);
@@ -101,7 +83,9 @@ static Spectrum model_eval(const void *parameters, Vec3 wo, Vec3 wi, float *pdf)
     if (!model_reaches(parameters, wo, wi)) return spectrum_all(0);
     Spectrum mirror;
     float    prob = mirror_prob(display, wo, &mirror);
-    *pdf = (1 - prob) * pdf_of(display, wo, wi);
+    float    scatters = display->mix.count ? panel_mix_pdf(&display->mix, wo, wi)
+                                           : panel_pdf(display->panel, wo, wi);
+    *pdf = (1 - prob) * scatters;
     return brdf_of(display, wo, wi);
 }
 
@@ -119,7 +103,10 @@ static bool model_sample(const void *parameters, Vec3 wo, const float u[3], Bsdf
     float rest[3] = {u[0], u[1], clampf((u[2] - prob) / (1 - prob), 0, 0x1.fffffep-1f)};
     Vec3  wi;
     float pdf;
-    if (!sample_of(display, wo, rest, &wi, &pdf) || !(wi.z > 0)) return false;
+    bool  is_sent = display->mix.count
+        ? panel_mix_sample(&display->mix, wo, rest, &wi, &pdf)
+        : panel_sample(display->panel, wo, rest, &wi, &pdf);
+    if (!is_sent || !(wi.z > 0)) return false;
     pdf *= 1 - prob;
     if (!(pdf > 0)) return false;
     Spectrum f = brdf_of(display, wo, wi);

@@ -5,7 +5,7 @@
  */
 #pragma once
 #include "shaders/bsdf_model.h"
-#include "shaders/metallic/metallic_surface.h"
+#include "shaders/metallic/metallic_view.h"
 
 /* glTF's default material, but for energy, which the caller owns: white metal, alpha 1. */
 MetallicRoughness metallic_roughness_default(const EnergyTable *energy);

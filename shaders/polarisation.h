@@ -15,9 +15,6 @@
 #include "shaders/layers/coating.h"
 #include "spectrum/fresnel.h"
 
-#pragma GCC diagnostic push /* inline: no vector goes from one file to another */
-#pragma GCC diagnostic ignored "-Wpsabi"
-
 /* For light polarised across (s) and along (p) the plane of incidence, shares in [0, 1]; and
  * the mean over all fields of a_s times the conjugate of a_p, a the amplitudes: what S2 and S3
  * become. */
@@ -114,5 +111,3 @@ static inline BsdfPolarisation polarised_by(Waves w)
     polarised_add(&one, w, spectrum_all(1));
     return polarised_of(&one, spectrum_all(1));
 }
-
-#pragma GCC diagnostic pop

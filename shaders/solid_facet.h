@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* solid_facet.h -- the boundary of a solid, and what one facet of it reflects and lets through.
+/* solid_facet.h -- the boundary of a solid, what one facet of it reflects and lets through, and
+ * what rough facets pass to one another.
  *
- * For dielectric.c and solid_loss.c. Bare, coated, filmed. Threads: pure functions.
+ * For dielectric.c, whose user page tells the parameters. Bare, coated, filmed. Frame: bsdf.h.
+ * Threads: pure functions.
  */
 #pragma once
-#include "base/vec.h"
+#include "shaders/bsdf_model.h"
 #include "shaders/layers/clear_film.h"
 #include "shaders/layers/coating.h"
 #include "shaders/facets/solid_energy.h"
@@ -29,6 +31,8 @@ typedef struct Dielectric {
                                          chance follows it. NULL: all alike */
 } Dielectric;
 
+extern const BsdfModel dielectric_model;
+
 /* Directions as seen from wo's side: z > 0 is that side; eta is the other side's index over
  * this side's. */
 typedef struct SolidRay {
@@ -49,10 +53,10 @@ static inline bool solid_is_brushed(const Dielectric *d)
     return d->alpha_along > 0;
 }
 
-/* The alphas of a brushed one along x and y. */
+/* The alphas along x and y. */
 static inline Vec2 solid_alphas(const Dielectric *d)
 {
-    return (Vec2){d->alpha_along, d->alpha};
+    return (Vec2){solid_is_brushed(d) ? d->alpha_along : d->alpha, d->alpha};
 }
 
 static inline bool solid_has_film(const Dielectric *d)
@@ -77,3 +81,15 @@ FacetShares solid_facet(const Dielectric *d, const SolidRay *s, float cosine);
 
 /* Reflectance of a filmed facet for one lane, at that lane's s->eta. */
 float solid_filmed_lane(const Dielectric *d, const SolidRay *s, int lane, float cosine);
+
+/* ---- what rough facets pass to one another, coming out at last ---------------------------
+ *
+ * By the tables of facets/solid_energy.h, which d->energy must hold (where facets are brushed
+ * its `brushed` as well): both sides get lost(wo) lost(wi) / mean of it. Coated and filmed
+ * facets as well, and dispersive glass. */
+
+/* Adds this light to what single facets send, and to the density. */
+void solid_loss_add(const Dielectric *d, const SolidRay *s, Spectrum *value, float *pdf);
+
+/* Chooses s->wi for it if u[2] falls on its share; else false, and u[2] is uniform again. */
+bool solid_loss_sample(const Dielectric *d, SolidRay *s, float u[3]);

@@ -38,17 +38,11 @@ Spectrum thin_window_transmittance(const ThinWindow *window, float cosine)
     return window->tint * spectrum_all(1 - fresnel_slab(window_face(window, cosine)));
 }
 
-static bool straight_on(Vec3 wo, float prob, Spectrum weight, BsdfSample *sample)
+/* Straight on, or mirrored. */
+static bool send(bool passes, Vec3 wo, float prob, Spectrum weight, BsdfSample *sample)
 {
-    *sample = (BsdfSample){.wi = vec3_neg(wo), .pdf = prob, .is_delta = true, .passes = true,
-                           .weight = weight};
-    return true;
-}
-
-static bool mirrored(Vec3 wo, float prob, Spectrum weight, BsdfSample *sample)
-{
-    *sample = (BsdfSample){.wi = vec3(-wo.x, -wo.y, wo.z), .pdf = prob, .is_delta = true,
-                           .weight = weight};
+    *sample = (BsdfSample){.wi = vec3(-wo.x, -wo.y, passes ? -wo.z : wo.z), .pdf = prob,
+                           .is_delta = true, .passes = passes, .weight = weight};
     return true;
 }
 
@@ -59,8 +53,8 @@ static bool coated_window_sample(const ThinWindow *window, Vec3 wo, float u, Bsd
     float    share = spectrum_mean(reflected), all = share + spectrum_mean(through);
     if (!(all > 0)) return false;
     float prob = share / all;
-    if (u < prob) return mirrored(wo, prob, reflected / spectrum_all(prob), sample);
-    return prob < 1 && straight_on(wo, 1 - prob, through / spectrum_all(1 - prob), sample);
+    if (u < prob) return send(false, wo, prob, reflected / spectrum_all(prob), sample);
+    return prob < 1 && send(true, wo, 1 - prob, through / spectrum_all(1 - prob), sample);
 }
 
 static bool window_sample(const void *parameters, Vec3 wo, const float u[3], BsdfSample *sample)
@@ -72,10 +66,10 @@ static bool window_sample(const void *parameters, Vec3 wo, const float u[3], Bsd
     float through = (1 - reflected) * spectrum_mean(window->tint);
     if (!(reflected + through > 0)) return false;
     float prob = reflected / (reflected + through);
-    if (u[2] < prob) return mirrored(wo, prob, spectrum_all(reflected / prob), sample);
+    if (u[2] < prob) return send(false, wo, prob, spectrum_all(reflected / prob), sample);
     if (!(through > 0)) return false;
-    return straight_on(wo, 1 - prob, window->tint * spectrum_all((1 - reflected) / (1 - prob)),
-                       sample);
+    return send(true, wo, 1 - prob, window->tint * spectrum_all((1 - reflected) / (1 - prob)),
+                sample);
 }
 
 static Spectrum window_pass(const void *parameters, Vec3 wo)

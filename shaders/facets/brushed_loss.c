@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "shaders/facets/brushed_loss.h"
 
-#include "shaders/facets/brushed_axes.h"
 #include "spectrum/spectrum.h"
 
 /* Between neighbours of the axes of alpha and ratio, in fourth roots, at most. */
@@ -199,17 +198,10 @@ static float axis_value(BrushedAxis axis, int node)
     return fminf(root * root * root * root, 1);
 }
 
-/* The neighbours of a value on an axis of one node or many. */
-typedef struct BrushedKnot {
-    FacetKnot knot;
-    int       count;
-} BrushedKnot;
-
-static BrushedKnot axis_knot(BrushedAxis axis, float value)
+static FacetKnot axis_knot(BrushedAxis axis, float value)
 {
-    if (axis.count == 1) return (BrushedKnot){{0, {1, 0, 0, 0}}, 1};
-    float share = (fourth_root(value) - axis.first) / (axis.last - axis.first);
-    return (BrushedKnot){facet_knot(share, axis.count), 4};
+    if (axis.count == 1) return (FacetKnot){0, 1, {1, 0, 0, 0}};
+    return facet_knot((fourth_root(value) - axis.first) / (axis.last - axis.first), axis.count);
 }
 
 /* ---- looking up ------------------------------------------------------------------------- */
@@ -245,8 +237,8 @@ static void add_direction(const BrushedLoss *t, const float *pair, const Directi
 
 /* The neighbours of a pair of alphas. */
 typedef struct PairKnots {
-    BrushedKnot alpha, ratio;
-    int         ratios;
+    FacetKnot alpha, ratio;
+    int       ratios;
 } PairKnots;
 
 static PairKnots pair_knots(BrushedAxis alphas, BrushedAxis ratios, Vec2 alpha)
@@ -264,8 +256,8 @@ static int pair_count(const PairKnots *pairs)
 static int pair_at(const PairKnots *pairs, int i, float *share)
 {
     int a = i / pairs->ratio.count, r = i % pairs->ratio.count;
-    *share = pairs->alpha.knot.share[a] * pairs->ratio.knot.share[r];
-    return (pairs->alpha.knot.first + a) * pairs->ratios + pairs->ratio.knot.first + r;
+    *share = pairs->alpha.share[a] * pairs->ratio.share[r];
+    return (pairs->alpha.first + a) * pairs->ratios + pairs->ratio.first + r;
 }
 
 static int pair_size(const BrushedLoss *t)

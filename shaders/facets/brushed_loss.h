@@ -2,7 +2,7 @@
 /* brushed_loss.h -- what the facets of a brushed solid's boundary pass to one another.
  *
  * solid_energy.h's shares where both alphas differ: by the alphas, cosine and azimuth, on the
- * axes of brushed_axes.h. A table covers a range of alphas; of one pair it is a table over
+ * axes of lobe_facets.h. A table covers a range of alphas; of one pair it is a table over
  * directions alone.
  *
  * Interpolated by cubics. Of one pair, lost is within 1.3e-3 where no alpha is below 0.01, in
@@ -17,7 +17,7 @@
 #pragma once
 #include "base/arena.h"
 #include "base/vec.h"
-#include "shaders/facets/lost_facets.h"
+#include "shaders/facets/lobe_facets.h"
 
 /* Bounds in [SMOOTH_ALPHA, 1] of the greater alpha, and of the lesser over the greater. */
 typedef struct BrushedRange {

@@ -20,17 +20,6 @@ float coat_reflectance(const EnergyTable *coat, float cosine, float coat_alpha)
     return f0 * e.all + (1 - f0) * e.shape;
 }
 
-static float alpha_of_row(int row)
-{
-    return row > 0 ? energy_alpha_of_row(row, COAT_PER_OCTAVE) : 0;
-}
-
-static float cosine_of(int node)
-{
-    float t = (float)node / (ENERGY_COSINES - 1);
-    return node > 0 ? t * t : 1e-5f;
-}
-
 static void add_to_hats(const EnergyLobe *lobe, HatRow *row)
 {
     float weight = lobe->weight / ENERGY_LOBE_POINTS;
@@ -45,9 +34,10 @@ static void add_to_hats(const EnergyLobe *lobe, HatRow *row)
 
 static void fill_lobe(const EnergyTable *base, int alpha_row, HatRow *rows)
 {
+    float alpha = energy_alpha_of_row(alpha_row, COAT_PER_OCTAVE);
     memset(rows, 0, ENERGY_COSINES * sizeof *rows);
     for (int from = 0; from < ENERGY_COSINES; from++) {
-        float cosine = cosine_of(from);
+        float cosine = energy_cosine_of_node(from);
         if (alpha_row == 0) {
             rows[from].all[from] = 1;
             rows[from].shape[from] = energy_directional(base, cosine, 0).shape;
@@ -55,7 +45,7 @@ static void fill_lobe(const EnergyTable *base, int alpha_row, HatRow *rows)
         }
         EnergyLobe lobe;
         for (int i = 0; i < ENERGY_LOBE_POINTS; i++)
-            if (energy_lobe_point(base->ior, cosine, alpha_of_row(alpha_row), i, &lobe))
+            if (energy_lobe_point(base->ior, cosine, alpha, i, &lobe))
                 add_to_hats(&lobe, &rows[from]);
     }
 }
@@ -102,8 +92,9 @@ static void fill_pair(const EnergyTable *coat, const HatRow *rows, int a, int c,
 {
     float own[ENERGY_COSINES], open[ENERGY_COSINES], u[ENERGY_COSINES], one[ENERGY_COSINES];
     float lobe[ENERGY_COSINES], all[ENERGY_COSINES], shape[ENERGY_COSINES];
+    float coat_alpha = energy_alpha_of_row(c, COAT_PER_OCTAVE);
     for (int i = 0; i < ENERGY_COSINES; i++) {
-        own[i] = coat_reflectance(coat, cosine_of(i), alpha_of_row(c));
+        own[i] = coat_reflectance(coat, energy_cosine_of_node(i), coat_alpha);
         open[i] = fmaxf(1 - own[i], 0);
         one[i] = 1;
     }
@@ -149,7 +140,7 @@ CoatShare coat_share(const CoatTable *table, float cosine, float alpha, float co
 {
     EnergyKnot a = energy_alpha_knot(alpha, COAT_PER_OCTAVE);
     EnergyKnot k = energy_alpha_knot(coat_alpha, COAT_PER_OCTAVE);
-    EnergyKnot c = energy_cosine_knot(cosine);
+    EnergyKnot c = energy_cosine_knot(cosine, ENERGY_COSINES);
     CoatShare  below = mix_shares(share_of_rows(table->share[a.low][k.low], c),
                                   share_of_rows(table->share[a.low][k.low + 1], c), k.t);
     CoatShare  above = mix_shares(share_of_rows(table->share[a.low + 1][k.low], c),

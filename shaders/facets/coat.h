@@ -37,6 +37,9 @@ typedef struct CoatTable {
     CoatShare share[COAT_ALPHAS][COAT_ALPHAS][ENERGY_COSINES];
 } CoatTable;
 
+/* Of a lacquer on a base of its own index, made as common_energy_table. */
+extern const CoatTable common_coat_table;
+
 /* coat: the lacquer's own boundary; base: of the base's index of refraction. */
 const CoatTable *coat_table_build(const EnergyTable *base, const EnergyTable *coat,
                                   Arena *arena);

@@ -65,8 +65,7 @@ const EnergyTable *energy_table_build(float ior, Arena *arena)
     table->ior = ior;
     for (int a = 0; a < ENERGY_ALPHAS; a++) {
         for (int c = 0; c < ENERGY_COSINES; c++) {
-            float t = (float)c / (ENERGY_COSINES - 1);
-            float cosine = c > 0 ? t * t : 1e-5f;
+            float cosine = energy_cosine_of_node(c);
             float alpha = energy_alpha_of_row(a, ENERGY_PER_OCTAVE);
             /* Row 0, the smooth boundaries, has no facets that hide one another. */
             table->directional[a][c] = a > 0 ? integrate(ior, cosine, alpha) :
@@ -77,33 +76,19 @@ const EnergyTable *energy_table_build(float ior, Arena *arena)
     return table;
 }
 
-static EnergyKnot knot_at(float place, int count)
-{
-    int low = (int)place;
-    if (low > count - 2) low = count - 2;
-    return (EnergyKnot){low, clampf(place - (float)low, 0, 1)};
-}
-
-EnergyKnot energy_cosine_knot(float cosine)
-{
-    return knot_at(safe_sqrtf(cosine) * (ENERGY_COSINES - 1), ENERGY_COSINES);
-}
-
 /* A float's bits count octaves by themselves, and run evenly within one. */
 EnergyKnot energy_alpha_knot(float alpha, int per_octave)
 {
     if (is_smooth(alpha)) return (EnergyKnot){0, 0};
     float octaves = (float)(bits_from_float(alpha) - bits_from_float(0x1p-10f)) * 0x1p-23f;
-    return knot_at(octaves * (float)per_octave, ENERGY_OCTAVES * per_octave + 1);
+    return energy_knot(octaves * (float)per_octave, ENERGY_OCTAVES * per_octave + 1);
 }
 
 Energy energy_directional(const EnergyTable *table, float cosine, float alpha)
 {
-    EnergyKnot    a = energy_alpha_knot(alpha, ENERGY_PER_OCTAVE);
-    EnergyKnot    c = energy_cosine_knot(cosine);
-    const Energy *below = table->directional[a.low] + c.low, *above = below + ENERGY_COSINES;
-    return energy_mix(energy_mix(below[0], below[1], c.t), energy_mix(above[0], above[1], c.t),
-                      a.t);
+    EnergyKnot a = energy_alpha_knot(alpha, ENERGY_PER_OCTAVE);
+    EnergyKnot c = energy_cosine_knot(cosine, ENERGY_COSINES);
+    return energy_between(table->directional[a.low] + c.low, ENERGY_COSINES, a.t, c.t);
 }
 
 Energy energy_average(const EnergyTable *table, float alpha)

@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "shaders/facets/index_tables.h"
 
-#include "shaders/facets/common_tables.h"
-
 #define STENCIL 4
 
 /* Weights of four neighbouring nodes at an index: 1 and 0 to the bit at a node. */

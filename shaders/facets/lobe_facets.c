@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "shaders/facets/lobe_facets.h"
 
-#include "shaders/facets/brushed_axes.h"
 #include "shaders/facets/microfacet.h"
 
 const float facet_cosine[LOBE_FACETS] = {0.00960736f, 0.08426519f, 0.22221488f, 0.40245484f,

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* microfacet.h -- GGX: how a rough boundary's facets are turned, hidden and chosen.
  *
- * Local frame with +z the normal; directions leave the surface. Isotropic roughness `alpha`
- * (root mean square slope times sqrt 2), in [SMOOTH_ALPHA, 1].
- * Sources  Walter et al. 2007 (D, refraction); Heitz 2014 (height-correlated G2), Heitz 2018
- *          and Dupuy & Benyoub 2023 (visible normals as a spherical cap); Eto & Tokuyoshi 2023
- *          (the cap bounded to what reflects upwards).
+ * Local frame with +z the normal; directions leave the surface. Roughness `alpha` (root mean
+ * square slope times sqrt 2), in [SMOOTH_ALPHA, 1]; brushed surfaces have two, along the
+ * frame's x and y.
+ * Sources  Walter et al. 2007 (D, refraction); Heitz 2014 (height-correlated G2, stretched
+ *          surfaces), Heitz 2018 and Dupuy & Benyoub 2023 (visible normals as a spherical cap);
+ *          Eto & Tokuyoshi 2023 (the cap bounded to what reflects upwards).
  * Threads  pure functions.
  */
 #pragma once
@@ -32,16 +33,27 @@ float ggx_density(Vec3 normal, float alpha);
 /* D G2 / (4 |wo.z| |wi.z|): a mirror-like lobe of reflectance 1, sr^-1. wo, wi and half on
  * the same side, half = normalised wo + wi. */
 float ggx_reflection(Vec3 wo, Vec3 wi, Vec3 half, float alpha);
+float brushed_reflection(Vec3 wo, Vec3 wi, Vec3 half, Vec2 alpha);
 
 /* A visible facet normal for wo, wo.z > 0; u in [0,1)^2. Its density is
  * ggx_visible_pdf(wo, normal) = G1(wo) D(normal) max(0, wo.normal) / wo.z. */
-Vec3  ggx_sample_visible(Vec3 wo, float alpha, float u0, float u1);
+Vec3  brushed_sample_visible(Vec3 wo, Vec2 alpha, float u0, float u1);
 float ggx_visible_pdf(Vec3 wo, Vec3 normal, float alpha);
+float brushed_visible_pdf(Vec3 wo, Vec3 normal, Vec2 alpha);
+static inline Vec3 ggx_sample_visible(Vec3 wo, float alpha, float u0, float u1)
+{
+    return brushed_sample_visible(wo, (Vec2){alpha, alpha}, u0, u1);
+}
 
 /* A mirror-like direction about a visible facet; few fall below the horizon (then z <= 0, and
  * the light is lost). The pdf of wi, sr^-1, holds for every wi, half as above. */
-Vec3  ggx_sample_reflection(Vec3 wo, float alpha, float u0, float u1);
+Vec3  brushed_sample_reflection(Vec3 wo, Vec2 alpha, float u0, float u1);
 float ggx_reflection_pdf(Vec3 wo, Vec3 half, float alpha);
+float brushed_reflection_pdf(Vec3 wo, Vec3 half, Vec2 alpha);
+static inline Vec3 ggx_sample_reflection(Vec3 wo, float alpha, float u0, float u1)
+{
+    return brushed_sample_reflection(wo, (Vec2){alpha, alpha}, u0, u1);
+}
 
 /* Where a facet, met at `cosine`, refracts light from wo; eta: the other side's index over this
  * one's; behind: the cosine on the other side (fresnel.h). Walter 2007, equation 40. */

@@ -99,8 +99,8 @@ static float fill_row(SolidSide *side, int row, float eta)
     double reflected = 0, through = 0, mean = 0;
     float  alpha = energy_alpha_of_row(row, ENERGY_PER_OCTAVE);
     for (int c = 0; c < ENERGY_COSINES; c++) {
-        float t = (float)c / (ENERGY_COSINES - 1), weight = node_weight(c);
-        Sent  sent = sent_on(c > 0 ? t * t : 1e-5f, eta, alpha, side->facets);
+        float weight = node_weight(c);
+        Sent  sent = sent_on(energy_cosine_of_node(c), eta, alpha, side->facets);
         float lost = clampf((float)(1 - sent.reflected - sent.through), 0, 1);
         side->lost[row][c] = lost;
         mean += (double)(weight * lost);
@@ -120,10 +120,10 @@ static void fill_rows(SolidEnergy *out, int row)
 {
     float ior = out->ior, ior2 = ior * ior;
     if (row == 0) return; /* smooth: nothing is lost */
-    float crosses = fill_row(&out->outside, row, ior);
-    float returns = fill_row(&out->inside, row, ior > 0 ? 1 / ior : 0);
-    out->flux[row] = fminf(crosses * out->outside.mean[row],
-                           returns * out->inside.mean[row] * ior2);
+    float crosses = fill_row(&out->side[0], row, ior);
+    float returns = fill_row(&out->side[1], row, ior > 0 ? 1 / ior : 0);
+    out->flux[row] = fminf(crosses * out->side[0].mean[row],
+                           returns * out->side[1].mean[row] * ior2);
 }
 
 const SolidEnergy *solid_energy_build(float ior, float least, float most, bool has_facets,
@@ -133,10 +133,8 @@ const SolidEnergy *solid_energy_build(float ior, float least, float most, bool h
     int first = energy_alpha_knot(least, ENERGY_PER_OCTAVE).low;
     int last = energy_alpha_knot(most, ENERGY_PER_OCTAVE).low + 1;
     out->ior = ior;
-    if (has_facets) {
-        out->outside.facets = ARENA_NEW(arena, LostFacets, ENERGY_ALPHAS * ENERGY_COSINES);
-        out->inside.facets = ARENA_NEW(arena, LostFacets, ENERGY_ALPHAS * ENERGY_COSINES);
-    }
+    for (int i = 0; i < 2 && has_facets; i++)
+        out->side[i].facets = ARENA_NEW(arena, LostFacets, ENERGY_ALPHAS * ENERGY_COSINES);
     for (int row = first; row <= last; row++) fill_rows(out, row);
     return out;
 }
@@ -146,22 +144,17 @@ const SolidEnergy *solid_energy_brushed(const SolidEnergy *even, BrushedRange ra
 {
     SolidEnergy *out = ARENA_NEW(arena, SolidEnergy, 1);
     *out = *even;
-    out->brushed = brushed_loss_build(even->ior, range, even->outside.facets != NULL, arena);
+    out->brushed = brushed_loss_build(even->ior, range, even->side[0].facets != NULL, arena);
     return out;
 }
 
 /* ---- looking up -------------------------------------------------------------------------- */
 
-static const SolidSide *side_of(const SolidEnergy *energy, bool is_inside)
-{
-    return is_inside ? &energy->inside : &energy->outside;
-}
-
 SolidLost solid_lost(const SolidEnergy *energy, bool is_inside, float cosine, float alpha)
 {
-    const SolidSide *side = side_of(energy, is_inside);
+    const SolidSide *side = &energy->side[is_inside];
     EnergyKnot   a = energy_alpha_knot(alpha, ENERGY_PER_OCTAVE);
-    EnergyKnot   c = energy_cosine_knot(cosine);
+    EnergyKnot   c = energy_cosine_knot(cosine, ENERGY_COSINES);
     const float *below = side->lost[a.low] + c.low, *above = below + ENERGY_COSINES;
     return (SolidLost){lerpf(lerpf(below[0], below[1], c.t), lerpf(above[0], above[1], c.t),
                              a.t),
@@ -173,9 +166,8 @@ LostFacets solid_lost_facets(const SolidEnergy *energy, bool is_inside, float co
                              float alpha)
 {
     EnergyKnot a = energy_alpha_knot(alpha, ENERGY_PER_OCTAVE);
-    EnergyKnot c = energy_cosine_knot(cosine);
-    const LostFacets *below =
-        side_of(energy, is_inside)->facets + a.low * ENERGY_COSINES + c.low;
+    EnergyKnot c = energy_cosine_knot(cosine, ENERGY_COSINES);
+    const LostFacets *below = energy->side[is_inside].facets + a.low * ENERGY_COSINES + c.low;
     LostFacets sum = {{0}, {0}};
     for (int i = 0; i < 4; i++)
         add_facets(&sum, &below[(i >> 1) * ENERGY_COSINES + (i & 1)],
@@ -186,7 +178,7 @@ LostFacets solid_lost_facets(const SolidEnergy *energy, bool is_inside, float co
 LostFacets solid_mean_facets(const SolidEnergy *energy, bool is_inside, float alpha)
 {
     EnergyKnot a = energy_alpha_knot(alpha, ENERGY_PER_OCTAVE);
-    const LostFacets *row = side_of(energy, is_inside)->mean_facets + a.low;
+    const LostFacets *row = energy->side[is_inside].mean_facets + a.low;
     LostFacets sum = {{0}, {0}};
     add_facets(&sum, &row[0], 1 - a.t);
     add_facets(&sum, &row[1], a.t);

@@ -26,7 +26,7 @@ typedef struct SolidSide {
 typedef struct SolidEnergy {
     float     ior;                 /* of the solid against its surroundings */
     float     flux[ENERGY_ALPHAS]; /* outside: mean times the share that goes across */
-    SolidSide outside, inside;
+    SolidSide side[2]; /* outside, inside */
     const BrushedLoss *brushed; /* where both alphas differ; NULL: they never do */
 } SolidEnergy;
 

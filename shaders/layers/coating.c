@@ -1,15 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "shaders/layers/coating.h"
 
-/* Between two neighbours of `count` nodes spaced evenly in sqrt(cosine). */
-static EnergyKnot knot_of(float cosine, int count)
-{
-    float place = safe_sqrtf(cosine) * (float)(count - 1);
-    int   low = (int)place;
-    if (low > count - 2) low = count - 2;
-    return (EnergyKnot){low, clampf(place - (float)low, 0, 1)};
-}
-
 static Spectrum between(const Curve *row, float t, const Wavelengths *wavelengths)
 {
     Spectrum low = curve_lookup(&row[0], wavelengths);
@@ -19,7 +10,7 @@ static Spectrum between(const Curve *row, float t, const Wavelengths *wavelength
 
 Spectrum coating_at(const CoatingTable *table, const Wavelengths *wavelengths, float cosine)
 {
-    EnergyKnot c = knot_of(cosine, table->count);
+    EnergyKnot c = energy_cosine_knot(cosine, table->count);
     return between(&table->row[c.low], c.t, wavelengths);
 }
 
@@ -27,7 +18,7 @@ Spectrum coating_energy_at(const CoatingEnergy *energy, const Wavelengths *wavel
                            float cosine, float alpha)
 {
     EnergyKnot a = energy_alpha_knot(alpha, COATING_PER_OCTAVE);
-    EnergyKnot c = knot_of(cosine, energy->count);
+    EnergyKnot c = energy_cosine_knot(cosine, energy->count);
     const Curve *row = energy->directional + a.low * energy->count + c.low;
     Spectrum     low = between(row, c.t, wavelengths);
     if (a.t <= 0) return low;

@@ -6,6 +6,7 @@ typedef struct CoatedBody {
     const LayerStack       *stack;
     const OpticalConstants *metal;
     double                  ior;
+    bool                    is_p; /* of a pane: which polarisation */
 } CoatedBody;
 
 static ThinMedia media_at(const CoatedBody *body, const LayerStack *stack, int nm)
@@ -53,32 +54,35 @@ typedef struct CoatingRow {
 
 typedef CoatingRow RowMaker(const CoatedBody *body, int nm, double cosine);
 
+static ThinShares shares_at(const CoatedBody *body, const LayerStack *stack, int nm,
+                            double cosine)
+{
+    ThinMedia media = media_at(body, stack, nm);
+    return thin_film_at(&media, cosine);
+}
+
 static CoatingRow front_row(const CoatedBody *body, int nm, double cosine)
 {
-    ThinMedia  media = media_at(body, body->stack, nm);
-    ThinShares at = thin_film_at(&media, cosine);
+    ThinShares at = shares_at(body, body->stack, nm, cosine);
     return (CoatingRow){.front = unpolarised(at.reflect_s, at.reflect_p)};
 }
 
 static CoatingRow wave_row(const CoatedBody *body, int nm, double cosine)
 {
-    ThinMedia  media = media_at(body, body->stack, nm);
-    ThinShares at = thin_film_at(&media, cosine);
+    ThinShares at = shares_at(body, body->stack, nm, cosine);
     return (CoatingRow){at.reflect_s, at.reflect_p, at.reflect_along};
 }
 
 static CoatingRow turned_row(const CoatedBody *body, int nm, double cosine)
 {
-    ThinMedia media = media_at(body, body->stack, nm);
-    return (CoatingRow){.front = thin_film_at(&media, cosine).reflect_turned};
+    return (CoatingRow){.front = shares_at(body, body->stack, nm, cosine).reflect_turned};
 }
 
 static CoatingRow cover_row(const CoatedBody *body, int nm, double cosine)
 {
-    ThinMedia  coated = media_at(body, body->stack, nm), bare = media_at(body, NULL, nm);
-    ThinShares with = thin_film_at(&coated, cosine), without = thin_film_at(&bare, cosine);
-    return (CoatingRow){.front = unpolarised(with.reflect_s, with.reflect_p) /
-                                 fmax(unpolarised(without.reflect_s, without.reflect_p), 1e-9)};
+    ThinShares bare = shares_at(body, NULL, nm, cosine);
+    return (CoatingRow){.front = front_row(body, nm, cosine).front /
+                                 fmax(unpolarised(bare.reflect_s, bare.reflect_p), 1e-9)};
 }
 
 /* Beyond the critical angle the wave behind the boundary falls off as e^(-kz). With k and the
@@ -160,24 +164,14 @@ static CoatingRow sheet_row(const CoatedBody *body, int nm, double cosine)
 }
 
 /* A face of a pane for one polarisation. At grazing incidence nothing gets in or out. */
-static CoatingRow pane_row(const CoatedBody *body, int nm, double cosine, bool is_p)
+static CoatingRow pane_row(const CoatedBody *body, int nm, double cosine)
 {
     SheetFace s, p;
     ThinMedia media = media_at(body, body->stack, nm);
     if (!(cosine > 0)) return (CoatingRow){.front = 1, .back = 1};
     sheet_face(&media, cosine, cosine_behind(cosine, body->ior), &s, &p);
-    SheetFace one = is_p ? p : s;
+    SheetFace one = body->is_p ? p : s;
     return (CoatingRow){one.outer, one.inner, one.through};
-}
-
-static CoatingRow pane_row_s(const CoatedBody *body, int nm, double cosine)
-{
-    return pane_row(body, nm, cosine, false);
-}
-
-static CoatingRow pane_row_p(const CoatedBody *body, int nm, double cosine)
-{
-    return pane_row(body, nm, cosine, true);
 }
 
 /* ---- tables ----------------------------------------------------------------------------- */
@@ -329,8 +323,9 @@ const PaneCoating *coating_of_pane(const Glazing *pane, Arena *arena)
     for (int i = 0; i < 2; i++) {
         const GlazingLayer *layer = &pane->layers[i ? pane->layer_count - 1 : 0];
         CoatedBody body = {.stack = pane->coating[i], .ior = (double)layer->ior};
-        out->face[i][0] = tables_of(&body, pane_row_s, KINDS, arena);
-        out->face[i][1] = tables_of(&body, pane_row_p, KINDS, arena);
+        out->face[i][0] = tables_of(&body, pane_row, KINDS, arena);
+        body.is_p = true;
+        out->face[i][1] = tables_of(&body, pane_row, KINDS, arena);
     }
     return out;
 }

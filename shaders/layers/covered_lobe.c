@@ -77,7 +77,7 @@ static void turn_on(Turns *turns)
     turns->cosine = cosine;
 }
 
-/* brushed.h's sampling with u1 = 1 - rest^2; the light's share is lobe cos / pdf. */
+/* microfacet.h's sampling with u1 = 1 - rest^2; the light's share is lobe cos / pdf. */
 static Directions reflected(const Cover *cover, const Directions *wo, const Turns *turns,
                             Spectrum rest, LobePoints *p)
 {

@@ -2,7 +2,6 @@
 #include "shaders/layers/sheen.h"
 
 #include "base/units.h"
-#include "shaders/facets/energy.h"
 
 /* The fit of Estevez and Kulla for alpha 1 and 0; between them it goes by (1 - alpha)^2. */
 static const float FIT[5][2] = {{21.5473f, 25.3245f}, {3.82987f, 3.32435f},
@@ -33,21 +32,10 @@ float sheen_lobe_full(Vec3 wo, Vec3 wi, float alpha)
 
 /* ---- the table -------------------------------------------------------------------------- */
 
-static EnergyKnot knot_at(float place, int count)
-{
-    int low = (int)clampf(place, 0, (float)(count - 2));
-    return (EnergyKnot){low, clampf(place - (float)low, 0, 1)};
-}
-
 static EnergyKnot roughness_knot(float alpha, int count)
 {
     float place = (sqrtf(sqrtf(alpha)) - SHEEN_LEAST) / (1 - SHEEN_LEAST);
-    return knot_at(place * (float)(count - 1), count);
-}
-
-static EnergyKnot cosine_knot(float cosine, int count)
-{
-    return knot_at(safe_sqrtf(cosine) * (float)(count - 1), count);
+    return energy_knot(place * (float)(count - 1), count);
 }
 
 static EnergyKnot base_knot(float base)
@@ -77,7 +65,7 @@ static float look_up(const float table[SHEEN_ROUGHNESSES][SHEEN_COSINES], float 
                      float alpha)
 {
     EnergyKnot r = roughness_knot(alpha, SHEEN_ROUGHNESSES);
-    EnergyKnot c = cosine_knot(cosine, SHEEN_COSINES);
+    EnergyKnot c = energy_cosine_knot(cosine, SHEEN_COSINES);
     int   first = r.low > 0 ? r.low - 1 : 0;
     int   last = r.low + 2 < SHEEN_ROUGHNESSES ? r.low + 2 : SHEEN_ROUGHNESSES - 1;
     float row[4];
@@ -101,24 +89,17 @@ float sheen_lobe(const SheenTable *table, Vec3 wo, Vec3 wi, float alpha)
 
 /* ---- facets beneath --------------------------------------------------------------------- */
 
-static SheenExcess mix(SheenExcess a, SheenExcess b, float t)
+static Energy excess_at(const Energy rows[SHEEN_BASES][SHEEN_WIDE], EnergyKnot b, EnergyKnot c)
 {
-    return (SheenExcess){lerpf(a.all, b.all, t), lerpf(a.shape, b.shape, t)};
-}
-
-static SheenExcess excess_at(const SheenExcess rows[SHEEN_BASES][SHEEN_WIDE], EnergyKnot b,
-                             EnergyKnot c)
-{
-    const SheenExcess *below = rows[b.low] + c.low, *above = rows[b.low + 1] + c.low;
-    return mix(mix(below[0], below[1], c.t), mix(above[0], above[1], c.t), b.t);
+    return energy_between(rows[b.low] + c.low, SHEEN_WIDE, b.t, c.t);
 }
 
 SheenShare sheen_share(const SheenTable *table, float cosine, float alpha, float base)
 {
     EnergyKnot  r = roughness_knot(alpha, SHEEN_BROAD), b = base_knot(base);
-    EnergyKnot  c = cosine_knot(cosine, SHEEN_WIDE);
-    SheenExcess excess = mix(excess_at(table->excess[r.low], b, c),
-                             excess_at(table->excess[r.low + 1], b, c), r.t);
+    EnergyKnot  c = energy_cosine_knot(cosine, SHEEN_WIDE);
+    Energy      excess = energy_mix(excess_at(table->excess[r.low], b, c),
+                                    excess_at(table->excess[r.low + 1], b, c), r.t);
     float       albedo = sheen_albedo(table, cosine, alpha);
     return (SheenShare){albedo, fminf(albedo + excess.all, 1), fminf(albedo + excess.shape, 1)};
 }
@@ -126,8 +107,7 @@ SheenShare sheen_share(const SheenTable *table, float cosine, float alpha, float
 SheenShare sheen_mean(const SheenTable *table, float alpha, float base)
 {
     EnergyKnot  r = roughness_knot(alpha, SHEEN_BROAD), b = base_knot(base);
-    const SheenExcess *low = table->mean[r.low] + b.low, *high = low + SHEEN_BASES;
-    SheenExcess mean = mix(mix(low[0], low[1], b.t), mix(high[0], high[1], b.t), r.t);
+    Energy      mean = energy_between(table->mean[r.low] + b.low, SHEEN_BASES, r.t, b.t);
     float albedo = lerpf(table->mean_albedo[r.low], table->mean_albedo[r.low + 1], r.t);
     return (SheenShare){albedo, mean.all, mean.shape};
 }
@@ -141,6 +121,6 @@ static float open_at(const float rows[SHEEN_BASES][SHEEN_WIDE], EnergyKnot k, En
 float sheen_open(const SheenTable *table, float cosine, float alpha, float coat_alpha)
 {
     EnergyKnot r = roughness_knot(alpha, SHEEN_BROAD), k = base_knot(coat_alpha);
-    EnergyKnot c = cosine_knot(cosine, SHEEN_WIDE);
+    EnergyKnot c = energy_cosine_knot(cosine, SHEEN_WIDE);
     return lerpf(open_at(table->open[r.low], k, c), open_at(table->open[r.low + 1], k, c), r.t);
 }

@@ -25,6 +25,7 @@
  */
 #pragma once
 #include "base/vec.h"
+#include "shaders/facets/energy.h"
 
 #define SHEEN_ROUGHNESSES 32 /* spaced evenly in the fourth root of alpha, up to 1 */
 #define SHEEN_COSINES 48     /* spaced evenly in sqrt(cosine) */
@@ -39,17 +40,12 @@ typedef struct SheenShare {
     float albedo, all, shape;
 } SheenShare;
 
-/* For facets, all and shape less the albedo; for the mean, all and shape themselves. */
-typedef struct SheenExcess {
-    float all, shape;
-} SheenExcess;
-
 typedef struct SheenTable {
     float       full[SHEEN_ROUGHNESSES][SHEEN_COSINES]; /* the albedo, were it not bounded */
     float       albedo[SHEEN_ROUGHNESSES][SHEEN_COSINES];
     float       mean_albedo[SHEEN_BROAD];
-    SheenExcess mean[SHEEN_BROAD][SHEEN_BASES];
-    SheenExcess excess[SHEEN_BROAD][SHEEN_BASES][SHEEN_WIDE];
+    Energy      mean[SHEEN_BROAD][SHEEN_BASES];
+    Energy      excess[SHEEN_BROAD][SHEEN_BASES][SHEEN_WIDE]; /* less the albedo, of facets */
     float       open[SHEEN_BROAD][SHEEN_BASES][SHEEN_WIDE]; /* by the coat's alpha */
 } SheenTable;
 

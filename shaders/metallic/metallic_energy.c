@@ -15,49 +15,49 @@ static Energy energy_of_facets(const MetallicRoughness *m, const LobeFacets *fac
 
 Energy energy_brushed(const MetallicRoughness *m, Vec3 w)
 {
-    LobeFacets facets = lobe_facets(&common_facet_table, w, alphas(m));
+    LobeFacets facets = lobe_facets(&common_facet_table, w, facet_alphas(m));
     return energy_of_facets(m, &facets);
 }
 
 Energy energy_brushed_average(const MetallicRoughness *m)
 {
-    LobeFacets facets = mean_facets(&common_facet_table, alphas(m));
+    LobeFacets facets = mean_facets(&common_facet_table, facet_alphas(m));
     return energy_of_facets(m, &facets);
 }
 
-float energy_even_alpha(const MetallicRoughness *m)
-{
-    if (!is_brushed(m)) return m->alpha;
-    float wanted = energy_brushed_average(m).all, low = SMOOTH_ALPHA, high = 1;
-    for (int step = 0; step < 12; step++) {
-        float middle = 0.5f * (low + high);
-        if (energy_average(m->energy, middle).all > wanted) low = middle;
-        else high = middle;
-    }
-    return low;
-}
-
-float energy_own_alpha(const MetallicRoughness *m, Vec3 w)
+/* The roughness along a direction's own azimuth. */
+static float own_alpha(const MetallicRoughness *m, Vec3 w)
 {
     if (!is_brushed(m)) return m->alpha;
     float x = m->alpha_along * w.x, y = m->alpha * w.y, side2 = w.x * w.x + w.y * w.y;
     return side2 > 1e-12f ? sqrtf((x * x + y * y) / side2) : m->alpha;
 }
 
+Spectrum energy_of_lobe(const Spectrum at[LOBE_FACETS], const LobeFacets *facets)
+{
+    Spectrum sum = spectrum_all(0);
+    for (int i = 0; i < LOBE_FACETS; i++) sum += at[i] * spectrum_all(facets->weight[i]);
+    return sum;
+}
+
+static Spectrum sum_of_facets(const Spectrum at[LOBE_FACETS], LobeFacets facets)
+{
+    return spectrum_clamp(energy_of_lobe(at, &facets), 0, 1);
+}
+
 static Spectrum coated_facets(const MetallicRoughness *m, LobeFacets facets)
 {
-    Spectrum all = spectrum_all(0);
+    Spectrum at[LOBE_FACETS];
     for (int i = 0; i < LOBE_FACETS; i++)
-        all += coating_at(m->coating->face->front, m->wavelengths, facet_cosine[i]) *
-               spectrum_all(facets.weight[i]);
-    return spectrum_clamp(all, 0, 1);
+        at[i] = coating_at(m->coating->face->front, m->wavelengths, facet_cosine[i]);
+    return sum_of_facets(at, facets);
 }
 
 Spectrum energy_coated(const MetallicRoughness *m, Vec3 w)
 {
     const CoatingTables *face = m->coating->face;
     Spectrum all = is_brushed(m) ?
-                       coated_facets(m, lobe_facets(&common_facet_table, w, alphas(m))) :
+                       coated_facets(m, lobe_facets(&common_facet_table, w, facet_alphas(m))) :
                    is_smooth(m->alpha) ?
                        coating_at(face->front, m->wavelengths, w.z) :
                        coating_energy_at(face->energy, m->wavelengths, w.z, m->alpha);
@@ -67,15 +67,8 @@ Spectrum energy_coated(const MetallicRoughness *m, Vec3 w)
 Spectrum energy_coated_average(const MetallicRoughness *m)
 {
     if (is_brushed(m))
-        return coated_facets(m, mean_facets(&common_facet_table, alphas(m)));
+        return coated_facets(m, mean_facets(&common_facet_table, facet_alphas(m)));
     return coating_energy_average(m->coating->face->energy, m->wavelengths, m->alpha);
-}
-
-static Spectrum sum_of_facets(const Spectrum at[LOBE_FACETS], LobeFacets facets)
-{
-    Spectrum sum = spectrum_all(0);
-    for (int i = 0; i < LOBE_FACETS; i++) sum += at[i] * spectrum_all(facets.weight[i]);
-    return spectrum_clamp(sum, 0, 1);
 }
 
 Spectrum energy_filmed(const MetallicView *view, Vec3 w)
@@ -105,4 +98,43 @@ Spectrum energy_metal_mean(const MetallicRoughness *m)
     if (has_film(m)) return filmed_metal_mean(m);
     if (coated_metal(m)) return curve_lookup(&m->coating->metal->front_mean, m->wavelengths);
     return m->base_color + (spectrum_all(1) - m->base_color) * spectrum_all(1.0f / 21);
+}
+
+/* ---- fibres over them ------------------------------------------------------------------- */
+
+Spectrum sheen_tint(const MetallicRoughness *m)
+{
+    Spectrum tint = spectrum_from_rgb(m->wavelengths, m->sheen_color);
+    return spectrum_clamp(tint, 0, sheen_most(m));
+}
+
+SheenShare sheen_towards(const MetallicRoughness *m, Vec3 w)
+{
+    return sheen_share(&common_sheen_table, fabsf(w.z), m->sheen_alpha, own_alpha(m, w));
+}
+
+float sheen_leaves(const MetallicView *view, Vec3 wi)
+{
+    const MetallicRoughness *m = view->m;
+    float in = sheen_albedo(&common_sheen_table, fabsf(wi.z), m->sheen_alpha);
+    return 1 - sheen_most(m) * fmaxf(view->sheen.albedo, in);
+}
+
+Energy sheen_lets_through(const MetallicRoughness *m, Energy e, SheenShare share)
+{
+    float most = sheen_most(m);
+    return (Energy){e.all * (1 - most * share.all), e.shape * (1 - most * share.shape)};
+}
+
+float sheen_kept(const MetallicRoughness *m, float cosine)
+{
+    if (!has_sheen(m)) return 1;
+    return 1 - sheen_most(m) * sheen_albedo(&common_sheen_table, cosine, m->sheen_alpha);
+}
+
+Spectrum sheen_fibres(const MetallicView *view, Vec3 wi)
+{
+    const MetallicRoughness *m = view->m;
+    float lobe = sheen_lobe(&common_sheen_table, view->wo, wi, m->sheen_alpha);
+    return sheen_tint(m) * spectrum_all(lobe);
 }

@@ -1,30 +1,26 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* metallic_energy.h -- what all facets of metallic_roughness send back together.
+/* metallic_energy.h -- what all facets of metallic_roughness send back together, and the fibres
+ * over them.
  *
  * Directions are in the local frame, above the surface. Energies and averages over the
  * hemisphere are shares of light, [0, 1]: by the tables of an even surface (facets/energy.h),
- * by a few facets of a brushed, filmed or coated one (facets/lobe_facets.h).
+ * by a few facets of a brushed, filmed or coated one (facets/lobe_facets.h). `sheen`: what
+ * sheen.h knows of a white one, for this surface's colour and facets, under its coat; fibres
+ * send sr^-1.
  *
  * Threads  pure functions.  Fails  never.
  */
 #pragma once
-#include "shaders/facets/brushed.h"
 #include "shaders/facets/microfacet.h"
 #include "shaders/metallic/metallic_view.h"
-
-#pragma GCC diagnostic push /* inline: no vector goes from one file to another */
-#pragma GCC diagnostic ignored "-Wpsabi"
 
 /* Brushed facets along a direction, and on average. */
 Energy energy_brushed(const MetallicRoughness *m, Vec3 w);
 
 Energy energy_brushed_average(const MetallicRoughness *m);
 
-/* The roughness of an even surface whose facets send back as much on average. */
-float energy_even_alpha(const MetallicRoughness *m);
-
-/* The roughness along a direction's own azimuth. */
-float energy_own_alpha(const MetallicRoughness *m, Vec3 w);
+/* What a lobe sends back whose facets reflect so much at facet_cosine. */
+Spectrum energy_of_lobe(const Spectrum at[LOBE_FACETS], const LobeFacets *facets);
 
 /* Share that a coated face sends back in all. */
 Spectrum energy_coated(const MetallicRoughness *m, Vec3 w);
@@ -41,19 +37,33 @@ Spectrum energy_filmed_average(const MetallicView *view, float alpha);
  * over the hemisphere is f0 + (1 - f0) / 21. */
 Spectrum energy_metal_mean(const MetallicRoughness *m);
 
+/* The sheen's colour per lane, at most sheen_most: what lies beneath is scaled by that. */
+Spectrum sheen_tint(const MetallicRoughness *m);
+
+/* Share that fibres send along a direction, and that they take from facets beneath. */
+SheenShare sheen_towards(const MetallicRoughness *m, Vec3 w);
+
+/* Share of light along these two that a facet beneath keeps. */
+float sheen_leaves(const MetallicView *view, Vec3 wi);
+
+/* Energies that facets send through the sheen, from a direction or in the mean. */
+Energy sheen_lets_through(const MetallicRoughness *m, Energy e, SheenShare share);
+
+/* Share of light at a cosine that gets past the fibres. */
+float sheen_kept(const MetallicRoughness *m, float cosine);
+
+/* The fibres' lobe from wi towards the eye. */
+Spectrum sheen_fibres(const MetallicView *view, Vec3 wi);
+
 static inline bool is_brushed(const MetallicRoughness *m)
 {
     return m->alpha_along > 0;
 }
 
-static inline Vec2 alphas(const MetallicRoughness *m)
-{
-    return (Vec2){m->alpha_along, m->alpha};
-}
-
+/* Of facets, along x and y. */
 static inline Vec2 facet_alphas(const MetallicRoughness *m)
 {
-    return is_brushed(m) ? alphas(m) : (Vec2){m->alpha, m->alpha};
+    return (Vec2){is_brushed(m) ? m->alpha_along : m->alpha, m->alpha};
 }
 
 /* Energies that the base's facets send back along a direction above it, and on average. */
@@ -69,20 +79,34 @@ static inline Energy base_average(const MetallicRoughness *m)
 
 static inline float base_lobe(const MetallicRoughness *m, Vec3 wo, Vec3 wi, Vec3 half)
 {
-    return is_brushed(m) ? brushed_reflection(wo, wi, half, alphas(m)) :
+    return is_brushed(m) ? brushed_reflection(wo, wi, half, facet_alphas(m)) :
                            ggx_reflection(wo, wi, half, m->alpha);
 }
 
 static inline float base_lobe_pdf(const MetallicRoughness *m, Vec3 wo, Vec3 half)
 {
-    return is_brushed(m) ? brushed_reflection_pdf(wo, half, alphas(m)) :
+    return is_brushed(m) ? brushed_reflection_pdf(wo, half, facet_alphas(m)) :
                            ggx_reflection_pdf(wo, half, m->alpha);
 }
 
 static inline Vec3 base_sample(const MetallicRoughness *m, Vec3 wo, float u0, float u1)
 {
-    return is_brushed(m) ? brushed_sample_reflection(wo, alphas(m), u0, u1) :
-                           ggx_sample_reflection(wo, m->alpha, u0, u1);
+    return brushed_sample_reflection(wo, facet_alphas(m), u0, u1);
 }
 
-#pragma GCC diagnostic pop
+static inline float sheen_most(const MetallicRoughness *m)
+{
+    return fmaxf(fmaxf(m->sheen_color[0], m->sheen_color[1]), m->sheen_color[2]);
+}
+
+/* No colour is below 0. */
+static inline bool has_sheen(const MetallicRoughness *m)
+{
+    return m->sheen_color[0] + m->sheen_color[1] + m->sheen_color[2] > 0;
+}
+
+/* The light of both directions that a smooth mirror or a sheet keeps below the sheen. */
+static inline Spectrum sheen_over(const MetallicView *view, Vec3 wi, Spectrum below)
+{
+    return has_sheen(view->m) ? below * spectrum_all(sheen_leaves(view, wi)) : below;
+}

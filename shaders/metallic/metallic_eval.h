@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* metallic_eval.h -- how much light metallic_roughness sends from a direction to the eye.
+/* metallic_eval.h -- metallic_roughness as one eye sees it, made ready for all that is asked,
+ * and how much light it sends from a direction to that eye.
  *
- * Values are sr^-1 (bsdf.h's frame), pdf sr^-1, of choosing wi by metallic_choices.
+ * Values are sr^-1 (bsdf.h's frame), pdf sr^-1, of choosing wi by MetallicChoices.
  *
- * Threads  pure functions.  Fails  never.
+ * Threads  pure functions; a view belongs to one thread.  Fails  never.
  */
 #pragma once
-#include "shaders/metallic/metallic_view.h"
-#include "shaders/metallic/metallic_coat.h"
+#include "shaders/metallic/metallic_base.h"
 
 /* The base's facets alone, below the coat where it is (below: of wi). */
 Spectrum eval_facets(const MetallicView *view, Vec3 wi, const ThroughCoat *below);
@@ -24,4 +24,19 @@ static inline bool sends_below(const MetallicRoughness *m)
 {
     return m->transmission > 0 &&
            (!is_smooth(m->alpha) || (m->clearcoat > 0 && has_sheen(m)));
+}
+
+/* Filled where it stands: it is large, and a plain surface needs little of it. */
+void metallic_look(MetallicView *view, const MetallicRoughness *m, Vec3 wo);
+
+/* The view that was kept, if it is of this eye; else one made now in *own. A copy of the
+ * material may still point at the view of the first. */
+static inline const MetallicView *metallic_seen(const MetallicRoughness *m, Vec3 wo,
+                                                MetallicView *own)
+{
+    const MetallicView *seen = m->seen;
+    if (seen && seen->m == m && seen->wo.x == wo.x && seen->wo.y == wo.y && seen->wo.z == wo.z)
+        return seen;
+    metallic_look(own, m, wo);
+    return own;
 }

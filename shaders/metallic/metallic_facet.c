@@ -49,8 +49,7 @@ Spectrum facet_metal_at(const MetallicRoughness *m, float cosine)
     return has_film(m) ? filmed_metal(m, bare, cosine) : bare;
 }
 
-Spectrum facet_through(const MetallicRoughness *m, const MetallicFace *b,
-                       float cosine)
+Spectrum facet_through(const MetallicRoughness *m, const MetallicFace *b, float cosine)
 {
     if (coated_sheet(m))
         return coating_at(m->coating->sheet->through, m->wavelengths, cosine) * m->base_color *

@@ -9,11 +9,12 @@
  */
 #pragma once
 #include "shaders/metallic/metallic_view.h"
-#include "shaders/layers/sheet_turns.h"
 #include "spectrum/fresnel.h"
 
-#pragma GCC diagnostic push /* inline: no vector goes from one file to another */
-#pragma GCC diagnostic ignored "-Wpsabi"
+/* A sheet's reflectance on the side of the eye and on the other one, and what passes. */
+typedef struct SheetFaces {
+    Spectrum front, rear, through;
+} SheetFaces;
 
 /* A filmed boundary, whose bare reflectance is known. */
 Spectrum facet_filmed(const MetallicRoughness *m, Spectrum bare, float cosine);
@@ -28,8 +29,7 @@ Spectrum facet_coated(const MetallicRoughness *m, float cosine);
 Spectrum facet_metal_at(const MetallicRoughness *m, float cosine);
 
 /* Light that the sheet's share lets through a facet met at `cosine`. */
-Spectrum facet_through(const MetallicRoughness *m, const MetallicFace *b,
-                       float cosine);
+Spectrum facet_through(const MetallicRoughness *m, const MetallicFace *b, float cosine);
 
 /* The sheet's share alone, a facet of it met at `cosine`. */
 SheetFaces facet_sheet(const MetallicRoughness *m, const MetallicFace *b, float cosine);
@@ -80,22 +80,11 @@ static inline Spectrum sheet_reflectance(Spectrum face)
     return (face + face) / (spectrum_all(1) + face);
 }
 
-static inline Spectrum bare_reflectance(const MetallicRoughness *m, const MetallicFace *b,
-                                        float cosine)
-{
-    return b->f0 + b->rise * spectrum_all(fresnel_shape(m->energy->ior, cosine));
-}
-
 static inline Spectrum facet_reflectance(const MetallicRoughness *m, const MetallicFace *b,
                                          float cosine)
 {
-    Spectrum bare = bare_reflectance(m, b, cosine);
+    Spectrum bare = b->f0 + b->rise * spectrum_all(fresnel_shape(m->energy->ior, cosine));
     return has_film(m) ? facet_filmed(m, bare, cosine) : bare;
-}
-
-static inline bool has_coated_nonmetal(const MetallicRoughness *m)
-{
-    return coated_face(m) || coated_sheet(m);
 }
 
 /* Reflectance of a facet met at `cosine`, of the non-metal's share, sheet or solid. */
@@ -103,7 +92,7 @@ static inline Spectrum facet_of_nonmetal(const MetallicRoughness *m, const Metal
                                          float cosine)
 {
     if (!(m->metallic < 1)) return spectrum_all(0);
-    if (has_coated_nonmetal(m)) return facet_coated(m, cosine);
+    if (coated_face(m) || coated_sheet(m)) return facet_coated(m, cosine);
     Spectrum face = facet_reflectance(m, b, cosine);
     if (m->transmission > 0)
         face += (sheet_reflectance(face) - face) * spectrum_all(m->transmission);
@@ -116,4 +105,25 @@ static inline Spectrum facet_of_metal(const MetallicRoughness *m, float cosine)
     return facet_metal_at(m, cosine) * spectrum_all(m->metallic);
 }
 
-#pragma GCC diagnostic pop
+/* ---- a thin sheet between two like layers that throw its light back at it -----------------
+ *
+ * Light that leaves the sheet on either side meets a layer, which holds back the share `held`
+ * of it; so it meets the sheet again, and so on. With M = [front through; through rear] what
+ * the sheet does to light from its two sides, all of these turns are M + held M M + held^2 M M
+ * M + ... = M (1 - held M)^-1. Shares of light, per lane; those of one side are at most 1
+ * together. No phases: the light of unlike turns does not interfere. */
+
+/* Shares of the light that came on the eye's side: sent back there, and to the other side. */
+typedef struct SheetLight {
+    Spectrum back, through;
+} SheetLight;
+
+/* held in [0, 1). What leaves the sheet for good is (1 - held) of this. */
+static inline SheetLight sheet_turns(const SheetFaces *sheet, float held)
+{
+    Spectrum one = spectrum_all(1), h = spectrum_all(held), through = h * sheet->through;
+    Spectrum rest = (one - h * sheet->front) * (one - h * sheet->rear) - through * through;
+    Spectrum determinant = sheet->front * sheet->rear - sheet->through * sheet->through;
+    rest = spectrum_max(rest, spectrum_all(1e-12f));
+    return (SheetLight){(sheet->front - h * determinant) / rest, sheet->through / rest};
+}

@@ -71,17 +71,21 @@ void guide_view(const LightGuide *guide, uint32_t cell, const GuideSurface *surf
     }
 }
 
+/* The lower half of the map turned up into its corners, and back. */
+static Vec2 folded(float u, float v)
+{
+    return (Vec2){(1 - fabsf(v)) * (u < 0 ? -1.0f : 1.0f),
+                  (1 - fabsf(u)) * (v < 0 ? -1.0f : 1.0f)};
+}
+
 /* Square of the map for a unit direction, each coordinate in [0, GUIDE_SIDE]. */
 static Vec2 map_of(Vec3 d, float *taxicab)
 {
-    float l1 = fabsf(d.x) + fabsf(d.y) + fabsf(d.z), u = d.x / l1, v = d.y / l1;
+    float l1 = fabsf(d.x) + fabsf(d.y) + fabsf(d.z);
+    Vec2  at = {d.x / l1, d.y / l1};
     *taxicab = l1;
-    if (d.z < 0) {
-        float turned = (1 - fabsf(v)) * (u < 0 ? -1.0f : 1.0f);
-        v = (1 - fabsf(u)) * (v < 0 ? -1.0f : 1.0f);
-        u = turned;
-    }
-    return (Vec2){(u + 1) * (0.5f * GUIDE_SIDE), (v + 1) * (0.5f * GUIDE_SIDE)};
+    if (d.z < 0) at = folded(at.x, at.y);
+    return (Vec2){(at.x + 1) * (0.5f * GUIDE_SIDE), (at.y + 1) * (0.5f * GUIDE_SIDE)};
 }
 
 static int square(float at)
@@ -92,14 +96,10 @@ static int square(float at)
 
 static Vec3 direction_at(float x, float y)
 {
-    float u = x * (2.0f / GUIDE_SIDE) - 1, v = y * (2.0f / GUIDE_SIDE) - 1;
-    float z = 1 - fabsf(u) - fabsf(v);
-    if (z < 0) {
-        float turned = (1 - fabsf(v)) * (u < 0 ? -1.0f : 1.0f);
-        v = (1 - fabsf(u)) * (v < 0 ? -1.0f : 1.0f);
-        u = turned;
-    }
-    return vec3_normalize(vec3(u, v, z));
+    Vec2  at = {x * (2.0f / GUIDE_SIDE) - 1, y * (2.0f / GUIDE_SIDE) - 1};
+    float z = 1 - fabsf(at.x) - fabsf(at.y);
+    if (z < 0) at = folded(at.x, at.y);
+    return vec3_normalize(vec3(at.x, at.y, z));
 }
 
 Vec3 guide_bin_direction(int bin, float u0, float u1)

@@ -4,7 +4,6 @@
 #include "base/mathd.h"
 #include "base/mathf.h"
 #include "base/units.h"
-#include "path/collect/pixel_ray.h"
 #include "path/collect/seen.h"
 #include "path/path_features.h"
 
@@ -182,13 +181,6 @@ static void ask(const ProbeAim *aim, int path, PathCollector *collector,
     go(aim, &one);
 }
 
-static void ask_distant(const ProbeAim *aim, int path, const PathDistant *distant,
-                        PathStatistics *statistics)
-{
-    DistantCollector questions = distant_collector(distant);
-    ask(aim, path, &questions.base, statistics);
-}
-
 static void add_lanes(float *sums, float weight, const float *share)
 {
     for (int lane = 0; lane < SPECTRUM_LANES; lane++) sums[lane] += weight * share[lane];
@@ -280,7 +272,8 @@ void probe_ask_cells(const ProbeAim *asked, const ProbeCells *cells, int first, 
                            .add_escaped = add_escaped_cell, .user = &to, .has_ways = true};
     for (int path = first; path < end; path++) {
         draw_cells(aim, cells, path, out->towards);
-        ask_distant(aim, path, &distant, statistics);
+        DistantCollector questions = distant_collector(&distant);
+        ask(aim, path, &questions.base, statistics);
     }
 }
 
@@ -361,7 +354,8 @@ void probe_ask_suns(const ProbeAim *aim, const ProbeSuns *suns, int first, int e
     direct.context = &once;
     for (int path = first; path < end; path++) {
         if (!suns->by_mirror) draw_suns(aim, &to, path, out->towards);
-        ask_distant(&direct, path, &distant, statistics);
+        DistantCollector questions = distant_collector(&distant);
+        ask(&direct, path, &questions.base, statistics);
     }
 }
 
@@ -398,7 +392,7 @@ void probe_ask_images(const ProbeAim *aim, int first, int end, const ProbeImages
     once.max_bounces = IMAGE_BOUNCES;
     direct.context = &once;
     for (int path = first; path < end; path++) {
-        ImageCollector ways = image_collector(&wanted);
+        HistoryCollector ways = image_collector(&wanted);
         ask(&direct, path, &ways.base, statistics);
     }
 }

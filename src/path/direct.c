@@ -3,7 +3,6 @@
 #include "path/direct.h"
 
 #include "path/emitted.h"
-#include "path/sun_mirror.h"
 
 /* ---- solids ------------------------------------------------------------------------------ */
 
@@ -93,6 +92,105 @@ bool direct_sides_agree(const Surface *surface, Vec3 local_wi, Vec3 wi, Vec3 wo)
            (vec3_dot(wi, surface->ng) * vec3_dot(wo, surface->ng) > 0);
 }
 
+/* ---- mirrors ----------------------------------------------------------------------------
+ *
+ * BSDF samples find light that goes sun, mirror (src/mirror), scattering surface only where
+ * they hit the sun's image: rare and very bright samples. Here all points of mirrors that turn
+ * one direction of the sun's disc to the surface count as lights of that direction; BSDF
+ * samples then leave the sun in these mirrors out (mirror_is_known).
+ *
+ * Not known: what passes a second mirror on its way or is refracted, mirrors seen from within
+ * a solid, mirrors bent by a normal map, rough ones above GLINT_ALPHA. */
+
+/* A lit position in air, and one direction of the sun. */
+typedef struct SunMirrorQuestion {
+    const Scene         *scene;
+    const SurfaceTables *tables;
+    const Wavelengths   *wavelengths;
+    Vec3                 from; /* m, world */
+    LightSample          sun;
+    Spectrum             radiance; /* of the sun there */
+    bool                 is_rough; /* by facets of rough mirrors; else by smooth ones */
+} SunMirrorQuestion;
+
+/* Squared: a normal that was bent towards the eye has moved by more. */
+#define UNBENT2 1e-8f
+
+/* Is the mirror's normal the interpolated one, and light in front of it in air? */
+static bool is_plain(const Scene *scene, const Surface *mirror, Vec3 wo)
+{
+    Vec3 ns = mirror->point.ns, z = mirror->frame.z;
+    Vec3 apart = vec3_sub(z, vec3_dot(ns, z) < 0 ? vec3_neg(ns) : ns);
+    bool is_outside = !scene->materials[mirror->material_id].is_solid ||
+                      vec3_dot(wo, mirror->ng) > 0;
+    return is_outside && vec3_dot(apart, apart) < UNBENT2;
+}
+
+/* Did the pair's part ask for the sun that a ray in air, which came along -wo, finds behind
+ * this mirror? The pair's triangle is the mirror's. */
+static bool mirror_is_known(const Scene *scene, const Mirrors *mirrors, MirrorPair pair,
+                            const Surface *mirror, Vec3 wo)
+{
+    if (mirror->material_id == NO_ID) return false;
+    bool may_be = !pair.is_rough ||
+                  mirrors_rough_alpha(&scene->materials[mirror->material_id]) > 0;
+    return may_be && mirrors_have(mirrors, pair) && is_plain(scene, mirror, wo);
+}
+
+/* Sunlight by a point that mirrors_find reported; mirror->t is not used. False: none comes by
+ * it. Occlusion is not tested.
+ *
+ * Light that leaves the solid angle dw around wo reached it from dw / spread around the sun's
+ * direction: radiance is kept but for what the mirror takes, and the density of directions is
+ * that of the sun's divided by the spread. Facets of a rough mirror send f cos of the light on,
+ * and their directions have the density of their slopes divided by the spread. */
+static bool mirror_at(const SunMirrorQuestion *question, const Hit *mirror, float spread,
+                      SunMirror *out)
+{
+    const Scene       *scene = question->scene;
+    const LightSample *sun = &question->sun;
+    TrianglePoint      place = triangle_point(scene, mirror->triangle, mirror->u, mirror->v);
+    Vec3     to = vec3_sub(place.position, question->from);
+    float    distance = vec3_length(to);
+    Vec3     wi = vec3_scale(to, 1 / distance), wo = vec3_neg(wi);
+    Hit      hit = {distance, mirror->u, mirror->v, mirror->triangle};
+    Surface *surface = &out->surface;
+    if (!(distance > 0)) return false;
+    surface_at(scene, question->tables, &hit, wo, question->wavelengths, surface);
+    Vec3 local_wo = surface->local_wo;
+    if (!(surface->alpha > 0) || !is_plain(scene, surface, wo) || !(local_wo.z > 0) ||
+        !(vec3_dot(sun->wi, surface->frame.z) > 0) ||
+        !(vec3_dot(wo, surface->ng) * vec3_dot(sun->wi, surface->ng) > 0))
+        return false;
+    Vec3 local_sun = frame_to_local(&surface->frame, sun->wi);
+    out->radiance = question->is_rough
+                        ? bsdf_glint(&surface->bsdf, local_wo, local_sun) *
+                              spectrum_all(local_sun.z)
+                        : bsdf_mirror(&surface->bsdf, local_wo);
+    out->radiance *= question->radiance *
+                     spectrum_all(surface->alpha * spread / sun->pdf);
+    out->light = (LightSample){.wi = wi, .distance = distance, .pdf = 1, .is_emitter = true,
+                               .triangle = mirror->triangle, .ng = surface->ng};
+    return !spectrum_is_zero(out->radiance);
+}
+
+/* The rest of f = bsdf_eval at a rough mirror that was asked: left to sun samples and
+ * chance. */
+static Spectrum mirror_left(const Bsdf *mirror, Vec3 local_wo, Vec3 local_wi, Spectrum f)
+{
+    return spectrum_max(f - bsdf_glint(mirror, local_wo, local_wi), spectrum_all(0));
+}
+
+/* The same as a share of what a BSDF sample there carries; 0 by the smooth boundary. */
+static Spectrum mirror_share(const Bsdf *mirror, Vec3 local_wo, const BsdfSample *next)
+{
+    float pdf;
+    if (next->is_delta) return spectrum_all(0);
+    Spectrum f = bsdf_eval(mirror, local_wo, next->wi, &pdf);
+    return mirror_left(mirror, local_wo, next->wi, f) /
+           spectrum_max(f, spectrum_all(1e-30f));
+}
+
 /* ---- light samples ----------------------------------------------------------------------- */
 
 static bool asks_mirrors(const PathContext *context)
@@ -107,8 +205,8 @@ static bool mirror_was_asked(const PathState *path, const Surface *surface, Vec3
 {
     MirrorPair pair = {path->last.part_id, is_rough, surface->triangle};
     return asks_mirrors(path->context) && !path->last.is_delta && path->medium_id == NO_ID &&
-           sun_mirror_is_known(path->context->scene, path->context->beams.mirrors, pair,
-                               surface, wo);
+           mirror_is_known(path->context->scene, path->context->beams.mirrors, pair, surface,
+                           wo);
 }
 
 Spectrum direct_sun_share(const PathState *path, const Surface *surface, Vec3 wo,
@@ -116,7 +214,7 @@ Spectrum direct_sun_share(const PathState *path, const Surface *surface, Vec3 wo
 {
     if (!(next->wi.z > 0) || !mirror_was_asked(path, surface, wo, !next->is_delta))
         return spectrum_all(1);
-    return sun_mirror_share(&surface->bsdf, surface->local_wo, next);
+    return mirror_share(&surface->bsdf, surface->local_wo, next);
 }
 
 static int source_of(const PathState *path, const LightSample *light)
@@ -150,9 +248,7 @@ static void find_sample(PathState *path, const Surface *surface, Vec3 wo,
         .way = vec3_neg(light->wi), .radiance = radiance, .triangle = light->triangle,
         .point = light->set == LIGHTS_EMITTERS ? &light->point : NULL, .by = surface, .wo = wo,
         .local_wi = asked->local_wi, .shadow = ray};
-    collect_count(path, &found);
-    path->gathered.radiance += found.radiance;
-    collect_light(path, &found);
+    collect_found(path, &found);
 }
 
 /* Most samples end in shadow: radiance and BSDF are evaluated once the ray has arrived. */
@@ -172,7 +268,7 @@ static void add_arriving(PathState *path, const Surface *surface, Vec3 wo,
     float    bsdf_pdf;
     Spectrum f = bsdf_eval(&surface->bsdf, local_wo, local_wi, &bsdf_pdf);
     if (light->set == LIGHTS_SUN && mirror_was_asked(path, surface, wo, true))
-        f = sun_mirror_left(&surface->bsdf, local_wo, local_wi, f);
+        f = mirror_left(&surface->bsdf, local_wo, local_wi, f);
     Spectrum share = path->throughput * f *
                      lights_radiance(context->lights, light, path->wavelengths) *
                      spectrum_all(fabsf(local_wi.z) / (light->pdf * prob));
@@ -231,9 +327,7 @@ static void find_mirrored(const MirrorWalk *asked, const SunMirror *mirror, Vec3
                        .wo = asked->wo, .local_wi = local_wi, .shadow = &rays->to_mirror,
                        .mirror = mirror, .beyond = &rays->to_sun,
                        .by_rough = asked->question.is_rough};
-    collect_count(path, &found);
-    path->gathered.radiance += found.radiance;
-    collect_light(path, &found);
+    collect_found(path, &found);
 }
 
 static void add_mirrored_sun(void *user, uint32_t triangle, const ReflectionPoint *point)
@@ -245,7 +339,7 @@ static void add_mirrored_sun(void *user, uint32_t triangle, const ReflectionPoin
     SunMirror      mirror;
     Hit            place = {0, point->u, point->v, triangle};
     float          pdf;
-    if (!sun_mirror_at(&asked->question, &place, point->spread, &mirror)) return;
+    if (!mirror_at(&asked->question, &place, point->spread, &mirror)) return;
     Vec3 local_wi = frame_to_local(&surface->frame, mirror.light.wi);
     if (!direct_sides_agree(surface, local_wi, mirror.light.wi, asked->wo)) return;
     Spectrum share = path->throughput * mirror.radiance *

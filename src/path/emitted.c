@@ -38,9 +38,7 @@ static void find_distant(PathState *path, LightSet set, Spectrum radiance)
     Vec3      towards = path->ray.direction;
     PathFound found = {.set = set, .from = towards, .is_distant = true,
                        .way = vec3_neg(towards), .radiance = radiance};
-    collect_count(path, &found);
-    path->gathered.radiance += found.radiance;
-    collect_light(path, &found);
+    collect_found(path, &found);
 }
 
 void emitted_distant(PathState *path)
@@ -112,14 +110,10 @@ static void add_display_xyz(PathState *path, const Surface *surface, const Hit *
         display_emission_xyz(scene, &scene->displays[display_id], hit->triangle,
                              &surface->point, wo, xyz);
     PathFound found = found_on(surface, hit, wo, weight);
-    PathLight light = {.radiance = spectrum_all(0)};
     found.radiance = spectrum_all(0);
     found.xyz = xyz;
     found.share = path->throughput[0] * weight;
-    collect_count(path, &found);
-    for (int i = 0; i < 3; i++) light.xyz[i] = found.share * xyz[i];
-    path_light_add(&path->gathered, &light);
-    collect_light(path, &found);
+    collect_found(path, &found);
 }
 
 /* Density of the last vertex's light samples there, sr^-1; 0, unused, behind a mirror. */
@@ -137,15 +131,12 @@ void emitted_add(PathState *path, const Surface *surface, const Hit *hit, Vec3 w
     const Scene *scene = path->context->scene;
     float weight = emission_weight(path, LIGHTS_EMITTERS, emitter_pdf(path, surface, hit));
     if (!(weight > 0)) return;
-    if (scene->materials[surface->material_id].display_id != NO_ID &&
-        spectrum_is_grey(path->throughput)) {
+    if (surface_is_display(scene, surface) && spectrum_is_grey(path->throughput)) {
         add_display_xyz(path, surface, hit, wo, weight);
         return;
     }
     PathFound found = found_on(surface, hit, wo, weight);
     found.radiance = path->throughput * spectrum_all(weight) *
                      emitted_seen(path, surface, hit->triangle, wo);
-    collect_count(path, &found);
-    path->gathered.radiance += found.radiance;
-    collect_light(path, &found);
+    collect_found(path, &found);
 }

@@ -6,15 +6,6 @@
 #define GUIDE_SHARE 0.4f /* of the directions of a surface's wide lobes */
 #define SKY_SHARE 0.9f   /* of the samples of a sky that is seen from the cell */
 
-/* How often lights are asked where no guide has learnt it. */
-static void ask_as_side(const PathContext *context, const Surface *surface, Vec3 wo, int bounce,
-                        Guiding *guiding)
-{
-    bool is_back = vec3_dot(wo, surface->ng) < 0;
-    guiding->asked = light_selection_of_side(&context->selection, surface->part_id, is_back);
-    guiding->often = bounce < DEEP_BOUNCE ? 1 : DEEP_SHARE;
-}
-
 /* prob: that the surface samples its wide lobes. */
 static void look(const LightGuide *guide, uint32_t cell, const GuideSurface *surface,
                  float prob, Guiding *guiding)
@@ -34,14 +25,23 @@ static void know_lamps(const GuideLamps *from, PunctualKnown *lamps)
     }
 }
 
+void guiding_none(const PathContext *context, Guiding *guiding)
+{
+    guiding->mix = guiding->sky_mix = 0;
+    guiding->is_wide = false;
+    guiding->lamps.count = 0;
+    guiding->asked = context->selection.all;
+    guiding->often = 1;
+}
+
 void guiding_at(const PathContext *context, const Surface *surface, Vec3 wo, int bounce,
                 Guiding *guiding)
 {
     const LightGuide *guide = context->guide;
-    guiding->mix = guiding->sky_mix = 0;
-    guiding->is_wide = false;
-    guiding->lamps.count = 0;
-    ask_as_side(context, surface, wo, bounce, guiding);
+    bool is_back = vec3_dot(wo, surface->ng) < 0;
+    guiding_none(context, guiding);
+    guiding->asked = light_selection_of_side(&context->selection, surface->part_id, is_back);
+    if (bounce >= DEEP_BOUNCE) guiding->often = DEEP_SHARE;
     if (!guide || bounce >= context->max_bounces) return;
     BsdfLobes lobes = bsdf_lobes(&surface->bsdf, surface->local_wo);
     guiding->often = 1; /* what guided paths meet is bright */
@@ -52,15 +52,6 @@ void guiding_at(const PathContext *context, const Surface *surface, Vec3 wo, int
     if (guide->asks) guiding->asked = guide->cells[cell].asked;
     know_lamps(&guide->cells[cell].lamps, &guiding->lamps);
     look(guide, cell, &seen, lobes.prob, guiding);
-}
-
-void guiding_none(const PathContext *context, Guiding *guiding)
-{
-    guiding->mix = guiding->sky_mix = 0;
-    guiding->is_wide = false;
-    guiding->lamps.count = 0;
-    guiding->asked = context->selection.all;
-    guiding->often = 1;
 }
 
 void guiding_of_white(const PathContext *context, uint32_t cell, Vec3 ns, Guiding *guiding)

@@ -6,6 +6,7 @@
 #include "base/mathf.h"
 #include "base/parallel.h"
 #include "mirror/mirrors_build.h"
+#include "path/sheets.h"
 #include "shaders/facets/microfacet.h"
 #include "spectrum/photometry.h"
 
@@ -43,13 +44,6 @@ typedef struct Beam {
     bool     is_rough;
     float    lm;
 } Beam;
-
-static bool always_passes(void *user, const Hit *hit)
-{
-    (void)user;
-    (void)hit;
-    return true;
-}
 
 /* Rays of one mirror come one after the other. */
 static void add_pair(Beams *beams, MirrorPair pair)
@@ -152,7 +146,7 @@ static bool send_ray(Beams *beams, const Aim *aim, Sampler sampler)
     Vec3 r = vec3_sub(vec3_scale(n, 2 * vec3_dot(n, sun.wi)), sun.wi);
     if (!(vec3_dot(point.ng, r) * vec3_dot(point.ng, sun.wi) > 0)) return false;
     Vec3 origin = ray_offset_origin(point.position, point.ng, r);
-    if (bvh_occluded(tools->bvh, (Ray){origin, sun.wi, 0, INFINITY}, always_passes, NULL))
+    if (bvh_occluded(tools->bvh, (Ray){origin, sun.wi, 0, INFINITY}, sheets_let_pass, NULL))
         return false;
     wavelengths_sample(first[0], &wavelengths);
     surface_at(tools->scene, tools->tables, &hit, r, &wavelengths, &mirror);

@@ -79,14 +79,6 @@ static Step turn(PathState *path, const Surface *surface, Vec3 wo, const BsdfSam
     return path->manner.is_spared || roulette(path) ? STEP_SCATTERED : STEP_ENDED;
 }
 
-/* The spare guiding becomes that of the last vertex. */
-static void keep_guiding(PathState *path)
-{
-    Guiding *last = path->guiding;
-    path->guiding = path->spare;
-    path->spare = last;
-}
-
 /* Chooses where the path goes from the surface, by the spare guiding. Windows can be passed
  * after the last bounce. */
 static Step scatter(PathState *path, const Surface *surface, Vec3 wo)
@@ -107,7 +99,9 @@ static Step scatter(PathState *path, const Surface *surface, Vec3 wo)
     }
     if (path->bounce >= path->context->max_bounces) return STEP_ENDED;
     if (collect_refuse(path, surface, &next)) return STEP_ENDED;
-    keep_guiding(path);
+    Guiding *last = path->guiding; /* the spare one becomes that of the last vertex */
+    path->guiding = path->spare;
+    path->spare = last;
     return turn(path, surface, wo, &next);
 }
 
@@ -282,14 +276,6 @@ static PathState state_of(const PathStart *start, PathRoom *room)
         .medium_id = NO_ID, .stack = &room->stack};
 }
 
-static void start_from(PathState *path, const LitPoint *point)
-{
-    path->last.at = *point;
-    path->last.is_delta = false;
-    path->last.pdf = FROM_PDF;
-    path->bounce = 1;
-}
-
 static void report(const PathState *path, PathResult *out)
 {
     const PathFirst *first = &path->first;
@@ -308,7 +294,12 @@ void path_from_ray(const PathStart *start, Ray ray, PathResult *out)
     PathState path = state_of(start, &room);
     path.ray = ray;
     path.first.is_awaited = out != NULL;
-    if (start->from) start_from(&path, start->from);
+    if (start->from) {
+        path.last.at = *start->from;
+        path.last.is_delta = false;
+        path.last.pdf = FROM_PDF;
+        path.bounce = 1;
+    }
     collect_start(&path);
     walk(&path);
     collect_finish(&path);

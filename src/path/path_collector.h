@@ -11,7 +11,6 @@
 #pragma once
 #include "path/footprint.h"
 #include "path/path_state.h"
-#include "path/sun_mirror.h"
 
 #define SHADOW_HITS 16 /* that a shadow ray keeps */
 
@@ -26,6 +25,13 @@ typedef struct ShadowRay {
     int      hit_count; /* sheets met; without room for all the last ones are kept: */
     Hit      recent[SHADOW_HITS]; /* number i at i % SHADOW_HITS, in the ray tracer's order */
 } ShadowRay;
+
+/* Sunlight by one point of a mirror. */
+typedef struct SunMirror {
+    LightSample light;    /* the mirror's point as a light */
+    Spectrum    radiance; /* that it sends, divided by the density of its direction */
+    Surface     surface;  /* the mirror's; light and sun are in front of it */
+} SunMirror;
 
 /* Light that a path has found, and how. */
 typedef struct PathFound {
@@ -196,6 +202,16 @@ static inline void collect_light(PathState *path, const PathFound *light)
 {
     for (PathCollector *c = path->collector; c; c = c->next)
         if (c->kind->on_light) c->kind->on_light(c, path, light);
+}
+
+/* The path has found light: it counts as collectors leave it. */
+static inline void collect_found(PathState *path, PathFound *light)
+{
+    collect_count(path, light);
+    path->gathered.radiance += light->radiance;
+    for (int i = 0; i < 3 && light->xyz; i++)
+        path->gathered.xyz[i] += light->share * light->xyz[i];
+    collect_light(path, light);
 }
 
 static inline void collect_finish(PathState *path)

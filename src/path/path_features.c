@@ -95,19 +95,13 @@ static void display_features(const PathContext *context, const SeenDisplay *view
     out->phi = phi < 0 ? phi + 2 * PI_F : phi;
 }
 
-static bool is_display(const PathContext *context, const Surface *surface)
-{
-    return context->scene->materials[surface->material_id].display_id != NO_ID &&
-           surface->emits;
-}
-
 bool path_display_emission(const PathContext *context, const PathResult *result,
                            const Wavelengths *wavelengths, float xyz[3])
 {
     Surface surface;
     Vec3    wo = vec3_neg(result->direction);
     surface_at(context->scene, context->tables, &result->first, wo, wavelengths, &surface);
-    if (!is_display(context, &surface)) return false;
+    if (!surface_is_display(context->scene, &surface) || !surface.emits) return false;
     SeenDisplay view = view_of(context, result, &surface, wavelengths);
     content_seen(context, &view, &surface, xyz);
     return true;
@@ -125,7 +119,7 @@ void path_features(const PathContext *context, const PathResult *result,
                           .display_id = NO_ID};
     albedo_rgb(bsdf_albedo(&surface.bsdf, surface.local_wo), wavelengths,
                out->albedo);
-    if (!is_display(context, &surface)) return;
+    if (!surface_is_display(context->scene, &surface) || !surface.emits) return;
     SeenDisplay view = view_of(context, result, &surface, wavelengths);
     out->display_id = context->scene->materials[surface.material_id].display_id;
     display_features(context, &view, &surface, out);

@@ -8,8 +8,38 @@
 #include "base/sampler.h"
 #include "path/guiding.h"
 #include "path/path_context.h"
-#include "path/path_light.h"
 #include "path/sheets.h"
+
+/* Light that a path has found. Most of it is radiance per lane; a display that is seen by ways
+ * on which nothing depended on wavelength keeps its measured XYZ: lanes would only blur it. */
+typedef struct PathLight {
+    Spectrum radiance; /* W m^-2 sr^-1 nm^-1 per lane */
+    float    xyz[3];   /* cd m^-2 */
+} PathLight;
+
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wpsabi"
+
+static inline void path_light_add(PathLight *sum, const PathLight *more)
+{
+    sum->radiance += more->radiance;
+    for (int i = 0; i < 3; i++) sum->xyz[i] += more->xyz[i];
+}
+
+static inline void path_light_take(PathLight *from, const PathLight *part)
+{
+    from->radiance -= part->radiance;
+    for (int i = 0; i < 3; i++) from->xyz[i] -= part->xyz[i];
+}
+
+static inline void path_light_to_xyz(const PathLight *gathered,
+                                     const Wavelengths *wavelengths, float xyz[3])
+{
+    for (int i = 0; i < 3; i++) xyz[i] = gathered->xyz[i];
+    spectrum_add_xyz(wavelengths, gathered->radiance, xyz);
+}
+
+#pragma GCC diagnostic pop
 
 /* Counts of one thread; add them up. */
 typedef struct PathStatistics {

@@ -26,6 +26,13 @@ static inline void sheets_none(SheetStack *stack)
     stack->count = stack->next = 0;
 }
 
+/* For shadow rays that no sheet stops, whatever its colour. */
+static inline bool sheets_let_pass(void *user, const Hit *hit)
+{
+    (void)user, (void)hit;
+    return true;
+}
+
 /* How far apart along the normal two triangles may lie and still be at one depth, m: what
  * rounding can do to coordinates as large as those of `position`. */
 float sheets_rounding(Vec3 position);

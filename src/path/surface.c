@@ -3,7 +3,6 @@
 
 #include "light/coverage.h"
 #include "path/surface_coatings.h"
-#include "shaders/facets/common_tables.h"
 #include "shaders/facets/index_tables.h"
 #include "shaders/facets/microfacet.h"
 #include "shaders/layers/sheen.h"
@@ -112,21 +111,15 @@ const SurfaceTables *surface_tables_build(const Scene *scene, bool is_polarised,
 
 /* ---- textures --------------------------------------------------------------------------- */
 
-static bool read_data(const Scene *scene, const TextureSlot *slot, const TrianglePoint *point,
-                      float texel[4])
-{
-    if (slot->texture_id == NO_ID) return false;
-    Vec2 uv = slot_uv(slot, point);
-    texture_data(&scene->textures[slot->texture_id], uv.x, uv.y, texel);
-    return true;
-}
+typedef void TextureRead(const Texture *texture, float u, float v, float rgba[4]);
 
-static bool read_colour(const Scene *scene, const TextureSlot *slot, const TrianglePoint *point,
-                        float texel[4])
+/* False: there is no texture. */
+static bool read_slot(const Scene *scene, const TextureSlot *slot, const TrianglePoint *point,
+                      TextureRead *read, float texel[4])
 {
     if (slot->texture_id == NO_ID) return false;
     Vec2 uv = slot_uv(slot, point);
-    texture_colour(&scene->textures[slot->texture_id], uv.x, uv.y, texel);
+    read(&scene->textures[slot->texture_id], uv.x, uv.y, texel);
     return true;
 }
 
@@ -135,7 +128,7 @@ static float scaled(const Scene *scene, float factor, const TextureSlot *slot,
                     const TrianglePoint *point, int channel)
 {
     float texel[4];
-    if (factor == 0 || !read_data(scene, slot, point, texel)) return factor;
+    if (factor == 0 || !read_slot(scene, slot, point, texture_data, texel)) return factor;
     return factor * texel[channel];
 }
 
@@ -152,20 +145,21 @@ static Spectrum colour_spectrum(const Scene *scene, int curve_id, const float fa
 
 /* ---- shading normals -------------------------------------------------------------------- */
 
-/* The vertices' tangent, made perpendicular to n, and the bitangent's sense; false: none. */
-static bool tangent_at(const Scene *scene, const Hit *hit, Vec3 n, Vec3 *along, float *side)
+/* The vertices' tangent, made perpendicular to n, and bitangent; false: none. */
+static bool tangent_at(const Scene *scene, const Hit *hit, Vec3 n, Vec3 *along, Vec3 *across)
 {
     const Tangent *tangents = scene_part(scene, hit->triangle)->tangents;
     const float weight[3] = {1 - hit->u - hit->v, hit->u, hit->v};
+    float side = 0;
     if (!tangents) return false;
     *along = vec3(0, 0, 0);
-    *side = 0;
     for (int k = 0; k < 3; k++) {
         const Tangent *corner = &tangents[scene_corner_place(scene, hit->triangle, k)];
         *along = vec3_along(*along, corner->along, weight[k]);
-        *side += weight[k] * corner->side;
+        side += weight[k] * corner->side;
     }
     *along = vec3_normalize(vec3_along(*along, n, -vec3_dot(*along, n)));
+    *across = vec3_scale(vec3_cross(n, *along), side < 0 ? -1.0f : 1.0f);
     return vec3_dot(*along, *along) > 0.5f;
 }
 
@@ -173,12 +167,11 @@ static bool tangent_at(const Scene *scene, const Hit *hit, Vec3 n, Vec3 *along, 
 static Vec3 mapped_normal(const Scene *scene, const TextureSlot *slot, float scale,
                           const Hit *hit, const TrianglePoint *point)
 {
-    float texel[4], side;
-    Vec3  n = point->ns, along;
-    if (slot->texture_id == NO_ID || !tangent_at(scene, hit, n, &along, &side) ||
-        !read_data(scene, slot, point, texel))
+    float texel[4];
+    Vec3  n = point->ns, along, across;
+    if (slot->texture_id == NO_ID || !tangent_at(scene, hit, n, &along, &across) ||
+        !read_slot(scene, slot, point, texture_data, texel))
         return n;
-    Vec3 across = vec3_scale(vec3_cross(n, along), side < 0 ? -1.0f : 1.0f);
     Vec3 bent = vec3_along(vec3_scale(along, scale * (2 * texel[0] - 1)), across,
                            scale * (2 * texel[1] - 1));
     bent = vec3_normalize(vec3_along(bent, n, 2 * texel[2] - 1));
@@ -268,8 +261,8 @@ static void set_across(const Site *site, const Surface *surface, MetallicRoughne
     static const float white[4] = {1, 1, 1, 1};
     const Material *m = site->material;
     float texel[4];
-    bool  coloured = read_colour(site->scene, &m->diffuse_transmission_color_texture,
-                                 &surface->point, texel);
+    bool  coloured = read_slot(site->scene, &m->diffuse_transmission_color_texture,
+                               &surface->point, texture_colour, texel);
     model->across = scaled(site->scene, m->diffuse_transmission,
                            &m->diffuse_transmission_texture, &surface->point, 3);
     model->wavelengths = site->wavelengths;
@@ -283,13 +276,13 @@ static void set_across(const Site *site, const Surface *surface, MetallicRoughne
 static void set_brushing(const Scene *scene, const Hit *hit, const Brushing *b,
                          Surface *surface, float *alpha, float *alpha_along)
 {
-    float texel[4] = {1, 0.5f, 1, 1}, side;
-    Vec3  tangent, n = surface->point.ns;
-    read_data(scene, &b->texture, &surface->point, texel);
+    float texel[4] = {1, 0.5f, 1, 1};
+    Vec3  tangent, bitangent;
+    read_slot(scene, &b->texture, &surface->point, texture_data, texel);
     float x = 2 * texel[0] - 1, y = 2 * texel[1] - 1, strength = b->strength * texel[2];
     float along = x * b->cosine - y * b->sine, across = x * b->sine + y * b->cosine;
-    if (!(strength > 0) || !tangent_at(scene, hit, n, &tangent, &side)) return;
-    Vec3 bitangent = vec3_scale(vec3_cross(n, tangent), side < 0 ? -1.0f : 1.0f);
+    if (!(strength > 0) || !tangent_at(scene, hit, surface->point.ns, &tangent, &bitangent))
+        return;
     Vec3 z = surface->frame.z;
     Vec3 turned = vec3_along(vec3_scale(tangent, along), bitangent, across);
     turned = vec3_normalize(vec3_along(turned, z, -vec3_dot(turned, z)));
@@ -317,7 +310,7 @@ static bool read_film(const Scene *scene, const Material *m, const TrianglePoint
     const Iridescence *film = m->iridescence;
     float texel[4] = {1, 1, 1, 1}, thickness_nm;
     if (m->coating) return false;
-    read_data(scene, &film->thickness_texture, point, texel);
+    read_slot(scene, &film->thickness_texture, point, texture_data, texel);
     thickness_nm = lerpf(film->least_nm, film->most_nm, texel[1]);
     if (!(thickness_nm > 0)) return false;
     float share = scaled(scene, film->share, &film->texture, point, 0);
@@ -330,7 +323,7 @@ static void set_sheen(const Site *site, const Surface *surface, MetallicRoughnes
     const SheenLayer *sheen = site->material->sheen;
     const TrianglePoint *point = &surface->point;
     float texel[4] = {1, 1, 1, 1};
-    read_colour(site->scene, &sheen->color_texture, point, texel);
+    read_slot(site->scene, &sheen->color_texture, point, texture_colour, texel);
     for (int i = 0; i < 3; i++) model->sheen_color[i] = sheen->color[i] * texel[i];
     float roughness =
         scaled(site->scene, sheen->roughness, &sheen->roughness_texture, point, 3);
@@ -344,7 +337,8 @@ static void set_metallic_roughness(const Site *site, Surface *surface)
     const Material *m = site->material;
     const TrianglePoint *point = &surface->point;
     float texel[4];
-    bool  coloured = read_colour(site->scene, &m->specular_color_texture, point, texel);
+    bool  coloured = read_slot(site->scene, &m->specular_color_texture, point, texture_colour,
+                               texel);
     MetallicRoughness *model = bsdf_be_metallic_roughness(&surface->bsdf);
     *model = metallic_roughness_default(site->tables->of_material[surface->material_id]);
     model->base_color = site->base_color;
@@ -387,7 +381,7 @@ static void set_solid(const Site *site, Surface *surface)
     if (m->iridescence && read_film(site->scene, m, &surface->point, &solid->film))
         solid->wavelengths = site->wavelengths;
     if (!coating) return;
-    solid->ior = (float)((double)m->ior / m->coating->outside);
+    solid->ior = index_of(m, m->ior);
     solid->coating = coating->solid;
     solid->wavelengths = site->wavelengths;
 }
@@ -437,7 +431,7 @@ static void set_glazing(const Site *site, Surface *surface)
     GlazedWindow  *model = bsdf_be_glazed_window(&surface->bsdf);
     *model = (GlazedWindow){.pane = pane,
                             .absorbance = curve_lookup(&pane->absorbance, site->wavelengths),
-                            .front_is_up = vec3_dot(surface->frame.z, surface->ng) > 0};
+                            .front_is_up = is_front(surface)};
     const SurfaceCoating *coating = coating_of(site, surface->material_id);
     if (coating) {
         model->coating = coating->pane;

@@ -20,28 +20,17 @@ static Vec3 beside(const Surface *surface, Vec3 wi, float along)
     return ray_offset_origin(vec3_along(place, wi, OFF_PANE * fabsf(along)), surface->ng, wi);
 }
 
-static bool lets_pass(void *user, const Hit *hit)
-{
-    (void)user, (void)hit;
-    return true;
-}
-
-/* Does the image start under the pane's frame or beyond its rim? Tested along the ray: a pane
- * goes on under its seal. along: above 0. */
-static bool is_framed(const PathState *path, const Surface *surface, Vec3 wi, float along)
+/* It may start under the pane's frame or beyond its rim. Tested along the ray: a pane goes on
+ * under its seal. */
+bool pane_image_start(const PathState *path, const Surface *surface, Vec3 wi, float along,
+                      Vec3 *out)
 {
     float cosine = vec3_dot(wi, surface->frame.z), flat2 = 1 - cosine * cosine;
     float reach = along * (1 / sqrtf(fmaxf(flat2, 1e-6f)) + 2 * OFF_PANE); /* and a little */
     Ray   ray = {ray_offset_origin(surface->position, surface->ng, wi), wi, 0, reach};
     path->statistics->shadow_rays++;
-    return bvh_occluded(path->context->bvh, ray, lets_pass, NULL);
-}
-
-bool pane_image_start(const PathState *path, const Surface *surface, Vec3 wi, float along,
-                  Vec3 *out)
-{
     *out = beside(surface, wi, along);
-    return !is_framed(path, surface, wi, along);
+    return !bvh_occluded(path->context->bvh, ray, sheets_let_pass, NULL);
 }
 
 /* Only the eye's own view through a pane is shifted: no light sample has asked for it. */

@@ -35,4 +35,4 @@ void sheet_go_behind(PathState *path, const Surface *surface);
 /* Start of the image of a pane's far face that leaves along wi, `along` m along the surface
  * from the hit. False: the pane's frame, or something else opaque, stands before it. */
 bool pane_image_start(const PathState *path, const Surface *surface, Vec3 wi, float along,
-                  Vec3 *out);
+                      Vec3 *out);

@@ -49,31 +49,6 @@ static uint32_t end_of_pass(uint32_t done, double wanted, uint32_t most, size_t 
     return end < most ? (uint32_t)end : most;
 }
 
-/* ---- one pass ---------------------------------------------------------------------------- */
-
-typedef struct RenderPass {
-    const RenderOptions *options;
-    const Kernel  *kernel;
-    const TileJob *job;
-    FilmRect       crop;
-    WorkerCounts  *counts;      /* one a worker */
-    atomic_ullong  paths_done;  /* of all passes */
-    Progress      *progress;    /* worker 0's */
-} RenderPass;
-
-static void render_one_tile(void *context, int item, int worker)
-{
-    RenderPass    *pass = context;
-    FilmRect rect = render_tile(pass->crop, item);
-    pass->kernel->render(pass->job, rect, &pass->counts[worker].statistics);
-    uint64_t paths = pixel_count(rect) *
-                     (uint64_t)(pass->job->end_sample - pass->job->first_sample);
-    uint64_t done = atomic_fetch_add(&pass->paths_done, paths) + paths;
-    if (worker != 0) return;
-    progress_update(pass->progress, (double)done);
-    if (pass->options->tile_ended) pass->options->tile_ended(pass->options->user);
-}
-
 static PathStatistics with_earlier(PathStatistics sum, const Checkpoint *resume)
 {
     if (!resume) return sum;
@@ -93,9 +68,23 @@ typedef struct Run {
     WorkerCounts *counts;
     Progress      progress;
     Forecast      forecast;
+    atomic_ullong paths_done;   /* of all passes */
     double        checkpoint_s; /* when the last one was written, or the run began */
     RenderResult  result;
 } Run;
+
+static void render_one_tile(void *context, int item, int worker)
+{
+    Run     *run = context;
+    FilmRect rect = render_tile(run->options->crop, item);
+    run->result.kernel->render(&run->job, rect, &run->counts[worker].statistics);
+    uint64_t paths = pixel_count(rect) *
+                     (uint64_t)(run->job.end_sample - run->job.first_sample);
+    uint64_t done = atomic_fetch_add(&run->paths_done, paths) + paths;
+    if (worker != 0) return;
+    progress_update(&run->progress, (double)done);
+    if (run->options->tile_ended) run->options->tile_ended(run->options->user);
+}
 
 /* Enough samples and little enough noise? Also sets the progress's total by the forecast. */
 static bool noise_reached(Run *run)
@@ -161,10 +150,7 @@ static void run_passes(Run *run)
     const RenderOptions *options = run->options;
     uint32_t total = options->end_sample - options->first_sample;
     size_t   pixels = pixel_count(options->crop);
-    RenderPass pass = {.options = options, .kernel = run->result.kernel, .job = &run->job,
-                       .crop = options->crop, .counts = run->counts,
-                       .progress = &run->progress};
-    atomic_store(&pass.paths_done, (uint64_t)run->result.samples * pixels);
+    atomic_store(&run->paths_done, (uint64_t)run->result.samples * pixels);
     if (run->result.samples)
         run->result.complete = noise_reached(run) || run->result.samples == total;
     while (!run->result.complete && !run->result.stopped_by) {
@@ -172,8 +158,7 @@ static void run_passes(Run *run)
         if (samples > total - done) samples = total - done;
         run->job.first_sample = options->first_sample + done;
         run->job.end_sample = run->job.first_sample + samples;
-        parallel_for(options->threads, render_tile_count(options->crop), render_one_tile,
-                     &pass);
+        parallel_for(options->threads, render_tile_count(options->crop), render_one_tile, run);
         run->result.samples = done + samples;
         run->result.complete = noise_reached(run) || run->result.samples == total;
         run->result.stopped_by = signals_stop_requested();
@@ -181,7 +166,7 @@ static void run_passes(Run *run)
         keep_checkpoint(run);
         show_pass(run);
     }
-    progress_end(&run->progress, (double)atomic_load(&pass.paths_done));
+    progress_end(&run->progress, (double)atomic_load(&run->paths_done));
     finish_result(run);
     run->result.error = film_relative_error(run->result.film);
 }
@@ -247,12 +232,6 @@ bool render_write_checkpoint(const CheckpointName *name, const RenderOptions *op
 
 /* ---- before the first pass --------------------------------------------------------------- */
 
-static bool read_field(RenderSetup *setup, const char *path, Arena *arena, Error *err)
-{
-    GuideScene scene = train_guide_scene(&setup->context);
-    return guide_read(path, &scene, arena, &setup->context.guide, err);
-}
-
 /* Reads the field from its file, or trains it and writes that file, if one is named. */
 static bool find_field(RenderSetup *setup, const RenderOptions *options, Arena *arena,
                        Error *err)
@@ -260,7 +239,9 @@ static bool find_field(RenderSetup *setup, const RenderOptions *options, Arena *
     const TrainOptions train = {setup->kernel, options->threads};
     double begun_s = monotonic_seconds();
     if (options->field && file_exists(options->field)) {
-        if (!read_field(setup, options->field, arena, err)) return false;
+        GuideScene scene = train_guide_scene(&setup->context);
+        if (!guide_read(options->field, &scene, arena, &setup->context.guide, err))
+            return false;
     } else {
         setup->context.guide = train_guide(&setup->context, &setup->camera, &train, arena,
                                            &setup->training);

@@ -18,7 +18,7 @@ EDITS = [
     ("shaders/bsdf.h", '#include "shaders/glazing.h"\n', '#include "shaders/dust.h"\n'),
     ("shaders/bsdf.h", "    MODEL(DISPLAY, display,",
      "    MODEL(DUST, dust, Dust)" + " " * 68 + "\\\n"),
-    ("CMakeLists.txt", "glazing.c metallic_polarised.c", "dust.c "),
+    ("CMakeLists.txt", "glazing.c metallic_roughness.c", "dust.c "),
     ("src/path/surface.c", "    } else {\n        set_metallic_roughness(site, surface);",
      "    } else if (m->specular <= 0 && site->metallic <= 0 && site->alpha >= 1)"
      " {\n"

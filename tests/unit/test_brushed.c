@@ -3,8 +3,8 @@
 #include "furnace_fixture.h"
 
 #include "base/units.h"
-#include "shaders/facets/brushed.h"
-#include "shaders/facets/common_tables.h"
+#include "shaders/facets/microfacet.h"
+#include "shaders/facets/coat.h"
 
 /* ---- the lobe --------------------------------------------------------------------------- */
 

@@ -3,7 +3,7 @@
  * reflection, energy. */
 #include "furnace_fixture.h"
 
-#include "shaders/facets/common_tables.h"
+#include "shaders/facets/coat.h"
 
 static Wavelengths wavelengths;
 

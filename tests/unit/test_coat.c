@@ -5,7 +5,7 @@
 #include "layer_fixture.h"
 
 #include "shaders/layers/coating_tables.h"
-#include "shaders/facets/common_tables.h"
+#include "shaders/facets/coat.h"
 #include "spectrum/fresnel.h"
 
 static const EnergyTable *glass;

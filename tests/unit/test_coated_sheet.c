@@ -5,8 +5,8 @@
 #include "layer_fixture.h"
 
 #include "shaders/layers/coating_tables.h"
-#include "shaders/facets/common_tables.h"
-#include "shaders/layers/sheet_turns.h"
+#include "shaders/facets/coat.h"
+#include "shaders/metallic/metallic_facet.h"
 #include "spectrum/fresnel.h"
 
 static Wavelengths    wavelengths;

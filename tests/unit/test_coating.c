@@ -7,7 +7,7 @@
 #include "base/units.h"
 #include "shaders/bsdf.h"
 #include "shaders/layers/coating_tables.h"
-#include "shaders/facets/common_tables.h"
+#include "shaders/facets/coat.h"
 #include "spectrum/fresnel.h"
 
 static Wavelengths wavelengths;

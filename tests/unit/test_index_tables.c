@@ -2,7 +2,7 @@
 /* Tables of any index of refraction against those that are computed in full. */
 #include "fixture.h"
 
-#include "shaders/facets/common_tables.h"
+#include "shaders/facets/coat.h"
 #include "shaders/facets/index_tables.h"
 
 static double farthest(const Energy *a, const Energy *b, int count)

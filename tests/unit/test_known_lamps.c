@@ -2,7 +2,7 @@
 /* What a cell knows of its lamps: it decides how often each is chosen, never what they give. */
 #include "light_fixture.h"
 
-#include "path/cell_lamps.h"
+#include "path/cell_lights.h"
 
 #define FLOOR_POINT ((LitPoint){{0.4f, 0, -0.3f}, {0, 1, 0}, false})
 

@@ -2,7 +2,7 @@
 /* Sheen: the extension's formula, its albedo, and what cloth under it returns. */
 #include "furnace_fixture.h"
 
-#include "shaders/facets/common_tables.h"
+#include "shaders/facets/coat.h"
 #include "shaders/layers/sheen.h"
 
 static Wavelengths wavelengths;

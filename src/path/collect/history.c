@@ -4,15 +4,9 @@
 
 #include "path/emitted.h"
 
-/* The members that HistoryCollector and ImageCollector begin with. */
-typedef struct HistoryBase {
-    PathCollector base;
-    PathHistory   history;
-} HistoryBase;
-
 static PathHistory *history_of(PathCollector *c)
 {
-    return &((HistoryBase *)c)->history;
+    return &((HistoryCollector *)c)->history;
 }
 
 static PathHistory history_start(void)
@@ -118,7 +112,7 @@ HistoryCollector history_collector(const PathListener *listener, PathCollector *
     static const CollectorKind kind = {
         .size = sizeof(HistoryCollector), .start = start, .meet = meet, .behind = behind,
         .turn = turn, .on_light = on_light};
-    return (HistoryCollector){{&kind, next}, history_start(), listener};
+    return (HistoryCollector){{&kind, next}, history_start(), listener, NULL};
 }
 
 /* ---- mirror images ----------------------------------------------------------------------- */
@@ -132,18 +126,18 @@ static bool refuse_scattered(PathCollector *c, PathState *path, const Surface *s
 
 static bool add_image(PathCollector *c, PathState *path)
 {
-    const PathImages *images = ((ImageCollector *)c)->images;
+    const PathImages *images = ((HistoryCollector *)c)->images;
     if (path->last.is_delta)
         images->add(images->user, history_of(c), path->ray.direction,
                     (const float *)&path->throughput);
     return true;
 }
 
-ImageCollector image_collector(const PathImages *images)
+HistoryCollector image_collector(const PathImages *images)
 {
     static const CollectorKind kind = {
-        .size = sizeof(ImageCollector), .start = start, .meet = meet, .behind = behind,
+        .size = sizeof(HistoryCollector), .start = start, .meet = meet, .behind = behind,
         .turn = turn, .vertex = collector_asks_nobody, .refuse = refuse_scattered,
         .escape = add_image};
-    return (ImageCollector){{&kind, NULL}, history_start(), images};
+    return (HistoryCollector){{&kind, NULL}, history_start(), NULL, images};
 }

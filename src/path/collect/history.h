@@ -51,14 +51,6 @@ typedef struct PathListener {
     bool   of_emitters; /* it gets these alone */
 } PathListener;
 
-typedef struct HistoryCollector {
-    PathCollector       base;
-    PathHistory         history; /* of the path so far */
-    const PathListener *listener;
-} HistoryCollector;
-
-HistoryCollector history_collector(const PathListener *listener, PathCollector *next);
-
 /* Which mirror images lie along a ray: what scatters is not followed, and no light counts. */
 typedef struct PathImages {
     /* A path leaves the scene: share per lane of the radiance from there. */
@@ -66,11 +58,14 @@ typedef struct PathImages {
     void  *user;
 } PathImages;
 
-typedef struct ImageCollector {
-    PathCollector     base;
-    PathHistory       history;
-    const PathImages *images;
-} ImageCollector;
+typedef struct HistoryCollector {
+    PathCollector       base;
+    PathHistory         history;  /* of the path so far */
+    const PathListener *listener; /* one of these two; else NULL */
+    const PathImages   *images;
+} HistoryCollector;
+
+HistoryCollector history_collector(const PathListener *listener, PathCollector *next);
 
 /* The path must be dark (PathManner). */
-ImageCollector image_collector(const PathImages *images);
+HistoryCollector image_collector(const PathImages *images);

@@ -2,9 +2,268 @@
 /* HOT: no allocation, no lock, no libm. */
 #include "path/collect/seen.h"
 
-#include "path/collect/lambertian_part.h"
-#include "path/collect/pixel_ray.h"
-#include "path/collect/polarised_rows.h"
+/* ---- polarised light (path/polarised.h) -------------------------------------------------- */
+
+/* Light counts by how it is polarised. */
+typedef struct PolarisedRows {
+    PathCollector       base;
+    const PolarisedEye *eye;
+    Polarised           light;
+    float              *stokes; /* S0 to S3 that analysers find besides, added to; NULL: none */
+} PolarisedRows;
+
+static Polarised *light_of(PathCollector *c)
+{
+    return &((PolarisedRows *)c)->light;
+}
+
+/* Moves the first weight into the path's throughput. */
+static void take(PathCollector *c, PathState *path)
+{
+    path->throughput *= polarised_take(light_of(c));
+}
+
+static void start_rows(PathCollector *c, PathState *path)
+{
+    polarised_start(((PolarisedRows *)c)->eye, path->ray.direction, light_of(c));
+    take(c, path);
+}
+
+static void leave(PathCollector *c, PathState *path, const Surface *surface, Vec3 wo,
+                  const BsdfSample *next)
+{
+    polarised_turn(light_of(c), surface, wo, next);
+    take(c, path);
+}
+
+static void pass(PathCollector *c, PathState *path, const Surface *pane, Vec3 wo)
+{
+    polarised_pass(light_of(c), pane, wo);
+    take(c, path);
+}
+
+/* Polarisation of what leaves a triangle's point along `way` (unit); NULL: unpolarised. */
+static const PolarisedLight *emitter_light(const PathState *path, uint32_t triangle,
+                                           const TrianglePoint *point, Vec3 way,
+                                           PolarisedLight *out)
+{
+    float degree;
+    if (!triangle_polarisation(path->context->scene, triangle, point, way, &out->axis, &degree))
+        return NULL;
+    out->degree = spectrum_all(degree);
+    return out;
+}
+
+/* Weighs the light that the first surface sends to the eye. */
+static void see(PathCollector *c, PathState *path, const Surface *surface, Vec3 wo,
+                uint32_t triangle)
+{
+    PolarisedLight room;
+    const PolarisedLight *from = emitter_light(path, triangle, &surface->point, wo, &room);
+    path->first.through *= polarised_seen(light_of(c), 0, wo, from);
+}
+
+/* A shadow ray's sheets, along its direction: the nearest first; of more than it remembers,
+ * some. */
+static void pass_panes(const ShadowRay *ray, Vec3 direction, Polarised *light)
+{
+    const PathState   *path = ray->path;
+    const PathContext *context = path->context;
+    Hit hit[SHADOW_HITS];
+    int count = ray->hit_count < SHADOW_HITS ? ray->hit_count : SHADOW_HITS;
+    for (int i = 0; i < count; i++) {
+        int k = i;
+        for (; k > 0 && hit[k - 1].t > ray->recent[i].t; k--) hit[k] = hit[k - 1];
+        hit[k] = ray->recent[i];
+    }
+    for (int i = 0; i < count; i++) {
+        Surface pane;
+        Vec3    wo = vec3_neg(direction);
+        surface_at(context->scene, context->tables, &hit[i], wo, path->wavelengths, &pane);
+        polarised_pass(light, &pane, wo);
+    }
+}
+
+/* Follows a light sample's way once more, for what surface, panes and mirror do to it. */
+static void go_again(const PathFound *found, Polarised *light)
+{
+    const SunMirror *mirror = found->mirror;
+    Vec3       to_light = vec3_neg(found->way);
+    Vec3       first = mirror ? mirror->light.wi : to_light;
+    BsdfSample out = {.wi = found->local_wi};
+    polarised_turn(light, found->by, found->wo, &out);
+    pass_panes(found->shadow, first, light);
+    if (!mirror) return;
+    BsdfSample on = {.wi = frame_to_local(&mirror->surface.frame, to_light),
+                     .is_delta = !found->by_rough};
+    polarised_turn(light, &mirror->surface, vec3_neg(first), &on);
+    pass_panes(found->beyond, to_light, light);
+}
+
+/* Polarisation of the light where it begins; NULL: unpolarised. */
+static const PolarisedLight *origin_of(const PathState *path, const PathFound *found,
+                                       PolarisedLight *room)
+{
+    if (found->point)
+        return emitter_light(path, found->triangle, found->point, found->way, room);
+    bool is_some = found->set == LIGHTS_SKY &&
+                   lights_sky_polarisation(path->context->lights, vec3_neg(found->way),
+                                           path->wavelengths, &room->axis, &room->degree);
+    return is_some ? room : NULL;
+}
+
+/* Weighs a display's XYZ; all lanes are the same. */
+static void count_display(const PolarisedRows *rows, const Polarised *light,
+                          const PolarisedLight *from, PathFound *found)
+{
+    float luminance = found->share * found->xyz[1];
+    for (int i = 1; rows->stokes && i < light->row_count; i++)
+        rows->stokes[i - 1] += luminance * polarised_seen(light, i, found->way, from)[0];
+    found->share *= polarised_seen(light, 0, found->way, from)[0];
+}
+
+static void add_stokes(const PolarisedRows *rows, const Polarised *light,
+                       const PolarisedLight *from, const PathState *path,
+                       const PathFound *found)
+{
+    for (int i = 1; rows->stokes && i < light->row_count; i++) {
+        float xyz[3] = {0};
+        spectrum_add_xyz(path->wavelengths,
+                         found->radiance * polarised_seen(light, i, found->way, from), xyz);
+        rows->stokes[i - 1] += xyz[1];
+    }
+}
+
+static void count(PathCollector *c, PathState *path, PathFound *found)
+{
+    PolarisedRows   *rows = (PolarisedRows *)c;
+    const Polarised *light = &rows->light;
+    Polarised        again;
+    PolarisedLight   room;
+    if (found->by) {
+        if (spectrum_is_zero(found->radiance)) return;
+        again = rows->light;
+        go_again(found, &again);
+        light = &again;
+    }
+    const PolarisedLight *from = origin_of(path, found, &room);
+    if (found->xyz) {
+        count_display(rows, light, from, found);
+        return;
+    }
+    found->radiance *= light->share;
+    add_stokes(rows, light, from, path, found);
+    found->radiance *= polarised_seen(light, 0, found->way, from);
+}
+
+static PolarisedRows polarised_rows(const PolarisedEye *eye, float *stokes, PathCollector *next)
+{
+    static const CollectorKind kind = {.size = sizeof(PolarisedRows), .start = start_rows,
+                                       .see = see, .leave = leave, .pass = pass,
+                                       .count = count};
+    PolarisedRows rows = {.base = {&kind, next}, .eye = eye, .stokes = stokes};
+    return rows;
+}
+
+/* ---- sub-pixels -------------------------------------------------------------------------- */
+
+static void start_pixel(PathCollector *c, PathState *path)
+{
+    PixelRay *ray = (PixelRay *)c;
+    ray->footprint = footprint_of_cone(path->context->cone, path->ray.direction);
+    ray->is_known = true;
+}
+
+static void turn_pixel(PathCollector *c, PathState *path, const Surface *surface, Vec3 wo,
+                       const BsdfSample *next)
+{
+    PixelRay *ray = (PixelRay *)c;
+    ray->is_known = ray->is_known && footprint_turn(&ray->footprint, path->context->scene,
+                                                    surface, wo, next, path->straight);
+}
+
+static const RayFootprint *footprint(const PathCollector *c)
+{
+    const PixelRay *ray = (const PixelRay *)c;
+    return ray->is_known ? &ray->footprint : NULL;
+}
+
+bool pixel_ray_is_wanted(const PathContext *context)
+{
+    return context->has_subpixels && context->cone.width + context->cone.spread > 0;
+}
+
+PixelRay pixel_ray(PathCollector *next)
+{
+    static const CollectorKind kind = {.size = sizeof(PixelRay), .start = start_pixel,
+                                       .turn = turn_pixel, .footprint = footprint};
+    return (PixelRay){.base = {&kind, next}};
+}
+
+/* ---- a display's lambertian part --------------------------------------------------------- */
+
+/* What a display that the eye sees scatters apart from its haze, XYZ, cd m^-2. */
+typedef struct LambertianPart {
+    PathCollector base;
+    PathLight found;  /* of the light samples there */
+    PathLight before; /* what the path had found in all when it went on from there, */
+    Spectrum  share;  /* and how much counts of what it finds since, per lane */
+    float    *xyz;    /* goes here in the end */
+} LambertianPart;
+
+/* Is this the first surface, and has it a Lambertian part? */
+static bool is_asked(const PathState *path, const Surface *surface)
+{
+    return path->first.is_awaited && bsdf_has_lambertian(&surface->bsdf);
+}
+
+/* Share of the Lambertian part in what a display scatters from local_wi, per lane. */
+static Spectrum share_of(const Surface *surface, Vec3 local_wi)
+{
+    return bsdf_lambertian_share(&surface->bsdf, surface->local_wo, local_wi);
+}
+
+/* Light samples of that surface. */
+static void add_lambertian(PathCollector *c, PathState *path, const PathFound *found)
+{
+    LambertianPart *part = (LambertianPart *)c;
+    if (found->by && is_asked(path, found->by))
+        part->found.radiance += found->radiance * share_of(found->by, found->local_wi);
+}
+
+/* The path goes on from there. */
+static void turn_lambertian(PathCollector *c, PathState *path, const Surface *surface, Vec3 wo,
+                            const BsdfSample *next)
+{
+    (void)wo;
+    LambertianPart *part = (LambertianPart *)c;
+    if (!is_asked(path, surface)) return;
+    part->before = path->gathered;
+    part->share = next->is_delta ? spectrum_all(0) : share_of(surface, next->wi);
+}
+
+/* Measured XYZ come only by displays on which nothing depends on wavelength: the share of one
+ * lane is that of all. */
+static void finish_lambertian(PathCollector *c, PathState *path)
+{
+    const LambertianPart *part = (const LambertianPart *)c;
+    PathLight light = path->gathered;
+    path_light_take(&light, &part->before);
+    light.radiance *= part->share;
+    for (int i = 0; i < 3; i++) light.xyz[i] *= part->share[0];
+    path_light_add(&light, &part->found);
+    path_light_to_xyz(&light, path->wavelengths, part->xyz);
+}
+
+static LambertianPart lambertian_part(float xyz[3], PathCollector *next)
+{
+    static const CollectorKind kind = {
+        .size = sizeof(LambertianPart), .turn = turn_lambertian, .on_light = add_lambertian,
+        .finish = finish_lambertian};
+    return (LambertianPart){.base = {&kind, next}, .share = spectrum_all(0), .xyz = xyz};
+}
+
+/* ---- all of it --------------------------------------------------------------------------- */
 
 _Static_assert(COLLECTOR_ROOM(PolarisedRows) + COLLECTOR_ROOM(PixelRay) +
                        COLLECTOR_ROOM(LambertianPart) + COLLECTOR_ROOM(HistoryCollector) <=

@@ -23,3 +23,16 @@ typedef struct SeenLight {
 
 /* start: without collectors. The path does not depend on what is asked. */
 void path_seen(const PathStart *start, Ray ray, const SeenAsk *ask, SeenLight *out);
+
+/* The footprint of a pixel along a frame's ray (path/footprint.h), until that scatters: for
+ * displays with sub-pixels. path_seen has it. */
+typedef struct PixelRay {
+    PathCollector base;
+    RayFootprint  footprint;
+    bool          is_known;
+} PixelRay;
+
+/* Do the context's rays need a footprint? */
+bool pixel_ray_is_wanted(const PathContext *context);
+
+PixelRay pixel_ray(PathCollector *next);
