@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "draco/draco_mesh.h"
 
-#include "guarded.hpp"
+#include "guarded/guarded.hpp"
 
 #include <draco/compression/decode.h>
 #include <draco/core/varint_decoding.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "opencolorio/view_transform.h"
 
-#include "guarded.hpp"
+#include "guarded/guarded.hpp"
 
 #include <OpenColorIO/OpenColorIO.h>
 

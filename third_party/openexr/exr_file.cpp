@@ -4,7 +4,7 @@
 #include <sys/stat.h>
 
 #include "base/file.h"
-#include "guarded.hpp"
+#include "guarded/guarded.hpp"
 #include "openexr/exr_header.h"
 #include "openexr/memory_stream.hpp"
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "tinygltf/gltf_json.h"
 
-#include "guarded.hpp"
+#include "guarded/guarded.hpp"
 
 #include <algorithm>
 #include <cmath>
