@@ -188,7 +188,9 @@ def main():
     jobs = int(panels.take_option(arguments, "--jobs", os.cpu_count()))
     kind = panels.take_option(arguments, "--cases", "all")
     share, shares = map(int, panels.take_option(arguments, "--share", "1/1").split("/"))
-    cases = cases_of(kind)[share - 1::shares]
+    cases = cases_of(kind)[share - 1::shares] if 1 <= share <= shares else []
+    if not cases:
+        sys.exit(f"panel_coarse: --share {share}/{shares} has no case")
     wrong, counts = 0, {}
     print(f"{'grid':>11} {'lobe':>5} {'mirror':>7} {'BRDF err':>10} {'mirror err':>10}  "
           "verdict")
