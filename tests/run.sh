@@ -71,6 +71,7 @@ start 'why a display looks so' explain python3 tests/image/explain.py $program
 start 'groups of lights' lights python3 tests/image/lights.py $program
 start 'same bits, killed and resumed' resume python3 tests/hostile/resume.py $program
 start 'same bits, any parts' merge python3 tests/image/merge.py $program
+start 'samples for an area' favour python3 tests/image/favour.py $program
 start 'panels of coarse grids' panel-coarse \
     python3 tests/bench/panel_coarse.py $program --cases few
 start 'what one pixel sees' probe python3 tests/image/probe.py $program

@@ -9,6 +9,7 @@
 #pragma once
 #include "camera/camera.h"
 #include "film/film.h"
+#include "film/sample_shares.h"
 #include "guide/guide_training.h"
 #include "kernel/probe.h"
 #include "light/light_groups.h"
@@ -26,8 +27,18 @@ typedef struct TileJob {
     bool     with_lambertian; /* display.lambertian */
     const LightGroups *lights; /* the film's groups of lights; NULL: it keeps none apart */
     uint32_t seed;
-    uint32_t first_sample, end_sample; /* half-open */
+    SampleShares shares;    /* of the film's crop */
+    uint32_t first_sample, end_sample; /* half-open, of the frame */
 } TileJob;
+
+/* A search for the pixels that show a display. */
+typedef struct DisplaySearch {
+    const PathContext *context;
+    const Camera      *camera;
+    int       display; /* its id; FILM_ANY_DISPLAY: any */
+    FilmRect  rect;    /* of the frame */
+    uint8_t  *shows;   /* of each of its pixels, row by row: 1: it does */
+} DisplaySearch;
 
 /* The work by which a guide is trained. */
 typedef struct LessonJob {
@@ -45,6 +56,8 @@ typedef struct Kernel {
     const char *isa; /* "sse2", "avx2", "avx512"; "native" on other processors */
     /* rect: inside the film's crop, pixels of the whole frame. Adds to *statistics. */
     void (*render)(const TileJob *job, FilmRect rect, PathStatistics *statistics);
+    /* Sets what a part of the search's rectangle shows. */
+    void (*find_displays)(const DisplaySearch *search, FilmRect part);
     /* One path through every step of a rectangle of the raster: the places it comes by. */
     void (*find_places)(const LessonJob *job, FilmRect rect, PathStatistics *statistics);
     /* Measures the light that arrives in a cell from every direction. */

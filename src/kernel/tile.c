@@ -164,6 +164,21 @@ static void tile_sample(TileWork *work, int x, int y, uint32_t index, FilmSample
         add_fine(job, x, y, &wavelengths, out, work->statistics);
 }
 
+static void pixel_render(TileWork *work, int x, int y)
+{
+    const TileJob *job = work->job;
+    uint32_t       share = sample_shares_at(&job->shares, x, y);
+    uint32_t       end = sample_shares_own(share, job->end_sample);
+    for (uint32_t index = sample_shares_own(share, job->first_sample); index < end; index++) {
+        FilmSample sample;
+        tile_sample(work, x, y, index, &sample);
+        sample.lights = work->lights.found;
+        sample.light_count = work->lights.count;
+        film_add_sample(job->film, x, y, &sample);
+        lights_clear(&work->lights);
+    }
+}
+
 static void tile_render(const TileJob *job, FilmRect rect, PathStatistics *statistics)
 {
     TileWork work;
@@ -172,15 +187,55 @@ static void tile_render(const TileJob *job, FilmRect rect, PathStatistics *stati
     lights_start(job->lights, &work.lights);
     for (int y = rect.y0; y < rect.y1; y++)
         for (int x = rect.x0; x < rect.x1; x++)
-            for (uint32_t index = job->first_sample; index < job->end_sample; index++) {
-                FilmSample sample;
-                tile_sample(&work, x, y, index, &sample);
-                sample.lights = work.lights.found;
-                sample.light_count = work.lights.count;
-                film_add_sample(job->film, x, y, &sample);
-                lights_clear(&work.lights);
-            }
+            pixel_render(&work, x, y);
 }
+
+/* ---- which pixels show a display --------------------------------------------------------- */
+
+#define SEARCH_RAYS 4u /* through a pixel */
+#define SEARCH_SEED 0x666f7264u
+
+static bool ray_shows(const DisplaySearch *search, const PathContext *eye, Sampler *sampler,
+                      Vec2 at)
+{
+    const SeenAsk  ask = {.listener = NULL};
+    PathStatistics uncounted = {0};
+    SeenLight      seen;
+    PathFeatures   features;
+    Wavelengths    wavelengths;
+    wavelengths_sample(sampler_1d(sampler), &wavelengths);
+    PathStart start = {.context = eye, .wavelengths = &wavelengths, .sampler = sampler,
+                       .statistics = &uncounted};
+    path_seen(&start, camera_ray(search->camera, at.x, at.y), &ask, &seen);
+    if (!seen.path.hit) return false;
+    path_features(eye, &seen.path, &wavelengths, &features);
+    return search->display == FILM_ANY_DISPLAY ? features.display_id != NO_ID
+                                               : features.display_id == search->display;
+}
+
+static bool pixel_shows(const DisplaySearch *search, const PathContext *eye, int x, int y)
+{
+    for (uint32_t k = 0; k < SEARCH_RAYS; k++) {
+        Sampler sampler = sampler_start(SEARCH_SEED, x, y, k);
+        Vec2    at = sampler_2d(&sampler);
+        if (ray_shows(search, eye, &sampler, (Vec2){(float)x + at.x, (float)y + at.y}))
+            return true;
+    }
+    return false;
+}
+
+static void tile_find_displays(const DisplaySearch *search, FilmRect part)
+{
+    PathContext eye = *search->context;
+    size_t      columns = (size_t)(search->rect.x1 - search->rect.x0);
+    eye.max_bounces = 0;
+    for (int y = part.y0; y < part.y1; y++)
+        for (int x = part.x0; x < part.x1; x++)
+            search->shows[(size_t)(y - search->rect.y0) * columns +
+                          (size_t)(x - search->rect.x0)] = pixel_shows(search, &eye, x, y);
+}
+
+/* ---- lessons ----------------------------------------------------------------------------- */
 
 static void lesson_find_places(const LessonJob *job, FilmRect rect, PathStatistics *statistics)
 {
@@ -254,6 +309,7 @@ static void lesson_try_lights(const LessonJob *job, uint32_t cell, PathStatistic
 #define KERNEL_ISA "native"
 #endif
 extern const Kernel KERNEL_NAME;
-const Kernel KERNEL_NAME = {KERNEL_ISA, tile_render, lesson_find_places, lesson_learn,
-                            lesson_try_lights, probe_look, probe_trace, probe_ask_cells,
-                            probe_ask_suns, probe_ask_images};
+const Kernel KERNEL_NAME = {
+    KERNEL_ISA, tile_render, tile_find_displays, lesson_find_places, lesson_learn,
+    lesson_try_lights, probe_look, probe_trace, probe_ask_cells, probe_ask_suns,
+    probe_ask_images};

@@ -10,6 +10,7 @@
 #include "bvh/bvh.h"
 #include "guide/guide_file.h"
 #include "light/light.h"
+#include "render/favour.h"
 #include "render/forecast.h"
 #include "render/signals.h"
 #include "render/train.h"
@@ -78,12 +79,20 @@ static void render_one_tile(void *context, int item, int worker)
     Run     *run = context;
     FilmRect rect = render_tile(run->options->crop, item);
     run->result.kernel->render(&run->job, rect, &run->counts[worker].statistics);
-    uint64_t paths = pixel_count(rect) *
-                     (uint64_t)(run->job.end_sample - run->job.first_sample);
+    uint64_t paths = sample_shares_sum(&run->job.shares, rect, run->job.first_sample,
+                                       run->job.end_sample);
     uint64_t done = atomic_fetch_add(&run->paths_done, paths) + paths;
     if (worker != 0) return;
     progress_update(&run->progress, (double)done);
     if (run->options->tile_ended) run->options->tile_ended(run->options->user);
+}
+
+/* Of the first `samples` samples of the run, over all pixels. */
+static double paths_of_first(const RenderOptions *options, const SampleShares *shares,
+                             uint32_t samples)
+{
+    return (double)sample_shares_sum(shares, options->crop, options->first_sample,
+                                     options->first_sample + samples);
 }
 
 /* Enough samples and little enough noise? Also sets the progress's total by the forecast. */
@@ -96,10 +105,9 @@ static bool noise_reached(Run *run)
     uint32_t most = options->end_sample - options->first_sample;
     double   wanted = forecast_samples(&run->forecast, result->samples,
                                        result->noise / options->noise);
-    size_t   pixels = pixel_count(options->crop);
     wanted = fmax(wanted, RENDER_LEAST_SAMPLES);
-    uint32_t end = end_of_pass(result->samples, wanted, most, pixels);
-    run->progress.total = (double)end * (double)pixels;
+    uint32_t end = end_of_pass(result->samples, wanted, most, pixel_count(options->crop));
+    run->progress.total = paths_of_first(options, &result->shares, end);
     return result->samples >= RENDER_LEAST_SAMPLES && result->noise <= options->noise;
 }
 
@@ -150,7 +158,8 @@ static void run_passes(Run *run)
     const RenderOptions *options = run->options;
     uint32_t total = options->end_sample - options->first_sample;
     size_t   pixels = pixel_count(options->crop);
-    atomic_store(&run->paths_done, (uint64_t)run->result.samples * pixels);
+    atomic_store(&run->paths_done,
+                 (uint64_t)paths_of_first(options, &run->result.shares, run->result.samples));
     if (run->result.samples)
         run->result.complete = noise_reached(run) || run->result.samples == total;
     while (!run->result.complete && !run->result.stopped_by) {
@@ -193,7 +202,7 @@ static void render_film(const RenderSetup *setup, const RenderOptions *options, 
                         RenderResult *result)
 {
     Run    run = {.options = options, .result = *result};
-    double pixels = (double)pixel_count(options->crop);
+    uint32_t total = options->end_sample - options->first_sample;
     run.job = (TileJob){.context = &setup->context,
                         .camera = &setup->camera,
                         .film = result->film,
@@ -201,13 +210,14 @@ static void render_film(const RenderSetup *setup, const RenderOptions *options, 
                         .with_fine = (options->layers & LAYER_DISPLAY_FINE) != 0,
                         .with_lambertian = (options->layers & LAYER_NEEDS_LAMBERTIAN) != 0,
                         .lights = options->layers & LAYER_LIGHT ? options->lights : NULL,
-                        .seed = options->seed};
+                        .seed = options->seed,
+                        .shares = result->shares};
     run.counts = ARENA_NEW(arena, WorkerCounts, options->threads);
-    double most = pixels * (double)(options->end_sample - options->first_sample);
+    double most = paths_of_first(options, &result->shares, total);
     run.progress = options->within
                        ? progress_part(options->within, options->within_weight, most)
                        : progress_start(options->progress, "render", "samples", most);
-    run.progress.first = pixels * (double)result->samples;
+    run.progress.first = paths_of_first(options, &result->shares, result->samples);
     run.checkpoint_s = run.progress.begun_s;
     signals_watch();
     run_passes(&run);
@@ -306,6 +316,9 @@ bool render_prepared(const RenderSetup *setup, const RenderOptions *options, Are
                            .training_seconds = setup->training_seconds,
                            .training_paths = setup->training.samples};
     if (!make_film(options, arena, &result, err)) return false;
+    const Favour favour = {setup->kernel, &setup->context, &setup->camera, options->favoured,
+                           options->crop, options->threads};
+    result.shares = favour_shares(&favour, arena);
     render_film(setup, options, arena, &result);
     *out = result;
     return true;

@@ -2,10 +2,10 @@
 /* render.h -- makes a film of a scene: passes, tiles, threads, stopping rule.
  *
  * A pass adds a few samples to every pixel: 1, 1, 2, 4 ... up to a number that depends on the
- * count of pixels alone. Only between passes is anything decided (stop, snapshot, noise), so
- * that all pixels have the same number of samples, and the frame is the same for any number
- * of threads. Passes end at the same samples wherever a render begins, so that one that goes
- * on from a checkpoint decides what one without interruption decides.
+ * count of pixels alone; pixels outside a favoured area take a fixed share of them (favour.h).
+ * Only between passes is anything decided (stop, snapshot, noise), so that the frame is the
+ * same for any number of threads. Passes end at the same samples wherever a render begins, so
+ * that one that goes on from a checkpoint decides what one without interruption decides.
  *
  * Memory   film and lights come from the arena; Embree's memory is gone on return.
  * Threads  starts `threads` of its own for every pass.
@@ -16,6 +16,7 @@
 #include "base/progress.h"
 #include "camera/camera.h"
 #include "film/film.h"
+#include "film/sample_shares.h"
 #include "path/path.h"
 #include "render/checkpoint.h"
 #include "render/tiles.h"
@@ -29,8 +30,9 @@ typedef struct RenderOptions {
     uint32_t seed;
     uint32_t first_sample, end_sample; /* half-open; the end is the most that is done */
     double   noise;            /* stop when the relative error is below; 0: never. Not before
-                                  every pixel has RENDER_LEAST_SAMPLES */
+                                  the frame has RENDER_LEAST_SAMPLES */
     FilmArea noise_area;       /* whose error decides */
+    const FilmArea *favoured;  /* only its pixels take all samples (favour.h); NULL: all do */
     bool     no_guiding;       /* does not learn first where light comes from */
     const char *field;         /* what was learnt: read from this file if it is there, else kept
                                   there; NULL: neither */
@@ -65,7 +67,8 @@ extern const char SOURCES_HASH[];
 struct RenderResult {
     Film          *film;
     const Kernel  *kernel;     /* the one that was used */
-    uint32_t       samples;    /* a pixel, with those done before */
+    SampleShares   shares;     /* of the pixels in all samples */
+    uint32_t       samples;    /* of the frame, with those done before */
     uint32_t       resumed_samples; /* done before this session; 0: it began */
     bool           has_features; /* the samples' first surfaces were looked at */
     long           refused_pixels; /* of the sky's picture: negative or not finite, as 0 */

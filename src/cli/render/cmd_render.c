@@ -124,11 +124,14 @@ static bool check_look(const RenderRequest *request, Arena scratch, Error *err)
            develop_picture(&frame, &request->look, &scratch, &picture, &report, err);
 }
 
-/* One sample that is replayed has none. */
-static void set_noise(RenderRequest *request)
+/* One sample that is replayed has none of them. */
+static void set_areas(RenderRequest *request)
 {
-    request->render.noise = request->replays ? 0 : request->noise.error;
-    request->render.noise_area = request->noise.area;
+    RenderOptions *options = &request->render;
+    bool           favours = request->favoured.option && !request->replays;
+    options->noise = request->replays ? 0 : request->noise.error;
+    options->noise_area = request->noise.of.area;
+    options->favoured = favours ? &request->favoured.area : NULL;
 }
 
 static bool load(RenderRun *work, Error *err)
@@ -140,8 +143,9 @@ static bool load(RenderRun *work, Error *err)
         scene_options_load(&asked, work->arena, &work->problems, &work->scene, err) &&
         render_choose_camera(work->scene, &request->camera, &work->problems, &work->camera,
                              err) &&
-        noise_goal_find(work->scene, *work->arena, &request->noise, err);
-    if (loaded) set_noise(request);
+        frame_area_find(work->scene, *work->arena, &request->noise.of, err) &&
+        frame_area_find(work->scene, *work->arena, &request->favoured, err);
+    if (loaded) set_areas(request);
     if (loaded) render_warn_of_darkness(work->scene, &work->problems);
     cli_print_warnings(&work->problems);
     return loaded;
@@ -251,7 +255,7 @@ static void warn_of_picture(RenderRun *work, const RenderResult *result)
 static void warn_of_noise(RenderRun *work, const RenderResult *result)
 {
     const RenderOptions *options = &work->request.render;
-    const char *area = noise_goal_words(&work->request.noise, work->arena);
+    const char *area = frame_area_words(&work->request.noise.of, work->arena);
     if (!(options->noise > 0) || !result->complete || result->noise <= options->noise) return;
     warn(work, isnan(result->noise)
                    ? arena_format(work->arena,
@@ -261,6 +265,15 @@ static void warn_of_noise(RenderRun *work, const RenderResult *result)
                                   "the relative error of %s is %.3g, not the %.3g of --noise, "
                                   "after all %u samples a pixel",
                                   area, result->noise, options->noise, result->samples));
+}
+
+static void warn_of_favour(RenderRun *work, const RenderResult *result)
+{
+    if (!work->request.render.favoured || sample_shares_whole(&result->shares)) return;
+    warn(work, arena_format(work->arena,
+                            "nothing of %s is in view: --for left an eighth of the samples to "
+                            "all pixels",
+                            frame_area_words(&work->request.favoured, work->arena)));
 }
 
 /* False after a warning: the render is worth more than its checkpoint. */
@@ -385,6 +398,7 @@ static bool hand_over(RenderRun *work, const RenderResult *result, Error *err)
     warn_of_picture(work, result);
     warn_of_dropped(work, result);
     warn_of_noise(work, result);
+    warn_of_favour(work, result);
     if (work->request.replays)
         return render_print_replay(&work->request, work->scene, result, work->arena, err);
     bool is_kept = !result->complete && keep_checkpoint(work, result);

@@ -14,6 +14,7 @@
 #include "cli/render/render_identity.h"
 #include "film/film_frame.h"
 #include "film/film_part.h"
+#include "render/favour.h"
 #include "text/json_text.h"
 
 /* ---- the frame --------------------------------------------------------------------------- */
@@ -100,6 +101,11 @@ static void set_sampling(FrameImage *frame, const RenderRequest *request,
     frame_set_string(frame, "parhelion:seed", arena_format(arena, "%u", options->seed), arena);
     frame_set_whole(frame, "parhelion:maxBounces", options->max_bounces, arena);
     frame_set_whole(frame, "parhelion:unbiased", 1, arena);
+    if (options->favoured)
+        frame_set_string(frame, "parhelion:for",
+                         arena_format(arena, "all samples for %s, of other pixels 1 in %u",
+                                      frame_area_words(&request->favoured, arena),
+                                      FAVOUR_OTHERS), arena);
     if (options->eye) set_eye(frame, options->eye, arena);
     if (result->field_hash)
         frame_set_string(frame, "parhelion:field",
@@ -184,6 +190,15 @@ static json_t *training_document(const RenderResult *result)
                      "paths", (json_int_t)result->training_paths);
 }
 
+/* What all samples were for; null: every pixel. */
+static json_t *favour_document(const RenderRequest *request, const RenderResult *result)
+{
+    if (!request->render.favoured) return json_null();
+    return json_pack("{s:o, s:I, s:f}", "area", json_text(request->favoured.text), "pixels",
+                     (json_int_t)sample_shares_whole(&result->shares), "others",
+                     1.0 / FAVOUR_OTHERS);
+}
+
 static json_t *answer_document(const RenderRequest *request, const RenderResult *result,
                                const Problems *problems)
 {
@@ -202,6 +217,7 @@ static json_t *answer_document(const RenderRequest *request, const RenderResult 
         cli_json_problems(problems, SEVERITY_WARNING));
     json_object_set_new(answer, "build_peak_memory_bytes",
                         json_integer((json_int_t)result->build_peak_bytes));
+    json_object_set_new(answer, "for", favour_document(request, result));
     json_object_set_new(answer, "isa", json_string(result->kernel->isa));
     json_object_set_new(answer, "training", training_document(result));
     json_object_set_new(answer, "resumed_samples", json_integer(result->resumed_samples));
@@ -225,17 +241,29 @@ static void print_worst(const RenderRequest *request, const RenderResult *result
            request->output, worst.x, worst.y, worst.luminance, 100 * worst.error);
 }
 
+/* Whose samples a pixel has, behind their number. */
+static const char *favour_words(const RenderRequest *request, const RenderResult *result,
+                                char *out, size_t size)
+{
+    if (!request->render.favoured) return "";
+    snprintf(out, size, " of %llu, %u of the others",
+             (unsigned long long)sample_shares_whole(&result->shares),
+             sample_shares_own(SAMPLE_SHARE_ALL / FAVOUR_OTHERS, result->samples));
+    return out;
+}
+
 static void print_line(const RenderRequest *request, const RenderResult *result)
 {
     const PathStatistics *counts = &result->statistics;
-    char samples[32], rays[32];
+    char samples[32], rays[32], favour[64];
     rate_text(per_second((double)counts->samples, result->seconds), samples,
               (int)sizeof samples);
     rate_text(per_second(ray_count(counts), result->seconds), rays, (int)sizeof rays);
-    printf("%s: %dx%d, %u samples a pixel%s, %.1f s, %ssamples/s, %srays/s, "
+    printf("%s: %dx%d, %u samples a pixel%s%s, %.1f s, %ssamples/s, %srays/s, "
            "relative error %.2f%%, peak memory %.0f MB (%.0f while building)\n",
            request->output, request->render.width, request->render.height,
-           result->samples, result->complete ? "" : " (incomplete)",
+           result->samples, favour_words(request, result, favour, sizeof favour),
+           result->complete ? "" : " (incomplete)",
            result->seconds, samples, rays, 100 * result->error.frame,
            machine_peak_bytes() / 1e6, result->build_peak_bytes / 1e6);
     print_worst(request, result);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "cli/render/render_identity.h"
 
+#include "render/favour.h"
 #include "render/identity.h"
 
 static void add_eye(Text *text, const PolarisedEye *eye)
@@ -9,6 +10,13 @@ static void add_eye(Text *text, const PolarisedEye *eye)
     if (!eye->has_glasses) return;
     identity_line(text, "sunglasses", "%.9g %.9g %.9g", (double)eye->axis[0],
                   (double)eye->axis[1], (double)eye->blocks);
+}
+
+static void add_favoured(Text *text, const FilmArea *area)
+{
+    identity_line(text, "all samples for", "display %d, pixels %d,%d,%d,%d; of others 1 in %u",
+                  area->display, area->rect.x0, area->rect.y0, area->rect.x1, area->rect.y1,
+                  FAVOUR_OTHERS);
 }
 
 const char *render_identity(const RenderRequest *request, const Scene *scene,
@@ -23,6 +31,7 @@ const char *render_identity(const RenderRequest *request, const Scene *scene,
     identity_line(&text, "sun in mirrors", "%s",
                   options->no_mirrors ? "by chance" : "asked for");
     if (options->eye) add_eye(&text, options->eye);
+    if (options->favoured) add_favoured(&text, options->favoured);
     identity_line(&text, "layers", "%s", render_layer_list(options->layers, arena));
     identity_add_scene(&text, &request->scene, scene);
     identity_add_environment(&text, scene);

@@ -19,7 +19,7 @@
 
 /* Values as typed, before they are checked against each other. */
 typedef struct RenderWords {
-    const char *samples, *noise, *layers;
+    const char *samples, *noise, *favoured, *layers;
     int         size[2], false_colour;
     long        spp, max_bounces, seed;
     double      crop[4], replay[3];
@@ -233,6 +233,15 @@ static bool check_outputs(const RenderRequest *request, Error *err)
     return check_live(request, err);
 }
 
+/* An area of the frame, whatever is rendered of it. */
+static bool read_favoured(const char *text, RenderRequest *request, Error *err)
+{
+    const RenderOptions *options = &request->render;
+    request->favoured = frame_area_all((FilmRect){0, 0, options->width, options->height});
+    request->favoured.option = "--for";
+    return frame_area_parse(text, "", &request->favoured, err);
+}
+
 static bool check_render(const RenderWords *typed, Arena *arena, RenderRequest *request,
                          Error *err)
 {
@@ -257,6 +266,7 @@ static bool check_render(const RenderWords *typed, Arena *arena, RenderRequest *
     if (typed->noise &&
         !noise_goal_parse(typed->noise, options->crop, arena, &request->noise, err))
         return false;
+    if (typed->favoured && !read_favoured(typed->favoured, request, err)) return false;
     if (!polarised_options_read(&typed->polarised, (options->layers & LAYER_ALL) == LAYER_ALL,
                                 &options->layers, arena, &options->eye, err))
         return false;
@@ -341,6 +351,9 @@ static bool parse_line(int argc, char **argv, Arena *arena, RenderWords *typed,
          "stop at this relative error of the frame, or of an AREA: display, display:NAME or "
          "X0,Y0,X1,Y1",
          &typed->noise},
+        {"--for", OPTION_TEXT, "AREA",
+         "all samples for this AREA, one of eight for what lies around it",
+         &typed->favoured},
         {"--max-bounces", OPTION_INTEGER, "N",
          "0 emission only, 1 adds direct light (default 64)", &typed->max_bounces, .low = 0,
          .high = 100000},
