@@ -7,15 +7,16 @@ cd "$(dirname "$0")/.." || exit 1
 sh third_party/install.sh --tests || exit 1
 . tests/steps.sh
 
-# hostile_models: under the address sanitizer, which it builds; tables that no sanitizer changes
-# are the release's
+# hostile_models: under the address sanitizer, which it builds for the two commands that meet
+# them; tables that no sanitizer changes are the release's
 hostile_models()
 {
     UBSAN_OPTIONS=print_stacktrace=1
     export UBSAN_OPTIONS
     tables=$PWD/.build/release/common_tables.c
-    cmake --preset asan-quick -DPARHELION_TABLES="$tables" && build asan-quick parhelion &&
-        python3 tests/hostile/run.py .build/asan-quick/parhelion
+    cmake --preset asan-quick -DPARHELION_TABLES="$tables" &&
+        build asan-quick model_commands &&
+        python3 tests/hostile/run.py .build/asan-quick/model_commands
 }
 
 # guides_and_meeting: the review that the README has made is the one whose pages are looked at

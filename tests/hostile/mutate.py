@@ -42,6 +42,7 @@ def full_scene():
     return scene
 
 
+SOUND = "sound.gltf"
 STRANGE = [-1, 0, 1, 2, 7, 255, 65536, 2 ** 31 - 1, 2 ** 31, 2 ** 32 - 1, 2 ** 53, -2 ** 63,
            1e300, -0.5, 1e-40, "", "x", "\u0000", None, True, [], {}, [[[]]], "NaN",
            "data:;base64,!!!!", "../" * 20 + "etc/passwd", "http:" + "//host/x.bin"]
@@ -114,8 +115,8 @@ def absurd():
 
 
 def write_all(folder, count):
-    """Writes the absurd files and `count` mutations; returns the paths."""
-    sound = os.path.join(folder, "sound.gltf")
+    """Writes the absurd files and `count` mutations; returns the paths, the sound one first."""
+    sound = os.path.join(folder, SOUND)
     full_scene().write(sound)
     with open(sound, "rb") as file:
         text = file.read()
