@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""bits.py [--small | --against OTHER] PARHELION -- a frame's pixels have the same bits with 1,
-2 and 5 threads, and a crop has those of the whole; an instruction set that is asked for gives
-the same bits on a CPU that has more. --small: one render with 2 threads of the
-small scene, for the thread sanitizer. --against: the same bits as another build's.
+"""bits.py [--small | --all | --against OTHER] PARHELION -- a frame's pixels have the same bits
+with 1, 2 and 5 threads, and a crop has those of the whole; an instruction set that is asked for
+gives the same bits on a CPU that has more. --small: one render with 2 threads of the small
+scene, for the thread sanitizer. --all: where light comes from is learnt in every scene, under
+every sky, not in one and under one. --against: the same bits as another build's.
 """
 import argparse
 import hashlib
@@ -113,6 +114,7 @@ def compare_builds(report, programs, scenes, folder, options):
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--small", action="store_true")
+    parser.add_argument("--all", action="store_true")
     parser.add_argument("--against")
     parser.add_argument("program")
     arguments = parser.parse_args()
@@ -122,11 +124,12 @@ def main():
         write_scene(small)
         dashboard = [os.path.join(ROOT, "scenes", name)
                      for name in ("car_dashboard.gltf", "noon.gltf")]
+        learns = [] if arguments.all or arguments.against else ["--no-guiding"]
         works = [([small], ["--size", "96x64", "--spp", "8"]),
                  ([small], ["--size", "64x48", "--spp", "4", "--no-guiding"]),
-                 (dashboard, ["--size", "96x54", "--spp", "4"])]
-        cpus = [([small], ["--size", "48x32", "--spp", "4", "--environment", sky, *more])
-                for sky, more in SKIES]
+                 (dashboard, ["--size", "96x54", "--spp", "4", *learns])]
+        cpus = [([small], ["--size", "48x32", "--spp", "4", "--environment", sky, *more,
+                           *(learns if i else [])]) for i, (sky, more) in enumerate(SKIES)]
         if arguments.small:
             frame = render(program, [small], os.path.join(folder, "frame.exr"),
                            ["--size", "32x32", "--spp", "2", "--threads", "2"])
