@@ -196,6 +196,14 @@ ANSWERS = (
 )
 
 
+def quick_scene():
+    """The sound scene of the index that coats have: the table of its coat is at hand."""
+    scene = sound_scene()
+    for material in scene.document["materials"]:
+        material.get("extensions", {}).pop("KHR_materials_ior", None)
+    return scene
+
+
 def run_with_stdout(program, line, place):
     """place: what the shell does with stdout."""
     return subprocess.run(["sh", "-c", f'"$0" "$@" {place}', program.path, *line],
@@ -265,8 +273,8 @@ def check_hang_up(report, program):
     """nohup: a HUP that is ignored from the start stays ignored."""
     running = subprocess.Popen(
         ["nohup", program.path, "render", program.file("scene.gltf"), "-o",
-         program.file("nohup.exr"), "--size", "200x150", "--spp", "100000", "--progress",
-         "json"], stderr=subprocess.PIPE, stdout=subprocess.PIPE)
+         program.file("nohup.exr"), "--size", "200x150", "--spp", "100000", "--threads",
+         "1", "--progress", "json"], stderr=subprocess.PIPE, stdout=subprocess.PIPE)
     while not running.stderr.readline().startswith(b"{"):
         pass
     running.send_signal(signal.SIGHUP)
@@ -369,7 +377,8 @@ def check_sky(report, program):
     report.claim(is_png(program.file("sky.png")), "sky.png is no PNG")
     claim_status(report, program.run("sky"), 2, "wants a sky")
     claim_status(report, program.run("sky", *SKY, "-o", "sky.tif"), 2, ".exr, .png or .svg")
-    claim_status(report, program.run("sky", *SKY, "-o", "/absent/sky.exr"), 4)
+    claim_status(report, program.run("sky", "--environment", "constant:9", "-o",
+                                     "/absent/sky.exr"), 4)
     night = ("--environment", "perez:800,100", "--when", "2026-06-21T01:30+02:00", *SKY[4:])
     claim_status(report, program.run("sky", *night), 3, "below the horizon")
     claim_status(report, program.run("sky", "--weather", "absent.epw", *SKY[2:4]), 3,
@@ -395,7 +404,7 @@ def check_night(report, program):
     text = program.run(*words[:5], "--when", "2026-11-24T23:30+01:00").stdout
     report.claim("moon direct normal   0." in text and "night background     0.000" in text,
                  text)
-    scene = sound_scene()
+    scene = quick_scene()
     scene.environment(type="sky", when="2026-11-24T23:30+01:00", where=[48.14, 11.58, 520],
                       moon=False)
     scene.write(program.file("moonless.gltf"))
@@ -421,7 +430,7 @@ def check_signal(report, program, number, status):
     out = program.file(f"signal{status}.exr")
     running = subprocess.Popen(
         [program.path, "render", program.file("scene.gltf"), "-o", out, "--size", "200x150",
-         "--spp", "100000", "--progress", "json"], stderr=subprocess.PIPE,
+         "--spp", "100000", "--threads", "1", "--progress", "json"], stderr=subprocess.PIPE,
         stdout=subprocess.PIPE,
         preexec_fn=lambda: signal.signal(number, signal.SIG_DFL))  # nohup's children ignore HUP
     running.stderr.readline()  # before its first pass the program simply ends
@@ -443,7 +452,7 @@ def main():
     report = Report()
     with tempfile.TemporaryDirectory() as folder:
         program = Program(os.path.abspath(sys.argv[-1]), folder)
-        sound_scene().write(program.file("scene.gltf"))
+        quick_scene().write(program.file("scene.gltf"))
         for check in (check_usage, check_help, check_help_words, check_names,
                       check_answers_lost, check_terminals, check_hang_up, check_inputs,
                       check_outputs, check_answers, check_pictures, check_sky,

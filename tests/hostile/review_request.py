@@ -2,7 +2,8 @@
 """review_request.py [--all] PARHELION -- every key of REVIEW.json with values that it cannot
 have: of another kind, no number, negative, zero, huge, empty, too short, too long, an unknown
 key beside it. The schema says which are wrong; those are refused in one line that names the
-place, and what the schema takes is taken or refused so. Without --all every ninth of them. Then
+place, and what the schema takes is taken or refused so. Without --all every ninth of them, and
+beside those of a sensitivity only two of its kinds, each of which opens a panel anew. Then
 the files that a request names, what `explain` is asked, and what is in the output's way.
 """
 import concurrent.futures
@@ -172,6 +173,16 @@ def trials():
                 yield place, text.replace(f'"{MARK}"', word), None
 
 
+def lighter(trial):
+    """A wrong value elsewhere, beside fewer sensitivities."""
+    place, _, document = trial
+    kinds = (document or {}).get("sensitivity")
+    if place[0] == "sensitivity" or not isinstance(kinds, dict):
+        return trial
+    document = {**document, "sensitivity": {name: kinds[name] for name in ("eye", "peak")}}
+    return place, json.dumps(document), document
+
+
 def is_near(told, place, document):
     """The place itself, what is in it, or what it is in; what was taken away may be missed by
     those beside it."""
@@ -234,6 +245,8 @@ def check_keys(report, requests, step):
     schema = with_references(load(os.path.join(ROOT, "assets/schemas/review.schema.json")))
     validator = jsonschema.validators.validator_for(schema)(schema)
     chosen = list(trials())[::step]
+    if step > 1:
+        chosen = list(map(lighter, chosen))
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         answers = pool.map(requests.ask, range(len(chosen)), [text for _, text, _ in chosen])
         for number, (trial, answer) in enumerate(zip(chosen, answers)):

@@ -21,9 +21,9 @@ from jobs import PATIENCE_S, Report, ROOT, Work, contents
 # Without guiding but for one job of check_cuts: its lesson takes longer than such a frame.
 FRAME = ("--size", "52x36", "--no-guiding", "--layers", "all")
 SMALL = (*FRAME, "--spp", "12")
-LONG_RUN = ("--size", "96x64", "--no-guiding", "--spp", "160")
+LONG_RUN = ("--size", "96x64", "--no-guiding", "--spp", "96")
 LONG = (*LONG_RUN, "--checkpoint-interval", "0")
-HALF = 80  # samples a pixel of one of its two parts
+HALF = 48  # samples a pixel of one of its two parts
 
 
 def check_plain(work):
