@@ -19,10 +19,11 @@ hostile_models()
         python3 tests/hostile/run.py .build/asan-quick/model_commands
 }
 
-# guides_and_meeting: the review that the README has made is the one whose pages are looked at
+# guides_and_meeting: the review that the README has made, of one variant, is the one whose
+# pages are looked at
 guides_and_meeting()
 {
-    python3 tests/image/guides.py --keep .build/readme $program README.md \
+    python3 tests/image/guides.py --keep .build/readme --few $program README.md \
         assets/guides/rendering.md &&
         python3 tests/page/meeting.py $program .build/readme/glance
 }
@@ -52,7 +53,7 @@ run 'unit tests' unit units .build/release -LE long
 # Long ones first: at the end no processor waits.
 start 'malformed and foreign models' hostile hostile_models
 start 'a glare review' review python3 tests/image/review.py $program
-start 'a hunt for wrong answers' hunt python3 tests/hunt/hunt.py --count 3 $program
+start 'a hunt for wrong answers' hunt python3 tests/hunt/hunt.py --count 3 --unguided $program
 start 'variants of a review' variants python3 tests/image/variants.py $program
 start 'the README as written, its review met' guides guides_and_meeting
 start 'the command line' cli python3 tests/hostile/cli.py $program

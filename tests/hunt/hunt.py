@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""hunt.py [--seed N] [--count N] [--first N] PARHELION -- a hunt for wrong answers: the same
-number asked in several ways of small random cockpits (rooms.py).
+"""hunt.py [--seed N] [--count N] [--first N] [--unguided] PARHELION -- a hunt for wrong
+answers: the same number asked in several ways of small random cockpits (rooms.py).
 
 What a review says of the symbol's reflected light is held against
   causes   the sum of its causes, which other paths find;
@@ -11,6 +11,7 @@ What a review says of the symbol's reflected light is held against
 and every figure against the formula that it is made of. `explain` says what the review says,
 and twice the light gives twice the figure. A line a comparison, with its seed and its
 difference in standard errors; at last how these are spread. --seed: that room alone.
+--unguided: frames are, which takes half as long.
 """
 import csv
 import json
@@ -109,7 +110,7 @@ def light_of(condition):
             "{illuminance_lx}".format(**sun)]
 
 
-def of_frame(reviewer, condition, level):
+def of_frame(reviewer, condition, level, more):
     """Two frames that differ in their seeds: the mean over the symbol by its area, as a review
     counts, its error by the pixels' differences; and `measure` of one of them, with the mean of
     that frame's layer by pixels, as it counts."""
@@ -119,7 +120,7 @@ def of_frame(reviewer, condition, level):
         done = reviewer.run("render", "dash.gltf", *light_of(condition), "--size", SIZE,
                             "--spp", str(SAMPLES), "--layers", "all", "--seed", str(seed),
                             "-o", name, "--display-level", f"screen={100 * level}",
-                            *second(reviewer, level))
+                            *second(reviewer, level), *more)
         assert done.returncode == 0, done.stderr
         layers.append(Frame(os.path.join(reviewer.folder, name)).channels)
     one, two = layers
@@ -179,8 +180,9 @@ def of_panel(reviewer, room, luminance):
 # ---- one room -------------------------------------------------------------------------------
 
 class Hunt:
-    def __init__(self, report, reviewer):
-        self.report, self.reviewer, self.found, self.outside = report, reviewer, [], 0
+    def __init__(self, report, reviewer, of_frames):
+        """of_frames: options of the renders."""
+        self.report, self.reviewer, self.of_frames, self.found = report, reviewer, of_frames, []
 
     def compare(self, name, one, other):
         """Two figures with their standard errors."""
@@ -200,7 +202,8 @@ class Hunt:
                 self.compare(name + ", causes", estimate(case), of_causes(case))
         moments = [c for c in asked["conditions"] if "environment" in c]
         k = seed % len(moments)
-        frame, told, by_pixel = of_frame(self.reviewer, moments[k], level)
+        frame, told, by_pixel = of_frame(self.reviewer, moments[k], level,
+                                           self.of_frames)
         name = f"seed {seed}, {moments[k]['name']}"
         self.compare(name + ", frame", estimate(cases[k]),
                      (frame[0], math.hypot(frame[1], FRAME_SHARE * frame[0])))
@@ -280,6 +283,8 @@ class Hunt:
 
 def main(words):
     first, count = 1, 10
+    of_frames = ["--no-guiding"] if "--unguided" in words else []
+    words = [word for word in words if word != "--unguided"]
     while len(words) > 1:
         if words[0] == "--seed":
             first, count = int(words[1]), 1
@@ -292,7 +297,7 @@ def main(words):
     with tempfile.TemporaryDirectory() as folder:
         for panel in rooms.PANELS:
             shutil.copy(os.path.join(ROOT, "assets", "panels", panel), folder)
-        hunt = Hunt(report, Reviewer(words[0], folder))
+        hunt = Hunt(report, Reviewer(words[0], folder), of_frames)
         for seed in range(first, first + count):
             hunt.go(seed)
     hunt.tell_spread()
