@@ -100,7 +100,7 @@ def furnace_bright():
     scene.box_inside(scene.lambert(0.9, 1), [-1, -1, -1], [1, 2, 1])
     scene.view("inside", [0.2, 0.1, -0.3], [1, 0.3, 0.2], 90)
     return Case("furnace: albedo 0.9 and emission 1 show 10", scene, [Claim("inside", 10)],
-                ["--max-bounces", "1000"], size=(32, 32), samples=256)
+                ["--max-bounces", "1000"], size=(32, 32), samples=180)
 
 
 def furnace_outside():
@@ -112,7 +112,7 @@ def furnace_outside():
                 [Claim("outside", 100)])
 
 
-def cube(reflectance, is_quick=True):
+def cube(reflectance, is_quick=True, samples=128, options=()):
     """CIE 171 5.8: 10000 lm in the middle of a 4 m cube, mean illuminance of a wall."""
     scene = Scene()
     scene.box_inside(scene.lambert(reflectance), [-2, -2, -2], [2, 2, 2])
@@ -120,8 +120,8 @@ def cube(reflectance, is_quick=True):
     scene.probe("wall", [0, 0, 1.9], [0, 0, -1], 2)
     total = 10000 / 96 / (1 - reflectance)
     return Case(f"inter-reflection in a cube of reflectance {reflectance}", scene,
-                [Claim("wall", shown(total, reflectance))], ["--max-bounces", "2000"],
-                size=(32, 32), samples=128, is_quick=is_quick)
+                [Claim("wall", shown(total, reflectance))], ["--max-bounces", "2000", *options],
+                size=(32, 32), samples=samples, is_quick=is_quick)
 
 
 def flux():
@@ -232,7 +232,7 @@ def half_sun():
     scene.probe("floor", [0, 0.05, 0], [0, -1, 0], 0.0005)
     return Case("half the sun behind an edge", scene, [
         Claim("floor", shown(90000 * math.sin(math.radians(40)) / 2))],
-        ["--max-bounces", "1"], size=(32, 32), samples=256)
+        ["--max-bounces", "1"], size=(32, 32), samples=1200)
 
 
 def area_light_above():
@@ -265,7 +265,7 @@ def lit_floor():
         factor = 2 * (parallel_corner(2, y, 3) + parallel_corner(2, 4 - y, 3))
         claims.append(Claim(f"ceiling {y}", shown(0.3 * 1000 * factor)))
     return Case("CIE 171 5.6, a floor that reflects", scene, claims, ["--max-bounces", "2"],
-                samples=1024)
+                samples=4800)
 
 
 def environment():
@@ -509,12 +509,15 @@ def measured_metal(degrees):
                 [Claim("metal", 100 * reflectance)])
 
 
-def all_cases():
-    cases = [furnace_sphere(), furnace_bright(), furnace_outside(), cube(0.5), cube(0.9),
-             cube(0.05, False), cube(0.95, False), flux(), point_light(),
-             small_lambertian_source(), spot_light(), coloured_light(), sun(10), sun(35),
-             sun(90), sun_direction(), half_sun(), area_light_above(), lit_floor(),
-             environment(), heading(), hdri_sides(), hdri_illuminance(), units(),
+def all_cases(whole):
+    """whole: learning where light comes from, which makes an even wall noisier,
+    in the brightest cube too."""
+    bright = (256,) if whole else (200, ["--no-guiding"])
+    cases = [furnace_sphere(), furnace_bright(), furnace_outside(), cube(0.5),
+             cube(0.9, True, *bright), cube(0.05, False), cube(0.95, False), flux(),
+             point_light(), small_lambertian_source(), spot_light(), coloured_light(),
+             sun(10), sun(35), sun(90), sun_direction(), half_sun(), area_light_above(),
+             lit_floor(), environment(), heading(), hdri_sides(), hdri_illuminance(), units(),
              texture(), alpha(), picture()]
     cases += [directional_light(angle) for angle in (0, 30, 60, 85)]
     cases += [mirror(angle) for angle in ANGLES]

@@ -122,8 +122,9 @@ def check_pictures(work):
         work.run("develop", "-o", f"picture{i}.png", "--", f"{stem}.frame.exr")
         outputs.append(f"picture{i}.png")
     work.claim_equal("develop of a frame of another name", outputs)
-    for ending in (".sky.exr", ".sky.svg"):
-        work.claim_same("sky", ["sky", "--environment", "sky:clear", *PLACE], ending)
+    for ending, sky in ((".sky.exr", ["sky:clear", *PLACE]),
+                        (".sky.svg", ["cie:12:20000", "--sun", "120,35"])):
+        work.claim_same("sky", ["sky", "--environment", *sky], ending)
     work.claim_same("compare", ["compare", "a.png", "a.png"], ".html", "--report")
 
 

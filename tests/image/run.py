@@ -129,7 +129,7 @@ def main():
     options = parser.parse_args()
     report = Report()
     check_formulas(report)
-    cases = [case for case in all_cases()
+    cases = [case for case in all_cases(options.all)
              if (options.all or case.is_quick) and options.only in case.name]
     with tempfile.TemporaryDirectory() as temporary:
         folder = options.keep or temporary
