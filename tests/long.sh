@@ -67,6 +67,13 @@ laws()
     units .build/release -R '^shaders(_glass)?$'
 }
 
+# guides_and_meeting: the pages of the README's review are looked at
+guides_and_meeting()
+{
+    python3 tests/image/guides.py --keep .build/readme-long $program &&
+        python3 tests/page/meeting.py $program .build/readme-long/glance
+}
+
 export UBSAN_OPTIONS=print_stacktrace=1
 export TSAN_OPTIONS=ignore_noninstrumented_modules=1
 
@@ -145,8 +152,8 @@ run 'a model equipped by clicks' equip python3 tests/page/equip.py $program
 of "$compare scenes tests/bench tests/image"
 run 'false alarms and power of compare' compare-power \
     python3 tests/bench/compare_power.py $program .build/release/bench_statistic
-of "$all scenes README.md tests/image"
-run 'every guide as written' guides-long python3 tests/image/guides.py $program
+of "$all scenes README.md tests/image tests/page"
+run 'every guide as written, a review met' guides-long guides_and_meeting
 of "$all tests/unit"
 run 'unit tests that take long' unit-long units .build/release -L long
 of "$all scenes README.md CONTRIBUTING.md tests"

@@ -1,11 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
-"""guides.py [--keep FOLDER] PARHELION [PAGE ...] -- the guides and the README do what they say.
+"""guides.py [--keep FOLDER] [--few] PARHELION [PAGE ...] -- the guides and the README do what
+they say.
 
 Every ```sh block of assets/guides/*.md and of README.md (but for building and installing, which
 other tests do) runs as written, each page in a folder of its own where scenes/
 and assets/ lie. A command ends with status 0, or with the one that the page states behind it:
 `# status 1`. What it is to write is there afterwards, but for one that is refused (2 to 4), and
-so is every file that a page names. --keep: what the first page makes stays in the folder.
+so is every file that a page names. --keep: what the first page makes stays in the folder;
+--few: of its review's variants the one that shares the paths of the review itself, since each
+of the others takes as long as the review.
 """
 import contextlib
 import glob
@@ -61,7 +64,23 @@ def kept(folder):
     yield folder
 
 
-def run_page(program, name, text, keep=None):
+REVIEW, FEW = os.path.join("scenes", "glance.review.json"), ("a quarter brighter",)
+
+
+def write_few_variants(folder):
+    """Scenes and assets of the folder's own; a request reads nothing behind a link."""
+    for shared in ("scenes", "assets"):
+        os.remove(os.path.join(folder, shared))
+        shutil.copytree(os.path.join(ROOT, shared), os.path.join(folder, shared))
+    with open(os.path.join(folder, REVIEW), "r+", encoding="utf-8") as file:
+        request = json.load(file)
+        request["variants"] = {name: request["variants"][name] for name in FEW}
+        file.seek(0)
+        file.truncate()
+        json.dump(request, file)
+
+
+def run_page(program, name, text, keep=None, few=False):
     """(claim, message) of every command of a page, in order; it ends at the first failure."""
     claims, begun = [], time.monotonic()
     with kept(keep) if keep else tempfile.TemporaryDirectory(prefix="guide-") as folder:
@@ -69,6 +88,8 @@ def run_page(program, name, text, keep=None):
         os.symlink(os.path.abspath(program), os.path.join(folder, "bin", "parhelion"))
         for shared in ("scenes", "assets"):
             os.symlink(os.path.join(ROOT, shared), os.path.join(folder, shared))
+        if few:
+            write_few_variants(folder)
         path = os.path.join(folder, "bin") + os.pathsep + os.environ["PATH"]
         environment = {**os.environ, **WHO, "PATH": path}
         for command, status in commands(text):
@@ -86,11 +107,11 @@ def run_page(program, name, text, keep=None):
     return claims
 
 
-def check_pages(report, program, pages, keep):
-    keeps = [keep] + [None] * len(pages)
+def check_pages(report, program, pages, keep, few):
+    rest = [None] * len(pages)
     with ThreadPoolExecutor(2) as pool:
-        for claims in pool.map(lambda page, keep: run_page(program, page, read(page), keep),
-                               pages, keeps):
+        for claims in pool.map(lambda page, *how: run_page(program, page, read(page), *how),
+                               pages, [keep] + rest, [few] + rest):
             for holds, message in claims:
                 report.claim(holds, message)
     for page in pages:
@@ -150,16 +171,18 @@ def check_can_fail(report, program):
 
 def main():
     report = Report()
-    words, keep = sys.argv[1:], None
+    words, keep, few = sys.argv[1:], None, False
     if words[0] == "--keep":
         keep, words = os.path.abspath(words[1]), words[2:]
+    if words[0] == "--few":
+        few, words = True, words[1:]
     program = os.path.abspath(words[0])
     guides = [os.path.relpath(path, ROOT)
               for path in sorted(glob.glob(os.path.join(ROOT, "assets/guides/*.md")))]
     report.claim(len(guides) >= 5, "assets/guides holds too few pages")
     check_can_fail(report, program)
     check_help(report, program, guides)
-    check_pages(report, program, words[1:] or ["README.md", *guides], keep)
+    check_pages(report, program, words[1:] or ["README.md", *guides], keep, few)
     report.finish()
 
 
