@@ -132,14 +132,21 @@ bool sky_shape_perez(const PerezInput *input, SkyShape *out, PerezState *state, 
                                input->direct_normal_w_m2, input->diffuse_horizontal_w_m2);
 }
 
+static double gradation(const SkyShape *shape, double cos_theta)
+{
+    return 1 + shape->a * exp_d(shape->b / fmax(cos_theta, 1e-6));
+}
+
+static double indicatrix(const SkyShape *shape, double gamma)
+{
+    double c = cos_d(gamma);
+    return 1 + shape->c * (exp_d(shape->d * gamma) - shape->offset) + shape->e * c * c;
+}
+
 double sky_shape_value(const SkyShape *shape, double cos_theta, double gamma)
 {
     if (shape->linear > 0) return (1 + shape->linear * cos_theta) / 3;
-    double c = cos_d(gamma);
-    double gradation = 1 + shape->a * exp_d(shape->b / fmax(cos_theta, 1e-6));
-    double indicatrix = 1 + shape->c * (exp_d(shape->d * gamma) - shape->offset) +
-                        shape->e * c * c;
-    return fmax(0, gradation * indicatrix);
+    return fmax(0, gradation(shape, cos_theta) * indicatrix(shape, gamma));
 }
 
 float sky_shape_at(const SkyShape *shape, float cos_theta, float gamma)
@@ -154,17 +161,27 @@ float sky_shape_at(const SkyShape *shape, float cos_theta, float gamma)
     return fmaxf(0, gradation * indicatrix);
 }
 
+/* Over half a turn of azimuth at one zenith angle; what is the same all along, found once. */
+static double ring_integral(const SkyShape *shape, double theta, double sun_zenith, int steps)
+{
+    double sum = 0, turn = PI / steps, cos_theta = cos_d(theta);
+    double along = cos_theta * cos_d(sun_zenith), across = sin_d(theta) * sin_d(sun_zenith);
+    double graded = shape->linear > 0 ? 0 : gradation(shape, cos_theta);
+    for (int j = 0; j < steps; j++) {
+        double cosine = along + across * cos_d((j + 0.5) * turn);
+        double gamma = acos_d(fmax(-1, fmin(1, cosine)));
+        sum += shape->linear > 0 ? sky_shape_value(shape, cos_theta, gamma)
+                                 : fmax(0, graded * indicatrix(shape, gamma));
+    }
+    return sum;
+}
+
 /* Midpoints; the azimuth over half a turn, since the sky is symmetric about the sun's. */
 double sky_shape_integral(const SkyShape *shape, double sun_zenith, int steps)
 {
     double sum = 0, step = PI / 2 / steps, turn = PI / steps;
     for (int i = 0; i < steps; i++) {
-        double theta = (i + 0.5) * step, ring = 0;
-        for (int j = 0; j < steps; j++) {
-            double cosine = cos_d(theta) * cos_d(sun_zenith) +
-                            sin_d(theta) * sin_d(sun_zenith) * cos_d((j + 0.5) * turn);
-            ring += sky_shape_value(shape, cos_d(theta), acos_d(fmax(-1, fmin(1, cosine))));
-        }
+        double theta = (i + 0.5) * step, ring = ring_integral(shape, theta, sun_zenith, steps);
         sum += ring * cos_d(theta) * (sin_d(theta) * 2 * sin_d(step / 2)) * 2 * turn;
     }
     return sum;

@@ -35,6 +35,7 @@ typedef struct Sphere {
     float    rise[SPHERE_ANGLES_MAX];   /* of the last order's source towards the next angle */
     float    fall[SPHERE_ANGLES_MAX];   /* exp(-rise) */
     double   sun[SPHERE_ANGLES_MAX][AZIMUTHS][2]; /* direction at a ray's start, x and z */
+    float    wave[DIFFUSE_MODES][AZIMUTHS];       /* cosines of the modes, at the azimuths */
     SunPlace *place;    /* [level][direction][step, then its end][angle][azimuth] */
     Spectrum *radiance; /* [level][direction][angle][mode]: one order */
     Spectrum *source;   /* [level][cosine][angle][mode]: what it scatters, m^-1 sr^-1 */
@@ -118,6 +119,13 @@ static void fill_suns(Sphere *s)
         }
 }
 
+static void fill_waves(Sphere *s)
+{
+    for (int m = 0; m < DIFFUSE_MODES; m++)
+        for (int j = 0; j < AZIMUTHS; j++)
+            s->wave[m][j] = (float)cos_d(m * PI * (j + 0.5) / AZIMUTHS);
+}
+
 /* Where a sun stands at a point of the ray; gives the cosine of its angle to the zenith. The
  * same for all orders. */
 static double find_sun(const Sphere *s, const NodeRay *ray, const RayPoint *at,
@@ -199,21 +207,25 @@ static void place_weights(const Sphere *s, const SunPlace *place, float weight[2
     weight[1] = place->share * growth * s->fall[place->angle];
 }
 
+/* All azimuths' weights first: exponentials that wait for nothing overlap. */
 static void add_source(Gather *g, const RayPoint *at, const Spectrum *seen,
                        const SunPlace *place)
 {
     const Sphere *s = g->sphere;
     read_sources(g, at, seen);
-    for (int a = 0; a < s->input->count; a++)
-        for (int j = 0; j < AZIMUTHS; j++, place++) {
-            float weight[2], cosine = place->azimuth;
-            place_weights(s, place, weight);
-            const Spectrum *low = g->source[place->angle], *high = g->source[place->angle + 1];
+    for (int a = 0; a < s->input->count; a++, place += AZIMUTHS) {
+        float weight[AZIMUTHS][2];
+        for (int j = 0; j < AZIMUTHS; j++) place_weights(s, &place[j], weight[j]);
+        for (int j = 0; j < AZIMUTHS; j++) {
+            int   angle = place[j].angle;
+            float cosine = place[j].azimuth;
+            const Spectrum *low = g->source[angle], *high = g->source[angle + 1];
             float mode[TRAVEL_MODES] = {1, cosine, 2 * cosine * cosine - 1};
             for (int m = 0; m < TRAVEL_MODES; m++)
-                g->radiance[a][j] += low[m] * spectrum_all(weight[0] * mode[m]) +
-                                     high[m] * spectrum_all(weight[1] * mode[m]);
+                g->radiance[a][j] += low[m] * spectrum_all(weight[j][0] * mode[m]) +
+                                     high[m] * spectrum_all(weight[j][1] * mode[m]);
         }
+    }
 }
 
 /* The floor at the ray's end, lit by the sun's beam: the first order. */
@@ -292,8 +304,7 @@ static void fill_radiance(void *context, int item, int worker)
         for (int m = 0; m < DIFFUSE_MODES; m++) {
             Spectrum sum = spectrum_all(0);
             for (int j = 0; j < AZIMUTHS; j++)
-                sum += g.radiance[a][j] *
-                       spectrum_all((float)cos_d(m * PI * (j + 0.5) / AZIMUTHS));
+                sum += g.radiance[a][j] * spectrum_all(s->wave[m][j]);
             s->radiance[node(level, direction, a) + (size_t)m] =
                 sum * spectrum_all((m ? 2.0f : 1.0f) / AZIMUTHS);
         }
@@ -428,6 +439,7 @@ static void start_sphere(Sphere *s, Arena *scratch)
                                             (size_t)s->input->count * AZIMUTHS);
     fill_phase(s);
     fill_suns(s);
+    fill_waves(s);
     fill_beam_phase(s);
 }
 
