@@ -12,6 +12,12 @@ static double growth(double difference)
     return exp_d(difference) - 1;
 }
 
+static double squared_growth(double difference)
+{
+    double by = growth(difference);
+    return by * by;
+}
+
 static int least_level(const Tree *tree)
 {
     return tree->basis == TREE_VERTEX ? tree->base_level : 0;
@@ -81,7 +87,7 @@ static void add_row(const PanelEmission *e, const float *row, const float *compo
         for (int k = 0; k < e->components; k++)
             sum += (double)(row[4 * (k + 1) + j] * component[k]);
         out->largest = fmax(out->largest, fabs(sum));
-        if (is_full) out->squares += growth(sum) * growth(sum);
+        if (is_full) out->squares += squared_growth(sum);
     }
 }
 
@@ -133,7 +139,7 @@ static void add_table(const PanelReflection *r, uint32_t table, const float *com
         for (uint32_t k = 0; k < r->coefficients; k++)
             sum += (double)(coefficient[k] * r->basis[k * r->padded_wavelengths + w]);
         out->largest = fmax(out->largest, fabs(sum));
-        out->squares += growth(sum) * growth(sum);
+        out->squares += squared_growth(sum);
     }
 }
 
