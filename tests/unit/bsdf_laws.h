@@ -6,9 +6,6 @@
 #include "chart_fixture.h"
 #include "shader_fixture.h"
 
-#include <stdlib.h>
-#include <string.h>
-
 #include "base/units.h"
 #include "shaders/bsdf.h"
 
@@ -33,16 +30,14 @@ static void look_and_call(void (*law)(const Model *, Vec3), Model model, Vec3 wo
     law(&model, wo);
 }
 
-/* For every model, on the far side too where there is one, and every second eye: the next model
- * is asked at the others. PARHELION_LAWS=all in the environment: all eyes, as tests/long.sh. */
+/* For every model, on the far side too where there is one, and every third eye, all eyes where
+ * all laws are asked: the next model is asked at others. */
 static void for_all(void (*law)(const Model *, Vec3))
 {
-    const char *asked = getenv("PARHELION_LAWS");
-    bool        all_eyes = asked && !strcmp(asked, "all");
     for (int m = 0; m < model_count; m++)
         for (int i = 0; i < EYE_COUNT; i++) {
             Vec3 wo = eye(i);
-            if (!all_eyes && (m + i) % 2) continue;
+            if (!all_laws() && (m + i) % 3) continue;
             look_and_call(law, models[m], wo);
             if (models[m].both_sides) look_and_call(law, models[m], vec3(wo.x, wo.y, -wo.z));
         }
@@ -137,9 +132,10 @@ static double sum_cell(const Model *model, Vec3 wo, const Chart *chart, int cell
     return sum;
 }
 
+/* A fifth of what chi-square leaves to the quadrature; 0.04 samples where there are few. */
 static bool agree(double one, double other)
 {
-    return fabs(one - other) <= 1e-3 * one + 1e-7;
+    return fabs(one - other) <= 4e-3 * one + 2e-6;
 }
 
 /* By a few points of Gauss' (but narrow lobes, which all of them may miss), or by ever more
@@ -335,6 +331,8 @@ TEST(light_goes_back_the_way_it_came)
 
 /* ---- smooth parts --------------------------------------------------------------------- */
 
+/* Of whatever number chooses, even steps. Where shadow rays see nothing, nothing with a chance
+ * worth the name may pass: there fewer steps will do. */
 TEST(what_passes_a_pane_is_what_shadow_rays_see)
 {
     int panes = 0;
@@ -343,8 +341,9 @@ TEST(what_passes_a_pane_is_what_shadow_rays_see)
             Vec3     wo = eye(i);
             Spectrum pass = bsdf_pass(&models[m].bsdf, wo);
             Spectrum sampled = spectrum_all(0);
-            for (int k = 0; k < 4000; k++) {
-                float      pick = ((float)k + 0.5f) / 4000; /* whichever number chooses */
+            int steps = spectrum_is_zero(pass) && !all_laws() ? 250 : 4000;
+            for (int k = 0; k < steps; k++) {
+                float      pick = ((float)k + 0.5f) / (float)steps;
                 float      u[3] = {pick, 0.5f, pick};
                 BsdfSample s;
                 if (bsdf_sample(&models[m].bsdf, wo, u, &s) && s.passes) {

@@ -14,8 +14,10 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include <cmocka.h>
 
@@ -76,6 +78,14 @@ static inline int run_cases(CMFixtureFunction set_up, CMFixtureFunction tear_dow
     {                                                                                          \
         return run_cases(set_up, tear_down);                                                   \
     }
+
+/* PARHELION_LAWS=all in the environment, as tests/long.sh has it: a law is held everywhere; by
+ * day at fewer places, or over fewer samples, which still find a fault worth the name. */
+static inline bool all_laws(void)
+{
+    const char *asked = getenv("PARHELION_LAWS");
+    return asked && !strcmp(asked, "all");
+}
 
 /* Relative; also fails on NaN. An expected zero needs assert_near. */
 #define assert_close(actual, expected, relative)                                               \

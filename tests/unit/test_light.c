@@ -233,7 +233,7 @@ ARENA_TEST(densities_of_emitters_integrate_to_one_from_anywhere)
         double total = 0;
         for (int t = 0; t < emitters.count; t++) {
             const Emitter *e = &emitters.emitters[t]; /* whole pieces of every cell */
-            int fine = e->side * (1 + 300 / e->side);
+            int fine = e->side * (1 + 200 / e->side);
             total += density_total(&emitters, scene, &LIT[i], e->triangle, fine, 1, NULL);
         }
         assert_close(total, 1, 1e-3);
@@ -243,8 +243,9 @@ ARENA_TEST(densities_of_emitters_integrate_to_one_from_anywhere)
 /* Points fall into strips of every triangle as the density says. */
 ARENA_TEST(emitter_samples_follow_their_density)
 {
-    enum { STRIPS = 9, TRIANGLES = 6, FINE = 64 };
+    enum { STRIPS = 9, TRIANGLES = 6 };
     Scene   *scene = lamp_scene(&arena);
+    int      fine = STRIPS * (all_laws() ? 64 : 16); /* 16: at most 0.3 % of a strip amiss */
     Emitters emitters = emitters_build(scene, &arena);
     uint32_t random = 8;
     for (size_t p = 0; p < sizeof LIT / sizeof *LIT; p++) {
@@ -263,8 +264,7 @@ ARENA_TEST(emitter_samples_follow_their_density)
             found[at.triangle * STRIPS + (uint32_t)(at.u * STRIPS * 0.99999f)]++;
         }
         for (uint32_t t = 0; t < TRIANGLES; t++)
-            density_total(&emitters, scene, &LIT[p], t, STRIPS * FINE, STRIPS,
-                          expected + t * STRIPS);
+            density_total(&emitters, scene, &LIT[p], t, fine, STRIPS, expected + t * STRIPS);
         for (int i = 0; i < TRIANGLES * STRIPS; i++) expected[i] *= SAMPLES;
         assert_chi_square((int)p, found, expected, TRIANGLES * STRIPS,
                           (ChiLimits){4e-5, 15, 4.5});
