@@ -65,7 +65,7 @@ laws()
     PARHELION_LAWS=all
     export PARHELION_LAWS
     units .build/release -R '^(shaders(_glass)?|brushed|hour_sky|light|night|panel_directions'\
-'|polarised|reading_levels|sheets|sun_beam)$'
+'|path|polarised|reading_levels|sheets|sun_beam)$'
 }
 
 # guides_and_meeting: the pages of the README's review are looked at

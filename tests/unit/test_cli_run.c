@@ -380,11 +380,13 @@ static void wait_for_bytes(FILE *file)
     fail_msg("nothing came for ten seconds");
 }
 
-/* Starts an endless render and returns when its first progress line is out. */
-static pid_t start_long_render(const char *output, FILE *out, FILE *err)
+/* Starts an endless render and returns when its first progress line is out: a time that one
+ * thread fills as well as two, where the law is not about both. */
+static pid_t start_long_render(const char *output, const char *threads, FILE *out, FILE *err)
 {
     const char *const words[] = {"render", "scene.gltf", "-o", output, "--size", "32x32",
-                                 "--spp", "2000000000", "--progress", "json", NULL};
+                                 "--spp", "2000000000", "--progress", "json",
+                                 "--threads", threads, NULL};
     pid_t child = start(words, fileno(out), fileno(err));
     wait_for_bytes(err);
     return child;
@@ -400,7 +402,7 @@ MEMORY_TEST(an_interrupted_render_leaves_a_frame_marked_incomplete)
         Outcome o;
         char    text[64];
         FILE   *out = tmpfile(), *err = tmpfile();
-        pid_t   child = start_long_render("i.exr", out, err);
+        pid_t   child = start_long_render("i.exr", i ? "1" : "2", out, err);
         kill(child, cases[i].number);
         assert_int_equal(exit_status(child), cases[i].status);
         read_back(out, o.out, sizeof o.out);
@@ -421,7 +423,7 @@ MEMORY_TEST(an_interrupted_render_leaves_a_frame_marked_incomplete)
 TEST(a_second_signal_ends_at_once_and_leaves_nothing)
 {
     FILE *out = tmpfile(), *err = tmpfile();
-    pid_t child = start_long_render("k.exr", out, err);
+    pid_t child = start_long_render("k.exr", "1", out, err);
     kill(child, SIGSTOP);
     kill(child, SIGINT);
     kill(child, SIGTERM);
@@ -436,7 +438,7 @@ TEST(a_second_signal_ends_at_once_and_leaves_nothing)
 MEMORY_TEST(usr1_writes_a_snapshot_and_goes_on)
 {
     FILE  *out = tmpfile(), *err = tmpfile();
-    pid_t  child = start_long_render("u.exr", out, err);
+    pid_t  child = start_long_render("u.exr", "1", out, err);
     kill(child, SIGUSR1);
     for (int i = 0; i < 1000 && !exists("u.exr"); i++) usleep(10000);
     FrameImage frame = read_frame("u.exr", arena);
