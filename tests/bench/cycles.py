@@ -3,7 +3,7 @@
 [--keep FOLDER] -- processor time to equal error beside Cycles, of Debian's Blender.
 
 The same scenes: triangles and textures, camera, sun, sky, displays that glow by their content
-(cycles_scene.py); 64 bounces, a box filter of a pixel, nothing clamped or denoised.
+(cycles_scene.py); as many bounces, a box filter of a pixel, nothing clamped or denoised.
 
 The two render in turn. Each one's error is against a frame of its own of 16 times all its
 samples, since ours is spectral, with measured displays, and Cycles' is not: the mean over
@@ -56,6 +56,10 @@ def heading_of(scenes):
     return heading
 
 
+def word_after(words, option, default):
+    return words[words.index(option) + 1] if option in words else default
+
+
 def scene_for_cycles(program, words, size, folder):
     """Writes sky and scene; returns the .blend file."""
     scenes = [word for word in words if word.endswith(".gltf")]
@@ -70,7 +74,8 @@ def scene_for_cycles(program, words, size, folder):
         sun = {**figures["sun"], "lx": figures["direct_normal_lx"]}
     job = {"models": [os.path.join(ROOT, path) for path in scenes], "sky": sky, "sun": sun,
            "heading_deg": heading_of(scenes), "size": [int(n) for n in size.split("x")],
-           "camera": words[words.index("--camera") + 1] if "--camera" in words else "",
+           "camera": word_after(words, "--camera", ""),
+           "bounces": int(word_after(words, "--max-bounces", 64)),
            "blend": os.path.join(folder, "scene.blend")}
     with open(os.path.join(folder, "job.json"), "w", encoding="utf-8") as file:
         json.dump(job, file, indent=1)

@@ -19,7 +19,6 @@ from mathutils import Vector
 numpy.bool = bool  # Debian 12's glTF importer asks for it by the name that its numpy dropped
 
 SUN_DIAMETER_DEG = 0.533
-BOUNCES = 64
 
 
 def glass_sheet(material, ior):
@@ -103,7 +102,7 @@ def set_camera(name):
     data.angle = height
 
 
-def set_render(size):
+def set_render(size, bounces):
     """No filter but the pixel, nothing clamped, denoised or adapted: what ours does."""
     scene, cycles = bpy.context.scene, bpy.context.scene.cycles
     scene.render.engine = "CYCLES"
@@ -112,8 +111,8 @@ def set_render(size):
     cycles.pixel_filter_type = "BOX"
     cycles.filter_width = 1
     cycles.sample_clamp_direct = cycles.sample_clamp_indirect = cycles.blur_glossy = 0
-    cycles.max_bounces = cycles.diffuse_bounces = cycles.glossy_bounces = BOUNCES
-    cycles.transmission_bounces = cycles.transparent_max_bounces = BOUNCES
+    cycles.max_bounces = cycles.diffuse_bounces = cycles.glossy_bounces = bounces
+    cycles.transmission_bounces = cycles.transparent_max_bounces = bounces
     cycles.caustics_reflective = cycles.caustics_refractive = True
     scene.render.resolution_x, scene.render.resolution_y = size
     scene.render.resolution_percentage = 100
@@ -131,7 +130,7 @@ def build(job):
     set_world(job["sky"], job["heading_deg"])
     set_sun(job["sun"], job["heading_deg"])
     set_camera(job["camera"])
-    set_render(job["size"])
+    set_render(job["size"], job["bounces"])
     bpy.ops.wm.save_as_mainfile(filepath=job["blend"])
 
 
