@@ -165,10 +165,10 @@ finished()
 # run NAME LOG COMMAND...: a step that counts its own claims
 run()
 {
+    is_done "$1" "$2" && return
+    build_needed || return
     name=$1 log=$2
     shift 2
-    is_done "$name" "$log" && return
-    build_needed || return
     echo "$sum" >"$logs/$log.of"
     measured "$log" "$@"
     finished "$name" "$log"
@@ -179,10 +179,10 @@ run()
 started='' beside_most=$(($(nproc) + 1))
 start()
 {
+    is_done "$1" "$2" && return
+    build_needed || return
     name=$1 log=$2
     shift 2
-    is_done "$name" "$log" && return
-    build_needed || return
     wait_for_others $((beside_most - 1))
     echo "$sum" >"$logs/$log.of"
     printf '%s' "$name" >"$logs/$log.name"

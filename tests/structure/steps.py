@@ -40,6 +40,7 @@ def not_covered(folders, layers):
 
 SCRIPT_OF_STEPS = (
     '. tests/steps.sh\n'
+    'build() { echo "$@"; }\n'
     'keep_steps "$@"\n'
     'of src\n'
     'run one one sh src/one.sh\n'
@@ -47,6 +48,7 @@ SCRIPT_OF_STEPS = (
     'start two two sh shaders/two.sh\n'
     "start three three sh -c 'sleep 0.3; echo 3 passed, 0 failed'\n"
     'gather\n'
+    "needs 'native all'\n"
     "run four four sh -c 'echo 0 passed, 1 failed; exit 1'\n"
     'finish\n'
 )
@@ -101,12 +103,14 @@ def check_running(report):
     with tempfile.TemporaryDirectory() as folder:
         steps = Steps(folder)
         said, count, status = steps.run()
-        report.claim(count == "6 passed, 1 failed" and status == 1, f"first run: {count}")
+        report.claim(count == "7 passed, 1 failed" and status == 1, f"first run: {count}")
+        report.claim(said.get("four", "").startswith("0 passed 1 failed"),
+                     f"a step before which something was built: {said}")
         report.claim(re.match(r"2 passed 0 failed 1 skipped \(\d+ s,", said["two"]),
                      f"two: {said['two']}")
         said, count, _ = steps.run()
         kept = [name for name, words in said.items() if "kept" in words]
-        report.claim(kept == ["one", "two", "three"] and count == "6 passed, 1 failed",
+        report.claim(kept == ["one", "two", "three"] and count == "7 passed, 1 failed",
                      f"kept: {said}, {count}")
         steps.write("shaders/two.sh", "echo 5 passed, 0 failed")
         said, _, _ = steps.run("--list")
