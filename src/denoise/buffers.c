@@ -85,11 +85,13 @@ static double odd_samples(long first, long end)
     return (double)odd;
 }
 
-/* False without halves: fewer than 8 samples in one, or a frame that states no samples. */
+/* False without halves: fewer than 8 samples in one, or a frame that states no samples, or not
+ * those of all pixels. */
 static bool find_shares(const FrameImage *frame, float share[2])
 {
     const char *samples = frame_string(frame, "parhelion:samples");
     long        first, end;
+    if (frame_string(frame, "parhelion:for")) return false;
     if (!samples || sscanf(samples, "%ld:%ld", &first, &end) != 2 || first < 0 || end <= first)
         return false;
     share[0] = (float)(odd_samples(first, end) / (double)(end - first));

@@ -175,6 +175,18 @@ def check_answer(report, program):
     report.claim(abs(rate / taken - 1) < 1e-3, f"{rate} samples told, {taken} taken")
 
 
+def check_denoised(report, program):
+    """Pixels around the area have no halves: none are asked."""
+    for area in ([], ["--for", "display"]):
+        program.frame("frame.exr", "--spp", "48", *area)
+        done = subprocess.run([program.path, "develop", "frame.exr", "--denoise", "-o", "a.png",
+                               "--json", "--quiet"], cwd=program.folder, capture_output=True,
+                              text=True)
+        answer = json.loads(done.stdout or "{}")
+        report.claim(answer.get("denoised", {}).get("halves") is (not area),
+                     f"denoised {area}: {answer.get('denoised')} {done.stderr}")
+
+
 def check_words(report, program):
     cases = [(["--for", "display:lft"], "--for display:lft: no display has this name"),
              (["--for", "1,2,3"], "--for 1,2,3: wanted display, display:NAME or whole"),
@@ -202,6 +214,7 @@ def main():
         check_same(report, program)
         check_resumed(report, program)
         check_answer(report, program)
+        check_denoised(report, program)
         check_words(report, program)
     report.finish()
 
