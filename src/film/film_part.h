@@ -38,7 +38,8 @@ typedef struct FilmPart {
     FilmRect    crop;
     unsigned    layers;
     FilmLights  lights;
-    uint32_t    first_sample, end_sample; /* half-open: what every pixel of the crop has had */
+    uint32_t    first_sample, end_sample; /* half-open, of the frame: of these
+                                             every pixel has had its share */
     uint32_t    asked_end;  /* where the run was to end: above end_sample when it was stopped */
     FilmDropped dropped;
     uint64_t    paths, camera_rays, bounce_rays, shadow_rays; /* what the samples cost */

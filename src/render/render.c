@@ -318,7 +318,9 @@ bool render_prepared(const RenderSetup *setup, const RenderOptions *options, Are
     if (!make_film(options, arena, &result, err)) return false;
     const Favour favour = {setup->kernel, &setup->context, &setup->camera, options->favoured,
                            options->crop, options->threads};
+    const double begun_s = monotonic_seconds();
     result.shares = favour_shares(&favour, arena);
+    result.build_seconds += monotonic_seconds() - begun_s;
     render_film(setup, options, arena, &result);
     *out = result;
     return true;

@@ -19,6 +19,7 @@ import contextlib
 import json
 import os
 import resource
+import shutil
 import statistics
 import subprocess
 import sys
@@ -63,6 +64,9 @@ def word_after(words, option, default):
 def scene_for_cycles(program, words, size, folder):
     """Writes sky and scene; returns the .blend file."""
     scenes = [word for word in words if word.endswith(".gltf")]
+    for path in scenes:
+        if not os.path.exists(os.path.join(ROOT, path)):
+            sys.exit(f"cycles.py: {path} is not there; the box is made by tests/bench/box.py")
     sky = os.path.join(folder, "sky.exr")
     done = subprocess.run([program, "sky", *scenes, "-o", sky, "--size", "2048x1024", "--json",
                            "--quiet"], cwd=ROOT, capture_output=True, text=True)
@@ -145,10 +149,15 @@ def main():
     parser.add_argument("--keep")
     parser.add_argument("program")
     arguments = parser.parse_args()
-    program = os.path.abspath(arguments.program)
+    program, views = os.path.abspath(arguments.program), arguments.views.split(";")
+    if not shutil.which("blender", path=SURROUNDINGS["PATH"]):
+        sys.exit("cycles.py: no blender: apt-get install blender")
+    unknown = [view for view in views if view not in VIEWS]
+    if unknown:
+        sys.exit(f"cycles.py: --views {unknown[0]}: wanted some of {'; '.join(VIEWS)}")
     print(f"{'view':18} {'program':10} {'error %':>8} {'start s':>8} {'frame s':>8} "
           f"{'range':>13} {'to 5 % s':>9} {'ratio':>6}  light")
-    for view in arguments.views.split(";"):
+    for view in views:
         with contextlib.ExitStack() as stack:
             folder = arguments.keep and os.path.join(arguments.keep, view.replace(", ", "_"))
             if folder:

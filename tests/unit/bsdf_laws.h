@@ -132,10 +132,9 @@ static double sum_cell(const Model *model, Vec3 wo, const Chart *chart, int cell
     return sum;
 }
 
-/* A fifth of what chi-square leaves to the quadrature; 0.04 samples where there are few. */
 static bool agree(double one, double other)
 {
-    return fabs(one - other) <= 4e-3 * one + 2e-6;
+    return fabs(one - other) <= 1e-3 * one + 1e-7;
 }
 
 /* By a few points of Gauss' (but narrow lobes, which all of them may miss), or by ever more

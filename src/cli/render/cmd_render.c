@@ -267,9 +267,14 @@ static void warn_of_noise(RenderRun *work, const RenderResult *result)
                                   area, result->noise, options->noise, result->samples));
 }
 
+/* A crop may well lie beside the area. */
 static void warn_of_favour(RenderRun *work, const RenderResult *result)
 {
-    if (!work->request.render.favoured || sample_shares_whole(&result->shares)) return;
+    const RenderOptions *options = &work->request.render;
+    const FilmRect all = {0, 0, options->width, options->height};
+    if (!options->favoured || memcmp(&all, &options->crop, sizeof all) != 0 ||
+        sample_shares_whole(&result->shares))
+        return;
     warn(work, arena_format(work->arena,
                             "nothing of %s is in view: --for left an eighth of the samples to "
                             "all pixels",

@@ -246,9 +246,11 @@ static const char *favour_words(const RenderRequest *request, const RenderResult
                                 char *out, size_t size)
 {
     if (!request->render.favoured) return "";
+    uint32_t first = request->render.first_sample, share = SAMPLE_SHARE_ALL / FAVOUR_OTHERS;
     snprintf(out, size, " of %llu, %u of the others",
              (unsigned long long)sample_shares_whole(&result->shares),
-             sample_shares_own(SAMPLE_SHARE_ALL / FAVOUR_OTHERS, result->samples));
+             sample_shares_own(share, first + result->samples) -
+                 sample_shares_own(share, first));
     return out;
 }
 
