@@ -5,6 +5,7 @@
 #include <string.h>
 
 typedef float   Float4 __attribute__((vector_size(16)));
+typedef float   Float8 __attribute__((vector_size(32)));
 typedef int32_t Int4 __attribute__((vector_size(16)));
 typedef int16_t Short8 __attribute__((vector_size(16)));
 typedef int8_t  Byte16 __attribute__((vector_size(16)));

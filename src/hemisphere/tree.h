@@ -109,6 +109,10 @@ typedef struct Tree {
     const uint8_t             *depths, *block_formats;
     const uint64_t            *blocks;
     const uint8_t             *details; /* all rows */
+    uint32_t                   block_count;
+    const int16_t             *unpacked; /* the same rows (vertex_unpack.h), or NULL */
+    const uint32_t            *unpacked_rows; /* each block's first one */
+    int                        unpacked_stride; /* numbers from row to row, a multiple of 8 */
 
     /* Haar trees only. */
     const TreeNode *nodes;
@@ -128,8 +132,8 @@ typedef struct Tree {
 #define TREE_MAX_TAPS (3 * 11 * GEODESIC_MAX_LEVEL + 1)
 
 /* A value as a weighted sum of a tree's octant means and rows. For a vertex tree the rows are
- * places in bytes, levels are formats, and weights hold the powers of two that integers are
- * multiplied by. */
+ * places in bytes (indices, where the tree is unpacked), levels are formats, and weights hold
+ * the powers of two that integers are multiplied by. */
 typedef struct TreeTaps {
     int      count;
     float    mean_weight[4]; /* of the octant means */

@@ -101,12 +101,35 @@ static inline bool spectrum_is_grey(Spectrum a)
     return memcmp(&a, &first, sizeof a) == 0;
 }
 
+/* Four vectors of four as one, through vectors as wide as the CPU's: what is stored in parts
+ * and loaded as a whole waits until the parts have left the store buffer. */
+typedef float SpectrumQuarter __attribute__((vector_size(16)));
+
+static inline Spectrum spectrum_joined(const SpectrumQuarter part[4])
+{
+    Spectrum whole;
+#ifdef __AVX__
+    typedef float Half __attribute__((vector_size(32)));
+    Half half[2] = {__builtin_shufflevector(part[0], part[1], 0, 1, 2, 3, 4, 5, 6, 7),
+                    __builtin_shufflevector(part[2], part[3], 0, 1, 2, 3, 4, 5, 6, 7)};
+#ifdef __AVX512F__
+    whole = __builtin_shufflevector(half[0], half[1], 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12,
+                                    13, 14, 15);
+#else
+    memcpy(&whole, half, sizeof whole);
+#endif
+#else
+    memcpy(&whole, part, sizeof whole);
+#endif
+    return whole;
+}
+
 /* low: every lane's value[at[lane]], high: the one behind it. Each two are loaded as one number
  * of twice the size. */
 static inline void spectrum_neighbours(const float *value, SpectrumMask at, Spectrum *low,
                                        Spectrum *high)
 {
-    typedef float  Quarter __attribute__((vector_size(16)));
+    typedef SpectrumQuarter Quarter;
     typedef double Pairs __attribute__((vector_size(16)));
     Quarter below[SPECTRUM_LANES / 4], above[SPECTRUM_LANES / 4];
     for (int i = 0; i < SPECTRUM_LANES; i += 4) {
@@ -116,8 +139,8 @@ static inline void spectrum_neighbours(const float *value, SpectrumMask at, Spec
         below[i / 4] = __builtin_shufflevector(a, b, 0, 2, 4, 6);
         above[i / 4] = __builtin_shufflevector(a, b, 1, 3, 5, 7);
     }
-    memcpy(low, below, sizeof *low);
-    memcpy(high, above, sizeof *high);
+    *low = spectrum_joined(below);
+    *high = spectrum_joined(above);
 }
 
 /* All bits set in the lanes that hold NaN. */

@@ -5,6 +5,7 @@
 #include "hemisphere/tree/tree_sum.h"
 #include "hemisphere/vertex/vertex_open.h"
 #include "hemisphere/vertex/vertex_tree_build.h"
+#include "hemisphere/vertex/vertex_unpack.h"
 #include "hemisphere_fixture.h"
 
 #include "hemisphere/vertex/vertex.h"
@@ -288,6 +289,34 @@ HEMISPHERE_TEST(ranges_of_components_are_parts_of_the_whole)
     }
 }
 
+/* Unpacked, a tree's rows are other bytes and the same numbers: all components, parts of them,
+ * coarser levels. 3 and 13 components end within eight, 40 behind 32. */
+HEMISPHERE_TEST(unpacked_trees_answer_with_the_same_bits)
+{
+    const Example examples[] = {{{5, 2}, 3, PEAKED, 0.01f}, {{6, 4}, 13, NOISE, 0.05f},
+                                {{4, 4}, 40, NOISE, 0.02f}};
+    for (int e = 0; e < 3; e++) {
+        const float *values;
+        TreeReport   report;
+        uint32_t     seed = 23;
+        Tree         tree = build_example(f, &examples[e], &values, &report), unpacked = tree;
+        vertex_tree_unpack(&unpacked, &f->arena);
+        assert_non_null(unpacked.unpacked);
+        for (int q = 0; q < 4000; q++) {
+            Vec3  d = random_direction(&seed);
+            float a[40], b[40];
+            int   n = tree.components, level = q % (tree.level + 1);
+            size_t size = (size_t)n * sizeof *a;
+            tree_interpolate(&tree, d, a);
+            tree_interpolate(&unpacked, d, b);
+            assert_memory_equal(a, b, size);
+            tree_mean(&tree, level, d, a);
+            tree_mean(&unpacked, level, d, b);
+            assert_memory_equal(a, b, size);
+        }
+    }
+}
+
 /* Coarser levels interpolate between coarser vertices; the finest level is the value. */
 HEMISPHERE_TEST(levels_of_detail_end_in_the_value)
 {
@@ -436,13 +465,19 @@ HEMISPHERE_TEST(mutated_blobs_are_refused_or_harmless)
         for (int m = 0; m < 8000; m++) {
             Tree  tree;
             Error err;
-            float out[TREE_MAX_COMPONENTS];
+            float out[TREE_MAX_COMPONENTS], same[TREE_MAX_COMPONENTS];
             memcpy(copy, blob, size);
             mutate(copy, size, &seed);
             if (!tree_open(copy, size, f->geodesic, &tree, &err)) continue;
             opened++;
+            Arena scratch = f->arena;
+            Tree  unpacked = tree;
+            vertex_tree_unpack(&unpacked, &scratch);
             for (int q = 0; q < 8; q++) {
-                tree_interpolate(&tree, random_direction(&seed), out);
+                Vec3 d = random_direction(&seed);
+                tree_interpolate(&tree, d, out);
+                tree_interpolate(&unpacked, d, same);
+                assert_memory_equal(same, out, (size_t)tree.components * sizeof *out);
                 for (int c = 0; c < tree.components; c++) assert_true(isfinite(out[c]));
             }
         }

@@ -5,6 +5,7 @@
 
 #include "hemisphere/tree.h"
 #include "hemisphere/vertex/vertex_open.h"
+#include "hemisphere/vertex/vertex_unpack.h"
 #include "hemisphere/vertex/vertex_tree.h"
 
 _Static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "blobs are little-endian in place");
@@ -189,4 +190,9 @@ bool tree_open(const void *blob, size_t size, const Geodesic *geodesic, Tree *ou
         return false;
     *out = tree;
     return true;
+}
+
+void tree_unpack(Tree *tree, Arena *arena)
+{
+    if (tree->basis == TREE_VERTEX) vertex_tree_unpack(tree, arena);
 }

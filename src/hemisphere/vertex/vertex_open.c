@@ -202,7 +202,8 @@ static Tree view(const char *blob, const Geodesic *geodesic)
                   .depths = bytes + parts.depths,
                   .block_formats = bytes + parts.block_formats,
                   .blocks = (const uint64_t *)at + parts.blocks / sizeof(uint64_t),
-                  .details = bytes + parts.rows};
+                  .details = bytes + parts.rows,
+                  .block_count = h->block_count};
 }
 
 bool vertex_tree_open(const void *blob, size_t size, const Geodesic *geodesic, Tree *out,

@@ -11,7 +11,7 @@ static void put_base(const Tree *tree, VertexPlace place, TreeTaps *taps)
     VertexLattice lattice = {tree->base_level, tree->octants};
     VertexPoint   point = map_point(lattice, place);
     for (int i = 0; i < 3; i++) {
-        taps->row[i] = point.vertex[i] * tree->base_bytes;
+        taps->row[i] = point.vertex[i] * (tree->unpacked ? 1 : tree->base_bytes);
         taps->weight[i] = point.weight[i] * tree->base_factor;
         taps->level[i] = 0;
     }
@@ -80,13 +80,14 @@ static inline uint32_t find_block(const Tree *tree, const VertexLevel *level, ui
 /* Common to all taps of a block. */
 typedef struct Block {
     uint64_t bits;
-    uint32_t first, row_bytes; /* byte of the first row */
+    uint32_t first, row_bytes; /* byte of the first row; of an unpacked tree index, and 1 */
     uint8_t  format;
 } Block;
 
 static inline Block open_block(const Tree *tree, const VertexLevel *level, uint32_t index)
 {
     uint64_t bits = tree->blocks[index];
+    if (tree->unpacked) return (Block){bits, tree->unpacked_rows[index], 1, 0};
     uint8_t  format = tree->block_formats[index];
     uint32_t start = (uint32_t)(bits >> VERTEX_BLOCK_BITS) << level->shift;
     return (Block){bits, level->first_byte + start,
@@ -243,8 +244,75 @@ static inline void sum_quads(const Tree *tree, const TreeTaps *taps, int eighth,
     }
 }
 
+/* Adds weight times eight numbers of an unpacked row. */
+#ifdef __AVX2__
+typedef struct Eight {
+    Float8 all;
+} Eight;
+
+static inline void add_eight(Short8 numbers, float weight, Eight *sum)
+{
+    sum->all += weight * __builtin_convertvector(numbers, Float8);
+}
+#else
+typedef struct Eight {
+    Float4 low, high;
+} Eight;
+
+static inline void add_eight(Short8 numbers, float weight, Eight *sum)
+{
+    sum->low += weight * lower_shorts(numbers, 16);
+    sum->high += weight * upper_shorts(numbers, 16);
+}
+#endif
+
+/* 8 * eighths components, a constant where inlined, from `first` on. */
+static inline void sum_eighths(const Tree *tree, const TreeTaps *taps, int first, int eighths,
+                               float *out)
+{
+    const int16_t *rows = tree->unpacked + first;
+    size_t         stride = (size_t)tree->unpacked_stride;
+    Eight          sum[4] = {0};
+    for (int t = 0; t < taps->count; t++) {
+        const int16_t *row = rows + taps->row[t] * stride;
+        for (int e = 0; e < eighths; e++) {
+            Short8 numbers;
+            memcpy(&numbers, row + 8 * e, sizeof numbers);
+            add_eight(numbers, taps->weight[t], &sum[e]);
+        }
+    }
+    for (int e = 0; e < eighths; e++) {
+        Eight scale;
+        memcpy(&scale, tree->scale + first + 8 * e, sizeof scale);
+#ifdef __AVX2__
+        sum[e].all *= scale.all;
+#else
+        sum[e].low *= scale.low;
+        sum[e].high *= scale.high;
+#endif
+        memcpy(out + 8 * e, &sum[e], sizeof sum[e]);
+    }
+}
+
+/* From a multiple of 8 on; the last few of eight one by one. */
+static void sum_unpacked(const Tree *tree, const TreeTaps *taps, int first, int count,
+                         float *out)
+{
+    float last[8];
+    int   i = 0;
+    for (; i + 32 <= count; i += 32) sum_eighths(tree, taps, first + i, 4, out + i);
+    for (; i + 8 <= count; i += 8) sum_eighths(tree, taps, first + i, 1, out + i);
+    if (i >= count) return;
+    sum_eighths(tree, taps, first + i, 1, last);
+    for (int k = 0; i + k < count; k++) out[i + k] = last[k];
+}
+
 void vertex_tree_sum(const Tree *tree, const TreeTaps *taps, int first, int count, float *out)
 {
+    if (tree->unpacked && first % 8 == 0) {
+        sum_unpacked(tree, taps, first, count, out);
+        return;
+    }
     Float4 sum[TREE_MAX_COMPONENTS / 4 + 4];
     int    start = first / 8, end = (first + count + 7) / 8, at = start;
     for (; at + 2 <= end; at += 2) sum_quads(tree, taps, at, 4, sum + 2 * (at - start));

@@ -426,6 +426,7 @@ bool panel_open_emission(const PanelBytes *bytes, const Geodesic *geodesic, Aren
                error_in_file(bytes->err, bytes->name);
     if (panel->emission_tree.components != e->components || panel->emission_tree.octants != 4)
         return panel_refuse(&at, "emission", "does not fit its tree");
+    tree_unpack(&panel->emission_tree, arena);
     expand_codes(e, arena);
     panel->emission = e;
     survey(panel, e, arena, primaries);

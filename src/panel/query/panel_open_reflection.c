@@ -123,8 +123,9 @@ static void expand_basis(const PanelReflectionStored *s, const ReflectionLayout 
                          PanelReflection *r, Arena *arena)
 {
     float *basis = ARENA_NEW(arena, float, r->coefficients * r->padded_wavelengths);
-    float *loading = ARENA_NEW(arena, float,
-                               r->tables * r->components * r->padded_coefficients);
+    size_t loadings = (size_t)r->tables * r->components * r->padded_coefficients;
+    float *loading = arena_alloc(arena, sizeof *loading, 16,
+                                 loadings + PANEL_COEFFICIENTS_BEHIND);
     for (uint32_t k = 0; k < r->coefficients; k++)
         for (uint32_t w = 0; w < r->wavelengths; w++)
             basis[k * r->padded_wavelengths + w] =
@@ -179,8 +180,36 @@ static void cubic_between(const PanelReflection *r, int i, float out[4][4])
     }
 }
 
+/* Adds the neighbours of an interval that are turned, or those that are not (2: all). */
+static void add_neighbours(const PanelReflection *r, int interval, int which, int *count,
+                           PanelNeighbours *near)
+{
+    for (int k = 0; k < PANEL_NEIGHBOURS; k++) {
+        int  step = interval - 1 + k;
+        bool is_there = step >= 0 && step < (int)r->steps;
+        bool is_turned = is_there && r->step[step].is_turned;
+        if (which != 2 && is_turned != which) continue;
+        near->incidence[*count] = is_there ? r->step[step].incidence : 0;
+        near->is_turned[*count] = is_turned;
+        near->of[(*count)++] = k;
+    }
+}
+
+static void find_neighbours(PanelReflection *r)
+{
+    for (int i = 0; i < (int)r->steps; i++) {
+        PanelNeighbours *near = &r->neighbours[i];
+        int              count = 0;
+        bool             turns = r->frame == PANEL_FRAME_SPECULAR;
+        add_neighbours(r, i, turns ? 0 : 2, &count, near);
+        near->straight = count;
+        if (turns) add_neighbours(r, i, 1, &count, near);
+    }
+}
+
 static void find_cubics(PanelReflection *r)
 {
+    if (r->steps == 1) r->step_cubic[0][0][1] = 1;
     for (int i = 0; i + 1 < (int)r->steps; i++) {
         if (r->is_cubic && r->steps >= 3) {
             cubic_between(r, i, r->step_cubic[i]);
@@ -312,6 +341,9 @@ static PanelReflection *expand(const PanelReflectionStored *s, const ReflectionL
     name_steps(from, r);
     find_cubics(r);
     expand_surface(surface, r);
+    find_neighbours(r);
+    sincos_turns(r->last_theta * (0.5f / PI_F), &r->last_sine, &r->last_cosine);
+    r->last_fresnel = fresnel_unpolarised(r->last_cosine, r->refractive_index);
     r->mean = expand_rows(r, from->mean, r->tables, s->mean_scale, arena);
     r->lambertian_log = expand_rows(r, from->lambertian, r->tables, s->mean_scale, arena);
     float *lambertian = expand_rows(r, from->lambertian, r->tables, s->mean_scale, arena);
@@ -426,6 +458,7 @@ bool panel_expand_reflection(const PanelReflectionBytes *sections, const Geodesi
         return panel_refuse(at, "reflection", "does not fit its tree");
     if (surface.frame != PANEL_FRAME_SPECULAR && s->azimuths < 2)
         return panel_refuse(&sections->surface, "surface", "has axes without azimuths");
+    tree_unpack(&panel->reflection_tree, arena);
     panel->reflection = expand(s, &from, &surface, arena);
     index_wavelengths(panel);
     return true;

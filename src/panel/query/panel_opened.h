@@ -47,6 +47,9 @@ typedef struct PanelPrimaries {
     SpectralWarp warp[4];
 } PanelPrimaries;
 
+/* Numbers behind the loadings that queries may load and do not use. */
+#define PANEL_COEFFICIENTS_BEHIND 12
+
 /* An incidence that interpolation counts on. Those below 0 are measured ones seen from the
  * other side of the normal: the light's azimuth and the stored direction turned by 180 deg. */
 typedef struct PanelIncidence {
@@ -54,6 +57,16 @@ typedef struct PanelIncidence {
     int   incidence;
     bool  is_turned;
 } PanelIncidence;
+
+/* Of an interval between incidences: which ones count, and which of the cubic's weights is
+ * theirs. In the specular-following frame those that are not turned come first; one that is
+ * missing has a weight of 0. */
+#define PANEL_NEIGHBOURS 4
+typedef struct PanelNeighbours {
+    int  straight; /* so many of them are read at the stored direction */
+    int  incidence[PANEL_NEIGHBOURS], of[PANEL_NEIGHBOURS];
+    bool is_turned[PANEL_NEIGHBOURS];
+} PanelNeighbours;
 
 /* The stored form, expanded for queries. Rows over wavelengths have padded_wavelengths floats,
  * rows over coefficients padded_coefficients; what is padded is 0. */
@@ -63,6 +76,7 @@ typedef struct PanelReflection {
     bool     is_cubic, has_mirror, has_lobe;
     float    frame_exponent, refractive_index, cone_cos;
     float    first_theta, last_theta; /* measured incidences, radians */
+    float    last_sine, last_cosine, last_fresnel; /* of last_theta */
     PanelFrameKind  frame;
     PanelBeyondKind beyond;
     SurfaceFrame    surface;   /* where frame is not the specular-following one */
@@ -70,13 +84,14 @@ typedef struct PanelReflection {
     float           beyond_index, mirror_index; /* mirror_index 0: a straight line over F */
     PanelIncidence step[PANEL_INCIDENCES_MAX + 2]; /* rising in theta */
     float    step_cubic[PANEL_INCIDENCES_MAX + 2][4][4]; /* [step][power of u][neighbour] */
+    PanelNeighbours neighbours[PANEL_INCIDENCES_MAX + 2]; /* of each step */
     float    azimuth[PANEL_AZIMUTHS_MAX];
     float    wavelength_nm[PANEL_WAVELENGTHS_MAX];
     float    node_theta[PANEL_NODES_MAX];
     float    haze_albedo[PANEL_ANGLES]; /* luminous, lobe included */
     const float *mean;    /* [tables][wavelengths] */
     const float *basis;   /* [coefficients][wavelengths] */
-    const float *loading; /* [tables][components][coefficients] */
+    const float *loading; /* [tables][components][coefficients], more behind the last one */
     const float *lambertian; /* [tables][wavelengths], sr^-1; */
     const float *lambertian_log; /* and its logarithm, for what lies between tables */
     const float *lobe;    /* [tables][wavelengths], ln (R / F) */

@@ -8,6 +8,7 @@
 #include "hemisphere/specular_frame.h"
 #include "hemisphere/tree/tree_query.h"
 #include "panel/query/panel_components.h"
+#include "panel/query/panel_tables.h"
 #include "panel/query/panel_reference.h"
 #include "panel/query/panel_turn.h"
 #include "spectrum/fresnel.h"
@@ -22,186 +23,110 @@ bool panel_reflects(const Panel *panel)
     return panel->reflection != NULL;
 }
 
-/* ---- which tables an angle of incidence is made of -------------------------------------- */
-
-typedef struct Term {
-    int   table;
-    float weight;
-} Term;
-
-typedef struct Terms {
-    int  count;
-    Term term[16];
-} Terms;
-
-/* Tables that are read at the stored direction, and those that are read at the direction
- * turned by 180 degrees (incidences from beyond the normal, in the specular-following frame).
- */
-typedef struct TableMix {
-    Terms side[2];
-} TableMix;
-
-/* Weights of up to four neighbours. first: of the first one, may be -1 (weight 0). */
-typedef struct Cubic {
-    int   first;
-    float weight[4];
-} Cubic;
-
-/* Cubic Hermite between x1 and x2 with the slopes of parabolas through three; where a
- * neighbour is missing the other end's parabola serves, and a straight line where both are.
- * Weights may be negative: they are for logarithms only. x: four abscissae, those missing are
- * not read. */
-static void hermite_weights(const float x[4], bool has_left, bool has_right, float u,
-                            float w[4])
-{
-    float h = x[2] - x[1], u2 = u * u, u3 = u2 * u;
-    float a = (u3 - 2 * u2 + u) * h, b = (u3 - u2) * h; /* of the slopes at the two ends */
-    float h0 = has_left ? x[1] - x[0] : 0, h2 = has_right ? x[3] - x[2] : 0;
-    /* with divided differences d0, d1, d2 the slope at x1 is (h d0 + h0 d1) / (h0 + h); at an
-     * end without neighbour the parabola's: 2 d1 less the slope at the other end */
-    float a0 = has_left ? a * h / (h0 + h) : 0, a1 = a - a0;
-    float b2 = has_right ? b * h / (h + h2) : 0, b1 = b - b2;
-    if (!has_right && has_left) b1 = b * (2 - h0 / (h0 + h)), a0 -= b * h / (h0 + h);
-    if (!has_left && has_right) a1 = a * (2 - h2 / (h + h2)), b2 -= a * h / (h + h2);
-    w[0] = has_left ? -a0 / h0 : 0;
-    w[3] = has_right ? b2 / h2 : 0;
-    w[1] = 2 * u3 - 3 * u2 + 1 - w[0] - (a1 + b1) / h;
-    w[2] = 3 * u2 - 2 * u3 - w[3] + (a1 + b1) / h;
-}
-
-/* The interval is counted, not searched for: it cannot be predicted. */
-static inline Cubic incidence_weights(const PanelReflection *r, float theta)
-{
-    int i = 0, n = (int)r->steps;
-    if (n == 1) return (Cubic){-1, {0, 1, 0, 0}};
-    for (int k = 1; k < n - 1; k++) i += r->step[k].theta <= theta;
-    float span = r->step[i + 1].theta - r->step[i].theta;
-    float u = clampf((theta - r->step[i].theta) / span, 0, 1);
-    const float (*of)[4] = r->step_cubic[i];
-    Cubic cubic = {.first = i - 1};
-    for (int k = 0; k < 4; k++)
-        cubic.weight[k] = of[0][k] + u * (of[1][k] + u * (of[2][k] + u * of[3][k]));
-    return cubic;
-}
-
-/* phi in radians; azimuths repeat after a turn. Linear over fewer than four. */
-static Cubic azimuth_weights(const PanelReflection *r, float phi)
-{
-    int   n = (int)r->azimuths, i = -1;
-    float x[4];
-    phi -= 2 * PI_F * (float)(int)(phi / (2 * PI_F));
-    if (phi < 0) phi += 2 * PI_F;
-    while (i + 1 < n && r->azimuth[i + 1] <= phi) i++;
-    for (int k = 0; k < 4; k++) {
-        int j = i - 1 + k, turn = j < 0 ? -1 : j >= n ? 1 : 0;
-        x[k] = j - turn * n >= 0 && j - turn * n < n
-                   ? r->azimuth[j - turn * n] + 2 * PI_F * (float)turn : 0;
-    }
-    float u = clampf((phi - x[1]) / (x[2] - x[1]), 0, 1);
-    Cubic cubic = {i - 1, {0, 1 - u, u, 0}};
-    if (n >= 4) hermite_weights(x, true, true, u, cubic.weight);
-    return cubic;
-}
-
-/* Isotropic panels: a table for each incidence, always in the specular-following frame. */
-static TableMix isotropic_mix(const PanelReflection *r, const Cubic *incidence)
-{
-    TableMix mix;
-    mix.side[0].count = mix.side[1].count = 0;
-    for (int k = 0; k < 4; k++) {
-        if (incidence->weight[k] == 0) continue;
-        const PanelIncidence *step = &r->step[incidence->first + k];
-        Terms *side = &mix.side[step->is_turned];
-        side->term[side->count++] = (Term){step->incidence, incidence->weight[k]};
-    }
-    return mix;
-}
-
-/* light: its azimuth in the display's frame. */
-static TableMix table_mix(const PanelReflection *r, float theta, float light)
-{
-    TableMix mix;
-    Cubic    incidence = incidence_weights(r, theta);
-    int      n = (int)r->azimuths;
-    if (n == 1) return isotropic_mix(r, &incidence);
-    Cubic azimuth[2] = {azimuth_weights(r, light), azimuth_weights(r, light + PI_F)};
-    mix.side[0].count = mix.side[1].count = 0;
-    for (int k = 0; k < 4; k++) {
-        if (incidence.weight[k] == 0) continue;
-        const PanelIncidence *step = &r->step[incidence.first + k];
-        const Cubic *around = &azimuth[step->is_turned];
-        for (int a = 0; a < 4; a++) {
-            if (around->weight[a] == 0) continue;
-            int    at = (around->first + a + n) % n;
-            bool   turns = step->is_turned && r->frame == PANEL_FRAME_SPECULAR;
-            Terms *side = &mix.side[turns];
-            side->term[side->count++] = (Term){at * (int)r->incidences + step->incidence,
-                                               incidence.weight[k] * around->weight[a]};
-        }
-    }
-    return mix;
-}
-
 /* ---- logarithms ------------------------------------------------------------------------ */
 
 /* Eight at a time: what all instruction sets keep in registers. */
 typedef float Float8 __attribute__((vector_size(32), aligned(4), may_alias));
 
 /* Weighted rows of the mixed tables at 8 wavelengths from w on. */
-static inline Float8 mixed_rows(const PanelReflection *r, const TableMix *mix,
+static inline Float8 mixed_rows(const PanelReflection *r, const PanelTables *mix,
                                 const float *rows, int w)
 {
     Float8 sum = {0};
-    for (int turned = 0; turned < 2; turned++)
-        for (int i = 0; i < mix->side[turned].count; i++) {
-            const Term *term = &mix->side[turned].term[i];
-            sum += term->weight *
-                   *(const Float8 *)(rows + term->table * (int)r->padded_wavelengths + w);
-        }
+    for (int i = 0; i < mix->count; i++)
+        sum += mix->term[i].weight *
+               *(const Float8 *)(rows + mix->term[i].table * (int)r->padded_wavelengths + w);
     return sum;
 }
 
-/* Adds what a component vector of the tree means for the mixed tables: 4 * quads coefficients
- * from k on, quads a constant of 1 to 4 where inlined. Several sums at once: one alone would
- * wait for itself. */
-static inline void add_quads(const PanelReflection *r, const Terms *terms,
-                             const float *component, int quads, int k, float *coefficient)
+/* As many coefficients as a register holds; where fewer are left, what is read and written
+ * behind them counts for nothing (COEFFICIENTS_BEHIND). */
+#if defined __AVX512F__
+#define WIDE 16
+#elif defined __AVX__
+#define WIDE 8
+#else
+#define WIDE 4
+#endif
+#define WIDE_ALIGNED (WIDE == 4 ? 16 : 4) /* rows are multiples of four, more than that */
+typedef float Wide __attribute__((vector_size(4 * WIDE), aligned(WIDE_ALIGNED), may_alias));
+_Static_assert(WIDE <= 4 + PANEL_COEFFICIENTS_BEHIND, "rows of 4 may be read as one of WIDE");
+
+/* Tables that are asked together: 1 or 4. */
+typedef struct TableGroup {
+    const PanelTablesTerm *term;
+    int count;
+} TableGroup;
+
+/* Adds what a component vector of the tree means for a group of mixed tables: 1 or 2 wides of
+ * coefficients from k on. The counts are constants where inlined. All sums grow together: one
+ * alone would wait for itself. */
+static inline void add_wides(const PanelReflection *r, TableGroup group, const float *component,
+                             int k, int wides, float *coefficient)
 {
     int          stride = (int)r->padded_coefficients, n = (int)r->components;
-    PanelFloat4 *to = (PanelFloat4 *)(coefficient + k);
-    for (int i = 0; i < terms->count; i++) {
-        const Term  *term = &terms->term[i];
-        const float *row = r->loading + term->table * n * stride + k;
-        PanelFloat4  s0 = {0}, s1 = {0}, s2 = {0}, s3 = {0};
-        for (int c = 0; c < n; c++, row += stride) {
-            const PanelFloat4 *from = (const PanelFloat4 *)row;
-            s0 += component[c] * from[0];
-            if (quads > 1) s1 += component[c] * from[1];
-            if (quads > 2) s2 += component[c] * from[2];
-            if (quads > 3) s3 += component[c] * from[3];
+    const float *row[4];
+    Wide         sum[4][2];
+    for (int i = 0; i < group.count; i++) {
+        row[i] = r->loading + group.term[i].table * n * stride + k;
+        for (int j = 0; j < wides; j++) sum[i][j] = (Wide){0};
+    }
+    for (int c = 0; c < n; c++) {
+        Wide value = (Wide){0} + component[c];
+        for (int i = 0; i < group.count; i++)
+            for (int j = 0; j < wides; j++)
+                sum[i][j] += value * *(const Wide *)(row[i] + c * stride + j * WIDE);
+    }
+    for (int i = 0; i < group.count; i++)
+        for (int j = 0; j < wides; j++)
+            *(Wide *)(coefficient + k + j * WIDE) += group.term[i].weight * sum[i][j];
+}
+
+static inline void add_group(const PanelReflection *r, TableGroup group, const float *component,
+                             float *coefficient)
+{
+    int k = 0, padded = (int)r->padded_coefficients;
+    for (; k + WIDE < padded; k += 2 * WIDE)
+        add_wides(r, group, component, k, 2, coefficient);
+    if (k < padded) add_wides(r, group, component, k, 1, coefficient);
+}
+
+/* As many tables as are left are asked as four, of which some count nothing: how many there are
+ * of a side cannot be predicted. */
+static inline void add_loadings(const PanelReflection *r, const PanelTablesTerm *term,
+                                int count, const float *component, float *coefficient)
+{
+    for (int i = 0; i < count; i += 4) {
+        PanelTablesTerm four[4];
+        for (int k = 0; k < 4; k++) {
+            bool is_there = i + k < count;
+            four[k] = term[is_there ? i + k : i];
+            four[k].weight = is_there ? four[k].weight : 0;
         }
-        to[0] += term->weight * s0;
-        if (quads > 1) to[1] += term->weight * s1;
-        if (quads > 2) to[2] += term->weight * s2;
-        if (quads > 3) to[3] += term->weight * s3;
+        add_group(r, (TableGroup){four, 4}, component, coefficient);
     }
 }
 
-static inline void add_loadings(const PanelReflection *r, const Terms *terms,
-                                const float *component, float *coefficient)
-{
-    int k = 0, padded = (int)r->padded_coefficients;
-    for (; k + 16 <= padded; k += 16) add_quads(r, terms, component, 4, k, coefficient);
-    if (padded - k == 12) add_quads(r, terms, component, 3, k, coefficient);
-    if (padded - k == 8) add_quads(r, terms, component, 2, k, coefficient);
-    if (padded - k == 4) add_quads(r, terms, component, 1, k, coefficient);
-}
+/* AVX-512 looks 16 numbers up in two registers at once; only GCC says so without intrinsics. */
+#if defined __AVX512F__ && !defined __clang__
+#define PANEL_ROWS_IN_REGISTERS
+#endif
 
 /* Values at the lanes, linear between measured wavelengths. */
 static inline Spectrum spread(const float *value, const PanelLanes *lanes)
 {
     Spectrum low, high;
     if (lanes->has_one) return spectrum_all(value[0]);
+#ifdef PANEL_ROWS_IN_REGISTERS
+    if (lanes->second >= 0) {
+        Spectrum first, second;
+        memcpy(&first, value, sizeof first);
+        memcpy(&second, value + lanes->second, sizeof second);
+        low = __builtin_shuffle(first, second, lanes->interval);
+        high = __builtin_shuffle(first, second, lanes->interval + 1);
+        return low + (high - low) * lanes->t;
+    }
+#endif
     spectrum_neighbours(value, lanes->interval, &low, &high);
     return low + (high - low) * lanes->t;
 }
@@ -217,7 +142,7 @@ static Spectrum spread_between(const Panel *panel, const float *rows, int first,
 }
 
 /* Mixes rows that are not at the lanes yet before they go there. */
-static Spectrum mixed_at_lanes(const PanelReflection *r, const TableMix *mix,
+static Spectrum mixed_at_lanes(const PanelReflection *r, const PanelTables *mix,
                                const float *rows, const PanelLanes *lanes)
 {
     float row[PADDED_MAX];
@@ -226,34 +151,41 @@ static Spectrum mixed_at_lanes(const PanelReflection *r, const TableMix *mix,
     return spread(row, lanes);
 }
 
+static inline void add_lanes(float factor, const Spectrum *lanes, Wide *sum)
+{
+    for (int i = 0; i < SPECTRUM_LANES / WIDE; i++)
+        sum[i] += factor * *(const Wide *)((const float *)lanes + i * WIDE);
+}
+
 /* ln (f / F) at the lanes. */
-static Spectrum reflection_logs(const Panel *panel, Vec3 stored, const TableMix *mix,
+static Spectrum reflection_logs(const Panel *panel, Vec3 stored, const PanelTables *mix,
                                 const PanelLanes *lanes)
 {
     const PanelReflection *r = panel->reflection;
-    float    component[COMPONENTS_MAX], coefficient[COEFFICIENTS_MAX];
-    Spectrum logs;
+    float    component[COMPONENTS_MAX];
+    _Alignas(64) float coefficient[COEFFICIENTS_MAX + PANEL_COEFFICIENTS_BEHIND] = {0};
+    Spectrum logs = spectrum_all(0);
     if (!lanes->has_means) logs = mixed_at_lanes(r, mix, r->mean, lanes);
-    for (int k = 0; k < (int)r->padded_coefficients; k++) coefficient[k] = 0;
-    for (int turned = 0; turned < 2; turned++) {
-        if (!mix->side[turned].count) continue;
-        Vec3 at = turned ? vec3(-stored.x, -stored.y, stored.z) : stored;
+    if (mix->count == 1 && mix->straight == 1) { /* the last incidence's, mostly */
+        tree_interpolate(&panel->reflection_tree, stored, component);
+        add_group(r, (TableGroup){mix->term, 1}, component, coefficient);
+    } else if (mix->straight) {
+        tree_interpolate(&panel->reflection_tree, stored, component);
+        add_loadings(r, mix->term, mix->straight, component, coefficient);
+    }
+    if (mix->straight < mix->count) {
+        Vec3 at = vec3(-stored.x, -stored.y, stored.z);
         tree_interpolate(&panel->reflection_tree, at, component);
-        add_loadings(r, &mix->side[turned], component, coefficient);
+        add_loadings(r, mix->term + mix->straight, mix->count - mix->straight, component,
+                     coefficient);
     }
-    for (int i = 0; i < SPECTRUM_LANES; i += 8) {
-        Float8 sum = {0};
-        if (!lanes->has_means) sum = *(const Float8 *)((const float *)&logs + i);
-        for (int turned = 0; turned < 2 && lanes->has_means; turned++)
-            for (int j = 0; j < mix->side[turned].count; j++) {
-                const Term *term = &mix->side[turned].term[j];
-                sum += term->weight *
-                       *(const Float8 *)((const float *)&lanes->mean[term->table] + i);
-            }
-        for (int k = 0; k < (int)r->coefficients; k++)
-            sum += coefficient[k] * *(const Float8 *)((const float *)&lanes->basis[k] + i);
-        *(Float8 *)((float *)&logs + i) = sum;
-    }
+    Wide sum[SPECTRUM_LANES / WIDE];
+    memcpy(sum, &logs, sizeof sum);
+    for (int i = 0; i < mix->count && lanes->has_means; i++)
+        add_lanes(mix->term[i].weight, &lanes->mean[mix->term[i].table], sum);
+    for (int k = 0; k < (int)r->coefficients; k++)
+        add_lanes(coefficient[k], &lanes->basis[k], sum);
+    memcpy(&logs, sum, sizeof logs);
     return logs;
 }
 
@@ -268,20 +200,17 @@ static float squared_angle(Vec3 local, float sin_theta, float cos_theta)
     return chord * (1 + chord * (1.0f / 12));
 }
 
-static float mixed_sigma(const PanelReflection *r, const TableMix *mix)
+static float mixed_sigma(const PanelReflection *r, const PanelTables *mix)
 {
     float sum = 0;
-    for (int turned = 0; turned < 2; turned++)
-        for (int i = 0; i < mix->side[turned].count; i++) {
-            const Term *term = &mix->side[turned].term[i];
-            sum += term->weight * r->lobe_sigma[term->table];
-        }
+    for (int i = 0; i < mix->count; i++)
+        sum += mix->term[i].weight * r->lobe_sigma[mix->term[i].table];
     return sum > 1e-4f ? sum : 1e-4f;
 }
 
 /* The lobe over F: R / F G(angle) / cos theta_i. */
-static Spectrum lobe_over_fresnel(const Panel *panel, const TableMix *mix, Vec3 local, Vec3 wi,
-                                  const PanelLanes *lanes)
+static Spectrum lobe_over_fresnel(const Panel *panel, const PanelTables *mix, Vec3 local,
+                                  Vec3 wi, const PanelLanes *lanes)
 {
     const PanelReflection *r = panel->reflection;
     float sine = safe_sqrtf(1 - wi.z * wi.z), sigma = mixed_sigma(r, mix);
@@ -300,9 +229,7 @@ static Spectrum lobe_over_fresnel(const Panel *panel, const TableMix *mix, Vec3 
  * moves. Directions that come to lie outside the measured cone are held at its edge. */
 static Vec3 shifted(const PanelReflection *r, Vec3 local, float sin_theta)
 {
-    float sine_last, cosine_last;
-    sincos_turns(r->last_theta * (0.5f / PI_F), &sine_last, &cosine_last);
-    float x = local.x - sin_theta + sine_last, y = local.y;
+    float x = local.x - sin_theta + r->last_sine, y = local.y;
     float edge = safe_sqrtf(1 - r->cone_cos * r->cone_cos), length = safe_sqrtf(x * x + y * y);
     if (length > edge) x *= edge / length, y *= edge / length;
     return vec3(x, y, safe_sqrtf(1 - x * x - y * y));
@@ -338,7 +265,7 @@ static Spectrum held_factor(const Panel *panel, float theta, const PanelLanes *l
     const PanelReflection *r = panel->reflection;
     int i = 0;
     if (r->nodes < 2) return spectrum_all(1);
-    while (i + 2 < (int)r->nodes && r->node_theta[i + 1] <= theta) i++;
+    for (int k = 1; k < (int)r->nodes - 1; k++) i += r->node_theta[k] <= theta;
     float t = (theta - r->node_theta[i]) / (r->node_theta[i + 1] - r->node_theta[i]);
     return spread_between(panel, r->held, i, clampf(t, 0, 1), lanes);
 }
@@ -379,9 +306,7 @@ static Vec3 same_facet(const PanelReflection *r, const PanelPair *pair, Vec3 las
 
 static PanelPair last_pair(const PanelReflection *r, const PanelPair *pair)
 {
-    float sine, cosine;
-    sincos_turns(r->last_theta * (0.5f / PI_F), &sine, &cosine);
-    Vec3 light = vec3(-sine, 0, cosine);
+    Vec3 light = vec3(-r->last_sine, 0, r->last_cosine);
     Vec3 from = r->beyond == PANEL_BEYOND_SLOPES
                     ? same_facet(r, pair, light)
                     : shifted(r, pair->local, safe_sqrtf(1 - pair->wi.z * pair->wi.z));
@@ -408,13 +333,12 @@ static Spectrum haze_ratio(const Panel *panel, const PanelPair *now, const Panel
 
 /* The row of the table that counts most: at the last incidence weights that ought to be 0 may
  * be some rounding. */
-static int main_row(const PanelReflection *r, const TableMix *mix)
+static int main_row(const PanelReflection *r, const PanelTables *mix)
 {
-    const Terms *terms = &mix->side[0];
-    int          best = 0;
-    for (int i = 1; i < terms->count; i++)
-        if (terms->term[i].weight > terms->term[best].weight) best = i;
-    return terms->term[best].table * (int)r->padded_wavelengths;
+    int best = 0;
+    for (int i = 1; i < mix->straight; i++)
+        if (mix->term[i].weight > mix->term[best].weight) best = i;
+    return mix->term[best].table * (int)r->padded_wavelengths;
 }
 
 /* The haze moves and changes its height, the lambertian part follows the light that enters. */
@@ -424,9 +348,9 @@ static Spectrum brdf_beyond(const Panel *panel, const PanelPair *pair, float lig
     const PanelReflection *r = panel->reflection;
     float         n = r->refractive_index;
     PanelPair     from = last_pair(r, pair);
-    TableMix mix = table_mix(r, r->last_theta, light);
+    PanelTables mix = panel_tables_last(r, light);
     Spectrum logs = reflection_logs(panel, stored_at(r, &from), &mix, lanes);
-    float    last = fresnel_unpolarised(from.wi.z, n);
+    float    last = r->last_fresnel;
     Spectrum total = spectrum_exp(logs) * spectrum_all(reference_at(r, &from));
     int      row = main_row(r, &mix);
     Spectrum lambertian = spectrum_min(total, spread(r->lambertian + row, lanes));
@@ -447,12 +371,10 @@ static Spectrum lambertian_beyond(const Panel *panel, float theta, float cos_the
                                   const PanelLanes *lanes)
 {
     const PanelReflection *r = panel->reflection;
-    float    sine, cosine, n = r->refractive_index;
-    TableMix mix = table_mix(r, r->last_theta, light);
+    float    n = r->refractive_index;
+    PanelTables mix = panel_tables_last(r, light);
     int      row = main_row(r, &mix);
-    sincos_turns(r->last_theta * (0.5f / PI_F), &sine, &cosine);
-    float entering = (1 - fresnel_unpolarised(cos_theta, n)) /
-                     (1 - fresnel_unpolarised(cosine, n));
+    float entering = (1 - fresnel_unpolarised(cos_theta, n)) / (1 - r->last_fresnel);
     return spread(r->lambertian + row, lanes) * spectrum_all(entering) *
            held_factor(panel, theta, lanes);
 }
@@ -468,6 +390,7 @@ static void find_lanes(const Panel *panel, const Wavelengths *wavelengths, Panel
     float from[SPECTRUM_LANES], scale[SPECTRUM_LANES];
     Spectrum begin, inverse;
     lanes->has_one = r->wavelengths == 1;
+    lanes->second = r->padded_wavelengths <= 32 ? (int)r->padded_wavelengths - 16 : -1;
     if (lanes->has_one) return;
     for (int i = 0; i < SPECTRUM_LANES; i++) {
         int n = panel->wavelength_index[whole[i]];
@@ -492,9 +415,7 @@ void panel_lanes(const Panel *panel, const Wavelengths *wavelengths, PanelLanes 
     out->has_means = r->tables <= PANEL_LANES_TABLES;
     for (int t = 0; out->has_means && t < (int)r->tables; t++)
         out->mean[t] = spread(r->mean + t * padded, out);
-    float sine, cosine;
-    sincos_turns(r->last_theta * (0.5f / PI_F), &sine, &cosine);
-    out->last_gloss = gloss(panel, cosine, out);
+    out->last_gloss = gloss(panel, r->last_cosine, out);
 }
 
 Spectrum panel_brdf_at(const Panel *panel, Vec3 wo, Vec3 wi, const PanelLanes *lanes)
@@ -504,7 +425,7 @@ Spectrum panel_brdf_at(const Panel *panel, Vec3 wo, Vec3 wi, const PanelLanes *l
     PanelPair pair = {wi, wo, panel_turned(wi, wo), panel_polar_angle(wi)};
     float light = r->azimuths > 1 ? atan2_f(wi.y, wi.x) : 0;
     if (pair.theta > r->last_theta) return brdf_beyond(panel, &pair, light, lanes);
-    TableMix mix = table_mix(r, pair.theta, light);
+    PanelTables mix = panel_tables_at(r, pair.theta, light);
     Spectrum over = spectrum_exp(reflection_logs(panel, stored_at(r, &pair), &mix, lanes));
     float    reference = reference_at(r, &pair);
     if (r->has_lobe) {
@@ -531,7 +452,7 @@ Spectrum panel_lambertian_at(const Panel *panel, Spectrum brdf, Vec3 wi,
     float theta = panel_polar_angle(wi), light = r->azimuths > 1 ? atan2_f(wi.y, wi.x) : 0;
     if (theta > r->last_theta)
         return spectrum_min(brdf, lambertian_beyond(panel, theta, wi.z, light, lanes));
-    TableMix mix = table_mix(r, theta, light);
+    PanelTables mix = panel_tables_at(r, theta, light);
     return spectrum_min(brdf,
                         spectrum_exp(mixed_at_lanes(r, &mix, r->lambertian_log, lanes)));
 }

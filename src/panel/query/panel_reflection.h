@@ -21,6 +21,7 @@ typedef struct PanelLanes {
     SpectrumMask interval; /* of measured wavelengths, that holds the lane */
     Spectrum     t;        /* in it, 0 to 1: outside, the end value holds */
     bool         has_one;  /* a single wavelength is measured */
+    int          second;   /* of at most 32 numbers: where a row's last 16 start; or -1 */
     bool         has_means;
     Spectrum     last_gloss; /* of the surface, at the last measured incidence */
     Spectrum     basis[PANEL_LANES_COEFFICIENTS], mean[PANEL_LANES_TABLES];
