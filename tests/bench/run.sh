@@ -24,7 +24,10 @@ dashboard='scenes/car_dashboard.gltf scenes/noon.gltf'
 .build/release/bench_metrics "$runs"
 .build/release/bench_hemisphere
 for panel in ips_cluster oled_centre; do
-    echo "panel $panel"
-    .build/release/bench_panel "$runs" assets/panels/$panel.recipe.json \
-        assets/panels/$panel.panel
+    for set in '' _avx2 _avx512; do
+        [ -z "$set" ] || grep -q "${set#_}" /proc/cpuinfo || continue
+        echo "panel $panel${set:+, instruction set ${set#_}}"
+        .build/release/bench_panel$set "$runs" assets/panels/$panel.recipe.json \
+            assets/panels/$panel.panel
+    done
 done
