@@ -64,11 +64,11 @@ static World ring_world(double sun_radius_degrees)
  * alone finds. The sun is made large, so that chance finds it. */
 TEST(asking_mirrors_leaves_the_mean_as_it_is)
 {
-    static const float roughness[] = {0, 1, 0, 0.02f, 0.1f, 0.07f};
-    for (int i = 0; i < 6; i++) {
+    static const float roughness[] = {0, 1, 0, 0.02f, 0.1f, 0.07f, 0.21f};
+    for (int i = 0; i < 7; i++) {
         ENDS_BY(world_end) World world = world_start();
         Material shiny = builder_material(0.3f), glossy = builder_material(0.5f);
-        if (i == 0 || i == 4) shiny = builder_mirror(0.9f);
+        if (i == 0 || i == 4 || i == 6) shiny = builder_mirror(0.9f);
         shiny.clearcoat = i == 1;
         if (i == 2) {
             shiny.transmission = 1;
@@ -89,7 +89,8 @@ TEST(asking_mirrors_leaves_the_mean_as_it_is)
         Vec3     eye = vec3(0.3f, 1.5f, 2), to = vec3(-0.2f, 0, 0.2f);
         WorldMean asked = luminance(&world, eye, to, 0.4f, 1, 200000);
         world.context.beams.mirrors = NULL;
-        WorldMean chance = luminance(&world, eye, to, 0.4f, 2, i < 4 ? 400000 : 1000000);
+        WorldMean chance = luminance(&world, eye, to, 0.4f, 2,
+                                     i == 4 || i == 5 ? 1000000 : 400000);
         double   sigma = sqrt(asked.sigma * asked.sigma + chance.sigma * chance.sigma);
         if (!(fabs(asked.mean - chance.mean) < 3 * sigma) || !(sigma < 0.01 * chance.mean))
             fail_msg("kind %d: %.6g +- %.2g asked, %.6g +- %.2g by chance", i, asked.mean,
