@@ -81,7 +81,7 @@ static inline float buffers_feature_distance(const DenoiseBuffers *buffers, size
     return square;
 }
 
-#define BUFFERS_UNLIKE 8.0f /* how fast pixels of other features stop to count */
+#define BUFFERS_UNLIKE 20.0f /* how fast pixels of other features stop to count */
 
 /* 1 where the features are the same, to 0. */
 static inline float buffers_likeness(const DenoiseBuffers *buffers, size_t a, size_t b)

@@ -6,14 +6,16 @@
 #include "base/mathf.h"
 #include "base/parallel.h"
 #include "denoise/buffers.h"
+#include "denoise/feature_weights.h"
 #include "denoise/fireflies.h"
 #include "denoise/noise.h"
 #include "denoise/patch_weights.h"
+#include "denoise/pilot.h"
 #include "denoise/regression.h"
 
 enum { COARSE = 6, FINE = 2 }; /* reaches of the corrections */
 
-/* ---- of a wide and a narrow filter, each pixel's better one ------------------------------ */
+/* ---- of two filters, each pixel's better one --------------------------------------------- */
 
 /* What a filter made of one half of the samples is held against the other half, whose noise it
  * does not have: it differs from it by that noise, the same for both filters, and by the
@@ -22,7 +24,7 @@ enum { COARSE = 6, FINE = 2 }; /* reaches of the corrections */
 
 /* Both filters' results for each half: R, G, B. */
 typedef struct Candidates {
-    float *wide[2][3], *narrow[2][3];
+    float *patches[2][3], *features[2][3];
 } Candidates;
 
 enum { REACH = 4 };
@@ -30,8 +32,8 @@ enum { REACH = 4 };
 typedef struct FilterChoice {
     const DenoiseBuffers *buffers;
     const Candidates     *candidates;
-    float                *gain; /* a pixel: how much closer the narrow filter came */
-    float                *share; /* of the narrow filter, 0 to 1 */
+    float                *gain; /* a pixel: how much closer the filter by features came */
+    float                *share; /* of the filter by features, 0 to 1 */
 } FilterChoice;
 
 static float square(float value)
@@ -47,10 +49,10 @@ static float gain_of(const FilterChoice *work, size_t i)
     for (int half = 0; half < 2; half++)
         for (int c = 0; c < 3; c++) {
             float other = b->light[1 - half][c][i];
-            float wide = work->candidates->wide[half][c][i];
-            float narrow = work->candidates->narrow[half][c][i];
+            float patches = work->candidates->patches[half][c][i];
+            float features = work->candidates->features[half][c][i];
             float unit = b->variance[c][i] + 1e-6f * square(buffers_mean(b, c, i)) + 1e-20f;
-            gain += (square(wide - other) - square(narrow - other)) / unit;
+            gain += (square(patches - other) - square(features - other)) / unit;
         }
     return gain;
 }
@@ -96,8 +98,8 @@ static void fill_shares(void *context, int y, int worker)
     }
 }
 
-/* Puts into the wide one, of both halves, the better of the two, and a mean of both where it is
- * unsure. The buffers have halves. */
+/* Puts into the light by patches, of both halves, the better of the two, and a mean of both
+ * where it is unsure. The buffers have halves. */
 static void selection_apply(const DenoiseBuffers *b, const Candidates *candidates, int threads,
                             Arena scratch)
 {
@@ -107,11 +109,11 @@ static void selection_apply(const DenoiseBuffers *b, const Candidates *candidate
     parallel_for(threads, b->height, fill_gains, &work);
     parallel_for(threads, b->height, fill_shares, &work);
     for (int half = 0; half < 2; half++)
-        for (int c = 0; c < 3; c++)
-            for (size_t i = 0; i < count; i++)
-                candidates->wide[half][c][i] +=
-                    work.share[i] *
-                    (candidates->narrow[half][c][i] - candidates->wide[half][c][i]);
+        for (int c = 0; c < 3; c++) {
+            float       *kept = candidates->patches[half][c];
+            const float *other = candidates->features[half][c];
+            for (size_t i = 0; i < count; i++) kept[i] += work.share[i] * (other[i] - kept[i]);
+        }
 }
 
 /* ---- what the filter took away and noise cannot have been -------------------------------- */
@@ -186,6 +188,13 @@ static void correction_add(const DenoiseBuffers *b, float *const light[3], int r
         for (size_t i = 0; i < count; i++) light[c][i] += work.add[c][i];
 }
 
+/* ---- the filters ------------------------------------------------------------------------- */
+
+/* How fast unlike patches stop to count, where noisy light guides. A half that guides itself
+ * must be generous: every patch is most like itself. */
+#define STRENGTH_OF_HALVES 2.0f
+#define STRENGTH_ALONE 0.4f
+
 typedef struct Scratch {
     PatchScratch *patches;
     float       (*weights)[PATCH_OFFSETS];
@@ -193,30 +202,23 @@ typedef struct Scratch {
 
 typedef struct Filtering {
     const DenoiseBuffers *buffers;
+    PatchGuide            guide;
+    bool                  is_last;      /* the filter by features runs, too */
     int                   tiles_x, tiles_y;
     int                   odd_x, odd_y; /* which tiles' turn it is */
     Scratch              *scratch;      /* one a worker */
-    RegressionSums        wide[2], narrow[2]; /* of each half */
+    RegressionSums        patches[2], features[2]; /* of each half */
 } Filtering;
-
-/* The weights of the narrow filter: only what is very much alike counts. */
-static void sharpen(float weights[PATCH_OFFSETS])
-{
-    for (int k = 0; k < PATCH_OFFSETS; k++) {
-        float fourth = weights[k] * weights[k] * weights[k] * weights[k];
-        weights[k] = fourth * fourth < 1e-3f ? 0 : fourth * fourth;
-    }
-}
 
 static void filter_pixel(const Filtering *work, int half, int x, int y, float *weights)
 {
     const DenoiseBuffers  *b = work->buffers;
     const RegressionWindow window = {b, x, y, PATCH_SEARCH, weights};
     if (b->kind[(size_t)y * (size_t)b->width + (size_t)x] == PIXEL_LEFT) return;
-    regression_add(&window, half, &work->wide[half]);
-    if (!b->has_halves) return;
-    sharpen(weights);
-    regression_add(&window, half, &work->narrow[half]);
+    regression_add(&window, half, &work->patches[half]);
+    if (!work->is_last) return;
+    feature_weights(b, x, y, weights);
+    regression_add(&window, half, &work->features[half]);
 }
 
 static void filter_tile(void *context, int item, int worker)
@@ -228,52 +230,13 @@ static void filter_tile(void *context, int item, int worker)
     int x0 = (item % columns * 2 + work->odd_x) * PATCH_TILE;
     int y0 = (item / columns * 2 + work->odd_y) * PATCH_TILE;
     for (int half = 0; half < (b->has_halves ? 2 : 1); half++) {
-        patch_weights(b, half, x0, y0, scratch->patches, scratch->weights);
+        patch_weights(&work->guide, half, x0, y0, scratch->patches, scratch->weights);
         for (int k = 0; k < PATCH_TILE * PATCH_TILE; k++) {
             int x = x0 + k % PATCH_TILE, y = y0 + k / PATCH_TILE;
             if (x < b->width && y < b->height)
                 filter_pixel(work, half, x, y, scratch->weights[k]);
         }
     }
-}
-
-/* Windows reach into the tiles around: of every two by two tiles one is filtered at a time, so
- * that no two write to one pixel and the order of sums is always the same. */
-static void filter_tiles(Filtering *work, int threads)
-{
-    for (int turn = 0; turn < 4; turn++) {
-        work->odd_x = turn % 2;
-        work->odd_y = turn / 2;
-        int columns = (work->tiles_x - work->odd_x + 1) / 2;
-        int rows = (work->tiles_y - work->odd_y + 1) / 2;
-        parallel_for(threads, columns * rows, filter_tile, work);
-    }
-}
-
-static RegressionSums create_sums(size_t count, Arena *arena)
-{
-    RegressionSums sums;
-    for (int c = 0; c < 3; c++) sums.light[c] = ARENA_NEW(arena, float, count);
-    sums.weight = ARENA_NEW(arena, float, count);
-    return sums;
-}
-
-static Filtering create_filtering(const DenoiseBuffers *b, int threads, Arena *arena)
-{
-    size_t    count = (size_t)b->width * (size_t)b->height;
-    Filtering work = {.buffers = b, .tiles_x = (b->width + PATCH_TILE - 1) / PATCH_TILE,
-                      .tiles_y = (b->height + PATCH_TILE - 1) / PATCH_TILE,
-                      .scratch = ARENA_NEW(arena, Scratch, threads)};
-    for (int i = 0; i < threads; i++) {
-        work.scratch[i].patches = patch_scratch_create(arena);
-        work.scratch[i].weights = arena_alloc(arena, sizeof *work.scratch[i].weights,
-                                              sizeof(float), (size_t)PATCH_TILE * PATCH_TILE);
-    }
-    for (int half = 0; half < 2; half++) {
-        work.wide[half] = create_sums(count, arena);
-        work.narrow[half] = create_sums(count, arena);
-    }
-    return work;
 }
 
 /* The mean of the fits; where there is none, the light as it was. */
@@ -285,19 +248,71 @@ static void average_fits(const DenoiseBuffers *b, int half, const RegressionSums
                                                     : b->light[half][c][i];
 }
 
-static void select_filters(const Filtering *work, int threads, Arena scratch)
+static RegressionSums create_sums(size_t count, Arena *arena)
+{
+    RegressionSums sums;
+    for (int c = 0; c < 3; c++) sums.light[c] = ARENA_NEW(arena, float, count);
+    sums.weight = ARENA_NEW(arena, float, count);
+    return sums;
+}
+
+/* Windows reach into the tiles around: of every two by two tiles one is filtered at a time, so
+ * that no two write to one pixel and the order of sums is always the same. */
+static void filter_tiles(Filtering *work, int threads, Arena *arena)
+{
+    size_t count = (size_t)work->buffers->width * (size_t)work->buffers->height;
+    for (int half = 0; half < 2; half++) {
+        work->patches[half] = create_sums(count, arena);
+        if (work->is_last) work->features[half] = create_sums(count, arena);
+    }
+    for (int turn = 0; turn < 4; turn++) {
+        work->odd_x = turn % 2;
+        work->odd_y = turn / 2;
+        int columns = (work->tiles_x - work->odd_x + 1) / 2;
+        int rows = (work->tiles_y - work->odd_y + 1) / 2;
+        parallel_for(threads, columns * rows, filter_tile, work);
+    }
+    for (int half = 0; half < 2; half++) {
+        average_fits(work->buffers, half, &work->patches[half]);
+        if (work->is_last) average_fits(work->buffers, half, &work->features[half]);
+    }
+}
+
+static Filtering create_filtering(const DenoiseBuffers *b, int threads, Arena *arena)
+{
+    Filtering work = {.buffers = b, .guide = {.buffers = b},
+                      .tiles_x = (b->width + PATCH_TILE - 1) / PATCH_TILE,
+                      .tiles_y = (b->height + PATCH_TILE - 1) / PATCH_TILE,
+                      .scratch = ARENA_NEW(arena, Scratch, threads)};
+    work.guide.strength = b->has_halves ? STRENGTH_OF_HALVES : STRENGTH_ALONE;
+    for (int c = 0; c < 3; c++) {
+        for (int half = 0; half < 2; half++) work.guide.light[half][c] = b->light[half][c];
+        work.guide.variance[c] = b->variance[c];
+    }
+    for (int i = 0; i < threads; i++) {
+        work.scratch[i].patches = patch_scratch_create(arena);
+        work.scratch[i].weights = arena_alloc(arena, sizeof *work.scratch[i].weights,
+                                              sizeof(float), (size_t)PATCH_TILE * PATCH_TILE);
+    }
+    return work;
+}
+
+/* Once more, guided by what the first filter made, and by features alone. */
+static void filter_again(Filtering *work, int threads, Arena *arena)
 {
     Candidates candidates;
-    for (int half = 0; half < 2; half++) {
-        average_fits(work->buffers, half, &work->wide[half]);
-        average_fits(work->buffers, half, &work->narrow[half]);
+    float     *first[2][3];
+    for (int half = 0; half < 2; half++)
+        for (int c = 0; c < 3; c++) first[half][c] = work->patches[half].light[c];
+    work->guide = pilot_guide(work->buffers, first, threads, arena);
+    work->is_last = true;
+    filter_tiles(work, threads, arena);
+    for (int half = 0; half < 2; half++)
         for (int c = 0; c < 3; c++) {
-            candidates.wide[half][c] = work->wide[half].light[c];
-            candidates.narrow[half][c] = work->narrow[half].light[c];
+            candidates.patches[half][c] = work->patches[half].light[c];
+            candidates.features[half][c] = work->features[half].light[c];
         }
-    }
-    if (work->buffers->has_halves)
-        selection_apply(work->buffers, &candidates, threads, scratch);
+    selection_apply(work->buffers, &candidates, threads, *arena);
 }
 
 static void join_halves(const Filtering *work, float *const light[3])
@@ -305,8 +320,8 @@ static void join_halves(const Filtering *work, float *const light[3])
     const DenoiseBuffers *b = work->buffers;
     for (size_t i = 0; i < (size_t)b->width * (size_t)b->height; i++)
         for (int c = 0; c < 3; c++)
-            light[c][i] = b->share[0] * work->wide[0].light[c][i] +
-                          b->share[1] * work->wide[1].light[c][i];
+            light[c][i] = b->share[0] * work->patches[0].light[c][i] +
+                          b->share[1] * work->patches[1].light[c][i];
 }
 
 /* Single fits may be negative: without those that are, what is left of the noise would be
@@ -322,8 +337,8 @@ static void keep_positive(const DenoiseBuffers *b, float *const light[3])
 static void filter(const DenoiseBuffers *b, float *const light[3], int threads, Arena scratch)
 {
     Filtering work = create_filtering(b, threads, &scratch);
-    filter_tiles(&work, threads);
-    select_filters(&work, threads, scratch);
+    filter_tiles(&work, threads, &scratch);
+    if (b->has_halves) filter_again(&work, threads, &scratch);
     join_halves(&work, light);
     correction_add(b, light, COARSE, threads, scratch);
     correction_add(b, light, FINE, threads, scratch);

@@ -7,7 +7,7 @@
 
 enum { LOOK_REACH = 2, SPREAD_LEAST = 5, SPREAD_MOST = 40, RANK = 3 };
 
-#define LIMIT 4.0f  /* of the RANK-th brightest around */
+#define LIMIT 2.5f  /* of the RANK-th brightest around */
 #define UNSURE 0.7f /* standard error by value */
 #define LEAST_RECEIVERS 4.0f /* pixels like it: fewer would become fireflies themselves */
 #define FAINT 0.05f /* of the light around: what is added there should be less */

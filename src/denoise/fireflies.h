@@ -6,7 +6,7 @@
 #pragma once
 #include "denoise/buffers.h"
 
-/* A firefly is a pixel brighter than four times the third brightest of the 24 around, whose
+/* A firefly is a pixel brighter than 2.5 times the third brightest of the 24 around, whose
  * standard error is more than 0.7 of itself. It becomes as bright as that limit. What it had
  * more is light that was there, and none is lost: it is spread over the pixels of its kind at
  * most 5 away, most on those of like features; as far as 40 away where it would be more than

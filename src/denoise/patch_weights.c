@@ -5,7 +5,6 @@
 
 #include "base/mathf.h"
 
-#define STRENGTH 0.4f   /* how fast unlike patches stop to count: wide, narrowed later */
 #define LEAST_WEIGHT 1e-3f
 #define TOLERANCE 0.45f /* standard errors that do not count, as Rousselle et al. 2012 */
 
@@ -22,10 +21,11 @@ PatchScratch *patch_scratch_create(Arena *arena)
 }
 
 /* The tile and what is around it; outside of the frame is a kind of its own. */
-static void load(const DenoiseBuffers *b, int guide, int x0, int y0, PatchScratch *s)
+static void load(const PatchGuide *guide, int half, int x0, int y0, PatchScratch *s)
 {
-    const int   margin = PATCH_REACH + PATCH_SEARCH;
-    const float more = b->has_halves ? 1 / b->share[guide] : 1;
+    const DenoiseBuffers *b = guide->buffers;
+    const int             margin = PATCH_REACH + PATCH_SEARCH;
+    const float           more = b->has_halves ? 1 / b->share[half] : 1;
     memset(s, 0, sizeof *s);
     for (int v = 0; v < PATCH_WIDE; v++)
         for (int u = 0; u < PATCH_WIDE; u++) {
@@ -34,8 +34,8 @@ static void load(const DenoiseBuffers *b, int guide, int x0, int y0, PatchScratc
             size_t i = (size_t)y * (size_t)b->width + (size_t)x;
             s->kind[v][u] = b->kind[i];
             for (int c = 0; c < 3; c++) {
-                s->light[c][v][u] = b->light[guide][c][i];
-                s->variance[c][v][u] = more * b->variance[c][i];
+                s->light[c][v][u] = guide->light[half][c][i];
+                s->variance[c][v][u] = more * guide->variance[c][i];
             }
         }
 }
@@ -83,7 +83,7 @@ static void sum_patches(PatchScratch *s)
         }
 }
 
-static float weight_of(const PatchScratch *s, int u, int v)
+static float weight_of(const PatchScratch *s, float strength, int u, int v)
 {
     float distance = 0, counted = 0;
     for (int k = 0; k <= 2 * PATCH_REACH; k++) {
@@ -92,7 +92,7 @@ static float weight_of(const PatchScratch *s, int u, int v)
     }
     if (s->counted[v + PATCH_REACH][u + PATCH_REACH] == 0) return 0;
     float mean = distance / (3 * counted);
-    float weight = exp_f(-STRENGTH * (mean > 0 ? mean : 0));
+    float weight = exp_f(-strength * (mean > 0 ? mean : 0));
     return weight < LEAST_WEIGHT ? 0 : weight;
 }
 
@@ -112,17 +112,19 @@ static void weigh_features(const DenoiseBuffers *b, int x, int y, float weights[
     }
 }
 
-void patch_weights(const DenoiseBuffers *b, int filtered, int x0, int y0, PatchScratch *s,
+void patch_weights(const PatchGuide *guide, int filtered, int x0, int y0, PatchScratch *s,
                    float (*weights)[PATCH_OFFSETS])
 {
-    load(b, 1 - filtered, x0, y0, s);
+    const DenoiseBuffers *b = guide->buffers;
+    load(guide, 1 - filtered, x0, y0, s);
     for (int offset = 0; offset < PATCH_OFFSETS; offset++) {
         distances(s, offset % PATCH_WINDOW - PATCH_SEARCH,
                   offset / PATCH_WINDOW - PATCH_SEARCH);
         sum_patches(s);
         for (int v = 0; v < PATCH_TILE; v++)
             for (int u = 0; u < PATCH_TILE; u++)
-                weights[v * PATCH_TILE + u][offset] = weight_of(s, u, v);
+                weights[v * PATCH_TILE + u][offset] =
+                    weight_of(s, guide->strength, u, v);
     }
     for (int v = 0; v < PATCH_TILE && y0 + v < b->height; v++)
         for (int u = 0; u < PATCH_TILE && x0 + u < b->width; u++)

@@ -25,8 +25,16 @@ typedef struct PatchScratch PatchScratch;
 
 PatchScratch *patch_scratch_create(Arena *arena);
 
+/* The pictures whose patches are held against each other. */
+typedef struct PatchGuide {
+    const DenoiseBuffers *buffers;
+    const float          *light[2][3];  /* of each half */
+    const float          *variance[3];  /* of the mean of both halves' light */
+    float                 strength;     /* how fast unlike patches stop to count */
+} PatchGuide;
+
 /* Weights for filtering the half `filtered` of the tile whose first pixel is x0, y0, in
  * [0, 1]: weights[pixel of the tile][offset]; 0 where there is no pixel or one of another
  * kind. */
-void patch_weights(const DenoiseBuffers *buffers, int filtered, int x0, int y0,
+void patch_weights(const PatchGuide *guide, int filtered, int x0, int y0,
                    PatchScratch *scratch, float (*weights)[PATCH_OFFSETS]);

@@ -4,6 +4,7 @@
 #include "fixture.h"
 
 #include "denoise/denoise.h"
+#include "denoise/feature_weights.h"
 #include "denoise/regression.h"
 
 enum { WIDTH = 70, HEIGHT = 50, COUNT = WIDTH * HEIGHT, SAMPLES = 24 };
@@ -211,6 +212,33 @@ ARENA_TEST(a_narrow_shadow_stays_narrow_and_dark)
     assert_near(mean_of_columns(green(&out), 33, 34), 100, 10);
 }
 
+/* Light that rises with a turning normal, over noise: columns keep their means. */
+ARENA_TEST(a_slope_along_a_feature_stays)
+{
+    FrameImage    frame = noise("0:24", &arena);
+    DenoiseReport report;
+    for (int x = 0; x < WIDTH; x++)
+        scale_columns(&frame, x, x + 1, 1 + 0.03f * (float)x, &arena);
+    for (size_t i = 0; i < COUNT; i++)
+        plane(&frame, "normal", 'X', &arena)[i] = 0.01f * (float)(i % WIDTH);
+    FrameImage out = denoised(&frame, 2, &report, &arena);
+    for (int x = 2; x < WIDTH - 2; x++)
+        assert_close(mean_of_columns(green(&out), x, x + 1), 100 * (1 + 0.03 * x), 0.05);
+}
+
+ARENA_TEST(an_edge_of_albedo_stays_and_no_light_crosses_it)
+{
+    FrameImage    frame = noise("0:24", &arena);
+    DenoiseReport report;
+    scale_columns(&frame, 0, WIDTH / 2, 0.2f, &arena);
+    for (const char *c = "RGB"; *c; c++)
+        for (size_t i = 0; i < COUNT; i++)
+            if (i % WIDTH < WIDTH / 2) plane(&frame, "albedo", *c, &arena)[i] = 0.1f;
+    FrameImage out = denoised(&frame, 2, &report, &arena);
+    assert_close(mean_of_columns(green(&out), WIDTH / 2 - 1, WIDTH / 2), 20, 0.08);
+    assert_close(mean_of_columns(green(&out), WIDTH / 2, WIDTH / 2 + 1), 100, 0.08);
+}
+
 ARENA_TEST(light_stays_on_its_side_of_a_silhouette)
 {
     FrameImage    frame = noise("0:24", &arena);
@@ -232,6 +260,19 @@ ARENA_TEST(noise_goes_and_light_stays)
     FrameImage    out = denoised(&frame, 2, &report, &arena);
     assert_true(report.has_halves);
     assert_true(variance_of(green(&out), COUNT) < variance_of(green(&frame), COUNT) / 20);
+    assert_close(report.energy_ratio, 1, 0.01);
+}
+
+/* Samples that say too little of their spread make every patch unlike every other; what the
+ * halves say, and the surface, are left to go by. */
+ARENA_TEST(noise_goes_where_no_patch_is_like_another)
+{
+    FrameImage    frame = noise("0:24", &arena);
+    DenoiseReport report;
+    for (const char *c = "RGB"; *c; c++)
+        for (size_t i = 0; i < COUNT; i++) plane(&frame, "variance", *c, &arena)[i] *= 1e-3f;
+    FrameImage out = denoised(&frame, 2, &report, &arena);
+    assert_true(variance_of(green(&out), COUNT) < variance_of(green(&frame), COUNT) / 8);
     assert_close(report.energy_ratio, 1, 0.01);
 }
 
@@ -336,6 +377,44 @@ ARENA_TEST(what_a_display_shows_casts_no_glow_on_what_it_reflects)
     assert_close(report.energy_ratio, 1, 0.002);
 }
 
+ARENA_TEST(what_a_display_emits_is_kept_to_the_bit)
+{
+    FrameImage    frame = display(&arena);
+    DenoiseReport report;
+    set(&frame, "display.reflected", "RGB", 0, &arena);
+    set(&frame, "halves", "RGB", 0, &arena);
+    for (const char *c = "RGB"; *c; c++)
+        for (size_t i = 0; i < COUNT; i++)
+            plane(&frame, "", *c, &arena)[i] = plane(&frame, "display.emitted", *c, &arena)[i];
+    FrameImage out = denoised(&frame, 2, &report, &arena);
+    for (const char *c = "RGB"; *c; c++)
+        assert_memory_equal(plane(&out, "", *c, &arena),
+                            plane(&frame, "display.emitted", *c, &arena),
+                            COUNT * sizeof(float));
+}
+
+/* The sun's edge on a display that reflects little: noise is as large as the light. */
+ARENA_TEST(a_shadow_s_edge_on_a_display_stays_sharp)
+{
+    FrameImage    frame = display(&arena);
+    DenoiseReport report;
+    const float  *emitted = frame_channel(&frame, "display.emitted.G");
+    float        *rest = ARENA_NEW(&arena, float, COUNT);
+    for (const char *c = "RGB"; *c; c++)
+        for (size_t i = 0; i < COUNT; i++) {
+            if (i % WIDTH >= WIDTH / 2) continue;
+            plane(&frame, "", *c, &arena)[i] -=
+                0.6f * plane(&frame, "display.reflected", *c, &arena)[i];
+            plane(&frame, "display.reflected", *c, &arena)[i] *= 0.4f;
+            plane(&frame, "variance", *c, &arena)[i] *= 0.16f;
+            plane(&frame, "halves", *c, &arena)[i] *= 0.4f;
+        }
+    FrameImage out = denoised(&frame, 2, &report, &arena);
+    for (size_t i = 0; i < COUNT; i++) rest[i] = green(&out)[i] - emitted[i];
+    assert_near(mean_of_columns(rest, WIDTH / 2 - 1, WIDTH / 2), 8, 1);
+    assert_near(mean_of_columns(rest, WIDTH / 2, WIDTH / 2 + 1), 20, 2); /* 3.4 of its errors */
+}
+
 ARENA_TEST(the_edge_of_a_display_is_left_as_it_is)
 {
     FrameImage    frame = display(&arena);
@@ -374,6 +453,33 @@ ARENA_TEST(what_few_samples_saw_of_a_display_gives_way_to_more_rays)
     }
     FrameImage out = denoised(&frame, 2, &report, &arena);
     for (size_t i = 0; i < COUNT; i++) assert_close(green(&out)[i], fine[1][i] + 20, 1e-4);
+}
+
+/* ---- weights by features ----------------------------------------------------------------- */
+
+/* Two walls that meet in a corner, one pixel of sky: only the own wall counts, the nearer the
+ * more. */
+ARENA_TEST(features_part_surfaces)
+{
+    enum { SIDE = 25, MIDDLE = 12, PIXELS = SIDE * SIDE, SELF = PATCH_OFFSETS / 2 };
+    float          weights[PATCH_OFFSETS];
+    DenoiseBuffers b = {.width = SIDE, .height = SIDE,
+                        .rows = ARENA_NEW(&arena, BufferRow, PIXELS),
+                        .kind = ARENA_NEW(&arena, unsigned char, PIXELS)};
+    for (int i = 0; i < PIXELS; i++) {
+        b.kind[i] = PIXEL_SURFACE;
+        b.rows[i][ROW_NORMAL] = i % SIDE < MIDDLE ? 1 : 0;
+    }
+    b.kind[MIDDLE * SIDE + MIDDLE + 1] = PIXEL_VOID;
+    feature_weights(&b, MIDDLE, MIDDLE, weights);
+    assert_near(weights[SELF], 1, 1e-5);
+    assert_true(weights[SELF - 1] == 0);
+    assert_true(weights[SELF + 1] == 0);
+    assert_true(weights[SELF + 2] > weights[SELF + 3] && weights[SELF + 3] > 0);
+    assert_near(weights[SELF + PATCH_WINDOW], weights[SELF - PATCH_WINDOW], 1e-6);
+    feature_weights(&b, SIDE - 1, 0, weights);
+    assert_true(weights[SELF + 1] == 0 && weights[SELF - PATCH_WINDOW] == 0);
+    assert_true(weights[SELF - 1] > 0.9f);
 }
 
 /* ---- the fit ----------------------------------------------------------------------------- */
