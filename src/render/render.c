@@ -12,6 +12,7 @@
 #include "light/light.h"
 #include "render/favour.h"
 #include "render/forecast.h"
+#include "render/pilot.h"
 #include "render/signals.h"
 #include "render/train.h"
 
@@ -305,6 +306,16 @@ void render_setup_end(RenderSetup *setup)
     bvh_destroy(setup->bvh);
 }
 
+static SampleShares find_shares(const RenderSetup *setup, const RenderOptions *options,
+                                Arena *arena)
+{
+    const Favour favour = {setup->kernel, &setup->context, &setup->camera, options->favoured,
+                           options->crop, options->threads};
+    const Pilot  pilot = {setup->kernel, &setup->context, &setup->camera, options->crop,
+                          options->threads, options->progress};
+    return options->favours_noise ? pilot_shares(&pilot, arena) : favour_shares(&favour, arena);
+}
+
 bool render_prepared(const RenderSetup *setup, const RenderOptions *options, Arena *arena,
                      RenderResult *out, Error *err)
 {
@@ -316,10 +327,8 @@ bool render_prepared(const RenderSetup *setup, const RenderOptions *options, Are
                            .training_seconds = setup->training_seconds,
                            .training_paths = setup->training.samples};
     if (!make_film(options, arena, &result, err)) return false;
-    const Favour favour = {setup->kernel, &setup->context, &setup->camera, options->favoured,
-                           options->crop, options->threads};
     const double begun_s = monotonic_seconds();
-    result.shares = favour_shares(&favour, arena);
+    result.shares = find_shares(setup, options, arena);
     result.build_seconds += monotonic_seconds() - begun_s;
     render_film(setup, options, arena, &result);
     *out = result;

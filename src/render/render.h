@@ -2,7 +2,7 @@
 /* render.h -- makes a film of a scene: passes, tiles, threads, stopping rule.
  *
  * A pass adds a few samples to every pixel: 1, 1, 2, 4 ... up to a number that depends on the
- * count of pixels alone; pixels outside a favoured area take a fixed share of them (favour.h).
+ * count of pixels alone; of some, a pixel may take a fixed share (favour.h, pilot.h).
  * Only between passes is anything decided (stop, snapshot, noise), so that the frame is the
  * same for any number of threads. Passes end at the same samples wherever a render begins, so
  * that one that goes on from a checkpoint decides what one without interruption decides.
@@ -33,6 +33,7 @@ typedef struct RenderOptions {
                                   the frame has RENDER_LEAST_SAMPLES */
     FilmArea noise_area;       /* whose error decides */
     const FilmArea *favoured;  /* only its pixels take all samples (favour.h); NULL: all do */
+    bool     favours_noise;    /* pixels take samples as a pilot found noise (pilot.h) */
     bool     no_guiding;       /* does not learn first where light comes from */
     const char *field;         /* what was learnt: read from this file if it is there, else kept
                                   there; NULL: neither */

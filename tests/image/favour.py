@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """favour.py PARHELION -- --for gives all samples to an area: its pixels have the bits of a
 frame of as many samples, all others those of an eighth of them; in parts, crops, any threads,
-and stopped and resumed as in one run.
+and stopped and resumed as in one run. For noise each pixel has the bits of a frame of its own
+number of samples, more where noise is, and the frame's error falls faster.
 """
 import json
 import os
 import signal
+import statistics
 import subprocess
 import sys
 import tempfile
@@ -20,6 +22,7 @@ from report import Report  # noqa: E402
 
 SIZE = 40, 24
 SAMPLES, OTHERS = 24, 8
+SQUARE = 4  # pixels of one share
 RECT = (5, 3, 22, 15)
 PANEL = os.path.abspath(os.path.join(ROOT, "assets", "panels", "ips_cluster.panel"))
 
@@ -109,9 +112,68 @@ def in_rect(x, y, _):
     return RECT[0] <= x < RECT[2] and RECT[1] <= y < RECT[3]
 
 
-def check_same(report, program):
+def luminances(frame):
+    rgb = [frame.channels[name] for name in "RGB"]
+    return [0.2126 * r + 0.7152 * g + 0.0722 * b for r, g, b in zip(*rgb)]
+
+
+def spreads(program, options):
+    """Relative standard deviation of each pixel, and samples of all, over some seeds."""
+    frames = [program.frame("seed.exr", *options, "--seed", str(seed)) for seed in range(8)]
+    columns = list(zip(*map(luminances, frames)))
+    lowest = 0.5 * statistics.geometric_mean(
+        [statistics.mean(column) for column in columns if statistics.mean(column) > 0])
+    return ([statistics.stdev(column) / max(statistics.mean(column), lowest)
+             for column in columns], sum(frames[0].channels["samples.N"]))
+
+
+def check_noise(report, program):
+    """Each pixel as a frame of its own count; many samples where the noise of another seed is;
+    and less error than as many samples spread evenly."""
+    lamp = ["--eye", "0,1.9,0.1", "--look-at", "0.45,2.5,0", "--fov", "60"]
+    frame = program.frame("frame.exr", "--spp", "64", "--for", "noise", *lamp)
+    counts = [int(n) for n in frame.channels["samples.N"]]
+    wrong = [i for n in sorted(set(counts))
+             for plain in [program.frame("plain.exr", "--spp", str(n), *lamp)]
+             for i in range(len(counts)) if counts[i] == n and pixel(frame, i) !=
+             pixel(plain, i)]
+    report.claim(not wrong, f"--for noise: {len(wrong)} pixels have other bits, {wrong[:1]}")
+    squares = {(i % SIZE[0] // SQUARE, i // SIZE[0] // SQUARE): n for i, n in enumerate(counts)}
+    report.claim(all(squares[i % SIZE[0] // SQUARE, i // SIZE[0] // SQUARE] == n
+                     for i, n in enumerate(counts)), "a square of several counts")
+    report.claim(min(counts) >= 4 and max(counts) <= 64 and len(set(counts)) > 8,
+                 f"counts {sorted(set(counts))}")
+    error, taken = spreads(program, ["--spp", "64", "--for", "noise", *lamp])
+    mean = taken / len(counts)
+    plain, _ = spreads(program, ["--spp", str(round(mean)), *lamp])
+    ratio = statistics.mean(error) / statistics.mean(plain) * (mean / round(mean)) ** 0.5
+    report.claim(ratio < 0.93, f"the error of as many samples, spread evenly: {ratio:.3f}")
+    halves = sorted(range(len(counts)), key=lambda i: plain[i])
+    share = [statistics.mean(counts[i] for i in half)
+             for half in (halves[:len(halves) // 2], halves[len(halves) // 2:])]
+    report.claim(share[1] > 1.5 * share[0], f"samples of quiet and of noisy pixels: {share}")
+    said = frame.attributes.get("parhelion:for", b"").decode()
+    report.claim(said == "samples where 4 of each pixel found noise", f"it says {said}")
+
+
+def check_noise_answer(report, program):
+    done = program.run("frame.exr", "--spp", "64", "--for", "noise", "--json")
+    answer, counts = json.loads(done.stdout), Frame(program.file("frame.exr")).channels[
+        "samples.N"]
+    told = answer["for"]
+    report.claim(told["area"] == "noise" and told["others"] is None and told["pixels"] ==
+                 sum(n == 64 for n in counts) and
+                 abs(told["mean_samples"] - statistics.mean(counts)) < 1e-3, f"{told}")
+    dark = program.frame("dark.exr", "--spp", "8", "--for", "noise", "--max-bounces", "0",
+                         "--eye", "0,1.2,1.9", "--look-at", "0,1.2,3")
+    report.claim(set(dark.channels["samples.N"]) == {8}, "a black frame has fewer samples")
+    done = program.run("no.exr", "--spp", "1", "--noise", "noise:0.1")
+    report.claim(done.returncode == 2 and "--noise noise:R: wanted display" in done.stderr,
+                 f"--noise noise: {done.stderr}")
+
+
+def check_same(report, program, favour):
     """In parts, by another number of threads, and with another seed the same area."""
-    favour = ["--for", "display:left"]
     program.frame("frame.exr", "--spp", str(SAMPLES), *favour)
     parts = [(f"p{k}.exr", options) for k, options in enumerate((
         ["--spp", str(SAMPLES), "--crop", "0,0,13,24"],
@@ -136,9 +198,9 @@ def check_same(report, program):
                  f"a part without --for among others: {done.stderr}")
 
 
-def check_resumed(report, program):
+def check_resumed(report, program, area):
     goal = ["--spp", "4000", "--noise", "display:0.02"]
-    long = [*goal, "--for", "display"]
+    long = [*goal, "--for", area]
     program.frame("frame.exr", *long)
     whole = program.read("frame.exr")
     run = subprocess.Popen(program.words("frame.exr", *long, "--checkpoint-interval", "0"),
@@ -177,7 +239,7 @@ def check_answer(report, program):
 
 def check_denoised(report, program):
     """Pixels around the area have no halves: none are asked."""
-    for area in ([], ["--for", "display"]):
+    for area in ([], ["--for", "display"], ["--for", "noise"]):
         program.frame("frame.exr", "--spp", "48", *area)
         done = subprocess.run([program.path, "develop", "frame.exr", "--denoise", "-o", "a.png",
                                "--json", "--quiet"], cwd=program.folder, capture_output=True,
@@ -189,7 +251,7 @@ def check_denoised(report, program):
 
 def check_words(report, program):
     cases = [(["--for", "display:lft"], "--for display:lft: no display has this name"),
-             (["--for", "1,2,3"], "--for 1,2,3: wanted display, display:NAME or whole"),
+             (["--for", "1,2,3"], "--for 1,2,3: wanted noise, display, display:NAME or whole"),
              (["--for", "0,0,41,3"], "inside 0,0,40,24"),
              (["--for", ""], "--for '': wanted a text that is not empty")]
     for options, wanted in cases:
@@ -215,8 +277,12 @@ def main():
         check_pixels(report, program, "display", shows([0, 1]))
         check_pixels(report, program, "display:right", shows([1]))
         check_pixels(report, program, ",".join(map(str, RECT)), in_rect)
-        check_same(report, program)
-        check_resumed(report, program)
+        check_noise(report, program)
+        check_noise_answer(report, program)
+        for area in "display:left", "noise":
+            check_same(report, program, ["--for", area])
+        for area in "display", "noise":
+            check_resumed(report, program, area)
         check_answer(report, program)
         check_denoised(report, program)
         check_words(report, program)

@@ -131,7 +131,8 @@ static void set_areas(RenderRequest *request)
     bool           favours = request->favoured.option && !request->replays;
     options->noise = request->replays ? 0 : request->noise.error;
     options->noise_area = request->noise.of.area;
-    options->favoured = favours ? &request->favoured.area : NULL;
+    options->favours_noise = options->favours_noise && favours;
+    options->favoured = favours && !options->favours_noise ? &request->favoured.area : NULL;
 }
 
 static bool load(RenderRun *work, Error *err)

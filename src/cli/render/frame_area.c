@@ -32,9 +32,10 @@ bool frame_area_parse(const char *text, const char *more, FrameArea *out, Error 
     }
     if (!cli_numbers(text, 4, corner) || !is_inside(corner, within))
         return error_set(err, ERROR_USAGE,
-                         "%s %s%s: wanted display, display:NAME or whole numbers "
+                         "%s %s%s: wanted %sdisplay, display:NAME or whole numbers "
                          "X0,Y0,X1,Y1 with X0 < X1 and Y0 < Y1 inside %d,%d,%d,%d",
-                         out->option, text, more, within.x0, within.y0, within.x1, within.y1);
+                         out->option, text, more, out->instead ? out->instead : "", within.x0,
+                         within.y0, within.x1, within.y1);
     out->is_rect = true;
     out->area.rect =
         (FilmRect){(int)corner[0], (int)corner[1], (int)corner[2], (int)corner[3]};

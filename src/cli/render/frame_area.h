@@ -11,6 +11,7 @@
 
 typedef struct FrameArea {
     const char *option;  /* who names it, for messages: "--noise"; NULL: nobody does */
+    const char *instead; /* what else it takes, for messages: "noise, "; NULL: nothing */
     const char *text;    /* as it was typed */
     FilmArea    area;    /* the frame, if nobody names another */
     bool        is_rect; /* a rectangle was named */

@@ -15,6 +15,7 @@
 #include "film/film_frame.h"
 #include "film/film_part.h"
 #include "render/favour.h"
+#include "render/pilot.h"
 #include "text/json_text.h"
 
 /* ---- the frame --------------------------------------------------------------------------- */
@@ -106,6 +107,10 @@ static void set_sampling(FrameImage *frame, const RenderRequest *request,
                          arena_format(arena, "all samples for %s, of other pixels 1 in %u",
                                       frame_area_words(&request->favoured, arena),
                                       FAVOUR_OTHERS), arena);
+    if (options->favours_noise)
+        frame_set_string(frame, "parhelion:for",
+                         arena_format(arena, "samples where %u of each pixel found noise",
+                                      PILOT_SAMPLES), arena);
     if (options->eye) set_eye(frame, options->eye, arena);
     if (result->field_hash)
         frame_set_string(frame, "parhelion:field",
@@ -190,13 +195,24 @@ static json_t *training_document(const RenderResult *result)
                      "paths", (json_int_t)result->training_paths);
 }
 
+static double mean_samples(const RenderRequest *request, const RenderResult *result)
+{
+    const RenderOptions *options = &request->render;
+    const FilmRect       crop = options->crop;
+    double pixels = (double)(crop.x1 - crop.x0) * (crop.y1 - crop.y0);
+    return (double)sample_shares_sum(&result->shares, crop, options->first_sample,
+                                     options->first_sample + result->samples) / pixels;
+}
+
 /* What all samples were for; null: every pixel. */
 static json_t *favour_document(const RenderRequest *request, const RenderResult *result)
 {
-    if (!request->render.favoured) return json_null();
-    return json_pack("{s:o, s:I, s:f}", "area", json_text(request->favoured.text), "pixels",
-                     (json_int_t)sample_shares_whole(&result->shares), "others",
-                     1.0 / FAVOUR_OTHERS);
+    const RenderOptions *options = &request->render;
+    if (!options->favoured && !options->favours_noise) return json_null();
+    return json_pack("{s:o, s:I, s:o, s:f}", "area", json_text(request->favoured.text),
+                     "pixels", (json_int_t)sample_shares_whole(&result->shares), "others",
+                     options->favoured ? json_real(1.0 / FAVOUR_OTHERS) : json_null(),
+                     "mean_samples", mean_samples(request, result));
 }
 
 static json_t *answer_document(const RenderRequest *request, const RenderResult *result,
@@ -245,6 +261,10 @@ static void print_worst(const RenderRequest *request, const RenderResult *result
 static const char *favour_words(const RenderRequest *request, const RenderResult *result,
                                 char *out, size_t size)
 {
+    if (request->render.favours_noise) {
+        snprintf(out, size, " at most, %.1f on average", mean_samples(request, result));
+        return out;
+    }
     if (!request->render.favoured) return "";
     uint32_t first = request->render.first_sample, share = SAMPLE_SHARE_ALL / FAVOUR_OTHERS;
     snprintf(out, size, " of %llu, %u of the others",

@@ -3,6 +3,7 @@
 
 #include "render/favour.h"
 #include "render/identity.h"
+#include "render/pilot.h"
 
 static void add_eye(Text *text, const PolarisedEye *eye)
 {
@@ -19,6 +20,12 @@ static void add_favoured(Text *text, const FilmArea *area)
                   FAVOUR_OTHERS);
 }
 
+static void add_pilot(Text *text)
+{
+    identity_line(text, "all samples for", "noise; pilot %u, squares of %d, usual %d, least %d",
+                  PILOT_SAMPLES, PILOT_SIDE, PILOT_USUAL, PILOT_LEAST);
+}
+
 const char *render_identity(const RenderRequest *request, const Scene *scene,
                             const SceneCamera *camera, const Kernel *kernel, Arena *arena)
 {
@@ -32,6 +39,7 @@ const char *render_identity(const RenderRequest *request, const Scene *scene,
                   options->no_mirrors ? "by chance" : "asked for");
     if (options->eye) add_eye(&text, options->eye);
     if (options->favoured) add_favoured(&text, options->favoured);
+    if (options->favours_noise) add_pilot(&text);
     identity_line(&text, "layers", "%s", render_layer_list(options->layers, arena));
     identity_add_scene(&text, &request->scene, scene);
     identity_add_environment(&text, scene);

@@ -233,13 +233,17 @@ static bool check_outputs(const RenderRequest *request, Error *err)
     return check_live(request, err);
 }
 
-/* An area of the frame, whatever is rendered of it. */
+/* An area of the frame, whatever is rendered of it; or wherever noise is. */
 static bool read_favoured(const char *text, RenderRequest *request, Error *err)
 {
-    const RenderOptions *options = &request->render;
+    RenderOptions *options = &request->render;
     request->favoured = frame_area_all((FilmRect){0, 0, options->width, options->height});
     request->favoured.option = "--for";
-    return frame_area_parse(text, "", &request->favoured, err);
+    request->favoured.instead = "noise, ";
+    request->favoured.text = text;
+    options->favours_noise = !strcmp(text, "noise");
+    return options->favours_noise ||
+           frame_area_parse(text, "", &request->favoured, err);
 }
 
 static bool check_render(const RenderWords *typed, Arena *arena, RenderRequest *request,
@@ -352,7 +356,8 @@ static bool parse_line(int argc, char **argv, Arena *arena, RenderWords *typed,
          "X0,Y0,X1,Y1",
          &typed->noise},
         {"--for", OPTION_TEXT, "AREA",
-         "all samples for this AREA, one of eight for what lies around it",
+         "all samples for this AREA, one of eight for what lies around it; noise: samples "
+         "where a pilot finds it, a quarter on average",
          &typed->favoured},
         {"--max-bounces", OPTION_INTEGER, "N",
          "0 emission only, 1 adds direct light (default 64)", &typed->max_bounces, .low = 0,
