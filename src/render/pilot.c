@@ -8,7 +8,8 @@
 #include "render/tiles.h"
 
 #define SEED 0x70696c6fu /* not a frame's own samples */
-#define USUAL_STEP (16 * PILOT_SIDE) /* rows: one row of squares in so many shows the usual */
+#define USUAL_STEP (16 * PILOT_SIDE) /* rows: one row of squares in so many shows the usual, */
+#define USUAL_ROWS 4                 /* in low frames one of fewer, that there are as many */
 
 /* What is usual in the frame. */
 typedef struct Usual {
@@ -91,17 +92,24 @@ static double square_weight(const Square *square, double lowest)
 
 /* ---- what is usual ----------------------------------------------------------------------- */
 
+/* How far apart the rows of squares are, in rows of pixels. */
+static int step_of_rows(int height)
+{
+    int step = height / USUAL_ROWS / PILOT_SIDE * PILOT_SIDE;
+    return step < PILOT_SIDE ? PILOT_SIDE : step > USUAL_STEP ? USUAL_STEP : step;
+}
+
 /* Whole squares of the frame. */
 static Square *survey_rows(const Pilot *pilot, Arena *arena, int *count)
 {
     const Camera *camera = pilot->camera;
-    int     middle = (camera->height < USUAL_STEP ? camera->height : USUAL_STEP) / 2;
-    int     first = middle / PILOT_SIDE * PILOT_SIDE;
-    int     rows = (camera->height - 1 - first) / USUAL_STEP + 1;
+    int     step = step_of_rows(camera->height);
+    int     first = step / 2 / PILOT_SIDE * PILOT_SIDE;
     int     columns = (camera->width + PILOT_SIDE - 1) / PILOT_SIDE;
+    int     rows = (camera->height - 1 - first) / step + 1;
     Square *squares = ARENA_NEW(arena, Square, (size_t)rows * (size_t)columns);
     *count = 0;
-    for (int y = first; y < camera->height; y += USUAL_STEP) {
+    for (int y = first; y < camera->height; y += step) {
         FilmRect row = square_at((FilmRect){0, 0, camera->width, camera->height}, 0, y);
         row.x1 = camera->width;
         Arena scratch = *arena;
