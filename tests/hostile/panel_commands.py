@@ -161,6 +161,55 @@ def check_export(report, commands, panel):
     report.claim(abs(a / b - 1) < 0.04, f"fitted again, {a} cd/m2 became {b}")
 
 
+def check_levels(report, commands, panel):
+    """--level: the finest is the panel, every answer says which level it is of, and what is
+    asked wrongly is one line."""
+    levels = json.loads(commands.text("info", panel, "--levels", "--json"))
+    finest = len(levels) - 1
+    report.claim(all(row["level"] == i for i, row in enumerate(levels))
+                 and all(levels[finest][part]["max_error"] == 0
+                         and levels[0][part]["rms_error"] > levels[finest][part]["rms_error"]
+                         for part in ("emission", "reflection")), f"levels {levels}")
+    emission = ("--rgb", "255,127,31")
+    for ask, part in ((emission, "emission"), (("--brdf", "--incidence", "30"), "reflection")):
+        whole = json.loads(commands.text("eval", panel, *ask, "--grid", GRID, "--json"))
+        for level in (0, 3, finest):
+            read = json.loads(commands.text("eval", panel, *ask, "--grid", GRID, "--json",
+                                            "--quiet", "--level", str(level)))
+            told = read.pop("level")
+            report.claim(told == {"level": level, part: levels[level][part]},
+                         f"level {level} says {told}")
+            report.claim((read == whole) == (levels[level][part]["max_error"] == 0),
+                         f"level {level} of {part} beside the whole panel")
+    path = commands.file("levels.csv")
+    write_rows(path, "theta,phi", ((40, 90), (0, 0)))
+    answers = json.loads(commands.text("eval", panel, "--batch", path, "--json", "--level",
+                                       "1"))
+    report.claim([a["level"]["emission"] for a in answers] == 2 * [levels[1]["emission"]],
+                 f"a batch says {answers}")
+    picture = commands.file("level.svg")
+    text = commands.text("plot", panel, "--kind", "luminance", "-o", picture, "--level", "3")
+    done = json.loads(commands.text("plot", panel, "--kind", "luminance", "-o", picture,
+                                    "--level", "3", "--json"))
+    report.claim(done["level"] == levels[3] and "level 3 of " in text, f"a plot says {done}")
+    out = commands.file("coarse")
+    commands.text("export", panel, "-o", out, "--theta-step", "10", "--phi-step", "30",
+                  "--level", "3", "--quiet")
+    with open(os.path.join(out, "MANIFEST.json")) as file:
+        report.claim("read down to level 3" in file.read(), "an exported set hides its level")
+    for wrong, words in (("-1", (f"wanted 0 to {finest}",)), ("1.5", ("a whole number",)),
+                         (str(finest + 1), (f"wanted 0 to {finest}",)), ("x", ("whole",))):
+        fails(report, commands.run("eval", panel, *emission, "--theta", "0", "--level", wrong),
+              2, "--level", wrong, *words)
+    fails(report, commands.run("export", panel, "-o", commands.file("y.csv"), "--table",
+                               "primaries", "--level", "3", "--quiet"), 2, "--level is 3",
+          "wanted none", "primaries")
+    dark = commands.file("dark.panel")
+    commands.text("fit", lambertian_set(commands, "dark", 0.2), "-o", dark, "--quiet")
+    fails(report, commands.run("eval", dark, *emission, "--theta", "0", "--level", "0"), 2,
+          "dark.panel", "--level is 0", "wanted none", "no emission")
+
+
 def check_traits(report, commands, panel):
     """What a manifest says of polarisation and sub-pixels is shown and exported."""
     with open(commands.file("set", "MANIFEST.json")) as file:
@@ -464,7 +513,7 @@ def main():
             check_other_build(report, commands, Commands(options.against, folder))
             report.finish()
         panel = commands.make("small.panel")
-        for check in (check_grids, check_batch, check_export, check_places,
+        for check in (check_grids, check_batch, check_export, check_levels, check_places,
                       check_traits, check_verdict, check_display, check_plot_numbers):
             try:
                 check(report, commands, panel)

@@ -1,13 +1,16 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Panels read at a coarser level: the finest is the panel itself to the bit, the stated errors
- * hold at random directions, and they fall from level to level. The panels that ship. */
+/* Panels read at a coarser level: the finest is the panel itself to the bit, a level is the
+ * panel at its vertices, the stated errors hold at random directions, and their rms falls from
+ * level to level. The panels that ship. */
 #include "fixture.h"
 
 #include "base/sampler.h"
+#include "hemisphere/vertex/vertex.h"
 #include "panel/set/panel_coarse.h"
 #include "panel/query/panel_emission.h"
 #include "panel/query/panel_info.h"
 #include "panel/query/panel_open.h"
+#include "panel/query/panel_opened.h"
 #include "panel/query/panel_reflection.h"
 
 #define ASKED 100000
@@ -80,15 +83,16 @@ TEST(the_finest_level_is_the_panel_to_the_bit)
 {
     for (int p = 0; p < 2; p++) {
         Panel      *whole = opened(NAMES[p]), *same = opened(NAMES[p]);
-        PanelCoarse coarse;
-        int         least, most;
+        PanelCoarse c;
         double      found[2];
-        panel_coarse_range(same, &least, &most);
-        assert_true(least < most);
-        panel_coarsen(same, most, *test_memory(), &coarse);
-        assert_true(coarse.has_emission && coarse.has_reflection);
-        assert_true(coarse.emission_max == 0 && coarse.emission_rms == 0);
-        assert_true(coarse.reflection_max == 0 && coarse.reflection_rms == 0);
+        int         finest = panel_coarse_finest(same);
+        panel_coarse_compare(same, finest, PANEL_COARSE_ALL, *test_memory(), &c);
+        panel_coarsen(same, finest, PANEL_COARSE_ALL, test_memory());
+        assert_true(c.emission.is_asked && c.reflection.is_asked);
+        assert_int_equal(c.emission.level, c.emission.finest);
+        assert_int_equal(c.reflection.level, c.reflection.finest);
+        assert_true(c.emission.max == 0 && c.emission.rms == 0);
+        assert_true(c.reflection.max == 0 && c.reflection.rms == 0);
         compare(same, whole, ASKED / 10, found);
         assert_true(found[0] == 0 && found[1] == 0);
         panel_close(whole);
@@ -96,30 +100,79 @@ TEST(the_finest_level_is_the_panel_to_the_bit)
     }
 }
 
-/* 1e-5: what rounding of a sum of logarithms adds. */
+static void check_part(const PanelCoarsePart *part, const PanelCoarsePart *last, int level,
+                       double found)
+{
+    assert_int_equal(part->level, level < part->finest ? level : part->finest);
+    assert_true(found <= part->max + 1e-5); /* what rounding of a sum of logarithms adds */
+    assert_true(part->rms <= part->max);
+    assert_true(part->rms <= last->rms);
+}
+
 TEST(stated_errors_hold_and_fall_with_the_level)
 {
     for (int p = 0; p < 2; p++) {
         Panel      *whole = opened(NAMES[p]);
-        PanelCoarse last = {.reflection_max = 1e30, .reflection_rms = 1e30};
-        int         least, most;
-        panel_coarse_range(whole, &least, &most);
-        for (int level = least; level < most; level++) {
+        PanelCoarse last = {.emission.rms = 1e30, .reflection.rms = 1e30};
+        int         finest = panel_coarse_finest(whole);
+        for (int level = 0; level < finest; level++) {
             Panel      *panel = opened(NAMES[p]);
-            PanelCoarse coarse;
+            PanelCoarse c;
             double      found[2];
-            panel_coarsen(panel, level, *test_memory(), &coarse);
-            bool is_all = level == (least + most) / 2;
+            panel_coarse_compare(panel, level, PANEL_COARSE_ALL, *test_memory(), &c);
+            panel_coarsen(panel, level, PANEL_COARSE_ALL, test_memory());
+            bool is_all = level == 5;
             compare(panel, whole, is_all ? ASKED : ASKED / 20, found);
-            assert_true(found[0] <= coarse.emission_max + 1e-5);
-            assert_true(found[1] <= coarse.reflection_max + 1e-5);
-            if (is_all) assert_true(found[1] > 0.1 * coarse.reflection_max);
-            assert_true(coarse.reflection_rms < coarse.reflection_max);
-            assert_true(coarse.reflection_rms <= last.reflection_rms);
-            last = coarse;
+            check_part(&c.emission, &last.emission, level, found[0]);
+            check_part(&c.reflection, &last.reflection, level, found[1]);
+            if (is_all) assert_true(found[1] > 0.1 * c.reflection.max);
+            last = c;
             panel_close(panel);
         }
         panel_close(whole);
+    }
+}
+
+/* Emission at the vertices of the level, as queries find them. 1e-5: what rounding of places
+ * and sums of logarithms adds. */
+TEST(at_its_vertices_a_level_is_the_whole_panel)
+{
+    static const float RGB[3] = {255, 31, 127};
+    for (int p = 0; p < 2; p++) {
+        Panel *whole = opened(NAMES[p]);
+        for (int level = 0; level <= whole->emission_tree.level; level++) {
+            Panel        *panel = opened(NAMES[p]);
+            VertexLattice lattice = {level, 4};
+            uint32_t      count = vertex_count(lattice);
+            Vec3         *d = ARENA_NEW(test_memory(), Vec3, count);
+            vertex_directions(lattice, d);
+            panel_coarsen(panel, level, PANEL_COARSE_EMISSION, test_memory());
+            for (uint32_t v = 0; v < count; v += level < 6 ? 1 : 7) {
+                float a[3], b[3];
+                panel_emission_xyz(panel, d[v], RGB, a);
+                panel_emission_xyz(whole, d[v], RGB, b);
+                for (int j = 0; j < 3; j++) assert_close(a[j], b[j], 1e-5);
+            }
+            panel_close(panel);
+        }
+        panel_close(whole);
+    }
+}
+
+TEST(only_what_is_asked_for_is_coarser)
+{
+    double found[2];
+    for (int reflects = 0; reflects < 2; reflects++) {
+        Panel      *whole = opened("ips_cluster"), *panel = opened("ips_cluster");
+        unsigned    part = reflects ? PANEL_COARSE_REFLECTION : PANEL_COARSE_EMISSION;
+        PanelCoarse c;
+        panel_coarse_compare(panel, 2, part, *test_memory(), &c);
+        panel_coarsen(panel, 2, part, test_memory());
+        assert_true(c.emission.is_asked == !reflects && c.reflection.is_asked == reflects);
+        compare(panel, whole, ASKED / 20, found);
+        assert_true(found[reflects] > 1e-3 && found[1 - reflects] == 0);
+        panel_close(whole);
+        panel_close(panel);
     }
 }
 

@@ -16,13 +16,17 @@
 #include "panel/query/panel_reflection.h"
 #include "text/csv_table.h"
 
-/* ---- a grid of directions ---------------------------------------------------------------- */
+/* The command line of `panel eval`. */
+typedef struct EvalRequest {
+    PanelQuestion question;
+    const char   *batch, *grid;
+    bool          has_theta, has_rgb, has_incidence, wants_csv;
+    PanelLevel    level;
+    int           layout; /* 0: rows, a table that `panel fit` reads; 1: a matrix */
+    int           quantity; /* index of PANEL_QUANTITIES */
+} EvalRequest;
 
-typedef enum PanelGridFormat {
-    PANEL_GRID_LIST,   /* a row a direction: a table that `panel fit` reads */
-    PANEL_GRID_MATRIX, /* theta down, phi across, one quantity */
-    PANEL_GRID_JSON
-} PanelGridFormat;
+/* ---- a grid of directions ---------------------------------------------------------------- */
 
 /* first, first + step, ... up to last (degrees). */
 typedef struct PanelRange {
@@ -253,30 +257,24 @@ static json_t *emission_grid_json(const Panel *panel, const PanelQuestion *q,
                      "extrapolated", far);
 }
 
-/* question: everything but theta and phi. quantity: index of PANEL_QUANTITIES. */
-static bool panel_grid_print(const Panel *panel, const PanelQuestion *q, const PanelGrid *grid,
-                             PanelGridFormat format, int quantity, Error *err)
+static bool print_grid_text(const Panel *panel, const EvalRequest *request,
+                            const PanelGrid *grid, Error *err)
 {
-    if (format == PANEL_GRID_JSON)
-        return cli_print_json(q->is_brdf ? reflection_grid_json(panel, q, grid)
-                                         : emission_grid_json(panel, q, grid), err);
-    if (format == PANEL_GRID_MATRIX)
-        print_matrix(panel, q, grid, (Quantity)quantity);
+    if (request->layout)
+        print_matrix(panel, &request->question, grid, (Quantity)request->quantity);
     else
-        print_list(panel, q, grid);
+        print_list(panel, &request->question, grid);
     if (fflush(stdout) || ferror(stdout))
         return error_set(err, ERROR_OUTPUT, "stdout cannot be written: %s", strerror(errno));
     return true;
 }
 
-/* The command line of `panel eval`. */
-typedef struct EvalRequest {
-    PanelQuestion question;
-    const char   *batch, *grid;
-    bool          has_theta, has_rgb, has_incidence, wants_csv;
-    long          level;     /* below 0: all */
-    int           layout, quantity; /* indices of the choices; layout: list, matrix */
-} EvalRequest;
+static json_t *answer_json(const Panel *panel, const PanelQuestion *q, const PanelLevel *level)
+{
+    json_t *one = panel_answer_json(panel, q);
+    panel_level_add(level, one);
+    return one;
+}
 
 /* ---- many rows at once ----------------------------------------------------------------- */
 
@@ -313,7 +311,7 @@ static bool answer_batch(const Panel *panel, const EvalRequest *request, const C
         if (request->wants_csv)
             panel_answer_csv(panel, &list[i], stdout);
         else if (cli->json)
-            json_array_append_new(answers, panel_answer_json(panel, &list[i]));
+            json_array_append_new(answers, answer_json(panel, &list[i], &request->level));
         else
             panel_answer_print(panel, &list[i]);
     }
@@ -324,15 +322,11 @@ static bool answer_batch(const Panel *panel, const EvalRequest *request, const C
 
 /* ---- one answer ------------------------------------------------------------------------ */
 
-static bool answer_one(const Panel *panel, const EvalRequest *request,
-                       const PanelCoarse *coarse, const Cli *cli, Error *err)
+static bool answer_one(const Panel *panel, const EvalRequest *request, const Cli *cli,
+                       Error *err)
 {
     const PanelQuestion *q = &request->question;
-    if (cli->json) {
-        json_t *one = panel_answer_json(panel, q);
-        if (coarse->level >= 0) json_object_set_new(one, "level", panel_level_json(coarse));
-        return cli_print_json(one, err);
-    }
+    if (cli->json) return cli_print_json(answer_json(panel, q, &request->level), err);
     if (request->wants_csv) {
         panel_answer_csv_header(panel, q, stdout);
         panel_answer_csv(panel, q, stdout);
@@ -345,20 +339,24 @@ static bool answer_one(const Panel *panel, const EvalRequest *request,
 static bool answer_grid(const Panel *panel, const EvalRequest *request, const Cli *cli,
                         Error *err)
 {
-    PanelGrid       grid;
-    PanelGridFormat format = cli->json ? PANEL_GRID_JSON
-                             : request->layout ? PANEL_GRID_MATRIX : PANEL_GRID_LIST;
-    return panel_grid_parse(request->grid, &grid, err) &&
-           panel_grid_print(panel, &request->question, &grid, format, request->quantity, err);
+    PanelGrid            grid;
+    const PanelQuestion *q = &request->question;
+    if (!panel_grid_parse(request->grid, &grid, err)) return false;
+    if (!cli->json) return print_grid_text(panel, request, &grid, err);
+    json_t *tables = q->is_brdf ? reflection_grid_json(panel, q, &grid)
+                                : emission_grid_json(panel, q, &grid);
+    panel_level_add(&request->level, tables);
+    return cli_print_json(tables, err);
 }
 
-static bool answer(const char *path, const EvalRequest *request, const Cli *cli, Arena *arena,
+static bool answer(const char *path, EvalRequest *request, const Cli *cli, Arena *arena,
                    Error *err)
 {
-    Panel      *panel = NULL;
-    PanelCoarse coarse;
-    bool        ok;
-    if (!panel_level_open(path, request->level, arena, &panel, &coarse, err)) return false;
+    Panel *panel = NULL;
+    bool   ok;
+    request->level.parts =
+        request->question.is_brdf ? PANEL_COARSE_REFLECTION : PANEL_COARSE_EMISSION;
+    if (!panel_level_open(path, &request->level, arena, &panel, err)) return false;
     if (request->question.is_brdf && !panel_reflects(panel))
         ok = error_at(err, ERROR_INPUT, path, "",
                       "has no reflection data; fit a set with a 'reflection' entry");
@@ -367,10 +365,10 @@ static bool answer(const char *path, const EvalRequest *request, const Cli *cli,
     else if (request->batch)
         ok = answer_batch(panel, request, cli, arena, err);
     else
-        ok = answer_one(panel, request, &coarse, cli, err);
+        ok = answer_one(panel, request, cli, err);
     bool is_listed = request->grid || request->batch || request->wants_csv;
     if (ok && !cli->quiet && (is_listed || !cli->json))
-        panel_level_print(&coarse, is_listed ? stderr : stdout);
+        panel_level_print(&request->level, is_listed ? stderr : stdout);
     panel_close(panel);
     return ok;
 }
@@ -400,7 +398,7 @@ static bool run_eval(int argc, char **argv, Arena *arena, Error *err)
 {
     Cli     cli;
     EvalRequest r = {.question = {.rgb = {255, 255, 255}, .incidence_phi = 180,
-                                  .at = {NAN, NAN}}, .quantity = 1, .level = -1};
+                                  .at = {NAN, NAN}}, .quantity = 1};
     PanelQuestion *q = &r.question;
     const Option   options[] = {
         {"--theta", OPTION_NUMBER, "DEG", "angle from the normal, degrees", &q->theta, 0, 90, 0,
@@ -429,7 +427,7 @@ static bool run_eval(int argc, char **argv, Arena *arena, Error *err)
         {"--quantity", OPTION_CHOICE, PANEL_QUANTITIES,
          "in a matrix: X, Y, Z in cd/m2, u' or v' (default Y); brdf in sr^-1 with --brdf",
          &r.quantity},
-        {"--level", OPTION_INTEGER, "N", PANEL_LEVEL_HELP, &r.level, 0, 10},
+        PANEL_LEVEL_OPTION(r.level),
         {"--batch", OPTION_TEXT, "FILE.csv",
          "one question a row; columns theta, phi, r, g, b, incidence, ...", &r.batch},
         {"--csv", OPTION_FLAG, NULL,

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* panel export: a panel's tables written back. */
 #include <stdio.h>
+#include <string.h>
 
 #include "base/count.h"
 #include "cli/options/answer.h"
@@ -14,40 +15,52 @@
 typedef struct ExportRequest {
     ExportOptions options;
     const char   *output, *table;
-    long          level; /* below 0: all */
-    PanelCoarse   coarse;
+    PanelLevel    level;
 } ExportRequest;
+
+/* The trees that a table is read from; spectra are in none. */
+static bool find_parts(const char *table, PanelLevel *level, Error *err)
+{
+    level->parts = !table ? PANEL_COARSE_ALL
+                   : !strncmp(table, "brdf", 4) ? PANEL_COARSE_REFLECTION
+                   : PANEL_COARSE_EMISSION;
+    if (!level->is_asked || !table || strcmp(table, "primaries") != 0) return true;
+    return error_set(err, ERROR_USAGE, "--level is %ld, wanted none: the table 'primaries' is "
+                     "read from no tree", level->asked);
+}
 
 static bool export_from(const char *path, ExportRequest *request, Arena *arena, Error *err)
 {
     Panel *panel = NULL;
-    if (!panel_level_open(path, request->level, arena, &panel, &request->coarse, err))
+    if (!find_parts(request->table, &request->level, err) ||
+        !panel_level_open(path, &request->level, arena, &panel, err))
         return false;
+    const char *words = panel_level_words(&request->level, arena);
+    const char *name = words ? arena_format(arena, "%s, %s", path, words) : path;
     bool ok = request->table
         ? panel_export_table(panel, request->table, &request->options, request->output, err)
-        : panel_export(panel, path, &request->options, request->output, err);
+        : panel_export(panel, name, &request->options, request->output, err);
     panel_close(panel);
     return ok;
 }
 
 static bool print_done(const ExportRequest *request, const Cli *cli, Error *err)
 {
-    const PanelCoarse *coarse = &request->coarse;
     if (cli->json) {
         json_t *done = json_pack("{s:o}", "output", json_text(request->output));
-        if (coarse->level >= 0) json_object_set_new(done, "level", panel_level_json(coarse));
+        panel_level_add(&request->level, done);
         return cli_print_json(done, err);
     }
     if (cli->quiet) return true;
     printf("%s%s\n", request->output, request->table ? "" : "/MANIFEST.json");
-    panel_level_print(coarse, stdout);
+    panel_level_print(&request->level, stdout);
     return true;
 }
 
 static bool run_export(int argc, char **argv, Arena *arena, Error *err)
 {
     Cli     cli;
-    ExportRequest r = {.options = {.mirror_fwhm_deg = -1}, .level = -1};
+    ExportRequest r = {.options = {.mirror_fwhm_deg = -1}};
     const Option options[] = {
         {"-o", OPTION_TEXT, "DIR|TABLE.csv",
          "a new or empty folder for MANIFEST.json and its tables, or one table's file",
@@ -60,7 +73,7 @@ static bool run_export(int argc, char **argv, Arena *arena, Error *err)
         {"--phi-step", OPTION_NUMBER, "DEG",
          "between azimuths, degrees (default 3, of reflection 1)", &r.options.phi_step_deg,
          0.05, 90},
-        {"--level", OPTION_INTEGER, "N", PANEL_LEVEL_HELP, &r.level, 0, 10},
+        PANEL_LEVEL_OPTION(r.level),
         {"--extrapolate", OPTION_FLAG, NULL,
          "to 90 degrees instead of the measured cone only", &r.options.extrapolates},
         {"--mirror-fwhm", OPTION_NUMBER, "DEG",

@@ -2,10 +2,13 @@
 /* panel info: what a panel file holds, its sizes and errors. */
 #include <math.h>
 
+#include "base/count.h"
 #include "base/units.h"
+#include "cli/options/answer.h"
 #include "cli/options/cli.h"
 #include "cli/panel/panel_commands.h"
 #include "cli/panel/panel_facts.h"
+#include "cli/panel/panel_level.h"
 #include "panel/query/panel.h"
 #include "panel/query/panel_info.h"
 #include "panel/query/panel_open.h"
@@ -32,20 +35,42 @@ static void add_lights(const Panel *panel, json_t *report)
     if (phis > 1) json_object_set_new(reflection, "incidence_phi_deg", degrees_json(phi, phis));
 }
 
+static bool print_levels(const Panel *panel, const Cli *cli, Arena *arena, Error *err)
+{
+    json_t *list = panel_level_list(panel, arena);
+    if (cli->json) return cli_print_json(list, err);
+    panel_level_print_list(list);
+    json_decref(list);
+    return true;
+}
+
+static bool print_report(const Panel *panel, const Cli *cli, Error *err)
+{
+    json_t *report = NULL;
+    if (!panel_report(panel, &report, err)) return error_in_file(err, cli->arguments[0]);
+    add_lights(panel, report);
+    panel_facts_add(panel, report);
+    return panel_print_report(report, cli->json, err);
+}
+
 static bool run_info(int argc, char **argv, Arena *arena, Error *err)
 {
     Cli     cli;
     Panel  *panel = NULL;
-    json_t *report = NULL;
+    bool    wants_levels = false;
+    const Option options[] = {
+        {"--levels", OPTION_FLAG, NULL,
+         "only how far each level of its trees is off, for --level of other commands",
+         &wants_levels},
+    };
     const CliCommand command = {"panel info", "what a panel file holds, its sizes and errors",
-        "X.panel", "parhelion panel info assets/panels/ips_cluster.panel", NULL, 0, 1, 1};
+        "X.panel [--levels]", "parhelion panel info assets/panels/ips_cluster.panel", options,
+        COUNT_OF(options), 1, 1};
     if (!cli_parse(&command, argc, argv, arena, &cli, err)) return false;
     if (cli.help_shown) return true;
-    bool ok = panel_open(cli.arguments[0], arena, &panel, err) &&
-              (panel_report(panel, &report, err) || error_in_file(err, cli.arguments[0]));
-    if (ok) add_lights(panel, report);
-    if (ok) panel_facts_add(panel, report);
-    ok = ok && panel_print_report(report, cli.json, err);
+    if (!panel_open(cli.arguments[0], arena, &panel, err)) return false;
+    bool ok = wants_levels ? print_levels(panel, &cli, arena, err)
+                           : print_report(panel, &cli, err);
     panel_close(panel);
     return ok;
 }

@@ -7,6 +7,7 @@
 #include "cli/options/answer.h"
 #include "cli/options/cli.h"
 #include "cli/panel/panel_commands.h"
+#include "cli/panel/panel_level.h"
 #include "panel/query/panel_open.h"
 #include "plot/panel/plot.h"
 #include "plot/panel/plot_answer.h"
@@ -19,6 +20,7 @@
 /* The command line of `panel plot`. */
 typedef struct PlotRequest {
     const char *panel, *measured, *root, *picture, *report, *contours, *ambient;
+    PanelLevel  level;
     PlotOptions options;
 } PlotRequest;
 
@@ -60,16 +62,19 @@ static bool draw(const PlotRequest *request, const PlotInput *input, Arena *aren
            add_numbers(request, input, arena, answer, err);
 }
 
-static bool open_and_draw(const PlotRequest *request, Arena *arena, json_t *answer, Error *err)
+static bool open_and_draw(PlotRequest *request, Arena *arena, json_t *answer, Error *err)
 {
     Panel       *panel = NULL;
     Measurement *measured = request->measured ? ARENA_NEW(arena, Measurement, 1) : NULL;
     if (measured && !measurement_read_below(request->measured, request->root, arena, measured,
                                             err))
         return false;
-    if (!panel_open(request->panel, arena, &panel, err)) return false;
-    PlotInput input = {panel, request->panel, measured};
+    request->level.parts = PANEL_COARSE_ALL;
+    if (!panel_level_open(request->panel, &request->level, arena, &panel, err)) return false;
+    PlotInput input = {panel, request->panel, measured,
+                       panel_level_words(&request->level, arena)};
     bool      ok = draw(request, &input, arena, answer, err);
+    if (ok) panel_level_add(&request->level, answer);
     panel_close(panel);
     return ok;
 }
@@ -102,7 +107,7 @@ static bool check_request(const PlotRequest *request, Error *err)
     return true;
 }
 
-static bool run(const PlotRequest *request, const Cli *cli, Arena *arena, Error *err)
+static bool run(PlotRequest *request, const Cli *cli, Arena *arena, Error *err)
 {
     json_t *answer = json_object();
     if (!open_and_draw(request, arena, answer, err)) {
@@ -111,6 +116,7 @@ static bool run(const PlotRequest *request, const Cli *cli, Arena *arena, Error 
     }
     if (cli->json) return cli_print_json(answer, err);
     json_decref(answer);
+    if (!cli->quiet) panel_level_print(&request->level, stdout);
     return true;
 }
 
@@ -137,6 +143,7 @@ static bool run_plot(int argc, char **argv, Arena *arena, Error *err)
         {"--incidence-phi", OPTION_NUMBER, "DEG",
          "azimuth of the light for reflection (default 180: from the left)", &incidence_phi,
          -360, 360},
+        PANEL_LEVEL_OPTION(request.level),
         {"--size", OPTION_SIZE, "WxH", "of the picture, pixels (default: as it needs)", size},
         {"--dark", OPTION_FLAG, NULL, "light lines on a dark ground", &request.options.is_dark},
     };

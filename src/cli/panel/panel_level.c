@@ -3,46 +3,124 @@
 
 #include "panel/query/panel_open.h"
 
-bool panel_level_open(const char *path, long level, Arena *arena, Panel **out,
-                      PanelCoarse *coarse, Error *err)
+static bool refuse(const char *path, const PanelLevel *level, int finest, Error *err)
 {
-    int least, most;
-    *coarse = (PanelCoarse){.level = -1};
-    if (!panel_open(path, arena, out, err)) return false;
-    if (level < 0) return true;
-    panel_coarse_range(*out, &least, &most);
-    if (level < least || level > most) {
-        panel_close(*out);
-        *out = NULL;
-        return error_at(err, ERROR_USAGE, path, "", "--level is %ld, wanted %d to %d", level,
-                        least, most);
-    }
-    panel_coarsen(*out, (int)level, *arena, coarse);
+    return error_at(err, ERROR_USAGE, path, "", "--level is %ld, wanted 0 to %d", level->asked,
+                    finest);
+}
+
+static bool refuse_any(const char *path, const PanelLevel *level, Error *err)
+{
+    return error_at(err, ERROR_USAGE, path, "", "--level is %ld, wanted none: it has no %s, "
+                    "and so no tree of it", level->asked,
+                    level->parts == PANEL_COARSE_EMISSION ? "emission" : "reflection data");
+}
+
+static bool read_down(const char *path, PanelLevel *level, Arena *arena, Panel *panel,
+                      Error *err)
+{
+    int          finest = panel_coarse_finest(panel);
+    PanelCoarse *found = &level->found;
+    if (!level->is_asked) return true;
+    if (level->asked < 0 || level->asked > finest) return refuse(path, level, finest, err);
+    panel_coarse_compare(panel, (int)level->asked, level->parts, *arena, found);
+    if (!found->emission.is_asked && !found->reflection.is_asked)
+        return refuse_any(path, level, err);
+    panel_coarsen(panel, (int)level->asked, level->parts, arena);
     return true;
 }
 
-static void print_part(const PanelCoarse *c, const char *name, double most, double rms,
-                       FILE *to)
+bool panel_level_open(const char *path, PanelLevel *level, Arena *arena, Panel **out,
+                      Error *err)
 {
-    fprintf(to, "level %d: %s at most %.3g %% off the whole panel's, rms %.3g %%\n", c->level,
-            name, 100 * most, 100 * rms);
+    if (!panel_open(path, arena, out, err)) return false;
+    if (read_down(path, level, arena, *out, err)) return true;
+    panel_close(*out);
+    *out = NULL;
+    return false;
 }
 
-void panel_level_print(const PanelCoarse *c, FILE *to)
+/* ---- one level --------------------------------------------------------------------------- */
+
+const char *panel_level_words(const PanelLevel *level, Arena *arena)
 {
-    if (c->has_emission) print_part(c, "emission", c->emission_max, c->emission_rms, to);
-    if (c->has_reflection)
-        print_part(c, "reflection", c->reflection_max, c->reflection_rms, to);
+    if (!level->is_asked) return NULL;
+    return arena_format(arena, "read down to level %ld", level->asked);
 }
 
-json_t *panel_level_json(const PanelCoarse *c)
+static void print_part(const PanelCoarsePart *part, const char *name, FILE *to)
 {
-    json_t *level = json_pack("{s:i}", "level", c->level);
-    if (c->has_emission)
-        json_object_set_new(level, "emission", json_pack("{s:f, s:f}", "max_error",
-                            c->emission_max, "rms_error", c->emission_rms));
-    if (c->has_reflection)
-        json_object_set_new(level, "reflection", json_pack("{s:f, s:f}", "max_error",
-                            c->reflection_max, "rms_error", c->reflection_rms));
-    return level;
+    if (!part->is_asked) return;
+    if (part->level == part->finest)
+        fprintf(to, "level %d: %s is whole, its tree ends there\n", part->level, name);
+    else
+        fprintf(to, "level %d of %d: %s at most %.3g %% off the whole panel's, rms %.3g %%\n",
+                part->level, part->finest, name, 100 * part->max, 100 * part->rms);
+}
+
+void panel_level_print(const PanelLevel *level, FILE *to)
+{
+    if (!level->is_asked) return;
+    print_part(&level->found.emission, "emission", to);
+    print_part(&level->found.reflection, "reflection", to);
+}
+
+static void add_part(const PanelCoarsePart *part, const char *name, json_t *to)
+{
+    if (part->is_asked)
+        json_object_set_new(to, name, json_pack("{s:i, s:i, s:f, s:f}", "level", part->level,
+                                                "finest", part->finest, "max_error", part->max,
+                                                "rms_error", part->rms));
+}
+
+static json_t *level_json(const PanelCoarse *found)
+{
+    json_t *out = json_pack("{s:i}", "level", found->level);
+    add_part(&found->emission, "emission", out);
+    add_part(&found->reflection, "reflection", out);
+    return out;
+}
+
+void panel_level_add(const PanelLevel *level, json_t *answer)
+{
+    if (level->is_asked) json_object_set_new(answer, "level", level_json(&level->found));
+}
+
+/* ---- all levels -------------------------------------------------------------------------- */
+
+json_t *panel_level_list(const Panel *panel, Arena *arena)
+{
+    json_t *list = json_array();
+    for (int level = 0; level <= panel_coarse_finest(panel); level++) {
+        PanelCoarse found;
+        panel_coarse_compare(panel, level, PANEL_COARSE_ALL, *arena, &found);
+        json_array_append_new(list, level_json(&found));
+    }
+    return list;
+}
+
+static void print_column(const json_t *row, const char *part, const char *key)
+{
+    const json_t *value = json_object_get(json_object_get(row, part), key);
+    if (value)
+        printf(" %13.3g %%", 100 * json_number_value(value));
+    else
+        printf(" %15s", "-");
+}
+
+void panel_level_print_list(const json_t *list)
+{
+    size_t  i;
+    json_t *row;
+    printf("each level (--level of eval, export and plot): relative differences to the whole "
+           "panel, at any direction\n%-5s %15s %15s %15s %15s\n", "level", "emission, most",
+           "rms", "reflection, most", "rms");
+    json_array_foreach(list, i, row) {
+        printf("%-5zu", i);
+        print_column(row, "emission", "max_error");
+        print_column(row, "emission", "rms_error");
+        print_column(row, "reflection", "max_error");
+        print_column(row, "reflection", "rms_error");
+        printf("\n");
+    }
 }

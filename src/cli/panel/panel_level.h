@@ -9,14 +9,32 @@
 #include "base/error.h"
 #include "panel/set/panel_coarse.h"
 
-#define PANEL_LEVEL_HELP \
-    "read the trees down to level N only; the error of that is stated (default: all of them)"
+/* A row of Options; the variable is a PanelLevel. */
+#define PANEL_LEVEL_OPTION(level)                                                              \
+    {"--level", OPTION_INTEGER, "N",                                                           \
+     "read the trees down to level N only, and state the error (default: all of them)",        \
+     .out = &(level).asked, .given = &(level).is_asked}
 
-/* Opens a panel at a level; below 0: as it is. */
-bool panel_level_open(const char *path, long level, Arena *arena, Panel **out,
-                      PanelCoarse *coarse, Error *err);
+typedef struct PanelLevel {
+    long        asked;
+    bool        is_asked; /* false: the whole panel */
+    unsigned    parts;    /* which trees, PANEL_COARSE_... */
+    PanelCoarse found;    /* by panel_level_open */
+} PanelLevel;
 
-/* One line a part: how far it is off. */
-void panel_level_print(const PanelCoarse *coarse, FILE *to);
+/* Opens a panel at the level that is asked for. */
+bool panel_level_open(const char *path, PanelLevel *level, Arena *arena, Panel **out,
+                      Error *err);
 
-json_t *panel_level_json(const PanelCoarse *coarse);
+/* "read down to level 3", for titles; NULL: the panel is whole. */
+const char *panel_level_words(const PanelLevel *level, Arena *arena);
+
+/* One line a part: how far it is off. Nothing where the panel is whole. */
+void panel_level_print(const PanelLevel *level, FILE *to);
+
+/* Adds the same as "level" to an answer. */
+void panel_level_add(const PanelLevel *level, json_t *answer);
+
+/* All levels of a panel: a new list, and as a table. */
+json_t *panel_level_list(const Panel *panel, Arena *arena);
+void    panel_level_print_list(const json_t *list);

@@ -92,9 +92,7 @@ void tree_expand_points(const Tree *tree, int level, float *out)
         vertex_tree_expand_level(tree, level, out);
         return;
     }
-    Tree stopped = *tree;
-    stopped.level = level;
-    for (uint32_t i = 0; i < tree_point_count(tree); i++)
-        tree_interpolate(&stopped, geodesic_center(tree->level, i),
-                         out + i * (size_t)tree->components);
+    uint32_t count = (uint32_t)tree->octants << 2 * level;
+    for (uint32_t i = 0; i < count; i++)
+        tree_interpolate(tree, geodesic_center(level, i), out + i * (size_t)tree->components);
 }

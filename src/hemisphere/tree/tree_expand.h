@@ -10,8 +10,10 @@
  * the leaves' centres). */
 void tree_expand(const Tree *tree, float *leaves, Arena scratch);
 
-/* The interpolated function of a tree that stops at `level` (0, of a vertex tree its base
- * level, to tree->level): components floats for each point. Points are the finest vertices of
+/* The points at which trees that end at different levels are compared: the finest vertices of
  * a vertex tree, between which every level is linear; of a Haar tree the leaves' centres. */
 uint32_t tree_point_count(const Tree *tree);
+
+/* The interpolated function of a tree at the points of a tree that ends at `level`, which is
+ * its own or a finer one: components floats each. */
 void tree_expand_points(const Tree *tree, int level, float *out);

@@ -235,15 +235,15 @@ void vertex_tree_expand(const Tree *tree, float *values)
 
 void vertex_tree_expand_level(const Tree *tree, int level, float *values)
 {
-    VertexLattice lattice = {tree->level, tree->octants};
-    int           n = 1 << tree->level;
+    VertexLattice lattice = {level, tree->octants};
+    int           n = 1 << level;
     for (int y = tree->octants == 2 ? 0 : -n; y <= n; y++)
         for (int x = (y < 0 ? -y : y) - n; x <= n - (y < 0 ? -y : y); x++) {
             VertexPlace place = {(float)(x < 0 ? -x : x) / (float)n,
                                  (float)(y < 0 ? -y : y) / (float)n,
                                  (x < 0 ? 1u : 0u) | (y < 0 ? 2u : 0u)};
             TreeTaps    taps;
-            vertex_tree_walk_place(tree, level, place, &taps);
+            vertex_tree_walk_place(tree, tree->level, place, &taps);
             vertex_tree_sum(tree, &taps, 0, tree->components,
                             values + vertex_index(lattice, x, y) * (size_t)tree->components);
         }

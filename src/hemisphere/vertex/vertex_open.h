@@ -40,5 +40,5 @@ static inline VertexParts vertex_parts(const VertexHeader *h)
 /* The tree's function at the vertices of its lattice: vertex_count x components floats. */
 void vertex_tree_expand(const Tree *tree, float *values);
 
-/* The same of the tree that stops at `level`, at the same vertices. */
+/* The same at the vertices of `level`, the tree's own or a finer one. */
 void vertex_tree_expand_level(const Tree *tree, int level, float *values);

@@ -5,6 +5,7 @@
 
 #include "base/mathd.h"
 #include "hemisphere/tree/tree_expand.h"
+#include "hemisphere/tree/tree_stop.h"
 #include "panel/query/panel_opened.h"
 
 static double growth(double difference)
@@ -18,27 +19,16 @@ static double squared_growth(double difference)
     return by * by;
 }
 
-static int least_level(const Tree *tree)
+static int least(int a, int b)
 {
-    return tree->basis == TREE_VERTEX ? tree->base_level : 0;
+    return a < b ? a : b;
 }
 
-static int clamped(const Tree *tree, int level)
+int panel_coarse_finest(const Panel *panel)
 {
-    int least = least_level(tree);
-    return level < least ? least : level > tree->level ? tree->level : level;
-}
-
-void panel_coarse_range(const Panel *panel, int *least, int *most)
-{
-    *least = GEODESIC_MAX_LEVEL;
-    *most = 0;
-    for (int i = 0; i < 2; i++) {
-        const Tree *tree = i ? &panel->reflection_tree : &panel->emission_tree;
-        if (i ? !panel->reflection : !panel->emission) continue;
-        if (least_level(tree) < *least) *least = least_level(tree);
-        if (tree->level > *most) *most = tree->level;
-    }
+    int emission = panel->emission ? panel->emission_tree.level : 0;
+    int reflection = panel->reflection ? panel->reflection_tree.level : 0;
+    return emission > reflection ? emission : reflection;
 }
 
 /* Sums over differences of logarithms; squares: of the relative ones. */
@@ -63,7 +53,9 @@ static float *component_differences(const Tree *tree, int level, uint32_t *point
     size_t count = *points = tree_point_count(tree);
     count *= (size_t)tree->components;
     float *coarse = ARENA_NEW(arena, float, count), *whole = ARENA_NEW(arena, float, count);
-    tree_expand_points(tree, level, coarse);
+    Tree   stopped = *tree;
+    tree_stop(&stopped, level, arena);
+    tree_expand_points(&stopped, tree->level, coarse);
     tree_expand_points(tree, tree->level, whole);
     for (size_t i = 0; i < count; i++) coarse[i] -= whole[i];
     return coarse;
@@ -157,40 +149,58 @@ static void compare_reflection(const Panel *panel, int level, Arena scratch, Dif
     out->largest *= weight_growth(r);
 }
 
-static void coarsen_one(Panel *panel, int level, Arena scratch, PanelCoarse *out)
+/* ---- both parts, and all spots ----------------------------------------------------------- */
+
+typedef void Compare(const Panel *panel, int level, Arena scratch, Differences *out);
+
+/* Keeps the worst of several panels. */
+static void add_part(const Panel *panel, const Tree *tree, int level, Compare *compare,
+                     Arena scratch, PanelCoarsePart *out)
 {
-    Tree       *emission = &panel->emission_tree, *reflection = &panel->reflection_tree;
     Differences found;
-    *out = (PanelCoarse){level, panel->emission != NULL, panel->reflection != NULL, 0, 0, 0, 0};
-    if (panel->emission) {
-        compare_emission(panel, clamped(emission, level), scratch, &found);
-        out->emission_max = relative(found.largest);
-        out->emission_rms = rms(&found);
-        emission->level = clamped(emission, level);
-    }
-    if (panel->reflection) {
-        compare_reflection(panel, clamped(reflection, level), scratch, &found);
-        out->reflection_max = relative(found.largest);
-        out->reflection_rms = rms(&found);
-        reflection->level = clamped(reflection, level);
-    }
+    int         read = least(level, tree->level);
+    compare(panel, read, scratch, &found);
+    out->is_asked = true;
+    out->level = read > out->level ? read : out->level;
+    out->finest = tree->level > out->finest ? tree->level : out->finest;
+    out->max = fmax(out->max, relative(found.largest));
+    out->rms = fmax(out->rms, rms(&found));
 }
 
-static void keep_worst(const PanelCoarse *one, PanelCoarse *out)
+static void add_panel(const Panel *panel, int level, unsigned parts, Arena scratch,
+                      PanelCoarse *out)
 {
-    out->emission_max = fmax(out->emission_max, one->emission_max);
-    out->emission_rms = fmax(out->emission_rms, one->emission_rms);
-    out->reflection_max = fmax(out->reflection_max, one->reflection_max);
-    out->reflection_rms = fmax(out->reflection_rms, one->reflection_rms);
+    if (panel->emission && parts & PANEL_COARSE_EMISSION)
+        add_part(panel, &panel->emission_tree, level, compare_emission, scratch,
+                 &out->emission);
+    if (panel->reflection && parts & PANEL_COARSE_REFLECTION)
+        add_part(panel, &panel->reflection_tree, level, compare_reflection, scratch,
+                 &out->reflection);
 }
 
-void panel_coarsen(Panel *panel, int level, Arena scratch, PanelCoarse *out)
+void panel_coarse_compare(const Panel *panel, int level, unsigned parts, Arena scratch,
+                          PanelCoarse *out)
 {
     const PanelPlaces *places = panel->places;
-    coarsen_one(panel, level, scratch, out);
-    for (int k = 1; places && k < places->panels; k++) {
-        PanelCoarse one;
-        coarsen_one((Panel *)places->panel[k], level, scratch, &one);
-        keep_worst(&one, out);
-    }
+    *out = (PanelCoarse){.level = level};
+    add_panel(panel, level, parts, scratch, out);
+    for (int k = 1; places && k < places->panels; k++)
+        add_panel(places->panel[k], level, parts, scratch, out);
+}
+
+static void stop_trees(Panel *panel, int level, unsigned parts, Arena *arena)
+{
+    Tree *emission = &panel->emission_tree, *reflection = &panel->reflection_tree;
+    if (panel->emission && parts & PANEL_COARSE_EMISSION)
+        tree_stop(emission, least(level, emission->level), arena);
+    if (panel->reflection && parts & PANEL_COARSE_REFLECTION)
+        tree_stop(reflection, least(level, reflection->level), arena);
+}
+
+void panel_coarsen(Panel *panel, int level, unsigned parts, Arena *arena)
+{
+    const PanelPlaces *places = panel->places;
+    stop_trees(panel, level, parts, arena);
+    for (int k = 1; places && k < places->panels; k++)
+        stop_trees((Panel *)places->panel[k], level, parts, arena);
 }

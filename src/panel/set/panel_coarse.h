@@ -2,8 +2,13 @@
 /* panel_coarse.h -- a panel read at a coarser level of its trees, and how far off that is.
  *
  * Every level of a tree is a whole function of its own, so a panel can be asked at any of them;
- * the finest one is the panel itself, to the bit.
+ * the finest one is the panel itself, to the bit. What is no tree stays as it is: the smooth
+ * part and the beams of an emission, spectra, the mirror, the narrow lobe, and what opening
+ * made of the whole panel (panel_sample, panel_pdf, albedos).
  *
+ * Vertices A level of the vertex basis is no mean: it has the whole panel's values at the
+ *          level's vertices, to rounding, and logarithms linear between them. What lies between
+ *          is left out, be it a peak.
  * Memory   scratch by value. Threads: nobody else may use the panel while it changes.
  */
 #pragma once
@@ -12,23 +17,37 @@
 #include "base/arena.h"
 #include "panel/query/panel.h"
 
-/* Relative differences to the whole panel. Where the trees are of the vertex basis, max bounds
- * X, Y and Z of all codes from 1 on, and the BRDF at all wavelengths, at every direction, for
- * incidences up to the last measured one at measured azimuths: logarithms are linear between
- * vertices, and all vertices are asked. Of Haar trees the leaves' centres are asked, and max is
- * the largest found. rms is over the points that are asked: X, Y, Z of the primaries at code
- * 255; the BRDF of all tables at all measured wavelengths. */
+/* Trees to be read coarser. */
+#define PANEL_COARSE_EMISSION 1u
+#define PANEL_COARSE_REFLECTION 2u
+#define PANEL_COARSE_ALL 3u
+
+/* Of one tree: the level that it is read at, its own finest one, and relative differences to
+ * the whole panel. Where the tree is of the vertex basis, max bounds X, Y and Z of all codes
+ * from 1 on, and the BRDF at all wavelengths, at every direction, for incidences up to the last
+ * measured one at measured azimuths: logarithms are linear between vertices, and all vertices
+ * are asked. Of Haar trees the leaves' centres are asked, and max is the largest found. rms is
+ * over the points that are asked, evenly over the tree's own triangles: X, Y, Z of the
+ * primaries at code 255; the BRDF of all tables at all measured wavelengths. With several spots
+ * both are the worst of theirs. */
+typedef struct PanelCoarsePart {
+    bool   is_asked; /* and there; else the rest is 0 */
+    int    level, finest;
+    double max, rms;
+} PanelCoarsePart;
+
 typedef struct PanelCoarse {
-    int    level;
-    bool   has_emission, has_reflection;
-    double emission_max, emission_rms;
-    double reflection_max, reflection_rms;
+    int             level; /* as it was asked for; a tree that ends before is read whole */
+    PanelCoarsePart emission, reflection;
 } PanelCoarse;
 
-/* The levels at which the panel can be read. Where two trees have different ranges, the level
- * of each is the nearest one in its own. */
-void panel_coarse_range(const Panel *panel, int *least, int *most);
+/* The finest level of the trees. */
+int panel_coarse_finest(const Panel *panel);
 
-/* From now on all queries of values read the trees down to `level`, which is in the range; of
- * several spots too, and then the differences are the worst of theirs. */
-void panel_coarsen(Panel *panel, int level, Arena scratch, PanelCoarse *out);
+/* How far a level, 0 to the finest, is off. parts: PANEL_COARSE_... */
+void panel_coarse_compare(const Panel *panel, int level, unsigned parts, Arena scratch,
+                          PanelCoarse *out);
+
+/* From now on all queries of values read the trees of `parts` down to `level` (0 to the
+ * finest), those of several spots too. The arena lives as long as the panel. */
+void panel_coarsen(Panel *panel, int level, unsigned parts, Arena *arena);

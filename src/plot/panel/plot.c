@@ -95,8 +95,9 @@ PlotData *plot_ask(const PlotInput *input, const PlotOptions *options, Arena *ar
         return NULL;
     }
     PlotData *data = plot_data_new(&(PlotSource){
-        .panel = input->panel, .file = input->file, .report = *report,
-        .measured = input->measured, .incidence_phi = options->incidence_phi,
+        .panel = input->panel, .file = input->file, .reading = input->reading,
+        .report = *report, .measured = input->measured,
+        .incidence_phi = options->incidence_phi,
         .wants_maps = is_among(options->kind, PLOT_LUMINANCE, PLOT_COLOUR_SHIFT),
         .threads = options->threads, .contours = options->contours,
         .ambient = options->ambient}, arena);

@@ -25,6 +25,7 @@ typedef struct PlotInput {
     const Panel       *panel;
     const char        *file;     /* the panel's, as the user named it */
     const Measurement *measured; /* NULL: none */
+    const char        *reading;  /* how the panel is read, for headings; NULL: as it is */
 } PlotInput;
 
 /* By the ending of path: .svg or .png. *charts: how many it shows. */

@@ -168,6 +168,8 @@ PlotData *plot_data_new(const PlotSource *source, Arena *arena)
     s->arena = arena;
     s->file_name = utf8_replace(path_name(source->file), arena);
     s->name = name && *name ? utf8_replace(name, arena) : s->file_name;
+    if (source->reading)
+        s->file_name = arena_format(arena, "%s, %s", s->file_name, source->reading);
     const json_t *emission = json_object_get(source->report, "emission");
     s->is_white_only = json_is_true(json_object_get(emission, "white_only"));
     s->has_gamma_table = s->is_white_only &&

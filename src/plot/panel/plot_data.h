@@ -24,6 +24,7 @@ typedef enum Pattern {
 typedef struct PlotSource {
     const Panel       *panel;
     const char        *file;     /* as the user named it */
+    const char        *reading;  /* how the panel is read, for headings; NULL: as it is */
     const json_t      *report;   /* panel_report's */
     const Measurement *measured; /* NULL: none given */
     double             incidence_phi; /* azimuth of the light, radians; PI: from the left */
@@ -35,7 +36,8 @@ typedef struct PlotSource {
 
 typedef struct PlotData {
     PlotSource source;
-    const char *name, *file_name; /* of the panel, and of its file without folders */
+    const char *name;      /* of the panel */
+    const char *file_name; /* without folders; and how it is read, where that is said */
     bool   emits, has_black, reflects, has_mirror;
     bool   has_gamma_table;     /* white only, with levels measured on the axis */
     bool   is_white_only;       /* its primaries and levels are assumed, not measured */
