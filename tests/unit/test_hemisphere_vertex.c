@@ -276,15 +276,20 @@ HEMISPHERE_TEST(ranges_of_components_are_parts_of_the_whole)
     const float  *values;
     TreeReport    report;
     uint32_t      seed = 17;
-    Tree          tree = build_example(f, &e, &values, &report);
+    Tree          tree = build_example(f, &e, &values, &report), unpacked = tree;
+    vertex_tree_unpack(&unpacked, &f->arena);
     for (int q = 0; q < 2000; q++) {
         TreeTaps taps;
         float    all[40], part[40];
+        Vec3     d = random_direction(&seed);
         int      first = (int)(random_unit(&seed) * 39.9f);
         int      count = 1 + (int)(random_unit(&seed) * (39.9f - (float)first));
-        tree_walk_interpolated(&tree, random_direction(&seed), &taps);
+        tree_walk_interpolated(&tree, d, &taps);
         tree_sum(&tree, &taps, 0, 40, all);
         tree_sum(&tree, &taps, first, count, part);
+        assert_memory_equal(part, all + first, (size_t)count * sizeof *part);
+        tree_walk_interpolated(&unpacked, d, &taps);
+        tree_sum(&unpacked, &taps, first, count, part);
         assert_memory_equal(part, all + first, (size_t)count * sizeof *part);
     }
 }

@@ -294,12 +294,16 @@ static inline void sum_eighths(const Tree *tree, const TreeTaps *taps, int first
     }
 }
 
-/* From a multiple of 8 on; the last few of eight one by one. */
+/* The last few of eight one by one. */
 static void sum_unpacked(const Tree *tree, const TreeTaps *taps, int first, int count,
                          float *out)
 {
     float last[8];
-    int   i = 0;
+    int   i = 0, skipped = first % 8;
+    if (skipped) {
+        sum_eighths(tree, taps, first - skipped, 1, last);
+        for (; i < count && skipped + i < 8; i++) out[i] = last[skipped + i];
+    }
     for (; i + 32 <= count; i += 32) sum_eighths(tree, taps, first + i, 4, out + i);
     for (; i + 8 <= count; i += 8) sum_eighths(tree, taps, first + i, 1, out + i);
     if (i >= count) return;
@@ -309,7 +313,7 @@ static void sum_unpacked(const Tree *tree, const TreeTaps *taps, int first, int 
 
 void vertex_tree_sum(const Tree *tree, const TreeTaps *taps, int first, int count, float *out)
 {
-    if (tree->unpacked && first % 8 == 0) {
+    if (tree->unpacked) {
         sum_unpacked(tree, taps, first, count, out);
         return;
     }
