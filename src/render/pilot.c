@@ -21,7 +21,7 @@ typedef struct PilotBand {
     const Pilot  *pilot;
     FilmRect      rect;
     TileJob       job;
-    WorkerCounts *counts;
+    WorkerCounts *counts; /* the kernel's, which nobody reads: only frames' rays are told */
 } PilotBand;
 
 static size_t pixels_of(FilmRect rect)
@@ -42,10 +42,10 @@ static Film *band_film(const Pilot *pilot, FilmRect rect, Arena *arena)
 {
     const Camera *camera = pilot->camera;
     Film *film = film_create(camera->width, camera->height, rect, 0, NULL, arena);
-    PilotBand band = {pilot, rect,
-                  {.context = pilot->context, .camera = camera, .film = film, .seed = SEED,
-                   .end_sample = PILOT_SAMPLES},
-                  ARENA_NEW(arena, WorkerCounts, pilot->threads)};
+    PilotBand band = {.pilot = pilot, .rect = rect,
+                      .counts = ARENA_NEW(arena, WorkerCounts, pilot->threads)};
+    band.job = (TileJob){.context = pilot->context, .camera = camera, .film = film,
+                         .seed = SEED, .end_sample = PILOT_SAMPLES};
     parallel_for(pilot->threads, render_tile_count(rect), render_band_tile, &band);
     return film;
 }

@@ -10,6 +10,7 @@
  * less than PILOT_LEAST. What is usual is found from some rows of squares of the whole frame,
  * so that the pixels of each crop take what they take in the frame.
  *
+ * The pilot's samples and rays stand in no count of the frame's; its time is building time.
  * The same shares for every seed and sample range. Black frames have all samples everywhere.
  *
  * Memory   the shares are the arena's; meanwhile a film of PILOT_BAND rows.

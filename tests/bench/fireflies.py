@@ -20,7 +20,8 @@ import sys
 import tempfile
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from time_to_error import VIEWS, half_key, luminance, render  # noqa: E402
+from time_to_error import (VIEWS, half_key, luminance, programs_of,  # noqa: E402
+                           render, views_of)
 
 
 def count(frames):
@@ -62,18 +63,12 @@ def main():
     arguments = parser.parse_args()
     if arguments.seeds % 2 == 0 or arguments.seeds < 3:
         parser.error("--seeds: an odd number, 3 or more")
-    programs = {}
-    for item in arguments.programs:
-        name, words = item.split("=", 1)
-        program, *options = words.split(",")
-        programs[name] = [os.path.abspath(program), "render", *options]
+    programs, views = programs_of(arguments.programs), views_of(arguments.views)
     print(f"{'view':18} {'program':12} {'fireflies':>15} {'their share':>12} "
           f"{'error without':>14} {'frame s':>8}")
     with tempfile.TemporaryDirectory() as folder:
-        for view, words in VIEWS.items():
-            if view not in (arguments.views.split(";") if arguments.views else VIEWS):
-                continue
-            frames, seconds = measure(programs, words, arguments, folder)
+        for view in views:
+            frames, seconds = measure(programs, VIEWS[view], arguments, folder)
             for name in programs:
                 found, theirs, every = count(frames[name])
                 pixels = len(frames[name]) * len(frames[name][0])

@@ -15,7 +15,7 @@ import subprocess
 import sys
 import tempfile
 
-from time_to_error import ROOT, VIEWS, half_key, luminance
+from time_to_error import ROOT, VIEWS, half_key, luminance, views_of
 
 GOAL, PILOT = 0.05, 4  # samples a pixel that do not count
 
@@ -58,7 +58,7 @@ def main():
     arguments = parser.parse_args()
     program = os.path.abspath(arguments.program)
     print(f"{'view':18} error %   of rays   with the pilot's at 5 %")
-    for view in arguments.views.split(";"):
+    for view in views_of(arguments.views):
         with tempfile.TemporaryDirectory() as folder:
             words = VIEWS[view]
             even, rays = error_and_rays(program, words, arguments, arguments.spp, folder)

@@ -105,6 +105,27 @@ def time_to_goal(error, start, whole):
     return start + max(whole - start, 0) * (error / GOAL) ** 2
 
 
+def views_of(text):
+    """"A;B", of VIEWS; all of them where it is empty."""
+    views = text.split(";") if text else list(VIEWS)
+    unknown = [view for view in views if view not in VIEWS]
+    if unknown:
+        sys.exit(f"--views: there is no {unknown[0]!r}, wanted of: {'; '.join(VIEWS)}")
+    return views
+
+
+def programs_of(items):
+    """NAME=PARHELION[,OPTION] ... -> name: the first words of its command."""
+    programs = {}
+    for item in items:
+        name, equals, words = item.partition("=")
+        if not equals:
+            sys.exit(f"{item}: wanted NAME=PARHELION[,OPTION]")
+        program, *options = words.split(",")
+        programs[name] = [os.path.abspath(program), "render", *options]
+    return programs
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--views", default="")
@@ -113,17 +134,12 @@ def main():
     parser.add_argument("--seeds", type=int, default=5)
     parser.add_argument("programs", nargs="+")
     arguments = parser.parse_args()
-    programs = {}
-    for item in arguments.programs:
-        name, words = item.split("=", 1)
-        program, *options = words.split(",")
-        programs[name] = [os.path.abspath(program), "render", *options]
+    programs, views = programs_of(arguments.programs), views_of(arguments.views)
     print(f"{'view':18} {'program':12} {'error %':>8} {'before s':>8} {'frame s':>8} "
           f"{'range':>13} {'to 5 % s':>9} {'ratio':>6}  before error^2 samples")
     with tempfile.TemporaryDirectory() as folder:
-        for view, words in VIEWS.items():
-            if arguments.views and view not in arguments.views.split(";"):
-                continue
+        for view in views:
+            words = VIEWS[view]
             first = None
             for name, (error, start, whole) in measure(programs, words, arguments,
                                                        folder).items():
