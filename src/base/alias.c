@@ -8,15 +8,15 @@ static void fill(AliasTable *table, double *scaled, Arena scratch)
     int  count = table->count, poor_count = 0, rich_count = 0;
     int *poor = ARENA_NEW(&scratch, int, count), *rich = ARENA_NEW(&scratch, int, count);
     for (int i = 0; i < count; i++) {
-        table->keep[i] = 1u << 24;
-        table->other[i] = (uint32_t)i;
+        table->slots[i].keep = 1u << 24;
+        table->slots[i].other = (uint32_t)i;
         if (scaled[i] < 1) poor[poor_count++] = i;
         else rich[rich_count++] = i;
     }
     while (poor_count && rich_count) {
         int low = poor[--poor_count], high = rich[rich_count - 1];
-        table->keep[low] = (uint32_t)(scaled[low] * 0x1p24 + 0.5);
-        table->other[low] = (uint32_t)high;
+        table->slots[low].keep = (uint32_t)(scaled[low] * 0x1p24 + 0.5);
+        table->slots[low].other = (uint32_t)high;
         scaled[high] -= 1 - scaled[low];
         if (scaled[high] < 1) {
             rich_count--;
@@ -35,20 +35,20 @@ static void count_choices(AliasTable *table, Arena scratch)
         int64_t first = (slot * numbers + count - 1) / count;
         int64_t end = ((slot + 1) * numbers + count - 1) / count;
         int64_t rest = first * count - slot * numbers;
-        int64_t kept = ((int64_t)table->keep[slot] - rest + count - 1) / count;
+        int64_t kept = ((int64_t)table->slots[slot].keep - rest + count - 1) / count;
         kept = kept < 0 ? 0 : kept > end - first ? end - first : kept;
         chosen[slot] += (uint32_t)kept;
-        chosen[table->other[slot]] += (uint32_t)(end - first - kept);
+        chosen[table->slots[slot].other] += (uint32_t)(end - first - kept);
     }
-    for (int i = 0; i < table->count; i++) table->prob[i] = (float)chosen[i] * 0x1p-24f;
+    for (int i = 0; i < table->count; i++)
+        table->slots[i].prob = (float)chosen[i] * 0x1p-24f;
+    for (int i = 0; i < table->count; i++)
+        table->slots[i].other_prob = table->slots[table->slots[i].other].prob;
 }
 
 AliasTable alias_build(const double *weights, int count, Arena *arena)
 {
-    AliasTable table = {.count = count,
-                        .keep = ARENA_NEW(arena, uint32_t, count),
-                        .other = ARENA_NEW(arena, uint32_t, count),
-                        .prob = ARENA_NEW(arena, float, count)};
+    AliasTable table = {.count = count, .slots = ARENA_NEW(arena, AliasSlot, count)};
     Arena   scratch = *arena;
     double *scaled = ARENA_NEW(&scratch, double, count);
     double  sum = 0;

@@ -236,11 +236,12 @@ EmitterPoint emitters_sample(const Emitters *emitters, const Scene *scene, const
         prob *= probs[i];
         if (is_far(node, i, from->position)) break;
     }
-    int k = alias_sample(&node->choice[i], u[2]);
+    float of_branch;
+    int   k = alias_sample(&node->choice[i], u[2], &of_branch);
     EmitterChoice chosen = emitters->by_rank[node->first[i] + (uint32_t)k];
     EmitterPoint  point = sample_cell(&emitters->emitters[chosen.emitter], chosen.cell, scene,
                                       from->position, position, density);
-    *density = times(prob * node->choice[i].prob[k], *density);
+    *density = times(prob * of_branch, *density);
     return point;
 }
 
@@ -261,7 +262,7 @@ static float cell_prob(const Emitters *emitters, const Scene *scene, const LitPo
         int i = branch_of(node, rank);
         prob *= weigh(emitters, scene, node, from)[i];
         if (is_far(node, i, from->position))
-            return prob * node->choice[i].prob[rank - node->first[i]];
+            return prob * node->choice[i].slots[rank - node->first[i]].prob;
         node = node->child[i];
     }
 }

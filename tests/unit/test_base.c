@@ -320,13 +320,18 @@ static void assert_probabilities_exact(const double *weights, int count, Arena a
     AliasTable table = alias_build(weights, count, &arena);
     uint32_t  *drawn = ARENA_NEW(&arena, uint32_t, count);
     double     sum = 0, total = 0;
-    for (uint32_t k = 0; k < 1u << 24; k++) drawn[alias_sample(&table, (float)k * 0x1p-24f)]++;
+    for (uint32_t k = 0; k < 1u << 24; k++) {
+        float prob;
+        int   i = alias_sample(&table, (float)k * 0x1p-24f, &prob);
+        drawn[i]++;
+        assert_true(prob == table.slots[i].prob);
+    }
     for (int i = 0; i < count; i++) sum += weights[i];
     for (int i = 0; i < count; i++) {
-        assert_true((float)drawn[i] * 0x1p-24f == table.prob[i]);
-        assert_near(table.prob[i], weights[i] / sum, 2e-3 * weights[i] / sum + 0x1p-22);
+        assert_true((float)drawn[i] * 0x1p-24f == table.slots[i].prob);
+        assert_near(table.slots[i].prob, weights[i] / sum, 2e-3 * weights[i] / sum + 0x1p-22);
         if (weights[i] == 0) assert_int_equal(drawn[i], 0);
-        total += (double)table.prob[i];
+        total += (double)table.slots[i].prob;
     }
     assert_near(total, 1, 1e-6);
 }
