@@ -222,8 +222,13 @@ static void read_site(Site *site, const TrianglePoint *point, const float texel[
 {
     const Material *m = site->material;
     const Scene    *scene = site->scene;
-    float roughness = scaled(scene, m->roughness, &m->metallic_roughness_texture, point, 1);
-    site->metallic = scaled(scene, m->metallic, &m->metallic_roughness_texture, point, 2);
+    float roughness = m->roughness, both[4];
+    site->metallic = m->metallic;
+    if ((roughness != 0 || site->metallic != 0) &&
+        read_slot(scene, &m->metallic_roughness_texture, point, texture_data, both)) {
+        if (roughness != 0) roughness *= both[1]; /* 0 stays 0, whatever the texture holds */
+        if (site->metallic != 0) site->metallic *= both[2];
+    }
     site->transmission = scaled(scene, m->transmission, &m->transmission_texture, point, 0);
     site->alpha = roughness * roughness;
     site->base_color = spectrum_clamp(colour_spectrum(scene, m->base_color_curve_id,
