@@ -26,19 +26,20 @@ static void fill(AliasTable *table, double *scaled, Arena scratch)
 }
 
 /* Counts, over all 2^24 numbers u, how often each slot is chosen. Number k falls into slot
- * k * count >> 24, and from one number to the next the rest grows by count. */
+ * k * count >> 24, and from one number to the next the rest grows by count: a slot has
+ * 2^24 / count numbers, or one more where its first rest is below the division's. */
 static void count_choices(AliasTable *table, Arena scratch)
 {
-    int64_t   count = table->count, numbers = 1 << 24;
+    uint32_t  count = (uint32_t)table->count, numbers = 1u << 24, rest = 0;
+    uint32_t  least = numbers / count, over = numbers % count;
     uint32_t *chosen = ARENA_NEW(&scratch, uint32_t, count);
-    for (int64_t slot = 0; slot < count; slot++) {
-        int64_t first = (slot * numbers + count - 1) / count;
-        int64_t end = ((slot + 1) * numbers + count - 1) / count;
-        int64_t rest = first * count - slot * numbers;
-        int64_t kept = ((int64_t)table->slots[slot].keep - rest + count - 1) / count;
-        kept = kept < 0 ? 0 : kept > end - first ? end - first : kept;
-        chosen[slot] += (uint32_t)kept;
-        chosen[table->slots[slot].other] += (uint32_t)(end - first - kept);
+    for (uint32_t slot = 0; slot < count; slot++) {
+        uint32_t keep = table->slots[slot].keep, own = least + (rest < over);
+        uint32_t kept = keep > rest ? (keep - rest - 1) / count + 1 : 0;
+        kept = kept > own ? own : kept;
+        chosen[slot] += kept;
+        chosen[table->slots[slot].other] += own - kept;
+        rest = rest < over ? rest + count - over : rest - over;
     }
     for (int i = 0; i < table->count; i++)
         table->slots[i].prob = (float)chosen[i] * 0x1p-24f;

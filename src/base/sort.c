@@ -25,6 +25,28 @@ void sort_doubles(double *value, long count)
     qsort(value, (size_t)count, sizeof *value, by_double);
 }
 
+/* Hoare's selection: the part that holds the rank shrinks until its values are alike. */
+float sort_ranked(float *value, long count, long rank)
+{
+    long low = 0, high = count - 1;
+    while (low < high) {
+        float pivot = value[low + (high - low) / 2];
+        long  i = low, k = high;
+        while (i <= k) {
+            while (value[i] < pivot) i++;
+            while (pivot < value[k]) k--;
+            if (i > k) break;
+            float moved = value[i];
+            value[i++] = value[k];
+            value[k--] = moved;
+        }
+        if (rank <= k) high = k;
+        else if (rank >= i) low = i;
+        else break;
+    }
+    return value[rank];
+}
+
 double sort_median(double *value, int count)
 {
     sort_doubles(value, count);

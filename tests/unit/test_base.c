@@ -8,6 +8,7 @@
 #include "base/mathf.h"
 #include "base/problems.h"
 #include "base/sampler.h"
+#include "base/sort.h"
 #include "base/units.h"
 #include "base/vec.h"
 
@@ -348,6 +349,25 @@ ARENA_TEST(alias_tables_know_their_exact_probabilities)
     weights[78] = 0;
     assert_probabilities_exact(weights, 1000, arena);
     assert_probabilities_exact(weights, 100000, arena);
+}
+
+/* ---- sort ---------------------------------------------------------------------------- */
+
+TEST(a_ranked_value_is_that_of_the_sorted_list)
+{
+    enum { MOST = 70 };
+    uint32_t random = 5;
+    for (int count = 1; count <= MOST; count++)
+        for (int rank = 0; rank < count; rank++) {
+            float    sorted[MOST], list[MOST];
+            uint32_t kinds = rank % 3 ? 5 : 1000; /* many alike, or hardly any */
+            for (int i = 0; i < count; i++)
+                sorted[i] = list[i] = (float)(hash_u32(random++) % kinds);
+            sort_floats(sorted, count);
+            assert_true(sort_ranked(list, count, rank) == sorted[rank]);
+            sort_floats(list, count);
+            assert_memory_equal(list, sorted, (size_t)count * sizeof *list);
+        }
 }
 
 /* ---- arena --------------------------------------------------------------------------- */

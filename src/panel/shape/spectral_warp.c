@@ -292,8 +292,8 @@ SpectralWarpRange spectral_warp_range(float *const ratio[2], int count)
         ratio[1][i] = v * out.along[0] - u * out.along[1];
     }
     for (int k = 0; k < 2; k++) {
-        sort_floats(ratio[k], count);
-        float low = ratio[k][count / 200], high = ratio[k][count - 1 - count / 200];
+        float low = sort_ranked(ratio[k], count, count / 200);
+        float high = sort_ranked(ratio[k], count, count - 1 - count / 200);
         float margin = 0.002f + 0.05f * (high - low);
         out.low[k] = low - margin;
         out.high[k] = high + margin;
