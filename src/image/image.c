@@ -302,19 +302,10 @@ static bool decode_plain(const Encoded *file, Arena *arena, Image *out)
     Error    ignored;
     if (strcmp(file->format, "png") != 0 || !plain_png_open(file->bytes, file->size, &png))
         return false;
-    size_t row_bytes = png.row_bytes, count = (size_t)png.width * (size_t)png.height;
-    if (!check_size(png.width, png.height, 4, row_bytes * (size_t)png.height, arena,
-                    &ignored))
-        return false;
-    Arena   kept = *arena;
-    uint8_t *pixels = arena_alloc(&kept, 4, 16, count);
-    Arena   scratch = kept;
-    uint8_t *rows = arena_alloc(&scratch, row_bytes, 16, (size_t)png.height);
-    if (!plain_png_read(&png, rows)) return false;
-    Swizzle swizzle = swizzle_of(png.channels, png.channels % 2 ? -1 : png.channels - 1);
-    for (size_t y = 0; y < (size_t)png.height; y++)
-        spread_u8(rows + y * row_bytes, swizzle, (size_t)png.width,
-                  pixels + y * (size_t)png.width * 4);
+    if (!check_size(png.width, png.height, 4, 0, arena, &ignored)) return false;
+    Arena    kept = *arena;
+    uint8_t *pixels = arena_alloc(&kept, 4, 16, (size_t)png.width * (size_t)png.height);
+    if (!plain_png_read(&png, pixels)) return false;
     *arena = kept;
     *out = (Image){png.width, png.height, IMAGE_RGBA8, pixels};
     return true;

@@ -39,12 +39,23 @@ static bool read_head(png_structp png, png_infop info, PlainPng *out)
     out->width = (int)width;
     out->height = (int)height;
     out->channels = png_get_channels(png, info);
-    out->row_bytes = (size_t)width * (size_t)out->channels;
     return true;
 }
 
-/* rows NULL: the head alone. */
-static bool read_file(png_structp png, png_infop info, PlainPng *file, unsigned char *rows)
+/* What is missing of red, green, blue and alpha the library adds to every row. */
+static void read_rows(png_structp png, png_infop info, const PlainPng *file,
+                      unsigned char *rgba)
+{
+    png_set_gray_to_rgb(png);
+    png_set_add_alpha(png, 255, PNG_FILLER_AFTER);
+    png_read_update_info(png, info);
+    for (int y = 0; y < file->height; y++)
+        png_read_row(png, rgba + 4 * (size_t)y * (size_t)file->width, NULL);
+    png_read_end(png, info); /* a transparent colour may stand there */
+}
+
+/* rgba NULL: the head alone. */
+static bool read_file(png_structp png, png_infop info, PlainPng *file, unsigned char *rgba)
 {
     Source source = {file->bytes, file->size};
     if (setjmp(png_jmpbuf(png))) return false;
@@ -52,17 +63,15 @@ static bool read_file(png_structp png, png_infop info, PlainPng *file, unsigned 
     png_set_read_fn(png, &source, take);
     png_read_info(png, info);
     if (!read_head(png, info, file)) return false;
-    for (int y = 0; rows && y < file->height; y++)
-        png_read_row(png, rows + (size_t)y * file->row_bytes, NULL);
-    if (rows) png_read_end(png, info); /* a transparent colour may stand there */
+    if (rgba) read_rows(png, info, file, rgba);
     return !png_get_valid(png, info, PNG_INFO_tRNS | PNG_INFO_sBIT);
 }
 
-static bool read(PlainPng *file, unsigned char *rows)
+static bool read(PlainPng *file, unsigned char *rgba)
 {
     png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, NULL, give_up, give_up);
     png_infop   info = png ? png_create_info_struct(png) : NULL;
-    bool        ok = info && read_file(png, info, file, rows);
+    bool        ok = info && read_file(png, info, file, rgba);
     png_destroy_read_struct(&png, &info, NULL);
     return ok;
 }
@@ -73,8 +82,8 @@ bool plain_png_open(const unsigned char *bytes, size_t size, PlainPng *out)
     return read(out, NULL);
 }
 
-bool plain_png_read(const PlainPng *png, unsigned char *rows)
+bool plain_png_read(const PlainPng *png, unsigned char *rgba)
 {
     PlainPng file = *png;
-    return read(&file, rows);
+    return read(&file, rgba);
 }

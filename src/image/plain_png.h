@@ -17,12 +17,12 @@ typedef struct PlainPng {
     const unsigned char *bytes; /* the file: whole, with the right checksums */
     size_t size;
     int    width, height; /* 1 to 65536 */
-    int    channels;      /* 1 to 4: grey, grey and alpha, RGB, RGBA */
-    size_t row_bytes;
+    int    channels;      /* of the file, 1 to 4: grey, grey and alpha, RGB, RGBA */
 } PlainPng;
 
 /* False: not plain. */
 bool plain_png_open(const unsigned char *bytes, size_t size, PlainPng *out);
 
-/* rows: height * row_bytes, from the top. False: not plain after all. */
-bool plain_png_read(const PlainPng *png, unsigned char *rows);
+/* rgba: 4 * width * height bytes, from the top; grey counts as all three colours, without alpha
+ * it is 255. False: not plain after all. */
+bool plain_png_read(const PlainPng *png, unsigned char *rgba);

@@ -396,7 +396,7 @@ static Cells cells_of(const char *html)
     unsigned char *bytes = ARENA_NEW(&arena, unsigned char, strlen(text)), *rows;
     assert_done(base64_decode(text, strlen(text), bytes, &size, &err));
     assert_true(plain_png_open(bytes, size, &out.png));
-    rows = ARENA_NEW(&arena, unsigned char, out.png.row_bytes * (size_t)out.png.height);
+    rows = ARENA_NEW(&arena, unsigned char, 4 * (size_t)out.png.width * (size_t)out.png.height);
     assert_true(plain_png_read(&out.png, rows));
     out.rows = rows;
     return out;
@@ -407,8 +407,7 @@ static void assert_red_at(const Cells *cells, int column, int row)
 {
     for (int y = 0; y < cells->png.height; y++)
         for (int x = 0; x < cells->png.width; x++) {
-            const unsigned char *c = cells->rows + (size_t)y * cells->png.row_bytes +
-                                     (size_t)(x * cells->png.channels);
+            const unsigned char *c = cells->rows + 4 * (y * cells->png.width + x);
             assert_int_equal(c[0] > c[2], x == column && y == row);
         }
 }
