@@ -66,9 +66,11 @@ static Wave wave_in(const ThinMedium *medium, double along2, double nm)
     wave.square = index * index;
     wave.normal = root_inwards(wave.square - along2);
     if (square_of(wave.normal) < 1e-18) wave.normal = 1e-9;
+    wave.phase = 1;
+    if (!(medium->thickness_nm > 0)) return wave; /* what lies outside of all layers */
     double turns = 2 * PI * medium->thickness_nm / nm;
-    double angle = turns * creal(wave.normal);
-    wave.phase = exp_d(-turns * cimag(wave.normal)) * (cos_d(angle) + sin_d(angle) * I);
+    double angle = turns * creal(wave.normal), fall = turns * cimag(wave.normal);
+    wave.phase = (fall != 0 ? exp_d(-fall) : 1) * (cos_d(angle) + sin_d(angle) * I);
     return wave;
 }
 
