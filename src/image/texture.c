@@ -217,13 +217,31 @@ void texture_codes(const Texture *texture, float u, float v, float rgb[3])
     for (size_t c = 0; c < 3; c++) rgb[c] = code_of(image, at + c);
 }
 
-void texture_whole_codes(const Texture *texture, const Vec2 *uv, int count, uint8_t (*rgb)[3])
+/* The wrapping is chosen outside of the loops, which many coordinates share. */
+static void texels_at(const float *u, int count, int size, TextureWrap wrap, int *texel)
 {
-    const Image  *image = &texture->image;
-    TextureWrap   wrap_u = texture->wrap_u, wrap_v = texture->wrap_v;
+    switch (wrap) {
+    case WRAP_REPEAT:
+        for (int i = 0; i < count; i++) texel[i] = texel_at(u[i], size, WRAP_REPEAT);
+        break;
+    case WRAP_MIRROR:
+        for (int i = 0; i < count; i++) texel[i] = texel_at(u[i], size, WRAP_MIRROR);
+        break;
+    case WRAP_CLAMP:
+        for (int i = 0; i < count; i++) texel[i] = texel_at(u[i], size, WRAP_CLAMP);
+        break;
+    }
+}
+
+void texture_whole_codes(const Texture *texture, const float *u, const float *v, int count,
+                         uint8_t (*rgb)[3])
+{
+    const Image *image = &texture->image;
+    int x[TEXTURE_AT_ONCE], y[TEXTURE_AT_ONCE];
+    texels_at(u, count, image->width, texture->wrap_u, x);
+    texels_at(v, count, image->height, texture->wrap_v, y);
     for (int i = 0; i < count; i++) {
-        size_t at = offset_of(image, texel_at(uv[i].x, image->width, wrap_u),
-                              texel_at(uv[i].y, image->height, wrap_v));
+        size_t at = offset_of(image, x[i], y[i]);
         if (image->format == IMAGE_RGBA8)
             memcpy(rgb[i], (const uint8_t *)image->pixels + at, 3);
         else

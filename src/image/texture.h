@@ -29,5 +29,8 @@ void texture_colour(const Texture *texture, float u, float v, float rgba[4]);
  * a display shows there. */
 void texture_codes(const Texture *texture, float u, float v, float rgb[3]);
 
-/* Those of many places at once, rounded to whole codes. */
-void texture_whole_codes(const Texture *texture, const Vec2 *uv, int count, uint8_t (*rgb)[3]);
+#define TEXTURE_AT_ONCE 128
+
+/* Those of many places at once, at most TEXTURE_AT_ONCE, rounded to whole codes. */
+void texture_whole_codes(const Texture *texture, const float *u, const float *v, int count,
+                         uint8_t (*rgb)[3]);

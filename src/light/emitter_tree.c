@@ -8,17 +8,28 @@
 #include "panel/query/panel_emission.h"
 
 #define PROFILE_CODES 8  /* of the content, whose directions are averaged */
-#define LEAF_CELLS 8     /* pieces of one picture need no branches of their own */
+#define LEAF_CELLS 64    /* pieces of one picture need no branches of their own */
 #define FINE_SIDE 16     /* a triangle in so many pieces a side shows a picture */
+#define BLOCK_SIDE 4     /* of such a triangle's cells, so many a side stay together */
 #define FLAT 0.999998    /* the least cosine between a flat branch's normals and their mean */
 #define FAR 0.01         /* mean square extent over square distance of a branch that is far */
 #define FAR_RADIUS 0.2   /* of the square radius, which counts at least as extent there */
 #define FOCUSED 0.95     /* only branches whose cells all face about one way are ever far */
 #define DEEPEST 24       /* levels; cells at one place are not split for ever */
 
-/* A branch while it is made: cells order[first .. first + count - 1]. */
+/* Neighbouring cells of one emitter, or one cell: what is sorted into branches. */
+typedef struct CellBlock {
+    uint32_t first, count; /* in TreeWork.cells */
+    uint32_t emitter;
+    float    middle[3];
+    float    reach;        /* m: no point of its cells is farther from the middle */
+    double   power, moment[3], square[3]; /* sums of weight, weight x and weight x^2 */
+} CellBlock;
+
+/* A branch while it is made: blocks order[first .. first + count - 1]. */
 typedef struct Gathering {
     uint32_t first, count;
+    uint32_t rank, cells; /* of the first of its cells; how many */
     int      part_id; /* NO_ID: of several */
     bool     is_done; /* cannot be split */
     double   power, centre[3], normal[3];
@@ -42,9 +53,11 @@ typedef struct TreeWork {
     Emitters       *emitters;
     Arena          *arena;
     const double   *weight;
-    uint32_t       *order;
     EmitterFacts   *facts; /* of every emitter */
-    float         (*position)[3]; /* of every cell's centroid */
+    uint32_t       *cells; /* block by block */
+    CellBlock      *blocks;
+    uint32_t        block_count;
+    uint32_t       *order; /* of blocks */
     float         (*part_centre)[3];
     const EmitterProfile **profile; /* of every part that is a display, once asked for */
 } TreeWork;
@@ -60,14 +73,14 @@ static const Emitter *emitter_of(const TreeWork *work, uint32_t cell)
     return &work->emitters->emitters[work->emitters->cell_emitter[cell]];
 }
 
-static const EmitterFacts *facts_of(const TreeWork *work, uint32_t cell)
+static const CellBlock *block_at(const TreeWork *work, uint32_t place)
 {
-    return &work->facts[work->emitters->cell_emitter[cell]];
+    return &work->blocks[work->order[place]];
 }
 
-static int part_id_of(const TreeWork *work, uint32_t cell)
+static const EmitterFacts *facts_of(const TreeWork *work, const CellBlock *block)
 {
-    return facts_of(work, cell)->part_id;
+    return &work->facts[block->emitter];
 }
 
 static const Material *material_of(const TreeWork *work, int part_id)
@@ -82,16 +95,6 @@ static TrianglePoint cell_point(const TreeWork *work, uint32_t cell)
     float inside = at.is_turned ? 2 / 3.0f : 1 / 3.0f, step = 1 / (float)at.side;
     return triangle_point(work->scene, e->triangle, ((float)at.i + inside) * step,
                           ((float)at.j + inside) * step);
-}
-
-/* The middle of a cell, as cell_point has it. */
-static Vec3 cell_position(const TreeWork *work, uint32_t cell)
-{
-    const Emitter *e = emitter_of(work, cell);
-    EmitterCell at = emitter_cell(e, cell);
-    float inside = at.is_turned ? 2 / 3.0f : 1 / 3.0f, step = 1 / (float)at.side;
-    return triangle_position(work->scene, e->triangle, ((float)at.i + inside) * step,
-                             ((float)at.j + inside) * step);
 }
 
 static EmitterFacts facts_about(const TreeWork *work, const Emitter *e)
@@ -113,21 +116,93 @@ static EmitterFacts facts_about(const TreeWork *work, const Emitter *e)
     return facts;
 }
 
-/* Sets the centroids of cells, and of parts weighted by power. */
-static void find_positions(TreeWork *work)
+/* ---- blocks ------------------------------------------------------------------------------ */
+
+/* Takes on the cell in column i, row j, whose middle is as cell_point has it. */
+static void add_cell(TreeWork *work, const Emitter *e, int i, int j, bool is_turned,
+                     CellBlock *block)
+{
+    uint32_t cell = e->first_cell + (uint32_t)(2 * e->side * i - i * i + 2 * j + is_turned);
+    float    inside = is_turned ? 2 / 3.0f : 1 / 3.0f, step = 1 / (float)e->side;
+    Vec3     at = triangle_position(work->scene, e->triangle, ((float)i + inside) * step,
+                                    ((float)j + inside) * step);
+    const float p[3] = {at.x, at.y, at.z};
+    double      w = work->weight[cell];
+    work->cells[block->first + block->count++] = cell;
+    block->power += w;
+    for (int k = 0; k < 3; k++) {
+        block->middle[k] += p[k];
+        block->moment[k] += w * (double)p[k];
+        block->square[k] += w * (double)p[k] * (double)p[k];
+    }
+}
+
+static CellBlock *start_block(TreeWork *work, const Emitter *e, float reach_edges)
+{
+    uint32_t   id = work->block_count++;
+    CellBlock *block = &work->blocks[id];
+    uint32_t   first = id ? block[-1].first + block[-1].count : 0;
+    *block = (CellBlock){.first = first, .emitter = (uint32_t)(e - work->emitters->emitters)};
+    block->reach = work->facts[block->emitter].edge * reach_edges;
+    return block;
+}
+
+/* BLOCK_SIDE columns from i on and rows from j on, as far as there are any. Together they are
+ * convex, so that no point is farther from their centroid than two thirds of their diameter,
+ * which is twice as many edges as BLOCK_SIDE at most. */
+static void add_block(TreeWork *work, const Emitter *e, int i, int j)
+{
+    CellBlock *block = start_block(work, e, 4 / 3.0f * BLOCK_SIDE);
+    for (int a = i; a < i + BLOCK_SIDE && a < e->side; a++)
+        for (int b = j; b < j + BLOCK_SIDE && a + b < e->side; b++)
+            for (int turned = 0; turned < (a + b < e->side - 1 ? 2 : 1); turned++)
+                add_cell(work, e, a, b, turned, block);
+    for (int k = 0; k < 3; k++) block->middle[k] /= (float)block->count;
+}
+
+/* No corner is as far as an edge from a cell's middle. */
+static void add_single_cells(TreeWork *work, const Emitter *e)
+{
+    for (uint32_t c = e->first_cell; c < e->first_cell + (uint32_t)(e->side * e->side); c++) {
+        EmitterCell at = emitter_cell(e, c);
+        add_cell(work, e, at.i, at.j, at.is_turned, start_block(work, e, 1));
+    }
+}
+
+static size_t count_blocks(const Emitters *emitters)
+{
+    size_t count = 0;
+    for (int n = 0; n < emitters->count; n++) {
+        size_t side = (size_t)emitters->emitters[n].side;
+        size_t rows = side < FINE_SIDE ? side : (side + BLOCK_SIDE - 1) / BLOCK_SIDE;
+        count += side < FINE_SIDE ? side * side : rows * (rows + 1) / 2;
+    }
+    return count;
+}
+
+/* Makes all blocks, and the centres of parts, weighted by power. */
+static void make_blocks(TreeWork *work)
 {
     double *power = ARENA_NEW(work->arena, double, work->scene->part_count + 1);
-    for (uint32_t c = 0; c < work->emitters->cell_count; c++) {
-        Vec3 p = cell_position(work, c);
-        int  part_id = part_id_of(work, c);
-        work->position[c][0] = p.x;
-        work->position[c][1] = p.y;
-        work->position[c][2] = p.z;
-        power[part_id] += work->weight[c];
-        float share = power[part_id] > 0 ? (float)(work->weight[c] / power[part_id]) : 0;
+    for (int n = 0; n < work->emitters->count; n++) {
+        const Emitter *e = &work->emitters->emitters[n];
+        if (e->side < FINE_SIDE) {
+            add_single_cells(work, e);
+            continue;
+        }
+        for (int i = 0; i < e->side; i += BLOCK_SIDE)
+            for (int j = 0; i + j < e->side; j += BLOCK_SIDE)
+                add_block(work, e, i, j);
+    }
+    for (uint32_t i = 0; i < work->block_count; i++) {
+        const CellBlock *block = &work->blocks[i];
+        int part_id = facts_of(work, block)->part_id;
+        work->order[i] = i;
+        power[part_id] += block->power;
+        float share = power[part_id] > 0 ? (float)(block->power / power[part_id]) : 0;
         for (int k = 0; k < 3; k++)
             work->part_centre[part_id][k] +=
-                share * (work->position[c][k] - work->part_centre[part_id][k]);
+                share * (block->middle[k] - work->part_centre[part_id][k]);
     }
 }
 
@@ -136,22 +211,23 @@ static void measure(const TreeWork *work, Gathering *g)
 {
     double squares[3] = {0};
     g->power = g->spread2 = g->within2 = 0;
+    g->cells = 0;
     for (int k = 0; k < 3; k++) g->centre[k] = g->normal[k] = 0;
-    g->part_id = part_id_of(work, work->order[g->first]);
+    g->part_id = facts_of(work, block_at(work, g->first))->part_id;
     for (uint32_t i = 0; i < g->count; i++) {
-        uint32_t cell = work->order[g->first + i];
-        double   w = work->weight[cell];
-        const EmitterFacts *facts = facts_of(work, cell);
+        const CellBlock *block = block_at(work, g->first + i);
+        double           w = block->power;
+        const EmitterFacts *facts = facts_of(work, block);
         const double normal[3] = {(double)facts->normal.x, (double)facts->normal.y,
                                   (double)facts->normal.z};
         if (facts->part_id != g->part_id) g->part_id = NO_ID;
         g->power += w;
+        g->cells += block->count;
         g->within2 += w * (double)facts->within2;
         for (int k = 0; k < 3; k++) {
-            double p = (double)work->position[cell][k];
-            g->centre[k] += w * p;
+            g->centre[k] += block->moment[k];
             g->normal[k] += w * normal[k];
-            squares[k] += w * p * p;
+            squares[k] += block->square[k];
         }
     }
     if (!(g->power > 0)) return;
@@ -168,20 +244,20 @@ static void measure(const TreeWork *work, Gathering *g)
 
 /* ---- which branches ---------------------------------------------------------------------- */
 
-/* Sorts the cells below the centre along the longest axis to the front; returns how many.
+/* Sorts the blocks below the centre along the longest axis to the front; returns how many.
  * by_parts: displays are kept whole, since the directions of a branch are those of one. */
 static uint32_t divide(TreeWork *work, const Gathering *g, bool by_parts)
 {
     uint32_t *order = work->order + g->first, below = 0;
     double    centre = g->centre[g->longest];
     for (uint32_t i = 0; i < g->count; i++) {
-        uint32_t     cell = order[i];
-        const float *at = work->position[cell];
-        if (by_parts && facts_of(work, cell)->is_display)
-            at = work->part_centre[part_id_of(work, cell)];
+        uint32_t            id = order[i];
+        const float        *at = work->blocks[id].middle;
+        const EmitterFacts *facts = facts_of(work, &work->blocks[id]);
+        if (by_parts && facts->is_display) at = work->part_centre[facts->part_id];
         if (!((double)at[g->longest] < centre)) continue;
         order[i] = order[below];
-        order[below++] = cell;
+        order[below++] = id;
     }
     return below;
 }
@@ -280,24 +356,25 @@ static const EmitterProfile *profile_of(const TreeWork *work, int part_id)
     return profile;
 }
 
-/* The display's frame at the cell nearest to the branch's centre. */
+/* The display's frame in the block nearest to the branch's centre. */
 static Frame display_frame_of(const TreeWork *work, const Gathering *g)
 {
     const Material *material = material_of(work, g->part_id);
-    uint32_t nearest = work->order[g->first];
-    double   least = INFINITY;
+    const CellBlock *nearest = block_at(work, g->first);
+    double           least = INFINITY;
     for (uint32_t i = 0; i < g->count; i++) {
-        uint32_t cell = work->order[g->first + i];
-        double   d2 = 0;
+        const CellBlock *block = block_at(work, g->first + i);
+        double           d2 = 0;
         for (int k = 0; k < 3; k++)
-            d2 += ((double)work->position[cell][k] - g->centre[k]) *
-                  ((double)work->position[cell][k] - g->centre[k]);
-        if (d2 < least) nearest = cell;
+            d2 += ((double)block->middle[k] - g->centre[k]) *
+                  ((double)block->middle[k] - g->centre[k]);
+        if (d2 < least) nearest = block;
         if (d2 < least) least = d2;
     }
-    TrianglePoint point = cell_point(work, nearest);
+    uint32_t      cell = work->cells[nearest->first + nearest->count / 2];
+    TrianglePoint point = cell_point(work, cell);
     return display_frame(work->scene, &work->scene->displays[material->display_id],
-                         emitter_of(work, nearest)->triangle, &point);
+                         emitter_of(work, cell)->triangle, &point);
 }
 
 /* ---- nodes ------------------------------------------------------------------------------- */
@@ -315,11 +392,11 @@ static Bounds bounds_of(const TreeWork *work, const Gathering *g, Vec3 centre, V
     Bounds   bounds = {.cosine = 1};
     float    reach = 0, size = 0;
     for (uint32_t i = 0; i < g->count; i++) {
-        uint32_t cell = work->order[g->first + i];
-        const EmitterFacts *facts = facts_of(work, cell);
-        const float *p = work->position[cell];
+        const CellBlock *block = block_at(work, g->first + i);
+        const EmitterFacts *facts = facts_of(work, block);
+        const float *p = block->middle;
         Vec3  off = vec3_sub(centre, vec3(p[0], p[1], p[2]));
-        float far = vec3_length(off) + facts->edge; /* corners are less than an edge away */
+        float far = vec3_length(off) + block->reach;
         float behind = vec3_dot(off, normal);
         float cosine = vec3_dot(facts->normal, normal);
         bounds.cosine = cosine < bounds.cosine ? cosine : bounds.cosine;
@@ -356,6 +433,11 @@ static void set_directions(const TreeWork *work, const Gathering *g, int i, Fram
     set_lane3(node->axis[2], i, frame.z);
 }
 
+static const Emitter *first_emitter(const TreeWork *work, const Gathering *g)
+{
+    return &work->emitters->emitters[block_at(work, g->first)->emitter];
+}
+
 static void finish_branch(const TreeWork *work, const Gathering *g, int i, EmitterNode *node)
 {
     Vec3   centre = vec3((float)g->centre[0], (float)g->centre[1], (float)g->centre[2]);
@@ -372,10 +454,9 @@ static void finish_branch(const TreeWork *work, const Gathering *g, int i, Emitt
     node->power[i] = (float)g->power;
     node->focus[i] = fminf(1, length);
     node->both_sides[i] = bounds.both_sides ? -1 : 0;
-    node->first[i] = g->first;
-    if (g->count == 1)
-        node->large2[i] =
-            emitter_of(work, work->order[g->first])->cell_area * (1 / EMITTER_LARGE);
+    node->first[i] = g->rank;
+    if (g->cells == 1)
+        node->large2[i] = first_emitter(work, g)->cell_area * (1 / EMITTER_LARGE);
     double extent2 = fmax(g->spread2 + g->within2,
                           FAR_RADIUS * (double)(bounds.radius * bounds.radius));
     node->far2[i] = (double)bounds.cosine > FOCUSED ? (float)(extent2 / FAR) : INFINITY;
@@ -385,14 +466,13 @@ static void finish_branch(const TreeWork *work, const Gathering *g, int i, Emitt
 static bool is_leaf(const TreeWork *work, const Gathering *g)
 {
     const double  *n = g->normal;
-    const Emitter *first = emitter_of(work, work->order[g->first]);
-    uint32_t       most = first->side >= FINE_SIDE ? LEAF_CELLS : 1;
+    uint32_t       most = first_emitter(work, g)->side >= FINE_SIDE ? LEAF_CELLS : 1;
     return g->count == 1 || !(g->spread2 > 0) ||
-           (g->count <= most && g->part_id != NO_ID &&
+           (g->cells <= most && g->part_id != NO_ID &&
             n[0] * n[0] + n[1] * n[1] + n[2] * n[2] > FLAT);
 }
 
-/* Cells order[first ..] become a node; later its branches become nodes of their own. */
+/* Blocks order[first ..] become a node; later its branches become nodes of their own. */
 static EmitterNode *build_node(TreeWork *work, Gathering whole, int level)
 {
     EmitterNode *node = ARENA_NEW(work->arena, EmitterNode, 1);
@@ -401,7 +481,8 @@ static EmitterNode *build_node(TreeWork *work, Gathering whole, int level)
     qsort(branches.of, (size_t)branches.count, sizeof *branches.of, by_first);
     node->count = branches.count;
     for (int i = 0; i < branches.count; i++) {
-        const Gathering *g = &branches.of[i];
+        Gathering *g = &branches.of[i];
+        g->rank = i ? g[-1].rank + g[-1].cells : whole.rank;
         finish_branch(work, g, i, node);
         if (branches.count > 1 && level < DEEPEST && !is_leaf(work, g))
             node->child[i] = build_node(work, *g, level + 1);
@@ -428,26 +509,31 @@ void emitter_tree_build(const Scene *scene, const double *weight, Arena *arena,
     uint32_t cells = emitters->cell_count;
     TreeWork work = {.scene = scene, .emitters = emitters, .arena = arena, .weight = weight};
     double  *by_rank = ARENA_NEW(arena, double, cells);
-    work.order = ARENA_NEW(arena, uint32_t, cells);
-    work.position = (float(*)[3])ARENA_NEW(arena, float, 3 * (size_t)cells);
+    uint32_t rank = 0;
+    work.cells = ARENA_NEW(arena, uint32_t, cells);
     work.part_centre =
         (float(*)[3])ARENA_NEW(arena, float, 3 * ((size_t)scene->part_count + 1));
     work.profile = ARENA_NEW(arena, const EmitterProfile *, scene->part_count + 1);
     emitters->cell_rank = ARENA_NEW(arena, uint32_t, cells);
     emitters->by_rank = ARENA_NEW(arena, EmitterChoice, cells);
-    for (uint32_t c = 0; c < cells; c++) work.order[c] = c;
     work.facts = ARENA_NEW(arena, EmitterFacts, emitters->count);
     for (int e = 0; e < emitters->count; e++)
         work.facts[e] = facts_about(&work, &emitters->emitters[e]);
-    find_positions(&work);
-    Gathering all = {.first = 0, .count = cells};
+    size_t blocks = count_blocks(emitters);
+    work.blocks = ARENA_NEW(arena, CellBlock, blocks);
+    work.order = ARENA_NEW(arena, uint32_t, blocks);
+    make_blocks(&work);
+    Gathering all = {.first = 0, .count = work.block_count};
     measure(&work, &all);
     emitters->root = build_node(&work, all, 0);
-    for (uint32_t r = 0; r < cells; r++) {
-        uint32_t cell = work.order[r];
-        by_rank[r] = weight[cell];
-        emitters->cell_rank[cell] = r;
-        emitters->by_rank[r] = (EmitterChoice){cell, emitters->cell_emitter[cell]};
+    for (uint32_t i = 0; i < work.block_count; i++) {
+        const CellBlock *block = block_at(&work, i);
+        for (uint32_t c = block->first; c < block->first + block->count; c++, rank++) {
+            uint32_t cell = work.cells[c];
+            by_rank[rank] = weight[cell];
+            emitters->cell_rank[cell] = rank;
+            emitters->by_rank[rank] = (EmitterChoice){cell, emitters->cell_emitter[cell]};
+        }
     }
     finish_choices(emitters->root, cells, by_rank, arena);
 }

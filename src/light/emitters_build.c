@@ -12,7 +12,8 @@
 #define CELLS_OF_DISPLAY 256 /* without content: its directions change across it */
 #define CELLS_OF_PLAIN 8
 #define POINTS_LEAST 16 /* a cell, at which the light of a picture is read */
-#define POINTS_MAX 128
+#define POINTS_MAX TEXTURE_AT_ONCE
+#define POINTS_STEP 16 /* that are placed together: a fixed number is fast */
 #define FLOOR_SHARE 0.02 /* of the part's mean, so that no lit texel is impossible */
 #define SIDE_MAX 512
 
@@ -33,18 +34,23 @@ static void fill_codes(const Display *display, CodeTable *table)
         }
 }
 
+/* Points of a cell, or of a texture. */
+typedef struct PointList {
+    float u[POINTS_MAX], v[POINTS_MAX];
+} PointList;
+
 /* How the light of one part is read. */
 typedef struct EmissionReader {
     const Scene       *scene;
     const Material    *material;
     const TextureSlot *slot; /* texture_id NO_ID: the same everywhere */
     CodeTable         *codes;
-    const Vec2        *lattice; /* POINTS_MAX of a cell */
+    const PointList   *lattice; /* barycentric weights in a cell */
     double             plain; /* luminance where the slot has no texture */
 } EmissionReader;
 
 static EmissionReader reader_of(const Scene *scene, const Material *material,
-                                const Vec2 *lattice, CodeTable *codes)
+                                const PointList *lattice, CodeTable *codes)
 {
     EmissionReader reader = {.scene = scene, .material = material, .codes = codes,
                              .lattice = lattice};
@@ -70,12 +76,13 @@ static double sum_plain(const EmissionReader *reader, int points)
     return squares;
 }
 
-static double sum_content(const EmissionReader *reader, const Vec2 *uv, int points)
+static double sum_content(const EmissionReader *reader, const PointList *at, int points)
 {
     uint8_t          code[POINTS_MAX][3];
     const CodeTable *table = reader->codes;
     double           squares = 0;
-    texture_whole_codes(&reader->scene->textures[reader->slot->texture_id], uv, points, code);
+    texture_whole_codes(&reader->scene->textures[reader->slot->texture_id], at->u, at->v,
+                        points, code);
     for (int k = 0; k < points; k++) {
         float l = table->dark;
         for (int i = 0; i < 3; i++) l += table->added[i][code[k][i]];
@@ -84,14 +91,14 @@ static double sum_content(const EmissionReader *reader, const Vec2 *uv, int poin
     return squares;
 }
 
-static double sum_emissive(const EmissionReader *reader, const Vec2 *uv, int points)
+static double sum_emissive(const EmissionReader *reader, const PointList *at, int points)
 {
     const Material *m = reader->material;
     const float    *factor = m->unlit ? m->base_color : m->emissive_cd_m2;
     double          squares = 0;
     for (int k = 0; k < points; k++) {
         float texel[4];
-        texture_colour(&reader->scene->textures[reader->slot->texture_id], uv[k].x, uv[k].y,
+        texture_colour(&reader->scene->textures[reader->slot->texture_id], at->u[k], at->v[k],
                        texel);
         for (int i = 0; i < 3; i++) texel[i] *= factor[i];
         double l = (double)luminance_from_rgb(texel);
@@ -101,11 +108,11 @@ static double sum_emissive(const EmissionReader *reader, const Vec2 *uv, int poi
 }
 
 /* Sum of the squared luminances at points of the texture. */
-static double sum_squares(const EmissionReader *reader, const Vec2 *uv, int points)
+static double sum_squares(const EmissionReader *reader, const PointList *at, int points)
 {
     if (reader->slot->texture_id == NO_ID) return sum_plain(reader, points);
-    if (reader->material->display_id != NO_ID) return sum_content(reader, uv, points);
-    return sum_emissive(reader, uv, points);
+    if (reader->material->display_id != NO_ID) return sum_content(reader, at, points);
+    return sum_emissive(reader, at, points);
 }
 
 static double triangle_area(const Scene *scene, uint32_t triangle)
@@ -144,23 +151,31 @@ static Vec2 lattice_point(int i)
     return a + b > 1 ? (Vec2){(float)(1 - a), (float)(1 - b)} : (Vec2){(float)a, (float)b};
 }
 
+/* Points first .. first + POINTS_STEP - 1 of a cell in the texture. */
+static void place_points(const EmissionReader *reader, const Corner *corner,
+                         const EmitterCell *cell, int first, PointList *at)
+{
+    const Vec2   origin = corner->at, du = corner->along_u, dv = corner->along_v;
+    const float *x = reader->lattice->u + first, *y = reader->lattice->v + first;
+    const float  step = 1 / (float)cell->side, i = (float)cell->i, j = (float)cell->j;
+    for (int k = 0; k < POINTS_STEP; k++) {
+        float a = cell->is_turned ? 1 - x[k] : x[k], b = cell->is_turned ? 1 - y[k] : y[k];
+        float u = (i + a) * step, v = (j + b) * step;
+        at->u[first + k] = origin.x + u * du.x + v * dv.x;
+        at->v[first + k] = origin.y + u * du.y + v * dv.y;
+    }
+}
+
 /* Root of the mean square luminance of a cell whose lower corner is at column i, row j. */
 static double cell_luminance(const EmissionReader *reader, const Corner *corner,
                              const EmitterCell *cell, int points)
 {
-    Vec2  uv[POINTS_MAX];
-    float step = 1 / (float)cell->side;
-    for (int k = 0; k < points; k++) {
-        Vec2  p = reader->lattice[k];
-        float a = cell->is_turned ? 1 - p.x : p.x, b = cell->is_turned ? 1 - p.y : p.y;
-        float u = ((float)cell->i + a) * step, v = ((float)cell->j + b) * step;
-        uv[k] = (Vec2){corner->at.x + u * corner->along_u.x + v * corner->along_v.x,
-                       corner->at.y + u * corner->along_u.y + v * corner->along_v.y};
-    }
-    return sqrt(sum_squares(reader, uv, points) / points);
+    PointList at;
+    for (int k = 0; k < points; k += POINTS_STEP) place_points(reader, corner, cell, k, &at);
+    return sqrt(sum_squares(reader, &at, points) / points);
 }
 
-/* Points a cell, about two a texel. */
+/* Points a cell, about one a texel. */
 static int points_of(const EmissionReader *reader, const Corner *corner, int side)
 {
     if (reader->slot->texture_id == NO_ID) return 1;
@@ -168,7 +183,7 @@ static int points_of(const EmissionReader *reader, const Corner *corner, int sid
     double cross = fabs((double)(corner->along_u.x * corner->along_v.y -
                                  corner->along_u.y * corner->along_v.x));
     double texels = 0.5 * cross * image->width * image->height / ((double)side * side);
-    return (int)fmin(POINTS_MAX, fmax(POINTS_LEAST, ceil(2 * texels)));
+    return (int)fmin(POINTS_MAX, fmax(POINTS_LEAST, ceil(texels)));
 }
 
 /* Luminances of an emitter's cells, in order. */
@@ -227,7 +242,7 @@ static void cut_part(const Scene *scene, int part_id, Emitters *emitters)
     }
 }
 
-static void read_part(const Scene *scene, int part_id, const Vec2 *lattice,
+static void read_part(const Scene *scene, int part_id, const PointList *lattice,
                       const Emitters *emitters, double *weight)
 {
     const Part *part = &scene->parts[part_id];
@@ -260,7 +275,7 @@ static void read_part(const Scene *scene, int part_id, const Vec2 *lattice,
 Emitters emitters_build(const Scene *scene, Arena *arena)
 {
     Emitters emitters = {0};
-    Vec2     lattice[POINTS_MAX];
+    PointList lattice;
     double   total = 0;
     emitters.count = list_emitters(scene, &emitters, arena);
     if (!emitters.count) return emitters;
@@ -268,7 +283,11 @@ Emitters emitters_build(const Scene *scene, Arena *arena)
     for (int p = 0; p < scene->part_count; p++)
         if (emitters.first_of_part[p] != NO_ID) cut_part(scene, p, &emitters);
     double *weight = ARENA_NEW(arena, double, emitters.cell_count);
-    for (int i = 0; i < POINTS_MAX; i++) lattice[i] = lattice_point(i);
+    for (int i = 0; i < POINTS_MAX; i++) {
+        Vec2 point = lattice_point(i);
+        lattice.u[i] = point.x;
+        lattice.v[i] = point.y;
+    }
     emitters.cell_emitter = ARENA_NEW(arena, uint32_t, emitters.cell_count);
     for (int i = 0; i < emitters.count; i++) {
         const Emitter *e = &emitters.emitters[i];
@@ -276,7 +295,8 @@ Emitters emitters_build(const Scene *scene, Arena *arena)
             emitters.cell_emitter[e->first_cell + (uint32_t)c] = (uint32_t)i;
     }
     for (int p = 0; p < scene->part_count; p++)
-        if (emitters.first_of_part[p] != NO_ID) read_part(scene, p, lattice, &emitters, weight);
+        if (emitters.first_of_part[p] != NO_ID)
+            read_part(scene, p, &lattice, &emitters, weight);
     for (uint32_t c = 0; c < emitters.cell_count; c++) total += weight[c];
     if (!(total > 0)) return (Emitters){.first_of_part = emitters.first_of_part};
     emitter_tree_build(scene, weight, arena, &emitters);

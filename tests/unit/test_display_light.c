@@ -143,6 +143,58 @@ TEST(displays_are_chosen_by_angle_and_by_content)
     }
 }
 
+/* Cells of a branch are ranks up to `end`, and no corner of them lies beyond its radius. */
+static void assert_bounds_cells(const Scene *scene, const Emitters *emitters,
+                                const EmitterNode *node, int i, uint32_t end)
+{
+    Vec3 centre = vec3(node->centre[0][i], node->centre[1][i], node->centre[2][i]);
+    for (uint32_t rank = node->first[i]; rank < end; rank++) {
+        EmitterChoice  chosen = emitters->by_rank[rank];
+        const Emitter *e = &emitters->emitters[chosen.emitter];
+        EmitterCell    at = emitter_cell(e, chosen.cell);
+        float          step = 1 / (float)at.side;
+        assert_int_equal(emitters->cell_rank[chosen.cell], rank);
+        assert_int_equal(emitters->cell_emitter[chosen.cell], chosen.emitter);
+        for (int k = 0; k < 3; k++) {
+            int  a = at.i + (at.is_turned ? k != 1 : k == 1);
+            int  b = at.j + (at.is_turned ? k != 2 : k == 2);
+            Vec3 p = triangle_position(scene, e->triangle, (float)a * step, (float)b * step);
+            assert_true(vec3_length(vec3_sub(p, centre)) <= node->radius[i]);
+        }
+    }
+}
+
+static int check_branches(const Scene *scene, const Emitters *emitters, const EmitterNode *node,
+                          uint32_t first, uint32_t end)
+{
+    int count = node->count;
+    assert_int_equal(node->first[0], first);
+    for (int i = 0; i < node->count; i++) {
+        uint32_t last = i + 1 < node->count ? node->first[i + 1] : end;
+        assert_int_equal(node->choice[i].count, last - node->first[i]);
+        assert_bounds_cells(scene, emitters, node, i, last);
+        if (node->child[i])
+            count += check_branches(scene, emitters, node->child[i], node->first[i], last);
+    }
+    return count;
+}
+
+/* The rim of a triangle cuts blocks of cells into odd shapes; sides of 128 cells and of 90. */
+TEST(every_branch_holds_its_cells_within_its_radius)
+{
+    Arena    arena = arena_reserve((size_t)1 << 30);
+    Scene   *scene = four_displays(&arena, true);
+    builder_part(scene, scene->materials[scene->displays[0].material_id]);
+    for (int i = 0; i < 2; i++)
+        builder_quad(scene, vec3(1, (float)i, 0), vec3(0.3f, 0.1f, 0), vec3(0.2f, 0.08f, 0));
+    Emitters emitters = emitters_build(scene, &arena);
+    int branches =
+        check_branches(scene, &emitters, emitters.root, 0, emitters.cell_count);
+    print_message("%u cells in %d branches\n", emitters.cell_count, branches);
+    assert_true(branches > 1000 && (uint32_t)branches < emitters.cell_count / 16);
+    arena_release(&arena);
+}
+
 /* Of one sample of illuminance at `to`: by the renderer's choice, or uniform on the display,
  * which is the scene's first two triangles. */
 static Estimate of_display(const Scene *scene, const Emitters *emitters, const LitPoint *to,
