@@ -4,6 +4,7 @@
 
 #include <math.h>
 
+#include "base/parallel.h"
 #include "light/emitter_tree.h"
 #include "panel/query/panel_emission.h"
 #include "spectrum/photometry.h"
@@ -272,10 +273,36 @@ static void read_part(const Scene *scene, int part_id, const PointList *lattice,
     }
 }
 
+typedef struct PartsReading {
+    const Scene    *scene;
+    const Emitters *emitters;
+    PointList       lattice;
+    double         *weight;
+} PartsReading;
+
+/* A part's weights are its own: the threads decide nothing. */
+static void read_one_part(void *user, int part_id, int worker)
+{
+    const PartsReading *r = user;
+    (void)worker;
+    if (r->emitters->first_of_part[part_id] != NO_ID)
+        read_part(r->scene, part_id, &r->lattice, r->emitters, r->weight);
+}
+
+static void read_parts(const Scene *scene, const Emitters *emitters, double *weight)
+{
+    PartsReading reading = {.scene = scene, .emitters = emitters, .weight = weight};
+    for (int i = 0; i < POINTS_MAX; i++) {
+        Vec2 point = lattice_point(i);
+        reading.lattice.u[i] = point.x;
+        reading.lattice.v[i] = point.y;
+    }
+    parallel_for(parallel_default_threads(), scene->part_count, read_one_part, &reading);
+}
+
 Emitters emitters_build(const Scene *scene, Arena *arena)
 {
     Emitters emitters = {0};
-    PointList lattice;
     double   total = 0;
     emitters.count = list_emitters(scene, &emitters, arena);
     if (!emitters.count) return emitters;
@@ -283,20 +310,13 @@ Emitters emitters_build(const Scene *scene, Arena *arena)
     for (int p = 0; p < scene->part_count; p++)
         if (emitters.first_of_part[p] != NO_ID) cut_part(scene, p, &emitters);
     double *weight = ARENA_NEW(arena, double, emitters.cell_count);
-    for (int i = 0; i < POINTS_MAX; i++) {
-        Vec2 point = lattice_point(i);
-        lattice.u[i] = point.x;
-        lattice.v[i] = point.y;
-    }
     emitters.cell_emitter = ARENA_NEW(arena, uint32_t, emitters.cell_count);
     for (int i = 0; i < emitters.count; i++) {
         const Emitter *e = &emitters.emitters[i];
         for (int c = 0; c < e->side * e->side; c++)
             emitters.cell_emitter[e->first_cell + (uint32_t)c] = (uint32_t)i;
     }
-    for (int p = 0; p < scene->part_count; p++)
-        if (emitters.first_of_part[p] != NO_ID)
-            read_part(scene, p, &lattice, &emitters, weight);
+    read_parts(scene, &emitters, weight);
     for (uint32_t c = 0; c < emitters.cell_count; c++) total += weight[c];
     if (!(total > 0)) return (Emitters){.first_of_part = emitters.first_of_part};
     emitter_tree_build(scene, weight, arena, &emitters);
