@@ -2,6 +2,7 @@
 #include "mirror/mirrors_build.h"
 
 #include "base/mathf.h"
+#include "base/parallel.h"
 #include "mirror/mirrors.h"
 
 #define BEND 0.16f        /* between normals of one patch's corners, at most */
@@ -9,6 +10,7 @@
 #define NEAR_M 1.0f       /* a mirror this large is as bad to bound as a bend of one radian */
 #define WIDEST 0.2f       /* cosine between a node's axis and normals that are bounded at all */
 #define BOUND_MOST 64     /* patches of a node whose normals are bounded one by one */
+#define LEAVES_TOGETHER 1024 /* that a thread makes at once */
 
 /* ---- patches ---------------------------------------------------------------------------- */
 
@@ -114,9 +116,18 @@ typedef struct MirrorBounds {
     float cosine;    /* of its half angle; below WIDEST: there is none */
 } MirrorBounds;
 
+/* What a tree's leaf is, whichever tree it stands in. */
+typedef struct MirrorLeaf {
+    MirrorNode   node;
+    MirrorBounds bounds;
+    Item         item;
+} MirrorLeaf;
+
+/* One tree while it is made. */
 typedef struct MirrorBuilder {
     const MirrorPatch *patches;
     const Vec3        *normals; /* unit, of the patches' three corners */
+    const MirrorLeaf  *leaves;  /* of the patches */
     Item              *items;
     MirrorNode        *nodes;
     uint32_t           node_count;
@@ -257,6 +268,23 @@ static void join_normals(const MirrorBounds half[2], MirrorBounds *bounds, Mirro
     set_planes(&frame, (float[2]){-slope, -slope}, (float[2]){slope, slope}, node);
 }
 
+static void set_ball(const MirrorBounds *bounds, MirrorNode *node)
+{
+    node->centre = halfway(bounds->low, bounds->high);
+    node->radius = 0.5f * vec3_length(vec3_sub(bounds->high, bounds->low));
+}
+
+static void make_leaf(const MirrorPatch *patches, const Vec3 *normals, uint32_t i,
+                      MirrorLeaf *leaf)
+{
+    leaf->item = item_of(patches, i);
+    leaf->node = (MirrorNode){.patch = i, .alpha = patches[i].alpha};
+    leaf->bounds = bounds_of(&patches[i].corners);
+    const MirrorBuilder alone = {.patches = patches, .normals = normals, .items = &leaf->item};
+    bound_normals(&alone, 0, 1, &leaf->node, &leaf->bounds);
+    set_ball(&leaf->bounds, &leaf->node);
+}
+
 static bool comes_before(const Item *a, const Item *b, int axis)
 {
     return a->key[axis] < b->key[axis] || (a->key[axis] == b->key[axis] && a->patch < b->patch);
@@ -326,43 +354,21 @@ static MirrorBounds build_node(MirrorBuilder *builder, uint32_t node_id, uint32_
                          uint32_t count)
 {
     MirrorNode *node = &builder->nodes[node_id];
-    const MirrorPatch *patch = &builder->patches[builder->items[first].patch];
+    const MirrorLeaf *leaf = &builder->leaves[builder->items[first].patch];
     MirrorBounds cone = {.cosine = -1}, bounds;
+    if (count == 1) {
+        *node = leaf->node;
+        return leaf->bounds;
+    }
     if (count <= BOUND_MOST) bound_normals(builder, first, count, node, &cone);
-    node->patch = builder->items[first].patch;
-    node->alpha = patch->alpha;
-    bounds = count > 1 ? build_halves(builder, node, first, count)
-                       : bounds_of(&patch->corners);
+    node->patch = leaf->node.patch;
+    bounds = build_halves(builder, node, first, count);
     if (count <= BOUND_MOST) {
         bounds.axis = cone.axis;
         bounds.cosine = cone.cosine;
     }
-    node->centre = halfway(bounds.low, bounds.high);
-    node->radius = 0.5f * vec3_length(vec3_sub(bounds.high, bounds.low));
+    set_ball(&bounds, node);
     return bounds;
-}
-
-/* One tree over the patches of a part's pairs. */
-static uint32_t build_tree(MirrorBuilder *builder, const MirrorPair *pairs, uint32_t count,
-                           const uint32_t *first)
-{
-    uint32_t items = 0, root = builder->node_count;
-    for (uint32_t i = 0; i < count; i++)
-        for (uint32_t k = first[pairs[i].triangle]; k < first[pairs[i].triangle + 1]; k++)
-            builder->items[items++] = item_of(builder->patches, k);
-    if (!items) return MIRROR_NO_TREE;
-    builder->node_count++;
-    build_node(builder, root, 0, items);
-    return root;
-}
-
-/* Nodes of all trees: twice their patches. */
-static size_t nodes_wanted(const MirrorPair *pairs, uint32_t count, const uint32_t *first)
-{
-    size_t patches = 0;
-    for (uint32_t i = 0; i < count; i++)
-        patches += first[pairs[i].triangle + 1] - first[pairs[i].triangle];
-    return 2 * patches;
 }
 
 static const Vec3 *unit_normals(const MirrorPatch *patches, uint32_t count, Arena *arena)
@@ -374,30 +380,94 @@ static const Vec3 *unit_normals(const MirrorPatch *patches, uint32_t count, Aren
     return normals;
 }
 
-static void build_trees(const Scene *scene, Mirrors *mirrors, const uint32_t *first,
-                        uint32_t patch_count, Arena *arena)
+/* A tree is one over the patches of a part's pairs; all of them stand one after the other. */
+typedef struct TreePlan {
+    const MirrorPair *pairs;
+    uint32_t          count;      /* of them */
+    uint32_t          first_item; /* twice as many nodes as items come before, at most */
+} TreePlan;
+
+typedef struct TreesWork {
+    const Mirrors  *mirrors;
+    const uint32_t *first; /* patch of a triangle */
+    const TreePlan *plans;
+    MirrorLeaf     *leaves;
+    const Vec3     *normals;
+    Item           *items;
+    MirrorNode     *nodes;
+    uint32_t       *roots;
+    uint32_t        patch_count;
+} TreesWork;
+
+static void make_some_leaves(void *user, int item, int worker)
 {
-    const MirrorPair *pairs = mirrors->pairs;
-    uint32_t *roots = ARENA_NEW(arena, uint32_t, 2 * (scene->part_count + 1));
-    size_t    most = nodes_wanted(pairs, mirrors->pair_count, first) + 1;
-    MirrorBuilder builder = {.patches = mirrors->patches,
-                             .nodes = ARENA_NEW(arena, MirrorNode, most)};
-    Arena     scratch = *arena;
-    builder.items = ARENA_NEW(&scratch, Item, patch_count);
-    builder.normals = unit_normals(mirrors->patches, patch_count, &scratch);
-    for (int i = 0; i < 2 * (scene->part_count + 1); i++) {
-        uint32_t count = 0, left = mirrors->pair_count - (uint32_t)(pairs - mirrors->pairs);
-        while (count < left && mirror_root(pairs[count].part_id, pairs[count].is_rough) == i)
-            count++;
-        roots[i] = build_tree(&builder, pairs, count, first);
-        pairs += count;
+    const TreesWork *work = user;
+    (void)worker;
+    for (uint32_t i = (uint32_t)item * LEAVES_TOGETHER;
+         i < ((uint32_t)item + 1) * LEAVES_TOGETHER && i < work->patch_count; i++)
+        make_leaf(work->mirrors->patches, work->normals, i, &work->leaves[i]);
+}
+
+static void build_tree(void *user, int tree, int worker)
+{
+    const TreesWork *work = user;
+    const TreePlan  *plan = &work->plans[tree];
+    uint32_t items = 0, root = 2 * plan->first_item;
+    MirrorBuilder builder = {.patches = work->mirrors->patches, .normals = work->normals,
+                             .leaves = work->leaves, .items = work->items + plan->first_item,
+                             .nodes = work->nodes, .node_count = root + 1};
+    (void)worker;
+    for (uint32_t i = 0; i < plan->count; i++) {
+        uint32_t triangle = plan->pairs[i].triangle;
+        for (uint32_t k = work->first[triangle]; k < work->first[triangle + 1]; k++)
+            builder.items[items++] = work->leaves[k].item;
     }
+    work->roots[tree] = items ? root : MIRROR_NO_TREE;
+    if (items) build_node(&builder, root, 0, items);
+}
+
+/* Returns the number of items of all trees. */
+static uint32_t plan_trees(const Mirrors *mirrors, const uint32_t *first, int trees,
+                           TreePlan *plans)
+{
+    uint32_t done = 0, items = 0;
+    for (int i = 0; i < trees; i++) {
+        const MirrorPair *pairs = mirrors->pairs + done;
+        uint32_t count = 0, left = mirrors->pair_count - done;
+        plans[i] = (TreePlan){.pairs = pairs, .first_item = items};
+        while (count < left && mirror_root(pairs[count].part_id, pairs[count].is_rough) == i) {
+            items += first[pairs[count].triangle + 1] - first[pairs[count].triangle];
+            count++;
+        }
+        plans[i].count = count;
+        done += count;
+    }
+    return items;
+}
+
+static void build_trees(const Scene *scene, Mirrors *mirrors, const uint32_t *first,
+                        uint32_t patch_count, int threads, Arena *arena)
+{
+    int       trees = 2 * (scene->part_count + 1);
+    uint32_t *roots = ARENA_NEW(arena, uint32_t, trees);
+    TreePlan *plans = ARENA_NEW(arena, TreePlan, trees);
+    uint32_t  items = plan_trees(mirrors, first, trees, plans);
+    MirrorNode *nodes = ARENA_NEW(arena, MirrorNode, 2 * (size_t)items + 1);
+    Arena     scratch = *arena;
+    TreesWork work = {.mirrors = mirrors, .first = first, .plans = plans, .nodes = nodes,
+                      .roots = roots, .patch_count = patch_count};
+    work.items = ARENA_NEW(&scratch, Item, items);
+    work.leaves = ARENA_NEW(&scratch, MirrorLeaf, patch_count);
+    work.normals = unit_normals(mirrors->patches, patch_count, &scratch);
+    parallel_for(threads, (int)((patch_count + LEAVES_TOGETHER - 1) / LEAVES_TOGETHER),
+                 make_some_leaves, &work);
+    parallel_for(threads, trees, build_tree, &work);
     mirrors->roots = roots;
-    mirrors->nodes = builder.nodes;
+    mirrors->nodes = nodes;
 }
 
 const Mirrors *mirrors_build(const Scene *scene, const MirrorPair *pairs, uint32_t count,
-                             Arena *arena)
+                             int threads, Arena *arena)
 {
     if (!count) return NULL;
     Mirrors    *mirrors = ARENA_NEW(arena, Mirrors, 1);
@@ -410,6 +480,6 @@ const Mirrors *mirrors_build(const Scene *scene, const MirrorPair *pairs, uint32
     }
     PatchList list = cut_patches(scene, is_used, first, arena);
     *mirrors = (Mirrors){.pairs = kept, .pair_count = count, .patches = list.patches};
-    build_trees(scene, mirrors, first, list.count, arena);
+    build_trees(scene, mirrors, first, list.count, threads, arena);
     return mirrors;
 }

@@ -307,8 +307,8 @@ MirrorBeams mirror_beams_build(const BeamTools *tools, const LightSelection *sel
     if (!beams.count) return (MirrorBeams){.mirrors = NULL};
     qsort(beams.pairs, beams.count, sizeof *beams.pairs, mirrors_compare_pairs);
     weigh_sides(&beams, selection, sides, *arena);
-    return (MirrorBeams){mirrors_build(tools->scene, beams.pairs, beams.count, arena), sides,
-                         map};
+    return (MirrorBeams){mirrors_build(tools->scene, beams.pairs, beams.count,
+                                       bvh_threads(tools->bvh), arena), sides, map};
 }
 
 float mirror_beams_prob(const MirrorBeams *beams, int part_id, bool is_back, Vec3 position)

@@ -122,7 +122,7 @@ static const Mirrors *all_mirrors(const Scene *scene, Arena *arena)
     MirrorPair *pairs = ARENA_NEW(arena, MirrorPair, scene->triangle_count);
     for (uint32_t i = 0; i < scene->triangle_count; i++)
         pairs[i] = (MirrorPair){NO_ID, false, i};
-    return mirrors_build(scene, pairs, scene->triangle_count, arena);
+    return mirrors_build(scene, pairs, scene->triangle_count, 2, arena);
 }
 
 static Sum ask(const Scene *scene, const Mirrors *mirrors, Vec3 from, Vec3 towards)
@@ -248,6 +248,41 @@ static double asked_nodes(int rings, uint32_t *triangles)
         sum += ask(scene, mirrors, from, random_direction(&at)).nodes;
     }
     return sum / 2000;
+}
+
+static void assert_same_trees(const Mirrors *a, const Mirrors *b, uint32_t node_a,
+                              uint32_t node_b)
+{
+    MirrorNode x = a->nodes[node_a], y = b->nodes[node_b];
+    uint32_t   child_a = x.children, child_b = y.children;
+    assert_int_equal(!child_a, !child_b);
+    x.children = y.children = 0;
+    assert_memory_equal(&x, &y, sizeof x);
+    for (uint32_t k = 0; child_a && k < 2; k++)
+        assert_same_trees(a, b, child_a + k, child_b + k);
+}
+
+/* Also where many parts ask for the same mirrors. */
+TEST(trees_do_not_depend_on_threads)
+{
+    ENDS_BY(arena_release) Arena arena = arena_reserve((size_t)1 << 28);
+    Scene *scene = builder_scene(&arena);
+    const uint32_t parts = 7;
+    builder_part(scene, builder_mirror(1));
+    builder_sphere(scene, vec3(0, 0, 0), 1, 16, 0);
+    uint32_t    count = scene->triangle_count;
+    MirrorPair *pairs = ARENA_NEW(&arena, MirrorPair, parts * count);
+    scene->part_count = (int)parts - 1; /* those that ask; part 0 is the mirror */
+    for (uint32_t i = 0; i < parts * count; i++)
+        pairs[i] = (MirrorPair){(int)(i / count) - 1, false, i % count};
+    const Mirrors *one = mirrors_build(scene, pairs, parts * count, 1, &arena);
+    const Mirrors *five = mirrors_build(scene, pairs, parts * count, 5, &arena);
+    for (int part = NO_ID; part < (int)parts - 1; part++) {
+        int root = mirror_root(part, false);
+        assert_true(one->roots[root] != MIRROR_NO_TREE);
+        assert_same_trees(one, five, one->roots[root], five->roots[root]);
+    }
+    assert_int_equal(one->roots[mirror_root(0, true)], MIRROR_NO_TREE);
 }
 
 TEST(a_hundred_times_the_triangles_take_at_most_twice_the_nodes)
