@@ -7,7 +7,7 @@
 #include "light/emission.h"
 #include "path/sheets.h"
 
-#define POINTS 64        /* of every side of a part, for every set */
+#define POINTS 32        /* of every side of a part, for every set */
 #define GENEROSITY 4.0f  /* a set with a quarter of a part's light is sampled at every hit */
 #define LEAST 0.1f       /* and none less often than this */
 #define TOGETHER 16      /* parts that a thread takes at once */

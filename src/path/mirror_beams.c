@@ -11,7 +11,8 @@
 #include "spectrum/photometry.h"
 
 #define LEAST_RAYS 8       /* to every mirror's triangle, and by its share of all their area: */
-#define RAYS_BY_AREA 100000
+#define RAYS_BY_AREA 25000
+#define DARK_RAYS 2        /* that do not get through, of a small mirror: it is left alone */
 #define FIRST_ROOM 1024    /* of pairs, of glints */
 #define SHEETS_PASSED 16   /* by one ray behind its mirror */
 #define GENEROSITY 0.2f    /* times the root of mirrored over other light, of one mirror */
@@ -35,6 +36,7 @@ typedef struct Beams {
     Glint           *glints;
     uint32_t         glint_count, glint_room;
     const BeamSide  *sides; /* as in MirrorBeams */
+    const Wavelengths *wavelengths; /* of all rays: what they bring is an estimate */
 } Beams;
 
 /* One ray of the sun behind its mirror. */
@@ -124,12 +126,11 @@ typedef struct Aim {
     double   ray_m2; /* that one ray stands for */
 } Aim;
 
-/* The sampler's numbers in turn: wavelengths, place, direction, facet. False: no sun comes to
- * the mirror there, or it goes nowhere. */
+/* The sampler's numbers in turn: two for nothing, place, direction, facet. False: no sun comes
+ * to the mirror there, or it goes nowhere. */
 static bool send_ray(Beams *beams, const Aim *aim, Sampler sampler)
 {
     const BeamTools *tools = beams->tools;
-    Wavelengths wavelengths;
     Surface     mirror;
     LightSample sun;
     float first[4], last[4];
@@ -148,10 +149,9 @@ static bool send_ray(Beams *beams, const Aim *aim, Sampler sampler)
     Vec3 origin = ray_offset_origin(point.position, point.ng, r);
     if (bvh_occluded(tools->bvh, (Ray){origin, sun.wi, 0, INFINITY}, sheets_let_pass, NULL))
         return false;
-    wavelengths_sample(first[0], &wavelengths);
-    surface_at(tools->scene, tools->tables, &hit, r, &wavelengths, &mirror);
+    surface_at(tools->scene, tools->tables, &hit, r, beams->wavelengths, &mirror);
     double lx = reflected_lx(tools->lights, &mirror, &sun, frame_to_local(&mirror.frame, r),
-                             &wavelengths);
+                             beams->wavelengths);
     if (!(lx > 0)) return false;
     follow(beams, (Beam){{origin, r, 0, INFINITY}, aim->triangle, aim->alpha > 0,
                          (float)(lx * aim->ray_m2)});
@@ -165,14 +165,14 @@ static double area_m2(const Scene *scene, uint32_t triangle)
     return 0.5 * (double)vec3_length(vec3_cross(vec3_sub(p[1], p[0]), vec3_sub(p[2], p[0])));
 }
 
-/* Sends more rays to large triangles; a small one that is dark at four well spread places is
+/* Sends more rays to large triangles; a small one that is dark at two well spread places is
  * left alone. all_m2: area of all mirrors. */
 static void send_rays(Beams *beams, Aim aim, double all_m2)
 {
     double   own = area_m2(beams->tools->scene, aim.triangle);
     uint32_t rays = LEAST_RAYS + (uint32_t)(RAYS_BY_AREA * own / all_m2), sent = 0;
     aim.ray_m2 = own / rays;
-    for (uint32_t k = 0; k < rays && (sent || k < LEAST_RAYS / 2 || rays > 2 * LEAST_RAYS); k++)
+    for (uint32_t k = 0; k < rays && (sent || k < DARK_RAYS || rays > 2 * LEAST_RAYS); k++)
         sent += send_ray(beams, &aim, sampler_start(aim.alpha > 0, (int)aim.triangle, 0, k));
 }
 
@@ -242,7 +242,8 @@ static void send_all_rays(Beams *beams, GlintMap *map, Arena *arena)
     for (int i = 0; i < threads; i++) work.arenas[i] = arena_reserve(WORKER_BYTES);
     work.aims = list_aims(beams->tools->scene, &work.count, &work.all_m2, &scratch);
     for (int p = 0; p < PIECES; p++)
-        pieces[p] = (Beams){.tools = beams->tools, .sides = beams->sides};
+        pieces[p] = (Beams){.tools = beams->tools, .sides = beams->sides,
+                            .wavelengths = beams->wavelengths};
     parallel_for(threads, PIECES, send_piece, &work);
     join_pieces(pieces, beams, map, arena);
     for (int i = 0; i < threads; i++) arena_release(&work.arenas[i]);
@@ -300,8 +301,10 @@ MirrorBeams mirror_beams_build(const BeamTools *tools, const LightSelection *sel
 {
     if (!lights_has(tools->lights, LIGHTS_SUN)) return (MirrorBeams){.mirrors = NULL};
     BeamSide *sides = ARENA_NEW(arena, BeamSide, 2 * ((size_t)tools->scene->part_count + 1));
-    Beams     beams = {.tools = tools, .sides = sides};
+    Wavelengths middle;
+    Beams     beams = {.tools = tools, .sides = sides, .wavelengths = &middle};
     GlintMap  map = {0};
+    wavelengths_sample(0.5f, &middle);
     measure_sides(tools->scene, sides);
     send_all_rays(&beams, &map, arena);
     if (!beams.count) return (MirrorBeams){.mirrors = NULL};
