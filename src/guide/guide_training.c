@@ -133,48 +133,56 @@ void guide_training_ask(GuideTraining *training, int round)
     }
 }
 
-/* Sum of the luminances that rays into a bin found, and the number of rays. */
+/* What rays into every bin found: sums of luminances, and numbers of rays. */
 typedef struct BinFinds {
-    double sum, count;
+    double sum[GUIDE_BINS], count[GUIDE_BINS];
 } BinFinds;
 
-static BinFinds finds_of(const GuideLesson *lesson, GuideAim aim, int bin)
+static void add_finds(const GuideLesson *lesson, GuideAim aim, BinFinds *finds)
 {
-    return (BinFinds){(double)lesson->sums[aim][bin], lesson->counts[bin]};
+    for (int i = 0; i < GUIDE_BINS; i++) {
+        finds->sum[i] += (double)lesson->sums[aim][i];
+        finds->count[i] += lesson->counts[i];
+    }
 }
 
 /* Few rays of its own find a small light by luck: those of neighbours, which see much the
  * same, count a little, too. */
-static BinFinds with_neighbours(const GuideTraining *training, uint32_t cell, GuideAim aim,
-                                int bin)
+static void with_neighbours(const GuideTraining *training, uint32_t cell, GuideAim aim,
+                            BinFinds *finds)
 {
     uint32_t first = cell > NEIGHBOURS ? cell - NEIGHBOURS : 0;
     uint32_t end = cell + NEIGHBOURS + 1;
-    BinFinds own = finds_of(&training->lessons[cell], aim, bin), all = {0, 0};
-    for (uint32_t i = first; i < end && i < training->guide.cell_count; i++) {
-        BinFinds finds = finds_of(&training->lessons[i], aim, bin);
-        all.sum += finds.sum;
-        all.count += finds.count;
+    BinFinds all = {.count = {0}};
+    for (uint32_t i = first; i < end && i < training->guide.cell_count; i++)
+        add_finds(&training->lessons[i], aim, &all);
+    for (int i = 0; i < GUIDE_BINS; i++) {
+        if (!(all.count[i] > 0)) continue;
+        finds->sum[i] += DOUBT * all.sum[i] / all.count[i];
+        finds->count[i] += DOUBT;
     }
-    if (!(all.count > 0)) return own;
-    return (BinFinds){own.sum + DOUBT * all.sum / all.count, own.count + DOUBT};
 }
 
-/* The luminance times the solid angle of a bin, up to a factor. */
-static double bin_light(BinFinds finds, int bin)
+/* The mean luminance of a bin times its solid angle, up to a factor. */
+static double bin_light(const LightGuide *guide, const BinFinds *finds, int bin)
 {
-    Vec3   d = guide_bin_direction(bin, 0.5f, 0.5f);
-    double taxicab = (double)(fabsf(d.x) + fabsf(d.y) + fabsf(d.z));
-    return finds.count > 0 ? finds.sum / finds.count * taxicab * taxicab * taxicab : 0;
+    int    row = bin / GUIDE_SIDE, lane = bin % GUIDE_SIDE;
+    double taxicab = 0;
+    for (int k = 0; k < 3; k++) taxicab += fabs((double)guide->bin[k][row][lane]);
+    return finds->count[bin] > 0
+           ? finds->sum[bin] / finds->count[bin] * taxicab * taxicab * taxicab : 0;
 }
 
 /* A little is left everywhere: what the lesson did not find may be there all the same. */
 static bool learn_aim(const GuideTraining *training, uint32_t cell, GuideAim aim,
                       GuideRow out[GUIDE_SIDE])
 {
-    double light[GUIDE_BINS], total = 0, most = 0;
+    BinFinds finds = {.count = {0}};
+    double   light[GUIDE_BINS], total = 0, most = 0;
+    add_finds(&training->lessons[cell], aim, &finds);
+    with_neighbours(training, cell, aim, &finds);
     for (int i = 0; i < GUIDE_BINS; i++)
-        total += light[i] = bin_light(with_neighbours(training, cell, aim, i), i);
+        total += light[i] = bin_light(&training->guide, &finds, i);
     for (int i = 0; i < GUIDE_BINS && total > 0; i++) {
         light[i] = (1 - LEAST) * light[i] / total + LEAST / GUIDE_BINS;
         most = fmax(most, light[i]);
@@ -184,27 +192,39 @@ static bool learn_aim(const GuideTraining *training, uint32_t cell, GuideAim aim
     return total > 0;
 }
 
-void guide_training_learn(GuideTraining *training)
+void guide_training_learn(GuideTraining *training, uint32_t cell)
 {
-    for (uint32_t i = 0; i < training->guide.cell_count; i++) {
-        GuideCell *cell = &training->guide.cells[i];
-        bool has_light = learn_aim(training, i, GUIDE_LIGHT, cell->light[GUIDE_LIGHT]);
-        bool has_sky = learn_aim(training, i, GUIDE_SKY, cell->light[GUIDE_SKY]);
-        cell->is_lit = has_light || has_sky;
+    GuideCell *out = &training->guide.cells[cell];
+    bool has_light = learn_aim(training, cell, GUIDE_LIGHT, out->light[GUIDE_LIGHT]);
+    bool has_sky = learn_aim(training, cell, GUIDE_SKY, out->light[GUIDE_SKY]);
+    out->is_lit = has_light || has_sky;
+}
+
+/* A plane's illuminance by bins of this light, up to a factor. */
+static double illuminance(const LightGuide *guide, const float light[GUIDE_BINS], Vec3 normal)
+{
+    float  lane[GUIDE_SIDE] = {0};
+    double sum = 0;
+    for (int i = 0; i < GUIDE_BINS; i++) {
+        int   row = i / GUIDE_SIDE, x = i % GUIDE_SIDE;
+        float cosine = normal.x * guide->bin[0][row][x] + normal.y * guide->bin[1][row][x] +
+                       normal.z * guide->bin[2][row][x];
+        lane[x] += light[i] * fmaxf(cosine, 0);
     }
+    for (int x = 0; x < GUIDE_SIDE; x++) sum += (double)lane[x];
+    return sum;
 }
 
 double guide_training_illuminance(const GuideTraining *training, uint32_t cell)
 {
-    const GuideLesson *lesson = &training->lessons[cell];
     uint32_t first = training->first_place[cell], end = training->first_place[cell + 1];
+    BinFinds finds = {.count = {0}};
+    float    light[GUIDE_BINS];
     double   sum = 0;
+    add_finds(&training->lessons[cell], GUIDE_LIGHT, &finds);
+    for (int i = 0; i < GUIDE_BINS; i++)
+        light[i] = (float)bin_light(&training->guide, &finds, i);
     for (uint32_t p = first; p < end; p++)
-        for (int i = 0; i < GUIDE_BINS; i++) {
-            Vec3  d = guide_bin_direction(i, 0.5f, 0.5f);
-            float cosine = vec3_dot(d, training->places[p].normal);
-            if (!(cosine > 0)) continue;
-            sum += bin_light(finds_of(lesson, GUIDE_LIGHT, i), i) * (double)cosine;
-        }
+        sum += illuminance(&training->guide, light, training->places[p].normal);
     return end > first ? sum * 4 / GUIDE_BINS / (double)(end - first) : 0;
 }

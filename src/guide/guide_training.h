@@ -49,8 +49,9 @@ static inline void guide_lesson_add(const GuideLesson *lesson, int bin,
 /* Chooses points of every cell for the round. */
 void guide_training_ask(GuideTraining *training, int round);
 
-/* Makes the guide of what was found so far. */
-void guide_training_learn(GuideTraining *training);
+/* Makes a cell of the guide of what its lessons and its neighbours' found so far. Several
+ * threads may do so at once. */
+void guide_training_learn(GuideTraining *training, uint32_t cell);
 
 /* Mean illuminance, lx, of the cell's points by what the lessons found, without the sky. */
 double guide_training_illuminance(const GuideTraining *training, uint32_t cell);

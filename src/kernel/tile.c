@@ -251,7 +251,7 @@ static void lesson_find_places(const LessonJob *job, FilmRect rect, PathStatisti
                 &job->places[(size_t)y * (size_t)job->columns + (size_t)x]);
             PathStart start = {.context = job->context, .wavelengths = &wavelengths,
                                .sampler = &sampler, .statistics = statistics,
-                               .collector = &places.base};
+                               .collector = &places.base, .manner = {.is_dark = true}};
             path_from_ray(&start, ray, NULL);
         }
 }

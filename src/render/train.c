@@ -14,6 +14,7 @@
 typedef struct Lesson {
     const Kernel *kernel;
     LessonJob     job;
+    GuideTraining *training;
     FilmRect      raster;
     WorkerCounts *counts;
 } Lesson;
@@ -53,6 +54,13 @@ static GuidePlace *all_places(const Lesson *lesson, Arena *arena, uint32_t *coun
     return places;
 }
 
+static void keep_cell(void *context, int item, int worker)
+{
+    (void)worker;
+    Lesson *lesson = context;
+    guide_training_learn(lesson->training, (uint32_t)item);
+}
+
 static void try_lights(void *context, int item, int worker)
 {
     Lesson *lesson = context;
@@ -81,19 +89,19 @@ static LightFinds with_neighbours(const LightFinds *finds, int cell, int cells)
     return own;
 }
 
-static void weigh_lights(const Lights *lights, GuideTraining *training, const LightFinds *finds)
+static void weigh_cell(void *context, int item, int worker)
 {
-    int cells = (int)training->guide.cell_count;
-    for (int i = 0; i < cells; i++) {
-        LightFinds found = with_neighbours(finds, i, cells);
-        double     total = guide_training_illuminance(training, (uint32_t)i);
-        for (int set = 0; set < LIGHT_SETS; set++)
-            total += finds[i].points > 0 ? finds[i].sum[set] / finds[i].points : 0;
-        training->guide.cells[i].lamps =
-            cell_lamps_keep(&found.lamps, lights_lamp_count(lights));
-        cell_lights_weigh(lights, &found, total, training->guide.cells[i].asked);
-    }
-    training->guide.asks = true;
+    (void)worker;
+    Lesson       *lesson = context;
+    const Lights *lights = lesson->job.context->lights;
+    const LightFinds *finds = lesson->job.finds;
+    LightGuide   *guide = &lesson->training->guide;
+    LightFinds    found = with_neighbours(finds, item, (int)guide->cell_count);
+    double total = guide_training_illuminance(lesson->job.training, (uint32_t)item);
+    for (int set = 0; set < LIGHT_SETS; set++)
+        total += finds[item].points > 0 ? finds[item].sum[set] / finds[item].points : 0;
+    guide->cells[item].lamps = cell_lamps_keep(&found.lamps, lights_lamp_count(lights));
+    cell_lights_weigh(lights, &found, total, guide->cells[item].asked);
 }
 
 static Lesson lesson_start(const Camera *camera, const TrainOptions *options, Arena *arena)
@@ -140,17 +148,18 @@ const LightGuide *train_guide(const PathContext *context, const Camera *camera,
     GuideTraining *training = guide_training_start(
         places, count, places_a_cell(camera, count), arena);
     LightGuide    *guide = &training->guide;
-    lesson.job.training = training;
+    lesson.job.training = lesson.training = training;
     lesson.job.finds = ARENA_NEW(arena, LightFinds, guide->cell_count);
     trainee.guide = guide;
     for (int round = 0; round < ROUNDS; round++) {
         lesson.job.index = (uint32_t)round * GUIDE_POINTS;
         guide_training_ask(training, round);
         parallel_for(options->threads, (int)guide->cell_count, learn_cell, &lesson);
-        guide_training_learn(training);
+        parallel_for(options->threads, (int)guide->cell_count, keep_cell, &lesson);
     }
     parallel_for(options->threads, (int)guide->cell_count, try_lights, &lesson);
-    weigh_lights(context->lights, training, lesson.job.finds);
+    parallel_for(options->threads, (int)guide->cell_count, weigh_cell, &lesson);
+    guide->asks = true;
     *cost = worker_counts_sum(lesson.counts, options->threads);
     return guide;
 }

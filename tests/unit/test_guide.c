@@ -250,7 +250,7 @@ ARENA_TEST(a_cell_leads_to_where_its_lesson_found_light)
         const float cd_m2[GUIDE_AIMS] = {is_there ? 50 : 0.1f, is_there ? 0 : 8};
         guide_lesson_add(&training->lessons[2], bin, cd_m2);
     }
-    guide_training_learn(training);
+    guide_training_learn(training, 2);
     guide_view(&training->guide, 2, &surfaces[0], &view);
     assert_true(guide_pdf(&view.towards[GUIDE_LIGHT], bright) > 2);
     assert_true(guide_pdf(&view.towards[GUIDE_LIGHT], direction_to(40, 250)) < 0.1f);

@@ -24,10 +24,12 @@ typedef struct LessonPlaces {
 LessonPlaces lesson_places(PathPlaces *out);
 
 /* Keeps the luminance, cd m^-2, of the sky that a path to a point (PathStart.from) sees
- * straight from there; 0: none. The path's own light is all other. */
+ * straight from there; 0: none. The path's own light is all other, and ends at the second
+ * surface that scatters widely: a lesson, no measurement. */
 typedef struct LessonSky {
     PathCollector base;
     float        *sky_cd_m2;
+    int           wide; /* surfaces so far that scatter widely */
 } LessonSky;
 
 LessonSky lesson_sky(float *sky_cd_m2);
