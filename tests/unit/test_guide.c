@@ -250,7 +250,8 @@ ARENA_TEST(a_cell_leads_to_where_its_lesson_found_light)
         const float cd_m2[GUIDE_AIMS] = {is_there ? 50 : 0.1f, is_there ? 0 : 8};
         guide_lesson_add(&training->lessons[2], bin, cd_m2);
     }
-    guide_training_learn(training, 2);
+    for (uint32_t cell = 0; cell < training->guide.cell_count; cell++)
+        guide_training_learn(training, cell);
     guide_view(&training->guide, 2, &surfaces[0], &view);
     assert_true(guide_pdf(&view.towards[GUIDE_LIGHT], bright) > 2);
     assert_true(guide_pdf(&view.towards[GUIDE_LIGHT], direction_to(40, 250)) < 0.1f);
@@ -258,6 +259,16 @@ ARENA_TEST(a_cell_leads_to_where_its_lesson_found_light)
     assert_true(guide_pdf(&view.towards[GUIDE_SKY], direction_to(40, 250)) > 0.15f);
     assert_true(training->guide.cells[2].is_lit > 0 && training->guide.cells[6].is_lit > 0);
     assert_true(!(training->guide.cells[7].is_lit > 0));
+}
+
+ARENA_TEST(even_light_from_everywhere_gives_pi_times_its_luminance)
+{
+    GuideTraining *training = taught(&arena);
+    const float    cd_m2[GUIDE_AIMS] = {3, 8};
+    for (int bin = 0; bin < GUIDE_BINS; bin++)
+        guide_lesson_add(&training->lessons[2], bin, cd_m2);
+    assert_near(guide_training_illuminance(training, 2), 3 * PI, 0.02 * 3 * PI);
+    assert_near(guide_training_illuminance(training, 3), 0, 0);
 }
 
 /* ---- the file ---------------------------------------------------------------------------- */
