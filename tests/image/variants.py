@@ -195,8 +195,8 @@ def check_curves(report, reviewer):
         by_hand = curved(times)
         by_hand["precision"]["seed"] = OTHER_SEED
         _, alone = reviewer.review(by_hand, "alone")
-        for name, own, separate in check_variant(report, variant["name"], variant, base, alone,
-                                                 plain):
+        name = variant["name"]
+        for _, own, separate in check_variant(report, name, variant, base, [alone], plain):
             if times < 2:
                 report.claim(own < 0.5 * separate, f"{name}: sharp to {own} of {separate}")
     check_pair(report, reviewer, "curves", base["variants"][2]["frames"], 3)
