@@ -36,10 +36,11 @@ typedef struct Sums {
 /* The planes that are looked at; has_... states which the frame has. */
 typedef struct RegionPlanes {
     LayerView    light, variance, halves, white, black, reflected, shown, mirror, lambertian;
-    LayerView    display_halves;
+    LayerView    display_halves, fine;
     const float *display_id; /* NULL: every pixel is wanted */
+    const float *coverage;   /* by displays; NULL: not known */
     bool has_variance, has_halves, has_display, has_shown, has_mirror, has_lambertian;
-    bool has_display_halves;
+    bool has_display_halves, has_fine;
 } RegionPlanes;
 
 static void xyz_at(const LayerView *view, size_t i, double xyz[3])
@@ -104,6 +105,8 @@ static bool find_planes(const FrameImage *frame, Arena *arena, RegionPlanes *out
     out->has_mirror = raw_layer(frame, "display.mirror", arena, &out->mirror);
     out->has_lambertian = raw_layer(frame, "display.lambertian", arena, &out->lambertian);
     out->has_display_halves = raw_layer(frame, "display.halves", arena, &out->display_halves);
+    out->has_fine = raw_layer(frame, "display.fine", arena, &out->fine);
+    out->coverage = frame_channel(frame, "display.coverage");
     return true;
 }
 
@@ -177,10 +180,35 @@ static void add_spread(const RegionPlanes *planes, size_t i, PixelNoise *to)
     add_noise(to, rgb, variance_at(planes, i));
 }
 
+/* Does the pixel show nothing but a display whose own light is known twice? */
+static bool is_known_twice(const RegionPlanes *planes, size_t i)
+{
+    return planes->coverage && planes->coverage[i] == 1 && planes->has_shown &&
+           planes->has_fine && planes->has_display_halves &&
+           isfinite(luminance_at(&planes->fine, i)) &&
+           isfinite(luminance_at(&planes->display_halves, i));
+}
+
+/* What a display shows is spread by its samples better than two halves of them can tell. But
+ * display.fine is the same by rays of other points, up to eight times as many: the distance of
+ * the two has the samples' noise, and that of those rays, which is smaller. */
+static void add_known_twice(const RegionPlanes *planes, size_t i, PixelNoise *to)
+{
+    double rgb[3], reflected = luminance_at(&planes->display_halves, i);
+    double shown = luminance_at(&planes->shown, i) - luminance_at(&planes->fine, i);
+    for (int c = 0; c < 3; c++) {
+        double half = (double)planes->display_halves.planes[c][i];
+        double apart = (double)planes->shown.planes[c][i] - (double)planes->fine.planes[c][i];
+        rgb[c] = apart * apart + half * half;
+    }
+    add_noise(to, rgb, shown * shown + reflected * reflected);
+}
+
 static void add_pixel_noise(const RegionPlanes *planes, size_t i, bool on_display, Sums *sums)
 {
     if (planes->has_variance) add_spread(planes, i, &sums->noise);
-    if (planes->has_halves) add_halves(&planes->halves, i, &sums->by_halves);
+    if (on_display && is_known_twice(planes, i)) add_known_twice(planes, i, &sums->by_halves);
+    else if (planes->has_halves) add_halves(&planes->halves, i, &sums->by_halves);
     if (!on_display) return;
     if (planes->has_variance) add_spread(planes, i, &sums->display_noise);
     if (planes->has_halves) add_halves(&planes->halves, i, &sums->display_by_halves);

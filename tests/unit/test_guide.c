@@ -6,6 +6,7 @@
 #include "base/units.h"
 #include "guide/guide_file.h"
 #include "guide/guide_training.h"
+#include "path/collect/lesson.h"
 #include "path/path.h"
 #include "world_fixture.h"
 
@@ -167,6 +168,45 @@ TEST(a_furnace_shows_one_wherever_a_guide_leads)
         if (!(fabs(e.mean - 1) <= 3.5 * e.sigma + 1e-4 && e.sigma < 0.02))
             fail_msg("strategy %d: %g +- %g", s, e.mean, e.sigma);
     }
+}
+
+/* Mean luminance that rays from the middle of the world find, as a lesson or to their end. */
+static double lesson_mean(const World *world, bool is_lesson)
+{
+    enum { RAYS = 20000 };
+    PathStatistics statistics = {0};
+    LitPoint       point = {vec3(0, 0, 0), vec3(0, 0, 1), false};
+    double         sum = 0;
+    for (uint32_t i = 0; i < RAYS; i++) {
+        Sampler     sampler = sampler_start(5, 0, 0, i);
+        Wavelengths w;
+        PathResult  found;
+        float       sky;
+        LessonSky   lesson = lesson_sky(&sky);
+        wavelengths_sample(sampler_1d(&sampler), &w);
+        PathStart start = {.context = &world->context, .wavelengths = &w, .sampler = &sampler,
+                           .statistics = &statistics, .from = &point,
+                           .collector = is_lesson ? &lesson.base : NULL};
+        path_from_ray(&start, (Ray){point.position, point.ns, 0, INFINITY}, &found);
+        sum += (double)found.xyz[1] / RAYS;
+    }
+    return sum;
+}
+
+/* In a furnace the first dull wall shows what it emits and half of what the second emits; of
+ * what comes to that one a lesson learns nothing. */
+TEST(a_lesson_ends_at_the_second_dull_surface)
+{
+    SCOPED_WORLD world = world_start();
+    Material wall = builder_lamp(0.5f);
+    for (int i = 0; i < 3; i++) wall.base_color[i] = 0.5f;
+    builder_part(world.scene, wall);
+    builder_sphere(world.scene, vec3(0, 0, 0), 1, 24, 1);
+    world_ready(&world, BOUNCES);
+    world.context.guide = odd_guide(&world.arena);
+    world.context.strategy = PATH_BSDF_ONLY;
+    assert_near(lesson_mean(&world, true), 0.75, 0.005);
+    assert_near(lesson_mean(&world, false), 1, 0.01);
 }
 
 /* A glossy floor under a lamp, a sky and a sun, lacquered or not. */

@@ -149,6 +149,28 @@ ARENA_TEST(a_contrast_has_the_noise_of_the_reflected)
     assert_interval(m.contrast, (420 + above) / (20.4 + above), (420 - below) / (20.4 - below));
 }
 
+static void add_plane(FrameImage *frame, const char *name, float value, Arena *arena)
+{
+    float *plane = frame_add_channel(frame, name, false, arena);
+    for (size_t i = 0; i < frame_pixel_count(frame); i++) plane[i] = value;
+}
+
+/* A pixel that shows a display alone has the noise of what is reflected, and of what is shown:
+ * that by its samples stands 0.3 from that by finer rays. Others have their halves'. */
+ARENA_TEST(what_a_display_shows_is_known_twice)
+{
+    for (int k = 0; k < 3; k++) {
+        FrameImage frame = display_frame(4, 0.4f, &arena);
+        add_layer(&frame, "halves", 2, &arena);
+        add_layer(&frame, "display.halves", 0.4f, &arena);
+        add_layer(&frame, "display.emitted", 80, &arena);
+        add_layer(&frame, "display.fine", k == 1 ? NAN : 79.7f, &arena);
+        add_plane(&frame, "display.coverage", k == 2 ? 0.99f : 1, &arena);
+        FrameMeasurement m = measure(&frame, (MeasureRequest){0}, arena);
+        assert_close(half(m.luminance), student_quantile(300) * (k ? 2 : 0.5) / 10, 1e-4);
+    }
+}
+
 /* Where less than nothing might be reflected the lower end is nothing: of a display whose black
  * is dark no contrast is too great. */
 ARENA_TEST(noise_beyond_the_reflected_leaves_no_upper_end)
@@ -253,6 +275,37 @@ ARENA_TEST(the_interval_of_contrast_covers_glints)
         assert_true(held > 0.935);
         if (k == 0 || glints[k] > 100) assert_near(held, 0.955, 0.02); /* not too long */
     }
+}
+
+/* Samples that fill each other's gaps: their halves lie three times as far apart as their mean
+ * from what is true, and finer rays a third as far. */
+ARENA_TEST(the_interval_of_a_displays_luminance_covers)
+{
+    enum { TRIALS = 2000 };
+    unsigned   seed = 19;
+    int        inside = 0;
+    FrameImage frame = display_frame(4, 0.4f, &arena);
+    add_layer(&frame, "halves", 0, &arena);
+    add_layer(&frame, "display.halves", 0, &arena);
+    add_layer(&frame, "display.emitted", 0, &arena);
+    add_layer(&frame, "display.fine", 0, &arena);
+    add_plane(&frame, "display.coverage", 1, &arena);
+    for (int trial = 0; trial < TRIALS; trial++) {
+        for (size_t i = 0; i < frame_pixel_count(&frame); i++) {
+            double shown = normal(&seed), fine = normal(&seed) / 3, reflected = normal(&seed);
+            double half = 3 * normal(&seed), reflected_half = normal(&seed);
+            for (int c = 0; c < 3; c++) {
+                frame.channels[c].values[i] = (float)(100 + shown + reflected);
+                plane_of(&frame, "display.emitted", c)[i] = (float)(80 + shown);
+                plane_of(&frame, "display.fine", c)[i] = (float)(80 + fine);
+                plane_of(&frame, "display.halves", c)[i] = (float)reflected_half;
+                plane_of(&frame, "halves", c)[i] = (float)(half + reflected_half);
+            }
+        }
+        Measured m = measure(&frame, (MeasureRequest){0}, arena).luminance;
+        inside += m.low <= 100 && 100 <= m.high;
+    }
+    assert_near(inside / (double)TRIALS, 0.958, 0.015);
 }
 
 /* The brightest first, whatever order they stand in; those without a measure behind them. */
