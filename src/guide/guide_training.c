@@ -7,6 +7,8 @@
 #define NEIGHBOURS 4 /* cells on either side in the tree's order */
 #define DOUBT 4.0    /* rays into a bin of theirs, in the mean, that count as the cell's own */
 
+#define NODES_MAX (2 * GUIDE_CELLS_MAX - 1) /* of a tree with so many leaves */
+
 /* ---- the tree ---------------------------------------------------------------------------- */
 
 static float coordinate(const GuidePlace *place, int axis)
@@ -81,7 +83,8 @@ static void part(TreeBuild *build, uint32_t node, GuidePlace *places, uint32_t c
         plane = median(places, count, axis);
         low = below(places, count, axis, plane);
     }
-    if (low == 0 || low == count || guide->cell_count + 2 > GUIDE_CELLS_MAX) {
+    bool is_full = guide->node_count + 2 > NODES_MAX; /* every node ends in a cell of its own */
+    if (low == 0 || low == count || is_full) {
         build->first_place[guide->cell_count] = (uint32_t)(places - build->all);
         guide->nodes[node] = (GuideNode){.cell = guide->cell_count++};
         return;
@@ -93,16 +96,24 @@ static void part(TreeBuild *build, uint32_t node, GuidePlace *places, uint32_t c
     part(build, child + 1, places + low, count - low);
 }
 
+/* Medians leave cells of more than half of `most`: were there more of those than the guide
+ * holds, the places that come last would share one. */
+static uint32_t most_a_cell(uint32_t count, uint32_t most)
+{
+    uint32_t least = 2 * (count / GUIDE_CELLS_MAX + 1);
+    return most > least || count <= GUIDE_CELLS_MAX ? most : least;
+}
+
 GuideTraining *guide_training_start(GuidePlace *places, uint32_t count, uint32_t most,
                                     Arena *arena)
 {
     GuideTraining *training = ARENA_NEW(arena, GuideTraining, 1);
     LightGuide *guide = &training->guide;
-    guide->nodes = ARENA_NEW(arena, GuideNode, 2 * GUIDE_CELLS_MAX);
+    guide->nodes = ARENA_NEW(arena, GuideNode, NODES_MAX);
     guide->node_count = 1;
     training->places = places;
     training->first_place = ARENA_NEW(arena, uint32_t, GUIDE_CELLS_MAX + 1);
-    TreeBuild build = {guide, training->first_place, most, places};
+    TreeBuild build = {guide, training->first_place, most_a_cell(count, most), places};
     part(&build, 0, places, count);
     training->first_place[guide->cell_count] = count;
     guide->cells = ARENA_NEW(arena, GuideCell, guide->cell_count);

@@ -34,7 +34,8 @@ typedef struct GuideTraining {
 } GuideTraining;
 
 /* A guide that is not trained yet, over `count` places, which are put into another order. At
- * most `most` places a cell, unless they coincide or GUIDE_CELLS_MAX is reached. */
+ * most `most` places a cell, unless they coincide; more where that would be more cells than
+ * GUIDE_CELLS_MAX. */
 GuideTraining *guide_training_start(GuidePlace *places, uint32_t count, uint32_t most,
                                     Arena *arena);
 

@@ -252,16 +252,21 @@ TEST(every_strategy_finds_the_same_light_with_a_guide_and_without)
 
 enum { PLACES = 5000, MOST = 64 };
 
-static GuideTraining *taught(Arena *arena)
+static GuidePlace *spread_places(uint32_t count, Arena *arena)
 {
-    GuidePlace *places = ARENA_NEW(arena, GuidePlace, PLACES);
-    for (uint32_t i = 0; i < PLACES; i++) {
+    GuidePlace *places = ARENA_NEW(arena, GuidePlace, count);
+    for (uint32_t i = 0; i < count; i++) {
         Sampler sampler = sampler_start(5, 0, 0, i);
         Vec2    a = sampler_2d(&sampler), b = sampler_2d(&sampler);
         places[i].position = vec3(10 * a.x * a.x, a.y, i % 10 ? b.x : 3);
         places[i].normal = vec3(0, 1, 0);
     }
-    return guide_training_start(places, PLACES, MOST, arena);
+    return places;
+}
+
+static GuideTraining *taught(Arena *arena)
+{
+    return guide_training_start(spread_places(PLACES, arena), PLACES, MOST, arena);
 }
 
 ARENA_TEST(cells_part_the_places_among_them)
@@ -276,6 +281,24 @@ ARENA_TEST(cells_part_the_places_among_them)
             assert_int_equal(guide_cell_at(guide, training->places[i].position), c);
     }
     assert_int_equal(training->first_place[guide->cell_count], PLACES);
+}
+
+/* However small the cells that are asked for. None has far more than its share, but where all
+ * places coincide. */
+ARENA_TEST(cells_are_no_more_than_a_guide_holds)
+{
+    enum { MANY = 10 * GUIDE_CELLS_MAX };
+    for (int k = 0; k < 3; k++) {
+        Arena       room = arena;
+        GuidePlace *places = spread_places(MANY, &room);
+        for (uint32_t i = 1; k == 2 && i < MANY; i++) places[i] = places[0];
+        GuideTraining *training = guide_training_start(places, MANY, k ? 1 : 19, &room);
+        uint32_t       cells = training->guide.cell_count;
+        assert_true(cells <= GUIDE_CELLS_MAX && training->guide.node_count == 2 * cells - 1);
+        for (uint32_t c = 0; k < 2 && c < cells; c++)
+            assert_true(training->first_place[c + 1] - training->first_place[c] <= 22);
+        assert_int_equal(training->first_place[cells], MANY);
+    }
 }
 
 ARENA_TEST(a_cell_leads_to_where_its_lesson_found_light)
