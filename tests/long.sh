@@ -119,6 +119,8 @@ start 'a head-up display' hud python3 tests/image/hud.py $program
 start 'a luxmeter under every light' luxmeter python3 tests/image/luxmeter.py $program
 gather
 run 'what is learnt moves no mean' guided-long python3 tests/image/guided.py $program
+run 'samples where noise is move no mean' unbiased-long \
+    python3 tests/image/unbiased.py $program
 start 'golden frames, all guided' golden-long python3 tests/image/golden.py --all $program
 start 'same bits, any threads, always guided' bits-long \
     python3 tests/image/bits.py --all $program
