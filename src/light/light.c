@@ -86,6 +86,11 @@ bool lights_sun_is_moon(const Lights *lights)
     return lights->sky.is_moon;
 }
 
+Vec3 lights_sun_direction(const Lights *lights)
+{
+    return lights->sky.sun_direction;
+}
+
 int lights_lamp_count(const Lights *lights)
 {
     return lights->punctual.count;

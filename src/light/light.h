@@ -49,6 +49,10 @@ bool lights_has(const Lights *lights, LightSet set);
 /* Does the moon take the place of LIGHTS_SUN? */
 bool lights_sun_is_moon(const Lights *lights);
 
+/* The middle of the disc of LIGHTS_SUN, unit, world, whether it is up or set; where there is
+ * one. */
+Vec3 lights_sun_direction(const Lights *lights);
+
 /* Number of punctual lights that give any light. */
 int lights_lamp_count(const Lights *lights);
 

@@ -259,6 +259,9 @@ def check_suns(report, reviewer, count):
         wanted = case["luminance_cd_m2"]["reflected"]
         report.claim(close(found, wanted, 0.06),
                      f"sun {sun}: {found:.5g} in the sweep, {wanted:.5g} by itself")
+        told = case["sun"]["azimuth_deg"], case["sun"]["elevation_deg"]
+        off = (told[0] - sun[0] + 180) % 360 - 180, told[1] - sun[1]
+        report.claim(max(map(abs, off)) < 0.0005, f"sun {sun}: told as {told}")
 
 
 def read_table(reviewer, out, review):

@@ -349,7 +349,6 @@ Reading setup_ask(const Setup *setup, const ProbeAim *aim, const ReadingGoal *as
 bool setup_sun(const Setup *setup, Vec3 *towards, float bands[LIGHT_BANDS])
 {
     const Lights *lights = setup->context.lights;
-    Vec3 sum = vec3(0, 0, 0);
     memset(bands, 0, LIGHT_BANDS * sizeof *bands);
     if (!lights_has(lights, LIGHTS_SUN) || lights_sun_is_moon(lights)) return false;
     for (int i = 0; i < SUN_DRAWS; i++) {
@@ -361,12 +360,11 @@ bool setup_sun(const Setup *setup, Vec3 *towards, float bands[LIGHT_BANDS])
         if (!lights_sample(lights, LIGHTS_SUN, (LitPoint){{0, 0, 0}, {0, 1, 0}, true}, u,
                            &sample))
             return false;
-        sum = vec3_add(sum, sample.wi);
         Spectrum lux = lights_radiance(lights, &sample, &w) * w.xyz[1] *
                        spectrum_all(1 / (sample.pdf * SUN_DRAWS));
         for (int k = 0; k < LIGHT_BANDS; k++) bands[k] += lux[k];
     }
-    *towards = vec3_normalize(sum);
+    *towards = lights_sun_direction(lights);
     return true;
 }
 
