@@ -185,6 +185,7 @@ static bool is_known_twice(const RegionPlanes *planes, size_t i)
 {
     return planes->coverage && planes->coverage[i] == 1 && planes->has_shown &&
            planes->has_fine && planes->has_display_halves &&
+           isfinite(luminance_at(&planes->shown, i)) &&
            isfinite(luminance_at(&planes->fine, i)) &&
            isfinite(luminance_at(&planes->display_halves, i));
 }

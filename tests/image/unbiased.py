@@ -5,7 +5,7 @@ what was learnt, have the mean of samples that know neither.
 Of N seeds (64) with `--for noise` and of a quarter as many plain frames of 32 times the
 samples, the mean luminances of blocks of pixels: no block may differ by more than chance allows
 one of so many (0.1 % in Student's distribution), nor all of them together. Spreads are those of
-the seeds: no variance layer is believed. Frames stay in .build/unbiased.
+the seeds: no variance layer is believed. The last frame of each scene stays in .build/unbiased.
 """
 import argparse
 import math
@@ -42,12 +42,13 @@ def blocks(path):
             for top in range(0, SIZE[1], BLOCK[1]) for left in range(0, SIZE[0], BLOCK[0])]
 
 
-def render(report, program, words, out, *more):
+def render(program, words, out, *more):
     words = [os.path.join("scenes", word) if word.endswith(".gltf") else word for word in words]
     done = subprocess.run(
         [program, "render", *words, "-o", out, "--size", "{}x{}".format(*SIZE), "--quiet",
          *more], cwd=ROOT, capture_output=True, text=True)
-    report.claim(done.returncode == 0, f"{out}: {done.stderr}")
+    if done.returncode != 0:
+        sys.exit(f"unbiased.py: {out}: {done.stderr.strip()}")
     return blocks(out)
 
 
@@ -109,9 +110,9 @@ def main():
     os.makedirs(folder, exist_ok=True)
     for name, words in CASES.items():
         frame = os.path.join(folder, f"{name}.exr")
-        ours = [render(report, program, words, frame, "--spp", str(SAMPLES), "--for", "noise",
+        ours = [render(program, words, frame, "--spp", str(SAMPLES), "--for", "noise",
                        "--seed", str(seed)) for seed in range(arguments.seeds)]
-        theirs = [render(report, program, words, frame, "--spp", str(PLAIN_SAMPLES),
+        theirs = [render(program, words, frame, "--spp", str(PLAIN_SAMPLES),
                          "--no-guiding", "--seed", str(1000 + seed))
                   for seed in range(arguments.seeds // 4)]
         check(report, name, ours, theirs)

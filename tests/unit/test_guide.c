@@ -153,15 +153,22 @@ static WorldMean luminance(const World *world, Vec3 from, Vec3 direction, int co
     return world_luminance(world, &(WorldLook){from, direction, 0.2f, 1, count});
 }
 
-TEST(a_furnace_shows_one_wherever_a_guide_leads)
+/* A sphere whose wall reflects half and emits as much as it takes: 1 wherever one looks. */
+static World guided_furnace(void)
 {
-    SCOPED_WORLD world = world_start();
+    World    world = world_start();
     Material wall = builder_lamp(0.5f);
     for (int i = 0; i < 3; i++) wall.base_color[i] = 0.5f;
     builder_part(world.scene, wall);
     builder_sphere(world.scene, vec3(0, 0, 0), 1, 24, 1);
     world_ready(&world, BOUNCES);
     world.context.guide = odd_guide(&world.arena);
+    return world;
+}
+
+TEST(a_furnace_shows_one_wherever_a_guide_leads)
+{
+    SCOPED_WORLD world = guided_furnace();
     for (PathStrategy s = PATH_MIS; s <= PATH_BSDF_ONLY; s++) {
         world.context.strategy = s;
         WorldMean e = luminance(&world, vec3(0.2f, 0.1f, 0), vec3(0, 0.3f, -1), 40000);
@@ -197,13 +204,7 @@ static double lesson_mean(const World *world, bool is_lesson)
  * what comes to that one a lesson learns nothing. */
 TEST(a_lesson_ends_at_the_second_dull_surface)
 {
-    SCOPED_WORLD world = world_start();
-    Material wall = builder_lamp(0.5f);
-    for (int i = 0; i < 3; i++) wall.base_color[i] = 0.5f;
-    builder_part(world.scene, wall);
-    builder_sphere(world.scene, vec3(0, 0, 0), 1, 24, 1);
-    world_ready(&world, BOUNCES);
-    world.context.guide = odd_guide(&world.arena);
+    SCOPED_WORLD world = guided_furnace();
     world.context.strategy = PATH_BSDF_ONLY;
     assert_near(lesson_mean(&world, true), 0.75, 0.005);
     assert_near(lesson_mean(&world, false), 1, 0.01);
