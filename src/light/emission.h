@@ -4,22 +4,9 @@
  * Used where a ray hits an emitter and where one is sampled: the same numbers both times.
  */
 #pragma once
-#include "bvh/ray.h"
+#include "light/ray_ends.h"
 #include "scene/scene.h"
 #include "spectrum/wavelengths.h"
-
-/* A point of a triangle, interpolated. */
-typedef struct TrianglePoint {
-    Vec3  position;
-    Vec3  ng;    /* unit, the front's side (counter-clockwise vertices) */
-    Vec3  ns;    /* unit, interpolated vertex normal; ng where that vanishes */
-    Vec2  uv[SCENE_UV_SETS];
-} TrianglePoint;
-
-TrianglePoint triangle_point(const Scene *scene, uint32_t triangle, float u, float v);
-
-/* Its position alone. */
-Vec3 triangle_position(const Scene *scene, uint32_t triangle, float u, float v);
 
 /* Texture coordinates of a slot, at a point and at a corner. */
 Vec2 slot_uv(const TextureSlot *slot, const TrianglePoint *point);

@@ -125,12 +125,19 @@ static void join_parts(const Loader *load, Scene *scene)
     }
 }
 
+static void measure_edge(Scene *scene, Vec3 from, Vec3 to)
+{
+    scene->longest_edge_m =
+        fmaxf(scene->longest_edge_m, vec3_length(vec3_sub(to, from)));
+}
+
 static void measure_bounds(Scene *scene)
 {
     Vec3 low = vec3(INFINITY, INFINITY, INFINITY), high = vec3_neg(low);
     for (uint32_t t = 0; t < scene->triangle_count; t++)
         for (int c = 0; c < 3; c++) {
             Vec3 p = scene_corner(scene, t, c);
+            measure_edge(scene, p, scene_corner(scene, t, (c + 1) % 3));
             low = vec3(fminf(low.x, p.x), fminf(low.y, p.y), fminf(low.z, p.z));
             high = vec3(fmaxf(high.x, p.x), fmaxf(high.y, p.y), fmaxf(high.z, p.z));
         }
