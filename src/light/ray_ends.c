@@ -103,7 +103,8 @@ static void set_inside(const TriangleEdges *edges, float u, float v, TrianglePoi
     point->inside = vec3_along(in.place, vec3_sub(centroid, in.place), share);
 }
 
-static void set_ends(const Scene *scene, TriangleEdges *edges, float u, float v, TrianglePoint *point)
+static void set_ends(const Scene *scene, TriangleEdges *edges, float u, float v,
+                     TrianglePoint *point)
 {
     float a = squared(edges->first), b = squared(edges->second),
           c = squared(vec3_sub(edges->second, edges->first)), most = fmaxf(a, fmaxf(b, c));
