@@ -89,7 +89,7 @@ static void move_inwards(Inside *in, int edge, float by)
  * centroid, which is off every edge. */
 static void set_inside(const TriangleEdges *edges, float u, float v, TrianglePoint *point)
 {
-    float w = 1 - u - v, reach = RAY_INSET * RAY_STEP * point->rounding, share = 0;
+    float w = 1 - u - v, reach = ray_inset(point, edges->longest), share = 0;
     point->inside = point->position;
     if (fminf(w, fminf(u, v)) * edges->twice_area >= reach * edges->longest) return;
     Inside in = beside_edges(edges, (const float[3]){v, w, u}, point->position);

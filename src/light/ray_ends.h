@@ -22,7 +22,11 @@
  *
  * Where two triangles meet at an angle, a point beside the edge may lie behind the other
  * triangle: rays start and end RAY_INSET steps from their triangle's edges at least. That keeps
- * edges closed down to 29 degrees: h / tan(29 degrees) + h / sin(29 degrees) = 3.9 h.
+ * edges closed down to 29 degrees: h / tan(29 degrees) + h / sin(29 degrees) = 3.9 h. Besides,
+ * the ray tracer misses triangles whose edge a ray nearly follows: it compares the volume that
+ * edge and ray span, L d sin(angle) at a distance d, with some u L^2. Rays so close to an edge
+ * are the rarer, by 1 / d^2, the farther they start off it: RAY_INSET_SHARE of L more. (Without
+ * it 11 of 10^8 paths of 8 bounces left closed boxes, with it none.)
  *
  * Units    m, world.
  * Threads  pure functions.
@@ -49,11 +53,18 @@ Vec3 triangle_position(const Scene *scene, uint32_t triangle, float u, float v);
 
 #define RAY_STEP 2.0f
 #define RAY_INSET 4.0f
+#define RAY_INSET_SHARE 0x1p-14f
 
 /* How far rays start off the point's triangle, m. Sheets within it are at the same place. */
 static inline float ray_step(const TrianglePoint *point)
 {
     return RAY_STEP * point->rounding;
+}
+
+/* How far from the edges of its triangle, whose longest one is given, m. */
+static inline float ray_inset(const TrianglePoint *point, float longest)
+{
+    return RAY_INSET * ray_step(point) + RAY_INSET_SHARE * longest;
 }
 
 /* Where a ray starts that leaves the point to the side of `towards`. */

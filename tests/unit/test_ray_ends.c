@@ -114,11 +114,12 @@ static bool is_moved(const Scene *scene, const TrianglePoint *point, double size
 {
     Vec3 a = scene_corner(scene, 0, 0), b = scene_corner(scene, 0, 1);
     Vec3 c = scene_corner(scene, 0, 2), ab = vec3_sub(b, a), ac = vec3_sub(c, a);
-    double longest = fmax((double)vec3_length(vec3_sub(c, b)), (double)vec3_length(ac));
-    double height = (double)vec3_length(vec3_cross(ab, ac)) / fmax(longest, size);
+    double longest = fmax(fmax((double)vec3_length(vec3_sub(c, b)), size),
+                          (double)vec3_length(ac));
+    double height = (double)vec3_length(vec3_cross(ab, ac)) / longest;
     double moved = (double)vec3_length(vec3_sub(point->inside, point->position));
-    double inset = (double)(RAY_INSET * ray_step(point));
-    return moved > 3 * inset + 8 * fmin(inset, height) * fmax(longest, size) / height;
+    double inset = (double)ray_inset(point, (float)longest);
+    return moved > 3 * inset + 8 * fmin(inset, height) * longest / height;
 }
 
 static void send_from(const Scene *scene, const Bvh *bvh, double size, OwnHits *found)
