@@ -3,11 +3,11 @@
 """Makes the car's head-up display: car_hud.gltf (.bin) beside itself and what it shows,
 assets/content/hud.png.
 
-    python3 scenes/model_hud.py             # --figures: prints its figures, makes nothing
+    python3 scenes/model_hud.py [--figures]     (prints its figures, and makes nothing)
 
-Needs numpy, and to make it python3-cairo and the font Inter; no Blender. An overlay: its mirror and picture
-lie in the well of car_dashboard.gltf's pad, whose windscreen throws the picture at the driver.
-The optics: modelling/hud_optics.py.
+Needs numpy, and to make it python3-cairo and the font Inter; no Blender. An overlay: its mirror
+and picture lie in the well of car_dashboard.gltf's pad, whose windscreen throws the picture at
+the driver. The optics: modelling/hud_optics.py.
 """
 import os
 import sys

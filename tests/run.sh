@@ -24,7 +24,7 @@ hostile_models()
 guides_and_meeting()
 {
     python3 tests/image/guides.py --keep .build/readme --few $program README.md \
-        assets/guides/rendering.md &&
+        assets/guides/rendering.md assets/guides/validation.md assets/panels/README.md &&
         python3 tests/page/meeting.py $program .build/readme/glance
 }
 
@@ -37,6 +37,7 @@ run 'every source says its licence' spdx python3 tests/structure/spdx.py
 run 'the README names what is there' readme python3 tests/structure/readme.py
 run 'a surface model is known by its own files' models python3 tests/structure/models.py
 run 'a long step runs when what it needs changes' steps python3 tests/structure/steps.py
+run 'figures of pages stand on something' figures python3 tests/image/figures.py
 run 'pages and comments point to what is there' pointers python3 tests/structure/pointers.py
 gather
 run 'a schedule, simulated' schedule python3 tests/slurm/schedule_laws.py
@@ -98,4 +99,6 @@ start 'displays the right way round' marked python3 tests/image/marked.py $progr
 start 'materials without data' no-data python3 tests/hostile/no_data.py $program
 start "the panel library's ABI" library-abi python3 tests/library/abi.py .build/release
 gather
+run 'figures of pages that tests print' figures-tests \
+    python3 tests/image/figures.py --logs $program
 finish

@@ -58,7 +58,7 @@ static const char *chosen_config(const DevelopOptions *options)
 }
 
 /* Of our own views one alone shows what is to become white as white: the others keep room for
- * what is brighter, and show it as light grey. A user's configuration names views as it likes. */
+ * what is brighter, and show it as light grey. A user's configuration names its own views. */
 static const char *chosen_view(const DevelopOptions *options, const char *config)
 {
     ExposureRequest exposure;

@@ -528,9 +528,9 @@ def all_cases(whole):
     cases = [furnace_sphere(), furnace_bright(), furnace_outside(), cube(0.5),
              cube(0.9, True, *bright), cube(0.05, False), cube(0.95, False), flux(),
              point_light(), small_lambertian_source(), spot_light(), coloured_light(),
-             one_sided(), sun(10), sun(35), sun(90), sun_direction(), half_sun(), area_light_above(),
-             lit_floor(), environment(), heading(), hdri_sides(), hdri_illuminance(), units(),
-             texture(), alpha(), picture()]
+             one_sided(), sun(10), sun(35), sun(90), sun_direction(), half_sun(),
+             area_light_above(), lit_floor(), environment(), heading(), hdri_sides(),
+             hdri_illuminance(), units(), texture(), alpha(), picture()]
     cases += [directional_light(angle) for angle in (0, 30, 60, 85)]
     cases += [mirror(angle) for angle in ANGLES]
     cases += [mirror_direction(angle) for angle in ANGLES[1:]]

@@ -46,10 +46,10 @@ from report import Report, read  # noqa: E402
 LISTS = "tests/image/figures"
 PAGES = ("README.md", "scenes/README.md", "assets/panels/README.md", "assets/schemas/README.md")
 NUMBER = r"[-+]?(?:(?:\d{1,3}(?:,\d{3})+|\d+)(?:\.\d+)?|\.\d+)(?:[eE][-+]?\d+)?"
-UNIT = ("%|cd/m2|cd/m²|klx|lx|lux|cd|lm/W|lm|W/m2|W m|mm|cm|km|nm|m2|m|degrees?|minutes?|mrad|rad|"
-        "s|seconds|hours?|ms|GB|MB|KB|kilobytes|megabytes|bytes|pixels|samples|K|stops?|sigmas?|"
-        "times|passed|: ?1|u'v'|triangles|wavelengths|paths|directions|texels|levels|bounces|"
-        "standard errors|errors")
+UNIT = ("%|cd/m2|cd/m²|klx|lx|lux|cd|lm/W|lm|W/m2|W m|mm|cm|km|nm|m2|m|degrees?|minutes?|mrad|"
+        "rad|s|seconds|hours?|ms|GB|MB|KB|kilobytes|megabytes|bytes|pixels|samples|K|stops?|"
+        "sigmas?|times|passed|: ?1|u'v'|triangles|wavelengths|paths|directions|texels|levels|"
+        "bounces|standard errors|errors")
 FIGURE = re.compile(rf"(?<![\w.^/,-])({NUMBER}) ?(?:{UNIT})(?!\w)")
 KINDS = "~$@<=!:*"
 COMPARED = "~$@<="
@@ -124,7 +124,8 @@ class Place:
 def parsed(line, kind, source, at):
     words, _, rest = line.partition(" || ")
     pattern, _, expressions = rest.partition("=>")
-    return Place(kind, source, " ".join(words.split()), pattern.strip(), expressions.strip(), at)
+    return Place(kind, source, " ".join(words.split()), pattern.strip(), expressions.strip(),
+                 at)
 
 
 def read_list(page):
@@ -194,7 +195,7 @@ def computed(place, output):
 
 
 def compare(page, place, output):
-    """(holds, message, edit) of every figure of a place; edit: (place in the page, old, new)."""
+    """(holds, message, edit) of each figure of a place; edit: (where on the page, old, new)."""
     wanted = computed(place, output)
     matches = place.found(page)
     if wanted is None or not matches:

@@ -6,10 +6,10 @@ Every ```sh block of assets/guides/*.md and of README.md (but for building and i
 other tests do) runs as written, each page in a folder of its own where scenes/
 and assets/ lie. A command ends with status 0, or with the one that the page states behind it:
 `# status 1`. What it is to write is there afterwards, but for one that is refused (2 to 4), and
-so is every file that a page names. Layers that it asks for hold numbers. --keep: what the first page makes stays in the folder;
---few: of its review's variants the one that shares the paths of the review itself, since each
-of the others takes as long as the review. The figures of a page are those that its commands
-print now (figures.py says how they are tied, and what --renew does).
+so is every file that a page names. Layers that it asks for hold numbers. The figures of a page
+are those that its commands print now (figures.py: how they are tied, and what --renew does).
+--keep: what the first page makes stays in the folder; --few: of its review's variants the one
+that shares the paths of the review itself: each of the others takes as long as the review.
 """
 import contextlib
 import glob

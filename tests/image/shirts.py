@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""shirts.py PARHELION -- what a driver's shirt does to the car's odometer with the sun ahead: the
-figures of the guide on glare reviews, by a review of two of the shipped car's conditions, and of
-one with nobody in the seat. Half a minute.
+"""shirts.py PARHELION -- what a driver's shirt does to the car's odometer with the sun ahead:
+the figures of the guide on glare reviews, by a review of two of the shipped car's conditions,
+and of one with nobody in the seat. Half a minute.
 """
 import csv
 import json
@@ -38,7 +38,8 @@ def main():
         with open(path, "w", encoding="utf-8") as file:
             json.dump(request, file)
         out = os.path.join(folder, "out")
-        done = subprocess.run([program, "review", path, "-o", out], capture_output=True, text=True)
+        done = subprocess.run([program, "review", path, "-o", out], capture_output=True,
+                              text=True)
         if done.returncode not in (0, 1):
             sys.exit(done.stderr)
         with open(os.path.join(out, "cases.csv"), encoding="utf-8", newline="") as file:
