@@ -6,7 +6,7 @@ Every ```sh block of assets/guides/*.md and of README.md (but for building and i
 other tests do) runs as written, each page in a folder of its own where scenes/
 and assets/ lie. A command ends with status 0, or with the one that the page states behind it:
 `# status 1`. What it is to write is there afterwards, but for one that is refused (2 to 4), and
-so is every file that a page names. Layers that it asks for hold numbers. The figures of a page
+so is every file that a page names. Layers of noise that it asks for hold numbers. The figures of a page
 are those that its commands print now (figures.py: how they are tied, and what --renew does).
 --keep: what the first page makes stays in the folder; --few: of its review's variants the one
 that shares the paths of the review itself: each of the others takes as long as the review.
@@ -73,9 +73,12 @@ def shell(command, folder, environment):
                           env=environment, timeout=600)
 
 
+NOISE = ("halves.", "variance.", "display.halves.")
+
+
 def empty_layers(command, folder):
-    """Channels without a number in frames whose layers were asked for; those of displays are
-    where one is seen."""
+    """Channels of noise without a number in frames whose layers were asked for; those of
+    displays are where one is seen."""
     words, empty = shlex.split(command), []
     for file in outputs(command) if "--layers" in words else []:
         path = os.path.join(folder, file)
@@ -84,7 +87,7 @@ def empty_layers(command, folder):
         channels = Frame(path).channels
         seen = any(value > 0 for value in channels.get("display.coverage", [1]))
         empty += [f"{file}: {name}" for name, values in channels.items()
-                  if (seen or not name.startswith("display."))
+                  if name.startswith(NOISE) and (seen or not name.startswith("display."))
                   and not any(map(math.isfinite, values))]
     return empty
 
