@@ -6,7 +6,7 @@ A figure is a number with a unit in the prose or a table of a page. It is an arg
 command of its section, or a line of the page's list tests/image/figures/NAME.txt covers it:
 
     # a comment
-    ~ PART OF A COMMAND     what the one command of the page prints that holds this part
+    ~ PART OF A COMMAND     what the one command of the page prints that is this, or holds it
     $ COMMAND               what this prints in the page's folder, after the page's commands;
                             $ROOT is the checkout
     @ STEP                  what a step of tests/run.sh or long.sh printed

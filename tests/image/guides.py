@@ -6,8 +6,9 @@ Every ```sh block of assets/guides/*.md and of README.md (but for building and i
 other tests do) runs as written, each page in a folder of its own where scenes/
 and assets/ lie. A command ends with status 0, or with the one that the page states behind it:
 `# status 1`. What it is to write is there afterwards, but for one that is refused (2 to 4), and
-so is every file that a page names. Layers of noise that it asks for hold numbers. The figures of a page
-are those that its commands print now (figures.py: how they are tied, and what --renew does).
+so is every file that a page names. Layers of noise that it asks for hold numbers. The figures
+of a page are those that its commands print now (figures.py: how they are tied, and what --renew
+does).
 --keep: what the first page makes stays in the folder; --few: of its review's variants the one
 that shares the paths of the review itself: each of the others takes as long as the review.
 """
@@ -98,10 +99,10 @@ def compare_figures(name, printed, folder, environment):
     for place in figures.read_list(name):
         text = None
         if place.kind == "~":
-            commands_of = [text for command, text in printed.items() if place.source in command]
-            text = commands_of[0] if len(commands_of) == 1 else None
+            holding = [command for command in printed if place.source in command]
+            text = printed.get(place.source, printed[holding[0]] if len(holding) == 1 else None)
             if text is None:
-                told.append((False, f"{place.at}: {len(commands_of)} commands hold "
+                told.append((False, f"{place.at}: {len(holding)} commands hold "
                                     f"\"{place.source}\"", None))
         if place.kind == "$":
             if place.source not in printed:
