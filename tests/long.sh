@@ -65,7 +65,7 @@ laws()
     PARHELION_LAWS=all
     export PARHELION_LAWS
     units .build/release -R '^(shaders(_glass)?|brushed|hour_sky|light|night|panel_directions'\
-'|path|polarised|reading_levels|sheets|sun_beam)$'
+'|path|polarised|ray_ends|reading_levels|sheets|sun_beam)$'
 }
 
 # guides_and_meeting: the pages of the README's review are looked at
@@ -118,6 +118,7 @@ start 'films on glass' films python3 tests/image/films.py $program
 start 'a head-up display' hud python3 tests/image/hud.py $program
 start 'a luxmeter under every light' luxmeter python3 tests/image/luxmeter.py $program
 gather
+run 'any place, any turn, any order' moved-long python3 tests/image/moved.py --all $program
 run 'what is learnt moves no mean' guided-long python3 tests/image/guided.py $program
 run 'samples where noise is move no mean' unbiased-long \
     python3 tests/image/unbiased.py $program

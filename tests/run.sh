@@ -78,6 +78,7 @@ start 'samples for an area' favour python3 tests/image/favour.py $program
 start 'panels of coarse grids' panel-coarse \
     python3 tests/bench/panel_coarse.py $program --cases few
 start 'what one pixel sees' probe python3 tests/image/probe.py $program
+start 'scenes moved and turned' moved python3 tests/image/moved.py $program
 start 'luminaires as lamps' lamps python3 tests/image/lamps.py $program
 start 'a render that is watched' live-view python3 tests/hostile/live_view.py $program
 start 'faults and their outcomes' faults python3 tests/hostile/faults.py $program
