@@ -62,7 +62,8 @@ def check_once(report, program, row):
     else:
         values = literal(row.value)
         for _ in range(2):
-            done = program(row.command.split() + [row.name, values[0], f"{row.name}={values[1]}"])
+            done = program([*row.command.split(), row.name, values[0],
+                            f"{row.name}={values[1]}"])
             allowed = inside_limits(done.stderr, row.value)
             if not allowed:
                 break
@@ -122,7 +123,8 @@ def check_overrides(report, program):
 
 def check_arguments(report, program):
     """A word too much is refused, not left out."""
-    for words in (["help", "comparing", "rendering"], ["develop", "a.exr", "b.exr", "-o", "x.png"],
+    for words in (["help", "comparing", "rendering"],
+                  ["develop", "a.exr", "b.exr", "-o", "x.png"],
                   ["measure", "a.exr", "b.exr"], ["compare", "a.exr", "b.exr", "c.exr"],
                   ["review", "a.json", "b.json"], ["explain", "a.json", "b.json"],
                   ["status", "a", "b"], ["part", "a", "0", "b"], ["equip", "a.gltf", "b.gltf"]):
