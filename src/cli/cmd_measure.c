@@ -8,7 +8,7 @@
 #include "cli/commands.h"
 #include "cli/options/answer.h"
 #include "cli/options/scene_options.h"
-#include "image/measure.h"
+#include "image/light_shares.h"
 #include "render/illuminance.h"
 #include "scene/load/scene_load.h"
 #include "spectrum/photometry.h"
@@ -337,7 +337,7 @@ static bool measure(const MeasureWords *typed, Arena *arena, Error *err)
         return measure_illuminance(&typed->cli, &typed->luxmeter, arena, err);
     if (!frame_read(typed->request.frame_name, arena, &frame, err)) return false;
     if (!measure_frame(&frame, &typed->request, *arena, &measured, err)) return false;
-    LightShares lights = measure_lights(&frame, &typed->request, arena);
+    LightShares lights = light_shares_measure(&frame, &typed->request, arena);
     if (typed->cli.json) return print_json(typed, &measured, &lights, err);
     print_text(&measured);
     print_lights(&lights);

@@ -147,6 +147,7 @@ static bool load(RenderRun *work, Error *err)
         frame_area_find(work->scene, *work->arena, &request->noise.of, err) &&
         frame_area_find(work->scene, *work->arena, &request->favoured, err);
     if (loaded) set_areas(request);
+    if (loaded) request->render.layers = render_layers(work->scene, request->render.layers);
     if (loaded) render_warn_of_darkness(work->scene, &work->problems);
     cli_print_warnings(&work->problems);
     return loaded;

@@ -45,6 +45,7 @@ static const struct {
     {"display.coverage", LAYER_DISPLAY_FINE}, {"display.mirror", LAYER_DISPLAY_MIRROR},
     {"display.scattered", LAYER_DISPLAY_SCATTERED}, {"display.haze", LAYER_DISPLAY_HAZE},
     {"display.lambertian", LAYER_DISPLAY_LAMBERTIAN},
+    {"display.variance", LAYER_DISPLAY_VARIANCE}, {"display.second", LAYER_DISPLAY_SECOND},
     {"display.halves", LAYER_DISPLAY_HALVES}, {"light", LAYER_LIGHT}, {"stokes", LAYER_STOKES},
 };
 
