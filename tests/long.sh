@@ -22,7 +22,7 @@ options="$light src/denoise src/vision src/cli/ src/cli/options"
 tables="$options src/plot src/cli/panel"
 render="$options assets src/live src/cli/job src/cli/render src/review/keep"
 review="$render src/review src/plot src/cli/review src/cli/equip src/cli/explain"
-compare="$render src/compare"
+compare="$render src/measure src/compare"
 all="$build src shaders assets"
 
 program=.build/release/parhelion

@@ -24,8 +24,9 @@
  *       as if they were independent; NaN below two of them; samples.N comes with it.
  *       display.second: where samples saw another display than id.display's, the mean of its
  *       light (emitted + reflected), display.second.variance as above, the share of the
- *       pixel's samples that saw it and its id; NaN, NaN, 0 and -1 elsewhere, NaN, NaN, 0 and -2 where there are several others. All other
- *       layers of such a pixel are of its displays together;
+ *       pixel's samples that saw it and its id; elsewhere NaN, NaN, 0 and -1, and NaN, NaN, 0
+ *       and -2 where there are several others. All other layers of such a pixel are of its
+ *       displays together;
  *   stokes.S0 .. S3   mean over all samples of the luminance and of its other Stokes
  *       parameters, in the camera's axes (path/polarised.h): S1 > 0 horizontal; stokes.degree
  *       is the polarised share of these means, NaN where it is dark;

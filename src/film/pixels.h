@@ -96,7 +96,7 @@ void pixel_display_variance(const DisplaySums *sums, double variance[3]);
 
 /* A second display of a pixel. */
 typedef struct SecondDisplay {
-    int    id;      /* NO_SECOND: there is none; SEVERAL: more than one, which are not told apart */
+    int    id;      /* NO_SECOND: there is none; SEVERAL: more, which are not told apart */
     double samples; /* that saw it */
     double xyz[3];  /* mean over these, cd m^-2 */
     double variance[3]; /* of the mean's R, G, B; NaN below two samples */

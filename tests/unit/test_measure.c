@@ -3,7 +3,7 @@
 #include "frame_fixture.h"
 
 #include "base/confidence.h"
-#include "image/light_shares.h"
+#include "measure/light_shares.h"
 
 static FrameMeasurement measure(const FrameImage *frame, MeasureRequest request, Arena arena)
 {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "image/display_part.h"
+#include "measure/display_part.h"
 
 #include <math.h>
 #include <string.h>
@@ -39,16 +39,17 @@ bool display_layers_find(const FrameImage *frame, DisplayLayers *out)
 
 /* ---- a pixel ----------------------------------------------------------------------------- */
 
-/* Light of some samples of a pixel: how many they are, their mean and their squares about it. */
-typedef struct Share {
+/* Light of some samples of a pixel: how many they are, their mean, and their squares about it.
+ */
+typedef struct PartShare {
     double samples, mean[3], squares[3];
-} Share;
+} PartShare;
 
 /* variance: of the mean; NaN: of one sample. */
-static Share share_of(double samples, const double mean[3], const float *const variance[3],
+static PartShare share_of(double samples, const double mean[3], const float *const variance[3],
                       size_t i)
 {
-    Share share = {.samples = samples};
+    PartShare share = {.samples = samples};
     for (int c = 0; c < 3; c++) {
         double of = (double)variance[c][i];
         share.mean[c] = mean[c];
@@ -57,7 +58,7 @@ static Share share_of(double samples, const double mean[3], const float *const v
     return share;
 }
 
-static Share whole_share(const DisplayLayers *layers, size_t i)
+static PartShare whole_share(const DisplayLayers *layers, size_t i)
 {
     double mean[3];
     for (int c = 0; c < 3; c++)
@@ -66,7 +67,7 @@ static Share whole_share(const DisplayLayers *layers, size_t i)
                     layers->variance, i);
 }
 
-static Share second_share(const DisplayLayers *layers, size_t i)
+static PartShare second_share(const DisplayLayers *layers, size_t i)
 {
     double mean[3];
     for (int c = 0; c < 3; c++) mean[c] = (double)layers->second[c][i];
@@ -76,9 +77,9 @@ static Share second_share(const DisplayLayers *layers, size_t i)
 
 /* What is left of `all` without `other`. Squares about the common mean are those about both
  * means and what lies between these. */
-static Share share_without(const Share *all, const Share *other)
+static PartShare share_without(const PartShare *all, const PartShare *other)
 {
-    Share left = {.samples = all->samples - other->samples};
+    PartShare left = {.samples = all->samples - other->samples};
     for (int c = 0; c < 3; c++) {
         double a = all->mean[c], b = other->mean[c];
         double mean = (all->samples * a - other->samples * b) / left.samples;
@@ -90,7 +91,7 @@ static Share share_without(const Share *all, const Share *other)
     return left;
 }
 
-static DisplayPart part_of(const Share *share, double n)
+static DisplayPart part_of(const PartShare *share, double n)
 {
     double      coverage = share->samples / n;
     DisplayPart part = {.coverage = coverage, .spread = coverage * (1 - coverage) / (n - 1)};
@@ -110,9 +111,9 @@ DisplayPart display_part(const DisplayLayers *layers, size_t i, int id)
         return (DisplayPart){0};
     if (second_id < -1) return (DisplayPart){.is_shared = true, .is_unknown = true};
     double n = (double)layers->samples[i];
-    Share  share = whole_share(layers, i);
+    PartShare  share = whole_share(layers, i);
     if (second_id < 0) return part_of(&share, n);
-    Share other = second_share(layers, i), first = share_without(&share, &other);
+    PartShare other = second_share(layers, i), first = share_without(&share, &other);
     DisplayPart part = part_of(is_first ? &first : &other, n);
     for (int c = 0; c < 3; c++) { /* what channels in single precision leave of a difference */
         double rounding = 0x1p-23 * (double)layers->coverage[i] * share.mean[c];

@@ -5,7 +5,7 @@
  * Threads  pure functions.
  */
 #pragma once
-#include "image/measure.h"
+#include "measure/measure.h"
 
 /* The contribution of one group of lights to a part of a frame. */
 typedef struct LightShare {

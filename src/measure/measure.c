@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "image/measure.h"
+#include "measure/measure.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -10,7 +10,7 @@
 #include "base/count.h"
 #include "image/layer_view.h"
 #include "image/legibility.h"
-#include "image/pixel_noise.h"
+#include "measure/pixel_noise.h"
 #include "spectrum/photometry.h"
 
 /* Sums over the pixels, each times its part. */
@@ -131,12 +131,12 @@ static bool display_light(const RegionPlanes *planes, size_t i, DisplayLight *ou
 }
 
 /* What counts of a pixel. */
-typedef struct PixelLight {
+typedef struct PixelShare {
     double      area;        /* 1, or a display's coverage */
     double      rgb[3], luminance; /* means over it */
     double      variance[3]; /* of area times rgb; NaN: not known */
     DisplayPart own;         /* of the display that is wanted, or else of the pixel's */
-} PixelLight;
+} PixelShare;
 
 static DisplayPart part_at(const RegionPlanes *planes, size_t i)
 {
@@ -149,9 +149,9 @@ static DisplayPart part_at(const RegionPlanes *planes, size_t i)
                         planes->wanted < 0 ? (int)planes->parts.id[k] : planes->wanted);
 }
 
-static PixelLight pixel_light(const RegionPlanes *planes, size_t i)
+static PixelShare pixel_light(const RegionPlanes *planes, size_t i)
 {
-    PixelLight pixel = {.area = 1, .own = part_at(planes, i)};
+    PixelShare pixel = {.area = 1, .own = part_at(planes, i)};
     bool       is_part = planes->rim == RIM_BY_COVERAGE;
     if (is_part) pixel.area = pixel.own.coverage;
     for (int c = 0; c < 3; c++) {
@@ -167,14 +167,14 @@ static PixelLight pixel_light(const RegionPlanes *planes, size_t i)
 }
 
 /* Not a display's share of a pixel, but all of it, and nothing else. */
-static bool is_alone(const RegionPlanes *planes, const PixelLight *pixel, size_t i)
+static bool is_alone(const RegionPlanes *planes, const PixelShare *pixel, size_t i)
 {
     return planes->coverage && planes->coverage[i] == 1 && !pixel->own.is_shared;
 }
 
 /* The share of the pixel that means over displays are taken with; 0: none, as the layers are of
  * two displays. */
-static double display_weight(const RegionPlanes *planes, const PixelLight *pixel, size_t i)
+static double display_weight(const RegionPlanes *planes, const PixelShare *pixel, size_t i)
 {
     if (planes->has_parts) return pixel->own.is_shared ? 0 : pixel->own.coverage;
     return planes->coverage ? (double)planes->coverage[i] : 1;
@@ -242,7 +242,7 @@ static void add_known_twice(const RegionPlanes *planes, size_t i, PixelNoise *to
 
 /* Halves are of whole pixels: of one that shows other things, too, the part of a display has
  * its own variance alone. */
-static void add_pixel_noise(const RegionPlanes *planes, size_t i, const PixelLight *pixel,
+static void add_pixel_noise(const RegionPlanes *planes, size_t i, const PixelShare *pixel,
                             bool on_display, Sums *sums)
 {
     bool is_whole = is_alone(planes, pixel, i), is_part = planes->rim == RIM_BY_COVERAGE;
@@ -255,7 +255,7 @@ static void add_pixel_noise(const RegionPlanes *planes, size_t i, const PixelLig
 }
 
 /* weight: the display's share. What is reflected is measured by the display's samples alone. */
-static void add_display_noise(const RegionPlanes *planes, size_t i, const PixelLight *pixel,
+static void add_display_noise(const RegionPlanes *planes, size_t i, const PixelShare *pixel,
                               double weight, Sums *sums)
 {
     bool          has_own = planes->has_parts, is_whole = is_alone(planes, pixel, i);
@@ -266,8 +266,10 @@ static void add_display_noise(const RegionPlanes *planes, size_t i, const PixelL
     if (has_own) rim_noise_add(&sums->display_rim, pixel->own.spread, rgb);
     if (has_own && !is_whole) add_variance(variance, &sums->display_by_halves);
     else if (planes->has_halves) add_halves(&planes->halves, i, 1, &sums->display_by_halves);
-    if (planes->has_display_halves)
-        add_halves(&planes->display_halves, i, weight, &sums->reflected_by_halves);
+    if (!planes->has_display_halves) return;
+    if (has_own && !isfinite(luminance_at(&planes->display_halves, i))) /* of few samples */
+        add_variance(variance, &sums->reflected_by_halves);
+    else add_halves(&planes->display_halves, i, weight, &sums->reflected_by_halves);
 }
 
 #define HALVES_FREEDOM 16   /* of the halves' squares, at least: */
@@ -280,14 +282,15 @@ static void choose_noise(Sums *sums)
     const PixelNoise *reflected = &sums->reflected_by_halves;
     BrightSamples     bright = {reflected->luminance, reflected->fourths};
     pixel_noise_of_halves(&sums->by_halves, sums->pixels, HALVES_FREEDOM, &sums->noise);
-    if (pixel_noise_of_halves(reflected, sums->display_pixels, REFLECTED_FREEDOM, &sums->display_noise))
+    if (pixel_noise_of_halves(reflected, sums->display_pixels, REFLECTED_FREEDOM,
+                              &sums->display_noise))
         sums->reflected_missing = bright_missing(&bright, 1, 1);
     else
         pixel_noise_of_halves(&sums->display_by_halves, sums->display_pixels, HALVES_FREEDOM,
                       &sums->display_noise);
 }
 
-static bool is_wanted(const RegionPlanes *planes, size_t i, const PixelLight *pixel)
+static bool is_wanted(const RegionPlanes *planes, size_t i, const PixelShare *pixel)
 {
     bool is_named = planes->wanted < 0 || planes->display_id[i] == (float)planes->wanted;
     if (planes->rim == RIM_BY_COVERAGE) return pixel->area > 0;
@@ -295,7 +298,7 @@ static bool is_wanted(const RegionPlanes *planes, size_t i, const PixelLight *pi
 }
 
 /* What a display shows of a pixel that shows something else, too. */
-static void count_rim(const RegionPlanes *planes, size_t i, const PixelLight *pixel, Sums *sums)
+static void count_rim(const RegionPlanes *planes, size_t i, const PixelShare *pixel, Sums *sums)
 {
     if (planes->wanted < 0) return;
     bool is_named = planes->display_id[i] == (float)planes->wanted;
@@ -308,7 +311,7 @@ static void count_rim(const RegionPlanes *planes, size_t i, const PixelLight *pi
 static void add_pixel(const RegionPlanes *planes, size_t i, Sums *sums)
 {
     bool       is_finite = isfinite(luminance_at(&planes->light, i));
-    PixelLight pixel = pixel_light(planes, i);
+    PixelShare pixel = pixel_light(planes, i);
     count_rim(planes, i, &pixel, sums);
     if (!is_wanted(planes, i, &pixel)) return;
     if (!is_finite) {
@@ -468,7 +471,7 @@ static ContentContrast measure_content(const RegionPlanes *planes, const ExrWind
     for (int y = 0; y < part.height; y++) {
         for (int x = 0; x < part.width; x++, k++) {
             size_t     i = first + (size_t)y * (size_t)planes->light.width + (size_t)x;
-            PixelLight pixel = pixel_light(planes, i);
+            PixelShare pixel = pixel_light(planes, i);
             bool       wanted = is_wanted(planes, i, &pixel);
             luminance[k] = wanted ? (float)pixel.luminance : NAN;
             if (variance) variance[k] = (float)(pixel_noise_luminance(pixel.variance) /
@@ -494,7 +497,8 @@ static void add_rim_noise(Sums *sums)
         reflected[c] = sums->reflected_rgb[c] / sums->display_area;
     }
     rim_noise_put(&sums->rim, rgb, &sums->noise);
-    if (sums->display_area > 0) rim_noise_put(&sums->display_rim, reflected, &sums->display_noise);
+    if (sums->display_area > 0)
+        rim_noise_put(&sums->display_rim, reflected, &sums->display_noise);
 }
 
 static FrameMeasurement figures_of(const RegionPlanes *planes, const Sums *sums)

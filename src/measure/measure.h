@@ -17,16 +17,16 @@
  *          few bright samples may have left out (confidence.h). No interval of a display's
  *          luminance and colour is narrower than what channels in single precision leave, 1e-6
  *          of the value.
- * Displays are measured by coverage (display_part.h): a pixel at the rim counts by its part, and
- *          with the display's own light, wherever the frame has the layers of it. Of frames that
- *          have not, rims are left out where display.coverage tells them; else pixels count
- *          whole, and have the light of what is around.
+ * Displays are measured by coverage (display_part.h): a pixel at the rim counts by its part,
+ *          and with the display's own light, wherever the frame has the layers of it. Of frames
+ *          that have not, rims are left out where display.coverage tells them; else pixels
+ *          count whole, and have the light of what is around.
  * Threads  pure functions.
  * Fails    when the frame lacks what is asked for: the text names what to render again.
  */
 #pragma once
 #include "image/content_contrast.h"
-#include "image/display_part.h"
+#include "measure/display_part.h"
 
 typedef struct MeasureRequest {
     const char *frame_name; /* for messages */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "image/pixel_noise.h"
+#include "measure/pixel_noise.h"
 
 #include <math.h>
 

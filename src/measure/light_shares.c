@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "image/light_shares.h"
+#include "measure/light_shares.h"
 
 #include <math.h>
 #include <stdio.h>
