@@ -96,6 +96,8 @@ start 'sub-pixels' subpixels python3 tests/image/subpixels.py $program
 start 'its Python module' library-module python3 tests/library/module.py .build/release
 start 'variants and animations' states python3 tests/image/states.py $program
 start "glTF's faults by their codes" gltf-codes python3 tests/hostile/gltf_codes.py $program
+start 'displays by their part of a pixel' display-area \
+    python3 tests/image/display_area.py $program
 start 'legibility in frames' legibility python3 tests/image/legibility.py $program
 start 'displays the right way round' marked python3 tests/image/marked.py $program
 start 'materials without data' no-data python3 tests/hostile/no_data.py $program

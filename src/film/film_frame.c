@@ -186,6 +186,14 @@ static void read_halves(const Film *film, const PixelSums *sums, float v[3])
     rgb_of_known(pixel_halves(sums, BLOCK_LEAST, halves), halves, v);
 }
 
+uint32_t film_halves_samples(uint32_t first)
+{
+    uint32_t count = 0, odd = 0;
+    while (odd < BLOCK_LEAST || count - odd < BLOCK_LEAST)
+        odd += (first + count++) / BLOCK_SAMPLES % 2;
+    return count;
+}
+
 static void read_display_halves(const Film *film, const PixelSums *sums, float v[3])
 {
     const Fixed *layers = sums->layers;

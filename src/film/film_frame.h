@@ -41,6 +41,9 @@
  *   display.halves   the same of display.reflected, over the samples that saw a display. */
 FrameImage film_to_frame(const Film *film, int attribute_room, Arena *arena);
 
+/* The fewest samples from index `first` on of which `halves` is known. */
+uint32_t film_halves_samples(uint32_t first);
+
 /* An upper bound of the bytes that a film's frame takes. */
 size_t film_frame_bytes_most(const Film *film);
 

@@ -17,6 +17,7 @@
 #include "cli/render/render_request.h"
 #include "cli/render/render_resume.h"
 #include "cli/render/render_setup.h"
+#include "film/film_frame.h"
 #include "render/identity.h"
 #include "render/signals.h"
 #include "scene/load/scene_load.h"
@@ -135,6 +136,18 @@ static void set_areas(RenderRequest *request)
     options->favoured = favours && !options->favours_noise ? &request->favoured.area : NULL;
 }
 
+/* A part of a frame is merged with others. */
+static void warn_of_halves(const RenderRequest *request, Problems *problems)
+{
+    const RenderOptions *options = &request->render;
+    uint32_t count = options->end_sample - options->first_sample;
+    uint32_t least = film_halves_samples(options->first_sample);
+    if (request->names_halves && !request->is_part && count < least)
+        problems_add(problems, SEVERITY_WARNING, "--layers", "",
+                     "halves are known from %u samples a pixel on, %u are rendered: they will "
+                     "be NaN", least, count);
+}
+
 static bool load(RenderRun *work, Error *err)
 {
     RenderRequest *request = &work->request;
@@ -149,6 +162,7 @@ static bool load(RenderRun *work, Error *err)
     if (loaded) set_areas(request);
     if (loaded) request->render.layers = render_layers(work->scene, request->render.layers);
     if (loaded) render_warn_of_darkness(work->scene, &work->problems);
+    if (loaded) warn_of_halves(request, &work->problems);
     cli_print_warnings(&work->problems);
     return loaded;
 }

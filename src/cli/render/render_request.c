@@ -265,6 +265,7 @@ static bool check_render(const RenderWords *typed, Arena *arena, RenderRequest *
                                            "0:N is --spp N");
     if (typed->samples && !parse_samples(typed->samples, options, err)) return false;
     if (typed->layers && !parse_layers(typed->layers, &options->layers, err)) return false;
+    request->names_halves = typed->layers && strstr(typed->layers, "halves");
     if (request->look.is_denoised && !parse_layers(DENOISE_LAYERS, &options->layers, err))
         return false;
     if (typed->has_crop && !parse_crop(typed->crop, options, err)) return false;
@@ -374,7 +375,7 @@ static bool parse_line(int argc, char **argv, Arena *arena, RenderWords *typed,
          typed->crop, .count = 4, .given = &typed->has_crop},
         {"--samples", OPTION_TEXT, "A:B", "only these sample indices, half-open",
          &typed->samples},
-        {"--layers", OPTION_TEXT, "LIST", "all, or names with commas: xyz,depth,normal,...",
+        {"--layers", OPTION_TEXT, "LIST", "all, or names with commas: xyz,depth,normal,... (halves: of 24 samples and more)",
          &typed->layers},
         SCENE_OPTIONS(&typed->scene, &request->scene, outside),
         {"--isa", OPTION_TEXT, "NAME", "sse2, avx2, avx512 (default: the processor's best)",
