@@ -64,7 +64,8 @@ static FrameMeasurement measure(const FrameImage *frame, const char *display, Ar
 /* (100 + 0.25 * 300) / 1.25, whatever the wall; the interval by the samples themselves. */
 ARENA_TEST(a_pixel_counts_by_its_part)
 {
-    const Pixel pixels[] = {{0, 1, 100, 4, NONE}, {0, 0.25, 300, 9, NONE}, {-1, 0, NAN, NAN, NONE}};
+    const Pixel pixels[] = {{0, 1, 100, 4, NONE}, {0, 0.25, 300, 9, NONE},
+                            {-1, 0, NAN, NAN, NONE}};
     FrameImage  frame = row_of(pixels, 3, &arena);
     FrameMeasurement m = measure(&frame, "a", arena);
     assert_int_equal(m.rim, RIM_BY_COVERAGE);

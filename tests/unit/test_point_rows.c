@@ -2,22 +2,14 @@
 /* Points that face somewhere, from text. */
 #include "fixture.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <unistd.h>
-
 #include "base/count.h"
 #include "text/point_rows.h"
 
-/* text as a file of its own. */
-static const char *file_of(const char *text, Arena *arena)
+/* A file of that text. */
+static const char *file_of(const char *text)
 {
-    static int  count;
-    const char *path = arena_format(arena, "/tmp/point_rows_%d_%d.txt", (int)getpid(), count++);
-    FILE       *file = fopen(path, "wb");
-    assert_non_null(file);
-    fputs(text, file);
-    fclose(file);
+    const char *path = in_folder("points.txt");
+    write_text(path, text);
     return path;
 }
 
@@ -27,7 +19,7 @@ ARENA_TEST(rows_of_any_kind_are_points)
                                "1 2 3 0 0 2\r\n"
                                "# a remark\n\n"
                                " 1.5,-2;\t3e-1 0 -1e-30 0 # behind\n"
-                               "1\t2\t3\t3\t0\t4", &arena);
+                               "1\t2\t3\t3\t0\t4");
     static const double wanted[][6] = {
         {1, 2, 3, 0, 0, 1}, {1.5, -2, 0.3, 0, -1, 0}, {1, 2, 3, 0.6, 0, 0.8}};
     FacingPoint *list;
@@ -39,18 +31,16 @@ ARENA_TEST(rows_of_any_kind_are_points)
             assert_near(list[i].place[k], wanted[i][k], 1e-15);
             assert_near(list[i].normal[k], wanted[i][3 + k], 1e-15);
         }
-    remove(path);
 }
 
 ARENA_TEST(a_header_gives_the_order)
 {
-    const char  *path = file_of("nx ny nz x y z\n0 1 0 7 8 9\n", &arena);
+    const char  *path = file_of("nx ny nz x y z\n0 1 0 7 8 9\n");
     FacingPoint *list;
     int          count;
     assert_done(point_rows_read(path, &arena, &list, &count, &err));
     assert_near(list[0].place[0], 7, 0);
     assert_near(list[0].normal[1], 1, 0);
-    remove(path);
 }
 
 ARENA_TEST(what_is_no_point_is_refused_with_its_line)
@@ -79,7 +69,7 @@ ARENA_TEST(what_is_no_point_is_refused_with_its_line)
         {"x y z nx ny nz\n", "", "has no points"},
     };
     for (int i = 0; i < COUNT_OF(cases); i++) {
-        const char  *path = file_of(cases[i].text, &arena);
+        const char  *path = file_of(cases[i].text);
         FacingPoint *list;
         int          count;
         Error        err = {0};
@@ -87,8 +77,7 @@ ARENA_TEST(what_is_no_point_is_refused_with_its_line)
         assert_int_equal(err.code, ERROR_INPUT);
         if (!strstr(err.text, cases[i].says) || strcmp(err.path, cases[i].line) != 0)
             fail_msg("case %d: %s (%s)", i, err.text, err.path);
-        remove(path);
-    }
+        }
 }
 
-TEST_PROGRAM(make_arena, drop_arena)
+TEST_PROGRAM(make_folder, clear_folder)
