@@ -342,7 +342,8 @@ static bool measure(const MeasureWords *typed, Arena *arena, Error *err)
         return luxmeter_run(&typed->cli, &typed->luxmeter, arena, err);
     if (!frame_read(typed->request.frame_name, arena, &frame, err)) return false;
     if (!measure_frame(&frame, &typed->request, *arena, &measured, err)) return false;
-    LightShares lights = light_shares_measure(&frame, &typed->request, arena);
+    LightShares lights = light_shares_measure(&frame, &typed->request,
+                                              measured.luminance.value, arena);
     if (typed->cli.json) return print_json(typed, &measured, &lights, err);
     print_text(&measured, typed->request.display != NULL);
     print_lights(&lights, typed->request.display != NULL);

@@ -99,7 +99,7 @@ static int compare_shares(const void *a, const void *b)
 }
 
 LightShares light_shares_measure(const FrameImage *frame, const MeasureRequest *request,
-                                 Arena *arena)
+                                 double luminance, Arena *arena)
 {
     LightShares  out = {ARENA_NEW(arena, LightShare, frame->channel_count), 0, 0};
     const float *rgb[3], *light[3];
@@ -113,8 +113,9 @@ LightShares light_shares_measure(const FrameImage *frame, const MeasureRequest *
         const char *name = frame_string(frame, arena_format(arena, "parhelion:%s", layer));
         double      cd_m2 = mean_luminance(light, &pixels);
         if (!name) name = layer + strlen(LIGHT);
+        double share = all > 0 ? cd_m2 / all : 0;
         out.list[out.count++] =
-            (LightShare){layer, name, cd_m2, all > 0 ? cd_m2 / all : 0};
+            (LightShare){layer, name, all > 0 ? share * luminance : cd_m2, share};
     }
     qsort(out.list, (size_t)out.count, sizeof *out.list, compare_shares);
     return out;
