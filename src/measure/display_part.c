@@ -125,10 +125,9 @@ DisplayPart display_part(const DisplayLayers *layers, size_t i, int id)
 
 /* ---- a frame ----------------------------------------------------------------------------- */
 
-static float *new_channel(FrameImage *frame, const char *layer, int c, Arena *arena)
+/* A copy in its place; NULL: there is none. */
+static float *new_channel(FrameImage *frame, const char *name, Arena *arena)
 {
-    const char *name = *layer ? arena_format(arena, "%s.%c", layer, "RGB"[c])
-                              : arena_format(arena, "%c", "RGB"[c]);
     for (int i = 0; i < frame->channel_count; i++) {
         if (strcmp(frame->channels[i].name, name) != 0) continue;
         float *values = ARENA_NEW(arena, float, frame_pixel_count(frame));
@@ -150,7 +149,7 @@ static void fill_channel(const DisplayLayers *layers, int id, int c, size_t coun
         double variance = part.scatter[c] + part.spread * mean * mean;
         bool   is_alone = part.coverage == 1 && !part.is_shared;
         to[0][i] = part.is_unknown ? NAN : (float)(part.coverage * mean);
-        if (to[1] && !is_alone) to[1][i] = (float)variance;
+        to[1][i] = (float)variance;
         if (to[2] && !is_alone) to[2][i] = (float)sqrt(variance);
     }
 }
@@ -158,14 +157,18 @@ static void fill_channel(const DisplayLayers *layers, int id, int c, size_t coun
 FrameImage display_part_frame(const FrameImage *frame, const DisplayLayers *layers, int id,
                               Arena *arena)
 {
-    static const char *const CHANGED[3] = {"", "variance", "halves"};
+    static const char *const NAMES[3][3] = {
+        {"R", "variance.R", "halves.R"}, {"G", "variance.G", "halves.G"},
+        {"B", "variance.B", "halves.B"}};
     FrameImage out = *frame;
-    out.channels = ARENA_NEW(arena, ExrChannel, frame->channel_count);
+    out.channel_room = frame->channel_count + 3;
+    out.channels = ARENA_NEW(arena, ExrChannel, out.channel_room);
     memcpy(out.channels, frame->channels,
            (size_t)frame->channel_count * sizeof *out.channels);
     for (int c = 0; c < 3; c++) {
         float *to[3];
-        for (int k = 0; k < 3; k++) to[k] = new_channel(&out, CHANGED[k], c, arena);
+        for (int k = 0; k < 3; k++) to[k] = new_channel(&out, NAMES[c][k], arena);
+        if (!to[1]) to[1] = frame_add_channel(&out, NAMES[c][1], false, arena);
         if (to[0]) fill_channel(layers, id, c, frame_pixel_count(frame), to);
     }
     return out;

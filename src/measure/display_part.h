@@ -41,7 +41,8 @@ typedef struct DisplayPart {
 
 DisplayPart display_part(const DisplayLayers *layers, size_t i, int id);
 
-/* The frame as it would be if all but the display were black: R, G, B and the layers that state
- * their noise are new, all others the frame's. */
+/* The frame as it would be if all but the display were black: R, G, B, the layer variance (also
+ * where the frame has none) and, where it is there, the layer halves are new, all others the
+ * frame's. */
 FrameImage display_part_frame(const FrameImage *frame, const DisplayLayers *layers, int id,
                               Arena *arena);
