@@ -63,12 +63,12 @@ static bool render_share(const RenderRequest *request, const char *identity, con
 /* ---- before ------------------------------------------------------------------------------ */
 
 /* Frames that our own reader would refuse, and films that the memory does not hold. */
-static bool check_memory(const RenderOptions *options, Error *err)
+static bool check_memory(const RenderOptions *options, unsigned layers, Error *err)
 {
     FilmRect crop = options->crop;
     double   pixels = (double)options->width * (double)options->height;
     int      lights = options->lights ? options->lights->count : 0;
-    double   wanted = (double)film_bytes(crop, options->layers, lights);
+    double   wanted = (double)film_bytes(crop, layers, lights);
     double   memory = (double)machine_memory_bytes();
     if (pixels > EXR_MAX_PIXELS)
         return error_set(err, ERROR_USAGE,
@@ -99,7 +99,7 @@ static bool find_lights(RenderRun *work, Error *err)
                          "together one name",
                          work->lights.count, FILM_LIGHTS_MAX);
     options->lights = &work->lights;
-    return check_memory(options, err);
+    return check_memory(options, options->layers, err);
 }
 
 /* Hours of rendering must not end at a folder that cannot be written. */
@@ -161,6 +161,8 @@ static bool load(RenderRun *work, Error *err)
         frame_area_find(work->scene, *work->arena, &request->favoured, err);
     if (loaded) set_areas(request);
     if (loaded) request->render.layers = render_layers(work->scene, request->render.layers);
+    if (loaded && !request->replays)
+        loaded = check_memory(&request->render, request->render.layers, err);
     if (loaded) render_warn_of_darkness(work->scene, &work->problems);
     if (loaded) warn_of_halves(request, &work->problems);
     cli_print_warnings(&work->problems);
@@ -442,7 +444,9 @@ static bool run(RenderRun *work, Error *err)
     if (work->task && !options->isa) options->isa = work->task->isa;
     options->checkpoint = work->request.keeps_checkpoints ? keep_checkpoint_meanwhile : NULL;
     options->user = work;
-    if (!check_memory(options, err) || !check_outputs(&work->request, err) ||
+    /* whether the scene has a second display is not known yet */
+    if (!check_memory(options, options->layers & ~(unsigned)LAYER_DISPLAY_SECOND, err) ||
+        !check_outputs(&work->request, err) ||
         !check_look(&work->request, *work->arena, err) || !load(work, err))
         return false;
     if (work->request.share.parts) return share(work, err);
