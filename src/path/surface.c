@@ -3,6 +3,7 @@
 
 #include "light/coverage.h"
 #include "path/surface_coatings.h"
+#include "path/surface_grey.h"
 #include "shaders/facets/index_tables.h"
 #include "shaders/facets/microfacet.h"
 #include "shaders/layers/sheen.h"
@@ -21,6 +22,7 @@ struct SurfaceTables {
     const CoatTable   **on_material; /* of a coat on each material; NULL: it has none */
     const SurfaceCoating *const *coatings; /* of each material; NULL: none has one */
     const SolidTables *solids;             /* of each material */
+    const bool *is_grey;                   /* likewise */
 };
 
 static bool is_rough_solid(const Material *m)
@@ -96,6 +98,7 @@ const SurfaceTables *surface_tables_build(const Scene *scene, bool is_polarised,
     SolidTables *solids = ARENA_NEW(arena, SolidTables, scene->material_count + 1);
     tables->of_coat = &common_energy_table;
     tables->solids = solids;
+    tables->is_grey = surface_grey_build(scene, arena);
     tables->coatings = surface_coatings_build(scene, is_polarised, arena);
     for (int i = 0; i < scene->material_count; i++) {
         float ior = scene->materials[i].ior;
@@ -512,6 +515,7 @@ void surface_at(const Scene *scene, const SurfaceTables *tables, const Hit *hit,
     out->part_id = part_id;
     out->triangle = hit->triangle;
     out->material_id = scene->parts[part_id].material_id;
+    out->is_grey = tables->is_grey[out->material_id];
     out->emits = triangle_emits_to(scene, hit->triangle, &out->point, wo);
     coverage_texel(scene, m, hit, &out->point, texel);
     out->alpha = coverage_alpha(m, texel[3]);
@@ -540,7 +544,8 @@ void surface_at(const Scene *scene, const SurfaceTables *tables, const Hit *hit,
 void surface_white(const SurfaceTables *tables, Vec3 position, Vec3 normal, Surface *out)
 {
     *out = (Surface){.position = position, .ng = normal, .frame = frame_from_z(normal),
-                     .local_wo = {0, 0, 1}, .part_id = NO_ID, .material_id = NO_ID, .alpha = 1};
+                     .local_wo = {0, 0, 1}, .part_id = NO_ID, .material_id = NO_ID, .alpha = 1,
+                     .is_grey = true};
     MetallicRoughness *model = bsdf_be_metallic_roughness(&out->bsdf);
     *model = metallic_roughness_default(tables->of_coat);
     model->metallic = 0;

@@ -94,13 +94,6 @@ static inline bool spectrum_is_zero(Spectrum a)
     return spectrum_max_lane(a) <= 0 && spectrum_is_finite(a);
 }
 
-/* All lanes hold the same bits: nothing so far depended on wavelength. */
-static inline bool spectrum_is_grey(Spectrum a)
-{
-    Spectrum first = spectrum_all(a[0]);
-    return memcmp(&a, &first, sizeof a) == 0;
-}
-
 /* Four vectors of four as one, through vectors as wide as the CPU's: what is stored in parts
  * and loaded as a whole waits until the parts have left the store buffer. */
 typedef float SpectrumQuarter __attribute__((vector_size(16)));
