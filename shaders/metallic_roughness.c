@@ -81,6 +81,9 @@
  * n, k and by a coated face as their waves add up; another metal is taken for a perfect mirror,
  * a coated sheet for a bare one; what the base and further facets send is unpolarised.
  *
+ * Emission is not this page's: the coat dims it by 1 - clearcoat F (src/light/emission.c), F the
+ * exact curve at the coat's normal, however rough, and the light stays unpolarised.
+ *
  * Not modelled: subsurface spread, coloured absorption along a slanted path in the coat, turns
  * of light between a coat and the mirror of a non-metal (its few per cent go to the Lambert
  * base), and between a rough base and a coat whose normal is tilted; of a metal without n, k

@@ -13,8 +13,7 @@
 #include "shaders/layers/coating.h"
 #include "shaders/layers/covered_lobe.h"
 #include "shaders/layers/sheen.h"
-
-#define CLEARCOAT_IOR 1.5f /* glTF's */
+#include "spectrum/fresnel.h"
 
 struct MetallicView;
 

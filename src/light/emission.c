@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "light/emission.h"
 
+#include "light/normal_map.h"
 #include "panel/query/panel_emission.h"
 #include "panel/query/panel_place.h"
+#include "spectrum/fresnel.h"
 #include "spectrum/photometry.h"
 
 #include "base/units.h"
@@ -29,7 +31,7 @@ TrianglePoint triangle_point(const Scene *scene, uint32_t triangle, float u, flo
           c = scene->positions[t->vertex[2]];
     uint32_t i = t->vertex[0] - part->first_vertex, j = t->vertex[1] - part->first_vertex,
              k = t->vertex[2] - part->first_vertex;
-    TrianglePoint point = {.position = interpolate(a, b, c, u, v)};
+    TrianglePoint point = {.position = interpolate(a, b, c, u, v), .u = u, .v = v};
     point.ng = vec3_normalize(vec3_cross(vec3_sub(b, a), vec3_sub(c, a)));
     point.ns = part->normals ? vec3_normalize(interpolate(part->normals[i], part->normals[j],
                                                           part->normals[k], u, v))
@@ -177,6 +179,21 @@ static Spectrum material_emission(const Scene *scene, const Material *material,
            spectrum_all(luminance);
 }
 
+/* Share of the light from below that the coat lets out. */
+static float coat_lets_out(const Scene *scene, const Material *m, uint32_t triangle,
+                           const TrianglePoint *point, Vec3 direction)
+{
+    float coat = m->clearcoat, texel[4];
+    if (!material_shows_coat(m)) return 1;
+    if (m->clearcoat_texture.texture_id != NO_ID) {
+        Vec2 uv = slot_uv(&m->clearcoat_texture, point);
+        texture_data(&scene->textures[m->clearcoat_texture.texture_id], uv.x, uv.y, texel);
+        coat *= texel[0];
+    }
+    float cosine = fabsf(vec3_dot(coat_normal(scene, m, triangle, point), direction));
+    return 1 - coat * fresnel_unpolarised(fminf(cosine, 1), CLEARCOAT_IOR);
+}
+
 bool triangle_emits_to(const Scene *scene, uint32_t triangle, const TrianglePoint *point,
                        Vec3 direction)
 {
@@ -215,5 +232,6 @@ Spectrum triangle_emission(const Scene *scene, uint32_t triangle, const Triangle
     if (material->display_id != NO_ID)
         return display_emission(scene, &scene->displays[material->display_id], triangle, point,
                                 direction, wavelengths);
-    return material_emission(scene, material, point, wavelengths);
+    return material_emission(scene, material, point, wavelengths) *
+           spectrum_all(coat_lets_out(scene, material, triangle, point, direction));
 }

@@ -14,6 +14,7 @@ typedef struct TrianglePoint {
     Vec3  ng;    /* unit, the front's side (counter-clockwise vertices) */
     Vec3  ns;    /* unit, interpolated vertex normal; ng where that vanishes */
     Vec2  uv[SCENE_UV_SETS];
+    float u, v;  /* barycentric weights of vertices 1 and 2 */
 } TrianglePoint;
 
 TrianglePoint triangle_point(const Scene *scene, uint32_t triangle, float u, float v);
@@ -49,7 +50,8 @@ void display_codes(const Scene *scene, const Display *display, const TrianglePoi
 void display_emission_xyz(const Scene *scene, const Display *display, uint32_t triangle,
                           const TrianglePoint *point, Vec3 direction, float xyz[3]);
 
-/* Emitted colour of a material that is no display, linear Rec.709, cd m^-2; front side. */
+/* Emitted colour of a material that is no display, linear Rec.709, cd m^-2; front side, below
+ * any coat. */
 void emitted_rgb(const Scene *scene, const Material *material, const TrianglePoint *point,
                  float rgb[3]);
 
@@ -65,6 +67,8 @@ bool triangle_emits_to(const Scene *scene, uint32_t triangle, const TrianglePoin
 bool triangle_polarisation(const Scene *scene, uint32_t triangle, const TrianglePoint *point,
                            Vec3 direction, Vec3 *axis, float *degree);
 
-/* Spectral radiance that leaves the point along `direction` (unit, world). */
+/* Spectral radiance that leaves the point along `direction` (unit, world). A clear coat lets
+ * out 1 - clearcoat * Fresnel of it (KHR_materials_clearcoat, its exact curve); an unlit
+ * material has no coat, and a display was measured with all that lies on it. */
 Spectrum triangle_emission(const Scene *scene, uint32_t triangle, const TrianglePoint *point,
                            Vec3 direction, const Wavelengths *wavelengths);

@@ -2,6 +2,7 @@
 #include "path/surface.h"
 
 #include "light/coverage.h"
+#include "light/normal_map.h"
 #include "path/surface_coatings.h"
 #include "path/surface_grey.h"
 #include "shaders/facets/index_tables.h"
@@ -148,39 +149,6 @@ static Spectrum colour_spectrum(const Scene *scene, int curve_id, const float fa
 
 /* ---- shading normals -------------------------------------------------------------------- */
 
-/* The vertices' tangent, made perpendicular to n, and bitangent; false: none. */
-static bool tangent_at(const Scene *scene, const Hit *hit, Vec3 n, Vec3 *along, Vec3 *across)
-{
-    const Tangent *tangents = scene_part(scene, hit->triangle)->tangents;
-    const float weight[3] = {1 - hit->u - hit->v, hit->u, hit->v};
-    float side = 0;
-    if (!tangents) return false;
-    *along = vec3(0, 0, 0);
-    for (int k = 0; k < 3; k++) {
-        const Tangent *corner = &tangents[scene_corner_place(scene, hit->triangle, k)];
-        *along = vec3_along(*along, corner->along, weight[k]);
-        side += weight[k] * corner->side;
-    }
-    *along = vec3_normalize(vec3_along(*along, n, -vec3_dot(*along, n)));
-    *across = vec3_scale(vec3_cross(n, *along), side < 0 ? -1.0f : 1.0f);
-    return vec3_dot(*along, *along) > 0.5f;
-}
-
-/* The normal that a normal map gives, in the tangent frame of the vertices. */
-static Vec3 mapped_normal(const Scene *scene, const TextureSlot *slot, float scale,
-                          const Hit *hit, const TrianglePoint *point)
-{
-    float texel[4];
-    Vec3  n = point->ns, along, across;
-    if (slot->texture_id == NO_ID || !tangent_at(scene, hit, n, &along, &across) ||
-        !read_slot(scene, slot, point, texture_data, texel))
-        return n;
-    Vec3 bent = vec3_along(vec3_scale(along, scale * (2 * texel[0] - 1)), across,
-                           scale * (2 * texel[1] - 1));
-    bent = vec3_normalize(vec3_along(bent, n, 2 * texel[2] - 1));
-    return vec3_dot(bent, bent) > 0.5f ? bent : n;
-}
-
 /* ns, turned to the side that `side` is on, and bent until `above` is above its plane. */
 static Vec3 oriented_normal(Vec3 ns, Vec3 side, Vec3 above)
 {
@@ -254,8 +222,7 @@ static void set_coat(const Site *site, const Surface *surface, MetallicRoughness
     if (!(model->clearcoat > 0)) return;
     float roughness = scaled(site->scene, m->clearcoat_roughness,
                              &m->clearcoat_roughness_texture, point, 1);
-    Vec3 normal = mapped_normal(site->scene, &m->clearcoat_normal_texture,
-                                m->clearcoat_normal_scale, site->hit, point);
+    Vec3 normal = coat_normal(site->scene, m, site->hit->triangle, point);
     if (vec3_dot(normal, surface->frame.z) < 0) normal = vec3_neg(normal);
     model->clearcoat_alpha = roughness * roughness;
     model->clearcoat_energy = site->tables->of_coat;
@@ -289,7 +256,7 @@ static void set_brushing(const Scene *scene, const Hit *hit, const Brushing *b,
     read_slot(scene, &b->texture, &surface->point, texture_data, texel);
     float x = 2 * texel[0] - 1, y = 2 * texel[1] - 1, strength = b->strength * texel[2];
     float along = x * b->cosine - y * b->sine, across = x * b->sine + y * b->cosine;
-    if (!(strength > 0) || !tangent_at(scene, hit, surface->point.ns, &tangent, &bitangent))
+    if (!(strength > 0) || !point_tangent(scene, hit->triangle, &surface->point, &tangent, &bitangent))
         return;
     Vec3 z = surface->frame.z;
     Vec3 turned = vec3_along(vec3_scale(tangent, along), bitangent, across);
@@ -524,7 +491,8 @@ void surface_at(const Scene *scene, const SurfaceTables *tables, const Hit *hit,
     Vec3 eye = vec3_dot(side, wo) < 0 ? vec3_neg(wo) : wo;
     Vec3 ns = m->display_id != NO_ID /* a panel was measured with its surface */
                   ? out->point.ns
-                  : mapped_normal(scene, &m->normal_texture, m->normal_scale, hit, &out->point);
+                  : mapped_normal(scene, &m->normal_texture, m->normal_scale, hit->triangle,
+                                  &out->point);
     out->frame = frame_from_z(oriented_normal(ns, side, eye));
     Site site = {.scene = scene, .tables = tables, .material = m, .hit = hit,
                  .wavelengths = wavelengths};

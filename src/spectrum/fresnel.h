@@ -10,6 +10,8 @@
 
 #include "spectrum/spectrum.h"
 
+#define CLEARCOAT_IOR 1.5f /* of the lacquer of KHR_materials_clearcoat */
+
 /* Reflectance of light polarised across (s) and along (p) the plane of incidence. */
 typedef struct Fresnel {
     float s, p;
