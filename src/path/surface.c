@@ -320,6 +320,7 @@ static void set_metallic_roughness(const Site *site, Surface *surface)
     model->metallic = site->metallic;
     model->alpha = site->alpha;
     model->transmission = site->transmission;
+    model->tint = tint_of(site);
     model->specular = scaled(site->scene, m->specular, &m->specular_texture, point, 3);
     model->specular_color = colour_spectrum(site->scene, m->specular_curve_id,
                                             m->specular_color, coloured ? texel : white,
@@ -367,8 +368,9 @@ static void set_window(const Site *site, Surface *surface)
     ThinWindow *window = bsdf_be_thin_window(&surface->bsdf);
     *window = (ThinWindow){.tint = tint_of(site), .ior = site->material->ior};
     if (!coating) return;
-    window->reflectance = is_front(surface) ? coating->sheet->front : coating->sheet->back;
-    window->transmittance = coating->sheet->through;
+    window->coating = coating->sheet;
+    window->ior = coating->sheet->ior;
+    window->front_is_met = is_front(surface);
     window->wavelengths = site->wavelengths;
 }
 

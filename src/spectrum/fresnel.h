@@ -67,13 +67,6 @@ static inline float fresnel_shape(float eta, float cosine)
     return (fresnel_unpolarised(cosine, eta) - f0) / (1 - f0);
 }
 
-/* A sheet with two equal faces, all reflections between them added up without interference:
- * R = 2r / (1 + r) for each polarisation; what is not reflected is transmitted. */
-static inline float fresnel_slab(Fresnel face)
-{
-    return face.s / (1 + face.s) + face.p / (1 + face.p);
-}
-
 /* (1 - cosine)^5 */
 static inline float schlick_weight(float cosine)
 {

@@ -67,6 +67,15 @@ def pane_transmittance(cos_i, ior):
     return sum((1 - r) / (1 + r) for r in fresnel(cos_i, ior)) / 2
 
 
+def tinted_pane(cos_i, ior, tint):
+    """R and T of two faces and one body that lets `tint` through along the normal, mean of both
+    polarisations."""
+    t = tint ** (1 / math.sqrt(1 - (1 - cos_i * cos_i) / (ior * ior)))
+    r_t = [(r + (1 - r) ** 2 * t * t * r / (1 - r * r * t * t),
+            (1 - r) ** 2 * t / (1 - r * r * t * t)) for r in fresnel(cos_i, ior)]
+    return sum(r for r, _ in r_t) / 2, sum(t for _, t in r_t) / 2
+
+
 def tilted(degrees):
     """Unit vector in the x-y plane, so many degrees from +Y towards +X."""
     angle = math.radians(degrees)
@@ -465,7 +474,7 @@ def light_through_window(degrees):
     scene.light("directional", 1000, direction=[-x for x in tilted(degrees)])
     look_from(scene, "floor", [0.1, 0, 0.3], [0, 1, 0])  # beside the diagonal of the pane
     cos_i = math.cos(math.radians(degrees))
-    lux = 1000 * cos_i * 0.8 * pane_transmittance(cos_i, 1.52)
+    lux = 1000 * cos_i * tinted_pane(cos_i, 1.52, 0.8)[1]
     return Case(f"light through tinted glass at {degrees} degrees", scene,
                 [Claim("floor", shown(lux))], ["--max-bounces", "1"])
 
