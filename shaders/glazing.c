@@ -144,7 +144,8 @@ static float ghost_shift(const Glazing *pane, float cosine)
     float sine = safe_sqrtf(1 - cosine * cosine), sum = 0;
     for (int i = 0; i < pane->layer_count; i++) {
         const GlazingLayer *layer = &pane->layers[i];
-        sum += layer->thickness_m * sine / (layer->ior * pane_cosine_inside(cosine, layer->ior));
+        float inside = pane_cosine_inside(cosine, layer->ior);
+        sum += layer->thickness_m * sine / (layer->ior * inside);
     }
     return 2 * sum;
 }

@@ -37,7 +37,8 @@
  * send back goes into a Lambert base, coupled symmetrically (Kelemen and Szirmay-Kalos 2001),
  * so a white plastic returns exactly what it gets. Metals use Schlick's curve a wavelength. The
  * transmissive share is a sheet with two faces and one body that absorbs (layers/pane.h), each
- * polarisation by itself; smooth sheets pass light straight on. Metals and sheets get back what facets send to other facets (Kulla and Conty 2017).
+ * polarisation by itself; smooth sheets pass light straight on. Metals and sheets get back what
+ * facets send to other facets (Kulla and Conty 2017).
  * A coat covers its share of the surface. What it lets in and out again is one less its albedo
  * each way; what it holds back meets the base again: a metal's lobe and rebound are scaled for
  * it by coat.h, the Lambert base is coupled to both boundaries at once. A white metal or
@@ -82,8 +83,8 @@
  * n, k and by a coated face as their waves add up; another metal is taken for a perfect mirror,
  * a coated sheet for a bare one; what the base and further facets send is unpolarised.
  *
- * Emission is not this page's: the coat dims it by 1 - clearcoat F (src/light/emission.c), F the
- * exact curve at the coat's normal, however rough, and the light stays unpolarised.
+ * Emission is not this page's: the coat dims it by 1 - clearcoat F (src/light/emission.c), F
+ * the exact curve at the coat's normal, however rough, and the light stays unpolarised.
  *
  * Not modelled: subsurface spread, coloured absorption along a slanted path in the coat, turns
  * of light between a coat and the mirror of a non-metal (its few per cent go to the Lambert
@@ -354,9 +355,12 @@ static Spectrum coated_pane_albedo(const MetallicRoughness *m, const MetallicFac
     if (is_smooth(m->alpha)) return sent_by(facet_pane(m, b, wo.z));
     LobeFacets facets = lobe_facets(&common_facet_table, wo, facet_alphas(m));
     Spectrum   sum = spectrum_all(0);
-    for (int i = 0; i < LOBE_FACETS; i++)
+    float      all = 1e-6f; /* what they hide is taken as they send the rest */
+    for (int i = 0; i < LOBE_FACETS; i++) {
         sum += sent_by(facet_pane(m, b, facet_cosine[i])) * spectrum_all(facets.weight[i]);
-    return sum;
+        all += facets.weight[i];
+    }
+    return sum / spectrum_all(all);
 }
 
 /* The base's albedo by its shares: opaque, sheet, metal. */
@@ -431,8 +435,8 @@ static void add_facets(const MetallicView *view, float cosine, Spectrum all,
     Spectrum opaque = spectrum_all((1 - m->transmission) * (face.s + face.p));
     Spectrum clear = spectrum_all(0), both;
     if (m->transmission > 0)
-        clear = pane_between(spectrum_all(face.s), spectrum_all(face.p), pane.through).reflected *
-                spectrum_all(2 * m->transmission);
+        clear = pane_between(spectrum_all(face.s), spectrum_all(face.p),
+                             pane.through).reflected * spectrum_all(2 * m->transmission);
     both = spectrum_max(opaque + clear, spectrum_all(1e-30f));
     polarised_add(parts, face, share * nonmetal * opaque / both);
     if (m->transmission > 0)

@@ -81,7 +81,8 @@ static inline void polarised_add_pane(PolarisedParts *sum, const PolarisedPane *
     Waves    face = pane->face;
     Spectrum r_s = spectrum_all(face.s), r_p = spectrum_all(face.p), t = pane->through;
     Spectrum half = spectrum_all(0.5f), s, p, along = spectrum_all(face.along);
-    Spectrum lets = spectrum_all((1 - face.s) * (1 - face.p)) * pane_turns(along * along * t * t);
+    Spectrum lets = spectrum_all((1 - face.s) * (1 - face.p)) *
+                    pane_turns(along * along * t * t);
     s = pane->passes ? pane_passes(r_s, r_s, t) : pane_reflects(r_s, r_s, t);
     p = pane->passes ? pane_passes(r_p, r_p, t) : pane_reflects(r_p, r_p, t);
     along = pane->passes ? lets * t : along + along * lets * t * t;

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* coating.h -- what a coated boundary reflects and lets through, interpolated.
  *
- * Shares of light (unpolarised, but for panes and sheets) in [0, 1] over angle and wavelength (360 to 830
- * nm, 1 nm), made of a stack of layers by coating_tables.h. Within 3e-4 of the stack's own
- * shares for coatings of some layers; where a stack of microns has a step of a few nm, within
- * 2e-2.
+ * Shares of light (unpolarised, but for panes and sheets) in [0, 1] over angle and wavelength
+ * (360 to 830 nm, 1 nm), made of a stack of layers by coating_tables.h. Within 3e-4 of the
+ * stack's own shares for coatings of some layers; where a stack of microns has a step of a few
+ * nm, within 2e-2.
  *
  * Memory   120 KiB a table of some layers, at most 2 MiB; energies 3.7 MiB, at most 30.
  * Threads  const once built.

@@ -241,7 +241,7 @@ static MetallicChoices choose_bare(const MetallicView *view)
     float  f0 = spectrum_mean(view->boundary.f0);
     float face = f0 * e.all + (m->specular - f0) * e.shape;
     float tint = spectrum_mean(m->tint), in = 1 - face, seen = face * tint;
-    float once = in * tint / fmaxf(1 - seen * seen, 1e-6f) * in; /* through; mean of the lanes */
+    float once = in * in * tint / fmaxf(1 - seen * seen, 1e-6f); /* through, about */
     float sheet = face + once * seen;
     float metal = base * e.all + (1 - base) * e.shape;
     float clear = (1 - m->metallic) * m->transmission, solid = 1 - m->metallic - clear;

@@ -5,26 +5,8 @@
  */
 #pragma once
 #include "bvh/ray.h"
-#include "scene/scene.h"
+#include "light/triangle_point.h"
 #include "spectrum/wavelengths.h"
-
-/* A point of a triangle, interpolated. */
-typedef struct TrianglePoint {
-    Vec3  position;
-    Vec3  ng;    /* unit, the front's side (counter-clockwise vertices) */
-    Vec3  ns;    /* unit, interpolated vertex normal; ng where that vanishes */
-    Vec2  uv[SCENE_UV_SETS];
-    float u, v;  /* barycentric weights of vertices 1 and 2 */
-} TrianglePoint;
-
-TrianglePoint triangle_point(const Scene *scene, uint32_t triangle, float u, float v);
-
-/* Its position alone. */
-Vec3 triangle_position(const Scene *scene, uint32_t triangle, float u, float v);
-
-/* Texture coordinates of a slot, at a point and at a corner. */
-Vec2 slot_uv(const TextureSlot *slot, const TrianglePoint *point);
-Vec2 slot_corner_uv(const Scene *scene, const TextureSlot *slot, uint32_t triangle, int corner);
 
 /* The display's frame at a point: +z the shading normal on the front's side, +x the direction
  * of growing U of its content, +y up. */

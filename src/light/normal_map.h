@@ -4,7 +4,7 @@
  * Frame    world; unit vectors.  Threads  pure functions.  Fails  never.
  */
 #pragma once
-#include "light/emission.h"
+#include "light/triangle_point.h"
 
 /* The vertices' tangent, made perpendicular to ns, and bitangent; false: none. */
 bool point_tangent(const Scene *scene, uint32_t triangle, const TrianglePoint *point,

@@ -256,7 +256,8 @@ static void set_brushing(const Scene *scene, const Hit *hit, const Brushing *b,
     read_slot(scene, &b->texture, &surface->point, texture_data, texel);
     float x = 2 * texel[0] - 1, y = 2 * texel[1] - 1, strength = b->strength * texel[2];
     float along = x * b->cosine - y * b->sine, across = x * b->sine + y * b->cosine;
-    if (!(strength > 0) || !point_tangent(scene, hit->triangle, &surface->point, &tangent, &bitangent))
+    if (!(strength > 0) ||
+        !point_tangent(scene, hit->triangle, &surface->point, &tangent, &bitangent))
         return;
     Vec3 z = surface->frame.z;
     Vec3 turned = vec3_along(vec3_scale(tangent, along), bitangent, across);

@@ -177,7 +177,8 @@ static inline Spectrum spectrum_log(Spectrum a)
     static const float terms[] = {2 / 11.0f, 2 / 9.0f, 2 / 7.0f, 2 / 5.0f, 2 / 3.0f, 2};
     const Spectrum least = spectrum_all(1.2e-38f);
     SpectrumMask bits = (SpectrumMask)spectrum_max(a, least), n = (bits - root_half) >> 23;
-    Spectrum     m = (Spectrum)(bits - n * 0x800000), whole = __builtin_convertvector(n, Spectrum);
+    Spectrum     whole = __builtin_convertvector(n, Spectrum);
+    Spectrum     m = (Spectrum)(bits - n * 0x800000);
     Spectrum     t = (m - spectrum_all(1)) / (m + spectrum_all(1)), t2 = t * t, sum = {0};
     for (int i = 0; i < 6; i++) sum = sum * t2 + spectrum_all(terms[i]);
     sum = sum * t + whole * spectrum_all(-2.12194440e-4f) + whole * spectrum_all(0.693359375f);

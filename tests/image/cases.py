@@ -583,6 +583,7 @@ def all_cases(whole):
     cases += [measured_metal(angle) for angle in (0, 60, 80)]
     cases += [solid_slab(angle) for angle in (0, 45, 70)]
     cases += [light_through_window(angle) for angle in ANGLES[:-1]]
-    cases += [lacquered_lamp(coat, angle) for coat, angle in ((1, 0), (1, 60), (0.5, 75), (1, 75))]
+    cases += [lacquered_lamp(coat, angle)
+              for coat, angle in ((1, 0), (1, 60), (0.5, 75), (1, 75))]
     cases.append(tilted_coat())
     return cases

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""panes.py PARHELION -- displays seen through panes and in mirrors: what is neutral sends on the
-panel's own XYZ, angle by angle and to single precision, whatever the wavelengths; what is not
-sends the same on in the mean.
+"""panes.py PARHELION -- thin panes are two faces and one absorbing body, whatever names their
+tint; and displays seen through neutral ones and in neutral mirrors keep the panel's own XYZ,
+angle by angle and to single precision, whatever the wavelengths.
 """
 import json
 import math
@@ -151,9 +151,54 @@ def check_neutral(report, eye, folder):
                       [reflectance(angle) * x for x in panel], 3e-4)
 
 
+# ---- panes ---------------------------------------------------------------------------------
+
+LUMINANCE = 1000
+
+
+def lit_pane(material_of, degrees, above):
+    """A pane at y = 0 under a wide lamp, or over one, seen from above."""
+    scene, angle = Scene(), math.radians(degrees)
+    scene.facing_quad(material_of(scene), [0, 0, 0], [0, 1, 0], 2)
+    scene.facing_quad(scene.emitter(LUMINANCE), [0, 3 if above else -1, 0],
+                      [0, -1 if above else 1, 0], 80)
+    way = [math.sin(angle), -math.cos(angle), 0]
+    scene.probe("eye", [-x for x in way], way, 0.01)
+    return scene
+
+
+def half_clear(scene):
+    """glTF's surface, not its window: a tenth of it is a black body."""
+    return scene.material(
+        pbrMetallicRoughness={"baseColorFactor": [0, 0, 0, 1], "metallicFactor": 0,
+                              "roughnessFactor": 0}, doubleSided=True,
+        extensions={"KHR_materials_transmission": {"transmissionFactor": 0.9}})
+
+
+def check_panes(report, eye):
+    for tint in (1, 0.5, 0.25, 0.1):
+        for degrees in (0, 45, 70):
+            angle = math.radians(degrees)
+            for above, share in ((True, mirrored), (False, passed)):
+                scene = lit_pane(lambda s, t=tint: s.window(1.5, (t,) * 3), degrees, above)
+                found = eye.mean(scene, 256 if above else 4, "--max-bounces", "1") / LUMINANCE
+                wanted = share(angle, 1.5, tint)
+                report.claim(abs(found / wanted - 1) < 0.01,
+                             f"tint {tint}, {degrees} degrees: {share.__name__} {found:.5f}, "
+                             f"wanted {wanted:.5f}")
+    for degrees in (0, 60):
+        angle = math.radians(degrees)
+        found = eye.mean(lit_pane(half_clear, degrees, True), 256, "--max-bounces", "1")
+        wanted = LUMINANCE * (0.9 * mirrored(angle, 1.5, 1e-9) + 0.1 *
+                              sum(faces(angle, 1.5)) / 2)
+        report.claim(abs(found / wanted - 1) < 0.01, f"black and clear, {degrees} degrees: "
+                     f"{found:.4f}, wanted {wanted:.4f}")
+
+
 def check(report, program, folder):
     shutil.copy(os.path.join(ROOT, "assets", "panels", PANEL), folder)
     eye = Eye(program, folder)
+    check_panes(report, eye)
     check_neutral(report, eye, folder)
 
 

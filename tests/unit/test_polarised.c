@@ -97,7 +97,8 @@ TEST(a_sheet_reflects_each_polarisation_by_itself)
         assert_near(pane_matrix(face, 1, true).difference[4], (p - s) / lets, 1e-3);
         for (int passes = 0; passes < 2; passes++) {
             double t = 0.6, sum[3] = {0, 0, 0}; /* s, p, along */
-            double a = -sqrt((double)face.s), b = sqrt((double)face.p) * (cosine > 0.55 ? 1 : -1);
+            double a = -sqrt((double)face.s);
+            double b = sqrt((double)face.p) * (cosine > 0.55 ? 1 : -1);
             for (int order = 0; order < 60; order++) { /* amplitudes of faces, from inside -a */
                 double along = pow(t, passes ? 2 * order + 1 : 2 * order);
                 int    turns = passes ? 2 * order : order ? 2 * order - 1 : 1;

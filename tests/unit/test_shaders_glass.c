@@ -112,14 +112,14 @@ static void add_coated_glass(void)
 {
     const LayerStack *four = stack_four(&arena), *silver = stack_silver(&arena);
     const LayerStack *mirror = stack_of(1, (ThinMedium[]){{0, 100, 2000}}, &arena);
+    const PaneCoating *sheet = coating_of_sheet(four, 1.52, &arena);
     add_coated_solid("coated glass", 0, true, coating_of_solid(four, 1.52, &arena));
     add_coated_solid("coated frosted glass", 0.3f, true, coating_of_solid(four, 1.52, &arena));
     add_coated_solid("coated rough glass", 0.9f, true, coating_of_solid(four, 1.52, &arena));
     add_coated_solid("silvered glass", 0.1f, false, coating_of_solid(silver, 1.52, &arena));
-    add_coated_window("coated window", true, coating_of_sheet(four, 1.52, &arena));
+    add_coated_window("coated window", true, sheet);
     add_coated_window("silvered window", false, coating_of_sheet(silver, 1.52, &arena));
-    add_coated_window("coated smoked window", false, coating_of_sheet(four, 1.52, &arena))->tint =
-        ramp(0, 0.8f);
+    add_coated_window("coated smoked window", false, sheet)->tint = ramp(0, 0.8f);
     add_coated_pane("laminated, coated outside", four, NULL, 0);
     add_coated_pane("dirty, silver inside", NULL, silver, 0.3f);
     add_coated_pane("laminated, between mirrors", mirror, mirror, 0);
