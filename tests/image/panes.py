@@ -151,6 +151,20 @@ def check_neutral(report, eye, folder):
                       [reflectance(angle) * x for x in panel], 3e-4)
 
 
+def check_lanes(report, eye):
+    """A mirror that is no more neutral than a millionth sends the panel's spectrum through the
+    lanes: the same in the mean."""
+    def almost(scene):
+        return scene.material(pbrMetallicRoughness={
+            "baseColorFactor": [0.7, 0.7, 0.699999, 1], "metallicFactor": 1,
+            "roughnessFactor": 0})
+    for degrees in (10, 55):
+        neutral = shown(eye, in_mirror(MIRRORS[0][1], degrees), "--spp", "4", "--max-bounces",
+                        "1")
+        found = shown(eye, in_mirror(almost, degrees), "--spp", "4096", "--max-bounces", "1")
+        claim_xyz(report, f"{degrees} degrees by the lanes", found, neutral, 5e-5)
+
+
 # ---- panes ---------------------------------------------------------------------------------
 
 LUMINANCE = 1000
@@ -200,6 +214,7 @@ def check(report, program, folder):
     eye = Eye(program, folder)
     check_panes(report, eye)
     check_neutral(report, eye, folder)
+    check_lanes(report, eye)
 
 
 def main():
