@@ -23,18 +23,3 @@ typedef struct Hit {
 typedef struct RayCone {
     float width, spread;
 } RayCone;
-
-/* How far a ray starts off the surface that it leaves, m: 2^-17 of the largest coordinate, ten
- * times the rounding of a point computed from barycentric weights. */
-static inline float ray_offset_step(Vec3 position)
-{
-    float size = fmaxf(fmaxf(fabsf(position.x), fabsf(position.y)), fabsf(position.z));
-    return fmaxf(size, 1e-3f) * 0x1p-17f;
-}
-
-/* Moves a surface point off its triangle by that, to the side of `towards`. */
-static inline Vec3 ray_offset_origin(Vec3 position, Vec3 ng, Vec3 towards)
-{
-    float step = ray_offset_step(position);
-    return vec3_along(position, ng, vec3_dot(ng, towards) < 0 ? -step : step);
-}

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "light/emission.h"
 
-#include "light/normal_map.h"
 #include "panel/query/panel_emission.h"
 #include "panel/query/panel_place.h"
 #include "spectrum/fresnel.h"

@@ -5,7 +5,7 @@
  */
 #pragma once
 #include "bvh/ray.h"
-#include "light/triangle_point.h"
+#include "light/texture_slot.h"
 #include "spectrum/wavelengths.h"
 
 /* The display's frame at a point: +z the shading normal on the front's side, +x the direction

@@ -4,6 +4,7 @@
 #include "light/coverage.h"
 #include "light/emitters_build.h"
 #include "light/punctual_build.h"
+#include "light/ray_ends.h"
 #include "light/sky.h"
 
 /* How often an emitter is chosen changes the noise alone: displays that become up to so many
@@ -136,9 +137,27 @@ static bool sample_emitters(const Lights *lights, const LitPoint *from, const fl
     sample->triangle = at.triangle;
     sample->u = at.u;
     sample->v = at.v;
-    sample->ng = sample->point.ng;
     return sample->pdf > 0 && triangle_emits_to(lights->scene, at.triangle, &sample->point,
                                                 vec3_neg(sample->wi));
+}
+
+#define BEFORE_LAMP 1e-4f /* of the distance */
+#define LAMP_ROUNDING 0x1p-20f /* of a lamp's largest coordinate */
+
+static float before_lamp(Vec3 lamp, float distance)
+{
+    float size = fmaxf(fmaxf(fabsf(lamp.x), fabsf(lamp.y)), fabsf(lamp.z));
+    return fmaxf(distance * (1 - BEFORE_LAMP) - LAMP_ROUNDING * size, 0);
+}
+
+Ray lights_ray(Vec3 from, const LightSample *sample)
+{
+    if (sample->is_emitter) return ray_to(from, &sample->point, vec3_neg(sample->wi));
+    Ray ray = {from, sample->wi, 0, sample->distance};
+    if (isfinite(sample->distance))
+        ray.t_max = before_lamp(vec3_along(from, sample->wi, sample->distance),
+                                sample->distance);
+    return ray;
 }
 
 static Spectrum emitter_radiance(const Scene *scene, const LightSample *sample,

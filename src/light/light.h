@@ -64,13 +64,17 @@ typedef struct LightSample {
     bool     is_delta; /* a BSDF sample can never hit it */
     bool     is_emitter; /* of a triangle: */
     uint32_t triangle;
-    Vec3     ng;       /* unit, world: its normal */
     float    u, v;     /* which point of it: barycentric weights of vertices 1 and 2, */
     TrianglePoint point; /* and what is known of that */
     Vec2     at;       /* of the sky: where in its picture */
     int      light_id; /* of a punctual light: which, */
     float    scale;    /* and lx per unit of its intensity, over its probability */
 } LightSample;
+
+/* The ray that tells whether a sample arrives at a place where a ray may start (ray_ends.h). It
+ * ends just before a triangle; before a lamp without a body, which may stand in a surface, by a
+ * ten thousandth of its distance. */
+Ray lights_ray(Vec3 from, const LightSample *sample);
 
 /* One sample of one set as seen from `point`. u in [0,1)^3. False: nothing comes from there. */
 bool lights_sample(const Lights *lights, LightSet set, LitPoint point, const float u[3],

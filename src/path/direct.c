@@ -2,6 +2,7 @@
 /* HOT: no allocation, no lock, no libm. */
 #include "path/direct.h"
 
+#include "light/ray_ends.h"
 #include "path/emitted.h"
 
 /* ---- solids ------------------------------------------------------------------------------ */
@@ -54,35 +55,38 @@ static bool passes_before_emitter(void *user, const Hit *hit)
 {
     const ShadowRay   *ray = user;
     const LightSample *light = ray->light;
-    float behind = (hit->t - ray->end) * fabsf(vec3_dot(light->wi, light->ng));
+    float behind = (hit->t - ray->end) * fabsf(vec3_dot(light->wi, light->point.ng));
     bool  is_over = behind < -ray->rounding ||
                    (behind <= ray->rounding && hit->triangle > light->triangle);
     return !is_over || passes(user, hit);
+}
+
+/* Sheets in the last bit of the way, by which the shadow ray ended before the emitter, and as
+ * far behind. */
+static void ask_sheets_at_emitter(const Bvh *bvh, Ray to_light, ShadowRay *ray)
+{
+    const TrianglePoint *at = &ray->light->point;
+    float cosine = vec3_dot(to_light.direction, at->ng);
+    ray->end = vec3_dot(vec3_sub(at->inside, to_light.origin), at->ng) / cosine;
+    ray->rounding = at->rounding + at->slant * ray->light->distance;
+    to_light.t_min = to_light.t_max;
+    to_light.t_max = fmaxf(2 * ray->end - to_light.t_min, to_light.t_min);
+    bvh_ask_sheets(bvh, to_light, passes_before_emitter, ray);
 }
 
 Spectrum direct_visibility(PathState *path, const Surface *surface, const LightSample *light,
                     ShadowRay *ray)
 {
     const Bvh *bvh = path->context->bvh;
-    Vec3  origin = ray_offset_origin(surface->position, surface->ng, light->wi);
-    Vec3  moved = vec3_sub(origin, surface->position);
-    float end = fmaxf(light->distance * (1 - 1e-4f) - 4 * vec3_length(moved), 0);
+    Ray to_light = lights_ray(ray_start(&surface->point, light->wi), light);
     ray->path = path; /* most rays meet no sheet: room for hits is left as it is */
     ray->light = light;
     ray->passed = spectrum_all(1);
-    ray->step = ray_offset_step(surface->position);
+    ray->step = ray_step(&surface->point);
     ray->hit_count = 0;
     path->statistics->shadow_rays++;
-    if (bvh_occluded(bvh, (Ray){origin, light->wi, 0, end}, passes, ray))
-        return spectrum_all(0);
-    if (light->is_emitter && bvh_has_sheets(bvh)) {
-        Vec3 on_emitter = vec3_along(surface->position, light->wi, light->distance);
-        ray->end = light->distance -
-                   vec3_dot(moved, light->ng) / vec3_dot(light->wi, light->ng);
-        ray->rounding = fmaxf(sheets_rounding(on_emitter), 0x1p-20f * light->distance);
-        bvh_ask_sheets(bvh, (Ray){origin, light->wi, end, 2 * light->distance - end},
-                       passes_before_emitter, ray);
-    }
+    if (bvh_occluded(bvh, to_light, passes, ray)) return spectrum_all(0);
+    if (light->is_emitter && bvh_has_sheets(bvh)) ask_sheets_at_emitter(bvh, to_light, ray);
     return ray->passed;
 }
 
@@ -170,7 +174,7 @@ static bool mirror_at(const SunMirrorQuestion *question, const Hit *mirror, floa
     out->radiance *= question->radiance *
                      spectrum_all(surface->alpha * spread / sun->pdf);
     out->light = (LightSample){.wi = wi, .distance = distance, .pdf = 1, .is_emitter = true,
-                               .triangle = mirror->triangle, .ng = surface->ng};
+                               .triangle = mirror->triangle, .point = place};
     return !spectrum_is_zero(out->radiance);
 }
 

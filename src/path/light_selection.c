@@ -4,7 +4,7 @@
 #include "base/parallel.h"
 #include "base/units.h"
 #include "bvh/bvh.h"
-#include "light/emission.h"
+#include "light/ray_ends.h"
 #include "path/sheets.h"
 
 #define POINTS 32        /* of every side of a part, for every set */
@@ -14,9 +14,8 @@
 
 bool light_selection_arrives(const Bvh *bvh, LitPoint point, const LightSample *light)
 {
-    Ray ray = {ray_offset_origin(point.position, point.ns, light->wi), light->wi, 0,
-               light->distance * 0.999f};
-    return vec3_dot(point.ns, light->wi) > 0 && !bvh_occluded(bvh, ray, sheets_let_pass, NULL);
+    return vec3_dot(point.ns, light->wi) > 0 &&
+           !bvh_occluded(bvh, lights_ray(point.position, light), sheets_let_pass, NULL);
 }
 
 double light_selection_lx(const Lights *lights, LitPoint point, const LightSample *light,
@@ -65,7 +64,8 @@ static double side_illuminance(const Weighing *w, LightSet set, int part_id, int
             v = 1 - v;
         }
         TrianglePoint point = triangle_point(w->scene, part->first_triangle + triangle, u, v);
-        LitPoint lit = {point.position, side ? vec3_neg(point.ng) : point.ng, false};
+        Vec3     ng = side ? vec3_neg(point.ng) : point.ng;
+        LitPoint lit = {ray_start(&point, ng), ng, false};
         sum += sample_illuminance(w, set, lit, &sampler);
     }
     return sum / POINTS;

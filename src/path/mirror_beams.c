@@ -5,6 +5,7 @@
 
 #include "base/mathf.h"
 #include "base/parallel.h"
+#include "light/ray_ends.h"
 #include "mirror/mirrors_build.h"
 #include "path/sheets.h"
 #include "shaders/facets/microfacet.h"
@@ -94,7 +95,7 @@ static void follow(Beams *beams, Beam beam)
             add_glint(beams, (Glint){{side->row, side->edge_m, point.position}, beam.lm});
         }
         if (hit.triangle < scene->opaque_count) return;
-        beam.ray.origin = ray_offset_origin(point.position, point.ng, beam.ray.direction);
+        beam.ray.origin = ray_start(&point, beam.ray.direction);
     }
 }
 
@@ -146,7 +147,7 @@ static bool send_ray(Beams *beams, const Aim *aim, Sampler sampler)
     Vec3 n = aim->alpha > 0 ? facet_normal(point.ns, aim->alpha, lean) : point.ns;
     Vec3 r = vec3_sub(vec3_scale(n, 2 * vec3_dot(n, sun.wi)), sun.wi);
     if (!(vec3_dot(point.ng, r) * vec3_dot(point.ng, sun.wi) > 0)) return false;
-    Vec3 origin = ray_offset_origin(point.position, point.ng, r);
+    Vec3 origin = ray_start(&point, r);
     if (bvh_occluded(tools->bvh, (Ray){origin, sun.wi, 0, INFINITY}, sheets_let_pass, NULL))
         return false;
     surface_at(tools->scene, tools->tables, &hit, r, beams->wavelengths, &mirror);

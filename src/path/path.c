@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "path/path.h"
 
+#include "light/ray_ends.h"
 #include "path/direct.h"
 #include "path/emitted.h"
 #include "path/path_collector.h"
@@ -62,7 +63,7 @@ static Step turn(PathState *path, const Surface *surface, Vec3 wo, const BsdfSam
 {
     Vec3 wi = frame_to_world(&surface->frame, next->wi), start;
     if (!direct_sides_agree(surface, next->wi, wi, wo)) return STEP_ENDED;
-    if (next->along == 0) start = ray_offset_origin(surface->position, surface->ng, wi);
+    if (next->along == 0) start = ray_start(&surface->point, wi);
     else if (!pane_image_start(path, surface, wi, next->along, &start)) return STEP_ENDED;
     Spectrum sun = direct_sun_share(path, surface, wo, next);
     if (next->wi.z * surface->local_wo.z < 0) cross(path, surface, next->wi, wi);

@@ -1,12 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "path/sheets.h"
 
-#include "light/emission.h"
-
-float sheets_rounding(Vec3 position)
-{
-    return 0.125f * ray_offset_step(position);
-}
+#include "light/ray_ends.h"
 
 /* Counts the corners of a that b has too, by position, since texture seams split vertices;
  * *apart: a's last corner that b has not. */
@@ -103,8 +98,8 @@ void sheets_at(const Scene *scene, const Bvh *bvh, const Hit *met, Vec3 directio
 {
     TrianglePoint point = triangle_point(scene, met->triangle, met->u, met->v);
     Vec3  down = vec3_dot(point.ng, direction) < 0 ? vec3_neg(point.ng) : point.ng;
-    float step = ray_offset_step(point.position);
-    SheetSearch search = {scene, out, step, sheets_rounding(point.position)};
+    float step = ray_step(&point);
+    SheetSearch search = {scene, out, step, point.rounding};
     *out = (SheetStack){.hit = {{0, met->u, met->v, met->triangle}}, .count = 1};
     bvh_ask_sheets(bvh, (Ray){vec3_along(point.position, down, -step), down, 0, 2 * step},
                    found, &search);

@@ -33,10 +33,6 @@ static inline bool sheets_let_pass(void *user, const Hit *hit)
     return true;
 }
 
-/* How far apart along the normal two triangles may lie and still be at one depth, m: what
- * rounding can do to coordinates as large as those of `position`. */
-float sheets_rounding(Vec3 position);
-
 /* Do hits of a ray at one depth mean one sheet: its triangles share the edge that was met? */
 bool sheets_are_one(const Scene *scene, uint32_t triangle, uint32_t other);
 

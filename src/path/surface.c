@@ -2,7 +2,8 @@
 #include "path/surface.h"
 
 #include "light/coverage.h"
-#include "light/normal_map.h"
+#include "light/texture_slot.h"
+#include "light/ray_ends.h"
 #include "path/surface_coatings.h"
 #include "path/surface_grey.h"
 #include "shaders/facets/index_tables.h"
@@ -512,10 +513,15 @@ void surface_at(const Scene *scene, const SurfaceTables *tables, const Hit *hit,
     out->local_wo = frame_to_local(&out->frame, wo);
 }
 
+/* A head may be put on a surface: its rays start off that. */
+#define HEAD_OFF_M 2e-5f
+
 void surface_white(const SurfaceTables *tables, Vec3 position, Vec3 normal, Surface *out)
 {
     *out = (Surface){.position = position, .ng = normal, .frame = frame_from_z(normal),
                      .local_wo = {0, 0, 1}, .part_id = NO_ID, .material_id = NO_ID, .alpha = 1,
+                     .point = {.position = position, .ng = normal, .ns = normal,
+                               .inside = position, .rounding = HEAD_OFF_M / RAY_STEP},
                      .is_grey = true};
     MetallicRoughness *model = bsdf_be_metallic_roughness(&out->bsdf);
     *model = metallic_roughness_default(tables->of_coat);

@@ -4,6 +4,8 @@
 
 #include <string.h>
 
+#include "light/ray_ends.h"
+
 #define SHEET_SHARE 0.5f /* of an eye's samples that follow what a thin sheet itself shows */
 #define OFF_PANE 0.05f /* of an image's shift: by which its ray starts off along its way */
 
@@ -16,8 +18,8 @@ static Vec3 beside(const Surface *surface, Vec3 wi, float along)
 {
     Vec3 n = surface->frame.z;
     Vec3 towards = vec3_normalize(vec3_along(wi, n, -vec3_dot(wi, n)));
-    Vec3 place = vec3_along(surface->position, towards, along);
-    return ray_offset_origin(vec3_along(place, wi, OFF_PANE * fabsf(along)), surface->ng, wi);
+    Vec3 place = vec3_along(ray_start(&surface->point, wi), towards, along);
+    return vec3_along(place, wi, OFF_PANE * fabsf(along));
 }
 
 /* It may start under the pane's frame or beyond its rim. Tested along the ray: a pane goes on
@@ -27,7 +29,7 @@ bool pane_image_start(const PathState *path, const Surface *surface, Vec3 wi, fl
 {
     float cosine = vec3_dot(wi, surface->frame.z), flat2 = 1 - cosine * cosine;
     float reach = along * (1 / sqrtf(fmaxf(flat2, 1e-6f)) + 2 * OFF_PANE); /* and a little */
-    Ray   ray = {ray_offset_origin(surface->position, surface->ng, wi), wi, 0, reach};
+    Ray   ray = {ray_start(&surface->point, wi), wi, 0, reach};
     path->statistics->shadow_rays++;
     *out = beside(surface, wi, along);
     return !bvh_occluded(path->context->bvh, ray, sheets_let_pass, NULL);
@@ -51,9 +53,9 @@ void sheet_go_behind(PathState *path, const Surface *surface)
     float cosine = fabsf(vec3_dot(ng, direction));
     if (path->stack->next < path->stack->count) return;
     path->sheets_from =
-        path->stack->count ? 2 * ray_offset_step(surface->position) / fmaxf(cosine, 1e-6f) : 0;
+        path->stack->count ? 2 * ray_step(&surface->point) / fmaxf(cosine, 1e-6f) : 0;
     Vec3 side = path->stack->count ? vec3_neg(direction) : direction;
-    path->ray = (Ray){ray_offset_origin(surface->position, ng, side), direction, 0, INFINITY};
+    path->ray = (Ray){ray_start(&surface->point, side), direction, 0, INFINITY};
     if (!path->bounce && !path->stack->count) start_behind_pane(path, surface);
 }
 

@@ -265,6 +265,7 @@ typedef struct Scene {
     int       curve_count;
     Environment environment;
     Vec3      bounds_min, bounds_max; /* of all triangles; min > max when there are none */
+    float     longest_edge_m; /* of all triangles */
     const char **inputs; /* every file that was read, for hashes in the frame */
     uint64_t  *input_hashes; /* XXH3 64 of each */
     int       input_count;

@@ -144,9 +144,13 @@ static inline uint32_t builder_vertex(Scene *scene, Vec3 p, Vec3 n, float u, flo
 
 static inline void builder_triangle(Scene *scene, uint32_t a, uint32_t b, uint32_t c)
 {
-    Part *part = &scene->parts[scene->part_count - 1];
-    scene->triangles[scene->triangle_count++] =
-        (Triangle){{a, b, c}, (uint32_t)(scene->part_count - 1)};
+    Part    *part = &scene->parts[scene->part_count - 1];
+    uint32_t id = scene->triangle_count++;
+    scene->triangles[id] = (Triangle){{a, b, c}, (uint32_t)(scene->part_count - 1)};
+    for (int k = 0; k < 3; k++) {
+        Vec3 edge = vec3_sub(scene_corner(scene, id, (k + 1) % 3), scene_corner(scene, id, k));
+        scene->longest_edge_m = fmaxf(scene->longest_edge_m, vec3_length(edge));
+    }
     part->triangle_count++;
     if (!scene->materials[part->material_id].lets_light_through)
         scene->opaque_count = scene->triangle_count;

@@ -2,6 +2,8 @@
 /* HOT: no allocation, no lock, no libm. */
 #include "path/collect/lesson.h"
 
+#include "light/ray_ends.h"
+
 /* The place alone counts, not its light. */
 static bool note_place(PathCollector *c, PathState *path, const Surface *surface, Vec3 wo,
                        const Guiding *guiding)
@@ -9,7 +11,7 @@ static bool note_place(PathCollector *c, PathState *path, const Surface *surface
     (void)path;
     PathPlaces *places = ((LessonPlaces *)c)->out;
     if (!guiding->is_wide || places->count == PATH_PLACES_MAX) return true;
-    Vec3 origin = ray_offset_origin(surface->position, surface->ng, wo);
+    Vec3 origin = ray_start(&surface->point, wo);
     places->place[places->count++] = (LitPoint){origin, surface->frame.z, false};
     return true;
 }

@@ -270,7 +270,7 @@ Outlook outlook_take(const OutlookAsk *ask, Arena *arena)
 {
     Outlook     out = {.cd_m2 = ARENA_NEW(arena, float, SIZE * SIZE)};
     Arena       own = arena_reserve((size_t)1 << 28);
-    Vec3        from = vec3_along(ask->point, ask->ng, ray_offset_step(ask->point));
+    Vec3        from = ask->point;
     Vec3        to_eye = vec3_normalize(vec3_sub(ask->eye, ask->point));
     OutlookWork work = {.ask = ask, .frame = frame_of(ask->ng, ask->up), .cd_m2 = out.cd_m2,
                         .aim = {.context = ask->context, .eye = from, .seed = SEED},

@@ -17,7 +17,7 @@
 typedef struct OutlookAsk {
     const PathContext  *context;
     const ReadingTools *tools;
-    Vec3 point, ng; /* on the surface; ng on the side that looks */
+    Vec3 point, ng; /* where rays start off the surface; ng on the side that looks */
     Vec3 up;        /* not along ng */
     Vec3 eye;       /* sees the surface from its front: its mirror image is marked */
 } OutlookAsk;

@@ -75,8 +75,7 @@ static double face_lux(const CaseTools *tools, const SetupSymbol *symbol, Arena 
 {
     const Setup       *setup = tools->setup;
     SymbolPoint point = symbol_middle(symbol);
-    float       off = ray_offset_step(point.position);
-    LitPoint    head = {vec3_along(point.position, point.ng, off), point.ns, false};
+    LitPoint    head = {symbol_point_start(setup->scene, &point), point.ns, false};
     ProbeAim    aim = {.context = &setup->context, .meter = &head,
                        .seed = review_seed(setup->request, FACE_SEED)};
     ReadingGoal goal = {.precision = FACE_PRECISION, .most = FACE_PATHS};

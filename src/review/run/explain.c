@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "light/emission.h"
+#include "light/ray_ends.h"
 #include "review/judge.h"
 #include "review/request/request_check.h"
 #include "review/run/causes.h"
@@ -93,7 +93,8 @@ static bool find_symbol(const SetupSymbol *symbols, int count, const char *wante
 Outlook setup_outlook(const Setup *setup, const SetupSymbol *symbol, Vec3 eye, Arena *arena)
 {
     SymbolPoint middle = symbol_middle(symbol);
-    OutlookAsk  ask = {&setup->context, &setup->tools, middle.position, middle.ng,
+    OutlookAsk  ask = {&setup->context, &setup->tools,
+                       symbol_point_start(setup->scene, &middle), middle.ng,
                        outlook_up(middle.ng), eye};
     return outlook_take(&ask, arena);
 }
@@ -202,7 +203,7 @@ static bool meet(const ExplainPlace *place, Vec3 target, bool wants_display, Hit
         const Part     *part = &scene->parts[scene->triangles[hit->triangle].part_id];
         const Material *m = &scene->materials[part->material_id];
         if (wants_display ? m->display_id != NO_ID : !m->lets_light_through) return true;
-        ray.t_min = hit->t + 2 * ray_offset_step(vec3_along(ray.origin, ray.direction, hit->t));
+        ray = ray_behind(scene, ray, hit);
     }
     return false;
 }
@@ -254,8 +255,8 @@ static void set_outlook(const ExplainPlace *place, const ProbeAim *aim, bool is_
     TrianglePoint point = triangle_point(scene, hit.triangle, hit.u, hit.v);
     Vec3       to_eye = vec3_sub(place->aim.eye, point.position);
     Vec3       ng = vec3_dot(to_eye, point.ng) < 0 ? vec3_neg(point.ng) : point.ng;
-    OutlookAsk ask = {place->aim.context, place->tools, point.position, ng, outlook_up(ng),
-                      place->aim.eye};
+    OutlookAsk ask = {place->aim.context, place->tools, ray_start(&point, ng), ng,
+                      outlook_up(ng), place->aim.eye};
     out->has_outlook = true;
     out->outlook = outlook_take(&ask, arena);
 }

@@ -87,7 +87,7 @@ static void place_meters(Sweep *sweep, Arena *arena)
     for (int i = 0; i < sweep->symbol_count; i++) {
         SymbolPoint p = symbol_middle(&sweep->symbols[i]);
         sweep->faces[i] =
-            meter_at(vec3_along(p.position, p.ng, ray_offset_step(p.position)), p.ns);
+            meter_at(symbol_point_start(sweep->setup->scene, &p), p.ns);
     }
     const ReviewRequest *request = sweep->run->request;
     sweep->sensors = ARENA_NEW(arena, SweepMeter, request->level_count);

@@ -6,7 +6,7 @@
 #include "base/mathd.h"
 #include "base/parallel.h"
 #include "base/units.h"
-#include "light/emission.h"
+#include "light/ray_ends.h"
 
 #define COLUMNS 9
 #define MOST_PIXELS 20000
@@ -73,17 +73,11 @@ static bool faces(const SymbolPoint *point, Vec3 eye)
     return vec3_dot(vec3_sub(point->position, eye), point->ng) < 0;
 }
 
-static float look_step(const SymbolPoint *point, Vec3 eye)
-{
-    return fmaxf(ray_offset_step(point->position), ray_offset_step(eye));
-}
-
 /* From the eye to just before the point: a bezel may lie closely over the display. */
-static Ray look_at(const SymbolPoint *point, Vec3 eye)
+static Ray look_at(const Scene *scene, const SymbolPoint *point, Vec3 eye)
 {
-    Vec3 look = vec3_sub(point->position, eye);
-    return (Ray){eye, vec3_normalize(look), 0,
-                 fmaxf(vec3_length(look) - 2 * look_step(point, eye), 0)};
+    TrianglePoint at = triangle_point(scene, point->triangle, point->u, point->v);
+    return ray_to(eye, &at, vec3_sub(eye, point->position));
 }
 
 static bool is_hidden(const Ray *look, SightQuestion *question)
@@ -99,7 +93,7 @@ static float passed_from(const SymbolPoint *point, const PathContext *context,
 {
     SightQuestion question = {.context = context, .wavelengths = wavelengths,
                               .passed = spectrum_all(1)};
-    Ray look = look_at(point, eye);
+    Ray look = look_at(context->scene, point, eye);
     if (!faces(point, eye) || is_hidden(&look, &question)) return 0;
     return luminous(wavelengths, &question.passed);
 }
@@ -122,7 +116,7 @@ SymbolVisibility symbol_visibility(const SymbolSurface *surface, const PathConte
 }
 
 /* The first part that hides a look, which must be hidden. */
-static uint32_t hiding_part(Ray look, SightQuestion *question, float step)
+static uint32_t hiding_part(Ray look, SightQuestion *question)
 {
     const Scene *scene = question->context->scene;
     uint32_t     part = 0;
@@ -131,7 +125,7 @@ static uint32_t hiding_part(Ray look, SightQuestion *question, float step)
     while (bvh_intersect(question->context->bvh, look, 0, &hit)) {
         part = scene->triangles[hit.triangle].part_id;
         if (hit.triangle < scene->opaque_count || !passes(question, &hit)) break;
-        look.t_min = hit.t + step;
+        look = ray_behind(scene, look, &hit);
     }
     return part;
 }
@@ -148,10 +142,10 @@ SymbolHiding symbol_hiding(const SymbolSurface *surface, const PathContext *cont
         double        share = (double)point->area_m2 / surface->area_m2;
         SightQuestion question = {.context = context, .wavelengths = &wavelengths,
                                   .passed = spectrum_all(1)};
-        Ray look = look_at(point, eye);
+        Ray look = look_at(scene, point, eye);
         if (!faces(point, eye)) hiding.turned_away += share;
         else if (is_hidden(&look, &question))
-            hiding.by_part[hiding_part(look, &question, look_step(point, eye))] += share;
+            hiding.by_part[hiding_part(look, &question)] += share;
     }
     return hiding;
 }

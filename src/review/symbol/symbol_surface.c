@@ -116,6 +116,12 @@ bool symbol_surface_at(const SymbolSurface *surface, const double uv[2], SymbolP
     return t != NULL;
 }
 
+Vec3 symbol_point_start(const Scene *scene, const SymbolPoint *point)
+{
+    TrianglePoint at = triangle_point(scene, point->triangle, point->u, point->v);
+    return ray_start(&at, at.ng);
+}
+
 static bool no_surface(const double uv[2], Error *err)
 {
     return error_set(err, ERROR_INPUT,

@@ -71,3 +71,6 @@ SymbolPatch symbol_patch(const SymbolSurface *surface, int point);
 /* The point of the surface that shows uv, its area_m2 left 0; false: none of its triangles
  * does. */
 bool symbol_surface_at(const SymbolSurface *surface, const double uv[2], SymbolPoint *out);
+
+/* Where rays start at the point's front (light/ray_ends.h). */
+Vec3 symbol_point_start(const Scene *scene, const SymbolPoint *point);

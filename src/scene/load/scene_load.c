@@ -125,12 +125,19 @@ static void join_parts(const Loader *load, Scene *scene)
     }
 }
 
+static void measure_edge(Scene *scene, Vec3 from, Vec3 to)
+{
+    scene->longest_edge_m =
+        fmaxf(scene->longest_edge_m, vec3_length(vec3_sub(to, from)));
+}
+
 static void measure_bounds(Scene *scene)
 {
     Vec3 low = vec3(INFINITY, INFINITY, INFINITY), high = vec3_neg(low);
     for (uint32_t t = 0; t < scene->triangle_count; t++)
         for (int c = 0; c < 3; c++) {
             Vec3 p = scene_corner(scene, t, c);
+            measure_edge(scene, p, scene_corner(scene, t, (c + 1) % 3));
             low = vec3(fminf(low.x, p.x), fminf(low.y, p.y), fminf(low.z, p.z));
             high = vec3(fmaxf(high.x, p.x), fmaxf(high.y, p.y), fmaxf(high.z, p.z));
         }
@@ -138,9 +145,9 @@ static void measure_bounds(Scene *scene)
     scene->bounds_max = high;
 }
 
-/* Vertices are 32-bit numbers: so far out, neighbours of the scene's own size lie on few of
- * them. Edges jump and light leaks, but nothing is wrong with the file. */
-#define FAR_IN_SIZES 10000
+/* Vertices are 32-bit numbers: so far out they move by some hundred-thousandths of the scene's
+ * size, as much as a seal or a film is thick. Nothing is wrong with the file. */
+#define FAR_IN_SIZES 200
 
 /* Below a tenth of it, rays that leave a surface are set off by lengths like the scene's own,
  * and areas are no floats at last: light is lost. */
@@ -155,7 +162,8 @@ static void warn_if_odd(const Scene *scene, Loader *load)
     if (distance > FAR_IN_SIZES * size)
         problems_add(load->problems, SEVERITY_WARNING, scene->inputs[0], "",
                      "the scene is %.3g m large and stands %.3g m from the origin, where "
-                     "coordinates are %.2g m apart: move it nearer",
+                     "coordinates are %.2g m apart: what lies closer together is lost; move it "
+                     "nearer",
                      (double)size, (double)distance, (double)distance * 0x1p-23);
     if (size < LEAST_SIZE_M)
         problems_add(load->problems, SEVERITY_WARNING, scene->inputs[0], "",

@@ -1,10 +1,15 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* normal_map.h -- shading normals that textures bend, in the tangent frame of the vertices.
+/* texture_slot.h -- a material's textures on a triangle: their coordinates, and the shading
+ * normals that they bend, in the tangent frame of the vertices.
  *
  * Frame    world; unit vectors.  Threads  pure functions.  Fails  never.
  */
 #pragma once
-#include "light/triangle_point.h"
+#include "light/ray_ends.h"
+
+/* At a point and at a corner. */
+Vec2 slot_uv(const TextureSlot *slot, const TrianglePoint *point);
+Vec2 slot_corner_uv(const Scene *scene, const TextureSlot *slot, uint32_t triangle, int corner);
 
 /* The vertices' tangent, made perpendicular to ns, and bitangent; false: none. */
 bool point_tangent(const Scene *scene, uint32_t triangle, const TrianglePoint *point,

@@ -1,6 +1,22 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* HOT: no allocation, no lock, no libm. */
-#include "light/normal_map.h"
+#include "light/texture_slot.h"
+
+static Vec2 slot_from_uv(const TextureSlot *slot, Vec2 uv)
+{
+    const float *m = slot->uv_from_uv;
+    return (Vec2){m[0] * uv.x + m[1] * uv.y + m[2], m[3] * uv.x + m[4] * uv.y + m[5]};
+}
+
+Vec2 slot_uv(const TextureSlot *slot, const TrianglePoint *point)
+{
+    return slot_from_uv(slot, point->uv[slot->uv_set]);
+}
+
+Vec2 slot_corner_uv(const Scene *scene, const TextureSlot *slot, uint32_t triangle, int corner)
+{
+    return slot_from_uv(slot, scene_corner_uv(scene, triangle, corner, slot->uv_set));
+}
 
 bool point_tangent(const Scene *scene, uint32_t triangle, const TrianglePoint *point,
                    Vec3 *along, Vec3 *across)
