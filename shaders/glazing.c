@@ -21,13 +21,10 @@
  *                the triangles' front, and on the inside, the last layer's face and their back:
  *                a film against heat or reflections, a reflecting one for a head-up display
  *
- * Exact for both polarisations, whose means are taken at the end: a face reflects r, the body
- * lets t through at this angle, and R = r1 + (1 - r1)^2 t^2 r2 / (1 - r1 r2 t^2),
- * T = (1 - r1) (1 - r2) t / (1 - r1 r2 t^2). A ghost of order k has
- * (1 - r1)^2 t^2k r2^k r1^(k-1); orders below 1e-4 in all come with the last one above it.
- * A coated face reflects r from the air and r' from the glass and lets c through; what is
- * neither it absorbs. With q = r1' r2' t^2 it is R = r1 + c1^2 t^2 r2' / (1 - q), T = c1 c2 t /
- * (1 - q) and a ghost c1^2 t^2k r2'^k r1'^(k-1), for each polarisation and wavelength.
+ * Exact for both polarisations, whose means are taken at the end: two faces and one absorbing
+ * body (layers/pane.h, as every thin pane). A ghost of order k has
+ * (1 - r1)^2 t^2k r2^k r1^(k-1); orders below 1e-4 in all come with the last one above it; of a
+ * coated pane it has c1^2 t^2k r2'^k r1'^(k-1), for each polarisation and wavelength.
  * The haze is a function of how far the direction's part along the pane moves, b:
  * share min(T(in), T(out)) w^2 / (pi (w^2 + b^2)^2), w the width's sine: half of the lobe lies
  * within w, the same both ways; what would leave below the pane's plane is lost.
@@ -47,7 +44,6 @@
 #include "base/mathf.h"
 #include "base/units.h"
 #include "shaders/polarisation.h"
-#include "spectrum/fresnel.h"
 
 #define ORDERS_MAX 16
 #define LEFT_OVER 1e-4f    /* of the light: weaker images are merged */
@@ -58,69 +54,34 @@ typedef struct Faces {
     float near_one, far_one;
 } Faces;
 
-/* The images of a coated pane for one polarisation: of the face that is met, of the far face,
- * and how much of one ghost the next one has; and what passes. */
-typedef struct CoatedImages {
-    Spectrum first, ghost, next, passed;
-} CoatedImages;
-
 /* The pane as one direction meets it. */
 typedef struct Meeting {
     Faces    s, p;              /* where it is bare */
     Spectrum through;           /* the body, once */
     Spectrum reflected, passed; /* by all of it */
     bool     is_coated;
-    CoatedImages coated[2];     /* undefined where it is bare */
+    PaneImages coated[2];       /* s, p; undefined where it is bare */
 } Meeting;
 
-/* The cosine of the refracted direction, by Snell's law. */
-static float cosine_inside(float cosine, float ior)
+static Spectrum faces_reflect(Faces f, Spectrum t)
 {
-    return safe_sqrtf(1 - (1 - cosine * cosine) / (ior * ior));
-}
-
-static Spectrum faces_reflect(Faces f, Spectrum t2)
-{
-    float let_in = (1 - f.near_one) * (1 - f.near_one);
-    return spectrum_all(f.near_one) +
-           t2 * spectrum_all(let_in * f.far_one) /
-               (spectrum_all(1) - t2 * spectrum_all(f.near_one * f.far_one));
+    return pane_reflects(spectrum_all(f.near_one), spectrum_all(f.far_one), t);
 }
 
 static Spectrum faces_pass(Faces f, Spectrum t)
 {
-    return t * spectrum_all((1 - f.near_one) * (1 - f.far_one)) /
-           (spectrum_all(1) - t * t * spectrum_all(f.near_one * f.far_one));
-}
-
-/* One polarisation of a coated pane; returns what it reflects in all. */
-static Spectrum meet_coated(const GlazedWindow *window, float cosine, bool is_front, bool is_p,
-                            Meeting *m)
-{
-    const Wavelengths   *w = window->wavelengths;
-    const CoatingTables *near = window->coating->face[!is_front][is_p];
-    const CoatingTables *far = window->coating->face[is_front][is_p];
-    CoatedImages *images = &m->coated[is_p];
-    Spectrum in = coating_at(near->through, w, cosine), t = m->through;
-    Spectrum back = coating_at(far->back, w, cosine);
-    images->first = coating_at(near->front, w, cosine);
-    images->ghost = in * in * t * t * back;
-    images->next = coating_at(near->back, w, cosine) * back * t * t;
-    /* Between two perfect mirrors nothing gets in: 0, and not 0 / 0. */
-    Spectrum once = spectrum_all(1) / spectrum_max(spectrum_all(1) - images->next,
-                                                   spectrum_all(1e-6f));
-    images->passed = in * coating_at(far->through, w, cosine) * t * once;
-    m->passed += spectrum_all(0.5f) * images->passed;
-    return images->first + images->ghost * once;
+    return pane_passes(spectrum_all(f.near_one), spectrum_all(f.far_one), t);
 }
 
 static void meet_coated_faces(const GlazedWindow *window, float cosine, bool is_front,
                               Meeting *m)
 {
+    PaneMeeting meeting = {window->coating, window->wavelengths, cosine, is_front, m->through};
+    Spectrum    half = spectrum_all(0.5f);
     m->is_coated = true;
-    m->passed = spectrum_all(0);
-    Spectrum s = meet_coated(window, cosine, is_front, false, m);
-    m->reflected = spectrum_all(0.5f) * (s + meet_coated(window, cosine, is_front, true, m));
+    m->reflected = half * pane_coated_images(&meeting, false, &m->coated[0]);
+    m->reflected += half * pane_coated_images(&meeting, true, &m->coated[1]);
+    m->passed = half * (m->coated[0].passed + m->coated[1].passed);
 }
 
 static Meeting meet(const GlazedWindow *window, Vec3 wo)
@@ -129,7 +90,7 @@ static Meeting meet(const GlazedWindow *window, Vec3 wo)
     Meeting m;
     float cosine = clampf(fabsf(wo.z), LEAST_COSINE, 1);
     bool  is_front = (wo.z > 0) == window->front_is_up;
-    float slant = cosine_inside(cosine, pane->absorbing_ior);
+    float slant = pane_cosine_inside(cosine, pane->absorbing_ior);
     m.through = spectrum_exp(window->absorbance * spectrum_all(-1 / slant));
     if (window->coating) {
         meet_coated_faces(window, cosine, is_front, &m);
@@ -138,11 +99,11 @@ static Meeting meet(const GlazedWindow *window, Vec3 wo)
     float first = pane->layers[0].ior, last = pane->layers[pane->layer_count - 1].ior;
     Fresnel near = fresnel_dielectric(cosine, is_front ? first : last, NULL);
     Fresnel far = fresnel_dielectric(cosine, is_front ? last : first, NULL);
-    Spectrum t = m.through, t2 = t * t, half = spectrum_all(0.5f);
+    Spectrum t = m.through, half = spectrum_all(0.5f);
     m.is_coated = false;
     m.s = (Faces){near.s, far.s};
     m.p = (Faces){near.p, far.p};
-    m.reflected = half * (faces_reflect(m.s, t2) + faces_reflect(m.p, t2));
+    m.reflected = half * (faces_reflect(m.s, t) + faces_reflect(m.p, t));
     m.passed = half * (faces_pass(m.s, t) + faces_pass(m.p, t));
     return m;
 }
@@ -156,7 +117,7 @@ static float order_of_faces(Faces f, int order)
     return share;
 }
 
-static Spectrum coated_order(const CoatedImages *images, int order)
+static Spectrum coated_order(const PaneImages *images, int order)
 {
     if (!order) return images->first;
     Spectrum share = images->ghost;
@@ -183,7 +144,8 @@ static float ghost_shift(const Glazing *pane, float cosine)
     float sine = safe_sqrtf(1 - cosine * cosine), sum = 0;
     for (int i = 0; i < pane->layer_count; i++) {
         const GlazingLayer *layer = &pane->layers[i];
-        sum += layer->thickness_m * sine / (layer->ior * cosine_inside(cosine, layer->ior));
+        float inside = pane_cosine_inside(cosine, layer->ior);
+        sum += layer->thickness_m * sine / (layer->ior * inside);
     }
     return 2 * sum;
 }
@@ -214,7 +176,7 @@ static bool flat_direction(const GlazedWindow *window, Vec3 wo, int order, Vec3 
     if (!order || (window->slope[0] == 0 && window->slope[1] == 0)) return true;
     float n = window->pane->wedge_ior;
     Vec3  far = vec3_normalize(vec3(window->slope[0], window->slope[1], 1));
-    Vec3  way = vec3(-wo.x / n, -wo.y / n, -cosine_inside(wo.z, n));
+    Vec3  way = vec3(-wo.x / n, -wo.y / n, -pane_cosine_inside(wo.z, n));
     for (int i = 0; i < order; i++) {
         if (i) way.z = -way.z;
         way = vec3_along(way, far, -2 * vec3_dot(way, far));

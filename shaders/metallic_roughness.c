@@ -14,6 +14,7 @@
  *   specular          0..1, default 1                weakens the non-metal's reflection
  *   specular_color    0 and up, default 1            tints it at normal incidence
  *   transmission      0..1, default 0                share of the non-metal: a thin sheet
+ *   tint              0..1 a wavelength, default 1   what its body lets through once, upright
  *   across            0..1, default 0                share of the base's light that leaves on
  *                                                    the other side, of albedo across_color:
  *                                                    paper 0.4, a lampshade or leaf 0.5
@@ -35,8 +36,9 @@
  * F0 = min(F0(ior) specular_color, 1) specular and F90 = specular. What the boundary does not
  * send back goes into a Lambert base, coupled symmetrically (Kelemen and Szirmay-Kalos 2001),
  * so a white plastic returns exactly what it gets. Metals use Schlick's curve a wavelength. The
- * transmissive share is a sheet with two faces, R = 2F/(1+F); smooth sheets pass light straight
- * on. Metals and sheets get back what facets send to other facets (Kulla and Conty 2017).
+ * transmissive share is a sheet with two faces and one body that absorbs (layers/pane.h), each
+ * polarisation by itself; smooth sheets pass light straight on. Metals and sheets get back what
+ * facets send to other facets (Kulla and Conty 2017).
  * A coat covers its share of the surface. What it lets in and out again is one less its albedo
  * each way; what it holds back meets the base again: a metal's lobe and rebound are scaled for
  * it by coat.h, the Lambert base is coupled to both boundaries at once. A white metal or
@@ -81,6 +83,9 @@
  * n, k and by a coated face as their waves add up; another metal is taken for a perfect mirror,
  * a coated sheet for a bare one; what the base and further facets send is unpolarised.
  *
+ * Emission is not this page's: the coat dims it by 1 - clearcoat F (src/light/emission.c), F
+ * the exact curve at the coat's normal, however rough, and the light stays unpolarised.
+ *
  * Not modelled: subsurface spread, coloured absorption along a slanted path in the coat, turns
  * of light between a coat and the mirror of a non-metal (its few per cent go to the Lambert
  * base), and between a rough base and a coat whose normal is tilted; of a metal without n, k
@@ -96,7 +101,7 @@
 
 MetallicRoughness metallic_roughness_default(const EnergyTable *energy)
 {
-    return (MetallicRoughness){.base_color = spectrum_all(1),
+    return (MetallicRoughness){.base_color = spectrum_all(1), .tint = spectrum_all(1),
                                .specular_color = spectrum_all(1),
                                .metallic = 1,
                                .alpha = 1,
@@ -339,6 +344,25 @@ static void model_lobes(const void *parameters, Vec3 wo, BsdfLobes *lobes)
     lobes->alpha = alpha;
 }
 
+static Spectrum sent_by(PaneLight pane)
+{
+    return pane.reflected + pane.passed;
+}
+
+/* Of a rough one over some facets. */
+static Spectrum coated_pane_albedo(const MetallicRoughness *m, const MetallicFace *b, Vec3 wo)
+{
+    if (is_smooth(m->alpha)) return sent_by(facet_pane(m, b, wo.z));
+    LobeFacets facets = lobe_facets(&common_facet_table, wo, facet_alphas(m));
+    Spectrum   sum = spectrum_all(0);
+    float      all = 1e-6f; /* what they hide is taken as they send the rest */
+    for (int i = 0; i < LOBE_FACETS; i++) {
+        sum += sent_by(facet_pane(m, b, facet_cosine[i])) * spectrum_all(facets.weight[i]);
+        all += facets.weight[i];
+    }
+    return sum / spectrum_all(all);
+}
+
 /* The base's albedo by its shares: opaque, sheet, metal. */
 static void albedo_parts(const MetallicRoughness *m, Vec3 wo, Spectrum *solid, Spectrum *clear,
                          Spectrum *metal)
@@ -346,19 +370,15 @@ static void albedo_parts(const MetallicRoughness *m, Vec3 wo, Spectrum *solid, S
     Energy   e = base_energy(m, wo);
     MetallicFace b = boundary_of(m);
     Spectrum one = spectrum_all(1), in = let_in(&b, e), base = m->base_color;
-    Spectrum sheet = sheet_reflectance(one - in);
-    *clear = sheet + (one - sheet) * base;
-    if (coated_sheet(m))
-        *clear = facet_sheet_at(m, wo.z) +
-                 coating_at(m->coating->sheet->through, m->wavelengths, wo.z) * base;
     if (coated_face(m)) in = one - energy_coated(m, wo);
     if (has_film(m)) {
         MetallicView own;
         const MetallicView *view = metallic_seen(m, wo, &own);
         in = one - view->coated;
-        sheet = sheet_reflectance(view->coated);
-        *clear = sheet + (one - sheet) * base;
     }
+    *clear = coated_sheet(m) ? coated_pane_albedo(m, &b, wo) :
+                               sent_by(pane_between(one - in, one - in,
+                                                    pane_body(m->tint, wo.z, body_ior(m))));
     *solid = (one - in) + in * base_lambert_albedo(m);
     *metal = base + (one - base) * spectrum_all(e.shape);
     if (coated_metal(m) || has_film(m)) *metal = facet_metal_at(m, wo.z);
@@ -411,12 +431,16 @@ static void add_facets(const MetallicView *view, float cosine, Spectrum all,
     }
     float ior = m->energy->ior;
     Waves face = ior >= 1 ? waves_reflected(fminf(cosine, 1), ior) : mirror;
-    Waves sheet = waves_sheet_reflected(face);
-    float opaque = (1 - m->transmission) * (face.s + face.p);
-    float clear = m->transmission * (sheet.s + sheet.p), both = opaque + clear;
-    if (!(both > 0)) return;
-    polarised_add(parts, face, share * nonmetal * spectrum_all(opaque / both));
-    if (clear > 0) polarised_add(parts, sheet, share * nonmetal * spectrum_all(clear / both));
+    PolarisedPane pane = {face, pane_body(m->tint, fminf(cosine, 1), body_ior(m)), false};
+    Spectrum opaque = spectrum_all((1 - m->transmission) * (face.s + face.p));
+    Spectrum clear = spectrum_all(0), both;
+    if (m->transmission > 0)
+        clear = pane_between(spectrum_all(face.s), spectrum_all(face.p),
+                             pane.through).reflected * spectrum_all(2 * m->transmission);
+    both = spectrum_max(opaque + clear, spectrum_all(1e-30f));
+    polarised_add(parts, face, share * nonmetal * opaque / both);
+    if (m->transmission > 0)
+        polarised_add_pane(parts, &pane, share * nonmetal * clear / both);
 }
 
 static bool is_near(Vec3 a, Vec3 b)
@@ -458,7 +482,12 @@ static void polarise_rough(const MetallicView *view, Vec3 wi, PolarisedParts *pa
 static bool polarise_through(const MetallicRoughness *m, Vec3 wo, BsdfPolarisation *out)
 {
     if (!(m->energy->ior >= 1)) return false;
-    *out = polarised_by(waves_sheet_through(waves_reflected(fminf(wo.z, 1), m->energy->ior)));
+    float cosine = fminf(wo.z, 1);
+    PolarisedParts parts = {spectrum_all(0), spectrum_all(0), spectrum_all(0), spectrum_all(0)};
+    PolarisedPane  pane = {waves_reflected(cosine, m->energy->ior),
+                           pane_body(m->tint, cosine, body_ior(m)), true};
+    polarised_add_pane(&parts, &pane, spectrum_all(1));
+    *out = polarised_of(&parts, spectrum_all(1));
     return true;
 }
 

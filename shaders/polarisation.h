@@ -12,7 +12,7 @@
  */
 #pragma once
 #include "shaders/bsdf_model.h"
-#include "shaders/layers/coating.h"
+#include "shaders/layers/pane.h"
 #include "spectrum/fresnel.h"
 
 /* For light polarised across (s) and along (p) the plane of incidence, shares in [0, 1]; and
@@ -51,23 +51,6 @@ static inline Waves waves_through(float cosine, float eta)
     return (Waves){1 - face.s, 1 - face.p, sqrtf((1 - face.s) * (1 - face.p)), 0};
 }
 
-/* A sheet with two equal faces, all orders: their fields add up by their shares. */
-static inline Waves waves_sheet_reflected(Waves face)
-{
-    float lets = (1 - face.s) * (1 - face.p);
-    float again = lets > 0 ? lets / (1 - face.along * face.along) : 0;
-    return (Waves){2 * face.s / (1 + face.s), 2 * face.p / (1 + face.p),
-                   face.along * (1 + again), 0};
-}
-
-static inline Waves waves_sheet_through(Waves face)
-{
-    float lets = (1 - face.s) * (1 - face.p);
-    if (!(lets > 0)) return (Waves){0, 0, 0, 0};
-    return (Waves){(1 - face.s) / (1 + face.s), (1 - face.p) / (1 + face.p),
-                   lets / (1 - face.along * face.along), 0};
-}
-
 /* Parts of what a surface scatters, each by its own matrix, added up; light of no part is
  * unpolarised. Begins as {0}. */
 typedef struct PolarisedParts {
@@ -81,6 +64,32 @@ static inline void polarised_add(PolarisedParts *sum, Waves w, Spectrum share)
     sum->difference += share * spectrum_all(0.5f * (w.s - w.p) * scale);
     sum->along += share * spectrum_all(w.along * scale);
     sum->turned += share * spectrum_all(w.turned * scale);
+}
+
+/* A bare pane: one face as it is met, what the body lets through once, and whether the light
+ * goes on through it. All orders, whose fields add up by their shares. */
+typedef struct PolarisedPane {
+    Waves    face;
+    Spectrum through;
+    bool     passes;
+} PolarisedPane;
+
+/* The same; what s and p send, and the mean of a_s and the conjugate of a_p. */
+static inline void polarised_add_pane(PolarisedParts *sum, const PolarisedPane *pane,
+                                      Spectrum share)
+{
+    Waves    face = pane->face;
+    Spectrum r_s = spectrum_all(face.s), r_p = spectrum_all(face.p), t = pane->through;
+    Spectrum half = spectrum_all(0.5f), s, p, along = spectrum_all(face.along);
+    Spectrum lets = spectrum_all((1 - face.s) * (1 - face.p)) *
+                    pane_turns(along * along * t * t);
+    s = pane->passes ? pane_passes(r_s, r_s, t) : pane_reflects(r_s, r_s, t);
+    p = pane->passes ? pane_passes(r_p, r_p, t) : pane_reflects(r_p, r_p, t);
+    along = pane->passes ? lets * t : along + along * lets * t * t;
+    Spectrum per = share / spectrum_max(half * (s + p), spectrum_all(1e-30f));
+    sum->share += share;
+    sum->difference += per * half * (s - p);
+    sum->along += per * along;
 }
 
 /* The same of a coated boundary or a metal, met at `cosine`. */

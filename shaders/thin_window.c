@@ -3,39 +3,41 @@
  *
  * Light passes straight (shadow rays pass too), and a mirror image shows on it.
  *   ior    1 and up, glTF's default 1.5; window glass 1.52
- *   tint   0..1 a wavelength; green-tinted laminated glass about 0.85 at 550 nm
+ *   tint   0..1 a wavelength, what the body lets through once along the normal (no faces):
+ *          green-tinted laminated glass about 0.85 at 550 nm
  *   coating  a stack of thin layers on one face or both (PARHELION_coating)
- * Per polarisation R = 2r/(1+r) and T = (1-r)/(1+r) with r one face's exact Fresnel
- * reflectance, both averaged over the polarisations: all reflections between the faces are in
- * it, interference is not. The tint multiplies T once and does not act on R. A coating
- * interferes with itself (spectrum/thin_film.h), the two faces do not.
+ * Two faces and one absorbing body, as every thin pane: layers/pane.h. At an angle the way
+ * through the body is longer, tint^(1 / cos t'), t' the refracted angle. A coating interferes
+ * with itself (spectrum/thin_film.h), the two faces do not.
  *
  * Polarised light is followed exactly where glass is bare; coated glass is taken as bare for
  * how it polarises.
  */
 #include "shaders/thin_window.h"
 
-#include "spectrum/fresnel.h"
 #include "shaders/polarisation.h"
 
-static Fresnel window_face(const ThinWindow *window, float cosine)
+static PaneLight meet(const ThinWindow *window, float cosine)
 {
-    return fresnel_dielectric(clampf(cosine, 0, 1), window->ior, NULL);
+    cosine = clampf(cosine, 0, 1);
+    Spectrum t = pane_body(window->tint, cosine, window->ior);
+    if (window->coating) {
+        PaneMeeting meeting = {window->coating, window->wavelengths, cosine,
+                               window->front_is_met, t};
+        return pane_coated(&meeting);
+    }
+    Fresnel face = fresnel_dielectric(cosine, window->ior, NULL);
+    return pane_between(spectrum_all(face.s), spectrum_all(face.p), t);
 }
 
 Spectrum thin_window_reflectance(const ThinWindow *window, float cosine)
 {
-    if (window->reflectance)
-        return coating_at(window->reflectance, window->wavelengths, clampf(cosine, 0, 1));
-    return spectrum_all(fresnel_slab(window_face(window, cosine)));
+    return meet(window, cosine).reflected;
 }
 
 Spectrum thin_window_transmittance(const ThinWindow *window, float cosine)
 {
-    if (window->transmittance)
-        return window->tint *
-               coating_at(window->transmittance, window->wavelengths, clampf(cosine, 0, 1));
-    return window->tint * spectrum_all(1 - fresnel_slab(window_face(window, cosine)));
+    return meet(window, cosine).passed;
 }
 
 /* Straight on, or mirrored. */
@@ -46,30 +48,14 @@ static bool send(bool passes, Vec3 wo, float prob, Spectrum weight, BsdfSample *
     return true;
 }
 
-static bool coated_window_sample(const ThinWindow *window, Vec3 wo, float u, BsdfSample *sample)
-{
-    Spectrum reflected = thin_window_reflectance(window, fabsf(wo.z));
-    Spectrum through = thin_window_transmittance(window, fabsf(wo.z));
-    float    share = spectrum_mean(reflected), all = share + spectrum_mean(through);
-    if (!(all > 0)) return false;
-    float prob = share / all;
-    if (u < prob) return send(false, wo, prob, reflected / spectrum_all(prob), sample);
-    return prob < 1 && send(true, wo, 1 - prob, through / spectrum_all(1 - prob), sample);
-}
-
 static bool window_sample(const void *parameters, Vec3 wo, const float u[3], BsdfSample *sample)
 {
-    const ThinWindow *window = parameters;
-    if (window->reflectance) return coated_window_sample(window, wo, u[2], sample);
-    float cosine = fabsf(wo.z);
-    float reflected = fresnel_slab(window_face(window, cosine));
-    float through = (1 - reflected) * spectrum_mean(window->tint);
-    if (!(reflected + through > 0)) return false;
-    float prob = reflected / (reflected + through);
-    if (u[2] < prob) return send(false, wo, prob, spectrum_all(reflected / prob), sample);
-    if (!(through > 0)) return false;
-    return send(true, wo, 1 - prob, window->tint * spectrum_all((1 - reflected) / (1 - prob)),
-                sample);
+    PaneLight light = meet(parameters, fabsf(wo.z));
+    float     share = spectrum_mean(light.reflected), all = share + spectrum_mean(light.passed);
+    if (!(all > 0)) return false;
+    float prob = share / all;
+    if (u[2] < prob) return send(false, wo, prob, light.reflected / spectrum_all(prob), sample);
+    return prob < 1 && send(true, wo, 1 - prob, light.passed / spectrum_all(1 - prob), sample);
 }
 
 static Spectrum window_pass(const void *parameters, Vec3 wo)
@@ -84,16 +70,20 @@ static Spectrum window_mirror(const void *parameters, Vec3 wo)
 
 static Spectrum window_albedo(const void *parameters, Vec3 wo)
 {
-    return thin_window_reflectance(parameters, fabsf(wo.z)) +
-           thin_window_transmittance(parameters, fabsf(wo.z));
+    PaneLight light = meet(parameters, fabsf(wo.z));
+    return light.reflected + light.passed;
 }
 
 static bool window_polarise(const void *parameters, Vec3 wo, const BsdfSample *way,
                             BsdfPolarisation *out)
 {
     const ThinWindow *window = parameters;
-    Waves face = waves_reflected(clampf(fabsf(wo.z), 0, 1), window->ior);
-    *out = polarised_by(way->passes ? waves_sheet_through(face) : waves_sheet_reflected(face));
+    float cosine = clampf(fabsf(wo.z), 0, 1);
+    PolarisedParts parts = {spectrum_all(0), spectrum_all(0), spectrum_all(0), spectrum_all(0)};
+    PolarisedPane  pane = {waves_reflected(cosine, window->ior),
+                           pane_body(window->tint, cosine, window->ior), way->passes};
+    polarised_add_pane(&parts, &pane, spectrum_all(1));
+    *out = polarised_of(&parts, spectrum_all(1));
     return true;
 }
 

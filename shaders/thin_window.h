@@ -5,15 +5,15 @@
  */
 #pragma once
 #include "shaders/bsdf_model.h"
-#include "shaders/layers/coating.h"
+#include "shaders/layers/pane.h"
 
 /* A smooth sheet with two parallel faces: a mirror image, and light straight through. */
 typedef struct ThinWindow {
-    Spectrum tint; /* [0, 1]: what the sheet's body lets through, at this angle */
-    float    ior;  /* 1 or more */
-    /* Tables of a coated sheet, seen from wo's side; NULL: bare. The tint multiplies. */
-    const CoatingTable *reflectance, *transmittance;
-    const Wavelengths  *wavelengths; /* NULL where it is bare */
+    Spectrum tint; /* [0, 1]: what the sheet's body lets through along its normal */
+    float    ior;  /* over that of the medium about it */
+    const PaneCoating *coating;      /* NULL: bare */
+    const Wavelengths *wavelengths;  /* NULL where it is bare */
+    bool     front_is_met;           /* of a coated one: on wo's side */
 } ThinWindow;
 
 Spectrum thin_window_reflectance(const ThinWindow *window, float cosine);

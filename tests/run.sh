@@ -92,6 +92,7 @@ start 'polarised light' polarised python3 tests/image/polarised.py $program
 start 'another renderer' library-renderer \
     python3 tests/library/other_renderer.py .build/release
 start 'displays against their panels' display python3 tests/image/display.py $program
+start 'panes, and displays behind them' panes python3 tests/image/panes.py $program
 start 'sub-pixels' subpixels python3 tests/image/subpixels.py $program
 start 'its Python module' library-module python3 tests/library/module.py .build/release
 start 'variants and animations' states python3 tests/image/states.py $program

@@ -47,10 +47,12 @@ static Spectrum airy(float outer, ComplexLanes inner, ComplexLanes turn)
     return up / spectrum_max(down, spectrum_all(1e-30f));
 }
 
-Spectrum clear_film_at(const ThinFilm *film, const Wavelengths *wavelengths, float cosine,
-                       Spectrum n, Spectrum k)
+void clear_film_waves(const ThinFilm *film, const Wavelengths *wavelengths, float cosine,
+                      const ClearFilmBody *body, Spectrum out[2])
 {
-    if (!(cosine > 0)) return spectrum_all(1);
+    out[0] = out[1] = spectrum_all(1);
+    if (!(cosine > 0)) return;
+    Spectrum     n = body->n, k = body->k;
     float        n2 = film->ior, sine2 = 1 - cosine * cosine;
     float        inside = safe_sqrtf(1 - sine2 / (n2 * n2)), along = n2 * inside;
     ComplexLanes square = {n * n - k * k, n * k + n * k}, turn, q;
@@ -69,9 +71,17 @@ Spectrum clear_film_at(const ThinFilm *film, const Wavelengths *wavelengths, flo
     ComplexLanes body_p = {q.re * spectrum_all(n2 * n2), q.im * spectrum_all(n2 * n2)};
     float        outer_s = (cosine - along) / (cosine + along);
     float        outer_p = (n2 * cosine - inside) / (n2 * cosine + inside);
-    Spectrum     s = airy(outer_s, amplitude(film_s, q), turn);
-    Spectrum     p = airy(outer_p, amplitude(film_p, body_p), turn);
-    return spectrum_clamp((s + p) * spectrum_all(0.5f), 0, 1);
+    out[0] = airy(outer_s, amplitude(film_s, q), turn);
+    out[1] = airy(outer_p, amplitude(film_p, body_p), turn);
+}
+
+Spectrum clear_film_at(const ThinFilm *film, const Wavelengths *wavelengths, float cosine,
+                       Spectrum n, Spectrum k)
+{
+    ClearFilmBody body = {n, k};
+    Spectrum      waves[2];
+    clear_film_waves(film, wavelengths, cosine, &body, waves);
+    return spectrum_clamp((waves[0] + waves[1]) * spectrum_all(0.5f), 0, 1);
 }
 
 /* ---- on clear bodies -------------------------------------------------------------------- */

@@ -21,7 +21,16 @@ typedef struct ThinFilm {
 /* Index of a body that absorbs nothing and reflects so much at normal incidence, [0, 1]. */
 Spectrum clear_film_body(Spectrum reflectance);
 
-/* Reflectance. n, k: of the body. cosine: outside, [0, 1]. */
+/* n + ik of a body. */
+typedef struct ClearFilmBody {
+    Spectrum n, k;
+} ClearFilmBody;
+
+/* Reflectance of light polarised s and p. cosine: outside, [0, 1]. */
+void clear_film_waves(const ThinFilm *film, const Wavelengths *wavelengths, float cosine,
+                      const ClearFilmBody *body, Spectrum out[2]);
+
+/* Their mean. n, k: of the body. */
 Spectrum clear_film_at(const ThinFilm *film, const Wavelengths *wavelengths, float cosine,
                        Spectrum n, Spectrum k);
 

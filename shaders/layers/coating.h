@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* coating.h -- what a coated boundary reflects and lets through, interpolated.
  *
- * Shares of light (unpolarised, but for panes) in [0, 1] over angle and wavelength (360 to 830
- * nm, 1 nm), made of a stack of layers by coating_tables.h. Within 3e-4 of the stack's own
- * shares for coatings of some layers; where a stack of microns has a step of a few nm, within
- * 2e-2.
+ * Shares of light (unpolarised, but for panes and sheets) in [0, 1] over angle and wavelength
+ * (360 to 830 nm, 1 nm), made of a stack of layers by coating_tables.h. Within 3e-4 of the
+ * stack's own shares for coatings of some layers; where a stack of microns has a step of a few
+ * nm, within 2e-2.
  *
  * Memory   120 KiB a table of some layers, at most 2 MiB; energies 3.7 MiB, at most 30.
  * Threads  const once built.
@@ -33,21 +33,22 @@ typedef struct CoatingEnergy {
 } CoatingEnergy;
 
 /* Tables of a boundary between two media, over the cosine in the one of the smaller index; of
- * a sheet, over the cosine outside. */
+ * a pane's face, over the cosine outside. */
 typedef struct CoatingTables {
-    const CoatingTable *front;   /* reflectance, seen from outside (sheet: from its front) */
-    const CoatingTable *back;    /* seen from inside (sheet: from its back); NULL: a metal's */
+    const CoatingTable *front;   /* reflectance, seen from outside */
+    const CoatingTable *back;    /* seen from inside; NULL: a metal's */
     const CoatingTable *through; /* transmittance, the same both ways; NULL: a metal's */
     const CoatingTable *total;   /* reflectance beyond the critical angle, over
                                     k / (k + n cosine) with k^2 = (n sine)^2 - 1, n the ratio
                                     of the indices */
     const CoatingEnergy *energy; /* of front; NULL: not wanted */
-    Curve front_mean, through_mean; /* over the hemisphere, weighted by the cosine */
+    Curve front_mean, back_mean, through_mean; /* over the hemisphere, weighted by the cosine */
 } CoatingTables;
 
-/* The two faces of a pane, of which one at least is coated: front is what each reflects from
- * the air, back from the glass, over the cosine in the air. */
+/* The two faces of a pane or thin sheet, of which one at least is coated: front is what each
+ * reflects from outside, back from the glass, over the cosine outside. */
 typedef struct PaneCoating {
+    float ior; /* of the body over the medium outside */
     const CoatingTables *face[2][2]; /* the front's, the back's; of light s and p */
 } PaneCoating;
 
@@ -59,10 +60,10 @@ typedef struct CoatingWaves {
 
 /* The coating of each share of a material; NULL: that share is bare, or is none. */
 typedef struct SurfaceCoating {
-    const CoatingTables *metal, *face, *sheet; /* face: of opaque plastic and glass */
+    const CoatingTables *metal, *face; /* face: of opaque plastic and glass */
     const CoatingTables *solid; /* the boundary of a closed solid */
     const CoatingTables *cover; /* of a display */
-    const PaneCoating   *pane;  /* of a laminated one */
+    const PaneCoating   *sheet, *pane; /* of a thin sheet, of a laminated one */
     const CoatingWaves  *metal_waves, *glass_waves; /* of metal; of face or cover; NULL:
                                                        polarisation is not wanted */
 } SurfaceCoating;

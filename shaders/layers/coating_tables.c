@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "shaders/layers/coating_tables.h"
 
+#include <string.h>
+
 /* A stack and the body behind it: a metal or, where that is NULL, clear glass. */
 typedef struct CoatedBody {
     const LayerStack       *stack;
@@ -125,15 +127,6 @@ typedef struct SheetFace {
     double outer, inner, through;
 } SheetFace;
 
-/* All turns between face a, where the light comes in, and face b. */
-static CoatingRow sheet_turns(SheetFace a, SheetFace b)
-{
-    double once = 1 / (1 - fmin(a.inner * b.inner, 1 - 1e-15));
-    return (CoatingRow){.front = a.outer + a.through * a.through * b.inner * once,
-                        .back = b.outer + b.through * b.through * a.inner * once,
-                        .through = a.through * b.through * once};
-}
-
 static void sheet_face(const ThinMedia *media, double cosine, double inside, SheetFace *s,
                        SheetFace *p)
 {
@@ -144,32 +137,15 @@ static void sheet_face(const ThinMedia *media, double cosine, double inside, She
     *p = (SheetFace){outer.reflect_p, inner.reflect_p, outer.through_p};
 }
 
-/* At grazing incidence, and where nothing enters a thinner sheet, all is reflected. */
-static CoatingRow sheet_row(const CoatedBody *body, int nm, double cosine)
-{
-    SheetFace  s[2], p[2]; /* front, back */
-    LayerStack none = {.outside = outside_of(body)};
-    double     inside = cosine_behind(cosine, body->ior / outside_of(body));
-    if (!(cosine > 0 && inside > 0)) return (CoatingRow){.front = 1, .back = 1};
-    for (int i = 0; i < 2; i++) {
-        bool      is_bare = body->stack && body->stack->faces ==
-                                               (i ? COATED_FRONT : COATED_BACK);
-        ThinMedia media = media_at(body, is_bare ? &none : body->stack, nm);
-        sheet_face(&media, cosine, inside, &s[i], &p[i]);
-    }
-    CoatingRow in_s = sheet_turns(s[0], s[1]), in_p = sheet_turns(p[0], p[1]);
-    return (CoatingRow){.front = unpolarised(in_s.front, in_p.front),
-                        .back = unpolarised(in_s.back, in_p.back),
-                        .through = unpolarised(in_s.through, in_p.through)};
-}
-
-/* A face of a pane for one polarisation. At grazing incidence nothing gets in or out. */
+/* A face of a pane for one polarisation. At grazing incidence, and where nothing enters a
+ * thinner body, nothing gets in or out. */
 static CoatingRow pane_row(const CoatedBody *body, int nm, double cosine)
 {
     SheetFace s, p;
     ThinMedia media = media_at(body, body->stack, nm);
-    if (!(cosine > 0)) return (CoatingRow){.front = 1, .back = 1};
-    sheet_face(&media, cosine, cosine_behind(cosine, body->ior), &s, &p);
+    double    inside = cosine_behind(cosine, body->ior / outside_of(body));
+    if (!(cosine > 0 && inside > 0)) return (CoatingRow){.front = 1, .back = 1};
+    sheet_face(&media, cosine, inside, &s, &p);
     SheetFace one = body->is_p ? p : s;
     return (CoatingRow){one.outer, one.inner, one.through};
 }
@@ -278,6 +254,7 @@ static CoatingTables *tables_of(const CoatedBody *body, RowMaker *make, int kind
     out->back = table_of(row[1], count, arena);
     out->through = table_of(row[2], count, arena);
     mean_of(row[0], count, &out->front_mean);
+    if (row[1]) mean_of(row[1], count, &out->back_mean);
     if (row[2]) mean_of(row[2], count, &out->through_mean);
     return out;
 }
@@ -288,11 +265,6 @@ const CoatingTables *coating_of_solid(const LayerStack *stack, double ior, Arena
     CoatingTables *out = tables_of(&body, solid_row, 3, arena);
     out->total = tables_of(&body, total_row, 1, arena)->front;
     return out;
-}
-
-const CoatingTables *coating_of_sheet(const LayerStack *stack, double ior, Arena *arena)
-{
-    return tables_of(&(CoatedBody){.stack = stack, .ior = ior}, sheet_row, 3, arena);
 }
 
 const CoatingTables *coating_of_metal(const LayerStack *stack, const OpticalConstants *metal,
@@ -317,15 +289,39 @@ const CoatingWaves *coating_waves(const LayerStack *stack, double ior,
     return out;
 }
 
+static void set_face(const LayerStack *stack, double ior, PaneCoating *pane, int side,
+                     Arena *arena)
+{
+    CoatedBody body = {.stack = stack, .ior = ior};
+    pane->face[side][0] = tables_of(&body, pane_row, KINDS, arena);
+    body.is_p = true;
+    pane->face[side][1] = tables_of(&body, pane_row, KINDS, arena);
+}
+
 const PaneCoating *coating_of_pane(const Glazing *pane, Arena *arena)
 {
     PaneCoating *out = ARENA_NEW(arena, PaneCoating, 1);
+    out->ior = pane->absorbing_ior;
     for (int i = 0; i < 2; i++) {
         const GlazingLayer *layer = &pane->layers[i ? pane->layer_count - 1 : 0];
-        CoatedBody body = {.stack = pane->coating[i], .ior = (double)layer->ior};
-        out->face[i][0] = tables_of(&body, pane_row, KINDS, arena);
-        body.is_p = true;
-        out->face[i][1] = tables_of(&body, pane_row, KINDS, arena);
+        set_face(pane->coating[i], (double)layer->ior, out, i, arena);
+    }
+    return out;
+}
+
+const PaneCoating *coating_of_sheet(const LayerStack *stack, double ior, Arena *arena)
+{
+    PaneCoating *out = ARENA_NEW(arena, PaneCoating, 1);
+    double       outside = stack ? stack->outside : 1;
+    LayerStack  *none = ARENA_NEW(arena, LayerStack, 1);
+    none->outside = outside;
+    out->ior = (float)(ior / outside);
+    for (int i = 0; i < 2; i++) {
+        bool is_bare = stack && stack->faces == (i ? COATED_FRONT : COATED_BACK);
+        if (i && stack && stack->faces == COATED_BOTH)
+            memcpy(out->face[1], out->face[0], sizeof out->face[1]);
+        else
+            set_face(is_bare ? none : stack, ior, out, i, arena);
     }
     return out;
 }

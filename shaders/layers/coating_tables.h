@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* coating_tables.h -- makes the tables of coated boundaries (coating.h) of their layers.
  *
- * Light is taken as unpolarised at each boundary; a sheet's two faces are added up for each
- * polarisation by itself, without interference between them.
+ * Light is taken as unpolarised at each boundary, but for the faces of sheets and panes, which
+ * have tables for each polarisation.
  *
  * stack: NULL is a bare boundary in air. ior: absolute index of glass or plastic, 1 or more.
  * Memory   from the arena (coating.h).  Threads  any.  Fails  never. A table takes some tens of
@@ -15,8 +15,9 @@
 /* The boundary of a closed solid. */
 const CoatingTables *coating_of_solid(const LayerStack *stack, double ior, Arena *arena);
 
-/* A sheet in the medium outside, its glass clear; stack->faces: those that are coated. */
-const CoatingTables *coating_of_sheet(const LayerStack *stack, double ior, Arena *arena);
+/* The faces of a sheet in the medium outside, for both polarisations; stack->faces: those that
+ * are coated. */
+const PaneCoating *coating_of_sheet(const LayerStack *stack, double ior, Arena *arena);
 
 /* A metal seen from outside: front alone. */
 const CoatingTables *coating_of_metal(const LayerStack *stack, const OpticalConstants *metal,

@@ -107,22 +107,18 @@ static Spectrum base_metal_rebound(const MetallicRoughness *m)
     return f * f * spectrum_all(mean * m->metallic) / (one - f * spectrum_all(1 - mean));
 }
 
-/* A sheet's mean reflectance: its share of the rebound on the eye's side. */
-static Spectrum base_pane_mean(const MetallicView *view)
-{
-    const MetallicFace *b = &view->boundary;
-    if (coated_sheet(view->m)) /* of either side: they differ by what the coating absorbs */
-        return curve_lookup(&view->m->coating->sheet->front_mean, view->m->wavelengths);
-    if (has_film(view->m)) return sheet_reflectance(energy_filmed_average(view, 0));
-    float shape = energy_average(view->m->energy, 0).shape;
-    return sheet_reflectance(b->f0 + b->rise * spectrum_all(shape));
-}
-
-Spectrum base_pane_through(const MetallicView *view)
+PaneLight base_pane_mean(const MetallicView *view)
 {
     const MetallicRoughness *m = view->m;
-    if (coated_sheet(m)) return curve_lookup(&m->coating->sheet->through_mean, m->wavelengths);
-    return spectrum_all(1) - base_pane_mean(view);
+    const MetallicFace *b = &view->boundary;
+    Spectrum t = spectrum_pow(m->tint, pane_mean_slant(body_ior(m))), face;
+    if (coated_sheet(m)) { /* of either side: they differ by what the coating absorbs */
+        PaneMeeting meeting = {coated_sheet(m), m->wavelengths, 1, true, t};
+        return pane_coated_mean(&meeting);
+    }
+    face = has_film(m) ? energy_filmed_average(view, 0) :
+                         b->f0 + b->rise * spectrum_all(energy_average(m->energy, 0).shape);
+    return pane_between(face, face, t);
 }
 
 Spectrum base_rebound(const MetallicView *view, Vec3 wi, Energy in)
@@ -133,7 +129,7 @@ Spectrum base_rebound(const MetallicView *view, Vec3 wi, Energy in)
     float    lobe = base_rebound_lobe(view, wi, in);
     if (!(lobe > 0)) return sum;
     if (m->metallic > 0) sum = base_metal_rebound(m);
-    if (clear > 0) sum += base_pane_mean(view) * spectrum_all(clear);
+    if (clear > 0) sum += base_pane_mean(view).reflected * spectrum_all(clear);
     return sum * spectrum_all(lobe);
 }
 
@@ -204,8 +200,9 @@ SheetLight coat_sheet_rebound(const MetallicView *view)
 {
     const MetallicRoughness *m = view->m;
     float      open = view->coat_mean.open;
-    Spectrum   mean = base_pane_mean(view), share = spectrum_all(clear_share(m) * open);
-    SheetFaces faces = {mean, mean, base_pane_through(view) * m->base_color};
+    PaneLight  mean = base_pane_mean(view);
+    Spectrum   share = spectrum_all(clear_share(m) * open);
+    SheetFaces faces = {mean.reflected, mean.reflected, mean.passed};
     SheetLight light = sheet_turns(&faces, 1 - open);
     return (SheetLight){light.back * share, light.through * share};
 }

@@ -31,8 +31,9 @@ Spectrum base_lambert_towards(const MetallicView *view);
 /* The rebound's share along wi, for reflectance 1. */
 float base_rebound_lobe(const MetallicView *view, Vec3 wi, Energy in);
 
-/* A sheet's mean transmittance: its share of the rebound on the other side. */
-Spectrum base_pane_through(const MetallicView *view);
+/* What a sheet reflects and lets through on average: its shares of the rebound on the eye's
+ * side and on the other one. */
+PaneLight base_pane_mean(const MetallicView *view);
 
 /* The rebound of metals and sheets on the eye's side. */
 Spectrum base_rebound(const MetallicView *view, Vec3 wi, Energy in);

@@ -143,8 +143,7 @@ static Spectrum base_below(const MetallicView *view, Vec3 wi, float *pdf)
     *pdf = view->choices.through * (all * pdf_lobe + (1 - all) * up.z * INV_PI_F);
     SheetLobe lobe = {base_lobe(m, view->wo, up, half), vec3_dot(view->wo, half)};
     Spectrum straight = facet_through(m, &view->boundary, lobe.cosine);
-    Spectrum spread = base_pane_through(view) * m->base_color *
-                      spectrum_all((1 - m->metallic) * m->transmission);
+    Spectrum spread = base_pane_mean(view).passed * spectrum_all(clear_share(m));
     Spectrum bare = sheen_over(view, up, straight) * spectrum_all(lobe.value) +
                     spread * spectrum_all(base_rebound_lobe(view, up, in));
     return m->clearcoat > 0 ? below_coat(view, wi, in, bare, &lobe) : bare;
@@ -241,7 +240,9 @@ static MetallicChoices choose_bare(const MetallicView *view)
     float  base = spectrum_mean(m->base_color);
     float  f0 = spectrum_mean(view->boundary.f0);
     float face = f0 * e.all + (m->specular - f0) * e.shape;
-    float sheet = 2 * face / (1 + face);
+    float tint = spectrum_mean(m->tint), in = 1 - face, seen = face * tint;
+    float once = in * in * tint / fmaxf(1 - seen * seen, 1e-6f); /* through, about */
+    float sheet = face + once * seen;
     float metal = base * e.all + (1 - base) * e.shape;
     float clear = (1 - m->metallic) * m->transmission, solid = 1 - m->metallic - clear;
     float coat = vec3_dot(m->clearcoat_normal, view->wo) > 0 ? view->coat : 0;
@@ -252,7 +253,7 @@ static MetallicChoices choose_bare(const MetallicView *view)
         .diffuse = under * (base * (solid * (1 - m->across) * (1 - face) +
                                     m->metallic * base * (1 - e.all)) +
                             clear * sheet * (1 - e.all)),
-        .through = under * base * clear * (1 - sheet),
+        .through = under * clear * once,
         .across = 0,
     };
     if (m->across > 0)

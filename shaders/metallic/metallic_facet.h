@@ -8,8 +8,8 @@
  * Threads  pure functions.  Fails  never.
  */
 #pragma once
+#include "shaders/layers/pane.h"
 #include "shaders/metallic/metallic_view.h"
-#include "spectrum/fresnel.h"
 
 /* A sheet's reflectance on the side of the eye and on the other one, and what passes. */
 typedef struct SheetFaces {
@@ -19,11 +19,12 @@ typedef struct SheetFaces {
 /* A filmed boundary, whose bare reflectance is known. */
 Spectrum facet_filmed(const MetallicRoughness *m, Spectrum bare, float cosine);
 
-/* A coated sheet, from the side that is seen. */
-Spectrum facet_sheet_at(const MetallicRoughness *m, float cosine);
+/* The sheet's share alone, a facet of it met at `cosine`: two faces and one body
+ * (layers/pane.h). */
+PaneLight facet_pane(const MetallicRoughness *m, const MetallicFace *b, float cosine);
 
 /* The non-metal's share, where it is coated. */
-Spectrum facet_coated(const MetallicRoughness *m, float cosine);
+Spectrum facet_coated(const MetallicRoughness *m, const MetallicFace *b, float cosine);
 
 /* A metal, not times its share. */
 Spectrum facet_metal_at(const MetallicRoughness *m, float cosine);
@@ -31,7 +32,7 @@ Spectrum facet_metal_at(const MetallicRoughness *m, float cosine);
 /* Light that the sheet's share lets through a facet met at `cosine`. */
 Spectrum facet_through(const MetallicRoughness *m, const MetallicFace *b, float cosine);
 
-/* The sheet's share alone, a facet of it met at `cosine`. */
+/* The same from both of its sides. */
 SheetFaces facet_sheet(const MetallicRoughness *m, const MetallicFace *b, float cosine);
 
 static inline bool has_film(const MetallicRoughness *m)
@@ -54,7 +55,7 @@ static inline const CoatingTables *coated_face(const MetallicRoughness *m)
     return m->coating ? m->coating->face : NULL;
 }
 
-static inline const CoatingTables *coated_sheet(const MetallicRoughness *m)
+static inline const PaneCoating *coated_sheet(const MetallicRoughness *m)
 {
     return m->coating ? m->coating->sheet : NULL;
 }
@@ -75,9 +76,11 @@ static inline Spectrum let_in(const MetallicFace *b, Energy e)
     return spectrum_all(1) - b->f0 * spectrum_all(e.all) - b->rise * spectrum_all(e.shape);
 }
 
-static inline Spectrum sheet_reflectance(Spectrum face)
+/* The index that slants a way through the sheet's body. */
+static inline float body_ior(const MetallicRoughness *m)
 {
-    return (face + face) / (spectrum_all(1) + face);
+    if (coated_sheet(m)) return coated_sheet(m)->ior;
+    return m->energy->ior >= 1 ? m->energy->ior : INFINITY;
 }
 
 static inline Spectrum facet_reflectance(const MetallicRoughness *m, const MetallicFace *b,
@@ -92,10 +95,10 @@ static inline Spectrum facet_of_nonmetal(const MetallicRoughness *m, const Metal
                                          float cosine)
 {
     if (!(m->metallic < 1)) return spectrum_all(0);
-    if (coated_face(m) || coated_sheet(m)) return facet_coated(m, cosine);
+    if (coated_face(m) || coated_sheet(m)) return facet_coated(m, b, cosine);
     Spectrum face = facet_reflectance(m, b, cosine);
     if (m->transmission > 0)
-        face += (sheet_reflectance(face) - face) * spectrum_all(m->transmission);
+        face += (facet_pane(m, b, cosine).reflected - face) * spectrum_all(m->transmission);
     return face * spectrum_all(1 - m->metallic);
 }
 

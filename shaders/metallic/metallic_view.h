@@ -13,8 +13,7 @@
 #include "shaders/layers/coating.h"
 #include "shaders/layers/covered_lobe.h"
 #include "shaders/layers/sheen.h"
-
-#define CLEARCOAT_IOR 1.5f /* glTF's */
+#include "spectrum/fresnel.h"
 
 struct MetallicView;
 
@@ -27,7 +26,9 @@ typedef struct MetallicRoughness {
     float    alpha_along;      /* brushed: GGX along the frame's x, in [SMOOTH_ALPHA, 1]; then
                                   alpha is that along y, in the same range. 0: alpha */
     float    specular;         /* [0, 1]: strength of the dielectric's reflection */
-    float    transmission;     /* [0, 1]: share of the non-metal that is a thin clear sheet */
+    float    transmission;     /* [0, 1]: share of the non-metal that is a thin sheet */
+    Spectrum tint;             /* [0, 1]: what the sheet's body lets through once along the
+                                  normal of a facet */
     float    clearcoat;        /* [0, 1]: share that carries a lacquer of CLEARCOAT_IOR */
     float    clearcoat_alpha;  /* GGX, [0, 1] */
     Vec3     clearcoat_normal; /* unit, local frame; z > 0 */

@@ -3,25 +3,10 @@
 
 #include "panel/query/panel_emission.h"
 #include "panel/query/panel_place.h"
+#include "spectrum/fresnel.h"
 #include "spectrum/photometry.h"
 
 #include "base/units.h"
-
-static Vec2 slot_from_uv(const TextureSlot *slot, Vec2 uv)
-{
-    const float *m = slot->uv_from_uv;
-    return (Vec2){m[0] * uv.x + m[1] * uv.y + m[2], m[3] * uv.x + m[4] * uv.y + m[5]};
-}
-
-Vec2 slot_uv(const TextureSlot *slot, const TrianglePoint *point)
-{
-    return slot_from_uv(slot, point->uv[slot->uv_set]);
-}
-
-Vec2 slot_corner_uv(const Scene *scene, const TextureSlot *slot, uint32_t triangle, int corner)
-{
-    return slot_from_uv(slot, scene_corner_uv(scene, triangle, corner, slot->uv_set));
-}
 
 /* The direction in the triangle's plane in which the slot's u grows: with edges e1, e2 and the
  * differences (du1, dv1), (du2, dv2) along them, dP/du ~ (dv2 e1 - dv1 e2) / det. */
@@ -139,6 +124,21 @@ static Spectrum material_emission(const Scene *scene, const Material *material,
            spectrum_all(luminance);
 }
 
+/* Share of the light from below that the coat lets out. */
+static float coat_lets_out(const Scene *scene, const Material *m, uint32_t triangle,
+                           const TrianglePoint *point, Vec3 direction)
+{
+    float coat = m->clearcoat, texel[4];
+    if (!material_shows_coat(m)) return 1;
+    if (m->clearcoat_texture.texture_id != NO_ID) {
+        Vec2 uv = slot_uv(&m->clearcoat_texture, point);
+        texture_data(&scene->textures[m->clearcoat_texture.texture_id], uv.x, uv.y, texel);
+        coat *= texel[0];
+    }
+    float cosine = fabsf(vec3_dot(coat_normal(scene, m, triangle, point), direction));
+    return 1 - coat * fresnel_unpolarised(fminf(cosine, 1), CLEARCOAT_IOR);
+}
+
 bool triangle_emits_to(const Scene *scene, uint32_t triangle, const TrianglePoint *point,
                        Vec3 direction)
 {
@@ -177,5 +177,6 @@ Spectrum triangle_emission(const Scene *scene, uint32_t triangle, const Triangle
     if (material->display_id != NO_ID)
         return display_emission(scene, &scene->displays[material->display_id], triangle, point,
                                 direction, wavelengths);
-    return material_emission(scene, material, point, wavelengths);
+    return material_emission(scene, material, point, wavelengths) *
+           spectrum_all(coat_lets_out(scene, material, triangle, point, direction));
 }

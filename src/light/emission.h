@@ -4,13 +4,9 @@
  * Used where a ray hits an emitter and where one is sampled: the same numbers both times.
  */
 #pragma once
-#include "light/ray_ends.h"
-#include "scene/scene.h"
+#include "bvh/ray.h"
+#include "light/texture_slot.h"
 #include "spectrum/wavelengths.h"
-
-/* Texture coordinates of a slot, at a point and at a corner. */
-Vec2 slot_uv(const TextureSlot *slot, const TrianglePoint *point);
-Vec2 slot_corner_uv(const Scene *scene, const TextureSlot *slot, uint32_t triangle, int corner);
 
 /* The display's frame at a point: +z the shading normal on the front's side, +x the direction
  * of growing U of its content, +y up. */
@@ -36,7 +32,8 @@ void display_codes(const Scene *scene, const Display *display, const TrianglePoi
 void display_emission_xyz(const Scene *scene, const Display *display, uint32_t triangle,
                           const TrianglePoint *point, Vec3 direction, float xyz[3]);
 
-/* Emitted colour of a material that is no display, linear Rec.709, cd m^-2; front side. */
+/* Emitted colour of a material that is no display, linear Rec.709, cd m^-2; front side, below
+ * any coat. */
 void emitted_rgb(const Scene *scene, const Material *material, const TrianglePoint *point,
                  float rgb[3]);
 
@@ -52,6 +49,8 @@ bool triangle_emits_to(const Scene *scene, uint32_t triangle, const TrianglePoin
 bool triangle_polarisation(const Scene *scene, uint32_t triangle, const TrianglePoint *point,
                            Vec3 direction, Vec3 *axis, float *degree);
 
-/* Spectral radiance that leaves the point along `direction` (unit, world). */
+/* Spectral radiance that leaves the point along `direction` (unit, world). A clear coat lets
+ * out 1 - clearcoat * Fresnel of it (KHR_materials_clearcoat, its exact curve); an unlit
+ * material has no coat, and a display was measured with all that lies on it. */
 Spectrum triangle_emission(const Scene *scene, uint32_t triangle, const TrianglePoint *point,
                            Vec3 direction, const Wavelengths *wavelengths);

@@ -128,7 +128,8 @@ TrianglePoint triangle_point(const Scene *scene, uint32_t triangle, float u, flo
              k = t->vertex[2] - part->first_vertex;
     TriangleEdges edges = {.first = vec3_sub(b, a), .second = vec3_sub(c, a)};
     Vec3  across = vec3_cross(edges.first, edges.second);
-    TrianglePoint point = {.position = on_triangle(a, edges.first, edges.second, u, v)};
+    TrianglePoint point = {.position = on_triangle(a, edges.first, edges.second, u, v),
+                           .u = u, .v = v};
     edges.twice_area = vec3_length(across);
     edges.ng = point.ng = vec3_normalize(across);
     set_ends(scene, &edges, u, v, &point);

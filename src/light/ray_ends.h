@@ -40,6 +40,7 @@ typedef struct TrianglePoint {
     Vec3  ng;    /* unit, the front's side (counter-clockwise vertices) */
     Vec3  ns;    /* unit, interpolated vertex normal; ng where that vanishes */
     Vec2  uv[SCENE_UV_SETS];
+    float u, v;  /* barycentric weights of vertices 1 and 2 */
     Vec3  inside;   /* m: where rays start and end: a little off the edges */
     float rounding; /* m, along ng: of the point and of its plane, seen from nearby; */
     float slant;    /* and what each metre adds from where it is seen */

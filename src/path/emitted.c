@@ -96,7 +96,7 @@ static PathFound found_on(const Surface *surface, const Hit *hit, Vec3 wo, float
                        .triangle = hit->triangle, .point = &surface->point};
 }
 
-/* A display seen along a path on which nothing depended on wavelength: its measured XYZ. */
+/* A display seen along a path on which nothing depends on wavelength: its measured XYZ. */
 static void add_display_xyz(PathState *path, const Surface *surface, const Hit *hit, Vec3 wo,
                             float weight)
 {
@@ -112,7 +112,7 @@ static void add_display_xyz(PathState *path, const Surface *surface, const Hit *
     PathFound found = found_on(surface, hit, wo, weight);
     found.radiance = spectrum_all(0);
     found.xyz = xyz;
-    found.share = path->throughput[0] * weight;
+    found.share = spectrum_mean(path->throughput) * weight;
     collect_found(path, &found);
 }
 
@@ -131,7 +131,7 @@ void emitted_add(PathState *path, const Surface *surface, const Hit *hit, Vec3 w
     const Scene *scene = path->context->scene;
     float weight = emission_weight(path, LIGHTS_EMITTERS, emitter_pdf(path, surface, hit));
     if (!(weight > 0)) return;
-    if (surface_is_display(scene, surface) && spectrum_is_grey(path->throughput)) {
+    if (surface_is_display(scene, surface) && path->is_grey) {
         add_display_xyz(path, surface, hit, wo, weight);
         return;
     }

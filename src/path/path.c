@@ -91,7 +91,7 @@ static Step scatter(PathState *path, const Surface *surface, Vec3 wo)
     if (!collect_choose(path, surface, &next) && !guiding_sample(path->spare, surface, u,
                                                                  &next))
         return STEP_ENDED;
-    path->throughput *= next.weight;
+    path_weigh(path, surface, next.weight);
     collect_leave(path, surface, wo, &next);
     if (spectrum_is_zero(path->throughput)) return STEP_ENDED;
     if (next.passes) {
@@ -133,6 +133,7 @@ static void see_first(PathState *path, const Surface *surface, const Hit *hit, V
 {
     if (!path->first.is_awaited) return;
     path->first.through = path->throughput;
+    path->first.through_is_grey = path->is_grey;
     collect_see(path, surface, wo, hit->triangle);
 }
 
@@ -270,7 +271,8 @@ static PathState state_of(const PathStart *start, PathRoom *room)
         .context = start->context, .wavelengths = start->wavelengths,
         .sampler = start->sampler, .statistics = start->statistics,
         .collector = start->collector, .manner = start->manner,
-        .throughput = spectrum_all(1), .bright = 1, .gathered.radiance = spectrum_all(0),
+        .throughput = spectrum_all(1), .is_grey = true, .bright = 1,
+        .gathered.radiance = spectrum_all(0),
         .last = {.at.ns = vec3(0, 0, 1), .is_delta = true, .part_id = NO_ID,
                  .sun_share = spectrum_all(1)},
         .guiding = &room->guidings[0], .spare = &room->guidings[1], .splits_left = SPLITS,
@@ -281,7 +283,8 @@ static void report(const PathState *path, PathResult *out)
 {
     const PathFirst *first = &path->first;
     *out = (PathResult){.hit = first->is_met, .first = first->hit,
-                        .direction = first->direction, .through = first->through};
+                        .direction = first->direction, .through = first->through,
+                         .through_is_grey = first->through_is_grey};
     path_light_to_xyz(&path->gathered, path->wavelengths, out->xyz);
     if (!first->by_mirror) return;
     PathLight since = path->gathered;

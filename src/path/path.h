@@ -36,7 +36,8 @@ typedef struct PathResult {
     bool     hit;       /* the ray met a surface (windows passed and holes do not count): */
     Hit      first;     /* t counted from the ray's origin */
     Vec3     direction; /* of the ray there */
-    Spectrum through;   /* share of its light that the panes before it let pass, per lane */
+    Spectrum through;   /* share of its light that the panes before it let pass, per lane; */
+    bool     through_is_grey; /* these treat all wavelengths alike */
     float    mirror[3]; /* of xyz: what came by way of that surface's mirror, if it is a
                            display; else 0 */
 } PathResult;

@@ -40,9 +40,9 @@ static void emission_seen(const SeenDisplay *view, const float codes[3], float x
 {
     const Display *display = view->display;
     Spectrum       through = view->path->through;
-    if (spectrum_is_grey(through)) {
+    if (view->path->through_is_grey) {
         display_panel_xyz(display, view->point, view->direction, codes, xyz);
-        for (int i = 0; i < 3; i++) xyz[i] = through[0] * (xyz[i] * display->level);
+        for (int i = 0; i < 3; i++) xyz[i] = spectrum_mean(through) * (xyz[i] * display->level);
         return;
     }
     Spectrum sent = display_panel_spectrum(display, view->point, view->direction, codes,

@@ -78,7 +78,8 @@ typedef struct PathFirst {
     bool     is_met;
     Hit      hit;        /* t counted from the ray's origin */
     Vec3     direction;  /* of the ray there */
-    Spectrum through;    /* share of its light that the panes before it let pass */
+    Spectrum through;    /* share of its light that the panes before it let pass; */
+    bool       through_is_grey; /* these treat all wavelengths alike */
     bool     by_mirror;  /* it is a display, from whose mirror the path goes on: */
     PathLight before;    /* found until then */
 } PathFirst;
@@ -101,6 +102,8 @@ typedef struct PathState {
     PathManner manner;
     Ray        ray;
     Spectrum   throughput; /* of the path so far, per lane */
+    bool       is_grey;    /* all surfaces so far treat wavelengths alike: lanes differ by
+                              rounding at most */
     PathLight  gathered;   /* found so far */
     PathFirst  first;
     PathVertex last;
@@ -123,6 +126,13 @@ static inline void numbers_for(PathState *path, int purpose)
 {
     path->sampler->dimension =
         (uint32_t)(NUMBERS_FIRST + path->steps * NUMBERS_STEP + purpose);
+}
+
+/* The surface's share of the light, per lane, on the path's way. */
+static inline void path_weigh(PathState *path, const Surface *surface, Spectrum weight)
+{
+    path->throughput *= weight;
+    path->is_grey &= surface->is_grey;
 }
 
 /* The power heuristic (Veach 1997, 9.2.4) for two strategies. */

@@ -2,8 +2,10 @@
 #include "path/surface.h"
 
 #include "light/coverage.h"
+#include "light/texture_slot.h"
 #include "light/ray_ends.h"
 #include "path/surface_coatings.h"
+#include "path/surface_grey.h"
 #include "shaders/facets/index_tables.h"
 #include "shaders/facets/microfacet.h"
 #include "shaders/layers/sheen.h"
@@ -22,6 +24,7 @@ struct SurfaceTables {
     const CoatTable   **on_material; /* of a coat on each material; NULL: it has none */
     const SurfaceCoating *const *coatings; /* of each material; NULL: none has one */
     const SolidTables *solids;             /* of each material */
+    const bool *is_grey;                   /* likewise */
 };
 
 static bool is_rough_solid(const Material *m)
@@ -97,6 +100,7 @@ const SurfaceTables *surface_tables_build(const Scene *scene, bool is_polarised,
     SolidTables *solids = ARENA_NEW(arena, SolidTables, scene->material_count + 1);
     tables->of_coat = &common_energy_table;
     tables->solids = solids;
+    tables->is_grey = surface_grey_build(scene, arena);
     tables->coatings = surface_coatings_build(scene, is_polarised, arena);
     for (int i = 0; i < scene->material_count; i++) {
         float ior = scene->materials[i].ior;
@@ -145,39 +149,6 @@ static Spectrum colour_spectrum(const Scene *scene, int curve_id, const float fa
 }
 
 /* ---- shading normals -------------------------------------------------------------------- */
-
-/* The vertices' tangent, made perpendicular to n, and bitangent; false: none. */
-static bool tangent_at(const Scene *scene, const Hit *hit, Vec3 n, Vec3 *along, Vec3 *across)
-{
-    const Tangent *tangents = scene_part(scene, hit->triangle)->tangents;
-    const float weight[3] = {1 - hit->u - hit->v, hit->u, hit->v};
-    float side = 0;
-    if (!tangents) return false;
-    *along = vec3(0, 0, 0);
-    for (int k = 0; k < 3; k++) {
-        const Tangent *corner = &tangents[scene_corner_place(scene, hit->triangle, k)];
-        *along = vec3_along(*along, corner->along, weight[k]);
-        side += weight[k] * corner->side;
-    }
-    *along = vec3_normalize(vec3_along(*along, n, -vec3_dot(*along, n)));
-    *across = vec3_scale(vec3_cross(n, *along), side < 0 ? -1.0f : 1.0f);
-    return vec3_dot(*along, *along) > 0.5f;
-}
-
-/* The normal that a normal map gives, in the tangent frame of the vertices. */
-static Vec3 mapped_normal(const Scene *scene, const TextureSlot *slot, float scale,
-                          const Hit *hit, const TrianglePoint *point)
-{
-    float texel[4];
-    Vec3  n = point->ns, along, across;
-    if (slot->texture_id == NO_ID || !tangent_at(scene, hit, n, &along, &across) ||
-        !read_slot(scene, slot, point, texture_data, texel))
-        return n;
-    Vec3 bent = vec3_along(vec3_scale(along, scale * (2 * texel[0] - 1)), across,
-                           scale * (2 * texel[1] - 1));
-    bent = vec3_normalize(vec3_along(bent, n, 2 * texel[2] - 1));
-    return vec3_dot(bent, bent) > 0.5f ? bent : n;
-}
 
 /* ns, turned to the side that `side` is on, and bent until `above` is above its plane. */
 static Vec3 oriented_normal(Vec3 ns, Vec3 side, Vec3 above)
@@ -252,8 +223,7 @@ static void set_coat(const Site *site, const Surface *surface, MetallicRoughness
     if (!(model->clearcoat > 0)) return;
     float roughness = scaled(site->scene, m->clearcoat_roughness,
                              &m->clearcoat_roughness_texture, point, 1);
-    Vec3 normal = mapped_normal(site->scene, &m->clearcoat_normal_texture,
-                                m->clearcoat_normal_scale, site->hit, point);
+    Vec3 normal = coat_normal(site->scene, m, site->hit->triangle, point);
     if (vec3_dot(normal, surface->frame.z) < 0) normal = vec3_neg(normal);
     model->clearcoat_alpha = roughness * roughness;
     model->clearcoat_energy = site->tables->of_coat;
@@ -287,7 +257,8 @@ static void set_brushing(const Scene *scene, const Hit *hit, const Brushing *b,
     read_slot(scene, &b->texture, &surface->point, texture_data, texel);
     float x = 2 * texel[0] - 1, y = 2 * texel[1] - 1, strength = b->strength * texel[2];
     float along = x * b->cosine - y * b->sine, across = x * b->sine + y * b->cosine;
-    if (!(strength > 0) || !tangent_at(scene, hit, surface->point.ns, &tangent, &bitangent))
+    if (!(strength > 0) ||
+        !point_tangent(scene, hit->triangle, &surface->point, &tangent, &bitangent))
         return;
     Vec3 z = surface->frame.z;
     Vec3 turned = vec3_along(vec3_scale(tangent, along), bitangent, across);
@@ -351,6 +322,7 @@ static void set_metallic_roughness(const Site *site, Surface *surface)
     model->metallic = site->metallic;
     model->alpha = site->alpha;
     model->transmission = site->transmission;
+    model->tint = tint_of(site);
     model->specular = scaled(site->scene, m->specular, &m->specular_texture, point, 3);
     model->specular_color = colour_spectrum(site->scene, m->specular_curve_id,
                                             m->specular_color, coloured ? texel : white,
@@ -398,8 +370,9 @@ static void set_window(const Site *site, Surface *surface)
     ThinWindow *window = bsdf_be_thin_window(&surface->bsdf);
     *window = (ThinWindow){.tint = tint_of(site), .ior = site->material->ior};
     if (!coating) return;
-    window->reflectance = is_front(surface) ? coating->sheet->front : coating->sheet->back;
-    window->transmittance = coating->sheet->through;
+    window->coating = coating->sheet;
+    window->ior = coating->sheet->ior;
+    window->front_is_met = is_front(surface);
     window->wavelengths = site->wavelengths;
 }
 
@@ -513,6 +486,7 @@ void surface_at(const Scene *scene, const SurfaceTables *tables, const Hit *hit,
     out->part_id = part_id;
     out->triangle = hit->triangle;
     out->material_id = scene->parts[part_id].material_id;
+    out->is_grey = tables->is_grey[out->material_id];
     out->emits = triangle_emits_to(scene, hit->triangle, &out->point, wo);
     coverage_texel(scene, m, hit, &out->point, texel);
     out->alpha = coverage_alpha(m, texel[3]);
@@ -521,7 +495,8 @@ void surface_at(const Scene *scene, const SurfaceTables *tables, const Hit *hit,
     Vec3 eye = vec3_dot(side, wo) < 0 ? vec3_neg(wo) : wo;
     Vec3 ns = m->display_id != NO_ID /* a panel was measured with its surface */
                   ? out->point.ns
-                  : mapped_normal(scene, &m->normal_texture, m->normal_scale, hit, &out->point);
+                  : mapped_normal(scene, &m->normal_texture, m->normal_scale, hit->triangle,
+                                  &out->point);
     out->frame = frame_from_z(oriented_normal(ns, side, eye));
     Site site = {.scene = scene, .tables = tables, .material = m, .hit = hit,
                  .wavelengths = wavelengths};
@@ -546,7 +521,8 @@ void surface_white(const SurfaceTables *tables, Vec3 position, Vec3 normal, Surf
     *out = (Surface){.position = position, .ng = normal, .frame = frame_from_z(normal),
                      .local_wo = {0, 0, 1}, .part_id = NO_ID, .material_id = NO_ID, .alpha = 1,
                      .point = {.position = position, .ng = normal, .ns = normal,
-                               .inside = position, .rounding = HEAD_OFF_M / RAY_STEP}};
+                               .inside = position, .rounding = HEAD_OFF_M / RAY_STEP},
+                     .is_grey = true};
     MetallicRoughness *model = bsdf_be_metallic_roughness(&out->bsdf);
     *model = metallic_roughness_default(tables->of_coat);
     model->metallic = 0;

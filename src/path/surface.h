@@ -26,6 +26,7 @@ typedef struct Surface {
     uint32_t triangle; /* undefined where part_id is NO_ID */
     float alpha;       /* 1: all there; below: the share 1 - alpha passes as by a hole */
     bool  emits;       /* towards wo */
+    bool  is_grey;     /* treats all wavelengths alike, by its material's data */
     TrianglePoint point;
     Bsdf  bsdf;
 } Surface;

@@ -118,7 +118,7 @@ bool window_reflects(PathState *sheet, const Surface *surface, Vec3 wo, BsdfSamp
     *mirror = (BsdfSample){.wi = vec3(-local_wo.x, -local_wo.y, local_wo.z), .is_delta = true,
                            .pdf = 1};
     if (sheet->bounce >= sheet->context->max_bounces) return false;
-    sheet->throughput *= bsdf_mirror(&surface->bsdf, local_wo);
+    path_weigh(sheet, surface, bsdf_mirror(&surface->bsdf, local_wo));
     collect_leave(sheet, surface, wo, mirror);
     return true;
 }
@@ -131,8 +131,8 @@ bool pane_shows_itself(const Surface *surface, Surface *pane)
 
 void sheet_pass(PathState *path, const Surface *surface, Vec3 wo)
 {
-    path->throughput *= is_hole(surface) ? spectrum_all(1 - surface->alpha)
-                                         : bsdf_pass(&surface->bsdf, surface->local_wo);
+    if (is_hole(surface)) path->throughput *= spectrum_all(1 - surface->alpha);
+    else path_weigh(path, surface, bsdf_pass(&surface->bsdf, surface->local_wo));
     if (is_window(surface)) collect_pass(path, surface, wo);
     sheet_go_behind(path, surface);
 }

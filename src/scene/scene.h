@@ -347,6 +347,14 @@ static inline bool material_is_translucent_solid(const Material *m)
     return m->is_solid && m->diffuse_transmission > 0 && !(m->transmission > 0);
 }
 
+/* The clear coat counts: solids that refract, panes and what is unlit have none, and a panel
+ * was measured with all that lies on it. */
+static inline bool material_shows_coat(const Material *m)
+{
+    bool is_other = m->unlit || m->glazing || m->display_id != NO_ID;
+    return m->clearcoat > 0 && !is_other && !(m->is_solid && m->transmission > 0);
+}
+
 /* Corner 0..2 of a triangle, m. */
 static inline Vec3 scene_corner(const Scene *scene, uint32_t triangle, int corner)
 {

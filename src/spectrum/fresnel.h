@@ -10,6 +10,8 @@
 
 #include "spectrum/spectrum.h"
 
+#define CLEARCOAT_IOR 1.5f /* of the lacquer of KHR_materials_clearcoat */
+
 /* Reflectance of light polarised across (s) and along (p) the plane of incidence. */
 typedef struct Fresnel {
     float s, p;
@@ -63,13 +65,6 @@ static inline float fresnel_shape(float eta, float cosine)
     if (!(eta > 1)) return 0;
     float f0 = fresnel_normal(eta);
     return (fresnel_unpolarised(cosine, eta) - f0) / (1 - f0);
-}
-
-/* A sheet with two equal faces, all reflections between them added up without interference:
- * R = 2r / (1 + r) for each polarisation; what is not reflected is transmitted. */
-static inline float fresnel_slab(Fresnel face)
-{
-    return face.s / (1 + face.s) + face.p / (1 + face.p);
 }
 
 /* (1 - cosine)^5 */

@@ -94,13 +94,6 @@ static inline bool spectrum_is_zero(Spectrum a)
     return spectrum_max_lane(a) <= 0 && spectrum_is_finite(a);
 }
 
-/* All lanes hold the same bits: nothing so far depended on wavelength. */
-static inline bool spectrum_is_grey(Spectrum a)
-{
-    Spectrum first = spectrum_all(a[0]);
-    return memcmp(&a, &first, sizeof a) == 0;
-}
-
 /* Four vectors of four as one, through vectors as wide as the CPU's: what is stored in parts
  * and loaded as a whole waits until the parts have left the store buffer. */
 typedef float SpectrumQuarter __attribute__((vector_size(16)));
@@ -173,6 +166,29 @@ static inline Spectrum spectrum_exp(Spectrum a)
     power = spectrum_select(large, spectrum_all(INFINITY), power);
     power = spectrum_select(small, spectrum_all(0), power);
     return spectrum_select(spectrum_nan_lanes(a), a, power);
+}
+
+/* ln a of a > 0, error below 3e-7 max(1, |ln a|); -87.5 at 0 and below, what lies between 0 and
+ * the least normal number included. With 2^n the power of two for which a / 2^n is within
+ * [sqrt(1/2), sqrt(2)): the series of 2 artanh((m - 1) / (m + 1)). */
+static inline Spectrum spectrum_log(Spectrum a)
+{
+    const int    root_half = 0x3f3504f3;
+    static const float terms[] = {2 / 11.0f, 2 / 9.0f, 2 / 7.0f, 2 / 5.0f, 2 / 3.0f, 2};
+    const Spectrum least = spectrum_all(1.2e-38f);
+    SpectrumMask bits = (SpectrumMask)spectrum_max(a, least), n = (bits - root_half) >> 23;
+    Spectrum     whole = __builtin_convertvector(n, Spectrum);
+    Spectrum     m = (Spectrum)(bits - n * 0x800000);
+    Spectrum     t = (m - spectrum_all(1)) / (m + spectrum_all(1)), t2 = t * t, sum = {0};
+    for (int i = 0; i < 6; i++) sum = sum * t2 + spectrum_all(terms[i]);
+    sum = sum * t + whole * spectrum_all(-2.12194440e-4f) + whole * spectrum_all(0.693359375f);
+    return spectrum_select(spectrum_above(a, least), sum, spectrum_all(-87.5f));
+}
+
+/* a^exponent of a in [0, 1]; exponent at least 1. 1 at 1, 0 at 0: exactly. */
+static inline Spectrum spectrum_pow(Spectrum a, float exponent)
+{
+    return spectrum_exp(spectrum_log(a) * spectrum_all(exponent));
 }
 
 #pragma GCC diagnostic pop

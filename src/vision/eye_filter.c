@@ -293,7 +293,6 @@ typedef struct NodeWork {
     const EyeLayer  *layers;
     int              layer_count;
     const double *omega;         /* of each pixel, 0 where nothing is to be spread */
-    double        over_integral; /* 1 / eye_spread_integral */
     double        node_x, node_y; /* pixels: of the kernel, */
     double       *kernel;         /* ConvolutionKernel's */
     double       *weights_x, *weights_y; /* one a column or row */
@@ -335,9 +334,9 @@ static double kernel_value(const NodeWork *k, int dx, int dy)
         double x = k->node_x + dx + (i % count + 0.5) / count - 0.5;
         double y = k->node_y + dy + (i / count + 0.5) / count - 0.5;
         tangents(&filter->view, x, y, place);
-        sum += eye_spread_published(fmin(angle_deg(node, place), 90), filter->eye);
+        sum += eye_spread_at(fmin(angle_deg(node, place), 90), filter->eye);
     }
-    return sum * k->over_integral / (count * count);
+    return sum / (count * count);
 }
 
 static void kernel_row(void *context, int row, int worker)
@@ -505,7 +504,7 @@ static double plane_at(const Convolution *sums, int plane, int x, int y)
     return convolution_row(sums, plane / 2, y)[2 * x + plane % 2];
 }
 
-/* Adds what arrived in a row and takes off what went. */
+/* Adds what arrived in a row and takes off what went; no pixel sends more than it has. */
 static void exchange_row(const NodeWork *work, const Convolution *sums, int y)
 {
     int width = work->filter->view.width;
@@ -516,7 +515,7 @@ static void exchange_row(const NodeWork *work, const Convolution *sums, int y)
         float          *to = layer->out[plane % 3] + start;
         for (int x = 0; x < width; x++) {
             double light = (double)from[x], went = plane_at(sums, 3 * work->layer_count, x, y);
-            double seen = light + plane_at(sums, plane, x, y) - light * went;
+            double seen = light * fmax(1 - went, 0) + plane_at(sums, plane, x, y);
             to[x] = work->omega[start + (size_t)x] == 0 ? from[x] : (float)seen;
         }
     }
@@ -531,7 +530,6 @@ bool eye_filter(const EyeFilter *filter, const EyeLayer *layers, int count, Aren
         return false;
     size_t   kernel = (size_t)(2 * view->width - 1) * (size_t)(2 * view->height - 1);
     NodeWork work = {.filter = filter, .layers = layers, .layer_count = count,
-                     .over_integral = 1 / eye_spread_integral(filter->eye),
                      .kernel = ARENA_NEW(&scratch, double, kernel),
                      .weights_x = ARENA_NEW(&scratch, double, view->width),
                      .weights_y = ARENA_NEW(&scratch, double, view->height)};

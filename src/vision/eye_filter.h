@@ -4,12 +4,19 @@
  *
  *     out(p) = L(p) + sum over s of f(angle of p and s) w(s) (L(s) - L(p))
  *
- * f is the spread over its integral, averaged over pixel p; w(s) pixel s's solid angle. What
- * leaves the picture, or a pixel, towards where nothing is known is kept where it came from: as
- * if beyond the border it were as bright as each pixel is itself. So no light is made or lost
- * (the sum of out w is that of L w), an even picture stays even up to its border, and the veil
- * of a light is the true one. Only what the picture sees is spread: a sun outside it veils
- * nothing.
+ * f is the published spread, averaged over pixel p; w(s) pixel s's solid angle. So the veil of
+ * a light is the published one, for the lux that it brings to a surface that faces it; a gaze
+ * (review/light/eye_reading.h) has the same f, and counts the lux of the pupil that looks
+ * there, smaller by the cosine of the angle.
+ *
+ * What a pixel sends to the others is taken off its own light; what leaves the picture towards
+ * where nothing is known stays where it came from: as if beyond the border it were as bright as
+ * each pixel is itself. So no light is made or lost (the sum of out w is that of L w) and an
+ * even picture stays even up to its border. What the published function has above one (3 to 17
+ * %, eye_spread.h) is missing from the light that stays in its pixel, not from the veil. Where
+ * pixels are so fine (some 0.004 degrees, old light eyes) that more than all would leave, a
+ * pixel sends all it has: that surplus alone, a few per cent, is gained. Only what the picture
+ * sees is spread: a sun outside it veils nothing.
  *
  * A perspective picture's pixels are not alike: the same number of them is another angle at the
  * border. The sum over s is one convolution for each of some places in the picture, from which

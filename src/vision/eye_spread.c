@@ -25,7 +25,7 @@ static double peak(double t, double width)
 
 /* The core of the optics (two peaks, narrower than the sun), the lens that scatters more with
  * age, and the light that comes through iris and wall of the eye. */
-double eye_spread_published(double angle_deg, HumanEye eye)
+double eye_spread_at(double angle_deg, HumanEye eye)
 {
     if (!is_angle(angle_deg)) return NAN;
     double t = angle_deg, p = eye.pigment;
@@ -35,23 +35,6 @@ double eye_spread_published(double angle_deg, HumanEye eye)
     double lens = 400 / x + 3e-8 * t * t;
     double wall = 1300 * peak(t, 0.1) + 0.8 / sqrt(x);
     return (1 - 0.08 * age) * core + (1 + 1.6 * age) * (lens + p * wall) + 2.5e-3 * p;
-}
-
-/* Simpson's rule over u of t = w sinh u: steps of equal length at the core (w is a quarter of
- * its width), of equal ratio farther out, over which f t^2 changes slowly. */
-double eye_spread_integral(HumanEye eye)
-{
-    enum { STEPS = 512 };
-    const double w = 0.00115, end = log_d(90 / w + sqrt(90 / w * (90 / w) + 1)); /* asinh */
-    double       sum = 0;
-    for (int i = 0; i <= STEPS; i++) {
-        double up = exp_d(end * i / STEPS), t = w * (up - 1 / up) / 2;
-        double slope = w * (up + 1 / up) / 2;
-        double weight = i == 0 || i == STEPS ? 1 : i % 2 ? 4 : 2;
-        if (t > 90) t = 90; /* rounding of the last step */
-        sum += weight * eye_spread_published(t, eye) * sin_d(radians_from_degrees(t)) * slope;
-    }
-    return 2 * PI * radians_from_degrees(sum * end / STEPS / 3);
 }
 
 double eye_spread_spencer(double angle_deg)
@@ -64,7 +47,7 @@ double eye_spread_spencer(double angle_deg)
     return 0.384 * f0 + 0.478 * f1 + 0.138 * f2;
 }
 
-/* ---- veils ------------------------------------------------------------------------------- */
+/* ---- equations of the veil alone --------------------------------------------------------- */
 
 static bool within(double angle, double low, double high)
 {

@@ -2,8 +2,7 @@
 /* eye_spread.h -- how the eye spreads the light of a point over its retina, and the veil of it.
  *
  * f(theta) is the luminance, seen at an angle from the point, for one lux that it brings to the
- * eye: sr^-1. Over the hemisphere in front it adds up to one, since no light is made: integral
- * of f 2 pi sin theta d theta = 1.
+ * eye: sr^-1. One function for frames, gazes and verdicts: eye_spread_at.
  *
  * Source   CIE 135/1-1999 "Total glare" (J. J. Vos and T. J. T. P. van den Berg), whose
  *          constants stand in HDR-VDP's sources; the report itself was not read.
@@ -17,22 +16,23 @@
 #pragma once
 #include "vision/human_eye.h"
 
-/* The CIE's function as it is published: its integral is up to 7 % above one. */
-double eye_spread_published(double angle_deg, HumanEye eye);
-
-/* The integral of the published function over the hemisphere, by quadrature (within 1e-6). */
-double eye_spread_integral(HumanEye eye);
+/* The CIE's total glare function as it is published. Its integral over the hemisphere in front
+ * is above one: 1.005 at 24 years and pigment 0, 1.032 at 25 and 0.5, 1.050 at 60 and 0.5,
+ * 1.169 at 75 and 1.2. Nothing divides by that: the veil at every angle is the published one;
+ * who spreads a picture says where the rest goes (eye_filter.h). */
+double eye_spread_at(double angle_deg, HumanEye eye);
 
 /* Spencer's; its integral is 0.9996. At 10 degrees it is 1.6 to 1.8 times the CIE's for a young
  * eye. For comparison: what is judged here is judged by the CIE's. */
 double eye_spread_spencer(double angle_deg);
 
-/* ---- the veil that stray light inside the eye lays over what it looks at ------------------
+/* ---- equations of the veil alone, for comparison ------------------------------------------
  *
  * Each function is the equivalent veiling luminance for one lux at the eye, sr^-1 (cd m^-2 per
  * lx), of a glare source at an angle from the line of sight. The lux are those in the plane of
  * the pupil, perpendicular to the line of sight: a source of luminance L and solid angle w adds
- *     f(theta) L w cos theta.
+ *     f(theta) L w cos theta,
+ * here as by the spread above.
  *
  * Source   CIE 146:2002 "CIE equations for disability glare"; J. J. Vos, "On the cause of
  *          disability glare and its dependence on glare angle, age and ocular pigmentation",

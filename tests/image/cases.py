@@ -67,6 +67,15 @@ def pane_transmittance(cos_i, ior):
     return sum((1 - r) / (1 + r) for r in fresnel(cos_i, ior)) / 2
 
 
+def tinted_pane(cos_i, ior, tint):
+    """R and T of two faces and one body that lets `tint` through along the normal, mean of both
+    polarisations."""
+    t = tint ** (1 / math.sqrt(1 - (1 - cos_i * cos_i) / (ior * ior)))
+    r_t = [(r + (1 - r) ** 2 * t * t * r / (1 - r * r * t * t),
+            (1 - r) ** 2 * t / (1 - r * r * t * t)) for r in fresnel(cos_i, ior)]
+    return sum(r for r, _ in r_t) / 2, sum(t for _, t in r_t) / 2
+
+
 def tilted(degrees):
     """Unit vector in the x-y plane, so many degrees from +Y towards +X."""
     angle = math.radians(degrees)
@@ -166,6 +175,51 @@ def small_lambertian_source():
         look_from(scene, f"{x},{y}", [x, 0, y], [0, 1, 0])
         claims.append(Claim(f"{x},{y}", shown(9000 / (9 + x * x + y * y) ** 2)))
     return Case("CIE 171 5.2, Lambertian point source", scene, claims, ["--max-bounces", "1"])
+
+
+def lacquered_lamp(coat, degrees):
+    """A lamp under a clear coat: emission times 1 - coat times Fresnel's reflectance (1.5), to
+    the eye itself, and to a floor that light samples light."""
+    scene = floor_scene()
+    lamp = scene.material(
+        pbrMetallicRoughness={"baseColorFactor": [0, 0, 0, 1], "metallicFactor": 0},
+        emissiveFactor=[1, 1, 1], extensions={
+            "KHR_materials_specular": {"specularFactor": 0},
+            "KHR_materials_clearcoat": {"clearcoatFactor": coat},
+            "KHR_materials_emissive_strength": {"emissiveStrength": 1e6}})
+    direction = tilted(degrees)
+    scene.facing_quad(lamp, [2 * direction[0], 2 * direction[1], 0], FACING_DOWN, 0.02)
+    look_from(scene, "lamp", [2 * direction[0], 2 * direction[1], 0],
+              [-x for x in direction], distance=1)
+    look_from(scene, "floor", [0, 0, 0], [0, 1, 0])
+    cos_i = math.cos(math.radians(degrees))
+    sent = 1e6 * (1 - coat * sum(fresnel(cos_i, 1.5)) / 2)
+    return Case(f"a lamp under a coat of {coat} at {degrees} degrees", scene,
+                [Claim("lamp", sent), Claim("floor", shown(sent * cos_i ** 2 * 1e-4))],
+                ["--max-bounces", "1"])
+
+
+def tilted_coat():
+    """A coat whose normal map leans by 45 degrees to +x, seen at 10 degrees from there."""
+    scene = Scene()
+    lean = scene.image("image/png", png(1, 1, [[218, 128, 218]]))
+    lamp = scene.material(
+        pbrMetallicRoughness={"baseColorFactor": [0, 0, 0, 1], "metallicFactor": 0},
+        emissiveFactor=[1, 1, 1], extensions={
+            "KHR_materials_specular": {"specularFactor": 0},
+            "KHR_materials_clearcoat": {"clearcoatFactor": 0.8, "clearcoatNormalTexture": {
+                "index": lean}},
+            "KHR_materials_emissive_strength": {"emissiveStrength": 100}})
+    scene.quad(lamp, [-1, 0, 1], [2, 0, 0], [0, 0, -2])
+    normal = [2 * c / 255 - 1 for c in (218, 218, 128)]  # its y is world's -z
+    size = math.sqrt(sum(x * x for x in normal))
+    claims = []
+    for degrees in (-20, 10, 55):
+        direction = tilted(degrees)
+        cos_i = abs(normal[0] * direction[0] + normal[1] * direction[1]) / size
+        look_from(scene, str(degrees), [0.3, 0, 0.1], direction)
+        claims.append(Claim(str(degrees), 100 * (1 - 0.8 * sum(fresnel(cos_i, 1.5)) / 2)))
+    return Case("a lamp under a leaning coat", scene, claims, ["--max-bounces", "0"])
 
 
 def spot_light():
@@ -432,7 +486,7 @@ def light_through_window(degrees):
     scene.light("directional", 1000, direction=[-x for x in tilted(degrees)])
     look_from(scene, "floor", [0.1, 0, 0.3], [0, 1, 0])  # beside the diagonal of the pane
     cos_i = math.cos(math.radians(degrees))
-    lux = 1000 * cos_i * 0.8 * pane_transmittance(cos_i, 1.52)
+    lux = 1000 * cos_i * tinted_pane(cos_i, 1.52, 0.8)[1]
     return Case(f"light through tinted glass at {degrees} degrees", scene,
                 [Claim("floor", shown(lux))], ["--max-bounces", "1"])
 
@@ -541,4 +595,7 @@ def all_cases(whole):
     cases += [measured_metal(angle) for angle in (0, 60, 80)]
     cases += [solid_slab(angle) for angle in (0, 45, 70)]
     cases += [light_through_window(angle) for angle in ANGLES[:-1]]
+    cases += [lacquered_lamp(coat, angle)
+              for coat, angle in ((1, 0), (1, 60), (0.5, 75), (1, 75))]
+    cases.append(tilted_coat())
     return cases

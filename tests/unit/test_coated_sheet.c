@@ -71,19 +71,32 @@ TEST(turns_are_summed_up)
 
 /* What the model tells of smooth sheets is that stack; how much light the coat lets pass is its
  * own table's affair, what it reflects itself, Fresnel's. */
+static void pane_of(double cosine, double tint, double *reflected, double *passed)
+{
+    double inside = sqrt(1 - (1 - cosine * cosine) / 2.25), t = pow(tint, 1 / inside);
+    *reflected = *passed = 0;
+    for (int is_p = 0; is_p < 2; is_p++) {
+        double a = is_p ? 1.5 * cosine : cosine, b = is_p ? inside : 1.5 * inside;
+        double r = (a - b) / (a + b) * ((a - b) / (a + b)), once = 1 - r * r * t * t;
+        *reflected += (r + (1 - r) * (1 - r) * t * t * r / once) / 2;
+        *passed += (1 - r) * (1 - r) * t / once / 2;
+    }
+}
+
 TEST(a_smooth_sheet_is_a_stack_of_its_boundaries)
 {
     for (int i = 0; i < 60; i++) {
         float cosine = i % 20 ? 0.05f * (float)(i % 20) : 0.02f, share = i / 20 ? 0.6f : 1;
         float tint = i / 20 == 2 ? 0.5f : 1;
         MetallicRoughness m = sheet(0, 0);
-        m.base_color = spectrum_all(tint);
+        m.tint = spectrum_all(tint);
         m.clearcoat = share;
         Bsdf   bsdf = {.kind = BSDF_METALLIC_ROUGHNESS, .metallic_roughness = m};
         Vec3   wo = vec3(safe_sqrtf(1 - cosine * cosine), 0, cosine);
-        double f = (double)fresnel_unpolarised(cosine, 1.5f), pane = 2 * f / (1 + f), sent[2];
+        double f = (double)fresnel_unpolarised(cosine, 1.5f), pane, through, sent[2];
         double held = (double)coat_reflectance(m.clearcoat_energy, cosine, 0);
-        double through = (1 - pane) * (double)tint, s = (double)share;
+        double s = (double)share;
+        pane_of((double)cosine, (double)tint, &pane, &through);
         follow_turns(pane, pane, through, 1 - held, sent);
         double back = s * (sent[0] - held + f) + (1 - s) * pane;
         assert_near(bsdf_mirror(&bsdf, wo)[5], back, 1e-4);
@@ -167,7 +180,7 @@ TEST(as_much_goes_through_from_either_side)
         Sampler sampler = sampler_start(3, i, 0, 0);
         Vec3    wo = random_direction(&sampler), wi = random_direction(&sampler);
         MetallicRoughness m = layered(i % 32, alphas[1 + i / 32 % 4], coats[i / 7 % 5]);
-        m.base_color = ramp(0.1f, 1);
+        m.tint = ramp(0.1f, 1);
         if (!(m.film.share > 0)) m.coating = &one_sided;
         wo.z = fmaxf(fabsf(wo.z), 1e-2f);
         wi.z = -fmaxf(fabsf(wi.z), 1e-2f);

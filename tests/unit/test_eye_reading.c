@@ -5,6 +5,7 @@
 #include "base/units.h"
 #include "review/light/eye_reading.h"
 #include "vision/discomfort.h"
+#include "vision/eye_filter.h"
 #include "vision/eye_spread.h"
 #include "world_fixture.h"
 
@@ -37,7 +38,7 @@ static Vec3 at_angle(double degrees)
 
 static void assert_veil(EyeReading found, double degrees, double lux)
 {
-    double wanted = lux * disability_glare(degrees, whose);
+    double wanted = lux * eye_spread_at(degrees, whose);
     if (!(fabs(found.veil / wanted - 1) < 0.01))
         fail_msg("%g degrees: veil %g, wanted %g", degrees, found.veil, wanted);
 }
@@ -64,6 +65,48 @@ TEST(a_small_source_veils_by_its_illuminance_of_the_pupil)
         if (vec3_dot(vec3_cross(vec3(1, 0, 0), up), d) > 0) fail_msg("the lamp looks away");
         assert_veil(read_eye(&world), angles[i], 1e5 * 4 * half * half * cos(t));
     }
+}
+
+/* The luminance in the middle of a picture, 64 x 3 pixels of 1 degree there, of one bright
+ * pixel; *angle_deg: of that from the middle, *lux: that it brings to what faces it. */
+static double veil_in_picture(int at_x, HumanEye eye, Arena scratch, double *angle_deg,
+                              double *lux)
+{
+    enum { WIDE = 64, HIGH = 3 };
+    const double    pixel = radians_from_degrees(1);
+    const EyeFilter filter = {{WIDE, HIGH, 32.5, 1.5, pixel}, eye, 1};
+    static float light[WIDE * HIGH], seen[3][WIDE * HIGH];
+    EyeLayer layer = {{light, light, light}, {seen[0], seen[1], seen[2]}};
+    for (int i = 0; i < WIDE * HIGH; i++) light[i] = 0;
+    light[WIDE + at_x] = 1e6f;
+    double tangent = (at_x - 32) * pixel;
+    assert_done(eye_filter(&filter, &layer, 1, scratch, &err));
+    *angle_deg = degrees_from_radians(atan(fabs(tangent)));
+    *lux = 1e6 * pixel * pixel / pow(1 + tangent * tangent, 1.5);
+    return (double)seen[1][WIDE + 32];
+}
+
+/* A lamp in a frame, before a gaze, and in the formula of verdicts: one veil. The gaze's lux
+ * are those of its pupil. */
+TEST(frames_and_gazes_have_one_veil)
+{
+    static const HumanEye eyes[] = {{25, 0.5}, {60, 0.5}, {75, 1.2}};
+    static const int      places[] = {12, 22, 52, 63};
+    const HumanEye before = request.observer;
+    for (int i = 0; i < 12; i++) {
+        SCOPED_WORLD world = dark_world();
+        double   angle, lux;
+        HumanEye eye = eyes[i / 4];
+        double   in_frame = veil_in_picture(places[i % 4], eye, world.arena, &angle, &lux);
+        request.observer = eye;
+        world.scene->lights[world.scene->light_count++] =
+            (PunctualLight){.name = "lamp", .kind = LIGHT_POINT, .position = at_angle(angle),
+                            .intensity = {(float)lux, (float)lux, (float)lux}, .level = 1};
+        double by_gaze = read_eye(&world).veil / cos(radians_from_degrees(angle));
+        assert_close(in_frame, lux * eye_spread_at(angle, eye), 6e-3); /* a pixel's mean */
+        assert_close(by_gaze, in_frame, 1e-2);
+    }
+    request.observer = before;
 }
 
 TEST(a_lamp_without_a_body_veils_alike)
@@ -157,7 +200,7 @@ TEST(an_image_of_the_sun_veils_by_its_illuminance)
     EyeLook    look = {vec3(0, 0, 0), at, 4, &images};
     EyeReading found = eye_read(&setup, &look, world.arena);
     double     lux = 0.8 * 60000 * cos(radians_from_degrees(20));
-    double     wanted = lux * disability_glare(20, whose);
+    double     wanted = lux * eye_spread_at(20, whose);
     assert_near(found.parts[EYE_GLINTS], wanted, wanted / 22);
     assert_near(found.veil, wanted, wanted / 22);
     assert_near(found.vertical_lx, lux, lux / 22);
@@ -170,9 +213,9 @@ TEST(a_uniform_sky_veils_by_the_integral)
     SCOPED_WORLD world = dark_world();
     double sum = 0, step = 0.01;
     builder_sky(world.scene, 100);
-    for (double d = DISABILITY_GLARE_MIN_DEG + step / 2; d < 90; d += step) {
+    for (double d = 0.1 + step / 2; d < 90; d += step) {
         double t = radians_from_degrees(d);
-        sum += disability_glare(d, whose) * cos(t) * sin(t) * radians_from_degrees(step) *
+        sum += eye_spread_at(d, whose) * cos(t) * sin(t) * radians_from_degrees(step) *
                2 * PI;
     }
     EyeReading found = read_eye(&world);

@@ -138,7 +138,7 @@ TEST(a_facet_that_dazzles_for_minutes_a_year_is_found)
     double angle = degrees_from_radians(acos(0.9 / sqrt(0.35 * 0.35 + 0.3 * 0.3 + 0.9 * 0.9)));
     assert_near(reported[0].angle_deg, angle, 0.5);
     double veil = reported[0].lux * cos(radians_from_degrees(angle)) *
-                  disability_glare(angle, (HumanEye){50, 0.5});
+                  eye_spread_at(angle, (HumanEye){50, 0.5});
     assert_true(fabs(reported[0].veil_cd_m2 / veil - 1) < 0.05);
     double covered = SIDE_M * SIDE_M / 0.49 /
                      (2 * PI * (1 - cos(radians_from_degrees(SUN_MEAN_RADIUS_DEG))));

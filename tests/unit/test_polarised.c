@@ -57,6 +57,15 @@ TEST(total_reflection_puts_the_waves_out_of_step)
     }
 }
 
+/* What a bare pane of that face sends back or on; t: what its body lets through once. */
+static BsdfPolarisation pane_matrix(Waves face, float t, bool passes)
+{
+    PolarisedParts one = {spectrum_all(0), spectrum_all(0), spectrum_all(0), spectrum_all(0)};
+    PolarisedPane  pane = {face, spectrum_all(t), passes};
+    polarised_add_pane(&one, &pane, spectrum_all(1));
+    return polarised_of(&one, spectrum_all(1));
+}
+
 /* As grazing as floats go, at every index: shares, and numbers. */
 TEST(waves_at_the_horizon_are_numbers)
 {
@@ -64,16 +73,17 @@ TEST(waves_at_the_horizon_are_numbers)
     for (int i = 0; i < COUNT_OF(all); i++)
         for (float cosine = 1; cosine > 1e-30f; cosine *= 0.7f) {
             Waves face = waves_reflected(cosine, all[i]);
-            Waves three[3] = {face, waves_sheet_reflected(face), waves_sheet_through(face)};
-            for (int k = 0; k < 3; k++) {
-                assert_true(three[k].s >= 0 && three[k].s <= 1 && three[k].p >= 0 &&
-                            three[k].p <= 1 && fabsf(three[k].turned) <= 1);
-                assert_true(three[k].along >= -1.00001f && three[k].along <= 1.00001f);
+            assert_true(face.s >= 0 && face.s <= 1 && face.p >= 0 && face.p <= 1 &&
+                        fabsf(face.turned) <= 1 && fabsf(face.along) <= 1.00001f);
+            for (int k = 0; k < 6; k++) {
+                BsdfPolarisation m = pane_matrix(face, 0.5f * (float)(k / 2), k % 2);
+                assert_true(fabsf(m.difference[2]) <= 1.00001f && m.kept[2] >= 0 &&
+                            m.kept[2] <= 1.00001f && fabsf(m.along[2]) <= 1.00001f);
             }
         }
 }
 
-/* R = 2r / (1 + r) of each, at 1.52. */
+/* R = 2r / (1 + r) of each, at 1.52; fields of all orders added up, where the body absorbs. */
 TEST(a_sheet_reflects_each_polarisation_by_itself)
 {
     static const double table[][3] = {{45, 0.1764, 0.0185}, {56.66, 0.2709, 0},
@@ -82,11 +92,28 @@ TEST(a_sheet_reflects_each_polarisation_by_itself)
     for (int i = 0; i < 5; i++) {
         double cosine = cos(table[i][0] * PI / 180);
         Waves  face = waves_reflected((float)cosine, 1.52f);
-        Waves  back = waves_sheet_reflected(face), through = waves_sheet_through(face);
-        assert_true(fabs((double)back.s - table[i][1]) < 1e-4);
-        assert_true(fabs((double)back.p - table[i][2]) < 1e-4);
-        assert_true(fabsf(back.s + through.s - 1) < 1e-5f);
-        assert_true(fabsf(back.p + through.p - 1) < 1e-5f);
+        double s = table[i][1], p = table[i][2], lets = 2 - s - p;
+        assert_near(pane_matrix(face, 1, false).difference[4], (s - p) / (s + p), 1e-3);
+        assert_near(pane_matrix(face, 1, true).difference[4], (p - s) / lets, 1e-3);
+        for (int passes = 0; passes < 2; passes++) {
+            double t = 0.6, sum[3] = {0, 0, 0}; /* s, p, along */
+            double a = -sqrt((double)face.s);
+            double b = sqrt((double)face.p) * (cosine > 0.55 ? 1 : -1);
+            for (int order = 0; order < 60; order++) { /* amplitudes of faces, from inside -a */
+                double along = pow(t, passes ? 2 * order + 1 : 2 * order);
+                int    turns = passes ? 2 * order : order ? 2 * order - 1 : 1;
+                double x = pow(-a, turns), y = pow(-b, turns);
+                double lets_s = passes || order ? 1 - a * a : 1;
+                double lets_p = passes || order ? 1 - b * b : 1;
+                sum[0] += along * lets_s * lets_s * x * x;
+                sum[1] += along * lets_p * lets_p * y * y;
+                sum[2] += along * lets_s * lets_p * x * y;
+            }
+            BsdfPolarisation m = pane_matrix(face, 0.6f, passes);
+            double mean = (sum[0] + sum[1]) / 2;
+            assert_near(m.difference[4], (sum[0] - sum[1]) / 2 / mean, 1e-4);
+            assert_near(fabs((double)m.along[4]), fabs(sum[2]) / mean, 1e-4);
+        }
     }
 }
 

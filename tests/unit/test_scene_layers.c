@@ -156,6 +156,8 @@ static const struct {
      "KHR_materials_iridescence", "has no effect beside KHR_materials_unlit"},
     {"'KHR_materials_anisotropy':{'anisotropyStrength':1},'KHR_materials_unlit':{}",
      "KHR_materials_anisotropy", "has no effect beside KHR_materials_unlit"},
+    {"'KHR_materials_clearcoat':{'clearcoatFactor':0.1},'PARHELION_display':{}",
+     "KHR_materials_clearcoat", "the panel was measured with all that lies on it"},
 };
 
 TEST_WITH(what_has_no_effect_is_told, maker_reset, NULL)

@@ -52,6 +52,48 @@ TEST(glass_reflects_as_fresnel_says)
     }
 }
 
+/* R and T of two faces and one body that lets `tint` through along the normal. */
+static void pane_shares(double cosine, double tint, double out[2])
+{
+    double inside = sqrt(1 - (1 - cosine * cosine) / 2.25), t = pow(tint, 1 / inside);
+    out[0] = out[1] = 0;
+    for (int is_p = 0; is_p < 2; is_p++) {
+        double a = is_p ? 1.5 * cosine : cosine, b = is_p ? inside : 1.5 * inside;
+        double r = (a - b) / (a + b) * ((a - b) / (a + b)), once = 1 - r * r * t * t;
+        out[0] += (r + (1 - r) * (1 - r) * t * t * r / once) / 2;
+        out[1] += (1 - r) * (1 - r) * t / once / 2;
+    }
+}
+
+/* Whatever names the tint: a window, a sheet of glTF's surface that is not all clear, and one
+ * seen facet by facet. */
+TEST(tinted_panes_are_two_faces_and_one_body)
+{
+    const double tints[] = {1, 0.5, 0.25, 0.1, 0};
+    double upright[2];
+    pane_shares(1, 0.5, upright);
+    assert_near(upright[0], 0.049220, 1e-6);
+    pane_shares(1, 0.1, upright);
+    assert_near(upright[0], 0.040369, 1e-6);
+    for (int i = 0; i < 5 * 18; i++) {
+        double     wanted[2], tint = tints[i % 5], angle = radians_from_degrees(5 * (i / 5));
+        float      cosine = (float)cos(angle), sine = (float)sin(angle);
+        ThinWindow window = {.tint = spectrum_all((float)tint), .ior = 1.5f};
+        Bsdf       sheet = {.kind = BSDF_METALLIC_ROUGHNESS,
+                            .metallic_roughness =
+                                metallic_roughness_default(&common_energy_table)};
+        sheet.metallic_roughness.metallic = 0;
+        sheet.metallic_roughness.alpha = 0;
+        sheet.metallic_roughness.transmission = 1;
+        sheet.metallic_roughness.tint = window.tint;
+        pane_shares(cos(angle), tint, wanted);
+        assert_near(thin_window_reflectance(&window, cosine)[3], wanted[0], 2e-6);
+        assert_near(thin_window_transmittance(&window, cosine)[3], wanted[1], 2e-6);
+        assert_near(bsdf_mirror(&sheet, vec3(sine, 0, cosine))[3], wanted[0], 2e-6);
+        assert_near(bsdf_pass(&sheet, vec3(sine, 0, cosine))[3], wanted[1], 2e-6);
+    }
+}
+
 TEST(light_is_totally_reflected_beyond_the_critical_angle)
 {
     float critical = sqrtf(1 - 1 / (1.5f * 1.5f)), behind;

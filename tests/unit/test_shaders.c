@@ -65,9 +65,13 @@ static void add_panes(void)
     add_model("smooth clear sheet", 0, 0, true)->transmission = 1;
     add_model("smooth half clear sheet", 0, 0, true)->transmission = 0.5f;
     add_model("frosted sheet", 0, 0.3f, true)->transmission = 1;
+    add_model("black frosted sheet", 0, 0.2f, false)->transmission = 1;
+    models[model_count - 1].bsdf.metallic_roughness.tint = spectrum_all(0);
+    add_model("smooth tinted sheet", 0, 0, false)->transmission = 0.9f;
+    models[model_count - 1].bsdf.metallic_roughness.tint = ramp(0, 1);
     MetallicRoughness *m = add_model("coloured frosted sheet", 0.2f, 0.1f, false);
     m->transmission = 0.6f;
-    m->base_color = ramp(0.2f, 0.9f);
+    m->base_color = m->tint = ramp(0.2f, 0.9f);
     m->clearcoat = 0.5f;
     m->clearcoat_alpha = 0.05f;
 }
@@ -168,6 +172,9 @@ static void add_coated_surfaces(void)
     opal->across_color[0] = opal->across_color[1] = opal->across_color[2] = 1;
     add_coated("coated frosted sheet", 0, 0.3f, true, &frosted)->transmission = 1;
     add_coated("coated smooth sheet, mixed", 0.3f, 0, false, &frosted)->transmission = 1;
+    MetallicRoughness *smoked = add_coated("coated smoked sheet", 0, 0.2f, false, &frosted);
+    smoked->transmission = 1;
+    smoked->tint = ramp(0.1f, 0.7f);
 }
 
 #include "khr_models.h"

@@ -87,12 +87,13 @@ static void add_coated_solid(const char *name, float alpha, bool lossless,
     model->bsdf.dielectric.wavelengths = &wavelengths;
 }
 
-static void add_coated_window(const char *name, bool lossless, const CoatingTables *sheet)
+static ThinWindow *add_coated_window(const char *name, bool lossless, const PaneCoating *sheet)
 {
     models[model_count++] = (Model){.name = name, .bsdf.kind = BSDF_THIN_WINDOW,
-        .bsdf.thin_window = {spectrum_all(1), 1.52f, sheet->front, sheet->through,
-                             &wavelengths},
+        .bsdf.thin_window = {.tint = spectrum_all(1), .ior = 1.52f, .coating = sheet,
+                             .wavelengths = &wavelengths},
         .both_sides = true, .lossless = lossless, .width = 1};
+    return &models[model_count - 1].bsdf.thin_window;
 }
 
 static void add_coated_pane(const char *name, const LayerStack *outside,
@@ -111,12 +112,14 @@ static void add_coated_glass(void)
 {
     const LayerStack *four = stack_four(&arena), *silver = stack_silver(&arena);
     const LayerStack *mirror = stack_of(1, (ThinMedium[]){{0, 100, 2000}}, &arena);
+    const PaneCoating *sheet = coating_of_sheet(four, 1.52, &arena);
     add_coated_solid("coated glass", 0, true, coating_of_solid(four, 1.52, &arena));
     add_coated_solid("coated frosted glass", 0.3f, true, coating_of_solid(four, 1.52, &arena));
     add_coated_solid("coated rough glass", 0.9f, true, coating_of_solid(four, 1.52, &arena));
     add_coated_solid("silvered glass", 0.1f, false, coating_of_solid(silver, 1.52, &arena));
-    add_coated_window("coated window", true, coating_of_sheet(four, 1.52, &arena));
+    add_coated_window("coated window", true, sheet);
     add_coated_window("silvered window", false, coating_of_sheet(silver, 1.52, &arena));
+    add_coated_window("coated smoked window", false, sheet)->tint = ramp(0, 0.8f);
     add_coated_pane("laminated, coated outside", four, NULL, 0);
     add_coated_pane("dirty, silver inside", NULL, silver, 0.3f);
     add_coated_pane("laminated, between mirrors", mirror, mirror, 0);

@@ -403,8 +403,7 @@ TEST(lane_operations_agree_with_loops)
     assert_near(spectrum_sum(a), sum, 1e-5);
     assert_near(spectrum_mean(a), sum / 16, 1e-6);
     assert_true(spectrum_max_lane(a) == most);
-    assert_true(spectrum_is_finite(a) && !spectrum_is_grey(a) &&
-                spectrum_is_grey(spectrum_all(3)));
+    assert_true(spectrum_is_finite(a));
     for (int i = 0; i < SPECTRUM_LANES; i++) {
         Spectrum bad = a;
         bad[i] = i & 1 ? NAN : INFINITY;
@@ -414,9 +413,6 @@ TEST(lane_operations_agree_with_loops)
         assert_false(spectrum_is_zero(hidden));
         hidden[i] = 1e-30f;
         assert_false(spectrum_is_zero(hidden));
-        Spectrum other = spectrum_all(1);
-        other[i] = 1 + 0x1p-23f;
-        assert_false(spectrum_is_grey(other));
     }
     assert_true(spectrum_is_zero(spectrum_all(0)) && !spectrum_is_zero(spectrum_all(1e-30f)));
 }

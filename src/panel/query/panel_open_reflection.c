@@ -119,6 +119,24 @@ static void exponentiate(float *rows, const PanelReflection *r, uint32_t count)
             rows[i * r->padded_wavelengths + w] = exp_f(rows[i * r->padded_wavelengths + w]);
 }
 
+static bool rows_are_level(const PanelReflection *r, const float *rows, uint32_t count)
+{
+    for (uint32_t i = 0; rows && i < count; i++)
+        for (uint32_t w = 1; w < r->wavelengths; w++)
+            if (rows[i * r->padded_wavelengths + w] != rows[i * r->padded_wavelengths])
+                return false;
+    return true;
+}
+
+static bool is_grey(const PanelReflection *r)
+{
+    return rows_are_level(r, r->mean, r->tables) &&
+           rows_are_level(r, r->basis, r->coefficients) &&
+           rows_are_level(r, r->lambertian_log, r->tables) &&
+           rows_are_level(r, r->lobe, r->tables) && rows_are_level(r, r->held, r->nodes) &&
+           rows_are_level(r, r->mirror, PANEL_ANGLES);
+}
+
 static void expand_basis(const PanelReflectionStored *s, const ReflectionLayout *from,
                          PanelReflection *r, Arena *arena)
 {
@@ -357,6 +375,7 @@ static PanelReflection *expand(const PanelReflectionStored *s, const ReflectionL
     r->held = expand_shares(r, from->held, s->nodes, arena);
     if (s->has_mirror) expand_mirror(from, r, arena);
     expand_albedo(from, r);
+    r->is_grey = is_grey(r);
     return r;
 }
 

@@ -74,6 +74,7 @@ typedef struct PanelReflection {
     uint32_t incidences, azimuths, tables, components, coefficients, padded_coefficients;
     uint32_t wavelengths, padded_wavelengths, nodes, steps;
     bool     is_cubic, has_mirror, has_lobe;
+    bool     is_grey; /* all wavelengths have the same numbers */
     float    frame_exponent, refractive_index, cone_cos;
     float    first_theta, last_theta; /* measured incidences, radians */
     float    last_sine, last_cosine, last_fresnel; /* of last_theta */

@@ -23,6 +23,11 @@ bool panel_reflects(const Panel *panel)
     return panel->reflection != NULL;
 }
 
+bool panel_reflects_grey(const Panel *panel)
+{
+    return !panel->reflection || panel->reflection->is_grey;
+}
+
 /* ---- logarithms ------------------------------------------------------------------------ */
 
 /* Eight at a time: what all instruction sets keep in registers. */

@@ -62,7 +62,7 @@ static void send_way(const DistantCollector *questions, const PathState *from,
     numbers_for(&path, NUMBERS_SCATTER);
     sampler_4d(path.sampler, u);
     if (!guiding_sample(guiding, surface, u, &next) || next.is_delta || next.passes) return;
-    path.throughput *= next.weight * spectrum_all(1.0f / PATH_WAYS);
+    path_weigh(&path, surface, next.weight * spectrum_all(1.0f / PATH_WAYS));
     path.stack = &stack;
     path.guiding = &guidings[0];
     path.spare = &guidings[1];

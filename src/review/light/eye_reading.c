@@ -14,7 +14,7 @@
 #define CHUNK 64
 #define SEED 0x7665696cu
 #define SHIFT_SEED 0x73686966u
-#define FROM_DEG DISABILITY_GLARE_MIN_DEG
+#define FROM_DEG 0.1 /* nearer is looked at */
 #define TO_DEG 89.9
 #define UPRIGHT 0.9999f /* |y| of a unit direction: above it the head has no top */
 
@@ -121,7 +121,7 @@ typedef struct PupilSums {
 static double veil_of(const EyePaths *paths, Vec3 towards, double lux)
 {
     double degrees = degrees_between(towards, paths->gaze);
-    return degrees >= FROM_DEG ? lux * disability_glare(degrees, paths->whose) : 0;
+    return degrees >= FROM_DEG ? lux * eye_spread_at(fmin(degrees, 90), paths->whose) : 0;
 }
 
 static void add_to_pupil(void *user, const PathHistory *history, const float xyz[3])

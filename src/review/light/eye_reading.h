@@ -3,7 +3,7 @@
  * also outside any frame.
  *
  * The veil that it lays over that place: the integral of f(theta) L cos theta over the
- * hemisphere in front, from 0.1 degrees on (vision/eye_spread.h, the general equation).
+ * hemisphere in front, from 0.1 degrees on, f the spread of vision/eye_spread.h.
  * The sun, when the eye sees it straight or through windows, counts by its illuminance at its
  * own angle. Discomfort (vision/discomfort.h): what is brighter than EYE_GLARE_CD_M2 is a
  * source. Both figures are secondary ones, fitted to rooms; nothing is decided by them.

@@ -64,7 +64,7 @@ static Veil worst_veil(const Gazes *gazes, HumanEye whose, Vec3 seen, double lux
         double angle = degrees_from_radians(acos(fmin(fmax(cosine, -1), 1)));
         if (!(cosine > 0)) continue;
         double veil = lux * cosine *
-                      disability_glare(fmax(angle, FALSE_SUN_NEAR_DEG), whose);
+                      eye_spread_at(fmin(fmax(angle, FALSE_SUN_NEAR_DEG), 90), whose);
         if (veil > worst.cd_m2) worst = (Veil){veil, angle, i};
     }
     return worst;

@@ -174,6 +174,15 @@ static void check_sheen(const DocumentCheck *check, const GltfValue *material)
     if (is_seen) check_seen(check, material, sheen);
 }
 
+static void check_clear_coat(const DocumentCheck *check, const GltfValue *material)
+{
+    const GltfValue *coat = tree_extension(material, "KHR_materials_clearcoat");
+    if (tree_number(coat, "clearcoatFactor", 0) > 0 &&
+        tree_extension(material, "PARHELION_display"))
+        check_warns(check, coat, "has no effect beside PARHELION_display: the panel was "
+                                 "measured with all that lies on it");
+}
+
 void check_coated_material(const DocumentCheck *check, const GltfValue *material)
 {
     const GltfValue *coating = tree_extension(material, "PARHELION_coating");
@@ -190,6 +199,7 @@ void check_coated_material(const DocumentCheck *check, const GltfValue *material
     check_film(check, material);
     check_brushing(check, material);
     check_sheen(check, material);
+    check_clear_coat(check, material);
     if (!coating) return;
     if (tree_extension(material, "KHR_materials_unlit"))
         check_warns(check, coating, "has no effect beside KHR_materials_unlit");
