@@ -1,0 +1,75 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "sky/weather_light.h"
+
+#define DIFFUSE_SURELY_W_M2 1.0 /* has lux in a file that has any */
+#define DIRECT_SURELY_W_M2 20.0
+
+static bool has_lux(double lux, double w_m2, double surely)
+{
+    return lux > 0 || (lux == 0 && w_m2 < surely);
+}
+
+WeatherRowState weather_row_state(const WeatherHour *hour, WeatherLux lux)
+{
+    if (!hour->has_light) return WEATHER_ROW_WITHOUT_VALUES;
+    if (!(hour->diffuse_horizontal_w_m2 > 0))
+        return hour->direct_normal_w_m2 > 0 ? WEATHER_ROW_WITHOUT_SKY : WEATHER_ROW_DARK;
+    if (lux == WEATHER_LUX_PEREZ) return WEATHER_ROW_LIT;
+    bool is_whole =
+        has_lux(hour->direct_normal_lx, hour->direct_normal_w_m2, DIRECT_SURELY_W_M2) &&
+        has_lux(hour->diffuse_horizontal_lx, hour->diffuse_horizontal_w_m2,
+                DIFFUSE_SURELY_W_M2);
+    return is_whole ? WEATHER_ROW_LIT : WEATHER_ROW_WITHOUT_LUX;
+}
+
+static const char *lux_text(double lux, Arena *arena)
+{
+    return lux < 0 ? "no" : arena_format(arena, "%g lx", lux);
+}
+
+const char *weather_row_lacks(const WeatherHour *hour, WeatherRowState state, Arena *arena)
+{
+    if (state == WEATHER_ROW_WITHOUT_SKY)
+        return arena_format(arena, "has %g W/m2 of direct light and no diffuse",
+                            hour->direct_normal_w_m2);
+    if (state == WEATHER_ROW_WITHOUT_LUX)
+        return arena_format(arena, "has %s direct and %s diffuse illuminance beside %g and %g "
+                            "W/m2", lux_text(hour->direct_normal_lx, arena),
+                            lux_text(hour->diffuse_horizontal_lx, arena),
+                            hour->direct_normal_w_m2, hour->diffuse_horizontal_w_m2);
+    return "has no direct or no diffuse radiation";
+}
+
+void weather_light_take(const WeatherHour *hour, WeatherLux lux, DaylightInput *out)
+{
+    out->direct_w_m2 = hour->direct_normal_w_m2;
+    out->diffuse_w_m2 = hour->diffuse_horizontal_w_m2;
+    out->has_lux = lux == WEATHER_LUX_FILE;
+    if (out->has_lux) {
+        out->direct_lux = hour->direct_normal_lx;
+        out->diffuse_lux = hour->diffuse_horizontal_lx;
+    }
+    out->water_source = hour->has_dew_point ? WATER_DEW_POINT : WATER_ASSUMED;
+    out->water_cm = hour->has_dew_point ? water_from_dew_point_cm(hour->dew_point_c)
+                                        : WATER_USUAL_CM;
+}
+
+/* ---- words ------------------------------------------------------------------------------- */
+
+const char *weather_lux_text(WeatherLux lux)
+{
+    return lux == WEATHER_LUX_FILE ? "file" : "perez 1990";
+}
+
+const char *weather_water_text(WaterSource source)
+{
+    static const char *const texts[] = {"assumed", "given", "dew point"};
+    return texts[source];
+}
+
+const char *weather_light_rule_text(const DaylightInput *input, Arena *arena)
+{
+    if (input->has_lux) return "the file's own lux columns";
+    return arena_format(arena, "Perez 1990's luminous efficacies, %.2f cm of water (%s)",
+                        input->water_cm, weather_water_text(input->water_source));
+}
