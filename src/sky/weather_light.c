@@ -1,30 +1,50 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "sky/weather_light.h"
 
+#define SUN_MOST_W_M2 1410.0
+#define SUN_MOST_LX 140000.0
 #define DIFFUSE_SURELY_W_M2 1.0 /* has lux in a file that has any */
 #define DIRECT_SURELY_W_M2 20.0
+#define RATIO_FROM_W_M2 20.0    /* below, rounding to 100 lx decides it */
+#define RATIO_LEAST 50.0
+#define RATIO_MOST 300.0
 
 static bool has_lux(double lux, double w_m2, double surely)
 {
     return lux > 0 || (lux == 0 && w_m2 < surely);
 }
 
+static bool is_whole(const WeatherHour *hour)
+{
+    double diffuse = hour->diffuse_horizontal_w_m2, lux = hour->diffuse_horizontal_lx;
+    if (!has_lux(hour->direct_normal_lx, hour->direct_normal_w_m2, DIRECT_SURELY_W_M2) ||
+        !has_lux(lux, diffuse, DIFFUSE_SURELY_W_M2))
+        return false;
+    return diffuse < RATIO_FROM_W_M2 ||
+           (lux >= RATIO_LEAST * diffuse && lux <= RATIO_MOST * diffuse);
+}
+
+static bool is_too_bright(const WeatherHour *hour)
+{
+    return hour->direct_normal_w_m2 > SUN_MOST_W_M2 ||
+           hour->diffuse_horizontal_w_m2 > SUN_MOST_W_M2;
+}
+
 WeatherRowState weather_row_state(const WeatherHour *hour, WeatherLux lux)
 {
+    double direct = hour->direct_normal_w_m2, diffuse = hour->diffuse_horizontal_w_m2;
     if (!hour->has_light) return WEATHER_ROW_WITHOUT_VALUES;
-    if (!(hour->diffuse_horizontal_w_m2 > 0))
-        return hour->direct_normal_w_m2 > 0 ? WEATHER_ROW_WITHOUT_SKY : WEATHER_ROW_DARK;
+    if (is_too_bright(hour)) return WEATHER_ROW_TOO_BRIGHT;
+    if (!(diffuse > 0)) return direct > 0 ? WEATHER_ROW_WITHOUT_SKY : WEATHER_ROW_DARK;
     if (lux == WEATHER_LUX_PEREZ) return WEATHER_ROW_LIT;
-    bool is_whole =
-        has_lux(hour->direct_normal_lx, hour->direct_normal_w_m2, DIRECT_SURELY_W_M2) &&
-        has_lux(hour->diffuse_horizontal_lx, hour->diffuse_horizontal_w_m2,
-                DIFFUSE_SURELY_W_M2);
-    return is_whole ? WEATHER_ROW_LIT : WEATHER_ROW_WITHOUT_LUX;
+    if (hour->direct_normal_lx > SUN_MOST_LX || hour->diffuse_horizontal_lx > SUN_MOST_LX)
+        return WEATHER_ROW_TOO_BRIGHT;
+    return is_whole(hour) ? WEATHER_ROW_LIT : WEATHER_ROW_WITHOUT_LUX;
 }
 
 static const char *lux_text(double lux, Arena *arena)
 {
-    return lux < 0 ? "no" : arena_format(arena, "%g lx", lux);
+    return lux < 0 ? "no lx" : arena_format(arena, "%g lx", lux);
 }
 
 const char *weather_row_lacks(const WeatherHour *hour, WeatherRowState state, Arena *arena)
@@ -33,10 +53,17 @@ const char *weather_row_lacks(const WeatherHour *hour, WeatherRowState state, Ar
         return arena_format(arena, "has %g W/m2 of direct light and no diffuse",
                             hour->direct_normal_w_m2);
     if (state == WEATHER_ROW_WITHOUT_LUX)
-        return arena_format(arena, "has %s direct and %s diffuse illuminance beside %g and %g "
-                            "W/m2", lux_text(hour->direct_normal_lx, arena),
+        return arena_format(arena, "has %s direct and %s diffuse beside %g and %g W/m2", lux_text(hour->direct_normal_lx, arena),
                             lux_text(hour->diffuse_horizontal_lx, arena),
                             hour->direct_normal_w_m2, hour->diffuse_horizontal_w_m2);
+    if (state == WEATHER_ROW_TOO_BRIGHT)
+        return is_too_bright(hour)
+                   ? arena_format(arena, "has %g W/m2 of direct and %g of diffuse light, more "
+                                  "than the sun's own %g", hour->direct_normal_w_m2,
+                                  hour->diffuse_horizontal_w_m2, SUN_MOST_W_M2)
+                   : arena_format(arena, "has %g lx of direct and %g of diffuse light, more "
+                                  "than the sun's own %g", hour->direct_normal_lx,
+                                  hour->diffuse_horizontal_lx, SUN_MOST_LX);
     return "has no direct or no diffuse radiation";
 }
 

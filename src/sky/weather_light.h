@@ -19,15 +19,17 @@ typedef enum WeatherLux { WEATHER_LUX_PEREZ, WEATHER_LUX_FILE } WeatherLux;
 typedef enum WeatherRowState {
     WEATHER_ROW_LIT, WEATHER_ROW_DARK, /* dark: no light at all */
     /* it cannot be taken: */
-    WEATHER_ROW_WITHOUT_VALUES, WEATHER_ROW_WITHOUT_SKY, WEATHER_ROW_WITHOUT_LUX
+    WEATHER_ROW_WITHOUT_VALUES, WEATHER_ROW_WITHOUT_SKY, WEATHER_ROW_TOO_BRIGHT,
+    WEATHER_ROW_WITHOUT_LUX
 } WeatherRowState;
 
-/* An illuminance is missing where it is marked so, and where it is 0 although its irradiance is
- * not (at least 1 W/m2 of diffuse light, which rounds to 100 lx; 20 of direct, which a low sun
- * may have without lux). */
+/* Too bright: more than the sun's 1361 W/m2 at its nearest, or 140,000 lx. An illuminance is
+ * missing where it is marked so; where it is 0 although its irradiance is not (at least 1 W/m2
+ * of diffuse light, which rounds to 100 lx; 20 of direct, which a low sun may have without
+ * lux); and where diffuse light has less than 50 or more than 300 lm/W: another unit. */
 WeatherRowState weather_row_state(const WeatherHour *hour, WeatherLux lux);
 
-/* "has no direct or no diffuse radiation", ...: what one of the last three states lacks. */
+/* "has no direct or no diffuse radiation", ...: what is wrong with it in one of the last states. */
 const char *weather_row_lacks(const WeatherHour *hour, WeatherRowState state, Arena *arena);
 
 /* Irradiances, lux and water of a lit row, into a Perez sky's input. */

@@ -165,6 +165,10 @@ TEST(what_a_row_lacks_is_its_state)
         {300, 100, 28000, -1, WEATHER_ROW_LIT, WEATHER_ROW_WITHOUT_LUX},
         {300, 100, 0, 0, WEATHER_ROW_LIT, WEATHER_ROW_WITHOUT_LUX},
         {0, 1, 0, 0, WEATHER_ROW_LIT, WEATHER_ROW_WITHOUT_LUX},
+        {300, 100, 28, 12, WEATHER_ROW_LIT, WEATHER_ROW_WITHOUT_LUX}, /* klx */
+        {300, 100, 28000, 36000, WEATHER_ROW_LIT, WEATHER_ROW_WITHOUT_LUX},
+        {2500, 91.8, 0, 0, WEATHER_ROW_TOO_BRIGHT, WEATHER_ROW_TOO_BRIGHT},
+        {1300, 100, 150000, 12000, WEATHER_ROW_LIT, WEATHER_ROW_TOO_BRIGHT},
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         WeatherHour hour = row(rows[i].direct, rows[i].diffuse, rows[i].direct_lx,

@@ -245,11 +245,10 @@ static bool check_row(const WeatherAsk *ask, const WeatherHour *hour, double apa
                         "--environment sky:clear", hour->month, hour->day, hour->label_h,
                         apart_min);
     return state == WEATHER_ROW_LIT ||
-           error_at(err, ERROR_INPUT, ask->file, place, "month %d, day %d, hour %g %s%s",
-                    hour->month, hour->day, hour->label_h,
-                    weather_row_lacks(hour, state, arena),
-                    state == WEATHER_ROW_WITHOUT_LUX ? ", wanted both by --weather-lux file"
-                                                     : ", wanted both");
+           error_at(err, ERROR_INPUT, ask->file, place,
+                    "month %d, day %d, hour %g %s; required direct and diffuse daylight%s",
+                    hour->month, hour->day, hour->label_h, weather_row_lacks(hour, state, arena),
+                    state == WEATHER_ROW_WITHOUT_LUX ? ", or --weather-lux perez" : "");
 }
 
 static void warn_of_water(const WeatherAsk *ask, const WeatherHour *hour, Arena *arena,

@@ -129,9 +129,10 @@ bool sweep_weather_check(const ReviewRequest *request, const ReviewCondition *co
     const char *zone = condition->kind == CONDITION_YEAR_SWEEP ? " UTC" : "";
     return error_at(err, ERROR_INPUT, weather_of(request, condition)->path, place,
                     "%s, where '%.60s' needs one (%d-%02d-%02d %02d:%02d%s, %d of its %d steps "
-                    "alike); wanted direct and diffuse light for each",
-                    gap_text(&gaps, condition->weather_lux, &scratch), condition->name, when.year, when.month, when.day,
-                    when.hour, when.minute, zone, gaps.count, gaps.steps);
+                    "alike); required direct and diffuse daylight for each",
+                    gap_text(&gaps, condition->weather_lux, &scratch), condition->name,
+                    when.year, when.month, when.day, when.hour, when.minute, zone, gaps.count,
+                    gaps.steps);
 }
 
 /* ---- skies ------------------------------------------------------------------------------- */
