@@ -170,12 +170,15 @@ static void sun_is_the_atmospheres(double elevation_deg, Arena arena)
     float         bands[LIGHT_BANDS], wanted[LIGHT_BANDS];
     double        sum = 0, off = 0;
     assert_done(distant_probes_ask_skies(NULL, 0, &tools, &arena, &err));
-    input.has_sun = input.no_moon = true;
+    input.has_sun = input.no_moon = input.has_time = true;
+    input.when = (SkyTime){2026, 1, 4, 12, 0, 0, 0}; /* the earth is near */
     input.sun_elevation = radians_from_degrees(elevation_deg);
     input.sun_lux = -1;
     assert_done(daylight_build(&input, &arena, &sky, &err));
     light_bands_sun(&sky, wanted);
-    sky_table_sun(&table, elevation_deg, bands);
+    double near = sky.metrics.distance_au * sky.metrics.distance_au;
+    assert_in(near, 0.966, 0.968);
+    sky_table_sun(&table, elevation_deg, 1 / near, bands);
     for (int b = 0; b < LIGHT_BANDS; b++) {
         sum += (double)wanted[b];
         off += (double)(bands[b] - wanted[b]);
