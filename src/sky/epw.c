@@ -104,7 +104,7 @@ static bool read_dew_point(const EpwReader *reader, const char *text, WeatherHou
     if (!number(reader, text, any, &out->dew_point_c, err)) return false;
     out->has_dew_point = out->dew_point_c < DEW_POINT_MISSING;
     return !out->has_dew_point || out->dew_point_c <= DEW_POINT_MOST ||
-           bad_line(reader, err, text, "a dew point from -99 to 70 degrees C, or 99.9: missing");
+           bad_line(reader, err, text, "a dew point from -99 to 70 degrees C, or 99.9: none");
 }
 
 /* The minute counts where an hour has several rows only: hourly files write 0 or 60 alike. */

@@ -6,8 +6,9 @@
  *           label is the end of its hour. Which instant its light belongs to is
  *           weather_clock.h's question.
  * Memory    the arena's. Threads: const once read.
- * Fails     with file and line, what was found and what was required. Missing values (9999 of an
- *           irradiance) are marked by has_light = false, a dew point (99.9) by has_dew_point.
+ * Fails     with file and line, what was found and what was required. Missing values (9999 of
+ *           an irradiance) are marked by has_light = false, a dew point (99.9) by
+ *           has_dew_point.
  */
 #pragma once
 #include "base/arena.h"

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* luminous_efficacy.h -- lumens to a watt of daylight, by how clear, how bright and how damp the
- * sky is.
+/* luminous_efficacy.h -- lumens to a watt of daylight, by how clear, bright and damp the sky
+ * is.
  *
  * Source    Perez, Ineichen, Seals, Michalsky and Stewart, "Modeling daylight availability and
  *           irradiance components from direct and global irradiance", Solar Energy 44 (1990),

@@ -49,22 +49,22 @@ static const char *lux_text(double lux, Arena *arena)
 
 const char *weather_row_lacks(const WeatherHour *hour, WeatherRowState state, Arena *arena)
 {
-    if (state == WEATHER_ROW_WITHOUT_SKY)
-        return arena_format(arena, "has %g W/m2 of direct light and no diffuse",
-                            hour->direct_normal_w_m2);
-    if (state == WEATHER_ROW_WITHOUT_LUX)
-        return arena_format(arena, "has %s direct and %s diffuse beside %g and %g W/m2", lux_text(hour->direct_normal_lx, arena),
-                            lux_text(hour->diffuse_horizontal_lx, arena),
-                            hour->direct_normal_w_m2, hour->diffuse_horizontal_w_m2);
-    if (state == WEATHER_ROW_TOO_BRIGHT)
-        return is_too_bright(hour)
-                   ? arena_format(arena, "has %g W/m2 of direct and %g of diffuse light, more "
-                                  "than the sun's own %g", hour->direct_normal_w_m2,
-                                  hour->diffuse_horizontal_w_m2, SUN_MOST_W_M2)
-                   : arena_format(arena, "has %g lx of direct and %g of diffuse light, more "
-                                  "than the sun's own %g", hour->direct_normal_lx,
-                                  hour->diffuse_horizontal_lx, SUN_MOST_LX);
-    return "has no direct or no diffuse radiation";
+    double direct = hour->direct_normal_w_m2, diffuse = hour->diffuse_horizontal_w_m2;
+    double lux[2] = {hour->direct_normal_lx, hour->diffuse_horizontal_lx};
+    bool   is_of_watts = is_too_bright(hour);
+    switch (state) {
+    case WEATHER_ROW_WITHOUT_SKY:
+        return arena_format(arena, "has %g W/m2 of direct light and no diffuse", direct);
+    case WEATHER_ROW_WITHOUT_LUX:
+        return arena_format(arena, "has %s direct and %s diffuse beside %g and %g W/m2",
+                            lux_text(lux[0], arena), lux_text(lux[1], arena), direct, diffuse);
+    case WEATHER_ROW_TOO_BRIGHT:
+        return arena_format(arena, "has %g %s of direct and %g of diffuse light, more than the "
+                            "sun's own %g", is_of_watts ? direct : lux[0],
+                            is_of_watts ? "W/m2" : "lx", is_of_watts ? diffuse : lux[1],
+                            is_of_watts ? SUN_MOST_W_M2 : SUN_MOST_LX);
+    default: return "has no direct or no diffuse radiation";
+    }
 }
 
 void weather_light_take(const WeatherHour *hour, WeatherLux lux, DaylightInput *out)

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* weather_light.h -- the light of a weather file's row as a Perez sky: one rule for every command
- * that names a weather file.
+/* weather_light.h -- the light of a weather file's row as a Perez sky: one rule for every
+ * command that names a weather file.
  *
  * The irradiances give the sky's shape; its lux are theirs by luminous_efficacy.h's fit, with
  * the water of the row's dew point, or the file's own columns of illuminance. A row without a
@@ -29,7 +29,7 @@ typedef enum WeatherRowState {
  * lux); and where diffuse light has less than 50 or more than 300 lm/W: another unit. */
 WeatherRowState weather_row_state(const WeatherHour *hour, WeatherLux lux);
 
-/* "has no direct or no diffuse radiation", ...: what is wrong with it in one of the last states. */
+/* "has no direct or no diffuse radiation", ...: what is wrong in one of the last states. */
 const char *weather_row_lacks(const WeatherHour *hour, WeatherRowState state, Arena *arena);
 
 /* Irradiances, lux and water of a lit row, into a Perez sky's input. */

@@ -404,8 +404,8 @@ def check_weather(report, program):
                    epw_row(15, 600, 150, 8, ("999999", "17000")) +
                    epw_row(16, 600, 150, 8, ("54321", "17000")) + epw_row(17, 2000, 150))
     def ask(hour, *options):
-        return program.run("sky", "--weather", path, "--when", f"2026-06-21T{hour - 1}:30+01:00",
-                           "--weather-offset=-0.5", *options)
+        return program.run("sky", "--weather", path, "--weather-offset=-0.5", "--when",
+                           f"2026-06-21T{hour - 1}:30+01:00", *options)
     done = json.loads(ask(10, "--json").stdout)
     used = done["luminous_efficacy"]
     water = math.exp(0.07 * 8 - 0.075)

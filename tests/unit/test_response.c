@@ -341,7 +341,8 @@ TEST(a_response_to_a_clear_sky_is_what_paths_find_under_it)
                                          &err));
     distant_probe_ask_suns(&probe, &tools, &world.arena);
     for (int i = 0; i < 4; i++) {
-        world.scene->environment = clear_sky(suns[i].at.azimuth_deg, suns[i].at.elevation_deg, 0);
+        SunAngles at = suns[i].at;
+        world.scene->environment = clear_sky(at.azimuth_deg, at.elevation_deg, 0);
         light_again(&world);
         ProbeAim aim = aim_of(&world);
         Reading  reading = read_all(&aim, world.arena);

@@ -247,7 +247,8 @@ static bool check_row(const WeatherAsk *ask, const WeatherHour *hour, double apa
     return state == WEATHER_ROW_LIT ||
            error_at(err, ERROR_INPUT, ask->file, place,
                     "month %d, day %d, hour %g %s; required direct and diffuse daylight%s",
-                    hour->month, hour->day, hour->label_h, weather_row_lacks(hour, state, arena),
+                    hour->month, hour->day, hour->label_h,
+                    weather_row_lacks(hour, state, arena),
                     state == WEATHER_ROW_WITHOUT_LUX ? ", or --weather-lux perez" : "");
 }
 

@@ -190,21 +190,23 @@ const char *sweep_weather_note(const ReviewWeather *weather, Arena *arena)
 static int rows_without_water(const Weather *weather)
 {
     int count = 0;
-    for (int i = 0; i < weather->count; i++)
-        count += weather->hour[i].diffuse_horizontal_w_m2 > 0 && !weather->hour[i].has_dew_point;
+    for (int i = 0; i < weather->count; i++) {
+        const WeatherHour *hour = &weather->hour[i];
+        count += hour->diffuse_horizontal_w_m2 > 0 && !hour->has_dew_point;
+    }
     return count;
 }
 
 const char *sweep_weather_lux_note(const ReviewWeather *weather, WeatherLux lux, Arena *arena)
 {
+    const char *assumed = "";
     if (lux == WEATHER_LUX_FILE)
-        return arena_format(arena, "Lux of %s: the file's own columns; its irradiances give the "
-                            "sky's shape.", weather->path);
-    int         missing = rows_without_water(&weather->weather);
-    const char *assumed = missing ? arena_format(arena, "; %d of its rows with light have none: "
-                                                 "%g cm of water are assumed there", missing,
-                                                 WATER_USUAL_CM)
-                                  : "";
+        return arena_format(arena, "Lux of %s: the file's own columns; its irradiances give "
+                            "the sky's shape.", weather->path);
+    int missing = rows_without_water(&weather->weather);
+    if (missing)
+        assumed = arena_format(arena, "; %d of its rows with light have none: %g cm of water "
+                               "are assumed there", missing, WATER_USUAL_CM);
     return arena_format(arena, "Lux of %s: its irradiances times Perez 1990's luminous "
                         "efficacies, with water by each row's dew point%s.", weather->path,
                         assumed);
