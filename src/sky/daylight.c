@@ -387,7 +387,8 @@ static bool build_clear(Daylight *out, Arena *arena, Error *err)
     const DaylightInput *in = &out->input;
     DaylightMetrics     *f = &out->metrics;
     AtmosphereInput input = {sea_level_air(in), fmax(0, in->where.altitude_m),
-                             floor_altitude(in), out->sun_elevation, in->threads, 0};
+                             floor_altitude(in), out->sun_elevation, in->threads, 0,
+                             in->sun_alone};
     Curve beam, irradiance;
     fill_beam(out, &beam);
     if (!lit_air_build(&input, &beam, arena, &out->sunlight, err)) return false;
@@ -397,6 +398,7 @@ static bool build_clear(Daylight *out, Arena *arena, Error *err)
     double lux = curve_luminance(&irradiance);
     if (in->sun_lux >= 0 && lux > 0) scale_curve(&irradiance, in->sun_lux / lux);
     set_sun(out, &irradiance);
+    if (in->sun_alone) return true;
     if (!add_night(out, arena, err)) return false;
     report_light(out);
     return true;

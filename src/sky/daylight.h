@@ -58,6 +58,7 @@ typedef struct DaylightInput {
     bool     no_moon;            /* clear: as if there were none */
     int      integral_steps;     /* CIE, Perez: of the quadrature; 0: 1000, which takes 0.1 s
                                     (its error by steps: sky_shape_integral) */
+    bool     sun_alone;          /* clear: of its light nothing but the sun's is asked for */
     int      threads;
 } DaylightInput;
 

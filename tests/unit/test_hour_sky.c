@@ -187,6 +187,24 @@ static void sun_is_the_atmospheres(double elevation_deg, Arena arena)
         fail_msg("%g degrees: %g lx, %+g", elevation_deg, sum, off);
 }
 
+/* Made alone it has the bits of the sky's, in twilight and below the horizon, too. */
+ARENA_TEST(a_sun_alone_is_its_skys)
+{
+    static const double elevations[] = {-3, -0.2, 0, 0.5, 5, 30, 90};
+    for (size_t i = 0; i < COUNT_OF(elevations); i++) {
+        Arena         room = arena;
+        DaylightInput input = daylight_input_default(DAYLIGHT_CLEAR);
+        Daylight      whole, alone;
+        input.has_sun = input.no_moon = true;
+        input.sun_elevation = radians_from_degrees(elevations[i]);
+        assert_done(daylight_build(&input, &room, &whole, &err));
+        input.sun_alone = true;
+        assert_done(daylight_build(&input, &room, &alone, &err));
+        assert_memory_equal(&whole.sun_mean, &alone.sun_mean, sizeof whole.sun_mean);
+        assert_near(whole.metrics.direct_normal_lx, alone.metrics.direct_normal_lx, 0);
+    }
+}
+
 /* Also between its elevations: each has the rows beside it alone, by day one of four. */
 ARENA_TEST(the_sun_of_a_sky_table_is_the_atmospheres)
 {

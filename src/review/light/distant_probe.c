@@ -51,17 +51,22 @@ static const Daylight *build_sky(const DaylightInput *input, Arena *arena, Error
     return daylight_build(input, arena, sky, err) ? sky : NULL;
 }
 
-/* The sky of a row; its sun is noted. NULL: it failed. */
-static const Daylight *make_sky(SkyTable *table, int row, Arena *arena, Error *err)
+static DaylightInput row_input(const SkyTable *table, int row)
 {
-    DaylightInput   input = table->like;
-    const Daylight *sky;
+    DaylightInput input = table->like;
     input.has_sun = true;
     input.sun_azimuth = 0;
     input.sun_elevation = radians_from_degrees(table->elevation_deg[row]);
     input.sun_lux = -1;
     input.no_moon = true;
-    sky = table->inherited ? inherited_sky(table->inherited, &input, err)
+    return input;
+}
+
+/* The sky of a row; its sun is noted. NULL: it failed. */
+static const Daylight *make_sky(SkyTable *table, int row, Arena *arena, Error *err)
+{
+    DaylightInput   input = row_input(table, row);
+    const Daylight *sky = table->inherited ? inherited_sky(table->inherited, &input, err)
                            : build_sky(&input, arena, err);
     if (sky) light_bands_sun(sky, table->sun_bands[row]);
     return sky;
@@ -70,8 +75,12 @@ static const Daylight *make_sky(SkyTable *table, int row, Arena *arena, Error *e
 static bool make_suns(SkyTable *table, const Arena *arena, Error *err)
 {
     for (int row = 0; row < table->count; row++) {
-        Arena room = *arena;
-        if (!make_sky(table, row, &room, err)) return false;
+        Arena         room = *arena;
+        DaylightInput input = row_input(table, row);
+        input.sun_alone = true;
+        const Daylight *sky = build_sky(&input, &room, err);
+        if (!sky) return false;
+        light_bands_sun(sky, table->sun_bands[row]);
     }
     return true;
 }
