@@ -132,6 +132,7 @@ run 'a hunt for wrong answers, 200 rooms' hunt-long \
 of "$review scenes tests/image"
 run 'a glare review, thirty hours of weather' review-long \
     python3 tests/image/review.py --all $program
+run 'years recounted, every hour' year-long python3 tests/image/year.py --all $program
 run 'all variants of a review, slopes, mends' variants-long \
     python3 tests/image/variants.py --all $program
 run "another maker's car" other-maker python3 tests/image/other_maker.py $program

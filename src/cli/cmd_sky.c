@@ -19,6 +19,7 @@
 #include "light/sky.h"
 #include "plot/sky_plot.h"
 #include "scene/load/scene_load.h"
+#include "sky/weather_light.h"
 #include "spectrum/photometry.h"
 #include "text/json_text.h"
 
@@ -159,6 +160,29 @@ static json_t *moon_json(const NightMetrics *m)
                      "diffuse_horizontal_lx", m->moon_sky_lx);
 }
 
+static json_t *efficacy_number(double value)
+{
+    return isfinite(value) ? json_real(value) : json_null();
+}
+
+/* null: a sky that has no measured irradiance. */
+static json_t *efficacy_json(const SkyRun *work, const DaylightMetrics *f)
+{
+    const DaylightInput *in = &work->scene->environment.daylight;
+    if (work->sky.kind != ENVIRONMENT_PEREZ) return json_null();
+    json_t *document = json_pack(
+        "{s:s, s:o, s:o, s:o}", "rule",
+        weather_lux_text(in->has_lux ? WEATHER_LUX_FILE : WEATHER_LUX_PEREZ), "direct_lm_w",
+        efficacy_number(f->efficacy.direct), "diffuse_lm_w",
+        efficacy_number(f->efficacy.diffuse), "global_lm_w",
+        efficacy_number(f->efficacy.global));
+    if (in->has_lux) return document;
+    json_object_set_new(document, "water_cm", json_real(in->water_cm));
+    json_object_set_new(document, "water_source",
+                        json_string(weather_water_text(in->water_source)));
+    return document;
+}
+
 static bool print_json(const SkyRun *work, const DaylightMetrics *f, Error *err)
 {
     json_t *sun = work->sky.model || work->sky.has_sun
@@ -179,6 +203,7 @@ static bool print_json(const SkyRun *work, const DaylightMetrics *f, Error *err)
         "horizon_deg", f->horizon_deg, "air_mass", f->air_mass);
     json_object_set_new(document, "moon", moon_json(&f->night));
     json_object_set_new(document, "night_background_lx", json_real(f->night.background_lx));
+    json_object_set_new(document, "luminous_efficacy", efficacy_json(work, f));
     json_object_set_new(document, "weather", weather_option_json(&work->scene->environment));
     if (work->output) json_object_set_new(document, "output", json_text(work->output));
     return cli_print_json(document, err);
@@ -207,6 +232,20 @@ static int moon_lines(const SkyRun *work, const NightMetrics *m, const char **li
     return n;
 }
 
+/* What made lux of a Perez sky's irradiances. */
+static int efficacy_lines(const SkyRun *work, const DaylightMetrics *f, const char **line)
+{
+    const DaylightInput *in = &work->scene->environment.daylight;
+    Arena *arena = work->arena;
+    if (work->sky.kind != ENVIRONMENT_PEREZ) return 0;
+    const char *direct = in->direct_w_m2 > 0
+                             ? arena_format(arena, "direct %.1f, ", f->efficacy.direct) : "";
+    line[0] = arena_format(arena, "luminous efficacy|%sdiffuse %.1f lm/W", direct,
+                           f->efficacy.diffuse);
+    line[1] = arena_format(arena, "lux by|%s", weather_light_rule_text(in, arena));
+    return 2;
+}
+
 static int figure_lines(const SkyRun *work, const DaylightMetrics *f, const char **line)
 {
     Arena *arena = work->arena;
@@ -231,6 +270,7 @@ static int figure_lines(const SkyRun *work, const DaylightMetrics *f, const char
     if (f->diffuse_horizontal_w_m2 > 0.05)
         line[n++] = arena_format(arena, "diffuse horizontal|%.1f W/m²",
                                  f->diffuse_horizontal_w_m2);
+    n += efficacy_lines(work, f, line + n);
     if (f->horizon_deg < -0.01)
         line[n++] = arena_format(arena, "horizon|%.2f°", f->horizon_deg);
     return n + moon_lines(work, &f->night, line + n);

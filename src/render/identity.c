@@ -144,6 +144,7 @@ void identity_add_daylight(Text *text, const DaylightInput *daylight)
         {"quadrature steps", daylight->integral_steps}};
     for (int i = 0; i < COUNT_OF(numbers); i++)
         identity_number(text, numbers[i].name, numbers[i].value);
+    if (daylight->has_lux) identity_number(text, "direct lux", daylight->direct_lux);
     identity_line(text, "moon", "%s", daylight->no_moon ? "left out" : "in its place");
     identity_line(text, "ground", "%s", floor_names[daylight->floor]);
     identity_number(text, "cloud top m", daylight->cloud_top_m);

@@ -210,6 +210,7 @@ typedef struct EnvironmentWeather {
     int          line, month, day;
     double       label_h;   /* end of the row's hour, hours after midnight */
     double       apart_min; /* from the moment asked for to the row's instant */
+    double       file_lux[2]; /* the file's own direct and diffuse columns; negative: missing */
     WeatherClock clock;
 } EnvironmentWeather;
 

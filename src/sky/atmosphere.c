@@ -347,6 +347,20 @@ static float twilight_share(double sun_elevation)
     return (float)(x * x * (3 - 2 * x));
 }
 
+/* The same as the tables' makers find. */
+static void build_sun(Atmosphere *out, Arena scratch)
+{
+    const AtmosphereInput *in = &out->input;
+    if (twilight_share(in->sun_elevation) >= 1) {
+        see_sun(out);
+        return;
+    }
+    BeamTable beam;
+    beam_table_build(&out->optics, in->floor_m, in->threads, &scratch, &beam);
+    BeamHeight height = beam_table_height(&beam, in->observer_m);
+    beam_table_passing(&beam, &height, sin_d(in->sun_elevation), &out->sun_passing);
+}
+
 bool atmosphere_build(const AtmosphereInput *input, Arena *arena, Atmosphere *out, Error *err)
 {
     if (!(input->observer_m >= input->floor_m && input->observer_m <= 60000))
@@ -355,11 +369,15 @@ bool atmosphere_build(const AtmosphereInput *input, Arena *arena, Atmosphere *ou
                          input->floor_m);
     *out = (Atmosphere){.input = *input, .optics = air_optics(&input->air)};
     if (!out->input.steps) out->input.steps = 48;
-    take_tables(out, arena);
     out->horizon = -acos_d((AIR_EARTH_M + input->floor_m) / (AIR_EARTH_M + input->observer_m));
     float share = twilight_share(input->sun_elevation);
     bool  is_dark = input->sun_elevation < out->horizon + DARK;
     out->sun_passing = out->floor_exitance = spectrum_all(0);
+    if (input->sun_alone) {
+        if (!is_dark) build_sun(out, *arena);
+        return true;
+    }
+    take_tables(out, arena);
     if (share < 1) build_tables(out, &out->optics, false, *arena);
     if (share > 0 && !is_dark) add_twilight(out, share, *arena);
     return true;

@@ -17,7 +17,8 @@
 DaylightInput daylight_input_default(DaylightKind kind)
 {
     return (DaylightInput){.kind = kind, .sun_lux = -1, .cie_type = 12, .diffuse_lux = 10000,
-                           .turbidity = 2.5, .ozone_atm_cm = 0.34, .water_cm = 1.4,
+                           .turbidity = 2.5, .ozone_atm_cm = 0.34,
+                           .water_cm = kind == DAYLIGHT_PEREZ ? WATER_USUAL_CM : 1.4,
                            .albedo = -1, .cloud_top_m = 2000, .threads = 1};
 }
 
@@ -252,9 +253,26 @@ static bool build_cie(Daylight *out, Error *err)
     return true;
 }
 
+/* Of whole discs, whether they are up or not. */
+static LuminousEfficacy perez_efficacy(const Daylight *out, const PerezInput *light,
+                                       const PerezState *state)
+{
+    const DaylightInput *in = &out->input;
+    double sine = fmax(0, sin_d(out->sun_elevation));
+    LuminousEfficacy fit = luminous_efficacy(state, light->sun_zenith, in->water_cm);
+    if (in->has_lux)
+        fit = (LuminousEfficacy){in->direct_lux / in->direct_w_m2,
+                                 in->diffuse_lux / in->diffuse_w_m2,
+                                 (in->diffuse_lux + sine * in->direct_lux) /
+                                     (in->diffuse_w_m2 + sine * in->direct_w_m2)};
+    if (!(in->direct_w_m2 > 0)) fit.direct = (double)NAN;
+    return fit;
+}
+
 static bool build_perez(Daylight *out, Error *err)
 {
     const DaylightInput *in = &out->input;
+    DaylightMetrics     *f = &out->metrics;
     PerezState state;
     Curve      irradiance;
     if (!check_sun_up(out, err)) return false;
@@ -263,15 +281,15 @@ static bool build_perez(Daylight *out, Error *err)
                         in->has_time ? day_of_year(&in->when) : 80};
     if (!sky_shape_perez(&input, &out->shape, &state, err)) return false;
     Spectrl2 ground = ground_spectra(out);
+    f->efficacy = perez_efficacy(out, &input, &state);
     curve_from_rows(ground.direct, &irradiance);
-    scale_curve(&irradiance, in->direct_w_m2 / spectrl2_total(ground.direct));
-    out->metrics.direct_normal_w_m2 = in->direct_w_m2 * sun_share(out);
-    out->metrics.diffuse_horizontal_lx = 1;
+    double direct_lux = in->has_lux ? in->direct_lux
+                        : in->direct_w_m2 > 0 ? f->efficacy.direct * in->direct_w_m2 : 0;
+    scale_curve(&irradiance, direct_lux / curve_luminance(&irradiance));
+    f->direct_normal_w_m2 = in->direct_w_m2 * sun_share(out);
+    f->diffuse_horizontal_lx = f->efficacy.diffuse * in->diffuse_w_m2;
     sky_spectrum(out, fmin(1, (state.clearness - 1) / 3.5), &ground);
-    /* sky_spectrum set the watts of one lux */
-    out->metrics.diffuse_horizontal_lx =
-        in->diffuse_w_m2 / out->metrics.diffuse_horizontal_w_m2;
-    out->metrics.diffuse_horizontal_w_m2 = in->diffuse_w_m2;
+    f->diffuse_horizontal_w_m2 = in->diffuse_w_m2;
     finish_shape(out, &irradiance);
     return true;
 }
@@ -369,7 +387,8 @@ static bool build_clear(Daylight *out, Arena *arena, Error *err)
     const DaylightInput *in = &out->input;
     DaylightMetrics     *f = &out->metrics;
     AtmosphereInput input = {sea_level_air(in), fmax(0, in->where.altitude_m),
-                             floor_altitude(in), out->sun_elevation, in->threads, 0};
+                             floor_altitude(in), out->sun_elevation, in->threads, 0,
+                             in->sun_alone};
     Curve beam, irradiance;
     fill_beam(out, &beam);
     if (!lit_air_build(&input, &beam, arena, &out->sunlight, err)) return false;
@@ -379,6 +398,7 @@ static bool build_clear(Daylight *out, Arena *arena, Error *err)
     double lux = curve_luminance(&irradiance);
     if (in->sun_lux >= 0 && lux > 0) scale_curve(&irradiance, in->sun_lux / lux);
     set_sun(out, &irradiance);
+    if (in->sun_alone) return true;
     if (!add_night(out, arena, err)) return false;
     report_light(out);
     return true;

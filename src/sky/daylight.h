@@ -2,13 +2,15 @@
 /* daylight.h -- the sun and the sky of a place, a time and a weather, ready to be asked.
  *
  * Three kinds: CIE's general skies and Perez's (a shape times one spectrum, normalised by own
- * quadrature to the diffuse illuminance or irradiance; on the ground only, below the horizon a
- * uniform Lambertian ground lit by sun and sky), and the clear atmosphere (atmosphere.h) for
- * any observer up to 60 km.
+ * quadrature to the diffuse illuminance; on the ground only, below the horizon a uniform
+ * Lambertian ground lit by sun and sky), and the clear atmosphere (atmosphere.h) for any
+ * observer up to 60 km.
  *
+ * Lux       of Perez's skies: irradiance times luminous_efficacy.h's fit, or given.
  * Spectra   sun: SPECTRL2's direct beam; clear skies its diffuse, overcast ones its global
- *           spectrum, between them by clearness. The atmosphere: its own scattering times the
- *           sun's spectrum outside the air and what water vapour and oxygen let through.
+ *           spectrum, between them by clearness: their colour alone, scaled to the lux. The
+ *           atmosphere: its own scattering times the sun's spectrum outside the air and what
+ *           water vapour and oxygen let through.
  * Low sun   Perez's sky stands for a sun down to 4 degrees below the horizon too, as at the
  *           horizon and without direct light.
  * Night     once no part of the sun is up, the clear atmosphere has the moon (of a time) and
@@ -22,6 +24,7 @@
 #pragma once
 #include "base/arena.h"
 #include "base/error.h"
+#include "sky/luminous_efficacy.h"
 #include "sky/night.h"
 #include "sky/sky_shape.h"
 #include "sky/sun_position.h"
@@ -31,6 +34,9 @@ typedef enum DaylightKind { DAYLIGHT_CIE, DAYLIGHT_PEREZ, DAYLIGHT_CLEAR } Dayli
 
 typedef enum FloorKind { FLOOR_LAND, FLOOR_SEA, FLOOR_CLOUD } FloorKind;
 
+/* From where the water vapour of a sky is known: for readers. */
+typedef enum WaterSource { WATER_ASSUMED, WATER_GIVEN, WATER_DEW_POINT } WaterSource;
+
 typedef struct DaylightInput {
     DaylightKind kind;
     bool     has_time, has_sun;  /* one of them at least, except for uniform and overcast CIE */
@@ -39,16 +45,20 @@ typedef struct DaylightInput {
     double   sun_azimuth, sun_elevation; /* has_sun: apparent; overrides the time's */
     double   sun_lux;            /* direct normal; negative: the model's own */
     int      cie_type;           /* 1..16 */
-    double   diffuse_lux;        /* CIE: horizontal */
-    double   direct_w_m2, diffuse_w_m2; /* Perez: normal, horizontal */
+    double   diffuse_lux;        /* CIE, or Perez with has_lux: horizontal */
+    double   direct_w_m2, diffuse_w_m2; /* Perez: normal, horizontal; they give the shape, */
+    bool     has_lux;            /* and the lux, unless these are given: */
+    double   direct_lux;         /* normal; and diffuse_lux */
     double   turbidity;          /* or, when above 0, visibility_km at 550 nm instead */
     double   visibility_km;
     double   ozone_atm_cm, water_cm, albedo; /* albedo below 0: the floor's own */
+    WaterSource water_source;
     FloorKind floor;
     double   cloud_top_m;
     bool     no_moon;            /* clear: as if there were none */
     int      integral_steps;     /* CIE, Perez: of the quadrature; 0: 1000, which takes 0.1 s
                                     (its error by steps: sky_shape_integral) */
+    bool     sun_alone;          /* clear: of its light nothing but the sun's is asked for */
     int      threads;
 } DaylightInput;
 
@@ -60,6 +70,7 @@ typedef struct DaylightMetrics {
     double true_elevation_deg, refraction_deg, distance_au, horizon_deg;
     double direct_normal_lx, diffuse_horizontal_lx, global_horizontal_lx;
     double direct_normal_w_m2, diffuse_horizontal_w_m2; /* 300..4000 nm */
+    LuminousEfficacy efficacy; /* Perez, of the disc when it is up; NaN: no such light */
     double zenith_cd_m2, sun_xy[2], zenith_xy[2], floor_cd_m2;
     double air_mass;
     bool   is_sun_up; /* part of its disc at least */

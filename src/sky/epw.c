@@ -22,9 +22,13 @@ typedef struct EpwReader {
 /* Fields of the data dictionary, counted from 0. */
 enum {
     FIELD_MINUTE = 4, FIELD_DRY_BULB = 6, FIELD_DEW_POINT = 7, FIELD_PRESSURE = 9,
-    FIELD_GLOBAL = 13, FIELD_DIRECT = 14, FIELD_DIFFUSE = 15, FIELD_WATER = 28,
-    FIELD_AEROSOL = 29, FIELDS_LEAST = 16
+    FIELD_GLOBAL = 13, FIELD_DIRECT = 14, FIELD_DIFFUSE = 15, FIELD_DIRECT_LUX = 17,
+    FIELD_DIFFUSE_LUX = 18, FIELD_WATER = 28, FIELD_AEROSOL = 29, FIELDS_LEAST = 16
 };
+
+#define DEW_POINT_MISSING 99.9
+#define DEW_POINT_MOST 70.0 /* of the data dictionary */
+#define LUX_MISSING 999900.0
 
 /* Cuts the next line off and into fields; false at the end. */
 static bool next_line(EpwReader *reader, char *field[FIELDS_MAX], int *count)
@@ -87,6 +91,22 @@ static double or_missing(const char *text, double missing)
     return isfinite(value) && value < missing ? value : -1;
 }
 
+/* A field of the row's end, which files may leave out. */
+static double last_field(char *const field[], int count, int at, double missing)
+{
+    return count > at && field[at][0] ? or_missing(field[at], missing) : -1;
+}
+
+static bool read_dew_point(const EpwReader *reader, const char *text, WeatherHour *out,
+                           Error *err)
+{
+    double any[2] = {-99, 999900};
+    if (!number(reader, text, any, &out->dew_point_c, err)) return false;
+    out->has_dew_point = out->dew_point_c < DEW_POINT_MISSING;
+    return !out->has_dew_point || out->dew_point_c <= DEW_POINT_MOST ||
+           bad_line(reader, err, text, "a dew point from -99 to 70 degrees C, or 99.9: none");
+}
+
 /* The minute counts where an hour has several rows only: hourly files write 0 or 60 alike. */
 static double label_hour(double hour, const char *minute, int rows_per_hour)
 {
@@ -107,7 +127,7 @@ static bool read_hour(EpwReader *reader, char *field[], int count, const Weather
     if (!number(reader, field[FIELD_DIRECT], direct, &out->direct_normal_w_m2, err) ||
         !number(reader, field[FIELD_DIFFUSE], direct, &out->diffuse_horizontal_w_m2, err) ||
         !number(reader, field[FIELD_DRY_BULB], any, &out->dry_bulb_c, err) ||
-        !number(reader, field[FIELD_DEW_POINT], any, &out->dew_point_c, err) ||
+        !read_dew_point(reader, field[FIELD_DEW_POINT], out, err) ||
         !number(reader, field[FIELD_PRESSURE], any, &out->pressure_mbar, err))
         return false;
     out->pressure_mbar /= 100;
@@ -116,9 +136,10 @@ static bool read_hour(EpwReader *reader, char *field[], int count, const Weather
     out->label_h = label_hour(when[3], field[FIELD_MINUTE], weather->rows_per_hour);
     out->global_horizontal_w_m2 = or_missing(field[FIELD_GLOBAL], 9999);
     out->has_light = out->direct_normal_w_m2 < 9999 && out->diffuse_horizontal_w_m2 < 9999;
-    out->precipitable_water_cm = count > FIELD_WATER ? or_missing(field[FIELD_WATER], 999) / 10
-                                                     : -1;
-    out->aerosol_depth = count > FIELD_AEROSOL ? or_missing(field[FIELD_AEROSOL], 0.999) : -1;
+    out->direct_normal_lx = last_field(field, count, FIELD_DIRECT_LUX, LUX_MISSING);
+    out->diffuse_horizontal_lx = last_field(field, count, FIELD_DIFFUSE_LUX, LUX_MISSING);
+    out->precipitable_water_cm = last_field(field, count, FIELD_WATER, 999) / 10;
+    out->aerosol_depth = last_field(field, count, FIELD_AEROSOL, 0.999);
     return true;
 }
 

@@ -6,8 +6,9 @@
  *           label is the end of its hour. Which instant its light belongs to is
  *           weather_clock.h's question.
  * Memory    the arena's. Threads: const once read.
- * Fails     with file and line, what was found and what was wanted. Missing values (9999) are
- *           marked by has_light = false.
+ * Fails     with file and line, what was found and what was required. Missing values (9999 of
+ *           an irradiance) are marked by has_light = false, a dew point (99.9) by
+ *           has_dew_point.
  */
 #pragma once
 #include "base/arena.h"
@@ -19,10 +20,11 @@ typedef struct WeatherHour {
     double label_h; /* end of its span, hours after midnight of the zone, above 0 to 24 */
     double direct_normal_w_m2, diffuse_horizontal_w_m2;
     double global_horizontal_w_m2; /* negative: missing */
+    double direct_normal_lx, diffuse_horizontal_lx; /* negative: missing */
     double dry_bulb_c, dew_point_c, pressure_mbar;
     double precipitable_water_cm; /* negative: missing */
     double aerosol_depth;         /* broadband; negative: missing */
-    bool   has_light;
+    bool   has_light, has_dew_point;
 } WeatherHour;
 
 typedef struct Weather {

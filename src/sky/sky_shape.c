@@ -98,7 +98,6 @@ static PerezState perez_state(const PerezInput *in)
                    in->diffuse_horizontal_w_m2 + k) / (1 + k);
     s.clearness = fmin(12.0099, fmax(1, s.clearness));
     s.brightness = in->diffuse_horizontal_w_m2 * s.air_mass / (1367 * distance_factor(in->day));
-    if (s.clearness > 1.065 && s.clearness < 2.8) s.brightness = fmax(0.2, s.brightness);
     s.brightness = fmin(0.6, fmax(0.01, s.brightness));
     s.bin = clearness_bin(s.clearness) + 1;
     return s;
@@ -112,7 +111,9 @@ bool sky_shape_perez(const PerezInput *input, SkyShape *out, PerezState *state, 
                          "direct one of at least 0 W/m2, found %g and %g",
                          input->diffuse_horizontal_w_m2, input->direct_normal_w_m2);
     PerezState s = perez_state(input);
-    double z = input->sun_zenith, delta = s.brightness, v[5];
+    bool   is_between = s.clearness > 1.065 && s.clearness < 2.8;
+    double z = input->sun_zenith, v[5];
+    double delta = is_between ? fmax(0.2, s.brightness) : s.brightness;
     const double (*row)[4] = perez_table[s.bin - 1];
     for (int i = 0; i < 5; i++)
         v[i] = row[i][0] + row[i][1] * z + delta * (row[i][2] + row[i][3] * z);

@@ -32,9 +32,10 @@ typedef struct PerezState {
     int    bin;                             /* 1..8 */
 } PerezState;
 
-/* *state may be NULL. Clearness is held in [1, 12.01), brightness in [0.01, 0.6], and raised to
- * 0.2 where clearness lies between 1.065 and 2.8: the fit has no skies outside. So is b at 0,
- * which keeps the horizon finite under a bright sun that is about to set. */
+/* *state may be NULL. Clearness is held in [1, 12.01), brightness in [0.01, 0.6]: the fit has
+ * no skies outside; nor has that of the shape below a brightness of 0.2 where clearness lies
+ * between 1.065 and 2.8, so it is raised for the shape alone. b is held at 0, which keeps the
+ * horizon finite under a bright sun that is about to set. */
 bool sky_shape_perez(const PerezInput *input, SkyShape *out, PerezState *state, Error *err);
 
 /* Relative luminance at cos theta (above 0) and at an angle gamma to the sun. Never negative.

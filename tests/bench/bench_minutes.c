@@ -179,8 +179,9 @@ static void look_at_day(void *user, int item, int worker)
                            sun_refraction_deg(at.elevation_deg, mbar, celsius)};
         if (sun.elevation_deg < 0) continue;
         SunAngles of_vehicle = {sun.azimuth_deg - b->heading_deg, sun.elevation_deg};
-        double reflected = sky_at(b, of_vehicle) +
-                           sun_reading(b, sun, b->heading_deg, b->rooms[worker]);
+        double reflected = (sky_at(b, of_vehicle) +
+                            sun_reading(b, sun, b->heading_deg, b->rooms[worker])) /
+                           (at.distance_au * at.distance_au);
         double contrast = luminance_contrast(b->shown[0], b->shown[1], reflected);
         b->up[worker]++;
         for (int i = 0; i < b->limit_count; i++)

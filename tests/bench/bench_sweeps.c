@@ -65,7 +65,7 @@ static void read_steps(SweepTrials *t, bool is_full, double own, unsigned seed,
     DistantTools tools = {.setup = t->setup, .table = &t->table,
                           .paths = is_full ? FULL_PATHS : STEP_PATHS,
                           .precision = is_full ? FULL_PRECISION : 0,
-                          .suns = {t->suns.angles, t->suns.count}, .sun_paths = SYMBOL_POINTS,
+                          .suns = {t->suns.distant, t->suns.count}, .sun_paths = SYMBOL_POINTS,
                           .has_mirror = true};
     DistantProbe probe = {.aim = t->aim};
     probe.aim.seed = seed;

@@ -3,6 +3,7 @@
 on stdout, nothing half-written, and signals that leave a frame behind.
 """
 import json
+import math
 import os
 import pty
 import re
@@ -383,6 +384,55 @@ def check_sky(report, program):
     claim_status(report, program.run("sky", *night), 3, "below the horizon")
     claim_status(report, program.run("sky", "--weather", "absent.epw", *SKY[2:4]), 3,
                  "absent.epw")
+    check_weather(report, program)
+
+
+EPW = "LOCATION,T,-,D,D,0,48.14,11.58,1.0,520\nDATA PERIODS,1,1,Data,Sunday, 1/ 1,12/31\n"
+
+
+def epw_row(hour, direct, diffuse, dew_point=8, lux=("0", "0")):
+    return (f"2026,6,21,{hour},60,x,20,{dew_point},79,100100,0,1415,288,0,{direct},{diffuse},0,"
+            f"{lux[0]},{lux[1]},0\n")
+
+
+def check_weather(report, program):
+    """Each hour of a day has its own fault; by which rule the lux are is told."""
+    path = program.file("day.epw")
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(EPW + epw_row(10, 600, 150) + epw_row(11, 600, 150, 99.9) +
+                   epw_row(12, 9999, 150) + epw_row(13, 600, 0) + epw_row(14, 0, 0) +
+                   epw_row(15, 600, 150, 8, ("999999", "17000")) +
+                   epw_row(16, 600, 150, 8, ("54321", "17000")) + epw_row(17, 2000, 150))
+    def ask(hour, *options):
+        return program.run("sky", "--weather", path, "--weather-offset=-0.5", "--when",
+                           f"2026-06-21T{hour - 1}:30+01:00", *options)
+    done = json.loads(ask(10, "--json").stdout)
+    used = done["luminous_efficacy"]
+    water = math.exp(0.07 * 8 - 0.075)
+    report.claim(used["rule"] == "perez 1990" and used["water_source"] == "dew point" and
+                 abs(used["water_cm"] - water) < 1e-6 and
+                 abs(done["direct_normal_lx"] - 600 * used["direct_lm_w"]) < 1,
+                 f"sky --weather: {used}")
+    done = ask(11, "--json")
+    used = json.loads(done.stdout)["luminous_efficacy"]
+    report.claim(used["water_source"] == "assumed" and used["water_cm"] == 2 and
+                 "line 4" in done.stderr and "2 cm of water vapour are assumed" in done.stderr,
+                 f"no dew point: {used}, {done.stderr}")
+    done = json.loads(ask(16, "--weather-lux", "file", "--json").stdout)
+    report.claim(abs(done["direct_normal_lx"] - 54321) < 1 and
+                 abs(done["diffuse_horizontal_lx"] - 17000) < 1 and
+                 done["luminous_efficacy"]["rule"] == "file", f"--weather-lux file: {done}")
+    report.claim("lux by               the file's own lux columns" in
+                 ask(16, "--weather-lux", "file").stdout, "the rule is not printed")
+    for hour, options, words in (
+            (12, (), ("line 5", "no direct or no diffuse radiation")),
+            (13, (), ("line 6", "600 W/m2 of direct light and no diffuse")),
+            (14, (), ("line 7", "is dark")), (17, (), ("line 10", "more than the sun's own")),
+            (10, ("--weather-lux", "file"), ("line 3", "0 lx direct and 0 lx diffuse")),
+            (15, ("--weather-lux", "file"), ("line 8", "no lx direct and 17000 lx diffuse"))):
+        claim_status(report, ask(hour, *options), 3, "day.epw", *words)
+    claim_status(report, program.run("sky", *SKY, "--weather-lux", "file"), 2,
+                 "--weather-lux: there is no weather file")
 
 
 def check_night(report, program):

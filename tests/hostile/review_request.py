@@ -80,7 +80,7 @@ GOOD = {
         {"name": "night", "lights": ["lamp.gltf"], "level": "night", "heading_deg": -20,
          "polarity": {"bar": "light-on-dark"}},
         {"name": "drive", "route": "r.csv", "when": "2026-02-28T12:59:59+01:00",
-         "weather": "clear"},
+         "weather": "w.epw", "weather_lux": "perez"},
         {"name": "suns", "sweep": {"sun": {"azimuth_deg": [0, 360, 90],
                                            "elevation_deg": [5, 5, 1]}, "sky": "sky"}},
         {"name": "year", "sweep": {"year": 2026, "where": [48, 11, 520], "step_minutes": 720,
@@ -116,6 +116,10 @@ def write_files(folder):
                                 for y in range(48)]))
     with open(path("r.csv"), "w", encoding="utf-8") as file:
         file.write("time,lat,lon\n2026-06-21T08:30:00Z,48,11\n2026-06-21T08:31:00Z,48,11.1\n")
+    with open(path("w.epw"), "w", encoding="utf-8") as file: # no lux of its own
+        file.write(EPW + "".join(weather_row(month, day, hour, 500, 100, 0)
+                                 for month, day in ((2, 28), (6, 21))
+                                 for hour in range(9, 16)))
 
 
 def places(node, at=()):
@@ -294,6 +298,9 @@ WEATHERS = ((EPW + HOURS, None), (MARKED + (EPW + HOURS).encode(), None),
             (EPW + HOURS.replace(",500,", ",nan,"), "line 9"),
             (EPW + HOURS.replace(",500,", ",9999,"), "no direct or no diffuse"),
             (EPW + HOURS.replace(",12,60", ",9,60").replace(",13,60", ",9,60"), "has no row"),
+            (EPW + HOURS.replace(",500,", ",1600,"), "more than the sun's own"),
+            (EPW + HOURS.replace(",20,12,", ",20,99.9,"), None),
+            (EPW + HOURS.replace(",20,12,", ",20,85,"), "a dew point from -99 to 70"),
             (EPW + HOURS[:-40], "fields"))
 
 

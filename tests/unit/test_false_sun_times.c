@@ -67,7 +67,7 @@ static Brute brute_force(const Setup *setup, const Facet *facet, const SweepSuns
 {
     Brute out = {0, 0};
     for (int i = 0; i < suns->count; i++) {
-        double apart = degrees_outside(facet, setup_direction(setup, suns->angles[i]));
+        double apart = degrees_outside(facet, setup_direction(setup, suns->distant[i].at));
         out.certain += apart < SUN_MEAN_RADIUS_DEG - 0.06;
         out.possible += apart < SUN_MEAN_RADIUS_DEG + 0.08;
     }
@@ -102,7 +102,7 @@ TEST(a_facet_that_dazzles_for_minutes_a_year_is_found)
     SweepSuns suns = sweep_suns(&minutes, 2, &scratch);
     int       at = 0; /* 3 October, in the afternoon: ahead is east, the sun behind */
     while (suns.list[at].step < (275 * 24 + 15) * 60 + 20) at++;
-    Facet facet = facet_for(setup_direction(&setup, suns.angles[at]));
+    Facet facet = facet_for(setup_direction(&setup, suns.distant[at].at));
     add_facet(&world, &facet);
     world_ready(&world, 16);
     assert_done(kernel_choose(NULL, &kernel, &err));

@@ -170,18 +170,39 @@ static void sun_is_the_atmospheres(double elevation_deg, Arena arena)
     float         bands[LIGHT_BANDS], wanted[LIGHT_BANDS];
     double        sum = 0, off = 0;
     assert_done(distant_probes_ask_skies(NULL, 0, &tools, &arena, &err));
-    input.has_sun = input.no_moon = true;
+    input.has_sun = input.no_moon = input.has_time = true;
+    input.when = (SkyTime){2026, 1, 4, 12, 0, 0, 0}; /* the earth is near */
     input.sun_elevation = radians_from_degrees(elevation_deg);
     input.sun_lux = -1;
     assert_done(daylight_build(&input, &arena, &sky, &err));
     light_bands_sun(&sky, wanted);
-    sky_table_sun(&table, elevation_deg, bands);
+    double near = sky.metrics.distance_au * sky.metrics.distance_au;
+    assert_in(near, 0.966, 0.968);
+    sky_table_sun(&table, elevation_deg, 1 / near, bands);
     for (int b = 0; b < LIGHT_BANDS; b++) {
         sum += (double)wanted[b];
         off += (double)(bands[b] - wanted[b]);
     }
     if (!(fabs(off) < (elevation_deg < 2 ? 0.03 * sum + 1 : 0.01 * sum)))
         fail_msg("%g degrees: %g lx, %+g", elevation_deg, sum, off);
+}
+
+/* Made alone it has the bits of the sky's, in twilight and below the horizon, too. */
+ARENA_TEST(a_sun_alone_is_its_skys)
+{
+    static const double elevations[] = {-3, -0.2, 0, 0.5, 5, 30, 90};
+    for (size_t i = 0; i < COUNT_OF(elevations); i++) {
+        Arena         room = arena;
+        DaylightInput input = daylight_input_default(DAYLIGHT_CLEAR);
+        Daylight      whole, alone;
+        input.has_sun = input.no_moon = true;
+        input.sun_elevation = radians_from_degrees(elevations[i]);
+        assert_done(daylight_build(&input, &room, &whole, &err));
+        input.sun_alone = true;
+        assert_done(daylight_build(&input, &room, &alone, &err));
+        assert_memory_equal(&whole.sun_mean, &alone.sun_mean, sizeof whole.sun_mean);
+        assert_near(whole.metrics.direct_normal_lx, alone.metrics.direct_normal_lx, 0);
+    }
 }
 
 /* Also between its elevations: each has the rows beside it alone, by day one of four. */

@@ -323,7 +323,8 @@ static Environment clear_sky(double azimuth_deg, double elevation_deg, float lux
 
 TEST(a_response_to_a_clear_sky_is_what_paths_find_under_it)
 {
-    static const SunAngles suns[] = {{270, 33}, {180, 30}, {0, 36}, {90, 30}};
+    static const DistantSun suns[] = {{{270, 33}, 1}, {{180, 30}, 0.967}, {{0, 36}, 1.034},
+                                      {{90, 30}, 1}};
     static const ReviewRequest request = {.forward = {0, 0, -1}};
     ENDS_BY(world_end) World world = niche();
     world_ready(&world, 64);
@@ -340,12 +341,13 @@ TEST(a_response_to_a_clear_sky_is_what_paths_find_under_it)
                                          &err));
     distant_probe_ask_suns(&probe, &tools, &world.arena);
     for (int i = 0; i < 4; i++) {
-        world.scene->environment = clear_sky(suns[i].azimuth_deg, suns[i].elevation_deg, 0);
+        SunAngles at = suns[i].at;
+        world.scene->environment = clear_sky(at.azimuth_deg, at.elevation_deg, 0);
         light_again(&world);
         ProbeAim aim = aim_of(&world);
         Reading  reading = read_all(&aim, world.arena);
         world.scene->environment = (Environment){.forward = vec3(0, 0, -1)};
-        double found = distant_probe_read(&probe, &tools, i).sky;
+        double found = distant_probe_read(&probe, &tools, i).sky / suns[i].light;
         double off = fabs(found - reading.reflected);
         if (!(off < 3.5 * reading.sigma + 0.01 * reading.reflected))
             fail_msg("sky %d: %g, paths %g +- %g", i, found, reading.reflected,

@@ -50,7 +50,7 @@ TEST(a_grid_of_suns_is_the_vehicles)
     for (int i = 0; i < suns.count; i++) {
         assert_near(suns.list[i].compass_deg, 10 * (i % 36), 1e-9);
         assert_near(suns.list[i].azimuth_deg, 10 * (i % 36) - 90, 1e-9);
-        assert_near(suns.angles[i].elevation_deg, 5 + 20 * (i / 36), 1e-9);
+        assert_near(suns.distant[i].at.elevation_deg, 5 + 20 * (i / 36), 1e-9);
     }
 }
 
@@ -127,17 +127,50 @@ TEST(kept_readings_are_found_by_their_suns)
     ENDS_BY(arena_release) Arena arena = arena_reserve((size_t)1 << 28);
     SunReadings of[2] = {sun_readings_start(&arena), sun_readings_start(&arena)};
     for (int i = 0; i < 2 * MANY; i++) {
-        SunAngles at = {i % 100 * 3.6, i / 100 * 0.9};
-        assert_null(sun_readings_find(&of[i % 2], at));
-        sun_readings_add(&of[i % 2], at, i);
+        DistantSun sun = {{i % 100 * 3.6, i / 100 * 0.9}, 1};
+        assert_null(sun_readings_find(&of[i % 2], sun));
+        sun_readings_add(&of[i % 2], sun, i);
     }
     for (int i = 0; i < 2 * MANY; i++) {
-        SunAngles at = {i % 100 * 3.6, i / 100 * 0.9}, beside = {i % 100 * 3.6, i / 100 * -0.9};
-        assert_true(*sun_readings_find(&of[i % 2], at) == i);
-        assert_null(sun_readings_find(&of[1 - i % 2], at));
+        DistantSun sun = {{i % 100 * 3.6, i / 100 * 0.9}, 1};
+        DistantSun beside = {{i % 100 * 3.6, i / 100 * -0.9}, 1}, nearer = {sun.at, 1.03};
+        assert_true(*sun_readings_find(&of[i % 2], sun) == i);
+        assert_null(sun_readings_find(&of[1 - i % 2], sun));
         if (i >= 100) assert_null(sun_readings_find(&of[i % 2], beside));
+        assert_null(sun_readings_find(&of[i % 2], nearer)); /* of another date */
     }
     assert_int_equal(of[0].count, MANY);
+}
+
+/* Every step carries its own date's light: 1 / R^2 by the earth's orbit, nearest on 3 January,
+ * an eccentricity of 0.0167; and so do suns about it and later ones. */
+TEST(suns_are_as_bright_as_the_earth_is_near)
+{
+    ReviewCondition year = {.kind = CONDITION_YEAR_SWEEP, .year = 2026, .where = {48, 11, 0},
+                            .step_minutes = 120, .heading_count = 2, .weather_id = NO_ID,
+                            .headings_deg = (double[]){0, 90}};
+    ENDS_BY(arena_release) Arena arena = arena_reserve((size_t)1 << 28);
+    SweepSuns suns = sweep_suns(&year, 2, &arena);
+    double    most = 0, least = 2;
+    for (int i = 0; i < suns.count; i++) {
+        const SweepSun *sun = &suns.list[i];
+        double day = (sun->step + 0.5) * 120 / 1440;
+        double turn = 2 * PI * (day - 2.7) / 365.25;
+        double distance = 1 - 0.0167 * cos(turn) + 0.0167 * 0.0167 * sin(turn) * sin(turn);
+        assert_close(sun->light, 1 / (distance * distance), 5e-4);
+        assert_near(suns.distant[i].light, sun->light, 0);
+        most = fmax(most, sun->light), least = fmin(least, sun->light);
+    }
+    assert_near(most, 1.034, 1e-3);
+    assert_near(least, 0.967, 1e-3);
+    SweepSuns about = sweep_suns_about(&year, &suns.list[5], 0, &arena);
+    for (int i = 0; i < about.count; i++)
+        assert_close(about.list[i].light, suns.list[5].light, 1e-4);
+    SweepSun  later = suns.list[5];
+    later.later_minutes = 30;
+    later.light = 0;
+    assert_close(sweep_suns_later(&year, &later, 1, &arena).distant[0].light,
+                 suns.list[5].light, 1e-4);
 }
 
 TEST_PROGRAM(NULL, NULL)

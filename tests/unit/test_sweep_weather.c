@@ -2,6 +2,8 @@
 /* Sweeps under a weather file: each step takes its row, and gaps are told. */
 #include "fixture.h"
 
+#include <math.h>
+
 #include "review/run/sweep.h"
 #include "review/run/sweep_weather.h"
 
@@ -30,6 +32,7 @@ static Fixture *drive(int steps)
     for (int i = 0; i < DAY; i++)
         f.hours[i] = (WeatherHour){.line = 9 + i, .year = 1999, .month = 6, .day = 21,
                                    .label_h = i + 1, .has_light = true,
+                                   .has_dew_point = true, .dew_point_c = i + 1,
                                    .direct_normal_w_m2 = is_day(i + 1) ? 100 + i + 1 : 0,
                                    .diffuse_horizontal_w_m2 = is_day(i + 1) ? 50 + i + 1 : 0};
     f.weather = (ReviewWeather){.path = "w.epw",
@@ -62,6 +65,8 @@ TEST(each_step_has_the_light_of_its_row)
             if (!is_lit) continue;
             assert_near(light.direct_w_m2, 100 + label, 1e-12);
             assert_near(light.diffuse_w_m2, 50 + label, 1e-12);
+            assert_true(light.water_source == WATER_DEW_POINT && !light.has_lux);
+            assert_near(light.water_cm, exp(0.07 * label - 0.075), 1e-12);
             assert_true(light.kind == DAYLIGHT_PEREZ && light.has_time && !light.has_sun &&
                         light.when.year == 2026 && light.when.hour == label - 1);
         }
@@ -112,6 +117,16 @@ typedef void Harm(Fixture *f);
 
 static void lose_a_row(Fixture *f) { f->hours[11] = f->hours[10]; }
 static void lose_values(Fixture *f) { f->hours[11].has_light = false; }
+static void lose_lux(Fixture *f)
+{
+    f->condition.weather_lux = WEATHER_LUX_FILE;
+    for (int i = 0; i < DAY; i++) {
+        f->hours[i].direct_normal_lx = 95 * f->hours[i].direct_normal_w_m2;
+        f->hours[i].diffuse_horizontal_lx = 120 * f->hours[i].diffuse_horizontal_w_m2;
+    }
+    f->hours[11].diffuse_horizontal_lx = -1;
+}
+static void add_a_spike(Fixture *f) { f->hours[11].direct_normal_w_m2 = 2500; }
 static void lose_diffuse(Fixture *f) { f->hours[11].diffuse_horizontal_w_m2 = 0; }
 static void lose_noon(Fixture *f)
 {
@@ -129,6 +144,10 @@ TEST(gaps_by_day_are_told)
                          "(2026-06-21 11:30, 1 of its 16 steps alike)"},
         {lose_values, "line 20", "has no direct or no diffuse radiation, where 'drive' needs"},
         {lose_diffuse, "line 20", "has 112 W/m2 of direct light and no diffuse, where"},
+        {lose_lux, "line 20", "has 10640 lx direct and no lx diffuse beside 112 and 62 W/m2, "
+                              "where 'drive' needs one (2026-06-21 11:30, 1 of its 16"},
+        {add_a_spike, "line 20", "has 2500 W/m2 of direct and 62 of diffuse light, more than "
+                                 "the sun's own 1410, where 'drive' needs one"},
         {lose_noon, "line 20", "is dark while the sun stands 63 degrees high, where 'drive' "
                                "needs one (2026-06-21 11:30, 2 of its"},
     };

@@ -320,11 +320,13 @@ ARENA_TEST(a_sun_about_to_rise_has_a_perez_sky_without_direct_light)
         assert_done(daylight_build(&input, &arena, out, &err));
         bool is_up = -3.9 + 0.5 * i > -0.27;
         assert_int_equal(out->metrics.direct_normal_w_m2 > 0, is_up);
-        assert_int_equal(out->metrics.direct_normal_lx > 0, is_up);
+        assert_near(out->metrics.direct_normal_lx,
+                    out->metrics.efficacy.direct * out->metrics.direct_normal_w_m2, 1e-3);
         assert_true(out->metrics.diffuse_horizontal_lx > 500 && out->shape_scale > 0);
         if (i) assert_close(out->metrics.diffuse_horizontal_lx, before, 0.1);
         before = out->metrics.diffuse_horizontal_lx;
     }
+    assert_true(out->metrics.direct_normal_lx > 100); /* 2 degrees up */
 }
 
 TEST_PROGRAM(make_folder, remove_folder)

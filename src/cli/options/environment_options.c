@@ -9,6 +9,7 @@
 #include "base/file.h"
 #include "base/units.h"
 #include "image/light_picture.h"
+#include "sky/weather_light.h"
 #include "text/json_text.h"
 
 #define HDRI_BYTES_MAX ((size_t)4 << 30)
@@ -134,6 +135,7 @@ static bool set_perez(Change *change, const char *text, Error *err)
     become(change, ENVIRONMENT_PEREZ, DAYLIGHT_PEREZ);
     change->environment->daylight.direct_w_m2 = w_m2[0];
     change->environment->daylight.diffuse_w_m2 = w_m2[1];
+    change->environment->daylight.has_lux = false;
     return true;
 }
 
@@ -183,11 +185,12 @@ const char *weather_option_text(const Environment *environment, Arena *arena)
                                    clock->closure_w_m2, clock->means_closure_w_m2)
                     : "closure not known";
     return arena_format(arena, "line %d (%02d-%02d, label %02d:%02d), %.0f min %s; its instant "
-                        "%+.2f h from the label by %s, %s", weather->line, weather->month,
-                        weather->day, (int)weather->label_h,
+                        "%+.2f h from the label by %s, %s; lux by %s", weather->line,
+                        weather->month, weather->day, (int)weather->label_h,
                         (int)lround(fmod(weather->label_h, 1) * 60) % 60,
                         fabs(weather->apart_min), weather->apart_min < 0 ? "before" : "after",
-                        clock->offset_h, weather_clock_source_text(clock->source), closure);
+                        clock->offset_h, weather_clock_source_text(clock->source), closure,
+                        weather_light_rule_text(&environment->daylight, arena));
 }
 
 static json_t *number_or_null(bool is_known, double value)
@@ -200,8 +203,10 @@ json_t *weather_option_json(const Environment *environment)
     const EnvironmentWeather *weather = &environment->weather;
     const WeatherClock *clock = &weather->clock;
     if (!weather->line) return json_null();
+    const double *lux = weather->file_lux;
     bool known = clock->rows > 0;
-    return json_pack("{s:o, s:i, s:i, s:i, s:f, s:f, s:f, s:s, s:b, s:i, s:o, s:o, s:o, s:o}",
+    return json_pack("{s:o, s:i, s:i, s:i, s:f, s:f, s:f, s:s, s:b, s:i, s:o, s:o, s:o, s:o, "
+                     "s:o, s:o}",
                      "file", json_text(weather->file), "line", weather->line, "month",
                      weather->month, "day", weather->day, "label_h", weather->label_h,
                      "instant_minus_when_min", weather->apart_min, "offset_h", clock->offset_h,
@@ -210,7 +215,9 @@ json_t *weather_option_json(const Environment *environment)
                      number_or_null(known, clock->closure_w_m2), "closure_hour_means_w_m2",
                      number_or_null(known, clock->means_closure_w_m2), "best_offset_h",
                      number_or_null(known, clock->best_offset_h), "best_closure_w_m2",
-                     number_or_null(known, clock->best_closure_w_m2));
+                     number_or_null(known, clock->best_closure_w_m2), "file_direct_normal_lx",
+                     number_or_null(lux[0] >= 0, lux[0]), "file_diffuse_horizontal_lx",
+                     number_or_null(lux[1] >= 0, lux[1]));
 }
 
 typedef struct WeatherAsk {
@@ -218,26 +225,45 @@ typedef struct WeatherAsk {
     SkyTime       when;
     bool          has_place;    /* the user's own: the station's is not taken */
     const double *offset_h;     /* --weather-offset, or NULL */
+    WeatherLux    lux;
 } WeatherAsk;
 
 static bool check_row(const WeatherAsk *ask, const WeatherHour *hour, double apart_min,
-                      Error *err)
+                      Arena *arena, Error *err)
 {
     const SkyTime *when = &ask->when;
-    if (!hour || !hour->has_light)
+    if (!hour)
         return error_at(err, ERROR_INPUT, ask->file, "",
-                        "has no hour with light for month %d, day %d, %02d:%02d", when->month,
+                        "has no hour for month %d, day %d, %02d:%02d", when->month,
                         when->day, when->hour, when->minute);
-    return hour->diffuse_horizontal_w_m2 > 0 ||
-           error_at(err, ERROR_INPUT, ask->file, "",
-                    "month %d, day %d, hour %g (line %d, whose instant is %+.0f min from "
-                    "--when) is dark (0 W/m2 diffuse), wanted an hour by day — for a night use "
-                    "--environment sky:clear", hour->month, hour->day, hour->label_h,
-                    hour->line, apart_min);
+    WeatherRowState state = weather_row_state(hour, ask->lux);
+    const char *place = arena_format(arena, "line %d", hour->line);
+    if (state == WEATHER_ROW_DARK)
+        return error_at(err, ERROR_INPUT, ask->file, place,
+                        "month %d, day %d, hour %g (its instant is %+.0f min from --when) is "
+                        "dark (0 W/m2 diffuse), wanted an hour by day — for a night use "
+                        "--environment sky:clear", hour->month, hour->day, hour->label_h,
+                        apart_min);
+    return state == WEATHER_ROW_LIT ||
+           error_at(err, ERROR_INPUT, ask->file, place,
+                    "month %d, day %d, hour %g %s; required direct and diffuse daylight%s",
+                    hour->month, hour->day, hour->label_h,
+                    weather_row_lacks(hour, state, arena),
+                    state == WEATHER_ROW_WITHOUT_LUX ? ", or --weather-lux perez" : "");
 }
 
-/* Sets the irradiances, the place and how they were found. A file that closes nowhere, or whose
- * clock is hours off, goes to *problems as a warning. */
+static void warn_of_water(const WeatherAsk *ask, const WeatherHour *hour, Arena *arena,
+                          Problems *problems)
+{
+    if (hour->has_dew_point || ask->lux == WEATHER_LUX_FILE) return;
+    problems_add(problems, SEVERITY_WARNING, ask->file, arena_format(arena, "line %d",
+                                                                     hour->line),
+                 "has no dew point (99.9): %g cm of water vapour are assumed for its lux",
+                 WATER_USUAL_CM);
+}
+
+/* Sets the light, the place and how they were found. A file that closes nowhere, or whose clock
+ * is hours off, goes to *problems as a warning. */
 static bool apply_weather(const WeatherAsk *ask, Environment *environment, Arena *arena,
                           Problems *problems, Error *err)
 {
@@ -246,13 +272,14 @@ static bool apply_weather(const WeatherAsk *ask, Environment *environment, Arena
     if (!weather_read(ask->file, arena, &weather, err)) return false;
     WeatherClock clock = weather_clock_find(&weather, ask->offset_h, *arena);
     const WeatherHour *hour = weather_clock_row(&weather, &clock, &ask->when, &apart_min);
-    if (!check_row(ask, hour, apart_min, err)) return false;
-    environment->weather = (EnvironmentWeather){ask->file,     hour->line, hour->month,
-                                                hour->day,     hour->label_h, apart_min, clock};
-    environment->daylight.direct_w_m2 = hour->direct_normal_w_m2;
-    environment->daylight.diffuse_w_m2 = hour->diffuse_horizontal_w_m2;
+    if (!check_row(ask, hour, apart_min, arena, err)) return false;
+    environment->weather = (EnvironmentWeather){
+        ask->file, hour->line, hour->month, hour->day, hour->label_h, apart_min,
+        {hour->direct_normal_lx, hour->diffuse_horizontal_lx}, clock};
+    weather_light_take(hour, ask->lux, &environment->daylight);
     if (!ask->has_place) environment->daylight.where = weather.place;
     warn_of_clock(&environment->weather, problems);
+    warn_of_water(ask, hour, arena, problems);
     return true;
 }
 
@@ -301,14 +328,20 @@ static bool set_time_and_place(Change *change, Error *err)
     return true;
 }
 
+/* What stands beside a weather file alone. */
+static bool no_weather(const EnvironmentChange *asked, Error *err)
+{
+    const char *option = asked->has_weather_offset ? "--weather-offset"
+                         : asked->has_weather_lux  ? "--weather-lux" : NULL;
+    return !option || error_set(err, ERROR_USAGE, "%s: there is no weather file — add "
+                                "--weather FILE.epw", option);
+}
+
 static bool set_weather(Change *change, Error *err)
 {
     DaylightInput *daylight = &change->environment->daylight;
     const char   *file = change->asked->weather;
-    if (!file)
-        return !change->asked->has_weather_offset ||
-               error_set(err, ERROR_USAGE, "--weather-offset: there is no weather file — add "
-                         "--weather FILE.epw");
+    if (!file) return no_weather(change->asked, err);
     if (change->environment->kind != ENVIRONMENT_PEREZ && change->asked->environment)
         return error_set(err, ERROR_USAGE, "--weather makes a Perez sky: it excludes "
                          "--environment %s", change->asked->environment);
@@ -320,7 +353,8 @@ static bool set_weather(Change *change, Error *err)
         return false;
     WeatherAsk ask = {file, when, change->asked->where != NULL,
                       change->asked->has_weather_offset ? &change->asked->weather_offset_h
-                                                        : NULL};
+                                                        : NULL,
+                      (WeatherLux)change->asked->weather_lux};
     if (!apply_weather(&ask, change->environment, change->arena, change->problems, err))
         return false;
     FileBytes bytes;

@@ -18,7 +18,8 @@ typedef struct EnvironmentChange {
     const char *when, *where, *weather;
     const char *ground;      /* "land", "sea", "cloud", "cloud:TOP_M" */
     bool   has_hdri_lux, has_forward, has_heading, has_turbidity, has_visibility;
-    bool   has_weather_offset, no_moon;
+    bool   has_weather_offset, has_weather_lux, no_moon;
+    int    weather_lux;      /* WeatherLux */
     double hdri_lux;         /* lx on a horizontal plane */
     double forward[3];       /* scene vector */
     double heading_deg, turbidity, visibility_km, weather_offset_h;
@@ -41,6 +42,9 @@ typedef struct EnvironmentChange {
      "from a row's label to its instant, h (-0.5: hour means); else found from the file",      \
      &(change)->weather_offset_h, .low = -12, .high = 12,                                      \
      .given = &(change)->has_weather_offset},                                                  \
+    {"--weather-lux", OPTION_CHOICE, "perez|file",                                             \
+     "its lux: by Perez 1990's luminous efficacies, or the file's own columns",                \
+     &(change)->weather_lux, .given = &(change)->has_weather_lux},                             \
     {"--sun", OPTION_TEXT, "auto|off|AZ,EL[,LUX]",                                             \
      "of --when and --where; none; degrees from north over east and up, lx",                   \
      &(change)->sun},                                                                          \

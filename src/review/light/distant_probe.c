@@ -51,17 +51,22 @@ static const Daylight *build_sky(const DaylightInput *input, Arena *arena, Error
     return daylight_build(input, arena, sky, err) ? sky : NULL;
 }
 
-/* The sky of a row; its sun is noted. NULL: it failed. */
-static const Daylight *make_sky(SkyTable *table, int row, Arena *arena, Error *err)
+static DaylightInput row_input(const SkyTable *table, int row)
 {
-    DaylightInput   input = table->like;
-    const Daylight *sky;
+    DaylightInput input = table->like;
     input.has_sun = true;
     input.sun_azimuth = 0;
     input.sun_elevation = radians_from_degrees(table->elevation_deg[row]);
     input.sun_lux = -1;
     input.no_moon = true;
-    sky = table->inherited ? inherited_sky(table->inherited, &input, err)
+    return input;
+}
+
+/* The sky of a row; its sun is noted. NULL: it failed. */
+static const Daylight *make_sky(SkyTable *table, int row, Arena *arena, Error *err)
+{
+    DaylightInput   input = row_input(table, row);
+    const Daylight *sky = table->inherited ? inherited_sky(table->inherited, &input, err)
                            : build_sky(&input, arena, err);
     if (sky) light_bands_sun(sky, table->sun_bands[row]);
     return sky;
@@ -70,8 +75,12 @@ static const Daylight *make_sky(SkyTable *table, int row, Arena *arena, Error *e
 static bool make_suns(SkyTable *table, const Arena *arena, Error *err)
 {
     for (int row = 0; row < table->count; row++) {
-        Arena room = *arena;
-        if (!make_sky(table, row, &room, err)) return false;
+        Arena         room = *arena;
+        DaylightInput input = row_input(table, row);
+        input.sun_alone = true;
+        const Daylight *sky = build_sky(&input, &room, err);
+        if (!sky) return false;
+        light_bands_sun(sky, table->sun_bands[row]);
     }
     return true;
 }
@@ -98,7 +107,8 @@ static double share_by_air(const SkyTable *table, int row, double elevation_deg)
 
 /* Light falls off by powers of the air mass: between two rows that both have some it is the
  * logarithm that is linear. */
-void sky_table_sun(const SkyTable *table, double elevation_deg, float bands[LIGHT_BANDS])
+void sky_table_sun(const SkyTable *table, double elevation_deg, double light,
+                   float bands[LIGHT_BANDS])
 {
     double share;
     int    row = row_of(table, elevation_deg, &share), next = row + (share > 0);
@@ -106,8 +116,8 @@ void sky_table_sun(const SkyTable *table, double elevation_deg, float bands[LIGH
         share = share_by_air(table, row, elevation_deg);
     for (int b = 0; b < LIGHT_BANDS; b++) {
         double low = (double)table->sun_bands[row][b], high = (double)table->sun_bands[next][b];
-        bands[b] = low > 0 && high > 0 ? (float)(low * pow(high / low, share))
-                                       : (float)(low + share * (high - low));
+        bands[b] = (float)(light * (low > 0 && high > 0 ? low * pow(high / low, share)
+                                                        : low + share * (high - low)));
     }
 }
 
@@ -390,7 +400,7 @@ static Vec3 *sun_directions(const DistantTools *tools, Arena *arena)
     double heading = degrees_from_radians((double)tools->setup->scene->environment.heading);
     Vec3  *towards = ARENA_NEW(arena, Vec3, tools->suns.count);
     for (int i = 0; i < tools->suns.count; i++) {
-        SunAngles angles = tools->suns.angles[i];
+        SunAngles angles = tools->suns.list[i].at;
         angles.azimuth_deg += heading;
         towards[i] = setup_direction(tools->setup, angles);
     }
@@ -528,16 +538,18 @@ static double read_sky(const DistantProbe *probe, const DistantTools *tools, int
             without[k] = sky * (double)probe->sky_without[k];
         return sky;
     }
-    SkyPlaces places = sky_places(tools->table, tools->suns.angles[sun]);
+    SkyPlaces places = sky_places(tools->table, tools->suns.list[sun].at);
+    double    light = tools->suns.list[sun].light;
     for (int k = 0; k < RESPONSE_GROUPS; k++) without[k] = 0;
     for (int i = 0; i < 4; i++) {
         const float *of_place = probe->sky_without + places.at[i] * RESPONSE_GROUPS;
         const BrightSamples *samples = &probe->sky_bright[places.at[i]];
-        sky += places.weight[i] * probe->sky[places.at[i]];
-        bright->squares += places.weight[i] * samples->squares;
-        bright->fourths += places.weight[i] * samples->fourths;
+        double weight = places.weight[i], square = light * light;
+        sky += weight * light * probe->sky[places.at[i]];
+        bright->squares += weight * square * samples->squares;
+        bright->fourths += weight * square * square * samples->fourths;
         for (int k = 0; k < RESPONSE_GROUPS; k++)
-            without[k] += places.weight[i] * (double)of_place[k];
+            without[k] += weight * light * (double)of_place[k];
     }
     return sky;
 }
@@ -546,7 +558,8 @@ static void sun_bands(const DistantTools *tools, int sun, float bands[LIGHT_BAND
 {
     const HourSkies *hours = tools->hours;
     if (!hours) {
-        sky_table_sun(tools->table, tools->suns.angles[sun].elevation_deg, bands);
+        const DistantSun *of = &tools->suns.list[sun];
+        sky_table_sun(tools->table, of->at.elevation_deg, of->light, bands);
         return;
     }
     for (int b = 0; b < LIGHT_BANDS; b++)
@@ -557,7 +570,7 @@ static void read_sun(const DistantProbe *probe, const DistantTools *tools, int s
                      DistantReading *to,
                      double without[RESPONSE_GROUPS], BrightSamples *bright)
 {
-    SunAngles  angles = tools->suns.angles[sun];
+    SunAngles  angles = tools->suns.list[sun].at;
     float      bands[LIGHT_BANDS];
     size_t     at = (size_t)sun * LIGHT_BANDS;
     angles.azimuth_deg +=
@@ -574,7 +587,7 @@ DistantReading distant_probe_read(const DistantProbe *probe, const DistantTools 
     BrightSamples bright = {0};
     double        without[RESPONSE_GROUPS], of_sun[RESPONSE_GROUPS] = {0};
     DistantReading reading = {.sky = read_sky(probe, tools, sun, without, &bright)};
-    if (!(tools->suns.angles[sun].elevation_deg < -SUN_MEAN_RADIUS_DEG))
+    if (!(tools->suns.list[sun].at.elevation_deg < -SUN_MEAN_RADIUS_DEG))
         read_sun(probe, tools, sun, &reading, of_sun, &bright);
     double sum = reading.sky + reading.sun_first + reading.sun_rest;
     for (int k = 0; k < RESPONSE_GROUPS; k++) without[k] += reading.sun_first + of_sun[k];

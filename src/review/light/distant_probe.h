@@ -22,7 +22,8 @@
 
 #define SKY_AZIMUTHS 72 /* of the sun in a turn */
 
-/* Clear skies by the sun's elevation. */
+/* Clear skies by the sun's elevation, the earth 1 au away: readings are scaled to each sun's
+ * light, the night's own background with them (within 0.4 % at -12 degrees). */
 typedef struct SkyTable {
     DaylightInput like;          /* air and ground; suns stand at azimuth 0 */
     const double *elevation_deg; /* rising */
@@ -42,9 +43,10 @@ SkyTable sky_table_start(const DaylightInput *like, double low_deg, double high_
  * made. */
 void sky_table_between(SkyTable *table, double low_deg, double high_deg);
 
-/* The sun's bands at an elevation within the table's, lx: within 1 % from 2 degrees on, 3 % or
- * 1 lx below. */
-void sky_table_sun(const SkyTable *table, double elevation_deg, float bands[LIGHT_BANDS]);
+/* A sun's bands at an elevation within the table's, lx: within 1 % from 2 degrees on, 3 % or
+ * 1 lx below. light: a DistantSun's. */
+void sky_table_sun(const SkyTable *table, double elevation_deg, double light,
+                   float bands[LIGHT_BANDS]);
 
 /* ---- probes ------------------------------------------------------------------------------ */
 
@@ -59,8 +61,8 @@ typedef struct DistantProbe {
 } DistantProbe;
 
 typedef struct DistantSuns {
-    const SunAngles *angles; /* relative to the vehicle */
-    int              count;
+    const DistantSun *list; /* relative to the vehicle */
+    int               count;
 } DistantSuns;
 
 typedef struct DistantTools {

@@ -97,6 +97,12 @@ typedef struct SunAngles {
     double azimuth_deg, elevation_deg;
 } SunAngles;
 
+/* A sun of many: where it stands, and its light over that at 1 au, by the earth's distance. */
+typedef struct DistantSun {
+    SunAngles at;
+    double    light;
+} DistantSun;
+
 SunAngles setup_angles(const Setup *setup, Vec3 towards);
 
 /* The other way round. */

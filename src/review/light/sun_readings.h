@@ -5,7 +5,8 @@
  * the same for all of them, the face of a display for all eyes. A reading does not depend on
  * the others that are asked for beside it.
  *
- * Frame    angles as those of distant_probe.h; a sun is known by their bits.
+ * Frame    angles as those of distant_probe.h; a sun is known by their bits and by those of its
+ *          light: two dates share a direction, and differ in the earth's distance.
  * Units    lx.
  * Memory   from the arena of the start, which others may use, too: 64 to 256 bytes a sun.
  * Threads  one at a time.
@@ -14,7 +15,7 @@
 #include "review/light/setup.h"
 
 typedef struct KeptReading {
-    SunAngles at;
+    DistantSun sun;
     double    lux;
     bool      is_taken;
 } KeptReading;
@@ -29,7 +30,7 @@ typedef struct SunReadings {
 SunReadings sun_readings_start(Arena *arena);
 
 /* NULL: that sun has not been read. */
-const double *sun_readings_find(const SunReadings *readings, SunAngles at);
+const double *sun_readings_find(const SunReadings *readings, DistantSun sun);
 
 /* The sun must not be there yet. */
-void sun_readings_add(SunReadings *readings, SunAngles at, double lux);
+void sun_readings_add(SunReadings *readings, DistantSun sun, double lux);

@@ -18,6 +18,7 @@
 #include "scene/scene.h"
 #include "sky/epw.h"
 #include "sky/weather_clock.h"
+#include "sky/weather_light.h"
 #include "vision/human_eye.h"
 
 /* ---- how bright displays are set --------------------------------------------------------- */
@@ -160,6 +161,7 @@ typedef struct ReviewCondition {
     /* route */
     Route        route;          /* its times as `when` moves them */
     int          weather_id;     /* route, year: into weathers; NO_ID: clear */
+    WeatherLux   weather_lux;    /* by what its lux are known */
     /* sweep over the sun's direction, in a clear sky */
     ReviewRange  azimuth_deg, elevation_deg;
     /* sweep over a year, UTC: steps from 1 January 00:00 to the year's end */

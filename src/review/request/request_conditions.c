@@ -30,7 +30,7 @@ static bool add_weather(RequestReading *reading, const char *path, Error *err)
 }
 
 /* "clear" or absent: NO_ID; else the file's place among the request's weathers. */
-static bool read_weather(RequestReading *reading, const JsonView *view, int *weather_id,
+static bool find_weather(RequestReading *reading, const JsonView *view, int *weather_id,
                          Error *err)
 {
     const ReviewRequest *request = reading->request;
@@ -47,6 +47,21 @@ static bool read_weather(RequestReading *reading, const JsonView *view, int *wea
     if (*weather_id != NO_ID) return true;
     *weather_id = request->weather_count;
     return add_weather(reading, path, err);
+}
+
+/* A weather file, and by what its lux are known. */
+static bool read_weather(RequestReading *reading, const JsonView *view,
+                         ReviewCondition *condition, Error *err)
+{
+    static const char *const rules[] = {"perez", "file"};
+    int lux = WEATHER_LUX_PEREZ;
+    if (!find_weather(reading, view, &condition->weather_id, err) ||
+        !field_choice(view, "weather_lux", (FieldWords){rules, COUNT_OF(rules)}, &lux, err))
+        return false;
+    condition->weather_lux = (WeatherLux)lux;
+    return condition->weather_id != NO_ID || !json_object_get(view->object, "weather_lux") ||
+           field_fails(view, "weather_lux", err, "stands without a weather file, required one "
+                       "in 'weather'");
 }
 
 #define RANGE_MAX 100000 /* values of one range */
@@ -174,7 +189,7 @@ static bool read_year(RequestReading *reading, const JsonView *sweep,
                       ReviewCondition *condition, Error *err)
 {
     static const char *const keys[] = {"year",         "where",   "step_minutes",
-                                       "headings_deg", "weather", "night"};
+                                       "headings_deg", "weather", "weather_lux", "night"};
     condition->kind = CONDITION_YEAR_SWEEP;
     condition->step_minutes = 60;
     return json_view_check_keys(sweep, keys, COUNT_OF(keys), err) &&
@@ -182,7 +197,7 @@ static bool read_year(RequestReading *reading, const JsonView *sweep,
            json_view_number(sweep, "step_minutes", 0.5, 1440, &condition->step_minutes, err) &&
            read_headings(sweep, condition, err) &&
            field_boolean(sweep, "night", &condition->with_night, err) &&
-           read_weather(reading, sweep, &condition->weather_id, err) &&
+           read_weather(reading, sweep, condition, err) &&
            find_place(reading, sweep, condition, err);
 }
 
@@ -191,7 +206,8 @@ static bool read_sweep(RequestReading *reading, const JsonView *view,
                        ReviewCondition *condition, Error *err)
 {
     static const char *const keys[] = {"sun",   "sky",          "year",         "where",
-                                       "night", "step_minutes", "headings_deg", "weather"};
+                                       "night", "step_minutes", "headings_deg", "weather",
+                                       "weather_lux"};
     bool has_sun = json_object_get(view->object, "sun") != NULL;
     bool has_year = json_object_get(view->object, "year") != NULL;
     if (!json_view_check_keys(view, keys, COUNT_OF(keys), err)) return false;
@@ -267,7 +283,7 @@ static bool read_light(RequestReading *reading, const JsonView *view, int i,
 
 static const char *const KEYS[] = {"name",     "environment", "lights", "heading_deg", "level",
                                    "with",     "polarity",    "contents", "route",     "when",
-                                   "weather",  "sweep"};
+                                   "weather",  "weather_lux", "sweep"};
 
 static bool has(const JsonView *view, const char *key)
 {
@@ -351,7 +367,7 @@ static bool read_route(RequestReading *reading, const JsonView *view,
            route_read(path, view->arena, &condition->route, err) &&
            request_note_file(reading, path, err) &&
            read_start(view, &condition->route, err) &&
-           read_weather(reading, view, &condition->weather_id, err);
+           read_weather(reading, view, condition, err);
 }
 
 /* Keys that mean nothing beside others are errors, not skipped. */
@@ -360,8 +376,9 @@ static bool check_together(const JsonView *view, Error *err)
     if (has(view, "route") && has(view, "sweep"))
         return error_at(err, ERROR_INPUT, view->file, view->path,
                         "has both 'route' and 'sweep', wanted one of them");
-    for (int i = 0; i < 2 && !has(view, "route"); i++) {
-        const char *key = i ? "weather" : "when";
+    static const char *const of_routes[] = {"when", "weather", "weather_lux"};
+    for (int i = 0; i < COUNT_OF(of_routes) && !has(view, "route"); i++) {
+        const char *key = of_routes[i];
         if (has(view, key))
             return field_fails(view, key, err, "stands without 'route', wanted it %s",
                                i ? "beside a route or in the year of a sweep"

@@ -127,7 +127,7 @@ static void watch_sun(const Watch *watch, const SweepSun *sun)
     if (sun->elevation_deg < -SUN_MEAN_RADIUS_DEG) return;
     FalseSunSight sight = false_suns_at(watch->images, setup_direction(setup, angles));
     if (!(sight.share > 0)) return;
-    sky_table_sun(&watch->sweep->table, sun->elevation_deg, bands);
+    sky_table_sun(&watch->sweep->table, sun->elevation_deg, sun->light, bands);
     for (int b = 0; b < LIGHT_BANDS; b++) lux += (double)bands[b];
     Veil   veil = worst_veil(&watch->gazes, watch->whose, sight.seen, sight.share * lux);
     Tally *tally = veil.cd_m2 >= FALSE_SUN_VEIL_CD_M2 ? tally_of(watch->tallies, sight.part_id)

@@ -367,9 +367,28 @@ static bool has_boxes(const ReviewRequest *request)
     return false;
 }
 
+static bool takes_lux(const ReviewRequest *request, int weather_id, WeatherLux lux)
+{
+    for (int i = 0; i < request->condition_count; i++) {
+        const ReviewCondition *condition = &request->conditions[i];
+        if (condition->weather_id == weather_id && condition->weather_lux == lux) return true;
+    }
+    return false;
+}
+
+static void add_weather_notes(const ReviewRequest *request, int weather_id, Review *review,
+                              const char ***notes, Arena *arena)
+{
+    const ReviewWeather *weather = &request->weathers[weather_id];
+    add_note(review, notes, sweep_weather_note(weather, arena));
+    for (int lux = WEATHER_LUX_PEREZ; lux <= WEATHER_LUX_FILE; lux++)
+        if (takes_lux(request, weather_id, (WeatherLux)lux))
+            add_note(review, notes, sweep_weather_lux_note(weather, (WeatherLux)lux, arena));
+}
+
 static void add_notes(const ReviewRequest *request, Review *review, Arena *arena)
 {
-    const char **notes = ARENA_NEW(arena, const char *, request->weather_count + 4);
+    const char **notes = ARENA_NEW(arena, const char *, 3 * request->weather_count + 4);
     if (has_sweeps(request)) {
         add_note(review, &notes,
                  "Sweeps: skies are clear, or those of a weather file where one is named; "
@@ -384,7 +403,7 @@ static void add_notes(const ReviewRequest *request, Review *review, Arena *arena
                      "mirrors is read; all else of them is in moments.");
     }
     for (int i = 0; i < request->weather_count; i++)
-        add_note(review, &notes, sweep_weather_note(&request->weathers[i], arena));
+        add_weather_notes(request, i, review, &notes, arena);
 }
 
 /* ---- all of it --------------------------------------------------------------------------- */

@@ -50,6 +50,17 @@ static void set_weather(const Setup *setup, const SweepSun *sun, Environment *en
     environment->kind = is_lit ? ENVIRONMENT_PEREZ : ENVIRONMENT_NONE;
 }
 
+/* The sun's place is known; the date gives the earth's distance. Sweeps have no moon. */
+static void set_date(const ReviewCondition *condition, const SweepSun *sun, DaylightInput *out)
+{
+    bool   is_year = condition->kind == CONDITION_YEAR_SWEEP;
+    double later = is_year ? sun->later_minutes / condition->step_minutes : 0;
+    out->has_time = sun->step >= 0;
+    out->no_moon = true;
+    if (out->has_time)
+        out->when = sweep_time(condition, condition->step_minutes, sun->step + later);
+}
+
 Environment sweep_environment(const Setup *setup, const SweepSun *sun)
 {
     Environment environment = {
@@ -61,7 +72,7 @@ Environment sweep_environment(const Setup *setup, const SweepSun *sun)
     }
     environment.kind = ENVIRONMENT_SKY;
     environment.daylight = air_of(setup->condition);
-    environment.daylight.has_time = false;
+    set_date(setup->condition, sun, &environment.daylight);
     environment.has_sun = true;
     environment.sun_azimuth = (float)radians_from_degrees(sun->compass_deg);
     environment.sun_elevation = (float)radians_from_degrees(sun->elevation_deg);
@@ -101,7 +112,7 @@ static SunFigures judge_others(const SweepReport *to, const Sight *sight, const 
     Sight      seen = *sight;
     seen.read = NULL;
     sweep.suns = *suns;
-    tools.suns = (DistantSuns){suns->angles, suns->count};
+    tools.suns = (DistantSuns){suns->distant, suns->count};
     of_meters = tools;
     of_meters.has_mirror = false;
     distant_probe_ask_suns(&seen.probe, &tools, scratch);

@@ -211,7 +211,7 @@ DistantTools sweep_tools(Sweep *sweep)
 {
     return (DistantTools){.setup = sweep->setup, .table = &sweep->table,
                           .hours = sweep->has_hours ? &sweep->hours : NULL,
-                          .suns = {sweep->suns.angles, sweep->suns.count},
+                          .suns = {sweep->suns.distant, sweep->suns.count},
                           .sun_paths = SUN_PATHS, .has_mirror = true};
 }
 
@@ -286,12 +286,12 @@ static void ask_meter_suns(const SweepMeter *meter, const DistantTools *tools, A
 /* All suns whose reading is not kept are asked at once, and kept. */
 static void keep_missing(const SweepMeter *meter, const DistantTools *tools, Arena room)
 {
-    SunAngles *missing = ARENA_NEW(&room, SunAngles, tools->suns.count);
+    DistantSun *missing = ARENA_NEW(&room, DistantSun, tools->suns.count);
     DistantTools of_missing = *tools;
     of_missing.suns = (DistantSuns){missing, 0};
     for (int i = 0; i < tools->suns.count; i++)
-        if (!sun_readings_find(meter->kept, tools->suns.angles[i]))
-            missing[of_missing.suns.count++] = tools->suns.angles[i];
+        if (!sun_readings_find(meter->kept, tools->suns.list[i]))
+            missing[of_missing.suns.count++] = tools->suns.list[i];
     if (!of_missing.suns.count) return;
     double *lux = ARENA_NEW(&room, double, of_missing.suns.count);
     ask_meter_suns(meter, &of_missing, room, lux);
@@ -309,7 +309,7 @@ const double *sweep_meter_read(const SweepMeter *meter, const DistantTools *tool
     }
     keep_missing(meter, tools, *arena);
     for (int i = 0; i < tools->suns.count; i++)
-        lux[i] = *sun_readings_find(meter->kept, tools->suns.angles[i]);
+        lux[i] = *sun_readings_find(meter->kept, tools->suns.list[i]);
     return lux;
 }
 

@@ -3,6 +3,8 @@
 
 #include <math.h>
 
+#include "sky/weather_light.h"
+
 #define LOWEST_SUN_DEG (-4.0) /* of Perez's skies (sky/daylight.h) */
 #define HIGH_SUN_DEG 10.0     /* half an hour beside a row's instant it may have set */
 
@@ -10,8 +12,7 @@
 
 typedef enum HourState {
     HOUR_LIT, HOUR_DARK,
-    /* gaps: */
-    HOUR_WITHOUT_ROW, HOUR_WITHOUT_VALUES, HOUR_WITHOUT_LIGHT, HOUR_WITHOUT_SKY
+    HOUR_WITHOUT_ROW, HOUR_INCOMPLETE, HOUR_WITHOUT_LIGHT /* gaps */
 } HourState;
 
 static const ReviewWeather *weather_of(const ReviewRequest *request,
@@ -31,13 +32,14 @@ static const WeatherHour *row_of(const ReviewWeather *weather, const SkyTime *wh
     return weather_clock_row(&weather->weather, &weather->clock, when, &apart_min);
 }
 
-static HourState state_of(const WeatherHour *row, double elevation_deg)
+static HourState state_of(const WeatherHour *row, WeatherLux lux, double elevation_deg)
 {
     if (!row) return HOUR_WITHOUT_ROW;
-    if (!row->has_light) return HOUR_WITHOUT_VALUES;
+    WeatherRowState state = weather_row_state(row, lux);
+    if (state == WEATHER_ROW_WITHOUT_VALUES) return HOUR_INCOMPLETE;
     if (elevation_deg <= LOWEST_SUN_DEG) return HOUR_DARK;
-    if (row->diffuse_horizontal_w_m2 > 0) return HOUR_LIT;
-    if (row->direct_normal_w_m2 > 0) return HOUR_WITHOUT_SKY;
+    if (state == WEATHER_ROW_LIT) return HOUR_LIT;
+    if (state != WEATHER_ROW_DARK) return HOUR_INCOMPLETE;
     return elevation_deg > HIGH_SUN_DEG ? HOUR_WITHOUT_LIGHT : HOUR_DARK;
 }
 
@@ -46,25 +48,32 @@ bool sweep_weather_light(const ReviewRequest *request, const ReviewCondition *co
 {
     SkyTime when = step_time(condition, sun);
     const WeatherHour *row = row_of(weather_of(request, condition), &when);
-    if (state_of(row, sun->elevation_deg) != HOUR_LIT) return false;
+    if (state_of(row, condition->weather_lux, sun->elevation_deg) != HOUR_LIT) return false;
     *out = daylight_input_default(DAYLIGHT_PEREZ);
     out->has_time = true;
     out->when = when;
     out->where = condition->kind == CONDITION_ROUTE ? condition->route.points[sun->step].where
                                                     : condition->where;
-    out->direct_w_m2 = row->direct_normal_w_m2;
-    out->diffuse_w_m2 = row->diffuse_horizontal_w_m2;
+    weather_light_take(row, condition->weather_lux, out);
     return true;
 }
 
 const char *sweep_weather_text(const ReviewRequest *request, const ReviewCondition *condition,
                                const SweepSun *sun, Arena *arena)
 {
+    Error         err;
+    Arena         none = {0};
     DaylightInput light;
+    Daylight      sky;
     if (!sweep_weather_light(request, condition, sun, &light))
         return "dark by the weather file";
-    return arena_format(arena, "%g W/m2 direct, %g diffuse", light.direct_w_m2,
-                        light.diffuse_w_m2);
+    light.integral_steps = HOUR_SKY_STEPS;
+    const char *watts = arena_format(arena, "%g W/m2 direct, %g diffuse", light.direct_w_m2,
+                                     light.diffuse_w_m2);
+    if (!daylight_build(&light, &none, &sky, &err)) return watts;
+    return arena_format(arena, "%s: %.0f and %.0f lx by %s", watts,
+                        sky.metrics.direct_normal_lx, sky.metrics.diffuse_horizontal_lx,
+                        light.has_lux ? "the file's columns" : "Perez 1990");
 }
 
 /* ---- gaps -------------------------------------------------------------------------------- */
@@ -90,7 +99,7 @@ static Gaps find_gaps(const ReviewRequest *request, const ReviewCondition *condi
         if (!is_new_step(suns, i)) continue;
         SkyTime when = step_time(condition, sun);
         const WeatherHour *row = row_of(weather_of(request, condition), &when);
-        HourState state = state_of(row, sun->elevation_deg);
+        HourState state = state_of(row, condition->weather_lux, sun->elevation_deg);
         gaps.steps++;
         if (state < HOUR_WITHOUT_ROW) continue;
         if (!gaps.count++) gaps.state = state, gaps.row = row, gaps.sun = sun;
@@ -98,13 +107,11 @@ static Gaps find_gaps(const ReviewRequest *request, const ReviewCondition *condi
     return gaps;
 }
 
-static const char *gap_text(const Gaps *gaps, Arena *arena)
+static const char *gap_text(const Gaps *gaps, WeatherLux lux, Arena *arena)
 {
     switch (gaps->state) {
-    case HOUR_WITHOUT_VALUES: return "has no direct or no diffuse radiation";
-    case HOUR_WITHOUT_SKY:
-        return arena_format(arena, "has %g W/m2 of direct light and no diffuse",
-                            gaps->row->direct_normal_w_m2);
+    case HOUR_INCOMPLETE:
+        return weather_row_lacks(gaps->row, weather_row_state(gaps->row, lux), arena);
     case HOUR_WITHOUT_LIGHT:
         return arena_format(arena, "is dark while the sun stands %.0f degrees high",
                             gaps->sun->elevation_deg);
@@ -122,9 +129,10 @@ bool sweep_weather_check(const ReviewRequest *request, const ReviewCondition *co
     const char *zone = condition->kind == CONDITION_YEAR_SWEEP ? " UTC" : "";
     return error_at(err, ERROR_INPUT, weather_of(request, condition)->path, place,
                     "%s, where '%.60s' needs one (%d-%02d-%02d %02d:%02d%s, %d of its %d steps "
-                    "alike); wanted direct and diffuse light for each",
-                    gap_text(&gaps, &scratch), condition->name, when.year, when.month, when.day,
-                    when.hour, when.minute, zone, gaps.count, gaps.steps);
+                    "alike); required direct and diffuse daylight for each",
+                    gap_text(&gaps, condition->weather_lux, &scratch), condition->name,
+                    when.year, when.month, when.day, when.hour, when.minute, zone, gaps.count,
+                    gaps.steps);
 }
 
 /* ---- skies ------------------------------------------------------------------------------- */
@@ -176,4 +184,30 @@ const char *sweep_weather_note(const ReviewWeather *weather, Arena *arena)
     return arena_format(arena, "Weather: %s (%s); its rows are taken %+.2f h from their labels "
                         "(%s), %s.", weather->path, weather->weather.city, clock->offset_h,
                         weather_clock_source_text(clock->source), fit);
+}
+
+/* Rows with light that have no dew point. */
+static int rows_without_water(const Weather *weather)
+{
+    int count = 0;
+    for (int i = 0; i < weather->count; i++) {
+        const WeatherHour *hour = &weather->hour[i];
+        count += hour->diffuse_horizontal_w_m2 > 0 && !hour->has_dew_point;
+    }
+    return count;
+}
+
+const char *sweep_weather_lux_note(const ReviewWeather *weather, WeatherLux lux, Arena *arena)
+{
+    const char *assumed = "";
+    if (lux == WEATHER_LUX_FILE)
+        return arena_format(arena, "Lux of %s: the file's own columns; its irradiances give "
+                            "the sky's shape.", weather->path);
+    int missing = rows_without_water(&weather->weather);
+    if (missing)
+        assumed = arena_format(arena, "; %d of its rows with light have none: %g cm of water "
+                               "are assumed there", missing, WATER_USUAL_CM);
+    return arena_format(arena, "Lux of %s: its irradiances times Perez 1990's luminous "
+                        "efficacies, with water by each row's dew point%s.", weather->path,
+                        assumed);
 }

@@ -16,7 +16,8 @@
 bool sweep_weather_light(const ReviewRequest *request, const ReviewCondition *condition,
                          const SweepSun *sun, DaylightInput *out);
 
-/* The file's irradiances at that step: "512 W/m2 direct, 81 diffuse". */
+/* The file's light at that step: "512 W/m2 direct, 81 diffuse: 48832 and 10170 lx by
+ * Perez 1990". */
 const char *sweep_weather_text(const ReviewRequest *request, const ReviewCondition *condition,
                                const SweepSun *sun, Arena *arena);
 
@@ -29,3 +30,6 @@ bool sweep_weather_skies(const Setup *setup, const SweepSuns *suns, Arena *arena
 
 /* A note for readers: where the instants of the file's rows lie, and how well that fits. */
 const char *sweep_weather_note(const ReviewWeather *weather, Arena *arena);
+
+/* And by what its lux are known. */
+const char *sweep_weather_lux_note(const ReviewWeather *weather, WeatherLux lux, Arena *arena);

@@ -22,26 +22,28 @@ typedef struct SunList {
 } SunList;
 
 /* Apparent, as the standard atmosphere at the place refracts. */
-static SunAngles sun_at(double julian_day, const SkyPlace *place)
+static DistantSun sun_at(double julian_day, const SkyPlace *place)
 {
     SunPosition sun = sun_position(julian_day, sky_delta_t_s(julian_day), place);
     double      mbar, celsius;
     standard_atmosphere(place->altitude_m, &mbar, &celsius);
     double lifted = sun_refraction_deg(sun.elevation_deg, mbar, celsius);
-    return (SunAngles){sun.azimuth_deg, sun.elevation_deg + lifted};
+    return (DistantSun){{sun.azimuth_deg, sun.elevation_deg + lifted},
+                        1 / (sun.distance_au * sun.distance_au)};
 }
 
-static void place_sun(SweepSun *sun, SunAngles at)
+static void place_sun(SweepSun *sun, const DistantSun *found)
 {
-    sun->compass_deg = at.azimuth_deg;
-    sun->elevation_deg = at.elevation_deg;
-    sun->azimuth_deg = fmod(at.azimuth_deg - sun->heading_deg + 720, 360);
+    sun->compass_deg = found->at.azimuth_deg;
+    sun->elevation_deg = found->at.elevation_deg;
+    sun->azimuth_deg = fmod(found->at.azimuth_deg - sun->heading_deg + 720, 360);
+    sun->light = found->light;
 }
 
-static void add_sun(SunList *to, SunAngles at, SweepSun sun)
+static void add_sun(SunList *to, DistantSun found, SweepSun sun)
 {
-    if (at.elevation_deg < (to->with_night ? LOWEST_DEG : 0)) return;
-    place_sun(&sun, at);
+    if (found.at.elevation_deg < (to->with_night ? LOWEST_DEG : 0)) return;
+    place_sun(&sun, &found);
     to->list[to->count++] = sun;
 }
 
@@ -51,7 +53,7 @@ typedef struct YearWork {
     const ReviewCondition *condition;
     double     first; /* Julian day of its beginning */
     int        steps;
-    SunAngles *at;    /* [step] */
+    DistantSun *at;   /* [step] */
 } YearWork;
 
 static void find_places(void *user, int item, int worker)
@@ -72,7 +74,7 @@ static void year_suns(const ReviewCondition *c, int threads, SunList *to, Arena 
     start.year++;
     double minutes = (sky_julian_day(&start) - work.first) * 1440;
     work.steps = (int)floor(minutes / c->step_minutes + 0.5);
-    work.at = ARENA_NEW(&scratch, SunAngles, work.steps);
+    work.at = ARENA_NEW(&scratch, DistantSun, work.steps);
     parallel_for(threads, (work.steps + YEAR_CHUNK - 1) / YEAR_CHUNK, find_places, &work);
     for (int step = 0; step < work.steps; step++)
         for (int h = 0; h < c->heading_count; h++)
@@ -101,15 +103,19 @@ static void grid_suns(const ReviewCondition *c, SunList *to)
                                (c->has_heading ? c->heading_deg : 0),
                 .compass_deg = review_range_value(&c->azimuth_deg, a),
                 .heading_deg = c->has_heading ? c->heading_deg : 0,
-                .elevation_deg = review_range_value(&c->elevation_deg, e), .step = -1};
+                .elevation_deg = review_range_value(&c->elevation_deg, e), .step = -1,
+                .light = 1};
 }
 
 static SweepSuns suns_of(const SunList *list, Arena *arena)
 {
     SweepSuns suns = {.list = list->list, .count = list->count,
-                      .angles = ARENA_NEW(arena, SunAngles, list->count)};
-    for (int i = 0; i < list->count; i++)
-        suns.angles[i] = (SunAngles){list->list[i].azimuth_deg, list->list[i].elevation_deg};
+                      .distant = ARENA_NEW(arena, DistantSun, list->count)};
+    for (int i = 0; i < list->count; i++) {
+        const SweepSun *sun = &list->list[i];
+        suns.distant[i] =
+            (DistantSun){{sun->azimuth_deg, sun->elevation_deg}, sun->light};
+    }
     return suns;
 }
 
@@ -199,7 +205,8 @@ SweepSuns sweep_suns_later(const ReviewCondition *c, SweepSun *list, int count, 
     double  first = sky_julian_day(&start);
     for (int i = 0; i < count; i++) {
         double minutes = (list[i].step + 0.5) * c->step_minutes + list[i].later_minutes;
-        place_sun(&list[i], sun_at(first + minutes / 1440, &c->where));
+        DistantSun found = sun_at(first + minutes / 1440, &c->where);
+        place_sun(&list[i], &found);
     }
     return suns_of(&(SunList){.list = list, .count = count}, arena);
 }

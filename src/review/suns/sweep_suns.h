@@ -17,11 +17,12 @@ typedef struct SweepSun {
     int    step;         /* of time: year, route; -1 */
     int    heading_id;   /* year; 0 */
     double later_minutes; /* than the middle of its step */
+    double light;        /* over that at 1 au, by the earth's distance; sun sweep: 1 */
 } SweepSun;
 
 typedef struct SweepSuns {
     const SweepSun *list;
-    SunAngles      *angles;  /* the same places, for probes */
+    DistantSun     *distant; /* the same, for probes */
     int             count;
     bool            has_time; /* suns of one heading_id follow each other in time */
     double          step_minutes; /* year */

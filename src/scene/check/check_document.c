@@ -222,7 +222,7 @@ static const EnvironmentType ENVIRONMENT_TYPES[] = {
     {"cie", {"sky", "diffuse_horizontal_lx"}, "|sky|diffuse_horizontal_lx|"},
     {"perez",
      {"direct_normal_w_m2", "diffuse_horizontal_w_m2"},
-     "|direct_normal_w_m2|diffuse_horizontal_w_m2|when|where|"},
+     "|direct_normal_w_m2|diffuse_horizontal_w_m2|water_cm|when|where|"},
     {"sky",
      {NULL, NULL},
      "|when|where|turbidity|visibility_km|ozone_atm_cm|water_cm|albedo|ground|cloud_top_m|"

@@ -129,6 +129,7 @@ static DaylightInput read_daylight(const GltfValue *extension, EnvironmentKind k
     out.visibility_km = tree_number(extension, "visibility_km", 0);
     out.ozone_atm_cm = tree_number(extension, "ozone_atm_cm", out.ozone_atm_cm);
     out.water_cm = tree_number(extension, "water_cm", out.water_cm);
+    out.water_source = tree_member(extension, "water_cm") ? WATER_GIVEN : WATER_ASSUMED;
     out.albedo = tree_number(extension, "albedo", out.albedo);
     out.floor = floor_from_text(tree_text(extension, "ground", "land"));
     out.cloud_top_m = tree_number(extension, "cloud_top_m", out.cloud_top_m);
