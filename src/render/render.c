@@ -181,14 +181,15 @@ static void run_passes(Run *run)
     run->result.error = film_relative_error(run->result.film);
 }
 
-static bool make_film(const RenderOptions *options, Arena *arena, RenderResult *result,
-                      Error *err)
+static bool make_film(const RenderSetup *setup, const RenderOptions *options, Arena *arena,
+                      RenderResult *result, Error *err)
 {
     const Checkpoint  *resume = options->resume;
     const LightGroups *groups = options->lights;
     const FilmLights   lights = {groups ? groups->count : 0, groups ? groups->names : NULL};
     result->film = film_create(options->width, options->height, options->crop, options->layers,
                                &lights, arena);
+    if (setup->camera.fisheye) film_set_blind(result->film);
     result->has_features = (options->layers & LAYER_FEATURES) ||
                            (options->noise > 0 &&
                             options->noise_area.display != FILM_ALL_PIXELS) ||
@@ -326,7 +327,7 @@ bool render_prepared(const RenderSetup *setup, const RenderOptions *options, Are
                            .field_hash = setup->field_hash,
                            .training_seconds = setup->training_seconds,
                            .training_paths = setup->training.samples};
-    if (!make_film(options, arena, &result, err)) return false;
+    if (!make_film(setup, options, arena, &result, err)) return false;
     const double begun_s = monotonic_seconds();
     result.shares = find_shares(setup, options, arena);
     result.build_seconds += monotonic_seconds() - begun_s;

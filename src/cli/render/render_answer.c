@@ -14,6 +14,7 @@
 #include "cli/render/render_identity.h"
 #include "film/film_frame.h"
 #include "film/film_part.h"
+#include "image/frame_view.h"
 #include "render/favour.h"
 #include "render/pilot.h"
 #include "text/json_text.h"
@@ -39,7 +40,9 @@ static void set_camera(FrameImage *frame, const SceneCamera *camera, Arena *aren
     set_world_to_camera(frame, &camera->world_from_camera, arena);
     frame_set_string(frame, "parhelion:camera",
                      camera->node_name[0] ? camera->node_name : camera->camera_name, arena);
-    if (camera->is_perspective)
+    if (camera->fisheye)
+        frame_set_fisheye(frame, camera->fisheye, arena);
+    else if (camera->is_perspective)
         frame_set_number(frame, "parhelion:yfov_deg",
                          degrees_from_radians((double)camera->yfov), arena);
     else
@@ -251,7 +254,7 @@ static void print_worst(const RenderRequest *request, const RenderResult *result
 {
     FilmWorst worst;
     if (result->samples < WORST_LEAST_SAMPLES) return;
-    film_worst_pixels(result->film, 1, &worst);
+    if (!film_worst_pixels(result->film, 1, &worst)) return;
     if (!(worst.error > WORST_RATIO * result->error.frame)) return;
     printf("%s: pixel %d,%d is the noisiest: %.4g cd/m2 with a relative error of %.0f%%\n",
            request->output, worst.x, worst.y, worst.luminance, 100 * worst.error);
