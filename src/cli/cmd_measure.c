@@ -6,6 +6,7 @@
 
 #include "base/count.h"
 #include "cli/commands.h"
+#include "cli/measure_glare.h"
 #include "cli/options/answer.h"
 #include "cli/options/scene_options.h"
 #include "image/measure.h"
@@ -73,6 +74,7 @@ static bool measure_illuminance(const Cli *cli, const LuxmeterRequest *request, 
 typedef struct MeasureWords {
     MeasureRequest  request;
     LuxmeterRequest luxmeter;
+    GlareWords      glare;
     SceneWords      scene; /* of the luxmeter */
     Cli             cli;
 } MeasureWords;
@@ -112,15 +114,22 @@ static bool parse(int argc, char **argv, Arena *arena, MeasureWords *out, Error 
          .low = -1e9, .high = 1e9, .count = 6, .given = &out->luxmeter.given},
         {"--samples", OPTION_INTEGER, "N", "paths for --illuminance (default 262144)",
          .out = &out->luxmeter.samples, .low = 2, .high = 1 << 30},
+        GLARE_OPTIONS(&out->glare),
         SCENE_OPTIONS(&out->scene, &out->luxmeter.scene, &out->luxmeter.environment),
     };
     const CliCommand command = {
         "measure", "luminance, colour and contrast of a part of a frame, with 95 % intervals",
-        "FRAME.exr [--region X0,Y0,X1,Y1] [--display NAME] | SCENE... --illuminance ...",
+        "FRAME.exr|.hdr [--region X0,Y0,X1,Y1] [--display NAME] | FRAME.exr|.hdr --glare | "
+        "SCENE... --illuminance ...",
         "parhelion measure frame.exr --display cluster --json",
         options, COUNT_OF(options), 1, -1};
     if (!cli_parse(&command, argc, argv, arena, &out->cli, err)) return false;
     if (out->cli.help_shown) return true;
+    if (!glare_words_check(&out->glare, err)) return false;
+    if (out->glare.given && (out->luxmeter.given || r->has_region || r->display))
+        return error_set(err, ERROR_USAGE, "--glare is of all that an eye sees: leave out %s",
+                         out->luxmeter.given ? "--illuminance" : r->display ? "--display"
+                                                                            : "--region");
     return out->luxmeter.given ? scene_options_read(&out->scene, &out->cli, arena,
                                                     &out->luxmeter.scene, err)
                                : read_frame_request(region, out, err);
@@ -336,6 +345,8 @@ static bool measure(const MeasureWords *typed, Arena *arena, Error *err)
     if (typed->luxmeter.given)
         return measure_illuminance(&typed->cli, &typed->luxmeter, arena, err);
     if (!frame_read(typed->request.frame_name, arena, &frame, err)) return false;
+    if (typed->glare.given)
+        return measure_glare(&typed->cli, &frame, &typed->glare, arena, err);
     if (!measure_frame(&frame, &typed->request, *arena, &measured, err)) return false;
     LightShares lights = measure_lights(&frame, &typed->request, arena);
     if (typed->cli.json) return print_json(typed, &measured, &lights, err);
@@ -346,7 +357,7 @@ static bool measure(const MeasureWords *typed, Arena *arena, Error *err)
 
 static bool run_measure(int argc, char **argv, Arena *arena, Error *err)
 {
-    MeasureWords typed = {.luxmeter = {.samples = 1 << 18}};
+    MeasureWords typed = {.luxmeter = {.samples = 1 << 18}, .glare = GLARE_WORDS_DEFAULT};
     return parse(argc, argv, arena, &typed, err) &&
            (typed.cli.help_shown || measure(&typed, arena, err));
 }

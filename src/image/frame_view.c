@@ -166,10 +166,12 @@ static void add_edge(const FrameView *view, Place a, Place b, double out[2])
     if (at[1] < 1) add_unseen(away, b, out);
 }
 
+#define RIM (1 - 1e-9) /* still before the eye */
+
 static void direction_of(const FrameView *view, Place at, double out[3])
 {
     double radius = hypot_d(at.x, at.y), sine, cosine;
-    double reach = view->fisheye && radius > 1 ? 1 : radius;
+    double reach = view->fisheye && radius > RIM ? RIM : radius;
     if (view->fisheye == FISHEYE_EQUISOLID) {
         cosine = 1 - reach * reach;
         sine = reach * sqrt(2 - reach * reach);
