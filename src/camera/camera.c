@@ -106,7 +106,8 @@ Ray camera_pixel_ray(const Camera *camera, int x, int y, Vec2 at, const Sampler 
 static RayCone fisheye_cone(const Camera *camera)
 {
     float pixel = 2 * camera->half_height / (float)camera->height; /* radii */
-    return (RayCone){0, pixel * (camera->fisheye == FISHEYE_EQUISOLID ? 1.41421356f : 0.5f * PI_F)};
+    float per_radius = camera->fisheye == FISHEYE_EQUISOLID ? 1.41421356f : 0.5f * PI_F;
+    return (RayCone){0, pixel * per_radius};
 }
 
 RayCone camera_cone(const Camera *camera)

@@ -10,6 +10,7 @@
 #include "cli/options/answer.h"
 #include "cli/options/scene_options.h"
 #include "image/measure.h"
+#include "image/radiance/frame_file.h"
 #include "render/illuminance.h"
 #include "scene/load/scene_load.h"
 #include "spectrum/photometry.h"
@@ -344,7 +345,7 @@ static bool measure(const MeasureWords *typed, Arena *arena, Error *err)
     FrameMeasurement measured;
     if (typed->luxmeter.given)
         return measure_illuminance(&typed->cli, &typed->luxmeter, arena, err);
-    if (!frame_read(typed->request.frame_name, arena, &frame, err)) return false;
+    if (!frame_file_read(typed->request.frame_name, arena, &frame, err)) return false;
     if (typed->glare.given)
         return measure_glare(&typed->cli, &frame, &typed->glare, arena, err);
     if (!measure_frame(&frame, &typed->request, *arena, &measured, err)) return false;

@@ -78,11 +78,11 @@ static void print_doubts(const FrameGlare *g)
         printf("%-12s %ld sources are too small for the frame: their pixels show their "
                "surroundings, too, and dim them; a larger frame tells\n", "size", small);
     if (g->doubtful)
-        printf("%-12s %ld areas are above the threshold by noise alone, as far as two halves of "
-               "the samples tell: not counted\n", "noise", g->doubtful);
+        printf("%-12s %ld areas are above the threshold by noise alone, as two halves of the "
+               "samples tell: not counted\n", "noise", g->doubtful);
     if (!g->has_halves)
-        printf("%-12s not looked for: no layer halves (--layers halves,variance): bright pixels "
-               "of few samples count as sources\n", "noise");
+        printf("%-12s not looked for, without a layer halves (--layers halves,variance): "
+               "bright pixels of few samples count as sources\n", "noise");
     if (!g->has_intervals)
         printf("%-12s missing: no layers halves or variance (--layers halves,variance)\n",
                "intervals");
@@ -110,7 +110,8 @@ static void set_figure(json_t *object, const char *key, const char *interval_key
     json_object_set_new(object, key, json_figure(figure.value));
     json_object_set_new(object, interval_key,
                         isfinite(figure.low) && isfinite(figure.value)
-                            ? json_pack("[o,o]", json_figure(figure.low), json_figure(figure.high))
+                            ? json_pack("[o,o]", json_figure(figure.low),
+                                        json_figure(figure.high))
                             : json_null());
 }
 

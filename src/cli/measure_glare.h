@@ -5,7 +5,7 @@
  */
 #pragma once
 #include "cli/options/cli.h"
-#include "image/frame_glare.h"
+#include "vision/frame/frame_glare.h"
 
 typedef struct GlareWords {
     bool         given; /* --glare */

@@ -9,7 +9,6 @@
 #include "base/file.h"
 #include "base/file_write.h"
 #include "image/colour.h"
-#include "image/radiance_picture.h"
 
 #define MAX_FILE_BYTES ((size_t)4 << 30)
 
@@ -215,8 +214,6 @@ bool frame_read_memory(const void *bytes, size_t size, const char *name, Arena *
                        FrameImage *out, Error *err)
 {
     ExrReader *reader;
-    if (radiance_picture_recognise(bytes, size))
-        return radiance_picture_read(bytes, size, name, arena, out, err);
     if (!exr_reader_create(name, bytes, size, &reader, err)) return error_in_file(err, name);
     bool ok = read_picture(reader, arena, out, err);
     exr_reader_destroy(reader);

@@ -99,7 +99,7 @@ const char *frame_display_names(const FrameImage *frame, Arena *arena);
  * `path`, flushed to the disk, then renamed: after a failure nothing is left. */
 bool frame_write(const char *path, const FrameImage *frame, Error *err);
 
-/* Any flat OpenEXR file, or a Radiance picture (radiance_picture.h); a data window that reaches out of the display window is kept so. */
+/* Any flat OpenEXR file; a data window that reaches out of the display window is kept so. */
 bool frame_read(const char *path, Arena *arena, FrameImage *out, Error *err);
 
 /* The same for a file that lies in memory; `name` is for messages. */

@@ -3,7 +3,7 @@
  *
  * A frame of this program says so by "worldToCamera" and one of "parhelion:yfov_deg" (a
  * perspective view), "parhelion:ymag_m" (an orthographic one) and "parhelion:projection" (a
- * fisheye, base/fisheye.h); one read from a Radiance picture by that picture's line VIEW=,
+ * fisheye, image/fisheye.h); one read from a Radiance picture by that picture's line VIEW=,
  * which is kept as the attribute "VIEW".
  *
  * Frame    pixels of the display window from its upper left corner, x right, y down; directions
@@ -12,7 +12,7 @@
  * Fails    where the frame does not say it, or says something that is none.
  */
 #pragma once
-#include "base/fisheye.h"
+#include "image/fisheye.h"
 #include "image/frame.h"
 
 typedef struct FrameView {
@@ -33,12 +33,15 @@ Fisheye frame_fisheye(const FrameImage *frame);
 
 bool frame_view_find(const FrameImage *frame, FrameView *out, Error *err);
 
+/* The same for frame_view_sees alone: all is seen where the frame does not say its view. */
+FrameView frame_view_circle(const FrameImage *frame);
+
 /* False of a pixel that lies outside a fisheye's circle altogether: it has no light. */
 bool frame_view_sees(const FrameView *view, int x, int y);
 
 /* A pixel of space: not of orthographic views. */
 typedef struct ViewPixel {
-    double direction[3]; /* of its middle, unit: right, up, ahead; outside a circle at its rim */
+    double direction[3]; /* of its middle, unit: right, up, ahead; outside of a circle its rim */
     double sr;           /* its solid angle before the eye, and */
     double projected_sr; /* that times the cosine to the line of sight */
 } ViewPixel;
@@ -56,6 +59,3 @@ ViewPixel frame_view_pixel(const FrameView *view, int x, int y);
 /* The options of a crop of the view, in the arena. An equisolid fisheye has no type there. */
 bool frame_view_words(const FrameView *view, ExrWindow crop, Arena *arena, const char **out,
                       Error *err);
-
-/* words: what stands behind "VIEW="; width, height: the picture's pixels. */
-bool frame_view_parse(const char *words, int width, int height, FrameView *out, Error *err);

@@ -8,6 +8,7 @@
 
 #include "base/confidence.h"
 #include "base/count.h"
+#include "image/frame_view.h"
 #include "image/layer_view.h"
 #include "image/legibility.h"
 #include "spectrum/photometry.h"
@@ -448,6 +449,7 @@ bool measure_frame(const FrameImage *frame, const MeasureRequest *request, Arena
     RegionPlanes    planes = {0};
     Sums      sums = {.least = INFINITY, .greatest = -INFINITY};
     ExrWindow r = frame->data, w = frame->display;
+    FrameView circle = frame_view_circle(frame);
     int       id = -1;
     if (!check_region(frame, request, &r, err)) return false;
     if (request->display && !find_display(frame, request->display, &scratch, &id,
@@ -458,7 +460,8 @@ bool measure_frame(const FrameImage *frame, const MeasureRequest *request, Arena
     for (int y = r.y0; y < r.y1; y++) {
         for (int x = r.x0; x < r.x1; x++) {
             size_t i = (size_t)(y - w.y0) * (size_t)planes.light.width + (size_t)(x - w.x0);
-            if (!planes.display_id || planes.display_id[i] == (float)id)
+            if ((!planes.display_id || planes.display_id[i] == (float)id) &&
+                frame_view_sees(&circle, x - w.x0, y - w.y0))
                 add_pixel(&planes, i, &sums);
         }
     }
@@ -504,11 +507,14 @@ static ChosenPixels choose_pixels(const FrameImage *frame, const MeasureRequest 
     const float *ids = request->display ? frame_channel(frame, "id.display") : NULL;
     float        id = ids ? (float)frame_id_of(frame, "display", request->display) : 0;
     size_t      *index = ARENA_NEW(arena, size_t, frame_pixel_count(frame));
+    FrameView    circle = frame_view_circle(frame);
+    ExrWindow    w = frame->display;
     ChosenPixels out = {index, 0};
     size_t       i = 0;
     for (int y = d.y0; y < d.y1; y++)
         for (int x = d.x0; x < d.x1; x++, i++)
-            if (is_inside(r, x, y) && is_inside(frame->display, x, y) &&
+            if (is_inside(r, x, y) && is_inside(w, x, y) &&
+                frame_view_sees(&circle, x - w.x0, y - w.y0) &&
                 (!ids || ids[i] == id) && isfinite(channel_luminance(rgb, i)))
                 index[out.count++] = i;
     return out;

@@ -15,6 +15,7 @@
  *          its contrast, too. A contrast falls as the reflected light rises: its interval goes
  *          from the one end of that light's to the other; the upper end of that light has what
  *          few bright samples may have left out (confidence.h).
+ * Pixels   outside a fisheye's circle are none.
  * Threads  pure functions.
  * Fails    when the frame lacks what is asked for: the text names what to render again.
  */

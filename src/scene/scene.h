@@ -14,7 +14,7 @@
 
 #include "base/arena.h"
 #include "base/error.h"
-#include "base/fisheye.h"
+#include "image/fisheye.h"
 #include "base/problems.h"
 #include "base/vec.h"
 #include "image/texture.h"

@@ -17,7 +17,7 @@
 #include "cli/render/render_request.h"
 #include "cli/render/render_resume.h"
 #include "cli/render/render_setup.h"
-#include "image/radiance_picture.h"
+#include "image/radiance/radiance_picture.h"
 #include "render/identity.h"
 #include "render/signals.h"
 #include "scene/load/scene_load.h"

@@ -236,6 +236,8 @@ static json_t *answer_document(const RenderRequest *request, const RenderResult 
         cli_json_problems(problems, SEVERITY_WARNING));
     json_object_set_new(answer, "build_peak_memory_bytes",
                         json_integer((json_int_t)result->build_peak_bytes));
+    json_object_set_new(answer, "projection",
+                        json_string(render_projection_name(&request->camera)));
     json_object_set_new(answer, "for", favour_document(request, result));
     json_object_set_new(answer, "isa", json_string(result->kernel->isa));
     json_object_set_new(answer, "training", training_document(result));
@@ -291,6 +293,13 @@ static void print_line(const RenderRequest *request, const RenderResult *result)
            result->complete ? "" : " (incomplete)",
            result->seconds, samples, rays, 100 * result->error.frame,
            machine_peak_bytes() / 1e6, result->build_peak_bytes / 1e6);
+    if (request->camera.projection)
+        printf("%s: a fisheye of 180 degrees: pixels outside its circle are black and have no "
+               "samples\n", request->output);
+    if (render_output_is_radiance(request))
+        printf("%s: W/m2/sr in Radiance's primaries: luminance is 179 (0.265 R + 0.670 G + "
+               "0.065 B); its codes are right within 0.4 %%, layers are only in .exr\n",
+               request->output);
     print_worst(request, result);
 }
 

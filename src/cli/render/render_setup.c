@@ -50,6 +50,12 @@ static Fisheye fisheye_of(const CameraChoice *choice)
     return KINDS[choice->projection];
 }
 
+const char *render_projection_name(const CameraChoice *choice)
+{
+    Fisheye kind = fisheye_of(choice);
+    return kind ? fisheye_name(kind) : "camera";
+}
+
 bool render_check_size(const CameraChoice *choice, bool given, int size[2], Error *err)
 {
     bool is_round = fisheye_of(choice) != FISHEYE_NONE;
@@ -83,8 +89,8 @@ static bool look(const CameraChoice *choice, SceneCamera *out, Error *err)
                          : choice->has_look_at ? "--look-at"
                                                : "--fov");
     if (choice->has_fov && fisheye_of(choice))
-        return error_set(err, ERROR_USAGE, "--fov: a fisheye always sees 180 degrees — leave it "
-                                           "out");
+        return error_set(err, ERROR_USAGE, "--fov: a fisheye always sees 180 degrees — leave "
+                                           "it out");
     if (!(vec3_length(vec3_sub(target, eye)) > 0))
         return error_set(err, ERROR_USAGE,
                          "--look-at: is where --eye is; another point is wanted");

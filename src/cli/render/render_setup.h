@@ -43,8 +43,11 @@ typedef struct CameraChoice {
 bool render_choose_camera(const Scene *scene, const CameraChoice *choice, Problems *problems,
                           SceneCamera *out, Error *err);
 
-/* The picture's pixels, across and down; given: as typed, else they are set. A fisheye's picture
- * is a square. */
+/* "camera": as it is; "equidistant", "equisolid". */
+const char *render_projection_name(const CameraChoice *choice);
+
+/* The picture's pixels, across and down; given: as typed, else they are set. A fisheye's is a
+ * square. */
 bool render_check_size(const CameraChoice *choice, bool given, int size[2], Error *err);
 
 /* False of one that lies outside a fisheye's circle. pixel: whole numbers. */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* fisheye.h -- the pictures of half the space that a fisheye makes: one direction for each place
+/* fisheye.h -- the pictures of half the space that a fisheye makes: a direction for each place
  * in a circle.
  *
  * Frame    right and up of the picture's middle in units of the circle's radius, so that the

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* frame_glare.h -- discomfort glare of an eye that sees a frame: its sources, and figures.
  *
- * As evalglare (J. Wienold, NREL's Radiance) does it: pixels brighter than a threshold that touch
- * each other, by an edge or a corner, are one source; those above the peaks' luminance are
+ * As evalglare (J. Wienold, NREL's Radiance) does it: pixels brighter than a threshold that
+ * touch each other, by an edge or a corner, are one source; those above the peaks' luminance are
  * sources apart. A source's position index goes pixel by pixel (vision/discomfort.h); the
  * background is what all other pixels send to the eye. The line of sight is the frame's
  * middle, up is the frame's.
@@ -59,7 +59,7 @@ typedef struct FrameGlare {
     Measured  vertical_lx, background_cd_m2, ugr, dgp, dgi;
     FrameSource *sources;    /* the one of the most L^2 w/P^2 first */
     int    source_count;
-    long   doubtful;         /* areas above the threshold that are noise, as far as one can tell */
+    long   doubtful;         /* areas above the threshold that are noise, it seems */
     bool   has_halves;       /* that was looked into */
     bool   has_intervals;
 } FrameGlare;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "image/frame_glare.h"
+#include "vision/frame/frame_glare.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -263,10 +263,10 @@ static void find_sources(Area *area, Arena *arena, FrameGlare *out)
 /* ---- figures ----------------------------------------------------------------------------- */
 
 /* What the figures are made of. */
-typedef struct Sums {
+typedef struct GlareSums {
     GlareView view;
     double    lux, squares; /* all light; the sum of L^2 w/P^2 */
-} Sums;
+} GlareSums;
 
 static double weight_of(const GlareSource *s)
 {
@@ -274,10 +274,10 @@ static double weight_of(const GlareSource *s)
 }
 
 static bool sum_up(const Pixels *pixels, const GlareRequest *request, const FrameGlare *found,
-                   Arena *arena, Sums *out, Error *err)
+                   Arena *arena, GlareSums *out, Error *err)
 {
     GlareSource *list = ARENA_NEW(arena, GlareSource, found->source_count + 1);
-    *out = (Sums){.view = {.sources = list, .count = found->source_count}};
+    *out = (GlareSums){.view = {.sources = list, .count = found->source_count}};
     for (int i = 0; i < found->source_count; i++) {
         const GlareSource *s = &found->sources[i].source;
         list[i] = *s;
@@ -295,7 +295,7 @@ static bool sum_up(const Pixels *pixels, const GlareRequest *request, const Fram
                      "%.6g lx", request->vertical_lx, out->view.source_lx);
 }
 
-/* How the figures grow with the sum of squares, with all light and with the background's, lx. */
+/* How a figure grows with the sum of squares, with all light and with the background's. */
 typedef struct Slopes {
     double squares, lux, background_lx;
 } Slopes;
@@ -304,7 +304,7 @@ typedef enum Figure {
     FIGURE_LUX, FIGURE_BACKGROUND, FIGURE_UGR, FIGURE_DGP, FIGURE_DGI, FIGURES
 } Figure;
 
-static Slopes dgp_slopes(const GlareSettings *settings, const Sums *sums, double dgp)
+static Slopes dgp_slopes(const GlareSettings *settings, const GlareSums *sums, double dgp)
 {
     double ratio = sums->squares / pow_d(sums->lux, 1.87);
     double factor = settings->low_light ? discomfort_dgp_low_light(sums->lux) : 1;
@@ -320,7 +320,7 @@ typedef struct DgiSlopes {
     double  background_lx;
 } DgiSlopes;
 
-static DgiSlopes dgi_slopes(const Sums *sums, Arena *arena)
+static DgiSlopes dgi_slopes(const GlareSums *sums, Arena *arena)
 {
     DgiSlopes out = {ARENA_NEW(arena, double, sums->view.count + 1), 0};
     double    behind = sums->view.background_lx / PI, total = 0;
@@ -341,7 +341,7 @@ static DgiSlopes dgi_slopes(const Sums *sums, Arena *arena)
 
 /* ---- intervals --------------------------------------------------------------------------- */
 
-/* Sums over pixels of a figure's variance and of its square. */
+/* GlareSums over pixels of a figure's variance and of its square. */
 typedef struct FigureNoise {
     double squares[FIGURES], fourths[FIGURES];
 } FigureNoise;
@@ -352,7 +352,7 @@ typedef struct SlopeTable {
     bool      lux_is_given;
 } SlopeTable;
 
-static SlopeTable find_slopes(const GlareRequest *request, const Sums *sums, double dgp,
+static SlopeTable find_slopes(const GlareRequest *request, const GlareSums *sums, double dgp,
                               Arena *arena)
 {
     double     to_log = 8 / log_d(10);
@@ -436,7 +436,8 @@ static void find_widths(const Pixels *pixels, const FrameGlare *found, const Slo
 
 static int compare_sources(const void *a, const void *b)
 {
-    const GlareSource *x = &((const FrameSource *)a)->source, *y = &((const FrameSource *)b)->source;
+    const GlareSource *x = &((const FrameSource *)a)->source;
+    const GlareSource *y = &((const FrameSource *)b)->source;
     double first = x->luminance_cd_m2 * x->luminance_cd_m2 * weight_of(x);
     double second = y->luminance_cd_m2 * y->luminance_cd_m2 * weight_of(y);
     return (first < second) - (first > second);
@@ -456,8 +457,8 @@ static Measured figure_of(double value, double width, bool is_given)
     return measured_about(value, is_given ? (double)NAN : width);
 }
 
-static void set_figures(const GlareFigures *f, const Sums *sums, const double widths[FIGURES],
-                        const GlareRequest *request, FrameGlare *out)
+static void set_figures(const GlareFigures *f, const GlareSums *sums,
+                        const double widths[FIGURES], const GlareRequest *request, FrameGlare *out)
 {
     out->none = f->none;
     out->has_intervals = !isnan(widths[FIGURE_BACKGROUND]);
@@ -474,7 +475,7 @@ bool frame_glare_measure(const FrameImage *frame, const GlareRequest *request, A
     const GlareSettings *settings = &request->settings;
     FrameGlare found = {.task_cd_m2 = (double)NAN};
     Pixels     pixels = {.width = 0};
-    Sums       sums;
+    GlareSums       sums;
     double     widths[FIGURES];
     if (!find_pixels(frame, arena, &pixels, err)) return false;
     find_solid_angles(&pixels, &found);

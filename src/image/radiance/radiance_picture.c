@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "image/radiance_picture.h"
+#include "image/radiance/radiance_picture.h"
 
 #include <math.h>
 #include <string.h>
@@ -61,7 +61,8 @@ static char *header_of(const FrameImage *frame, const char *command, Arena *aren
 static void pack_all(const FrameImage *frame, const float *const rgb[3], uint8_t *out)
 {
     ColourMatrix rec709 = rec709_from_primaries(RADIANCE_CHROMATICITIES);
-    ColourMatrix own = colour_inverse(&rec709), xyz = xyz_from_primaries(RADIANCE_CHROMATICITIES);
+    ColourMatrix xyz = xyz_from_primaries(RADIANCE_CHROMATICITIES);
+    ColourMatrix own = colour_inverse(&rec709);
     size_t       count = frame_pixel_count(frame);
     for (size_t i = 0; i < count; i++, out += 4) {
         double c[3];
@@ -122,10 +123,10 @@ bool radiance_picture_read(const void *bytes, size_t size, const char *name, Are
     if (!light_picture_read_middles(bytes, size, name, &scratch, &picture, err)) return false;
     const float *rgba = picture.image.pixels;
     size_t       count = (size_t)picture.image.width * (size_t)picture.image.height;
+    int          width = picture.image.width, height = picture.image.height;
     /* the decoded picture stays where it is: the frame's planes follow it */
-    FrameImage frame = frame_create(picture.image.width, picture.image.height,
-                                    (ExrWindow){0, 0, picture.image.width, picture.image.height},
-                                    3, 1, &scratch);
+    FrameImage frame = frame_create(width, height, (ExrWindow){0, 0, width, height}, 3, 1,
+                                    &scratch);
     for (int c = 0; c < 3; c++) {
         const char name_of[2] = {"RGB"[c], 0};
         float     *plane = frame_add_channel(&frame, name_of, false, &scratch);
