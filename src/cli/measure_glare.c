@@ -80,8 +80,8 @@ static void print_doubts(const FrameGlare *g)
     if (g->doubtful)
         printf("%-12s %ld areas are above the threshold by noise alone, as two halves of the "
                "samples tell: not counted\n", "noise", g->doubtful);
-    if (!g->has_halves)
-        printf("%-12s not looked for, without a layer halves (--layers halves,variance): "
+    if (!g->has_noise)
+        printf("%-12s not looked for, without layers of it (--layers halves,variance): "
                "bright pixels of few samples count as sources\n", "noise");
     if (!g->has_intervals)
         printf("%-12s missing: no layers halves or variance (--layers halves,variance)\n",
@@ -161,7 +161,7 @@ static bool print_json(const char *name, const FrameGlare *g, const GlareWords *
     json_object_set_new(out, "sources", sources);
     json_object_set_new(out, "sources_without_core", json_integer(count_small(g)));
     json_object_set_new(out, "areas_of_noise",
-                        g->has_halves ? json_integer(g->doubtful) : json_null());
+                        g->has_noise ? json_integer(g->doubtful) : json_null());
     return cli_print_json(out, err);
 }
 

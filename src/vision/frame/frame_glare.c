@@ -78,10 +78,10 @@ static void find_solid_angles(const Pixels *pixels, FrameGlare *out)
 }
 
 /* A layer of too few samples has none. */
-static bool has_halves(const Pixels *pixels)
+static bool is_known(const Pixels *pixels, const float *plane)
 {
-    for (size_t i = 0; pixels->halves && i < count_of(pixels); i++)
-        if (pixels->projected_sr[i] > 0 && isfinite(pixels->halves[i])) return true;
+    for (size_t i = 0; plane && i < count_of(pixels); i++)
+        if (pixels->projected_sr[i] > 0 && isfinite(plane[i])) return true;
     return false;
 }
 
@@ -165,19 +165,26 @@ static void gather(Area *area, size_t first, int32_t id)
         take_around(area, k, CLASS_SOURCE, id);
 }
 
-/* One half of the samples where the other is above the threshold, and the other way round. */
+#define ABOVE_SIGMAS 3 /* that an area's mean is above the threshold */
+
+/* One half of the samples where the other is above the threshold, and the other way round:
+ * selected by noise of its own, the mean is without bias. Few pixels may be above by both
+ * halves' chance: their noise decides. */
 static bool is_above(const Area *area)
 {
     const Pixels *p = area->pixels;
-    double        sum = 0, sr = 0;
+    double        sum = 0, sr = 0, noise = 0, all = 0;
     for (size_t k = 0; k < area->count; k++) {
         size_t i = area->list[k];
         double half = p->halves && isfinite(p->halves[i]) ? (double)p->halves[i] : 0;
         double most = (double)p->y[i] + half, least = (double)p->y[i] - half;
+        double spread = p->variance ? (double)p->variance[i] : 0;
         if (most > area->threshold) sum += least * p->sr[i], sr += p->sr[i];
         if (least > area->threshold) sum += most * p->sr[i], sr += p->sr[i];
+        if (isfinite(spread)) noise += fmax(spread, half * half) * p->sr[i] * p->sr[i];
+        all += p->sr[i];
     }
-    return sum > area->threshold * sr;
+    return sum / sr - ABOVE_SIGMAS * sqrt(noise) / all > area->threshold;
 }
 
 /* Azimuth and elevation from the line of sight. */
@@ -483,7 +490,7 @@ bool frame_glare_measure(const FrameImage *frame, const GlareRequest *request, A
     if (settings->task_factor > 0)
         found.task_cd_m2 = task_luminance(&pixels, settings->task_deg);
     found.threshold_cd_m2 = glare_threshold(settings, found.task_cd_m2);
-    found.has_halves = has_halves(&pixels);
+    found.has_noise = is_known(&pixels, pixels.halves) || is_known(&pixels, pixels.variance);
     Area area = {.pixels = &pixels, .settings = settings, .threshold = found.threshold_cd_m2,
                  .list = ARENA_NEW(arena, size_t, count_of(&pixels))};
     find_sources(&area, arena, &found);

@@ -16,12 +16,12 @@
  *          without a core has the mean weighed by luminance: its UGR and DGP are too low, and
  *          only a larger frame tells by how much.
  *
- * Noise    a pixel above the threshold may be a few bright samples. Where the frame has a layer
- *          of halves, an area counts when its pixels are brighter than the threshold by one
- *          half of the samples where the other half found them so: the mean of these is without
- *          bias, and noise alone is refuted by it. Intervals are 95 % of the render's noise, to
- *          first order, of the sources as they were found: by the layer of halves, else by
- *          variance (measure.h).
+ * Noise    a pixel above the threshold may be a few bright samples. An area counts when one half
+ *          of the samples has it above the threshold where the other half found it so (layer
+ *          halves: that mean is without bias), by three times its noise (layers variance,
+ *          halves). Without these layers all counts. Intervals are 95 % of the render's noise,
+ *          to first order, of the sources as they were found: which pixels of an edge were
+ *          above the threshold is not in them. By halves, else by variance (measure.h).
  *
  * Threads  pure functions. Memory: the arena's.
  * Fails    when the frame does not say its view, or does not see half the space and no
@@ -60,7 +60,7 @@ typedef struct FrameGlare {
     FrameSource *sources;    /* the one of the most L^2 w/P^2 first */
     int    source_count;
     long   doubtful;         /* areas above the threshold that are noise, it seems */
-    bool   has_halves;       /* that was looked into */
+    bool   has_noise;        /* that was looked into */
     bool   has_intervals;
 } FrameGlare;
 
