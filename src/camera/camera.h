@@ -4,7 +4,8 @@
  * Frame    glTF's camera: looks along -Z, +Y up; film x to the right, y down, (0,0) the upper
  *          left corner of the frame, in pixels.
  * Fisheye  sees half the space in the greatest circle about the frame's middle, and nothing
- *          outside of it (image/fisheye.h). A pixel that the circle cuts stands for its part within.
+ *          outside of it (image/fisheye.h). A pixel that the circle cuts stands for its part
+ *          within.
  */
 #pragma once
 #include "base/sampler.h"

@@ -41,7 +41,7 @@ bool frame_view_sees(const FrameView *view, int x, int y);
 
 /* A pixel of space: not of orthographic views. */
 typedef struct ViewPixel {
-    double direction[3]; /* of its middle, unit: right, up, ahead; outside of a circle its rim */
+    double direction[3]; /* of its middle, unit: right, up, ahead; out of a circle its rim */
     double sr;           /* its solid angle before the eye, and */
     double projected_sr; /* that times the cosine to the line of sight */
 } ViewPixel;

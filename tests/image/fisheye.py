@@ -264,8 +264,9 @@ def check_case(report, program, row, size):
              "--max-bounces", "0", "--no-guiding")
     program.render("case.gltf", "case.exr", *words)
     glare = program.glare("case.exr")
-    report.claim(abs(glare["ugr"] - float(ugr)) < 0.3, f"case {case}: UGR {glare['ugr']}, {ugr}")
-    report.claim(abs(glare["dgp"] - float(dgp)) < 0.005, f"case {case}: DGP {glare['dgp']}, {dgp}")
+    for key, wanted, most in (("ugr", ugr, 0.3), ("dgp", dgp, 0.005)):
+        report.claim(abs(glare[key] - float(wanted)) < most,
+                     f"case {case}: {key} {glare[key]}, {wanted}")
     report.claim(abs(glare["vertical_illuminance_lx"] / float(lux) - 1) < 0.005,
                  f"case {case}: {glare['vertical_illuminance_lx']} lx, {lux}")
     report.claim(glare["source_count"] == len(sources.split(";")),

@@ -127,7 +127,7 @@ TEST(the_cone_is_the_middle_pixels)
     }
 }
 
-/* ---- boxes of parts ----------------------------------------------------------------------- */
+/* ---- boxes of parts --------------------------------------------------------------------- */
 
 static bool box_of(const Camera *camera, const Vec3 corner[3], FilmBox *out)
 {
@@ -146,8 +146,8 @@ static void assert_tight(const Camera *camera, const Vec3 corner[3])
     assert_true(box_of(camera, corner, &box));
     for (int i = 0; i <= 300; i++)
         for (int k = 0; k <= 300 - i; k++) {
-            Vec3 at = vec3_along(vec3_along(corner[0], vec3_sub(corner[1], corner[0]), i / 300.0f),
-                                 vec3_sub(corner[2], corner[0]), k / 300.0f);
+            Vec3 along = vec3_along(corner[0], vec3_sub(corner[1], corner[0]), i / 300.0f);
+            Vec3 at = vec3_along(along, vec3_sub(corner[2], corner[0]), k / 300.0f);
             if (at.z >= 0) continue;
             Vec2  place = fisheye_place(camera->fisheye, at);
             float x = (1 + place.x) * SIZE / 2, y = (1 - place.y) * SIZE / 2;

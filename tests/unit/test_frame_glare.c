@@ -49,7 +49,8 @@ static bool is_even(int size, const Disc *discs, int count, double even, int i)
                          1 - 2.0 * (i / size) / size);
     for (int k = 1; k < 9; k++) {
         double x = i % size + k % 3 / 2.0, y = i / size + k / 3 / 2.0;
-        if (field(discs, count, even, 2 * x / size - 1, 1 - 2 * y / size) != first) return false;
+        if (field(discs, count, even, 2 * x / size - 1, 1 - 2 * y / size) != first)
+            return false;
     }
     return true;
 }
@@ -83,7 +84,7 @@ static FrameGlare glare_of(const FrameImage *frame, const GlareRequest *request,
     return out;
 }
 
-/* ---- closed forms ------------------------------------------------------------------------- */
+/* ---- closed forms ----------------------------------------------------------------------- */
 
 /* The figures of discs: solid angle 2 pi (1 - cos), light pi sin^2 times the cosine. */
 static void closed_form(const Disc *discs, int count, double even, double out[3])
@@ -150,7 +151,7 @@ MEMORY_TEST(an_even_field_above_the_threshold_has_no_background)
     assert_close(g.vertical_lx.value, 2500 * PI, 1e-6);
 }
 
-/* ---- settings ----------------------------------------------------------------------------- */
+/* ---- settings --------------------------------------------------------------------------- */
 
 MEMORY_TEST(thresholds_decide_what_is_a_source)
 {
@@ -213,7 +214,7 @@ MEMORY_TEST(a_frame_that_sees_less_needs_the_illuminance)
     assert_true(isnan(g.vertical_lx.low));
 }
 
-/* ---- noise -------------------------------------------------------------------------------- */
+/* ---- noise ------------------------------------------------------------------------------ */
 
 /* A variable of the normal distribution. */
 static double normal(uint32_t *state)
@@ -224,7 +225,7 @@ static double normal(uint32_t *state)
     return sqrt(-2 * log(u)) * cos(2 * PI * (*state + 0.5) * 0x1p-32);
 }
 
-/* Two halves of the samples, each off by `sigma` of the luminance; their mean is the frame's. */
+/* Two halves of the samples, each off by `sigma` of the luminance: their mean is shown. */
 static void add_noise(FrameImage *frame, double sigma, uint32_t seed, Arena *arena)
 {
     const float *rgb[3];

@@ -87,7 +87,7 @@ MEMORY_TEST(a_perspective_view_has_the_solid_angle_of_its_rectangle)
     }
 }
 
-/* ---- Radiance's words --------------------------------------------------------------------- */
+/* ---- Radiance's words ------------------------------------------------------------------- */
 
 static FrameView parsed(const char *words, int width, int height, Arena *arena)
 {

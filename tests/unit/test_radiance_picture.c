@@ -105,7 +105,8 @@ MEMORY_TEST(what_is_written_is_read_with_its_view)
 /* Lines of the pictures that this one was made from are indented. */
 MEMORY_TEST(the_last_view_of_the_header_counts)
 {
-    static const char HEAD[] = "#?RADIANCE\n\tVIEW= -vta -vh 90 -vv 90\nVIEW= -vtv -vh 40 -vv 40\n"
+    static const char HEAD[] = "#?RADIANCE\n\tVIEW= -vta -vh 90 -vv 90\n"
+                               "VIEW= -vtv -vh 40 -vv 40\n"
                                "VIEW= -vta -vh 180 -vv 180\n\tVIEW= -vtl\n"
                                "FORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n\x80\x80\x80\x80";
     FrameImage frame;

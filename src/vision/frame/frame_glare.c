@@ -465,7 +465,8 @@ static Measured figure_of(double value, double width, bool is_given)
 }
 
 static void set_figures(const GlareFigures *f, const GlareSums *sums,
-                        const double widths[FIGURES], const GlareRequest *request, FrameGlare *out)
+                        const double widths[FIGURES], const GlareRequest *request,
+                        FrameGlare *out)
 {
     out->none = f->none;
     out->has_intervals = !isnan(widths[FIGURE_BACKGROUND]);

@@ -2,8 +2,8 @@
 /* frame_glare.h -- discomfort glare of an eye that sees a frame: its sources, and figures.
  *
  * As evalglare (J. Wienold, NREL's Radiance) does it: pixels brighter than a threshold that
- * touch each other, by an edge or a corner, are one source; those above the peaks' luminance are
- * sources apart. A source's position index goes pixel by pixel (vision/discomfort.h); the
+ * touch each other, by an edge or a corner, are one source; those above the peaks' luminance
+ * are sources apart. A source's position index goes pixel by pixel (vision/discomfort.h); the
  * background is what all other pixels send to the eye. The line of sight is the frame's
  * middle, up is the frame's.
  * Unlike evalglare sources that do not touch are not joined (evalglare joins within 0.2 rad,
@@ -16,12 +16,13 @@
  *          without a core has the mean weighed by luminance: its UGR and DGP are too low, and
  *          only a larger frame tells by how much.
  *
- * Noise    a pixel above the threshold may be a few bright samples. An area counts when one half
- *          of the samples has it above the threshold where the other half found it so (layer
- *          halves: that mean is without bias), by three times its noise (layers variance,
- *          halves). Without these layers all counts. Intervals are 95 % of the render's noise,
- *          to first order, of the sources as they were found: which pixels of an edge were
- *          above the threshold is not in them. By halves, else by variance (measure.h).
+ * Noise    a pixel above the threshold may be a few bright samples. An area counts when one
+ *          half of the samples has it above the threshold where the other half found it so
+ *          (layer halves: that mean is without bias), by three times its noise (layers
+ *          variance, halves). Without these layers all counts. Intervals are 95 % of the
+ *          render's noise, to first order, of the sources as they were found: which pixels of
+ *          an edge were above the threshold is not in them. By halves, else by variance
+ *          (measure.h).
  *
  * Threads  pure functions. Memory: the arena's.
  * Fails    when the frame does not say its view, or does not see half the space and no
