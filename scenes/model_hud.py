@@ -3,11 +3,11 @@
 """Makes the car's head-up display: car_hud.gltf (.bin) beside itself and what it shows,
 assets/content/hud.png.
 
-    python3 scenes/model_hud.py
+    python3 scenes/model_hud.py [--figures]     (prints its figures, and makes nothing)
 
-Needs numpy, python3-cairo and the font Inter; no Blender. An overlay: its mirror and picture
-lie in the well of car_dashboard.gltf's pad, whose windscreen throws the picture at the driver.
-The optics: modelling/hud_optics.py.
+Needs numpy, and to make it python3-cairo and the font Inter; no Blender. An overlay: its mirror
+and picture lie in the well of car_dashboard.gltf's pad, whose windscreen throws the picture at
+the driver. The optics: modelling/hud_optics.py.
 """
 import os
 import sys
@@ -17,7 +17,6 @@ import numpy as np
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.join(HERE, "modelling"))
 
-from hud_content import bent, driver_view  # noqa: E402
 from hud_optics import EYE, FIELD, Optics, dot, on_image, sight, unit  # noqa: E402
 from packing import Packing  # noqa: E402
 from textures import write_png  # noqa: E402
@@ -117,7 +116,9 @@ def report(optics):
     moved = np.hypot(*np.moveaxis(np.array(moved), -1, 0))
     image, glass = optics.ghost(), optics.wedge()
     beside, _ = optics.ghost(glass)
-    print(f"angle at the windscreen {optics.incidence:.2f} degrees; s on the picture "
+    behind = np.linalg.norm(optics.virtual - optics.surface(*optics.middle))
+    print(f"angle at the windscreen {optics.incidence:.2f} degrees, the image {behind:.3f} m "
+          f"behind it; s on the picture "
           f"{optics.s_azimuth:.2f} degrees; swimming of the picture: middle "
           f"{moved[:, 1, 2].max():.2f}, median {np.median(moved):.1f}, at the corners "
           f"{moved.max():.1f} minutes; ghost without a wedge {image[0]:.2f}, {image[1]:.2f} "
@@ -127,6 +128,9 @@ def report(optics):
 def main():
     optics, packing = Optics(), Packing()
     report(optics)
+    if "--figures" in sys.argv:
+        return
+    from hud_content import bent, driver_view
     picture = bent(driver_view(FIELD), FIELD, fit_angles(optics), SIZE, PIXELS)
     write_png(os.path.join(HERE, "..", "assets", "content", "hud.png"), picture)
     path = os.path.join(HERE, "car_hud.gltf")

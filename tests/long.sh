@@ -22,7 +22,7 @@ options="$light src/denoise src/vision src/cli/ src/cli/options"
 tables="$options src/plot src/cli/panel"
 render="$options assets src/live src/cli/job src/cli/render src/review/keep"
 review="$render src/review src/plot src/cli/review src/cli/equip src/cli/explain"
-compare="$render src/compare"
+compare="$render src/measure src/compare"
 all="$build src shaders assets"
 
 program=.build/release/parhelion
@@ -65,7 +65,7 @@ laws()
     PARHELION_LAWS=all
     export PARHELION_LAWS
     units .build/release -R '^(shaders(_glass)?|brushed|hour_sky|light|night|panel_directions'\
-'|path|polarised|reading_levels|sheets|sun_beam)$'
+'|path|polarised|ray_ends|reading_levels|sheets|sun_beam)$'
 }
 
 # guides_and_meeting: the pages of the README's review are looked at
@@ -118,6 +118,7 @@ start 'films on glass' films python3 tests/image/films.py $program
 start 'a head-up display' hud python3 tests/image/hud.py $program
 start 'a luxmeter under every light' luxmeter python3 tests/image/luxmeter.py $program
 gather
+run 'any place, any turn, any order' moved-long python3 tests/image/moved.py --all $program
 run 'what is learnt moves no mean' guided-long python3 tests/image/guided.py $program
 run 'samples where noise is move no mean' unbiased-long \
     python3 tests/image/unbiased.py $program
@@ -157,6 +158,8 @@ run 'false alarms and power of compare' compare-power \
     python3 tests/bench/compare_power.py $program .build/release/bench_statistic
 of "$all scenes README.md tests/image tests/page"
 run 'every guide as written, a review met' guides-long guides_and_meeting
+of "$all scenes README.md tests"
+run 'figures of pages that tests print' figures-long python3 tests/image/figures.py --logs
 of "$all tests/unit"
 run 'unit tests that take long' unit-long units .build/release -L long
 of "$all scenes README.md CONTRIBUTING.md tests"

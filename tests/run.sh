@@ -24,7 +24,7 @@ hostile_models()
 guides_and_meeting()
 {
     python3 tests/image/guides.py --keep .build/readme --few $program README.md \
-        assets/guides/rendering.md &&
+        assets/guides/rendering.md assets/guides/validation.md assets/panels/README.md &&
         python3 tests/page/meeting.py $program .build/readme/glance
 }
 
@@ -37,6 +37,7 @@ run 'every source says its licence' spdx python3 tests/structure/spdx.py
 run 'the README names what is there' readme python3 tests/structure/readme.py
 run 'a surface model is known by its own files' models python3 tests/structure/models.py
 run 'a long step runs when what it needs changes' steps python3 tests/structure/steps.py
+run 'figures of pages stand on something' figures python3 tests/image/figures.py
 run 'pages and comments point to what is there' pointers python3 tests/structure/pointers.py
 gather
 run 'a schedule, simulated' schedule python3 tests/slurm/schedule_laws.py
@@ -57,6 +58,7 @@ start 'a hunt for wrong answers' hunt python3 tests/hunt/hunt.py --count 3 --ung
 start 'variants of a review' variants python3 tests/image/variants.py $program
 start 'the README as written, its review met' guides guides_and_meeting
 start 'the command line' cli python3 tests/hostile/cli.py $program
+start 'options given twice' options python3 tests/hostile/options.py $program
 start 'reviews that ask wrongly' review-request python3 tests/hostile/review_request.py $program
 start 'panel commands' panel-commands python3 tests/hostile/panel_commands.py $program
 start 'a second reader of panels' library-agreement \
@@ -78,6 +80,7 @@ start 'samples for an area' favour python3 tests/image/favour.py $program
 start 'panels of coarse grids' panel-coarse \
     python3 tests/bench/panel_coarse.py $program --cases few
 start 'what one pixel sees' probe python3 tests/image/probe.py $program
+start 'scenes moved and turned' moved python3 tests/image/moved.py $program
 start 'luminaires as lamps' lamps python3 tests/image/lamps.py $program
 start 'a render that is watched' live-view python3 tests/hostile/live_view.py $program
 start 'faults and their outcomes' faults python3 tests/hostile/faults.py $program
@@ -94,9 +97,13 @@ start 'sub-pixels' subpixels python3 tests/image/subpixels.py $program
 start 'its Python module' library-module python3 tests/library/module.py .build/release
 start 'variants and animations' states python3 tests/image/states.py $program
 start "glTF's faults by their codes" gltf-codes python3 tests/hostile/gltf_codes.py $program
+start 'displays by their part of a pixel' display-area \
+    python3 tests/image/display_area.py $program
 start 'legibility in frames' legibility python3 tests/image/legibility.py $program
 start 'displays the right way round' marked python3 tests/image/marked.py $program
 start 'materials without data' no-data python3 tests/hostile/no_data.py $program
 start "the panel library's ABI" library-abi python3 tests/library/abi.py .build/release
 gather
+run 'figures of pages that tests print' figures-tests \
+    python3 tests/image/figures.py --logs $program
 finish

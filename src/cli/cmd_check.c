@@ -204,7 +204,7 @@ static void print_states(const Scene *scene)
                scene->animations[i].end_s);
 }
 
-static void print_size(const Scene *scene)
+static void print_size(const Scene *scene, Arena *arena)
 {
     const Vec3 low = scene->bounds_min, high = scene->bounds_max;
     printf("triangles    %u (%u opaque) in %d parts\n", scene->triangle_count,
@@ -213,6 +213,7 @@ static void print_size(const Scene *scene)
         printf("size         %.4g x %.4g x %.4g m\n", (double)(high.x - low.x),
                (double)(high.y - low.y), (double)(high.z - low.z));
     printf("materials    %d, textures %d\n", scene->material_count, scene->texture_count);
+    material_list_print_one_sided(scene, arena);
     if (scene->ignored_occlusion_count)
         printf(
             "note         %d materials have an occlusion texture: it is ignored, since tracing "
@@ -229,9 +230,9 @@ static void print_problems(const Problems *problems)
     }
 }
 
-static void print_report(const Scene *scene, const Problems *problems)
+static void print_report(const Scene *scene, const Problems *problems, Arena *arena)
 {
-    print_size(scene);
+    print_size(scene, arena);
     print_displays(scene);
     print_lights(scene);
     print_environment(&scene->environment);
@@ -421,7 +422,7 @@ static bool run_check(int argc, char **argv, Arena *arena, Error *err)
     else if (materials)
         material_list_print(scene, arena);
     else
-        print_report(scene, &problems);
+        print_report(scene, &problems, arena);
     if (!cli.json && materials) print_problems(&problems);
     scene_close(scene);
     if (!done || !problems.error_count) return done;

@@ -162,6 +162,9 @@ static bool help(const HelpWords *words, Arena *arena, Error *err)
         command_find(command_table, command_count, NULL, cli->arguments[0], &no_command);
     const Guide   *guide = guide_named(cli->arguments[0]);
     if (command) return print_command(command, words, arena, err);
+    if (guide && cli->argument_count > 1)
+        return error_set(err, ERROR_USAGE, "help %s: %s is one page", cli->arguments[1],
+                         cli->arguments[0]);
     return guide ? print_guide(guide, words, err) : unknown_name(cli->arguments[0], err);
 }
 

@@ -1,74 +1,18 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* parhelion measure: figures of a part of a frame, or the illuminance at a point of a scene,
+/* parhelion measure: figures of a part of a frame, or the illuminance at points of a scene,
  * with their 95 % intervals. */
 #include <math.h>
 #include <stdio.h>
 
 #include "base/count.h"
 #include "cli/commands.h"
+#include "cli/luxmeter.h"
 #include "cli/measure_glare.h"
 #include "cli/options/answer.h"
-#include "cli/options/scene_options.h"
-#include "image/measure.h"
 #include "image/radiance/frame_file.h"
-#include "render/illuminance.h"
-#include "scene/load/scene_load.h"
-#include "spectrum/photometry.h"
+#include "measure/light_shares.h"
 #include "text/interval_text.h"
 #include "text/json_text.h"
-
-/* ---- a luxmeter at a point of a scene ---------------------------------------------------- */
-
-/* A luxmeter in a scene. */
-typedef struct LuxmeterRequest {
-    bool   given;
-    double place[6]; /* x, y, z in metres, then where the head faces */
-    long   samples;
-    SceneOptions      scene;
-    EnvironmentChange environment;
-} LuxmeterRequest;
-
-static bool print_illuminance(const Cli *cli, const IlluminanceOptions *options,
-                              const Illuminance *e, Error *err)
-{
-    float xyz[3], xy[2];
-    for (int k = 0; k < 3; k++) xyz[k] = (float)e->xyz_lx[k];
-    xy_from_xyz(xyz, xy);
-    if (cli->json)
-        return cli_print_json(
-            json_pack("{s:f, s:[f,f], s:[f,f], s:I}", "illuminance_lx", e->xyz_lx[1],
-                      "illuminance_interval", e->low_lx, e->high_lx, "xy", (double)xy[0],
-                      (double)xy[1], "samples", (json_int_t)options->samples),
-            err);
-    printf("illuminance  %.6g +- %.2g lx\nx, y         %.4f, %.4f\n", e->xyz_lx[1],
-           0.5 * (e->high_lx - e->low_lx), (double)xy[0], (double)xy[1]);
-    return true;
-}
-
-/* Loads the scene, changed as asked, and prints the illuminance there. */
-static bool measure_illuminance(const Cli *cli, const LuxmeterRequest *request, Arena *arena,
-                                Error *err)
-{
-    Problems     problems = problems_start(arena);
-    const double *n = request->place + 3;
-    Scene       *scene;
-    Illuminance  measured;
-    IlluminanceOptions options = {
-        .point = {vec3((float)request->place[0], (float)request->place[1],
-                       (float)request->place[2]),
-                  vec3_normalize(vec3((float)n[0], (float)n[1], (float)n[2]))},
-        .samples = request->samples, .max_bounces = 64, .threads = cli->threads};
-    if (!(vec3_dot(options.point.ns, options.point.ns) > 0.5f))
-        return error_set(err, ERROR_USAGE, "--illuminance: the normal (%g, %g, %g) has no "
-                         "direction", n[0], n[1], n[2]);
-    const SceneAsked asked = {&request->scene, &request->environment, cli->progress};
-    if (!scene_options_load(&asked, arena, &problems, &scene, err)) return false;
-    cli_print_warnings(&problems);
-    bool ok = illuminance_measure(scene, &options, arena, &measured, err) &&
-              print_illuminance(cli, &options, &measured, err);
-    scene_close(scene);
-    return ok;
-}
 
 /* ---- the command line -------------------------------------------------------------------- */
 
@@ -77,6 +21,7 @@ typedef struct MeasureWords {
     LuxmeterRequest luxmeter;
     GlareWords      glare;
     SceneWords      scene; /* of the luxmeter */
+    bool            has_samples;
     Cli             cli;
 } MeasureWords;
 
@@ -87,6 +32,12 @@ static bool read_frame_request(const double region[4], MeasureWords *out, Error 
     if (of_scene)
         return error_set(err, ERROR_USAGE, "%s changes the light of a scene, which is measured "
                          "with --illuminance; a frame has its light", of_scene);
+    const char *of_points = out->luxmeter.wants_csv ? "--csv"
+                            : out->has_samples ? "--samples"
+                            : out->luxmeter.scene.root ? "--root" : NULL;
+    if (of_points)
+        return error_set(err, ERROR_USAGE, "%s goes with --illuminance: a frame has been "
+                         "rendered", of_points);
     if (out->cli.argument_count > 1)
         return error_set(err, ERROR_USAGE, "%s: one frame at a time is measured",
                          out->cli.arguments[1]);
@@ -100,6 +51,15 @@ static bool read_frame_request(const double region[4], MeasureWords *out, Error 
     return true;
 }
 
+static bool read_luxmeter(MeasureWords *out, Arena *arena, Error *err)
+{
+    const MeasureRequest *r = &out->request;
+    if (r->has_region || r->display)
+        return error_set(err, ERROR_USAGE, "%s is of a frame, --illuminance of a scene",
+                         r->display ? "--display" : "--region");
+    return scene_options_read(&out->scene, &out->cli, arena, &out->luxmeter.scene, err);
+}
+
 static bool parse(int argc, char **argv, Arena *arena, MeasureWords *out, Error *err)
 {
     MeasureRequest *r = &out->request;
@@ -109,12 +69,15 @@ static bool parse(int argc, char **argv, Arena *arena, MeasureWords *out, Error 
          "pixels, half-open, the origin at the top left (default: all)", .out = region,
          .low = -65536, .high = 65536, .count = 4, .given = &r->has_region},
         {"--display", OPTION_TEXT, "NAME",
-         "only pixels that show this display (its material's name)", .out = &r->display},
-        {"--illuminance", OPTION_NUMBERS, "X,Y,Z,NX,NY,NZ",
-         "of a scene: lx at a point (m) on a plane that faces N", .out = out->luxmeter.place,
-         .low = -1e9, .high = 1e9, .count = 6, .given = &out->luxmeter.given},
+         "what this display sends (its material's name); pixels at its rim count by their part",
+         .out = &r->display},
+        {"--illuminance", OPTION_TEXTS, "X,Y,Z,NX,NY,NZ|FILE.csv",
+         "of a scene: lx at a point (m) on a plane that faces N; a file has such a row a line, "
+         "with blanks or commas", .out = &out->luxmeter.places},
+        {"--csv", OPTION_FLAG, NULL, "illuminances as comma-separated rows",
+         .out = &out->luxmeter.wants_csv},
         {"--samples", OPTION_INTEGER, "N", "paths for --illuminance (default 262144)",
-         .out = &out->luxmeter.samples, .low = 2, .high = 1 << 30},
+         .out = &out->luxmeter.samples, .low = 2, .high = 1 << 30, .given = &out->has_samples},
         GLARE_OPTIONS(&out->glare),
         SCENE_OPTIONS(&out->scene, &out->luxmeter.scene, &out->luxmeter.environment),
     };
@@ -127,13 +90,12 @@ static bool parse(int argc, char **argv, Arena *arena, MeasureWords *out, Error 
     if (!cli_parse(&command, argc, argv, arena, &out->cli, err)) return false;
     if (out->cli.help_shown) return true;
     if (!glare_words_check(&out->glare, err)) return false;
-    if (out->glare.given && (out->luxmeter.given || r->has_region || r->display))
+    if (out->glare.given && (out->luxmeter.places.count || r->has_region || r->display))
         return error_set(err, ERROR_USAGE, "--glare is of all that an eye sees: leave out %s",
-                         out->luxmeter.given ? "--illuminance" : r->display ? "--display"
-                                                                            : "--region");
-    return out->luxmeter.given ? scene_options_read(&out->scene, &out->cli, arena,
-                                                    &out->luxmeter.scene, err)
-                               : read_frame_request(region, out, err);
+                         out->luxmeter.places.count ? "--illuminance"
+                         : r->display ? "--display" : "--region");
+    return out->luxmeter.places.count ? read_luxmeter(out, arena, err)
+                                      : read_frame_request(region, out, err);
 }
 
 /* ---- as text ----------------------------------------------------------------------------- */
@@ -199,9 +161,33 @@ static void print_display(const FrameMeasurement *m)
     print_figure("  colour", m->colour_error, " in u'v'");
 }
 
-static void print_text(const FrameMeasurement *m)
+/* How a display's rim counts. */
+static void print_rim(const FrameMeasurement *m)
+{
+    switch (m->rim) {
+    case RIM_BY_COVERAGE:
+        printf("%-12s %ld of them, by their part: %.6g pixels in all\n", "  at the rim",
+               m->rim_pixels, m->area);
+        break;
+    case RIM_LEFT_OUT:
+        printf("%-12s %ld more are left out: their part is not known (--layers display)\n",
+               "  at the rim", m->rim_pixels);
+        break;
+    case RIM_WHOLE:
+        printf("%-12s whole, with what is around: their part is not known (--layers "
+               "display)\n", "  at the rim");
+    }
+    if (m->shared_pixels)
+        printf("%-12s %ld show two displays: they have no part in the contrast\n", "",
+               m->shared_pixels);
+    if (m->unknown_pixels)
+        printf("%-12s %ld show more displays, and are left out\n", "", m->unknown_pixels);
+}
+
+static void print_text(const FrameMeasurement *m, bool is_display)
 {
     printf("%-12s %ld\n", "pixels", m->pixels);
+    if (is_display) print_rim(m);
     if (m->nonfinite) printf("%-12s %ld\n", "left out", m->nonfinite);
     print_figure("luminance", m->luminance, " cd/m2");
     printf("%-12s %.6g to %.6g cd/m2\n", "  of pixels", m->least, m->greatest);
@@ -221,8 +207,12 @@ static void print_text(const FrameMeasurement *m)
         printf("%-12s missing: no layer variance (--layers variance)\n", "intervals");
 }
 
-static void print_lights(const LightShares *lights)
+static void print_lights(const LightShares *lights, bool is_display)
 {
+    if (lights->count && is_display && !lights->pixels) {
+        printf("%-12s missing: no pixel shows the display alone\n", "by light");
+        return;
+    }
     for (int i = 0; i < lights->count; i++)
         printf("%-12s %.6g cd/m2 (%.1f %%) of %s\n", i ? "" : "by light",
                lights->list[i].cd_m2, 100 * lights->list[i].share, lights->list[i].name);
@@ -240,6 +230,18 @@ static json_t *interval(Measured figure)
 static void set_pair(json_t *answer, const char *key, json_t *first, json_t *second)
 {
     json_object_set_new(answer, key, json_pack("[o,o]", first, second));
+}
+
+static void set_display(json_t *answer, const char *display, const FrameMeasurement *m)
+{
+    static const char *const RIMS[] = {[RIM_BY_COVERAGE] = "by coverage",
+                                       [RIM_LEFT_OUT] = "left out", [RIM_WHOLE] = "whole"};
+    json_object_set_new(answer, "display", json_text(display));
+    json_object_set_new(answer, "rim", json_string(RIMS[m->rim]));
+    json_object_set_new(answer, "area_pixels", json_figure(m->area));
+    json_object_set_new(answer, "rim_pixels", json_integer(m->rim_pixels));
+    json_object_set_new(answer, "shared_pixels", json_integer(m->shared_pixels));
+    json_object_set_new(answer, "unknown_pixels", json_integer(m->unknown_pixels));
 }
 
 static json_t *missing(const FrameMeasurement *m)
@@ -328,9 +330,12 @@ static bool print_json(const MeasureWords *typed, const FrameMeasurement *m,
     set_pair(answer, "uv_interval", interval(m->u), interval(m->v));
     json_object_set_new(answer, "contrast", json_contrast(m));
     if (m->has_content) json_object_set_new(answer, "content", json_content(&m->content));
-    if (lights->count) json_object_set_new(answer, "lights", json_lights(lights));
+    if (lights->count && lights->pixels) {
+        json_object_set_new(answer, "lights", json_lights(lights));
+        json_object_set_new(answer, "lights_pixels", json_integer(lights->pixels));
+    }
     json_object_set_new(answer, "missing_layers", missing(m));
-    if (r->display) json_object_set_new(answer, "display", json_text(r->display));
+    if (r->display) set_display(answer, r->display, m);
     if (r->has_region)
         json_object_set_new(answer, "region", json_pack("[i,i,i,i]", r->region.x0, r->region.y0,
                                                         r->region.x1, r->region.y1));
@@ -343,16 +348,17 @@ static bool measure(const MeasureWords *typed, Arena *arena, Error *err)
 {
     FrameImage  frame;
     FrameMeasurement measured;
-    if (typed->luxmeter.given)
-        return measure_illuminance(&typed->cli, &typed->luxmeter, arena, err);
+    if (typed->luxmeter.places.count)
+        return luxmeter_run(&typed->cli, &typed->luxmeter, arena, err);
     if (!frame_file_read(typed->request.frame_name, arena, &frame, err)) return false;
     if (typed->glare.given)
         return measure_glare(&typed->cli, &frame, &typed->glare, arena, err);
     if (!measure_frame(&frame, &typed->request, *arena, &measured, err)) return false;
-    LightShares lights = measure_lights(&frame, &typed->request, arena);
+    LightShares lights = light_shares_measure(&frame, &typed->request,
+                                              measured.luminance.value, arena);
     if (typed->cli.json) return print_json(typed, &measured, &lights, err);
-    print_text(&measured);
-    print_lights(&lights);
+    print_text(&measured, typed->request.display != NULL);
+    print_lights(&lights, typed->request.display != NULL);
     return true;
 }
 

@@ -117,8 +117,8 @@ bool compare_parse(int argc, char **argv, Arena *arena, CompareRequest *out, Err
         {"--max", OPTION_TEXTS, "METRIC=VALUE",
          "different when a figure is above: flip, flip_p95, flip_max, deltae_mean, deltae_p95, "
          "deltae_max, mse, relmse, mae, max_difference, mean_shift, differing, "
-         "fraction_failed, contrast_change (changes and shares: 0.01 is 1 %); may be given "
-         "many times", .out = &words.at_most},
+         "fraction_failed, contrast_change (changes and shares: 0.01 is 1 %)",
+         .out = &words.at_most},
         {"--min", OPTION_TEXTS, "METRIC=VALUE", "or below: psnr, ssim, p_value",
          .out = &words.at_least},
         {"--metric", OPTION_TEXTS, "flip|mse|psnr|ssim|deltae|stat|contrast",
@@ -144,7 +144,7 @@ bool compare_parse(int argc, char **argv, Arena *arena, CompareRequest *out, Err
          "that frames are developed with for ssim and deltae (default: auto, of the "
          "reference)", .out = &o->exposure},
         {"--ignore", OPTION_TEXTS, "NAME",
-         "leave out a metadata key, channel or layer; repeatable", .out = &words.ignored},
+         "leave out a metadata key, channel or layer", .out = &words.ignored},
         {"--strict", OPTION_FLAG, NULL,
          "different program, seed, inputs ..., and layers of one side, are failures too",
          .out = &o->rules.strict},

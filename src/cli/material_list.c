@@ -99,6 +99,15 @@ static bool looks_like_screen(const Scene *scene, int material_id, const Materia
     return glows_with_texture(scene, material_id) && use->is_flat && has_uv(use);
 }
 
+/* ---- its back --------------------------------------------------------------------------- */
+
+/* A display has a back of its own, a black casing. */
+static bool is_one_sided(const Scene *scene, int material_id)
+{
+    const Material *m = &scene->materials[material_id];
+    return !m->double_sided && m->display_id == NO_ID && parts_of(scene, material_id) > 0;
+}
+
 /* ---- answers ---------------------------------------------------------------------------- */
 
 static void print_names(const char *what, const char *const *names, int count)
@@ -109,6 +118,19 @@ static void print_names(const char *what, const char *const *names, int count)
     if (count > MOST) printf(" and %d more", count - MOST);
 }
 
+void material_list_print_one_sided(const Scene *scene, Arena *arena)
+{
+    Arena        scratch = *arena;
+    const char **names = ARENA_NEW(&scratch, const char *, scene->material_count);
+    int          count = 0;
+    for (int i = 0; i < scene->material_count; i++)
+        if (is_one_sided(scene, i)) names[count++] = scene->materials[i].name;
+    print_names("one-sided    ", names, count);
+    if (count)
+        printf(": their backs are seen and reflect as their fronts do; glTF's viewers leave "
+               "them out\n");
+}
+
 static void print_material(const Scene *scene, int id, const MaterialUse *use)
 {
     const Material *material = &scene->materials[id];
@@ -117,6 +139,7 @@ static void print_material(const Scene *scene, int id, const MaterialUse *use)
            use->area_m2, use->is_flat ? ", flat" : "", has_uv(use) ? ", UVs" : "",
            glows_with_texture(scene, id) ? ", emissive texture" : "");
     if (material->display_id != NO_ID) printf(", is a display");
+    if (is_one_sided(scene, id)) printf(", one-sided");
     if (!use->area_m2) printf(", worn by nothing that is shown");
     print_names("; node ", use->nodes, use->node_count);
     print_names("; mesh ", use->meshes, use->mesh_count);
@@ -142,14 +165,15 @@ json_t *material_list_json(const Scene *scene, Arena *arena)
         const MaterialUse use = use_of(scene, i, &scratch);
         json_array_append_new(
             list,
-            json_pack("{s:o, s:o, s:o, s:f, s:b, s:b, s:b, s:b, s:b}", "name",
+            json_pack("{s:o, s:o, s:o, s:f, s:b, s:b, s:b, s:b, s:b, s:b}", "name",
                       json_text(scene->materials[i].name), "meshes",
                       json_texts(use.meshes, use.mesh_count), "nodes",
                       json_texts(use.nodes, use.node_count), "area_m2", use.area_m2,
                       "looks_like_screen", looks_like_screen(scene, i, &use),
                       "has_emissive_texture", glows_with_texture(scene, i), "is_flat",
                       use.is_flat, "has_uv", has_uv(&use), "is_display",
-                      scene->materials[i].display_id != NO_ID));
+                      scene->materials[i].display_id != NO_ID, "is_one_sided",
+                      is_one_sided(scene, i)));
     }
     return list;
 }

@@ -35,7 +35,9 @@ static bool is_surface_layer(const char *name)
 
 static bool is_noise_layer(const char *name)
 {
-    static const char *const LAYERS[] = {"variance", "halves", "display.halves"};
+    static const char *const LAYERS[] = {"variance", "halves", "display.halves",
+                                         "display.variance",
+                                         "display.second.variance"};
     return is_one_of(name, LAYERS, sizeof LAYERS / sizeof *LAYERS);
 }
 

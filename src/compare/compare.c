@@ -396,7 +396,8 @@ static bool measure(const CompareOptions *options, Arena *arena, Comparison *out
 static bool compare_pixels(const CompareOptions *options, Arena *arena, Comparison *out,
                            Error *err)
 {
-    if (!selection_make(&out->reference, &options->selection, arena, &out->selection, err))
+    const CompareInput *const sides[2] = {&out->reference, &out->test};
+    if (!selection_make(sides, &options->selection, arena, &out->selection, err))
         return false;
     out->channels = input_is_packed(&out->reference)
                         ? picture_bands_channels(options, out, arena)
@@ -427,6 +428,18 @@ static bool has_room(const CompareInput *frame, Error *err)
                     FRAME_PIXEL_BYTES, wanted / 1e9, memory / 1e9);
 }
 
+/* A display is compared by itself, as in front of black. */
+static void take_display(const CompareOptions *options, Arena *arena, Comparison *out)
+{
+    CompareInput *const sides[2] = {&out->reference, &out->test};
+    const char *display = options->selection.display;
+    Error why;
+    if (!display || !out->structure.same_pixels || out->reference.kind != INPUT_FRAME ||
+        selection_take_display(sides, display, arena, &why))
+        return;
+    lines_add(&out->notes, "%s: %s", why.file, why.text);
+}
+
 bool compare_inputs(const CompareInput *reference, const CompareInput *test,
                     const CompareOptions *options, Arena *arena, Comparison *out, Error *err)
 {
@@ -436,6 +449,7 @@ bool compare_inputs(const CompareInput *reference, const CompareInput *test,
     start(reference, test, arena, &made);
     made.structure = structure_compare(reference, test, &options->rules, arena, &made.reasons,
                                        &made.notes);
+    take_display(options, arena, &made);
     if (!metrics_develop(options, arena, &made, err)) return false;
     if (made.structure.same_pixels && !compare_pixels(options, arena, &made, err)) return false;
     made.same = made.reasons.count == 0;

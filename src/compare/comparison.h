@@ -11,7 +11,7 @@
 #include "compare/metrics/pixel_errors.h"
 #include "compare/statistic/statistic.h"
 #include "compare/thresholds.h"
-#include "image/measure.h"
+#include "measure/measure.h"
 #include "image/picture.h"
 
 typedef struct CompareOptions {

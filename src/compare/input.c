@@ -24,7 +24,7 @@ bool input_has_known_ending(const char *path)
 
 /* ---- light ------------------------------------------------------------------------------- */
 
-static bool view_light(CompareInput *input, Arena *arena, Error *err)
+bool input_view_light(CompareInput *input, Arena *arena, Error *err)
 {
     LayerView view;
     if (!layer_view_find(&input->frame, NULL, arena, &view, err))
@@ -40,7 +40,7 @@ static bool read_frame(FileBytes bytes, Arena *arena, CompareInput *input, Error
     input->has_metadata = true;
     return frame_read_memory(bytes.data, bytes.size, input->name, arena, &input->frame,
                              err) &&
-           view_light(input, arena, err);
+           input_view_light(input, arena, err);
 }
 
 /* Floats without metadata become a frame of R, G, B, and A where it is not 1 everywhere. */
@@ -58,7 +58,7 @@ static bool frame_from_floats(const Image *image, Arena *arena, CompareInput *in
         float     *plane = frame_add_channel(&input->frame, name, false, arena);
         for (size_t i = 0; i < count; i++) plane[i] = rgba[4 * i + c];
     }
-    return view_light(input, arena, err);
+    return input_view_light(input, arena, err);
 }
 
 /* ---- pictures ---------------------------------------------------------------------------- */

@@ -36,6 +36,9 @@ typedef struct CompareInput {
 bool input_read(const char *path, long whole_pixels, Arena *arena, CompareInput *out,
                 Error *err);
 
+/* Takes a frame's light from its channels again. */
+bool input_view_light(CompareInput *input, Arena *arena, Error *err);
+
 static inline bool input_is_packed(const CompareInput *input)
 {
     return input->kind == INPUT_PICTURE && !input->codes.rgb[0];

@@ -66,7 +66,7 @@ static Planes planes_of(const Picture *picture, Arena *arena)
     return planes;
 }
 
-/* Both with the reference's exposure. */
+/* Both with the reference's exposure and view. */
 bool metrics_develop(const CompareOptions *options, Arena *arena, Comparison *out, Error *err)
 {
     if (out->reference.kind != INPUT_FRAME) return true;
@@ -84,6 +84,7 @@ bool metrics_develop(const CompareOptions *options, Arena *arena, Comparison *ou
             out->shown_with = arena_format(arena, "%s, %s, %s", report.display, report.view,
                                            report.config);
             develop.exposure = arena_format(arena, "%.17g", report.ev);
+            develop.view = arena_format(arena, "%s", report.view);
         }
     }
     return true;

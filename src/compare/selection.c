@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "measure/display_part.h"
 #include "image/image.h"
 #include "image/layer_view.h"
 
@@ -73,31 +74,83 @@ static bool apply_mask(const CompareInput *input, const char *path, Arena scratc
     return true;
 }
 
-static bool apply_display(const CompareInput *input, const char *display, Arena scratch,
-                          unsigned char *counts, Error *err)
+/* ---- displays ---------------------------------------------------------------------------- */
+
+/* Parts of the display in a frame. */
+typedef struct DisplayParts {
+    DisplayLayers layers;
+    int           id;
+} DisplayParts;
+
+static bool find_parts(const CompareInput *input, const char *display, DisplayParts *out)
 {
-    LayerView view;
-    if (input->kind != INPUT_FRAME)
+    if (input->kind != INPUT_FRAME) return false;
+    out->id = frame_id_of(&input->frame, "display", display);
+    return out->id >= 0 && display_layers_find(&input->frame, &out->layers);
+}
+
+/* Of the values of a channel, pixels in which either side sees some of it count. */
+static void leave_out_others(const FrameImage *frame, const DisplayParts parts[2],
+                             unsigned char *counts)
+{
+    for (size_t i = 0; i < frame_pixel_count(frame); i++) {
+        long place = selection_place(frame, i);
+        if (place >= 0 && !(display_part(&parts[0].layers, i, parts[0].id).coverage > 0) &&
+            !(display_part(&parts[1].layers, i, parts[1].id).coverage > 0))
+            counts[place] = 0;
+    }
+}
+
+static bool apply_display(const CompareInput *const sides[2], const char *display,
+                          Arena scratch, unsigned char *counts, Error *err)
+{
+    const CompareInput *reference = sides[0];
+    DisplayParts parts[2];
+    LayerView    view;
+    if (reference->kind != INPUT_FRAME)
         return error_set(err, ERROR_USAGE, "--display %s: a picture does not tell its displays",
                          display);
-    int id = frame_id_of(&input->frame, "display", display);
+    int id = frame_id_of(&reference->frame, "display", display);
     if (id < 0)
-        return error_at(err, ERROR_USAGE, input->name, "",
+        return error_at(err, ERROR_USAGE, reference->name, "",
                         "has no display \"%s\"; its displays: %s", display,
-                        frame_display_names(&input->frame, &scratch));
-    if (!frame_channel(&input->frame, "id.display"))
-        return error_at(err, ERROR_INPUT, input->name, "",
+                        frame_display_names(&reference->frame, &scratch));
+    if (!frame_channel(&reference->frame, "id.display"))
+        return error_at(err, ERROR_INPUT, reference->name, "",
                         "has no layer id, which tells the pixels of a display; render it with "
                         "--layers id,display");
-    if (!layer_view_find(&input->frame, "id.display", &scratch, &view, err)) return false;
-    for (size_t i = 0; i < planes_pixel_count(&input->light); i++)
+    if (find_parts(sides[0], display, &parts[0]) && find_parts(sides[1], display, &parts[1])) {
+        leave_out_others(&reference->frame, parts, counts);
+        return true;
+    }
+    if (!layer_view_find(&reference->frame, "id.display", &scratch, &view, err)) return false;
+    for (size_t i = 0; i < planes_pixel_count(&reference->light); i++)
         if (view.planes[0][i] != (float)id) counts[i] = 0;
     return true;
 }
 
-bool selection_make(const CompareInput *reference, const SelectionRequest *request,
+bool selection_take_display(CompareInput *const sides[2], const char *display, Arena *arena,
+                            Error *err)
+{
+    DisplayParts parts[2];
+    for (int s = 0; s < 2; s++)
+        if (!find_parts(sides[s], display, &parts[s]))
+            return error_at(err, ERROR_INPUT, sides[s]->name, "",
+                            "has no layers of display %.80s: its pixels count whole, with what "
+                            "is around it at the rim (--layers display tells its part)",
+                            display);
+    for (int s = 0; s < 2; s++) {
+        sides[s]->frame = display_part_frame(&sides[s]->frame, &parts[s].layers, parts[s].id,
+                                             arena);
+        if (!input_view_light(sides[s], arena, err)) return false;
+    }
+    return true;
+}
+
+bool selection_make(const CompareInput *const sides[2], const SelectionRequest *request,
                     Arena *arena, Selection *out, Error *err)
 {
+    const CompareInput *reference = sides[0];
     Arena     kept = *arena;
     size_t    count = planes_pixel_count(&reference->light);
     Selection made = {.counts = ARENA_NEW(&kept, unsigned char, count)};
@@ -108,7 +161,7 @@ bool selection_make(const CompareInput *reference, const SelectionRequest *reque
         return false;
     if (request->mask && !apply_mask(reference, request->mask, kept, made.counts, err))
         return false;
-    if (request->display && !apply_display(reference, request->display, kept, made.counts, err))
+    if (request->display && !apply_display(sides, request->display, kept, made.counts, err))
         return false;
     for (size_t i = 0; i < count; i++) made.pixels += made.counts[i];
     if (made.pixels == 0)

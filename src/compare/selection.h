@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* selection.h -- which pixels count: a mask, a region, a display, a data window.
  *
+ * Displays count by what they send themselves (measure/display_part.h) where both frames have
+ *          the layers that tell: all pixels in which either side sees some of it. Else the
+ *          reference's pixels that show it count, whole.
  * Layout   one byte a pixel of the display window, 0: left out.
  * Memory   from the arena. Threads: pure.
  * Fails    for a mask of another size or that cannot be read, a region outside, a display that
@@ -13,7 +16,7 @@ typedef struct SelectionRequest {
     const char *mask;    /* a picture's file: black is left out; NULL: none */
     bool        has_region;
     ExrWindow   region;  /* half-open, pixels of the display window */
-    const char *display; /* only pixels that show this display of the reference; NULL: all */
+    const char *display; /* only what this display sends; NULL: all */
 } SelectionRequest;
 
 typedef struct Selection {
@@ -23,8 +26,13 @@ typedef struct Selection {
 } Selection;
 
 /* Both sides have the same size and data window. */
-bool selection_make(const CompareInput *reference, const SelectionRequest *request,
+bool selection_make(const CompareInput *const sides[2], const SelectionRequest *request,
                     Arena *arena, Selection *out, Error *err);
+
+/* Gives both frames the light of that display alone, and what states its noise; false, and
+ * nothing is changed, where they do not tell it. */
+bool selection_take_display(CompareInput *const sides[2], const char *display, Arena *arena,
+                            Error *err);
 
 /* Pixels of the display window that the data window holds, for every value of a channel: where
  * channel value i lies, or -1 outside. */

@@ -95,18 +95,24 @@ static void drop_sample(Film *film, int x, int y, uint32_t sample)
     pthread_mutex_unlock(&film->lock);
 }
 
-/* The sums the variance needs: squares of linear Rec.709, made in double precision. */
-static void add_squares(PixelSums *sums, const float xyz[3])
+/* The square of linear Rec.709 R, G or B, made in double precision. */
+static double square_of(const float xyz[3], int i)
+{
+    const float *row = rgb_from_xyz_matrix + 3 * i;
+    double       value = (double)row[0] * (double)xyz[0] + (double)row[1] * (double)xyz[1] +
+                   (double)row[2] * (double)xyz[2];
+    return value * value;
+}
+
+/* The sums the variance needs. squares: small and large ones of R, then of G and B. */
+static void add_squares(Fixed *squares, const float xyz[3])
 {
     for (int i = 0; i < 3; i++) {
-        const float *row = rgb_from_xyz_matrix + 3 * i;
-        double       value = (double)row[0] * (double)xyz[0] + (double)row[1] * (double)xyz[1] +
-                       (double)row[2] * (double)xyz[2];
-        double square = value * value;
+        double square = square_of(xyz, i);
         if (square < SQUARE_SPLIT)
-            sums->squares[i][0] += fixed_from_scaled(square * 0x1p61);
+            squares[2 * i] += fixed_from_scaled(square * 0x1p61);
         else
-            sums->squares[i][1] += fixed_from_scaled(square * 0x1p-5);
+            squares[2 * i + 1] += fixed_from_scaled(square * 0x1p-5);
     }
 }
 
@@ -118,6 +124,14 @@ static void add_layer(const Film *film, PixelSums *sums, LayerSums layer, const 
         sums->layers[first + i] += fixed_from_float(values[i]);
 }
 
+/* An id times its light is a sum, too. */
+static bool shared_in_range(const FilmSample *sample)
+{
+    const float most = VALUE_LIMIT / (1 + (float)sample->display_id);
+    return fabsf(sample->xyz[0]) <= most && fabsf(sample->xyz[1]) <= most &&
+           fabsf(sample->xyz[2]) <= most;
+}
+
 static bool display_in_range(const Film *film, const FilmSample *sample)
 {
     return (film->first[SUMS_EMITTED] < 0 || in_range(sample->emitted, 3)) &&
@@ -127,6 +141,7 @@ static bool display_in_range(const Film *film, const FilmSample *sample)
            (film->first[SUMS_FINE] < 0 || in_range(sample->fine, 3)) &&
            (film->first[SUMS_MIRROR] < 0 || in_range(sample->mirror, 3)) &&
            (film->first[SUMS_LAMBERTIAN] < 0 || in_range(sample->lambertian, 3)) &&
+           (film->first[SUMS_SHARED] < 0 || shared_in_range(sample)) &&
            (film->first[SUMS_DIRECTION] < 0 ||
             (fabsf(sample->theta) <= 4 && fabsf(sample->phi) <= 8));
 }
@@ -149,6 +164,19 @@ static void add_reflected(const Film *film, PixelSums *sums, const FilmSample *s
     if (odd >= 0 && is_odd(sample)) sums->layers[odd + 3] += fixed_from_float(1);
 }
 
+static void add_shared(PixelSums *sums, int first, const FilmSample *sample)
+{
+    Fixed id = sample->display_id, power = 1;
+    for (int i = 0; i < 3; i++) sums->layers[first + i] += power *= id;
+    for (int i = 0; i < 3; i++) {
+        double square = square_of(sample->xyz, i);
+        Fixed *squares = sums->layers + first + 6 + 2 * i;
+        sums->layers[first + 3 + i] += id * fixed_from_float(sample->xyz[i]);
+        if (square < SQUARE_SPLIT) squares[0] += id * fixed_from_scaled(square * 0x1p45);
+        else squares[1] += id * fixed_from_scaled(square * 0x1p-5);
+    }
+}
+
 static void add_display(const Film *film, PixelSums *sums, const FilmSample *sample)
 {
     if (!display_in_range(film, sample)) return;
@@ -164,6 +192,9 @@ static void add_display(const Film *film, PixelSums *sums, const FilmSample *sam
     add_layer(film, sums, SUMS_MIRROR, sample->mirror);
     add_layer(film, sums, SUMS_LAMBERTIAN, sample->lambertian);
     add_reflected(film, sums, sample);
+    if (film->first[SUMS_SQUARES] >= 0)
+        add_squares(sums->layers + film->first[SUMS_SQUARES], sample->xyz);
+    if (film->first[SUMS_SHARED] >= 0) add_shared(sums, film->first[SUMS_SHARED], sample);
     if (film->first[SUMS_DIRECTION] >= 0) {
         const float turns = 0.159154943f; /* 1 / (2 pi) */
         float sin_theta, cos_theta, sin_phi, cos_phi;
@@ -247,7 +278,7 @@ void film_add_sample(Film *film, int x, int y, const FilmSample *sample)
     assert(sums->samples < FILM_SAMPLES_MAX);
     sums->samples++;
     for (int i = 0; i < 3; i++) sums->xyz[i] += fixed_from_float(sample->xyz[i]);
-    add_squares(sums, sample->xyz);
+    add_squares(&sums->squares[0][0], sample->xyz);
     if (is_odd(sample)) {
         for (int i = 0; i < 3; i++) sums->odd_xyz[i] += fixed_from_float(sample->xyz[i]);
         sums->odd_samples++;

@@ -9,7 +9,7 @@
 #include "film/pixels.h"
 #include "spectrum/photometry.h"
 
-#define CHANNELS_MAX 64 /* besides those of lights */
+#define CHANNELS_MAX 80 /* besides those of lights */
 #define FILL_PIXELS 64  /* whose sums stay in a cache while all layers read them */
 
 /* Reads at most three numbers of a pixel. */
@@ -172,10 +172,10 @@ static void read_variance(const Film *film, const PixelSums *sums, float v[3])
     for (int i = 0; i < 3; i++) v[i] = (float)variance[i];
 }
 
-static void rgb_of_halves(bool is_known, const double halves[3], float v[3])
+static void rgb_of_known(bool is_known, const double known[3], float v[3])
 {
     float xyz[3];
-    for (int i = 0; i < 3; i++) xyz[i] = is_known ? (float)halves[i] : NAN;
+    for (int i = 0; i < 3; i++) xyz[i] = is_known ? (float)known[i] : NAN;
     rgb_from_xyz(xyz, v);
 }
 
@@ -183,7 +183,15 @@ static void read_halves(const Film *film, const PixelSums *sums, float v[3])
 {
     (void)film;
     double halves[3];
-    rgb_of_halves(pixel_halves(sums, BLOCK_LEAST, halves), halves, v);
+    rgb_of_known(pixel_halves(sums, BLOCK_LEAST, halves), halves, v);
+}
+
+uint32_t film_halves_samples(uint32_t first)
+{
+    uint32_t count = 0, odd = 0;
+    while (odd < BLOCK_LEAST || count - odd < BLOCK_LEAST)
+        odd += (first + count++) / BLOCK_SAMPLES % 2;
+    return count;
 }
 
 static void read_display_halves(const Film *film, const PixelSums *sums, float v[3])
@@ -193,7 +201,51 @@ static void read_display_halves(const Film *film, const PixelSums *sums, float v
     bool         is_known = pixel_display_halves(sums, layers + film->first[SUMS_REFLECTED],
                                                  layers + film->first[SUMS_ODD], BLOCK_LEAST,
                                                  halves);
-    rgb_of_halves(is_known, halves, v);
+    rgb_of_known(is_known, halves, v);
+}
+
+static DisplaySums display_sums(const Film *film, const PixelSums *sums)
+{
+    const int   *first = film->first;
+    const Fixed *layers = sums->layers;
+    return (DisplaySums){
+        (double)sums->display_hits, layers + first[SUMS_EMITTED],
+        layers + first[SUMS_REFLECTED],
+        layers + first[SUMS_SQUARES],
+        first[SUMS_SHARED] < 0 ? NULL : layers + first[SUMS_SHARED]};
+}
+
+static void read_display_variance(const Film *film, const PixelSums *sums, float v[3])
+{
+    DisplaySums of = display_sums(film, sums);
+    double      variance[3];
+    pixel_display_variance(&of, variance);
+    for (int i = 0; i < 3; i++) v[i] = (float)variance[i];
+}
+
+static SecondDisplay second_display(const Film *film, const PixelSums *sums)
+{
+    DisplaySums of = display_sums(film, sums);
+    return pixel_second_display(&of, sums->display_id);
+}
+
+static void read_second(const Film *film, const PixelSums *sums, float v[3])
+{
+    SecondDisplay second = second_display(film, sums);
+    rgb_of_known(second.id >= 0, second.xyz, v);
+}
+
+static void read_second_variance(const Film *film, const PixelSums *sums, float v[3])
+{
+    SecondDisplay second = second_display(film, sums);
+    for (int i = 0; i < 3; i++) v[i] = second.id >= 0 ? (float)second.variance[i] : NAN;
+}
+
+static void read_second_id(const Film *film, const PixelSums *sums, float v[3])
+{
+    SecondDisplay second = second_display(film, sums);
+    v[0] = (float)second.id;
+    v[1] = second.id >= 0 ? (float)(second.samples / (double)sums->samples) : 0;
 }
 
 static void read_samples(const Film *film, const PixelSums *sums, float v[3])
@@ -301,6 +353,9 @@ static const struct {
     {LAYER_DISPLAY_BLACK, "display.black", "RGB", NULL, SUMS_BLACK},
     {LAYER_DISPLAY_FINE, "display.fine", "RGB", NULL, SUMS_FINE},
     {LAYER_DISPLAY_HALVES, "display.halves", "RGB", read_display_halves, 0},
+    {LAYER_DISPLAY_VARIANCE, "display.variance", "RGB", read_display_variance, 0},
+    {LAYER_DISPLAY_SECOND, "display.second", "RGB", read_second, 0},
+    {LAYER_DISPLAY_SECOND, "display.second.variance", "RGB", read_second_variance, 0},
 };
 
 static void add_layers(ChannelFill *to)
@@ -318,6 +373,12 @@ static void add_angles(ChannelFill *to)
 {
     add_number(to, "display.theta", false, read_angles);
     add_channel(to, 1, "display.phi", false);
+}
+
+static void add_second(ChannelFill *to)
+{
+    add_number(to, "id.second", true, read_second_id);
+    add_channel(to, 1, "display.second.coverage", false);
 }
 
 static void add_stokes(ChannelFill *to)
@@ -350,14 +411,16 @@ static void add_wished_layers(ChannelFill *to)
 {
     const Film *film = to->film;
     add_layers(to);
-    if (film->layers & LAYER_SAMPLES) add_number(to, "samples.N", true, read_samples);
+    if (film->layers & (LAYER_SAMPLES | LAYER_DISPLAY_VARIANCE))
+        add_number(to, "samples.N", true, read_samples);
     if (film->layers & LAYER_ID) add_number(to, "id.part", true, read_part_id);
     if (film->layers & (LAYER_ID | LAYER_DISPLAYS))
         add_number(to, "id.display", true, read_display_id);
     if (film->layers & LAYER_DISPLAY_ANGLES) add_angles(to);
     if (film->layers & LAYER_DISPLAY_CONTRAST)
         add_number(to, "display.contrast", false, read_contrast);
-    if (film->layers & LAYER_DISPLAY_FINE)
+    if (film->layers & LAYER_DISPLAY_SECOND) add_second(to);
+    if (film->layers & (LAYER_DISPLAY_FINE | LAYER_DISPLAY_VARIANCE))
         add_number(to, "display.coverage", false, read_coverage);
     if (film->layers & LAYER_STOKES) add_stokes(to);
     for (int i = 0; i < film->lights.count; i++) add_light(to, i);

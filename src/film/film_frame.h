@@ -20,6 +20,13 @@
  *       to the whole pixel, and display.coverage the share of its samples that saw one: emitted
  *       times coverage is the same as fine, but from these samples alone. Coverage is 0 where
  *       fine is NaN;
+ *       display.variance is the variance of the mean of emitted + reflected over these samples,
+ *       as if they were independent; NaN below two of them; samples.N comes with it.
+ *       display.second: where samples saw another display than id.display's, the mean of its
+ *       light (emitted + reflected), display.second.variance as above, the share of the
+ *       pixel's samples that saw it and its id; elsewhere NaN, NaN, 0 and -1, and NaN, NaN, 0
+ *       and -2 where there are several others. All other layers of such a pixel are of its
+ *       displays together;
  *   stokes.S0 .. S3   mean over all samples of the luminance and of its other Stokes
  *       parameters, in the camera's axes (path/polarised.h): S1 > 0 horizontal; stokes.degree
  *       is the polarised share of these means, NaN where it is dark;
@@ -33,6 +40,9 @@
  *       7 to 29 %). NaN below 24 samples: the smaller half has 8 of them there;
  *   display.halves   the same of display.reflected, over the samples that saw a display. */
 FrameImage film_to_frame(const Film *film, int attribute_room, Arena *arena);
+
+/* The fewest samples from index `first` on of which `halves` is known. */
+uint32_t film_halves_samples(uint32_t first);
 
 /* An upper bound of the bytes that a film's frame takes. */
 size_t film_frame_bytes_most(const Film *film);

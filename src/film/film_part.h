@@ -16,6 +16,10 @@
  *            depth.Z position.{X,Y,Z} normal.{X,Y,Z} albedo.{R,G,B} uv.{U,V}
  *            emitted reflected white black .{X,Y,Z}, direction.{X,Y,Z}    displays
  *            fine mirror lambertian .{X,Y,Z}    displays
+ *            display_squares.{R,r,G,g,B,b}   of displays' light, below and above the split
+ *            shared.{1,2,3,X,Y,Z,R,r,G,g,B,b}  powers of displays' ids, in ones; id times XYZ
+ *                                            and squares, of which those below the split in
+ *                                            steps of 2^-45
  *            stokes.{1,2,3}                  of the samples
  *            light.N.{X,Y,Z}                 group N of lights
  *          and words that are one channel each: samples, hits, displayHits, odd.samples, the

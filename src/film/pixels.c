@@ -5,6 +5,8 @@
 
 #include "spectrum/spectral_table.h"
 
+#define LIGHT_USERS (LAYER_DISPLAY_VARIANCE | LAYER_DISPLAY_SECOND) /* of a display's light */
+
 static const struct {
     unsigned users;
     int      size;
@@ -14,9 +16,10 @@ static const struct {
     [SUMS_NORMAL] = {LAYER_NORMAL, 3},
     [SUMS_ALBEDO] = {LAYER_ALBEDO, 3},
     [SUMS_UV] = {LAYER_UV, 2},
-    [SUMS_EMITTED] = {LAYER_DISPLAY_EMITTED, 3},
+    [SUMS_EMITTED] = {LAYER_DISPLAY_EMITTED | LIGHT_USERS, 3},
     [SUMS_REFLECTED] = {LAYER_DISPLAY_REFLECTED | LAYER_DISPLAY_CONTRAST |
-                        LAYER_DISPLAY_SCATTERED | LAYER_DISPLAY_HAZE | LAYER_DISPLAY_HALVES, 3},
+                        LAYER_DISPLAY_SCATTERED | LAYER_DISPLAY_HAZE | LAYER_DISPLAY_HALVES |
+                        LIGHT_USERS, 3},
     [SUMS_WHITE] = {LAYER_DISPLAY_WHITE | LAYER_DISPLAY_CONTRAST, 3},
     [SUMS_BLACK] = {LAYER_DISPLAY_BLACK | LAYER_DISPLAY_CONTRAST, 3},
     [SUMS_DIRECTION] = {LAYER_DISPLAY_ANGLES, 3},
@@ -24,6 +27,8 @@ static const struct {
     [SUMS_MIRROR] = {LAYER_DISPLAY_MIRROR | LAYER_DISPLAY_SCATTERED | LAYER_DISPLAY_HAZE, 3},
     [SUMS_LAMBERTIAN] = {LAYER_NEEDS_LAMBERTIAN, 3},
     [SUMS_ODD] = {LAYER_DISPLAY_HALVES, 4},
+    [SUMS_SQUARES] = {LIGHT_USERS, 6},
+    [SUMS_SHARED] = {LAYER_DISPLAY_SECOND, 12},
     [SUMS_STOKES] = {LAYER_STOKES, 3},
 };
 
@@ -37,20 +42,77 @@ int layer_sums_size(LayerSums sums)
     return layer_sums[sums].size;
 }
 
-/* (sum of squares - (sum)^2 / n) / (n - 1) / n for each of R, G, B. */
-void pixel_variance(const PixelSums *sums, double variance[3])
+/* (sum of squares - (sum)^2 / n) / (n - 1) / n for each of R, G, B, of sums of XYZ and of
+ * squares of RGB. */
+static void variance_of(const double xyz[3], const double squares[3], double n,
+                        double variance[3])
 {
-    double n = (double)sums->samples, xyz[3];
-    for (int i = 0; i < 3; i++) xyz[i] = double_from_fixed(sums->xyz[i], FIXED_BITS);
     for (int i = 0; i < 3; i++) {
         const float *row = rgb_from_xyz_matrix + 3 * i;
         double       sum = (double)row[0] * xyz[0] + (double)row[1] * xyz[1] +
                      (double)row[2] * xyz[2];
-        double squares = double_from_fixed(sums->squares[i][0], SQUARE_LOW_BITS) +
-                         double_from_fixed(sums->squares[i][1], SQUARE_HIGH_BITS);
-        double spread = squares - sum * sum / n;
+        double spread = squares[i] - sum * sum / n;
         variance[i] = n < 2 ? (double)NAN : spread > 0 ? spread / (n - 1) / n : 0;
     }
+}
+
+/* from: small and large ones of R, then of G and B. */
+static void squares_of(const Fixed *from, int low_bits, double squares[3])
+{
+    for (int i = 0; i < 3; i++)
+        squares[i] = double_from_fixed(from[2 * i], low_bits) +
+                     double_from_fixed(from[2 * i + 1], SQUARE_HIGH_BITS);
+}
+
+void pixel_variance(const PixelSums *sums, double variance[3])
+{
+    double xyz[3], squares[3];
+    for (int i = 0; i < 3; i++) xyz[i] = double_from_fixed(sums->xyz[i], FIXED_BITS);
+    squares_of(&sums->squares[0][0], SQUARE_LOW_BITS, squares);
+    variance_of(xyz, squares, (double)sums->samples, variance);
+}
+
+/* ---- displays ---------------------------------------------------------------------------- */
+
+static Fixed light_of(const DisplaySums *sums, int i)
+{
+    return sums->emitted[i] + sums->reflected[i];
+}
+
+void pixel_display_variance(const DisplaySums *sums, double variance[3])
+{
+    double xyz[3], squares[3];
+    for (int i = 0; i < 3; i++) xyz[i] = double_from_fixed(light_of(sums, i), FIXED_BITS);
+    squares_of(sums->squares, SQUARE_LOW_BITS, squares);
+    variance_of(xyz, squares, sums->hits, variance);
+}
+
+#define SAME_DISPLAY 1e-12 /* of Q^2: less than other displays make with 10^12 samples */
+
+SecondDisplay pixel_second_display(const DisplaySums *sums, int first)
+{
+    SecondDisplay none = {.id = NO_SECOND}, several = {.id = SEVERAL};
+    double hits = sums->hits, d = first, powers[3];
+    for (int i = 0; i < 3; i++) powers[i] = (double)sums->shared[i];
+    double p = powers[0] - d * hits;
+    double q = powers[1] - 2 * d * powers[0] + d * d * hits;
+    double t = powers[2] - 3 * d * powers[1] + 3 * d * d * powers[0] - d * d * d * hits;
+    if (!(q > 0)) return none;
+    double apart = q / p;
+    if (!(fabs(p * t - q * q) <= SAME_DISPLAY * q * q) || !(fabs(d + apart) < 0x1p31))
+        return several;
+    SecondDisplay second = {.id = (int)round(d + apart), .samples = round(p * p / q)};
+    double squares[3], of_ids[3], sum[3];
+    squares_of(sums->squares, SQUARE_LOW_BITS, squares);
+    squares_of(sums->shared + 6, SHARED_LOW_BITS, of_ids);
+    for (int i = 0; i < 3; i++) {
+        Fixed of_id = sums->shared[3 + i] - (Fixed)first * light_of(sums, i);
+        sum[i] = double_from_fixed(of_id, FIXED_BITS) / apart;
+        squares[i] = (of_ids[i] - d * squares[i]) / apart;
+        second.xyz[i] = sum[i] / second.samples;
+    }
+    variance_of(sum, squares, second.samples, second.variance);
+    return second;
 }
 
 /* odd: samples of sum_odd, of n. */

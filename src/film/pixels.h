@@ -17,6 +17,7 @@ __extension__ typedef __int128 Fixed;
 #define SQUARE_LOW_BITS 61     /* a step is 2^-61: squares below SQUARE_SPLIT */
 #define SQUARE_HIGH_BITS (-5)  /* a step is 2^5: the others */
 #define SQUARE_SPLIT 0x1p34
+#define SHARED_LOW_BITS 45     /* so that ids of 16 bits stay in range */
 #define VALUE_LIMIT 0x1p47f
 #define NO_SAMPLE 0xffffffffu
 #define BLOCK_SAMPLES 16 /* consecutive samples that are well spread among themselves */
@@ -28,6 +29,10 @@ typedef enum LayerSums {
     SUMS_EMITTED, SUMS_REFLECTED, SUMS_WHITE, SUMS_BLACK, SUMS_DIRECTION, /* display */
     SUMS_FINE, SUMS_MIRROR, SUMS_LAMBERTIAN,
     SUMS_ODD, /* XYZ reflected in every second block, and how many samples that is of */
+    SUMS_SQUARES, /* of displays' light, as PixelSums.squares */
+    SUMS_SHARED,  /* powers 1, 2 and 3 of the displays' ids, in ones, id times XYZ, and id times
+                     the squares, small ones in steps of 2^-SHARED_LOW_BITS: what belongs to
+                     each of two displays follows from these and the sums of both */
     SUMS_STOKES, /* of all samples */
     SUMS_COUNT
 } LayerSums;
@@ -79,6 +84,33 @@ bool pixel_display_halves(const PixelSums *sums, const Fixed reflected[3], const
 
 /* Unbiased variance of the mean of linear Rec.709 R, G, B, (cd m^-2)^2; NaN below 2 samples. */
 void pixel_variance(const PixelSums *sums, double variance[3]);
+
+/* Sums over the samples that saw a display. */
+typedef struct DisplaySums {
+    double       hits;
+    const Fixed *emitted, *reflected;  /* XYZ */
+    const Fixed *squares, *shared;     /* of SUMS_SQUARES, SUMS_SHARED */
+} DisplaySums;
+
+/* The same of the light of displays alone, over the samples that saw one. */
+void pixel_display_variance(const DisplaySums *sums, double variance[3]);
+
+/* A second display of a pixel. */
+typedef struct SecondDisplay {
+    int    id;      /* NO_SECOND: there is none; SEVERAL: more, which are not told apart */
+    double samples; /* that saw it */
+    double xyz[3];  /* mean over these, cd m^-2 */
+    double variance[3]; /* of the mean's R, G, B; NaN below two samples */
+} SecondDisplay;
+
+#define NO_SECOND (-1)
+#define SEVERAL (-2)
+
+/* Besides the display `first`, one of those that the sums are of. With a sum P of (id - first)
+ * over the samples, Q of its squares and T of its cubes, one other display has the id first +
+ * Q / P and P^2 / Q samples, and P T = Q^2; of two others, of h and k samples at distances d
+ * and e, P T - Q^2 = h k d e (d - e)^2 is not 0. */
+SecondDisplay pixel_second_display(const DisplaySums *sums, int first);
 
 /* FilmPixel.sigma_y. */
 double pixel_sigma_y(const PixelSums *sums);

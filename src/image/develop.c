@@ -57,12 +57,25 @@ static const char *chosen_config(const DevelopOptions *options)
     return from_environment && from_environment[0] ? from_environment : NULL;
 }
 
+/* Of our own views one alone shows what is to become white as white: the others keep room for
+ * what is brighter, and show it as light grey. A user's configuration names its own views. */
+static const char *chosen_view(const DevelopOptions *options, const char *config)
+{
+    ExposureRequest exposure;
+    Error           unused;
+    bool wants_white = options->exposure &&
+                       exposure_parse(options->exposure, &exposure, &unused) &&
+                       exposure.kind == EXPOSURE_WHITE;
+    return options->view || config || !wants_white ? options->view : "untonemapped";
+}
+
 static bool apply_view(Picture *picture, const DevelopOptions *options, DevelopReport *report,
                        Error *err)
 {
     ViewTransform    *transform;
-    const ViewRequest request = {chosen_config(options), OWN_OCIO_CONFIG, options->display,
-                                 options->view};
+    const char       *config = chosen_config(options);
+    const ViewRequest request = {config, OWN_OCIO_CONFIG, options->display,
+                                 chosen_view(options, config)};
     if (!view_transform_create(&request, &transform, err)) return false;
     snprintf(report->config, sizeof report->config, "%s", view_transform_config(transform));
     snprintf(report->display, sizeof report->display, "%s", view_transform_display(transform));

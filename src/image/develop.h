@@ -18,7 +18,8 @@ typedef struct DevelopOptions {
     const char *exposure; /* NULL "auto"; see exposure.h */
     const char *config;   /* OpenColorIO: a file, else $OCIO, else the project's own */
     bool        own_config; /* the project's own even with $OCIO: the same on any machine */
-    const char *display, *view; /* NULL: the configuration's defaults */
+    const char *display, *view; /* NULL: the configuration's defaults; of the project's own
+                                 * with an exposure "white:...", the view untonemapped */
     const char *layer;    /* NULL: R, G, B of the frame itself */
     bool        false_colour; /* luminance on a logarithmic scale */
     double      range[2];     /* of false colours; both 0: what fits the frame */

@@ -33,6 +33,12 @@
  *   display.{haze,lambertian}.{R,G,B}     the two parts of the scattered
  *   display.halves.{R,G,B}                what halves is of the reflected alone
  *   display.theta  display.phi            degrees, NaN off displays
+ *   display.variance.{R,G,B}              what variance is of emitted + reflected, over the
+ *                                         samples that saw a display
+ *   display.second.{R,G,B}  display.second.variance.{R,G,B}  display.second.coverage
+ *   id.second                             of pixels that saw two displays: light of the one
+ *                                         that is not id.display's, its variance, its share,
+ *                                         its number
  *   display.contrast                      (white + reflected) / (black + reflected), NaN off
  *   display.{weber,michelson,luminance_error,colour_error} follow from these: legibility.h
  *   display.coverage                      share of the pixel's samples that saw a display

@@ -65,10 +65,14 @@ static const KnownLayer KNOWN[] = {
     {"depth", "Z", SHOW_NUMBER, "m", true},
     {"samples", "N", SHOW_NUMBER, "samples", false},
     {"display.halves", "RGB", SHOW_NUMBER, "cd/m^2", true},
+    {"display.variance", "RGB", SHOW_NUMBER, "(cd/m^2)^2", true},
+    {"display.second", "RGB", SHOW_LIGHT, "cd/m^2", true},
+    {"display.second.variance", "RGB", SHOW_NUMBER, "(cd/m^2)^2", true},
     {"display.theta", "", SHOW_NUMBER, "deg", false},
     {"display.phi", "", SHOW_NUMBER, "deg", false},
     {"display.contrast", "", SHOW_NUMBER, ": 1", true},
     {"display.coverage", "", SHOW_NUMBER, "of the samples", false},
+    {"display.second.coverage", "", SHOW_NUMBER, "of the samples", false},
     {"stokes.S0", "", SHOW_NUMBER, "cd/m^2", true},
     {"stokes.S1", "", SHOW_NUMBER, "cd/m^2", false},
     {"stokes.S2", "", SHOW_NUMBER, "cd/m^2", false},
@@ -76,6 +80,7 @@ static const KnownLayer KNOWN[] = {
     {"stokes.degree", "", SHOW_NUMBER, "polarised", false},
     {"id.part", "", SHOW_ID, "", false},
     {"id.display", "", SHOW_ID, "", false},
+    {"id.second", "", SHOW_ID, "", false},
 };
 
 static const KnownLayer *known_layer(const char *name)

@@ -47,7 +47,7 @@ static void set_rounding(const TriangleEdges *edges, float s, TrianglePoint *poi
     Vec3  p = point->position, n = edges->ng;
     float along = fabsf(n.x * p.x) + fabsf(n.y * p.y) + fabsf(n.z * p.z);
     point->slant = 4 * ROUNDING * (1 + fminf(s, SLIVER_MOST));
-    point->rounding = 4 * ROUNDING * along + point->slant * edges->longest_near;
+    point->rounding = ROUNDING * along + point->slant * edges->longest_near;
 }
 
 /* A place of a triangle beside its edges; i: the edge from corner i to the next. */

@@ -8,17 +8,16 @@
  * area (1 for half a square, more for slivers), D the distance from the ray's other end:
  *
  *   point      p = a + (u e1 + v e2): one rounding of the sum, u |n|.|p|, and those of the
- *              edges, below 4 u L; another u |n|.|p| where the start is moved off it; corners
- *              of triangles in one plane were rounded as well: as much again.
+ *              edges, below 4 u L; as much again as the first where the start is moved off it.
  *   plane      the ray tracer takes corners relative to the ray's origin and their normal by
  *              a cross product: each is off by a few u times (L + D), the normal by s.
  *
  * A small triangle may lie in the plane of a large one (a decal, a key), which is off by its
  * own L: L is at least that of the scene's largest triangle or 4 m, whichever is less.
  *
- * Together 4 u |n|.|p| + 4 u (1 + s) (L + D) (after M. Pharr, W. Jakob and G. Humphreys,
- * "Physically Based Rendering", 3rd edition, 6.8; none of it depends on what is far away). A
- * ray starts RAY_STEP times that off its triangle, and ends as far before the one it goes to.
+ * With r = u |n|.|p| + 4 u (1 + s) (L + D) a ray starts 2 r off its triangle, and ends as far
+ * before the one that it goes to (after M. Pharr, W. Jakob and G. Humphreys, "Physically Based
+ * Rendering", 3rd edition, 6.8).
  *
  * Where two triangles meet at an angle, a point beside the edge may lie behind the other
  * triangle: rays start and end RAY_INSET steps from their triangle's edges at least. That keeps

@@ -8,6 +8,7 @@
 #include "base/sampler.h"
 
 #define BATCHES 32 /* each with a seed of its own, its samples well spread among themselves */
+#define POINTS_AT_ONCE 64
 
 typedef struct IlluminanceSums {
     double        xyz[3];
@@ -17,7 +18,8 @@ typedef struct IlluminanceSums {
 typedef struct Meter {
     const PathContext        *context;
     const IlluminanceOptions *options;
-    IlluminanceSums           sums[BATCHES];
+    const LitPoint           *points; /* those at work now */
+    IlluminanceSums           sums[POINTS_AT_ONCE][BATCHES];
 } Meter;
 
 /* Samples of a batch; the first batches have one more. */
@@ -26,13 +28,15 @@ static long batch_samples(const IlluminanceOptions *options, int batch)
     return (options->samples - batch + BATCHES - 1) / BATCHES;
 }
 
-static void measure_batch(void *user, int batch, int worker)
+/* item: a batch of a point. */
+static void measure_batch(void *user, int item, int worker)
 {
     (void)worker;
     Meter *meter = user;
+    int    point = item / BATCHES, batch = item % BATCHES;
     const IlluminanceOptions *options = meter->options;
     PathStatistics   statistics = {0};
-    IlluminanceSums *sums = &meter->sums[batch];
+    IlluminanceSums *sums = &meter->sums[point][batch];
     uint32_t seed = hash_combine(hash_u32(options->seed), (uint32_t)batch);
     for (long i = 0; i < batch_samples(options, batch); i++) {
         Sampler     sampler = sampler_start(seed, 0, 0, (uint32_t)i);
@@ -41,28 +45,29 @@ static void measure_batch(void *user, int batch, int worker)
         wavelengths_sample(sampler_1d(&sampler), &wavelengths);
         PathStart start = {.context = meter->context, .wavelengths = &wavelengths,
                            .sampler = &sampler, .statistics = &statistics};
-        path_from_point(&start, options->point, xyz);
+        path_from_point(&start, meter->points[point], xyz);
         for (int k = 0; k < 3; k++) sums->xyz[k] += (double)xyz[k];
         bright_add(&sums->bright, (double)xyz[1]);
     }
 }
 
 /* Batches differ in length: each counts by how much its sum exceeds its share of the total. */
-static Illuminance add_batches(const Meter *meter)
+static Illuminance add_batches(const Meter *meter, int point)
 {
     Illuminance   total = {0};
     BatchSums     means = {0};
     BrightSamples bright = {0};
     double        samples = (double)meter->options->samples;
+    const IlluminanceSums *sums = meter->sums[point];
     for (int i = 0; i < BATCHES; i++) {
-        for (int k = 0; k < 3; k++) total.xyz_lx[k] += meter->sums[i].xyz[k] / samples;
-        bright.squares += meter->sums[i].bright.squares;
-        bright.fourths += meter->sums[i].bright.fourths;
+        for (int k = 0; k < 3; k++) total.xyz_lx[k] += sums[i].xyz[k] / samples;
+        bright.squares += sums[i].bright.squares;
+        bright.fourths += sums[i].bright.fourths;
     }
     for (int i = 0; i < BATCHES; i++) {
         double own = total.xyz_lx[1] * (double)batch_samples(meter->options, i);
         batch_add(&means,
-                  total.xyz_lx[1] + (meter->sums[i].xyz[1] - own) * BATCHES / samples);
+                  total.xyz_lx[1] + (sums[i].xyz[1] - own) * BATCHES / samples);
     }
     MeanInterval in = batch_interval(&means);
     total.low_lx = fmax(in.low, 0);
@@ -78,9 +83,19 @@ bool illuminance_measure(const Scene *scene, const IlluminanceOptions *options, 
     if (!lights_build(scene, arena, &lights, err)) return false;
     if (!bvh_create(scene, options->threads, NULL, &bvh, err)) return false;
     PathContext context = path_context_build(scene, bvh, lights, options->max_bounces, arena);
-    Meter meter = {.context = &context, .options = options};
-    parallel_for(options->threads, BATCHES, measure_batch, &meter);
+    Progress    progress = progress_start(options->progress, "illuminance", "points",
+                                          options->count);
+    Meter      *meter = ARENA_NEW(arena, Meter, 1);
+    for (int done = 0; done < options->count; done += POINTS_AT_ONCE) {
+        int left = options->count - done;
+        int count = left < POINTS_AT_ONCE ? left : POINTS_AT_ONCE;
+        *meter = (Meter){.context = &context, .options = options,
+                         .points = options->points + done};
+        parallel_for(options->threads, count * BATCHES, measure_batch, meter);
+        for (int i = 0; i < count; i++) out[done + i] = add_batches(meter, i);
+        progress_update(&progress, done + count);
+    }
+    progress_end(&progress, options->count);
     bvh_destroy(bvh);
-    *out = add_batches(&meter);
     return true;
 }

@@ -181,6 +181,11 @@ static void run_passes(Run *run)
     run->result.error = film_relative_error(run->result.film);
 }
 
+unsigned render_layers(const Scene *scene, unsigned layers)
+{
+    return scene->display_count > 1 ? layers : layers & ~(unsigned)LAYER_DISPLAY_SECOND;
+}
+
 static bool make_film(const RenderSetup *setup, const RenderOptions *options, Arena *arena,
                       RenderResult *result, Error *err)
 {

@@ -61,6 +61,10 @@ typedef struct RenderOptions {
 
 #define RENDER_LEAST_SAMPLES 16
 
+/* The layers without those that this scene can have nothing for: display.second of a scene of
+ * one display or none. */
+unsigned render_layers(const Scene *scene, unsigned layers);
+
 /* Twelve hexadecimal digits that change with every source file that decides a pixel: they
  * distinguish builds of one version. Made by hash_sources.cmake. */
 extern const char SOURCES_HASH[];

@@ -10,7 +10,7 @@
 
 #include "coverage_trials.h"
 #include "film/film_frame.h"
-#include "image/measure.h"
+#include "measure/measure.h"
 #include "render/render.h"
 #include "review/request/request_read.h"
 #include "review/run/cases.h"

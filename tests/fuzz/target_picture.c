@@ -5,7 +5,7 @@
 #include "harness.h"
 #include "image/frame.h"
 #include "image/image.h"
-#include "image/measure.h"
+#include "measure/measure.h"
 
 /* A small file may announce a large picture: this much memory and no more. */
 #define IMAGE_BYTES ((size_t)1 << 18)

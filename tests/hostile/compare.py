@@ -270,6 +270,10 @@ def check_json(report, program):
     report.claim(status == 0 and answer["metrics"]["psnr"] is None
                  and answer["metrics"]["flip"] == 0 and answer["metrics"]["ssim"] == 1,
                  f"equal frames: {answer['metrics']}")
+    status, answer = program.json("a.exr", "a.exr", "--exposure", "white:300")
+    report.claim(answer["metrics"]["deltae_max"] == 0
+                 and "untonemapped" in answer["shown_with"],
+                 f"equal frames, both by the view that shows white as white: {answer}")
     status, answer = program.json("a.exr", "small.exr")
     report.claim(status == 1 and answer["same"] is False and answer["metrics"] == {}
                  and "sizes" in answer["reasons"][0], f"different sizes: {answer}")

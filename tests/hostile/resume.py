@@ -21,6 +21,7 @@ sys.path.insert(0, os.path.join(ROOT, "tests", "structure"))
 sys.path.insert(0, os.path.join(ROOT, "tests", "image"))
 from gltf import Scene  # noqa: E402
 from report import Report  # noqa: E402
+from words import unless_given  # noqa: E402
 
 FILE_LIMIT = 40000  # bytes: room for the little frame, none for its checkpoint
 PATIENCE_S = 120
@@ -55,7 +56,8 @@ class Work:
         return os.path.join(self.folder, name)
 
     def words(self, *options):
-        return [self.program, "render", "scene.gltf", "-o", "frame.exr", *self.common, *options]
+        return [self.program, "render", "scene.gltf", "-o", "frame.exr",
+                *unless_given(self.common, options), *options]
 
     def run(self, *options, **kept):
         return subprocess.run(self.words(*options), cwd=self.folder, capture_output=True,
@@ -213,7 +215,8 @@ def check_refusals(work, *options):
     text = contents(work.path("scene.gltf"))
 
     def refused(status, part, *changed):
-        done = work.run("--spp", "1000000", *options, *changed, "--resume")
+        done = work.run("--spp", "1000000", *unless_given(options, changed), *changed,
+                        "--resume")
         work.report.claim(done.returncode == status and part in done.stderr and
                           done.stderr.count("\n") == 1,
                           f"{changed}: status {done.returncode}, {done.stderr[:300]!r}, wanted "

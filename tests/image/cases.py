@@ -188,6 +188,18 @@ def directional_light(degrees):
                 [Claim("floor", shown(1000 * math.cos(math.radians(degrees))))])
 
 
+def one_sided():
+    """Without doubleSided a back is seen and reflects as the front does; it emits nothing."""
+    scene = Scene()
+    sheet = scene.lambert(RHO, 7, double_sided=False)
+    scene.quad(sheet, [-50, 0, 50], [100, 0, 0], [0, 0, -100])
+    scene.light("directional", 1000, direction=[0, 1, 0])
+    look_from(scene, "front", [0, 0, 0], [0, 1, 0])
+    look_from(scene, "back", [0, 0, 0], [0, -1, 0])
+    return Case("a one-sided sheet, lit from behind", scene,
+                [Claim("front", 7), Claim("back", shown(1000))])
+
+
 def coloured_light():
     scene = floor_scene()
     scene.light("point", 1000, [0, 3, 0], color=[1, 0.5, 0.25])
@@ -516,9 +528,9 @@ def all_cases(whole):
     cases = [furnace_sphere(), furnace_bright(), furnace_outside(), cube(0.5),
              cube(0.9, True, *bright), cube(0.05, False), cube(0.95, False), flux(),
              point_light(), small_lambertian_source(), spot_light(), coloured_light(),
-             sun(10), sun(35), sun(90), sun_direction(), half_sun(), area_light_above(),
-             lit_floor(), environment(), heading(), hdri_sides(), hdri_illuminance(), units(),
-             texture(), alpha(), picture()]
+             one_sided(), sun(10), sun(35), sun(90), sun_direction(), half_sun(),
+             area_light_above(), lit_floor(), environment(), heading(), hdri_sides(),
+             hdri_illuminance(), units(), texture(), alpha(), picture()]
     cases += [directional_light(angle) for angle in (0, 30, 60, 85)]
     cases += [mirror(angle) for angle in ANGLES]
     cases += [mirror_direction(angle) for angle in ANGLES[1:]]

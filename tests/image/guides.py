@@ -1,18 +1,21 @@
 # SPDX-License-Identifier: Apache-2.0
-"""guides.py [--keep FOLDER] [--few] PARHELION [PAGE ...] -- the guides and the README do what
-they say.
+"""guides.py [--keep FOLDER] [--few] [--renew] PARHELION [PAGE ...] -- the guides and the README
+do what they say.
 
 Every ```sh block of assets/guides/*.md and of README.md (but for building and installing, which
 other tests do) runs as written, each page in a folder of its own where scenes/
 and assets/ lie. A command ends with status 0, or with the one that the page states behind it:
 `# status 1`. What it is to write is there afterwards, but for one that is refused (2 to 4), and
-so is every file that a page names. --keep: what the first page makes stays in the folder;
---few: of its review's variants the one that shares the paths of the review itself, since each
-of the others takes as long as the review.
+so is every file that a page names. Layers of noise that it asks for hold numbers. The figures
+of a page are those that its commands print now (figures.py: how they are tied, and what --renew
+does).
+--keep: what the first page makes stays in the folder; --few: of its review's variants the one
+that shares the paths of the review itself: each of the others takes as long as the review.
 """
 import contextlib
 import glob
 import json
+import math
 import os
 import re
 import shlex
@@ -25,6 +28,8 @@ from concurrent.futures import ThreadPoolExecutor
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 sys.path.insert(0, os.path.join(ROOT, "tests", "structure"))
+import figures  # noqa: E402
+from exr import Frame  # noqa: E402
 from readme import exists, named_paths  # noqa: E402
 from report import Report, read  # noqa: E402
 
@@ -64,6 +69,51 @@ def kept(folder):
     yield folder
 
 
+def shell(command, folder, environment):
+    return subprocess.run(["sh", "-c", command], cwd=folder, capture_output=True, text=True,
+                          env=environment, timeout=600)
+
+
+NOISE = ("halves.", "variance.", "display.halves.")
+
+
+def empty_layers(command, folder):
+    """Channels of noise without a number in frames whose layers were asked for; those of
+    displays are where one is seen."""
+    words, empty = shlex.split(command), []
+    for file in outputs(command) if "--layers" in words else []:
+        path = os.path.join(folder, file)
+        if not file.endswith(".exr") or not os.path.exists(path):
+            continue
+        channels = Frame(path).channels
+        seen = any(value > 0 for value in channels.get("display.coverage", [1]))
+        empty += [f"{file}: {name}" for name, values in channels.items()
+                  if name.startswith(NOISE) and (seen or not name.startswith("display."))
+                  and not any(map(math.isfinite, values))]
+    return empty
+
+
+def compare_figures(name, printed, folder, environment):
+    """The figures of a page that its commands print, and those of commands beside them."""
+    told = []
+    for place in figures.read_list(name):
+        text = None
+        if place.kind == "~":
+            holding = [command for command in printed if place.source in command]
+            text = printed.get(place.source, printed[holding[0]] if len(holding) == 1 else None)
+            if text is None:
+                told.append((False, f"{place.at}: {len(holding)} commands hold "
+                                    f"\"{place.source}\"", None))
+        if place.kind == "$":
+            if place.source not in printed:
+                done = shell(place.source, folder, environment)
+                printed[place.source] = done.stdout + done.stderr
+            text = printed[place.source]
+        if text is not None:
+            told += figures.compare(figures.Page(name), place, text)
+    return told
+
+
 REVIEW, FEW = os.path.join("scenes", "glance.review.json"), ("a quarter brighter",)
 
 
@@ -81,8 +131,9 @@ def write_few_variants(folder):
 
 
 def run_page(program, name, text, keep=None, few=False):
-    """(claim, message) of every command of a page, in order; it ends at the first failure."""
-    claims, begun = [], time.monotonic()
+    """(claim, message) of every command of a page, in order; it ends at the first failure. And
+    what figures.compare says of the page's figures."""
+    claims, printed, begun = [], {}, time.monotonic()
     with kept(keep) if keep else tempfile.TemporaryDirectory(prefix="guide-") as folder:
         os.mkdir(os.path.join(folder, "bin"))
         os.symlink(os.path.abspath(program), os.path.join(folder, "bin", "parhelion"))
@@ -91,10 +142,10 @@ def run_page(program, name, text, keep=None, few=False):
         if few:
             write_few_variants(folder)
         path = os.path.join(folder, "bin") + os.pathsep + os.environ["PATH"]
-        environment = {**os.environ, **WHO, "PATH": path}
+        environment = {**os.environ, **WHO, "PATH": path, "ROOT": ROOT}
         for command, status in commands(text):
-            done = subprocess.run(["sh", "-c", command], cwd=folder, capture_output=True,
-                                  text=True, env=environment, timeout=600)
+            done = shell(command, folder, environment)
+            printed[command] = done.stdout + done.stderr
             claims.append((done.returncode == status,
                            f"{name}: status {done.returncode} instead of {status}: {command}\n"
                            f"{done.stderr.strip()[-500:]}"))
@@ -103,17 +154,23 @@ def run_page(program, name, text, keep=None, few=False):
             claims += [(os.path.exists(os.path.join(folder, file)) == (status in DONE),
                         f"{name}: {file}, status {status}: {command}")
                        for file in outputs(command) if status in DONE + REFUSED]
+            empty = empty_layers(command, folder)
+            claims.append((not empty, f"{name}: no number in {', '.join(empty)}: {command}"))
+        told = compare_figures(name, printed, folder, environment)
     print(f"{name}: {time.monotonic() - begun:.0f} s", flush=True)
-    return claims
+    return claims, told
 
 
-def check_pages(report, program, pages, keep, few):
+def check_pages(report, program, pages, how):
+    keep, few, renew = how
     rest = [None] * len(pages)
     with ThreadPoolExecutor(2) as pool:
-        for claims in pool.map(lambda page, *how: run_page(program, page, read(page), *how),
-                               pages, [keep] + rest, [few] + rest):
+        for page, (claims, told) in zip(pages, pool.map(
+                lambda page, *how: run_page(program, page, read(page), *how),
+                pages, [keep] + rest, [few] + rest)):
             for holds, message in claims:
                 report.claim(holds, message)
+            figures.compare_all(report, figures.Page(page), told, renew)
     for page in pages:
         for path in named_paths(read(page)):
             report.claim(exists(path), f"{page} names {path}, which is not there")
@@ -163,7 +220,7 @@ def check_help(report, program, guides):
 
 def check_can_fail(report, program):
     page = "```sh\nparhelion develop missing.exr -o a.png\n```\n"
-    report.claim(not all(holds for holds, _ in run_page(program, "made up", page)),
+    report.claim(not all(holds for holds, _ in run_page(program, "made up.md", page)[0]),
                  "a command that fails passes for one that works")
     report.claim(commands("```sh\na \\\n  b   # status 1\n```\n") == [("a b", 1)],
                  "lines are not joined, or statuses not read")
@@ -172,6 +229,8 @@ def check_can_fail(report, program):
 def main():
     report = Report()
     words, keep, few = sys.argv[1:], None, False
+    renew = "--renew" in words
+    words = [word for word in words if word != "--renew"]
     if words[0] == "--keep":
         keep, words = os.path.abspath(words[1]), words[2:]
     if words[0] == "--few":
@@ -182,7 +241,8 @@ def main():
     report.claim(len(guides) >= 5, "assets/guides holds too few pages")
     check_can_fail(report, program)
     check_help(report, program, guides)
-    check_pages(report, program, words[1:] or ["README.md", *guides], keep, few)
+    pages = words[1:] or [*figures.PAGES, *guides]
+    check_pages(report, program, pages, (keep, few, renew))
     report.finish()
 
 

@@ -130,11 +130,54 @@ def check_displays(report, meter):
                       wanted * percent / 100, 5e-3)
 
 
+def check_many(report, meter):
+    """Points by options and by files, in their order, each with the figures it has alone; under
+    a uniform sky pi L on any plane, under the sun its cosine."""
+    rows = [(x, y, z, *unit) for x, y, z, unit in (
+        (0, 0, 0, (0, 1, 0)), (1, 2, 3, (0, 0, 5)), (-4, 0.5, 2, (0.6, 0.8, 0)),
+        (0, 0, 0, (0, -1, 0)), (7, 7, 7, (-1e-20, 0, 0)))]
+    with open(os.path.join(meter.folder, "points.csv"), "w", encoding="utf-8") as file:
+        file.write("x,y,z,nx,ny,nz\n" + "".join(
+            ",".join(f"{x:.9g}" for x in row) + "\n" for row in rows[1:]))
+    light = (*SUN, "--environment", "constant:100")
+    line = ("measure", "empty.gltf", "--samples", "4096", *light)
+    first = ",".join(f"{x:.9g}" for x in rows[0])
+    answers = meter.run(*line, "--illuminance", first, "--illuminance", "points.csv")
+    report.claim([(a["place"], a["illuminance_lx"] > 0) for a in answers] ==
+                 [(list(map(float, row[:3])), True) for row in rows], f"order: {answers}")
+    to_sun = [math.sin(math.radians(AZIMUTH)) * math.cos(math.radians(ELEVATION)),
+              math.sin(math.radians(ELEVATION)),
+              -math.cos(math.radians(AZIMUTH)) * math.cos(math.radians(ELEVATION))]
+    for row, answer in zip(rows, answers):
+        normal = [x / math.hypot(*row[3:]) for x in row[3:]]
+        wanted = SUN_LX * max(sum(a * b for a, b in zip(normal, to_sun)), 0) + 100 * math.pi
+        low, high = answer["illuminance_interval"]
+        claim(report, f"many: {row}", (answer["illuminance_lx"], (high - low) / 3.92), wanted)
+        alone = meter.run(*line, "--illuminance", ",".join(f"{x:.9g}" for x in row))
+        report.claim(alone == answer, f"alone {alone}, among others {answer}")
+    done = subprocess.run([meter.program, *line, "--illuminance", "points.csv", "--csv"],
+                          cwd=meter.folder, capture_output=True, text=True, check=True)
+    table = [line.split(",") for line in done.stdout.splitlines()]
+    report.claim(table[0][:7] == ["x", "y", "z", "nx", "ny", "nz", "illuminance_lx"] and
+                 [float(row[6]) for row in table[1:]] ==
+                 [answer["illuminance_lx"] for answer in answers[1:]], f"--csv: {table}")
+    for wrong, status, words in (
+            (("--illuminance", "0,0,0,0,0,0"), 2, "has no direction"),
+            (("--illuminance", "0,0,0,nan,0,1"), 2, "required 6 numbers"),
+            (("--illuminance", "0,0,0"), 2, "required 6 numbers"),
+            (("--illuminance", "none.csv"), 3, "none.csv"),
+            (("--illuminance", first, "--display", "x"), 2, "--display"),
+            (("--illuminance", first, "--region", "0,0,1,1"), 2, "--region")):
+        done = subprocess.run([meter.program, *line, *wrong], cwd=meter.folder,
+                              capture_output=True, text=True, check=False)
+        report.claim(done.returncode == status and words in done.stderr, f"{wrong}: {done}")
+
+
 def main():
     report = Report()
     with tempfile.TemporaryDirectory() as folder:
         meter = Luxmeter(sys.argv[-1], folder)
-        for check in (check_outside, check_displays):
+        for check in (check_outside, check_displays, check_many):
             try:
                 check(report, meter)
             except AssertionError as error:

@@ -22,6 +22,7 @@ from exr import Frame
 ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
 sys.path.insert(0, os.path.join(ROOT, "tests", "structure"))
 from report import Report  # noqa: E402
+from words import unless_given  # noqa: E402
 
 SIZE = 52, 36
 WHOLE = (0, 0, *SIZE)
@@ -53,7 +54,8 @@ class Program:
             file.write(data)
 
     def render(self, name, *options):
-        done = self.run("render", *self.scene, "-o", name, *self.options, "--quiet", *options)
+        done = self.run("render", *self.scene, "-o", name,
+                        *unless_given(self.options, options), "--quiet", *options)
         if done.returncode != 0:
             print(done.stderr)
         return name

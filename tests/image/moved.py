@@ -2,11 +2,11 @@
 """moved.py [--all] [--scenes NAME,...] PARHELION -- where a scene stands, how it is turned and
 in which order its file names things changes no figure.
 
-  closed forms   a lamp that lights a parallel plate at a grazing angle, and a large tilted plane
-                 under a uniform sky, at random places: within 0.5 %
-  rooms          random rooms (tests/hunt/rooms.py), moved by 0.3, 10 and 1,000 m, turned by any
-                 angle, their nodes in another order: the same means within their standard errors
-  scenes         those that ship, moved and turned about the vertical: the same
+  closed forms  a lamp that lights a parallel plate at a grazing angle, and a large tilted plane
+                under a uniform sky, at random places: within 0.5 %
+  rooms         random rooms (tests/hunt/rooms.py), moved by 0.3, 10 and 1,000 m, turned by any
+                angle, their nodes in another order: the same means within standard errors
+  scenes        those that ship, moved and turned about the vertical: the same
 """
 import argparse
 import json
@@ -197,8 +197,8 @@ def check_closed_forms(renderer, draw, count):
         move(scene.document, place)
         scene.write(path)
         found = renderer.render([path], [], "8x8", 256)
-        hold(renderer.report, f"plane of {size:.3g} m, {math.degrees(tilt):.0f} degrees, {place}",
-             found.mean_luminance(), 500)
+        hold(renderer.report, f"plane of {size:.3g} m, {math.degrees(tilt):.0f} degrees, "
+             f"{place}", found.mean_luminance(), 500)
 
 
 def hold(report, what, found, expected):

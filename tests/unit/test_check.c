@@ -95,6 +95,27 @@ TEST_WITH(scripts_read_one_document, maker_reset, NULL)
     assert_int_equal(json_array_size(json_object_get(document, "extensions")), 2);
 }
 
+/* Three sheets: one-sided by glTF's default, two-sided, and a material that nothing wears. */
+TEST_WITH(materials_whose_backs_other_viewers_leave_out_are_named, maker_reset, NULL)
+{
+    const char *path = maker_gltf(
+        TRIANGLE, sizeof TRIANGLE,
+        "'bufferViews':[{'buffer':0,'byteLength':36}],'accessors':[{'bufferView':0,"
+        "'componentType':5126,'count':3,'type':'VEC3','min':[0,0,0],'max':[1,1,0]}],"
+        "'materials':[{'name':'lining'},{'name':'wall','doubleSided':true},{'name':'unworn'}],"
+        "'meshes':[{'primitives':[{'attributes':{'POSITION':0},'material':0},"
+        "{'attributes':{'POSITION':0},'material':1}]}],'scenes':[{'nodes':[0]}],"
+        "'nodes':[{'mesh':0}]");
+    Outcome plain = run(path, NULL);
+    assert_non_null(strstr(plain.text, "one-sided    lining: their backs are seen"));
+    Outcome outcome = run(path, "--json");
+    json_auto_t *document = json_loads(outcome.text, 0, NULL);
+    json_t      *list = json_object_get(document, "material_list");
+    for (size_t i = 0; i < 3; i++)
+        assert_int_equal(json_is_true(json_object_get(json_array_get(list, i), "is_one_sided")),
+                         i == 0);
+}
+
 TEST_WITH(all_problems_are_told_and_the_status_is_3, maker_reset, NULL)
 {
     const char *path = maker_gltf(NULL, 0, "'nodes':[{'mesh':5},{'camera':1,'colour':2}]");

@@ -146,6 +146,10 @@ MEMORY_TEST(errors_name_the_option_the_value_and_what_is_wanted)
         {{"x", "--nuber", "1"},
          "unknown option --nuber — did you mean --number? `parhelion try --help` lists what "
          "there is"},
+        {{"--flag", "--flag", "x"}, "--flag is given twice: required at most once"},
+        {{"x", "--number=1", "--number", "2"},
+         "--number is given twice, 1 and 2: required at most once"},
+        {{"x", "--json", "--json"}, "--json is given twice: required at most once"},
         {{"x", "--zoom", "1"},
          "unknown option --zoom — `parhelion try --help` lists what there is"},
         {{"x", "--numb=1"},

@@ -388,20 +388,22 @@ ARENA_TEST(regions_select_and_displays_are_known)
     Selection        selection;
     CompareInput     a = frame_input("a.exr", &arena);
     SelectionRequest request = {.has_region = true, .region = {2, 1, 5, 3}};
-    assert_done(selection_make(&a, &request, &arena, &selection, &err));
+    const CompareInput *const sides[2] = {&a, &a};
+    assert_done(selection_make(sides, &request, &arena, &selection, &err));
     assert_int_equal(selection.pixels, 6);
     assert_true(selection.counts[WIDTH + 2] && !selection.counts[WIDTH + 5]);
     request.region.x1 = WIDTH + 1;
-    assert_fails(selection_make(&a, &request, &arena, &selection, &err),
+    assert_fails(selection_make(sides, &request, &arena, &selection, &err),
                  "inside the pixels 0,0,12,8 of a.exr");
     request = (SelectionRequest){.display = "cluster"};
-    assert_fails(selection_make(&a, &request, &arena, &selection, &err),
+    assert_fails(selection_make(sides, &request, &arena, &selection, &err),
                  "has no display \"cluster\"; its displays: none");
     frame_set_string(&a.frame, "parhelion:display.3", "cluster", &arena);
-    assert_fails(selection_make(&a, &request, &arena, &selection, &err), "--layers id,display");
+    assert_fails(selection_make(sides, &request, &arena, &selection, &err),
+                 "--layers id,display");
     float *id = frame_add_channel(&a.frame, "id.display", true, &arena);
     for (int i = 0; i < COUNT; i++) id[i] = i < 7 ? 3 : -1;
-    assert_done(selection_make(&a, &request, &arena, &selection, &err));
+    assert_done(selection_make(sides, &request, &arena, &selection, &err));
     assert_int_equal(selection.pixels, 7);
 }
 

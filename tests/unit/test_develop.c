@@ -234,6 +234,30 @@ ARENA_TEST(a_frame_becomes_the_codes_it_should)
     assert_near(((const uint8_t *)image.pixels)[0], 255 * 0.461356, 2);
 }
 
+/* White is code 1 in every display, half of it half the light, and what is brighter is white;
+ * a view that is named holds, and so does the default one of other exposures. */
+ARENA_TEST(what_is_to_become_white_is_white)
+{
+    static const char *const DISPLAYS[] = {NULL, "sRGB", "Display P3"};
+    DevelopReport report;
+    for (int i = 0; i < 3; i++) {
+        DevelopOptions options = {.exposure = "white:320", .display = DISPLAYS[i]};
+        FrameImage     white = uniform_frame(2, 1, 320, &arena);
+        FrameImage     half = uniform_frame(2, 1, 160, &arena);
+        FrameImage     bright = uniform_frame(2, 1, 900, &arena);
+        assert_near(develop(&white, options, &arena, &report).rgb[0], 1, 1e-4);
+        assert_string_equal(report.view, "untonemapped");
+        assert_near(develop(&half, options, &arena, &report).rgb[0], srgb_encoded(0.5), 1e-4);
+        assert_true(develop(&bright, options, &arena, &report).rgb[0] >= 1);
+        options.view = "photographic";
+        assert_true(develop(&white, options, &arena, &report).rgb[0] < 0.9);
+        assert_string_equal(report.view, "photographic");
+    }
+    FrameImage frame = uniform_frame(2, 1, 320, &arena);
+    develop(&frame, (DevelopOptions){.exposure = "10"}, &arena, &report);
+    assert_string_equal(report.view, "photographic");
+}
+
 ARENA_TEST(the_same_frame_makes_the_same_picture_file)
 {
     FrameImage     frame = uniform_frame(8, 5, 90, &arena);

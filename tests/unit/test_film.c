@@ -301,7 +301,7 @@ ARENA_TEST(a_frame_has_the_channels_asked_for_and_no_others)
     film = film_create(WIDTH, HEIGHT, whole, LAYER_ALL, NULL, &arena);
     frame = film_to_frame(film, 0, &arena);
     assert_int_equal(frame.channel_count,
-                     3 + 3 + 1 + 3 + 3 + 3 + 2 + 2 + 3 + 3 + 1 + 9 * 3 + 2 + 1 + 3 + 1);
+                     3 + 3 + 1 + 3 + 3 + 3 + 2 + 2 + 3 + 3 + 1 + 9 * 3 + 2 + 1 + 3 + 1 + 3 + 8);
 }
 
 ARENA_TEST(layers_are_means_over_the_samples_that_hit)

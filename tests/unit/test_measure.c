@@ -3,7 +3,7 @@
 #include "frame_fixture.h"
 
 #include "base/confidence.h"
-#include "image/measure.h"
+#include "measure/light_shares.h"
 
 static FrameMeasurement measure(const FrameImage *frame, MeasureRequest request, Arena arena)
 {
@@ -317,7 +317,7 @@ ARENA_TEST(lights_are_told_by_their_brightness)
     FrameImage     frame = uniform_frame(4, 4, 60, &arena);
     MeasureRequest all = {.frame_name = "f.exr"};
     for (int i = 0; i < 5; i++) add_layer(&frame, names[i], light[i], &arena);
-    LightShares shares = measure_lights(&frame, &all, &arena);
+    LightShares shares = light_shares_measure(&frame, &all, 60, &arena);
     assert_int_equal(shares.count, 5);
     for (int i = 0; i < 5; i++) assert_string_equal(shares.list[i].layer, wanted[i]);
     assert_close(shares.list[0].share, 0.5, 1e-5);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "cli/options/cli.h"
 
+#include <assert.h>
 #include <errno.h>
 #include <math.h>
 #include <stdio.h>
@@ -19,7 +20,7 @@
 
 #define NUMBERS_MAX 8
 #define SIZE_MAX_PIXELS 65536
-#define NAMES_MAX 64 /* options of one command, the common ones included */
+#define NAMES_MAX 128 /* options of one command, the common ones included */
 
 /* One run of cli_parse. */
 typedef struct Parser {
@@ -28,6 +29,7 @@ typedef struct Parser {
     int               common_count;
     int               argc, next; /* next: the first argument that is not read yet */
     char            **argv;
+    const char       *first[NAMES_MAX]; /* what each option was given first; NULL: not yet */
     Arena            *arena;
     Error            *err;
 } Parser;
@@ -188,26 +190,34 @@ static bool read_value(const Parser *in, const Option *option, const char *text)
 
 /* ---- the whole line ---------------------------------------------------------------------- */
 
-static const Option *find_option(const Parser *in, const char *name, size_t length)
+static const Option *option_at(const Parser *in, int i)
+{
+    int own = in->command->option_count;
+    return i < own ? &in->command->options[i] : &in->common[i - own];
+}
+
+/* Its place among all options, or -1. */
+static int find_place(const Parser *in, const char *name, size_t length)
 {
     for (int i = 0; i < in->command->option_count + in->common_count; i++) {
-        const Option *option = i < in->command->option_count
-                                   ? &in->command->options[i]
-                                   : &in->common[i - in->command->option_count];
-        if (strlen(option->name) == length && !strncmp(option->name, name, length))
-            return option;
+        const Option *option = option_at(in, i);
+        if (strlen(option->name) == length && !strncmp(option->name, name, length)) return i;
     }
-    return NULL;
+    return -1;
+}
+
+static const Option *find_option(const Parser *in, const char *name, size_t length)
+{
+    int place = find_place(in, name, length);
+    return place < 0 ? NULL : option_at(in, place);
 }
 
 static bool unknown_option(const Parser *in, const char *name, size_t length)
 {
     const char *names[NAMES_MAX];
     int         count = 0;
-    for (int i = 0; i < in->command->option_count && count < NAMES_MAX; i++)
-        names[count++] = in->command->options[i].name;
-    for (int i = 0; i < in->common_count && count < NAMES_MAX; i++)
-        names[count++] = in->common[i].name;
+    for (; count < in->command->option_count + in->common_count; count++)
+        names[count] = option_at(in, count)->name;
     char        word[64];
     snprintf(word, sizeof word, "%.*s", (int)length, name);
     const char *nearest = nearest_word_meant(word, names, count);
@@ -217,14 +227,30 @@ static bool unknown_option(const Parser *in, const char *name, size_t length)
                      nearest ? "? " : "", in->command->name);
 }
 
+/* Only lists may be repeated: of two values one would be dropped. */
+static bool stands_once(Parser *in, int place, const char *value)
+{
+    const Option *option = option_at(in, place);
+    const char   *before = in->first[place];
+    in->first[place] = value ? value : "";
+    if (!before || option->kind == OPTION_TEXTS) return true;
+    if (!value)
+        return error_set(in->err, ERROR_USAGE, "%s is given twice: required at most once",
+                         option->name);
+    return error_set(in->err, ERROR_USAGE,
+                     "%s is given twice, %.200s and %.200s: required at most once",
+                     option->name, before, value);
+}
+
 /* The option at in->argv[in->next], and its value. */
 static bool read_option(Parser *in)
 {
-    const char   *text = in->argv[in->next++];
-    size_t        length = strcspn(text, "=");
-    const Option *option = find_option(in, text, length);
-    if (!option) return unknown_option(in, text, length);
-    const char *value = text[length] ? text + length + 1 : NULL;
+    const char *text = in->argv[in->next++];
+    size_t      length = strcspn(text, "=");
+    int         place = find_place(in, text, length);
+    if (place < 0) return unknown_option(in, text, length);
+    const Option *option = option_at(in, place);
+    const char   *value = text[length] ? text + length + 1 : NULL;
     if (option->kind == OPTION_FLAG) {
         if (value)
             return error_set(in->err, ERROR_USAGE, "%s takes no value, found %s", option->name,
@@ -235,7 +261,7 @@ static bool read_option(Parser *in)
                              option->value, option->help);
         value = in->argv[in->next++];
     }
-    if (!read_value(in, option, value)) return false;
+    if (!stands_once(in, place, value) || !read_value(in, option, value)) return false;
     if (option->given) *option->given = true;
     return true;
 }
@@ -259,10 +285,9 @@ static void print_options(const Option *options, int count)
         char          left[256];
         snprintf(left, sizeof left, "%s%s%s", option->name, option->value ? " " : "",
                  option->value ? option->value : "");
-        if (strlen(left) <= 30)
-            printf("  %-30s  %s\n", left, option->help);
-        else
-            printf("  %s\n  %-30s  %s\n", left, "", option->help);
+        if (strlen(left) <= 30) printf("  %-30s", left);
+        else printf("  %s\n  %-30s", left, "");
+        printf("  %s%s\n", option->help, option_repeats(option));
     }
 }
 
@@ -370,8 +395,9 @@ bool cli_parse(const CliCommand *command, int argc, char **argv, Arena *arena, C
         {"--version", OPTION_FLAG, NULL, "of the program and its libraries; also -V",
          &cli.help_shown},
     };
-    Parser in = {command, common, COUNT_OF(common), argc, 1, argv, arena,
-                 err};
+    Parser in = {.command = command, .common = common, .common_count = COUNT_OF(common),
+                 .argc = argc, .next = 1, .argv = argv, .arena = arena, .err = err};
+    assert(command->option_count + COUNT_OF(common) <= NAMES_MAX);
     CliTexts arguments = {0};
     cli.help_shown = asks_for_help(&in);
     if (!cli.help_shown) {

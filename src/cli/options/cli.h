@@ -3,9 +3,10 @@
  *
  * A command fills a table of Option on its stack, every row pointing at the variable that takes
  * the value; what the user leaves out keeps the value it had. Values follow their option as
- * the next argument or after '='; names are never abbreviated. After `--` everything is an
- * argument. Every command also has --json, --quiet, --progress, --threads, --help (-h) and
- * --version (-V); the word help alone is --help too, unless a file has that name.
+ * the next argument or after '='; names are never abbreviated. An option stands once: a second
+ * one is refused, unless it is a list (OPTION_TEXTS). After `--` everything is an argument.
+ * Every command also has --json, --quiet, --progress, --threads, --help (-h) and --version
+ * (-V); the word help alone is --help too, unless a file has that name.
  *
  *     double level = 1;
  *     const Option options[] = {

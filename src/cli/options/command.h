@@ -37,7 +37,7 @@ typedef enum OptionKind {
     OPTION_NUMBERS, /* double[count]: exactly count numbers with commas, each in [low, high] */
     OPTION_SIZE,    /* int[2]: WxH, each in [1, 65536] */
     OPTION_CHOICE,  /* int: index of the value among the names in `value`, "a|b|c" */
-    OPTION_TEXTS    /* CliTexts: may be given many times */
+    OPTION_TEXTS    /* CliTexts: the one kind that may be given many times */
 } OptionKind;
 
 /* Every value of an OPTION_TEXTS, in the order given. */
@@ -56,6 +56,9 @@ typedef struct Option {
     int         count; /* OPTION_NUMBERS: how many, at most 8 */
     bool       *given; /* set when the option was there; NULL: not asked */
 } Option;
+
+/* What ends the help of an option that may be given many times; "" for all others. */
+const char *option_repeats(const Option *option);
 
 typedef struct CliCommand {
     const char   *name;    /* "render", "panel fit" */

@@ -23,7 +23,8 @@
 #define LOOK_OPTIONS(look)                                                                     \
     {"--exposure", OPTION_TEXT, "auto|EV|white:CD_M2",                                         \
      "auto (default: the cabin looks well), an exposure value at ISO 100 (15: full sun; "      \
-     "one more is half as bright), or the luminance that becomes white",                       \
+     "one more is half as bright), or the luminance that becomes white, by the view "          \
+     "untonemapped unless --view names one: others show it as light grey",                     \
      .out = &(look)->exposure},                                                                \
     {"--display", OPTION_TEXT, "NAME", "sRGB (default), Display P3, Rec.1886",                 \
      .out = &(look)->display},                                                                 \

@@ -164,7 +164,8 @@ static void print_options(const Option *options, int count)
             roff_styled("I", options[i].value);
         }
         putchar('\n');
-        roff_line(options[i].help);
+        roff_string(options[i].help);
+        roff_line(option_repeats(&options[i]));
     }
 }
 

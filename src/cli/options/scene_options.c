@@ -1,10 +1,29 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "cli/options/scene_options.h"
 
+#include <string.h>
+
 #include "base/count.h"
 #include "base/reference.h"
 #include "cli/options/scene_warnings.h"
 #include "scene/load/scene_load.h"
+
+/* They apply in their order: what a later one would undo is refused. */
+static bool undoes_none(const char *option, const SceneOverride *list, int i, Error *err)
+{
+    bool is_for_all = !strcmp(list[i].material, "*");
+    for (int k = 0; k < i; k++) {
+        if (!strcmp(list[k].material, list[i].material))
+            return error_set(err, ERROR_USAGE,
+                             "%s: %.100s is given twice, %.200s and %.200s: required at most "
+                             "once", option, list[i].material, list[k].value, list[i].value);
+        if (is_for_all)
+            return error_set(err, ERROR_USAGE,
+                             "%s: *=%.100s would undo %.100s=%.100s before it — put * first",
+                             option, list[i].value, list[k].material, list[k].value);
+    }
+    return true;
+}
 
 static bool parse_overrides(const char *option, const CliTexts *texts, Arena *arena,
                             const SceneOverride **out, Error *err)
@@ -12,7 +31,8 @@ static bool parse_overrides(const char *option, const CliTexts *texts, Arena *ar
     SceneOverride *list = ARENA_NEW(arena, SceneOverride, texts->count);
     for (int i = 0; i < texts->count; i++)
         if (!cli_name_value(option, texts->list[i], arena, &list[i].material, &list[i].value,
-                            err))
+                            err) ||
+            !undoes_none(option, list, i, err))
             return false;
     *out = list;
     return true;

@@ -17,6 +17,7 @@
 #include "cli/render/render_request.h"
 #include "cli/render/render_resume.h"
 #include "cli/render/render_setup.h"
+#include "film/film_frame.h"
 #include "image/radiance/radiance_picture.h"
 #include "render/identity.h"
 #include "render/signals.h"
@@ -63,12 +64,12 @@ static bool render_share(const RenderRequest *request, const char *identity, con
 /* ---- before ------------------------------------------------------------------------------ */
 
 /* Frames that our own reader would refuse, and films that the memory does not hold. */
-static bool check_memory(const RenderOptions *options, Error *err)
+static bool check_memory(const RenderOptions *options, unsigned layers, Error *err)
 {
     FilmRect crop = options->crop;
     double   pixels = (double)options->width * (double)options->height;
     int      lights = options->lights ? options->lights->count : 0;
-    double   wanted = (double)film_bytes(crop, options->layers, lights);
+    double   wanted = (double)film_bytes(crop, layers, lights);
     double   memory = (double)machine_memory_bytes();
     if (pixels > EXR_MAX_PIXELS)
         return error_set(err, ERROR_USAGE,
@@ -99,7 +100,7 @@ static bool find_lights(RenderRun *work, Error *err)
                          "together one name",
                          work->lights.count, FILM_LIGHTS_MAX);
     options->lights = &work->lights;
-    return check_memory(options, err);
+    return check_memory(options, options->layers, err);
 }
 
 /* Hours of rendering must not end at a folder that cannot be written. */
@@ -136,6 +137,18 @@ static void set_areas(RenderRequest *request)
     options->favoured = favours && !options->favours_noise ? &request->favoured.area : NULL;
 }
 
+/* A part of a frame is merged with others. */
+static void warn_of_halves(const RenderRequest *request, Problems *problems)
+{
+    const RenderOptions *options = &request->render;
+    uint32_t count = options->end_sample - options->first_sample;
+    uint32_t least = film_halves_samples(options->first_sample);
+    if (request->names_halves && !request->is_part && count < least)
+        problems_add(problems, SEVERITY_WARNING, "--layers", "",
+                     "halves are known from %u samples a pixel on, %u are rendered: they will "
+                     "be NaN", least, count);
+}
+
 static bool load(RenderRun *work, Error *err)
 {
     RenderRequest *request = &work->request;
@@ -148,7 +161,11 @@ static bool load(RenderRun *work, Error *err)
         frame_area_find(work->scene, *work->arena, &request->noise.of, err) &&
         frame_area_find(work->scene, *work->arena, &request->favoured, err);
     if (loaded) set_areas(request);
+    if (loaded) request->render.layers = render_layers(work->scene, request->render.layers);
+    if (loaded && !request->replays)
+        loaded = check_memory(&request->render, request->render.layers, err);
     if (loaded) render_warn_of_darkness(work->scene, &work->problems);
+    if (loaded) warn_of_halves(request, &work->problems);
     cli_print_warnings(&work->problems);
     return loaded;
 }
@@ -445,7 +462,9 @@ static bool run(RenderRun *work, Error *err)
     if (work->task && !options->isa) options->isa = work->task->isa;
     options->checkpoint = work->request.keeps_checkpoints ? keep_checkpoint_meanwhile : NULL;
     options->user = work;
-    if (!check_memory(options, err) || !check_outputs(&work->request, err) ||
+    /* whether the scene has a second display is not known yet */
+    if (!check_memory(options, options->layers & ~(unsigned)LAYER_DISPLAY_SECOND, err) ||
+        !check_outputs(&work->request, err) ||
         !check_look(&work->request, *work->arena, err) || !load(work, err))
         return false;
     if (!check_view(work, err)) return false;

@@ -43,6 +43,7 @@ static const struct {
     {"display.coverage", LAYER_DISPLAY_FINE}, {"display.mirror", LAYER_DISPLAY_MIRROR},
     {"display.scattered", LAYER_DISPLAY_SCATTERED}, {"display.haze", LAYER_DISPLAY_HAZE},
     {"display.lambertian", LAYER_DISPLAY_LAMBERTIAN},
+    {"display.variance", LAYER_DISPLAY_VARIANCE}, {"display.second", LAYER_DISPLAY_SECOND},
     {"display.halves", LAYER_DISPLAY_HALVES}, {"light", LAYER_LIGHT}, {"stokes", LAYER_STOKES},
 };
 
@@ -277,6 +278,7 @@ static bool check_render(const RenderWords *typed, Arena *arena, RenderRequest *
                                            "0:N is --spp N");
     if (typed->samples && !parse_samples(typed->samples, options, err)) return false;
     if (typed->layers && !parse_layers(typed->layers, &options->layers, err)) return false;
+    request->names_halves = typed->layers && strstr(typed->layers, "halves");
     if (request->look.is_denoised && !parse_layers(DENOISE_LAYERS, &options->layers, err))
         return false;
     if (typed->has_crop && !parse_crop(typed->crop, options, err)) return false;
@@ -389,7 +391,8 @@ static bool parse_line(int argc, char **argv, Arena *arena, RenderWords *typed,
          typed->crop, .count = 4, .given = &typed->has_crop},
         {"--samples", OPTION_TEXT, "A:B", "only these sample indices, half-open",
          &typed->samples},
-        {"--layers", OPTION_TEXT, "LIST", "all, or names with commas: xyz,depth,normal,...",
+        {"--layers", OPTION_TEXT, "LIST",
+         "all, or names with commas: xyz,depth,normal,... (halves: of 24 samples and more)",
          &typed->layers},
         SCENE_OPTIONS(&typed->scene, &request->scene, outside),
         {"--isa", OPTION_TEXT, "NAME", "sse2, avx2, avx512 (default: the processor's best)",

@@ -17,8 +17,8 @@
  *   histogram  too many small p among the blocks: the mean square of the first quotient is
  *              above 1. Small changes all over the frame; noise that is less than stated does
  *              not alarm
- *   regions    the frame, every display, what every display reflects: the plain mean, and a
- *              change in proportion with the most certain pixels weighing most
+ *   regions    the frame, every display by itself, what every display reflects: the plain mean,
+ *              and a change in proportion with the most certain pixels weighing most
  * Frames of different sample counts, or one of which is noisier all over, have noise of
  * different shapes: the larger of both denominators, the variance of a sample from both frames
  * together (a reference of few samples that missed all glints knows nothing of them), times
@@ -32,20 +32,7 @@
  * Fails    when the frames lack the layers that it needs: the text names what to render again.
  */
 #pragma once
-#include "compare/statistic/noisy_pair.h"
-
-/* One part of the frame whose mean is tested for itself. */
-typedef struct StatisticRegion {
-    const char *name;      /* "frame", a display's in the reference, "cluster reflected" */
-    long    pixels;
-    double  reference, test; /* mean luminance, cd m^-2 */
-    double  shift;         /* test / reference - 1; NaN for a black reference */
-    double  shift_sigma;   /* its standard error */
-    double  change;        /* the best estimate of a change in proportion, and its error: the */
-    double  change_sigma;  /* surer pixels count more; NaN: it is no proportion */
-    double  p_value;       /* two-sided */
-    bool    moved;         /* after the correction for how many are tested */
-} StatisticRegion;
+#include "compare/statistic/regions.h"
 
 typedef enum StatisticVerdict {
     STATISTIC_EQUAL,    /* R, G, B are the same bit for bit */

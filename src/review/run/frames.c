@@ -45,7 +45,9 @@ static RenderOptions options_of(const FrameAsk *ask)
         .width = all.x1, .height = all.y1, .crop = all, .end_sample = FRAMES_SAMPLES,
         .noise = request->frames.noise, .max_bounces = SETUP_BOUNCES,
         .noise_area = {all, FILM_ALL_PIXELS},
-        .layers = ask->exposure ? LAYER_VARIANCE : LAYER_VARIANCE | LAYER_ID | LAYER_DISPLAYS,
+        .layers = ask->exposure ? LAYER_VARIANCE
+                                : render_layers(ask->setup->scene, LAYER_VARIANCE | LAYER_ID |
+                                                                       LAYER_DISPLAYS),
         .threads = ask->setup->tools.threads, .within = ask->work,
         .within_weight = ask->exposure ? work_of_pair(request) : work_of_frame(request)};
 }

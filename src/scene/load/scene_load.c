@@ -145,9 +145,9 @@ static void measure_bounds(Scene *scene)
     scene->bounds_max = high;
 }
 
-/* Vertices are 32-bit numbers: so far out, neighbours of the scene's own size lie on few of
- * them. Edges jump and light leaks, but nothing is wrong with the file. */
-#define FAR_IN_SIZES 10000
+/* Vertices are 32-bit numbers: so far out they move by some hundred-thousandths of the scene's
+ * size, as much as a seal or a film is thick. Nothing is wrong with the file. */
+#define FAR_IN_SIZES 200
 
 /* Below a tenth of it, rays that leave a surface are set off by lengths like the scene's own,
  * and areas are no floats at last: light is lost. */
@@ -162,7 +162,8 @@ static void warn_if_odd(const Scene *scene, Loader *load)
     if (distance > FAR_IN_SIZES * size)
         problems_add(load->problems, SEVERITY_WARNING, scene->inputs[0], "",
                      "the scene is %.3g m large and stands %.3g m from the origin, where "
-                     "coordinates are %.2g m apart: move it nearer",
+                     "coordinates are %.2g m apart: what lies closer together is lost; move it "
+                     "nearer",
                      (double)size, (double)distance, (double)distance * 0x1p-23);
     if (size < LEAST_SIZE_M)
         problems_add(load->problems, SEVERITY_WARNING, scene->inputs[0], "",

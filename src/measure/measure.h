@@ -14,25 +14,43 @@
  *          reflects has halves of its own; without them the noise of what it shows counts for
  *          its contrast, too. A contrast falls as the reflected light rises: its interval goes
  *          from the one end of that light's to the other; the upper end of that light has what
- *          few bright samples may have left out (confidence.h).
+ *          few bright samples may have left out (confidence.h). No interval of a display's
+ *          luminance and colour is narrower than what channels in single precision leave, 1e-6
+ *          of the value.
+ * Displays are measured by coverage (display_part.h): a pixel at the rim counts by its part,
+ *          and with the display's own light, wherever the frame has the layers of it. Of frames
+ *          that have not, rims are left out where display.coverage tells them; else pixels
+ *          count whole, and have the light of what is around.
  * Pixels   outside a fisheye's circle are none.
  * Threads  pure functions.
  * Fails    when the frame lacks what is asked for: the text names what to render again.
  */
 #pragma once
 #include "image/content_contrast.h"
-#include "image/frame.h"
+#include "measure/display_part.h"
 
 typedef struct MeasureRequest {
     const char *frame_name; /* for messages */
     bool        has_region;
     ExrWindow   region;  /* half-open, pixels of the display window */
-    const char *display; /* only pixels that show this display; NULL: all */
+    const char *display; /* only what this display sends; NULL: all pixels */
 } MeasureRequest;
+
+/* How the pixels at a display's rim count. */
+typedef enum RimCount {
+    RIM_BY_COVERAGE, /* by their part */
+    RIM_LEFT_OUT,    /* pixels that show nothing else count alone */
+    RIM_WHOLE        /* with what is around; and wherever no display was asked for */
+} RimCount;
 
 typedef struct FrameMeasurement {
     long     pixels;    /* that were taken */
     long     nonfinite; /* that were left out, NaN or infinite */
+    RimCount rim;
+    double   area;      /* of the pixels taken, their parts added up */
+    long     rim_pixels; /* of a display: that show something else, too; taken or left out */
+    long     shared_pixels; /* of these, that show two displays: without a contrast */
+    long     unknown_pixels; /* that show more displays, and were left out */
     double   xyz[3];    /* mean, cd m^-2 */
     Measured luminance; /* xyz[1] */
     double   least, greatest; /* luminance of single pixels */
@@ -40,7 +58,7 @@ typedef struct FrameMeasurement {
     bool     has_variance;
     bool     has_contrast; /* some of the pixels show a display and the layers are there */
     long     display_pixels;
-    double   white, black, reflected; /* means over the display's pixels, cd m^-2 */
+    double   white, black, reflected; /* means over the display's parts of pixels, cd m^-2 */
     double   mirror;   /* of the reflected, by way of the panel's mirror; NaN: not known */
     double   lambertian; /* and what its lambertian part scattered; NaN: not known */
     Measured contrast, weber, michelson; /* of these means, as legibility.h defines them */
@@ -53,23 +71,3 @@ typedef struct FrameMeasurement {
 
 bool measure_frame(const FrameImage *frame, const MeasureRequest *request, Arena scratch,
                    FrameMeasurement *out, Error *err);
-
-/* ---- groups of lights -------------------------------------------------------------------- */
-
-/* The contribution of one group of lights to a part of a frame. */
-typedef struct LightShare {
-    const char *layer; /* "light.sun" */
-    const char *name;  /* as its scene has it */
-    double cd_m2;      /* mean luminance over the pixels */
-    double share;      /* of all light there; 0 where there is none */
-} LightShare;
-
-typedef struct LightShares {
-    LightShare *list; /* the brightest first */
-    int         count; /* 0: the frame has no layers of lights */
-} LightShares;
-
-/* For a request that measure_frame answers, over the pixels that it takes. The list and its
- * names live in the arena. */
-LightShares measure_lights(const FrameImage *frame, const MeasureRequest *request,
-                           Arena *arena);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "image/measure.h"
+#include "measure/measure.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -11,26 +11,20 @@
 #include "image/frame_view.h"
 #include "image/layer_view.h"
 #include "image/legibility.h"
+#include "measure/pixel_noise.h"
 #include "spectrum/photometry.h"
 
-#define SIGMAS_95 1.959964 /* of the normal distribution */
-
-/* Variances of sums over pixels, of channels and of luminance. */
-typedef struct PixelNoise {
-    double rgb[3], luminance, fourths; /* fourths: squares of the pixels' variances */
-    long   pixels;
-} PixelNoise;
-
-/* Sums over the pixels. */
+/* Sums over the pixels, each times its part. */
 typedef struct Sums {
-    double rgb[3]; /* of the channels */
+    double area, rgb[3]; /* of the parts and of the channels */
     PixelNoise noise, by_halves;
+    RimNoise rim, display_rim; /* of the light, and of what is reflected */
     PixelNoise display_noise, display_by_halves; /* over the pixels of displays */
     PixelNoise reflected_by_halves; /* of what is reflected there: all that contrasts hang on */
     double reflected_missing;       /* what few samples find may be missing there, summed */
     DisplayLight light; /* of displays */
-    double mirror, lambertian;
-    long   pixels, display_pixels, nonfinite;
+    double mirror, lambertian, display_area, reflected_rgb[3];
+    long   pixels, display_pixels, nonfinite, rim_pixels, shared_pixels, unknown_pixels;
     double least, greatest;
 } Sums;
 
@@ -39,7 +33,12 @@ typedef struct RegionPlanes {
     LayerView    light, variance, halves, white, black, reflected, shown, mirror, lambertian;
     LayerView    display_halves, fine;
     const float *display_id; /* NULL: every pixel is wanted */
+    int          wanted;     /* id of the display that is; -1: all pixels */
+    RimCount     rim;
     const float *coverage;   /* by displays; NULL: not known */
+    DisplayLayers parts;
+    ExrWindow    data, window; /* of the frame: the layers of parts are of the data window */
+    bool         has_parts;
     bool has_variance, has_halves, has_display, has_shown, has_mirror, has_lambertian;
     bool has_display_halves, has_fine;
 } RegionPlanes;
@@ -107,26 +106,20 @@ static bool find_planes(const FrameImage *frame, Arena *arena, RegionPlanes *out
     out->has_lambertian = raw_layer(frame, "display.lambertian", arena, &out->lambertian);
     out->has_display_halves = raw_layer(frame, "display.halves", arena, &out->display_halves);
     out->has_fine = raw_layer(frame, "display.fine", arena, &out->fine);
-    out->coverage = frame_channel(frame, "display.coverage");
+    out->has_parts = display_layers_find(frame, &out->parts);
+    out->data = frame->data;
+    out->window = frame->display;
+    LayerView coverage;
+    Error     unused;
+    if (frame_channel(frame, "display.coverage") &&
+        layer_view_find(frame, "display.coverage", arena, &coverage, &unused))
+        out->coverage = coverage.planes[0];
+    out->rim = out->wanted < 0 ? RIM_WHOLE : out->has_parts ? RIM_BY_COVERAGE
+               : out->coverage ? RIM_LEFT_OUT : RIM_WHOLE;
     return true;
 }
 
 /* ---- one pixel after the other ------------------------------------------------------- */
-
-/* Greatest variance of the luminance that those of R, G and B allow. */
-static double luminance_variance(const float variance[3])
-{
-    float sigma[3] = {sqrtf(variance[0]), sqrtf(variance[1]), sqrtf(variance[2])}, xyz[3];
-    xyz_from_rgb(sigma, xyz);
-    return (double)xyz[1] * (double)xyz[1];
-}
-
-static double variance_at(const RegionPlanes *planes, size_t i)
-{
-    float v[3];
-    for (int c = 0; c < 3; c++) v[c] = planes->variance.planes[c][i];
-    return luminance_variance(v);
-}
 
 static bool display_light(const RegionPlanes *planes, size_t i, DisplayLight *out)
 {
@@ -138,54 +131,96 @@ static bool display_light(const RegionPlanes *planes, size_t i, DisplayLight *ou
            isfinite(out->shown[1]);
 }
 
-static bool add_display(const RegionPlanes *planes, size_t i, Sums *sums)
+/* What counts of a pixel. */
+typedef struct PixelShare {
+    double      area;        /* 1, or a display's coverage */
+    double      rgb[3], luminance; /* means over it */
+    double      variance[3]; /* of area times rgb; NaN: not known */
+    DisplayPart own;         /* of the display that is wanted, or else of the pixel's */
+} PixelShare;
+
+static DisplayPart part_at(const RegionPlanes *planes, size_t i)
+{
+    int    width = planes->light.width, row = planes->data.x1 - planes->data.x0;
+    int    x = (int)(i % (size_t)width) + planes->window.x0 - planes->data.x0;
+    int    y = (int)(i / (size_t)width) + planes->window.y0 - planes->data.y0;
+    size_t k = (size_t)y * (size_t)row + (size_t)x;
+    if (!planes->has_parts) return (DisplayPart){0};
+    return display_part(&planes->parts, k,
+                        planes->wanted < 0 ? (int)planes->parts.id[k] : planes->wanted);
+}
+
+static PixelShare pixel_light(const RegionPlanes *planes, size_t i)
+{
+    PixelShare pixel = {.area = 1, .own = part_at(planes, i)};
+    bool       is_part = planes->rim == RIM_BY_COVERAGE;
+    if (is_part) pixel.area = pixel.own.coverage;
+    for (int c = 0; c < 3; c++) {
+        pixel.rgb[c] = is_part ? pixel.own.rgb[c] : (double)planes->light.planes[c][i];
+        pixel.variance[c] = is_part ? pixel.own.scatter[c]
+                            : planes->has_variance ? (double)planes->variance.planes[c][i]
+                                                   : (double)NAN;
+    }
+    float rgb[3] = {(float)pixel.rgb[0], (float)pixel.rgb[1], (float)pixel.rgb[2]}, xyz[3];
+    xyz_from_rgb(rgb, xyz);
+    pixel.luminance = (double)xyz[1];
+    return pixel;
+}
+
+/* Not a display's share of a pixel, but all of it, and nothing else. */
+static bool is_alone(const RegionPlanes *planes, const PixelShare *pixel, size_t i)
+{
+    return planes->coverage && planes->coverage[i] == 1 && !pixel->own.is_shared;
+}
+
+/* The share of the pixel that means over displays are taken with; 0: none, as the layers are of
+ * two displays. */
+static double display_weight(const RegionPlanes *planes, const PixelShare *pixel, size_t i)
+{
+    if (planes->has_parts) return pixel->own.is_shared ? 0 : pixel->own.coverage;
+    return planes->coverage ? (double)planes->coverage[i] : 1;
+}
+
+static bool add_display(const RegionPlanes *planes, size_t i, double weight, Sums *sums)
 {
     DisplayLight light;
-    if (!display_light(planes, i, &light)) return false;
-    sums->light.white += light.white;
-    sums->light.black += light.black;
+    if (!(weight > 0) || !display_light(planes, i, &light)) return false;
+    sums->light.white += weight * light.white;
+    sums->light.black += weight * light.black;
     for (int c = 0; c < 3; c++) {
-        sums->light.shown[c] += light.shown[c];
-        sums->light.reflected[c] += light.reflected[c];
+        sums->light.shown[c] += weight * light.shown[c];
+        sums->light.reflected[c] += weight * light.reflected[c];
+        sums->reflected_rgb[c] += weight * (double)planes->reflected.planes[c][i];
     }
-    if (planes->has_mirror) sums->mirror += luminance_at(&planes->mirror, i);
-    if (planes->has_lambertian) sums->lambertian += luminance_at(&planes->lambertian, i);
+    if (planes->has_mirror) sums->mirror += weight * luminance_at(&planes->mirror, i);
+    if (planes->has_lambertian)
+        sums->lambertian += weight * luminance_at(&planes->lambertian, i);
+    sums->display_area += weight;
     sums->display_pixels++;
     return true;
 }
 
-static void add_noise(PixelNoise *noise, const double rgb[3], double luminance)
-{
-    noise->luminance += luminance;
-    noise->fourths += luminance * luminance;
-    for (int c = 0; c < 3; c++) noise->rgb[c] += rgb[c];
-    noise->pixels++;
-}
-
 /* The squares of a pixel's halves have the expectation of its variances, that of their
  * luminance, too. */
-static void add_halves(const LayerView *halves, size_t i, PixelNoise *to)
+static void add_halves(const LayerView *halves, size_t i, double weight, PixelNoise *to)
 {
-    double rgb[3], y = luminance_at(halves, i);
+    double rgb[3], y = weight * luminance_at(halves, i);
     for (int c = 0; c < 3; c++) {
-        double half = (double)halves->planes[c][i];
+        double half = weight * (double)halves->planes[c][i];
         rgb[c] = half * half;
     }
-    if (isfinite(y)) add_noise(to, rgb, y * y);
+    if (isfinite(y)) pixel_noise_add(to, rgb, y * y);
 }
 
-static void add_spread(const RegionPlanes *planes, size_t i, PixelNoise *to)
+static void add_variance(const double variance[3], PixelNoise *to)
 {
-    double rgb[3];
-    for (int c = 0; c < 3; c++) rgb[c] = (double)planes->variance.planes[c][i];
-    add_noise(to, rgb, variance_at(planes, i));
+    pixel_noise_add(to, variance, pixel_noise_luminance(variance));
 }
 
-/* Does the pixel show nothing but a display whose own light is known twice? */
+/* Is the display's own light there known twice? */
 static bool is_known_twice(const RegionPlanes *planes, size_t i)
 {
-    return planes->coverage && planes->coverage[i] == 1 && planes->has_shown &&
-           planes->has_fine && planes->has_display_halves &&
+    return planes->has_shown && planes->has_fine && planes->has_display_halves &&
            isfinite(luminance_at(&planes->shown, i)) &&
            isfinite(luminance_at(&planes->fine, i)) &&
            isfinite(luminance_at(&planes->display_halves, i));
@@ -203,39 +238,43 @@ static void add_known_twice(const RegionPlanes *planes, size_t i, PixelNoise *to
         double apart = (double)planes->shown.planes[c][i] - (double)planes->fine.planes[c][i];
         rgb[c] = apart * apart + half * half;
     }
-    add_noise(to, rgb, shown * shown + reflected * reflected);
+    pixel_noise_add(to, rgb, shown * shown + reflected * reflected);
 }
 
-static void add_pixel_noise(const RegionPlanes *planes, size_t i, bool on_display, Sums *sums)
+/* Halves are of whole pixels: of one that shows other things, too, the part of a display has
+ * its own variance alone. */
+static void add_pixel_noise(const RegionPlanes *planes, size_t i, const PixelShare *pixel,
+                            bool on_display, Sums *sums)
 {
-    if (planes->has_variance) add_spread(planes, i, &sums->noise);
-    if (on_display && is_known_twice(planes, i)) add_known_twice(planes, i, &sums->by_halves);
-    else if (planes->has_halves) add_halves(&planes->halves, i, &sums->by_halves);
-    if (!on_display) return;
-    if (planes->has_variance) add_spread(planes, i, &sums->display_noise);
-    if (planes->has_halves) add_halves(&planes->halves, i, &sums->display_by_halves);
-    if (planes->has_display_halves)
-        add_halves(&planes->display_halves, i, &sums->reflected_by_halves);
+    bool is_whole = is_alone(planes, pixel, i), is_part = planes->rim == RIM_BY_COVERAGE;
+    if (is_part || planes->has_variance) add_variance(pixel->variance, &sums->noise);
+    if (is_part) rim_noise_add(&sums->rim, pixel->own.spread, pixel->rgb);
+    if (on_display && is_whole && is_known_twice(planes, i))
+        add_known_twice(planes, i, &sums->by_halves);
+    else if (is_part && !is_whole) add_variance(pixel->variance, &sums->by_halves);
+    else if (planes->has_halves) add_halves(&planes->halves, i, 1, &sums->by_halves);
+}
+
+/* weight: the display's share. What is reflected is measured by the display's samples alone. */
+static void add_display_noise(const RegionPlanes *planes, size_t i, const PixelShare *pixel,
+                              double weight, Sums *sums)
+{
+    bool          has_own = planes->has_parts, is_whole = is_alone(planes, pixel, i);
+    const double *variance = has_own ? pixel->own.scatter : pixel->variance;
+    double        rgb[3];
+    for (int c = 0; c < 3; c++) rgb[c] = (double)planes->reflected.planes[c][i];
+    if (has_own || planes->has_variance) add_variance(variance, &sums->display_noise);
+    if (has_own) rim_noise_add(&sums->display_rim, pixel->own.spread, rgb);
+    if (has_own && !is_whole) add_variance(variance, &sums->display_by_halves);
+    else if (planes->has_halves) add_halves(&planes->halves, i, 1, &sums->display_by_halves);
+    if (!planes->has_display_halves) return;
+    if (has_own && !isfinite(luminance_at(&planes->display_halves, i))) /* of few samples */
+        add_variance(variance, &sums->reflected_by_halves);
+    else add_halves(&planes->display_halves, i, weight, &sums->reflected_by_halves);
 }
 
 #define HALVES_FREEDOM 16   /* of the halves' squares, at least: */
 #define REFLECTED_FREEDOM 4 /* no other layer has the noise of what is reflected */
-
-/* Halves' squares are those of normal variables, as many as count: 3 (sum d^2)^2 / sum d^4.
- * Student's factor is put into the variances. False where they are too few, or some pixel has
- * none. */
-static bool choose_halves(const PixelNoise *halves, long pixels, double least,
-                          PixelNoise *out)
-{
-    double freedom = halves->fourths > 0
-                         ? 3 * halves->luminance * halves->luminance / halves->fourths : 0;
-    if (halves->pixels != pixels || freedom < least) return false;
-    double factor = student_quantile(freedom) / SIGMAS_95;
-    *out = *halves;
-    out->luminance *= factor * factor;
-    for (int c = 0; c < 3; c++) out->rgb[c] *= factor * factor;
-    return true;
-}
 
 /* A bright sample in a pixel of n moves it by its n-th part, and half the difference of the
  * pixel's halves is as much: these stand for the samples. */
@@ -243,26 +282,51 @@ static void choose_noise(Sums *sums)
 {
     const PixelNoise *reflected = &sums->reflected_by_halves;
     BrightSamples     bright = {reflected->luminance, reflected->fourths};
-    choose_halves(&sums->by_halves, sums->pixels, HALVES_FREEDOM, &sums->noise);
-    if (choose_halves(reflected, sums->display_pixels, REFLECTED_FREEDOM, &sums->display_noise))
+    pixel_noise_of_halves(&sums->by_halves, sums->pixels, HALVES_FREEDOM, &sums->noise);
+    if (pixel_noise_of_halves(reflected, sums->display_pixels, REFLECTED_FREEDOM,
+                              &sums->display_noise))
         sums->reflected_missing = bright_missing(&bright, 1, 1);
     else
-        choose_halves(&sums->display_by_halves, sums->display_pixels, HALVES_FREEDOM,
+        pixel_noise_of_halves(&sums->display_by_halves, sums->display_pixels, HALVES_FREEDOM,
                       &sums->display_noise);
+}
+
+static bool is_wanted(const RegionPlanes *planes, size_t i, const PixelShare *pixel)
+{
+    bool is_named = planes->wanted < 0 || planes->display_id[i] == (float)planes->wanted;
+    if (planes->rim == RIM_BY_COVERAGE) return pixel->area > 0;
+    return is_named && (planes->rim == RIM_WHOLE || is_alone(planes, pixel, i));
+}
+
+/* What a display shows of a pixel that shows something else, too. */
+static void count_rim(const RegionPlanes *planes, size_t i, const PixelShare *pixel, Sums *sums)
+{
+    if (planes->wanted < 0) return;
+    bool is_named = planes->display_id[i] == (float)planes->wanted;
+    sums->unknown_pixels += is_named && pixel->own.is_unknown;
+    if (planes->coverage && (is_named || pixel->own.coverage > 0))
+        sums->rim_pixels += !is_alone(planes, pixel, i);
+    sums->shared_pixels += pixel->own.coverage > 0 && pixel->own.is_shared;
 }
 
 static void add_pixel(const RegionPlanes *planes, size_t i, Sums *sums)
 {
-    double luminance = luminance_at(&planes->light, i);
-    if (!isfinite(luminance)) {
+    bool       is_finite = isfinite(luminance_at(&planes->light, i));
+    PixelShare pixel = pixel_light(planes, i);
+    count_rim(planes, i, &pixel, sums);
+    if (!is_wanted(planes, i, &pixel)) return;
+    if (!is_finite) {
         sums->nonfinite++;
         return;
     }
-    for (int c = 0; c < 3; c++) sums->rgb[c] += (double)planes->light.planes[c][i];
-    bool on_display = planes->has_display && add_display(planes, i, sums);
-    add_pixel_noise(planes, i, on_display, sums);
-    if (luminance < sums->least) sums->least = luminance;
-    if (luminance > sums->greatest) sums->greatest = luminance;
+    double weight = display_weight(planes, &pixel, i);
+    bool   on_display = planes->has_display && add_display(planes, i, weight, sums);
+    sums->area += pixel.area;
+    for (int c = 0; c < 3; c++) sums->rgb[c] += pixel.area * pixel.rgb[c];
+    add_pixel_noise(planes, i, &pixel, on_display, sums);
+    if (on_display) add_display_noise(planes, i, &pixel, weight, sums);
+    if (pixel.luminance < sums->least) sums->least = pixel.luminance;
+    if (pixel.luminance > sums->greatest) sums->greatest = pixel.luminance;
     sums->pixels++;
 }
 
@@ -278,6 +342,16 @@ static void chromaticity_of(const double rgb[3], double xyuv[4], double xyz[3])
     xyuv[1] = xyz[1] / sum;
     xyuv[2] = 4 * xyz[0] / uv;
     xyuv[3] = 9 * xyz[1] / uv;
+}
+
+#define ROUNDING 1e-6 /* of a figure: channels in single precision, and their matrix */
+
+/* A display of even light has no noise but its channels' last digits. */
+static Measured about(double value, double half_width, const FrameMeasurement *out)
+{
+    double least = out->rim == RIM_BY_COVERAGE ? ROUNDING * fabs(value) : 0;
+    if (!out->has_variance) half_width = NAN;
+    return measured_about(value, half_width < least ? least : half_width);
 }
 
 /* First-order propagation of the channels' variances, the slopes by central differences. */
@@ -301,8 +375,7 @@ static void measure_colour(const double rgb[3], const double variance[3], FrameM
         }
     }
     for (int k = 0; k < 4; k++)
-        *figures[k] = measured_about(
-            mean[k], out->has_variance ? SIGMAS_95 * sqrt(spread[k]) : (double)NAN);
+        *figures[k] = about(mean[k], SIGMAS_95 * sqrt(spread[k]), out);
 }
 
 /* The interval of a figure that falls as the reflected light, the only noisy one, rises from
@@ -326,7 +399,7 @@ static void measure_ratios(const DisplayLight *light, Measured reflected, FrameM
 
 static Measured reflected_interval(double reflected, const Sums *sums)
 {
-    double n = (double)sums->display_pixels;
+    double n = sums->display_area;
     double width = SIGMAS_95 * sqrt(sums->display_noise.luminance) / n;
     return (Measured){reflected, fmax(reflected - width, 0),
                       reflected + width + sums->reflected_missing / n};
@@ -351,7 +424,7 @@ static double colour_error_width(const DisplayLight *light, const double varianc
 static void measure_errors(const DisplayLight *light, Measured reflected, const Sums *sums,
                            FrameMeasurement *out)
 {
-    double n = (double)sums->display_pixels, variance[3];
+    double n = sums->display_area, variance[3];
     for (int c = 0; c < 3; c++) variance[c] = sums->display_noise.rgb[c] / (n * n);
     out->shown = light->shown[1];
     out->luminance_error = (Measured){legibility_luminance_error(light),
@@ -364,7 +437,7 @@ static void measure_errors(const DisplayLight *light, Measured reflected, const 
 static void measure_display(const RegionPlanes *planes, const Sums *sums,
                             FrameMeasurement *out)
 {
-    double n = (double)sums->display_pixels;
+    double n = sums->display_area;
     out->display_pixels = sums->display_pixels;
     out->has_contrast = sums->display_pixels > 0;
     if (!out->has_contrast) return;
@@ -389,19 +462,21 @@ static void measure_display(const RegionPlanes *planes, const Sums *sums,
 }
 
 /* The pixels that are measured, by themselves. */
-static ContentContrast measure_content(const RegionPlanes *planes, const ExrWindow *r, int id,
-                                       size_t first, Arena scratch)
+static ContentContrast measure_content(const RegionPlanes *planes, const ExrWindow *r,
+                                       bool has_variance, size_t first, Arena scratch)
 {
     ContentPixels part = {.width = r->x1 - r->x0, .height = r->y1 - r->y0};
     size_t count = (size_t)part.width * (size_t)part.height, k = 0;
     float *luminance = ARENA_NEW(&scratch, float, count);
-    float *variance = planes->has_variance ? ARENA_NEW(&scratch, float, count) : NULL;
+    float *variance = has_variance ? ARENA_NEW(&scratch, float, count) : NULL;
     for (int y = 0; y < part.height; y++) {
         for (int x = 0; x < part.width; x++, k++) {
-            size_t i = first + (size_t)y * (size_t)planes->light.width + (size_t)x;
-            bool   is_wanted = !planes->display_id || planes->display_id[i] == (float)id;
-            luminance[k] = is_wanted ? (float)luminance_at(&planes->light, i) : NAN;
-            if (variance) variance[k] = (float)variance_at(planes, i);
+            size_t     i = first + (size_t)y * (size_t)planes->light.width + (size_t)x;
+            PixelShare pixel = pixel_light(planes, i);
+            bool       wanted = is_wanted(planes, i, &pixel);
+            luminance[k] = wanted ? (float)pixel.luminance : NAN;
+            if (variance) variance[k] = (float)(pixel_noise_luminance(pixel.variance) /
+                                                (pixel.area * pixel.area));
         }
     }
     part.luminance = luminance;
@@ -409,20 +484,40 @@ static ContentContrast measure_content(const RegionPlanes *planes, const ExrWind
     return content_contrast(&part, scratch);
 }
 
+static bool states_noise(const RegionPlanes *planes)
+{
+    return planes->has_variance || planes->rim == RIM_BY_COVERAGE;
+}
+
+/* Of the parts that chance gives pixels, once the means are known. */
+static void add_rim_noise(Sums *sums)
+{
+    double rgb[3], reflected[3];
+    for (int c = 0; c < 3; c++) {
+        rgb[c] = sums->rgb[c] / sums->area;
+        reflected[c] = sums->reflected_rgb[c] / sums->display_area;
+    }
+    rim_noise_put(&sums->rim, rgb, &sums->noise);
+    if (sums->display_area > 0)
+        rim_noise_put(&sums->display_rim, reflected, &sums->display_noise);
+}
+
 static FrameMeasurement figures_of(const RegionPlanes *planes, const Sums *sums)
 {
-    bool        has_variance = planes->has_variance;
-    double      n = (double)sums->pixels, rgb[3], variance[3];
+    double      n = sums->area, rgb[3], variance[3];
     FrameMeasurement out = {.pixels = sums->pixels, .nonfinite = sums->nonfinite,
-                            .has_variance = has_variance, .least = sums->least,
+                            .rim = planes->rim, .area = sums->area,
+                            .rim_pixels = sums->rim_pixels,
+                            .shared_pixels = sums->shared_pixels,
+                            .unknown_pixels = sums->unknown_pixels,
+                            .has_variance = states_noise(planes), .least = sums->least,
                             .greatest = sums->greatest};
     for (int c = 0; c < 3; c++) {
         rgb[c] = sums->rgb[c] / n;
         variance[c] = sums->noise.rgb[c] / (n * n);
     }
     measure_colour(rgb, variance, &out);
-    out.luminance = measured_about(
-        out.xyz[1], has_variance ? SIGMAS_95 * sqrt(sums->noise.luminance) / n : (double)NAN);
+    out.luminance = about(out.xyz[1], SIGMAS_95 * sqrt(sums->noise.luminance) / n, &out);
     measure_display(planes, sums, &out);
     return out;
 }
@@ -443,131 +538,45 @@ static bool check_region(const FrameImage *frame, const MeasureRequest *request,
     return true;
 }
 
+/* Rims are left out where their parts are not known. */
+static bool no_pixel(const MeasureRequest *request, const Sums *sums, Error *err)
+{
+    if (request->display && sums->rim_pixels)
+        return error_at(err, ERROR_INPUT, request->frame_name, "",
+                        "no pixel shows display %s alone, and how much the %ld at its rim show "
+                        "is not known — render it again with --layers display",
+                        request->display, sums->rim_pixels);
+    return error_at(err, ERROR_INPUT, request->frame_name, "",
+                    "no pixel to measure%s%s: %ld are not finite",
+                    request->display ? " on display " : "",
+                    request->display ? request->display : "", sums->nonfinite);
+}
+
 bool measure_frame(const FrameImage *frame, const MeasureRequest *request, Arena scratch,
                    FrameMeasurement *out, Error *err)
 {
-    RegionPlanes    planes = {0};
+    RegionPlanes planes = {.wanted = -1};
     Sums      sums = {.least = INFINITY, .greatest = -INFINITY};
     ExrWindow r = frame->data, w = frame->display;
     FrameView circle = frame_view_circle(frame);
-    int       id = -1;
     if (!check_region(frame, request, &r, err)) return false;
-    if (request->display && !find_display(frame, request->display, &scratch, &id,
+    if (request->display && !find_display(frame, request->display, &scratch, &planes.wanted,
                                           &planes.display_id, err))
         return error_in_file(err, request->frame_name);
     if (!find_planes(frame, &scratch, &planes, err))
         return error_in_file(err, request->frame_name);
-    for (int y = r.y0; y < r.y1; y++) {
-        for (int x = r.x0; x < r.x1; x++) {
-            size_t i = (size_t)(y - w.y0) * (size_t)planes.light.width + (size_t)(x - w.x0);
-            if ((!planes.display_id || planes.display_id[i] == (float)id) &&
-                frame_view_sees(&circle, x - w.x0, y - w.y0))
-                add_pixel(&planes, i, &sums);
-        }
-    }
-    if (sums.pixels == 0)
-        return error_at(err, ERROR_INPUT, request->frame_name, "",
-                        "no pixel to measure%s%s: %ld are not finite",
-                        request->display ? " on display " : "",
-                        request->display ? request->display : "", sums.nonfinite);
-    if (planes.has_variance) choose_noise(&sums);
+    for (int y = r.y0; y < r.y1; y++)
+        for (int x = r.x0; x < r.x1; x++)
+            if (frame_view_sees(&circle, x - w.x0, y - w.y0))
+                add_pixel(&planes, (size_t)(y - w.y0) * (size_t)planes.light.width +
+                                   (size_t)(x - w.x0), &sums);
+    if (sums.pixels == 0) return no_pixel(request, &sums, err);
+    if (states_noise(&planes)) choose_noise(&sums);
+    add_rim_noise(&sums);
     *out = figures_of(&planes, &sums);
     out->has_content = request->has_region || request->display;
     size_t first = (size_t)(r.y0 - w.y0) * (size_t)planes.light.width + (size_t)(r.x0 - w.x0);
-    if (out->has_content) out->content = measure_content(&planes, &r, id, first, scratch);
+    if (out->has_content)
+        out->content = measure_content(&planes, &r, out->has_variance, first, scratch);
     return true;
-}
-
-/* ---- groups of lights ---------------------------------------------------------------- */
-
-#define LIGHT "light."
-#define GREEN ".G"
-
-/* The pixels that count, as indices into the data window. */
-typedef struct ChosenPixels {
-    const size_t *index;
-    size_t        count;
-} ChosenPixels;
-
-static double channel_luminance(const float *const rgb[3], size_t i)
-{
-    float values[3] = {rgb[0][i], rgb[1][i], rgb[2][i]};
-    return (double)luminance_from_rgb(values);
-}
-
-static bool is_inside(ExrWindow w, int x, int y)
-{
-    return x >= w.x0 && x < w.x1 && y >= w.y0 && y < w.y1;
-}
-
-static ChosenPixels choose_pixels(const FrameImage *frame, const MeasureRequest *request,
-                                  const float *const rgb[3], Arena *arena)
-{
-    ExrWindow    d = frame->data, r = request->has_region ? request->region : d;
-    const float *ids = request->display ? frame_channel(frame, "id.display") : NULL;
-    float        id = ids ? (float)frame_id_of(frame, "display", request->display) : 0;
-    size_t      *index = ARENA_NEW(arena, size_t, frame_pixel_count(frame));
-    FrameView    circle = frame_view_circle(frame);
-    ExrWindow    w = frame->display;
-    ChosenPixels out = {index, 0};
-    size_t       i = 0;
-    for (int y = d.y0; y < d.y1; y++)
-        for (int x = d.x0; x < d.x1; x++, i++)
-            if (is_inside(r, x, y) && is_inside(w, x, y) &&
-                frame_view_sees(&circle, x - w.x0, y - w.y0) &&
-                (!ids || ids[i] == id) && isfinite(channel_luminance(rgb, i)))
-                index[out.count++] = i;
-    return out;
-}
-
-static double mean_luminance(const float *const rgb[3], const ChosenPixels *pixels)
-{
-    double sum = 0;
-    for (size_t i = 0; i < pixels->count; i++) sum += channel_luminance(rgb, pixels->index[i]);
-    return pixels->count ? sum / (double)pixels->count : 0;
-}
-
-/* The layer of a channel light.NAME.G; NULL: it is none. */
-static const char *layer_of(const char *channel, Arena *arena)
-{
-    size_t length = strlen(channel), tail = strlen(GREEN);
-    if (strncmp(channel, LIGHT, strlen(LIGHT)) != 0 || length <= strlen(LIGHT) + tail ||
-        strcmp(channel + length - tail, GREEN) != 0)
-        return NULL;
-    return arena_string(arena, channel, length - tail);
-}
-
-/* NaN sorts last. */
-static double rank_of(const LightShare *light)
-{
-    return isnan(light->cd_m2) ? -(double)INFINITY : light->cd_m2;
-}
-
-static int compare_shares(const void *a, const void *b)
-{
-    const LightShare *x = a, *y = b;
-    double first = rank_of(x), second = rank_of(y);
-    if (first != second) return first < second ? 1 : -1;
-    return strcmp(x->layer, y->layer);
-}
-
-LightShares measure_lights(const FrameImage *frame, const MeasureRequest *request,
-                           Arena *arena)
-{
-    LightShares  out = {ARENA_NEW(arena, LightShare, frame->channel_count), 0};
-    const float *rgb[3], *light[3];
-    if (!frame_rgb(frame, "", rgb)) return out;
-    ChosenPixels pixels = choose_pixels(frame, request, rgb, arena);
-    double       all = mean_luminance(rgb, &pixels);
-    for (int i = 0; i < frame->channel_count; i++) {
-        const char *layer = layer_of(frame->channels[i].name, arena);
-        if (!layer || !frame_rgb(frame, layer, light)) continue;
-        const char *name = frame_string(frame, arena_format(arena, "parhelion:%s", layer));
-        double      cd_m2 = mean_luminance(light, &pixels);
-        if (!name) name = layer + strlen(LIGHT);
-        out.list[out.count++] =
-            (LightShare){layer, name, cd_m2, all > 0 ? cd_m2 / all : 0};
-    }
-    qsort(out.list, (size_t)out.count, sizeof *out.list, compare_shares);
-    return out;
 }

@@ -1,0 +1,36 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* regions.h -- the family of tests of regions: the frame, every display, what each reflects.
+ *
+ * A display is what it sends by itself (measure/display_part.h) where both frames have the
+ * layers that tell: what lies around moves nothing of it. Else its pixels count whole, by the
+ * reference's id.display.
+ *
+ * Memory   the list and its names come from the arena.
+ * Threads  pure.
+ */
+#pragma once
+#include "compare/statistic/noisy_pair.h"
+
+/* One part of the frame whose mean is tested for itself. */
+typedef struct StatisticRegion {
+    const char *name;      /* "frame", a display's in the reference, "cluster reflected" */
+    long    pixels;
+    double  reference, test; /* mean luminance, cd m^-2; of a display over its own area */
+    double  shift;         /* test / reference - 1; NaN for a black reference */
+    double  shift_sigma;   /* its standard error */
+    double  change;        /* the best estimate of a change in proportion, and its error: the */
+    double  change_sigma;  /* surer pixels count more; NaN: it is no proportion */
+    double  p_value;       /* two-sided */
+    bool    moved;         /* after the correction for how many are tested */
+} StatisticRegion;
+
+typedef struct RegionFindings {
+    StatisticRegion *list; /* those with pixels; the frame first */
+    int    count;
+    double p;              /* of the family; 1 without regions */
+    double mean_shift;     /* of the frame; NaN without regions */
+} RegionFindings;
+
+/* frames: reference, test; level: the family's. */
+RegionFindings regions_measure(const NoisyPair *pair, const FrameImage *const frames[2],
+                               double level, Arena *arena);
