@@ -65,7 +65,8 @@ static ChosenPixels choose_pixels(const FrameImage *frame, const MeasureRequest 
     for (int y = d.y0; y < d.y1; y++)
         for (int x = d.x0; x < d.x1; x++, i++)
             if (is_inside(r, x, y) && is_inside(w, x, y) && counts(&of, i) &&
-                frame_view_sees(&circle, x - w.x0, y - w.y0) && isfinite(channel_luminance(rgb, i)))
+                frame_view_sees(&circle, x - w.x0, y - w.y0) &&
+                isfinite(channel_luminance(rgb, i)))
                 index[out.count++] = i;
     return out;
 }

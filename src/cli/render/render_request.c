@@ -356,8 +356,7 @@ static bool parse_line(int argc, char **argv, Arena *arena, RenderWords *typed,
     EnvironmentChange *outside = &request->environment;
     const Option options[] = {
         {"-o", OPTION_TEXT, "FRAME.exr|.hdr",
-         "the frame that is written; .hdr: R, G, B as a Radiance picture with its view",
-         &request->output},
+         "the frame; .hdr: R, G, B as a Radiance picture with its view", &request->output},
         {"--png", OPTION_TEXT, "FILE", "develop the frame as well (PNG, JPEG, TIFF by ending)",
          &request->png},
         LOOK_OPTIONS(&request->look),
