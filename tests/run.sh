@@ -65,6 +65,7 @@ start 'panel commands' panel-commands python3 tests/hostile/panel_commands.py $p
 start 'a second reader of panels' library-agreement \
     python3 tests/library/agreement.py .build/release
 start 'frames held against accepted ones' regression python3 tests/image/regression.py $program
+start 'half the space and its glare' fisheye python3 tests/image/fisheye.py $program
 start 'people in the seats' occupants python3 tests/image/occupants.py $program
 start 'pictures as light' hdri python3 tests/image/hdri.py $program
 start 'the Blender add-on' blender python3 tests/blender/run.py $program

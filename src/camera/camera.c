@@ -12,8 +12,21 @@ static float half_angle_tangent(float angle)
     return sine / cosine;
 }
 
+static Camera fisheye_camera(const SceneCamera *camera, int width, int height)
+{
+    float circle = (float)(width < height ? width : height);
+    return (Camera){.world_from_camera = camera->world_from_camera,
+                    .is_perspective = true,
+                    .fisheye = camera->fisheye,
+                    .half_width = (float)width / circle,
+                    .half_height = (float)height / circle,
+                    .width = width,
+                    .height = height};
+}
+
 Camera camera_from_scene(const SceneCamera *camera, int width, int height)
 {
+    if (camera->fisheye) return fisheye_camera(camera, width, height);
     float half_height =
         camera->is_perspective ? half_angle_tangent(camera->yfov) : camera->ymag;
     return (Camera){.world_from_camera = camera->world_from_camera,
@@ -24,11 +37,22 @@ Camera camera_from_scene(const SceneCamera *camera, int width, int height)
                     .height = height};
 }
 
+/* Right and up of the middle, in the units of half_width. */
+static Vec2 film_place(const Camera *camera, float x, float y)
+{
+    return (Vec2){(2 * x / (float)camera->width - 1) * camera->half_width,
+                  (1 - 2 * y / (float)camera->height) * camera->half_height};
+}
+
 Ray camera_ray(const Camera *camera, float x, float y)
 {
     const Transform *world = &camera->world_from_camera;
-    float right = (2 * x / (float)camera->width - 1) * camera->half_width;
-    float up = (1 - 2 * y / (float)camera->height) * camera->half_height;
+    Vec2  place = film_place(camera, x, y);
+    float right = place.x, up = place.y;
+    if (camera->fisheye) {
+        Vec3 seen = fisheye_direction(camera->fisheye, right, up);
+        return (Ray){world->origin, transform_vector(world, seen), 0, INFINITY};
+    }
     if (camera->is_perspective) {
         Vec3 direction = vec3_normalize(transform_vector(world, vec3(right, up, -1)));
         return (Ray){world->origin, direction, 0, INFINITY};
@@ -36,8 +60,59 @@ Ray camera_ray(const Camera *camera, float x, float y)
     return (Ray){transform_point(world, vec3(right, up, 0)), vec3_neg(world->z), 0, INFINITY};
 }
 
+/* ---- what a fisheye sees ----------------------------------------------------------------- */
+
+#define PLACES_MOST 256 /* pairs that are tried for a pixel that the circle cuts */
+#define PLACES_SEED 0x72696d21u
+
+bool camera_sees(const Camera *camera, float x, float y)
+{
+    Vec2 place = film_place(camera, x, y);
+    return !camera->fisheye || place.x * place.x + place.y * place.y <= 1;
+}
+
+/* By the pixel's place that is nearest to the middle. */
+bool camera_sees_pixel(const Camera *camera, int x, int y)
+{
+    float middle_x = 0.5f * (float)camera->width, middle_y = 0.5f * (float)camera->height;
+    return camera_sees(camera, clampf(middle_x, (float)x, (float)(x + 1)),
+                       clampf(middle_y, (float)y, (float)(y + 1)));
+}
+
+/* Even over the part of the pixel that is seen: the first of independent places that is. Where
+ * none is, less than a hundredth of the pixel is seen, and its place nearest to the middle
+ * stands for it. */
+static Vec2 place_in_view(const Camera *camera, int x, int y, Vec2 at, const Sampler *sampler)
+{
+    Sampler own = *sampler;
+    Vec2    place = {(float)x + at.x, (float)y + at.y};
+    own.pixel_hash = hash_combine(own.pixel_hash, PLACES_SEED);
+    for (own.dimension = 0; own.dimension < PLACES_MOST;) {
+        if (camera_sees(camera, place.x, place.y)) return place;
+        at = sampler_2d(&own);
+        place = (Vec2){(float)x + at.x, (float)y + at.y};
+    }
+    return (Vec2){clampf(0.5f * (float)camera->width, (float)x, (float)(x + 1)),
+                  clampf(0.5f * (float)camera->height, (float)y, (float)(y + 1))};
+}
+
+Ray camera_pixel_ray(const Camera *camera, int x, int y, Vec2 at, const Sampler *sampler)
+{
+    Vec2 place = {(float)x + at.x, (float)y + at.y};
+    if (camera->fisheye) place = place_in_view(camera, x, y, at, sampler);
+    return camera_ray(camera, place.x, place.y);
+}
+
+static RayCone fisheye_cone(const Camera *camera)
+{
+    float pixel = 2 * camera->half_height / (float)camera->height; /* radii */
+    float per_radius = camera->fisheye == FISHEYE_EQUISOLID ? 1.41421356f : 0.5f * PI_F;
+    return (RayCone){0, pixel * per_radius};
+}
+
 RayCone camera_cone(const Camera *camera)
 {
+    if (camera->fisheye) return fisheye_cone(camera);
     float pixel = 2 * camera->half_height / (float)camera->height;
     return camera->is_perspective ? (RayCone){0, pixel} : (RayCone){pixel, 0};
 }
@@ -135,20 +210,41 @@ static Vec3 seen_from_eye(const Camera *camera, Vec3 point)
     return vec3(vec3_dot(away, eye->x), vec3_dot(away, eye->y), -vec3_dot(away, eye->z));
 }
 
+static Vec2 place_of_point(const Camera *camera, Vec3 seen)
+{
+    if (camera->fisheye)
+        return fisheye_place(camera->fisheye, vec3(seen.x, seen.y, -seen.z));
+    float distance = camera->is_perspective ? seen.z : 1;
+    return (Vec2){seen.x / distance, seen.y / distance};
+}
+
 static void add_point(const Camera *camera, Vec3 seen, FilmBox *box)
 {
-    float distance = camera->is_perspective ? seen.z : 1;
-    float right = seen.x / (distance * camera->half_width);
-    float up = seen.y / (distance * camera->half_height);
+    Vec2  place = place_of_point(camera, seen);
+    float right = place.x / camera->half_width;
+    float up = place.y / camera->half_height;
     float x = (1 + right) * 0.5f * (float)camera->width;
     float y = (1 - up) * 0.5f * (float)camera->height;
     *box = (FilmBox){fminf(box->x0, x), fminf(box->y0, y), fmaxf(box->x1, x),
                      fmaxf(box->y1, y)};
 }
 
+#define CURVE_POINTS 32 /* along an edge, which a fisheye bends */
+
+/* What lies behind is on the rim, where the circle cuts the part off. */
+static void add_curve(const Camera *camera, Vec3 a, Vec3 b, FilmBox *box)
+{
+    for (int i = 0; i < CURVE_POINTS; i++)
+        add_point(camera, vec3_along(a, vec3_sub(b, a), (float)i / CURVE_POINTS), box);
+}
+
 /* Adds the edge from a to b, without b. */
 static void add_edge(const Camera *camera, Vec3 a, Vec3 b, FilmBox *box)
 {
+    if (camera->fisheye) {
+        add_curve(camera, a, b, box);
+        return;
+    }
     bool sees_a = a.z >= NEAREST_M, sees_b = b.z >= NEAREST_M;
     if (sees_a) add_point(camera, a, box);
     if (sees_a == sees_b) return;
@@ -173,7 +269,9 @@ static void add_to_box(const Camera *camera, const Scene *scene, uint32_t triang
         corner[c] = scene_corner(scene, triangle, c);
         seen[c] = seen_from_eye(camera, corner[c]);
     }
-    if (!faces_camera(camera, corner)) return;
+    if (!faces_camera(camera, corner) ||
+        fmaxf(fmaxf(seen[0].z, seen[1].z), seen[2].z) < NEAREST_M)
+        return;
     for (int c = 0; c < 3; c++) add_edge(camera, seen[c], seen[(c + 1) % 3], box);
 }
 

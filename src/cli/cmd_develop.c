@@ -8,6 +8,7 @@
 #include "cli/options/cli.h"
 #include "cli/options/look_options.h"
 #include "image/develop.h"
+#include "image/radiance/frame_file.h"
 #include "image/exposure.h"
 #include "text/json_text.h"
 
@@ -91,7 +92,7 @@ static bool develop(DevelopWords *typed, Arena *arena, Error *err)
 {
     FrameImage    frame;
     LookReport    look;
-    if (!frame_read(typed->frame, arena, &frame, err)) return false;
+    if (!frame_file_read(typed->frame, arena, &frame, err)) return false;
     const LookRequest request = {&frame, &typed->options, typed->output, typed->cli.threads,
                                  &typed->eye};
     if (!look_options_develop(&request, *arena, &look, err)) return false;

@@ -7,7 +7,9 @@
 #include "base/count.h"
 #include "cli/commands.h"
 #include "cli/luxmeter.h"
+#include "cli/measure_glare.h"
 #include "cli/options/answer.h"
+#include "image/radiance/frame_file.h"
 #include "measure/light_shares.h"
 #include "text/interval_text.h"
 #include "text/json_text.h"
@@ -17,6 +19,7 @@
 typedef struct MeasureWords {
     MeasureRequest  request;
     LuxmeterRequest luxmeter;
+    GlareWords      glare;
     SceneWords      scene; /* of the luxmeter */
     bool            has_samples;
     Cli             cli;
@@ -75,15 +78,22 @@ static bool parse(int argc, char **argv, Arena *arena, MeasureWords *out, Error 
          .out = &out->luxmeter.wants_csv},
         {"--samples", OPTION_INTEGER, "N", "paths for --illuminance (default 262144)",
          .out = &out->luxmeter.samples, .low = 2, .high = 1 << 30, .given = &out->has_samples},
+        GLARE_OPTIONS(&out->glare),
         SCENE_OPTIONS(&out->scene, &out->luxmeter.scene, &out->luxmeter.environment),
     };
     const CliCommand command = {
         "measure", "luminance, colour and contrast of a part of a frame, with 95 % intervals",
-        "FRAME.exr [--region X0,Y0,X1,Y1] [--display NAME] | SCENE... --illuminance ...",
+        "FRAME.exr|.hdr [--region X0,Y0,X1,Y1] [--display NAME] | FRAME.exr|.hdr --glare | "
+        "SCENE... --illuminance ...",
         "parhelion measure frame.exr --display cluster --json",
         options, COUNT_OF(options), 1, -1};
     if (!cli_parse(&command, argc, argv, arena, &out->cli, err)) return false;
     if (out->cli.help_shown) return true;
+    if (!glare_words_check(&out->glare, err)) return false;
+    if (out->glare.given && (out->luxmeter.places.count || r->has_region || r->display))
+        return error_set(err, ERROR_USAGE, "--glare is of all that an eye sees: leave out %s",
+                         out->luxmeter.places.count ? "--illuminance"
+                         : r->display ? "--display" : "--region");
     return out->luxmeter.places.count ? read_luxmeter(out, arena, err)
                                       : read_frame_request(region, out, err);
 }
@@ -340,7 +350,9 @@ static bool measure(const MeasureWords *typed, Arena *arena, Error *err)
     FrameMeasurement measured;
     if (typed->luxmeter.places.count)
         return luxmeter_run(&typed->cli, &typed->luxmeter, arena, err);
-    if (!frame_read(typed->request.frame_name, arena, &frame, err)) return false;
+    if (!frame_file_read(typed->request.frame_name, arena, &frame, err)) return false;
+    if (typed->glare.given)
+        return measure_glare(&typed->cli, &frame, &typed->glare, arena, err);
     if (!measure_frame(&frame, &typed->request, *arena, &measured, err)) return false;
     LightShares lights = light_shares_measure(&frame, &typed->request,
                                               measured.luminance.value, arena);
@@ -352,7 +364,7 @@ static bool measure(const MeasureWords *typed, Arena *arena, Error *err)
 
 static bool run_measure(int argc, char **argv, Arena *arena, Error *err)
 {
-    MeasureWords typed = {.luxmeter = {.samples = 1 << 18}};
+    MeasureWords typed = {.luxmeter = {.samples = 1 << 18}, .glare = GLARE_WORDS_DEFAULT};
     return parse(argc, argv, arena, &typed, err) &&
            (typed.cli.help_shown || measure(&typed, arena, err));
 }

@@ -21,6 +21,7 @@
 #include "render/identity.h"
 #include "film/film_frame.h"
 #include "film/film_merge.h"
+#include "image/frame_view.h"
 #include "text/json_text.h"
 #include "text/text.h"
 
@@ -306,6 +307,7 @@ static bool add_all(MergeRun *work, Error *err)
     double          total = 0, done = 0;
     work->film = film_create(whole->width, whole->height, whole->crop, whole->layers,
                              &whole->lights, work->arena);
+    if (frame_fisheye(&work->common)) film_set_blind(work->film);
     for (int i = 0; i < work->count; i++) total += pixels_in(work->parts[i].crop);
     Progress progress = progress_start(work->cli.progress, "merge", "pixels", total);
     for (int i = 0; i < work->count; i++)

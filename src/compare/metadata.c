@@ -31,6 +31,7 @@ static const char *const DECIDING[] = {
     "chromaticities",      "whiteLuminance",       "adoptedNeutral",    "worldToCamera",
     "worldToNDC",          "pixelAspectRatio",     "screenWindowWidth", "parhelion:unit",
     "parhelion:camera",    "parhelion:yfov_deg",   "parhelion:ymag_m",  "parhelion:maxBounces",
+    "parhelion:projection", "VIEW",
     "parhelion:unbiased",  "parhelion:complete",   "parhelion:part.",   "parhelion:display.",
 };
 

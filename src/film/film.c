@@ -60,6 +60,11 @@ Film *film_create(int width, int height, FilmRect crop, unsigned layers,
     return film;
 }
 
+void film_set_blind(Film *film)
+{
+    film->has_blind = true;
+}
+
 /* ---- adding ------------------------------------------------------------------------------ */
 
 /* Nearest step; scaled: the value in steps. Halves go away from zero. */
@@ -325,6 +330,11 @@ static double pixel_error(const FilmPixel *pixel, double lowest)
     return luminance > 0 ? pixel->sigma_y / luminance : 0;
 }
 
+static bool is_seen(const Film *film, const FilmPixel *pixel)
+{
+    return pixel->samples || !film->has_blind;
+}
+
 static bool shows(const FilmPixel *pixel, int display)
 {
     if (display == FILM_ALL_PIXELS) return true;
@@ -339,7 +349,7 @@ static double mean_error(const Film *film, FilmArea area, double lowest)
     for (int y = rect.y0 > crop.y0 ? rect.y0 : crop.y0; y < rect.y1 && y < crop.y1; y++)
         for (int x = rect.x0 > crop.x0 ? rect.x0 : crop.x0; x < rect.x1 && x < crop.x1; x++) {
             FilmPixel pixel = film_pixel(film, x, y);
-            if (!shows(&pixel, area.display)) continue;
+            if (!is_seen(film, &pixel) || !shows(&pixel, area.display)) continue;
             sum += pixel_error(&pixel, lowest);
             count++;
         }
@@ -379,7 +389,7 @@ int film_worst_pixels(const Film *film, int count, FilmWorst *out)
         for (int x = film->crop.x0; x < film->crop.x1; x++) {
             FilmPixel pixel = film_pixel(film, x, y);
             FilmWorst worst = {x, y, pixel.mean_xyz[1], pixel_error(&pixel, lowest)};
-            kept = keep_worst(out, kept, count, worst);
+            if (is_seen(film, &pixel)) kept = keep_worst(out, kept, count, worst);
         }
     return kept;
 }

@@ -30,6 +30,9 @@
 Film *film_create(int width, int height, FilmRect crop, unsigned layers,
                   const FilmLights *lights, Arena *arena);
 
+/* Pixels that have no sample are out of view (a fisheye's corners): they count in no error. */
+void film_set_blind(Film *film);
+
 /* Bytes that film_create will take with so many groups of lights. */
 size_t film_bytes(FilmRect crop, unsigned layers, int light_count);
 

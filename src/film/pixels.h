@@ -56,6 +56,7 @@ struct Film {
     int      width, height;
     FilmRect crop;
     unsigned layers;
+    bool     has_blind; /* pixels without samples are out of view */
     int      first[SUMS_COUNT]; /* index into PixelSums.layers, -1: not kept */
     FilmLights lights;          /* none without LAYER_LIGHT */
     int      first_light;       /* where those of the first group stand */

@@ -32,11 +32,11 @@ typedef struct ProbePath {
     Ray         ray; /* of an eye */
 } ProbePath;
 
-static Ray ray_of(const ProbeAim *aim, int path, Vec2 place)
+/* sampler: place's. */
+static Ray ray_of(const ProbeAim *aim, int path, Vec2 place, const Sampler *sampler)
 {
     const ProbePixel *pixel = aim->pixel;
-    if (pixel)
-        return camera_ray(pixel->camera, (float)pixel->x + place.x, (float)pixel->y + place.y);
+    if (pixel) return camera_pixel_ray(pixel->camera, pixel->x, pixel->y, place, sampler);
     Vec3 to = vec3_sub(target_of(aim, path, place), aim->eye);
     return (Ray){aim->eye, vec3_normalize(to), 0, INFINITY};
 }
@@ -51,7 +51,7 @@ static void start_path(const ProbeAim *aim, int path, PathStatistics *statistics
     wavelengths_sample(sampler_1d(&out->sampler), &out->wavelengths);
     out->start = (PathStart){.context = aim->context, .wavelengths = &out->wavelengths,
                              .sampler = &out->sampler, .statistics = statistics};
-    if (!aim->meter) out->ray = ray_of(aim, path, place);
+    if (!aim->meter) out->ray = ray_of(aim, path, place, &out->sampler);
 }
 
 /* ---- by the light that is there ---------------------------------------------------------- */

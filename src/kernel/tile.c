@@ -80,7 +80,7 @@ static void add_fine(const TileJob *job, int x, int y, const Wavelengths *wavele
     for (uint32_t k = 0; k < count; k++) {
         Sampler  sampler = sampler_start(job->seed ^ FINE_SEED, x, y, first + k);
         Vec2     at = sampler_2d(&sampler);
-        Ray      ray = camera_ray(job->camera, (float)x + at.x, (float)y + at.y);
+        Ray      ray = camera_pixel_ray(job->camera, x, y, at, &sampler);
         add_fine_ray(job, ray, wavelengths, &sampler, out, statistics);
     }
     for (int i = 0; i < 3; i++) out->fine[i] /= (float)count;
@@ -151,7 +151,7 @@ static void tile_sample(TileWork *work, int x, int y, uint32_t index, FilmSample
     Wavelengths wavelengths;
     SeenLight   seen;
     wavelengths_sample(sampler_1d(&sampler), &wavelengths);
-    Ray ray = camera_ray(job->camera, (float)x + at.x, (float)y + at.y);
+    Ray ray = camera_pixel_ray(job->camera, x, y, at, &sampler);
     trace(work, ray, &wavelengths, &sampler, &seen);
     *out = (FilmSample){.sample_index = index, .part_id = -1, .display_id = -1};
     copy3(out->xyz, seen.path.xyz);
@@ -187,7 +187,7 @@ static void tile_render(const TileJob *job, FilmRect rect, PathStatistics *stati
     lights_start(job->lights, &work.lights);
     for (int y = rect.y0; y < rect.y1; y++)
         for (int x = rect.x0; x < rect.x1; x++)
-            pixel_render(&work, x, y);
+            if (camera_sees_pixel(job->camera, x, y)) pixel_render(&work, x, y);
 }
 
 /* ---- which pixels show a display --------------------------------------------------------- */
@@ -196,7 +196,7 @@ static void tile_render(const TileJob *job, FilmRect rect, PathStatistics *stati
 #define SEARCH_SEED 0x666f7264u
 
 static bool ray_shows(const DisplaySearch *search, const PathContext *eye, Sampler *sampler,
-                      Vec2 at)
+                      Ray ray)
 {
     const SeenAsk  ask = {.listener = NULL};
     PathStatistics uncounted = {0};
@@ -206,7 +206,7 @@ static bool ray_shows(const DisplaySearch *search, const PathContext *eye, Sampl
     wavelengths_sample(sampler_1d(sampler), &wavelengths);
     PathStart start = {.context = eye, .wavelengths = &wavelengths, .sampler = sampler,
                        .statistics = &uncounted};
-    path_seen(&start, camera_ray(search->camera, at.x, at.y), &ask, &seen);
+    path_seen(&start, ray, &ask, &seen);
     if (!seen.path.hit) return false;
     path_features(eye, &seen.path, &wavelengths, &features);
     return search->display == FILM_ANY_DISPLAY ? features.display_id != NO_ID
@@ -215,11 +215,12 @@ static bool ray_shows(const DisplaySearch *search, const PathContext *eye, Sampl
 
 static bool pixel_shows(const DisplaySearch *search, const PathContext *eye, int x, int y)
 {
+    if (!camera_sees_pixel(search->camera, x, y)) return false;
     for (uint32_t k = 0; k < SEARCH_RAYS; k++) {
         Sampler sampler = sampler_start(SEARCH_SEED, x, y, k);
         Vec2    at = sampler_2d(&sampler);
-        if (ray_shows(search, eye, &sampler, (Vec2){(float)x + at.x, (float)y + at.y}))
-            return true;
+        Ray     ray = camera_pixel_ray(search->camera, x, y, at, &sampler);
+        if (ray_shows(search, eye, &sampler, ray)) return true;
     }
     return false;
 }
@@ -245,8 +246,10 @@ static void lesson_find_places(const LessonJob *job, FilmRect rect, PathStatisti
             Vec2    at = sampler_2d(&sampler);
             Wavelengths wavelengths;
             wavelengths_sample(sampler_1d(&sampler), &wavelengths);
-            Ray ray = camera_ray(job->camera, ((float)x + at.x) * job->stretch.x,
-                                 ((float)y + at.y) * job->stretch.y);
+            Vec2 place = {((float)x + at.x) * job->stretch.x,
+                          ((float)y + at.y) * job->stretch.y};
+            if (!camera_sees(job->camera, place.x, place.y)) continue;
+            Ray ray = camera_ray(job->camera, place.x, place.y);
             LessonPlaces places = lesson_places(
                 &job->places[(size_t)y * (size_t)job->columns + (size_t)x]);
             PathStart start = {.context = job->context, .wavelengths = &wavelengths,

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "image/frame_view.h"
 #include "spectrum/photometry.h"
 
 #define LIGHT "light."
@@ -57,11 +58,14 @@ static ChosenPixels choose_pixels(const FrameImage *frame, const MeasureRequest 
     ExrWindow    d = frame->data, r = request->has_region ? request->region : d;
     LightPixels  of = pixels_of(frame, request->display);
     size_t      *index = ARENA_NEW(arena, size_t, frame_pixel_count(frame));
+    FrameView    circle = frame_view_circle(frame);
+    ExrWindow    w = frame->display;
     ChosenPixels out = {index, 0};
     size_t       i = 0;
     for (int y = d.y0; y < d.y1; y++)
         for (int x = d.x0; x < d.x1; x++, i++)
-            if (is_inside(r, x, y) && is_inside(frame->display, x, y) && counts(&of, i) &&
+            if (is_inside(r, x, y) && is_inside(w, x, y) && counts(&of, i) &&
+                frame_view_sees(&circle, x - w.x0, y - w.y0) &&
                 isfinite(channel_luminance(rgb, i)))
                 index[out.count++] = i;
     return out;

@@ -8,6 +8,7 @@
 
 #include "base/confidence.h"
 #include "base/count.h"
+#include "image/frame_view.h"
 #include "image/layer_view.h"
 #include "image/legibility.h"
 #include "measure/pixel_noise.h"
@@ -557,6 +558,7 @@ bool measure_frame(const FrameImage *frame, const MeasureRequest *request, Arena
     RegionPlanes planes = {.wanted = -1};
     Sums      sums = {.least = INFINITY, .greatest = -INFINITY};
     ExrWindow r = frame->data, w = frame->display;
+    FrameView circle = frame_view_circle(frame);
     if (!check_region(frame, request, &r, err)) return false;
     if (request->display && !find_display(frame, request->display, &scratch, &planes.wanted,
                                           &planes.display_id, err))
@@ -565,7 +567,8 @@ bool measure_frame(const FrameImage *frame, const MeasureRequest *request, Arena
         return error_in_file(err, request->frame_name);
     for (int y = r.y0; y < r.y1; y++)
         for (int x = r.x0; x < r.x1; x++)
-            add_pixel(&planes, (size_t)(y - w.y0) * (size_t)planes.light.width +
+            if (frame_view_sees(&circle, x - w.x0, y - w.y0))
+                add_pixel(&planes, (size_t)(y - w.y0) * (size_t)planes.light.width +
                                    (size_t)(x - w.x0), &sums);
     if (sums.pixels == 0) return no_pixel(request, &sums, err);
     if (states_noise(&planes)) choose_noise(&sums);

@@ -21,6 +21,7 @@
  *          and with the display's own light, wherever the frame has the layers of it. Of frames
  *          that have not, rims are left out where display.coverage tells them; else pixels
  *          count whole, and have the light of what is around.
+ * Pixels   outside a fisheye's circle are none.
  * Threads  pure functions.
  * Fails    when the frame lacks what is asked for: the text names what to render again.
  */

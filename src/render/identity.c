@@ -182,10 +182,14 @@ void identity_add_environment(Text *text, const Scene *scene)
 void identity_add_camera(Text *text, const SceneCamera *camera)
 {
     const Transform *t = &camera->world_from_camera;
-    identity_line(text, "camera", "%s",
-                  camera->is_perspective ? "perspective" : "orthographic");
-    identity_float(text, camera->is_perspective ? "camera yfov" : "camera ymag",
-                   camera->is_perspective ? camera->yfov : camera->ymag);
+    if (camera->fisheye) {
+        identity_line(text, "camera", "fisheye, %s", fisheye_name(camera->fisheye));
+    } else {
+        identity_line(text, "camera", "%s",
+                      camera->is_perspective ? "perspective" : "orthographic");
+        identity_float(text, camera->is_perspective ? "camera yfov" : "camera ymag",
+                       camera->is_perspective ? camera->yfov : camera->ymag);
+    }
     identity_vector(text, "camera x", t->x);
     identity_vector(text, "camera y", t->y);
     identity_vector(text, "camera z", t->z);

@@ -63,14 +63,17 @@ typedef struct Square {
 static Square square_of(const Film *film, FilmRect rect)
 {
     double sum = 0, squares = 0, sigma = 0;
-    int    count = (int)pixels_of(rect);
+    int    count = 0;
     for (int y = rect.y0; y < rect.y1; y++)
         for (int x = rect.x0; x < rect.x1; x++) {
             FilmPixel pixel = film_pixel(film, x, y);
+            if (!pixel.samples) continue; /* out of view */
+            count++;
             sum += pixel.mean_xyz[1];
             squares += pixel.mean_xyz[1] * pixel.mean_xyz[1];
             sigma += pixel.sigma_y;
         }
+    if (!count) return (Square){.pixels = 0};
     double mean = sum / count;
     double detail = count > 1 ? (squares - sum * mean) / (count - 1) : (double)INFINITY;
     return (Square){mean, fmin(sigma / count, sqrt(fmax(detail, 0))), count};

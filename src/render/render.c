@@ -186,14 +186,15 @@ unsigned render_layers(const Scene *scene, unsigned layers)
     return scene->display_count > 1 ? layers : layers & ~(unsigned)LAYER_DISPLAY_SECOND;
 }
 
-static bool make_film(const RenderOptions *options, Arena *arena, RenderResult *result,
-                      Error *err)
+static bool make_film(const RenderSetup *setup, const RenderOptions *options, Arena *arena,
+                      RenderResult *result, Error *err)
 {
     const Checkpoint  *resume = options->resume;
     const LightGroups *groups = options->lights;
     const FilmLights   lights = {groups ? groups->count : 0, groups ? groups->names : NULL};
     result->film = film_create(options->width, options->height, options->crop, options->layers,
                                &lights, arena);
+    if (setup->camera.fisheye) film_set_blind(result->film);
     result->has_features = (options->layers & LAYER_FEATURES) ||
                            (options->noise > 0 &&
                             options->noise_area.display != FILM_ALL_PIXELS) ||
@@ -331,7 +332,7 @@ bool render_prepared(const RenderSetup *setup, const RenderOptions *options, Are
                            .field_hash = setup->field_hash,
                            .training_seconds = setup->training_seconds,
                            .training_paths = setup->training.samples};
-    if (!make_film(options, arena, &result, err)) return false;
+    if (!make_film(setup, options, arena, &result, err)) return false;
     const double begun_s = monotonic_seconds();
     result.shares = find_shares(setup, options, arena);
     result.build_seconds += monotonic_seconds() - begun_s;

@@ -14,6 +14,7 @@
 
 #include "base/arena.h"
 #include "base/error.h"
+#include "image/fisheye.h"
 #include "base/problems.h"
 #include "base/vec.h"
 #include "image/texture.h"
@@ -191,7 +192,8 @@ typedef struct PunctualLight {
 
 typedef struct SceneCamera {
     const char *node_name, *camera_name; /* "" where the file has none */
-    bool  is_perspective;
+    bool  is_perspective; /* rays from one point; */
+    Fisheye fisheye;      /* not a file's, but a command's: half the space instead of yfov */
     float yfov;          /* radians, full vertical angle (perspective) */
     float ymag;          /* m, half the height (orthographic) */
     float aspect;        /* width / height, 0 where the file has none */

@@ -128,7 +128,8 @@ TEST(a_wrong_line_is_status_2)
     RUN_AS(2, &o, "render", "scene.gltf", "-o", "a.exr", "--sppp", "3");
     assert_non_null(strstr(o.err, "did you mean --spp?"));
     RUN(&o, "render", "scene.gltf", "-o", "a.png");
-    assert_string_equal(o.err, "parhelion: -o a.png: wanted a name that ends in .exr\n");
+    assert_string_equal(o.err, "parhelion: -o a.png: wanted a name that ends in .exr, or in "
+                        ".hdr for a Radiance picture\n");
     RUN(&o, "render", "scene.gltf", "-o", "a.exr", "--spp", "4", "--samples", "0:4");
     assert_string_equal(o.err, "parhelion: --spp and --samples exclude each other — --samples "
                                "0:N is --spp N\n");

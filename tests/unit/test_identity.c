@@ -72,6 +72,7 @@ static void shown(Subject *s) { s->content.value = "night.png"; }
 static void field(Subject *s) { s->camera.yfov = nextafterf(0.5f, 1); }
 static void place(Subject *s) { s->camera.world_from_camera.origin.y = 1; }
 static void flat(Subject *s) { s->camera.is_perspective = false; }
+static void round_view(Subject *s) { s->camera.fisheye = FISHEYE_EQUISOLID; }
 static void kind(Subject *s) { s->scene.environment.kind = ENVIRONMENT_NONE; }
 static void air(Subject *s) { s->scene.environment.daylight.turbidity += 1e-13; }
 static void minute(Subject *s) { s->scene.environment.daylight.when.minute++; }
@@ -112,6 +113,7 @@ static const Change changes[] = {
     {"sun: not set there, set here", sun},
     {"heading: 0 there, 1 here", heading},
     {"camera: perspective there, orthographic here", flat},
+    {"camera: perspective there, fisheye, equisolid here", round_view},
     {"camera yfov: 0.5 there, 0.50000006 here", field},
     {"camera origin: 0 0 0 there, 0 1 0 here", place},
     {NULL, samples}, {NULL, more}, {NULL, crop}, {NULL, noise}, {NULL, threads},

@@ -50,20 +50,23 @@ typedef struct SceneQuestion {
 #define SIDE 32 /* of the raster of a region */
 
 /* Points along the looks of a raster. */
-static void aim_at_region(const SceneQuestion *question, const SceneCamera *camera,
-                          Arena *arena, ProbeAim *aim)
+static bool aim_at_region(const SceneQuestion *question, const SceneCamera *camera,
+                          Arena *arena, ProbeAim *aim, Error *err)
 {
     const double *r = question->region;
     Camera seen = camera_from_scene(camera, question->size[0], question->size[1]);
     Vec3  *targets = ARENA_NEW(arena, Vec3, SIDE * SIDE);
     for (int i = 0; i < SIDE * SIDE; i++) {
         double u = (i + 0.5) / (SIDE * SIDE), v = reverse_bits((uint32_t)i) * 0x1p-32;
-        Ray    ray = camera_ray(&seen, (float)(r[0] + u * (r[2] - r[0])),
-                                (float)(r[1] + (v + 0.5 / (SIDE * SIDE)) * (r[3] - r[1])));
-        targets[i] = vec3_add(aim->eye, ray.direction);
+        float  x = (float)(r[0] + u * (r[2] - r[0]));
+        float  y = (float)(r[1] + (v + 0.5 / (SIDE * SIDE)) * (r[3] - r[1]));
+        if (!camera_sees(&seen, x, y)) continue;
+        targets[aim->target_count++] = vec3_add(aim->eye, camera_ray(&seen, x, y).direction);
     }
     aim->targets = targets;
-    aim->target_count = SIDE * SIDE;
+    return aim->target_count > 0 ||
+           error_set(err, ERROR_USAGE, "pixels %g,%g,%g,%g lie outside the fisheye's circle",
+                     r[0], r[1], r[2], r[3]);
 }
 
 static bool aim_at_display(const SceneQuestion *question, Arena *arena, ProbeAim *aim,
@@ -95,8 +98,9 @@ static bool explain_lit(const SceneQuestion *question, const PathContext *contex
                               err))
         return false;
     ProbeAim aim = {.context = context, .eye = camera.world_from_camera.origin};
-    if (!question->display) aim_at_region(question, &camera, arena, &aim);
-    else if (!aim_at_display(question, arena, &aim, err)) return false;
+    if (!(question->display ? aim_at_display(question, arena, &aim, err)
+                            : aim_at_region(question, &camera, arena, &aim, err)))
+        return false;
     ExplainPlace place = {tools, aim, question->paths, question->with_outlook};
     explain_place(&place, arena, out);
     return true;
@@ -376,6 +380,7 @@ static bool read_scene(ExplainWords *words, Arena *arena, Error *err)
         return error_set(err, ERROR_USAGE,
                          "wanted one of --display NAME, --pixel X,Y, --region X0,Y0,X1,Y1: "
                          "what of the scene is to be explained?");
+    if (!render_check_size(&scene->camera, words->has_size, scene->size, err)) return false;
     if (words->has_uv && !scene->display)
         return error_set(err, ERROR_USAGE, "--uv: of which --display?");
     if (!(scene->uv[0] < scene->uv[2] && scene->uv[1] < scene->uv[3]))
@@ -401,6 +406,7 @@ static const char *option_of_scene(const ExplainWords *words)
         {camera->name != NULL, "--camera"}, {words->scene.display != NULL, "--display"},
         {words->has_uv, "--uv"}, {words->has_pixel, "--pixel"},
         {words->has_region, "--region"}, {words->has_size, "--size"},
+        {camera->projection != 0, "--projection"},
         {camera->has_look_at, "--look-at"}, {camera->has_fov, "--fov"}};
     for (int i = 0; i < COUNT_OF(options); i++)
         if (options[i].is_given) return options[i].option;
@@ -443,10 +449,12 @@ static bool parse(int argc, char **argv, Arena *arena, ExplainWords *out, Error 
          out->pixel, .low = 0, .high = 65535, .count = 2, .given = &out->has_pixel},
         {"--region", OPTION_NUMBERS, "X0,Y0,X1,Y1", "pixels, half-open, from the top left",
          scene->region, .low = 0, .high = 65536, .count = 4, .given = &out->has_region},
-        {"--size", OPTION_SIZE, "WxH", "of that picture (default 1280x720)", scene->size,
+        {"--size", OPTION_SIZE, "WxH",
+         "of that picture (default 1280x720, of a fisheye 1024x1024)", scene->size,
          .given = &out->has_size},
         {"--camera", OPTION_TEXT, "NAME|INDEX", "node's or camera's name, or place (default 0)",
          &scene->camera.name},
+        PROJECTION_OPTION(&scene->camera),
         {"--look-at", OPTION_NUMBERS, "X,Y,Z", "with --eye: the middle of the picture",
          scene->camera.look_at, .low = -1e6, .high = 1e6, .count = 3,
          .given = &scene->camera.has_look_at},
@@ -521,8 +529,7 @@ static bool write_outlook(const ExplainWords *words, const Explained *explained,
 static bool run(int argc, char **argv, Arena *arena, Error *err)
 {
     Problems     problems = problems_start(arena);
-    ExplainWords words = {.scene = {.uv = {0, 0, 1, 1}, .size = {1280, 720},
-                                    .paths = 65536, .problems = &problems}};
+    ExplainWords words = {.scene = {.uv = {0, 0, 1, 1}, .paths = 65536, .problems = &problems}};
     Explained    explained;
     if (!parse(argc, argv, arena, &words, err)) return false;
     if (words.cli.help_shown) return true;

@@ -33,7 +33,7 @@ typedef struct ProbeWords {
     double      pixel[2];
     int         size[2];
     long        spp, ways, seed, max_bounces;
-    bool        has_pixel;
+    bool        has_pixel, has_size;
     Cli         cli;
 } ProbeWords;
 
@@ -326,7 +326,9 @@ static bool check_pixel(const ProbeWords *words, Error *err)
 static bool check(ProbeWords *words, Arena *arena, Error *err)
 {
     RenderOptions *render = &words->render;
-    if (!check_pixel(words, err)) return false;
+    if (!render_check_size(&words->camera, words->has_size, words->size, err) ||
+        !check_pixel(words, err))
+        return false;
     if (!guiding_options_check(render, err)) return false;
     render->width = words->size[0];
     render->height = words->size[1];
@@ -343,7 +345,9 @@ static bool parse(int argc, char **argv, Arena *arena, ProbeWords *out, Error *e
     const Option options[] = {
         {"--pixel", OPTION_NUMBERS, "X,Y", "of the camera's picture, 0,0 at the top left",
          out->pixel, .low = -1e9, .high = 1e9, .count = 2, .given = &out->has_pixel},
-        {"--size", OPTION_SIZE, "WxH", "of that picture (default 1280x720)", out->size},
+        {"--size", OPTION_SIZE, "WxH",
+         "of that picture (default 1280x720, of a fisheye 1024x1024)", out->size,
+         .given = &out->has_size},
         CAMERA_OPTIONS(&out->camera),
         {"--spp", OPTION_INTEGER, "N",
          "paths, rounded up to whole chunks of 64 (default 4096)", &out->spp,
@@ -414,7 +418,9 @@ static bool probe(const ProbeWords *words, const Scene *scene, Problems *problem
     if (!render_choose_camera(scene, &words->camera, problems, &camera, err)) return false;
     render_warn_of_darkness(scene, problems);
     cli_print_warnings(problems);
-    if (!render_prepare(scene, &camera, &words->render, arena, &setup, err)) return false;
+    if (!render_check_pixel(&camera, words->size, words->pixel, err) ||
+        !render_prepare(scene, &camera, &words->render, arena, &setup, err))
+        return false;
     look(words, &setup, arena, &found);
     found.groups = light_groups_build(scene, setup.context.lights, arena, problems);
     render_setup_end(&setup);
@@ -427,7 +433,7 @@ static bool run(int argc, char **argv, Arena *arena, Error *err)
 {
     Problems   problems = problems_start(arena);
     Scene     *scene = NULL;
-    ProbeWords words = {.size = {1280, 720}, .spp = SPP, .ways = WAYS,
+    ProbeWords words = {.spp = SPP, .ways = WAYS,
                         .max_bounces = BOUNCES};
     if (!parse(argc, argv, arena, &words, err)) return false;
     if (words.cli.help_shown) return true;

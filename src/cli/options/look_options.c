@@ -5,6 +5,7 @@
 
 #include "base/mathd.h"
 #include "base/units.h"
+#include "image/frame_view.h"
 #include "vision/eye_filter.h"
 
 /* ---- the eye ----------------------------------------------------------------------------- */
@@ -26,6 +27,9 @@ static bool field_of_view(const EyeOption *option, const FrameImage *frame, doub
     const ExrAttribute *own = frame_attribute(frame, FIELD_OF_VIEW);
     if (frame_attribute(frame, "parhelion:ymag_m"))
         return error_set(err, ERROR_INPUT, "is an orthographic view: no eye sees one");
+    if (frame_view_circle(frame).fisheye)
+        return error_set(err, ERROR_INPUT, "is a fisheye's: --eye spreads light in perspective "
+                         "views alone");
     if (!own) {
         *out = option->fov_deg;
         return *out > 0 || error_set(err, ERROR_USAGE, "does not say its field of view ("

@@ -18,6 +18,7 @@
 #include "cli/render/render_resume.h"
 #include "cli/render/render_setup.h"
 #include "film/film_frame.h"
+#include "image/radiance/radiance_picture.h"
 #include "render/identity.h"
 #include "render/signals.h"
 #include "scene/load/scene_load.h"
@@ -219,7 +220,10 @@ static bool write_frame(const RenderRun *work, const RenderResult *result, Error
     Arena      scratch = *work->arena;
     FrameImage frame = render_make_frame(&work->request, work->scene, &work->camera, result,
                                          &scratch);
-    return frame_write(work->request.output, &frame, err);
+    if (!render_output_is_radiance(&work->request))
+        return frame_write(work->request.output, &frame, err);
+    return radiance_picture_write(work->request.output, &frame, work->request.command_line,
+                                  scratch, err);
 }
 
 static void write_snapshot(void *user, const RenderResult *so_far)
@@ -436,6 +440,20 @@ static bool hand_over(RenderRun *work, const RenderResult *result, Error *err)
     return result->complete || report_interruption(work, result, is_kept, err);
 }
 
+/* A pixel that is replayed has samples; a Radiance picture can say the view. */
+static bool check_view(const RenderRun *work, Error *err)
+{
+    const RenderOptions *options = &work->request.render;
+    const double at[2] = {options->crop.x0, options->crop.y0};
+    const int    size[2] = {options->width, options->height};
+    if (work->request.replays) return render_check_pixel(&work->camera, size, at, err);
+    if (!render_output_is_radiance(&work->request) ||
+        work->camera.fisheye != FISHEYE_EQUISOLID)
+        return true;
+    return error_set(err, ERROR_USAGE, "-o %s: a Radiance picture cannot say an equisolid view "
+                     "— add --projection equidistant, or -o FRAME.exr", work->request.output);
+}
+
 static bool run(RenderRun *work, Error *err)
 {
     RenderOptions *options = &work->request.render;
@@ -449,6 +467,7 @@ static bool run(RenderRun *work, Error *err)
         !check_outputs(&work->request, err) ||
         !check_look(&work->request, *work->arena, err) || !load(work, err))
         return false;
+    if (!check_view(work, err)) return false;
     if (work->request.share.parts) return share(work, err);
     if (!check_task(work, err)) return false;
     find_viewer(work);

@@ -14,6 +14,7 @@
 #include "cli/render/render_identity.h"
 #include "film/film_frame.h"
 #include "film/film_part.h"
+#include "image/frame_view.h"
 #include "render/favour.h"
 #include "render/pilot.h"
 #include "text/json_text.h"
@@ -39,7 +40,9 @@ static void set_camera(FrameImage *frame, const SceneCamera *camera, Arena *aren
     set_world_to_camera(frame, &camera->world_from_camera, arena);
     frame_set_string(frame, "parhelion:camera",
                      camera->node_name[0] ? camera->node_name : camera->camera_name, arena);
-    if (camera->is_perspective)
+    if (camera->fisheye)
+        frame_set_fisheye(frame, camera->fisheye, arena);
+    else if (camera->is_perspective)
         frame_set_number(frame, "parhelion:yfov_deg",
                          degrees_from_radians((double)camera->yfov), arena);
     else
@@ -233,6 +236,8 @@ static json_t *answer_document(const RenderRequest *request, const RenderResult 
         cli_json_problems(problems, SEVERITY_WARNING));
     json_object_set_new(answer, "build_peak_memory_bytes",
                         json_integer((json_int_t)result->build_peak_bytes));
+    json_object_set_new(answer, "projection",
+                        json_string(render_projection_name(&request->camera)));
     json_object_set_new(answer, "for", favour_document(request, result));
     json_object_set_new(answer, "isa", json_string(result->kernel->isa));
     json_object_set_new(answer, "training", training_document(result));
@@ -251,7 +256,7 @@ static void print_worst(const RenderRequest *request, const RenderResult *result
 {
     FilmWorst worst;
     if (result->samples < WORST_LEAST_SAMPLES) return;
-    film_worst_pixels(result->film, 1, &worst);
+    if (!film_worst_pixels(result->film, 1, &worst)) return;
     if (!(worst.error > WORST_RATIO * result->error.frame)) return;
     printf("%s: pixel %d,%d is the noisiest: %.4g cd/m2 with a relative error of %.0f%%\n",
            request->output, worst.x, worst.y, worst.luminance, 100 * worst.error);
@@ -288,6 +293,13 @@ static void print_line(const RenderRequest *request, const RenderResult *result)
            result->complete ? "" : " (incomplete)",
            result->seconds, samples, rays, 100 * result->error.frame,
            machine_peak_bytes() / 1e6, result->build_peak_bytes / 1e6);
+    if (request->camera.projection)
+        printf("%s: a fisheye of 180 degrees: pixels outside its circle are black and have no "
+               "samples\n", request->output);
+    if (render_output_is_radiance(request))
+        printf("%s: W/m2/sr in Radiance's primaries: luminance is 179 (0.265 R + 0.670 G + "
+               "0.065 B); its codes are right within 0.4 %%, layers are only in .exr\n",
+               request->output);
     print_worst(request, result);
 }
 

@@ -11,8 +11,6 @@
 #include "cli/render/path_options.h"
 #include "text/nearest_word.h"
 
-#define DEFAULT_WIDTH 1280
-#define DEFAULT_HEIGHT 720
 #define DEFAULT_SPP 256
 #define DEFAULT_BOUNCES 64
 #define DEFAULT_CHECKPOINT_S 60
@@ -25,7 +23,7 @@ typedef struct RenderWords {
     double      crop[4], replay[3];
     SceneWords  scene;
     PolarisedWords polarised;
-    bool        has_spp, has_crop, has_replay, has_interval, has_split;
+    bool        has_spp, has_size, has_crop, has_replay, has_interval, has_split;
 } RenderWords;
 
 /* ---- layers ------------------------------------------------------------------------------ */
@@ -158,6 +156,21 @@ static bool ends_with(const char *text, const char *ending)
     return length > tail && !strcmp(text + length - tail, ending);
 }
 
+bool render_output_is_radiance(const RenderRequest *request)
+{
+    return request->output && ends_with(request->output, ".hdr");
+}
+
+/* R, G, B of a whole frame, or of a crop that nobody merges. */
+static bool check_radiance(const RenderWords *typed, const RenderRequest *request, Error *err)
+{
+    const char *option = typed->layers ? "--layers" : typed->samples ? "--samples"
+                         : request->share.parts ? "--slurm" : NULL;
+    if (!render_output_is_radiance(request) || !option) return true;
+    return error_set(err, ERROR_USAGE, "%s does not go with -o %s: a Radiance picture holds "
+                     "R, G, B alone — wanted -o FRAME.exr", option, request->output);
+}
+
 /* A file of its own: the others are kept until the render has ended well. */
 static bool check_live(const RenderRequest *request, Error *err)
 {
@@ -228,9 +241,9 @@ static bool check_outputs(const RenderRequest *request, Error *err)
     if (request->replays) return true;
     if (!request->output)
         return error_set(err, ERROR_USAGE, "no output — add -o FRAME.exr");
-    if (!ends_with(request->output, ".exr"))
-        return error_set(err, ERROR_USAGE, "-o %s: wanted a name that ends in .exr",
-                         request->output);
+    if (!ends_with(request->output, ".exr") && !render_output_is_radiance(request))
+        return error_set(err, ERROR_USAGE, "-o %s: wanted a name that ends in .exr, or in .hdr "
+                         "for a Radiance picture", request->output);
     return check_live(request, err);
 }
 
@@ -342,15 +355,17 @@ static bool parse_line(int argc, char **argv, Arena *arena, RenderWords *typed,
 {
     EnvironmentChange *outside = &request->environment;
     const Option options[] = {
-        {"-o", OPTION_TEXT, "FRAME.exr", "the frame that is written", &request->output},
+        {"-o", OPTION_TEXT, "FRAME.exr|.hdr",
+         "the frame; .hdr: R, G, B as a Radiance picture with its view", &request->output},
         {"--png", OPTION_TEXT, "FILE", "develop the frame as well (PNG, JPEG, TIFF by ending)",
          &request->png},
         LOOK_OPTIONS(&request->look),
         {"--false-colour", OPTION_CHOICE, "luminance", "show luminance on a scale of colours",
          &typed->false_colour, .given = &request->look.false_colour},
         CAMERA_OPTIONS(&request->camera),
-        {"--size", OPTION_SIZE, "WxH", "pixels of the whole frame (default 1280x720)",
-         typed->size},
+        {"--size", OPTION_SIZE, "WxH",
+         "pixels of the whole frame (default 1280x720, of a fisheye 1024x1024)", typed->size,
+         .given = &typed->has_size},
         {"--spp", OPTION_INTEGER, "N", "samples a pixel, at most (default 256)", &typed->spp,
          .low = 1, .high = FILM_SAMPLES_MAX, .given = &typed->has_spp},
         {"--noise", OPTION_TEXT, "[AREA:]R",
@@ -400,12 +415,12 @@ bool render_request_parse(int argc, char **argv, Arena *arena, RenderRequest *ou
 {
     RenderRequest request = {.command_line = command_line_join(argc, argv, false, arena),
                              .render.checkpoint_interval_s = DEFAULT_CHECKPOINT_S};
-    RenderWords         typed = {.size = {DEFAULT_WIDTH, DEFAULT_HEIGHT}, .spp = DEFAULT_SPP,
-                           .max_bounces = DEFAULT_BOUNCES};
+    RenderWords         typed = {.spp = DEFAULT_SPP, .max_bounces = DEFAULT_BOUNCES};
     if (!parse_line(argc, argv, arena, &typed, &request, err)) return false;
     if (!request.cli.help_shown &&
-        (!check_render(&typed, arena, &request, err) || !check_outputs(&request, err) ||
-         !check_share(&typed, &request, err) ||
+        (!render_check_size(&request.camera, typed.has_size, typed.size, err) ||
+         !check_render(&typed, arena, &request, err) || !check_outputs(&request, err) ||
+         !check_radiance(&typed, &request, err) || !check_share(&typed, &request, err) ||
          !scene_options_read(&typed.scene, &request.cli, arena, &request.scene, err)))
         return false;
     set_checkpoint(&typed, arena, &request);

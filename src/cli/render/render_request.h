@@ -45,5 +45,8 @@ typedef struct RenderRequest {
 
 bool render_request_parse(int argc, char **argv, Arena *arena, RenderRequest *out, Error *err);
 
+/* Is it written as a Radiance picture (.hdr)? */
+bool render_output_is_radiance(const RenderRequest *request);
+
 /* FilmLayer bits as --layers names them, with commas. */
 const char *render_layer_list(unsigned layers, Arena *arena);

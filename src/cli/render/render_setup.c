@@ -8,6 +8,10 @@
 #include "base/units.h"
 #include "camera/camera.h"
 
+#define DEFAULT_WIDTH 1280
+#define DEFAULT_HEIGHT 720
+#define FISHEYE_SIZE 1024
+
 /* ---- camera ------------------------------------------------------------------------------ */
 
 static int find_camera(const Scene *scene, const char *wanted)
@@ -39,6 +43,32 @@ static bool no_such_camera(const Scene *scene, const char *wanted, Error *err)
                      wanted, scene->camera_count ? names : "none");
 }
 
+static Fisheye fisheye_of(const CameraChoice *choice)
+{
+    static const Fisheye KINDS[] = {FISHEYE_NONE, FISHEYE_EQUIDISTANT, FISHEYE_EQUIDISTANT,
+                                    FISHEYE_EQUISOLID}; /* PROJECTIONS */
+    return KINDS[choice->projection];
+}
+
+const char *render_projection_name(const CameraChoice *choice)
+{
+    Fisheye kind = fisheye_of(choice);
+    return kind ? fisheye_name(kind) : "camera";
+}
+
+bool render_check_size(const CameraChoice *choice, bool given, int size[2], Error *err)
+{
+    bool is_round = fisheye_of(choice) != FISHEYE_NONE;
+    if (!given) {
+        size[0] = is_round ? FISHEYE_SIZE : DEFAULT_WIDTH;
+        size[1] = is_round ? FISHEYE_SIZE : DEFAULT_HEIGHT;
+    }
+    return !is_round || size[0] == size[1] ||
+           error_set(err, ERROR_USAGE,
+                     "--size %dx%d: a fisheye's picture is a square around its circle, wanted "
+                     "%dx%d or another", size[0], size[1], size[1], size[1]);
+}
+
 #define DEFAULT_FOV_DEG 40
 
 static Vec3 vec3_from(const double v[3])
@@ -58,6 +88,9 @@ static bool look(const CameraChoice *choice, SceneCamera *out, Error *err)
                          choice->has_eye       ? "--eye"
                          : choice->has_look_at ? "--look-at"
                                                : "--fov");
+    if (choice->has_fov && fisheye_of(choice))
+        return error_set(err, ERROR_USAGE, "--fov: a fisheye always sees 180 degrees — leave "
+                                           "it out");
     if (!(vec3_length(vec3_sub(target, eye)) > 0))
         return error_set(err, ERROR_USAGE,
                          "--look-at: is where --eye is; another point is wanted");
@@ -83,8 +116,8 @@ static void warn_of_framing(const Scene *scene, const SceneCamera *camera, Probl
                      "origin along -Z");
 }
 
-bool render_choose_camera(const Scene *scene, const CameraChoice *choice, Problems *problems,
-                          SceneCamera *out, Error *err)
+static bool choose(const Scene *scene, const CameraChoice *choice, Problems *problems,
+                   SceneCamera *out, Error *err)
 {
     const char *wanted = choice->name;
     if (choice->has_eye || choice->has_look_at || choice->has_fov)
@@ -98,6 +131,23 @@ bool render_choose_camera(const Scene *scene, const CameraChoice *choice, Proble
     *out = camera_frame_scene(scene);
     warn_of_framing(scene, out, problems);
     return true;
+}
+
+bool render_choose_camera(const Scene *scene, const CameraChoice *choice, Problems *problems,
+                          SceneCamera *out, Error *err)
+{
+    if (!choose(scene, choice, problems, out, err)) return false;
+    out->fisheye = fisheye_of(choice);
+    return true;
+}
+
+bool render_check_pixel(const SceneCamera *camera, const int size[2], const double pixel[2],
+                        Error *err)
+{
+    Camera seen = camera_from_scene(camera, size[0], size[1]);
+    return camera_sees_pixel(&seen, (int)pixel[0], (int)pixel[1]) ||
+           error_set(err, ERROR_USAGE, "pixel %g,%g lies outside the fisheye's circle: there "
+                     "are no samples of it", pixel[0], pixel[1]);
 }
 
 /* ---- light ------------------------------------------------------------------------------- */

@@ -1,0 +1,20 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "image/radiance/frame_file.h"
+
+#include "base/file.h"
+#include "image/radiance/radiance_picture.h"
+
+#define MAX_FILE_BYTES ((size_t)4 << 30)
+
+bool frame_file_read(const char *path, Arena *arena, FrameImage *out, Error *err)
+{
+    Arena     file = arena_reserve(MAX_FILE_BYTES + 4096);
+    FileBytes bytes;
+    bool      ok = file_read(path, MAX_FILE_BYTES, &file, &bytes, err);
+    if (ok && radiance_picture_recognise(bytes.data, bytes.size))
+        ok = radiance_picture_read(bytes.data, bytes.size, path, arena, out, err);
+    else if (ok)
+        ok = frame_read_memory(bytes.data, bytes.size, path, arena, out, err);
+    arena_release(&file);
+    return ok;
+}
