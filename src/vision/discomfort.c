@@ -2,19 +2,46 @@
 #include "vision/discomfort.h"
 
 #include <math.h>
-#include <stdbool.h>
+#include <stddef.h>
 
 #include "base/mathd.h"
 #include "base/units.h"
 
 #define DGP_LOW_LIGHT_BELOW_LX 1000.0
 
+/* ---- sources ----------------------------------------------------------------------------- */
+
+double glare_threshold(const GlareSettings *settings, double task_cd_m2)
+{
+    return settings->task_factor > 0 ? settings->task_factor * task_cd_m2
+                                     : settings->threshold_cd_m2;
+}
+
+void glare_sum_add(GlareSum *sum, double luminance_cd_m2, double sr, double right, double up,
+                   double forward)
+{
+    double p = position_index(right, up, forward);
+    if (!(forward > 0)) return;
+    sum->sr += sr;
+    sum->cd_sr_m2 += luminance_cd_m2 * sr;
+    sum->lx += luminance_cd_m2 * sr * forward;
+    sum->weight_sr += sr / (p * p);
+}
+
+GlareSource glare_sum_source(const GlareSum *sum, double area_m2)
+{
+    return (GlareSource){sum->cd_sr_m2 / sum->sr, sum->sr, sqrt(sum->sr / sum->weight_sr),
+                         area_m2};
+}
+
+/* ---- figures ----------------------------------------------------------------------------- */
+
 /* I = L A and w = A/R^2, so that 200 I^2/R^2 = L^2 w A/0.005 m^2. */
-static double squared(const GlareSource *source)
+static double squared(const GlareSource *source, bool small_sources)
 {
     double full = source->luminance_cd_m2 * source->luminance_cd_m2 * source->solid_angle_sr;
     bool   is_small = source->area_m2 > 0 && source->area_m2 < GLARE_SOURCE_SMALL_M2;
-    return is_small ? full * (source->area_m2 / GLARE_SOURCE_SMALL_M2) : full;
+    return small_sources && is_small ? full * (source->area_m2 / GLARE_SOURCE_SMALL_M2) : full;
 }
 
 /* NaN when an index is none. */
@@ -24,11 +51,13 @@ static double over_index(const GlareSource *source, double value)
     return p >= 1 ? value / (p * p) : NAN;
 }
 
-double discomfort_ugr(double background_cd_m2, const GlareSource *sources, int count)
+double discomfort_ugr(double background_cd_m2, const GlareSource *sources, int count,
+                      bool small_sources)
 {
     double sum = 0;
     if (!(background_cd_m2 > 0)) return NAN;
-    for (int i = 0; i < count; i++) sum += over_index(&sources[i], squared(&sources[i]));
+    for (int i = 0; i < count; i++)
+        sum += over_index(&sources[i], squared(&sources[i], small_sources));
     return 8 * log10_d(0.25 / background_cd_m2 * sum);
 }
 
@@ -42,13 +71,53 @@ double discomfort_dgp(double vertical_lx, const GlareSource *sources, int count)
 {
     double sum = 0;
     if (!(vertical_lx > 0)) return NAN;
-    for (int i = 0; i < count; i++) {
-        const GlareSource *s = &sources[i];
-        sum += over_index(s, s->luminance_cd_m2 * s->luminance_cd_m2 * s->solid_angle_sr);
-    }
+    for (int i = 0; i < count; i++) sum += over_index(&sources[i], squared(&sources[i], false));
     double adapted = pow_d(vertical_lx, 1.87);
     double dgp = 5.87e-5 * vertical_lx + 0.092 * log10_d(1 + sum / adapted) + 0.159;
     return dgp < 1 || isnan(dgp) ? dgp : 1;
+}
+
+double discomfort_dgi(double background_cd_m2, const GlareSource *sources, int count)
+{
+    double sum = 0;
+    for (int i = 0; i < count; i++) {
+        const GlareSource *s = &sources[i];
+        double behind = background_cd_m2 + 0.07 * sqrt(s->solid_angle_sr) * s->luminance_cd_m2;
+        double seen = pow_d(over_index(s, s->solid_angle_sr), 0.8);
+        sum += 0.478 * pow_d(s->luminance_cd_m2, 1.6) * seen / behind;
+    }
+    return 10 * log10_d(sum);
+}
+
+static GlareNone none_of(const GlareView *view)
+{
+    if (!(view->source_lx + view->background_lx > 0)) return GLARE_NO_LIGHT;
+    if (!view->count) return GLARE_NO_SOURCE;
+    return view->background_lx > 0 ? GLARE_HAS_UGR : GLARE_NO_BACKGROUND;
+}
+
+GlareFigures discomfort_figures(const GlareSettings *settings, const GlareView *view)
+{
+    double       lux = view->source_lx + view->background_lx;
+    GlareFigures f = {none_of(view), view->background_lx / PI, NAN, NAN, NAN};
+    if (f.none == GLARE_NO_LIGHT) return f;
+    f.dgp = discomfort_dgp(lux, view->sources, view->count);
+    if (settings->low_light) f.dgp *= discomfort_dgp_low_light(lux);
+    if (f.none == GLARE_NO_SOURCE) return f;
+    f.dgi = discomfort_dgi(f.background_cd_m2, view->sources, view->count);
+    f.ugr = discomfort_ugr(f.background_cd_m2, view->sources, view->count,
+                           settings->small_sources);
+    return f;
+}
+
+const char *discomfort_none_words(GlareNone none)
+{
+    static const char *const WORDS[] = {
+        [GLARE_HAS_UGR] = NULL,
+        [GLARE_NO_SOURCE] = "no source is brighter than the threshold",
+        [GLARE_NO_BACKGROUND] = "all light comes from sources: there is no background",
+        [GLARE_NO_LIGHT] = "no light comes to the eye"};
+    return WORDS[none];
 }
 
 /* ---- the position index ------------------------------------------------------------------ */

@@ -318,7 +318,7 @@ static EyeReading sum_up(const EyePaths *paths, const PupilSums *pupils, Arena s
                           sqrt(sums.image_variance));
     r->dgp = discomfort_dgp(r->vertical_lx, sums.sources, sums.count) *
              discomfort_dgp_low_light(r->vertical_lx);
-    r->ugr = sums.count ? discomfort_ugr(background, sums.sources, sums.count) : (double)NAN;
+    r->ugr = sums.count ? discomfort_ugr(background, sums.sources, sums.count, false) : (double)NAN;
     return *r;
 }
 
