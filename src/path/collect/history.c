@@ -101,6 +101,7 @@ static void on_light(PathCollector *c, PathState *path, const PathFound *found)
     history.source_id = found->source_id;
     history.from = found->from;
     history.is_distant = found->is_distant;
+    history.sr = found->sr;
     history.lanes = found->xyz && !listener->with_lanes ? NULL : (const float *)&lanes;
     history.wavelengths = path->wavelengths;
     path_light_to_xyz(&light, path->wavelengths, xyz);

@@ -34,6 +34,8 @@ typedef struct PathHistory {
     Vec3     from;                  /* where it began, m, world; is_distant: the unit direction
                                        towards it */
     bool     is_distant;
+    float    sr;                    /* of the field of view, that a light sample stands for; 0:
+                                       the path met the light itself, or it has no extent */
     const float       *lanes;       /* its radiance, W m^-2 sr^-1 nm^-1 per lane; of a display
                                        that is seen by its measured XYZ NULL, unless wanted */
     const Wavelengths *wavelengths; /* of the lanes */

@@ -1,0 +1,320 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "review/light/glare_field.h"
+
+#include <math.h>
+
+#include "base/parallel.h"
+#include "base/sampler.h"
+#include "base/units.h"
+
+#define SIDE 4 /* rays along each side of a pixel that is looked at again */
+#define RAYS (SIDE * SIDE)
+#define AGAIN_SEED 0x6167u
+#define PIXELS_A_CHUNK 256
+#define FIELD_BYTES ((size_t)1 << 32) /* of address space */
+_Static_assert(RAYS == GLARE_GROUPS, "one ray a group");
+
+/* ---- what a ray tells -------------------------------------------------------------------- */
+
+static bool comes_straight(const PathHistory *history, int steps)
+{
+    if (steps > path_steps_kept(history)) return false;
+    for (int i = 0; i < steps; i++)
+        if (history->step[i].event != PATH_TRANSMITS) return false;
+    return true;
+}
+
+bool glare_field_is_sky(const PathHistory *history)
+{
+    return history->source == LIGHTS_SKY && comes_straight(history, history->count);
+}
+
+static bool is_sunlit(const PathHistory *history)
+{
+    int last = history->count - 1;
+    return history->source == LIGHTS_SUN && last >= 0 && comes_straight(history, last) &&
+           last < PATH_STEPS_MAX && history->step[last].event == PATH_SCATTERS;
+}
+
+bool glare_field_tells(const PathHistory *history)
+{
+    return glare_field_is_sky(history) || is_sunlit(history);
+}
+
+/* ---- rays -------------------------------------------------------------------------------- */
+
+typedef enum FieldClass { FIELD_DIM, FIELD_SOURCE, FIELD_PEAK, FIELD_CLASSES } FieldClass;
+
+/* One ray: what it told. sr 0: it does not look ahead. */
+typedef struct FieldRay {
+    float sky, lit; /* cd m^-2 */
+    float sr;
+    Vec3  towards;  /* unit, world */
+} FieldRay;
+
+typedef struct Field {
+    const GlareFieldAsk *ask;
+    ProbeAim  aim;
+    PathContext context;
+    FieldRay *rays;    /* [pixel] */
+    int      *again;   /* [pixel] where its rays lie among the others', by RAYS; NO_ID: none */
+    int      *pixels;  /* that are looked at again */
+    int       again_count;
+    FieldRay *others;
+    uint8_t  *classes; /* [pixel] bits */
+} Field;
+
+static Vec3 direction_of(const GlareHead *head, double x, double y)
+{
+    double t = hypot(x, y), s = t > 0 ? sin(t) / t : 1;
+    Vec3   d = vec3_add(vec3_scale(head->right, (float)(s * x)),
+                        vec3_scale(head->up, (float)(s * y)));
+    return vec3_normalize(vec3_add(d, vec3_scale(head->gaze, (float)cos(t))));
+}
+
+/* Somewhere in cell `cell` of a raster of `count` by `count` over the field. */
+static FieldRay place_of(const GlareFieldAsk *ask, int count, int cell, uint32_t seed)
+{
+    double   step = PI / count;
+    uint32_t hash = hash_combine(hash_u32(ask->seed + seed), (uint32_t)cell);
+    double   u = hash * 0x1p-32, v = hash_u32(hash) * 0x1p-32;
+    double   x = (cell % count + u) * step - PI / 2, y = PI / 2 - (cell / count + v) * step;
+    double   t = hypot(x, y);
+    FieldRay ray = {0};
+    if (!(t < PI / 2)) return ray;
+    ray.sr = (float)(step * step * (t > 0 ? sin(t) / t : 1));
+    ray.towards = direction_of(&ask->rest->head, x, y);
+    return ray;
+}
+
+static void add_told(void *user, const PathHistory *history, const float xyz[3])
+{
+    FieldRay *ray = user;
+    if (glare_field_is_sky(history)) ray->sky += xyz[1];
+    else if (is_sunlit(history)) ray->lit += xyz[1];
+}
+
+/* seed: of the pass. index: of the ray among all that this pass may have. */
+static FieldRay look(const Field *field, const FieldRay *place, uint32_t seed, int index)
+{
+    FieldRay ray = *place;
+    if (!(ray.sr > 0)) return ray;
+    PathStatistics statistics = {0};
+    Vec3           target = vec3_add(field->aim.eye, ray.towards);
+    ProbeAim       aim = field->aim;
+    PathListener   listener = {.on_light = add_told, .user = &ray};
+    aim.targets = &target;
+    aim.target_count = 1;
+    aim.seed += seed;
+    field->ask->setup->tools.kernel->trace(&aim, index, index + 1, &listener, &statistics);
+    if ((double)ray.sky > field->ask->peak_cd_m2) ray.sky = 0;
+    return ray;
+}
+
+static void look_chunk(void *user, int item, int worker)
+{
+    (void)worker;
+    const Field *field = user;
+    int count = field->ask->pixels, first = item * PIXELS_A_CHUNK;
+    for (int i = first; i < first + PIXELS_A_CHUNK && i < count * count; i++) {
+        FieldRay place = place_of(field->ask, count, i, 0);
+        field->rays[i] = look(field, &place, 0, i);
+    }
+}
+
+/* The 16 rays of one pixel. */
+static void look_again(void *user, int item, int worker)
+{
+    (void)worker;
+    const Field *field = user;
+    int count = field->ask->pixels, pixel = field->pixels[item];
+    for (int k = 0; k < RAYS; k++) {
+        int x = pixel % count * SIDE + k % SIDE, y = pixel / count * SIDE + k / SIDE;
+        int cell = y * count * SIDE + x;
+        FieldRay place = place_of(field->ask, count * SIDE, cell, AGAIN_SEED);
+        field->others[item * RAYS + k] = look(field, &place, AGAIN_SEED, cell);
+    }
+}
+
+/* ---- which is what ----------------------------------------------------------------------- */
+
+static double luminance_of(const Field *field, const FieldRay *ray)
+{
+    return (double)ray->sky + (double)ray->lit + glare_rest_at(field->ask->rest, ray->towards);
+}
+
+static FieldClass class_of(const Field *field, const FieldRay *ray)
+{
+    if (!(ray->sr > 0)) return FIELD_DIM;
+    double luminance = luminance_of(field, ray);
+    if (!(luminance > field->ask->threshold_cd_m2)) return FIELD_DIM;
+    return luminance > field->ask->peak_cd_m2 ? FIELD_PEAK : FIELD_SOURCE;
+}
+
+static bool is_inside(int count, int x, int y)
+{
+    return x >= 0 && y >= 0 && x < count && y < count;
+}
+
+static bool is_edge(const Field *field, int pixel)
+{
+    int count = field->ask->pixels, x = pixel % count, y = pixel / count;
+    for (int k = 0; k < 9; k++) {
+        int i = x + k % 3 - 1, j = y + k / 3 - 1;
+        if (is_inside(count, i, j) && field->rays[j * count + i].sr > 0 &&
+            field->classes[j * count + i] != field->classes[pixel])
+            return true;
+    }
+    return false;
+}
+
+static void find_edges(Field *field, Arena *scratch)
+{
+    int total = field->ask->pixels * field->ask->pixels;
+    field->again = ARENA_NEW(scratch, int, total);
+    field->pixels = ARENA_NEW(scratch, int, total);
+    for (int i = 0; i < total; i++)
+        field->classes[i] = (uint8_t)(1 << class_of(field, &field->rays[i]));
+    for (int i = 0; i < total; i++) {
+        field->again[i] = NO_ID;
+        if (!(field->rays[i].sr > 0) || !is_edge(field, i)) continue;
+        field->again[i] = field->again_count;
+        field->pixels[field->again_count++] = i;
+    }
+    field->others = ARENA_NEW(scratch, FieldRay, field->again_count * RAYS);
+}
+
+static void set_classes(Field *field)
+{
+    for (int i = 0; i < field->again_count; i++) {
+        uint8_t *bits = &field->classes[field->pixels[i]];
+        *bits = 0;
+        for (int k = 0; k < RAYS; k++)
+            *bits |= (uint8_t)(1 << class_of(field, &field->others[i * RAYS + k]));
+    }
+}
+
+/* ---- sources ----------------------------------------------------------------------------- */
+
+/* The first pixel of each set. */
+static int root_of(int *parent, int i)
+{
+    while (parent[i] != i) i = parent[i] = parent[parent[i]];
+    return i;
+}
+
+static void join(int *parent, int i, int k)
+{
+    int a = root_of(parent, i), b = root_of(parent, k);
+    if (a < b) parent[b] = a;
+    else parent[a] = b;
+}
+
+/* Sets of pixels that touch one another and have something of the class. */
+static int *sets_of(const Field *field, FieldClass class, Arena *scratch)
+{
+    static const int beside[4][2] = {{-1, 0}, {-1, -1}, {0, -1}, {1, -1}};
+    int  count = field->ask->pixels, total = count * count, bit = 1 << class;
+    int *parent = ARENA_NEW(scratch, int, total);
+    for (int i = 0; i < total; i++) {
+        parent[i] = i;
+        if (!(field->classes[i] & bit)) continue;
+        for (int k = 0; k < 4; k++) {
+            int x = i % count + beside[k][0], y = i / count + beside[k][1];
+            if (is_inside(count, x, y) && (field->classes[y * count + x] & bit))
+                join(parent, i, y * count + x);
+        }
+    }
+    return parent;
+}
+
+/* Where rays go: into the source of their set, or the background. */
+typedef struct FieldSums {
+    const Field     *field;
+    GlareTable      *table;
+    GlareBackground *background;
+    int   *sets[FIELD_CLASSES];
+    int   *source[FIELD_CLASSES]; /* [first pixel] in the table, and one more; 0: none yet */
+    Arena *arena;
+} FieldSums;
+
+static GlareSum *sum_of(const FieldSums *sums, FieldClass class, int pixel, int group)
+{
+    int root = root_of(sums->sets[class], pixel), *source = &sums->source[class][root];
+    if (!*source) {
+        glare_table_add(sums->table, sums->arena);
+        *source = sums->table->count;
+    }
+    return &sums->table->list[*source - 1].group[group];
+}
+
+static void add_ray(const FieldSums *sums, const FieldRay *ray, int pixel, int group)
+{
+    const GlareHead *head = &sums->field->ask->rest->head;
+    if (!(ray->sr > 0)) return;
+    double     sr = (double)ray->sr, forward = (double)vec3_dot(ray->towards, head->gaze);
+    FieldClass class = class_of(sums->field, ray);
+    if (class == FIELD_DIM) {
+        double rest = glare_rest_at(sums->field->ask->rest, ray->towards);
+        sums->background->rest_lx += rest * sr * forward;
+        sums->background->told_lx[group] +=
+            ((double)ray->sky + (double)ray->lit) * sr * forward;
+        return;
+    }
+    glare_sum_add(sum_of(sums, class, pixel, group), luminance_of(sums->field, ray), sr,
+                  (double)vec3_dot(ray->towards, head->right),
+                  (double)vec3_dot(ray->towards, head->up), forward);
+}
+
+/* Pixels are dealt out evenly: every group has one in each square of 4 by 4. */
+static void add_pixel(const FieldSums *sums, int pixel)
+{
+    const Field *field = sums->field;
+    int          count = field->ask->pixels, again = field->again[pixel];
+    if (again == NO_ID) {
+        add_ray(sums, &field->rays[pixel], pixel,
+                pixel / count % SIDE * SIDE + pixel % count % SIDE);
+        return;
+    }
+    for (int k = 0; k < RAYS; k++) add_ray(sums, &field->others[again * RAYS + k], pixel, k);
+}
+
+static void add_all(const Field *field, GlareTable *table, GlareBackground *background,
+                    Arena *arena, Arena scratch)
+{
+    int       total = field->ask->pixels * field->ask->pixels;
+    FieldSums sums = {.field = field, .table = table, .background = background, .arena = arena};
+    for (int c = FIELD_SOURCE; c < FIELD_CLASSES; c++) {
+        sums.sets[c] = sets_of(field, (FieldClass)c, &scratch);
+        sums.source[c] = ARENA_NEW(&scratch, int, total);
+    }
+    for (int i = 0; i < total; i++) add_pixel(&sums, i);
+}
+
+/* Rays need no light samples but the sun's, by the first surface. */
+static void set_aim(Field *field)
+{
+    const Setup *setup = field->ask->setup;
+    field->context = setup->context;
+    field->context.strategy = PATH_LIGHTS_ONLY;
+    field->context.max_bounces = lights_has(setup->context.lights, LIGHTS_SUN);
+    field->aim = (ProbeAim){.context = &field->context, .eye = field->ask->rest->head.eye,
+                            .seed = field->ask->seed};
+}
+
+void glare_field_add(const GlareFieldAsk *ask, GlareTable *table, GlareBackground *background,
+                     Arena *arena)
+{
+    int   total = ask->pixels * ask->pixels, threads = ask->setup->tools.threads;
+    Field field = {.ask = ask};
+    Arena scratch = arena_reserve(FIELD_BYTES);
+    field.rays = ARENA_NEW(&scratch, FieldRay, total);
+    field.classes = ARENA_NEW(&scratch, uint8_t, total);
+    set_aim(&field);
+    parallel_for(threads, (total + PIXELS_A_CHUNK - 1) / PIXELS_A_CHUNK, look_chunk, &field);
+    find_edges(&field, &scratch);
+    parallel_for(threads, field.again_count, look_again, &field);
+    set_classes(&field);
+    add_all(&field, table, background, arena, scratch);
+    arena_release(&scratch);
+}
