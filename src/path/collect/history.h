@@ -46,11 +46,19 @@ static inline int path_steps_kept(const PathHistory *history)
     return history->count < PATH_STEPS_MAX ? history->count : PATH_STEPS_MAX;
 }
 
+/* How far a listener's paths go. Through clear solids they always go on. */
+typedef enum PathReach {
+    PATH_TO_ITS_END,
+    PATH_TO_SUNLIT_SURFACE, /* until a surface scatters or mirrors, which asks the sun alone */
+    PATH_TO_SURFACE         /* or nobody */
+} PathReach;
+
 typedef struct PathListener {
     void (*on_light)(void *user, const PathHistory *history, const float xyz[3]);
     void  *user;
     bool   with_lanes;  /* displays' lanes are wanted, too */
     bool   of_emitters; /* it gets these alone */
+    PathReach reach;
 } PathListener;
 
 /* Which mirror images lie along a ray: what scatters is not followed, and no light counts. */

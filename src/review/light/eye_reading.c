@@ -305,12 +305,17 @@ static double task_luminance(const EyePaths *paths)
 static GlareReading read_glare(const EyePaths *paths, const EyeSums *sums, Arena scratch)
 {
     Vec3    *towards = ARENA_NEW(&scratch, Vec3, paths->count);
+    double  *told = ARENA_NEW(&scratch, double, paths->count);
     GlareAsk ask = {.setup = paths->setup,
                     .head = {paths->aim.eye, paths->right, paths->up, paths->gaze},
+                    .told = {towards, paths->solid_angles, told, paths->count},
                     .rest = {towards, paths->solid_angles, sums->rest, paths->count},
                     .rounds = paths->count / PATHS, .images = sums->images,
                     .image_count = sums->image_count, .task_cd_m2 = task_luminance(paths)};
-    for (int i = 0; i < paths->count; i++) towards[i] = direction_of(paths, i);
+    for (int i = 0; i < paths->count; i++) {
+        towards[i] = direction_of(paths, i);
+        told[i] = paths->found[i].told;
+    }
     for (int set = 0; set < LIGHT_SETS; set++) ask.samples[set] = paths->samples[set];
     return glare_read(&ask, scratch);
 }

@@ -9,6 +9,7 @@
 
 #define SIDE 4 /* rays along each side of a pixel that is looked at again */
 #define RAYS (SIDE * SIDE)
+#define BOUNCES 8 /* in clear solids */
 #define AGAIN_SEED 0x6167u
 #define PIXELS_A_CHUNK 256
 #define FIELD_BYTES ((size_t)1 << 32) /* of address space */
@@ -56,6 +57,7 @@ typedef struct Field {
     const GlareFieldAsk *ask;
     ProbeAim  aim;
     PathContext context;
+    PathReach   reach;
     FieldRay *rays;    /* [pixel] */
     int      *again;   /* [pixel] where its rays lie among the others', by RAYS; NO_ID: none */
     int      *pixels;  /* that are looked at again */
@@ -102,7 +104,7 @@ static FieldRay look(const Field *field, const FieldRay *place, uint32_t seed, i
     PathStatistics statistics = {0};
     Vec3           target = vec3_add(field->aim.eye, ray.towards);
     ProbeAim       aim = field->aim;
-    PathListener   listener = {.on_light = add_told, .user = &ray};
+    PathListener   listener = {.on_light = add_told, .user = &ray, .reach = field->reach};
     aim.targets = &target;
     aim.target_count = 1;
     aim.seed += seed;
@@ -156,45 +158,7 @@ static bool is_inside(int count, int x, int y)
     return x >= 0 && y >= 0 && x < count && y < count;
 }
 
-static bool is_edge(const Field *field, int pixel)
-{
-    int count = field->ask->pixels, x = pixel % count, y = pixel / count;
-    for (int k = 0; k < 9; k++) {
-        int i = x + k % 3 - 1, j = y + k / 3 - 1;
-        if (is_inside(count, i, j) && field->rays[j * count + i].sr > 0 &&
-            field->classes[j * count + i] != field->classes[pixel])
-            return true;
-    }
-    return false;
-}
-
-static void find_edges(Field *field, Arena *scratch)
-{
-    int total = field->ask->pixels * field->ask->pixels;
-    field->again = ARENA_NEW(scratch, int, total);
-    field->pixels = ARENA_NEW(scratch, int, total);
-    for (int i = 0; i < total; i++)
-        field->classes[i] = (uint8_t)(1 << class_of(field, &field->rays[i]));
-    for (int i = 0; i < total; i++) {
-        field->again[i] = NO_ID;
-        if (!(field->rays[i].sr > 0) || !is_edge(field, i)) continue;
-        field->again[i] = field->again_count;
-        field->pixels[field->again_count++] = i;
-    }
-    field->others = ARENA_NEW(scratch, FieldRay, field->again_count * RAYS);
-}
-
-static void set_classes(Field *field)
-{
-    for (int i = 0; i < field->again_count; i++) {
-        uint8_t *bits = &field->classes[field->pixels[i]];
-        *bits = 0;
-        for (int k = 0; k < RAYS; k++)
-            *bits |= (uint8_t)(1 << class_of(field, &field->others[i * RAYS + k]));
-    }
-}
-
-/* ---- sources ----------------------------------------------------------------------------- */
+/* ---- what hangs together ----------------------------------------------------------------- */
 
 /* The first pixel of each set. */
 static int root_of(int *parent, int i)
@@ -210,23 +174,117 @@ static void join(int *parent, int i, int k)
     else parent[a] = b;
 }
 
-/* Sets of pixels that touch one another and have something of the class. */
-static int *sets_of(const Field *field, FieldClass class, Arena *scratch)
+/* Sets of pixels that touch one another and have some of these classes. */
+static int *sets_of(const Field *field, int bits, Arena *scratch)
 {
     static const int beside[4][2] = {{-1, 0}, {-1, -1}, {0, -1}, {1, -1}};
-    int  count = field->ask->pixels, total = count * count, bit = 1 << class;
+    int  count = field->ask->pixels, total = count * count;
     int *parent = ARENA_NEW(scratch, int, total);
     for (int i = 0; i < total; i++) {
         parent[i] = i;
-        if (!(field->classes[i] & bit)) continue;
+        if (!(field->classes[i] & bits)) continue;
         for (int k = 0; k < 4; k++) {
             int x = i % count + beside[k][0], y = i / count + beside[k][1];
-            if (is_inside(count, x, y) && (field->classes[y * count + x] & bit))
+            if (is_inside(count, x, y) && (field->classes[y * count + x] & bits))
                 join(parent, i, y * count + x);
         }
     }
     return parent;
 }
+
+/* ---- where it is looked at again --------------------------------------------------------- */
+
+#define BRIGHT (1 << FIELD_SOURCE | 1 << FIELD_PEAK)
+
+/* The area of a source of many pixels is known well enough from one ray each. */
+#define FEW_PIXELS 256
+
+static bool is_edge(const Field *field, int pixel)
+{
+    int count = field->ask->pixels, x = pixel % count, y = pixel / count;
+    for (int k = 0; k < 9; k++) {
+        int i = x + k % 3 - 1, j = y + k / 3 - 1;
+        if (is_inside(count, i, j) && field->classes[j * count + i] != field->classes[pixel])
+            return true;
+    }
+    return false;
+}
+
+/* Marks the pixel and those about it. */
+static void mark(Field *field, int pixel)
+{
+    int count = field->ask->pixels, x = pixel % count, y = pixel / count;
+    for (int k = 0; k < 9; k++) {
+        int i = x + k % 3 - 1, j = y + k / 3 - 1, at = j * count + i;
+        if (!is_inside(count, i, j) || !(field->rays[at].sr > 0) || field->again[at] != NO_ID)
+            continue;
+        field->again[at] = field->again_count;
+        field->pixels[field->again_count++] = at;
+    }
+}
+
+/* The rims of sources of few pixels. */
+static void mark_small(Field *field, Arena scratch)
+{
+    int  total = field->ask->pixels * field->ask->pixels;
+    int *sets = sets_of(field, BRIGHT, &scratch), *sizes = ARENA_NEW(&scratch, int, total);
+    for (int i = 0; i < total; i++)
+        if (field->classes[i] & BRIGHT) sizes[root_of(sets, i)]++;
+    for (int i = 0; i < total; i++)
+        if ((field->classes[i] & BRIGHT) && sizes[root_of(sets, i)] <= FEW_PIXELS &&
+            is_edge(field, i))
+            mark(field, i);
+}
+
+static int pixel_of(const GlareFieldAsk *ask, Vec3 d)
+{
+    const GlareHead *head = &ask->rest->head;
+    double x = (double)vec3_dot(d, head->right), y = (double)vec3_dot(d, head->up);
+    double beside = hypot(x, y), t = atan2(beside, (double)vec3_dot(d, head->gaze));
+    double scale = beside > 0 ? t / beside : 1;
+    int    i = (int)((scale * x / PI + 0.5) * ask->pixels);
+    int    j = (int)((0.5 - scale * y / PI) * ask->pixels);
+    return is_inside(ask->pixels, i, j) ? j * ask->pixels + i : NO_ID;
+}
+
+/* What a path found bright, and no ray about it. */
+static void mark_found(Field *field)
+{
+    const GlareFieldAsk *ask = field->ask;
+    for (int i = 0; i < ask->found.count; i++) {
+        FieldRay ray = {(float)ask->found.cd_m2[i], 0, 1, ask->found.towards[i]};
+        if ((double)ray.sky > ask->peak_cd_m2 || class_of(field, &ray) == FIELD_DIM) continue;
+        int pixel = pixel_of(ask, ray.towards);
+        if (pixel != NO_ID && !(field->classes[pixel] & BRIGHT) && !is_edge(field, pixel))
+            mark(field, pixel);
+    }
+}
+
+static void find_edges(Field *field, Arena *scratch)
+{
+    int total = field->ask->pixels * field->ask->pixels;
+    field->again = ARENA_NEW(scratch, int, total);
+    field->pixels = ARENA_NEW(scratch, int, total);
+    for (int i = 0; i < total; i++) {
+        field->classes[i] = (uint8_t)(1 << class_of(field, &field->rays[i]));
+        field->again[i] = NO_ID;
+    }
+    mark_small(field, *scratch);
+    mark_found(field);
+    field->others = ARENA_NEW(scratch, FieldRay, field->again_count * RAYS);
+}
+
+static void set_classes(Field *field)
+{
+    for (int i = 0; i < field->again_count; i++) {
+        uint8_t *bits = &field->classes[field->pixels[i]];
+        *bits = 0;
+        for (int k = 0; k < RAYS; k++)
+            *bits |= (uint8_t)(1 << class_of(field, &field->others[i * RAYS + k]));
+    }
+}
+
+/* ---- sources ----------------------------------------------------------------------------- */
 
 /* Where rays go: into the source of their set, or the background. */
 typedef struct FieldSums {
@@ -285,7 +343,7 @@ static void add_all(const Field *field, GlareTable *table, GlareBackground *back
     int       total = field->ask->pixels * field->ask->pixels;
     FieldSums sums = {.field = field, .table = table, .background = background, .arena = arena};
     for (int c = FIELD_SOURCE; c < FIELD_CLASSES; c++) {
-        sums.sets[c] = sets_of(field, (FieldClass)c, &scratch);
+        sums.sets[c] = sets_of(field, 1 << c, &scratch);
         sums.source[c] = ARENA_NEW(&scratch, int, total);
     }
     for (int i = 0; i < total; i++) add_pixel(&sums, i);
@@ -297,7 +355,11 @@ static void set_aim(Field *field)
     const Setup *setup = field->ask->setup;
     field->context = setup->context;
     field->context.strategy = PATH_LIGHTS_ONLY;
-    field->context.max_bounces = lights_has(setup->context.lights, LIGHTS_SUN);
+    field->context.max_bounces = BOUNCES;
+    field->context.guide = NULL;
+    field->context.beams.mirrors = NULL;
+    field->reach = lights_has(setup->context.lights, LIGHTS_SUN) ? PATH_TO_SUNLIT_SURFACE
+                                                                 : PATH_TO_SURFACE;
     field->aim = (ProbeAim){.context = &field->context, .eye = field->ask->rest->head.eye,
                             .seed = field->ask->seed};
 }

@@ -3,9 +3,9 @@
  * sunlit surfaces, and what is mirrored; and the background.
  *
  * A picture of the half space in front of the eye: equidistant, a ray a pixel. What a ray tells
- * without noise (glare_field_tells) is taken from it; all else from GlareRest. Where a source
- * ends, pixels are looked at again, 16 rays each. Pixels that touch one another, by a corner at
- * least, are one source.
+ * without noise (glare_field_tells) is taken from it; all else from GlareRest. Where a small
+ * source ends, pixels are looked at again, 16 rays each. Pixels that touch one another, by a
+ * corner at least, are one source.
  *
  * Approximate  what is narrower than a pixel may be missed, unless it is a light by itself.
  * Threads      starts its own; the same figures for any count.
@@ -25,6 +25,7 @@ bool glare_field_is_sky(const PathHistory *history);
 typedef struct GlareFieldAsk {
     const Setup     *setup;
     const GlareRest *rest;
+    GlarePaths       found; /* what glare_field_tells of paths: they find what rays miss */
     double threshold_cd_m2;
     double peak_cd_m2;      /* sky that is brighter counts by light samples: it is left out */
     int    pixels;          /* over 180 degrees */

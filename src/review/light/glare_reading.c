@@ -10,8 +10,8 @@
 #include "review/light/glare_field.h"
 
 #define SEED 0x676c6172u
-#define PIXELS 600     /* over 180 degrees, of several rounds; */
-#define PIXELS_ONCE 300 /* of one */
+#define PIXELS 256      /* over 180 degrees, of several rounds; */
+#define PIXELS_ONCE 192 /* of one */
 #define SOURCE_BYTES ((size_t)1 << 34) /* of address space */
 
 /* ---- samples ----------------------------------------------------------------------------- */
@@ -72,8 +72,10 @@ static void add_samples(GlareWork *work, LightSet set, int *sources, double leas
             glare_table_add(&work->table, work->arena);
             *source = work->table.count;
         }
-        add_piece(work, s->towards, luminance, (double)s->sr * share,
-                  &work->table.list[*source - 1].group[group]);
+        GlareTally *to = &work->table.list[*source - 1];
+        double      sr = (double)s->sr * share, distance = (double)s->distance;
+        add_piece(work, s->towards, luminance, sr, &to->group[group]);
+        if (isfinite(distance)) to->area_m2 += sr * distance * distance;
     }
 }
 
@@ -119,6 +121,8 @@ static void add_lamp(GlareWork *work, int id, const LampSums *sums)
     double      sr = lamp_sr(work, id, sums), luminance = sums->total / sr;
     bool        is_source = luminance > work->threshold;
     GlareTally *to = is_source ? glare_table_add(&work->table, work->arena) : NULL;
+    double      distance = sums->distance / sums->total;
+    if (to && isfinite(distance)) to->area_m2 = sr * distance * distance;
     for (int g = 0; g < GLARE_GROUPS; g++) {
         double share = sums->facing_lx[g] / sums->total;
         if (to) to->group[g] = (GlareSum){sr * share, sums->facing_lx[g], sums->lx[g],
@@ -225,7 +229,7 @@ GlareReading glare_read(const GlareAsk *ask, Arena scratch)
     GlareWork work = {.ask = ask, .threshold = glare_threshold(settings, ask->task_cd_m2),
                       .arena = &sources};
     GlareRest rest = glare_rest_build(&ask->head, &ask->rest, work.threshold, &scratch);
-    GlareFieldAsk field = {.setup = ask->setup, .rest = &rest,
+    GlareFieldAsk field = {.setup = ask->setup, .rest = &rest, .found = ask->told,
                            .threshold_cd_m2 = work.threshold,
                            .peak_cd_m2 = fmax(settings->peak_cd_m2, work.threshold),
                            .pixels = ask->rounds > 1 ? PIXELS : PIXELS_ONCE, .seed = SEED};

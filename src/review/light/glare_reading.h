@@ -43,7 +43,8 @@ typedef struct GlareImage {
 typedef struct GlareAsk {
     const Setup       *setup;
     GlareHead          head;
-    GlarePaths         rest; /* what neither samples nor the field's rays tell */
+    GlarePaths         told; /* what glare_field_tells of paths, */
+    GlarePaths         rest; /* and of the same ones what neither samples nor the field's rays tell */
     const GlareSample *samples[LIGHT_SETS]; /* [rest.count] */
     int                rounds;   /* of as many of both: they differ in nothing but chance */
     GlareImage        *images;   /* are put in order */

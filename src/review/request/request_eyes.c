@@ -166,7 +166,6 @@ static bool read_observer(RequestReading *reading, Error *err)
     JsonView  view;
     HumanEye *observer = &reading->request->observer;
     *observer = (HumanEye){50, 0.5};
-    reading->request->glare = (GlareSettings)GLARE_SETTINGS_DEFAULT;
     return json_view_child(&reading->root, "observer", false, &view, err) &&
            json_view_check_keys(&view, keys, COUNT_OF(keys), err) &&
            json_view_number(&view, "age_years", 10, 100, &observer->age_years, err) &&
