@@ -36,8 +36,8 @@ static inline CaseGlare fixture_glare(double dgp, double ugr)
                        .ugr_range = {has_ugr ? ugr - 0.25 : NAN, has_ugr ? ugr + 0.5 : NAN},
                        .dgi_range = {has_ugr ? ugr - 2.25 : NAN, has_ugr ? ugr - 1 : NAN},
                        .threshold_cd_m2 = 2000, .background_cd_m2 = 40.5, .source_lx = 75.25,
-                       .smallest_sr = 0.00025, .largest_sr = 0.0125, .source_count = has_ugr * 3,
-                       .low_light = has_ugr,
+                       .smallest_sr = 0.00025, .largest_sr = 0.0125,
+                       .source_count = has_ugr * 3, .low_light = has_ugr,
                        .none = has_ugr ? NULL : "no source is brighter than the threshold"};
 }
 
@@ -174,7 +174,8 @@ static inline void fixture_gazes(Arena *arena, Review *review)
                          .veil_parts = {i == 1 ? 5100 : 0, 0.4 * REST[i], 0.1 * REST[i],
                                         0.1 * REST[i], 0.3 * REST[i], 0.1 * REST[i]},
                          .through = THROUGH[i], .mirrored = MIRRORED[i],
-                         .cornea_lux = 3 * THROUGH[i], .glare = fixture_glare(0.2 + 0.2 * i, 18.5)};
+                         .cornea_lux = 3 * THROUGH[i],
+                         .glare = fixture_glare(0.2 + 0.2 * i, 18.5)};
         g.veil = g.veil_parts.sun + REST[i];
         g.veil_range = (MeanInterval){0.98 * g.veil, 1.02 * g.veil};
         g.mirrored_range = (MeanInterval){0.99 * g.mirrored, 1.01 * g.mirrored};

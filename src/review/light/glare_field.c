@@ -7,13 +7,14 @@
 #include "base/sampler.h"
 #include "base/units.h"
 
-#define SIDE 4 /* rays along each side of a pixel that is looked at again */
+#define SIDE 8 /* rays along each side of a pixel that is looked at again */
 #define RAYS (SIDE * SIDE)
 #define BOUNCES 8 /* in clear solids */
 #define AGAIN_SEED 0x6167u
 #define PIXELS_A_CHUNK 256
 #define FIELD_BYTES ((size_t)1 << 32) /* of address space */
-_Static_assert(RAYS == GLARE_GROUPS, "one ray a group");
+#define DEAL 4 /* every square of 4 by 4 has one in each group */
+_Static_assert(DEAL * DEAL == GLARE_GROUPS && SIDE % DEAL == 0, "as many in each group");
 
 /* ---- what a ray tells -------------------------------------------------------------------- */
 
@@ -25,7 +26,7 @@ static bool comes_straight(const PathHistory *history, int steps)
     return true;
 }
 
-bool glare_field_is_sky(const PathHistory *history)
+static bool is_sky(const PathHistory *history)
 {
     return history->source == LIGHTS_SKY && comes_straight(history, history->count);
 }
@@ -39,7 +40,7 @@ static bool is_sunlit(const PathHistory *history)
 
 bool glare_field_tells(const PathHistory *history)
 {
-    return glare_field_is_sky(history) || is_sunlit(history);
+    return is_sky(history) || is_sunlit(history);
 }
 
 /* ---- rays -------------------------------------------------------------------------------- */
@@ -53,7 +54,7 @@ typedef struct FieldRay {
     Vec3  towards;  /* unit, world */
 } FieldRay;
 
-typedef struct Field {
+typedef struct LookedAt {
     const GlareFieldAsk *ask;
     ProbeAim  aim;
     PathContext context;
@@ -61,10 +62,10 @@ typedef struct Field {
     FieldRay *rays;    /* [pixel] */
     int      *again;   /* [pixel] where its rays lie among the others', by RAYS; NO_ID: none */
     int      *pixels;  /* that are looked at again */
-    int       again_count;
+    int       again_count, seen_again; /* how many, and of these how many were */
     FieldRay *others;
     uint8_t  *classes; /* [pixel] bits */
-} Field;
+} LookedAt;
 
 static Vec3 direction_of(const GlareHead *head, double x, double y)
 {
@@ -92,12 +93,12 @@ static FieldRay place_of(const GlareFieldAsk *ask, int count, int cell, uint32_t
 static void add_told(void *user, const PathHistory *history, const float xyz[3])
 {
     FieldRay *ray = user;
-    if (glare_field_is_sky(history)) ray->sky += xyz[1];
+    if (is_sky(history)) ray->sky += xyz[1];
     else if (is_sunlit(history)) ray->lit += xyz[1];
 }
 
 /* seed: of the pass. index: of the ray among all that this pass may have. */
-static FieldRay look(const Field *field, const FieldRay *place, uint32_t seed, int index)
+static FieldRay look(const LookedAt *field, const FieldRay *place, uint32_t seed, int index)
 {
     FieldRay ray = *place;
     if (!(ray.sr > 0)) return ray;
@@ -116,7 +117,7 @@ static FieldRay look(const Field *field, const FieldRay *place, uint32_t seed, i
 static void look_chunk(void *user, int item, int worker)
 {
     (void)worker;
-    const Field *field = user;
+    const LookedAt *field = user;
     int count = field->ask->pixels, first = item * PIXELS_A_CHUNK;
     for (int i = first; i < first + PIXELS_A_CHUNK && i < count * count; i++) {
         FieldRay place = place_of(field->ask, count, i, 0);
@@ -124,28 +125,28 @@ static void look_chunk(void *user, int item, int worker)
     }
 }
 
-/* The 16 rays of one pixel. */
+/* The rays of one pixel. */
 static void look_again(void *user, int item, int worker)
 {
     (void)worker;
-    const Field *field = user;
-    int count = field->ask->pixels, pixel = field->pixels[item];
+    const LookedAt *field = user;
+    int at = field->seen_again + item, count = field->ask->pixels, pixel = field->pixels[at];
     for (int k = 0; k < RAYS; k++) {
         int x = pixel % count * SIDE + k % SIDE, y = pixel / count * SIDE + k / SIDE;
         int cell = y * count * SIDE + x;
         FieldRay place = place_of(field->ask, count * SIDE, cell, AGAIN_SEED);
-        field->others[item * RAYS + k] = look(field, &place, AGAIN_SEED, cell);
+        field->others[at * RAYS + k] = look(field, &place, AGAIN_SEED, cell);
     }
 }
 
 /* ---- which is what ----------------------------------------------------------------------- */
 
-static double luminance_of(const Field *field, const FieldRay *ray)
+static double luminance_of(const LookedAt *field, const FieldRay *ray)
 {
     return (double)ray->sky + (double)ray->lit + glare_rest_at(field->ask->rest, ray->towards);
 }
 
-static FieldClass class_of(const Field *field, const FieldRay *ray)
+static FieldClass class_of(const LookedAt *field, const FieldRay *ray)
 {
     if (!(ray->sr > 0)) return FIELD_DIM;
     double luminance = luminance_of(field, ray);
@@ -175,7 +176,7 @@ static void join(int *parent, int i, int k)
 }
 
 /* Sets of pixels that touch one another and have some of these classes. */
-static int *sets_of(const Field *field, int bits, Arena *scratch)
+static int *sets_of(const LookedAt *field, int bits, Arena *scratch)
 {
     static const int beside[4][2] = {{-1, 0}, {-1, -1}, {0, -1}, {1, -1}};
     int  count = field->ask->pixels, total = count * count;
@@ -197,9 +198,9 @@ static int *sets_of(const Field *field, int bits, Arena *scratch)
 #define BRIGHT (1 << FIELD_SOURCE | 1 << FIELD_PEAK)
 
 /* The area of a source of many pixels is known well enough from one ray each. */
-#define FEW_PIXELS 256
+#define FEW_PIXELS 64
 
-static bool is_edge(const Field *field, int pixel)
+static bool is_edge(const LookedAt *field, int pixel)
 {
     int count = field->ask->pixels, x = pixel % count, y = pixel / count;
     for (int k = 0; k < 9; k++) {
@@ -211,7 +212,7 @@ static bool is_edge(const Field *field, int pixel)
 }
 
 /* Marks the pixel and those about it. */
-static void mark(Field *field, int pixel)
+static void mark(LookedAt *field, int pixel)
 {
     int count = field->ask->pixels, x = pixel % count, y = pixel / count;
     for (int k = 0; k < 9; k++) {
@@ -224,7 +225,7 @@ static void mark(Field *field, int pixel)
 }
 
 /* The rims of sources of few pixels. */
-static void mark_small(Field *field, Arena scratch)
+static void mark_small(LookedAt *field, Arena scratch)
 {
     int  total = field->ask->pixels * field->ask->pixels;
     int *sets = sets_of(field, BRIGHT, &scratch), *sizes = ARENA_NEW(&scratch, int, total);
@@ -248,7 +249,7 @@ static int pixel_of(const GlareFieldAsk *ask, Vec3 d)
 }
 
 /* What a path found bright, and no ray about it. */
-static void mark_found(Field *field)
+static void mark_found(LookedAt *field)
 {
     const GlareFieldAsk *ask = field->ask;
     for (int i = 0; i < ask->found.count; i++) {
@@ -260,7 +261,7 @@ static void mark_found(Field *field)
     }
 }
 
-static void find_edges(Field *field, Arena *scratch)
+static void find_edges(LookedAt *field, Arena *scratch)
 {
     int total = field->ask->pixels * field->ask->pixels;
     field->again = ARENA_NEW(scratch, int, total);
@@ -271,24 +272,39 @@ static void find_edges(Field *field, Arena *scratch)
     }
     mark_small(field, *scratch);
     mark_found(field);
-    field->others = ARENA_NEW(scratch, FieldRay, field->again_count * RAYS);
+    field->others = ARENA_NEW(scratch, FieldRay, total * RAYS);
 }
 
-static void set_classes(Field *field)
+/* Pixels [first, end) of the list have been looked at again. */
+static void set_classes(LookedAt *field, int first, int end)
 {
-    for (int i = 0; i < field->again_count; i++) {
+    for (int i = first; i < end; i++) {
         uint8_t *bits = &field->classes[field->pixels[i]];
+        bool     was_dim = !(*bits & BRIGHT);
         *bits = 0;
         for (int k = 0; k < RAYS; k++)
             *bits |= (uint8_t)(1 << class_of(field, &field->others[i * RAYS + k]));
+        if (was_dim && (*bits & BRIGHT)) mark(field, field->pixels[i]);
     }
+}
+
+static void look_at_edges(LookedAt *field)
+{
+    for (int round = 0; round < 2 && field->seen_again < field->again_count; round++) {
+        int first = field->seen_again, end = field->again_count;
+        parallel_for(field->ask->setup->tools.threads, end - first, look_again, field);
+        field->seen_again = end;
+        set_classes(field, first, end);
+    }
+    for (int i = field->seen_again; i < field->again_count; i++)
+        field->again[field->pixels[i]] = NO_ID;
 }
 
 /* ---- sources ----------------------------------------------------------------------------- */
 
 /* Where rays go: into the source of their set, or the background. */
 typedef struct FieldSums {
-    const Field     *field;
+    const LookedAt     *field;
     GlareTable      *table;
     GlareBackground *background;
     int   *sets[FIELD_CLASSES];
@@ -324,20 +340,22 @@ static void add_ray(const FieldSums *sums, const FieldRay *ray, int pixel, int g
                   (double)vec3_dot(ray->towards, head->up), forward);
 }
 
-/* Pixels are dealt out evenly: every group has one in each square of 4 by 4. */
-static void add_pixel(const FieldSums *sums, int pixel)
+static int group_at(int x, int y)
 {
-    const Field *field = sums->field;
-    int          count = field->ask->pixels, again = field->again[pixel];
-    if (again == NO_ID) {
-        add_ray(sums, &field->rays[pixel], pixel,
-                pixel / count % SIDE * SIDE + pixel % count % SIDE);
-        return;
-    }
-    for (int k = 0; k < RAYS; k++) add_ray(sums, &field->others[again * RAYS + k], pixel, k);
+    return y % DEAL * DEAL + x % DEAL;
 }
 
-static void add_all(const Field *field, GlareTable *table, GlareBackground *background,
+static void add_pixel(const FieldSums *sums, int pixel)
+{
+    const LookedAt *field = sums->field;
+    int          count = field->ask->pixels, again = field->again[pixel];
+    if (again == NO_ID)
+        add_ray(sums, &field->rays[pixel], pixel, group_at(pixel % count, pixel / count));
+    for (int k = 0; again != NO_ID && k < RAYS; k++)
+        add_ray(sums, &field->others[again * RAYS + k], pixel, group_at(k % SIDE, k / SIDE));
+}
+
+static void add_all(const LookedAt *field, GlareTable *table, GlareBackground *background,
                     Arena *arena, Arena scratch)
 {
     int       total = field->ask->pixels * field->ask->pixels;
@@ -350,7 +368,7 @@ static void add_all(const Field *field, GlareTable *table, GlareBackground *back
 }
 
 /* Rays need no light samples but the sun's, by the first surface. */
-static void set_aim(Field *field)
+static void set_aim(LookedAt *field)
 {
     const Setup *setup = field->ask->setup;
     field->context = setup->context;
@@ -368,15 +386,14 @@ void glare_field_add(const GlareFieldAsk *ask, GlareTable *table, GlareBackgroun
                      Arena *arena)
 {
     int   total = ask->pixels * ask->pixels, threads = ask->setup->tools.threads;
-    Field field = {.ask = ask};
+    LookedAt field = {.ask = ask};
     Arena scratch = arena_reserve(FIELD_BYTES);
     field.rays = ARENA_NEW(&scratch, FieldRay, total);
     field.classes = ARENA_NEW(&scratch, uint8_t, total);
     set_aim(&field);
     parallel_for(threads, (total + PIXELS_A_CHUNK - 1) / PIXELS_A_CHUNK, look_chunk, &field);
     find_edges(&field, &scratch);
-    parallel_for(threads, field.again_count, look_again, &field);
-    set_classes(&field);
+    look_at_edges(&field);
     add_all(&field, table, background, arena, scratch);
     arena_release(&scratch);
 }

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* glare_field.h -- the sources of glare that have no light samples of their own: sky in windows,
- * sunlit surfaces, and what is mirrored; and the background.
+/* glare_field.h -- the sources of glare that have no light samples of their own: sky in
+ * windows, sunlit surfaces, and what is mirrored; and the background.
  *
  * A picture of the half space in front of the eye: equidistant, a ray a pixel. What a ray tells
  * without noise (glare_field_tells) is taken from it; all else from GlareRest. Where a small
- * source ends, pixels are looked at again, 16 rays each. Pixels that touch one another, by a
+ * source ends, pixels are looked at again, 64 rays each. Pixels that touch one another, by a
  * corner at least, are one source.
  *
  * Approximate  what is narrower than a pixel may be missed, unless it is a light by itself.
@@ -18,9 +18,6 @@
 /* Sky that is seen straight or through panes, and what the sun sends by one scattering surface
  * that is seen so. */
 bool glare_field_tells(const PathHistory *history);
-
-/* Light of the sky that is seen straight or through panes. */
-bool glare_field_is_sky(const PathHistory *history);
 
 typedef struct GlareFieldAsk {
     const Setup     *setup;

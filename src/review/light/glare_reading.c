@@ -10,8 +10,8 @@
 #include "review/light/glare_field.h"
 
 #define SEED 0x676c6172u
-#define PIXELS 256      /* over 180 degrees, of several rounds; */
-#define PIXELS_ONCE 192 /* of one */
+#define PIXELS 320      /* over 180 degrees, of several rounds; */
+#define PIXELS_ONCE 200 /* of one */
 #define SOURCE_BYTES ((size_t)1 << 34) /* of address space */
 
 /* ---- samples ----------------------------------------------------------------------------- */
@@ -211,7 +211,8 @@ static void add_background(GlareWork *work)
     const GlareAsk *ask = work->ask;
     double rest[GLARE_GROUPS] = {0}, total = 0;
     for (int i = 0; i < ask->rest.count; i++) {
-        double lx = ask->rest.cd_m2[i] * ask->rest.sr[i] * forward_of(work, ask->rest.towards[i]);
+        double lx = ask->rest.cd_m2[i] * ask->rest.sr[i] *
+                    forward_of(work, ask->rest.towards[i]);
         rest[group_of(ask, i)] += lx;
         total += lx;
     }

@@ -44,7 +44,8 @@ typedef struct GlareAsk {
     const Setup       *setup;
     GlareHead          head;
     GlarePaths         told; /* what glare_field_tells of paths, */
-    GlarePaths         rest; /* and of the same ones what neither samples nor the field's rays tell */
+    GlarePaths         rest; /* and of the same ones what neither samples nor
+                                rays tell */
     const GlareSample *samples[LIGHT_SETS]; /* [rest.count] */
     int                rounds;   /* of as many of both: they differ in nothing but chance */
     GlareImage        *images;   /* are put in order */

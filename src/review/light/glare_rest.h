@@ -2,10 +2,10 @@
 /* glare_rest.h -- how bright that is which paths find by chance only, direction by direction:
  * means over cells that are as small as their noise allows.
  *
- * A cell's mean counts where noise cannot make a source of it: where its standard error is small
- * beside the threshold, or the mean is many times its error. Cells of which neither is true are
- * thrown together with their neighbours, until one is. So no single path ever stands for a
- * direction, and all light is kept.
+ * A cell's mean counts where noise cannot make a source of it: where its standard error is
+ * small beside the threshold, or the mean is many times its error. Cells of which neither is
+ * true are thrown together with their neighbours, until one is. So no single path ever stands
+ * for a direction, and all light is kept.
  *
  * Frame    cells about the line of sight: rings of equal steps of the angle's logarithm.
  * Units    cd m^-2, sr. Threads: const once built.

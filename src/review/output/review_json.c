@@ -8,6 +8,7 @@
 #include "base/count.h"
 #include "base/file_write.h"
 #include "review/output/review_decide.h"
+#include "review/output/review_members.h"
 #include "text/json_text.h"
 #include "text/json_view.h"
 #include "text/nearest_word.h"
@@ -16,44 +17,6 @@
 #define PLACES_BYTES ((size_t)1 << 26)
 
 /* ---- which keys hold which members ------------------------------------------------------- */
-
-typedef enum MemberKind {
-    MEMBER_FIGURE,  /* double; NaN is null */
-    MEMBER_TEXT,    /* NULL is null */
-    MEMBER_RANGE,   /* two doubles, one behind the other */
-    MEMBER_FLAG,
-    MEMBER_COUNT,   /* long, 0 or more */
-    MEMBER_VERDICT,
-    MEMBER_AMBIENT,
-    MEMBER_OBJECT,  /* members of the same struct, or of one in it */
-    MEMBER_IF,      /* the same; null where the bool at `count` is false */
-    MEMBER_TEXTS,   /* a pointer, and an int at `count` */
-    MEMBER_LIST,    /* likewise */
-    MEMBER_LIMIT    /* of a case: the limit that limit_id means, or null */
-} MemberKind;
-
-/* Older reviews may lack it; it is written and not read back. */
-typedef enum MemberUse { ALWAYS, SINCE, WRITTEN } MemberUse;
-
-/* A table of them ends with a key that is NULL. */
-typedef struct Member {
-    const char   *key;
-    MemberKind    kind;
-    size_t        offset;
-    MemberUse     use;
-    const struct Member *of; /* what is in an object, or in a list's items, */
-    size_t        count;     /* offset, */
-    size_t        size;      /* bytes of an item */
-} Member;
-
-/* A member under a key; and under its own name. */
-#define AS(key, KIND, Type, member) {key, MEMBER_##KIND, .offset = offsetof(Type, member)}
-#define LATER(key, KIND, Type, member)                                                         \
-    {key, MEMBER_##KIND, .offset = offsetof(Type, member), .use = SINCE}
-#define OWN(KIND, Type, member) AS(#member, KIND, Type, member)
-#define LIST(key, Type, member, number, table, Item)                                           \
-    {key, MEMBER_LIST, offsetof(Type, member), ALWAYS, table, offsetof(Type, number),          \
-     sizeof(Item)}
 
 static const Member LIMIT[] = {
     OWN(TEXT, LimitVerdict, name), OWN(TEXT, LimitVerdict, kind),
@@ -93,7 +56,8 @@ static const Member LUMINANCE[] = {
 
 static const Member GLARE[] = {
     OWN(FIGURE, CaseGlare, threshold_cd_m2), OWN(FIGURE, CaseGlare, background_cd_m2),
-    AS("sources", COUNT, CaseGlare, source_count), AS("sources_lx", FIGURE, CaseGlare, source_lx),
+    AS("sources", COUNT, CaseGlare, source_count),
+    AS("sources_lx", FIGURE, CaseGlare, source_lx),
     AS("smallest_source_sr", FIGURE, CaseGlare, smallest_sr),
     AS("largest_source_sr", FIGURE, CaseGlare, largest_sr),
     AS("low_light_factor", FLAG, CaseGlare, low_light),
@@ -103,7 +67,8 @@ static const Member GLARE[] = {
 /* Of what has a CaseGlare. */
 #define GLARE_MEMBERS(Type)                                                                    \
     AS("dgp", FIGURE, Type, glare.dgp), AS("ugr", FIGURE, Type, glare.ugr),                    \
-    LATER("dgi", FIGURE, Type, glare.dgi), LATER("dgp_interval", RANGE, Type, glare.dgp_range), \
+    LATER("dgi", FIGURE, Type, glare.dgi),                                                     \
+    LATER("dgp_interval", RANGE, Type, glare.dgp_range),                                       \
     LATER("ugr_interval", RANGE, Type, glare.ugr_range),                                       \
     LATER("dgi_interval", RANGE, Type, glare.dgi_range),                                       \
     {"glare", MEMBER_OBJECT, offsetof(Type, glare), SINCE, GLARE, 0, 0}
