@@ -199,6 +199,7 @@ static int *sets_of(const LookedAt *field, int bits, Arena *scratch)
 
 /* The area of a source of many pixels is known well enough from one ray each. */
 #define FEW_PIXELS 64
+#define HARDLY 0.01 /* of all sources together */
 
 static bool is_edge(const LookedAt *field, int pixel)
 {
@@ -224,17 +225,36 @@ static void mark(LookedAt *field, int pixel)
     }
 }
 
-/* The rims of sources of few pixels. */
+/* What a ray adds to the sum of UGR and DGP, L^2 w/P^2. */
+static double weight_of(const LookedAt *field, const FieldRay *ray)
+{
+    const GlareHead *head = &field->ask->rest->head;
+    double luminance = luminance_of(field, ray);
+    double p = position_index((double)vec3_dot(ray->towards, head->right),
+                              (double)vec3_dot(ray->towards, head->up),
+                              (double)vec3_dot(ray->towards, head->gaze));
+    return luminance * luminance * (double)ray->sr / (p * p);
+}
+
+/* The rims of sources of few pixels, but for those that hardly count. */
 static void mark_small(LookedAt *field, Arena scratch)
 {
-    int  total = field->ask->pixels * field->ask->pixels;
-    int *sets = sets_of(field, BRIGHT, &scratch), *sizes = ARENA_NEW(&scratch, int, total);
-    for (int i = 0; i < total; i++)
-        if (field->classes[i] & BRIGHT) sizes[root_of(sets, i)]++;
-    for (int i = 0; i < total; i++)
-        if ((field->classes[i] & BRIGHT) && sizes[root_of(sets, i)] <= FEW_PIXELS &&
-            is_edge(field, i))
+    int     total = field->ask->pixels * field->ask->pixels;
+    int    *sets = sets_of(field, BRIGHT, &scratch), *sizes = ARENA_NEW(&scratch, int, total);
+    double *weights = ARENA_NEW(&scratch, double, total), all = 0;
+    for (int i = 0; i < total; i++) {
+        if (!(field->classes[i] & BRIGHT)) continue;
+        double weight = weight_of(field, &field->rays[i]);
+        sizes[root_of(sets, i)]++;
+        weights[root_of(sets, i)] += weight;
+        all += weight;
+    }
+    for (int i = 0; i < total; i++) {
+        int root = root_of(sets, i);
+        if ((field->classes[i] & BRIGHT) && sizes[root] <= FEW_PIXELS &&
+            weights[root] > HARDLY * all && is_edge(field, i))
             mark(field, i);
+    }
 }
 
 static int pixel_of(const GlareFieldAsk *ask, Vec3 d)
