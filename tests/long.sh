@@ -136,6 +136,7 @@ run 'years recounted, every hour' year-long python3 tests/image/year.py --all $p
 run 'all variants of a review, slopes, mends' variants-long \
     python3 tests/image/variants.py --all $program
 run "another maker's car" other-maker python3 tests/image/other_maker.py $program
+run 'discomfort of every size' glare-sizes python3 tests/image/glare.py --all $program
 run 'verdicts beside their limits' review-laws python3 tests/image/review_laws.py $program \
     scenes/glance.review.json dimmed 0.2 0.4 0.005
 of "$review tests/bench tests/image"

@@ -250,6 +250,7 @@ static void find_sample(PathState *path, const Surface *surface, Vec3 wo,
         .from = is_distant ? light->wi
                        : vec3_along(surface->position, light->wi, light->distance),
         .way = vec3_neg(light->wi), .radiance = radiance, .triangle = light->triangle,
+        .sr = light->is_delta ? 0 : 1 / (light->pdf * asked->prob),
         .point = light->set == LIGHTS_EMITTERS ? &light->point : NULL, .by = surface, .wo = wo,
         .local_wi = asked->local_wi, .shadow = ray};
     collect_found(path, &found);

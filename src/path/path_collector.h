@@ -45,6 +45,8 @@ typedef struct PathFound {
     const float *xyz;   /* these; NULL: `radiance` counts */
     float    share;     /* and the share of them */
     float    weight;    /* of an emitter that the path met itself: its MIS weight */
+    float    sr;        /* that a light sample stands for; 0: the path met the light itself, or
+                           it has no extent */
     uint32_t             triangle; /* of an emitter; */
     const TrianglePoint *point;    /* and the point there; NULL: no emitter */
     const Surface   *met; /* the emitter's surface, if the path met it itself; else NULL */

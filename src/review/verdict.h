@@ -106,6 +106,20 @@ typedef struct CaseRemedy {
     double contrast_ratio, level;
 } CaseRemedy;
 
+/* How much the view disturbs (vision/discomfort.h): secondary figures. */
+typedef struct CaseGlare {
+    double dgp, ugr, dgi;    /* ugr, dgi: NaN where `none` says why */
+    MeanInterval dgp_range, ugr_range, dgi_range; /* 95 % */
+    double threshold_cd_m2;  /* what is brighter was a source */
+    double background_cd_m2; /* mean of all else, by its vertical illuminance */
+    double source_lx;        /* of the sources, on the pupil's plane */
+    double smallest_sr, largest_sr; /* of a source; NaN: none */
+    long   source_count;
+    bool   low_light;        /* DGP has its factor for low light, */
+    bool   small_sources;    /* UGR CIE 147's rule for small sources */
+    const char *none;        /* why there is no UGR; NULL: there is */
+} CaseGlare;
+
 typedef struct CaseLuminances {
     double foreground, background; /* emitted to the eye */
     double reflected;              /* mean over what is visible; all that is reflected */
@@ -133,7 +147,7 @@ typedef struct ReviewCase {
     double  jnd;                 /* steps of DICOM's GSDF between the two, veil included */
     double  visibility;          /* Michelson contrast, veil included, by the least that an eye
                                     sees of strokes that wide (Barten) */
-    double  dgp, ugr;            /* discomfort of this gaze: secondary figures */
+    CaseGlare glare;             /* of this gaze */
     long    paths;               /* that what is reflected was read from */
     const double *batches;       /* [CASE_BATCHES] estimates by independent batches of them, cd
                                     m^-2, whose mean is luminance_cd_m2.reflected; NULL: not
@@ -199,7 +213,7 @@ typedef struct GazeFinding {
     double   contrast_behind_glass; /* what the mirrored light leaves; 1: all */
     double   contrast_left;         /* and the veil in the eye with it */
     MeanInterval contrast_range;        /* of the latter */
-    double   dgp, ugr;              /* secondary figures; ugr: NaN without a source */
+    CaseGlare glare;
 } GazeFinding;
 
 /* Contrast left below which a gaze is marked as poor: half is lost. No limit. */

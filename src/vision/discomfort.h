@@ -25,7 +25,7 @@
 typedef struct GlareSettings {
     double threshold_cd_m2; /* what is brighter is a source; */
     double task_factor;     /* above 0: the threshold is this times the task's luminance */
-    double task_deg;        /* full width of the cone about the line of sight that is the task */
+    double task_deg;        /* full width of the cone about the line of sight that is it */
     double peak_cd_m2;      /* what is brighter is a source apart from what surrounds it */
     bool   low_light;       /* DGP times discomfort_dgp_low_light */
     bool   small_sources;   /* UGR of a source below GLARE_SOURCE_SMALL_M2: CIE 147's rule */

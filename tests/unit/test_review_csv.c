@@ -4,7 +4,7 @@
 #include "review/output/review_csv.h"
 #include "review_page_fixture.h"
 
-enum { CSV_COLUMNS = 39 };
+enum { CSV_COLUMNS = 52 };
 
 /* One record of RFC 4180 into cells; what follows it. */
 static const char *read_record(const char *at, const char *cell[CSV_COLUMNS], int *count)
@@ -47,6 +47,8 @@ static void assert_csv_says(const Review *review)
     assert_string_equal(header[24], "ugr");
     assert_string_equal(header[25], "eye_failed_share");
     assert_string_equal(header[31], "margin");
+    assert_string_equal(header[43], "dgi");
+    assert_string_equal(header[CSV_COLUMNS - 1], "smallest_source_sr");
     for (int i = 0; i < review->case_count; i++) {
         const ReviewCase *c = &review->cases[i];
         at = read_record(at, cell, &count);
@@ -55,12 +57,17 @@ static void assert_csv_says(const Review *review)
         assert_string_equal(cell[2], c->symbol);
         assert_same(c->luminance_cd_m2.reflected, number_of(cell[9]));
         assert_same(c->contrast_ratio, number_of(cell[13]));
-        assert_same(c->ugr, number_of(cell[24]));
+        assert_same(c->glare.ugr, number_of(cell[24]));
         assert_same(c->eye_failed_share, number_of(cell[25]));
         assert_same(c->margin, number_of(cell[31]));
         assert_string_equal(cell[34], verdict_names[c->verdict]);
         assert_string_equal(cell[37], c->hider_count ? c->hiders[0].what : "");
         assert_same(c->hider_count ? c->hiders[0].share : (double)NAN, number_of(cell[38]));
+        assert_same(c->glare.dgp_range.low, number_of(cell[39]));
+        assert_same(c->glare.ugr_range.high, number_of(cell[42]));
+        assert_same(c->glare.dgi, number_of(cell[43]));
+        assert_same((double)c->glare.source_count, number_of(cell[48]));
+        assert_string_equal(cell[50], c->glare.none ? c->glare.none : "");
     }
     assert_int_equal(*at, 0);
 }
@@ -81,7 +88,10 @@ static void assert_gaze_csv_says(const Review *review)
         assert_same(g->veil_parts.near, number_of(cell[12]));
         assert_same(g->mirrored_range.low, number_of(cell[16]));
         assert_string_equal(cell[18], g->mirrored_by ? g->mirrored_by : "");
-        assert_same(g->contrast_left, number_of(cell[columns - 1]));
+        assert_same(g->contrast_left, number_of(cell[25]));
+        assert_same(g->glare.ugr_range.low, number_of(cell[28]));
+        assert_same(g->glare.dgi_range.high, number_of(cell[32]));
+        assert_string_equal(cell[columns - 2], g->glare.none ? g->glare.none : "");
     }
     assert_int_equal(*at, 0);
 }

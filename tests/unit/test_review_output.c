@@ -88,7 +88,14 @@ static const Member CASE[] = {
     OF(TEXT, when), OF(WHOLE, ambient), OF(WHOLE, has_sun), OF(NUMBER, contrast_ratio),
     OF(NUMBER, contrast_low), OF(NUMBER, contrast_high), OF(WHOLE, paths),
     OF(NUMBER, contrast_with_veil), OF(NUMBER, height_arcmin), OF(NUMBER, jnd),
-    OF(NUMBER, visibility), OF(NUMBER, dgp), OF(NUMBER, ugr), OF(NUMBER, eye_failed_share),
+    OF(NUMBER, visibility),
+    OF(NUMBER, glare.dgp), OF(NUMBER, glare.ugr), OF(NUMBER, glare.dgi),
+    OF(NUMBER, glare.dgp_range.low), OF(NUMBER, glare.ugr_range.high),
+    OF(NUMBER, glare.dgi_range.low), OF(NUMBER, glare.threshold_cd_m2),
+    OF(NUMBER, glare.background_cd_m2), OF(NUMBER, glare.source_lx),
+    OF(NUMBER, glare.smallest_sr), OF(NUMBER, glare.largest_sr),
+    OF(WHOLE, glare.source_count), OF(WHOLE, glare.low_light), OF(TEXT, glare.none),
+    OF(NUMBER, eye_failed_share),
     OF(NUMBER, visible_share), OF(NUMBER, level), OF(NUMBER, display_lux), OF(NUMBER, margin),
     OF(WHOLE, limit_id), OF(WHOLE, verdict), OF(WHOLE, limit_count), OF(WHOLE, cause_count),
     OF(WHOLE, remedy_count), OF(WHOLE, hider_count)};
@@ -105,7 +112,14 @@ static const Member GAZE[] = {
     OF(TEXT, condition), OF(TEXT, eye), OF(TEXT, gaze), OF(TEXT, mirrored_by),
     OF(TEXT, mirrored_from), OF(NUMBER, sun_deg), OF(NUMBER, veil), OF(NUMBER, cornea_lux),
     OF(NUMBER, through), OF(NUMBER, mirrored), OF(NUMBER, contrast_behind_glass),
-    OF(NUMBER, contrast_left), OF(NUMBER, dgp), OF(NUMBER, ugr), OF(NUMBER, veil_range.low),
+    OF(NUMBER, contrast_left),
+    OF(NUMBER, glare.dgp), OF(NUMBER, glare.ugr), OF(NUMBER, glare.dgi),
+    OF(NUMBER, glare.dgp_range.low), OF(NUMBER, glare.ugr_range.high),
+    OF(NUMBER, glare.dgi_range.low), OF(NUMBER, glare.threshold_cd_m2),
+    OF(NUMBER, glare.background_cd_m2), OF(NUMBER, glare.source_lx),
+    OF(NUMBER, glare.smallest_sr), OF(NUMBER, glare.largest_sr),
+    OF(WHOLE, glare.source_count), OF(WHOLE, glare.low_light), OF(TEXT, glare.none),
+    OF(NUMBER, veil_range.low),
     OF(NUMBER, veil_range.high), OF(NUMBER, mirrored_range.low),
     OF(NUMBER, mirrored_range.high),
     OF(NUMBER, contrast_range.low), OF(NUMBER, contrast_range.high)};
@@ -257,7 +271,8 @@ static bool is_optional(const char *key, const json_t *object)
     static const char *const ADDED[] = {"reflected_interval", "precision_asked",
                                         "precision_reached", "paths_to_decide", "cause_groups",
                                         "without_data_share", "without_data", "hidden_by",
-                                        "eye_places"};
+                                        "eye_places", "dgi", "dgp_interval",
+                                        "ugr_interval", "dgi_interval", "glare"};
     for (size_t i = 0; i < sizeof ADDED / sizeof *ADDED; i++)
         if (!strcmp(key, ADDED[i])) return true;
     return !strcmp(key, "verdict") &&

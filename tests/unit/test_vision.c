@@ -241,11 +241,13 @@ TEST(small_sources_count_by_their_intensity)
     GlareSource small = {luminance, area / (distance * distance), 1, area};
     double intensity = luminance * area;
     double squared = intensity / distance * (intensity / distance);
-    assert_close(discomfort_ugr(40, &small, 1, true), 8 * log10(0.25 / 40 * 200 * squared), 1e-12);
+    assert_close(discomfort_ugr(40, &small, 1, true), 8 * log10(0.25 / 40 * 200 * squared),
+                 1e-12);
     small.area_m2 = 0.00499999;
     GlareSource plain = small;
     plain.area_m2 = 0;
-    assert_close(discomfort_ugr(40, &small, 1, true), discomfort_ugr(40, &plain, 1, true), 1e-6);
+    assert_close(discomfort_ugr(40, &small, 1, true), discomfort_ugr(40, &plain, 1, true),
+                 1e-6);
     small.area_m2 = 0.2;
     assert_near(discomfort_ugr(40, &small, 1, true), discomfort_ugr(40, &plain, 1, true), 0);
 }
@@ -301,7 +303,8 @@ TEST(figures_heed_their_settings)
     GlareSettings     set = GLARE_SETTINGS_DEFAULT;
     const GlareSource small = {5000, 0.01, 1.5, 0.0025};
     const GlareView   view = {&small, 1, 45, 155};
-    double with = discomfort_figures(&set, &view).dgp, plain = discomfort_figures(&set, &view).ugr;
+    double with = discomfort_figures(&set, &view).dgp;
+    double plain = discomfort_figures(&set, &view).ugr;
     assert_near(glare_threshold(&set, 300), 2000, 0);
     set.low_light = false;
     set.small_sources = true;

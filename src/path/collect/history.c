@@ -55,6 +55,25 @@ static void turn(PathCollector *c, PathState *path, const Surface *surface, Vec3
     history->pane_id = NO_ID;
 }
 
+/* Of a lit surface the sun alone is asked. */
+static bool ask_less(PathCollector *c, PathState *path, const Surface *surface, Vec3 wo,
+                     const Guiding *guiding)
+{
+    static const float SUN_ALONE[LIGHT_SETS] = {[LIGHTS_SUN] = 1};
+    PathReach          reach = ((HistoryCollector *)c)->listener->reach;
+    (void)surface, (void)wo, (void)guiding;
+    if (reach == PATH_TO_SUNLIT_SURFACE) path->spare->asked = SUN_ALONE;
+    return reach == PATH_TO_SURFACE;
+}
+
+static bool refuse_beyond(PathCollector *c, PathState *path, const Surface *surface,
+                          const BsdfSample *next)
+{
+    bool is_across = next->is_delta && next->wi.z * surface->local_wo.z < 0;
+    (void)path;
+    return ((HistoryCollector *)c)->listener->reach != PATH_TO_ITS_END && !is_across;
+}
+
 /* ---- light ------------------------------------------------------------------------------- */
 
 /* The last sheet that a shadow ray passed. */
@@ -101,6 +120,7 @@ static void on_light(PathCollector *c, PathState *path, const PathFound *found)
     history.source_id = found->source_id;
     history.from = found->from;
     history.is_distant = found->is_distant;
+    history.sr = found->sr;
     history.lanes = found->xyz && !listener->with_lanes ? NULL : (const float *)&lanes;
     history.wavelengths = path->wavelengths;
     path_light_to_xyz(&light, path->wavelengths, xyz);
@@ -111,7 +131,7 @@ HistoryCollector history_collector(const PathListener *listener, PathCollector *
 {
     static const CollectorKind kind = {
         .size = sizeof(HistoryCollector), .start = start, .meet = meet, .behind = behind,
-        .turn = turn, .on_light = on_light};
+        .turn = turn, .vertex = ask_less, .refuse = refuse_beyond, .on_light = on_light};
     return (HistoryCollector){{&kind, next}, history_start(), listener, NULL};
 }
 

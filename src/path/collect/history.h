@@ -34,6 +34,8 @@ typedef struct PathHistory {
     Vec3     from;                  /* where it began, m, world; is_distant: the unit direction
                                        towards it */
     bool     is_distant;
+    float    sr;                    /* of the field of view, that a light sample stands for; 0:
+                                       the path met the light itself, or it has no extent */
     const float       *lanes;       /* its radiance, W m^-2 sr^-1 nm^-1 per lane; of a display
                                        that is seen by its measured XYZ NULL, unless wanted */
     const Wavelengths *wavelengths; /* of the lanes */
@@ -44,11 +46,19 @@ static inline int path_steps_kept(const PathHistory *history)
     return history->count < PATH_STEPS_MAX ? history->count : PATH_STEPS_MAX;
 }
 
+/* How far a listener's paths go. Through clear solids they always go on. */
+typedef enum PathReach {
+    PATH_TO_ITS_END,
+    PATH_TO_SUNLIT_SURFACE, /* until a surface scatters or mirrors, which asks the sun alone */
+    PATH_TO_SURFACE         /* or nobody */
+} PathReach;
+
 typedef struct PathListener {
     void (*on_light)(void *user, const PathHistory *history, const float xyz[3]);
     void  *user;
     bool   with_lanes;  /* displays' lanes are wanted, too */
     bool   of_emitters; /* it gets these alone */
+    PathReach reach;
 } PathListener;
 
 /* Which mirror images lie along a ray: what scatters is not followed, and no light counts. */

@@ -6,9 +6,10 @@
 #include "base/count.h"
 #include "base/parallel.h"
 #include "base/units.h"
+#include "review/light/glare_field.h"
+#include "review/light/glare_reading.h"
 #include "review/light/question.h"
 #include "vision/eye_spread.h"
-#include "vision/discomfort.h"
 
 #define PATHS 4096
 #define CHUNK 64
@@ -23,6 +24,7 @@
 typedef struct EyePath {
     double seen;               /* cd m^-2, without the sun's disc; */
     double apart[EYE_SOURCES]; /* of it, the part that light samples do not read; */
+    double told;               /* of the latter, what the rays of glare_field.h tell; */
     double images;             /* and of the glints the sun's */
 } EyePath;
 
@@ -37,6 +39,7 @@ typedef struct EyePaths {
     Vec3        *targets;         /* one a path; the rest likewise: */
     double      *solid_angles;    /* sr that it stands for */
     EyePath     *found;
+    GlareSample *samples[LIGHT_SETS]; /* of the pupil's plane, likewise */
     const FalseSuns *images;
 } EyePaths;
 
@@ -95,6 +98,7 @@ static void add_found(void *user, const PathHistory *history, const float xyz[3]
     path->seen += (double)xyz[1];
     if (!is_direct || history->source == LIGHTS_SKY)
         path->apart[source_of(history)] += (double)xyz[1];
+    if (glare_field_tells(history)) path->told += (double)xyz[1];
     if (history->source == LIGHTS_SUN && source_of(history) == EYE_GLINTS)
         path->images += (double)xyz[1];
 }
@@ -115,6 +119,7 @@ static void read_chunk(void *user, int item, int worker)
 /* Sums over the pupil's light samples. */
 typedef struct PupilSums {
     const EyePaths *paths;
+    int             path; /* at work */
     double          sun_veil, lamp_veil, sun_lx, lamp_lx;
 } PupilSums;
 
@@ -128,6 +133,8 @@ static void add_to_pupil(void *user, const PathHistory *history, const float xyz
 {
     PupilSums *sums = user;
     bool       is_sun = history->source == LIGHTS_SUN;
+    glare_sample_note(history, xyz[1], sums->paths->aim.eye,
+                      &sums->paths->samples[history->source][sums->path]);
     if (history->count || history->source == LIGHTS_SKY) return;
     *(is_sun ? &sums->sun_veil : &sums->lamp_veil) +=
         veil_of(sums->paths, history->towards, (double)xyz[1]);
@@ -145,10 +152,13 @@ static void read_pupil_chunk(void *user, int item, int worker)
     (void)worker;
     PupilWork     *work = user;
     PathStatistics statistics = {0};
-    PathListener   listener = {.on_light = add_to_pupil, .user = &work->sums[item]};
-    work->sums[item] = (PupilSums){.paths = work->paths};
-    work->paths->setup->tools.kernel->trace(&work->aim, item * CHUNK, (item + 1) * CHUNK,
-                                           &listener, &statistics);
+    PupilSums     *sums = &work->sums[item];
+    PathListener   listener = {.on_light = add_to_pupil, .user = sums};
+    *sums = (PupilSums){.paths = work->paths};
+    for (int i = item * CHUNK; i < (item + 1) * CHUNK; i++) {
+        sums->path = i;
+        work->paths->setup->tools.kernel->trace(&work->aim, i, i + 1, &listener, &statistics);
+    }
 }
 
 static void add_pupil(PupilSums *to, const PupilSums *sums)
@@ -179,29 +189,14 @@ static PupilSums *read_pupil(const EyePaths *paths, Arena *arena)
 
 /* ---- figures ----------------------------------------------------------------------------- */
 
-static double position_of(const EyePaths *paths, Vec3 d)
-{
-    return position_index((double)vec3_dot(d, paths->right), (double)vec3_dot(d, paths->up),
-                          (double)vec3_dot(d, paths->gaze));
-}
-
 typedef struct EyeSums {
     EyeReading   reading;
     double       veils[EYE_ROUNDS_MOST]; /* one a round */
     double       image_variance;
-    GlareSource *sources;
-    int          count;
-    double       source_lx;
+    double      *rest;       /* [path] for glare: what neither samples nor its rays tell */
+    GlareImage  *images;     /* likewise */
+    int          image_count;
 } EyeSums;
-
-static void add_source(const EyePaths *paths, Vec3 d, double luminance, double solid_angle,
-                       EyeSums *sums)
-{
-    if (luminance <= EYE_GLARE_CD_M2) return;
-    sums->source_lx += luminance * solid_angle * (double)vec3_dot(d, paths->gaze);
-    sums->sources[sums->count++] =
-        (GlareSource){luminance, solid_angle, position_of(paths, d), 0};
-}
 
 /* veil: of a round by itself. */
 static void add_veil(const EyePaths *paths, int round, EyeSource source, double veil,
@@ -230,14 +225,16 @@ static void add_path(const EyePaths *paths, int i, EyeSums *sums)
     bool   is_near = degrees_between(d, paths->gaze) < EYE_NEAR_DEG;
     double weight = paths->solid_angles[i] * (double)vec3_dot(d, paths->gaze);
     double veil = veil_of(paths, d, weight) * paths->count / PATHS;
-    add_source(paths, d, path->seen, paths->solid_angles[i], sums);
+    sums->rest[i] = -path->told;
     for (int k = 0; k < EYE_SOURCES; k++) {
         double left = path->apart[k];
         if (k == EYE_GLINTS && has_images(paths, d)) left -= path->images;
         if (!(left > 0)) continue;
+        sums->rest[i] += left;
         sums->reading.vertical_lx += left * weight;
         add_veil(paths, i / PATHS, counted_as((EyeSource)k, is_near), left * veil, sums);
     }
+    sums->rest[i] = fmax(sums->rest[i], 0); /* rounding alone is below */
 }
 
 /* Images of the sun. */
@@ -253,8 +250,10 @@ static void add_image(void *user, const FalseSun *image, double share)
     EyeSums         *sums = work->sums;
     double cosine = (double)vec3_dot(image->seen, work->paths->gaze);
     if (!(cosine > 0)) return;
-    double lux = work->luminance * share * (double)image->sr * cosine;
+    double facing = work->luminance * share * (double)image->sr, lux = facing * cosine;
     double veil = veil_of(work->paths, image->seen, lux);
+    sums->images[sums->image_count++] =
+        (GlareImage){image->part_id, image->seen, (float)facing};
     sums->reading.vertical_lx += lux;
     sums->reading.parts[EYE_GLINTS] += veil;
     sums->image_variance += veil * veil; /* as if each ray had come by chance */
@@ -271,28 +270,14 @@ static void add_images(const EyePaths *paths, EyeSums *sums)
     false_suns_each(paths->images, towards, add_image, &work);
 }
 
-/* The sun's disc is a source as large as it is. */
-static void add_sun(const EyePaths *paths, double sun_lx, EyeSums *sums)
-{
-    Vec3  towards;
-    float bands[LIGHT_BANDS];
-    if (!(sun_lx > 0) || !setup_sun(paths->setup, &towards, bands)) return;
-    double sine = sin(radians_from_degrees(SUN_MEAN_RADIUS_DEG)), disc = PI * sine * sine;
-    double cosine = (double)vec3_dot(towards, paths->gaze);
-    add_source(paths, towards, sun_lx / (disc * cosine), disc, sums);
-}
-
 static void add_pupils(const EyePaths *paths, const PupilSums *pupils, EyeSums *sums)
 {
-    int    rounds = paths->count / PATHS;
-    double sun_lx = 0;
+    int rounds = paths->count / PATHS;
     for (int r = 0; r < rounds; r++) {
         add_veil(paths, r, EYE_SUN, pupils[r].sun_veil, sums);
         add_veil(paths, r, EYE_LAMPS, pupils[r].lamp_veil, sums);
         sums->reading.vertical_lx += (pupils[r].sun_lx + pupils[r].lamp_lx) / rounds;
-        sun_lx += pupils[r].sun_lx / rounds;
     }
-    add_sun(paths, sun_lx, sums);
 }
 
 /* The mean's; NaN for fewer than two values. */
@@ -305,20 +290,49 @@ static double standard_error(const double *values, int count)
     return sqrt(squares / (count - 1) / count);
 }
 
+/* The mean luminance about the gaze; the sun's disc is no task. */
+static double task_luminance(const EyePaths *paths)
+{
+    double light = 0, sr = 0, half = paths->setup->request->glare.task_deg / 2;
+    for (int i = 0; i < paths->count; i++) {
+        if (degrees_between(direction_of(paths, i), paths->gaze) > half) continue;
+        light += paths->found[i].seen * paths->solid_angles[i];
+        sr += paths->solid_angles[i];
+    }
+    return sr > 0 ? light / sr : 0;
+}
+
+static GlareReading read_glare(const EyePaths *paths, const EyeSums *sums, Arena scratch)
+{
+    Vec3    *towards = ARENA_NEW(&scratch, Vec3, paths->count);
+    double  *told = ARENA_NEW(&scratch, double, paths->count);
+    GlareAsk ask = {.setup = paths->setup,
+                    .head = {paths->aim.eye, paths->right, paths->up, paths->gaze},
+                    .told = {towards, paths->solid_angles, told, paths->count},
+                    .rest = {towards, paths->solid_angles, sums->rest, paths->count},
+                    .rounds = paths->count / PATHS, .images = sums->images,
+                    .image_count = sums->image_count, .task_cd_m2 = task_luminance(paths)};
+    for (int i = 0; i < paths->count; i++) {
+        towards[i] = direction_of(paths, i);
+        told[i] = paths->found[i].told;
+    }
+    for (int set = 0; set < LIGHT_SETS; set++) ask.samples[set] = paths->samples[set];
+    return glare_read(&ask, scratch);
+}
+
 static EyeReading sum_up(const EyePaths *paths, const PupilSums *pupils, Arena scratch)
 {
-    EyeSums     sums = {.sources = ARENA_NEW(&scratch, GlareSource, paths->count + 1)};
+    int         images = paths->images ? paths->images->count : 0;
+    EyeSums     sums = {.rest = ARENA_NEW(&scratch, double, paths->count),
+                        .images = ARENA_NEW(&scratch, GlareImage, images)};
     EyeReading *r = &sums.reading;
     for (int i = 0; i < paths->count; i++) add_path(paths, i, &sums);
     add_pupils(paths, pupils, &sums);
     add_images(paths, &sums);
-    double background = fmax(r->vertical_lx - sums.source_lx, 0) / PI;
     for (int k = 0; k < EYE_SOURCES; k++) r->veil += r->parts[k];
     r->veil_sigma = hypot(standard_error(sums.veils, paths->count / PATHS),
                           sqrt(sums.image_variance));
-    r->dgp = discomfort_dgp(r->vertical_lx, sums.sources, sums.count) *
-             discomfort_dgp_low_light(r->vertical_lx);
-    r->ugr = sums.count ? discomfort_ugr(background, sums.sources, sums.count, false) : (double)NAN;
+    r->glare = read_glare(paths, &sums, scratch);
     return *r;
 }
 
@@ -344,6 +358,8 @@ static EyeReading read_eye(const Setup *setup, const EyeLook *look, Arena scratc
                       .solid_angles = ARENA_NEW(&scratch, double, count),
                       .found = ARENA_NEW(&scratch, EyePath, count)};
     Frame    frame = frame_from_z(paths.gaze);
+    for (int set = 0; set < LIGHT_SETS; set++)
+        paths.samples[set] = ARENA_NEW(&scratch, GlareSample, count);
     set_head(&paths);
     paths.aim = (ProbeAim){.context = &setup->context, .eye = look->eye,
                            .targets = paths.targets, .target_count = count,
@@ -358,13 +374,16 @@ EyeReading eye_read(const Setup *setup, const EyeLook *look, Arena scratch)
 {
     const ReadingTools   *tools = &setup->tools;
     const HumanEye       *observer = &setup->request->observer;
+    const GlareSettings  *glare = &setup->request->glare;
     const double         *ahead = setup->request->forward;
     EyeReading reading;
     if (!tools->journal) return read_eye(setup, look, scratch);
     ProbeAim   aim = {.context = &setup->context, .eye = look->eye, .targets = &look->towards,
                       .target_count = 1, .seed = review_seed(setup->request, SEED)};
     double     numbers[] = {observer->age_years, observer->pigment, look->rounds, ahead[0],
-                            ahead[1], ahead[2], look->images ? look->images->count : -1};
+                            ahead[1], ahead[2], look->images ? look->images->count : -1,
+                            glare->threshold_cd_m2, glare->task_factor, glare->task_deg,
+                            glare->peak_cd_m2, glare->low_light, glare->small_sources};
     Question   question = {.base = tools->base, .kind = "eye", .numbers = numbers,
                            .number_count = COUNT_OF(numbers)};
     JournalKey key = question_key(&question, &aim, scratch);

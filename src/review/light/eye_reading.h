@@ -5,8 +5,8 @@
  * The veil that it lays over that place: the integral of f(theta) L cos theta over the
  * hemisphere in front, from 0.1 degrees on, f the spread of vision/eye_spread.h.
  * The sun, when the eye sees it straight or through windows, counts by its illuminance at its
- * own angle. Discomfort (vision/discomfort.h): what is brighter than EYE_GLARE_CD_M2 is a
- * source. Both figures are secondary ones, fitted to rooms; nothing is decided by them.
+ * own angle. Discomfort: glare_reading.h, by the request's settings. These are secondary
+ * figures, fitted to rooms; nothing is decided by them.
  *
  * Lamps, displays and the sun that the eye sees by themselves are read by light samples, lamps
  * without a body too; all else by paths that are drawn as the veil weighs them. Images of the
@@ -18,8 +18,8 @@
  */
 #pragma once
 #include "review/light/false_suns.h"
+#include "review/light/glare_table.h"
 
-#define EYE_GLARE_CD_M2 2000.0
 #define EYE_NEAR_DEG 1.0 /* from the gaze; about the fovea, where the eye sees sharply */
 #define EYE_ROUNDS_MOST 64
 
@@ -48,7 +48,7 @@ typedef struct EyeReading {
     double veil_sigma;         /* its standard error; NaN of one round */
     double parts[EYE_SOURCES]; /* the veil's; they add up to it */
     double vertical_lx;        /* on the pupil's plane, all light */
-    double dgp, ugr;           /* ugr: NaN without a source */
+    GlareReading glare;        /* discomfort */
 } EyeReading;
 
 /* The request's observer. */

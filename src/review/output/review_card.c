@@ -66,6 +66,18 @@ static void add_figure(Text *html, const char *name, double value, const char *u
         page_fact(html, name, arena_format(arena, "%s %s", words_figure(value, arena), unit));
 }
 
+/* Figures made for rooms. */
+static void add_glare_facts(Text *html, const CaseGlare *g, Arena *arena)
+{
+    page_fact(html, "Daylight glare probability",
+              words_glare(g->dgp, g->dgp_range, g->none, arena));
+    page_fact(html, "Unified glare rating",
+              words_glare(g->ugr, g->ugr_range, g->none, arena));
+    page_fact(html, "Daylight glare index",
+              words_glare(g->dgi, g->dgi_range, g->none, arena));
+    page_fact(html, "… of these three, made for rooms", words_glare_settings(g, arena));
+}
+
 static void add_sight_facts(Text *html, const ReviewCase *c, Arena *arena)
 {
     if (!isnan(c->contrast_ratio))
@@ -86,9 +98,7 @@ static void add_sight_facts(Text *html, const ReviewCase *c, Arena *arena)
     if (c->hider_count) page_fact(html, "Hidden", words_hiders(c, arena));
     if (!isnan(c->eye_failed_share))
         page_fact(html, "Places of the eye that fail", words_share(c->eye_failed_share, arena));
-    add_figure(html, "Daylight glare probability", c->dgp, "(a figure for rooms)", arena);
-    if (isfinite(c->ugr))
-        add_figure(html, "Unified glare rating", c->ugr, "(a figure for rooms)", arena);
+    if (c->glare.threshold_cd_m2 > 0) add_glare_facts(html, &c->glare, arena);
 }
 
 static void add_facts(Text *html, const ReviewCard *card, Arena *arena)

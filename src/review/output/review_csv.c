@@ -39,13 +39,29 @@ static void add_numbers(Text *csv, const double *values, int count)
 
 /* ---- cases ------------------------------------------------------------------------------- */
 
+/* The last of both tables. */
+#define GLARE_COLUMNS                                                                          \
+    "dgp_low,dgp_high,ugr_low,ugr_high,dgi,dgi_low,dgi_high,glare_threshold_cd_m2,"           \
+    "glare_background_cd_m2,glare_sources,glare_sources_lx,no_ugr_because,smallest_source_sr"
+
+static void add_glare(Text *csv, const CaseGlare *g)
+{
+    add_numbers(csv, (double[]){g->dgp_range.low, g->dgp_range.high, g->ugr_range.low,
+                                g->ugr_range.high, g->dgi, g->dgi_range.low, g->dgi_range.high,
+                                g->threshold_cd_m2, g->background_cd_m2,
+                                (double)g->source_count, g->source_lx}, 11);
+    add_text(csv, g->none);
+    if (isfinite(g->smallest_sr)) text_format(csv, "%.6g", g->smallest_sr);
+    text_add(csv, "\r\n");
+}
+
 static const char HEADER[] =
     "condition,eye,symbol,display,ambient,sun_azimuth_deg,sun_elevation_deg,foreground_cd_m2,"
     "background_cd_m2,reflected_cd_m2,mirror_cd_m2,scattered_cd_m2,veil_cd_m2,contrast_ratio,"
     "contrast_low,contrast_high,contrast_with_veil,height_arcmin,jnd,visible_share,level,"
     "display_lx,visibility,dgp,ugr,eye_failed_share,limit_name,limit_kind,limit_unit,"
     "limit_source,limit_value,margin,first_cause,first_cause_share,verdict,"
-    "reflected_low_cd_m2,reflected_high_cd_m2,hidden_by,hidden_by_share\r\n";
+    "reflected_low_cd_m2,reflected_high_cd_m2,hidden_by,hidden_by_share," GLARE_COLUMNS "\r\n";
 
 static void add_limit(Text *csv, const ReviewCase *c)
 {
@@ -82,15 +98,15 @@ static void add_case(Text *csv, const ReviewCase *c, Arena scratch)
     add_numbers(csv, (double[]){c->contrast_ratio, c->contrast_low, c->contrast_high,
                                 c->contrast_with_veil, c->height_arcmin, c->jnd,
                                 c->visible_share, c->level, c->display_lux, c->visibility,
-                                c->dgp, c->ugr, c->eye_failed_share}, 13);
+                                c->glare.dgp, c->glare.ugr, c->eye_failed_share}, 13);
     add_limit(csv, c);
     add_cause(csv, c, scratch);
     add_text(csv, verdict_names[c->verdict]);
     add_number(csv, c->reflected_range.low);
     add_number(csv, c->reflected_range.high);
     add_text(csv, c->hider_count ? c->hiders[0].what : NULL);
-    if (c->hider_count) text_format(csv, "%.6g", c->hiders[0].share);
-    text_add(csv, "\r\n");
+    add_number(csv, c->hider_count ? c->hiders[0].share : NAN);
+    add_glare(csv, &c->glare);
 }
 
 typedef void AddRows(Text *csv, const Review *review, Arena scratch);
@@ -153,7 +169,8 @@ static const char GAZE_HEADER[] =
     "condition,eye,gaze,sun_from_gaze_deg,veil_cd_m2,veil_low,veil_high,veil_sun_cd_m2,"
     "veil_sky_cd_m2,veil_lamps_cd_m2,veil_glints_cd_m2,veil_surfaces_cd_m2,veil_near_cd_m2,"
     "cornea_lx,through_cd_m2,mirrored_cd_m2,mirrored_low,mirrored_high,mirrored_by,"
-    "mirrored_from,contrast_behind_glass,contrast_low,contrast_high,dgp,ugr,contrast_left\r\n";
+    "mirrored_from,contrast_behind_glass,contrast_low,contrast_high,dgp,ugr,contrast_left,"
+    GLARE_COLUMNS "\r\n";
 
 static void add_gaze(Text *csv, const GazeFinding *g)
 {
@@ -165,9 +182,9 @@ static void add_gaze(Text *csv, const GazeFinding *g)
                                 g->mirrored_range.high}, 15);
     add_texts(csv, (const char *const[]){g->mirrored_by, g->mirrored_from}, 2);
     add_numbers(csv, (double[]){g->contrast_behind_glass, g->contrast_range.low,
-                                g->contrast_range.high, g->dgp, g->ugr}, 5);
-    if (isfinite(g->contrast_left)) text_format(csv, "%.6g", g->contrast_left);
-    text_add(csv, "\r\n");
+                                g->contrast_range.high, g->glare.dgp, g->glare.ugr,
+                                g->contrast_left}, 6);
+    add_glare(csv, &g->glare);
 }
 
 static void add_gazes(Text *csv, const Review *review, Arena scratch)

@@ -120,6 +120,26 @@ static void add_veils(Text *html, const GazeFinding *g, Arena *arena)
                    from[0] ? arena_format(arena, "mostly %s", from) : "");
 }
 
+static const char *range_words(double value, MeanInterval range, Arena *arena)
+{
+    if (isnan(value) || isnan(range.low)) return words_figure(value, arena);
+    return arena_format(arena, "%s (%s to %s)",
+                        words_within(value, range.low, range.high, arena),
+                        words_within(range.low, range.low, range.high, arena),
+                        words_within(range.high, range.low, range.high, arena));
+}
+
+static void add_glare(Text *html, const CaseGlare *g, Arena *arena)
+{
+    const char *three = arena_format(arena, "%s · %s · %s",
+                                     range_words(g->dgp, g->dgp_range, arena),
+                                     range_words(g->ugr, g->ugr_range, arena),
+                                     range_words(g->dgi, g->dgi_range, arena));
+    const char *settings = g->threshold_cd_m2 > 0 ? words_glare_settings(g, arena) : "";
+    add_small_cell(html, "n", three,
+                   g->none ? arena_format(arena, "%s; %s", g->none, settings) : settings);
+}
+
 static void add_row(Text *html, const GazeFinding *g, Arena *arena)
 {
     page_row_begin(html, "");
@@ -130,8 +150,7 @@ static void add_row(Text *html, const GazeFinding *g, Arena *arena)
     page_cell(html, "n", words_figure(g->through, arena));
     add_veils(html, g, arena);
     page_cell(html, "n", words_figure(g->cornea_lux, arena));
-    page_cell_format(html, "n", "%s · %s", words_figure(g->dgp, arena),
-                     words_figure(g->ugr, arena));
+    add_glare(html, &g->glare, arena);
     page_row_end(html);
 }
 
@@ -146,7 +165,7 @@ void review_gaze_add(Text *html, const Review *review, Arena *arena)
         {"Eye's veil, cd/m²", true,
          "light from more than 1° away that the eye scatters over it, and glare from nearer"},
         {"At the eye, lx", true, "light on the plane of the pupil"},
-        {"DGP · UGR", true, "glare probability and rating: secondary figures"}};
+        {"DGP · UGR · DGI", true, "discomfort, made for rooms: secondary; 95 % intervals"}};
     if (review->gaze_count == 0) return;
     const GazeFinding **list = ranked(review, arena);
     page_element(html, "h2", "Looking elsewhere");

@@ -8,6 +8,7 @@
 #include "base/count.h"
 #include "base/file_write.h"
 #include "review/output/review_decide.h"
+#include "review/output/review_members.h"
 #include "text/json_text.h"
 #include "text/json_view.h"
 #include "text/nearest_word.h"
@@ -16,42 +17,6 @@
 #define PLACES_BYTES ((size_t)1 << 26)
 
 /* ---- which keys hold which members ------------------------------------------------------- */
-
-typedef enum MemberKind {
-    MEMBER_FIGURE,  /* double; NaN is null */
-    MEMBER_TEXT,    /* NULL is null */
-    MEMBER_RANGE,   /* two doubles, one behind the other */
-    MEMBER_FLAG,
-    MEMBER_COUNT,   /* long, 0 or more */
-    MEMBER_VERDICT,
-    MEMBER_AMBIENT,
-    MEMBER_OBJECT,  /* members of the same struct, or of one in it */
-    MEMBER_IF,      /* the same; null where the bool at `count` is false */
-    MEMBER_TEXTS,   /* a pointer, and an int at `count` */
-    MEMBER_LIST,    /* likewise */
-    MEMBER_LIMIT    /* of a case: the limit that limit_id means, or null */
-} MemberKind;
-
-/* Older reviews may lack it; it is written and not read back. */
-typedef enum MemberUse { ALWAYS, SINCE, WRITTEN } MemberUse;
-
-/* A table of them ends with a key that is NULL. */
-typedef struct Member {
-    const char   *key;
-    MemberKind    kind;
-    size_t        offset;
-    MemberUse     use;
-    const struct Member *of; /* what is in an object, or in a list's items, */
-    size_t        count;     /* offset, */
-    size_t        size;      /* bytes of an item */
-} Member;
-
-/* A member under a key; and under its own name. */
-#define AS(key, KIND, Type, member) {key, MEMBER_##KIND, .offset = offsetof(Type, member)}
-#define OWN(KIND, Type, member) AS(#member, KIND, Type, member)
-#define LIST(key, Type, member, number, table, Item)                                           \
-    {key, MEMBER_LIST, offsetof(Type, member), ALWAYS, table, offsetof(Type, number),          \
-     sizeof(Item)}
 
 static const Member LIMIT[] = {
     OWN(TEXT, LimitVerdict, name), OWN(TEXT, LimitVerdict, kind),
@@ -89,6 +54,25 @@ static const Member LUMINANCE[] = {
     OWN(FIGURE, CaseLuminances, reflected), OWN(FIGURE, CaseLuminances, mirror),
     OWN(FIGURE, CaseLuminances, scattered), OWN(FIGURE, CaseLuminances, veil), {0}};
 
+static const Member GLARE[] = {
+    OWN(FIGURE, CaseGlare, threshold_cd_m2), OWN(FIGURE, CaseGlare, background_cd_m2),
+    AS("sources", COUNT, CaseGlare, source_count),
+    AS("sources_lx", FIGURE, CaseGlare, source_lx),
+    AS("smallest_source_sr", FIGURE, CaseGlare, smallest_sr),
+    AS("largest_source_sr", FIGURE, CaseGlare, largest_sr),
+    AS("low_light_factor", FLAG, CaseGlare, low_light),
+    AS("small_source_rule", FLAG, CaseGlare, small_sources),
+    AS("no_ugr_because", TEXT, CaseGlare, none), {0}};
+
+/* Of what has a CaseGlare. */
+#define GLARE_MEMBERS(Type)                                                                    \
+    AS("dgp", FIGURE, Type, glare.dgp), AS("ugr", FIGURE, Type, glare.ugr),                    \
+    LATER("dgi", FIGURE, Type, glare.dgi),                                                     \
+    LATER("dgp_interval", RANGE, Type, glare.dgp_range),                                       \
+    LATER("ugr_interval", RANGE, Type, glare.ugr_range),                                       \
+    LATER("dgi_interval", RANGE, Type, glare.dgi_range),                                       \
+    {"glare", MEMBER_OBJECT, offsetof(Type, glare), SINCE, GLARE, 0, 0}
+
 /* Of a case, and of a false sun. */
 static const Member SUN[] = {{"azimuth_deg", MEMBER_FIGURE, .offset = 0},
                              {"elevation_deg", MEMBER_FIGURE, .offset = sizeof(double)}, {0}};
@@ -108,7 +92,7 @@ static const Member CASE[] = {
     {"paths_to_decide", MEMBER_FIGURE, offsetof(ReviewCase, paths_to_decide), .use = SINCE},
     OWN(FIGURE, ReviewCase, contrast_with_veil), OWN(FIGURE, ReviewCase, height_arcmin),
     OWN(FIGURE, ReviewCase, jnd), OWN(FIGURE, ReviewCase, visibility),
-    OWN(FIGURE, ReviewCase, dgp), OWN(FIGURE, ReviewCase, ugr),
+    GLARE_MEMBERS(ReviewCase),
     OWN(FIGURE, ReviewCase, eye_failed_share), OWN(FIGURE, ReviewCase, visible_share),
     {"hidden_by", MEMBER_LIST, offsetof(ReviewCase, hiders), SINCE, HIDER,
      offsetof(ReviewCase, hider_count), sizeof(CaseHider)},
@@ -159,7 +143,7 @@ static const Member GAZE[] = {
     OWN(TEXT, GazeFinding, mirrored_by), OWN(TEXT, GazeFinding, mirrored_from),
     OWN(FIGURE, GazeFinding, contrast_behind_glass), OWN(FIGURE, GazeFinding, contrast_left),
     AS("contrast_interval", RANGE, GazeFinding, contrast_range),
-    OWN(FIGURE, GazeFinding, dgp), OWN(FIGURE, GazeFinding, ugr), {0}};
+    GLARE_MEMBERS(GazeFinding), {0}};
 
 static const Member RESPONSE[] = {
     OWN(TEXT, ReviewResponse, probe), OWN(TEXT, ReviewResponse, file),

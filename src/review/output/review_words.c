@@ -61,6 +61,25 @@ const char *words_contrast(const ReviewCase *c, Arena *arena)
                                                       c->contrast_high, arena));
 }
 
+const char *words_glare(double value, MeanInterval range, const char *none, Arena *arena)
+{
+    if (isnan(value)) return none ? arena_format(arena, "–, %s", none) : "–";
+    if (isnan(range.low)) return words_figure(value, arena);
+    return arena_format(arena, "%s, 95 %% sure between %s and %s",
+                        words_within(value, range.low, range.high, arena),
+                        words_within(range.low, range.low, range.high, arena),
+                        words_within(range.high, range.low, range.high, arena));
+}
+
+const char *words_glare_settings(const CaseGlare *glare, Arena *arena)
+{
+    return arena_format(arena, "sources above %s cd/m²: %ld; DGP %s its factor for low light%s",
+                        words_figure(glare->threshold_cd_m2, arena), glare->source_count,
+                        glare->low_light ? "with" : "without",
+                        glare->small_sources ? "; UGR by CIE 147's rule for small sources"
+                                             : "");
+}
+
 const char *words_ratio(double value, Arena *arena)
 {
     return isnan(value) ? "–" : arena_format(arena, "%s : 1", words_figure(value, arena));

@@ -94,6 +94,12 @@ const char *words_case(const ReviewCase *c, Arena *arena);
  * or that is not known. */
 const char *words_hiders(const ReviewCase *c, Arena *arena);
 
+/* "24.5, 95 % sure between 24.3 and 24.7"; "–, no source is brighter than the threshold". */
+const char *words_glare(double value, MeanInterval range, const char *none, Arena *arena);
+
+/* "sources above 2000 cd/m²: 3; DGP with its factor for low light". */
+const char *words_glare_settings(const CaseGlare *glare, Arena *arena);
+
 /* Why the case has its verdict: "contrast 1.64 : 1, wanted at least 2 : 1". */
 const char *words_reason(const ReviewCase *c, Arena *arena);
 

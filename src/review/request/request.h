@@ -19,6 +19,7 @@
 #include "sky/epw.h"
 #include "sky/weather_clock.h"
 #include "sky/weather_light.h"
+#include "vision/discomfort.h"
 #include "vision/human_eye.h"
 
 /* ---- how bright displays are set --------------------------------------------------------- */
@@ -270,6 +271,7 @@ typedef struct ReviewRequest {
     int              eye_count;
     double           forward[3]; /* where the vehicle points: unit, not vertical */
     HumanEye         observer;
+    GlareSettings    glare;
     ReviewGaze      *gazes;
     int              gaze_count;
     ReviewWith      *withs;

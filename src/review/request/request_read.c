@@ -20,7 +20,7 @@
 static const char *const KEYS[] = {"title",  "scene",     "eyes",       "forward",
                                    "gaze",   "observer",  "with",       "symbols",
                                    "levels", "profile",   "conditions", "precision",
-                                   "frames", "variants",   "sensitivity"};
+                                   "frames", "variants",   "sensitivity", "glare"};
 
 static bool read_title(RequestReading *reading, Error *err)
 {
@@ -54,6 +54,31 @@ static bool read_precision(RequestReading *reading, Error *err)
     return *clear >= *contrast ||
            field_fails(&view, "clear", err, "is %g, wanted at least 'contrast', %g", *clear,
                        *contrast);
+}
+
+/* A fixed threshold or a task's: not both. */
+static bool read_glare(RequestReading *reading, Error *err)
+{
+    static const char *const keys[] = {"threshold_cd_m2", "task_factor", "task_deg",
+                                       "peak_cd_m2", "low_light_factor", "small_source_rule"};
+    JsonView       view;
+    GlareSettings *glare = &reading->request->glare;
+    double         fixed = (double)NAN;
+    *glare = (GlareSettings)GLARE_SETTINGS_DEFAULT;
+    if (!json_view_child(&reading->root, "glare", false, &view, err) ||
+        !json_view_check_keys(&view, keys, COUNT_OF(keys), err) ||
+        !json_view_number(&view, "threshold_cd_m2", 1e-3, 1e9, &fixed, err) ||
+        !json_view_number(&view, "task_factor", 1, 1e6, &glare->task_factor, err) ||
+        !json_view_number(&view, "task_deg", 1, 180, &glare->task_deg, err) ||
+        !json_view_number(&view, "peak_cd_m2", 1, 1e12, &glare->peak_cd_m2, err) ||
+        !field_boolean(&view, "low_light_factor", &glare->low_light, err) ||
+        !field_boolean(&view, "small_source_rule", &glare->small_sources, err))
+        return false;
+    if (isnan(fixed)) return true;
+    glare->threshold_cd_m2 = fixed;
+    return !(glare->task_factor > 0) ||
+           field_fails(&view, "threshold_cd_m2", err,
+                       "stands beside 'task_factor', wanted one of the two");
 }
 
 static bool read_size(const JsonView *view, ReviewFrames *frames, Error *err)
@@ -99,7 +124,8 @@ static bool read_all(RequestReading *reading, Error *err)
            read_tree(reading, err) && read_title(reading, err) &&
            request_eyes_read(reading, err) && request_withs_read(reading, err) &&
            request_symbols_read(reading, err) && request_levels_read(reading, err) &&
-           read_precision(reading, err) && read_frames(reading, err) &&
+           read_precision(reading, err) && read_glare(reading, err) &&
+           read_frames(reading, err) &&
            request_conditions_read(reading, err) && request_variants_read(reading, err) &&
            request_parameters_read(reading, err);
 }

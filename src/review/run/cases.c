@@ -18,6 +18,7 @@
 #include "review/pace/work.h"
 #include "review/request/request_check.h"
 #include "review/run/causes.h"
+#include "review/run/glare_found.h"
 #include "text/text.h"
 #include "vision/grey_steps.h"
 
@@ -252,8 +253,7 @@ static void see_stray_light(const Setup *setup, const SetupSymbol *symbol, Vec3 
     EyeReading stray = eye_read(&lit, &look, scratch);
     setup_unlight(setup);
     c->luminance_cd_m2.veil = stray.veil;
-    c->dgp = stray.dgp;
-    c->ugr = stray.ugr;
+    c->glare = glare_found(&stray.glare, &setup->request->glare);
 }
 
 /* A stroke and a gap as wide are one cycle. */
@@ -298,7 +298,8 @@ static ProbeAim see_symbol(const CaseTools *tools, const CaseLook *look, ReviewC
         case_hiders(&symbol->surface, &setup->context, eye, c, arena);
     c->height_arcmin = symbol_height_arcmin(&symbol->surface, symbol->split.box, eye);
     c->contrast_ratio = c->contrast_low = c->contrast_high = c->contrast_with_veil = c->jnd =
-        c->visibility = c->dgp = c->ugr = (double)NAN;
+        c->visibility = (double)NAN;
+    c->glare = glare_unknown();
     if (!(seen.visible_share > 0)) return (ProbeAim){.target_count = 0};
     SymbolLook shown = {&symbol->surface, &symbol->split, eye, setup->tools.threads};
     SymbolEmission emission = symbol_emission(&shown, c->level);

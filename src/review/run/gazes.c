@@ -8,6 +8,7 @@
 #include "review/light/eye_reading.h"
 #include "review/light/gaze_reading.h"
 #include "review/run/cases.h"
+#include "review/run/glare_found.h"
 
 #define ROUNDS 16
 #define ROUNDS_HALF 2.131450 /* of a 95 % interval, in standard errors of so many rounds' mean:
@@ -123,8 +124,7 @@ static void read_gaze(const Setup *setup, SunSearches *searches, const GazeGoal 
                                  eye.parts[EYE_GLINTS], eye.parts[EYE_SURFACES],
                                  eye.parts[EYE_NEAR]};
     out->cornea_lux = eye.vertical_lx;
-    out->dgp = eye.dgp;
-    out->ugr = eye.ugr;
+    out->glare = glare_found(&eye.glare, &setup->request->glare);
     out->through = along.through;
     out->mirrored = along.mirrored;
     out->mirrored_range = range_of(along.mirrored, INTERVAL_SIGMAS * along.mirrored_sigma);

@@ -1,0 +1,45 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* glare_table.h -- the sources that an eye sees, and all else, as sums over groups of samples:
+ * from them the figures of glare, with their intervals.
+ *
+ * Every figure is a function of sums. Samples are dealt out to GLARE_GROUPS groups that differ
+ * in nothing but chance; leaving out one group after the other tells how sure the figure is
+ * (J. W. Tukey's jackknife; Miller, Biometrika 61 (1974) 1-15).
+ *
+ * Units    cd m^-2, sr, lx.
+ * Memory   the list grows in the arena.
+ */
+#pragma once
+#include "base/arena.h"
+#include "base/confidence.h"
+#include "vision/discomfort.h"
+
+#define GLARE_GROUPS 16
+
+/* One source. */
+typedef struct GlareTally {
+    GlareSum group[GLARE_GROUPS]; /* they add up to it */
+    double   area_m2;             /* GlareSource's */
+} GlareTally;
+
+typedef struct GlareTable {
+    GlareTally *list;
+    int         count;
+    double      background_lx[GLARE_GROUPS]; /* they add up to it */
+} GlareTable;
+
+/* A new source; the pointer holds until the next one. */
+GlareTally *glare_table_add(GlareTable *table, Arena *arena);
+
+/* What an eye is disturbed by. NaN in intervals: the figure is NaN, or might be. */
+typedef struct GlareReading {
+    GlareFigures figures;
+    MeanInterval ugr, dgp, dgi;   /* 95 % */
+    double       threshold_cd_m2; /* by which it was read */
+    double       source_lx;       /* on the pupil's plane, of all sources */
+    int          source_count;
+    double       smallest_sr, largest_sr; /* of a source; NaN: none */
+} GlareReading;
+
+GlareReading glare_table_read(const GlareTable *table, const GlareSettings *settings,
+                              double threshold_cd_m2, Arena scratch);
