@@ -349,7 +349,8 @@ EASEL_TEST(a_window_hides_nothing_and_says_what_it_takes)
     const struct {
         float  ior, grey;
         double share, passes;
-    } panes[] = {{1, 1, 1, 1}, {1.5f, 1, 1, 0.96 / 1.04}, {1, 0.5f, 1, half_tint()}, {1, 0.001f, 0, 0}};
+    } panes[] = {{1, 1, 1, 1}, {1.5f, 1, 1, 0.96 / 1.04},
+                 {1, 0.5f, 1, half_tint()}, {1, 0.001f, 0, 0}};
     for (int i = 0; i < 4; i++) {
         ENDS_BY(world_end) World world = flat_world(easel);
         Material pane = builder_pane(panes[i].ior);
