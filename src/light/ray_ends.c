@@ -8,18 +8,19 @@ static Vec3 interpolate(Vec3 a, Vec3 b, Vec3 c, float u, float v)
                 w * a.z + u * b.z + v * c.z);
 }
 
-/* From the edges: rounded once at the size of the coordinates, else at that of the triangle. */
-static Vec3 on_triangle(Vec3 a, Vec3 first, Vec3 second, float u, float v)
+/* From the corner and the edges there: rounded once at the size of the coordinates, else at that
+ * of the triangle. */
+static Vec3 from_corner(Vec3 first, Vec3 second, float u, float v)
 {
-    return vec3(a.x + (u * first.x + v * second.x), a.y + (u * first.y + v * second.y),
-                a.z + (u * first.z + v * second.z));
+    return vec3_along(vec3_scale(first, u), second, v);
 }
 
 Vec3 triangle_position(const Scene *scene, uint32_t triangle, float u, float v)
 {
     Vec3 a = scene_corner(scene, triangle, 0);
-    return on_triangle(a, vec3_sub(scene_corner(scene, triangle, 1), a),
-                       vec3_sub(scene_corner(scene, triangle, 2), a), u, v);
+    Vec3 first = vec3_sub(scene_corner(scene, triangle, 1), a);
+    Vec3 second = vec3_sub(scene_corner(scene, triangle, 2), a);
+    return vec3_add(a, from_corner(first, second, u, v));
 }
 
 /* ---- rounding ---------------------------------------------------------------------------- */
@@ -30,6 +31,7 @@ Vec3 triangle_position(const Scene *scene, uint32_t triangle, float u, float v)
 
 /* A triangle's edges from its first corner, and what follows from them. */
 typedef struct TriangleEdges {
+    Vec3  corner;        /* m, world */
     Vec3  first, second; /* to corners 1 and 2 */
     Vec3  ng;            /* unit */
     float twice_area;    /* m^2 */
@@ -55,7 +57,7 @@ typedef struct Inside {
     Vec3  inward[3]; /* unit, across the edge */
     float height[3]; /* of the triangle over it, */
     float off[3];    /* and of the place; m */
-    Vec3  place;
+    Vec3  place;     /* from the triangle's first corner */
 } Inside;
 
 static Inside beside_edges(const TriangleEdges *edges, const float away[3], Vec3 place)
@@ -92,15 +94,16 @@ static void set_inside(const TriangleEdges *edges, float u, float v, TrianglePoi
     float w = 1 - u - v, reach = ray_inset(point, edges->longest), share = 0;
     point->inside = point->position;
     if (fminf(w, fminf(u, v)) * edges->twice_area >= reach * edges->longest) return;
-    Inside in = beside_edges(edges, (const float[3]){v, w, u}, point->position);
-    Vec3   centroid = vec3_along(vec3_along(point->position, edges->first, 1 / 3.0f - u),
-                                 edges->second, 1 / 3.0f - v);
+    Inside in = beside_edges(edges, (const float[3]){v, w, u},
+                             from_corner(edges->first, edges->second, u, v));
+    Vec3   centroid = vec3_scale(vec3_add(edges->first, edges->second), 1 / 3.0f);
     for (int i = 0; i < 3; i++)
         if (lack(&in, i, reach) > 0) move_inwards(&in, i, lack(&in, i, reach));
     for (int i = 0; i < 3; i++)
         if (lack(&in, i, reach) > 0)
             share = fmaxf(share, lack(&in, i, reach) / (in.height[i] / 3 - in.off[i]));
-    point->inside = vec3_along(in.place, vec3_sub(centroid, in.place), share);
+    in.place = vec3_along(in.place, vec3_sub(centroid, in.place), share);
+    point->inside = vec3_add(edges->corner, in.place);
 }
 
 static void set_ends(const Scene *scene, TriangleEdges *edges, float u, float v,
@@ -126,10 +129,10 @@ TrianglePoint triangle_point(const Scene *scene, uint32_t triangle, float u, flo
           c = scene->positions[t->vertex[2]];
     uint32_t i = t->vertex[0] - part->first_vertex, j = t->vertex[1] - part->first_vertex,
              k = t->vertex[2] - part->first_vertex;
-    TriangleEdges edges = {.first = vec3_sub(b, a), .second = vec3_sub(c, a)};
+    TriangleEdges edges = {.corner = a, .first = vec3_sub(b, a), .second = vec3_sub(c, a)};
     Vec3  across = vec3_cross(edges.first, edges.second);
-    TrianglePoint point = {.position = on_triangle(a, edges.first, edges.second, u, v),
-                           .u = u, .v = v};
+    TrianglePoint point = {.u = u, .v = v};
+    point.position = vec3_add(a, from_corner(edges.first, edges.second, u, v));
     edges.twice_area = vec3_length(across);
     edges.ng = point.ng = vec3_normalize(across);
     set_ends(scene, &edges, u, v, &point);

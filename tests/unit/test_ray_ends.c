@@ -121,7 +121,8 @@ static void send_from(const Scene *scene, const Bvh *bvh, double size, OwnHits *
     TrianglePoint point = random_point_of(scene, 0);
     Vec3   side = random_unit() < 0.5 ? point.ng : vec3_neg(point.ng), way = leaving(side);
     Ray    ray = {ray_start(&point, way), way, 0, INFINITY};
-    double far_m = fmax(size * decades(0.01, 100), 10 * (double)ray_step(&point));
+    double height = (double)fabsf(vec3_dot(way, point.ng)); /* the other end is rounded, too */
+    double far_m = fmax(size * decades(0.01, 100), (double)ray_step(&point) / height);
     Ray    back = ray_to(vec3_along(ray.origin, way, (float)far_m), &point, way);
     Vec3   end = vec3_along(back.origin, back.direction, back.t_max);
     Hit    hit;
