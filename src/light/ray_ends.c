@@ -8,8 +8,8 @@ static Vec3 interpolate(Vec3 a, Vec3 b, Vec3 c, float u, float v)
                 w * a.z + u * b.z + v * c.z);
 }
 
-/* From the corner and the edges there: rounded once at the size of the coordinates, else at that
- * of the triangle. */
+/* A place from the first corner on. Added to that, it is rounded once at the size of the
+ * coordinates, else at that of the triangle. */
 static Vec3 from_corner(Vec3 first, Vec3 second, float u, float v)
 {
     return vec3_along(vec3_scale(first, u), second, v);

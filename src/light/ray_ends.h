@@ -24,9 +24,9 @@
  * edges closed down to 29 degrees: h / tan(29 degrees) + h / sin(29 degrees) = 3.9 h. Besides,
  * the ray tracer misses triangles whose edge a ray nearly follows: it compares the volume that
  * edge and ray span, L d sin(angle) at a distance d, with some u L^2. Rays so close to an edge
- * are the rarer, by 1 / d^2, the farther they start off it: RAY_INSET_SHARE of L more. (In
- * closed boxes 35 of 3.2 10^7 rays at angles down to 0.006 degrees got out without it, none with
- * it.)
+ * are the rarer, by 1 / d^2, the farther they start off it: RAY_INSET_SHARE of L more. (Of
+ * 3.2 10^7 rays in closed boxes, at angles down to 0.006 degrees, 35 got out without it, and
+ * none of 8 10^8 with it.)
  *
  * Units    m, world.
  * Threads  pure functions.
