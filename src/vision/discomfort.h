@@ -31,9 +31,9 @@ typedef struct GlareSettings {
     bool   small_sources;   /* UGR of a source below GLARE_SOURCE_SMALL_M2: CIE 147's rule */
 } GlareSettings;
 
-/* evalglare's (NREL/Radiance): -b 2000, peaks of 50,000 cd/m2; but the low-light factor, which
- * evalglare applies on request, is on. CIE 147's rule is off: CIE 117 and evalglare do without.
- * The task's width counts with a task factor only. */
+/* evalglare's (NREL/Radiance): -b 2000, peaks of 50,000 cd/m2; but the low-light factor is on,
+ * which evalglare applies on request alone from version 2.14 on. CIE 147's rule is off: CIE 117
+ * and evalglare do without. The task's width counts with a task factor only. */
 #define GLARE_THRESHOLD_CD_M2 2000.0
 #define GLARE_TASK_DEG 40.0
 #define GLARE_PEAK_CD_M2 50000.0

@@ -118,7 +118,8 @@ class Place:
     at: str  # file and line
 
     def found(self, page):
-        expression = re.escape(self.words).replace(r"\{\}", f"({NUMBER})")
+        whole = rf"({NUMBER})(?!\d|[.,]\d)"
+        expression = re.escape(self.words).replace(r"\{\}", whole)
         return list(re.finditer(rf"(?<![\w.]){expression}", page.flat))
 
 

@@ -200,6 +200,8 @@ def check_panes(report, eye):
                 report.claim(abs(found / wanted - 1) < 0.01,
                              f"tint {tint}, {degrees} degrees: {share.__name__} {found:.5f}, "
                              f"wanted {wanted:.5f}")
+                if above and not degrees:
+                    print(f"upright, tint {tint}: {100 * found:.3f} % mirrored")
     for degrees in (0, 60):
         angle = math.radians(degrees)
         found = eye.mean(lit_pane(half_clear, degrees, True), 256, "--max-bounces", "1")

@@ -109,7 +109,7 @@ ARENA_TEST(skies_have_the_lux_of_gendaylits)
         in.water_cm = water_from_dew_point_cm(v[5]);
         assert_done(daylight_build(&in, &arena, &out, &err));
         const DaylightMetrics *f = &out.metrics;
-        printf("%-16s diffuse %.1f lm/W (%.1f), direct %.1f (%.1f)\n", name,
+        printf("%-16s diffuse %.2f lm/W (%.1f), direct %.2f (%.1f)\n", name,
                f->diffuse_horizontal_lx / v[7], diffuse, v[6] > 0 ? f->efficacy.direct : 0,
                direct);
         assert_close(f->diffuse_horizontal_lx / v[7], diffuse, 0.03);
