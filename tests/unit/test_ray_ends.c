@@ -66,6 +66,14 @@ static Vec3 leaving(Vec3 n)
                                        (float)cosine));
 }
 
+/* As a dull surface scatters, but for directions that rounding leaves below it. */
+static Vec3 scattered(Vec3 n)
+{
+    Vec3 way = vec3(0, 0, 0);
+    while (!(vec3_dot(way, n) > 0)) way = vec3_normalize(vec3_add(n, random_direction()));
+    return way;
+}
+
 static TrianglePoint random_point_of(const Scene *scene, uint32_t triangle)
 {
     double u = random_unit(), v = random_unit();
@@ -199,7 +207,7 @@ typedef struct BoxFaults {
     long rays, leaks, shadows, looks;
 } BoxFaults;
 
-/* A path of bounces, many of them along the walls; true: it got out. */
+/* A path of dull bounces; true: it got out. */
 static bool walks_out(const Scene *scene, const Bvh *bvh, BoxFaults *found)
 {
     Ray ray = {middle_of(scene), random_direction(), 0, INFINITY};
@@ -208,7 +216,7 @@ static bool walks_out(const Scene *scene, const Bvh *bvh, BoxFaults *found)
         found->rays++;
         if (!bvh_intersect(bvh, ray, 0, &hit)) return true;
         TrianglePoint point = triangle_point(scene, hit.triangle, hit.u, hit.v);
-        Vec3 way = leaving(inner_normal(scene, &point));
+        Vec3 way = scattered(inner_normal(scene, &point));
         ray = (Ray){ray_start(&point, way), way, 0, INFINITY};
     }
     return false;
