@@ -160,10 +160,10 @@ run 'false alarms and power of compare' compare-power \
     python3 tests/bench/compare_power.py $program .build/release/bench_statistic
 of "$all scenes README.md tests/image tests/page"
 run 'every guide as written, a review met' guides-long guides_and_meeting
-of "$all scenes README.md tests"
-run 'figures of pages that tests print' figures-long python3 tests/image/figures.py --logs
 of "$all tests/unit"
 run 'unit tests that take long' unit-long units .build/release -L long
+of "$all scenes README.md tests"
+run 'figures of pages that tests print' figures-long python3 tests/image/figures.py --logs
 of "$all scenes README.md CONTRIBUTING.md tests"
 run 'packages built twice' packages python3 tests/install/packages.py .build/packages
 run 'packages in a bare Debian' bare-root \

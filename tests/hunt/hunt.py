@@ -113,7 +113,7 @@ def light_of(condition):
 def of_frame(reviewer, condition, level, more):
     """Two frames that differ in their seeds: the mean over the symbol by its area, as a review
     counts, its error by the pixels' differences; and `measure` of one of them, with the mean of
-    that frame's layer by pixels, as it counts."""
+    that frame's layer by the display's part of each pixel, as it counts."""
     layers, total, squares, both = [], 0, 0, 0
     for seed in (1, 2):
         name = f"frame{seed}.exr"
@@ -136,8 +136,11 @@ def of_frame(reviewer, condition, level, more):
         squares += (weight * (a - b) / 2) ** 2
     told = json.loads(reviewer.run("measure", "frame1.exr", "--display", "screen",
                                    "--json").stdout)["contrast"]
-    by_pixel = [luminance_of(one, "display.reflected", i) for i in shown]
-    return (both / total, math.sqrt(squares) / total), told, sum(by_pixel) / len(by_pixel)
+    others = one.get("display.second.coverage", [0] * len(one["id.display"]))
+    parts = [(one["display.coverage"][i], luminance_of(one, "display.reflected", i))
+             for i in shown if not others[i] > 0]
+    by_part = sum(part * light for part, light in parts) / sum(part for part, _ in parts)
+    return (both / total, math.sqrt(squares) / total), told, by_part
 
 
 def second(reviewer, level):
@@ -147,7 +150,7 @@ def second(reviewer, level):
     return ["--display-level", f"second={100 * level}"] if "second" in names else []
 
 
-def check_measure(report, name, told, by_pixel):
+def check_measure(report, name, told, by_part):
     """`measure` against the layer and its own formula."""
     contrast = (told["white_cd_m2"] + told["reflected_cd_m2"]) / (
         told["black_cd_m2"] + told["reflected_cd_m2"])
@@ -158,8 +161,8 @@ def check_measure(report, name, told, by_pixel):
     is_open = high is None and told["black_cd_m2"] == 0
     report.claim(low <= told["value"] and (is_open or told["value"] <= (high or 0)),
                  f"{name}: {told['value']} outside {told['interval']}")
-    report.claim(math.isclose(told["reflected_cd_m2"], by_pixel, rel_tol=1e-4),
-                 f"{name}: measure says {told['reflected_cd_m2']}, the layer {by_pixel}")
+    report.claim(math.isclose(told["reflected_cd_m2"], by_part, rel_tol=1e-4),
+                 f"{name}: measure says {told['reflected_cd_m2']}, the layer {by_part}")
 
 
 # ---- a closed form --------------------------------------------------------------------------
@@ -205,12 +208,12 @@ class Hunt:
                 self.compare(name + ", causes", estimate(case), of_causes(case))
         moments = [c for c in asked["conditions"] if "environment" in c]
         k = seed % len(moments)
-        frame, told, by_pixel = of_frame(self.reviewer, moments[k], level,
+        frame, told, by_part = of_frame(self.reviewer, moments[k], level,
                                            self.of_frames)
         name = f"seed {seed}, {moments[k]['name']}"
         self.compare(name + ", frame", estimate(cases[k]),
                      (frame[0], math.hypot(frame[1], FRAME_SHARE * frame[0])))
-        check_measure(self.report, name, told, by_pixel)
+        check_measure(self.report, name, told, by_part)
         if room.is_empty:
             wanted = of_panel(self.reviewer, room, moments[0]["environment"]["luminance"])
             self.compare(f"seed {seed}, sky, closed", estimate(cases[0]),

@@ -385,7 +385,7 @@ def main(program, whole):
         check_windows(report, reviewer)
         check_sunlit(report, reviewer)
         check_threads(report, reviewer)
-        check_sizes(report, reviewer, LUMINANCES if whole else (0.1, 1, 5), 24 if whole else 4)
+        check_sizes(report, reviewer, LUMINANCES if whole else (0.1, 5), 24 if whole else 2)
     report.finish()
 
 

@@ -278,6 +278,7 @@ void man_page_print_program(const char *summary, const Command *const *commands,
 
 #define COLUMNS_MAX 16
 #define PAGE_COLUMNS 70 /* letters of a terminal's line that are left to a page's text */
+#define TABLE_TOGETHER 16 /* lines: a table near the end of a page begins the next */
 #define COLUMN_GAP 3
 
 static size_t line_length(const char *text)
@@ -424,7 +425,7 @@ static const char *print_table(const char *text)
     size_t widths[COLUMNS_MAX];
     int    count = cells_of(text).count;
     find_widths(text, count, widths);
-    printf(".PP\n.TS\n");
+    printf(".PP\n.ne %d\n.TS\n", TABLE_TOGETHER);
     print_columns(widths, count, true);
     print_columns(widths, count, false);
     putchar('\n');
