@@ -24,9 +24,9 @@
  * edges closed down to 29 degrees: h / tan(29 degrees) + h / sin(29 degrees) = 3.9 h. Besides,
  * the ray tracer misses triangles whose edge a ray nearly follows: it compares the volume that
  * edge and ray span, L d sin(angle) at a distance d, with some u L^2. Rays so close to an edge
- * are the rarer, by 1 / d^2, the farther they start off it: RAY_INSET_SHARE of L more, of 1 m at
- * most, since light is sampled there instead. (In closed boxes no path of dull bounces was seen
- * to get out; of rays at angles evenly down to 0.006 degrees, by decades, one in 10^6 did
+ * are the rarer, by 1 / d^2, the farther they start off it: RAY_INSET_SHARE of L more, of 1 m
+ * at most, since light is sampled there instead. (In closed boxes no path of dull bounces was
+ * seen to get out; of rays at angles evenly down to 0.006 degrees, by decades, one in 10^6 did
  * without that.)
  *
  * Units    m, world.
