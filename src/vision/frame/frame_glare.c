@@ -455,8 +455,8 @@ static bool check_seen(const GlareRequest *request, const FrameGlare *found, Err
     if (request->has_lux || found->seen >= GLARE_SEEN_LEAST) return true;
     return error_set(err, ERROR_INPUT,
                      "sees %.1f %% of the light that comes to the eye from an even half space, "
-                     "wanted all: a fisheye (render --projection fisheye), or the illuminance "
-                     "at the eye (--vertical-lux LX)", 100 * found->seen);
+                     "required all: a fisheye (render --projection fisheye), or the "
+                     "illuminance at the eye (--vertical-lux LX)", 100 * found->seen);
 }
 
 static Measured figure_of(double value, double width, bool is_given)
