@@ -91,7 +91,9 @@ static bool item_of(const JsonView *list_view, const char *key, int i, JsonView 
     const char *path = arena_format(list_view->arena, "%s/%s/%d", list_view->path, key, i);
     if (!json_is_object(item))
         return error_at(err, ERROR_INPUT, list_view->file, path, "wanted an object");
-    *out = (JsonView){item, list_view->file, path, list_view->arena, NULL};
+    *out = *list_view;
+    out->object = item;
+    out->path = path;
     return true;
 }
 
@@ -323,7 +325,7 @@ static bool open_shipped(const char *name, Arena *arena, JsonView *out, Error *e
         const char *file = arena_format(arena, "assets/profiles/%s.json", name);
         if (!root)
             return error_at(err, ERROR_INPUT, file, "", "not valid JSON: %s", fault.text);
-        *out = (JsonView){root, file, "", arena, NULL};
+        *out = (JsonView){root, file, "", arena, NULL, 0};
         return true;
     }
     return error_set(err, ERROR_INPUT, "there is no profile \"%s\"; wanted %s, or a file by a "
@@ -339,6 +341,7 @@ bool profile_load(const char *name_or_path, Arena *arena, const Profile **out, E
     if (!ok) return false;
     Profile *profile = ARENA_NEW(arena, Profile, 1);
     profile->id = arena_string(arena, name_or_path, strlen(name_or_path));
+    profile->file_hash = root.hash;
     ok = read_profile(&root, profile, err);
     json_view_close(&root);
     if (ok) *out = profile;

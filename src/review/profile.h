@@ -10,6 +10,8 @@
  * Fails    loading does, with file, place, found and wanted.
  */
 #pragma once
+#include <stdint.h>
+
 #include "base/arena.h"
 #include "base/error.h"
 #include "review/verdict.h"
@@ -63,6 +65,7 @@ typedef struct ProfileFact {
 
 typedef struct Profile {
     const char *id;              /* "iso-15008", or the file's path */
+    uint64_t    file_hash;       /* of that file (text/json_view.h); 0: inside the program */
     const char *title, *edition;
     bool        uses_veil;       /* contrast counts with the veil over it */
     double      night_below_lx, twilight_below_lx; /* of the display's face */

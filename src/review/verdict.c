@@ -6,6 +6,11 @@
 const char *const verdict_names[4] = {"pass", "fail", "too close", "not visible"};
 const char *const ambient_names[4] = {"night", "twilight", "day", "sun"};
 
+const char *const rest_kinds[REST_KINDS] = {"panel", "material", "eye", "occupant", "limits"};
+const char *const rest_bases[REST_BASES] = {
+    "measured", "synthetic", "not stated", "guessed", "without data", "given",
+    "proposed", "present", "nobody", "read in the standard", "quoted"};
+
 int verdict_rank(Verdict verdict)
 {
     static const int RANKS[4] = {[VERDICT_PASS] = 0, [VERDICT_TOO_CLOSE] = 1,

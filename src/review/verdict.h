@@ -172,7 +172,8 @@ typedef struct ReviewCase {
     const CaseCause  *causes;    /* greatest first */
     int     cause_count;
     CaseGroup groups[CAUSE_GROUPS];
-    double  without_data_share;  /* of the reflected light, by way of materials without data */
+    double  without_data_share;  /* of the reflected light, by way of materials without data, */
+    double  guessed_share;       /* and of such as `equip` guessed */
     const CaseRemedy *remedies;
     int     remedy_count;
     const char *frame;           /* picture's name within the folder; NULL: none was rendered */
@@ -264,6 +265,42 @@ typedef struct ReviewDifference {
                             share; NaN likewise */
 } ReviewDifference;
 
+/* A file that was read. */
+typedef struct ReviewFile {
+    const char *path; /* as it was opened */
+    const char *xxh3; /* XXH3 64 of the bytes that were read, 16 hexadecimal digits */
+} ReviewFile;
+
+/* What a verdict rests on besides the light. */
+typedef enum RestKind {
+    REST_PANEL,    /* of a display that is read */
+    REST_MATERIAL, /* that nobody described: all others are as the scene's files have them */
+    REST_EYE,
+    REST_OCCUPANT, /* under so many of the conditions */
+    REST_LIMITS,   /* so many of the profile's */
+    REST_KINDS
+} RestKind;
+extern const char *const rest_kinds[REST_KINDS]; /* "panel", "material", ... */
+
+typedef enum RestBasis {
+    REST_MEASURED, REST_SYNTHETIC, REST_NOT_STATED, /* panels */
+    REST_GUESSED, REST_WITHOUT_DATA,                /* materials */
+    REST_GIVEN, REST_PROPOSED,                      /* eyes */
+    REST_PRESENT, REST_NOBODY,                      /* occupants */
+    REST_READ, REST_QUOTED,                         /* limits, in the standard */
+    REST_BASES
+} RestBasis;
+extern const char *const rest_bases[REST_BASES]; /* "measured", "synthetic", ... */
+
+typedef struct ReviewRest {
+    RestKind    kind;
+    RestBasis   basis;
+    const char *name;  /* of the display, material, eye, occupant or profile; NULL: nobody's */
+    const char *words; /* of a panel its own name and instrument, of a material what it was
+                          taken as, of an eye from what it was proposed; NULL: nothing more */
+    long        count, of;
+} ReviewRest;
+
 typedef struct Review Review;
 
 /* The same review with something changed: verdicts alone, no causes. */
@@ -340,6 +377,10 @@ struct Review {
     int         without_data_count;
     const char *const *notes;     /* what a reader must know: approximations, gaps in data */
     int             note_count;
+    ReviewRest     *rests_on;
+    int             rests_on_count;
+    ReviewFile     *inputs;       /* every file that was read, once each */
+    int             input_count;
     bool            pass;         /* nothing fails; strict: nor is too close, not visible or of
                                      a material without data */
     bool            is_strict;

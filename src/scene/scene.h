@@ -102,6 +102,7 @@ typedef struct SheenLayer {
 
 typedef struct Material {
     const char *name; /* "material N" where the file has none */
+    const char *guessed_as; /* the usual material that `equip` put here; NULL: the file's own */
     float base_color[4];
     TextureSlot base_color_texture;
     float metallic, roughness; /* roughness: glTF's; GGX alpha is its square */

@@ -4,6 +4,8 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+#define XXH_INLINE_ALL
+#include <xxhash.h>
 
 #include "base/file.h"
 #include "base/reference.h"
@@ -45,7 +47,8 @@ bool json_view_open(const char *file, Arena *arena, JsonView *out, Error *err)
         json_decref(root);
         return fails;
     }
-    *out = (JsonView){root, arena_string(arena, file, strlen(file)), "", arena, NULL};
+    *out = (JsonView){root, arena_string(arena, file, strlen(file)), "", arena, NULL,
+                      XXH3_64bits(bytes.data, bytes.size)};
     return true;
 }
 
@@ -88,7 +91,10 @@ bool json_view_child(const JsonView *view, const char *key, bool required, JsonV
         return error_at(err, ERROR_INPUT, view->file, view->path, "key '%s' is missing", key);
     if (value && !json_is_object(value))
         return json_view_wrong_kind(view, key, value, "an object", err);
-    *out = (JsonView){value, view->file, json_view_path(view, key), view->arena, view->root};
+    const char *path = json_view_path(view, key);
+    *out = *view;
+    out->object = value;
+    out->path = path;
     return true;
 }
 

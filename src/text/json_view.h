@@ -10,6 +10,7 @@
 #pragma once
 #include <jansson.h>
 #include <stdbool.h>
+#include <stdint.h>
 
 #include "base/arena.h"
 #include "base/error.h"
@@ -20,6 +21,7 @@ typedef struct JsonView {
     const char *path;   /* JSON path of the object, "" for the root */
     Arena      *arena;
     const char *root;   /* a folder whose files it may name besides its own; NULL: none */
+    uint64_t    hash;   /* XXH3 64 of the bytes that were read of the file; of no file 0 */
 } JsonView;
 
 #define JSON_FILE_BYTES_MAX ((size_t)64 << 20)

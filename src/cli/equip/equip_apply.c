@@ -235,12 +235,14 @@ static bool start_review(const Applying *at, const Scene *scene, Error *err)
 {
     const Equip *e = &at->equip;
     const char **eyes = ARENA_NEW(at->arena, const char *, e->eye_count);
+    const char **eyes_from = ARENA_NEW(at->arena, const char *, e->eye_count);
     const char **displays = ARENA_NEW(at->arena, const char *, e->display_count);
     for (int i = 0; i < e->eye_count; i++) eyes[i] = e->eyes[i].name;
+    for (int i = 0; i < e->eye_count; i++) eyes_from[i] = e->eyes[i].proposed_from;
     for (int i = 0; i < e->display_count; i++) displays[i] = e->displays[i].name;
     const ReviewWishes wishes = {
         .profile = e->profile, .forward = {e->forward[0], e->forward[1], e->forward[2]},
-        .eyes = eyes, .eye_count = e->eye_count, .displays = displays,
+        .eyes = eyes, .eyes_from = eyes_from, .eye_count = e->eye_count, .displays = displays,
         .display_count = e->display_count, .place = e->has_place ? &e->place : NULL};
     const ReviewStart start = {&at->order->output, 1, at->result.review, NULL, &wishes,
                                at->order->overwrites};

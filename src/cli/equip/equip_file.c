@@ -130,12 +130,25 @@ static bool find_target(const JsonView *view, const Equip *equip, EquipEye *eye,
     return true;
 }
 
+/* What the page writes of an eye whose place somebody typed, or of an older file's. */
+static const char *const GIVEN[] = {"set by hand", "as it was saved"};
+
+static bool read_proposal(const JsonView *view, EquipEye *out, Error *err)
+{
+    const char *from = NULL;
+    if (!json_view_text(view, "proposed_from", &from, err)) return false;
+    for (int i = 0; from && i < COUNT_OF(GIVEN); i++)
+        if (!strcmp(from, GIVEN[i])) return true;
+    out->proposed_from = from && from[0] ? from : NULL;
+    return true;
+}
+
 static bool read_eye(const JsonView *view, const Equip *equip, EquipEye *out, Error *err)
 {
     out->place = view->path;
     if (!field_name(view, "name", &out->name, err) ||
         !position(view, "position_m", out->position_m, err) ||
-        !find_target(view, equip, out, err))
+        !read_proposal(view, out, err) || !find_target(view, equip, out, err))
         return false;
     double way = 0;
     for (int i = 0; i < 3; i++) way += pow(out->target_m[i] - out->position_m[i], 2);

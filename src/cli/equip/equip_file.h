@@ -32,6 +32,7 @@ typedef struct EquipEye {
     const char *name, *place;
     double      position_m[3];
     double      target_m[3]; /* elsewhere */
+    const char *proposed_from; /* by the page, which nobody corrected; NULL: it was given */
 } EquipEye;
 
 /* A material of the model is replaced. */

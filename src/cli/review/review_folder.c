@@ -248,16 +248,16 @@ static void add_pairs(const ReviewFolder *folder, const Review *review, ReviewPa
     page->pairs = pairs;
 }
 
-static void add_facts(const ReviewRequest *request, ReviewPage *page, Arena *arena)
+static void add_facts(const Review *review, ReviewPage *page, Arena *arena)
 {
-    ReviewFact *facts = ARENA_NEW(arena, ReviewFact, request->input_count + 1);
+    ReviewFact *facts = ARENA_NEW(arena, ReviewFact, review->input_count + 1);
     facts[page->fact_count++] = (ReviewFact){
         "program", arena_format(arena, "parhelion %s, sources %s", PARHELION_VERSION,
                                 SOURCES_HASH)};
-    for (int i = 0; i < request->input_count; i++)
-        facts[page->fact_count++] = (ReviewFact){
-            request->inputs[i].path,
-            arena_format(arena, "XXH3 %016llx", (unsigned long long)request->inputs[i].hash)};
+    for (int i = 0; i < review->input_count; i++)
+        facts[page->fact_count++] =
+            (ReviewFact){review->inputs[i].path,
+                         arena_format(arena, "XXH3 %s", review->inputs[i].xxh3)};
     page->facts = facts;
 }
 
@@ -327,7 +327,7 @@ static bool fill_page(const ReviewFolder *folder, const ReviewOutcome *outcome,
     add_charts(folder, outcome, page, arena);
     add_pictures(folder, &outcome->review, page, arena);
     add_pairs(folder, &outcome->review, page, arena);
-    add_facts(folder->request, page, arena);
+    add_facts(&outcome->review, page, arena);
     return true;
 }
 

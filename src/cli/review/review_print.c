@@ -8,6 +8,7 @@
 #include "review/output/review_decide.h"
 #include "review/output/review_gaze.h"
 #include "review/output/review_json.h"
+#include "review/output/review_rests.h"
 #include "review/output/review_words.h"
 #include "text/interval_text.h"
 
@@ -88,6 +89,8 @@ static void print_review(const Review *review, Arena scratch)
                worst ? 100 * worst->without_data_share : 0);
     for (int i = 0; i < review->variant_count; i++) print_variant(&review->variants[i]);
     for (int i = 0; i < review->mend_count; i++) print_mend(&review->mends[i], &scratch);
+    const char *rests = review_rests_words(review, &scratch);
+    if (rests[0]) printf("%-11s %s\n", "rests on", rests);
     static const char *const LAST[4] = {"pass", "FAIL", "too close to call", "not visible"};
     printf("%s\n", LAST[review_verdict(review)]);
 }

@@ -41,7 +41,7 @@ typedef struct ChainSearch {
     const ChainAsk *ask;
     const Scene    *scene;
     const int      *alike;
-    const bool     *has_data; /* [part] */
+    const bool     *lacks_data, *is_guessed; /* [part] */
     float           far_m; /* length of a ray drawn towards a distant source */
     int             chunks, batches;
     int             first; /* chunk of this round */
@@ -160,12 +160,20 @@ static void add_straight(const ChunkListener *to, const PathHistory *history, do
     else groups->straight[history->source] += y;
 }
 
-static bool is_without_data(const ChunkListener *to, const PathHistory *history)
+static bool is_off_any(const PathHistory *history, const bool *is_any)
 {
-    const bool *has_data = to->search->has_data;
     for (int i = 0; i < path_steps_kept(history); i++)
-        if (!has_data[history->step[i].part_id]) return true;
+        if (is_any[history->step[i].part_id]) return true;
     return false;
+}
+
+static bool is_through_any(const PathHistory *history, const bool *is_any)
+{
+    for (int i = 0; i < path_steps_kept(history); i++) {
+        int pane = history->step[i].pane_id;
+        if (pane != NO_ID && is_any[pane]) return true;
+    }
+    return history->pane_id != NO_ID && is_any[history->pane_id];
 }
 
 static void add_groups(const ChunkListener *to, const PathHistory *history, double y)
@@ -179,7 +187,10 @@ static void add_groups(const ChunkListener *to, const PathHistory *history, doub
     else groups->by_pane[alike[history->pane_id]] += y;
     if (history->count < 2) add_straight(to, history, y);
     else groups->by_surface[alike[history->step[1].part_id]] += y;
-    if (is_without_data(to, history)) groups->without_data += y;
+    if (is_off_any(history, to->search->lacks_data)) groups->without_data += y;
+    if (is_off_any(history, to->search->is_guessed) ||
+        is_through_any(history, to->search->is_guessed))
+        groups->guessed += y;
 }
 
 static int display_of(const Scene *scene, int part_id)
@@ -342,14 +353,22 @@ static void merge_groups(ChainGroups *to, const ChainGroups *from, const Scene *
     add_all(to->by_surface, from->by_surface, scene->part_count, scale);
     to->by_no_pane += scale * from->by_no_pane;
     to->without_data += scale * from->without_data;
+    to->guessed += scale * from->guessed;
 }
 
-static bool *parts_with_data(const Scene *scene, Arena *arena)
+static bool *parts_without_data(const Scene *scene, Arena *arena)
 {
-    bool *has_data = ARENA_NEW(arena, bool, scene->part_count);
+    bool *lacks_data = ARENA_NEW(arena, bool, scene->part_count);
+    for (int i = 0; i < scene->part_count; i++) lacks_data[i] = !part_has_data(scene, i);
+    return lacks_data;
+}
+
+static bool *guessed_parts(const Scene *scene, Arena *arena)
+{
+    bool *is_guessed = ARENA_NEW(arena, bool, scene->part_count);
     for (int i = 0; i < scene->part_count; i++)
-        has_data[i] = part_has_data(scene, i);
-    return has_data;
+        is_guessed[i] = scene->materials[scene->parts[i].material_id].guessed_as != NULL;
+    return is_guessed;
 }
 
 static ChainChunk *fresh_sums(int count, const Scene *scene, Arena *arena)
@@ -473,7 +492,8 @@ Chains chains_find(const ChainAsk *ask, Arena *arena)
                   .groups = fresh_groups(scene, arena),
                   .alike = alike_parts(scene, arena), .paths = (long)chunks * CHAIN_CHUNK};
     ChainSearch search = {.ask = ask, .scene = scene, .alike = out.alike,
-                          .has_data = parts_with_data(scene, &own), .chunks = chunks,
+                          .lacks_data = parts_without_data(scene, &own),
+                          .is_guessed = guessed_parts(scene, &own), .chunks = chunks,
                           .batches = chunks < CHAIN_BATCHES ? chunks : CHAIN_BATCHES,
                           .far_m = far_length(scene)};
     FoundChains found = {.table = ARENA_NEW(&own, FoundChain *, ROOM),

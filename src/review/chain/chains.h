@@ -74,6 +74,8 @@ typedef struct ChainGroups {
     double  straight[LIGHT_SETS]; /* and what shines there by itself */
     double  without_data;       /* by way of any material without data (material_data.h), each
                                    path once */
+    double  guessed;            /* by way of any that was guessed (Material.guessed_as), or
+                                   through one: likewise */
 } ChainGroups;
 
 typedef struct Chains {

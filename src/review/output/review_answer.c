@@ -7,6 +7,7 @@
 #include "review/output/review_bar.h"
 #include "review/output/review_decide.h"
 #include "review/output/review_rays.h"
+#include "review/output/review_rests.h"
 #include "review/output/review_words.h"
 #include "text/text.h"
 
@@ -55,6 +56,15 @@ static void add_line(Text *html, const Review *review, const ReviewCase *worst, 
     text_add(html, ": ");
     escape_markup(html, words_reason(worst, arena));
     text_add(html, ".</h1></div>\n");
+}
+
+static void add_rests(Text *html, const Review *review, Arena *arena)
+{
+    const char *words = review_rests_words(review, arena);
+    if (!words[0]) return;
+    text_add(html, "<p class=\"rests\"><b>Rests on</b> ");
+    escape_markup(html, words);
+    text_add(html, ".</p>\n");
 }
 
 /* ---- every symbol and eye --------------------------------------------------------------- */
@@ -321,6 +331,7 @@ bool review_answer_add(Text *html, const ReviewAnswer *answer, Arena *arena, Err
 {
     const ReviewCase *worst = review_worst(answer->review, *arena);
     add_line(html, answer->review, worst, arena);
+    add_rests(html, answer->review, arena);
     if (!worst) return true;
     text_add(html, "<div class=\"first\">\n");
     add_grid(html, answer->review, arena);

@@ -9,6 +9,7 @@
 #include "base/file_write.h"
 #include "review/output/review_decide.h"
 #include "review/output/review_members.h"
+#include "review/output/review_rests.h"
 #include "text/json_text.h"
 #include "text/json_view.h"
 #include "text/nearest_word.h"
@@ -71,7 +72,7 @@ static const Member GLARE[] = {
     LATER("dgp_interval", RANGE, Type, glare.dgp_range),                                       \
     LATER("ugr_interval", RANGE, Type, glare.ugr_range),                                       \
     LATER("dgi_interval", RANGE, Type, glare.dgi_range),                                       \
-    {"glare", MEMBER_OBJECT, offsetof(Type, glare), SINCE, GLARE, 0, 0}
+    {"glare", MEMBER_OBJECT, offsetof(Type, glare), .use = SINCE, .of = GLARE}
 
 /* Of a case, and of a false sun. */
 static const Member SUN[] = {{"azimuth_deg", MEMBER_FIGURE, .offset = 0},
@@ -94,8 +95,7 @@ static const Member CASE[] = {
     OWN(FIGURE, ReviewCase, jnd), OWN(FIGURE, ReviewCase, visibility),
     GLARE_MEMBERS(ReviewCase),
     OWN(FIGURE, ReviewCase, eye_failed_share), OWN(FIGURE, ReviewCase, visible_share),
-    {"hidden_by", MEMBER_LIST, offsetof(ReviewCase, hiders), SINCE, HIDER,
-     offsetof(ReviewCase, hider_count), sizeof(CaseHider)},
+    LIST_SINCE("hidden_by", ReviewCase, hiders, hider_count, HIDER, CaseHider),
     OWN(FIGURE, ReviewCase, level), OWN(FIGURE, ReviewCase, display_lux),
     {"limit", MEMBER_LIMIT, .of = LIMIT},
     LIST("limits", ReviewCase, limits, limit_count, LIMIT, LimitVerdict),
@@ -104,6 +104,7 @@ static const Member CASE[] = {
     {"cause_groups", MEMBER_OBJECT, .use = WRITTEN, .of = GROUPS},
     {"without_data_share", MEMBER_FIGURE, offsetof(ReviewCase, without_data_share),
      .use = WRITTEN},
+    {"guessed_share", MEMBER_FIGURE, offsetof(ReviewCase, guessed_share), .use = WRITTEN},
     LIST("remedies", ReviewCase, remedies, remedy_count, REMEDY, CaseRemedy),
     OWN(TEXT, ReviewCase, frame), OWN(TEXT, ReviewCase, outlook), OWN(TEXT, ReviewCase, when),
     {0}};
@@ -159,6 +160,15 @@ static const Member FALSE_SUN[] = {
     OWN(FIGURE, ReviewFalseSun, lux), OWN(TEXT, ReviewFalseSun, gaze),
     OWN(FIGURE, ReviewFalseSun, angle_deg), OWN(FIGURE, ReviewFalseSun, veil_cd_m2), {0}};
 
+static const Member REST[] = {
+    {"kind", MEMBER_WORD, offsetof(ReviewRest, kind), .size = REST_KINDS, .words = rest_kinds},
+    {"basis", MEMBER_WORD, offsetof(ReviewRest, basis), .size = REST_BASES,
+     .words = rest_bases},
+    OWN(TEXT, ReviewRest, name), OWN(TEXT, ReviewRest, words), OWN(COUNT, ReviewRest, count),
+    OWN(COUNT, ReviewRest, of), {0}};
+
+static const Member FILES[] = {OWN(TEXT, ReviewFile, path), OWN(TEXT, ReviewFile, xxh3), {0}};
+
 static const Member TRIAL[] = {
     OWN(FIGURE, ReviewTrial, value), OWN(VERDICT, ReviewTrial, verdict),
     AS("least_margin", FIGURE, ReviewTrial, margin), AS("of", TEXT, ReviewTrial, worst),
@@ -179,7 +189,8 @@ static const Member REVIEW[] = {
     LIST("responses", Review, responses, response_count, RESPONSE, ReviewResponse),
     LIST("false_suns", Review, false_suns, false_sun_count, FALSE_SUN, ReviewFalseSun),
     {"notes", MEMBER_TEXTS, offsetof(Review, notes), .count = offsetof(Review, note_count)},
-    {0}};
+    LIST_SINCE("rests_on", Review, rests_on, rests_on_count, REST, ReviewRest),
+    LIST_SINCE("inputs", Review, inputs, input_count, FILES, ReviewFile), {0}};
 
 /* ---- writing ----------------------------------------------------------------------------- */
 
@@ -225,6 +236,7 @@ static json_t *member_json(const Member *member, const void *item)
     case MEMBER_COUNT: return json_integer(*(const long *)at);
     case MEMBER_VERDICT: return json_string(verdict_names[*(const Verdict *)at]);
     case MEMBER_AMBIENT: return json_string(ambient_names[*(const Ambient *)at]);
+    case MEMBER_WORD: return json_string(member->words[*(const int *)at]);
     case MEMBER_IF: return *(const bool *)count ? object_json(member->of, at) : json_null();
     case MEMBER_OBJECT: return object_json(member->of, at);
     case MEMBER_TEXTS: return json_texts(pointer, *(const int *)count);
@@ -349,6 +361,14 @@ static json_t *places_json(const Review *review)
     return list;
 }
 
+static json_t *rests_line(const Review *review)
+{
+    Arena   scratch = arena_reserve(PLACES_BYTES);
+    json_t *line = text(review_rests_words(review, &scratch));
+    arena_release(&scratch);
+    return line;
+}
+
 json_t *review_json(const Review *review)
 {
     bool        is_open = review->is_partial && review->pass;
@@ -375,6 +395,9 @@ json_t *review_json(const Review *review)
     set(out, "eye_places", places_json(review));
     set(out, "responses", LIST_OF(RESPONSE, review->responses, review->response_count));
     set(out, "without_data", text(review->without_data));
+    set(out, "rests_on", LIST_OF(REST, review->rests_on, review->rests_on_count));
+    set(out, "rests_on_line", rests_line(review));
+    set(out, "inputs", LIST_OF(FILES, review->inputs, review->input_count));
     set(out, "notes", json_texts(review->notes, review->note_count));
     return out;
 }
@@ -422,23 +445,23 @@ static bool read_count(const JsonView *view, const char *key, long *out, Error *
     return true;
 }
 
-/* One of four words; *out is its place. */
-static bool read_word(const JsonView *view, const char *key, const char *const words[4],
-                      int *out, Error *err)
+/* *out is the word's place. */
+static bool read_word(const JsonView *view, const char *key, const char *const *words,
+                      int count, int *out, Error *err)
 {
     const char *word = NULL;
     char        advice[256];
     if (!json_is_null(json_object_get(view->object, key)) &&
         !json_view_text(view, key, &word, err))
         return false;
-    for (int i = 0; word && i < 4; i++) {
+    for (int i = 0; word && i < count; i++) {
         if (strcmp(word, words[i]) != 0) continue;
         *out = i;
         return true;
     }
     return error_at(err, ERROR_INPUT, view->file, json_view_path(view, key),
                     "is '%.60s'; %s", word ? word : "null",
-                    nearest_word_advice(word ? word : "", words, 4, advice, sizeof advice));
+                    nearest_word_advice(word ? word : "", words, count, advice, sizeof advice));
 }
 
 static bool read_object(const JsonView *view, const Member *table, void *item, Error *err);
@@ -523,13 +546,14 @@ static bool read_value(const JsonView *view, const Member *member, void *item, E
                wrong(view, key, "true or false", err);
     case MEMBER_COUNT: return read_count(view, key, at, err);
     case MEMBER_VERDICT:
-        if (!read_word(view, key, verdict_names, &word, err)) return false;
+        if (!read_word(view, key, verdict_names, 4, &word, err)) return false;
         *(Verdict *)at = (Verdict)word;
         return true;
     case MEMBER_AMBIENT:
-        if (!read_word(view, key, ambient_names, &word, err)) return false;
+        if (!read_word(view, key, ambient_names, 4, &word, err)) return false;
         *(Ambient *)at = (Ambient)word;
         return true;
+    case MEMBER_WORD: return read_word(view, key, member->words, (int)member->size, at, err);
     case MEMBER_IF: *(bool *)count = true; /* fall through */
     case MEMBER_OBJECT:
         return json_view_child(view, key, true, &inside, err) &&

@@ -15,6 +15,7 @@ typedef enum MemberKind {
     MEMBER_COUNT,   /* long, 0 or more */
     MEMBER_VERDICT,
     MEMBER_AMBIENT,
+    MEMBER_WORD,    /* an enum's, of `size` words at `words` */
     MEMBER_OBJECT,  /* members of the same struct, or of one in it */
     MEMBER_IF,      /* the same; null where the bool at `count` is false */
     MEMBER_TEXTS,   /* a pointer, and an int at `count` */
@@ -34,6 +35,7 @@ typedef struct Member {
     const struct Member *of; /* what is in an object, or in a list's items, */
     size_t        count;     /* offset, */
     size_t        size;      /* bytes of an item */
+    const char *const *words;
 } Member;
 
 /* A member under a key; and under its own name. */
@@ -41,6 +43,10 @@ typedef struct Member {
 #define LATER(key, KIND, Type, member)                                                         \
     {key, MEMBER_##KIND, .offset = offsetof(Type, member), .use = SINCE}
 #define OWN(KIND, Type, member) AS(#member, KIND, Type, member)
+#define LIST_OF_USE(use, key, Type, member, number, table, Item)                               \
+    {key, MEMBER_LIST, offsetof(Type, member), use, table, offsetof(Type, number),             \
+     sizeof(Item), NULL}
 #define LIST(key, Type, member, number, table, Item)                                           \
-    {key, MEMBER_LIST, offsetof(Type, member), ALWAYS, table, offsetof(Type, number),          \
-     sizeof(Item)}
+    LIST_OF_USE(ALWAYS, key, Type, member, number, table, Item)
+#define LIST_SINCE(key, Type, member, number, table, Item)                                     \
+    LIST_OF_USE(SINCE, key, Type, member, number, table, Item)

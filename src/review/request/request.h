@@ -65,6 +65,8 @@ typedef enum ReviewEyeKind { EYE_CAMERA, EYE_POINT, EYE_BOX, EYE_ELLIPSE } Revie
 typedef struct ReviewEye {
     const char   *name;
     ReviewEyeKind kind;
+    const char   *proposed_from;  /* by `--init` or `equip`, and nobody has said since that it
+                                     is right; NULL: it was given */
     const char   *camera;         /* camera: its name; NULL: camera_id counts it */
     int           camera_id;      /* camera: its index; NO_ID: it is named */
     double        position_m[3];  /* point; box, ellipse: its centre */

@@ -94,11 +94,13 @@ static bool check_form(const JsonView *view, const bool *has, Error *err)
 static bool read_eye(const FieldMembers *members, int i, ReviewEye *out, Error *err)
 {
     static const char *const keys[] = {"camera", "position_m", "centre_m", "half_size_m",
-                                       "ellipse_m", "grid", "tilt_deg"};
+                                       "ellipse_m", "grid", "tilt_deg", "proposed_from"};
     JsonView  view;
     ReviewEye eye = {.name = members->name[i], .camera_id = NO_ID};
     if (!json_view_child(&members->view, eye.name, true, &view, err) ||
-        !json_view_check_keys(&view, keys, COUNT_OF(keys), err))
+        !json_view_check_keys(&view, keys, COUNT_OF(keys), err) ||
+        (json_object_get(view.object, "proposed_from") &&
+         !field_name(&view, "proposed_from", &eye.proposed_from, err)))
         return false;
     bool has[COUNT_OF(keys)];
     for (int k = 0; k < COUNT_OF(keys); k++)

@@ -145,7 +145,10 @@ bool field_item(const JsonView *view, const char *key, int i, FieldWords keys, J
     const char *place = arena_format(view->arena, "%s/%d", key, i);
     if (!json_is_object(value))
         return json_view_wrong_kind(view, place, value, "an object", err);
-    *out = (JsonView){value, view->file, json_view_path(view, place), view->arena, view->root};
+    const char *path = json_view_path(view, place);
+    *out = *view;
+    out->object = value;
+    out->path = path;
     return json_view_check_keys(out, keys.word, keys.count, err);
 }
 

@@ -3,8 +3,6 @@
 
 #include <math.h>
 #include <string.h>
-#define XXH_INLINE_ALL
-#include <xxhash.h>
 
 #include "base/file.h"
 #include "review/request/request_conditions.h"
@@ -112,7 +110,6 @@ static bool read_tree(RequestReading *reading, Error *err)
     FileBytes   bytes;
     const char *file = reading->request->file;
     if (!file_read(file, JSON_FILE_BYTES_MAX, reading->root.arena, &bytes, err)) return false;
-    request_note_input(reading, file, XXH3_64bits(bytes.data, bytes.size));
     return gltf_json_parse((const char *)bytes.data, bytes.size, reading->root.arena,
                            &reading->tree, err) ||
            error_in_file(err, file);
@@ -137,6 +134,7 @@ bool review_request_read(const char *file, const char *root, Arena *arena, Probl
     RequestReading reading = {.problems = problems, .request = &request};
     if (!json_view_open(file, arena, &reading.root, err)) return false;
     reading.root.root = root;
+    request_note_input(&reading, file, reading.root.hash);
     bool ok = read_all(&reading, err);
     request.is_compared = review_is_compared(&request);
     json_view_close(&reading.root);

@@ -86,6 +86,15 @@ static bool is_eye(const ReviewWishes *wishes, const char *name)
     return !wishes || is_among(wishes->eyes, wishes->eye_count, name);
 }
 
+/* NULL: somebody gave it. */
+static const char *proposed_from(const ReviewWishes *wishes, const char *name, Arena *arena)
+{
+    if (!wishes) return arena_format(arena, "the model's camera '%s'", name);
+    for (int i = 0; i < wishes->eye_count; i++)
+        if (!strcmp(wishes->eyes[i], name)) return wishes->eyes_from[i];
+    return NULL;
+}
+
 static bool is_read(const ReviewWishes *wishes, const Display *display)
 {
     return display->content.texture_id != NO_ID &&
@@ -103,8 +112,11 @@ static bool add_eyes(json_t *document, const ReviewStart *start, const Scene *sc
         if (!camera->is_perspective || !is_eye(start->wishes, name)) continue;
         bool is_known = !*name || json_object_get(eyes, name);
         if (is_known) name = arena_format(arena, "camera %d", i);
-        json_object_set_new(eyes, name, is_known ? json_pack("{s:i}", "camera", i)
-                                                 : json_pack("{s:s}", "camera", name));
+        const char *from = proposed_from(start->wishes, name, arena);
+        json_t     *eye = is_known ? json_pack("{s:i}", "camera", i)
+                                   : json_pack("{s:s}", "camera", name);
+        if (from) json_object_set_new(eye, "proposed_from", json_text(from));
+        json_object_set_new(eyes, name, eye);
     }
     return json_object_size(eyes) > 0 ||
            error_at(err, ERROR_INPUT, scene->inputs[0], "",

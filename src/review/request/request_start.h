@@ -2,7 +2,7 @@
 /* request_start.h -- a REVIEW.json to start from: a scene's displays and eyes, a noon, a night
  * and a year.
  *
- * Every perspective camera is an eye. Every display that shows something has one symbol,
+ * Every perspective camera is an eye, marked as proposed. Every display that shows something has one symbol,
  * "find": "text" over what it shows of its content; one whose material several nodes wear has
  * one a node. Wishes set more, and put a sweep over every sun beside the noon.
  *
@@ -25,6 +25,7 @@ typedef struct ReviewWishes {
     const char         *profile;    /* a name, or a path as the new file has it */
     double              forward[3]; /* where the vehicle points, world */
     const char *const  *eyes;       /* the cameras that are eyes, by their nodes' names */
+    const char *const  *eyes_from;  /* what each was proposed from; NULL: it was given */
     int                 eye_count;  /* 1 or more */
     const char *const  *displays;   /* those that are to be read, by name */
     int                 display_count;

@@ -174,6 +174,7 @@ static void set_groups(const Chains *chains, ReviewCase *c, Arena *arena)
     for (int i = 0; i < CAUSE_GROUPS; i++) c->groups[i] = listed(&of[i]);
     double all = chains->all.cd_m2;
     c->without_data_share = all > 0 ? chains->groups.without_data / all : 0;
+    c->guessed_share = all > 0 ? chains->groups.guessed / all : 0;
 }
 
 /* ---- all of it --------------------------------------------------------------------------- */

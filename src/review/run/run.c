@@ -11,6 +11,7 @@
 #include "review/run/cases.h"
 #include "review/run/false_sun_times.h"
 #include "review/run/gazes.h"
+#include "review/run/rests.h"
 #include "review/run/sweep.h"
 #include "review/run/sweep_probes.h"
 #include "review/run/sweep_weather.h"
@@ -114,6 +115,7 @@ static bool run_moment(const ReviewRun *run, Setup *setup, Arena *scratch, Arena
         !setup_learn(setup, symbols, tools.symbol_count, scratch, err))
         return false;
     tools.symbols = symbols;
+    rests_add_masks(symbols, tools.symbol_count, review, arena);
     run->work->total = work_of_moment(run, tools.symbol_count);
     work_add(run->work, WORK_SETUP - WORK_OPENED);
     ReviewCase *cases = review->cases + review->case_count;
@@ -218,6 +220,8 @@ static bool run_condition(const ReviewRun *run, const ReviewCondition *condition
         work_add(run->work, WORK_OPENED);
         if (run->news.read) run->news.read(run->news.user, setup.scene);
         report_without_data(setup.scene, &out->review, scratch, arena);
+        rests_add_scene(run->request, setup.scene, &out->review, arena);
+        rests_add_scene_files(setup.scene, &out->review, arena);
         ok = (review_request_check(run->request, setup.scene, run->problems) ||
               problems_verdict(run->problems, err)) &&
              check_planned(run, &setup, scratch, err) &&
@@ -433,6 +437,7 @@ bool review_run(const ReviewRun *run, Arena *arena, ReviewOutcome *out, Error *e
     with.sun_searches = &searches;
     if (run->share.count) with.rider_count = 0;
     start(run, run->request, out, arena);
+    rests_add_request(run->request, run->profile, &out->review, arena);
     for (int i = 0; i < with.rider_count; i++)
         start(run, run->riders[i].request, run->riders[i].outcome, arena);
     bool ok = run_conditions(&with, arena, out, err);

@@ -10,6 +10,7 @@
 #include "review/keep/journal.h"
 #include "review/pace/work.h"
 #include "review/run/false_sun_times.h"
+#include "review/run/rests.h"
 #include "review/run/sun_figures.h"
 #include "review/run/sweep_probes.h"
 #include "review/run/sweep_weather.h"
@@ -534,6 +535,7 @@ static bool sweep_all(Sweep *sweep, const SweepGroup *group, Arena *scratch, Are
                       ReviewOutcome *out, Error *err)
 {
     if (!sweep_place_probes(sweep, scratch, err)) return false;
+    rests_add_masks(sweep->symbols, sweep->symbol_count, &out->review, arena);
     plan_work(sweep, group, *scratch);
     work_add(sweep->run->work, WORK_SETUP - WORK_OPENED);
     if (!sweep_make_probes(sweep, scratch, err)) return false;

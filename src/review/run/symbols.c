@@ -5,6 +5,7 @@
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
+#include "base/file.h"
 #include "render/identity.h"
 #include "review/request/request_check.h"
 #include "review/symbol/text_find.h"
@@ -44,13 +45,17 @@ static bool add_symbol(SymbolList *list, SetupSymbol symbol, const SymbolQuestio
     return true;
 }
 
-static bool read_mask(const ReviewSymbol *asked, Image *mask, const Image **out, Arena *arena,
+#define MASK_BYTES_MAX ((size_t)1 << 30)
+
+/* Without one *file and *mask stay as they are. */
+static bool read_mask(const ReviewSymbol *asked, ReviewInput *file, Image *mask, Arena *arena,
                       Error *err)
 {
-    *out = NULL;
+    FileBytes bytes;
     if (!asked->mask) return true;
-    *out = mask;
-    return image_read(asked->mask, arena, mask, err);
+    if (!file_read(asked->mask, MASK_BYTES_MAX, arena, &bytes, err)) return false;
+    *file = (ReviewInput){asked->mask, XXH3_64bits(bytes.data, bytes.size)};
+    return image_read_memory(bytes.data, bytes.size, asked->mask, arena, mask, err);
 }
 
 /* As a journal keeps it. */
@@ -115,7 +120,8 @@ static bool add_asked(SymbolList *list, int id, Arena *arena, Error *err)
                                .content = shown_content(scene, &symbol.display),
                                .uv = {0, 0, 1, 1}, .polarity = polarity_of(list->setup, id)};
     if (asked->has_uv) memcpy(question.uv, asked->uv, sizeof question.uv);
-    if (!read_mask(asked, &mask, &question.mask, arena, err)) return false;
+    if (!read_mask(asked, &symbol.mask, &mask, arena, err)) return false;
+    if (symbol.mask.path) question.mask = &mask;
     if (asked->find_text) return add_found(list, &symbol, &question, arena, err);
     return add_symbol(list, symbol, &question, arena, err);
 }

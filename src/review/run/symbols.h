@@ -20,6 +20,7 @@ typedef struct SetupSymbol {
     ReviewDisplay display;
     SymbolSurface surface;
     SymbolSplit   split;
+    ReviewInput   mask; /* the file that was read; path NULL: none */
 } SetupSymbol;
 
 /* The middle of its rectangle; where no triangle shows that, the surface's first point. */

@@ -9,6 +9,7 @@
 #include "review/output/review_decide.h"
 #include "review/request/request_check.h"
 #include "review/request/request_parameters.h"
+#include "review/run/rests.h"
 #include "review/run/run.h"
 #include "scene/load/scene_load.h"
 
@@ -233,6 +234,7 @@ bool review_variants(const ReviewRun *run, ReviewOutcome *outcome, Arena *arena,
     for (int i = 0; i < request->variant_count; i++) {
         if (!review_variant(run, &request->variants[i], review, arena, &list[i], err))
             return false;
+        rests_add_files_of(list[i].review, review, arena);
     }
     review->variants = list;
     review->variant_count = request->variant_count;

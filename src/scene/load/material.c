@@ -228,6 +228,14 @@ static int add_material(Loader *load, Material material, const int sets[SCENE_UV
     return load->materials.count - 1;
 }
 
+/* The mark that `equip` leaves; who measured the material since has left it behind. */
+static const char *guess_of(GltfFile *file, const GltfValue *value, const Material *m)
+{
+    const char *usual = tree_text(tree_member(value, "extras"), "equipped as", "");
+    bool is_measured = m->base_color_curve_id != NO_ID || m->glazing || m->conductor;
+    return usual[0] && !is_measured ? load_keep(file->load, usual) : NULL;
+}
+
 static void build_material(GltfFile *file, const GltfValue *value)
 {
     Loader *load = file->load;
@@ -240,6 +248,7 @@ static void build_material(GltfFile *file, const GltfValue *value)
     measured_index_build(file, value, &m);
     glazing_build(file, tree_extension(value, "PARHELION_glazing"), &m);
     m.coating = coating_read(file, tree_extension(value, "PARHELION_coating"));
+    m.guessed_as = guess_of(file, value, &m);
     add_material(load, m, (int[SCENE_UV_SETS]){0, 1});
     if (display) display_build(file, display, id);
     Material *added = list_item(&load->materials, id);

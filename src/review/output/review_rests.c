@@ -1,0 +1,171 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "review/output/review_rests.h"
+
+#include <math.h>
+
+#include "review/output/review_decide.h"
+#include "review/output/review_words.h"
+#include "text/text.h"
+
+#define NAMES_LISTED 3
+
+/* ---- counting ---------------------------------------------------------------------------- */
+
+/* Of one kind and basis. */
+static long count_of(const Review *review, RestKind kind, RestBasis basis)
+{
+    long count = 0;
+    for (int i = 0; i < review->rests_on_count; i++) {
+        const ReviewRest *r = &review->rests_on[i];
+        if (r->kind == kind && r->basis == basis) count += r->count;
+    }
+    return count;
+}
+
+static const ReviewRest *first_of(const Review *review, RestKind kind)
+{
+    for (int i = 0; i < review->rests_on_count; i++)
+        if (review->rests_on[i].kind == kind) return &review->rests_on[i];
+    return NULL;
+}
+
+/* "speed, centre and 3 more" */
+static const char *names_of(const Review *review, RestKind kind, RestBasis basis, Arena *arena)
+{
+    Text text = {.arena = arena};
+    int  all = 0, listed = 0;
+    for (int i = 0; i < review->rests_on_count; i++)
+        all += review->rests_on[i].kind == kind && review->rests_on[i].basis == basis;
+    for (int i = 0; i < review->rests_on_count && listed < NAMES_LISTED; i++) {
+        const ReviewRest *r = &review->rests_on[i];
+        if (r->kind != kind || r->basis != basis) continue;
+        text_format(&text, "%s%s", listed ? ", " : "", r->name ? r->name : "?");
+        listed++;
+    }
+    if (listed < all) text_format(&text, " and %d more", all - listed);
+    return text.data ? text.data : "";
+}
+
+static void part(Text *line, const char *words)
+{
+    if (words[0]) text_format(line, "%s%s", line->size ? "; " : "", words);
+}
+
+/* ---- panels ------------------------------------------------------------------------------ */
+
+static const char *panel_words(const Review *review, RestBasis basis, Arena *arena)
+{
+    long        count = count_of(review, REST_PANEL, basis);
+    const char *names = names_of(review, REST_PANEL, basis, arena);
+    if (!count) return "";
+    if (basis == REST_NOT_STATED)
+        return arena_format(arena, "panel%s whose file does not state a measurement (%s)",
+                            count == 1 ? "" : "s", names);
+    return count == 1 ? arena_format(arena, "a synthetic panel (%s)", names)
+                      : arena_format(arena, "synthetic panels (%s)", names);
+}
+
+/* One by one, each with who measured it. */
+static void add_measured(Text *line, const Review *review, Arena *arena)
+{
+    for (int i = 0; i < review->rests_on_count; i++) {
+        const ReviewRest *r = &review->rests_on[i];
+        if (r->kind != REST_PANEL || r->basis != REST_MEASURED) continue;
+        part(line, arena_format(arena, "a measured panel (%s: %s)", r->name ? r->name : "?",
+                                r->words ? r->words : "?"));
+    }
+}
+
+static void add_panels(Text *line, const Review *review, Arena *arena)
+{
+    add_measured(line, review, arena);
+    part(line, panel_words(review, REST_SYNTHETIC, arena));
+    part(line, panel_words(review, REST_NOT_STATED, arena));
+}
+
+/* ---- materials --------------------------------------------------------------------------- */
+
+static double greatest_share(const Review *review, RestBasis basis)
+{
+    double most = 0;
+    for (int i = 0; i < review_case_count(review); i++) {
+        const ReviewCase *c = review_case_at(review, i);
+        most = fmax(most, basis == REST_GUESSED ? c->guessed_share : c->without_data_share);
+    }
+    return most;
+}
+
+static void add_materials(Text *line, const Review *review, RestBasis basis, Arena *arena)
+{
+    long        count = count_of(review, REST_MATERIAL, basis);
+    const char *share = words_share(greatest_share(review, basis), arena);
+    const char *plural = count == 1 ? "" : "s";
+    if (!count) return;
+    part(line, basis == REST_GUESSED
+                   ? arena_format(arena, "%ld guessed material%s (up to %s of the light on a "
+                                         "symbol)", count, plural, share)
+                   : arena_format(arena, "%ld material%s without optical data, taken as "
+                                         "perfectly white (up to %s of the light on a symbol)",
+                                  count, plural, share));
+}
+
+static void add_all_materials(Text *line, const Review *review, Arena *arena)
+{
+    add_materials(line, review, REST_GUESSED, arena);
+    add_materials(line, review, REST_WITHOUT_DATA, arena);
+    if (!first_of(review, REST_MATERIAL)) part(line, "materials as the model states them");
+}
+
+/* ---- eyes, occupants, limits ------------------------------------------------------------- */
+
+static void add_eyes(Text *line, const Review *review, Arena *arena)
+{
+    long given = count_of(review, REST_EYE, REST_GIVEN);
+    long proposed = count_of(review, REST_EYE, REST_PROPOSED);
+    if (!proposed) {
+        part(line, given == 1 ? "the eye as given" : "eyes as given");
+        return;
+    }
+    const char *names = names_of(review, REST_EYE, REST_PROPOSED, arena);
+    part(line, arena_format(arena, "proposed eye%s (%s)%s", proposed == 1 ? "" : "s", names,
+                            given ? ", the others as given" : ""));
+}
+
+static void add_occupants(Text *line, const Review *review, Arena *arena)
+{
+    const ReviewRest *first = first_of(review, REST_OCCUPANT);
+    long empty = count_of(review, REST_OCCUPANT, REST_NOBODY);
+    if (!first) return;
+    if (empty == first->of) {
+        part(line, "no occupant named");
+        return;
+    }
+    const char *names = names_of(review, REST_OCCUPANT, REST_PRESENT, arena);
+    part(line, empty ? arena_format(arena, "occupants: %s (none under %ld of %ld "
+                                           "conditions)", names, empty, first->of)
+                     : arena_format(arena, "occupants: %s", names));
+}
+
+static void add_limits(Text *line, const Review *review, Arena *arena)
+{
+    const ReviewRest *limits = first_of(review, REST_LIMITS);
+    if (!limits) return;
+    if (!limits->of) part(line, "a profile that sets no limit");
+    else if (limits->count == limits->of) part(line, "limits as read in the standard");
+    else if (!limits->count) part(line, "limits as quoted, none read in the standard");
+    else
+        part(line, arena_format(arena, "limits as quoted, %ld of %ld read in the standard",
+                                limits->count, limits->of));
+}
+
+const char *review_rests_words(const Review *review, Arena *arena)
+{
+    Text line = {.arena = arena};
+    if (!review->rests_on_count) return "";
+    add_panels(&line, review, arena);
+    add_all_materials(&line, review, arena);
+    add_eyes(&line, review, arena);
+    add_occupants(&line, review, arena);
+    add_limits(&line, review, arena);
+    return line.data;
+}

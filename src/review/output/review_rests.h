@@ -1,0 +1,13 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* review_rests.h -- what a review rests on, in one line that all outputs share.
+ *
+ * Memory   the arena's. Texts are UTF-8 and not escaped. Threads: pure. Fails: never.
+ */
+#pragma once
+#include "base/arena.h"
+#include "review/verdict.h"
+
+/* "a synthetic panel (cluster); 11 guessed materials (up to 62 % of the light on a symbol); ...";
+ * shares are the greatest of this review's cases, which may be a part of another's. "": nothing
+ * is known, as of a review of an older version. */
+const char *review_rests_words(const Review *review, Arena *arena);
