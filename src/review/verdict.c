@@ -6,6 +6,8 @@
 const char *const verdict_names[4] = {"pass", "fail", "too close", "not visible"};
 const char *const ambient_names[4] = {"night", "twilight", "day", "sun"};
 
+const char *const remedy_kinds[REMEDY_KINDS] = {"brightness", "tilt",  "hood",
+                                                "coating",    "panel", "trim"};
 const char *const rest_kinds[REST_KINDS] = {"panel", "material", "eye", "occupant", "limits"};
 const char *const rest_bases[REST_BASES] = {
     "measured", "synthetic", "not stated", "guessed", "without data", "given",

@@ -100,10 +100,20 @@ typedef struct CaseView {
     int    width, height;           /* pixels */
 } CaseView;
 
-/* A change that would mend the case. NaN: the figure has no meaning. */
+/* What a designer could change, in the order in which it is told. */
+typedef enum RemedyKind {
+    REMEDY_BRIGHTNESS, REMEDY_TILT, REMEDY_HOOD, REMEDY_COATING, REMEDY_PANEL, REMEDY_TRIM,
+    REMEDY_KINDS
+} RemedyKind;
+extern const char *const remedy_kinds[REMEDY_KINDS]; /* "brightness", "tilt", ... */
+
+/* A change that would mend the case, or help. */
 typedef struct CaseRemedy {
+    RemedyKind  kind;
     const char *what;
-    double contrast_ratio, level;
+    double      contrast_ratio; /* with it; NaN: a direction to try, nothing that is known says
+                                   how much it gives */
+    double      level;          /* of the display with it; NaN: the figure has no meaning */
 } CaseRemedy;
 
 /* How much the view disturbs (vision/discomfort.h): secondary figures. */
@@ -174,7 +184,10 @@ typedef struct ReviewCase {
     CaseGroup groups[CAUSE_GROUPS];
     double  without_data_share;  /* of the reflected light, by way of materials without data, */
     double  guessed_share;       /* and of such as `equip` guessed */
-    const CaseRemedy *remedies;
+    const char *empty_seat;      /* its back, behind an eye where nobody sits, by which much of
+                                    the reflected light comes; NULL: none */
+    double  empty_seat_share;    /* of the reflected light */
+    const CaseRemedy *remedies;  /* by their kinds */
     int     remedy_count;
     const char *frame;           /* picture's name within the folder; NULL: none was rendered */
     const CaseView *view;        /* of the frame; NULL: not known */

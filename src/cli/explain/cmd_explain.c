@@ -217,9 +217,11 @@ static void print_causes(const ReviewCase *c, Arena scratch)
 static void print_remedies(const ReviewCase *c)
 {
     if (c->remedy_count) printf("\n");
-    for (int i = 0; i < c->remedy_count; i++)
-        printf("would mend %s: contrast %.3g : 1\n", c->remedies[i].what,
-               c->remedies[i].contrast_ratio);
+    for (int i = 0; i < c->remedy_count; i++) {
+        const CaseRemedy *r = &c->remedies[i];
+        if (isnan(r->contrast_ratio)) printf("to try     %s\n", r->what);
+        else printf("would mend %s: contrast %.3g : 1\n", r->what, r->contrast_ratio);
+    }
 }
 
 static void print_text(const Explained *explained, Arena *arena)
@@ -234,6 +236,8 @@ static void print_text(const Explained *explained, Arena *arena)
     print_light(explained, *arena);
     print_groups(&explained->of);
     print_causes(&explained->of, *arena);
+    const char *seat = words_empty_seat(&explained->of, arena);
+    if (seat[0]) printf("\nnote       %s\n", seat);
     print_remedies(&explained->of);
     if (explained->has_outlook) printf("\nsees       %s\n", outlook_words(&explained->outlook,
                                                                           arena));
@@ -287,7 +291,8 @@ static json_t *json_remedies(const ReviewCase *c)
     json_t *out = json_array();
     for (int i = 0; i < c->remedy_count; i++)
         json_array_append_new(out, json_pack(
-            "{s:o, s:o, s:o}", "what", json_text(c->remedies[i].what), "contrast_ratio",
+            "{s:s, s:o, s:o, s:o}", "kind", remedy_kinds[c->remedies[i].kind], "what",
+            json_text(c->remedies[i].what), "contrast_ratio",
             json_figure(c->remedies[i].contrast_ratio), "level",
             json_figure(c->remedies[i].level)));
     return out;

@@ -33,6 +33,7 @@ typedef struct ChainChunk {
     BrightSamples bright; /* as all */
     double     *by_part;
     ChainGroups groups;
+    PlaceSums   places;
     uint32_t    draws;
 } ChainChunk;
 
@@ -216,6 +217,8 @@ static void on_light(void *user, const PathHistory *history, const float xyz[3])
         sums->own += y;
     add_parts(to, history, y);
     add_groups(to, history, y);
+    if (display != NO_ID && to->search->ask->places)
+        place_add(to->search->ask->places, to->search->alike, history, y, &sums->places);
     if (!chain) return;
     chain->sum += y;
     bright_add(&chain->bright, y);
@@ -378,6 +381,7 @@ static ChainChunk *fresh_sums(int count, const Scene *scene, Arena *arena)
         sums[i].table = ARENA_NEW(arena, ChunkChain, CHUNK_ROOM);
         sums[i].by_part = ARENA_NEW(arena, double, scene->part_count);
         sums[i].groups = fresh_groups(scene, arena);
+        sums[i].places = place_sums(scene, arena);
     }
     return sums;
 }
@@ -489,7 +493,7 @@ Chains chains_find(const ChainAsk *ask, Arena *arena)
     Arena  own = arena_reserve(OWN_BYTES);
     Chains out = {.scene = scene, .list = ARENA_NEW(arena, Chain, ask->most),
                   .by_part = ARENA_NEW(arena, double, scene->part_count),
-                  .groups = fresh_groups(scene, arena),
+                  .groups = fresh_groups(scene, arena), .places = place_sums(scene, arena),
                   .alike = alike_parts(scene, arena), .paths = (long)chunks * CHAIN_CHUNK};
     ChainSearch search = {.ask = ask, .scene = scene, .alike = out.alike,
                           .lacks_data = parts_without_data(scene, &own),
@@ -510,6 +514,8 @@ Chains chains_find(const ChainAsk *ask, Arena *arena)
                     1.0 / CHAIN_CHUNK / chunks);
             merge_groups(&out.groups, &search.sums[i].groups, scene,
                          1.0 / CHAIN_CHUNK / chunks);
+            place_merge(&search.sums[i].places, scene->part_count, 1.0 / CHAIN_CHUNK / chunks,
+                        &out.places);
         }
     }
     out.all = figure_of(&found.all, &search);

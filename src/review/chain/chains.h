@@ -17,6 +17,7 @@
  * Threads  starts its own; the same figures and rays for any count.
  */
 #pragma once
+#include "review/chain/places.h"
 #include "review/light/reading.h"
 
 #define CHAIN_CHUNK 64 /* paths of a chunk */
@@ -89,6 +90,7 @@ typedef struct Chains {
     double     *by_part; /* cd m^-2 that came by each part of the scene, surface or pane, behind
                             what is seen first; of parts that count as one at their first */
     ChainGroups groups;
+    PlaceSums   places; /* of an ask that has some */
     const int  *alike;  /* [part] the first of those that count as one */
     long        paths;
 } Chains;
@@ -99,6 +101,7 @@ typedef struct ChainAsk {
     long                paths;       /* at least CHAIN_PATHS_LEAST; rounded up to a chunk */
     int                 most;        /* chains that are kept */
     bool                with_direct; /* sources that the eye sees by themselves count, too */
+    const ChainPlaces  *places;      /* light that comes by these is kept apart; NULL: none */
     bool                with_first_pane; /* a pane before the first surface is in the key */
 } ChainAsk;
 

@@ -237,24 +237,21 @@ static void add_why(Text *html, const ReviewAnswer *answer, const ReviewCase *c,
                                words_chain(&c->causes[0], arena)));
     const char *without = words_without_data(answer->review, c, arena);
     if (without[0]) page_fact(html, "No data", without);
+    const char *seat = words_empty_seat(c, arena);
+    if (seat[0]) page_fact(html, "Empty seat", seat);
 }
 
-/* A remedy must raise the contrast above its interval. */
-static bool mends(const ReviewCase *c, const CaseRemedy *r)
-{
-    return r->contrast_ratio > c->contrast_high;
-}
-
-/* The one that gives most contrast first. */
+/* In their order; directions to try, of which no figure is known, come last. */
 static const CaseRemedy *next_mend(const ReviewCase *c, const bool *is_listed)
 {
-    const CaseRemedy *best = NULL;
+    const CaseRemedy *to_try = NULL;
     for (int i = 0; i < c->remedy_count; i++) {
         const CaseRemedy *r = &c->remedies[i];
-        bool is_more = !best || !(best->contrast_ratio >= r->contrast_ratio);
-        if (!is_listed[i] && mends(c, r) && is_more) best = r;
+        if (is_listed[i]) continue;
+        if (!isnan(r->contrast_ratio)) return r;
+        if (!to_try) to_try = r;
     }
-    return best;
+    return to_try;
 }
 
 static void add_mend(Text *html, int *listed, const char *words)
@@ -286,8 +283,9 @@ static void add_mends(Text *html, const Review *review, const ReviewCase *c, Are
         const CaseRemedy *r = next_mend(c, is_listed);
         if (!r) return;
         is_listed[r - c->remedies] = true;
-        add_mend(html, &listed,
-                 arena_format(arena, "%s: %s", r->what, words_ratio(r->contrast_ratio, arena)));
+        const char *gives = isnan(r->contrast_ratio) ? "a direction to try"
+                                                     : words_ratio(r->contrast_ratio, arena);
+        add_mend(html, &listed, arena_format(arena, "%s: %s", r->what, gives));
     }
 }
 

@@ -228,6 +228,8 @@ static void add_causes(Text *html, const ReviewCard *card, Arena *arena)
     if (c->cause_count == 0) return;
     text_add(html, "<div><h4>Where the light that washes it out comes from</h4>\n");
     add_groups(html, c, arena);
+    const char *seat = words_empty_seat(c, arena);
+    if (seat[0]) page_element(html, "p class=\"sub seat\"", seat);
     add_cause_list(html, card, 0, first, arena);
     if (first < c->cause_count) {
         page_more_begin(html, arena_format(arena, "%d more ways", c->cause_count - first));
@@ -246,10 +248,11 @@ static const char *remedy_result(const CaseRemedy *r, Arena *arena)
 {
     const char *ratio = arena_format(arena, "contrast %s",
                                      words_ratio(r->contrast_ratio, arena));
+    if (isnan(r->contrast_ratio))
+        return "a direction to try: what is known says not how much it gives";
     const char *level = arena_format(arena, "brightness %s of what was measured",
                                      words_share(r->level, arena));
-    if (isnan(r->level)) return isnan(r->contrast_ratio) ? "" : ratio;
-    return isnan(r->contrast_ratio) ? level : arena_format(arena, "%s, %s", ratio, level);
+    return isnan(r->level) ? ratio : arena_format(arena, "%s, %s", ratio, level);
 }
 
 static void add_remedies(Text *html, const ReviewCase *c, Arena *arena)

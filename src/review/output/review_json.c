@@ -46,9 +46,11 @@ static const Member GROUPS[] = {
 static const Member HIDER[] = {OWN(TEXT, CaseHider, what), OWN(FIGURE, CaseHider, share),
                                {0}};
 
-static const Member REMEDY[] = {OWN(TEXT, CaseRemedy, what),
-                                OWN(FIGURE, CaseRemedy, contrast_ratio),
-                                OWN(FIGURE, CaseRemedy, level), {0}};
+static const Member REMEDY[] = {
+    {"kind", MEMBER_WORD, offsetof(CaseRemedy, kind), .use = SINCE, .size = REMEDY_KINDS,
+     .words = remedy_kinds},
+    OWN(TEXT, CaseRemedy, what), OWN(FIGURE, CaseRemedy, contrast_ratio),
+    OWN(FIGURE, CaseRemedy, level), {0}};
 
 static const Member LUMINANCE[] = {
     OWN(FIGURE, CaseLuminances, foreground), OWN(FIGURE, CaseLuminances, background),
@@ -105,6 +107,8 @@ static const Member CASE[] = {
     {"without_data_share", MEMBER_FIGURE, offsetof(ReviewCase, without_data_share),
      .use = WRITTEN},
     {"guessed_share", MEMBER_FIGURE, offsetof(ReviewCase, guessed_share), .use = WRITTEN},
+    LATER("empty_seat", TEXT, ReviewCase, empty_seat),
+    LATER("empty_seat_share", FIGURE, ReviewCase, empty_seat_share),
     LIST("remedies", ReviewCase, remedies, remedy_count, REMEDY, CaseRemedy),
     OWN(TEXT, ReviewCase, frame), OWN(TEXT, ReviewCase, outlook), OWN(TEXT, ReviewCase, when),
     {0}};

@@ -308,6 +308,15 @@ const char *words_without_data(const Review *review, const ReviewCase *c, Arena 
                         count == 1 ? "" : "s", review->without_data);
 }
 
+const char *words_empty_seat(const ReviewCase *c, Arena *arena)
+{
+    if (!c->empty_seat) return "";
+    return arena_format(arena, "nobody sits in the %s's seat: its back, %s, causes %s of what "
+                               "is reflected; add an occupant: `equip`, or \"with\" in the "
+                               "request", c->eye ? c->eye : "driver", c->empty_seat,
+                        words_share(c->empty_seat_share, arena));
+}
+
 /* The last trial at a value: one by fresh paths overrides. NULL: there is none. */
 static const ReviewTrial *trial_at(const ReviewMend *mend, double value)
 {

@@ -110,6 +110,10 @@ const char *words_precision(const ReviewCase *c, Arena *arena);
 /* " 62 % of it came by way of 9 materials without optical data ..."; "" where all have some. */
 const char *words_without_data(const Review *review, const ReviewCase *c, Arena *arena);
 
+/* "nobody sits in the driver's seat: its back, Seat_L (leather), causes 96 % of what is
+ * reflected; add an occupant: `equip`"; "": somebody does, or it matters little. */
+const char *words_empty_seat(const ReviewCase *c, Arena *arena);
+
 /* "glass Window_FL: through → seat FrontSeat_L: scatters" */
 const char *words_chain(const CaseCause *cause, Arena *arena);
 

@@ -17,8 +17,8 @@
 #include "review/output/review_decide.h"
 #include "review/pace/work.h"
 #include "review/request/request_check.h"
-#include "review/run/causes.h"
 #include "review/run/glare_found.h"
+#include "review/run/remedies.h"
 #include "text/text.h"
 #include "vision/grey_steps.h"
 
@@ -391,6 +391,14 @@ static int worst_point(const CaseTools *tools, const CaseLook *look, const Vec3 
     return at;
 }
 
+static RemedyAsk remedies_of(const CaseTools *tools, const SetupSymbol *symbol,
+                             const ProbeAim *aim)
+{
+    const Setup *setup = tools->setup;
+    return (RemedyAsk){&setup->tools, aim, symbol, setup->request->forward,
+                       setup->condition && setup->condition->with_id != NO_ID};
+}
+
 static bool case_of(const CaseTools *tools, const CaseAsk *ask, Arena *arena, ReviewCase *out,
                     Error *err)
 {
@@ -408,9 +416,11 @@ static bool case_of(const CaseTools *tools, const CaseAsk *ask, Arena *arena, Re
     if (aim.target_count && !ask->is_bare) {
         long     paths = tools->cause_paths ? tools->cause_paths : CAUSE_PATHS;
         int      rays = tools->cause_rays ? tools->cause_rays : CAUSE_RAYS;
-        CauseAsk causes = {&tools->setup->tools, &aim, paths, rays, false, false};
+        RemedyAsk   remedies = remedies_of(tools, ask->symbol, &aim);
+        ChainPlaces places = remedy_places(&remedies);
+        CauseAsk causes = {&tools->setup->tools, &aim, paths, rays, &places, false, false};
         CauseFacts facts = case_causes(&causes, &c, arena);
-        case_remedies(&facts, &c, arena);
+        case_remedies(&remedies, &facts, &c, arena);
     }
     *out = c;
     return true;

@@ -8,7 +8,6 @@
 #include "review/chain/chains.h"
 
 #define LEAST_PART 0.01 /* of what is reflected: a part that is worth a word */
-#define COATED 0.25 /* of a mirror's light that a usual anti-reflection coating leaves */
 
 /* ---- causes ------------------------------------------------------------------------------ */
 
@@ -46,30 +45,28 @@ static CaseCause all_other(const Chains *chains, const ReviewCase *c, Arena *are
     return cause;
 }
 
-/* Adds the surface or (of_panes) the pane by which most light comes. */
-static void add_part(const Chains *chains, bool of_panes, CauseFacts *facts, Arena *arena)
+/* The part by which most of `by_part` comes; what: NULL where that is not worth a word. all:
+ * what comes by each part at all, of which most must come so. */
+static CausePart greatest_part(const Chains *chains, const double *by_part, const double *all,
+                               Arena *arena)
 {
-    const Scene *scene = chains->scene;
-    int          most = NO_ID;
-    for (int i = 0; i < scene->part_count; i++) {
-        const Material *m = &scene->materials[scene->parts[i].material_id];
-        if (m->lets_light_through != of_panes || m->display_id != NO_ID) continue;
-        if (most == NO_ID || chains->by_part[i] > chains->by_part[most]) most = i;
-    }
-    if (most == NO_ID || !(chains->by_part[most] > LEAST_PART * chains->all.cd_m2)) return;
-    const char *name = chain_part_words(scene, most, arena);
-    facts->parts[facts->part_count++] =
-        (CausePart){arena_format(arena, of_panes ? "%s covered, in black"
-                                                 : "%s black, without gloss", name),
-                    chains->by_part[most]};
+    int most = NO_ID;
+    for (int i = 0; i < chains->scene->part_count; i++)
+        if (2 * by_part[i] > all[i] && (most == NO_ID || by_part[i] > by_part[most])) most = i;
+    if (most == NO_ID || !(by_part[most] > LEAST_PART * chains->all.cd_m2))
+        return (CausePart){NULL, 0};
+    return (CausePart){chain_part_words(chains->scene, most, arena), all[most]};
 }
 
 static CauseFacts facts_of(const Chains *chains, Arena *arena)
 {
+    const PlaceSums *places = &chains->places;
     CauseFacts facts = {.own_cd_m2 = chains->own, .all = chains->all,
                         .mirror = chains->mirror};
-    add_part(chains, true, &facts, arena);
-    add_part(chains, false, &facts, arena);
+    facts.trim = greatest_part(chains, places->by_trim, chains->by_part, arena);
+    facts.seat = greatest_part(chains, places->by_seat, places->by_seat, arena);
+    for (int i = 0; i < PLACE_HOODS; i++) facts.hooded[i] = places->hooded[i];
+    for (int i = 0; i < 3; i++) facts.arrives[i] = places->arrives[i];
     return facts;
 }
 
@@ -191,7 +188,8 @@ CauseFacts case_causes(const CauseAsk *ask, ReviewCase *c, Arena *arena)
     CaseCause *causes = ARENA_NEW(arena, CaseCause, CAUSES_MOST + 1);
     Arena    scratch = arena_reserve((size_t)1 << 28);
     ChainAsk chain_ask = {.aim = ask->aim, .tools = ask->tools, .paths = ask->paths,
-                          .most = CAUSES_MOST, .with_direct = ask->with_direct};
+                          .most = CAUSES_MOST, .with_direct = ask->with_direct,
+                          .places = ask->places};
     Chains   chains = chains_find(&chain_ask, &scratch);
     if (ask->sets_luminances) set_luminances(&chains, &c->luminance_cd_m2);
     for (int i = 0; i < chains.count; i++) {
@@ -242,47 +240,4 @@ void case_hiders(const SymbolSurface *surface, const PathContext *context, Vec3 
                       hiding.by_part[i]);
     qsort(list, (size_t)c->hider_count, sizeof *list, compare_hiders);
     c->hiders = list;
-}
-
-/* ---- remedies ---------------------------------------------------------------------------- */
-
-/* The display's own light that comes back to it grows with its brightness. */
-static double contrast(const CaseLuminances *l, double brighter, double reflected)
-{
-    return luminance_contrast(brighter * l->foreground, brighter * l->background, reflected);
-}
-
-/* By how much the display must be brighter for a contrast,
- * (H x + R + O x) / (L x + R + O x) = C, O its own light that is reflected, R all other;
- * NaN: no brightness does it. */
-static double brighter_for(const CaseLuminances *l, double own, double wanted)
-{
-    double high = fmax(l->foreground, l->background), low = fmin(l->foreground, l->background);
-    double gain = high + own - wanted * (low + own);
-    return gain > 0 ? (l->reflected - own) * (wanted - 1) / gain : (double)NAN;
-}
-
-void case_remedies(const CauseFacts *facts, ReviewCase *c, Arena *arena)
-{
-    const CaseLuminances *l = &c->luminance_cd_m2;
-    CaseRemedy *list = ARENA_NEW(arena, CaseRemedy, 4);
-    if (c->limit_id < 0 || !(c->margin < 0) || !(c->visible_share > 0)) return;
-    double own = fmin(facts->own_cd_m2, l->reflected);
-    double wanted = c->limits[c->limit_id].value, brighter = brighter_for(l, own, wanted);
-    if (brighter > 1)
-        list[c->remedy_count++] = (CaseRemedy){
-            arena_format(arena, "the display %.3g times as bright", brighter),
-            contrast(l, brighter, l->reflected + (brighter - 1) * own), c->level * brighter};
-    if (l->mirror > 0)
-        list[c->remedy_count++] = (CaseRemedy){
-            "a coating that leaves a quarter of the mirror's light",
-            contrast(l, 1, l->reflected - (1 - COATED) * l->mirror), c->level};
-    for (int i = 0; i < facts->part_count; i++) {
-        const CausePart *part = &facts->parts[i];
-        list[c->remedy_count++] = (CaseRemedy){
-            arena_format(arena, "%s (%.0f %% of what is reflected comes by it)", part->what,
-                         100 * fmin(part->cd_m2 / l->reflected, 1)),
-            contrast(l, 1, fmax(l->reflected - part->cd_m2, 0)), c->level};
-    }
-    c->remedies = list;
 }

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* causes.h -- by which chains of objects light comes to a symbol, what hides it, and what would
- * mend it.
+/* causes.h -- by which chains of objects light comes to a symbol, and what hides it.
  *
  * The chains are those of review/chain. Light that the display itself emits straight to the eye
  * is none of it.
@@ -23,32 +22,31 @@ typedef struct CauseAsk {
     const ProbeAim     *aim;
     long                paths;
     int                 rays;        /* of each cause, at most CHAIN_RAYS */
+    const ChainPlaces  *places;      /* or NULL */
     bool                with_direct; /* what the eye sees by itself counts, too */
     bool                sets_luminances; /* the case has no reading: these paths give what is
                                             reflected */
 } CauseAsk;
 
-/* A surface or pane that could be made black. */
+/* A node and its material; `what` NULL: none is worth a word. */
 typedef struct CausePart {
-    const char *what;  /* to do with it */
-    double      cd_m2; /* all reflected light that comes by it */
+    const char *what;
+    double      cd_m2; /* reflected light that comes by it */
 } CausePart;
 
-/* Input of the remedies besides the case. */
+/* Input of the remedies besides the case (run/remedies.h). Without places 0 from `trim` on. */
 typedef struct CauseFacts {
     double      own_cd_m2;  /* reflected light that began at the display itself */
     ChainFigure all, mirror; /* of these paths; and by the display's mirror */
-    CausePart   parts[2];    /* the surface and the pane by which most of it comes */
-    int         part_count;
+    CausePart   trim;        /* that which could be of another material and sends most; */
+    CausePart   seat;        /* the seat's back behind the eye, and what comes straight off it */
+    double      hooded[PLACE_HOODS]; /* what each of the hoods would keep off */
+    double      arrives[3];  /* sum of the directions from which it comes to the display */
 } CauseFacts;
 
 /* Sets the case's causes: the greatest CAUSES_MOST, and "all other ways", which add up to the
  * reflected light by these paths, and the groups; that light itself where asked. */
 CauseFacts case_causes(const CauseAsk *ask, ReviewCase *c, Arena *arena);
-
-/* Sets its remedies, from its figures and causes: nothing is traced. Where its limit is kept
- * there are none. */
-void case_remedies(const CauseFacts *facts, ReviewCase *c, Arena *arena);
 
 /* Sets the case's hiders, by the names of nodes and materials; what has the same name counts as
  * one. */

@@ -275,7 +275,7 @@ void explain_place(const ExplainPlace *place, Arena *arena, Explained *out)
                       .contrast_low = nan, .contrast_high = nan, .limit_id = -1, .level = nan,
                       .eye_m = place->aim.eye, .visible_share = 1};
     if (is_display) set_sent(place, &aim, out);
-    CauseAsk   ask = {place->tools, &aim, place->paths, CHAIN_RAYS, !is_display, true};
+    CauseAsk   ask = {place->tools, &aim, place->paths, CHAIN_RAYS, NULL, !is_display, true};
     CauseFacts facts = case_causes(&ask, c, arena);
     out->all = facts.all;
     c->reflected_range = (MeanInterval){facts.all.low, facts.all.high};

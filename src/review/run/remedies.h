@@ -1,0 +1,39 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* remedies.h -- what a designer could change so that a case passes, and how much each gives.
+ *
+ * By kinds, in the order of RemedyKind: the display brighter, tilted, under a hood, coated,
+ * another panel, another material of what it mirrors. Nothing blinds a pane, and a seat or who
+ * sits in it is no trim (chain/places.h). Each is reckoned from what is known:
+ *
+ *   brightness, panel  closed forms: the contrast of what is emitted and reflected
+ *   coating, trim      the light that the mirror, or the part, sends is less, or gone
+ *   hood               the light whose paths would cross it (scene/load/hood.h) is gone, and its
+ *                      own is left out; none that would stand before the symbol is offered
+ *   tilt               the mirror's light is as what stands in the mirror's new direction, which
+ *                      is traced; what scatters is taken to stay. Where most of the light
+ *                      scatters, that does not hold: then a tilt is a direction to try, without
+ *                      a figure, if the light comes from near the mirror's direction
+ *
+ * Units    cd m^-2; metres, world; degrees in words.
+ * Memory   texts and lists live in the arena.
+ * Threads  starts its own; the same figures for any count.
+ * Fails    never.
+ */
+#pragma once
+#include "review/run/causes.h"
+#include "review/run/symbols.h"
+
+typedef struct RemedyAsk {
+    const ReadingTools *tools;
+    const ProbeAim     *aim;     /* at what is visible of the symbol */
+    const SetupSymbol  *symbol;
+    const double       *forward; /* [3] where the vehicle points, as the request says */
+    bool                has_occupant; /* somebody was put there under this condition */
+} RemedyAsk;
+
+/* What the search for causes is to keep apart. */
+ChainPlaces remedy_places(const RemedyAsk *ask);
+
+/* Sets the case's remedies, and whether it is an empty seat that washes it out. Where its limit
+ * is kept there are none. */
+void case_remedies(const RemedyAsk *ask, const CauseFacts *facts, ReviewCase *c, Arena *arena);
