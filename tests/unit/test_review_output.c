@@ -79,7 +79,8 @@ static const Member CAUSE[] = {OF(WHOLE, links), OF(NUMBER, share), OF(NUMBER, c
                                OF(NUMBER, low), OF(NUMBER, high)};
 #undef OF
 static const Member HIDER[] = {MEMBER(CaseHider, TEXT, what), MEMBER(CaseHider, NUMBER, share)};
-static const Member REMEDY[] = {MEMBER(CaseRemedy, TEXT, what),
+static const Member REMEDY[] = {MEMBER(CaseRemedy, WHOLE, kind),
+                                MEMBER(CaseRemedy, TEXT, what),
                                 MEMBER(CaseRemedy, NUMBER, contrast_ratio),
                                 MEMBER(CaseRemedy, NUMBER, level)};
 #define OF(kind, member) MEMBER(ReviewCase, kind, member)
@@ -98,7 +99,8 @@ static const Member CASE[] = {
     OF(NUMBER, eye_failed_share),
     OF(NUMBER, visible_share), OF(NUMBER, level), OF(NUMBER, display_lux), OF(NUMBER, margin),
     OF(WHOLE, limit_id), OF(WHOLE, verdict), OF(WHOLE, limit_count), OF(WHOLE, cause_count),
-    OF(WHOLE, remedy_count), OF(WHOLE, hider_count)};
+    OF(WHOLE, remedy_count), OF(WHOLE, hider_count), OF(NUMBER, without_data_share),
+    OF(NUMBER, guessed_share), OF(TEXT, empty_seat), OF(NUMBER, empty_seat_share)};
 #undef OF
 #define OF(kind, member) MEMBER(ReviewFalseSun, kind, member)
 static const Member FALSE_SUN[] = {
@@ -133,11 +135,17 @@ static const Member SWEEP[] = {OF(TEXT, condition), OF(TEXT, eye), OF(TEXT, symb
 static const Member RESPONSE[] = {OF(TEXT, probe), OF(TEXT, file), OF(WHOLE, paths),
                                   OF(WHOLE, bytes), OF(NUMBER, relative_error)};
 #undef OF
+#define OF(kind, member) MEMBER(ReviewRest, kind, member)
+static const Member REST[] = {OF(WHOLE, kind), OF(WHOLE, basis), OF(TEXT, name),
+                              OF(TEXT, words), OF(WHOLE, count), OF(WHOLE, of)};
+#undef OF
+static const Member FILES[] = {MEMBER(ReviewFile, TEXT, path), MEMBER(ReviewFile, TEXT, xxh3)};
 #define OF(kind, member) MEMBER(Review, kind, member)
 static const Member REVIEW[] = {
     OF(TEXT, title), OF(TEXT, profile), OF(WHOLE, pass), OF(WHOLE, is_strict),
     OF(WHOLE, case_count), OF(WHOLE, sweep_count), OF(WHOLE, response_count),
-    OF(WHOLE, note_count), OF(WHOLE, false_sun_count), OF(WHOLE, gaze_count)};
+    OF(WHOLE, note_count), OF(WHOLE, false_sun_count), OF(WHOLE, gaze_count),
+    OF(WHOLE, rests_on_count), OF(WHOLE, input_count)};
 #undef OF
 
 static void assert_same_case(const ReviewCase *a, const ReviewCase *b)
@@ -177,6 +185,10 @@ static void assert_same_review(const Review *a, const Review *b)
     }
     for (int i = 0; i < a->response_count; i++)
         ASSERT_SAME(&a->responses[i], &b->responses[i], RESPONSE);
+    for (int i = 0; i < a->rests_on_count; i++)
+        ASSERT_SAME(&a->rests_on[i], &b->rests_on[i], REST);
+    for (int i = 0; i < a->input_count; i++)
+        ASSERT_SAME(&a->inputs[i], &b->inputs[i], FILES);
 }
 
 /* Read back it is the same to six digits, and written again the same to the byte. */
@@ -213,7 +225,8 @@ TEST(json_has_the_promised_keys)
         "paths", "contrast_with_veil", "height_arcmin",
         "jnd", "visibility", "dgp", "ugr", "when", "visible_share", "hidden_by",
         "eye_failed_share", "level", "display_lux", "limit", "limits", "margin", "verdict",
-        "causes", "remedies", "frame"};
+        "causes", "guessed_share", "without_data_share", "empty_seat", "empty_seat_share",
+        "remedies", "frame"};
     Review  review = fixture_review(&arena);
     json_t *json = review_json(&review), *value;
     json_t *first = json_array_get(json_object_get(json, "cases"), 0);
@@ -261,6 +274,8 @@ TEST(a_foreign_json_is_refused_in_one_line)
     assert_refused("\"chain\": [", "\"chain\": [4, ", "/cases/0/causes/0/chain", "only texts");
     assert_refused("\"hidden_by\": []", "\"hidden_by\": [{\"what\": 3}]",
                    "/cases/0/hidden_by/0/what", "wanted a text");
+    assert_refused("\"basis\": \"given\"", "\"basis\": \"giver\"", "/rests_on/3/basis",
+                   "did you mean given?");
     assert_refused("\"cases\": [", "\"cases\": [null, ", "/cases/0", "wanted an object");
     assert_refused("\"pass\"", "pass", "line 2", "not valid JSON");
 }
@@ -272,9 +287,12 @@ static bool is_optional(const char *key, const json_t *object)
                                         "precision_reached", "paths_to_decide", "cause_groups",
                                         "without_data_share", "without_data", "hidden_by",
                                         "eye_places", "dgi", "dgp_interval",
-                                        "ugr_interval", "dgi_interval", "glare"};
+                                        "ugr_interval", "dgi_interval", "glare",
+                                        "rests_on", "rests_on_line", "inputs", "guessed_share",
+                                        "empty_seat", "empty_seat_share"};
     for (size_t i = 0; i < sizeof ADDED / sizeof *ADDED; i++)
         if (!strcmp(key, ADDED[i])) return true;
+    if (!strcmp(key, "kind") && json_object_get(object, "what")) return true; /* a remedy's */
     return !strcmp(key, "verdict") &&
            (json_object_get(object, "cases") || json_object_get(object, "worst"));
 }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* A review's figures as people read them. */
+#include "review/output/review_rests.h"
 #include "review/output/review_words.h"
 #include "review_page_fixture.h"
 
@@ -36,6 +37,55 @@ TEST(what_is_not_visible_says_what_hides_it)
                         "6.2 %");
     assert_string_equal(words_hiders(&review.cases[0], &arena), "");
     assert_string_equal(words_contrast(hidden, &arena), "–");
+}
+
+/* One sentence for each of what it rests on; shares are the greatest of its cases, and of a
+ * part of it those of that part. */
+TEST(what_it_rests_on_is_one_line)
+{
+    Review review = fixture_review(&arena);
+    review.cases[3].guessed_share = 0.25;
+    review.cases[5].guessed_share = 0.625;
+    assert_string_equal(
+        review_rests_words(&review, &arena),
+        "a measured panel (cluster: PX-9; conoscope, lab <B>); a synthetic panel (centre); 2 "
+        "guessed materials (up to 62 % of the light on a symbol); the eye as given; no occupant "
+        "named; limits as quoted, 1 of 5 read in the standard");
+    review.case_count = 4;
+    review.sweep_count = 0;
+    assert_non_null(strstr(review_rests_words(&review, &arena), "up to 25 %"));
+    Review older = {.title = ""};
+    assert_string_equal(review_rests_words(&older, &arena), "");
+}
+
+TEST(no_guess_no_proposal_no_quote_is_told_where_there_is_none)
+{
+    ReviewRest rests[] = {
+        {REST_PANEL, REST_NOT_STATED, "a", NULL, 1, 1},
+        {REST_PANEL, REST_NOT_STATED, "b", NULL, 1, 1},
+        {REST_MATERIAL, REST_WITHOUT_DATA, "grey", "perfectly white", 1, 1},
+        {REST_EYE, REST_GIVEN, "driver", NULL, 1, 1},
+        {REST_EYE, REST_PROPOSED, "co-driver", "before the seat", 1, 1},
+        {REST_OCCUPANT, REST_NOBODY, NULL, NULL, 1, 3},
+        {REST_OCCUPANT, REST_PRESENT, "in white", NULL, 2, 3},
+        {REST_LIMITS, REST_READ, "house", NULL, 4, 4}};
+    Review review = {.rests_on = rests, .rests_on_count = 8};
+    assert_string_equal(
+        review_rests_words(&review, &arena),
+        "panels whose file does not state a measurement (a, b); 1 material without optical "
+        "data, taken as perfectly white (up to 0 % of the light on a symbol); proposed eye "
+        "(co-driver), the others as given; occupants: in white (none under 1 of 3 conditions); "
+        "limits as read in the standard");
+}
+
+TEST(an_empty_seat_is_named_with_its_share)
+{
+    ReviewCase c = {.eye = "driver", .empty_seat = "Lehne (Stoff)", .empty_seat_share = 0.96};
+    assert_non_null(strstr(words_empty_seat(&c, &arena),
+                           "nobody sits in the driver's seat: its back, Lehne (Stoff), causes "
+                           "96 % of what is reflected; add an occupant: `equip`"));
+    c.empty_seat = NULL;
+    assert_string_equal(words_empty_seat(&c, &arena), "");
 }
 
 /* No more digits than the interval allows, and four at most. */

@@ -110,9 +110,9 @@ static inline const CaseRemedy *fixture_remedies(Arena *arena, const ReviewCase 
 {
     CaseRemedy *remedies = ARENA_NEW(arena, CaseRemedy, 2);
     double      scale = c->limits[0].value / c->contrast_ratio * 1.4;
-    remedies[0] = (CaseRemedy){"make the display brighter", c->limits[0].value,
-                               scale * c->level};
-    remedies[1] = (CaseRemedy){"coat the cover glass: half of the mirror's reflection",
+    remedies[0] = (CaseRemedy){REMEDY_BRIGHTNESS, "make the display brighter",
+                               c->limits[0].value, scale * c->level};
+    remedies[1] = (CaseRemedy){REMEDY_COATING, "coat the cover glass: half of the mirror's reflection",
                                1.3 * c->contrast_ratio, NAN};
     return remedies;
 }
@@ -208,12 +208,23 @@ static inline Review fixture_review(Arena *arena)
     static ReviewResponse responses[] = {{"speed, driver: reflected", "responses/a.response",
                                           1200000, 4200000, 0.004},
                                          {"speed, driver: veil", NULL, 400000, 310000, 0.011}};
+    static ReviewRest rests_on[] = {
+        {REST_PANEL, REST_MEASURED, "cluster", "PX-9; conoscope, lab <B>", 1, 1},
+        {REST_PANEL, REST_SYNTHETIC, "centre", "oled; simulated Fourier optics", 1, 1},
+        {REST_MATERIAL, REST_GUESSED, "seat", "cloth, grey", 2, 2},
+        {REST_EYE, REST_GIVEN, "driver", NULL, 1, 1},
+        {REST_OCCUPANT, REST_NOBODY, NULL, NULL, 4, 4},
+        {REST_LIMITS, REST_QUOTED, "ISO 15008", NULL, 1, 5}};
+    static ReviewFile inputs[] = {{"car.gltf", "00000000deadbeef"},
+                                  {"a \"b\" & c.png", "0123456789abcdef"}};
     Review review = {.title = "Cluster and centre display",
                      .profile = "ISO 15008: in-vehicle visual presentation, third edition",
                      .cases = ARENA_NEW(arena, ReviewCase, 24), .case_count = 24,
                      .sweeps = ARENA_NEW(arena, ReviewSweep, 2), .sweep_count = 2,
                      .responses = responses, .response_count = 2,
                      .false_suns = false_suns, .false_sun_count = 2,
+                     .rests_on = rests_on, .rests_on_count = 6,
+                     .inputs = inputs, .input_count = 2,
                      .notes = NOTES, .note_count = 2};
     for (int i = 0; i < 24; i++)
         review.cases[i] = fixture_case(arena, &FIXTURE_LIGHTS[i % 4], EYES[i / 12],
@@ -249,7 +260,8 @@ static inline Review fixture_odd_review(Arena *arena)
          1e8 - 1, VERDICT_PASS}};
     static const CaseCause  CAUSES[] = {{CHAIN, 3, NAN, NAN, NAN, NAN, NAN, NULL, 0, 0},
                                        {CHAIN, 0, 1, 0, 0, 0, 1, NULL, 0, 3}};
-    static const CaseRemedy REMEDIES[] = {{WILD_NAME, NAN, NAN}, {"", 3, 4}};
+    static const CaseRemedy REMEDIES[] = {{REMEDY_TILT, WILD_NAME, NAN, NAN},
+                                          {REMEDY_TRIM, "", 3, 4}};
     static ReviewResponse   responses[] = {{WILD_NAME, WILD_NAME, 0, 0, NAN}};
     static ReviewFalseSun   false_suns[] = {
         {WILD_NAME, WILD_NAME, WILD_NAME, NAN, NAN, NAN, NULL, 0, -1, 1e9, WILD_NAME, 0.1,

@@ -45,17 +45,44 @@ static CaseCause all_other(const Chains *chains, const ReviewCase *c, Arena *are
     return cause;
 }
 
-/* The part by which most of `by_part` comes; what: NULL where that is not worth a word. all:
- * what comes by each part at all, of which most must come so. */
-static CausePart greatest_part(const Chains *chains, const double *by_part, const double *all,
-                               Arena *arena)
+static CausePart part_of(const Chains *chains, int part_id, double cd_m2, Arena *arena)
 {
-    int most = NO_ID;
-    for (int i = 0; i < chains->scene->part_count; i++)
-        if (2 * by_part[i] > all[i] && (most == NO_ID || by_part[i] > by_part[most])) most = i;
-    if (most == NO_ID || !(by_part[most] > LEAST_PART * chains->all.cd_m2))
+    if (part_id == NO_ID || !(cd_m2 > LEAST_PART * chains->all.cd_m2))
         return (CausePart){NULL, 0};
-    return (CausePart){chain_part_words(chains->scene, most, arena), all[most]};
+    return (CausePart){chain_part_words(chains->scene, part_id, arena), cd_m2};
+}
+
+/* Of a part's light, what would be gone if it were matt black: by its base colour, as if light
+ * met it once. */
+static double blackened(const Scene *scene, int part_id)
+{
+    const float *rgb = scene->materials[scene->parts[part_id].material_id].base_color;
+    double       reflectance = 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
+    return fmax(0, 1 - MATT_BLACK / fmax(reflectance, MATT_BLACK));
+}
+
+/* Most of what comes by it must come where it could be trim. */
+static CausePart find_trim(const Chains *chains, Arena *arena)
+{
+    const double *by_trim = chains->places.by_trim;
+    int           most = NO_ID;
+    double        gone = 0;
+    for (int i = 0; i < chains->scene->part_count; i++) {
+        double own = chains->by_part[i] * blackened(chains->scene, i);
+        if (!(2 * by_trim[i] > chains->by_part[i]) || !(own > gone)) continue;
+        most = i;
+        gone = own;
+    }
+    return part_of(chains, most, gone, arena);
+}
+
+static CausePart find_seat(const Chains *chains, Arena *arena)
+{
+    const double *by_seat = chains->places.by_seat;
+    int           most = 0;
+    for (int i = 1; i < chains->scene->part_count; i++)
+        if (by_seat[i] > by_seat[most]) most = i;
+    return part_of(chains, most, by_seat[most], arena);
 }
 
 static CauseFacts facts_of(const Chains *chains, Arena *arena)
@@ -63,8 +90,8 @@ static CauseFacts facts_of(const Chains *chains, Arena *arena)
     const PlaceSums *places = &chains->places;
     CauseFacts facts = {.own_cd_m2 = chains->own, .all = chains->all,
                         .mirror = chains->mirror};
-    facts.trim = greatest_part(chains, places->by_trim, chains->by_part, arena);
-    facts.seat = greatest_part(chains, places->by_seat, places->by_seat, arena);
+    facts.trim = find_trim(chains, arena);
+    facts.seat = find_seat(chains, arena);
     for (int i = 0; i < PLACE_HOODS; i++) facts.hooded[i] = places->hooded[i];
     for (int i = 0; i < 3; i++) facts.arrives[i] = places->arrives[i];
     return facts;

@@ -16,6 +16,7 @@
 #define CAUSES_MOST 10
 #define CAUSE_PATHS 8192
 #define CAUSE_RAYS 4
+#define MATT_BLACK 0.04 /* reflectance of matt black trim, as of the shipped black plastic */
 
 typedef struct CauseAsk {
     const ReadingTools *tools;
@@ -38,7 +39,8 @@ typedef struct CausePart {
 typedef struct CauseFacts {
     double      own_cd_m2;  /* reflected light that began at the display itself */
     ChainFigure all, mirror; /* of these paths; and by the display's mirror */
-    CausePart   trim;        /* that which could be of another material and sends most; */
+    CausePart   trim;        /* that whose light would fall most if it were MATT_BLACK, and by
+                                how much it would */
     CausePart   seat;        /* the seat's back behind the eye, and what comes straight off it */
     double      hooded[PLACE_HOODS]; /* what each of the hoods would keep off */
     double      arrives[3];  /* sum of the directions from which it comes to the display */

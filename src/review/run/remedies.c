@@ -71,6 +71,13 @@ static void add_with(Mending *m, RemedyKind kind, const char *what, double refle
                         c->level});
 }
 
+/* Without a part of the light, which other paths found: by its share of theirs. */
+static double left_without(const Mending *m, double cd_m2)
+{
+    double share = fmin(cd_m2 / m->facts->all.cd_m2, 1);
+    return (1 - share) * m->c->luminance_cd_m2.reflected;
+}
+
 /* ---- brightness -------------------------------------------------------------------------- */
 
 /* By how much the display must be brighter for a contrast,
@@ -164,7 +171,8 @@ static void trace_tilt(void *user, int item, int worker)
 
 static const char *tilt_words(float tilt_deg, Arena *arena)
 {
-    return arena_format(arena, "the display leaning %s by %.3g degrees",
+    return arena_format(arena, "the display leaning %s by %.3g degrees, scattered light "
+                               "as it is",
                         tilt_deg > 0 ? "back" : "forward", (double)fabsf(tilt_deg));
 }
 
@@ -237,13 +245,13 @@ static void add_hood(Mending *m, const PlaceFace *face)
     for (int i = 0; i < PLACE_HOODS && face->is_upright; i++) {
         if (hides_symbol(m->ask, face, HOOD_M[i])) break;
         best = i;
-        if (contrast(l, 1, l->reflected - m->facts->hooded[i]) >= m->needed) break;
+        if (contrast(l, 1, left_without(m, m->facts->hooded[i])) >= m->needed) break;
     }
     if (best >= 0)
         add_with(m, REMEDY_HOOD,
                  arena_format(m->arena, "a hood of %.0f mm over the display",
                               1000 * (double)HOOD_M[best]),
-                 l->reflected - m->facts->hooded[best]);
+                 left_without(m, m->facts->hooded[best]));
 }
 
 /* ---- coating, panel, trim ---------------------------------------------------------------- */
@@ -270,13 +278,10 @@ static void add_panel(Mending *m)
 static void add_trim(Mending *m)
 {
     const CausePart *trim = &m->facts->trim;
-    double           reflected = m->c->luminance_cd_m2.reflected;
     if (trim->what)
         add_with(m, REMEDY_TRIM,
-                 arena_format(m->arena, "%s in matt black (%.0f %% of what is reflected comes "
-                                        "by it)", trim->what,
-                              100 * fmin(trim->cd_m2 / reflected, 1)),
-                 reflected - trim->cd_m2);
+                 arena_format(m->arena, "%s in matt black, of reflectance %.0f %%", trim->what,
+                              100 * MATT_BLACK), left_without(m, trim->cd_m2));
 }
 
 /* ---- all of them ------------------------------------------------------------------------- */

@@ -6,13 +6,16 @@
  * sits in it is no trim (chain/places.h). Each is reckoned from what is known:
  *
  *   brightness, panel  closed forms: the contrast of what is emitted and reflected
- *   coating, trim      the light that the mirror, or the part, sends is less, or gone
+ *   coating, trim      a quarter of the mirror's light is left; of a part's what MATT_BLACK sends
+ *                      in the place of its base colour, as if light met it once
  *   hood               the light whose paths would cross it (scene/load/hood.h) is gone, and its
  *                      own is left out; none that would stand before the symbol is offered
  *   tilt               the mirror's light is as what stands in the mirror's new direction, which
- *                      is traced; what scatters is taken to stay. Where most of the light
- *                      scatters, that does not hold: then a tilt is a direction to try, without
- *                      a figure, if the light comes from near the mirror's direction
+ *                      is traced; what scatters is taken to stay. Haze turns with the mirror and
+ *                      leaves a bright thing with it, so that the true contrast is mostly higher.
+ *                      Where most of the light scatters there is no figure: a tilt is a
+ *                      direction to try then, if the light comes from near the mirror's
+ *                      direction
  *
  * Units    cd m^-2; metres, world; degrees in words.
  * Memory   texts and lists live in the arena.
