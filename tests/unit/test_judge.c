@@ -143,11 +143,11 @@ ARENA_TEST(nothing_visible_is_no_verdict_on_legibility)
     ReviewCase   c = case_of(9, 0);
     c.visible_share = 0;
     c = judged(c, &limit, 1, false, &arena);
-    assert_int_equal(c.verdict, VERDICT_NOT_VISIBLE);
-    assert_int_equal(c.limits[0].verdict, VERDICT_NOT_VISIBLE);
+    assert_int_equal(c.verdict, VERDICT_UNJUDGED);
+    assert_int_equal(c.limits[0].verdict, VERDICT_UNJUDGED);
     assert_true(isnan(c.limits[0].found));
     c.visible_share = 0;
-    assert_int_equal(judged(c, NULL, 0, false, &arena).verdict, VERDICT_NOT_VISIBLE);
+    assert_int_equal(judged(c, NULL, 0, false, &arena).verdict, VERDICT_UNJUDGED);
     c = case_of(9, 0);
     c.visible_share = 0.01;
     assert_int_equal(judged(c, &limit, 1, false, &arena).verdict, VERDICT_PASS);

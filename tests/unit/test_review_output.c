@@ -361,7 +361,7 @@ TEST(junit_has_a_case_for_each)
 {
     Review       odd = fixture_odd_review(&arena), plain = fixture_review(&arena), none = {0};
     ReviewCounts counts = review_count(&plain);
-    int doubtful = counts.of[VERDICT_TOO_CLOSE] + counts.of[VERDICT_NOT_VISIBLE];
+    int doubtful = counts.of[VERDICT_TOO_CLOSE] + counts.of[VERDICT_UNJUDGED];
     assert_true(doubtful > 0);
     assert_junit(&plain, counts.of[VERDICT_FAIL], doubtful);
     plain.is_strict = true;
@@ -402,7 +402,7 @@ TEST(the_worst_comes_first)
 {
     ReviewCase list[] = {
         case_with(VERDICT_PASS, NAN),  case_with(VERDICT_PASS, 0.1),
-        case_with(VERDICT_TOO_CLOSE, 0.0), case_with(VERDICT_NOT_VISIBLE, NAN),
+        case_with(VERDICT_TOO_CLOSE, 0.0), case_with(VERDICT_UNJUDGED, NAN),
         case_with(VERDICT_FAIL, -0.2), case_with(VERDICT_FAIL, -0.7),
         case_with(VERDICT_FAIL, -0.2)};
     static const int  ORDER[] = {5, 4, 6, 3, 2, 1, 0};
@@ -469,7 +469,7 @@ TEST(differences_are_named_and_come_first)
     static const DiffKind KINDS[] = {DIFF_BROKEN, DIFF_MENDED, DIFF_WORSE, DIFF_BETTER,
                                      DIFF_GONE, DIFF_NEW};
     before.cases[4].verdict = VERDICT_PASS; /* to what it is, or was */
-    after.cases[4].verdict = VERDICT_NOT_VISIBLE;
+    after.cases[4].verdict = VERDICT_UNJUDGED;
     before.cases[3].verdict = VERDICT_FAIL;
     after.cases[3].verdict = VERDICT_TOO_CLOSE;
     after.cases[2].contrast_high = before.cases[2].contrast_low * 0.999;

@@ -229,7 +229,7 @@ static inline Review fixture_review(Arena *arena)
     hidden->contrast_with_veil = hidden->margin = hidden->jnd = hidden->height_arcmin = NAN;
     hidden->limit_count = hidden->cause_count = hidden->remedy_count = 0;
     hidden->limit_id = -1;
-    hidden->verdict = VERDICT_NOT_VISIBLE;
+    hidden->verdict = VERDICT_UNJUDGED;
     review.sweeps[0] = fixture_sweep(arena, "any sun", NAN);
     review.sweeps[1] = fixture_sweep(arena, "a year", 85);
     fixture_gazes(arena, &review);
