@@ -56,6 +56,8 @@ static void add_line(Text *html, const Review *review, const ReviewCase *worst, 
     text_add(html, ": ");
     escape_markup(html, words_reason(worst, arena));
     text_add(html, ".</h1></div>\n");
+    page_element(html, "p class=\"sub rests\"",
+                 arena_format(arena, "Rests on: %s.", words_rests_on(review, arena)));
 }
 
 /* ---- every symbol and eye --------------------------------------------------------------- */

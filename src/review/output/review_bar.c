@@ -108,9 +108,14 @@ static Bars make_bars(const ReviewCase *c, Arena *arena)
     Bars   bars = {.wanted = NAN};
     if (c->limit_id >= 0 && c->limit_id < c->limit_count) {
         const LimitVerdict *limit = &c->limits[c->limit_id];
+        LimitKind           kind = limit_kind_named(limit->kind);
         has_veil = !is_of(limit, c->contrast_ratio) && is_of(limit, c->contrast_with_veil);
-        bars.wanted = ratio_from_contrast(limit_kind_named(limit->kind), limit->value);
-        bars.words = words_limit(limit, arena);
+        if (kind < LIMIT_KIND_COUNT && limit_kinds[kind].is_contrast)
+            bars.wanted = ratio_from_contrast(kind, limit->value);
+        bars.words = kind == LIMIT_CONTRAST_RATIO
+                         ? words_limit(limit, arena)
+                         : arena_format(arena, "%s %s", words_kind(limit),
+                                        words_limit(limit, arena));
     }
     stack(c, bright, has_veil, bars.bright);
     stack(c, dark, has_veil, bars.dark);
@@ -139,7 +144,8 @@ static void add_mark(Text *html, const Bars *bars)
     text_format(html, "<rect class=\"mark\" x=\"%.4f%%\" y=\"0\" width=\"2\" height=\"38\"/>"
                 "<text x=\"%.2f%%\" y=\"11\" dx=\"%d\" text-anchor=\"%s\">", x, x,
                 x > 50 ? -5 : 7, x > 50 ? "end" : "start");
-    text_format(html, "%s needs this much</text>", bars->words);
+    escape_markup(html, bars->words);
+    text_add(html, " needs this much</text>");
 }
 
 static void add_figure(Text *html, const char *kind, const char *name, double cd_m2,

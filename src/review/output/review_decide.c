@@ -96,12 +96,13 @@ static bool is_listed_only(const LimitVerdict *limit)
 const LimitVerdict *case_worst_limit(const ReviewCase *c)
 {
     const LimitVerdict *worst = NULL;
+    bool has_contrast = c->limit_id >= 0 && c->limit_id < c->limit_count;
+    if (c->verdict == VERDICT_PASS && has_contrast) return &c->limits[c->limit_id];
     for (int i = 0; i < c->limit_count; i++) {
         const LimitVerdict *limit = &c->limits[i];
         if (is_listed_only(limit) || limit->verdict != c->verdict) continue;
         if (!worst || is_less(limit->margin, worst->margin)) worst = limit;
     }
-    bool has_contrast = c->limit_id >= 0 && c->limit_id < c->limit_count;
     return worst || !has_contrast ? worst : &c->limits[c->limit_id];
 }
 
@@ -180,6 +181,20 @@ const ReviewSweep *review_sweep_named(const Review *review, const char *conditio
             return s;
     }
     return NULL;
+}
+
+const ReviewCase **review_displays(const Review *review, int *count, Arena *arena)
+{
+    int all = review_case_count(review);
+    const ReviewCase **list = ARENA_NEW(arena, const ReviewCase *, all);
+    *count = 0;
+    for (int i = 0; i < all; i++) {
+        const ReviewCase *c = review_case_at(review, i);
+        int k = 0;
+        while (k < *count && !is_name(list[k]->display, c->display)) k++;
+        if (k == *count) list[(*count)++] = c;
+    }
+    return list;
 }
 
 const ReviewCase *review_case_like(const Review *review, const ReviewCase *like)

@@ -43,7 +43,8 @@ Verdict sweep_verdict(const ReviewSweep *sweep);
 Verdict review_verdict(const Review *review);
 
 /* The limit that made the case's verdict: of those with that verdict the one with the least
- * margin; else that of the contrast. NULL: no limit counts. Whatever is printed of a case
+ * margin. Where it passes, or there is none, that of the contrast: a height or a stroke is the
+ * same under every light, and says nothing there. NULL: no limit counts. Whatever is printed of a case
  * beside its verdict is this limit's: figure, interval, margin. */
 const LimitVerdict *case_worst_limit(const ReviewCase *c);
 
@@ -55,6 +56,10 @@ const ReviewCase **review_rank(const Review *review, Arena *arena);
 
 /* The first of them. NULL: there are none. */
 const ReviewCase *review_worst(const Review *review, Arena scratch);
+
+/* A case of each display that has some, in the review's order: its panel is what they rest on.
+ * review_case_count pointers, *count of them set. */
+const ReviewCase **review_displays(const Review *review, int *count, Arena *arena);
 
 /* The case of the same condition, eye and symbol: a moment's or a sweep's worst; or NULL. */
 const ReviewCase *review_case_like(const Review *review, const ReviewCase *like);

@@ -354,6 +354,22 @@ static json_t *sensitivities_json(const Review *review)
     return list;
 }
 
+/* What the displays' panels say of themselves. */
+static json_t *panels_json(const Review *review)
+{
+    Arena   scratch = arena_reserve(PLACES_BYTES);
+    int     count;
+    json_t *list = json_array();
+    const ReviewCase **displays = review_displays(review, &count, &scratch);
+    for (int i = 0; i < count; i++) {
+        json_t *panel = object_json(PANEL, &displays[i]->panel);
+        set(panel, "display", text(displays[i]->display));
+        json_array_append_new(list, panel);
+    }
+    arena_release(&scratch);
+    return list;
+}
+
 static json_t *places_json(const Review *review)
 {
     Arena         scratch = arena_reserve(PLACES_BYTES);
@@ -393,6 +409,7 @@ json_t *review_json(const Review *review)
     if (review->mend_count)
         set(out, "mends", LIST_OF(MEND, review->mends, review->mend_count));
     set(out, "eye_places", places_json(review));
+    set(out, "panels", panels_json(review));
     set(out, "responses", LIST_OF(RESPONSE, review->responses, review->response_count));
     set(out, "without_data", text(review->without_data));
     set(out, "notes", json_texts(review->notes, review->note_count));

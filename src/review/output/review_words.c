@@ -391,6 +391,30 @@ const char *words_chain(const CaseCause *cause, Arena *arena)
     return text.data ? text.data : "";
 }
 
+static void add_panel(Text *text, const ReviewCase *c, Arena *arena)
+{
+    const CasePanel *p = &c->panel;
+    text_format(text, "%spanel of %s: %s", text->data ? "; " : "",
+                c->display ? c->display : "?", p->verdict ? p->verdict : "no verdict of its own");
+    if (p->is_coarse) text_add(text, ", coarse");
+    if (p->reason) text_format(text, " (%s)", p->reason);
+    if (p->emission_error > 0 || p->reflection_error > 0)
+        text_format(text, ", known within %s of what it emits and %s of what it reflects",
+                    words_share(p->emission_error, arena),
+                    words_share(p->reflection_error, arena));
+}
+
+const char *words_rests_on(const Review *review, Arena *arena)
+{
+    int  count;
+    Text text = {.arena = arena};
+    const ReviewCase **list = review_displays(review, &count, arena);
+    for (int i = 0; i < count; i++) add_panel(&text, list[i], arena);
+    if (!count) return "";
+    text_add(&text, " (standard errors; the intervals hold them)");
+    return text.data;
+}
+
 const char *words_without_data(const Review *review, const ReviewCase *c, Arena *arena)
 {
     int count = review->without_data_count;

@@ -132,6 +132,11 @@ const char *words_reason(const ReviewCase *c, Arena *arena);
  * reached. */
 const char *words_precision(const ReviewCase *c, Arena *arena);
 
+/* What the panels of all displays say of themselves: "panel of cluster: good, known within 0.6 %
+ * of what it emits and 0.5 % of what it reflects (standard errors, which are in the
+ * intervals)"; "": there are none. */
+const char *words_rests_on(const Review *review, Arena *arena);
+
 /* " 62 % of it came via 9 materials without optical data ..."; "" where all have some. */
 const char *words_without_data(const Review *review, const ReviewCase *c, Arena *arena);
 

@@ -256,9 +256,9 @@ static void see_stray_light(const Setup *setup, const SetupSymbol *symbol, Vec3 
     c->glare = glare_found(&stray.glare, &setup->request->glare);
 }
 
-/* A shape whose shortest chords are more than a third of its height, such as a filled sign or a
- * bar, is not made of strokes: the heaviest faces of type have about a quarter. */
-#define STROKE_MOST (1.0 / 3)
+/* A shape whose shortest chords are more than a quarter of its height, such as a filled sign or
+ * a bar, is not made of strokes: bold faces of type have a fifth, the heaviest a quarter. */
+#define STROKE_MOST 0.25
 
 static double stroke_ratio_of(const SymbolSplit *split)
 {
