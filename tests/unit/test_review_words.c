@@ -44,13 +44,17 @@ TEST(what_is_not_visible_says_what_hides_it)
 TEST(what_it_rests_on_is_one_line)
 {
     Review review = fixture_review(&arena);
+    review.cases[0].panel = (CasePanel){"usable with care", "coarse: steps of 5 degrees", true,
+                                        false, 0.02, 0.04};
     review.cases[3].guessed_share = 0.25;
     review.cases[5].guessed_share = 0.625;
     assert_string_equal(
         review_rests_words(&review, &arena),
-        "a measured panel (cluster: PX-9; conoscope, lab <B>); a synthetic panel (centre); 2 "
-        "guessed materials (up to 62 % of the light on a symbol); the eye as given; no occupant "
-        "named; limits as quoted, 1 of 5 read in the standard");
+        "panel of cluster: measured (PX-9; conoscope, lab <B>), usable with care, coarse "
+        "(coarse: steps of 5 degrees), known within 2.0 % of what it emits and 4.0 % of what it "
+        "reflects; panel of centre: synthetic; 2 guessed materials (up to 62 % of the light on "
+        "a symbol); the eye as given; no occupant named; limits as quoted, 1 of 5 read in the "
+        "standard");
     review.case_count = 4;
     review.sweep_count = 0;
     assert_non_null(strstr(review_rests_words(&review, &arena), "up to 25 %"));
@@ -72,7 +76,7 @@ TEST(no_guess_no_proposal_no_quote_is_told_where_there_is_none)
     Review review = {.rests_on = rests, .rests_on_count = 8};
     assert_string_equal(
         review_rests_words(&review, &arena),
-        "panels whose file does not state a measurement (a, b); 1 material without optical "
+        "panel of a: no measurement stated; panel of b: no measurement stated; 1 material without optical "
         "data, taken as perfectly white (up to 0 % of the light on a symbol); proposed eye "
         "(co-driver), the others as given; occupants: in white (none under 1 of 3 conditions); "
         "limits as read in the standard");

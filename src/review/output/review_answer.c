@@ -37,6 +37,7 @@ const char *review_summary_name(const char *symbol, Arena *arena)
 /* Words before the worst case; "": none. */
 static const char *answer_words(const Review *review, const ReviewCase *worst)
 {
+    if (!review_case_counts(worst)) return "nothing that must be read was asked; ";
     if (!review->pass) return worst->verdict == VERDICT_PASS ? "the worst is " : "";
     return worst->verdict == VERDICT_PASS ? "closest to its limit is "
                                           : "nothing fails; the worst is ";
@@ -96,23 +97,11 @@ static const ReviewCase *worst_of(const Grid *grid, const char *symbol, const ch
     return NULL;
 }
 
-/* A case that fails by its height or stroke names that, not its contrast. */
-static const char *found_words(const ReviewCase *c, Arena *arena)
-{
-    const LimitVerdict *limit = case_worst_limit(c);
-    if (c->verdict == VERDICT_NOT_VISIBLE) return "not visible";
-    if (!limit || words_same(limit->kind, "contrast_ratio")) return words_contrast(c, arena);
-    const char *found = words_found(limit, arena);
-    if (words_same(limit->kind, "character_height"))
-        return arena_format(arena, "%s high", found);
-    return arena_format(arena, "%s %s", limit->name ? limit->name : "", found);
-}
-
 static const char *below_words(const ReviewCase *c, Arena *arena)
 {
     const LimitVerdict *limit = case_worst_limit(c);
     const char *condition = c->condition ? c->condition : "?";
-    if (!limit || c->verdict == VERDICT_NOT_VISIBLE) return condition;
+    if (!limit || isnan(limit->margin)) return condition;
     return arena_format(arena, "%s · %s", words_margin(limit->margin, arena), condition);
 }
 
@@ -125,7 +114,7 @@ static void add_cell(Text *html, const Review *review, const ReviewCase *c, Aren
     review_card_begin_cell(html, review, c, arena);
     text_add(html, "<b>");
     escape_markup(html, arena_format(arena, "%s %s", words_mark(c->verdict),
-                                     found_words(c, arena)));
+                                     words_judged(c, arena)));
     text_add(html, "</b>");
     page_element(html, "small", below_words(c, arena));
     text_add(html, "</a></td>");
@@ -160,8 +149,8 @@ static void add_rows(Text *html, const Review *review, const Grid *grid, int row
 static const char *count_words(const Review *review, Arena *arena)
 {
     static const char *const NAMES[4] = {"pass", "fail", "too close to call",
-                                         "cannot be seen"};
-    static const Verdict ORDER[4] = {VERDICT_FAIL, VERDICT_NOT_VISIBLE, VERDICT_TOO_CLOSE,
+                                         "cannot be judged"};
+    static const Verdict ORDER[4] = {VERDICT_FAIL, VERDICT_UNJUDGED, VERDICT_TOO_CLOSE,
                                      VERDICT_PASS};
     ReviewCounts counts = review_count(review);
     Text         text = {.arena = arena};
@@ -172,6 +161,9 @@ static const char *count_words(const Review *review, Arena *arena)
         text_format(&text, "%s %d %s", before, counts.of[ORDER[i]], NAMES[ORDER[i]]);
         before = ",";
     }
+    if (counts.not_asked)
+        text_format(&text, "%s %d that do%s not count", before, counts.not_asked,
+                    counts.not_asked == 1 ? "es" : "");
     return text.data;
 }
 
@@ -241,17 +233,20 @@ static void add_why(Text *html, const ReviewAnswer *answer, const ReviewCase *c,
     if (seat[0]) page_fact(html, "Empty seat", seat);
 }
 
-/* In their order; directions to try, of which no figure is known, come last. */
+/* Those with which the case passes first, each in their order; directions to try, of which no
+ * figure is known, last. */
 static const CaseRemedy *next_mend(const ReviewCase *c, const bool *is_listed)
 {
-    const CaseRemedy *to_try = NULL;
+    const CaseRemedy *best = NULL;
+    int               least = 3;
     for (int i = 0; i < c->remedy_count; i++) {
         const CaseRemedy *r = &c->remedies[i];
-        if (is_listed[i]) continue;
-        if (!isnan(r->contrast_ratio)) return r;
-        if (!to_try) to_try = r;
+        int rank = r->verdict == VERDICT_PASS ? 0 : isnan(r->contrast_ratio) ? 2 : 1;
+        if (is_listed[i] || rank >= least) continue;
+        best = r;
+        least = rank;
     }
-    return to_try;
+    return best;
 }
 
 static void add_mend(Text *html, int *listed, const char *words)
@@ -283,9 +278,8 @@ static void add_mends(Text *html, const Review *review, const ReviewCase *c, Are
         const CaseRemedy *r = next_mend(c, is_listed);
         if (!r) return;
         is_listed[r - c->remedies] = true;
-        const char *gives = isnan(r->contrast_ratio) ? "a direction to try"
-                                                     : words_ratio(r->contrast_ratio, arena);
-        add_mend(html, &listed, arena_format(arena, "%s: %s", r->what, gives));
+        add_mend(html, &listed,
+                 arena_format(arena, "%s: %s", r->what, words_remedy(r, arena)));
     }
 }
 
@@ -316,7 +310,7 @@ static bool add_worst(Text *html, const ReviewAnswer *answer, const ReviewCase *
     const ReviewPicture *frame = frame_of(answer, c);
     text_add(html, "<section class=\"worst\" aria-label=\"The worst case\">\n");
     if (frame && !add_frame(html, frame, *arena, err)) return false;
-    if (!frame && c->verdict != VERDICT_NOT_VISIBLE) review_bar_add_luminances(html, c, arena);
+    if (!frame && c->verdict != VERDICT_UNJUDGED) review_bar_add_luminances(html, c, arena);
     text_add(html, "<dl class=\"facts\">\n");
     add_when(html, answer, c, arena);
     add_why(html, answer, c, arena);

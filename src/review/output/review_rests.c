@@ -53,34 +53,43 @@ static void part(Text *line, const char *words)
 
 /* ---- panels ------------------------------------------------------------------------------ */
 
-static const char *panel_words(const Review *review, RestBasis basis, Arena *arena)
+static const CasePanel *panel_of(const Review *review, const char *display)
 {
-    long        count = count_of(review, REST_PANEL, basis);
-    const char *names = names_of(review, REST_PANEL, basis, arena);
-    if (!count) return "";
-    if (basis == REST_NOT_STATED)
-        return arena_format(arena, "panel%s whose file does not state a measurement (%s)",
-                            count == 1 ? "" : "s", names);
-    return count == 1 ? arena_format(arena, "a synthetic panel (%s)", names)
-                      : arena_format(arena, "synthetic panels (%s)", names);
+    for (int i = 0; i < review_case_count(review); i++) {
+        const ReviewCase *c = review_case_at(review, i);
+        if (words_same(c->display, display)) return &c->panel;
+    }
+    return NULL;
 }
 
-/* One by one, each with who measured it. */
-static void add_measured(Text *line, const Review *review, Arena *arena)
+/* What its file says of itself (panel/query/panel_stated.h). */
+static void add_stated(Text *text, const CasePanel *panel, Arena *arena)
 {
-    for (int i = 0; i < review->rests_on_count; i++) {
-        const ReviewRest *r = &review->rests_on[i];
-        if (r->kind != REST_PANEL || r->basis != REST_MEASURED) continue;
-        part(line, arena_format(arena, "a measured panel (%s: %s)", r->name ? r->name : "?",
-                                r->words ? r->words : "?"));
-    }
+    text_format(text, ", %s", panel->verdict ? panel->verdict : "no verdict of its own");
+    if (panel->is_coarse) text_add(text, ", coarse");
+    if (panel->reason) text_format(text, " (%s)", panel->reason);
+    if (panel->emission_error > 0 || panel->reflection_error > 0)
+        text_format(text, ", known within %s of what it emits and %s of what it reflects",
+                    words_share(panel->emission_error, arena),
+                    words_share(panel->reflection_error, arena));
+}
+
+static void add_panel(Text *line, const Review *review, const ReviewRest *r, Arena *arena)
+{
+    const CasePanel *panel = panel_of(review, r->name);
+    Text             text = {.arena = arena};
+    text_format(&text, "panel of %s: ", r->name ? r->name : "?");
+    if (r->basis == REST_MEASURED) text_format(&text, "measured (%s)", r->words);
+    else text_add(&text, r->basis == REST_SYNTHETIC ? "synthetic" : "no measurement stated");
+    if (panel) add_stated(&text, panel, arena);
+    part(line, text.data);
 }
 
 static void add_panels(Text *line, const Review *review, Arena *arena)
 {
-    add_measured(line, review, arena);
-    part(line, panel_words(review, REST_SYNTHETIC, arena));
-    part(line, panel_words(review, REST_NOT_STATED, arena));
+    for (int i = 0; i < review->rests_on_count; i++)
+        if (review->rests_on[i].kind == REST_PANEL)
+            add_panel(line, review, &review->rests_on[i], arena);
 }
 
 /* ---- materials --------------------------------------------------------------------------- */

@@ -7,7 +7,8 @@
 #include "base/arena.h"
 #include "review/verdict.h"
 
-/* "a synthetic panel (cluster); 11 guessed materials (up to 62 % of the light on a symbol); ...";
- * shares are the greatest of this review's cases, which may be a part of another's. "": nothing
- * is known, as of a review of an older version. */
+/* "panel of cluster: synthetic, good, known within 0.6 % of what it emits and 0.5 % of what it
+ * reflects; 11 guessed materials (up to 62 % of the light on a symbol); ...": errors of panels
+ * are standard errors, which the intervals hold; shares are the greatest of this review's cases,
+ * which may be a part of another's. "": nothing is known, as of a review of an older version. */
 const char *review_rests_words(const Review *review, Arena *arena);

@@ -10,6 +10,7 @@
  */
 #pragma once
 #include "review/chain/chains.h"
+#include "review/profile.h"
 #include "review/symbol/symbol_sight.h"
 #include "review/verdict.h"
 

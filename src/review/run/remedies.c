@@ -7,68 +7,100 @@
 #include "base/mathd.h"
 #include "base/parallel.h"
 #include "base/units.h"
+#include "review/judge.h"
+#include "review/quantity.h"
 
 #define COATED 0.25 /* of a mirror's light that a usual anti-reflection coating leaves */
 #define BRIGHTER_MOST 10.0 /* times as bright: more is not built */
 #define PANEL_LEAST 0.1    /* of today's reflection: less is not built either */
 #define SEAT_LEAST 0.1     /* of the light: an empty seat's back that is worth a word */
 #define TURNED 0.5         /* cosine of 60 degrees: no display is so far from straight ahead */
-#define REMEDIES_MOST (REMEDY_KINDS + 1)
 
 /* What all remedies share: one case. */
 typedef struct Mending {
     const RemedyAsk  *ask;
     const CauseFacts *facts;
     ReviewCase       *c;
+    int               limit; /* that they are for */
     CaseRemedy       *list;
-    double            needed; /* contrast ratio, without the veil */
-    double            surely; /* reflected light at the end of the contrast's interval that is
-                                 worst for it */
     Arena            *arena;
 } Mending;
 
-/* ---- contrasts --------------------------------------------------------------------------- */
+/* ---- judged again ------------------------------------------------------------------------ */
 
-/* The display's own light that comes back to it grows with its brightness. */
-static double contrast(const CaseLuminances *l, double brighter, double reflected)
+/* What a remedy changes: a factor on what the display emits and on its own light that comes back
+ * to it, and all that it reflects else. */
+typedef struct Remedied {
+    double brighter, reflected; /* reflected: cd m^-2 beside its own light, after */
+} Remedied;
+
+static double own_light(const Mending *m)
 {
-    return luminance_contrast(brighter * l->foreground, brighter * l->background, reflected);
+    return fmin(m->facts->own_cd_m2, m->c->luminance_cd_m2.reflected);
 }
 
-/* Of a limit in its own words (profile.h). */
-static double ratio_of(const LimitVerdict *limit)
+/* The case with so much light, judged again; the doubt is that of its reading, in proportion. */
+static ReviewCase judged_with(const Mending *m, Remedied with)
 {
-    double value = limit->value;
-    if (!strcmp(limit->kind, "luminance_contrast")) return value + 1;
-    if (!strcmp(limit->kind, "modulation")) return (1 + value) / (1 - value);
-    return value;
+    ReviewCase      out = *m->c;
+    CaseLuminances *l = &out.luminance_cd_m2;
+    double          before = l->reflected;
+    l->foreground *= with.brighter;
+    l->background *= with.brighter;
+    l->reflected = with.reflected + with.brighter * own_light(m);
+    double scale = before > 0 ? l->reflected / before : 1;
+    out.level *= with.brighter;
+    judge_contrasts(&out, (MeanInterval){scale * m->c->reflected_range.low,
+                                         scale * m->c->reflected_range.high});
+    judge_case(&out, m->ask->profile, m->arena);
+    return out;
 }
 
-/* What would have to be reflected for a contrast. */
-static double reflected_at(const CaseLuminances *l, double ratio)
+/* That with `left` of all that is reflected. */
+static ReviewCase with_light(const Mending *m, double left)
 {
-    double high = fmax(l->foreground, l->background), low = fmin(l->foreground, l->background);
-    return (high - ratio * low) / (ratio - 1);
+    return judged_with(m, (Remedied){1, fmax(left - own_light(m), 0)});
 }
 
-/* Away from 0, or towards it, to three digits: what is printed is what was meant. */
-static double rounded(double value, bool is_up)
+static bool keeps_limit(const Mending *m, const ReviewCase *then)
 {
-    double step = pow_d(10, floor(log10_d(value)) - 2);
-    return step * (is_up ? ceil(value / step) : floor(value / step));
+    return then->limit_count == m->c->limit_count &&
+           then->limits[m->limit].verdict == VERDICT_PASS;
 }
 
-static void add(Mending *m, CaseRemedy remedy)
+/* As much more is reflected as the interval is wide: fresh paths find what is kept then kept as
+ * well. */
+static double doubt_of(const Mending *m)
 {
-    if (!isnan(remedy.contrast_ratio) && !(remedy.contrast_ratio > m->c->contrast_high)) return;
-    m->list[m->c->remedy_count++] = remedy;
+    double half = 0.5 * (m->c->reflected_range.high - m->c->reflected_range.low);
+    return m->c->limits[m->limit].is_upper ? -half : half;
 }
 
-static void add_with(Mending *m, RemedyKind kind, const char *what, double reflected)
+/* Nothing that leaves the figure within its interval. */
+static void add(Mending *m, RemedyKind kind, const char *what, const ReviewCase *then)
 {
-    ReviewCase *c = m->c;
-    add(m, (CaseRemedy){kind, what, contrast(&c->luminance_cd_m2, 1, fmax(reflected, 0)),
-                        c->level});
+    const LimitVerdict *before = &m->c->limits[m->limit], *after = &then->limits[m->limit];
+    if (then->limit_count != m->c->limit_count ||
+        !(before->is_upper ? after->found < before->low : after->found > before->high))
+        return;
+    m->list[m->c->remedy_count++] =
+        (CaseRemedy){kind, what, then->contrast_ratio, then->level, *after, then->verdict};
+}
+
+static void add_with(Mending *m, RemedyKind kind, const char *what, double left)
+{
+    ReviewCase then = with_light(m, left);
+    add(m, kind, what, &then);
+}
+
+/* A direction to try, of which no figure is known. */
+static void add_to_try(Mending *m, RemedyKind kind, const char *what)
+{
+    LimitVerdict then = m->c->limits[m->limit];
+    then.found = then.low = then.high = then.margin = (double)NAN;
+    then.verdict = VERDICT_UNJUDGED;
+    m->list[m->c->remedy_count++] =
+        (CaseRemedy){kind, what, (double)NAN, m->c->level, then, VERDICT_UNJUDGED};
 }
 
 /* Without a part of the light, which other paths found: by its share of theirs. */
@@ -78,29 +110,73 @@ static double left_without(const Mending *m, double cd_m2)
     return (1 - share) * m->c->luminance_cd_m2.reflected;
 }
 
+/* Of the limits of contrast that count and are missed the one that is missed by most; -1. */
+static int limit_to_mend(const ReviewCase *c)
+{
+    int worst = -1;
+    for (int i = 0; i < c->limit_count; i++) {
+        const LimitVerdict *limit = &c->limits[i];
+        LimitKind           kind = limit_kind_named(limit->kind);
+        bool is_missed = !limit->is_advice && limit->margin < 0 &&
+                         (limit->verdict == VERDICT_FAIL || limit->verdict == VERDICT_TOO_CLOSE);
+        if (!is_missed || !limit_kinds[kind].is_contrast) continue;
+        if (worst < 0 || limit->margin < c->limits[worst].margin) worst = i;
+    }
+    return worst;
+}
+
+static double ratio_needed(const Mending *m)
+{
+    const LimitVerdict *limit = &m->c->limits[m->limit];
+    return ratio_from_contrast(limit_kind_named(limit->kind), limit->value);
+}
+
+static double veil_of(const Mending *m)
+{
+    double veil = m->c->luminance_cd_m2.veil;
+    return m->ask->profile->uses_veil && veil > 0 ? veil : 0;
+}
+
+/* To three digits, away from 1. */
+static double rounded_out(double factor)
+{
+    double digit = pow_d(10, floor(log10_d(factor)) - 2);
+    return digit * (factor > 1 ? ceil(factor / digit) : floor(factor / digit));
+}
+
 /* ---- brightness -------------------------------------------------------------------------- */
 
-/* By how much the display must be brighter for a contrast,
+/* By how much the display must be brighter, or darker, for a contrast,
  * (H x + R + O x) / (L x + R + O x) = C, O its own light that is reflected, R all other;
  * NaN: no brightness does it. */
-static double brighter_for(const CaseLuminances *l, double reflected, double own, double needed)
+static double brighter_for(const CaseLuminances *l, double own, double other, double needed)
 {
     double high = fmax(l->foreground, l->background), low = fmin(l->foreground, l->background);
     double gain = high + own - needed * (low + own);
-    return gain > 0 ? (reflected - own) * (needed - 1) / gain : (double)NAN;
+    return gain > 0 ? other * (needed - 1) / gain : (double)NAN;
 }
 
+#define TRIES 40
+#define TRY_STEP 1.05 /* the panel's errors are in the interval, too */
+
+/* The least with which the limit is judged to be kept. */
 static void add_brightness(Mending *m)
 {
-    const CaseLuminances *l = &m->c->luminance_cd_m2;
-    double own = fmin(m->facts->own_cd_m2, l->reflected);
-    double brighter = brighter_for(l, m->surely, own, m->needed);
-    if (!(brighter > 1) || !(brighter < BRIGHTER_MOST)) return;
-    brighter = rounded(brighter, true);
-    add(m, (CaseRemedy){REMEDY_BRIGHTNESS,
-                        arena_format(m->arena, "the display %.3g times as bright", brighter),
-                        contrast(l, brighter, l->reflected + (brighter - 1) * own),
-                        m->c->level * brighter});
+    bool   is_upper = m->c->limits[m->limit].is_upper;
+    double own = own_light(m), other = m->c->luminance_cd_m2.reflected - own;
+    double doubt = doubt_of(m);
+    double x = brighter_for(&m->c->luminance_cd_m2, own, fmax(other + veil_of(m) + 2 * doubt, 0),
+                            ratio_needed(m));
+    for (int i = 0; i < TRIES && x > 0 && x < BRIGHTER_MOST; i++) {
+        double     factor = rounded_out(x);
+        ReviewCase sure = judged_with(m, (Remedied){factor, fmax(other + doubt, 0)});
+        x *= is_upper ? 1 / TRY_STEP : TRY_STEP;
+        if (!keeps_limit(m, &sure)) continue;
+        ReviewCase then = judged_with(m, (Remedied){factor, other});
+        add(m, REMEDY_BRIGHTNESS,
+            arena_format(m->arena, "the display %.3g times as bright", factor), &then);
+        return;
+    }
 }
 
 /* ---- tilt -------------------------------------------------------------------------------- */
@@ -176,23 +252,24 @@ static const char *tilt_words(float tilt_deg, Arena *arena)
                         tilt_deg > 0 ? "back" : "forward", (double)fabsf(tilt_deg));
 }
 
-/* The least that is enough; else that which gives most. */
+/* The least that is enough; else that which leaves least light. */
 static void add_traced_tilt(Mending *m)
 {
     const CaseLuminances *l = &m->c->luminance_cd_m2;
     TiltSearch search = {.ask = m->ask, .mirror = mirror_of(m->ask)};
-    double     best = 0, reflected[TILTS];
+    double     least = l->reflected;
     int        at = 0;
     parallel_for(m->ask->tools->threads, TILTS, trace_tilt, &search);
     if (!(search.cd_m2[0] > 0)) return;
-    for (int i = 1; i < TILTS && best < m->needed; i++) {
-        reflected[i] = l->reflected - l->mirror * (1 - search.cd_m2[i] / search.cd_m2[0]);
-        double found = contrast(l, 1, reflected[i]);
-        if (!(found > best)) continue;
-        best = found;
+    for (int i = 1; i < TILTS; i++) {
+        double left = l->reflected - l->mirror * (1 - search.cd_m2[i] / search.cd_m2[0]);
+        if (!(left < least)) continue;
+        ReviewCase then = with_light(m, left);
+        least = left;
         at = i;
+        if (keeps_limit(m, &then)) break;
     }
-    if (at) add_with(m, REMEDY_TILT, tilt_words(TILT_DEG[at], m->arena), reflected[at]);
+    if (at) add_with(m, REMEDY_TILT, tilt_words(TILT_DEG[at], m->arena), least);
 }
 
 /* Turns the mirror away from where the light comes from. */
@@ -208,10 +285,9 @@ static void add_tilt_to_try(Mending *m)
         return;
     float back = vec3_dot(arrives, mirrored(&mirror, TRY_DEG, from_eye));
     float forward = vec3_dot(arrives, mirrored(&mirror, -TRY_DEG, from_eye));
-    add(m, (CaseRemedy){REMEDY_TILT,
-                        back < forward ? "the display leaning back by a few degrees"
-                                       : "the display leaning forward by a few degrees",
-                        (double)NAN, m->c->level});
+    add_to_try(m, REMEDY_TILT,
+               back < forward ? "the display leaning back by a few degrees"
+                              : "the display leaning forward by a few degrees");
 }
 
 static void add_tilt(Mending *m)
@@ -224,6 +300,12 @@ static void add_tilt(Mending *m)
 /* ---- a hood ------------------------------------------------------------------------------ */
 
 static const float HOOD_M[PLACE_HOODS] = {0.03f, 0.06f, 0.1f};
+
+static PlaceFace face_of(const RemedyAsk *ask)
+{
+    const ReviewDisplay *display = &ask->symbol->display;
+    return place_face(ask->aim->context->scene, display->part_ids, display->part_count);
+}
 
 static bool hides_symbol(const RemedyAsk *ask, const PlaceFace *face, float depth_m)
 {
@@ -238,14 +320,15 @@ static bool hides_symbol(const RemedyAsk *ask, const PlaceFace *face, float dept
 }
 
 /* The least that is enough; else that which gives most. */
-static void add_hood(Mending *m, const PlaceFace *face)
+static void add_hood(Mending *m)
 {
-    const CaseLuminances *l = &m->c->luminance_cd_m2;
-    int best = -1;
-    for (int i = 0; i < PLACE_HOODS && face->is_upright; i++) {
-        if (hides_symbol(m->ask, face, HOOD_M[i])) break;
+    PlaceFace face = face_of(m->ask);
+    int       best = -1;
+    for (int i = 0; i < PLACE_HOODS && face.is_upright; i++) {
+        if (hides_symbol(m->ask, &face, HOOD_M[i])) break;
+        ReviewCase then = with_light(m, left_without(m, m->facts->hooded[i]));
         best = i;
-        if (contrast(l, 1, left_without(m, m->facts->hooded[i])) >= m->needed) break;
+        if (keeps_limit(m, &then)) break;
     }
     if (best >= 0)
         add_with(m, REMEDY_HOOD,
@@ -264,15 +347,30 @@ static void add_coating(Mending *m)
                  l->reflected - (1 - COATED) * l->mirror);
 }
 
+/* What would have to be reflected for a contrast. */
+static double reflected_at(const CaseLuminances *l, double ratio)
+{
+    double high = fmax(l->foreground, l->background), low = fmin(l->foreground, l->background);
+    return (high - ratio * low) / (ratio - 1);
+}
+
+/* The most that may be reflected so that the limit is judged to be kept. */
 static void add_panel(Mending *m)
 {
     const CaseLuminances *l = &m->c->luminance_cd_m2;
-    double share = reflected_at(l, m->needed) / m->surely;
-    if (!(share < 1) || !(share > PANEL_LEAST)) return;
-    share = rounded(share, false);
-    add_with(m, REMEDY_PANEL,
-             arena_format(m->arena, "a panel as bright that reflects %.3g times as much",
-                          share), share * l->reflected);
+    double doubt = doubt_of(m);
+    double share = (reflected_at(l, ratio_needed(m)) - veil_of(m)) / (l->reflected + 2 * doubt);
+    if (m->c->limits[m->limit].is_upper) return;
+    for (int i = 0; i < TRIES && share > PANEL_LEAST && share < 1; i++) {
+        double     factor = rounded_out(share);
+        ReviewCase sure = with_light(m, factor * (l->reflected + doubt));
+        share /= TRY_STEP;
+        if (!keeps_limit(m, &sure)) continue;
+        add_with(m, REMEDY_PANEL,
+                 arena_format(m->arena, "a panel as bright that reflects %.3g times as much",
+                              factor), factor * l->reflected);
+        return;
+    }
 }
 
 static void add_trim(Mending *m)
@@ -300,10 +398,9 @@ static Vec3 ahead_of(const RemedyAsk *ask)
 
 ChainPlaces remedy_places(const RemedyAsk *ask)
 {
-    const Scene         *scene = ask->aim->context->scene;
-    const ReviewDisplay *display = &ask->symbol->display;
-    ChainPlaces places = {.scene = scene, .eye = ask->aim->eye, .ahead = ahead_of(ask),
-                          .face = place_face(scene, display->part_ids, display->part_count)};
+    ChainPlaces places = {.scene = ask->aim->context->scene, .eye = ask->aim->eye,
+                          .ahead = ahead_of(ask),
+                          .face = face_of(ask)};
     memcpy(places.hood_m, HOOD_M, sizeof HOOD_M);
     return places;
 }
@@ -318,19 +415,14 @@ static void find_empty_seat(const RemedyAsk *ask, const CauseFacts *facts, Revie
 
 void case_remedies(const RemedyAsk *ask, const CauseFacts *facts, ReviewCase *c, Arena *arena)
 {
-    Mending m = {ask, facts, c, ARENA_NEW(arena, CaseRemedy, REMEDIES_MOST), 0, 0, arena};
+    Mending m = {ask, facts, c, limit_to_mend(c), NULL, arena};
     find_empty_seat(ask, facts, c);
-    if (c->limit_id < 0 || !(c->margin < 0) || !(c->visible_share > 0)) return;
-    const CaseLuminances *l = &c->luminance_cd_m2;
-    PlaceFace face = place_face(ask->aim->context->scene, ask->symbol->display.part_ids,
-                                ask->symbol->display.part_count);
-    m.needed = ratio_of(&c->limits[c->limit_id]);
-    m.surely = c->contrast_low > 1 ? reflected_at(l, c->contrast_low) : c->reflected_range.high;
+    if (c->verdict == VERDICT_UNJUDGED || m.limit < 0) return;
+    c->remedies = m.list = ARENA_NEW(arena, CaseRemedy, REMEDY_KINDS);
     add_brightness(&m);
     add_tilt(&m);
-    add_hood(&m, &face);
+    add_hood(&m);
     add_coating(&m);
     add_panel(&m);
     add_trim(&m);
-    c->remedies = m.list;
 }

@@ -23,6 +23,7 @@
  * Fails    never.
  */
 #pragma once
+#include "review/profile.h"
 #include "review/run/causes.h"
 #include "review/run/symbols.h"
 
@@ -31,12 +32,16 @@ typedef struct RemedyAsk {
     const ProbeAim     *aim;     /* at what is visible of the symbol */
     const SetupSymbol  *symbol;
     const double       *forward; /* [3] where the vehicle points, as the request says */
+    const Profile      *profile; /* limits */
     bool                has_occupant; /* somebody was put there under this condition */
 } RemedyAsk;
 
 /* What the search for causes is to keep apart. */
 ChainPlaces remedy_places(const RemedyAsk *ask);
 
-/* Sets the case's remedies, and whether it is an empty seat that washes it out. Where its limit
- * is kept there are none. */
+/* Sets the case's remedies, and whether it is an empty seat that washes it out. They are for the
+ * contrast limit that is missed by most, and judged as the case was; where none is missed, or
+ * the case cannot be judged, there are none, nor is anything listed that leaves the figure
+ * within the interval it has. A brightness, and a panel, is that with which the limit is judged
+ * to be kept although as much more is reflected as the interval is wide. */
 void case_remedies(const RemedyAsk *ask, const CauseFacts *facts, ReviewCase *c, Arena *arena);

@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-#include "panel/query/panel_origin.h"
+#include "panel/query/panel_stated.h"
 #include "review/request/request_check.h"
 #include "scene/load/material_data.h"
 
@@ -153,31 +153,28 @@ void rests_add_request(const ReviewRequest *request, const Profile *profile, Rev
 
 /* ---- what the scene's files say ---------------------------------------------------------- */
 
-static void add_panel(const Display *display, Review *review, Arena *arena)
+static void add_panel(const char *name, const Display *display, Review *review, Arena *arena)
 {
-    PanelOrigin origin = panel_origin(display->panel, arena);
-    bool        has_instrument = origin.instrument[0] != '\0';
-    RestBasis   basis = origin.is_synthetic ? REST_SYNTHETIC
-                        : has_instrument    ? REST_MEASURED
+    PanelStated stated = panel_stated(display->panel, arena);
+    RestBasis   basis = stated.is_synthetic ? REST_SYNTHETIC
+                        : stated.instrument ? REST_MEASURED
                                             : REST_NOT_STATED;
-    const char *words = arena_format(arena, "%s%s%s", origin.name,
-                                     origin.name[0] && has_instrument ? "; " : "",
-                                     origin.instrument);
-    add((ReviewRest){REST_PANEL, basis, kept(display->name, arena), words, 1, 1}, review,
-        arena);
+    const char *words = arena_format(arena, "%s%s%s", stated.name ? stated.name : "",
+                                     stated.name && stated.instrument ? "; " : "",
+                                     stated.instrument ? stated.instrument : "");
+    add((ReviewRest){REST_PANEL, basis, name, words, 1, 1}, review, arena);
 }
 
+/* Of the displays that are read, by the names that symbols have for them. */
 static void add_panels(const ReviewRequest *request, const Scene *scene, Review *review,
                        Arena *arena)
 {
     for (int i = 0; i < request->symbol_count; i++) {
-        Arena         scratch = *arena;
+        const char   *name = request->symbols[i].display;
         ReviewDisplay display;
         Error         ignored; /* the request was checked, or will be */
-        if (!review_display_find(scene, request->symbols[i].display, &scratch, &display,
-                                 &ignored))
-            continue;
-        add_panel(&scene->displays[display.display_id], review, arena);
+        if (review_display_find(scene, name, arena, &display, &ignored))
+            add_panel(name, &scene->displays[display.display_id], review, arena);
     }
 }
 
