@@ -75,6 +75,8 @@ start 'installed, moved, read, completed' install \
 start 'same bytes, any names' names python3 tests/image/names.py $program
 start 'a frame shared in a job' job python3 tests/slurm/job.py $program
 start 'why a display looks so' explain python3 tests/image/explain.py $program
+start 'what a verdict rests on' rests python3 tests/image/rests.py $program
+start 'what would mend it, built' remedies python3 tests/image/remedies.py $program
 start 'groups of lights' lights python3 tests/image/lights.py $program
 start 'same bits, killed and resumed' resume python3 tests/hostile/resume.py $program
 start 'same bits, any parts' merge python3 tests/image/merge.py $program
