@@ -14,7 +14,7 @@
 #include "render/render.h"
 #include "review/request/request_read.h"
 #include "review/run/cases.h"
-#include "review/run/causes.h"
+#include "review/chain/causes.h"
 
 #define READ_PATHS 1024
 #define CASE_PATHS 4096

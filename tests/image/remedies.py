@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """remedies.py PARHELION -- what a review says would mend a case: nothing that blinds a pane, a
-seat or who sits in it; in the order of their kinds; what is foretold comes true when it is built
-and reviewed again, and what is said to pass passes.
+seat or who sits in it; in the order of their kinds; what is foretold comes true when it is
+built and reviewed again, and what is said to pass passes.
 """
 import os
 import shutil
@@ -78,7 +78,7 @@ def agrees(report, what, foretold, found, share):
                  f"{what}: foretold {foretold:.5g}, found {found['contrast_ratio']:.5g}")
 
 
-# ---- a seat behind the eye, lit through a pane; its picture in a glossy display ---------------
+# ---- a seat behind the eye, lit through a pane; its picture in a glossy display --------------
 
 def seat_cabin(forward=(0, 0, -1), top=-0.1):
     cabin = Cabin(OLED, [0, 0.15, 0.7], forward)
@@ -144,15 +144,17 @@ def check_tilt(report, reviewer, cabin, document, remedy):
     least = light["scattered"]
     report.claim(remedy["contrast_ratio"] < 1.02 * (light["foreground"] + least) / least,
                  f"{remedy['what']}: {remedy['contrast_ratio']}, scattered {least}")
-    report.claim(0.4 * found < remedy["contrast_ratio"] < found,
-                 f"{remedy['what']}: foretold {remedy['contrast_ratio']:.5g}, found {found:.5g}")
+    foretold = remedy["contrast_ratio"]
+    report.claim(0.4 * found < foretold < found,
+                 f"{remedy['what']}: foretold {foretold:.5g}, found {found:.5g}")
 
 
 def check_occupied(report, reviewer):
     """The same seat, with somebody named under the condition; and one who faces elsewhere."""
     cabin = seat_cabin()
     body = Scene()
-    body.quad(body.lambert(0.5, double_sided=True), [0.2, -0.6, 0.75], [-0.4, 0, 0], [0, 0.5, 0])
+    shirt = body.lambert(0.5, double_sided=True)
+    body.quad(shirt, [0.2, -0.6, 0.75], [-0.4, 0, 0], [0, 0.5, 0])
     body.write(os.path.join(reviewer.folder, "body.gltf"))
     document = asked(cabin, 0, 40, 0.2, **{"with": {"somebody": ["body.gltf"]}})
     document["conditions"][0]["with"] = "somebody"
@@ -166,7 +168,7 @@ def check_occupied(report, reviewer):
                  "a forward direction across the gaze hides the seat")
 
 
-# ---- a plate before the display, and a sun on it ----------------------------------------------
+# ---- a plate before the display, and a sun on it ---------------------------------------------
 
 def plate_cabin(reflectance=0.6):
     cabin = Cabin(OLED, [0, 0.3, 0.9])
@@ -200,7 +202,8 @@ def check_hood(report, reviewer):
     document["variants"] = {"hood": {"hoods": {"screen": depth}}}
     cabin.write(reviewer)
     _, review = reviewer.review(document, "hooded")
-    agrees(report, hood["what"], hood["contrast_ratio"], review["variants"][0]["cases"][0], 0.05)
+    hooded = review["variants"][0]["cases"][0]
+    agrees(report, hood["what"], hood["contrast_ratio"], hooded, 0.05)
     # 60 degrees up, the sun's rays rise by tan 60 for each metre out: a hood of that depth has
     # the symbol's middle, 0.075 m below it, in its shade when it is deeper than that / tan 60.
     report.claim(depth > 0.075 / 3 ** 0.5, f"a hood of {depth} m")

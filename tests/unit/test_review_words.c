@@ -22,9 +22,9 @@ TEST(figures_are_said_in_words)
     assert_string_equal(words_minutes(85, &arena), "1 h 25 min");
     assert_string_equal(words_minutes(120, &arena), "2 h");
     assert_string_equal(words_minutes(NAN, &arena), "–");
-    assert_string_equal(words_wanted(&ratio, &arena), "at least 2 : 1");
+    assert_string_equal(words_required(&ratio, &arena), ">= 2 : 1");
     height.is_upper = height.is_advice = true;
-    assert_string_equal(words_wanted(&height, &arena), "at most 12 arc min (advice)");
+    assert_string_equal(words_required(&height, &arena), "<= 12 arc min (advice)");
 }
 
 TEST(what_is_not_visible_says_what_hides_it)
@@ -51,9 +51,9 @@ TEST(what_it_rests_on_is_one_line)
     assert_string_equal(
         review_rests_words(&review, &arena),
         "panel of cluster: measured (PX-9; conoscope, lab <B>), usable with care, coarse "
-        "(coarse: steps of 5 degrees), known within 2.0 % of what it emits and 4.0 % of what it "
-        "reflects; panel of centre: synthetic; 2 guessed materials (up to 62 % of the light on "
-        "a symbol); the eye as given; no occupant named; limits as quoted, 1 of 5 read in the "
+        "(coarse: steps of 5 degrees), known within 2.0 % of what it emits and 4.0 % of what "
+        "it reflects; panel of centre: synthetic; 2 guessed materials (up to 62 % of the light "
+        "on a symbol); the eye as given; no occupant named; limits as quoted, 1 of 5 read in the "
         "standard");
     review.case_count = 4;
     review.sweep_count = 0;
@@ -76,9 +76,9 @@ TEST(no_guess_no_proposal_no_quote_is_told_where_there_is_none)
     Review review = {.rests_on = rests, .rests_on_count = 8};
     assert_string_equal(
         review_rests_words(&review, &arena),
-        "panel of a: no measurement stated; panel of b: no measurement stated; 1 material without optical "
-        "data, taken as perfectly white (up to 0 % of the light on a symbol); proposed eye "
-        "(co-driver), the others as given; occupants: in white (none under 1 of 3 conditions); "
+        "panel of a: no measurement stated; panel of b: no measurement stated; 1 material "
+        "without optical data, taken as perfectly white (up to 0 % of the light on a symbol); "
+        "proposed eye (co-driver), the others as given; occupants: in white (none under 1 of 3 conditions); "
         "limits as read in the standard");
 }
 

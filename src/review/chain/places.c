@@ -4,8 +4,7 @@
 #include <math.h>
 
 /* A seated person about the eye, m. The shipped occupant's chest is 0.18 m behind the eye at
- * most, the headrest 0.42 m; an eye that `equip` proposes before a headrest has it 0.25 m behind
- * itself. */
+ * most, the headrest 0.42 m; `equip` proposes an eye 0.25 m before a headrest. */
 #define CHEST_M 0.2f      /* what is farther behind the eye is no chest */
 #define BACK_M 0.9f       /* nor is what is farther a seat's back */
 #define HALF_WIDE_M 0.35f

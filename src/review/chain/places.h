@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* places.h -- where the light of chains comes by, beside an eye and a display: off what a designer
- * could make of another material, off the seat behind the eye, past where a hood would stand.
+/* places.h -- where the light of chains comes by, about an eye and a display: off what could be
+ * of another material, off the seat behind the eye, past where a hood would stand.
  *
  * Which thing is a seat, and which is not, goes by its place, for models name them in any
  * language: what lies behind the eye and not above it, and what lies in its lap. The figures of
@@ -11,7 +11,7 @@
  * Memory   the arena's. Threads: sums belong to one. Fails: never.
  */
 #pragma once
-#include "path/collect/history.h"
+#include "kernel/probe.h"
 #include "scene/scene.h"
 
 #define PLACE_HOODS 3 /* depths that are compared */
@@ -28,12 +28,12 @@ typedef struct ChainPlaces {
     Vec3         eye;
     Vec3         ahead;      /* unit, level: where who sits there faces */
     PlaceFace    face;
-    float        hood_m[PLACE_HOODS]; /* how far each reaches out, as scene/load/hood.h has it */
+    float        hood_m[PLACE_HOODS]; /* how far each reaches out (scene/load/hood.h) */
 } ChainPlaces;
 
 /* The light of some paths. */
 typedef struct PlaceSums {
-    double *by_trim;        /* [part] that meets it where it could be made of another material */
+    double *by_trim;        /* [part] that meets it where it could be of another material */
     double *by_seat;        /* [part] that comes to the display straight off the seat's back */
     double  hooded[PLACE_HOODS]; /* that each hood would keep off */
     double  arrives[3];     /* times the unit direction from which it comes to the display */

@@ -9,6 +9,6 @@
 
 /* "panel of cluster: synthetic, good, known within 0.6 % of what it emits and 0.5 % of what it
  * reflects; 11 guessed materials (up to 62 % of the light on a symbol); ...": errors of panels
- * are standard errors, which the intervals hold; shares are the greatest of this review's cases,
- * which may be a part of another's. "": nothing is known, as of a review of an older version. */
+ * are standard errors, which the intervals hold; shares are the greatest of this review's
+ * cases, which may be a part of another's. "": nothing is known, as of an older review. */
 const char *review_rests_words(const Review *review, Arena *arena);

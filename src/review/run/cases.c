@@ -18,7 +18,7 @@
 #include "review/pace/work.h"
 #include "review/request/request_check.h"
 #include "review/run/glare_found.h"
-#include "review/run/remedies.h"
+#include "review/chain/remedies.h"
 #include "text/text.h"
 #include "vision/grey_steps.h"
 
@@ -420,8 +420,9 @@ static RemedyAsk remedies_of(const CaseTools *tools, const SetupSymbol *symbol,
                              const ProbeAim *aim)
 {
     const Setup *setup = tools->setup;
-    return (RemedyAsk){&setup->tools, aim, symbol, setup->request->forward,
-                       tools->profile, setup->condition && setup->condition->with_id != NO_ID};
+    return (RemedyAsk){&setup->tools, aim, symbol_middle(symbol), &symbol->display,
+                       setup->request->forward, tools->profile,
+                       setup->condition && setup->condition->with_id != NO_ID};
 }
 
 static bool case_of(const CaseTools *tools, const CaseAsk *ask, Arena *arena, ReviewCase *out,

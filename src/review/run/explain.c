@@ -7,7 +7,7 @@
 #include "light/ray_ends.h"
 #include "review/judge.h"
 #include "review/request/request_check.h"
-#include "review/run/causes.h"
+#include "review/chain/causes.h"
 #include "review/run/sweep.h"
 #include "text/text.h"
 

@@ -41,7 +41,7 @@ static void add_hashed(const char *path, uint64_t hash, Review *review, Arena *a
     add_file(path, arena_format(arena, "%016llx", (unsigned long long)hash), review, arena);
 }
 
-void rests_add_request_files(const ReviewRequest *request, Review *review, Arena *arena)
+static void add_request_files(const ReviewRequest *request, Review *review, Arena *arena)
 {
     for (int i = 0; i < request->input_count; i++)
         add_hashed(request->inputs[i].path, request->inputs[i].hash, review, arena);
@@ -144,7 +144,7 @@ static void add_limits(const Profile *profile, Review *review, Arena *arena)
 void rests_add_request(const ReviewRequest *request, const Profile *profile, Review *review,
                        Arena *arena)
 {
-    rests_add_request_files(request, review, arena);
+    add_request_files(request, review, arena);
     if (profile->file_hash) add_hashed(profile->id, profile->file_hash, review, arena);
     add_eyes(request, review, arena);
     add_occupants(request, review, arena);

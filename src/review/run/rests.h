@@ -22,8 +22,7 @@ void rests_add_request(const ReviewRequest *request, const Profile *profile, Rev
 void rests_add_scene(const ReviewRequest *request, const Scene *scene, Review *review,
                      Arena *arena);
 
-/* Files: of a request, of a scene, of symbols' masks, of another review such as a variant. */
-void rests_add_request_files(const ReviewRequest *request, Review *review, Arena *arena);
+/* Files: of a scene, of symbols' masks, of another review such as a variant. */
 void rests_add_scene_files(const Scene *scene, Review *review, Arena *arena);
 void rests_add_masks(const SetupSymbol *symbols, int count, Review *review, Arena *arena);
 void rests_add_files_of(const Review *of, Review *review, Arena *arena);

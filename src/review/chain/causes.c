@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "review/run/causes.h"
+#include "review/chain/causes.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -6,16 +6,16 @@
  * sits in it is no trim (chain/places.h). Each is reckoned from what is known:
  *
  *   brightness, panel  closed forms: the contrast of what is emitted and reflected
- *   coating, trim      a quarter of the mirror's light is left; of a part's what MATT_BLACK sends
- *                      in the place of its base colour, as if light met it once
- *   hood               the light whose paths would cross it (scene/load/hood.h) is gone, and its
- *                      own is left out; none that would stand before the symbol is offered
- *   tilt               the mirror's light is as what stands in the mirror's new direction, which
- *                      is traced; what scatters is taken to stay. Haze turns with the mirror and
- *                      leaves a bright thing with it, so that the true contrast is mostly higher.
- *                      Where most of the light scatters there is no figure: a tilt is a
- *                      direction to try then, if the light comes from near the mirror's
- *                      direction
+ *   coating, trim      a quarter of the mirror's light is left; of a part's what MATT_BLACK
+ *                      sends in the place of its base colour, as if light met it once
+ *   hood               the light whose paths would cross it (scene/load/hood.h) is gone, and
+ *                      its own is left out; none that would stand before the symbol is offered
+ *   tilt               the mirror's light is as what stands in the mirror's new direction,
+ *                      which is traced; what scatters is taken to stay. Haze turns with the
+ *                      mirror and leaves a bright thing with it, so that the true contrast is
+ *                      mostly higher. Where most of the light scatters there is no figure: a
+ *                      tilt is a direction to try then, if the light comes from near the
+ *                      mirror's direction
  *
  * Units    cd m^-2; metres, world; degrees in words.
  * Memory   texts and lists live in the arena.
@@ -24,13 +24,14 @@
  */
 #pragma once
 #include "review/profile.h"
-#include "review/run/causes.h"
-#include "review/run/symbols.h"
+#include "review/chain/causes.h"
+#include "review/symbol/symbol_surface.h"
 
 typedef struct RemedyAsk {
     const ReadingTools *tools;
     const ProbeAim     *aim;     /* at what is visible of the symbol */
-    const SetupSymbol  *symbol;
+    SymbolPoint         middle;  /* of it */
+    const ReviewDisplay *display;
     const double       *forward; /* [3] where the vehicle points, as the request says */
     const Profile      *profile; /* limits */
     bool                has_occupant; /* somebody was put there under this condition */
@@ -39,9 +40,9 @@ typedef struct RemedyAsk {
 /* What the search for causes is to keep apart. */
 ChainPlaces remedy_places(const RemedyAsk *ask);
 
-/* Sets the case's remedies, and whether it is an empty seat that washes it out. They are for the
- * contrast limit that is missed by most, and judged as the case was; where none is missed, or
- * the case cannot be judged, there are none, nor is anything listed that leaves the figure
+/* Sets the case's remedies, and whether it is an empty seat that washes it out. They are for
+ * the contrast limit that is missed by most, and judged as the case was; where none is missed,
+ * or the case cannot be judged, there are none, nor is anything listed that leaves the figure
  * within the interval it has. A brightness, and a panel, is that with which the limit is judged
  * to be kept although as much more is reflected as the interval is wide. */
 void case_remedies(const RemedyAsk *ask, const CauseFacts *facts, ReviewCase *c, Arena *arena);

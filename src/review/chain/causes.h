@@ -42,7 +42,7 @@ typedef struct CauseFacts {
     ChainFigure all, mirror; /* of these paths; and by the display's mirror */
     CausePart   trim;        /* that whose light would fall most if it were MATT_BLACK, and by
                                 how much it would */
-    CausePart   seat;        /* the seat's back behind the eye, and what comes straight off it */
+    CausePart   seat;        /* the seat's back behind the eye, what comes straight off it */
     double      hooded[PLACE_HOODS]; /* what each of the hoods would keep off */
     double      arrives[3];  /* sum of the directions from which it comes to the display */
 } CauseFacts;

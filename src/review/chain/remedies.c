@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "review/run/remedies.h"
+#include "review/chain/remedies.h"
 
 #include <math.h>
 #include <string.h>
@@ -17,30 +17,30 @@
 #define TURNED 0.5         /* cosine of 60 degrees: no display is so far from straight ahead */
 
 /* What all remedies share: one case. */
-typedef struct Mending {
+typedef struct Remedying {
     const RemedyAsk  *ask;
     const CauseFacts *facts;
     ReviewCase       *c;
     int               limit; /* that they are for */
     CaseRemedy       *list;
     Arena            *arena;
-} Mending;
+} Remedying;
 
 /* ---- judged again ------------------------------------------------------------------------ */
 
-/* What a remedy changes: a factor on what the display emits and on its own light that comes back
- * to it, and all that it reflects else. */
+/* What a remedy changes: a factor on what the display emits and on its own light that comes
+ * back to it, and all that it reflects else. */
 typedef struct Remedied {
     double brighter, reflected; /* reflected: cd m^-2 beside its own light, after */
 } Remedied;
 
-static double own_light(const Mending *m)
+static double own_light(const Remedying *m)
 {
     return fmin(m->facts->own_cd_m2, m->c->luminance_cd_m2.reflected);
 }
 
-/* The case with so much light, judged again; the doubt is that of its reading, in proportion. */
-static ReviewCase judged_with(const Mending *m, Remedied with)
+/* The case with so much light, judged again; its doubt is in proportion. */
+static ReviewCase judged_with(const Remedying *m, Remedied with)
 {
     ReviewCase      out = *m->c;
     CaseLuminances *l = &out.luminance_cd_m2;
@@ -57,12 +57,12 @@ static ReviewCase judged_with(const Mending *m, Remedied with)
 }
 
 /* That with `left` of all that is reflected. */
-static ReviewCase with_light(const Mending *m, double left)
+static ReviewCase with_light(const Remedying *m, double left)
 {
     return judged_with(m, (Remedied){1, fmax(left - own_light(m), 0)});
 }
 
-static bool keeps_limit(const Mending *m, const ReviewCase *then)
+static bool keeps_limit(const Remedying *m, const ReviewCase *then)
 {
     return then->limit_count == m->c->limit_count &&
            then->limits[m->limit].verdict == VERDICT_PASS;
@@ -70,14 +70,14 @@ static bool keeps_limit(const Mending *m, const ReviewCase *then)
 
 /* As much more is reflected as the interval is wide: fresh paths find what is kept then kept as
  * well. */
-static double doubt_of(const Mending *m)
+static double doubt_of(const Remedying *m)
 {
     double half = 0.5 * (m->c->reflected_range.high - m->c->reflected_range.low);
     return m->c->limits[m->limit].is_upper ? -half : half;
 }
 
 /* Nothing that leaves the figure within its interval. */
-static void add(Mending *m, RemedyKind kind, const char *what, const ReviewCase *then)
+static void add(Remedying *m, RemedyKind kind, const char *what, const ReviewCase *then)
 {
     const LimitVerdict *before = &m->c->limits[m->limit], *after = &then->limits[m->limit];
     if (then->limit_count != m->c->limit_count ||
@@ -87,14 +87,14 @@ static void add(Mending *m, RemedyKind kind, const char *what, const ReviewCase 
         (CaseRemedy){kind, what, then->contrast_ratio, then->level, *after, then->verdict};
 }
 
-static void add_with(Mending *m, RemedyKind kind, const char *what, double left)
+static void add_with(Remedying *m, RemedyKind kind, const char *what, double left)
 {
     ReviewCase then = with_light(m, left);
     add(m, kind, what, &then);
 }
 
 /* A direction to try, of which no figure is known. */
-static void add_to_try(Mending *m, RemedyKind kind, const char *what)
+static void add_to_try(Remedying *m, RemedyKind kind, const char *what)
 {
     LimitVerdict then = m->c->limits[m->limit];
     then.found = then.low = then.high = then.margin = (double)NAN;
@@ -104,7 +104,7 @@ static void add_to_try(Mending *m, RemedyKind kind, const char *what)
 }
 
 /* Without a part of the light, which other paths found: by its share of theirs. */
-static double left_without(const Mending *m, double cd_m2)
+static double left_without(const Remedying *m, double cd_m2)
 {
     double share = fmin(cd_m2 / m->facts->all.cd_m2, 1);
     return (1 - share) * m->c->luminance_cd_m2.reflected;
@@ -117,21 +117,22 @@ static int limit_to_mend(const ReviewCase *c)
     for (int i = 0; i < c->limit_count; i++) {
         const LimitVerdict *limit = &c->limits[i];
         LimitKind           kind = limit_kind_named(limit->kind);
-        bool is_missed = !limit->is_advice && limit->margin < 0 &&
-                         (limit->verdict == VERDICT_FAIL || limit->verdict == VERDICT_TOO_CLOSE);
-        if (!is_missed || !limit_kinds[kind].is_contrast) continue;
+        bool is_known = limit->verdict == VERDICT_FAIL || limit->verdict == VERDICT_TOO_CLOSE;
+        if (limit->is_advice || !is_known || !(limit->margin < 0) ||
+            !limit_kinds[kind].is_contrast)
+            continue;
         if (worst < 0 || limit->margin < c->limits[worst].margin) worst = i;
     }
     return worst;
 }
 
-static double ratio_needed(const Mending *m)
+static double ratio_needed(const Remedying *m)
 {
     const LimitVerdict *limit = &m->c->limits[m->limit];
     return ratio_from_contrast(limit_kind_named(limit->kind), limit->value);
 }
 
-static double veil_of(const Mending *m)
+static double veil_of(const Remedying *m)
 {
     double veil = m->c->luminance_cd_m2.veil;
     return m->ask->profile->uses_veil && veil > 0 ? veil : 0;
@@ -160,13 +161,12 @@ static double brighter_for(const CaseLuminances *l, double own, double other, do
 #define TRY_STEP 1.05 /* the panel's errors are in the interval, too */
 
 /* The least with which the limit is judged to be kept. */
-static void add_brightness(Mending *m)
+static void add_brightness(Remedying *m)
 {
     bool   is_upper = m->c->limits[m->limit].is_upper;
     double own = own_light(m), other = m->c->luminance_cd_m2.reflected - own;
-    double doubt = doubt_of(m);
-    double x = brighter_for(&m->c->luminance_cd_m2, own, fmax(other + veil_of(m) + 2 * doubt, 0),
-                            ratio_needed(m));
+    double doubt = doubt_of(m), most = fmax(other + veil_of(m) + 2 * doubt, 0);
+    double x = brighter_for(&m->c->luminance_cd_m2, own, most, ratio_needed(m));
     for (int i = 0; i < TRIES && x > 0 && x < BRIGHTER_MOST; i++) {
         double     factor = rounded_out(x);
         ReviewCase sure = judged_with(m, (Remedied){factor, fmax(other + doubt, 0)});
@@ -196,10 +196,10 @@ typedef struct Mirror {
 
 static Mirror mirror_of(const RemedyAsk *ask)
 {
-    SymbolPoint middle = symbol_middle(ask->symbol);
-    Vec3 right = vec3_normalize(vec3_cross(vec3(0, 1, 0), middle.ns));
-    return (Mirror){symbol_point_start(ask->aim->context->scene, &middle), middle.ns,
-                    vec3_cross(middle.ns, right)};
+    const SymbolPoint *middle = &ask->middle;
+    Vec3 right = vec3_normalize(vec3_cross(vec3(0, 1, 0), middle->ns));
+    return (Mirror){symbol_point_start(ask->aim->context->scene, middle), middle->ns,
+                    vec3_cross(middle->ns, right)};
 }
 
 static Vec3 mirrored(const Mirror *mirror, float tilt_deg, Vec3 from_eye)
@@ -253,7 +253,7 @@ static const char *tilt_words(float tilt_deg, Arena *arena)
 }
 
 /* The least that is enough; else that which leaves least light. */
-static void add_traced_tilt(Mending *m)
+static void add_traced_tilt(Remedying *m)
 {
     const CaseLuminances *l = &m->c->luminance_cd_m2;
     TiltSearch search = {.ask = m->ask, .mirror = mirror_of(m->ask)};
@@ -273,7 +273,7 @@ static void add_traced_tilt(Mending *m)
 }
 
 /* Turns the mirror away from where the light comes from. */
-static void add_tilt_to_try(Mending *m)
+static void add_tilt_to_try(Remedying *m)
 {
     Mirror mirror = mirror_of(m->ask);
     Vec3   from_eye = vec3_normalize(vec3_sub(mirror.start, m->ask->aim->eye));
@@ -290,7 +290,7 @@ static void add_tilt_to_try(Mending *m)
                               : "the display leaning forward by a few degrees");
 }
 
-static void add_tilt(Mending *m)
+static void add_tilt(Remedying *m)
 {
     const CaseLuminances *l = &m->c->luminance_cd_m2;
     if (l->mirror > MIRROR_MOST * l->reflected) add_traced_tilt(m);
@@ -303,8 +303,8 @@ static const float HOOD_M[PLACE_HOODS] = {0.03f, 0.06f, 0.1f};
 
 static PlaceFace face_of(const RemedyAsk *ask)
 {
-    const ReviewDisplay *display = &ask->symbol->display;
-    return place_face(ask->aim->context->scene, display->part_ids, display->part_count);
+    return place_face(ask->aim->context->scene, ask->display->part_ids,
+                      ask->display->part_count);
 }
 
 static bool hides_symbol(const RemedyAsk *ask, const PlaceFace *face, float depth_m)
@@ -320,7 +320,7 @@ static bool hides_symbol(const RemedyAsk *ask, const PlaceFace *face, float dept
 }
 
 /* The least that is enough; else that which gives most. */
-static void add_hood(Mending *m)
+static void add_hood(Remedying *m)
 {
     PlaceFace face = face_of(m->ask);
     int       best = -1;
@@ -339,7 +339,7 @@ static void add_hood(Mending *m)
 
 /* ---- coating, panel, trim ---------------------------------------------------------------- */
 
-static void add_coating(Mending *m)
+static void add_coating(Remedying *m)
 {
     const CaseLuminances *l = &m->c->luminance_cd_m2;
     if (l->mirror > 0)
@@ -355,7 +355,7 @@ static double reflected_at(const CaseLuminances *l, double ratio)
 }
 
 /* The most that may be reflected so that the limit is judged to be kept. */
-static void add_panel(Mending *m)
+static void add_panel(Remedying *m)
 {
     const CaseLuminances *l = &m->c->luminance_cd_m2;
     double doubt = doubt_of(m);
@@ -373,7 +373,7 @@ static void add_panel(Mending *m)
     }
 }
 
-static void add_trim(Mending *m)
+static void add_trim(Remedying *m)
 {
     const CausePart *trim = &m->facts->trim;
     if (trim->what)
@@ -387,7 +387,7 @@ static void add_trim(Mending *m)
 /* Where who sits there faces: ahead, unless the display is far from there. */
 static Vec3 ahead_of(const RemedyAsk *ask)
 {
-    Vec3 gaze = vec3_sub(symbol_middle(ask->symbol).position, ask->aim->eye);
+    Vec3 gaze = vec3_sub(ask->middle.position, ask->aim->eye);
     Vec3 ahead = vec3_from_doubles(ask->forward);
     gaze.y = ahead.y = 0;
     gaze = vec3_normalize(gaze);
@@ -415,7 +415,7 @@ static void find_empty_seat(const RemedyAsk *ask, const CauseFacts *facts, Revie
 
 void case_remedies(const RemedyAsk *ask, const CauseFacts *facts, ReviewCase *c, Arena *arena)
 {
-    Mending m = {ask, facts, c, limit_to_mend(c), NULL, arena};
+    Remedying m = {ask, facts, c, limit_to_mend(c), NULL, arena};
     find_empty_seat(ask, facts, c);
     if (c->verdict == VERDICT_UNJUDGED || m.limit < 0) return;
     c->remedies = m.list = ARENA_NEW(arena, CaseRemedy, REMEDY_KINDS);
