@@ -2,6 +2,7 @@
 #include "review/output/review_rests.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "review/output/review_decide.h"
 #include "review/output/review_words.h"
@@ -74,22 +75,35 @@ static void add_stated(Text *text, const CasePanel *panel, Arena *arena)
                     words_share(panel->reflection_error, arena));
 }
 
-static void add_panel(Text *line, const Review *review, const ReviewRest *r, Arena *arena)
+static const char *stated_words(const Review *review, const ReviewRest *r, Arena *arena)
 {
     const CasePanel *panel = panel_of(review, r->name);
     Text             text = {.arena = arena};
-    text_format(&text, "panel of %s: ", r->name ? r->name : "?");
     if (r->basis == REST_MEASURED) text_format(&text, "measured (%s)", r->words);
     else text_add(&text, r->basis == REST_SYNTHETIC ? "synthetic" : "no measurement stated");
     if (panel) add_stated(&text, panel, arena);
-    part(line, text.data);
+    return text.data;
 }
 
+/* Displays whose panels state the same stand together. */
 static void add_panels(Text *line, const Review *review, Arena *arena)
 {
-    for (int i = 0; i < review->rests_on_count; i++)
+    int          count = review->rests_on_count;
+    const char **stated = ARENA_NEW(arena, const char *, count); /* NULL: none, or told */
+    for (int i = 0; i < count; i++)
         if (review->rests_on[i].kind == REST_PANEL)
-            add_panel(line, review, &review->rests_on[i], arena);
+            stated[i] = stated_words(review, &review->rests_on[i], arena);
+    for (int i = 0; i < count; i++) {
+        const char *words = stated[i];
+        Text        names = {.arena = arena};
+        for (int k = i; words && k < count; k++) {
+            const char *name = review->rests_on[k].name;
+            if (!stated[k] || strcmp(stated[k], words) != 0) continue;
+            text_format(&names, "%s%s", k > i ? ", " : "", name ? name : "?");
+            stated[k] = NULL;
+        }
+        if (words) part(line, arena_format(arena, "panel of %s: %s", names.data, words));
+    }
 }
 
 /* ---- materials --------------------------------------------------------------------------- */
