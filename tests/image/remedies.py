@@ -187,6 +187,15 @@ def check_trim(report, reviewer):
         black = reviewed(reviewer, plate_cabin(0.04), document, "black")
         agrees(report, trim["what"], trim["contrast_ratio"], black, 0.02)
     report.claim(case["empty_seat"] is None, "a plate is a seat")
+    hands = Scene()
+    hands.quad(hands.lambert(0.6), [-0.4, -0.1, 0.45], [0.8, 0, 0], [0, 0, -0.35])
+    hands.write(os.path.join(reviewer.folder, "hands.gltf"))
+    document["with"] = {"somebody": ["hands.gltf"]}
+    document["conditions"][0]["with"] = "somebody"
+    bare = Cabin(OLED, [0, 0.3, 0.9])
+    case = reviewed(reviewer, bare, document, "hands")
+    report.claim(case["verdict"] == "fail" and "trim" not in by_kind(case),
+                 f"hands as trim: {case['remedies']}")
 
 
 def check_hood(report, reviewer):

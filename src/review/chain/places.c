@@ -10,8 +10,10 @@
 #define HALF_WIDE_M 0.35f
 #define OVER_M 0.15f      /* above the eye: a headrest's top */
 #define UNDER_M 1.0f      /* below it: a cushion's edge */
-#define LAP_M 0.45f       /* ahead of it: knees */
-#define CHIN_M 0.15f      /* below it */
+#define CHIN_M 0.15f      /* below it: from there on a trunk, */
+#define TRUNK_M 0.2f      /* so far ahead of it; */
+#define LAP_M 0.5f        /* thighs and a cushion, from here on down, */
+#define KNEE_M 0.5f       /* so far ahead */
 #define CABIN_M 2.5f      /* from the display: what is farther is none of its cabin */
 #define GAP_M 0.002f      /* as scene/load/hood.c has it */
 #define FLAT 0.985f
@@ -123,14 +125,15 @@ static FromEye from_eye(const ChainPlaces *places, Vec3 p)
     return (FromEye){ahead, fabsf(vec3_dot(d, across)), d.y};
 }
 
-/* Any seat's back and who sits in it, and this one's lap. */
+/* Any seat's back and who sits in it, and this one's trunk and lap. */
 static bool may_be_seat(const ChainPlaces *places, Vec3 p)
 {
     FromEye at = from_eye(places, p);
     bool    is_behind = at.ahead < 0 && at.above < OVER_M;
-    bool    is_lap = at.ahead < LAP_M && at.aside < HALF_WIDE_M && at.above < -CHIN_M &&
+    float   ahead = at.above < -LAP_M ? KNEE_M : TRUNK_M;
+    bool    is_own = at.ahead < ahead && at.aside < HALF_WIDE_M && at.above < -CHIN_M &&
                   at.above > -UNDER_M;
-    return is_behind || is_lap;
+    return is_behind || is_own;
 }
 
 static bool is_own_back(const ChainPlaces *places, Vec3 p)
@@ -140,10 +143,13 @@ static bool is_own_back(const ChainPlaces *places, Vec3 p)
            at.above < OVER_M && at.above > -UNDER_M;
 }
 
-/* What lets light through must go on doing so, what mirrors and what shines likewise. */
-static bool is_plain(const Scene *scene, int part_id)
+/* What lets light through must go on doing so, what mirrors and what shines likewise; an
+ * occupant is no trim. */
+static bool is_plain(const ChainPlaces *places, int part_id)
 {
+    const Scene    *scene = places->scene;
     const Material *m = &scene->materials[scene->parts[part_id].material_id];
+    if (places->is_occupant[part_id]) return false;
     bool is_mirror = m->metallic >= 0.5f && m->roughness <= LOOKING_GLASS;
     return !m->lets_light_through && m->transmission <= 0 && !m->is_emitter && !is_mirror;
 }
@@ -166,7 +172,7 @@ static void add_trims(const ChainPlaces *places, const int *alike, const PathHis
         const PathStep *step = &history->step[i];
         int             id = alike[step->part_id];
         bool            is_met = false;
-        if (step->pane_id != NO_ID || !is_plain(places->scene, id)) return;
+        if (step->pane_id != NO_ID || !is_plain(places, step->part_id)) return;
         for (int k = 0; k < count; k++) is_met |= met[k] == id;
         if (is_met || may_be_seat(places, step->position) ||
             vec3_length(vec3_sub(step->position, display)) > CABIN_M)

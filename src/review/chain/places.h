@@ -25,6 +25,7 @@ typedef struct PlaceFace {
 
 typedef struct ChainPlaces {
     const Scene *scene;
+    const bool  *is_occupant; /* [part] who was put into the seats */
     Vec3         eye;
     Vec3         ahead;      /* unit, level: where who sits there faces */
     PlaceFace    face;

@@ -396,9 +396,22 @@ static Vec3 ahead_of(const RemedyAsk *ask)
     return is_aside ? gaze : ahead;
 }
 
-ChainPlaces remedy_places(const RemedyAsk *ask)
+static const bool *occupant_parts(const RemedyAsk *ask, Arena *arena)
+{
+    const Scene *scene = ask->aim->context->scene;
+    bool        *is_occupant = ARENA_NEW(arena, bool, scene->part_count);
+    for (int k = 0; ask->occupant && k < ask->occupant->path_count; k++)
+        for (int i = 0; i < scene->part_count; i++) {
+            const char *file = scene->parts[i].file;
+            is_occupant[i] |= file && !strcmp(file, ask->occupant->paths[k]);
+        }
+    return is_occupant;
+}
+
+ChainPlaces remedy_places(const RemedyAsk *ask, Arena *arena)
 {
     ChainPlaces places = {.scene = ask->aim->context->scene, .eye = ask->aim->eye,
+                          .is_occupant = occupant_parts(ask, arena),
                           .ahead = ahead_of(ask),
                           .face = face_of(ask)};
     memcpy(places.hood_m, HOOD_M, sizeof HOOD_M);
@@ -408,7 +421,7 @@ ChainPlaces remedy_places(const RemedyAsk *ask)
 static void find_empty_seat(const RemedyAsk *ask, const CauseFacts *facts, ReviewCase *c)
 {
     double share = facts->seat.what ? facts->seat.cd_m2 / facts->all.cd_m2 : 0;
-    if (ask->has_occupant || !(share >= SEAT_LEAST)) return;
+    if (ask->occupant || !(share >= SEAT_LEAST)) return;
     c->empty_seat = facts->seat.what;
     c->empty_seat_share = fmin(share, 1);
 }

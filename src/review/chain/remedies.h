@@ -34,11 +34,11 @@ typedef struct RemedyAsk {
     const ReviewDisplay *display;
     const double       *forward; /* [3] where the vehicle points, as the request says */
     const Profile      *profile; /* limits */
-    bool                has_occupant; /* somebody was put there under this condition */
+    const ReviewWith   *occupant; /* who was put there under this condition; NULL: nobody */
 } RemedyAsk;
 
 /* What the search for causes is to keep apart. */
-ChainPlaces remedy_places(const RemedyAsk *ask);
+ChainPlaces remedy_places(const RemedyAsk *ask, Arena *arena);
 
 /* Sets the case's remedies, and whether it is an empty seat that washes it out. They are for
  * the contrast limit that is missed by most, and judged as the case was; where none is missed,

@@ -420,9 +420,10 @@ static RemedyAsk remedies_of(const CaseTools *tools, const SetupSymbol *symbol,
                              const ProbeAim *aim)
 {
     const Setup *setup = tools->setup;
+    int          id = setup->condition ? setup->condition->with_id : NO_ID;
     return (RemedyAsk){&setup->tools, aim, symbol_middle(symbol), &symbol->display,
                        setup->request->forward, tools->profile,
-                       setup->condition && setup->condition->with_id != NO_ID};
+                       id == NO_ID ? NULL : &setup->request->withs[id]};
 }
 
 static bool case_of(const CaseTools *tools, const CaseAsk *ask, Arena *arena, ReviewCase *out,
@@ -444,7 +445,7 @@ static bool case_of(const CaseTools *tools, const CaseAsk *ask, Arena *arena, Re
         long     paths = tools->cause_paths ? tools->cause_paths : CAUSE_PATHS;
         int      rays = tools->cause_rays ? tools->cause_rays : CAUSE_RAYS;
         RemedyAsk   remedies = remedies_of(tools, ask->symbol, &aim);
-        ChainPlaces places = remedy_places(&remedies);
+        ChainPlaces places = remedy_places(&remedies, arena);
         CauseAsk causes = {&tools->setup->tools, &aim, paths, rays, &places, false, false};
         CauseFacts facts = case_causes(&causes, &c, arena);
         judge_case(&c, tools->profile, arena); /* now that its share without data is known */

@@ -199,8 +199,11 @@ static void add_materials(const Scene *scene, RestBasis basis, Review *review, A
         const Material *m = &scene->materials[i];
         const char *as = basis == REST_GUESSED ? m->guessed_as : "perfectly white";
         long        count = 0;
-        for (int k = 0; k < scene->material_count; k++)
-            count += is_picked[k] && !strcmp(scene->materials[k].name, m->name);
+        for (int k = 0; k < scene->material_count; k++) {
+            const Material *other = &scene->materials[k];
+            count += is_picked[k] && !strcmp(other->name, m->name) &&
+                     is_same(other->guessed_as, m->guessed_as);
+        }
         if (is_picked[i])
             add((ReviewRest){REST_MATERIAL, basis, kept(m->name, arena), kept(as, arena), count,
                              count},
