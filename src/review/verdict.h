@@ -2,7 +2,8 @@
 /* verdict.h -- the results of a glare review: for one symbol, seen by one eye under one
  * condition; for a sweep over many suns; for all of them.
  *
- * Units    cd m^-2, arc minutes, degrees. Azimuths from north over east.
+ * Units    cd m^-2, arc minutes, degrees. Azimuths from north over east. Points in the
+ *          coordinates of the case's scene.
  * Memory   its maker owns it; texts and lists live in the review's arena.
  * Threads  plain data.
  */
@@ -44,7 +45,7 @@ typedef struct LimitVerdict {
     Verdict     verdict;
 } LimitVerdict;
 
-/* A ray of a cause, m, world: from the eye over what it meets to where the light began. */
+/* A ray of a cause, m: from the eye over what it meets to where the light began. */
 typedef struct CaseRay {
     const Vec3 *points;
     int         count;
@@ -94,7 +95,7 @@ typedef enum CauseGroup {
  * perspective view, at x / z of half_width and y / z of half_height from its middle; else at x
  * and y. */
 typedef struct CaseView {
-    Vec3   eye, right, up, forward; /* m, world; unit */
+    Vec3   eye, right, up, forward; /* m; unit */
     bool   is_perspective;
     double half_width, half_height;
     int    width, height;           /* pixels */
@@ -161,7 +162,9 @@ typedef struct ReviewCase {
     const CaseHider *hiders;     /* of all else, greatest first: with it they add up to 1 */
     int     hider_count;
     double  eye_failed_share;    /* of an eye box's points: those that fail; NaN: one point */
-    Vec3    eye_m;               /* where the eye was; of a box its worst point */
+    double  eye_m[3];            /* where the eye was, world; of a box its worst point */
+    double  origin_m[3];         /* of the scene that it was (scene/scene.h): its rays, view and
+                                    rim are in its coordinates */
     double  level;               /* at which the display was set, 1: as measured */
     double  display_lux;         /* illuminance of the display's face */
     const LimitVerdict *limits;  /* all that apply */
@@ -177,7 +180,7 @@ typedef struct ReviewCase {
     int     remedy_count;
     const char *frame;           /* picture's name within the folder; NULL: none was rendered */
     const CaseView *view;        /* of the frame; NULL: not known */
-    const Vec3 *rim;             /* once around the symbol, m, world; of a case without a frame
+    const Vec3 *rim;             /* once around the symbol, m; of a case without a frame
                                     of its own none */
     int rim_count;
     const char *outlook;         /* picture of what the display sees from the symbol; or NULL */

@@ -153,8 +153,7 @@ static void print_where(const ReviewCase *c)
         printf("symbol     %s on %s, seen by %s, %s\n", c->symbol, c->display, c->eye,
                c->condition);
     else if (c->display) printf("display    %s\n", c->display);
-    printf("eye        %.3f, %.3f, %.3f m\n", (double)c->eye_m.x, (double)c->eye_m.y,
-           (double)c->eye_m.z);
+    printf("eye        %.3f, %.3f, %.3f m\n", c->eye_m[0], c->eye_m[1], c->eye_m[2]);
 }
 
 static void print_light(const Explained *explained, Arena scratch)
@@ -315,7 +314,7 @@ static bool print_json(const Explained *explained, Error *err)
         "{s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:[o,o], s:I}", "condition",
         json_text_or_null(c->condition), "eye", json_text_or_null(c->eye), "symbol",
         json_text_or_null(c->symbol), "display", json_text_or_null(c->display), "eye_m",
-        cli_json_vector(c->eye_m), "luminance_cd_m2", json_light(explained), "contrast_ratio",
+        cli_json_point(c->eye_m), "luminance_cd_m2", json_light(explained), "contrast_ratio",
         json_figure(c->contrast_ratio), "contrast_interval", json_figure(c->contrast_low),
         json_figure(c->contrast_high), "paths", (json_int_t)explained->paths);
     json_object_set_new(out, "visible_share", json_figure(c->visible_share));

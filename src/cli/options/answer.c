@@ -83,3 +83,8 @@ json_t *cli_json_vector(Vec3 v)
 {
     return json_pack("[f,f,f]", (double)v.x, (double)v.y, (double)v.z);
 }
+
+json_t *cli_json_point(const double world_m[3])
+{
+    return json_pack("[f,f,f]", world_m[0], world_m[1], world_m[2]);
+}

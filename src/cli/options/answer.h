@@ -28,5 +28,6 @@ void cli_print_warnings(const Problems *problems);
 /* The same warnings as a JSON list of {"file","path","severity","message"}. */
 json_t *cli_json_problems(const Problems *problems, Severity severity);
 
-/* A point or a direction as a list of three numbers. */
+/* A direction, or a point of the world, as a list of three numbers. */
 json_t *cli_json_vector(Vec3 v);
+json_t *cli_json_point(const double world_m[3]);

@@ -21,8 +21,16 @@
 
 /* ---- the frame --------------------------------------------------------------------------- */
 
+/* How far along the axis the scene's coordinates begin. */
+static double origin_along(const Scene *scene, Vec3 axis)
+{
+    const double *o = scene->origin;
+    return o[0] * (double)axis.x + o[1] * (double)axis.y + o[2] * (double)axis.z;
+}
+
 /* For row vectors, as OpenEXR has it: p_camera = p_world * M. Zeros are all positive. */
-static void set_world_to_camera(FrameImage *frame, const Transform *t, Arena *arena)
+static void set_world_to_camera(FrameImage *frame, const Scene *scene, const Transform *t,
+                                Arena *arena)
 {
     const Vec3 axes[3] = {t->x, t->y, t->z};
     double     matrix[16] = {[15] = 1};
@@ -30,14 +38,16 @@ static void set_world_to_camera(FrameImage *frame, const Transform *t, Arena *ar
         matrix[i] = 0.0 + (double)axes[i].x;
         matrix[4 + i] = 0.0 + (double)axes[i].y;
         matrix[8 + i] = 0.0 + (double)axes[i].z;
-        matrix[12 + i] = 0.0 - (double)vec3_dot(t->origin, axes[i]);
+        matrix[12 + i] =
+            0.0 - (double)vec3_dot(t->origin, axes[i]) - origin_along(scene, axes[i]);
     }
     frame_set_values(frame, "worldToCamera", EXR_MATRIX44, matrix, arena);
 }
 
-static void set_camera(FrameImage *frame, const SceneCamera *camera, Arena *arena)
+static void set_camera(FrameImage *frame, const Scene *scene, const SceneCamera *camera,
+                       Arena *arena)
 {
-    set_world_to_camera(frame, &camera->world_from_camera, arena);
+    set_world_to_camera(frame, scene, &camera->world_from_camera, arena);
     frame_set_string(frame, "parhelion:camera",
                      camera->node_name[0] ? camera->node_name : camera->camera_name, arena);
     if (camera->fisheye)
@@ -151,7 +161,7 @@ FrameImage render_make_frame(const RenderRequest *request, const Scene *scene,
     const char *weather = weather_option_text(&scene->environment, arena);
     if (weather) frame_set_string(&frame, "parhelion:weather", weather, arena);
     set_sampling(&frame, request, result, arena);
-    set_camera(&frame, camera, arena);
+    set_camera(&frame, scene, camera, arena);
     set_names(&frame, scene, request->render.layers, arena);
     set_lights(&frame, request->render.lights, arena);
     if (request->is_part) attach_sums(&frame, &request->render, result, arena);

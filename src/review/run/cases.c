@@ -45,7 +45,9 @@ bool setup_eye_middle(const Setup *setup, const ReviewEye *eye, Arena scratch, V
                       Error *err)
 {
     int id;
-    *out = vec3_add(vec3_from_doubles(eye->position_m), vec3_from_doubles(eye->move_m));
+    double at[3];
+    for (int k = 0; k < 3; k++) at[k] = eye->position_m[k] + eye->move_m[k];
+    *out = scene_from_world(setup->scene, at);
     if (eye->kind != EYE_CAMERA) return true;
     if (!review_camera_find(setup->scene, eye, scratch, &id, err))
         return error_in_file(err, setup->request->file);
@@ -64,7 +66,7 @@ Vec3 *setup_eye_points(const Setup *setup, const ReviewEye *eye, int *count, Are
     for (int i = 0; i < *count; i++) {
         double p[3];
         review_eye_point(eye, i, p);
-        points[i] = vec3_from_doubles(p);
+        points[i] = scene_from_world(setup->scene, p);
     }
     return points;
 }
@@ -341,6 +343,7 @@ static ReviewCase start_case(const CaseTools *tools, const ReviewEye *eye,
     ReviewCase   c = {.condition = setup->condition->name, .eye = eye->name,
                       .symbol = symbol->name, .display = symbol->display_name, .limit_id = -1,
                       .level = setup_level(setup, symbol->display.display_id)};
+    memcpy(c.origin_m, setup->scene->origin, sizeof c.origin_m);
     if (setup_sun(setup, &towards, bands)) {
         SunAngles angles = setup_angles(setup, towards);
         c.has_sun = true;
@@ -404,7 +407,7 @@ static bool case_of(const CaseTools *tools, const CaseAsk *ask, Arena *arena, Re
     look.eye =
         points[count > 1 ? worst_point(tools, &look, points, count, &c, *arena) : 0];
     ProbeAim aim = judge_look(tools, &look, &c, arena);
-    c.eye_m = look.eye;
+    world_from_scene(tools->setup->scene, look.eye, c.eye_m);
     if (aim.target_count && !ask->is_bare) {
         long     paths = tools->cause_paths ? tools->cause_paths : CAUSE_PATHS;
         int      rays = tools->cause_rays ? tools->cause_rays : CAUSE_RAYS;

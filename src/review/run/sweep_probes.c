@@ -94,8 +94,9 @@ static void place_meters(Sweep *sweep, Arena *arena)
     for (int i = 0; i < request->level_count; i++) {
         const ReviewLevel *level = &request->levels[i];
         if (level->is_curve)
-            sweep->sensors[i] = meter_at(vec3_from_doubles(level->position_m),
-                                         vec3_from_doubles(level->normal));
+            sweep->sensors[i] =
+                meter_at(scene_from_world(sweep->setup->scene, level->position_m),
+                         vec3_from_doubles(level->normal));
     }
 }
 

@@ -1,6 +1,17 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "scene/gltf/loader.h"
 
+bool load_is_within_reach(const Loader *load, Vec3 p, double world_m[3])
+{
+    const float at[3] = {p.x, p.y, p.z};
+    bool        is_near = true;
+    for (int i = 0; i < 3; i++) {
+        world_m[i] = load->origin[i] + (double)at[i];
+        is_near = is_near && fabs(world_m[i]) <= (double)SCENE_MOST_M;
+    }
+    return is_near;
+}
+
 void load_progress_begin(Loader *load, const char *what, const char *unit, double total)
 {
     load->progress = progress_start(load->progress_mode, what, unit, total);
