@@ -8,6 +8,7 @@
 #pragma once
 #include <jansson.h>
 #include <stdbool.h>
+#include <stddef.h>
 
 #include "base/error.h"
 #include "base/problems.h"
@@ -30,3 +31,7 @@ json_t *cli_json_problems(const Problems *problems, Severity severity);
 
 /* A point or a direction as a list of three numbers. */
 json_t *cli_json_vector(Vec3 v);
+
+/* A frame's relative error, "1.23%"; of a frame without samples, whose error is NaN, "unknown".
+ * Returns out, which has size bytes. */
+const char *cli_relative_error(double error, char *out, size_t size);
