@@ -209,6 +209,8 @@ def check_date(report, year, date, step, case, is_framed):
         lux, luminance = by_frame(year, light)
         told["a luxmeter's lux"] = lux / truth
         told["a frame's light"] = luminance / reflected
+    print(f"{date}: the sky's {truth:.0f} lx; " +
+          ", ".join(f"{what} {100 * ratio - 100:+.2f} %" for what, ratio in told.items()))
     for what, ratio in told.items():
         report.claim(abs(ratio - 1) < 0.012,
                      f"{date}: {what} is {ratio:.4f} of the sky's {truth:.0f} lx")

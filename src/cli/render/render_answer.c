@@ -289,23 +289,33 @@ static const char *favour_words(const RenderRequest *request, const RenderResult
     return out;
 }
 
+static void print_fisheye(const RenderRequest *request, const RenderResult *result)
+{
+    if (!request->camera.projection) return;
+    if (result->statistics.samples)
+        printf("%s: a fisheye of 180 degrees: pixels outside its circle are black and have no "
+               "samples\n", request->output);
+    else
+        printf("%s: a fisheye of 180 degrees: all pixels rendered lie outside its circle, they "
+               "are black and have no samples\n", request->output);
+}
+
 static void print_line(const RenderRequest *request, const RenderResult *result)
 {
     const PathStatistics *counts = &result->statistics;
-    char samples[32], rays[32], favour[64];
+    char samples[32], rays[32], favour[64], error[32];
     rate_text(per_second((double)counts->samples, result->seconds), samples,
               (int)sizeof samples);
     rate_text(per_second(ray_count(counts), result->seconds), rays, (int)sizeof rays);
     printf("%s: %dx%d, %u samples a pixel%s%s, %.1f s, %ssamples/s, %srays/s, "
-           "relative error %.2f%%, peak memory %.0f MB (%.0f while building)\n",
+           "relative error %s, peak memory %.0f MB (%.0f while building)\n",
            request->output, request->render.width, request->render.height,
            result->samples, favour_words(request, result, favour, sizeof favour),
            result->complete ? "" : " (incomplete)",
-           result->seconds, samples, rays, 100 * result->error.frame,
+           result->seconds, samples, rays,
+           cli_relative_error(result->error.frame, error, sizeof error),
            machine_peak_bytes() / 1e6, result->build_peak_bytes / 1e6);
-    if (request->camera.projection)
-        printf("%s: a fisheye of 180 degrees: pixels outside its circle are black and have no "
-               "samples\n", request->output);
+    print_fisheye(request, result);
     if (render_output_is_radiance(request))
         printf("%s: W/m2/sr in Radiance's primaries: luminance is 179 (0.265 R + 0.670 G + "
                "0.065 B); its codes are right within 0.4 %%, layers are only in .exr\n",
