@@ -414,7 +414,8 @@ static bool run_check(int argc, char **argv, Arena *arena, Error *err)
          "which materials there are, on which nodes, how large, and which look like screens",
          &materials},
         LAMP_OPTIONS(&words),
-        {"--strict", OPTION_FLAG, NULL, "materials without optical data are errors",
+        {"--strict", OPTION_FLAG, NULL, "materials without optical data, and panels that say they are "
+         "not usable, are errors",
          &is_strict},
         STATE_OPTIONS(&words.state),
     };
@@ -433,6 +434,7 @@ static bool run_check(int argc, char **argv, Arena *arena, Error *err)
     bool   done = true;
     hdri_warn(&scene->environment, &problems);
     data_warn(scene, is_strict ? SEVERITY_ERROR : SEVERITY_WARNING, &problems);
+    panels_warn(scene, is_strict ? SEVERITY_ERROR : SEVERITY_WARNING, &problems);
     if (cli.json)
         done = print_json(scene, &problems, arena, err);
     else if (materials)

@@ -93,6 +93,7 @@ bool scene_options_load(const SceneAsked *asked, Arena *arena, Problems *problem
     warn_of_night(&scene->environment, problems);
     hdri_warn(&scene->environment, problems);
     data_warn(scene, SEVERITY_WARNING, problems);
+    panels_warn(scene, SEVERITY_WARNING, problems);
     *out = scene;
     return true;
 }

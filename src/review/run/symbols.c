@@ -5,6 +5,7 @@
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
+#include "panel/query/panel_stated.h"
 #include "render/identity.h"
 #include "review/request/request_check.h"
 #include "review/symbol/text_find.h"
@@ -104,6 +105,26 @@ static bool add_found(SymbolList *list, const SetupSymbol *symbol, SymbolQuestio
     return true;
 }
 
+static CasePanel panel_of(const Panel *panel, Arena *arena)
+{
+    PanelStated stated = panel_stated(panel, arena);
+    return (CasePanel){stated.verdict, stated.reason, stated.is_coarse, stated.is_unusable,
+                       stated.emission_error, stated.reflection_error};
+}
+
+static const char *copied(const char *text, Arena *arena)
+{
+    return text ? arena_string(arena, text, strlen(text)) : NULL;
+}
+
+CasePanel symbol_panel(const SetupSymbol *symbol, Arena *arena)
+{
+    CasePanel panel = symbol->panel;
+    panel.verdict = copied(panel.verdict, arena);
+    panel.reason = copied(panel.reason, arena);
+    return panel;
+}
+
 static bool add_asked(SymbolList *list, int id, Arena *arena, Error *err)
 {
     const ReviewSymbol *asked = &list->setup->request->symbols[id];
@@ -111,7 +132,9 @@ static bool add_asked(SymbolList *list, int id, Arena *arena, Error *err)
     SetupSymbol symbol = {.name = asked->name, .display_name = asked->display, .symbol_id = id};
     Image       mask;
     if (!review_display_find(scene, asked->display, arena, &symbol.display, err)) return false;
-    SymbolQuestion question = {.panel = scene->displays[symbol.display.display_id].panel,
+    const Panel *panel = scene->displays[symbol.display.display_id].panel;
+    symbol.panel = panel_of(panel, arena);
+    SymbolQuestion question = {.panel = panel,
                                .content = shown_content(scene, &symbol.display),
                                .uv = {0, 0, 1, 1}, .polarity = polarity_of(list->setup, id)};
     if (asked->has_uv) memcpy(question.uv, asked->uv, sizeof question.uv);

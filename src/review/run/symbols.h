@@ -10,6 +10,7 @@
 #pragma once
 #include "review/light/setup.h"
 #include "review/symbol/symbol_sight.h"
+#include "review/verdict.h"
 
 #define SYMBOLS_FOUND_MOST 6 /* of one rectangle */
 #define SYMBOL_POINTS 256
@@ -17,10 +18,14 @@
 typedef struct SetupSymbol {
     const char   *name, *display_name;
     int           symbol_id;  /* of the request */
+    CasePanel     panel;
     ReviewDisplay display;
     SymbolSurface surface;
     SymbolSplit   split;
 } SetupSymbol;
+
+/* What its panel says, with texts of the arena: a case outlives its setup. */
+CasePanel symbol_panel(const SetupSymbol *symbol, Arena *arena);
 
 /* The middle of its rectangle; where no triangle shows that, the surface's first point. */
 SymbolPoint symbol_middle(const SetupSymbol *symbol);
