@@ -108,7 +108,7 @@ typedef struct CaseShare {
     double      share, cd_m2; /* 0..1 */
 } CaseShare;
 
-/* A thing that hides a share, 0..1, of a symbol's rectangle from an eye. */
+/* A thing that hides a share, 0..1, of the box about a symbol's foreground from an eye. */
 typedef struct CaseHider {
     const char *what; /* a node and its material, or that it shows its back */
     double      share;
@@ -162,10 +162,25 @@ typedef struct CaseGlare {
 
 typedef struct CaseLuminances {
     double foreground, background; /* emitted to the eye */
-    double reflected;              /* mean over what is visible; all that is reflected */
+    double reflected;              /* by the part that is judged; all that is reflected */
     double mirror, scattered;      /* its two parts */
     double veil;                   /* that stray light lays over the gaze point, in the eye */
 } CaseLuminances;
+
+/* A rectangle of a display's content, uv. */
+typedef struct CaseBox {
+    double left, top, right, bottom;
+} CaseBox;
+
+/* A symbol as a whole, beside the part of it that is judged. */
+typedef struct CaseWhole {
+    CaseBox part;                 /* which that is */
+    double  reflected;            /* mean over all that is visible of the box about its
+                                     foreground, cd m^-2; NaN: not known */
+    MeanInterval reflected_range; /* 95 % */
+    double  contrast_ratio;       /* by that mean; NaN likewise */
+    double  lit_share;            /* of it, 0..1, in the direct sun; NaN: there is none */
+} CaseWhole;
 
 #define CASE_BATCHES 32
 
@@ -177,6 +192,7 @@ typedef struct ReviewCase {
     bool    has_sun;             /* above the horizon */
     double  sun_azimuth_deg, sun_elevation_deg; /* of a sweep's worst: of the vehicle */
     CaseLuminances luminance_cd_m2;
+    CaseWhole whole;
     MeanInterval reflected_range; /* of sampling alone; of a sweep's steps of the response
                                     too. The contrasts are made of these luminances
                                     (judge_contrasts) */
@@ -200,7 +216,7 @@ typedef struct ReviewCase {
     double  precision_reached;   /* its standard error, relative; NaN likewise */
     double  paths_to_decide;     /* of a case that is too close: about how many decide; NaN */
     double  minutes_to_decide;   /* as fast as its reading went, here; NaN: not known */
-    double  visible_share;       /* of the rectangle, 0..1 */
+    double  visible_share;       /* of the box about its foreground, 0..1 */
     const CaseHider *hiders;     /* of all else, greatest first: with it they add up to 1 */
     int     hider_count;
     double  eye_failed_share;    /* of an eye box's points: those that fail; NaN: one point */

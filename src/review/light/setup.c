@@ -342,6 +342,24 @@ Reading setup_ask(const Setup *setup, const ProbeAim *aim, const ReadingGoal *as
     return reading;
 }
 
+Reading setup_field(const Setup *setup, const ProbeAim *aim, long paths, double known,
+                    TargetLight *targets, Arena scratch)
+{
+    const SetupOther *other = setup->other;
+    bool     is_few = setup->scene->display_count <= PROBE_DISPLAYS;
+    FieldAsk ask = {paths, known, setup->is_shared || other, other ? other->scale : NULL};
+    if (!other || (other->scale && is_few))
+        return reading_field(aim, &ask, &setup->tools, targets, scratch);
+    ProbeAim own = *aim;
+    Setup    lit = setup_lit(setup);
+    lit.context.without_mirrored_sun = aim->context->without_mirrored_sun;
+    own.context = &lit.context;
+    ask.scale = NULL;
+    Reading reading = reading_field(&own, &ask, &setup->tools, targets, scratch);
+    setup_unlight(setup);
+    return reading;
+}
+
 /* ---- the sun ----------------------------------------------------------------------------- */
 
 #define SUN_DRAWS 16

@@ -13,12 +13,13 @@
 #include "review/judge.h"
 #include "review/keep/journal.h"
 #include "review/light/eye_reading.h"
-#include "review/light/response.h"
+#include "review/light/response_suns.h"
 #include "review/output/review_decide.h"
 #include "review/pace/work.h"
 #include "review/request/request_check.h"
 #include "review/run/causes.h"
 #include "review/run/glare_found.h"
+#include "review/run/worst_part.h"
 #include "text/text.h"
 #include "vision/grey_steps.h"
 
@@ -135,14 +136,12 @@ typedef struct CaseLook {
     bool               is_coarse, is_bare;
 } CaseLook;
 
-static ProbeAim aim_at(const Setup *setup, const CaseLook *look, const bool *is_visible,
-                       Arena *arena)
+static WorstPart part_of(const Setup *setup, const CaseLook *look, Arena *arena)
 {
     uint32_t base = look->is_coarse ? COARSE_SEED : EYE_SEED;
-    ProbeAim aim = {.context = &setup->context, .eye = look->eye,
-                    .seed = review_seed(setup->request, base)};
-    symbol_aim(&look->symbol->surface, is_visible, arena, &aim);
-    return aim;
+    PartAsk  ask = {look->symbol, look->eye, review_seed(setup->request, base),
+                    look->is_coarse};
+    return worst_part_find(setup, &ask, arena);
 }
 
 /* ---- until its verdict is clear ---------------------------------------------------------- */
@@ -298,9 +297,7 @@ static ProbeAim see_symbol(const CaseTools *tools, const CaseLook *look, ReviewC
     const SetupSymbol *symbol = look->symbol;
     Vec3           eye = look->eye;
     CaseLuminances *l = &c->luminance_cd_m2;
-    bool *is_visible = ARENA_NEW(arena, bool, symbol->surface.point_count);
-    SymbolVisibility seen =
-        symbol_visibility(&symbol->surface, &setup->context, eye, is_visible);
+    SymbolVisibility seen = symbol_visibility(&symbol->surface, &setup->context, eye, NULL);
     *l = (CaseLuminances){(double)NAN, (double)NAN, (double)NAN, (double)NAN, (double)NAN,
                           (double)NAN};
     c->minutes_to_decide = c->precision_asked = c->precision_reached = (double)NAN;
@@ -317,7 +314,11 @@ static ProbeAim see_symbol(const CaseTools *tools, const CaseLook *look, ReviewC
     SymbolLook shown = {&symbol->surface, &symbol->split, eye, setup->tools.threads};
     SymbolEmission emission = symbol_emission(&shown, c->level);
     set_shown(l, &emission, seen.transmittance);
-    ProbeAim aim = aim_at(setup, look, is_visible, arena);
+    WorstPart part = part_of(setup, look, arena);
+    ProbeAim  aim = part.aim;
+    c->whole = part.whole;
+    c->whole.contrast_ratio =
+        luminance_contrast(l->foreground, l->background, c->whole.reflected);
     bool wants_veil = !look->is_bare || tools->profile->uses_veil;
     if (!look->is_coarse && wants_veil) see_stray_light(setup, symbol, eye, c, *arena);
     *direct = direct_sun(setup, &aim, *arena);

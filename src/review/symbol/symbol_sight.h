@@ -41,6 +41,16 @@ SymbolHiding symbol_hiding(const SymbolSurface *surface, const PathContext *cont
 SymbolPatch symbol_patch_seen(const SymbolSurface *surface, int point,
                               const PathContext *context, Vec3 eye);
 
+/* The same of any rectangle of it; false: its middle is hidden, or not shown. */
+bool symbol_box_seen(const SymbolSurface *surface, const double uv[4],
+                     const PathContext *context, Vec3 eye, SymbolPatch *out);
+
+/* The share, 0..1, of the surface's points with is_visible[point] to which light comes straight
+ * from `towards` (unit, world), windows that pass a hundredth of it apart: with the middle of
+ * the sun, what it lights by more than half. NaN: none is visible. */
+double symbol_lit_share(const SymbolSurface *surface, const bool *is_visible,
+                        const PathContext *context, Vec3 towards);
+
 /* XYZ that the display sends towards the eye: means of light (not of codes) over the pixels of
  * a class; edges are in neither. Pixels that turn their back to the eye are left out; NaN: all
  * of them do. What stands between is not asked. */
