@@ -11,6 +11,7 @@
 #include "review/quantity.h"
 #include "text/interval_text.h"
 #include "text/text.h"
+#include "vision/discomfort.h"
 
 bool words_same(const char *a, const char *b)
 {
@@ -82,10 +83,25 @@ const char *words_glare(double value, MeanInterval range, const char *none, Aren
                         words_within(range.high, range.low, range.high, arena));
 }
 
+/* Sources beyond the solid angles that UGR is made for. */
+static const char *words_beyond(const CaseGlare *glare, Arena *arena)
+{
+    if (!(glare->smallest_sr < UGR_SOLID_ANGLE_MIN_SR) &&
+        !(glare->largest_sr > UGR_SOLID_ANGLE_MAX_SR))
+        return "";
+    const char *least = words_figure(glare->smallest_sr, arena);
+    const char *most = words_figure(glare->largest_sr, arena);
+    return arena_format(arena, ", of %s%s%s sr (UGR is made for %g to %g)", least,
+                        glare->source_count > 1 ? " to " : "",
+                        glare->source_count > 1 ? most : "", UGR_SOLID_ANGLE_MIN_SR,
+                        UGR_SOLID_ANGLE_MAX_SR);
+}
+
 const char *words_glare_settings(const CaseGlare *glare, Arena *arena)
 {
-    return arena_format(arena, "sources above %s cd/m²: %ld; DGP %s its factor for low light%s",
-                        words_figure(glare->threshold_cd_m2, arena), glare->source_count,
+    return arena_format(arena, "sources above %s cd/m²: %ld%s; DGP %s its factor for low "
+                        "light%s", words_figure(glare->threshold_cd_m2, arena),
+                        glare->source_count, words_beyond(glare, arena),
                         glare->low_light ? "with" : "without",
                         glare->small_sources ? "; UGR by CIE 147's rule for small sources"
                                              : "");
