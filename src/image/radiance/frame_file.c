@@ -15,8 +15,9 @@ static bool is_openexr(const FileBytes *file)
 
 static bool is_no_frame(const char *path, const FileBytes *file, Error *err)
 {
-    return error_at(err, ERROR_INPUT, path, "", "%s, wanted an OpenEXR file or a Radiance "
-                    "picture (.hdr)", file->size ? "is neither by its first bytes" : "is empty");
+    return error_at(err, ERROR_INPUT, path, "",
+                    "%s, wanted an OpenEXR file or a Radiance picture (.hdr)",
+                    file->size ? "is neither by its first bytes" : "is empty");
 }
 
 bool frame_file_read(const char *path, Arena *arena, FrameImage *out, Error *err)

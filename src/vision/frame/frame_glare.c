@@ -21,7 +21,7 @@ typedef struct Pixels {
     double      *sr, *projected_sr;
     int32_t     *source;   /* its place in the list; NO_SOURCE */
     bool        *is_core;  /* of that source */
-    double      *share;    /* cd m^-2 of the pixel that are its source's; the rest is background */
+    double      *share;    /* of y, its source's; the rest is background */
 } Pixels;
 
 static size_t count_of(const Pixels *pixels)
@@ -294,7 +294,7 @@ static int32_t touched(const Pixels *p, const FrameGlare *found, size_t i)
     return best;
 }
 
-/* Mean luminance of what is background near pixel i and touches no source; NaN: there is none. */
+/* Mean luminance of the background near pixel i that touches no source; NaN: there is none. */
 static double behind_rim(const Pixels *p, const int32_t *rim, size_t i)
 {
     double sum = 0, sr = 0;
