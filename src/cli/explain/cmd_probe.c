@@ -122,7 +122,7 @@ static ProbeWay way_of(const Probed *probed, const Chain *chain)
 static void print_place(const Scene *scene, Vec3 p)
 {
     double at[3];
-    world_from_scene(scene, p, at);
+    world_from_scene(scene->origin, p, at);
     printf("  at %.3f, %.3f, %.3f m", at[0], at[1], at[2]);
 }
 
@@ -202,7 +202,7 @@ static void print_text(const Probed *probed, Arena scratch)
 static json_t *json_point(const Scene *scene, Vec3 p)
 {
     double at[3];
-    world_from_scene(scene, p, at);
+    world_from_scene(scene->origin, p, at);
     return cli_json_point(at);
 }
 
