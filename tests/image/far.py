@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""far.py [--all] PARHELION -- a scene that stands far off is the same scene: every command that reads
-or prints positions of the world says of it what it says of one near the origin, up to the shift.
+"""far.py [--all] PARHELION -- a scene that stands far off is the same scene: every command that
+reads or prints positions of the world says of it what it says of one near the origin, up to the
+shift.
 
 The one near stands where the other's coordinates are, less its origin: so all that is no
 position must be the same to the last digit. --all: sweeps, and everything at every place.

@@ -29,7 +29,8 @@ static const struct {
 
 static Found survey(const char *members)
 {
-    return maker_survey_file(maker_gltf(&BYTES, sizeof BYTES, maker_format(HEAD "%s", members)));
+    const char *all = maker_format(HEAD "%s", members);
+    return maker_survey_file(maker_gltf(&BYTES, sizeof BYTES, all));
 }
 
 static const Scene *load(const char *members)
