@@ -241,7 +241,10 @@ def check_review(report, pair, with_suns):
         document["variants"] = VARIANTS
         if with_suns:
             document["conditions"].append(SUNS)
-        found.append(pair.runners[kind].review(document, "out")[1])
+        pair.runners[kind].write("r.json", document)
+        pair.run(kind, "review", "r.json", "-o", "out")
+        with open(pair.file(kind, "out/review.json"), encoding="utf-8") as file:
+            found.append(json.load(file))
     hold(report, pair, "a review", *found)
     line = "explain", "r.json", "--paths", "1024", "--condition", "grey", "--symbol", "bar"
     hold(report, pair, "explain of a review", *both(pair, *line, "--eye", "point"))

@@ -274,7 +274,8 @@ static bool print_json(const Probed *probed, Error *err)
                   probed->size[1], "paths", (json_int_t)chains->paths, "eye_m",
                   json_point(chains->scene, probed->eye), "XYZ", xyz[0].mean,
                   xyz[1].mean, xyz[2].mean, "luminance_cd_m2", xyz[1].mean,
-                  "standard_error_cd_m2", xyz[1].sigma, "ways", ways, "other_ways", "count", chains->others, "cd_m2", chains->rest.cd_m2,
+                  "standard_error_cd_m2", xyz[1].sigma, "ways", ways, "other_ways",
+                  "count", chains->others, "cd_m2", chains->rest.cd_m2,
                   "standard_error_cd_m2", chains->rest.sigma, "spectrum",
                   json_spectrum(&probed->light)),
         err);
