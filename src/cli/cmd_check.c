@@ -364,8 +364,8 @@ static json_t *json_bounds(const Scene *scene)
 {
     double low[3], high[3];
     if (!scene->triangle_count) return json_null();
-    world_from_scene(scene, scene->bounds_min, low);
-    world_from_scene(scene, scene->bounds_max, high);
+    world_from_scene(scene->origin, scene->bounds_min, low);
+    world_from_scene(scene->origin, scene->bounds_max, high);
     return json_pack("[o,o]", cli_json_point(low), cli_json_point(high));
 }
 

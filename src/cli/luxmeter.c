@@ -139,7 +139,7 @@ static LitPoint *lit_points(const Scene *scene, const Places *places, Arena *are
     LitPoint *out = ARENA_NEW(arena, LitPoint, places->count);
     for (int i = 0; i < places->count; i++) {
         const FacingPoint *at = &places->list[i];
-        out[i] = (LitPoint){scene_from_world(scene, at->place),
+        out[i] = (LitPoint){scene_from_world(scene->origin, at->place),
                             vec3_from_doubles(at->normal), false};
     }
     return out;

@@ -31,7 +31,7 @@ typedef struct ProbePixel {
 /* An eye and the points that it looks at, one path each; more paths than points begin again. */
 typedef struct ProbeAim {
     const PathContext *context;
-    Vec3            eye;       /* m, world */
+    Vec3            eye;       /* m, scene */
     const Vec3     *targets;   /* of surfaces that the eye sees */
     int             target_count;
     const ProbePatch *patches; /* of which targets are the middles: paths go anywhere within;

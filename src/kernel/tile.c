@@ -20,7 +20,7 @@ static void set3(float to[3], Vec3 from)
 static void set_position(float to[3], const Scene *scene, Vec3 p)
 {
     double at[3];
-    world_from_scene(scene, p, at);
+    world_from_scene(scene->origin, p, at);
     set3(to, vec3_from_doubles(at));
 }
 

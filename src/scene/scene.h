@@ -345,20 +345,19 @@ typedef struct SceneOptions {
     SceneState state;
 } SceneOptions;
 
-/* A position of the world's, m. */
-static inline Vec3 scene_from_world(const Scene *scene, const double world_m[3])
+/* A position of the world's, m; origin_m: the scene's. */
+static inline Vec3 scene_from_world(const double origin_m[3], const double world_m[3])
 {
-    const double *o = scene->origin;
-    return vec3((float)(world_m[0] - o[0]), (float)(world_m[1] - o[1]),
-                (float)(world_m[2] - o[2]));
+    return vec3((float)(world_m[0] - origin_m[0]), (float)(world_m[1] - origin_m[1]),
+                (float)(world_m[2] - origin_m[2]));
 }
 
 /* Where it is in the world, m. */
-static inline void world_from_scene(const Scene *scene, Vec3 p, double world_m[3])
+static inline void world_from_scene(const double origin_m[3], Vec3 p, double world_m[3])
 {
-    world_m[0] = scene->origin[0] + (double)p.x;
-    world_m[1] = scene->origin[1] + (double)p.y;
-    world_m[2] = scene->origin[2] + (double)p.z;
+    world_m[0] = origin_m[0] + (double)p.x;
+    world_m[1] = origin_m[1] + (double)p.y;
+    world_m[2] = origin_m[2] + (double)p.z;
 }
 
 /* Light on one side is seen from the other. */

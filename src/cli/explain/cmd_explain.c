@@ -240,13 +240,16 @@ static void print_text(const Explained *explained, Arena *arena)
 
 /* ---- as JSON ----------------------------------------------------------------------------- */
 
-static json_t *json_rays(const CaseCause *cause)
+static json_t *json_rays(const ReviewCase *c, const CaseCause *cause)
 {
     json_t *out = json_array();
     for (int i = 0; i < cause->ray_count; i++) {
         json_t *ray = json_array();
-        for (int k = 0; k < cause->rays[i].count; k++)
-            json_array_append_new(ray, cli_json_vector(cause->rays[i].points[k]));
+        for (int k = 0; k < cause->rays[i].count; k++) {
+            double at[3];
+            world_from_scene(c->origin_m, cause->rays[i].points[k], at);
+            json_array_append_new(ray, cli_json_point(at));
+        }
         json_array_append_new(out, ray);
     }
     return out;
@@ -263,7 +266,7 @@ static json_t *json_chains(const ReviewCase *c)
             json_texts(cause->chain, cause->links), "share", json_figure(cause->share), "cd_m2",
             json_figure(cause->cd_m2), "interval", json_figure(cause->low),
             json_figure(cause->high), "contrast_without", json_figure(cause->contrast_without),
-            "contrast_lost", json_figure(lost), "rays", json_rays(cause)));
+            "contrast_lost", json_figure(lost), "rays", json_rays(c, cause)));
     }
     return out;
 }

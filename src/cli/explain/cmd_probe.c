@@ -122,7 +122,7 @@ static ProbeWay way_of(const Probed *probed, const Chain *chain)
 static void print_place(const Scene *scene, Vec3 p)
 {
     double at[3];
-    world_from_scene(scene, p, at);
+    world_from_scene(scene->origin, p, at);
     printf("  at %.3f, %.3f, %.3f m", at[0], at[1], at[2]);
 }
 
@@ -202,7 +202,7 @@ static void print_text(const Probed *probed, Arena scratch)
 static json_t *json_point(const Scene *scene, Vec3 p)
 {
     double at[3];
-    world_from_scene(scene, p, at);
+    world_from_scene(scene->origin, p, at);
     return cli_json_point(at);
 }
 
@@ -216,7 +216,8 @@ static json_t *json_bounces(const Probed *probed, const ProbeWay *way)
         json_array_append_new(out, json_pack(
             "{s:s, s:o, s:o, s:o}", "what", bounce->what, "material",
             json_text(scene->materials[part->material_id].name), "node", json_text(part->name),
-            "at_m", bounce->has_place ? json_point(scene, bounce->at) : json_null()));
+            "at_m",
+            bounce->has_place ? json_point(scene, bounce->at) : json_null()));
     }
     return out;
 }
@@ -240,8 +241,8 @@ static json_t *json_way(const Probed *probed, const Chain *chain)
     ProbeWay     way = way_of(probed, chain);
     return json_pack("{s:o, s:s, s:o, s:f, s:f, s:f, s:o, s:b, s:o}", "light",
                      json_text(way.light), "kind", kinds[chain->key.source], "from_m",
-                     way.has_from ? json_point(scene, way.from) : json_null(), "cd_m2", chain->figure.cd_m2,
-                     "standard_error_cd_m2", chain->figure.sigma, "share",
+                     way.has_from ? json_point(scene, way.from) : json_null(), "cd_m2",
+                     chain->figure.cd_m2, "standard_error_cd_m2", chain->figure.sigma, "share",
                      chain->figure.cd_m2 / probed->chains.all.cd_m2, "bounces",
                      json_bounces(probed, &way), "has_further_surfaces",
                      chain->key.is_longer, "rays", json_rays(scene, chain));
@@ -271,9 +272,10 @@ static bool print_json(const Probed *probed, Error *err)
                   "s:o}",
                   "pixel", probed->pixel[0], probed->pixel[1], "size", probed->size[0],
                   probed->size[1], "paths", (json_int_t)chains->paths, "eye_m",
-                  json_point(chains->scene, probed->eye), "XYZ", xyz[0].mean, xyz[1].mean, xyz[2].mean,
-                  "luminance_cd_m2", xyz[1].mean, "standard_error_cd_m2", xyz[1].sigma, "ways",
-                  ways, "other_ways", "count", chains->others, "cd_m2", chains->rest.cd_m2,
+                  json_point(chains->scene, probed->eye), "XYZ", xyz[0].mean,
+                  xyz[1].mean, xyz[2].mean, "luminance_cd_m2", xyz[1].mean,
+                  "standard_error_cd_m2", xyz[1].sigma, "ways", ways, "other_ways",
+                  "count", chains->others, "cd_m2", chains->rest.cd_m2,
                   "standard_error_cd_m2", chains->rest.sigma, "spectrum",
                   json_spectrum(&probed->light)),
         err);

@@ -73,8 +73,8 @@ bool render_check_size(const CameraChoice *choice, bool given, int size[2], Erro
 
 static bool look(const Scene *scene, const CameraChoice *choice, SceneCamera *out, Error *err)
 {
-    Vec3 eye = scene_from_world(scene, choice->eye);
-    Vec3 target = scene_from_world(scene, choice->look_at);
+    Vec3 eye = scene_from_world(scene->origin, choice->eye);
+    Vec3 target = scene_from_world(scene->origin, choice->look_at);
     double fov_deg = choice->has_fov ? choice->fov_deg : DEFAULT_FOV_DEG;
     if (choice->name)
         return error_set(err, ERROR_USAGE, "--camera and --eye exclude each other");
@@ -100,7 +100,7 @@ static void warn_of_framing(const Scene *scene, const SceneCamera *camera, Probl
     double      eye[3];
     const char *file = scene->input_count ? scene->inputs[0] : "";
     bool shows_displays = !strcmp(camera->camera_name, "displays");
-    world_from_scene(scene, camera->world_from_camera.origin, eye);
+    world_from_scene(scene->origin, camera->world_from_camera.origin, eye);
     if (scene->triangle_count)
         problems_add(problems, SEVERITY_WARNING, file, NULL,
                      "the scene has no camera: %s seen from the front, from %.4g,%.4g,%.4g — "

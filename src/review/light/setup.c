@@ -171,7 +171,7 @@ bool setup_relight(Setup *setup, Arena *arena, Error *err)
 
 static void read_sensor(Setup *setup, const ReviewLevel *level, Arena scratch)
 {
-    LitPoint    head = {scene_from_world(setup->scene, level->position_m),
+    LitPoint    head = {scene_from_world(setup->scene->origin, level->position_m),
                         vec3_from_doubles(level->normal), false};
     ProbeAim    aim = {.context = &setup->context, .meter = &head,
                        .seed = review_seed(setup->request, SENSOR_SEED)};

@@ -48,7 +48,7 @@ bool setup_eye_middle(const Setup *setup, const ReviewEye *eye, Arena scratch, V
     int id;
     double at[3];
     for (int k = 0; k < 3; k++) at[k] = eye->position_m[k] + eye->move_m[k];
-    *out = scene_from_world(setup->scene, at);
+    *out = scene_from_world(setup->scene->origin, at);
     if (eye->kind != EYE_CAMERA) return true;
     if (!review_camera_find(setup->scene, eye, scratch, &id, err))
         return error_in_file(err, setup->request->file);
@@ -67,7 +67,7 @@ Vec3 *setup_eye_points(const Setup *setup, const ReviewEye *eye, int *count, Are
     for (int i = 0; i < *count; i++) {
         double p[3];
         review_eye_point(eye, i, p);
-        points[i] = scene_from_world(setup->scene, p);
+        points[i] = scene_from_world(setup->scene->origin, p);
     }
     return points;
 }
@@ -433,7 +433,7 @@ static bool case_of(const CaseTools *tools, const CaseAsk *ask, Arena *arena, Re
     look.eye =
         points[count > 1 ? worst_point(tools, &look, points, count, &c, *arena) : 0];
     ProbeAim aim = judge_look(tools, &look, &c, arena);
-    world_from_scene(tools->setup->scene, look.eye, c.eye_m);
+    world_from_scene(tools->setup->scene->origin, look.eye, c.eye_m);
     c.panel = symbol_panel(ask->symbol, arena);
     if (aim.target_count && !ask->is_bare) {
         long     paths = tools->cause_paths ? tools->cause_paths : CAUSE_PATHS;

@@ -95,7 +95,7 @@ static void place_meters(Sweep *sweep, Arena *arena)
         const ReviewLevel *level = &request->levels[i];
         if (level->is_curve)
             sweep->sensors[i] =
-                meter_at(scene_from_world(sweep->setup->scene, level->position_m),
+                meter_at(scene_from_world(sweep->setup->scene->origin, level->position_m),
                          vec3_from_doubles(level->normal));
     }
 }

@@ -103,7 +103,7 @@ static bool add_outlook(const FrameAsk *ask, const SetupSymbol *symbol, ReviewCa
                         Arena *arena, Error *err)
 {
     Arena       scratch = arena_reserve((size_t)1 << 28);
-    Vec3        eye = scene_from_world(ask->setup->scene, c->eye_m);
+    Vec3        eye = scene_from_world(ask->setup->scene->origin, c->eye_m);
     Outlook     outlook = setup_outlook(ask->setup, symbol, eye, &scratch);
     Picture     picture = outlook_picture(&outlook, &scratch);
     PictureFile file = {.bits = 8, .is_srgb = true};

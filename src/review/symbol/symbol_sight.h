@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* symbol_sight.h -- a symbol as an eye sees it: how large, how much of it, how bright.
  *
- * Frames   metres, world.  Units  arc minutes, cd m^-2.
+ * Frames   metres, scene.  Units  arc minutes, cd m^-2.
  * Threads  pure functions; symbol_emission starts its own.
  */
 #pragma once

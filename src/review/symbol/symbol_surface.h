@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* symbol_surface.h -- where a rectangle of a display's content lies in the world.
  *
- * Frames   metres, world. uv of the content: after the display's own texture transform, u
+ * Frames   metres, scene. uv of the content: after the display's own texture transform, u
  *          right, v down, 0..1.
  * Memory   from the arena; the scene must outlive the surface.
  * Threads  const once built.

@@ -3,12 +3,9 @@
 
 bool load_is_within_reach(const Loader *load, Vec3 p, double world_m[3])
 {
-    const float at[3] = {p.x, p.y, p.z};
-    bool        is_near = true;
-    for (int i = 0; i < 3; i++) {
-        world_m[i] = load->origin[i] + (double)at[i];
-        is_near = is_near && fabs(world_m[i]) <= (double)SCENE_MOST_M;
-    }
+    bool is_near = true;
+    world_from_scene(load->origin, p, world_m);
+    for (int i = 0; i < 3; i++) is_near &= fabs(world_m[i]) <= (double)SCENE_MOST_M;
     return is_near;
 }
 

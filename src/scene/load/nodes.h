@@ -8,7 +8,7 @@
 #pragma once
 #include "scene/gltf/loader.h"
 
-/* Where a node's mesh stands, in the node's frame: once, or as EXT_mesh_gpu_instancing has it. */
+/* Where a node's mesh stands, in its frame: once, or as EXT_mesh_gpu_instancing has it. */
 typedef struct NodeInstances {
     Transform *node_from_mesh; /* NULL: it stands where the node does, */
     int        count;          /* 1; 0: bytes are missing, which is reported */
