@@ -226,6 +226,8 @@ typedef struct ReviewCase {
     bool    is_optional;         /* the request says that this eye need not see it */
     double  level;               /* at which the display was set, 1: as measured */
     CasePanel panel;             /* what the display's panel says of itself */
+    double  veil_displays;       /* cd m^-2 of the veil, at most, that grow with the display's
+                                    level; 0: nothing is known of it */
     double  display_lux;         /* illuminance of the display's face */
     const LimitVerdict *limits;  /* all that apply */
     int     limit_count;

@@ -254,17 +254,8 @@ static void see_stray_light(const Setup *setup, const SetupSymbol *symbol, Vec3 
     EyeReading stray = eye_read(&lit, &look, scratch);
     setup_unlight(setup);
     c->luminance_cd_m2.veil = stray.veil;
+    c->veil_displays = stray.parts[EYE_LAMPS] + stray.parts[EYE_GLINTS] + stray.parts[EYE_NEAR];
     c->glare = glare_found(&stray.glare, &setup->request->glare);
-}
-
-/* A shape whose shortest chords are more than a quarter of its height, such as a filled sign or
- * a bar, is not made of strokes: bold faces of type have a fifth, the heaviest a quarter. */
-#define STROKE_MOST 0.25
-
-static double stroke_ratio_of(const SymbolSplit *split)
-{
-    double ratio = split->stroke_px / (split->character_v * split->light.content_height);
-    return ratio <= STROKE_MOST ? ratio : (double)NAN;
 }
 
 /* A stroke and a gap as wide are one cycle. */
@@ -306,7 +297,7 @@ static ProbeAim see_symbol(const CaseTools *tools, const CaseLook *look, ReviewC
     if (seen.visible_share < 1 && !look->is_coarse)
         case_hiders(&symbol->surface, &setup->context, eye, c, arena);
     c->height_arcmin = symbol_height_arcmin(&symbol->surface, symbol->split.box, eye);
-    c->stroke_ratio = stroke_ratio_of(&symbol->split);
+    c->stroke_ratio = symbol_stroke_ratio(symbol);
     c->contrast_ratio = c->contrast_low = c->contrast_high = c->contrast_with_veil = c->jnd =
         c->visibility = (double)NAN;
     c->glare = review_glare_unknown();

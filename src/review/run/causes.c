@@ -262,6 +262,7 @@ static ReviewCase judged_with(const CauseFacts *facts, const Profile *profile,
     l->foreground *= with.brighter;
     l->background *= with.brighter;
     l->reflected = with.reflected + with.brighter * own;
+    l->veil += (with.brighter - 1) * c->veil_displays;
     double scale = before > 0 ? l->reflected / before : 1;
     out.level *= with.brighter;
     judge_contrasts(&out, (MeanInterval){scale * c->reflected_range.low,
@@ -286,7 +287,8 @@ static int limit_to_mend(const ReviewCase *c)
 }
 
 /* By how much the display must be brighter, or darker, for a contrast,
- * (H x + R + O x) / (L x + R + O x) = C, O its own light that is reflected, R all other;
+ * (H x + R + O x) / (L x + R + O x) = C, O its own light that is reflected, or scattered in the
+ * eye, R all other;
  * NaN: no brightness does it. */
 static double brighter_for(const CaseLuminances *l, double own, double other, double wanted)
 {
@@ -331,12 +333,14 @@ static void add_brightness(Remedies *to)
     const ReviewCase   *c = to->c;
     const LimitVerdict *limit = &c->limits[to->limit];
     CaseLuminances l = c->luminance_cd_m2;
-    double veil = to->profile->uses_veil && l.veil > 0 ? l.veil : 0;
+    bool   has_veil = to->profile->uses_veil && l.veil > 0;
+    double veil = has_veil ? l.veil - c->veil_displays : 0;
     double own = fmin(to->facts->own_cd_m2, l.reflected), other = l.reflected - own;
+    double grows = own + (has_veil ? c->veil_displays : 0);
     double wide = c->reflected_range.high - c->reflected_range.low;
     double doubt = limit->is_upper ? -0.5 * wide : 0.5 * wide;
     double wanted = ratio_from_contrast(limit_kind_named(limit->kind), limit->value);
-    double x = brighter_for(&l, own, fmax(other + veil + 2 * doubt, 0), wanted);
+    double x = brighter_for(&l, grows, fmax(other + veil + 2 * doubt, 0), wanted);
     for (int i = 0; i < BRIGHTER_TRIES && x > 0 && isfinite(x); i++) {
         double     factor = rounded_out(x);
         ReviewCase sure = judged_with(to->facts, to->profile, c,

@@ -131,6 +131,17 @@ CasePanel symbol_panel(const SetupSymbol *symbol, Arena *arena)
     return panel;
 }
 
+/* A shape whose shortest chords are more than a quarter of its height, such as a filled sign or
+ * a bar, is not made of strokes: bold faces of type have a fifth, the heaviest a quarter. */
+#define STROKE_MOST 0.25
+
+double symbol_stroke_ratio(const SetupSymbol *symbol)
+{
+    const SymbolSplit *split = &symbol->split;
+    double ratio = split->stroke_px / (split->character_v * split->light.content_height);
+    return ratio <= STROKE_MOST ? ratio : (double)NAN;
+}
+
 static bool add_asked(SymbolList *list, int id, Arena *arena, Error *err)
 {
     const ReviewSymbol *asked = &list->setup->request->symbols[id];

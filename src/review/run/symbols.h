@@ -28,6 +28,9 @@ typedef struct SetupSymbol {
 /* What its panel says, with texts of the arena: a case outlives its setup. */
 CasePanel symbol_panel(const SetupSymbol *symbol, Arena *arena);
 
+/* Its strokes' width over a character's height; NaN: it is not made of strokes. */
+double symbol_stroke_ratio(const SetupSymbol *symbol);
+
 /* The middle of that box; where no triangle shows that, the surface's first point. */
 SymbolPoint symbol_middle(const SetupSymbol *symbol);
 
