@@ -414,8 +414,8 @@ static bool run_check(int argc, char **argv, Arena *arena, Error *err)
          "which materials there are, on which nodes, how large, and which look like screens",
          &materials},
         LAMP_OPTIONS(&words),
-        {"--strict", OPTION_FLAG, NULL, "materials without optical data, and panels that say they are "
-         "not usable, are errors",
+        {"--strict", OPTION_FLAG, NULL, "materials without optical data, and panels that say "
+         "they are not usable, are errors",
          &is_strict},
         STATE_OPTIONS(&words.state),
     };

@@ -6,6 +6,7 @@
 
 #include "base/count.h"
 #include "review/output/review_json.h"
+#include "review/output/review_json_read.h"
 #include "review/output/review_words.h"
 #include "review/output/review_junit.h"
 #include "review_page_fixture.h"
@@ -272,7 +273,8 @@ static bool is_optional(const char *key, const json_t *object)
                                         "precision_reached", "paths_to_decide", "cause_groups",
                                         "without_data_share", "without_data", "hidden_by",
                                         "eye_places", "then", "judged", "reason",
-                                        "optional", "panel", "panels", "stroke_ratio", "dgi", "dgp_interval",
+                                        "optional", "panel", "panels", "stroke_ratio", "dgi",
+                                        "dgp_interval",
                                         "ugr_interval", "dgi_interval", "glare"};
     for (size_t i = 0; i < sizeof ADDED / sizeof *ADDED; i++)
         if (!strcmp(key, ADDED[i])) return true;

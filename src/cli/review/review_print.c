@@ -98,7 +98,8 @@ static void print_review(const Review *review, Arena scratch)
     for (int i = 0; i < review->mend_count; i++) print_mend(&review->mends[i], &scratch);
     const char *rests_on = words_rests_on(review, &scratch);
     if (rests_on[0]) printf("%-16s %s\n", "rests on", rests_on);
-    static const char *const LAST[4] = {"pass", "FAIL", "too close to call", "cannot be judged"};
+    static const char *const LAST[4] = {"pass", "FAIL", "too close to call",
+                                        "cannot be judged"};
     printf("%s\n", LAST[review_verdict(review)]);
 }
 

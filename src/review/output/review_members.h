@@ -46,3 +46,6 @@ typedef struct Member {
 #define LIST(key, Type, member, number, table, Item)                                           \
     {key, MEMBER_LIST, offsetof(Type, member), ALWAYS, table, offsetof(Type, number),          \
      sizeof(Item)}
+
+/* What is read back of a whole review (review_json.c). */
+extern const Member review_members[];

@@ -57,15 +57,6 @@ const char *words_within(double value, double low, double high, Arena *arena)
                         : words_figure(value, arena);
 }
 
-const char *words_ratio_as(const ReviewCase *c, double ratio, Arena *arena)
-{
-    bool has_limit = c->limit_id >= 0 && c->limit_id < c->limit_count;
-    LimitVerdict as = {.kind = limit_kinds[LIMIT_CONTRAST_RATIO].name};
-    if (has_limit) as = c->limits[c->limit_id];
-    as.found = as.low = as.high = contrast_from_ratio(limit_kind_named(as.kind), ratio);
-    return words_quantity(&as, arena);
-}
-
 const char *words_contrast(const ReviewCase *c, Arena *arena)
 {
     if (isnan(c->contrast_ratio)) return "–";
@@ -105,11 +96,6 @@ const char *words_glare_settings(const CaseGlare *glare, Arena *arena)
                         glare->low_light ? "with" : "without",
                         glare->small_sources ? "; UGR by CIE 147's rule for small sources"
                                              : "");
-}
-
-const char *words_ratio(double value, Arena *arena)
-{
-    return isnan(value) ? "–" : arena_format(arena, "%s : 1", words_figure(value, arena));
 }
 
 const char *words_interval(double low, double high, Arena *arena)
@@ -186,13 +172,22 @@ const char *words_measured(const LimitVerdict *limit, Arena *arena)
     return with_unit(limit, figure, arena);
 }
 
-const char *words_quantity(const LimitVerdict *limit, Arena *arena)
+static const char *words_quantity(const LimitVerdict *limit, Arena *arena)
 {
     const char *found = words_found(limit, arena);
     LimitKind   kind = limit_kind_named(limit->kind);
     if (kind == LIMIT_CONTRAST_RATIO) return found;
     if (kind == LIMIT_CHARACTER_HEIGHT) return arena_format(arena, "%s high", found);
     return arena_format(arena, "%s %s", words_kind(limit), found);
+}
+
+const char *words_ratio_as(const ReviewCase *c, double ratio, Arena *arena)
+{
+    bool has_limit = c->limit_id >= 0 && c->limit_id < c->limit_count;
+    LimitVerdict as = {.kind = limit_kinds[LIMIT_CONTRAST_RATIO].name};
+    if (has_limit) as = c->limits[c->limit_id];
+    as.found = as.low = as.high = contrast_from_ratio(limit_kind_named(as.kind), ratio);
+    return words_quantity(&as, arena);
 }
 
 const char *words_judged(const ReviewCase *c, Arena *arena)
@@ -411,7 +406,8 @@ static void add_panel(Text *text, const ReviewCase *c, Arena *arena)
 {
     const CasePanel *p = &c->panel;
     text_format(text, "%spanel of %s: %s", text->data ? "; " : "",
-                c->display ? c->display : "?", p->verdict ? p->verdict : "no verdict of its own");
+                c->display ? c->display : "?",
+                p->verdict ? p->verdict : "no verdict of its own");
     if (p->is_coarse) text_add(text, ", coarse");
     if (p->reason) text_format(text, " (%s)", p->reason);
     if (p->emission_error > 0 || p->reflection_error > 0)

@@ -252,7 +252,7 @@ typedef struct Remedied {
     double brighter, reflected; /* reflected: cd m^-2 beside its own light, after */
 } Remedied;
 
-/* The case with so much light, judged again; the doubt is that of its reading, in proportion. */
+/* The case with so much light, judged again; the doubt is its reading's, in proportion. */
 static ReviewCase judged_with(const CauseFacts *facts, const Profile *profile,
                               const ReviewCase *c, Remedied with, Arena *arena)
 {
@@ -279,7 +279,8 @@ static int limit_to_mend(const ReviewCase *c)
         const LimitVerdict *limit = &c->limits[i];
         LimitKind           kind = limit_kind_named(limit->kind);
         bool is_missed = !limit->is_advice && limit->margin < 0 &&
-                         (limit->verdict == VERDICT_FAIL || limit->verdict == VERDICT_TOO_CLOSE);
+                         (limit->verdict == VERDICT_FAIL ||
+                          limit->verdict == VERDICT_TOO_CLOSE);
         if (!is_missed || !limit_kinds[kind].is_contrast) continue;
         if (worst < 0 || limit->margin < c->limits[worst].margin) worst = i;
     }
