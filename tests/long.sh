@@ -106,6 +106,8 @@ start 'every fault' faults-long python3 tests/hostile/faults.py --all $program
 of "$review scenes tests/hostile tests/image"
 start 'every key of a review' review-request-long \
     python3 tests/hostile/review_request.py --all $program
+start 'one judged quantity a row, every profile' judged-long \
+    python3 tests/hostile/judged.py $program --all
 gather
 of "$render scenes tests/image"
 run 'all closed forms in frames' image-long python3 tests/image/run.py --all $program

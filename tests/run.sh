@@ -61,6 +61,8 @@ start 'variants of a review' variants python3 tests/image/variants.py $program
 start 'the README as written, its review met' guides guides_and_meeting
 start 'the command line' cli python3 tests/hostile/cli.py $program
 start 'options given twice' options python3 tests/hostile/options.py $program
+start 'what is not known is no pass' unjudged python3 tests/hostile/unjudged.py $program
+start 'one judged quantity a row' judged python3 tests/hostile/judged.py $program
 start 'reviews that ask wrongly' review-request python3 tests/hostile/review_request.py $program
 start 'panel commands' panel-commands python3 tests/hostile/panel_commands.py $program
 start 'a second reader of panels' library-agreement \
@@ -85,6 +87,7 @@ start 'panels of coarse grids' panel-coarse \
     python3 tests/bench/panel_coarse.py $program --cases few
 start 'what one pixel sees' probe python3 tests/image/probe.py $program
 start 'scenes moved and turned' moved python3 tests/image/moved.py $program
+start 'a scene far off is the same' far python3 tests/image/far.py $program
 start 'luminaires as lamps' lamps python3 tests/image/lamps.py $program
 start 'a render that is watched' live-view python3 tests/hostile/live_view.py $program
 start 'faults and their outcomes' faults python3 tests/hostile/faults.py $program

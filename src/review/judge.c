@@ -92,7 +92,8 @@ static Figure figure_of(LimitKind kind, const ReviewCase *c, const Profile *prof
         return (Figure){c->stroke_ratio, c->stroke_ratio, c->stroke_ratio};
     if (!limit_kinds[kind].is_contrast) return (Figure){NAN, NAN, NAN};
     Figure ratio = contrast_figure(c, profile);
-    return (Figure){contrast_from_ratio(kind, ratio.found), contrast_from_ratio(kind, ratio.low),
+    return (Figure){contrast_from_ratio(kind, ratio.found),
+                    contrast_from_ratio(kind, ratio.low),
                     contrast_from_ratio(kind, ratio.high)};
 }
 

@@ -2,7 +2,8 @@
 /* verdict.h -- the results of a glare review: for one symbol, seen by one eye under one
  * condition; for a sweep over many suns; for all of them.
  *
- * Units    cd m^-2, arc minutes, degrees. Azimuths from north over east.
+ * Units    cd m^-2, arc minutes, degrees. Azimuths from north over east. Points in the
+ *          coordinates of the case's scene.
  * Memory   its maker owns it; texts and lists live in the review's arena.
  * Threads  plain data.
  */
@@ -81,7 +82,7 @@ typedef struct CasePanel {
                                                      0: not stated */
 } CasePanel;
 
-/* A ray of a cause, m, world: from the eye over what it meets to where the light began. */
+/* A ray of a cause, m: from the eye over what it meets to where the light began. */
 typedef struct CaseRay {
     const Vec3 *points;
     int         count;
@@ -107,7 +108,7 @@ typedef struct CaseShare {
     double      share, cd_m2; /* 0..1 */
 } CaseShare;
 
-/* A thing that hides a share, 0..1, of a symbol's rectangle from an eye. */
+/* A thing that hides a share, 0..1, of the box about a symbol's foreground from an eye. */
 typedef struct CaseHider {
     const char *what; /* a node and its material, or that it shows its back */
     double      share;
@@ -131,7 +132,7 @@ typedef enum CauseGroup {
  * perspective view, at x / z of half_width and y / z of half_height from its middle; else at x
  * and y. */
 typedef struct CaseView {
-    Vec3   eye, right, up, forward; /* m, world; unit */
+    Vec3   eye, right, up, forward; /* m; unit */
     bool   is_perspective;
     double half_width, half_height;
     int    width, height;           /* pixels */
@@ -171,10 +172,25 @@ typedef struct CaseGlare {
 
 typedef struct CaseLuminances {
     double foreground, background; /* emitted to the eye */
-    double reflected;              /* mean over what is visible; all that is reflected */
+    double reflected;              /* by the part that is judged; all that is reflected */
     double mirror, scattered;      /* its two parts */
     double veil;                   /* that stray light lays over the gaze point, in the eye */
 } CaseLuminances;
+
+/* A rectangle of a display's content, uv. */
+typedef struct CaseBox {
+    double left, top, right, bottom;
+} CaseBox;
+
+/* A symbol as a whole, beside the part of it that is judged. */
+typedef struct CaseWhole {
+    CaseBox part;                 /* which that is */
+    double  reflected;            /* mean over all that is visible of the box about its
+                                     foreground, cd m^-2; NaN: not known */
+    MeanInterval reflected_range; /* 95 % */
+    double  contrast_ratio;       /* by that mean; NaN likewise */
+    double  lit_share;            /* of it, 0..1, in the direct sun; NaN: there is none */
+} CaseWhole;
 
 #define CASE_BATCHES 32
 
@@ -186,6 +202,7 @@ typedef struct ReviewCase {
     bool    has_sun;             /* above the horizon */
     double  sun_azimuth_deg, sun_elevation_deg; /* of a sweep's worst: of the vehicle */
     CaseLuminances luminance_cd_m2;
+    CaseWhole whole;
     MeanInterval reflected_range; /* of sampling alone; of a sweep's steps of the response
                                     too. The contrasts are made of these luminances
                                     (judge_contrasts) */
@@ -209,14 +226,18 @@ typedef struct ReviewCase {
     double  precision_reached;   /* its standard error, relative; NaN likewise */
     double  paths_to_decide;     /* of a case that is too close: about how many decide; NaN */
     double  minutes_to_decide;   /* as fast as its reading went, here; NaN: not known */
-    double  visible_share;       /* of the rectangle, 0..1 */
+    double  visible_share;       /* of the box about its foreground, 0..1 */
     const CaseHider *hiders;     /* of all else, greatest first: with it they add up to 1 */
     int     hider_count;
     double  eye_failed_share;    /* of an eye box's points: those that fail; NaN: one point */
-    Vec3    eye_m;               /* where the eye was; of a box its worst point */
+    double  eye_m[3];            /* where the eye was, world; of a box its worst point */
+    double  origin_m[3];         /* of the scene that it was (scene/scene.h): its rays, view and
+                                    rim are in its coordinates */
     bool    is_optional;         /* the request says that this eye need not see it */
     double  level;               /* at which the display was set, 1: as measured */
     CasePanel panel;             /* what the display's panel says of itself */
+    double  veil_displays;       /* cd m^-2 of the veil, at most, that grow with the display's
+                                    level; 0: nothing is known of it */
     double  display_lux;         /* illuminance of the display's face */
     const LimitVerdict *limits;  /* all that apply */
     int     limit_count;
@@ -236,7 +257,7 @@ typedef struct ReviewCase {
     int     remedy_count;
     const char *frame;           /* picture's name within the folder; NULL: none was rendered */
     const CaseView *view;        /* of the frame; NULL: not known */
-    const Vec3 *rim;             /* once around the symbol, m, world; of a case without a frame
+    const Vec3 *rim;             /* once around the symbol, m; of a case without a frame
                                     of its own none */
     int rim_count;
     const char *outlook;         /* picture of what the display sees from the symbol; or NULL */

@@ -204,7 +204,7 @@ class Hunt:
         for case in cases:
             name = f"seed {seed}, {case['condition']}"
             check_case(self.report, name, case)
-            if case["verdict"] != "not visible":
+            if case["reason"] != "hidden":
                 self.compare(name + ", causes", estimate(case), of_causes(case))
         moments = [c for c in asked["conditions"] if "environment" in c]
         k = seed % len(moments)

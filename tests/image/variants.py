@@ -81,7 +81,9 @@ def cases_of(review):
 
 
 def margin_half(case):
-    return half(case["contrast_interval"]) / case["limit"]["value"]
+    """Half the interval of a margin, ln(contrast) over ln(limit) less one."""
+    return (half(case["contrast_interval"]) / case["contrast_ratio"] /
+            math.log(case["limit"]["value"]))
 
 
 def check_variant(report, name, variant, base, several, plain):
@@ -90,8 +92,7 @@ def check_variant(report, name, variant, base, several, plain):
         key = found["condition"], found["symbol"]
         before, by_hand = cases_of(base)[key], cases_of(several[0])[key]
         place = f"{name}, {key[0]}"
-        limit = by_hand["limit"]["value"]
-        own = half(found["contrast_interval"]) / limit
+        own = margin_half({**found, "limit": by_hand["limit"]})
         margin = sum(cases_of(review)[key]["margin"] for review in several) / len(several)
         report.claim(abs(found["margin"] - margin) <= own + margin_half(by_hand) + 1e-6,
                      f"{place}: margin {found['margin']}, by hand {margin}")

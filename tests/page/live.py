@@ -23,7 +23,7 @@ from exr import Frame  # noqa: E402
 from review import PANEL, Reviewer, close, dashboard, moment, request  # noqa: E402
 import browser  # noqa: E402
 
-VERDICTS = ["pass", "fail", "too close", "not visible"]
+VERDICTS = ["pass", "fail", "too close", "cannot be judged"]
 WAY = "time,lat,lon,heading\n" + "".join(
     f"2026-06-21T{hour:02d}:00:00Z,48.{hour},11,{20 * hour}\n" for hour in range(8, 13))
 LAYER_ERROR = 0.0043  # as review_live.h says

@@ -228,9 +228,9 @@ ARENA_TEST(what_is_not_asked_does_not_count)
     assert_true(review_case_counts(&c) && isnan(c.contrast_ratio) && isnan(c.stroke_ratio));
 }
 
-/* Of what is reflected alone: 110 and 10 cd/m2 with 40 of it give 3. A panel whose reflection is
- * known within a standard error of 10 % gives the ends of 40 (1 +- 0.196); with errors of the
- * two luminances, and of sampling, the halves add up as squares. */
+/* Of what is reflected alone: 110 and 10 cd/m2 with 40 of it give 3. A panel whose reflection
+ * is known within a standard error of 10 % gives the ends of 40 (1 +- 0.196); with errors of
+ * the two luminances, and of sampling, the halves add up as squares. */
 ARENA_TEST(the_panel_s_own_error_is_in_the_interval)
 {
     double     sigmas = INTERVAL_SIGMAS;

@@ -6,6 +6,7 @@
 
 #include "base/count.h"
 #include "review/output/review_json.h"
+#include "review/output/review_json_read.h"
 #include "review/output/review_words.h"
 #include "review/output/review_junit.h"
 #include "review_page_fixture.h"

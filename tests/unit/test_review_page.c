@@ -257,7 +257,7 @@ TEST(the_first_screen_says_it_all)
     text_add_bytes(&text, line, (size_t)(strstr(line, "</section>") - line));
     assert_int_equal(worst->verdict, VERDICT_FAIL);
     const char *parts[] = {"<b>Fails</b>", worst->symbol, worst->eye, worst->condition,
-                           words_ratio(worst->contrast_ratio, &arena), "62 %", "→ sky",
+                           words_judged(worst, &arena), "62 %", "→ sky",
                            "✗", "When", "What mends it"};
     for (size_t i = 0; i < sizeof parts / sizeof *parts; i++)
         if (!strstr(text.data, parts[i])) fail_msg("no %s in %s", parts[i], text.data);
@@ -350,7 +350,8 @@ TEST(the_mark_follows_the_kind_of_the_limit)
         c.luminance_cd_m2.foreground = i < 3 ? 200 : 300;
         review_bar_add_luminances(&html, &c, &arena);
         assert_non_null(strstr(html.data, arena_format(&arena, ">%s needs", FORMS[i].words)));
-        double dark = 100 + (i == 3 ? 100.0 / 3 : 0), most = dark + c.luminance_cd_m2.foreground;
+        double dark = 100 + (i == 3 ? 100.0 / 3 : 0);
+        double most = dark + c.luminance_cd_m2.foreground;
         most = fmax(most + (i == 3 ? 0 : 100.0 / 3), 1.02 * FORMS[i].ratio * dark);
         double mark = attribute_of(html.data, "mark", "x") / 100;
         assert_near(mark, FORMS[i].ratio * dark / most, 2e-3);
@@ -364,7 +365,8 @@ TEST(margins_have_one_scale)
     static const double PLACES[] = {88, 88, 66, 44, 22, 0};
     for (int i = 0; i < 6; i++) {
         double       found = pow(2, 1 + MARGINS[i]);
-        LimitVerdict limit = {.kind = "contrast_ratio", .value = 2, .found = found, .low = found, .high = found,
+        LimitVerdict limit = {.kind = "contrast_ratio", .value = 2, .found = found,
+                              .low = found, .high = found,
                               .margin = MARGINS[i],
                               .verdict = MARGINS[i] < 0 ? VERDICT_FAIL : VERDICT_PASS};
         const char  *class = MARGINS[i] < 0 ? "bad" : "good";

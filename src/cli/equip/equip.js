@@ -23,6 +23,9 @@ function say(text,isBad){
 function round(v){return Math.round(v*1e6)/1e6+0;}
 function list(v){return v.isVector3?[round(v.x),round(v.y),round(v.z)]:v.map(round);}
 function vector(p){return new THREE.Vector3(p[0],p[1],p[2]);}
+/* The page is in the scene's coordinates, its file in the world's. */
+function inWorld(p){return list(p).map(function(x,a){return round(x+data.origin[a]);});}
+function fromWorld(p){return p.map(function(x,a){return x-data.origin[a];});}
 
 /* ---- names: each means one thing ---- */
 function isTaken(name,but){
@@ -209,8 +212,8 @@ function lookThrough(eye){
 function eyeCard(eye){
   var box=card(eye,eye.name,eye.why),fields=make('div',{'class':'fields'});
   ['X','Y','Z'].forEach(function(axis,a){
-    fields.append(numberField(axis+', m',function(){return round(eye.position[a]);},
-      function(v){eye.position[a]=v;eye.why='set by hand';},0.01));
+    fields.append(numberField(axis+', m',function(){return inWorld(eye.position)[a];},
+      function(v){eye.position[a]=v-data.origin[a];eye.why='set by hand';},0.01));
   });
   fields.append(choice('Looks at',state.displays.map(function(d,i){return [String(i),d.name];})
     .concat([['','straight ahead']]),String(Math.max(-1,state.displays.indexOf(eye.looks)))
@@ -333,7 +336,7 @@ view.onlook=function(camera){
 
 /* ---- the file ---- */
 function displayOf(d){
-  var f=frameOf(d),out={name:d.name,on:d.on,centre_m:list(f.centre),right:list(f.right),
+  var f=frameOf(d),out={name:d.name,on:d.on,centre_m:inWorld(f.centre),right:list(f.right),
     up:list(f.up),width_m:round(d.width),height_m:round(d.height),before_mm:round(d.before_mm),
     panel:d.panel};
   if(d.content)out.content=d.content;
@@ -341,9 +344,9 @@ function displayOf(d){
   return out;
 }
 function eyeOf(e){
-  var out={name:e.name,position_m:list(e.position)};
+  var out={name:e.name,position_m:inWorld(e.position)};
   if(e.looks)out.looks_at=e.looks.name;
-  else out.target_m=list(targetOf(e));
+  else out.target_m=inWorld(targetOf(e));
   out.proposed_from=e.why;
   return out;
 }
@@ -397,14 +400,14 @@ function quoted(word){return /^[\w.,\/-]+$/.test(word)?word:"'"+word.replace(/'/
 /* A file that was saved is taken up again. */
 function take(saved){
   state.displays=(saved.displays||[]).map(function(d){
-    return {name:d.name,on:d.on||'the model',centre:vector(d.centre_m),right:vector(d.right),
+    return {name:d.name,on:d.on||'the model',centre:vector(fromWorld(d.centre_m)),right:vector(d.right),
       up:vector(d.up),width:d.width_m,height:d.height_m,dx:0,dy:0,turn_deg:0,
       before_mm:d.before_mm||0.5,level:'level' in d?d.level:1,panel:d.panel,
       content:d.content||''};
   });
   state.eyes=saved.eyes.map(function(e){
     var gaze=e.target_m?vector(e.target_m).sub(vector(e.position_m)).normalize():null;
-    return {name:e.name,position:e.position_m,why:e.proposed_from||'as it was saved',
+    return {name:e.name,position:fromWorld(e.position_m),why:e.proposed_from||'as it was saved',
       gaze:gaze&&[gaze.x,gaze.y,gaze.z],
       looks:state.displays.find(function(d){return d.name===e.looks_at;})||null};
   });

@@ -8,7 +8,7 @@
 #include "review/profile.h"
 #include "review/request/request_fields.h"
 
-#define METRES_MAX 1e4
+#define METRES_MAX 1e6
 #define LEAST_M 0.001   /* a display's side */
 #define MOST_M 100.0
 #define NEAR_M 0.001    /* an eye that is nearer looks nowhere */

@@ -13,7 +13,7 @@
 #include "base/file_write.h"
 #include "base/lines.h"
 #include "review/output/review_card.h"
-#include "review/output/review_json.h"
+#include "review/output/review_json_read.h"
 
 /* ---- folders ----------------------------------------------------------------------------- */
 

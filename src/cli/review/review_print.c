@@ -99,7 +99,8 @@ static void print_review(const Review *review, Arena scratch)
     for (int i = 0; i < review->mend_count; i++) print_mend(&review->mends[i], &scratch);
     const char *rests = review_rests_words(review, &scratch);
     if (rests[0]) printf("%-16s %s\n", "rests on", rests);
-    static const char *const LAST[4] = {"pass", "FAIL", "too close to call", "cannot be judged"};
+    static const char *const LAST[4] = {"pass", "FAIL", "too close to call",
+                                        "cannot be judged"};
     printf("%s\n", LAST[review_verdict(review)]);
 }
 

@@ -48,6 +48,7 @@ static ReviewCase judged_with(const Remedying *m, Remedied with)
     l->foreground *= with.brighter;
     l->background *= with.brighter;
     l->reflected = with.reflected + with.brighter * own_light(m);
+    l->veil += (with.brighter - 1) * m->c->veil_displays;
     double scale = before > 0 ? l->reflected / before : 1;
     out.level *= with.brighter;
     judge_contrasts(&out, (MeanInterval){scale * m->c->reflected_range.low,
@@ -148,8 +149,8 @@ static double rounded_out(double factor)
 /* ---- brightness -------------------------------------------------------------------------- */
 
 /* By how much the display must be brighter, or darker, for a contrast,
- * (H x + R + O x) / (L x + R + O x) = C, O its own light that is reflected, R all other;
- * NaN: no brightness does it. */
+ * (H x + R + O x) / (L x + R + O x) = C, O its own light that is reflected, or scattered in the
+ * eye, R all other; NaN: no brightness does it. */
 static double brighter_for(const CaseLuminances *l, double own, double other, double needed)
 {
     double high = fmax(l->foreground, l->background), low = fmin(l->foreground, l->background);
@@ -165,8 +166,9 @@ static void add_brightness(Remedying *m)
 {
     bool   is_upper = m->c->limits[m->limit].is_upper;
     double own = own_light(m), other = m->c->luminance_cd_m2.reflected - own;
-    double doubt = doubt_of(m), most = fmax(other + veil_of(m) + 2 * doubt, 0);
-    double x = brighter_for(&m->c->luminance_cd_m2, own, most, ratio_needed(m));
+    double veil = veil_of(m), grows = veil > 0 ? m->c->veil_displays : 0;
+    double doubt = doubt_of(m), most = fmax(other + veil - grows + 2 * doubt, 0);
+    double x = brighter_for(&m->c->luminance_cd_m2, own + grows, most, ratio_needed(m));
     for (int i = 0; i < TRIES && x > 0 && x < BRIGHTER_MOST; i++) {
         double     factor = rounded_out(x);
         ReviewCase sure = judged_with(m, (Remedied){factor, fmax(other + doubt, 0)});

@@ -245,10 +245,10 @@ static void add_causes(Text *html, const ReviewCard *card, Arena *arena)
 }
 
 /* The remedy's effect, behind its own words. */
-static const char *remedy_result(const CaseRemedy *r, Arena *arena)
+static const char *remedy_result(const ReviewCase *c, const CaseRemedy *r, Arena *arena)
 {
     const char *then = words_remedy(r, arena);
-    if (isnan(r->level)) return then;
+    if (isnan(r->level) || r->level == c->level) return then;
     return arena_format(arena, "%s; brightness %s of what was measured", then,
                         words_share(r->level, arena));
 }
@@ -260,7 +260,7 @@ static void add_remedies(Text *html, const ReviewCase *c, Arena *arena)
     for (int i = 0; i < c->remedy_count; i++) {
         text_add(html, "<li>");
         escape_markup(html, c->remedies[i].what);
-        page_element(html, "small", remedy_result(&c->remedies[i], arena));
+        page_element(html, "small", remedy_result(c, &c->remedies[i], arena));
         text_add(html, "</li>\n");
     }
     text_add(html, "</ul></div>\n");

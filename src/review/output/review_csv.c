@@ -61,8 +61,8 @@ static const char HEADER[] =
     "contrast_low,contrast_high,contrast_with_veil,height_arcmin,jnd,visible_share,level,"
     "display_lx,visibility,dgp,ugr,eye_failed_share,limit_name,limit_kind,limit_unit,"
     "limit_source,limit_value,margin,first_cause,first_cause_share,verdict,"
-    "reflected_low_cd_m2,reflected_high_cd_m2,hidden_by,hidden_by_share," GLARE_COLUMNS ",limit_found,limit_low,"
-    "limit_high,limit_bound,stroke_ratio,reason\r\n";
+    "reflected_low_cd_m2,reflected_high_cd_m2,hidden_by,hidden_by_share," GLARE_COLUMNS
+    ",limit_found,limit_low,limit_high,limit_bound,stroke_ratio,reason\r\n";
 
 static void add_limit(Text *csv, const ReviewCase *c)
 {

@@ -44,8 +44,8 @@ Verdict review_verdict(const Review *review);
 
 /* The limit that made the case's verdict: of those with that verdict the one with the least
  * margin. Where it passes, or there is none, that of the contrast: a height or a stroke is the
- * same under every light, and says nothing there. NULL: no limit counts. Whatever is printed of a case
- * beside its verdict is this limit's: figure, interval, margin. */
+ * same under every light, and says nothing there. NULL: no limit counts. Whatever is printed of
+ * a case beside its verdict is this limit's: figure, interval, margin. */
 const LimitVerdict *case_worst_limit(const ReviewCase *c);
 
 /* All cases and the sweeps' worst, the worst first: by verdict (fail, cannot be judged, too

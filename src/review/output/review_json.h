@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* review_json.h -- a review as JSON, and back, to hold another one against it; the keys are
- * promised to scripts.
+/* review_json.h -- a review as JSON; the keys are promised to scripts (and back:
+ * review_json_read.h).
  *
  * Figures have six significant digits; what is not a finite number is null. The same review
  * gives the same bytes. Texts that are no UTF-8 lose what is not ASCII (text/json_text.h).
@@ -8,8 +8,7 @@
  * Units    as in verdict.h; keys name them.
  * Memory   documents are jansson's: whoever gets one releases it.
  * Threads  pure.
- * Fails    to read with the file, the JSON path, what was found and what was wanted. Keys that
- *          a later version may add are passed over.
+ * Fails    when the file cannot be written.
  */
 #pragma once
 #include <jansson.h>
@@ -29,7 +28,3 @@ json_t *review_json(const Review *review);
 
 /* A document becomes a file: review.json, diff.json. Takes the document. */
 bool review_json_write(json_t *document, const char *path, Error *err);
-
-/* Reads a file of review_json: every figure to its six digits, null as NaN. All lies in the
- * arena. */
-bool review_json_read(const char *file, Arena *arena, Review *out, Error *err);

@@ -52,3 +52,6 @@ typedef struct Member {
     LIST_OF_USE(ALWAYS, key, Type, member, number, table, Item)
 #define LIST_SINCE(key, Type, member, number, table, Item)                                     \
     LIST_OF_USE(SINCE, key, Type, member, number, table, Item)
+
+/* What is read back of a whole review (review_json.c). */
+extern const Member review_members[];

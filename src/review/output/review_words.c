@@ -11,6 +11,7 @@
 #include "review/quantity.h"
 #include "text/interval_text.h"
 #include "text/text.h"
+#include "vision/discomfort.h"
 
 bool words_same(const char *a, const char *b)
 {
@@ -56,15 +57,6 @@ const char *words_within(double value, double low, double high, Arena *arena)
                         : words_figure(value, arena);
 }
 
-const char *words_ratio_as(const ReviewCase *c, double ratio, Arena *arena)
-{
-    bool has_limit = c->limit_id >= 0 && c->limit_id < c->limit_count;
-    LimitVerdict as = {.kind = limit_kinds[LIMIT_CONTRAST_RATIO].name};
-    if (has_limit) as = c->limits[c->limit_id];
-    as.found = as.low = as.high = contrast_from_ratio(limit_kind_named(as.kind), ratio);
-    return words_quantity(&as, arena);
-}
-
 const char *words_contrast(const ReviewCase *c, Arena *arena)
 {
     if (isnan(c->contrast_ratio)) return "–";
@@ -82,18 +74,28 @@ const char *words_glare(double value, MeanInterval range, const char *none, Aren
                         words_within(range.high, range.low, range.high, arena));
 }
 
+/* Sources beyond the solid angles that UGR is made for. */
+static const char *words_beyond(const CaseGlare *glare, Arena *arena)
+{
+    if (!(glare->smallest_sr < UGR_SOLID_ANGLE_MIN_SR) &&
+        !(glare->largest_sr > UGR_SOLID_ANGLE_MAX_SR))
+        return "";
+    const char *least = words_figure(glare->smallest_sr, arena);
+    const char *most = words_figure(glare->largest_sr, arena);
+    return arena_format(arena, ", of %s%s%s sr (UGR is made for %g to %g)", least,
+                        glare->source_count > 1 ? " to " : "",
+                        glare->source_count > 1 ? most : "", UGR_SOLID_ANGLE_MIN_SR,
+                        UGR_SOLID_ANGLE_MAX_SR);
+}
+
 const char *words_glare_settings(const CaseGlare *glare, Arena *arena)
 {
-    return arena_format(arena, "sources above %s cd/m²: %ld; DGP %s its factor for low light%s",
-                        words_figure(glare->threshold_cd_m2, arena), glare->source_count,
+    return arena_format(arena, "sources above %s cd/m²: %ld%s; DGP %s its factor for low "
+                        "light%s", words_figure(glare->threshold_cd_m2, arena),
+                        glare->source_count, words_beyond(glare, arena),
                         glare->low_light ? "with" : "without",
                         glare->small_sources ? "; UGR by CIE 147's rule for small sources"
                                              : "");
-}
-
-const char *words_ratio(double value, Arena *arena)
-{
-    return isnan(value) ? "–" : arena_format(arena, "%s : 1", words_figure(value, arena));
 }
 
 const char *words_interval(double low, double high, Arena *arena)
@@ -170,13 +172,22 @@ const char *words_measured(const LimitVerdict *limit, Arena *arena)
     return with_unit(limit, figure, arena);
 }
 
-const char *words_quantity(const LimitVerdict *limit, Arena *arena)
+static const char *words_quantity(const LimitVerdict *limit, Arena *arena)
 {
     const char *found = words_found(limit, arena);
     LimitKind   kind = limit_kind_named(limit->kind);
     if (kind == LIMIT_CONTRAST_RATIO) return found;
     if (kind == LIMIT_CHARACTER_HEIGHT) return arena_format(arena, "%s high", found);
     return arena_format(arena, "%s %s", words_kind(limit), found);
+}
+
+const char *words_ratio_as(const ReviewCase *c, double ratio, Arena *arena)
+{
+    bool has_limit = c->limit_id >= 0 && c->limit_id < c->limit_count;
+    LimitVerdict as = {.kind = limit_kinds[LIMIT_CONTRAST_RATIO].name};
+    if (has_limit) as = c->limits[c->limit_id];
+    as.found = as.low = as.high = contrast_from_ratio(limit_kind_named(as.kind), ratio);
+    return words_quantity(&as, arena);
 }
 
 const char *words_judged(const ReviewCase *c, Arena *arena)

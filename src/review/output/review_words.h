@@ -31,11 +31,8 @@ const char *words_within(double value, double low, double high, Arena *arena);
 /* A case's: "1.64 : 1"; "–" where it is not visible. */
 const char *words_contrast(const ReviewCase *c, Arena *arena);
 
-/* A contrast ratio of the case in the kind of its limit of contrast, as words_quantity. */
+/* A contrast ratio of the case in the kind of its limit of contrast, as words_judged. */
 const char *words_ratio_as(const ReviewCase *c, double ratio, Arena *arena);
-
-/* "1.64 : 1"; "–" for NaN. */
-const char *words_ratio(double value, Arena *arena);
 
 /* "1.58 to 1.70"; "exact" where both are the same, "–" for NaN. */
 const char *words_interval(double low, double high, Arena *arena);
@@ -58,12 +55,8 @@ const char *words_kind(const LimitVerdict *limit);
 /* The figure with its interval, in its unit: "1.64 +- 0.02 : 1". */
 const char *words_measured(const LimitVerdict *limit, Arena *arena);
 
-/* The same said with what it is a figure of: "1.64 : 1", "luminance contrast 1.04", "14 arc min
- * high". */
-const char *words_quantity(const LimitVerdict *limit, Arena *arena);
-
-/* The figure that made a case's verdict, as words_quantity; of what cannot be judged one of
- * unjudged_names. */
+/* The figure that made a case's verdict, said with what it is: "1.64 : 1", "luminance contrast
+ * 1.04", "14 arc min high"; of what cannot be judged one of unjudged_names. */
 const char *words_judged(const ReviewCase *c, Arena *arena);
 
 /* "3 min", "1 h 25 min"; "–" for NaN. */

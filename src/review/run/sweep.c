@@ -9,6 +9,7 @@
 #include "review/judge.h"
 #include "review/keep/journal.h"
 #include "review/pace/work.h"
+#include "review/chain/causes.h"
 #include "review/run/false_sun_times.h"
 #include "review/run/rests.h"
 #include "review/run/sun_figures.h"
@@ -226,6 +227,9 @@ static ReviewCase hidden_case(const SweepReport *to, const Sight *sight,
     c.panel = symbol_panel(sight->symbol, to->arena);
     c.is_optional = review_is_optional(request, sight->symbol->symbol_id, sight->eye);
     if (review_eye_is_wide(sight->eye)) c.eye_failed_share = 1;
+    if (!(sight->seen.visible_share > 0))
+        case_hiders(&sight->symbol->surface, &to->sweep->setup->context, sight->from, &c,
+                    to->arena);
     return c;
 }
 

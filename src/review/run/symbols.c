@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "review/run/symbols.h"
 
+#include <math.h>
 #include <string.h>
 #define XXH_INLINE_ALL
 #include <xxhash.h>
@@ -40,8 +41,13 @@ static bool add_symbol(SymbolList *list, SetupSymbol symbol, const SymbolQuestio
     *kept = symbol;
     SymbolPlace place = {.scene = scene, .display = &kept->display,
                          .point_count = SYMBOL_POINTS};
+    SymbolSurface rectangle;
     memcpy(place.uv, question->uv, sizeof place.uv);
-    if (!symbol_surface_build(&place, arena, &kept->surface, err)) return false;
+    memcpy(kept->uv, question->uv, sizeof kept->uv);
+    if (!symbol_surface_build(&place, arena, &rectangle, err) ||
+        !symbol_surface_within(&rectangle, kept->split.box, SYMBOL_POINTS, arena,
+                               &kept->surface, err))
+        return false;
     list->count++;
     return true;
 }
@@ -130,6 +136,17 @@ CasePanel symbol_panel(const SetupSymbol *symbol, Arena *arena)
     return panel;
 }
 
+/* A shape whose shortest chords are more than a quarter of its height, such as a filled sign or
+ * a bar, is not made of strokes: bold faces of type have a fifth, the heaviest a quarter. */
+#define STROKE_MOST 0.25
+
+double symbol_stroke_ratio(const SetupSymbol *symbol)
+{
+    const SymbolSplit *split = &symbol->split;
+    double ratio = split->stroke_px / (split->character_v * split->light.content_height);
+    return ratio <= STROKE_MOST ? ratio : (double)NAN;
+}
+
 static bool add_asked(SymbolList *list, int id, Arena *arena, Error *err)
 {
     const ReviewSymbol *asked = &list->setup->request->symbols[id];
@@ -172,6 +189,82 @@ void symbol_aim(const SymbolSurface *surface, const bool *is_visible, Arena *are
         targets[aim->target_count] = patch.middle;
         patches[aim->target_count++] = (ProbePatch){patch.along, patch.down};
     }
+}
+
+/* ---- its parts --------------------------------------------------------------------------- */
+
+#define STEPS_MOST 8 /* in which a part slides over its own length */
+
+/* Cells of one length of the box, of which `steps` make a part. */
+static int cells_along(double box, double part, int steps)
+{
+    return part > 0 && part < box ? (int)floor(steps * box / part) : steps;
+}
+
+/* Lengths of a part within the box: its share of the content. */
+static void part_size(const SymbolSplit *split, double size[2])
+{
+    size[0] = split->stroke_px / split->light.content_width;
+    size[1] = split->character_v;
+}
+
+/* Sets how the box is divided into no more than so many cells. */
+static void divide(const SymbolSplit *split, int most, LightParts *parts)
+{
+    double size[2], width = split->box[2] - split->box[0];
+    double height = split->box[3] - split->box[1], larger = 1;
+    part_size(split, size);
+    int steps = STEPS_MOST;
+    do {
+        parts->columns = cells_along(width, larger * size[0], steps);
+        parts->rows = cells_along(height, larger * size[1], steps);
+        parts->wide = parts->high = steps;
+        if (steps > 1) steps /= 2;
+        else larger *= 2;
+    } while ((double)parts->columns * parts->rows > most);
+}
+
+static void cell_box(const SymbolSplit *split, const LightParts *parts, const int cell[4],
+                     double uv[4])
+{
+    for (int k = 0; k < 4; k++) {
+        double low = split->box[k % 2], high = split->box[k % 2 + 2];
+        uv[k] = low + cell[k] * (high - low) / (k % 2 ? parts->rows : parts->columns);
+    }
+}
+
+void symbol_part_box(const SetupSymbol *symbol, const LightParts *parts, int part, double uv[4])
+{
+    int column, row;
+    light_parts_place(parts, part, &column, &row);
+    const int cell[4] = {column, row, column + parts->wide, row + parts->high};
+    cell_box(&symbol->split, parts, cell, uv);
+}
+
+LightParts symbol_parts(const SetupSymbol *symbol, const ProbeAim *aim, int most, Arena *arena)
+{
+    LightParts parts = {.aim = *aim};
+    divide(&symbol->split, most, &parts);
+    int         count = parts.columns * parts.rows;
+    Vec3       *targets = ARENA_NEW(arena, Vec3, count);
+    ProbePatch *patches = ARENA_NEW(arena, ProbePatch, count);
+    int        *cell_of = ARENA_NEW(arena, int, count);
+    parts.aim.targets = targets;
+    parts.aim.patches = patches;
+    parts.aim.target_count = 0;
+    parts.cell_of = cell_of;
+    for (int i = 0; i < count; i++) {
+        double      uv[4];
+        SymbolPatch patch;
+        int         column = i % parts.columns, row = i / parts.columns;
+        const int   cell[4] = {column, row, column + 1, row + 1};
+        cell_box(&symbol->split, &parts, cell, uv);
+        if (!symbol_box_seen(&symbol->surface, uv, aim->context, aim->eye, &patch)) continue;
+        targets[parts.aim.target_count] = patch.middle;
+        patches[parts.aim.target_count] = (ProbePatch){patch.along, patch.down};
+        cell_of[parts.aim.target_count++] = i;
+    }
+    return parts;
 }
 
 bool setup_symbols(const Setup *setup, Arena *arena, SetupSymbol **out, int *count, Error *err)

@@ -150,6 +150,16 @@ static void take_nearest(Mending *m)
     }
 }
 
+/* A panel that is not usable, light via things without data: no value makes that judged. */
+static bool is_beyond_mending(const Review *review)
+{
+    for (int i = 0; i < review_case_count(review); i++) {
+        Unjudged why = review_case_at(review, i)->unjudged;
+        if (why == UNJUDGED_PANEL || why == UNJUDGED_DATA) return true;
+    }
+    return false;
+}
+
 static bool search(Mending *m, Error *err)
 {
     const ReviewParameter *p = m->parameter;
@@ -160,7 +170,7 @@ static bool search(Mending *m, Error *err)
     m->out.value = m->out.at;
     m->out.outside = (double)NAN;
     m->out.is_found = review_verdict(m->base) == VERDICT_PASS;
-    if (m->out.is_found) return true;
+    if (m->out.is_found || is_beyond_mending(m->base)) return true;
     if (!expand(m, sides, &side, &found, err)) return false;
     if (side) return narrow(m, side, &found, err) && confirm(m, side, found, err);
     take_nearest(m);
