@@ -286,7 +286,8 @@ static bool is_optional(const char *key, const json_t *object)
 {
     static const char *const ADDED[] = {"reflected_interval", "precision_asked",
                                         "precision_reached", "paths_to_decide", "cause_groups",
-                                        "without_data_share", "without_data", "hidden_by",
+                                        "without_data_share", "without_data",
+                                        "without_data_share_most", "hidden_by",
                                         "eye_places", "then", "judged", "reason",
                                         "optional", "panel", "panels", "stroke_ratio", "dgi",
                                         "dgp_interval", "ugr_interval", "dgi_interval", "glare",
