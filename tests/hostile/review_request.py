@@ -37,7 +37,7 @@ PLACE = re.compile(r"\((/[^()]*)\)(?: — .*)?$|: (/[^:]*): ")
 GOOD = {
     "title": "all of it", "scene": ["dash.gltf"], "forward": [0, 0, -2],
     "eyes": {"driver": {"camera": "eye"}, "first": {"camera": 0},
-             "tall": {"position_m": [0.1, 0.2, 0.8]},
+             "tall": {"position_m": [0.1, 0.2, 0.8], "proposed_from": "a seat"},
              "box": {"centre_m": [0, 0.15, 0.8], "half_size_m": [0.1, 0.1, 0],
                      "grid": [2, 3, 1]},
              "drivers": {"centre_m": [0, 0.15, 0.8], "ellipse_m": [0.2, 0.06, 0.09],

@@ -53,8 +53,8 @@ TEST(what_it_rests_on_is_one_line)
         "panel of cluster: measured (PX-9; conoscope, lab <B>), usable with care, coarse "
         "(coarse: steps of 5 degrees), known within 2.0 % of what it emits and 4.0 % of what "
         "it reflects; panel of centre: synthetic; 2 guessed materials (up to 62 % of the light "
-        "on a symbol); the eye as given; no occupant named; limits as quoted, 1 of 5 read in the "
-        "standard");
+        "on a symbol); the eye as given; no occupant named; limits as quoted, 1 of 5 read in "
+        "the standard");
     review.case_count = 4;
     review.sweep_count = 0;
     assert_non_null(strstr(review_rests_words(&review, &arena), "up to 25 %"));
@@ -76,9 +76,9 @@ TEST(no_guess_no_proposal_no_quote_is_told_where_there_is_none)
     Review review = {.rests_on = rests, .rests_on_count = 8};
     assert_string_equal(
         review_rests_words(&review, &arena),
-        "panel of a, b: no measurement stated; 1 material without optical data, taken as perfectly white (up to 0 % of the light on a symbol); "
-        "proposed eye (co-driver), the others as given; occupants: in white (none under 1 of 3 conditions); "
-        "limits as read in the standard");
+        "panel of a, b: no measurement stated; 1 material without optical data, taken as "
+        "perfectly white (up to 0 % of the light on a symbol); proposed eye (co-driver), the "
+        "others as given; occupants: in white (none under 1 of 3 conditions); limits as read in the standard");
 }
 
 TEST(an_empty_seat_is_named_with_its_share)
