@@ -32,7 +32,10 @@ def content():
             chunk(b"IDAT", zlib.compress(raw)) + chunk(b"IEND", b""))
 
 
-def write_scene(folder, things=(), panel=os.path.join(ROOT, "assets/panels/ips_cluster.panel")):
+PANEL = os.path.join(ROOT, "assets/panels/ips_cluster.panel")
+
+
+def write_scene(folder, things=(), panel=PANEL):
     """A display of 0.2 x 0.1 m that faces an eye 0.7 m away. things: (material, place, scale) of
     plates that are as the display is."""
     x, y = 0.1, 0.05
