@@ -32,9 +32,12 @@ def content():
             chunk(b"IDAT", zlib.compress(raw)) + chunk(b"IEND", b""))
 
 
-def write_scene(folder, things=(), panel=os.path.join(ROOT, "assets/panels/ips_cluster.panel")):
-    """A display of 0.2 x 0.1 m that faces an eye 0.7 m away. things: (material, place, scale) of
-    plates that are as the display is."""
+PANEL = os.path.join(ROOT, "assets/panels/ips_cluster.panel")
+
+
+def write_scene(folder, things=(), panel=PANEL):
+    """A display of 0.2 x 0.1 m that faces an eye 0.7 m away. things: (material, place, scale)
+    of plates that are as the display is."""
     x, y = 0.1, 0.05
     points = struct.pack("<12f", -x, -y, 0, x, -y, 0, x, y, 0, -x, y, 0)
     uv = struct.pack("<8f", 0, 1, 1, 1, 1, 0, 0, 0)

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""unjudged.py PARHELION -- what a review does not know it does not call a pass: a symbol that is
-hidden, a panel that says it is not usable, light via a material without data, a light for which
-the profile has no limit. Each is "cannot be judged" with its reason, on the console, the page, in
-JSON and in JUnit, with status 1; what need not be seen, or is not asked, does not count.
+"""unjudged.py PARHELION -- what a review does not know it does not call a pass: a symbol that
+is hidden, a panel that says it is not usable, light via a material without data, a light for
+which the profile has no limit. Each is "cannot be judged" with its reason, on the console, the
+page, in JSON and in JUnit, with status 1; what need not be seen, or is not asked, does not
+count.
 """
 import json
 import os
@@ -122,7 +123,8 @@ def check_optional(report, reviews):
     report.claim(done.returncode == 1 and found["verdict"] == "cannot be judged",
                  f"the other eye's: {done.returncode}")
     for visible, place in (({"nobody": "optional"}, "/symbols/bar/visible"),
-                           ("perhaps", "/symbols/bar"), ({"eye": True}, "/symbols/bar/visible")):
+                           ("perhaps", "/symbols/bar"),
+                           ({"eye": True}, "/symbols/bar/visible")):
         done = reviews.run(with_visible(asked(), visible))
         report.claim(done.returncode == 3 and len(done.stderr.splitlines()) == 1 and
                      place in done.stderr, f"{visible}: {done.returncode} {done.stderr}")
@@ -195,13 +197,14 @@ def check_data(report, reviews):
 
 
 def check_limits(report, reviews):
-    """By night there is a limit, by day none: it does not count beside, and alone is no pass."""
+    """By night there is a limit, by day none: that does not count, and alone is no pass."""
     write_scene(reviews.folder)
     with open(os.path.join(reviews.folder, "night.json"), "w", encoding="utf-8") as file:
         json.dump(NIGHT_ONLY, file)
     done, found, headline, is_green = reviews.review(asked(), "--profile", "night.json")
     report.claim(done.returncode == 1 and found["verdict"] == "cannot be judged" and
-                 not is_green and "no limit" in headline, f"by day: {done.returncode} {headline}")
+                 not is_green and "no limit" in headline,
+                 f"by day: {done.returncode} {headline}")
     two = request({"grey": ("low", 100.0), "night": ("low", 0.1)}, {"low": 0.5})
     two["precision"] = {"contrast": 0.05, "paths": 8192}
     done, found, headline, is_green = reviews.review(two, "--profile", "night.json")

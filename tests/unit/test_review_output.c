@@ -286,12 +286,12 @@ static bool is_optional(const char *key, const json_t *object)
 {
     static const char *const ADDED[] = {"reflected_interval", "precision_asked",
                                         "precision_reached", "paths_to_decide", "cause_groups",
-                                        "without_data_share", "without_data",
-                                        "without_data_share_most", "hidden_by",
-                                        "eye_places", "then", "judged", "reason",
-                                        "optional", "panel", "panels", "stroke_ratio", "dgi",
-                                        "dgp_interval", "ugr_interval", "dgi_interval", "glare",
-                                        "rests_on", "rests_on_line", "inputs", "guessed_share",
+                                        "without_data_share", "without_data", "hidden_by",
+                                        "without_data_share_most", "eye_places", "then",
+                                        "judged", "reason", "optional", "panel", "panels",
+                                        "stroke_ratio", "dgi", "dgp_interval",
+                                        "ugr_interval", "dgi_interval", "glare", "rests_on",
+                                        "rests_on_line", "inputs", "guessed_share",
                                         "empty_seat", "empty_seat_share"};
     for (size_t i = 0; i < sizeof ADDED / sizeof *ADDED; i++)
         if (!strcmp(key, ADDED[i])) return true;

@@ -18,6 +18,7 @@
 #include "cli/render/render_setup.h"
 #include "review/chain/outlook.h"
 #include "review/output/ray_file.h"
+#include "review/output/review_decide.h"
 #include "review/output/review_json.h"
 #include "review/output/review_words.h"
 #include "review/request/request_check.h"
@@ -178,6 +179,15 @@ static void print_light(const Explained *explained, Arena scratch)
                luminance_contrast(l->foreground, l->background, 0));
 }
 
+/* Of a review's case: the quantity of the limit that decides it. */
+static void print_judged(const ReviewCase *c, Arena scratch)
+{
+    const LimitVerdict *limit = case_worst_limit(c);
+    if (!limit) return;
+    printf("judged     %s: %s %s, required %s\n", verdict_names[c->verdict], words_kind(limit),
+           words_measured(limit, &scratch), words_required(limit, &scratch));
+}
+
 static void print_cause(const CaseCause *cause, bool has_contrast, Arena scratch)
 {
     printf("%6.1f %%  %8s  %8s to %-8s", 100 * cause->share,
@@ -213,14 +223,12 @@ static void print_causes(const ReviewCase *c, Arena scratch)
     for (int i = 0; i < c->cause_count; i++) print_cause(&c->causes[i], has_contrast, scratch);
 }
 
-static void print_remedies(const ReviewCase *c)
+static void print_remedies(const ReviewCase *c, Arena scratch)
 {
     if (c->remedy_count) printf("\n");
-    for (int i = 0; i < c->remedy_count; i++) {
-        const CaseRemedy *r = &c->remedies[i];
-        if (isnan(r->contrast_ratio)) printf("to try     %s\n", r->what);
-        else printf("would mend %s: contrast %.3g : 1\n", r->what, r->contrast_ratio);
-    }
+    for (int i = 0; i < c->remedy_count; i++)
+        printf("remedy     %s: %s\n", c->remedies[i].what,
+               words_remedy(&c->remedies[i], &scratch));
 }
 
 static void print_text(const Explained *explained, Arena *arena)
@@ -229,15 +237,16 @@ static void print_text(const Explained *explained, Arena *arena)
     if (explained->of.hider_count)
         printf("hidden     %s\n", words_hiders(&explained->of, arena));
     if (!(explained->of.visible_share > 0)) {
-        printf("not visible\n");
+        printf("nothing of it is seen\n");
         return;
     }
     print_light(explained, *arena);
+    print_judged(&explained->of, *arena);
     print_groups(&explained->of);
     print_causes(&explained->of, *arena);
     const char *seat = words_empty_seat(&explained->of, arena);
     if (seat[0]) printf("\nnote       %s\n", seat);
-    print_remedies(&explained->of);
+    print_remedies(&explained->of, *arena);
     if (explained->has_outlook) printf("\nsees       %s\n", outlook_words(&explained->outlook,
                                                                           arena));
 }
@@ -288,18 +297,6 @@ static json_t *json_light(const Explained *explained)
     return out;
 }
 
-static json_t *json_remedies(const ReviewCase *c)
-{
-    json_t *out = json_array();
-    for (int i = 0; i < c->remedy_count; i++)
-        json_array_append_new(out, json_pack(
-            "{s:s, s:o, s:o, s:o}", "kind", remedy_kinds[c->remedies[i].kind], "what",
-            json_text(c->remedies[i].what), "contrast_ratio",
-            json_figure(c->remedies[i].contrast_ratio), "level",
-            json_figure(c->remedies[i].level)));
-    return out;
-}
-
 static json_t *json_outlook(const Explained *explained)
 {
     const Outlook *o = &explained->outlook;
@@ -332,7 +329,7 @@ static bool print_json(const Explained *explained, Error *err)
                                   json_figure(c->reflected_range.high)));
     json_object_set_new(out, "cause_groups", review_groups_json(c));
     json_object_set_new(out, "chains", json_chains(c));
-    json_object_set_new(out, "remedies", json_remedies(c));
+    json_object_set_new(out, "remedies", review_remedies_json(c));
     json_object_set_new(out, "outlook", json_outlook(explained));
     return cli_print_json(out, err);
 }

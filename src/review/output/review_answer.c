@@ -45,9 +45,12 @@ static const char *answer_words(const Review *review, const ReviewCase *worst)
 
 static void add_line(Text *html, const Review *review, const ReviewCase *worst, Arena *arena)
 {
+    static const char *const CLASSES[4] = {
+        [VERDICT_PASS] = " same", [VERDICT_FAIL] = "", [VERDICT_TOO_CLOSE] = " open",
+        [VERDICT_UNJUDGED] = " unknown"};
     Verdict verdict = review_verdict(review);
-    text_format(html, "<div class=\"verdict%s\"><h1><b>%s</b>: ",
-                verdict == VERDICT_PASS ? " same" : "", words_verdict(verdict));
+    text_format(html, "<div class=\"verdict%s\"><h1><b>%s</b>: ", CLASSES[verdict],
+                words_verdict(verdict));
     if (!worst) {
         text_add(html, "nothing was asked, so nothing can fail.</h1></div>\n");
         return;

@@ -280,6 +280,11 @@ json_t *review_groups_json(const ReviewCase *c)
     return object_json(GROUPS, c);
 }
 
+json_t *review_remedies_json(const ReviewCase *c)
+{
+    return LIST_OF(REMEDY, c->remedies, c->remedy_count);
+}
+
 json_t *review_hiders_json(const ReviewCase *c)
 {
     return LIST_OF(HIDER, c->hiders, c->hider_count);

@@ -20,6 +20,9 @@
 /* {"light": [{"what", "share", "cd_m2"}, ...], "opening": ..., "surface": ...} */
 json_t *review_groups_json(const ReviewCase *c);
 
+/* [{"what", "contrast_ratio", "level", "then", "verdict"}, ...] */
+json_t *review_remedies_json(const ReviewCase *c);
+
 /* [{"what", "share"}, ...] */
 json_t *review_hiders_json(const ReviewCase *c);
 

@@ -3,8 +3,8 @@
  *
  * Memory   all lies in the arena.
  * Threads  pure.
- * Fails    with the file, the JSON path, what was found and what was required. Keys that a later
- *          version may add are passed over.
+ * Fails    with the file, the JSON path, what was found and what was required. Keys that a
+ *          later version may add are passed over.
  */
 #pragma once
 #include "base/arena.h"

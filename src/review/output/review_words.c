@@ -364,12 +364,22 @@ const char *words_unjudged(const ReviewCase *c, Arena *arena)
     }
 }
 
+/* A contrast that is no ratio says so: a name such as "contrast" alone would not. */
+static const char *name_of(const LimitVerdict *limit, Arena *arena)
+{
+    LimitKind   kind = limit_kind_named(limit->kind);
+    const char *name = limit->name ? limit->name : "limit";
+    bool is_other = kind == LIMIT_LUMINANCE_CONTRAST || kind == LIMIT_MODULATION;
+    if (!is_other || strstr(name, words_kind(limit))) return name;
+    return arena_format(arena, "%s (%s)", name, words_kind(limit));
+}
+
 const char *words_reason(const ReviewCase *c, Arena *arena)
 {
     const LimitVerdict *limit = case_worst_limit(c);
     if (c->verdict == VERDICT_UNJUDGED) return words_unjudged(c, arena);
     if (!limit) return "no limit applies to it";
-    const char *name = limit->name ? limit->name : "limit";
+    const char *name = name_of(limit, arena);
     const char *found = words_found(limit, arena);
     const char *required = words_required(limit, arena);
     if (c->verdict == VERDICT_TOO_CLOSE)
