@@ -32,7 +32,7 @@ TEST(what_is_not_visible_says_what_hides_it)
     Review            review = fixture_review(&arena);
     const ReviewCase *hidden = &review.cases[20];
     assert_string_equal(words_reason(hidden, &arena),
-                        "0 % of it can be seen from there: wheel <rim> (leather) hides 75 %, "
+                        "nothing of it is seen: wheel <rim> (leather) hides 75 %, "
                         "stalk (satin) hides 12 %, driver's hand (skin) hides 6.2 %, others "
                         "6.2 %");
     assert_string_equal(words_hiders(&review.cases[0], &arena), "");
