@@ -2,18 +2,12 @@
 #include "base/problems.h"
 
 #include <stdio.h>
-#include <string.h>
+
+#include "base/printable.h"
 
 Problems problems_start(Arena *arena)
 {
     return (Problems){.arena = arena};
-}
-
-static const char *plain_copy(Arena *arena, const char *text)
-{
-    char *copy = arena_string(arena, text ? text : "", text ? strlen(text) : 0);
-    error_make_plain(copy);
-    return copy;
 }
 
 static void append(Problems *problems, Severity severity, const char *file, const char *path,
@@ -26,7 +20,8 @@ static void append(Problems *problems, Severity severity, const char *file, cons
                                     problems->capacity);
     }
     problems->list[problems->count++] = (Problem){
-        plain_copy(arena, file), plain_copy(arena, path), plain_copy(arena, message), severity};
+        printable_text(file ? file : "", arena), printable_text(path ? path : "", arena),
+        printable_text(message, arena), severity};
     problems->error_count += severity == SEVERITY_ERROR;
 }
 

@@ -11,6 +11,7 @@
 #include "base/file.h"
 #include "base/file_write.h"
 #include "base/machine.h"
+#include "base/printable.h"
 #include "film/film_part.h"
 #include "render/checkpoint.h"
 #include "text/text.h"
@@ -210,8 +211,7 @@ static const char *failure_of(const SharedJob *job, int index, int *status, Aren
     *status = (int)strtol(line, &end, 10);
     end += *end == ' ';
     end[strcspn(end, "\n")] = '\0';
-    error_make_plain(end);
-    return end;
+    return printable_text(end, arena);
 }
 
 JobPartReport job_part_report(const SharedJob *job, const Lines *folder, int index,

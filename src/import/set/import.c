@@ -7,6 +7,7 @@
 #include <strings.h>
 
 #include "base/file.h"
+#include "base/printable.h"
 
 const char *import_source_name(ImportSource source)
 {
@@ -39,9 +40,8 @@ void import_note(ImportSet *set, const char *format, ...)
 {
     va_list list;
     va_start(list, format);
-    char *text = arena_format_list(set->arena, 1023, format, list);
+    char *text = printable_text(arena_format_list(set->arena, 1023, format, list), set->arena);
     va_end(list);
-    error_make_plain(text);
     for (int i = 0; i < set->note_count; i++)
         if (!strcmp(set->note[i], text)) return;
     if (set->note_count == IMPORT_NOTES_MAX) {

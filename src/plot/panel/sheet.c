@@ -3,8 +3,8 @@
 
 #include <math.h>
 
+#include "base/printable.h"
 #include "base/units.h"
-#include "text/utf8.h"
 
 #define MARGIN 40.0
 #define GUTTER 34.0
@@ -97,7 +97,7 @@ static void draw_heading(Canvas *canvas, const SheetSpec *spec, const Layout *l)
                                     instrument ? instrument : "");
     canvas_text(canvas, MARGIN, MARGIN + 27, (Letters){.size = SIZE_TEXT, .ink = t->soft},
                 canvas_fit_text(canvas, SIZE_TEXT, false, width,
-                                utf8_replace(line, canvas->arena)));
+                                printable_text(line, canvas->arena)));
     canvas_line(canvas, MARGIN, MARGIN + 46, l->width - MARGIN, MARGIN + 46,
                 (Stroke){t->faint, 0.7, DASH_NONE});
 }
