@@ -12,6 +12,7 @@
 #include "cli/options/answer.h"
 #include "cli/options/cli.h"
 #include "cli/options/scene_options.h"
+#include "cli/review/review_files.h"
 #include "cli/review/review_folder.h"
 #include "cli/review/review_job.h"
 #include "cli/review/review_print.h"
@@ -437,7 +438,9 @@ static bool review(const ReviewWords *words, Arena *arena, Error *err)
         request.is_compared = words->mend != NULL;
     }
     if (words->summary && !check_symbol(&request, words->summary, *arena, err)) return false;
-    if (!review_check(&request, *arena, err)) return false;
+    if (!review_check(&request, *arena, err) ||
+        (folder.target && !review_files_check(folder.target, &request, *arena, err)))
+        return false;
     Progress work = progress_start(words->cli.progress, "review", "steps",
                                    work_of_review(&request, folder.mend != NULL));
     work.expected_s = PACE_KNOWN_S;
