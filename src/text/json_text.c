@@ -42,13 +42,12 @@ bool json_dump_text(Text *text, const json_t *value, size_t flags)
 {
     char *document = json_dumps(value, flags);
     if (!document) return false;
-    char *line = document;
-    for (char *end; (end = strchr(line, '\n')); line = end + 1) {
-        *end = '\0';
-        text_add_printable(text, line);
-        text_add(text, "\n");
+    for (const char *line = document; *line;) {
+        size_t length = strcspn(line, "\n");
+        text_add_printable(text, line, length);
+        line += length;
+        if (*line) text_add_bytes(text, line++, 1);
     }
-    text_add_printable(text, line);
     free(document);
     return true;
 }

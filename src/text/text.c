@@ -61,11 +61,11 @@ bool text_write(const Text *text, const char *path, Error *err)
 
 /* ---- inside languages that give some characters a meaning -------------------------------- */
 
-void text_add_printable(Text *text, const char *string)
+void text_add_printable(Text *text, const char *bytes, size_t size)
 {
     char one[PRINTABLE_ROOM];
-    while (*string) {
-        string += printable_next(string, UTF8_BYTES_MAX, one);
+    for (size_t taken; size; bytes += taken, size -= taken) {
+        taken = printable_next(bytes, size, one);
         text_add(text, one);
     }
 }

@@ -30,8 +30,8 @@ bool text_write(const Text *text, const char *path, Error *err);
 
 /* ---- inside languages that give some characters a meaning -------------------------------- */
 
-/* Adds `string` as it may be shown (printable.h). */
-void text_add_printable(Text *text, const char *string);
+/* Adds `size` bytes as they may be shown (printable.h). */
+void text_add_printable(Text *text, const char *bytes, size_t size);
 
 /* The same as the content of an element or of a quoted attribute, in HTML and in XML 1.0. NULL
  * adds nothing. */
