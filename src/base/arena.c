@@ -10,7 +10,8 @@
 
 #include "base/arena_guard.h"
 #include "base/machine.h"
-#include "base/print.h"
+#include "print/print.h"
+#include "print/printable.h"
 
 /* Threads may still be at work: their libraries' tables must not be taken down under them. */
 static void exit_when_full(size_t bytes_wanted, size_t bytes_left)
@@ -99,6 +100,14 @@ char *arena_string(Arena *arena, const char *text, size_t length)
 {
     char *copy = ARENA_NEW(arena, char, length + 1);
     memcpy(copy, text, length);
+    return copy;
+}
+
+char *arena_printable(Arena *arena, const char *text)
+{
+    size_t size = printable_size(text);
+    char  *copy = ARENA_NEW(arena, char, size);
+    printable_copy(copy, size, text);
     return copy;
 }
 

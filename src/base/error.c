@@ -4,7 +4,7 @@
 #include <stdarg.h>
 #include <stdio.h>
 
-#include "base/printable.h"
+#include "print/printable.h"
 
 bool error_at_list(Error *err, ErrorCode code, const char *file, const char *path,
                    const char *format, va_list list)

@@ -3,7 +3,6 @@
 
 #include <stdarg.h>
 
-#include "base/printable.h"
 
 void lines_put(Lines *lines, const char *text)
 {
@@ -21,5 +20,5 @@ void lines_add(Lines *lines, const char *format, ...)
     va_start(arguments, format);
     char *text = arena_format_list(lines->arena, 2047, format, arguments);
     va_end(arguments);
-    lines_put(lines, printable_text(text, lines->arena));
+    lines_put(lines, arena_printable(lines->arena, text));
 }

@@ -3,7 +3,6 @@
 
 #include <stdio.h>
 
-#include "base/printable.h"
 
 Problems problems_start(Arena *arena)
 {
@@ -20,8 +19,8 @@ static void append(Problems *problems, Severity severity, const char *file, cons
                                     problems->capacity);
     }
     problems->list[problems->count++] = (Problem){
-        printable_text(file ? file : "", arena), printable_text(path ? path : "", arena),
-        printable_text(message, arena), severity};
+        arena_printable(arena, file ? file : ""), arena_printable(arena, path ? path : ""),
+        arena_printable(arena, message), severity};
     problems->error_count += severity == SEVERITY_ERROR;
 }
 

@@ -10,8 +10,8 @@
 
 #include <jansson.h>
 
-#include "base/print.h"
-#include "base/printable.h"
+#include "print/print.h"
+#include "print/printable.h"
 
 #define BAR_CELLS 24
 #define FIRST_S 1 /* of the first line, at the latest */

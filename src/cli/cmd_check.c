@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "base/count.h"
-#include "base/print.h"
+#include "print/print.h"
 #include "base/reference.h"
 #include "base/units.h"
 #include "cli/commands.h"

@@ -4,7 +4,7 @@
 #include <stdio.h>
 
 #include "base/file_write.h"
-#include "base/print.h"
+#include "print/print.h"
 #include "cli/commands.h"
 #include "cli/compare_request.h"
 #include "cli/options/answer.h"

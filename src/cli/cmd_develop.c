@@ -3,7 +3,7 @@
 #include <stdio.h>
 
 #include "base/count.h"
-#include "base/print.h"
+#include "print/print.h"
 #include "cli/commands.h"
 #include "cli/options/answer.h"
 #include "cli/options/cli.h"

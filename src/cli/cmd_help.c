@@ -3,7 +3,7 @@
 #include "cli/cmd_help.h"
 
 #include "base/count.h"
-#include "base/print.h"
+#include "print/print.h"
 #include "base/program.h"
 #include "cli/commands.h"
 #include "cli/options/answer.h"

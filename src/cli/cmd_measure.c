@@ -5,7 +5,7 @@
 #include <stdio.h>
 
 #include "base/count.h"
-#include "base/print.h"
+#include "print/print.h"
 #include "cli/commands.h"
 #include "cli/luxmeter.h"
 #include "cli/measure_glare.h"

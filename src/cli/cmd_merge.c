@@ -9,7 +9,7 @@
 #include "base/file.h"
 #include "base/file_write.h"
 #include "base/machine.h"
-#include "base/print.h"
+#include "print/print.h"
 #include "cli/commands.h"
 #include "cli/job/job_manifest.h"
 #include "cli/job/job_state.h"

@@ -10,7 +10,7 @@
 
 #include "base/count.h"
 #include "base/file.h"
-#include "base/print.h"
+#include "print/print.h"
 #include "cli/commands.h"
 #include "cli/job/job_manifest.h"
 #include "cli/job/job_state.h"

@@ -8,7 +8,7 @@
 #include "base/file.h"
 #include "base/file_write.h"
 #include "base/parallel.h"
-#include "base/print.h"
+#include "print/print.h"
 #include "base/reference.h"
 #include "base/units.h"
 #include "cli/commands.h"

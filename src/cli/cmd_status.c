@@ -2,7 +2,7 @@
 /* parhelion status: how far a job is that `--slurm` shared out, and what is left. */
 
 #include "base/file.h"
-#include "base/print.h"
+#include "print/print.h"
 #include "cli/commands.h"
 #include "cli/job/job_manifest.h"
 #include "cli/job/job_state.h"

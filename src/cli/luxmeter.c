@@ -4,7 +4,7 @@
 #include <ctype.h>
 #include <string.h>
 
-#include "base/print.h"
+#include "print/print.h"
 #include "cli/options/answer.h"
 #include "render/illuminance.h"
 #include "scene/load/scene_load.h"

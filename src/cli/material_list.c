@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-#include "base/print.h"
+#include "print/print.h"
 #include "text/json_text.h"
 
 /* The nodes, meshes and areas of one material. */

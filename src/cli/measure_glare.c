@@ -4,7 +4,7 @@
 #include <math.h>
 
 #include "base/count.h"
-#include "base/print.h"
+#include "print/print.h"
 #include "cli/options/answer.h"
 #include "text/interval_text.h"
 #include "text/json_text.h"

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/printable.h"
+#include "print/printable.h"
 
 json_t *json_text(const char *text)
 {

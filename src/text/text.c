@@ -6,8 +6,8 @@
 #include <string.h>
 
 #include "base/file_write.h"
-#include "base/printable.h"
-#include "base/utf8.h"
+#include "print/printable.h"
+#include "print/utf8.h"
 
 /* Room for `size` more bytes and the zero behind them. */
 static void make_room(Text *text, size_t size)

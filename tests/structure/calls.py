@@ -2,7 +2,7 @@
 """calls.py -- what no source may call: no shell and no other program (but Slurm's sbatch, in
 one file), no network (but in the one file that sends frames to a viewer), no code that is
 loaded while the program runs, no file that is mapped (one that shrinks would kill us), and no
-stream but by src/base/print.c, which escapes what a foreign name could make a terminal do.
+stream but by src/print/print.c, which escapes what a foreign name could make a terminal do.
 """
 import re
 import sys
@@ -30,7 +30,7 @@ ALLOWED = {("src/base/arena.c", "mmap"): "MAP_ANONYMOUS",
            ("src/panel/set/set_writer.c", "fwrite"): "text->data"}
 STREAM = "a stream"
 # Behind print.h; the others print the program's own tables alone, in other languages' letters.
-PRINTERS = ("src/base/print.c", "src/cli/options/man_page.c", "src/cli/options/completion.c",
+PRINTERS = ("src/print/print.c", "src/cli/options/man_page.c", "src/cli/options/completion.c",
             "shaders/tables/make_tables.c")
 NETWORK = "the network"
 SENDER = "src/live/viewer_socket.c"  # the only one that may: it sends frames to who watches

@@ -2,9 +2,9 @@
 /* What may be shown of a foreign text, and how it is printed. */
 #include "fixture.h"
 
-#include "base/print.h"
-#include "base/printable.h"
-#include "base/utf8.h"
+#include "print/print.h"
+#include "print/printable.h"
+#include "print/utf8.h"
 
 /* ---- what is obeyed ---------------------------------------------------------------------- */
 
@@ -27,25 +27,25 @@ ARENA_TEST(a_character_is_itself_or_its_escape)
         utf8_encode(code, bytes);
         snprintf(escape, sizeof escape, "\\u%04X", code);
         Arena scratch = arena;
-        assert_string_equal(printable_text(bytes, &scratch),
+        assert_string_equal(arena_printable(&scratch, bytes),
                             is_obeyed(code) ? escape : bytes);
     }
 }
 
 ARENA_TEST(bytes_that_are_no_character_are_escaped)
 {
-    assert_string_equal(printable_text("display é µ ₂ 𝄞", &arena), "display é µ ₂ 𝄞");
-    assert_string_equal(printable_text("a\xff\xc3(\xe2\x82" "b\xc0\x80", &arena),
+    assert_string_equal(arena_printable(&arena, "display é µ ₂ 𝄞"), "display é µ ₂ 𝄞");
+    assert_string_equal(arena_printable(&arena, "a\xff\xc3(\xe2\x82" "b\xc0\x80"),
                         "a\\xFF\\xC3(\\xE2\\x82b\\xC0\\x80");
-    assert_string_equal(printable_text("\xed\xa0\x80", &arena), "\\xED\\xA0\\x80");
-    assert_string_equal(printable_text("\xf0\x9d", &arena), "\\xF0\\x9D"); /* cut short */
+    assert_string_equal(arena_printable(&arena, "\xed\xa0\x80"), "\\xED\\xA0\\x80");
+    assert_string_equal(arena_printable(&arena, "\xf0\x9d"), "\\xF0\\x9D"); /* cut short */
 }
 
 ARENA_TEST(what_is_escaped_stays)
 {
-    const char *once = printable_text("\x1b]8;;x\a\\u001B\xff\xe2\x80\xae", &arena);
+    const char *once = arena_printable(&arena, "\x1b]8;;x\a\\u001B\xff\xe2\x80\xae");
     assert_string_equal(once, "\\u001B]8;;x\\u0007\\u001B\\xFF\\u202E");
-    assert_string_equal(printable_text(once, &arena), once);
+    assert_string_equal(arena_printable(&arena, once), once);
     assert_int_equal(printable_size(once), strlen(once) + 1);
 }
 

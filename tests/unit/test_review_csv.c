@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* What spreadsheets get from a review: its cases, its gazes and its false suns, whatever the
  * names are. */
-#include "base/printable.h"
+#include "print/printable.h"
 #include "review/output/review_csv.h"
 #include "review_page_fixture.h"
 
@@ -32,7 +32,7 @@ static const char *read_record(const char *at, const char *cell[CSV_COLUMNS], in
 static void assert_names(const char *cell, const char *name)
 {
     Arena scratch = arena;
-    assert_string_equal(cell, printable_text(name ? name : "", &scratch));
+    assert_string_equal(cell, arena_printable(&scratch, name ? name : ""));
 }
 
 static double number_of(const char *cell)

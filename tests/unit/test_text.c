@@ -2,7 +2,7 @@
 /* Texts that grow, escapes, characters of UTF-8, base64 and the nearest word. */
 #include "fixture.h"
 
-#include "base/utf8.h"
+#include "print/utf8.h"
 #include "text/base64.h"
 #include "text/json_text.h"
 #include "text/nearest_word.h"

@@ -8,7 +8,7 @@
 #include "base/count.h"
 #include "base/file.h"
 #include "base/file_write.h"
-#include "base/print.h"
+#include "print/print.h"
 #include "base/reference.h"
 #include "cli/equip/equip_apply.h"
 #include "cli/equip/equip_page.h"

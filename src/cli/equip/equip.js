@@ -8,7 +8,7 @@ var state={displays:[],eyes:[],as:{},kept:{},mode:'display',chosen:null,
   lit:null};
 var proposals=[],pictures={},OWN='figures of its own';
 function $(id){return document.getElementById(id);}
-/* A name as it may be shown (base/printable.h); what is typed and saved stays as it is. */
+/* A name as it may be shown (print/printable.h); what is typed and saved stays as it is. */
 function shown(text){
   return String(text).replace(
     /[\u0000-\u001f\u007f-\u009f\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069]/g,function(c){

@@ -10,7 +10,7 @@
 #include "base/count.h"
 #include "base/file.h"
 #include "base/file_write.h"
-#include "base/print.h"
+#include "print/print.h"
 #include "camera/camera.h"
 #include "cli/explain/ray_option.h"
 #include "cli/options/answer.h"

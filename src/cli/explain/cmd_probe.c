@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/count.h"
-#include "base/print.h"
+#include "print/print.h"
 #include "cli/explain/cmd_explain.h"
 #include "cli/explain/ray_option.h"
 #include "cli/options/answer.h"

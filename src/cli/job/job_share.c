@@ -9,8 +9,7 @@
 
 #include "base/count.h"
 #include "base/file_write.h"
-#include "base/print.h"
-#include "base/printable.h"
+#include "print/print.h"
 #include "cli/job/job_manifest.h"
 #include "cli/job/job_scripts.h"
 #include "cli/job/job_state.h"
@@ -32,7 +31,7 @@ typedef struct Share {
 /* JSON holds texts of UTF-8, and a script's lines no control characters. */
 static bool check_text(const char *text, Arena scratch, Error *err)
 {
-    return !strcmp(printable_text(text, &scratch), text) ||
+    return !strcmp(arena_printable(&scratch, text), text) ||
            error_set(err, ERROR_USAGE,
                      "'%.200s' cannot be kept in a job: wanted UTF-8 without control "
                      "characters",

@@ -11,7 +11,6 @@
 #include "base/file.h"
 #include "base/file_write.h"
 #include "base/machine.h"
-#include "base/printable.h"
 #include "film/film_part.h"
 #include "render/checkpoint.h"
 #include "text/text.h"
@@ -211,7 +210,7 @@ static const char *failure_of(const SharedJob *job, int index, int *status, Aren
     *status = (int)strtol(line, &end, 10);
     end += *end == ' ';
     end[strcspn(end, "\n")] = '\0';
-    return printable_text(end, arena);
+    return arena_printable(arena, end);
 }
 
 JobPartReport job_part_report(const SharedJob *job, const Lines *folder, int index,

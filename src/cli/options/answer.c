@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/print.h"
+#include "print/print.h"
 #include "text/json_text.h"
 
 #define DOCUMENT_BYTES ((size_t)1 << 32) /* address space: what is not touched costs nothing */

@@ -11,7 +11,7 @@
 #include "base/count.h"
 #include "base/file.h"
 #include "base/parallel.h"
-#include "base/print.h"
+#include "print/print.h"
 #include "bvh/bvh.h"
 #include "cli/options/completion.h"
 #include "cli/options/guides.h"

@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "base/count.h"
-#include "base/print.h"
+#include "print/print.h"
 #include "cli/options/cli.h"
 #include "cli/options/completion.h"
 #include "cli/options/man_page.h"

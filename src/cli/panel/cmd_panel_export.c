@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "base/count.h"
-#include "base/print.h"
+#include "print/print.h"
 #include "cli/options/answer.h"
 #include "cli/options/cli.h"
 #include "cli/panel/panel_commands.h"

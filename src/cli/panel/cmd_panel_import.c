@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/count.h"
-#include "base/print.h"
+#include "print/print.h"
 #include "base/reference.h"
 #include "cli/options/answer.h"
 #include "cli/options/cli.h"

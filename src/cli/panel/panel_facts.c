@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdbool.h>
 
-#include "base/print.h"
+#include "print/print.h"
 #include "base/units.h"
 #include "cli/options/answer.h"
 #include "cli/panel/panel_question.h"

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "cli/panel/panel_level.h"
 
-#include "base/print.h"
+#include "print/print.h"
 #include "panel/query/panel_open.h"
 
 static bool refuse(const char *path, const PanelLevel *level, int finest, Error *err)

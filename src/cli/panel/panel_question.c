@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "base/count.h"
-#include "base/print.h"
+#include "print/print.h"
 #include "cli/panel/panel_question.h"
 
 #include <math.h>

@@ -8,7 +8,7 @@
 
 #include "base/file_write.h"
 #include "base/machine.h"
-#include "base/print.h"
+#include "print/print.h"
 #include "cli/options/answer.h"
 #include "cli/options/look_options.h"
 #include "cli/render/noise_goal.h"

@@ -7,7 +7,7 @@
 #include <time.h>
 
 #include "base/machine.h"
-#include "base/print.h"
+#include "print/print.h"
 #include "base/progress.h"
 #include "base/units.h"
 #include "cli/options/answer.h"

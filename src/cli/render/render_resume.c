@@ -6,7 +6,7 @@
 
 #include "base/file.h"
 #include "base/file_write.h"
-#include "base/print.h"
+#include "print/print.h"
 #include "render/identity.h"
 
 /* Hours of rendering must not end at a checkpoint that cannot be written, and a slip of the

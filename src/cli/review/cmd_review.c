@@ -8,7 +8,7 @@
 #include "base/count.h"
 #include "base/file.h"
 #include "base/machine.h"
-#include "base/print.h"
+#include "print/print.h"
 #include "cli/options/answer.h"
 #include "cli/options/cli.h"
 #include "cli/options/scene_options.h"

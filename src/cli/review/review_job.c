@@ -9,7 +9,7 @@
 #include "base/count.h"
 #include "base/file.h"
 #include "base/file_write.h"
-#include "base/print.h"
+#include "print/print.h"
 #include "cli/options/answer.h"
 #include "cli/options/cli.h"
 #include "kernel/kernel.h"

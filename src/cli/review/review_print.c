@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-#include "base/print.h"
+#include "print/print.h"
 #include "cli/options/answer.h"
 #include "review/output/review_decide.h"
 #include "review/output/review_gaze.h"

@@ -7,7 +7,6 @@
 #include <strings.h>
 
 #include "base/file.h"
-#include "base/printable.h"
 
 const char *import_source_name(ImportSource source)
 {
@@ -40,7 +39,7 @@ void import_note(ImportSet *set, const char *format, ...)
 {
     va_list list;
     va_start(list, format);
-    char *text = printable_text(arena_format_list(set->arena, 1023, format, list), set->arena);
+    char *text = arena_printable(set->arena, arena_format_list(set->arena, 1023, format, list));
     va_end(list);
     for (int i = 0; i < set->note_count; i++)
         if (!strcmp(set->note[i], text)) return;

@@ -9,7 +9,7 @@
 #include <strings.h>
 
 #include "base/file.h"
-#include "base/utf8.h"
+#include "print/utf8.h"
 #include "import/set/import.h"
 
 #define CELL_DIGITS_MAX 60

@@ -5,7 +5,6 @@
 
 #include "base/file.h"
 #include "base/parallel.h"
-#include "base/printable.h"
 #include "base/units.h"
 #include "panel/query/panel_emission.h"
 #include "panel/query/panel_reflection.h"
@@ -166,8 +165,8 @@ PlotData *plot_data_new(const PlotSource *source, Arena *arena)
     const char *name = json_string_value(json_object_get(source->report, "panel"));
     s->source = *source;
     s->arena = arena;
-    s->file_name = printable_text(path_name(source->file), arena);
-    s->name = name && *name ? printable_text(name, arena) : s->file_name;
+    s->file_name = arena_printable(arena, path_name(source->file));
+    s->name = name && *name ? arena_printable(arena, name) : s->file_name;
     if (source->reading)
         s->file_name = arena_format(arena, "%s, %s", s->file_name, source->reading);
     const json_t *emission = json_object_get(source->report, "emission");

@@ -8,7 +8,7 @@
 
 #include "base/file.h"
 #include "base/file_write.h"
-#include "base/print.h"
+#include "print/print.h"
 
 #define FILE_BYTES_MOST ((size_t)1 << 32)
 #define CHECKPOINT_S 20 /* between two */

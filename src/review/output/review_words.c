@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/utf8.h"
+#include "print/utf8.h"
 #include "plot/draw/ticks.h"
 #include "review/output/review_decide.h"
 #include "review/quantity.h"

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "base/utf8.h"
+#include "print/utf8.h"
 
 int utf8_decode(const char *at, size_t left, unsigned *code)
 {

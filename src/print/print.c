@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "base/print.h"
+#include "print/print.h"
 
 #include <stdarg.h>
 #include <stdbool.h>
@@ -7,8 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/printable.h"
-#include "base/utf8.h"
+#include "print/printable.h"
+#include "print/utf8.h"
 
 #define SPEC_BYTES 48
 

@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-#include "base/printable.h"
+#include "print/printable.h"
 
 #include <stdbool.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "base/count.h"
-#include "base/utf8.h"
+#include "print/utf8.h"
 
 /* First and last of each range. */
 static bool is_obeyed(unsigned code)
@@ -14,7 +13,7 @@ static bool is_obeyed(unsigned code)
     static const unsigned short ranges[][2] = {
         {0x0, 0x1f},       {0x7f, 0x9f},     {0x61c, 0x61c},   {0x200e, 0x200f},
         {0x2028, 0x202e}, {0x2066, 0x2069}, {0xfffe, 0xffff}};
-    for (int i = 0; i < COUNT_OF(ranges); i++)
+    for (int i = 0; i < (int)(sizeof ranges / sizeof *ranges); i++)
         if (code >= ranges[i][0] && code <= ranges[i][1]) return true;
     return false;
 }

@@ -9,13 +9,10 @@
  * 2066 to 2069) and U+FFFE and FFFF, which XML 1.0 does not allow. A byte that is no UTF-8
  * becomes "\x9B". Escapes are ASCII, so that escaping once more changes nothing.
  *
- * Memory   what is returned lies in the arena that is passed in.
  * Threads  no shared state. Fails: never.
  */
 #pragma once
 #include <stddef.h>
-
-#include "base/arena.h"
 
 #define PRINTABLE_ROOM 8 /* bytes of a character as it may be shown, and a zero */
 
@@ -28,12 +25,3 @@ size_t printable_size(const char *text);
 
 /* The text into `size` bytes, cut between two characters; `from` is no part of `to`. */
 void printable_copy(char *to, size_t size, const char *from);
-
-/* The whole text. */
-static inline char *printable_text(const char *text, Arena *arena)
-{
-    size_t size = printable_size(text);
-    char  *copy = ARENA_NEW(arena, char, size);
-    printable_copy(copy, size, text);
-    return copy;
-}
