@@ -64,6 +64,9 @@ start 'options given twice' options python3 tests/hostile/options.py $program
 start 'what is not known is no pass' unjudged python3 tests/hostile/unjudged.py $program
 start 'one judged quantity a row' judged python3 tests/hostile/judged.py $program
 start 'reviews that ask wrongly' review-request python3 tests/hostile/review_request.py $program
+start 'names give a terminal no commands' printed python3 tests/hostile/printed.py $program
+start "a review's folder is the user's too" review-files \
+    python3 tests/hostile/review_files.py $program
 start 'panel commands' panel-commands python3 tests/hostile/panel_commands.py $program
 start 'a second reader of panels' library-agreement \
     python3 tests/library/agreement.py .build/release

@@ -8,16 +8,22 @@ var state={displays:[],eyes:[],as:{},kept:{},mode:'display',chosen:null,
   lit:null};
 var proposals=[],pictures={},OWN='figures of its own';
 function $(id){return document.getElementById(id);}
+/* A name as it may be shown (print/printable.h); what is typed and saved stays as it is. */
+function shown(text){
+  return String(text).replace(
+    /[\u0000-\u001f\u007f-\u009f\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069]/g,function(c){
+      return '\\u'+c.charCodeAt(0).toString(16).toUpperCase().padStart(4,'0');});
+}
 function make(tag,attributes,text){
   var e=document.createElement(tag);
   for(var key in attributes||{})
     if(key in e&&typeof attributes[key]!=='string')e[key]=attributes[key];
-    else e.setAttribute(key,attributes[key]);
-  if(text!==undefined)e.textContent=text;
+    else e.setAttribute(key,key==='value'?attributes[key]:shown(attributes[key]));
+  if(text!==undefined)e.textContent=shown(text);
   return e;
 }
 function say(text,isBad){
-  $('hint').textContent=text;
+  $('hint').textContent=shown(text);
   $('hint').classList.toggle('bad',!!isBad);
 }
 function round(v){return Math.round(v*1e6)/1e6+0;}
@@ -485,7 +491,7 @@ function offerProposals(){
   });
 }
 function fill(){
-  $('title').textContent='Equip '+data.model;
+  $('title').textContent='Equip '+shown(data.model);
   var long=Math.max(...data.high.map(function(h,a){return h-data.low[a];}));
   if(long>100||long<0.3)$('units').textContent='The model is '+long.toPrecision(3)+
     ' m long. glTF counts in metres: was it exported in another unit?';
@@ -496,9 +502,10 @@ function fill(){
   $('profile').value='iso-15008';
   var own=data.materials.filter(function(m){return m.display;})
     .map(function(m){return m.name;});
-  $('own-displays').textContent=own.length?'Displays already: '+own.join(', ')+'.':'';
-  $('command').textContent=data.command+' --with '+quoted(fileName())+
-    ' -o '+quoted(stem()+'.equipped.gltf');
+  $('own-displays').textContent=own.length?'Displays already: '+
+    shown(own.join(', '))+'.':'';
+  $('command').textContent=shown(data.command+' --with '+quoted(fileName())+
+    ' -o '+quoted(stem()+'.equipped.gltf'));
   data.contents.forEach(function(c){
     pictures[c.name]=c;
     if(!c.picture)return;
