@@ -21,6 +21,9 @@
 /* {"light": [{"what", "share", "cd_m2"}, ...], "opening": ..., "surface": ...} */
 json_t *review_groups_json(const ReviewCase *c);
 
+/* Sets "symbol_mean", "lit_share" and "judged_part_uv" of a symbol's case. */
+void review_whole_json(const ReviewCase *c, json_t *to);
+
 /* [{"what", "share"}, ...] */
 json_t *review_hiders_json(const ReviewCase *c);
 

@@ -94,10 +94,8 @@ static void aim_at_part(const SymbolSurface *all, WorstPart *out, Arena *arena)
 
 WorstPart worst_part_find(const Setup *setup, const PartAsk *ask, Arena *arena)
 {
-    const double nan = (double)NAN;
-    WorstPart    out = {.whole = {.reflected = nan, .reflected_range = {nan, nan},
-                                  .contrast_ratio = nan, .lit_share = nan}};
-    Arena scratch = arena_reserve((size_t)1 << 28);
+    WorstPart out = {.whole = case_whole_unknown()};
+    Arena     scratch = arena_reserve((size_t)1 << 28);
     out.aim = (ProbeAim){.context = &setup->context, .eye = ask->eye, .seed = ask->seed};
     LightParts parts = symbol_parts(ask->symbol, &out.aim, CELLS_MOST, &scratch);
     memcpy(&out.whole.part, ask->symbol->surface.uv, sizeof out.whole.part);
