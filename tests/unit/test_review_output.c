@@ -96,6 +96,9 @@ static const Member CASE[] = {
     OF(NUMBER, glare.smallest_sr), OF(NUMBER, glare.largest_sr),
     OF(WHOLE, glare.source_count), OF(WHOLE, glare.low_light), OF(TEXT, glare.none),
     OF(NUMBER, eye_failed_share),
+    OF(NUMBER, whole.reflected), OF(NUMBER, whole.reflected_range.low),
+    OF(NUMBER, whole.reflected_range.high), OF(NUMBER, whole.contrast_ratio),
+    OF(NUMBER, whole.lit_share), OF(NUMBER, whole.part.left), OF(NUMBER, whole.part.bottom),
     OF(NUMBER, visible_share), OF(NUMBER, level), OF(NUMBER, display_lux), OF(NUMBER, margin),
     OF(WHOLE, limit_id), OF(WHOLE, verdict), OF(WHOLE, limit_count), OF(WHOLE, cause_count),
     OF(WHOLE, remedy_count), OF(WHOLE, hider_count)};
@@ -213,7 +216,7 @@ TEST(json_has_the_promised_keys)
         "paths", "contrast_with_veil", "height_arcmin",
         "jnd", "visibility", "dgp", "ugr", "when", "visible_share", "hidden_by",
         "eye_failed_share", "level", "display_lux", "limit", "limits", "margin", "verdict",
-        "causes", "remedies", "frame"};
+        "causes", "remedies", "frame", "symbol_mean", "lit_share", "judged_part_uv"};
     Review  review = fixture_review(&arena);
     json_t *json = review_json(&review), *value;
     json_t *first = json_array_get(json_object_get(json, "cases"), 0);
@@ -272,8 +275,10 @@ static bool is_optional(const char *key, const json_t *object)
                                         "precision_reached", "paths_to_decide", "cause_groups",
                                         "without_data_share", "without_data", "hidden_by",
                                         "eye_places", "then", "judged", "reason",
-                                        "optional", "panel", "panels", "stroke_ratio", "dgi", "dgp_interval",
-                                        "ugr_interval", "dgi_interval", "glare"};
+                                        "optional", "panel", "panels", "stroke_ratio", "dgi",
+                                        "dgp_interval", "ugr_interval", "dgi_interval",
+                                        "glare", "symbol_mean", "lit_share",
+                                        "judged_part_uv"};
     for (size_t i = 0; i < sizeof ADDED / sizeof *ADDED; i++)
         if (!strcmp(key, ADDED[i])) return true;
     return !strcmp(key, "verdict") &&

@@ -387,8 +387,9 @@ static const char *mean_words(const ReviewCase *c, Arena *arena)
 const char *words_whole(const ReviewCase *c, Arena *arena)
 {
     const CaseWhole *whole = &c->whole;
-    bool        differs = whole->reflected_range.high < c->reflected_range.low ||
-                   whole->reflected_range.low > c->reflected_range.high;
+    bool        differs = whole->reflected > 0 && /* older reviews have none */
+                   (whole->reflected_range.high < c->reflected_range.low ||
+                    whole->reflected_range.low > c->reflected_range.high);
     bool        is_edged = whole->lit_share > EDGE_SEEN && whole->lit_share < 1 - EDGE_SEEN;
     const char *lit = is_edged ? arena_format(arena, "%s of it is in the sun",
                                               words_share(whole->lit_share, arena))
