@@ -127,18 +127,18 @@ ARENA_TEST(luck_does_not_choose)
     int         in_sun = 0;
     see(&cells, NULL);
     for (int i = 0; i < CELLS; i++) {
-        known[i] = i % COLUMNS < COLUMNS / 2 ? 10 : 0;
+        known[i] = i % COLUMNS < COLUMNS / 2 ? 5 : 0;
         means[i] = known[i] + 20;
     }
     for (uint32_t seed = 0; seed < 100; seed++) {
         int column, row;
-        sample(&cells, means, 30, seed, sampled);
+        sample(&cells, means, 80, seed, sampled);
         light_parts_place(&cells.parts,
                           light_parts_choose(&cells.parts, sampled, known, arena), &column,
                           &row);
         in_sun += column + WIDE <= COLUMNS / 2;
     }
-    assert_true(in_sun >= 90); /* by the samples alone 40 to 60 */
+    assert_true(in_sun >= 95); /* by the samples alone about 85 */
 }
 
 /* What samples tell surely is chosen, without any sun. */
@@ -161,6 +161,26 @@ ARENA_TEST(light_that_samples_find_chooses)
         assert_int_equal(column, 8);
         assert_int_equal(row, 3);
     }
+}
+
+/* An even rise is found, of which the parts' own noise would hide the end. */
+ARENA_TEST(an_even_rise_chooses_its_end)
+{
+    Cells       cells;
+    double      known[CELLS] = {0}, means[CELLS];
+    TargetLight sampled[CELLS];
+    int         at_end = 0;
+    see(&cells, NULL);
+    for (int i = 0; i < CELLS; i++) means[i] = 20 + 0.5 * (i % COLUMNS);
+    for (uint32_t seed = 0; seed < 100; seed++) {
+        int column, row;
+        sample(&cells, means, 20, seed, sampled);
+        light_parts_place(&cells.parts,
+                          light_parts_choose(&cells.parts, sampled, known, arena), &column,
+                          &row);
+        at_end += column == COLUMNS - WIDE;
+    }
+    assert_true(at_end >= 90); /* by the parts' means alone about 75 */
 }
 
 TEST_PROGRAM(make_arena, drop_arena)
