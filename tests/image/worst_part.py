@@ -97,8 +97,8 @@ def lit_share(box, offset, slant, steps=(72, 48)):
 
 def worst_share(offset, slant):
     """Of all parts a stroke wide, which are as high as the bars."""
-    steps = 320
-    return max(lit_share((x, TOP, x + STROKE, BOTTOM), offset, slant, (16, 24))
+    steps = 80
+    return max(lit_share((x, TOP, x + STROKE, BOTTOM), offset, slant, (8, 24))
                for x in (BOX[0] + i / steps * (BOX[2] - STROKE - BOX[0])
                          for i in range(steps + 1)))
 
