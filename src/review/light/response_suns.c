@@ -180,10 +180,11 @@ const float *response_suns(const ProbeAim *aim, const ResponseOptions *options,
     return suns_of(aim, options, suns, &none, arena);
 }
 
-const float *response_suns_by_target(const ProbeAim *aim, const ResponseOptions *options,
-                                     const ProbeSuns *suns,
-                                     const float weights[RESPONSE_BANDS], double *by_target,
-                                     Arena *arena)
+/* The same with what each of the aim's targets sends by itself: by_target[sun][target], the sum
+ * over bands of shares times weights. Every target has as many paths. */
+static const float *suns_by_target(const ProbeAim *aim, const ResponseOptions *options,
+                                   const ProbeSuns *suns, const float weights[RESPONSE_BANDS],
+                                   double *by_target, Arena *arena)
 {
     TargetSums to = {.weights = weights, .of = by_target, .targets = aim->target_count};
     return suns_of(aim, options, suns, &to, arena);
@@ -222,7 +223,7 @@ static void ask_block(const LightParts *parts, const ResponseOptions *options,
     float   white[RESPONSE_BANDS];
     light_bands_white(white);
     const float *all =
-        response_suns_by_target(&parts->aim, options, suns, white, by_target, &scratch);
+        suns_by_target(&parts->aim, options, suns, white, by_target, &scratch);
     memcpy(shares, all, (size_t)suns->count * RESPONSE_BANDS * sizeof *shares);
     for (int i = 0; i < suns->count; i++)
         if (is_any(shares + (size_t)i * RESPONSE_BANDS))
@@ -278,7 +279,7 @@ static double add_light(const LightParts *parts, const ResponseOptions *options,
                         Arena scratch)
 {
     double *by_target = ARENA_NEW(&scratch, double, parts->aim.target_count), sum = 0;
-    response_suns_by_target(&parts->aim, options, sun, bands, by_target, &scratch);
+    suns_by_target(&parts->aim, options, sun, bands, by_target, &scratch);
     for (int i = 0; i < parts->aim.target_count; i++) {
         of[i] += by_target[i];
         sum += by_target[i];

@@ -22,14 +22,6 @@ int response_mirror_paths(const ProbeAim *aim, float radius);
 const float *response_suns(const ProbeAim *aim, const ResponseOptions *options,
                            const ProbeSuns *suns, Arena *arena);
 
-/* The same with what each of the aim's targets sends by itself: by_target[sun][target], the sum
- * over bands of shares times weights, with the same mean over targets as over options' paths,
- * of which every target has as many. */
-const float *response_suns_by_target(const ProbeAim *aim, const ResponseOptions *options,
-                                     const ProbeSuns *suns,
-                                     const float weights[RESPONSE_BANDS], double *by_target,
-                                     Arena *arena);
-
 /* response_suns of the part that a sun, as even white, gives most, each sun's own; it has the
  * spectrum of all parts together. parts: aimed as `aim` is; NULL: of all of that. */
 const float *sun_parts_worst(const ProbeAim *aim, const LightParts *parts,
