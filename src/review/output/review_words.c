@@ -396,7 +396,8 @@ const char *words_whole(const ReviewCase *c, Arena *arena)
                                : "";
     if (!differs) return is_edged ? arena_format(arena, "%s of the symbol is in the sun",
                                                  words_share(whole->lit_share, arena)) : "";
-    return arena_format(arena, "mean of the symbol %s%s%s", mean_words(c, arena), is_edged ? "; " : "", lit);
+    return arena_format(arena, "mean of the symbol %s%s%s", mean_words(c, arena),
+                        is_edged ? "; " : "", lit);
 }
 
 const char *words_reason(const ReviewCase *c, Arena *arena)
